@@ -1,0 +1,94 @@
+#include "docent/base/yaml.h"
+
+#include <cmath>
+
+#include "docent/base/files.h"
+
+namespace docent {
+namespace {
+
+template <class T>
+T scalar(const YamlFile& file, const YAML::Node& node, const char* wanted) {
+  if (!node.IsScalar()) throw YamlFault{file.fault(node, std::string{"expected "} + wanted)};
+  try {
+    return node.as<T>();
+  } catch (const YAML::Exception&) {
+    throw YamlFault{file.fault(node, std::string{"expected "} + wanted + ", found '" + node.Scalar() + "'")};
+  }
+}
+
+}  // namespace
+
+Result<YamlFile> YamlFile::load(const std::filesystem::path& path) {
+  auto text = read_file(path);
+  if (!text) return tl::unexpected<Error>(text.error());
+  return parse(*text, path.string());
+}
+
+Result<YamlFile> YamlFile::parse(const std::string& text, std::string name) {
+  // Deep nesting overflows the parser's stack: refuse what no file of ours needs.
+  int depth = 0;
+  for (const char c : text) {
+    if (c == '[' || c == '{') ++depth;
+    if (c == ']' || c == '}') --depth;
+    if (depth > 64) return fail(name + ":1: nested more than 64 deep");
+  }
+  try {
+    return YamlFile{YAML::Load(text), std::move(name)};
+  } catch (const YAML::Exception& exception) {
+    return fail(name + ":" + std::to_string(exception.mark.line + 1) + ": not valid YAML: " + exception.msg);
+  }
+}
+
+Error YamlFile::fault(const YAML::Node& at, const std::string& what) const {
+  const int line = at.IsDefined() ? at.Mark().line : -1;
+  return Error{name_ + ":" + std::to_string(line < 0 ? 1 : line + 1) + ": " + what};
+}
+
+YamlReader::YamlReader(const YamlFile& file, const YAML::Node& node) : file_{file}, node_{node} {
+  if (!node.IsDefined() || node.IsNull()) {
+    node_ = YAML::Node{YAML::NodeType::Map};
+  } else if (!node.IsMap()) {
+    throw YamlFault{file.fault(node, "expected a mapping (key: value)")};
+  }
+  std::set<std::string> seen;
+  for (const auto& entry : node_) {
+    if (!entry.first.IsScalar()) throw YamlFault{file.fault(entry.first, "expected a plain key")};
+    if (!seen.insert(entry.first.Scalar()).second) {
+      throw YamlFault{file.fault(entry.first, "key '" + entry.first.Scalar() + "' stands twice")};
+    }
+  }
+}
+
+void YamlReader::finish() const {
+  for (const auto& entry : node_) {
+    const auto& key = entry.first.Scalar();
+    if (known_.contains(key)) continue;
+    std::string names;
+    for (const auto& name : known_) names += (names.empty() ? "" : ", ") + name;
+    throw YamlFault{file_.fault(entry.first, "unknown key '" + key + "' (known: " + names + ")")};
+  }
+}
+
+void YamlReader::read_value(const YAML::Node& node, double& field) {
+  field = scalar<double>(file_, node, "a number");
+  if (!std::isfinite(field)) throw YamlFault{file_.fault(node, "expected a finite number")};
+}
+void YamlReader::read_value(const YAML::Node& node, float& field) {
+  double value = 0.0;
+  read_value(node, value);
+  field = static_cast<float>(value);
+}
+void YamlReader::read_value(const YAML::Node& node, int& field) { field = scalar<int>(file_, node, "a whole number"); }
+void YamlReader::read_value(const YAML::Node& node, std::int64_t& field) {
+  field = scalar<std::int64_t>(file_, node, "a whole number");
+}
+void YamlReader::read_value(const YAML::Node& node, std::uint64_t& field) {
+  field = scalar<std::uint64_t>(file_, node, "a whole number");
+}
+void YamlReader::read_value(const YAML::Node& node, bool& field) { field = scalar<bool>(file_, node, "true or false"); }
+void YamlReader::read_value(const YAML::Node& node, std::string& field) {
+  field = scalar<std::string>(file_, node, "a text");
+}
+
+}  // namespace docent

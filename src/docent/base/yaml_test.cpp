@@ -1,0 +1,57 @@
+#include "docent/base/yaml.h"
+
+#include <gtest/gtest.h>
+
+namespace docent {
+namespace {
+
+struct Inner {
+  double weight = 2.0;
+  template <class V>
+  void visit(V& v) {
+    v("weight", weight);
+  }
+};
+struct Outer {
+  std::string name = "none";
+  std::vector<Inner> parts;
+  int count = 1;
+  template <class V>
+  void visit(V& v) {
+    v("name", name);
+    v("parts", parts);
+    v("count", count);
+  }
+};
+
+std::string fault_of(const std::string& text) {
+  const auto file = YamlFile::parse(text, "f.yaml");
+  if (!file) return file.error().message;
+  Outer outer;
+  const auto result = read_yaml(*file, file->root(), outer);
+  return result ? "" : result.error().message;
+}
+
+TEST(Yaml, ReadsStructsOverTheirDefaults) {
+  const auto file = YamlFile::parse("name: a\nparts:\n  - {weight: 3}\n  - {}\n", "f.yaml").value();
+  Outer outer;
+  ASSERT_TRUE(read_yaml(file, file.root(), outer).has_value());
+  EXPECT_EQ(outer.name, "a");
+  ASSERT_EQ(outer.parts.size(), 2U);
+  EXPECT_EQ(outer.parts[0].weight, 3.0);
+  EXPECT_EQ(outer.parts[1].weight, 2.0);
+  EXPECT_EQ(outer.count, 1);
+}
+
+TEST(Yaml, FaultsNameFileAndLine) {
+  EXPECT_EQ(fault_of("name: a\nwieght: 3\n"), "f.yaml:2: unknown key 'wieght' (known: count, name, parts)");
+  EXPECT_EQ(fault_of("name: a\n\ncount: many\n"), "f.yaml:3: expected a whole number, found 'many'");
+  EXPECT_EQ(fault_of("parts:\n  - {weight: .nan}\n"), "f.yaml:2: expected a finite number");
+  EXPECT_EQ(fault_of("parts: 3\n"), "f.yaml:1: expected a list");
+  EXPECT_EQ(fault_of("count: 1\ncount: 2\n"), "f.yaml:2: key 'count' stands twice");
+  EXPECT_TRUE(fault_of("name: [\n").starts_with("f.yaml:2: not valid YAML"));
+  EXPECT_EQ(fault_of("- 1\n"), "f.yaml:1: expected a mapping (key: value)");
+}
+
+}  // namespace
+}  // namespace docent

@@ -1,0 +1,91 @@
+#pragma once
+
+#include "docent/base/time.h"
+#include "docent/messages/docent_messages.h"
+#include "docent/messages/standard_messages.h"
+
+// Every topic, declared once: name, type, quality of service. A ROS 2 peer sees /scan_front; on the wire it is
+// rt/scan_front (ROS 2's prefix for topics).
+
+namespace docent {
+
+enum class Qos {
+  sensor,   ///< best effort, the last few; late joiners get nothing
+  state,    ///< reliable, transient-local, the last one: a late joiner gets the present state
+  command,  ///< reliable, volatile, the last few
+};
+
+template <class T>
+struct Topic {
+  using Type = T;
+  const char* name;
+  Qos qos;
+};
+
+namespace topics {
+
+// Hardware, as any ROS 2 base offers it. Published by the simulator or by drivers.
+inline constexpr Topic<sensor_msgs::LaserScan> kScanFront{"scan_front", Qos::sensor};
+inline constexpr Topic<sensor_msgs::LaserScan> kScanRear{"scan_rear", Qos::sensor};
+inline constexpr Topic<sensor_msgs::Range> kSonar{"sonar", Qos::sensor};
+inline constexpr Topic<nav_msgs::Odometry> kOdometry{"odom", Qos::sensor};
+inline constexpr Topic<sensor_msgs::BatteryState> kBattery{"battery_state", Qos::sensor};
+inline constexpr Topic<docent_msgs::Tactile> kTactile{"tactile", Qos::sensor};
+inline constexpr Topic<geometry_msgs::Twist> kCommandVelocity{"cmd_vel", Qos::command};
+// Frames.
+inline constexpr Topic<tf2_msgs::TFMessage> kTransforms{"tf", Qos::sensor};
+inline constexpr Topic<tf2_msgs::TFMessage> kStaticTransforms{"tf_static", Qos::state};
+// State estimation.
+inline constexpr Topic<nav_msgs::OccupancyGrid> kStaticMap{"map", Qos::state};
+inline constexpr Topic<nav_msgs::OccupancyGrid> kLiveMap{"docent/live_map", Qos::state};
+inline constexpr Topic<map_msgs::OccupancyGridUpdate> kLiveMapUpdate{"docent/live_map_updates", Qos::command};
+inline constexpr Topic<docent_msgs::Belief> kBelief{"docent/belief", Qos::state};
+inline constexpr Topic<geometry_msgs::PoseWithCovarianceStamped> kPose{"amcl_pose", Qos::state};
+inline constexpr Topic<docent_msgs::PersonBeams> kPersonBeams{"docent/person_beams", Qos::sensor};
+inline constexpr Topic<docent_msgs::People> kPeople{"docent/people", Qos::sensor};
+// Motion.
+inline constexpr Topic<sensor_msgs::LaserScan> kVirtualScan{"docent/virtual_scan", Qos::sensor};
+inline constexpr Topic<docent_msgs::DriveGoal> kDriveGoal{"docent/drive_goal", Qos::state};
+inline constexpr Topic<docent_msgs::GoalState> kGoalState{"docent/goal_state", Qos::state};
+inline constexpr Topic<docent_msgs::Target> kTarget{"docent/target", Qos::command};
+inline constexpr Topic<nav_msgs::Path> kPath{"docent/path", Qos::state};
+inline constexpr Topic<docent_msgs::Drive> kDrive{"docent/drive", Qos::command};
+inline constexpr Topic<docent_msgs::AvoidState> kAvoidState{"docent/avoid_state", Qos::sensor};
+// Task and interaction.
+inline constexpr Topic<docent_msgs::Request> kRequest{"docent/request", Qos::command};
+inline constexpr Topic<docent_msgs::Choice> kChoice{"docent/choice", Qos::command};
+inline constexpr Topic<docent_msgs::RequestBoard> kRequestBoard{"docent/request_board", Qos::state};
+inline constexpr Topic<docent_msgs::MissionState> kMissionState{"docent/mission_state", Qos::state};
+inline constexpr Topic<docent_msgs::Task> kTask{"docent/task", Qos::state};
+inline constexpr Topic<docent_msgs::TaskState> kTaskState{"docent/task_state", Qos::state};
+inline constexpr Topic<docent_msgs::Event> kEvent{"docent/event", Qos::command};
+inline constexpr Topic<docent_msgs::Say> kSay{"docent/say", Qos::command};
+inline constexpr Topic<docent_msgs::SpeechState> kSpeechState{"docent/speech_state", Qos::state};
+inline constexpr Topic<docent_msgs::Horn> kHorn{"docent/horn", Qos::command};
+inline constexpr Topic<docent_msgs::Limits> kLimits{"docent/limits", Qos::state};
+inline constexpr Topic<docent_msgs::Health> kHealth{"docent/health", Qos::command};
+// Ground truth: another DDS domain, one channel of a recording. No module of the robot may name these.
+inline constexpr Topic<docent_msgs::RunInfo> kRunInfo{"truth/run_info", Qos::state};
+inline constexpr Topic<docent_msgs::TrueState> kTrueState{"truth/state", Qos::command};
+inline constexpr Topic<docent_msgs::TrueContact> kTrueContact{"truth/contact", Qos::command};
+inline constexpr Topic<docent_msgs::TrueOffer> kTrueOffer{"truth/offer", Qos::command};
+
+}  // namespace topics
+
+/// Calls f(topic) for every topic of the robot, then for those of the truth.
+template <class F>
+void for_each_robot_topic(F&& f) {
+  using namespace topics;
+  f(kScanFront), f(kScanRear), f(kSonar), f(kOdometry), f(kBattery), f(kTactile), f(kCommandVelocity);
+  f(kTransforms), f(kStaticTransforms), f(kStaticMap), f(kLiveMap), f(kLiveMapUpdate), f(kBelief), f(kPose);
+  f(kPersonBeams), f(kPeople), f(kVirtualScan), f(kDriveGoal), f(kGoalState), f(kTarget), f(kPath), f(kDrive);
+  f(kAvoidState), f(kRequest), f(kChoice), f(kRequestBoard), f(kMissionState), f(kTask), f(kTaskState), f(kEvent);
+  f(kSay), f(kSpeechState), f(kHorn), f(kLimits), f(kHealth);
+}
+template <class F>
+void for_each_truth_topic(F&& f) {
+  using namespace topics;
+  f(kRunInfo), f(kTrueState), f(kTrueContact), f(kTrueOffer);
+}
+
+}  // namespace docent

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "docent/base/time.h"
+#include "docent/messages/cdr.h"
+#include "docent/messages/topics.h"
+
+namespace docent {
+
+/// What a body of the bus must know of a message type.
+struct TypeSupport {
+  const char* name;  ///< "sensor_msgs/msg/LaserScan"
+  std::vector<std::uint8_t> (*encode)(const void* message);
+  std::shared_ptr<const void> (*decode)(std::span<const std::uint8_t> bytes);  ///< null when damaged
+};
+
+template <Message T>
+[[nodiscard]] const TypeSupport& type_support() {
+  static constexpr TypeSupport kSupport{T::kType,
+                                        [](const void* message) { return encode_cdr(*static_cast<const T*>(message)); },
+                                        [](std::span<const std::uint8_t> bytes) -> std::shared_ptr<const void> {
+                                          auto message = decode_cdr<T>(bytes);
+                                          return message ? std::make_shared<const T>(std::move(*message)) : nullptr;
+                                        }};
+  return kSupport;
+}
+
+struct TopicInfo {
+  const char* name;
+  Qos qos;
+  const TypeSupport* type;
+};
+template <class T>
+[[nodiscard]] TopicInfo topic_info(const Topic<T>& topic) {
+  return {topic.name, topic.qos, &type_support<T>()};
+}
+
+class Bus;
+
+template <class T>
+class Publisher {
+ public:
+  Publisher() = default;
+  void publish(T message) const;
+
+ private:
+  friend class Bus;
+  Publisher(Bus* bus, int handle) : bus_{bus}, handle_{handle} {}
+  Bus* bus_ = nullptr;
+  int handle_ = -1;
+};
+
+/// One module's end of the bus (architecture 4): the same module runs on the in-process bus in virtual time and on DDS.
+/// Every handler and timer of one Bus runs on one thread, one after the other. Destroying the Bus ends them all.
+class Bus {
+ public:
+  using Handler = std::function<void(const std::shared_ptr<const void>&)>;
+
+  Bus() = default;
+  Bus(const Bus&) = delete;
+  Bus& operator=(const Bus&) = delete;
+  virtual ~Bus() = default;
+
+  /// Virtual time since the start, or wall time under DDS. Never steps back.
+  [[nodiscard]] virtual Time now() const = 0;
+
+  template <class T>
+  [[nodiscard]] Publisher<T> publisher(const Topic<T>& topic) {
+    return {this, add_publisher(topic_info(topic))};
+  }
+  /// A latched topic (Qos::state) delivers its present value at once.
+  template <class T>
+  void subscribe(const Topic<T>& topic, std::function<void(const T&)> handler) {
+    add_subscription(topic_info(topic), [handler = std::move(handler)](const std::shared_ptr<const void>& message) {
+      handler(*static_cast<const T*>(message.get()));
+    });
+  }
+  /// First after one period. Who is late skips, never catches up.
+  virtual void every(Duration period, std::function<void()> action) = 0;
+  virtual void after(Duration delay, std::function<void()> action) = 0;
+  /// Runs `action` on the bus's thread. The one call that any thread may make.
+  virtual void post(std::function<void()> action) = 0;
+
+  /// For recorders and gateways that do not care about the type.
+  virtual void add_subscription(const TopicInfo& topic, Handler handler) = 0;
+
+ protected:
+  template <class T>
+  friend class Publisher;
+  virtual int add_publisher(const TopicInfo& topic) = 0;
+  virtual void publish(int publisher, std::shared_ptr<const void> message) = 0;
+};
+
+template <class T>
+void Publisher<T>::publish(T message) const {
+  if (bus_ != nullptr) bus_->publish(handle_, std::make_shared<const T>(std::move(message)));
+}
+
+}  // namespace docent

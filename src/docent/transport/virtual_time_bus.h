@@ -1,0 +1,77 @@
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <queue>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "docent/transport/bus.h"
+
+namespace docent {
+
+/// The in-process body of the bus: one queue ordered by time, then by the order of posting. One thread; the same inputs
+/// give the same run, bit for bit. Messages are shared, not copied.
+class VirtualTimeHub {
+ public:
+  /// Sees every message in the order of publishing: for recording and evaluation.
+  using Tap = std::function<void(const TopicInfo&, Time, const std::shared_ptr<const void>&)>;
+
+  VirtualTimeHub() = default;
+  VirtualTimeHub(const VirtualTimeHub&) = delete;
+  VirtualTimeHub& operator=(const VirtualTimeHub&) = delete;
+
+  /// One module's end. It must not outlive the hub.
+  [[nodiscard]] std::unique_ptr<Bus> connect(std::string name);
+
+  [[nodiscard]] Time now() const { return now_; }
+  /// Runs everything due up to and at `end`; then now() == end.
+  void run_until(Time end);
+  void tap(Tap tap) { taps_.push_back(std::move(tap)); }
+
+  /// Wall-clock cost of the handlers of each module so far.
+  struct Cost {
+    double total_s = 0.0;
+    std::vector<float> steps_ms;  ///< one entry a handler call that took longer than 1 us
+  };
+  [[nodiscard]] const std::map<std::string, Cost, std::less<>>& costs() const { return costs_; }
+
+ private:
+  class Node;
+  struct Subscription {
+    std::weak_ptr<Node*> node;
+    Bus::Handler handler;
+  };
+  struct TopicState {
+    TopicInfo info{};
+    std::vector<Subscription> subscriptions;
+    std::shared_ptr<const void> latched;
+  };
+  struct Event {
+    Time time;
+    std::uint64_t order;
+    std::weak_ptr<Node*> node;  ///< the event dies with its node
+    std::function<void()> action;
+    friend bool operator<(const Event& a, const Event& b) {  // the earliest is on top
+      return a.time != b.time ? a.time > b.time : a.order > b.order;
+    }
+  };
+  void schedule(Time time, std::weak_ptr<Node*> node, std::function<void()> action);
+  TopicState& topic(const TopicInfo& info);
+  void drain_posts();
+
+  Time now_{};
+  std::uint64_t next_order_ = 0;
+  std::priority_queue<Event> queue_;
+  std::map<std::string, TopicState, std::less<>> topics_;
+  std::vector<Tap> taps_;
+  std::map<std::string, Cost, std::less<>> costs_;
+  std::mutex posts_mutex_;
+  std::vector<std::pair<std::weak_ptr<Node*>, std::function<void()>>> posts_;
+};
+
+}  // namespace docent
