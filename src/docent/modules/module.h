@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "docent/base/result.h"
+#include "docent/museum/museum.h"
+#include "docent/robot/robot_config.h"
+#include "docent/transport/bus.h"
+
+namespace docent {
+
+/// What a module is given. All references outlive the module.
+struct ModuleContext {
+  Bus& bus;
+  const Museum& museum;
+  const RobotConfig& config;
+  std::filesystem::path state;  ///< --state DIR: checkpoints, databases, caches; exists
+  std::uint64_t seed = 0;
+  bool virtual_time = false;
+};
+
+struct ModuleHealth {
+  std::string state = "ready";  ///< starting, ready, degraded, faulted
+  std::string reason;
+};
+
+/// A module: a thin coat that subscribes, converts, calls a capability and publishes. It may be destroyed and made
+/// again at any time (architecture 3): it restores its checkpoint and publishes its latched state in its constructor.
+class Module {
+ public:
+  Module() = default;
+  Module(const Module&) = delete;
+  Module& operator=(const Module&) = delete;
+  virtual ~Module() = default;
+  [[nodiscard]] virtual ModuleHealth health() const { return {}; }
+};
+
+/// Error: a fault of the configuration, with file and line. Every module NAME has `make_NAME` in NAME_module.h.
+using ModuleFactory = Result<std::unique_ptr<Module>> (*)(const ModuleContext& context);
+
+}  // namespace docent

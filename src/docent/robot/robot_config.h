@@ -1,0 +1,96 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "docent/base/result.h"
+#include "docent/base/yaml.h"
+#include "docent/geometry/pose2.h"
+
+namespace docent {
+
+/// A sensor's place on the robot, robot frame.
+struct Mount {
+  std::string frame;
+  double x = 0.0, y = 0.0;  ///< [m]
+  double heading = 0.0;     ///< [deg]
+  template <class V>
+  void visit(V& v) {
+    v("frame", frame);
+    v("x", x);
+    v("y", y);
+    v("heading", heading);
+  }
+  [[nodiscard]] Pose2 base_from_sensor() const { return {x, y, Angle::degrees(heading)}; }
+};
+
+/// Body, limits and sensors, section `body` of robot.yaml.
+struct RobotBody {
+  double radius = 0.265;           ///< [m], the body is a disc
+  double max_speed = 0.8;          ///< [m/s]
+  double max_turn_rate = 1.2;      ///< [rad/s]
+  double acceleration = 0.5;       ///< [m/s2]
+  double deceleration = 1.0;       ///< [m/s2]
+  double turn_acceleration = 1.5;  ///< [rad/s2]
+  double latency = 0.15;           ///< [s] from a command to the wheels
+  double watchdog = 0.3;           ///< [s] without a command, then the base stops
+  Mount scan_front{"laser_front", 0.0, 0.0, 0.0};
+  Mount scan_rear{"laser_rear", 0.0, 0.0, 180.0};
+  int sonars = 24;             ///< evenly round the body, sonar_00 at the front, counter-clockwise
+  double sonar_radius = 0.25;  ///< [m] from the centre
+  template <class V>
+  void visit(V& v) {
+    v("radius", radius);
+    v("max_speed", max_speed);
+    v("max_turn_rate", max_turn_rate);
+    v("acceleration", acceleration);
+    v("deceleration", deceleration);
+    v("turn_acceleration", turn_acceleration);
+    v("latency", latency);
+    v("watchdog", watchdog);
+    v("scan_front", scan_front);
+    v("scan_rear", scan_rear);
+    v("sonars", sonars);
+    v("sonar_radius", sonar_radius);
+  }
+  [[nodiscard]] Pose2 base_from_sonar(int index) const;
+};
+
+/// robot.yaml: one section a module, read at start (architecture 10.11).
+class RobotConfig {
+ public:
+  /// All defaults.
+  RobotConfig();
+  [[nodiscard]] static Result<RobotConfig> load(const std::filesystem::path& path);
+  /// `--set localize.beams=90`: section.key=value over what the file says.
+  [[nodiscard]] Result<void> set(const std::string& assignment);
+
+  [[nodiscard]] const RobotBody& body() const { return body_; }
+  /// Reads section `name` over the defaults of `params` (its visit and validate); unknown keys are faults.
+  template <class Params>
+  [[nodiscard]] Result<Params> section(const std::string& name) const {
+    Params params;
+    const YAML::Node node = file_.root()[name];
+    if (node.IsDefined()) {
+      auto read = read_yaml(file_, node, params);
+      if (!read) return tl::unexpected<Error>(read.error());
+    }
+    if constexpr (requires { params.validate(); }) {
+      auto valid = params.validate();
+      if (!valid) return tl::unexpected<Error>(file_.fault(node, valid.error().message));
+    }
+    return params;
+  }
+  /// Error when the file has a section that is not in `names` (and not `body`).
+  [[nodiscard]] Result<void> check_sections(const std::vector<std::string>& names) const;
+  /// Hash of all that is set, as 16 hexadecimal digits.
+  [[nodiscard]] std::string hash() const;
+
+ private:
+  explicit RobotConfig(YamlFile file) : file_{std::move(file)} {}
+  YamlFile file_;
+  RobotBody body_;
+};
+
+}  // namespace docent
