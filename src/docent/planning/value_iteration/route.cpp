@@ -1,0 +1,162 @@
+#include "docent/planning/value_iteration/route.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace docent {
+
+Result<void> RouteParams::validate() const {
+  if (coarsening < 1 || coarsening > 20) return fail("coarsening must be in 1..20");
+  if (!(robot_radius > 0.0)) return fail("robot_radius must be > 0");
+  if (!(wall_margin >= 0.0)) return fail("wall_margin must be >= 0");
+  if (!(hazard_margin >= 0.0)) return fail("hazard_margin must be >= 0");
+  if (!(comfort >= 0.0)) return fail("comfort must be >= 0");
+  if (!(comfort_cost >= 0.0)) return fail("comfort_cost must be >= 0");
+  if (!(obstacle_cost >= 1.0)) return fail("obstacle_cost must be >= 1");
+  if (!(obstacle_margin >= 0.0)) return fail("obstacle_margin must be >= 0");
+  return {};
+}
+
+namespace {
+
+GridFrame coarse_frame(const GridFrame& fine, int factor) {
+  return {(fine.columns + factor - 1) / factor, (fine.rows + factor - 1) / factor, fine.resolution * factor,
+          fine.origin};
+}
+
+}  // namespace
+
+RoutePlanner::RoutePlanner(const OccupancyGrid& map, std::span<const Polygon> hazards, const Polygon& area,
+                           RouteParams params)
+    : params_{params}, planner_{coarse_frame(map.frame, params.coarsening)} {
+  std::vector<bool> solid(map.frame.size());
+  for (std::size_t i = 0; i < solid.size(); ++i) solid[i] = map.cells[i] < 0 || map.cells[i] >= 65;
+  const auto clearances = distance_transform(map.frame, solid);
+
+  const GridFrame& frame = planner_.frame();
+  static_costs_.assign(frame.size(), ValueIteration::kClosed);
+  for (int row = 0; row < frame.rows; ++row) {
+    for (int column = 0; column < frame.columns; ++column) {
+      const Point2 centre = frame.centre({column, row});
+      const CellIndex fine = map.frame.cell_at(centre);
+      if (!map.frame.holds(fine)) continue;
+      double spare =
+          static_cast<double>(clearances[map.frame.index(fine)]) - params_.robot_radius - params_.wall_margin;
+      if (!area.empty()) {
+        if (!contains(area, centre)) continue;
+        spare = std::min(spare, outline_distance(area, centre) - params_.hazard_margin);
+      }
+      for (const Polygon& hazard : hazards) {
+        spare = std::min(spare, distance(hazard, centre) - params_.robot_radius - params_.hazard_margin);
+      }
+      if (spare < 0.0) continue;
+      const double discomfort = params_.comfort > 0.0 ? std::max(0.0, 1.0 - spare / params_.comfort) : 0.0;
+      static_costs_[frame.index({column, row})] =
+          static_cast<float>(frame.resolution * (1.0 + params_.comfort_cost * discomfort * discomfort));
+    }
+  }
+  planner_.set_costs(static_costs_);
+}
+
+void RoutePlanner::set_obstacles(const std::vector<bool>& obstacles) {
+  const GridFrame& frame = planner_.frame();
+  const auto distances = distance_transform(frame, obstacles);
+  std::vector<float> costs = static_costs_;
+  for (std::size_t i = 0; i < costs.size(); ++i) {
+    if (static_cast<double>(distances[i]) <= params_.obstacle_margin)
+      costs[i] *= static_cast<float>(params_.obstacle_cost);
+  }
+  planner_.set_costs(costs);
+}
+
+void RoutePlanner::set_goal(Point2 goal, double tolerance) {
+  const GridFrame& frame = planner_.frame();
+  std::vector<ValueIteration::Goal> goals;
+  const int reach = static_cast<int>(std::ceil(tolerance / frame.resolution));
+  const CellIndex centre = frame.cell_at(goal);
+  for (int row = centre.row - reach; row <= centre.row + reach; ++row) {
+    for (int column = centre.column - reach; column <= centre.column + reach; ++column) {
+      const CellIndex cell{column, row};
+      if (!frame.holds(cell)) continue;
+      const double off = distance(frame.centre(cell), goal);
+      if (cell == centre || (off <= tolerance && planner_.cost(cell) < ValueIteration::kClosed)) {
+        goals.push_back({cell, static_cast<float>(off)});
+      }
+    }
+  }
+  planner_.set_goals(goals);
+}
+
+bool RoutePlanner::is_closed(Point2 in_map) const {
+  const CellIndex cell = planner_.frame().cell_at(in_map);
+  return !planner_.frame().holds(cell) || static_costs_[planner_.frame().index(cell)] == ValueIteration::kClosed;
+}
+
+std::optional<CellIndex> RoutePlanner::nearest_open(Point2 in_map, double within) const {
+  const GridFrame& frame = planner_.frame();
+  const CellIndex centre = frame.cell_at(in_map);
+  const int reach = static_cast<int>(std::ceil(within / frame.resolution));
+  std::optional<CellIndex> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (int row = centre.row - reach; row <= centre.row + reach; ++row) {
+    for (int column = centre.column - reach; column <= centre.column + reach; ++column) {
+      const CellIndex cell{column, row};
+      if (!frame.holds(cell) || planner_.value(cell) == ValueIteration::kClosed) continue;
+      if (planner_.cost(cell) == ValueIteration::kClosed) continue;
+      const double off = distance(frame.centre(cell), in_map);
+      if (off < least) {
+        least = off;
+        best = cell;
+      }
+    }
+  }
+  return best;
+}
+
+double RoutePlanner::cost_from(Point2 start) const {
+  const auto cell = nearest_open(start, 0.6);
+  return cell ? static_cast<double>(planner_.value(*cell)) : std::numeric_limits<double>::infinity();
+}
+
+/// True when no cell between the points is dearer than `most_cost`.
+bool RoutePlanner::sees(Point2 from, Point2 to, float most_cost) const {
+  const double length = distance(from, to);
+  const int steps = std::max(1, static_cast<int>(std::ceil(length / (0.4 * planner_.frame().resolution))));
+  for (int i = 0; i <= steps; ++i) {
+    const CellIndex cell = planner_.frame().cell_at(from + (static_cast<double>(i) / steps) * (to - from));
+    if (!planner_.frame().holds(cell) || planner_.cost(cell) > most_cost) return false;
+  }
+  return true;
+}
+
+std::vector<Point2> RoutePlanner::way(Point2 start) const {
+  const auto cell = nearest_open(start, 0.6);
+  if (!cell) return {};
+  std::vector<Point2> corners{planner_.frame().centre(*cell)};
+  for (const CellIndex& next : planner_.descend(*cell)) corners.push_back(planner_.frame().centre(next));
+
+  // Shortcuts between points that see each other over floor no dearer than the way itself, at most 2 m long: the
+  // staircase of the grid becomes straight, and the clearance that the costs bought stays.
+  std::vector<Point2> way;
+  std::size_t at = 0;
+  way.push_back(corners[0]);
+  while (at + 1 < corners.size()) {
+    std::size_t next = at + 1;
+    float dearest = std::max(planner_.cost(planner_.frame().cell_at(corners[at])),
+                             planner_.cost(planner_.frame().cell_at(corners[next])));
+    for (std::size_t far = at + 2; far < corners.size() && distance(corners[at], corners[far]) <= 2.0; ++far) {
+      dearest = std::max(dearest, planner_.cost(planner_.frame().cell_at(corners[far])));
+      if (sees(corners[at], corners[far], dearest)) next = far;
+    }
+    const double length = distance(corners[at], corners[next]);
+    const int pieces = std::max(1, static_cast<int>(std::lround(length / 0.2)));
+    for (int i = 1; i <= pieces; ++i) {
+      way.push_back(corners[at] + (static_cast<double>(i) / pieces) * (corners[next] - corners[at]));
+    }
+    at = next;
+  }
+  return way;
+}
+
+}  // namespace docent

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "docent/base/result.h"
+#include "docent/geometry/polygon.h"
+#include "docent/grid/occupancy_grid.h"
+#include "docent/planning/value_iteration/value_iteration.h"
+
+namespace docent {
+
+struct RouteParams {
+  int coarsening = 3;             ///< planning cell = so many map cells
+  double robot_radius = 0.265;    ///< [m]
+  double wall_margin = 0.10;      ///< [m] kept from what the map shows, beyond the radius
+  double hazard_margin = 0.20;    ///< [m] kept from hazards and the area's border, beyond the radius
+  double comfort = 0.8;           ///< [m] beyond which clearance costs nothing
+  double comfort_cost = 2.0;      ///< extra cost, as a factor, at the least clearance
+  double obstacle_cost = 30.0;    ///< factor for cells that are blocked now by what is not in the map
+  double obstacle_margin = 0.35;  ///< [m] round such cells
+  template <class V>
+  void visit(V& v) {
+    v("coarsening", coarsening);
+    v("robot_radius", robot_radius);
+    v("wall_margin", wall_margin);
+    v("hazard_margin", hazard_margin);
+    v("comfort", comfort);
+    v("comfort_cost", comfort_cost);
+    v("obstacle_cost", obstacle_cost);
+    v("obstacle_margin", obstacle_margin);
+  }
+  [[nodiscard]] Result<void> validate() const;
+};
+
+/// Plans for a disc-shaped robot in a museum's map: costs of cells from clearance, value iteration, and the way as a
+/// line of points. Cells behind walls, hazards and the area's border are closed; what is seen now and not in the map is
+/// dear but not closed, for people move.
+class RoutePlanner {
+ public:
+  /// @param hazards  polygons that must not be touched; @param area  the robot's centre stays inside; empty: everywhere
+  RoutePlanner(const OccupancyGrid& map, std::span<const Polygon> hazards, const Polygon& area, RouteParams params);
+
+  /// @param obstacles  [rows * columns of frame()] true where something stands now that the map does not show
+  void set_obstacles(const std::vector<bool>& obstacles);
+  /// Every cell within `tolerance` [m] of the goal is a goal. Clears what was planned before.
+  void set_goal(Point2 goal, double tolerance);
+  /// @returns true when converged
+  bool iterate(int most_sweeps) { return planner_.iterate(most_sweeps); }
+
+  /// The way from `start` (map) to the goal: points some centimetres apart, smoothed, start excluded. Empty: no way
+  /// known.
+  [[nodiscard]] std::vector<Point2> way(Point2 start) const;
+  [[nodiscard]] bool is_closed(Point2 in_map) const;
+  [[nodiscard]] const GridFrame& frame() const { return planner_.frame(); }
+  [[nodiscard]] const ValueIteration& values() const { return planner_; }
+  /// Cost of the way from `start` in metres of free floor; infinity where there is none.
+  [[nodiscard]] double cost_from(Point2 start) const;
+
+ private:
+  [[nodiscard]] std::optional<CellIndex> nearest_open(Point2 in_map, double within) const;
+  [[nodiscard]] bool sees(Point2 from, Point2 to, float most_cost) const;
+
+  RouteParams params_;
+  ValueIteration planner_;
+  std::vector<float> static_costs_;  ///< [rows * columns]
+};
+
+}  // namespace docent

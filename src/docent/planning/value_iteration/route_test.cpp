@@ -1,0 +1,82 @@
+#include "docent/planning/value_iteration/route.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace docent {
+namespace {
+
+/// 6 x 4 m, walled in, with a wall from below in the middle that leaves a gap at the top.
+OccupancyGrid two_rooms() {
+  OccupancyGrid map;
+  map.frame = {120, 80, 0.05, {0, 0}};
+  map.cells.assign(map.frame.size(), 0);
+  for (int row = 0; row < 80; ++row) {
+    for (int column = 0; column < 120; ++column) {
+      const bool border = row < 2 || row > 77 || column < 2 || column > 117;
+      const bool wall = column >= 58 && column < 62 && row < 50;
+      if (border || wall) map.cells[map.frame.index({column, row})] = 100;
+    }
+  }
+  return map;
+}
+
+double least_distance(const std::vector<Point2>& way, Point2 point) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& p : way) least = std::min(least, distance(p, point));
+  return least;
+}
+
+TEST(RoutePlanner, GoesThroughTheGapAndKeepsClear) {
+  const auto map = two_rooms();
+  RoutePlanner planner{map, {}, {}, {}};
+  planner.set_goal({5, 1}, 0.2);
+  ASSERT_TRUE(planner.iterate(1000));
+  const auto way = planner.way({1, 1});
+  ASSERT_FALSE(way.empty());
+  EXPECT_LT(distance(way.back(), {5, 1}), 0.25);
+  EXPECT_GT(least_distance(way, {3.0, 2.5}), 0.365) << "too close to the end of the wall";
+  Point2 before{1, 1};
+  for (const auto& point : way) {
+    EXPECT_LT(distance(before, point), 0.45);
+    before = point;
+  }
+}
+
+TEST(RoutePlanner, KeepsAwayFromHazardsAndStaysInTheArea) {
+  const auto map = two_rooms();
+  const std::vector<Polygon> hazards{{{2.7, 3.5}, {3.3, 3.5}, {3.3, 4.0}, {2.7, 4.0}}};  // leaves a metre of the gap
+  RoutePlanner blocked{map, hazards, {}, {}};
+  blocked.set_goal({5, 1}, 0.2);
+  ASSERT_TRUE(blocked.iterate(1000));
+  const auto way = blocked.way({1, 1});
+  for (const auto& point : way) EXPECT_GT(distance(hazards[0], point), 0.265 + 0.1);
+  const Polygon area{{0.2, 0.2}, {2.5, 0.2}, {2.5, 3.8}, {0.2, 3.8}};
+  RoutePlanner fenced{map, {}, area, {}};
+  fenced.set_goal({5, 1}, 0.2);
+  ASSERT_TRUE(fenced.iterate(1000));
+  EXPECT_TRUE(fenced.way({1, 1}).empty()) << "the goal lies outside the area";
+}
+
+TEST(RoutePlanner, GoesRoundWhatStandsInTheWayNow) {
+  OccupancyGrid hall;
+  hall.frame = {120, 120, 0.05, {0, 0}};
+  hall.cells.assign(hall.frame.size(), 0);
+  RoutePlanner planner{hall, {}, {}, {}};
+  planner.set_goal({5, 3}, 0.2);
+  planner.iterate(1000);
+  EXPECT_LT(least_distance(planner.way({1, 3}), {3, 3}), 0.2);
+  std::vector<bool> obstacles(planner.frame().size());
+  obstacles[planner.frame().index(planner.frame().cell_at({3, 3}))] = true;
+  planner.set_obstacles(obstacles);
+  ASSERT_TRUE(planner.iterate(1000));
+  EXPECT_GT(least_distance(planner.way({1, 3}), {3, 3}), 0.3);
+  planner.set_obstacles(std::vector<bool>(planner.frame().size()));
+  ASSERT_TRUE(planner.iterate(1000));
+  EXPECT_LT(least_distance(planner.way({1, 3}), {3, 3}), 0.2);
+}
+
+}  // namespace
+}  // namespace docent
