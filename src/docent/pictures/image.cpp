@@ -1,0 +1,78 @@
+#include "docent/pictures/image.h"
+
+#include <png.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "docent/base/check.h"
+#include "docent/base/files.h"
+
+namespace docent {
+namespace {
+
+constexpr int kMaxSide = 16384;
+
+}  // namespace
+
+Image::Image(int width, int height, Color background) : width_{width}, height_{height} {
+  DOCENT_CHECK(width > 0 && height > 0 && width <= kMaxSide && height <= kMaxSide);
+  const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  bytes_.reserve(4 * pixels);
+  for (std::size_t i = 0; i < pixels; ++i)
+    bytes_.insert(bytes_.end(), {background.red, background.green, background.blue, background.alpha});
+}
+
+Color Image::at(int x, int y) const {
+  DOCENT_CHECK(holds(x, y));
+  const std::uint8_t* pixel =
+      &bytes_[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x))];
+  return {pixel[0], pixel[1], pixel[2], pixel[3]};
+}
+
+void Image::set(int x, int y, Color color) {
+  if (!holds(x, y)) return;
+  std::uint8_t* pixel =
+      &bytes_[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x))];
+  pixel[0] = color.red;
+  pixel[1] = color.green;
+  pixel[2] = color.blue;
+  pixel[3] = color.alpha;
+}
+
+void Image::blend(int x, int y, Color color, double coverage) {
+  if (!holds(x, y) || !(coverage > 0.0)) return;
+  const double over = std::min(coverage, 1.0) * color.alpha / 255.0;
+  const Color under = at(x, y);
+  const double under_alpha = under.alpha / 255.0 * (1.0 - over);
+  const double alpha = over + under_alpha;
+  if (alpha <= 0.0) return;
+  const auto channel = [&](std::uint8_t top, std::uint8_t bottom) {
+    return static_cast<std::uint8_t>(std::lround((top * over + bottom * under_alpha) / alpha));
+  };
+  set(x, y,
+      {channel(color.red, under.red), channel(color.green, under.green), channel(color.blue, under.blue),
+       static_cast<std::uint8_t>(std::lround(alpha * 255.0))});
+}
+
+void Image::paste(const Image& other, int x, int y) {
+  for (int row = 0; row < other.height(); ++row)
+    for (int column = 0; column < other.width(); ++column) set(x + column, y + row, other.at(column, row));
+}
+
+Result<void> save_png(const Image& image, const std::filesystem::path& path) {
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  header.width = static_cast<png_uint_32>(image.width());
+  header.height = static_cast<png_uint_32>(image.height());
+  header.format = PNG_FORMAT_RGBA;
+  std::string encoded(PNG_IMAGE_PNG_SIZE_MAX(header), '\0');
+  png_alloc_size_t size = encoded.size();
+  if (png_image_write_to_memory(&header, encoded.data(), &size, 0, image.bytes().data(), 0, nullptr) == 0)
+    return fail(path.string() + ": cannot be encoded as PNG: " + header.message);
+  encoded.resize(size);
+  return write_file_atomically(path, encoded);
+}
+
+}  // namespace docent
