@@ -562,6 +562,31 @@ struct Tactile {
   }
 };
 
+/// A changed rectangle of the live map. It builds on the full map of stamp `base`; numbers count up from 1 behind each
+/// full map. Who misses a number waits for the next full map, at most ten seconds.
+struct LiveMapUpdate {
+  static constexpr const char* kType = "docent_msgs/msg/LiveMapUpdate";
+  std_msgs::Header header;
+  builtin_interfaces::Time base;
+  std::uint32_t number = 0;
+  std::int32_t x = 0;  ///< [cells]
+  std::int32_t y = 0;
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::vector<std::int8_t> data;  ///< [height * width], 0..100 or -1
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("header", m.header);
+    v("base", m.base);
+    v("number", m.number);
+    v("x", m.x);
+    v("y", m.y);
+    v("width", m.width);
+    v("height", m.height);
+    v("data", m.data);
+  }
+};
+
 /// What was run; written once at the start of a recording.
 struct RunInfo {
   static constexpr const char* kType = "docent_msgs/msg/RunInfo";

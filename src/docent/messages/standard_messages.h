@@ -291,25 +291,6 @@ struct Path {
 };
 }  // namespace nav_msgs
 
-namespace map_msgs {
-struct OccupancyGridUpdate {
-  static constexpr const char* kType = "map_msgs/msg/OccupancyGridUpdate";
-  std_msgs::Header header;
-  std::int32_t x = 0, y = 0;
-  std::uint32_t width = 0, height = 0;
-  std::vector<std::int8_t> data;
-  template <class Self, class V>
-  static void visit(Self& m, V& v) {
-    v("header", m.header);
-    v("x", m.x);
-    v("y", m.y);
-    v("width", m.width);
-    v("height", m.height);
-    v("data", m.data);
-  }
-};
-}  // namespace map_msgs
-
 namespace diagnostic_msgs {
 struct KeyValue {
   static constexpr const char* kType = "diagnostic_msgs/msg/KeyValue";

@@ -38,7 +38,7 @@ inline constexpr Topic<tf2_msgs::TFMessage> kStaticTransforms{"tf_static", Qos::
 // State estimation.
 inline constexpr Topic<nav_msgs::OccupancyGrid> kStaticMap{"map", Qos::state};
 inline constexpr Topic<nav_msgs::OccupancyGrid> kLiveMap{"docent/live_map", Qos::state};
-inline constexpr Topic<map_msgs::OccupancyGridUpdate> kLiveMapUpdate{"docent/live_map_updates", Qos::command};
+inline constexpr Topic<docent_msgs::LiveMapUpdate> kLiveMapUpdate{"docent/live_map_updates", Qos::command};
 inline constexpr Topic<docent_msgs::Belief> kBelief{"docent/belief", Qos::state};
 inline constexpr Topic<geometry_msgs::PoseWithCovarianceStamped> kPose{"amcl_pose", Qos::state};
 inline constexpr Topic<docent_msgs::PersonBeams> kPersonBeams{"docent/person_beams", Qos::sensor};

@@ -1,0 +1,99 @@
+#include "docent/planning/pursuit/pursuit.h"
+
+#include <cmath>
+#include <limits>
+
+namespace docent {
+
+Result<void> PursuitParams::validate() const {
+  if (!(horizon > 0.0)) return fail("horizon must be > 0");
+  if (!(progress > 0.0)) return fail("progress must be > 0");
+  if (!(blocked_after > 0.0)) return fail("blocked_after must be > 0");
+  if (!(settle_for >= 0.0)) return fail("settle_for must be >= 0");
+  if (!(settle_after > 0.0)) return fail("settle_after must be > 0");
+  return {};
+}
+
+void GoalPursuit::set_goal(const PursuitGoal& goal, Time now) {
+  const bool is_new = goal.id != goal_.id;
+  goal_ = goal;
+  if (!is_new) return;
+  phase_ = Phase::driving;
+  best_remaining_ = std::numeric_limits<double>::infinity();
+  last_progress_ = now;
+}
+
+Pursuit GoalPursuit::step(const std::optional<Pose2>& map_from_base, const RoutePlanner& planner, Time now) {
+  Pursuit pursuit;
+  if (goal_.id.empty()) return pursuit;
+  if (!map_from_base) {
+    pursuit.state = phase_ == Phase::arrived ? "arrived" : "waiting";
+    pursuit.reason = "the position is not known";
+    last_progress_ = now;
+    best_remaining_ = std::numeric_limits<double>::infinity();
+    return pursuit;
+  }
+  const Point2 here = map_from_base->position();
+  const double off = distance(here, goal_.map_from_goal.position());
+  const double turn = std::abs((goal_.map_from_goal.theta - map_from_base->theta).radians());
+  const auto stuck_for = [&] { return to_seconds(now - last_progress_); };
+
+  // Once there, small jumps of the pose do not send the robot off again; a push does.
+  if (phase_ != Phase::driving && off > params_.settle_for + 0.3) {
+    phase_ = Phase::driving;
+    best_remaining_ = std::numeric_limits<double>::infinity();
+    last_progress_ = now;
+  }
+  if (phase_ == Phase::driving &&
+      (off <= goal_.position_tolerance || (off <= params_.settle_for && stuck_for() > params_.settle_after))) {
+    phase_ = Phase::turning;
+    last_progress_ = now;
+  }
+  if (phase_ == Phase::turning && (turn <= goal_.heading_tolerance || stuck_for() > 2.0 * params_.settle_after)) {
+    phase_ = Phase::arrived;
+  }
+
+  if (phase_ == Phase::arrived) {
+    pursuit.state = "arrived";
+    return pursuit;
+  }
+  if (phase_ == Phase::turning) {
+    pursuit.mode = Pursuit::Mode::turn;
+    pursuit.heading = goal_.map_from_goal.theta;
+    pursuit.state = "turning";
+    return pursuit;
+  }
+
+  const auto way = planner.way(here);
+  if (way.empty()) {
+    pursuit.state = "unreachable";
+    pursuit.reason = planner.is_closed(here) ? "no way out of this place" : "no way to the goal";
+    return pursuit;
+  }
+  double length = distance(here, way.front());
+  pursuit.is_final = true;
+  pursuit.via.push_back(way.front());
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    length += distance(way[i - 1], way[i]);
+    if (length <= params_.horizon) {
+      pursuit.via.push_back(way[i]);
+    } else {
+      pursuit.is_final = false;
+    }
+  }
+  pursuit.remaining_m = length;
+  pursuit.mode = Pursuit::Mode::drive;
+  pursuit.heading = goal_.map_from_goal.theta;
+  if (length < best_remaining_ - params_.progress) {
+    best_remaining_ = length;
+    last_progress_ = now;
+  } else if (length > best_remaining_ + 2.0) {
+    best_remaining_ = length;  // a detour: measure progress along it, but the time without progress goes on
+  }
+  pursuit.blocked_s = stuck_for();
+  pursuit.state = pursuit.blocked_s > params_.blocked_after ? "blocked" : "driving";
+  if (pursuit.state == "blocked") pursuit.reason = "no progress";
+  return pursuit;
+}
+
+}  // namespace docent

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "docent/base/result.h"
+#include "docent/base/time.h"
+#include "docent/geometry/pose2.h"
+#include "docent/planning/value_iteration/route.h"
+
+namespace docent {
+
+struct PursuitParams {
+  double horizon = 3.0;        ///< [m] of the way handed on as via-points
+  double progress = 0.3;       ///< [m] of remaining way that count as progress
+  double blocked_after = 4.0;  ///< [s] without progress until the state is "blocked"
+  double settle_for = 0.5;     ///< [m]: so near to a goal that others stand on, the robot takes it as reached
+  double settle_after = 6.0;   ///< [s] without progress until it does
+  template <class V>
+  void visit(V& v) {
+    v("horizon", horizon);
+    v("progress", progress);
+    v("blocked_after", blocked_after);
+    v("settle_for", settle_for);
+    v("settle_after", settle_after);
+  }
+  [[nodiscard]] Result<void> validate() const;
+};
+
+struct PursuitGoal {
+  std::string id;  ///< empty: stay
+  Pose2 map_from_goal;
+  double position_tolerance = 0.25;  ///< [m]
+  double heading_tolerance = 0.1;    ///< [rad]
+};
+
+/// What the robot should do now: via-points or a heading, never a velocity; and how it goes, for the executive.
+struct Pursuit {
+  enum class Mode { stop, drive, turn };
+  Mode mode = Mode::stop;
+  std::vector<Point2> via;     ///< [m], map, nearest first
+  bool is_final = false;       ///< the last via-point is the goal
+  Angle heading{};             ///< map
+  std::string state = "idle";  ///< idle, waiting, driving, turning, arrived, blocked, unreachable
+  std::string reason;
+  double remaining_m = 0.0;
+  double blocked_s = 0.0;
+};
+
+/// Follows one goal after another: drive there along the route, turn to the heading, stay. Deterministic.
+class GoalPursuit {
+ public:
+  explicit GoalPursuit(PursuitParams params) : params_{params} {}
+
+  /// A goal with another id replaces the one before.
+  void set_goal(const PursuitGoal& goal, Time now);
+  [[nodiscard]] const PursuitGoal& goal() const { return goal_; }
+
+  /// @param map_from_base  nullopt: the robot does not know where it is
+  /// @param planner  holds this goal
+  [[nodiscard]] Pursuit step(const std::optional<Pose2>& map_from_base, const RoutePlanner& planner, Time now);
+
+ private:
+  PursuitParams params_;
+  PursuitGoal goal_;
+  enum class Phase { driving, turning, arrived } phase_ = Phase::driving;
+  double best_remaining_ = 0.0;
+  Time last_progress_{};
+};
+
+}  // namespace docent
