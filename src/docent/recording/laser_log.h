@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "docent/base/result.h"
+#include "docent/base/time.h"
+#include "docent/geometry/pose2.h"
+
+namespace docent {
+
+/// One sweep of a laser scanner with the odometry of its moment, from whatever kind of recording.
+struct LoggedScan {
+  Time time;
+  bool rear = false;
+  Angle first_bearing;        ///< of ranges[0], in the laser's frame
+  double bearing_step = 0.0;  ///< [rad]
+  std::vector<float> ranges;  ///< [m]; +infinity: no return; NaN: an invalid reading (as REP 117 has it)
+  Pose2 odom_from_base;       ///< raw odometry at the moment of the scan
+  Pose2 base_from_laser;      ///< the laser's place on the robot; the same for all scans of one laser
+  Pose2 logged_pose;          ///< the other pose that CARMEN writes beside odometry, as it stands in the file
+  int line = 0;               ///< where in the file; 0 for recordings without lines
+  [[nodiscard]] Angle bearing(std::size_t beam) const {
+    return Angle::radians(first_bearing.radians() + static_cast<double>(beam) * bearing_step);
+  }
+};
+
+struct LoggedOdometry {
+  Time time;
+  Pose2 odom_from_base;
+  double linear = 0.0;   ///< [m/s], as logged
+  double angular = 0.0;  ///< [rad/s]
+};
+
+/// What localization and mapping need of a recording: scans with odometry, in the order of the recording.
+struct LaserLog {
+  std::vector<LoggedScan> scans;         ///< times never fall
+  std::vector<LoggedOdometry> odometry;  ///< every odometry reading, times never fall
+  std::map<std::string, std::string> parameters;
+  double max_range = 0.0;           ///< [m]: from here on a reading means "no return"
+  bool times_are_invented = false;  ///< the file's times were useless: even steps of 0.2 s instead
+  /// Everything that had to be assumed or left out, in words: for a person who wonders about a result.
+  std::vector<std::string> notes;
+};
+
+}  // namespace docent
