@@ -2,48 +2,17 @@
 
 #include <gtest/gtest.h>
 
-#include "docent/base/random.h"
 #include "docent/messages/conversions.h"
+#include "docent/messages/random_message.h"
 #include "docent/messages/topics.h"
 
 namespace docent {
 namespace {
 
-/// Fills any message with random content.
-struct Filler {
-  Rng rng;
-  template <class T>
-  void operator()(const char* /*name*/, T& field) {
-    fill(field);
-  }
-  template <class T>
-  void fill(T& field) {
-    if constexpr (Message<T>) {
-      T::visit(field, *this);
-    } else if constexpr (std::is_same_v<T, bool>) {
-      field = rng.chance(0.5);
-    } else {
-      field = static_cast<T>(rng.integer(0, 100));
-    }
-  }
-  void fill(std::string& text) { text = std::string(static_cast<std::size_t>(rng.integer(0, 9)), 'a'); }
-  template <class T>
-  void fill(std::vector<T>& items) {
-    items.resize(static_cast<std::size_t>(rng.integer(0, 4)));
-    for (auto& item : items) fill(item);
-  }
-  template <class T, std::size_t N>
-  void fill(std::array<T, N>& items) {
-    for (auto& item : items) fill(item);
-  }
-};
-
 template <class T>
 void check_round_trip(Topic<T> topic) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
-    Filler filler{Rng{seed}};
-    T message;
-    filler.fill(message);
+    const T message = random_message<T>(seed);
     const auto bytes = encode_cdr(message);
     const auto back = decode_cdr<T>(bytes);
     ASSERT_TRUE(back.has_value()) << topic.name << " seed " << seed;

@@ -20,6 +20,7 @@ struct Topic {
   using Type = T;
   const char* name;
   Qos qos;
+  int depth = 0;  ///< samples kept for a reader that is late; 0: what the class says
 };
 
 namespace topics {
@@ -27,7 +28,7 @@ namespace topics {
 // Hardware, as any ROS 2 base offers it. Published by the simulator or by drivers.
 inline constexpr Topic<sensor_msgs::LaserScan> kScanFront{"scan_front", Qos::sensor};
 inline constexpr Topic<sensor_msgs::LaserScan> kScanRear{"scan_rear", Qos::sensor};
-inline constexpr Topic<sensor_msgs::Range> kSonar{"sonar", Qos::sensor};
+inline constexpr Topic<sensor_msgs::Range> kSonar{"sonar", Qos::sensor, 96};  // 24 sensors, one topic
 inline constexpr Topic<nav_msgs::Odometry> kOdometry{"odom", Qos::sensor};
 inline constexpr Topic<sensor_msgs::BatteryState> kBattery{"battery_state", Qos::sensor};
 inline constexpr Topic<docent_msgs::Tactile> kTactile{"tactile", Qos::sensor};

@@ -34,10 +34,11 @@ struct TopicInfo {
   const char* name;
   Qos qos;
   const TypeSupport* type;
+  int depth = 0;  ///< samples kept for a late reader; 0: as the class says
 };
 template <class T>
 [[nodiscard]] TopicInfo topic_info(const Topic<T>& topic) {
-  return {topic.name, topic.qos, &type_support<T>()};
+  return {topic.name, topic.qos, &type_support<T>(), topic.depth};
 }
 
 class Bus;

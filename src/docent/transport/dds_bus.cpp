@@ -1,0 +1,345 @@
+#include "docent/transport/dds_bus.h"
+
+#include <dds/dds.h>
+#include <dds/ddsi/ddsi_serdata.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "docent/base/check.h"
+#include "docent/messages/schema.h"
+#include "docent/transport/cdr_sertype.h"
+
+namespace docent {
+namespace {
+
+// Loopback only. Twenty modules and their tools need more than the nine participants that the default finds room for;
+// a map must fit into the writer's history while a reader is stopped.
+constexpr const char* kConfig = R"(<CycloneDDS><Domain Id="any">
+<General><Interfaces><NetworkInterface name="lo"/></Interfaces><AllowMulticast>false</AllowMulticast></General>
+<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>120</MaxAutoParticipantIndex>
+<Peers><Peer Address="127.0.0.1"/></Peers></Discovery>
+<Internal><Watermarks><WhcHigh>32 MB</WhcHigh></Watermarks></Internal>
+</Domain></CycloneDDS>)";
+
+constexpr int kSensorDepth = 5;
+constexpr int kCommandDepth = 32;
+constexpr dds_duration_t kLiveliness = DDS_SECS(1);
+constexpr dds_duration_t kMaxBlocking = DDS_MSECS(10);
+constexpr std::size_t kStepsKept = 512;
+constexpr Duration kRetryPeriod = std::chrono::milliseconds{100};
+
+int depth_of(const TopicInfo& info) {
+  if (info.depth > 0) return info.depth;
+  switch (info.qos) {
+    case Qos::sensor:
+      return kSensorDepth;
+    case Qos::state:
+      return 1;
+    case Qos::command:
+      return kCommandDepth;
+  }
+  return 1;
+}
+
+using QosPointer = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
+
+QosPointer base_qos(const TopicInfo& info) {
+  QosPointer qos{dds_create_qos(), dds_delete_qos};
+  const dds_data_representation_id_t representation = DDS_DATA_REPRESENTATION_XCDR1;
+  dds_qset_data_representation(qos.get(), 1, &representation);
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, depth_of(info));
+  dds_qset_durability(qos.get(), info.qos == Qos::state ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
+  return qos;
+}
+
+QosPointer reader_qos(const TopicInfo& info) {
+  auto qos = base_qos(info);
+  const bool is_reliable = info.qos != Qos::sensor;
+  dds_qset_reliability(qos.get(), is_reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT, kMaxBlocking);
+  return qos;
+}
+
+QosPointer writer_qos(const TopicInfo& info) {
+  auto qos = base_qos(info);
+  // Also sensors are offered reliably: our own readers ask for best effort and get just that, but many a ROS 2 tool
+  // asks for reliable odometry and frames and would find no match.
+  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, kMaxBlocking);
+  dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, kLiveliness);
+  dds_qset_writer_data_lifecycle(qos.get(), false);
+  if (info.qos == Qos::state) {
+    dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, depth_of(info), DDS_LENGTH_UNLIMITED,
+                                DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
+  }
+  return qos;
+}
+
+const char* policy_name(std::uint32_t policy) {
+  switch (policy) {
+    case DDS_RELIABILITY_QOS_POLICY_ID:
+      return "reliability";
+    case DDS_DURABILITY_QOS_POLICY_ID:
+      return "durability";
+    case DDS_DEADLINE_QOS_POLICY_ID:
+      return "deadline";
+    case DDS_LIVELINESS_QOS_POLICY_ID:
+      return "liveliness";
+    case DDS_DATA_REPRESENTATION_QOS_POLICY_ID:
+      return "data representation";
+    default:
+      return "quality of service";
+  }
+}
+
+}  // namespace
+
+Result<std::unique_ptr<DdsBus>> DdsBus::create(DdsOptions options) {
+  if (options.domain < 0 || options.domain > kMaxDdsDomain) {
+    return fail("DDS domain " + std::to_string(options.domain) + " is not in 0 … " + std::to_string(kMaxDdsDomain));
+  }
+  const auto domain_id = static_cast<dds_domainid_t>(options.domain);
+  dds_entity_t own_domain = 0;
+  if (std::getenv("CYCLONEDDS_URI") == nullptr) {
+    own_domain = dds_create_domain(domain_id, kConfig);
+    if (own_domain == DDS_RETCODE_PRECONDITION_NOT_MET) own_domain = 0;  // another bus of this process made it
+    if (own_domain < 0) return fail(std::string{"DDS cannot start: "} + dds_strretcode(-own_domain));
+  }
+  const dds_entity_t participant = dds_create_participant(domain_id, nullptr, nullptr);
+  if (participant < 0) {
+    if (own_domain > 0) dds_delete(own_domain);
+    return fail("DDS cannot join domain " + std::to_string(options.domain) + ": " + dds_strretcode(-participant));
+  }
+  if (own_domain == 0) own_domain = dds_get_parent(participant);
+  return std::unique_ptr<DdsBus>{new DdsBus{std::move(options), participant, own_domain}};
+}
+
+DdsBus::DdsBus(DdsOptions options, std::int32_t participant, std::int32_t own_domain)
+    : options_{std::move(options)}, participant_{participant}, own_domain_{own_domain} {
+  steps_ms_.reserve(kStepsKept);
+}
+
+DdsBus::~DdsBus() {
+  dds_delete(participant_);  // with all readers and writers: no listener runs after this
+  if (own_domain_ > 0 && dds_get_children(own_domain_, nullptr, 0) == 0) dds_delete(own_domain_);
+}
+
+void DdsBus::run(std::stop_token stop) {
+  while (!stop.stop_requested()) {
+    std::vector<std::function<void()>> posts;
+    Subscription* subscription = nullptr;
+    {
+      std::unique_lock lock{mutex_};
+      const auto has_work = [this] { return !posts_.empty() || !ready_.empty(); };
+      if (timers_.empty()) {
+        wake_.wait(lock, stop, has_work);
+      } else {
+        wake_.wait_until(lock, stop, timers_.top().due, has_work);
+      }
+      posts.swap(posts_);
+      if (!ready_.empty()) {
+        subscription = ready_.front();
+        ready_.erase(ready_.begin());
+        subscription->is_ready = false;
+      }
+    }
+    for (const auto& action : posts) time_step(action);
+    run_due_timers();
+    if (subscription != nullptr) take(*subscription);
+  }
+}
+
+Time DdsBus::now() const {
+  const auto wall = std::chrono::system_clock::now().time_since_epoch();
+  const auto at = Steady::now();
+  std::int64_t time = std::chrono::duration_cast<Duration>(wall).count();
+  const std::scoped_lock lock{clock_mutex_};
+  if (time < last_now_) time = last_now_ + std::max<std::int64_t>(0, Duration{at - last_now_at_}.count());
+  last_now_ = time;
+  last_now_at_ = at;
+  return Time{time};
+}
+
+void DdsBus::every(Duration period, std::function<void()> action) {
+  DOCENT_CHECK(period.count() > 0);
+  add_timer(Steady::now() + period, period, std::move(action));
+}
+
+void DdsBus::after(Duration delay, std::function<void()> action) {
+  add_timer(Steady::now() + delay, Duration{0}, std::move(action));
+}
+
+void DdsBus::add_timer(Steady::time_point due, Duration period, std::function<void()> action) {
+  timers_.push({due, next_order_++, period, std::make_shared<std::function<void()>>(std::move(action))});
+}
+
+void DdsBus::run_due_timers() {
+  // Not those that become due meanwhile: messages come first then.
+  const auto now_at = Steady::now();
+  while (!timers_.empty() && timers_.top().due <= now_at) {
+    Timer timer = timers_.top();
+    timers_.pop();
+    if (timer.period.count() > 0) {
+      const auto action = timer.action;
+      const auto missed = (now_at - timer.due) / timer.period;  // beats that are lost, never made good
+      timer.due += timer.period * (missed + 1);
+      timers_.push(timer);
+    }
+    time_step(*timer.action);
+  }
+}
+
+void DdsBus::post(std::function<void()> action) {
+  {
+    const std::scoped_lock lock{mutex_};
+    posts_.push_back(std::move(action));
+  }
+  wake_.notify_one();
+}
+
+DdsBus::DdsTopic DdsBus::find_or_create(const TopicInfo& info) {
+  const auto known = topics_.find(info.name);
+  if (known != topics_.end()) {
+    DOCENT_CHECK(known->second.support == info.type);
+    return known->second;
+  }
+  const std::string wire_name = "rt/" + (options_.name_prefix.empty() ? "" : options_.name_prefix + "/") + info.name;
+  ddsi_sertype* type = make_cdr_sertype(dds_type_name(info.type->name));
+  const dds_entity_t entity =
+      dds_create_topic_sertype(participant_, wire_name.c_str(), &type, nullptr, nullptr, nullptr);
+  DOCENT_CHECK(entity > 0);
+  return topics_.emplace(info.name, DdsTopic{entity, type, info.type}).first->second;
+}
+
+int DdsBus::add_publisher(const TopicInfo& info) {
+  const DdsTopic topic = find_or_create(info);
+  dds_listener_t* listener = dds_create_listener(this);
+  dds_lset_offered_incompatible_qos(
+      listener, [](dds_entity_t writer, const dds_offered_incompatible_qos_status_t status, void* bus) {
+        char name[256] = "?";
+        dds_get_name(dds_get_topic(writer), name, sizeof(name));
+        static_cast<DdsBus*>(bus)->warn_later(std::string{"a reader of "} + name + " asks for a " +
+                                              policy_name(status.last_policy_id) + " that is not offered");
+      });
+  const dds_entity_t writer = dds_create_writer(participant_, topic.entity, writer_qos(info).get(), listener);
+  dds_delete_listener(listener);
+  DOCENT_CHECK(writer > 0);
+  writers_.push_back({writer, topic, info.qos == Qos::state, nullptr});
+  return static_cast<int>(writers_.size()) - 1;
+}
+
+void DdsBus::publish(int publisher, std::shared_ptr<const void> message) {
+  write(writers_[static_cast<std::size_t>(publisher)], message);
+}
+
+void DdsBus::write(Writer& writer, const std::shared_ptr<const void>& message) {
+  writer.unsent = nullptr;
+  const dds_return_t done =
+      dds_writecdr(writer.entity, make_cdr_sample(writer.topic.type, writer.topic.support->encode(message.get())));
+  if (done == DDS_RETCODE_OK) return;
+  ++counters_.unsent;
+  // A reader holds the writer up. Commands grow old; a state must arrive, so its newest value is tried again.
+  if (!writer.is_state) return;
+  writer.unsent = message;
+  if (!retry_is_due_) {
+    retry_is_due_ = true;
+    after(kRetryPeriod, [this] { retry_unsent(); });
+  }
+}
+
+void DdsBus::retry_unsent() {
+  retry_is_due_ = false;
+  for (auto& writer : writers_) {
+    if (writer.unsent) write(writer, std::shared_ptr<const void>{writer.unsent});
+  }
+}
+
+void DdsBus::on_data(std::int32_t /*reader*/, void* argument) {
+  auto& subscription = *static_cast<Subscription*>(argument);
+  DdsBus& bus = *subscription.bus;
+  {
+    const std::scoped_lock lock{bus.mutex_};
+    if (subscription.is_ready) return;
+    subscription.is_ready = true;
+    bus.ready_.push_back(&subscription);
+  }
+  bus.wake_.notify_one();
+}
+
+void DdsBus::add_subscription(const TopicInfo& info, Handler handler) {
+  const DdsTopic topic = find_or_create(info);
+  auto& subscription = *subscriptions_.emplace_back(std::make_unique<Subscription>());
+  subscription.bus = this;
+  subscription.name = info.name;
+  subscription.support = info.type;
+  subscription.handler = std::move(handler);
+  dds_listener_t* listener = dds_create_listener(&subscription);
+  dds_lset_data_available(listener, on_data);
+  dds_lset_requested_incompatible_qos(
+      listener, [](dds_entity_t, const dds_requested_incompatible_qos_status_t status, void* argument) {
+        const auto& asking = *static_cast<Subscription*>(argument);
+        asking.bus->warn_later("a writer of " + asking.name + " does not offer the " +
+                               policy_name(status.last_policy_id) + " that is asked for");
+      });
+  const dds_entity_t reader = dds_create_reader(participant_, topic.entity, reader_qos(info).get(), listener);
+  dds_delete_listener(listener);
+  DOCENT_CHECK(reader > 0);
+  subscription.reader = reader;
+}
+
+void DdsBus::take(Subscription& subscription) {
+  constexpr std::uint32_t kBatch = 16;
+  ddsi_serdata* samples[kBatch] = {};
+  dds_sample_info_t infos[kBatch];
+  const dds_return_t count = dds_takecdr(subscription.reader, samples, kBatch, infos, DDS_ANY_STATE);
+  for (dds_return_t i = 0; i < count; ++i) {
+    if (infos[i].valid_data) {
+      const auto message = subscription.support->decode(cdr_bytes(samples[i]));
+      if (message) {
+        ++counters_.received;
+        time_step([&] { subscription.handler(message); });
+      } else if (counters_.damaged++ == 0) {
+        warn_later("damaged sample on " + subscription.name + ", dropped");
+      }
+    }
+    ddsi_serdata_unref(samples[i]);
+  }
+  // There may be more, but others and the timers have their turn first.
+  if (count == static_cast<dds_return_t>(kBatch)) on_data(subscription.reader, &subscription);
+}
+
+void DdsBus::time_step(const std::function<void()>& step) {
+  const auto start = Steady::now();
+  step();
+  const auto ms = std::chrono::duration<float, std::milli>(Steady::now() - start).count();
+  if (steps_ms_.size() < kStepsKept) {
+    steps_ms_.push_back(ms);
+  } else {
+    steps_ms_[next_step_++ % kStepsKept] = ms;
+  }
+}
+
+double DdsBus::step_p99_ms() const {
+  if (steps_ms_.empty()) return 0.0;
+  std::vector<float> sorted = steps_ms_;
+  const auto place = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() * 99 / 100);
+  std::nth_element(sorted.begin(), place, sorted.end());
+  return static_cast<double>(*place);
+}
+
+int DdsBus::alive_writers(const std::string& topic) const {
+  for (const auto& subscription : subscriptions_) {
+    if (subscription->name != topic) continue;
+    dds_liveliness_changed_status_t status{};
+    if (dds_get_liveliness_changed_status(subscription->reader, &status) != DDS_RETCODE_OK) return -1;
+    return static_cast<int>(status.alive_count);
+  }
+  return -1;
+}
+
+void DdsBus::warn_later(std::string text) {
+  post([this, text = std::move(text)] {
+    if (options_.warn) options_.warn(text);
+  });
+}
+
+}  // namespace docent

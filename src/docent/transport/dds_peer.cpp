@@ -1,0 +1,40 @@
+#include <chrono>
+#include <cstdlib>
+#include <iostream>
+#include <numeric>
+
+#include "docent/transport/dds_bus.h"
+
+// The other process of dds_bus_test: dds_peer ROLE DOMAIN. Runs until it is killed.
+
+int main(int argc, char** argv) {
+  using namespace docent;
+  if (argc != 3) return 2;
+  const std::string role = argv[1];
+  auto created = DdsBus::create({std::atoi(argv[2]), "", {}});
+  if (!created) {
+    std::cerr << created.error().message << '\n';
+    return 1;
+  }
+  DdsBus& bus = **created;
+  if (role == "scans") {
+    sensor_msgs::LaserScan scan;
+    for (int i = 0; i < 360; ++i) scan.ranges.push_back(static_cast<float>(i) * 0.01F);
+    bus.every(std::chrono::milliseconds{20}, [scan, out = bus.publisher(topics::kScanFront)] { out.publish(scan); });
+  } else if (role == "map") {
+    nav_msgs::OccupancyGrid map;
+    map.info.width = map.info.height = 2000;
+    map.data.resize(std::size_t{2000} * 2000);
+    for (std::size_t i = 0; i < map.data.size(); ++i) map.data[i] = static_cast<std::int8_t>(i % 101);
+    bus.publisher(topics::kStaticMap).publish(map);
+  } else if (role == "map_echo") {
+    bus.subscribe<nav_msgs::OccupancyGrid>(topics::kStaticMap,
+                                           [out = bus.publisher(topics::kHorn)](const nav_msgs::OccupancyGrid& map) {
+                                             out.publish({{}, std::to_string(std::lround(map.info.resolution))});
+                                           });
+  } else {
+    return 2;
+  }
+  bus.run({});
+  return 0;
+}
