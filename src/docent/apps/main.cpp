@@ -1,0 +1,27 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "docent/apps/command.h"
+#include "docent/apps/plan_command.h"
+
+int main(int argc, char** argv) {
+  CLI::App app{"Docent: an autonomous museum tour guide.", "docent"};
+  app.require_subcommand(1);
+  app.set_version_flag("--version", "docent 0.1.0");
+  docent::add_plan_command(app);
+  try {
+    app.parse(argc, argv);
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    std::fprintf(stderr, "docent: %s (try --help)\n", error.what());
+    return 2;
+  } catch (const docent::CommandFailed& failure) {
+    if (!failure.message.empty()) std::fprintf(stderr, "docent: %s\n", failure.message.c_str());
+    return failure.exit_code;
+  } catch (const std::exception& exception) {
+    std::fprintf(stderr, "docent: %s\n", exception.what());
+    return 1;
+  }
+}

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "docent/modules/module.h"
+
+namespace docent {
+
+/// `map`: the static map, latched with its hash, and the live map as a full map and numbered updates.
+[[nodiscard]] Result<std::unique_ptr<Module>> make_map(const ModuleContext& context);
+
+}  // namespace docent

@@ -1,0 +1,258 @@
+#include "docent/modules/plan_module.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "docent/modules/pose_tracker.h"
+#include "docent/planning/exploration/look_around.h"
+#include "docent/planning/pursuit/pursuit.h"
+#include "docent/planning/value_iteration/route.h"
+
+namespace docent {
+namespace {
+
+constexpr Duration kPeriod = std::chrono::milliseconds{200};
+constexpr int kSweepsAStep = 40;  ///< any-time: so many sweeps of the bounding box between two targets
+constexpr int kClearances = 180;  ///< directions, every 2 degrees
+constexpr int kStepsAPath = 5;    ///< the page sees the path at 1 Hz
+constexpr Duration kBeliefStaleAfter = std::chrono::seconds{3};
+
+struct PlanParams {
+  RouteParams route;
+  PursuitParams pursuit;
+  double goal_tolerance = 0.2;  ///< [m] cells so near to the goal are goals
+  template <class V>
+  void visit(V& v) {
+    v("route", route);
+    v("pursuit", pursuit);
+    v("goal_tolerance", goal_tolerance);
+  }
+  [[nodiscard]] Result<void> validate() const {
+    if (!(goal_tolerance >= 0.0)) return fail("goal_tolerance must be >= 0");
+    if (auto valid = route.validate(); !valid) return valid;
+    return pursuit.validate();
+  }
+};
+
+std::vector<Polygon> polygons_of(const std::vector<Hazard>& hazards) {
+  std::vector<Polygon> polygons;
+  for (const auto& hazard : hazards) polygons.push_back(hazard.polygon);
+  return polygons;
+}
+
+class PlanModule final : public Module {
+ public:
+  PlanModule(const ModuleContext& context, const PlanParams& params)
+      : bus_{context.bus},
+        params_{params},
+        route_{context.museum.map, polygons_of(context.museum.hazards), context.museum.area, params.route},
+        pursuit_{params.pursuit},
+        base_from_laser_{context.config.body().scan_front.base_from_sensor(),
+                         context.config.body().scan_rear.base_from_sensor()},
+        target_{bus_.publisher(topics::kTarget)},
+        goal_state_{bus_.publisher(topics::kGoalState)},
+        path_{bus_.publisher(topics::kPath)} {
+    const OccupancyGrid coarse = coarsened(context.museum.map, params.route.coarsening);
+    static_cells_ = coarse.cells;
+    obstacles_.assign(route_.frame().size(), false);
+
+    bus_.subscribe<docent_msgs::Belief>(topics::kBelief, [this](const auto& belief) { pose_.on_belief(belief); });
+    bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry,
+                                       [this](const auto& odometry) { pose_.on_odometry(odometry); });
+    bus_.subscribe<sensor_msgs::LaserScan>(topics::kScanFront, [this](const auto& scan) { scans_[0] = scan; });
+    bus_.subscribe<sensor_msgs::LaserScan>(topics::kScanRear, [this](const auto& scan) { scans_[1] = scan; });
+    bus_.subscribe<sensor_msgs::LaserScan>(topics::kVirtualScan, [this](const auto& scan) { virtual_scan_ = scan; });
+    bus_.subscribe<nav_msgs::OccupancyGrid>(topics::kLiveMap, [this](const auto& map) { on_full_map(map); });
+    bus_.subscribe<docent_msgs::LiveMapUpdate>(topics::kLiveMapUpdate,
+                                               [this](const auto& update) { on_update(update); });
+    bus_.subscribe<docent_msgs::DriveGoal>(topics::kDriveGoal, [this](const auto& goal) { on_goal(goal); });
+    publish_state(Pursuit{});
+    bus_.every(kPeriod, [this] { step(); });
+  }
+
+  [[nodiscard]] ModuleHealth health() const override {
+    if (!pose_.odom_from_base()) return {"degraded", "no odometry"};
+    if (!pose_.map_from_base()) return {"degraded", "no belief"};
+    return {};
+  }
+
+ private:
+  void on_goal(const docent_msgs::DriveGoal& goal) {
+    const bool is_new = goal.id != goal_.id;
+    goal_ = goal;
+    pursuit_.set_goal(
+        {goal.id, {goal.x, goal.y, Angle::radians(goal.theta)}, goal.position_tolerance, goal.heading_tolerance},
+        bus_.now());
+    if (!is_new) return;
+    if (goal.relocalize) look_around_.start(bus_.now());
+    if (!goal.id.empty() && !goal.relocalize) {
+      route_.set_obstacles(obstacles_);
+      route_.set_goal({goal.x, goal.y}, params_.goal_tolerance);
+    }
+    step();
+  }
+
+  void on_full_map(const nav_msgs::OccupancyGrid& map) {
+    if (map.data.size() != obstacles_.size()) return;  // another map: this one knows only its own
+    base_ = from_message(map.header.stamp);
+    number_ = 0;
+    for (std::size_t i = 0; i < map.data.size(); ++i) obstacles_[i] = is_obstacle(i, map.data[i]);
+    changed_ = true;
+  }
+  void on_update(const docent_msgs::LiveMapUpdate& update) {
+    if (from_message(update.base) != base_ || update.number != number_ + 1) return;  // a gap: wait for the full map
+    if (update.data.size() != static_cast<std::size_t>(update.width) * update.height) return;
+    number_ = update.number;
+    std::size_t k = 0;
+    for (std::uint32_t row = 0; row < update.height; ++row) {
+      for (std::uint32_t column = 0; column < update.width; ++column, ++k) {
+        const CellIndex cell{update.x + static_cast<int>(column), update.y + static_cast<int>(row)};
+        if (!route_.frame().holds(cell)) continue;
+        const std::size_t index = route_.frame().index(cell);
+        obstacles_[index] = is_obstacle(index, update.data[k]);
+      }
+    }
+    changed_ = true;
+  }
+  [[nodiscard]] bool is_obstacle(std::size_t index, std::int8_t live) const {
+    return live >= 65 && static_cells_[index] < 65;
+  }
+
+  void step() {
+    const Time now = bus_.now();
+    if (goal_.relocalize && !goal_.id.empty()) return step_relocalize(now);
+    if (changed_ && !goal_.id.empty()) {
+      changed_ = false;
+      route_.set_obstacles(obstacles_);
+    }
+    if (!goal_.id.empty()) route_.iterate(kSweepsAStep);
+    const bool knows = pose_.localized() && now - pose_.belief_stamp() < kBeliefStaleAfter;
+    const Pursuit pursuit = pursuit_.step(knows ? pose_.map_from_base() : std::nullopt, route_, now);
+    publish_target(pursuit, now);
+    publish_state(pursuit);
+    if (step_count_++ % kStepsAPath == 0) publish_path(pursuit, now);
+  }
+
+  void step_relocalize(Time now) {
+    docent_msgs::Target target;
+    target.header = {to_message(now), "odom"};
+    target.goal_id = goal_.id;
+    target.mode = "stop";
+    Pursuit pursuit;
+    pursuit.state = pose_.localized() ? "arrived" : "waiting";
+    pursuit.reason = pose_.localized() ? "" : "looking around to find the position";
+    if (!pose_.localized() && pose_.odom_from_base()) {
+      const auto step = look_around_.step(*pose_.odom_from_base(), clearances(now), now);
+      target.mode = step.drive ? "drive" : "turn";
+      target.heading = step.heading.radians();
+      if (step.drive) {
+        target.via_x = {step.via.x};
+        target.via_y = {step.via.y};
+        target.is_final = true;
+      }
+    }
+    target_.publish(std::move(target));
+    publish_state(pursuit);
+  }
+
+  /// The smaller of real and virtual measurements in every direction; empty when any is missing or old.
+  [[nodiscard]] std::vector<double> clearances(Time now) const {
+    constexpr Duration kStale = std::chrono::seconds{2};
+    std::vector<double> result(kClearances, std::numeric_limits<double>::infinity());
+    const auto lower = [&](const sensor_msgs::LaserScan& scan, const Pose2& base_from_sensor) {
+      if (scan.ranges.empty() || now - from_message(scan.header.stamp) > kStale) return false;
+      for (std::size_t k = 0; k < scan.ranges.size(); ++k) {
+        const auto range = static_cast<double>(std::isfinite(scan.ranges[k]) ? scan.ranges[k] : 0.0F);
+        const Angle bearing = Angle::radians(static_cast<double>(scan.angle_min) +
+                                             static_cast<double>(k) * static_cast<double>(scan.angle_increment));
+        const Point2 point = base_from_sensor * (range * unit(bearing));
+        const double degrees = direction({}, point).degrees() + 180.0;
+        auto& least = result[static_cast<std::size_t>(std::lround(degrees / 2.0)) % kClearances];
+        least = std::min(least, norm(point));
+      }
+      return true;
+    };
+    const bool complete =
+        lower(scans_[0], base_from_laser_[0]) && lower(scans_[1], base_from_laser_[1]) && lower(virtual_scan_, Pose2{});
+    if (!complete) result.clear();
+    return result;
+  }
+
+  void publish_target(const Pursuit& pursuit, Time now) {
+    docent_msgs::Target target;
+    target.header = {to_message(now), "odom"};
+    target.goal_id = goal_.id;
+    target.mode = "stop";
+    target.is_final = pursuit.is_final;
+    target.position_tolerance = goal_.position_tolerance;
+    target.heading_tolerance = goal_.heading_tolerance;
+    if (pursuit.mode != Pursuit::Mode::stop) {
+      const Pose2 odom_from_map = inverse(pose_.map_from_odom().value_or(Pose2{}));
+      target.mode = pursuit.mode == Pursuit::Mode::drive ? "drive" : "turn";
+      target.heading = (odom_from_map.theta + pursuit.heading).radians();
+      for (const Point2& via : pursuit.via) {
+        const Point2 in_odom = odom_from_map * via;
+        target.via_x.push_back(in_odom.x);
+        target.via_y.push_back(in_odom.y);
+      }
+    }
+    target_.publish(std::move(target));
+  }
+
+  void publish_state(const Pursuit& pursuit) {
+    docent_msgs::GoalState state;
+    state.id = goal_.id;
+    state.state = pursuit.state;
+    state.remaining_m = pursuit.remaining_m;
+    state.blocked_s = pursuit.blocked_s;
+    state.reason = pursuit.reason;
+    state.header = {to_message(bus_.now()), "map"};
+    goal_state_.publish(std::move(state));
+  }
+
+  void publish_path(const Pursuit& pursuit, Time now) {
+    nav_msgs::Path path;
+    path.header = {to_message(now), "map"};
+    const auto here = pose_.map_from_base();
+    if (pursuit.mode == Pursuit::Mode::drive && here) {
+      for (const Point2& point : route_.way(here->position())) {
+        path.poses.push_back({path.header, to_message(Pose2{point.x, point.y, {}})});
+      }
+    }
+    if (path.poses.empty() && path_was_empty_) return;
+    path_was_empty_ = path.poses.empty();
+    path_.publish(std::move(path));
+  }
+
+  Bus& bus_;
+  PlanParams params_;
+  RoutePlanner route_;
+  GoalPursuit pursuit_;
+  LookAround look_around_;
+  std::array<Pose2, 2> base_from_laser_;
+  Publisher<docent_msgs::Target> target_;
+  Publisher<docent_msgs::GoalState> goal_state_;
+  Publisher<nav_msgs::Path> path_;
+  PoseTracker pose_;
+  docent_msgs::DriveGoal goal_;
+  std::array<sensor_msgs::LaserScan, 2> scans_;
+  sensor_msgs::LaserScan virtual_scan_;
+  std::vector<std::int8_t> static_cells_;  ///< [rows * columns of the planning grid]
+  std::vector<bool> obstacles_;
+  Time base_{};
+  std::uint32_t number_ = 0;
+  bool changed_ = false;
+  bool path_was_empty_ = true;
+  int step_count_ = 0;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Module>> make_plan(const ModuleContext& context) {
+  auto params = context.config.section<PlanParams>("plan");
+  if (!params) return tl::unexpected<Error>(params.error());
+  params->route.robot_radius = context.config.body().radius;
+  return std::make_unique<PlanModule>(context, *params);
+}
+
+}  // namespace docent

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "docent/modules/module.h"
+
+namespace docent {
+
+/// `plan`: value iteration to the goal over the live map; hands `avoid` via-points and says how it goes.
+[[nodiscard]] Result<std::unique_ptr<Module>> make_plan(const ModuleContext& context);
+
+}  // namespace docent

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+
+#include "docent/geometry/pose2.h"
+#include "docent/messages/conversions.h"
+#include "docent/messages/topics.h"
+
+namespace docent {
+
+/// Carries the belief's best hypothesis forward with odometry. For modules that plan or draw; never for safety, which
+/// uses the whole belief.
+class PoseTracker {
+ public:
+  void on_belief(const docent_msgs::Belief& belief) {
+    localized_ = belief.localized && !belief.hypotheses.empty();
+    if (belief.hypotheses.empty()) return;
+    const auto& best = belief.hypotheses.front();
+    map_from_odom_ = Pose2{best.x, best.y, Angle::radians(best.theta)} * inverse(from_message(belief.odom_pose));
+    belief_stamp_ = from_message(belief.header.stamp);
+  }
+  void on_odometry(const nav_msgs::Odometry& odometry) {
+    odom_from_base_ = from_message(odometry.pose.pose);
+    odometry_stamp_ = from_message(odometry.header.stamp);
+  }
+
+  [[nodiscard]] bool localized() const { return localized_; }
+  [[nodiscard]] std::optional<Pose2> odom_from_base() const { return odom_from_base_; }
+  [[nodiscard]] std::optional<Pose2> map_from_odom() const { return map_from_odom_; }
+  /// Now, whether the robot is sure of it or not.
+  [[nodiscard]] std::optional<Pose2> map_from_base() const {
+    if (!map_from_odom_ || !odom_from_base_) return std::nullopt;
+    return *map_from_odom_ * *odom_from_base_;
+  }
+  [[nodiscard]] Time belief_stamp() const { return belief_stamp_; }
+  [[nodiscard]] Time odometry_stamp() const { return odometry_stamp_; }
+
+ private:
+  bool localized_ = false;
+  std::optional<Pose2> map_from_odom_;
+  std::optional<Pose2> odom_from_base_;
+  Time belief_stamp_{};
+  Time odometry_stamp_{};
+};
+
+}  // namespace docent
