@@ -1,0 +1,36 @@
+#include "docent/modules/module_host.h"
+
+#include "docent/messages/conversions.h"
+
+namespace docent {
+
+namespace {
+constexpr Duration kHealthPeriod = std::chrono::milliseconds{500};
+}
+
+Result<std::unique_ptr<ModuleHost>> ModuleHost::create(const ModuleEntry& entry, std::unique_ptr<Bus> bus,
+                                                       const Museum& museum, const RobotConfig& config,
+                                                       const Options& options) {
+  std::unique_ptr<ModuleHost> host{new ModuleHost{entry.name, std::move(bus)}};
+  host->pid_ = options.pid;
+  host->health_ = host->bus_->publisher(topics::kHealth);
+  auto module = entry.make({*host->bus_, museum, config, options.state, options.seed, options.virtual_time});
+  if (!module) return tl::unexpected<Error>(module.error());
+  host->module_ = std::move(*module);
+  host->bus_->every(kHealthPeriod, [raw = host.get()] { raw->publish_health(); });
+  host->publish_health();
+  return host;
+}
+
+void ModuleHost::publish_health() {
+  const ModuleHealth health = module_->health();
+  docent_msgs::Health message;
+  message.header.stamp = to_message(bus_->now());
+  message.module = name_;
+  message.state = health.state;
+  message.reason = health.reason;
+  message.pid = pid_;
+  health_.publish(std::move(message));
+}
+
+}  // namespace docent

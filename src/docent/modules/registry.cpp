@@ -1,0 +1,27 @@
+#include "docent/modules/registry.h"
+
+#include <array>
+
+#include "docent/modules/map_module.h"
+#include "docent/modules/plan_module.h"
+
+namespace docent {
+namespace {
+
+constexpr std::array kModules{
+    ModuleEntry{"map", make_map},
+    ModuleEntry{"plan", make_plan},
+};
+
+}  // namespace
+
+std::span<const ModuleEntry> all_modules() { return kModules; }
+
+const ModuleEntry* find_module(std::string_view name) {
+  for (const auto& entry : kModules) {
+    if (entry.name == name) return &entry;
+  }
+  return nullptr;
+}
+
+}  // namespace docent

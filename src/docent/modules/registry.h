@@ -1,0 +1,21 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "docent/modules/module.h"
+
+namespace docent {
+
+struct ModuleEntry {
+  const char* name;
+  ModuleFactory make;
+  bool is_urgent = false;  ///< runs at higher priority (architecture 10.15)
+};
+
+/// Every module of the robot, in the order in which they are started.
+[[nodiscard]] std::span<const ModuleEntry> all_modules();
+/// Null: there is none of that name.
+[[nodiscard]] const ModuleEntry* find_module(std::string_view name);
+
+}  // namespace docent
