@@ -60,6 +60,12 @@ YamlReader::YamlReader(const YamlFile& file, const YAML::Node& node) : file_{fil
   }
 }
 
+YAML::Node YamlReader::node(const char* key) {
+  known_.insert(key);
+  const YAML::Node& parent = node_;  // operator[] of a non-const node would insert
+  return parent[key];
+}
+
 void YamlReader::finish() const {
   for (const auto& entry : node_) {
     const auto& key = entry.first.Scalar();

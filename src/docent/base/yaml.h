@@ -58,6 +58,8 @@ class YamlReader {
       throw YamlFault{file_.fault(node_, std::string{"missing key '"} + key + "'")};
     read(child, field);
   }
+  /// The node under `key`, undefined when absent, for what is not read into a struct.
+  [[nodiscard]] YAML::Node node(const char* key);
   /// Refuses keys that nobody asked for.
   void finish() const;
 

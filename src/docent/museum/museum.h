@@ -36,7 +36,17 @@ struct Exhibit {
   Translations long_text;
   std::vector<std::string> topics;
   bool web_only = false;
+  /// Exhibits that make sense right after this one (ids). Empty: all that share a topic. See sensible_next.
+  std::vector<std::string> next;
 };
+
+/// "HH:MM-HH:MM" of a day; hours that end before they begin run past midnight.
+struct Hours {
+  int from_minute = 0;  ///< since midnight, 0..1439
+  int to_minute = 0;    ///< 1..1440
+  [[nodiscard]] bool holds(int minute_of_day) const;
+};
+[[nodiscard]] Result<Hours> parse_hours(const std::string& text);
 
 struct Mode {
   double max_speed = 0.7;  ///< [m/s]
@@ -71,10 +81,19 @@ struct Museum {
   [[nodiscard]] const Tour* find_tour(const std::string& id) const;
 };
 
-/// Reads FOLDER/museum.yaml with its map and texts. Error: the first fault, "FILE:LINE: …".
+/// The exhibits that make sense right after `exhibit` (Minerva's "sensible pairs"): its `next` list, else those that
+/// share a topic with it; never itself, never one that is only for the Web. In the order of museum.yaml.
+[[nodiscard]] std::vector<const Exhibit*> sensible_next(const Museum& museum, const Exhibit& exhibit);
+/// How many directed pairs (a, b) there are with b in sensible_next(a).
+[[nodiscard]] std::size_t sensible_pairs(const Museum& museum);
+
+/// Reads FOLDER/museum.yaml with its map and texts. Error: the first fault, "FILE:LINE: …". Looks at the file's form,
+/// ids, texts, polygons, modes and tours; whether the robot fits where it must stand is check_museum's question.
 [[nodiscard]] Result<Museum> load_museum(const std::filesystem::path& folder);
 
 /// Everything that cannot work in the museum: each fault with file, line and reason. Empty: the museum is fine.
+/// The robot is a disc of 0.265 m that wants 0.10 m of room: it must reach each exhibit, viewpoint and the charger from
+/// home on the map's free cells, inside the area, clear of walls and hazards. O(cells).
 [[nodiscard]] std::vector<Error> check_museum(const std::filesystem::path& folder);
 
 }  // namespace docent

@@ -35,6 +35,12 @@ struct Attraction {
   double weight = 1.0;  ///< how often it is chosen
 };
 
+/// A part of the hall with a ceiling of its own height.
+struct CeilingPart {
+  Polygon polygon;      ///< [m], world
+  double height = 3.0;  ///< [m] above the floor
+};
+
 /// The true museum (simulation.yaml). Read by the simulator, the evaluation's tools and nothing else
 /// (architecture 10.1).
 struct World {
@@ -47,9 +53,27 @@ struct World {
   double visitors_per_hour = 24.0;    ///< who ask the robot for something
   std::vector<std::string> exhibits;  ///< ids that they may ask for
   std::vector<std::string> tours;
+  double ceiling_height = 3.0;       ///< [m], where no part says otherwise
+  std::vector<CeilingPart> ceiling;  ///< the last part that holds a point counts
+
+  [[nodiscard]] double ceiling_at(Point2 in_world) const;
 };
 
+/// Reads simulation.yaml. A solid's outline is written in one of four ways: `polygon: [[x, y], …]`,
+/// `line: [[x, y], …]` with `thickness` (one solid a piece, ids "ID-1", "ID-2", …; `closed: true` joins the ends),
+/// `box: {x, y, length, width, heading}` (centre, degrees) or `circle: {x, y, radius}` (a 16-gon).
 /// Faults name file and line.
 [[nodiscard]] Result<World> load_world(const std::filesystem::path& simulation_yaml);
+/// From memory; `name` stands where the file's name would.
+[[nodiscard]] Result<World> parse_world(const std::string& text, const std::string& name);
+
+[[nodiscard]] const char* to_string(SolidKind kind);
+
+/// Height [m] at which lasers look, and that of the sonars.
+inline constexpr double kLaserHeight = 0.38;
+inline constexpr double kSonarHeight = 0.25;
+
+/// True when a laser at kLaserHeight is reflected by the solid.
+[[nodiscard]] bool is_seen_by_laser(const Solid& solid);
 
 }  // namespace docent::simulator

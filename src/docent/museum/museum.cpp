@@ -1,0 +1,89 @@
+#include "docent/museum/museum.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "docent/base/files.h"
+#include "docent/museum/museum_reader.h"
+
+namespace docent {
+
+std::string translated(const Translations& texts, const std::string& language) {
+  if (const auto found = texts.find(language); found != texts.end()) return found->second;
+  return texts.empty() ? std::string{} : texts.begin()->second;
+}
+
+bool Hours::holds(int minute_of_day) const {
+  if (from_minute < to_minute) return minute_of_day >= from_minute && minute_of_day < to_minute;
+  return minute_of_day >= from_minute || minute_of_day < to_minute;
+}
+
+Result<Hours> parse_hours(const std::string& text) {
+  const auto bad = [&] { return fail("hours '" + text + "': expected HH:MM-HH:MM"); };
+  if (text.size() != 11 || text[2] != ':' || text[5] != '-' || text[8] != ':') return bad();
+  const auto number = [&](std::size_t at) {
+    const bool digits = std::isdigit(static_cast<unsigned char>(text[at])) != 0 &&
+                        std::isdigit(static_cast<unsigned char>(text[at + 1])) != 0;
+    return digits ? (text[at] - '0') * 10 + (text[at + 1] - '0') : 1000;
+  };
+  const int from_hour = number(0);
+  const int from_minute = number(3);
+  const int to_hour = number(6);
+  const int to_minute = number(9);
+  if (from_hour > 23 || from_minute > 59 || to_hour > 24 || to_minute > 59) return bad();
+  const Hours hours{from_hour * 60 + from_minute, to_hour * 60 + to_minute};
+  if (hours.to_minute > 24 * 60 || hours.to_minute == 0) return bad();
+  if (hours.from_minute == hours.to_minute) return fail("hours '" + text + "': begin and end are the same");
+  return hours;
+}
+
+const Exhibit* Museum::find_exhibit(const std::string& id) const {
+  const auto found = std::find_if(exhibits.begin(), exhibits.end(), [&](const Exhibit& e) { return e.id == id; });
+  return found == exhibits.end() ? nullptr : &*found;
+}
+
+const Tour* Museum::find_tour(const std::string& id) const {
+  const auto found = std::find_if(tours.begin(), tours.end(), [&](const Tour& t) { return t.id == id; });
+  return found == tours.end() ? nullptr : &*found;
+}
+
+std::vector<const Exhibit*> sensible_next(const Museum& museum, const Exhibit& exhibit) {
+  const auto holds = [](const std::vector<std::string>& all, const std::string& one) {
+    return std::find(all.begin(), all.end(), one) != all.end();
+  };
+  std::vector<const Exhibit*> result;
+  for (const Exhibit& candidate : museum.exhibits) {
+    if (candidate.id == exhibit.id || candidate.web_only) continue;
+    const bool fits = exhibit.next.empty()
+                          ? std::any_of(exhibit.topics.begin(), exhibit.topics.end(),
+                                        [&](const std::string& topic) { return holds(candidate.topics, topic); })
+                          : holds(exhibit.next, candidate.id);
+    if (fits) result.push_back(&candidate);
+  }
+  return result;
+}
+
+std::size_t sensible_pairs(const Museum& museum) {
+  std::size_t count = 0;
+  for (const Exhibit& exhibit : museum.exhibits) {
+    if (!exhibit.web_only) count += sensible_next(museum, exhibit).size();
+  }
+  return count;
+}
+
+Result<Museum> load_museum(const std::filesystem::path& folder) {
+  auto file = YamlFile::load(folder / "museum.yaml");
+  if (!file) return tl::unexpected<Error>(file.error());
+  auto source = read_museum(*file, [&](const std::filesystem::path& relative) { return read_file(folder / relative); });
+  if (!source.faults.empty()) return tl::unexpected<Error>(source.faults.front());
+  Museum museum = std::move(source.museum);
+  museum.folder = folder;
+  museum.map_path = folder / museum.map_path;
+  if (museum.simulation_path) museum.simulation_path = folder / *museum.simulation_path;
+  auto map = load_map(museum.map_path);
+  if (!map) return tl::unexpected<Error>(map.error());
+  museum.map = std::move(*map);
+  return museum;
+}
+
+}  // namespace docent

@@ -1,0 +1,428 @@
+#include "docent/museum/museum_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <set>
+#include <string_view>
+
+namespace docent {
+namespace {
+
+constexpr double kFarthest = 10'000.0;                // [m]; coordinates beyond it are a slip of the pen
+constexpr std::size_t kLongestText = 16 * 1024;       // [bytes]; about 20 minutes of speech
+constexpr std::size_t kLongestId = 40;
+// ISO 639-1.
+constexpr std::string_view kLanguages =
+    " aa ab ae af ak am an ar as av ay az ba be bg bi bm bn bo br bs ca ce ch co cr cs cu cv cy da de dv dz ee el en eo "
+    "es et eu fa ff fi fj fo fr fy ga gd gl gn gu gv ha he hi ho hr ht hu hy hz ia id ie ig ii ik io is it iu ja jv ka "
+    "kg ki kj kk kl km kn ko kr ks ku kv kw ky la lb lg li ln lo lt lu lv mg mh mi mk ml mn mr ms mt my na nb nd ne ng "
+    "nl nn no nr nv ny oc oj om or os pa pi pl ps pt qu rm rn ro ru rw sa sc sd se sg si sk sl sm sn so sq sr ss st su "
+    "sv sw ta te tg th ti tk tl tn to tr ts tt tw ty ug uk ur uz ve vi vo wa wo xh yi yo za zh zu ";
+struct NamedHazard {
+  const char* name;
+  HazardKind kind;
+};
+constexpr std::array kHazards{NamedHazard{"glass", HazardKind::glass}, NamedHazard{"plate", HazardKind::plate},
+                              NamedHazard{"stairs", HazardKind::stairs}, NamedHazard{"other", HazardKind::other}};
+
+struct PointYaml {
+  double x = 0.0;
+  double y = 0.0;
+  template <class V>
+  void visit(V& v) {
+    v.required("x", x);
+    v.required("y", y);
+  }
+};
+
+struct PoseYaml {
+  double x = 0.0;
+  double y = 0.0;
+  double heading = 0.0;
+  template <class V>
+  void visit(V& v) {
+    v.required("x", x);
+    v.required("y", y);
+    v.required("heading", heading);
+  }
+  [[nodiscard]] Pose2 pose() const { return {x, y, Angle::degrees(heading)}; }
+};
+
+bool is_utf8(const std::string& text) {
+  std::size_t i = 0;
+  while (i < text.size()) {
+    const auto lead = static_cast<unsigned char>(text[i]);
+    const std::size_t length = lead < 0x80 ? 1 : (lead & 0xE0) == 0xC0 ? 2 : (lead & 0xF0) == 0xE0 ? 3
+                               : (lead & 0xF8) == 0xF0                                             ? 4
+                                                                                                   : 0;
+    if (length == 0 || i + length > text.size()) return false;
+    for (std::size_t k = 1; k < length; ++k) {
+      if ((static_cast<unsigned char>(text[i + k]) & 0xC0) != 0x80) return false;
+    }
+    i += length;
+  }
+  return true;
+}
+
+class MuseumYamlReader {
+ public:
+  MuseumYamlReader(const YamlFile& file, const ReadText& read_text, MuseumSource& source)
+      : file_{file}, read_text_{read_text}, source_{source}, museum_{source.museum} {}
+
+  void read() {
+    guarded([&] {
+      YamlReader reader{file_, file_.root()};
+      const YAML::Node name = reader.node("name");
+      const YAML::Node languages = reader.node("languages");
+      const YAML::Node area = reader.node("area");
+      const YAML::Node hazards = reader.node("hazards");
+      const YAML::Node home = reader.node("home");
+      const YAML::Node charger = reader.node("charger");
+      const YAML::Node exhibits = reader.node("exhibits");
+      const YAML::Node modes = reader.node("modes");
+      const YAML::Node tours = reader.node("tours");
+      guarded([&] { read_languages(languages); });
+      guarded([&] { museum_.name = translations(required(file_.root(), name, "name"), "name"); });
+      std::string map;
+      guarded([&] {
+        reader.required("map", map);
+        museum_.map_path = inside_folder(reader.node("map"), map);
+      });
+      guarded([&] { museum_.area = polygon(required(file_.root(), area, "area")); });
+      read_hazards(hazards);
+      guarded([&] { museum_.home = pose(required(file_.root(), home, "home")); });
+      if (charger.IsDefined()) guarded([&] { museum_.charger = pose(charger); });
+      read_exhibits(required(file_.root(), exhibits, "exhibits"));
+      read_modes(modes);
+      read_tours(tours);
+      std::optional<std::string> simulation;
+      guarded([&] {
+        reader("simulation", simulation);
+        if (simulation) museum_.simulation_path = inside_folder(reader.node("simulation"), *simulation);
+      });
+      guarded([&] { reader.finish(); });
+    });
+  }
+
+ private:
+  template <class F>
+  void guarded(F&& f) {
+    try {
+      f();
+    } catch (const YamlFault& fault) {
+      source_.faults.push_back(fault.error);
+    } catch (const YAML::Exception& exception) {
+      source_.faults.push_back(
+          Error{file_.name() + ":" + std::to_string(exception.mark.line + 1) + ": " + exception.msg});
+    }
+  }
+  void report(const YAML::Node& at, const std::string& what) { source_.faults.push_back(file_.fault(at, what)); }
+  [[nodiscard]] YamlFault fault(const YAML::Node& at, const std::string& what) const {
+    return YamlFault{file_.fault(at, what)};
+  }
+
+  [[nodiscard]] YAML::Node required(const YAML::Node& parent, const YAML::Node& node, const char* key) const {
+    if (!node.IsDefined() || node.IsNull()) throw fault(parent, std::string{"missing key '"} + key + "'");
+    return node;
+  }
+  [[nodiscard]] YAML::Node list(const YAML::Node& node, const char* what) const {
+    if (!node.IsSequence()) throw fault(node, std::string{"expected a list of "} + what);
+    return node;
+  }
+  [[nodiscard]] std::string text(const YAML::Node& node, const char* what) const {
+    if (!node.IsScalar()) throw fault(node, std::string{"expected "} + what);
+    return node.Scalar();
+  }
+
+  void read_languages(const YAML::Node& node) {
+    for (const auto& entry : list(required(file_.root(), node, "languages"), "languages")) {
+      const std::string language = text(entry, "a language");
+      if (language.size() != 2 || kLanguages.find(" " + language + " ") == std::string_view::npos) {
+        throw fault(entry, "unknown language '" + language + "' (two letters of ISO 639-1, such as en, de)");
+      }
+      if (knows(language)) throw fault(entry, "language '" + language + "' stands twice");
+      museum_.languages.push_back(language);
+    }
+    if (museum_.languages.empty()) throw fault(node, "needs at least one language");
+  }
+  [[nodiscard]] bool knows(const std::string& language) const {
+    return std::find(museum_.languages.begin(), museum_.languages.end(), language) != museum_.languages.end();
+  }
+
+  /// One text in each of the museum's languages.
+  [[nodiscard]] Translations translations(const YAML::Node& node, const std::string& what) const {
+    if (!node.IsMap()) throw fault(node, what + ": expected one text a language, such as {en: \"…\"}");
+    Translations result;
+    for (const auto& entry : node) {
+      const std::string language = text(entry.first, "a language");
+      if (!knows(language)) throw fault(entry.first, what + ": language '" + language + "' is not one of the museum's");
+      if (result.contains(language)) throw fault(entry.first, what + ": language '" + language + "' stands twice");
+      const std::string value = text(entry.second, "a text");
+      if (value.empty()) throw fault(entry.second, what + ": empty in language '" + language + "'");
+      if (!is_utf8(value)) throw fault(entry.second, what + ": not valid UTF-8");
+      result[language] = value;
+    }
+    for (const auto& language : museum_.languages) {
+      if (!result.contains(language)) throw fault(node, what + ": language '" + language + "' is missing");
+    }
+    return result;
+  }
+
+  /// The content of one file a language.
+  [[nodiscard]] Translations texts(const YAML::Node& node, const std::string& what) {
+    Translations result;
+    for (const auto& [language, name] : translations(node, what)) {
+      const YAML::Node& parent = node;
+      const YAML::Node at = parent[language];
+      auto content = read_text_(inside_folder(at, name));
+      if (!content) {
+        report(at, what + ": " + content.error().message);
+      } else if (content->find_first_not_of(" \t\r\n") == std::string::npos) {
+        report(at, what + ": " + name + " is empty");
+      } else if (content->size() > kLongestText) {
+        report(at, what + ": " + name + " is longer than " + std::to_string(kLongestText) + " bytes");
+      } else if (!is_utf8(*content)) {
+        report(at, what + ": " + name + " is not valid UTF-8");
+      } else {
+        result[language] = *content;
+      }
+    }
+    return result;
+  }
+
+  [[nodiscard]] std::filesystem::path inside_folder(const YAML::Node& node, const std::string& name) const {
+    const std::filesystem::path path{name};
+    const auto normal = path.lexically_normal();
+    if (name.empty() || name.find('\0') != std::string::npos || path.is_absolute() || *normal.begin() == "..") {
+      throw fault(node, "'" + name + "' is not a file inside the museum's folder");
+    }
+    return normal;
+  }
+
+  [[nodiscard]] std::string id(const YAML::Node& parent, const YAML::Node& node, std::set<std::string>& seen,
+                               const char* what) const {
+    const std::string name = text(required(parent, node, "id"), "an id");
+    const bool plain = std::all_of(name.begin(), name.end(), [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
+    });
+    if (name.empty() || !plain || name.size() > kLongestId) {
+      throw fault(node, std::string{what} + " id '" + name + "': small letters, digits and '-', at most 40");
+    }
+    if (!seen.insert(name).second) throw fault(node, std::string{what} + " '" + name + "' stands twice");
+    return name;
+  }
+
+  template <class T>
+  [[nodiscard]] T structure(const YAML::Node& node) const {
+    T value;
+    YamlReader reader{file_, node};
+    value.visit(reader);
+    reader.finish();
+    if (std::abs(value.x) > kFarthest || std::abs(value.y) > kFarthest) throw fault(node, "too far away");
+    return value;
+  }
+  [[nodiscard]] Pose2 pose(const YAML::Node& node) const { return structure<PoseYaml>(node).pose(); }
+
+  [[nodiscard]] Polygon polygon(const YAML::Node& node) const {
+    Polygon result;
+    for (const auto& corner : list(node, "corners [x, y]")) {
+      if (!corner.IsSequence() || corner.size() != 2) throw fault(corner, "expected a corner [x, y]");
+      std::array<double, 2> xy{};
+      for (std::size_t i = 0; i < 2; ++i) {
+        try {
+          xy[i] = corner[i].as<double>();
+        } catch (const YAML::Exception&) {
+          throw fault(corner, "expected numbers [x, y]");
+        }
+        if (!(std::abs(xy[i]) <= kFarthest)) throw fault(corner, "too far away, or not a number");
+      }
+      result.push_back({xy[0], xy[1]});
+    }
+    if (result.size() < 3) throw fault(node, "a polygon needs at least 3 corners");
+    if (result.size() > 1000) throw fault(node, "a polygon may have at most 1000 corners");
+    if (!is_simple(result)) throw fault(node, "the polygon crosses itself");
+    if (std::abs(signed_area(result)) < 1e-6) throw fault(node, "the polygon has no area");
+    return result;
+  }
+
+  void read_hazards(const YAML::Node& node) {
+    if (!node.IsDefined() || node.IsNull()) return;
+    std::set<std::string> seen;
+    guarded([&] {
+      for (const auto& entry : list(node, "hazards")) {
+        guarded([&] {
+          YamlReader reader{file_, entry};
+          Hazard hazard;
+          hazard.id = id(entry, reader.node("id"), seen, "hazard");
+          std::string kind;
+          reader.required("kind", kind);
+          hazard.polygon = polygon(required(entry, reader.node("polygon"), "polygon"));
+          reader.finish();
+          const auto* named = std::find_if(kHazards.begin(), kHazards.end(), [&](const auto& k) { return kind == k.name; });
+          if (named == kHazards.end()) {
+            throw fault(reader.node("kind"), "hazard '" + hazard.id + "': unknown kind '" + kind +
+                                                 "' (glass, plate, stairs, other)");
+          }
+          hazard.kind = named->kind;
+          museum_.hazards.push_back(std::move(hazard));
+          source_.hazards.push_back(entry);
+        });
+      }
+    });
+  }
+
+  void read_exhibits(const YAML::Node& node) {
+    std::set<std::string> seen;
+    guarded([&] {
+      if (list(node, "exhibits").size() == 0) throw fault(node, "needs at least one exhibit");
+      for (const auto& entry : node) guarded([&] { read_exhibit(entry, seen); });
+    });
+    for (std::size_t i = 0; i < museum_.exhibits.size(); ++i) {
+      const Exhibit& exhibit = museum_.exhibits[i];
+      const YAML::Node& entry = source_.exhibits[i];
+      for (std::size_t k = 0; k < exhibit.next.size(); ++k) {
+        const YAML::Node at = entry["next"][k];
+        if (exhibit.next[k] == exhibit.id) report(at, "exhibit '" + exhibit.id + "' follows itself");
+        if (!seen.contains(exhibit.next[k])) {
+          report(at, "exhibit '" + exhibit.id + "': next names the unknown exhibit '" + exhibit.next[k] + "'");
+        }
+      }
+    }
+  }
+
+  void read_exhibit(const YAML::Node& entry, std::set<std::string>& seen) {
+    YamlReader reader{file_, entry};
+    Exhibit exhibit;
+    exhibit.id = id(entry, reader.node("id"), seen, "exhibit");
+    const std::string who = "exhibit '" + exhibit.id + "'";
+    const YAML::Node title = reader.node("title");
+    const YAML::Node pose_node = reader.node("pose");
+    const YAML::Node look_at = reader.node("look_at");
+    const YAML::Node viewpoints = reader.node("viewpoints");
+    const YAML::Node short_text = reader.node("short");
+    const YAML::Node long_text = reader.node("long");
+    reader("topics", exhibit.topics);
+    reader("web_only", exhibit.web_only);
+    reader("next", exhibit.next);
+    reader.finish();
+    exhibit.title = translations(required(entry, title, "title"), who + ", title");
+    exhibit.pose = pose(required(entry, pose_node, "pose"));
+    const auto target = structure<PointYaml>(required(entry, look_at, "look_at"));
+    exhibit.look_at = {target.x, target.y};
+    if (distance(exhibit.look_at, exhibit.pose.position()) < 0.05) {
+      throw fault(look_at, who + ": look_at is where the robot stands");
+    }
+    if (viewpoints.IsDefined()) {
+      for (const auto& viewpoint : list(viewpoints, "poses")) exhibit.viewpoints.push_back(pose(viewpoint));
+    }
+    exhibit.short_text = texts(required(entry, short_text, "short"), who + ", short");
+    if (long_text.IsDefined()) exhibit.long_text = texts(long_text, who + ", long");
+    museum_.exhibits.push_back(std::move(exhibit));
+    source_.exhibits.push_back(entry);
+  }
+
+  void read_modes(const YAML::Node& node) {
+    museum_.modes = {{"open", {0.7, 0.0, {}}}, {"web", {0.4, 30.0, {}}}, {"closed", {1.63, 0.0, {}}}};
+    if (!node.IsDefined() || node.IsNull()) return;
+    guarded([&] {
+      if (!node.IsMap()) throw fault(node, "expected modes (open, web, closed)");
+      for (const auto& entry : node) {
+        guarded([&] {
+          const std::string name = text(entry.first, "a mode");
+          if (!museum_.modes.contains(name)) {
+            throw fault(entry.first, "unknown mode '" + name + "' (open, web, closed)");
+          }
+          museum_.modes[name] = mode(name, entry.second);
+        });
+      }
+    });
+  }
+
+  [[nodiscard]] Mode mode(const std::string& name, const YAML::Node& node) const {
+    YamlReader reader{file_, node};
+    Mode mode = museum_.modes.at(name);
+    reader("max_speed", mode.max_speed);
+    reader("wait_s", mode.wait_s);
+    reader("hours", mode.hours);
+    reader.finish();
+    if (!(mode.max_speed > 0.0 && mode.max_speed <= 3.0)) {
+      throw fault(node, "mode '" + name + "': max_speed must be > 0 and at most 3 m/s");
+    }
+    if (!(mode.wait_s >= 0.0)) throw fault(node, "mode '" + name + "': wait_s must be >= 0");
+    for (const auto& hours : mode.hours) {
+      if (auto parsed = parse_hours(hours); !parsed) {
+        throw fault(reader_child(node, "hours"), "mode '" + name + "': " + parsed.error().message);
+      }
+    }
+    return mode;
+  }
+  [[nodiscard]] static YAML::Node reader_child(const YAML::Node& node, const char* key) { return node[key]; }
+
+  void read_tours(const YAML::Node& node) {
+    if (!node.IsDefined() || node.IsNull()) return;
+    std::set<std::string> seen;
+    guarded([&] {
+      for (const auto& entry : list(node, "tours")) guarded([&] { read_tour(entry, seen); });
+    });
+  }
+
+  void read_tour(const YAML::Node& entry, std::set<std::string>& seen) {
+    YamlReader reader{file_, entry};
+    Tour tour;
+    tour.id = id(entry, reader.node("id"), seen, "tour");
+    const std::string who = "tour '" + tour.id + "'";
+    const YAML::Node title = reader.node("title");
+    reader("exhibits", tour.exhibits);
+    reader("minutes", tour.minutes);
+    reader.finish();
+    tour.title = translations(required(entry, title, "title"), who + ", title");
+    const YAML::Node exhibits = reader.node("exhibits");
+    if (tour.exhibits.empty() == !tour.minutes) throw fault(entry, who + ": needs either exhibits or minutes");
+    if (tour.minutes && !(*tour.minutes > 0.0 && *tour.minutes <= 240.0)) {
+      throw fault(reader.node("minutes"), who + ": minutes must be > 0 and at most 240");
+    }
+    for (std::size_t i = 0; i < tour.exhibits.size(); ++i) {
+      const Exhibit* exhibit = museum_.find_exhibit(tour.exhibits[i]);
+      // An exhibit with a fault of its own is not known here: name that fault only.
+      if (exhibit == nullptr && !named(tour.exhibits[i])) {
+        report(exhibits[i], who + ": unknown exhibit '" + tour.exhibits[i] + "'");
+      } else if (exhibit != nullptr && exhibit->web_only) {
+        report(exhibits[i], who + ": '" + tour.exhibits[i] + "' is for the Web only");
+      }
+      if (std::find(tour.exhibits.begin(), tour.exhibits.begin() + static_cast<std::ptrdiff_t>(i), tour.exhibits[i]) !=
+          tour.exhibits.begin() + static_cast<std::ptrdiff_t>(i)) {
+        report(exhibits[i], who + ": exhibit '" + tour.exhibits[i] + "' stands twice");
+      }
+    }
+    museum_.tours.push_back(std::move(tour));
+    source_.tours.push_back(entry);
+  }
+
+  [[nodiscard]] bool named(const std::string& exhibit) const {
+    const YAML::Node& root = file_.root();
+    const YAML::Node exhibits = root["exhibits"];
+    if (!exhibits.IsSequence()) return false;
+    return std::any_of(exhibits.begin(), exhibits.end(), [&](const YAML::Node& entry) {
+      if (!entry.IsMap()) return false;
+      const YAML::Node name = entry["id"];
+      return name.IsDefined() && name.IsScalar() && name.Scalar() == exhibit;
+    });
+  }
+
+  const YamlFile& file_;
+  const ReadText& read_text_;
+  MuseumSource& source_;
+  Museum& museum_;
+};
+
+}  // namespace
+
+MuseumSource read_museum(const YamlFile& file, const ReadText& read_text) {
+  MuseumSource source;
+  MuseumYamlReader{file, read_text, source}.read();
+  return source;
+}
+
+}  // namespace docent
