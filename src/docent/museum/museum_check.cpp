@@ -139,7 +139,8 @@ std::vector<Error> check_museum(const std::filesystem::path& folder) {
   std::vector<Error> faults = source.faults;
   const YAML::Node& root = file->root();
   std::error_code code;
-  if (source.museum.simulation_path && !std::filesystem::is_regular_file(folder / *source.museum.simulation_path, code)) {
+  if (source.museum.simulation_path &&
+      !std::filesystem::is_regular_file(folder / *source.museum.simulation_path, code)) {
     faults.push_back(file->fault(root["simulation"], source.museum.simulation_path->string() + " does not exist"));
   }
   if (source.museum.map_path.empty()) return faults;

@@ -10,12 +10,13 @@
 namespace docent {
 namespace {
 
-constexpr double kFarthest = 10'000.0;                // [m]; coordinates beyond it are a slip of the pen
-constexpr std::size_t kLongestText = 16 * 1024;       // [bytes]; about 20 minutes of speech
+constexpr double kFarthest = 10'000.0;           // [m]; coordinates beyond it are a slip of the pen
+constexpr std::size_t kLongestText = 16 * 1024;  // [bytes]; about 20 minutes of speech
 constexpr std::size_t kLongestId = 40;
 // ISO 639-1.
 constexpr std::string_view kLanguages =
-    " aa ab ae af ak am an ar as av ay az ba be bg bi bm bn bo br bs ca ce ch co cr cs cu cv cy da de dv dz ee el en eo "
+    " aa ab ae af ak am an ar as av ay az ba be bg bi bm bn bo br bs ca ce ch co cr cs cu cv cy da de dv dz ee el en "
+    "eo "
     "es et eu fa ff fi fj fo fr fy ga gd gl gn gu gv ha he hi ho hr ht hu hy hz ia id ie ig ii ik io is it iu ja jv ka "
     "kg ki kj kk kl km kn ko kr ks ku kv kw ky la lb lg li ln lo lt lu lv mg mh mi mk ml mn mr ms mt my na nb nd ne ng "
     "nl nn no nr nv ny oc oj om or os pa pi pl ps pt qu rm rn ro ru rw sa sc sd se sg si sk sl sm sn so sq sr ss st su "
@@ -54,9 +55,11 @@ bool is_utf8(const std::string& text) {
   std::size_t i = 0;
   while (i < text.size()) {
     const auto lead = static_cast<unsigned char>(text[i]);
-    const std::size_t length = lead < 0x80 ? 1 : (lead & 0xE0) == 0xC0 ? 2 : (lead & 0xF0) == 0xE0 ? 3
-                               : (lead & 0xF8) == 0xF0                                             ? 4
-                                                                                                   : 0;
+    const std::size_t length = lead < 0x80             ? 1
+                               : (lead & 0xE0) == 0xC0 ? 2
+                               : (lead & 0xF0) == 0xE0 ? 3
+                               : (lead & 0xF8) == 0xF0 ? 4
+                                                       : 0;
     if (length == 0 || i + length > text.size()) return false;
     for (std::size_t k = 1; k < length; ++k) {
       if ((static_cast<unsigned char>(text[i + k]) & 0xC0) != 0x80) return false;
@@ -204,9 +207,8 @@ class MuseumYamlReader {
   [[nodiscard]] std::string id(const YAML::Node& parent, const YAML::Node& node, std::set<std::string>& seen,
                                const char* what) const {
     const std::string name = text(required(parent, node, "id"), "an id");
-    const bool plain = std::all_of(name.begin(), name.end(), [](char c) {
-      return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
-    });
+    const bool plain = std::all_of(name.begin(), name.end(),
+                                   [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; });
     if (name.empty() || !plain || name.size() > kLongestId) {
       throw fault(node, std::string{what} + " id '" + name + "': small letters, digits and '-', at most 40");
     }
@@ -260,10 +262,11 @@ class MuseumYamlReader {
           reader.required("kind", kind);
           hazard.polygon = polygon(required(entry, reader.node("polygon"), "polygon"));
           reader.finish();
-          const auto* named = std::find_if(kHazards.begin(), kHazards.end(), [&](const auto& k) { return kind == k.name; });
+          const auto* named =
+              std::find_if(kHazards.begin(), kHazards.end(), [&](const auto& k) { return kind == k.name; });
           if (named == kHazards.end()) {
-            throw fault(reader.node("kind"), "hazard '" + hazard.id + "': unknown kind '" + kind +
-                                                 "' (glass, plate, stairs, other)");
+            throw fault(reader.node("kind"),
+                        "hazard '" + hazard.id + "': unknown kind '" + kind + "' (glass, plate, stairs, other)");
           }
           hazard.kind = named->kind;
           museum_.hazards.push_back(std::move(hazard));

@@ -37,7 +37,4 @@ struct Survey {
 /// The hazards as the block `hazards:` of a museum.yaml, centimetres.
 [[nodiscard]] std::string to_yaml(const std::vector<Hazard>& hazards);
 
-/// The world drawn as an SVG picture: floor, area, solids by kind, attractions, entrances.
-[[nodiscard]] std::string to_svg(const World& world);
-
 }  // namespace docent::simulator

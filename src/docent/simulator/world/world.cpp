@@ -114,7 +114,6 @@ struct CeilingYaml {
   }
 };
 
-
 class WorldParser {
  public:
   explicit WorldParser(const YamlFile& file) : file_{file}, root_{file.root()} {}

@@ -1,0 +1,57 @@
+#include "docent/apps/check_command.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "docent/apps/command.h"
+#include "docent/museum/museum.h"
+#include "docent/simulator/world/world.h"
+
+namespace docent {
+namespace {
+
+/// What the museum and its simulation must agree on: ids. Nothing else is shared.
+void check_simulation(const Museum& museum, std::vector<Error>& faults) {
+  auto world = simulator::load_world(*museum.simulation_path);
+  if (!world) {
+    faults.push_back(world.error());
+    return;
+  }
+  const std::string file = museum.simulation_path->string();
+  for (const auto& id : world->exhibits) {
+    if (museum.find_exhibit(id) == nullptr) faults.push_back({file + ":1: exhibits: museum.yaml has no '" + id + "'"});
+  }
+  for (const auto& id : world->tours) {
+    if (museum.find_tour(id) == nullptr) faults.push_back({file + ":1: tours: museum.yaml has no '" + id + "'"});
+  }
+}
+
+void check(const std::filesystem::path& folder) {
+  std::vector<Error> faults = check_museum(folder);
+  if (faults.empty()) {
+    const Museum museum = value_or_fail(load_museum(folder));
+    if (museum.simulation_path) check_simulation(museum, faults);
+    if (faults.empty()) {
+      const GridFrame& frame = museum.map.frame;
+      std::printf("%s: fine. %zu exhibits (%zu sensible pairs), %zu hazards, %zu tours, map %.1f x %.1f m\n",
+                  folder.string().c_str(), museum.exhibits.size(), sensible_pairs(museum), museum.hazards.size(),
+                  museum.tours.size(), frame.columns * frame.resolution, frame.rows * frame.resolution);
+      return;
+    }
+  }
+  for (const Error& fault : faults) std::fprintf(stderr, "%s\n", fault.message.c_str());
+  throw CommandFailed{folder.string() + ": " + std::to_string(faults.size()) +
+                      (faults.size() == 1 ? " fault" : " faults")};
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app) {
+  auto* command = app.add_subcommand("check", "Validate a museum; every fault is named with file and line");
+  auto folder = std::make_shared<std::string>();
+  command->add_option("museum", *folder, "Folder with a museum.yaml")->required();
+  command->callback([folder] { check(*folder); });
+}
+
+}  // namespace docent

@@ -1,0 +1,12 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace docent {
+
+/// `docent check MUSEUM_DIR`
+void add_check_command(CLI::App& app);
+
+}  // namespace docent

@@ -1,0 +1,12 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace docent {
+
+/// `docent survey --world simulation.yaml --seed N --out DIR`
+void add_survey_command(CLI::App& app);
+
+}  // namespace docent
