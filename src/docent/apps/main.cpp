@@ -2,14 +2,18 @@
 #include <cstdio>
 #include <exception>
 
+#include "docent/apps/check_command.h"
 #include "docent/apps/command.h"
 #include "docent/apps/plan_command.h"
+#include "docent/apps/survey_command.h"
 
 int main(int argc, char** argv) {
   CLI::App app{"Docent: an autonomous museum tour guide.", "docent"};
   app.require_subcommand(1);
   app.set_version_flag("--version", "docent 0.1.0");
+  docent::add_check_command(app);
   docent::add_plan_command(app);
+  docent::add_survey_command(app);
   try {
     app.parse(argc, argv);
     return 0;
