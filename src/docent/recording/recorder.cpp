@@ -1,0 +1,84 @@
+#include "docent/recording/recorder.h"
+
+#include "docent/base/check.h"
+#include "docent/messages/schema.h"
+
+namespace docent {
+namespace {
+
+/// What ros2 bag wants to know to play a topic as it was offered.
+std::string qos_profile(Qos qos) {
+  constexpr const char* kForEver = "    sec: 9223372036\n    nsec: 854775807\n";
+  const bool reliable = qos != Qos::sensor;
+  const bool latched = qos == Qos::state;
+  return std::string{"- history: 1\n  depth: "} + (latched ? "1" : "10") + "\n  reliability: " + (reliable ? "1" : "2") +
+         "\n  durability: " + (latched ? "1" : "2") + "\n  deadline:\n" + kForEver + "  lifespan:\n" + kForEver +
+         "  liveliness: 1\n  liveliness_lease_duration:\n" + kForEver + "  avoid_ros_namespace_conventions: false\n";
+}
+
+std::map<std::string, RecordedTopic, std::less<>> all_topics() {
+  std::map<std::string, RecordedTopic, std::less<>> topics;
+  const auto add = [&topics]<class T>(const Topic<T>& topic) {
+    topics[topic.name] = {topic_info(topic), ros2msg_text(message_schemas<T>())};
+  };
+  for_each_robot_topic(add);
+  for_each_truth_topic(add);
+  return topics;
+}
+
+}  // namespace
+
+const RecordedTopic* find_recorded_topic(std::string_view name) {
+  static const auto kTopics = all_topics();
+  if (name.starts_with('/')) name.remove_prefix(1);
+  const auto found = kTopics.find(name);
+  return found == kTopics.end() ? nullptr : &found->second;
+}
+
+Result<Recorder> Recorder::create(const std::filesystem::path& path, const McapWriterOptions& options) {
+  auto writer = McapWriter::create(path, options);
+  if (!writer) return tl::unexpected<Error>(writer.error());
+  return Recorder{std::move(*writer)};
+}
+
+Result<void> Recorder::write(const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
+  auto place = channels_.find(std::string_view{topic.name});
+  if (place == channels_.end()) {
+    const RecordedTopic* known = find_recorded_topic(topic.name);
+    DOCENT_CHECK(known != nullptr);
+    auto channel = writer_.add_channel({std::string{"/"} + topic.name,
+                                        topic.type->name,
+                                        "ros2msg",
+                                        known->schema,
+                                        "cdr",
+                                        {{"offered_qos_profiles", qos_profile(topic.qos)}}});
+    if (!channel) return tl::unexpected<Error>(channel.error());
+    place = channels_.emplace(topic.name, *channel).first;
+  }
+  return writer_.write(place->second, time, time, topic.type->encode(message.get()));
+}
+
+Result<void> read_recording(McapReader& reader, const McapReader::Selection& selection,
+                            const std::function<bool(const RecordedMessage&)>& handler) {
+  Result<void> decoded;
+  const auto read = reader.read(selection, [&](const McapMessage& message) {
+    const RecordedTopic* topic = find_recorded_topic(message.channel.topic);
+    if (topic == nullptr) return true;
+    const auto at = [&] { return " at " + std::to_string(to_seconds(message.log_time)) + " s"; };
+    if (message.channel.type != topic->info.type->name) {
+      decoded = fail(message.channel.topic + ": the recording has " + message.channel.type + ", not " +
+                     topic->info.type->name);
+      return false;
+    }
+    auto content = topic->info.type->decode(message.data);
+    if (!content) {
+      if (selection.skip_damaged) return true;
+      decoded = fail(message.channel.topic + ": damaged " + topic->info.type->name + at());
+      return false;
+    }
+    return handler({topic->info, message.log_time, std::move(content)});
+  });
+  return decoded ? read : decoded;
+}
+
+}  // namespace docent

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "docent/recording/mcap_reader.h"
+#include "docent/recording/mcap_writer.h"
+#include "docent/transport/bus.h"
+
+namespace docent {
+
+/// A topic of Docent as a recording knows it.
+struct RecordedTopic {
+  TopicInfo info;
+  std::string schema;  ///< text of the type, encoding ros2msg
+};
+/// By the bus's name ("scan_front") or the recording's ("/scan_front"); nullptr for a topic that Docent does not have.
+[[nodiscard]] const RecordedTopic* find_recorded_topic(std::string_view name);
+
+/// Writes messages of the bus to an MCAP file, for `docent simulate --record` and the record module.
+class Recorder {
+ public:
+  [[nodiscard]] static Result<Recorder> create(const std::filesystem::path& path, const McapWriterOptions& options = {});
+
+  /// @pre the topic is one of Docent's. Error: the disk is full or gone.
+  [[nodiscard]] Result<void> write(const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message);
+  [[nodiscard]] Result<void> flush() { return writer_.flush(); }
+  [[nodiscard]] Result<void> close() { return writer_.close(); }
+  [[nodiscard]] std::uint64_t messages() const { return writer_.messages(); }
+  [[nodiscard]] std::uint64_t bytes_written() const { return writer_.bytes_written(); }
+
+ private:
+  explicit Recorder(McapWriter writer) : writer_{std::move(writer)} {}
+  McapWriter writer_;
+  std::map<std::string, McapWriter::Channel, std::less<>> channels_;
+};
+
+/// A message of a recording that is one of Docent's, decoded.
+struct RecordedMessage {
+  const TopicInfo& topic;
+  Time time;
+  std::shared_ptr<const void> message;
+  [[nodiscard]] bool is(const char* name) const { return std::string_view{topic.name} == name; }
+  template <class T>
+  [[nodiscard]] const T* as(const Topic<T>& wanted) const {
+    return is(wanted.name) ? static_cast<const T*>(message.get()) : nullptr;
+  }
+};
+
+/// Hands over Docent's messages of a recording in the order of their times until `handler` returns false. Channels that
+/// Docent does not know are passed over. Error: damage, a message that does not decode, or a known topic of another type.
+[[nodiscard]] Result<void> read_recording(McapReader& reader, const McapReader::Selection& selection,
+                                          const std::function<bool(const RecordedMessage&)>& handler);
+
+}  // namespace docent
