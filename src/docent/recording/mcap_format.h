@@ -34,7 +34,7 @@ enum class Kind : std::uint8_t {
   data_end = 0x0F,
 };
 
-inline constexpr std::size_t kRecordHead = 9;                    ///< kind and length
+inline constexpr std::size_t kRecordHead = 9;  ///< kind and length
 inline constexpr std::size_t kFooterSize = kRecordHead + 8 + 8 + 4;
 
 /// Appends numbers and texts to a buffer.

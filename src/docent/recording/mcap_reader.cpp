@@ -141,7 +141,8 @@ bool McapReader::State::read_summary() {
   const Bytes all = bytes();
   const std::size_t tail = mcap::kFooterSize + mcap::kMagic.size();
   if (all.size() < mcap::kMagic.size() + tail) return false;
-  if (!std::equal(mcap::kMagic.begin(), mcap::kMagic.end(), all.end() - static_cast<std::ptrdiff_t>(mcap::kMagic.size())))
+  if (!std::equal(mcap::kMagic.begin(), mcap::kMagic.end(),
+                  all.end() - static_cast<std::ptrdiff_t>(mcap::kMagic.size())))
     return false;
   const std::size_t footer_at = all.size() - tail;
   const Record footer = record_at(all, footer_at);
@@ -290,9 +291,9 @@ Result<McapReader> McapReader::from_bytes(std::vector<std::uint8_t> bytes, std::
 
 Result<McapReader> McapReader::open(const std::filesystem::path& path) {
   std::error_code error;
-  const auto actual =
-      !std::filesystem::exists(path, error) && std::filesystem::exists(unfinished_path(path), error) ? unfinished_path(path)
-                                                                                                     : path;
+  const auto actual = !std::filesystem::exists(path, error) && std::filesystem::exists(unfinished_path(path), error)
+                          ? unfinished_path(path)
+                          : path;
   const int file = ::open(actual.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) return fail(path.string() + ": cannot be read: " + std::strerror(errno));
   struct stat status {};
@@ -380,11 +381,11 @@ Result<void> McapReader::read(const Selection& selection, const std::function<bo
     }
     held += unpacked->size();
     if (held > kMaxHeld) return tl::unexpected<Error>(state.fault(piece.offset, "too many chunks of the same time"));
-    const std::shared_ptr<const std::vector<std::uint8_t>> chunk{
-        new std::vector<std::uint8_t>{std::move(*unpacked)}, [&held](const std::vector<std::uint8_t>* records) {
-          held -= records->size();
-          delete records;
-        }};
+    const std::shared_ptr<const std::vector<std::uint8_t>> chunk{new std::vector<std::uint8_t>{std::move(*unpacked)},
+                                                                 [&held](const std::vector<std::uint8_t>* records) {
+                                                                   held -= records->size();
+                                                                   delete records;
+                                                                 }};
     for (std::size_t at = 0; at < chunk->size();) {
       const Record record = record_at(*chunk, at);
       bool good = record.kind != 0;

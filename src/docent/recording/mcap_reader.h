@@ -26,9 +26,9 @@ struct McapMessage {
   std::span<const std::uint8_t> data;
 };
 
-/// Reads MCAP files, those of others too: chunked or not, plain or zstd. By the index where there is a sound one, else by
-/// walking through the records, so a file that ends early (a killed recorder) gives what it still holds.
-/// No input makes it crash, hang, or take memory without bound (a chunk may unpack to 256 MiB).
+/// Reads MCAP files, those of others too: chunked or not, plain or zstd. By the index where there is a sound one, else
+/// by walking through the records, so a file that ends early (a killed recorder) gives what it still holds. No input
+/// makes it crash, hang, or take memory without bound (a chunk may unpack to 256 MiB).
 class McapReader {
  public:
   /// PATH, or PATH.part where the recorder did not come to an end. Error: "FILE: …": unreadable, or not MCAP.
@@ -50,7 +50,7 @@ class McapReader {
     std::set<std::string> topics;  ///< "/scan_front"; empty: all
     std::optional<Time> from;      ///< log time, both included
     std::optional<Time> to;
-    bool skip_damaged = false;     ///< leave out damaged chunks instead of failing
+    bool skip_damaged = false;  ///< leave out damaged chunks instead of failing
   };
   /// Hands over the messages in the order of their log times (of equal ones: as they lie in the file) until `handler`
   /// returns false. Error: damage in the middle of the file, with the place; what lay before it was handed over.

@@ -60,7 +60,7 @@ struct McapWriter::State {
   std::uint64_t chunk_first = 0;
   std::uint64_t chunk_last = 0;
 
-  std::vector<std::uint8_t> schemas;   ///< their records, once more for the summary
+  std::vector<std::uint8_t> schemas;  ///< their records, once more for the summary
   std::vector<std::uint8_t> channels;
   std::map<std::pair<std::string, std::string>, std::uint16_t> schema_ids;
   std::uint16_t channel_count = 0;

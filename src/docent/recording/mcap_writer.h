@@ -24,22 +24,23 @@ struct McapChannel {
 };
 
 struct McapWriterOptions {
-  std::size_t chunk_bytes = 1U << 20U;                 ///< a chunk is closed at this size …
-  Duration chunk_time = std::chrono::seconds{1};       ///< … or when its messages span this time
-  bool compress = true;                                ///< zstd, level 1
+  std::size_t chunk_bytes = 1U << 20U;            ///< a chunk is closed at this size …
+  Duration chunk_time = std::chrono::seconds{1};  ///< … or when its messages span this time
+  bool compress = true;                           ///< zstd, level 1
   std::string library = "docent";
 };
 
 /// Writes an MCAP file (mcap.dev/spec): profile ros2, chunks, message index, summary with statistics, all checksums.
 ///
-/// The file grows as PATH.part and gets its name when it is closed, so PATH is always whole. What a killed writer leaves
-/// lacks at most the last chunk; `McapReader` reads it and `recover_mcap` makes a whole file of it.
+/// The file grows as PATH.part and gets its name when it is closed, so PATH is always whole. What a killed writer
+/// leaves lacks at most the last chunk; `McapReader` reads it and `recover_mcap` makes a whole file of it.
 class McapWriter {
  public:
   using Channel = std::uint16_t;
 
   /// Error: the file cannot be made.
-  [[nodiscard]] static Result<McapWriter> create(const std::filesystem::path& path, const McapWriterOptions& options = {});
+  [[nodiscard]] static Result<McapWriter> create(const std::filesystem::path& path,
+                                                 const McapWriterOptions& options = {});
   McapWriter(McapWriter&&) noexcept;
   McapWriter& operator=(McapWriter&&) noexcept;
   /// Closes; errors are lost, so call close() where they matter.
@@ -49,7 +50,8 @@ class McapWriter {
   [[nodiscard]] Result<Channel> add_channel(const McapChannel& channel);
   /// Error: the disk is full or gone; the message is lost and the file stays readable up to the last chunk.
   /// @pre time >= 0
-  [[nodiscard]] Result<void> write(Channel channel, Time log_time, Time publish_time, std::span<const std::uint8_t> data);
+  [[nodiscard]] Result<void> write(Channel channel, Time log_time, Time publish_time,
+                                   std::span<const std::uint8_t> data);
   /// Puts what is pending on the disk.
   [[nodiscard]] Result<void> flush();
   /// Writes index and summary and gives the file its name. Afterwards nothing else may be called.

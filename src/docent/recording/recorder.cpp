@@ -11,9 +11,10 @@ std::string qos_profile(Qos qos) {
   constexpr const char* kForEver = "    sec: 9223372036\n    nsec: 854775807\n";
   const bool reliable = qos != Qos::sensor;
   const bool latched = qos == Qos::state;
-  return std::string{"- history: 1\n  depth: "} + (latched ? "1" : "10") + "\n  reliability: " + (reliable ? "1" : "2") +
-         "\n  durability: " + (latched ? "1" : "2") + "\n  deadline:\n" + kForEver + "  lifespan:\n" + kForEver +
-         "  liveliness: 1\n  liveliness_lease_duration:\n" + kForEver + "  avoid_ros_namespace_conventions: false\n";
+  return std::string{"- history: 1\n  depth: "} + (latched ? "1" : "10") +
+         "\n  reliability: " + (reliable ? "1" : "2") + "\n  durability: " + (latched ? "1" : "2") + "\n  deadline:\n" +
+         kForEver + "  lifespan:\n" + kForEver + "  liveliness: 1\n  liveliness_lease_duration:\n" + kForEver +
+         "  avoid_ros_namespace_conventions: false\n";
 }
 
 std::map<std::string, RecordedTopic, std::less<>> all_topics() {

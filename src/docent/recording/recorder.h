@@ -23,7 +23,8 @@ struct RecordedTopic {
 /// Writes messages of the bus to an MCAP file, for `docent simulate --record` and the record module.
 class Recorder {
  public:
-  [[nodiscard]] static Result<Recorder> create(const std::filesystem::path& path, const McapWriterOptions& options = {});
+  [[nodiscard]] static Result<Recorder> create(const std::filesystem::path& path,
+                                               const McapWriterOptions& options = {});
 
   /// @pre the topic is one of Docent's. Error: the disk is full or gone.
   [[nodiscard]] Result<void> write(const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message);
@@ -51,7 +52,8 @@ struct RecordedMessage {
 };
 
 /// Hands over Docent's messages of a recording in the order of their times until `handler` returns false. Channels that
-/// Docent does not know are passed over. Error: damage, a message that does not decode, or a known topic of another type.
+/// Docent does not know are passed over. Error: damage, a message that does not decode, or a known topic of another
+/// type.
 [[nodiscard]] Result<void> read_recording(McapReader& reader, const McapReader::Selection& selection,
                                           const std::function<bool(const RecordedMessage&)>& handler);
 
