@@ -8,9 +8,9 @@ namespace docent {
 struct LifecycleParams {
   double first_delay_s = 0.2;  ///< before the first restart; doubles with each that follows
   double last_delay_s = 5.0;
-  double healthy_s = 10.0;  ///< who lived so long starts again with the first delay
-  double silent_s = 5.0;    ///< without health for so long: not responding
-  double hung_s = 15.0;     ///< without health for so long: killed. A process that is stopped for 10 s may go on.
+  double healthy_s = 10.0;   ///< who lived so long starts again with the first delay
+  double silent_s = 5.0;     ///< without health for so long: not responding
+  double hung_s = 15.0;      ///< without health for so long: killed. A process that is stopped for 10 s may go on.
   double starting_s = 60.0;  ///< how long the way to the first health may take
 };
 

@@ -8,7 +8,8 @@ namespace {
 using Step = Lifecycle::Step;
 
 Lifecycle::Time at(double seconds) {
-  return Lifecycle::Time{} + std::chrono::duration_cast<Lifecycle::Time::duration>(std::chrono::duration<double>(seconds));
+  return Lifecycle::Time{} +
+         std::chrono::duration_cast<Lifecycle::Time::duration>(std::chrono::duration<double>(seconds));
 }
 
 TEST(Lifecycle, BacksOffFromShortToLongAndForgetsAfterAGoodTime) {

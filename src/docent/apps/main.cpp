@@ -5,7 +5,9 @@
 #include "docent/apps/check_command.h"
 #include "docent/apps/command.h"
 #include "docent/apps/plan_command.h"
+#include "docent/apps/run_command.h"
 #include "docent/apps/survey_command.h"
+#include "docent/apps/up_command.h"
 
 int main(int argc, char** argv) {
   CLI::App app{"Docent: an autonomous museum tour guide.", "docent"};
@@ -13,7 +15,9 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "docent 0.1.0");
   docent::add_check_command(app);
   docent::add_plan_command(app);
+  docent::add_run_command(app);
   docent::add_survey_command(app);
+  docent::add_up_command(app);
   try {
     app.parse(argc, argv);
     return 0;

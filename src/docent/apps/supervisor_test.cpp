@@ -62,7 +62,8 @@ TEST(Supervisor, AKilledProcessIsBackSoon) {
 
 TEST(Supervisor, ARefusedConfigurationStopsEverything) {
   Lines lines;
-  Supervisor supervisor{{shell("good", "exec sleep 100"), shell("bad", "echo 'robot.yaml:3: no'; exit 2")}, lines.log()};
+  Supervisor supervisor{{shell("good", "exec sleep 100"), shell("bad", "echo 'robot.yaml:3: no'; exit 2")},
+                        lines.log()};
   ASSERT_TRUE(step_until(supervisor, [&] { return supervisor.fatal().has_value(); }));
   EXPECT_EQ(*supervisor.fatal(), "robot.yaml:3: no");
   supervisor.stop();

@@ -30,6 +30,7 @@ void ModuleHost::publish_health() {
   message.state = health.state;
   message.reason = health.reason;
   message.pid = pid_;
+  message.step_p99_ms = bus_->step_p99_ms();
   health_.publish(std::move(message));
 }
 

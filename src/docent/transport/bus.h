@@ -87,6 +87,10 @@ class Bus {
   /// Runs `action` on the bus's thread. The one call that any thread may make.
   virtual void post(std::function<void()> action) = 0;
 
+  /// 99th percentile of the wall time of recent handler and timer calls; 0 in virtual time, where a run may not depend
+  /// on how fast it was.
+  [[nodiscard]] virtual double step_p99_ms() const { return 0.0; }
+
   /// For recorders and gateways that do not care about the type.
   virtual void add_subscription(const TopicInfo& topic, Handler handler) = 0;
 

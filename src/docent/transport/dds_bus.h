@@ -62,8 +62,8 @@ class DdsBus final : public Bus {
     std::uint64_t unsent = 0;    ///< samples that a reader who does not keep up has cost
   };
   [[nodiscard]] Counters counters() const { return counters_; }
-  /// 99th percentile of the last 512 handler and timer calls.
-  [[nodiscard]] double step_p99_ms() const;
+  /// Of the last 512 calls.
+  [[nodiscard]] double step_p99_ms() const override;
 
  protected:
   int add_publisher(const TopicInfo& topic) override;

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "docent/base/result.h"
+#include "docent/museum/museum.h"
+#include "docent/robot/robot_config.h"
+
+namespace CLI {
+class App;
+}
+
+namespace docent {
+
+/// What every process of one robot is told: the options that `docent up` and `docent run` share.
+struct Deployment {
+  std::string museum;                 ///< folder
+  std::string state;                  ///< folder of checkpoints and databases
+  std::string robot;                  ///< robot.yaml; empty: all defaults
+  std::vector<std::string> settings;  ///< section.key=value, over robot.yaml
+  std::string name;                   ///< prefix of the topics
+  int domain = 0;
+  std::uint64_t seed = 1;
+
+  void add_options(CLI::App& command);
+  /// As arguments of another process.
+  [[nodiscard]] std::vector<std::string> arguments() const;
+  [[nodiscard]] Result<Museum> load() const;
+  [[nodiscard]] Result<RobotConfig> load_config() const;
+  /// Makes the folder of the state.
+  [[nodiscard]] Result<void> prepare_state() const;
+};
+
+/// The program that is running.
+[[nodiscard]] std::filesystem::path program_path();
+/// museums/bonn beside the installed program (share/docent), else beside the sources.
+[[nodiscard]] std::string default_museum();
+/// $XDG_STATE_HOME/docent, else ~/.local/state/docent.
+[[nodiscard]] std::string default_state();
+
+/// Blocks SIGTERM, SIGINT and SIGHUP in this thread and those that it starts: they are waited for instead.
+void block_end_signals();
+/// Waits for one of them. @param timeout_s  < 0: as long as it takes
+/// @returns its number, 0 when none came
+[[nodiscard]] int wait_for_end_signal(double timeout_s);
+
+}  // namespace docent

@@ -1,0 +1,67 @@
+#include "docent/apps/run_command.h"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+#include "docent/apps/command.h"
+#include "docent/apps/deployment.h"
+#include "docent/apps/supervisor.h"
+#include "docent/modules/module_host.h"
+#include "docent/transport/dds_bus.h"
+
+namespace docent {
+namespace {
+
+struct Options {
+  Deployment deployment;
+  std::string module;
+};
+
+std::string module_names() {
+  std::string names;
+  for (const auto& entry : all_modules()) names += (names.empty() ? "" : ", ") + std::string{entry.name};
+  return names;
+}
+
+void run(const Options& options) {
+  const ModuleEntry* entry = find_module(options.module);
+  if (entry == nullptr) {
+    throw CommandFailed{"no module '" + options.module + "'; there are " + module_names(), kExitBadConfiguration};
+  }
+  const Deployment& deployment = options.deployment;
+  const Museum museum = value_or_fail(deployment.load(), kExitBadConfiguration);
+  const RobotConfig config = value_or_fail(deployment.load_config(), kExitBadConfiguration);
+  value_or_fail(deployment.prepare_state(), kExitBadConfiguration);
+
+  block_end_signals();
+  auto dds_bus = value_or_fail(DdsBus::create({deployment.domain, deployment.name, [](const std::string& text) {
+                                                 std::fprintf(stderr, "%s\n", text.c_str());
+                                               }}));
+  DdsBus& bus = *dds_bus;
+  const auto host = value_or_fail(ModuleHost::create(*entry, std::move(dds_bus), museum, config,
+                                                     {deployment.state, deployment.seed, false, getpid()}),
+                                  kExitBadConfiguration);
+  std::stop_source stop;
+  // Detached, because it waits for a signal that may never come; it owns what it touches.
+  std::thread{[stop]() mutable {
+    static_cast<void>(wait_for_end_signal(-1.0));
+    stop.request_stop();
+  }}.detach();
+  bus.run(stop.get_token());
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("run", "Run one module as a process; modules may live on several computers");
+  command->add_option("module", options->module, module_names())->required();
+  options->deployment.add_options(*command);
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace docent

@@ -1,0 +1,12 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace docent {
+
+/// `docent run MODULE`: one module as a process of its own.
+void add_run_command(CLI::App& app);
+
+}  // namespace docent

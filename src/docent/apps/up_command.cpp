@@ -1,0 +1,169 @@
+#include "docent/apps/up_command.h"
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <netinet/in.h>
+#include <sys/file.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include "docent/apps/command.h"
+#include "docent/apps/deployment.h"
+#include "docent/apps/status_display.h"
+#include "docent/apps/supervisor.h"
+#include "docent/modules/registry.h"
+#include "docent/transport/dds_bus.h"
+
+namespace docent {
+namespace {
+
+constexpr Duration kStep = std::chrono::milliseconds{50};
+constexpr Duration kShow = std::chrono::milliseconds{500};
+constexpr int kUrgent = -5;  // nice value
+
+struct Options {
+  Deployment deployment;
+  bool simulate = false;
+  int port = 8080;
+  std::string record;
+  std::string crowd = "busy";
+  std::string start;
+};
+
+Result<void> check_port(int port) {
+  const int end = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  const int yes = 1;
+  setsockopt(end, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);  // as the web server does
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  const bool is_free = bind(end, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+  const std::string why = std::strerror(errno);
+  close(end);
+  if (!is_free) return fail("--port " + std::to_string(port) + ": " + why);
+  return {};
+}
+
+/// Held until the process ends: two robots would write the same checkpoints.
+Result<void> lock_state(const std::string& folder) {
+  const std::string path = folder + "/up.lock";
+  const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (file < 0) return fail(path + ": " + std::strerror(errno));
+  if (flock(file, LOCK_EX | LOCK_NB) != 0) return fail("--state " + folder + ": another `docent up` works there");
+  return {};
+}
+
+bool may_raise_priority() {
+  const int before = getpriority(PRIO_PROCESS, 0);
+  if (setpriority(PRIO_PROCESS, 0, before + kUrgent) != 0) return false;
+  setpriority(PRIO_PROCESS, 0, before);
+  return true;
+}
+
+/// Everything that can be known to be wrong before a process is started.
+void check(const Options& options) {
+  const Museum museum = value_or_fail(options.deployment.load());
+  const RobotConfig config = value_or_fail(options.deployment.load_config());
+  std::vector<std::string> sections;
+  for (const auto& entry : all_modules()) sections.emplace_back(entry.name);
+  value_or_fail(config.check_sections(sections));
+  if (options.simulate && !museum.simulation_path) {
+    throw CommandFailed{"--sim: " + options.deployment.museum + " has no simulation"};
+  }
+  if (!options.record.empty()) {
+    const auto folder = std::filesystem::absolute(options.record).parent_path();
+    if (!std::filesystem::is_directory(folder)) throw CommandFailed{"--record: no folder " + folder.string()};
+  }
+  value_or_fail(check_port(options.port));
+  value_or_fail(options.deployment.prepare_state());
+  value_or_fail(lock_state(options.deployment.state));
+}
+
+std::vector<ChildSpec> children_of(const Options& options) {
+  Deployment told = options.deployment;
+  told.settings.push_back("web.port=" + std::to_string(options.port));
+  if (!options.record.empty()) {
+    told.settings.push_back("record.file=" + std::filesystem::absolute(options.record).string());
+  }
+  const std::string program = program_path().string();
+  const auto command = [&](const std::string& name) {
+    std::vector<std::string> words{program, "run", name};
+    const auto arguments = told.arguments();
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    return words;
+  };
+  std::vector<ChildSpec> children;
+  // Where nobody may be put in front, the others step back.
+  const bool may_raise = may_raise_priority();
+  if (options.simulate) {
+    auto words = command("sim");
+    words.insert(words.end(), {"--crowd", options.crowd});
+    if (!options.start.empty()) words.insert(words.end(), {"--start", options.start});
+    children.push_back({"sim", std::move(words), may_raise ? 0 : -kUrgent, false});
+  }
+  for (const auto& entry : all_modules()) {
+    if (std::string{"record"} == entry.name && options.record.empty()) continue;
+    const int niceness = entry.is_urgent ? (may_raise ? kUrgent : 0) : (may_raise ? 0 : -kUrgent);
+    children.push_back({entry.name, command(entry.name), niceness, true});
+  }
+  return children;
+}
+
+void up(const Options& options) {
+  check(options);
+  block_end_signals();
+  StatusDisplay display{isatty(STDOUT_FILENO) == 1};
+  const auto log = [&](const std::string& name, const std::string& line) { display.log(name, line); };
+  const auto bus = value_or_fail(DdsBus::create(
+      {options.deployment.domain, options.deployment.name, [&](const std::string& text) { log("bus", text); }}));
+  Supervisor supervisor{children_of(options), log};
+  bool is_announced = false;
+  bus->subscribe<docent_msgs::Health>(topics::kHealth, [&](const docent_msgs::Health& health) {
+    supervisor.heard(health.module, health.pid, health.state, health.reason);
+    if (!is_announced && health.module == "web" && health.state == "ready") {
+      is_announced = true;
+      log("web", "open http://127.0.0.1:" + std::to_string(options.port) + "/");
+    }
+  });
+  std::stop_source stop;
+  bus->every(kStep, [&] {
+    supervisor.step();
+    if (supervisor.fatal() || wait_for_end_signal(0.0) != 0) stop.request_stop();
+  });
+  bus->every(kShow, [&] { display.show(supervisor.status()); });
+  bus->run(stop.get_token());
+  display.show(supervisor.status());
+  display.finish();
+  supervisor.stop();
+  if (supervisor.fatal()) {
+    const std::string own_name = "docent: ";
+    const std::string& line = *supervisor.fatal();
+    throw CommandFailed{line.starts_with(own_name) ? line.substr(own_name.size()) : line, kExitBadConfiguration};
+  }
+}
+
+}  // namespace
+
+void add_up_command(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("up", "Start every module as a process, supervise and restart it");
+  options->deployment.add_options(*command);
+  command->add_flag("--sim", options->simulate, "Simulate the museum, its visitors and the robot's body");
+  command->add_option("--port", options->port, "Port of the page")->check(CLI::Range(1, 65535))->capture_default_str();
+  command->add_option("--record", options->record, "MCAP file to write");
+  command->add_option("--crowd", options->crowd, "With --sim")
+      ->check(CLI::IsMember({"empty", "quiet", "busy", "packed"}))
+      ->capture_default_str();
+  command->add_option("--start", options->start, "With --sim: X,Y,DEG; without it somewhere");
+  command->callback([options] { up(*options); });
+}
+
+}  // namespace docent

@@ -1,0 +1,12 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace docent {
+
+/// `docent up`: every module as a process of its own, supervised.
+void add_up_command(CLI::App& app);
+
+}  // namespace docent
