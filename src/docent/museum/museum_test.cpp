@@ -16,5 +16,14 @@ TEST(Museum, BonnIsFine) {
   EXPECT_TRUE(museum->find_exhibit("crew")->web_only);
 }
 
+TEST(Museum, SmithsonianIsFine) {
+  for (const auto& fault : check_museum("museums/smithsonian")) ADD_FAILURE() << fault.message;
+  const auto museum = load_museum("museums/smithsonian");
+  ASSERT_TRUE(museum) << museum.error().message;
+  EXPECT_EQ(museum->exhibits.size(), 23U);
+  EXPECT_EQ(sensible_pairs(*museum), 77U);
+  EXPECT_TRUE(museum->charger);
+}
+
 }  // namespace
 }  // namespace docent
