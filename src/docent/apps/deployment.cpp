@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <system_error>
+#include <thread>
 
 #include "docent/transport/dds_bus.h"
 
@@ -100,6 +101,16 @@ int wait_for_end_signal(double timeout_s) {
     number = std::max(0, sigtimedwait(&set, nullptr, &timeout));
   }
   return number;
+}
+
+std::stop_token end_signal() {
+  std::stop_source stop;
+  // Detached, because it waits for what may never come; it owns what it touches.
+  std::thread{[stop]() mutable {
+    static_cast<void>(wait_for_end_signal(-1.0));
+    stop.request_stop();
+  }}.detach();
+  return stop.get_token();
 }
 
 }  // namespace docent

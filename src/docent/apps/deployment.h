@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -46,5 +47,8 @@ void block_end_signals();
 /// Waits for one of them. @param timeout_s  < 0: as long as it takes
 /// @returns its number, 0 when none came
 [[nodiscard]] int wait_for_end_signal(double timeout_s);
+
+/// Stops when one of them comes. @pre block_end_signals() was called before any thread was started
+[[nodiscard]] std::stop_token end_signal();
 
 }  // namespace docent

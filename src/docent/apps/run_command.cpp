@@ -27,6 +27,11 @@ std::string module_names() {
   return names;
 }
 
+std::unique_ptr<DdsBus> join(const Deployment& deployment, int domain) {
+  return value_or_fail(DdsBus::create(
+      {domain, deployment.name, [](const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); }}));
+}
+
 void run(const Options& options) {
   const ModuleEntry* entry = find_module(options.module);
   if (entry == nullptr) {
@@ -38,20 +43,16 @@ void run(const Options& options) {
   value_or_fail(deployment.prepare_state(), kExitBadConfiguration);
 
   block_end_signals();
-  auto dds_bus = value_or_fail(DdsBus::create({deployment.domain, deployment.name, [](const std::string& text) {
-                                                 std::fprintf(stderr, "%s\n", text.c_str());
-                                               }}));
+  auto dds_bus = join(deployment, deployment.domain);
   DdsBus& bus = *dds_bus;
+  const auto truth = entry->sees_truth ? join(deployment, truth_domain(deployment.domain)) : nullptr;
   const auto host = value_or_fail(ModuleHost::create(*entry, std::move(dds_bus), museum, config,
-                                                     {deployment.state, deployment.seed, false, getpid()}),
+                                                     {deployment.state, deployment.seed, false, getpid(), truth.get()}),
                                   kExitBadConfiguration);
-  std::stop_source stop;
-  // Detached, because it waits for a signal that may never come; it owns what it touches.
-  std::thread{[stop]() mutable {
-    static_cast<void>(wait_for_end_signal(-1.0));
-    stop.request_stop();
-  }}.detach();
-  bus.run(stop.get_token());
+  const std::jthread truth_thread{[&truth](const std::stop_token& stop) {
+    if (truth) truth->run(stop);
+  }};
+  bus.run(end_signal());
 }
 
 }  // namespace

@@ -21,6 +21,9 @@ struct ModuleContext {
   std::filesystem::path state;  ///< --state DIR: checkpoints, databases, caches; exists
   std::uint64_t seed = 0;
   bool virtual_time = false;
+  /// For `record` alone, where a simulator runs: the bus of what is true. Its handlers run on a thread of their own, so
+  /// they `bus.post` what they got. Null everywhere else.
+  Bus* truth = nullptr;
 };
 
 struct ModuleHealth {

@@ -15,7 +15,8 @@ class ModuleHost {
     std::filesystem::path state;
     std::uint64_t seed = 0;
     bool virtual_time = false;
-    int pid = 0;  ///< 0 in virtual time
+    int pid = 0;           ///< 0 in virtual time
+    Bus* truth = nullptr;  ///< see ModuleContext; outlives the host
   };
   /// Error: what the module's factory says of the configuration.
   [[nodiscard]] static Result<std::unique_ptr<ModuleHost>> create(const ModuleEntry& entry, std::unique_ptr<Bus> bus,

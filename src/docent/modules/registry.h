@@ -10,7 +10,8 @@ namespace docent {
 struct ModuleEntry {
   const char* name;
   ModuleFactory make;
-  bool is_urgent = false;  ///< runs at higher priority (architecture 10.15)
+  bool is_urgent = false;   ///< runs at higher priority (architecture 10.15)
+  bool sees_truth = false;  ///< record alone (architecture 10.1)
 };
 
 /// Every module of the robot, in the order in which they are started.
