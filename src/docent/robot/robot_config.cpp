@@ -35,37 +35,39 @@ Result<void> RobotConfig::set(const std::string& assignment) {
   if (equals == std::string::npos || dot == std::string::npos || dot > equals || dot == 0 || dot + 1 == equals) {
     return fail("--set " + assignment + ": expected section.key=value");
   }
-  std::string text;
-  try {
-    YAML::Node root = YAML::Clone(file_.root());
-    const YAML::Node value = YAML::Load(assignment.substr(equals + 1));
-    root[assignment.substr(0, dot)][assignment.substr(dot + 1, equals - dot - 1)] = value;
-    text = YAML::Dump(root);
-  } catch (const YAML::Exception& exception) {
-    return fail("--set " + assignment + ": " + exception.msg);
+  const std::string text = assignment.substr(0, dot) + ":\n  " + assignment.substr(dot + 1, equals - dot - 1) + ": " +
+                           assignment.substr(equals + 1);
+  auto setting = YamlFile::parse(text, "--set " + assignment);
+  if (!setting) return tl::unexpected<Error>(setting.error());
+  settings_.push_back(std::move(*setting));
+  auto body = section<RobotBody>("body");
+  if (!body) {
+    settings_.pop_back();
+    return tl::unexpected<Error>(body.error());
   }
-  auto file = YamlFile::parse(text, file_.name() + " with --set");
-  if (!file) return tl::unexpected<Error>(file.error());
-  RobotConfig changed{std::move(*file)};
-  auto body = changed.section<RobotBody>("body");
-  if (!body) return tl::unexpected<Error>(body.error());
-  changed.body_ = *body;
-  *this = std::move(changed);
+  body_ = *body;
   return {};
 }
 
 Result<void> RobotConfig::check_sections(const std::vector<std::string>& names) const {
-  for (const auto& entry : file_.root()) {
-    const auto name = entry.first.as<std::string>();
-    if (name == "body" || std::find(names.begin(), names.end(), name) != names.end()) continue;
-    return tl::unexpected<Error>(file_.fault(entry.first, "unknown section '" + name + "'"));
-  }
-  return {};
+  const auto check = [&](const YamlFile& file) -> Result<void> {
+    for (const auto& entry : file.root()) {
+      const auto name = entry.first.as<std::string>();
+      if (name == "body" || std::find(names.begin(), names.end(), name) != names.end()) continue;
+      return tl::unexpected<Error>(file.fault(entry.first, "unknown section '" + name + "'"));
+    }
+    return {};
+  };
+  auto checked = check(file_);
+  for (std::size_t i = 0; checked && i < settings_.size(); ++i) checked = check(settings_[i]);
+  return checked;
 }
 
 std::string RobotConfig::hash() const {
   char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash_of(YAML::Dump(file_.root()))));
+  std::string all = YAML::Dump(file_.root());
+  for (const auto& setting : settings_) all += "\n" + YAML::Dump(setting.root());
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash_of(all)));
   return text;
 }
 

@@ -71,14 +71,19 @@ class RobotConfig {
   template <class Params>
   [[nodiscard]] Result<Params> section(const std::string& name) const {
     Params params;
-    const YAML::Node node = file_.root()[name];
-    if (node.IsDefined()) {
-      auto read = read_yaml(file_, node, params);
-      if (!read) return tl::unexpected<Error>(read.error());
-    }
+    const YamlFile* last = &file_;
+    const auto read_from = [&](const YamlFile& file) -> Result<void> {
+      const YAML::Node node = file.root()[name];
+      if (!node.IsDefined()) return {};
+      last = &file;
+      return read_yaml(file, node, params);
+    };
+    auto read = read_from(file_);
+    for (std::size_t i = 0; read && i < settings_.size(); ++i) read = read_from(settings_[i]);
+    if (!read) return tl::unexpected<Error>(read.error());
     if constexpr (requires { params.validate(); }) {
       auto valid = params.validate();
-      if (!valid) return tl::unexpected<Error>(file_.fault(node, valid.error().message));
+      if (!valid) return tl::unexpected<Error>(last->fault(last->root()[name], valid.error().message));
     }
     return params;
   }
@@ -90,6 +95,7 @@ class RobotConfig {
  private:
   explicit RobotConfig(YamlFile file) : file_{std::move(file)} {}
   YamlFile file_;
+  std::vector<YamlFile> settings_;  ///< one a --set, in their order; so that the file keeps its lines
   RobotBody body_;
 };
 

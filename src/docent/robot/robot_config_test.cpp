@@ -1,0 +1,70 @@
+#include "docent/robot/robot_config.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "docent/base/files.h"
+
+namespace docent {
+namespace {
+
+struct Speeds {
+  double fast = 1.0;
+  double slow = 0.1;
+  template <class V>
+  void visit(V& v) {
+    v("fast", fast);
+    v("slow", slow);
+  }
+  [[nodiscard]] Result<void> validate() const {
+    if (!(slow <= fast)) return fail("slow must be <= fast");
+    return {};
+  }
+};
+
+RobotConfig config_of(const std::string& text) {
+  const auto path = std::filesystem::temp_directory_path() / ("docent-robot-" + std::to_string(getpid()) + ".yaml");
+  EXPECT_TRUE(write_file_atomically(path, text).has_value());
+  auto config = RobotConfig::load(path);
+  std::filesystem::remove(path);
+  EXPECT_TRUE(config.has_value()) << config.error().message;
+  return std::move(*config);
+}
+
+TEST(RobotConfig, SettingsGoOverTheFileAndTheLastWins) {
+  RobotConfig config = config_of("speeds:\n  slow: 0.5\nbody:\n  radius: 0.3\n");
+  ASSERT_TRUE(config.set("speeds.fast=2").has_value());
+  ASSERT_TRUE(config.set("speeds.fast=3").has_value());
+  ASSERT_TRUE(config.set("body.radius=0.4").has_value());
+  const auto speeds = config.section<Speeds>("speeds");
+  ASSERT_TRUE(speeds.has_value()) << speeds.error().message;
+  EXPECT_EQ(speeds->fast, 3.0);
+  EXPECT_EQ(speeds->slow, 0.5);
+  EXPECT_EQ(config.body().radius, 0.4);
+  EXPECT_NE(config.hash(), config_of("speeds:\n  slow: 0.5\n").hash());
+  EXPECT_TRUE(config.check_sections({"speeds"}).has_value());
+  EXPECT_FALSE(config.check_sections({}).has_value());
+}
+
+TEST(RobotConfig, FaultsNameTheLineOfTheFileOrTheSetting) {
+  RobotConfig config = config_of("# a comment\n\nspeeds:\n  slow: 0.5\n  medium: 0.7\n");
+  ASSERT_TRUE(config.set("speeds.fast=2").has_value());
+  const auto unknown = config.section<Speeds>("speeds");
+  ASSERT_FALSE(unknown.has_value());
+  EXPECT_NE(unknown.error().message.find(".yaml:5: "), std::string::npos) << unknown.error().message;
+
+  RobotConfig slower = config_of("speeds:\n  slow: 0.5\n");
+  ASSERT_TRUE(slower.set("speeds.fast=0.2").has_value());
+  const auto invalid = slower.section<Speeds>("speeds");
+  ASSERT_FALSE(invalid.has_value());
+  EXPECT_EQ(invalid.error().message.find("--set speeds.fast=0.2:"), 0U) << invalid.error().message;
+
+  for (const char* bad : {"speeds", "speeds=1", ".fast=1", "speeds.=1", "body.colour=red", "body.radius=wide",
+                          "body.radius=[1", "body.radius"}) {
+    EXPECT_FALSE(slower.set(bad).has_value()) << bad;
+  }
+  EXPECT_EQ(slower.body().radius, RobotBody{}.radius) << "a refused setting leaves nothing behind";
+}
+
+}  // namespace
+}  // namespace docent
