@@ -1,0 +1,61 @@
+#include "docent/collision_avoidance/arc_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace docent {
+
+double arc_distance(double curvature, const ReachPoint& point) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const double x = point.at.x;
+  const double y = point.at.y;
+  const double reach = point.reach;
+  if (x * x + y * y <= reach * reach) return x > 0.0 ? 0.0 : kNever;
+  if (std::abs(curvature) < 1e-4) {
+    if (x <= 0.0 || std::abs(y) >= reach) return kNever;
+    return x - std::sqrt(reach * reach - y * y);
+  }
+  // A right turn is a left turn in the mirror. The circle's centre is (0, radius); the robot starts below it.
+  const double radius = 1.0 / std::abs(curvature);
+  const double side = curvature > 0.0 ? y : -y;
+  const double to_centre = std::hypot(x, side - radius);
+  if (to_centre >= radius + reach || to_centre <= std::abs(radius - reach)) return kNever;
+  const double bearing = std::atan2(x, radius - side);  // of the point, seen from the centre, from the start on
+  const double cosine = (radius * radius + to_centre * to_centre - reach * reach) / (2.0 * radius * to_centre);
+  double angle = bearing - std::acos(std::clamp(cosine, -1.0, 1.0));
+  if (angle < 0.0) angle += 2.0 * std::numbers::pi;
+  return radius * angle;
+}
+
+double ArcTable::curvature(int index) {
+  // Finer near straight on, where a small change moves the far end of the way.
+  const double s = 2.0 * index / (kCurvatures - 1) - 1.0;
+  return kMaxCurvature * s * std::abs(s);
+}
+
+void ArcTable::build(std::span<const ReachPoint> points, bool backwards) {
+  std::fill(free_.begin(), free_.end(), kHorizon);
+  for (ReachPoint point : points) {
+    if (backwards) point.at.x = -point.at.x;
+    for (int i = 0; i < kCurvatures; ++i) {
+      double& free = free_[static_cast<std::size_t>(i)];
+      free = std::min(free, arc_distance(curvature(i), point));
+    }
+  }
+}
+
+double ArcTable::free_way(double linear, double angular) const {
+  if (std::abs(linear) < 1e-6) return kHorizon;
+  const double wanted = std::clamp(angular / linear, -kMaxCurvature, kMaxCurvature);  // mirrored in reverse
+  const double s = std::copysign(std::sqrt(std::abs(wanted) / kMaxCurvature), wanted);
+  const double place = 0.5 * (s + 1.0) * (kCurvatures - 1);
+  const auto low = static_cast<std::size_t>(std::clamp(static_cast<int>(std::floor(place)), 0, kCurvatures - 2));
+  const double above = place - static_cast<double>(low);
+  if (above < 1e-6) return free_[low];
+  if (above > 1.0 - 1e-6) return free_[low + 1];
+  return std::min(free_[low], free_[low + 1]);
+}
+
+}  // namespace docent

@@ -1,0 +1,380 @@
+#include "docent/collision_avoidance/avoider.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "docent/geometry/polygon.h"
+
+namespace docent {
+
+namespace {
+
+constexpr double kBeyondReach = 3.5;   // [m] obstacles farther away do not matter within one cycle
+constexpr double kUnknownMargin = 0.1; // [m] from the outline to where nothing is known
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+Result<void> AvoiderParams::validate() const {
+  if (auto valid = window.validate(); !valid) return valid;
+  if (!(lookahead >= 0.3 && lookahead <= 5.0)) return fail("avoid.lookahead must lie between 0.3 and 5 m");
+  if (!(person_distance >= 0.0 && person_speed > 0.0)) return fail("avoid.person_distance and person_speed must be > 0");
+  if (!(arrival_deceleration > 0.0)) return fail("avoid.arrival_deceleration must be > 0 m/s2");
+  if (!(target_timeout > 0.0 && virtual_timeout > 0.0)) return fail("avoid: timeouts must be > 0 s");
+  return {};
+}
+
+Avoider::Avoider(const BaseLimits& limits, const AvoiderParams& params, std::size_t laser_count)
+    : limits_{limits},
+      params_{params},
+      laser_count_{laser_count},
+      window_{limits, params.window},
+      max_speed_{limits.max_speed},
+      sweep_freshness_(laser_count) {}
+
+void Avoider::add_odometry(Time now, Time stamp, const BaseState& state) {
+  odometry_freshness_.receive(now, stamp);
+  odometry_.add(stamp, state);
+}
+
+void Avoider::add_sweep(Time now, std::size_t sensor, const RangeSweep& sweep) {
+  if (sensor >= laser_count_ || odometry_.empty()) return;
+  sweep_freshness_[sensor].receive(now, sweep.stamp);
+  memory_.add_sweep(sensor, sweep, odometry_.pose_at(sweep.stamp));
+}
+
+void Avoider::add_sonar(Time now, std::size_t index, const SonarReading& reading) {
+  if (odometry_.empty()) return;
+  sonar_freshness_.receive(now, reading.stamp);
+  memory_.add_sonar(index, reading, odometry_.pose_at(reading.stamp));
+}
+
+void Avoider::add_tactile(Time now, Time stamp, std::span<const double> bearings) {
+  if (odometry_.empty() || bearings.empty()) return;
+  touched_ = now;
+  for (const double bearing : bearings) {
+    memory_.add_touch(stamp, limits_.radius * unit(Angle::radians(bearing)), odometry_.pose_at(stamp));
+  }
+}
+
+void Avoider::add_virtual(Time now, const VirtualSweep& sweep) {
+  if (odometry_.empty()) return;
+  virtual_freshness_.receive(now, sweep.stamp);
+  odom_from_virtual_ = odometry_.pose_at(sweep.stamp);
+  virtual_ = sweep;
+}
+
+void Avoider::add_person_beams(Time now, Time stamp, std::span<const Point2> in_base, bool localized) {
+  if (odometry_.empty()) return;
+  const Pose2 odom_from_base = odometry_.pose_at(stamp);
+  unmapped_in_odom_.clear();
+  for (const auto& point : in_base) unmapped_in_odom_.push_back(odom_from_base * point);
+  unmapped_time_ = now;
+  beams_localized_ = localized;
+}
+
+void Avoider::set_target(Time now, Time stamp, AvoiderTarget target) {
+  target_freshness_.receive(now, stamp);
+  target_ = std::move(target);
+}
+
+std::string Avoider::fault(Time now) const {
+  if (odometry_freshness_.is_stale(now)) return "no fresh odometry";
+  for (std::size_t i = 0; i < laser_count_; ++i) {
+    const std::string name = i == 0 ? "front laser" : i == 1 ? "rear laser" : "laser";
+    if (sweep_freshness_[i].is_stale(now)) return "no fresh sweep of the " + name;
+    if (memory_.is_frozen(i)) return "the " + name + " is frozen";
+  }
+  if (params_.needs_sonar && sonar_freshness_.is_stale(now)) return "no fresh sonar reading";
+  if (virtual_freshness_.silence(now) > params_.virtual_timeout) return "no fresh virtual measurements";
+  return "";
+}
+
+BaseState Avoider::state_when_effective(Time now) const {
+  return predict(odometry_.newest(), odometry_.newest_stamp(), now + seconds(limits_.latency), commands_, limits_);
+}
+
+std::vector<Obstacle> Avoider::obstacles_from(const Pose2& odom_from_base, Time when) const {
+  std::vector<Obstacle> result;
+  const Pose2 base_from_odom = inverse(odom_from_base);
+  const auto turned = [&](Point2 in_odom) {
+    return base_from_odom * in_odom - base_from_odom.position();
+  };
+  if (!params_.blind_to_people) {
+    const bool judged = beams_localized_ && unmapped_time_ && when - *unmapped_time_ < seconds(1.0);
+    for (const auto& point : memory_.points(when)) {
+      const Point2 at = base_from_odom * point.in_odom;
+      if (norm(at) > kBeyondReach) continue;
+      const bool moves = point.velocity != Point2{};
+      bool person = point.person;
+      if (person && judged && !moves) {  // what the map explains is no person
+        person = std::any_of(unmapped_in_odom_.begin(), unmapped_in_odom_.end(),
+                             [&](Point2 unmapped) { return distance(unmapped, point.in_odom) < 0.4; });
+      }
+      result.push_back({at, turned(point.velocity), params_.window.real_margin, person, false});
+    }
+    for (const double bearing : memory_.blind_directions()) {
+      result.push_back({(limits_.radius + params_.window.real_margin + kUnknownMargin) * unit(Angle::radians(bearing)),
+                        {},
+                        params_.window.real_margin,
+                        false,
+                        false});
+    }
+  }
+  if (virtual_ && odom_from_virtual_) {
+    const Pose2 base_from_virtual = base_from_odom * *odom_from_virtual_;
+    for (std::size_t i = 0; i < virtual_->ranges.size(); ++i) {
+      const double range = virtual_->ranges[i];
+      if (!(range < virtual_->max_range)) continue;
+      const double bearing = virtual_->first_bearing + static_cast<double>(i) * virtual_->bearing_step;
+      // A zero would lie in no direction at all.
+      const Point2 at = base_from_virtual * (std::max(range, 0.02) * unit(Angle::radians(bearing)));
+      if (norm(at) < kBeyondReach) result.push_back({at, {}, params_.window.virtual_margin, false, true});
+    }
+  }
+  return result;
+}
+
+Avoider::Carrot Avoider::carrot(const Pose2& odom_from_base, std::span<const Obstacle> obstacles) const {
+  const Pose2 base_from_odom = inverse(odom_from_base);
+  std::vector<Point2> path;
+  for (const auto& via : target_->via) path.push_back(base_from_odom * via);
+  // The nearest place of the polyline is where we are on it.
+  std::size_t leg = 0;
+  Point2 here = path.front();
+  double least = norm(path.front());
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const Point2 near = nearest_point({path[i], path[i + 1]}, {});
+    if (norm(near) < least) {
+      least = norm(near);
+      here = near;
+      leg = i;
+    }
+  }
+  Carrot result{here, norm(here)};
+  // From there on, as far as the lookahead reaches and the straight way is free.
+  Point2 at = here;
+  std::size_t next = path.size() > 1 ? leg + 1 : path.size();
+  if (here == path.front()) next = std::min<std::size_t>(1, path.size());
+  double along = 0.0;
+  bool is_open = true;
+  constexpr double kStep = 0.1;
+  for (; next < path.size(); ++next) {
+    double rest = distance(at, path[next]);
+    while (rest > 1e-9) {
+      const double step = std::min(kStep, rest);
+      at = at + (step / rest) * (path[next] - at);
+      rest -= step;
+      along += step;
+      if (!is_open) continue;
+      const double way = norm(at);
+      const bool near = way < 0.35;
+      const bool visible =
+          near || straight_free_way(std::atan2(at.y, at.x), obstacles, limits_.radius, way) >= way - 0.05;
+      if (way > params_.lookahead || (!visible && norm(result.in_base) > 0.5)) {
+        is_open = false;
+      } else {
+        result.in_base = at;
+      }
+    }
+  }
+  result.remaining = norm(here) + along;
+  return result;
+}
+
+double Avoider::steer_around(Point2 carrot, const Pose2& odom_from_base, std::span<const Obstacle> obstacles) {
+  const double wanted = std::atan2(carrot.y, carrot.x);
+  const double need = std::clamp(norm(carrot), 0.3, 1.5);
+  constexpr int kSteps = 24;  // 5 degrees each, to 120 degrees on either side
+  constexpr double kStep = 5.0 * std::numbers::pi / 180.0;
+  double best = wanted;
+  double least = kInfinity;
+  for (int i = -kSteps; i <= kSteps; ++i) {
+    const double bearing = wanted + i * kStep;
+    const double lacking = 1.0 - straight_free_way(bearing, obstacles, limits_.radius, need) / need;
+    double cost = std::abs(i) * kStep + 2.2 * lacking;
+    if (steered_in_odom_) {
+      const Angle in_odom = odom_from_base.theta + Angle::radians(bearing);
+      cost += 0.25 * std::abs((in_odom - *steered_in_odom_).radians());
+    }
+    if (cost < least) {
+      least = cost;
+      best = bearing;
+    }
+  }
+  steered_in_odom_ = odom_from_base.theta + Angle::radians(best);
+  return Angle::radians(best).radians();
+}
+
+void Avoider::cap_speed(double cap, const char* why, AvoiderDecision& decision) const {
+  if (cap >= decision.speed_cap) return;
+  decision.speed_cap = std::max(0.0, cap);
+  decision.reason = why;
+}
+
+void Avoider::cap_by_knowledge(Time now, AvoiderDecision& decision) const {
+  double oldest = odometry_freshness_.age(now);
+  for (const auto& freshness : sweep_freshness_) oldest = std::max(oldest, freshness.age(now));
+  cap_speed(max_speed_ * std::clamp(1.0 - (oldest - 0.2) / 0.3, 0.0, 1.0), "sensor readings come late", decision);
+
+  if (virtual_) {
+    // What was computed for where we were still holds while we stand; driving wears it out.
+    const double age = virtual_freshness_.age(now);
+    const double driven = odometry_.driven_since(virtual_->stamp);
+    const double worn = std::min((age - 0.6) / (params_.virtual_timeout - 0.6), driven / 0.3);
+    cap_speed(max_speed_ * std::clamp(1.0 - worn, 0.0, 1.0), "the position is not fresh", decision);
+  }
+}
+
+void Avoider::cap_by_surroundings(std::span<const Obstacle> obstacles, double bearing,
+                                  AvoiderDecision& decision) const {
+  const auto& window = params_.window;
+  for (const auto& obstacle : obstacles) {
+    const double way = norm(obstacle.at);
+    if (way < 1e-6) continue;
+    const double slack = way - limits_.radius - obstacle.margin;
+    const double ahead = obstacle.at.x / way;
+    // The security distance grows with the speed [BuhmannEtAl1995]: read backwards, the speed with the distance.
+    if (ahead > -0.2 && slack < 0.15) {
+      cap_speed(window.creep_speed + std::max(0.0, slack) / window.security_time,
+                obstacle.is_virtual ? "a hazard is near" : "something is near", decision);
+    }
+    const bool moves = obstacle.velocity != Point2{};
+    if (!obstacle.person && !moves) continue;
+    // Towards people only as fast as one can be forgiven for.
+    const double toward = std::max(ahead, std::cos(std::atan2(obstacle.at.y, obstacle.at.x) - bearing));
+    if (toward <= 0.2 || way > 2.5) continue;
+    const double closing = std::max(0.0, -dot(obstacle.velocity, obstacle.at) / way);
+    const double room = way - limits_.radius - 0.5 * closing - params_.person_distance;
+    cap_speed((params_.person_speed + 0.8 * std::max(0.0, room)) / toward, "people are near", decision);
+  }
+}
+
+void Avoider::judge_blocking(Time now, Point2 carrot, const Pose2& odom_from_base, std::span<const Obstacle> obstacles,
+                             AvoiderDecision& decision) const {
+  const double bearing = std::atan2(carrot.y, carrot.x);
+  const Obstacle* blocker = nullptr;
+  double least = std::min(0.7, norm(carrot));
+  for (const auto& obstacle : obstacles) {
+    const double way = straight_free_way(bearing, {&obstacle, 1}, limits_.radius, 2.0);
+    if (way < least) {
+      least = way;
+      blocker = &obstacle;
+    }
+  }
+  if (blocker == nullptr || std::abs(decision.command.linear) > 0.06) return;
+  decision.path_blocked = true;
+  decision.state = AvoiderDecision::State::blocked;
+  decision.reason = blocker->is_virtual ? "a hazard is in the way" : "something is in the way";
+  if (blocker->is_virtual) return;
+  const bool judged = beams_localized_ && unmapped_time_ && now - *unmapped_time_ < seconds(1.0);
+  const Point2 in_odom = odom_from_base * blocker->at;
+  decision.unmapped_obstacle =
+      judged ? std::any_of(unmapped_in_odom_.begin(), unmapped_in_odom_.end(),
+                           [&](Point2 unmapped) { return distance(unmapped, in_odom) < 0.4; })
+             : blocker->person;
+  if (decision.unmapped_obstacle) decision.reason = "somebody is in the way";
+}
+
+AvoiderDecision Avoider::finish(Time now, AvoiderDecision decision) {
+  command_ = decision.command;
+  commands_.add(now, command_);
+  return decision;
+}
+
+AvoiderDecision Avoider::stand(Time now, AvoiderDecision decision, std::string reason) {
+  decision.command = {};
+  decision.state = AvoiderDecision::State::stopped;
+  decision.reason = std::move(reason);
+  steered_in_odom_.reset();
+  return finish(now, std::move(decision));
+}
+
+AvoiderDecision Avoider::decide(Time now) {
+  AvoiderDecision decision;
+  decision.speed_cap = 0.0;
+  decision.nearest_real = decision.nearest_virtual = kBeyondReach;
+  if (odometry_.empty()) return stand(now, std::move(decision), "no fresh odometry");
+
+  const BaseState start = state_when_effective(now);
+  const Time effective = now + seconds(limits_.latency);
+  const auto obstacles = obstacles_from(start.odom_from_base, effective);
+  for (const auto& obstacle : obstacles) {
+    double& nearest = obstacle.is_virtual ? decision.nearest_virtual : decision.nearest_real;
+    nearest = std::min(nearest, norm(obstacle.at) - limits_.radius);
+  }
+  if (auto why = fault(now); !why.empty()) return stand(now, std::move(decision), std::move(why));
+  if (!target_ || target_->mode == AvoiderTarget::Mode::stop) return stand(now, std::move(decision), "");
+  if (target_freshness_.age(now) > params_.target_timeout) return stand(now, std::move(decision), "no fresh target");
+  if (touched_ && now - *touched_ < seconds(1.0)) return stand(now, std::move(decision), "the robot was touched");
+
+  decision.speed_cap = std::min(max_speed_, limits_.max_speed);
+  Steering steering;
+  Point2 wanted{};
+  if (target_->mode == AvoiderTarget::Mode::turn) {
+    const double error = (target_->heading - start.odom_from_base.theta).radians();
+    if (std::abs(error) < 0.6 * target_->heading_tolerance) return stand(now, std::move(decision), "");
+    steering = {error, 100.0, 0.0, false};
+    decision.speed_cap = 0.0;
+    decision.state = AvoiderDecision::State::turning;
+  } else if (target_->via.empty()) {
+    return stand(now, std::move(decision), "");
+  } else {
+    const Carrot ahead = carrot(start.odom_from_base, obstacles);
+    wanted = ahead.in_base;
+    if (target_->is_final) {
+      const double to_goal = norm(inverse(start.odom_from_base) * target_->via.back());
+      if (to_goal < 0.5 * target_->position_tolerance) return stand(now, std::move(decision), "");
+      const double rest = std::max(0.0, ahead.remaining - 0.2 * target_->position_tolerance);
+      cap_speed(std::max(0.08, std::sqrt(2.0 * params_.arrival_deceleration * rest)), "", decision);
+    }
+    cap_by_knowledge(now, decision);
+    steering.bearing = steer_around(ahead.in_base, start.odom_from_base, obstacles);
+    steering.distance = norm(ahead.in_base);
+    cap_by_surroundings(obstacles, steering.bearing, decision);
+    // Sharp turns slowly, and on the spot when the way lies behind.
+    const double turn = std::abs(steering.bearing);
+    cap_speed(max_speed_ * std::clamp(1.35 - turn / 1.1, 0.0, 1.0), "", decision);
+    steering.speed_cap = decision.speed_cap;
+    decision.state = AvoiderDecision::State::driving;
+  }
+
+  auto choice = window_.choose(start.velocity, command_, obstacles, steering);
+  decision.command = choice.command;
+  decision.window = std::move(choice.window);
+  if (choice.is_braking) decision.reason = "braking";
+  if (target_->mode == AvoiderTarget::Mode::drive) judge_blocking(now, wanted, start.odom_from_base, obstacles, decision);
+  return finish(now, std::move(decision));
+}
+
+std::optional<AvoiderDecision> Avoider::reflex(Time now) {
+  if (odometry_.empty() || (std::abs(command_.linear) < 1e-9 && std::abs(command_.angular) < 1e-9)) return std::nullopt;
+  AvoiderDecision decision;
+  if (auto why = fault(now); !why.empty()) return stand(now, std::move(decision), std::move(why));
+  if (touched_ && now - *touched_ < seconds(0.2)) return stand(now, std::move(decision), "the robot was touched");
+  const BaseState start = state_when_effective(now);
+  if (std::abs(start.velocity.linear) < 0.03 && std::abs(command_.linear) < 0.03) return std::nullopt;
+  const auto obstacles = obstacles_from(start.odom_from_base, now + seconds(limits_.latency));
+  // Less margin than at the choice, or the noise of every sweep would brake; until the next sweep, then brake.
+  constexpr double kSlack = 0.03;
+  constexpr double kUntilNextSweep = 0.12;
+  if (can_brake_in_time(start.velocity, command_, kUntilNextSweep, obstacles, limits_, kSlack)) return std::nullopt;
+  return stand(now, std::move(decision), "braking");
+}
+
+bool Horn::is_due(Time now, bool blocked_by_unmapped) {
+  if (!blocked_by_unmapped) {
+    if (!last_clear_) last_clear_ = now;
+    if (now - *last_clear_ > seconds(0.6)) blocked_since_.reset();  // a flicker is no way out
+    return false;
+  }
+  last_clear_.reset();
+  if (!blocked_since_) blocked_since_ = now;
+  if (now - *blocked_since_ < seconds(1.5) || (blown_ && now - *blown_ < seconds(6.0))) return false;
+  blown_ = now;
+  return true;
+}
+
+}  // namespace docent

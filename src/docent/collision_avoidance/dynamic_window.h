@@ -1,0 +1,112 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "docent/base/result.h"
+#include "docent/collision_avoidance/arc_distance.h"
+#include "docent/collision_avoidance/base_motion.h"
+
+namespace docent {
+
+struct DynamicWindowParams {
+  double cycle = 0.25;             ///< [s] between two selections
+  double heading_weight = 1.2;     ///< of the heading towards the goal at the predicted pose
+  double clearance_weight = 0.35;  ///< of the free way ahead
+  double speed_weight = 0.8;       ///< of the speed towards the goal
+  double change_weight = 0.08;     ///< against needless changes of the command
+  double heading_time = 0.6;       ///< [s] the pose is predicted so far for the heading
+  int linear_steps = 13;
+  int angular_steps = 31;
+  double real_margin = 0.08;     ///< [m] kept to what was sensed, sensor noise included
+  double virtual_margin = 0.15;  ///< [m] kept to virtual measurements
+  double security_time = 0.15;   ///< [s] more margin for every m/s of speed
+  double creep_speed = 0.12;     ///< [m/s] inside a margin, and backwards
+  template <class V>
+  void visit(V& v) {
+    v("cycle", cycle);
+    v("heading_weight", heading_weight);
+    v("clearance_weight", clearance_weight);
+    v("speed_weight", speed_weight);
+    v("change_weight", change_weight);
+    v("heading_time", heading_time);
+    v("linear_steps", linear_steps);
+    v("angular_steps", angular_steps);
+    v("real_margin", real_margin);
+    v("virtual_margin", virtual_margin);
+    v("security_time", security_time);
+    v("creep_speed", creep_speed);
+  }
+  [[nodiscard]] Result<void> validate() const;
+};
+
+/// A thing not to touch, in the frame of the base at the moment from which motion is planned.
+struct Obstacle {
+  Point2 at;              ///< [m]
+  Point2 velocity{};      ///< [m/s]
+  double margin = 0.0;    ///< [m] between its point and the robot's outline
+  bool person = false;    ///< slim and free-standing
+  bool is_virtual = false;
+};
+
+/// What the window shall steer for.
+struct Steering {
+  double bearing = 0.0;    ///< [rad] base frame
+  double distance = 10.0;  ///< [m] to the point that is steered for
+  double speed_cap = 0.0;  ///< [m/s]; 0: turn on the spot
+  bool may_reverse = false;
+};
+
+struct EvaluatedVelocity {
+  Velocity velocity;
+  double value = -1.0;  ///< < 0: not admissible
+};
+
+struct WindowChoice {
+  Velocity command;
+  bool is_braking = false;  ///< nothing in the window was safe: full braking
+  std::vector<EvaluatedVelocity> window;
+};
+
+/// True when the base, moving with `velocity` now, may obey `command` for `hold` [s] and then brake fully (the watchdog
+/// does that when we die) without coming nearer to an obstacle than its margin, less `slack` [m].
+///
+/// The motion is simulated with the base's real accelerations. Inside a margin the base may not get nearer. Things that
+/// move are followed at constant velocity, and count as long as the base moves towards them.
+/// O((hold + braking time) / 50 ms * obstacles).
+[[nodiscard]] bool can_brake_in_time(const Velocity& velocity, const Velocity& command, double hold,
+                                     std::span<const Obstacle> obstacles, const BaseLimits& limits, double slack);
+
+/// The dynamic window [BurgardEtAl1999 4.1.1]: all velocities that the base can reach in one cycle. Hard constraint:
+/// full braking before contact, whatever fails. Soft ones: speed, heading at the predicted pose, clearance; smoothed.
+class DynamicWindow {
+ public:
+  DynamicWindow(const BaseLimits& limits, const DynamicWindowParams& params);
+
+  /// @param velocity  of the base when the command will take effect
+  /// @param last      the command before
+  [[nodiscard]] WindowChoice choose(const Velocity& velocity, const Velocity& last, std::span<const Obstacle> obstacles,
+                                    const Steering& steering);
+
+  /// How long [s] a command can last when we die right after giving it.
+  [[nodiscard]] double hold() const { return limits_.watchdog + 0.05; }
+
+ private:
+  [[nodiscard]] double value_of(const Velocity& candidate, const Velocity& last, double free_way,
+                                const Steering& steering) const;
+  void smooth(std::vector<EvaluatedVelocity>& window, int rows, int columns) const;
+
+  BaseLimits limits_;
+  DynamicWindowParams params_;
+  ArcTable forwards_;
+  ArcTable backwards_;
+  std::vector<ReachPoint> reach_points_;
+};
+
+/// Free way [m] of a disc of radius `reach` straight along `bearing`, at most `horizon`; points within reach block only
+/// when they lie ahead.
+[[nodiscard]] double straight_free_way(double bearing, std::span<const Obstacle> obstacles, double body_radius,
+                                       double horizon);
+
+}  // namespace docent

@@ -1,0 +1,172 @@
+#include "docent/collision_avoidance/obstacle_memory.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace docent {
+
+namespace {
+
+constexpr double kBlindGap = 0.105;  // [rad] 6 degrees
+constexpr int kFrozenSweeps = 4;
+
+bool is_valid(double range) { return !std::isnan(range) && range >= 0.0; }
+
+}  // namespace
+
+void ObstacleMemory::watch_for_freeze(Sensor& sensor, const RangeSweep& sweep, const Pose2& odom_from_base) const {
+  const auto equal = [](float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+  const auto& last = sensor.sweep.ranges;
+  const bool same = last.size() == sweep.ranges.size() &&
+                    std::equal(last.begin(), last.end(), sweep.ranges.begin(), equal);
+  const auto hits = std::count_if(sweep.ranges.begin(), sweep.ranges.end(),
+                                  [&](float range) { return is_valid(range) && range < sweep.max_range; });
+  if (!same || hits * 20 < static_cast<std::ptrdiff_t>(sweep.ranges.size())) {
+    sensor.repeats = 0;
+    sensor.frozen = false;
+    sensor.odom_from_base_at_change = odom_from_base;
+    return;
+  }
+  ++sensor.repeats;
+  const Pose2 moved = inverse(sensor.odom_from_base_at_change) * odom_from_base;
+  const bool has_moved = norm(moved.position()) > 0.03 || std::abs(moved.theta.radians()) > 0.03;
+  if (sensor.repeats >= kFrozenSweeps && has_moved) sensor.frozen = true;
+}
+
+bool ObstacleMemory::is_seen_through(const Sensor& sensor, Point2 in_odom) {
+  const Point2 in_sensor = inverse(sensor.odom_from_sensor) * in_odom;
+  const auto& sweep = sensor.sweep;
+  const double bearing = std::atan2(in_sensor.y, in_sensor.x);
+  const double place = Angle::radians(bearing - sweep.first_bearing).radians();
+  const double unwrapped = place < -0.5 * sweep.bearing_step ? place + 6.283185307179586 : place;
+  const auto beam = std::lround(unwrapped / sweep.bearing_step);
+  if (beam < 0 || beam >= static_cast<long>(sweep.ranges.size())) return false;
+  const double range = sweep.ranges[static_cast<std::size_t>(beam)];
+  // Also forgotten when the beam met it again: the new point stands for it.
+  return is_valid(range) && range > norm(in_sensor) - 0.15;
+}
+
+void ObstacleMemory::add_sweep(std::size_t index, const RangeSweep& sweep, const Pose2& odom_from_base) {
+  if (sensors_.size() <= index) sensors_.resize(index + 1);
+  Sensor& sensor = sensors_[index];
+  watch_for_freeze(sensor, sweep, odom_from_base);
+
+  sensor.remembered.insert(sensor.remembered.end(), sensor.points.begin(), sensor.points.end());
+  sensor.points.clear();
+  sensor.blind.clear();
+  sensor.sweep = sweep;
+  sensor.odom_from_sensor = odom_from_base * sweep.base_from_sensor;
+
+  std::vector<Point2> places;
+  std::vector<double> ranges;
+  std::vector<int> beams;
+  std::size_t invalid = 0;
+  std::size_t run = 0;  // beams without a reading in a row
+  const auto end_run = [&](std::size_t end) {
+    if (static_cast<double>(run) * sweep.bearing_step > kBlindGap) {
+      for (std::size_t k = end - run; k < end; ++k) {
+        const double bearing = sweep.first_bearing + static_cast<double>(k) * sweep.bearing_step;
+        sensor.blind.push_back((sweep.base_from_sensor.theta + Angle::radians(bearing)).radians());
+      }
+    }
+    run = 0;
+  };
+  for (std::size_t i = 0; i < sweep.ranges.size(); ++i) {
+    const double range = sweep.ranges[i];
+    if (!is_valid(range)) {
+      ++invalid;
+      ++run;
+      continue;
+    }
+    end_run(i);
+    if (range >= sweep.max_range || range < sweep.min_range || range > kReach) continue;
+    const Angle bearing = Angle::radians(sweep.first_bearing + static_cast<double>(i) * sweep.bearing_step);
+    places.push_back(sensor.odom_from_sensor * (range * unit(bearing)));
+    ranges.push_back(range);
+    beams.push_back(static_cast<int>(i));
+  }
+  end_run(sweep.ranges.size());
+  sensor.invalid_share =
+      sweep.ranges.empty() ? 1.0 : static_cast<double>(invalid) / static_cast<double>(sweep.ranges.size());
+
+  for (const auto& place : places) sensor.points.push_back({place, {}, sweep.stamp, false});
+  auto clusters = MovingObjects::find(places, ranges, beams, sweep.bearing_step);
+  moving_.follow(sweep.stamp, clusters);
+  for (const auto& cluster : clusters) {
+    for (std::size_t k = cluster.first; k < cluster.first + cluster.count; ++k) {
+      sensor.points[k].person = true;
+      sensor.points[k].velocity = cluster.velocity;
+    }
+  }
+  std::erase_if(sensor.remembered, [&](const ObstaclePoint& point) {
+    return sweep.stamp - point.seen > seconds(kMemory) || is_seen_through(sensor, point.in_odom);
+  });
+}
+
+void ObstacleMemory::add_sonar(std::size_t index, const SonarReading& reading, const Pose2& odom_from_base) {
+  if (echoes_.size() <= index) echoes_.resize(index + 1);
+  Echo& last = echoes_[index];
+  const Pose2 odom_from_sensor = odom_from_base * reading.base_from_sensor;
+  Echo echo{odom_from_sensor * Point2{reading.range, 0.0}, reading.stamp, false};
+  echo.valid = is_valid(reading.range) && reading.range < std::min(reading.max_range, kSonarReach);
+  const bool confirmed = echo.valid && last.valid && reading.stamp - last.stamp < seconds(1.0) &&
+                         distance(echo.in_odom, last.in_odom) < 0.15;
+  last = echo;
+  while (!sonar_points_.empty() && reading.stamp - sonar_points_.front().seen > seconds(kMemory)) {
+    sonar_points_.pop_front();
+  }
+  if (!confirmed) return;
+  const double half = 0.5 * reading.field_of_view;
+  for (const auto& sensor : sensors_) {
+    for (const auto& point : sensor.points) {
+      const Point2 in_sonar = inverse(odom_from_sensor) * point.in_odom;
+      if (in_sonar.x <= 0.0) continue;
+      // Half a cone more to each side, and nearer than the echo: it is what the sonar heard.
+      if (norm(in_sonar) < reading.range + 0.25 && std::abs(std::atan2(in_sonar.y, in_sonar.x)) < 2.0 * half) return;
+    }
+  }
+  for (const double share : {-0.5, 0.0, 0.5}) {
+    const Angle bearing = Angle::radians(share * half);
+    sonar_points_.push_back({odom_from_sensor * (reading.range * unit(bearing)), {}, reading.stamp, false});
+  }
+}
+
+void ObstacleMemory::add_touch(Time stamp, Point2 in_base, const Pose2& odom_from_base) {
+  touches_.push_back({odom_from_base * in_base, {}, stamp, false});
+  while (!touches_.empty() && stamp - touches_.front().seen > seconds(kMemory)) touches_.pop_front();
+}
+
+std::vector<ObstaclePoint> ObstacleMemory::points(Time now) const {
+  std::vector<ObstaclePoint> result;
+  const auto add = [&](const auto& points) {
+    for (ObstaclePoint point : points) {
+      const double age = to_seconds(now - point.seen);
+      if (age > kMemory) continue;
+      if (point.velocity.x != 0.0 || point.velocity.y != 0.0) {
+        point.in_odom = point.in_odom + std::min(age, 0.5) * point.velocity;
+      }
+      result.push_back(point);
+    }
+  };
+  for (const auto& sensor : sensors_) {
+    add(sensor.points);
+    add(sensor.remembered);
+  }
+  add(sonar_points_);
+  add(touches_);
+  return result;
+}
+
+std::vector<double> ObstacleMemory::blind_directions() const {
+  std::vector<double> result;
+  for (const auto& sensor : sensors_) result.insert(result.end(), sensor.blind.begin(), sensor.blind.end());
+  return result;
+}
+
+bool ObstacleMemory::is_frozen(std::size_t sensor) const { return sensor < sensors_.size() && sensors_[sensor].frozen; }
+
+double ObstacleMemory::invalid_share(std::size_t sensor) const {
+  return sensor < sensors_.size() ? sensors_[sensor].invalid_share : 1.0;
+}
+
+}  // namespace docent

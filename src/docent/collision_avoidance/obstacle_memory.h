@@ -1,0 +1,98 @@
+#pragma once
+
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "docent/base/time.h"
+#include "docent/collision_avoidance/moving_objects.h"
+#include "docent/geometry/pose2.h"
+
+namespace docent {
+
+/// One sweep of a laser scanner.
+struct RangeSweep {
+  Time stamp;
+  Pose2 base_from_sensor;
+  double first_bearing = 0.0;  ///< [rad], sensor frame
+  double bearing_step = 0.0;   ///< [rad], > 0
+  double min_range = 0.0;      ///< [m]
+  double max_range = 0.0;      ///< [m]; this or more: nothing there
+  std::vector<float> ranges;   ///< [m]; NaN: no reading
+};
+
+/// One reading of a sonar.
+struct SonarReading {
+  Time stamp;
+  Pose2 base_from_sensor;
+  double field_of_view = 0.0;  ///< [rad]
+  double max_range = 0.0;      ///< [m]
+  double range = 0.0;          ///< [m]; NaN: no reading
+};
+
+/// A point that a sensor met, in the odometry's frame.
+struct ObstaclePoint {
+  Point2 in_odom;      ///< [m]
+  Point2 velocity{};   ///< [m/s] of the moving thing it belongs to
+  Time seen;
+  bool person = false;  ///< part of something slim that stands free: likely a person
+};
+
+/// The obstacle field [BuhmannEtAl1995, obstacle line field]: what the lasers and sonars met in the last moments, kept
+/// in the odometry's frame so that a jump of the localization never moves it (architecture 10.6).
+///
+/// A new sweep replaces the last one of its sensor. Points of earlier sweeps live on for kMemory where the new sweep
+/// could not look: behind something nearer, or where a beam gave no reading.
+class ObstacleMemory {
+ public:
+  static constexpr double kMemory = 1.5;       ///< [s]
+  static constexpr double kReach = 5.0;        ///< [m] from the robot; what is farther does not matter yet
+  static constexpr double kSonarReach = 1.5;   ///< [m]
+
+  /// @param odom_from_base  pose at the sweep's stamp. Sensors are numbered from 0.
+  void add_sweep(std::size_t sensor, const RangeSweep& sweep, const Pose2& odom_from_base);
+  /// A sonar echo counts when two readings in a row agree and no laser point explains it (a laser looks through glass
+  /// and over low things).
+  void add_sonar(std::size_t index, const SonarReading& reading, const Pose2& odom_from_base);
+  /// The body was touched at `in_base` (on its outline).
+  void add_touch(Time stamp, Point2 in_base, const Pose2& odom_from_base);
+
+  /// Everything that counts at `now`, moving things where they are by now.
+  [[nodiscard]] std::vector<ObstaclePoint> points(Time now) const;
+  /// Directions in the base frame [rad] where a laser should look but gave nothing over more than 6 degrees.
+  [[nodiscard]] std::vector<double> blind_directions() const;
+  [[nodiscard]] const MovingObjects& moving_objects() const { return moving_; }
+
+  /// True when the sensor has given the very same ranges although the base moved.
+  [[nodiscard]] bool is_frozen(std::size_t sensor) const;
+  /// Share of the newest sweep's beams that gave no reading.
+  [[nodiscard]] double invalid_share(std::size_t sensor) const;
+
+ private:
+  struct Sensor {
+    RangeSweep sweep;
+    Pose2 odom_from_sensor;
+    std::vector<ObstaclePoint> points;      ///< of the newest sweep
+    std::vector<ObstaclePoint> remembered;  ///< of earlier ones
+    std::vector<double> blind;              ///< [rad], base frame
+    double invalid_share = 0.0;
+    Pose2 odom_from_base_at_change;  ///< where the base was when the ranges last changed
+    int repeats = 0;
+    bool frozen = false;
+  };
+  struct Echo {
+    Point2 in_odom;
+    Time stamp;
+    bool valid = false;
+  };
+  void watch_for_freeze(Sensor& sensor, const RangeSweep& sweep, const Pose2& odom_from_base) const;
+  [[nodiscard]] static bool is_seen_through(const Sensor& sensor, Point2 in_odom);
+
+  std::vector<Sensor> sensors_;
+  std::vector<Echo> echoes_;
+  std::deque<ObstaclePoint> sonar_points_;
+  std::deque<ObstaclePoint> touches_;
+  MovingObjects moving_;
+};
+
+}  // namespace docent

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "docent/base/result.h"
+#include "docent/geometry/polygon.h"
+
+namespace docent {
+
+struct VirtualMeasurementParams {
+  double confidence = 0.99;      ///< probability with which a virtual measurement underestimates the true distance
+  double cell_padding = 0.05;    ///< [m] the robot may be so far from the centre of its belief cell
+  double max_impossible = 0.5;   ///< when more mass than this lies where the robot cannot be, that is believed
+  bool best_pose_only = false;   ///< crippled, for evaluation: trusts the likeliest pose
+  template <class V>
+  void visit(V& v) {
+    v("confidence", confidence);
+    v("cell_padding", cell_padding);
+    v("max_impossible", max_impossible);
+    v("best_pose_only", best_pose_only);
+  }
+  [[nodiscard]] Result<void> validate() const;
+};
+
+/// One weighted pose of a belief, map frame.
+struct WeightedPose {
+  Point2 position;       ///< [m]
+  double heading = 0.0;  ///< [rad]
+  double mass = 0.0;
+};
+/// Mass that may be anywhere in a square, with any heading.
+struct WeightedSquare {
+  Point2 centre;      ///< [m], map
+  double side = 0.0;  ///< [m]
+  double mass = 0.0;
+};
+
+/// Virtual range measurements of hazards and of the border of the operating area, from the whole belief
+/// [BurgardEtAl1999 eq. 21-24, FoxBurgardThrun1999 eq. 9-11].
+///
+/// Departure: the rays end on hazards and on the area's border, not on walls that sensors see (as in
+/// [ThrunEtAl2000 eq. 14-15]); docs/decisions/0002 says why.
+class VirtualMeasurements {
+ public:
+  static constexpr int kDirections = 180;  ///< direction i points 2 i degrees - 180 degrees from the robot's heading
+  static constexpr double kBin = 0.05;     ///< [m]
+  static constexpr int kBins = 121;        ///< the last: nothing within kMaxRange
+  static constexpr double kMaxRange = kBin * (kBins - 1);
+  using Ranges = std::array<double, kDirections>;  ///< [m]
+
+  VirtualMeasurements(Polygon area, std::vector<Polygon> hazards, VirtualMeasurementParams params);
+
+  struct Scan {
+    Ranges ranges{};
+    double possible_mass = 0.0;  ///< share of the belief that lies where the robot can be
+  };
+  /// The largest distances that, with the wanted confidence, underestimate the true ones: o* = sup {o : P(X > o) >
+  /// 0.99}. Poses inside hazards or outside the area are left out, as the robot cannot be there, unless they are most
+  /// of the belief. `rest` counts with its nearest hazard in every direction. An empty belief gives zeros.
+  /// O(poses * kDirections) and about 10 us once for every new position.
+  [[nodiscard]] Scan measure(std::span<const WeightedPose> poses, std::span<const WeightedSquare> rest);
+
+  /// True where the robot's centre may be.
+  [[nodiscard]] bool is_possible(Point2 position) const;
+  /// Distance [m] from `position` to the nearest hazard or border; 0 where the robot cannot be.
+  [[nodiscard]] double nearest(Point2 position) const;
+  [[nodiscard]] std::size_t positions_known() const { return rows_.size(); }
+
+ private:
+  /// Distances seen from one position, in bins, direction i at 2 i degrees in the map.
+  struct Row {
+    bool possible = false;
+    std::array<std::uint8_t, kDirections> bins{};
+  };
+  const Row& row_at(Point2 position);
+  void fill(Row& row, Point2 position) const;
+  void fill_from_outside(Row& row, Point2 position) const;
+  [[nodiscard]] double border_distance(Point2 position) const;
+  /// Least distance [m] from within a square; -1 where the robot can be nowhere in it.
+  [[nodiscard]] double square_range(Point2 centre, double half_diagonal) const;
+
+  Polygon area_;
+  std::vector<Polygon> hazards_;
+  std::vector<Segment> borders_;
+  VirtualMeasurementParams params_;
+  std::unordered_map<std::uint64_t, std::size_t> index_;  ///< never iterated: the order of its entries is arbitrary
+  std::vector<Row> rows_;
+  std::unordered_map<std::uint64_t, double> square_ranges_;
+  std::vector<double> histogram_;  ///< [kDirections][kBins] mass
+};
+
+}  // namespace docent

@@ -1,0 +1,198 @@
+#include "docent/modules/avoid_module.h"
+
+#include <algorithm>
+#include <charconv>
+#include <numbers>
+
+#include "docent/collision_avoidance/avoider.h"
+#include "docent/messages/conversions.h"
+
+namespace docent {
+
+namespace {
+
+constexpr double kTick = 0.05;  // [s]
+constexpr double kHeartbeat = 0.1;
+constexpr double kWindowPeriod = 0.5;
+
+BaseLimits limits_of(const RobotBody& body) {
+  return {body.radius,           body.max_speed, body.max_turn_rate, body.acceleration, body.deceleration,
+          body.turn_acceleration, body.latency,  body.watchdog};
+}
+
+RangeSweep to_sweep(const sensor_msgs::LaserScan& scan, const Pose2& base_from_sensor) {
+  return {from_message(scan.header.stamp), base_from_sensor, scan.angle_min, scan.angle_increment, scan.range_min,
+          scan.range_max,                  scan.ranges};
+}
+
+const char* name_of(AvoiderDecision::State state) {
+  switch (state) {
+    case AvoiderDecision::State::driving:
+      return "driving";
+    case AvoiderDecision::State::turning:
+      return "turning";
+    case AvoiderDecision::State::blocked:
+      return "blocked";
+    case AvoiderDecision::State::stopped:
+      break;
+  }
+  return "stopped";
+}
+
+class AvoidModule final : public Module {
+ public:
+  AvoidModule(const ModuleContext& context, const AvoiderParams& params)
+      : bus_{context.bus},
+        body_{context.config.body()},
+        cycle_{params.window.cycle},
+        avoider_{limits_of(body_), params, 2},
+        drive_{bus_.publisher(topics::kDrive)},
+        state_{bus_.publisher(topics::kAvoidState)},
+        horn_blower_{bus_.publisher(topics::kHorn)} {
+    subscribe_sensors();
+    subscribe_wishes();
+    bus_.every(seconds(kTick), [this] { tick(); });
+  }
+
+  [[nodiscard]] ModuleHealth health() const override {
+    auto why = avoider_.fault(bus_.now());
+    if (!why.empty()) return {"degraded", std::move(why)};
+    return {};
+  }
+
+ private:
+  void subscribe_sensors() {
+    bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const nav_msgs::Odometry& odometry) {
+      avoider_.add_odometry(bus_.now(), from_message(odometry.header.stamp),
+                            {from_message(odometry.pose.pose),
+                             {odometry.twist.twist.linear.x, odometry.twist.twist.angular.z}});
+    });
+    bus_.subscribe<sensor_msgs::LaserScan>(topics::kScanFront, [this](const sensor_msgs::LaserScan& scan) {
+      see(0, scan, body_.scan_front.base_from_sensor());
+    });
+    bus_.subscribe<sensor_msgs::LaserScan>(topics::kScanRear, [this](const sensor_msgs::LaserScan& scan) {
+      see(1, scan, body_.scan_rear.base_from_sensor());
+    });
+    bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const sensor_msgs::Range& range) {
+      const std::string& frame = range.header.frame_id;
+      int index = -1;
+      if (frame.starts_with("sonar_")) std::from_chars(frame.data() + 6, frame.data() + frame.size(), index);
+      if (index < 0 || index >= body_.sonars) return;
+      avoider_.add_sonar(bus_.now(), static_cast<std::size_t>(index),
+                         {from_message(range.header.stamp), body_.base_from_sonar(index), range.field_of_view,
+                          range.max_range, range.range});
+    });
+    bus_.subscribe<docent_msgs::Tactile>(topics::kTactile, [this](const docent_msgs::Tactile& tactile) {
+      std::vector<double> bearings;
+      for (std::size_t i = 0; i < tactile.segments.size(); ++i) {
+        if (tactile.segments[i] != 0) {
+          bearings.push_back(2.0 * std::numbers::pi * static_cast<double>(i) /
+                             static_cast<double>(tactile.segments.size()));
+        }
+      }
+      avoider_.add_tactile(bus_.now(), from_message(tactile.header.stamp), bearings);
+      if (!bearings.empty()) reflex();
+    });
+    bus_.subscribe<sensor_msgs::LaserScan>(topics::kVirtualScan, [this](const sensor_msgs::LaserScan& scan) {
+      avoider_.add_virtual(bus_.now(), {from_message(scan.header.stamp), scan.angle_min, scan.angle_increment,
+                                        scan.range_max, scan.ranges});
+    });
+    bus_.subscribe<docent_msgs::PersonBeams>(topics::kPersonBeams, [this](const docent_msgs::PersonBeams& beams) {
+      std::vector<Point2> points;
+      for (std::size_t i = 0; i < std::min(beams.x.size(), beams.y.size()); ++i) points.push_back({beams.x[i], beams.y[i]});
+      avoider_.add_person_beams(bus_.now(), from_message(beams.header.stamp), points, beams.localized);
+    });
+  }
+
+  void subscribe_wishes() {
+    bus_.subscribe<docent_msgs::Limits>(
+        topics::kLimits, [this](const docent_msgs::Limits& limits) { avoider_.set_max_speed(limits.max_speed); });
+    bus_.subscribe<docent_msgs::Target>(topics::kTarget, [this](const docent_msgs::Target& target) {
+      AvoiderTarget wish;
+      wish.mode = target.mode == "drive"  ? AvoiderTarget::Mode::drive
+                  : target.mode == "turn" ? AvoiderTarget::Mode::turn
+                                          : AvoiderTarget::Mode::stop;
+      for (std::size_t i = 0; i < std::min(target.via_x.size(), target.via_y.size()); ++i) {
+        wish.via.push_back({target.via_x[i], target.via_y[i]});
+      }
+      wish.is_final = target.is_final;
+      wish.heading = Angle::radians(target.heading);
+      wish.position_tolerance = target.position_tolerance;
+      wish.heading_tolerance = target.heading_tolerance;
+      avoider_.set_target(bus_.now(), from_message(target.header.stamp), std::move(wish));
+    });
+  }
+
+  void see(std::size_t sensor, const sensor_msgs::LaserScan& scan, const Pose2& base_from_sensor) {
+    if (!(scan.angle_increment > 0.0F)) return;
+    avoider_.add_sweep(bus_.now(), sensor, to_sweep(scan, base_from_sensor));
+    reflex();
+  }
+
+  void reflex() {
+    if (auto decision = avoider_.reflex(bus_.now())) publish(*decision);
+  }
+
+  void tick() {
+    const Time now = bus_.now();
+    if (now - decided_ >= seconds(cycle_ - 0.5 * kTick)) {
+      decided_ = now;
+      publish(avoider_.decide(now));
+    } else if (now - driven_ >= seconds(kHeartbeat - 0.5 * kTick)) {
+      publish_drive(avoider_.command());
+    }
+  }
+
+  void publish_drive(const Velocity& command) {
+    driven_ = bus_.now();
+    drive_.publish({{to_message(driven_), "base_link"}, command.linear, command.angular});
+  }
+
+  void publish(const AvoiderDecision& decision) {
+    publish_drive(decision.command);
+    docent_msgs::AvoidState state;
+    state.header = {to_message(driven_), "base_link"};
+    state.state = name_of(decision.state);
+    state.reason = decision.reason;
+    state.speed_cap = decision.speed_cap;
+    state.linear = decision.command.linear;
+    state.angular = decision.command.angular;
+    state.path_blocked = decision.path_blocked;
+    state.unmapped_obstacle = decision.unmapped_obstacle;
+    state.nearest_real_m = decision.nearest_real;
+    state.nearest_virtual_m = decision.nearest_virtual;
+    if (!decision.window.empty() && driven_ - window_shown_ >= seconds(kWindowPeriod - 0.5 * kTick)) {
+      window_shown_ = driven_;
+      for (const auto& candidate : decision.window) {
+        state.window.push_back({static_cast<float>(candidate.velocity.linear),
+                                static_cast<float>(candidate.velocity.angular), static_cast<float>(candidate.value)});
+      }
+    }
+    state_.publish(std::move(state));
+    if (horn_.is_due(driven_, decision.path_blocked && decision.unmapped_obstacle)) {
+      horn_blower_.publish({{to_message(driven_), "base_link"}, decision.reason});
+    }
+  }
+
+  Bus& bus_;
+  RobotBody body_;
+  double cycle_;
+  Avoider avoider_;
+  Horn horn_;
+  Publisher<docent_msgs::Drive> drive_;
+  Publisher<docent_msgs::AvoidState> state_;
+  Publisher<docent_msgs::Horn> horn_blower_;
+  Time decided_{};
+  Time driven_{};
+  Time window_shown_{};
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Module>> make_avoid(const ModuleContext& context) {
+  auto params = context.config.section<AvoiderParams>("avoid");
+  if (!params) return tl::unexpected<Error>(params.error());
+  return std::make_unique<AvoidModule>(context, *params);
+}
+
+}  // namespace docent

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "docent/modules/module.h"
+
+namespace docent {
+
+/// Collision avoidance: the only one that publishes docent/drive (architecture 10.7).
+[[nodiscard]] Result<std::unique_ptr<Module>> make_avoid(const ModuleContext& context);
+
+}  // namespace docent

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "docent/modules/module.h"
+
+namespace docent {
+
+/// Virtual range measurements of what no sensor sees, from every belief (architecture 8.3).
+[[nodiscard]] Result<std::unique_ptr<Module>> make_hazards(const ModuleContext& context);
+
+}  // namespace docent
