@@ -11,8 +11,7 @@ namespace docent {
 
 namespace {
 
-constexpr double kBeyondReach = 3.5;   // [m] obstacles farther away do not matter within one cycle
-constexpr double kUnknownMargin = 0.1; // [m] from the outline to where nothing is known
+constexpr double kBeyondReach = 3.5;  // [m] obstacles farther away do not matter within one cycle
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -20,7 +19,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 Result<void> AvoiderParams::validate() const {
   if (auto valid = window.validate(); !valid) return valid;
   if (!(lookahead >= 0.3 && lookahead <= 5.0)) return fail("avoid.lookahead must lie between 0.3 and 5 m");
-  if (!(person_distance >= 0.0 && person_speed > 0.0)) return fail("avoid.person_distance and person_speed must be > 0");
+  if (!(person_distance >= 0.0 && person_speed > 0.0))
+    return fail("avoid.person_distance and person_speed must be > 0");
   if (!(arrival_deceleration > 0.0)) return fail("avoid.arrival_deceleration must be > 0 m/s2");
   if (!(target_timeout > 0.0 && virtual_timeout > 0.0)) return fail("avoid: timeouts must be > 0 s");
   return {};
@@ -99,9 +99,7 @@ BaseState Avoider::state_when_effective(Time now) const {
 std::vector<Obstacle> Avoider::obstacles_from(const Pose2& odom_from_base, Time when) const {
   std::vector<Obstacle> result;
   const Pose2 base_from_odom = inverse(odom_from_base);
-  const auto turned = [&](Point2 in_odom) {
-    return base_from_odom * in_odom - base_from_odom.position();
-  };
+  const auto turned = [&](Point2 in_odom) { return base_from_odom * in_odom - base_from_odom.position(); };
   if (!params_.blind_to_people) {
     const bool judged = beams_localized_ && unmapped_time_ && when - *unmapped_time_ < seconds(1.0);
     for (const auto& point : memory_.points(when)) {
@@ -116,7 +114,8 @@ std::vector<Obstacle> Avoider::obstacles_from(const Pose2& odom_from_base, Time 
       result.push_back({at, turned(point.velocity), params_.window.real_margin, person, false});
     }
     for (const double bearing : memory_.blind_directions()) {
-      result.push_back({(limits_.radius + params_.window.real_margin + kUnknownMargin) * unit(Angle::radians(bearing)),
+      // Nobody knows what is there: as if something were just within the margin, wherever the robot is.
+      result.push_back({(limits_.radius + params_.window.real_margin - 1e-3) * unit(Angle::radians(bearing)),
                         {},
                         params_.window.real_margin,
                         false,
@@ -153,34 +152,31 @@ Avoider::Carrot Avoider::carrot(const Pose2& odom_from_base, std::span<const Obs
       leg = i;
     }
   }
-  Carrot result{here, norm(here)};
-  // From there on, as far as the lookahead reaches and the straight way is free.
-  Point2 at = here;
-  std::size_t next = path.size() > 1 ? leg + 1 : path.size();
-  if (here == path.front()) next = std::min<std::size_t>(1, path.size());
-  double along = 0.0;
-  bool is_open = true;
+  // From there on: the farthest point within the lookahead that can be reached straight, so that corners are not cut.
+  // When only the next few steps are open, somebody stands on the path: the lookahead's end, and steer around.
   constexpr double kStep = 0.1;
-  for (; next < path.size(); ++next) {
+  constexpr double kOpenEnough = 0.7;
+  Carrot result{here, norm(here)};
+  Point2 at = here;
+  Point2 end = here;
+  bool is_inside = true;
+  double along = 0.0;
+  for (std::size_t next = here == path.front() ? 0 : leg + 1; next < path.size(); ++next) {
     double rest = distance(at, path[next]);
     while (rest > 1e-9) {
       const double step = std::min(kStep, rest);
       at = at + (step / rest) * (path[next] - at);
       rest -= step;
       along += step;
-      if (!is_open) continue;
       const double way = norm(at);
-      const bool near = way < 0.35;
-      const bool visible =
-          near || straight_free_way(std::atan2(at.y, at.x), obstacles, limits_.radius, way) >= way - 0.05;
-      if (way > params_.lookahead || (!visible && norm(result.in_base) > 0.5)) {
-        is_open = false;
-      } else {
-        result.in_base = at;
-      }
+      is_inside = is_inside && way <= params_.lookahead;
+      if (!is_inside) continue;
+      end = at;
+      if (straight_free_way(std::atan2(at.y, at.x), obstacles, limits_.radius, way) >= way - 0.05) result.in_base = at;
     }
   }
-  result.remaining = norm(here) + along;
+  if (norm(result.in_base) < kOpenEnough) result.in_base = end;
+  result.remaining += along;
   return result;
 }
 
@@ -271,10 +267,9 @@ void Avoider::judge_blocking(Time now, Point2 carrot, const Pose2& odom_from_bas
   if (blocker->is_virtual) return;
   const bool judged = beams_localized_ && unmapped_time_ && now - *unmapped_time_ < seconds(1.0);
   const Point2 in_odom = odom_from_base * blocker->at;
-  decision.unmapped_obstacle =
-      judged ? std::any_of(unmapped_in_odom_.begin(), unmapped_in_odom_.end(),
-                           [&](Point2 unmapped) { return distance(unmapped, in_odom) < 0.4; })
-             : blocker->person;
+  decision.unmapped_obstacle = judged ? std::any_of(unmapped_in_odom_.begin(), unmapped_in_odom_.end(),
+                                                    [&](Point2 unmapped) { return distance(unmapped, in_odom) < 0.4; })
+                                      : blocker->person;
   if (decision.unmapped_obstacle) decision.reason = "somebody is in the way";
 }
 
@@ -345,7 +340,8 @@ AvoiderDecision Avoider::decide(Time now) {
   decision.command = choice.command;
   decision.window = std::move(choice.window);
   if (choice.is_braking) decision.reason = "braking";
-  if (target_->mode == AvoiderTarget::Mode::drive) judge_blocking(now, wanted, start.odom_from_base, obstacles, decision);
+  if (target_->mode == AvoiderTarget::Mode::drive)
+    judge_blocking(now, wanted, start.odom_from_base, obstacles, decision);
   return finish(now, std::move(decision));
 }
 

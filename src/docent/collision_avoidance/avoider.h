@@ -15,14 +15,14 @@ namespace docent {
 
 struct AvoiderParams {
   DynamicWindowParams window;
-  double lookahead = 1.2;          ///< [m] the path is followed by steering for a point so far along it
-  double person_distance = 0.35;   ///< [m] from the outline: towards a person nearer than this, only person_speed
-  double person_speed = 0.1;       ///< [m/s]
+  double lookahead = 1.2;              ///< [m] the path is followed by steering for a point so far along it
+  double person_distance = 0.35;       ///< [m] from the outline: towards a person nearer than this, only person_speed
+  double person_speed = 0.1;           ///< [m/s]
   double arrival_deceleration = 0.35;  ///< [m/s2]
-  double target_timeout = 1.5;     ///< [s]
-  double virtual_timeout = 1.5;    ///< [s]
-  bool needs_sonar = true;         ///< stands when the sonars are silent
-  bool blind_to_people = false;    ///< crippled, for evaluation: sees virtual measurements and touch only
+  double target_timeout = 1.5;         ///< [s]
+  double virtual_timeout = 1.5;        ///< [s]
+  bool needs_sonar = true;             ///< stands when the sonars are silent
+  bool blind_to_people = false;        ///< crippled, for evaluation: sees virtual measurements and touch only
   template <class V>
   void visit(V& v) {
     v("window", window);
@@ -71,9 +71,9 @@ struct AvoiderDecision {
   std::vector<EvaluatedVelocity> window;
 };
 
-/// Collision avoidance of the tour guide, µDWA [BurgardEtAl1999 4.1; ThrunEtAl2000 5.1]: keeps the obstacle field, knows
-/// how old everything is, steers along via-points with the dynamic window, and brakes on any scan that says so. Safe
-/// without planner, localization or radio (architecture 8).
+/// Collision avoidance of the tour guide, µDWA [BurgardEtAl1999 4.1; ThrunEtAl2000 5.1]: keeps the obstacle field,
+/// knows how old everything is, steers along via-points with the dynamic window, and brakes on any scan that says so.
+/// Safe without planner, localization or radio (architecture 8).
 ///
 /// Sensor inputs take the local time of receipt and the stamp of their message.
 class Avoider {
@@ -145,7 +145,8 @@ class Avoider {
   bool was_turning_ = false;
 };
 
-/// Blows the horn at people in the way [BurgardEtAl1999 5.3]: after 1.5 s behind an unmapped obstacle, every 6 s at most.
+/// Blows the horn at people in the way [BurgardEtAl1999 5.3]: after 1.5 s behind an unmapped obstacle, every 6 s at
+/// most.
 class Horn {
  public:
   [[nodiscard]] bool is_due(Time now, bool blocked_by_unmapped);

@@ -72,9 +72,8 @@ void OdometryHistory::add(Time stamp, const BaseState& state) {
 }
 
 Pose2 OdometryHistory::pose_at(Time time) const {
-  const auto later = std::partition_point(states_.begin(), states_.end(), [&](const auto& entry) {
-    return entry.first <= time;
-  });
+  const auto later =
+      std::partition_point(states_.begin(), states_.end(), [&](const auto& entry) { return entry.first <= time; });
   if (later == states_.begin()) return states_.front().second.odom_from_base;
   const auto& [before_time, before] = *std::prev(later);
   if (later == states_.end()) {
@@ -91,7 +90,8 @@ Pose2 OdometryHistory::pose_at(Time time) const {
 double OdometryHistory::driven_since(Time time) const {
   double length = 0.0;
   for (std::size_t i = states_.size(); i > 1 && states_[i - 1].first > time; --i) {
-    length += distance(states_[i - 1].second.odom_from_base.position(), states_[i - 2].second.odom_from_base.position());
+    length +=
+        distance(states_[i - 1].second.odom_from_base.position(), states_[i - 2].second.odom_from_base.position());
   }
   return length;
 }

@@ -9,9 +9,9 @@ namespace docent {
 
 namespace {
 
-constexpr double kStep = 0.05;            // [s] of the simulated braking
-constexpr double kStandsStill = 0.08;     // [m/s] towards a person: less is no push
-constexpr double kNearestReal = 0.02;     // [m] the last bit of margin is never given up
+constexpr double kStep = 0.05;         // [s] of the simulated braking
+constexpr double kStandsStill = 0.08;  // [m/s] towards a person: less is no push
+constexpr double kNearestReal = 0.02;  // [m] the last bit of margin is never given up
 
 struct Sample {
   Pose2 start_from_base;
@@ -82,8 +82,8 @@ bool can_brake_in_time(const Velocity& velocity, const Velocity& command, double
     }
     // Too near already: not nearer still, but for a centimetre of noise where there is one to give.
     if (now - 0.01 < required) {
-      required = now > limits.radius + kNearestReal + 0.01 ? std::max(now - 0.01, limits.radius + kNearestReal)
-                                                           : now - 0.001;
+      required =
+          now > limits.radius + kNearestReal + 0.01 ? std::max(now - 0.01, limits.radius + kNearestReal) : now - 0.001;
     }
     for (std::size_t i = 0; i < manoeuvre.count; ++i) {
       if (distance(obstacle.at, manoeuvre.samples[i].start_from_base.position()) < required) return false;

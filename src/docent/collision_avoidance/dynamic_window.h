@@ -43,10 +43,10 @@ struct DynamicWindowParams {
 
 /// A thing not to touch, in the frame of the base at the moment from which motion is planned.
 struct Obstacle {
-  Point2 at;              ///< [m]
-  Point2 velocity{};      ///< [m/s]
-  double margin = 0.0;    ///< [m] between its point and the robot's outline
-  bool person = false;    ///< slim and free-standing
+  Point2 at;            ///< [m]
+  Point2 velocity{};    ///< [m/s]
+  double margin = 0.0;  ///< [m] between its point and the robot's outline
+  bool person = false;  ///< slim and free-standing
   bool is_virtual = false;
 };
 

@@ -7,12 +7,12 @@ namespace docent {
 
 namespace {
 
-constexpr double kMaxWidth = 0.9;        // [m]
-constexpr double kGate = 0.45;           // [m] between prediction and sighting
-constexpr double kForget = 0.7;          // [s]
-constexpr double kLeastSpeed = 0.2;      // [m/s] below: stands
-constexpr double kMaxSpeed = 2.2;        // [m/s]
-constexpr double kForeground = 0.25;     // [m] the background lies so much farther
+constexpr double kMaxWidth = 0.9;     // [m]
+constexpr double kGate = 0.45;        // [m] between prediction and sighting
+constexpr double kForget = 0.7;       // [s]
+constexpr double kLeastSpeed = 0.2;   // [m/s] below: stands
+constexpr double kMaxSpeed = 2.2;     // [m/s]
+constexpr double kForeground = 0.25;  // [m] the background lies so much farther
 
 }  // namespace
 
@@ -28,7 +28,8 @@ std::vector<MovingObjects::Cluster> MovingObjects::find(std::span<const Point2> 
     // [first, i) is one piece. It stands free when its neighbours lie farther away or nothing is there.
     const bool free_before =
         first == 0 || beams[first] - beams[first - 1] > 2 || ranges[first - 1] > ranges[first] + kForeground;
-    const bool free_after = i == points.size() || beams[i] - beams[i - 1] > 2 || ranges[i] > ranges[i - 1] + kForeground;
+    const bool free_after =
+        i == points.size() || beams[i] - beams[i - 1] > 2 || ranges[i] > ranges[i - 1] + kForeground;
     const double width = distance(points[first], points[i - 1]);
     if (i - first >= 2 && width < kMaxWidth && free_before && free_after) {
       Point2 sum{};

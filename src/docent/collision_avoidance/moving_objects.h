@@ -16,9 +16,9 @@ class MovingObjects {
   struct Cluster {
     std::size_t first = 0;  ///< index of its first point
     std::size_t count = 0;
-    Point2 centre;         ///< [m], odom
-    double width = 0.0;    ///< [m]
-    Point2 velocity{};     ///< [m/s], zero until it is known to move
+    Point2 centre;       ///< [m], odom
+    double width = 0.0;  ///< [m]
+    Point2 velocity{};   ///< [m/s], zero until it is known to move
   };
 
   /// Groups neighbouring points of one sweep, in the order of their bearings, that belong to slim free-standing things.

@@ -17,8 +17,8 @@ bool is_valid(double range) { return !std::isnan(range) && range >= 0.0; }
 void ObstacleMemory::watch_for_freeze(Sensor& sensor, const RangeSweep& sweep, const Pose2& odom_from_base) const {
   const auto equal = [](float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); };
   const auto& last = sensor.sweep.ranges;
-  const bool same = last.size() == sweep.ranges.size() &&
-                    std::equal(last.begin(), last.end(), sweep.ranges.begin(), equal);
+  const bool same =
+      last.size() == sweep.ranges.size() && std::equal(last.begin(), last.end(), sweep.ranges.begin(), equal);
   const auto hits = std::count_if(sweep.ranges.begin(), sweep.ranges.end(),
                                   [&](float range) { return is_valid(range) && range < sweep.max_range; });
   if (!same || hits * 20 < static_cast<std::ptrdiff_t>(sweep.ranges.size())) {

@@ -32,8 +32,8 @@ struct SonarReading {
 
 /// A point that a sensor met, in the odometry's frame.
 struct ObstaclePoint {
-  Point2 in_odom;      ///< [m]
-  Point2 velocity{};   ///< [m/s] of the moving thing it belongs to
+  Point2 in_odom;     ///< [m]
+  Point2 velocity{};  ///< [m/s] of the moving thing it belongs to
   Time seen;
   bool person = false;  ///< part of something slim that stands free: likely a person
 };
@@ -45,9 +45,9 @@ struct ObstaclePoint {
 /// could not look: behind something nearer, or where a beam gave no reading.
 class ObstacleMemory {
  public:
-  static constexpr double kMemory = 1.5;       ///< [s]
-  static constexpr double kReach = 5.0;        ///< [m] from the robot; what is farther does not matter yet
-  static constexpr double kSonarReach = 1.5;   ///< [m]
+  static constexpr double kMemory = 1.5;      ///< [s]
+  static constexpr double kReach = 5.0;       ///< [m] from the robot; what is farther does not matter yet
+  static constexpr double kSonarReach = 1.5;  ///< [m]
 
   /// @param odom_from_base  pose at the sweep's stamp. Sensors are numbered from 0.
   void add_sweep(std::size_t sensor, const RangeSweep& sweep, const Pose2& odom_from_base);

@@ -10,13 +10,13 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kStep = 2.0 * kPi / VirtualMeasurements::kDirections;
-constexpr double kLattice = 0.025;         // [m] positions closer than this share their distances
-constexpr std::size_t kMaxRows = 300000;   // 60 MB
-constexpr double kReentry = 0.5;           // [m]
+constexpr double kLattice = 0.025;        // [m] positions closer than this share their distances
+constexpr std::size_t kMaxRows = 300000;  // 60 MB
+constexpr double kReentry = 0.5;          // [m]
 
 std::uint8_t bin_of(double range) {
-  return static_cast<std::uint8_t>(std::clamp(static_cast<int>(range / VirtualMeasurements::kBin), 0,
-                                              VirtualMeasurements::kBins - 1));
+  return static_cast<std::uint8_t>(
+      std::clamp(static_cast<int>(range / VirtualMeasurements::kBin), 0, VirtualMeasurements::kBins - 1));
 }
 
 std::uint64_t key_of(Point2 position) {
@@ -142,7 +142,8 @@ VirtualMeasurements::Scan VirtualMeasurements::measure(std::span<const WeightedP
                                                        std::span<const WeightedSquare> rest) {
   std::array<WeightedPose, 1> best;
   if (params_.best_pose_only && !poses.empty()) {
-    best[0] = *std::max_element(poses.begin(), poses.end(), [](const auto& a, const auto& b) { return a.mass < b.mass; });
+    best[0] =
+        *std::max_element(poses.begin(), poses.end(), [](const auto& a, const auto& b) { return a.mass < b.mass; });
     poses = best;
     rest = {};
   }

@@ -12,10 +12,10 @@
 namespace docent {
 
 struct VirtualMeasurementParams {
-  double confidence = 0.99;      ///< probability with which a virtual measurement underestimates the true distance
-  double cell_padding = 0.05;    ///< [m] the robot may be so far from the centre of its belief cell
-  double max_impossible = 0.5;   ///< when more mass than this lies where the robot cannot be, that is believed
-  bool best_pose_only = false;   ///< crippled, for evaluation: trusts the likeliest pose
+  double confidence = 0.99;     ///< probability with which a virtual measurement underestimates the true distance
+  double cell_padding = 0.05;   ///< [m] the robot may be so far from the centre of its belief cell
+  double max_impossible = 0.5;  ///< when more mass than this lies where the robot cannot be, that is believed
+  bool best_pose_only = false;  ///< crippled, for evaluation: trusts the likeliest pose
   template <class V>
   void visit(V& v) {
     v("confidence", confidence);

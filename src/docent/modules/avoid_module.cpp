@@ -16,13 +16,18 @@ constexpr double kHeartbeat = 0.1;
 constexpr double kWindowPeriod = 0.5;
 
 BaseLimits limits_of(const RobotBody& body) {
-  return {body.radius,           body.max_speed, body.max_turn_rate, body.acceleration, body.deceleration,
-          body.turn_acceleration, body.latency,  body.watchdog};
+  return {body.radius,       body.max_speed,         body.max_turn_rate, body.acceleration,
+          body.deceleration, body.turn_acceleration, body.latency,       body.watchdog};
 }
 
 RangeSweep to_sweep(const sensor_msgs::LaserScan& scan, const Pose2& base_from_sensor) {
-  return {from_message(scan.header.stamp), base_from_sensor, scan.angle_min, scan.angle_increment, scan.range_min,
-          scan.range_max,                  scan.ranges};
+  return {from_message(scan.header.stamp),
+          base_from_sensor,
+          scan.angle_min,
+          scan.angle_increment,
+          scan.range_min,
+          scan.range_max,
+          scan.ranges};
 }
 
 const char* name_of(AvoiderDecision::State state) {
@@ -63,9 +68,9 @@ class AvoidModule final : public Module {
  private:
   void subscribe_sensors() {
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const nav_msgs::Odometry& odometry) {
-      avoider_.add_odometry(bus_.now(), from_message(odometry.header.stamp),
-                            {from_message(odometry.pose.pose),
-                             {odometry.twist.twist.linear.x, odometry.twist.twist.angular.z}});
+      avoider_.add_odometry(
+          bus_.now(), from_message(odometry.header.stamp),
+          {from_message(odometry.pose.pose), {odometry.twist.twist.linear.x, odometry.twist.twist.angular.z}});
     });
     bus_.subscribe<sensor_msgs::LaserScan>(topics::kScanFront, [this](const sensor_msgs::LaserScan& scan) {
       see(0, scan, body_.scan_front.base_from_sensor());
@@ -99,7 +104,8 @@ class AvoidModule final : public Module {
     });
     bus_.subscribe<docent_msgs::PersonBeams>(topics::kPersonBeams, [this](const docent_msgs::PersonBeams& beams) {
       std::vector<Point2> points;
-      for (std::size_t i = 0; i < std::min(beams.x.size(), beams.y.size()); ++i) points.push_back({beams.x[i], beams.y[i]});
+      for (std::size_t i = 0; i < std::min(beams.x.size(), beams.y.size()); ++i)
+        points.push_back({beams.x[i], beams.y[i]});
       avoider_.add_person_beams(bus_.now(), from_message(beams.header.stamp), points, beams.localized);
     });
   }

@@ -2,15 +2,21 @@
 
 #include <array>
 
+#include "docent/modules/avoid_module.h"
+#include "docent/modules/hazards_module.h"
 #include "docent/modules/map_module.h"
 #include "docent/modules/plan_module.h"
+#include "docent/modules/robot_module.h"
 
 namespace docent {
 namespace {
 
 constexpr std::array kModules{
+    ModuleEntry{"avoid", make_avoid},
+    ModuleEntry{"hazards", make_hazards},
     ModuleEntry{"map", make_map},
     ModuleEntry{"plan", make_plan},
+    ModuleEntry{"robot", make_robot},
 };
 
 }  // namespace

@@ -36,10 +36,10 @@ class RobotModule final : public Module {
     });
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const nav_msgs::Odometry& odometry) {
       odometry_received_ = bus_.now();
-      transforms_.publish({{{odometry.header,
-                             "base_link",
-                             {{odometry.pose.pose.position.x, odometry.pose.pose.position.y, 0.0},
-                              odometry.pose.pose.orientation}}}});
+      transforms_.publish(
+          {{{odometry.header,
+             "base_link",
+             {{odometry.pose.pose.position.x, odometry.pose.pose.position.y, 0.0}, odometry.pose.pose.orientation}}}});
     });
     bus_.subscribe<sensor_msgs::BatteryState>(
         topics::kBattery, [this](const sensor_msgs::BatteryState& battery) { battery_ = battery.percentage; });
@@ -60,9 +60,10 @@ class RobotModule final : public Module {
   void publish_mounts(const RobotBody& body) {
     tf2_msgs::TFMessage mounts;
     const auto add = [&](const std::string& frame, const Pose2& base_from_sensor) {
-      mounts.transforms.push_back({{to_message(bus_.now()), "base_link"},
-                                   frame,
-                                   {{base_from_sensor.x, base_from_sensor.y, 0.0}, to_quaternion(base_from_sensor.theta)}});
+      mounts.transforms.push_back(
+          {{to_message(bus_.now()), "base_link"},
+           frame,
+           {{base_from_sensor.x, base_from_sensor.y, 0.0}, to_quaternion(base_from_sensor.theta)}});
     };
     add(body.scan_front.frame, body.scan_front.base_from_sensor());
     add(body.scan_rear.frame, body.scan_rear.base_from_sensor());

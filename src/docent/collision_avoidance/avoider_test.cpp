@@ -1,0 +1,206 @@
+#include "docent/collision_avoidance/avoider.h"
+
+#include <gtest/gtest.h>
+
+#include "docent/collision_avoidance/rehearsal_for_test.h"
+
+namespace docent {
+namespace {
+
+TEST(Avoider, ReachesWalkingSpeedInTheOpenAndStopsAtTheGoal) {
+  Rehearsal world;
+  world.box(-3, -5, 15, 5);
+  world.drive_to({{1, 0}, {2, 0}, {4, 0}, {8, 0}, {12, 0}});
+  ASSERT_TRUE(world.run_until_arrived(30));
+  EXPECT_GT(world.top_speed, 0.7);
+  EXPECT_LT(to_seconds(world.now), 22.0);
+  EXPECT_LT(world.driven, 12.3);
+}
+
+TEST(Avoider, DrivesThroughADoorOfNinetyCentimetres) {
+  for (const double offset : {0.0, 0.3, -0.3}) {
+    Rehearsal world{7};
+    world.box(-3, -3, 8, 3);
+    world.walls.push_back({{3, -3}, {3, -0.45}});
+    world.walls.push_back({{3, 0.45}, {3, 3}});
+    world.walls.push_back({{3.2, -3}, {3.2, -0.45}});
+    world.walls.push_back({{3.2, 0.45}, {3.2, 3}});
+    world.map_from_base = {0.0, offset, {}};
+    world.drive_to({{1, 0}, {2, 0}, {3.1, 0}, {4.5, 0}, {6, 0}});
+    EXPECT_TRUE(world.run_until_arrived(30)) << "from y = " << offset << ", at " << world.map_from_base.x;
+    EXPECT_GT(world.least_wall, 0.05);
+    EXPECT_LT(to_seconds(world.now), 20.0);
+  }
+}
+
+TEST(Avoider, TurnsOnTheSpotAndFindsBack) {
+  Rehearsal world;
+  world.box(-3, -3, 6, 3);
+  world.drive_to({{-2, 0}});
+  ASSERT_TRUE(world.run_until_arrived(30));
+  EXPECT_LT(world.driven, 2.6);
+  world.target.mode = AvoiderTarget::Mode::turn;
+  world.target.heading = Angle::degrees(-30);
+  world.run(8);
+  EXPECT_NEAR(world.map_from_base.theta.degrees(), -30.0, 6.0);
+  EXPECT_LT(std::abs(world.velocity.angular), 0.01);
+}
+
+TEST(Avoider, KeepsClearOfAHazardThatNoSensorSees) {
+  Rehearsal world;
+  world.box(-3, -5, 12, 5);
+  world.hazards = sides({{3, -1}, {5, -1}, {5, 1}, {3, 1}});
+  world.drive_to({{8, 0}});  // straight through
+  world.run(40);
+  EXPECT_GT(world.least_wall, 0.12);
+}
+
+TEST(Avoider, PassesBesideAHazardAlongViaPoints) {
+  Rehearsal world;
+  world.box(-3, -1.7, 12, 5);
+  world.hazards = sides({{3, -0.4}, {5, -0.4}, {5, 1}, {3, 1}});  // leaves 1.3 m to the wall
+  world.drive_to({{1, -0.5}, {2, -1.05}, {3, -1.05}, {4, -1.05}, {5, -1.05}, {6, -0.7}, {8, 0}});
+  EXPECT_TRUE(world.run_until_arrived(60));
+  EXPECT_GT(world.least_wall, 0.06);
+}
+
+TEST(Avoider, DoesNotPushAPersonWhoComesTowardsIt) {
+  for (const double speed : {0.5, 0.9, 1.3}) {
+    Rehearsal world{3};
+    world.box(-3, -4, 20, 4);
+    world.drive_to({{2, 0}, {4, 0}, {8, 0}, {15, 0}});
+    world.people.push_back({{9, 0.1}, {-speed, 0.0}});
+    world.run(14);
+    EXPECT_LE(world.worst_push, 0.1) << "a person at " << speed << " m/s";
+  }
+}
+
+TEST(Avoider, DoesNotPushAPersonWhoCrosses) {
+  for (const double start : {1.5, 2.0, 2.5, 3.0, 3.5}) {
+    Rehearsal world{5};
+    world.box(-3, -6, 20, 6);
+    world.drive_to({{2, 0}, {4, 0}, {8, 0}, {15, 0}});
+    world.people.push_back({{4.0, start}, {0.0, -0.8}});
+    world.run(12);
+    EXPECT_LE(world.worst_push, 0.1) << "from y = " << start;
+  }
+}
+
+TEST(Avoider, GoesRoundAPersonWhoStandsInTheWay) {
+  Rehearsal world;
+  world.box(-3, -3, 12, 3);
+  world.people.push_back({{4, 0.05}});
+  world.drive_to({{1, 0}, {2, 0}, {4, 0}, {6, 0}, {8, 0}});
+  EXPECT_TRUE(world.run_until_arrived(60)) << "at " << world.map_from_base.x << "," << world.map_from_base.y;
+  EXPECT_LE(world.worst_push, 0.0);
+}
+
+TEST(Avoider, SaysThatTheWayIsBlocked) {
+  Rehearsal world;
+  world.box(-3, -1, 12, 1);
+  for (const double y : {-0.8, -0.4, 0.0, 0.4, 0.8}) world.people.push_back({{4, y}});
+  world.drive_to({{1, 0}, {2, 0}, {4, 0}, {6, 0}, {8, 0}});
+  world.run(20);
+  EXPECT_TRUE(world.decision.path_blocked) << world.decision.reason;
+  EXPECT_LT(std::abs(world.velocity.linear), 0.06);
+  EXPECT_EQ(world.worst_push, 0.0);
+}
+
+TEST(Avoider, StandsWhenAnythingItNeedsFallsSilentAndGoesOnWhenItReturns) {
+  const std::vector<std::pair<bool Rehearsal::*, const char*>> parts{{&Rehearsal::front_works, "front laser"},
+                                                                     {&Rehearsal::rear_works, "rear laser"},
+                                                                     {&Rehearsal::odometry_works, "odometry"},
+                                                                     {&Rehearsal::virtual_works, "virtual"},
+                                                                     {&Rehearsal::target_works, "target"}};
+  for (const auto& [part, name] : parts) {
+    Rehearsal world;
+    world.box(-3, -5, 40, 5);
+    world.drive_to({{2, 0}, {4, 0}, {8, 0}, {30, 0}});
+    world.run(5);
+    ASSERT_GT(world.velocity.linear, 0.5);
+    world.*part = false;
+    world.run(3.0);
+    EXPECT_EQ(world.velocity.linear, 0.0) << name;
+    EXPECT_NE(world.decision.reason.find(name), std::string::npos) << world.decision.reason;
+    world.*part = true;
+    world.run(5);
+    EXPECT_GT(world.velocity.linear, 0.5) << name;
+  }
+}
+
+TEST(Avoider, DoesNotTrustAFrozenLaser) {
+  Rehearsal world;
+  world.box(-3, -5, 40, 5);
+  world.drive_to({{2, 0}, {4, 0}, {8, 0}, {30, 0}});
+  world.run(5);
+  world.front_repeats = true;
+  world.run(1.5);
+  EXPECT_EQ(world.velocity.linear, 0.0);
+  EXPECT_EQ(world.decision.reason, "the front laser is frozen");
+  world.front_repeats = false;
+  world.run(4);
+  EXPECT_GT(world.velocity.linear, 0.5);
+}
+
+TEST(Avoider, DoesNotDriveWhereTheLaserIsBlind) {
+  Rehearsal world;
+  world.box(-3, -5, 40, 5);
+  world.drive_to({{2, 0}, {4, 0}, {8, 0}, {30, 0}});
+  world.blind_from = -1.5;
+  world.blind_to = 1.5;
+  world.run(10);
+  EXPECT_LT(world.driven, 0.3);
+  EXPECT_EQ(world.velocity.linear, 0.0);
+}
+
+TEST(Avoider, GetsFreeFromInsideAMargin) {
+  Rehearsal world;
+  world.box(-3, -3, 6, 3);
+  world.map_from_base = {0.0, -3.0 + world.limits.radius + 0.04, Angle::degrees(-20)};  // nose to the wall
+  world.drive_to({{3, 0}});
+  EXPECT_TRUE(world.run_until_arrived(40)) << world.map_from_base.x << "," << world.map_from_base.y;
+  EXPECT_GT(world.least_wall, 0.015);
+}
+
+TEST(Avoider, GetsFreeWhenTheHazardsJumpNearer) {
+  Rehearsal world;
+  world.box(-3, -3, 6, 3);
+  world.drive_to({{3, 1}});
+  world.hazards = sides({{-1.0, -2}, {2.0, -2}, {2.0, -0.3}, {-1.0, -0.3}});  // 3.5 cm from the outline
+  EXPECT_TRUE(world.run_until_arrived(40)) << world.map_from_base.x << "," << world.map_from_base.y;
+  EXPECT_GT(world.least_wall, 0.01);
+}
+
+TEST(Avoider, NeverTouchesAnythingInRandomClutter) {
+  double driven = 0.0;
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    SCOPED_TRACE(seed);
+    Rng rng{seed};
+    Rehearsal world{seed};
+    world.noise = 0.03;
+    world.box(-4, -4, 12, 4);
+    for (int i = 0; i < 14; ++i) {
+      const Point2 corner{rng.uniform(1.0, 11.0), rng.uniform(-4.0, 4.0)};
+      const double size = rng.uniform(0.1, 0.8);
+      world.box(corner.x, corner.y, corner.x + size, corner.y + size);
+    }
+    world.drive_to({{3, rng.uniform(-2, 2)}, {6, rng.uniform(-2, 2)}, {10, rng.uniform(-2, 2)}});
+    world.run_until_arrived(30);
+    EXPECT_GT(world.least_wall, 0.0);
+    driven += world.driven;
+  }
+  EXPECT_GT(driven, 150.0);
+}
+
+TEST(Horn, SoundsAfterPatienceAndNotTooOften) {
+  Horn horn;
+  int blown = 0;
+  for (int i = 0; i < 80; ++i) {  // 20 s, with a flicker
+    if (horn.is_due(time_from_seconds(0.25 * i), i % 10 != 9)) ++blown;
+  }
+  EXPECT_EQ(blown, 4);
+  EXPECT_FALSE(Horn{}.is_due(time_from_seconds(0), true));
+}
+
+}  // namespace
+}  // namespace docent
