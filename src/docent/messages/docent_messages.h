@@ -646,6 +646,7 @@ struct TrueState {
   double nearest_person_m = 0;  ///< outline to outline
   double blocked_beams = 0;     ///< fraction of the last laser sweep that ended on people
   std::vector<TruePerson> people;
+  double contact_seconds = 0;  ///< so far: time in which something was touched and the wheels turned
   template <class Self, class V>
   static void visit(Self& m, V& v) {
     v("header", m.header);
@@ -660,6 +661,7 @@ struct TrueState {
     v("nearest_person_m", m.nearest_person_m);
     v("blocked_beams", m.blocked_beams);
     v("people", m.people);
+    v("contact_seconds", m.contact_seconds);
   }
 };
 
