@@ -16,6 +16,9 @@ if(DOCENT_SANITIZE)
   target_compile_options(docent_options INTERFACE -fsanitize=${DOCENT_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(docent_options INTERFACE -fsanitize=${DOCENT_SANITIZE})
 endif()
+if(DOCENT_FUZZERS)  # a fuzzer that does not see which way its input took finds nothing
+  target_compile_options(docent_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 
 set(DOCENT_SOURCE_ROOT ${CMAKE_SOURCE_DIR}/src/docent)
 
