@@ -14,7 +14,7 @@ constexpr double kRoom = 0.10;          // [m] of air that the robot wants round
 
 std::string metres(double value) {
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.2f m", value);
+  std::snprintf(text.data(), text.size(), "%.3g m", value);
   return text.data();
 }
 

@@ -5,7 +5,8 @@
 #include <cctype>
 #include <cmath>
 #include <set>
-#include <string_view>
+
+#include "docent/museum/languages.h"
 
 namespace docent {
 namespace {
@@ -13,14 +14,6 @@ namespace {
 constexpr double kFarthest = 10'000.0;           // [m]; coordinates beyond it are a slip of the pen
 constexpr std::size_t kLongestText = 16 * 1024;  // [bytes]; about 20 minutes of speech
 constexpr std::size_t kLongestId = 40;
-// ISO 639-1.
-constexpr std::string_view kLanguages =
-    " aa ab ae af ak am an ar as av ay az ba be bg bi bm bn bo br bs ca ce ch co cr cs cu cv cy da de dv dz ee el en "
-    "eo "
-    "es et eu fa ff fi fj fo fr fy ga gd gl gn gu gv ha he hi ho hr ht hu hy hz ia id ie ig ii ik io is it iu ja jv ka "
-    "kg ki kj kk kl km kn ko kr ks ku kv kw ky la lb lg li ln lo lt lu lv mg mh mi mk ml mn mr ms mt my na nb nd ne ng "
-    "nl nn no nr nv ny oc oj om or os pa pi pl ps pt qu rm rn ro ru rw sa sc sd se sg si sk sl sm sn so sq sr ss st su "
-    "sv sw ta te tg th ti tk tl tn to tr ts tt tw ty ug uk ur uz ve vi vo wa wo xh yi yo za zh zu ";
 struct NamedHazard {
   const char* name;
   HazardKind kind;
@@ -50,24 +43,6 @@ struct PoseYaml {
   }
   [[nodiscard]] Pose2 pose() const { return {x, y, Angle::degrees(heading)}; }
 };
-
-bool is_utf8(const std::string& text) {
-  std::size_t i = 0;
-  while (i < text.size()) {
-    const auto lead = static_cast<unsigned char>(text[i]);
-    const std::size_t length = lead < 0x80             ? 1
-                               : (lead & 0xE0) == 0xC0 ? 2
-                               : (lead & 0xF0) == 0xE0 ? 3
-                               : (lead & 0xF8) == 0xF0 ? 4
-                                                       : 0;
-    if (length == 0 || i + length > text.size()) return false;
-    for (std::size_t k = 1; k < length; ++k) {
-      if ((static_cast<unsigned char>(text[i + k]) & 0xC0) != 0x80) return false;
-    }
-    i += length;
-  }
-  return true;
-}
 
 class MuseumYamlReader {
  public:
@@ -142,7 +117,7 @@ class MuseumYamlReader {
   void read_languages(const YAML::Node& node) {
     for (const auto& entry : list(required(file_.root(), node, "languages"), "languages")) {
       const std::string language = text(entry, "a language");
-      if (language.size() != 2 || kLanguages.find(" " + language + " ") == std::string_view::npos) {
+      if (!is_language(language)) {
         throw fault(entry, "unknown language '" + language + "' (two letters of ISO 639-1, such as en, de)");
       }
       if (knows(language)) throw fault(entry, "language '" + language + "' stands twice");
