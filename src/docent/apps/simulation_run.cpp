@@ -2,25 +2,24 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <thread>
 
+#include "docent/base/files.h"
 #include "docent/base/random.h"
 #include "docent/evaluation/deployment_report.h"
 #include "docent/messages/conversions.h"
 #include "docent/pictures/colors.h"
 #include "docent/pictures/drawing.h"
 #include "docent/pictures/map_picture.h"
-#include "docent/recording/mcap_writer.h"
+#include "docent/recording/recorder.h"
 #include "docent/simulator/simulated_museum.h"
 #include "docent/simulator/world/world.h"
 
 namespace docent {
 namespace {
-
-constexpr Duration kFlushPeriod = std::chrono::seconds{1};
 
 /// A folder of its own that goes when the run goes.
 class TemporaryFolder {
