@@ -6,6 +6,7 @@
 #include "docent/apps/command.h"
 #include "docent/apps/plan_command.h"
 #include "docent/apps/run_command.h"
+#include "docent/apps/simulate_command.h"
 #include "docent/apps/survey_command.h"
 #include "docent/apps/up_command.h"
 
@@ -16,6 +17,7 @@ int main(int argc, char** argv) {
   docent::add_check_command(app);
   docent::add_plan_command(app);
   docent::add_run_command(app);
+  docent::add_simulate_command(app);
   docent::add_survey_command(app);
   docent::add_up_command(app);
   try {

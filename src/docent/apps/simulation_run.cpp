@@ -8,7 +8,7 @@
 
 #include "docent/apps/deployment.h"
 #include "docent/apps/simulation_picture.h"
-#include "docent/evaluation/deployment_report.h"
+#include "docent/evaluation/deployment_evaluator.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/module_host.h"
 #include "docent/recording/recorder.h"
@@ -61,7 +61,7 @@ class SimulationRun::Parts {
       : museum_{std::move(museum)}, config_{std::move(config)}, options_{options} {
     hub_.tap([this](const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
       const auto start = std::chrono::steady_clock::now();
-      report_.add(topic, time, message);
+      evaluator_.add(topic, time, message);
       picture_.add(topic, message);
       if (recorder_ && failure_.empty()) {
         if (auto written = recorder_->write(topic, time, message); !written) failure_ = written.error().message;
@@ -103,17 +103,17 @@ class SimulationRun::Parts {
     return {};
   }
 
-  [[nodiscard]] DeploymentReport::RunFacts facts() const {
-    DeploymentReport::RunFacts facts;
-    facts.wall_seconds = wall_s_;
+  [[nodiscard]] RunCost cost() const {
+    RunCost result;
+    result.wall_seconds = wall_s_;
     for (const auto& [name, cost] : hub_.costs()) {
       if (cost.steps_ms.empty()) continue;
       std::vector<float> steps = cost.steps_ms;
       const auto place = steps.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(steps.size() - 1));
       std::nth_element(steps.begin(), place, steps.end());
-      facts.p99_ms[name] = static_cast<double>(*place);
+      result.p99_ms[name] = static_cast<double>(*place);
     }
-    return facts;
+    return result;
   }
 
   Museum museum_;
@@ -122,7 +122,7 @@ class SimulationRun::Parts {
   TemporaryFolder temporary_;
   std::filesystem::path state_;
   VirtualTimeHub hub_;
-  DeploymentReport report_;
+  DeploymentEvaluator evaluator_;
   SimulationPicture picture_;
   std::optional<Recorder> recorder_;
   std::string failure_;
@@ -232,9 +232,15 @@ Result<std::unique_ptr<SimulationRun>> SimulationRun::create(const SimulationRun
 
 Result<void> SimulationRun::run_until(Time end) { return parts_->run_until(end); }
 Time SimulationRun::now() const { return parts_->hub_.now(); }
-std::string SimulationRun::report_json() const { return parts_->report_.json(parts_->facts()); }
-std::string SimulationRun::summary() const { return parts_->report_.summary(parts_->facts()); }
-std::string SimulationRun::status() const { return parts_->report_.status(); }
+std::string SimulationRun::report_json() const { return to_json(parts_->evaluator_.report(), parts_->cost()); }
+std::string SimulationRun::summary() const { return summary_table(parts_->evaluator_.report(), parts_->cost()); }
+std::string SimulationRun::status() const {
+  const DeploymentReport report = parts_->evaluator_.report();
+  char text[160];
+  std::snprintf(text, sizeof text, "%.2f km, %d explained, %d of %d requests, %d contacts", report.distance_m / 1000.0,
+                report.exhibits_explained, report.requests.fulfilled, report.requests.offered, report.contacts.all());
+  return text;
+}
 
 std::map<std::string, double> SimulationRun::wall_seconds_by_module() const {
   std::map<std::string, double> seconds;
