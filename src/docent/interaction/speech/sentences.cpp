@@ -19,13 +19,13 @@ constexpr std::array<Pair, 14> kSentences{{
      "Ich bin zu Hause und zeige Ihnen gern etwas. Wählen Sie eine Führung oder ein Exponat!"},
     {"I am taking a short break. Choose a tour or an exhibit!",
      "Ich mache eine kurze Pause. Wählen Sie eine Führung oder ein Exponat!"},
-    {"I am on my way to {}. Please follow me!", "Ich bin auf dem Weg zu: {}. Bitte folgen Sie mir!"},
-    {"I would like to go to {}, but someone is in my way.", "Ich möchte zu: {}, aber jemand steht mir im Weg."},
-    {"I am telling you about {}.", "Ich erzähle gerade etwas über: {}."},
-    {"Shall I tell you more about {}, or shall we go on?", "Soll ich mehr erzählen über: {}, oder gehen wir weiter?"},
+    {"I am on my way to {}. Please follow me!", "Nächstes Ziel: {}. Bitte folgen Sie mir!"},
+    {"I would like to go to {}, but someone is in my way.", "Nächstes Ziel: {}, aber jemand steht mir im Weg."},
+    {"I am telling you about {}.", "Ich erkläre gerade: {}."},
+    {"Shall I tell you more about {}, or shall we go on?", "{}: Soll ich mehr erzählen, oder gehen wir weiter?"},
     {"I am on my way home. See you soon!", "Ich fahre nach Hause. Bis bald!"},
     {"My battery is low. I need a rest.", "Meine Batterie ist fast leer. Ich brauche eine Pause."},
-    {"Please follow me to {}.", "Bitte folgen Sie mir zu: {}."},
+    {"Please follow me to {}.", "Nächstes Ziel: {}. Bitte folgen Sie mir."},
     {"Please let me through.", "Bitte lassen Sie mich durch."},
     {"Would you like to hear more, or shall we go on?", "Möchten Sie mehr hören, oder gehen wir weiter?"},
     {"Here I am again. It was nice with you! Who would like to see something?",
@@ -38,8 +38,11 @@ std::string sentence(Sentence which, std::string_view language, std::string_view
   const Pair& pair = kSentences[static_cast<std::size_t>(which)];
   std::string text = language == "de" ? pair.german : pair.english;
   const std::size_t place = text.find("{}");
-  if (place != std::string::npos) text.replace(place, 2, title);
-  return text;
+  if (place == std::string::npos) return text;
+  std::string name{title};
+  const bool has_article = name.rfind("The ", 0) == 0 || name.rfind("A ", 0) == 0 || name.rfind("An ", 0) == 0;
+  if (language != "de" && has_article) name.front() = name.front() == 'T' ? 't' : 'a';
+  return text.replace(place, 2, name);
 }
 
 }  // namespace docent

@@ -18,7 +18,7 @@ TEST(Sentences, AreAllThereInBothLanguages) {
     EXPECT_EQ(english, sentence(which, "fr", "Sputnik"));
     EXPECT_TRUE(std::string{".!?"}.find(english.back()) != std::string::npos);
   }
-  EXPECT_EQ(sentence(Sentence::driving, "en", "the cyclotron"), "I am on my way to the cyclotron. Please follow me!");
+  EXPECT_EQ(sentence(Sentence::driving, "en", "The cyclotron"), "I am on my way to the cyclotron. Please follow me!");
 }
 
 }  // namespace

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <filesystem>
+
+#include "docent/base/result.h"
+#include "docent/task_control/executive/executive.h"
+
+namespace docent {
+
+/// Writes the memory as JSON, atomically.
+[[nodiscard]] Result<void> save_checkpoint(const std::filesystem::path& path, const ExecutiveMemory& memory);
+/// No file: a fresh memory. Error: "FILE: why" for a file that is damaged.
+[[nodiscard]] Result<ExecutiveMemory> load_checkpoint(const std::filesystem::path& path);
+
+}  // namespace docent
