@@ -17,6 +17,7 @@ class ExecutiveModule final : public Module {
       : bus_{context.bus},
         museum_{context.museum},
         checkpoint_{context.state / "executive.json"},
+        survives_{context.virtual_time ? Survives::process_death : Survives::power_failure},
         executive_{params, std::move(memory), bus_.now()},
         fault_{std::move(fault)},
         goal_{bus_.publisher(topics::kDriveGoal)},
@@ -70,7 +71,7 @@ class ExecutiveModule final : public Module {
     Executive::Actions actions = executive_.take_actions();
     if (actions.must_save) {
       // A robot whose disk is full goes on guiding; only a restart would forget the step.
-      auto saved = save_checkpoint(checkpoint_, executive_.memory());
+      auto saved = save_checkpoint(checkpoint_, executive_.memory(), survives_);
       fault_ = saved ? "" : saved.error().message;
     }
     if (actions.drive) {
@@ -109,6 +110,7 @@ class ExecutiveModule final : public Module {
   Bus& bus_;
   const Museum& museum_;
   std::filesystem::path checkpoint_;
+  Survives survives_;
   Executive executive_;
   std::string fault_;
   Publisher<docent_msgs::DriveGoal> goal_;

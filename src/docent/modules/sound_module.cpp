@@ -91,6 +91,7 @@ class SoundModule final : public Module {
   SoundModule(const ModuleContext& context, const SoundParams& params, SpeakerMemory memory)
       : bus_{context.bus},
         checkpoint_{context.state / "sound.json"},
+        survives_{context.virtual_time ? Survives::process_death : Survives::power_failure},
         speaker_{std::move(memory), bus_.now()},
         state_{bus_.publisher(topics::kSpeechState)} {
     if (!context.virtual_time && !params.program.empty()) {
@@ -160,7 +161,7 @@ class SoundModule final : public Module {
   }
 
   void save() {
-    auto saved = save_checkpoint(checkpoint_, speaker_.memory());
+    auto saved = save_checkpoint(checkpoint_, speaker_.memory(), survives_);
     disk_fault_ = saved ? "" : saved.error().message;
   }
 
@@ -189,6 +190,7 @@ class SoundModule final : public Module {
 
   Bus& bus_;
   std::filesystem::path checkpoint_;
+  Survives survives_;
   Speaker speaker_;
   Publisher<docent_msgs::SpeechState> state_;
   double volume_ = 1.0;

@@ -45,7 +45,7 @@ void Speaker::retire() {
   if (memory_.finished.size() > kRemembered) memory_.finished.pop_front();
 }
 
-Result<void> save_checkpoint(const std::filesystem::path& path, const SpeakerMemory& memory) {
+Result<void> save_checkpoint(const std::filesystem::path& path, const SpeakerMemory& memory, Survives survives) {
   const Speech& present = memory.present;
   const Json json{{"id", present.id},
                   {"text", present.text},
@@ -56,7 +56,7 @@ Result<void> save_checkpoint(const std::filesystem::path& path, const SpeakerMem
                   {"duration_s", present.duration_s},
                   {"audio", present.audio},
                   {"finished", memory.finished}};
-  return write_file_atomically(path, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  return write_file_atomically(path, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n", survives);
 }
 
 Result<SpeakerMemory> load_speaker_checkpoint(const std::filesystem::path& path) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "docent/base/files.h"
 #include "docent/base/result.h"
 #include "docent/base/time.h"
 
@@ -65,7 +66,8 @@ class Speaker {
   std::optional<Say> expected_;
 };
 
-[[nodiscard]] Result<void> save_checkpoint(const std::filesystem::path& path, const SpeakerMemory& memory);
+[[nodiscard]] Result<void> save_checkpoint(const std::filesystem::path& path, const SpeakerMemory& memory,
+                                           Survives survives = Survives::power_failure);
 /// No file: nothing was said. Error: "FILE: why".
 [[nodiscard]] Result<SpeakerMemory> load_speaker_checkpoint(const std::filesystem::path& path);
 

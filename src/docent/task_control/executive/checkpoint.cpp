@@ -8,7 +8,7 @@ namespace docent {
 
 using Json = nlohmann::json;
 
-Result<void> save_checkpoint(const std::filesystem::path& path, const ExecutiveMemory& memory) {
+Result<void> save_checkpoint(const std::filesystem::path& path, const ExecutiveMemory& memory, Survives survives) {
   const TaskOrder& order = memory.task.order;
   const Pose2& pose = order.map_from_base;
   const Json json{{"step", to_text(memory.step)},
@@ -28,7 +28,7 @@ Result<void> save_checkpoint(const std::filesystem::path& path, const ExecutiveM
                     {"offer_more", order.offer_more},
                     {"tour", order.tour_id}}}};
   // Texts come from files of people: what is not UTF-8 is replaced, not fatal.
-  return write_file_atomically(path, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  return write_file_atomically(path, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n", survives);
 }
 
 Result<ExecutiveMemory> load_checkpoint(const std::filesystem::path& path) {
