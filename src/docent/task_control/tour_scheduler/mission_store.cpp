@@ -175,8 +175,8 @@ Result<MissionStore> MissionStore::open(const std::filesystem::path& path, const
   try {
     auto connection = std::make_unique<Connection>(Connection{
         path.string(), SQLite::Database{path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, 2000}, "", ""});
-    connection->database.exec("PRAGMA journal_mode = WAL");
     connection->database.exec(is_durable ? "PRAGMA synchronous = FULL" : "PRAGMA synchronous = OFF");
+    connection->database.exec("PRAGMA journal_mode = WAL");
     SQLite::Transaction transaction{connection->database};
     connection->database.exec(kSchema);
     if (connection->fact("deployment").empty()) connection->set_fact("deployment", new_deployment);
