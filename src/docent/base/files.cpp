@@ -23,7 +23,7 @@ Result<std::string> read_file(const std::filesystem::path& path) {
   return content.str();
 }
 
-Result<void> write_file_atomically(const std::filesystem::path& path, std::string_view content) {
+Result<void> write_file_atomically(const std::filesystem::path& path, std::string_view content, Survives survives) {
   const std::string beside = path.string() + ".part" + std::to_string(::getpid());
   const int file = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (file < 0) return fail(path.string() + ": cannot be written: " + std::strerror(errno));
@@ -33,7 +33,7 @@ Result<void> write_file_atomically(const std::filesystem::path& path, std::strin
     if (written < 0 && errno != EINTR) reason = std::strerror(errno);
     if (written > 0) content.remove_prefix(static_cast<std::size_t>(written));
   }
-  if (reason.empty() && ::fsync(file) != 0) reason = std::strerror(errno);
+  if (reason.empty() && survives == Survives::power_failure && ::fsync(file) != 0) reason = std::strerror(errno);
   ::close(file);
   if (reason.empty() && ::rename(beside.c_str(), path.c_str()) != 0) reason = std::strerror(errno);
   if (reason.empty()) return {};

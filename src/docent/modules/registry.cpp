@@ -4,20 +4,28 @@
 
 #include "docent/modules/avoid_module.h"
 #include "docent/modules/hazards_module.h"
+#include "docent/modules/executive_module.h"
 #include "docent/modules/map_module.h"
+#include "docent/modules/mission_module.h"
 #include "docent/modules/plan_module.h"
 #include "docent/modules/robot_module.h"
+#include "docent/modules/sound_module.h"
 
 namespace docent {
 namespace {
 
+// clang-format off
 constexpr std::array kModules{
     ModuleEntry{"avoid", make_avoid},
     ModuleEntry{"hazards", make_hazards},
     ModuleEntry{"map", make_map},
     ModuleEntry{"plan", make_plan},
     ModuleEntry{"robot", make_robot},
+    ModuleEntry{"sound", make_sound},
+    ModuleEntry{"mission", make_mission},
+    ModuleEntry{"executive", make_executive},
 };
+// clang-format on
 
 }  // namespace
 

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "docent/modules/module.h"
+
+namespace docent {
+
+/// `executive`: does the mission's task step by step. Checkpoint: state/executive.json.
+[[nodiscard]] Result<std::unique_ptr<Module>> make_executive(const ModuleContext& context);
+
+}  // namespace docent

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "docent/modules/module.h"
+
+namespace docent {
+
+/// `sound`: says what is ordered, one line at a time. In virtual time the words alone, with a foretold duration; else
+/// espeak-ng renders them to state/audio/HASH.wav. Checkpoint: state/sound.json.
+[[nodiscard]] Result<std::unique_ptr<Module>> make_sound(const ModuleContext& context);
+
+}  // namespace docent

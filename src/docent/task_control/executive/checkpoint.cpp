@@ -1,0 +1,66 @@
+#include "docent/task_control/executive/checkpoint.h"
+
+#include <nlohmann/json.hpp>
+
+#include "docent/base/files.h"
+
+namespace docent {
+
+using Json = nlohmann::json;
+
+Result<void> save_checkpoint(const std::filesystem::path& path, const ExecutiveMemory& memory, Survives survives) {
+  const TaskOrder& order = memory.task.order;
+  const Pose2& pose = order.map_from_base;
+  const Json json{{"step", to_text(memory.step)},
+                  {"step_began", memory.step_began.nanoseconds},
+                  {"drive_began", memory.drive_began.nanoseconds},
+                  {"reason", memory.reason},
+                  {"took_long", memory.took_long},
+                  {"title", memory.task.title},
+                  {"short", memory.task.short_text},
+                  {"long", memory.task.long_text},
+                  {"order",
+                   {{"id", order.id},
+                    {"kind", order.kind},
+                    {"exhibit", order.exhibit_id},
+                    {"pose", {pose.x, pose.y, pose.theta.radians()}},
+                    {"language", order.language},
+                    {"offer_more", order.offer_more},
+                    {"tour", order.tour_id}}}};
+  // Texts come from files of people: what is not UTF-8 is replaced, not fatal.
+  return write_file_atomically(path, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n", survives);
+}
+
+Result<ExecutiveMemory> load_checkpoint(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) return ExecutiveMemory{};
+  const auto text = read_file(path);
+  if (!text) return tl::unexpected(text.error());
+  try {
+    const Json json = Json::parse(*text);
+    ExecutiveMemory memory;
+    const auto step = step_of(json.at("step").get<std::string>());
+    if (!step) return fail(path.string() + ": unknown step");
+    memory.step = *step;
+    memory.step_began = {json.at("step_began").get<std::int64_t>()};
+    memory.drive_began = {json.at("drive_began").get<std::int64_t>()};
+    memory.reason = json.at("reason").get<std::string>();
+    memory.took_long = json.at("took_long").get<bool>();
+    memory.task.title = json.at("title").get<std::string>();
+    memory.task.short_text = json.at("short").get<std::string>();
+    memory.task.long_text = json.at("long").get<std::string>();
+    const Json& order = json.at("order");
+    const Json& pose = order.at("pose");
+    memory.task.order = {order.at("id").get<std::string>(),
+                         order.at("kind").get<std::string>(),
+                         order.at("exhibit").get<std::string>(),
+                         {pose.at(0).get<double>(), pose.at(1).get<double>(), Angle::radians(pose.at(2).get<double>())},
+                         order.at("language").get<std::string>(),
+                         order.at("offer_more").get<bool>(),
+                         order.at("tour").get<std::string>()};
+    return memory;
+  } catch (const Json::exception& why) {
+    return fail(path.string() + ": " + why.what());
+  }
+}
+
+}  // namespace docent

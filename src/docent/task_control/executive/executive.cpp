@@ -1,0 +1,295 @@
+#include "docent/task_control/executive/executive.h"
+
+#include <algorithm>
+#include <array>
+
+#include "docent/interaction/speech/sentences.h"
+#include "docent/interaction/speech/spoken_text.h"
+
+namespace docent {
+namespace {
+
+constexpr std::array<const char*, 8> kSteps{"idle",   "driving",         "relocalizing", "explaining",
+                                            "asking", "explaining_more", "done",         "failed"};
+
+bool is_positive(double value) { return value > 0.0; }
+
+}  // namespace
+
+const char* to_text(Step step) { return kSteps[static_cast<std::size_t>(step)]; }
+
+std::optional<Step> step_of(const std::string& text) {
+  for (std::size_t i = 0; i < kSteps.size(); ++i) {
+    if (text == kSteps[i]) return static_cast<Step>(i);
+  }
+  return std::nullopt;
+}
+
+Result<void> ExecutiveParams::validate() const {
+  if (!is_positive(blocked_patience_s)) return fail("executive.blocked_patience_s must be > 0");
+  if (!is_positive(unreachable_patience_s)) return fail("executive.unreachable_patience_s must be > 0");
+  if (!is_positive(max_drive_s)) return fail("executive.max_drive_s must be > 0");
+  if (!is_positive(please_every_s)) return fail("executive.please_every_s must be > 0");
+  if (!(please_after_s >= 0.0)) return fail("executive.please_after_s must be >= 0");
+  if (!is_positive(offer_s)) return fail("executive.offer_s must be > 0");
+  if (!is_positive(resend_s)) return fail("executive.resend_s must be > 0");
+  if (!is_positive(checkpoint_age_s)) return fail("executive.checkpoint_age_s must be > 0");
+  return {};
+}
+
+Executive::Executive(const ExecutiveParams& params, ExecutiveMemory memory, Time now)
+    : params_{params}, memory_{std::move(memory)} {
+  resume(now);
+}
+
+void Executive::resume(Time now) {
+  // A clock that went back belongs to another life.
+  memory_.step_began = std::min(memory_.step_began, now);
+  memory_.drive_began = std::min(memory_.drive_began, now);
+  if (is_speaking() || memory_.step == Step::asking) {
+    if (now - memory_.step_began > seconds(params_.checkpoint_age_s)) {
+      enter(Step::driving, now);
+      return;
+    }
+  }
+  send_drive();
+  report();
+}
+
+void Executive::set_task(ExecutiveTask task, Time now) {
+  if (task.order.id == memory_.task.order.id) return;
+  memory_ = {};
+  memory_.task = std::move(task);
+  goal_ = {};
+  const TaskOrder& order = memory_.task.order;
+  if (order.id.empty()) {
+    enter(Step::idle, now);
+  } else if (order.kind == "visit" || order.kind == "home") {
+    if (order.kind == "visit") {
+      say("announcement", sentence(Sentence::announcement, order.language, memory_.task.title), "happy");
+    }
+    memory_.drive_began = now;
+    enter(Step::driving, now);
+  } else if (order.kind == "relocalize") {
+    enter(Step::relocalizing, now);
+  } else {
+    finish(false, "I do not know the task '" + order.kind + "'.", now);
+  }
+}
+
+std::string Executive::own_id(const std::string& name) const { return memory_.task.order.id + "/" + name; }
+
+bool Executive::is_speaking() const {
+  return memory_.step == Step::explaining || memory_.step == Step::explaining_more;
+}
+
+void Executive::enter(Step step, Time now) {
+  memory_.step = step;
+  memory_.step_began = now;
+  stuck_since_.reset();
+  unreachable_since_.reset();
+  person_since_.reset();
+  please_said_.reset();
+  please_count_ = 0;
+  heard_.reset();
+  speech_sent_.reset();
+  note_.clear();
+  actions_.must_save = true;
+  if (step == Step::idle || step == Step::driving || step == Step::relocalizing || step == Step::failed) send_drive();
+  if (is_speaking()) send_speech(now);
+  if (step == Step::asking) {
+    say("question", question().text, "neutral");
+    actions_.happenings.push_back({"prompt_shown", memory_.task.order.exhibit_id, question().id, params_.offer_s});
+  }
+  report();
+}
+
+void Executive::finish(bool is_success, const std::string& reason, Time now) {
+  memory_.reason = reason;
+  enter(is_success ? Step::done : Step::failed, now);
+}
+
+void Executive::send_drive() {
+  const TaskOrder& order = memory_.task.order;
+  switch (memory_.step) {
+    case Step::idle:
+    case Step::failed:
+      actions_.drive = DriveOrder{};
+      break;
+    case Step::relocalizing:
+      actions_.drive = DriveOrder{own_id("relocalize"), {}, true};
+      break;
+    default:  // the heading of the place is the one that faces the exhibit
+      actions_.drive = order.kind == "relocalize" ? DriveOrder{} : DriveOrder{own_id("drive"), order.map_from_base};
+      break;
+  }
+}
+
+void Executive::say(const std::string& name, const std::string& text, const std::string& mood) {
+  actions_.utterances.push_back({own_id(name), text, memory_.task.order.language, mood});
+}
+
+Utterance Executive::speech() const {
+  const bool is_long = memory_.step == Step::explaining_more;
+  const std::string text =
+      is_long ? memory_.task.long_text : spoken_text(memory_.task.title) + " " + memory_.task.short_text;
+  return {own_id(is_long ? "long" : "short"), text, memory_.task.order.language, "neutral"};
+}
+
+void Executive::send_speech(Time now) {
+  actions_.utterances.push_back(speech());
+  speech_sent_ = now;
+}
+
+Time Executive::question_deadline() const { return memory_.step_began + seconds(params_.offer_s); }
+
+Question Executive::question() const {
+  if (memory_.step != Step::asking) return {};
+  return {own_id("more"),
+          sentence(Sentence::offer_more, memory_.task.order.language, memory_.task.title),
+          {"more", "next"},
+          "next",
+          question_deadline()};
+}
+
+void Executive::report() {
+  if (memory_.step == Step::idle) {
+    actions_.report = TaskReport{};
+    return;
+  }
+  TaskReport report{task_id(), to_text(memory_.step), memory_.reason, question(), memory_.took_long};
+  if (memory_.step == Step::relocalizing) report.state = "driving";
+  if (memory_.step == Step::explaining_more) report.state = "explaining";
+  if (!note_.empty()) report.reason = note_;
+  actions_.report = std::move(report);
+}
+
+void Executive::set_note(const std::string& note) {
+  if (note == note_) return;
+  note_ = note;
+  report();
+}
+
+void Executive::goal_report(const GoalReport& goal, Time now) {
+  goal_ = goal;
+  if (memory_.step == Step::relocalizing) {
+    if (goal.id == own_id("relocalize") && goal.state == "arrived") finish(true, "", now);
+    return;
+  }
+  if (memory_.step != Step::driving || goal.id != own_id("drive")) return;
+  if (goal.state == "arrived") {
+    arrive(now);
+    return;
+  }
+  const bool is_unreachable = goal.state == "unreachable";
+  if (!is_unreachable) unreachable_since_.reset();
+  if (is_unreachable && !unreachable_since_) unreachable_since_ = now;
+  if (goal.state == "driving" || goal.state == "turning") {
+    stuck_since_.reset();
+    set_note("");
+  } else if ((goal.state == "blocked" || is_unreachable) && !stuck_since_) {
+    stuck_since_ = now;
+    set_note(is_unreachable ? "I see no way there." : "Someone is in my way.");
+    actions_.happenings.push_back(
+        {"drive_blocked", memory_.task.order.exhibit_id, goal.state + " " + goal.reason, goal.remaining_m});
+  }
+  watch_drive(now);
+}
+
+void Executive::obstacle_report(bool is_person, Time now) {
+  if (!is_person) {
+    person_since_.reset();
+  } else if (!person_since_) {
+    person_since_ = now;
+  }
+}
+
+void Executive::arrive(Time now) {
+  const TaskOrder& order = memory_.task.order;
+  actions_.happenings.push_back({"arrived", order.kind == "visit" ? order.exhibit_id : order.kind, order.id,
+                                 to_seconds(now - memory_.drive_began)});
+  if (order.kind == "visit") {
+    enter(Step::explaining, now);
+    return;
+  }
+  say("home", sentence(Sentence::home_again, order.language), "happy");
+  finish(true, "", now);
+}
+
+void Executive::watch_drive(Time now) {
+  if (unreachable_since_ && now - *unreachable_since_ > seconds(params_.unreachable_patience_s)) {
+    finish(false, "I found no way there.", now);
+  } else if (stuck_since_ && now - *stuck_since_ > seconds(params_.blocked_patience_s)) {
+    finish(false, "The way was blocked for too long.", now);
+  } else if (now - memory_.drive_began > seconds(params_.max_drive_s)) {
+    finish(false, "It took me too long to get there.", now);
+  } else {
+    ask_for_way(now);
+  }
+}
+
+void Executive::ask_for_way(Time now) {
+  const bool is_blocked = goal_.state == "blocked" && stuck_since_;
+  const Duration patience = seconds(params_.please_after_s);
+  const bool is_due =
+      (is_blocked && now - *stuck_since_ >= patience) || (person_since_ && now - *person_since_ >= patience);
+  if (!is_due) return;
+  if (please_said_ && now - *please_said_ < seconds(params_.please_every_s)) return;
+  please_said_ = now;
+  ++please_count_;
+  // The name carries the time, so that a restarted executive does not repeat an id that was spoken already.
+  say("please-" + std::to_string(std::max<std::int64_t>(0, (now - memory_.step_began).count() / 1000000)),
+      sentence(Sentence::let_me_through, memory_.task.order.language), please_count_ == 1 ? "neutral" : "sad");
+  actions_.happenings.push_back(
+      {"asked_for_way", memory_.task.order.exhibit_id, "", static_cast<double>(please_count_)});
+}
+
+void Executive::speech_report(const SpeechReport& report, Time now) {
+  if (!is_speaking() || report.id != speech().id) return;
+  heard_ = report;
+  watch_speech(now);
+}
+
+void Executive::watch_speech(Time now) {
+  const Utterance present = speech();
+  bool is_over = false;
+  if (heard_) {
+    is_over = heard_->state != "speaking" || now > heard_->start + seconds(heard_->duration_s + 5.0);
+  } else {
+    const double foreseen_s = speech_duration(present.text, present.language, present.mood);
+    is_over = now > memory_.step_began + seconds(1.5 * foreseen_s + 5.0);
+    if (!is_over && (!speech_sent_ || now - *speech_sent_ >= seconds(params_.resend_s))) send_speech(now);
+  }
+  if (!is_over) return;
+  const bool has_more = !memory_.task.long_text.empty() && memory_.task.order.offer_more;
+  if (memory_.step == Step::explaining && has_more) {
+    enter(Step::asking, now);
+  } else {
+    finish(true, "", now);
+  }
+}
+
+void Executive::choose(const std::string& question_id, const std::string& option, Time now) {
+  if (memory_.step != Step::asking || question_id != own_id("more")) return;
+  if (option != "more" && option != "next") return;
+  actions_.happenings.push_back({"choice", memory_.task.order.exhibit_id, option});
+  if (option == "more") {
+    memory_.took_long = true;
+    enter(Step::explaining_more, now);
+  } else {
+    finish(true, "", now);
+  }
+}
+
+void Executive::tick(Time now) {
+  if (memory_.step == Step::driving) {
+    watch_drive(now);
+  } else if (is_speaking()) {
+    watch_speech(now);
+  } else if (memory_.step == Step::asking && now >= question_deadline()) {
+    actions_.happenings.push_back({"choice", memory_.task.order.exhibit_id, "next (default)"});
+    finish(true, "", now);
+  }
+}
+
+}  // namespace docent

@@ -1,0 +1,168 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "docent/base/result.h"
+#include "docent/task_control/tour_scheduler/mission.h"
+
+namespace docent {
+
+/// Section `executive` of robot.yaml.
+struct ExecutiveParams {
+  double blocked_patience_s = 90.0;    ///< [s] > 0 without progress, then the drive has failed
+  double unreachable_patience_s = 20;  ///< [s] > 0: people may close the only way for a moment
+  double max_drive_s = 600.0;          ///< [s] > 0 under way in all
+  double please_every_s = 15.0;        ///< [s] > 0: "Please let me through" at most so often
+  double please_after_s = 4.0;         ///< [s] >= 0 blocked before it is said
+  double offer_s = 5.0;                ///< [s] > 0 to choose more or next ([RHINO1999] 5.1 (3))
+  double resend_s = 1.0;               ///< [s] > 0: an utterance is sent again until it is heard
+  double checkpoint_age_s = 900.0;     ///< [s] > 0: an older running step begins again
+  template <class V>
+  void visit(V& v) {
+    v("blocked_patience_s", blocked_patience_s);
+    v("unreachable_patience_s", unreachable_patience_s);
+    v("max_drive_s", max_drive_s);
+    v("please_every_s", please_every_s);
+    v("please_after_s", please_after_s);
+    v("offer_s", offer_s);
+    v("resend_s", resend_s);
+    v("checkpoint_age_s", checkpoint_age_s);
+  }
+  [[nodiscard]] Result<void> validate() const;
+};
+
+/// A task with all that is needed to do it.
+struct ExecutiveTask {
+  TaskOrder order;
+  std::string title;
+  std::string short_text;  ///< as it is spoken
+  std::string long_text;   ///< empty: there is no more to tell
+};
+
+enum class Step { idle, driving, relocalizing, explaining, asking, explaining_more, done, failed };
+[[nodiscard]] const char* to_text(Step step);
+[[nodiscard]] std::optional<Step> step_of(const std::string& text);
+
+/// All that must survive a restart of the executive. Ids of goals, utterances and questions follow from the task's id
+/// and the step, so doing a step again sends the same ids, and who has done it already does nothing.
+struct ExecutiveMemory {
+  ExecutiveTask task;
+  Step step = Step::idle;
+  Time step_began;
+  Time drive_began;
+  std::string reason;
+  bool took_long = false;
+};
+
+struct DriveOrder {
+  std::string id;  ///< empty: stay
+  Pose2 map_from_base;
+  bool relocalize = false;
+};
+struct GoalReport {
+  std::string id;
+  std::string state;  ///< as docent_msgs/GoalState
+  double remaining_m = 0.0;
+  double blocked_s = 0.0;
+  std::string reason;
+};
+struct Utterance {
+  std::string id;
+  std::string text;
+  std::string language;
+  std::string mood;
+};
+struct SpeechReport {
+  std::string id;
+  std::string state;  ///< speaking, done, failed
+  Time start;
+  double duration_s = 0.0;
+};
+struct Question {
+  std::string id;  ///< empty: nothing is asked
+  std::string text;
+  std::vector<std::string> options;
+  std::string default_option;
+  Time deadline;
+};
+struct TaskReport {
+  std::string id;
+  std::string state;  ///< driving, explaining, asking, done, failed
+  std::string reason;
+  Question question;
+  bool took_long = false;
+};
+
+/// Does one task after the other ([RHINO1999] 4.3, GOLEX: decompose, monitor, recover):
+///
+///   visit:      driving -> explaining -> asking -> [explaining_more ->] done
+///   home:       driving -> done
+///   relocalize: relocalizing -> done
+///
+/// Every step has a limit, so that a dead module holds nothing up: a drive fails after its patience, a speech counts as
+/// spoken 1.5 times its foreseen length plus 5 s after it was sent, a question has its default. Deterministic; knows
+/// nothing of messages and files.
+class Executive {
+ public:
+  Executive(const ExecutiveParams& params, ExecutiveMemory memory, Time now);
+
+  /// The task to work on. The same id again changes nothing; another one replaces the present; an empty one stops it.
+  void set_task(ExecutiveTask task, Time now);
+  void goal_report(const GoalReport& report, Time now);
+  /// @param is_person  something that is not in the map stands in the way just now
+  void obstacle_report(bool is_person, Time now);
+  void speech_report(const SpeechReport& report, Time now);
+  void choose(const std::string& question_id, const std::string& option, Time now);
+  /// Several times a second.
+  void tick(Time now);
+
+  /// What is to be published, in this order, after the memory was saved if `must_save`.
+  struct Actions {
+    bool must_save = false;
+    std::optional<DriveOrder> drive;
+    std::vector<Utterance> utterances;
+    std::optional<TaskReport> report;
+    std::vector<Happening> happenings;
+  };
+  [[nodiscard]] Actions take_actions() { return std::exchange(actions_, {}); }
+  [[nodiscard]] const ExecutiveMemory& memory() const { return memory_; }
+  [[nodiscard]] const std::string& task_id() const { return memory_.task.order.id; }
+
+ private:
+  void enter(Step step, Time now);
+  void finish(bool is_success, const std::string& reason, Time now);
+  void resume(Time now);
+  void send_drive();
+  void say(const std::string& name, const std::string& text, const std::string& mood);
+  void send_speech(Time now);
+  void report();
+  void watch_drive(Time now);
+  void watch_speech(Time now);
+  void arrive(Time now);
+  void ask_for_way(Time now);
+  void set_note(const std::string& note);
+  [[nodiscard]] bool is_speaking() const;
+  [[nodiscard]] std::string own_id(const std::string& name) const;
+  [[nodiscard]] Utterance speech() const;
+  [[nodiscard]] Question question() const;
+  [[nodiscard]] Time question_deadline() const;
+
+  ExecutiveParams params_;
+  ExecutiveMemory memory_;
+  Actions actions_;
+
+  GoalReport goal_;
+  std::optional<Time> stuck_since_;  ///< blocked or unreachable without a break since
+  std::optional<Time> unreachable_since_;
+  std::optional<Time> person_since_;
+  std::optional<Time> please_said_;
+  int please_count_ = 0;
+  std::optional<SpeechReport> heard_;  ///< of the present utterance
+  std::optional<Time> speech_sent_;
+  std::string note_;  ///< shown while driving: why it does not go on
+};
+
+}  // namespace docent

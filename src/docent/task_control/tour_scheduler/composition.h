@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "docent/base/result.h"
+#include "docent/task_control/tour_scheduler/programme.h"
+
+namespace docent {
+
+/// Section `mission` of robot.yaml holds these, too.
+struct SchedulerParams {
+  int max_open = 40;            ///< open requests, >= 1; more are refused
+  double overdue_s = 600.0;     ///< [s] > 0: who waited longer comes first
+  int max_attempts = 3;         ///< visits tried for a request, >= 1
+  double retry_delay_s = 45.0;  ///< [s] >= 0 between two of them
+  double max_detour_m = 4.0;    ///< [m] >= 0: what a tour goes out of its way for a single exhibit
+  double cruise_speed = 0.35;   ///< [m/s] > 0: for composing tours; people in the way included
+  double stop_overhead_s = 15;  ///< [s] >= 0: turning and asking at each exhibit, for composing tours
+  int max_skipped = 1;          ///< exhibits that a fulfilled tour may have left out, >= 0
+  template <class V>
+  void visit(V& v) {
+    v("max_open", max_open);
+    v("overdue_s", overdue_s);
+    v("max_attempts", max_attempts);
+    v("retry_delay_s", retry_delay_s);
+    v("max_detour_m", max_detour_m);
+    v("cruise_speed", cruise_speed);
+    v("stop_overhead_s", stop_overhead_s);
+    v("max_skipped", max_skipped);
+  }
+  [[nodiscard]] Result<void> validate() const;
+};
+
+/// Exhibits for a tour of about `target_s` from where the robot stands: always the nearest one that still fits, until
+/// none does; at least one. Those that only Web visitors may see are left out. O(exhibits^2).
+[[nodiscard]] std::vector<std::string> compose_tour(const Programme& programme, Point2 start, double target_s,
+                                                    const TravelDistance& travel, const SchedulerParams& params);
+
+}  // namespace docent

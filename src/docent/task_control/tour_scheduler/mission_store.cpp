@@ -1,0 +1,246 @@
+#include "docent/task_control/tour_scheduler/mission_store.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace docent {
+namespace {
+
+using Json = nlohmann::json;
+
+// closed_rank: 0 while open; then counts up in the order of closing.
+constexpr const char* kSchema = R"(
+  CREATE TABLE IF NOT EXISTS requests (
+    arrival INTEGER PRIMARY KEY AUTOINCREMENT, id TEXT NOT NULL UNIQUE, stamp INTEGER NOT NULL, source TEXT NOT NULL,
+    visitor TEXT NOT NULL, kind TEXT NOT NULL, target TEXT NOT NULL, viewpoint INTEGER NOT NULL,
+    language TEXT NOT NULL, state TEXT NOT NULL, reason TEXT NOT NULL, created INTEGER NOT NULL,
+    changed INTEGER NOT NULL, attempts INTEGER NOT NULL, not_before INTEGER NOT NULL, closed_rank INTEGER NOT NULL);
+  CREATE INDEX IF NOT EXISTS requests_by_rank ON requests (closed_rank);
+  CREATE TABLE IF NOT EXISTS facts (key TEXT PRIMARY KEY, value TEXT NOT NULL);
+)";
+constexpr const char* kColumns =
+    "id, stamp, source, visitor, kind, target, viewpoint, language, state, reason, created, changed, attempts, "
+    "not_before";
+
+Json to_json(const Pose2& pose) { return {pose.x, pose.y, pose.theta.radians()}; }
+Pose2 pose_from(const Json& json) {
+  return {json.at(0).get<double>(), json.at(1).get<double>(), Angle::radians(json.at(2).get<double>())};
+}
+
+Json plan_of(const MissionMemory& memory) {
+  Json plan;
+  plan["next_task"] = memory.next_task;
+  plan["revision"] = memory.schedule.board.revision();
+  const Counters& counters = memory.schedule.counters;
+  plan["counters"] = {counters.exhibits_explained, counters.tours_completed, counters.requests_served};
+  const TaskOrder& task = memory.task;
+  plan["task"] = {{"id", task.id},
+                  {"kind", task.kind},
+                  {"exhibit", task.exhibit_id},
+                  {"pose", to_json(task.map_from_base)},
+                  {"language", task.language},
+                  {"offer_more", task.offer_more},
+                  {"tour", task.tour_id}};
+  if (const auto& visit = memory.schedule.visit) {
+    plan["visit"] = {{"exhibit", visit->exhibit_id},      {"pose", to_json(visit->map_from_base)},
+                     {"language", visit->language},       {"tour", visit->tour_id},
+                     {"is_joinable", visit->is_joinable}, {"started", visit->started.nanoseconds}};
+  }
+  if (const auto& tour = memory.schedule.tour) {
+    Json stops = Json::array();
+    for (const TourStop& stop : tour->stops) {
+      stops.push_back({stop.exhibit_id, static_cast<int>(stop.status), stop.attempts});
+    }
+    plan["tour"] = {{"id", tour->tour_id},
+                    {"language", tour->language},
+                    {"stops", stops},
+                    {"just_inserted", tour->just_inserted},
+                    {"target_s", tour->target_s},
+                    {"started", tour->started.nanoseconds}};
+  }
+  return plan;
+}
+
+/// Throws nlohmann::json::exception when something is missing.
+void read_plan(const Json& plan, MissionMemory& memory, std::uint64_t& revision) {
+  memory.next_task = plan.at("next_task").get<std::uint64_t>();
+  revision = plan.at("revision").get<std::uint64_t>();
+  const Json& counters = plan.at("counters");
+  memory.schedule.counters = {counters.at(0).get<std::uint32_t>(), counters.at(1).get<std::uint32_t>(),
+                              counters.at(2).get<std::uint32_t>()};
+  const Json& task = plan.at("task");
+  memory.task = {task.at("id").get<std::string>(),       task.at("kind").get<std::string>(),
+                 task.at("exhibit").get<std::string>(),  pose_from(task.at("pose")),
+                 task.at("language").get<std::string>(), task.at("offer_more").get<bool>(),
+                 task.at("tour").get<std::string>()};
+  if (plan.contains("visit")) {
+    const Json& visit = plan.at("visit");
+    memory.schedule.visit = Visit{visit.at("exhibit").get<std::string>(),  pose_from(visit.at("pose")),
+                                  visit.at("language").get<std::string>(), visit.at("tour").get<std::string>(),
+                                  visit.at("is_joinable").get<bool>(),     {visit.at("started").get<std::int64_t>()}};
+  }
+  if (plan.contains("tour")) {
+    const Json& tour = plan.at("tour");
+    TourRun run;
+    run.tour_id = tour.at("id").get<std::string>();
+    run.language = tour.at("language").get<std::string>();
+    run.just_inserted = tour.at("just_inserted").get<bool>();
+    run.target_s = tour.at("target_s").get<double>();
+    run.started = {tour.at("started").get<std::int64_t>()};
+    for (const Json& stop : tour.at("stops")) {
+      run.stops.push_back({stop.at(0).get<std::string>(),
+                           static_cast<StopStatus>(std::clamp(stop.at(1).get<int>(), 0, 2)), stop.at(2).get<int>()});
+    }
+    memory.schedule.tour = std::move(run);
+  }
+}
+
+BoardEntry entry_from(SQLite::Statement& row) {
+  BoardEntry entry;
+  VisitorRequest& request = entry.request;
+  request.id = row.getColumn(0).getString();
+  request.stamp = {row.getColumn(1).getInt64()};
+  request.source = row.getColumn(2).getString();
+  request.visitor = row.getColumn(3).getString();
+  request.kind = row.getColumn(4).getString();
+  request.target = row.getColumn(5).getString();
+  request.viewpoint = row.getColumn(6).getInt();
+  request.language = row.getColumn(7).getString();
+  entry.status = request_status_of(row.getColumn(8).getString()).value_or(RequestStatus::failed);
+  entry.reason = row.getColumn(9).getString();
+  entry.created = {row.getColumn(10).getInt64()};
+  entry.changed = {row.getColumn(11).getInt64()};
+  entry.attempts = row.getColumn(12).getInt();
+  entry.not_before = {row.getColumn(13).getInt64()};
+  return entry;
+}
+
+}  // namespace
+
+struct MissionStore::Connection {
+  std::string name;
+  SQLite::Database database;
+  std::string saved_plan;
+  std::string deployment;
+
+  [[nodiscard]] tl::unexpected<Error> fault(const std::exception& why) const { return fail(name + ": " + why.what()); }
+  [[nodiscard]] std::string fact(const std::string& key) {
+    SQLite::Statement query{database, "SELECT value FROM facts WHERE key = ?"};
+    query.bind(1, key);
+    return query.executeStep() ? query.getColumn(0).getString() : "";
+  }
+  void set_fact(const std::string& key, const std::string& value) {
+    SQLite::Statement insert{database, "INSERT OR REPLACE INTO facts (key, value) VALUES (?, ?)"};
+    insert.bind(1, key);
+    insert.bind(2, value);
+    insert.exec();
+  }
+  void put(const BoardEntry& entry) {
+    SQLite::Statement insert{
+        database,
+        "INSERT INTO requests (id, stamp, source, visitor, kind, target, viewpoint, language, state, reason, created, "
+        "changed, attempts, not_before, closed_rank) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, "
+        "?14, CASE WHEN ?15 THEN 0 ELSE (SELECT coalesce(max(closed_rank), 0) + 1 FROM requests) END) "
+        "ON CONFLICT (id) DO UPDATE SET state = excluded.state, reason = excluded.reason, changed = excluded.changed, "
+        "attempts = excluded.attempts, not_before = excluded.not_before, closed_rank = excluded.closed_rank"};
+    const VisitorRequest& request = entry.request;
+    insert.bind(1, request.id);
+    insert.bind(2, request.stamp.nanoseconds);
+    insert.bind(3, request.source);
+    insert.bind(4, request.visitor);
+    insert.bind(5, request.kind);
+    insert.bind(6, request.target);
+    insert.bind(7, request.viewpoint);
+    insert.bind(8, request.language);
+    insert.bind(9, std::string{to_text(entry.status)});
+    insert.bind(10, entry.reason);
+    insert.bind(11, entry.created.nanoseconds);
+    insert.bind(12, entry.changed.nanoseconds);
+    insert.bind(13, entry.attempts);
+    insert.bind(14, entry.not_before.nanoseconds);
+    insert.bind(15, is_open(entry.status) ? 1 : 0);
+    insert.exec();
+  }
+};
+
+MissionStore::MissionStore(std::unique_ptr<Connection> connection) : connection_{std::move(connection)} {}
+MissionStore::MissionStore(MissionStore&&) noexcept = default;
+MissionStore& MissionStore::operator=(MissionStore&&) noexcept = default;
+MissionStore::~MissionStore() = default;
+
+Result<MissionStore> MissionStore::open(const std::filesystem::path& path, const std::string& new_deployment,
+                                        bool is_durable) {
+  try {
+    auto connection = std::make_unique<Connection>(Connection{
+        path.string(), SQLite::Database{path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, 2000}, "", ""});
+    connection->database.exec(is_durable ? "PRAGMA synchronous = FULL" : "PRAGMA synchronous = OFF");
+    connection->database.exec("PRAGMA journal_mode = WAL");
+    SQLite::Transaction transaction{connection->database};
+    connection->database.exec(kSchema);
+    if (connection->fact("deployment").empty()) connection->set_fact("deployment", new_deployment);
+    connection->deployment = connection->fact("deployment");
+    transaction.commit();
+    return MissionStore{std::move(connection)};
+  } catch (const std::exception& why) {
+    return fail(path.string() + ": " + why.what());
+  }
+}
+
+Result<MissionMemory> MissionStore::load() {
+  try {
+    MissionMemory memory;
+    memory.deployment = connection_->deployment;
+    std::uint64_t revision = 0;
+    const std::string plan = connection_->fact("plan");
+    if (!plan.empty()) read_plan(Json::parse(plan), memory, revision);
+    connection_->saved_plan = plan;
+    std::vector<BoardEntry> entries;
+    const std::string columns = kColumns;
+    SQLite::Statement open{connection_->database,
+                           "SELECT " + columns + " FROM requests WHERE closed_rank = 0 ORDER BY arrival"};
+    while (open.executeStep()) entries.push_back(entry_from(open));
+    SQLite::Statement closed{connection_->database,
+                             "SELECT " + columns +
+                                 ", closed_rank FROM (SELECT * FROM requests WHERE closed_rank > 0 "
+                                 "ORDER BY closed_rank DESC LIMIT " +
+                                 std::to_string(RequestBoard::kClosedKept) + ") ORDER BY closed_rank"};
+    while (closed.executeStep()) entries.push_back(entry_from(closed));
+    memory.schedule.board.restore(std::move(entries), revision);
+    return memory;
+  } catch (const std::exception& why) {
+    return connection_->fault(why);
+  }
+}
+
+Result<void> MissionStore::save(const MissionMemory& memory) {
+  try {
+    std::string plan = plan_of(memory).dump();
+    const auto& unstored = memory.schedule.board.unstored();
+    if (unstored.empty() && plan == connection_->saved_plan) return {};
+    SQLite::Transaction transaction{connection_->database};
+    for (const BoardEntry& entry : memory.schedule.board.entries()) {  // in this order: arrival and closing keep it
+      if (unstored.contains(entry.request.id)) connection_->put(entry);
+    }
+    connection_->set_fact("plan", plan);
+    transaction.commit();
+    connection_->saved_plan = std::move(plan);
+    return {};
+  } catch (const std::exception& why) {
+    return connection_->fault(why);
+  }
+}
+
+Result<std::optional<BoardEntry>> MissionStore::find(const std::string& id) {
+  try {
+    SQLite::Statement query{connection_->database, std::string{"SELECT "} + kColumns + " FROM requests WHERE id = ?"};
+    query.bind(1, id);
+    if (!query.executeStep()) return std::optional<BoardEntry>{};
+    return std::optional<BoardEntry>{entry_from(query)};
+  } catch (const std::exception& why) {
+    return connection_->fault(why);
+  }
+}
+
+}  // namespace docent

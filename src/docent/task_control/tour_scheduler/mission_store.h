@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "docent/base/result.h"
+#include "docent/task_control/tour_scheduler/mission.h"
+
+namespace docent {
+
+/// mission.sqlite (architecture 10.9): every request ever made and the plan of the running visit, in WAL mode. Each
+/// `save` is one transaction: after a kill at any moment the file holds the state before it or after it.
+class MissionStore {
+ public:
+  /// Opens or makes the file. `is_durable`: also a power failure loses nothing that was saved (one sync a save).
+  /// `new_deployment` names a new file's life. Error: "FILE: why", also for a file that is no such database.
+  [[nodiscard]] static Result<MissionStore> open(const std::filesystem::path& path, const std::string& new_deployment,
+                                                 bool is_durable);
+  MissionStore(MissionStore&&) noexcept;
+  MissionStore& operator=(MissionStore&&) noexcept;
+  ~MissionStore();
+
+  /// All open requests, the last closed ones, and the plan.
+  [[nodiscard]] Result<MissionMemory> load();
+  /// Writes what changed since the last save: the board's unstored entries and the plan. Nothing changed: no write.
+  /// The caller marks the board as stored when this succeeds.
+  [[nodiscard]] Result<void> save(const MissionMemory& memory);
+  /// A request by its id, however long ago it was closed.
+  [[nodiscard]] Result<std::optional<BoardEntry>> find(const std::string& id);
+
+ private:
+  struct Connection;
+  explicit MissionStore(std::unique_ptr<Connection> connection);
+  std::unique_ptr<Connection> connection_;
+};
+
+}  // namespace docent

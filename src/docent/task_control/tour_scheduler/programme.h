@@ -1,0 +1,55 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "docent/base/time.h"
+#include "docent/geometry/pose2.h"
+
+namespace docent {
+
+/// What the scheduler must know of an exhibit.
+struct ProgrammeExhibit {
+  std::string id;
+  Pose2 pose;                     ///< map_from_base where the robot stands to show it
+  std::vector<Pose2> viewpoints;  ///< other places to show it from; Web visitors may choose one
+  double speech_s = 15.0;         ///< [s] title and short text, spoken
+  bool web_only = false;
+};
+
+/// What the scheduler must know of a tour.
+struct ProgrammeTour {
+  std::string id;
+  std::vector<std::string> exhibits;  ///< fixed order; empty for a composed tour
+  double target_s = 0.0;              ///< [s] > 0: composed on the fly to last so long
+};
+
+/// What a museum offers.
+struct Programme {
+  std::vector<ProgrammeExhibit> exhibits;
+  std::vector<ProgrammeTour> tours;
+  std::vector<std::string> languages{"en"};  ///< the first is the museum's own
+  Pose2 home;
+  std::optional<Pose2> charger;
+
+  [[nodiscard]] const ProgrammeExhibit* find_exhibit(const std::string& id) const;
+  [[nodiscard]] const ProgrammeTour* find_tour(const std::string& id) const;
+};
+
+/// Length [m] of the way between two points of the map; +infinity where there is none.
+using TravelDistance = std::function<double(Point2 from, Point2 to)>;
+
+/// As the crow flies.
+[[nodiscard]] TravelDistance straight_distance();
+
+/// Something that happened, for the history (docs/terminology.md, Events).
+struct Happening {
+  std::string kind;
+  std::string subject;
+  std::string detail;
+  double value = 0.0;
+};
+
+}  // namespace docent

@@ -1,0 +1,115 @@
+#include "docent/task_control/tour_scheduler/request_board.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "docent/base/check.h"
+
+namespace docent {
+namespace {
+
+constexpr std::array<const char*, 6> kTexts{"queued", "active", "fulfilled", "failed", "refused", "cancelled"};
+
+}  // namespace
+
+const char* to_text(RequestStatus status) { return kTexts[static_cast<std::size_t>(status)]; }
+
+std::optional<RequestStatus> request_status_of(const std::string& text) {
+  for (std::size_t i = 0; i < kTexts.size(); ++i) {
+    if (text == kTexts[i]) return static_cast<RequestStatus>(i);
+  }
+  return std::nullopt;
+}
+
+bool is_step(RequestStatus from, RequestStatus to) {
+  switch (from) {
+    case RequestStatus::queued:
+      return to == RequestStatus::active || to == RequestStatus::failed || to == RequestStatus::cancelled;
+    case RequestStatus::active:
+      return to != RequestStatus::active && to != RequestStatus::refused;
+    default:
+      return false;
+  }
+}
+
+void RequestBoard::restore(std::vector<BoardEntry> entries, std::uint64_t revision) {
+  entries_ = std::move(entries);
+  revision_ = revision;
+  unstored_.clear();
+  tidy();
+}
+
+const BoardEntry* RequestBoard::find(const std::string& id) const {
+  const auto place =
+      std::find_if(entries_.begin(), entries_.end(), [&](const BoardEntry& entry) { return entry.request.id == id; });
+  return place == entries_.end() ? nullptr : &*place;
+}
+
+BoardEntry* RequestBoard::find_mutable(const std::string& id) { return const_cast<BoardEntry*>(find(id)); }
+
+void RequestBoard::add(VisitorRequest request, RequestStatus status, std::string reason, Time now) {
+  DOCENT_CHECK(find(request.id) == nullptr);
+  const std::string id = request.id;
+  BoardEntry entry{std::move(request), status, std::move(reason), now, now};
+  if (is_open(status)) {
+    const auto first_closed =
+        std::find_if(entries_.begin(), entries_.end(), [](const BoardEntry& e) { return !is_open(e.status); });
+    entries_.insert(first_closed, std::move(entry));
+  } else {
+    entries_.push_back(std::move(entry));
+  }
+  touch(id);
+}
+
+void RequestBoard::show_again(BoardEntry entry) {
+  DOCENT_CHECK(!is_open(entry.status) && find(entry.request.id) == nullptr);
+  const std::string id = entry.request.id;
+  entries_.push_back(std::move(entry));
+  touch(id);
+}
+
+void RequestBoard::change(const std::string& id, RequestStatus status, std::string reason, Time now) {
+  BoardEntry* entry = find_mutable(id);
+  DOCENT_CHECK(entry != nullptr && is_step(entry->status, status));
+  entry->status = status;
+  entry->reason = std::move(reason);
+  entry->changed = now;
+  if (!is_open(status)) {  // closed entries stand behind the open ones, in the order of closing
+    const auto place = entries_.begin() + (entry - entries_.data());
+    std::rotate(place, place + 1, entries_.end());
+  }
+  touch(id);
+}
+
+void RequestBoard::count_attempt(const std::string& id, Time not_before) {
+  BoardEntry* entry = find_mutable(id);
+  DOCENT_CHECK(entry != nullptr && is_open(entry->status));
+  ++entry->attempts;
+  entry->not_before = not_before;
+  touch(id);
+}
+
+std::size_t RequestBoard::open_count() const {
+  return static_cast<std::size_t>(
+      std::count_if(entries_.begin(), entries_.end(), [](const BoardEntry& entry) { return is_open(entry.status); }));
+}
+
+void RequestBoard::touch(const std::string& id) {
+  unstored_.insert(id);
+  ++revision_;
+  tidy();
+}
+
+void RequestBoard::tidy() {
+  const std::size_t open = open_count();
+  if (entries_.size() - open <= kClosedKept) return;
+  // Only what is stored may leave: an entry that was never committed would be lost.
+  const std::size_t surplus = entries_.size() - open - kClosedKept;
+  const auto first = entries_.begin() + static_cast<std::ptrdiff_t>(open);
+  const auto last = first + static_cast<std::ptrdiff_t>(surplus);
+  entries_.erase(std::remove_if(first, last, [&](const BoardEntry& e) { return !unstored_.contains(e.request.id); }),
+                 last);
+}
+
+}  // namespace docent

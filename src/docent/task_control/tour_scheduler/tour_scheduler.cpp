@@ -1,0 +1,372 @@
+#include "docent/task_control/tour_scheduler/tour_scheduler.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "docent/base/check.h"
+#include "docent/task_control/tour_scheduler/route.h"
+
+namespace docent {
+namespace {
+
+template <class T>
+bool holds(const std::vector<T>& list, const T& value) {
+  return std::find(list.begin(), list.end(), value) != list.end();
+}
+
+std::string joined(const std::vector<TourStop>& stops) {
+  std::string text;
+  for (const TourStop& stop : stops) text += (text.empty() ? "" : " ") + stop.exhibit_id;
+  return text;
+}
+
+}  // namespace
+
+TourScheduler::TourScheduler(const SchedulerParams& params, Programme programme, TravelDistance travel,
+                             SchedulerState state, Time now)
+    : params_{params}, programme_{std::move(programme)}, travel_{std::move(travel)}, state_{std::move(state)} {
+  DOCENT_CHECK(!programme_.languages.empty());
+  drop_what_is_gone(now);
+}
+
+void TourScheduler::drop_what_is_gone(Time now) {
+  std::vector<std::string> gone;
+  for (const BoardEntry& entry : state_.board.entries()) {
+    const VisitorRequest& request = entry.request;
+    const bool is_known = request.kind == "tour" ? programme_.find_tour(request.target) != nullptr
+                                                 : programme_.find_exhibit(request.target) != nullptr;
+    if (docent::is_open(entry.status) && !is_known) gone.push_back(request.id);
+  }
+  for (const std::string& id : gone) close_request(id, RequestStatus::failed, "The museum no longer has this.", now);
+  if (state_.visit && programme_.find_exhibit(state_.visit->exhibit_id) == nullptr) state_.visit.reset();
+  if (!state_.tour) return;
+  std::erase_if(state_.tour->stops,
+                [&](const TourStop& stop) { return programme_.find_exhibit(stop.exhibit_id) == nullptr; });
+  if (ids("tour", RequestStatus::active, state_.tour->tour_id).empty()) {
+    state_.tour.reset();
+    if (state_.visit) state_.visit->tour_id.clear();
+  }
+  end_tour_if_over(now);
+}
+
+std::string TourScheduler::refusal(const VisitorRequest& request, const Conditions& conditions) const {
+  if (request.kind == "exhibit") {
+    const ProgrammeExhibit* exhibit = programme_.find_exhibit(request.target);
+    if (exhibit == nullptr) return "There is no exhibit '" + request.target + "' here.";
+    if (exhibit->web_only && request.source != "web") return "This one is shown to Web visitors only.";
+    if (request.viewpoint >= static_cast<int>(exhibit->viewpoints.size())) return "There is no such viewpoint.";
+  } else if (request.kind == "tour") {
+    if (programme_.find_tour(request.target) == nullptr) return "There is no tour '" + request.target + "' here.";
+  } else {
+    return "I do not understand the wish '" + request.kind + "'.";
+  }
+  if (!conditions.is_open || conditions.mode == "closed") return "The museum is closed.";
+  if (conditions.mode == "web" && request.source != "web") return "Just now only Web visitors guide me.";
+  if (conditions.battery_low) return "My battery is low, I have to rest.";
+  if (state_.board.open_count() >= static_cast<std::size_t>(params_.max_open))
+    return "Too many people are waiting already. Please try again later.";
+  return "";
+}
+
+void TourScheduler::submit(VisitorRequest request, const Conditions& conditions, Time now) {
+  if (request.id.empty() || state_.board.find(request.id) != nullptr) return;
+  if (!holds(programme_.languages, request.language)) request.language = programme_.languages.front();
+  if (request.kind == "cancel") {
+    cancel(request, now);
+    return;
+  }
+  const std::string why_not = refusal(request, conditions);
+  const std::string id = request.id;
+  if (!why_not.empty()) {
+    state_.board.add(std::move(request), RequestStatus::refused, why_not, now);
+    happenings_.push_back({"request_refused", id, why_not});
+    return;
+  }
+  const bool joins = request.kind == "exhibit" && state_.visit && state_.visit->is_joinable &&
+                     state_.visit->exhibit_id == request.target;
+  happenings_.push_back({"request_queued", id, request.target, static_cast<double>(state_.board.open_count() + 1)});
+  state_.board.add(std::move(request), RequestStatus::queued, "", now);
+  if (joins) {
+    state_.board.change(id, RequestStatus::active, "I am on my way there already.", now);
+    happenings_.push_back({"request_active", id, state_.visit->exhibit_id});
+  }
+}
+
+void TourScheduler::cancel(const VisitorRequest& request, Time now) {
+  const BoardEntry* target = state_.board.find(request.target);
+  if (target == nullptr || !docent::is_open(target->status)) {
+    const std::string why_not = "There is no such open request.";
+    state_.board.add(request, RequestStatus::refused, why_not, now);
+    happenings_.push_back({"request_refused", request.id, why_not});
+    return;
+  }
+  close_request(request.target, RequestStatus::cancelled, "Cancelled.", now);
+  state_.board.add(request, RequestStatus::queued, "", now);
+  state_.board.change(request.id, RequestStatus::active, "", now);
+  state_.board.change(request.id, RequestStatus::fulfilled, "", now);
+  if (state_.tour && ids("tour", RequestStatus::active, state_.tour->tour_id).empty()) {
+    happenings_.push_back({"tour_cancelled", state_.tour->tour_id, joined(state_.tour->stops)});
+    state_.tour.reset();
+    if (state_.visit) state_.visit->tour_id.clear();
+  }
+}
+
+void TourScheduler::close_request(const std::string& id, RequestStatus status, const std::string& reason, Time now) {
+  const Time created = state_.board.find(id)->created;
+  state_.board.change(id, status, reason, now);
+  if (status == RequestStatus::fulfilled) ++state_.counters.requests_served;
+  happenings_.push_back({std::string{"request_"} + to_text(status), id, reason, to_seconds(now - created)});
+}
+
+std::vector<std::string> TourScheduler::ids(const std::string& kind, RequestStatus status,
+                                            const std::string& target) const {
+  std::vector<std::string> found;
+  for (const BoardEntry& entry : state_.board.entries()) {
+    if (entry.status == status && entry.request.kind == kind && entry.request.target == target)
+      found.push_back(entry.request.id);
+  }
+  return found;
+}
+
+bool TourScheduler::is_overdue(const BoardEntry& entry, Time now) const {
+  return now - entry.created > seconds(params_.overdue_s);
+}
+
+const BoardEntry* TourScheduler::oldest_due(Time now) const {
+  for (const BoardEntry& entry : state_.board.entries()) {
+    if (entry.status == RequestStatus::queued && entry.not_before <= now) return &entry;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> TourScheduler::single_order(Point2 robot, Time now) const {
+  std::vector<std::string> order;  // overdue ones, the oldest first
+  std::vector<std::string> others;
+  for (const BoardEntry& entry : state_.board.entries()) {
+    if (entry.status != RequestStatus::queued || entry.request.kind != "exhibit" || entry.not_before > now) continue;
+    const std::string& exhibit = entry.request.target;
+    if (holds(order, exhibit) || programme_.find_exhibit(exhibit) == nullptr) continue;
+    if (is_overdue(entry, now)) {
+      order.push_back(exhibit);
+    } else if (!holds(others, exhibit)) {
+      others.push_back(exhibit);
+    }
+  }
+  std::erase_if(others, [&](const std::string& exhibit) { return holds(order, exhibit); });
+  std::vector<Point2> points;
+  for (const std::string& exhibit : others) points.push_back(programme_.find_exhibit(exhibit)->pose.position());
+  const Point2 start = order.empty() ? robot : programme_.find_exhibit(order.back())->pose.position();
+  for (const std::size_t index : shortest_order(start, points, travel_)) order.push_back(others[index]);
+  return order;
+}
+
+std::optional<std::string> TourScheduler::exhibit_to_insert(Point2 robot, Time now) const {
+  const TourRun& tour = *state_.tour;
+  const auto next = std::find_if(tour.stops.begin(), tour.stops.end(),
+                                 [](const TourStop& stop) { return stop.status == StopStatus::pending; });
+  if (tour.just_inserted || next == tour.stops.end()) return std::nullopt;
+  const Point2 goal = programme_.find_exhibit(next->exhibit_id)->pose.position();
+  const double direct = travel_(robot, goal);
+  for (const BoardEntry& entry : state_.board.entries()) {
+    if (entry.status != RequestStatus::queued || entry.request.kind != "exhibit" || entry.not_before > now) continue;
+    const ProgrammeExhibit* exhibit = programme_.find_exhibit(entry.request.target);
+    if (exhibit == nullptr) continue;
+    const bool is_a_stop = std::any_of(tour.stops.begin(), tour.stops.end(), [&](const TourStop& stop) {
+      return stop.exhibit_id == exhibit->id && stop.status == StopStatus::pending;
+    });
+    if (is_a_stop) continue;  // the tour comes by anyway
+    const Point2 place = exhibit->pose.position();
+    if (is_overdue(entry, now) || travel_(robot, place) + travel_(place, goal) - direct <= params_.max_detour_m)
+      return exhibit->id;
+  }
+  return std::nullopt;
+}
+
+const std::optional<Visit>& TourScheduler::begin_visit(Point2 robot, Time now) {
+  DOCENT_CHECK(!state_.visit);
+  if (!state_.tour) {
+    const BoardEntry* oldest = oldest_due(now);
+    if (oldest == nullptr) return state_.visit;
+    if (oldest->request.kind == "tour") {
+      begin_tour(std::string{oldest->request.target}, robot, now);
+    } else {
+      const auto order = single_order(robot, now);
+      if (!order.empty()) begin_visit_of(order.front(), false, now);
+      return state_.visit;
+    }
+  }
+  if (!state_.tour) return state_.visit;
+  if (const auto extra = exhibit_to_insert(robot, now)) {
+    happenings_.push_back({"plan_inserted", *extra, state_.tour->tour_id});
+    state_.tour->just_inserted = true;
+    begin_visit_of(*extra, false, now);
+    return state_.visit;
+  }
+  state_.tour->just_inserted = false;
+  const auto next = std::find_if(state_.tour->stops.begin(), state_.tour->stops.end(),
+                                 [](const TourStop& stop) { return stop.status == StopStatus::pending; });
+  DOCENT_CHECK(next != state_.tour->stops.end());
+  begin_visit_of(std::string{next->exhibit_id}, true, now);
+  return state_.visit;
+}
+
+void TourScheduler::begin_tour(const std::string& tour_id, Point2 robot, Time now) {
+  const auto members = ids("tour", RequestStatus::queued, tour_id);
+  const ProgrammeTour* tour = programme_.find_tour(tour_id);
+  TourRun run{tour_id, state_.board.find(members.front())->request.language, {}, false, 0.0, now};
+  if (tour != nullptr) {
+    run.target_s = tour->target_s;
+    const auto exhibits =
+        tour->exhibits.empty() ? compose_tour(programme_, robot, tour->target_s, travel_, params_) : tour->exhibits;
+    for (const std::string& exhibit : exhibits) {
+      if (programme_.find_exhibit(exhibit) != nullptr) run.stops.push_back({exhibit});
+    }
+  }
+  if (run.stops.empty()) {  // the museum changed while the request waited
+    for (const std::string& id : members) close_request(id, RequestStatus::failed, "This tour no longer exists.", now);
+    return;
+  }
+  for (const std::string& id : members) {
+    state_.board.change(id, RequestStatus::active, "The tour has begun.", now);
+    happenings_.push_back({"request_active", id, tour_id});
+  }
+  happenings_.push_back({"tour_started", tour_id, joined(run.stops), run.target_s});
+  state_.tour = std::move(run);
+}
+
+void TourScheduler::begin_visit_of(const std::string& exhibit_id, bool is_stop, Time now) {
+  const ProgrammeExhibit& exhibit = *programme_.find_exhibit(exhibit_id);
+  Visit visit{exhibit_id, exhibit.pose, "", is_stop ? state_.tour->tour_id : "", true, now};
+  const auto members = ids("exhibit", RequestStatus::queued, exhibit_id);
+  bool has_viewpoint = false;
+  for (const std::string& id : members) {
+    const VisitorRequest& request = state_.board.find(id)->request;
+    if (visit.language.empty()) visit.language = request.language;
+    if (!has_viewpoint && request.viewpoint >= 0 && request.viewpoint < static_cast<int>(exhibit.viewpoints.size())) {
+      visit.map_from_base = exhibit.viewpoints[static_cast<std::size_t>(request.viewpoint)];
+      has_viewpoint = true;
+    }
+    state_.board.change(id, RequestStatus::active, "", now);
+    happenings_.push_back({"request_active", id, exhibit_id});
+  }
+  if (is_stop) visit.language = state_.tour->language;
+  if (visit.language.empty()) visit.language = programme_.languages.front();
+  happenings_.push_back({"visit_started", exhibit_id, visit.tour_id, static_cast<double>(members.size())});
+  state_.visit = std::move(visit);
+}
+
+void TourScheduler::close_visit() {
+  if (state_.visit) state_.visit->is_joinable = false;
+}
+
+void TourScheduler::finish_visit(bool is_success, const std::string& reason, Time now) {
+  DOCENT_CHECK(state_.visit.has_value());
+  const Visit visit = *state_.visit;
+  state_.visit.reset();
+  if (is_success) {
+    ++state_.counters.exhibits_explained;
+    happenings_.push_back({"explained", visit.exhibit_id, visit.tour_id, to_seconds(now - visit.started)});
+  } else {
+    happenings_.push_back({"visit_failed", visit.exhibit_id, reason, to_seconds(now - visit.started)});
+  }
+  for (const std::string& id : ids("exhibit", RequestStatus::active, visit.exhibit_id)) {
+    if (is_success) {
+      close_request(id, RequestStatus::fulfilled, "", now);
+      continue;
+    }
+    state_.board.count_attempt(id, now + seconds(params_.retry_delay_s));
+    if (state_.board.find(id)->attempts >= params_.max_attempts) {
+      close_request(id, RequestStatus::failed, reason, now);
+    } else {
+      state_.board.change(id, RequestStatus::queued, reason + " I will try again.", now);
+      happenings_.push_back({"plan_rescheduled", visit.exhibit_id, reason});
+    }
+  }
+  if (state_.tour && visit.tour_id == state_.tour->tour_id) finish_stop(visit.exhibit_id, is_success);
+  end_tour_if_over(now);
+}
+
+void TourScheduler::finish_stop(const std::string& exhibit_id, bool is_success) {
+  auto& stops = state_.tour->stops;
+  const auto stop = std::find_if(stops.begin(), stops.end(), [&](const TourStop& s) {
+    return s.exhibit_id == exhibit_id && s.status == StopStatus::pending;
+  });
+  if (stop == stops.end()) return;
+  if (is_success) {
+    stop->status = StopStatus::explained;
+    return;
+  }
+  ++stop->attempts;
+  if (stop->attempts >= params_.max_attempts) {
+    stop->status = StopStatus::skipped;
+    happenings_.push_back({"plan_removed", exhibit_id, state_.tour->tour_id});
+  } else {
+    happenings_.push_back({"plan_rescheduled", exhibit_id, state_.tour->tour_id});
+    std::rotate(stop, stop + 1, stops.end());
+  }
+}
+
+void TourScheduler::end_tour_if_over(Time now) {
+  if (!state_.tour) return;
+  const TourRun tour = *state_.tour;
+  int explained = 0;
+  int skipped = 0;
+  std::string missed;
+  for (const TourStop& stop : tour.stops) {
+    if (stop.status == StopStatus::pending) return;
+    if (stop.status == StopStatus::explained) {
+      ++explained;
+    } else {
+      ++skipped;
+      missed += (missed.empty() ? "" : ", ") + stop.exhibit_id;
+    }
+  }
+  state_.tour.reset();
+  const bool is_success = explained > 0 && skipped <= params_.max_skipped;
+  const std::string reason = skipped == 0 ? "" : "I could not get to: " + missed + ".";
+  for (const std::string& id : ids("tour", RequestStatus::active, tour.tour_id)) {
+    close_request(id, is_success ? RequestStatus::fulfilled : RequestStatus::failed, reason, now);
+  }
+  if (is_success) ++state_.counters.tours_completed;
+  happenings_.push_back(
+      {is_success ? "tour_completed" : "tour_failed", tour.tour_id, reason, to_seconds(now - tour.started)});
+}
+
+bool TourScheduler::is_visit_unwanted() const {
+  return state_.visit && state_.visit->tour_id.empty() &&
+         ids("exhibit", RequestStatus::active, state_.visit->exhibit_id).empty();
+}
+
+void TourScheduler::drop_visit(Time now) {
+  DOCENT_CHECK(is_visit_unwanted());
+  happenings_.push_back(
+      {"visit_dropped", state_.visit->exhibit_id, "nobody waits for it", to_seconds(now - state_.visit->started)});
+  state_.visit.reset();
+}
+
+std::vector<std::string> TourScheduler::agenda(Point2 robot, Time now) const {
+  std::vector<std::string> list;
+  if (state_.tour) {
+    for (const TourStop& stop : state_.tour->stops) {
+      const bool is_under_way =
+          state_.visit && !state_.visit->tour_id.empty() && state_.visit->exhibit_id == stop.exhibit_id;
+      if (stop.status == StopStatus::pending && !is_under_way) list.push_back(stop.exhibit_id);
+    }
+  }
+  for (const std::string& exhibit : single_order(robot, now)) {
+    if (!holds(list, exhibit)) list.push_back(exhibit);
+  }
+  std::vector<std::string> tours;
+  for (const BoardEntry& entry : state_.board.entries()) {
+    if (entry.status != RequestStatus::queued || entry.request.kind != "tour") continue;
+    if (holds(tours, entry.request.target)) continue;
+    tours.push_back(entry.request.target);
+    const ProgrammeTour* tour = programme_.find_tour(entry.request.target);
+    if (tour != nullptr) list.insert(list.end(), tour->exhibits.begin(), tour->exhibits.end());
+  }
+  return list;
+}
+
+std::vector<Happening> TourScheduler::take_happenings() { return std::exchange(happenings_, {}); }
+
+}  // namespace docent

@@ -1,0 +1,126 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "docent/base/result.h"
+#include "docent/task_control/tour_scheduler/composition.h"
+#include "docent/task_control/tour_scheduler/programme.h"
+#include "docent/task_control/tour_scheduler/request_board.h"
+
+namespace docent {
+
+/// What decides whether a request is taken.
+struct Conditions {
+  bool is_open = true;
+  std::string mode = "open";  ///< open: everybody; web: Web visitors only
+  bool battery_low = false;
+};
+
+/// One exhibit to show, for one request or many.
+struct Visit {
+  std::string exhibit_id;
+  Pose2 map_from_base;      ///< where to stand
+  std::string language;     ///< that of the first request
+  std::string tour_id;      ///< empty: not a stop of the tour under way
+  bool is_joinable = true;  ///< nothing was said yet: whoever wishes for the exhibit now takes part
+  Time started;
+};
+
+enum class StopStatus { pending, explained, skipped };
+struct TourStop {
+  std::string exhibit_id;
+  StopStatus status = StopStatus::pending;
+  int attempts = 0;
+};
+
+/// A tour under way.
+struct TourRun {
+  std::string tour_id;
+  std::string language;
+  std::vector<TourStop> stops;  ///< in the order of visiting; what failed went to the end
+  bool just_inserted = false;   ///< the last visit was not one of the tour's
+  double target_s = 0.0;        ///< [s] 0: none
+  Time started;
+};
+
+struct Counters {
+  std::uint32_t exhibits_explained = 0;
+  std::uint32_t tours_completed = 0;
+  std::uint32_t requests_served = 0;
+};
+
+/// All that must survive.
+struct SchedulerState {
+  RequestBoard board;
+  std::optional<Visit> visit;
+  std::optional<TourRun> tour;
+  Counters counters;
+};
+
+/// Which exhibit comes next, and what becomes of each request (architecture 10.8; [RHINO1999] 4.3).
+///
+/// Requests for one exhibit are merged into one visit, requests for one tour into one run; each keeps a state and a
+/// reason of its own. Without a tour, single exhibits are visited in the order of the least travel, anew after every
+/// visit, but who is overdue comes first, and the oldest open request decides whether a tour begins. A tour keeps its
+/// order; between two of its stops at most one single exhibit is put in: an overdue one, or one with a small detour.
+class TourScheduler {
+ public:
+  /// Open requests in `state` for what the museum no longer has are failed at once.
+  TourScheduler(const SchedulerParams& params, Programme programme, TravelDistance travel, SchedulerState state,
+                Time now);
+
+  /// Puts the request on the board: queued, active (joins the visit under way) or refused; or does what a `cancel`
+  /// says. A known id changes nothing.
+  void submit(VisitorRequest request, const Conditions& conditions, Time now);
+
+  /// Chooses and begins the next visit from where the robot stands; nullopt: nothing to do now.
+  /// @pre no visit is under way.
+  const std::optional<Visit>& begin_visit(Point2 robot, Time now);
+  /// The explanation began: from now on nobody joins the visit.
+  void close_visit();
+  /// The visit ended; its requests are fulfilled, tried again later or failed. @pre a visit is under way.
+  void finish_visit(bool is_success, const std::string& reason, Time now);
+  /// True when no request wants the visit under way any more.
+  [[nodiscard]] bool is_visit_unwanted() const;
+  /// Ends a visit that nobody wants any more, without counting it. @pre is_visit_unwanted()
+  void drop_visit(Time now);
+
+  /// Exhibits still to come, in order, as it looks from here.
+  [[nodiscard]] std::vector<std::string> agenda(Point2 robot, Time now) const;
+
+  [[nodiscard]] const SchedulerState& state() const { return state_; }
+  [[nodiscard]] RequestBoard& board() { return state_.board; }
+  [[nodiscard]] const Programme& programme() const { return programme_; }
+  /// Adds to the history what the scheduler does not see itself.
+  void note(Happening happening) { happenings_.push_back(std::move(happening)); }
+  /// What happened since the last call, in order.
+  [[nodiscard]] std::vector<Happening> take_happenings();
+
+ private:
+  [[nodiscard]] std::string refusal(const VisitorRequest& request, const Conditions& conditions) const;
+  void drop_what_is_gone(Time now);
+  void cancel(const VisitorRequest& request, Time now);
+  void close_request(const std::string& id, RequestStatus status, const std::string& reason, Time now);
+  [[nodiscard]] std::vector<std::string> ids(const std::string& kind, RequestStatus status,
+                                             const std::string& target) const;
+  /// Exhibits wished for singly and due, in the order to visit them.
+  [[nodiscard]] std::vector<std::string> single_order(Point2 robot, Time now) const;
+  [[nodiscard]] const BoardEntry* oldest_due(Time now) const;
+  [[nodiscard]] std::optional<std::string> exhibit_to_insert(Point2 robot, Time now) const;
+  void begin_tour(const std::string& tour_id, Point2 robot, Time now);
+  void begin_visit_of(const std::string& exhibit_id, bool is_stop, Time now);
+  void finish_stop(const std::string& exhibit_id, bool is_success);
+  void end_tour_if_over(Time now);
+  [[nodiscard]] bool is_overdue(const BoardEntry& entry, Time now) const;
+
+  SchedulerParams params_;
+  Programme programme_;
+  TravelDistance travel_;
+  SchedulerState state_;
+  std::vector<Happening> happenings_;
+};
+
+}  // namespace docent
