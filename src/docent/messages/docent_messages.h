@@ -647,6 +647,7 @@ struct TrueState {
   double blocked_beams = 0;     ///< fraction of the last laser sweep that ended on people
   std::vector<TruePerson> people;
   double contact_seconds = 0;  ///< so far: time in which something was touched and the wheels turned
+  std::uint32_t visitors = 0;  ///< different people so far
   template <class Self, class V>
   static void visit(Self& m, V& v) {
     v("header", m.header);
@@ -662,6 +663,7 @@ struct TrueState {
     v("blocked_beams", m.blocked_beams);
     v("people", m.people);
     v("contact_seconds", m.contact_seconds);
+    v("visitors", m.visitors);
   }
 };
 

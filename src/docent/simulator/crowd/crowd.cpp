@@ -1,0 +1,222 @@
+#include "docent/simulator/crowd/crowd.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace docent::simulator {
+namespace {
+
+constexpr double kCell = 1.5;               // [m] of the neighbour search
+constexpr double kWallGap = 0.26;           // [m] no centre comes nearer to a wall, however broad the person
+constexpr double kPersonalRobotGap = 0.05;  // [m] nobody walks nearer to the robot, but those who push or do not look
+constexpr double kSimulationStep = 0.02;    // [s]
+
+}  // namespace
+
+std::optional<double> crowd_density(std::string_view level) {
+  if (level == "empty") return 0.0;
+  if (level == "quiet") return 0.02;
+  if (level == "busy") return 0.08;
+  if (level == "packed") return 0.2;
+  return std::nullopt;
+}
+
+Crowd::Crowd(const World& world, WalkableFloor floor, const CrowdParams& params, std::size_t count, Rng rng,
+             const RobotView& robot)
+    : world_{world}, params_{params}, rng_{rng}, floor_{std::move(floor)}, robot_{robot} {
+  fields_.resize(world_.attractions.size() + world_.entrances.size());
+  Point2 high{};
+  if (!world_.floor.empty()) cells_low_ = high = world_.floor.front();
+  for (const Point2 corner : world_.floor) {
+    cells_low_ = {std::min(cells_low_.x, corner.x), std::min(cells_low_.y, corner.y)};
+    high = {std::max(high.x, corner.x), std::max(high.y, corner.y)};
+  }
+  cell_columns_ = static_cast<int>((high.x - cells_low_.x) / kCell) + 1;
+  cell_rows_ = static_cast<int>((high.y - cells_low_.y) / kCell) + 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    people_.push_back(new_person(0.0));
+    Person& person = people_.back();
+    // Those of the start came at different times.
+    person.leaves_at = rng_.uniform(60.0, params_.stay_max);
+    place_anywhere(person, robot, static_cast<double>(i) < params_.near_share * static_cast<double>(count));
+  }
+  sort_into_cells();
+}
+
+Person Crowd::new_person(double now) {
+  Person person;
+  person.id = next_id_++;
+  if (next_group_left_ == 0) {
+    groups_.push_back({});
+    next_group_left_ = static_cast<int>(rng_.integer(1, 4));
+  }
+  --next_group_left_;
+  person.group = static_cast<int>(groups_.size()) - 1;
+  person.is_child = rng_.chance(params_.child_share);
+  if (person.is_child) {
+    person.radius = rng_.uniform(0.15, 0.18);
+    person.height = rng_.uniform(0.95, 1.35);
+    person.preferred_speed = rng_.uniform(0.8, 1.3);
+  } else {
+    person.radius = rng_.uniform(0.22, 0.28);
+    person.height = rng_.uniform(1.55, 1.95);
+    person.preferred_speed = rng_.uniform(0.6, 1.4);
+  }
+  person.side = rng_.chance(0.5) ? 1.0 : -1.0;
+  person.leaves_at = now + rng_.uniform(params_.stay_min, params_.stay_max);
+  person.bored_until = now + rng_.uniform(0.0, 40.0);
+  person.progress_at = now;
+  return person;
+}
+
+void Crowd::place_anywhere(Person& person, const RobotView& robot, bool near_robot) {
+  std::optional<Point2> place;
+  for (int attempt = 0; attempt < 400; ++attempt) {
+    const auto point = floor_.random_point(rng_, 0.35);
+    if (!point) break;
+    place = point;
+    const double away = distance(*point, robot.position);
+    if (away < 1.2 || (near_robot && away > 5.0)) continue;
+    const bool is_taken = std::any_of(people_.begin(), people_.end(), [&](const Person& other) {
+      return &other != &person && distance(other.position, *point) < 0.6;
+    });
+    if (!is_taken) break;
+  }
+  person.position = person.progress_from = place.value_or(robot.position + Point2{3.0, 0.0});
+}
+
+void Crowd::enter(Person& person) {
+  const auto door = static_cast<std::size_t>(rng_.integer(0, static_cast<std::int64_t>(world_.entrances.size()) - 1));
+  const Point2 entrance = world_.entrances[door];
+  for (int attempt = 0; attempt < 30; ++attempt) {
+    const Point2 point = entrance + Point2{rng_.uniform(-1.5, 1.5), rng_.uniform(-1.5, 1.5)};
+    if (!floor_.is_reachable(point) || floor_.clearance(point) < 0.3) continue;
+    if (distance(point, robot_.position) < 1.5) continue;
+    person.position = person.progress_from = point;
+    return;
+  }
+  // The door is beset: they come in elsewhere, out of the robot's sight.
+  place_anywhere(person, robot_, false);
+}
+
+void Crowd::add_standing(std::span<const Point2> places, double until) {
+  for (const Point2 place : places) {
+    if (floor_.clearance(place) < 0.2 || distance(place, robot_.position) < robot_.radius + 0.3) continue;
+    Person person = new_person(0.0);
+    person.activity = Activity::stand;
+    person.position = person.goal = person.progress_from = place;
+    person.until = until;
+    person.leaves_at = until + rng_.uniform(5.0, 60.0);
+    people_.push_back(person);
+  }
+}
+
+void Crowd::change_world(const World& world) {
+  world_.solids = world.solids;
+  floor_ = WalkableFloor{world_};
+  for (FlowField& field : fields_) field.cost.clear();
+  robot_field_.cost.clear();
+  robot_field_at_ = -1e9;
+}
+
+void Crowd::sort_into_cells() {
+  cell_first_.assign(static_cast<std::size_t>(cell_columns_ * cell_rows_), -1);
+  cell_next_.assign(people_.size(), -1);
+  for (std::size_t i = people_.size(); i-- > 0;) {
+    const int column =
+        std::clamp(static_cast<int>((people_[i].position.x - cells_low_.x) / kCell), 0, cell_columns_ - 1);
+    const int row = std::clamp(static_cast<int>((people_[i].position.y - cells_low_.y) / kCell), 0, cell_rows_ - 1);
+    int& first = cell_first_[static_cast<std::size_t>(row * cell_columns_ + column)];
+    cell_next_[i] = first;
+    first = static_cast<int>(i);
+  }
+}
+
+void Crowd::step(double now, double dt, const RobotView& robot) {
+  seen_[seen_count_++ % seen_.size()] = robot;
+  const auto delay = std::min(static_cast<std::size_t>(params_.reaction_time / kSimulationStep),
+                              std::min(seen_count_, seen_.size()) - 1);
+  robot_ = seen_[(seen_count_ - 1 - delay) % seen_.size()];
+  robot_.position = robot_.position + (static_cast<double>(delay) * kSimulationStep) * robot_.velocity;
+
+  sort_into_cells();
+  constexpr std::size_t kDecisionSteps = 5;
+  for (std::size_t i = 0; i < people_.size(); ++i) {
+    if ((steps_ + i) % kDecisionSteps == 0) decide(i, now);
+  }
+  if (steps_ % 50 == 0 && params_.near_share > 0.0) draw_people_near(now);
+  for (std::size_t i = 0; i < people_.size(); ++i) move(i, dt, robot);
+
+  // Who has left makes room for someone else; who was put there by a scenario just goes.
+  for (std::size_t i = 0; i < people_.size(); ++i) {
+    Person& person = people_[i];
+    if (person.activity != Activity::leave || !person.has_arrived) continue;
+    Person other = new_person(now);
+    enter(other);
+    person = other;
+  }
+  ++steps_;
+}
+
+void Crowd::move(std::size_t index, double dt, const RobotView& robot) {
+  Person& person = people_[index];
+  const Point2 change = person.wanted - person.velocity;
+  const double limit = (dot(change, person.velocity) < 0.0 ? params_.braking : params_.acceleration) * dt;
+  const double size = norm(change);
+  person.velocity = size > limit ? person.velocity + (limit / size) * change : person.wanted;
+
+  Point2 next = person.position + dt * person.velocity;
+  for (int k = 0; k < person.near_count; ++k) {
+    const Person& other = people_[person.near[static_cast<std::size_t>(k)]];
+    const Point2 apart = next - other.position;
+    const double away = norm(apart);
+    const double overlap = person.radius + other.radius - away;
+    // Shoulders give: people in a throng slide past each other, not through.
+    if (overlap > 0.0 && away > 1e-6) next = next + (std::min(0.5 * overlap, 0.5 * dt) / away) * apart;
+  }
+  const Point2 from_robot = next - robot.position;
+  const double away = norm(from_robot);
+  const bool walks_into_it =
+      person.activity == Activity::push || (person.is_inattentive && dot(person.velocity, from_robot) < -0.2 * away);
+  if (!walks_into_it && away > 1e-6 && away < robot.radius + person.radius + kPersonalRobotGap) {
+    const double before = distance(person.position, robot.position);
+    if (away < before) {
+      next = robot.position + (before / away) * from_robot;
+      const Point2 outward = (1.0 / away) * from_robot;
+      const double inward = std::min(0.0, dot(person.velocity, outward));
+      person.velocity = person.velocity - inward * outward;
+    }
+  }
+  const double need = std::min(person.radius, kWallGap);
+  const double gap = floor_.clearance(next);
+  if (gap < need) {
+    const Point2 outward = floor_.away_from_walls(next);
+    next = next + (need - gap) * outward;
+    const double inward = std::min(0.0, dot(person.velocity, outward));
+    person.velocity = person.velocity - inward * outward;
+    if (floor_.clearance(next) < need - 0.02 && floor_.clearance(next) < floor_.clearance(person.position)) {
+      next = person.position;
+      person.velocity = {};
+    }
+  }
+  person.position = next;
+}
+
+double Crowd::give_way(std::size_t index, Point2 robot, double reach) {
+  Person& person = people_[index];
+  const Point2 apart = person.position - robot;
+  const double away = norm(apart);
+  if (away >= reach) return 0.0;
+  const Point2 outward = away > 1e-6 ? (1.0 / away) * apart : Point2{1.0, 0.0};
+  const Point2 place = robot + reach * outward;
+  const double inward = std::min(0.0, dot(person.velocity, outward));
+  person.velocity = person.velocity - inward * outward;
+  person.is_inattentive = false;  // that was noticed
+  if (floor_.clearance(place) < std::min({person.radius, kWallGap, floor_.clearance(person.position)})) {
+    return reach - away;
+  }
+  person.position = place;
+  return 0.0;
+}
+
+}  // namespace docent::simulator

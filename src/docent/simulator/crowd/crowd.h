@@ -1,0 +1,114 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "docent/base/random.h"
+#include "docent/simulator/crowd/crowd_params.h"
+#include "docent/simulator/crowd/person.h"
+#include "docent/simulator/crowd/steering.h"
+#include "docent/simulator/crowd/walkable_floor.h"
+#include "docent/simulator/world/world.h"
+
+namespace docent::simulator {
+
+/// Persons per m2 of free floor at a level: empty 0, quiet 0.02, busy 0.08, packed 0.2; nullopt for another name.
+[[nodiscard]] std::optional<double> crowd_density(std::string_view level);
+
+/// The visitors of a museum. They stroll, gather, follow the robot, step in its way, line up, block, push and listen
+/// (RHINO, sections 1 and 5; Minerva, section 4). They know of the robot what people know: where it is and how it
+/// moves, its horn and its voice.
+class Crowd {
+ public:
+  /// @param floor  of this world
+  /// @param count  how many people; those who leave are replaced at an entrance
+  Crowd(const World& world, WalkableFloor floor, const CrowdParams& params, std::size_t count, Rng rng,
+        const RobotView& robot);
+
+  /// 50 Hz. Every person decides at 10 Hz. O(people * neighbours). @param now [s], @param dt [s]
+  void step(double now, double dt, const RobotView& robot);
+  void hear_horn(double now);
+  /// The robot talks until then [s]; a time in the past ends it.
+  void hear_speech(double until) { speech_until_ = until; }
+  /// Puts people where a scenario wants them; they stay until `until` [s], then behave as the others and leave.
+  void add_standing(std::span<const Point2> places, double until);
+  /// Something was put up or taken away.
+  void change_world(const World& world);
+
+  [[nodiscard]] std::span<const Person> people() const { return people_; }
+  [[nodiscard]] const WalkableFloor& floor() const { return floor_; }
+  /// How many different people there have been.
+  [[nodiscard]] std::uint32_t visitors() const { return next_id_; }
+  /// The robot's outline presses into a person: they give way unless something is behind them.
+  /// @param reach  [m] sum of both radii. @returns the overlap that remains [m].
+  [[nodiscard]] double give_way(std::size_t person, Point2 robot, double reach);
+
+ private:
+  struct Group {
+    int attraction = -1;
+    double until = 0.0;
+  };
+  struct Sight {
+    Point2 offset;      ///< [m] from the person to the robot
+    double away = 0.0;  ///< [m]
+    double gap = 0.0;   ///< [m] between the outlines
+    bool in_sight = false;
+  };
+
+  [[nodiscard]] Person new_person(double now);
+  void place_anywhere(Person& person, const RobotView& robot, bool near_robot);
+  void enter(Person& person);
+  void sort_into_cells();
+  template <class F>
+  void for_each_within(Point2 point, double range, F&& action) const;
+
+  // decisions.cpp
+  void decide(std::size_t index, double now);
+  void take_interest(std::size_t index, const Sight& sight, double now);
+  void form_wall(std::size_t leader, double now);
+  void step_aside(Person& person, const Sight& sight, double now);
+  void return_to_strolling(Person& person, double now, bool bored);
+  void next_attraction(Person& person, double now);
+  [[nodiscard]] Point2 desired_velocity(Person& person, const Sight& sight, double now);
+  [[nodiscard]] Point2 strolling(Person& person, double now);
+  [[nodiscard]] Point2 leaving(Person& person, double now);
+  [[nodiscard]] Point2 keeping_company(Person& person, const Sight& sight, double now);
+  [[nodiscard]] Point2 standing_in_the_way(Person& person, const Sight& sight, double now);
+  [[nodiscard]] Point2 pushing(Person& person, const Sight& sight) const;
+  [[nodiscard]] Point2 stepping_aside(const Person& person, const Sight& sight) const;
+  [[nodiscard]] std::optional<Point2> walk_to(const Person& person, Point2 goal, double speed) const;
+  [[nodiscard]] Point2 robot_ahead(double distance) const;
+  [[nodiscard]] const FlowField& field(int attraction);
+  [[nodiscard]] std::size_t count_of(Activity activity) const;
+  void draw_people_near(double now);
+  void move(std::size_t index, double dt, const RobotView& robot);
+
+  World world_;
+  CrowdParams params_;
+  Rng rng_;
+  WalkableFloor floor_;
+  std::vector<Person> people_;
+  std::vector<Group> groups_;
+  std::vector<FlowField> fields_;  ///< of attractions, then entrances; empty until asked for
+  FlowField robot_field_;
+  double robot_field_at_ = -1e9;
+  std::uint32_t next_id_ = 0;
+  int next_group_left_ = 0;  ///< members that the newest group still lacks
+  std::uint64_t steps_ = 0;
+  double speech_until_ = -1.0;
+
+  std::array<RobotView, 32> seen_{};  ///< ring of what there was to see
+  std::size_t seen_count_ = 0;
+  RobotView robot_{};  ///< as people believe it to be now
+
+  Point2 cells_low_{};
+  int cell_columns_ = 1;
+  int cell_rows_ = 1;
+  std::vector<int> cell_first_;
+  std::vector<int> cell_next_;
+};
+
+}  // namespace docent::simulator

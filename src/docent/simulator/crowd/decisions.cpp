@@ -1,0 +1,520 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "docent/simulator/crowd/crowd.h"
+
+// What a person wants next. Every person decides at 10 Hz.
+
+namespace docent::simulator {
+namespace {
+
+constexpr double kDecisionPeriod = 0.1;  // [s]
+constexpr double kNearRobot = 5.0;       // [m]
+
+Point2 rotated(Point2 vector, double angle) {
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  return {c * vector.x - s * vector.y, s * vector.x + c * vector.y};
+}
+
+Point2 along(Point2 from, Point2 to, double speed) {
+  const Point2 way = to - from;
+  const double length = norm(way);
+  if (length < 0.08) return {};
+  // Who arrives slows down.
+  return (std::min(speed, std::sqrt(2.0 * length)) / length) * way;
+}
+
+}  // namespace
+
+template <class F>
+void Crowd::for_each_within(Point2 point, double range, F&& action) const {
+  constexpr double kCell = 1.5;
+  const auto bound = [](double value, int limit) { return std::clamp(static_cast<int>(value / kCell), 0, limit - 1); };
+  for (int row = bound(point.y - range - cells_low_.y, cell_rows_);
+       row <= bound(point.y + range - cells_low_.y, cell_rows_); ++row) {
+    for (int column = bound(point.x - range - cells_low_.x, cell_columns_);
+         column <= bound(point.x + range - cells_low_.x, cell_columns_); ++column) {
+      for (int i = cell_first_[static_cast<std::size_t>(row * cell_columns_ + column)]; i >= 0;
+           i = cell_next_[static_cast<std::size_t>(i)]) {
+        const auto index = static_cast<std::size_t>(i);
+        const Point2 offset = people_[index].position - point;
+        const double squared = dot(offset, offset);
+        if (squared <= range * range) action(index, offset, squared);
+      }
+    }
+  }
+}
+
+std::size_t Crowd::count_of(Activity activity) const {
+  return static_cast<std::size_t>(
+      std::count_if(people_.begin(), people_.end(), [&](const Person& person) { return person.activity == activity; }));
+}
+
+Point2 Crowd::robot_ahead(double distance) const {
+  const double speed = norm(robot_.velocity);
+  const Point2 ahead = speed > 0.1 ? (1.0 / speed) * robot_.velocity : unit(Angle::radians(robot_.heading));
+  return robot_.position + distance * ahead;
+}
+
+const FlowField& Crowd::field(int attraction) {
+  FlowField& field = fields_[static_cast<std::size_t>(attraction)];
+  if (field.cost.empty()) {
+    const auto index = static_cast<std::size_t>(attraction);
+    const std::size_t places = world_.attractions.size();
+    field = index < places ? floor_.field_to(world_.attractions[index].centre, world_.attractions[index].radius + 0.4)
+                           : floor_.field_to(world_.entrances[index - places], 0.5);
+  }
+  return field;
+}
+
+void Crowd::decide(std::size_t index, double now) {
+  Person& person = people_[index];
+  Sight sight;
+  sight.offset = robot_.position - person.position;
+  sight.away = norm(sight.offset);
+  sight.gap = sight.away - robot_.radius - person.radius;
+  sight.in_sight = sight.away < params_.interest_range + 1.0 && floor_.is_clear(person.position, robot_.position, 0.0);
+
+  if (now >= person.attention_until) {
+    person.is_inattentive = rng_.chance(person.activity == Activity::run ? 0.1 : params_.inattentive_share);
+    person.attention_until = now + rng_.uniform(4.0, 10.0);
+  }
+  if (now >= person.reacts_at) {
+    person.reacts_at = std::numeric_limits<double>::infinity();
+    step_aside(person, sight, now);
+  }
+  take_interest(index, sight, now);
+  Point2 desired = desired_velocity(person, sight, now);
+
+  // Whoever gets nowhere for a while wants something else.
+  if (norm(desired) < 0.3 || distance(person.position, person.progress_from) > 0.4) {
+    person.progress_from = person.position;
+    person.progress_at = now;
+  } else if (now - person.progress_at > 6.0) {
+    person.progress_at = now;
+    if (person.activity == Activity::stroll)
+      next_attraction(person, now);
+    else if (person.activity != Activity::leave)
+      return_to_strolling(person, now, false);
+    desired = rng_.uniform(0.3, 0.8) * unit(Angle::radians(rng_.uniform(-3.14, 3.14)));
+  }
+
+  std::array<Neighbour, 14> neighbours;
+  std::size_t count = 0;
+  person.near_count = 0;
+  for_each_within(person.position, 2.5, [&](std::size_t other, Point2 offset, double squared) {
+    if (other == index) return;
+    const Person& neighbour = people_[other];
+    if (squared < 1.0 && person.near_count < 8) {
+      person.near[static_cast<std::size_t>(person.near_count++)] = static_cast<std::uint16_t>(other);
+    }
+    if (count + 1 < neighbours.size()) {
+      neighbours[count++] = {offset, neighbour.velocity, person.radius + neighbour.radius + 0.06, 1.0};
+    }
+  });
+  const bool stands_firm =
+      person.has_arrived &&
+      (person.activity == Activity::curious || person.activity == Activity::block || person.activity == Activity::wall);
+  bool minds_robot = person.activity != Activity::push && person.activity != Activity::stand && !stands_firm &&
+                     !(person.activity == Activity::look && person.back_turned) && sight.away < 6.0;
+  if (minds_robot && person.is_inattentive) {
+    const auto time = time_to_touch(sight.offset, person.velocity - robot_.velocity, robot_.radius + person.radius);
+    minds_robot = time && *time < params_.inattentive_notices;
+  }
+  if (minds_robot) {
+    const bool keeps_close = person.activity == Activity::follow || person.activity == Activity::listen;
+    const double space = person.activity == Activity::run ? 0.15 : keeps_close ? 0.25 : 0.35;
+    neighbours[count++] = {sight.offset, robot_.velocity, robot_.radius + person.radius + space, 2.0};
+  }
+  person.wanted = choose_velocity(person, desired, std::span{neighbours}.first(count), floor_);
+}
+
+void Crowd::return_to_strolling(Person& person, double now, bool bored) {
+  person.activity = Activity::stroll;
+  person.has_arrived = false;
+  person.has_goal = false;
+  if (bored) person.bored_until = now + rng_.uniform(params_.boredom_min, params_.boredom_max);
+  if (person.attraction < 0) next_attraction(person, now);
+}
+
+void Crowd::next_attraction(Person& person, double now) {
+  person.activity = Activity::stroll;
+  person.has_goal = false;
+  person.has_arrived = false;
+  if (world_.attractions.empty()) {
+    // A bare hall: they walk to and fro.
+    for (int attempt = 0; attempt < 20; ++attempt) {
+      const auto point = floor_.random_point(rng_, 0.4);
+      if (!point) return;
+      person.goal = *point;
+      person.has_goal = true;
+      if (floor_.is_clear(person.position, *point, 0.2)) return;
+    }
+    return;
+  }
+  Group& group = groups_[static_cast<std::size_t>(person.group)];
+  if (group.until <= now || group.attraction < 0) {
+    double total = 0.0;
+    const auto weight_of = [&](const Attraction& attraction) {
+      return attraction.weight / (4.0 + distance(attraction.centre, person.position));
+    };
+    for (const Attraction& attraction : world_.attractions) total += weight_of(attraction);
+    double draw = rng_.uniform(0.0, total);
+    group.attraction = 0;
+    for (std::size_t i = 0; i < world_.attractions.size(); ++i) {
+      group.attraction = static_cast<int>(i);
+      draw -= weight_of(world_.attractions[i]);
+      if (draw < 0.0) break;
+    }
+    group.until = now + rng_.uniform(params_.dwell_min, params_.dwell_max) + 15.0;
+  }
+  person.attraction = group.attraction;
+}
+
+void Crowd::take_interest(std::size_t index, const Sight& sight, double now) {
+  Person& person = people_[index];
+  const bool is_free =
+      person.activity == Activity::stroll || person.activity == Activity::look || person.activity == Activity::run;
+  if (!is_free) return;
+  if (person.is_child && person.activity != Activity::run && rng_.chance(params_.run_rate * kDecisionPeriod)) {
+    person.activity = Activity::run;
+    person.until = now + rng_.uniform(5.0, 12.0);
+    person.has_goal = false;
+  }
+  if (now < person.bored_until || !sight.in_sight || sight.away > params_.interest_range) return;
+  if (speech_until_ > now && person.activity != Activity::run) {
+    // Once a person and talk: the first decision after it began.
+    if (rng_.chance(params_.listen_share)) {
+      person.activity = Activity::listen;
+      person.until = speech_until_ + rng_.uniform(0.5, 3.0);
+      person.keeps_distance = rng_.uniform(0.7, 1.6);
+      return;
+    }
+    person.bored_until = now + rng_.uniform(5.0, 15.0);
+    return;
+  }
+  const auto happens = [&](double rate) { return rng_.chance(rate * kDecisionPeriod); };
+  const double speed = norm(robot_.velocity);
+  const double company = static_cast<double>(count_of(Activity::follow));
+  if (happens(params_.follow_rate) && company < 2.0 + 0.12 * static_cast<double>(people_.size())) {
+    person.activity = Activity::follow;
+    person.until = now + rng_.uniform(20.0, 120.0);
+    person.keeps_distance = rng_.uniform(0.45, 1.3);
+    return;
+  }
+  if (happens(params_.push_rate) && count_of(Activity::push) < 2 && speed < 0.4) {
+    person.activity = Activity::push;
+    person.until = now + rng_.uniform(6.0, 13.0);
+    person.side =
+        dot(rotated(sight.offset, std::numbers::pi / 2.0), unit(Angle::radians(robot_.heading))) > 0.0 ? 1.0 : -1.0;
+    return;
+  }
+  // In its way: only where it drives towards, and where there is time to get there.
+  const Point2 ahead = robot_ahead(1.0) - robot_.position;
+  const bool is_ahead = dot(ahead, sight.offset) < -0.3 * sight.away;
+  if (speed < 0.1 || !is_ahead || sight.away < 1.6) return;
+  const bool blocks = happens(params_.block_rate) && count_of(Activity::block) == 0;
+  if (blocks || (happens(params_.curious_rate) && count_of(Activity::curious) < 2)) {
+    const Point2 place = robot_ahead(rng_.uniform(1.5, 2.2) + speed);
+    if (floor_.clearance(place) < 0.3 || !floor_.is_clear(person.position, place, 0.2)) return;
+    person.activity = blocks ? Activity::block : Activity::curious;
+    person.until = now + (blocks ? rng_.uniform(45.0, 180.0) : rng_.uniform(3.0, 15.0));
+    person.goal = place;
+    person.has_arrived = false;
+    return;
+  }
+  if (happens(params_.wall_rate) && count_of(Activity::wall) == 0) form_wall(index, now);
+}
+
+void Crowd::form_wall(std::size_t leader, double now) {
+  const Point2 centre = robot_ahead(rng_.uniform(2.0, 2.8) + norm(robot_.velocity));
+  const Point2 ahead = robot_ahead(1.0) - robot_.position;
+  const Point2 across{-ahead.y, ahead.x};
+  const double until = now + rng_.uniform(10.0, 40.0);
+  const auto wanted = rng_.integer(3, 5);
+  std::int64_t placed = 0;
+  const auto join = [&](Person& person) {
+    // Places from the middle outwards: 0, 1, -1, 2, -2 ...
+    const double slot = static_cast<double>((placed + 1) / 2) * (placed % 2 == 1 ? 1.0 : -1.0);
+    const Point2 place = centre + (0.55 * slot) * across;
+    if (floor_.clearance(place) < 0.27 || !floor_.is_clear(person.position, place, 0.15)) return;
+    person.activity = Activity::wall;
+    person.until = until + rng_.uniform(0.0, 3.0);
+    person.goal = place;
+    person.has_arrived = false;
+    ++placed;
+  };
+  join(people_[leader]);
+  for_each_within(centre, 4.0, [&](std::size_t other, Point2, double) {
+    Person& person = people_[other];
+    if (other == leader || placed == 0 || placed >= wanted) return;
+    if (person.activity == Activity::stroll || person.activity == Activity::look) join(person);
+  });
+}
+
+void Crowd::hear_horn(double now) {
+  for (Person& person : people_) {
+    const Point2 from_robot = person.position - robot_.position;
+    const double away = norm(from_robot);
+    if (away > params_.horn_range) continue;
+    const bool is_ahead = dot(from_robot, unit(Angle::radians(robot_.heading))) > 0.2 * away;
+    if (!is_ahead && away > 1.5) continue;
+    const double effect = person.activity == Activity::block   ? params_.horn_effect_block
+                          : person.activity == Activity::wall  ? params_.horn_effect_wall
+                          : person.activity == Activity::push  ? params_.horn_effect_wall
+                          : person.activity == Activity::stand ? params_.horn_effect_block
+                                                               : params_.horn_effect;
+    person.back_turned = false;
+    if (rng_.chance(effect)) person.reacts_at = now + rng_.uniform(params_.reaction_time, 1.6);
+  }
+}
+
+void Crowd::step_aside(Person& person, const Sight& sight, double now) {
+  const Point2 heading = unit(Angle::radians(robot_.heading));
+  const Point2 from_robot = Point2{} - sight.offset;
+  const double lateral = cross(heading, from_robot);
+  const double side = std::abs(lateral) > 0.05 ? (lateral > 0.0 ? 1.0 : -1.0) : person.side;
+  const Point2 left{-heading.y, heading.x};
+  // To the nearer side, else the other, else back: whichever has room.
+  const Point2 ways[] = {side * left, -side * left, heading};
+  for (const Point2 way : ways) {
+    person.goal = way;
+    if (floor_.is_clear(person.position, person.position + 0.9 * way, 0.2)) break;
+  }
+  const bool comes_back = rng_.chance(params_.horn_reward);
+  person.activity = Activity::step_aside;
+  person.until = now + rng_.uniform(4.0, 8.0);
+  person.has_arrived = false;
+  person.bored_until = now + (comes_back ? 6.0 : rng_.uniform(20.0, 90.0));
+}
+
+void Crowd::draw_people_near(double now) {
+  std::size_t near = 0;
+  Person* candidate = nullptr;
+  double nearest = 1e9;
+  for (Person& person : people_) {
+    const double away = distance(person.position, robot_.position);
+    if (away <= kNearRobot || person.activity == Activity::follow) {
+      ++near;
+    } else if ((person.activity == Activity::stroll || person.activity == Activity::look) && away < nearest) {
+      nearest = away;
+      candidate = &person;
+    }
+  }
+  if (candidate == nullptr || static_cast<double>(near) >= params_.near_share * static_cast<double>(people_.size()))
+    return;
+  candidate->activity = Activity::follow;
+  candidate->until = now + nearest + rng_.uniform(40.0, 150.0);
+  candidate->keeps_distance = rng_.uniform(0.45, 3.5);
+}
+
+Point2 Crowd::desired_velocity(Person& person, const Sight& sight, double now) {
+  switch (person.activity) {
+    case Activity::stroll:
+      return strolling(person, now);
+    case Activity::leave:
+      return leaving(person, now);
+    case Activity::look:
+      if (now >= person.until) {
+        if (now >= person.leaves_at && !world_.entrances.empty()) {
+          person.activity = Activity::leave;
+          person.has_arrived = false;
+          return {};
+        }
+        next_attraction(person, now);
+        return {};
+      }
+      // Back to the spot once nothing drives them off it.
+      return distance(person.position, person.goal) > 0.5 && sight.gap > 1.0 ? along(person.position, person.goal, 0.5)
+                                                                             : Point2{};
+    case Activity::run: {
+      if (now >= person.until) {
+        return_to_strolling(person, now, false);
+        return {};
+      }
+      if (!person.has_goal || distance(person.position, person.goal) < 0.4) {
+        person.has_goal = false;
+        for (int attempt = 0; attempt < 8 && !person.has_goal; ++attempt) {
+          const bool round_robot = sight.in_sight && sight.away < 6.0 && rng_.chance(0.3);
+          const Point2 centre = round_robot ? robot_.position : person.position;
+          const Point2 goal = centre + rng_.uniform(1.2, 6.0) * unit(Angle::radians(rng_.uniform(-3.14, 3.14)));
+          if (floor_.clearance(goal) < 0.35 || !floor_.is_clear(person.position, goal, 0.2)) continue;
+          person.goal = goal;
+          person.has_goal = true;
+        }
+      }
+      return person.has_goal ? along(person.position, person.goal, 1.5 + 0.5 * (1.3 - person.preferred_speed))
+                             : Point2{};
+    }
+    case Activity::follow:
+    case Activity::listen:
+      return keeping_company(person, sight, now);
+    case Activity::curious:
+    case Activity::block:
+    case Activity::wall:
+      return standing_in_the_way(person, sight, now);
+    case Activity::push:
+      if (now >= person.until) {
+        return_to_strolling(person, now, true);
+        return {};
+      }
+      return pushing(person, sight);
+    case Activity::step_aside:
+      if (now >= person.until) {
+        return_to_strolling(person, now, false);
+        return {};
+      }
+      return stepping_aside(person, sight);
+    case Activity::stand:
+      if (now >= person.until) return_to_strolling(person, now, true);
+      return {};
+  }
+  return {};
+}
+
+std::optional<Point2> Crowd::walk_to(const Person& person, Point2 goal, double speed) const {
+  if (!floor_.is_clear(person.position, goal, std::min(person.radius, 0.22))) return std::nullopt;
+  return along(person.position, goal, speed);
+}
+
+Point2 Crowd::strolling(Person& person, double now) {
+  if (person.attraction < 0 && !person.has_goal) next_attraction(person, now);
+  if (person.attraction >= 0 && !person.has_goal) {
+    const Attraction& attraction = world_.attractions[static_cast<std::size_t>(person.attraction)];
+    if (distance(person.position, attraction.centre) < attraction.radius + 1.5) {
+      for (int attempt = 0; attempt < 6 && !person.has_goal; ++attempt) {
+        const Point2 spot = attraction.centre + rng_.uniform(0.6, 1.2) * attraction.radius *
+                                                    unit(Angle::radians(rng_.uniform(-3.14, 3.14)));
+        if (floor_.clearance(spot) < 0.32 || !floor_.is_clear(person.position, spot, 0.2)) continue;
+        person.goal = spot;
+        person.has_goal = true;
+      }
+    }
+    if (!person.has_goal) {
+      const auto way = floor_.direction(field(person.attraction), person.position, person.radius);
+      if (way) return person.preferred_speed * *way;
+      person.goal = person.position;
+      person.has_goal = true;
+    }
+  }
+  if (distance(person.position, person.goal) < 0.25) {
+    person.activity = Activity::look;
+    person.back_turned = rng_.chance(params_.back_turned_share);
+    const double dwell = rng_.uniform(params_.dwell_min, params_.dwell_max);
+    const double together = groups_[static_cast<std::size_t>(person.group)].until;
+    person.until = person.attraction >= 0 && together > now + 3.0 ? together + rng_.uniform(0.0, 4.0)
+                                                                  : now + (person.attraction >= 0 ? dwell : 2.0);
+    return {};
+  }
+  if (const auto walk = walk_to(person, person.goal, person.preferred_speed)) return *walk;
+  person.has_goal = false;
+  if (person.attraction < 0) next_attraction(person, now);
+  return {};
+}
+
+Point2 Crowd::leaving(Person& person, double now) {
+  if (world_.entrances.empty()) {
+    return_to_strolling(person, now, false);
+    return {};
+  }
+  const std::size_t door = person.id % world_.entrances.size();
+  if (distance(person.position, world_.entrances[door]) < 1.0) {
+    person.has_arrived = true;
+    return {};
+  }
+  const auto way =
+      floor_.direction(field(static_cast<int>(world_.attractions.size() + door)), person.position, person.radius);
+  if (!way) {
+    person.has_arrived = true;
+    return {};
+  }
+  return person.preferred_speed * *way;
+}
+
+Point2 Crowd::keeping_company(Person& person, const Sight& sight, double now) {
+  if (now >= person.until) {
+    const bool goes_on = person.activity == Activity::listen && rng_.chance(0.25);
+    if (goes_on) {
+      person.activity = Activity::follow;
+      person.until = now + rng_.uniform(20.0, 90.0);
+    } else {
+      return_to_strolling(person, now, true);
+    }
+    return {};
+  }
+  if (!sight.in_sight || sight.away > params_.interest_range) {
+    // Round the corner: a way through the building, found now and then.
+    if (now - robot_field_at_ > 3.0 || robot_field_.cost.empty()) {
+      robot_field_ = floor_.field_to(robot_.position, 0.8);
+      robot_field_at_ = now;
+    }
+    const auto way = floor_.direction(robot_field_, person.position, person.radius);
+    if (!way) return_to_strolling(person, now, true);
+    return way ? person.preferred_speed * *way : Point2{};
+  }
+  const double wanted = robot_.radius + person.radius + person.keeps_distance;
+  const double speed = norm(robot_.velocity);
+  Point2 place{};
+  if (person.activity == Activity::follow && speed > 0.1) {
+    place = robot_ahead(-wanted) +
+            rotated((person.side * 0.45) * (robot_ahead(1.0) - robot_.position), std::numbers::pi / 2.0);
+  } else {
+    place = robot_.position - (wanted / std::max(sight.away, 0.1)) * sight.offset;
+  }
+  if (distance(person.position, place) < 0.25) return {};
+  if (const auto walk = walk_to(person, place, std::max(person.preferred_speed, 1.0))) return *walk;
+  return sight.away > wanted + 0.3 ? along(person.position, robot_.position, 0.6) : Point2{};
+}
+
+Point2 Crowd::standing_in_the_way(Person& person, const Sight& sight, double now) {
+  if (now >= person.until) {
+    return_to_strolling(person, now, true);
+    return {};
+  }
+  if (person.has_arrived) {
+    // The robot took another way: no fun.
+    if (sight.away > 4.5) return_to_strolling(person, now, true);
+    return {};
+  }
+  if (distance(person.position, person.goal) < 0.2) {
+    person.has_arrived = true;
+    return {};
+  }
+  // Nobody throws themselves before it: where it is too near for that, they let it be.
+  const double speed = norm(robot_.velocity);
+  const bool too_late = distance(robot_.position, person.goal) < robot_.radius + person.radius + 0.35 + 0.8 * speed;
+  const auto walk = walk_to(person, person.goal, 1.3);
+  if (too_late || !walk) {
+    return_to_strolling(person, now, false);
+    return {};
+  }
+  return *walk;
+}
+
+Point2 Crowd::pushing(Person& person, const Sight& sight) const {
+  if (!sight.in_sight) return {};
+  const Point2 to_robot = (1.0 / std::max(sight.away, 0.05)) * sight.offset;
+  const double towards_me = -dot(robot_.velocity, to_robot);
+  if (towards_me > 0.12 && sight.gap < 0.8) return -0.8 * to_robot;  // it comes on: back
+  if (norm(robot_.velocity) > 0.35) return sight.gap > 1.0 ? 0.8 * to_robot : Point2{};
+  // From a side, never head on.
+  const Point2 heading = unit(Angle::radians(robot_.heading));
+  if (dot(heading, to_robot) < -0.6 && sight.gap < 2.0) {
+    const Point2 left{-heading.y, heading.x};
+    return along(person.position, robot_.position + person.side * (robot_.radius + person.radius + 0.5) * left, 0.8);
+  }
+  return std::clamp(1.2 * sight.gap, 0.25, person.preferred_speed) * to_robot;
+}
+
+Point2 Crowd::stepping_aside(const Person& person, const Sight& sight) const {
+  const Point2 heading = unit(Angle::radians(robot_.heading));
+  const Point2 from_robot = Point2{} - sight.offset;
+  const double lateral = std::abs(cross(heading, from_robot));
+  const double ahead = dot(heading, from_robot);
+  if (ahead < -0.3 || ahead > 5.0 || lateral > robot_.radius + person.radius + 0.5) return {};
+  return 0.9 * person.goal;
+}
+
+}  // namespace docent::simulator

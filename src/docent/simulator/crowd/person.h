@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include "docent/geometry/pose2.h"
+
+namespace docent::simulator {
+
+enum class Activity {
+  stroll,      ///< walks to an attraction
+  look,        ///< stands before one
+  run,         ///< a child runs about
+  follow,      ///< walks close behind the robot
+  curious,     ///< steps in its way and waits what it does
+  block,       ///< the same, for minutes
+  wall,        ///< stands in a row with others, in its way
+  push,        ///< walks into it from a side
+  listen,      ///< stands round it while it talks
+  step_aside,  ///< out of its way, after the horn
+  leave,       ///< to the entrance
+  stand,       ///< where a scenario put them
+};
+
+/// One visitor. Positions in the world frame, metres and seconds.
+struct Person {
+  std::uint32_t id = 0;
+  bool is_child = false;
+  double radius = 0.25;
+  double height = 1.7;
+  double preferred_speed = 1.1;
+  int group = 0;  ///< family or friends, who go from exhibit to exhibit together
+  Point2 position{};
+  Point2 velocity{};
+  Point2 wanted{};  ///< velocity that they try to take
+
+  Activity activity = Activity::stroll;
+  double until = 0.0;           ///< when it ends
+  Point2 goal{};                ///< where they want to stand; meaning depends on the activity
+  bool has_goal = false;        ///< for stroll: the spot was chosen
+  bool has_arrived = false;     ///< for those who stand in the way: reached the goal
+  int attraction = -1;          ///< index in the world's list
+  double side = 1.0;            ///< +1 left, -1 right of the robot
+  double keeps_distance = 1.0;  ///< [m] to the robot's outline, for followers and listeners
+
+  double leaves_at = 0.0;
+  double bored_until = 0.0;  ///< takes no interest in the robot before
+  double attention_until = 0.0;
+  bool is_inattentive = false;  ///< notices the robot late
+  bool back_turned = false;     ///< while looking at an exhibit: does not notice it at all
+  double reacts_at = std::numeric_limits<double>::infinity();  ///< begins to step aside
+  Point2 progress_from{};
+  double progress_at = 0.0;
+
+  std::array<std::uint16_t, 8> near{};  ///< indices of those within reach
+  int near_count = 0;
+};
+
+/// What people see of the robot.
+struct RobotView {
+  Point2 position{};     ///< [m], world
+  double heading = 0.0;  ///< [rad]
+  Point2 velocity{};     ///< [m/s], world
+  double turn_rate = 0.0;
+  double radius = 0.265;
+};
+
+}  // namespace docent::simulator

@@ -1,0 +1,313 @@
+#include "docent/simulator/crowd/walkable_floor.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <queue>
+
+namespace docent::simulator {
+namespace {
+
+constexpr double kCell = 0.1;         // [m]
+constexpr double kCoarse = 0.2;       // [m]
+constexpr double kFar = 1.5;          // [m] clearances are not told apart beyond
+constexpr double kWalkable = 0.27;    // [m] clearance that a way needs
+constexpr float kUnreachable = 1e9F;  // [m]
+constexpr double kHeadroom = 2.0;     // [m] people walk below what hangs higher
+constexpr std::array<std::array<int, 2>, 8> kNeighbours{
+    {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
+
+struct Box {
+  Point2 low;
+  Point2 high;
+};
+
+Box box_of(const Polygon& polygon) {
+  Box box{polygon.front(), polygon.front()};
+  for (const Point2 corner : polygon) {
+    box.low = {std::min(box.low.x, corner.x), std::min(box.low.y, corner.y)};
+    box.high = {std::max(box.high.x, corner.x), std::max(box.high.y, corner.y)};
+  }
+  return box;
+}
+
+}  // namespace
+
+WalkableFloor::WalkableFloor(const World& world) {
+  if (world.floor.size() < 3) return;
+  const Box bounds = box_of(world.floor);
+  low_ = bounds.low - Point2{kCell, kCell};
+  columns_ = static_cast<int>(std::ceil((bounds.high.x - low_.x) / kCell)) + 2;
+  rows_ = static_cast<int>(std::ceil((bounds.high.y - low_.y) / kCell)) + 2;
+  clearance_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), static_cast<float>(kFar));
+
+  const auto for_cells_near = [&](const Box& box, auto&& action) {
+    const auto bound = [](double value, int limit) { return std::clamp(static_cast<int>(value), 0, limit - 1); };
+    for (int row = bound((box.low.y - kFar - low_.y) / kCell, rows_);
+         row <= bound((box.high.y + kFar - low_.y) / kCell, rows_); ++row) {
+      for (int column = bound((box.low.x - kFar - low_.x) / kCell, columns_);
+           column <= bound((box.high.x + kFar - low_.x) / kCell, columns_); ++column) {
+        action(static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column),
+               low_ + Point2{(column + 0.5) * kCell, (row + 0.5) * kCell});
+      }
+    }
+  };
+  for (const Segment& side : sides(world.floor)) {
+    for_cells_near(box_of({side.a, side.b}), [&](std::size_t cell, Point2 centre) {
+      clearance_[cell] = std::min(clearance_[cell], static_cast<float>(distance(side, centre)));
+    });
+  }
+  for_cells_near(bounds, [&](std::size_t cell, Point2 centre) {
+    if (!contains(world.floor, centre)) clearance_[cell] = -clearance_[cell];
+  });
+  for (const Solid& solid : world.solids) {
+    if (solid.polygon.size() < 3 || solid.bottom >= kHeadroom) continue;
+    for_cells_near(box_of(solid.polygon), [&](std::size_t cell, Point2 centre) {
+      const double gap = outline_distance(solid.polygon, centre);
+      const double signed_gap = gap < kFar && contains(solid.polygon, centre) ? -gap : gap;
+      clearance_[cell] = std::min(clearance_[cell], static_cast<float>(signed_gap));
+    });
+  }
+
+  coarse_columns_ = columns_ / 2 + 1;
+  coarse_rows_ = rows_ / 2 + 1;
+  coarse_clearance_.resize(static_cast<std::size_t>(coarse_columns_) * static_cast<std::size_t>(coarse_rows_));
+  for (std::size_t cell = 0; cell < coarse_clearance_.size(); ++cell) {
+    coarse_clearance_[cell] = static_cast<float>(clearance(coarse_centre(cell)));
+  }
+  find_reachable(world);
+}
+
+std::size_t WalkableFloor::fine_cell(Point2 point) const {
+  const int column = std::clamp(static_cast<int>((point.x - low_.x) / kCell), 0, columns_ - 1);
+  const int row = std::clamp(static_cast<int>((point.y - low_.y) / kCell), 0, rows_ - 1);
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
+}
+
+std::size_t WalkableFloor::coarse_cell(Point2 point) const {
+  const int column = std::clamp(static_cast<int>((point.x - low_.x) / kCoarse), 0, coarse_columns_ - 1);
+  const int row = std::clamp(static_cast<int>((point.y - low_.y) / kCoarse), 0, coarse_rows_ - 1);
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(coarse_columns_) + static_cast<std::size_t>(column);
+}
+
+Point2 WalkableFloor::coarse_centre(std::size_t cell) const {
+  const auto width = static_cast<std::size_t>(coarse_columns_);
+  return low_ + Point2{(static_cast<double>(cell % width) + 0.5) * kCoarse,
+                       (static_cast<double>(cell / width) + 0.5) * kCoarse};
+}
+
+void WalkableFloor::find_reachable(const World& world) {
+  // The part of the floor that hangs together with the entrance (or the home, or the largest one).
+  const std::size_t count = clearance_.size();
+  std::vector<std::uint8_t> component(count, 0);
+  std::vector<std::uint32_t> best;
+  double best_distance = 1e18;
+  std::vector<std::uint32_t> stack;
+  const Point2 anchor = world.entrances.empty() ? world.home : world.entrances.front();
+  for (std::size_t seed = 0; seed < count; ++seed) {
+    if (component[seed] != 0 || clearance_[seed] < static_cast<float>(kWalkable)) continue;
+    std::vector<std::uint32_t> members;
+    double nearest = 1e18;
+    component[seed] = 1;
+    stack.push_back(static_cast<std::uint32_t>(seed));
+    while (!stack.empty()) {
+      const std::size_t cell = stack.back();
+      stack.pop_back();
+      members.push_back(static_cast<std::uint32_t>(cell));
+      const int column = static_cast<int>(cell) % columns_;
+      const int row = static_cast<int>(cell) / columns_;
+      nearest = std::min(nearest, distance(anchor, low_ + Point2{(column + 0.5) * kCell, (row + 0.5) * kCell}));
+      for (int k = 0; k < 4; ++k) {
+        const int c = column + kNeighbours[static_cast<std::size_t>(k)][0];
+        const int r = row + kNeighbours[static_cast<std::size_t>(k)][1];
+        if (c < 0 || r < 0 || c >= columns_ || r >= rows_) continue;
+        const auto next = static_cast<std::size_t>(r * columns_ + c);
+        if (component[next] != 0 || clearance_[next] < static_cast<float>(kWalkable)) continue;
+        component[next] = 1;
+        stack.push_back(static_cast<std::uint32_t>(next));
+      }
+    }
+    // A pocket of less than 2 m2 is not a museum, however near the anchor.
+    if (static_cast<double>(members.size()) * kCell * kCell > 2.0 && nearest < best_distance) {
+      best_distance = nearest;
+      best = std::move(members);
+    }
+  }
+  usable_.assign(count, 0);
+  for (const std::uint32_t cell : best) usable_[cell] = 1;
+  usable_cells_ = best;
+  std::sort(usable_cells_.begin(), usable_cells_.end());
+  // The strip along walls, where no disc's centre fits, is floor too.
+  std::size_t floor_cells = 0;
+  constexpr int kStrip = 3;
+  for (std::size_t cell = 0; cell < count; ++cell) {
+    if (clearance_[cell] <= 0.0F) continue;
+    const int column = static_cast<int>(cell) % columns_;
+    const int row = static_cast<int>(cell) / columns_;
+    bool near = false;
+    for (int r = std::max(0, row - kStrip); r <= std::min(rows_ - 1, row + kStrip) && !near; ++r) {
+      for (int c = std::max(0, column - kStrip); c <= std::min(columns_ - 1, column + kStrip) && !near; ++c) {
+        near = usable_[static_cast<std::size_t>(r * columns_ + c)] != 0;
+      }
+    }
+    if (near) ++floor_cells;
+  }
+  free_area_ = static_cast<double>(floor_cells) * kCell * kCell;
+}
+
+double WalkableFloor::clearance(Point2 point) const {
+  if (columns_ == 0) return -kFar;
+  const double x = (point.x - low_.x) / kCell - 0.5;
+  const double y = (point.y - low_.y) / kCell - 0.5;
+  if (!(x >= 0.0 && y >= 0.0 && x < columns_ - 1 && y < rows_ - 1)) return -kFar;
+  const auto column = static_cast<std::size_t>(x);
+  const auto row = static_cast<std::size_t>(y);
+  const double fx = x - static_cast<double>(column);
+  const double fy = y - static_cast<double>(row);
+  const float* cell = &clearance_[row * static_cast<std::size_t>(columns_) + column];
+  const double below = (1.0 - fx) * static_cast<double>(cell[0]) + fx * static_cast<double>(cell[1]);
+  const double above = (1.0 - fx) * static_cast<double>(cell[columns_]) + fx * static_cast<double>(cell[columns_ + 1]);
+  return (1.0 - fy) * below + fy * above;
+}
+
+Point2 WalkableFloor::away_from_walls(Point2 point) const {
+  constexpr double kStep = 0.05;
+  const Point2 gradient{clearance(point + Point2{kStep, 0.0}) - clearance(point - Point2{kStep, 0.0}),
+                        clearance(point + Point2{0.0, kStep}) - clearance(point - Point2{0.0, kStep})};
+  const double length = norm(gradient);
+  return length > 1e-9 ? (1.0 / length) * gradient : Point2{};
+}
+
+bool WalkableFloor::is_clear(Point2 a, Point2 b, double radius) const {
+  const double length = distance(a, b);
+  double along = 0.0;
+  while (true) {
+    const Point2 point = length > 0.0 ? a + (along / length) * (b - a) : a;
+    const double gap = clearance(point) - radius;
+    if (gap < 0.0) return false;
+    if (along >= length) return true;
+    // Nothing can be nearer than the gap, so that step is safe.
+    along = std::min(length, along + std::max(0.1, gap));
+  }
+}
+
+bool WalkableFloor::is_reachable(Point2 point) const {
+  return clearance(point) > -1.0 && !usable_.empty() && usable_[fine_cell(point)] != 0;
+}
+
+std::optional<Point2> WalkableFloor::random_point(Rng& rng, double wanted) const {
+  if (usable_cells_.empty()) return std::nullopt;
+  for (int attempt = 0; attempt < 2000; ++attempt) {
+    const auto pick = static_cast<std::size_t>(rng.integer(0, static_cast<std::int64_t>(usable_cells_.size()) - 1));
+    const int cell = static_cast<int>(usable_cells_[pick]);
+    const Point2 point =
+        low_ + Point2{(cell % columns_ + rng.uniform()) * kCell, (cell / columns_ + rng.uniform()) * kCell};
+    if (clearance(point) >= wanted) return point;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::size_t> WalkableFloor::nearest_walkable(Point2 point, double limit) const {
+  std::optional<std::size_t> best;
+  double best_distance = limit;
+  for (std::size_t cell = 0; cell < coarse_clearance_.size(); ++cell) {
+    if (coarse_clearance_[cell] < static_cast<float>(kWalkable)) continue;
+    const Point2 centre = coarse_centre(cell);
+    const double away = distance(centre, point);
+    if (away < best_distance && is_reachable(centre)) {
+      best_distance = away;
+      best = cell;
+    }
+  }
+  return best;
+}
+
+FlowField WalkableFloor::field_to(Point2 goal, double reach) const {
+  FlowField field;
+  field.cost.assign(coarse_clearance_.size(), kUnreachable);
+  using Entry = std::pair<float, std::uint32_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  const auto start = [&](std::size_t cell) {
+    field.cost[cell] = 0.0F;
+    queue.emplace(0.0F, static_cast<std::uint32_t>(cell));
+  };
+  for (std::size_t cell = 0; cell < coarse_clearance_.size(); ++cell) {
+    if (coarse_clearance_[cell] < static_cast<float>(kWalkable)) continue;
+    const Point2 centre = coarse_centre(cell);
+    if (distance(centre, goal) <= reach && is_reachable(centre)) start(cell);
+  }
+  if (queue.empty()) {
+    const auto nearest = nearest_walkable(goal, 50.0);
+    if (!nearest) return field;
+    start(*nearest);
+  }
+  while (!queue.empty()) {
+    const auto [cost, cell] = queue.top();
+    queue.pop();
+    if (cost > field.cost[cell]) continue;
+    const int column = static_cast<int>(cell) % coarse_columns_;
+    const int row = static_cast<int>(cell) / coarse_columns_;
+    for (std::size_t k = 0; k < kNeighbours.size(); ++k) {
+      const int c = column + kNeighbours[k][0];
+      const int r = row + kNeighbours[k][1];
+      if (c < 0 || r < 0 || c >= coarse_columns_ || r >= coarse_rows_) continue;
+      const auto next = static_cast<std::size_t>(r * coarse_columns_ + c);
+      const float gap = coarse_clearance_[next];
+      if (gap < static_cast<float>(kWalkable)) continue;
+      // People keep off walls where there is room.
+      const float length = static_cast<float>(kCoarse) * (k < 4 ? 1.0F : 1.41421356F);
+      const float total = cost + length * (1.0F + 2.0F * std::max(0.0F, 0.7F - gap));
+      if (total < field.cost[next]) {
+        field.cost[next] = total;
+        queue.emplace(total, static_cast<std::uint32_t>(next));
+      }
+    }
+  }
+  return field;
+}
+
+std::optional<Point2> WalkableFloor::direction(const FlowField& field, Point2 point, double radius) const {
+  if (field.cost.empty()) return std::nullopt;
+  std::size_t cell = coarse_cell(point);
+  if (!field.reaches(cell)) {
+    // Pressed against a wall: the best cell around.
+    const int column = static_cast<int>(cell) % coarse_columns_;
+    const int row = static_cast<int>(cell) / coarse_columns_;
+    float least = kUnreachable;
+    for (int r = std::max(0, row - 2); r <= std::min(coarse_rows_ - 1, row + 2); ++r) {
+      for (int c = std::max(0, column - 2); c <= std::min(coarse_columns_ - 1, column + 2); ++c) {
+        const auto next = static_cast<std::size_t>(r * coarse_columns_ + c);
+        if (field.cost[next] < least && is_clear(point, coarse_centre(next), 0.05)) {
+          least = field.cost[next];
+          cell = next;
+        }
+      }
+    }
+    if (least >= kUnreachable) return std::nullopt;
+    const Point2 step = coarse_centre(cell) - point;
+    return norm(step) > 1e-6 ? std::optional{(1.0 / norm(step)) * step} : std::nullopt;
+  }
+  Point2 ahead = coarse_centre(cell);
+  constexpr int kLookAhead = 8;
+  for (int i = 0; i < kLookAhead && field.cost[cell] > 0.0F; ++i) {
+    const int column = static_cast<int>(cell) % coarse_columns_;
+    const int row = static_cast<int>(cell) / coarse_columns_;
+    std::size_t best = cell;
+    for (const auto& [dc, dr] : kNeighbours) {
+      const int c = column + dc;
+      const int r = row + dr;
+      if (c < 0 || r < 0 || c >= coarse_columns_ || r >= coarse_rows_) continue;
+      const auto next = static_cast<std::size_t>(r * coarse_columns_ + c);
+      if (field.cost[next] < field.cost[best]) best = next;
+    }
+    if (best == cell) break;
+    cell = best;
+    if (i > 0 && !is_clear(point, coarse_centre(cell), std::min(radius, kWalkable - 0.02))) break;
+    ahead = coarse_centre(cell);
+  }
+  const Point2 step = ahead - point;
+  const double length = norm(step);
+  return length > 1e-6 ? std::optional{(1.0 / length) * step} : std::nullopt;
+}
+
+}  // namespace docent::simulator

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "docent/base/random.h"
+#include "docent/simulator/world/world.h"
+
+namespace docent::simulator {
+
+/// Cost to go to one place from everywhere that people can walk, on cells of 0.2 m.
+class FlowField {
+ public:
+  [[nodiscard]] bool reaches(std::size_t cell) const { return cost[cell] < 1e9F; }
+  std::vector<float> cost;  ///< [m, weighted]; >= 1e9 where the goal cannot be reached
+};
+
+/// Where people can walk: clearance to walls, furniture and hazards on a 0.1 m grid, and ways through the building.
+class WalkableFloor {
+ public:
+  explicit WalkableFloor(const World& world);
+
+  /// Distance from a point to the nearest thing in the way [m], negative inside it, at most 1.5. Bilinear between cell
+  /// centres: good to a few centimetres. O(1).
+  [[nodiscard]] double clearance(Point2 point) const;
+  /// Unit vector along which the clearance grows; zero in the open.
+  [[nodiscard]] Point2 away_from_walls(Point2 point) const;
+  /// True when a disc can move straight from a to b.
+  [[nodiscard]] bool is_clear(Point2 a, Point2 b, double radius) const;
+  /// True where a person can stand and walk to the rest of the museum.
+  [[nodiscard]] bool is_reachable(Point2 point) const;
+  /// Free floor of the part that hangs together with the entrance [m2].
+  [[nodiscard]] double free_area() const { return free_area_; }
+  /// A uniform draw from the reachable floor with at least `clearance`; nullopt after 2,000 misses.
+  [[nodiscard]] std::optional<Point2> random_point(Rng& rng, double clearance) const;
+
+  /// Ways to all points within `reach` of `goal`, or to the nearest reachable point. O(cells log cells).
+  [[nodiscard]] FlowField field_to(Point2 goal, double reach) const;
+  /// Which way to walk from `point`: looks a few cells ahead. nullopt: no way.
+  [[nodiscard]] std::optional<Point2> direction(const FlowField& field, Point2 point, double radius) const;
+
+ private:
+  [[nodiscard]] std::size_t fine_cell(Point2 point) const;
+  [[nodiscard]] std::size_t coarse_cell(Point2 point) const;
+  [[nodiscard]] Point2 coarse_centre(std::size_t cell) const;
+  [[nodiscard]] std::optional<std::size_t> nearest_walkable(Point2 point, double limit) const;
+  void find_reachable(const World& world);
+
+  Point2 low_{};
+  int columns_ = 0;
+  int rows_ = 0;
+  std::vector<float> clearance_;      ///< [rows * columns]
+  std::vector<std::uint8_t> usable_;  ///< [rows * columns] 1: reachable floor
+  std::vector<std::uint32_t> usable_cells_;
+  double free_area_ = 0.0;
+  int coarse_columns_ = 0;
+  int coarse_rows_ = 0;
+  std::vector<float> coarse_clearance_;
+};
+
+}  // namespace docent::simulator

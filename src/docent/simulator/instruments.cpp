@@ -1,0 +1,202 @@
+#include "docent/simulator/instruments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "docent/messages/conversions.h"
+
+namespace docent::simulator {
+namespace {
+
+/// Half of the readings are lost; false: the whole message is.
+bool halve(sensor_msgs::LaserScan& scan, Rng& rng, bool&) {
+  for (float& range : scan.ranges) {
+    if (rng.chance(0.5)) range = std::numeric_limits<float>::quiet_NaN();
+  }
+  return true;
+}
+bool halve(sensor_msgs::Range& ping, Rng& rng, bool&) {
+  if (rng.chance(0.5)) ping.range = std::numeric_limits<float>::quiet_NaN();
+  return true;
+}
+bool halve(nav_msgs::Odometry&, Rng&, bool& skips) {
+  skips = !skips;
+  return !skips;
+}
+
+}  // namespace
+
+Instruments::Instruments(Bus& bus, const World& world, const Rng& rng)
+    : bus_{bus},
+      front_{LaserParams{}, Pose2{}, rng.stream("laser_front")},
+      rear_{LaserParams{}, Pose2{0.0, 0.0, Angle::degrees(180.0)}, rng.stream("laser_rear")},
+      ring_{SonarParams{}, rng.stream("sonar")},
+      fault_rng_{rng.stream("faults")},
+      front_scans_{bus.publisher(topics::kScanFront)},
+      rear_scans_{bus.publisher(topics::kScanRear)},
+      pings_{bus.publisher(topics::kSonar)},
+      odometry_{bus.publisher(topics::kOdometry)},
+      battery_{bus.publisher(topics::kBattery)},
+      tactile_{bus.publisher(topics::kTactile)} {
+  last_pings_.resize(static_cast<std::size_t>(ring_.params().count));
+  change_world(world);
+}
+
+void Instruments::change_world(const World& world) {
+  laser_walls_ = std::make_unique<RayCaster>(surfaces_at(world, kLaserHeight));
+  sonar_walls_ = std::make_unique<RayCaster>(surfaces_at(world, kSonarHeight));
+}
+
+void Instruments::set_fault(const SensorFault& fault, Time now) {
+  const Time until =
+      fault.duration > 0.0 ? now + seconds(fault.duration) : Time{std::numeric_limits<std::int64_t>::max()};
+  faults_[static_cast<std::size_t>(fault.sensor)] = Fault{fault.kind, until, fault.delay};
+}
+
+const Instruments::Fault* Instruments::fault_of(Sensor sensor, Time now) const {
+  const auto& fault = faults_[static_cast<std::size_t>(sensor)];
+  return fault && now < fault->until ? &*fault : nullptr;
+}
+
+template <class T>
+void Instruments::emit(Sensor sensor, const Publisher<T>& publisher, T message, std::optional<T>& last, Time now) {
+  const Fault* fault = fault_of(sensor, now);
+  if (fault == nullptr) {
+    last = message;
+    publisher.publish(std::move(message));
+    return;
+  }
+  switch (fault->kind) {
+    case FaultKind::dead:
+      return;
+    case FaultKind::frozen:
+      if (!last) last = message;
+      last->header.stamp = message.header.stamp;
+      publisher.publish(*last);
+      return;
+    case FaultKind::half:
+      if (halve(message, fault_rng_, skips_)) publisher.publish(std::move(message));
+      return;
+    case FaultKind::late:
+      bus_.after(seconds(fault->delay), [publisher, message = std::move(message)] { publisher.publish(message); });
+      return;
+  }
+}
+
+void Instruments::publish_odometry(Time now, const Body& body) {
+  nav_msgs::Odometry message;
+  message.header = {to_message(now), "odom"};
+  message.child_frame_id = "base_link";
+  message.pose.pose = to_message(body.odometry());
+  const double dt = to_seconds(now - last_odometry_);
+  if (has_odometry_ && dt > 0.0) {
+    const Pose2 motion = inverse(last_pose_) * body.odometry();
+    message.twist.twist.linear.x = motion.x / dt;
+    message.twist.twist.angular.z = motion.theta.radians() / dt;
+  }
+  has_odometry_ = true;
+  last_odometry_ = now;
+  last_pose_ = body.odometry();
+  constexpr std::array<double, 6> kVariance{1e-4, 1e-4, 1e6, 1e6, 1e6, 1e-3};
+  for (std::size_t i = 0; i < 6; ++i) {
+    message.pose.covariance[7 * i] = kVariance[i];
+    message.twist.covariance[7 * i] = kVariance[i];
+  }
+  emit(Sensor::odom, odometry_, std::move(message), last_odom_, now);
+}
+
+void Instruments::publish_scan(Time now, Sensor sensor, LaserScanner& scanner, const Pose2& pose,
+                               std::span<const Disc> people) {
+  const auto& sweep = scanner.sweep(*laser_walls_, people, pose);
+  const LaserParams& params = scanner.params();
+  sensor_msgs::LaserScan message;
+  message.header = {to_message(now), sensor == Sensor::laser_front ? "laser_front" : "laser_rear"};
+  message.angle_min = static_cast<float>(params.first_bearing);
+  message.angle_max = static_cast<float>(params.first_bearing + (params.beams - 1) * params.bearing_step);
+  message.angle_increment = static_cast<float>(params.bearing_step);
+  message.scan_time = 0.1F;
+  message.range_min = 0.05F;
+  message.range_max = static_cast<float>(params.max_range);
+  message.ranges = sweep.ranges;
+  int blocked = 0;
+  for (const std::int32_t person : sweep.persons) {
+    if (person < 0) continue;
+    ++blocked;
+    met_[static_cast<std::size_t>(person)] = true;
+  }
+  blocked_share_ += static_cast<double>(blocked) / (2.0 * params.beams);
+  const bool is_front = sensor == Sensor::laser_front;
+  emit(sensor, is_front ? front_scans_ : rear_scans_, std::move(message), is_front ? last_front_ : last_rear_, now);
+}
+
+void Instruments::publish_scans(Time now, const Pose2& world_from_base, std::span<const Disc> people) {
+  met_.assign(people.size(), false);
+  blocked_share_ = 0.0;
+  publish_scan(now, Sensor::laser_front, front_, world_from_base, people);
+  publish_scan(now, Sensor::laser_rear, rear_, world_from_base, people);
+}
+
+void Instruments::publish_sonar(Time now, std::uint64_t slot, const Pose2& world_from_base,
+                                std::span<const Disc> people) {
+  constexpr std::uint64_t kSlots = 40;  // 0.4 s
+  const auto count = static_cast<std::uint64_t>(ring_.params().count);
+  for (std::uint64_t turn = 0; turn < count; ++turn) {
+    if (turn * kSlots / count != slot % kSlots) continue;
+    // Neighbours never fire one after the other: each would hear the other's echo.
+    const auto index = static_cast<int>(turn * 7 % count);
+    const SonarParams& params = ring_.params();
+    sensor_msgs::Range message;
+    message.header = {to_message(now),
+                      index < 10 ? "sonar_0" + std::to_string(index) : "sonar_" + std::to_string(index)};
+    message.field_of_view = static_cast<float>(params.field_of_view);
+    message.min_range = static_cast<float>(params.min_range);
+    message.max_range = static_cast<float>(params.max_range);
+    message.range = static_cast<float>(ring_.ping(index, *sonar_walls_, people, world_from_base));
+    emit(Sensor::sonar, pings_, std::move(message), last_pings_[static_cast<std::size_t>(index)], now);
+  }
+}
+
+void Instruments::publish_battery(Time now, const Battery& battery) {
+  sensor_msgs::BatteryState message;
+  message.header = {to_message(now), "base_link"};
+  message.voltage = static_cast<float>(battery.voltage());
+  message.current = static_cast<float>(battery.current());
+  message.design_capacity = 24.0F;
+  message.capacity = 24.0F;
+  message.charge = static_cast<float>(24.0 * battery.charge());
+  message.percentage = static_cast<float>(battery.charge());
+  message.temperature = 25.0F;
+  message.power_supply_status = battery.is_charging() ? (battery.charge() >= 1.0 ? 4 : 1) : 2;
+  message.power_supply_health = 1;
+  battery_.publish(std::move(message));
+}
+
+void Instruments::publish_tactile(Time now, const std::vector<std::uint8_t>& segments) {
+  tactile_.publish({{to_message(now), "base_link"}, segments});
+}
+
+bool Instruments::sees(Point2 robot, std::size_t person, std::span<const Disc> people) const {
+  const Disc& target = people[person];
+  const Point2 offset = target.centre - robot;
+  const double away = norm(offset);
+  if (away < 1e-6) return true;
+  if (away > front_.params().max_range) return false;
+  const Point2 across = (0.8 * target.radius / away) * Point2{-offset.y, offset.x};
+  for (const double side : {0.0, 1.0, -1.0}) {
+    const Point2 point = target.centre + side * across;
+    const double range = distance(robot, point);
+    const Point2 ray = (1.0 / range) * (point - robot);
+    bool is_free = laser_walls_->sees(robot, point);
+    for (std::size_t other = 0; other < people.size() && is_free; ++other) {
+      if (other == person || distance(people[other].centre, robot) > away) continue;
+      const auto hit = ray_distance(robot, ray, people[other].centre, people[other].radius);
+      if (hit && *hit < range - target.radius) is_free = false;
+    }
+    if (is_free) return true;
+  }
+  return false;
+}
+
+}  // namespace docent::simulator

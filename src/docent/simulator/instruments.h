@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "docent/simulator/battery.h"
+#include "docent/simulator/body.h"
+#include "docent/simulator/scenario.h"
+#include "docent/simulator/sensing/laser.h"
+#include "docent/simulator/sensing/sonar.h"
+#include "docent/transport/bus.h"
+
+namespace docent::simulator {
+
+/// The robot's sensors and their faults: measures the world and publishes what a driver of real hardware would.
+class Instruments {
+ public:
+  /// The bus must outlive this, or die with nothing scheduled.
+  Instruments(Bus& bus, const World& world, const Rng& rng);
+
+  void change_world(const World& world);
+  void set_fault(const SensorFault& fault, Time now);
+
+  void publish_odometry(Time now, const Body& body);
+  /// Both scanners at once.
+  void publish_scans(Time now, const Pose2& world_from_base, std::span<const Disc> people);
+  /// @param slot  counts steps of 10 ms: the 24 sonars fire one after the other, each every 0.4 s
+  void publish_sonar(Time now, std::uint64_t slot, const Pose2& world_from_base, std::span<const Disc> people);
+  void publish_battery(Time now, const Battery& battery);
+  void publish_tactile(Time now, const std::vector<std::uint8_t>& segments);
+
+  /// People that a beam of the last sweep met.
+  [[nodiscard]] bool met(std::size_t person) const { return person < met_.size() && met_[person]; }
+  [[nodiscard]] double blocked_share() const { return blocked_share_; }  ///< beams of the last sweep that met people
+  /// True when a ray from the robot's centre within laser range reaches a person, past walls and other people.
+  [[nodiscard]] bool sees(Point2 robot, std::size_t person, std::span<const Disc> people) const;
+
+ private:
+  struct Fault {
+    FaultKind kind;
+    Time until;
+    double delay;
+  };
+  template <class T>
+  void emit(Sensor sensor, const Publisher<T>& publisher, T message, std::optional<T>& last, Time now);
+  [[nodiscard]] const Fault* fault_of(Sensor sensor, Time now) const;
+  void publish_scan(Time now, Sensor sensor, LaserScanner& scanner, const Pose2& pose, std::span<const Disc> people);
+
+  Bus& bus_;
+  std::unique_ptr<RayCaster> laser_walls_;
+  std::unique_ptr<RayCaster> sonar_walls_;
+  LaserScanner front_;
+  LaserScanner rear_;
+  SonarRing ring_;
+  Rng fault_rng_;
+  std::array<std::optional<Fault>, 4> faults_;
+  std::vector<bool> met_;
+  double blocked_share_ = 0.0;
+  bool skips_ = false;
+  Time last_odometry_{};
+  Pose2 last_pose_{};
+  bool has_odometry_ = false;
+
+  Publisher<sensor_msgs::LaserScan> front_scans_;
+  Publisher<sensor_msgs::LaserScan> rear_scans_;
+  Publisher<sensor_msgs::Range> pings_;
+  Publisher<nav_msgs::Odometry> odometry_;
+  Publisher<sensor_msgs::BatteryState> battery_;
+  Publisher<docent_msgs::Tactile> tactile_;
+  std::optional<sensor_msgs::LaserScan> last_front_;
+  std::optional<sensor_msgs::LaserScan> last_rear_;
+  std::vector<std::optional<sensor_msgs::Range>> last_pings_;
+  std::optional<nav_msgs::Odometry> last_odom_;
+};
+
+}  // namespace docent::simulator

@@ -1,0 +1,300 @@
+#include "docent/simulator/scenario.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "docent/base/yaml.h"
+
+namespace docent::simulator {
+namespace {
+
+constexpr double kFar = 1e5;      // [m]
+constexpr double kLongest = 1e8;  // [s]
+
+class EventReader {
+ public:
+  explicit EventReader(const YamlFile& file) : file_{file} {}
+
+  ScenarioEvent read(const YAML::Node& node) {
+    if (!node.IsMap()) fault(node, "expected an event {at: SECONDS, KIND: {...}}");
+    ScenarioEvent event;
+    std::string kind;
+    YAML::Node body;
+    bool has_time = false;
+    for (const auto& entry : node) {
+      if (!entry.first.IsScalar()) fault(entry.first, "expected a plain key");
+      const std::string& key = entry.first.Scalar();
+      if (key == "at") {
+        if (has_time) fault(entry.first, "key 'at' stands twice");
+        has_time = true;
+        event.at = number(entry.second, 0.0, kLongest);
+      } else if (!kind.empty()) {
+        fault(entry.first, "one kind an event: '" + kind + "' or '" + key + "'");
+      } else {
+        kind = key;
+        body = entry.second;
+        kind_at_ = entry.first;
+      }
+    }
+    if (!has_time) fault(node, "missing key 'at'");
+    if (kind.empty()) fault(node, "the event has no kind");
+    event.what = content(kind, body);
+    return event;
+  }
+
+ private:
+  [[noreturn]] void fault(const YAML::Node& at, const std::string& what) const {
+    throw YamlFault{file_.fault(at, what)};
+  }
+
+  decltype(ScenarioEvent::what) content(const std::string& kind, const YAML::Node& body) {
+    if (kind == "kidnap") return kidnap(body);
+    if (kind == "fault") return sensor_fault(body);
+    if (kind == "stool") return stool(body);
+    if (kind == "closed") return closed(body);
+    if (kind == "pose_error") return pose_error(body);
+    if (kind == "visitors") return visitors(body);
+    if (kind == "request") return wish(body);
+    if (kind == "kill") return kill(body);
+    fault(kind_at_,
+          "unknown kind '" + kind + "' (known: kidnap, fault, stool, closed, pose_error, visitors, request, kill)");
+  }
+
+  [[nodiscard]] double number(const YAML::Node& node, double low, double high) const {
+    double value = 0.0;
+    if (!node.IsScalar()) fault(node, "expected a number");
+    try {
+      value = node.as<double>();
+    } catch (const YAML::Exception&) {
+      fault(node, "expected a number, found '" + node.Scalar() + "'");
+    }
+    check(node, value, low, high);
+    return value;
+  }
+  void check(const YAML::Node& node, double value, double low, double high) const {
+    if (!(value >= low && value <= high)) {
+      fault(node, "expected a number from " + text(low) + " to " + text(high) + ", found " + text(value));
+    }
+  }
+  static std::string text(double value) {
+    std::string digits = std::to_string(value);
+    digits.erase(digits.find_last_not_of('0') + 1);
+    if (!digits.empty() && digits.back() == '.') digits.pop_back();
+    return digits;
+  }
+  [[nodiscard]] Point2 point(const YAML::Node& node) const {
+    if (!node.IsSequence() || node.size() != 2) fault(node, "expected a point [x, y]");
+    return {number(node[0], -kFar, kFar), number(node[1], -kFar, kFar)};
+  }
+  /// Reads one mapping: a handler a key; `needed` must be there.
+  using Handlers = std::map<std::string, std::function<void(const YAML::Node&)>>;
+  void fields(const YAML::Node& node, const Handlers& handlers, const std::vector<std::string>& needed) const {
+    if (!node.IsDefined() || node.IsNull()) {
+      if (!needed.empty()) fault(kind_at_, "missing key '" + needed.front() + "'");
+      return;
+    }
+    if (!node.IsMap()) fault(node, "expected a mapping (key: value)");
+    std::vector<std::string> seen;
+    for (const auto& entry : node) {
+      if (!entry.first.IsScalar()) fault(entry.first, "expected a plain key");
+      const std::string& key = entry.first.Scalar();
+      const auto handler = handlers.find(key);
+      if (handler == handlers.end()) {
+        std::string names;
+        for (const auto& [name, unused] : handlers) names += (names.empty() ? "" : ", ") + name;
+        fault(entry.first, "unknown key '" + key + "' (known: " + names + ")");
+      }
+      if (std::find(seen.begin(), seen.end(), key) != seen.end()) fault(entry.first, "key '" + key + "' stands twice");
+      seen.push_back(key);
+      handler->second(entry.second);
+    }
+    for (const std::string& key : needed) {
+      if (std::find(seen.begin(), seen.end(), key) == seen.end()) fault(node, "missing key '" + key + "'");
+    }
+  }
+  template <class T>
+  void choice(const YAML::Node& node, const std::vector<std::pair<std::string, T>>& choices, T& value) const {
+    const std::string found = string(node);
+    std::string names;
+    for (const auto& [name, option] : choices) {
+      if (name == found) {
+        value = option;
+        return;
+      }
+      names += (names.empty() ? "" : ", ") + name;
+    }
+    fault(node, "expected one of " + names + ", found '" + found + "'");
+  }
+  [[nodiscard]] std::string string(const YAML::Node& node) const {
+    if (!node.IsScalar() || node.Scalar().empty()) fault(node, "expected a text");
+    return node.Scalar();
+  }
+  [[nodiscard]] auto into(double& value, double low, double high) const {
+    return [this, &value, low, high](const YAML::Node& node) { value = number(node, low, high); };
+  }
+  [[nodiscard]] auto degrees_into(double& value) const {
+    return [this, &value](const YAML::Node& node) { value = Angle::degrees(number(node, -3600.0, 3600.0)).radians(); };
+  }
+  [[nodiscard]] auto into(Point2& value) const {
+    return [this, &value](const YAML::Node& node) { value = point(node); };
+  }
+  [[nodiscard]] auto into(std::string& value) const {
+    return [this, &value](const YAML::Node& node) { value = string(node); };
+  }
+
+  [[nodiscard]] Kidnap kidnap(const YAML::Node& node) const {
+    Kidnap event;
+    std::optional<Point2> to;
+    double heading = 0.0;
+    fields(node, {{"to", [&](const YAML::Node& at) { to = point(at); }}, {"heading", degrees_into(heading)}}, {});
+    if (to) event.to = Pose2{to->x, to->y, Angle::radians(heading)};
+    return event;
+  }
+  [[nodiscard]] SensorFault sensor_fault(const YAML::Node& node) const {
+    SensorFault event;
+    fields(node,
+           {{"sensor",
+             [&](const YAML::Node& at) {
+               choice<Sensor>(at,
+                              {{"laser_front", Sensor::laser_front},
+                               {"laser_rear", Sensor::laser_rear},
+                               {"sonar", Sensor::sonar},
+                               {"odom", Sensor::odom}},
+                              event.sensor);
+             }},
+            {"kind",
+             [&](const YAML::Node& at) {
+               choice<FaultKind>(at,
+                                 {{"dead", FaultKind::dead},
+                                  {"frozen", FaultKind::frozen},
+                                  {"half", FaultKind::half},
+                                  {"late", FaultKind::late}},
+                                 event.kind);
+             }},
+            {"for", into(event.duration, 0.0, kLongest)},
+            {"delay", into(event.delay, 0.01, 60.0)}},
+           {"sensor", "kind"});
+    return event;
+  }
+  [[nodiscard]] Stool stool(const YAML::Node& node) const {
+    Stool event;
+    fields(node,
+           {{"at", into(event.at)},
+            {"radius", into(event.radius, 0.05, 2.0)},
+            {"height", into(event.height, 0.05, 3.0)},
+            {"for", into(event.duration, 0.0, kLongest)}},
+           {"at"});
+    return event;
+  }
+  [[nodiscard]] ClosedPassage closed(const YAML::Node& node) const {
+    ClosedPassage event;
+    fields(node, {{"from", into(event.from)}, {"to", into(event.to)}, {"for", into(event.duration, 0.0, kLongest)}},
+           {"from", "to"});
+    if (distance(event.from, event.to) < 0.05) fault(node, "'from' and 'to' are the same point");
+    return event;
+  }
+  [[nodiscard]] PoseError pose_error(const YAML::Node& node) const {
+    PoseError event;
+    fields(node,
+           {{"x", into(event.x, -kFar, kFar)},
+            {"y", into(event.y, -kFar, kFar)},
+            {"heading", degrees_into(event.heading)}},
+           {});
+    if (event.x == 0.0 && event.y == 0.0 && event.heading == 0.0) fault(kind_at_, "a pose error of nothing");
+    return event;
+  }
+  [[nodiscard]] Visitors visitors(const YAML::Node& node) const {
+    Visitors event;
+    fields(node,
+           {{"count",
+             [&](const YAML::Node& at) {
+               const double count = number(at, 1.0, 500.0);
+               if (count != std::floor(count)) fault(at, "expected a whole number");
+               event.count = static_cast<int>(count);
+             }},
+            {"at", [&](const YAML::Node& at) { event.at = point(at); }},
+            {"formation",
+             [&](const YAML::Node& at) {
+               choice<Formation>(
+                   at, {{"gather", Formation::gather}, {"wall", Formation::wall}, {"ushape", Formation::ushape}},
+                   event.formation);
+             }},
+            {"heading",
+             [&](const YAML::Node& at) {
+               degrees_into(event.heading)(at);
+               event.has_heading = true;
+             }},
+            {"for", into(event.duration, 0.1, kLongest)}},
+           {"count"});
+    return event;
+  }
+  [[nodiscard]] Wish wish(const YAML::Node& node) const {
+    Wish event;
+    fields(node,
+           {{"kind",
+             [&](const YAML::Node& at) {
+               choice<std::string>(at, {{"exhibit", "exhibit"}, {"tour", "tour"}}, event.kind);
+             }},
+            {"target", into(event.target)},
+            {"language", into(event.language)}},
+           {"target"});
+    return event;
+  }
+  [[nodiscard]] Kill kill(const YAML::Node& node) const {
+    Kill event;
+    fields(node,
+           {{"module", into(event.module)},
+            {"signal",
+             [&](const YAML::Node& at) {
+               choice<std::string>(at, {{"kill", "kill"}, {"stop", "stop"}}, event.signal);
+             }},
+            {"for", into(event.duration, 0.1, 3600.0)}},
+           {"module"});
+    return event;
+  }
+
+  const YamlFile& file_;
+  YAML::Node kind_at_;
+};
+
+Result<Scenario> read_scenario(const YamlFile& file) {
+  Scenario scenario;
+  try {
+    const YAML::Node& root = file.root();
+    if (!root.IsMap()) throw YamlFault{file.fault(root, "expected a mapping with 'events'")};
+    for (const auto& entry : root) {
+      if (!entry.first.IsScalar() || entry.first.Scalar() != "events") {
+        throw YamlFault{file.fault(entry.first, "unknown key (known: events)")};
+      }
+    }
+    const YAML::Node events = root["events"];
+    if (!events.IsDefined() || !events.IsSequence()) throw YamlFault{file.fault(root, "'events' must be a list")};
+    EventReader reader{file};
+    for (const auto& node : events) scenario.events.push_back(reader.read(node));
+  } catch (const YamlFault& fault) {
+    return tl::unexpected<Error>(fault.error);
+  } catch (const YAML::Exception& exception) {
+    return fail(file.name() + ":" + std::to_string(exception.mark.line + 1) + ": " + exception.msg);
+  }
+  std::stable_sort(scenario.events.begin(), scenario.events.end(),
+                   [](const ScenarioEvent& a, const ScenarioEvent& b) { return a.at < b.at; });
+  return scenario;
+}
+
+}  // namespace
+
+Result<Scenario> parse_scenario(const std::string& text, const std::string& name) {
+  auto file = YamlFile::parse(text, name);
+  if (!file) return tl::unexpected<Error>(file.error());
+  return read_scenario(*file);
+}
+
+Result<Scenario> load_scenario(const std::filesystem::path& path) {
+  auto file = YamlFile::load(path);
+  if (!file) return tl::unexpected<Error>(file.error());
+  return read_scenario(*file);
+}
+
+}  // namespace docent::simulator

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "docent/base/result.h"
+#include "docent/geometry/pose2.h"
+
+namespace docent::simulator {
+
+/// Someone carries the robot to another place; its wheels do not turn. Without a place: a random free one.
+struct Kidnap {
+  std::optional<Pose2> to;  ///< world_from_base
+};
+enum class Sensor { laser_front, laser_rear, sonar, odom };
+enum class FaultKind {
+  dead,    ///< no message at all
+  frozen,  ///< the last reading again and again, with fresh stamps
+  half,    ///< half of the readings invalid (NaN); odometry: every second message is missing
+  late,    ///< messages arrive `delay` seconds after their stamp
+};
+struct SensorFault {
+  Sensor sensor = Sensor::laser_front;
+  FaultKind kind = FaultKind::dead;
+  double duration = 0.0;  ///< [s]; 0: to the end
+  double delay = 0.5;     ///< [s] for `late`
+};
+/// A small piece of furniture stands there for a while.
+struct Stool {
+  Point2 at{};
+  double radius = 0.2;    ///< [m]
+  double height = 0.45;   ///< [m]
+  double duration = 0.0;  ///< [s]; 0: to the end
+};
+/// A barrier between two points.
+struct ClosedPassage {
+  Point2 from{};
+  Point2 to{};
+  double duration = 0.0;  ///< [s]; 0: to the end
+};
+/// Published to the robot as if someone had set its pose: carried out by the application.
+struct PoseError {
+  double x = 0.0, y = 0.0;  ///< [m], added
+  double heading = 0.0;     ///< [rad], added
+};
+enum class Formation { gather, wall, ushape };
+struct Visitors {
+  int count = 1;
+  std::optional<Point2> at;  ///< without: before the robot; for ushape: round it
+  Formation formation = Formation::gather;
+  double heading = 0.0;  ///< [rad] the direction that the wall or the open side of the U faces
+  bool has_heading = false;
+  double duration = 60.0;  ///< [s] they stand there
+};
+struct Wish {
+  std::string kind = "exhibit";  ///< exhibit or tour
+  std::string target;
+  std::string language = "en";
+};
+/// A signal to a module: carried out by the application.
+struct Kill {
+  std::string module;
+  std::string signal = "kill";  ///< kill or stop
+  double duration = 10.0;       ///< [s] for stop: until it continues
+};
+
+struct ScenarioEvent {
+  double at = 0.0;  ///< [s] since the start
+  std::variant<Kidnap, SensorFault, Stool, ClosedPassage, PoseError, Visitors, Wish, Kill> what;
+};
+
+/// Timed events over a run (architecture 10.2), by rising time; equal times keep the file's order.
+struct Scenario {
+  std::vector<ScenarioEvent> events;
+};
+
+/// Reads `events:`, a list of `{at: SECONDS, KIND: {...}}` with KIND one of kidnap, fault, stool, closed, pose_error,
+/// visitors, request, kill. Error: "FILE:LINE: ...".
+[[nodiscard]] Result<Scenario> load_scenario(const std::filesystem::path& path);
+[[nodiscard]] Result<Scenario> parse_scenario(const std::string& text, const std::string& name);
+
+}  // namespace docent::simulator

@@ -1,0 +1,103 @@
+#include "docent/simulator/scenario.h"
+
+#include <gtest/gtest.h>
+
+namespace docent::simulator {
+namespace {
+
+TEST(Scenario, ReadsEveryKindOfEventInOrderOfTime) {
+  const auto scenario = parse_scenario(R"(events:
+  - {at: 300, kill: {module: plan, signal: stop, for: 10}}
+  - at: 10
+    kidnap: {to: [3.0, 4.5], heading: 90}
+  - {at: 20, kidnap: }
+  - {at: 30, fault: {sensor: laser_rear, kind: late, for: 12, delay: 0.4}}
+  - {at: 40, stool: {at: [1, 2], radius: 0.3, for: 60}}
+  - {at: 50, closed: {from: [0, 0], to: [0, 2]}}
+  - {at: 60, pose_error: {x: 0.5, heading: 10}}
+  - {at: 70, visitors: {count: 6, at: [5, 5], formation: wall, heading: 180, for: 45}}
+  - {at: 80, request: {kind: tour, target: space, language: de}}
+)",
+                                       "s.yaml");
+  ASSERT_TRUE(scenario) << scenario.error().message;
+  const auto& events = scenario->events;
+  ASSERT_EQ(events.size(), 9U);
+  const auto& kidnap = std::get<Kidnap>(events[0].what);
+  ASSERT_TRUE(kidnap.to);
+  EXPECT_DOUBLE_EQ(kidnap.to->y, 4.5);
+  EXPECT_NEAR(kidnap.to->theta.degrees(), 90.0, 1e-9);
+  EXPECT_FALSE(std::get<Kidnap>(events[1].what).to);
+  const auto& fault = std::get<SensorFault>(events[2].what);
+  EXPECT_EQ(fault.sensor, Sensor::laser_rear);
+  EXPECT_EQ(fault.kind, FaultKind::late);
+  EXPECT_DOUBLE_EQ(fault.delay, 0.4);
+  EXPECT_DOUBLE_EQ(fault.duration, 12.0);
+  EXPECT_DOUBLE_EQ(std::get<Stool>(events[3].what).radius, 0.3);
+  EXPECT_DOUBLE_EQ(std::get<ClosedPassage>(events[4].what).to.y, 2.0);
+  EXPECT_DOUBLE_EQ(std::get<PoseError>(events[5].what).x, 0.5);
+  EXPECT_EQ(std::get<Visitors>(events[6].what).formation, Formation::wall);
+  EXPECT_EQ(std::get<Visitors>(events[6].what).count, 6);
+  EXPECT_EQ(std::get<Wish>(events[7].what).kind, "tour");
+  EXPECT_EQ(std::get<Kill>(events[8].what).signal, "stop");
+  EXPECT_DOUBLE_EQ(events[8].at, 300.0);
+}
+
+struct Broken {
+  const char* text;
+  const char* fault;
+};
+class BrokenScenario : public testing::TestWithParam<Broken> {};
+
+TEST_P(BrokenScenario, IsRefusedInOneLineWithFileAndLine) {
+  const auto scenario = parse_scenario(GetParam().text, "s.yaml");
+  ASSERT_FALSE(scenario);
+  EXPECT_EQ(scenario.error().message, GetParam().fault);
+}
+
+constexpr Broken kBroken[] = {
+    {"", "s.yaml:1: expected a mapping with 'events'"},
+    {"events: 3", "s.yaml:1: 'events' must be a list"},
+    {"event: []", "s.yaml:1: unknown key (known: events)"},
+    {"events:\n  - 5", "s.yaml:2: expected an event {at: SECONDS, KIND: {...}}"},
+    {"events:\n  - {kidnap: }", "s.yaml:2: missing key 'at'"},
+    {"events:\n  - {at: 3}", "s.yaml:2: the event has no kind"},
+    {"events:\n  - {at: soon, kidnap: }", "s.yaml:2: expected a number, found 'soon'"},
+    {"events:\n  - {at: -1, kidnap: }", "s.yaml:2: expected a number from 0 to 100000000, found -1"},
+    {"events:\n  - {at: .nan, kidnap: }", "s.yaml:2: expected a number from 0 to 100000000, found nan"},
+    {"events:\n  - {at: 1, at: 2, kidnap: }", "s.yaml:2: key 'at' stands twice"},
+    {"events:\n  - {at: 1, kidnap: , stool: {at: [1, 2]}}", "s.yaml:2: one kind an event: 'kidnap' or 'stool'"},
+    {"events:\n  - {at: 1, abduct: }",
+     "s.yaml:2: unknown kind 'abduct' (known: kidnap, fault, stool, closed, pose_error, visitors, request, kill)"},
+    {"events:\n  - at: 1\n    kidnap: {to: [1]}", "s.yaml:3: expected a point [x, y]"},
+    {"events:\n  - at: 1\n    kidnap: {where: [1, 2]}", "s.yaml:3: unknown key 'where' (known: heading, to)"},
+    {"events:\n  - at: 1\n    kidnap: [1, 2]", "s.yaml:3: expected a mapping (key: value)"},
+    {"events:\n  - at: 1\n    fault: {sensor: nose, kind: dead}",
+     "s.yaml:3: expected one of laser_front, laser_rear, sonar, odom, found 'nose'"},
+    {"events:\n  - at: 1\n    fault: {sensor: odom, kind: sad}",
+     "s.yaml:3: expected one of dead, frozen, half, late, found 'sad'"},
+    {"events:\n  - at: 1\n    fault: {sensor: odom}", "s.yaml:3: missing key 'kind'"},
+    {"events:\n  - at: 1\n    fault:", "s.yaml:3: missing key 'sensor'"},
+    {"events:\n  - at: 1\n    stool: {at: [1, 2], radius: 9}", "s.yaml:3: expected a number from 0.05 to 2, found 9"},
+    {"events:\n  - at: 1\n    stool: {at: [1, 2], at: [1, 2]}", "s.yaml:3: key 'at' stands twice"},
+    {"events:\n  - at: 1\n    closed: {from: [1, 2], to: [1, 2]}", "s.yaml:3: 'from' and 'to' are the same point"},
+    {"events:\n  - at: 1\n    pose_error: {}", "s.yaml:3: a pose error of nothing"},
+    {"events:\n  - at: 1\n    visitors: {count: 2.5}", "s.yaml:3: expected a whole number"},
+    {"events:\n  - at: 1\n    visitors: {count: 0}", "s.yaml:3: expected a number from 1 to 500, found 0"},
+    {"events:\n  - at: 1\n    visitors: {count: 3, formation: [wall]}", "s.yaml:3: expected a text"},
+    {"events:\n  - at: 1\n    request: {kind: cancel, target: a}",
+     "s.yaml:3: expected one of exhibit, tour, found 'cancel'"},
+    {"events:\n  - at: 1\n    kill: {signal: stop}", "s.yaml:3: missing key 'module'"},
+};
+INSTANTIATE_TEST_SUITE_P(Cases, BrokenScenario, testing::ValuesIn(kBroken));
+
+TEST(Scenario, FaultsOfTheYamlItselfNameTheLine) {
+  const auto scenario = parse_scenario("events:\n  - {at: 1\nx: [", "s.yaml");
+  ASSERT_FALSE(scenario);
+  EXPECT_EQ(scenario.error().message.rfind("s.yaml:", 0), 0U) << scenario.error().message;
+  const auto missing = load_scenario("/nowhere/s.yaml");
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().message.rfind("/nowhere/s.yaml", 0), 0U);
+}
+
+}  // namespace
+}  // namespace docent::simulator

@@ -1,0 +1,415 @@
+#include "docent/simulator/simulated_museum.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "docent/base/check.h"
+#include "docent/messages/conversions.h"
+#include "docent/simulator/battery.h"
+#include "docent/simulator/body.h"
+#include "docent/simulator/contact_log.h"
+#include "docent/simulator/crowd/crowd.h"
+#include "docent/simulator/instruments.h"
+#include "docent/simulator/obstacles.h"
+#include "docent/simulator/start_pose.h"
+#include "docent/simulator/visitors.h"
+
+namespace docent::simulator {
+namespace {
+
+constexpr double kStep = 0.01;        // [s]
+constexpr double kPeopleStep = 0.02;  // [s]
+constexpr int kTactileSegments = 24;
+constexpr double kChargerReach = 0.4;  // [m]
+
+CrowdParams params_for(const SimulationOptions& options) {
+  CrowdParams params = options.crowd_params;
+  if (options.crowd == "packed" && params.near_share == 0.0) params.near_share = 0.25;
+  return params;
+}
+
+}  // namespace
+
+Result<void> validate(const SimulationOptions& options) {
+  if (!crowd_density(options.crowd)) {
+    return fail("crowd '" + options.crowd + "' is unknown (known: empty, quiet, busy, packed)");
+  }
+  if (options.world.floor.size() < 3) return fail("the world has no floor");
+  if (options.start && Obstacles{options.world}.clearance(options.start->position()) < BodyParams{}.radius) {
+    return fail("the start touches a solid of the world");
+  }
+  if (options.requests_per_hour && !(*options.requests_per_hour >= 0.0)) return fail("requests per hour must be >= 0");
+  return {};
+}
+
+class SimulatedMuseum::Impl {
+ public:
+  Impl(Bus& robot_bus, Bus& truth_bus, SimulationOptions options)
+      : bus_{robot_bus},
+        truth_bus_{truth_bus},
+        options_{std::move(options)},
+        world_{options_.world},
+        rng_{Rng{options_.seed}.stream("simulator")},
+        place_rng_{rng_.stream("places")},
+        start_{bus_.now()},
+        time_{start_},
+        obstacles_{world_},
+        body_{BodyParams{}, first_pose(), rng_.stream("body")},
+        crowd_{make_crowd()},
+        instruments_{robot_bus, world_, rng_},
+        visitors_{wish_params(), world_.exhibits, world_.tours, rng_.stream("visitors")},
+        tactile_(kTactileSegments, 0),
+        requests_{robot_bus.publisher(topics::kRequest)},
+        choices_{robot_bus.publisher(topics::kChoice)},
+        run_infos_{truth_bus.publisher(topics::kRunInfo)},
+        states_{truth_bus.publisher(topics::kTrueState)},
+        contacts_{truth_bus.publisher(topics::kTrueContact)},
+        offers_{truth_bus.publisher(topics::kTrueOffer)} {
+    battery_.set_charge(options_.battery);
+    docent_msgs::RunInfo info = options_.run_info;
+    info.seed = options_.seed;
+    info.crowd = options_.crowd;
+    tell(run_infos_, std::move(info));
+  }
+
+  void command(const geometry_msgs::Twist& twist) { body_.command(bus_.now(), twist.linear.x, twist.angular.z); }
+  void hear_horn() { crowd_.hear_horn(run_seconds()); }
+  void hear_speech(const docent_msgs::SpeechState& speech) {
+    if (speech.state != "speaking") return crowd_.hear_speech(-1.0);
+    const Time end = from_message(speech.start) + seconds(speech.duration);
+    crowd_.hear_speech(to_seconds(end - start_));
+  }
+  void see_board(const docent_msgs::RequestBoard& board) { visitors_.see_board(board); }
+  void see_mission(const docent_msgs::MissionState& mission) { visitors_.see_mission(bus_.now(), mission); }
+
+  /// Catches up with the bus's clock.
+  void tick() {
+    const Time now = bus_.now();
+    if (now - time_ > seconds(0.5)) time_ = now - seconds(kStep);  // too late to catch up: skip
+    while (time_ + seconds(kStep) <= now) {
+      time_ = time_ + seconds(kStep);
+      step();
+      ++steps_;
+    }
+  }
+
+  [[nodiscard]] const Body& body() const { return body_; }
+  [[nodiscard]] const Crowd& crowd() const { return crowd_; }
+
+ private:
+  [[nodiscard]] double run_seconds() const { return to_seconds(time_ - start_); }
+  [[nodiscard]] bool every(std::uint64_t steps) const { return steps_ % steps == 0; }
+
+  template <class T>
+  void tell(const Publisher<T>& publisher, T message) {
+    // The truth has a bus of its own, perhaps a thread of its own.
+    truth_bus_.post([publisher, message = std::move(message)] { publisher.publish(message); });
+  }
+
+  Pose2 first_pose() {
+    floor_.emplace(world_);
+    if (options_.start) return *options_.start;
+    Rng rng = rng_.stream("start");
+    if (const auto start = random_start(world_, *floor_, rng)) return *start;
+    return {world_.home.x, world_.home.y, Angle{}};
+  }
+  Crowd make_crowd() {
+    const double density = crowd_density(options_.crowd).value_or(0.0);
+    const auto count =
+        options_.crowd_count.value_or(static_cast<std::size_t>(std::llround(density * floor_->free_area())));
+    Crowd crowd{world_, std::move(*floor_), params_for(options_), count, rng_.stream("crowd"), view()};
+    floor_.reset();
+    return crowd;
+  }
+  WishParams wish_params() const {
+    WishParams params;
+    params.requests_per_hour = options_.requests_per_hour.value_or(world_.visitors_per_hour);
+    return params;
+  }
+  [[nodiscard]] RobotView view() const {
+    const Pose2& pose = body_.pose();
+    return {pose.position(), pose.theta.radians(), body_.linear() * unit(pose.theta), body_.angular(),
+            body_.params().radius};
+  }
+
+  void step() {
+    play_scenario();
+    const Pose2 before = body_.pose();
+    body_.step(time_, kStep, !battery_.is_empty());
+    if (has_fallen_) body_.carry_to(before);
+    if (steps_ % 2 == 0) crowd_.step(run_seconds(), kPeopleStep, view());
+    people_.clear();
+    for (const Person& person : crowd_.people()) people_.push_back({person.position, person.radius});
+    touch();
+    distance_ += distance(before.position(), body_.pose().position());
+    const bool at_charger = options_.charger && distance(*options_.charger, body_.pose().position()) < kChargerReach &&
+                            std::abs(body_.linear()) < 0.01;
+    battery_.step(kStep, body_.linear(), at_charger);
+    publish();
+  }
+
+  /// Contacts of the disc with solids and people; pushes both apart.
+  void touch() {
+    watch_people();
+    const double radius = body_.params().radius;
+    Point2 centre = body_.pose().position();
+    std::fill(tactile_now_.begin(), tactile_now_.end(), 0);
+    obstacles_.resolve(centre, radius, touches_);
+    for (const Touch& touch : touches_) {
+      const Solid& solid = world_.solids[touch.solid];
+      log_.touch(time_, body_, {contact_kind(solid.kind), solid.id, touch.point, touch.towards, 0.0, std::nullopt});
+      press(touch.towards);
+    }
+    for (std::size_t i = 0; i < people_.size(); ++i) {
+      const double reach = radius + people_[i].radius;
+      const Point2 offset = people_[i].centre - centre;
+      const double away = norm(offset);
+      if (away > reach + 0.001) continue;
+      const Point2 towards = away > 1e-6 ? (1.0 / away) * offset : Point2{1.0, 0.0};
+      const Person& person = crowd_.people()[i];
+      log_.touch(time_, body_,
+                 {"people", "person-" + std::to_string(person.id), centre + radius * towards, towards,
+                  -dot(person.velocity, towards), person.id});
+      press(towards);
+      const double rest = crowd_.give_way(i, centre, reach);
+      if (rest > 0.0) centre = centre - rest * towards;  // wedged in: it is the robot that stops
+      people_[i].centre = crowd_.people()[i].position;
+    }
+    if (!touches_.empty()) obstacles_.resolve(centre, radius, touches_);
+    body_.correct(centre);
+    if (!has_fallen_ && obstacles_.has_fallen(centre)) {
+      has_fallen_ = true;
+      offer("fall", "stairs");
+    }
+    for (auto& contact : log_.finish_step(time_, kStep, body_)) tell(contacts_, std::move(contact));
+  }
+
+  void press(Point2 towards) {
+    const double bearing = (Angle::radians(std::atan2(towards.y, towards.x)) - body_.pose().theta).radians();
+    const int segment = static_cast<int>(std::lround(bearing / (2.0 * std::numbers::pi) * kTactileSegments));
+    tactile_now_[static_cast<std::size_t>((segment + kTactileSegments) % kTactileSegments)] = 1;
+  }
+
+  void watch_people() {
+    samples_.clear();
+    const Point2 centre = body_.pose().position();
+    const Point2 ahead = unit(body_.pose().theta);
+    for (std::size_t i = 0; i < people_.size(); ++i) {
+      const Point2 offset = people_[i].centre - centre;
+      constexpr double kWatched = 3.0;  // [m] more than any stopping distance
+      if (std::abs(offset.x) > kWatched || std::abs(offset.y) > kWatched) continue;
+      const bool in_the_way = std::abs(cross(ahead, offset)) < body_.params().radius + people_[i].radius + 0.1;
+      const bool in_sight = in_the_way && std::abs(body_.linear()) > 0.01 && instruments_.sees(centre, i, people_);
+      samples_.push_back({crowd_.people()[i].id, offset, people_[i].radius, in_sight});
+    }
+    log_.watch(time_, body_, samples_);
+  }
+
+  void publish() {
+    if (every(5)) instruments_.publish_odometry(time_, body_);
+    if (every(10)) instruments_.publish_scans(time_, body_.pose(), people_);
+    instruments_.publish_sonar(time_, steps_, body_.pose(), people_);
+    if (tactile_now_ != tactile_ || every(20)) {
+      tactile_ = tactile_now_;
+      instruments_.publish_tactile(time_, tactile_);
+    }
+    if (every(100)) instruments_.publish_battery(time_, battery_);
+    if (every(10)) {
+      publish_truth();
+      auto wishes = visitors_.step(time_, time_ - start_);
+      for (const std::string& id : wishes.offered) offer("request", id);
+      for (auto& request : wishes.requests) requests_.publish(std::move(request));
+      for (auto& choice : wishes.choices) choices_.publish(std::move(choice));
+    }
+  }
+
+  void publish_truth() {
+    docent_msgs::TrueState state;
+    state.header = {to_message(time_), "world"};
+    const Pose2& pose = body_.pose();
+    state.x = pose.x;
+    state.y = pose.y;
+    state.theta = pose.theta.radians();
+    state.linear = body_.linear();
+    state.angular = body_.angular();
+    state.distance_m = distance_;
+    state.inside_area = world_.operating_area.size() < 3 || contains(world_.operating_area, pose.position());
+    state.battery = battery_.charge();
+    state.blocked_beams = instruments_.blocked_share();
+    state.contact_seconds = log_.seconds_wheels_turning();
+    state.visitors = crowd_.visitors();
+    state.nearest_person_m = 1e3;
+    const auto people = crowd_.people();
+    state.people.reserve(people.size());
+    for (std::size_t i = 0; i < people.size(); ++i) {
+      const Person& person = people[i];
+      state.nearest_person_m = std::min(
+          state.nearest_person_m, distance(person.position, pose.position()) - person.radius - body_.params().radius);
+      state.people.push_back({person.id, static_cast<float>(person.position.x), static_cast<float>(person.position.y),
+                              static_cast<float>(person.velocity.x), static_cast<float>(person.velocity.y),
+                              static_cast<float>(person.radius), instruments_.met(i)});
+    }
+    tell(states_, std::move(state));
+  }
+
+  void offer(std::string kind, std::string subject) {
+    tell(offers_, docent_msgs::TrueOffer{{to_message(time_), "world"}, std::move(kind), std::move(subject)});
+  }
+
+  // What a scenario does.
+  void play_scenario() {
+    const double now = run_seconds();
+    while (next_event_ < options_.scenario.events.size() && options_.scenario.events[next_event_].at <= now) {
+      std::visit([this](const auto& event) { play(event); }, options_.scenario.events[next_event_].what);
+      ++next_event_;
+    }
+    if (!every(10) || temporary_.empty()) return;
+    bool changed = false;
+    for (Temporary& item : temporary_) {
+      if (!item.stands && !item.is_over &&
+          distance(item.solid.polygon, body_.pose().position()) > body_.params().radius + 0.05) {
+        // Nobody sets it down on top of the robot: it waits until there is room.
+        item.stands = changed = true;
+        world_.solids.push_back(item.solid);
+      }
+      if (item.until > 0.0 && now >= item.until && !item.is_over) {
+        item.is_over = true;
+        changed = changed || item.stands;
+        std::erase_if(world_.solids, [&](const Solid& solid) { return solid.id == item.solid.id; });
+      }
+    }
+    std::erase_if(temporary_, [](const Temporary& item) { return item.is_over; });
+    if (!changed) return;
+    obstacles_ = Obstacles{world_};
+    instruments_.change_world(world_);
+    crowd_.change_world(world_);
+  }
+  void play(const Kidnap& event) {
+    std::optional<Pose2> to = event.to;
+    const Point2 here = body_.pose().position();
+    if (!to) to = random_start(world_, crowd_.floor(), place_rng_, 0.6, here, 3.0);
+    if (!to) return;
+    body_.carry_to(*to);
+    has_fallen_ = false;
+    log_.forget();
+    offer("kidnap", "");
+  }
+  void play(const SensorFault& event) {
+    instruments_.set_fault(event, time_);
+    constexpr const char* kSensors[] = {"laser_front", "laser_rear", "sonar", "odom"};
+    offer("fault", kSensors[static_cast<std::size_t>(event.sensor)]);
+  }
+  void play(const Stool& event) {
+    Polygon outline;
+    for (int i = 0; i < 8; ++i) outline.push_back(event.at + event.radius * unit(Angle::degrees(45.0 * i)));
+    put_up("stool", SolidKind::furniture, std::move(outline), event.height, event.duration);
+  }
+  void play(const ClosedPassage& event) {
+    const Point2 way = event.to - event.from;
+    const Point2 across = (0.05 / norm(way)) * Point2{-way.y, way.x};
+    put_up("closed", SolidKind::wall, {event.from - across, event.to - across, event.to + across, event.from + across},
+           1.2, event.duration);
+  }
+  void put_up(const std::string& kind, SolidKind solid, Polygon outline, double height, double duration) {
+    const std::string id = kind + "-" + std::to_string(next_event_);
+    temporary_.push_back(
+        {{id, solid, std::move(outline), 0.0, height, true}, duration > 0.0 ? run_seconds() + duration : 0.0});
+    offer(kind, id);
+  }
+  void play(const Visitors& event) {
+    const Pose2& robot = body_.pose();
+    const bool round_robot = !event.at && event.formation == Formation::ushape;
+    const Point2 centre = event.at.value_or(round_robot ? robot.position() : robot * Point2{1.6, 0.0});
+    const Angle facing = event.has_heading ? Angle::radians(event.heading) : robot.theta + Angle::degrees(180.0);
+    std::vector<Point2> places;
+    for (int i = 0; i < event.count; ++i) {
+      const double slot = i - (event.count - 1) / 2.0;
+      if (event.formation == Formation::wall) {
+        places.push_back(centre + (0.55 * slot) * unit(facing + Angle::degrees(90.0)));
+      } else if (event.formation == Formation::ushape) {
+        // Three quarters of a ring; the open side faces `facing`.
+        const double share = event.count > 1 ? slot / (event.count - 1) : 0.0;
+        places.push_back(centre + 1.3 * unit(facing + Angle::degrees(180.0 + 270.0 * share)));
+      } else {
+        const double ring = 0.7 + 0.25 * (i % 3);
+        places.push_back(centre + ring * unit(Angle::degrees(137.5 * i)));
+      }
+    }
+    crowd_.add_standing(places, run_seconds() + event.duration);
+    offer("visitors", std::to_string(event.count));
+  }
+  void play(const Wish& event) { visitors_.ask(time_, event); }
+  void play(const PoseError&) { offer("pose_error", ""); }       // the application applies it
+  void play(const Kill& event) { offer("kill", event.module); }  // likewise
+
+  struct Temporary {
+    Solid solid;
+    double until = 0.0;  ///< [s] run time; 0: for good
+    bool stands = false;
+    bool is_over = false;
+  };
+
+  Bus& bus_;
+  Bus& truth_bus_;
+  SimulationOptions options_;
+  World world_;
+  Rng rng_;
+  Rng place_rng_;
+  Time start_;
+  Time time_;
+  std::optional<WalkableFloor> floor_;  ///< until the crowd takes it
+  Obstacles obstacles_;
+  Body body_;
+  Crowd crowd_;
+  Instruments instruments_;
+  WishingVisitors visitors_;
+  Battery battery_;
+  ContactLog log_;
+  std::uint64_t steps_ = 0;
+  double distance_ = 0.0;
+  bool has_fallen_ = false;
+  std::size_t next_event_ = 0;
+  std::vector<Temporary> temporary_;
+  std::vector<Disc> people_;
+  std::vector<Touch> touches_;
+  std::vector<ContactLog::PersonSample> samples_;
+  std::vector<std::uint8_t> tactile_;
+  std::vector<std::uint8_t> tactile_now_ = std::vector<std::uint8_t>(kTactileSegments, 0);
+  Publisher<docent_msgs::Request> requests_;
+  Publisher<docent_msgs::Choice> choices_;
+  Publisher<docent_msgs::RunInfo> run_infos_;
+  Publisher<docent_msgs::TrueState> states_;
+  Publisher<docent_msgs::TrueContact> contacts_;
+  Publisher<docent_msgs::TrueOffer> offers_;
+};
+
+SimulatedMuseum::SimulatedMuseum(Bus& robot_bus, Bus& truth_bus, SimulationOptions options) {
+  DOCENT_CHECK(validate(options));
+  impl_ = std::make_shared<Impl>(robot_bus, truth_bus, std::move(options));
+  const std::weak_ptr<Impl> weak = impl_;
+  const auto listen = [&](const auto& topic, auto method) {
+    using Message = typename std::decay_t<decltype(topic)>::Type;
+    robot_bus.subscribe(topic, std::function<void(const Message&)>{[weak, method](const Message& message) {
+                          if (const auto impl = weak.lock()) method(*impl, message);
+                        }});
+  };
+  listen(topics::kCommandVelocity, [](Impl& impl, const geometry_msgs::Twist& twist) { impl.command(twist); });
+  listen(topics::kHorn, [](Impl& impl, const docent_msgs::Horn&) { impl.hear_horn(); });
+  listen(topics::kSpeechState, [](Impl& impl, const docent_msgs::SpeechState& speech) { impl.hear_speech(speech); });
+  listen(topics::kRequestBoard, [](Impl& impl, const docent_msgs::RequestBoard& board) { impl.see_board(board); });
+  listen(topics::kMissionState,
+         [](Impl& impl, const docent_msgs::MissionState& mission) { impl.see_mission(mission); });
+  robot_bus.every(seconds(kStep), [weak] {
+    if (const auto impl = weak.lock()) impl->tick();
+  });
+}
+
+SimulatedMuseum::~SimulatedMuseum() = default;
+
+Pose2 SimulatedMuseum::world_from_base() const { return impl_->body().pose(); }
+std::size_t SimulatedMuseum::people() const { return impl_->crowd().people().size(); }
+double SimulatedMuseum::free_area() const { return impl_->crowd().floor().free_area(); }
+
+}  // namespace docent::simulator

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "docent/base/result.h"
+#include "docent/simulator/crowd/crowd_params.h"
+#include "docent/simulator/scenario.h"
+#include "docent/simulator/world/world.h"
+#include "docent/transport/bus.h"
+
+namespace docent::simulator {
+
+struct SimulationOptions {
+  World world;
+  std::uint64_t seed = 0;
+  std::string crowd = "busy";              ///< empty, quiet, busy, packed (architecture 10.3)
+  std::optional<std::size_t> crowd_count;  ///< instead of the level's density
+  CrowdParams crowd_params;
+  std::optional<Pose2> start;     ///< world_from_base; without: random, free, inside the operating area
+  std::optional<Point2> charger;  ///< [m]; standing within 0.4 m of it charges the battery
+  double battery = 1.0;           ///< 0..1 at the start
+  Scenario scenario;
+  std::optional<double> requests_per_hour;  ///< instead of the world's visitors_per_hour
+  docent_msgs::RunInfo run_info;            ///< museum, mode, config_hash, ...; seed and crowd are filled in
+};
+
+/// Error: an unknown crowd level, a start inside a wall, a world without floor.
+[[nodiscard]] Result<void> validate(const SimulationOptions& options);
+
+/// The museum, its visitors and the robot's body: what the modules of the robot have round them in simulation. It
+/// stands for hardware and people (architecture 10.1, 10.10) and knows the truth, which it tells on `truth_bus` alone.
+///
+/// Driven by timers of `robot_bus`, so it runs in virtual time and in real time. Steps of 10 ms; in real time it skips
+/// what it missed by more than half a second. Bit-for-bit the same for the same options and commands.
+class SimulatedMuseum {
+ public:
+  /// Subscribes cmd_vel, docent/horn, docent/speech_state, docent/request_board and docent/mission_state; publishes
+  /// scan_front, scan_rear, sonar, odom, battery_state, tactile, docent/request and docent/choice, and the truth.
+  /// Both buses must outlive it or die before the next event; it may be destroyed at any time.
+  /// @pre validate(options)
+  SimulatedMuseum(Bus& robot_bus, Bus& truth_bus, SimulationOptions options);
+  SimulatedMuseum(const SimulatedMuseum&) = delete;
+  SimulatedMuseum& operator=(const SimulatedMuseum&) = delete;
+  ~SimulatedMuseum();
+
+  [[nodiscard]] Pose2 world_from_base() const;
+  [[nodiscard]] std::size_t people() const;
+  [[nodiscard]] double free_area() const;  ///< [m2]
+
+ private:
+  class Impl;
+  std::shared_ptr<Impl> impl_;  ///< timers hold it weakly
+};
+
+}  // namespace docent::simulator

@@ -1,0 +1,314 @@
+#include "docent/simulator/simulated_museum.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "docent/base/random.h"
+#include "docent/messages/conversions.h"
+#include "docent/transport/virtual_time_bus.h"
+
+namespace docent::simulator {
+namespace {
+
+Polygon box(double x0, double y0, double x1, double y1) { return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}; }
+
+World hall() {
+  World world;
+  world.floor = box(0.0, 0.0, 20.0, 14.0);
+  world.operating_area = box(1.0, 1.0, 19.0, 13.0);
+  world.home = {3.0, 3.0};
+  world.entrances = {{1.0, 1.0}};
+  world.solids.push_back({"outer-west", SolidKind::wall, box(-0.2, -0.2, 0.0, 14.2), 0.0, 3.0, false});
+  world.solids.push_back({"outer-east", SolidKind::wall, box(20.0, -0.2, 20.2, 14.2), 0.0, 3.0, false});
+  world.solids.push_back({"outer-south", SolidKind::wall, box(0.0, -0.2, 20.0, 0.0), 0.0, 3.0, false});
+  world.solids.push_back({"outer-north", SolidKind::wall, box(0.0, 14.0, 20.0, 14.2), 0.0, 3.0, false});
+  world.solids.push_back({"case", SolidKind::glass, box(9.0, 6.0, 11.0, 7.0), 0.0, 1.5, false});
+  world.solids.push_back({"plate", SolidKind::plate, box(14.0, 3.0, 16.0, 5.0), 0.0, 0.05, false});
+  world.solids.push_back({"stairs", SolidKind::stairs, box(14.0, 10.0, 18.0, 12.0), -3.0, 0.0, false});
+  world.solids.push_back({"bench", SolidKind::furniture, box(4.0, 10.0, 6.0, 10.5), 0.0, 0.45, false});
+  world.attractions = {
+      {"case", {10.0, 6.5}, 1.6, 1.0}, {"bench", {5.0, 10.2}, 1.2, 1.0}, {"plate", {15.0, 4.0}, 2.0, 1.0}};
+  world.exhibits = {"case", "plate"};
+  world.tours = {"all"};
+  return world;
+}
+
+/// The simulator on a hub, with everything it says collected.
+struct Bench {
+  VirtualTimeHub hub;
+  std::unique_ptr<Bus> simulator_bus = hub.connect("simulator");
+  std::unique_ptr<Bus> robot_bus = hub.connect("robot");
+  Publisher<geometry_msgs::Twist> commands = robot_bus->publisher(topics::kCommandVelocity);
+  std::unique_ptr<SimulatedMuseum> museum;
+  geometry_msgs::Twist wanted;
+  bool sends = true;
+  std::map<std::string, int> counts;
+  std::uint64_t hash = hash_of("");
+  std::vector<docent_msgs::TrueContact> contacts;
+  docent_msgs::TrueState state;
+  std::vector<docent_msgs::Request> requests;
+  std::vector<docent_msgs::TrueOffer> offers;
+
+  explicit Bench(SimulationOptions options) {
+    hub.tap([this](const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
+      ++counts[topic.name];
+      const auto bytes = topic.type->encode(message.get());
+      hash = hash_of({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, hash);
+      hash = hash_of(std::to_string(time.nanoseconds) + topic.name, hash);
+    });
+    const auto keep = [this](const auto& topic, auto& list) {
+      using Message = typename std::decay_t<decltype(topic)>::Type;
+      robot_bus->subscribe(topic,
+                           std::function<void(const Message&)>{[&list](const Message& m) { list.push_back(m); }});
+    };
+    keep(topics::kTrueContact, contacts);
+    keep(topics::kRequest, requests);
+    keep(topics::kTrueOffer, offers);
+    robot_bus->subscribe(topics::kTrueState, std::function<void(const docent_msgs::TrueState&)>{
+                                                 [this](const docent_msgs::TrueState& m) { state = m; }});
+    museum = std::make_unique<SimulatedMuseum>(*simulator_bus, *simulator_bus, std::move(options));
+    robot_bus->every(seconds(0.05), [this] {
+      if (sends) commands.publish(wanted);
+    });
+  }
+  void run(double duration) { hub.run_until(hub.now() + seconds(duration)); }
+  void drive(double linear, double angular, double duration) {
+    wanted.linear.x = linear;
+    wanted.angular.z = angular;
+    run(duration);
+  }
+};
+
+SimulationOptions options(std::string crowd, std::optional<Pose2> start = std::nullopt, std::uint64_t seed = 1) {
+  SimulationOptions result;
+  result.world = hall();
+  result.crowd = std::move(crowd);
+  result.start = start;
+  result.seed = seed;
+  return result;
+}
+
+TEST(SimulatedMuseum, OffersTheTopicsOfARobotAtTheirRates) {
+  Bench bench{options("quiet")};
+  bench.run(10.0);
+  EXPECT_EQ(bench.counts["scan_front"], 100);
+  EXPECT_EQ(bench.counts["scan_rear"], 100);
+  EXPECT_EQ(bench.counts["odom"], 200);
+  EXPECT_EQ(bench.counts["sonar"], 24 * 25);
+  EXPECT_EQ(bench.counts["battery_state"], 10);
+  EXPECT_GE(bench.counts["tactile"], 50);
+  EXPECT_EQ(bench.counts["truth/state"], 100);
+  EXPECT_EQ(bench.counts["truth/run_info"], 1);
+}
+
+TEST(SimulatedMuseum, TheSameSeedGivesTheSameRunBitForBit) {
+  const auto hash_of_run = [](std::uint64_t seed) {
+    Bench bench{options("busy", std::nullopt, seed)};
+    bench.drive(0.4, 0.2, 30.0);
+    bench.drive(0.0, 0.0, 5.0);
+    return bench.hash;
+  };
+  EXPECT_EQ(hash_of_run(5), hash_of_run(5));
+  EXPECT_NE(hash_of_run(5), hash_of_run(6));
+}
+
+TEST(SimulatedMuseum, StartsSomewhereFree) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    Bench bench{options("packed", std::nullopt, seed)};
+    const Point2 start = bench.museum->world_from_base().position();
+    const World world = hall();
+    EXPECT_TRUE(contains(world.operating_area, start));
+    for (const Solid& solid : world.solids) EXPECT_GE(distance(solid.polygon, start), 0.55) << solid.id;
+    bench.run(0.2);
+    EXPECT_GT(bench.state.nearest_person_m, 0.3);
+    EXPECT_TRUE(bench.state.inside_area);
+    EXPECT_NEAR(static_cast<double>(bench.museum->people()), 0.2 * bench.museum->free_area(), 1.0);
+  }
+}
+
+TEST(SimulatedMuseum, AWallStopsTheBodyAndCountsOnce) {
+  Bench bench{options("empty", Pose2{18.0, 7.0, Angle{}})};
+  bench.drive(0.5, 0.0, 10.0);
+  EXPECT_NEAR(bench.state.x, 20.0 - 0.265, 0.002);
+  ASSERT_EQ(bench.contacts.size(), 1U);
+  EXPECT_EQ(bench.contacts[0].kind, "walls");
+  EXPECT_EQ(bench.contacts[0].what, "outer-east");
+  EXPECT_NEAR(bench.contacts[0].robot_speed, 0.5, 0.02);
+  EXPECT_GT(bench.state.contact_seconds, 3.0);
+  EXPECT_FALSE(bench.state.inside_area);
+  EXPECT_LT(bench.state.distance_m, 1.8);
+}
+
+TEST(SimulatedMuseum, HazardsTouchAlthoughNoSensorSeesThem) {
+  Bench plate{options("empty", Pose2{13.0, 4.0, Angle{}})};
+  double ahead = 0.0;
+  plate.robot_bus->subscribe(
+      topics::kScanFront, std::function<void(const sensor_msgs::LaserScan&)>{[&](const sensor_msgs::LaserScan& scan) {
+        ahead = static_cast<double>(scan.ranges[90]);
+      }});
+  plate.run(0.3);
+  EXPECT_GT(ahead, 6.5);
+  plate.drive(0.4, 0.0, 6.0);
+  ASSERT_EQ(plate.contacts.size(), 1U);
+  EXPECT_EQ(plate.contacts[0].kind, "hazards");
+  Bench stairs{options("empty", Pose2{13.0, 11.0, Angle{}})};
+  stairs.drive(0.4, 0.0, 10.0);
+  ASSERT_EQ(stairs.contacts.size(), 1U);
+  EXPECT_EQ(stairs.contacts[0].what, "stairs");
+  EXPECT_NEAR(stairs.state.x, 14.0, 0.05);  // fallen: it goes nowhere
+}
+
+TEST(SimulatedMuseum, StopsWhenCommandsEnd) {
+  Bench bench{options("empty", Pose2{3.0, 4.0, Angle{}})};
+  bench.drive(0.5, 0.0, 3.0);
+  EXPECT_NEAR(bench.state.linear, 0.5, 0.01);
+  bench.sends = false;
+  bench.run(0.95);
+  EXPECT_EQ(bench.state.linear, 0.0);
+}
+
+TEST(SimulatedMuseum, OdometryFollowsTheMotion) {
+  Bench bench{options("empty", Pose2{3.0, 4.0, Angle{}})};
+  nav_msgs::Odometry last;
+  bench.robot_bus->subscribe(topics::kOdometry, std::function<void(const nav_msgs::Odometry&)>{
+                                                    [&](const nav_msgs::Odometry& m) { last = m; }});
+  bench.drive(0.5, 0.0, 4.0);
+  EXPECT_NEAR(last.twist.twist.linear.x, 0.5, 0.06);
+  EXPECT_NEAR(last.pose.pose.position.x, bench.state.x - 3.0, 0.06);
+  EXPECT_EQ(last.header.frame_id, "odom");
+}
+
+TEST(SimulatedMuseum, WhoStandsStillTouchesNobodyAtFault) {
+  // Packed, with pushers: people touch the robot, the robot touches nobody.
+  SimulationOptions all = options("packed", Pose2{5.0, 6.0, Angle{}});
+  all.crowd_params.push_rate = 0.02;
+  Bench bench{std::move(all)};
+  bench.run(240.0);
+  EXPECT_GT(bench.contacts.size(), 0U);
+  for (const auto& contact : bench.contacts) {
+    EXPECT_EQ(contact.kind, "people");
+    EXPECT_EQ(contact.robot_speed, 0.0);
+  }
+  EXPECT_NEAR(bench.state.distance_m, 0.0, 1e-9);  // nor do they move 125 kg
+}
+
+TEST(SimulatedMuseum, ABlindRobotTouchesPeopleAndIsAtFault) {
+  // To and fro through a busy hall without looking: the rules of section 9 must find it out.
+  int at_fault = 0;
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    Bench bench{options("busy", Pose2{3.0, 4.0, Angle{}}, seed)};
+    for (int i = 0; i < 30; ++i) bench.drive(i % 2 == 0 ? 0.5 : -0.5, 0.0, 16.0);
+    for (const auto& contact : bench.contacts) {
+      if (contact.kind == "people" && contact.robot_speed > 0.1 && !contact.braked_in_time) ++at_fault;
+    }
+  }
+  EXPECT_GE(at_fault, 5);
+}
+
+TEST(SimulatedMuseum, VisitorsAskUntilTheyStandOnTheBoard) {
+  SimulationOptions all = options("empty");
+  all.requests_per_hour = 24.0;
+  Bench bench{std::move(all)};
+  const auto board = bench.robot_bus->publisher(topics::kRequestBoard);
+  bench.run(400.0);
+  ASSERT_GE(bench.requests.size(), 2U);
+  const docent_msgs::Request first = bench.requests[0];
+  EXPECT_EQ(first.id.size(), 36U);
+  EXPECT_EQ(first.id[14], '7');
+  EXPECT_EQ(bench.requests[1].id, first.id);
+  EXPECT_EQ(from_message(bench.requests[1].stamp), from_message(first.stamp));
+  const auto times = static_cast<std::size_t>(std::count_if(
+      bench.requests.begin(), bench.requests.end(), [&](const auto& request) { return request.id == first.id; }));
+  EXPECT_GT(times, 20U);
+  docent_msgs::RequestBoard seen;
+  for (const auto& request : bench.requests) seen.requests.push_back({request, "queued", "", {}, {}});
+  board.publish(seen);
+  bench.run(0.2);
+  bench.requests.clear();
+  bench.run(3.0);
+  for (const auto& request : bench.requests) EXPECT_NE(request.id, first.id);
+  bench.run(3600.0);
+  const auto offered = std::count_if(bench.offers.begin(), bench.offers.end(),
+                                     [](const auto& offer) { return offer.kind == "request"; });
+  EXPECT_GE(offered, 12);
+  EXPECT_NEAR(static_cast<double>(offered), 24.0 * 4003.0 / 3600.0, 11.0);
+}
+
+TEST(SimulatedMuseum, PlaysItsScenario) {
+  SimulationOptions all = options("empty", Pose2{3.0, 4.0, Angle{}});
+  const auto scenario = parse_scenario(R"(events:
+  - {at: 2, kidnap: {to: [8, 8], heading: 90}}
+  - {at: 3, fault: {sensor: laser_rear, kind: dead, for: 2}}
+  - {at: 6, fault: {sensor: laser_front, kind: half, for: 1}}
+  - {at: 8, stool: {at: [8, 9.2], height: 0.45, for: 2}}
+  - {at: 12, fault: {sensor: odom, kind: late, delay: 0.4, for: 1}}
+  - {at: 14, visitors: {count: 4, formation: wall, for: 5}}
+  - {at: 16, request: {target: case}}
+)",
+                                       "s.yaml");
+  ASSERT_TRUE(scenario);
+  all.scenario = *scenario;
+  all.requests_per_hour = 0.0;
+  Bench bench{std::move(all)};
+  double ahead = 0.0;
+  int invalid = 0;
+  double odom_age = 0.0;
+  bench.robot_bus->subscribe(
+      topics::kScanFront, std::function<void(const sensor_msgs::LaserScan&)>{[&](const sensor_msgs::LaserScan& scan) {
+        ahead = static_cast<double>(*std::min_element(scan.ranges.begin() + 85, scan.ranges.begin() + 96));
+        invalid = static_cast<int>(
+            std::count_if(scan.ranges.begin(), scan.ranges.end(), [](float r) { return std::isnan(r); }));
+      }});
+  bench.robot_bus->subscribe(topics::kOdometry,
+                             std::function<void(const nav_msgs::Odometry&)>{[&](const nav_msgs::Odometry& odometry) {
+                               odom_age = to_seconds(bench.hub.now() - from_message(odometry.header.stamp));
+                             }});
+  bench.run(2.5);
+  EXPECT_NEAR(bench.state.x, 8.0, 1e-9);
+  EXPECT_NEAR(bench.state.theta, 1.5708, 1e-3);
+  bench.run(0.6);
+  const int before = bench.counts["scan_rear"];
+  bench.run(1.8);
+  EXPECT_EQ(bench.counts["scan_rear"], before);
+  bench.run(0.5);
+  EXPECT_GT(bench.counts["scan_rear"], before);
+  bench.run(1.0);  // 6.4
+  EXPECT_GT(invalid, 60);
+  EXPECT_LT(invalid, 120);
+  bench.run(2.6);  // 9.0
+  EXPECT_LT(ahead, 1.2);
+  bench.run(2.0);  // 11.0
+  EXPECT_GT(ahead, 2.0);
+  bench.run(1.7);  // 12.7
+  EXPECT_NEAR(odom_age, 0.4, 0.01);
+  bench.run(2.3);  // 15.0
+  EXPECT_EQ(bench.state.people.size(), 4U);
+  EXPECT_LT(ahead, 1.7);
+  bench.run(2.0);
+  ASSERT_FALSE(bench.requests.empty());
+  EXPECT_EQ(bench.requests[0].target, "case");
+}
+
+TEST(SimulatedMuseum, RefusesWhatCannotBe) {
+  EXPECT_FALSE(validate(options("full")));
+  EXPECT_FALSE(validate(options("busy", Pose2{10.0, 6.5, Angle{}})));
+  SimulationOptions no_floor = options("busy");
+  no_floor.world.floor.clear();
+  EXPECT_FALSE(validate(no_floor));
+  EXPECT_TRUE(validate(options("busy")));
+}
+
+TEST(SimulatedMuseum, MayBeDestroyedWhileTheBusGoesOn) {
+  Bench bench{options("quiet")};
+  bench.run(1.0);
+  bench.museum.reset();
+  const int scans = bench.counts["scan_front"];
+  bench.drive(0.3, 0.0, 1.0);
+  EXPECT_EQ(bench.counts["scan_front"], scans);
+}
+
+}  // namespace
+}  // namespace docent::simulator

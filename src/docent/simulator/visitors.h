@@ -1,0 +1,68 @@
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "docent/base/random.h"
+#include "docent/base/time.h"
+#include "docent/messages/docent_messages.h"
+#include "docent/simulator/scenario.h"
+
+namespace docent::simulator {
+
+struct WishParams {
+  double requests_per_hour = 24.0;  ///< mean; no gap is longer than 1.8 times the mean
+  double exhibit_share = 0.6;       ///< the rest asks for a tour
+  double german_share = 0.5;
+  double answers_more = 0.3;   ///< chance to answer a question with the first option, "more" or "yes"
+  double answers_next = 0.2;   ///< with the second; else nobody answers and the default comes
+  double resend_period = 2.0;  ///< [s] until the wish stands on the request board
+};
+
+/// Visitors with wishes: they ask for exhibits and tours and sometimes answer what the robot asks.
+class WishingVisitors {
+ public:
+  WishingVisitors(const WishParams& params, std::vector<std::string> exhibits, std::vector<std::string> tours, Rng rng);
+
+  /// What to send now: `offered` holds the ids of wishes sent for the first time.
+  struct Output {
+    std::vector<docent_msgs::Request> requests;
+    std::vector<std::string> offered;
+    std::vector<docent_msgs::Choice> choices;
+  };
+  /// Ten times a second or so. @param since_start  run time
+  [[nodiscard]] Output step(Time now, Duration since_start);
+  void ask(Time now, const Wish& wish);
+  void see_board(const docent_msgs::RequestBoard& board);
+  void see_mission(Time now, const docent_msgs::MissionState& mission);
+
+ private:
+  struct Open {
+    docent_msgs::Request request;
+    Time next_send{};
+    bool was_sent = false;
+  };
+  [[nodiscard]] std::string new_id(Time now);
+  [[nodiscard]] double next_gap();
+  void ask(Time now, const std::string& kind, const std::string& target, const std::string& language);
+
+  WishParams params_;
+  std::vector<std::string> exhibits_;
+  std::vector<std::string> tours_;
+  Rng rng_;
+  double next_wish_ = 0.0;  ///< [s] since the start
+  std::vector<Open> open_;
+  std::set<std::string> seen_prompts_;
+  struct Answer {
+    Time at{};
+    docent_msgs::Choice choice;
+  };
+  std::vector<Answer> answers_;
+};
+
+/// RFC 9562 version 7 from a time and random bits. @pre time >= 0
+[[nodiscard]] std::string make_uuid_v7(Time time, Rng& rng);
+
+}  // namespace docent::simulator
