@@ -1,0 +1,108 @@
+#include "docent/evaluation/request_tally.h"
+
+namespace docent {
+namespace {
+
+constexpr double kInPlace = 1.0;        ///< [m] from the place where the robot should stand
+constexpr double kStillInTime = 600.0;  ///< [s] a wish may be open so long
+
+}  // namespace
+
+bool RequestTally::is_in_place(const std::string& exhibit, const std::optional<Point2>& truth) const {
+  const auto place = places_.find(exhibit);
+  return place == places_.end() || !truth || distance(place->second, *truth) <= kInPlace;
+}
+
+void RequestTally::add_offer(Time time, const docent_msgs::TrueOffer& offer) {
+  if (offer.kind == "request") wishes_.try_emplace(offer.subject).first->second.offered = time;
+}
+
+void RequestTally::add_task(const docent_msgs::Task& task) {
+  if (task.kind == "visit") places_[task.exhibit_id] = {task.x, task.y};
+}
+
+void RequestTally::add_board(Time time, const docent_msgs::RequestBoard& board, const std::optional<Point2>& truth) {
+  for (const auto& entry : board.requests) {
+    const docent_msgs::Request& request = entry.request;
+    if (request.kind == "cancel") continue;
+    const auto [place, is_new] = wishes_.try_emplace(request.id);
+    Wish& wish = place->second;
+    if (is_new) wish.offered = time;
+    const bool is_change = wish.state != entry.state;
+    wish.on_board = true;
+    wish.state = entry.state;
+    wish.reason = entry.reason;
+    wish.source = request.source;
+    wish.visitor = request.visitor;
+    if (is_change && entry.state == "fulfilled" && request.kind == "exhibit")
+      wish.in_wrong_place = !is_in_place(request.target, truth);
+  }
+}
+
+void RequestTally::add_event(Time time, const docent_msgs::Event& event, const std::optional<Point2>& truth) {
+  if (event.kind == "explained") {
+    ++(is_in_place(event.subject, truth) ? tally_.exhibits_explained : tally_.explained_in_wrong_place);
+  } else if (event.kind == "tour_started") {
+    ++tally_.tours.given;
+    if (event.value > 0.0) tally_.tours.target_s.add(event.value);
+    tours_under_way_[event.subject] = time;
+  } else if (event.kind == "tour_completed") {
+    ++tally_.tours.completed;
+    if (const auto tour = tours_under_way_.find(event.subject); tour != tours_under_way_.end())
+      tally_.tours.seconds.add(to_seconds(time - tour->second));
+    tours_under_way_.erase(event.subject);
+  } else if (event.kind == "tour_failed" || event.kind == "tour_cancelled") {
+    tours_under_way_.erase(event.subject);
+  } else if (event.kind == "plan_inserted") {
+    ++tally_.plan_revisions.inserted;
+  } else if (event.kind == "plan_removed") {
+    ++tally_.plan_revisions.removed;
+  } else if (event.kind == "plan_rescheduled") {
+    ++tally_.plan_revisions.rescheduled;
+  } else if (event.kind == "attraction_trial") {
+    ++tally_.attraction_trials;
+  }
+}
+
+void RequestTally::fill(DeploymentReport& report, Time end) const {
+  report.tours = tally_.tours;
+  report.exhibits_explained = tally_.exhibits_explained;
+  report.explained_in_wrong_place = tally_.explained_in_wrong_place;
+  report.plan_revisions = tally_.plan_revisions;
+  report.attraction_trials = tally_.attraction_trials;
+  DeploymentReport::Requests& requests = report.requests;
+  requests = {};
+  std::set<std::string> web_visitors;
+  int hall = 0;
+  for (const auto& [id, wish] : wishes_) {
+    ++requests.offered;
+    if (wish.source == "web") {
+      web_visitors.insert(wish.visitor);
+    } else {
+      ++hall;
+    }
+    if (wish.state == "fulfilled" && !wish.in_wrong_place) {
+      ++requests.fulfilled;
+    } else if (wish.state == "fulfilled") {
+      ++requests.in_wrong_place;
+      ++requests.failed;
+    } else if (wish.state == "refused") {
+      ++requests.refused[wish.reason];
+    } else if (wish.state == "failed") {
+      ++requests.failed;
+    } else if (wish.state == "cancelled") {
+      ++requests.cancelled;
+    } else {
+      ++requests.open;
+      requests.never_seen += wish.on_board ? 0 : 1;
+      requests.open_not_counted += to_seconds(end - wish.offered) <= kStillInTime ? 1 : 0;
+    }
+  }
+  report.visitors = hall;
+  report.web_visitors = static_cast<int>(web_visitors.size());
+  const int counted = requests.offered - requests.cancelled - requests.open_not_counted;
+  report.success_rate.reset();
+  if (counted > 0) report.success_rate = static_cast<double>(requests.fulfilled) / counted;
+}
+
+}  // namespace docent
