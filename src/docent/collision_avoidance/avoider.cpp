@@ -183,14 +183,14 @@ Avoider::Carrot Avoider::carrot(const Pose2& odom_from_base, std::span<const Obs
 double Avoider::steer_around(Point2 carrot, const Pose2& odom_from_base, std::span<const Obstacle> obstacles) {
   const double wanted = std::atan2(carrot.y, carrot.x);
   const double need = std::clamp(norm(carrot), 0.3, 1.5);
-  constexpr int kSteps = 24;  // 5 degrees each, to 120 degrees on either side
+  constexpr int kSteps = 16;  // 5 degrees each, to 80 degrees on either side: more is no way to the goal
   constexpr double kStep = 5.0 * std::numbers::pi / 180.0;
   double best = wanted;
   double least = kInfinity;
   for (int i = -kSteps; i <= kSteps; ++i) {
     const double bearing = wanted + i * kStep;
     const double lacking = 1.0 - straight_free_way(bearing, obstacles, limits_.radius, need) / need;
-    double cost = std::abs(i) * kStep + 2.2 * lacking;
+    double cost = std::abs(i) * kStep + 1.4 * lacking;
     if (steered_in_odom_) {
       const Angle in_odom = odom_from_base.theta + Angle::radians(bearing);
       cost += 0.25 * std::abs((in_odom - *steered_in_odom_).radians());

@@ -63,7 +63,10 @@ void MovingObjects::follow(Time stamp, std::vector<Cluster>& clusters) {
     taken[best] = true;
     Followed& object = followed_[best];
     const double dt = to_seconds(stamp - object.seen);
-    if (dt < 0.01) continue;
+    if (dt < 0.01) {  // the other half of it, in the other laser's sweep
+      if (object.sightings >= 3) cluster.velocity = object.velocity;
+      continue;
+    }
     ++object.sightings;
     // An alpha-beta filter whose gains fall to their steady values over the first sightings.
     const double alpha = std::max(0.5, 1.0 / object.sightings);

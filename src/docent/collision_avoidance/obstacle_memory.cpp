@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 namespace docent {
 
@@ -33,6 +35,24 @@ void ObstacleMemory::watch_for_freeze(Sensor& sensor, const RangeSweep& sweep, c
   if (sensor.repeats >= kFrozenSweeps && has_moved) sensor.frozen = true;
 }
 
+std::vector<bool> ObstacleMemory::confirm(std::span<const Point2> points, std::span<const int> beams,
+                                          std::span<const ObstaclePoint> before) {
+  constexpr double kNeighbour = 0.2;  // [m]
+  constexpr double kAgain = 0.25;     // [m]
+  std::vector<bool> confirmed(points.size(), false);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t k = i + 1; k < points.size() && beams[k] - beams[i] <= 2; ++k) {
+      if (distance(points[i], points[k]) < kNeighbour) confirmed[i] = confirmed[k] = true;
+    }
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    confirmed[i] = confirmed[i] || std::any_of(before.begin(), before.end(), [&](const ObstaclePoint& point) {
+                     return distance(point.in_odom, points[i]) < kAgain;
+                   });
+  }
+  return confirmed;
+}
+
 bool ObstacleMemory::is_seen_through(const Sensor& sensor, Point2 in_odom) {
   const Point2 in_sensor = inverse(sensor.odom_from_sensor) * in_odom;
   const auto& sweep = sensor.sweep;
@@ -51,8 +71,9 @@ void ObstacleMemory::add_sweep(std::size_t index, const RangeSweep& sweep, const
   Sensor& sensor = sensors_[index];
   watch_for_freeze(sensor, sweep, odom_from_base);
 
-  sensor.remembered.insert(sensor.remembered.end(), sensor.points.begin(), sensor.points.end());
-  sensor.points.clear();
+  const std::vector<ObstaclePoint> before = std::exchange(sensor.points, {});
+  std::copy_if(before.begin(), before.end(), std::back_inserter(sensor.remembered),
+               [](const ObstaclePoint& point) { return point.confirmed; });
   sensor.blind.clear();
   sensor.sweep = sweep;
   sensor.odom_from_sensor = odom_from_base * sweep.base_from_sensor;
@@ -89,7 +110,22 @@ void ObstacleMemory::add_sweep(std::size_t index, const RangeSweep& sweep, const
   sensor.invalid_share =
       sweep.ranges.empty() ? 1.0 : static_cast<double>(invalid) / static_cast<double>(sweep.ranges.size());
 
-  for (const auto& place : places) sensor.points.push_back({place, {}, sweep.stamp, false});
+  const std::vector<bool> confirmed = confirm(places, beams, before);
+  std::vector<ObstaclePoint> lone;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!confirmed[i]) {
+      lone.push_back({places[i], {}, sweep.stamp, false, false});
+      continue;
+    }
+    sensor.points.push_back({places[i], {}, sweep.stamp, false});
+    places[kept] = places[i];
+    ranges[kept] = ranges[i];
+    beams[kept++] = beams[i];
+  }
+  places.resize(kept);
+  ranges.resize(kept);
+  beams.resize(kept);
   auto clusters = MovingObjects::find(places, ranges, beams, sweep.bearing_step);
   moving_.follow(sweep.stamp, clusters);
   for (const auto& cluster : clusters) {
@@ -98,6 +134,7 @@ void ObstacleMemory::add_sweep(std::size_t index, const RangeSweep& sweep, const
       sensor.points[k].velocity = cluster.velocity;
     }
   }
+  sensor.points.insert(sensor.points.end(), lone.begin(), lone.end());
   std::erase_if(sensor.remembered, [&](const ObstaclePoint& point) {
     return sweep.stamp - point.seen > seconds(kMemory) || is_seen_through(sensor, point.in_odom);
   });
@@ -110,7 +147,7 @@ void ObstacleMemory::add_sonar(std::size_t index, const SonarReading& reading, c
   Echo echo{odom_from_sensor * Point2{reading.range, 0.0}, reading.stamp, false};
   echo.valid = is_valid(reading.range) && reading.range < std::min(reading.max_range, kSonarReach);
   const bool confirmed = echo.valid && last.valid && reading.stamp - last.stamp < seconds(1.0) &&
-                         distance(echo.in_odom, last.in_odom) < 0.15;
+                         distance(echo.in_odom, last.in_odom) < 0.2;
   last = echo;
   while (!sonar_points_.empty() && reading.stamp - sonar_points_.front().seen > seconds(kMemory)) {
     sonar_points_.pop_front();
@@ -141,7 +178,7 @@ std::vector<ObstaclePoint> ObstacleMemory::points(Time now) const {
   const auto add = [&](const auto& points) {
     for (ObstaclePoint point : points) {
       const double age = to_seconds(now - point.seen);
-      if (age > kMemory) continue;
+      if (age > kMemory || !point.confirmed) continue;
       if (point.velocity.x != 0.0 || point.velocity.y != 0.0) {
         point.in_odom = point.in_odom + std::min(age, 0.5) * point.velocity;
       }

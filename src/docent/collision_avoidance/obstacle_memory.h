@@ -35,14 +35,16 @@ struct ObstaclePoint {
   Point2 in_odom;     ///< [m]
   Point2 velocity{};  ///< [m/s] of the moving thing it belongs to
   Time seen;
-  bool person = false;  ///< part of something slim that stands free: likely a person
+  bool person = false;    ///< part of something slim that stands free: likely a person
+  bool confirmed = true;  ///< false: a lone reading that the sweep before knew nothing of; does not count yet
 };
 
 /// The obstacle field [BuhmannEtAl1995, obstacle line field]: what the lasers and sonars met in the last moments, kept
 /// in the odometry's frame so that a jump of the localization never moves it (architecture 10.6).
 ///
 /// A new sweep replaces the last one of its sensor. Points of earlier sweeps live on for kMemory where the new sweep
-/// could not look: behind something nearer, or where a beam gave no reading.
+/// could not look: behind something nearer, or where a beam gave no reading. A lone reading (dust, cross talk) counts
+/// from the second sweep on.
 class ObstacleMemory {
  public:
   static constexpr double kMemory = 1.5;      ///< [s]
@@ -86,6 +88,9 @@ class ObstacleMemory {
     bool valid = false;
   };
   void watch_for_freeze(Sensor& sensor, const RangeSweep& sweep, const Pose2& odom_from_base) const;
+  /// True for points that have a neighbour in their own sweep or lie where the sweep before had one.
+  [[nodiscard]] static std::vector<bool> confirm(std::span<const Point2> points, std::span<const int> beams,
+                                                 std::span<const ObstaclePoint> before);
   [[nodiscard]] static bool is_seen_through(const Sensor& sensor, Point2 in_odom);
 
   std::vector<Sensor> sensors_;

@@ -10,6 +10,7 @@
 #include "docent/modules/plan_module.h"
 #include "docent/modules/robot_module.h"
 #include "docent/modules/sound_module.h"
+#include "docent/modules/web_module.h"
 
 namespace docent {
 namespace {

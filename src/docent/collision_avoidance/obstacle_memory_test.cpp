@@ -1,0 +1,165 @@
+#include "docent/collision_avoidance/obstacle_memory.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace docent {
+namespace {
+
+constexpr double kBeam = std::numbers::pi / 180.0;
+
+RangeSweep sweep_at(double time, float range = 10.0F) {
+  RangeSweep sweep{time_from_seconds(time), {}, -0.5 * std::numbers::pi, kBeam, 0.05, 10.0, {}};
+  sweep.ranges.assign(181, range);
+  return sweep;
+}
+void put(RangeSweep& sweep, int from, int to, float range) {
+  for (int i = from; i <= to; ++i) sweep.ranges[static_cast<std::size_t>(i)] = range;
+}
+
+TEST(ObstacleMemory, KeepsPointsInTheOdometryFrame) {
+  ObstacleMemory memory;
+  auto sweep = sweep_at(1.0);
+  put(sweep, 88, 92, 2.0F);
+  memory.add_sweep(0, sweep, {1.0, 1.0, Angle::degrees(90)});
+  const auto points = memory.points(time_from_seconds(1.0));
+  ASSERT_EQ(points.size(), 5U);
+  EXPECT_NEAR(points[2].in_odom.x, 1.0, 1e-6);
+  EXPECT_NEAR(points[2].in_odom.y, 3.0, 1e-6);
+}
+
+TEST(ObstacleMemory, ALoneReadingCountsFromTheSecondSweepOn) {
+  ObstacleMemory memory;
+  auto sweep = sweep_at(1.0);
+  put(sweep, 90, 90, 1.0F);
+  memory.add_sweep(0, sweep, {});
+  EXPECT_TRUE(memory.points(time_from_seconds(1.0)).empty());
+  sweep.stamp = time_from_seconds(1.1);
+  memory.add_sweep(0, sweep, {});
+  EXPECT_EQ(memory.points(time_from_seconds(1.1)).size(), 1U);
+  memory.add_sweep(0, sweep_at(1.2), {});
+  EXPECT_TRUE(memory.points(time_from_seconds(1.2)).empty());  // seen through
+}
+
+TEST(ObstacleMemory, RemembersWhatANewSweepCannotSee) {
+  ObstacleMemory memory;
+  auto sweep = sweep_at(1.0);
+  put(sweep, 85, 95, 2.0F);
+  memory.add_sweep(0, sweep, {});
+  auto occluded = sweep_at(1.1);
+  put(occluded, 80, 100, 1.0F);
+  memory.add_sweep(0, occluded, {});
+  EXPECT_EQ(memory.points(time_from_seconds(1.1)).size(), 21U + 11U);
+  auto blind = sweep_at(1.2, std::nanf(""));
+  memory.add_sweep(0, blind, {});
+  EXPECT_EQ(memory.points(time_from_seconds(1.2)).size(), 21U + 11U);
+  EXPECT_GT(memory.blind_directions().size(), 170U);
+  EXPECT_EQ(memory.invalid_share(0), 1.0);
+  EXPECT_TRUE(memory.points(time_from_seconds(2.8)).empty());  // but not for ever
+}
+
+TEST(ObstacleMemory, ScatteredInvalidReadingsAreNotBlindness) {
+  ObstacleMemory memory;
+  auto sweep = sweep_at(1.0, 3.0F);
+  for (std::size_t i = 0; i < sweep.ranges.size(); i += 2) sweep.ranges[i] = std::nanf("");
+  memory.add_sweep(0, sweep, {});
+  EXPECT_TRUE(memory.blind_directions().empty());
+  EXPECT_NEAR(memory.invalid_share(0), 0.5, 0.01);
+}
+
+TEST(ObstacleMemory, FindsAFrozenLaserOnlyWhenTheBaseMoves) {
+  ObstacleMemory memory;
+  auto sweep = sweep_at(0.0, 3.0F);
+  for (int i = 0; i < 20; ++i) {
+    sweep.stamp = time_from_seconds(0.1 * i);
+    memory.add_sweep(0, sweep, {});
+  }
+  EXPECT_FALSE(memory.is_frozen(0));
+  for (int i = 20; i < 25; ++i) {
+    sweep.stamp = time_from_seconds(0.1 * i);
+    memory.add_sweep(0, sweep, {0.02 * (i - 19), 0.0, {}});
+  }
+  EXPECT_TRUE(memory.is_frozen(0));
+  put(sweep, 0, 0, 2.99F);
+  memory.add_sweep(0, sweep, {0.2, 0.0, {}});
+  EXPECT_FALSE(memory.is_frozen(0));
+}
+
+TEST(ObstacleMemory, OpenSpaceIsNoFrozenLaser) {
+  ObstacleMemory memory;
+  for (int i = 0; i < 20; ++i) memory.add_sweep(0, sweep_at(0.1 * i), {0.1 * i, 0.0, {}});
+  EXPECT_FALSE(memory.is_frozen(0));
+}
+
+TEST(ObstacleMemory, SonarCountsWhenConfirmedAndUnexplained) {
+  ObstacleMemory memory;
+  memory.add_sweep(0, sweep_at(0.9), {});
+  const SonarReading glass{time_from_seconds(1.0), {0.25, 0.0, {}}, 0.26, 5.0, 0.75};
+  memory.add_sonar(0, glass, {});
+  EXPECT_TRUE(memory.points(time_from_seconds(1.0)).empty());
+  SonarReading again = glass;
+  again.stamp = time_from_seconds(1.4);
+  memory.add_sonar(0, again, {});
+  const auto points = memory.points(time_from_seconds(1.4));
+  ASSERT_EQ(points.size(), 3U);
+  EXPECT_NEAR(points[1].in_odom.x, 1.0, 1e-9);
+
+  ObstacleMemory other;
+  auto wall = sweep_at(0.9);
+  put(wall, 88, 92, 1.0F);
+  other.add_sweep(0, wall, {});
+  other.add_sonar(0, glass, {});
+  other.add_sonar(0, again, {});
+  for (const auto& point : other.points(time_from_seconds(1.4))) EXPECT_EQ(point.seen, time_from_seconds(0.9));
+}
+
+TEST(MovingObjects, FollowsAWalkerAndLeavesAStanderAlone) {
+  ObstacleMemory memory;
+  const auto view = [](double time, Point2 walker, Point2 stander) {
+    auto sweep = sweep_at(time);
+    for (int i = 0; i < 181; ++i) {
+      const Point2 direction = unit(Angle::radians(sweep.first_bearing + i * kBeam));
+      for (const Point2 centre : {walker, stander}) {
+        const double along = dot(direction, centre);
+        const double aside = std::abs(cross(direction, centre));
+        if (along < 0.0 || aside >= 0.2) continue;
+        sweep.ranges[static_cast<std::size_t>(i)] = static_cast<float>(along - std::sqrt(0.04 - aside * aside));
+      }
+    }
+    return sweep;
+  };
+  Point2 walker{3.0, -1.0};
+  for (int i = 0; i < 12; ++i) {
+    memory.add_sweep(0, view(0.1 * i, walker, {2.0, 1.0}), {});
+    walker = walker + Point2{-0.08, 0.04};
+  }
+  int moving = 0;
+  int standing = 0;
+  for (const auto& point : memory.points(time_from_seconds(1.1))) {
+    if (point.seen != time_from_seconds(1.1)) continue;
+    EXPECT_TRUE(point.person);
+    if (point.in_odom.y < 0.5) {
+      EXPECT_NEAR(point.velocity.x, -0.8, 0.2);
+      EXPECT_NEAR(point.velocity.y, 0.4, 0.2);
+      ++moving;
+    } else {
+      EXPECT_EQ(point.velocity, Point2{});
+      ++standing;
+    }
+  }
+  EXPECT_GT(moving, 3);
+  EXPECT_GT(standing, 3);
+}
+
+TEST(MovingObjects, AWallIsNoPersonNorIsAPieceSeenThroughAGap) {
+  ObstacleMemory memory;
+  auto sweep = sweep_at(1.0, 1.0F);
+  put(sweep, 85, 95, 3.0F);  // through a door, a piece of the wall behind
+  memory.add_sweep(0, sweep, {});
+  for (const auto& point : memory.points(time_from_seconds(1.0))) EXPECT_FALSE(point.person);
+}
+
+}  // namespace
+}  // namespace docent

@@ -1,0 +1,208 @@
+#include "docent/modules/avoid_module.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "docent/messages/conversions.h"
+#include "docent/modules/hazards_module.h"
+#include "docent/modules/robot_module.h"
+#include "docent/transport/virtual_time_bus.h"
+
+namespace docent {
+namespace {
+
+using std::numbers::pi;
+
+/// Avoid, hazards and robot on the bus, before a base that does what cmd_vel says in a hall of 20 x 8 m, with a sure
+/// belief and a target far ahead.
+class MotionModules : public ::testing::Test {
+ protected:
+  MotionModules() {
+    museum.area = {{-2, -4}, {18, -4}, {18, 4}, {-2, 4}};
+    museum.hazards.push_back({"plate", HazardKind::plate, {{9, -3.9}, {11, -3.9}, {11, -1.0}, {9, -1.0}}});
+    world->subscribe<geometry_msgs::Twist>(topics::kCommandVelocity, [this](const geometry_msgs::Twist& twist) {
+      wanted = twist;
+      commanded = world->now();
+    });
+    world->subscribe<docent_msgs::AvoidState>(topics::kAvoidState, [this](const auto& message) { state = message; });
+    world->subscribe<sensor_msgs::LaserScan>(topics::kVirtualScan, [this](const auto& scan) { virtual_scan = scan; });
+    world->every(seconds(0.05), [this] { move(); });
+    world->every(seconds(0.1), [this] { see(); });
+    world->every(seconds(0.2), [this] { want(); });
+    for (int i = 0; i < 24; ++i) world->every(seconds(0.4), [this, i] { ping(i); });
+    start_all();
+  }
+
+  void start_all() {
+    start(avoid, avoid_bus, "avoid", make_avoid);
+    start(hazards, hazards_bus, "hazards", make_hazards);
+    start(robot, robot_bus, "robot", make_robot);
+  }
+  void start(std::unique_ptr<Module>& module, std::unique_ptr<Bus>& bus, const char* name, ModuleFactory make) {
+    module.reset();
+    bus = hub.connect(name);
+    auto made = make({*bus, museum, config, "", 1, true});
+    ASSERT_TRUE(made) << made.error().message;
+    module = std::move(*made);
+  }
+  void kill(std::unique_ptr<Module>& module, std::unique_ptr<Bus>& bus) {
+    module.reset();
+    bus.reset();
+  }
+  void run(double duration) { hub.run_until(hub.now() + seconds(duration)); }
+
+  void move() {
+    const double dt = 0.05;
+    const bool is_live = world->now() - commanded < seconds(0.3);
+    const auto approach = [&](double value, double goal, double rate) {
+      return value + std::clamp(goal - value, -rate * dt, rate * dt);
+    };
+    speed = approach(speed, is_live ? wanted.linear.x : 0.0, 1.0);
+    turn_rate = approach(turn_rate, is_live ? wanted.angular.z : 0.0, 1.5);
+    pose = pose * Pose2{speed * dt, 0.0, Angle::radians(turn_rate * dt)};
+    nav_msgs::Odometry odometry;
+    odometry.header = {to_message(world->now()), "odom"};
+    odometry.pose.pose = to_message(pose);
+    odometry.twist.twist.linear.x = speed;
+    odometry.twist.twist.angular.z = turn_rate;
+    odometry_publisher.publish(odometry);
+  }
+  void see() {
+    for (const bool front : {true, false}) {
+      sensor_msgs::LaserScan scan;
+      scan.header = {to_message(world->now()), front ? "laser_front" : "laser_rear"};
+      scan.angle_min = static_cast<float>(-0.5 * pi);
+      scan.angle_increment = static_cast<float>(pi / 180.0);
+      scan.range_max = 10.0F;
+      const Angle mount = Angle::degrees(front ? 0.0 : 180.0);
+      for (int i = 0; i < 181; ++i) {
+        const Angle bearing = pose.theta + mount + Angle::radians(-0.5 * pi + i * pi / 180.0);
+        double range = 10.0;
+        for (const auto& wall : sides(museum.area)) {
+          if (const auto hit = ray_distance(pose.position(), unit(bearing), wall)) range = std::min(range, *hit);
+        }
+        // Never twice the same, as a real laser.
+        scan.ranges.push_back(static_cast<float>(range + 0.001 * ((++noise * 7) % 13)));
+      }
+      if (front ? front_works : true) (front ? front_publisher : rear_publisher).publish(scan);
+    }
+    docent_msgs::Belief belief;
+    belief.header = {to_message(world->now()), "map"};
+    belief.cells = {
+        {static_cast<float>(pose.x), static_cast<float>(pose.y), static_cast<float>(pose.theta.radians()), 1}};
+    belief.odom_pose = to_message(pose);
+    belief.localized = true;
+    if (localize_works) belief_publisher.publish(belief);
+  }
+  void ping(int index) {
+    sensor_msgs::Range range;
+    range.header = {to_message(world->now()),
+                    index < 10 ? "sonar_0" + std::to_string(index) : "sonar_" + std::to_string(index)};
+    range.field_of_view = 0.26F;
+    range.max_range = range.range = 5.0F;
+    sonar_publisher.publish(range);
+  }
+  void want() {
+    docent_msgs::Target target;
+    target.header = {to_message(world->now()), "odom"};
+    target.mode = "drive";
+    for (double x = pose.x + 0.5; x < pose.x + 3.0; x += 0.5) {
+      target.via_x.push_back(x);
+      target.via_y.push_back(0.0);
+    }
+    if (plan_works) target_publisher.publish(target);
+  }
+
+  VirtualTimeHub hub;
+  Museum museum;
+  RobotConfig config;
+  std::unique_ptr<Bus> world = hub.connect("world");
+  Publisher<nav_msgs::Odometry> odometry_publisher = world->publisher(topics::kOdometry);
+  Publisher<sensor_msgs::LaserScan> front_publisher = world->publisher(topics::kScanFront);
+  Publisher<sensor_msgs::LaserScan> rear_publisher = world->publisher(topics::kScanRear);
+  Publisher<sensor_msgs::Range> sonar_publisher = world->publisher(topics::kSonar);
+  Publisher<docent_msgs::Belief> belief_publisher = world->publisher(topics::kBelief);
+  Publisher<docent_msgs::Target> target_publisher = world->publisher(topics::kTarget);
+  geometry_msgs::Twist wanted;
+  Time commanded{};
+  docent_msgs::AvoidState state;
+  sensor_msgs::LaserScan virtual_scan;
+  Pose2 pose;
+  double speed = 0.0;
+  double turn_rate = 0.0;
+  int noise = 0;
+  bool front_works = true, localize_works = true, plan_works = true;
+  std::unique_ptr<Bus> avoid_bus, hazards_bus, robot_bus;
+  std::unique_ptr<Module> avoid, hazards, robot;
+};
+
+TEST_F(MotionModules, DriveAndPublishWhatTheyDo) {
+  run(5.0);
+  EXPECT_GT(speed, 0.6);
+  EXPECT_EQ(state.state, "driving");
+  EXPECT_EQ(virtual_scan.ranges.size(), 180U);
+  EXPECT_EQ(avoid->health().state, "ready");
+  EXPECT_EQ(hazards->health().state, "ready");
+  EXPECT_EQ(robot->health().state, "ready");
+  run(25.0);
+  EXPECT_LT(pose.x, 18.0 - 0.265);  // the border of the area
+  EXPECT_GT(pose.x, 16.5);
+  EXPECT_TRUE(state.path_blocked);
+}
+
+TEST_F(MotionModules, TheBaseStopsWhenAvoidDiesAndGoesOnAfterItsReturn) {
+  run(5.0);
+  ASSERT_GT(speed, 0.6);
+  kill(avoid, avoid_bus);
+  run(0.4);
+  EXPECT_EQ(wanted.linear.x, 0.0);
+  run(0.8);
+  EXPECT_EQ(speed, 0.0);
+  start(avoid, avoid_bus, "avoid", make_avoid);
+  run(3.0);
+  EXPECT_GT(speed, 0.4);
+}
+
+TEST_F(MotionModules, StandWhenALaserOrTheHazardsOrThePlanFallSilent) {
+  run(3.0);
+  front_works = false;
+  run(2.0);
+  EXPECT_EQ(speed, 0.0);
+  EXPECT_EQ(avoid->health().reason, "no fresh sweep of the front laser");
+  front_works = true;
+  run(2.0);
+  EXPECT_GT(speed, 0.3);
+  kill(hazards, hazards_bus);
+  run(3.0);
+  EXPECT_EQ(speed, 0.0);
+  EXPECT_EQ(state.reason, "no fresh virtual measurements");
+  start(hazards, hazards_bus, "hazards", make_hazards);
+  run(2.0);
+  EXPECT_GT(speed, 0.3);
+  plan_works = false;
+  run(3.0);
+  EXPECT_EQ(speed, 0.0);
+  EXPECT_EQ(state.reason, "no fresh target");
+}
+
+TEST_F(MotionModules, ALostBeliefWearsOutWhileDriving) {
+  run(3.0);
+  localize_works = false;
+  run(2.5);
+  EXPECT_EQ(speed, 0.0);
+  localize_works = true;
+  run(2.0);
+  EXPECT_GT(speed, 0.3);
+}
+
+TEST_F(MotionModules, RefuseBadParameters) {
+  ASSERT_TRUE(config.set("avoid.lookahead=99"));
+  const auto made = make_avoid({*world, museum, config, "", 1, true});
+  ASSERT_FALSE(made);
+  EXPECT_NE(made.error().message.find("avoid.lookahead"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace docent

@@ -1,0 +1,127 @@
+#include "docent/telepresence/client_message.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+
+namespace docent {
+namespace {
+
+using Json = nlohmann::json;
+
+bool is_hex(char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); }
+
+std::string text_of(const Json& object, const char* key) {
+  const auto place = object.find(key);
+  return place != object.end() && place->is_string() ? place->get<std::string>() : std::string{};
+}
+
+/// The code point at `at`, which moves behind it. Invalid bytes count as U+FFFD.
+std::uint32_t next_code_point(std::string_view text, std::size_t& at) {
+  const auto byte = [&](std::size_t i) { return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i])); };
+  const std::uint32_t first = byte(at);
+  const std::size_t length = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+  if (length > text.size() - at || (first >= 0x80 && first < 0xC2)) {
+    ++at;
+    return 0xFFFD;
+  }
+  std::uint32_t value = length == 1 ? first : first & (0xFFU >> (length + 1));
+  for (std::size_t i = 1; i < length; ++i) value = (value << 6U) | (byte(at + i) & 0x3FU);
+  at += length;
+  return value;
+}
+
+bool is_printed(std::uint32_t c) {
+  if (c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0xAD || c == 0xFFFD || c == 0xFEFF) return false;
+  if (c >= 0x200B && c <= 0x200F) return false;                                    // zero width, marks of direction
+  if ((c >= 0x2028 && c <= 0x202E) || (c >= 0x2060 && c <= 0x206F)) return false;  // lines, overrides, isolates
+  return c < 0xE0000;                                                              // tags, private planes
+}
+
+Result<ClientMessage> parse_request(const Json& object, std::string id) {
+  RequestMessage message;
+  message.id = std::move(id);
+  message.kind = text_of(object, "kind");
+  if (message.kind != "exhibit" && message.kind != "tour") return fail("request: kind must be exhibit or tour");
+  message.target = text_of(object, "target");
+  if (!is_identifier(message.target)) return fail("request: target is not an id");
+  if (const auto place = object.find("viewpoint"); place != object.end() && !place->is_null()) {
+    if (!place->is_number_integer()) return fail("request: viewpoint must be a whole number");
+    const bool is_huge = place->is_number_unsigned() && place->get<std::uint64_t>() > 255;
+    const auto value = place->get<std::int64_t>();
+    if (is_huge || value < -1 || value > 255) return fail("request: no such viewpoint");
+    message.viewpoint = static_cast<int>(value);
+  }
+  message.name = clean_name(text_of(object, "name"));
+  message.language = text_of(object, "language");
+  const bool is_language = message.language.size() == 2 && std::all_of(message.language.begin(), message.language.end(),
+                                                                       [](char c) { return c >= 'a' && c <= 'z'; });
+  if (!message.language.empty() && !is_language) return fail("request: language must be two letters");
+  return message;
+}
+
+}  // namespace
+
+bool is_uuid7(std::string_view text) {
+  if (text.size() != 36) return false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool is_dash = i == 8 || i == 13 || i == 18 || i == 23;
+    if (is_dash ? text[i] != '-' : !is_hex(text[i])) return false;
+  }
+  return text[14] == '7' && (text[19] == '8' || text[19] == '9' || text[19] == 'a' || text[19] == 'b');
+}
+
+bool is_identifier(std::string_view text) {
+  if (text.empty() || text.size() > 64) return false;
+  return std::all_of(text.begin(), text.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
+           c == '.';
+  });
+}
+
+std::string clean_name(std::string_view text, std::size_t limit) {
+  std::string clean;
+  std::size_t count = 0;
+  bool is_blank_due = false;
+  for (std::size_t at = 0; at < text.size() && count < limit;) {
+    const std::size_t begin = at;
+    const std::uint32_t c = next_code_point(text, at);
+    if (c == ' ' || c == '\t' || c == '\n' || c == 0xA0 || c == 0x3000) {
+      is_blank_due = !clean.empty();
+      continue;
+    }
+    if (!is_printed(c)) continue;
+    if (is_blank_due && ++count < limit) clean += ' ';
+    if (count >= limit) break;
+    is_blank_due = false;
+    clean += text.substr(begin, at - begin);
+    ++count;
+  }
+  return clean;
+}
+
+Result<ClientMessage> parse_client_message(std::string_view text) {
+  const Json object = Json::parse(text.begin(), text.end(), nullptr, false);
+  if (object.is_discarded()) return fail("not JSON");
+  if (!object.is_object()) return fail("not a JSON object");
+  const std::string type = text_of(object, "type");
+  if (type == "watch") {
+    const auto place = object.find("details");
+    return WatchMessage{place != object.end() && place->is_boolean() && place->get<bool>()};
+  }
+  std::string id = text_of(object, "id");
+  if (type != "request" && type != "cancel" && type != "choice") return fail("unknown type of message");
+  if (!is_uuid7(id)) return fail(type + ": id must be a UUID of version 7");
+  if (type == "request") return parse_request(object, std::move(id));
+  if (type == "cancel") {
+    CancelMessage message{std::move(id), text_of(object, "request")};
+    if (!is_uuid7(message.request)) return fail("cancel: request must be a UUID of version 7");
+    return message;
+  }
+  ChoiceMessage message{std::move(id), text_of(object, "prompt"), text_of(object, "choice")};
+  if (!is_identifier(message.prompt)) return fail("choice: prompt is not an id");
+  if (!is_identifier(message.choice)) return fail("choice: choice is not an id");
+  return message;
+}
+
+}  // namespace docent

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "docent/base/result.h"
+
+// What a browser may say to the robot, as JSON text of at most a few kilobytes. Everything is checked here, so that
+// nothing behind this line has to doubt it.
+
+namespace docent {
+
+/// {"type":"request","id":UUIDv7,"kind":"exhibit"|"tour","target":…,"viewpoint"?:n,"name"?:…,"language"?:…}
+struct RequestMessage {
+  std::string id;
+  std::string kind;
+  std::string target;
+  int viewpoint = -1;
+  std::string name;  ///< at most 40 characters on one line, nothing that is not printed
+  std::string language;
+};
+/// {"type":"cancel","id":UUIDv7,"request":UUIDv7}
+struct CancelMessage {
+  std::string id;
+  std::string request;
+};
+/// {"type":"choice","id":UUIDv7,"prompt":…,"choice":…}
+struct ChoiceMessage {
+  std::string id;
+  std::string prompt;
+  std::string choice;
+};
+/// {"type":"watch","details":true|false}: also send what only specialists look at.
+struct WatchMessage {
+  bool details = false;
+};
+using ClientMessage = std::variant<RequestMessage, CancelMessage, ChoiceMessage, WatchMessage>;
+
+/// Error: what is wrong with it, for the close frame (at most 120 bytes, ASCII).
+[[nodiscard]] Result<ClientMessage> parse_client_message(std::string_view text);
+
+/// A UUID of version 7 in lower-case hexadecimal digits.
+[[nodiscard]] bool is_uuid7(std::string_view text);
+/// An id of museum.yaml: 1 to 64 of a-z, A-Z, 0-9, '_', '-', '.'.
+[[nodiscard]] bool is_identifier(std::string_view text);
+/// One line of at most `limit` characters: control, format and bidirectional characters and outer blanks are dropped.
+/// @pre `text` is valid UTF-8
+[[nodiscard]] std::string clean_name(std::string_view text, std::size_t limit = 40);
+
+}  // namespace docent

@@ -1,0 +1,84 @@
+#include "docent/telepresence/client_message.h"
+
+#include <gtest/gtest.h>
+
+namespace docent {
+namespace {
+
+const std::string kId = "018f3a6c-5b2e-7c3d-9a4b-0123456789ab";
+
+TEST(ClientMessage, ReadsARequest) {
+  const auto message =
+      parse_client_message(R"({"type":"request","id":")" + kId +
+                           R"(","kind":"exhibit","target":"sputnik","viewpoint":2,"name":" Ada\n ","language":"de"})");
+  ASSERT_TRUE(message) << message.error().message;
+  const auto& request = std::get<RequestMessage>(*message);
+  EXPECT_EQ(request.id, kId);
+  EXPECT_EQ(request.kind, "exhibit");
+  EXPECT_EQ(request.target, "sputnik");
+  EXPECT_EQ(request.viewpoint, 2);
+  EXPECT_EQ(request.name, "Ada");
+  EXPECT_EQ(request.language, "de");
+}
+
+TEST(ClientMessage, ReadsTheOtherKinds) {
+  const auto cancel = parse_client_message(R"({"type":"cancel","id":")" + kId + R"(","request":")" + kId + R"("})");
+  ASSERT_TRUE(cancel);
+  EXPECT_EQ(std::get<CancelMessage>(*cancel).request, kId);
+  const auto choice = parse_client_message(R"({"type":"choice","id":")" + kId + R"(","prompt":"p-1","choice":"more"})");
+  ASSERT_TRUE(choice);
+  EXPECT_EQ(std::get<ChoiceMessage>(*choice).choice, "more");
+  const auto watch = parse_client_message(R"({"type":"watch","details":true})");
+  ASSERT_TRUE(watch);
+  EXPECT_TRUE(std::get<WatchMessage>(*watch).details);
+}
+
+TEST(ClientMessage, RefusesEverythingElse) {
+  const std::string uuid = R"("id":")" + kId + "\"";
+  const std::vector<std::string> bad = {
+      "",
+      "{",
+      "[]",
+      "null",
+      "\xff\xfe",
+      R"({"type":1})",
+      R"({"type":"drive","linear":1})",
+      R"({"type":"request"})",
+      R"({"type":"request","id":"1","kind":"exhibit","target":"a"})",
+      R"({"type":"request","id":"018F3A6C-5B2E-7C3D-9A4B-0123456789AB","kind":"exhibit","target":"a"})",
+      R"({"type":"request","id":"018f3a6c-5b2e-4c3d-9a4b-0123456789ab","kind":"exhibit","target":"a"})",
+      R"({"type":"request",)" + uuid + R"(,"kind":"cancel","target":"a"})",
+      R"({"type":"request",)" + uuid + R"(,"kind":"exhibit","target":"../a"})",
+      R"({"type":"request",)" + uuid + R"(,"kind":"exhibit","target":7})",
+      R"({"type":"request",)" + uuid + R"(,"kind":"exhibit","target":"a","viewpoint":1.5})",
+      R"({"type":"request",)" + uuid + R"(,"kind":"exhibit","target":"a","viewpoint":-9})",
+      R"({"type":"request",)" + uuid + R"(,"kind":"exhibit","target":"a","viewpoint":18446744073709551615})",
+      R"({"type":"request",)" + uuid + R"(,"kind":"exhibit","target":"a","language":"english"})",
+      R"({"type":"cancel",)" + uuid + R"(,"request":"all"})",
+      R"({"type":"choice",)" + uuid + R"(,"prompt":"p","choice":""})",
+      std::string(3000, '['),
+  };
+  for (const auto& text : bad) {
+    const auto message = parse_client_message(text);
+    ASSERT_FALSE(message) << text;
+    EXPECT_FALSE(message.error().message.empty());
+    EXPECT_LE(message.error().message.size(), 120U);
+  }
+}
+
+TEST(ClientMessage, NamesAreOneVisibleLine) {
+  EXPECT_EQ(clean_name("  Grete   und\tHans \n"), "Grete und Hans");
+  EXPECT_EQ(clean_name("a\x01\x1b[31mb"), "a[31mb");
+  EXPECT_EQ(clean_name("ab\xe2\x80\xae"
+                       "cd"),
+            "abcd");  // right-to-left override
+  EXPECT_EQ(clean_name("Zo\xc3\xab \xf0\x9f\xa4\x96"), "Zo\xc3\xab \xf0\x9f\xa4\x96");
+  EXPECT_EQ(clean_name(std::string(100, 'x')).size(), 40U);
+  std::string umlauts;
+  for (int i = 0; i < 60; ++i) umlauts += "\xc3\xbc";
+  EXPECT_EQ(clean_name(umlauts).size(), 80U);  // 40 characters of two bytes, none cut in half
+  EXPECT_EQ(clean_name("\xe2\x80\x8b \xe2\x80\x8b"), "");
+}
+
+}  // namespace
+}  // namespace docent

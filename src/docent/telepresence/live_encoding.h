@@ -1,0 +1,60 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "docent/base/time.h"
+#include "docent/messages/docent_messages.h"
+#include "docent/telepresence/belief_carrier.h"
+
+// What viewers get, as JSON text; docs/web-protocol.md describes it. Times are seconds of the bus's clock, lengths
+// metres, angles radians; points of a scan are whole centimetres.
+
+namespace docent {
+
+/// What moves, several times a second.
+struct LiveFrame {
+  Time now;
+  std::optional<Pose2> map_from_base;  ///< empty: the robot does not know where it is
+  double linear = 0.0;                 ///< [m/s]
+  double angular = 0.0;                ///< [rad/s]
+  double p_lost = 1.0;
+  std::vector<CarriedHypothesis> hypotheses;  ///< while it does not know
+  bool is_scan_in_map = false;                ///< else in the robot's frame
+  Point2 scan_origin;                         ///< of the robot when it was taken, in the scan's frame
+  std::vector<Point2> scan;
+  docent_msgs::People people;
+  std::optional<docent_msgs::AvoidState> avoid;
+  std::optional<double> battery;  ///< 0..1
+};
+
+/// A module's health as last heard.
+struct HealthEntry {
+  docent_msgs::Health health;
+  Time heard;
+};
+
+[[nodiscard]] std::string encode_live(const LiveFrame& frame);
+[[nodiscard]] std::string encode_belief(const docent_msgs::Belief& belief);
+[[nodiscard]] std::string encode_path(const nav_msgs::Path& path, const docent_msgs::GoalState& state);
+[[nodiscard]] std::string encode_mission(const docent_msgs::MissionState& mission);
+[[nodiscard]] std::string encode_speech(const docent_msgs::SpeechState& speech);
+/// All open requests and the newest closed ones. Viewers see the last 8 digits of an id only: who knows all of it may
+/// cancel the request.
+[[nodiscard]] std::string encode_board(const docent_msgs::RequestBoard& board);
+/// A module that was not heard for 2 s is silent.
+[[nodiscard]] std::string encode_health(const std::map<std::string, HealthEntry>& modules, Time now);
+/// The evaluated velocity window, for specialists.
+[[nodiscard]] std::string encode_window(const docent_msgs::AvoidState& avoid);
+
+[[nodiscard]] std::string encode_acknowledgement(const std::string& id);
+[[nodiscard]] std::string encode_refusal(const std::string& id, const std::string& reason);
+
+/// Every n-th reading of a scan as points in the robot's frame; invalid readings are left out, those without a return
+/// end at the largest range.
+[[nodiscard]] std::vector<Point2> scan_points(const sensor_msgs::LaserScan& scan, const Pose2& base_from_sensor,
+                                              std::size_t every);
+
+}  // namespace docent

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+#include "docent/base/result.h"
+
+namespace docent {
+
+/// What a GET is answered with.
+struct SiteReply {
+  int status = 200;
+  std::string content_type = "text/plain; charset=utf-8";
+  std::shared_ptr<const std::string> body;  ///< never null
+  bool is_immutable = false;                ///< its name changes with its content: keep it for ever
+};
+
+/// Everything that can be fetched, by exact path. The page is read into memory once, so no path from outside ever
+/// reaches the file system; audio files are, and their names may only be hexadecimal digits and ".wav".
+/// Any thread may call it.
+class Site {
+ public:
+  /// Reads all files under `folder` as "/…"; "/" is index.html. Error: unreadable, no index.html, or over 64 MB.
+  [[nodiscard]] Result<void> load_page(const std::filesystem::path& folder);
+  /// Serves /audio/HASH.wav from here.
+  void set_audio_folder(std::filesystem::path folder) { audio_ = std::move(folder); }
+  void set_document(const std::string& path, std::string content_type, std::string body);
+  /// A document made anew for each reader; `make` is called by the server's thread.
+  void set_live_document(const std::string& path, std::string content_type, std::function<std::string()> make);
+
+  /// `target` is the request's target as it came, with its query.
+  [[nodiscard]] SiteReply get(std::string_view target) const;
+
+ private:
+  struct Live {
+    std::string content_type;
+    std::function<std::string()> make;
+  };
+  [[nodiscard]] SiteReply audio(std::string_view name) const;
+
+  std::filesystem::path audio_;
+  mutable std::mutex mutex_;
+  std::map<std::string, SiteReply, std::less<>> documents_;
+  std::map<std::string, Live, std::less<>> live_;
+};
+
+/// True for 1 to 64 hexadecimal digits and ".wav": no other name can be a file of ours.
+[[nodiscard]] bool is_audio_name(std::string_view name);
+
+}  // namespace docent

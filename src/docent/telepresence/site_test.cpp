@@ -1,0 +1,78 @@
+#include "docent/telepresence/site.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace docent {
+namespace {
+
+class SiteTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() / ("docent-site-" + std::to_string(::getpid()) + "-" +
+                                                        testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::create_directories(folder_ / "page/assets");
+    std::filesystem::create_directories(folder_ / "audio");
+    write("page/index.html", "<p>hello");
+    write("page/assets/index-1a2b.js", "1;");
+    write("audio/0a1b.wav", "RIFF");
+    write("audio/secret.txt", "secret");
+    write("secret.wav", "secret");
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  void write(const std::string& name, const std::string& text) const { std::ofstream{folder_ / name} << text; }
+  std::filesystem::path folder_;
+};
+
+TEST_F(SiteTest, ServesThePage) {
+  Site site;
+  ASSERT_TRUE(site.load_page(folder_ / "page"));
+  EXPECT_EQ(*site.get("/").body, "<p>hello");
+  EXPECT_EQ(*site.get("/?lang=de").body, "<p>hello");
+  EXPECT_EQ(site.get("/index.html").content_type, "text/html; charset=utf-8");
+  EXPECT_FALSE(site.get("/").is_immutable);
+  const auto script = site.get("/assets/index-1a2b.js");
+  EXPECT_EQ(script.status, 200);
+  EXPECT_EQ(script.content_type, "text/javascript; charset=utf-8");
+  EXPECT_TRUE(script.is_immutable);
+}
+
+TEST_F(SiteTest, NothingElseCanBeReached) {
+  Site site;
+  ASSERT_TRUE(site.load_page(folder_ / "page"));
+  site.set_audio_folder(folder_ / "audio");
+  EXPECT_EQ(site.get("/audio/0a1b.wav").status, 200);
+  EXPECT_EQ(site.get("/audio/0a1b.wav").content_type, "audio/wav");
+  for (const char* target :
+       {"/audio/secret.txt", "/audio/../secret.wav", "/audio/%2e%2e/secret.wav", "/audio/..%2fsecret.wav", "/audio/",
+        "/audio/.wav", "/audio/0A1B.wav", "/audio/0a1b.wav/", "/audio//0a1b.wav", "/../secret.wav",
+        "/assets/../../secret.wav", "/audio/ffff.wav", "", "index.html", "//"}) {
+    EXPECT_EQ(site.get(target).status, 404) << target;
+  }
+  EXPECT_EQ(site.get({"/audio/0a1b.wav\0", 16}).status, 404);
+  EXPECT_FALSE(is_audio_name(std::string(65, 'a') + ".wav"));
+  EXPECT_FALSE(is_audio_name(std::string_view{"0a\0b.wav", 8}));
+}
+
+TEST_F(SiteTest, DocumentsAreReplacedAndLiveOnesMadeAnew) {
+  Site site;
+  site.set_document("/api/a", "text/plain", "one");
+  site.set_document("/api/a", "text/plain", "two");
+  EXPECT_EQ(*site.get("/api/a").body, "two");
+  int count = 0;
+  site.set_live_document("/api/b", "text/plain", [&count] { return std::to_string(++count); });
+  EXPECT_EQ(*site.get("/api/b").body, "1");
+  EXPECT_EQ(*site.get("/api/b").body, "2");
+}
+
+TEST_F(SiteTest, AMissingPageIsNamed) {
+  Site site;
+  const auto result = site.load_page(folder_ / "audio");
+  ASSERT_FALSE(result);
+  EXPECT_NE(result.error().message.find("index.html"), std::string::npos);
+  EXPECT_FALSE(site.load_page(folder_ / "nowhere"));
+}
+
+}  // namespace
+}  // namespace docent

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "docent/base/result.h"
+#include "docent/telepresence/client_message.h"
+#include "docent/telepresence/site.h"
+
+namespace docent {
+
+struct WebServerParams {
+  std::string address = "127.0.0.1";
+  int port = 8080;                   ///< 0: any free one, see WebServer::port
+  int max_connections = 12000;       ///< all kinds together
+  int max_viewers = 10000;           ///< on the live channel
+  double messages_per_second = 2.0;  ///< of one viewer, sustained
+  double message_burst = 20.0;       ///< of one viewer
+  int max_message_bytes = 4096;      ///< a longer one ends the connection
+  int send_buffer_bytes = 65536;     ///< of the kernel, for one connection: small, so that old values do not pile up
+  double idle_timeout_s = 30.0;      ///< a viewer who answers no ping for so long is gone
+  std::vector<std::string> origins;  ///< hosts besides the server's own whose pages may open the live channel
+  template <class V>
+  void visit(V& v) {
+    v("address", address);
+    v("port", port);
+    v("max_connections", max_connections);
+    v("max_viewers", max_viewers);
+    v("messages_per_second", messages_per_second);
+    v("message_burst", message_burst);
+    v("max_message_bytes", max_message_bytes);
+    v("send_buffer_bytes", send_buffer_bytes);
+    v("idle_timeout_s", idle_timeout_s);
+    v("origins", origins);
+  }
+  [[nodiscard]] Result<void> validate() const;
+};
+
+using ViewerId = std::uint64_t;
+
+struct WebServerFigures {
+  std::size_t connections = 0;
+  std::size_t viewers = 0;
+  std::uint64_t viewers_ever = 0;
+  std::uint64_t http_requests = 0;
+  std::uint64_t messages_in = 0;
+  std::uint64_t messages_refused = 0;  ///< malformed, or too many
+  std::uint64_t messages_out = 0;
+  std::uint64_t values_skipped = 0;  ///< newer values took their place before a slow viewer was ready
+};
+
+/// HTTP for the site, WebSocket on /live for viewers; one thread of its own.
+///
+/// What is shown is a set of slots, each with one latest value, encoded once for all. A viewer gets every slot on
+/// arrival and then the changes; one who is slow gets the latest value of a slot and never a queue of old ones, so
+/// the memory for a viewer is bounded. With many viewers the sends are spread over ten groups.
+class WebServer {
+ public:
+  static constexpr int kSlots = 16;
+  /// Called on the server's thread; must not block.
+  using MessageHandler = std::function<void(ViewerId, const ClientMessage&)>;
+
+  /// Error: "ADDRESS:PORT: why", for instance because another program has the port.
+  [[nodiscard]] static Result<std::unique_ptr<WebServer>> start(const WebServerParams& params,
+                                                                std::shared_ptr<const Site> site,
+                                                                MessageHandler handler);
+  WebServer(const WebServer&) = delete;
+  WebServer& operator=(const WebServer&) = delete;
+  ~WebServer();  ///< closes everything and ends the thread
+
+  [[nodiscard]] int port() const;
+  /// Any thread: the new value of a slot, for all viewers. @pre 0 <= slot < kSlots
+  void broadcast(int slot, std::string text);
+  /// The slot is only sent to viewers who asked for details.
+  void restrict_to_details(int slot);
+  /// Any thread: an answer to one viewer. One who leaves too many unread is cut off.
+  void send(ViewerId viewer, std::string text);
+  [[nodiscard]] WebServerFigures figures() const;
+
+ private:
+  struct Core;
+  explicit WebServer(std::unique_ptr<Core> core);
+  std::unique_ptr<Core> core_;
+};
+
+}  // namespace docent

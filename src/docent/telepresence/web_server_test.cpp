@@ -1,0 +1,415 @@
+#include "docent/telepresence/web_server.h"
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstring>
+#include <mutex>
+#include <set>
+#include <thread>
+
+namespace docent {
+namespace {
+
+using namespace std::chrono_literals;
+
+const std::string kRequest =
+    R"({"type":"request","id":"018f3a6c-5b2e-7c3d-9a4b-0123456789ab","kind":"exhibit","target":"sputnik"})";
+
+/// A client made of a bare socket, so that it can misbehave.
+class Client {
+ public:
+  explicit Client(int port, int receive_buffer = 0) : socket_{::socket(AF_INET, SOCK_STREAM, 0)} {
+    if (receive_buffer > 0) ::setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    is_connected_ = ::connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0;
+  }
+  ~Client() { ::close(socket_); }
+  Client(const Client&) = delete;
+  Client& operator=(const Client&) = delete;
+
+  [[nodiscard]] bool is_connected() const { return is_connected_; }
+  void send(const std::string& bytes) const {
+    for (std::size_t at = 0; at < bytes.size();) {
+      const auto sent = ::send(socket_, bytes.data() + at, bytes.size() - at, MSG_NOSIGNAL);
+      if (sent <= 0) return;
+      at += static_cast<std::size_t>(sent);
+    }
+  }
+  /// Waits for at least one byte; false at the end of the stream or when nothing comes.
+  bool receive(std::chrono::milliseconds patience = 3000ms) {
+    pollfd wait{socket_, POLLIN, 0};
+    if (::poll(&wait, 1, static_cast<int>(patience.count())) <= 0) return false;
+    char bytes[65536];
+    const auto got = ::recv(socket_, bytes, sizeof bytes, 0);
+    if (got <= 0) return false;
+    buffer_.append(bytes, static_cast<std::size_t>(got));
+    return true;
+  }
+  /// All that comes until the server closes.
+  std::string receive_all() {
+    while (receive()) {
+    }
+    return std::exchange(buffer_, {});
+  }
+  /// Head and body of the next answer.
+  std::pair<std::string, std::string> receive_reply() {
+    std::size_t end = 0;
+    while ((end = buffer_.find("\r\n\r\n")) == std::string::npos) {
+      if (!receive()) return {buffer_, ""};
+    }
+    const std::string head = buffer_.substr(0, end + 4);
+    const auto length_at = head.find("Content-Length: ");
+    const std::size_t length = length_at == std::string::npos ? 0 : std::stoul(head.substr(length_at + 16));
+    while (buffer_.size() < end + 4 + length && receive()) {
+    }
+    const std::string body = buffer_.substr(end + 4, length);
+    buffer_.erase(0, end + 4 + length);
+    return {head, body};
+  }
+  /// True when the server accepts the upgrade.
+  bool upgrade(const std::string& extra = "") {
+    send(
+        "GET /live HTTP/1.1\r\nHost: robot.test\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+        "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n" +
+        extra + "\r\n");
+    const auto [head, body] = receive_reply();
+    return head.starts_with("HTTP/1.1 101") && head.find("s3pPLMBiTxaQ9kYGzzhZRbK+xOo=") != std::string::npos;
+  }
+  void send_frame(const std::string& payload, int opcode = 1) const {
+    std::string frame(1, static_cast<char>(0x80 | opcode));
+    if (payload.size() < 126) {
+      frame += static_cast<char>(0x80 | payload.size());
+    } else {
+      frame += static_cast<char>(0x80 | 126);
+      frame += static_cast<char>(payload.size() >> 8U);
+      frame += static_cast<char>(payload.size() & 0xFFU);
+    }
+    frame += std::string(4, '\0');  // a mask of zeros leaves the payload as it is
+    send(frame + payload);
+  }
+  struct Frame {
+    int opcode = -1;  ///< -1: nothing came
+    std::string payload;
+    [[nodiscard]] int close_code() const {
+      return payload.size() < 2
+                 ? 0
+                 : (static_cast<unsigned char>(payload[0]) << 8) | static_cast<unsigned char>(payload[1]);
+    }
+  };
+  Frame receive_frame(std::chrono::milliseconds patience = 3000ms) {
+    const auto need = [&](std::size_t bytes) {
+      while (buffer_.size() < bytes) {
+        if (!receive(patience)) return false;
+      }
+      return true;
+    };
+    if (!need(2)) return {};
+    const auto byte = [&](std::size_t i) { return static_cast<std::size_t>(static_cast<unsigned char>(buffer_[i])); };
+    std::size_t length = byte(1) & 0x7FU;
+    std::size_t head = 2;
+    if (length >= 126) {
+      const std::size_t width = length == 126 ? 2 : 8;
+      if (!need(2 + width)) return {};
+      length = 0;
+      for (std::size_t i = 0; i < width; ++i) length = (length << 8U) | byte(2 + i);
+      head += width;
+    }
+    if (!need(head + length)) return {};
+    Frame frame{static_cast<int>(byte(0) & 0x0FU), buffer_.substr(head, length)};
+    buffer_.erase(0, head + length);
+    return frame;
+  }
+
+ private:
+  int socket_;
+  bool is_connected_ = false;
+  std::string buffer_;
+};
+
+class WebServerTest : public testing::Test {
+ protected:
+  void start(WebServerParams params = {}) {
+    params.port = 0;
+    site_->set_document("/", "text/html; charset=utf-8", "<p>hello");
+    auto server = WebServer::start(params, site_, [this](ViewerId viewer, const ClientMessage& message) {
+      const std::scoped_lock lock{mutex_};
+      messages_.emplace_back(viewer, message);
+    });
+    ASSERT_TRUE(server) << server.error().message;
+    server_ = std::move(*server);
+  }
+  std::vector<std::pair<ViewerId, ClientMessage>> messages() {
+    const std::scoped_lock lock{mutex_};
+    return messages_;
+  }
+  template <class Predicate>
+  static bool eventually(Predicate predicate) {
+    for (int i = 0; i < 300; ++i) {
+      if (predicate()) return true;
+      std::this_thread::sleep_for(10ms);
+    }
+    return false;
+  }
+  std::mutex mutex_;
+  std::vector<std::pair<ViewerId, ClientMessage>> messages_;
+  std::shared_ptr<Site> site_ = std::make_shared<Site>();
+  std::unique_ptr<WebServer> server_;
+};
+
+TEST_F(WebServerTest, AnswersHttp) {
+  start();
+  Client client{server_->port()};
+  client.send("GET / HTTP/1.1\r\nHost: a\r\n\r\n");
+  auto [head, body] = client.receive_reply();
+  EXPECT_TRUE(head.starts_with("HTTP/1.1 200")) << head;
+  EXPECT_NE(head.find("Content-Security-Policy: "), std::string::npos);
+  EXPECT_NE(head.find("X-Content-Type-Options: nosniff"), std::string::npos);
+  EXPECT_EQ(body, "<p>hello");
+  // The connection is kept, and HEAD has no body.
+  client.send("HEAD / HTTP/1.1\r\nHost: a\r\n\r\nGET /nothing HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n");
+  const std::string rest = client.receive_all();
+  EXPECT_NE(rest.find("Content-Length: 8\r\n"), std::string::npos);
+  EXPECT_EQ(rest.find("<p>hello"), std::string::npos);
+  EXPECT_NE(rest.find("HTTP/1.1 404"), std::string::npos);
+}
+
+TEST_F(WebServerTest, RefusesWhatIsNotMeantForIt) {
+  start();
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"POST / HTTP/1.1\r\nHost: a\r\nContent-Length: 2\r\n\r\nhi", "HTTP/1.1 405"},
+      {"GET /../../etc/passwd HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n", "HTTP/1.1 404"},
+      {"GET /audio/..%2f..%2fetc%2fpasswd HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n", "HTTP/1.1 404"},
+      {"GET / HTTP/1.1\r\nX: " + std::string(20000, 'x') + "\r\n\r\n", "HTTP/1.1 413"},
+      {"POST / HTTP/1.1\r\nHost: a\r\nContent-Length: 99999999\r\n\r\n", "HTTP/1.1 413"},
+      {"\x16\x03\x01garbage\r\n\r\n", "HTTP/1.1 400"},
+      {"GET /other HTTP/1.1\r\nHost: a\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+       "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n\r\n",
+       "HTTP/1.1 404"},
+  };
+  for (const auto& [request, expected] : cases) {
+    Client client{server_->port()};
+    client.send(request);
+    EXPECT_TRUE(client.receive_all().starts_with(expected)) << request.substr(0, 60);
+  }
+}
+
+TEST_F(WebServerTest, AViewerGetsThePresentThenTheChanges) {
+  start();
+  server_->broadcast(0, "old");
+  server_->broadcast(0, "pose 1");
+  server_->broadcast(3, "mission 1");
+  Client client{server_->port()};
+  ASSERT_TRUE(client.upgrade());
+  std::set<std::string> first{client.receive_frame().payload, client.receive_frame().payload};
+  EXPECT_EQ(first, (std::set<std::string>{"pose 1", "mission 1"}));
+  server_->broadcast(0, "pose 2");
+  EXPECT_EQ(client.receive_frame().payload, "pose 2");
+  EXPECT_EQ(server_->figures().viewers, 1U);
+}
+
+TEST_F(WebServerTest, DetailsAreForThoseWhoAsk) {
+  start();
+  server_->restrict_to_details(7);
+  Client curious{server_->port()};
+  Client plain{server_->port()};
+  ASSERT_TRUE(curious.upgrade());
+  ASSERT_TRUE(plain.upgrade());
+  server_->broadcast(7, "window 1");
+  curious.send_frame(R"({"type":"watch","details":true})");
+  EXPECT_EQ(curious.receive_frame().payload, "window 1");
+  server_->broadcast(7, "window 2");
+  server_->broadcast(1, "belief");
+  EXPECT_EQ(plain.receive_frame().payload, "belief");
+  EXPECT_EQ(curious.receive_frame().payload, "window 2");
+}
+
+TEST_F(WebServerTest, HandsMessagesOverAndAnswersTheirSender) {
+  start();
+  Client client{server_->port()};
+  Client other{server_->port()};
+  ASSERT_TRUE(client.upgrade());
+  ASSERT_TRUE(other.upgrade());
+  client.send_frame(kRequest);
+  ASSERT_TRUE(eventually([&] { return !messages().empty(); }));
+  const auto [viewer, message] = messages().front();
+  EXPECT_EQ(std::get<RequestMessage>(message).target, "sputnik");
+  server_->send(viewer, "yours");
+  EXPECT_EQ(client.receive_frame().payload, "yours");
+  EXPECT_EQ(other.receive_frame(200ms).opcode, -1);
+}
+
+TEST_F(WebServerTest, GarbageEndsTheConnectionWithAReason) {
+  start();
+  const std::vector<std::tuple<std::string, int, int>> cases = {
+      {"hello", 1, 1008},                 // not JSON
+      {R"({"type":"drive"})", 1, 1008},   // nothing a visitor may say
+      {"\x01\x02", 2, 1003},              // binary
+      {std::string(5000, 'x'), 1, 1009},  // too long
+      {"\xff\xfe", 1, 1007},              // not UTF-8
+  };
+  for (const auto& [payload, opcode, code] : cases) {
+    Client client{server_->port()};
+    ASSERT_TRUE(client.upgrade());
+    client.send_frame(payload, opcode);
+    const auto frame = client.receive_frame();
+    EXPECT_EQ(frame.opcode, 8) << code;
+    EXPECT_EQ(frame.close_code(), code) << frame.payload;
+    if (code == 1008) {
+      EXPECT_GT(frame.payload.size(), 4U);
+    }
+    // says why
+  }
+  EXPECT_TRUE(messages().empty());
+  EXPECT_TRUE(eventually([&] { return server_->figures().viewers == 0; }));
+}
+
+TEST_F(WebServerTest, ABrokenFrameEndsOnlyItsOwnConnection) {
+  start();
+  Client good{server_->port()};
+  ASSERT_TRUE(good.upgrade());
+  for (const std::string& bytes :
+       {std::string{"\x81\x05hello", 7}, std::string{"\xf1\x80\0\0\0\0", 6}, std::string{"\x8f\x80\0\0\0\0", 6},
+        std::string{"\x81\xff\xff\xff\xff\xff\xff\xff\xff\xff\0\0\0\0", 14}}) {
+    Client client{server_->port()};
+    ASSERT_TRUE(client.upgrade());
+    client.send(bytes);
+    EXPECT_NE(client.receive_frame().opcode, 1);
+  }
+  server_->broadcast(0, "still here");
+  EXPECT_EQ(good.receive_frame().payload, "still here");
+}
+
+TEST_F(WebServerTest, TooManyMessagesAreRefusedThenCutOff) {
+  WebServerParams params;
+  params.message_burst = 5;
+  params.messages_per_second = 0.001;
+  start(params);
+  Client client{server_->port()};
+  ASSERT_TRUE(client.upgrade());
+  for (int i = 0; i < 8; ++i) client.send_frame(kRequest);
+  EXPECT_NE(client.receive_frame().payload.find("too many messages"), std::string::npos);
+  ASSERT_TRUE(eventually([&] { return server_->figures().messages_in == 8; }));
+  EXPECT_EQ(messages().size(), 5U);
+  for (int i = 0; i < 200; ++i) client.send_frame(kRequest);
+  Client::Frame frame;
+  do frame = client.receive_frame();
+  while (frame.opcode == 1);
+  EXPECT_EQ(frame.close_code(), 1008);
+  EXPECT_EQ(messages().size(), 5U);
+}
+
+TEST_F(WebServerTest, ASlowViewerGetsTheLatestAndHarmsNobody) {
+  WebServerParams params;
+  params.send_buffer_bytes = 8192;
+  start(params);
+  Client slow{server_->port(), 4096};
+  Client quick{server_->port()};
+  ASSERT_TRUE(slow.upgrade());
+  ASSERT_TRUE(quick.upgrade());
+  const std::string filler(50000, '.');
+  constexpr int kValues = 400;
+  for (int i = 0; i < kValues; ++i) {
+    server_->broadcast(0, std::to_string(i) + filler);
+    if (i % 40 == 0) {
+      ASSERT_EQ(quick.receive_frame().opcode, 1);
+    }
+    // the quick one is served meanwhile
+  }
+  const std::string last = std::to_string(kValues - 1) + ".";
+  Client::Frame frame;
+  do frame = quick.receive_frame();
+  while (frame.opcode == 1 && !frame.payload.starts_with(last));
+  ASSERT_EQ(frame.opcode, 1);
+  // 20 MB were shown; the slow one now reads what is under way and then at once the last value.
+  int seen = 0;
+  do {
+    frame = slow.receive_frame();
+    ++seen;
+  } while (frame.opcode == 1 && !frame.payload.starts_with(last));
+  EXPECT_EQ(frame.opcode, 1);
+  EXPECT_LT(seen, kValues / 2);
+  EXPECT_GT(server_->figures().values_skipped, 0U);
+}
+
+TEST_F(WebServerTest, ViewersAreCounted) {
+  WebServerParams params;
+  params.max_viewers = 2;
+  start(params);
+  {
+    Client first{server_->port()};
+    Client second{server_->port()};
+    ASSERT_TRUE(first.upgrade());
+    ASSERT_TRUE(second.upgrade());
+    Client third{server_->port()};
+    EXPECT_FALSE(third.upgrade());
+  }
+  EXPECT_TRUE(eventually([&] { return server_->figures().viewers == 0; }));
+  Client again{server_->port()};
+  EXPECT_TRUE(again.upgrade());
+}
+
+TEST_F(WebServerTest, ManyViewersAreServedInGroups) {
+  start();
+  std::vector<std::unique_ptr<Client>> clients;
+  for (int i = 0; i < 150; ++i) {
+    clients.push_back(std::make_unique<Client>(server_->port()));
+    ASSERT_TRUE(clients.back()->upgrade());
+  }
+  for (const char* value : {"a", "b"}) {
+    server_->broadcast(0, value);
+    for (const auto& client : clients) EXPECT_EQ(client->receive_frame().payload, value);
+  }
+  clients.resize(1);
+  ASSERT_TRUE(eventually([&] { return server_->figures().viewers == 1; }));
+  server_->broadcast(0, "c");
+  EXPECT_EQ(clients.front()->receive_frame().payload, "c");
+}
+
+TEST_F(WebServerTest, PagesOfOtherSitesMayNotSpeakForTheirReaders) {
+  WebServerParams params;
+  params.origins = {"museum.test"};
+  start(params);
+  for (const char* origin : {"http://robot.test", "https://robot.test", "https://museum.test"}) {
+    Client client{server_->port()};
+    EXPECT_TRUE(client.upgrade(std::string{"Origin: "} + origin + "\r\n")) << origin;
+  }
+  for (const char* origin : {"https://evil.test", "null", "http://robot.test.evil.test"}) {
+    Client client{server_->port()};
+    EXPECT_FALSE(client.upgrade(std::string{"Origin: "} + origin + "\r\n")) << origin;
+  }
+}
+
+TEST_F(WebServerTest, APortInUseIsSaid) {
+  start();
+  WebServerParams params;
+  params.port = server_->port();
+  const auto second = WebServer::start(params, site_, {});
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().message,
+            "127.0.0.1:" + std::to_string(params.port) + ": the port is in use by another program");
+  params.address = "no address";
+  EXPECT_FALSE(WebServer::start(params, site_, {}));
+}
+
+TEST_F(WebServerTest, EndsWithViewersConnected) {
+  start();
+  Client client{server_->port()};
+  ASSERT_TRUE(client.upgrade());
+  const int port = server_->port();
+  server_.reset();
+  EXPECT_NE(client.receive_frame().opcode, 1);
+  WebServerParams params;
+  params.port = port;
+  EXPECT_TRUE(WebServer::start(params, site_, {}));  // the port is free at once
+}
+
+}  // namespace
+}  // namespace docent

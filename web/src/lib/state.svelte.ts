@@ -1,0 +1,307 @@
+import { RobotClock } from './clock';
+import { Motion } from './motion';
+import type {
+  Avoid,
+  BeliefMessage,
+  BoardEntry,
+  BoardMessage,
+  Exhibit,
+  HealthMessage,
+  LiveMessage,
+  MissionMessage,
+  Museum,
+  PathMessage,
+  ServerMessage,
+  SpeechMessage,
+  WindowMessage,
+} from './protocol';
+import { uuid7 } from './uuid';
+import { pageLanguages, word } from './words';
+
+/** What this browser asked for, and has to see through. */
+export interface Wish {
+  id: string;
+  kind: 'exhibit' | 'tour';
+  target: string;
+  viewpoint: number;
+  made: number;
+  /** sending until the server has it on disk, then sent; from the board on, the board's word. */
+  state: string;
+  reason: string;
+  seen: boolean;
+}
+
+const store = {
+  read<T>(key: string, otherwise: T): T {
+    try {
+      return JSON.parse(localStorage.getItem(`docent.${key}`) ?? 'null') ?? otherwise;
+    } catch {
+      return otherwise;
+    }
+  },
+  write(key: string, value: unknown): void {
+    try {
+      localStorage.setItem(`docent.${key}`, JSON.stringify(value));
+    } catch {
+      // private window: then it is forgotten with the page
+    }
+  },
+};
+
+function firstLanguage(): string {
+  const wanted = store.read('language', '') || navigator.language.slice(0, 2);
+  return pageLanguages.includes(wanted) ? wanted : 'en';
+}
+
+const closedStates = ['fulfilled', 'failed', 'refused', 'cancelled'];
+export const keyOf = (id: string) => id.slice(-8);
+
+class App {
+  museum = $state.raw<Museum | null>(null);
+  connection = $state<'connecting' | 'open' | 'lost'>('connecting');
+  mission = $state.raw<MissionMessage | null>(null);
+  speech = $state.raw<SpeechMessage | null>(null);
+  board = $state.raw<BoardMessage | null>(null);
+  health = $state.raw<HealthMessage | null>(null);
+  path = $state.raw<PathMessage | null>(null);
+  belief = $state.raw<BeliefMessage | null>(null);
+  window = $state.raw<WindowMessage | null>(null);
+  avoid = $state.raw<Avoid | null>(null);
+  localized = $state(false);
+  battery = $state<number | null>(null);
+  speed = $state(0);
+  turn = $state(0);
+
+  language = $state(firstLanguage());
+  name = $state(store.read('name', ''));
+  dark = $state(store.read<boolean | null>('dark', null) ?? matchMedia('(prefers-color-scheme: dark)').matches);
+  calm = matchMedia('(prefers-reduced-motion: reduce)').matches;
+  sound = $state(false);
+  expert = $state(false);
+  selected = $state<string | null>(null);
+  viewpoint = $state(-1);
+  answered = $state('');
+  toast = $state('');
+  wishes = $state<Wish[]>(store.read<Wish[]>('wishes', []).filter((wish) => Date.now() - wish.made < 3 * 3600e3));
+  /** Counts up with each wish that comes true: time to celebrate. */
+  joys = $state(0);
+
+  readonly clock = new RobotClock();
+  readonly motion = new Motion();
+  private socket: WebSocket | null = null;
+  private tries = 0;
+  private lastHeard = 0;
+  private toastTimer = 0;
+
+  async start(): Promise<void> {
+    this.connect();
+    setInterval(() => this.watchOver(), 1000);
+    for (let pause = 500; ; pause = Math.min(pause * 2, 8000)) {
+      try {
+        const reply = await fetch('/api/museum.json');
+        if (!reply.ok) throw new Error(String(reply.status));
+        this.museum = await reply.json();
+        return;
+      } catch {
+        await new Promise((resolve) => setTimeout(resolve, pause));
+      }
+    }
+  }
+
+  t(key: Parameters<typeof word>[1]): string {
+    return word(this.language, key);
+  }
+  say(texts: Record<string, string> | undefined): string {
+    if (!texts) return '';
+    return texts[this.language] || texts[this.museum?.languages[0] ?? 'en'] || Object.values(texts)[0] || '';
+  }
+  exhibit(id: string): Exhibit | undefined {
+    return this.museum?.exhibits.find((exhibit) => exhibit.id === id);
+  }
+  titleOf(kind: string, target: string): string {
+    const found = kind === 'tour' ? this.museum?.tours.find((tour) => tour.id === target) : this.exhibit(target);
+    return this.say(found?.title) || target;
+  }
+  setLanguage(language: string): void {
+    this.language = language;
+    store.write('language', language);
+    document.documentElement.lang = language;
+  }
+  setDark(dark: boolean): void {
+    this.dark = dark;
+    store.write('dark', dark);
+  }
+  setExpert(expert: boolean): void {
+    this.expert = expert;
+    this.send({ type: 'watch', details: expert });
+  }
+  notice(text: string): void {
+    this.toast = text;
+    clearTimeout(this.toastTimer);
+    this.toastTimer = window.setTimeout(() => (this.toast = ''), 4500);
+  }
+
+  // Wishes -------------------------------------------------------------------------------------------------------
+
+  wishFor(kind: string, target: string): Wish | undefined {
+    return this.wishes.find((w) => w.kind === kind && w.target === target && !closedStates.includes(w.state));
+  }
+  ask(kind: 'exhibit' | 'tour', target: string, viewpoint = -1): void {
+    if (this.wishFor(kind, target)) return;
+    const wish: Wish = { id: uuid7(), kind, target, viewpoint, made: Date.now(), state: 'sending', reason: '', seen: false };
+    this.wishes = [...this.wishes.slice(-30), wish];
+    store.write('name', this.name);
+    this.keepWishes();
+    this.sendWish(wish);
+    this.notice(this.t('onItsWay'));
+  }
+  cancel(wish: Wish): void {
+    if (wish.state === 'sending' && !wish.seen) {
+      this.wishes = this.wishes.filter((other) => other.id !== wish.id);
+      this.keepWishes();
+    }
+    this.send({ type: 'cancel', id: uuid7(), request: wish.id });
+  }
+  answer(choice: string): void {
+    const prompt = this.mission?.prompt;
+    if (!prompt) return;
+    this.answered = prompt.id;
+    this.send({ type: 'choice', id: uuid7(), prompt: prompt.id, choice });
+  }
+  isMine(entry: BoardEntry): boolean {
+    return this.wishes.some((wish) => keyOf(wish.id) === entry.key);
+  }
+
+  private keepWishes(): void {
+    store.write('wishes', this.wishes);
+  }
+  private sendWish(wish: Wish): void {
+    this.send({
+      type: 'request',
+      id: wish.id,
+      kind: wish.kind,
+      target: wish.target,
+      viewpoint: wish.viewpoint,
+      name: this.name,
+      language: this.language,
+    });
+  }
+  private changeWish(id: string, change: Partial<Wish>): void {
+    this.wishes = this.wishes.map((wish) => (wish.id === id ? { ...wish, ...change } : wish));
+    this.keepWishes();
+  }
+  private followBoard(board: BoardMessage): void {
+    const entries = new Map([...board.open, ...board.closed].map((entry) => [entry.key, entry]));
+    let changed = false;
+    const wishes = this.wishes.map((wish) => {
+      const entry = entries.get(keyOf(wish.id));
+      if (!entry || (entry.state === wish.state && wish.seen)) return wish;
+      changed = true;
+      if (entry.state === 'fulfilled' && wish.state !== 'fulfilled') {
+        ++this.joys;
+        this.notice(`${this.t('hurray')} ${this.titleOf(wish.kind, wish.target)}`);
+      }
+      if (entry.state === 'refused' || entry.state === 'failed') {
+        this.notice(`${this.titleOf(wish.kind, wish.target)}: ${this.t(entry.state)} (${entry.reason})`);
+      }
+      return { ...wish, state: entry.state, reason: entry.reason, seen: true };
+    });
+    if (changed) {
+      this.wishes = wishes;
+      this.keepWishes();
+    }
+  }
+
+  // Connection ---------------------------------------------------------------------------------------------------
+
+  private connect(): void {
+    const url = `${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/live`;
+    const socket = new WebSocket(url);
+    this.socket = socket;
+    this.lastHeard = performance.now();
+    socket.onopen = () => {
+      this.tries = 0;
+      this.connection = 'open';
+      if (this.expert) this.send({ type: 'watch', details: true });
+      // Whatever was not yet on the board is said again, with the same id: the server knows it if it had it.
+      for (const wish of this.wishes) {
+        if (!wish.seen && !closedStates.includes(wish.state)) this.sendWish(wish);
+      }
+    };
+    socket.onmessage = (event) => {
+      this.lastHeard = performance.now();
+      this.take(JSON.parse(event.data) as ServerMessage);
+    };
+    socket.onclose = () => {
+      if (this.socket !== socket) return;
+      this.socket = null;
+      this.connection = 'lost';
+      // Spread out, so that ten thousand pages do not come back in the same moment.
+      const pause = Math.min(10000, 300 * 2 ** this.tries++) * (0.7 + 0.6 * Math.random());
+      setTimeout(() => this.connect(), pause);
+    };
+  }
+  private watchOver(): void {
+    // The pose comes ten times a second: five silent seconds are a dead line that nobody has reported yet.
+    const isSilent = performance.now() - this.lastHeard > 5000;
+    if (this.socket && isSilent && this.connection === 'open') this.socket.close();
+    if (this.connection !== 'open') return;
+    for (const wish of this.wishes) {
+      if (wish.state === 'sending' && Date.now() - wish.made > 3000) this.sendWish(wish);
+    }
+  }
+  private send(message: object): void {
+    if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
+  }
+  private take(message: ServerMessage): void {
+    switch (message.type) {
+      case 'live':
+        return this.takeLive(message);
+      case 'belief':
+        this.belief = message;
+        return;
+      case 'path':
+        this.path = message;
+        return;
+      case 'mission':
+        if (message.prompt?.id !== this.mission?.prompt?.id) this.answered = '';
+        this.mission = message;
+        return;
+      case 'speech':
+        this.speech = message;
+        return;
+      case 'board':
+        this.board = message;
+        return this.followBoard(message);
+      case 'health':
+        this.health = message;
+        return;
+      case 'window':
+        this.window = message;
+        return;
+      case 'ack':
+        if (this.wishes.some((wish) => wish.id === message.id && !wish.seen)) this.changeWish(message.id, { state: 'sent' });
+        return;
+      case 'refused':
+        this.changeWish(message.id, { state: 'refused', reason: message.reason });
+        this.notice(`${this.t('refused')}: ${message.reason}`);
+        return;
+      case 'error':
+        this.notice(message.reason);
+    }
+  }
+  private takeLive(message: LiveMessage): void {
+    this.clock.see(message.t);
+    this.motion.add(message);
+    // Only what changes wakes the page up; the map draws from `motion` at the pace of the screen.
+    const localized = message.pose !== null;
+    if (localized !== this.localized) this.localized = localized;
+    const battery = message.battery ?? null;
+    if (battery !== this.battery) this.battery = battery;
+    this.speed = Math.round(message.v * 100) / 100;
+    this.turn = Math.round(message.w * 100) / 100;
+    this.avoid = message.avoid ?? null;
+  }
+}
+
+export const app = new App();

@@ -1,0 +1,17 @@
+import { svelte } from '@sveltejs/vite-plugin-svelte';
+import { defineConfig } from 'vite';
+
+// In development the page comes from here and all else from a running robot: npm run dev, then DOCENT=host:port.
+const robot = process.env.DOCENT ?? '127.0.0.1:8080';
+
+export default defineConfig({
+  plugins: [svelte()],
+  build: { target: 'es2022', assetsInlineLimit: 0, reportCompressedSize: true, modulePreload: { polyfill: false } },
+  server: {
+    proxy: {
+      '/api': `http://${robot}`,
+      '/audio': `http://${robot}`,
+      '/live': { target: `ws://${robot}`, ws: true, changeOrigin: true },
+    },
+  },
+});
