@@ -195,12 +195,12 @@ class LocalizeModule final : public Module {
     if (bus_.now() - saved_ < kCheckpointEvery) return;
     saved_ = bus_.now();
     // A checkpoint that cannot be written costs a restarted robot a new search, nothing else.
-    (void)save_checkpoint({map_hash_, stamp, localizer_.odom_from_robot(), localizer_.summary().modes},
+    (void)save_localizer_checkpoint({map_hash_, stamp, localizer_.odom_from_robot(), localizer_.summary().modes},
                           checkpoint_path_);
   }
 
   void restore() {
-    auto checkpoint = load_checkpoint(checkpoint_path_);
+    auto checkpoint = load_localizer_checkpoint(checkpoint_path_);
     if (!checkpoint || checkpoint->map_hash != map_hash_) return;
     const Duration age = bus_.now() - checkpoint->time;
     if (age < Duration{0} - kTogether || age > kCheckpointAge) return;

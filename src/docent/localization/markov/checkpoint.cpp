@@ -48,7 +48,7 @@ std::string list_of(std::span<const double> values) {
 
 }  // namespace
 
-Result<void> save_checkpoint(const LocalizerCheckpoint& checkpoint, const std::filesystem::path& path) {
+Result<void> save_localizer_checkpoint(const LocalizerCheckpoint& checkpoint, const std::filesystem::path& path) {
   const auto pose_of = [](const Pose2& pose) { return std::array{pose.x, pose.y, pose.theta.radians()}; };
   std::string text = "map_hash: \"" + checkpoint.map_hash +
                      "\"\nnanoseconds: " + std::to_string(checkpoint.time.nanoseconds) +
@@ -59,7 +59,7 @@ Result<void> save_checkpoint(const LocalizerCheckpoint& checkpoint, const std::f
   return write_file_atomically(path, text);
 }
 
-Result<LocalizerCheckpoint> load_checkpoint(const std::filesystem::path& path) {
+Result<LocalizerCheckpoint> load_localizer_checkpoint(const std::filesystem::path& path) {
   const auto file = YamlFile::load(path);
   if (!file) return tl::unexpected<Error>(file.error());
   Stored stored;

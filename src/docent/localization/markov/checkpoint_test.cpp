@@ -11,8 +11,8 @@ TEST(Checkpoint, ComesBackAsItWas) {
   const auto path = std::filesystem::path{::testing::TempDir()} / "docent_checkpoint_test.yaml";
   LocalizerCheckpoint checkpoint{"00ff00ff00ff00ff", Time{1234567890123456789}, {1.5, -2.25, Angle::degrees(30)}, {}};
   checkpoint.modes.push_back({{3.0, 4.0, Angle::degrees(-90)}, {0.01, 0, 0, 0, 0.02, 0, 0, 0, 0.003}, 0.875});
-  ASSERT_TRUE(save_checkpoint(checkpoint, path).has_value());
-  const auto loaded = load_checkpoint(path);
+  ASSERT_TRUE(save_localizer_checkpoint(checkpoint, path).has_value());
+  const auto loaded = load_localizer_checkpoint(path);
   ASSERT_TRUE(loaded.has_value()) << loaded.error().message;
   EXPECT_EQ(loaded->map_hash, checkpoint.map_hash);
   EXPECT_EQ(loaded->time, checkpoint.time);
@@ -26,12 +26,12 @@ TEST(Checkpoint, ComesBackAsItWas) {
 
 TEST(Checkpoint, RefusesWhatIsDamaged) {
   const auto path = std::filesystem::path{::testing::TempDir()} / "docent_checkpoint_broken.yaml";
-  EXPECT_FALSE(load_checkpoint(path).has_value());
+  EXPECT_FALSE(load_localizer_checkpoint(path).has_value());
   for (const char* text :
        {"", "map_hash: x\n", "modes: [1, 2", "odometry: [1, 2, 3]\nmodes: [{pose: [1]}]\n",
         "odometry: [1, 2, 3]\nmodes: [{pose: [1, 2, 3], covariance: [1,0,0,0,1,0,0,0,1], mass: 7}]\n"}) {
     ASSERT_TRUE(write_file_atomically(path, text).has_value());
-    EXPECT_FALSE(load_checkpoint(path).has_value()) << text;
+    EXPECT_FALSE(load_localizer_checkpoint(path).has_value()) << text;
   }
   std::filesystem::remove(path);
 }
