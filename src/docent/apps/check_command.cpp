@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "docent/apps/command.h"
+#include "docent/base/yaml.h"
 #include "docent/museum/museum.h"
 #include "docent/simulator/world/world.h"
 
@@ -18,12 +19,19 @@ void check_simulation(const Museum& museum, std::vector<Error>& faults) {
     faults.push_back(world.error());
     return;
   }
-  const std::string file = museum.simulation_path->string();
-  for (const auto& id : world->exhibits) {
-    if (museum.find_exhibit(id) == nullptr) faults.push_back({file + ":1: exhibits: museum.yaml has no '" + id + "'"});
+  const YamlFile file = value_or_fail(YamlFile::load(*museum.simulation_path));
+  const YAML::Node& root = file.root();
+  for (std::size_t i = 0; i < world->exhibits.size(); ++i) {
+    const Exhibit* exhibit = museum.find_exhibit(world->exhibits[i]);
+    const YAML::Node at = root["exhibits"][i];
+    if (exhibit == nullptr) faults.push_back(file.fault(at, "museum.yaml has no exhibit '" + world->exhibits[i] + "'"));
+    if (exhibit != nullptr && exhibit->web_only) {
+      faults.push_back(file.fault(at, "exhibit '" + exhibit->id + "' is for the Web only"));
+    }
   }
-  for (const auto& id : world->tours) {
-    if (museum.find_tour(id) == nullptr) faults.push_back({file + ":1: tours: museum.yaml has no '" + id + "'"});
+  for (std::size_t i = 0; i < world->tours.size(); ++i) {
+    if (museum.find_tour(world->tours[i]) != nullptr) continue;
+    faults.push_back(file.fault(root["tours"][i], "museum.yaml has no tour '" + world->tours[i] + "'"));
   }
 }
 

@@ -45,8 +45,7 @@ Lifecycle::Step Lifecycle::next(Time now) const {
   if (!running_) {
     return starts_ == 0 || seconds_between(ended_at_, now) >= delay_s_ ? Step::start : Step::wait;
   }
-  const bool is_starting = !heard_since_start_ || state_ == "starting";
-  return silence_s(now) > (is_starting ? params_.starting_s : params_.hung_s) ? Step::kill : Step::wait;
+  return silence_s(now) > (heard_since_start_ ? params_.hung_s : params_.starting_s) ? Step::kill : Step::wait;
 }
 
 std::string Lifecycle::status(Time now) const {
@@ -57,7 +56,7 @@ std::string Lifecycle::status(Time now) const {
     std::snprintf(text, sizeof text, "), starts again in %.1f s", rest);
     return "ended (" + how_ + text;
   }
-  if (silence_s(now) > params_.silent_s && state_ != "starting") {
+  if (silence_s(now) > params_.silent_s && heard_since_start_) {
     std::snprintf(text, sizeof text, "not responding for %.0f s", std::floor(silence_s(now)));
     return text;
   }

@@ -46,7 +46,6 @@ TEST(Lifecycle, TellsSilenceAndKillsLateEnoughForAStopOfTenSeconds) {
 TEST(Lifecycle, ALongStartIsNoSilence) {
   Lifecycle life{true};
   life.started(at(0));
-  life.heard(at(0.1), "starting", "");
   EXPECT_EQ(life.status(at(30)), "starting");
   EXPECT_EQ(life.next(at(30)), Step::wait);
   EXPECT_EQ(life.next(at(61)), Step::kill);

@@ -20,7 +20,9 @@ struct Topic {
   using Type = T;
   const char* name;
   Qos qos;
-  int depth = 0;  ///< samples kept for a reader that is late; 0: what the class says
+  int depth = 0;         ///< samples kept for a reader that is late; 0: what the class says
+  double max_age_s = 0;  ///< under DDS, older samples are dropped; 0: any age. For what must not be obeyed late: a
+                         ///< process that was stopped and goes on finds all that it missed.
 };
 
 namespace topics {
@@ -32,7 +34,7 @@ inline constexpr Topic<sensor_msgs::Range> kSonar{"sonar", Qos::sensor, 96};  //
 inline constexpr Topic<nav_msgs::Odometry> kOdometry{"odom", Qos::sensor};
 inline constexpr Topic<sensor_msgs::BatteryState> kBattery{"battery_state", Qos::sensor};
 inline constexpr Topic<docent_msgs::Tactile> kTactile{"tactile", Qos::sensor};
-inline constexpr Topic<geometry_msgs::Twist> kCommandVelocity{"cmd_vel", Qos::command};
+inline constexpr Topic<geometry_msgs::Twist> kCommandVelocity{"cmd_vel", Qos::command, 0, 0.3};
 // Frames.
 inline constexpr Topic<tf2_msgs::TFMessage> kTransforms{"tf", Qos::sensor};
 inline constexpr Topic<tf2_msgs::TFMessage> kStaticTransforms{"tf_static", Qos::state};
@@ -48,9 +50,9 @@ inline constexpr Topic<docent_msgs::People> kPeople{"docent/people", Qos::sensor
 inline constexpr Topic<sensor_msgs::LaserScan> kVirtualScan{"docent/virtual_scan", Qos::sensor};
 inline constexpr Topic<docent_msgs::DriveGoal> kDriveGoal{"docent/drive_goal", Qos::state};
 inline constexpr Topic<docent_msgs::GoalState> kGoalState{"docent/goal_state", Qos::state};
-inline constexpr Topic<docent_msgs::Target> kTarget{"docent/target", Qos::command};
+inline constexpr Topic<docent_msgs::Target> kTarget{"docent/target", Qos::command, 0, 1.0};
 inline constexpr Topic<nav_msgs::Path> kPath{"docent/path", Qos::state};
-inline constexpr Topic<docent_msgs::Drive> kDrive{"docent/drive", Qos::command};
+inline constexpr Topic<docent_msgs::Drive> kDrive{"docent/drive", Qos::command, 0, 0.3};
 inline constexpr Topic<docent_msgs::AvoidState> kAvoidState{"docent/avoid_state", Qos::sensor};
 // Task and interaction.
 inline constexpr Topic<docent_msgs::Request> kRequest{"docent/request", Qos::command};

@@ -19,13 +19,13 @@ namespace {
 
 // clang-format off
 constexpr std::array kModules{
-    ModuleEntry{"avoid", make_avoid},
+    ModuleEntry{"avoid", make_avoid, true},
     ModuleEntry{"hazards", make_hazards},
     ModuleEntry{"localize", make_localize},
     ModuleEntry{"map", make_map},
     ModuleEntry{"people", make_people},
     ModuleEntry{"plan", make_plan},
-    ModuleEntry{"robot", make_robot},
+    ModuleEntry{"robot", make_robot, true},
     ModuleEntry{"sound", make_sound},
     ModuleEntry{"mission", make_mission},
     ModuleEntry{"executive", make_executive},

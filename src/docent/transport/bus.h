@@ -34,11 +34,12 @@ struct TopicInfo {
   const char* name;
   Qos qos;
   const TypeSupport* type;
-  int depth = 0;  ///< samples kept for a late reader; 0: as the class says
+  int depth = 0;         ///< samples kept for a late reader; 0: as the class says
+  double max_age_s = 0;  ///< older samples are dropped; 0: any age
 };
 template <class T>
 [[nodiscard]] TopicInfo topic_info(const Topic<T>& topic) {
-  return {topic.name, topic.qos, &type_support<T>(), topic.depth};
+  return {topic.name, topic.qos, &type_support<T>(), topic.depth, topic.max_age_s};
 }
 
 class Bus;

@@ -272,6 +272,7 @@ void DdsBus::add_subscription(const TopicInfo& info, Handler handler) {
   subscription.name = info.name;
   subscription.support = info.type;
   subscription.handler = std::move(handler);
+  subscription.max_age = seconds(info.max_age_s);
   dds_listener_t* listener = dds_create_listener(&subscription);
   dds_lset_data_available(listener, on_data);
   dds_lset_requested_incompatible_qos(
@@ -286,13 +287,34 @@ void DdsBus::add_subscription(const TopicInfo& info, Handler handler) {
   subscription.reader = reader;
 }
 
+Duration DdsBus::AgeFilter::excess(Duration age, Steady::time_point at) {
+  // Longer than a process may be stopped, so that the first stale sample does not become the measure; short enough that
+  // a step of a clock is forgiven.
+  constexpr auto kWindow = std::chrono::minutes{1};
+  if (at - begin > kWindow) {
+    previous = current;
+    current = age;
+    begin = at;
+  }
+  current = std::min(current, age);
+  return age - std::min(current, previous);
+}
+
+bool DdsBus::is_stale(Subscription& subscription, std::uint64_t writer, std::int64_t written_at) {
+  if (subscription.max_age.count() == 0) return false;
+  const auto wall = std::chrono::duration_cast<Duration>(std::chrono::system_clock::now().time_since_epoch());
+  return subscription.ages[writer].excess(wall - Duration{written_at}, Steady::now()) > subscription.max_age;
+}
+
 void DdsBus::take(Subscription& subscription) {
   constexpr std::uint32_t kBatch = 16;
   ddsi_serdata* samples[kBatch] = {};
   dds_sample_info_t infos[kBatch];
   const dds_return_t count = dds_takecdr(subscription.reader, samples, kBatch, infos, DDS_ANY_STATE);
   for (dds_return_t i = 0; i < count; ++i) {
-    if (infos[i].valid_data) {
+    if (infos[i].valid_data && is_stale(subscription, infos[i].publication_handle, infos[i].source_timestamp)) {
+      ++counters_.stale;
+    } else if (infos[i].valid_data) {
       const auto message = subscription.support->decode(cdr_bytes(samples[i]));
       if (message) {
         ++counters_.received;

@@ -59,6 +59,7 @@ class DdsBus final : public Bus {
   struct Counters {
     std::uint64_t received = 0;  ///< samples given to handlers
     std::uint64_t damaged = 0;   ///< samples dropped, because they are not what their topic promises
+    std::uint64_t stale = 0;     ///< samples dropped, because they are older than their topic allows
     std::uint64_t unsent = 0;    ///< samples that a reader who does not keep up has cost
   };
   [[nodiscard]] Counters counters() const { return counters_; }
@@ -82,13 +83,24 @@ class DdsBus final : public Bus {
     bool is_state = false;
     std::shared_ptr<const void> unsent;  ///< a state that could not be written yet
   };
+  /// How old samples are at least, over the last minute or two: what the clocks of writer and reader differ by, and the
+  /// way between them.
+  struct AgeFilter {
+    Duration current = Duration::max();
+    Duration previous = Duration::max();
+    Steady::time_point begin;
+    /// How much older than that this sample is.
+    [[nodiscard]] Duration excess(Duration age, Steady::time_point at);
+  };
   struct Subscription {
     DdsBus* bus = nullptr;
     std::string name;
     std::int32_t reader = 0;
     const TypeSupport* support = nullptr;
     Handler handler;
-    bool is_ready = false;  ///< guarded by mutex_
+    Duration max_age{};                       ///< 0: any
+    std::map<std::uint64_t, AgeFilter> ages;  ///< by writer
+    bool is_ready = false;                    ///< guarded by mutex_
   };
   struct Timer {
     Steady::time_point due;
@@ -105,6 +117,7 @@ class DdsBus final : public Bus {
   void write(Writer& writer, const std::shared_ptr<const void>& message);
   void retry_unsent();
   void take(Subscription& subscription);
+  [[nodiscard]] bool is_stale(Subscription& subscription, std::uint64_t writer, std::int64_t written_at);
   void add_timer(Steady::time_point due, Duration period, std::function<void()> action);
   void run_due_timers();
   void time_step(const std::function<void()>& step);

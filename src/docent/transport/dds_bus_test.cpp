@@ -9,6 +9,7 @@
 #include <numeric>
 #include <thread>
 
+#include "docent/messages/conversions.h"
 #include "docent/messages/random_message.h"
 #include "docent/messages/schema.h"
 
@@ -143,6 +144,23 @@ TEST(DdsBus, AStoppedReaderDoesNotHoldTheWriterUpAndGetsTheLastState) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, 3s);
   peer.signal(SIGCONT);
   EXPECT_TRUE(run_until(*bus, [&] { return reason == "50"; })) << reason;
+}
+
+TEST(DdsBus, WhoWasStoppedDoesNotObeyWhatIsOld) {
+  const auto bus = bus_in(kDomain);
+  const auto drive = bus->publisher(topics::kDrive);
+  bus->every(20ms, [&] { drive.publish({{to_message(bus->now()), ""}, 0.5, 0.0}); });
+  std::vector<double> ages;  // [s], of what the other process obeys
+  bus->subscribe<docent_msgs::Horn>(kHorn, [&](const auto& horn) { ages.push_back(std::stod(horn.reason)); });
+  Peer peer{"drive_echo", kDomain};
+  ASSERT_TRUE(run_until(*bus, [&] { return ages.size() >= 20; }));
+  peer.signal(SIGSTOP);
+  const auto end = std::chrono::steady_clock::now() + 1500ms;
+  ASSERT_TRUE(run_until(*bus, [&] { return std::chrono::steady_clock::now() > end; }));
+  peer.signal(SIGCONT);
+  ages.clear();
+  ASSERT_TRUE(run_until(*bus, [&] { return ages.size() >= 20; }));
+  EXPECT_LT(*std::max_element(ages.begin(), ages.end()), 0.5);
 }
 
 /// Says that it is a horn, and is not.

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <numeric>
 
+#include "docent/messages/conversions.h"
 #include "docent/transport/dds_bus.h"
 
 // The other process of dds_bus_test: dds_peer ROLE DOMAIN. Runs until it is killed.
@@ -21,6 +22,12 @@ int main(int argc, char** argv) {
     sensor_msgs::LaserScan scan;
     for (int i = 0; i < 360; ++i) scan.ranges.push_back(static_cast<float>(i) * 0.01F);
     bus.every(std::chrono::milliseconds{20}, [scan, out = bus.publisher(topics::kScanFront)] { out.publish(scan); });
+  } else if (role == "drive_echo") {
+    // What it obeys, with the time of its own clock at which it did.
+    bus.subscribe<docent_msgs::Drive>(
+        topics::kDrive, [&bus, out = bus.publisher(topics::kHorn)](const docent_msgs::Drive& drive) {
+          out.publish({drive.header, std::to_string(to_seconds(bus.now() - from_message(drive.header.stamp)))});
+        });
   } else if (role == "map") {
     nav_msgs::OccupancyGrid map;
     map.info.width = map.info.height = 2000;

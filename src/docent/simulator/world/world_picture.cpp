@@ -1,6 +1,8 @@
 #include "docent/simulator/world/world_picture.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 #include "docent/pictures/drawing.h"
 #include "docent/pictures/text.h"
@@ -61,14 +63,23 @@ Image draw_world(const World& world, const MapView& view) {
   }
   draw_polygon(image, view.pixels(world.operating_area), 1.5, with_alpha(colors::kGreen, 170));
   for (const auto& attraction : world.attractions) {
-    const Point2 centre = view.pixel(attraction.centre);
-    draw_circle(image, centre, attraction.radius * view.scale(), 1.0, with_alpha(colors::kViolet, 90));
-    fill_disc(image, centre, 2.5, colors::kViolet);
+    draw_circle(image, view.pixel(attraction.centre), attraction.radius * view.scale(), 1.0,
+                with_alpha(colors::kViolet, 70));
   }
+  const auto label = [&](Point2 in_world, const std::string& text) {
+    const Point2 at = view.pixel(in_world);
+    const Point2 top_left{at.x - 0.5 * text_width(text), at.y - 0.5 * text_height()};
+    draw_label(image, top_left, text, colors::kInk, with_alpha(colors::kWhite, 150));
+  };
+  for (const auto& attraction : world.attractions) label(attraction.centre, attraction.id);
   for (const Solid& solid : world.solids) {
-    if (solid.kind == SolidKind::wall) continue;
-    const Point2 at = view.pixel(middle(solid.polygon));
-    draw_text(image, {at.x - 0.5 * text_width(solid.id), at.y - 5.0}, solid.id, colors::kInk);
+    const Point2 centre = middle(solid.polygon);
+    const bool is_named = std::any_of(world.attractions.begin(), world.attractions.end(),
+                                      [&](const Attraction& a) { return distance(a.centre, centre) < a.radius; });
+    if ((solid.kind == SolidKind::plate || solid.kind == SolidKind::stairs || solid.kind == SolidKind::furniture) &&
+        !is_named && std::abs(signed_area(solid.polygon)) > 0.5) {
+      label(centre, solid.id);
+    }
   }
   for (const Point2 entrance : world.entrances) fill_disc(image, view.pixel(entrance), 6.0, colors::kOrange);
   fill_disc(image, view.pixel(world.home), 6.0, colors::kBlue);

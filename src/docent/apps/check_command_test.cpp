@@ -1,0 +1,82 @@
+#include "docent/apps/check_command.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "docent/apps/command.h"
+#include "docent/apps/survey_command.h"
+#include "docent/base/files.h"
+#include "docent/grid/occupancy_grid.h"
+
+namespace docent {
+namespace {
+
+/// Runs `docent ARGUMENTS`; the message of CommandFailed, or "".
+std::string run(const std::string& arguments) {
+  CLI::App app{"docent"};
+  add_check_command(app);
+  add_survey_command(app);
+  try {
+    app.parse(arguments);
+  } catch (const CommandFailed& failure) {
+    EXPECT_NE(failure.exit_code, 0);
+    return failure.message;
+  }
+  return {};
+}
+
+class CheckCommand : public ::testing::Test {
+ protected:
+  CheckCommand() : folder_{std::filesystem::temp_directory_path() / ("docent-check-" + std::to_string(::getpid()))} {
+    std::filesystem::remove_all(folder_);
+    std::filesystem::copy("museums/bonn", folder_, std::filesystem::copy_options::recursive);
+  }
+  ~CheckCommand() override { std::filesystem::remove_all(folder_); }
+  CheckCommand(const CheckCommand&) = delete;
+  CheckCommand& operator=(const CheckCommand&) = delete;
+
+  void change(const std::string& name, const std::string& from, const std::string& to) const {
+    std::string text = read_file(folder_ / name).value();
+    const auto at = text.find(from);
+    ASSERT_NE(at, std::string::npos);
+    ASSERT_TRUE(write_file_atomically(folder_ / name, text.replace(at, from.size(), to)));
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(CheckCommand, PassesWhatIsFine) { EXPECT_EQ(run("check " + folder_.string()), ""); }
+
+TEST_F(CheckCommand, CountsFaults) {
+  change("museum.yaml", "minutes: 6", "minutes: -6");
+  change("museum.yaml", "kind: plate", "kind: hole");
+  EXPECT_EQ(run("check " + folder_.string()), folder_.string() + ": 2 faults");
+}
+
+TEST_F(CheckCommand, LooksIntoTheSimulation) {
+  change("simulation.yaml", "exhibits: [particle-trap", "exhibits: [sword, particle-trap");
+  EXPECT_EQ(run("check " + folder_.string()), folder_.string() + ": 1 fault");
+  change("simulation.yaml", "sword", "crew");
+  EXPECT_EQ(run("check " + folder_.string()), folder_.string() + ": 1 fault") << "only for the Web";
+  change("simulation.yaml", "crew, ", "");
+  change("simulation.yaml", "kind: stairs", "kind: lake");
+  EXPECT_EQ(run("check " + folder_.string()), folder_.string() + ": 1 fault");
+}
+
+TEST_F(CheckCommand, SurveyWritesWhatMuseumYamlNeeds) {
+  const auto out = folder_ / "survey";
+  EXPECT_EQ(
+      run("survey --world " + (folder_ / "simulation.yaml").string() + " --seed 7 --pictures --out " + out.string()),
+      "");
+  EXPECT_TRUE(load_map(out / "map.yaml"));
+  EXPECT_EQ(read_file(out / "hazards.yaml").value().substr(0, 9), "hazards:\n");
+  EXPECT_TRUE(std::filesystem::exists(out / "world.png"));
+  EXPECT_TRUE(std::filesystem::exists(out / "survey.png"));
+  EXPECT_NE(run("survey --world none.yaml --out " + out.string()).find("none.yaml: cannot be read"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace docent
