@@ -153,6 +153,7 @@ class App {
     store.write('name', this.name);
     this.keepWishes();
     this.sendWish(wish);
+    this.selected = null;
     this.notice(this.t('onItsWay'));
   }
   cancel(wish: Wish): void {
