@@ -26,7 +26,7 @@ class YamlFile {
   [[nodiscard]] Error fault(const YAML::Node& at, const std::string& what) const;
 
  private:
-  YamlFile(YAML::Node root, std::string name) : root_{std::move(root)}, name_{std::move(name)} {}
+  YamlFile(const YAML::Node& root, std::string name) : root_{root}, name_{std::move(name)} {}
   YAML::Node root_;
   std::string name_;
 };
