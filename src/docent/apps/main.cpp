@@ -5,8 +5,10 @@
 #include "docent/apps/check_command.h"
 #include "docent/apps/command.h"
 #include "docent/apps/evaluate_command.h"
+#include "docent/apps/localize_command.h"
 #include "docent/apps/plan_command.h"
 #include "docent/apps/run_command.h"
+#include "docent/apps/simulate_command.h"
 #include "docent/apps/survey_command.h"
 #include "docent/apps/up_command.h"
 
@@ -16,8 +18,10 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "docent 0.1.0");
   docent::add_check_command(app);
   docent::add_evaluate_command(app);
+  docent::add_localize_command(app);
   docent::add_plan_command(app);
   docent::add_run_command(app);
+  docent::add_simulate_command(app);
   docent::add_survey_command(app);
   docent::add_up_command(app);
   try {

@@ -3,10 +3,12 @@
 #include <array>
 
 #include "docent/modules/avoid_module.h"
-#include "docent/modules/hazards_module.h"
 #include "docent/modules/executive_module.h"
+#include "docent/modules/hazards_module.h"
+#include "docent/modules/localize_module.h"
 #include "docent/modules/map_module.h"
 #include "docent/modules/mission_module.h"
+#include "docent/modules/people_module.h"
 #include "docent/modules/plan_module.h"
 #include "docent/modules/robot_module.h"
 #include "docent/modules/sound_module.h"
@@ -19,7 +21,9 @@ namespace {
 constexpr std::array kModules{
     ModuleEntry{"avoid", make_avoid, true},
     ModuleEntry{"hazards", make_hazards},
+    ModuleEntry{"localize", make_localize},
     ModuleEntry{"map", make_map},
+    ModuleEntry{"people", make_people},
     ModuleEntry{"plan", make_plan},
     ModuleEntry{"robot", make_robot, true},
     ModuleEntry{"sound", make_sound},

@@ -292,6 +292,10 @@ class SimulatedMuseum::Impl {
     if (!to) to = random_start(world_, crowd_.floor(), place_rng_, 0.6, here, 3.0);
     if (!to) return;
     body_.carry_to(*to);
+    // Who carries it asks for room.
+    for (std::size_t i = 0; i < crowd_.people().size(); ++i) {
+      (void)crowd_.give_way(i, to->position(), body_.params().radius + crowd_.people()[i].radius + 0.4);
+    }
     has_fallen_ = false;
     log_.forget();
     offer("kidnap", "");

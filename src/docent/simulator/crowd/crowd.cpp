@@ -103,6 +103,7 @@ void Crowd::add_standing(std::span<const Point2> places, double until) {
   for (const Point2 place : places) {
     if (floor_.clearance(place) < 0.2 || distance(place, robot_.position) < robot_.radius + 0.3) continue;
     Person person = new_person(0.0);
+    person.is_extra = true;
     person.activity = Activity::stand;
     person.position = person.goal = person.progress_from = place;
     person.until = until;
@@ -148,9 +149,11 @@ void Crowd::step(double now, double dt, const RobotView& robot) {
   for (std::size_t i = 0; i < people_.size(); ++i) move(i, dt, robot);
 
   // Who has left makes room for someone else; who was put there by a scenario just goes.
-  for (std::size_t i = 0; i < people_.size(); ++i) {
-    Person& person = people_[i];
-    if (person.activity != Activity::leave || !person.has_arrived) continue;
+  const auto has_left = [](const Person& person) { return person.activity == Activity::leave && person.has_arrived; };
+  const auto gone = std::erase_if(people_, [&](const Person& person) { return person.is_extra && has_left(person); });
+  for (Person& person : people_) {
+    if (gone > 0) person.near_count = 0;  // indices of others have changed
+    if (!has_left(person)) continue;
     Person other = new_person(now);
     enter(other);
     person = other;

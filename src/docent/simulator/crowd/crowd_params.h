@@ -15,13 +15,13 @@ struct CrowdParams {
   double inattentive_notices = 0.8;  ///< [s] before they would touch
 
   double interest_range = 6.0;  ///< [m] within which, in sight, the robot tempts
-  double follow_rate = 0.010;
-  double curious_rate = 0.006;  ///< steps in its way for 3 to 15 s
-  double block_rate = 0.0004;   ///< stands in its way for 45 to 180 s
-  double wall_rate = 0.0008;    ///< three to five people line up in its way for 10 to 40 s
-  double push_rate = 0.0025;    ///< walks into it, for 3 to 10 s
-  double listen_share = 0.5;    ///< comes to listen when it begins to talk
-  double boredom_min = 60.0;    ///< [s] after such an adventure
+  double follow_rate = 0.015;
+  double curious_rate = 0.05;  ///< steps in its way for 3 to 15 s
+  double block_rate = 0.005;   ///< stands in its way for 45 to 180 s
+  double wall_rate = 0.006;    ///< three to five people line up in its way for 10 to 40 s
+  double push_rate = 0.0025;   ///< walks into it, for 3 to 10 s
+  double listen_share = 0.5;   ///< comes to listen when it begins to talk
+  double boredom_min = 60.0;   ///< [s] after such an adventure
   double boredom_max = 240.0;
 
   double horn_range = 5.0;    ///< [m] who is ahead or near hears that it is meant

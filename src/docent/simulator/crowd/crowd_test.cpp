@@ -197,6 +197,43 @@ TEST(Crowd, TheHornClearsTheWay) {
   EXPECT_EQ(cleared_without, 0);
 }
 
+TEST(Crowd, ABlockerStaysInTheWayForMinutesButNotForEver) {
+  CrowdParams params;
+  params.block_rate = 1.0;  // the first who can
+  params.follow_rate = params.curious_rate = params.wall_rate = params.push_rate = 0.0;
+  params.near_share = 0.0;
+  int blocked_long = 0;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    Visit run = make_run(25, seed, robot_at(2.5, 5.8), params);
+    double blocked = 0.0;
+    double longest = 0.0;
+    for (int i = 0; i < 6000; ++i) {
+      // It wants to the east and stops before people.
+      const bool is_free =
+          std::none_of(run.crowd.people().begin(), run.crowd.people().end(), [&](const Person& person) {
+            const Point2 offset = person.position - run.robot.position;
+            return offset.x > 0.0 && offset.x < 1.0 && std::abs(offset.y) < 0.6;
+          });
+      run.robot.velocity = {is_free && run.robot.position.x < 17.0 ? 0.4 : 0.0, 0.0};
+      run.steps(0.1);
+      blocked = is_free ? 0.0 : blocked + 0.1;
+      longest = std::max(longest, blocked);
+    }
+    EXPECT_LT(longest, 240.0) << seed;
+    if (longest > 30.0) ++blocked_long;
+  }
+  EXPECT_GE(blocked_long, 2);
+}
+
+TEST(Crowd, WhoCameByAScenarioLeavesForGood) {
+  Visit run = make_run(10, 3);
+  const std::vector<Point2> places{{14.0, 4.0}, {15.0, 4.0}, {16.0, 4.0}};
+  run.crowd.add_standing(places, 20.0);
+  EXPECT_EQ(run.crowd.people().size(), 13U);
+  run.steps(300.0);
+  EXPECT_EQ(run.crowd.people().size(), 10U);
+}
+
 TEST(Crowd, SpeechGathersListeners) {
   Visit run = make_run(40, 9, robot_at(5.0, 4.0));
   run.steps(30.0);

@@ -473,6 +473,16 @@ Point2 Crowd::standing_in_the_way(Person& person, const Sight& sight, double now
     return_to_strolling(person, now, true);
     return {};
   }
+  const double robot_speed = norm(robot_.velocity);
+  if (person.activity == Activity::block && person.has_arrived && robot_speed > 0.1 && sight.in_sight) {
+    // Who means it changes place with the robot: before it again, where it goes now.
+    const bool is_passed = dot(robot_ahead(1.0) - robot_.position, sight.offset) > -0.5 * sight.away;
+    const Point2 place = robot_ahead(1.5 + robot_speed);
+    if (is_passed && floor_.clearance(place) > 0.3 && floor_.is_clear(person.position, place, 0.2)) {
+      person.goal = place;
+      person.has_arrived = false;
+    }
+  }
   if (person.has_arrived) {
     // The robot took another way: no fun.
     if (sight.away > 4.5) return_to_strolling(person, now, true);
@@ -483,9 +493,15 @@ Point2 Crowd::standing_in_the_way(Person& person, const Sight& sight, double now
     return {};
   }
   // Nobody throws themselves before it: where it is too near for that, they let it be.
-  const double speed = norm(robot_.velocity);
-  const bool too_late = distance(robot_.position, person.goal) < robot_.radius + person.radius + 0.35 + 0.8 * speed;
+  const bool too_late =
+      distance(robot_.position, person.goal) < robot_.radius + person.radius + 0.35 + 0.8 * robot_speed;
   const auto walk = walk_to(person, person.goal, 1.3);
+  if ((too_late || !walk) && person.activity == Activity::block) {
+    if (sight.away > 6.0) return_to_strolling(person, now, true);
+    const Point2 place = robot_ahead(1.6 + robot_speed);
+    if (floor_.clearance(place) > 0.3) person.goal = place;
+    return {};
+  }
   if (too_late || !walk) {
     return_to_strolling(person, now, false);
     return {};

@@ -27,6 +27,7 @@ enum class Activity {
 struct Person {
   std::uint32_t id = 0;
   bool is_child = false;
+  bool is_extra = false;  ///< came by a scenario: nobody comes instead when they have left
   double radius = 0.25;
   double height = 1.7;
   double preferred_speed = 1.1;

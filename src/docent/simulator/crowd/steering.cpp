@@ -11,7 +11,16 @@ constexpr double kHorizon = 2.5;  // [s] people look so far ahead
 
 double cost_of(Point2 velocity, Point2 desired, const Person& person, std::span<const Neighbour> neighbours,
                const WalkableFloor& floor) {
-  double cost = norm(velocity - desired) + 0.15 * norm(velocity - person.velocity);
+  const double speed = norm(desired);
+  double cost = 0.15 * norm(velocity - person.velocity);
+  if (speed < 0.05) {
+    cost += norm(velocity);
+  } else {
+    // A step aside costs less than waiting: else two who meet head on would stand for ever.
+    const double forward = dot(velocity, desired) / speed;
+    const double sideways = std::abs(cross(velocity, desired)) / speed;
+    cost += (speed - forward) + 0.35 * sideways + 0.6 * std::max(0.0, 0.4 * speed - norm(velocity));
+  }
   for (const Neighbour& neighbour : neighbours) {
     const auto time = time_to_touch(neighbour.offset, velocity - neighbour.velocity, neighbour.reach);
     if (!time || *time > kHorizon) continue;

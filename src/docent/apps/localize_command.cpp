@@ -1,0 +1,164 @@
+#include "docent/apps/localize_command.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "docent/apps/arguments.h"
+#include "docent/apps/command.h"
+#include "docent/apps/localize_log.h"
+#include "docent/apps/localize_picture.h"
+#include "docent/base/files.h"
+#include "docent/recording/carmen_log.h"
+#include "docent/robot/robot_config.h"
+
+namespace docent {
+namespace {
+
+struct Options {
+  std::string map;
+  std::string log;
+  std::string method = "grid";
+  std::string filter = "distance";
+  std::string start = "unknown";
+  bool reverse = false;
+  bool both_ways = false;
+  std::string compare;
+  std::string poses;
+  std::string report;
+  std::string picture;
+  std::vector<std::string> settings;
+  std::uint64_t seed = 1;
+};
+
+double quantile(std::vector<double> values, double q) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  return values[std::min(values.size() - 1, static_cast<std::size_t>(q * static_cast<double>(values.size())))];
+}
+
+/// Runs the log once; draws into `pictures` when it is not empty.
+LogRun run_once(const Options& options, const LaserLog& log, const OccupancyGrid& map, MarkovLocalizer& localizer,
+                bool reverse, const std::filesystem::path& pictures) {
+  LogRunOptions run_options;
+  run_options.reverse = reverse;
+  if (options.start != "unknown") run_options.start = parse_pose("--start", options.start);
+  std::optional<BeliefMovie> movie;
+  if (!pictures.empty()) movie.emplace(value_or_fail(BeliefMovie::create(map)));
+  std::size_t seen = 0;
+  run_options.watch = [&](const MarkovLocalizer& at, std::size_t scan, const MarkovLocalizer::Step& step,
+                          const Pose2&) {
+    if (++seen % 500 == 0) std::fprintf(stderr, "%zu of %zu scans\n", seen, log.scans.size());
+    if (movie && step.updated && !movie->is_full()) value_or_fail(movie->add(at, log.scans[scan], log.max_range));
+  };
+  LogRun run = localize_log(log, localizer, run_options);
+  if (!pictures.empty()) {
+    std::filesystem::create_directories(pictures);
+    const std::string suffix = reverse ? "-reversed" : "";
+    value_or_fail(movie->save(pictures / ("belief" + suffix + ".webp")));
+    const std::size_t stride = std::max<std::size_t>(1, log.scans.size() / 25);
+    value_or_fail(save_png(draw_run(map, log, run, stride), pictures / ("scans" + suffix + ".png")));
+    for (std::size_t n = 1; n <= 12; ++n) {
+      const std::size_t i = n * log.scans.size() / 13;
+      if (!run.poses[i].has_pose) continue;
+      char name[40];
+      std::snprintf(name, sizeof name, "scan-%05zu%s.png", i, suffix.c_str());
+      value_or_fail(save_png(draw_scan(map, log.scans[i], log.max_range, run.poses[i]), pictures / name));
+    }
+  }
+  return run;
+}
+
+nlohmann::json report_of(const LaserLog& log, const LogRun& run, const RayCaster& caster) {
+  const double updates = static_cast<double>(std::max<std::size_t>(run.updates, 1));
+  nlohmann::json report;
+  report["scans"] = log.scans.size();
+  report["updates"] = run.updates;
+  report["seconds_per_scan"] = {
+      {"first", run.seconds_first}, {"median", quantile(run.seconds, 0.5)}, {"p99", quantile(run.seconds, 0.99)}};
+  report["localized_after_scans"] = run.localized_after ? nlohmann::json(*run.localized_after) : nlohmann::json();
+  report["beams_used"] = static_cast<double>(run.beams_used) / updates;
+  report["beams_filtered"] = static_cast<double>(run.beams_filtered) / updates;
+  report["endpoints_near_walls"] = endpoints_near_walls(log, run, caster, 0.2);
+  const auto localized =
+      std::count_if(run.poses.begin(), run.poses.end(), [](const auto& pose) { return pose.localized; });
+  report["localized_fraction"] = static_cast<double>(localized) / static_cast<double>(run.poses.size());
+  return report;
+}
+
+nlohmann::json to_json(const RunAgreement& agreement) {
+  return {{"scans", agreement.scans},
+          {"within_half_a_metre_and_10_degrees", agreement.share},
+          {"median_m", agreement.median_m},
+          {"p95_m", agreement.p95_m},
+          {"max_m", agreement.max_m}};
+}
+
+void print(const char* title, const nlohmann::json& report) {
+  std::printf("%s\n", title);
+  for (const auto& [key, value] : report.items()) std::printf("  %-24s %s\n", key.c_str(), value.dump().c_str());
+}
+
+void localize(const Options& options) {
+  const OccupancyGrid map = value_or_fail(load_map(options.map));
+  const LaserLog log = value_or_fail(read_carmen_log(options.log));
+  RobotConfig config;
+  for (const std::string& setting : options.settings) value_or_fail(config.set("localize." + setting), 2);
+  auto params = value_or_fail(config.section<MarkovLocalizerParams>("localize"), 2);
+  params.filter = options.filter;
+  MarkovLocalizer localizer{map, params, {}, options.seed};
+  if (localizer.space().places() == 0) throw CommandFailed{options.map + ": no free place in this map"};
+
+  const LogRun run = run_once(options, log, map, localizer, options.reverse, options.picture);
+  nlohmann::json report = report_of(log, run, localizer.caster());
+  report["map"] = options.map;
+  report["log"] = options.log;
+  report["filter"] = options.filter;
+  report["start"] = options.start;
+  report["reversed"] = options.reverse;
+  print(options.reverse ? "reversed" : "forward", report);
+  if (options.both_ways) {
+    localizer.start_unknown();
+    const LogRun other = run_once(options, log, map, localizer, !options.reverse, options.picture);
+    report["other_way"] = report_of(log, other, localizer.caster());
+    report["agreement"] = to_json(agreement_of(run.poses, other.poses));
+    print("the other way", report["other_way"]);
+    print("agreement", report["agreement"]);
+  }
+  if (!options.compare.empty()) {
+    const auto others = value_or_fail(load_poses(options.compare));
+    if (others.size() != run.poses.size()) throw CommandFailed{options.compare + ": poses of another log"};
+    report["agreement"] = to_json(agreement_of(run.poses, others));
+    print("agreement", report["agreement"]);
+  }
+  if (!options.poses.empty()) value_or_fail(save_poses(run.poses, options.poses));
+  if (!options.report.empty()) value_or_fail(write_file_atomically(options.report, report.dump(2) + "\n"));
+}
+
+}  // namespace
+
+void add_localize_command(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("localize", "Localize a recorded log in a map");
+  command->add_option("--map", options->map, "map_server YAML file")->required();
+  command->add_option("--log", options->log, "CARMEN text log, plain or .gz")->required();
+  command->add_option("--method", options->method, "grid")->check(CLI::IsMember({"grid"}))->capture_default_str();
+  command->add_option("--filter", options->filter, "none, entropy, distance")
+      ->check(CLI::IsMember({"none", "entropy", "distance"}))
+      ->capture_default_str();
+  command->add_option("--start", options->start, "unknown, or X,Y,DEG of the first scan")->capture_default_str();
+  command->add_flag("--reverse", options->reverse, "from the last scan to the first, with inverse odometry");
+  command->add_flag("--both-ways", options->both_ways, "forward and reversed, and how they agree");
+  command->add_option("--compare", options->compare, "poses of another run over this log");
+  command->add_option("--poses", options->poses, "CSV file to write: the pose of every scan");
+  command->add_option("--report", options->report, "JSON file to write");
+  command->add_option("--picture", options->picture, "folder for pictures: the belief, the scans in the map");
+  command->add_option("--set", options->settings, "key=value of the localizer's parameters, e.g. beams=90");
+  command->add_option("--seed", options->seed, "seed of the random choice of beams")->capture_default_str();
+  command->callback([options] { localize(*options); });
+}
+
+}  // namespace docent

@@ -1,0 +1,12 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace docent {
+
+/// `docent localize --map MAP.yaml --log LOG`
+void add_localize_command(CLI::App& app);
+
+}  // namespace docent

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "docent/grid/occupancy_grid.h"
+#include "docent/localization/markov/markov_localizer.h"
+#include "docent/recording/laser_log.h"
+
+namespace docent {
+
+/// Where the robot was at one scan of a log.
+struct LoggedPose {
+  std::size_t scan = 0;  ///< index in the log, also in a reversed run
+  double time = 0.0;     ///< [s] of the log
+  Pose2 map_from_base;
+  bool has_pose = false;  ///< there was a best mode at all
+  bool localized = false;
+  double p_lost = 1.0;
+};
+
+struct LogRun {
+  std::vector<LoggedPose> poses;               ///< of every scan, in the order of the log
+  std::optional<std::size_t> localized_after;  ///< scans until the robot first said where it is
+  std::vector<double> seconds;                 ///< wall time of every scan that led to an update
+  double seconds_first = 0.0;
+  std::size_t beams_used = 0;
+  std::size_t beams_filtered = 0;
+  std::size_t updates = 0;
+};
+
+struct LogRunOptions {
+  bool reverse = false;        ///< scans from the last to the first, with inverse odometry
+  std::optional<Pose2> start;  ///< map_from_base at the first scan; nullopt: unknown
+  /// After every scan: localizer, index in the log, pose (for pictures).
+  std::function<void(const MarkovLocalizer&, std::size_t, const MarkovLocalizer::Step&, const Pose2& odom)> watch;
+};
+
+/// Localizes every scan of a log; one sweep a scan, rear lasers joined with the last front scan.
+[[nodiscard]] LogRun localize_log(const LaserLog& log, MarkovLocalizer& localizer, const LogRunOptions& options);
+
+/// The scan as seen from the robot's centre.
+[[nodiscard]] RangeSweep sweep_of(const LoggedScan& scan, double max_range);
+
+/// Share of the valid endpoints within `distance` [m] of an occupied cell, over the scans since localization.
+[[nodiscard]] double endpoints_near_walls(const LaserLog& log, const LogRun& run, const RayCaster& caster,
+                                          double distance);
+
+/// How two runs over one log agree, over the scans after both were localized (in a reversed run: before).
+struct RunAgreement {
+  std::size_t scans = 0;  ///< compared
+  double share = 0.0;     ///< within 0.5 m and 10 degrees, both localized
+  double median_m = 0.0, p95_m = 0.0, max_m = 0.0;
+};
+[[nodiscard]] RunAgreement agreement_of(const std::vector<LoggedPose>& first, const std::vector<LoggedPose>& second);
+
+[[nodiscard]] Result<void> save_poses(const std::vector<LoggedPose>& poses, const std::string& path);
+[[nodiscard]] Result<std::vector<LoggedPose>> load_poses(const std::string& path);
+
+}  // namespace docent

@@ -1,0 +1,12 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace docent {
+
+/// `docent simulate`: the whole robot in virtual time, with the deployment report.
+void add_simulate_command(CLI::App& app);
+
+}  // namespace docent

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "docent/base/result.h"
+#include "docent/base/time.h"
+#include "docent/geometry/pose2.h"
+
+namespace docent {
+
+/// What `docent simulate` takes.
+struct SimulationRunOptions {
+  std::string museum;
+  std::string robot;                  ///< robot.yaml; empty: all defaults
+  std::vector<std::string> settings;  ///< section.key=value, over robot.yaml
+  std::uint64_t seed = 1;
+  std::string crowd = "busy";
+  std::optional<std::size_t> people;  ///< instead of the crowd level's density
+  std::optional<double> requests_per_hour;
+  std::string scenario;        ///< file; empty: nothing special happens
+  std::optional<Pose2> start;  ///< none: somewhere in the area, drawn from the seed
+  std::string mode = "open";
+  std::string recording;   ///< MCAP file; empty: none
+  std::string state;       ///< folder; empty: a temporary one that goes with the run
+  bool hosts_web = false;  ///< the page too
+};
+
+/// The whole robot and its museum in one process in virtual time: simulator, modules, evaluation. One thread,
+/// deterministic for a seed.
+class SimulationRun {
+ public:
+  [[nodiscard]] static Result<std::unique_ptr<SimulationRun>> create(const SimulationRunOptions& options);
+  ~SimulationRun();
+  SimulationRun(const SimulationRun&) = delete;
+  SimulationRun& operator=(const SimulationRun&) = delete;
+
+  /// Error: the recording could not be written, or a module that was killed could not start again.
+  [[nodiscard]] Result<void> run_until(Time end);
+  [[nodiscard]] Time now() const;
+
+  /// The deployment report so far (architecture 9), JSON.
+  [[nodiscard]] std::string report_json() const;
+  /// The same for people.
+  [[nodiscard]] std::string summary() const;
+  /// One line about the present: for progress.
+  [[nodiscard]] std::string status() const;
+  /// Wall seconds of all module steps so far, the simulator's and the evaluation's among them.
+  [[nodiscard]] std::map<std::string, double> wall_seconds_by_module() const;
+  /// Closes the recording.
+  [[nodiscard]] Result<void> finish();
+  /// The way driven over the map, with hazards, exhibits, home and touches.
+  [[nodiscard]] Result<void> save_picture(const std::string& png) const;
+
+ private:
+  class Parts;
+  explicit SimulationRun(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace docent

@@ -1,0 +1,87 @@
+#include "docent/localization/markov/beam_filter.h"
+
+#include <cmath>
+
+namespace docent {
+
+std::vector<LikelyState> likely_states(const PositionBelief& belief, double fraction, std::size_t limit) {
+  std::vector<LikelyState> states;
+  if (belief.active_states() > 64 * limit) return states;  // not worth a look
+  const auto least = static_cast<float>(fraction * static_cast<double>(belief.peak()));
+  double total = 0.0;
+  for (std::size_t i = 0; i < belief.kept_places().size(); ++i) {
+    const auto row = belief.row(i);
+    for (std::size_t h = 0; h < row.size(); ++h) {
+      if (row[h] < least) continue;
+      if (states.size() == limit) return {};
+      states.push_back({belief.kept_places()[i], static_cast<std::int32_t>(h), row[h]});
+      total += static_cast<double>(row[h]);
+    }
+  }
+  for (LikelyState& state : states) state.mass = static_cast<float>(static_cast<double>(state.mass) / total);
+  return states;
+}
+
+ExpectedRanges::ExpectedRanges(std::span<const LikelyState> states, const RangeTable& table, int directions) {
+  const auto count = static_cast<std::size_t>(directions);
+  mass_.assign(count * kExpectedRanges, 0.0F);
+  log_mass_.assign(count * kExpectedRanges, 0.0F);
+  for (const LikelyState& state : states) {
+    const std::uint8_t* const row = table.row(static_cast<std::size_t>(state.place)) + state.heading;
+    const float log_part = state.mass * std::log(state.mass);
+    entropy_ -= static_cast<double>(log_part);
+    for (std::size_t d = 0; d < count; ++d) {
+      const std::size_t i = d * kExpectedRanges + (row[d] & 127U);
+      mass_[i] += state.mass;
+      log_mass_[i] += log_part;
+    }
+  }
+}
+
+double ExpectedRanges::shorter(int direction, std::span<const float> shorter_probabilities) const {
+  const auto mass = of(mass_, direction);
+  double sum = 0.0;
+  for (std::size_t o = 0; o < kExpectedRanges; ++o) sum += static_cast<double>(mass[o] * shorter_probabilities[o]);
+  return sum;
+}
+
+double ExpectedRanges::known_mass(int direction) const {
+  return 1.0 - static_cast<double>(of(mass_, direction)[kUnknownRange]);
+}
+
+double ExpectedRanges::entropy_gain(int direction, std::span<const float> log_probabilities) const {
+  // With r(o) = P(d | o) and Z = sum r p: H(L | s) = ln Z - 1/Z sum r p (ln r + ln p), and p enters only through its
+  // sums over states that expect the same range.
+  const auto mass = of(mass_, direction);
+  const auto log_mass = of(log_mass_, direction);
+  double z = 0.0;
+  double sum = 0.0;
+  for (std::size_t o = 0; o < kExpectedRanges; ++o) {
+    if (mass[o] <= 0.0F) continue;
+    const double log_r = static_cast<double>(log_probabilities[o]);
+    const double r = std::exp(log_r);
+    z += r * static_cast<double>(mass[o]);
+    sum += r * (static_cast<double>(log_mass[o]) + log_r * static_cast<double>(mass[o]));
+  }
+  return entropy_ - (std::log(z) - sum / z);
+}
+
+Result<BeamFilter> beam_filter_of(const std::string& name) {
+  if (name == "none") return BeamFilter::none;
+  if (name == "entropy") return BeamFilter::entropy;
+  if (name == "distance") return BeamFilter::distance;
+  return fail("filter must be none, entropy or distance, not '" + name + "'");
+}
+
+Agreement agreement(const ExpectedRanges& expected, const ProximityModel& model, int direction, int measured,
+                    double sureness) {
+  if (measured == kNoReturn || expected.known_mass(direction) < 0.5) return Agreement::unknown;
+  if (expected.shorter(direction, model.shorter_probabilities(measured)) > sureness) return Agreement::shorter;
+  // "Not longer" is the mass of P_m at this bin and behind it, which is P_short of the bin before.
+  const double not_longer =
+      measured == 0 ? 1.0 : expected.shorter(direction, model.shorter_probabilities(measured - 1));
+  if (not_longer + (1.0 - expected.known_mass(direction)) < 1.0 - sureness) return Agreement::longer;
+  return Agreement::agrees;
+}
+
+}  // namespace docent

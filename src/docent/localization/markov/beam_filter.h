@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "docent/localization/markov/position_belief.h"
+#include "docent/localization/markov/range_table.h"
+#include "docent/sensor_models/proximity_model.h"
+
+namespace docent {
+
+/// The part of the belief that matters: states with at least `fraction` of the peak's probability.
+struct LikelyState {
+  std::int32_t place = 0;
+  std::int32_t heading = 0;
+  float mass = 0.0F;  ///< normalised over the list
+};
+/// Empty when there are more than `limit`: the belief is not concentrated.
+[[nodiscard]] std::vector<LikelyState> likely_states(const PositionBelief& belief, double fraction, std::size_t limit);
+
+/// What the belief expects in every direction from the robot: a histogram of expected ranges. All that the filters of
+/// [Markov1998] 3.3 need of the belief, gathered once for all beams.
+class ExpectedRanges {
+ public:
+  /// O(states * directions). @pre states is not empty
+  ExpectedRanges(std::span<const LikelyState> states, const RangeTable& table, int directions);
+
+  /// P_short(d), eq. 8: the mean of eq. 7 over the belief.
+  [[nodiscard]] double shorter(int direction, std::span<const float> shorter_probabilities) const;
+  /// Delta H(L | s), eq. 6 [nat]: how much surer the robot gets by the reading whose ln P(d | o) are given.
+  [[nodiscard]] double entropy_gain(int direction, std::span<const float> log_probabilities) const;
+  [[nodiscard]] double known_mass(int direction) const;  ///< of the states where the map says what to expect
+
+ private:
+  [[nodiscard]] std::span<const float> of(const std::vector<float>& all, int direction) const {
+    return std::span{all}.subspan(static_cast<std::size_t>(direction) * kExpectedRanges, kExpectedRanges);
+  }
+  std::vector<float> mass_;      ///< [directions][kExpectedRanges]: sum of p
+  std::vector<float> log_mass_;  ///< [directions][kExpectedRanges]: sum of p ln p
+  double entropy_ = 0.0;         ///< [nat] of the list
+};
+
+enum class BeamFilter { none, entropy, distance };
+[[nodiscard]] Result<BeamFilter> beam_filter_of(const std::string& name);
+
+/// How a reading compares with what the belief expects.
+enum class Agreement { agrees, shorter, longer, unknown };
+/// `sureness`: e.g. 0.99. Longer: with that probability, longer than expected. Readings without a return are unknown:
+/// some surfaces give none.
+[[nodiscard]] Agreement agreement(const ExpectedRanges& expected, const ProximityModel& model, int direction,
+                                  int measured, double sureness);
+
+}  // namespace docent

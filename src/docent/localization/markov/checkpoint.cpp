@@ -1,0 +1,82 @@
+#include "docent/localization/markov/checkpoint.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "docent/base/files.h"
+#include "docent/base/yaml.h"
+
+namespace docent {
+
+namespace {
+
+struct StoredMode {
+  std::vector<double> pose;        // x, y [m], theta [rad]
+  std::vector<double> covariance;  // nine, row-major
+  double mass = 0.0;
+  template <class V>
+  void visit(V& v) {
+    v("pose", pose);
+    v("covariance", covariance);
+    v("mass", mass);
+  }
+};
+
+struct Stored {
+  std::string map_hash;
+  std::int64_t nanoseconds = 0;
+  std::vector<double> odometry;
+  std::vector<StoredMode> modes;
+  template <class V>
+  void visit(V& v) {
+    v("map_hash", map_hash);
+    v("nanoseconds", nanoseconds);
+    v("odometry", odometry);
+    v("modes", modes);
+  }
+};
+
+std::string list_of(std::span<const double> values) {
+  std::string text = "[";
+  for (const double value : values) {
+    char number[40];
+    std::snprintf(number, sizeof number, "%s%.9g", text.size() > 1 ? ", " : "", value);
+    text += number;
+  }
+  return text + "]";
+}
+
+}  // namespace
+
+Result<void> save_localizer_checkpoint(const LocalizerCheckpoint& checkpoint, const std::filesystem::path& path) {
+  const auto pose_of = [](const Pose2& pose) { return std::array{pose.x, pose.y, pose.theta.radians()}; };
+  std::string text = "map_hash: \"" + checkpoint.map_hash +
+                     "\"\nnanoseconds: " + std::to_string(checkpoint.time.nanoseconds) +
+                     "\nodometry: " + list_of(pose_of(checkpoint.odom_from_robot)) + "\nmodes:\n";
+  for (const BeliefMode& mode : checkpoint.modes)
+    text += "  - {pose: " + list_of(pose_of(mode.map_from_robot)) + ", covariance: " + list_of(mode.covariance) +
+            ", mass: " + std::to_string(mode.mass) + "}\n";
+  return write_file_atomically(path, text);
+}
+
+Result<LocalizerCheckpoint> load_localizer_checkpoint(const std::filesystem::path& path) {
+  const auto file = YamlFile::load(path);
+  if (!file) return tl::unexpected<Error>(file.error());
+  Stored stored;
+  if (auto read = read_yaml(*file, file->root(), stored); !read) return tl::unexpected<Error>(read.error());
+  if (stored.odometry.size() != 3 || stored.modes.empty()) return fail(path.string() + ": not a checkpoint");
+  LocalizerCheckpoint checkpoint{stored.map_hash,
+                                 Time{stored.nanoseconds},
+                                 {stored.odometry[0], stored.odometry[1], Angle::radians(stored.odometry[2])},
+                                 {}};
+  for (const StoredMode& mode : stored.modes) {
+    if (mode.pose.size() != 3 || mode.covariance.size() != 9 || !(mode.mass > 0.0 && mode.mass <= 1.0))
+      return fail(path.string() + ": not a checkpoint");
+    BeliefMode restored{{mode.pose[0], mode.pose[1], Angle::radians(mode.pose[2])}, {}, mode.mass};
+    std::copy(mode.covariance.begin(), mode.covariance.end(), restored.covariance.begin());
+    checkpoint.modes.push_back(restored);
+  }
+  return checkpoint;
+}
+
+}  // namespace docent

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "docent/base/result.h"
+#include "docent/base/time.h"
+#include "docent/localization/markov/position_belief.h"
+
+namespace docent {
+
+/// What lets a restarted localizer go on: the belief's modes and where odometry was then.
+struct LocalizerCheckpoint {
+  std::string map_hash;
+  Time time;
+  Pose2 odom_from_robot;
+  std::vector<BeliefMode> modes;
+};
+
+[[nodiscard]] Result<void> save_localizer_checkpoint(const LocalizerCheckpoint& checkpoint, const std::filesystem::path& path);
+/// Error: absent or damaged; the caller then starts with an unknown place.
+[[nodiscard]] Result<LocalizerCheckpoint> load_localizer_checkpoint(const std::filesystem::path& path);
+
+}  // namespace docent

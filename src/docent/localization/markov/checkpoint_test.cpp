@@ -1,0 +1,40 @@
+#include "docent/localization/markov/checkpoint.h"
+
+#include <gtest/gtest.h>
+
+#include "docent/base/files.h"
+
+namespace docent {
+namespace {
+
+TEST(Checkpoint, ComesBackAsItWas) {
+  const auto path = std::filesystem::path{::testing::TempDir()} / "docent_checkpoint_test.yaml";
+  LocalizerCheckpoint checkpoint{"00ff00ff00ff00ff", Time{1234567890123456789}, {1.5, -2.25, Angle::degrees(30)}, {}};
+  checkpoint.modes.push_back({{3.0, 4.0, Angle::degrees(-90)}, {0.01, 0, 0, 0, 0.02, 0, 0, 0, 0.003}, 0.875});
+  ASSERT_TRUE(save_localizer_checkpoint(checkpoint, path).has_value());
+  const auto loaded = load_localizer_checkpoint(path);
+  ASSERT_TRUE(loaded.has_value()) << loaded.error().message;
+  EXPECT_EQ(loaded->map_hash, checkpoint.map_hash);
+  EXPECT_EQ(loaded->time, checkpoint.time);
+  EXPECT_NEAR(loaded->odom_from_robot.y, -2.25, 1e-9);
+  ASSERT_EQ(loaded->modes.size(), 1U);
+  EXPECT_NEAR(loaded->modes[0].map_from_robot.theta.degrees(), -90.0, 1e-6);
+  EXPECT_NEAR(loaded->modes[0].covariance[4], 0.02, 1e-9);
+  EXPECT_NEAR(loaded->modes[0].mass, 0.875, 1e-6);
+  std::filesystem::remove(path);
+}
+
+TEST(Checkpoint, RefusesWhatIsDamaged) {
+  const auto path = std::filesystem::path{::testing::TempDir()} / "docent_checkpoint_broken.yaml";
+  EXPECT_FALSE(load_localizer_checkpoint(path).has_value());
+  for (const char* text :
+       {"", "map_hash: x\n", "modes: [1, 2", "odometry: [1, 2, 3]\nmodes: [{pose: [1]}]\n",
+        "odometry: [1, 2, 3]\nmodes: [{pose: [1, 2, 3], covariance: [1,0,0,0,1,0,0,0,1], mass: 7}]\n"}) {
+    ASSERT_TRUE(write_file_atomically(path, text).has_value());
+    EXPECT_FALSE(load_localizer_checkpoint(path).has_value()) << text;
+  }
+  std::filesystem::remove(path);
+}
+
+}  // namespace
+}  // namespace docent

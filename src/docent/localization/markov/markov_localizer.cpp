@@ -1,0 +1,222 @@
+#include "docent/localization/markov/markov_localizer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "docent/base/check.h"
+
+namespace docent {
+
+namespace {
+
+constexpr double kLikelyFraction = 1e-3;   // of the peak: states that the filters ask
+constexpr std::size_t kMostLikely = 6000;  // more, and the belief is too wide for filters
+constexpr double kRadians = std::numbers::pi / 180.0;
+
+std::string table_key(const OccupancyGrid& map, const MarkovLocalizerParams& params) {
+  return map_hash(map) + " " + std::to_string(params.states.cell_size) + " " +
+         std::to_string(params.states.heading_step) + " " + std::to_string(params.states.min_clearance) + " " +
+         std::to_string(params.states.wall_depth) + " " + std::to_string(params.sensor.max_range);
+}
+
+RangeTable make_table(const OccupancyGrid& map, const MarkovLocalizerParams& params, const std::filesystem::path& cache,
+                      const StateSpace& space, const RayCaster& caster) {
+  const ProximityModel model{params.sensor};
+  return cache.empty() ? RangeTable::build(space, caster, model)
+                       : RangeTable::load_or_build(cache, table_key(map, params), space, caster, model);
+}
+
+}  // namespace
+
+Result<void> MarkovLocalizerParams::validate() const {
+  for (const auto& valid : {states.validate(), sensor.validate(), motion.validate(), verdict.validate()})
+    if (!valid) return valid;
+  if (!(beams >= 4 && beams <= 360)) return fail("beams must be 4..360");
+  if (!(independent_beams > 0.0 && independent_beams <= beams))
+    return fail("independent_beams must be > 0 and <= beams");
+  if (auto known = beam_filter_of(filter); !known) return tl::unexpected<Error>(known.error());
+  if (!(filter_sureness > 0.5 && filter_sureness < 1.0)) return fail("filter_sureness must be 0.5..1");
+  if (!(unfiltered_share >= 0.0 && unfiltered_share <= 1.0)) return fail("unfiltered_share must be 0..1");
+  if (!(sea_threshold >= 0.0 && sea_threshold < 1.0)) return fail("sea_threshold must be 0..1");
+  if (!(teleport_probability >= 0.0 && teleport_probability < 0.1)) return fail("teleport_probability must be 0..0.1");
+  if (!(update_way > 0.0 && update_turn > 0.0)) return fail("update_way and update_turn must be > 0");
+  if (!(creeping_period > 0.0 && standing_period > 0.0)) return fail("creeping_period and standing_period must be > 0");
+  if (!(standing_weight >= 0.0 && standing_weight <= 1.0)) return fail("standing_weight must be 0..1");
+  if (!(work_per_second > 0.0)) return fail("work_per_second must be > 0");
+  return {};
+}
+
+MarkovLocalizer::MarkovLocalizer(const OccupancyGrid& map, const MarkovLocalizerParams& params,
+                                 const std::filesystem::path& cache, std::uint64_t seed)
+    : params_{params},
+      filter_{beam_filter_of(params.filter).value_or(BeamFilter::distance)},
+      caster_{map},
+      space_{map, caster_, params.states},
+      table_{make_table(map, params, cache, space_, caster_)},
+      model_{params.sensor, table_.frequency()},
+      belief_{space_, params.sea_threshold},
+      verdict_{params.verdict},
+      rng_{Rng{seed}.stream("localize")} {
+  start_unknown();
+}
+
+void MarkovLocalizer::start_unknown() {
+  belief_.make_uniform();
+  heading_offset_ = 0.0;
+  started_ = false;
+  last_work_ = 0.0;
+  verdict_.reset();
+  likely_.clear();
+  summary_ = summarise(belief_, heading_offset_, {});
+}
+
+void MarkovLocalizer::start_at(std::span<const BeliefMode> modes, const Pose2& odom_from_robot, Time time) {
+  heading_offset_ = 0.0;
+  belief_.make_modes(modes, 1e-4);
+  started_ = true;
+  odom_from_robot_ = odom_from_robot;
+  last_update_ = time;
+  last_work_ = 0.0;
+  verdict_.assume_localized();
+  likely_ = likely_states(belief_, kLikelyFraction, kMostLikely);
+  summary_ = summarise(belief_, heading_offset_, {});
+}
+
+double MarkovLocalizer::due_weight(double way, double turn, Time time) const {
+  const double waited = to_seconds(time - last_update_);
+  if (waited * params_.work_per_second < last_work_) return 0.0;
+  const double moved = std::max(way / params_.update_way, turn / (params_.update_turn * kRadians));
+  if (moved >= 1.0) return 1.0;
+  const bool stands = way < 0.005 && turn < 0.005;
+  if (waited < (stands ? params_.standing_period : params_.creeping_period)) return 0.0;
+  return std::max(moved, params_.standing_weight);
+}
+
+MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Pose2& odom_from_robot, Time time) {
+  Step step;
+  const Pose2 before_from_after = started_ ? inverse(odom_from_robot_) * odom_from_robot : Pose2{};
+  const double way = norm(before_from_after.position());
+  const double turn = std::abs(before_from_after.theta.radians());
+  step.weight = started_ ? due_weight(way, turn, time) : 1.0;
+  if (step.weight <= 0.0 || sweep.beams.empty()) return step;
+
+  const std::optional<Pose2> predicted = started_ ? map_from_robot(odom_from_robot) : std::nullopt;
+  if (way > 0.0 || turn > 0.0) belief_.move(motion_kernel(space_, params_.motion, before_from_after, heading_offset_));
+  started_ = true;
+  odom_from_robot_ = odom_from_robot;
+  last_update_ = time;
+
+  Choice choice = choose_beams(sweep, binned(sweep, space_.headings(), heading_offset_));
+  const double temper = step.weight * params_.independent_beams / params_.beams;
+  std::vector<BeamCosts> costs(choice.used.size());
+  double log_best_over_mean = 0.0;
+  for (std::size_t i = 0; i < costs.size(); ++i) {
+    const int bin = bin_of(sweep.beams[choice.used[i].beam]);
+    const auto log_probabilities = model_.log_probabilities(bin);
+    const float best = *std::max_element(log_probabilities.begin(), log_probabilities.end());
+    for (std::size_t o = 0; o < kExpectedRanges; ++o) {
+      const double nats = temper * static_cast<double>(best - log_probabilities[o]);
+      costs[i].costs[o] = static_cast<std::uint8_t>(std::min<long>(kMaxCost, std::lround(nats * kCostPerNat)));
+    }
+    costs[i].direction = choice.used[i].direction;
+    log_best_over_mean += temper * (static_cast<double>(best) - model_.log_mean_probability(bin));
+  }
+  last_work_ = static_cast<double>(belief_.active_states()) * static_cast<double>(costs.size());
+  step.evidence = belief_.reweigh(table_, costs, log_best_over_mean, params_.teleport_probability);
+  step.updated = true;
+  step.beams_used = costs.size();
+  step.beams_filtered = choice.filtered;
+
+  likely_ = likely_states(belief_, kLikelyFraction, kMostLikely);
+  summary_ = summarise(belief_, heading_offset_, {});
+  choice.evidence.weight = step.weight;
+  choice.evidence.way = way;
+  choice.evidence.turn = turn;
+  judge(choice.evidence, predicted);
+  return step;
+}
+
+MarkovLocalizer::Choice MarkovLocalizer::choose_beams(const RangeSweep& sweep, const std::vector<BinnedBeam>& beams) {
+  Choice choice;
+  likely_ = likely_states(belief_, kLikelyFraction, kMostLikely);
+  if (likely_.empty()) {
+    choice.used = beams;
+    thin(choice.used);
+    return choice;
+  }
+  const ExpectedRanges expected{likely_, table_, space_.headings()};
+  for (const BinnedBeam& beam : beams) {
+    const int bin = bin_of(sweep.beams[beam.beam]);
+    const Agreement found = agreement(expected, model_, beam.direction, bin, params_.filter_sureness);
+    choice.evidence.agrees += found == Agreement::agrees ? 1 : 0;
+    choice.evidence.shorter += found == Agreement::shorter ? 1 : 0;
+    choice.evidence.longer += found == Agreement::longer ? 1 : 0;
+    const bool filtered =
+        (filter_ == BeamFilter::distance && found == Agreement::shorter) ||
+        (filter_ == BeamFilter::entropy && expected.entropy_gain(beam.direction, model_.log_probabilities(bin)) < 0.0);
+    choice.filtered += filtered ? 1 : 0;
+    if (!filtered || rng_.chance(params_.unfiltered_share)) choice.used.push_back(beam);
+  }
+  thin(choice.used);
+  return choice;
+}
+
+void MarkovLocalizer::thin(std::vector<BinnedBeam>& beams) {
+  const auto most = static_cast<std::size_t>(params_.beams);
+  ++phase_;
+  if (beams.size() <= most) return;
+  // Evenly, and beginning elsewhere each time, so that all beams have their turn.
+  std::vector<BinnedBeam> chosen;
+  const std::size_t start = phase_ * 7 % beams.size();
+  for (std::size_t i = 0; i < most; ++i) chosen.push_back(beams[(start + i * beams.size() / most) % beams.size()]);
+  beams.swap(chosen);
+}
+
+void MarkovLocalizer::judge(Evidence evidence, const std::optional<Pose2>& predicted) {
+  if (!summary_.modes.empty()) {
+    const BeliefMode& best = summary_.modes.front();
+    evidence.mass = best.mass;
+    evidence.spread = std::sqrt(std::max(0.0, best.covariance[0] + best.covariance[4]));
+    if (predicted) {
+      const double off = distance(predicted->position(), best.map_from_robot.position());
+      const double turned = std::abs((predicted->theta - best.map_from_robot.theta).degrees());
+      evidence.is_same_mode = off < 0.5 && turned < 15.0;
+    }
+  }
+  verdict_.add(evidence);
+  if (!verdict_.collapsed()) return;
+  belief_.flood(0.9);
+  verdict_.reset();
+  likely_.clear();
+  summary_ = summarise(belief_, heading_offset_, {});
+}
+
+std::optional<Pose2> MarkovLocalizer::map_from_robot(const Pose2& odom_now) const {
+  if (summary_.modes.empty()) return std::nullopt;
+  return summary_.modes.front().map_from_robot * (inverse(odom_from_robot_) * odom_now);
+}
+
+std::vector<std::size_t> MarkovLocalizer::unexpected_beams(const RangeSweep& sweep, const Pose2& odom_now,
+                                                           double max_range) const {
+  constexpr float kClear = 0.25F;  // [m] from anything in the map
+  std::vector<std::size_t> found;
+  if (!verdict_.localized() || likely_.empty()) return found;
+  const Pose2 best = *map_from_robot(odom_now);
+  const double turned = (odom_now.theta - odom_from_robot_.theta).radians();
+  const ExpectedRanges expected{likely_, table_, space_.headings()};
+  const double step = space_.heading_step();
+  for (std::size_t i = 0; i < sweep.beams.size(); ++i) {
+    const SweepBeam& beam = sweep.beams[i];
+    if (beam.no_return || beam.range > max_range) continue;
+    auto direction =
+        static_cast<int>(std::lround((beam.bearing + turned + heading_offset_) / step)) % space_.headings();
+    if (direction < 0) direction += space_.headings();
+    if (expected.shorter(direction, model_.shorter_probabilities(bin_of(beam))) <= params_.filter_sureness) continue;
+    const float clearance = caster_.clearance(best * endpoint(beam));
+    if (clearance >= kClear) found.push_back(i);
+  }
+  return found;
+}
+
+}  // namespace docent

@@ -1,0 +1,133 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "docent/base/random.h"
+#include "docent/base/time.h"
+#include "docent/localization/markov/beam_filter.h"
+#include "docent/localization/markov/belief_summary.h"
+#include "docent/localization/markov/position_belief.h"
+#include "docent/localization/markov/verdict.h"
+#include "docent/motion_models/odometry_model.h"
+#include "docent/sensor_models/range_sweep.h"
+
+namespace docent {
+
+struct MarkovLocalizerParams {
+  StateSpaceParams states;
+  ProximityModelParams sensor;
+  OdometryModelParams motion;
+  VerdictParams verdict;
+  int beams = 60;                      ///< at most, per update
+  double independent_beams = 5.0;      ///< what so many correlated beams are worth
+  std::string filter = "distance";     ///< none, entropy, distance
+  double filter_sureness = 0.99;       ///< theta of [Markov1998] 3.3
+  double unfiltered_share = 0.1;       ///< of the filtered beams, chosen at random, counts anyway: for recovery
+  double sea_threshold = 0.001;        ///< of the a priori probability
+  double teleport_probability = 1e-7;  ///< per update: somebody carried the robot elsewhere
+  double update_way = 0.25;            ///< [m] driven that is worth an update, or
+  double update_turn = 10.0;           ///< [deg] turned, or
+  double creeping_period = 2.0;        ///< [s] when it moves less, or
+  double standing_period = 3.0;        ///< [s] when it stands
+  double standing_weight = 0.1;        ///< of such an update: the same view again says little
+  double work_per_second = 1e9;        ///< states * beams that may be scored in a second of the robot's time
+  template <class V>
+  void visit(V& v) {
+    v("states", states);
+    v("sensor", sensor);
+    v("motion", motion);
+    v("verdict", verdict);
+    v("beams", beams);
+    v("independent_beams", independent_beams);
+    v("filter", filter);
+    v("filter_sureness", filter_sureness);
+    v("unfiltered_share", unfiltered_share);
+    v("sea_threshold", sea_threshold);
+    v("teleport_probability", teleport_probability);
+    v("update_way", update_way);
+    v("update_turn", update_turn);
+    v("creeping_period", creeping_period);
+    v("standing_period", standing_period);
+    v("standing_weight", standing_weight);
+    v("work_per_second", work_per_second);
+  }
+  [[nodiscard]] Result<void> validate() const;
+};
+
+/// Grid-based Markov localization [Markov1998], [Rhino1999] 3.1: a belief over all poses, from sweeps of range readings
+/// and odometry. Deterministic; knows no wall clock.
+class MarkovLocalizer {
+ public:
+  /// `cache`: file of the range table, made when absent or wrong; empty: none. @pre params are valid
+  MarkovLocalizer(const OccupancyGrid& map, const MarkovLocalizerParams& params, const std::filesystem::path& cache,
+                  std::uint64_t seed);
+  MarkovLocalizer(const MarkovLocalizer&) = delete;  // the belief refers to the state space
+  MarkovLocalizer& operator=(const MarkovLocalizer&) = delete;
+
+  void start_unknown();
+  /// `odom_from_robot`: where odometry saw the robot when it was as `modes` say.
+  void start_at(std::span<const BeliefMode> modes, const Pose2& odom_from_robot, Time time);
+
+  struct Step {
+    bool updated = false;
+    std::size_t beams_used = 0;
+    std::size_t beams_filtered = 0;  ///< of all beams of the sweep, one a direction
+    double weight = 0.0;
+    double evidence = 1.0;  ///< of the reading, relative to a uniform position
+  };
+  /// Offers a sweep. Most are not needed: an update comes after some motion or time, and when the work of the last one
+  /// is paid off. O(active states * beams).
+  Step observe(const RangeSweep& sweep, const Pose2& odom_from_robot, Time time);
+
+  [[nodiscard]] const PositionBelief& belief() const { return belief_; }
+  [[nodiscard]] const BeliefSummary& summary() const { return summary_; }  ///< as of the last update
+  [[nodiscard]] const Verdict& verdict() const { return verdict_; }
+  [[nodiscard]] const Pose2& odom_from_robot() const { return odom_from_robot_; }  ///< at the last update
+  /// The best mode's mean, carried on by odometry; nullopt when there is no mode at all.
+  [[nodiscard]] std::optional<Pose2> map_from_robot(const Pose2& odom_now) const;
+  /// Beams that the belief finds too short by the distance filter, and whose ends, seen from the best pose, lie clear
+  /// of everything in the map: people and other unmapped things. Indices into the sweep. Empty while not localized.
+  [[nodiscard]] std::vector<std::size_t> unexpected_beams(const RangeSweep& sweep, const Pose2& odom_now,
+                                                          double max_range) const;
+
+  [[nodiscard]] const StateSpace& space() const { return space_; }
+  [[nodiscard]] const RayCaster& caster() const { return caster_; }
+  [[nodiscard]] const RangeTable& table() const { return table_; }
+  [[nodiscard]] double heading_offset() const { return heading_offset_; }
+  void use_kernel(ScoreKernel kernel) { belief_.use_kernel(kernel); }
+
+ private:
+  struct Choice {
+    std::vector<BinnedBeam> used;
+    std::size_t filtered = 0;
+    Evidence evidence;
+  };
+  [[nodiscard]] double due_weight(double way, double turn, Time time) const;
+  [[nodiscard]] Choice choose_beams(const RangeSweep& sweep, const std::vector<BinnedBeam>& beams);
+  void thin(std::vector<BinnedBeam>& beams);
+  void judge(Evidence evidence, const std::optional<Pose2>& predicted);
+  [[nodiscard]] int bin_of(const SweepBeam& beam) const { return beam.no_return ? kNoReturn : model_.bin(beam.range); }
+
+  MarkovLocalizerParams params_;
+  BeamFilter filter_;
+  RayCaster caster_;
+  StateSpace space_;
+  RangeTable table_;
+  ProximityModel model_;
+  PositionBelief belief_;
+  Verdict verdict_;
+  Rng rng_;
+  double heading_offset_ = 0.0;  ///< [rad] on top of every state's heading
+  bool started_ = false;         ///< odometry of the last update is known
+  Pose2 odom_from_robot_;
+  Time last_update_{};
+  double last_work_ = 0.0;
+  std::size_t phase_ = 0;
+  BeliefSummary summary_;
+  std::vector<LikelyState> likely_;
+};
+
+}  // namespace docent

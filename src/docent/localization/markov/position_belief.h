@@ -1,0 +1,96 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "docent/localization/markov/motion_kernel.h"
+#include "docent/localization/markov/range_table.h"
+#include "docent/localization/markov/score_kernel.h"
+#include "docent/localization/markov/state_space.h"
+
+namespace docent {
+
+/// A Gaussian part of a belief.
+struct BeliefMode {
+  Pose2 map_from_robot;
+  std::array<double, 9> covariance{};  ///< row-major x, y [m], theta [rad]
+  double mass = 0.0;
+};
+
+/// P(L = l) over all states of a StateSpace, with the selective update of [Markov1998] 3.1.
+///
+/// States at or below the threshold are not updated; all of them share one value, the sea level. Places with a state
+/// above the threshold are kept as rows of headings, ascending by place; all other places are nothing but sea. States
+/// of a kept row that are under water hold the sea level themselves, so that a row is a plain array for every loop.
+/// When the sea rises over the threshold, every state is above it, and all places are kept again: all wake.
+class PositionBelief {
+ public:
+  /// `threshold_fraction`: the threshold as a share of the a priori probability 1 / states; 0.001 in [Rhino1999] 3.1.5.
+  /// With 0 no state ever sinks: the plain, dense algorithm. `space` must outlive the belief.
+  PositionBelief(const StateSpace& space, double threshold_fraction);
+
+  void make_uniform();
+  /// Gaussians; what their masses leave out is uniform, and at least `uniform_mass` is.
+  void make_modes(std::span<const BeliefMode> modes, double uniform_mass);
+
+  /// [Markov1998] eq. 2. Mass that would leave the free places is taken out and shared by all. O(kept places * offsets
+  /// * headings).
+  void move(const MotionKernel& kernel);
+
+  /// [Markov1998] eq. 4: active states are multiplied by P(s | l) / P~(s), the rest by one. `log_best_over_mean` is the
+  /// sum over beams of ln(best P(d | o)) - ln P~(d), tempered like the costs. Then, with a small probability
+  /// `teleport`, somebody carried the robot elsewhere. Returns 1 / alpha: what the active states expected of the
+  /// reading relative to a uniform position. O(active states * beams).
+  double reweigh(const RangeTable& table, std::span<const BeamCosts> beams, double log_best_over_mean, double teleport);
+
+  /// Shares `mass` evenly over all states, in proportion taken from the others.
+  void flood(double mass);
+
+  [[nodiscard]] const StateSpace& space() const { return *space_; }
+  [[nodiscard]] double threshold() const { return threshold_; }
+  [[nodiscard]] double sea_level() const { return sea_; }
+  [[nodiscard]] std::size_t active_states() const { return active_states_; }
+  [[nodiscard]] double active_mass() const { return active_mass_; }
+  [[nodiscard]] float peak() const { return peak_; }
+  [[nodiscard]] std::span<const std::int32_t> kept_places() const { return kept_; }
+  /// Probabilities of all headings of the index-th kept place.
+  [[nodiscard]] std::span<const float> row(std::size_t index) const {
+    return {rows_.data() + index * stride_, static_cast<std::size_t>(space_->headings())};
+  }
+  [[nodiscard]] float probability(std::size_t place, int heading) const;
+  [[nodiscard]] double entropy() const;  ///< [nat], eq. 5
+
+  /// For tests and benchmarks: an instruction set by hand.
+  void use_kernel(ScoreKernel kernel) { score_ = kernel; }
+
+ private:
+  void keep_all(float value);
+  void normalise(double teleport);
+  void settle(double inactive_mass, std::size_t inactive_states);
+  void find_targets(int reach, std::vector<std::int32_t>& targets);
+  void move_row(std::int32_t target, const MotionKernel& kernel, float* out);
+
+  const StateSpace* space_;
+  std::size_t stride_;  ///< [floats] of a row; a multiple of 64
+  double threshold_;
+  ScoreKernel score_;
+  std::vector<float> decay_;  ///< exp(-cost / kCostPerNat)
+
+  std::vector<std::int32_t> kept_;  ///< places, ascending
+  std::vector<std::int32_t> slot_;  ///< of each place: index in kept_, or -1
+  std::vector<float> rows_;         ///< [kept][stride]
+  double sea_ = 0.0;
+  std::size_t active_states_ = 0;
+  double active_mass_ = 1.0;
+  float peak_ = 0.0F;
+
+  std::vector<float> next_rows_;  ///< scratch of move
+  std::vector<std::int32_t> targets_;
+  std::vector<std::uint8_t> marks_;
+  std::vector<float> shifted_;
+  std::vector<float> extended_;
+};
+
+}  // namespace docent

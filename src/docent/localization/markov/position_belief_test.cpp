@@ -1,0 +1,223 @@
+#include "docent/localization/markov/position_belief.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <string>
+
+#include "docent/base/random.h"
+#include "docent/localization/markov/testing.h"
+
+namespace docent {
+namespace {
+
+using testing::any_beams;
+using testing::drawn_room;
+
+double sum_of(const PositionBelief& belief) {
+  const StateSpace& space = belief.space();
+  double sum = 0.0;
+  for (std::size_t place = 0; place < space.places(); ++place)
+    for (int h = 0; h < space.headings(); ++h) sum += static_cast<double>(belief.probability(place, h));
+  return sum;
+}
+
+/// The slow, obvious twin: eq. 2 and 4 in doubles, state by state, without a sea.
+struct DenseTwin {
+  const StateSpace& space;
+  std::vector<double> p;
+
+  explicit DenseTwin(const StateSpace& of) : space{of}, p(of.states(), 1.0 / static_cast<double>(of.states())) {}
+  [[nodiscard]] std::size_t index(std::size_t place, int heading) const {
+    return place * static_cast<std::size_t>(space.headings()) + static_cast<std::size_t>(heading);
+  }
+  void normalise() {
+    double sum = 0.0;
+    for (const double value : p) sum += value;
+    for (double& value : p) value /= sum;
+  }
+  void reweigh(const RangeTable& table, std::span<const BeamCosts> beams) {
+    for (std::size_t place = 0; place < space.places(); ++place) {
+      for (int h = 0; h < space.headings(); ++h) {
+        double cost = 0.0;
+        for (const BeamCosts& beam : beams)
+          cost += beam.costs[table.row(
+              place)[(static_cast<std::size_t>(h) + beam.direction) % static_cast<std::size_t>(space.headings())]];
+        p[index(place, h)] *= std::exp(-cost / kCostPerNat);
+      }
+    }
+    normalise();
+  }
+  void move(const MotionKernel& kernel) {
+    std::vector<double> moved(p.size(), 0.0);
+    for (std::size_t place = 0; place < space.places(); ++place) {
+      const CellIndex cell = space.cell(place);
+      for (int h = 0; h < space.headings(); ++h) {
+        for (const auto& offset : kernel.offsets) {
+          const auto target = space.place_at({cell.column + offset.columns, cell.row + offset.rows});
+          if (target == StateSpace::kNoPlace) continue;
+          for (std::size_t k = 0; k < kernel.heading_weights.size(); ++k) {
+            const int blur = static_cast<int>(k) - static_cast<int>(kernel.heading_weights.size() / 2);
+            const int turned = ((h + kernel.turn + blur) % space.headings() + space.headings()) % space.headings();
+            moved[index(static_cast<std::size_t>(target), turned)] +=
+                p[index(place, h)] * static_cast<double>(offset.weights[static_cast<std::size_t>(h)]) *
+                static_cast<double>(kernel.heading_weights[k]);
+          }
+        }
+      }
+    }
+    p.swap(moved);
+    normalise();
+  }
+};
+
+double total_variation(const PositionBelief& belief, const DenseTwin& twin) {
+  double sum = 0.0;
+  for (std::size_t place = 0; place < belief.space().places(); ++place)
+    for (int h = 0; h < belief.space().headings(); ++h)
+      sum += std::abs(static_cast<double>(belief.probability(place, h)) - twin.p[twin.index(place, h)]);
+  return 0.5 * sum;
+}
+
+TEST(PositionBelief, StartsUniformAndAwake) {
+  const auto room = drawn_room();
+  const PositionBelief belief{room->space, 0.001};
+  EXPECT_EQ(belief.active_states(), room->space.states());
+  EXPECT_NEAR(sum_of(belief), 1.0, 1e-4);
+  EXPECT_NEAR(belief.entropy(), std::log(static_cast<double>(room->space.states())), 1e-4);
+}
+
+TEST(PositionBelief, WithoutASeaItIsTheTwin) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    SCOPED_TRACE(seed);
+    Rng rng{seed};
+    const auto room = drawn_room();
+    PositionBelief belief{room->space, 0.0};
+    DenseTwin twin{room->space};
+    double offset = 0.0;
+    for (int step = 0; step < 5; ++step) {
+      const auto beams = any_beams(rng, 12, room->space.headings());
+      belief.reweigh(room->table, beams, 0.0, 0.0);
+      twin.reweigh(room->table, beams);
+      const Pose2 moved{rng.uniform(-0.3, 0.3), rng.uniform(-0.1, 0.1), Angle::radians(rng.uniform(-0.5, 0.5))};
+      const MotionKernel kernel = motion_kernel(room->space, {}, moved, offset);
+      belief.move(kernel);
+      twin.move(kernel);
+      EXPECT_LT(total_variation(belief, twin), 1e-4);
+    }
+  }
+}
+
+TEST(PositionBelief, SelectiveUpdateStaysNearTheDenseOne) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    SCOPED_TRACE(seed);
+    Rng rng{seed};
+    const auto room = drawn_room();
+    PositionBelief belief{room->space, 0.001};
+    DenseTwin twin{room->space};
+    Pose2 truth{1.2, 1.0, Angle::degrees(40)};
+    double offset = 0.0;
+    for (int step = 0; step < 8; ++step) {
+      double best_over_mean = 0.0;
+      const auto beams = testing::beams_at(*room, truth, offset, 0.4, best_over_mean);
+      belief.reweigh(room->table, beams, best_over_mean, 0.0);
+      twin.reweigh(room->table, beams);
+      EXPECT_LT(total_variation(belief, twin), 0.01);  // active mass above 0.99
+      EXPECT_GT(belief.active_mass(), 0.99);
+      EXPECT_NEAR(sum_of(belief), 1.0, 1e-3);
+      const Pose2 moved{0.08, 0.0, Angle::degrees(7)};
+      truth = truth * moved;
+      const MotionKernel kernel = motion_kernel(room->space, {}, moved, offset);
+      belief.move(kernel);
+      twin.move(kernel);
+    }
+    EXPECT_LT(belief.active_states(), room->space.states() / 20);  // else this test shows nothing
+  }
+}
+
+TEST(PositionBelief, TheSeaRisesOverTheThresholdAndAllWake) {
+  const auto room = drawn_room();
+  PositionBelief belief{room->space, 0.001};
+  const Pose2 truth{1.2, 1.0, Angle::degrees(40)};
+  for (int i = 0; i < 6; ++i) {
+    double best_over_mean = 0.0;
+    const auto beams = testing::beams_at(*room, truth, 0.0, 0.4, best_over_mean);
+    belief.reweigh(room->table, beams, best_over_mean, 1e-7);
+  }
+  ASSERT_LT(belief.active_states(), room->space.states() / 20);
+  const double low = belief.sea_level();
+  const Pose2 elsewhere{4.6, 2.3, Angle::degrees(-120)};  // somebody carried the robot there
+  double level = low;
+  bool woke = false;
+  int steps = 0;
+  for (; steps < 12 && !woke; ++steps) {
+    double best_over_mean = 0.0;
+    const auto beams = testing::beams_at(*room, elsewhere, 0.0, 0.4, best_over_mean);
+    belief.reweigh(room->table, beams, best_over_mean, 1e-7);
+    woke = belief.active_states() == room->space.states();
+    if (!woke) {
+      EXPECT_GT(belief.sea_level(), level);
+    }
+    level = belief.sea_level();
+  }
+  EXPECT_TRUE(woke);
+  for (int i = 0; i < 8; ++i) {
+    double best_over_mean = 0.0;
+    const auto beams = testing::beams_at(*room, elsewhere, 0.0, 0.4, best_over_mean);
+    belief.reweigh(room->table, beams, best_over_mean, 1e-7);
+  }
+  const auto place = room->space.place_at(room->space.frame().cell_at(elsewhere.position()));
+  ASSERT_NE(place, StateSpace::kNoPlace);
+  const int heading = static_cast<int>(std::lround((elsewhere.theta.degrees() + 360.0) / 6.0)) % 60;
+  EXPECT_GT(belief.probability(static_cast<std::size_t>(place), heading), 0.05F);
+}
+
+TEST(PositionBelief, MovesAPeakWhereTheRobotWent) {
+  const auto room = drawn_room();
+  PositionBelief belief{room->space, 0.001};
+  const BeliefMode mode{{1.575, 1.575, Angle{}}, {1e-4, 0, 0, 0, 1e-4, 0, 0, 0, 1e-4}, 1.0};
+  belief.make_modes(std::span{&mode, 1}, 1e-5);
+  double offset = 0.0;
+  for (int i = 0; i < 3; ++i)  // to the right, then up: a quarter turn in the middle
+    belief.move(motion_kernel(room->space, {}, {0.45, 0.0, Angle::degrees(i == 1 ? 90 : 0)}, offset));
+  EXPECT_NEAR(offset, 0.0, 1e-9);
+  double x = 0.0;
+  double y = 0.0;
+  double mass = 0.0;
+  for (std::size_t i = 0; i < belief.kept_places().size(); ++i) {
+    const Point2 centre = room->space.centre(static_cast<std::size_t>(belief.kept_places()[i]));
+    const auto row = belief.row(i);
+    for (const std::size_t h : {13U, 14U, 15U, 16U, 17U}) {
+      x += static_cast<double>(row[h]) * centre.x;
+      y += static_cast<double>(row[h]) * centre.y;
+      mass += static_cast<double>(row[h]);
+    }
+  }
+  EXPECT_GT(mass, 0.9);
+  EXPECT_NEAR(x / mass, 1.575 + 0.9, 0.03);
+  EXPECT_NEAR(y / mass, 1.575 + 0.45, 0.03);
+}
+
+TEST(ScoreKernel, AllAgreeBitForBit) {
+  const auto kernels = score_kernels();
+  Rng rng{7};
+  std::vector<std::uint8_t> row(1024);
+  for (auto& value : row) value = static_cast<std::uint8_t>(rng.integer(0, 127));
+  for (const std::size_t count : {1U, 20U, 52U, 64U}) {
+    for (const int beams_count : {0, 1, 2, 59, 60, 180}) {
+      const auto beams = any_beams(rng, beams_count, 180);
+      std::array<std::uint16_t, 64> expected{};
+      kernels.front().kernel(row.data(), 64, count, beams, expected.data());
+      for (const auto& [name, kernel] : kernels) {
+        std::array<std::uint16_t, 64> found{};
+        kernel(row.data(), 64, count, beams, found.data());
+        for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(found[i], expected[i]) << name << ' ' << i;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace docent

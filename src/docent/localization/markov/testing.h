@@ -1,0 +1,90 @@
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "docent/base/random.h"
+#include "docent/localization/markov/position_belief.h"
+#include "docent/localization/markov/range_table.h"
+#include "docent/sensor_models/range_sweep.h"
+
+/// Worlds and readings for the tests of this folder.
+namespace docent::testing {
+
+/// A room of 6 x 4 m without symmetry, as a grid of 5 cm.
+inline OccupancyGrid room_map() {
+  OccupancyGrid map;
+  map.frame = {120, 80, 0.05, {}};
+  map.cells.assign(map.frame.size(), OccupancyGrid::kFree);
+  const auto fill = [&map](int left, int bottom, int right, int top) {
+    for (int row = bottom; row < top; ++row)
+      for (int column = left; column < right; ++column)
+        map.cells[map.frame.index({column, row})] = OccupancyGrid::kOccupied;
+  };
+  fill(0, 0, 120, 2), fill(0, 78, 120, 80), fill(0, 0, 2, 80), fill(118, 0, 120, 80);
+  fill(60, 0, 64, 30);   // a wall from below
+  fill(20, 60, 40, 70);  // a case
+  fill(95, 10, 118, 20);
+  fill(80, 62, 84, 80);
+  return map;
+}
+
+/// The room with what a belief needs; coarse headings keep tests fast.
+struct Room {
+  OccupancyGrid map = room_map();
+  RayCaster caster{map};
+  StateSpace space;
+  RangeTable table;
+  ProximityModel model;
+  explicit Room(double heading_step = 6.0)
+      : space{map, caster, {.cell_size = 0.15, .heading_step = heading_step, .min_clearance = 0.1}},
+        table{RangeTable::build(space, caster, ProximityModel{{}})},
+        model{{}, table.frequency()} {}
+};
+inline std::unique_ptr<Room> drawn_room() { return std::make_unique<Room>(); }
+
+inline std::vector<BeamCosts> any_beams(Rng& rng, int count, int headings) {
+  std::vector<BeamCosts> beams(static_cast<std::size_t>(count));
+  for (BeamCosts& beam : beams) {
+    for (auto& cost : beam.costs) cost = static_cast<std::uint8_t>(rng.integer(0, kMaxCost));
+    beam.direction = static_cast<std::size_t>(rng.integer(0, headings - 1));
+  }
+  return beams;
+}
+
+/// What a perfect laser sees at `truth`, one beam a degree.
+inline RangeSweep sweep_at(const RayCaster& caster, const Pose2& truth, double max_range) {
+  RangeSweep sweep;
+  for (int degree = -180; degree < 180; ++degree) {
+    const Angle bearing = Angle::degrees(degree);
+    const double range =
+        caster.cast(truth.position(), unit(truth.theta + bearing), max_range, 0.3).value_or(max_range) + 0.025;
+    sweep.beams.push_back({bearing.radians(), std::min(range, max_range), range >= max_range});
+  }
+  return sweep;
+}
+
+/// The costs of that reading, tempered by `temper`.
+inline std::vector<BeamCosts> beams_at(const Room& room, const Pose2& truth, double heading_offset, double temper,
+                                       double& log_best_over_mean) {
+  const RangeSweep sweep = sweep_at(room.caster, truth, 10.0);
+  std::vector<BeamCosts> beams;
+  log_best_over_mean = 0.0;
+  for (const BinnedBeam& binned_beam : binned(sweep, room.space.headings(), heading_offset)) {
+    const int bin = room.model.bin(sweep.beams[binned_beam.beam].range);
+    const auto log_probabilities = room.model.log_probabilities(bin);
+    const float best = *std::max_element(log_probabilities.begin(), log_probabilities.end());
+    BeamCosts beam;
+    for (std::size_t o = 0; o < beam.costs.size(); ++o)
+      beam.costs[o] = static_cast<std::uint8_t>(std::min<long>(
+          kMaxCost, std::lround(temper * static_cast<double>(best - log_probabilities[o]) * kCostPerNat)));
+    beam.direction = binned_beam.direction;
+    log_best_over_mean += temper * (static_cast<double>(best) - room.model.log_mean_probability(bin));
+    beams.push_back(beam);
+  }
+  return beams;
+}
+
+}  // namespace docent::testing

@@ -1,0 +1,72 @@
+#include "docent/localization/markov/verdict.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace docent {
+
+Result<void> VerdictParams::validate() const {
+  if (!(enough_mass > 0.5 && enough_mass < 1.0)) return fail("verdict.enough_mass must be 0.5..1");
+  if (!(too_little_mass >= 0.0 && too_little_mass < enough_mass))
+    return fail("verdict.too_little_mass must be below enough_mass");
+  if (!(widest_spread > 0.0)) return fail("verdict.widest_spread must be > 0");
+  if (!(confirmations >= 0.0 && travelled >= 0.0 && turned >= 0.0))
+    return fail("verdict.confirmations, travelled and turned must be >= 0");
+  if (!(least_agreement >= 0.0 && least_agreement < 1.0)) return fail("verdict.least_agreement must be 0..1");
+  if (!(most_contradiction > 0.0 && most_contradiction <= 1.0)) return fail("verdict.most_contradiction must be 0..1");
+  return {};
+}
+
+void Verdict::reset() { *this = Verdict{params_}; }
+
+void Verdict::assume_localized() {
+  reset();
+  confirmed_ = params_.confirmations;
+  way_ = params_.travelled;
+}
+
+void Verdict::add(const Evidence& evidence) {
+  constexpr double kMemory = 0.25;  // an update's share in the running means
+  constexpr int kFewReadings = 8;   // fewer tell nothing
+  const double share = kMemory * evidence.weight;
+  const int all = evidence.agrees + evidence.shorter + evidence.longer;
+  const int through = evidence.agrees + evidence.longer;
+  if (all >= kFewReadings) agreement_ += share * (static_cast<double>(evidence.agrees) / all - agreement_);
+  if (through >= kFewReadings)
+    contradiction_ += share * (static_cast<double>(evidence.longer) / through - contradiction_);
+
+  const bool is_good = evidence.mass >= params_.enough_mass && evidence.spread <= params_.widest_spread;
+  if (!evidence.is_same_mode || (!is_good && !localized_)) {
+    confirmed_ = way_ = turn_ = 0.0;
+  } else {
+    confirmed_ += evidence.weight;
+    way_ += evidence.way;
+    turn_ += evidence.turn;
+  }
+  const bool borne_out = agreement_ >= params_.least_agreement && contradiction_ <= params_.most_contradiction;
+  const bool contradicted =
+      agreement_ < 0.4 * params_.least_agreement || contradiction_ > 2.0 * params_.most_contradiction;
+  bad_ = contradicted ? bad_ + evidence.weight : 0.0;
+
+  const double moved = std::min(1.0, std::max(way_ / std::max(params_.travelled, 1e-9),
+                                              turn_ * 180.0 / std::numbers::pi / std::max(params_.turned, 1e-9)));
+  const double seen = std::min(1.0, confirmed_ / std::max(params_.confirmations, 1e-9));
+  if (localized_) {
+    if (!evidence.is_same_mode || evidence.mass < params_.too_little_mass || contradicted) localized_ = false;
+  } else {
+    localized_ = is_good && borne_out && moved >= 1.0 && seen >= 1.0;
+  }
+  if (!localized_ && contradicted) confirmed_ = way_ = turn_ = 0.0;
+
+  double trust = evidence.mass;
+  if (!localized_) trust *= 0.5 * (moved + seen) * (borne_out ? 1.0 : 0.5);
+  const double doubt = std::clamp((contradiction_ - params_.most_contradiction) / params_.most_contradiction, 0.0, 1.0);
+  p_lost_ = std::clamp(1.0 - trust * (1.0 - 0.8 * doubt), 0.0, 1.0);
+}
+
+bool Verdict::collapsed() const {
+  constexpr double kPatience = 8.0;  // full updates; at 0.1 m each less than a metre
+  return bad_ >= kPatience;
+}
+
+}  // namespace docent

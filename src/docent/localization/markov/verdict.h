@@ -1,0 +1,72 @@
+#pragma once
+
+#include "docent/base/result.h"
+
+namespace docent {
+
+struct VerdictParams {
+  double enough_mass = 0.97;        ///< of the best mode, to say "here"
+  double too_little_mass = 0.6;     ///< to take it back
+  double widest_spread = 0.35;      ///< [m] standard deviation of the best mode
+  double confirmations = 5.0;       ///< full updates in a row that kept to one mode
+  double travelled = 0.5;           ///< [m] driven since, or
+  double turned = 90.0;             ///< [deg] turned since
+  double least_agreement = 0.2;     ///< share of the readings that the map explains
+  double most_contradiction = 0.2;  ///< share of the readings that pass through walls of the map
+  template <class V>
+  void visit(V& v) {
+    v("enough_mass", enough_mass);
+    v("too_little_mass", too_little_mass);
+    v("widest_spread", widest_spread);
+    v("confirmations", confirmations);
+    v("travelled", travelled);
+    v("turned", turned);
+    v("least_agreement", least_agreement);
+    v("most_contradiction", most_contradiction);
+  }
+  [[nodiscard]] Result<void> validate() const;
+};
+
+/// What one update says about the best mode.
+struct Evidence {
+  double weight = 1.0;                      ///< of the update, 0..1
+  double mass = 0.0;                        ///< of the best mode
+  double spread = 0.0;                      ///< [m]
+  bool is_same_mode = false;                ///< the mode of the last update, moved by odometry
+  double way = 0.0;                         ///< [m] since the last update
+  double turn = 0.0;                        ///< [rad], >= 0
+  int agrees = 0, shorter = 0, longer = 0;  ///< readings as the belief sees them
+};
+
+/// Decides whether the robot may say where it is. It says "I do not know" until one mode has held nearly all the mass
+/// over several updates and some motion, and the readings bear it out; and takes it back when they stop doing so.
+class Verdict {
+ public:
+  explicit Verdict(const VerdictParams& params) : params_{params} {}
+
+  void add(const Evidence& evidence);
+  /// After a restart or a given start: the mode was known already, and needs one confirmation only.
+  void assume_localized();
+  void reset();
+
+  [[nodiscard]] bool localized() const { return localized_; }
+  /// Probability that the best hypothesis is wrong: what its mass leaves, more while it is young or contradicted.
+  [[nodiscard]] double p_lost() const { return p_lost_; }
+  /// The readings have contradicted the belief for a while: better to start over.
+  [[nodiscard]] bool collapsed() const;
+  [[nodiscard]] double agreement() const { return agreement_; }
+  [[nodiscard]] double contradiction() const { return contradiction_; }
+
+ private:
+  VerdictParams params_;
+  bool localized_ = false;
+  double p_lost_ = 1.0;
+  double confirmed_ = 0.0;
+  double way_ = 0.0;
+  double turn_ = 0.0;
+  double agreement_ = 0.5;
+  double contradiction_ = 0.0;
+  double bad_ = 0.0;  ///< full updates in a row with bad readings
+};
+
+}  // namespace docent

@@ -1,0 +1,245 @@
+#include "docent/modules/localize_module.h"
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "docent/grid/occupancy_grid.h"
+#include "docent/localization/markov/checkpoint.h"
+#include "docent/localization/markov/markov_localizer.h"
+#include "docent/messages/conversions.h"
+#include "docent/motion_models/odometry_history.h"
+
+namespace docent {
+namespace {
+
+constexpr Duration kPeriod = std::chrono::milliseconds{100};
+constexpr Duration kTogether = std::chrono::milliseconds{250};   // scans of two lasers that make one sweep
+constexpr Duration kSilent = std::chrono::milliseconds{1500};    // a topic that should have spoken
+constexpr Duration kRepublish = std::chrono::milliseconds{500};  // the belief of a robot that stands
+constexpr Duration kCheckpointEvery = std::chrono::seconds{1};
+constexpr Duration kCheckpointAge = std::chrono::seconds{60};
+constexpr double kCheckpointWay = 5.0;  // [m] that odometry may have gone on meanwhile
+
+struct LocalizeParams {
+  MarkovLocalizerParams markov;
+  double person_range = 6.0;    ///< [m], > 0: how far away people are looked for
+  bool dead_reckoning = false;  ///< crippled, for evaluation: odometry alone after the first "here"
+  template <class V>
+  void visit(V& v) {
+    markov.visit(v);
+    v("person_range", person_range);
+    v("dead_reckoning", dead_reckoning);
+  }
+  [[nodiscard]] Result<void> validate() const {
+    if (!(person_range > 0.0)) return fail("person_range must be > 0");
+    return markov.validate();
+  }
+};
+
+class LocalizeModule final : public Module {
+ public:
+  LocalizeModule(const ModuleContext& context, const LocalizeParams& params)
+      : bus_{context.bus},
+        params_{params},
+        checkpoint_path_{context.state / "localize.yaml"},
+        map_hash_{map_hash(context.museum.map)},
+        localizer_{context.museum.map, params.markov, context.state / "range_table.bin", context.seed},
+        lasers_{Laser{context.config.body().scan_front.base_from_sensor(), {}, {}, false},
+                Laser{context.config.body().scan_rear.base_from_sensor(), {}, {}, false}},
+        belief_{bus_.publisher(topics::kBelief)},
+        pose_{bus_.publisher(topics::kPose)},
+        transforms_{bus_.publisher(topics::kTransforms)},
+        person_beams_{bus_.publisher(topics::kPersonBeams)} {
+    restore();
+    publish_belief(bus_.now());
+    bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const auto& odometry) {
+      odometry_received_ = bus_.now();
+      odometry_.add(from_message(odometry.header.stamp), from_message(odometry.pose.pose));
+      if (restored_) check_restored();
+    });
+    bus_.subscribe<sensor_msgs::LaserScan>(topics::kScanFront, [this](const auto& scan) { on_scan(0, scan); });
+    bus_.subscribe<sensor_msgs::LaserScan>(topics::kScanRear, [this](const auto& scan) { on_scan(1, scan); });
+    bus_.every(kPeriod, [this] { look(); });
+  }
+
+  [[nodiscard]] ModuleHealth health() const override {
+    const Time now = bus_.now();
+    if (now - odometry_received_ > kSilent) return {"degraded", "no odom"};
+    if (now - lasers_[0].received > kSilent) return {"degraded", "no scan_front"};
+    if (now - lasers_[1].received > kSilent) return {"degraded", "no scan_rear"};
+    if (!localized()) return {"degraded", "I do not know where I am"};
+    return {};
+  }
+
+ private:
+  struct Laser {
+    Pose2 base_from_laser;
+    sensor_msgs::LaserScan scan;
+    Time received;
+    bool is_new;
+  };
+
+  [[nodiscard]] bool localized() const { return frozen_ || localizer_.verdict().localized(); }
+
+  void on_scan(std::size_t laser, const sensor_msgs::LaserScan& scan) {
+    lasers_[laser].scan = scan;  // the last one only: who is late drops scans
+    lasers_[laser].received = bus_.now();
+    lasers_[laser].is_new = true;
+  }
+
+  /// One sweep of what came since the last look, or nothing.
+  void look() {
+    if (!lasers_[0].is_new && !lasers_[1].is_new) return;
+    Time stamp{};
+    for (const Laser& laser : lasers_)
+      if (laser.is_new) stamp = std::max(stamp, from_message(laser.scan.header.stamp));
+    const auto odom_from_base = odometry_.at(stamp);
+    if (!odom_from_base) return;  // wait for odometry, or the scan is too old to be placed
+    RangeSweep sweep;
+    for (Laser& laser : lasers_) {
+      const Time taken = from_message(laser.scan.header.stamp);
+      const auto then = odometry_.at(taken);
+      laser.is_new = false;
+      if (laser.scan.ranges.empty() || stamp - taken > kTogether || !then) continue;
+      const Pose2 base_from_then = inverse(*odom_from_base) * *then;
+      append(sweep,
+             {laser.scan.ranges, Angle::radians(static_cast<double>(laser.scan.angle_min)),
+              static_cast<double>(laser.scan.angle_increment), static_cast<double>(laser.scan.range_min),
+              static_cast<double>(laser.scan.range_max)},
+             base_from_then * laser.base_from_laser);
+    }
+    if (sweep.beams.empty()) return;
+    digest(sweep, *odom_from_base, stamp);
+  }
+
+  void digest(const RangeSweep& sweep, const Pose2& odom_from_base, Time stamp) {
+    MarkovLocalizer::Step step;
+    if (!frozen_) step = localizer_.observe(sweep, odom_from_base, stamp);
+    if (params_.dead_reckoning && localizer_.verdict().localized()) frozen_ = true;
+    if (step.updated) last_step_ = step;
+    if (step.updated || bus_.now() - belief_published_ >= kRepublish) publish_belief(stamp);
+    publish_person_beams(sweep, odom_from_base, stamp);
+    publish_transform(stamp);
+    if (step.updated && localized()) {
+      publish_pose(stamp);
+      save(stamp);
+    }
+  }
+
+  void publish_belief(Time stamp) {
+    const BeliefSummary& summary = localizer_.summary();
+    docent_msgs::Belief message;
+    message.header = {docent::to_message(stamp), "map"};
+    message.map_hash = map_hash_;
+    message.cell_size = static_cast<float>(localizer_.space().frame().resolution);
+    message.heading_step = static_cast<float>(localizer_.space().heading_step());
+    message.cells.reserve(summary.cells.size());
+    for (const auto& cell : summary.cells) message.cells.push_back({cell.x, cell.y, cell.theta, cell.mass});
+    message.rest = {static_cast<float>(summary.rest_origin.x),     static_cast<float>(summary.rest_origin.y),
+                    static_cast<float>(summary.rest_cell_size),    static_cast<std::uint32_t>(summary.rest_columns),
+                    static_cast<std::uint32_t>(summary.rest_rows), summary.rest};
+    for (const BeliefMode& mode : summary.modes)
+      message.hypotheses.push_back({mode.map_from_robot.x, mode.map_from_robot.y, mode.map_from_robot.theta.radians(),
+                                    mode.covariance, mode.mass});
+    message.entropy = summary.entropy;
+    message.p_lost = localizer_.verdict().p_lost();
+    message.localized = localized();
+    message.active_mass = localizer_.belief().active_mass();
+    message.active_cells = static_cast<std::uint32_t>(localizer_.belief().active_states());
+    message.beams_used = static_cast<std::uint32_t>(last_step_.beams_used);
+    message.beams_filtered = static_cast<std::uint32_t>(last_step_.beams_filtered);
+    message.odom_pose = docent::to_message(localizer_.odom_from_robot());
+    belief_.publish(std::move(message));
+    belief_published_ = bus_.now();
+  }
+
+  void publish_person_beams(const RangeSweep& sweep, const Pose2& odom_from_base, Time stamp) {
+    docent_msgs::PersonBeams message;
+    message.header = {docent::to_message(stamp), "base_link"};
+    message.localized = localized();
+    if (const auto best = localizer_.map_from_robot(odom_from_base))
+      message.map_from_base = {best->x, best->y, best->theta.radians()};
+    for (const std::size_t i : localizer_.unexpected_beams(sweep, odom_from_base, params_.person_range)) {
+      const Point2 end = endpoint(sweep.beams[i]);
+      message.x.push_back(static_cast<float>(end.x));
+      message.y.push_back(static_cast<float>(end.y));
+    }
+    person_beams_.publish(std::move(message));
+  }
+
+  void publish_transform(Time stamp) {
+    if (!localized()) return;
+    const Pose2 map_from_odom = *localizer_.map_from_robot({});
+    geometry_msgs::TransformStamped transform;
+    transform.header = {docent::to_message(stamp), "map"};
+    transform.child_frame_id = "odom";
+    transform.transform = {{map_from_odom.x, map_from_odom.y, 0.0}, to_quaternion(map_from_odom.theta)};
+    tf2_msgs::TFMessage message;
+    message.transforms.push_back(std::move(transform));
+    transforms_.publish(std::move(message));
+  }
+
+  void publish_pose(Time stamp) {
+    const BeliefMode& best = localizer_.summary().modes.front();
+    geometry_msgs::PoseWithCovarianceStamped message;
+    message.header = {docent::to_message(stamp), "map"};
+    message.pose.pose = docent::to_message(best.map_from_robot);
+    constexpr std::array<std::size_t, 3> kAxes{0, 1, 5};  // x, y, yaw of six
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) message.pose.covariance[kAxes[i] * 6 + kAxes[j]] = best.covariance[i * 3 + j];
+    pose_.publish(std::move(message));
+  }
+
+  void save(Time stamp) {
+    if (bus_.now() - saved_ < kCheckpointEvery) return;
+    saved_ = bus_.now();
+    // A checkpoint that cannot be written costs a restarted robot a new search, nothing else.
+    (void)save_localizer_checkpoint({map_hash_, stamp, localizer_.odom_from_robot(), localizer_.summary().modes},
+                          checkpoint_path_);
+  }
+
+  void restore() {
+    auto checkpoint = load_localizer_checkpoint(checkpoint_path_);
+    if (!checkpoint || checkpoint->map_hash != map_hash_) return;
+    const Duration age = bus_.now() - checkpoint->time;
+    if (age < Duration{0} - kTogether || age > kCheckpointAge) return;
+    localizer_.start_at(checkpoint->modes, checkpoint->odom_from_robot, checkpoint->time);
+    restored_ = checkpoint->odom_from_robot;
+  }
+
+  /// The first odometry after a restart: has the robot been moved, or its odometry been reset?
+  void check_restored() {
+    if (distance(restored_->position(), odometry_.latest().position()) > kCheckpointWay) localizer_.start_unknown();
+    restored_.reset();
+  }
+
+  Bus& bus_;
+  LocalizeParams params_;
+  std::filesystem::path checkpoint_path_;
+  std::string map_hash_;
+  MarkovLocalizer localizer_;
+  std::array<Laser, 2> lasers_;
+  Publisher<docent_msgs::Belief> belief_;
+  Publisher<geometry_msgs::PoseWithCovarianceStamped> pose_;
+  Publisher<tf2_msgs::TFMessage> transforms_;
+  Publisher<docent_msgs::PersonBeams> person_beams_;
+  OdometryHistory odometry_;
+  std::optional<Pose2> restored_;  ///< odometry of the checkpoint, until odometry speaks
+  MarkovLocalizer::Step last_step_;
+  bool frozen_ = false;
+  Time odometry_received_{};
+  Time belief_published_{};
+  Time saved_{};
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Module>> make_localize(const ModuleContext& context) {
+  auto params = context.config.section<LocalizeParams>("localize");
+  if (!params) return tl::unexpected<Error>(params.error());
+  auto module = std::make_unique<LocalizeModule>(context, *params);
+  return module;
+}
+
+}  // namespace docent

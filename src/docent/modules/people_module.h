@@ -1,0 +1,10 @@
+#pragma once
+
+#include "docent/modules/module.h"
+
+namespace docent {
+
+/// `people`: people found by the inverse filter of `localize`, tracked in the map.
+[[nodiscard]] Result<std::unique_ptr<Module>> make_people(const ModuleContext& context);
+
+}  // namespace docent

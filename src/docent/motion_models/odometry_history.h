@@ -1,0 +1,33 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "docent/base/time.h"
+#include "docent/geometry/pose2.h"
+
+namespace docent {
+
+/// The odometry of the last moments, so that a scan can be asked where the robot was when it was taken.
+class OdometryHistory {
+ public:
+  explicit OdometryHistory(Duration kept = std::chrono::seconds{3}) : kept_{kept} {}
+
+  /// Readings older than the last one are left out.
+  void add(Time time, const Pose2& odom_from_robot);
+  /// Interpolated; the newest when `time` is up to `ahead` later; nullopt when it is older than what is kept, or newer.
+  [[nodiscard]] std::optional<Pose2> at(Time time, Duration ahead = std::chrono::milliseconds{200}) const;
+  [[nodiscard]] bool empty() const { return readings_.empty(); }
+  [[nodiscard]] const Pose2& latest() const { return readings_.back().odom_from_robot; }  ///< @pre not empty
+  [[nodiscard]] Time latest_time() const { return readings_.back().time; }                ///< @pre not empty
+
+ private:
+  struct Reading {
+    Time time;
+    Pose2 odom_from_robot;
+  };
+  Duration kept_;
+  std::deque<Reading> readings_;
+};
+
+}  // namespace docent

@@ -1,0 +1,33 @@
+#include "docent/motion_models/odometry_history.h"
+
+#include <gtest/gtest.h>
+
+namespace docent {
+namespace {
+
+TEST(OdometryHistory, InterpolatesAlsoAcrossTheTurnOfAngles) {
+  OdometryHistory history;
+  EXPECT_FALSE(history.at(Time{}).has_value());
+  history.add(time_from_seconds(1.0), {0.0, 0.0, Angle::degrees(170)});
+  history.add(time_from_seconds(2.0), {1.0, 2.0, Angle::degrees(-170)});
+  const auto middle = history.at(time_from_seconds(1.5));
+  ASSERT_TRUE(middle.has_value());
+  EXPECT_NEAR(middle->x, 0.5, 1e-9);
+  EXPECT_NEAR(middle->y, 1.0, 1e-9);
+  EXPECT_NEAR(std::abs(middle->theta.degrees()), 180.0, 1e-9);
+  EXPECT_NEAR(history.at(time_from_seconds(1.0))->theta.degrees(), 170.0, 1e-9);
+}
+
+TEST(OdometryHistory, KnowsNeitherThePastNorTheFuture) {
+  OdometryHistory history{seconds(1.0)};
+  for (int i = 0; i <= 30; ++i) history.add(time_from_seconds(0.1 * i), {0.1 * i, 0.0, {}});
+  EXPECT_FALSE(history.at(time_from_seconds(1.5)).has_value());
+  EXPECT_TRUE(history.at(time_from_seconds(2.5)).has_value());
+  EXPECT_DOUBLE_EQ(history.at(time_from_seconds(3.15))->x, history.latest().x);
+  EXPECT_FALSE(history.at(time_from_seconds(3.5)).has_value());
+  history.add(time_from_seconds(2.0), {99.0, 0.0, {}});  // late: left out
+  EXPECT_NEAR(history.latest().x, 3.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace docent

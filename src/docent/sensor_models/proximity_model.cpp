@@ -1,0 +1,115 @@
+#include "docent/sensor_models/proximity_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "docent/base/check.h"
+
+namespace docent {
+
+namespace {
+double normal_below(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
+}  // namespace
+
+Result<void> ProximityModelParams::validate() const {
+  if (!(max_range > 0.0 && max_range <= 1000.0)) return fail("sensor.max_range must be > 0 and <= 1000");
+  if (!(sigma > 0.0)) return fail("sensor.sigma must be > 0");
+  if (!(sigma_per_metre >= 0.0)) return fail("sensor.sigma_per_metre must be >= 0");
+  if (!(short_per_metre > 0.0)) return fail("sensor.short_per_metre must be > 0");
+  for (const double weight : {weight_hit, weight_short, weight_no_return})
+    if (!(weight >= 0.0)) return fail("sensor.weight_* must be >= 0");
+  if (!(weight_random > 0.0)) return fail("sensor.weight_random must be > 0: no reading is impossible");
+  return {};
+}
+
+ProximityModel::ProximityModel(const ProximityModelParams& params, std::span<const double> expected_frequency)
+    : params_{params}, bin_width_{params.max_range / kNoReturn} {
+  const std::size_t size = static_cast<std::size_t>(kRangeBins) * kExpectedRanges;
+  gaussian_.assign(size, 0.0);
+  mixture_.assign(size, 0.0);
+  shorter_.assign(size, 0.0F);
+  log_mixture_.assign(size, 0.0F);
+  fill_gaussian();
+  fill_mixture();
+  fill_unknown(expected_frequency);
+  std::transform(mixture_.begin(), mixture_.end(), log_mixture_.begin(),
+                 [](double p) { return static_cast<float>(std::log(p)); });
+}
+
+int ProximityModel::bin(double range) const {
+  if (!(range < params_.max_range)) return kNoReturn;
+  return std::clamp(static_cast<int>(range / bin_width_), 0, kNoReturn - 1);
+}
+
+double ProximityModel::centre(int bin) const { return bin >= kNoReturn ? params_.max_range : (bin + 0.5) * bin_width_; }
+
+double ProximityModel::sigma(int expected) const {
+  return std::hypot(params_.sigma, params_.sigma_per_metre * centre(expected));
+}
+
+void ProximityModel::fill_gaussian() {
+  for (int expected = 0; expected < kRangeBins; ++expected) {
+    if (expected == kNoReturn) {  // nothing within reach: a sensor that works says so
+      gaussian_[index(kNoReturn, expected)] = 1.0;
+    } else {
+      const double mean = centre(expected);
+      const double deviation = sigma(expected);
+      const double below_zero = normal_below(-mean / deviation);  // cut off: ranges are not negative
+      double before = below_zero;
+      for (int measured = 0; measured < kRangeBins; ++measured) {
+        const double upper = (measured + 1) * bin_width_;
+        const double below = measured == kNoReturn ? 1.0 : normal_below((upper - mean) / deviation);
+        gaussian_[index(measured, expected)] = (below - before) / (1.0 - below_zero);
+        before = below;
+      }
+    }
+    double longer = 0.0;  // eq. 7: the sum over j > i
+    for (int measured = kNoReturn; measured >= 0; --measured) {
+      shorter_[index(measured, expected)] = static_cast<float>(longer);
+      longer += gaussian_[index(measured, expected)];
+    }
+  }
+}
+
+void ProximityModel::fill_mixture() {
+  const double total = params_.weight_hit + params_.weight_short + params_.weight_no_return + params_.weight_random;
+  const double stays = std::exp(-params_.short_per_metre * bin_width_);  // geometric: nothing in the way within a bin
+  for (int expected = 0; expected < kRangeBins; ++expected) {
+    // Things in front of the wall lie in the bins up to the expected one: P = (1-q) q^i / (1 - q^(o+1)).
+    const double in_front = 1.0 - std::pow(stays, expected + 1);
+    for (int measured = 0; measured < kRangeBins; ++measured) {
+      double p = params_.weight_hit * gaussian_[index(measured, expected)];
+      if (measured <= expected) p += params_.weight_short * (1.0 - stays) * std::pow(stays, measured) / in_front;
+      if (measured == kNoReturn) p += params_.weight_no_return;
+      p += params_.weight_random / kRangeBins;
+      mixture_[index(measured, expected)] = p / total;
+    }
+  }
+}
+
+void ProximityModel::fill_unknown(std::span<const double> expected_frequency) {
+  DOCENT_CHECK(expected_frequency.empty() || expected_frequency.size() == kExpectedRanges);
+  std::array<double, kRangeBins> frequency{};
+  if (expected_frequency.empty()) {
+    frequency.fill(1.0);
+  } else {
+    std::copy_n(expected_frequency.begin(), kRangeBins, frequency.begin());
+  }
+  double sum = std::accumulate(frequency.begin(), frequency.end(), 0.0);
+  if (!(sum > 0.0)) {
+    frequency.fill(1.0);
+    sum = kRangeBins;
+  }
+  for (int measured = 0; measured < kRangeBins; ++measured) {
+    double mean = 0.0;
+    for (int expected = 0; expected < kRangeBins; ++expected)
+      mean += frequency[static_cast<std::size_t>(expected)] / sum * mixture_[index(measured, expected)];
+    // Where the map does not say, a reading tells nothing: it has its mean probability.
+    mixture_[index(measured, kUnknownRange)] = mean;
+    log_mean_[static_cast<std::size_t>(measured)] = std::log(mean);
+  }
+}
+
+}  // namespace docent

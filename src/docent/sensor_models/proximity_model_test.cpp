@@ -1,0 +1,96 @@
+#include "docent/sensor_models/proximity_model.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+namespace docent {
+namespace {
+
+TEST(ProximityModel, SumsToOneForEveryExpectedRange) {
+  std::array<double, kExpectedRanges> frequency{};
+  for (std::size_t i = 0; i < frequency.size(); ++i) frequency[i] = static_cast<double>(i % 7);
+  for (const double max_range : {5.0, 10.0, 30.0}) {
+    const ProximityModel model{{.max_range = max_range}, frequency};
+    for (int expected = 0; expected < kExpectedRanges; ++expected) {
+      double mixture = 0.0;
+      double gaussian = 0.0;
+      for (int measured = 0; measured < kRangeBins; ++measured) {
+        EXPECT_GT(model.probability(measured, expected), 0.0);
+        EXPECT_NEAR(std::exp(model.log_probabilities(measured)[static_cast<std::size_t>(expected)]),
+                    model.probability(measured, expected), 1e-6);
+        mixture += model.probability(measured, expected);
+        gaussian += model.map_probability(measured, expected);
+      }
+      EXPECT_NEAR(mixture, 1.0, 1e-9) << expected;
+      EXPECT_NEAR(gaussian, expected == kUnknownRange ? 0.0 : 1.0, 1e-9) << expected;
+    }
+  }
+}
+
+TEST(ProximityModel, HasTheShapeOfItsFourParts) {
+  const ProximityModelParams params;
+  const ProximityModel model{params};
+  const int expected = model.bin(5.0);
+  const double sum = params.weight_hit + params.weight_short + params.weight_no_return + params.weight_random;
+  // Far behind the wall only the uniform part is left.
+  EXPECT_NEAR(model.probability(model.bin(8.0), expected), params.weight_random / sum / kRangeBins, 1e-9);
+  // No return has the Dirac on top.
+  EXPECT_NEAR(model.probability(kNoReturn, expected) - model.probability(model.bin(8.0), expected),
+              params.weight_no_return / sum, 1e-9);
+  // In front of the wall the density falls by exp(-rate) a metre.
+  const double rest = params.weight_random / sum / kRangeBins;
+  const double near = model.probability(model.bin(1.0), expected) - rest;
+  const double far = model.probability(model.bin(1.0) + 10, expected) - rest;
+  EXPECT_NEAR(far / near, std::exp(-params.short_per_metre * 10 * model.bin_width()), 1e-6);
+  // The peak stands at the wall.
+  for (int measured = 0; measured < kRangeBins; ++measured)
+    EXPECT_LE(model.probability(measured, expected), model.probability(expected, expected));
+}
+
+TEST(ProximityModel, ShorterIsTheTailOfTheGaussianAlone) {
+  const ProximityModel model{{}};
+  const int expected = model.bin(2.3);
+  EXPECT_GT(model.shorter_probability(model.bin(1.9), expected), 0.99F);
+  EXPECT_NEAR(model.shorter_probability(expected, expected), 0.5, 0.15);
+  EXPECT_LT(model.shorter_probability(model.bin(2.7), expected), 0.01F);
+  double tail = 0.0;
+  for (int j = expected + 1; j < kRangeBins; ++j) tail += model.map_probability(j, expected);
+  EXPECT_NEAR(model.shorter_probability(expected, expected), tail, 1e-6);
+  EXPECT_EQ(model.shorter_probability(0, kUnknownRange), 0.0F);
+  EXPECT_EQ(model.shorter_probability(kNoReturn, kNoReturn), 0.0F);
+  EXPECT_EQ(model.shorter_probability(model.bin(3.0), kNoReturn), 1.0F);
+}
+
+TEST(ProximityModel, MeanIsTheMeanUnderTheGivenFrequencies) {
+  std::array<double, kExpectedRanges> frequency{};
+  frequency[10] = 3.0;
+  frequency[50] = 1.0;
+  frequency[kUnknownRange] = 100.0;  // says nothing, so it counts for nothing
+  const ProximityModel model{{}, frequency};
+  for (const int measured : {0, 9, 10, 50, kNoReturn}) {
+    const double mean = 0.75 * model.probability(measured, 10) + 0.25 * model.probability(measured, 50);
+    EXPECT_NEAR(model.log_mean_probability(measured), std::log(mean), 1e-12);
+    EXPECT_NEAR(model.probability(measured, kUnknownRange), mean, 1e-12);
+  }
+}
+
+TEST(ProximityModel, BinsCoverAllRanges) {
+  const ProximityModel model{{}};
+  EXPECT_EQ(model.bin(0.0), 0);
+  EXPECT_EQ(model.bin(9.999999), kNoReturn - 1);
+  EXPECT_EQ(model.bin(10.0), kNoReturn);
+  EXPECT_EQ(model.bin(81.9), kNoReturn);
+  for (int bin = 0; bin < kRangeBins; ++bin) EXPECT_EQ(model.bin(model.centre(bin)), bin);
+}
+
+TEST(ProximityModel, RefusesWhatCannotBe) {
+  EXPECT_FALSE(ProximityModelParams{.max_range = 0.0}.validate().has_value());
+  EXPECT_FALSE(ProximityModelParams{.sigma = std::nan("")}.validate().has_value());
+  EXPECT_FALSE(ProximityModelParams{.weight_random = 0.0}.validate().has_value());
+  EXPECT_TRUE(ProximityModelParams{}.validate().has_value());
+}
+
+}  // namespace
+}  // namespace docent

@@ -1,0 +1,53 @@
+#include "docent/sensor_models/range_sweep.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace docent {
+
+void append(RangeSweep& sweep, const LaserReading& reading, const Pose2& base_from_sensor) {
+  for (std::size_t i = 0; i < reading.ranges.size(); ++i) {
+    const double range = reading.ranges[i];
+    if (std::isnan(range) || range < reading.min_range) continue;
+    const Angle bearing =
+        Angle::radians(reading.first_bearing.radians() + static_cast<double>(i) * reading.bearing_step);
+    if (range >= reading.max_range) {
+      sweep.beams.push_back({(base_from_sensor.theta + bearing).radians(), reading.max_range, true});
+      continue;
+    }
+    const Point2 end = base_from_sensor * (range * unit(bearing));
+    sweep.beams.push_back({std::atan2(end.y, end.x), norm(end), false});
+  }
+}
+
+Point2 endpoint(const SweepBeam& beam) {
+  return {beam.range * std::cos(beam.bearing), beam.range * std::sin(beam.bearing)};
+}
+
+std::vector<BinnedBeam> binned(const RangeSweep& sweep, int directions, double turn) {
+  const double step = 2.0 * std::numbers::pi / directions;
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  std::vector<double> off_middle(static_cast<std::size_t>(directions), kNone);
+  std::vector<std::size_t> nearest(static_cast<std::size_t>(directions), 0);
+  for (std::size_t i = 0; i < sweep.beams.size(); ++i) {
+    const double position = (sweep.beams[i].bearing + turn) / step;
+    const double rounded = std::floor(position + 0.5);
+    int direction = static_cast<int>(rounded) % directions;
+    if (direction < 0) direction += directions;
+    const auto slot = static_cast<std::size_t>(direction);
+    const double off = std::abs(position - rounded);
+    if (off < off_middle[slot]) {
+      off_middle[slot] = off;
+      nearest[slot] = i;
+    }
+  }
+  std::vector<BinnedBeam> result;
+  result.reserve(static_cast<std::size_t>(directions));
+  for (std::size_t slot = 0; slot < off_middle.size(); ++slot)
+    if (off_middle[slot] < kNone)
+      result.push_back({static_cast<std::uint16_t>(slot), static_cast<std::uint16_t>(nearest[slot])});
+  return result;
+}
+
+}  // namespace docent

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "docent/geometry/pose2.h"
+
+namespace docent {
+
+/// What one laser read. A range of `max_range` or more is no return; NaN, infinite negative or shorter than `min_range`
+/// is invalid.
+struct LaserReading {
+  std::span<const float> ranges;  ///< [m], sensor frame
+  Angle first_bearing{};
+  double bearing_step = 0.0;  ///< [rad], may be negative
+  double min_range = 0.02;    ///< [m]
+  double max_range = 10.0;    ///< [m]
+};
+
+/// One valid beam as if it had been measured from the robot's centre.
+struct SweepBeam {
+  double bearing = 0.0;  ///< [rad], -pi..pi, base frame
+  double range = 0.0;    ///< [m] from the robot's centre
+  bool no_return = false;
+};
+
+/// All valid beams of one or more lasers about the robot's centre.
+struct RangeSweep {
+  std::vector<SweepBeam> beams;
+};
+
+/// Adds the valid beams of a reading. `base_from_sensor` is the sensor's place at the time of the sweep; multiply by
+/// the robot's motion where the reading is older. Beams without a return keep their direction. O(beams).
+void append(RangeSweep& sweep, const LaserReading& reading, const Pose2& base_from_sensor);
+
+/// Endpoint in the base frame [m].
+[[nodiscard]] Point2 endpoint(const SweepBeam& beam);
+
+/// A beam in the belief's own directions.
+struct BinnedBeam {
+  std::uint16_t direction = 0;  ///< 0..directions-1: bearing in steps of 360/directions degrees
+  std::uint16_t beam = 0;       ///< index in the sweep
+};
+
+/// At most one beam a direction, the one nearest to its middle, after turning the sweep by `turn` [rad]. In the order
+/// of directions. O(beams + directions).
+[[nodiscard]] std::vector<BinnedBeam> binned(const RangeSweep& sweep, int directions, double turn);
+
+}  // namespace docent
