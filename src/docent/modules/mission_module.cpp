@@ -57,6 +57,7 @@ class MissionModule final : public Module {
       : bus_{context.bus},
         museum_{context.museum},
         store_{std::move(store)},
+        set_aside_{store_.set_aside()},
         mission_{params, programme_of(context.museum), straight_distance(), std::move(memory), bus_.now()},
         board_{bus_.publisher(topics::kRequestBoard)},
         task_{bus_.publisher(topics::kTask)},
@@ -204,6 +205,7 @@ class MissionModule final : public Module {
   Bus& bus_;
   const Museum& museum_;
   MissionStore store_;
+  std::string set_aside_;
   Mission mission_;
   Publisher<docent_msgs::RequestBoard> board_;
   Publisher<docent_msgs::Task> task_;
@@ -216,7 +218,6 @@ class MissionModule final : public Module {
   std::string published_task_;
   std::vector<std::uint8_t> published_state_;
   std::string fault_;
-  std::string set_aside_;
 };
 
 }  // namespace
