@@ -21,6 +21,7 @@ constexpr const char* kSchema = R"(
   CREATE INDEX IF NOT EXISTS requests_by_rank ON requests (closed_rank);
   CREATE TABLE IF NOT EXISTS facts (key TEXT PRIMARY KEY, value TEXT NOT NULL);
 )";
+constexpr std::uint64_t kTasksAfterALoss = 1000000;
 constexpr const char* kColumns =
     "id, stamp, source, visitor, kind, target, viewpoint, language, state, reason, created, changed, attempts, "
     "not_before";
@@ -226,7 +227,8 @@ Result<MissionMemory> MissionStore::load() {
       if (!plan.empty()) read_plan(Json::parse(plan), memory, revision);
     } catch (const Json::exception&) {  // the requests are worth more than the step that was under way
       memory = {};
-      memory.deployment = connection_->deployment + "b";
+      memory.deployment = connection_->deployment;
+      memory.next_task = kTasksAfterALoss;  // ids that were given before must not come again
     }
     connection_->saved_plan = plan;
     std::vector<BoardEntry> entries;
