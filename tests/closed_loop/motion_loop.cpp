@@ -49,6 +49,7 @@ class MotionLoop::Impl {
     simulation.world = must(simulator::load_world(*museum_.simulation_path));
     simulation.seed = options.seed;
     simulation.crowd = options.crowd;
+    simulation.scenario = options.scenario;
     simulation.requests_per_hour = 0.0;
     simulation_ = std::make_unique<simulator::SimulatedMuseum>(*world_, *truth_, simulation);
     for (const char* name : {"avoid", "hazards", "robot", "map", "plan"}) {

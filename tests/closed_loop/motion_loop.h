@@ -24,7 +24,8 @@ class MotionLoop {
     std::uint64_t seed = 1;
     double position_error = 0.06;  ///< [m] standard deviation of the wandering error, each axis
     double heading_error = 0.015;  ///< [rad]
-    std::vector<std::string> settings;
+    simulator::Scenario scenario{};
+    std::vector<std::string> settings{};  ///< section.key=value, over robot.yaml's defaults
   };
   struct Outcome {
     double seconds = 0.0;

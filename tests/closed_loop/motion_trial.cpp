@@ -1,4 +1,5 @@
-// Prints what the motion modules do in a museum: motion_trial MUSEUM CROWD SEED MINUTES [section.key=value …]
+// Prints what the motion modules do in a museum: motion_trial MUSEUM CROWD SEED MINUTES [SCENARIO.yaml | error=METRES |
+// section.key=value …]
 #include <cstdio>
 #include <cstdlib>
 

@@ -31,7 +31,7 @@ Avoider::Avoider(const BaseLimits& limits, const AvoiderParams& params, std::siz
       params_{params},
       laser_count_{laser_count},
       window_{limits, params.window},
-      max_speed_{limits.max_speed},
+      max_speed_{std::min(0.7, limits.max_speed)},
       sweep_freshness_(laser_count) {}
 
 void Avoider::add_odometry(Time now, Time stamp, const BaseState& state) {
