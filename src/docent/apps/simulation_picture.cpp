@@ -11,7 +11,7 @@ namespace docent {
 namespace {
 
 constexpr Color kHazard{214, 90, 70, 90};
-constexpr Color kArea{70, 150, 90, 255};
+constexpr Color kArea{70, 150, 90, 30};
 constexpr Color kWay{40, 90, 200, 150};
 constexpr Color kTouch{220, 20, 20, 255};
 constexpr Color kExhibit{150, 90, 30, 255};
