@@ -10,6 +10,7 @@
 #include "docent/modules/mission_module.h"
 #include "docent/modules/people_module.h"
 #include "docent/modules/plan_module.h"
+#include "docent/modules/record_module.h"
 #include "docent/modules/robot_module.h"
 #include "docent/modules/sound_module.h"
 #include "docent/modules/web_module.h"
@@ -25,6 +26,7 @@ constexpr std::array kModules{
     ModuleEntry{"map", make_map},
     ModuleEntry{"people", make_people},
     ModuleEntry{"plan", make_plan},
+    ModuleEntry{"record", make_record, false, true},
     ModuleEntry{"robot", make_robot, true},
     ModuleEntry{"sound", make_sound},
     ModuleEntry{"mission", make_mission},

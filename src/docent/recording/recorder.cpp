@@ -27,7 +27,19 @@ std::map<std::string, RecordedTopic, std::less<>> all_topics() {
   return topics;
 }
 
+void subscribe(Bus& bus, const TopicInfo& info, const TopicHandler& handler) {
+  bus.add_subscription(info, [info, handler](const std::shared_ptr<const void>& message) { handler(info, message); });
+}
+
 }  // namespace
+
+void subscribe_robot_topics(Bus& bus, const TopicHandler& handler) {
+  for_each_robot_topic([&](const auto& topic) { subscribe(bus, topic_info(topic), handler); });
+}
+
+void subscribe_truth_topics(Bus& truth, const TopicHandler& handler) {
+  for_each_truth_topic([&](const auto& topic) { subscribe(truth, topic_info(topic), handler); });
+}
 
 const RecordedTopic* find_recorded_topic(std::string_view name) {
   static const auto kTopics = all_topics();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -19,6 +20,11 @@ struct RecordedTopic {
 };
 /// By the bus's name ("scan_front") or the recording's ("/scan_front"); nullptr for a topic that Docent does not have.
 [[nodiscard]] const RecordedTopic* find_recorded_topic(std::string_view name);
+
+using TopicHandler = std::function<void(const TopicInfo& topic, const std::shared_ptr<const void>& message)>;
+/// Subscribes to every topic of the robot, or to those of the truth, which live on a bus of their own.
+void subscribe_robot_topics(Bus& bus, const TopicHandler& handler);
+void subscribe_truth_topics(Bus& truth, const TopicHandler& handler);
 
 /// Writes messages of the bus to an MCAP file, for `docent simulate --record` and the record module.
 class Recorder {

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "docent/modules/module.h"
+
+namespace docent {
+
+/// Records every topic of the robot, and the truth where a simulator runs, to --state DIR/recordings. Section `record`.
+/// Does nothing in virtual time: there `--record` decides.
+[[nodiscard]] Result<std::unique_ptr<Module>> make_record(const ModuleContext& context);
+
+}  // namespace docent
