@@ -44,7 +44,7 @@ void run(const SurveyOptions& options) {
   value_or_fail(save_png(simulator::draw_world(world), out / "world.png"));
   const MapView view = MapView::whole(survey.map.frame, 1200);
   Image picture = draw_map(survey.map, view);
-  for (const Hazard& hazard : survey.hazards) draw_area(picture, view, hazard.polygon, {206, 48, 44, 90});
+  for (const auto& hazard : survey.hazards) draw_area(picture, view, hazard.polygon, {206, 48, 44, 90});
   value_or_fail(save_png(picture, out / "survey.png"));
 }
 

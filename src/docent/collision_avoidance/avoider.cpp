@@ -31,7 +31,7 @@ Avoider::Avoider(const BaseLimits& limits, const AvoiderParams& params, std::siz
       params_{params},
       laser_count_{laser_count},
       window_{limits, params.window},
-      max_speed_{limits.max_speed},
+      max_speed_{std::min(0.7, limits.max_speed)},
       sweep_freshness_(laser_count) {}
 
 void Avoider::add_odometry(Time now, Time stamp, const BaseState& state) {
@@ -201,7 +201,13 @@ double Avoider::steer_around(Point2 carrot, const Pose2& odom_from_base, std::sp
     }
   }
   steered_in_odom_ = odom_from_base.theta + Angle::radians(best);
-  return Angle::radians(best).radians();
+  const double bearing = Angle::radians(best).radians();
+  // What lies behind may be reached by turning either way: noise must not change the mind half way round.
+  constexpr double kBehind = 2.4;
+  if (std::abs(bearing) < 1.5) turning_side_ = 0.0;
+  if (std::abs(bearing) < kBehind) return bearing;
+  if (turning_side_ == 0.0) turning_side_ = std::copysign(1.0, bearing);
+  return turning_side_ * kBehind;
 }
 
 void Avoider::cap_speed(double cap, const char* why, AvoiderDecision& decision) const {

@@ -142,7 +142,7 @@ class Avoider {
   bool beams_localized_ = false;
   std::optional<Time> touched_;
   std::optional<Angle> steered_in_odom_;
-  bool was_turning_ = false;
+  double turning_side_ = 0.0;  ///< +1 left, -1 right, while something behind is turned to; else 0
 };
 
 /// Blows the horn at people in the way [BurgardEtAl1999 5.3]: after 1.5 s behind an unmapped obstacle, every 6 s at

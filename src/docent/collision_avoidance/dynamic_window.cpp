@@ -171,6 +171,7 @@ WindowChoice DynamicWindow::choose(const Velocity& velocity, const Velocity& las
   forwards_.build(reach_points_, false);
   if (low < 0.0) backwards_.build(reach_points_, true);
 
+  const double steered_way = straight_free_way(steering.bearing, obstacles, limits_.radius, 2.0);
   WindowChoice choice;
   const int rows = params_.linear_steps;
   const int columns = params_.angular_steps;
@@ -183,11 +184,8 @@ WindowChoice DynamicWindow::choose(const Velocity& velocity, const Velocity& las
       const double free_way = (linear < 0.0 ? backwards_ : forwards_).free_way(linear, angular);
       const double stopping = std::abs(linear) * hold() + linear * linear / (2.0 * limits_.deceleration);
       if (stopping > free_way) continue;
-      // On the spot the free way is that straight ahead, after the turn.
-      double clearance = free_way;
-      if (std::abs(linear) < 0.03) {
-        clearance = straight_free_way(angular * params_.heading_time, obstacles, limits_.radius, 2.0);
-      }
+      // On the spot every way is free: what counts is the way that is turned to.
+      const double clearance = std::abs(linear) < 0.03 ? steered_way : free_way;
       candidate.value = std::max(1e-6, value_of(candidate.velocity, last, clearance, steering));
     }
   }

@@ -10,7 +10,7 @@ namespace docent {
 namespace {
 
 constexpr double kBlindGap = 0.105;  // [rad] 6 degrees
-constexpr int kFrozenSweeps = 4;
+constexpr int kFrozenSweeps = 2;  // repeats: noise alone makes even one unlikely
 
 bool is_valid(double range) { return !std::isnan(range) && range >= 0.0; }
 
@@ -31,7 +31,7 @@ void ObstacleMemory::watch_for_freeze(Sensor& sensor, const RangeSweep& sweep, c
   }
   ++sensor.repeats;
   const Pose2 moved = inverse(sensor.odom_from_base_at_change) * odom_from_base;
-  const bool has_moved = norm(moved.position()) > 0.03 || std::abs(moved.theta.radians()) > 0.03;
+  const bool has_moved = norm(moved.position()) > 0.015 || std::abs(moved.theta.radians()) > 0.02;
   if (sensor.repeats >= kFrozenSweeps && has_moved) sensor.frozen = true;
 }
 

@@ -10,6 +10,7 @@
 #include "docent/messages/conversions.h"
 #include "docent/task_control/tour_scheduler/mission.h"
 #include "docent/task_control/tour_scheduler/mission_store.h"
+#include "docent/task_control/tour_scheduler/travel.h"
 
 namespace docent {
 namespace {
@@ -32,6 +33,16 @@ Programme programme_of(const Museum& museum) {
     programme.tours.push_back({tour.id, tour.exhibits, 60.0 * tour.minutes.value_or(0.0)});
   }
   return programme;
+}
+
+TravelDistance travel_in(const ModuleContext& context) {
+  const Museum& museum = context.museum;
+  if (museum.map.cells.empty()) return straight_distance();
+  std::vector<Polygon> hazards;
+  for (const Hazard& hazard : museum.hazards) hazards.push_back(hazard.polygon);
+  RouteParams params;
+  params.robot_radius = context.config.body().radius;
+  return travel_on_map(RoutePlanner{museum.map, hazards, museum.area, params});
 }
 
 std::string deployment_name(std::uint64_t seed, Time now) {
@@ -57,7 +68,8 @@ class MissionModule final : public Module {
       : bus_{context.bus},
         museum_{context.museum},
         store_{std::move(store)},
-        mission_{params, programme_of(context.museum), straight_distance(), std::move(memory), bus_.now()},
+        set_aside_{store_.set_aside()},
+        mission_{params, programme_of(context.museum), travel_in(context), std::move(memory), bus_.now()},
         board_{bus_.publisher(topics::kRequestBoard)},
         task_{bus_.publisher(topics::kTask)},
         state_{bus_.publisher(topics::kMissionState)},
@@ -204,6 +216,7 @@ class MissionModule final : public Module {
   Bus& bus_;
   const Museum& museum_;
   MissionStore store_;
+  std::string set_aside_;
   Mission mission_;
   Publisher<docent_msgs::RequestBoard> board_;
   Publisher<docent_msgs::Task> task_;
@@ -216,7 +229,6 @@ class MissionModule final : public Module {
   std::string published_task_;
   std::vector<std::uint8_t> published_state_;
   std::string fault_;
-  std::string set_aside_;
 };
 
 }  // namespace

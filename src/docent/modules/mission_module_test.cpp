@@ -242,6 +242,15 @@ TEST(Tour, RequestsSurviveDeathsInAnyOrder) {
     std::map<std::string, int> begun;
     for (const auto& speech : rehearsal.speeches) ++begun[speech.id];
     for (const auto& [id, times] : begun) EXPECT_EQ(times, 1) << "seed " << seed << " said again: " << id;
+    for (const auto& [request, tasks] : rehearsal.told) {
+      for (const std::string& task : tasks)
+        EXPECT_TRUE(rehearsal.heard.contains(task + "/short")) << "seed " << seed << ' ' << task;
+    }
+    std::map<std::string, int> once;
+    for (const auto& event : rehearsal.events) {
+      if (event.kind == "arrived" || event.kind == "prompt_shown") ++once[event.kind + " " + event.detail];
+    }
+    for (const auto& [what, times] : once) EXPECT_EQ(times, 1) << "seed " << seed << ' ' << what;
     EXPECT_EQ(rehearsal.mission.phase, "idle") << "seed " << seed;
   }
 }

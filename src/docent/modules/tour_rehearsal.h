@@ -207,6 +207,7 @@ class Rehearsal {
   docent_msgs::RequestBoard board;
   std::vector<docent_msgs::Event> events;
   std::vector<docent_msgs::SpeechState> speeches;        ///< each beginning of a speech
+  std::set<std::string> heard;                           ///< speeches, begun or over
   std::map<std::string, std::vector<std::string>> told;  ///< request id to the tasks that explained for it
 
  private:
@@ -230,6 +231,7 @@ class Rehearsal {
       const bool is_known = std::any_of(speeches.begin(), speeches.end(), [&](const auto& before) {
         return before.id == speech.id && from_message(before.start) == from_message(speech.start);
       });
+      heard.insert(speech.id);
       if (speech.state == "speaking" && !is_known) speeches.push_back(speech);
     }
     if (is(info, topics::kTaskState)) {

@@ -13,6 +13,20 @@ std::string translated(const Translations& texts, const std::string& language) {
   return texts.empty() ? std::string{} : texts.begin()->second;
 }
 
+const char* to_string(HazardKind kind) {
+  switch (kind) {
+    case HazardKind::glass:
+      return "glass";
+    case HazardKind::plate:
+      return "plate";
+    case HazardKind::stairs:
+      return "stairs";
+    case HazardKind::other:
+      break;
+  }
+  return "other";
+}
+
 bool Hours::holds(int minute_of_day) const {
   if (from_minute < to_minute) return minute_of_day >= from_minute && minute_of_day < to_minute;
   return minute_of_day >= from_minute || minute_of_day < to_minute;

@@ -19,6 +19,7 @@ using Translations = std::map<std::string, std::string>;
 [[nodiscard]] std::string translated(const Translations& texts, const std::string& language);
 
 enum class HazardKind { glass, plate, stairs, other };
+[[nodiscard]] const char* to_string(HazardKind kind);
 /// What sensors cannot see (architecture 5), as surveyed.
 struct Hazard {
   std::string id;

@@ -11,15 +11,10 @@
 namespace docent {
 namespace {
 
-constexpr double kFarthest = 10'000.0;           // [m]; coordinates beyond it are a slip of the pen
-constexpr std::size_t kLongestText = 16 * 1024;  // [bytes]; about 20 minutes of speech
+constexpr double kFarthest = 10'000.0;                        // [m]; coordinates beyond it are a slip of the pen
+constexpr std::size_t kLongestText = std::size_t{16} * 1024;  // [bytes]; about 20 minutes of speech
 constexpr std::size_t kLongestId = 40;
-struct NamedHazard {
-  const char* name;
-  HazardKind kind;
-};
-constexpr std::array kHazards{NamedHazard{"glass", HazardKind::glass}, NamedHazard{"plate", HazardKind::plate},
-                              NamedHazard{"stairs", HazardKind::stairs}, NamedHazard{"other", HazardKind::other}};
+constexpr std::array kHazards{HazardKind::glass, HazardKind::plate, HazardKind::stairs, HazardKind::other};
 
 struct PointYaml {
   double x = 0.0;
@@ -101,6 +96,10 @@ class MuseumYamlReader {
     return YamlFault{file_.fault(at, what)};
   }
 
+  [[nodiscard]] YamlFault about(const YAML::Node& at, const std::string& what, const std::string& why) const {
+    return fault(at, what + ": " + why);
+  }
+
   [[nodiscard]] YAML::Node required(const YAML::Node& parent, const YAML::Node& node, const char* key) const {
     if (!node.IsDefined() || node.IsNull()) throw fault(parent, std::string{"missing key '"} + key + "'");
     return node;
@@ -129,23 +128,40 @@ class MuseumYamlReader {
     return std::find(museum_.languages.begin(), museum_.languages.end(), language) != museum_.languages.end();
   }
 
+  /// Why `value` cannot be the text in `language` beside those in `others`; empty when it can.
+  [[nodiscard]] std::string text_fault(const Translations& others, const std::string& language,
+                                       const std::string& value) const {
+    if (!knows(language)) return "language '" + language + "' is not one of the museum's";
+    if (others.contains(language)) return "language '" + language + "' stands twice";
+    if (value.empty()) return "empty in language '" + language + "'";
+    if (!is_utf8(value)) return "not valid UTF-8";
+    return {};
+  }
+
   /// One text in each of the museum's languages.
   [[nodiscard]] Translations translations(const YAML::Node& node, const std::string& what) const {
     if (!node.IsMap()) throw fault(node, what + ": expected one text a language, such as {en: \"…\"}");
     Translations result;
     for (const auto& entry : node) {
       const std::string language = text(entry.first, "a language");
-      if (!knows(language)) throw fault(entry.first, what + ": language '" + language + "' is not one of the museum's");
-      if (result.contains(language)) throw fault(entry.first, what + ": language '" + language + "' stands twice");
       const std::string value = text(entry.second, "a text");
-      if (value.empty()) throw fault(entry.second, what + ": empty in language '" + language + "'");
-      if (!is_utf8(value)) throw fault(entry.second, what + ": not valid UTF-8");
+      const std::string why = text_fault(result, language, value);
+      if (!why.empty()) throw about(entry.first, what, why);
       result[language] = value;
     }
     for (const auto& language : museum_.languages) {
-      if (!result.contains(language)) throw fault(node, what + ": language '" + language + "' is missing");
+      if (!result.contains(language)) throw about(node, what, "language '" + language + "' is missing");
     }
     return result;
+  }
+
+  /// Why the file's content cannot be spoken; empty when it can.
+  [[nodiscard]] static std::string content_fault(const std::string& name, const Result<std::string>& content) {
+    if (!content) return content.error().message;
+    if (content->find_first_not_of(" \t\r\n") == std::string::npos) return name + " is empty";
+    if (content->size() > kLongestText) return name + " is longer than " + std::to_string(kLongestText) + " bytes";
+    if (!is_utf8(*content)) return name + " is not valid UTF-8";
+    return {};
   }
 
   /// The content of one file a language.
@@ -155,16 +171,11 @@ class MuseumYamlReader {
       const YAML::Node& parent = node;
       const YAML::Node at = parent[language];
       auto content = read_text_(inside_folder(at, name));
-      if (!content) {
-        report(at, what + ": " + content.error().message);
-      } else if (content->find_first_not_of(" \t\r\n") == std::string::npos) {
-        report(at, what + ": " + name + " is empty");
-      } else if (content->size() > kLongestText) {
-        report(at, what + ": " + name + " is longer than " + std::to_string(kLongestText) + " bytes");
-      } else if (!is_utf8(*content)) {
-        report(at, what + ": " + name + " is not valid UTF-8");
+      const std::string why = content_fault(name, content);
+      if (why.empty()) {
+        result[language] = std::move(*content);
       } else {
-        result[language] = *content;
+        source_.faults.push_back(about(at, what, why).error);
       }
     }
     return result;
@@ -172,7 +183,7 @@ class MuseumYamlReader {
 
   [[nodiscard]] std::filesystem::path inside_folder(const YAML::Node& node, const std::string& name) const {
     const std::filesystem::path path{name};
-    const auto normal = path.lexically_normal();
+    auto normal = path.lexically_normal();
     if (name.empty() || name.find('\0') != std::string::npos || path.is_absolute() || *normal.begin() == "..") {
       throw fault(node, "'" + name + "' is not a file inside the museum's folder");
     }
@@ -181,7 +192,7 @@ class MuseumYamlReader {
 
   [[nodiscard]] std::string id(const YAML::Node& parent, const YAML::Node& node, std::set<std::string>& seen,
                                const char* what) const {
-    const std::string name = text(required(parent, node, "id"), "an id");
+    std::string name = text(required(parent, node, "id"), "an id");
     const bool plain = std::all_of(name.begin(), name.end(),
                                    [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; });
     if (name.empty() || !plain || name.size() > kLongestId) {
@@ -238,12 +249,12 @@ class MuseumYamlReader {
           hazard.polygon = polygon(required(entry, reader.node("polygon"), "polygon"));
           reader.finish();
           const auto* named =
-              std::find_if(kHazards.begin(), kHazards.end(), [&](const auto& k) { return kind == k.name; });
+              std::find_if(kHazards.begin(), kHazards.end(), [&](HazardKind k) { return kind == to_string(k); });
           if (named == kHazards.end()) {
             throw fault(reader.node("kind"),
                         "hazard '" + hazard.id + "': unknown kind '" + kind + "' (glass, plate, stairs, other)");
           }
-          hazard.kind = named->kind;
+          hazard.kind = *named;
           museum_.hazards.push_back(std::move(hazard));
           source_.hazards.push_back(entry);
         });

@@ -228,7 +228,9 @@ TEST_F(WebServerTest, DetailsAreForThoseWhoAsk) {
   server_->broadcast(7, "window 2");
   server_->broadcast(1, "belief");
   EXPECT_EQ(plain.receive_frame().payload, "belief");
-  EXPECT_EQ(curious.receive_frame().payload, "window 2");
+  const std::set<std::string> both{curious.receive_frame().payload, curious.receive_frame().payload};
+  EXPECT_EQ(both, (std::set<std::string>{"window 2", "belief"}));
+  EXPECT_EQ(plain.receive_frame(100ms).opcode, -1);
 }
 
 TEST_F(WebServerTest, HandsMessagesOverAndAnswersTheirSender) {
@@ -316,18 +318,13 @@ TEST_F(WebServerTest, ASlowViewerGetsTheLatestAndHarmsNobody) {
   ASSERT_TRUE(quick.upgrade());
   const std::string filler(50000, '.');
   constexpr int kValues = 400;
+  Client::Frame frame;
   for (int i = 0; i < kValues; ++i) {
     server_->broadcast(0, std::to_string(i) + filler);
-    if (i % 40 == 0) {
-      ASSERT_EQ(quick.receive_frame().opcode, 1);
-    }
-    // the quick one is served meanwhile
+    frame = quick.receive_frame();
+    ASSERT_TRUE(frame.payload.starts_with(std::to_string(i) + "."));  // the quick one misses nothing meanwhile
   }
   const std::string last = std::to_string(kValues - 1) + ".";
-  Client::Frame frame;
-  do frame = quick.receive_frame();
-  while (frame.opcode == 1 && !frame.payload.starts_with(last));
-  ASSERT_EQ(frame.opcode, 1);
   // 20 MB were shown; the slow one now reads what is under way and then at once the last value.
   int seen = 0;
   do {

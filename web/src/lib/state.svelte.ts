@@ -88,6 +88,8 @@ class App {
 
   readonly clock = new RobotClock();
   readonly motion = new Motion();
+  /** Whoever has asked once needs no hint. */
+  hasAsked = $state(store.read('asked', false));
   private socket: WebSocket | null = null;
   private tries = 0;
   private lastHeard = 0;
@@ -151,8 +153,10 @@ class App {
     const wish: Wish = { id: uuid7(), kind, target, viewpoint, made: Date.now(), state: 'sending', reason: '', seen: false };
     this.wishes = [...this.wishes.slice(-30), wish];
     store.write('name', this.name);
+    store.write('asked', (this.hasAsked = true));
     this.keepWishes();
     this.sendWish(wish);
+    this.selected = null;
     this.notice(this.t('onItsWay'));
   }
   cancel(wish: Wish): void {

@@ -72,7 +72,7 @@ function picture(belief: BeliefMessage, [r, g, b]: [number, number, number]): Pi
     image.data[4 * i] = r + (255 - r) * level * level * 0.35;
     image.data[4 * i + 1] = g + (255 - g) * level * level * 0.35;
     image.data[4 * i + 2] = b;
-    image.data[4 * i + 3] = 255 * 0.72 * Math.pow(level, 0.8);
+    image.data[4 * i + 3] = 255 * 0.72 * Math.pow(level, 0.55);
   }
   context.putImageData(image, 0, 0);
   return { canvas, x: x - margin * cell, y: y - margin * cell, width: wide * cell, height: tall * cell };

@@ -38,7 +38,7 @@ export function contoursOf(columns: number, rows: number, inside: (x: number, y:
         // The middles of the edges: a staircase becomes a straight line at once.
         points.push(((a % width) + (b % width)) / 2, (Math.floor(a / width) + Math.floor(b / width)) / 2);
       }
-      const simple = simplified(points, 0.75);
+      const simple = simplified(points, 1.2);
       if (simple.length >= 6) loops.push(simple);
     }
   }

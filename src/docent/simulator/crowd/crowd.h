@@ -72,6 +72,8 @@ class Crowd {
   void step_aside(Person& person, const Sight& sight, double now);
   void return_to_strolling(Person& person, double now, bool bored);
   void next_attraction(Person& person, double now);
+
+  // activities.cpp
   [[nodiscard]] Point2 desired_velocity(Person& person, const Sight& sight, double now);
   [[nodiscard]] Point2 strolling(Person& person, double now);
   [[nodiscard]] Point2 leaving(Person& person, double now);

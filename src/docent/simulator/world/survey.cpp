@@ -63,23 +63,8 @@ bool is_covered_by_hazard(const World& world, const Solid& solid) {
   });
 }
 
-HazardKind hazard_kind(SolidKind kind) {
-  switch (kind) {
-    case SolidKind::glass:
-      return HazardKind::glass;
-    case SolidKind::plate:
-      return HazardKind::plate;
-    case SolidKind::stairs:
-      return HazardKind::stairs;
-    default:
-      return HazardKind::other;
-  }
-}
-
-const char* name_of(HazardKind kind) {
-  constexpr std::array kNames{"glass", "plate", "stairs", "other"};
-  return kNames[static_cast<std::size_t>(kind)];
-}
+/// Low furniture has no kind of its own among hazards.
+std::string hazard_kind(SolidKind kind) { return kind == SolidKind::furniture ? "other" : to_string(kind); }
 
 enum class Fate { stays, moved, missing };
 
@@ -149,10 +134,10 @@ Survey survey(const World& world, const SurveyParams& params, const Rng& rng) {
   return result;
 }
 
-std::string to_yaml(const std::vector<Hazard>& hazards) {
+std::string to_yaml(const std::vector<SurveyedHazard>& hazards) {
   std::string text = "hazards:\n";
-  for (const Hazard& hazard : hazards) {
-    text += "  - {id: " + hazard.id + ", kind: " + name_of(hazard.kind) + ", polygon: [";
+  for (const SurveyedHazard& hazard : hazards) {
+    text += "  - {id: " + hazard.id + ", kind: " + hazard.kind + ", polygon: [";
     for (std::size_t i = 0; i < hazard.polygon.size(); ++i) {
       std::array<char, 64> corner{};
       std::snprintf(corner.data(), corner.size(), "%s[%.2f, %.2f]", i == 0 ? "" : ", ", hazard.polygon[i].x,

@@ -5,7 +5,6 @@
 
 #include "docent/base/random.h"
 #include "docent/grid/occupancy_grid.h"
-#include "docent/museum/museum.h"
 #include "docent/simulator/world/world.h"
 
 namespace docent::simulator {
@@ -21,11 +20,19 @@ struct SurveyParams {
   double greatest_move = 0.35;   ///< [m]
 };
 
+/// What lasers do not see, with its place as surveyed. The museum package has its own type: they share a file's form
+/// only.
+struct SurveyedHazard {
+  std::string id;
+  std::string kind;  ///< glass, plate, stairs, other
+  Polygon polygon;   ///< [m], map
+};
+
 /// What the museum's staff would hand to the robot: a map of what lasers see and a list of what they do not, both
 /// slightly wrong (architecture 10.1).
 struct Survey {
   OccupancyGrid map;
-  std::vector<Hazard> hazards;  ///< glass, plates, stairs, and furniture too low for the lasers
+  std::vector<SurveyedHazard> hazards;  ///< glass, plates, stairs, and furniture too low for the lasers
   std::vector<std::string> moved;
   std::vector<std::string> missing;
 };
@@ -35,6 +42,6 @@ struct Survey {
 [[nodiscard]] Survey survey(const World& world, const SurveyParams& params, const Rng& rng);
 
 /// The hazards as the block `hazards:` of a museum.yaml, centimetres.
-[[nodiscard]] std::string to_yaml(const std::vector<Hazard>& hazards);
+[[nodiscard]] std::string to_yaml(const std::vector<SurveyedHazard>& hazards);
 
 }  // namespace docent::simulator

@@ -1,6 +1,7 @@
 #include "docent/task_control/tour_scheduler/mission_store.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <sqlite3.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -20,6 +21,7 @@ constexpr const char* kSchema = R"(
   CREATE INDEX IF NOT EXISTS requests_by_rank ON requests (closed_rank);
   CREATE TABLE IF NOT EXISTS facts (key TEXT PRIMARY KEY, value TEXT NOT NULL);
 )";
+constexpr std::uint64_t kTasksAfterALoss = 1000000;
 constexpr const char* kColumns =
     "id, stamp, source, visitor, kind, target, viewpoint, language, state, reason, created, changed, attempts, "
     "not_before";
@@ -124,6 +126,7 @@ struct MissionStore::Connection {
   SQLite::Database database;
   std::string saved_plan;
   std::string deployment;
+  std::string set_aside;
 
   [[nodiscard]] tl::unexpected<Error> fault(const std::exception& why) const { return fail(name + ": " + why.what()); }
   [[nodiscard]] std::string fact(const std::string& key) {
@@ -170,23 +173,49 @@ MissionStore::MissionStore(MissionStore&&) noexcept = default;
 MissionStore& MissionStore::operator=(MissionStore&&) noexcept = default;
 MissionStore::~MissionStore() = default;
 
+std::unique_ptr<MissionStore::Connection> MissionStore::connect(const std::filesystem::path& path,
+                                                                const std::string& new_deployment, bool is_durable) {
+  auto connection = std::make_unique<Connection>(Connection{
+      path.string(), SQLite::Database{path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, 2000}, "", "", ""});
+  connection->database.exec(is_durable ? "PRAGMA synchronous = FULL" : "PRAGMA synchronous = OFF");
+  connection->database.exec("PRAGMA journal_mode = WAL");
+  SQLite::Transaction transaction{connection->database};
+  connection->database.exec(kSchema);
+  if (connection->fact("deployment").empty()) connection->set_fact("deployment", new_deployment);
+  connection->deployment = connection->fact("deployment");
+  SQLite::Statement check{connection->database,
+                          std::string{"SELECT "} + kColumns + ", closed_rank FROM requests LIMIT 1"};
+  check.executeStep();  // another program's file with tables of these names is no file of ours
+  transaction.commit();
+  return connection;
+}
+
 Result<MissionStore> MissionStore::open(const std::filesystem::path& path, const std::string& new_deployment,
                                         bool is_durable) {
   try {
-    auto connection = std::make_unique<Connection>(Connection{
-        path.string(), SQLite::Database{path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, 2000}, "", ""});
-    connection->database.exec(is_durable ? "PRAGMA synchronous = FULL" : "PRAGMA synchronous = OFF");
-    connection->database.exec("PRAGMA journal_mode = WAL");
-    SQLite::Transaction transaction{connection->database};
-    connection->database.exec(kSchema);
-    if (connection->fact("deployment").empty()) connection->set_fact("deployment", new_deployment);
-    connection->deployment = connection->fact("deployment");
-    transaction.commit();
+    return MissionStore{connect(path, new_deployment, is_durable)};
+  } catch (const SQLite::Exception& why) {
+    const int code = why.getErrorCode();
+    if (code != SQLITE_CORRUPT && code != SQLITE_NOTADB && code != SQLITE_ERROR)
+      return fail(path.string() + ": " + why.what());
+  } catch (const std::exception& why) {
+    return fail(path.string() + ": " + why.what());
+  }
+  try {
+    const std::filesystem::path aside = path.string() + ".damaged";
+    for (const char* suffix : {"", "-wal", "-shm"}) {
+      if (std::filesystem::exists(path.string() + suffix))
+        std::filesystem::rename(path.string() + suffix, aside.string() + suffix);
+    }
+    auto connection = connect(path, new_deployment, is_durable);
+    connection->set_aside = aside.string();
     return MissionStore{std::move(connection)};
   } catch (const std::exception& why) {
     return fail(path.string() + ": " + why.what());
   }
 }
+
+const std::string& MissionStore::set_aside() const { return connection_->set_aside; }
 
 Result<MissionMemory> MissionStore::load() {
   try {
@@ -194,7 +223,13 @@ Result<MissionMemory> MissionStore::load() {
     memory.deployment = connection_->deployment;
     std::uint64_t revision = 0;
     const std::string plan = connection_->fact("plan");
-    if (!plan.empty()) read_plan(Json::parse(plan), memory, revision);
+    try {
+      if (!plan.empty()) read_plan(Json::parse(plan), memory, revision);
+    } catch (const Json::exception&) {  // the requests are worth more than the step that was under way
+      memory = {};
+      memory.deployment = connection_->deployment;
+      memory.next_task = kTasksAfterALoss;  // ids that were given before must not come again
+    }
     connection_->saved_plan = plan;
     std::vector<BoardEntry> entries;
     const std::string columns = kColumns;

@@ -15,14 +15,18 @@ namespace docent {
 class MissionStore {
  public:
   /// Opens or makes the file. `is_durable`: also a power failure loses nothing that was saved (one sync a save).
-  /// `new_deployment` names a new file's life. Error: "FILE: why", also for a file that is no such database.
+  /// `new_deployment` names a new file's life. A file that is damaged is set aside under another name and a new one
+  /// begun: a robot that has forgotten is better than none. Error: "FILE: why".
   [[nodiscard]] static Result<MissionStore> open(const std::filesystem::path& path, const std::string& new_deployment,
                                                  bool is_durable);
   MissionStore(MissionStore&&) noexcept;
   MissionStore& operator=(MissionStore&&) noexcept;
   ~MissionStore();
 
-  /// All open requests, the last closed ones, and the plan.
+  /// Where the damaged file went; empty: it was sound.
+  [[nodiscard]] const std::string& set_aside() const;
+
+  /// All open requests, the last closed ones, and the plan. A plan that cannot be read is left out.
   [[nodiscard]] Result<MissionMemory> load();
   /// Writes what changed since the last save: the board's unstored entries and the plan. Nothing changed: no write.
   /// The caller marks the board as stored when this succeeds.
@@ -33,6 +37,8 @@ class MissionStore {
  private:
   struct Connection;
   explicit MissionStore(std::unique_ptr<Connection> connection);
+  [[nodiscard]] static std::unique_ptr<Connection> connect(const std::filesystem::path& path,
+                                                           const std::string& new_deployment, bool is_durable);
   std::unique_ptr<Connection> connection_;
 };
 

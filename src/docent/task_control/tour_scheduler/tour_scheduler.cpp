@@ -47,6 +47,15 @@ void TourScheduler::drop_what_is_gone(Time now) {
     if (state_.visit) state_.visit->tour_id.clear();
   }
   end_tour_if_over(now);
+  // What is called active but belongs to nothing under way waits again.
+  std::vector<std::string> orphans;
+  for (const BoardEntry& entry : state_.board.entries()) {
+    const VisitorRequest& request = entry.request;
+    const bool is_served = request.kind == "tour" ? state_.tour && state_.tour->tour_id == request.target
+                                                  : state_.visit && state_.visit->exhibit_id == request.target;
+    if (entry.status == RequestStatus::active && !is_served) orphans.push_back(request.id);
+  }
+  for (const std::string& id : orphans) state_.board.change(id, RequestStatus::queued, "", now);
 }
 
 std::string TourScheduler::refusal(const VisitorRequest& request, const Conditions& conditions) const {

@@ -1,0 +1,285 @@
+#include "docent/task_control/executive/executive.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "docent/base/files.h"
+#include "docent/task_control/executive/checkpoint.h"
+
+namespace docent {
+namespace {
+
+ExecutiveTask visit(const std::string& id, bool has_more = true) {
+  return {{id, "visit", "sputnik", {3, 4, Angle::degrees(90)}, "en", true, ""},
+          "Sputnik",
+          "It was the first satellite.",
+          has_more ? "It weighed 83 kilograms." : ""};
+}
+
+class ExecutiveTest : public testing::Test {
+ protected:
+  ExecutiveTest() { collect(); }
+  void collect() {
+    auto actions = executive.take_actions();
+    if (actions.drive) drive = actions.drive;
+    if (actions.report) state = *actions.report;
+    said.insert(said.end(), actions.utterances.begin(), actions.utterances.end());
+    happenings.insert(happenings.end(), actions.happenings.begin(), actions.happenings.end());
+    if (actions.must_save) saved = executive.memory();
+  }
+  void start(const ExecutiveTask& task) {
+    executive.set_task(task, time());
+    collect();
+  }
+  void goal(const std::string& what) {
+    executive.goal_report({drive->id, what, 1.0, 0.0, ""}, time());
+    collect();
+  }
+  void speech(const std::string& id, const std::string& what, double duration_s = 3.0) {
+    executive.speech_report({id, what, time(), duration_s}, time());
+    collect();
+  }
+  void pass(double duration_s) {
+    for (const double end = now_s + duration_s; now_s < end;) {
+      now_s += 0.25;
+      executive.tick(time());
+      collect();
+    }
+  }
+  void restart() {
+    executive = Executive{{}, saved, time()};
+    said.clear();
+    drive.reset();
+    state = {};
+    collect();
+  }
+  [[nodiscard]] Time time() const { return time_from_seconds(now_s); }
+  [[nodiscard]] long count(const std::string& id) const {
+    return std::count_if(said.begin(), said.end(), [&](const Utterance& line) { return line.id == id; });
+  }
+
+  double now_s = 100.0;
+  Executive executive{{}, {}, time_from_seconds(100.0)};
+  std::optional<DriveOrder> drive;
+  TaskReport state;
+  ExecutiveMemory saved;
+  std::vector<Utterance> said;
+  std::vector<Happening> happenings;
+};
+
+TEST_F(ExecutiveTest, AVisitStepByStep) {
+  EXPECT_EQ(drive->id, "") << "without a task it stays";
+  start(visit("t1"));
+  EXPECT_EQ(state.state, "driving");
+  EXPECT_EQ(drive->map_from_base.theta.degrees(), 90.0);
+  EXPECT_EQ(said.back().text, "Please follow me to Sputnik.");
+  goal("driving");
+  goal("turning");
+  EXPECT_EQ(state.state, "driving");
+  goal("arrived");
+  EXPECT_EQ(state.state, "explaining");
+  EXPECT_EQ(said.back().id, "t1/short");
+  EXPECT_EQ(said.back().text, "Sputnik. It was the first satellite.");
+  speech("t1/short", "speaking");
+  speech("another", "done");
+  EXPECT_EQ(state.state, "explaining");
+  speech("t1/short", "done");
+  EXPECT_EQ(state.state, "asking");
+  EXPECT_EQ(state.question.default_option, "next");
+  executive.choose("t0/more", "more", time());
+  executive.choose(state.question.id, "dance", time());
+  collect();
+  EXPECT_EQ(state.state, "asking");
+  executive.choose(state.question.id, "more", time());
+  collect();
+  EXPECT_EQ(state.state, "explaining");
+  EXPECT_EQ(said.back().text, "It weighed 83 kilograms.");
+  EXPECT_TRUE(state.question.id.empty());
+  speech("t1/long", "done");
+  EXPECT_EQ(state.state, "done");
+  EXPECT_TRUE(state.took_long);
+}
+
+TEST_F(ExecutiveTest, TheFastVersionIsTheDefaultAfterFiveSeconds) {
+  start(visit("t1"));
+  goal("arrived");
+  speech("t1/short", "done");
+  const double asked = now_s;
+  while (state.state == "asking") pass(0.25);
+  EXPECT_NEAR(now_s - asked, 5.0, 0.3);
+  EXPECT_EQ(state.state, "done");
+  EXPECT_EQ(happenings.back().kind, "choice");
+}
+
+TEST_F(ExecutiveTest, NothingMoreToTellMeansNoQuestion) {
+  start(visit("t1", false));
+  goal("arrived");
+  speech("t1/short", "done");
+  EXPECT_EQ(state.state, "done");
+}
+
+TEST_F(ExecutiveTest, ADeadSoundModuleHoldsNothingUp) {
+  start(visit("t1"));
+  goal("arrived");
+  const double began = now_s;
+  while (state.state == "explaining") pass(0.25);
+  EXPECT_GT(now_s - began, 5.0);
+  EXPECT_LT(now_s - began, 12.0);
+  EXPECT_GE(count("t1/short"), 5) << "it repeats the order until it is heard";
+}
+
+TEST_F(ExecutiveTest, AVoiceThatDiesInTheMiddleHoldsNothingUp) {
+  start(visit("t1"));
+  goal("arrived");
+  speech("t1/short", "speaking", 20.0);
+  pass(24.0);
+  EXPECT_EQ(state.state, "explaining");
+  pass(2.0);
+  EXPECT_EQ(state.state, "asking");
+}
+
+TEST_F(ExecutiveTest, ABlockedWayIsAskedForAndThenGivenUp) {
+  start(visit("t1"));
+  said.clear();
+  for (int i = 0; i < 85; ++i) {
+    goal("blocked");
+    pass(1.0);
+  }
+  EXPECT_EQ(state.state, "driving");
+  EXPECT_EQ(state.reason, "Someone is in my way.");
+  EXPECT_GE(said.size(), 5U);
+  EXPECT_LE(said.size(), 6U) << "at most every fifteen seconds";
+  for (std::size_t i = 1; i < said.size(); ++i) EXPECT_NE(said[i].id, said[i - 1].id);
+  goal("driving");
+  EXPECT_EQ(state.reason, "");
+  for (int i = 0; i < 92; ++i) {
+    if (state.state == "driving") goal("blocked");
+    pass(1.0);
+  }
+  EXPECT_EQ(state.state, "failed");
+  EXPECT_FALSE(state.reason.empty());
+  EXPECT_EQ(drive->id, "") << "it stays where it is";
+}
+
+TEST_F(ExecutiveTest, APersonInTheWayIsAskedSooner) {
+  start(visit("t1"));
+  said.clear();
+  goal("driving");
+  executive.obstacle_report(true, time());
+  pass(3.0);
+  EXPECT_TRUE(said.empty());
+  pass(2.0);
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_EQ(said[0].text, "Please let me through.");
+  executive.obstacle_report(false, time());
+  pass(30.0);
+  EXPECT_EQ(said.size(), 1U);
+}
+
+TEST_F(ExecutiveTest, AnUnreachablePlaceFailsAfterAShortPatience) {
+  start(visit("t1"));
+  for (int i = 0; i < 15; ++i) {
+    goal("unreachable");
+    pass(1.0);
+  }
+  EXPECT_EQ(state.state, "driving");
+  goal("driving");
+  for (int i = 0; i < 22 && state.state == "driving"; ++i) {
+    goal("unreachable");
+    pass(1.0);
+  }
+  EXPECT_EQ(state.state, "failed");
+}
+
+TEST_F(ExecutiveTest, ReportsOfOtherGoalsDoNotCount) {
+  start(visit("t1"));
+  executive.goal_report({"t0/drive", "arrived", 0.0, 0.0, ""}, time());
+  collect();
+  EXPECT_EQ(state.state, "driving");
+}
+
+TEST_F(ExecutiveTest, HomeAndRelocalizing) {
+  start({{"h", "home", "", {0, 0, {}}, "de", false, ""}, "", "", ""});
+  goal("arrived");
+  EXPECT_EQ(state.state, "done");
+  EXPECT_EQ(said.back().id, "h/home");
+  start({{"l", "relocalize", "", {}, "en", false, ""}, "", "", ""});
+  EXPECT_TRUE(drive->relocalize);
+  goal("arrived");
+  EXPECT_EQ(state.state, "done");
+  start({{"x", "dance", "", {}, "en", false, ""}, "", "", ""});
+  EXPECT_EQ(state.state, "failed");
+  start({});
+  EXPECT_EQ(drive->id, "");
+  EXPECT_EQ(state.id, "");
+}
+
+TEST_F(ExecutiveTest, ARestartContinuesTheStep) {
+  start(visit("t1"));
+  restart();
+  EXPECT_EQ(drive->id, "t1/drive");
+  EXPECT_EQ(state.state, "driving");
+  EXPECT_EQ(count("t1/announcement"), 0);
+  goal("arrived");
+  restart();
+  EXPECT_EQ(state.state, "explaining");
+  speech("t1/short", "speaking");
+  pass(2.0);
+  EXPECT_EQ(count("t1/short"), 0) << "it is being said already";
+  speech("t1/short", "done");
+  restart();
+  EXPECT_EQ(state.state, "asking");
+  pass(5.5);
+  EXPECT_EQ(state.state, "done");
+  restart();
+  EXPECT_EQ(state.state, "done");
+  start(visit("t1"));
+  EXPECT_EQ(state.state, "done") << "what was done is not done again";
+}
+
+TEST_F(ExecutiveTest, ALongDeathMeansDrivingThereAgain) {
+  start(visit("t1"));
+  goal("arrived");
+  now_s += 3600.0;
+  restart();
+  EXPECT_EQ(state.state, "driving");
+}
+
+TEST_F(ExecutiveTest, TheCheckpointHoldsEverything) {
+  const auto path = std::filesystem::temp_directory_path() / ("docent_executive_" + std::to_string(getpid()) + ".json");
+  std::filesystem::remove(path);
+  const auto none = load_checkpoint(path);
+  ASSERT_TRUE(none);
+  EXPECT_EQ(none->step, Step::idle);
+  start(visit("t1"));
+  goal("arrived");
+  speech("t1/short", "done");
+  ASSERT_TRUE(save_checkpoint(path, saved));
+  const auto loaded = load_checkpoint(path);
+  ASSERT_TRUE(loaded);
+  EXPECT_EQ(loaded->step, Step::asking);
+  EXPECT_EQ(loaded->step_began, saved.step_began);
+  EXPECT_EQ(loaded->drive_began, saved.drive_began);
+  EXPECT_EQ(loaded->task.order.id, "t1");
+  EXPECT_EQ(loaded->task.order.map_from_base.y, 4.0);
+  EXPECT_EQ(loaded->task.long_text, saved.task.long_text);
+  const std::string whole = *read_file(path);
+  for (const std::string& damaged : {whole.substr(0, whole.size() / 2), std::string{"{}"}, std::string{"[1]"},
+                                     std::string{"{\"step\": \"dancing\"}"}, std::string{}}) {
+    ASSERT_TRUE(write_file_atomically(path, damaged));
+    EXPECT_FALSE(load_checkpoint(path)) << damaged;
+  }
+  std::filesystem::remove(path);
+}
+
+TEST(ExecutiveSteps, TextsRoundTrip) {
+  for (int i = 0; i <= static_cast<int>(Step::failed); ++i) {
+    EXPECT_EQ(step_of(to_text(static_cast<Step>(i))), static_cast<Step>(i));
+  }
+  EXPECT_FALSE(step_of("dancing"));
+}
+
+}  // namespace
+}  // namespace docent

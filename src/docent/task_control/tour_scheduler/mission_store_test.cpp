@@ -1,0 +1,139 @@
+#include "docent/task_control/tour_scheduler/mission_store.h"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "docent/base/files.h"
+
+namespace docent {
+namespace {
+
+class Store : public testing::Test {
+ protected:
+  Store() : folder_{std::filesystem::temp_directory_path() / ("docent_store_" + std::to_string(getpid()))} {
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+  }
+  ~Store() override { std::filesystem::remove_all(folder_); }
+  [[nodiscard]] std::filesystem::path path() const { return folder_ / "mission.sqlite"; }
+  [[nodiscard]] MissionStore open(const std::string& name = "abc") const {
+    auto store = MissionStore::open(path(), name, false);
+    EXPECT_TRUE(store) << (store ? "" : store.error().message);
+    return std::move(*store);
+  }
+
+  std::filesystem::path folder_;
+};
+
+VisitorRequest request(const std::string& id) {
+  return {id, {12345}, "web", "Ada \"'; DROP TABLE requests", "exhibit", "sputnik", 3, "de"};
+}
+
+MissionMemory full_memory() {
+  MissionMemory memory;
+  memory.next_task = 17;
+  memory.task = {"abc-16", "visit", "sputnik", {1.5, -2.5, Angle::radians(0.7)}, "de", false, "space"};
+  memory.schedule.visit = Visit{"sputnik", {1.5, -2.5, Angle::radians(0.7)}, "de", "space", false, {99}};
+  memory.schedule.tour =
+      TourRun{"space", "de", {{"a", StopStatus::explained, 1}, {"b", StopStatus::pending, 2}}, true, 360.0, {77}};
+  memory.schedule.counters = {4, 5, 6};
+  return memory;
+}
+
+TEST_F(Store, GivesBackWhatWasSaved) {
+  MissionMemory memory = full_memory();
+  RequestBoard& board = memory.schedule.board;
+  board.add(request("a"), RequestStatus::queued, "", {1});
+  board.add(request("b"), RequestStatus::refused, "closed", {2});
+  board.add(request("c"), RequestStatus::queued, "", {3});
+  board.change("c", RequestStatus::active, "now", {4});
+  board.count_attempt("a", {1000});
+  {
+    MissionStore store = open();
+    ASSERT_TRUE(store.save(memory));
+  }
+  MissionStore store = open("another name");
+  const auto loaded = store.load();
+  ASSERT_TRUE(loaded);
+  EXPECT_EQ(loaded->deployment, "abc") << "the first name stays";
+  EXPECT_EQ(loaded->next_task, 17U);
+  EXPECT_EQ(loaded->task.id, "abc-16");
+  EXPECT_EQ(loaded->task.map_from_base.y, -2.5);
+  EXPECT_FALSE(loaded->task.offer_more);
+  ASSERT_TRUE(loaded->schedule.visit);
+  EXPECT_EQ(loaded->schedule.visit->exhibit_id, "sputnik");
+  EXPECT_FALSE(loaded->schedule.visit->is_joinable);
+  ASSERT_TRUE(loaded->schedule.tour);
+  ASSERT_EQ(loaded->schedule.tour->stops.size(), 2U);
+  EXPECT_EQ(loaded->schedule.tour->stops[0].status, StopStatus::explained);
+  EXPECT_EQ(loaded->schedule.tour->stops[1].attempts, 2);
+  EXPECT_EQ(loaded->schedule.counters.requests_served, 6U);
+  const auto& entries = loaded->schedule.board.entries();
+  ASSERT_EQ(entries.size(), 3U);
+  EXPECT_EQ(entries[0].request.id, "a");
+  EXPECT_EQ(entries[0].attempts, 1);
+  EXPECT_EQ(entries[0].not_before, Time{1000});
+  EXPECT_EQ(entries[0].request.visitor, request("a").visitor);
+  EXPECT_EQ(entries[1].request.id, "c");
+  EXPECT_EQ(entries[1].status, RequestStatus::active);
+  EXPECT_EQ(entries[1].changed, Time{4});
+  EXPECT_EQ(entries[2].reason, "closed");
+  EXPECT_EQ(loaded->schedule.board.revision(), board.revision());
+}
+
+TEST_F(Store, RemembersOldRequestsForEver) {
+  MissionStore store = open();
+  MissionMemory memory;
+  for (int i = 0; i < 250; ++i) {
+    memory.schedule.board.add(request("r" + std::to_string(i)), RequestStatus::refused, "closed", {i});
+    ASSERT_TRUE(store.save(memory));
+    memory.schedule.board.mark_stored();
+  }
+  const auto old = store.find("r3");
+  ASSERT_TRUE(old && *old);
+  EXPECT_EQ((*old)->created, Time{3});
+  EXPECT_EQ((*old)->status, RequestStatus::refused);
+  EXPECT_FALSE(*store.find("unknown"));
+  const auto loaded = store.load();
+  EXPECT_EQ(loaded->schedule.board.entries().size(), RequestBoard::kClosedKept);
+  EXPECT_EQ(loaded->schedule.board.entries().back().request.id, "r249");
+}
+
+TEST_F(Store, ADeathLosesNothingThatWasSaved) {
+  const pid_t child = fork();
+  if (child == 0) {
+    auto store = MissionStore::open(path(), "abc", true);
+    MissionMemory memory = full_memory();
+    memory.schedule.board.add(request("a"), RequestStatus::queued, "", {1});
+    if (store && store->save(memory)) kill(getpid(), SIGKILL);  // no destructor, no checkpoint of the WAL
+    _exit(1);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  MissionStore store = open();
+  const auto loaded = store.load();
+  ASSERT_TRUE(loaded);
+  EXPECT_NE(loaded->schedule.board.find("a"), nullptr);
+  EXPECT_TRUE(loaded->schedule.visit);
+}
+
+TEST_F(Store, SetsADamagedFileAside) {
+  ASSERT_TRUE(write_file_atomically(path(), std::string(5000, 'x')));
+  MissionStore store = open();
+  EXPECT_EQ(store.set_aside(), path().string() + ".damaged");
+  EXPECT_TRUE(std::filesystem::exists(store.set_aside()));
+  EXPECT_TRUE(store.load());
+  EXPECT_TRUE(store.save(full_memory()));
+}
+
+TEST_F(Store, AFolderThatIsNotThereIsOneClearLine) {
+  const auto store = MissionStore::open(folder_ / "absent" / "mission.sqlite", "abc", false);
+  ASSERT_FALSE(store);
+  EXPECT_NE(store.error().message.find("mission.sqlite"), std::string::npos);
+  EXPECT_EQ(store.error().message.find('\n'), std::string::npos);
+}
+
+}  // namespace
+}  // namespace docent

@@ -1,0 +1,300 @@
+#include "docent/task_control/tour_scheduler/tour_scheduler.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "docent/base/random.h"
+
+namespace docent {
+namespace {
+
+Programme programme_on_a_line() {
+  Programme programme;
+  programme.languages = {"en", "de"};
+  for (int i = 1; i <= 6; ++i) {
+    programme.exhibits.push_back({"e" + std::to_string(i), {4.0 * i, 0, {}}, {}, 20.0, i == 6});
+  }
+  programme.exhibits[1].viewpoints = {{8, 1, {}}, {8, -1, {}}};
+  programme.tours = {{"t", {"e1", "e3", "e5"}, 0.0}, {"two", {"e2", "e4"}, 0.0}, {"quick", {}, 120.0}};
+  return programme;
+}
+
+class Scheduling : public testing::Test {
+ protected:
+  void wish(const std::string& id, const std::string& kind, const std::string& target, double at,
+            const std::string& language = "en", int viewpoint = -1) {
+    scheduler.submit({id, {}, "web", "", kind, target, viewpoint, language}, conditions, time_from_seconds(at));
+  }
+  std::string next(double at, Point2 robot = {0, 0}) {
+    const auto& visit = scheduler.begin_visit(robot, time_from_seconds(at));
+    return visit ? visit->exhibit_id : "";
+  }
+  void finish(bool is_success, double at) { scheduler.finish_visit(is_success, "why", time_from_seconds(at)); }
+  [[nodiscard]] std::string state_of(const std::string& id) const {
+    const BoardEntry* entry = scheduler.state().board.find(id);
+    return entry == nullptr ? "" : to_text(entry->status);
+  }
+  /// Serves everything, each visit a minute; returns the exhibits in order.
+  std::vector<std::string> serve_all(double at) {
+    std::vector<std::string> order;
+    Point2 robot{0, 0};
+    for (int i = 0; i < 100; ++i) {
+      const std::string exhibit = next(at, robot);
+      if (exhibit.empty()) break;
+      order.push_back(exhibit);
+      robot = scheduler.programme().find_exhibit(exhibit)->pose.position();
+      at += 60.0;
+      finish(true, at);
+    }
+    return order;
+  }
+
+  Conditions conditions;
+  SchedulerParams params;
+  TourScheduler scheduler{params, programme_on_a_line(), straight_distance(), {}, {}};
+};
+
+TEST_F(Scheduling, TakesTheShortestWayThroughTheQueue) {
+  for (const char* exhibit : {"e5", "e1", "e3"}) wish(exhibit, "exhibit", exhibit, 0);
+  EXPECT_EQ(scheduler.agenda({0, 0}, {}), (std::vector<std::string>{"e1", "e3", "e5"}));
+  EXPECT_EQ(serve_all(1), (std::vector<std::string>{"e1", "e3", "e5"}));
+}
+
+// [RHINO1999] Figs. 21 and 22: 1 and 12 are ordered, 5 comes in while 1 is explained, and is visited before 12.
+TEST_F(Scheduling, PlansAnewWhenARequestComesIn) {
+  wish("a", "exhibit", "e1", 0);
+  wish("b", "exhibit", "e5", 0);
+  EXPECT_EQ(next(1), "e1");
+  wish("c", "exhibit", "e3", 10);
+  finish(true, 30);
+  EXPECT_EQ(next(30, {4, 0}), "e3");
+}
+
+TEST_F(Scheduling, NobodyStarves) {
+  wish("far", "exhibit", "e5", 0);
+  double at = 0.0;
+  int visits = 0;
+  while (state_of("far") != "fulfilled" && visits < 100) {  // someone always wishes for what is near
+    wish("near" + std::to_string(visits), "exhibit", visits % 2 == 0 ? "e1" : "e2", at);
+    ASSERT_NE(next(at), "");
+    at += 60.0;
+    finish(true, at);
+    ++visits;
+  }
+  EXPECT_EQ(state_of("far"), "fulfilled");
+  EXPECT_LE(at, params.overdue_s + 180.0);
+}
+
+TEST_F(Scheduling, MergesRequestsForOneExhibitAndKeepsTheirStates) {
+  wish("a", "exhibit", "e2", 0, "de", 1);
+  wish("b", "exhibit", "e2", 1, "en", 0);
+  EXPECT_EQ(next(2), "e2");
+  EXPECT_EQ(scheduler.state().visit->language, "de");
+  EXPECT_EQ(scheduler.state().visit->map_from_base.y, -1.0);
+  wish("c", "exhibit", "e2", 3);
+  EXPECT_EQ(state_of("c"), "active");
+  scheduler.close_visit();
+  wish("d", "exhibit", "e2", 4);
+  EXPECT_EQ(state_of("d"), "queued") << "it would miss the beginning";
+  wish("x", "cancel", "b", 5);
+  finish(true, 30);
+  EXPECT_EQ(state_of("a"), "fulfilled");
+  EXPECT_EQ(state_of("b"), "cancelled");
+  EXPECT_EQ(state_of("c"), "fulfilled");
+  EXPECT_EQ(scheduler.state().counters.requests_served, 2U);
+  EXPECT_EQ(scheduler.state().counters.exhibits_explained, 1U);
+  EXPECT_EQ(next(31), "e2");
+}
+
+TEST_F(Scheduling, AKnownIdChangesNothing) {
+  wish("a", "exhibit", "e1", 0);
+  const auto revision = scheduler.state().board.revision();
+  wish("a", "exhibit", "e1", 1);
+  wish("a", "tour", "t", 2);
+  EXPECT_EQ(scheduler.state().board.revision(), revision);
+  EXPECT_EQ(scheduler.state().board.entries().size(), 1U);
+}
+
+TEST_F(Scheduling, AFailedVisitIsTriedAgainBehindTheOthers) {
+  wish("a", "exhibit", "e1", 0);
+  wish("b", "exhibit", "e5", 0);
+  EXPECT_EQ(next(1), "e1");
+  finish(false, 60);
+  EXPECT_EQ(state_of("a"), "queued");
+  EXPECT_NE(scheduler.state().board.find("a")->reason, "");
+  EXPECT_EQ(next(61), "e5");
+  finish(true, 90);
+  EXPECT_EQ(next(91), "") << "not before the delay is over";
+  for (int attempt = 2; attempt <= params.max_attempts; ++attempt) {
+    const double at = 60.0 + attempt * (params.retry_delay_s + 1.0);
+    EXPECT_EQ(next(at), "e1");
+    finish(false, at);
+  }
+  EXPECT_EQ(state_of("a"), "failed");
+  EXPECT_EQ(scheduler.state().board.find("a")->reason, "why");
+  EXPECT_EQ(next(1000), "");
+}
+
+TEST_F(Scheduling, ATourKeepsItsOrderAndServesSinglesOnTheWay) {
+  wish("tour", "tour", "t", 0);
+  wish("same", "exhibit", "e3", 1);   // a stop of the tour
+  wish("close", "exhibit", "e2", 2);  // no detour between e1 and e3
+  EXPECT_EQ(serve_all(3), (std::vector<std::string>{"e1", "e2", "e3", "e5"}));
+  for (const char* id : {"tour", "same", "close"}) EXPECT_EQ(state_of(id), "fulfilled") << id;
+  EXPECT_EQ(scheduler.state().counters.tours_completed, 1U);
+}
+
+TEST_F(Scheduling, ATourMakesNoLongDetours) {
+  params.max_detour_m = 1.0;
+  TourScheduler strict{params, programme_on_a_line(), straight_distance(), {}, {}};
+  strict.submit({"tour", {}, "web", "", "tour", "two", -1, "en"}, conditions, {});
+  strict.submit({"far", {}, "web", "", "exhibit", "e5", -1, "en"}, conditions, {});
+  EXPECT_EQ(strict.begin_visit({6, 0}, {})->exhibit_id, "e2");
+}
+
+TEST_F(Scheduling, TheSameTourIsGivenOnceToAllWhoWait) {
+  wish("a", "tour", "t", 0);
+  wish("b", "tour", "t", 0);
+  EXPECT_EQ(next(1), "e1");
+  wish("late", "tour", "t", 2);
+  finish(true, 60);
+  EXPECT_EQ(serve_all(61), (std::vector<std::string>{"e3", "e5", "e1", "e3", "e5"}));
+  EXPECT_EQ(scheduler.state().counters.tours_completed, 2U);
+  EXPECT_EQ(state_of("late"), "fulfilled");
+}
+
+TEST_F(Scheduling, ATourMaySkipOneStopButNotTwo) {
+  for (const int bad_stops : {1, 2}) {
+    TourScheduler tour{params, programme_on_a_line(), straight_distance(), {}, {}};
+    tour.submit({"a", {}, "web", "", "tour", "t", -1, "en"}, conditions, {});
+    std::vector<std::string> told;
+    double at = 0.0;
+    while (const auto visit = tour.begin_visit({0, 0}, time_from_seconds(at))) {
+      const bool is_bad = visit->exhibit_id == "e1" || (bad_stops == 2 && visit->exhibit_id == "e3");
+      if (!is_bad) told.push_back(visit->exhibit_id);
+      at += 60.0;
+      tour.finish_visit(!is_bad, "why", time_from_seconds(at));
+      ASSERT_LT(at, 3600.0);
+    }
+    EXPECT_EQ(told.back(), "e5") << "the rest is shown all the same";
+    EXPECT_EQ(tour.state().board.find("a")->status, bad_stops == 1 ? RequestStatus::fulfilled : RequestStatus::failed);
+    EXPECT_NE(tour.state().board.find("a")->reason.find("e1"), std::string::npos);
+  }
+}
+
+TEST_F(Scheduling, ACancelledTourEndsAfterThePresentStop) {
+  wish("a", "tour", "t", 0);
+  EXPECT_EQ(next(1), "e1");
+  wish("x", "cancel", "a", 2);
+  EXPECT_EQ(state_of("a"), "cancelled");
+  EXPECT_TRUE(scheduler.is_visit_unwanted());
+  scheduler.drop_visit(time_from_seconds(3));
+  EXPECT_EQ(next(4), "");
+}
+
+TEST_F(Scheduling, RefusesWithReasons) {
+  const auto reason = [&](VisitorRequest request, const Conditions& now) {
+    scheduler.submit(request, now, {});
+    EXPECT_EQ(state_of(request.id), "refused") << request.id;
+    return scheduler.state().board.find(request.id)->reason;
+  };
+  EXPECT_NE(reason({"1", {}, "web", "", "exhibit", "e9", -1, ""}, {}).find("e9"), std::string::npos);
+  EXPECT_NE(reason({"2", {}, "kiosk", "", "exhibit", "e6", -1, ""}, {}).find("Web"), std::string::npos);
+  EXPECT_NE(reason({"3", {}, "web", "", "exhibit", "e1", -1, ""}, {false, "open", false}).find("closed"),
+            std::string::npos);
+  EXPECT_NE(reason({"4", {}, "kiosk", "", "exhibit", "e1", -1, ""}, {true, "web", false}).find("Web"),
+            std::string::npos);
+  EXPECT_NE(reason({"5", {}, "web", "", "exhibit", "e1", -1, ""}, {true, "open", true}).find("battery"),
+            std::string::npos);
+  EXPECT_NE(reason({"6", {}, "web", "", "exhibit", "e2", 7, ""}, {}).find("viewpoint"), std::string::npos);
+  for (int i = 0; i < params.max_open; ++i) wish("q" + std::to_string(i), "exhibit", "e1", 0);
+  EXPECT_NE(reason({"7", {}, "web", "", "exhibit", "e1", -1, ""}, {}).find("waiting"), std::string::npos);
+}
+
+TEST_F(Scheduling, FailsWhatTheMuseumNoLongerHas) {
+  wish("a", "exhibit", "e1", 0);
+  wish("b", "tour", "t", 0);
+  wish("c", "exhibit", "e2", 0);
+  EXPECT_EQ(next(1), "e1");
+  Programme smaller = programme_on_a_line();
+  smaller.exhibits.erase(smaller.exhibits.begin());
+  smaller.tours.clear();
+  TourScheduler later{params, smaller, straight_distance(), scheduler.state(), time_from_seconds(9)};
+  EXPECT_EQ(later.state().board.find("a")->status, RequestStatus::failed);
+  EXPECT_EQ(later.state().board.find("b")->status, RequestStatus::failed);
+  EXPECT_FALSE(later.state().visit);
+  EXPECT_EQ(later.begin_visit({0, 0}, time_from_seconds(10))->exhibit_id, "e2");
+}
+
+TEST(Composition, FillsTheTimeWithWhatIsNear) {
+  const Programme programme = programme_on_a_line();
+  SchedulerParams params;
+  params.cruise_speed = 0.4;
+  params.stop_overhead_s = 10.0;  // each stop: 10 s drive + 20 s speech + 10 s
+  const auto two_minutes = compose_tour(programme, {0, 0}, 120.0, straight_distance(), params);
+  EXPECT_EQ(two_minutes, (std::vector<std::string>{"e1", "e2", "e3"}));
+  EXPECT_EQ(compose_tour(programme, {0, 0}, 1.0, straight_distance(), params).size(), 1U) << "never empty";
+  EXPECT_EQ(compose_tour(programme, {0, 0}, 1e6, straight_distance(), params).size(), 5U) << "all but the Web's own";
+}
+
+/// Whatever comes in, in whatever order: every request ends, counted once, and the board never breaks its rules.
+TEST(SchedulerLaws, EveryRequestEnds) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    Rng rng{seed};
+    SchedulerParams params;
+    auto scheduler =
+        std::make_unique<TourScheduler>(params, programme_on_a_line(), straight_distance(), SchedulerState{}, Time{});
+    Conditions conditions;
+    int made = 0;
+    double at = 0.0;
+    for (int step = 0; step < 300; ++step) {
+      at += rng.uniform(0.0, 60.0);
+      const Time now = time_from_seconds(at);
+      if (step < 150 && rng.chance(0.4)) {
+        const double kind = rng.uniform();
+        VisitorRequest request{"r" + std::to_string(made++),
+                               now,
+                               rng.chance(0.5) ? "web" : "visitor",
+                               "",
+                               "exhibit",
+                               "e" + std::to_string(rng.integer(1, 7)),
+                               -1,
+                               "en"};
+        if (kind < 0.2) {
+          request.kind = "tour";
+          request.target = rng.chance(0.5) ? "t" : "quick";
+        } else if (kind < 0.3) {
+          request.kind = "cancel";
+          request.target = "r" + std::to_string(rng.integer(0, made));
+        }
+        scheduler->submit(request, conditions, now);
+      }
+      if (scheduler->is_visit_unwanted()) scheduler->drop_visit(now);
+      if (rng.chance(0.1)) {  // a restart: everything that counts is in the state
+        scheduler = std::make_unique<TourScheduler>(params, programme_on_a_line(), straight_distance(),
+                                                    SchedulerState{scheduler->state()}, now);
+      }
+      if (!scheduler->state().visit) {
+        (void)scheduler->begin_visit({rng.uniform(0, 24), 0}, now);
+      } else {
+        if (rng.chance(0.5)) scheduler->close_visit();
+        if (rng.chance(0.6)) scheduler->finish_visit(rng.chance(0.8), "why", now);
+      }
+    }
+    std::uint32_t served = 0;
+    for (const BoardEntry& entry : scheduler->state().board.entries()) {
+      EXPECT_FALSE(is_open(entry.status)) << "seed " << seed << ' ' << entry.request.id;
+      if (entry.status == RequestStatus::fulfilled && entry.request.kind != "cancel") ++served;
+      if (entry.status == RequestStatus::failed || entry.status == RequestStatus::refused) {
+        EXPECT_FALSE(entry.reason.empty());
+      }
+    }
+    EXPECT_EQ(scheduler->state().counters.requests_served, served) << "seed " << seed;
+    EXPECT_EQ(scheduler->state().board.entries().size(), static_cast<std::size_t>(made)) << "seed " << seed;
+  }
+}
+
+}  // namespace
+}  // namespace docent

@@ -1,0 +1,145 @@
+// What the browser tests share: Chromium, processes that surely end, and a count of what passed.
+import { spawn } from 'node:child_process';
+import { mkdtempSync, mkdirSync, rmSync, existsSync } from 'node:fs';
+import { createServer } from 'node:net';
+import { tmpdir } from 'node:os';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { chromium } from 'playwright-core';
+
+export const root = join(dirname(fileURLToPath(import.meta.url)), '..', '..');
+export const build = process.env.DOCENT_BUILD ?? join(root, 'build', 'dev');
+export const pictures = process.env.DOCENT_SCREENSHOTS ?? join(build, 'screenshots');
+mkdirSync(pictures, { recursive: true });
+
+const clean = [];
+export const onEnd = (action) => clean.push(action);
+
+export function temporaryFolder(name) {
+  const folder = mkdtempSync(join(tmpdir(), `docent-${name}-`));
+  onEnd(() => rmSync(folder, { recursive: true, force: true, maxRetries: 5, retryDelay: 200 }));
+  return folder;
+}
+
+/** A port on which nobody listens now. Give `first` and `last` where a range must be kept to. */
+export async function freePort() {
+  return new Promise((resolve, reject) => {
+    const server = createServer();
+    server.once('error', reject);
+    server.listen(0, '127.0.0.1', () => {
+      const { port } = server.address();
+      server.close(() => resolve(port));
+    });
+  });
+}
+
+/** A child process with what it said; it is ended with the tests whatever happens. */
+export function start(command, words, options = {}) {
+  const child = spawn(command, words, { stdio: ['ignore', 'pipe', 'pipe'], ...options });
+  const process_ = { child, output: '', code: null };
+  child.stdout.on('data', (text) => (process_.output += text));
+  child.stderr.on('data', (text) => (process_.output += text));
+  process_.ended = new Promise((resolve) => {
+    child.once('error', (error) => {
+      process_.output += String(error);
+      resolve(-1);
+    });
+    child.once('exit', (code) => {
+      process_.code = code;
+      resolve(code);
+    });
+  });
+  process_.stop = async (signal = 'SIGTERM') => {
+    if (child.exitCode === null && child.signalCode === null) {
+      child.kill(signal);
+      const timer = setTimeout(() => child.kill('SIGKILL'), 10000);
+      await process_.ended;
+      clearTimeout(timer);
+    }
+  };
+  onEnd(() => process_.stop());
+  return process_;
+}
+
+export const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+
+export async function until(what, condition, patience = 15000, step = 100) {
+  const end = Date.now() + patience;
+  for (;;) {
+    const value = await condition();
+    if (value) return value;
+    if (Date.now() > end) throw new Error(`${what}: not within ${patience / 1000} s`);
+    await pause(step);
+  }
+}
+
+export async function answers(url, patience = 20000) {
+  await until(`${url} answers`, async () => {
+    try {
+      return (await fetch(url)).ok;
+    } catch {
+      return false;
+    }
+  }, patience);
+}
+
+/** A new browser with an empty profile. Every complaint of a page lands in `complaints`. */
+export async function browse(options = {}) {
+  const executablePath = process.env.CHROMIUM ?? ['/usr/bin/chromium', '/usr/bin/chromium-browser'].find(existsSync);
+  const context = await chromium.launchPersistentContext(temporaryFolder('profile'), {
+    executablePath,
+    headless: true,
+    args: [
+      '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
+      '--disable-component-update', '--disable-sync', '--autoplay-policy=no-user-gesture-required', '--mute-audio',
+    ],
+    viewport: { width: 1280, height: 800 },
+    locale: 'en-US',
+    ...options,
+  });
+  onEnd(() => context.close());
+  const complaints = [];
+  const hosts = new Set();
+  context.on('page', watch);
+  function watch(page) {
+    page.on('console', (message) => {
+      if (message.type() === 'error') complaints.push(message.text());
+    });
+    page.on('pageerror', (error) => complaints.push(error.message));
+    page.on('request', (request) => {
+      if (/^(https?|wss?):/.test(request.url())) hosts.add(new URL(request.url()).host);
+    });
+  }
+  context.pages().forEach(watch);
+  return { context, complaints, hosts, page: context.pages()[0] ?? (await context.newPage()) };
+}
+
+let passed = 0;
+let failed = 0;
+export async function check(name, action) {
+  const begin = Date.now();
+  try {
+    await action();
+    ++passed;
+    console.log(`ok      ${name} (${((Date.now() - begin) / 1000).toFixed(1)} s)`);
+  } catch (error) {
+    ++failed;
+    console.log(`FAILED  ${name}: ${error.message.split('\n').slice(0, 6).join('\n        ')}`);
+  }
+}
+export function ensure(condition, what) {
+  if (!condition) throw new Error(what);
+}
+
+/** Ends everything that was begun, prints the count, exits. */
+export async function finish() {
+  for (const action of clean.reverse()) {
+    try {
+      await action();
+    } catch {
+      // it is gone already
+    }
+  }
+  console.log(`${passed} passed, ${failed} failed`);
+  process.exit(failed > 0 || passed === 0 ? 1 : 0);
+}
