@@ -41,7 +41,9 @@ class Replay : public testing::Test {
     const auto museum = load_museum(museum_folder());
     if (!museum) return tl::unexpected<Error>(museum.error());
     RobotConfig config;
-    if (!setting.empty()) EXPECT_TRUE(config.set(setting));
+    if (!setting.empty()) {
+      if (auto set = config.set(setting); !set) return tl::unexpected<Error>(set.error());
+    }
     ReplayOptions options;
     options.recording = recording();
     options.modules = modules;
