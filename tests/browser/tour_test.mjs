@@ -11,7 +11,7 @@ const domain = process.env.DOCENT_TEST_DOMAIN ?? '60';
 const url = `http://127.0.0.1:${port}/`;
 const folder = temporaryFolder('tour');
 const file = join(folder, 'tour.mcap');
-const docent = join(build, 'src', 'docent', 'apps', 'docent');
+const docent = join(build, 'bin', 'docent');
 
 const robot = start(docent, [
   'up', '--sim', '--museum', join(root, 'museums', 'bonn'), '--crowd', 'quiet', '--port', port, '--domain', domain,
