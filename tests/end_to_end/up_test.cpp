@@ -152,6 +152,7 @@ TEST(Up, BadInputIsOneLineBeforeAnythingStarts) {
   const std::string type = folder.write("type.yaml", "body:\n  radius: wide\n");
   const std::string syntax = folder.write("syntax.yaml", "body: [1, 2\nplan: }\n");
   const std::string list = folder.write("list.yaml", "- 1\n- 2\n");
+  const std::string scenario = folder.write("scenario.yaml", "events:\n  - at: 3\n    dance: {}\n");
   const std::string file = folder.write("file", "");
   const std::string broken = folder.write("museum.yaml", "name: {en: \"Broken\"\nmap: 3\n");
   for (const auto& bad : std::vector<BadInput>{
@@ -173,6 +174,11 @@ TEST(Up, BadInputIsOneLineBeforeAnythingStarts) {
            {"state is a file", with({"--state", file}), "--state"},
            {"state cannot be made", with({"--state", "/proc/docent"}), "--state /proc/docent: "},
            {"recording into nothing", with({"--record", "/nowhere/a.mcap"}), "--record: no folder /nowhere"},
+           {"start that is no pose", with({"--sim", "--start", "1,2"}), "--start"},
+           {"start in the street", with({"--sim", "--start", "1000,1000,0"}), "outside the robot's area"},
+           {"no scenario", with({"--sim", "--scenario", "/nowhere.yaml"}), "/nowhere.yaml"},
+           {"unknown event", with({"--sim", "--scenario", scenario}), "scenario.yaml:3: "},
+           {"unknown mode", with({"--mode", "upside-down"}), "--mode upside-down"},
            {"unknown crowd", with({"--crowd", "enormous"}), "--crowd"},
            {"unknown option", with({"--fly"}), "--fly"},
            {"unknown module", {"run", "nothing"}, "no module 'nothing'"},

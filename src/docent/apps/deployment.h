@@ -42,6 +42,11 @@ struct Deployment {
 /// $XDG_STATE_HOME/docent, else ~/.local/state/docent.
 [[nodiscard]] std::string default_state();
 
+/// What the vector code dispatches to here: avx512, avx2 or scalar.
+[[nodiscard]] const char* simd_of_this_cpu();
+/// How the robot is crippled by its settings, if it is (architecture 10.17); else empty.
+[[nodiscard]] std::string crippled_by(const std::vector<std::string>& settings);
+
 /// Blocks SIGTERM, SIGINT and SIGHUP in this thread and those that it starts: they are waited for instead.
 void block_end_signals();
 /// Waits for one of them. @param timeout_s  < 0: as long as it takes

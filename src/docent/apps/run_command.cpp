@@ -9,6 +9,7 @@
 
 #include "docent/apps/command.h"
 #include "docent/apps/deployment.h"
+#include "docent/apps/simulator_process.h"
 #include "docent/apps/supervisor.h"
 #include "docent/modules/module_host.h"
 #include "docent/transport/dds_bus.h"
@@ -18,13 +19,14 @@ namespace {
 
 struct Options {
   Deployment deployment;
+  SimulatorOptions simulator;
   std::string module;
 };
 
 std::string module_names() {
   std::string names;
-  for (const auto& entry : all_modules()) names += (names.empty() ? "" : ", ") + std::string{entry.name};
-  return names;
+  for (const auto& entry : all_modules()) names += std::string{entry.name} + ", ";
+  return names + kSimulatorProcess;
 }
 
 std::unique_ptr<DdsBus> join(const Deployment& deployment, int domain) {
@@ -33,6 +35,9 @@ std::unique_ptr<DdsBus> join(const Deployment& deployment, int domain) {
 }
 
 void run(const Options& options) {
+  if (options.module == kSimulatorProcess) {
+    return value_or_fail(run_simulator(options.deployment, options.simulator), kExitBadConfiguration);
+  }
   const ModuleEntry* entry = find_module(options.module);
   if (entry == nullptr) {
     throw CommandFailed{"no module '" + options.module + "'; there are " + module_names(), kExitBadConfiguration};
@@ -62,6 +67,7 @@ void add_run_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("run", "Run one module as a process; modules may live on several computers");
   command->add_option("module", options->module, module_names())->required();
   options->deployment.add_options(*command);
+  options->simulator.add_options(*command->add_option_group("For the simulator"));
   command->callback([options] { run(*options); });
 }
 

@@ -37,22 +37,6 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-const char* simd_of_this_cpu() {
-  if (__builtin_cpu_supports("avx512bw") != 0) return "avx512";
-  if (__builtin_cpu_supports("avx2") != 0) return "avx2";
-  return "scalar";
-}
-
-/// How the robot is crippled, if it is (architecture 10.17).
-std::string crippled_by(const std::vector<std::string>& settings) {
-  for (const char* way : {"avoid.blind_to_people", "localize.dead_reckoning", "hazards.best_pose_only"}) {
-    for (const auto& setting : settings) {
-      if (setting == std::string{way} + "=true") return way;
-    }
-  }
-  return "";
-}
-
 }  // namespace
 
 class SimulationRun::Parts {

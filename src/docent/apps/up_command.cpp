@@ -16,6 +16,7 @@
 
 #include "docent/apps/command.h"
 #include "docent/apps/deployment.h"
+#include "docent/apps/simulator_process.h"
 #include "docent/apps/status_display.h"
 #include "docent/apps/supervisor.h"
 #include "docent/modules/registry.h"
@@ -33,8 +34,7 @@ struct Options {
   bool simulate = false;
   int port = 8080;
   std::string record;
-  std::string crowd = "busy";
-  std::string start;
+  SimulatorOptions simulator;
 };
 
 Result<void> check_port(int port) {
@@ -68,16 +68,29 @@ bool may_raise_priority() {
   return true;
 }
 
+/// Mode and speed limit, as the museum's staff would set them in the morning.
+Result<docent_msgs::Limits> limits_of(const Options& options, const Museum& museum, const RobotConfig& config) {
+  docent_msgs::Limits limits;
+  limits.mode = options.simulator.mode;
+  limits.max_speed = config.body().max_speed;
+  const auto mode = museum.modes.find(limits.mode);
+  if (mode != museum.modes.end()) {
+    limits.max_speed = std::min(limits.max_speed, mode->second.max_speed);
+  } else if (limits.mode != "open") {
+    return fail("--mode " + limits.mode + ": the museum has no such mode");
+  }
+  return limits;
+}
+
 /// Everything that can be known to be wrong before a process is started.
-void check(const Options& options) {
+docent_msgs::Limits check(const Options& options) {
   const Museum museum = value_or_fail(options.deployment.load());
   const RobotConfig config = value_or_fail(options.deployment.load_config());
   std::vector<std::string> sections;
   for (const auto& entry : all_modules()) sections.emplace_back(entry.name);
   value_or_fail(config.check_sections(sections));
-  if (options.simulate && !museum.simulation_path) {
-    throw CommandFailed{"--sim: " + options.deployment.museum + " has no simulation"};
-  }
+  if (options.simulate) value_or_fail(check_simulator(options.deployment, options.simulator));
+  docent_msgs::Limits limits = value_or_fail(limits_of(options, museum, config));
   if (!options.record.empty()) {
     const auto folder = std::filesystem::absolute(options.record).parent_path();
     if (!std::filesystem::is_directory(folder)) throw CommandFailed{"--record: no folder " + folder.string()};
@@ -85,6 +98,7 @@ void check(const Options& options) {
   value_or_fail(check_port(options.port));
   value_or_fail(options.deployment.prepare_state());
   value_or_fail(lock_state(options.deployment.state));
+  return limits;
 }
 
 std::vector<ChildSpec> children_of(const Options& options) {
@@ -104,10 +118,10 @@ std::vector<ChildSpec> children_of(const Options& options) {
   // Where nobody may be put in front, the others step back.
   const bool may_raise = may_raise_priority();
   if (options.simulate) {
-    auto words = command("sim");
-    words.insert(words.end(), {"--crowd", options.crowd});
-    if (!options.start.empty()) words.insert(words.end(), {"--start", options.start});
-    children.push_back({"sim", std::move(words), may_raise ? 0 : -kUrgent, false});
+    auto words = command(kSimulatorProcess);
+    const auto more = options.simulator.arguments();
+    words.insert(words.end(), more.begin(), more.end());
+    children.push_back({kSimulatorProcess, std::move(words), may_raise ? 0 : -kUrgent, false});
   }
   for (const auto& entry : all_modules()) {
     if (std::string{"record"} == entry.name && options.record.empty()) continue;
@@ -118,13 +132,14 @@ std::vector<ChildSpec> children_of(const Options& options) {
 }
 
 void up(const Options& options) {
-  check(options);
+  const docent_msgs::Limits limits = check(options);
   block_end_signals();
   StatusDisplay display{isatty(STDOUT_FILENO) == 1};
   const auto log = [&](const std::string& name, const std::string& line) { display.log(name, line); };
   const auto bus = value_or_fail(DdsBus::create(
       {options.deployment.domain, options.deployment.name, [&](const std::string& text) { log("bus", text); }}));
   Supervisor supervisor{children_of(options), log};
+  bus->publisher(topics::kLimits).publish(limits);
   bool is_announced = false;
   bus->subscribe<docent_msgs::Health>(topics::kHealth, [&](const docent_msgs::Health& health) {
     supervisor.heard(health.module, health.pid, health.state, health.reason);
@@ -159,10 +174,7 @@ void add_up_command(CLI::App& app) {
   command->add_flag("--sim", options->simulate, "Simulate the museum, its visitors and the robot's body");
   command->add_option("--port", options->port, "Port of the page")->check(CLI::Range(1, 65535))->capture_default_str();
   command->add_option("--record", options->record, "MCAP file to write");
-  command->add_option("--crowd", options->crowd, "With --sim")
-      ->check(CLI::IsMember({"empty", "quiet", "busy", "packed"}))
-      ->capture_default_str();
-  command->add_option("--start", options->start, "With --sim: X,Y,DEG; without it somewhere");
+  options->simulator.add_options(*command->add_option_group("With --sim"));
   command->callback([options] { up(*options); });
 }
 
