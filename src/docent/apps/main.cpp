@@ -7,6 +7,7 @@
 #include "docent/apps/evaluate_command.h"
 #include "docent/apps/localize_command.h"
 #include "docent/apps/plan_command.h"
+#include "docent/apps/replay_command.h"
 #include "docent/apps/run_command.h"
 #include "docent/apps/simulate_command.h"
 #include "docent/apps/survey_command.h"
@@ -20,6 +21,7 @@ int main(int argc, char** argv) {
   docent::add_evaluate_command(app);
   docent::add_localize_command(app);
   docent::add_plan_command(app);
+  docent::add_replay_command(app);
   docent::add_run_command(app);
   docent::add_simulate_command(app);
   docent::add_survey_command(app);

@@ -10,7 +10,10 @@ namespace docent {
 class VirtualTimeHub::Node final : public Bus {
  public:
   Node(VirtualTimeHub& hub, std::string name)
-      : hub_{hub}, cost_{hub.costs_[std::move(name)]}, self_{std::make_shared<Node*>(this)} {}
+      : hub_{hub},
+        published_{hub.published_[name]},
+        cost_{hub.costs_[std::move(name)]},
+        self_{std::make_shared<Node*>(this)} {}
   ~Node() override {
     self_.reset();
     for (auto& [name, state] : hub_.topics_) {
@@ -49,6 +52,7 @@ class VirtualTimeHub::Node final : public Bus {
  protected:
   int add_publisher(const TopicInfo& info) override {
     publishers_.push_back(&hub_.topic(info));
+    published_.insert(info.name);
     return static_cast<int>(publishers_.size()) - 1;
   }
   void publish(int publisher, std::shared_ptr<const void> message) override {
@@ -70,6 +74,7 @@ class VirtualTimeHub::Node final : public Bus {
   }
 
   VirtualTimeHub& hub_;
+  std::set<std::string>& published_;
   Cost& cost_;
   std::shared_ptr<Node*> self_;
   std::vector<TopicState*> publishers_;
@@ -77,6 +82,11 @@ class VirtualTimeHub::Node final : public Bus {
 
 std::unique_ptr<Bus> VirtualTimeHub::connect(std::string name) {
   return std::make_unique<Node>(*this, std::move(name));
+}
+
+std::set<std::string> VirtualTimeHub::topics_published_by(std::string_view name) const {
+  const auto found = published_.find(name);
+  return found == published_.end() ? std::set<std::string>{} : found->second;
 }
 
 void VirtualTimeHub::run_until(Time end) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <queue>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,6 +33,9 @@ class VirtualTimeHub {
   /// Runs everything due up to and at `end`; then now() == end.
   void run_until(Time end);
   void tap(Tap tap) { taps_.push_back(std::move(tap)); }
+
+  /// Topics that the modules of this name have made publishers for so far: what a replay leaves to them.
+  [[nodiscard]] std::set<std::string> topics_published_by(std::string_view name) const;
 
   /// Wall-clock cost of the handlers of each module so far.
   struct Cost {
@@ -70,6 +74,7 @@ class VirtualTimeHub {
   std::map<std::string, TopicState, std::less<>> topics_;
   std::vector<Tap> taps_;
   std::map<std::string, Cost, std::less<>> costs_;
+  std::map<std::string, std::set<std::string>, std::less<>> published_;
   std::mutex posts_mutex_;
   std::vector<std::pair<std::weak_ptr<Node*>, std::function<void()>>> posts_;
 };

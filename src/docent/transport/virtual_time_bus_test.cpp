@@ -60,5 +60,18 @@ TEST(VirtualTimeBus, TimersKeepTheirBeat) {
   EXPECT_EQ(times, (std::vector<double>{0.25, 0.5, 0.75, 1.0}));
 }
 
+TEST(VirtualTimeHub, KnowsWhoPublishesWhat) {
+  VirtualTimeHub hub;
+  auto plan = hub.connect("plan");
+  auto avoid = hub.connect("avoid");
+  (void)plan->publisher(topics::kTarget);
+  (void)plan->publisher(topics::kHorn);
+  (void)avoid->publisher(topics::kDrive);
+  avoid->subscribe<docent_msgs::Target>(topics::kTarget, [](const auto&) {});
+  EXPECT_EQ(hub.topics_published_by("plan"), (std::set<std::string>{"docent/target", "docent/horn"}));
+  EXPECT_EQ(hub.topics_published_by("avoid"), (std::set<std::string>{"docent/drive"}));
+  EXPECT_TRUE(hub.topics_published_by("nobody").empty());
+}
+
 }  // namespace
 }  // namespace docent

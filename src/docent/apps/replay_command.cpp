@@ -1,0 +1,90 @@
+#include "docent/apps/replay_command.h"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "docent/apps/command.h"
+#include "docent/apps/deployment.h"
+#include "docent/apps/replay_run.h"
+#include "docent/base/files.h"
+
+namespace docent {
+namespace {
+
+struct Options {
+  ReplayOptions replay;
+  Deployment deployment;
+  std::string report;
+  bool check = false;
+};
+
+/// --museum, else the one that the recording names, beside the default one.
+std::string museum_folder(const Options& options) {
+  if (!options.deployment.museum.empty()) return options.deployment.museum;
+  const std::string name = value_or_fail(museum_of_recording(options.replay.recording));
+  const std::filesystem::path known = default_museum();
+  if (name.empty()) return known.string();
+  const auto folder = known.parent_path() / std::filesystem::path{name}.filename();
+  if (!std::filesystem::exists(folder))
+    throw CommandFailed{
+        options.replay.recording + ": was made in the museum '" + name + "': give its folder by --museum", 2};
+  return folder.string();
+}
+
+void replay_recording(Options& options) {
+  options.deployment.museum = museum_folder(options);
+  const Museum museum = value_or_fail(options.deployment.load());
+  const RobotConfig config = value_or_fail(options.deployment.load_config());
+  const bool shows_progress = isatty(STDERR_FILENO) != 0;
+  if (shows_progress) options.replay.progress = [](double share) { std::fprintf(stderr, "\r%3.0f %%", 100.0 * share); };
+  options.replay.seed = options.deployment.seed;
+  const ReplayOutcome outcome = value_or_fail(replay(museum, config, options.replay));
+  if (shows_progress) std::fputc('\n', stderr);
+
+  const auto list = [](const char* title, const std::vector<std::string>& names) {
+    std::printf("%s", title);
+    for (const std::string& name : names) std::printf(" %s", name.c_str());
+    std::printf("\n");
+  };
+  std::printf("%.0f s replayed\n", outcome.seconds);
+  list("modules        ", outcome.modules);
+  list("from recording ", outcome.replayed_topics);
+  const std::string difference = first_difference(outcome.recorded, outcome.repeated);
+  for (const ReplayEvent& event : outcome.repeated)
+    std::printf("%9.1f s  %-20s %s\n", event.at_s, event.kind.c_str(), event.subject.c_str());
+  if (!outcome.recorded.empty() || !outcome.repeated.empty())
+    std::printf("mission events: %zu recorded, %zu now; %s\n", outcome.recorded.size(), outcome.repeated.size(),
+                difference.empty() ? "the same in the same order" : difference.c_str());
+  if (outcome.report) {
+    std::fputs(summary_table(*outcome.report, std::nullopt).c_str(), stdout);
+    if (!options.report.empty())
+      value_or_fail(write_file_atomically(options.report, to_json(*outcome.report, std::nullopt)));
+  } else if (!options.report.empty()) {
+    throw CommandFailed{options.replay.recording + ": holds no ground truth (/truth/state)"};
+  }
+  if (options.check && !difference.empty()) throw CommandFailed{"the mission events differ: " + difference};
+}
+
+}  // namespace
+
+void add_replay_command(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("replay", "Run modules again, in virtual time, on what was recorded");
+  command->add_option("recording", options->replay.recording, "MCAP file")->required();
+  command->add_option("--modules", options->replay.modules, "Which, separated by commas; without it all")
+      ->delimiter(',');
+  command->add_option("--museum", options->deployment.museum, "Folder of the museum; without it the recording's");
+  command->add_option("--robot", options->deployment.robot, "robot.yaml of the robot; without it all defaults");
+  command->add_option("--set", options->deployment.settings, "section.key=value, over robot.yaml; may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--seed", options->deployment.seed, "Seed of everything random")->capture_default_str();
+  command->add_option("--out", options->replay.out, "MCAP file to write: what happened this time");
+  command->add_option("--report", options->report, "JSON file to write: the deployment report of this time");
+  command->add_flag("--check", options->check, "Fail where the mission events are not those of the recording");
+  command->callback([options] { replay_recording(*options); });
+}
+
+}  // namespace docent

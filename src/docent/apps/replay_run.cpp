@@ -1,0 +1,248 @@
+#include "docent/apps/replay_run.h"
+
+#include <stdlib.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <set>
+
+#include "docent/evaluation/deployment_evaluator.h"
+#include "docent/modules/module_host.h"
+#include "docent/recording/recorder.h"
+#include "docent/transport/virtual_time_bus.h"
+
+namespace docent {
+namespace {
+
+constexpr Duration kAnswerWaits = std::chrono::seconds{20};
+
+/// A folder of its own that goes when the run goes.
+class TemporaryState {
+ public:
+  TemporaryState() {
+    std::string name = (std::filesystem::temp_directory_path() / "docent-replay-XXXXXX").string();
+    if (::mkdtemp(name.data()) != nullptr) path_ = name;
+  }
+  ~TemporaryState() {
+    std::error_code code;
+    if (!path_.empty()) std::filesystem::remove_all(path_, code);
+  }
+  TemporaryState(const TemporaryState&) = delete;
+  TemporaryState& operator=(const TemporaryState&) = delete;
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Publishes decoded messages of any topic.
+class Feeder {
+ public:
+  explicit Feeder(Bus& bus) {
+    const auto add = [this, &bus]<class T>(const Topic<T>& topic) {
+      publish_[topic.name] = [publisher = bus.publisher(topic)](const std::shared_ptr<const void>& message) {
+        publisher.publish(*static_cast<const T*>(message.get()));
+      };
+    };
+    for_each_robot_topic(add);
+    for_each_truth_topic(add);
+  }
+  void publish(const RecordedMessage& message) const { publish_.at(message.topic.name)(message.message); }
+
+ private:
+  std::map<std::string, std::function<void(const std::shared_ptr<const void>&)>, std::less<>> publish_;
+};
+
+/// Gives recorded answers to the questions of this run.
+class Answers {
+ public:
+  void recorded_state(const docent_msgs::MissionState& mission) {
+    if (!mission.prompt.id.empty()) exhibit_of_[mission.prompt.id] = mission.exhibit_id;
+  }
+  void recorded_choice(const docent_msgs::Choice& choice, Time now) { waiting_.push_back({choice, now}); }
+  void present_state(const docent_msgs::MissionState& mission) {
+    prompt_ = mission.prompt.id;
+    exhibit_ = mission.exhibit_id;
+  }
+  /// Answers that fit the question on show now.
+  [[nodiscard]] std::vector<docent_msgs::Choice> take(Time now) {
+    std::vector<docent_msgs::Choice> ready;
+    std::erase_if(waiting_, [&](Waiting& answer) {
+      if (now - answer.since > kAnswerWaits) return true;
+      const auto exhibit = exhibit_of_.find(answer.choice.prompt_id);
+      if (prompt_.empty() || exhibit == exhibit_of_.end() || exhibit->second != exhibit_) return false;
+      answer.choice.prompt_id = prompt_;
+      ready.push_back(std::move(answer.choice));
+      return true;
+    });
+    return ready;
+  }
+
+ private:
+  struct Waiting {
+    docent_msgs::Choice choice;
+    Time since;
+  };
+  std::map<std::string, std::string> exhibit_of_;  ///< recorded prompts
+  std::vector<Waiting> waiting_;
+  std::string prompt_;  ///< of this run, on show
+  std::string exhibit_;
+};
+
+struct Extent {
+  Time first{};
+  Time last{};
+  std::uint64_t messages = 0;
+};
+
+Result<Extent> extent_of(McapReader& reader) {
+  Extent extent;
+  const auto read = reader.read([&](const McapMessage& message) {
+    if (extent.messages++ == 0) extent.first = message.log_time;
+    extent.last = message.log_time;
+    return true;
+  });
+  if (!read) return tl::unexpected<Error>(read.error());
+  return extent;
+}
+
+Result<std::vector<const ModuleEntry*>> chosen_modules(const std::vector<std::string>& names) {
+  std::vector<const ModuleEntry*> chosen;
+  for (const std::string& name : names) {
+    if (find_module(name) == nullptr) return fail("--modules: no module '" + name + "'");
+    if (name == "record" || name == "web") return fail("--modules: " + name + " cannot be replayed");
+  }
+  for (const ModuleEntry& entry : all_modules()) {
+    const std::string name = entry.name;
+    if (name == "record" || name == "web") continue;
+    if (names.empty() || std::find(names.begin(), names.end(), name) != names.end()) chosen.push_back(&entry);
+  }
+  return chosen;
+}
+
+}  // namespace
+
+Result<ReplayOutcome> replay(const Museum& museum, const RobotConfig& config, const ReplayOptions& options) {
+  const auto chosen = chosen_modules(options.modules);
+  if (!chosen) return tl::unexpected<Error>(chosen.error());
+  auto reader = McapReader::open(options.recording);
+  if (!reader) return tl::unexpected<Error>(reader.error());
+  const auto extent = extent_of(*reader);
+  if (!extent) return tl::unexpected<Error>(extent.error());
+  if (extent->messages == 0) return fail(options.recording + ": holds no message");
+  std::optional<Recorder> recorder;
+  if (!options.out.empty()) {
+    auto made = Recorder::create(options.out);
+    if (!made) return tl::unexpected<Error>(made.error());
+    recorder.emplace(std::move(*made));
+  }
+
+  ReplayOutcome outcome;
+  outcome.seconds = to_seconds(extent->last - extent->first);
+  const TemporaryState state;
+  VirtualTimeHub hub;
+  hub.run_until(extent->first);
+  DeploymentEvaluator evaluator;
+  Result<void> failure;
+  std::set<std::string> theirs;  ///< topics of the chosen modules
+  std::set<std::string> chosen_names;
+  Answers answers;
+  const auto since_start = [&](Time time) { return to_seconds(time - extent->first); };
+  hub.tap([&](const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
+    evaluator.add(topic, time, message);
+    const std::string_view name = topic.name;
+    if (name == topics::kMissionState.name)
+      answers.present_state(*static_cast<const docent_msgs::MissionState*>(message.get()));
+    if (name == topics::kEvent.name && theirs.contains(topics::kEvent.name)) {
+      const auto& event = *static_cast<const docent_msgs::Event*>(message.get());
+      outcome.repeated.push_back({since_start(time), event.kind, event.subject});
+    }
+    if (recorder && failure) failure = recorder->write(topic, time, message);
+  });
+
+  std::vector<std::unique_ptr<ModuleHost>> hosts;
+  // Known only when the modules are made; what those publish at their start is theirs in any case.
+  theirs.insert(topics::kEvent.name);
+  for (const ModuleEntry* entry : *chosen) {
+    ModuleHost::Options host_options;
+    host_options.state = state.path();
+    host_options.seed = options.seed;
+    host_options.virtual_time = true;
+    auto host = ModuleHost::create(*entry, hub.connect(entry->name), museum, config, host_options);
+    if (!host) return tl::unexpected<Error>(host.error());
+    hosts.push_back(std::move(*host));
+    chosen_names.insert(entry->name);
+    outcome.modules.emplace_back(entry->name);
+  }
+  theirs.clear();
+  for (const std::string& name : chosen_names) theirs.merge(hub.topics_published_by(name));
+  if (!theirs.contains(topics::kEvent.name)) outcome.repeated.clear();
+
+  const auto feeder_bus = hub.connect("recording");
+  const Feeder feeder{*feeder_bus};
+  const auto choices = feeder_bus->publisher(topics::kChoice);
+  const bool translates = theirs.contains(topics::kMissionState.name);
+  std::set<std::string> fed;
+  double shown = 0.0;
+  const auto read = read_recording(*reader, {}, [&](const RecordedMessage& message) {
+    hub.run_until(message.time);
+    if (!failure) return false;
+    if (const auto* mission = message.as(topics::kMissionState)) answers.recorded_state(*mission);
+    const auto* event = message.as(topics::kEvent);
+    if (event != nullptr && theirs.contains(topics::kEvent.name))
+      outcome.recorded.push_back({since_start(message.time), event->kind, event->subject});
+    const auto* choice = message.as(topics::kChoice);
+    const auto* health = message.as(topics::kHealth);
+    if (choice != nullptr && translates) {
+      answers.recorded_choice(*choice, message.time);
+    } else if (health != nullptr) {
+      if (!chosen_names.contains(health->module)) feeder.publish(message);
+    } else if (!theirs.contains(message.topic.name)) {
+      feeder.publish(message);
+      fed.insert(message.topic.name);
+    }
+    for (auto& answer : answers.take(message.time)) choices.publish(std::move(answer));
+    const double share = outcome.seconds > 0.0 ? since_start(message.time) / outcome.seconds : 1.0;
+    if (options.progress && share >= shown + 0.01) options.progress(shown = share);
+    return true;
+  });
+  if (!read) return tl::unexpected<Error>(Error{options.recording + ": " + read.error().message});
+  hub.run_until(extent->last);
+  hosts.clear();
+  if (recorder && failure) failure = recorder->close();
+  if (!failure) return tl::unexpected<Error>(failure.error());
+  outcome.replayed_topics.assign(fed.begin(), fed.end());
+  if (evaluator.has_truth()) outcome.report = evaluator.report();
+  return outcome;
+}
+
+Result<std::string> museum_of_recording(const std::string& recording) {
+  auto reader = McapReader::open(recording);
+  if (!reader) return tl::unexpected<Error>(reader.error());
+  McapReader::Selection selection;
+  selection.topics = {std::string{"/"} + topics::kRunInfo.name};
+  std::string museum;
+  const auto read = read_recording(*reader, selection, [&](const RecordedMessage& message) {
+    museum = message.as(topics::kRunInfo)->museum;
+    return false;
+  });
+  if (!read) return tl::unexpected<Error>(read.error());
+  return museum;
+}
+
+std::string first_difference(const std::vector<ReplayEvent>& recorded, const std::vector<ReplayEvent>& repeated) {
+  const auto words = [](const std::vector<ReplayEvent>& events, std::size_t i) {
+    if (i >= events.size()) return std::string{"nothing more"};
+    char at[32];
+    std::snprintf(at, sizeof at, " at %.1f s", events[i].at_s);
+    return events[i].kind + (events[i].subject.empty() ? "" : " " + events[i].subject) + at;
+  };
+  for (std::size_t i = 0; i < std::max(recorded.size(), repeated.size()); ++i) {
+    if (i < recorded.size() && i < repeated.size() && recorded[i] == repeated[i]) continue;
+    return "event " + std::to_string(i + 1) + ": recorded " + words(recorded, i) + ", now " + words(repeated, i);
+  }
+  return {};
+}
+
+}  // namespace docent

@@ -1,0 +1,136 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "docent/apps/replay_run.h"
+#include "docent/apps/simulation_run.h"
+#include "docent/base/files.h"
+#include "docent/evaluation/deployment_evaluator.h"
+#include "docent/recording/recorder.h"
+
+namespace docent {
+namespace {
+
+constexpr double kSeconds = 240.0;
+
+/// One recorded run in Bonn for all tests.
+class Replay : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = std::filesystem::temp_directory_path() / ("docent_replay_" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder_);
+    SimulationRunOptions options;
+    options.museum = museum_folder();
+    options.crowd = "quiet";
+    options.requests_per_hour = 120.0;
+    options.seed = 3;
+    options.recording = recording();
+    auto run = SimulationRun::create(options);
+    ASSERT_TRUE(run) << run.error().message;
+    ASSERT_TRUE((*run)->run_until(time_from_seconds(kSeconds)));
+    ASSERT_TRUE((*run)->finish());
+    live_report_ = (*run)->report_json();
+  }
+  static void TearDownTestSuite() { std::filesystem::remove_all(folder_); }
+  static std::string museum_folder() { return std::string{DOCENT_SOURCES} + "/museums/bonn"; }
+  static std::string recording() { return (folder_ / "run.mcap").string(); }
+
+  [[nodiscard]] static Result<ReplayOutcome> replay_with(const std::vector<std::string>& modules,
+                                                         const std::string& setting = "", const std::string& out = "") {
+    const auto museum = load_museum(museum_folder());
+    if (!museum) return tl::unexpected<Error>(museum.error());
+    RobotConfig config;
+    if (!setting.empty()) {
+      if (auto set = config.set(setting); !set) return tl::unexpected<Error>(set.error());
+    }
+    ReplayOptions options;
+    options.recording = recording();
+    options.modules = modules;
+    options.out = out;
+    return replay(*museum, config, options);
+  }
+  static Result<DeploymentReport> evaluate(const std::string& file) {
+    auto reader = McapReader::open(file);
+    if (!reader) return tl::unexpected<Error>(reader.error());
+    DeploymentEvaluator evaluator;
+    auto read = read_recording(*reader, {}, [&](const RecordedMessage& message) {
+      evaluator.add(message.topic, message.time, message.message);
+      return true;
+    });
+    if (!read) return tl::unexpected<Error>(read.error());
+    return evaluator.report();
+  }
+
+  static std::filesystem::path folder_;
+  static std::string live_report_;
+};
+std::filesystem::path Replay::folder_;
+std::string Replay::live_report_;
+
+TEST_F(Replay, EvaluatingTheRecordingGivesTheReportOfTheRun) {
+  const auto report = evaluate(recording());
+  ASSERT_TRUE(report) << report.error().message;
+  auto live = nlohmann::ordered_json::parse(live_report_);
+  for (const char* key : {"wall_seconds", "speedup", "p99_ms"}) live.erase(key);
+  EXPECT_EQ(nlohmann::ordered_json::parse(to_json(*report, std::nullopt)).dump(2), live.dump(2));
+  EXPECT_GT(report->distance_m, 5.0);  // something happened
+  EXPECT_TRUE(report->localization.localized_after_s);
+}
+
+TEST_F(Replay, TheSensorsGiveTheSameMissionEventsInTheSameOrder) {
+  const auto outcome = replay_with({});
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_GE(outcome->recorded.size(), 8U);
+  EXPECT_TRUE(outcome->same_events()) << first_difference(outcome->recorded, outcome->repeated);
+  for (const char* topic : {"scan_front", "odom", "docent/request"})
+    EXPECT_NE(std::find(outcome->replayed_topics.begin(), outcome->replayed_topics.end(), topic),
+              outcome->replayed_topics.end())
+        << topic;
+  for (const char* topic : {"docent/belief", "docent/event", "docent/mission_state", "cmd_vel"})
+    EXPECT_EQ(std::find(outcome->replayed_topics.begin(), outcome->replayed_topics.end(), topic),
+              outcome->replayed_topics.end())
+        << topic << " is made anew";
+}
+
+TEST_F(Replay, AChangedModuleIsSeenInItsRecording) {
+  const std::string out = (folder_ / "localized.mcap").string();
+  const auto again = replay_with({"localize"}, "", out);
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(again->modules, std::vector<std::string>{"localize"});
+  EXPECT_TRUE(again->recorded.empty());
+  ASSERT_TRUE(again->report);
+  const auto original = evaluate(recording());
+  const auto repeated = evaluate(out);
+  ASSERT_TRUE(original && repeated);
+  EXPECT_NEAR(repeated->localization.error_m.mean(), original->localization.error_m.mean(), 0.01);
+  EXPECT_EQ(to_json(*repeated, std::nullopt), to_json(*again->report, std::nullopt));
+  // A robot that only adds up its odometry does not find itself in the same recording.
+  const auto crippled = replay_with({"localize"}, "localize.dead_reckoning=true");
+  ASSERT_TRUE(crippled) << crippled.error().message;
+  ASSERT_TRUE(crippled->report);
+  EXPECT_FALSE(crippled->report->localization.localized_after_s);
+}
+
+TEST_F(Replay, WhatCannotBeReplayedIsSaidSo) {
+  const auto unknown = replay_with({"localise"});
+  ASSERT_FALSE(unknown);
+  EXPECT_NE(unknown.error().message.find("localise"), std::string::npos);
+  EXPECT_FALSE(replay_with({"record"}));
+  EXPECT_FALSE(replay_with({}, "", "/nowhere/out.mcap"));
+  const auto name = museum_of_recording(recording());
+  ASSERT_TRUE(name);
+  EXPECT_EQ(*name, "bonn");
+}
+
+TEST(FirstDifference, NamesThePlace) {
+  const std::vector<ReplayEvent> recorded{{1.0, "localized", ""}, {5.0, "arrived", "vase"}};
+  EXPECT_EQ(first_difference(recorded, {{2.0, "localized", ""}, {9.0, "arrived", "vase"}}), "");
+  EXPECT_EQ(first_difference(recorded, {{2.0, "localized", ""}}),
+            "event 2: recorded arrived vase at 5.0 s, now nothing more");
+  EXPECT_EQ(first_difference(recorded, {{1.5, "relocalizing", ""}, {5.0, "arrived", "vase"}}),
+            "event 1: recorded localized at 1.0 s, now relocalizing at 1.5 s");
+}
+
+}  // namespace
+}  // namespace docent
