@@ -122,9 +122,11 @@ export async function check(name, action) {
     await action();
     ++passed;
     console.log(`ok      ${name} (${((Date.now() - begin) / 1000).toFixed(1)} s)`);
+    return true;
   } catch (error) {
     ++failed;
     console.log(`FAILED  ${name}: ${error.message.split('\n').slice(0, 6).join('\n        ')}`);
+    return false;
   }
 }
 export function ensure(condition, what) {

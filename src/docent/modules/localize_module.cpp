@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "docent/grid/occupancy_grid.h"
@@ -25,11 +26,18 @@ struct LocalizeParams {
   MarkovLocalizerParams markov;
   double person_range = 6.0;    ///< [m], > 0: how far away people are looked for
   bool dead_reckoning = false;  ///< crippled, for evaluation: odometry alone after the first "here"
+  /// For evaluation: the best hypothesis is published so far off, while the cells of the belief stay true.
+  double best_pose_error_x = 0.0;        ///< [m], map
+  double best_pose_error_y = 0.0;        ///< [m], map
+  double best_pose_error_heading = 0.0;  ///< [deg]
   template <class V>
   void visit(V& v) {
     markov.visit(v);
     v("person_range", person_range);
     v("dead_reckoning", dead_reckoning);
+    v("best_pose_error_x", best_pose_error_x);
+    v("best_pose_error_y", best_pose_error_y);
+    v("best_pose_error_heading", best_pose_error_heading);
   }
   [[nodiscard]] Result<void> validate() const {
     if (!(person_range > 0.0)) return fail("person_range must be > 0");
@@ -142,6 +150,12 @@ class LocalizeModule final : public Module {
     for (const BeliefMode& mode : summary.modes)
       message.hypotheses.push_back({mode.map_from_robot.x, mode.map_from_robot.y, mode.map_from_robot.theta.radians(),
                                     mode.covariance, mode.mass});
+    if (!message.hypotheses.empty()) {
+      auto& best = message.hypotheses.front();
+      best.x += params_.best_pose_error_x;
+      best.y += params_.best_pose_error_y;
+      best.theta += params_.best_pose_error_heading * std::numbers::pi / 180.0;
+    }
     message.entropy = summary.entropy;
     message.p_lost = localizer_.verdict().p_lost();
     message.localized = localized();
@@ -196,7 +210,7 @@ class LocalizeModule final : public Module {
     saved_ = bus_.now();
     // A checkpoint that cannot be written costs a restarted robot a new search, nothing else.
     (void)save_localizer_checkpoint({map_hash_, stamp, localizer_.odom_from_robot(), localizer_.summary().modes},
-                          checkpoint_path_);
+                                    checkpoint_path_);
   }
 
   void restore() {

@@ -31,6 +31,7 @@ constexpr std::array kModules{
     ModuleEntry{"sound", make_sound},
     ModuleEntry{"mission", make_mission},
     ModuleEntry{"executive", make_executive},
+    ModuleEntry{"web", make_web},
 };
 // clang-format on
 

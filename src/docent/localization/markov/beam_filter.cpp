@@ -49,6 +49,10 @@ double ExpectedRanges::known_mass(int direction) const {
   return 1.0 - static_cast<double>(of(mass_, direction)[kUnknownRange]);
 }
 
+double ExpectedRanges::no_return_mass(int direction) const {
+  return static_cast<double>(of(mass_, direction)[kNoReturn]);
+}
+
 double ExpectedRanges::entropy_gain(int direction, std::span<const float> log_probabilities) const {
   // With r(o) = P(d | o) and Z = sum r p: H(L | s) = ln Z - 1/Z sum r p (ln r + ln p), and p enters only through its
   // sums over states that expect the same range.
@@ -75,7 +79,9 @@ Result<BeamFilter> beam_filter_of(const std::string& name) {
 
 Agreement agreement(const ExpectedRanges& expected, const ProximityModel& model, int direction, int measured,
                     double sureness) {
-  if (measured == kNoReturn || expected.known_mass(direction) < 0.5) return Agreement::unknown;
+  if (expected.known_mass(direction) < 0.5) return Agreement::unknown;
+  // No return says little where a wall is expected (glass, black cloth), but bears the pose out where nothing is.
+  if (measured == kNoReturn) return expected.no_return_mass(direction) > 0.5 ? Agreement::agrees : Agreement::unknown;
   if (expected.shorter(direction, model.shorter_probabilities(measured)) > sureness) return Agreement::shorter;
   // "Not longer" is the mass of P_m at this bin and behind it, which is P_short of the bin before.
   const double not_longer =

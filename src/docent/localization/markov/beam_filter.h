@@ -32,6 +32,8 @@ class ExpectedRanges {
   /// Delta H(L | s), eq. 6 [nat]: how much surer the robot gets by the reading whose ln P(d | o) are given.
   [[nodiscard]] double entropy_gain(int direction, std::span<const float> log_probabilities) const;
   [[nodiscard]] double known_mass(int direction) const;  ///< of the states where the map says what to expect
+  /// Mass of the states that expect no return in this direction.
+  [[nodiscard]] double no_return_mass(int direction) const;
 
  private:
   [[nodiscard]] std::span<const float> of(const std::vector<float>& all, int direction) const {
