@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <thread>
 
 #include "docent/apps/arguments.h"
 #include "docent/simulator/simulated_museum.h"
@@ -78,10 +79,10 @@ Result<void> run_simulator(const Deployment& deployment, const SimulatorOptions&
   block_end_signals();
   auto robot_bus = DdsBus::create({deployment.domain, deployment.name, warn});
   if (!robot_bus) return tl::unexpected<Error>(robot_bus.error());
-  // It only publishes there, from the thread of the robot's bus, so it needs no thread of its own.
   auto truth_bus = DdsBus::create({truth_domain(deployment.domain), deployment.name, warn});
   if (!truth_bus) return tl::unexpected<Error>(truth_bus.error());
   const simulator::SimulatedMuseum museum{**robot_bus, **truth_bus, std::move(*simulation)};
+  const std::jthread truth_thread{[&truth_bus](const std::stop_token& stop) { (*truth_bus)->run(stop); }};
   (*robot_bus)->run(end_signal());
   return {};
 }

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -20,6 +21,7 @@
 #include "docent/apps/status_display.h"
 #include "docent/apps/supervisor.h"
 #include "docent/modules/registry.h"
+#include "docent/recording/join_recordings.h"
 #include "docent/transport/dds_bus.h"
 
 namespace docent {
@@ -27,7 +29,8 @@ namespace {
 
 constexpr Duration kStep = std::chrono::milliseconds{50};
 constexpr Duration kShow = std::chrono::milliseconds{500};
-constexpr int kUrgent = -5;  // nice value
+constexpr int kUrgent = -5;        // nice value
+constexpr double kPatience = 5.0;  // [s] for the modules to end in order
 
 struct Options {
   Deployment deployment;
@@ -36,6 +39,10 @@ struct Options {
   std::string record;
   SimulatorOptions simulator;
 };
+
+std::filesystem::path recordings_folder(const Options& options) {
+  return std::filesystem::path{options.deployment.state} / "recordings";
+}
 
 Result<void> check_port(int port) {
   const int end = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
@@ -105,7 +112,7 @@ std::vector<ChildSpec> children_of(const Options& options) {
   Deployment told = options.deployment;
   told.settings.push_back("web.port=" + std::to_string(options.port));
   if (!options.record.empty()) {
-    told.settings.push_back("record.file=" + std::filesystem::absolute(options.record).string());
+    told.settings.push_back("record.keep_files=10000");  // all of this run are needed at its end
   }
   const std::string program = program_path().string();
   const auto command = [&](const std::string& name) {
@@ -124,15 +131,23 @@ std::vector<ChildSpec> children_of(const Options& options) {
     children.push_back({kSimulatorProcess, std::move(words), may_raise ? 0 : -kUrgent, false});
   }
   for (const auto& entry : all_modules()) {
-    if (std::string{"record"} == entry.name && options.record.empty()) continue;
     const int niceness = entry.is_urgent ? (may_raise ? kUrgent : 0) : (may_raise ? 0 : -kUrgent);
     children.push_back({entry.name, command(entry.name), niceness, true});
   }
   return children;
 }
 
+/// What was recorded since `before`, as one file.
+Result<void> keep_recording(const Options& options, const std::set<std::filesystem::path>& before) {
+  const auto all = recordings_in(recordings_folder(options));
+  std::vector<std::filesystem::path> files;
+  std::set_difference(all.begin(), all.end(), before.begin(), before.end(), std::back_inserter(files));
+  return join_recordings(files, options.record);
+}
+
 void up(const Options& options) {
   const docent_msgs::Limits limits = check(options);
+  const auto recorded_before = recordings_in(recordings_folder(options));
   block_end_signals();
   StatusDisplay display{isatty(STDOUT_FILENO) == 1};
   const auto log = [&](const std::string& name, const std::string& line) { display.log(name, line); };
@@ -157,11 +172,15 @@ void up(const Options& options) {
   bus->run(stop.get_token());
   display.show(supervisor.status());
   display.finish();
-  supervisor.stop();
+  supervisor.stop(kPatience);
   if (supervisor.fatal()) {
     const std::string own_name = "docent: ";
     const std::string& line = *supervisor.fatal();
     throw CommandFailed{line.starts_with(own_name) ? line.substr(own_name.size()) : line, kExitBadConfiguration};
+  }
+  if (!options.record.empty()) {
+    value_or_fail(keep_recording(options, recorded_before));
+    log("record", options.record);
   }
 }
 
@@ -173,7 +192,8 @@ void add_up_command(CLI::App& app) {
   options->deployment.add_options(*command);
   command->add_flag("--sim", options->simulate, "Simulate the museum, its visitors and the robot's body");
   command->add_option("--port", options->port, "Port of the page")->check(CLI::Range(1, 65535))->capture_default_str();
-  command->add_option("--record", options->record, "MCAP file to write");
+  command->add_option("--record", options->record,
+                      "MCAP file that gets what the record module records in --state from the start to the end");
   options->simulator.add_options(*command->add_option_group("With --sim"));
   command->callback([options] { up(*options); });
 }

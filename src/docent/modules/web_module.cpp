@@ -202,7 +202,7 @@ class WebModule final : public Module {
   }
 
   void show_health() {
-    std::string text = encode_health(modules_, bus_.now());
+    std::string text = encode_health(modules_, server_->figures().viewers, bus_.now());
     {
       const std::scoped_lock lock{shared_mutex_};
       health_text_ = text;
@@ -229,6 +229,13 @@ class WebModule final : public Module {
   }
 
   void resend() {
+    // A cancellation whose request nobody knows any more would otherwise be repeated for hours.
+    std::vector<std::string> given_up;
+    for (const auto& request : outbox_->pending()) {
+      const bool is_old = bus_.now() - from_message(request.stamp) > std::chrono::minutes{1};
+      if (request.kind == "cancel" && is_old) given_up.push_back(request.id);
+    }
+    for (const auto& id : given_up) outbox_->delivered(id);
     for (const auto& request : outbox_->pending()) requests_.publish(request);
     if (choice_ && (!mission_ || choice_->prompt_id != mission_->prompt.id)) choice_.reset();
     if (choice_) choices_.publish(*choice_);

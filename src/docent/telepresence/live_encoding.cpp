@@ -206,7 +206,7 @@ std::string encode_board(const docent_msgs::RequestBoard& board) {
                   {"closed", std::move(done)}});
 }
 
-std::string encode_health(const std::map<std::string, HealthEntry>& modules, Time now) {
+std::string encode_health(const std::map<std::string, HealthEntry>& modules, std::size_t viewers, Time now) {
   constexpr Duration kSilent = std::chrono::seconds{2};
   Json list = Json::array();
   for (const auto& [name, entry] : modules) {
@@ -216,7 +216,7 @@ std::string encode_health(const std::map<std::string, HealthEntry>& modules, Tim
                     {"reason", entry.health.reason},
                     {"p99_ms", rounded(entry.health.step_p99_ms, 10)}});
   }
-  return text_of({{"type", "health"}, {"modules", std::move(list)}});
+  return text_of({{"type", "health"}, {"viewers", viewers}, {"modules", std::move(list)}});
 }
 
 std::string encode_window(const docent_msgs::AvoidState& avoid) {

@@ -44,8 +44,9 @@ struct HealthEntry {
 /// All open requests and the newest closed ones. Viewers see the last 8 digits of an id only: who knows all of it may
 /// cancel the request.
 [[nodiscard]] std::string encode_board(const docent_msgs::RequestBoard& board);
-/// A module that was not heard for 2 s is silent.
-[[nodiscard]] std::string encode_health(const std::map<std::string, HealthEntry>& modules, Time now);
+/// A module that was not heard for 2 s is silent. `viewers`: how many watch.
+[[nodiscard]] std::string encode_health(const std::map<std::string, HealthEntry>& modules, std::size_t viewers,
+                                        Time now);
 /// The evaluated velocity window, for specialists.
 [[nodiscard]] std::string encode_window(const docent_msgs::AvoidState& avoid);
 

@@ -87,8 +87,8 @@ TEST(LiveEncoding, ASilentModuleIsNamed) {
   std::map<std::string, HealthEntry> modules;
   modules["avoid"].health.state = "ready";
   modules["avoid"].heard = time_from_seconds(10);
-  EXPECT_EQ(Json::parse(encode_health(modules, time_from_seconds(11)))["modules"][0]["state"], "ready");
-  EXPECT_EQ(Json::parse(encode_health(modules, time_from_seconds(13)))["modules"][0]["state"], "silent");
+  EXPECT_EQ(Json::parse(encode_health(modules, 3, time_from_seconds(11)))["modules"][0]["state"], "ready");
+  EXPECT_EQ(Json::parse(encode_health(modules, 3, time_from_seconds(13)))["modules"][0]["state"], "silent");
 }
 
 TEST(LiveEncoding, ALongPathIsThinnedButKeepsItsEnd) {

@@ -1,16 +1,13 @@
 #include "docent/telepresence/web_server.h"
 
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <chrono>
-#include <cstring>
 #include <mutex>
 #include <set>
 #include <thread>
+
+#include "docent/telepresence/test_client.h"
 
 namespace docent {
 namespace {
@@ -19,120 +16,6 @@ using namespace std::chrono_literals;
 
 const std::string kRequest =
     R"({"type":"request","id":"018f3a6c-5b2e-7c3d-9a4b-0123456789ab","kind":"exhibit","target":"sputnik"})";
-
-/// A client made of a bare socket, so that it can misbehave.
-class Client {
- public:
-  explicit Client(int port, int receive_buffer = 0) : socket_{::socket(AF_INET, SOCK_STREAM, 0)} {
-    if (receive_buffer > 0) ::setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<std::uint16_t>(port));
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    is_connected_ = ::connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0;
-  }
-  ~Client() { ::close(socket_); }
-  Client(const Client&) = delete;
-  Client& operator=(const Client&) = delete;
-
-  [[nodiscard]] bool is_connected() const { return is_connected_; }
-  void send(const std::string& bytes) const {
-    for (std::size_t at = 0; at < bytes.size();) {
-      const auto sent = ::send(socket_, bytes.data() + at, bytes.size() - at, MSG_NOSIGNAL);
-      if (sent <= 0) return;
-      at += static_cast<std::size_t>(sent);
-    }
-  }
-  /// Waits for at least one byte; false at the end of the stream or when nothing comes.
-  bool receive(std::chrono::milliseconds patience = 3000ms) {
-    pollfd wait{socket_, POLLIN, 0};
-    if (::poll(&wait, 1, static_cast<int>(patience.count())) <= 0) return false;
-    char bytes[65536];
-    const auto got = ::recv(socket_, bytes, sizeof bytes, 0);
-    if (got <= 0) return false;
-    buffer_.append(bytes, static_cast<std::size_t>(got));
-    return true;
-  }
-  /// All that comes until the server closes.
-  std::string receive_all() {
-    while (receive()) {
-    }
-    return std::exchange(buffer_, {});
-  }
-  /// Head and body of the next answer.
-  std::pair<std::string, std::string> receive_reply() {
-    std::size_t end = 0;
-    while ((end = buffer_.find("\r\n\r\n")) == std::string::npos) {
-      if (!receive()) return {buffer_, ""};
-    }
-    const std::string head = buffer_.substr(0, end + 4);
-    const auto length_at = head.find("Content-Length: ");
-    const std::size_t length = length_at == std::string::npos ? 0 : std::stoul(head.substr(length_at + 16));
-    while (buffer_.size() < end + 4 + length && receive()) {
-    }
-    const std::string body = buffer_.substr(end + 4, length);
-    buffer_.erase(0, end + 4 + length);
-    return {head, body};
-  }
-  /// True when the server accepts the upgrade.
-  bool upgrade(const std::string& extra = "") {
-    send(
-        "GET /live HTTP/1.1\r\nHost: robot.test\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
-        "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n" +
-        extra + "\r\n");
-    const auto [head, body] = receive_reply();
-    return head.starts_with("HTTP/1.1 101") && head.find("s3pPLMBiTxaQ9kYGzzhZRbK+xOo=") != std::string::npos;
-  }
-  void send_frame(const std::string& payload, int opcode = 1) const {
-    std::string frame(1, static_cast<char>(0x80 | opcode));
-    if (payload.size() < 126) {
-      frame += static_cast<char>(0x80 | payload.size());
-    } else {
-      frame += static_cast<char>(0x80 | 126);
-      frame += static_cast<char>(payload.size() >> 8U);
-      frame += static_cast<char>(payload.size() & 0xFFU);
-    }
-    frame += std::string(4, '\0');  // a mask of zeros leaves the payload as it is
-    send(frame + payload);
-  }
-  struct Frame {
-    int opcode = -1;  ///< -1: nothing came
-    std::string payload;
-    [[nodiscard]] int close_code() const {
-      return payload.size() < 2
-                 ? 0
-                 : (static_cast<unsigned char>(payload[0]) << 8) | static_cast<unsigned char>(payload[1]);
-    }
-  };
-  Frame receive_frame(std::chrono::milliseconds patience = 3000ms) {
-    const auto need = [&](std::size_t bytes) {
-      while (buffer_.size() < bytes) {
-        if (!receive(patience)) return false;
-      }
-      return true;
-    };
-    if (!need(2)) return {};
-    const auto byte = [&](std::size_t i) { return static_cast<std::size_t>(static_cast<unsigned char>(buffer_[i])); };
-    std::size_t length = byte(1) & 0x7FU;
-    std::size_t head = 2;
-    if (length >= 126) {
-      const std::size_t width = length == 126 ? 2 : 8;
-      if (!need(2 + width)) return {};
-      length = 0;
-      for (std::size_t i = 0; i < width; ++i) length = (length << 8U) | byte(2 + i);
-      head += width;
-    }
-    if (!need(head + length)) return {};
-    Frame frame{static_cast<int>(byte(0) & 0x0FU), buffer_.substr(head, length)};
-    buffer_.erase(0, head + length);
-    return frame;
-  }
-
- private:
-  int socket_;
-  bool is_connected_ = false;
-  std::string buffer_;
-};
 
 class WebServerTest : public testing::Test {
  protected:
@@ -166,7 +49,7 @@ class WebServerTest : public testing::Test {
 
 TEST_F(WebServerTest, AnswersHttp) {
   start();
-  Client client{server_->port()};
+  TestClient client{server_->port()};
   client.send("GET / HTTP/1.1\r\nHost: a\r\n\r\n");
   auto [head, body] = client.receive_reply();
   EXPECT_TRUE(head.starts_with("HTTP/1.1 200")) << head;
@@ -195,7 +78,7 @@ TEST_F(WebServerTest, RefusesWhatIsNotMeantForIt) {
        "HTTP/1.1 404"},
   };
   for (const auto& [request, expected] : cases) {
-    Client client{server_->port()};
+    TestClient client{server_->port()};
     client.send(request);
     EXPECT_TRUE(client.receive_all().starts_with(expected)) << request.substr(0, 60);
   }
@@ -206,7 +89,7 @@ TEST_F(WebServerTest, AViewerGetsThePresentThenTheChanges) {
   server_->broadcast(0, "old");
   server_->broadcast(0, "pose 1");
   server_->broadcast(3, "mission 1");
-  Client client{server_->port()};
+  TestClient client{server_->port()};
   ASSERT_TRUE(client.upgrade());
   std::set<std::string> first{client.receive_frame().payload, client.receive_frame().payload};
   EXPECT_EQ(first, (std::set<std::string>{"pose 1", "mission 1"}));
@@ -218,8 +101,8 @@ TEST_F(WebServerTest, AViewerGetsThePresentThenTheChanges) {
 TEST_F(WebServerTest, DetailsAreForThoseWhoAsk) {
   start();
   server_->restrict_to_details(7);
-  Client curious{server_->port()};
-  Client plain{server_->port()};
+  TestClient curious{server_->port()};
+  TestClient plain{server_->port()};
   ASSERT_TRUE(curious.upgrade());
   ASSERT_TRUE(plain.upgrade());
   server_->broadcast(7, "window 1");
@@ -235,8 +118,8 @@ TEST_F(WebServerTest, DetailsAreForThoseWhoAsk) {
 
 TEST_F(WebServerTest, HandsMessagesOverAndAnswersTheirSender) {
   start();
-  Client client{server_->port()};
-  Client other{server_->port()};
+  TestClient client{server_->port()};
+  TestClient other{server_->port()};
   ASSERT_TRUE(client.upgrade());
   ASSERT_TRUE(other.upgrade());
   client.send_frame(kRequest);
@@ -258,7 +141,7 @@ TEST_F(WebServerTest, GarbageEndsTheConnectionWithAReason) {
       {"\xff\xfe", 1, 1007},              // not UTF-8
   };
   for (const auto& [payload, opcode, code] : cases) {
-    Client client{server_->port()};
+    TestClient client{server_->port()};
     ASSERT_TRUE(client.upgrade());
     client.send_frame(payload, opcode);
     const auto frame = client.receive_frame();
@@ -275,12 +158,12 @@ TEST_F(WebServerTest, GarbageEndsTheConnectionWithAReason) {
 
 TEST_F(WebServerTest, ABrokenFrameEndsOnlyItsOwnConnection) {
   start();
-  Client good{server_->port()};
+  TestClient good{server_->port()};
   ASSERT_TRUE(good.upgrade());
   for (const std::string& bytes :
        {std::string{"\x81\x05hello", 7}, std::string{"\xf1\x80\0\0\0\0", 6}, std::string{"\x8f\x80\0\0\0\0", 6},
         std::string{"\x81\xff\xff\xff\xff\xff\xff\xff\xff\xff\0\0\0\0", 14}}) {
-    Client client{server_->port()};
+    TestClient client{server_->port()};
     ASSERT_TRUE(client.upgrade());
     client.send(bytes);
     EXPECT_NE(client.receive_frame().opcode, 1);
@@ -294,14 +177,14 @@ TEST_F(WebServerTest, TooManyMessagesAreRefusedThenCutOff) {
   params.message_burst = 5;
   params.messages_per_second = 0.001;
   start(params);
-  Client client{server_->port()};
+  TestClient client{server_->port()};
   ASSERT_TRUE(client.upgrade());
   for (int i = 0; i < 8; ++i) client.send_frame(kRequest);
   EXPECT_NE(client.receive_frame().payload.find("too many messages"), std::string::npos);
   ASSERT_TRUE(eventually([&] { return server_->figures().messages_in == 8; }));
   EXPECT_EQ(messages().size(), 5U);
   for (int i = 0; i < 200; ++i) client.send_frame(kRequest);
-  Client::Frame frame;
+  TestClient::Frame frame;
   do frame = client.receive_frame();
   while (frame.opcode == 1);
   EXPECT_EQ(frame.close_code(), 1008);
@@ -312,13 +195,13 @@ TEST_F(WebServerTest, ASlowViewerGetsTheLatestAndHarmsNobody) {
   WebServerParams params;
   params.send_buffer_bytes = 8192;
   start(params);
-  Client slow{server_->port(), 4096};
-  Client quick{server_->port()};
+  TestClient slow{server_->port(), 4096};
+  TestClient quick{server_->port()};
   ASSERT_TRUE(slow.upgrade());
   ASSERT_TRUE(quick.upgrade());
   const std::string filler(50000, '.');
   constexpr int kValues = 400;
-  Client::Frame frame;
+  TestClient::Frame frame;
   for (int i = 0; i < kValues; ++i) {
     server_->broadcast(0, std::to_string(i) + filler);
     frame = quick.receive_frame();
@@ -341,23 +224,23 @@ TEST_F(WebServerTest, ViewersAreCounted) {
   params.max_viewers = 2;
   start(params);
   {
-    Client first{server_->port()};
-    Client second{server_->port()};
+    TestClient first{server_->port()};
+    TestClient second{server_->port()};
     ASSERT_TRUE(first.upgrade());
     ASSERT_TRUE(second.upgrade());
-    Client third{server_->port()};
+    TestClient third{server_->port()};
     EXPECT_FALSE(third.upgrade());
   }
   EXPECT_TRUE(eventually([&] { return server_->figures().viewers == 0; }));
-  Client again{server_->port()};
+  TestClient again{server_->port()};
   EXPECT_TRUE(again.upgrade());
 }
 
 TEST_F(WebServerTest, ManyViewersAreServedInGroups) {
   start();
-  std::vector<std::unique_ptr<Client>> clients;
+  std::vector<std::unique_ptr<TestClient>> clients;
   for (int i = 0; i < 150; ++i) {
-    clients.push_back(std::make_unique<Client>(server_->port()));
+    clients.push_back(std::make_unique<TestClient>(server_->port()));
     ASSERT_TRUE(clients.back()->upgrade());
   }
   for (const char* value : {"a", "b"}) {
@@ -375,11 +258,11 @@ TEST_F(WebServerTest, PagesOfOtherSitesMayNotSpeakForTheirReaders) {
   params.origins = {"museum.test"};
   start(params);
   for (const char* origin : {"http://robot.test", "https://robot.test", "https://museum.test"}) {
-    Client client{server_->port()};
+    TestClient client{server_->port()};
     EXPECT_TRUE(client.upgrade(std::string{"Origin: "} + origin + "\r\n")) << origin;
   }
   for (const char* origin : {"https://evil.test", "null", "http://robot.test.evil.test"}) {
-    Client client{server_->port()};
+    TestClient client{server_->port()};
     EXPECT_FALSE(client.upgrade(std::string{"Origin: "} + origin + "\r\n")) << origin;
   }
 }
@@ -398,7 +281,7 @@ TEST_F(WebServerTest, APortInUseIsSaid) {
 
 TEST_F(WebServerTest, EndsWithViewersConnected) {
   start();
-  Client client{server_->port()};
+  TestClient client{server_->port()};
   ASSERT_TRUE(client.upgrade());
   const int port = server_->port();
   server_.reset();

@@ -131,6 +131,7 @@ export interface BoardMessage {
 }
 export interface HealthMessage {
   type: 'health';
+  viewers?: number;
   modules: { name: string; state: string; reason: string; p99_ms: number | null }[];
 }
 export interface WindowMessage {
