@@ -12,7 +12,7 @@
 #include "docent/apps/localize_log.h"
 #include "docent/apps/localize_picture.h"
 #include "docent/base/files.h"
-#include "docent/recording/carmen_log.h"
+#include "docent/recording/laser_log.h"
 #include "docent/robot/robot_config.h"
 
 namespace docent {
@@ -49,8 +49,7 @@ LogRun run_once(const Options& options, const LaserLog& log, const OccupancyGrid
   std::optional<BeliefMovie> movie;
   if (!pictures.empty()) movie.emplace(value_or_fail(BeliefMovie::create(map)));
   std::size_t seen = 0;
-  run_options.watch = [&](const MarkovLocalizer& at, std::size_t scan, const MarkovLocalizer::Step& step,
-                          const Pose2&) {
+  run_options.watch = [&](const MarkovLocalizer& at, std::size_t scan, const MarkovLocalizer::Step& step) {
     if (++seen % 500 == 0) std::fprintf(stderr, "%zu of %zu scans\n", seen, log.scans.size());
     if (movie && step.updated && !movie->is_full()) value_or_fail(movie->add(at, log.scans[scan], log.max_range));
   };
@@ -104,8 +103,11 @@ void print(const char* title, const nlohmann::json& report) {
 
 void localize(const Options& options) {
   const OccupancyGrid map = value_or_fail(load_map(options.map));
-  const LaserLog log = value_or_fail(read_carmen_log(options.log));
+  const LaserLog log = value_or_fail(read_laser_log(options.log));
   RobotConfig config;
+  // Far readings tell one corridor from another; beyond some length the map's headings are too coarse for them.
+  const double reach = std::min(log.max_range > 0.0 ? log.max_range : 30.0, 30.0);
+  value_or_fail(config.set("localize.sensor={max_range: " + std::to_string(reach) + "}"));
   for (const std::string& setting : options.settings) value_or_fail(config.set("localize." + setting), 2);
   auto params = value_or_fail(config.section<MarkovLocalizerParams>("localize"), 2);
   params.filter = options.filter;
@@ -113,7 +115,8 @@ void localize(const Options& options) {
   if (localizer.space().places() == 0) throw CommandFailed{options.map + ": no free place in this map"};
 
   const LogRun run = run_once(options, log, map, localizer, options.reverse, options.picture);
-  nlohmann::json report = report_of(log, run, localizer.caster());
+  const RayCaster caster{map};
+  nlohmann::json report = report_of(log, run, caster);
   report["map"] = options.map;
   report["log"] = options.log;
   report["filter"] = options.filter;
@@ -123,7 +126,7 @@ void localize(const Options& options) {
   if (options.both_ways) {
     localizer.start_unknown();
     const LogRun other = run_once(options, log, map, localizer, !options.reverse, options.picture);
-    report["other_way"] = report_of(log, other, localizer.caster());
+    report["other_way"] = report_of(log, other, caster);
     report["agreement"] = to_json(agreement_of(run.poses, other.poses));
     print("the other way", report["other_way"]);
     print("agreement", report["agreement"]);
@@ -144,7 +147,7 @@ void add_localize_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("localize", "Localize a recorded log in a map");
   command->add_option("--map", options->map, "map_server YAML file")->required();
-  command->add_option("--log", options->log, "CARMEN text log, plain or .gz")->required();
+  command->add_option("--log", options->log, "CARMEN text log (plain or .gz), MCAP recording, rosbag2 folder or database")->required();
   command->add_option("--method", options->method, "grid")->check(CLI::IsMember({"grid"}))->capture_default_str();
   command->add_option("--filter", options->filter, "none, entropy, distance")
       ->check(CLI::IsMember({"none", "entropy", "distance"}))

@@ -34,7 +34,7 @@ std::pair<std::size_t, std::size_t> known_span(const std::vector<LoggedPose>& po
 
 RangeSweep sweep_of(const LoggedScan& scan, double max_range) {
   RangeSweep sweep;
-  append(sweep, {scan.ranges, scan.first_bearing, scan.bearing_step, 0.02, max_range}, scan.base_from_laser);
+  append(sweep, {scan.ranges, scan.first_bearing, scan.bearing_step, 0.02, max_range}, {});
   return sweep;
 }
 
@@ -47,12 +47,13 @@ LogRun localize_log(const LaserLog& log, MarkovLocalizer& localizer, const LogRu
     const LoggedScan& scan = log.scans[i];
     const double logged = to_seconds(scan.time);
     const Time time = time_from_seconds(options.reverse ? end - logged : logged);
+    const Pose2 odom_from_laser = scan.odom_from_base * scan.base_from_laser;
     if (n == 0 && options.start) {
-      const BeliefMode mode{*options.start, {0.04, 0, 0, 0, 0.04, 0, 0, 0, 0.01}, 1.0};
-      localizer.start_at(std::span{&mode, 1}, scan.odom_from_base, time);
+      const BeliefMode mode{*options.start * scan.base_from_laser, {0.04, 0, 0, 0, 0.04, 0, 0, 0, 0.01}, 1.0};
+      localizer.start_at(std::span{&mode, 1}, odom_from_laser, time);
     }
     const auto begin = WallClock::now();
-    const auto step = localizer.observe(sweep_of(scan, log.max_range), scan.odom_from_base, time);
+    const auto step = localizer.observe(sweep_of(scan, log.max_range), odom_from_laser, time);
     const double seconds = std::chrono::duration<double>(WallClock::now() - begin).count();
     if (n == 0) run.seconds_first = seconds;
     if (step.updated) {
@@ -63,12 +64,12 @@ LogRun localize_log(const LaserLog& log, MarkovLocalizer& localizer, const LogRu
     }
     LoggedPose& pose = run.poses[i];
     pose = {i, logged, {}, false, localizer.verdict().localized(), localizer.verdict().p_lost()};
-    if (const auto best = localizer.map_from_robot(scan.odom_from_base)) {
-      pose.map_from_base = *best;
+    if (const auto best = localizer.map_from_robot(odom_from_laser)) {
+      pose.map_from_base = *best * inverse(scan.base_from_laser);
       pose.has_pose = true;
     }
     if (pose.localized && !run.localized_after) run.localized_after = n + 1;
-    if (options.watch) options.watch(localizer, i, step, scan.odom_from_base);
+    if (options.watch) options.watch(localizer, i, step);
   }
   return run;
 }
@@ -79,10 +80,11 @@ double endpoints_near_walls(const LaserLog& log, const LogRun& run, const RayCas
   const auto [first, last] = known_span(run.poses);
   for (std::size_t i = first; i < last; ++i) {
     if (!run.poses[i].has_pose) continue;
+    const Pose2 map_from_laser = run.poses[i].map_from_base * log.scans[i].base_from_laser;
     for (const SweepBeam& beam : sweep_of(log.scans[i], log.max_range).beams) {
       if (beam.no_return) continue;
       ++all;
-      const float clearance = caster.clearance(run.poses[i].map_from_base * endpoint(beam));
+      const float clearance = caster.clearance(map_from_laser * endpoint(beam));
       near += static_cast<double>(clearance) <= distance ? 1 : 0;
     }
   }

@@ -36,13 +36,14 @@ struct LogRunOptions {
   bool reverse = false;        ///< scans from the last to the first, with inverse odometry
   std::optional<Pose2> start;  ///< map_from_base at the first scan; nullopt: unknown
   /// After every scan: localizer, index in the log, pose (for pictures).
-  std::function<void(const MarkovLocalizer&, std::size_t, const MarkovLocalizer::Step&, const Pose2& odom)> watch;
+  std::function<void(const MarkovLocalizer&, std::size_t, const MarkovLocalizer::Step&)> watch;
 };
 
-/// Localizes every scan of a log; one sweep a scan, rear lasers joined with the last front scan.
+/// Localizes every scan of a log. The localizer's state is the *laser's* pose, moved by the laser's odometry, and the
+/// robot's follows from it: seen from the robot's centre, a beam along a wall would pass through the door post.
 [[nodiscard]] LogRun localize_log(const LaserLog& log, MarkovLocalizer& localizer, const LogRunOptions& options);
 
-/// The scan as seen from the robot's centre.
+/// The scan in the laser's frame.
 [[nodiscard]] RangeSweep sweep_of(const LoggedScan& scan, double max_range);
 
 /// Share of the valid endpoints within `distance` [m] of an occupied cell, over the scans since localization.

@@ -10,10 +10,10 @@ namespace {
 
 constexpr double kRobotRadius = 0.3;  // [m] in pictures
 
-std::vector<Point2> endpoints_at(const LoggedScan& scan, double max_range, const Pose2& map_from_base) {
+std::vector<Point2> endpoints_at(const LoggedScan& scan, double max_range, const Pose2& map_from_laser) {
   std::vector<Point2> ends;
   for (const SweepBeam& beam : sweep_of(scan, max_range).beams)
-    if (!beam.no_return) ends.push_back(map_from_base * endpoint(beam));
+    if (!beam.no_return) ends.push_back(map_from_laser * endpoint(beam));
   return ends;
 }
 
@@ -30,10 +30,10 @@ Image draw_belief(const Image& map_picture, const MapView& view, const MarkovLoc
     mass[belief.space().frame().index(belief.space().cell(static_cast<std::size_t>(belief.kept_places()[i])))] = sum;
   }
   draw_density(image, view, belief.space().frame(), mass);
-  if (const auto best = localizer.map_from_robot(scan.odom_from_base)) {
+  if (const auto best = localizer.map_from_robot(scan.odom_from_base * scan.base_from_laser)) {
     const Color color = localizer.verdict().localized() ? colors::kGreen : colors::kGrey;
     draw_points(image, view, endpoints_at(scan, max_range, *best), 3.0, with_alpha(color, 180));
-    draw_robot(image, view, *best, kRobotRadius, color);
+    draw_robot(image, view, *best * inverse(scan.base_from_laser), kRobotRadius, color);
   }
   return image;
 }
@@ -65,7 +65,7 @@ Image draw_scan(const OccupancyGrid& map, const LoggedScan& scan, double max_ran
   const MapView view{centre - Point2{kAround, kAround}, centre + Point2{kAround, kAround}, 30.0};
   Image image = draw_map(map, view);
   const Color color = pose.localized ? colors::kGreen : colors::kGrey;
-  draw_points(image, view, endpoints_at(scan, max_range, pose.map_from_base), 5.0, color);
+  draw_points(image, view, endpoints_at(scan, max_range, pose.map_from_base * scan.base_from_laser), 5.0, color);
   draw_robot(image, view, pose.map_from_base, kRobotRadius, color);
   return image;
 }
@@ -81,7 +81,9 @@ Image draw_run(const OccupancyGrid& map, const LaserLog& log, const LogRun& run,
     if (i % stride != 0) continue;
     const double along = static_cast<double>(i) / static_cast<double>(run.poses.size());
     const Color color = rainbow(along);
-    draw_points(image, view, endpoints_at(log.scans[i], log.max_range, pose.map_from_base), 2.5, color);
+    draw_points(image, view,
+                endpoints_at(log.scans[i], log.max_range, pose.map_from_base * log.scans[i].base_from_laser), 2.5,
+                color);
     draw_robot(image, view, pose.map_from_base, kRobotRadius, color);
   }
   if (way.size() > 1) draw_path(image, view, way, 2.0, colors::kInk);

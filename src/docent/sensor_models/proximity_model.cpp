@@ -25,7 +25,7 @@ Result<void> ProximityModelParams::validate() const {
 }
 
 ProximityModel::ProximityModel(const ProximityModelParams& params, std::span<const double> expected_frequency)
-    : params_{params}, bin_width_{params.max_range / kNoReturn} {
+    : params_{params}, bins_per_log_{kNoReturn / std::log1p(params.max_range / kFinest)} {
   const std::size_t size = static_cast<std::size_t>(kRangeBins) * kExpectedRanges;
   gaussian_.assign(size, 0.0);
   mixture_.assign(size, 0.0);
@@ -40,10 +40,14 @@ ProximityModel::ProximityModel(const ProximityModelParams& params, std::span<con
 
 int ProximityModel::bin(double range) const {
   if (!(range < params_.max_range)) return kNoReturn;
-  return std::clamp(static_cast<int>(range / bin_width_), 0, kNoReturn - 1);
+  return std::clamp(static_cast<int>(bins_per_log_ * std::log1p(range / kFinest)), 0, kNoReturn - 1);
 }
 
-double ProximityModel::centre(int bin) const { return bin >= kNoReturn ? params_.max_range : (bin + 0.5) * bin_width_; }
+double ProximityModel::lower_edge(int bin) const { return kFinest * std::expm1(bin / bins_per_log_); }
+
+double ProximityModel::centre(int bin) const {
+  return bin >= kNoReturn ? params_.max_range : 0.5 * (lower_edge(bin) + lower_edge(bin + 1));
+}
 
 double ProximityModel::sigma(int expected) const {
   return std::hypot(params_.sigma, params_.sigma_per_metre * centre(expected));
@@ -59,7 +63,7 @@ void ProximityModel::fill_gaussian() {
       const double below_zero = normal_below(-mean / deviation);  // cut off: ranges are not negative
       double before = below_zero;
       for (int measured = 0; measured < kRangeBins; ++measured) {
-        const double upper = (measured + 1) * bin_width_;
+        const double upper = lower_edge(measured + 1);
         const double below = measured == kNoReturn ? 1.0 : normal_below((upper - mean) / deviation);
         gaussian_[index(measured, expected)] = (below - before) / (1.0 - below_zero);
         before = below;
@@ -73,17 +77,27 @@ void ProximityModel::fill_gaussian() {
   }
 }
 
+double ProximityModel::uniform(int measured) const {
+  constexpr double kNothing = 1.0 / kRangeBins;  // the share of "no return"
+  if (measured == kNoReturn) return kNothing;
+  return (1.0 - kNothing) * (lower_edge(measured + 1) - lower_edge(measured)) / params_.max_range;
+}
+
 void ProximityModel::fill_mixture() {
   const double total = params_.weight_hit + params_.weight_short + params_.weight_no_return + params_.weight_random;
-  const double stays = std::exp(-params_.short_per_metre * bin_width_);  // geometric: nothing in the way within a bin
+  const double rate = params_.short_per_metre;
   for (int expected = 0; expected < kRangeBins; ++expected) {
-    // Things in front of the wall lie in the bins up to the expected one: P = (1-q) q^i / (1 - q^(o+1)).
-    const double in_front = 1.0 - std::pow(stays, expected + 1);
+    // Things in front of the wall: exponential in range, which is geometric over equal bins, cut off at the wall's bin.
+    const double end = expected == kNoReturn ? params_.max_range : lower_edge(expected + 1);
+    const double in_front = -std::expm1(-rate * end);
     for (int measured = 0; measured < kRangeBins; ++measured) {
       double p = params_.weight_hit * gaussian_[index(measured, expected)];
-      if (measured <= expected) p += params_.weight_short * (1.0 - stays) * std::pow(stays, measured) / in_front;
+      if (measured <= expected && measured < kNoReturn) {
+        const double share = std::exp(-rate * lower_edge(measured)) - std::exp(-rate * lower_edge(measured + 1));
+        p += params_.weight_short * share / in_front;
+      }
       if (measured == kNoReturn) p += params_.weight_no_return;
-      p += params_.weight_random / kRangeBins;
+      p += params_.weight_random * uniform(measured);
       mixture_[index(measured, expected)] = p / total;
     }
   }

@@ -34,8 +34,9 @@ struct ProximityModelParams {
   [[nodiscard]] Result<void> validate() const;
 };
 
-/// Ranges are cut into bins d_0 … d_126, of which the last means "max_range or more, or no return". An expected range
-/// is such a bin too, or kUnknown: the map does not say. All fit in seven bits, so that a look-up is one shuffle.
+/// Ranges are cut into bins d_0 … d_126, of which the last means "max_range or more, or no return". Near bins are
+/// finer: their width grows with kFinest + range, from 4 to 13 cm over 10 m. An expected range is such a bin too, or
+/// kUnknown: the map does not say. All fit in seven bits, so that a look-up is one shuffle.
 inline constexpr int kRangeBins = 127;
 inline constexpr int kNoReturn = kRangeBins - 1;
 inline constexpr int kUnknownRange = 127;
@@ -50,10 +51,10 @@ class ProximityModel {
   /// @pre params are valid
   explicit ProximityModel(const ProximityModelParams& params, std::span<const double> expected_frequency = {});
 
-  [[nodiscard]] double bin_width() const { return bin_width_; }  ///< [m]
-  [[nodiscard]] int bin(double range) const;                     ///< of a range [m] >= 0
-  [[nodiscard]] double centre(int bin) const;                    ///< [m]; of kNoReturn: max_range
-  [[nodiscard]] double sigma(int expected) const;                ///< [m]
+  [[nodiscard]] int bin(double range) const;       ///< of a range [m] >= 0
+  [[nodiscard]] double lower_edge(int bin) const;  ///< [m]
+  [[nodiscard]] double centre(int bin) const;      ///< [m]; of kNoReturn: max_range
+  [[nodiscard]] double sigma(int expected) const;  ///< [m]
 
   /// P(d_measured | o_expected); sums to 1 over the kRangeBins measured bins.
   [[nodiscard]] double probability(int measured, int expected) const { return mixture_[index(measured, expected)]; }
@@ -79,15 +80,18 @@ class ProximityModel {
   }
 
  private:
+  static constexpr double kFinest = 5.0;  ///< [m]
+
   [[nodiscard]] static std::size_t index(int measured, int expected) {
     return static_cast<std::size_t>(measured) * kExpectedRanges + static_cast<std::size_t>(expected);
   }
+  [[nodiscard]] double uniform(int measured) const;
   void fill_gaussian();
   void fill_mixture();
   void fill_unknown(std::span<const double> expected_frequency);
 
   ProximityModelParams params_;
-  double bin_width_;
+  double bins_per_log_;             ///< bins a unit of ln(1 + range / kFinest)
   std::vector<double> gaussian_;    ///< [measured][expected]
   std::vector<double> mixture_;     ///< [measured][expected]
   std::vector<float> shorter_;      ///< [measured][expected]

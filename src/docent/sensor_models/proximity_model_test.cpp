@@ -34,19 +34,30 @@ TEST(ProximityModel, HasTheShapeOfItsFourParts) {
   const ProximityModel model{params};
   const int expected = model.bin(5.0);
   const double sum = params.weight_hit + params.weight_short + params.weight_no_return + params.weight_random;
+  const auto density = [&model](int measured, double probability) {
+    return probability / (model.lower_edge(measured + 1) - model.lower_edge(measured));
+  };
   // Far behind the wall only the uniform part is left.
-  EXPECT_NEAR(model.probability(model.bin(8.0), expected), params.weight_random / sum / kRangeBins, 1e-9);
+  const double rest = params.weight_random / sum * (1.0 - 1.0 / kRangeBins) / params.max_range;
+  for (const double range : {6.0, 8.0, 9.9}) {
+    const int bin = model.bin(range);
+    EXPECT_NEAR(density(bin, model.probability(bin, expected)), rest, 1e-9);
+  }
   // No return has the Dirac on top.
-  EXPECT_NEAR(model.probability(kNoReturn, expected) - model.probability(model.bin(8.0), expected),
-              params.weight_no_return / sum, 1e-9);
+  EXPECT_NEAR(model.probability(kNoReturn, expected),
+              (params.weight_no_return + params.weight_random / kRangeBins) / sum, 1e-9);
   // In front of the wall the density falls by exp(-rate) a metre.
-  const double rest = params.weight_random / sum / kRangeBins;
-  const double near = model.probability(model.bin(1.0), expected) - rest;
-  const double far = model.probability(model.bin(1.0) + 10, expected) - rest;
-  EXPECT_NEAR(far / near, std::exp(-params.short_per_metre * 10 * model.bin_width()), 1e-6);
+  for (const double range : {0.5, 1.0, 2.5}) {
+    const int near = model.bin(range);
+    const int far = near + 10;
+    const double ratio = (density(far, model.probability(far, expected)) - rest) /
+                         (density(near, model.probability(near, expected)) - rest);
+    EXPECT_NEAR(std::log(ratio), -params.short_per_metre * (model.centre(far) - model.centre(near)), 1e-3);
+  }
   // The peak stands at the wall.
-  for (int measured = 0; measured < kRangeBins; ++measured)
-    EXPECT_LE(model.probability(measured, expected), model.probability(expected, expected));
+  for (int measured = 0; measured < kNoReturn; ++measured)
+    EXPECT_LE(density(measured, model.probability(measured, expected)),
+              density(expected, model.probability(expected, expected)));
 }
 
 TEST(ProximityModel, ShorterIsTheTailOfTheGaussianAlone) {

@@ -6,6 +6,38 @@
 
 namespace docent {
 
+OccupancyGrid peeled(const OccupancyGrid& map, double depth) {
+  const GridFrame& frame = map.frame;
+  OccupancyGrid result = map;
+  if (depth < 0.5 * frame.resolution) return result;
+  std::vector<bool> is_free(frame.size());
+  std::vector<bool> not_occupied(frame.size());
+  for (std::size_t i = 0; i < frame.size(); ++i) {
+    is_free[i] = map.cells[i] >= 0 && map.cells[i] < 20;
+    not_occupied[i] = map.cells[i] < 65;
+  }
+  const std::vector<float> to_free = distance_transform(frame, is_free);
+  const std::vector<float> inside = distance_transform(frame, not_occupied);  // how deep in the wall
+  const auto is_ridge = [&](CellIndex cell) {
+    const float here = inside[frame.index(cell)];
+    for (int row = -1; row <= 1; ++row)
+      for (int column = -1; column <= 1; ++column) {
+        const CellIndex near{cell.column + column, cell.row + row};
+        if (frame.holds(near) && inside[frame.index(near)] > here) return false;
+      }
+    return true;
+  };
+  // The outline lies half a cell before the first middle.
+  const auto least = static_cast<float>(depth + 0.5 * frame.resolution);
+  for (int row = 0; row < frame.rows; ++row)
+    for (int column = 0; column < frame.columns; ++column) {
+      const CellIndex cell{column, row};
+      if (map.is_occupied(cell) && to_free[frame.index(cell)] < least && !is_ridge(cell))
+        result.cells[frame.index(cell)] = OccupancyGrid::kFree;
+    }
+  return result;
+}
+
 RayCaster::RayCaster(const OccupancyGrid& map) : frame_{map.frame} {
   kinds_.resize(frame_.size());
   std::vector<bool> occupied(frame_.size());

@@ -7,6 +7,11 @@
 
 namespace docent {
 
+/// The map with its walls peeled: occupied cells whose middle is less than `depth` [m] from free space become free, but
+/// for those in the middle of thin walls. Maps learned with wide sensor models have walls that stand out into the room,
+/// and beams that graze such a wall come out far too short. O(cells).
+[[nodiscard]] OccupancyGrid peeled(const OccupancyGrid& map, double depth);
+
 /// Ranges that a perfect sensor would measure in a map: exact traversal of cells, with leaps over free space that the
 /// distance transform allows.
 class RayCaster {

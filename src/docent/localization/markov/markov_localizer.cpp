@@ -43,6 +43,9 @@ Result<void> MarkovLocalizerParams::validate() const {
   if (!(update_way > 0.0 && update_turn > 0.0)) return fail("update_way and update_turn must be > 0");
   if (!(creeping_period > 0.0 && standing_period > 0.0)) return fail("creeping_period and standing_period must be > 0");
   if (!(standing_weight >= 0.0 && standing_weight <= 1.0)) return fail("standing_weight must be 0..1");
+  if (!(most_nats > 0.0 && most_nats <= 60.0)) return fail("most_nats must be > 0 and <= 60");
+  if (!(look_round_updates >= 0)) return fail("look_round_updates must be >= 0");
+  if (!(look_round_way > 0.0)) return fail("look_round_way must be > 0");
   if (!(work_per_second > 0.0)) return fail("work_per_second must be > 0");
   return {};
 }
@@ -51,7 +54,7 @@ MarkovLocalizer::MarkovLocalizer(const OccupancyGrid& map, const MarkovLocalizer
                                  const std::filesystem::path& cache, std::uint64_t seed)
     : params_{params},
       filter_{beam_filter_of(params.filter).value_or(BeamFilter::distance)},
-      caster_{map},
+      caster_{peeled(map, params.states.wall_depth)},
       space_{map, caster_, params.states},
       table_{make_table(map, params, cache, space_, caster_)},
       model_{params.sensor, table_.frequency()},
@@ -62,6 +65,7 @@ MarkovLocalizer::MarkovLocalizer(const OccupancyGrid& map, const MarkovLocalizer
 }
 
 void MarkovLocalizer::start_unknown() {
+  belief_.set_dense(false);
   belief_.make_uniform();
   heading_offset_ = 0.0;
   started_ = false;
@@ -122,8 +126,10 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
     costs[i].direction = choice.used[i].direction;
     log_best_over_mean += temper * (static_cast<double>(best) - model_.log_mean_probability(bin));
   }
+  look_round(way, turn);
   last_work_ = static_cast<double>(belief_.active_states()) * static_cast<double>(costs.size());
-  step.evidence = belief_.reweigh(table_, costs, log_best_over_mean, params_.teleport_probability);
+  step.evidence = belief_.reweigh(table_, costs, log_best_over_mean, params_.most_nats, params_.teleport_probability);
+  if (belief_.is_dense() && --dense_updates_left_ == 0) belief_.set_dense(false);
   step.updated = true;
   step.beams_used = costs.size();
   step.beams_filtered = choice.filtered;
@@ -160,6 +166,14 @@ MarkovLocalizer::Choice MarkovLocalizer::choose_beams(const RangeSweep& sweep, c
   }
   thin(choice.used);
   return choice;
+}
+
+void MarkovLocalizer::look_round(double way, double turn) {
+  way_since_round_ += way + turn / (0.5 * std::numbers::pi);
+  if (belief_.is_dense() || way_since_round_ < params_.look_round_way || params_.look_round_updates == 0) return;
+  way_since_round_ = 0.0;
+  dense_updates_left_ = params_.look_round_updates;
+  belief_.set_dense(true);
 }
 
 void MarkovLocalizer::thin(std::vector<BinnedBeam>& beams) {

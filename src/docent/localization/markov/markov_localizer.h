@@ -33,7 +33,10 @@ struct MarkovLocalizerParams {
   double creeping_period = 2.0;        ///< [s] when it moves less, or
   double standing_period = 3.0;        ///< [s] when it stands
   double standing_weight = 0.1;        ///< of such an update: the same view again says little
-  double work_per_second = 1e9;        ///< states * beams that may be scored in a second of the robot's time
+  double most_nats = 4.0;              ///< [nat] that one scan counts at most
+  double look_round_way = 10.0;  ///< [m] driven (a right angle turned counts as a metre) between looks at all states
+  int look_round_updates = 4;    ///< in a row, then
+  double work_per_second = 1e9;  ///< states * beams that may be scored in a second of the robot's time
   template <class V>
   void visit(V& v) {
     v("states", states);
@@ -52,6 +55,9 @@ struct MarkovLocalizerParams {
     v("creeping_period", creeping_period);
     v("standing_period", standing_period);
     v("standing_weight", standing_weight);
+    v("most_nats", most_nats);
+    v("look_round_way", look_round_way);
+    v("look_round_updates", look_round_updates);
     v("work_per_second", work_per_second);
   }
   [[nodiscard]] Result<void> validate() const;
@@ -108,6 +114,7 @@ class MarkovLocalizer {
   [[nodiscard]] double due_weight(double way, double turn, Time time) const;
   [[nodiscard]] Choice choose_beams(const RangeSweep& sweep, const std::vector<BinnedBeam>& beams);
   void thin(std::vector<BinnedBeam>& beams);
+  void look_round(double way, double turn);
   void judge(Evidence evidence, const std::optional<Pose2>& predicted);
   [[nodiscard]] int bin_of(const SweepBeam& beam) const { return beam.no_return ? kNoReturn : model_.bin(beam.range); }
 
@@ -125,6 +132,8 @@ class MarkovLocalizer {
   Pose2 odom_from_robot_;
   Time last_update_{};
   double last_work_ = 0.0;
+  double way_since_round_ = 0.0;  ///< [m], turns counted as way
+  int dense_updates_left_ = 0;
   std::size_t phase_ = 0;
   BeliefSummary summary_;
   std::vector<LikelyState> likely_;

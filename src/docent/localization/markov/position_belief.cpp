@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace docent {
@@ -174,34 +175,55 @@ void PositionBelief::move(const MotionKernel& kernel) {
 }
 
 double PositionBelief::reweigh(const RangeTable& table, std::span<const BeamCosts> beams, double log_best_over_mean,
-                               double teleport) {
+                               double most_nats, double teleport) {
+  const std::size_t best = score(table, beams);
+  const double best_over_mean = log_best_over_mean - static_cast<double>(best) / kCostPerNat;
+  const auto most = static_cast<std::size_t>(std::min(most_nats * kCostPerNat, static_cast<double>(decay_.size() - 1)));
+  const auto threshold = static_cast<float>(this->threshold());
+  // Everything relative to the best active state, the states under water too.
+  const auto sea_factor = static_cast<float>(std::exp(std::clamp(-best_over_mean, -most_nats, most_nats)));
   const auto headings = static_cast<std::size_t>(space_->headings());
-  const auto scale = static_cast<float>(std::exp(std::clamp(log_best_over_mean, -60.0, 60.0)));
-  const auto threshold = static_cast<float>(threshold_);
-  const std::size_t last_decay = decay_.size() - 1;
-  std::array<std::uint16_t, kBlock> sums{};
-  double before = 0.0;
-  double after = 0.0;
+  for (std::size_t i = 0; i < kept_.size(); ++i) {
+    float* const row = rows_.data() + i * stride_;
+    const std::uint16_t* const costs = costs_.data() + i * stride_;
+    for (std::size_t h = 0; h < headings; ++h)
+      row[h] *= row[h] > threshold ? decay_[std::min<std::size_t>(costs[h] - best, most)] : sea_factor;
+  }
+  sea_ *= static_cast<double>(sea_factor);
+  normalise(teleport);
+  return best_over_mean;
+}
+
+std::size_t PositionBelief::score(const RangeTable& table, std::span<const BeamCosts> beams) {
+  const auto headings = static_cast<std::size_t>(space_->headings());
+  const auto threshold = static_cast<float>(this->threshold());
+  costs_.resize(kept_.size() * stride_);
+  std::size_t best = std::numeric_limits<std::uint16_t>::max();
   for (std::size_t i = 0; i < kept_.size(); ++i) {
     const std::uint8_t* const ranges = table.row(static_cast<std::size_t>(kept_[i]));
-    float* const row = rows_.data() + i * stride_;
+    const float* const row = rows_.data() + i * stride_;
+    std::uint16_t* const costs = costs_.data() + i * stride_;
     for (std::size_t first = 0; first < headings; first += kBlock) {
       const std::size_t count = std::min(kBlock, headings - first);
       bool active = false;
       for (std::size_t h = first; h < first + count; ++h) active = active || row[h] > threshold;
       if (!active) continue;
-      score_(ranges, first, count, beams, sums.data());
-      for (std::size_t h = 0; h < count; ++h) {
-        float& value = row[first + h];
-        if (!(value > threshold)) continue;
-        before += static_cast<double>(value);
-        value *= scale * decay_[std::min<std::size_t>(sums[h], last_decay)];
-        after += static_cast<double>(value);
-      }
+      score_(ranges, first, count, beams, costs + first);
+      for (std::size_t h = first; h < first + count; ++h)
+        if (row[h] > threshold) best = std::min<std::size_t>(best, costs[h]);
     }
   }
-  normalise(teleport);
-  return before > 0.0 ? after / before : 0.0;
+  return best;
+}
+
+void PositionBelief::set_dense(bool dense) {
+  if (dense == dense_) return;
+  dense_ = dense;
+  if (dense) {
+    wake();
+    sea_ = 0.0;
+  }
+  normalise(0.0);
 }
 
 void PositionBelief::flood(double mass) {
@@ -231,7 +253,7 @@ void PositionBelief::normalise(double teleport) {
   }
   const auto scale = static_cast<float>((1.0 - teleport) / total);
   const auto base = static_cast<float>(teleport / static_cast<double>(states));
-  const auto threshold = static_cast<float>(threshold_);
+  const auto threshold = static_cast<float>(this->threshold());
   double inactive_mass =
       (sea_ * static_cast<double>(scale) + static_cast<double>(base)) * static_cast<double>(under_sea);
   std::size_t inactive_states = under_sea;
@@ -256,7 +278,7 @@ void PositionBelief::normalise(double teleport) {
 
 void PositionBelief::settle(double inactive_mass, std::size_t inactive_states) {
   const auto headings = static_cast<std::size_t>(space_->headings());
-  const auto threshold = static_cast<float>(threshold_);
+  const auto threshold = static_cast<float>(this->threshold());
   active_states_ = space_->states() - inactive_states;
   active_mass_ = std::clamp(1.0 - inactive_mass, 0.0, 1.0);
   sea_ = inactive_states > 0 ? inactive_mass / static_cast<double>(inactive_states) : 0.0;
@@ -281,17 +303,21 @@ void PositionBelief::settle(double inactive_mass, std::size_t inactive_states) {
   kept_.resize(out);
   rows_.resize(out * stride_);
   if (!wakes) return;
-  // The sea has risen over the threshold: every state is above it again.
+  wake();  // the sea has risen over the threshold: every state is above it again
+  sea_ = 0.0;
+  active_states_ = space_->states();
+  active_mass_ = 1.0;
+}
+
+void PositionBelief::wake() {
+  if (kept_.size() == space_->places()) return;
   std::vector<float> old_rows;
   old_rows.swap(rows_);
   const std::vector<std::int32_t> old_places = kept_;
-  keep_all(level);
+  keep_all(static_cast<float>(sea_));
   for (std::size_t i = 0; i < old_places.size(); ++i)
     std::copy_n(old_rows.data() + i * stride_, stride_,
                 rows_.data() + static_cast<std::size_t>(old_places[i]) * stride_);
-  active_states_ = space_->states();
-  active_mass_ = 1.0;
-  sea_ = 0.0;
 }
 
 float PositionBelief::probability(std::size_t place, int heading) const {
@@ -305,7 +331,7 @@ double PositionBelief::entropy() const {
   std::size_t wet = space_->states();
   for (std::size_t i = 0; i < kept_.size(); ++i) {
     for (const float value : row(i)) {
-      if (!(value > static_cast<float>(threshold_)) || value <= 0.0F) continue;
+      if (!(value > static_cast<float>(threshold())) || value <= 0.0F) continue;
       sum -= static_cast<double>(value) * std::log(static_cast<double>(value));
       --wet;
     }

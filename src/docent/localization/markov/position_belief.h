@@ -39,17 +39,26 @@ class PositionBelief {
   /// * headings).
   void move(const MotionKernel& kernel);
 
-  /// [Markov1998] eq. 4: active states are multiplied by P(s | l) / P~(s), the rest by one. `log_best_over_mean` is the
-  /// sum over beams of ln(best P(d | o)) - ln P~(d), tempered like the costs. Then, with a small probability
-  /// `teleport`, somebody carried the robot elsewhere. Returns 1 / alpha: what the active states expected of the
-  /// reading relative to a uniform position. O(active states * beams).
-  double reweigh(const RangeTable& table, std::span<const BeamCosts> beams, double log_best_over_mean, double teleport);
+  /// [Markov1998] eq. 4: active states are multiplied by P(s | l), the rest by P~(s). `log_best_over_mean` is the sum
+  /// over beams of ln(best P(d | o)) - ln P~(d), tempered like the costs. Departure: one scan counts at most
+  /// `most_nats` [nat] against any state, relative to the active state that explains it best. The beams of a scan fail
+  /// together, where the map is wrong or people stand around, and a wrong pose must not win on one odd view. Then, with
+  /// a small probability `teleport`, somebody carried the robot elsewhere. Returns ln P(s | l) - ln P~(s) of the best
+  /// active state. O(active states * beams).
+  double reweigh(const RangeTable& table, std::span<const BeamCosts> beams, double log_best_over_mean, double most_nats,
+                 double teleport);
+
+  /// While dense, no state sinks: for some updates in a row all states compete. The sea alone shows that no active
+  /// state fits, but never that another place fits better.
+  void set_dense(bool dense);
+  [[nodiscard]] bool is_dense() const { return dense_; }
 
   /// Shares `mass` evenly over all states, in proportion taken from the others.
   void flood(double mass);
 
   [[nodiscard]] const StateSpace& space() const { return *space_; }
-  [[nodiscard]] double threshold() const { return threshold_; }
+  /// States above it are active; negative: all are.
+  [[nodiscard]] double threshold() const { return dense_ ? -1.0 : threshold_; }
   [[nodiscard]] double sea_level() const { return sea_; }
   [[nodiscard]] std::size_t active_states() const { return active_states_; }
   [[nodiscard]] double active_mass() const { return active_mass_; }
@@ -67,6 +76,9 @@ class PositionBelief {
 
  private:
   void keep_all(float value);
+  void wake();
+  /// Fills costs_ where states are active; the least of them.
+  std::size_t score(const RangeTable& table, std::span<const BeamCosts> beams);
   void normalise(double teleport);
   void settle(double inactive_mass, std::size_t inactive_states);
   void find_targets(int reach, std::vector<std::int32_t>& targets);
@@ -75,6 +87,7 @@ class PositionBelief {
   const StateSpace* space_;
   std::size_t stride_;  ///< [floats] of a row; a multiple of 64
   double threshold_;
+  bool dense_ = false;
   ScoreKernel score_;
   std::vector<float> decay_;  ///< exp(-cost / kCostPerNat)
 
@@ -86,7 +99,8 @@ class PositionBelief {
   double active_mass_ = 1.0;
   float peak_ = 0.0F;
 
-  std::vector<float> next_rows_;  ///< scratch of move
+  std::vector<float> next_rows_;      ///< scratch of move
+  std::vector<std::uint16_t> costs_;  ///< scratch of reweigh: [kept][stride]
   std::vector<std::int32_t> targets_;
   std::vector<std::uint8_t> marks_;
   std::vector<float> shifted_;

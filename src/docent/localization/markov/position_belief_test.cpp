@@ -99,7 +99,7 @@ TEST(PositionBelief, WithoutASeaItIsTheTwin) {
     double offset = 0.0;
     for (int step = 0; step < 5; ++step) {
       const auto beams = any_beams(rng, 12, room->space.headings());
-      belief.reweigh(room->table, beams, 0.0, 0.0);
+      belief.reweigh(room->table, beams, 0.0, 60.0, 0.0);
       twin.reweigh(room->table, beams);
       const Pose2 moved{rng.uniform(-0.3, 0.3), rng.uniform(-0.1, 0.1), Angle::radians(rng.uniform(-0.5, 0.5))};
       const MotionKernel kernel = motion_kernel(room->space, {}, moved, offset);
@@ -122,7 +122,7 @@ TEST(PositionBelief, SelectiveUpdateStaysNearTheDenseOne) {
     for (int step = 0; step < 8; ++step) {
       double best_over_mean = 0.0;
       const auto beams = testing::beams_at(*room, truth, offset, 0.4, best_over_mean);
-      belief.reweigh(room->table, beams, best_over_mean, 0.0);
+      belief.reweigh(room->table, beams, best_over_mean, 60.0, 0.0);
       twin.reweigh(room->table, beams);
       EXPECT_LT(total_variation(belief, twin), 0.01);  // active mass above 0.99
       EXPECT_GT(belief.active_mass(), 0.99);
@@ -144,7 +144,7 @@ TEST(PositionBelief, TheSeaRisesOverTheThresholdAndAllWake) {
   for (int i = 0; i < 6; ++i) {
     double best_over_mean = 0.0;
     const auto beams = testing::beams_at(*room, truth, 0.0, 0.4, best_over_mean);
-    belief.reweigh(room->table, beams, best_over_mean, 1e-7);
+    belief.reweigh(room->table, beams, best_over_mean, 60.0, 1e-7);
   }
   ASSERT_LT(belief.active_states(), room->space.states() / 20);
   const double low = belief.sea_level();
@@ -155,7 +155,7 @@ TEST(PositionBelief, TheSeaRisesOverTheThresholdAndAllWake) {
   for (; steps < 12 && !woke; ++steps) {
     double best_over_mean = 0.0;
     const auto beams = testing::beams_at(*room, elsewhere, 0.0, 0.4, best_over_mean);
-    belief.reweigh(room->table, beams, best_over_mean, 1e-7);
+    belief.reweigh(room->table, beams, best_over_mean, 60.0, 1e-7);
     woke = belief.active_states() == room->space.states();
     if (!woke) {
       EXPECT_GT(belief.sea_level(), level);
@@ -166,7 +166,7 @@ TEST(PositionBelief, TheSeaRisesOverTheThresholdAndAllWake) {
   for (int i = 0; i < 8; ++i) {
     double best_over_mean = 0.0;
     const auto beams = testing::beams_at(*room, elsewhere, 0.0, 0.4, best_over_mean);
-    belief.reweigh(room->table, beams, best_over_mean, 1e-7);
+    belief.reweigh(room->table, beams, best_over_mean, 60.0, 1e-7);
   }
   const auto place = room->space.place_at(room->space.frame().cell_at(elsewhere.position()));
   ASSERT_NE(place, StateSpace::kNoPlace);

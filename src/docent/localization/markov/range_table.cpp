@@ -54,7 +54,7 @@ RangeTable RangeTable::build(const StateSpace& space, const RayCaster& caster, c
   constexpr double kUnknownAllowance = 0.3;  // [m]: single unknown cells are gaps of mapping, not the end of the map
   const int headings = space.headings();
   const double max_range = model.centre(kNoReturn);
-  const double behind = space.wall_depth();
+  const double behind = 0.5 * caster.frame().resolution;
   std::vector<Point2> directions;
   for (int h = 0; h < headings; ++h) directions.push_back(unit(Angle::radians(h * space.heading_step())));
 

@@ -20,8 +20,8 @@ class RangeTable {
  public:
   static constexpr std::size_t kReadAhead = 64;
 
-  /// Casts all rays. Surfaces lie the state space's wall depth behind the outline of occupied cells.
-  /// O(places * directions * cells a ray crosses).
+  /// Casts all rays. An occupied cell's surface is taken half a map cell behind its outline, where walls lie on
+  /// average. O(places * directions * cells a ray crosses).
   [[nodiscard]] static RangeTable build(const StateSpace& space, const RayCaster& caster, const ProximityModel& model);
   /// Maps PATH into memory when it is whole and was made for `key`; else builds the table and writes it there
   /// atomically. A file that cannot be written is not an error: the table is then kept in memory.

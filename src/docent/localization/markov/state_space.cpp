@@ -11,13 +11,12 @@ Result<void> StateSpaceParams::validate() const {
   if (!(heading_step >= 0.5 && heading_step <= 30.0) || std::abs(headings - std::round(headings)) > 1e-9)
     return fail("states.heading_step must be 0.5..30 degrees and divide 360");
   if (!(min_clearance >= 0.0)) return fail("states.min_clearance must be >= 0");
-  if (!(wall_depth <= 1.0)) return fail("states.wall_depth must be <= 1 m");
+  if (!(wall_depth >= 0.0 && wall_depth <= 1.0)) return fail("states.wall_depth must be 0..1 m");
   return {};
 }
 
 StateSpace::StateSpace(const OccupancyGrid& map, const RayCaster& caster, const StateSpaceParams& params)
-    : headings_{static_cast<int>(std::lround(360.0 / params.heading_step))},
-      wall_depth_{params.wall_depth >= 0.0 ? params.wall_depth : 0.5 * map.frame.resolution} {
+    : headings_{static_cast<int>(std::lround(360.0 / params.heading_step))} {
   frame_.resolution = params.cell_size;
   frame_.origin = map.frame.origin;
   frame_.columns = static_cast<int>(std::ceil(map.frame.columns * map.frame.resolution / params.cell_size - 1e-9));

@@ -13,9 +13,9 @@ struct StateSpaceParams {
   double cell_size = 0.15;      ///< [m], > 0
   double heading_step = 2.0;    ///< [deg], a divisor of 360
   double min_clearance = 0.10;  ///< [m], >= 0: nearer to an occupied cell's centre the robot's centre cannot be
-  /// [m] that surfaces lie behind the outline of occupied cells; learned maps often have fat walls. Negative: half a
-  /// cell of the map, where the surfaces of drawn walls lie on average.
-  double wall_depth = -1.0;
+  /// [m] by which walls are peeled before ranges are expected: learned maps have fat walls. The rest of half a map
+  /// cell, where surfaces lie on average, always comes on top.
+  double wall_depth = 0.0;
   template <class V>
   void visit(V& v) {
     v("wall_depth", wall_depth);
@@ -37,8 +37,7 @@ class StateSpace {
 
   [[nodiscard]] const GridFrame& frame() const { return frame_; }
   [[nodiscard]] int headings() const { return headings_; }
-  [[nodiscard]] double heading_step() const;                       ///< [rad]
-  [[nodiscard]] double wall_depth() const { return wall_depth_; }  ///< [m]
+  [[nodiscard]] double heading_step() const;  ///< [rad]
   [[nodiscard]] std::size_t places() const { return cells_.size(); }
   [[nodiscard]] std::size_t states() const { return cells_.size() * static_cast<std::size_t>(headings_); }
   [[nodiscard]] CellIndex cell(std::size_t place) const { return cells_[place]; }
@@ -50,7 +49,6 @@ class StateSpace {
  private:
   GridFrame frame_;
   int headings_;
-  double wall_depth_;
   std::vector<CellIndex> cells_;             ///< of each place, row by row
   std::vector<std::int32_t> place_of_cell_;  ///< [rows * columns]
 };

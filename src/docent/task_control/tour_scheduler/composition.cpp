@@ -1,6 +1,7 @@
 #include "docent/task_control/tour_scheduler/composition.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace docent {
 
@@ -16,30 +17,36 @@ Result<void> SchedulerParams::validate() const {
   return {};
 }
 
-std::vector<std::string> compose_tour(const Programme& programme, Point2 start, double target_s,
-                                      const TravelDistance& travel, const SchedulerParams& params) {
+double stop_duration(const ProgrammeExhibit& exhibit, double way_m, const SchedulerParams& params) {
+  return way_m / params.cruise_speed + exhibit.speech_s + params.stop_overhead_s;
+}
+
+std::vector<std::string> compose_tour(const Programme& programme, Point2 start, double left_s,
+                                      const std::vector<std::string>& done, const TravelDistance& travel,
+                                      const SchedulerParams& params) {
+  const auto holds = [](const std::vector<std::string>& list, const std::string& id) {
+    return std::find(list.begin(), list.end(), id) != list.end();
+  };
   std::vector<std::string> chosen;
   Point2 at = start;
-  double left_s = target_s;
-  while (chosen.size() < programme.exhibits.size()) {
-    const ProgrammeExhibit* best = nullptr;
-    double best_way = 0.0;
+  while (true) {
+    const ProgrammeExhibit* nearest = nullptr;
+    double least_way = std::numeric_limits<double>::infinity();
     for (const ProgrammeExhibit& exhibit : programme.exhibits) {
-      if (exhibit.web_only || std::find(chosen.begin(), chosen.end(), exhibit.id) != chosen.end()) continue;
+      if (exhibit.web_only || holds(chosen, exhibit.id) || holds(done, exhibit.id)) continue;
       const double way = travel(at, exhibit.pose.position());
-      const double cost_s = way / params.cruise_speed + exhibit.speech_s + params.stop_overhead_s;
-      if (cost_s > left_s && !chosen.empty()) continue;
-      if (best == nullptr || way < best_way) {
-        best = &exhibit;
-        best_way = way;
+      if (way < least_way) {
+        nearest = &exhibit;
+        least_way = way;
       }
     }
-    if (best == nullptr) break;
-    chosen.push_back(best->id);
-    left_s -= best_way / params.cruise_speed + best->speech_s + params.stop_overhead_s;
-    at = best->pose.position();
+    if (nearest == nullptr) return chosen;
+    const double cost_s = stop_duration(*nearest, least_way, params);
+    if (cost_s > 2.0 * left_s) return chosen;
+    chosen.push_back(nearest->id);
+    left_s -= cost_s;
+    at = nearest->pose.position();
   }
-  return chosen;
 }
 
 }  // namespace docent

@@ -32,9 +32,14 @@ struct SchedulerParams {
   [[nodiscard]] Result<void> validate() const;
 };
 
-/// Exhibits for a tour of about `target_s` from where the robot stands: always the nearest one that still fits, until
-/// none does; at least one. Those that only Web visitors may see are left out. O(exhibits^2).
-[[nodiscard]] std::vector<std::string> compose_tour(const Programme& programme, Point2 start, double target_s,
-                                                    const TravelDistance& travel, const SchedulerParams& params);
+/// How long it takes to go to an exhibit and show it, in the short version [s].
+[[nodiscard]] double stop_duration(const ProgrammeExhibit& exhibit, double way_m, const SchedulerParams& params);
+
+/// Exhibits for the `left_s` that remain of a composed tour, from where the robot stands: always the nearest one, as
+/// long as less than half of it lies beyond the end, so that the length comes out right on average. Those that only Web
+/// visitors may see and those in `done` are left out. O(exhibits^2).
+[[nodiscard]] std::vector<std::string> compose_tour(const Programme& programme, Point2 start, double left_s,
+                                                    const std::vector<std::string>& done, const TravelDistance& travel,
+                                                    const SchedulerParams& params);
 
 }  // namespace docent

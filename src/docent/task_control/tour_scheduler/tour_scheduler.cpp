@@ -91,14 +91,21 @@ void TourScheduler::submit(VisitorRequest request, const Conditions& conditions,
     happenings_.push_back({"request_refused", id, why_not});
     return;
   }
-  const bool joins = request.kind == "exhibit" && state_.visit && state_.visit->is_joinable &&
-                     state_.visit->exhibit_id == request.target;
+  const bool joins = may_join(request);
   happenings_.push_back({"request_queued", id, request.target, static_cast<double>(state_.board.open_count() + 1)});
   state_.board.add(std::move(request), RequestStatus::queued, "", now);
   if (joins) {
     state_.board.change(id, RequestStatus::active, "I am on my way there already.", now);
-    happenings_.push_back({"request_active", id, state_.visit->exhibit_id});
+    happenings_.push_back({"request_active", id, state_.board.find(id)->request.target});
   }
+}
+
+bool TourScheduler::may_join(const VisitorRequest& request) const {
+  if (!state_.visit || !state_.visit->is_joinable) return false;
+  if (request.kind == "exhibit") return state_.visit->exhibit_id == request.target;
+  if (!state_.tour || state_.tour->tour_id != request.target || state_.visit->tour_id != request.target) return false;
+  return std::none_of(state_.tour->stops.begin(), state_.tour->stops.end(),
+                      [](const TourStop& stop) { return stop.status != StopStatus::pending; });
 }
 
 void TourScheduler::cancel(const VisitorRequest& request, Time now) {
@@ -135,133 +142,6 @@ std::vector<std::string> TourScheduler::ids(const std::string& kind, RequestStat
       found.push_back(entry.request.id);
   }
   return found;
-}
-
-bool TourScheduler::is_overdue(const BoardEntry& entry, Time now) const {
-  return now - entry.created > seconds(params_.overdue_s);
-}
-
-const BoardEntry* TourScheduler::oldest_due(Time now) const {
-  for (const BoardEntry& entry : state_.board.entries()) {
-    if (entry.status == RequestStatus::queued && entry.not_before <= now) return &entry;
-  }
-  return nullptr;
-}
-
-std::vector<std::string> TourScheduler::single_order(Point2 robot, Time now) const {
-  std::vector<std::string> order;  // overdue ones, the oldest first
-  std::vector<std::string> others;
-  for (const BoardEntry& entry : state_.board.entries()) {
-    if (entry.status != RequestStatus::queued || entry.request.kind != "exhibit" || entry.not_before > now) continue;
-    const std::string& exhibit = entry.request.target;
-    if (holds(order, exhibit) || programme_.find_exhibit(exhibit) == nullptr) continue;
-    if (is_overdue(entry, now)) {
-      order.push_back(exhibit);
-    } else if (!holds(others, exhibit)) {
-      others.push_back(exhibit);
-    }
-  }
-  std::erase_if(others, [&](const std::string& exhibit) { return holds(order, exhibit); });
-  std::vector<Point2> points;
-  for (const std::string& exhibit : others) points.push_back(programme_.find_exhibit(exhibit)->pose.position());
-  const Point2 start = order.empty() ? robot : programme_.find_exhibit(order.back())->pose.position();
-  for (const std::size_t index : shortest_order(start, points, travel_)) order.push_back(others[index]);
-  return order;
-}
-
-std::optional<std::string> TourScheduler::exhibit_to_insert(Point2 robot, Time now) const {
-  const TourRun& tour = *state_.tour;
-  const auto next = std::find_if(tour.stops.begin(), tour.stops.end(),
-                                 [](const TourStop& stop) { return stop.status == StopStatus::pending; });
-  if (tour.just_inserted || next == tour.stops.end()) return std::nullopt;
-  const Point2 goal = programme_.find_exhibit(next->exhibit_id)->pose.position();
-  const double direct = travel_(robot, goal);
-  for (const BoardEntry& entry : state_.board.entries()) {
-    if (entry.status != RequestStatus::queued || entry.request.kind != "exhibit" || entry.not_before > now) continue;
-    const ProgrammeExhibit* exhibit = programme_.find_exhibit(entry.request.target);
-    if (exhibit == nullptr) continue;
-    const bool is_a_stop = std::any_of(tour.stops.begin(), tour.stops.end(), [&](const TourStop& stop) {
-      return stop.exhibit_id == exhibit->id && stop.status == StopStatus::pending;
-    });
-    if (is_a_stop) continue;  // the tour comes by anyway
-    const Point2 place = exhibit->pose.position();
-    if (is_overdue(entry, now) || travel_(robot, place) + travel_(place, goal) - direct <= params_.max_detour_m)
-      return exhibit->id;
-  }
-  return std::nullopt;
-}
-
-const std::optional<Visit>& TourScheduler::begin_visit(Point2 robot, Time now) {
-  DOCENT_CHECK(!state_.visit);
-  if (!state_.tour) {
-    const BoardEntry* oldest = oldest_due(now);
-    if (oldest == nullptr) return state_.visit;
-    if (oldest->request.kind == "tour") {
-      begin_tour(std::string{oldest->request.target}, robot, now);
-    } else {
-      const auto order = single_order(robot, now);
-      if (!order.empty()) begin_visit_of(order.front(), false, now);
-      return state_.visit;
-    }
-  }
-  if (!state_.tour) return state_.visit;
-  if (const auto extra = exhibit_to_insert(robot, now)) {
-    happenings_.push_back({"plan_inserted", *extra, state_.tour->tour_id});
-    state_.tour->just_inserted = true;
-    begin_visit_of(*extra, false, now);
-    return state_.visit;
-  }
-  state_.tour->just_inserted = false;
-  const auto next = std::find_if(state_.tour->stops.begin(), state_.tour->stops.end(),
-                                 [](const TourStop& stop) { return stop.status == StopStatus::pending; });
-  DOCENT_CHECK(next != state_.tour->stops.end());
-  begin_visit_of(std::string{next->exhibit_id}, true, now);
-  return state_.visit;
-}
-
-void TourScheduler::begin_tour(const std::string& tour_id, Point2 robot, Time now) {
-  const auto members = ids("tour", RequestStatus::queued, tour_id);
-  const ProgrammeTour* tour = programme_.find_tour(tour_id);
-  TourRun run{tour_id, state_.board.find(members.front())->request.language, {}, false, 0.0, now};
-  if (tour != nullptr) {
-    run.target_s = tour->target_s;
-    const auto exhibits =
-        tour->exhibits.empty() ? compose_tour(programme_, robot, tour->target_s, travel_, params_) : tour->exhibits;
-    for (const std::string& exhibit : exhibits) {
-      if (programme_.find_exhibit(exhibit) != nullptr) run.stops.push_back({exhibit});
-    }
-  }
-  if (run.stops.empty()) {  // the museum changed while the request waited
-    for (const std::string& id : members) close_request(id, RequestStatus::failed, "This tour no longer exists.", now);
-    return;
-  }
-  for (const std::string& id : members) {
-    state_.board.change(id, RequestStatus::active, "The tour has begun.", now);
-    happenings_.push_back({"request_active", id, tour_id});
-  }
-  happenings_.push_back({"tour_started", tour_id, joined(run.stops), run.target_s});
-  state_.tour = std::move(run);
-}
-
-void TourScheduler::begin_visit_of(const std::string& exhibit_id, bool is_stop, Time now) {
-  const ProgrammeExhibit& exhibit = *programme_.find_exhibit(exhibit_id);
-  Visit visit{exhibit_id, exhibit.pose, "", is_stop ? state_.tour->tour_id : "", true, now};
-  const auto members = ids("exhibit", RequestStatus::queued, exhibit_id);
-  bool has_viewpoint = false;
-  for (const std::string& id : members) {
-    const VisitorRequest& request = state_.board.find(id)->request;
-    if (visit.language.empty()) visit.language = request.language;
-    if (!has_viewpoint && request.viewpoint >= 0 && request.viewpoint < static_cast<int>(exhibit.viewpoints.size())) {
-      visit.map_from_base = exhibit.viewpoints[static_cast<std::size_t>(request.viewpoint)];
-      has_viewpoint = true;
-    }
-    state_.board.change(id, RequestStatus::active, "", now);
-    happenings_.push_back({"request_active", id, exhibit_id});
-  }
-  if (is_stop) visit.language = state_.tour->language;
-  if (visit.language.empty()) visit.language = programme_.languages.front();
-  happenings_.push_back({"visit_started", exhibit_id, visit.tour_id, static_cast<double>(members.size())});
-  state_.visit = std::move(visit);
 }
 
 void TourScheduler::close_visit() {
@@ -331,7 +211,8 @@ void TourScheduler::end_tour_if_over(Time now) {
     }
   }
   state_.tour.reset();
-  const bool is_success = explained > 0 && skipped <= params_.max_skipped;
+  // A composed tour shows something else instead.
+  const bool is_success = explained > 0 && (tour.target_s > 0.0 || skipped <= params_.max_skipped);
   const std::string reason = skipped == 0 ? "" : "I could not get to: " + missed + ".";
   for (const std::string& id : ids("tour", RequestStatus::active, tour.tour_id)) {
     close_request(id, is_success ? RequestStatus::fulfilled : RequestStatus::failed, reason, now);

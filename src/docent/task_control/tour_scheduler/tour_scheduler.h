@@ -65,7 +65,8 @@ struct SchedulerState {
 /// Requests for one exhibit are merged into one visit, requests for one tour into one run; each keeps a state and a
 /// reason of its own. Without a tour, single exhibits are visited in the order of the least travel, anew after every
 /// visit, but who is overdue comes first, and the oldest open request decides whether a tour begins. A tour keeps its
-/// order; between two of its stops at most one single exhibit is put in: an overdue one, or one with a small detour.
+/// order; between two of its stops at most one single exhibit is put in: an overdue one, or one with a small detour. A
+/// composed tour gets longer or shorter on the way, so that it ends in time ([Minerva2000] 5.3).
 class TourScheduler {
  public:
   /// Open requests in `state` for what the museum no longer has are failed at once.
@@ -102,6 +103,7 @@ class TourScheduler {
  private:
   [[nodiscard]] std::string refusal(const VisitorRequest& request, const Conditions& conditions) const;
   void drop_what_is_gone(Time now);
+  [[nodiscard]] bool may_join(const VisitorRequest& request) const;
   void cancel(const VisitorRequest& request, Time now);
   void close_request(const std::string& id, RequestStatus status, const std::string& reason, Time now);
   [[nodiscard]] std::vector<std::string> ids(const std::string& kind, RequestStatus status,
@@ -110,7 +112,11 @@ class TourScheduler {
   [[nodiscard]] std::vector<std::string> single_order(Point2 robot, Time now) const;
   [[nodiscard]] const BoardEntry* oldest_due(Time now) const;
   [[nodiscard]] std::optional<std::string> exhibit_to_insert(Point2 robot, Time now) const;
+  [[nodiscard]] std::vector<std::string> first_stops(double target_s, Point2 robot) const;
   void begin_tour(const std::string& tour_id, Point2 robot, Time now);
+  /// A composed tour is fitted to the time that is left: its pending stops are chosen anew.
+  void recompose(Point2 robot, Time now);
+  void begin_stop(Point2 robot, Time now);
   void begin_visit_of(const std::string& exhibit_id, bool is_stop, Time now);
   void finish_stop(const std::string& exhibit_id, bool is_success);
   void end_tour_if_over(Time now);

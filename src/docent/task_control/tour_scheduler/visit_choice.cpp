@@ -1,0 +1,201 @@
+// The half of TourScheduler that chooses what comes next.
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "docent/base/check.h"
+#include "docent/task_control/tour_scheduler/route.h"
+#include "docent/task_control/tour_scheduler/tour_scheduler.h"
+
+namespace docent {
+namespace {
+
+template <class T>
+bool holds(const std::vector<T>& list, const T& value) {
+  return std::find(list.begin(), list.end(), value) != list.end();
+}
+
+std::string joined(const std::vector<TourStop>& stops) {
+  std::string text;
+  for (const TourStop& stop : stops) text += (text.empty() ? "" : " ") + stop.exhibit_id;
+  return text;
+}
+
+}  // namespace
+
+bool TourScheduler::is_overdue(const BoardEntry& entry, Time now) const {
+  return now - entry.created > seconds(params_.overdue_s);
+}
+
+const BoardEntry* TourScheduler::oldest_due(Time now) const {
+  for (const BoardEntry& entry : state_.board.entries()) {
+    if (entry.status == RequestStatus::queued && entry.not_before <= now) return &entry;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> TourScheduler::single_order(Point2 robot, Time now) const {
+  std::vector<std::string> order;  // overdue ones, the oldest first
+  std::vector<std::string> others;
+  for (const BoardEntry& entry : state_.board.entries()) {
+    if (entry.status != RequestStatus::queued || entry.request.kind != "exhibit" || entry.not_before > now) continue;
+    const std::string& exhibit = entry.request.target;
+    if (holds(order, exhibit) || programme_.find_exhibit(exhibit) == nullptr) continue;
+    if (is_overdue(entry, now)) {
+      order.push_back(exhibit);
+    } else if (!holds(others, exhibit)) {
+      others.push_back(exhibit);
+    }
+  }
+  std::erase_if(others, [&](const std::string& exhibit) { return holds(order, exhibit); });
+  std::vector<Point2> points;
+  for (const std::string& exhibit : others) points.push_back(programme_.find_exhibit(exhibit)->pose.position());
+  const Point2 start = order.empty() ? robot : programme_.find_exhibit(order.back())->pose.position();
+  for (const std::size_t index : shortest_order(start, points, travel_)) order.push_back(others[index]);
+  return order;
+}
+
+std::optional<std::string> TourScheduler::exhibit_to_insert(Point2 robot, Time now) const {
+  const TourRun& tour = *state_.tour;
+  const auto next = std::find_if(tour.stops.begin(), tour.stops.end(),
+                                 [](const TourStop& stop) { return stop.status == StopStatus::pending; });
+  if (tour.just_inserted || next == tour.stops.end()) return std::nullopt;
+  const Point2 goal = programme_.find_exhibit(next->exhibit_id)->pose.position();
+  const double direct = travel_(robot, goal);
+  for (const BoardEntry& entry : state_.board.entries()) {
+    if (entry.status != RequestStatus::queued || entry.request.kind != "exhibit" || entry.not_before > now) continue;
+    const ProgrammeExhibit* exhibit = programme_.find_exhibit(entry.request.target);
+    if (exhibit == nullptr) continue;
+    const bool is_a_stop = std::any_of(tour.stops.begin(), tour.stops.end(), [&](const TourStop& stop) {
+      return stop.exhibit_id == exhibit->id && stop.status == StopStatus::pending;
+    });
+    if (is_a_stop) continue;  // the tour comes by anyway
+    const Point2 place = exhibit->pose.position();
+    if (is_overdue(entry, now) || travel_(robot, place) + travel_(place, goal) - direct <= params_.max_detour_m)
+      return exhibit->id;
+  }
+  return std::nullopt;
+}
+
+const std::optional<Visit>& TourScheduler::begin_visit(Point2 robot, Time now) {
+  DOCENT_CHECK(!state_.visit);
+  // A tour may turn out to be over, or to have nothing to show: then the next request has its turn.
+  while (!state_.visit) {
+    if (state_.tour) {
+      begin_stop(robot, now);
+      continue;
+    }
+    const BoardEntry* oldest = oldest_due(now);
+    if (oldest == nullptr) break;
+    if (oldest->request.kind == "tour") {
+      begin_tour(std::string{oldest->request.target}, robot, now);
+    } else {
+      begin_visit_of(single_order(robot, now).front(), false, now);
+    }
+  }
+  return state_.visit;
+}
+
+void TourScheduler::begin_stop(Point2 robot, Time now) {
+  recompose(robot, now);
+  end_tour_if_over(now);
+  if (!state_.tour) return;
+  if (const auto extra = exhibit_to_insert(robot, now)) {
+    happenings_.push_back({"plan_inserted", *extra, state_.tour->tour_id});
+    state_.tour->just_inserted = true;
+    begin_visit_of(*extra, false, now);
+    return;
+  }
+  state_.tour->just_inserted = false;
+  const auto next = std::find_if(state_.tour->stops.begin(), state_.tour->stops.end(),
+                                 [](const TourStop& stop) { return stop.status == StopStatus::pending; });
+  begin_visit_of(std::string{next->exhibit_id}, true, now);
+}
+
+void TourScheduler::recompose(Point2 robot, Time now) {
+  TourRun& tour = *state_.tour;
+  if (!(tour.target_s > 0.0)) return;
+  std::vector<TourStop> stops;
+  std::vector<TourStop> pending;
+  std::vector<std::string> done;
+  for (const TourStop& stop : tour.stops) {
+    const bool is_open = stop.status == StopStatus::pending && stop.attempts == 0;
+    (is_open ? pending : stops).push_back(stop);
+    if (!is_open) done.push_back(stop.exhibit_id);
+  }
+  if (stops.empty()) return;  // it has just begun
+  const double left_s = tour.target_s - to_seconds(now - tour.started);
+  // What failed once is not tried again in a tour that could show something else.
+  for (TourStop& stop : stops) {
+    if (stop.status != StopStatus::pending) continue;
+    stop.status = StopStatus::skipped;
+    happenings_.push_back({"plan_removed", stop.exhibit_id, tour.tour_id});
+  }
+  const auto chosen = compose_tour(programme_, robot, left_s, done, travel_, params_);
+  const auto plans = [](const std::vector<TourStop>& list, const std::string& id) {
+    return std::any_of(list.begin(), list.end(), [&](const TourStop& stop) { return stop.exhibit_id == id; });
+  };
+  for (const TourStop& stop : pending) {
+    if (!holds(chosen, stop.exhibit_id)) happenings_.push_back({"plan_removed", stop.exhibit_id, tour.tour_id});
+  }
+  for (const std::string& exhibit : chosen) {
+    if (!plans(pending, exhibit)) happenings_.push_back({"plan_inserted", exhibit, tour.tour_id});
+    stops.push_back({exhibit});
+  }
+  tour.stops = std::move(stops);
+}
+
+std::vector<std::string> TourScheduler::first_stops(double target_s, Point2 robot) const {
+  auto stops = compose_tour(programme_, robot, target_s, {}, travel_, params_);
+  if (!stops.empty()) return stops;
+  // However short: one exhibit is the least that a tour shows.
+  stops = compose_tour(programme_, robot, std::numeric_limits<double>::infinity(), {}, travel_, params_);
+  stops.resize(std::min<std::size_t>(stops.size(), 1));
+  return stops;
+}
+
+void TourScheduler::begin_tour(const std::string& tour_id, Point2 robot, Time now) {
+  const auto members = ids("tour", RequestStatus::queued, tour_id);
+  const ProgrammeTour* tour = programme_.find_tour(tour_id);
+  TourRun run{tour_id, state_.board.find(members.front())->request.language, {}, false, 0.0, now};
+  if (tour != nullptr) {
+    run.target_s = tour->target_s;
+    const auto exhibits = tour->exhibits.empty() ? first_stops(tour->target_s, robot) : tour->exhibits;
+    for (const std::string& exhibit : exhibits) {
+      if (programme_.find_exhibit(exhibit) != nullptr) run.stops.push_back({exhibit});
+    }
+  }
+  if (run.stops.empty()) {  // the museum changed while the request waited
+    for (const std::string& id : members) close_request(id, RequestStatus::failed, "This tour no longer exists.", now);
+    return;
+  }
+  for (const std::string& id : members) {
+    state_.board.change(id, RequestStatus::active, "The tour has begun.", now);
+    happenings_.push_back({"request_active", id, tour_id});
+  }
+  happenings_.push_back({"tour_started", tour_id, joined(run.stops), run.target_s});
+  state_.tour = std::move(run);
+}
+
+void TourScheduler::begin_visit_of(const std::string& exhibit_id, bool is_stop, Time now) {
+  const ProgrammeExhibit& exhibit = *programme_.find_exhibit(exhibit_id);
+  Visit visit{exhibit_id, exhibit.pose, "", is_stop ? state_.tour->tour_id : "", true, now};
+  const auto members = ids("exhibit", RequestStatus::queued, exhibit_id);
+  bool has_viewpoint = false;
+  for (const std::string& id : members) {
+    const VisitorRequest& request = state_.board.find(id)->request;
+    if (visit.language.empty()) visit.language = request.language;
+    if (!has_viewpoint && request.viewpoint >= 0 && request.viewpoint < static_cast<int>(exhibit.viewpoints.size())) {
+      visit.map_from_base = exhibit.viewpoints[static_cast<std::size_t>(request.viewpoint)];
+      has_viewpoint = true;
+    }
+    state_.board.change(id, RequestStatus::active, "", now);
+    happenings_.push_back({"request_active", id, exhibit_id});
+  }
+  if (is_stop) visit.language = state_.tour->language;
+  if (visit.language.empty()) visit.language = programme_.languages.front();
+  happenings_.push_back({"visit_started", exhibit_id, visit.tour_id, static_cast<double>(members.size())});
+  state_.visit = std::move(visit);
+}
+
+}  // namespace docent
