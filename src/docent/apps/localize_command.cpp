@@ -147,7 +147,9 @@ void add_localize_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("localize", "Localize a recorded log in a map");
   command->add_option("--map", options->map, "map_server YAML file")->required();
-  command->add_option("--log", options->log, "CARMEN text log (plain or .gz), MCAP recording, rosbag2 folder or database")->required();
+  command
+      ->add_option("--log", options->log, "CARMEN text log (plain or .gz), MCAP recording, rosbag2 folder or database")
+      ->required();
   command->add_option("--method", options->method, "grid")->check(CLI::IsMember({"grid"}))->capture_default_str();
   command->add_option("--filter", options->filter, "none, entropy, distance")
       ->check(CLI::IsMember({"none", "entropy", "distance"}))
