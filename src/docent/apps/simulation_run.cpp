@@ -140,6 +140,9 @@ class SimulationRun::Parts {
     options.crowd = options_.crowd;
     options.crowd_count = options_.people;
     options.start = options_.start;
+    if (options_.start && !contains(museum_.area, options_.start->position())) {
+      return fail("--start: outside the area in which the robot may be");
+    }
     options.requests_per_hour = options_.requests_per_hour;
     if (museum_.charger) options.charger = museum_.charger->position();
     options.run_info.museum = museum_.folder.filename().string();

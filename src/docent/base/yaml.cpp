@@ -84,6 +84,7 @@ void YamlReader::finish() const {
     for (const auto& name : known_) names += (names.empty() ? "" : ", ") + name;
     throw YamlFault{file_.fault(entry.first, "unknown key '" + key + "' (known: " + names + ")")};
   }
+  if (!missing_.empty()) throw YamlFault{file_.fault(node_, "missing key '" + missing_.front() + "'")};
 }
 
 void YamlReader::read_value(const YAML::Node& node, double& field) {
