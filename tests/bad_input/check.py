@@ -113,7 +113,7 @@ def logs():
     localize("a word for a number", write("word.log", "FLASER 2 1.0 far 0 0 0 0 0 0 0 nohost 0\n"), "word.log:1:")
     localize("negative count", write("negative.log", "FLASER -3 0 0 0 0 0 0 0 nohost 0\n"), "negative.log:1:")
     localize("not gzip", write("broken.log.gz", b"\x1f\x8b\x08\x00garbage garbage"), "broken.log.gz")
-    localize("a folder", work, "directory")
+    localize("a folder", work, "holds no")
 
 
 def configurations():

@@ -177,7 +177,7 @@ TEST(BadInput, Simulations) {
            {"setting out of range", with({"--set", "avoid.cycle=-1"}), "--set avoid.cycle=-1"},
            {"unknown mode", with({"--mode", "upside-down"}), "--mode upside-down"},
            {"unknown module", {"run", "nothing"}, "no module 'nothing'"},
-           {"unknown command", {"fly"}, "subcommand"},
+           {"unknown command", {"fly"}, "unknown command 'fly'"},
            {"no command", {}, "subcommand"},
        }) {
     expect_refused(bad);
