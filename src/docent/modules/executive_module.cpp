@@ -17,6 +17,7 @@ class ExecutiveModule final : public Module {
       : bus_{context.bus},
         museum_{context.museum},
         checkpoint_{context.state / "executive.json"},
+        map_{map_hash(context.museum.map)},
         survives_{context.virtual_time ? Survives::process_death : Survives::power_failure},
         executive_{params, std::move(memory), bus_.now()},
         fault_{std::move(fault)},
@@ -71,7 +72,7 @@ class ExecutiveModule final : public Module {
     Executive::Actions actions = executive_.take_actions();
     if (actions.must_save) {
       // A robot whose disk is full goes on guiding; only a restart would forget the step.
-      auto saved = save_checkpoint(checkpoint_, executive_.memory(), survives_);
+      auto saved = save_checkpoint(checkpoint_, executive_.memory(), map_, survives_);
       fault_ = saved ? "" : saved.error().message;
     }
     if (actions.drive) {
@@ -110,6 +111,7 @@ class ExecutiveModule final : public Module {
   Bus& bus_;
   const Museum& museum_;
   std::filesystem::path checkpoint_;
+  std::string map_;
   Survives survives_;
   Executive executive_;
   std::string fault_;
@@ -124,7 +126,7 @@ class ExecutiveModule final : public Module {
 Result<std::unique_ptr<Module>> make_executive(const ModuleContext& context) {
   auto params = context.config.section<ExecutiveParams>("executive");
   if (!params) return tl::unexpected<Error>(params.error());
-  auto memory = load_checkpoint(context.state / "executive.json");
+  auto memory = load_checkpoint(context.state / "executive.json", map_hash(context.museum.map));
   // A damaged checkpoint costs the running step, not the robot: the mission's task begins again.
   return std::make_unique<ExecutiveModule>(context, *params, memory.value_or(ExecutiveMemory{}),
                                            memory ? "" : memory.error().message);

@@ -8,10 +8,12 @@ namespace docent {
 
 using Json = nlohmann::json;
 
-Result<void> save_checkpoint(const std::filesystem::path& path, const ExecutiveMemory& memory, Survives survives) {
+Result<void> save_checkpoint(const std::filesystem::path& path, const ExecutiveMemory& memory, const std::string& map,
+                             Survives survives) {
   const TaskOrder& order = memory.task.order;
   const Pose2& pose = order.map_from_base;
-  const Json json{{"step", to_text(memory.step)},
+  const Json json{{"map", map},
+                  {"step", to_text(memory.step)},
                   {"step_began", memory.step_began.nanoseconds},
                   {"drive_began", memory.drive_began.nanoseconds},
                   {"reason", memory.reason},
@@ -31,12 +33,13 @@ Result<void> save_checkpoint(const std::filesystem::path& path, const ExecutiveM
   return write_file_atomically(path, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n", survives);
 }
 
-Result<ExecutiveMemory> load_checkpoint(const std::filesystem::path& path) {
+Result<ExecutiveMemory> load_checkpoint(const std::filesystem::path& path, const std::string& map) {
   if (!std::filesystem::exists(path)) return ExecutiveMemory{};
   const auto text = read_file(path);
   if (!text) return tl::unexpected(text.error());
   try {
     const Json json = Json::parse(*text);
+    if (json.at("map").get<std::string>() != map) return ExecutiveMemory{};
     ExecutiveMemory memory;
     const auto step = step_of(json.at("step").get<std::string>());
     if (!step) return fail(path.string() + ": unknown step");

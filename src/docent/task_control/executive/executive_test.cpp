@@ -250,14 +250,14 @@ TEST_F(ExecutiveTest, ALongDeathMeansDrivingThereAgain) {
 TEST_F(ExecutiveTest, TheCheckpointHoldsEverything) {
   const auto path = std::filesystem::temp_directory_path() / ("docent_executive_" + std::to_string(getpid()) + ".json");
   std::filesystem::remove(path);
-  const auto none = load_checkpoint(path);
+  const auto none = load_checkpoint(path, "hall");
   ASSERT_TRUE(none);
   EXPECT_EQ(none->step, Step::idle);
   start(visit("t1"));
   goal("arrived");
   speech("t1/short", "done");
-  ASSERT_TRUE(save_checkpoint(path, saved));
-  const auto loaded = load_checkpoint(path);
+  ASSERT_TRUE(save_checkpoint(path, saved, "hall"));
+  const auto loaded = load_checkpoint(path, "hall");
   ASSERT_TRUE(loaded);
   EXPECT_EQ(loaded->step, Step::asking);
   EXPECT_EQ(loaded->step_began, saved.step_began);
@@ -265,11 +265,12 @@ TEST_F(ExecutiveTest, TheCheckpointHoldsEverything) {
   EXPECT_EQ(loaded->task.order.id, "t1");
   EXPECT_EQ(loaded->task.order.map_from_base.y, 4.0);
   EXPECT_EQ(loaded->task.long_text, saved.task.long_text);
+  EXPECT_EQ(load_checkpoint(path, "another hall")->step, Step::idle) << "its poses mean nothing there";
   const std::string whole = *read_file(path);
   for (const std::string& damaged : {whole.substr(0, whole.size() / 2), std::string{"{}"}, std::string{"[1]"},
                                      std::string{"{\"step\": \"dancing\"}"}, std::string{}}) {
     ASSERT_TRUE(write_file_atomically(path, damaged));
-    EXPECT_FALSE(load_checkpoint(path)) << damaged;
+    EXPECT_FALSE(load_checkpoint(path, "hall")) << damaged;
   }
   std::filesystem::remove(path);
 }

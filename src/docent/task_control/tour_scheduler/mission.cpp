@@ -27,10 +27,10 @@ Mission::Mission(const MissionParams& params, Programme programme, TravelDistanc
       localization_changed_{now},
       lost_since_{now} {
   // The running visit goes on under its old task id, so that an executive that works on it is not disturbed.
-  if (scheduler_.state().visit) {
+  if (const auto& visit = scheduler_.state().visit) {
     activity_ = Activity::visit;
-    if (task_.kind != "visit") start_visit();
-  } else if (task_.kind == "home") {
+    if (task_.kind != "visit" || !is_same(task_.map_from_base, visit->map_from_base)) start_visit();
+  } else if (task_.kind == "home" && is_same(task_.map_from_base, scheduler_.programme().home)) {
     activity_ = Activity::home;
   } else {
     task_ = {};

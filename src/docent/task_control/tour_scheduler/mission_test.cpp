@@ -139,6 +139,18 @@ TEST_F(MissionTest, ARestartTakesUpTheRunningTaskUnderItsId) {
   EXPECT_NE(mission->task().id, task);
 }
 
+TEST_F(MissionTest, ARestartInARearrangedMuseumDrivesToWhereTheExhibitIsNow) {
+  pass(5.0);
+  wish("1", "exhibit", "a");
+  MissionMemory memory = mission->memory();
+  const std::string task = mission->task().id;
+  memory.schedule.visit->map_from_base.x = 7.0;
+  memory.task.map_from_base.x = 7.0;
+  make(memory);
+  EXPECT_EQ(mission->task().map_from_base.x, 5.0);
+  EXPECT_NE(mission->task().id, task);
+}
+
 TEST_F(MissionTest, ARestartInTheMiddleOfRelocalizingResumesTheVisit) {
   pass(5.0);
   wish("1", "exhibit", "a");

@@ -1,6 +1,7 @@
 #include "docent/task_control/tour_scheduler/programme.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace docent {
 
@@ -12,6 +13,11 @@ const ProgrammeExhibit* Programme::find_exhibit(const std::string& id) const {
 const ProgrammeTour* Programme::find_tour(const std::string& id) const {
   const auto place = std::find_if(tours.begin(), tours.end(), [&](const auto& t) { return t.id == id; });
   return place == tours.end() ? nullptr : &*place;
+}
+
+bool is_same(const Pose2& a, const Pose2& b) {
+  constexpr double kRounding = 1e-6;
+  return distance(a.position(), b.position()) < kRounding && std::abs((a.theta - b.theta).radians()) < kRounding;
 }
 
 TravelDistance straight_distance() {

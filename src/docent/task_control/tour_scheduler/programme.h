@@ -38,6 +38,9 @@ struct Programme {
   [[nodiscard]] const ProgrammeTour* find_tour(const std::string& id) const;
 };
 
+/// The same pose but for rounding.
+[[nodiscard]] bool is_same(const Pose2& a, const Pose2& b);
+
 /// Length [m] of the way between two points of the map; +infinity where there is none.
 using TravelDistance = std::function<double(Point2 from, Point2 to)>;
 

@@ -20,6 +20,11 @@ std::string joined(const std::vector<TourStop>& stops) {
   return text;
 }
 
+bool is_place_of(const ProgrammeExhibit& exhibit, const Pose2& pose) {
+  return is_same(exhibit.pose, pose) || std::any_of(exhibit.viewpoints.begin(), exhibit.viewpoints.end(),
+                                                    [&](const Pose2& viewpoint) { return is_same(viewpoint, pose); });
+}
+
 }  // namespace
 
 TourScheduler::TourScheduler(const SchedulerParams& params, Programme programme, TravelDistance travel,
@@ -38,7 +43,14 @@ void TourScheduler::drop_what_is_gone(Time now) {
     if (docent::is_open(entry.status) && !is_known) gone.push_back(request.id);
   }
   for (const std::string& id : gone) close_request(id, RequestStatus::failed, "The museum no longer has this.", now);
-  if (state_.visit && programme_.find_exhibit(state_.visit->exhibit_id) == nullptr) state_.visit.reset();
+  if (state_.visit) {
+    const ProgrammeExhibit* exhibit = programme_.find_exhibit(state_.visit->exhibit_id);
+    if (exhibit == nullptr) {
+      state_.visit.reset();
+    } else if (!is_place_of(*exhibit, state_.visit->map_from_base)) {  // it was moved, or the map is another
+      state_.visit->map_from_base = exhibit->pose;
+    }
+  }
   if (!state_.tour) return;
   std::erase_if(state_.tour->stops,
                 [&](const TourStop& stop) { return programme_.find_exhibit(stop.exhibit_id) == nullptr; });
