@@ -12,14 +12,14 @@ namespace docent {
 /// How a range finder errs, [Markov1998] 3.2 and [Rhino1999] 3.1.2: a mixture of a Gaussian about the expected range, a
 /// geometric density of unmapped things in front of it, a Dirac where nothing came back, and a uniform rest.
 struct ProximityModelParams {
-  double max_range = 10.0;         ///< [m], > 0; beyond it every range is "no return"
-  double sigma = 0.12;             ///< [m], > 0: the sensor's noise, widened by the size of a belief cell
-  double sigma_per_metre = 0.012;  ///< [m/m], >= 0: the heading's step seen from afar
-  double short_per_metre = 0.35;   ///< [1/m], > 0: rate of the geometric density
-  double weight_hit = 0.65;        ///< >= 0; the four weights are normalised
-  double weight_short = 0.22;
+  double max_range = 10.0;        ///< [m], > 0; beyond it every range is "no return"
+  double sigma = 0.13;            ///< [m], > 0: the sensor's noise, widened by the size of a belief cell
+  double sigma_per_metre = 0.03;  ///< [m/m], >= 0: the heading's step seen from afar
+  double short_per_metre = 0.2;   ///< [1/m], > 0: rate of the geometric density
+  double weight_hit = 0.35;       ///< >= 0; the four weights are normalised
+  double weight_short = 0.40;
   double weight_no_return = 0.03;
-  double weight_random = 0.10;  ///< > 0
+  double weight_random = 0.22;  ///< > 0
   template <class V>
   void visit(V& v) {
     v("max_range", max_range);

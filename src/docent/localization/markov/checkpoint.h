@@ -18,7 +18,8 @@ struct LocalizerCheckpoint {
   std::vector<BeliefMode> modes;
 };
 
-[[nodiscard]] Result<void> save_localizer_checkpoint(const LocalizerCheckpoint& checkpoint, const std::filesystem::path& path);
+[[nodiscard]] Result<void> save_localizer_checkpoint(const LocalizerCheckpoint& checkpoint,
+                                                     const std::filesystem::path& path);
 /// Error: absent or damaged; the caller then starts with an unknown place.
 [[nodiscard]] Result<LocalizerCheckpoint> load_localizer_checkpoint(const std::filesystem::path& path);
 
