@@ -7,7 +7,6 @@ namespace docent {
 
 std::vector<LikelyState> likely_states(const PositionBelief& belief, double fraction, std::size_t limit) {
   std::vector<LikelyState> states;
-  if (belief.active_states() > 64 * limit) return states;  // not worth a look
   const auto least = static_cast<float>(fraction * static_cast<double>(belief.peak()));
   double total = 0.0;
   for (std::size_t i = 0; i < belief.kept_places().size(); ++i) {

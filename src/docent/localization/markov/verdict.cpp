@@ -48,7 +48,9 @@ void Verdict::add(const Evidence& evidence) {
   const bool sees_nothing = agreement_ < 0.4 * params_.least_agreement;
   blind_ = sees_nothing ? blind_ + evidence.way : 0.0;
   const bool contradicted = contradiction_ > 2.0 * params_.most_contradiction || blind_ > params_.blind_way;
-  bad_ = contradicted ? bad_ + evidence.weight : 0.0;
+  if (!contradicted) bad_ = 0.0;
+  if (contradicted && (through >= kFewReadings || blind_ > params_.blind_way))
+    bad_ += evidence.way + 0.5 * evidence.turn;
 
   const double moved = std::min(1.0, std::max(way_ / std::max(params_.travelled, 1e-9),
                                               turn_ * 180.0 / std::numbers::pi / std::max(params_.turned, 1e-9)));
@@ -67,7 +69,7 @@ void Verdict::add(const Evidence& evidence) {
 }
 
 bool Verdict::collapsed() const {
-  constexpr double kPatience = 16.0;  // full updates: some metres
+  constexpr double kPatience = 6.0;  // [m]: furniture that has moved contradicts the map too, over some metres
   return bad_ >= kPatience;
 }
 

@@ -12,7 +12,7 @@ struct VerdictParams {
   double travelled = 1.0;           ///< [m] driven since, or
   double turned = 120.0;            ///< [deg] turned since
   double least_agreement = 0.2;     ///< share of the readings that the map explains
-  double blind_way = 8.0;           ///< [m] that odometry is trusted while people hide everything that the map holds
+  double blind_way = 20.0;          ///< [m] that odometry is trusted while people hide everything that the map holds
   double most_contradiction = 0.2;  ///< share of the readings that pass through walls of the map
   template <class V>
   void visit(V& v) {
@@ -68,7 +68,7 @@ class Verdict {
   double turn_ = 0.0;
   double agreement_ = 0.5;
   double contradiction_ = 0.0;
-  double bad_ = 0.0;    ///< full updates in a row with bad readings
+  double bad_ = 0.0;    ///< [m] with bad readings; a radian turned counts half a metre
   double blind_ = 0.0;  ///< [m] driven since readings last agreed with the map
 };
 
