@@ -20,10 +20,6 @@ if(DOCENT_FUZZERS)  # a fuzzer that does not see which way its input took finds 
   target_compile_options(docent_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
-if(DOCENT_FUZZERS)  # what is fuzzed must count its branches
-  target_compile_options(docent_options INTERFACE -fsanitize=fuzzer-no-link)
-endif()
-
 set(DOCENT_SOURCE_ROOT ${CMAKE_SOURCE_DIR}/src/docent)
 
 function(docent_target_name folder result)

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cstdlib>
 #include <fstream>
 #include <thread>
 
@@ -15,7 +16,8 @@ namespace docent {
 Program::Program(const std::vector<std::string>& arguments) {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) std::abort();
-  std::vector<std::string> words{DOCENT_PROGRAM};
+  const char* other = std::getenv("DOCENT_BINARY");  // as scripts/evaluate knows it
+  std::vector<std::string> words{other != nullptr ? other : DOCENT_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
   for (auto& word : words) pointers.push_back(word.data());

@@ -49,7 +49,7 @@ class TemporaryFolder {
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
   ~TemporaryFolder();
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  [[nodiscard]] std::string write(const std::string& name, const std::string& content) const;
+  std::string write(const std::string& name, const std::string& content) const;
 
  private:
   std::filesystem::path path_;

@@ -39,6 +39,9 @@ void RobotWatch::note(const Topic<T>& topic, const T& message, Clock::time_point
   if constexpr (std::is_same_v<T, docent_msgs::MissionState>) now_.mission = message;
   if constexpr (std::is_same_v<T, docent_msgs::RequestBoard>) now_.board = message;
   if constexpr (std::is_same_v<T, docent_msgs::AvoidState>) now_.avoid = message;
+  if constexpr (std::is_same_v<T, docent_msgs::TrueOffer>) {
+    if (message.kind == "fault") now_.faults[message.subject] = at;
+  }
   if constexpr (std::is_same_v<T, docent_msgs::Belief>) {
     now_.localized = message.localized;
     if (message.localized) now_.localized_at = at;
@@ -77,12 +80,12 @@ DeploymentReport RobotWatch::report() const {
   return evaluator_.report();
 }
 
-void RobotWatch::ask_for_tour(const std::string& tour) {
+void RobotWatch::ask_for(const std::string& kind, const std::string& target) {
   char id[48];
   std::snprintf(id, sizeof id, "01890000-0000-7000-8000-%06x%06x", static_cast<unsigned>(getpid() & 0xffffff),
                 static_cast<unsigned>(asked_++));
   const Time now = robot_->now();
-  robot_->post([this, request = docent_msgs::Request{id, to_message(now), "web", "the kill protocol", "tour", tour, -1,
+  robot_->post([this, request = docent_msgs::Request{id, to_message(now), "web", "the kill protocol", kind, target, -1,
                                                      "en"}] { requests_.publish(request); });
 }
 

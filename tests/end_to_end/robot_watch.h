@@ -33,6 +33,7 @@ class RobotWatch {
     docent_msgs::MissionState mission;
     docent_msgs::RequestBoard board;
     docent_msgs::AvoidState avoid;
+    std::map<std::string, Clock::time_point> faults;  ///< by the simulator's sensor: when it last broke
     bool localized = false;
     Clock::time_point localized_at;  ///< last belief that was sure
   };
@@ -46,7 +47,7 @@ class RobotWatch {
   /// Since the beginning; contacts are judged as in every other evaluation.
   [[nodiscard]] DeploymentReport report() const;
   /// As a visitor on the Web would.
-  void ask_for_tour(const std::string& tour);
+  void ask_for(const std::string& kind, const std::string& target);
 
  private:
   template <class T>

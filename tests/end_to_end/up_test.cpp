@@ -1,8 +1,5 @@
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
 #include <signal.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -106,87 +103,6 @@ TEST(Up, OneRobotAFolder) {
   const auto second = run_program(arguments);
   EXPECT_EQ(second.code, 1);
   EXPECT_EQ(second.output, "docent: --state " + state.path().string() + ": another `docent up` works there\n");
-}
-
-struct BadInput {
-  const char* name;
-  std::vector<std::string> arguments;
-  std::string says;  ///< in its one line
-};
-
-/// One clear line, a failing exit code, and nothing was started before.
-void expect_refused(const BadInput& bad) {
-  SCOPED_TRACE(bad.name);
-  const auto result = run_program(bad.arguments);
-  EXPECT_NE(result.code, 0);
-  EXPECT_NE(result.code, -1) << "it went on";
-  EXPECT_LT(result.code, 128) << "it crashed";
-  EXPECT_TRUE(result.output.starts_with("docent: ")) << result.output;
-  EXPECT_NE(result.output.find(bad.says), std::string::npos) << result.output;
-  EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << result.output;
-}
-
-TEST(Up, BadInputIsOneLineBeforeAnythingStarts) {
-  const TemporaryFolder folder;
-  const std::string state = folder.path() / "state";
-  const auto with = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), {"up", "--domain", std::to_string(kDomain)});
-    const auto has = [&](const char* option) { return std::find(more.begin(), more.end(), option) != more.end(); };
-    if (!has("--museum")) more.insert(more.end(), {"--museum", kMuseum});
-    if (!has("--state")) more.insert(more.end(), {"--state", state});
-    if (!has("--port")) more.insert(more.end(), {"--port", kPort});
-    return more;
-  };
-  const int taken = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof address;
-  ASSERT_EQ(bind(taken, reinterpret_cast<sockaddr*>(&address), size), 0);
-  ASSERT_EQ(listen(taken, 1), 0);
-  ASSERT_EQ(getsockname(taken, reinterpret_cast<sockaddr*>(&address), &size), 0);
-  const std::string port = std::to_string(ntohs(address.sin_port));
-
-  const std::string key = folder.write("key.yaml", "plan: {}\nbody:\n  radius: 0.3\n  colour: red\n");
-  const std::string section = folder.write("section.yaml", "plan: {}\nflying: {height: 3}\n");
-  const std::string type = folder.write("type.yaml", "body:\n  radius: wide\n");
-  const std::string syntax = folder.write("syntax.yaml", "body: [1, 2\nplan: }\n");
-  const std::string list = folder.write("list.yaml", "- 1\n- 2\n");
-  const std::string scenario = folder.write("scenario.yaml", "events:\n  - at: 3\n    dance: {}\n");
-  const std::string file = folder.write("file", "");
-  const std::string broken = folder.write("museum.yaml", "name: {en: \"Broken\"\nmap: 3\n");
-  for (const auto& bad : std::vector<BadInput>{
-           {"no museum", with({"--museum", "/nowhere"}), "/nowhere/museum.yaml"},
-           {"broken museum", with({"--museum", folder.path()}), broken + ":"},
-           {"no robot.yaml", with({"--robot", "/nowhere.yaml"}), "/nowhere.yaml"},
-           {"unknown key", with({"--robot", key}), "key.yaml:4: "},
-           {"unknown section", with({"--robot", section}), "section.yaml:2: unknown section 'flying'"},
-           {"wrong type", with({"--robot", type}), "type.yaml:2: "},
-           {"bad syntax", with({"--robot", syntax}), "syntax.yaml:"},
-           {"no sections", with({"--robot", list}), "list.yaml:1: "},
-           {"--set without value", with({"--set", "plan"}), "--set plan: expected section.key=value"},
-           {"--set of a body that cannot be", with({"--set", "body.colour=red"}), "colour"},
-           {"--set of an unknown section", with({"--set", "flying.height=3"}), "unknown section 'flying'"},
-           {"port in use", with({"--port", port}), "Address already in use"},
-           {"port out of range", with({"--port", "70000"}), "--port"},
-           {"port of no number", with({"--port", "web"}), "--port"},
-           {"domain out of range", with({"--domain", "231"}), "--domain"},
-           {"state is a file", with({"--state", file}), "--state"},
-           {"state cannot be made", with({"--state", "/proc/docent"}), "--state /proc/docent: "},
-           {"recording into nothing", with({"--record", "/nowhere/a.mcap"}), "--record: no folder /nowhere"},
-           {"start that is no pose", with({"--sim", "--start", "1,2"}), "--start"},
-           {"start in the street", with({"--sim", "--start", "1000,1000,0"}), "outside the robot's area"},
-           {"no scenario", with({"--sim", "--scenario", "/nowhere.yaml"}), "/nowhere.yaml"},
-           {"unknown event", with({"--sim", "--scenario", scenario}), "scenario.yaml:3: "},
-           {"unknown mode", with({"--mode", "upside-down"}), "--mode upside-down"},
-           {"unknown crowd", with({"--crowd", "enormous"}), "--crowd"},
-           {"unknown option", with({"--fly"}), "--fly"},
-           {"unknown module", {"run", "nothing"}, "no module 'nothing'"},
-           {"no command", {}, "subcommand"},
-       }) {
-    expect_refused(bad);
-  }
-  close(taken);
 }
 
 TEST(Up, WhatAModuleRefusesStopsItAll) {

@@ -8,6 +8,7 @@
 #include <system_error>
 #include <thread>
 
+#include "docent/modules/registry.h"
 #include "docent/transport/dds_bus.h"
 
 namespace docent {
@@ -46,6 +47,9 @@ Result<RobotConfig> Deployment::load_config() const {
     auto set = config.set(setting);
     if (!set) return tl::unexpected<Error>(set.error());
   }
+  std::vector<std::string> sections;
+  for (const ModuleEntry& entry : all_modules()) sections.emplace_back(entry.name);
+  if (auto known = config.check_sections(sections); !known) return tl::unexpected<Error>(known.error());
   return config;
 }
 

@@ -12,7 +12,7 @@
 #include "docent/apps/localize_log.h"
 #include "docent/apps/localize_picture.h"
 #include "docent/base/files.h"
-#include "docent/recording/carmen_log.h"
+#include "docent/recording/laser_log.h"
 #include "docent/robot/robot_config.h"
 
 namespace docent {
@@ -103,7 +103,7 @@ void print(const char* title, const nlohmann::json& report) {
 
 void localize(const Options& options) {
   const OccupancyGrid map = value_or_fail(load_map(options.map));
-  const LaserLog log = value_or_fail(read_carmen_log(options.log));
+  const LaserLog log = value_or_fail(read_laser_log(options.log));
   RobotConfig config;
   // Far readings tell one corridor from another; beyond some length the map's headings are too coarse for them.
   const double reach = std::min(log.max_range > 0.0 ? log.max_range : 30.0, 30.0);
@@ -147,7 +147,9 @@ void add_localize_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("localize", "Localize a recorded log in a map");
   command->add_option("--map", options->map, "map_server YAML file")->required();
-  command->add_option("--log", options->log, "CARMEN text log, plain or .gz")->required();
+  command
+      ->add_option("--log", options->log, "CARMEN text log (plain or .gz), MCAP recording, rosbag2 folder or database")
+      ->required();
   command->add_option("--method", options->method, "grid")->check(CLI::IsMember({"grid"}))->capture_default_str();
   command->add_option("--filter", options->filter, "none, entropy, distance")
       ->check(CLI::IsMember({"none", "entropy", "distance"}))

@@ -31,6 +31,13 @@ int main(int argc, char** argv) {
     return 0;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
+    const auto commands =
+        argc > 1 ? app.get_subcommands([&](const CLI::App* command) { return command->get_name() == argv[1]; })
+                 : std::vector<CLI::App*>{};
+    if (argc > 1 && argv[1][0] != '-' && commands.empty()) {
+      std::fprintf(stderr, "docent: unknown command '%s' (try --help)\n", argv[1]);
+      return 2;
+    }
     std::fprintf(stderr, "docent: %s (try --help)\n", error.what());
     return 2;
   } catch (const docent::CommandFailed& failure) {

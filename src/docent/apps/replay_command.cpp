@@ -3,7 +3,9 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <memory>
 
 #include "docent/apps/command.h"
@@ -52,12 +54,18 @@ void replay_recording(Options& options) {
   std::printf("%.0f s replayed\n", outcome.seconds);
   list("modules        ", outcome.modules);
   list("from recording ", outcome.replayed_topics);
-  const std::string difference = first_difference(outcome.recorded, outcome.repeated);
+  const std::string difference = first_difference(outcome.recorded, outcome.repeated, outcome.seconds);
   for (const ReplayEvent& event : outcome.repeated)
     std::printf("%9.1f s  %-20s %s\n", event.at_s, event.kind.c_str(), event.subject.c_str());
+  const auto of_mission = [](const std::vector<ReplayEvent>& events) {
+    return std::count_if(events.begin(), events.end(), [](const ReplayEvent& event) { return event.is_of_mission(); });
+  };
   if (!outcome.recorded.empty() || !outcome.repeated.empty())
-    std::printf("mission events: %zu recorded, %zu now; %s\n", outcome.recorded.size(), outcome.repeated.size(),
-                difference.empty() ? "the same in the same order" : difference.c_str());
+    std::printf("events of the mission: %td recorded, %td now; %s\nevents under way: %td recorded, %td now\n",
+                of_mission(outcome.recorded), of_mission(outcome.repeated),
+                difference.empty() ? "the same in the same order" : difference.c_str(),
+                std::ssize(outcome.recorded) - of_mission(outcome.recorded),
+                std::ssize(outcome.repeated) - of_mission(outcome.repeated));
   if (outcome.report) {
     std::fputs(summary_table(*outcome.report, std::nullopt).c_str(), stdout);
     if (!options.report.empty())
@@ -74,7 +82,7 @@ void add_replay_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("replay", "Run modules again, in virtual time, on what was recorded");
   command->add_option("recording", options->replay.recording, "MCAP file")->required();
-  command->add_option("--modules", options->replay.modules, "Which, separated by commas; without it all")
+  command->add_option("--modules", options->replay.modules, "Which, separated by commas; without it all but sound")
       ->delimiter(',');
   command->add_option("--museum", options->deployment.museum, "Folder of the museum; without it the recording's");
   command->add_option("--robot", options->deployment.robot, "robot.yaml of the robot; without it all defaults");

@@ -3,10 +3,12 @@
 #include <stdlib.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <map>
 #include <set>
 
+#include "docent/apps/recorded_voice.h"
 #include "docent/evaluation/deployment_evaluator.h"
 #include "docent/modules/module_host.h"
 #include "docent/recording/recorder.h"
@@ -16,6 +18,9 @@ namespace docent {
 namespace {
 
 constexpr Duration kAnswerWaits = std::chrono::seconds{20};
+constexpr double kCutAtTheEnd = 5.0;  ///< [s]
+/// The executive's events: how it goes under way, which is not the same twice.
+constexpr std::array<const char*, 5> kUnderWay{"arrived", "drive_blocked", "asked_for_way", "prompt_shown", "choice"};
 
 /// A folder of its own that goes when the run goes.
 class TemporaryState {
@@ -107,6 +112,19 @@ Result<Extent> extent_of(McapReader& reader) {
   return extent;
 }
 
+Result<RecordedLines> lines_of(McapReader& reader) {
+  RecordedLines lines;
+  McapReader::Selection speech;
+  for (const char* topic : {topics::kSay.name, topics::kSpeechState.name})
+    speech.topics.insert(std::string{"/"} + topic);
+  const auto read = read_recording(reader, speech, [&](const RecordedMessage& message) {
+    lines.add(message);
+    return true;
+  });
+  if (!read) return tl::unexpected<Error>(read.error());
+  return lines;
+}
+
 Result<std::vector<const ModuleEntry*>> chosen_modules(const std::vector<std::string>& names) {
   std::vector<const ModuleEntry*> chosen;
   for (const std::string& name : names) {
@@ -115,7 +133,7 @@ Result<std::vector<const ModuleEntry*>> chosen_modules(const std::vector<std::st
   }
   for (const ModuleEntry& entry : all_modules()) {
     const std::string name = entry.name;
-    if (name == "record" || name == "web") continue;
+    if (name == "record" || name == "web" || (names.empty() && name == "sound")) continue;
     if (names.empty() || std::find(names.begin(), names.end(), name) != names.end()) chosen.push_back(&entry);
   }
   return chosen;
@@ -131,6 +149,8 @@ Result<ReplayOutcome> replay(const Museum& museum, const RobotConfig& config, co
   const auto extent = extent_of(*reader);
   if (!extent) return tl::unexpected<Error>(extent.error());
   if (extent->messages == 0) return fail(options.recording + ": holds no message");
+  auto lines = lines_of(*reader);
+  if (!lines) return fail(options.recording + ": " + lines.error().message);
   std::optional<Recorder> recorder;
   if (!options.out.empty()) {
     auto made = Recorder::create(options.out);
@@ -177,6 +197,12 @@ Result<ReplayOutcome> replay(const Museum& museum, const RobotConfig& config, co
   }
   theirs.clear();
   for (const std::string& name : chosen_names) theirs.merge(hub.topics_published_by(name));
+  std::unique_ptr<Bus> voice_bus;
+  std::optional<RecordedVoice> voice;
+  if (theirs.contains(topics::kSay.name) && theirs.insert(topics::kSpeechState.name).second) {
+    voice_bus = hub.connect("voice");
+    voice.emplace(*voice_bus, std::move(*lines));
+  }
   if (!theirs.contains(topics::kEvent.name)) outcome.repeated.clear();
 
   const auto feeder_bus = hub.connect("recording");
@@ -231,16 +257,31 @@ Result<std::string> museum_of_recording(const std::string& recording) {
   return museum;
 }
 
-std::string first_difference(const std::vector<ReplayEvent>& recorded, const std::vector<ReplayEvent>& repeated) {
+bool ReplayEvent::is_of_mission() const {
+  return std::find(kUnderWay.begin(), kUnderWay.end(), kind) == kUnderWay.end();
+}
+
+std::string first_difference(const std::vector<ReplayEvent>& recorded, const std::vector<ReplayEvent>& repeated,
+                             double duration_s) {
+  const auto of_mission = [](const std::vector<ReplayEvent>& events) {
+    std::vector<ReplayEvent> chosen;
+    std::copy_if(events.begin(), events.end(), std::back_inserter(chosen),
+                 [](const auto& e) { return e.is_of_mission(); });
+    return chosen;
+  };
+  const auto a = of_mission(recorded);
+  const auto b = of_mission(repeated);
   const auto words = [](const std::vector<ReplayEvent>& events, std::size_t i) {
     if (i >= events.size()) return std::string{"nothing more"};
     char at[32];
     std::snprintf(at, sizeof at, " at %.1f s", events[i].at_s);
     return events[i].kind + (events[i].subject.empty() ? "" : " " + events[i].subject) + at;
   };
-  for (std::size_t i = 0; i < std::max(recorded.size(), repeated.size()); ++i) {
-    if (i < recorded.size() && i < repeated.size() && recorded[i] == repeated[i]) continue;
-    return "event " + std::to_string(i + 1) + ": recorded " + words(recorded, i) + ", now " + words(repeated, i);
+  for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
+    if (i < a.size() && i < b.size() && a[i] == b[i]) continue;
+    const bool one_has_ended = i >= a.size() || i >= b.size();
+    if (one_has_ended && (i < a.size() ? a : b)[i].at_s > duration_s - kCutAtTheEnd) return {};
+    return "event " + std::to_string(i + 1) + ": recorded " + words(a, i) + ", now " + words(b, i);
   }
   return {};
 }

@@ -16,7 +16,7 @@ namespace docent {
 
 struct ReplayOptions {
   std::string recording;
-  std::vector<std::string> modules;  ///< empty: all that decide something (not record, not web)
+  std::vector<std::string> modules;  ///< empty: all that decide something (not record, web, sound)
   std::string out;                   ///< MCAP file of what happened this time; empty: none
   std::uint64_t seed = 1;
   std::function<void(double share)> progress;  ///< may be empty
@@ -27,6 +27,8 @@ struct ReplayEvent {
   double at_s = 0.0;  ///< since the start of the recording
   std::string kind;
   std::string subject;
+  /// Of the mission, not of the executive on its way (docs/terminology.md, Events).
+  [[nodiscard]] bool is_of_mission() const;
   friend bool operator==(const ReplayEvent& a, const ReplayEvent& b) {
     return a.kind == b.kind && a.subject == b.subject;
   }
@@ -39,8 +41,6 @@ struct ReplayOutcome {
   std::vector<ReplayEvent> recorded;       ///< docent/event of the recording; empty where no chosen module makes events
   std::vector<ReplayEvent> repeated;       ///< of this run
   std::optional<DeploymentReport> report;  ///< where the recording holds the truth
-
-  [[nodiscard]] bool same_events() const { return recorded == repeated; }
 };
 
 /// Runs modules again in virtual time on what was recorded. Topics that the chosen modules publish are theirs; all
@@ -50,6 +50,8 @@ struct ReplayOutcome {
 /// An answer of a visitor belongs to a question, and questions have new ids in every run: it is given when the same
 /// exhibit's question is on show again.
 ///
+/// Speech takes as long as it took, unless `sound` is among the chosen modules: the loudspeaker is hardware, too.
+///
 /// Error: the recording is damaged, a module is unknown or refuses its configuration, `out` cannot be written.
 [[nodiscard]] Result<ReplayOutcome> replay(const Museum& museum, const RobotConfig& config,
                                            const ReplayOptions& options);
@@ -57,8 +59,10 @@ struct ReplayOutcome {
 /// Name of the museum in the recording's truth; empty where there is none.
 [[nodiscard]] Result<std::string> museum_of_recording(const std::string& recording);
 
-/// The first place where two runs differ, in words; empty for none.
+/// The first place where the mission's events of two runs differ in their order, in words; empty for none. What only
+/// one of them has in the last five seconds of `duration_s` [s] is no difference: the end cuts them at slightly
+/// different places.
 [[nodiscard]] std::string first_difference(const std::vector<ReplayEvent>& recorded,
-                                           const std::vector<ReplayEvent>& repeated);
+                                           const std::vector<ReplayEvent>& repeated, double duration_s);
 
 }  // namespace docent

@@ -32,10 +32,8 @@ struct Options {
 
 void print_profile(const SimulationRun& run, double wall_s) {
   std::vector<std::pair<std::string, double>> rows;
-  double known = 0.0;
   for (const auto& [name, cost] : run.wall_seconds_by_module()) {
     rows.emplace_back(name, cost);
-    known += cost;
   }
   std::sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
   const double virtual_s = to_seconds(run.now());

@@ -100,20 +100,9 @@ class SimulationRun::Parts {
     return result;
   }
 
-  Museum museum_;
-  RobotConfig config_;
-  SimulationRunOptions options_;
-  TemporaryFolder temporary_;
-  std::filesystem::path state_;
-  VirtualTimeHub hub_;
-  DeploymentEvaluator evaluator_;
-  SimulationPicture picture_;
-  std::optional<Recorder> recorder_;
-  std::string failure_;
-  double wall_s_ = 0.0;
-  double evaluation_s_ = 0.0;
-
  private:
+  friend class SimulationRun;
+
   /// Speed limit and mode, as the museum's staff would set them.
   Result<void> start_operator() {
     operator_bus_ = hub_.connect("operator");
@@ -140,6 +129,9 @@ class SimulationRun::Parts {
     options.crowd = options_.crowd;
     options.crowd_count = options_.people;
     options.start = options_.start;
+    if (options_.start && !contains(museum_.area, options_.start->position())) {
+      return fail("--start: outside the area in which the robot may be");
+    }
     options.requests_per_hour = options_.requests_per_hour;
     if (museum_.charger) options.charger = museum_.charger->position();
     options.run_info.museum = museum_.folder.filename().string();
@@ -190,6 +182,18 @@ class SimulationRun::Parts {
     });
   }
 
+  Museum museum_;
+  RobotConfig config_;
+  SimulationRunOptions options_;
+  TemporaryFolder temporary_;
+  std::filesystem::path state_;
+  VirtualTimeHub hub_;
+  DeploymentEvaluator evaluator_;
+  SimulationPicture picture_;
+  std::optional<Recorder> recorder_;
+  std::string failure_;
+  double wall_s_ = 0.0;
+  double evaluation_s_ = 0.0;
   std::unique_ptr<Bus> operator_bus_;
   std::unique_ptr<Bus> world_robot_bus_;
   std::unique_ptr<Bus> world_truth_bus_;

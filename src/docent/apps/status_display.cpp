@@ -1,5 +1,9 @@
 #include "docent/apps/status_display.h"
 
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <cstdio>
 
 namespace docent {
@@ -20,6 +24,14 @@ const char* color_of(const std::string& text) {
   return "\033[31m";
 }
 
+/// Room for a status: a line that wraps could not be erased.
+int room_for_text() {
+  constexpr int kRest = 34;  // name and restarts
+  winsize size{};
+  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
+  return std::max(10, size.ws_col - kRest);
+}
+
 }  // namespace
 
 void StatusDisplay::erase() {
@@ -37,7 +49,8 @@ void StatusDisplay::show(const std::vector<Supervisor::Status>& all) {
   if (is_terminal_) {
     erase();
     for (const auto& status : all) {
-      std::printf("  %-10s %s%-.100s\033[0m", status.name.c_str(), color_of(status.text), status.text.c_str());
+      std::printf("  %-10s %s%.*s\033[0m", status.name.c_str(), color_of(status.text), room_for_text(),
+                  status.text.c_str());
       if (status.restarts > 0) std::printf("  (restarted %d x)", status.restarts);
       std::fputc('\n', stdout);
     }

@@ -158,7 +158,7 @@ void up(const Options& options) {
   bool is_announced = false;
   bus->subscribe<docent_msgs::Health>(topics::kHealth, [&](const docent_msgs::Health& health) {
     supervisor.heard(health.module, health.pid, health.state, health.reason);
-    if (!is_announced && health.module == "web" && health.state == "ready") {
+    if (!is_announced && health.module == "web" && health.state != "starting") {
       is_announced = true;
       log("web", "open http://127.0.0.1:" + std::to_string(options.port) + "/");
     }

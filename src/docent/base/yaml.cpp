@@ -17,6 +17,15 @@ T scalar(const YamlFile& file, const YAML::Node& node, const char* wanted) {
   }
 }
 
+/// A file's own words may come into a fault: they stay on one line, and short.
+std::string on_one_line(std::string text) {
+  constexpr std::size_t kLongest = 300;
+  if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  return text;
+}
+
 }  // namespace
 
 Result<YamlFile> YamlFile::load(const std::filesystem::path& path) {
@@ -36,13 +45,14 @@ Result<YamlFile> YamlFile::parse(const std::string& text, std::string name) {
   try {
     return YamlFile{YAML::Load(text), std::move(name)};
   } catch (const YAML::Exception& exception) {
-    return fail(name + ":" + std::to_string(exception.mark.line + 1) + ": not valid YAML: " + exception.msg);
+    return fail(name + ":" + std::to_string(exception.mark.line + 1) +
+                ": not valid YAML: " + on_one_line(exception.msg));
   }
 }
 
 Error YamlFile::fault(const YAML::Node& at, const std::string& what) const {
   const int line = at.IsDefined() ? at.Mark().line : -1;
-  return Error{name_ + ":" + std::to_string(line < 0 ? 1 : line + 1) + ": " + what};
+  return Error{name_ + ":" + std::to_string(line < 0 ? 1 : line + 1) + ": " + on_one_line(what)};
 }
 
 YamlReader::YamlReader(const YamlFile& file, const YAML::Node& node) : file_{file}, node_{node} {
@@ -74,6 +84,7 @@ void YamlReader::finish() const {
     for (const auto& name : known_) names += (names.empty() ? "" : ", ") + name;
     throw YamlFault{file_.fault(entry.first, "unknown key '" + key + "' (known: " + names + ")")};
   }
+  if (!missing_.empty()) throw YamlFault{file_.fault(node_, "missing key '" + missing_.front() + "'")};
 }
 
 void YamlReader::read_value(const YAML::Node& node, double& field) {

@@ -54,13 +54,15 @@ class YamlReader {
   void required(const char* key, T& field) {
     known_.insert(key);
     const YAML::Node child = node_[key];
-    if (!child.IsDefined() || child.IsNull())
-      throw YamlFault{file_.fault(node_, std::string{"missing key '"} + key + "'")};
-    read(child, field);
+    if (child.IsDefined() && !child.IsNull()) {
+      read(child, field);
+    } else {
+      missing_.emplace_back(key);
+    }
   }
   /// The node under `key`, undefined when absent, for what is not read into a struct.
   [[nodiscard]] YAML::Node node(const char* key);
-  /// Refuses keys that nobody asked for.
+  /// Refuses keys that nobody asked for, then the absence of required ones: a misspelt key is both.
   void finish() const;
 
  private:
@@ -99,6 +101,7 @@ class YamlReader {
   const YamlFile& file_;
   YAML::Node node_;
   std::set<std::string> known_;
+  std::vector<std::string> missing_;
 };
 
 /// Reads `node` of `file` over the defaults in `value`.

@@ -53,5 +53,10 @@ TEST(Yaml, FaultsNameFileAndLine) {
   EXPECT_EQ(fault_of("- 1\n"), "f.yaml:1: expected a mapping (key: value)");
 }
 
+TEST(Yaml, FaultsStayOnOneLineWhateverTheFileSays) {
+  EXPECT_EQ(fault_of("count: \"a\\nb\"\n"), "f.yaml:1: expected a whole number, found 'a b'");
+  EXPECT_LT(fault_of("count: " + std::string(5000, 'x') + "\n").size(), 400U);
+}
+
 }  // namespace
 }  // namespace docent

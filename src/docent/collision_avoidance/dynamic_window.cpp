@@ -130,7 +130,8 @@ void DynamicWindow::smooth(std::vector<EvaluatedVelocity>& window, int rows, int
   const auto raw = window;
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
-      const auto here = static_cast<std::size_t>(row * columns + column);
+      const auto here =
+          static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
       if (raw[here].value < 0.0) continue;
       double sum = 4.0 * raw[here].value;
       double weight = 4.0;
@@ -139,7 +140,9 @@ void DynamicWindow::smooth(std::vector<EvaluatedVelocity>& window, int rows, int
           const int r = row + dr;
           const int c = column + dc;
           if ((dr == 0 && dc == 0) || r < 0 || c < 0 || r >= rows || c >= columns) continue;
-          sum += std::max(0.0, raw[static_cast<std::size_t>(r * columns + c)].value);
+          sum += std::max(
+              0.0,
+              raw[static_cast<std::size_t>(r) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(c)].value);
           weight += 1.0;
         }
       }
@@ -175,7 +178,7 @@ WindowChoice DynamicWindow::choose(const Velocity& velocity, const Velocity& las
   WindowChoice choice;
   const int rows = params_.linear_steps;
   const int columns = params_.angular_steps;
-  choice.window.reserve(static_cast<std::size_t>(rows * columns));
+  choice.window.reserve(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
   for (int row = 0; row < rows; ++row) {
     const double linear = low + (high - low) * row / (rows - 1);
     for (int column = 0; column < columns; ++column) {

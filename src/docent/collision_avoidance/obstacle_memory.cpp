@@ -10,7 +10,7 @@ namespace docent {
 namespace {
 
 constexpr double kBlindGap = 0.105;  // [rad] 6 degrees
-constexpr int kFrozenSweeps = 2;  // repeats: noise alone makes even one unlikely
+constexpr int kFrozenSweeps = 2;     // repeats: noise alone makes even one unlikely
 
 bool is_valid(double range) { return !std::isnan(range) && range >= 0.0; }
 

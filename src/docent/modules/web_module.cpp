@@ -61,7 +61,7 @@ std::filesystem::path page_folder(const std::string& root) {
   std::error_code error;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
   if (!error) {
-    const auto installed = program.parent_path().parent_path() / "share/docent/web";
+    auto installed = program.parent_path().parent_path() / "share/docent/web";
     if (std::filesystem::exists(installed / "index.html", error)) return installed;
   }
   return DOCENT_WEB_ROOT;
@@ -166,10 +166,11 @@ class WebModule final : public Module {
     bus_.every(seconds(1.0 / params_.belief_hz), [this] { show_slow(); });
     bus_.every(seconds(1.0), [this] { show_health(); });
     bus_.every(seconds(params_.resend_s), [this] { resend(); });
-    bus_.every(std::chrono::minutes{10}, [this] { outbox_->forget_before(bus_.now() - kHour(params_.forget_hours)); });
+    bus_.every(std::chrono::minutes{10},
+               [this] { outbox_->forget_before(bus_.now() - hours_of(params_.forget_hours)); });
     resend();
   }
-  static Duration kHour(double hours) { return seconds(hours * 3600.0); }
+  static Duration hours_of(double hours) { return seconds(hours * 3600.0); }
 
   void show_live() {
     constexpr Duration kFresh = std::chrono::seconds{1};

@@ -12,17 +12,16 @@
 namespace docent {
 namespace {
 
-Color color_of(int percent) {
+Color color_of(std::int8_t percent) {
   if (percent < 0) return colors::kUnknown;
   return mixed(colors::kFloor, colors::kInk, percent / 100.0);
 }
 
 /// The most occupied cell of the rectangle; unknown only where nothing else is.
-int darkest(const OccupancyGrid& map, CellIndex low, CellIndex high) {
-  int found = OccupancyGrid::kUnknown;
+std::int8_t darkest(const OccupancyGrid& map, CellIndex low, CellIndex high) {
+  std::int8_t found = OccupancyGrid::kUnknown;
   for (int row = low.row; row <= high.row; ++row)
-    for (int column = low.column; column <= high.column; ++column)
-      found = std::max(found, static_cast<int>(map.at({column, row})));
+    for (int column = low.column; column <= high.column; ++column) found = std::max(found, map.at({column, row}));
   return found;
 }
 

@@ -45,4 +45,14 @@ struct LaserLog {
   std::vector<std::string> notes;
 };
 
+/// Reads what `--log` names, by its content: a CARMEN text log (plain or gzip), an MCAP recording, a rosbag2 folder or
+/// its database (.db3).
+///
+/// Of a ROS 2 recording it takes every sensor_msgs/LaserScan (not those under /docent/), the nav_msgs/Odometry topic
+/// with most messages, interpolated at the scans' stamps, and the lasers' places from /tf_static. A laser that hangs
+/// upside down is turned over. Without odometry or places: as `notes` say.
+///
+/// Error: "FILE: …" or "FILE:LINE: …": unreadable, damaged, or without a scan.
+[[nodiscard]] Result<LaserLog> read_laser_log(const std::filesystem::path& path);
+
 }  // namespace docent

@@ -25,6 +25,7 @@ using mcap::Kind;
 constexpr std::uint64_t kMaxChunk = std::uint64_t{256} << 20U;
 /// Chunks that overlap in time are held together; no sound recording needs so much.
 constexpr std::uint64_t kMaxHeld = std::uint64_t{1} << 30U;
+constexpr std::size_t kMostDamage = 1000;  ///< entries in the list
 constexpr std::uint64_t kMaxTime = std::numeric_limits<std::int64_t>::max();
 
 std::uint32_t crc_of(Bytes bytes) { return static_cast<std::uint32_t>(crc32_z(0, bytes.data(), bytes.size())); }
@@ -330,6 +331,7 @@ Result<void> McapReader::read(const Selection& selection, const std::function<bo
   std::uint64_t held = 0;  ///< bytes of unpacked chunks that messages still wait in
   std::priority_queue<Waiting> waiting;
   std::uint64_t order = 0;
+  std::uint64_t handed_over = 0;  ///< time of the latest message that was
   const auto wait = [&](Bytes content, const std::shared_ptr<const std::vector<std::uint8_t>>& chunk) {
     ByteReader reader{content};
     Waiting message{};
@@ -340,7 +342,8 @@ Result<void> McapReader::read(const Selection& selection, const std::function<bo
     message.data = reader.bytes(reader.left());
     message.order = order++;
     message.chunk = chunk;
-    if (!reader.good() || message.time > kMaxTime) return false;
+    // A chunk that holds earlier messages than it says would break the order.
+    if (!reader.good() || message.time > kMaxTime || message.time < handed_over) return false;
     const auto channel = state.channels.find(message.channel);
     if (channel == state.channels.end()) return false;
     if (!selection.topics.empty() && !selection.topics.contains(channel->second.topic)) return true;
@@ -353,6 +356,7 @@ Result<void> McapReader::read(const Selection& selection, const std::function<bo
     while (!waiting.empty() && waiting.top().time < time) {
       const Waiting message = waiting.top();
       waiting.pop();
+      handed_over = message.time;
       if (!handler({state.channels.at(message.channel), time_of(message.time), time_of(message.publish_time),
                     message.sequence, message.data}))
         return false;
@@ -364,7 +368,7 @@ Result<void> McapReader::read(const Selection& selection, const std::function<bo
       (void)hand_over_before(std::numeric_limits<std::uint64_t>::max());
       return tl::unexpected<Error>(std::move(error));
     }
-    state.damage.push_back(std::move(error.message));
+    if (state.damage.size() < kMostDamage) state.damage.push_back(std::move(error.message));
     return {};
   };
   for (const Piece& piece : state.pieces) {
@@ -401,46 +405,6 @@ Result<void> McapReader::read(const Selection& selection, const std::function<bo
   }
   (void)hand_over_before(std::numeric_limits<std::uint64_t>::max());
   return {};
-}
-
-Result<RecoveryReport> recover_mcap(const std::filesystem::path& path, const std::filesystem::path& out) {
-  // Not beside `out` under the writer's usual name: that may be the very file that is read.
-  const std::filesystem::path beside = out.string() + ".recovering";
-  RecoveryReport report;
-  {
-    auto reader = McapReader::open(path);
-    if (!reader) return tl::unexpected<Error>(reader.error());
-    auto writer = McapWriter::create(beside);
-    if (!writer) return tl::unexpected<Error>(writer.error());
-    std::map<const McapChannel*, McapWriter::Channel> channels;
-    Result<void> written;
-    const auto copy = [&](const McapMessage& message) {
-      auto place = channels.find(&message.channel);
-      if (place == channels.end()) {
-        const auto channel = writer->add_channel(message.channel);
-        if (!channel) {
-          written = tl::unexpected<Error>(channel.error());
-          return false;
-        }
-        place = channels.emplace(&message.channel, *channel).first;
-      }
-      written = writer->write(place->second, message.log_time, message.publish_time, message.data);
-      ++report.messages;
-      return written.has_value();
-    };
-    McapReader::Selection everything;
-    everything.skip_damaged = true;
-    if (auto read = reader->read(everything, copy); !read) return tl::unexpected<Error>(read.error());
-    if (!written) return tl::unexpected<Error>(written.error());
-    if (!reader->is_complete()) report.damage.emplace_back("the file has no end: its last second may be lost");
-    report.damage.insert(report.damage.end(), reader->damage().begin(), reader->damage().end());
-    if (auto closed = writer->close(); !closed) return tl::unexpected<Error>(closed.error());
-  }
-  std::error_code error;
-  std::filesystem::rename(beside, out, error);
-  if (error) return fail(out.string() + ": cannot be named: " + error.message());
-  std::filesystem::remove(unfinished_path(out), error);
-  return report;
 }
 
 }  // namespace docent

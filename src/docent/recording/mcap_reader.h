@@ -67,13 +67,4 @@ class McapReader {
   std::unique_ptr<State> state_;
 };
 
-struct RecoveryReport {
-  std::uint64_t messages = 0;
-  std::vector<std::string> damage;  ///< what was lost, in words
-};
-/// Makes a whole file of a cut or damaged one: everything that can still be read, with a new index.
-/// `out` may be the name that a killed recorder was about to give: then its unfinished file goes away.
-/// Error: not an MCAP file, or `out` cannot be written.
-[[nodiscard]] Result<RecoveryReport> recover_mcap(const std::filesystem::path& path, const std::filesystem::path& out);
-
 }  // namespace docent

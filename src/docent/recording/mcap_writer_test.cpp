@@ -10,6 +10,7 @@
 #include "docent/base/files.h"
 #include "docent/base/random.h"
 #include "docent/recording/mcap_reader.h"
+#include "docent/recording/mcap_recovery.h"
 
 namespace docent {
 namespace {

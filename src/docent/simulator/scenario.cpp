@@ -266,7 +266,8 @@ Result<Scenario> read_scenario(const YamlFile& file) {
     if (!root.IsMap()) throw YamlFault{file.fault(root, "expected a mapping with 'events'")};
     for (const auto& entry : root) {
       if (!entry.first.IsScalar() || entry.first.Scalar() != "events") {
-        throw YamlFault{file.fault(entry.first, "unknown key (known: events)")};
+        throw YamlFault{file.fault(
+            entry.first, "unknown key '" + (entry.first.IsScalar() ? entry.first.Scalar() : "") + "' (known: events)")};
       }
     }
     const YAML::Node events = root["events"];

@@ -46,7 +46,7 @@ export class Motion {
     const found = this.around(now);
     if (!found) return null;
     const [a, b, part] = found;
-    if (!a.pose || !b.pose) return b.pose ?? null;
+    if (!a.pose || !b.pose) return b.pose ?? this.latest?.pose ?? null;
     // A jump is a change of mind, not a motion: it is not smeared.
     if (Math.hypot(b.pose[0] - a.pose[0], b.pose[1] - a.pose[1]) > 1) return b.pose;
     return [

@@ -21,9 +21,8 @@ double stop_duration(const ProgrammeExhibit& exhibit, double way_m, const Schedu
   return way_m / params.cruise_speed + exhibit.speech_s + params.stop_overhead_s;
 }
 
-std::vector<std::string> compose_tour(const Programme& programme, Point2 start, double left_s,
-                                      const std::vector<std::string>& done, const TravelDistance& travel,
-                                      const SchedulerParams& params) {
+std::vector<std::string> compose_tour(const Programme& programme, Point2 start, double left_s, const StopChoice& choice,
+                                      const TravelDistance& travel, const SchedulerParams& params) {
   const auto holds = [](const std::vector<std::string>& list, const std::string& id) {
     return std::find(list.begin(), list.end(), id) != list.end();
   };
@@ -31,17 +30,20 @@ std::vector<std::string> compose_tour(const Programme& programme, Point2 start, 
   Point2 at = start;
   while (true) {
     const ProgrammeExhibit* nearest = nullptr;
-    double least_way = std::numeric_limits<double>::infinity();
+    double least = std::numeric_limits<double>::infinity();
+    double way_m = 0.0;
     for (const ProgrammeExhibit& exhibit : programme.exhibits) {
-      if (exhibit.web_only || holds(chosen, exhibit.id) || holds(done, exhibit.id)) continue;
+      if (exhibit.web_only || holds(chosen, exhibit.id) || holds(choice.done, exhibit.id)) continue;
       const double way = travel(at, exhibit.pose.position());
-      if (way < least_way) {
+      const double felt = holds(choice.wished, exhibit.id) ? kWishedFactor * way : way;
+      if (felt < least) {
         nearest = &exhibit;
-        least_way = way;
+        least = felt;
+        way_m = way;
       }
     }
     if (nearest == nullptr) return chosen;
-    const double cost_s = stop_duration(*nearest, least_way, params);
+    const double cost_s = stop_duration(*nearest, way_m, params);
     if (cost_s > 2.0 * left_s) return chosen;
     chosen.push_back(nearest->id);
     left_s -= cost_s;

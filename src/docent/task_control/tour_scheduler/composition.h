@@ -35,11 +35,18 @@ struct SchedulerParams {
 /// How long it takes to go to an exhibit and show it, in the short version [s].
 [[nodiscard]] double stop_duration(const ProgrammeExhibit& exhibit, double way_m, const SchedulerParams& params);
 
+/// What a composed tour may show.
+struct StopChoice {
+  std::vector<std::string> done;    ///< left out
+  std::vector<std::string> wished;  ///< others wait for these: they count as nearer, by kWishedFactor
+};
+inline constexpr double kWishedFactor = 0.2;
+
 /// Exhibits for the `left_s` that remain of a composed tour, from where the robot stands: always the nearest one, as
 /// long as less than half of it lies beyond the end, so that the length comes out right on average. Those that only Web
-/// visitors may see and those in `done` are left out. O(exhibits^2).
+/// visitors may see are left out. O(exhibits^2).
 [[nodiscard]] std::vector<std::string> compose_tour(const Programme& programme, Point2 start, double left_s,
-                                                    const std::vector<std::string>& done, const TravelDistance& travel,
+                                                    const StopChoice& choice, const TravelDistance& travel,
                                                     const SchedulerParams& params);
 
 }  // namespace docent

@@ -66,7 +66,8 @@ struct SchedulerState {
 /// reason of its own. Without a tour, single exhibits are visited in the order of the least travel, anew after every
 /// visit, but who is overdue comes first, and the oldest open request decides whether a tour begins. A tour keeps its
 /// order; between two of its stops at most one single exhibit is put in: an overdue one, or one with a small detour. A
-/// composed tour gets longer or shorter on the way, so that it ends in time ([Minerva2000] 5.3).
+/// composed tour gets longer or shorter on the way, so that it ends in time ([Minerva2000] 5.3), and shows first what
+/// others have wished for.
 class TourScheduler {
  public:
   /// Open requests in `state` for what the museum no longer has are failed at once.
@@ -112,6 +113,7 @@ class TourScheduler {
   [[nodiscard]] std::vector<std::string> single_order(Point2 robot, Time now) const;
   [[nodiscard]] const BoardEntry* oldest_due(Time now) const;
   [[nodiscard]] std::optional<std::string> exhibit_to_insert(Point2 robot, Time now) const;
+  [[nodiscard]] std::vector<std::string> wished_exhibits() const;
   [[nodiscard]] std::vector<std::string> first_stops(double target_s, Point2 robot) const;
   void begin_tour(const std::string& tour_id, Point2 robot, Time now);
   /// A composed tour is fitted to the time that is left: its pending stops are chosen anew.

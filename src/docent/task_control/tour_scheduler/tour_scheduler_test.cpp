@@ -235,7 +235,7 @@ TEST(Composition, FillsTheTimeWithWhatIsNear) {
   params.cruise_speed = 0.4;
   params.stop_overhead_s = 10.0;  // each stop: 10 s drive + 20 s speech + 10 s
   const auto compose = [&](double left_s, const std::vector<std::string>& done) {
-    return compose_tour(programme, {0, 0}, left_s, done, straight_distance(), params);
+    return compose_tour(programme, {0, 0}, left_s, {done, {}}, straight_distance(), params);
   };
   EXPECT_EQ(compose(120.0, {}), (std::vector<std::string>{"e1", "e2", "e3"}));
   EXPECT_EQ(compose(139.0, {}).size(), 3U);
@@ -263,6 +263,15 @@ TEST_F(Scheduling, AComposedTourIsFittedToTheTimeOnTheWay) {
     EXPECT_NEAR(at, std::max(120.0, 46.0 + delay_s), 24.0) << delay_s;
     EXPECT_EQ(stops, delay_s == 0.0 ? 3 : delay_s == 40.0 ? 2 : 1);
   }
+}
+
+TEST_F(Scheduling, AComposedTourShowsWhatOthersWishFor) {
+  wish("a", "tour", "quick", 0);
+  wish("b", "exhibit", "e3", 0);
+  EXPECT_EQ(next(0), "e3");
+  finish(true, 70);
+  EXPECT_EQ(state_of("b"), "fulfilled");
+  EXPECT_EQ(next(71, {12, 0}), "e2");
 }
 
 TEST_F(Scheduling, AComposedTourShowsSomethingElseInstead) {

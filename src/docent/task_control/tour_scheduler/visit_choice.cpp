@@ -131,7 +131,7 @@ void TourScheduler::recompose(Point2 robot, Time now) {
     stop.status = StopStatus::skipped;
     happenings_.push_back({"plan_removed", stop.exhibit_id, tour.tour_id});
   }
-  const auto chosen = compose_tour(programme_, robot, left_s, done, travel_, params_);
+  const auto chosen = compose_tour(programme_, robot, left_s, {done, wished_exhibits()}, travel_, params_);
   const auto plans = [](const std::vector<TourStop>& list, const std::string& id) {
     return std::any_of(list.begin(), list.end(), [&](const TourStop& stop) { return stop.exhibit_id == id; });
   };
@@ -145,11 +145,21 @@ void TourScheduler::recompose(Point2 robot, Time now) {
   tour.stops = std::move(stops);
 }
 
+std::vector<std::string> TourScheduler::wished_exhibits() const {
+  std::vector<std::string> wished;
+  for (const BoardEntry& entry : state_.board.entries()) {
+    if (entry.status == RequestStatus::queued && entry.request.kind == "exhibit")
+      wished.push_back(entry.request.target);
+  }
+  return wished;
+}
+
 std::vector<std::string> TourScheduler::first_stops(double target_s, Point2 robot) const {
-  auto stops = compose_tour(programme_, robot, target_s, {}, travel_, params_);
+  const StopChoice choice{{}, wished_exhibits()};
+  auto stops = compose_tour(programme_, robot, target_s, choice, travel_, params_);
   if (!stops.empty()) return stops;
   // However short: one exhibit is the least that a tour shows.
-  stops = compose_tour(programme_, robot, std::numeric_limits<double>::infinity(), {}, travel_, params_);
+  stops = compose_tour(programme_, robot, std::numeric_limits<double>::infinity(), choice, travel_, params_);
   stops.resize(std::min<std::size_t>(stops.size(), 1));
   return stops;
 }

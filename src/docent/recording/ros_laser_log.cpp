@@ -1,0 +1,174 @@
+#include "docent/recording/ros_laser_log.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "docent/messages/cdr.h"
+#include "docent/messages/conversions.h"
+
+namespace docent {
+namespace {
+
+constexpr int kMostLinks = 32;  ///< of a chain of frames; a longer one is a ring
+
+/// Turns `v` by the rotation `q`.
+geometry_msgs::Vector3 rotated(const geometry_msgs::Quaternion& q, const geometry_msgs::Vector3& v) {
+  const auto cross = [](const geometry_msgs::Vector3& a, const geometry_msgs::Vector3& b) {
+    return geometry_msgs::Vector3{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  };
+  const geometry_msgs::Vector3 axis{q.x, q.y, q.z};
+  const auto once = cross(axis, v);
+  const auto twice = cross(axis, once);
+  return {v.x + 2.0 * (q.w * once.x + twice.x), v.y + 2.0 * (q.w * once.y + twice.y),
+          v.z + 2.0 * (q.w * once.z + twice.z)};
+}
+
+bool is_finite(const geometry_msgs::Transform& t) {
+  for (const double value :
+       {t.translation.x, t.translation.y, t.translation.z, t.rotation.x, t.rotation.y, t.rotation.z, t.rotation.w})
+    if (!std::isfinite(value)) return false;
+  return true;
+}
+
+std::string without_slash(const std::string& frame) { return frame.starts_with('/') ? frame.substr(1) : frame; }
+
+}  // namespace
+
+Result<void> RosLaserLogBuilder::add(const Rosbag2Message& message) {
+  const auto damaged = [&] {
+    return fail("damaged " + message.type + " on " + message.topic + " at " + std::to_string(to_seconds(message.time)) +
+                " s");
+  };
+  if (message.type == sensor_msgs::LaserScan::kType) {
+    // Docent's virtual measurements come from the map, not from a sensor.
+    if (message.topic.starts_with("/docent/")) return {};
+    const auto scan = decode_cdr<sensor_msgs::LaserScan>(message.data);
+    if (!scan) return damaged();
+    add_scan(*scan, message.time);
+  } else if (message.type == nav_msgs::Odometry::kType) {
+    const auto odometry = decode_cdr<nav_msgs::Odometry>(message.data);
+    if (!odometry) return damaged();
+    LoggedOdometry reading;
+    reading.time = from_message(odometry->header.stamp);
+    if (reading.time.nanoseconds == 0) reading.time = message.time;
+    reading.odom_from_base = from_message(odometry->pose.pose);
+    reading.linear = odometry->twist.twist.linear.x;
+    reading.angular = odometry->twist.twist.angular.z;
+    if (!std::isfinite(reading.odom_from_base.x) || !std::isfinite(reading.odom_from_base.y) ||
+        !std::isfinite(reading.odom_from_base.theta.radians()))
+      return {};
+    odometry_[message.topic].push_back(reading);
+    base_frames_[message.topic] = without_slash(odometry->child_frame_id);
+  } else if (message.type == tf2_msgs::TFMessage::kType && message.topic == "/tf_static") {
+    const auto transforms = decode_cdr<tf2_msgs::TFMessage>(message.data);
+    if (!transforms) return damaged();
+    for (const auto& transform : transforms->transforms)
+      if (is_finite(transform.transform)) static_transforms_[without_slash(transform.child_frame_id)] = transform;
+  }
+  return {};
+}
+
+void RosLaserLogBuilder::add_scan(const sensor_msgs::LaserScan& message, Time log_time) {
+  Scan scan;
+  scan.time = from_message(message.header.stamp);
+  if (scan.time.nanoseconds == 0) scan.time = log_time;
+  scan.frame = without_slash(message.header.frame_id);
+  scan.scan.first_bearing = Angle::radians(static_cast<double>(message.angle_min));
+  scan.scan.bearing_step = static_cast<double>(message.angle_increment);
+  if (message.ranges.empty() || !std::isfinite(message.angle_min) || !std::isfinite(message.angle_increment)) return;
+  scan.scan.ranges.reserve(message.ranges.size());
+  for (const float range : message.ranges) {
+    const bool no_return = range >= message.range_max;  // +infinity too
+    const bool invalid = !(range >= message.range_min) || !(range > 0.0F);
+    scan.scan.ranges.push_back(no_return ? std::numeric_limits<float>::infinity()
+                                         : (invalid ? std::numeric_limits<float>::quiet_NaN() : range));
+  }
+  if (std::isfinite(message.range_max))
+    log_.max_range = std::max(log_.max_range, static_cast<double>(message.range_max));
+  scans_.push_back(std::move(scan));
+}
+
+std::optional<RosLaserLogBuilder::Mount> RosLaserLogBuilder::mount_of(const std::string& frame) const {
+  // From the laser up to the base: each link takes what is known of the laser into its parent's frame.
+  geometry_msgs::Vector3 origin{};
+  geometry_msgs::Vector3 ahead{1.0, 0.0, 0.0};
+  geometry_msgs::Vector3 up{0.0, 0.0, 1.0};
+  std::string at = frame;
+  for (int links = 0; links < kMostLinks; ++links) {
+    if (at == base_frame_ || at == "base_link" || at == "base_footprint") {
+      Mount mount;
+      mount.base_from_laser = {origin.x, origin.y, Angle::radians(std::atan2(ahead.y, ahead.x))};
+      mount.is_upside_down = up.z < 0.0;
+      return mount;
+    }
+    const auto link = static_transforms_.find(at);
+    if (link == static_transforms_.end()) return std::nullopt;
+    const geometry_msgs::Transform& parent_from_child = link->second.transform;
+    origin = rotated(parent_from_child.rotation, origin);
+    origin = {origin.x + parent_from_child.translation.x, origin.y + parent_from_child.translation.y,
+              origin.z + parent_from_child.translation.z};
+    ahead = rotated(parent_from_child.rotation, ahead);
+    up = rotated(parent_from_child.rotation, up);
+    at = without_slash(link->second.header.frame_id);
+  }
+  return std::nullopt;
+}
+
+Pose2 RosLaserLogBuilder::odometry_at(Time time) const {
+  const auto& readings = log_.odometry;
+  if (readings.empty()) return {};
+  const auto after = std::lower_bound(readings.begin(), readings.end(), time,
+                                      [](const LoggedOdometry& reading, Time wanted) { return reading.time < wanted; });
+  if (after == readings.begin()) return after->odom_from_base;
+  if (after == readings.end()) return readings.back().odom_from_base;
+  const LoggedOdometry& before = *std::prev(after);
+  const double share = to_seconds(time - before.time) / to_seconds(after->time - before.time);
+  const Pose2& a = before.odom_from_base;
+  const Pose2& b = after->odom_from_base;
+  return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y),
+          Angle::radians(a.theta.radians() + share * (b.theta - a.theta).radians())};
+}
+
+Result<LaserLog> RosLaserLogBuilder::finish() {
+  if (scans_.empty()) return fail("holds no laser scan");
+  const auto most = std::max_element(odometry_.begin(), odometry_.end(),
+                                     [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); });
+  if (most == odometry_.end()) {
+    log_.notes.emplace_back("there is no odometry: the robot is taken to stand still between scans");
+  } else {
+    log_.odometry = std::move(most->second);
+    base_frame_ = base_frames_[most->first];
+    if (odometry_.size() > 1) log_.notes.push_back("of several odometry topics " + most->first + " is used");
+  }
+  std::stable_sort(log_.odometry.begin(), log_.odometry.end(),
+                   [](const LoggedOdometry& a, const LoggedOdometry& b) { return a.time < b.time; });
+  std::stable_sort(scans_.begin(), scans_.end(), [](const Scan& a, const Scan& b) { return a.time < b.time; });
+  std::set<std::string> without_place;
+  for (Scan& entry : scans_) {
+    LoggedScan& scan = entry.scan;
+    scan.time = entry.time;
+    scan.odom_from_base = odometry_at(entry.time);
+    scan.logged_pose = scan.odom_from_base;
+    if (const auto mount = mount_of(entry.frame)) {
+      scan.base_from_laser = mount->base_from_laser;
+      if (mount->is_upside_down) {
+        scan.first_bearing = -scan.first_bearing;
+        scan.bearing_step = -scan.bearing_step;
+      }
+    } else if (without_place.insert(entry.frame).second) {
+      log_.notes.push_back("the place of the laser '" + entry.frame + "' is unknown: the robot's centre is taken");
+    }
+    scan.rear = std::abs(scan.base_from_laser.theta.degrees()) > 90.0;
+    log_.scans.push_back(std::move(scan));
+  }
+  if (!(log_.max_range > 0.0)) {
+    for (const LoggedScan& scan : log_.scans)
+      for (const float range : scan.ranges)
+        if (std::isfinite(range)) log_.max_range = std::max(log_.max_range, static_cast<double>(range));
+  }
+  return std::move(log_);
+}
+
+}  // namespace docent

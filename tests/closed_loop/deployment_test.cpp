@@ -1,0 +1,59 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "docent/apps/simulation_run.h"
+
+// The whole robot in a crowd, in virtual time.
+
+namespace docent {
+namespace {
+
+nlohmann::ordered_json report_of(const SimulationRunOptions& options, double minutes) {
+  auto run = SimulationRun::create(options);
+  EXPECT_TRUE(run.has_value()) << (run ? "" : run.error().message);
+  if (!run) return {};
+  const auto done = (*run)->run_until(time_from_seconds(60.0 * minutes));
+  EXPECT_TRUE(done.has_value()) << (done ? "" : done.error().message);
+  return nlohmann::ordered_json::parse((*run)->report_json());
+}
+
+SimulationRunOptions busy_bonn(std::uint64_t seed) {
+  SimulationRunOptions options;
+  options.museum = std::string{DOCENT_SOURCES} + "/museums/bonn";
+  options.seed = seed;
+  options.crowd = "busy";
+  return options;
+}
+
+TEST(Deployment, TheSameSeedGivesTheSameReport) {
+  auto first = report_of(busy_bonn(11), 4.0);
+  auto second = report_of(busy_bonn(11), 4.0);
+  ASSERT_GT(first.at("distance_m").get<double>(), 5.0) << "nothing is the same because it is idle";
+  for (const char* key : {"wall_seconds", "speedup", "p99_ms"}) {
+    first.erase(key);
+    second.erase(key);
+  }
+  EXPECT_EQ(first.dump(1), second.dump(1));
+}
+
+TEST(Deployment, AnotherSeedGivesAnotherRun) {
+  const auto first = report_of(busy_bonn(11), 1.0);
+  const auto second = report_of(busy_bonn(12), 1.0);
+  EXPECT_NE(first.at("distance_m"), second.at("distance_m"));
+}
+
+TEST(Deployment, KilledModulesComeBackAndTheTourGoesOn) {
+  SimulationRunOptions options = busy_bonn(5);
+  options.crowd = "quiet";
+  options.scenario = std::string{DOCENT_SOURCES} + "/tests/closed_loop/kills.yaml";
+  const auto report = report_of(options, 8.0);
+  EXPECT_EQ(report.at("contacts").at("people").get<int>() + report.at("contacts").at("hazards").get<int>() +
+                report.at("contacts").at("walls").get<int>() + report.at("contacts").at("furniture").get<int>(),
+            0);
+  EXPECT_EQ(report.at("area_violations").get<int>(), 0);
+  EXPECT_GE(report.at("exhibits_explained").get<int>(), 2);
+}
+
+}  // namespace
+}  // namespace docent
