@@ -47,6 +47,8 @@ Result<void> MarkovLocalizerParams::validate() const {
   if (!(standing_weight >= 0.0 && standing_weight <= 1.0)) return fail("standing_weight must be 0..1");
   for (const double nats : {most_nats, most_nats_far})
     if (!(nats > 0.0 && nats <= 60.0)) return fail("most_nats and most_nats_far must be > 0 and <= 60");
+  if (!(sectors >= 1 && sectors <= 60)) return fail("sectors must be 1..60");
+  if (!(most_sector_nats > 0.0)) return fail("most_sector_nats must be > 0");
   if (!(look_round_updates >= 0)) return fail("look_round_updates must be >= 0");
   if (!(look_round_way > 0.0)) return fail("look_round_way must be > 0");
   if (!(work_per_second > 0.0)) return fail("work_per_second must be > 0");
@@ -124,6 +126,7 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   const RangeSweep seen = seen_from(sweep, frame_from_robot());
   Choice choice = choose_beams(seen, binned(seen, space_.headings()));
   const double temper = step.weight * params_.independent_beams / params_.beams;
+  std::sort(choice.used.begin(), choice.used.end(), [](const auto& a, const auto& b) { return a.direction < b.direction; });
   std::vector<BeamCosts> costs(choice.used.size());
   double log_best_over_mean = 0.0;
   for (std::size_t i = 0; i < costs.size(); ++i) {
@@ -139,9 +142,15 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   }
   look_round(way, turn);
   last_work_ = static_cast<double>(belief_.active_states()) * static_cast<double>(costs.size());
-  EvidenceWeights weights{params_.most_nats, params_.independent_beams_far / params_.independent_beams,
-                          params_.most_nats_far, std::nullopt};
-  if (verdict_.localized() && predicted) weights.focus = *predicted * inverse(frame_from_robot());
+  EvidenceWeights weights;
+  weights.most_nats = weights.far_most_nats = params_.most_nats;
+  weights.most_sector_nats = params_.most_sector_nats * temper;
+  weights.sectors = static_cast<std::size_t>(params_.sectors);
+  if (verdict_.localized() && predicted) {
+    weights.far_share = params_.independent_beams_far / params_.independent_beams;
+    weights.far_most_nats = params_.most_nats_far;
+    weights.focus = *predicted * inverse(frame_from_robot());
+  }
   step.evidence = belief_.reweigh(table_, costs, log_best_over_mean, weights, params_.teleport_probability);
   if (belief_.is_dense() && --dense_updates_left_ == 0) belief_.set_dense(false);
   step.updated = true;
@@ -149,11 +158,29 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   step.beams_filtered = choice.filtered;
 
   summarise_now();
+  step.fit = fit(seen, choice.used);
   choice.evidence.weight = step.weight;
   choice.evidence.way = way;
   choice.evidence.turn = turn;
   judge(choice.evidence, predicted);
   return step;
+}
+
+double MarkovLocalizer::fit(const RangeSweep& seen, std::span<const BinnedBeam> beams) const {
+  if (summary_.modes.empty() || beams.empty()) return 0.0;
+  const Pose2 map_from_frame = summary_.modes.front().map_from_robot * inverse(frame_from_robot());
+  const std::int32_t place = space_.place_at(space_.frame().cell_at(map_from_frame.position()));
+  if (place == StateSpace::kNoPlace) return 0.0;
+  const auto headings = static_cast<std::size_t>(space_.headings());
+  const double turns = map_from_frame.theta.radians() / space_.heading_step() + space_.headings();
+  const auto heading = static_cast<std::size_t>(std::lround(turns)) % headings;
+  const std::uint8_t* const row = table_.row(static_cast<std::size_t>(place));
+  double sum = 0.0;
+  for (const BinnedBeam& beam : beams) {
+    const std::size_t expected = row[(heading + beam.direction) % headings];
+    sum += static_cast<double>(model_.log_probabilities(bin_of(seen.beams[beam.beam]))[expected]);
+  }
+  return sum / static_cast<double>(beams.size());
 }
 
 void MarkovLocalizer::move(const Pose2& before_from_after) {
@@ -231,16 +258,7 @@ void MarkovLocalizer::judge(Evidence evidence, const std::optional<Pose2>& predi
       evidence.is_same_mode = off < 0.5 && turned < 15.0;
     }
   }
-  const bool dbg_before = verdict_.localized();
   verdict_.add(evidence);
-  if (std::getenv("DBG"))
-    std::fprintf(stderr,
-                 "t %.1f w %.2f mass %.3f spread %.2f same %d ag %.1f sh %.1f lo %.1f agr %.2f con %.2f loc %d pl %.2f "
-                 "active %zu%s\n",
-                 to_seconds(last_update_), evidence.weight, evidence.mass, evidence.spread, evidence.is_same_mode,
-                 evidence.agrees, evidence.shorter, evidence.longer, verdict_.agreement(), verdict_.contradiction(),
-                 verdict_.localized(), verdict_.p_lost(), belief_.active_states(),
-                 dbg_before && !verdict_.localized() ? " LOST" : "");
   if (!verdict_.collapsed()) return;
   belief_.flood(0.9);
   verdict_.reset();

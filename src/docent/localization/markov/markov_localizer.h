@@ -22,9 +22,10 @@ struct MarkovLocalizerParams {
   OdometryModelParams motion;
   VerdictParams verdict;
   int beams = 60;  ///< at most, per update
-  double independent_beams =
-      12.0;  ///< what so many correlated beams are worth near the place that the robot is sure of
-  double independent_beams_far = 3.5;  ///< and between places
+  double independent_beams = 12.0;     ///< what so many correlated beams are worth
+  double independent_beams_far = 3.5;  ///< and, once the robot is sure of a place, between it and others
+  int sectors = 12;               ///< of a turn: one thing that the map does not know hides the beams of a sector
+  double most_sector_nats = 5.0;  ///< [nat] that a sector's beams count at most together
   std::string filter = "distance";     ///< none, entropy, distance
   double filter_sureness = 0.99;       ///< theta of [Markov1998] 3.3
   double unfiltered_share = 0.1;       ///< of the filtered beams, chosen at random, counts anyway: for recovery
@@ -35,8 +36,8 @@ struct MarkovLocalizerParams {
   double creeping_period = 2.0;        ///< [s] when it moves less, or
   double standing_period = 3.0;        ///< [s] when it stands
   double standing_weight = 0.1;        ///< of such an update: the same view again says little
-  double most_nats = 8.0;              ///< [nat] that one scan counts at most, near
-  double most_nats_far = 2.0;          ///< and between places
+  double most_nats = 8.0;              ///< [nat] that one scan counts at most
+  double most_nats_far = 2.0;          ///< and, once the robot is sure of a place, between it and others
   double look_round_way = 10.0;  ///< [m] driven (a right angle turned counts as a metre) between looks at all states
   int look_round_updates = 0;    ///< in a row, then
   double work_per_second = 1e9;  ///< states * beams that may be scored in a second of the robot's time
@@ -49,6 +50,8 @@ struct MarkovLocalizerParams {
     v("beams", beams);
     v("independent_beams", independent_beams);
     v("independent_beams_far", independent_beams_far);
+    v("sectors", sectors);
+    v("most_sector_nats", most_sector_nats);
     v("filter", filter);
     v("filter_sureness", filter_sureness);
     v("unfiltered_share", unfiltered_share);
@@ -88,6 +91,7 @@ class MarkovLocalizer {
     std::size_t beams_filtered = 0;  ///< of all beams of the sweep, one a direction
     double weight = 0.0;
     double evidence = 1.0;  ///< of the reading, relative to a uniform position
+    double fit = 0.0;       ///< mean ln P(d | o) of the beams used, at the best mode: how well the map explains them
   };
   /// Offers a sweep. Most are not needed: an update comes after some motion or time, and when the work of the last one
   /// is paid off. O(active states * beams).
@@ -119,6 +123,7 @@ class MarkovLocalizer {
   [[nodiscard]] Choice choose_beams(const RangeSweep& sweep, const std::vector<BinnedBeam>& beams);
   void thin(std::vector<BinnedBeam>& beams);
   void look_round(double way, double turn);
+  [[nodiscard]] double fit(const RangeSweep& seen, std::span<const BinnedBeam> beams) const;
   void move(const Pose2& before_from_after);
   void summarise_now();
   [[nodiscard]] Pose2 frame_from_robot() const { return inverse(odom_from_frame_) * odom_from_robot_; }

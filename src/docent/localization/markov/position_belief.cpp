@@ -22,6 +22,11 @@ DOCENT_FOR_EVERY_CPU void add_weighted(float* __restrict out, const float* __res
                                        const float* __restrict values, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) out[i] += weights[i] * values[i];
 }
+DOCENT_FOR_EVERY_CPU void add_capped(std::uint16_t* __restrict sums, const std::uint16_t* __restrict values,
+                                     std::uint16_t cap, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i)
+    sums[i] = static_cast<std::uint16_t>(sums[i] + (values[i] < cap ? values[i] : cap));
+}
 DOCENT_FOR_EVERY_CPU void add_scaled(float* __restrict out, float scale, const float* __restrict values,
                                      std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) out[i] += scale * values[i];
@@ -176,7 +181,7 @@ void PositionBelief::move(const MotionKernel& kernel) {
 
 double PositionBelief::reweigh(const RangeTable& table, std::span<const BeamCosts> beams, double log_best_over_mean,
                                const EvidenceWeights& weights, double teleport) {
-  const std::size_t best = score(table, beams);
+  const std::size_t best = score(table, beams, weights);
   const double best_over_mean = log_best_over_mean - static_cast<double>(best) / kCostPerNat;
   const auto threshold = static_cast<float>(this->threshold());
   const auto headings = static_cast<std::size_t>(space_->headings());
@@ -187,6 +192,9 @@ double PositionBelief::reweigh(const RangeTable& table, std::span<const BeamCost
   const Focus focus = focus_of(weights);
   const std::size_t most_near = most(weights.most_nats);
   const std::size_t most_far = most(weights.far_most_nats);
+  const auto near_factor = [&](std::uint16_t cost) {
+    return decay_[std::min(cost - focus.best, most_near)];
+  };
   const auto far_factor = [&](std::uint16_t cost) {
     return decay_[std::min(static_cast<std::size_t>(weights.far_share * static_cast<double>(cost - best)), most_far)];
   };
@@ -197,7 +205,7 @@ double PositionBelief::reweigh(const RangeTable& table, std::span<const BeamCost
       const std::size_t at = i * stride_ + h;
       if (focus.headings[h] == 0 || !(rows_[at] > threshold)) continue;
       slow += static_cast<double>(rows_[at] * far_factor(costs_[at]));
-      sharp += static_cast<double>(rows_[at] * decay_[std::min(costs_[at] - focus.best, most_near)]);
+      sharp += static_cast<double>(rows_[at] * near_factor(costs_[at]));
     }
   }
   const auto focus_scale = static_cast<float>(sharp > 0.0 ? slow / sharp : 0.0);
@@ -216,7 +224,7 @@ double PositionBelief::reweigh(const RangeTable& table, std::span<const BeamCost
       if (!(row[h] > threshold)) {
         row[h] *= sea_factor;
       } else if (has_focus && focus.headings[h] != 0) {
-        row[h] *= focus_scale * decay_[std::min(costs[h] - focus.best, most_near)];
+        row[h] *= focus_scale * near_factor(costs[h]);
       } else {
         row[h] *= far_factor(costs[h]);
       }
@@ -249,11 +257,23 @@ PositionBelief::Focus PositionBelief::focus_of(const EvidenceWeights& weights) c
   return focus;
 }
 
-std::size_t PositionBelief::score(const RangeTable& table, std::span<const BeamCosts> beams) {
+std::size_t PositionBelief::score(const RangeTable& table, std::span<const BeamCosts> beams,
+                                  const EvidenceWeights& weights) {
+  const auto all_headings = static_cast<std::size_t>(space_->headings());
+  const auto cap = static_cast<std::uint16_t>(std::min(weights.most_sector_nats * kCostPerNat, 60000.0));
+  std::vector<std::span<const BeamCosts>> sectors;
+  for (std::size_t first = 0; first < beams.size();) {
+    const auto sector = [&](std::size_t i) { return beams[i].direction * weights.sectors / all_headings; };
+    std::size_t last = first + 1;
+    while (last < beams.size() && sector(last) == sector(first)) ++last;
+    sectors.push_back(beams.subspan(first, last - first));
+    first = last;
+  }
   const auto headings = static_cast<std::size_t>(space_->headings());
   const auto threshold = static_cast<float>(this->threshold());
   costs_.resize(kept_.size() * stride_);
   std::size_t best = std::numeric_limits<std::uint16_t>::max();
+  std::array<std::uint16_t, kBlock> part{};
   for (std::size_t i = 0; i < kept_.size(); ++i) {
     const std::uint8_t* const ranges = table.row(static_cast<std::size_t>(kept_[i]));
     const float* const row = rows_.data() + i * stride_;
@@ -263,7 +283,11 @@ std::size_t PositionBelief::score(const RangeTable& table, std::span<const BeamC
       bool active = false;
       for (std::size_t h = first; h < first + count; ++h) active = active || row[h] > threshold;
       if (!active) continue;
-      score_(ranges, first, count, beams, costs + first);
+      std::fill_n(costs + first, kBlock, std::uint16_t{0});
+      for (const auto& sector : sectors) {
+        score_(ranges, first, count, sector, part.data());
+        add_capped(costs + first, part.data(), cap, kBlock);
+      }
       for (std::size_t h = first; h < first + count; ++h)
         if (row[h] > threshold) best = std::min<std::size_t>(best, costs[h]);
     }

@@ -28,6 +28,10 @@ struct EvidenceWeights {
   double most_nats = 60.0;  ///< [nat] that a scan counts at most, against the active state that explains it best
   double far_share = 1.0;   ///< 0..1 of the evidence that counts between places
   double far_most_nats = 60.0;
+  /// One thing that the map does not know, a person or a door, hides several neighbouring beams: together they cost at
+  /// most so much. The beams come in the order of directions.
+  double most_sector_nats = 1e3;  ///< [nat]
+  std::size_t sectors = 1;        ///< of a turn
   /// The neighbourhood in which all of the evidence counts; everything else, and it as a whole, gets the share alone.
   std::optional<Pose2> focus;
   double focus_radius = 0.75;  ///< [m]
@@ -91,7 +95,7 @@ class PositionBelief {
   void keep_all(float value);
   void wake();
   /// Fills costs_ where states are active; the least of them.
-  std::size_t score(const RangeTable& table, std::span<const BeamCosts> beams);
+  std::size_t score(const RangeTable& table, std::span<const BeamCosts> beams, const EvidenceWeights& weights);
   /// The neighbourhood's sharp shape, before the slow evidence: with it, `sharpened` says by what to scale it.
   struct Focus {
     std::vector<std::uint32_t> rows;     ///< indices into kept_
