@@ -138,9 +138,9 @@ void ProximityModel::fill_unknown(std::span<const double> expected_frequency) {
   for (int measured = 0; measured < kRangeBins; ++measured) {
     // Where the map does not say, something stands anywhere. The mean of all places instead would favour places at the
     // map's border: it knows how readings are distributed in this building, and so is better than most wrong places.
-    mixture_[index(measured, kUnknownRange)] =
-        ((total - params_.weight_no_return) * uniform(measured) + (measured == kNoReturn ? params_.weight_no_return : 0.0)) /
-        total;
+    mixture_[index(measured, kUnknownRange)] = ((total - params_.weight_no_return) * uniform(measured) +
+                                                (measured == kNoReturn ? params_.weight_no_return : 0.0)) /
+                                               total;
     double mean = 0.0;
     for (int expected = 0; expected < kRangeBins; ++expected)
       mean += frequency[static_cast<std::size_t>(expected)] / sum * mixture_[index(measured, expected)];

@@ -126,7 +126,8 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   const RangeSweep seen = seen_from(sweep, frame_from_robot());
   Choice choice = choose_beams(seen, binned(seen, space_.headings()));
   const double temper = step.weight * params_.independent_beams / params_.beams;
-  std::sort(choice.used.begin(), choice.used.end(), [](const auto& a, const auto& b) { return a.direction < b.direction; });
+  std::sort(choice.used.begin(), choice.used.end(),
+            [](const auto& a, const auto& b) { return a.direction < b.direction; });
   std::vector<BeamCosts> costs(choice.used.size());
   double log_best_over_mean = 0.0;
   for (std::size_t i = 0; i < costs.size(); ++i) {

@@ -21,11 +21,11 @@ struct MarkovLocalizerParams {
   ProximityModelParams sensor;
   OdometryModelParams motion;
   VerdictParams verdict;
-  int beams = 60;  ///< at most, per update
+  int beams = 60;                      ///< at most, per update
   double independent_beams = 12.0;     ///< what so many correlated beams are worth
   double independent_beams_far = 3.5;  ///< and, once the robot is sure of a place, between it and others
-  int sectors = 12;               ///< of a turn: one thing that the map does not know hides the beams of a sector
-  double most_sector_nats = 5.0;  ///< [nat] that a sector's beams count at most together
+  int sectors = 12;                    ///< of a turn: one thing that the map does not know hides the beams of a sector
+  double most_sector_nats = 5.0;       ///< [nat] that a sector's beams count at most together
   std::string filter = "distance";     ///< none, entropy, distance
   double filter_sureness = 0.99;       ///< theta of [Markov1998] 3.3
   double unfiltered_share = 0.1;       ///< of the filtered beams, chosen at random, counts anyway: for recovery

@@ -192,9 +192,7 @@ double PositionBelief::reweigh(const RangeTable& table, std::span<const BeamCost
   const Focus focus = focus_of(weights);
   const std::size_t most_near = most(weights.most_nats);
   const std::size_t most_far = most(weights.far_most_nats);
-  const auto near_factor = [&](std::uint16_t cost) {
-    return decay_[std::min(cost - focus.best, most_near)];
-  };
+  const auto near_factor = [&](std::uint16_t cost) { return decay_[std::min(cost - focus.best, most_near)]; };
   const auto far_factor = [&](std::uint16_t cost) {
     return decay_[std::min(static_cast<std::size_t>(weights.far_share * static_cast<double>(cost - best)), most_far)];
   };
