@@ -130,7 +130,7 @@ double find_wall_depth(const Options& options, const LaserLog& log, const Occupa
                        MarkovLocalizerParams params) {
   double best_depth = 0.0;
   double best_fit = 0.0;
-  for (const double depth : {0.0, 0.1, 0.2, 0.3}) {
+  for (const double depth : {0.0, 0.2, 0.4}) {  // nearer ones differ less than two runs do
     params.states.wall_depth = depth;
     MarkovLocalizer localizer{map, params, {}, options.seed};
     double fit = 0.0;
