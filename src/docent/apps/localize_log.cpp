@@ -61,6 +61,7 @@ LogRun localize_log(const LaserLog& log, MarkovLocalizer& localizer, const LogRu
       run.beams_used += step.beams_used;
       run.beams_filtered += step.beams_filtered;
       ++run.updates;
+      run.fit += step.fit;
     }
     LoggedPose& pose = run.poses[i];
     pose = {i, logged, {}, false, localizer.verdict().localized(), localizer.verdict().p_lost()};
@@ -71,6 +72,7 @@ LogRun localize_log(const LaserLog& log, MarkovLocalizer& localizer, const LogRu
     if (pose.localized && !run.localized_after) run.localized_after = n + 1;
     if (options.watch) options.watch(localizer, i, step);
   }
+  run.fit /= static_cast<double>(std::max<std::size_t>(run.updates, 1));
   return run;
 }
 
@@ -99,13 +101,15 @@ RunAgreement agreement_of(const std::vector<LoggedPose>& first, const std::vecto
   std::vector<double> off;
   std::size_t agreed = 0;
   for (std::size_t i = std::max(first_from, second_from); i < std::min(first_to, second_to); ++i) {
+    ++result.scans;
+    if (!first[i].localized || !second[i].localized) continue;
     const Pose2& a = first[i].map_from_base;
     const Pose2& b = second[i].map_from_base;
     off.push_back(distance(a.position(), b.position()));
     const bool near = off.back() <= 0.5 && std::abs((a.theta - b.theta).degrees()) <= 10.0;
-    agreed += near && first[i].localized && second[i].localized ? 1 : 0;
+    agreed += near ? 1 : 0;
   }
-  result.scans = off.size();
+  result.both_know = off.size();
   if (off.empty()) return result;
   result.share = static_cast<double>(agreed) / static_cast<double>(off.size());
   result.median_m = quantile(off, 0.5);

@@ -30,6 +30,7 @@ struct LogRun {
   std::size_t beams_used = 0;
   std::size_t beams_filtered = 0;
   std::size_t updates = 0;
+  double fit = 0.0;  ///< mean ln P(d | o) of a beam at the best mode
 };
 
 struct LogRunOptions {
@@ -52,8 +53,9 @@ struct LogRunOptions {
 
 /// How two runs over one log agree, over the scans after both were localized (in a reversed run: before).
 struct RunAgreement {
-  std::size_t scans = 0;  ///< compared
-  double share = 0.0;     ///< within 0.5 m and 10 degrees, both localized
+  std::size_t scans = 0;      ///< since both were localized
+  std::size_t both_know = 0;  ///< of them, in which both say where they are; only these are compared
+  double share = 0.0;         ///< of those, within 0.5 m and 10 degrees
   double median_m = 0.0, p95_m = 0.0, max_m = 0.0;
 };
 [[nodiscard]] RunAgreement agreement_of(const std::vector<LoggedPose>& first, const std::vector<LoggedPose>& second);

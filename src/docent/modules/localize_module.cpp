@@ -60,7 +60,7 @@ class LocalizeModule final : public Module {
         transforms_{bus_.publisher(topics::kTransforms)},
         person_beams_{bus_.publisher(topics::kPersonBeams)} {
     restore();
-    publish_belief(bus_.now());
+    publish_belief(bus_.now(), localizer_.odom_from_robot());
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const auto& odometry) {
       odometry_received_ = bus_.now();
       odometry_.add(from_message(odometry.header.stamp), from_message(odometry.pose.pose));
@@ -126,7 +126,7 @@ class LocalizeModule final : public Module {
     if (!frozen_) step = localizer_.observe(sweep, odom_from_base, stamp);
     if (params_.dead_reckoning && localizer_.verdict().localized()) frozen_ = true;
     if (step.updated) last_step_ = step;
-    if (step.updated || bus_.now() - belief_published_ >= kRepublish) publish_belief(stamp);
+    if (step.updated || bus_.now() - belief_published_ >= kRepublish) publish_belief(stamp, odom_from_base);
     publish_person_beams(sweep, odom_from_base, stamp);
     publish_transform(stamp);
     if (step.updated && localized()) {
@@ -135,26 +135,29 @@ class LocalizeModule final : public Module {
     }
   }
 
-  void publish_belief(Time stamp) {
+  /// The belief of the last update, carried forward by odometry to the stamp.
+  void publish_belief(Time stamp, const Pose2& odom_from_base) {
     const BeliefSummary& summary = localizer_.summary();
+    const Pose2 before_from_now = inverse(localizer_.odom_from_robot()) * odom_from_base;
     docent_msgs::Belief message;
     message.header = {docent::to_message(stamp), "map"};
     message.map_hash = map_hash_;
     message.cell_size = static_cast<float>(localizer_.space().frame().resolution);
     message.heading_step = static_cast<float>(localizer_.space().heading_step());
     message.cells.reserve(summary.cells.size());
-    for (const auto& cell : summary.cells) message.cells.push_back({cell.x, cell.y, cell.theta, cell.mass});
+    for (const auto& cell : summary.cells) {
+      const Pose2 pose = Pose2{static_cast<double>(cell.x), static_cast<double>(cell.y),
+                               Angle::radians(static_cast<double>(cell.theta))} *
+                         before_from_now;
+      message.cells.push_back({static_cast<float>(pose.x), static_cast<float>(pose.y),
+                               static_cast<float>(pose.theta.radians()), cell.mass});
+    }
     message.rest = {static_cast<float>(summary.rest_origin.x),     static_cast<float>(summary.rest_origin.y),
                     static_cast<float>(summary.rest_cell_size),    static_cast<std::uint32_t>(summary.rest_columns),
                     static_cast<std::uint32_t>(summary.rest_rows), summary.rest};
-    for (const BeliefMode& mode : summary.modes)
-      message.hypotheses.push_back({mode.map_from_robot.x, mode.map_from_robot.y, mode.map_from_robot.theta.radians(),
-                                    mode.covariance, mode.mass});
-    if (!message.hypotheses.empty()) {
-      auto& best = message.hypotheses.front();
-      best.x += params_.best_pose_error_x;
-      best.y += params_.best_pose_error_y;
-      best.theta += params_.best_pose_error_heading * std::numbers::pi / 180.0;
+    for (const BeliefMode& mode : summary.modes) {
+      const Pose2 pose = mode.map_from_robot * before_from_now;
+      message.hypotheses.push_back({pose.x, pose.y, pose.theta.radians(), mode.covariance, mode.mass});
     }
     message.entropy = summary.entropy;
     message.p_lost = localizer_.verdict().p_lost();
@@ -163,7 +166,7 @@ class LocalizeModule final : public Module {
     message.active_cells = static_cast<std::uint32_t>(localizer_.belief().active_states());
     message.beams_used = static_cast<std::uint32_t>(last_step_.beams_used);
     message.beams_filtered = static_cast<std::uint32_t>(last_step_.beams_filtered);
-    message.odom_pose = docent::to_message(localizer_.odom_from_robot());
+    message.odom_pose = docent::to_message(odom_from_base);
     belief_.publish(std::move(message));
     belief_published_ = bus_.now();
   }

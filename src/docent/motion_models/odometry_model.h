@@ -10,9 +10,9 @@ namespace docent {
 struct OdometryModelParams {
   double translation_per_metre = 0.0016;   ///< [m2/m], > 0: 4 cm after a metre
   double translation_per_radian = 0.0001;  ///< [m2/rad], >= 0
-  double rotation_per_metre = 0.0004;      ///< [rad2/m], >= 0: 1.1 degrees after a metre
-  double rotation_per_radian = 0.0012;     ///< [rad2/rad], > 0: 2 degrees after a radian
-  double slip_probability = 0.002;         ///< 0..0.5: a step in which the wheels slip or somebody pushes
+  double rotation_per_metre = 0.001;       ///< [rad2/m], >= 0: 1.8 degrees after a metre
+  double rotation_per_radian = 0.004;      ///< [rad2/rad], > 0: 3.6 degrees after a radian
+  double slip_probability = 0.01;          ///< 0..0.5: a step in which the wheels slip or somebody pushes
   template <class V>
   void visit(V& v) {
     v("translation_per_metre", translation_per_metre);

@@ -18,7 +18,8 @@ Result<void> ProximityModelParams::validate() const {
   if (!(sigma > 0.0)) return fail("sensor.sigma must be > 0");
   if (!(sigma_per_metre >= 0.0)) return fail("sensor.sigma_per_metre must be >= 0");
   if (!(short_per_metre > 0.0)) return fail("sensor.short_per_metre must be > 0");
-  for (const double weight : {weight_hit, weight_short, weight_no_return})
+  if (!(near_factor > 0.0)) return fail("sensor.near_factor must be > 0");
+  for (const double weight : {weight_hit, weight_near, weight_short, weight_no_return})
     if (!(weight >= 0.0)) return fail("sensor.weight_* must be >= 0");
   if (!(weight_random > 0.0)) return fail("sensor.weight_random must be > 0: no reading is impossible");
   return {};
@@ -53,6 +54,20 @@ double ProximityModel::sigma(int expected) const {
   return std::hypot(params_.sigma, params_.sigma_per_metre * centre(expected));
 }
 
+double ProximityModel::near_wall(int measured, int expected) const {
+  if (expected == kNoReturn) return measured == kNoReturn ? 1.0 : 0.0;
+  // Laplace: heavy tails about the wall, as of doors that stand open and of walls seen at a grazing angle.
+  const double mean = centre(expected);
+  const double scale = params_.near_factor * sigma(expected);
+  const auto below = [&](double range) {
+    const double z = (range - mean) / scale;
+    return z < 0.0 ? 0.5 * std::exp(z) : 1.0 - 0.5 * std::exp(-z);
+  };
+  const double cut = below(0.0);
+  const double upper = measured == kNoReturn ? 1.0 : below(lower_edge(measured + 1));
+  return (upper - below(lower_edge(measured))) / (1.0 - cut);
+}
+
 void ProximityModel::fill_gaussian() {
   for (int expected = 0; expected < kRangeBins; ++expected) {
     if (expected == kNoReturn) {  // nothing within reach: a sensor that works says so
@@ -84,7 +99,8 @@ double ProximityModel::uniform(int measured) const {
 }
 
 void ProximityModel::fill_mixture() {
-  const double total = params_.weight_hit + params_.weight_short + params_.weight_no_return + params_.weight_random;
+  const double total = params_.weight_hit + params_.weight_near + params_.weight_short + params_.weight_no_return +
+                       params_.weight_random;
   const double rate = params_.short_per_metre;
   for (int expected = 0; expected < kRangeBins; ++expected) {
     // Things in front of the wall: exponential in range, which is geometric over equal bins, cut off at the wall's bin.
@@ -92,6 +108,7 @@ void ProximityModel::fill_mixture() {
     const double in_front = -std::expm1(-rate * end);
     for (int measured = 0; measured < kRangeBins; ++measured) {
       double p = params_.weight_hit * gaussian_[index(measured, expected)];
+      p += params_.weight_near * near_wall(measured, expected);
       if (measured <= expected && measured < kNoReturn) {
         const double share = std::exp(-rate * lower_edge(measured)) - std::exp(-rate * lower_edge(measured + 1));
         p += params_.weight_short * share / in_front;
@@ -116,12 +133,17 @@ void ProximityModel::fill_unknown(std::span<const double> expected_frequency) {
     frequency.fill(1.0);
     sum = kRangeBins;
   }
+  const double total = params_.weight_hit + params_.weight_near + params_.weight_short + params_.weight_no_return +
+                       params_.weight_random;
   for (int measured = 0; measured < kRangeBins; ++measured) {
+    // Where the map does not say, something stands anywhere. The mean of all places instead would favour places at the
+    // map's border: it knows how readings are distributed in this building, and so is better than most wrong places.
+    mixture_[index(measured, kUnknownRange)] = ((total - params_.weight_no_return) * uniform(measured) +
+                                                (measured == kNoReturn ? params_.weight_no_return : 0.0)) /
+                                               total;
     double mean = 0.0;
     for (int expected = 0; expected < kRangeBins; ++expected)
       mean += frequency[static_cast<std::size_t>(expected)] / sum * mixture_[index(measured, expected)];
-    // Where the map does not say, a reading tells nothing: it has its mean probability.
-    mixture_[index(measured, kUnknownRange)] = mean;
     log_mean_[static_cast<std::size_t>(measured)] = std::log(mean);
   }
 }

@@ -21,17 +21,32 @@ void append(RangeSweep& sweep, const LaserReading& reading, const Pose2& base_fr
   }
 }
 
+RangeSweep seen_from(const RangeSweep& sweep, const Pose2& there_from_here) {
+  RangeSweep result;
+  result.beams.reserve(sweep.beams.size());
+  for (const SweepBeam& beam : sweep.beams) {
+    if (beam.no_return) {
+      const Angle bearing = Angle::radians(beam.bearing) + there_from_here.theta;
+      result.beams.push_back({bearing.radians(), beam.range, true});
+      continue;
+    }
+    const Point2 end = there_from_here * endpoint(beam);
+    result.beams.push_back({std::atan2(end.y, end.x), norm(end), false});
+  }
+  return result;
+}
+
 Point2 endpoint(const SweepBeam& beam) {
   return {beam.range * std::cos(beam.bearing), beam.range * std::sin(beam.bearing)};
 }
 
-std::vector<BinnedBeam> binned(const RangeSweep& sweep, int directions, double turn) {
+std::vector<BinnedBeam> binned(const RangeSweep& sweep, int directions) {
   const double step = 2.0 * std::numbers::pi / directions;
   constexpr double kNone = std::numeric_limits<double>::infinity();
   std::vector<double> off_middle(static_cast<std::size_t>(directions), kNone);
   std::vector<std::size_t> nearest(static_cast<std::size_t>(directions), 0);
   for (std::size_t i = 0; i < sweep.beams.size(); ++i) {
-    const double position = (sweep.beams[i].bearing + turn) / step;
+    const double position = sweep.beams[i].bearing / step;
     const double rounded = std::floor(position + 0.5);
     int direction = static_cast<int>(rounded) % directions;
     if (direction < 0) direction += directions;

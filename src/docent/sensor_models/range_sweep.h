@@ -34,6 +34,9 @@ struct RangeSweep {
 /// the robot's motion where the reading is older. Beams without a return keep their direction. O(beams).
 void append(RangeSweep& sweep, const LaserReading& reading, const Pose2& base_from_sensor);
 
+/// The sweep as if measured from another place nearby: `there_from_here` takes base coordinates to the other frame.
+[[nodiscard]] RangeSweep seen_from(const RangeSweep& sweep, const Pose2& there_from_here);
+
 /// Endpoint in the base frame [m].
 [[nodiscard]] Point2 endpoint(const SweepBeam& beam);
 
@@ -43,8 +46,7 @@ struct BinnedBeam {
   std::uint16_t beam = 0;       ///< index in the sweep
 };
 
-/// At most one beam a direction, the one nearest to its middle, after turning the sweep by `turn` [rad]. In the order
-/// of directions. O(beams + directions).
-[[nodiscard]] std::vector<BinnedBeam> binned(const RangeSweep& sweep, int directions, double turn);
+/// At most one beam a direction, the one nearest to its middle. In the order of directions. O(beams + directions).
+[[nodiscard]] std::vector<BinnedBeam> binned(const RangeSweep& sweep, int directions);
 
 }  // namespace docent

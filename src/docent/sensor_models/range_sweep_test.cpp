@@ -44,14 +44,28 @@ TEST(RangeSweep, TwoLasersFillEveryDirectionOnce) {
   for (const double heading : {0.0, 180.0})
     append(sweep, {ranges, Angle::degrees(-89.5), std::numbers::pi / 180.0}, {0.0, 0.0, Angle::degrees(heading)});
   for (const double turn : {0.0, 0.013, -0.8}) {
-    const auto beams = binned(sweep, 180, turn);
+    const RangeSweep turned = seen_from(sweep, {0.0, 0.0, Angle::radians(turn)});
+    const auto beams = binned(turned, 180);
     ASSERT_EQ(beams.size(), 180U);
     for (const BinnedBeam& beam : beams) {
       const double middle = beam.direction * std::numbers::pi / 90.0;
-      const double off = Angle::radians(sweep.beams[beam.beam].bearing + turn - middle).degrees();
+      const double off = Angle::radians(turned.beams[beam.beam].bearing - middle).degrees();
       EXPECT_LE(std::abs(off), 0.5 + 1e-6);  // of two beams in a direction the nearer to its middle
     }
   }
+}
+
+TEST(RangeSweep, SeenFromElsewhereTheEndsStayWhereTheyAre) {
+  RangeSweep sweep;
+  const std::array<float, 4> ranges{1.0F, 2.0F, 3.0F, 20.0F};
+  append(sweep, {ranges, Angle::degrees(-60), 0.7}, {0.1, 0.0, Angle{}});
+  const Pose2 there_from_here{0.2, -0.1, Angle::degrees(25)};
+  const RangeSweep there = seen_from(sweep, there_from_here);
+  ASSERT_EQ(there.beams.size(), 4U);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_LT(distance(endpoint(there.beams[i]), there_from_here * endpoint(sweep.beams[i])), 1e-9);
+  EXPECT_TRUE(there.beams[3].no_return);
+  EXPECT_NEAR(there.beams[3].bearing - sweep.beams[3].bearing, 25.0 * std::numbers::pi / 180.0, 1e-9);
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 #include "docent/localization/markov/beam_filter.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace docent {
 
 std::vector<LikelyState> likely_states(const PositionBelief& belief, double fraction, std::size_t limit) {
   std::vector<LikelyState> states;
-  if (belief.active_states() > 64 * limit) return states;  // not worth a look
   const auto least = static_cast<float>(fraction * static_cast<double>(belief.peak()));
   double total = 0.0;
   for (std::size_t i = 0; i < belief.kept_places().size(); ++i) {
@@ -45,14 +45,6 @@ double ExpectedRanges::shorter(int direction, std::span<const float> shorter_pro
   return sum;
 }
 
-double ExpectedRanges::known_mass(int direction) const {
-  return 1.0 - static_cast<double>(of(mass_, direction)[kUnknownRange]);
-}
-
-double ExpectedRanges::no_return_mass(int direction) const {
-  return static_cast<double>(of(mass_, direction)[kNoReturn]);
-}
-
 double ExpectedRanges::entropy_gain(int direction, std::span<const float> log_probabilities) const {
   // With r(o) = P(d | o) and Z = sum r p: H(L | s) = ln Z - 1/Z sum r p (ln r + ln p), and p enters only through its
   // sums over states that expect the same range.
@@ -79,15 +71,23 @@ Result<BeamFilter> beam_filter_of(const std::string& name) {
 
 Agreement agreement(const ExpectedRanges& expected, const ProximityModel& model, int direction, int measured,
                     double sureness) {
-  if (expected.known_mass(direction) < 0.5) return Agreement::unknown;
-  // No return says little where a wall is expected (glass, black cloth), but bears the pose out where nothing is.
-  if (measured == kNoReturn) return expected.no_return_mass(direction) > 0.5 ? Agreement::agrees : Agreement::unknown;
-  if (expected.shorter(direction, model.shorter_probabilities(measured)) > sureness) return Agreement::shorter;
-  // "Not longer" is the mass of P_m at this bin and behind it, which is P_short of the bin before.
-  const double not_longer =
-      measured == 0 ? 1.0 : expected.shorter(direction, model.shorter_probabilities(measured - 1));
-  if (not_longer + (1.0 - expected.known_mass(direction)) < 1.0 - sureness) return Agreement::longer;
-  return Agreement::agrees;
+  Agreement result;
+  if (measured == kNoReturn) return result;
+  const auto masses = expected.masses(direction);
+  const auto shorter = model.shorter_probabilities(measured);
+  // P_m of this range and all behind it is P_short of the range before.
+  const auto not_longer = model.shorter_probabilities(std::max(measured - 1, 0));
+  for (std::size_t o = 0; o < kUnknownRange; ++o) {
+    const double mass = static_cast<double>(masses[o]);
+    if (static_cast<double>(shorter[o]) > sureness) {
+      result.shorter += mass;
+    } else if (measured > 0 && static_cast<double>(not_longer[o]) < 1.0 - sureness) {
+      result.longer += mass;
+    } else {
+      result.agrees += mass;
+    }
+  }
+  return result;
 }
 
 }  // namespace docent

@@ -31,7 +31,8 @@ class ExpectedRanges {
   [[nodiscard]] double shorter(int direction, std::span<const float> shorter_probabilities) const;
   /// Delta H(L | s), eq. 6 [nat]: how much surer the robot gets by the reading whose ln P(d | o) are given.
   [[nodiscard]] double entropy_gain(int direction, std::span<const float> log_probabilities) const;
-  [[nodiscard]] double known_mass(int direction) const;  ///< of the states where the map says what to expect
+  /// Mass of the states that expect each range.
+  [[nodiscard]] std::span<const float> masses(int direction) const { return of(mass_, direction); }
   /// Mass of the states that expect no return in this direction.
   [[nodiscard]] double no_return_mass(int direction) const;
 
@@ -47,10 +48,12 @@ class ExpectedRanges {
 enum class BeamFilter { none, entropy, distance };
 [[nodiscard]] Result<BeamFilter> beam_filter_of(const std::string& name);
 
-/// How a reading compares with what the belief expects.
-enum class Agreement { agrees, shorter, longer, unknown };
-/// `sureness`: e.g. 0.99. Longer: with that probability, longer than expected. Readings without a return are unknown:
-/// some surfaces give none.
+/// How a reading compares with what the belief expects: the mass of the states for which it is what the map says,
+/// surely (with `sureness`, e.g. 0.99) shorter, or surely longer. All 0 where the map does not say or nothing came
+/// back: some surfaces give no return.
+struct Agreement {
+  double agrees = 0.0, shorter = 0.0, longer = 0.0;
+};
 [[nodiscard]] Agreement agreement(const ExpectedRanges& expected, const ProximityModel& model, int direction,
                                   int measured, double sureness);
 

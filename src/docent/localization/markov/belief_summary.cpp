@@ -129,15 +129,16 @@ void fill_rest(const PositionBelief& belief, const std::vector<Entry>& listed, c
 
 }  // namespace
 
-BeliefSummary summarise(const PositionBelief& belief, double heading_offset, const SummaryParams& params) {
+BeliefSummary summarise(const PositionBelief& belief, const Pose2& frame_from_robot, const SummaryParams& params) {
   BeliefSummary summary;
   const std::vector<Entry> entries = likeliest(belief, params);
   summary.cells.reserve(entries.size());
   for (const Entry& entry : entries) {
     const Point2 middle = belief.space().centre(static_cast<std::size_t>(entry.place));
-    const Angle heading = Angle::radians(entry.heading * belief.space().heading_step() + heading_offset);
-    summary.cells.push_back({static_cast<float>(middle.x), static_cast<float>(middle.y),
-                             static_cast<float>(heading.radians()), entry.mass});
+    const Pose2 map_from_frame{middle.x, middle.y, Angle::radians(entry.heading * belief.space().heading_step())};
+    const Pose2 pose = map_from_frame * frame_from_robot;
+    summary.cells.push_back(
+        {static_cast<float>(pose.x), static_cast<float>(pose.y), static_cast<float>(pose.theta.radians()), entry.mass});
     summary.cells_mass += static_cast<double>(entry.mass);
   }
   fill_rest(belief, entries, params, summary);

@@ -30,7 +30,8 @@ struct SummaryParams {
   double mode_turn = 15.0;      ///< [deg]
 };
 
-/// `heading_offset` [rad] is added to every heading. O(kept states).
-[[nodiscard]] BeliefSummary summarise(const PositionBelief& belief, double heading_offset, const SummaryParams& params);
+/// Of the robot's pose, where the belief is over a frame with `frame_from_robot`. O(kept states).
+[[nodiscard]] BeliefSummary summarise(const PositionBelief& belief, const Pose2& frame_from_robot,
+                                      const SummaryParams& params);
 
 }  // namespace docent

@@ -35,6 +35,8 @@ Result<void> MarkovLocalizerParams::validate() const {
   if (!(beams >= 4 && beams <= 360)) return fail("beams must be 4..360");
   if (!(independent_beams > 0.0 && independent_beams <= beams))
     return fail("independent_beams must be > 0 and <= beams");
+  if (!(independent_beams_far > 0.0 && independent_beams_far <= independent_beams))
+    return fail("independent_beams_far must be > 0 and <= independent_beams");
   if (auto known = beam_filter_of(filter); !known) return tl::unexpected<Error>(known.error());
   if (!(filter_sureness > 0.5 && filter_sureness < 1.0)) return fail("filter_sureness must be 0.5..1");
   if (!(unfiltered_share >= 0.0 && unfiltered_share <= 1.0)) return fail("unfiltered_share must be 0..1");
@@ -43,7 +45,10 @@ Result<void> MarkovLocalizerParams::validate() const {
   if (!(update_way > 0.0 && update_turn > 0.0)) return fail("update_way and update_turn must be > 0");
   if (!(creeping_period > 0.0 && standing_period > 0.0)) return fail("creeping_period and standing_period must be > 0");
   if (!(standing_weight >= 0.0 && standing_weight <= 1.0)) return fail("standing_weight must be 0..1");
-  if (!(most_nats > 0.0 && most_nats <= 60.0)) return fail("most_nats must be > 0 and <= 60");
+  for (const double nats : {most_nats, most_nats_far})
+    if (!(nats > 0.0 && nats <= 60.0)) return fail("most_nats and most_nats_far must be > 0 and <= 60");
+  if (!(sectors >= 1 && sectors <= 60)) return fail("sectors must be 1..60");
+  if (!(most_sector_nats > 0.0)) return fail("most_sector_nats must be > 0");
   if (!(look_round_updates >= 0)) return fail("look_round_updates must be >= 0");
   if (!(look_round_way > 0.0)) return fail("look_round_way must be > 0");
   if (!(work_per_second > 0.0)) return fail("work_per_second must be > 0");
@@ -67,24 +72,30 @@ MarkovLocalizer::MarkovLocalizer(const OccupancyGrid& map, const MarkovLocalizer
 void MarkovLocalizer::start_unknown() {
   belief_.set_dense(false);
   belief_.make_uniform();
-  heading_offset_ = 0.0;
   started_ = false;
   last_work_ = 0.0;
   verdict_.reset();
-  likely_.clear();
-  summary_ = summarise(belief_, heading_offset_, {});
+  summarise_now();
 }
 
 void MarkovLocalizer::start_at(std::span<const BeliefMode> modes, const Pose2& odom_from_robot, Time time) {
-  heading_offset_ = 0.0;
-  belief_.make_modes(modes, 1e-4);
-  started_ = true;
   odom_from_robot_ = odom_from_robot;
+  odom_from_frame_ = {odom_from_robot.x, odom_from_robot.y, Angle{}};
+  std::vector<BeliefMode> of_frame{modes.begin(), modes.end()};
+  for (BeliefMode& mode : of_frame) mode.map_from_robot = mode.map_from_robot * inverse(frame_from_robot());
+  belief_.make_modes(of_frame, 1e-4);
+  started_ = true;
   last_update_ = time;
   last_work_ = 0.0;
   verdict_.assume_localized();
+  summarise_now();
+}
+
+void MarkovLocalizer::summarise_now() {
   likely_ = likely_states(belief_, kLikelyFraction, kMostLikely);
-  summary_ = summarise(belief_, heading_offset_, {});
+  summary_ = summarise(belief_, frame_from_robot(), {});
+  if (!summary_.modes.empty())
+    likeliest_heading_ = summary_.modes.front().map_from_robot.theta - frame_from_robot().theta;
 }
 
 double MarkovLocalizer::due_weight(double way, double turn, Time time) const {
@@ -106,17 +117,21 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   if (step.weight <= 0.0 || sweep.beams.empty()) return step;
 
   const std::optional<Pose2> predicted = started_ ? map_from_robot(odom_from_robot) : std::nullopt;
-  if (way > 0.0 || turn > 0.0) belief_.move(motion_kernel(space_, params_.motion, before_from_after, heading_offset_));
-  started_ = true;
   odom_from_robot_ = odom_from_robot;
+  if (!started_) odom_from_frame_ = {odom_from_robot.x, odom_from_robot.y, Angle{}};
+  started_ = true;
   last_update_ = time;
+  if (way > 0.0 || turn > 0.0) move(before_from_after);
 
-  Choice choice = choose_beams(sweep, binned(sweep, space_.headings(), heading_offset_));
+  const RangeSweep seen = seen_from(sweep, frame_from_robot());
+  Choice choice = choose_beams(seen, binned(seen, space_.headings()));
   const double temper = step.weight * params_.independent_beams / params_.beams;
+  std::sort(choice.used.begin(), choice.used.end(),
+            [](const auto& a, const auto& b) { return a.direction < b.direction; });
   std::vector<BeamCosts> costs(choice.used.size());
   double log_best_over_mean = 0.0;
   for (std::size_t i = 0; i < costs.size(); ++i) {
-    const int bin = bin_of(sweep.beams[choice.used[i].beam]);
+    const int bin = bin_of(seen.beams[choice.used[i].beam]);
     const auto log_probabilities = model_.log_probabilities(bin);
     const float best = *std::max_element(log_probabilities.begin(), log_probabilities.end());
     for (std::size_t o = 0; o < kExpectedRanges; ++o) {
@@ -128,19 +143,64 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   }
   look_round(way, turn);
   last_work_ = static_cast<double>(belief_.active_states()) * static_cast<double>(costs.size());
-  step.evidence = belief_.reweigh(table_, costs, log_best_over_mean, params_.most_nats, params_.teleport_probability);
+  EvidenceWeights weights;
+  weights.most_nats = weights.far_most_nats = params_.most_nats;
+  weights.most_sector_nats = params_.most_sector_nats * temper;
+  weights.sectors = static_cast<std::size_t>(params_.sectors);
+  if (verdict_.localized() && predicted) {
+    weights.far_share = params_.independent_beams_far / params_.independent_beams;
+    weights.far_most_nats = params_.most_nats_far;
+    weights.focus = *predicted * inverse(frame_from_robot());
+  }
+  step.evidence = belief_.reweigh(table_, costs, log_best_over_mean, weights, params_.teleport_probability);
   if (belief_.is_dense() && --dense_updates_left_ == 0) belief_.set_dense(false);
   step.updated = true;
   step.beams_used = costs.size();
   step.beams_filtered = choice.filtered;
 
-  likely_ = likely_states(belief_, kLikelyFraction, kMostLikely);
-  summary_ = summarise(belief_, heading_offset_, {});
+  summarise_now();
+  step.fit = fit(seen, choice.used);
   choice.evidence.weight = step.weight;
   choice.evidence.way = way;
   choice.evidence.turn = turn;
   judge(choice.evidence, predicted);
   return step;
+}
+
+double MarkovLocalizer::fit(const RangeSweep& seen, std::span<const BinnedBeam> beams) const {
+  if (summary_.modes.empty() || beams.empty()) return 0.0;
+  const Pose2 map_from_frame = summary_.modes.front().map_from_robot * inverse(frame_from_robot());
+  const std::int32_t place = space_.place_at(space_.frame().cell_at(map_from_frame.position()));
+  if (place == StateSpace::kNoPlace) return 0.0;
+  const auto headings = static_cast<std::size_t>(space_.headings());
+  const double turns = map_from_frame.theta.radians() / space_.heading_step() + space_.headings();
+  const auto heading = static_cast<std::size_t>(std::lround(turns)) % headings;
+  const std::uint8_t* const row = table_.row(static_cast<std::size_t>(place));
+  double sum = 0.0;
+  for (const BinnedBeam& beam : beams) {
+    const std::size_t expected = row[(heading + beam.direction) % headings];
+    sum += static_cast<double>(model_.log_probabilities(bin_of(seen.beams[beam.beam]))[expected]);
+  }
+  return sum / static_cast<double>(beams.size());
+}
+
+void MarkovLocalizer::move(const Pose2& before_from_after) {
+  const double cell = space_.frame().resolution;
+  const Point2 ahead = frame_from_robot().position();  // how far the robot has left the frame behind
+  // In whole cells as the likeliest heading sees them: then its states are not smeared over their neighbours. Others
+  // are, so that the frame follows in longer steps as long as they count.
+  const double patience = verdict_.localized() ? 0.6 * cell : 2.0 * cell;
+  Point2 shift{};
+  if (norm(ahead) > patience) {
+    const Pose2 turned{0.0, 0.0, likeliest_heading_};
+    const Point2 in_map = turned * ahead;
+    const Point2 whole{cell * std::round(in_map.x / cell), cell * std::round(in_map.y / cell)};
+    shift = inverse(turned) * whole;
+    odom_from_frame_ = {odom_from_frame_.x + shift.x, odom_from_frame_.y + shift.y, Angle{}};
+  }
+  const OdometryStep step{motion_noise(params_.motion, before_from_after), norm(before_from_after.position()),
+                          std::abs(before_from_after.theta.radians())};
+  belief_.move(motion_kernel(space_, params_.motion, shift, step));
 }
 
 MarkovLocalizer::Choice MarkovLocalizer::choose_beams(const RangeSweep& sweep, const std::vector<BinnedBeam>& beams) {
@@ -155,11 +215,12 @@ MarkovLocalizer::Choice MarkovLocalizer::choose_beams(const RangeSweep& sweep, c
   for (const BinnedBeam& beam : beams) {
     const int bin = bin_of(sweep.beams[beam.beam]);
     const Agreement found = agreement(expected, model_, beam.direction, bin, params_.filter_sureness);
-    choice.evidence.agrees += found == Agreement::agrees ? 1 : 0;
-    choice.evidence.shorter += found == Agreement::shorter ? 1 : 0;
-    choice.evidence.longer += found == Agreement::longer ? 1 : 0;
+    choice.evidence.agrees += found.agrees;
+    choice.evidence.shorter += found.shorter;
+    choice.evidence.longer += found.longer;
+    const bool is_short = expected.shorter(beam.direction, model_.shorter_probabilities(bin)) > params_.filter_sureness;
     const bool filtered =
-        (filter_ == BeamFilter::distance && found == Agreement::shorter) ||
+        (filter_ == BeamFilter::distance && is_short) ||
         (filter_ == BeamFilter::entropy && expected.entropy_gain(beam.direction, model_.log_probabilities(bin)) < 0.0);
     choice.filtered += filtered ? 1 : 0;
     if (!filtered || rng_.chance(params_.unfiltered_share)) choice.used.push_back(beam);
@@ -202,8 +263,7 @@ void MarkovLocalizer::judge(Evidence evidence, const std::optional<Pose2>& predi
   if (!verdict_.collapsed()) return;
   belief_.flood(0.9);
   verdict_.reset();
-  likely_.clear();
-  summary_ = summarise(belief_, heading_offset_, {});
+  summarise_now();
 }
 
 std::optional<Pose2> MarkovLocalizer::map_from_robot(const Pose2& odom_now) const {
@@ -217,16 +277,16 @@ std::vector<std::size_t> MarkovLocalizer::unexpected_beams(const RangeSweep& swe
   std::vector<std::size_t> found;
   if (!verdict_.localized() || likely_.empty()) return found;
   const Pose2 best = *map_from_robot(odom_now);
-  const double turned = (odom_now.theta - odom_from_robot_.theta).radians();
+  const RangeSweep seen = seen_from(sweep, inverse(odom_from_frame_) * odom_now);
   const ExpectedRanges expected{likely_, table_, space_.headings()};
   const double step = space_.heading_step();
   for (std::size_t i = 0; i < sweep.beams.size(); ++i) {
     const SweepBeam& beam = sweep.beams[i];
     if (beam.no_return || beam.range > max_range) continue;
-    auto direction =
-        static_cast<int>(std::lround((beam.bearing + turned + heading_offset_) / step)) % space_.headings();
+    auto direction = static_cast<int>(std::lround(seen.beams[i].bearing / step)) % space_.headings();
     if (direction < 0) direction += space_.headings();
-    if (expected.shorter(direction, model_.shorter_probabilities(bin_of(beam))) <= params_.filter_sureness) continue;
+    if (expected.shorter(direction, model_.shorter_probabilities(bin_of(seen.beams[i]))) <= params_.filter_sureness)
+      continue;
     const float clearance = caster_.clearance(best * endpoint(beam));
     if (clearance >= kClear) found.push_back(i);
   }

@@ -22,7 +22,10 @@ struct MarkovLocalizerParams {
   OdometryModelParams motion;
   VerdictParams verdict;
   int beams = 60;                      ///< at most, per update
-  double independent_beams = 5.0;      ///< what so many correlated beams are worth
+  double independent_beams = 12.0;     ///< what so many correlated beams are worth
+  double independent_beams_far = 3.5;  ///< and, once the robot is sure of a place, between it and others
+  int sectors = 12;                    ///< of a turn: one thing that the map does not know hides the beams of a sector
+  double most_sector_nats = 5.0;       ///< [nat] that a sector's beams count at most together
   std::string filter = "distance";     ///< none, entropy, distance
   double filter_sureness = 0.99;       ///< theta of [Markov1998] 3.3
   double unfiltered_share = 0.1;       ///< of the filtered beams, chosen at random, counts anyway: for recovery
@@ -33,9 +36,10 @@ struct MarkovLocalizerParams {
   double creeping_period = 2.0;        ///< [s] when it moves less, or
   double standing_period = 3.0;        ///< [s] when it stands
   double standing_weight = 0.1;        ///< of such an update: the same view again says little
-  double most_nats = 4.0;              ///< [nat] that one scan counts at most
+  double most_nats = 8.0;              ///< [nat] that one scan counts at most
+  double most_nats_far = 2.0;          ///< and, once the robot is sure of a place, between it and others
   double look_round_way = 10.0;  ///< [m] driven (a right angle turned counts as a metre) between looks at all states
-  int look_round_updates = 4;    ///< in a row, then
+  int look_round_updates = 0;    ///< in a row, then
   double work_per_second = 1e9;  ///< states * beams that may be scored in a second of the robot's time
   template <class V>
   void visit(V& v) {
@@ -45,6 +49,9 @@ struct MarkovLocalizerParams {
     v("verdict", verdict);
     v("beams", beams);
     v("independent_beams", independent_beams);
+    v("independent_beams_far", independent_beams_far);
+    v("sectors", sectors);
+    v("most_sector_nats", most_sector_nats);
     v("filter", filter);
     v("filter_sureness", filter_sureness);
     v("unfiltered_share", unfiltered_share);
@@ -56,6 +63,7 @@ struct MarkovLocalizerParams {
     v("standing_period", standing_period);
     v("standing_weight", standing_weight);
     v("most_nats", most_nats);
+    v("most_nats_far", most_nats_far);
     v("look_round_way", look_round_way);
     v("look_round_updates", look_round_updates);
     v("work_per_second", work_per_second);
@@ -83,6 +91,7 @@ class MarkovLocalizer {
     std::size_t beams_filtered = 0;  ///< of all beams of the sweep, one a direction
     double weight = 0.0;
     double evidence = 1.0;  ///< of the reading, relative to a uniform position
+    double fit = 0.0;       ///< mean ln P(d | o) of the beams used, at the best mode: how well the map explains them
   };
   /// Offers a sweep. Most are not needed: an update comes after some motion or time, and when the work of the last one
   /// is paid off. O(active states * beams).
@@ -102,7 +111,6 @@ class MarkovLocalizer {
   [[nodiscard]] const StateSpace& space() const { return space_; }
   [[nodiscard]] const RayCaster& caster() const { return caster_; }
   [[nodiscard]] const RangeTable& table() const { return table_; }
-  [[nodiscard]] double heading_offset() const { return heading_offset_; }
   void use_kernel(ScoreKernel kernel) { belief_.use_kernel(kernel); }
 
  private:
@@ -115,6 +123,10 @@ class MarkovLocalizer {
   [[nodiscard]] Choice choose_beams(const RangeSweep& sweep, const std::vector<BinnedBeam>& beams);
   void thin(std::vector<BinnedBeam>& beams);
   void look_round(double way, double turn);
+  [[nodiscard]] double fit(const RangeSweep& seen, std::span<const BinnedBeam> beams) const;
+  void move(const Pose2& before_from_after);
+  void summarise_now();
+  [[nodiscard]] Pose2 frame_from_robot() const { return inverse(odom_from_frame_) * odom_from_robot_; }
   void judge(Evidence evidence, const std::optional<Pose2>& predicted);
   [[nodiscard]] int bin_of(const SweepBeam& beam) const { return beam.no_return ? kNoReturn : model_.bin(beam.range); }
 
@@ -127,8 +139,12 @@ class MarkovLocalizer {
   PositionBelief belief_;
   Verdict verdict_;
   Rng rng_;
-  double heading_offset_ = 0.0;  ///< [rad] on top of every state's heading
-  bool started_ = false;         ///< odometry of the last update is known
+  /// The belief is over a frame that goes along with the robot in whole cells and never turns, as odometry sees it:
+  /// what odometry knows well need not be blurred by the grid. Between the two lie some centimetres and the robot's
+  /// heading.
+  Pose2 odom_from_frame_;
+  Angle likeliest_heading_;  ///< of the frame in the map
+  bool started_ = false;     ///< odometry of the last update is known
   Pose2 odom_from_robot_;
   Time last_update_{};
   double last_work_ = 0.0;

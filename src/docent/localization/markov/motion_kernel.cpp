@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace docent {
 
@@ -30,6 +31,26 @@ std::vector<double> blur_weights(double variance, double tail) {
   return wider;
 }
 
+/// `weights`, and `tail` of the mass falling off slowly to both sides: wheels that slip turn a robot by many degrees,
+/// and a belief without tails never looks there.
+std::vector<double> with_slow_tail(const std::vector<double>& weights, double tail, double scale) {
+  if (tail <= 0.0) return weights;
+  const int half = static_cast<int>(weights.size() / 2);
+  const int reach = std::max(half, static_cast<int>(std::ceil(4.0 * scale)));
+  std::vector<double> slow;
+  double sum = 0.0;
+  for (int i = -reach; i <= reach; ++i) {
+    slow.push_back(std::exp(-std::abs(i) / scale));
+    sum += slow.back();
+  }
+  for (int i = -reach; i <= reach; ++i) {
+    double& weight = slow[static_cast<std::size_t>(i + reach)];
+    weight *= tail / sum;
+    if (std::abs(i) <= half) weight += (1.0 - tail) * weights[static_cast<std::size_t>(i + half)];
+  }
+  return slow;
+}
+
 /// Where a coordinate [cells] lands: bilinear shares of two cells, blurred. Index 0 is cell `first`.
 struct Landing {
   int first = 0;
@@ -50,26 +71,25 @@ Landing landing(double position, double variance, double tail) {
 
 }  // namespace
 
-MotionKernel motion_kernel(const StateSpace& space, const OdometryModelParams& params, const Pose2& before_from_after,
-                           double& heading_offset) {
-  const MotionNoise noise = motion_noise(params, before_from_after);
+MotionKernel motion_kernel(const StateSpace& space, const OdometryModelParams& params, Point2 shift,
+                           const OdometryStep& odometry) {
+  const MotionNoise noise = odometry.noise;
   const double cell = space.frame().resolution;
   const double step = space.heading_step();
   const auto headings = static_cast<std::size_t>(space.headings());
-  const double way = norm(before_from_after.position());
-  const double turned = std::abs(before_from_after.theta.radians());
-  // A robot that stands does not slip; the tail comes with the motion.
-  const double tail = params.slip_probability * std::min(1.0, way / 0.1 + turned / 0.1);
+  // A robot that stands does not slip; the tails come with the motion.
+  const double way_tail = params.slip_probability * std::min(1.0, odometry.way / 0.25);
+  const double turn_tail = params.slip_probability * std::min(1.0, odometry.way / 0.25 + odometry.turn / 0.5);
 
-  const int most = static_cast<int>(std::ceil(way / cell)) + 12;
+  const int most = static_cast<int>(std::ceil(norm(shift) / cell)) + 12;
   const int width = 2 * most + 1;
   std::vector<std::vector<float>> weights(static_cast<std::size_t>(width) * static_cast<std::size_t>(width));
   const double variance = noise.position_variance / (cell * cell);
   for (std::size_t h = 0; h < headings; ++h) {
-    const Pose2 turn_only{0.0, 0.0, Angle::radians(static_cast<double>(h) * step + heading_offset)};
-    const Point2 moved = turn_only * before_from_after.position();
-    const Landing x = landing(moved.x / cell, std::min(variance, 9.0), tail);
-    const Landing y = landing(moved.y / cell, std::min(variance, 9.0), tail);
+    const Pose2 turn_only{0.0, 0.0, Angle::radians(static_cast<double>(h) * step)};
+    const Point2 moved = turn_only * shift;
+    const Landing x = landing(moved.x / cell, std::min(variance, 9.0), way_tail);
+    const Landing y = landing(moved.y / cell, std::min(variance, 9.0), way_tail);
     for (std::size_t j = 0; j < y.shares.size(); ++j) {
       for (std::size_t i = 0; i < x.shares.size(); ++i) {
         const double weight = x.shares[i] * y.shares[j];
@@ -99,11 +119,9 @@ MotionKernel motion_kernel(const StateSpace& space, const OdometryModelParams& p
     }
   }
 
-  const double whole_turn = heading_offset + before_from_after.theta.radians();
-  kernel.turn = static_cast<int>(std::lround(whole_turn / step));
-  heading_offset = whole_turn - kernel.turn * step;
   const double heading_variance = std::min(noise.heading_variance / (step * step), 100.0);
-  for (const double weight : blur_weights(heading_variance, tail))
+  constexpr double kSlipTurn = 5.0 * std::numbers::pi / 180.0;
+  for (const double weight : with_slow_tail(blur_weights(heading_variance, 0.0), turn_tail, kSlipTurn / step))
     kernel.heading_weights.push_back(static_cast<float>(weight));
   return kernel;
 }

@@ -22,6 +22,11 @@ DOCENT_FOR_EVERY_CPU void add_weighted(float* __restrict out, const float* __res
                                        const float* __restrict values, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) out[i] += weights[i] * values[i];
 }
+DOCENT_FOR_EVERY_CPU void add_capped(std::uint16_t* __restrict sums, const std::uint16_t* __restrict values,
+                                     std::uint16_t cap, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i)
+    sums[i] = static_cast<std::uint16_t>(sums[i] + (values[i] < cap ? values[i] : cap));
+}
 DOCENT_FOR_EVERY_CPU void add_scaled(float* __restrict out, float scale, const float* __restrict values,
                                      std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) out[i] += scale * values[i];
@@ -146,10 +151,10 @@ void PositionBelief::move_row(std::int32_t target, const MotionKernel& kernel, f
       add_scaled(into, static_cast<float>(sea_), offset.weights.data() + offset.first, count);
     }
   }
-  // extended_[i] is the heading i - reach, turned; so that the blur needs no modulo.
+  // extended_[i] is the heading i - reach, so that the blur needs no modulo.
   const int reach = static_cast<int>(kernel.heading_weights.size() / 2);
   const int turns = static_cast<int>(headings);
-  int from = (-reach - kernel.turn) % turns;
+  int from = -reach % turns;
   if (from < 0) from += turns;
   extended_.resize(headings + 2 * static_cast<std::size_t>(reach));
   for (float& value : extended_) {
@@ -175,30 +180,98 @@ void PositionBelief::move(const MotionKernel& kernel) {
 }
 
 double PositionBelief::reweigh(const RangeTable& table, std::span<const BeamCosts> beams, double log_best_over_mean,
-                               double most_nats, double teleport) {
-  const std::size_t best = score(table, beams);
+                               const EvidenceWeights& weights, double teleport) {
+  const std::size_t best = score(table, beams, weights);
   const double best_over_mean = log_best_over_mean - static_cast<double>(best) / kCostPerNat;
-  const auto most = static_cast<std::size_t>(std::min(most_nats * kCostPerNat, static_cast<double>(decay_.size() - 1)));
   const auto threshold = static_cast<float>(this->threshold());
-  // Everything relative to the best active state, the states under water too.
-  const auto sea_factor = static_cast<float>(std::exp(std::clamp(-best_over_mean, -most_nats, most_nats)));
   const auto headings = static_cast<std::size_t>(space_->headings());
+  const std::size_t last = decay_.size() - 1;
+  const auto most = [last](double nats) { return std::min(static_cast<std::size_t>(nats * kCostPerNat), last); };
+
+  // The neighbourhood in focus first: its new shape, and what it would be worth by the slow evidence.
+  const Focus focus = focus_of(weights);
+  const std::size_t most_near = most(weights.most_nats);
+  const std::size_t most_far = most(weights.far_most_nats);
+  const auto near_factor = [&](std::uint16_t cost) { return decay_[std::min(cost - focus.best, most_near)]; };
+  const auto far_factor = [&](std::uint16_t cost) {
+    return decay_[std::min(static_cast<std::size_t>(weights.far_share * static_cast<double>(cost - best)), most_far)];
+  };
+  double slow = 0.0;
+  double sharp = 0.0;
+  for (const std::uint32_t i : focus.rows) {
+    for (std::size_t h = 0; h < headings; ++h) {
+      const std::size_t at = i * stride_ + h;
+      if (focus.headings[h] == 0 || !(rows_[at] > threshold)) continue;
+      slow += static_cast<double>(rows_[at] * far_factor(costs_[at]));
+      sharp += static_cast<double>(rows_[at] * near_factor(costs_[at]));
+    }
+  }
+  const auto focus_scale = static_cast<float>(sharp > 0.0 ? slow / sharp : 0.0);
+
+  // Everything relative to the best active state, the states under water too.
+  const double sea_nats =
+      std::clamp(-weights.far_share * best_over_mean, -weights.far_most_nats, weights.far_most_nats);
+  const auto sea_factor = static_cast<float>(std::exp(sea_nats));
+  std::size_t next_focus = 0;
   for (std::size_t i = 0; i < kept_.size(); ++i) {
+    const bool has_focus = next_focus < focus.rows.size() && focus.rows[next_focus] == i;
+    next_focus += has_focus ? 1 : 0;
     float* const row = rows_.data() + i * stride_;
     const std::uint16_t* const costs = costs_.data() + i * stride_;
-    for (std::size_t h = 0; h < headings; ++h)
-      row[h] *= row[h] > threshold ? decay_[std::min<std::size_t>(costs[h] - best, most)] : sea_factor;
+    for (std::size_t h = 0; h < headings; ++h) {
+      if (!(row[h] > threshold)) {
+        row[h] *= sea_factor;
+      } else if (has_focus && focus.headings[h] != 0) {
+        row[h] *= focus_scale * near_factor(costs[h]);
+      } else {
+        row[h] *= far_factor(costs[h]);
+      }
+    }
   }
   sea_ *= static_cast<double>(sea_factor);
   normalise(teleport);
   return best_over_mean;
 }
 
-std::size_t PositionBelief::score(const RangeTable& table, std::span<const BeamCosts> beams) {
+PositionBelief::Focus PositionBelief::focus_of(const EvidenceWeights& weights) const {
+  Focus focus;
+  if (!weights.focus) return focus;
+  const auto headings = static_cast<std::size_t>(space_->headings());
+  focus.headings.assign(headings, 0);
+  for (std::size_t h = 0; h < headings; ++h) {
+    const Angle heading = Angle::radians(static_cast<double>(h) * space_->heading_step());
+    if (std::abs((heading - weights.focus->theta).radians()) <= weights.focus_turn) focus.headings[h] = 1;
+  }
+  focus.best = std::numeric_limits<std::uint16_t>::max();
+  const auto threshold = static_cast<float>(this->threshold());
+  for (std::size_t i = 0; i < kept_.size(); ++i) {
+    const Point2 centre = space_->centre(static_cast<std::size_t>(kept_[i]));
+    if (distance(centre, weights.focus->position()) > weights.focus_radius) continue;
+    focus.rows.push_back(static_cast<std::uint32_t>(i));
+    for (std::size_t h = 0; h < headings; ++h)
+      if (focus.headings[h] != 0 && rows_[i * stride_ + h] > threshold)
+        focus.best = std::min<std::size_t>(focus.best, costs_[i * stride_ + h]);
+  }
+  return focus;
+}
+
+std::size_t PositionBelief::score(const RangeTable& table, std::span<const BeamCosts> beams,
+                                  const EvidenceWeights& weights) {
+  const auto all_headings = static_cast<std::size_t>(space_->headings());
+  const auto cap = static_cast<std::uint16_t>(std::min(weights.most_sector_nats * kCostPerNat, 60000.0));
+  std::vector<std::span<const BeamCosts>> sectors;
+  for (std::size_t first = 0; first < beams.size();) {
+    const auto sector = [&](std::size_t i) { return beams[i].direction * weights.sectors / all_headings; };
+    std::size_t last = first + 1;
+    while (last < beams.size() && sector(last) == sector(first)) ++last;
+    sectors.push_back(beams.subspan(first, last - first));
+    first = last;
+  }
   const auto headings = static_cast<std::size_t>(space_->headings());
   const auto threshold = static_cast<float>(this->threshold());
   costs_.resize(kept_.size() * stride_);
   std::size_t best = std::numeric_limits<std::uint16_t>::max();
+  std::array<std::uint16_t, kBlock> part{};
   for (std::size_t i = 0; i < kept_.size(); ++i) {
     const std::uint8_t* const ranges = table.row(static_cast<std::size_t>(kept_[i]));
     const float* const row = rows_.data() + i * stride_;
@@ -208,7 +281,11 @@ std::size_t PositionBelief::score(const RangeTable& table, std::span<const BeamC
       bool active = false;
       for (std::size_t h = first; h < first + count; ++h) active = active || row[h] > threshold;
       if (!active) continue;
-      score_(ranges, first, count, beams, costs + first);
+      std::fill_n(costs + first, kBlock, std::uint16_t{0});
+      for (const auto& sector : sectors) {
+        score_(ranges, first, count, sector, part.data());
+        add_capped(costs + first, part.data(), cap, kBlock);
+      }
       for (std::size_t h = first; h < first + count; ++h)
         if (row[h] > threshold) best = std::min<std::size_t>(best, costs[h]);
     }

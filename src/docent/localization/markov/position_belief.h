@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,24 @@ struct BeliefMode {
   Pose2 map_from_robot;
   std::array<double, 9> covariance{};  ///< row-major x, y [m], theta [rad]
   double mass = 0.0;
+};
+
+/// How much one scan may count. The beams of a scan err together, where the map is wrong or people stand around, and
+/// the scans of a metre err together too: between places far apart, evidence must gather slowly, or the belief is sure
+/// of a wrong one. Within the neighbourhood of the pose that the robot is sure of, the same errors only pull a little,
+/// and the evidence may be sharp.
+struct EvidenceWeights {
+  double most_nats = 60.0;  ///< [nat] that a scan counts at most, against the active state that explains it best
+  double far_share = 1.0;   ///< 0..1 of the evidence that counts between places
+  double far_most_nats = 60.0;
+  /// One thing that the map does not know, a person or a door, hides several neighbouring beams: together they cost at
+  /// most so much. The beams come in the order of directions.
+  double most_sector_nats = 1e3;  ///< [nat]
+  std::size_t sectors = 1;        ///< of a turn
+  /// The neighbourhood in which all of the evidence counts; everything else, and it as a whole, gets the share alone.
+  std::optional<Pose2> focus;
+  double focus_radius = 0.75;  ///< [m]
+  double focus_turn = 0.45;    ///< [rad]
 };
 
 /// P(L = l) over all states of a StateSpace, with the selective update of [Markov1998] 3.1.
@@ -40,13 +59,11 @@ class PositionBelief {
   void move(const MotionKernel& kernel);
 
   /// [Markov1998] eq. 4: active states are multiplied by P(s | l), the rest by P~(s). `log_best_over_mean` is the sum
-  /// over beams of ln(best P(d | o)) - ln P~(d), tempered like the costs. Departure: one scan counts at most
-  /// `most_nats` [nat] against any state, relative to the active state that explains it best. The beams of a scan fail
-  /// together, where the map is wrong or people stand around, and a wrong pose must not win on one odd view. Then, with
-  /// a small probability `teleport`, somebody carried the robot elsewhere. Returns ln P(s | l) - ln P~(s) of the best
-  /// active state. O(active states * beams).
-  double reweigh(const RangeTable& table, std::span<const BeamCosts> beams, double log_best_over_mean, double most_nats,
-                 double teleport);
+  /// over beams of ln(best P(d | o)) - ln P~(d), tempered like the costs. Then, with a small probability `teleport`,
+  /// somebody carried the robot elsewhere. Departures, see Evidence weights. Returns ln P(s | l) - ln P~(s) of the best
+  /// active state, with all of its weight. O(active states * beams).
+  double reweigh(const RangeTable& table, std::span<const BeamCosts> beams, double log_best_over_mean,
+                 const EvidenceWeights& weights, double teleport);
 
   /// While dense, no state sinks: for some updates in a row all states compete. The sea alone shows that no active
   /// state fits, but never that another place fits better.
@@ -78,7 +95,14 @@ class PositionBelief {
   void keep_all(float value);
   void wake();
   /// Fills costs_ where states are active; the least of them.
-  std::size_t score(const RangeTable& table, std::span<const BeamCosts> beams);
+  std::size_t score(const RangeTable& table, std::span<const BeamCosts> beams, const EvidenceWeights& weights);
+  /// The neighbourhood's sharp shape, before the slow evidence: with it, `sharpened` says by what to scale it.
+  struct Focus {
+    std::vector<std::uint32_t> rows;     ///< indices into kept_
+    std::vector<std::uint8_t> headings;  ///< [headings] 1: in focus
+    std::size_t best = 0;                ///< cost
+  };
+  [[nodiscard]] Focus focus_of(const EvidenceWeights& weights) const;
   void normalise(double teleport);
   void settle(double inactive_mass, std::size_t inactive_states);
   void find_targets(int reach, std::vector<std::int32_t>& targets);

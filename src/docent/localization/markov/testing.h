@@ -67,12 +67,12 @@ inline RangeSweep sweep_at(const RayCaster& caster, const Pose2& truth, double m
 }
 
 /// The costs of that reading, tempered by `temper`.
-inline std::vector<BeamCosts> beams_at(const Room& room, const Pose2& truth, double heading_offset, double temper,
+inline std::vector<BeamCosts> beams_at(const Room& room, const Pose2& truth, double temper,
                                        double& log_best_over_mean) {
   const RangeSweep sweep = sweep_at(room.caster, truth, 10.0);
   std::vector<BeamCosts> beams;
   log_best_over_mean = 0.0;
-  for (const BinnedBeam& binned_beam : binned(sweep, room.space.headings(), heading_offset)) {
+  for (const BinnedBeam& binned_beam : binned(sweep, room.space.headings())) {
     const int bin = room.model.bin(sweep.beams[binned_beam.beam].range);
     const auto log_probabilities = room.model.log_probabilities(bin);
     const float best = *std::max_element(log_probabilities.begin(), log_probabilities.end());

@@ -12,6 +12,7 @@ Result<void> VerdictParams::validate() const {
   if (!(widest_spread > 0.0)) return fail("verdict.widest_spread must be > 0");
   if (!(confirmations >= 0.0 && travelled >= 0.0 && turned >= 0.0))
     return fail("verdict.confirmations, travelled and turned must be >= 0");
+  if (!(blind_way > 0.0)) return fail("verdict.blind_way must be > 0");
   if (!(least_agreement >= 0.0 && least_agreement < 1.0)) return fail("verdict.least_agreement must be 0..1");
   if (!(most_contradiction > 0.0 && most_contradiction <= 1.0)) return fail("verdict.most_contradiction must be 0..1");
   return {};
@@ -26,14 +27,13 @@ void Verdict::assume_localized() {
 }
 
 void Verdict::add(const Evidence& evidence) {
-  constexpr double kMemory = 0.25;  // an update's share in the running means
-  constexpr int kFewReadings = 8;   // fewer tell nothing
+  constexpr double kMemory = 0.25;      // an update's share in the running means
+  constexpr double kFewReadings = 8.0;  // fewer tell nothing
   const double share = kMemory * evidence.weight;
-  const int all = evidence.agrees + evidence.shorter + evidence.longer;
-  const int through = evidence.agrees + evidence.longer;
-  if (all >= kFewReadings) agreement_ += share * (static_cast<double>(evidence.agrees) / all - agreement_);
-  if (through >= kFewReadings)
-    contradiction_ += share * (static_cast<double>(evidence.longer) / through - contradiction_);
+  const double all = evidence.agrees + evidence.shorter + evidence.longer;
+  const double through = evidence.agrees + evidence.longer;
+  if (all >= kFewReadings) agreement_ += share * (evidence.agrees / all - agreement_);
+  if (through >= kFewReadings) contradiction_ += share * (evidence.longer / through - contradiction_);
 
   const bool is_good = evidence.mass >= params_.enough_mass && evidence.spread <= params_.widest_spread;
   if (!evidence.is_same_mode || (!is_good && !localized_)) {
@@ -44,9 +44,13 @@ void Verdict::add(const Evidence& evidence) {
     turn_ += evidence.turn;
   }
   const bool borne_out = agreement_ >= params_.least_agreement && contradiction_ <= params_.most_contradiction;
-  const bool contradicted =
-      agreement_ < 0.4 * params_.least_agreement || contradiction_ > 2.0 * params_.most_contradiction;
-  bad_ = contradicted ? bad_ + evidence.weight : 0.0;
+  // Readings that are too short are people; those that pass through walls mean that the place is wrong.
+  const bool sees_nothing = agreement_ < 0.4 * params_.least_agreement;
+  blind_ = sees_nothing ? blind_ + evidence.way : 0.0;
+  const bool contradicted = contradiction_ > 2.0 * params_.most_contradiction || blind_ > params_.blind_way;
+  if (!contradicted) bad_ = 0.0;
+  if (contradicted && (through >= kFewReadings || blind_ > params_.blind_way))
+    bad_ += evidence.way + 0.5 * evidence.turn;
 
   const double moved = std::min(1.0, std::max(way_ / std::max(params_.travelled, 1e-9),
                                               turn_ * 180.0 / std::numbers::pi / std::max(params_.turned, 1e-9)));
@@ -65,7 +69,7 @@ void Verdict::add(const Evidence& evidence) {
 }
 
 bool Verdict::collapsed() const {
-  constexpr double kPatience = 8.0;  // full updates; at 0.1 m each less than a metre
+  constexpr double kPatience = 6.0;  // [m]: furniture that has moved contradicts the map too, over some metres
   return bad_ >= kPatience;
 }
 

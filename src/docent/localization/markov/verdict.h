@@ -5,13 +5,14 @@
 namespace docent {
 
 struct VerdictParams {
-  double enough_mass = 0.97;        ///< of the best mode, to say "here"
+  double enough_mass = 0.995;       ///< of the best mode, to say "here"
   double too_little_mass = 0.6;     ///< to take it back
   double widest_spread = 0.35;      ///< [m] standard deviation of the best mode
-  double confirmations = 5.0;       ///< full updates in a row that kept to one mode
-  double travelled = 0.5;           ///< [m] driven since, or
-  double turned = 90.0;             ///< [deg] turned since
+  double confirmations = 6.0;       ///< full updates in a row that kept to one mode
+  double travelled = 1.0;           ///< [m] driven since, or
+  double turned = 120.0;            ///< [deg] turned since
   double least_agreement = 0.2;     ///< share of the readings that the map explains
+  double blind_way = 20.0;          ///< [m] that odometry is trusted while people hide everything that the map holds
   double most_contradiction = 0.2;  ///< share of the readings that pass through walls of the map
   template <class V>
   void visit(V& v) {
@@ -22,6 +23,7 @@ struct VerdictParams {
     v("travelled", travelled);
     v("turned", turned);
     v("least_agreement", least_agreement);
+    v("blind_way", blind_way);
     v("most_contradiction", most_contradiction);
   }
   [[nodiscard]] Result<void> validate() const;
@@ -29,13 +31,13 @@ struct VerdictParams {
 
 /// What one update says about the best mode.
 struct Evidence {
-  double weight = 1.0;                      ///< of the update, 0..1
-  double mass = 0.0;                        ///< of the best mode
-  double spread = 0.0;                      ///< [m]
-  bool is_same_mode = false;                ///< the mode of the last update, moved by odometry
-  double way = 0.0;                         ///< [m] since the last update
-  double turn = 0.0;                        ///< [rad], >= 0
-  int agrees = 0, shorter = 0, longer = 0;  ///< readings as the belief sees them
+  double weight = 1.0;                               ///< of the update, 0..1
+  double mass = 0.0;                                 ///< of the best mode
+  double spread = 0.0;                               ///< [m]
+  bool is_same_mode = false;                         ///< the mode of the last update, moved by odometry
+  double way = 0.0;                                  ///< [m] since the last update
+  double turn = 0.0;                                 ///< [rad], >= 0
+  double agrees = 0.0, shorter = 0.0, longer = 0.0;  ///< number of readings, as the belief sees them
 };
 
 /// Decides whether the robot may say where it is. It says "I do not know" until one mode has held nearly all the mass
@@ -66,7 +68,8 @@ class Verdict {
   double turn_ = 0.0;
   double agreement_ = 0.5;
   double contradiction_ = 0.0;
-  double bad_ = 0.0;  ///< full updates in a row with bad readings
+  double bad_ = 0.0;    ///< [m] with bad readings; a radian turned counts half a metre
+  double blind_ = 0.0;  ///< [m] driven since readings last agreed with the map
 };
 
 }  // namespace docent
