@@ -49,8 +49,6 @@ Result<void> MarkovLocalizerParams::validate() const {
     if (!(nats > 0.0 && nats <= 60.0)) return fail("most_nats and most_nats_far must be > 0 and <= 60");
   if (!(sectors >= 1 && sectors <= 60)) return fail("sectors must be 1..60");
   if (!(most_sector_nats > 0.0)) return fail("most_sector_nats must be > 0");
-  if (!(look_round_updates >= 0)) return fail("look_round_updates must be >= 0");
-  if (!(look_round_way > 0.0)) return fail("look_round_way must be > 0");
   if (!(work_per_second > 0.0)) return fail("work_per_second must be > 0");
   return {};
 }
@@ -70,7 +68,6 @@ MarkovLocalizer::MarkovLocalizer(const OccupancyGrid& map, const MarkovLocalizer
 }
 
 void MarkovLocalizer::start_unknown() {
-  belief_.set_dense(false);
   belief_.make_uniform();
   started_ = false;
   last_work_ = 0.0;
@@ -141,7 +138,6 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
     costs[i].direction = choice.used[i].direction;
     log_best_over_mean += temper * (static_cast<double>(best) - model_.log_mean_probability(bin));
   }
-  look_round(way, turn);
   last_work_ = static_cast<double>(belief_.active_states()) * static_cast<double>(costs.size());
   EvidenceWeights weights;
   weights.most_nats = weights.far_most_nats = params_.most_nats;
@@ -153,7 +149,6 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
     weights.focus = *predicted * inverse(frame_from_robot());
   }
   step.evidence = belief_.reweigh(table_, costs, log_best_over_mean, weights, params_.teleport_probability);
-  if (belief_.is_dense() && --dense_updates_left_ == 0) belief_.set_dense(false);
   step.updated = true;
   step.beams_used = costs.size();
   step.beams_filtered = choice.filtered;
@@ -227,14 +222,6 @@ MarkovLocalizer::Choice MarkovLocalizer::choose_beams(const RangeSweep& sweep, c
   }
   thin(choice.used);
   return choice;
-}
-
-void MarkovLocalizer::look_round(double way, double turn) {
-  way_since_round_ += way + turn / (0.5 * std::numbers::pi);
-  if (belief_.is_dense() || way_since_round_ < params_.look_round_way || params_.look_round_updates == 0) return;
-  way_since_round_ = 0.0;
-  dense_updates_left_ = params_.look_round_updates;
-  belief_.set_dense(true);
 }
 
 void MarkovLocalizer::thin(std::vector<BinnedBeam>& beams) {

@@ -38,9 +38,7 @@ struct MarkovLocalizerParams {
   double standing_weight = 0.1;        ///< of such an update: the same view again says little
   double most_nats = 8.0;              ///< [nat] that one scan counts at most
   double most_nats_far = 2.0;          ///< and, once the robot is sure of a place, between it and others
-  double look_round_way = 10.0;  ///< [m] driven (a right angle turned counts as a metre) between looks at all states
-  int look_round_updates = 0;    ///< in a row, then
-  double work_per_second = 1e9;  ///< states * beams that may be scored in a second of the robot's time
+  double work_per_second = 1e9;        ///< states * beams that may be scored in a second of the robot's time
   template <class V>
   void visit(V& v) {
     v("states", states);
@@ -64,8 +62,6 @@ struct MarkovLocalizerParams {
     v("standing_weight", standing_weight);
     v("most_nats", most_nats);
     v("most_nats_far", most_nats_far);
-    v("look_round_way", look_round_way);
-    v("look_round_updates", look_round_updates);
     v("work_per_second", work_per_second);
   }
   [[nodiscard]] Result<void> validate() const;
@@ -122,7 +118,6 @@ class MarkovLocalizer {
   [[nodiscard]] double due_weight(double way, double turn, Time time) const;
   [[nodiscard]] Choice choose_beams(const RangeSweep& sweep, const std::vector<BinnedBeam>& beams);
   void thin(std::vector<BinnedBeam>& beams);
-  void look_round(double way, double turn);
   [[nodiscard]] double fit(const RangeSweep& seen, std::span<const BinnedBeam> beams) const;
   void move(const Pose2& before_from_after);
   void summarise_now();
@@ -148,8 +143,6 @@ class MarkovLocalizer {
   Pose2 odom_from_robot_;
   Time last_update_{};
   double last_work_ = 0.0;
-  double way_since_round_ = 0.0;  ///< [m], turns counted as way
-  int dense_updates_left_ = 0;
   std::size_t phase_ = 0;
   BeliefSummary summary_;
   std::vector<LikelyState> likely_;

@@ -293,16 +293,6 @@ std::size_t PositionBelief::score(const RangeTable& table, std::span<const BeamC
   return best;
 }
 
-void PositionBelief::set_dense(bool dense) {
-  if (dense == dense_) return;
-  dense_ = dense;
-  if (dense) {
-    wake();
-    sea_ = 0.0;
-  }
-  normalise(0.0);
-}
-
 void PositionBelief::flood(double mass) {
   const auto headings = static_cast<std::size_t>(space_->headings());
   const auto base = static_cast<float>(mass / static_cast<double>(space_->states()));

@@ -65,17 +65,12 @@ class PositionBelief {
   double reweigh(const RangeTable& table, std::span<const BeamCosts> beams, double log_best_over_mean,
                  const EvidenceWeights& weights, double teleport);
 
-  /// While dense, no state sinks: for some updates in a row all states compete. The sea alone shows that no active
-  /// state fits, but never that another place fits better.
-  void set_dense(bool dense);
-  [[nodiscard]] bool is_dense() const { return dense_; }
-
   /// Shares `mass` evenly over all states, in proportion taken from the others.
   void flood(double mass);
 
   [[nodiscard]] const StateSpace& space() const { return *space_; }
   /// States above it are active; negative: all are.
-  [[nodiscard]] double threshold() const { return dense_ ? -1.0 : threshold_; }
+  [[nodiscard]] double threshold() const { return threshold_; }
   [[nodiscard]] double sea_level() const { return sea_; }
   [[nodiscard]] std::size_t active_states() const { return active_states_; }
   [[nodiscard]] double active_mass() const { return active_mass_; }
@@ -111,7 +106,6 @@ class PositionBelief {
   const StateSpace* space_;
   std::size_t stride_;  ///< [floats] of a row; a multiple of 64
   double threshold_;
-  bool dense_ = false;
   ScoreKernel score_;
   std::vector<float> decay_;  ///< exp(-cost / kCostPerNat)
 

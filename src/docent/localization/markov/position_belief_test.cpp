@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -38,13 +39,17 @@ struct DenseTwin {
     for (const double value : p) sum += value;
     for (double& value : p) value /= sum;
   }
-  void reweigh(const RangeTable& table, std::span<const BeamCosts> beams) {
+  /// `cap`: at most so many cost steps for the beams of one of `sectors` together.
+  void reweigh(const RangeTable& table, std::span<const BeamCosts> beams, std::size_t sectors = 1, double cap = 1e9) {
     for (std::size_t place = 0; place < space.places(); ++place) {
       for (int h = 0; h < space.headings(); ++h) {
-        double cost = 0.0;
+        const auto headings = static_cast<std::size_t>(space.headings());
+        std::vector<double> costs(sectors, 0.0);
         for (const BeamCosts& beam : beams)
-          cost += beam.costs[table.row(
-              place)[(static_cast<std::size_t>(h) + beam.direction) % static_cast<std::size_t>(space.headings())]];
+          costs[beam.direction * sectors / headings] +=
+              beam.costs[table.row(place)[(static_cast<std::size_t>(h) + beam.direction) % headings]];
+        double cost = 0.0;
+        for (const double of_sector : costs) cost += std::min(of_sector, cap);
         p[index(place, h)] *= std::exp(-cost / kCostPerNat);
       }
     }
@@ -107,6 +112,24 @@ TEST(PositionBelief, WithoutASeaItIsTheTwin) {
       EXPECT_LT(total_variation(belief, twin), 1e-4);
     }
   }
+}
+
+TEST(PositionBelief, TheBeamsOfASectorCostAtMostTheirCap) {
+  Rng rng{7};
+  const auto room = drawn_room();
+  PositionBelief belief{room->space, 0.0};
+  DenseTwin twin{room->space};
+  DenseTwin without{room->space};
+  auto beams = any_beams(rng, 30, room->space.headings());
+  std::sort(beams.begin(), beams.end(), [](const auto& a, const auto& b) { return a.direction < b.direction; });
+  EvidenceWeights weights;
+  weights.sectors = 5;
+  weights.most_sector_nats = 3.0;
+  belief.reweigh(room->table, beams, 0.0, weights, 0.0);
+  twin.reweigh(room->table, beams, 5, 3.0 * kCostPerNat);
+  without.reweigh(room->table, beams);
+  EXPECT_LT(total_variation(belief, twin), 1e-4);
+  EXPECT_GT(total_variation(belief, without), 0.1);
 }
 
 TEST(PositionBelief, SelectiveUpdateStaysNearTheDenseOne) {
