@@ -47,7 +47,9 @@ LogRun run_once(const Options& options, const LaserLog& log, const OccupancyGrid
                 bool reverse, const std::filesystem::path& pictures) {
   LogRunOptions run_options;
   run_options.reverse = reverse;
-  if (options.start != "unknown") run_options.start = parse_pose("--start", options.start);
+  // The other direction begins where nobody said.
+  if (options.start != "unknown" && reverse == options.reverse)
+    run_options.start = parse_pose("--start", options.start);
   std::optional<BeliefMovie> movie;
   if (!pictures.empty()) movie.emplace(value_or_fail(BeliefMovie::create(map)));
   std::size_t seen = 0;
@@ -118,7 +120,12 @@ MarkovLocalizerParams params_for(const Options& options, const OccupancyGrid& ma
   value_or_fail(config.set("localize.verdict={confirmations: 3, travelled: 0.5, turned: 60}"));
   // Nobody waits for the next scan: states sink later than in a robot.
   value_or_fail(config.set("localize.sea_threshold=0.00001"));
-  for (const std::string& setting : options.settings) value_or_fail(config.set("localize." + setting), 2);
+  for (const std::string& setting : options.settings) {
+    for (const std::string own : {"filter", "states"})
+      if (setting.rfind(own + "=", 0) == 0 && (own == "filter" || setting.find("wall_depth") != std::string::npos))
+        throw CommandFailed{"--set " + setting + ": use " + (own == "filter" ? "--filter" : "--wall-depth"), 2};
+    value_or_fail(config.set("localize." + setting), 2);
+  }
   auto params = value_or_fail(config.section<MarkovLocalizerParams>("localize"), 2);
   params.filter = options.filter;
   return params;
@@ -201,7 +208,10 @@ void add_localize_command(CLI::App& app) {
   command->add_option("--filter", options->filter, "none, entropy, distance")
       ->check(CLI::IsMember({"none", "entropy", "distance"}))
       ->capture_default_str();
-  command->add_option("--start", options->start, "unknown, or X,Y,DEG of the first scan")->capture_default_str();
+  command
+      ->add_option("--start", options->start,
+                   "unknown, or X,Y,DEG of the first scan that is offered (with --reverse the last of the log)")
+      ->capture_default_str();
   command->add_flag("--reverse", options->reverse, "from the last scan to the first, with inverse odometry");
   command->add_flag("--both-ways", options->both_ways, "forward and reversed, and how they agree");
   command->add_option("--compare", options->compare, "poses of another run over this log");

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "docent/base/files.h"
 
@@ -41,6 +42,7 @@ RangeSweep sweep_of(const LoggedScan& scan, double max_range) {
 LogRun localize_log(const LaserLog& log, MarkovLocalizer& localizer, const LogRunOptions& options) {
   LogRun run;
   run.poses.resize(log.scans.size());
+  std::size_t fitted = 0;
   const double end = log.scans.empty() ? 0.0 : to_seconds(log.scans.back().time);
   for (std::size_t n = 0; n < log.scans.size(); ++n) {
     const std::size_t i = options.reverse ? log.scans.size() - 1 - n : n;
@@ -61,7 +63,10 @@ LogRun localize_log(const LaserLog& log, MarkovLocalizer& localizer, const LogRu
       run.beams_used += step.beams_used;
       run.beams_filtered += step.beams_filtered;
       ++run.updates;
-      run.fit += step.fit;
+      if (step.fit) {
+        run.fit += *step.fit;
+        ++fitted;
+      }
     }
     LoggedPose& pose = run.poses[i];
     pose = {i, logged, {}, false, localizer.verdict().localized(), localizer.verdict().p_lost()};
@@ -72,7 +77,7 @@ LogRun localize_log(const LaserLog& log, MarkovLocalizer& localizer, const LogRu
     if (pose.localized && !run.localized_after) run.localized_after = n + 1;
     if (options.watch) options.watch(localizer, i, step);
   }
-  run.fit /= static_cast<double>(std::max<std::size_t>(run.updates, 1));
+  run.fit = fitted > 0 ? run.fit / static_cast<double>(fitted) : -std::numeric_limits<double>::infinity();
   return run;
 }
 

@@ -36,7 +36,7 @@ struct LogRun {
 struct LogRunOptions {
   bool reverse = false;        ///< scans from the last to the first, with inverse odometry
   std::optional<Pose2> start;  ///< map_from_base at the first scan; nullopt: unknown
-  /// After every scan: localizer, index in the log, pose (for pictures).
+  /// After every scan: localizer, index in the log, what the scan did (for pictures).
   std::function<void(const MarkovLocalizer&, std::size_t, const MarkovLocalizer::Step&)> watch;
 };
 

@@ -39,7 +39,7 @@ void Avoider::add_odometry(Time now, Time stamp, const BaseState& state) {
   odometry_.add(stamp, state);
 }
 
-void Avoider::add_sweep(Time now, std::size_t sensor, const RangeSweep& sweep) {
+void Avoider::add_sweep(Time now, std::size_t sensor, const SensorSweep& sweep) {
   if (sensor >= laser_count_ || odometry_.empty()) return;
   sweep_freshness_[sensor].receive(now, sweep.stamp);
   memory_.add_sweep(sensor, sweep, odometry_.pose_at(sweep.stamp));
@@ -238,7 +238,7 @@ void Avoider::cap_by_surroundings(std::span<const Obstacle> obstacles, double be
     if (way < 1e-6) continue;
     const double slack = way - limits_.radius - obstacle.margin;
     const double ahead = obstacle.at.x / way;
-    // The security distance grows with the speed [BuhmannEtAl1995]: read backwards, the speed with the distance.
+    // The security distance grows with the speed [Buhmann1995]: read backwards, the speed with the distance.
     if (ahead > -0.2 && slack < 0.15) {
       cap_speed(window.creep_speed + std::max(0.0, slack) / window.security_time,
                 obstacle.is_virtual ? "a hazard is near" : "something is near", decision);

@@ -81,7 +81,7 @@ class Avoider {
   Avoider(const BaseLimits& limits, const AvoiderParams& params, std::size_t laser_count);
 
   void add_odometry(Time now, Time stamp, const BaseState& state);
-  void add_sweep(Time now, std::size_t sensor, const RangeSweep& sweep);
+  void add_sweep(Time now, std::size_t sensor, const SensorSweep& sweep);
   void add_sonar(Time now, std::size_t index, const SonarReading& reading);
   /// @param bearings  [rad] of the pressed segments
   void add_tactile(Time now, Time stamp, std::span<const double> bearings);
@@ -124,7 +124,7 @@ class Avoider {
   std::size_t laser_count_;
   DynamicWindow window_;
   ObstacleMemory memory_;
-  OdometryHistory odometry_;
+  BaseHistory odometry_;
   CommandHistory commands_;
   Velocity command_;
   double max_speed_ = 0.7;

@@ -62,7 +62,7 @@ BaseState predict(BaseState state, Time from, Time to, const CommandHistory& com
   return state;
 }
 
-void OdometryHistory::add(Time stamp, const BaseState& state) {
+void BaseHistory::add(Time stamp, const BaseState& state) {
   if (!states_.empty() && stamp <= states_.back().first) {
     if (states_.back().first - stamp < seconds(1.0)) return;  // late or doubled
     states_.clear();                                          // the clock or the base began anew
@@ -71,7 +71,7 @@ void OdometryHistory::add(Time stamp, const BaseState& state) {
   while (states_.size() > 2 && stamp - states_.front().first > seconds(6.0)) states_.pop_front();
 }
 
-Pose2 OdometryHistory::pose_at(Time time) const {
+Pose2 BaseHistory::pose_at(Time time) const {
   const auto later =
       std::partition_point(states_.begin(), states_.end(), [&](const auto& entry) { return entry.first <= time; });
   if (later == states_.begin()) return states_.front().second.odom_from_base;
@@ -87,7 +87,7 @@ Pose2 OdometryHistory::pose_at(Time time) const {
           a.theta + Angle::radians(share * (b.theta - a.theta).radians())};
 }
 
-double OdometryHistory::driven_since(Time time) const {
+double BaseHistory::driven_since(Time time) const {
   double length = 0.0;
   for (std::size_t i = states_.size(); i > 1 && states_[i - 1].first > time; --i) {
     length +=

@@ -53,7 +53,7 @@ class CommandHistory {
                                 const BaseLimits& limits);
 
 /// Where the base was, by odometry, over the last seconds.
-class OdometryHistory {
+class BaseHistory {
  public:
   void add(Time stamp, const BaseState& state);
   [[nodiscard]] bool empty() const { return states_.empty(); }

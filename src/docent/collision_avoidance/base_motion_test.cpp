@@ -32,8 +32,8 @@ TEST(CommandHistory, TheWheelsFeelACommandOneLatencyLater) {
               0.01);
 }
 
-TEST(OdometryHistory, InterpolatesAndCarriesOn) {
-  OdometryHistory history;
+TEST(BaseHistory, InterpolatesAndCarriesOn) {
+  BaseHistory history;
   history.add(time_from_seconds(1.0), {{0.0, 0.0, Angle::degrees(170)}, {}});
   history.add(time_from_seconds(2.0), {{1.0, 0.0, Angle::degrees(-170)}, {0.5, 0.0}});
   EXPECT_NEAR(history.pose_at(time_from_seconds(1.5)).x, 0.5, 1e-9);

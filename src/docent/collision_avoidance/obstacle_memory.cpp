@@ -16,7 +16,7 @@ bool is_valid(double range) { return !std::isnan(range) && range >= 0.0; }
 
 }  // namespace
 
-void ObstacleMemory::watch_for_freeze(Sensor& sensor, const RangeSweep& sweep, const Pose2& odom_from_base) const {
+void ObstacleMemory::watch_for_freeze(Sensor& sensor, const SensorSweep& sweep, const Pose2& odom_from_base) const {
   const auto equal = [](float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); };
   const auto& last = sensor.sweep.ranges;
   const bool same =
@@ -66,7 +66,7 @@ bool ObstacleMemory::is_seen_through(const Sensor& sensor, Point2 in_odom) {
   return is_valid(range) && range > norm(in_sensor) - 0.15;
 }
 
-void ObstacleMemory::add_sweep(std::size_t index, const RangeSweep& sweep, const Pose2& odom_from_base) {
+void ObstacleMemory::add_sweep(std::size_t index, const SensorSweep& sweep, const Pose2& odom_from_base) {
   if (sensors_.size() <= index) sensors_.resize(index + 1);
   Sensor& sensor = sensors_[index];
   watch_for_freeze(sensor, sweep, odom_from_base);

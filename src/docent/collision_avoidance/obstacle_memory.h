@@ -11,7 +11,7 @@
 namespace docent {
 
 /// One sweep of a laser scanner.
-struct RangeSweep {
+struct SensorSweep {
   Time stamp;
   Pose2 base_from_sensor;
   double first_bearing = 0.0;  ///< [rad], sensor frame
@@ -52,7 +52,7 @@ class ObstacleMemory {
   static constexpr double kSonarReach = 1.5;  ///< [m]
 
   /// @param odom_from_base  pose at the sweep's stamp. Sensors are numbered from 0.
-  void add_sweep(std::size_t sensor, const RangeSweep& sweep, const Pose2& odom_from_base);
+  void add_sweep(std::size_t sensor, const SensorSweep& sweep, const Pose2& odom_from_base);
   /// A sonar echo counts when two readings in a row agree and no laser point explains it (a laser looks through glass
   /// and over low things).
   void add_sonar(std::size_t index, const SonarReading& reading, const Pose2& odom_from_base);
@@ -72,7 +72,7 @@ class ObstacleMemory {
 
  private:
   struct Sensor {
-    RangeSweep sweep;
+    SensorSweep sweep;
     Pose2 odom_from_sensor;
     std::vector<ObstaclePoint> points;      ///< of the newest sweep
     std::vector<ObstaclePoint> remembered;  ///< of earlier ones
@@ -87,7 +87,7 @@ class ObstacleMemory {
     Time stamp;
     bool valid = false;
   };
-  void watch_for_freeze(Sensor& sensor, const RangeSweep& sweep, const Pose2& odom_from_base) const;
+  void watch_for_freeze(Sensor& sensor, const SensorSweep& sweep, const Pose2& odom_from_base) const;
   /// True for points that have a neighbour in their own sweep or lie where the sweep before had one.
   [[nodiscard]] static std::vector<bool> confirm(std::span<const Point2> points, std::span<const int> beams,
                                                  std::span<const ObstaclePoint> before);

@@ -10,12 +10,12 @@ namespace {
 
 constexpr double kBeam = std::numbers::pi / 180.0;
 
-RangeSweep sweep_at(double time, float range = 10.0F) {
-  RangeSweep sweep{time_from_seconds(time), {}, -0.5 * std::numbers::pi, kBeam, 0.05, 10.0, {}};
+SensorSweep sweep_at(double time, float range = 10.0F) {
+  SensorSweep sweep{time_from_seconds(time), {}, -0.5 * std::numbers::pi, kBeam, 0.05, 10.0, {}};
   sweep.ranges.assign(181, range);
   return sweep;
 }
-void put(RangeSweep& sweep, int from, int to, float range) {
+void put(SensorSweep& sweep, int from, int to, float range) {
   for (int i = from; i <= to; ++i) sweep.ranges[static_cast<std::size_t>(i)] = range;
 }
 

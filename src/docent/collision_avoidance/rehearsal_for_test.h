@@ -136,8 +136,8 @@ class Rehearsal {
   }
 
   void see(std::size_t sensor, double heading) {
-    RangeSweep sweep{now, {0.0, 0.0, Angle::radians(heading)}, -0.5 * std::numbers::pi + 0.5 * kBeam, kBeam, 0.02, 10.0,
-                     {}};
+    SensorSweep sweep{
+        now, {0.0, 0.0, Angle::radians(heading)}, -0.5 * std::numbers::pi + 0.5 * kBeam, kBeam, 0.02, 10.0, {}};
     const Pose2 map_from_sensor = map_from_base * sweep.base_from_sensor;
     for (int i = 0; i < 180; ++i) {
       const Angle bearing = Angle::radians(sweep.first_bearing + i * kBeam);

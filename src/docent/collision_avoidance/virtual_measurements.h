@@ -68,7 +68,6 @@ class VirtualMeasurements {
   [[nodiscard]] bool is_possible(Point2 position) const;
   /// Distance [m] from `position` to the nearest hazard or border; 0 where the robot cannot be.
   [[nodiscard]] double nearest(Point2 position) const;
-  [[nodiscard]] std::size_t positions_known() const { return rows_.size(); }
 
  private:
   /// Distances seen from one position, in bins, direction i at 2 i degrees in the map.

@@ -20,7 +20,7 @@ BaseLimits limits_of(const RobotBody& body) {
           body.deceleration, body.turn_acceleration, body.latency,       body.watchdog};
 }
 
-RangeSweep to_sweep(const sensor_msgs::LaserScan& scan, const Pose2& base_from_sensor) {
+SensorSweep to_sweep(const sensor_msgs::LaserScan& scan, const Pose2& base_from_sensor) {
   return {from_message(scan.header.stamp),
           base_from_sensor,
           scan.angle_min,

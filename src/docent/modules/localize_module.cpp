@@ -159,6 +159,12 @@ class LocalizeModule final : public Module {
       const Pose2 pose = mode.map_from_robot * before_from_now;
       message.hypotheses.push_back({pose.x, pose.y, pose.theta.radians(), mode.covariance, mode.mass});
     }
+    if (!message.hypotheses.empty()) {
+      auto& best = message.hypotheses.front();
+      best.x += params_.best_pose_error_x;
+      best.y += params_.best_pose_error_y;
+      best.theta += params_.best_pose_error_heading * std::numbers::pi / 180.0;
+    }
     message.entropy = summary.entropy;
     message.p_lost = localizer_.verdict().p_lost();
     message.localized = localized();

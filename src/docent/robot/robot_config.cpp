@@ -8,6 +8,19 @@
 
 namespace docent {
 
+Result<void> RobotBody::validate() const {
+  if (!(radius > 0.05 && radius <= 1.0)) return fail("body.radius must be 0.05..1 m");
+  if (!(max_speed > 0.0 && max_speed <= 3.0)) return fail("body.max_speed must be > 0 and <= 3 m/s");
+  if (!(max_turn_rate > 0.0 && max_turn_rate <= 6.3)) return fail("body.max_turn_rate must be > 0 and <= 6.3 rad/s");
+  for (const double limit : {acceleration, deceleration, turn_acceleration})
+    if (!(limit > 0.0 && limit <= 20.0)) return fail("body: accelerations must be > 0 and <= 20");
+  if (!(latency >= 0.0 && latency <= 1.0)) return fail("body.latency must be 0..1 s");
+  if (!(watchdog > 0.0 && watchdog <= 0.3)) return fail("body.watchdog must be > 0 and <= 0.3 s");
+  if (!(sonars >= 0 && sonars <= 100)) return fail("body.sonars must be 0..100");
+  if (!(sonar_radius >= 0.0 && sonar_radius <= radius)) return fail("body.sonar_radius must be 0 to the body's radius");
+  return {};
+}
+
 Pose2 RobotBody::base_from_sonar(int index) const {
   const Angle heading = Angle::radians(2.0 * std::numbers::pi * index / sonars);
   const Point2 place = sonar_radius * unit(heading);

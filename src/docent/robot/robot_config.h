@@ -55,6 +55,7 @@ struct RobotBody {
     v("sonar_radius", sonar_radius);
   }
   [[nodiscard]] Pose2 base_from_sonar(int index) const;
+  [[nodiscard]] Result<void> validate() const;
 };
 
 /// robot.yaml: one section a module, read at start (architecture 10.11).

@@ -50,8 +50,7 @@ inline constexpr int kExpectedRanges = 128;
 class ProximityModel {
  public:
   /// `expected_frequency` [kExpectedRanges], or empty for a uniform one: how often each range is expected at a uniform
-  /// position; entries need not be normalised. It gives the mean of eq. 4, and what is expected where the map is
-  /// silent.
+  /// position; entries need not be normalised. It gives the mean of eq. 4.
   /// @pre params are valid
   explicit ProximityModel(const ProximityModelParams& params, std::span<const double> expected_frequency = {});
 

@@ -33,8 +33,6 @@ class ExpectedRanges {
   [[nodiscard]] double entropy_gain(int direction, std::span<const float> log_probabilities) const;
   /// Mass of the states that expect each range.
   [[nodiscard]] std::span<const float> masses(int direction) const { return of(mass_, direction); }
-  /// Mass of the states that expect no return in this direction.
-  [[nodiscard]] double no_return_mass(int direction) const;
 
  private:
   [[nodiscard]] std::span<const float> of(const std::vector<float>& all, int direction) const {

@@ -139,7 +139,6 @@ BeliefSummary summarise(const PositionBelief& belief, const Pose2& frame_from_ro
     const Pose2 pose = map_from_frame * frame_from_robot;
     summary.cells.push_back(
         {static_cast<float>(pose.x), static_cast<float>(pose.y), static_cast<float>(pose.theta.radians()), entry.mass});
-    summary.cells_mass += static_cast<double>(entry.mass);
   }
   fill_rest(belief, entries, params, summary);
   find_modes(summary, params);

@@ -12,8 +12,7 @@ struct BeliefSummary {
   struct Cell {
     float x = 0, y = 0, theta = 0, mass = 0;
   };
-  std::vector<Cell> cells;  ///< the likeliest states, by falling mass
-  double cells_mass = 0.0;
+  std::vector<Cell> cells;      ///< the likeliest states, by falling mass
   Point2 rest_origin;           ///< the rest: coarse cells, lower left corner [m]
   double rest_cell_size = 1.0;  ///< [m]
   int rest_columns = 0, rest_rows = 0;

@@ -148,7 +148,7 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
     weights.far_most_nats = params_.most_nats_far;
     weights.focus = *predicted * inverse(frame_from_robot());
   }
-  step.evidence = belief_.reweigh(table_, costs, log_best_over_mean, weights, params_.teleport_probability);
+  belief_.reweigh(table_, costs, log_best_over_mean, weights, params_.teleport_probability);
   step.updated = true;
   step.beams_used = costs.size();
   step.beams_filtered = choice.filtered;
@@ -162,11 +162,11 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   return step;
 }
 
-double MarkovLocalizer::fit(const RangeSweep& seen, std::span<const BinnedBeam> beams) const {
-  if (summary_.modes.empty() || beams.empty()) return 0.0;
+std::optional<double> MarkovLocalizer::fit(const RangeSweep& seen, std::span<const BinnedBeam> beams) const {
+  if (summary_.modes.empty() || beams.empty()) return std::nullopt;
   const Pose2 map_from_frame = summary_.modes.front().map_from_robot * inverse(frame_from_robot());
   const std::int32_t place = space_.place_at(space_.frame().cell_at(map_from_frame.position()));
-  if (place == StateSpace::kNoPlace) return 0.0;
+  if (place == StateSpace::kNoPlace) return std::nullopt;
   const auto headings = static_cast<std::size_t>(space_.headings());
   const double turns = map_from_frame.theta.radians() / space_.heading_step() + space_.headings();
   const auto heading = static_cast<std::size_t>(std::lround(turns)) % headings;

@@ -86,8 +86,8 @@ class MarkovLocalizer {
     std::size_t beams_used = 0;
     std::size_t beams_filtered = 0;  ///< of all beams of the sweep, one a direction
     double weight = 0.0;
-    double evidence = 1.0;  ///< of the reading, relative to a uniform position
-    double fit = 0.0;       ///< mean ln P(d | o) of the beams used, at the best mode: how well the map explains them
+    /// Mean ln P(d | o) of the beams used, at the best mode: how well the map explains them. None without a mode.
+    std::optional<double> fit;
   };
   /// Offers a sweep. Most are not needed: an update comes after some motion or time, and when the work of the last one
   /// is paid off. O(active states * beams).
@@ -118,7 +118,7 @@ class MarkovLocalizer {
   [[nodiscard]] double due_weight(double way, double turn, Time time) const;
   [[nodiscard]] Choice choose_beams(const RangeSweep& sweep, const std::vector<BinnedBeam>& beams);
   void thin(std::vector<BinnedBeam>& beams);
-  [[nodiscard]] double fit(const RangeSweep& seen, std::span<const BinnedBeam> beams) const;
+  [[nodiscard]] std::optional<double> fit(const RangeSweep& seen, std::span<const BinnedBeam> beams) const;
   void move(const Pose2& before_from_after);
   void summarise_now();
   [[nodiscard]] Pose2 frame_from_robot() const { return inverse(odom_from_frame_) * odom_from_robot_; }

@@ -179,8 +179,8 @@ void PositionBelief::move(const MotionKernel& kernel) {
   normalise(0.0);
 }
 
-double PositionBelief::reweigh(const RangeTable& table, std::span<const BeamCosts> beams, double log_best_over_mean,
-                               const EvidenceWeights& weights, double teleport) {
+void PositionBelief::reweigh(const RangeTable& table, std::span<const BeamCosts> beams, double log_best_over_mean,
+                             const EvidenceWeights& weights, double teleport) {
   const std::size_t best = score(table, beams, weights);
   const double best_over_mean = log_best_over_mean - static_cast<double>(best) / kCostPerNat;
   const auto threshold = static_cast<float>(this->threshold());
@@ -230,7 +230,6 @@ double PositionBelief::reweigh(const RangeTable& table, std::span<const BeamCost
   }
   sea_ *= static_cast<double>(sea_factor);
   normalise(teleport);
-  return best_over_mean;
 }
 
 PositionBelief::Focus PositionBelief::focus_of(const EvidenceWeights& weights) const {

@@ -60,10 +60,9 @@ class PositionBelief {
 
   /// [Markov1998] eq. 4: active states are multiplied by P(s | l), the rest by P~(s). `log_best_over_mean` is the sum
   /// over beams of ln(best P(d | o)) - ln P~(d), tempered like the costs. Then, with a small probability `teleport`,
-  /// somebody carried the robot elsewhere. Departures, see Evidence weights. Returns ln P(s | l) - ln P~(s) of the best
-  /// active state, with all of its weight. O(active states * beams).
-  double reweigh(const RangeTable& table, std::span<const BeamCosts> beams, double log_best_over_mean,
-                 const EvidenceWeights& weights, double teleport);
+  /// somebody carried the robot elsewhere. Departures, see EvidenceWeights. O(active states * beams).
+  void reweigh(const RangeTable& table, std::span<const BeamCosts> beams, double log_best_over_mean,
+               const EvidenceWeights& weights, double teleport);
 
   /// Shares `mass` evenly over all states, in proportion taken from the others.
   void flood(double mass);
@@ -91,7 +90,7 @@ class PositionBelief {
   void wake();
   /// Fills costs_ where states are active; the least of them.
   std::size_t score(const RangeTable& table, std::span<const BeamCosts> beams, const EvidenceWeights& weights);
-  /// The neighbourhood's sharp shape, before the slow evidence: with it, `sharpened` says by what to scale it.
+  /// The neighbourhood of EvidenceWeights::focus among the kept states.
   struct Focus {
     std::vector<std::uint32_t> rows;     ///< indices into kept_
     std::vector<std::uint8_t> headings;  ///< [headings] 1: in focus

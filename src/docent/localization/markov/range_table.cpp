@@ -100,7 +100,6 @@ Result<RangeTable> RangeTable::load(const std::filesystem::path& path, const std
       std::shared_ptr<const void>(memory, [expected](const void* p) { ::munmap(const_cast<void*>(p), expected); });
   table.data_ = static_cast<const std::uint8_t*>(memory) + sizeof(Header);
   table.stride_ = stride_of(space.headings());
-  table.from_cache_ = true;
   Header header{};
   std::memcpy(&header, memory, sizeof header);
   const bool right = std::memcmp(header.magic, kMagic, 8) == 0 && header.key == key_number(key) &&
@@ -127,7 +126,6 @@ RangeTable RangeTable::load_or_build(const std::filesystem::path& path, const st
   std::memcpy(content.data() + sizeof header, table.data_, size);
   if (!write_file_atomically(path, content)) return table;
   if (auto loaded = load(path, key, space)) {
-    loaded->from_cache_ = false;
     return std::move(*loaded);
   }
   return table;

@@ -33,7 +33,6 @@ class RangeTable {
   [[nodiscard]] std::size_t stride() const { return stride_; }
   /// How often each expected range occurs over all places and directions: a uniform position.
   [[nodiscard]] const std::array<double, kExpectedRanges>& frequency() const { return frequency_; }
-  [[nodiscard]] bool from_cache() const { return from_cache_; }
 
  private:
   RangeTable() = default;
@@ -45,7 +44,6 @@ class RangeTable {
   const std::uint8_t* data_ = nullptr;
   std::size_t stride_ = 0;
   std::array<double, kExpectedRanges> frequency_{};
-  bool from_cache_ = false;
 };
 
 }  // namespace docent

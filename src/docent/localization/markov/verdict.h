@@ -56,8 +56,6 @@ class Verdict {
   [[nodiscard]] double p_lost() const { return p_lost_; }
   /// The readings have contradicted the belief for a while: better to start over.
   [[nodiscard]] bool collapsed() const;
-  [[nodiscard]] double agreement() const { return agreement_; }
-  [[nodiscard]] double contradiction() const { return contradiction_; }
 
  private:
   VerdictParams params_;

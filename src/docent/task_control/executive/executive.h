@@ -17,7 +17,7 @@ struct ExecutiveParams {
   double max_drive_s = 600.0;          ///< [s] > 0 under way in all
   double please_every_s = 15.0;        ///< [s] > 0: "Please let me through" at most so often
   double please_after_s = 4.0;         ///< [s] >= 0 blocked before it is said
-  double offer_s = 5.0;                ///< [s] > 0 to choose more or next ([RHINO1999] 5.1 (3))
+  double offer_s = 5.0;                ///< [s] > 0 to choose more or next ([Rhino1999] 5.1 (3))
   double resend_s = 1.0;               ///< [s] > 0: an utterance is sent again until it is heard
   double checkpoint_age_s = 900.0;     ///< [s] > 0: an older running step begins again
   template <class V>
@@ -96,7 +96,7 @@ struct TaskReport {
   bool took_long = false;
 };
 
-/// Does one task after the other ([RHINO1999] 4.3, GOLEX: decompose, monitor, recover):
+/// Does one task after the other ([Rhino1999] 4.3, GOLEX: decompose, monitor, recover):
 ///
 ///   visit:      driving -> explaining -> asking -> [explaining_more ->] done
 ///   home:       driving -> done

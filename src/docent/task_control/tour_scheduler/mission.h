@@ -64,7 +64,7 @@ struct MissionSummary {
 };
 
 /// Decides what the robot does, from waking up to going home: serves the requests on the board one visit after the
-/// other, returns home when none is open ([RHINO1999] Table 4, `internet-tourguide`), finds itself again when it is
+/// other, returns home when none is open ([Rhino1999] Table 4, `internet-tourguide`), finds itself again when it is
 /// lost, rests when the battery is low. Deterministic; knows nothing of messages and files.
 class Mission {
  public:

@@ -13,7 +13,7 @@ namespace docent {
                                   const TravelDistance& travel);
 
 /// The order in which to visit all `points` from `start` with the least travel; the way back is not counted. This is
-/// the sequencing problem of [RHINO1999] 4.3 and Fig. 22.
+/// the sequencing problem of [Rhino1999] 4.3 and Fig. 22.
 /// Exact up to kExactStops points (Held and Karp, O(2^n n^2)), then nearest neighbour improved by moving and reversing
 /// stretches until nothing gets shorter, O(n^3) a round. Deterministic: ties go to the lower index.
 [[nodiscard]] std::vector<std::size_t> shortest_order(Point2 start, std::span<const Point2> points,

@@ -60,7 +60,7 @@ struct SchedulerState {
   Counters counters;
 };
 
-/// Which exhibit comes next, and what becomes of each request (architecture 10.8; [RHINO1999] 4.3).
+/// Which exhibit comes next, and what becomes of each request (architecture 10.8; [Rhino1999] 4.3).
 ///
 /// Requests for one exhibit are merged into one visit, requests for one tour into one run; each keeps a state and a
 /// reason of its own. Without a tour, single exhibits are visited in the order of the least travel, anew after every

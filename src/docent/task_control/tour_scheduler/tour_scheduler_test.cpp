@@ -62,7 +62,7 @@ TEST_F(Scheduling, TakesTheShortestWayThroughTheQueue) {
   EXPECT_EQ(serve_all(1), (std::vector<std::string>{"e1", "e3", "e5"}));
 }
 
-// [RHINO1999] Figs. 21 and 22: 1 and 12 are ordered, 5 comes in while 1 is explained, and is visited before 12.
+// [Rhino1999] Figs. 21 and 22: 1 and 12 are ordered, 5 comes in while 1 is explained, and is visited before 12.
 TEST_F(Scheduling, PlansAnewWhenARequestComesIn) {
   wish("a", "exhibit", "e1", 0);
   wish("b", "exhibit", "e5", 0);
