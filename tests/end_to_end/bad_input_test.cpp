@@ -217,7 +217,7 @@ TEST(BadInput, Museums) {
            {"unknown-kind", "kind: plate", "kind: carpet", "museum.yaml:LINE: "},
            {"no-polygon", "[[20.96, 2.78], [24.64, 2.78], [24.64, 5.23], [20.96, 5.23]]", "[[20.96, 2.78]]",
             "museum.yaml:LINE: "},
-           {"no-map", "map: map.yaml", "map: none.yaml", "none.yaml: cannot be read"},
+           {"no-map", "map: map.yaml", "map: none.yaml", "museum.yaml:LINE: none.yaml does not exist"},
            {"no-text", "content/zuse.short.en.md", "content/none.md", "museum.yaml:"},
            {"exhibit-in-a-wall", "pose: {x: 15.5, y: 5.0", "pose: {x: 0.1, y: 0.1", "museum.yaml:"},
            {"tour-to-nothing", "exhibits: [lithotripter", "exhibits: [unicorn", "unicorn"},

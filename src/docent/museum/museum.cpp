@@ -94,6 +94,9 @@ Result<Museum> load_museum(const std::filesystem::path& folder) {
   museum.folder = folder;
   museum.map_path = folder / museum.map_path;
   if (museum.simulation_path) museum.simulation_path = folder / *museum.simulation_path;
+  std::error_code code;
+  if (!std::filesystem::is_regular_file(museum.map_path, code))
+    return tl::unexpected<Error>(file->fault(file->root()["map"], museum.map_path.string() + " does not exist"));
   auto map = load_map(museum.map_path);
   if (!map) return tl::unexpected<Error>(map.error());
   museum.map = std::move(*map);

@@ -144,6 +144,10 @@ std::vector<Error> check_museum(const std::filesystem::path& folder) {
     faults.push_back(file->fault(root["simulation"], source.museum.simulation_path->string() + " does not exist"));
   }
   if (source.museum.map_path.empty()) return faults;
+  if (!std::filesystem::is_regular_file(folder / source.museum.map_path, code)) {
+    faults.push_back(file->fault(root["map"], source.museum.map_path.string() + " does not exist"));
+    return faults;
+  }
   auto map = load_map(folder / source.museum.map_path);
   if (!map) {
     faults.push_back(map.error());

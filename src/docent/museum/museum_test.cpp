@@ -147,7 +147,7 @@ const Broken kBroken[]{
     {"TextFileMissing", "content/coin.long.de.md", "content/none.md", "content/none.md", "cannot be read"},
     {"TextOutsideFolder", "content/coin.long.de.md", "content/../../coin.md", "coin.md", "not a file inside"},
     {"TextAbsolute", "content/coin.long.de.md", "/etc/hostname", "/etc/hostname", "not a file inside"},
-    {"MapMissing", "map: map.yaml", "map: plan.yaml", "", "plan.yaml: cannot be read"},
+    {"MapMissing", "map: map.yaml", "map: plan.yaml", "map:", "plan.yaml does not exist"},
     {"MapOutsideFolder", "map: map.yaml", "map: ../map.yaml", "map:", "not a file inside"},
     {"AreaTwoCorners", "[[0.4, 0.4], [9.6, 0.4], [9.6, 7.6], [0.4, 7.6]]", "[[0.4, 0.4], [9.6, 0.4]]",
      "area:", "at least 3 corners"},

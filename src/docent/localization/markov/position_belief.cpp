@@ -193,9 +193,14 @@ void PositionBelief::reweigh(const RangeTable& table, std::span<const BeamCosts>
   const std::size_t most_near = most(weights.most_nats);
   const std::size_t most_far = most(weights.far_most_nats);
   const auto near_factor = [&](std::uint16_t cost) { return decay_[std::min(cost - focus.best, most_near)]; };
-  const auto far_factor = [&](std::uint16_t cost) {
-    return decay_[std::min(static_cast<std::size_t>(weights.far_share * static_cast<double>(cost - best)), most_far)];
-  };
+  far_decay_.clear();  // of the cost above the best
+  for (std::size_t above = 0; above <= std::numeric_limits<std::uint16_t>::max(); ++above) {
+    const auto step = static_cast<std::size_t>(weights.far_share * static_cast<double>(above));
+    far_decay_.push_back(decay_[std::min(step, most_far)]);
+    if (step >= most_far) break;
+  }
+  const std::size_t last_far = far_decay_.size() - 1;
+  const auto far_factor = [&](std::uint16_t cost) { return far_decay_[std::min(cost - best, last_far)]; };
   double slow = 0.0;
   double sharp = 0.0;
   for (const std::uint32_t i : focus.rows) {

@@ -106,7 +106,8 @@ class PositionBelief {
   std::size_t stride_;  ///< [floats] of a row; a multiple of 64
   double threshold_;
   ScoreKernel score_;
-  std::vector<float> decay_;  ///< exp(-cost / kCostPerNat)
+  std::vector<float> decay_;      ///< exp(-cost / kCostPerNat)
+  std::vector<float> far_decay_;  ///< scratch of reweigh: the slow evidence's factor of a cost above the best
 
   std::vector<std::int32_t> kept_;  ///< places, ascending
   std::vector<std::int32_t> slot_;  ///< of each place: index in kept_, or -1

@@ -68,6 +68,14 @@ void full_cycle(benchmark::State& state, ScoreKernel kernel) {
   count_state_beams(state);
 }
 
+void motion(benchmark::State& state) {
+  PositionBelief belief{hall().space, 0.0};
+  const MotionKernel moved = motion_kernel(hall().space, {}, {0.15, 0.0}, {{0.002, 0.001}, 0.15, 0.02});
+  for (auto _ : state) belief.move(moved);
+  state.counters["offsets"] = static_cast<double>(moved.offsets.size());
+}
+BENCHMARK(motion)->Unit(benchmark::kMillisecond);
+
 void scoring(benchmark::State& state, ScoreKernel kernel) {
   const auto readings = beams();
   std::array<std::uint16_t, 192> sums{};
