@@ -103,13 +103,13 @@ TEST_F(Replay, AChangedModuleIsSeenInItsRecording) {
   const auto original = evaluate(recording());
   const auto repeated = evaluate(out);
   ASSERT_TRUE(original && repeated);
-  EXPECT_NEAR(repeated->localization.error_m.mean(), original->localization.error_m.mean(), 0.01);
+  EXPECT_NEAR(repeated->localization.error_m.mean(), original->localization.error_m.mean(), 0.03);
   EXPECT_EQ(to_json(*repeated, std::nullopt), to_json(*again->report, std::nullopt));
-  // A robot that only adds up its odometry does not find itself in the same recording.
+  // A robot that only adds up its odometry once it has found itself drifts away in the same recording.
   const auto crippled = replay_with({"localize"}, "localize.dead_reckoning=true");
   ASSERT_TRUE(crippled) << crippled.error().message;
   ASSERT_TRUE(crippled->report);
-  EXPECT_FALSE(crippled->report->localization.localized_after_s);
+  EXPECT_GT(crippled->report->localization.error_m.mean(), 2.0 * repeated->localization.error_m.mean());
 }
 
 TEST_F(Replay, WhatCannotBeReplayedIsSaidSo) {
