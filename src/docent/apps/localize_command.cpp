@@ -13,6 +13,7 @@
 #include "docent/apps/localize_log.h"
 #include "docent/apps/localize_picture.h"
 #include "docent/base/files.h"
+#include "docent/localization/markov/markov_localizer.h"
 #include "docent/recording/laser_log.h"
 #include "docent/robot/robot_config.h"
 
@@ -43,7 +44,7 @@ double quantile(std::vector<double> values, double q) {
 }
 
 /// Runs the log once; draws into `pictures` when it is not empty.
-LogRun run_once(const Options& options, const LaserLog& log, const OccupancyGrid& map, MarkovLocalizer& localizer,
+LogRun run_once(const Options& options, const LaserLog& log, const OccupancyGrid& map, Localizer& localizer,
                 bool reverse, const std::filesystem::path& pictures) {
   LogRunOptions run_options;
   run_options.reverse = reverse;
@@ -53,7 +54,7 @@ LogRun run_once(const Options& options, const LaserLog& log, const OccupancyGrid
   std::optional<BeliefMovie> movie;
   if (!pictures.empty()) movie.emplace(value_or_fail(BeliefMovie::create(map)));
   std::size_t seen = 0;
-  run_options.watch = [&](const MarkovLocalizer& at, std::size_t scan, const MarkovLocalizer::Step& step) {
+  run_options.watch = [&](const Localizer& at, std::size_t scan, const Localizer::Step& step) {
     if (++seen % 500 == 0) std::fprintf(stderr, "%zu of %zu scans\n", seen, log.scans.size());
     if (movie && step.updated && !movie->is_full()) value_or_fail(movie->add(at, log.scans[scan], log.max_range));
   };

@@ -39,7 +39,7 @@ RangeSweep sweep_of(const LoggedScan& scan, double max_range) {
   return sweep;
 }
 
-LogRun localize_log(const LaserLog& log, MarkovLocalizer& localizer, const LogRunOptions& options) {
+LogRun localize_log(const LaserLog& log, Localizer& localizer, const LogRunOptions& options) {
   LogRun run;
   run.poses.resize(log.scans.size());
   std::size_t fitted = 0;

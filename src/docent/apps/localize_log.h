@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "docent/grid/occupancy_grid.h"
-#include "docent/localization/markov/markov_localizer.h"
+#include "docent/localization/belief/localizer.h"
 #include "docent/recording/laser_log.h"
 
 namespace docent {
@@ -37,12 +37,12 @@ struct LogRunOptions {
   bool reverse = false;        ///< scans from the last to the first, with inverse odometry
   std::optional<Pose2> start;  ///< map_from_base at the first scan; nullopt: unknown
   /// After every scan: localizer, index in the log, what the scan did (for pictures).
-  std::function<void(const MarkovLocalizer&, std::size_t, const MarkovLocalizer::Step&)> watch;
+  std::function<void(const Localizer&, std::size_t, const Localizer::Step&)> watch;
 };
 
 /// Localizes every scan of a log. The localizer's state is the *laser's* pose, moved by the laser's odometry, and the
 /// robot's follows from it: seen from the robot's centre, a beam along a wall would pass through the door post.
-[[nodiscard]] LogRun localize_log(const LaserLog& log, MarkovLocalizer& localizer, const LogRunOptions& options);
+[[nodiscard]] LogRun localize_log(const LaserLog& log, Localizer& localizer, const LogRunOptions& options);
 
 /// The scan in the laser's frame.
 [[nodiscard]] RangeSweep sweep_of(const LoggedScan& scan, double max_range);

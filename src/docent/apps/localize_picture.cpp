@@ -19,17 +19,11 @@ std::vector<Point2> endpoints_at(const LoggedScan& scan, double max_range, const
 
 }  // namespace
 
-Image draw_belief(const Image& map_picture, const MapView& view, const MarkovLocalizer& localizer,
-                  const LoggedScan& scan, double max_range) {
+Image draw_belief(const Image& map_picture, const MapView& view, const Localizer& localizer, const LoggedScan& scan,
+                  double max_range) {
   Image image = map_picture;
-  const PositionBelief& belief = localizer.belief();
-  std::vector<float> mass(belief.space().frame().size(), 0.0F);
-  for (std::size_t i = 0; i < belief.kept_places().size(); ++i) {
-    float sum = 0.0F;
-    for (const float value : belief.row(i)) sum += value;
-    mass[belief.space().frame().index(belief.space().cell(static_cast<std::size_t>(belief.kept_places()[i])))] = sum;
-  }
-  draw_density(image, view, belief.space().frame(), mass);
+  const PositionDensity density = localizer.density();
+  draw_density(image, view, density.frame, density.mass);
   if (const auto best = localizer.map_from_robot(scan.odom_from_base * scan.base_from_laser)) {
     const Color color = localizer.verdict().localized() ? colors::kGreen : colors::kGrey;
     draw_points(image, view, endpoints_at(scan, max_range, *best), 3.0, with_alpha(color, 180));
@@ -50,7 +44,7 @@ Result<BeliefMovie> BeliefMovie::create(const OccupancyGrid& map) {
 
 bool BeliefMovie::is_full() const { return frames_localized_ >= 12 || frames_ >= 150; }
 
-Result<void> BeliefMovie::add(const MarkovLocalizer& localizer, const LoggedScan& scan, double max_range) {
+Result<void> BeliefMovie::add(const Localizer& localizer, const LoggedScan& scan, double max_range) {
   ++frames_;
   if (localizer.verdict().localized()) ++frames_localized_;
   const Duration shown = std::chrono::milliseconds(is_full() ? 3000 : 300);

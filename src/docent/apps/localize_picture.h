@@ -14,7 +14,7 @@ namespace docent {
 class BeliefMovie {
  public:
   [[nodiscard]] static Result<BeliefMovie> create(const OccupancyGrid& map);
-  [[nodiscard]] Result<void> add(const MarkovLocalizer& localizer, const LoggedScan& scan, double max_range);
+  [[nodiscard]] Result<void> add(const Localizer& localizer, const LoggedScan& scan, double max_range);
   [[nodiscard]] Result<void> save(const std::filesystem::path& path);
   [[nodiscard]] bool is_full() const;  ///< enough frames
 
@@ -28,7 +28,7 @@ class BeliefMovie {
 };
 
 /// Belief summed over headings, the scan at the best pose.
-[[nodiscard]] Image draw_belief(const Image& map_picture, const MapView& view, const MarkovLocalizer& localizer,
+[[nodiscard]] Image draw_belief(const Image& map_picture, const MapView& view, const Localizer& localizer,
                                 const LoggedScan& scan, double max_range);
 
 /// One scan at its pose, 24 m of the map around the robot.

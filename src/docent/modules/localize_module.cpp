@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "docent/grid/occupancy_grid.h"
-#include "docent/localization/markov/checkpoint.h"
+#include "docent/localization/belief/checkpoint.h"
 #include "docent/localization/markov/markov_localizer.h"
 #include "docent/messages/conversions.h"
 #include "docent/motion_models/odometry_history.h"
@@ -168,8 +168,8 @@ class LocalizeModule final : public Module {
     message.entropy = summary.entropy;
     message.p_lost = localizer_.verdict().p_lost();
     message.localized = localized();
-    message.active_mass = localizer_.belief().active_mass();
-    message.active_cells = static_cast<std::uint32_t>(localizer_.belief().active_states());
+    message.active_mass = summary.active_mass;
+    message.active_cells = static_cast<std::uint32_t>(summary.active_states);
     message.beams_used = static_cast<std::uint32_t>(last_step_.beams_used);
     message.beams_filtered = static_cast<std::uint32_t>(last_step_.beams_filtered);
     message.odom_pose = docent::to_message(odom_from_base);

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "docent/base/check.h"
+#include "docent/localization/markov/position_summary.h"
 
 namespace docent {
 
@@ -253,9 +254,14 @@ void MarkovLocalizer::judge(Evidence evidence, const std::optional<Pose2>& predi
   summarise_now();
 }
 
-std::optional<Pose2> MarkovLocalizer::map_from_robot(const Pose2& odom_now) const {
-  if (summary_.modes.empty()) return std::nullopt;
-  return summary_.modes.front().map_from_robot * (inverse(odom_from_robot_) * odom_now);
+PositionDensity MarkovLocalizer::density() const {
+  PositionDensity density{space_.frame(), std::vector<float>(space_.frame().size(), 0.0F)};
+  for (std::size_t i = 0; i < belief_.kept_places().size(); ++i) {
+    float sum = 0.0F;
+    for (const float value : belief_.row(i)) sum += value;
+    density.mass[space_.frame().index(space_.cell(static_cast<std::size_t>(belief_.kept_places()[i])))] = sum;
+  }
+  return density;
 }
 
 std::vector<std::size_t> MarkovLocalizer::unexpected_beams(const RangeSweep& sweep, const Pose2& odom_now,

@@ -7,10 +7,9 @@
 
 #include "docent/base/random.h"
 #include "docent/base/time.h"
+#include "docent/localization/belief/localizer.h"
 #include "docent/localization/markov/beam_filter.h"
-#include "docent/localization/markov/belief_summary.h"
 #include "docent/localization/markov/position_belief.h"
-#include "docent/localization/markov/verdict.h"
 #include "docent/motion_models/odometry_model.h"
 #include "docent/sensor_models/range_sweep.h"
 
@@ -69,43 +68,25 @@ struct MarkovLocalizerParams {
 
 /// Grid-based Markov localization [Markov1998], [Rhino1999] 3.1: a belief over all poses, from sweeps of range readings
 /// and odometry. Deterministic; knows no wall clock.
-class MarkovLocalizer {
+class MarkovLocalizer final : public Localizer {
  public:
   /// `cache`: file of the range table, made when absent or wrong; empty: none. @pre params are valid
   MarkovLocalizer(const OccupancyGrid& map, const MarkovLocalizerParams& params, const std::filesystem::path& cache,
                   std::uint64_t seed);
-  MarkovLocalizer(const MarkovLocalizer&) = delete;  // the belief refers to the state space
-  MarkovLocalizer& operator=(const MarkovLocalizer&) = delete;
-
-  void start_unknown();
-  /// `odom_from_robot`: where odometry saw the robot when it was as `modes` say.
-  void start_at(std::span<const BeliefMode> modes, const Pose2& odom_from_robot, Time time);
-
-  struct Step {
-    bool updated = false;
-    std::size_t beams_used = 0;
-    std::size_t beams_filtered = 0;  ///< of all beams of the sweep, one a direction
-    double weight = 0.0;
-    /// Mean ln P(d | o) of the beams used, at the best mode: how well the map explains them. None without a mode.
-    std::optional<double> fit;
-  };
-  /// Offers a sweep. Most are not needed: an update comes after some motion or time, and when the work of the last one
-  /// is paid off. O(active states * beams).
-  Step observe(const RangeSweep& sweep, const Pose2& odom_from_robot, Time time);
+  void start_unknown() override;
+  void start_at(std::span<const BeliefMode> modes, const Pose2& odom_from_robot, Time time) override;
+  /// An update waits until the work of the last one is paid off, too. O(active states * beams).
+  Step observe(const RangeSweep& sweep, const Pose2& odom_from_robot, Time time) override;
+  [[nodiscard]] const BeliefSummary& summary() const override { return summary_; }
+  [[nodiscard]] const Verdict& verdict() const override { return verdict_; }
+  [[nodiscard]] const Pose2& odom_from_robot() const override { return odom_from_robot_; }
+  [[nodiscard]] std::vector<std::size_t> unexpected_beams(const RangeSweep& sweep, const Pose2& odom_now,
+                                                          double max_range) const override;
+  [[nodiscard]] PositionDensity density() const override;
+  [[nodiscard]] const RayCaster& caster() const override { return caster_; }
 
   [[nodiscard]] const PositionBelief& belief() const { return belief_; }
-  [[nodiscard]] const BeliefSummary& summary() const { return summary_; }  ///< as of the last update
-  [[nodiscard]] const Verdict& verdict() const { return verdict_; }
-  [[nodiscard]] const Pose2& odom_from_robot() const { return odom_from_robot_; }  ///< at the last update
-  /// The best mode's mean, carried on by odometry; nullopt when there is no mode at all.
-  [[nodiscard]] std::optional<Pose2> map_from_robot(const Pose2& odom_now) const;
-  /// Beams that the belief finds too short by the distance filter, and whose ends, seen from the best pose, lie clear
-  /// of everything in the map: people and other unmapped things. Indices into the sweep. Empty while not localized.
-  [[nodiscard]] std::vector<std::size_t> unexpected_beams(const RangeSweep& sweep, const Pose2& odom_now,
-                                                          double max_range) const;
-
   [[nodiscard]] const StateSpace& space() const { return space_; }
-  [[nodiscard]] const RayCaster& caster() const { return caster_; }
   [[nodiscard]] const RangeTable& table() const { return table_; }
   void use_kernel(ScoreKernel kernel) { belief_.use_kernel(kernel); }
 

@@ -1,24 +1,17 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "docent/localization/belief/belief_summary.h"
 #include "docent/localization/markov/motion_kernel.h"
 #include "docent/localization/markov/range_table.h"
 #include "docent/localization/markov/score_kernel.h"
 #include "docent/localization/markov/state_space.h"
 
 namespace docent {
-
-/// A Gaussian part of a belief.
-struct BeliefMode {
-  Pose2 map_from_robot;
-  std::array<double, 9> covariance{};  ///< row-major x, y [m], theta [rad]
-  double mass = 0.0;
-};
 
 /// How much one scan may count. The beams of a scan err together, where the map is wrong or people stand around, and
 /// the scans of a metre err together too: between places far apart, evidence must gather slowly, or the belief is sure

@@ -1,4 +1,4 @@
-#include "docent/localization/markov/checkpoint.h"
+#include "docent/localization/belief/checkpoint.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 
 #include "docent/base/result.h"
 #include "docent/base/time.h"
-#include "docent/localization/markov/position_belief.h"
+#include "docent/localization/belief/belief_summary.h"
 
 namespace docent {
 

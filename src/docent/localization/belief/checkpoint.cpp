@@ -1,7 +1,8 @@
-#include "docent/localization/markov/checkpoint.h"
+#include "docent/localization/belief/checkpoint.h"
 
 #include <cmath>
 #include <cstdio>
+#include <span>
 
 #include "docent/base/files.h"
 #include "docent/base/yaml.h"

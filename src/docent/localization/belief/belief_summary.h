@@ -1,11 +1,19 @@
 #pragma once
 
-#include <cstdint>
+#include <array>
+#include <cstddef>
 #include <vector>
 
-#include "docent/localization/markov/position_belief.h"
+#include "docent/geometry/pose2.h"
 
 namespace docent {
+
+/// A Gaussian part of a belief.
+struct BeliefMode {
+  Pose2 map_from_robot;
+  std::array<double, 9> covariance{};  ///< row-major x, y [m], theta [rad]
+  double mass = 0.0;
+};
 
 /// The belief in few numbers (architecture 10.5).
 struct BeliefSummary {
@@ -19,6 +27,8 @@ struct BeliefSummary {
   std::vector<float> rest;        ///< [rows * columns] mass, all headings together
   std::vector<BeliefMode> modes;  ///< by falling mass, at most eight
   double entropy = 0.0;           ///< [nat]
+  double active_mass = 1.0;       ///< of what is updated one by one: grid states above the threshold, particles
+  std::size_t active_states = 0;  ///< their number
 };
 
 struct SummaryParams {
@@ -29,8 +39,8 @@ struct SummaryParams {
   double mode_turn = 15.0;      ///< [deg]
 };
 
-/// Of the robot's pose, where the belief is over a frame with `frame_from_robot`. O(kept states).
-[[nodiscard]] BeliefSummary summarise(const PositionBelief& belief, const Pose2& frame_from_robot,
-                                      const SummaryParams& params);
+/// Fills `summary.modes` from its cells: the likeliest cell gathers what lies near it, then the likeliest of the rest.
+/// O(cells * modes).
+void find_modes(BeliefSummary& summary, const SummaryParams& params);
 
 }  // namespace docent

@@ -1,4 +1,4 @@
-#include "docent/localization/markov/verdict.h"
+#include "docent/localization/belief/verdict.h"
 
 #include <algorithm>
 #include <numbers>

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "docent/base/time.h"
+#include "docent/grid/occupancy_grid.h"
+#include "docent/localization/belief/belief_summary.h"
+#include "docent/localization/belief/verdict.h"
+#include "docent/sensor_models/range_sweep.h"
+#include "docent/sensor_models/ray_caster.h"
+
+namespace docent {
+
+/// The belief over positions, all headings together.
+struct PositionDensity {
+  GridFrame frame;
+  std::vector<float> mass;  ///< [rows * columns]
+};
+
+/// A belief over the robot's pose in a map, kept up by sweeps of range readings and odometry: what grid and particles
+/// have in common. Implementations are deterministic and know no wall clock.
+class Localizer {
+ public:
+  Localizer() = default;
+  Localizer(const Localizer&) = delete;
+  Localizer& operator=(const Localizer&) = delete;
+  virtual ~Localizer() = default;
+
+  virtual void start_unknown() = 0;
+  /// `odom_from_robot`: where odometry saw the robot when it was as `modes` say.
+  virtual void start_at(std::span<const BeliefMode> modes, const Pose2& odom_from_robot, Time time) = 0;
+
+  struct Step {
+    bool updated = false;
+    std::size_t beams_used = 0;
+    std::size_t beams_filtered = 0;  ///< of all beams of the sweep, one a direction
+    double weight = 0.0;             ///< 0..1 of a full update
+    /// Mean ln P(d | o) of the beams used, at the best mode: how well the map explains them. None without a mode.
+    std::optional<double> fit;
+  };
+  /// Offers a sweep. Most are not needed: an update comes after some motion or time.
+  virtual Step observe(const RangeSweep& sweep, const Pose2& odom_from_robot, Time time) = 0;
+
+  [[nodiscard]] virtual const BeliefSummary& summary() const = 0;  ///< as of the last update
+  [[nodiscard]] virtual const Verdict& verdict() const = 0;
+  [[nodiscard]] virtual const Pose2& odom_from_robot() const = 0;  ///< at the last update
+  /// Beams that the belief finds too short by the distance filter, and whose ends, seen from the best pose, lie clear
+  /// of everything in the map: people and other unmapped things. Indices into the sweep. Empty while not localized.
+  [[nodiscard]] virtual std::vector<std::size_t> unexpected_beams(const RangeSweep& sweep, const Pose2& odom_now,
+                                                                  double max_range) const = 0;
+  [[nodiscard]] virtual PositionDensity density() const = 0;  ///< for pictures
+  [[nodiscard]] virtual const RayCaster& caster() const = 0;
+
+  /// The best mode's mean, carried on by odometry; nullopt when there is no mode at all.
+  [[nodiscard]] std::optional<Pose2> map_from_robot(const Pose2& odom_now) const {
+    if (summary().modes.empty()) return std::nullopt;
+    return summary().modes.front().map_from_robot * (inverse(odom_from_robot()) * odom_now);
+  }
+};
+
+}  // namespace docent
