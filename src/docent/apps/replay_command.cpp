@@ -91,6 +91,7 @@ void add_replay_command(CLI::App& app) {
   command->add_option("--seed", options->deployment.seed, "Seed of everything random")->capture_default_str();
   command->add_option("--out", options->replay.out, "MCAP file to write: what happened this time");
   command->add_option("--report", options->report, "JSON file to write: the deployment report of this time");
+  command->add_option("--claims", options->replay.claims, "CSV file to write: every belief beside the truth");
   command->add_flag("--check", options->check, "Fail where the mission events are not those of the recording");
   command->callback([options] { replay_recording(*options); });
 }

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "docent/apps/recorded_voice.h"
+#include "docent/evaluation/claim_log.h"
 #include "docent/evaluation/deployment_evaluator.h"
 #include "docent/modules/module_host.h"
 #include "docent/recording/recorder.h"
@@ -164,6 +165,7 @@ Result<ReplayOutcome> replay(const Museum& museum, const RobotConfig& config, co
   VirtualTimeHub hub;
   hub.run_until(extent->first);
   DeploymentEvaluator evaluator;
+  ClaimLog claims;
   Result<void> failure;
   std::set<std::string> theirs;  ///< topics of the chosen modules
   std::set<std::string> chosen_names;
@@ -171,6 +173,7 @@ Result<ReplayOutcome> replay(const Museum& museum, const RobotConfig& config, co
   const auto since_start = [&](Time time) { return to_seconds(time - extent->first); };
   hub.tap([&](const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
     evaluator.add(topic, time, message);
+    if (!options.claims.empty()) claims.add(topic, time, message);
     const std::string_view name = topic.name;
     if (name == topics::kMissionState.name)
       answers.present_state(*static_cast<const docent_msgs::MissionState*>(message.get()));
@@ -238,6 +241,10 @@ Result<ReplayOutcome> replay(const Museum& museum, const RobotConfig& config, co
   hosts.clear();
   if (recorder && failure) failure = recorder->close();
   if (!failure) return tl::unexpected<Error>(failure.error());
+  if (!options.claims.empty()) {
+    if (claims.claims() == 0) return fail(options.recording + ": no belief beside a ground truth (/truth/state)");
+    if (auto saved = claims.save(options.claims); !saved) return tl::unexpected<Error>(saved.error());
+  }
   outcome.replayed_topics.assign(fed.begin(), fed.end());
   if (evaluator.has_truth()) outcome.report = evaluator.report();
   return outcome;

@@ -18,6 +18,7 @@ struct ReplayOptions {
   std::string recording;
   std::vector<std::string> modules;  ///< empty: all that decide something (not record, web, sound)
   std::string out;                   ///< MCAP file of what happened this time; empty: none
+  std::string claims;                ///< CSV file of every belief beside the truth; empty: none
   std::uint64_t seed = 1;
   std::function<void(double share)> progress;  ///< may be empty
 };

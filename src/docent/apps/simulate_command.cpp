@@ -106,6 +106,8 @@ void add_simulate_command(CLI::App& app) {
   command->add_option("--mode", options->run.mode, "open, web, closed")->capture_default_str();
   command->add_option("--set", options->run.settings, "section.key=value over robot.yaml; may be repeated");
   command->add_option("--state", options->run.state, "folder of checkpoints and databases; without: a temporary one");
+  command->add_flag("!--world-only", options->run.has_robot,
+                    "no module of the robot runs: for recordings of sensors, with a scenario that steers");
   command->add_option("--report", options->report, "JSON file for the deployment report");
   command->add_option("--record", options->run.recording, "MCAP file of all messages and the truth");
   command->add_option("--picture", options->picture, "PNG file: the way driven over the map");

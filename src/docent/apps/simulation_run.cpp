@@ -71,6 +71,7 @@ class SimulationRun::Parts {
     }
     if (auto started = start_operator(); !started) return started;
     if (auto started = start_world(); !started) return started;
+    if (!options_.has_robot) return {};
     for (const ModuleEntry& entry : all_modules()) {
       const std::string name = entry.name;
       if (name == "record" || (name == "web" && !options_.hosts_web)) continue;

@@ -28,6 +28,7 @@ struct SimulationRunOptions {
   std::string recording;   ///< MCAP file; empty: none
   std::string state;       ///< folder; empty: a temporary one that goes with the run
   bool hosts_web = false;  ///< the page too
+  bool has_robot = true;   ///< false: the world and the robot's body alone, no module
 };
 
 /// The whole robot and its museum in one process in virtual time: simulator, modules, evaluation. One thread,

@@ -56,10 +56,13 @@ class EventReader {
     if (kind == "closed") return closed(body);
     if (kind == "pose_error") return pose_error(body);
     if (kind == "visitors") return visitors(body);
+    if (kind == "escort") return escort(body);
+    if (kind == "steering") return steering(body);
     if (kind == "request") return wish(body);
     if (kind == "kill") return kill(body);
     fault(kind_at_,
-          "unknown kind '" + kind + "' (known: kidnap, fault, stool, closed, pose_error, visitors, request, kill)");
+          "unknown kind '" + kind +
+              "' (known: kidnap, fault, stool, closed, pose_error, visitors, escort, steering, request, kill)");
   }
 
   [[nodiscard]] double number(const YAML::Node& node, double low, double high) const {
@@ -208,12 +211,7 @@ class EventReader {
   [[nodiscard]] Visitors visitors(const YAML::Node& node) const {
     Visitors event;
     fields(node,
-           {{"count",
-             [&](const YAML::Node& at) {
-               const double count = number(at, 1.0, 500.0);
-               if (count != std::floor(count)) fault(at, "expected a whole number");
-               event.count = static_cast<int>(count);
-             }},
+           {{"count", [&](const YAML::Node& at) { event.count = whole(at, 500.0); }},
             {"at", [&](const YAML::Node& at) { event.at = point(at); }},
             {"formation",
              [&](const YAML::Node& at) {
@@ -228,6 +226,27 @@ class EventReader {
              }},
             {"for", into(event.duration, 0.1, kLongest)}},
            {"count"});
+    return event;
+  }
+  [[nodiscard]] int whole(const YAML::Node& at, double most) const {
+    const double count = number(at, 1.0, most);
+    if (count != std::floor(count)) fault(at, "expected a whole number");
+    return static_cast<int>(count);
+  }
+  [[nodiscard]] Escort escort(const YAML::Node& node) const {
+    Escort event;
+    fields(node,
+           {{"count", [&](const YAML::Node& at) { event.count = whole(at, 100.0); }},
+            {"near", into(event.near, 0.1, 5.0)},
+            {"far", into(event.far, 0.1, 5.0)},
+            {"for", into(event.duration, 0.0, kLongest)}},
+           {"count"});
+    if (event.far < event.near) fault(node, "'far' must not be less than 'near'");
+    return event;
+  }
+  [[nodiscard]] Steering steering(const YAML::Node& node) const {
+    Steering event;
+    fields(node, {{"speed", into(event.speed, 0.05, 1.7)}, {"for", into(event.duration, 0.0, kLongest)}}, {});
     return event;
   }
   [[nodiscard]] Wish wish(const YAML::Node& node) const {

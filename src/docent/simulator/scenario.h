@@ -55,6 +55,17 @@ struct Visitors {
   bool has_heading = false;
   double duration = 60.0;  ///< [s] they stand there
 };
+/// People who walk along with the robot all round it, but not before it.
+struct Escort {
+  int count = 1;
+  double near = 0.4, far = 1.6;  ///< [m] between the outlines
+  double duration = 0.0;         ///< [s]; 0: to the end
+};
+/// Someone walks the robot through the museum by hand: its own commands do nothing meanwhile.
+struct Steering {
+  double speed = 0.5;     ///< [m/s]
+  double duration = 0.0;  ///< [s]; 0: to the end
+};
 struct Wish {
   std::string kind = "exhibit";  ///< exhibit or tour
   std::string target;
@@ -69,7 +80,7 @@ struct Kill {
 
 struct ScenarioEvent {
   double at = 0.0;  ///< [s] since the start
-  std::variant<Kidnap, SensorFault, Stool, ClosedPassage, PoseError, Visitors, Wish, Kill> what;
+  std::variant<Kidnap, SensorFault, Stool, ClosedPassage, PoseError, Visitors, Escort, Steering, Wish, Kill> what;
 };
 
 /// Timed events over a run (architecture 10.2), by rising time; equal times keep the file's order.
@@ -78,7 +89,7 @@ struct Scenario {
 };
 
 /// Reads `events:`, a list of `{at: SECONDS, KIND: {...}}` with KIND one of kidnap, fault, stool, closed, pose_error,
-/// visitors, request, kill. Error: "FILE:LINE: ...".
+/// visitors, escort, steering, request, kill. Error: "FILE:LINE: ...".
 [[nodiscard]] Result<Scenario> load_scenario(const std::filesystem::path& path);
 [[nodiscard]] Result<Scenario> parse_scenario(const std::string& text, const std::string& name);
 

@@ -14,6 +14,7 @@
 #include "docent/simulator/instruments.h"
 #include "docent/simulator/obstacles.h"
 #include "docent/simulator/start_pose.h"
+#include "docent/simulator/steersman.h"
 #include "docent/simulator/visitors.h"
 
 namespace docent::simulator {
@@ -74,7 +75,9 @@ class SimulatedMuseum::Impl {
     tell(run_infos_, std::move(info));
   }
 
-  void command(const geometry_msgs::Twist& twist) { body_.command(bus_.now(), twist.linear.x, twist.angular.z); }
+  void command(const geometry_msgs::Twist& twist) {
+    if (!steersman_) body_.command(bus_.now(), twist.linear.x, twist.angular.z);
+  }
   void hear_horn() { crowd_.hear_horn(run_seconds()); }
   void hear_speech(const docent_msgs::SpeechState& speech) {
     if (speech.state != "speaking") return crowd_.hear_speech(-1.0);
@@ -136,6 +139,7 @@ class SimulatedMuseum::Impl {
 
   void step() {
     play_scenario();
+    if (steersman_ && every(10)) steer();
     const Pose2 before = body_.pose();
     body_.step(time_, kStep, !battery_.is_empty());
     if (has_fallen_) body_.carry_to(before);
@@ -148,6 +152,12 @@ class SimulatedMuseum::Impl {
                             std::abs(body_.linear()) < 0.01;
     battery_.step(kStep, body_.linear(), at_charger);
     publish();
+  }
+
+  void steer() {
+    if (steered_until_ > 0.0 && run_seconds() >= steered_until_) return steersman_.reset();
+    const auto command = steersman_->steer(run_seconds(), body_.pose(), body_.params().radius, people_, crowd_.floor());
+    body_.command(time_, command.linear, command.angular);
   }
 
   /// Contacts of the disc with solids and people; pushes both apart.
@@ -344,6 +354,16 @@ class SimulatedMuseum::Impl {
     crowd_.add_standing(places, run_seconds() + event.duration);
     offer("visitors", std::to_string(event.count));
   }
+  void play(const Escort& event) {
+    const double until = event.duration > 0.0 ? run_seconds() + event.duration : 1e9;
+    crowd_.add_escort(event.count, event.near, event.far, run_seconds(), until);
+    offer("escort", std::to_string(event.count));
+  }
+  void play(const Steering& event) {
+    steersman_.emplace(world_, event.speed, rng_.stream("steersman"));
+    steered_until_ = event.duration > 0.0 ? run_seconds() + event.duration : 0.0;
+    offer("steering", "");
+  }
   void play(const Wish& event) { visitors_.ask(time_, event); }
   void play(const PoseError&) { offer("pose_error", ""); }       // the application applies it
   void play(const Kill& event) { offer("kill", event.module); }  // likewise
@@ -374,6 +394,8 @@ class SimulatedMuseum::Impl {
   std::uint64_t steps_ = 0;
   double distance_ = 0.0;
   bool has_fallen_ = false;
+  std::optional<Steersman> steersman_;
+  double steered_until_ = 0.0;  ///< [s] run time; 0: to the end
   std::size_t next_event_ = 0;
   std::vector<Temporary> temporary_;
   std::vector<Disc> people_;

@@ -31,7 +31,8 @@ RangeTable make_table(const OccupancyGrid& map, const MarkovLocalizerParams& par
 }  // namespace
 
 Result<void> MarkovLocalizerParams::validate() const {
-  for (const auto& valid : {states.validate(), sensor.validate(), motion.validate(), verdict.validate()})
+  for (const auto& valid :
+       {states.validate(), sensor.validate(), motion.validate(), verdict.validate(), refiner.validate()})
     if (!valid) return valid;
   if (!(beams >= 4 && beams <= 360)) return fail("beams must be 4..360");
   if (!(independent_beams > 0.0 && independent_beams <= beams))
@@ -64,6 +65,7 @@ MarkovLocalizer::MarkovLocalizer(const OccupancyGrid& map, const MarkovLocalizer
       model_{params.sensor, table_.frequency()},
       belief_{space_, params.sea_threshold},
       verdict_{params.verdict},
+      refiner_{params.refiner},
       rng_{Rng{seed}.stream("localize")} {
   start_unknown();
 }
@@ -73,6 +75,7 @@ void MarkovLocalizer::start_unknown() {
   started_ = false;
   last_work_ = 0.0;
   verdict_.reset();
+  refiner_.reset();
   summarise_now();
 }
 
@@ -86,6 +89,7 @@ void MarkovLocalizer::start_at(std::span<const BeliefMode> modes, const Pose2& o
   last_update_ = time;
   last_work_ = 0.0;
   verdict_.assume_localized();
+  refiner_.reset();
   summarise_now();
 }
 
@@ -155,6 +159,12 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   step.beams_filtered = choice.filtered;
 
   summarise_now();
+  if (!summary_.modes.empty()) {
+    const MotionNoise noise = motion_noise(params_.motion, before_from_after);
+    BeliefMode& best = summary_.modes.front();
+    best.map_from_robot = refiner_.refine(best, sweep, before_from_after, noise.position_variance,
+                                          noise.heading_variance, caster_, params_.sensor.max_range);
+  }
   step.fit = fit(seen, choice.used);
   choice.evidence.weight = step.weight;
   choice.evidence.way = way;

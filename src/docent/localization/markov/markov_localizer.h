@@ -8,6 +8,7 @@
 #include "docent/base/random.h"
 #include "docent/base/time.h"
 #include "docent/localization/belief/localizer.h"
+#include "docent/localization/belief/pose_refiner.h"
 #include "docent/localization/markov/beam_filter.h"
 #include "docent/localization/markov/position_belief.h"
 #include "docent/motion_models/odometry_model.h"
@@ -20,6 +21,7 @@ struct MarkovLocalizerParams {
   ProximityModelParams sensor;
   OdometryModelParams motion;
   VerdictParams verdict;
+  PoseRefinerParams refiner;
   int beams = 60;                      ///< at most, per update
   double independent_beams = 12.0;     ///< what so many correlated beams are worth
   double independent_beams_far = 3.5;  ///< and, once the robot is sure of a place, between it and others
@@ -44,6 +46,7 @@ struct MarkovLocalizerParams {
     v("sensor", sensor);
     v("motion", motion);
     v("verdict", verdict);
+    v("refiner", refiner);
     v("beams", beams);
     v("independent_beams", independent_beams);
     v("independent_beams_far", independent_beams_far);
@@ -114,6 +117,7 @@ class MarkovLocalizer final : public Localizer {
   ProximityModel model_;
   PositionBelief belief_;
   Verdict verdict_;
+  PoseRefiner refiner_;
   Rng rng_;
   /// The belief is over a frame that goes along with the robot in whole cells and never turns, as odometry sees it:
   /// what odometry knows well need not be blurred by the grid. Between the two lie some centimetres and the robot's

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "docent/simulator/crowd/crowd.h"
 
@@ -75,6 +76,8 @@ Point2 Crowd::desired_velocity(Person& person, const Sight& sight, double now) {
         return {};
       }
       return stepping_aside(person, sight);
+    case Activity::escort:
+      return escorting(person, now);
     case Activity::stand:
       if (now >= person.until) return_to_strolling(person, now, true);
       return {};
@@ -215,6 +218,37 @@ Point2 Crowd::standing_in_the_way(Person& person, const Sight& sight, double now
     return {};
   }
   return *walk;
+}
+
+Point2 Crowd::escorting(Person& person, double now) {
+  if (now >= person.until) {
+    return_to_strolling(person, now, true);
+    return {};
+  }
+  // Their place in the ring; where a wall is, the next one towards the robot's back.
+  const double ring = robot_.radius + person.radius + person.keeps_distance;
+  const double to_back = person.slot < std::numbers::pi ? 1.0 : -1.0;
+  for (double fold = 0.0; fold < 2.4; fold += 0.4) {
+    const double slot = person.slot + to_back * fold;
+    if (fold > 0.0 && (slot - std::numbers::pi) * to_back > 0.4) break;
+    const Point2 place = robot_.position + ring * unit(Angle::radians(robot_.heading + slot));
+    if (floor_.clearance(place) < 0.25 || !floor_.is_clear(robot_.position, place, 0.0)) continue;
+    if (!floor_.is_clear(person.position, place, 0.1)) continue;
+    const Point2 arm = place - robot_.position;
+    const Point2 carried = robot_.velocity + robot_.turn_rate * Point2{-arm.y, arm.x};
+    const Point2 wanted = carried + 1.5 * (place - person.position);
+    const double speed = norm(wanted);
+    constexpr double kFastest = 1.7;  // [m/s]
+    if (speed < 0.08) return {};
+    return speed > kFastest ? (kFastest / speed) * wanted : wanted;
+  }
+  if (now - robot_field_at_ > 1.5 || robot_field_.cost.empty()) {
+    robot_field_ = floor_.field_to(robot_.position, 0.8);
+    robot_field_at_ = now;
+  }
+  if (distance(person.position, robot_.position) < ring + 0.2) return {};
+  const auto way = floor_.direction(robot_field_, person.position, person.radius);
+  return way ? std::max(1.2, person.preferred_speed) * *way : Point2{};
 }
 
 Point2 Crowd::pushing(Person& person, const Sight& sight) const {

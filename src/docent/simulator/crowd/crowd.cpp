@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace docent::simulator {
 namespace {
@@ -108,6 +109,28 @@ void Crowd::add_standing(std::span<const Point2> places, double until) {
     person.position = person.goal = person.progress_from = place;
     person.until = until;
     person.leaves_at = until + rng_.uniform(5.0, 60.0);
+    people_.push_back(person);
+  }
+}
+
+void Crowd::add_escort(int count, double near, double far, double now, double until) {
+  constexpr double kOpenAhead = 0.75;  // [rad] to each side
+  for (int i = 0; i < count; ++i) {
+    Person person = new_person(now);
+    person.is_extra = true;
+    person.activity = Activity::escort;
+    const double share = (i + rng_.uniform(0.3, 0.7)) / count;
+    person.slot = kOpenAhead + share * 2.0 * (std::numbers::pi - kOpenAhead);
+    person.keeps_distance = rng_.uniform(near, far);
+    person.preferred_speed = std::max(person.preferred_speed, 1.0);
+    person.until = until;
+    person.leaves_at = until + rng_.uniform(5.0, 60.0);
+    person.attention_until = 1e9;  // they came for the robot
+    const Angle bearing = Angle::radians(robot_.heading + person.slot);
+    person.position = robot_.position + (robot_.radius + person.radius + person.keeps_distance) * unit(bearing);
+    if (floor_.clearance(person.position) < 0.26 || !floor_.is_clear(robot_.position, person.position, 0.0))
+      place_anywhere(person, robot_, true);
+    person.progress_from = person.position;
     people_.push_back(person);
   }
 }

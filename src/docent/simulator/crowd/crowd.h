@@ -35,6 +35,9 @@ class Crowd {
   void hear_speech(double until) { speech_until_ = until; }
   /// Puts people where a scenario wants them; they stay until `until` [s], then behave as the others and leave.
   void add_standing(std::span<const Point2> places, double until);
+  /// People come and walk along with the robot until `until` [s], as near as `near` and as far as `far` [m] between the
+  /// outlines, all round it but ahead; then they behave as the others and leave.
+  void add_escort(int count, double near, double far, double now, double until);
   /// Something was put up or taken away.
   void change_world(const World& world);
 
@@ -79,6 +82,7 @@ class Crowd {
   [[nodiscard]] Point2 leaving(Person& person, double now);
   [[nodiscard]] Point2 keeping_company(Person& person, const Sight& sight, double now);
   [[nodiscard]] Point2 standing_in_the_way(Person& person, const Sight& sight, double now);
+  [[nodiscard]] Point2 escorting(Person& person, double now);
   [[nodiscard]] Point2 pushing(Person& person, const Sight& sight) const;
   [[nodiscard]] Point2 stepping_aside(const Person& person, const Sight& sight) const;
   [[nodiscard]] std::optional<Point2> walk_to(const Person& person, Point2 goal, double speed) const;

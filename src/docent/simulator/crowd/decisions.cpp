@@ -81,7 +81,7 @@ void Crowd::decide(std::size_t index, double now) {
     person.progress_at = now;
     if (person.activity == Activity::stroll)
       next_attraction(person, now);
-    else if (person.activity != Activity::leave)
+    else if (person.activity != Activity::leave && person.activity != Activity::escort)
       return_to_strolling(person, now, false);
     desired = rng_.uniform(0.3, 0.8) * unit(Angle::radians(rng_.uniform(-3.14, 3.14)));
   }
@@ -109,7 +109,8 @@ void Crowd::decide(std::size_t index, double now) {
     minds_robot = time && *time < params_.inattentive_notices;
   }
   if (minds_robot) {
-    const bool keeps_close = person.activity == Activity::follow || person.activity == Activity::listen;
+    const bool keeps_close = person.activity == Activity::follow || person.activity == Activity::listen ||
+                             person.activity == Activity::escort;
     const double space = person.activity == Activity::run ? 0.15 : keeps_close ? 0.25 : 0.35;
     neighbours[count++] = {sight.offset, robot_.velocity, robot_.radius + person.radius + space, 2.0};
   }

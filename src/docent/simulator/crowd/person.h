@@ -21,6 +21,7 @@ enum class Activity {
   step_aside,  ///< out of its way, after the horn
   leave,       ///< to the entrance
   stand,       ///< where a scenario put them
+  escort,      ///< walks along with the robot in a ring that is open ahead
 };
 
 /// One visitor. Positions in the world frame, metres and seconds.
@@ -43,6 +44,7 @@ struct Person {
   bool has_arrived = false;     ///< for those who stand in the way: reached the goal
   int attraction = -1;          ///< index in the world's list
   double side = 1.0;            ///< +1 left, -1 right of the robot
+  double slot = 0.0;            ///< [rad] for the escort: place in the ring, from the robot's heading
   double keeps_distance = 1.0;  ///< [m] to the robot's outline, for followers and listeners
 
   double leaves_at = 0.0;

@@ -1,0 +1,139 @@
+#include "docent/localization/belief/pose_refiner.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace docent {
+namespace {
+
+constexpr double kUnknownAllowance = 0.3;  // [m]
+constexpr std::size_t kMostBeams = 120;
+constexpr std::size_t kFewestBeams = 10;
+constexpr double kWidestMode = 0.5;  // [m] standard deviation; wider ones have no inside to speak of
+
+/// A piece of wall: where a ray meets it, and its normal.
+struct Wall {
+  Point2 at;      ///< [m] map
+  Point2 normal;  ///< unit
+};
+
+/// The wall that a ray from `from` meets. Its direction comes from two rays beside it, some 20 cm apart on the wall;
+/// none where the three do not lie on a line.
+std::optional<Wall> wall_at(const RayCaster& caster, Point2 from, Angle direction, double max_range) {
+  const double behind = 0.5 * caster.frame().resolution;
+  const auto hit = [&](Angle at) -> std::optional<Point2> {
+    const auto range = caster.cast(from, unit(at), max_range, kUnknownAllowance);
+    if (!range || *range >= max_range) return std::nullopt;
+    return from + (*range + behind) * unit(at);
+  };
+  const auto middle = hit(direction);
+  if (!middle) return std::nullopt;
+  const Angle aside = Angle::radians(std::clamp(0.2 / std::max(distance(from, *middle), 0.1), 0.02, 0.12));
+  const auto left = hit(direction + aside);
+  const auto right = hit(direction - aside);
+  if (!left || !right) return std::nullopt;
+  const Point2 along = *left - *right;
+  const double length = norm(along);
+  if (length < 0.05 || length > 1.5) return std::nullopt;
+  const Point2 normal = (1.0 / length) * Point2{-along.y, along.x};
+  const Point2 centre = (1.0 / 3.0) * (*left + *middle + *right);  // averages the map's steps
+  if (std::abs(dot(normal, *middle - *left)) > 0.06) return std::nullopt;
+  return Wall{centre, normal};
+}
+
+Eigen::Matrix3d matrix(const std::array<double, 9>& values) {
+  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(values.data());
+}
+
+}  // namespace
+
+Result<void> PoseRefinerParams::validate() const {
+  if (!(gate > 0.0 && beam_sigma > 0.0)) return fail("refiner.gate and beam_sigma must be > 0");
+  if (!(independent_beams > 0.0)) return fail("refiner.independent_beams must be > 0");
+  if (!(farthest > 0.0 && farthest_turn > 0.0)) return fail("refiner.farthest and farthest_turn must be > 0");
+  return {};
+}
+
+bool PoseRefiner::is_in(const BeliefMode& mode) const {
+  const Pose2& pose = estimate_->map_from_robot;
+  return distance(pose.position(), mode.map_from_robot.position()) <= params_.farthest &&
+         std::abs((pose.theta - mode.map_from_robot.theta).degrees()) <= params_.farthest_turn;
+}
+
+Pose2 PoseRefiner::refine(const BeliefMode& mode, const RangeSweep& sweep, const Pose2& before_from_after,
+                          double position_variance, double heading_variance, const RayCaster& caster,
+                          double max_range) {
+  if (!params_.enabled || mode.covariance[0] + mode.covariance[4] > kWidestMode * kWidestMode) {
+    estimate_.reset();
+    return mode.map_from_robot;
+  }
+  Eigen::Matrix3d prior = Eigen::Matrix3d::Zero();
+  if (estimate_) {
+    const Pose2 before = estimate_->map_from_robot;
+    estimate_->map_from_robot = before * before_from_after;
+    Eigen::Matrix3d moved = Eigen::Matrix3d::Identity();
+    moved(0, 2) = -(estimate_->map_from_robot.y - before.y);
+    moved(1, 2) = estimate_->map_from_robot.x - before.x;
+    prior = moved * matrix(estimate_->covariance) * moved.transpose();
+    prior.diagonal() += Eigen::Vector3d{position_variance, position_variance, heading_variance};
+    prior.diagonal().array() += 1e-8;
+  }
+  if (!estimate_ || !is_in(mode)) {
+    estimate_ = Estimate{mode.map_from_robot, mode.covariance};
+    prior = matrix(mode.covariance);
+    prior.diagonal() += Eigen::Vector3d{0.003, 0.003, 0.0005};
+  }
+
+  const Pose2 predicted = estimate_->map_from_robot;
+  const Eigen::Matrix3d prior_information = prior.inverse();
+  Pose2 pose = predicted;
+  Eigen::Matrix3d information = prior_information;
+  const std::size_t step = std::max<std::size_t>(1, sweep.beams.size() / kMostBeams);
+  for (int iteration = 0; iteration < 3; ++iteration) {
+    Eigen::Matrix3d wall_information = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d pull = Eigen::Vector3d::Zero();
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < sweep.beams.size(); i += step) {
+      const SweepBeam& beam = sweep.beams[i];
+      if (beam.no_return || beam.range >= max_range || beam.range < 0.3) continue;
+      const auto wall = wall_at(caster, pose.position(), pose.theta + Angle::radians(beam.bearing), max_range);
+      if (!wall) continue;
+      const Point2 end = pose * endpoint(beam);
+      const double residual = dot(wall->normal, end - wall->at);
+      if (std::abs(residual) > params_.gate || distance(end, wall->at) > 3.0 * params_.gate) continue;
+      const Point2 arm = end - pose.position();
+      const Eigen::Vector3d gradient{wall->normal.x, wall->normal.y, dot(wall->normal, Point2{-arm.y, arm.x})};
+      // Cauchy: what lies far off counts little.
+      const double scaled = residual / (2.0 * params_.beam_sigma);
+      const double weight = 1.0 / (1.0 + scaled * scaled);
+      wall_information += weight * gradient * gradient.transpose();
+      pull -= weight * residual * gradient;
+      ++count;
+    }
+    if (count < kFewestBeams) {
+      pose = predicted;
+      information = prior_information;
+      break;
+    }
+    const double share = std::min(1.0, params_.independent_beams / static_cast<double>(count)) /
+                         (params_.beam_sigma * params_.beam_sigma);
+    information = prior_information + share * wall_information;
+    const Eigen::Vector3d off{pose.x - predicted.x, pose.y - predicted.y, (pose.theta - predicted.theta).radians()};
+    const Eigen::Vector3d change = information.ldlt().solve(share * pull - prior_information * off);
+    pose = {pose.x + change[0], pose.y + change[1], pose.theta + Angle::radians(change[2])};
+    if (change.head<2>().norm() < 0.001 && std::abs(change[2]) < 0.0005) break;
+  }
+  estimate_->map_from_robot = pose;
+  const Eigen::Matrix3d covariance = information.inverse();
+  for (std::size_t i = 0; i < 9; ++i)
+    estimate_->covariance[i] = covariance(static_cast<Eigen::Index>(i / 3), static_cast<Eigen::Index>(i % 3));
+  if (!is_in(mode)) {
+    estimate_.reset();
+    return mode.map_from_robot;
+  }
+  return pose;
+}
+
+}  // namespace docent

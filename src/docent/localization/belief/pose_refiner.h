@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "docent/base/result.h"
+#include "docent/geometry/pose2.h"
+#include "docent/localization/belief/belief_summary.h"
+#include "docent/sensor_models/range_sweep.h"
+#include "docent/sensor_models/ray_caster.h"
+
+namespace docent {
+
+struct PoseRefinerParams {
+  bool enabled = true;
+  double gate = 0.25;             ///< [m], > 0: readings farther from the wall they should meet are of something else
+  double beam_sigma = 0.05;       ///< [m], > 0: sensor and map together
+  double independent_beams = 12;  ///< > 0: what all beams of a sweep are worth; their errors hang together
+  double farthest = 0.35;         ///< [m], > 0, from the belief's own mean, and
+  double farthest_turn = 8.0;     ///< [deg]; beyond it the belief is right and the refined pose starts again
+  template <class V>
+  void visit(V& v) {
+    v("enabled", enabled);
+    v("gate", gate);
+    v("beam_sigma", beam_sigma);
+    v("independent_beams", independent_beams);
+    v("farthest", farthest);
+    v("farthest_turn", farthest_turn);
+  }
+  [[nodiscard]] Result<void> validate() const;
+};
+
+/// Where inside the best mode the robot is: finer than cells or bins. Follows the pose by odometry and corrects it by
+/// the distances of the readings to the walls that they should meet (an extended Kalman filter, Gauss-Newton over
+/// point-to-line distances). Which mode is right remains the belief's business: the refined pose never leaves it.
+class PoseRefiner {
+ public:
+  explicit PoseRefiner(const PoseRefinerParams& params) : params_{params} {}
+
+  void reset() { estimate_.reset(); }
+
+  /// `mode`: the belief's best one now. `before_from_after`: odometry since the last call, with the given error.
+  /// @returns map_from_robot; of the mode itself where it is too wide to be refined. O(beams).
+  [[nodiscard]] Pose2 refine(const BeliefMode& mode, const RangeSweep& sweep, const Pose2& before_from_after,
+                             double position_variance, double heading_variance, const RayCaster& caster,
+                             double max_range);
+
+ private:
+  struct Estimate {
+    Pose2 map_from_robot;
+    std::array<double, 9> covariance{};
+  };
+  [[nodiscard]] bool is_in(const BeliefMode& mode) const;
+
+  PoseRefinerParams params_;
+  std::optional<Estimate> estimate_;
+};
+
+}  // namespace docent
