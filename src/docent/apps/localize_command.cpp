@@ -206,8 +206,8 @@ void add_localize_command(CLI::App& app) {
       ->add_option("--log", options->log, "CARMEN text log (plain or .gz), MCAP recording, rosbag2 folder or database")
       ->required();
   command->add_option("--method", options->method, "grid")->check(CLI::IsMember({"grid"}))->capture_default_str();
-  command->add_option("--filter", options->filter, "none, entropy, distance")
-      ->check(CLI::IsMember({"none", "entropy", "distance"}))
+  command->add_option("--filter", options->filter, "none, entropy, distance, novelty")
+      ->check(CLI::IsMember({"none", "entropy", "distance", "novelty"}))
       ->capture_default_str();
   command
       ->add_option("--start", options->start,

@@ -425,5 +425,25 @@ TEST(SimulatedMuseum, MayBeDestroyedWhileTheBusGoesOn) {
   EXPECT_EQ(bench.counts["scan_front"], scans);
 }
 
+TEST(SimulatedMuseum, IsWalkedByHandAmidAnEscortWithoutTouchingAnything) {
+  const auto walk = [](int escort) {
+    SimulationOptions of_walk = options("empty", Pose2{3.0, 3.0, Angle{}}, 4);
+    of_walk.scenario.events.push_back({0.0, Steering{0.5, 0.0}});
+    if (escort > 0) of_walk.scenario.events.push_back({0.0, Escort{escort, 0.4, 1.2, 0.0}});
+    Bench bench{std::move(of_walk)};
+    double blocked = 0.0;
+    constexpr int kSeconds = 180;
+    for (int i = 0; i < kSeconds; ++i) {
+      bench.drive(0.0, 0.0, 1.0);  // the robot's own commands do nothing
+      blocked += bench.state.blocked_beams / kSeconds;
+    }
+    EXPECT_TRUE(bench.contacts.empty()) << bench.contacts.size() << " contacts with an escort of " << escort;
+    EXPECT_GT(bench.state.distance_m, 45.0) << "with an escort of " << escort;
+    return blocked;
+  };
+  EXPECT_EQ(walk(0), 0.0);
+  EXPECT_GT(walk(14), 0.35);
+}
+
 }  // namespace
 }  // namespace docent::simulator

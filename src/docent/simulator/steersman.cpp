@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kArrived = 0.6;      // [m]
 constexpr double kPatience = 6.0;     // [s] without getting anywhere, then another goal
-constexpr double kTurn = 1.0;         // [rad/s] at most
+constexpr double kTurn = 0.7;         // [rad/s] at most
 constexpr double kClearOfWall = 0.1;  // [m] between the outline and what stands there
 
 }  // namespace

@@ -66,7 +66,8 @@ Result<BeamFilter> beam_filter_of(const std::string& name) {
   if (name == "none") return BeamFilter::none;
   if (name == "entropy") return BeamFilter::entropy;
   if (name == "distance") return BeamFilter::distance;
-  return fail("filter must be none, entropy or distance, not '" + name + "'");
+  if (name == "novelty") return BeamFilter::novelty;
+  return fail("filter must be none, entropy, distance or novelty, not '" + name + "'");
 }
 
 Agreement agreement(const ExpectedRanges& expected, const ProximityModel& model, int direction, int measured,

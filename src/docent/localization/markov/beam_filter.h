@@ -43,7 +43,10 @@ class ExpectedRanges {
   double entropy_ = 0.0;         ///< [nat] of the list
 };
 
-enum class BeamFilter { none, entropy, distance };
+/// none; entropy: [Rhino1999] 3.1.6, any sensor; distance: [Markov1998] 3.3, proximity sensors; novelty: the entropy
+/// filter, but only readings that are shorter than expected are rejected (our reading of the filter that [Rhino1999] 9
+/// announces): a surprise that people cannot have made is kept.
+enum class BeamFilter { none, entropy, distance, novelty };
 [[nodiscard]] Result<BeamFilter> beam_filter_of(const std::string& name);
 
 /// How a reading compares with what the belief expects: the mass of the states for which it is what the map says,

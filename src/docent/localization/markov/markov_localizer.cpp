@@ -12,6 +12,7 @@ namespace docent {
 namespace {
 
 constexpr double kLikelyFraction = 1e-3;   // of the peak: states that the filters ask
+constexpr double kMayBeShort = 0.5;        // novelty filter: more likely too short than not
 constexpr std::size_t kMostLikely = 6000;  // more, and the belief is too wide for filters
 constexpr double kRadians = std::numbers::pi / 180.0;
 
@@ -224,10 +225,12 @@ MarkovLocalizer::Choice MarkovLocalizer::choose_beams(const RangeSweep& sweep, c
     choice.evidence.agrees += found.agrees;
     choice.evidence.shorter += found.shorter;
     choice.evidence.longer += found.longer;
-    const bool is_short = expected.shorter(beam.direction, model_.shorter_probabilities(bin)) > params_.filter_sureness;
-    const bool filtered =
-        (filter_ == BeamFilter::distance && is_short) ||
-        (filter_ == BeamFilter::entropy && expected.entropy_gain(beam.direction, model_.log_probabilities(bin)) < 0.0);
+    const double shorter = expected.shorter(beam.direction, model_.shorter_probabilities(bin));
+    const bool is_short = shorter > params_.filter_sureness;
+    const bool asks_entropy =
+        filter_ == BeamFilter::entropy || (filter_ == BeamFilter::novelty && shorter > kMayBeShort);
+    const bool filtered = (filter_ == BeamFilter::distance && is_short) ||
+                          (asks_entropy && expected.entropy_gain(beam.direction, model_.log_probabilities(bin)) < 0.0);
     choice.filtered += filtered ? 1 : 0;
     if (!filtered || rng_.chance(params_.unfiltered_share)) choice.used.push_back(beam);
   }

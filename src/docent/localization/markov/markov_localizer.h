@@ -27,7 +27,7 @@ struct MarkovLocalizerParams {
   double independent_beams_far = 3.5;  ///< and, once the robot is sure of a place, between it and others
   int sectors = 12;                    ///< of a turn: one thing that the map does not know hides the beams of a sector
   double most_sector_nats = 5.0;       ///< [nat] that a sector's beams count at most together
-  std::string filter = "distance";     ///< none, entropy, distance
+  std::string filter = "distance";     ///< none, entropy, distance, novelty
   double filter_sureness = 0.99;       ///< theta of [Markov1998] 3.3
   double unfiltered_share = 0.1;       ///< of the filtered beams, chosen at random, counts anyway: for recovery
   double sea_threshold = 0.001;        ///< of the a priori probability

@@ -1,0 +1,297 @@
+"""Localization held against the truth: recordings of a robot that is walked by hand through the simulated museums,
+replayed open-loop through every method and filter; and the whole robot, carried off in the middle of its tours.
+
+What the robot knows while a recording is made decides nothing in it, so that every method sees the same.
+"""
+import concurrent.futures
+import csv
+import hashlib
+import json
+import math
+import os
+import random
+import subprocess
+import sys
+import time
+
+LOST_M, LOST_DEG = 0.5, 20.0
+CROWDS = {  # name: crowd, people in the escort, bounds: lost share, mean error [m]
+    "empty": ("empty", None, 0.0, 0.03),
+    "escort of 8": ("quiet", (8, 0.5, 1.4), 0.0, 0.04),
+    "escort of 20": ("quiet", (20, 0.4, 1.4), 0.01, 0.06),
+}
+FILTERS = ["none", "entropy", "distance", "novelty"]
+METHODS = ["grid", "particles"]
+DEFAULT = ("grid", "distance")
+
+
+def scenario(path, escort, kidnaps=()):
+    events = ["  - {at: 0, steering: {speed: 0.5}}"]
+    if escort:
+        count, near, far = escort
+        events.append(f"  - {{at: 0, escort: {{count: {count}, near: {near}, far: {far}}}}}")
+    events += [f"  - {{at: {at:.1f}, kidnap: }}" for at in kidnaps]
+    path.write_text("events:\n" + "\n".join(events) + "\n")
+
+
+class Bench:
+    """Recordings and claims, kept under a key of everything that decides them."""
+
+    def __init__(self, docent, cache, source_key, museums, jobs):
+        self.docent, self.cache, self.museums, self.jobs = docent, cache / "localization", museums, jobs
+        self.keys = {museum: source_key(museums / museum) for museum in ("bonn", "smithsonian")}
+        self.cache.mkdir(parents=True, exist_ok=True)
+
+    def path(self, museum, kind, what):
+        key = hashlib.sha256(json.dumps([self.keys[museum], kind, what]).encode()).hexdigest()[:20]
+        return self.cache / f"{museum}-{key}.{kind}"
+
+    def run(self, command):
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            raise RuntimeError(f"{' '.join(map(str, command[:4]))} exited {done.returncode}: {done.stderr.strip()[-400:]}")
+
+    def claims(self, museum, seed, minutes, crowd, escort, kidnaps, settings, method=None):
+        """Rows of what the robot said beside the truth: one recording, one configuration. The recording itself goes
+        when all its replays are made, see `forget`."""
+        what = [seed, minutes, crowd, escort, list(kidnaps)]
+        claims = self.path(museum, "csv", what + [settings])
+        if not claims.exists():
+            record = self.path(museum, "mcap", what)
+            if not record.exists():
+                part = record.with_suffix(f".part{os.getpid()}-{seed}.yaml")
+                scenario(part, escort, kidnaps)
+                made = record.with_suffix(f".part{os.getpid()}-{seed}.mcap")
+                self.run([self.docent, "simulate", "--museum", self.museums / museum, "--hours", f"{minutes / 60:.6f}",
+                          "--seed", str(seed), "--crowd", crowd, "--scenario", part, "--world-only", "--record", made,
+                          "--quiet"])
+                made.rename(record)
+                part.unlink()
+            made = claims.with_suffix(f".part{os.getpid()}")
+            command = [self.docent, "replay", record, "--museum", self.museums / museum, "--modules", "localize",
+                       "--claims", made]
+            for setting in settings:
+                command += ["--set", setting]
+            self.run(command)
+            made.rename(claims)
+        with open(claims, newline="", encoding="ascii") as file:
+            return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+    def forget(self, museum, seed, minutes, crowd, escort, kidnaps):
+        self.path(museum, "mcap", [seed, minutes, crowd, escort, list(kidnaps)]).unlink(missing_ok=True)
+
+    def each(self, jobs):
+        """Runs functions beside each other, their results in order, with a word now and then."""
+        results = []
+        started = time.monotonic()
+        with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
+            for i, future in enumerate([pool.submit(job) for job in jobs]):
+                results.append(future.result())
+                if (i + 1) % 20 == 0:
+                    print(f"   {i + 1} of {len(jobs)}, {time.monotonic() - started:.0f} s", file=sys.stderr)
+        return results
+
+
+def error_m(row):
+    return math.hypot(row["x"] - row["true_x"], row["y"] - row["true_y"])
+
+
+def is_lost(row):
+    turned = abs((row["heading"] - row["true_heading"] + 180.0) % 360.0 - 180.0)
+    return row["has_pose"] == 0 or error_m(row) > LOST_M or turned > LOST_DEG
+
+
+def mean(values):
+    values = list(values)
+    return sum(values) / len(values) if values else float("nan")
+
+
+def settings_of(method, name=DEFAULT[1]):
+    if method == "grid":
+        return [f"localize.filter={name}"]
+    return [f"localize.method={method}", f"localize.particles={{filter: {name}}}"]
+
+
+def tracking(bench, verdict, print_table, seeds, minutes, museums, methods):
+    """Every method and filter over the same recordings, from the moment each first said that it knows."""
+    print(f"\n## tracking in a crowd: {len(seeds)} seeds x {minutes:g} minutes x {len(CROWDS)} crowds in {', '.join(museums)}\n")
+    rows = []
+    for crowd_name, (crowd, escort, most_lost, most_error) in CROWDS.items():
+        def one(museum, seed):
+            found = {}
+            for method in methods:
+                for name in FILTERS:
+                    claims = bench.claims(museum, seed, minutes, crowd, escort, [], settings_of(method, name))
+                    known = next((i for i, row in enumerate(claims) if row["localized"]), len(claims))
+                    found[method, name] = claims, claims[known:]
+            bench.forget(museum, seed, minutes, crowd, escort, [])
+            return found
+        runs = bench.each([lambda m=museum, s=seed: one(m, s) for museum in museums for seed in seeds])
+        claims = [row for run in runs for row in run[methods[0], FILTERS[0]][0]]
+        blocked = mean(row["blocked"] for row in claims)
+        moving = mean(abs(row["speed"]) > 0.02 or abs(row["true_heading"] - before["true_heading"]) > 0.3
+                      for before, row in zip(claims, claims[1:]))
+        km = sum(run[methods[0], FILTERS[0]][0][-1]["distance"] for run in runs) / 1000
+        verdict.want(f"{crowd_name}: moving at least 70 % of the time", f"{100 * moving:.0f} % in {km:.2f} km, "
+                     f"{100 * blocked:.0f} % of the beams blocked", moving >= 0.7)
+        for method in methods:
+            for name in FILTERS:
+                updates = [row for run in runs for row in run[method, name][1]]
+                never = sum(not run[method, name][1] for run in runs)
+                lost = mean(map(is_lost, updates))
+                errors = sorted(error_m(row) for row in updates if not is_lost(row))
+                of_runs = sorted(mean(error_m(row) for row in run[method, name][1] if not is_lost(row)) for run in runs
+                                 if run[method, name][1])
+                rows.append([crowd_name, f"{100 * blocked:.0f}", method, name, len(updates), never,
+                             f"{100 * lost:.2f}", f"{100 * mean(errors):.1f}",
+                             f"{100 * errors[int(0.95 * len(errors))]:.1f}" if errors else "-",
+                             f"{100 * of_runs[0]:.1f}-{100 * of_runs[-1]:.1f}" if of_runs else "-"])
+                if (method, name) == DEFAULT:
+                    verdict.want(f"{crowd_name}: lost, {method} with the {name} filter, at most {100 * most_lost:g} %",
+                                 f"{100 * lost:.2f} % of {len(updates)} updates, {never} never sure",
+                                 lost <= most_lost and never == 0)
+                    verdict.want(f"{crowd_name}: mean error at most {100 * most_error:g} cm",
+                                 f"{100 * mean(errors):.1f} cm", mean(errors) <= most_error)
+    print_table(["crowd", "blocked %", "method", "filter", "updates", "never sure", "lost %", "error cm", "95 % cm",
+                 "runs cm"], rows)
+
+
+def found_after(claims):
+    """Metres driven until the robot said where it is, was right, and stayed so for 10 s; None when it did not."""
+    since = None
+    for row in claims:
+        if row["localized"] and not is_lost(row):
+            since = since or row
+            if row["time"] - since["time"] >= 10.0:
+                return since["distance"], since["time"]
+        else:
+            since = None
+    return None
+
+
+def unknown_start(bench, verdict, print_table, count, museums, methods):
+    rows = []
+    print(f"\n## unknown start, {count} a museum\n")
+    for museum in museums:
+        for name, crowd, escort, least in (("empty", "empty", None, 0.95), ("eight people", "empty", (8, 0.5, 2.5), 0.85)):
+            for method in methods:
+                def one(seed):
+                    # Ten metres at half a metre a second, and what it takes to be sure that it lasts.
+                    return bench.claims(museum, seed, 1.2, crowd, escort, [], settings_of(method))
+                runs = bench.each([lambda s=1000 + seed: one(s) for seed in range(count)])
+                found = [found_after(run) for run in runs]
+                right = [f for f in found if f is not None and f[0] <= 10.0]
+                wrong = sum(any(row["localized"] and is_lost(row) for row in run) for run in runs)
+                share = len(right) / count
+                metres = sorted(f[0] for f in right)
+                seconds = sorted(f[1] for f in right)
+                scans = sorted(next((i for i, row in enumerate(run) if not is_lost(row)), len(run)) + 1 for run in runs)
+                rows.append([museum, name, method, count, f"{100 * share:.0f}",
+                             f"{metres[len(metres) // 2]:.1f}" if metres else "-",
+                             f"{seconds[len(seconds) // 2]:.0f}" if seconds else "-", scans[len(scans) // 2], wrong])
+                if method == DEFAULT[0]:
+                    verdict.want(f"{museum}, {name}: right within 10 m, at least {100 * least:.0f} %",
+                                 f"{100 * share:.0f} % of {count}", share >= least)
+    print_table(["museum", "people", "method", "starts", "right %", "median m", "median s", "median updates to the place",
+                 "sure and wrong"], rows)
+
+
+def brier(pairs):
+    return mean((p - lost) ** 2 for p, lost in pairs)
+
+
+def honesty_claims(bench, museums, count, method):
+    """Unknown starts, kidnaps and dense escorts: data in which many updates are lost."""
+    draw = random.Random(7)
+    jobs = []
+    for museum in museums:
+        for i in range(count):
+            escort = [None, (8, 0.5, 1.4), (20, 0.4, 1.4)][i % 3]
+            kidnaps = sorted(round(draw.uniform(20.0, 280.0), 1) for _ in range(6))
+            jobs.append(lambda m=museum, s=2000 + i, e=escort, k=kidnaps: bench.claims(
+                m, s, 5, "quiet" if e else "empty", e, k, settings_of(method)))
+    return bench.each(jobs)
+
+
+def honesty(bench, verdict, print_table, museums, count, method, plot=None):
+    print(f"\n## honest: P(lost) against what is true, {count} runs of 5 minutes with 6 kidnaps a museum, {method}\n")
+    runs = honesty_claims(bench, museums, count, method)
+    rows = [row for run in runs for row in run]
+    pairs = [(row["p_lost"], 1.0 if is_lost(row) else 0.0) for row in rows]
+    lost = mean(truth for _, truth in pairs)
+    sure = [truth for p, truth in pairs if p < 0.01]
+    wrong = mean(sure) if sure else 1.0
+    ordered = sorted(pairs)
+    table, worst, curve = [], 0.0, []
+    for i in range(10):
+        part = ordered[len(ordered) * i // 10:len(ordered) * (i + 1) // 10]
+        said, was = mean(p for p, _ in part), mean(t for _, t in part)
+        worst = max(worst, abs(said - was))
+        curve.append((said, was))
+        table.append([i + 1, len(part), f"{part[0][0]:.4f}-{part[-1][0]:.4f}", f"{said:.4f}", f"{was:.4f}",
+                      f"{abs(said - was):.3f}"])
+    print_table(["bin", "updates", "P(lost)", "mean P(lost)", "lost", "off"], table)
+    score = brier(pairs)
+    # The best that any threshold on the entropy can do: each side says the share of lost updates on that side.
+    by_entropy = sorted((row["entropy"], 1.0 if is_lost(row) else 0.0) for row in rows)
+    total, seen, best = sum(t for _, t in by_entropy), 0.0, 1.0
+    n = len(by_entropy)
+    for i, (_, truth) in enumerate(by_entropy[:-1]):
+        seen += truth
+        low, high = seen / (i + 1), (total - seen) / (n - i - 1)
+        best = min(best, ((i + 1) * low * (1 - low) + (n - i - 1) * high * (1 - high)) / n)
+    verdict.want("honest: 20 to 50 % of the updates are lost", f"{100 * lost:.0f} % of {n}", 0.2 <= lost <= 0.5)
+    verdict.want("honest: of the sure updates (P(lost) < 0.01) at most 0.5 % wrong",
+                 f"{100 * wrong:.2f} % of {len(sure)} ({100 * len(sure) / n:.0f} % of all)", bool(sure) and wrong <= 0.005)
+    verdict.want("honest: ten bins of equal mass, each within 0.1", f"worst {worst:.3f}", worst <= 0.1)
+    verdict.want("honest: Brier score better than any threshold on the entropy", f"{score:.4f} against {best:.4f}",
+                 score < best)
+    return curve
+
+
+def recovery(bench, verdict, print_table, museums, count, methods):
+    """The protocol of the 1999 journal version: someone carries the robot off every so often (0.005 a metre), turned by
+    about 180 degrees; it has recovered when it is within 45 cm for more than 10 s."""
+    print(f"\n## recovery protocol: {count} runs of 10 minutes a museum, a kidnap every 200 m on average and at least one\n")
+    rows = []
+    draw = random.Random(11)
+    plans = [[m, 3000 + i, sorted(round(draw.uniform(60.0, 500.0), 1) for _ in range(draw.choice([1, 1, 2])))]
+             for m in museums for i in range(count)]
+    for method in methods:
+        for name in FILTERS:
+            runs = bench.each([lambda m=m, s=s, k=k: bench.claims(m, s, 10, "quiet", (8, 0.5, 1.4), k, settings_of(method, name))
+                               for m, s, k in plans])
+            kidnaps, recovered, times = 0, 0, []
+            for run, (_, _, plan) in zip(runs, plans):
+                for n, at in enumerate(plan):
+                    end = plan[n + 1] if n + 1 < len(plan) else 600.0
+                    if end - at < 60.0:
+                        continue
+                    kidnaps += 1
+                    since = None
+                    for row in run:
+                        if not at + 0.5 <= row["time"] < end:
+                            continue
+                        good = row["has_pose"] and error_m(row) < 0.45
+                        since = (row["time"] if since is None else since) if good else None
+                        if since is not None and row["time"] - since > 10.0:
+                            recovered += 1
+                            times.append(since - at)
+                            break
+            times.sort()
+            rows.append([method, name, kidnaps, f"{100 * recovered / max(1, kidnaps):.0f}",
+                         f"{times[len(times) // 2]:.0f}" if times else "-",
+                         f"{times[int(0.9 * len(times))]:.0f}" if times else "-"])
+    print_table(["method", "filter", "kidnaps", "recovered %", "median s", "90 % s"], rows)
+
+
+def evaluate(bench, verdict, print_table, parts, is_slice, methods):
+    museums = ["bonn"] if is_slice else ["bonn", "smithsonian"]
+    if "tracking" in parts:
+        tracking(bench, verdict, print_table, range(1, 2 if is_slice else 21), 2 if is_slice else 10, museums, methods)
+    if "start" in parts:
+        unknown_start(bench, verdict, print_table, 6 if is_slice else 100, museums, methods)
+    if "honest" in parts and not is_slice:
+        honesty(bench, verdict, print_table, museums, 30, DEFAULT[0])
+    if "recovery" in parts and not is_slice:
+        recovery(bench, verdict, print_table, museums, 10, methods)
