@@ -1,0 +1,129 @@
+#include "docent/localization/sonar_tracker/echo_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace docent {
+namespace {
+
+constexpr float kFarthest = 100.0F;  // [m], of an empty map
+constexpr double kNear = 0.3;        // [m] from a wall its direction is asked, up to
+constexpr double kFar = 0.8;         // [m]
+constexpr double kAligned = 8.0 * std::numbers::pi / 180.0;
+
+}  // namespace
+
+EchoMap::EchoMap(const OccupancyGrid& map) : frame_{map.frame} {
+  std::vector<bool> occupied(frame_.size());
+  for (std::size_t i = 0; i < occupied.size(); ++i) occupied[i] = map.cells[i] >= 65;
+  distances_ = distance_transform(frame_, occupied);
+  for (float& value : distances_) value = std::min(value, kFarthest);
+  main_direction_ = find_main_direction(map);
+}
+
+double EchoMap::distance_at(Point2 in_map) const {
+  const double x =
+      std::clamp((in_map.x - frame_.origin.x) / frame_.resolution - 0.5, 0.0, static_cast<double>(frame_.columns - 1));
+  const double y =
+      std::clamp((in_map.y - frame_.origin.y) / frame_.resolution - 0.5, 0.0, static_cast<double>(frame_.rows - 1));
+  const int column = std::min(static_cast<int>(x), std::max(0, frame_.columns - 2));
+  const int row = std::min(static_cast<int>(y), std::max(0, frame_.rows - 2));
+  const double u = x - column;
+  const double v = y - row;
+  const std::size_t first = frame_.index({column, row});
+  const std::size_t right = frame_.columns > 1 ? 1 : 0;
+  const std::size_t up = frame_.rows > 1 ? static_cast<std::size_t>(frame_.columns) : 0;
+  const auto at = [&](std::size_t i) { return static_cast<double>(distances_[i]); };
+  return (1.0 - v) * ((1.0 - u) * at(first) + u * at(first + right)) +
+         v * ((1.0 - u) * at(first + up) + u * at(first + up + right));
+}
+
+Point2 EchoMap::away_at(Point2 in_map) const {
+  const double step = 2.0 * frame_.resolution;  // over a step of the raster
+  const Point2 slope{distance_at(in_map + Point2{step, 0.0}) - distance_at(in_map - Point2{step, 0.0}),
+                     distance_at(in_map + Point2{0.0, step}) - distance_at(in_map - Point2{0.0, step})};
+  const double length = norm(slope);
+  return length > 1e-9 ? (1.0 / length) * slope : Point2{};
+}
+
+double EchoMap::ray(Point2 from, Point2 direction, double max_range) const {
+  const double touch = 0.5 * frame_.resolution;
+  const double creep = 0.25 * frame_.resolution;
+  double range = 0.0;
+  double last = std::numeric_limits<double>::infinity();
+  while (range < max_range) {
+    const double room = distance_at(from + range * direction);
+    // A cell's distance is that of its centre, so surfaces lie at 0; past the least distance the ray is inside.
+    if (room < touch && room >= last) return range;
+    if (room < 0.1 * touch) return range;
+    last = room < touch ? room : std::numeric_limits<double>::infinity();
+    range += std::max(room < touch ? creep : room - 0.5 * touch, creep);
+  }
+  return max_range;
+}
+
+std::optional<ExpectedEcho> EchoMap::expect(const Pose2& map_from_sonar, double half_cone, int rays,
+                                            double max_range) const {
+  const Point2 from = map_from_sonar.position();
+  if (distance_at(from) < frame_.resolution) return std::nullopt;
+  double nearest = max_range;
+  Point2 direction{};
+  for (int i = 0; i < rays; ++i) {
+    const double share = rays > 1 ? 2.0 * i / (rays - 1) - 1.0 : 0.0;
+    const Point2 sound = unit(map_from_sonar.theta + Angle::radians(share * half_cone));
+    const double range = ray(from, sound, nearest);
+    if (range >= nearest) continue;
+    nearest = range;
+    direction = sound;
+  }
+  if (nearest >= max_range) return std::nullopt;
+  const double back = std::min(nearest, 3.0 * frame_.resolution);
+  const Point2 away = away_at(from + (nearest - back) * direction);
+  return ExpectedEcho{nearest, std::acos(std::clamp(-dot(away, direction), 0.0, 1.0))};
+}
+
+std::optional<EchoMap::MainDirection> EchoMap::find_main_direction(const OccupancyGrid& map) const {
+  std::vector<double> headings;  // of normals, modulo a right angle
+  for (int row = 0; row < frame_.rows; ++row) {
+    for (int column = 0; column < frame_.columns; ++column) {
+      const CellIndex cell{column, row};
+      const double room = static_cast<double>(distances_[frame_.index(cell)]);
+      if (!map.is_free(cell) || room < kNear || room > kFar) continue;
+      const Point2 away = away_at(frame_.centre(cell));
+      if (away == Point2{}) continue;
+      headings.push_back(std::atan2(away.y, away.x));
+    }
+  }
+  if (headings.empty()) return std::nullopt;
+  constexpr double kRight = std::numbers::pi / 2.0;
+  const auto off = [](double heading, double from) { return std::remainder(heading - from, kRight); };
+  // The fullest of 90 bins, then the mean round it.
+  std::vector<int> bins(90, 0);
+  for (const double heading : headings) {
+    const double share = off(heading, 0.0) / kRight + 0.5;
+    ++bins[static_cast<std::size_t>(std::clamp(share * 90.0, 0.0, 89.0))];
+  }
+  std::size_t best = 0;
+  const auto around = [&](std::size_t i) { return bins[(i + 89) % 90] + bins[i] + bins[(i + 1) % 90]; };
+  for (std::size_t i = 1; i < 90; ++i)
+    if (around(i) > around(best)) best = i;
+  double mean = ((static_cast<double>(best) + 0.5) / 90.0 - 0.5) * kRight;
+  double share = 0.0;
+  for (int pass = 0; pass < 3; ++pass) {
+    double sum = 0.0;
+    int count = 0;
+    for (const double heading : headings) {
+      if (std::abs(off(heading, mean)) > kAligned) continue;
+      sum += off(heading, mean);
+      ++count;
+    }
+    if (count == 0) break;
+    mean += sum / count;
+    share = static_cast<double>(count) / static_cast<double>(headings.size());
+  }
+  return MainDirection{Angle::radians(off(mean, 0.0)), share};
+}
+
+}  // namespace docent
