@@ -45,9 +45,12 @@ class Joystick {
       give_up_ = now;
       return {};
     }
-    const double off = (direction({}, *way) - pose.theta).radians();
-    const double room = floor_.clearance(pose.position() + 0.4 * unit(pose.theta)) - 0.25;
-    double linear = max_speed_ * std::clamp(room / 0.4, 0.25, 1.0);
+    // Ways are planned for people, on cells of 0.2 m: the robot's body keeps away from what is near.
+    const double near = floor_.clearance(pose.position() + 0.15 * unit(pose.theta));
+    const Point2 away = std::max(0.0, (0.42 - near) / 0.1) * floor_.away_from_walls(pose.position());
+    const double off = (direction({}, *way + away) - pose.theta).radians();
+    const double room = std::min(near, floor_.clearance(pose.position() + 0.5 * unit(pose.theta))) - 0.27;
+    double linear = max_speed_ * std::clamp(room / 0.4, 0.1, 1.0);
     linear = std::min(linear, 0.2 + 0.8 * distance(pose.position(), *goal_)) * std::max(0.0, std::cos(1.6 * off));
     if (std::abs(off) > 0.9) linear = 0.0;
     return {linear, std::clamp(2.0 * off, -1.2, 1.2)};

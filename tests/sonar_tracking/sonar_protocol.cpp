@@ -9,8 +9,7 @@
 
 namespace {
 
-nlohmann::json to_json(const docent::SonarTrialOptions& options,
-                       const docent::SonarTrialResult& result) {
+nlohmann::json to_json(const docent::SonarTrialOptions& options, const docent::SonarTrialResult& result) {
   constexpr double kDegrees = 180.0 / std::numbers::pi;
   const auto& tally = result.tally;
   return {{"seed", options.seed},
