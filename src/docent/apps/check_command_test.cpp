@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "docent/apps/command.h"
+#include "docent/apps/office_command.h"
 #include "docent/apps/survey_command.h"
 #include "docent/base/files.h"
 #include "docent/grid/occupancy_grid.h"
@@ -18,6 +19,7 @@ namespace {
 std::string run(const std::string& arguments) {
   CLI::App app{"docent"};
   add_check_command(app);
+  add_office_command(app);
   add_survey_command(app);
   try {
     app.parse(arguments);
@@ -49,6 +51,13 @@ class CheckCommand : public ::testing::Test {
 };
 
 TEST_F(CheckCommand, PassesWhatIsFine) { EXPECT_EQ(run("check " + folder_.string()), ""); }
+
+TEST_F(CheckCommand, PassesADrawnOffice) {
+  const auto out = folder_ / "office";
+  EXPECT_EQ(run("office --seed 12 --pictures --out " + out.string()), "");
+  EXPECT_EQ(run("check " + out.string()), "");
+  EXPECT_TRUE(std::filesystem::exists(out / "world.png"));
+}
 
 TEST_F(CheckCommand, CountsFaults) {
   change("museum.yaml", "minutes: 6", "minutes: -6");

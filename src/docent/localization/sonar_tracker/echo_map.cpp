@@ -1,6 +1,7 @@
 #include "docent/localization/sonar_tracker/echo_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -11,7 +12,12 @@ namespace {
 constexpr float kFarthest = 100.0F;  // [m], of an empty map
 constexpr double kNear = 0.3;        // [m] from a wall its direction is asked, up to
 constexpr double kFar = 0.8;         // [m]
+constexpr double kRight = std::numbers::pi / 2.0;
 constexpr double kAligned = 8.0 * std::numbers::pi / 180.0;
+constexpr double kFineStep = 0.1 * std::numbers::pi / 180.0;
+
+/// Modulo a right angle, -45..45 degrees.
+double off_right(double heading, double from) { return std::remainder(heading - from, kRight); }
 
 }  // namespace
 
@@ -85,7 +91,38 @@ std::optional<ExpectedEcho> EchoMap::expect(const Pose2& map_from_sonar, double 
 }
 
 std::optional<EchoMap::MainDirection> EchoMap::find_main_direction(const OccupancyGrid& map) const {
-  std::vector<double> headings;  // of normals, modulo a right angle
+  const std::vector<double> headings = normals(map);
+  if (headings.empty()) return std::nullopt;
+  // The fullest of 90 bins. Normals of a raster are biased by a degree or two towards its axes, so it only begins.
+  std::array<int, 90> bins{};
+  for (const double heading : headings) {
+    const double share = off_right(heading, 0.0) / kRight + 0.5;
+    ++bins[static_cast<std::size_t>(std::clamp(share * 90.0, 0.0, 89.0))];
+  }
+  std::size_t best = 0;
+  const auto around = [&](std::size_t i) { return bins[(i + 89) % 90] + bins[i] + bins[(i + 1) % 90]; };
+  for (std::size_t i = 1; i < 90; ++i)
+    if (around(i) > around(best)) best = i;
+  const double rough = ((static_cast<double>(best) + 0.5) / 90.0 - 0.5) * kRight;
+
+  const std::vector<Point2> surface = surface_cells(map);
+  double heading = rough;
+  double sharpest = 0.0;
+  for (int i = -40; i <= 40; ++i) {
+    const double candidate = rough + i * kFineStep;
+    const double sharp = sharpness(surface, candidate);
+    if (sharp <= sharpest) continue;
+    sharpest = sharp;
+    heading = candidate;
+  }
+  const auto aligned = std::count_if(headings.begin(), headings.end(),
+                                     [&](double normal) { return std::abs(off_right(normal, heading)) < kAligned; });
+  return MainDirection{Angle::radians(off_right(heading, 0.0)),
+                       static_cast<double>(aligned) / static_cast<double>(headings.size())};
+}
+
+std::vector<double> EchoMap::normals(const OccupancyGrid& map) const {
+  std::vector<double> headings;
   for (int row = 0; row < frame_.rows; ++row) {
     for (int column = 0; column < frame_.columns; ++column) {
       const CellIndex cell{column, row};
@@ -96,34 +133,39 @@ std::optional<EchoMap::MainDirection> EchoMap::find_main_direction(const Occupan
       headings.push_back(std::atan2(away.y, away.x));
     }
   }
-  if (headings.empty()) return std::nullopt;
-  constexpr double kRight = std::numbers::pi / 2.0;
-  const auto off = [](double heading, double from) { return std::remainder(heading - from, kRight); };
-  // The fullest of 90 bins, then the mean round it.
-  std::vector<int> bins(90, 0);
-  for (const double heading : headings) {
-    const double share = off(heading, 0.0) / kRight + 0.5;
-    ++bins[static_cast<std::size_t>(std::clamp(share * 90.0, 0.0, 89.0))];
-  }
-  std::size_t best = 0;
-  const auto around = [&](std::size_t i) { return bins[(i + 89) % 90] + bins[i] + bins[(i + 1) % 90]; };
-  for (std::size_t i = 1; i < 90; ++i)
-    if (around(i) > around(best)) best = i;
-  double mean = ((static_cast<double>(best) + 0.5) / 90.0 - 0.5) * kRight;
-  double share = 0.0;
-  for (int pass = 0; pass < 3; ++pass) {
-    double sum = 0.0;
-    int count = 0;
-    for (const double heading : headings) {
-      if (std::abs(off(heading, mean)) > kAligned) continue;
-      sum += off(heading, mean);
-      ++count;
+  return headings;
+}
+
+std::vector<Point2> EchoMap::surface_cells(const OccupancyGrid& map) const {
+  std::vector<Point2> result;
+  for (int row = 0; row < frame_.rows; ++row) {
+    for (int column = 0; column < frame_.columns; ++column) {
+      const bool faces_room = map.is_free({column - 1, row}) || map.is_free({column + 1, row}) ||
+                              map.is_free({column, row - 1}) || map.is_free({column, row + 1});
+      if (faces_room && map.is_occupied({column, row})) result.push_back(frame_.centre({column, row}));
     }
-    if (count == 0) break;
-    mean += sum / count;
-    share = static_cast<double>(count) / static_cast<double>(headings.size());
   }
-  return MainDirection{Angle::radians(off(mean, 0.0)), share};
+  return result;
+}
+
+double EchoMap::sharpness(const std::vector<Point2>& surface, double heading) const {
+  // Seen along its walls, a building is a few sharp lines.
+  const Point2 along{std::cos(heading), std::sin(heading)};
+  const Point2 across{-along.y, along.x};
+  const double reach = frame_.resolution * std::hypot(frame_.columns, frame_.rows);
+  const auto bins = static_cast<std::size_t>(2.0 * reach / frame_.resolution) + 2;
+  double sum = 0.0;
+  for (const Point2 axis : {along, across}) {
+    std::vector<double> histogram(bins, 0.0);
+    for (const Point2 point : surface) {
+      const double at = (dot(axis, point - frame_.origin) + reach) / frame_.resolution;
+      const auto bin = static_cast<std::size_t>(at);
+      histogram[bin] += 1.0 - (at - static_cast<double>(bin));
+      histogram[bin + 1] += at - static_cast<double>(bin);
+    }
+    for (const double count : histogram) sum += count * count;
+  }
+  return sum;
 }
 
 }  // namespace docent

@@ -32,13 +32,17 @@ class EchoMap {
     Angle heading;       ///< of one family of walls, -45..45 degrees; the others at right angles
     double share = 0.0;  ///< of the walls that keep to it within 8 degrees
   };
-  /// How the building is turned [Buhmann1995]: mean over places near walls of the direction to them, modulo a right
-  /// angle. nullopt in a map without walls.
+  /// How the building is turned [Buhmann1995]: the direction in which the projections of its walls are sharpest, modulo
+  /// a right angle. nullopt in a map without walls. Found once, O(81 * cells of walls).
   [[nodiscard]] std::optional<MainDirection> main_direction() const { return main_direction_; }
 
  private:
   [[nodiscard]] double ray(Point2 from, Point2 direction, double max_range) const;
   [[nodiscard]] std::optional<MainDirection> find_main_direction(const OccupancyGrid& map) const;
+  /// Directions to the nearest wall [rad], at free cells near walls.
+  [[nodiscard]] std::vector<double> normals(const OccupancyGrid& map) const;
+  [[nodiscard]] std::vector<Point2> surface_cells(const OccupancyGrid& map) const;
+  [[nodiscard]] double sharpness(const std::vector<Point2>& surface, double heading) const;
 
   GridFrame frame_;
   std::vector<float> distances_;  ///< [rows * columns], [m]

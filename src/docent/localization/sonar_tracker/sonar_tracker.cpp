@@ -1,5 +1,6 @@
 #include "docent/localization/sonar_tracker/sonar_tracker.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -23,6 +24,7 @@ Result<void> SonarTrackerParams::validate() const {
   }
   if (!(sweep_length > 0.0)) return fail("sweep_length must be > 0");
   if (!(sweep_turn > 0.0)) return fail("sweep_turn must be > 0");
+  if (!(sweep_echoes >= 15)) return fail("sweep_echoes must be >= 15");
   if (!(rectangular >= 0.0 && rectangular <= 1.0)) return fail("rectangular must be 0..1");
   return {};
 }
@@ -83,7 +85,11 @@ void SonarTracker::match_now() {
   std::vector<PlacedEcho> echoes;
   echoes.reserve(sweep_.size());
   const Pose2 robot_from_track = inverse(track_from_robot_);
-  for (const Heard& heard : sweep_) echoes.push_back({robot_from_track * heard.track_from_sonar, heard.range});
+  const std::size_t most = std::min(sweep_.size(), static_cast<std::size_t>(params_.sweep_echoes));
+  for (std::size_t i = 0; i < most; ++i) {
+    const Heard& heard = sweep_[i * sweep_.size() / most];
+    echoes.push_back({robot_from_track * heard.track_from_sonar, heard.range});
+  }
   sweep_.clear();
   if (!params_.use_matches) return;
   const SweepMatch match = match_sweep(params_.match, map_, echoes, filter_.map_from_robot(), filter_.covariance());

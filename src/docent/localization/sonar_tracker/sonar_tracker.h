@@ -20,6 +20,7 @@ struct SonarTrackerParams {
   bool use_matches = true;    ///< match sweeps to the map
   double sweep_length = 1.0;  ///< [m], > 0: way on which a sweep is gathered
   double sweep_turn = 60.0;   ///< [deg], > 0: or turn
+  int sweep_echoes = 150;     ///< >= 15: of a sweep at most; more are thinned evenly
   double rectangular = 0.5;   ///< 0..1: share of aligned walls from which a building has main directions
   template <class V>
   void visit(V& v) {
@@ -31,6 +32,7 @@ struct SonarTrackerParams {
     v("use_matches", use_matches);
     v("sweep_length", sweep_length);
     v("sweep_turn", sweep_turn);
+    v("sweep_echoes", sweep_echoes);
     v("rectangular", rectangular);
   }
   [[nodiscard]] Result<void> validate() const;
