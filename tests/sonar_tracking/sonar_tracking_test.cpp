@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "docent/simulator/world/survey.h"
 #include "sonar_trial.h"
 
 namespace docent {
@@ -19,6 +22,21 @@ TEST(SonarTracking, KeepsTrackInOfficesWhereDeadReckoningIsLost) {
     EXPECT_GT(crippled.max_error, 0.60) << seed;
     EXPECT_EQ(crippled.drive.metres, whole.drive.metres) << "the same drive";
   }
+}
+
+TEST(SonarTracking, TheMapOfABuildingSaysHowItIsTurned) {
+  double sum = 0.0;
+  for (std::uint64_t seed = 101; seed <= 130; ++seed) {
+    const simulator::Office office = simulator::draw_office(Rng{seed});
+    const EchoMap map{simulator::survey(office.world, {}, Rng{seed}).map};
+    const double turn = direction(office.world.floor[0], office.world.floor[1]).degrees();
+    ASSERT_TRUE(map.main_direction());
+    const double off = std::remainder(map.main_direction()->heading.degrees() - turn, 90.0);
+    EXPECT_LT(std::abs(off), 0.8) << seed;
+    EXPECT_GT(map.main_direction()->share, 0.55) << seed;
+    sum += std::abs(off) / 30.0;
+  }
+  EXPECT_LT(sum, 0.15);
 }
 
 }  // namespace

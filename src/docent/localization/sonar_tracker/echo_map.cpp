@@ -13,8 +13,8 @@ constexpr float kFarthest = 100.0F;  // [m], of an empty map
 constexpr double kNear = 0.3;        // [m] from a wall its direction is asked, up to
 constexpr double kFar = 0.8;         // [m]
 constexpr double kRight = std::numbers::pi / 2.0;
-constexpr double kAligned = 8.0 * std::numbers::pi / 180.0;
-constexpr double kFineStep = 0.1 * std::numbers::pi / 180.0;
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kAligned = 8.0 * kDegree;
 
 /// Modulo a right angle, -45..45 degrees.
 double off_right(double heading, double from) { return std::remainder(heading - from, kRight); }
@@ -106,15 +106,9 @@ std::optional<EchoMap::MainDirection> EchoMap::find_main_direction(const Occupan
   const double rough = ((static_cast<double>(best) + 0.5) / 90.0 - 0.5) * kRight;
 
   const std::vector<Point2> surface = surface_cells(map);
-  double heading = rough;
-  double sharpest = 0.0;
-  for (int i = -40; i <= 40; ++i) {
-    const double candidate = rough + i * kFineStep;
-    const double sharp = sharpness(surface, candidate);
-    if (sharp <= sharpest) continue;
-    sharpest = sharp;
-    heading = candidate;
-  }
+  // First with wide lines: narrow ones also fit the raster's own steps.
+  const double near = sharpest(surface, rough, 4.0 * frame_.resolution, 20, 0.2 * kDegree);
+  const double heading = sharpest(surface, near, frame_.resolution, 6, 0.1 * kDegree);
   const auto aligned = std::count_if(headings.begin(), headings.end(),
                                      [&](double normal) { return std::abs(off_right(normal, heading)) < kAligned; });
   return MainDirection{Angle::radians(off_right(heading, 0.0)),
@@ -148,17 +142,29 @@ std::vector<Point2> EchoMap::surface_cells(const OccupancyGrid& map) const {
   return result;
 }
 
-double EchoMap::sharpness(const std::vector<Point2>& surface, double heading) const {
+double EchoMap::sharpest(const std::vector<Point2>& surface, double round, double line, int steps, double step) const {
+  double heading = round;
+  double best = 0.0;
+  for (int i = -steps; i <= steps; ++i) {
+    const double sharp = sharpness(surface, round + i * step, line);
+    if (sharp <= best) continue;
+    best = sharp;
+    heading = round + i * step;
+  }
+  return heading;
+}
+
+double EchoMap::sharpness(const std::vector<Point2>& surface, double heading, double line) const {
   // Seen along its walls, a building is a few sharp lines.
   const Point2 along{std::cos(heading), std::sin(heading)};
   const Point2 across{-along.y, along.x};
   const double reach = frame_.resolution * std::hypot(frame_.columns, frame_.rows);
-  const auto bins = static_cast<std::size_t>(2.0 * reach / frame_.resolution) + 2;
+  const auto bins = static_cast<std::size_t>(2.0 * reach / line) + 2;
   double sum = 0.0;
   for (const Point2 axis : {along, across}) {
     std::vector<double> histogram(bins, 0.0);
     for (const Point2 point : surface) {
-      const double at = (dot(axis, point - frame_.origin) + reach) / frame_.resolution;
+      const double at = (dot(axis, point - frame_.origin) + reach) / line;
       const auto bin = static_cast<std::size_t>(at);
       histogram[bin] += 1.0 - (at - static_cast<double>(bin));
       histogram[bin + 1] += at - static_cast<double>(bin);

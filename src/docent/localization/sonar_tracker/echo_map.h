@@ -42,7 +42,9 @@ class EchoMap {
   /// Directions to the nearest wall [rad], at free cells near walls.
   [[nodiscard]] std::vector<double> normals(const OccupancyGrid& map) const;
   [[nodiscard]] std::vector<Point2> surface_cells(const OccupancyGrid& map) const;
-  [[nodiscard]] double sharpness(const std::vector<Point2>& surface, double heading) const;
+  [[nodiscard]] double sharpest(const std::vector<Point2>& surface, double round, double line, int steps,
+                                double step) const;
+  [[nodiscard]] double sharpness(const std::vector<Point2>& surface, double heading, double line) const;
 
   GridFrame frame_;
   std::vector<float> distances_;  ///< [rows * columns], [m]

@@ -34,6 +34,8 @@ class Rounds {
     return std::abs((tracker_.map_from_robot().theta - truth_.theta).degrees());
   }
   [[nodiscard]] double worst() const { return worst_; }
+  [[nodiscard]] int most_contradictions() const { return most_contradictions_; }
+  [[nodiscard]] double widest() const { return widest_; }  ///< [m], largest deviation so far
   [[nodiscard]] const SonarTracker& tracker() const { return tracker_; }
 
  private:
@@ -51,6 +53,8 @@ class Rounds {
     }
     ++count_;
     worst_ = std::max(worst_, error());
+    widest_ = std::max(widest_, std::sqrt(tracker_.covariance()[0]));
+    most_contradictions_ = std::max(most_contradictions_, tracker_.contradictions());
   }
 
   testing::TurnedRoom room_{23.0};
@@ -60,6 +64,8 @@ class Rounds {
   Rng rng_{5};
   int count_ = 0;
   double worst_ = 0.0;
+  double widest_ = 0.0;
+  int most_contradictions_ = 0;
 };
 
 TEST(SonarTracker, KeepsTrackWhereOdometryDoesNot) {
@@ -81,7 +87,7 @@ TEST(SonarTracker, LearnsTheOdometry) {
   rounds.drive(12);
   EXPECT_GT(rounds.tracker().filter().scale(), 0.002) << "slowly: legs are short";
   EXPECT_LT(rounds.tracker().filter().scale(), 0.016);
-  EXPECT_NEAR(rounds.tracker().filter().veer(), -0.015, 0.006);
+  EXPECT_NEAR(rounds.tracker().filter().veer(), -0.015, 0.008);
 }
 
 TEST(SonarTracker, StandsAFifthOfItsReadingsTooShort) {
@@ -105,12 +111,12 @@ TEST(SonarTracker, WallsAloneKeepTheHeading) {
 TEST(SonarTracker, CountsContradictionsWhenItIsCarriedAway) {
   Rounds rounds;
   rounds.drive(2);
-  EXPECT_LT(rounds.tracker().contradictions(), 3);
-  const double sure = rounds.tracker().covariance()[0];
+  EXPECT_LT(rounds.most_contradictions(), 2);
+  const double sure = rounds.widest();
   rounds.carry({0.9, 0.6, Angle::degrees(50.0)});
   rounds.drive(1);
-  EXPECT_TRUE(rounds.tracker().contradictions() >= 3 || rounds.tracker().tally().unlike > 3);
-  EXPECT_GT(rounds.tracker().covariance()[0], 4.0 * sure) << "it doubts";
+  EXPECT_GE(rounds.most_contradictions(), 3);
+  EXPECT_GT(rounds.widest(), 2.0 * sure) << "it doubts";
 }
 
 TEST(SonarTracker, NothingHappensBeforeOdometrySpeaks) {

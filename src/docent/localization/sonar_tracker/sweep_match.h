@@ -17,7 +17,7 @@ struct SweepMatchParams {
   double oblique = 25.0;     ///< [deg], > 0: a surface slanted by more is heard by chance only
   double dependence = 4.0;   ///< >= 1: so many echoes count as one; neighbours err together, so does a shifted wall
   double least_deviation = 0.015;  ///< [m], > 0: no match is better than the map
-  double least_turn = 0.5;         ///< [deg], > 0
+  double least_turn = 2.0;         ///< [deg], > 0; which edge a cone still hears is guessed, and it turns the answer
   double inliers = 0.4;            ///< 0..1: share of the comparable echoes that the pose must explain
   int echoes = 15;                 ///< >= 3: comparable ones
   double gate = 4.0;               ///< > 0: deviations of the prior that a correction may have
