@@ -32,11 +32,11 @@ TEST(SonarTracking, TheMapOfABuildingSaysHowItIsTurned) {
     const double turn = direction(office.world.floor[0], office.world.floor[1]).degrees();
     ASSERT_TRUE(map.main_direction());
     const double off = std::remainder(map.main_direction()->heading.degrees() - turn, 90.0);
-    EXPECT_LT(std::abs(off), 0.8) << seed;
+    EXPECT_LT(std::abs(off), 0.4) << seed;
     EXPECT_GT(map.main_direction()->share, 0.55) << seed;
     sum += std::abs(off) / 30.0;
   }
-  EXPECT_LT(sum, 0.15);
+  EXPECT_LT(sum, 0.1);
 }
 
 }  // namespace

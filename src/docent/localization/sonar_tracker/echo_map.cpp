@@ -1,7 +1,6 @@
 #include "docent/localization/sonar_tracker/echo_map.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -93,22 +92,10 @@ std::optional<ExpectedEcho> EchoMap::expect(const Pose2& map_from_sonar, double 
 std::optional<EchoMap::MainDirection> EchoMap::find_main_direction(const OccupancyGrid& map) const {
   const std::vector<double> headings = normals(map);
   if (headings.empty()) return std::nullopt;
-  // The fullest of 90 bins. Normals of a raster are biased by a degree or two towards its axes, so it only begins.
-  std::array<int, 90> bins{};
-  for (const double heading : headings) {
-    const double share = off_right(heading, 0.0) / kRight + 0.5;
-    ++bins[static_cast<std::size_t>(std::clamp(share * 90.0, 0.0, 89.0))];
-  }
-  std::size_t best = 0;
-  const auto around = [&](std::size_t i) { return bins[(i + 89) % 90] + bins[i] + bins[(i + 1) % 90]; };
-  for (std::size_t i = 1; i < 90; ++i)
-    if (around(i) > around(best)) best = i;
-  const double rough = ((static_cast<double>(best) + 0.5) / 90.0 - 0.5) * kRight;
-
   const std::vector<Point2> surface = surface_cells(map);
-  // First with wide lines: narrow ones also fit the raster's own steps.
-  const double near = sharpest(surface, rough, 4.0 * frame_.resolution, 20, 0.2 * kDegree);
-  const double heading = sharpest(surface, near, frame_.resolution, 6, 0.1 * kDegree);
+  // First with wide lines, in which half a degree does not matter.
+  const double near = sharpest(surface, 0.0, 4.7 * frame_.resolution, 90, 0.5 * kDegree);
+  const double heading = sharpest(surface, near, 1.9 * frame_.resolution, 10, 0.1 * kDegree);
   const auto aligned = std::count_if(headings.begin(), headings.end(),
                                      [&](double normal) { return std::abs(off_right(normal, heading)) < kAligned; });
   return MainDirection{Angle::radians(off_right(heading, 0.0)),

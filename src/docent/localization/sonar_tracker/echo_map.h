@@ -33,7 +33,7 @@ class EchoMap {
     double share = 0.0;  ///< of the walls that keep to it within 8 degrees
   };
   /// How the building is turned [Buhmann1995]: the direction in which the projections of its walls are sharpest, modulo
-  /// a right angle. nullopt in a map without walls. Found once, O(81 * cells of walls).
+  /// a right angle. nullopt in a map without walls. Found once, O(200 * cells of walls).
   [[nodiscard]] std::optional<MainDirection> main_direction() const { return main_direction_; }
 
  private:
