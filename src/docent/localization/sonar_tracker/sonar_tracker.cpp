@@ -14,6 +14,8 @@ constexpr double kWallCorrelation = 1.5;  // sonars beside each other see the sa
 constexpr double kLeastRange = 0.1;       // [m]
 constexpr double kDoubtPosition = 0.05;   // [m] a contradiction adds
 constexpr double kDoubtHeading = 0.01;    // [rad]
+constexpr double kSure = 0.998;           // without a contradiction
+constexpr double kTrust = 0.85;           // that one contradiction leaves
 constexpr double kSideways = 0.6;         // cosine limit: sonars that look along the way see no wall beside it
 
 }  // namespace
@@ -79,6 +81,8 @@ void SonarTracker::use_wall(const WallAngle& wall) {
   ++tally_.walls;
   filter_.correct_heading(filter_.map_from_robot().theta - Angle::radians(off), deviation);
 }
+
+double SonarTracker::p_lost() const { return 1.0 - kSure * std::pow(kTrust, contradictions_); }
 
 void SonarTracker::match_now() {
   way_ = turn_ = 0.0;

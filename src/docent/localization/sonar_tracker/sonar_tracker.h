@@ -72,6 +72,8 @@ class SonarTracker {
   [[nodiscard]] const Tally& tally() const { return tally_; }
   /// Sweeps in a row that contradicted the pose: unlike the map, or too far off. From some five on, it may be lost.
   [[nodiscard]] int contradictions() const { return contradictions_; }
+  /// A guess that grows with the contradictions; not calibrated.
+  [[nodiscard]] double p_lost() const;
 
  private:
   struct Heard {
