@@ -52,11 +52,14 @@ class CheckCommand : public ::testing::Test {
 
 TEST_F(CheckCommand, PassesWhatIsFine) { EXPECT_EQ(run("check " + folder_.string()), ""); }
 
-TEST_F(CheckCommand, PassesADrawnOffice) {
-  const auto out = folder_ / "office";
-  EXPECT_EQ(run("office --seed 12 --pictures --out " + out.string()), "");
-  EXPECT_EQ(run("check " + out.string()), "");
-  EXPECT_TRUE(std::filesystem::exists(out / "world.png"));
+TEST_F(CheckCommand, PassesDrawnOffices) {
+  for (int seed = 1; seed <= 25; ++seed) {
+    const std::string out = (folder_ / ("office-" + std::to_string(seed))).string();
+    EXPECT_EQ(run("office --seed " + std::to_string(seed) + " --out " + out), "");
+    EXPECT_EQ(run("check " + out), "") << seed;
+  }
+  EXPECT_EQ(run("office --seed 1 --pictures --out " + (folder_ / "drawn").string()), "");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "drawn" / "world.png"));
 }
 
 TEST_F(CheckCommand, CountsFaults) {
