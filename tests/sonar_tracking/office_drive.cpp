@@ -11,7 +11,6 @@ namespace docent {
 namespace {
 
 using simulator::Body;
-using simulator::EchoKind;
 
 constexpr double kStep = 0.01;      // [s]
 constexpr int kCommandEvery = 5;    // steps
