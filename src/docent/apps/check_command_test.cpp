@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "docent/apps/command.h"
+#include "docent/apps/office_command.h"
 #include "docent/apps/survey_command.h"
 #include "docent/base/files.h"
 #include "docent/grid/occupancy_grid.h"
@@ -18,6 +19,7 @@ namespace {
 std::string run(const std::string& arguments) {
   CLI::App app{"docent"};
   add_check_command(app);
+  add_office_command(app);
   add_survey_command(app);
   try {
     app.parse(arguments);
@@ -49,6 +51,16 @@ class CheckCommand : public ::testing::Test {
 };
 
 TEST_F(CheckCommand, PassesWhatIsFine) { EXPECT_EQ(run("check " + folder_.string()), ""); }
+
+TEST_F(CheckCommand, PassesDrawnOffices) {
+  for (int seed = 1; seed <= 25; ++seed) {
+    const std::string out = (folder_ / ("office-" + std::to_string(seed))).string();
+    EXPECT_EQ(run("office --seed " + std::to_string(seed) + " --out " + out), "");
+    EXPECT_EQ(run("check " + out), "") << seed;
+  }
+  EXPECT_EQ(run("office --seed 1 --pictures --out " + (folder_ / "drawn").string()), "");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "drawn" / "world.png"));
+}
 
 TEST_F(CheckCommand, CountsFaults) {
   change("museum.yaml", "minutes: 6", "minutes: -6");

@@ -6,6 +6,7 @@
 #include "docent/apps/command.h"
 #include "docent/apps/evaluate_command.h"
 #include "docent/apps/localize_command.h"
+#include "docent/apps/office_command.h"
 #include "docent/apps/plan_command.h"
 #include "docent/apps/replay_command.h"
 #include "docent/apps/run_command.h"
@@ -20,6 +21,7 @@ int main(int argc, char** argv) {
   docent::add_check_command(app);
   docent::add_evaluate_command(app);
   docent::add_localize_command(app);
+  docent::add_office_command(app);
   docent::add_plan_command(app);
   docent::add_replay_command(app);
   docent::add_run_command(app);

@@ -9,6 +9,7 @@
 #include "docent/localization/belief/checkpoint.h"
 #include "docent/localization/markov/markov_localizer.h"
 #include "docent/messages/conversions.h"
+#include "docent/modules/sonar_localize.h"
 #include "docent/motion_models/odometry_history.h"
 
 namespace docent {
@@ -23,7 +24,9 @@ constexpr Duration kCheckpointAge = std::chrono::seconds{60};
 constexpr double kCheckpointWay = 5.0;  // [m] that odometry may have gone on meanwhile
 
 struct LocalizeParams {
+  std::string method = "grid";  ///< or sonar: a tracker for robots without laser
   MarkovLocalizerParams markov;
+  SonarLocalizeParams sonar;
   double person_range = 6.0;    ///< [m], > 0: how far away people are looked for
   bool dead_reckoning = false;  ///< crippled, for evaluation: odometry alone after the first "here"
   /// For evaluation: the best hypothesis is published so far off, while the cells of the belief stay true.
@@ -32,7 +35,9 @@ struct LocalizeParams {
   double best_pose_error_heading = 0.0;  ///< [deg]
   template <class V>
   void visit(V& v) {
+    v("method", method);
     markov.visit(v);
+    v("sonar", sonar);
     v("person_range", person_range);
     v("dead_reckoning", dead_reckoning);
     v("best_pose_error_x", best_pose_error_x);
@@ -41,6 +46,8 @@ struct LocalizeParams {
   }
   [[nodiscard]] Result<void> validate() const {
     if (!(person_range > 0.0)) return fail("person_range must be > 0");
+    if (method != "grid" && method != "sonar") return fail("method must be grid or sonar, not '" + method + "'");
+    if (auto valid = sonar.validate(); !valid) return valid;
     return markov.validate();
   }
 };
@@ -261,6 +268,7 @@ class LocalizeModule final : public Module {
 Result<std::unique_ptr<Module>> make_localize(const ModuleContext& context) {
   auto params = context.config.section<LocalizeParams>("localize");
   if (!params) return tl::unexpected<Error>(params.error());
+  if (params->method == "sonar") return make_sonar_localize(context, params->sonar);
   auto module = std::make_unique<LocalizeModule>(context, *params);
   return module;
 }

@@ -46,7 +46,7 @@ Instruments::Instruments(Bus& bus, const World& world, const Rng& rng)
 
 void Instruments::change_world(const World& world) {
   laser_walls_ = std::make_unique<RayCaster>(surfaces_at(world, kLaserHeight));
-  sonar_walls_ = std::make_unique<RayCaster>(surfaces_at(world, kSonarHeight));
+  sonar_walls_ = std::make_unique<RayCaster>(sonar_surfaces(world));
 }
 
 void Instruments::set_fault(const SensorFault& fault, Time now) {
@@ -141,21 +141,25 @@ void Instruments::publish_scans(Time now, const Pose2& world_from_base, std::spa
 void Instruments::publish_sonar(Time now, std::uint64_t slot, const Pose2& world_from_base,
                                 std::span<const Disc> people) {
   constexpr std::uint64_t kSlots = 40;  // 0.4 s
-  const auto count = static_cast<std::uint64_t>(ring_.params().count);
-  for (std::uint64_t turn = 0; turn < count; ++turn) {
-    if (turn * kSlots / count != slot % kSlots) continue;
+  const auto groups = static_cast<std::uint64_t>(ring_.groups());
+  for (std::uint64_t turn = 0; turn < groups; ++turn) {
+    if (turn * kSlots / groups != slot % kSlots) continue;
     // Neighbours never fire one after the other: each would hear the other's echo.
-    const auto index = static_cast<int>(turn * 7 % count);
-    const SonarParams& params = ring_.params();
-    sensor_msgs::Range message;
-    message.header = {to_message(now),
-                      index < 10 ? "sonar_0" + std::to_string(index) : "sonar_" + std::to_string(index)};
-    message.field_of_view = static_cast<float>(params.field_of_view);
-    message.min_range = static_cast<float>(params.min_range);
-    message.max_range = static_cast<float>(params.max_range);
-    message.range = static_cast<float>(ring_.ping(index, *sonar_walls_, people, world_from_base));
-    emit(Sensor::sonar, pings_, std::move(message), last_pings_[static_cast<std::size_t>(index)], now);
+    const auto group = static_cast<int>(turn * 3 % groups);
+    for (const Ping& ping : ring_.fire(group, *sonar_walls_, people, world_from_base)) publish_ping(now, ping);
   }
+}
+
+void Instruments::publish_ping(Time now, const Ping& ping) {
+  const SonarParams& params = ring_.params();
+  sensor_msgs::Range message;
+  message.header = {to_message(now),
+                    ping.index < 10 ? "sonar_0" + std::to_string(ping.index) : "sonar_" + std::to_string(ping.index)};
+  message.field_of_view = static_cast<float>(params.field_of_view);
+  message.min_range = static_cast<float>(params.min_range);
+  message.max_range = static_cast<float>(params.max_range);
+  message.range = static_cast<float>(ping.range);
+  emit(Sensor::sonar, pings_, std::move(message), last_pings_[static_cast<std::size_t>(ping.index)], now);
 }
 
 void Instruments::publish_battery(Time now, const Battery& battery) {

@@ -27,7 +27,7 @@ class Instruments {
   void publish_odometry(Time now, const Body& body);
   /// Both scanners at once.
   void publish_scans(Time now, const Pose2& world_from_base, std::span<const Disc> people);
-  /// @param slot  counts steps of 10 ms: the 24 sonars fire one after the other, each every 0.4 s
+  /// @param slot  counts steps of 10 ms: the 24 sonars fire in groups of three, each every 0.4 s
   void publish_sonar(Time now, std::uint64_t slot, const Pose2& world_from_base, std::span<const Disc> people);
   void publish_battery(Time now, const Battery& battery);
   void publish_tactile(Time now, const std::vector<std::uint8_t>& segments);
@@ -47,6 +47,7 @@ class Instruments {
   template <class T>
   void emit(Sensor sensor, const Publisher<T>& publisher, T message, std::optional<T>& last, Time now);
   [[nodiscard]] const Fault* fault_of(Sensor sensor, Time now) const;
+  void publish_ping(Time now, const Ping& ping);
   void publish_scan(Time now, Sensor sensor, LaserScanner& scanner, const Pose2& pose, std::span<const Disc> people);
 
   Bus& bus_;

@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "docent/simulator/sensing/sonar.h"
-
 namespace docent::simulator {
 namespace {
 
@@ -87,24 +85,6 @@ TEST(Laser, NothingWithinRangeReadsAsMaximum) {
   params.stray = 0.0;
   LaserScanner scanner{params, Pose2{}, Rng{3}};
   for (const float range : scanner.sweep(walls, {}, Pose2{}).ranges) EXPECT_EQ(range, 10.0F);
-}
-
-TEST(Sonar, SeesTheNearestThingInItsConeAndGlassMostly) {
-  World world = room(4.0);
-  world.solids.push_back(
-      {"pane", SolidKind::glass, {{2.0, -1.0}, {2.02, -1.0}, {2.02, 1.0}, {2.0, 1.0}}, 0.0, 2.0, false});
-  const RayCaster walls{surfaces_at(world, 0.25)};
-  SonarRing ring{SonarParams{}, Rng{5}};
-  int glass = 0;
-  for (int i = 0; i < 500; ++i) {
-    const double range = ring.ping(0, walls, {}, Pose2{});
-    if (range < 2.0) ++glass;
-  }
-  EXPECT_NEAR(glass / 500.0, 0.8, 0.06);
-  const std::vector<Disc> people{{{0.0, 1.5}, 0.25}};
-  double sum = 0.0;
-  for (int i = 0; i < 100; ++i) sum += std::min(ring.ping(6, walls, people, Pose2{}), 2.0);  // sonar_06 looks left
-  EXPECT_NEAR(sum / 100.0, 1.5 - 0.25 - 0.25, 0.05);
 }
 
 }  // namespace

@@ -8,6 +8,10 @@ namespace {
 
 constexpr double kCell = 0.5;  // [m]
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Shares of sound that come straight back: plaster and glass hardly scatter it, shelves and handles do.
+constexpr double kWallRoughness = 0.03;
+constexpr double kGlassRoughness = 0.0;
+constexpr double kFurnitureRoughness = 0.25;
 
 }  // namespace
 
@@ -17,6 +21,19 @@ std::vector<Surface> surfaces_at(const World& world, double height) {
     if (solid.kind == SolidKind::plate || solid.kind == SolidKind::stairs) continue;
     if (height < solid.bottom || height > solid.top) continue;
     for (const Segment& side : sides(solid.polygon)) surfaces.push_back({side, solid.kind == SolidKind::glass});
+  }
+  return surfaces;
+}
+
+std::vector<Surface> sonar_surfaces(const World& world) {
+  std::vector<Surface> surfaces;
+  for (const Solid& solid : world.solids) {
+    if (solid.kind == SolidKind::plate || solid.kind == SolidKind::stairs) continue;
+    if (kSonarHeight < solid.bottom || kSonarHeight > solid.top) continue;
+    const double roughness = solid.kind == SolidKind::glass       ? kGlassRoughness
+                             : solid.kind == SolidKind::furniture ? kFurnitureRoughness
+                                                                  : kWallRoughness;
+    for (const Segment& side : sides(solid.polygon)) surfaces.push_back({side, false, roughness});
   }
   return surfaces;
 }
@@ -50,7 +67,7 @@ RayCaster::RayCaster(const std::vector<Surface>& surfaces) {
         const Point2 centre = low_ + Point2{(column + 0.5) * kCell, (row + 0.5) * kCell};
         if (distance(surface.segment, centre) > kReach) continue;
         cells[static_cast<std::size_t>(row * columns_ + column)].push_back(
-            {a.x, a.y, b.x - a.x, b.y - a.y, surface.glass});
+            {a.x, a.y, b.x - a.x, b.y - a.y, surface.glass, surface.roughness});
       }
     }
   }
@@ -74,7 +91,9 @@ void RayCaster::test_cell(std::size_t cell, Point2 origin, Point2 direction, Ray
     const double t = (ox * side.dy - oy * side.dx) / denominator;
     if (t < 0.0) continue;
     if (!side.glass) {
-      hit.distance = std::min(hit.distance, t);
+      if (t >= hit.distance) continue;
+      hit.distance = t;
+      hit.side = static_cast<std::uint32_t>(i);
     } else if (t < hit.glass_distance) {
       hit.glass_distance = t;
       hit.glass_cosine = std::abs(denominator) / std::sqrt(side.dx * side.dx + side.dy * side.dy);
@@ -128,6 +147,21 @@ RayHit RayCaster::cast(Point2 origin, Point2 direction, double max_range) const 
   if (hit.distance > max_range) hit.distance = kInfinity;
   if (hit.glass_distance > max_range || hit.glass_distance > hit.distance) hit.glass_distance = kInfinity;
   return hit;
+}
+
+Footprint RayCaster::footprint(const RayHit& hit, Point2 origin, Point2 direction) const {
+  const Side& side = sides_[hit.side];
+  const double length = std::hypot(side.dx, side.dy);
+  Footprint foot;
+  foot.normal = {-side.dy / length, side.dx / length};
+  if (dot(foot.normal, direction) > 0.0) foot.normal = -1.0 * foot.normal;
+  foot.cosine = -dot(foot.normal, direction);
+  foot.roughness = side.roughness;
+  const Point2 first{side.ax, side.ay};
+  const Point2 second = first + Point2{side.dx, side.dy};
+  const Point2 met = origin + hit.distance * direction;
+  foot.edge = distance(met, first) < distance(met, second) ? first : second;
+  return foot;
 }
 
 bool RayCaster::sees(Point2 from, Point2 to) const {

@@ -1,0 +1,48 @@
+#include "docent/apps/office_command.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "docent/apps/command.h"
+#include "docent/pictures/image.h"
+#include "docent/pictures/map_picture.h"
+#include "docent/simulator/office/office_folder.h"
+#include "docent/simulator/world/world_picture.h"
+
+namespace docent {
+namespace {
+
+struct OfficeOptions {
+  std::string out;
+  std::uint64_t seed = 1;
+  bool pictures = false;
+};
+
+void run(const OfficeOptions& options) {
+  const std::filesystem::path out{options.out};
+  const simulator::Office office = simulator::draw_office(Rng{options.seed});
+  const simulator::Survey survey = simulator::survey(office.world, {}, Rng{options.seed}.stream("survey"));
+  value_or_fail(simulator::write_office(office, survey, options.seed, out));
+  std::printf("%s: %zu solids, %zu hazards, %zu pieces drawn where they no longer stand, %zu not on the map\n",
+              (out / "museum.yaml").c_str(), office.world.solids.size(), survey.hazards.size(), survey.moved.size(),
+              survey.missing.size());
+  if (!options.pictures) return;
+  value_or_fail(save_png(simulator::draw_world(office.world), out / "world.png"));
+  value_or_fail(save_png(draw_map(survey.map, MapView::whole(survey.map.frame, 1200)), out / "survey.png"));
+}
+
+}  // namespace
+
+void add_office_command(CLI::App& app) {
+  auto* command = app.add_subcommand(
+      "office", "Draw an office building: a museum folder with a true world and the map that a survey of it gives");
+  auto options = std::make_shared<OfficeOptions>();
+  command->add_option("--out", options->out, "Folder for museum.yaml, simulation.yaml, the map and texts")->required();
+  command->add_option("--seed", options->seed, "Seed of the building and of the survey's errors")
+      ->capture_default_str();
+  command->add_flag("--pictures", options->pictures, "Also draw world.png and survey.png");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace docent

@@ -1,0 +1,12 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace docent {
+
+/// `docent office --seed N --out DIR`
+void add_office_command(CLI::App& app);
+
+}  // namespace docent

@@ -1,0 +1,90 @@
+#include "docent/simulator/office/office_folder.h"
+
+#include <array>
+#include <cstdio>
+
+#include "docent/base/files.h"
+#include "docent/grid/occupancy_grid.h"
+
+namespace docent::simulator {
+namespace {
+
+std::string number(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3f", value);
+  return text.data();
+}
+
+std::string point(Point2 p) { return "{x: " + number(p.x) + ", y: " + number(p.y) + "}"; }
+
+std::string pose(const Pose2& p) {
+  return "{x: " + number(p.x) + ", y: " + number(p.y) + ", heading: " + number(p.theta.degrees()) + "}";
+}
+
+std::string corners(const std::vector<Point2>& points) {
+  std::string text = "[";
+  for (const Point2 p : points) text += (text.size() > 1 ? ", [" : "[") + number(p.x) + ", " + number(p.y) + "]";
+  return text + "]";
+}
+
+std::string list(const std::vector<std::string>& words) {
+  std::string text = "[";
+  for (const std::string& word : words) text += (text.size() > 1 ? ", " : "") + word;
+  return text + "]";
+}
+
+std::string museum_yaml(const Office& office, const Survey& survey, std::uint64_t seed) {
+  const std::string name = "Office building " + std::to_string(seed);
+  std::string text =
+      "# Drawn and surveyed with seed " + std::to_string(seed) + "; metres and degrees in the map's frame.\n";
+  text += "name: {en: \"" + name + "\"}\nlanguages: [en]\nmap: map.yaml\n";
+  text += "area: " + corners(office.world.operating_area) + "\n";
+  text += survey.hazards.empty() ? "hazards: []\n" : to_yaml(survey.hazards);
+  text += "home: " + pose(office.home) + "\nexhibits:\n";
+  for (const OfficeStop& stop : office.stops) {
+    text += "  - id: " + stop.id + "\n    title: {en: \"" + stop.id + "\"}\n    pose: " + pose(stop.pose) +
+            "\n    look_at: " + point(stop.look_at) + "\n    short: {en: content/" + stop.id + ".short.en.md}\n" +
+            "    topics: [offices]\n";
+  }
+  std::vector<std::string> ids;
+  for (const OfficeStop& stop : office.stops) ids.push_back(stop.id);
+  text += "tours:\n  - {id: round, title: {en: \"Round the floor\"}, exhibits: " + list(ids) + "}\n";
+  return text + "simulation: simulation.yaml\n";
+}
+
+}  // namespace
+
+std::string to_yaml(const World& world) {
+  std::string text = "ceiling_height: " + number(world.ceiling_height) + "\nfloor: " + corners(world.floor) +
+                     "\noperating_area: " + corners(world.operating_area) + "\nentrances: " + corners(world.entrances) +
+                     "\nhome: " + point(world.home) + "\nvisitors_per_hour: " + number(world.visitors_per_hour) +
+                     "\nexhibits: " + list(world.exhibits) + "\ntours: " + list(world.tours) + "\nsolids:\n";
+  for (const Solid& solid : world.solids) {
+    text += "  - {id: " + solid.id + ", kind: " + to_string(solid.kind) + ", bottom: " + number(solid.bottom) +
+            ", top: " + number(solid.top) + (solid.movable ? ", movable: true" : "") +
+            ", polygon: " + corners(solid.polygon) + "}\n";
+  }
+  text += world.attractions.empty() ? "attractions: []\n" : "attractions:\n";
+  for (const Attraction& a : world.attractions) {
+    text += "  - {id: " + a.id + ", centre: " + point(a.centre) + ", radius: " + number(a.radius) +
+            ", weight: " + number(a.weight) + "}\n";
+  }
+  return text;
+}
+
+Result<void> write_office(const Office& office, const Survey& survey, std::uint64_t seed,
+                          const std::filesystem::path& folder) {
+  std::error_code code;
+  std::filesystem::create_directories(folder / "content", code);
+  if (code) return fail(folder.string() + ": cannot be made: " + code.message());
+  if (auto saved = save_map(survey.map, folder / "map"); !saved) return saved;
+  for (const OfficeStop& stop : office.stops) {
+    auto written = write_file_atomically(folder / "content" / (stop.id + ".short.en.md"),
+                                         "This is " + stop.id + " of the building.\n");
+    if (!written) return written;
+  }
+  if (auto written = write_file_atomically(folder / "simulation.yaml", to_yaml(office.world)); !written) return written;
+  return write_file_atomically(folder / "museum.yaml", museum_yaml(office, survey, seed));
+}
+
+}  // namespace docent::simulator
