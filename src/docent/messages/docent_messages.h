@@ -84,6 +84,10 @@ struct Belief {
   std::uint32_t beams_used = 0;
   std::uint32_t beams_filtered = 0;
   geometry_msgs::Pose odom_pose;  ///< odom_from_base at the stamp, so that others can carry the belief forward
+  float agreement = 0;            ///< 0..1: share of the readings that the map explains, lately
+  float contradiction = 0;        ///< 0..1: share of the readings that pass through walls of the map, lately
+  float surprise = 0;             ///< the same, in the last sweep alone
+  float confirmation = 0;         ///< 0..1: of the updates and the motion that it takes to say "here"
   template <class Self, class V>
   static void visit(Self& m, V& v) {
     v("header", m.header);
@@ -101,6 +105,10 @@ struct Belief {
     v("beams_used", m.beams_used);
     v("beams_filtered", m.beams_filtered);
     v("odom_pose", m.odom_pose);
+    v("agreement", m.agreement);
+    v("contradiction", m.contradiction);
+    v("surprise", m.surprise);
+    v("confirmation", m.confirmation);
   }
 };
 

@@ -175,6 +175,10 @@ class LocalizeModule final : public Module {
     message.entropy = summary.entropy;
     message.p_lost = localizer_.verdict().p_lost();
     message.localized = localized();
+    message.agreement = static_cast<float>(localizer_.verdict().agreement());
+    message.contradiction = static_cast<float>(localizer_.verdict().contradiction());
+    message.surprise = static_cast<float>(localizer_.verdict().surprise());
+    message.confirmation = static_cast<float>(localizer_.verdict().confirmation());
     message.active_mass = summary.active_mass;
     message.active_cells = static_cast<std::uint32_t>(summary.active_states);
     message.beams_used = static_cast<std::uint32_t>(last_step_.beams_used);

@@ -33,7 +33,10 @@ void Verdict::add(const Evidence& evidence) {
   const double all = evidence.agrees + evidence.shorter + evidence.longer;
   const double through = evidence.agrees + evidence.longer;
   if (all >= kFewReadings) agreement_ += share * (evidence.agrees / all - agreement_);
-  if (through >= kFewReadings) contradiction_ += share * (evidence.longer / through - contradiction_);
+  if (through >= kFewReadings) {
+    surprise_ = evidence.longer / through;
+    contradiction_ += share * (surprise_ - contradiction_);
+  }
 
   const bool is_good = evidence.mass >= params_.enough_mass && evidence.spread <= params_.widest_spread;
   if (!evidence.is_same_mode || (!is_good && !localized_)) {
@@ -47,14 +50,13 @@ void Verdict::add(const Evidence& evidence) {
   // Readings that are too short are people; those that pass through walls mean that the place is wrong.
   const bool sees_nothing = agreement_ < 0.4 * params_.least_agreement;
   blind_ = sees_nothing ? blind_ + evidence.way : 0.0;
-  const bool contradicted = contradiction_ > 2.0 * params_.most_contradiction || blind_ > params_.blind_way;
+  const bool contradicted = this->contradicted();
   if (!contradicted) bad_ = 0.0;
   if (contradicted && (through >= kFewReadings || blind_ > params_.blind_way))
     bad_ += evidence.way + 0.5 * evidence.turn;
 
-  const double moved = std::min(1.0, std::max(way_ / std::max(params_.travelled, 1e-9),
-                                              turn_ * 180.0 / std::numbers::pi / std::max(params_.turned, 1e-9)));
-  const double seen = std::min(1.0, confirmed_ / std::max(params_.confirmations, 1e-9));
+  const double moved = this->moved();
+  const double seen = this->seen();
   if (localized_) {
     if (!evidence.is_same_mode || evidence.mass < params_.too_little_mass || contradicted) localized_ = false;
   } else {
@@ -66,6 +68,19 @@ void Verdict::add(const Evidence& evidence) {
   if (!localized_) trust *= 0.5 * (moved + seen) * (borne_out ? 1.0 : 0.5);
   const double doubt = std::clamp((contradiction_ - params_.most_contradiction) / params_.most_contradiction, 0.0, 1.0);
   p_lost_ = std::clamp(1.0 - trust * (1.0 - 0.8 * doubt), 0.0, 1.0);
+}
+
+double Verdict::moved() const {
+  return std::min(1.0, std::max(way_ / std::max(params_.travelled, 1e-9),
+                                turn_ * 180.0 / std::numbers::pi / std::max(params_.turned, 1e-9)));
+}
+
+double Verdict::seen() const { return std::min(1.0, confirmed_ / std::max(params_.confirmations, 1e-9)); }
+
+double Verdict::confirmation() const { return 0.5 * (moved() + seen()); }
+
+bool Verdict::contradicted() const {
+  return contradiction_ > 2.0 * params_.most_contradiction || blind_ > params_.blind_way;
 }
 
 bool Verdict::collapsed() const {

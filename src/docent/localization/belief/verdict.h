@@ -54,10 +54,20 @@ class Verdict {
   [[nodiscard]] bool localized() const { return localized_; }
   /// Probability that the best hypothesis is wrong: what its mass leaves, more while it is young or contradicted.
   [[nodiscard]] double p_lost() const { return p_lost_; }
+  /// Readings pass through walls of the map, so many that the place must be wrong, or for long nothing of the map was
+  /// seen at all.
+  [[nodiscard]] bool contradicted() const;
+  [[nodiscard]] double agreement() const { return agreement_; }          ///< share of the readings, running mean
+  [[nodiscard]] double contradiction() const { return contradiction_; }  ///< likewise
+  [[nodiscard]] double surprise() const { return surprise_; }            ///< share that contradicts in the last update
+  [[nodiscard]] double confirmation() const;                             ///< 0..1 of what it takes to say "here"
   /// The readings have contradicted the belief for a while: better to start over.
   [[nodiscard]] bool collapsed() const;
 
  private:
+  [[nodiscard]] double moved() const;
+  [[nodiscard]] double seen() const;
+
   VerdictParams params_;
   bool localized_ = false;
   double p_lost_ = 1.0;
@@ -66,6 +76,7 @@ class Verdict {
   double turn_ = 0.0;
   double agreement_ = 0.5;
   double contradiction_ = 0.0;
+  double surprise_ = 0.0;
   double bad_ = 0.0;    ///< [m] with bad readings; a radian turned counts half a metre
   double blind_ = 0.0;  ///< [m] driven since readings last agreed with the map
 };

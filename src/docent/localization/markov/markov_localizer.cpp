@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kLikelyFraction = 1e-3;   // of the peak: states that the filters ask
 constexpr double kMayBeShort = 0.5;        // novelty filter: more likely too short than not
+constexpr double kSurpriseWaits = 0.15;    // [s]
 constexpr std::size_t kMostLikely = 6000;  // more, and the belief is too wide for filters
 constexpr double kRadians = std::numbers::pi / 180.0;
 
@@ -45,6 +46,8 @@ Result<void> MarkovLocalizerParams::validate() const {
   if (!(unfiltered_share >= 0.0 && unfiltered_share <= 1.0)) return fail("unfiltered_share must be 0..1");
   if (!(sea_threshold >= 0.0 && sea_threshold < 1.0)) return fail("sea_threshold must be 0..1");
   if (!(teleport_probability >= 0.0 && teleport_probability < 0.1)) return fail("teleport_probability must be 0..0.1");
+  if (!(teleport_in_doubt >= 0.0 && teleport_in_doubt <= 0.5)) return fail("teleport_in_doubt must be 0..0.5");
+  if (!(surprised_at > 0.0 && surprised_at <= 1.0)) return fail("surprised_at must be 0..1");
   if (!(update_way > 0.0 && update_turn > 0.0)) return fail("update_way and update_turn must be > 0");
   if (!(creeping_period > 0.0 && standing_period > 0.0)) return fail("creeping_period and standing_period must be > 0");
   if (!(standing_weight >= 0.0 && standing_weight <= 1.0)) return fail("standing_weight must be 0..1");
@@ -116,10 +119,15 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   const Pose2 before_from_after = started_ ? inverse(odom_from_robot_) * odom_from_robot : Pose2{};
   const double way = norm(before_from_after.position());
   const double turn = std::abs(before_from_after.theta.radians());
-  step.weight = started_ ? due_weight(way, turn, time) : 1.0;
-  if (step.weight <= 0.0 || sweep.beams.empty()) return step;
-
+  if (sweep.beams.empty()) return step;
   const std::optional<Pose2> predicted = started_ ? map_from_robot(odom_from_robot) : std::nullopt;
+  step.weight = started_ ? due_weight(way, turn, time) : 1.0;
+  // Someone may have carried the robot: then this is not the same view again, and nothing to wait for.
+  if (step.weight < 1.0 && predicted && verdict_.localized() && to_seconds(time - last_update_) >= kSurpriseWaits &&
+      through_walls(sweep, *predicted) > params_.surprised_at)
+    step.weight = 1.0;
+  if (step.weight <= 0.0) return step;
+
   odom_from_robot_ = odom_from_robot;
   if (!started_) odom_from_frame_ = {odom_from_robot.x, odom_from_robot.y, Angle{}};
   started_ = true;
@@ -154,7 +162,8 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
     weights.far_most_nats = params_.most_nats_far;
     weights.focus = *predicted * inverse(frame_from_robot());
   }
-  belief_.reweigh(table_, costs, log_best_over_mean, weights, params_.teleport_probability);
+  belief_.reweigh(table_, costs, log_best_over_mean, weights,
+                  verdict_.contradicted() ? params_.teleport_in_doubt : params_.teleport_probability);
   step.updated = true;
   step.beams_used = costs.size();
   step.beams_filtered = choice.filtered;
@@ -172,6 +181,26 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   choice.evidence.turn = turn;
   judge(choice.evidence, predicted);
   return step;
+}
+
+double MarkovLocalizer::through_walls(const RangeSweep& sweep, const Pose2& map_from_robot) const {
+  constexpr std::size_t kBeams = 40;
+  constexpr double kBeyond = 0.5;  // [m]
+  constexpr int kFewest = 10;
+  int through = 0;
+  int all = 0;
+  const std::size_t stride = std::max<std::size_t>(1, sweep.beams.size() / kBeams);
+  for (std::size_t i = 0; i < sweep.beams.size(); i += stride) {
+    const SweepBeam& beam = sweep.beams[i];
+    if (beam.no_return) continue;
+    const auto expected =
+        caster_.cast(map_from_robot.position(), unit(map_from_robot.theta + Angle::radians(beam.bearing)),
+                     params_.sensor.max_range, kBeyond);
+    if (!expected || beam.range < *expected - kBeyond) continue;
+    ++all;
+    through += beam.range > *expected + kBeyond ? 1 : 0;
+  }
+  return all < kFewest ? 0.0 : static_cast<double>(through) / all;
 }
 
 std::optional<double> MarkovLocalizer::fit(const RangeSweep& seen, std::span<const BinnedBeam> beams) const {

@@ -32,6 +32,8 @@ struct MarkovLocalizerParams {
   double unfiltered_share = 0.1;       ///< of the filtered beams, chosen at random, counts anyway: for recovery
   double sea_threshold = 0.001;        ///< of the a priori probability
   double teleport_probability = 1e-7;  ///< per update: somebody carried the robot elsewhere
+  double teleport_in_doubt = 0.02;     ///< and per update while the readings contradict the map
+  double surprised_at = 0.45;          ///< share of the readings that pass through walls: an update now, a whole one
   double update_way = 0.25;            ///< [m] driven that is worth an update, or
   double update_turn = 10.0;           ///< [deg] turned, or
   double creeping_period = 2.0;        ///< [s] when it moves less, or
@@ -57,6 +59,8 @@ struct MarkovLocalizerParams {
     v("unfiltered_share", unfiltered_share);
     v("sea_threshold", sea_threshold);
     v("teleport_probability", teleport_probability);
+    v("teleport_in_doubt", teleport_in_doubt);
+    v("surprised_at", surprised_at);
     v("update_way", update_way);
     v("update_turn", update_turn);
     v("creeping_period", creeping_period);
@@ -100,6 +104,8 @@ class MarkovLocalizer final : public Localizer {
     Evidence evidence;
   };
   [[nodiscard]] double due_weight(double way, double turn, Time time) const;
+  /// Share of a sweep's readings that pass through walls of the map at a pose, of those that are not too short.
+  [[nodiscard]] double through_walls(const RangeSweep& sweep, const Pose2& map_from_robot) const;
   [[nodiscard]] Choice choose_beams(const RangeSweep& sweep, const std::vector<BinnedBeam>& beams);
   void thin(std::vector<BinnedBeam>& beams);
   [[nodiscard]] std::optional<double> fit(const RangeSweep& seen, std::span<const BinnedBeam> beams) const;
