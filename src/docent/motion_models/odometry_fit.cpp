@@ -102,12 +102,17 @@ double log_likelihood(std::span<const MotionWindow> windows, const Variances& va
   return windows.empty() ? 0.0 : sum / static_cast<double>(windows.size());
 }
 
+/// ln of the prior [nat], but for a constant; `usual` is its peak.
+double slip_prior(const OdometryFitParams& options, double usual, double slip) {
+  return options.slip_prior * (usual * std::log(slip) + (1.0 - usual) * std::log1p(-slip));
+}
+
 /// The slip probability that makes `shares` of the windows slipped most likely: ternary search, the function is
 /// concave.
 double best_slip(std::span<const MotionWindow> windows, std::span<const double> shares,
-                 const OdometryFitParams& options) {
+                 const OdometryFitParams& options, double usual) {
   const auto value = [&](double slip) {
-    double sum = 0.0;
+    double sum = slip_prior(options, usual, slip);
     for (std::size_t i = 0; i < windows.size(); ++i) {
       const double log_kept = windows[i].exposure * std::log1p(-slip);
       sum += (1.0 - shares[i]) * log_kept + shares[i] * std::log(-std::expm1(std::min(log_kept, -1e-300)));
@@ -128,32 +133,32 @@ double best_slip(std::span<const MotionWindow> windows, std::span<const double> 
 struct Place {
   Variances variances{};
   double slip = 0.0;
-  double log_likelihood = 0.0;
+  double log_likelihood = 0.0;  ///< with the prior
 };
 
 /// Climbs the likelihood over the variances and the slip probability.
 class Climb {
  public:
   Climb(std::span<const MotionWindow> windows, const std::array<bool, kNoiseSources>& fitted, const Variances& floors,
-        const OdometryFitParams& options)
-      : windows_{windows}, fitted_{fitted}, floors_{floors}, options_{options} {}
+        const OdometryFitParams& options, double usual_slip)
+      : windows_{windows}, fitted_{fitted}, floors_{floors}, options_{options}, usual_slip_{usual_slip} {}
 
   [[nodiscard]] Place at(const Variances& variances, double slip) const {
-    return {variances, slip, log_likelihood(windows_, variances, slip)};
+    double value = log_likelihood(windows_, variances, slip);
+    if (!options_.fixed_motion) value += slip_prior(options_, usual_slip_, slip) / static_cast<double>(windows_.size());
+    return {variances, slip, value};
   }
 
-  /// One step of EM and minorize-maximize; the likelihood does not fall. Its value is that of `from`.
+  /// One step of EM and minorize-maximize; the likelihood does not fall. Its value is not known yet.
   [[nodiscard]] Place step(const Place& from) const {
     Variances found{};
     Variances foreseen{};
     std::vector<double> shares;
     shares.reserve(windows_.size());
     Place next = from;
-    next.log_likelihood = 0.0;
     for (const MotionWindow& window : windows_) {
       const Explained here = explained(window, from.variances, from.slip);
       shares.push_back(here.slip_share);
-      next.log_likelihood += here.log_likelihood / static_cast<double>(windows_.size());
       for (const auto& [part, share] :
            {std::pair{&here.kept, 1.0 - here.slip_share}, std::pair{&here.slipped, here.slip_share}}) {
         const auto weighted = times(part->precision, window.error);
@@ -166,7 +171,7 @@ class Climb {
     for (std::size_t i = 0; i < kNoiseSources; ++i)
       if (fitted_[i] && foreseen[i] > 0.0)
         next.variances[i] = std::max(floors_[i], from.variances[i] * std::sqrt(found[i] / foreseen[i]));
-    if (!options_.fixed_motion) next.slip = best_slip(windows_, shares, options_);
+    if (!options_.fixed_motion) next.slip = best_slip(windows_, shares, options_, usual_slip_);
     return next;
   }
 
@@ -205,6 +210,7 @@ class Climb {
   std::array<bool, kNoiseSources> fitted_;
   Variances floors_;
   OdometryFitParams options_;
+  double usual_slip_;
 };
 
 /// Mean errors a metre of the windows without turns, which a calibration of the wheels would take away.
@@ -257,7 +263,7 @@ Result<OdometryFit> fit_odometry_model(std::span<const MotionWindow> windows, co
     if (fitted[i]) variances[i] = std::max({variances[i], floors[i], 1e-9});  // from 0 no multiple leads away
   double slip = start.motion.slip_probability;
   if (!options.fixed_motion) slip = std::clamp(slip, options.least_slip, options.most_slip);
-  const Climb climb{windows, fitted, floors, options};
+  const Climb climb{windows, fitted, floors, options, slip};
   Place place = climb.at(variances, slip);
   fit.history.push_back(place.log_likelihood);
   for (int round = 0; round < options.most_rounds; ++round) {
@@ -266,8 +272,8 @@ Result<OdometryFit> fit_odometry_model(std::span<const MotionWindow> windows, co
     if (fit.history.back() - fit.history[fit.history.size() - 2] < options.settled) break;
   }
   fit.noise = noise_of(place.variances, place.slip);
-  fit.after = fit.history.back();
-  fit.before = fit.history.front();
+  fit.after = mean_log_likelihood(windows, fit.noise);
+  fit.before = fit.after;
   if (!options.fixed_motion) {
     OdometryFitParams labels_only = options;
     labels_only.fixed_motion = true;

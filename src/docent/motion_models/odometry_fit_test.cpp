@@ -102,7 +102,9 @@ TEST(OdometryFit, FindsTheNoiseThatMadeTheDrive) {
     Rng rng{seed};
     const LabelledMotionNoise truth = any_noise(rng);
     const auto windows = windows_of(any_drive(rng, truth, 8000));  // 1.7 km
-    const auto fit = fit_odometry_model(windows, {});
+    OdometryFitParams options;
+    options.slip_prior = 10.0;
+    const auto fit = fit_odometry_model(windows, {}, options);
     ASSERT_TRUE(fit) << fit.error().message;
     const OdometryModelParams& found = fit->noise.motion;
     // What counts are deviations: within 15 % (way) and 25 % (turns).
