@@ -92,17 +92,17 @@ std::string motion_table(const LearningOutcome& outcome) {
 
 std::string learning_table(const LearningOutcome& outcome) {
   const LearnedModels& learned = outcome.learned;
-  std::string text = "iteration  sure sweeps  readings   ln P before   fitted   held out: start   fitted\n";
+  std::string text = "iteration  sure sweeps  step  readings   ln P before   fitted   held out: start   fitted\n";
   for (std::size_t i = 0; i < learned.iterations.size(); ++i) {
     const BootstrapIteration& at = learned.iterations[i];
-    text += format("%9zu  %5zu/%-6zu %8llu   %11.4f %8.4f   %15.4f %8.4f\n", i + 1, at.sure, at.sweeps,
+    text += format("%9zu  %5zu/%-6zu %4.2f  %8llu   %11.4f %8.4f   %15.4f %8.4f\n", i + 1, at.sure, at.sweeps, at.step,
                    static_cast<unsigned long long>(at.readings), at.before, at.after, at.held_out.before,
                    at.held_out.after);
   }
   text += format("\n%-26s %12s %12s\n", (outcome.sensor + " model").c_str(), "before", "learned");
   text += parameter_rows(normalised(outcome.before), learned.sensor);
   text += held_out_row("held out, labels of the start", learned.on_first_labels);
-  text += held_out_row("held out, last labels", learned.iterations.back().held_out);
+  text += held_out_row("held out, last labels", learned.on_last_labels);
   return text + "\n" + motion_table(outcome);
 }
 
@@ -150,7 +150,7 @@ std::string learning_json(const LearningOutcome& outcome) {
   report["before"] = to_object(normalised(outcome.before));
   report["learned"] = to_object(learned.sensor);
   report["held_out_first_labels"] = to_json(learned.on_first_labels);
-  report["held_out_last_labels"] = to_json(learned.iterations.back().held_out);
+  report["held_out_last_labels"] = to_json(learned.on_last_labels);
   for (const BootstrapIteration& at : learned.iterations)
     report["iterations"].push_back({{"sweeps", at.sweeps},
                                     {"sure", at.sure},

@@ -133,19 +133,25 @@ double best_slip(std::span<const MotionWindow> windows, std::span<const double> 
 struct Place {
   Variances variances{};
   double slip = 0.0;
-  double log_likelihood = 0.0;  ///< with the prior
+  double log_likelihood = 0.0;  ///< [nat] a window, with the priors
 };
 
 /// Climbs the likelihood over the variances and the slip probability.
 class Climb {
  public:
   Climb(std::span<const MotionWindow> windows, const std::array<bool, kNoiseSources>& fitted, const Variances& floors,
-        const OdometryFitParams& options, double usual_slip)
-      : windows_{windows}, fitted_{fitted}, floors_{floors}, options_{options}, usual_slip_{usual_slip} {}
+        const OdometryFitParams& options, const Place& usual)
+      : windows_{windows}, fitted_{fitted}, floors_{floors}, options_{options}, usual_{usual} {}
 
   [[nodiscard]] Place at(const Variances& variances, double slip) const {
     double value = log_likelihood(windows_, variances, slip);
-    if (!options_.fixed_motion) value += slip_prior(options_, usual_slip_, slip) / static_cast<double>(windows_.size());
+    if (!options_.fixed_motion) {
+      double prior = slip_prior(options_, usual_.slip, slip);
+      for (std::size_t i = 0; i < label_position; ++i)
+        if (fitted_[i])
+          prior -= options_.variance_prior * (std::log(variances[i]) + usual_.variances[i] / variances[i]);
+      value += prior / static_cast<double>(windows_.size());
+    }
     return {variances, slip, value};
   }
 
@@ -168,10 +174,14 @@ class Climb {
         }
       }
     }
-    for (std::size_t i = 0; i < kNoiseSources; ++i)
-      if (fitted_[i] && foreseen[i] > 0.0)
-        next.variances[i] = std::max(floors_[i], from.variances[i] * std::sqrt(found[i] / foreseen[i]));
-    if (!options_.fixed_motion) next.slip = best_slip(windows_, shares, options_, usual_slip_);
+    for (std::size_t i = 0; i < kNoiseSources; ++i) {
+      const double prior = i < label_position ? options_.variance_prior : 0.0;
+      const double at = from.variances[i];
+      const double rises = 0.5 * found[i] * at * at + prior * usual_.variances[i];
+      const double falls = 0.5 * foreseen[i] + prior / at;
+      if (fitted_[i] && falls > 0.0) next.variances[i] = std::max(floors_[i], std::sqrt(rises / falls));
+    }
+    if (!options_.fixed_motion) next.slip = best_slip(windows_, shares, options_, usual_.slip);
     return next;
   }
 
@@ -210,7 +220,7 @@ class Climb {
   std::array<bool, kNoiseSources> fitted_;
   Variances floors_;
   OdometryFitParams options_;
-  double usual_slip_;
+  Place usual_;  ///< the peak of the prior
 };
 
 /// Mean errors a metre of the windows without turns, which a calibration of the wheels would take away.
@@ -263,7 +273,7 @@ Result<OdometryFit> fit_odometry_model(std::span<const MotionWindow> windows, co
     if (fitted[i]) variances[i] = std::max({variances[i], floors[i], 1e-9});  // from 0 no multiple leads away
   double slip = start.motion.slip_probability;
   if (!options.fixed_motion) slip = std::clamp(slip, options.least_slip, options.most_slip);
-  const Climb climb{windows, fitted, floors, options, slip};
+  const Climb climb{windows, fitted, floors, options, {variances, slip, 0.0}};
   Place place = climb.at(variances, slip);
   fit.history.push_back(place.log_likelihood);
   for (int round = 0; round < options.most_rounds; ++round) {

@@ -33,6 +33,9 @@ struct OdometryFitParams {
   /// Slips are rare, and where wheels slip a label is seldom sure: a recording counts against so many steps that
   /// slipped as often as the start says.
   double slip_prior = 2000.0;
+  /// The same for each variance: windows overlap and a short recording holds few of its own, so that one that says
+  /// little of a variance leaves it about where it was.
+  double variance_prior = 20.0;
   bool fixed_motion = false;  ///< fit the labels' noise alone, for a fair comparison of motion models
   int most_rounds = 200;
   double settled = 1e-6;  ///< [nat] a window gained by a round
@@ -47,7 +50,7 @@ struct OdometryFit {
   double after = 0.0;         ///< [nat] a window
   double drift_turn = 0.0;    ///< [rad/m] systematic, to the left: part of the errors, but one could calibrate it away
   double drift_length = 0.0;  ///< [m/m] likewise: odometry reads so much too short
-  std::vector<double> history;  ///< [nat] after every round, with the prior of slips; never falls
+  std::vector<double> history;  ///< [nat] after every round, with the priors; never falls
 };
 
 /// Maximum likelihood fit of the motion model, [Rhino1999] 3.1.3 and Fig. 6: translational and rotational error,

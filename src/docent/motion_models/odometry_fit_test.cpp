@@ -163,7 +163,7 @@ TEST(OdometryFit, KeepsWhatTheDriveDoesNotShow) {
   Rng rng{6};
   const LabelledMotionNoise truth;
   std::vector<LabelledOdometry> straight;
-  for (int i = 0; i < 200; ++i)
+  for (int i = 0; i < 1500; ++i)
     straight.push_back({{0.25 * i, 0.0, {}}, {0.25 * i + rng.normal(0.0, 0.03), rng.normal(0.0, 0.03), {}}, true});
   const auto fit = fit_odometry_model(windows_of(straight), truth);
   ASSERT_TRUE(fit) << fit.error().message;

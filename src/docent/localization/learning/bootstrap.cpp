@@ -10,7 +10,9 @@ namespace docent {
 
 namespace {
 
-constexpr double kFewerSure = 0.8;  // of the sure labels must remain, or the last model was better
+// What a labelling may lose against the one before, as a share of the sweeps: that much is chance.
+constexpr double kFewerSure = 0.05;
+constexpr double kMoreContradicted = 0.02;
 
 using Labellings = std::vector<Labelling>;
 
@@ -20,6 +22,30 @@ std::size_t sure_of(const Labellings& labellings) {
   return sure;
 }
 
+std::size_t contradicted_of(const Labellings& labellings) {
+  std::size_t contradicted = 0;
+  for (const Labelling& labelling : labellings) contradicted += labelling.contradicted;
+  return contradicted;
+}
+
+/// `share` of the way from one model to another; scales by their logarithms.
+ProximityModelParams between(const ProximityModelParams& from, const ProximityModelParams& to, double share) {
+  const auto linear = [share](double a, double b) { return a + share * (b - a); };
+  const auto scaled = [share](double a, double b) { return a * std::pow(b / a, share); };
+  ProximityModelParams result = to;
+  result.sigma = scaled(from.sigma, to.sigma);
+  result.sigma_per_metre = linear(from.sigma_per_metre, to.sigma_per_metre);
+  result.short_per_metre = scaled(from.short_per_metre, to.short_per_metre);
+  result.near_factor = scaled(from.near_factor, to.near_factor);
+  const double total = from.total_weight();
+  result.weight_hit = linear(from.weight_hit / total, to.weight_hit);
+  result.weight_near = linear(from.weight_near / total, to.weight_near);
+  result.weight_short = linear(from.weight_short / total, to.weight_short);
+  result.weight_no_return = linear(from.weight_no_return / total, to.weight_no_return);
+  result.weight_random = linear(from.weight_random / total, to.weight_random);
+  return result;
+}
+
 class Bootstrap {
  public:
   Bootstrap(const std::vector<LearningRecording>& recordings, const OccupancyGrid& map,
@@ -27,6 +53,10 @@ class Bootstrap {
             const std::function<void(const std::string&)>& progress)
       : recordings_{recordings}, map_{map}, params_{params}, progress_{progress}, localizer_params_{start} {
     for (const LearningRecording& recording : recordings_) pieces_.push_back(pieces_of(recording.lasers));
+    // Cells blur at least as much as their middle is off.
+    if (params_.expected_at == ExpectedAt::cell)
+      params_.sensor_fit.least_sigma =
+          std::max(params_.sensor_fit.least_sigma, start.states.cell_size / std::sqrt(12.0));
   }
 
   Result<LearnedModels> learn() {
@@ -35,25 +65,29 @@ class Bootstrap {
     const ProximityModelParams start = params_.sonar ? *params_.sonar : localizer_params_.sensor;
     CountedReadings readings = count(labels);
     const CountedReadings first_readings = readings;
-    LearnedModels result{start, {}, {}, 0.0, 0.0, 0, localizer_params_.states.wall_depth, {}, {}, readings.fitted};
+    LearnedModels result{start, {}, {}, 0.0, 0.0, 0, localizer_params_.states.wall_depth, {}, {}, {}, readings.fitted};
     for (int n = 0; n < params_.most_iterations; ++n) {
-      if (n > 0) {
-        Labellings again = label_with(result.sensor, "iteration " + std::to_string(n + 1));
-        if (static_cast<double>(sure_of(again)) < kFewerSure * static_cast<double>(sure_of(labels))) break;
-        labels = std::move(again);
-        readings = count(labels);
-      }
       const auto fit = fit_proximity_model(readings.fitted, result.sensor, params_.sensor_fit);
       if (!fit) return tl::unexpected<Error>(fit.error());
-      result.sensor = fit->params;
-      result.iterations.push_back({sweeps(), sure_of(labels), fit->readings, fit->before, fit->after,
-                                   compare(readings.held_out, start, fit->params)});
-      say(result.iterations);
-      if (params_.sonar) break;
-      if (n > 0 && std::abs(fit->after - result.iterations[result.iterations.size() - 2].after) < params_.settled)
+      char line[160];
+      std::snprintf(line, sizeof line, "fit to %llu readings: ln P %.4f -> %.4f nat",
+                    static_cast<unsigned long long>(fit->readings), fit->before, fit->after);
+      progress_(line);
+      const bool settled = n > 0 && fit->after - fit->before < params_.settled;
+      const auto step = settled ? std::nullopt : go(result.sensor, fit->params, labels);
+      if (!step) {
+        if (!settled) progress_("no step to the new fit makes better labels: the last model stands");
         break;
+      }
+      result.sensor = between(result.sensor, fit->params, *step);
+      result.iterations.push_back({sweeps(), sure_of(labels), *step, fit->readings, fit->before,
+                                   mean_log_likelihood(readings.fitted, result.sensor),
+                                   compare(readings.held_out, start, result.sensor)});
+      if (params_.sonar) break;
+      readings = count(labels);
     }
     result.on_first_labels = compare(first_readings.held_out, start, result.sensor);
+    result.on_last_labels = compare(readings.held_out, start, result.sensor);
     result.readings = readings.fitted;
     for (const ReadingCounts& piece : readings.held_out) result.readings.add(piece);
     learn_motion(labels, result);
@@ -76,14 +110,33 @@ class Bootstrap {
             progress_(what + ", recording " + std::to_string(i + 1) + ": " + std::to_string(done) + " of " +
                       std::to_string(all) + " sweeps");
           }));
+      refine(recordings_[i].lasers, localizer_->caster(), localizer_params_.sensor.max_range, params_.refinement,
+             result.back().labels);
     }
     return result;
   }
 
-  Labellings label_with(const ProximityModelParams& sensor, const std::string& what) {
-    if (!params_.sonar) localizer_params_.sensor = sensor;
-    make_localizer();
-    return label_all(what);
+  /// Labels anew with the model a step from `from` to `to`, shorter ones when they get worse. The step, and `labels`
+  /// become the new ones; nullopt when none is good. A sonar makes no labels: the whole step.
+  std::optional<double> go(const ProximityModelParams& from, const ProximityModelParams& to, Labellings& labels) {
+    if (params_.sonar) return 1.0;
+    const auto all = static_cast<double>(sweeps());
+    const double least_sure = static_cast<double>(sure_of(labels)) - kFewerSure * all;
+    const double most_contradicted = static_cast<double>(contradicted_of(labels)) + kMoreContradicted * all;
+    for (const double share : {1.0, 0.5, 0.25}) {
+      localizer_params_.sensor = between(from, to, share);
+      make_localizer();
+      Labellings again = label_all("labels of the fit");
+      char line[120];
+      std::snprintf(line, sizeof line, "%.0f %% of the way to the fit: %zu sweeps sure, %zu contradicted",
+                    100.0 * share, sure_of(again), contradicted_of(again));
+      progress_(line);
+      if (static_cast<double>(sure_of(again)) < least_sure) continue;
+      if (static_cast<double>(contradicted_of(again)) > most_contradicted) continue;
+      labels = std::move(again);
+      return share;
+    }
+    return std::nullopt;
   }
 
   /// With the model at the start, and the wall depth that suits it best.
@@ -168,15 +221,6 @@ class Bootstrap {
     result.motion_held_before = mean_log_likelihood(held_out, plain ? plain->noise : start);
     result.motion_held_after = mean_log_likelihood(held_out, fit->noise);
     result.motion = std::move(*fit);
-  }
-
-  void say(const std::vector<BootstrapIteration>& iterations) const {
-    const BootstrapIteration& last = iterations.back();
-    char line[200];
-    std::snprintf(line, sizeof line, "iteration %zu: %zu of %zu sweeps sure, %llu readings, ln P %.4f -> %.4f nat",
-                  iterations.size(), last.sure, last.sweeps, static_cast<unsigned long long>(last.readings),
-                  last.before, last.after);
-    progress_(line);
   }
 
   const std::vector<LearningRecording>& recordings_;

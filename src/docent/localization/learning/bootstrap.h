@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "docent/localization/learning/readings.h"
+#include "docent/localization/learning/refinement.h"
 #include "docent/motion_models/odometry_fit.h"
 
 namespace docent {
@@ -18,12 +19,13 @@ struct LearningRecording {
 
 struct BootstrapParams {
   int most_iterations = 6;
-  double settled = 0.002;  ///< [nat] that the readings' mean likelihood changes in an iteration: then it is enough
+  double settled = 0.002;  ///< [nat] a reading that a fit to new labels gains over the last one: then it is enough
   std::vector<double> wall_depths{0.0};  ///< [m] to try; the one that explains the recordings best is kept
   ExpectedAt expected_at = ExpectedAt::cell;
   /// Of the sonar, as far as it is known before; nullopt: the lasers are learned.
   std::optional<ProximityModelParams> sonar;
   LabelParams labels;
+  RefinementParams refinement;
   ReadingParams readings;
   ProximityFitParams sensor_fit;
   OdometryFitParams motion_fit;
@@ -44,6 +46,7 @@ struct HeldOut {
 
 struct BootstrapIteration {
   std::size_t sweeps = 0, sure = 0;  ///< of the lasers
+  double step = 1.0;                 ///< of the way from the last model to the fit that was gone
   std::uint64_t readings = 0;        ///< that were fitted
   double before = 0.0;               ///< [nat] a fitted reading, by the model that labelled
   double after = 0.0;                ///< [nat] by the fit
@@ -60,13 +63,19 @@ struct LearnedModels {
   std::vector<BootstrapIteration> iterations;
   /// On labels made with the model at the start: the fair comparison, which owes the learned model nothing.
   HeldOut on_first_labels;
+  HeldOut on_last_labels;
   ReadingCounts readings;  ///< all of the last iteration, for pictures
 };
 
 /// The bootstrap of [Rhino1999] 3.1.2: label the recordings by localizing them with an approximate model, fit the model
-/// to the readings whose place is sure, label again with the fit, until the likelihood settles or labels get fewer. The
-/// motion model is fitted to the last labels and does not take part in making them: labels that lean on odometry would
-/// find it better with every turn. A sonar is learned from the lasers' labels in one turn.
+/// to the readings whose place is sure, label again with the fit, until the likelihood settles.
+///
+/// The most likely model of single readings is not always good for a belief that multiplies them. So each fit has to
+/// prove itself in the next labelling: when fewer places are sure or the two runs contradict each other more than
+/// before, only half the way to the fit is gone, then a quarter; when that is not enough, the last model stands.
+///
+/// The motion model is fitted to the last labels and does not take part in making them: labels that lean on odometry
+/// would find it better with every turn. A sonar is learned from the lasers' labels in one turn.
 ///
 /// Error: no sure place, or too few readings. @pre start is valid; every recording has lasers
 [[nodiscard]] Result<LearnedModels> bootstrap(const std::vector<LearningRecording>& recordings,

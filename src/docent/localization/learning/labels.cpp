@@ -111,6 +111,9 @@ Labelling label(std::span<const RecordedSweep> sweeps, MarkovLocalizer& localize
     PoseLabel& chosen = result.labels[i];
     if (a.knows && b.knows) {
       chosen = middle(a, b, params);
+      const bool far = distance(a.map_from_base.position(), b.map_from_base.position()) > params.other_place ||
+                       std::abs((a.map_from_base.theta - b.map_from_base.theta).degrees()) > params.other_heading;
+      result.contradicted += far ? 1 : 0;
     } else if (a.knows && sweeps.size() - 1 - i < reversed.first_known) {
       chosen = {a.map_from_base, a.p_lost <= params.most_p_lost};
     } else if (b.knows && i < forward.first_known) {

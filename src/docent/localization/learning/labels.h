@@ -27,13 +27,16 @@ struct PoseLabel {
 struct Labelling {
   std::vector<PoseLabel> labels;  ///< one a sweep
   std::size_t sure = 0;
-  double fit = 0.0;  ///< mean ln P(d | o) of a beam at the best mode, over both runs [nat]
+  std::size_t contradicted = 0;  ///< sweeps of which both runs claim to know the place, and contradict each other
+  double fit = 0.0;              ///< mean ln P(d | o) of a beam at the best mode, over both runs [nat]
 };
 
 struct LabelParams {
-  double most_apart = 0.3;    ///< [m] that the run forward and the reversed one may differ
-  double most_turned = 5.0;   ///< [deg] likewise
-  double most_p_lost = 0.02;  ///< of a run that alone knows a moment
+  double most_apart = 0.3;      ///< [m] that the run forward and the reversed one may differ
+  double most_turned = 5.0;     ///< [deg] likewise
+  double other_place = 0.5;     ///< [m] from which on they contradict each other
+  double other_heading = 10.0;  ///< [deg] likewise
+  double most_p_lost = 0.02;    ///< of a run that alone knows a moment
 };
 
 /// Labels sweeps by localizing them forward and reversed, each from an unknown start. A label is sure where both runs
