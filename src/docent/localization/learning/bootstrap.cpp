@@ -125,15 +125,21 @@ class Bootstrap {
     const double most_contradicted = static_cast<double>(contradicted_of(labels)) + kMoreContradicted * all;
     for (const double share : {1.0, 0.5, 0.25}) {
       localizer_params_.sensor = between(from, to, share);
-      make_localizer();
-      Labellings again = label_all("labels of the fit");
-      char line[120];
-      std::snprintf(line, sizeof line, "%.0f %% of the way to the fit: %zu sweeps sure, %zu contradicted",
-                    100.0 * share, sure_of(again), contradicted_of(again));
-      progress_(line);
-      if (static_cast<double>(sure_of(again)) < least_sure) continue;
-      if (static_cast<double>(contradicted_of(again)) > most_contradicted) continue;
-      labels = std::move(again);
+      std::optional<Labellings> first;
+      bool good = true;
+      for (int proof = 0; good && proof < params_.proofs; ++proof) {
+        make_localizer(static_cast<std::uint64_t>(proof));
+        Labellings again = label_all("labels of the fit");
+        char line[120];
+        std::snprintf(line, sizeof line, "%.0f %% of the way to the fit: %zu sweeps sure, %zu contradicted",
+                      100.0 * share, sure_of(again), contradicted_of(again));
+        progress_(line);
+        good = static_cast<double>(sure_of(again)) >= least_sure &&
+               static_cast<double>(contradicted_of(again)) <= most_contradicted;
+        if (!first) first = std::move(again);
+      }
+      if (!good) continue;
+      labels = std::move(*first);
       return share;
     }
     return std::nullopt;
@@ -167,8 +173,8 @@ class Bootstrap {
     return best;
   }
 
-  void make_localizer() {
-    localizer_ = std::make_unique<MarkovLocalizer>(map_, localizer_params_, params_.cache, params_.seed);
+  void make_localizer(std::uint64_t proof = 0) {
+    localizer_ = std::make_unique<MarkovLocalizer>(map_, localizer_params_, params_.cache, params_.seed + proof);
     if (params_.sonar) {
       const ProximityModel bins{*params_.sonar};
       sonar_table_ = std::make_unique<RangeTable>(RangeTable::build(localizer_->space(), localizer_->caster(), bins));

@@ -21,6 +21,7 @@ struct BootstrapParams {
   int most_iterations = 6;
   double settled = 0.002;  ///< [nat] a reading that a fit to new labels gains over the last one: then it is enough
   std::vector<double> wall_depths{0.0};  ///< [m] to try; the one that explains the recordings best is kept
+  int proofs = 3;  ///< labellings, each with other random choices of beams, in which a fit must prove itself
   ExpectedAt expected_at = ExpectedAt::cell;
   /// Of the sonar, as far as it is known before; nullopt: the lasers are learned.
   std::optional<ProximityModelParams> sonar;
@@ -71,7 +72,7 @@ struct LearnedModels {
 /// to the readings whose place is sure, label again with the fit, until the likelihood settles.
 ///
 /// The most likely model of single readings is not always good for a belief that multiplies them. So each fit has to
-/// prove itself in the next labelling: when fewer places are sure or the two runs contradict each other more than
+/// prove itself in new labellings: when fewer places are sure or the two runs contradict each other more than
 /// before, only half the way to the fit is gone, then a quarter; when that is not enough, the last model stands.
 ///
 /// The motion model is fitted to the last labels and does not take part in making them: labels that lean on odometry
