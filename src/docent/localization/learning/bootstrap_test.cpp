@@ -181,10 +181,12 @@ TEST_P(BootstrapInTheHall, FindsSensorAndWheels) {
   const OccupancyGrid map = hall();
   std::vector<Pose2> truth;
   std::vector<LearningRecording> recordings(2);
-  recordings[0].lasers = drive(GetParam(), map, 4, truth);
-  recordings[1].lasers = drive(GetParam() + 100, map, 4, truth);
+  recordings[0].lasers = drive(GetParam(), map, 3, truth);
+  recordings[1].lasers = drive(GetParam() + 100, map, 3, truth);
   BootstrapParams params;
   params.expected_at = ExpectedAt::pose;
+  params.proofs = 1;
+  params.most_iterations = 2;
   std::size_t lines = 0;
   const auto learned = bootstrap(recordings, map, start_params(), params, [&](const std::string&) { ++lines; });
   ASSERT_TRUE(learned) << learned.error().message;
