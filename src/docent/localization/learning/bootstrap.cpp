@@ -11,7 +11,7 @@ namespace docent {
 namespace {
 
 // What a labelling may lose against the one before, as a share of the sweeps: that much is chance.
-constexpr double kFewerSure = 0.05;
+constexpr double kFewerSure = 0.15;
 constexpr double kMoreContradicted = 0.02;
 
 using Labellings = std::vector<Labelling>;

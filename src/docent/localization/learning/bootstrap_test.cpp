@@ -186,7 +186,7 @@ TEST_P(BootstrapInTheHall, FindsSensorAndWheels) {
   BootstrapParams params;
   params.expected_at = ExpectedAt::pose;
   params.proofs = 1;
-  params.most_iterations = 2;
+  params.most_iterations = 1;
   std::size_t lines = 0;
   const auto learned = bootstrap(recordings, map, start_params(), params, [&](const std::string&) { ++lines; });
   ASSERT_TRUE(learned) << learned.error().message;
@@ -213,7 +213,7 @@ TEST_P(BootstrapInTheHall, FindsSensorAndWheels) {
   EXPECT_GT(learned->motion_held_after, learned->motion_held_before);
   EXPECT_LT(std::sqrt(learned->motion->noise.label_position), 0.08);
 }
-INSTANTIATE_TEST_SUITE_P(Seeds, BootstrapInTheHall, ::testing::Values(11, 12));
+INSTANTIATE_TEST_SUITE_P(Seeds, BootstrapInTheHall, ::testing::Values(11));
 
 TEST(Bootstrap, SaysWhenTheRobotIsNowhereSure) {
   std::vector<LearningRecording> recordings(1);
