@@ -116,6 +116,7 @@ TEST(BadInput, MapsAndLogs) {
   const std::string no_yaml = folder.write("no_yaml.yaml", "image: [good.pgm\n");
   const std::string text = folder.write("text.log", "hello\n");
   const std::string cut_line = folder.write("cut.log", "# a comment\nFLASER 3 1.0 2.0\n");
+  const std::string standing = folder.write("standing.log", "FLASER 3 1.0 2.0 3.0 0 0 0 0 0 0 1 host 1\n");
   const std::string no_number = folder.write("letters.log", "FLASER 2 1.0 x 0 0 0 0 0 0 1 host 1\n");
   const std::string no_gzip = folder.write("no.gz", "\x1f\x8b nonsense");
   const std::string no_mcap = folder.write("no.mcap", "\x89MCAP");
@@ -140,6 +141,32 @@ TEST(BadInput, MapsAndLogs) {
            {"damaged gzip", {"localize", "--map", kMap, "--log", no_gzip}, "no.gz"},
            {"localize in no map", {"localize", "--map", no_image, "--log", text}, "no_image.yaml:1: "},
            {"unknown method", {"localize", "--map", kMap, "--log", text, "--method", "magic"}, "--method"},
+           {"learn from no log", {"learn-sensor-model", "--map", kMap, "--log", "/nowhere.log"}, "/nowhere.log: "},
+           {"learn without log", {"learn-sensor-model", "--map", kMap}, "--log is required"},
+           {"learn from a line cut", {"learn-sensor-model", "--map", kMap, "--log", cut_line}, "cut.log:2: "},
+           {"learn without map", {"learn-sensor-model", "--log", standing}, "either --map or --museum is required"},
+           {"learn in two maps",
+            {"learn-sensor-model", "--map", kMap, "--museum", kMuseum, "--log", standing},
+            "either --map or --museum is required"},
+           {"learn in no map", {"learn-sensor-model", "--map", no_image, "--log", standing}, "no_image.yaml:1: "},
+           {"learn in no museum",
+            {"learn-sensor-model", "--museum", "/nowhere", "--log", standing},
+            "/nowhere/museum.yaml"},
+           {"learn an unknown sensor",
+            {"learn-sensor-model", "--map", kMap, "--log", standing, "--sensor", "nose"},
+            "--sensor"},
+           {"learn sonar from a laser's log",
+            {"learn-sensor-model", "--map", kMap, "--log", standing, "--sensor", "sonar"},
+            "standing.log: holds no readings of sonars with a place"},
+           {"learn into nothing",
+            {"learn-sensor-model", "--map", kMap, "--log", standing, "--out", "/nowhere/robot.yaml"},
+            "--out: no folder /nowhere"},
+           {"learn with an unknown key",
+            {"learn-sensor-model", "--map", kMap, "--log", standing, "--set", "colour=3"},
+            "colour"},
+           {"learn with walls of letters",
+            {"learn-sensor-model", "--map", kMap, "--log", standing, "--wall-depth", "deep"},
+            "--wall-depth deep: "},
            {"recording cut in its magic", {"evaluate", no_mcap}, "no.mcap: "},
            {"empty recording", {"evaluate", empty}, "empty.mcap: "},
            {"no recording", {"evaluate", "/nowhere.mcap"}, "/nowhere.mcap: "},

@@ -12,6 +12,7 @@
 #include "docent/apps/command.h"
 #include "docent/apps/localize_log.h"
 #include "docent/apps/localize_picture.h"
+#include "docent/apps/log_defaults.h"
 #include "docent/base/files.h"
 #include "docent/localization/markov/markov_localizer.h"
 #include "docent/recording/laser_log.h"
@@ -110,17 +111,7 @@ void print(const char* title, const nlohmann::json& report) {
 
 MarkovLocalizerParams params_for(const Options& options, const OccupancyGrid& map, const LaserLog& log) {
   RobotConfig config;
-  // Far readings tell one corridor from another; beyond some length the map's headings are too coarse for them.
-  const double reach = std::min(log.max_range > 0.0 ? log.max_range : 30.0, 30.0);
-  // A map's cells are as coarse as its walls are uncertain.
-  const double sigma = std::hypot(0.13, 1.5 * map.frame.resolution);
-  value_or_fail(
-      config.set("localize.sensor={max_range: " + std::to_string(reach) + ", sigma: " + std::to_string(sigma) + "}"));
-  // Whose wheels these were is not known; and nobody drives by what it says, so that it may say so earlier.
-  value_or_fail(config.set("localize.motion={rotation_per_metre: 0.0015}"));
-  value_or_fail(config.set("localize.verdict={confirmations: 3, travelled: 0.5, turned: 60}"));
-  // Nobody waits for the next scan: states sink later than in a robot.
-  value_or_fail(config.set("localize.sea_threshold=0.00001"));
+  value_or_fail(set_log_defaults(config, map, log.max_range));
   for (const std::string& setting : options.settings) {
     for (const std::string own : {"filter", "states"})
       if (setting.rfind(own + "=", 0) == 0 && (own == "filter" || setting.find("wall_depth") != std::string::npos))

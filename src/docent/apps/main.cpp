@@ -5,6 +5,7 @@
 #include "docent/apps/check_command.h"
 #include "docent/apps/command.h"
 #include "docent/apps/evaluate_command.h"
+#include "docent/apps/learn_command.h"
 #include "docent/apps/localize_command.h"
 #include "docent/apps/office_command.h"
 #include "docent/apps/plan_command.h"
@@ -20,6 +21,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "docent 0.1.0");
   docent::add_check_command(app);
   docent::add_evaluate_command(app);
+  docent::add_learn_command(app);
   docent::add_localize_command(app);
   docent::add_office_command(app);
   docent::add_plan_command(app);

@@ -24,8 +24,8 @@ Result<void> read_ros_file(const fs::path& path, const std::function<bool(const 
   });
 }
 
-Result<LaserLog> read_ros_log(const fs::path& path, const std::vector<fs::path>& files) {
-  RosLaserLogBuilder builder;
+Result<LaserLog> read_ros_log(const fs::path& path, const std::vector<fs::path>& files, bool with_sonars) {
+  RosLaserLogBuilder builder{with_sonars};
   for (const fs::path& file : files) {
     Result<void> added;
     const auto read = read_ros_file(file, [&](const Rosbag2Message& message) {
@@ -63,17 +63,18 @@ bool begins_with(const fs::path& path, const char* bytes, std::size_t size) {
 
 }  // namespace
 
-Result<LaserLog> read_laser_log(const fs::path& path) {
+Result<LaserLog> read_laser_log(const fs::path& path, bool with_sonars) {
   std::error_code error;
   if (fs::is_directory(path, error)) {
     const auto parts = parts_of(path);
     if (parts.empty()) return fail(path.string() + ": holds no .mcap or .db3 file");
-    return read_ros_log(path, parts);
+    return read_ros_log(path, parts, with_sonars);
   }
   const bool is_mcap = begins_with(path, reinterpret_cast<const char*>(mcap::kMagic.data()), mcap::kMagic.size()) ||
                        (!fs::exists(path, error) && fs::exists(unfinished_path(path), error));
   constexpr std::string_view kSqlite{"SQLite format 3"};
-  if (is_mcap || path.extension() == ".db3" || path.extension() == ".mcap") return read_ros_log(path, {path});
+  if (is_mcap || path.extension() == ".db3" || path.extension() == ".mcap")
+    return read_ros_log(path, {path}, with_sonars);
   if (begins_with(path, kSqlite.data(), kSqlite.size()))
     return fail(path.string() + ": a database; the name of a rosbag2 database ends in .db3");
   return read_carmen_log(path);

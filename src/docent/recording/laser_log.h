@@ -34,10 +34,21 @@ struct LoggedOdometry {
   double angular = 0.0;  ///< [rad/s]
 };
 
+/// One reading of one sonar.
+struct LoggedPing {
+  Time time;
+  int sonar = 0;       ///< index in base_from_sonar
+  float range = 0.0F;  ///< [m]; +infinity: no return
+  Pose2 odom_from_base;
+};
+
 /// What localization and mapping need of a recording: scans with odometry, in the order of the recording.
 struct LaserLog {
   std::vector<LoggedScan> scans;         ///< times never fall
   std::vector<LoggedOdometry> odometry;  ///< every odometry reading, times never fall
+  std::vector<LoggedPing> pings;         ///< where they were asked for; times never fall
+  std::vector<Pose2> base_from_sonar;    ///< of each sonar, in the order of their frames' names
+  double sonar_max_range = 0.0;          ///< [m]
   std::map<std::string, std::string> parameters;
   double max_range = 0.0;           ///< [m]: from here on a reading means "no return"
   bool times_are_invented = false;  ///< the file's times were useless: even steps of 0.2 s instead
@@ -52,7 +63,9 @@ struct LaserLog {
 /// with most messages, interpolated at the scans' stamps, and the lasers' places from /tf_static. A laser that hangs
 /// upside down is turned over. Without odometry or places: as `notes` say.
 ///
+/// With `with_sonars` also every ultrasonic sensor_msgs/Range whose frame has a place; a CARMEN log has none.
+///
 /// Error: "FILE: …" or "FILE:LINE: …": unreadable, damaged, or without a scan.
-[[nodiscard]] Result<LaserLog> read_laser_log(const std::filesystem::path& path);
+[[nodiscard]] Result<LaserLog> read_laser_log(const std::filesystem::path& path, bool with_sonars = false);
 
 }  // namespace docent

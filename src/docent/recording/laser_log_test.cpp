@@ -190,5 +190,39 @@ TEST_F(LaserLogFolder, FaultsNameTheFile) {
   }
 }
 
+TEST_F(LaserLogFolder, SonarsWhereAskedFor) {
+  auto messages = drive();
+  tf2_msgs::TFMessage places;
+  places.transforms = {link("base_link", "sonar_left", 0.0, 0.25, to_quaternion(Angle::degrees(90)))};
+  messages.push_back(raw("/tf_static", Time{0}, places));
+  const auto ping = [&](double time, const char* frame, float range, std::uint8_t radiation) {
+    sensor_msgs::Range message;
+    message.header = {to_message(time_from_seconds(time)), frame};
+    message.radiation_type = radiation;
+    message.min_range = 0.05F;
+    message.max_range = 5.0F;
+    message.range = range;
+    messages.push_back(raw("/sonar", time_from_seconds(time), message));
+  };
+  ping(103.0, "sonar_left", 5.0F, 0);  // no return
+  ping(102.0, "sonar_left", 1.5F, 0);
+  ping(102.5, "sonar_left", 0.01F, 0);  // too near to be true
+  ping(104.0, "sonar_left", 2.0F, 1);   // infrared
+  ping(104.0, "sonar_lost", 2.0F, 0);
+  write_mcap(folder_ / "sonar.mcap", messages);
+  EXPECT_TRUE(read_laser_log(folder_ / "sonar.mcap")->pings.empty());
+  const auto log = read_laser_log(folder_ / "sonar.mcap", true);
+  ASSERT_TRUE(log) << log.error().message;
+  ASSERT_EQ(log->pings.size(), 2U);
+  EXPECT_FLOAT_EQ(log->pings[0].range, 1.5F);
+  EXPECT_NEAR(log->pings[0].odom_from_base.x, 1.0, 1e-6);
+  EXPECT_TRUE(std::isinf(log->pings[1].range));
+  EXPECT_EQ(log->sonar_max_range, 5.0);
+  ASSERT_EQ(log->base_from_sonar.size(), 1U);
+  EXPECT_NEAR(log->base_from_sonar[0].y, 0.25, 1e-9);
+  ASSERT_EQ(log->notes.size(), 1U);
+  EXPECT_NE(log->notes[0].find("sonar_lost"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace docent

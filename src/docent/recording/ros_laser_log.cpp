@@ -47,6 +47,10 @@ Result<void> RosLaserLogBuilder::add(const Rosbag2Message& message) {
     const auto scan = decode_cdr<sensor_msgs::LaserScan>(message.data);
     if (!scan) return damaged();
     add_scan(*scan, message.time);
+  } else if (with_sonars_ && message.type == sensor_msgs::Range::kType) {
+    const auto range = decode_cdr<sensor_msgs::Range>(message.data);
+    if (!range) return damaged();
+    add_ping(*range, message.time);
   } else if (message.type == nav_msgs::Odometry::kType) {
     const auto odometry = decode_cdr<nav_msgs::Odometry>(message.data);
     if (!odometry) return damaged();
@@ -88,6 +92,41 @@ void RosLaserLogBuilder::add_scan(const sensor_msgs::LaserScan& message, Time lo
   if (std::isfinite(message.range_max))
     log_.max_range = std::max(log_.max_range, static_cast<double>(message.range_max));
   scans_.push_back(std::move(scan));
+}
+
+void RosLaserLogBuilder::add_ping(const sensor_msgs::Range& message, Time log_time) {
+  constexpr std::uint8_t kUltrasound = 0;
+  if (message.radiation_type != kUltrasound || !std::isfinite(message.max_range)) return;
+  const bool no_return = message.range >= message.max_range;  // +infinity too
+  if (!no_return && !(message.range >= message.min_range && message.range > 0.0F)) return;
+  Ping ping;
+  ping.frame = without_slash(message.header.frame_id);
+  ping.ping.time = from_message(message.header.stamp);
+  if (ping.ping.time.nanoseconds == 0) ping.ping.time = log_time;
+  ping.ping.range = no_return ? std::numeric_limits<float>::infinity() : message.range;
+  log_.sonar_max_range = std::max(log_.sonar_max_range, static_cast<double>(message.max_range));
+  pings_.push_back(std::move(ping));
+}
+
+void RosLaserLogBuilder::finish_pings() {
+  std::map<std::string, int> sonars;  // by frame; -1: nobody knows where it is
+  for (const Ping& ping : pings_) sonars[ping.frame] = -1;
+  for (auto& [frame, index] : sonars) {
+    if (const auto mount = mount_of(frame)) {
+      index = static_cast<int>(log_.base_from_sonar.size());
+      log_.base_from_sonar.push_back(mount->base_from_laser);
+    } else {
+      log_.notes.push_back("the place of the sonar '" + frame + "' is unknown: its readings are left out");
+    }
+  }
+  std::stable_sort(pings_.begin(), pings_.end(),
+                   [](const Ping& a, const Ping& b) { return a.ping.time < b.ping.time; });
+  for (Ping& ping : pings_) {
+    ping.ping.sonar = sonars[ping.frame];
+    if (ping.ping.sonar < 0) continue;
+    ping.ping.odom_from_base = odometry_at(ping.ping.time);
+    log_.pings.push_back(ping.ping);
+  }
 }
 
 std::optional<RosLaserLogBuilder::Mount> RosLaserLogBuilder::mount_of(const std::string& frame) const {
@@ -163,6 +202,7 @@ Result<LaserLog> RosLaserLogBuilder::finish() {
     scan.rear = std::abs(scan.base_from_laser.theta.degrees()) > 90.0;
     log_.scans.push_back(std::move(scan));
   }
+  finish_pings();
   if (!(log_.max_range > 0.0)) {
     for (const LoggedScan& scan : log_.scans)
       for (const float range : scan.ranges)

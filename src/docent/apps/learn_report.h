@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "docent/localization/learning/bootstrap.h"
+
+namespace docent {
+
+/// What was learned, beside what it was learned from and instead of.
+struct LearningOutcome {
+  std::string sensor;             ///< laser, sonar
+  std::vector<std::string> logs;  ///< files
+  std::string map;                ///< file or museum folder
+  ProximityModelParams before;    ///< of that sensor
+  OdometryModelParams motion_before;
+  LearnedModels learned;
+};
+
+/// Tables for the terminal: iterations, parameters before and after, held-out likelihoods.
+[[nodiscard]] std::string learning_table(const LearningOutcome& outcome);
+/// A robot.yaml with section `localize`; its keys are those of the parameter structs.
+[[nodiscard]] std::string learned_yaml(const LearningOutcome& outcome);
+/// The same as options of `docent localize`.
+[[nodiscard]] std::string learned_settings(const LearningOutcome& outcome);
+[[nodiscard]] std::string learning_json(const LearningOutcome& outcome);
+
+}  // namespace docent

@@ -1,0 +1,31 @@
+#include "docent/apps/log_defaults.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace docent {
+
+double reach_of_log(double max_range) {
+  // Far readings tell one corridor from another; beyond some length the map's headings are too coarse for them.
+  constexpr double kMost = 30.0;
+  return std::min(max_range > 0.0 ? max_range : kMost, kMost);
+}
+
+Result<void> set_log_defaults(RobotConfig& config, const OccupancyGrid& map, double max_range) {
+  // A map's cells are as coarse as its walls are uncertain.
+  const double sigma = std::hypot(0.13, 1.5 * map.frame.resolution);
+  for (const std::string& setting : {
+           "sensor={max_range: " + std::to_string(reach_of_log(max_range)) + ", sigma: " + std::to_string(sigma) + "}",
+           // Whose wheels these were is not known; and nobody drives by what it says, so that it may say so earlier.
+           std::string{"motion={rotation_per_metre: 0.0015}"},
+           std::string{"verdict={confirmations: 3, travelled: 0.5, turned: 60}"},
+           // Nobody waits for the next scan: states sink later than in a robot.
+           std::string{"sea_threshold=0.00001"},
+       }) {
+    if (auto set = config.set("localize." + setting); !set) return set;
+  }
+  return {};
+}
+
+}  // namespace docent
