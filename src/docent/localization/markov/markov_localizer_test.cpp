@@ -1,0 +1,104 @@
+#include "docent/localization/markov/markov_localizer.h"
+
+#include <gtest/gtest.h>
+
+#include "docent/localization/markov/testing.h"
+
+namespace docent {
+namespace {
+
+MarkovLocalizerParams coarse() {
+  MarkovLocalizerParams params;
+  params.states.heading_step = 6.0;
+  params.sensor.sigma_per_metre = 0.05;
+  return params;
+}
+
+/// A robot that is driven round the room by hand, with odometry that knows nothing of being carried.
+struct Drive {
+  OccupancyGrid map = testing::room_map();
+  RayCaster caster{map};
+  MarkovLocalizer localizer{map, coarse(), {}, 1};
+  Pose2 truth{1.0, 0.8, Angle::degrees(20.0)};
+  Pose2 odom{};
+  double seconds = 0.0;
+  Rng rng{3};
+
+  [[nodiscard]] RangeSweep look(double hidden) {
+    RangeSweep sweep = testing::sweep_at(caster, truth, 10.0);
+    double nearer = 0.0;
+    for (std::size_t i = 0; i < sweep.beams.size(); ++i) {
+      if (i % 20 == 0) nearer = rng.chance(hidden) ? rng.uniform(0.4, 1.2) : 0.0;
+      if (nearer > 0.0) sweep.beams[i].range = std::min(sweep.beams[i].range, nearer);
+    }
+    return sweep;
+  }
+  void step(double hidden = 0.0) {
+    // Along, and away from what comes near.
+    const double ahead = *caster.cast(truth.position(), unit(truth.theta), 10.0, 0.3);
+    const Pose2 motion{ahead > 0.6 ? 0.1 : 0.0, 0.0, Angle::degrees(ahead > 0.9 ? 2.0 : 10.0)};
+    truth = truth * motion;
+    odom = odom * motion;
+    seconds += 0.2;
+    localizer.observe(look(hidden), odom, time_from_seconds(seconds));
+  }
+  [[nodiscard]] double error() const {
+    const auto pose = localizer.map_from_robot(odom);
+    return pose ? distance(pose->position(), truth.position()) : 1e3;
+  }
+};
+
+TEST(MarkovLocalizer, FindsItselfAndTracksToCentimetres) {
+  Drive drive;
+  int steps = 0;
+  while (!drive.localizer.verdict().localized() && steps < 150) drive.step(), ++steps;
+  ASSERT_TRUE(drive.localizer.verdict().localized());
+  double sum = 0.0;
+  for (int i = 0; i < 150; ++i) {
+    drive.step(0.3);
+    EXPECT_LT(drive.error(), 0.25) << "step " << i;
+    sum += drive.error() / 150.0;
+  }
+  EXPECT_LT(sum, 0.03);
+}
+
+TEST(MarkovLocalizer, NoticesThatItWasCarriedOffAndFindsItselfAgain) {
+  Drive drive;
+  for (int i = 0; i < 120; ++i) drive.step();
+  ASSERT_TRUE(drive.localizer.verdict().localized());
+  ASSERT_LT(drive.error(), 0.1);
+  drive.truth = {4.3, 3.2, Angle::degrees(-120.0)};
+  int until_noticed = 0;
+  while (drive.localizer.verdict().localized() && until_noticed < 100) drive.step(), ++until_noticed;
+  EXPECT_LE(until_noticed, 12);
+  int until_found = 0;
+  while ((!drive.localizer.verdict().localized() || drive.error() > 0.3) && until_found < 200)
+    drive.step(), ++until_found;
+  EXPECT_LE(until_found, 75);  // 15 s
+  EXPECT_LT(drive.error(), 0.3);
+}
+
+TEST(MarkovLocalizer, EveryFilterTracksThroughPeople) {
+  for (const char* filter : {"none", "entropy", "distance", "novelty"}) {
+    Drive drive;
+    MarkovLocalizerParams params = coarse();
+    params.filter = filter;
+    MarkovLocalizer localizer{drive.map, params, {}, 1};
+    const BeliefMode here{drive.truth, {0.01, 0, 0, 0, 0.01, 0, 0, 0, 0.01}, 1.0};
+    localizer.start_at(std::span{&here, 1}, drive.odom, time_from_seconds(0.0));
+    for (int i = 0; i < 150; ++i) {
+      drive.step(0.4);
+      localizer.observe(drive.look(0.4), drive.odom, time_from_seconds(drive.seconds));
+    }
+    EXPECT_LT(distance(localizer.map_from_robot(drive.odom)->position(), drive.truth.position()), 0.15) << filter;
+  }
+}
+
+TEST(MarkovLocalizer, AnUnknownFilterIsAFault) {
+  MarkovLocalizerParams params;
+  params.filter = "magic";
+  EXPECT_FALSE(params.validate());
+}
+
+}  // namespace
+}  // namespace docent
