@@ -7,6 +7,12 @@
 
 namespace docent {
 
+namespace {
+// What the 16 bits of FieldPoses and FieldBeams hold.
+constexpr int kMostCells = 32767;
+constexpr int kMostReach = 2047;
+}  // namespace
+
 Result<void> LikelihoodFieldParams::validate() const {
   if (!(sigma > 0.0)) return fail("field.sigma must be > 0");
   if (!(near_scale > 0.0)) return fail("field.near_scale must be > 0");
@@ -17,10 +23,17 @@ Result<void> LikelihoodFieldParams::validate() const {
 }
 
 LikelihoodField::LikelihoodField(const RayCaster& caster, const LikelihoodFieldParams& params, double reach)
-    : margin_{static_cast<int>(std::ceil(reach / caster.frame().resolution)) + 2}, reach_{reach} {
+    : reach_{reach} {
   const GridFrame& map = caster.frame();
-  const double margin = margin_ * map.resolution;
-  frame_ = {map.columns + 2 * margin_, map.rows + 2 * margin_, map.resolution, map.origin - Point2{margin, margin}};
+  GridFrame inner = map;
+  margin_ = static_cast<int>(std::ceil(reach / inner.resolution)) + 2;
+  while (std::max(inner.columns, inner.rows) + 2 * margin_ > kMostCells || margin_ > kMostReach) {
+    inner = {(inner.columns + 1) / 2, (inner.rows + 1) / 2, 2.0 * inner.resolution, map.origin};
+    margin_ = static_cast<int>(std::ceil(reach / inner.resolution)) + 2;
+  }
+  const double margin = margin_ * inner.resolution;
+  frame_ = {inner.columns + 2 * margin_, inner.rows + 2 * margin_, inner.resolution,
+            map.origin - Point2{margin, margin}};
   const auto density = [&](double d) {
     const double z = d / params.sigma;
     return params.weight_hit * std::exp(-0.5 * z * z) / (params.sigma * std::sqrt(2.0 * std::numbers::pi)) +
@@ -32,11 +45,11 @@ LikelihoodField::LikelihoodField(const RayCaster& caster, const LikelihoodFieldP
     const double nats = std::isfinite(d) ? std::log(best / density(d)) : std::log(best * reach / params.weight_random);
     return static_cast<std::uint8_t>(std::min<long>(255, std::lround(nats * kScorePerNat)));
   };
-  costs_.assign(frame_.size() + 3, cost_at(std::numeric_limits<double>::infinity()));
-  for (int row = 0; row < map.rows; ++row)
-    for (int column = 0; column < map.columns; ++column)
+  costs_.assign(frame_.size(), cost_at(std::numeric_limits<double>::infinity()));
+  for (int row = 0; row < inner.rows; ++row)
+    for (int column = 0; column < inner.columns; ++column)
       costs_[frame_.index({column + margin_, row + margin_})] =
-          cost_at(static_cast<double>(caster.clearance(map.centre({column, row}))));
+          cost_at(static_cast<double>(caster.clearance(inner.centre({column, row}))));
 }
 
 LikelihoodField::View LikelihoodField::view() const {

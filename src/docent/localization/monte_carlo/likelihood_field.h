@@ -33,16 +33,17 @@ struct LikelihoodFieldParams {
 inline constexpr double kScorePerNat = 24.0;
 
 /// ln p of a beam's end, for every cell of the map: one byte each, with a margin as wide as the longest beam, so that
-/// a robot inside the map needs no check of bounds.
+/// a robot inside the map needs no check of bounds. Rows and columns are numbered with 15 bits; the field of a map that
+/// has more has cells of twice the size, or four times, and so on.
 class LikelihoodField {
  public:
-  /// `reach` [m]: of the longest beam. O(cells). @pre params are valid, reach > 0
+  /// `reach` [m]: of the longest beam. O(cells). @pre params are valid, 0 < reach
   LikelihoodField(const RayCaster& caster, const LikelihoodFieldParams& params, double reach);
 
   /// What kernels need. A point (x, y) [m, map] has the coordinates x * scale + left, y * scale + bottom, whose whole
   /// parts are column and row; particles are kept within first_column … last_column, first_row … last_row.
   struct View {
-    const std::uint8_t* costs;  ///< [rows][stride], and three bytes that gathers may read behind the last
+    const std::uint8_t* costs;  ///< [rows][stride]
     std::int32_t stride;
     float scale, left, bottom;
     float first_column, last_column, first_row, last_row;

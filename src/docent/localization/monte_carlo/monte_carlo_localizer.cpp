@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "docent/localization/monte_carlo/particle_summary.h"
+#include "docent/localization/monte_carlo/particle_weights.h"
 
 namespace docent {
 
@@ -16,8 +16,6 @@ constexpr std::size_t kMostLikely = 6000;  // more, and the belief is too wide f
 constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr double kJoin = 0.05;           // mass at which poses drawn from the sensors join the belief
 constexpr double kUpdateSeconds = 0.25;  // what one update may take of the robot's time, if the work is paid
-constexpr double kFocusRadius = 0.75;    // [m], as of EvidenceWeights
-constexpr double kFocusTurn = 0.45;      // [rad]
 
 RangeTable make_table(const OccupancyGrid& map, const MarkovLocalizerParams& params, const std::filesystem::path& cache,
                       const StateSpace& space, const RayCaster& caster) {
@@ -178,10 +176,17 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
   last_work_ = static_cast<double>(particles_.size()) * static_cast<double>(choice.used.size());
   double likelihood = 0.0;
   if (particles_.size() > 0) {
-    Scores scores;
-    scores.nats_per_cost = temper / kScorePerNat;
-    score(sweep, choice.used, particles_, scores.costs);
-    likelihood = reweigh(scores, verdict_.localized() ? predicted : std::nullopt);
+    std::vector<std::uint32_t> costs;
+    score(sweep, choice.used, particles_, costs);
+    ParticleEvidence evidence;
+    evidence.nats_per_cost = temper / kScorePerNat;
+    evidence.most_nats = shared_.most_nats;
+    if (verdict_.localized()) {  // as the grid: sharp where the robot knows to be, slow between there and elsewhere
+      evidence.focus = predicted;
+      evidence.far_share = shared_.independent_beams_far / shared_.independent_beams;
+      evidence.far_most_nats = shared_.most_nats_far;
+    }
+    likelihood = reweigh(particles_, costs, evidence);
     notice_surprise(likelihood, step.weight);
   }
   draw_elsewhere(sweep, choice.used, temper, likelihood);
@@ -208,7 +213,6 @@ void MonteCarloLocalizer::score(const RangeSweep& sweep, std::span<const BinnedB
   BeamScores::Beams ranges;
   FieldBeams ends;
   ranges.cap = ends.cap = cap;
-  const double cells_per_metre = 1.0 / caster_.frame().resolution;
   for (std::size_t i = 0; i < beams.size(); ++i) {
     const SweepBeam& beam = sweep.beams[beams[i].beam];
     const bool no_return = beam.no_return || beam.range >= shared_.sensor.max_range;
@@ -217,75 +221,20 @@ void MonteCarloLocalizer::score(const RangeSweep& sweep, std::span<const BinnedB
     if (direction < 0.0) direction += static_cast<double>(headings);
     ranges.beams.push_back({static_cast<float>(beam.range), static_cast<float>(along.x), static_cast<float>(along.y),
                             static_cast<float>(direction), no_return});
-    if (!no_return) {
-      ends.x.push_back(static_cast<float>(beam.range * along.x * cells_per_metre));
-      ends.y.push_back(static_cast<float>(beam.range * along.y * cells_per_metre));
-    }
+    if (!no_return) ends.add(field_.view(), beam.range * along);
     const bool is_last =
         i + 1 == beams.size() || beams[i + 1].direction * sectors / headings != beams[i].direction * sectors / headings;
     if (!is_last) continue;
     ranges.ends.push_back(static_cast<std::uint32_t>(ranges.beams.size()));
-    ends.ends.push_back(static_cast<std::uint32_t>(ends.x.size()));
+    ends.close_sector();
   }
   if (params_.model == "field") {
-    field_kernel_(field_.view(), ends, particles, costs.data());
+    FieldPoses poses;
+    poses.fill(field_.view(), particles);
+    field_kernel_(field_.view(), ends, poses, costs.data());
   } else {
     beam_scores_.score(ranges, particles, costs.data());
   }
-}
-
-double MonteCarloLocalizer::reweigh(const Scores& scores, const std::optional<Pose2>& focus) {
-  const auto near_focus = [&](std::size_t i) {
-    if (!focus) return false;
-    const double dx = static_cast<double>(particles_.x[i]) - focus->x;
-    const double dy = static_cast<double>(particles_.y[i]) - focus->y;
-    if (dx * dx + dy * dy > kFocusRadius * kFocusRadius) return false;
-    return std::abs((particles_.pose(i).theta - focus->theta).radians()) <= kFocusTurn;
-  };
-  std::vector<bool> is_near(particles_.size(), false);
-  std::uint32_t best = std::numeric_limits<std::uint32_t>::max();
-  std::uint32_t best_near = best;
-  double likelihood = 0.0;
-  double mass = 0.0;
-  for (std::size_t i = 0; i < particles_.size(); ++i) {
-    const auto weight = static_cast<double>(particles_.weight[i]);
-    if (!(weight > 0.0)) continue;
-    is_near[i] = near_focus(i);
-    best = std::min(best, scores.costs[i]);
-    if (is_near[i]) best_near = std::min(best_near, scores.costs[i]);
-    likelihood += weight * std::exp(-scores.nats_per_cost * scores.costs[i]);
-    mass += weight;
-  }
-  if (!(mass > 0.0)) {
-    particles_.clear();
-    believed_ = 0;
-    return 0.0;
-  }
-  // As the grid: sharp within the focus, slow between it and everything else.
-  const double far_share = focus ? shared_.independent_beams_far / shared_.independent_beams : 1.0;
-  const double far_most = focus ? shared_.most_nats_far : shared_.most_nats;
-  const auto far_factor = [&](std::uint32_t cost) {
-    return std::exp(-std::min(far_share * scores.nats_per_cost * (cost - best), far_most));
-  };
-  const auto near_factor = [&](std::uint32_t cost) {
-    return std::exp(-std::min(scores.nats_per_cost * (cost - best_near), shared_.most_nats));
-  };
-  double slow = 0.0;
-  double sharp = 0.0;
-  for (std::size_t i = 0; i < particles_.size(); ++i) {
-    if (!is_near[i]) continue;
-    slow += static_cast<double>(particles_.weight[i]) * far_factor(scores.costs[i]);
-    sharp += static_cast<double>(particles_.weight[i]) * near_factor(scores.costs[i]);
-  }
-  double total = 0.0;
-  std::vector<double> weights(particles_.size());
-  for (std::size_t i = 0; i < particles_.size(); ++i) {
-    const double factor = is_near[i] ? slow / sharp * near_factor(scores.costs[i]) : far_factor(scores.costs[i]);
-    weights[i] = particles_.weight[i] > 0.0F ? static_cast<double>(particles_.weight[i]) * factor : 0.0;
-    total += weights[i];
-  }
-  for (std::size_t i = 0; i < particles_.size(); ++i) particles_.weight[i] = static_cast<float>(weights[i] / total);
-  return likelihood / mass;
 }
 
 void MonteCarloLocalizer::notice_surprise(double likelihood, double weight) {

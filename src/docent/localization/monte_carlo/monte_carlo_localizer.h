@@ -91,18 +91,11 @@ class MonteCarloLocalizer final : public Localizer {
     std::size_t filtered = 0;
     Evidence evidence;
   };
-  /// What a scan says of the particles.
-  struct Scores {
-    std::vector<std::uint32_t> costs;
-    double nats_per_cost = 0.0;
-  };
   [[nodiscard]] double due_weight(double way, double turn, Time time) const;
   [[nodiscard]] Choice choose_beams(const RangeSweep& sweep);
   void thin(std::vector<BinnedBeam>& beams);
   void score(const RangeSweep& sweep, std::span<const BinnedBeam> beams, const ParticleSet& particles,
              std::vector<std::uint32_t>& costs) const;
-  /// Multiplies the weights by the evidence; the mean likelihood of the particles before. Weights sum to 1 afterwards.
-  double reweigh(const Scores& scores, const std::optional<Pose2>& focus);
   void notice_surprise(double likelihood, double weight);
   /// Adds poses drawn from the sensors, for the case that the truth is near no particle.
   void draw_elsewhere(const RangeSweep& sweep, std::span<const BinnedBeam> beams, double temper, double likelihood);
