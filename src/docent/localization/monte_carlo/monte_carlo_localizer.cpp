@@ -14,7 +14,7 @@ namespace {
 constexpr double kLikelyFraction = 1e-3;   // of the likeliest state: those that the filters ask
 constexpr std::size_t kMostLikely = 6000;  // more, and the belief is too wide for filters
 constexpr double kRadians = std::numbers::pi / 180.0;
-constexpr double kJoin = 0.05;           // mass at which poses drawn from the sensors join the belief
+constexpr double kSurprising = 0.5;      // of the evidence is missing: at every update poses are drawn
 constexpr double kUpdateSeconds = 0.25;  // what one update may take of the robot's time, if the work is paid
 
 RangeTable make_table(const OccupancyGrid& map, const MarkovLocalizerParams& params, const std::filesystem::path& cache,
@@ -43,7 +43,7 @@ Result<void> MonteCarloParams::validate() const {
   if (!(deprived >= 0.0 && deprived <= 0.5)) return fail("particles.deprived must be 0..0.5");
   if (!(surprise_slow > 0.0 && surprise_slow < surprise_fast && surprise_fast <= 1.0))
     return fail("particles.surprise_slow must be > 0 and < surprise_fast, that <= 1");
-  if (!(least_surprise >= 0.0 && least_surprise <= 1.0)) return fail("particles.least_surprise must be 0..1");
+  if (!(draw_every >= 1)) return fail("particles.draw_every must be >= 1");
   return {};
 }
 
@@ -74,7 +74,6 @@ void MonteCarloLocalizer::use_kernels(FieldKernel field, ScoreKernel grid) {
 
 void MonteCarloLocalizer::start_unknown() {
   particles_.clear();
-  believed_ = 0;
   started_ = false;
   last_work_ = 0.0;
   long_mean_ = short_mean_ = start_over_ = 0.0;
@@ -101,7 +100,6 @@ void MonteCarloLocalizer::start_at(std::span<const BeliefMode> modes, const Pose
       particles_.set(i, {x, y, theta}, static_cast<float>(mode.mass / mass / static_cast<double>(each)));
     }
   }
-  believed_ = particles_.size();
   odom_from_robot_ = odom_from_robot;
   started_ = true;
   last_update_ = time;
@@ -263,13 +261,15 @@ void MonteCarloLocalizer::draw_elsewhere(const RangeSweep& sweep, std::span<cons
                                          double likelihood) {
   const bool knows = verdict_.localized();
   const double surprise = long_mean_ > 0.0 ? std::max(0.0, 1.0 - short_mean_ / long_mean_) : 0.0;
-  if (knows && surprise < params_.least_surprise && start_over_ == 0.0) return;
+  if (knows && start_over_ == 0.0 && surprise < kSurprising && ++undrawn_ < params_.draw_every) return;
+  undrawn_ = 0;
   const bool is_first = particles_.size() == 0;
-  double prior = knows ? params_.deprived * surprise : params_.deprived;
+  double prior = knows ? std::max(shared_.teleport_probability, params_.deprived * surprise) : params_.deprived;
   if (start_over_ > 0.0) prior = start_over_;
   start_over_ = 0.0;
   const auto most = most_particles();
-  const std::size_t count = is_first ? most : std::max<std::size_t>(most / 8, 64);
+  const std::size_t some = std::max<std::size_t>(most / 8, 64);
+  const std::size_t count = is_first ? most : knows ? std::min(some, particles_.size()) : some;
 
   // As many places as there is time for; others the next time.
   const double work = static_cast<double>(space_.states()) * static_cast<double>(beams.size());
@@ -305,29 +305,66 @@ void MonteCarloLocalizer::draw_elsewhere(const RangeSweep& sweep, std::span<cons
   for (float& weight : particles_.weight) weight *= static_cast<float>(1.0 - share);
   for (float& weight : proposal.poses.weight) weight *= static_cast<float>(share / sum);
   particles_.append(proposal.poses);
-  const double elsewhere = particles_.mass(believed_, particles_.size());
-  if (is_first || elsewhere > kJoin) believed_ = particles_.size();
 }
 
 void MonteCarloLocalizer::resample_strata() {
-  if (particles_.size() == 0) return;
-  const std::size_t bins = occupied_bins(particles_, 0, believed_, params_.kld);
-  const std::size_t wanted =
-      std::clamp(kld_sample_size(bins, params_.kld), static_cast<std::size_t>(params_.least), most_particles());
-  const bool uneven =
-      effective_size(particles_, 0, believed_) < params_.resample_below * static_cast<double>(believed_);
-  const bool too_many = static_cast<double>(believed_) > 1.5 * static_cast<double>(wanted);
-  const bool too_few = 1.5 * static_cast<double>(believed_) < static_cast<double>(wanted);
-  const std::size_t others = particles_.size() - believed_;
-  const auto reserve = static_cast<std::size_t>(params_.reserve);
-  if (!uneven && !too_many && !too_few && others <= reserve) return;
+  if (particles_.size() == 0 || summary_.modes.empty()) return;
+  const std::size_t near = gather_near(summary_.modes.front().map_from_robot);
+  const std::size_t all = particles_.size();
+  const std::size_t bins = occupied_bins(particles_, 0, all, params_.kld);
+  const auto least = static_cast<std::size_t>(params_.least);
+  const std::size_t wanted = std::clamp(kld_sample_size(bins, params_.kld), least, most_particles());
+  const double near_mass = particles_.mass(0, near);
+  const double share = near_mass / (near_mass + particles_.mass(near, all));
+  const auto part = [&](double of) { return static_cast<std::size_t>(std::lround(of * static_cast<double>(wanted))); };
+  const std::size_t near_wanted = std::max(least, part(share));
+  const std::size_t far_wanted =
+      std::max(part(1.0 - share), std::min(all - near, static_cast<std::size_t>(params_.reserve)));
 
   scratch_.clear();
-  resample(particles_, 0, believed_, wanted, rng_.uniform(), scratch_);
-  if (others > 0 && reserve > 0 && particles_.mass(believed_, particles_.size()) > 0.0)
-    resample(particles_, believed_, particles_.size(), std::min(others, reserve), rng_.uniform(), scratch_);
+  resample_stratum(0, near, near_wanted, &resample);
+  resample_stratum(near, all, far_wanted, &resample_flattened);
   std::swap(particles_, scratch_);
-  believed_ = wanted;
+}
+
+std::size_t MonteCarloLocalizer::gather_near(const Pose2& best) {
+  constexpr float kRadius = 0.75F;      // [m], as the focus of the evidence
+  constexpr float kLeastCosine = 0.9F;  // of 26 degrees
+  const auto x = static_cast<float>(best.x);
+  const auto y = static_cast<float>(best.y);
+  const Point2 heading = unit(best.theta);
+  const auto hx = static_cast<float>(heading.x);
+  const auto hy = static_cast<float>(heading.y);
+  scratch_.resize(particles_.size());
+  std::size_t near = 0;
+  for (const bool wanted : {true, false}) {
+    std::size_t next = wanted ? 0 : near;
+    for (std::size_t i = 0; i < particles_.size(); ++i) {
+      const float dx = particles_.x[i] - x;
+      const float dy = particles_.y[i] - y;
+      const bool is_near = dx * dx + dy * dy <= kRadius * kRadius &&
+                           particles_.heading_x[i] * hx + particles_.heading_y[i] * hy >= kLeastCosine;
+      if (is_near == wanted) scratch_.copy(particles_, i, next++);
+    }
+    if (wanted) near = next;
+  }
+  std::swap(particles_, scratch_);
+  return near;
+}
+
+void MonteCarloLocalizer::resample_stratum(std::size_t first, std::size_t last, std::size_t wanted,
+                                           Resampler resampler) {
+  if (last == first || !(particles_.mass(first, last) > 0.0)) return;
+  const auto count = static_cast<double>(last - first);
+  const bool is_uneven = effective_size(particles_, first, last) < params_.resample_below * count;
+  const bool has_other_size = count > 1.5 * static_cast<double>(wanted) || 1.5 * count < static_cast<double>(wanted);
+  if (is_uneven || has_other_size) {
+    resampler(particles_, first, last, wanted, rng_.uniform(), scratch_);
+    return;
+  }
+  const std::size_t begin = scratch_.size();
+  scratch_.resize(begin + (last - first));
+  for (std::size_t i = first; i < last; ++i) scratch_.copy(particles_, i, begin + (i - first));
 }
 
 std::optional<double> MonteCarloLocalizer::fit(const RangeSweep& sweep, std::span<const BinnedBeam> beams) const {

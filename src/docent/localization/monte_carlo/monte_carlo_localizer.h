@@ -35,7 +35,7 @@ struct MonteCarloParams {
   double deprived = 0.02;
   double surprise_slow = 0.03;  ///< 0..1: share of an update in the long mean of the evidence, and
   double surprise_fast = 0.25;  ///< in the short one
-  double least_surprise = 0.3;  ///< 0..1: below, a robot that knows its place draws no poses from the sensors
+  int draw_every = 4;           ///< updates between two draws from the sensors while the robot knows its place
   template <class V>
   void visit(V& v) {
     v("model", model);
@@ -50,7 +50,7 @@ struct MonteCarloParams {
     v("deprived", deprived);
     v("surprise_slow", surprise_slow);
     v("surprise_fast", surprise_fast);
-    v("least_surprise", least_surprise);
+    v("draw_every", draw_every);
   }
   [[nodiscard]] Result<void> validate() const;
 };
@@ -60,8 +60,9 @@ struct MonteCarloParams {
 ///
 /// Recovery: with a small probability the truth is nowhere near a particle, because somebody carried the robot or
 /// because the samples died out there. Then the pose has the density p(z | x) over all poses: it is drawn from
-/// (ScanProposal), and weighs as much as that case is probable. Such poses are a stratum of their own, however little
-/// they weigh, so that they live to be confirmed; when they weigh something they join the others.
+/// (ScanProposal), and weighs as much as that case is probable. What lies away from the likeliest place is a stratum of
+/// its own, which keeps some particles however little they weigh, so that rivals live until they are refuted: as the
+/// grid's sea, not as a draw by weight alone, in which a thousandth of the mass among three hundred particles is gone.
 ///
 /// Shared with the grid are the sensor and motion models, filters, tempering (decision 0006), cadence and verdict.
 class MonteCarloLocalizer final : public Localizer {
@@ -101,7 +102,13 @@ class MonteCarloLocalizer final : public Localizer {
   void draw_elsewhere(const RangeSweep& sweep, std::span<const BinnedBeam> beams, double temper, double likelihood);
   [[nodiscard]] std::vector<BeamCosts> grid_costs(const RangeSweep& sweep, std::span<const BinnedBeam> beams,
                                                   double temper) const;
+  /// What lies near the likeliest place, and the rest.
   void resample_strata();
+  /// Sorts the particles near `best` to the front; their number.
+  [[nodiscard]] std::size_t gather_near(const Pose2& best);
+  /// Appends to scratch_: resampled where that is worth while, else as they are.
+  using Resampler = void (*)(const ParticleSet&, std::size_t, std::size_t, std::size_t, double, ParticleSet&);
+  void resample_stratum(std::size_t first, std::size_t last, std::size_t wanted, Resampler resampler);
   void summarise_now();
   void judge(Evidence evidence, const std::optional<Pose2>& predicted);
   [[nodiscard]] std::optional<double> fit(const RangeSweep& sweep, std::span<const BinnedBeam> beams) const;
@@ -122,8 +129,7 @@ class MonteCarloLocalizer final : public Localizer {
   Verdict verdict_;
   Rng rng_;
   NoiseStreams noise_;
-  ParticleSet particles_;     ///< first the belief, then the reserve
-  std::size_t believed_ = 0;  ///< number of the former
+  ParticleSet particles_;
   ParticleSet scratch_;
   double long_mean_ = 0.0, short_mean_ = 0.0;  ///< of the evidence; 0: none yet
   double start_over_ = 0.0;                    ///< probability that all particles are wrong, told from outside
@@ -132,6 +138,7 @@ class MonteCarloLocalizer final : public Localizer {
   Time last_update_{};
   double last_work_ = 0.0;
   std::size_t phase_ = 0;
+  int undrawn_ = 0;  ///< updates since poses were drawn from the sensors
   std::size_t first_place_ = 0;
   BeliefSummary summary_;
   std::vector<LikelyState> likely_;

@@ -24,6 +24,14 @@ struct ParticleSet {
   void resize(std::size_t count);
   void clear() { resize(0); }
   void set(std::size_t i, const Pose2& map_from_robot, float w);
+  /// Entry `to` becomes entry `from` of `others`.
+  void copy(const ParticleSet& others, std::size_t from, std::size_t to) {
+    x[to] = others.x[from];
+    y[to] = others.y[from];
+    heading_x[to] = others.heading_x[from];
+    heading_y[to] = others.heading_y[from];
+    weight[to] = others.weight[from];
+  }
   void append(const ParticleSet& others);
   [[nodiscard]] Pose2 pose(std::size_t i) const {
     return {static_cast<double>(x[i]), static_cast<double>(y[i]),

@@ -10,21 +10,22 @@
 
 namespace docent {
 
-void resample(const ParticleSet& from, std::size_t first, std::size_t last, std::size_t count, double offset,
-              ParticleSet& to) {
-  const double mass = from.mass(first, last);
-  DOCENT_CHECK(mass > 0.0);
+namespace {
+
+/// Draws by `draw(i)`, whose sum is `total`; each copy of particle i weighs `weigh(i)`.
+template <class Draw, class Weigh>
+void draw_systematically(const ParticleSet& from, std::size_t first, std::size_t last, std::size_t count, double offset,
+                         double total, const Draw& draw, const Weigh& weigh, ParticleSet& to) {
+  DOCENT_CHECK(total > 0.0);
   std::size_t next = to.size();
-  const std::size_t begin = next;
-  to.resize(begin + count);
-  const double draws_per_mass = static_cast<double>(count) / mass;
-  const auto weight = static_cast<float>(mass / static_cast<double>(count));
+  const std::size_t end = next + count;
+  const double draws_per_mass = static_cast<double>(count) / total;
   // Draw k hits where the mass so far passes k + 1 - offset.
-  double passed = offset + static_cast<double>(begin);
-  const std::size_t end = begin + count;
-  for (std::size_t i = first; i < last; ++i) {
-    passed += static_cast<double>(from.weight[i]) * draws_per_mass;
-    const std::size_t until = std::min(static_cast<std::size_t>(passed), end);
+  double passed = offset + static_cast<double>(next);
+  to.resize(end);
+  const auto copy_until = [&](std::size_t i, std::size_t until) {
+    if (next >= until) return;
+    const float weight = weigh(i);
     for (; next < until; ++next) {
       to.x[next] = from.x[i];
       to.y[next] = from.y[i];
@@ -32,17 +33,42 @@ void resample(const ParticleSet& from, std::size_t first, std::size_t last, std:
       to.heading_y[next] = from.heading_y[i];
       to.weight[next] = weight;
     }
+  };
+  for (std::size_t i = first; i < last; ++i) {
+    passed += draw(i) * draws_per_mass;
+    copy_until(i, std::min(static_cast<std::size_t>(passed), end));
   }
   // Rounding may leave the last draw over; it goes to the last particle that weighs anything.
   std::size_t heir = last - 1;
   while (heir > first && !(from.weight[heir] > 0.0F)) --heir;
-  for (; next < end; ++next) {
-    to.x[next] = from.x[heir];
-    to.y[next] = from.y[heir];
-    to.heading_x[next] = from.heading_x[heir];
-    to.heading_y[next] = from.heading_y[heir];
-    to.weight[next] = weight;
-  }
+  copy_until(heir, end);
+}
+
+}  // namespace
+
+void resample(const ParticleSet& from, std::size_t first, std::size_t last, std::size_t count, double offset,
+              ParticleSet& to) {
+  const double mass = from.mass(first, last);
+  const auto weight = static_cast<float>(mass / static_cast<double>(count));
+  draw_systematically(
+      from, first, last, count, offset, mass, [&](std::size_t i) { return static_cast<double>(from.weight[i]); },
+      [weight](std::size_t) { return weight; }, to);
+}
+
+void resample_flattened(const ParticleSet& from, std::size_t first, std::size_t last, std::size_t count, double offset,
+                        ParticleSet& to) {
+  double total = 0.0;
+  const auto root = [&](std::size_t i) { return std::sqrt(static_cast<double>(from.weight[i])); };
+  for (std::size_t i = first; i < last; ++i) total += root(i);
+  // w / expected number of copies
+  const double scale = total / static_cast<double>(count);
+  const std::size_t begin = to.size();
+  draw_systematically(
+      from, first, last, count, offset, total, root, [&](std::size_t i) { return static_cast<float>(root(i) * scale); },
+      to);
+  const double mass = from.mass(first, last);
+  const auto back = static_cast<float>(mass / to.mass(begin, to.size()));
+  for (std::size_t i = begin; i < to.size(); ++i) to.weight[i] *= back;
 }
 
 double effective_size(const ParticleSet& particles, std::size_t first, std::size_t last) {

@@ -15,6 +15,11 @@ namespace docent {
 void resample(const ParticleSet& from, std::size_t first, std::size_t last, std::size_t count, double offset,
               ParticleSet& to);
 
+/// As resample, but a particle is drawn by the square root of its weight, and its copies share what it weighed: what is
+/// a ten-thousandth as likely gets a hundredth of the copies. For rivals of which one may yet turn out to be the truth.
+void resample_flattened(const ParticleSet& from, std::size_t first, std::size_t last, std::size_t count, double offset,
+                        ParticleSet& to);
+
 /// 1 / sum of squared normalised weights: how many equal particles would be worth as much. 0 without mass. O(n).
 [[nodiscard]] double effective_size(const ParticleSet& particles, std::size_t first, std::size_t last);
 

@@ -71,6 +71,28 @@ TEST(Resampling, AStratumKeepsItsMassAndItsPlaceBehindTheOthers) {
   for (std::size_t i = 10; i < 100; ++i) EXPECT_GE(to.x[i], 60.0F);
 }
 
+TEST(Resampling, FlattenedKeepsTheMassOfEveryPartAndMoreOfTheRare) {
+  ParticleSet from;
+  from.resize(2000);
+  for (std::size_t i = 0; i < 2000; ++i) from.set(i, {static_cast<double>(i), 0.0, {}}, i < 1000 ? 1.0F : 1e-4F);
+  Rng rng{8};
+  double rare_mass = 0.0;
+  std::size_t rare = 0;
+  constexpr int kTrials = 200;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    ParticleSet to;
+    resample_flattened(from, 0, 2000, 505, rng.uniform(), to);
+    EXPECT_NEAR(to.mass(0, 505), 1000.1, 0.01);
+    for (std::size_t i = 0; i < 505; ++i) {
+      if (to.x[i] < 1000.0F) continue;
+      ++rare;
+      rare_mass += static_cast<double>(to.weight[i]);
+    }
+  }
+  EXPECT_NEAR(rare_mass / kTrials, 0.1, 0.01);
+  EXPECT_NEAR(static_cast<double>(rare) / kTrials, 5.0, 0.2);  // by weight it would be one in twenty trials
+}
+
 TEST(Resampling, WeightlessParticlesAreNeverDrawn) {
   Rng rng{5};
   ParticleSet from = numbered(rng, 64);
