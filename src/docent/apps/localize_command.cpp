@@ -142,8 +142,9 @@ MethodParams params_for(const Options& options, const OccupancyGrid& map, const 
   // Whose wheels these were is not known; and nobody drives by what it says, so that it may say so earlier.
   value_or_fail(config.set("localize.motion={rotation_per_metre: 0.0015}"));
   value_or_fail(config.set("localize.verdict={confirmations: 3, travelled: 0.5, turned: 60}"));
-  // Nobody waits for the next scan: states sink later than in a robot.
+  // Nobody waits for the next scan: states sink later than in a robot, and there is time for more particles.
   value_or_fail(config.set("localize.sea_threshold=0.00001"));
+  value_or_fail(config.set("localize.particles={most: 300000, reserve: 30000, draw_every: 1}"));
   for (const std::string& setting : options.settings) {
     for (const std::string own : {"filter", "states"})
       if (setting.rfind(own + "=", 0) == 0 && (own == "filter" || setting.find("wall_depth") != std::string::npos))

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "docent/localization/monte_carlo/particle_strata.h"
 #include "docent/localization/monte_carlo/particle_summary.h"
 #include "docent/localization/monte_carlo/particle_weights.h"
 
@@ -57,9 +58,13 @@ MonteCarloLocalizer::MonteCarloLocalizer(const OccupancyGrid& map, const MarkovL
       space_{map, caster_, shared.states},
       table_{make_table(map, shared, cache, space_, caster_)},
       model_{shared.sensor, table_.frequency()},
-      beam_scores_{space_, table_, model_, shared.sensor.max_range},
-      field_{caster_, params.field, shared.sensor.max_range},
-      field_kernel_{field_kernels().back().kernel},
+      scores_{params.model == "field" ? SweepScores::Model::field : SweepScores::Model::beam,
+              BeamScores{space_, table_, model_, shared.sensor.max_range},
+              LikelihoodField{caster_, params.field, shared.sensor.max_range},
+              space_.headings(),
+              static_cast<std::size_t>(shared.sectors),
+              shared.most_sector_nats,
+              shared.sensor.max_range},
       grid_kernel_{score_kernels().back().kernel},
       verdict_{shared.verdict},
       rng_{Rng{seed}.stream("localize")},
@@ -68,7 +73,7 @@ MonteCarloLocalizer::MonteCarloLocalizer(const OccupancyGrid& map, const MarkovL
 }
 
 void MonteCarloLocalizer::use_kernels(FieldKernel field, ScoreKernel grid) {
-  field_kernel_ = field;
+  scores_.use_kernel(field);
   grid_kernel_ = grid;
 }
 
@@ -175,7 +180,7 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
   double likelihood = 0.0;
   if (particles_.size() > 0) {
     std::vector<std::uint32_t> costs;
-    score(sweep, choice.used, particles_, costs);
+    scores_.score(sweep, choice.used, particles_, costs);
     ParticleEvidence evidence;
     evidence.nats_per_cost = temper / kScorePerNat;
     evidence.most_nats = shared_.most_nats;
@@ -193,46 +198,17 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
   step.beams_filtered = choice.filtered;
 
   summarise_now();
-  resample_strata();
+  if (!summary_.modes.empty()) {
+    const Strata strata{static_cast<std::size_t>(params_.least), most_particles(),
+                        static_cast<std::size_t>(params_.reserve), params_.resample_below, params_.kld};
+    resample_strata(particles_, summary_.modes.front().map_from_robot, strata, rng_, scratch_);
+  }
   step.fit = fit(sweep, choice.used);
   choice.evidence.weight = step.weight;
   choice.evidence.way = way;
   choice.evidence.turn = turn;
   judge(choice.evidence, predicted);
   return step;
-}
-
-void MonteCarloLocalizer::score(const RangeSweep& sweep, std::span<const BinnedBeam> beams,
-                                const ParticleSet& particles, std::vector<std::uint32_t>& costs) const {
-  const auto headings = static_cast<std::size_t>(space_.headings());
-  const auto sectors = static_cast<std::size_t>(shared_.sectors);
-  const auto cap = static_cast<std::uint32_t>(std::min(shared_.most_sector_nats * kScorePerNat, 1e9));
-  costs.resize(particles.padded_size());
-  BeamScores::Beams ranges;
-  FieldBeams ends;
-  ranges.cap = ends.cap = cap;
-  for (std::size_t i = 0; i < beams.size(); ++i) {
-    const SweepBeam& beam = sweep.beams[beams[i].beam];
-    const bool no_return = beam.no_return || beam.range >= shared_.sensor.max_range;
-    const Point2 along = unit(Angle::radians(beam.bearing));
-    double direction = beam.bearing / space_.heading_step();
-    if (direction < 0.0) direction += static_cast<double>(headings);
-    ranges.beams.push_back({static_cast<float>(beam.range), static_cast<float>(along.x), static_cast<float>(along.y),
-                            static_cast<float>(direction), no_return});
-    if (!no_return) ends.add(field_.view(), beam.range * along);
-    const bool is_last =
-        i + 1 == beams.size() || beams[i + 1].direction * sectors / headings != beams[i].direction * sectors / headings;
-    if (!is_last) continue;
-    ranges.ends.push_back(static_cast<std::uint32_t>(ranges.beams.size()));
-    ends.close_sector();
-  }
-  if (params_.model == "field") {
-    FieldPoses poses;
-    poses.fill(field_.view(), particles);
-    field_kernel_(field_.view(), ends, poses, costs.data());
-  } else {
-    beam_scores_.score(ranges, particles, costs.data());
-  }
 }
 
 void MonteCarloLocalizer::notice_surprise(double likelihood, double weight) {
@@ -286,7 +262,7 @@ void MonteCarloLocalizer::draw_elsewhere(const RangeSweep& sweep, std::span<cons
   // Importance weights: what was drawn by the table is weighed by the model in use.
   constexpr double kMostRatio = 20.0;
   std::vector<std::uint32_t> costs;
-  score(sweep, beams, proposal.poses, costs);
+  scores_.score(sweep, beams, proposal.poses, costs);
   double sum = 0.0;
   for (std::size_t i = 0; i < proposal.poses.size(); ++i) {
     const double weight = std::exp(-temper / kScorePerNat * costs[i]);
@@ -305,66 +281,6 @@ void MonteCarloLocalizer::draw_elsewhere(const RangeSweep& sweep, std::span<cons
   for (float& weight : particles_.weight) weight *= static_cast<float>(1.0 - share);
   for (float& weight : proposal.poses.weight) weight *= static_cast<float>(share / sum);
   particles_.append(proposal.poses);
-}
-
-void MonteCarloLocalizer::resample_strata() {
-  if (particles_.size() == 0 || summary_.modes.empty()) return;
-  const std::size_t near = gather_near(summary_.modes.front().map_from_robot);
-  const std::size_t all = particles_.size();
-  const std::size_t bins = occupied_bins(particles_, 0, all, params_.kld);
-  const auto least = static_cast<std::size_t>(params_.least);
-  const std::size_t wanted = std::clamp(kld_sample_size(bins, params_.kld), least, most_particles());
-  const double near_mass = particles_.mass(0, near);
-  const double share = near_mass / (near_mass + particles_.mass(near, all));
-  const auto part = [&](double of) { return static_cast<std::size_t>(std::lround(of * static_cast<double>(wanted))); };
-  const std::size_t near_wanted = std::max(least, part(share));
-  const std::size_t far_wanted =
-      std::max(part(1.0 - share), std::min(all - near, static_cast<std::size_t>(params_.reserve)));
-
-  scratch_.clear();
-  resample_stratum(0, near, near_wanted, &resample);
-  resample_stratum(near, all, far_wanted, &resample_flattened);
-  std::swap(particles_, scratch_);
-}
-
-std::size_t MonteCarloLocalizer::gather_near(const Pose2& best) {
-  constexpr float kRadius = 0.75F;      // [m], as the focus of the evidence
-  constexpr float kLeastCosine = 0.9F;  // of 26 degrees
-  const auto x = static_cast<float>(best.x);
-  const auto y = static_cast<float>(best.y);
-  const Point2 heading = unit(best.theta);
-  const auto hx = static_cast<float>(heading.x);
-  const auto hy = static_cast<float>(heading.y);
-  scratch_.resize(particles_.size());
-  std::size_t near = 0;
-  for (const bool wanted : {true, false}) {
-    std::size_t next = wanted ? 0 : near;
-    for (std::size_t i = 0; i < particles_.size(); ++i) {
-      const float dx = particles_.x[i] - x;
-      const float dy = particles_.y[i] - y;
-      const bool is_near = dx * dx + dy * dy <= kRadius * kRadius &&
-                           particles_.heading_x[i] * hx + particles_.heading_y[i] * hy >= kLeastCosine;
-      if (is_near == wanted) scratch_.copy(particles_, i, next++);
-    }
-    if (wanted) near = next;
-  }
-  std::swap(particles_, scratch_);
-  return near;
-}
-
-void MonteCarloLocalizer::resample_stratum(std::size_t first, std::size_t last, std::size_t wanted,
-                                           Resampler resampler) {
-  if (last == first || !(particles_.mass(first, last) > 0.0)) return;
-  const auto count = static_cast<double>(last - first);
-  const bool is_uneven = effective_size(particles_, first, last) < params_.resample_below * count;
-  const bool has_other_size = count > 1.5 * static_cast<double>(wanted) || 1.5 * count < static_cast<double>(wanted);
-  if (is_uneven || has_other_size) {
-    resampler(particles_, first, last, wanted, rng_.uniform(), scratch_);
-    return;
-  }
-  const std::size_t begin = scratch_.size();
-  scratch_.resize(begin + (last - first));
-  for (std::size_t i = first; i < last; ++i) scratch_.copy(particles_, i, begin + (i - first));
 }
 
 std::optional<double> MonteCarloLocalizer::fit(const RangeSweep& sweep, std::span<const BinnedBeam> beams) const {

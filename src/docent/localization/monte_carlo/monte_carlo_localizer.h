@@ -9,14 +9,13 @@
 #include "docent/localization/belief/localizer.h"
 #include "docent/localization/markov/beam_filter.h"
 #include "docent/localization/markov/markov_localizer.h"
-#include "docent/localization/monte_carlo/beam_scores.h"
-#include "docent/localization/monte_carlo/field_kernel.h"
 #include "docent/localization/monte_carlo/likelihood_field.h"
 #include "docent/localization/monte_carlo/noise_streams.h"
 #include "docent/localization/monte_carlo/particle_motion.h"
 #include "docent/localization/monte_carlo/particle_set.h"
 #include "docent/localization/monte_carlo/resampling.h"
 #include "docent/localization/monte_carlo/scan_proposal.h"
+#include "docent/localization/monte_carlo/sweep_scores.h"
 
 namespace docent {
 
@@ -24,7 +23,7 @@ namespace docent {
 struct MonteCarloParams {
   std::string model = "beam";  ///< beam: expected ranges and ProximityModel; field: LikelihoodField
   int least = 300;             ///< particles, and what they are when tracking
-  int most = 20000;            ///< particles
+  int most = 50000;            ///< particles
   int reserve = 1000;          ///< of them, in places that the belief does not hold likely
   KldParams kld;               ///< how many between least and most
   LikelihoodFieldParams field;
@@ -95,20 +94,11 @@ class MonteCarloLocalizer final : public Localizer {
   [[nodiscard]] double due_weight(double way, double turn, Time time) const;
   [[nodiscard]] Choice choose_beams(const RangeSweep& sweep);
   void thin(std::vector<BinnedBeam>& beams);
-  void score(const RangeSweep& sweep, std::span<const BinnedBeam> beams, const ParticleSet& particles,
-             std::vector<std::uint32_t>& costs) const;
   void notice_surprise(double likelihood, double weight);
   /// Adds poses drawn from the sensors, for the case that the truth is near no particle.
   void draw_elsewhere(const RangeSweep& sweep, std::span<const BinnedBeam> beams, double temper, double likelihood);
   [[nodiscard]] std::vector<BeamCosts> grid_costs(const RangeSweep& sweep, std::span<const BinnedBeam> beams,
                                                   double temper) const;
-  /// What lies near the likeliest place, and the rest.
-  void resample_strata();
-  /// Sorts the particles near `best` to the front; their number.
-  [[nodiscard]] std::size_t gather_near(const Pose2& best);
-  /// Appends to scratch_: resampled where that is worth while, else as they are.
-  using Resampler = void (*)(const ParticleSet&, std::size_t, std::size_t, std::size_t, double, ParticleSet&);
-  void resample_stratum(std::size_t first, std::size_t last, std::size_t wanted, Resampler resampler);
   void summarise_now();
   void judge(Evidence evidence, const std::optional<Pose2>& predicted);
   [[nodiscard]] std::optional<double> fit(const RangeSweep& sweep, std::span<const BinnedBeam> beams) const;
@@ -122,9 +112,7 @@ class MonteCarloLocalizer final : public Localizer {
   StateSpace space_;
   RangeTable table_;
   ProximityModel model_;
-  BeamScores beam_scores_;
-  LikelihoodField field_;
-  FieldKernel field_kernel_;
+  SweepScores scores_;
   ScoreKernel grid_kernel_;
   Verdict verdict_;
   Rng rng_;
