@@ -16,6 +16,7 @@ constexpr double kLikelyFraction = 1e-3;   // of the likeliest state: those that
 constexpr std::size_t kMostLikely = 6000;  // more, and the belief is too wide for filters
 constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr double kSurprising = 0.5;      // of the evidence is missing: at every update poses are drawn
+constexpr double kNewView = 0.1;         // of the usual likelihood: less is not the view that was there
 constexpr double kUpdateSeconds = 0.25;  // what one update may take of the robot's time, if the work is paid
 
 RangeTable make_table(const OccupancyGrid& map, const MarkovLocalizerParams& params, const std::filesystem::path& cache,
@@ -134,8 +135,10 @@ void MonteCarloLocalizer::summarise_now() {
     likely_.clear();
     return;
   }
-  likely_ = likely_states(particles_, space_, kLikelyFraction, kMostLikely);
-  summary_ = summarise(particles_, space_, {});
+  const auto bins = bins_of(particles_, space_);
+  likely_ = likely_states(bins, space_, kLikelyFraction, kMostLikely);
+  summary_ = summarise(bins, space_, {});
+  summary_.active_states = particles_.size();
 }
 
 double MonteCarloLocalizer::due_weight(double way, double turn, Time time) const {
@@ -175,14 +178,17 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
                  noise_);
 
   Choice choice = choose_beams(sweep);
-  const double temper = step.weight * shared_.independent_beams / shared_.beams;
+  const double full_temper = shared_.independent_beams / shared_.beams;
   last_work_ = static_cast<double>(particles_.size()) * static_cast<double>(choice.used.size());
   double likelihood = 0.0;
   if (particles_.size() > 0) {
     std::vector<std::uint32_t> costs;
     scores_.score(sweep, choice.used, particles_, costs);
+    // The same view again says little; another view, without motion, says that somebody carried the robot.
+    const bool is_new = mean_likelihood(particles_, costs, full_temper / kScorePerNat) < kNewView * long_mean_;
+    if (is_new) step.weight = 1.0;
     ParticleEvidence evidence;
-    evidence.nats_per_cost = temper / kScorePerNat;
+    evidence.nats_per_cost = step.weight * full_temper / kScorePerNat;
     evidence.most_nats = shared_.most_nats;
     if (verdict_.localized()) {  // as the grid: sharp where the robot knows to be, slow between there and elsewhere
       evidence.focus = predicted;
@@ -192,7 +198,7 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
     likelihood = reweigh(particles_, costs, evidence);
     notice_surprise(likelihood, step.weight);
   }
-  draw_elsewhere(sweep, choice.used, temper, likelihood);
+  draw_elsewhere(sweep, choice.used, step.weight * full_temper, likelihood);
   step.updated = true;
   step.beams_used = choice.used.size();
   step.beams_filtered = choice.filtered;
@@ -303,7 +309,7 @@ std::optional<double> MonteCarloLocalizer::fit(const RangeSweep& sweep, std::spa
 MonteCarloLocalizer::Choice MonteCarloLocalizer::choose_beams(const RangeSweep& sweep) {
   Choice choice;
   const std::vector<BinnedBeam> beams = binned(sweep, space_.headings());
-  likely_ = particles_.size() > 0 ? likely_states(particles_, space_, kLikelyFraction, kMostLikely)
+  likely_ = particles_.size() > 0 ? likely_states(bins_of(particles_, space_), space_, kLikelyFraction, kMostLikely)
                                   : std::vector<LikelyState>{};
   if (likely_.empty()) {
     choice.used = beams;

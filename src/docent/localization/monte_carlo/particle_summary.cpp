@@ -6,17 +6,7 @@
 
 namespace docent {
 
-namespace {
-
-/// One state and the particles in it.
-struct Bin {
-  CellIndex cell;
-  int heading = 0;
-  double mass = 0.0;
-  double x = 0.0, y = 0.0, cos = 0.0, sin = 0.0;  ///< sums, weighed
-};
-
-std::vector<Bin> bins_of(const ParticleSet& particles, const StateSpace& space) {
+std::vector<ParticleBin> bins_of(const ParticleSet& particles, const StateSpace& space) {
   struct Entry {
     std::uint64_t key;
     std::uint32_t particle;
@@ -36,7 +26,7 @@ std::vector<Bin> bins_of(const ParticleSet& particles, const StateSpace& space) 
   }
   std::sort(entries.begin(), entries.end(),
             [](const Entry& a, const Entry& b) { return a.key != b.key ? a.key < b.key : a.particle < b.particle; });
-  std::vector<Bin> bins;
+  std::vector<ParticleBin> bins;
   for (std::size_t k = 0; k < entries.size(); ++k) {
     if (k == 0 || entries[k].key != entries[k - 1].key) {
       const std::size_t cell = entries[k].key / headings;
@@ -46,7 +36,7 @@ std::vector<Bin> bins_of(const ParticleSet& particles, const StateSpace& space) 
     }
     const std::size_t i = entries[k].particle;
     const auto weight = static_cast<double>(particles.weight[i]);
-    Bin& bin = bins.back();
+    ParticleBin& bin = bins.back();
     bin.mass += weight;
     bin.x += weight * static_cast<double>(particles.x[i]);
     bin.y += weight * static_cast<double>(particles.y[i]);
@@ -56,11 +46,9 @@ std::vector<Bin> bins_of(const ParticleSet& particles, const StateSpace& space) 
   return bins;
 }
 
-}  // namespace
-
-BeliefSummary summarise(const ParticleSet& particles, const StateSpace& space, const SummaryParams& params) {
-  std::vector<Bin> bins = bins_of(particles, space);
-  std::stable_sort(bins.begin(), bins.end(), [](const Bin& a, const Bin& b) { return a.mass > b.mass; });
+BeliefSummary summarise(std::vector<ParticleBin> bins, const StateSpace& space, const SummaryParams& params) {
+  std::stable_sort(bins.begin(), bins.end(),
+                   [](const ParticleBin& a, const ParticleBin& b) { return a.mass > b.mass; });
   BeliefSummary summary;
   const GridFrame& frame = space.frame();
   summary.rest_origin = frame.origin;
@@ -70,7 +58,7 @@ BeliefSummary summarise(const ParticleSet& particles, const StateSpace& space, c
   summary.rest.assign(static_cast<std::size_t>(summary.rest_columns) * static_cast<std::size_t>(summary.rest_rows),
                       0.0F);
   double listed = 0.0;
-  for (const Bin& bin : bins) {
+  for (const ParticleBin& bin : bins) {
     const auto mass = static_cast<float>(bin.mass);
     summary.entropy -= bin.mass * std::log(bin.mass);
     if (summary.cells.size() < params.most_cells && listed < params.enough_mass) {
@@ -86,18 +74,17 @@ BeliefSummary summarise(const ParticleSet& particles, const StateSpace& space, c
   }
   find_modes(summary, params);
   summary.active_mass = 1.0;
-  summary.active_states = particles.size();
+  summary.active_states = bins.size();
   return summary;
 }
 
-std::vector<LikelyState> likely_states(const ParticleSet& particles, const StateSpace& space, double fraction,
+std::vector<LikelyState> likely_states(const std::vector<ParticleBin>& bins, const StateSpace& space, double fraction,
                                        std::size_t limit) {
-  const std::vector<Bin> bins = bins_of(particles, space);
   double peak = 0.0;
-  for (const Bin& bin : bins) peak = std::max(peak, bin.mass);
+  for (const ParticleBin& bin : bins) peak = std::max(peak, bin.mass);
   std::vector<LikelyState> states;
   double total = 0.0;
-  for (const Bin& bin : bins) {
+  for (const ParticleBin& bin : bins) {
     const std::int32_t place = space.place_at(bin.cell);
     if (place == StateSpace::kNoPlace || bin.mass < fraction * peak) continue;
     if (states.size() == limit) return {};

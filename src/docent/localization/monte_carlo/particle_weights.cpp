@@ -51,6 +51,17 @@ std::vector<std::uint8_t> near(const ParticleSet& particles, const ParticleEvide
 
 }  // namespace
 
+double mean_likelihood(const ParticleSet& particles, std::span<const std::uint32_t> costs, double nats_per_cost) {
+  double sum = 0.0;
+  double mass = 0.0;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const auto weight = static_cast<double>(particles.weight[i]);
+    sum += weight * std::exp(-nats_per_cost * costs[i]);
+    mass += weight;
+  }
+  return mass > 0.0 ? sum / mass : 0.0;
+}
+
 double reweigh(ParticleSet& particles, std::span<const std::uint32_t> costs, const ParticleEvidence& evidence) {
   const std::size_t count = particles.size();
   const std::vector<std::uint8_t> is_near = near(particles, evidence);

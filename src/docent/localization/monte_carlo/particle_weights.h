@@ -21,6 +21,10 @@ struct ParticleEvidence {
   double far_most_nats = 60.0;
 };
 
+/// Mean of exp(-nats_per_cost * cost) over the particles; 0 when they have no weight. O(particles).
+[[nodiscard]] double mean_likelihood(const ParticleSet& particles, std::span<const std::uint32_t> costs,
+                                     double nats_per_cost);
+
 /// Multiplies the weights by the likelihoods exp(-nats_per_cost * cost), step 3 of [Minerva2000] 3.3, and normalises
 /// them. Returns the mean likelihood that the particles gave the scan before, as if all evidence counted; 0 when there
 /// is no weight at all, and then nothing is changed. O(particles).

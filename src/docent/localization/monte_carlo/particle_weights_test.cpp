@@ -22,7 +22,9 @@ TEST(ParticleWeights, WithoutCapsItIsBayes) {
   const auto costs = any_costs(rng, particles);
   ParticleEvidence evidence;
   evidence.nats_per_cost = 0.01;
+  const double mean = mean_likelihood(particles, costs, 0.01);
   const double likelihood = reweigh(particles, costs, evidence);
+  EXPECT_NEAR(mean, likelihood, 1e-5 * mean);
   double mass = 0.0;
   double sum = 0.0;
   for (std::size_t i = 0; i < 77; ++i) {
