@@ -116,22 +116,8 @@ void MonteCarloLocalizer::start_at(std::span<const BeliefMode> modes, const Pose
 }
 
 void MonteCarloLocalizer::summarise_now() {
-  if (particles_.size() == 0) {  // anywhere: the table's places, all alike
-    summary_ = {};
-    summary_.entropy = std::log(static_cast<double>(std::max<std::size_t>(space_.states(), 1)));
-    const GridFrame& frame = space_.frame();
-    summary_.rest_origin = frame.origin;
-    summary_.rest_columns = static_cast<int>(std::ceil(frame.columns * frame.resolution / summary_.rest_cell_size));
-    summary_.rest_rows = static_cast<int>(std::ceil(frame.rows * frame.resolution / summary_.rest_cell_size));
-    summary_.rest.assign(static_cast<std::size_t>(summary_.rest_columns) * static_cast<std::size_t>(summary_.rest_rows),
-                         0.0F);
-    for (std::size_t place = 0; place < space_.places(); ++place) {
-      const Point2 off = space_.centre(place) - frame.origin;
-      const auto column = static_cast<std::size_t>(off.x / summary_.rest_cell_size);
-      const auto row = static_cast<std::size_t>(off.y / summary_.rest_cell_size);
-      summary_.rest[row * static_cast<std::size_t>(summary_.rest_columns) + column] +=
-          1.0F / static_cast<float>(space_.places());
-    }
+  if (particles_.size() == 0) {
+    summary_ = summarise_unknown(space_, {});
     likely_.clear();
     return;
   }

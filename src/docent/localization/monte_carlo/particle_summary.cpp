@@ -46,10 +46,9 @@ std::vector<ParticleBin> bins_of(const ParticleSet& particles, const StateSpace&
   return bins;
 }
 
-BeliefSummary summarise(std::vector<ParticleBin> bins, const StateSpace& space, const SummaryParams& params) {
-  std::stable_sort(bins.begin(), bins.end(),
-                   [](const ParticleBin& a, const ParticleBin& b) { return a.mass > b.mass; });
-  BeliefSummary summary;
+namespace {
+
+void make_rest(const StateSpace& space, const SummaryParams& params, BeliefSummary& summary) {
   const GridFrame& frame = space.frame();
   summary.rest_origin = frame.origin;
   summary.rest_cell_size = params.rest_cell_size;
@@ -57,6 +56,31 @@ BeliefSummary summarise(std::vector<ParticleBin> bins, const StateSpace& space, 
   summary.rest_rows = static_cast<int>(std::ceil(frame.rows * frame.resolution / params.rest_cell_size));
   summary.rest.assign(static_cast<std::size_t>(summary.rest_columns) * static_cast<std::size_t>(summary.rest_rows),
                       0.0F);
+}
+
+float& rest_at(Point2 in_map, BeliefSummary& summary) {
+  const Point2 off = in_map - summary.rest_origin;
+  const auto column = static_cast<std::size_t>(off.x / summary.rest_cell_size);
+  const auto row = static_cast<std::size_t>(off.y / summary.rest_cell_size);
+  return summary.rest[row * static_cast<std::size_t>(summary.rest_columns) + column];
+}
+
+}  // namespace
+
+BeliefSummary summarise_unknown(const StateSpace& space, const SummaryParams& params) {
+  BeliefSummary summary;
+  make_rest(space, params, summary);
+  summary.entropy = std::log(static_cast<double>(std::max<std::size_t>(space.states(), 1)));
+  const float each = 1.0F / static_cast<float>(std::max<std::size_t>(space.places(), 1));
+  for (std::size_t place = 0; place < space.places(); ++place) rest_at(space.centre(place), summary) += each;
+  return summary;
+}
+
+BeliefSummary summarise(std::vector<ParticleBin> bins, const StateSpace& space, const SummaryParams& params) {
+  std::stable_sort(bins.begin(), bins.end(),
+                   [](const ParticleBin& a, const ParticleBin& b) { return a.mass > b.mass; });
+  BeliefSummary summary;
+  make_rest(space, params, summary);
   double listed = 0.0;
   for (const ParticleBin& bin : bins) {
     const auto mass = static_cast<float>(bin.mass);
@@ -67,10 +91,7 @@ BeliefSummary summarise(std::vector<ParticleBin> bins, const StateSpace& space, 
       listed += bin.mass;
       continue;
     }
-    const Point2 off = frame.centre(bin.cell) - frame.origin;
-    const auto column = static_cast<std::size_t>(off.x / params.rest_cell_size);
-    const auto row = static_cast<std::size_t>(off.y / params.rest_cell_size);
-    summary.rest[row * static_cast<std::size_t>(summary.rest_columns) + column] += mass;
+    rest_at(space.frame().centre(bin.cell), summary) += mass;
   }
   find_modes(summary, params);
   summary.active_mass = 1.0;

@@ -23,6 +23,9 @@ struct ParticleBin {
 [[nodiscard]] BeliefSummary summarise(std::vector<ParticleBin> bins, const StateSpace& space,
                                       const SummaryParams& params);
 
+/// Anywhere on the free places, all alike: before the first scan, when there are no particles.
+[[nodiscard]] BeliefSummary summarise_unknown(const StateSpace& space, const SummaryParams& params);
+
 /// As likely_states of the grid: states with at least `fraction` of the likeliest one's mass; none when there are more
 /// than `limit`. Particles off the free places are left out.
 [[nodiscard]] std::vector<LikelyState> likely_states(const std::vector<ParticleBin>& bins, const StateSpace& space,
