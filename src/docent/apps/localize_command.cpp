@@ -15,6 +15,7 @@
 #include "docent/apps/log_defaults.h"
 #include "docent/base/files.h"
 #include "docent/localization/markov/markov_localizer.h"
+#include "docent/localization/monte_carlo/monte_carlo_localizer.h"
 #include "docent/recording/laser_log.h"
 #include "docent/robot/robot_config.h"
 
@@ -109,29 +110,52 @@ void print(const char* title, const nlohmann::json& report) {
   for (const auto& [key, value] : report.items()) std::printf("  %-24s %s\n", key.c_str(), value.dump().c_str());
 }
 
-MarkovLocalizerParams params_for(const Options& options, const OccupancyGrid& map, const LaserLog& log) {
+/// What both methods need, and the particles' own.
+struct MethodParams {
+  MarkovLocalizerParams grid;
+  MonteCarloParams particles;
+  template <class V>
+  void visit(V& v) {
+    grid.visit(v);
+    v("particles", particles);
+  }
+  [[nodiscard]] Result<void> validate() const {
+    if (auto valid = particles.validate(); !valid) return valid;
+    return grid.validate();
+  }
+};
+
+std::unique_ptr<Localizer> make_localizer(const Options& options, const OccupancyGrid& map,
+                                          const MethodParams& params) {
+  if (options.method == "particles")
+    return std::make_unique<MonteCarloLocalizer>(map, params.grid, params.particles, "", options.seed);
+  return std::make_unique<MarkovLocalizer>(map, params.grid, "", options.seed);
+}
+
+MethodParams params_for(const Options& options, const OccupancyGrid& map, const LaserLog& log) {
   RobotConfig config;
   value_or_fail(set_log_defaults(config, map, log.max_range));
+  value_or_fail(config.set("localize.particles={most: 300000, reserve: 30000, draw_every: 1}"));  // there is time
   for (const std::string& setting : options.settings) {
     for (const std::string own : {"filter", "states"})
       if (setting.rfind(own + "=", 0) == 0 && (own == "filter" || setting.find("wall_depth") != std::string::npos))
         throw CommandFailed{"--set " + setting + ": use " + (own == "filter" ? "--filter" : "--wall-depth"), 2};
     value_or_fail(config.set("localize." + setting), 2);
   }
-  auto params = value_or_fail(config.section<MarkovLocalizerParams>("localize"), 2);
-  params.filter = options.filter;
+  auto params = value_or_fail(config.section<MethodParams>("localize"), 2);
+  params.grid.filter = options.filter;
   return params;
 }
 
 /// Maps made from scans have walls as thick as the scans were uncertain, and the true surface lies inside. The depth
-/// at which the map explains the log best, over a run from its beginning and one from its end.
-double find_wall_depth(const Options& options, const LaserLog& log, const OccupancyGrid& map,
-                       MarkovLocalizerParams params) {
+/// at which the map explains the log best, over a run from its beginning and one from its end. The walls are the same
+/// for every method, and the grid is the fastest from an unknown start.
+double find_wall_depth(const Options& options, const LaserLog& log, const OccupancyGrid& map, MethodParams params) {
   double best_depth = 0.0;
   double best_fit = 0.0;
   for (const double depth : {0.0, 0.2, 0.4}) {  // nearer ones differ less than two runs do
-    params.states.wall_depth = depth;
-    MarkovLocalizer localizer{map, params, {}, options.seed};
+    params.grid.states.wall_depth = depth;
+    MarkovLocalizer localizer{map, params.grid, "", options.seed};
     double fit = 0.0;
     for (const bool reverse : {false, true}) {
       localizer.start_unknown();
@@ -148,30 +172,31 @@ double find_wall_depth(const Options& options, const LaserLog& log, const Occupa
 void localize(const Options& options) {
   const OccupancyGrid map = value_or_fail(load_map(options.map));
   const LaserLog log = value_or_fail(read_laser_log(options.log));
-  MarkovLocalizerParams params = params_for(options, map, log);
-  if (StateSpace{map, RayCaster{map}, params.states}.places() == 0)
+  MethodParams params = params_for(options, map, log);
+  if (StateSpace{map, RayCaster{map}, params.grid.states}.places() == 0)
     throw CommandFailed{options.map + ": no free place in this map"};
   if (options.wall_depth == "auto") {
-    params.states.wall_depth = find_wall_depth(options, log, map, params);
+    params.grid.states.wall_depth = find_wall_depth(options, log, map, params);
   } else {
-    params.states.wall_depth = parse_numbers("--wall-depth", options.wall_depth, 1).front();
+    params.grid.states.wall_depth = parse_numbers("--wall-depth", options.wall_depth, 1).front();
     value_or_fail(params.validate(), 2);
   }
-  MarkovLocalizer localizer{map, params, {}, options.seed};
+  const auto localizer = make_localizer(options, map, params);
 
-  const LogRun run = run_once(options, log, map, localizer, options.reverse, options.picture);
+  const LogRun run = run_once(options, log, map, *localizer, options.reverse, options.picture);
   const RayCaster caster{map};
   nlohmann::json report = report_of(log, run, caster);
   report["map"] = options.map;
   report["log"] = options.log;
+  report["method"] = options.method;
   report["filter"] = options.filter;
   report["start"] = options.start;
   report["reversed"] = options.reverse;
-  report["wall_depth"] = params.states.wall_depth;
+  report["wall_depth"] = params.grid.states.wall_depth;
   print(options.reverse ? "reversed" : "forward", report);
   if (options.both_ways) {
-    localizer.start_unknown();
-    const LogRun other = run_once(options, log, map, localizer, !options.reverse, options.picture);
+    localizer->start_unknown();
+    const LogRun other = run_once(options, log, map, *localizer, !options.reverse, options.picture);
     report["other_way"] = report_of(log, other, caster);
     report["agreement"] = to_json(agreement_of(run.poses, other.poses));
     print("the other way", report["other_way"]);
@@ -196,7 +221,9 @@ void add_localize_command(CLI::App& app) {
   command
       ->add_option("--log", options->log, "CARMEN text log (plain or .gz), MCAP recording, rosbag2 folder or database")
       ->required();
-  command->add_option("--method", options->method, "grid")->check(CLI::IsMember({"grid"}))->capture_default_str();
+  command->add_option("--method", options->method, "grid, particles")
+      ->check(CLI::IsMember({"grid", "particles"}))
+      ->capture_default_str();
   command->add_option("--filter", options->filter, "none, entropy, distance, novelty")
       ->check(CLI::IsMember({"none", "entropy", "distance", "novelty"}))
       ->capture_default_str();

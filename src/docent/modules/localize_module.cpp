@@ -2,12 +2,14 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <optional>
 
 #include "docent/grid/occupancy_grid.h"
 #include "docent/localization/belief/checkpoint.h"
 #include "docent/localization/markov/markov_localizer.h"
+#include "docent/localization/monte_carlo/monte_carlo_localizer.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/sonar_localize.h"
 #include "docent/motion_models/odometry_history.h"
@@ -24,8 +26,10 @@ constexpr Duration kCheckpointAge = std::chrono::seconds{60};
 constexpr double kCheckpointWay = 5.0;  // [m] that odometry may have gone on meanwhile
 
 struct LocalizeParams {
-  std::string method = "grid";  ///< or sonar: a tracker for robots without laser
+  /// grid; particles, which share all of the grid's parameters that concern them; sonar: a tracker without laser
+  std::string method = "grid";
   MarkovLocalizerParams markov;
+  MonteCarloParams particles;
   SonarLocalizeParams sonar;
   double person_range = 6.0;    ///< [m], > 0: how far away people are looked for
   bool dead_reckoning = false;  ///< crippled, for evaluation: odometry alone after the first "here"
@@ -37,6 +41,7 @@ struct LocalizeParams {
   void visit(V& v) {
     v("method", method);
     markov.visit(v);
+    v("particles", particles);
     v("sonar", sonar);
     v("person_range", person_range);
     v("dead_reckoning", dead_reckoning);
@@ -46,11 +51,21 @@ struct LocalizeParams {
   }
   [[nodiscard]] Result<void> validate() const {
     if (!(person_range > 0.0)) return fail("person_range must be > 0");
-    if (method != "grid" && method != "sonar") return fail("method must be grid or sonar, not '" + method + "'");
-    if (auto valid = sonar.validate(); !valid) return valid;
+    if (method != "grid" && method != "particles" && method != "sonar")
+      return fail("method must be grid, particles or sonar, not '" + method + "'");
+    for (const auto& valid : {particles.validate(), sonar.validate()})
+      if (!valid) return valid;
     return markov.validate();
   }
 };
+
+std::unique_ptr<Localizer> make_localizer(const ModuleContext& context, const LocalizeParams& params) {
+  const std::filesystem::path table = context.state / "range_table.bin";
+  if (params.method == "particles")
+    return std::make_unique<MonteCarloLocalizer>(context.museum.map, params.markov, params.particles, table,
+                                                 context.seed);
+  return std::make_unique<MarkovLocalizer>(context.museum.map, params.markov, table, context.seed);
+}
 
 class LocalizeModule final : public Module {
  public:
@@ -59,7 +74,7 @@ class LocalizeModule final : public Module {
         params_{params},
         checkpoint_path_{context.state / "localize.yaml"},
         map_hash_{map_hash(context.museum.map)},
-        localizer_{context.museum.map, params.markov, context.state / "range_table.bin", context.seed},
+        localizer_{make_localizer(context, params)},
         lasers_{Laser{context.config.body().scan_front.base_from_sensor(), {}, {}, false},
                 Laser{context.config.body().scan_rear.base_from_sensor(), {}, {}, false}},
         belief_{bus_.publisher(topics::kBelief)},
@@ -67,7 +82,7 @@ class LocalizeModule final : public Module {
         transforms_{bus_.publisher(topics::kTransforms)},
         person_beams_{bus_.publisher(topics::kPersonBeams)} {
     restore();
-    publish_belief(bus_.now(), localizer_.odom_from_robot());
+    publish_belief(bus_.now(), localizer_->odom_from_robot());
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const auto& odometry) {
       odometry_received_ = bus_.now();
       odometry_.add(from_message(odometry.header.stamp), from_message(odometry.pose.pose));
@@ -95,7 +110,7 @@ class LocalizeModule final : public Module {
     bool is_new;
   };
 
-  [[nodiscard]] bool localized() const { return frozen_ || localizer_.verdict().localized(); }
+  [[nodiscard]] bool localized() const { return frozen_ || localizer_->verdict().localized(); }
 
   void on_scan(std::size_t laser, const sensor_msgs::LaserScan& scan) {
     lasers_[laser].scan = scan;  // the last one only: who is late drops scans
@@ -129,9 +144,9 @@ class LocalizeModule final : public Module {
   }
 
   void digest(const RangeSweep& sweep, const Pose2& odom_from_base, Time stamp) {
-    MarkovLocalizer::Step step;
-    if (!frozen_) step = localizer_.observe(sweep, odom_from_base, stamp);
-    if (params_.dead_reckoning && localizer_.verdict().localized()) frozen_ = true;
+    Localizer::Step step;
+    if (!frozen_) step = localizer_->observe(sweep, odom_from_base, stamp);
+    if (params_.dead_reckoning && localizer_->verdict().localized()) frozen_ = true;
     if (step.updated) last_step_ = step;
     if (step.updated || bus_.now() - belief_published_ >= kRepublish) publish_belief(stamp, odom_from_base);
     publish_person_beams(sweep, odom_from_base, stamp);
@@ -144,13 +159,13 @@ class LocalizeModule final : public Module {
 
   /// The belief of the last update, carried forward by odometry to the stamp.
   void publish_belief(Time stamp, const Pose2& odom_from_base) {
-    const BeliefSummary& summary = localizer_.summary();
-    const Pose2 before_from_now = inverse(localizer_.odom_from_robot()) * odom_from_base;
+    const BeliefSummary& summary = localizer_->summary();
+    const Pose2 before_from_now = inverse(localizer_->odom_from_robot()) * odom_from_base;
     docent_msgs::Belief message;
     message.header = {docent::to_message(stamp), "map"};
     message.map_hash = map_hash_;
-    message.cell_size = static_cast<float>(localizer_.space().frame().resolution);
-    message.heading_step = static_cast<float>(localizer_.space().heading_step());
+    message.cell_size = static_cast<float>(params_.markov.states.cell_size);
+    message.heading_step = static_cast<float>(params_.markov.states.heading_step * std::numbers::pi / 180.0);
     message.cells.reserve(summary.cells.size());
     for (const auto& cell : summary.cells) {
       const Pose2 pose = Pose2{static_cast<double>(cell.x), static_cast<double>(cell.y),
@@ -173,12 +188,12 @@ class LocalizeModule final : public Module {
       best.theta += params_.best_pose_error_heading * std::numbers::pi / 180.0;
     }
     message.entropy = summary.entropy;
-    message.p_lost = localizer_.verdict().p_lost();
+    message.p_lost = localizer_->verdict().p_lost();
     message.localized = localized();
-    message.agreement = static_cast<float>(localizer_.verdict().agreement());
-    message.contradiction = static_cast<float>(localizer_.verdict().contradiction());
-    message.surprise = static_cast<float>(localizer_.verdict().surprise());
-    message.confirmation = static_cast<float>(localizer_.verdict().confirmation());
+    message.agreement = static_cast<float>(localizer_->verdict().agreement());
+    message.contradiction = static_cast<float>(localizer_->verdict().contradiction());
+    message.surprise = static_cast<float>(localizer_->verdict().surprise());
+    message.confirmation = static_cast<float>(localizer_->verdict().confirmation());
     message.active_mass = summary.active_mass;
     message.active_cells = static_cast<std::uint32_t>(summary.active_states);
     message.beams_used = static_cast<std::uint32_t>(last_step_.beams_used);
@@ -192,9 +207,9 @@ class LocalizeModule final : public Module {
     docent_msgs::PersonBeams message;
     message.header = {docent::to_message(stamp), "base_link"};
     message.localized = localized();
-    if (const auto best = localizer_.map_from_robot(odom_from_base))
+    if (const auto best = localizer_->map_from_robot(odom_from_base))
       message.map_from_base = {best->x, best->y, best->theta.radians()};
-    for (const std::size_t i : localizer_.unexpected_beams(sweep, odom_from_base, params_.person_range)) {
+    for (const std::size_t i : localizer_->unexpected_beams(sweep, odom_from_base, params_.person_range)) {
       const Point2 end = endpoint(sweep.beams[i]);
       message.x.push_back(static_cast<float>(end.x));
       message.y.push_back(static_cast<float>(end.y));
@@ -204,7 +219,7 @@ class LocalizeModule final : public Module {
 
   void publish_transform(Time stamp) {
     if (!localized()) return;
-    const Pose2 map_from_odom = *localizer_.map_from_robot({});
+    const Pose2 map_from_odom = *localizer_->map_from_robot({});
     geometry_msgs::TransformStamped transform;
     transform.header = {docent::to_message(stamp), "map"};
     transform.child_frame_id = "odom";
@@ -215,7 +230,7 @@ class LocalizeModule final : public Module {
   }
 
   void publish_pose(Time stamp) {
-    const BeliefMode& best = localizer_.summary().modes.front();
+    const BeliefMode& best = localizer_->summary().modes.front();
     geometry_msgs::PoseWithCovarianceStamped message;
     message.header = {docent::to_message(stamp), "map"};
     message.pose.pose = docent::to_message(best.map_from_robot);
@@ -229,7 +244,7 @@ class LocalizeModule final : public Module {
     if (bus_.now() - saved_ < kCheckpointEvery) return;
     saved_ = bus_.now();
     // A checkpoint that cannot be written costs a restarted robot a new search, nothing else.
-    (void)save_localizer_checkpoint({map_hash_, stamp, localizer_.odom_from_robot(), localizer_.summary().modes},
+    (void)save_localizer_checkpoint({map_hash_, stamp, localizer_->odom_from_robot(), localizer_->summary().modes},
                                     checkpoint_path_);
   }
 
@@ -238,13 +253,13 @@ class LocalizeModule final : public Module {
     if (!checkpoint || checkpoint->map_hash != map_hash_) return;
     const Duration age = bus_.now() - checkpoint->time;
     if (age < Duration{0} - kTogether || age > kCheckpointAge) return;
-    localizer_.start_at(checkpoint->modes, checkpoint->odom_from_robot, checkpoint->time);
+    localizer_->start_at(checkpoint->modes, checkpoint->odom_from_robot, checkpoint->time);
     restored_ = checkpoint->odom_from_robot;
   }
 
   /// The first odometry after a restart: has the robot been moved, or its odometry been reset?
   void check_restored() {
-    if (distance(restored_->position(), odometry_.latest().position()) > kCheckpointWay) localizer_.start_unknown();
+    if (distance(restored_->position(), odometry_.latest().position()) > kCheckpointWay) localizer_->start_unknown();
     restored_.reset();
   }
 
@@ -252,7 +267,7 @@ class LocalizeModule final : public Module {
   LocalizeParams params_;
   std::filesystem::path checkpoint_path_;
   std::string map_hash_;
-  MarkovLocalizer localizer_;
+  std::unique_ptr<Localizer> localizer_;
   std::array<Laser, 2> lasers_;
   Publisher<docent_msgs::Belief> belief_;
   Publisher<geometry_msgs::PoseWithCovarianceStamped> pose_;
@@ -260,7 +275,7 @@ class LocalizeModule final : public Module {
   Publisher<docent_msgs::PersonBeams> person_beams_;
   OdometryHistory odometry_;
   std::optional<Pose2> restored_;  ///< odometry of the checkpoint, until odometry speaks
-  MarkovLocalizer::Step last_step_;
+  Localizer::Step last_step_;
   bool frozen_ = false;
   Time odometry_received_{};
   Time belief_published_{};

@@ -70,6 +70,24 @@ Result<BeamFilter> beam_filter_of(const std::string& name) {
   return fail("filter must be none, entropy, distance or novelty, not '" + name + "'");
 }
 
+bool rejects(BeamFilter filter, const ExpectedRanges& expected, const ProximityModel& model, int direction,
+             int measured, double sureness) {
+  constexpr double kMayBeShort = 0.5;  // more likely too short than not
+  const auto shorter = [&] { return expected.shorter(direction, model.shorter_probabilities(measured)); };
+  const auto confuses = [&] { return expected.entropy_gain(direction, model.log_probabilities(measured)) < 0.0; };
+  switch (filter) {
+    case BeamFilter::none:
+      return false;
+    case BeamFilter::entropy:
+      return confuses();
+    case BeamFilter::distance:
+      return shorter() > sureness;
+    case BeamFilter::novelty:
+      return shorter() > kMayBeShort && confuses();
+  }
+  return false;
+}
+
 Agreement agreement(const ExpectedRanges& expected, const ProximityModel& model, int direction, int measured,
                     double sureness) {
   Agreement result;

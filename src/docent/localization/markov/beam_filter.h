@@ -48,6 +48,9 @@ class ExpectedRanges {
 /// announces): a surprise that people cannot have made is kept.
 enum class BeamFilter { none, entropy, distance, novelty };
 [[nodiscard]] Result<BeamFilter> beam_filter_of(const std::string& name);
+/// Whether a filter rejects a reading. `sureness` (theta of [Markov1998] 3.3, e.g. 0.99) is the distance filter's.
+[[nodiscard]] bool rejects(BeamFilter filter, const ExpectedRanges& expected, const ProximityModel& model,
+                           int direction, int measured, double sureness);
 
 /// How a reading compares with what the belief expects: the mass of the states for which it is what the map says,
 /// surely (with `sureness`, e.g. 0.99) shorter, or surely longer. All 0 where the map does not say or nothing came

@@ -12,7 +12,6 @@ namespace docent {
 namespace {
 
 constexpr double kLikelyFraction = 1e-3;   // of the peak: states that the filters ask
-constexpr double kMayBeShort = 0.5;        // novelty filter: more likely too short than not
 constexpr double kSurpriseWaits = 0.15;    // [s]
 constexpr std::size_t kMostLikely = 6000;  // more, and the belief is too wide for filters
 constexpr double kRadians = std::numbers::pi / 180.0;
@@ -254,12 +253,7 @@ MarkovLocalizer::Choice MarkovLocalizer::choose_beams(const RangeSweep& sweep, c
     choice.evidence.agrees += found.agrees;
     choice.evidence.shorter += found.shorter;
     choice.evidence.longer += found.longer;
-    const double shorter = expected.shorter(beam.direction, model_.shorter_probabilities(bin));
-    const bool is_short = shorter > params_.filter_sureness;
-    const bool asks_entropy =
-        filter_ == BeamFilter::entropy || (filter_ == BeamFilter::novelty && shorter > kMayBeShort);
-    const bool filtered = (filter_ == BeamFilter::distance && is_short) ||
-                          (asks_entropy && expected.entropy_gain(beam.direction, model_.log_probabilities(bin)) < 0.0);
+    const bool filtered = rejects(filter_, expected, model_, beam.direction, bin, params_.filter_sureness);
     choice.filtered += filtered ? 1 : 0;
     if (!filtered || rng_.chance(params_.unfiltered_share)) choice.used.push_back(beam);
   }

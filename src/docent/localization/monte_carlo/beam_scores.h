@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "docent/localization/markov/range_table.h"
+#include "docent/localization/markov/state_space.h"
+#include "docent/localization/monte_carlo/likelihood_field.h"
+#include "docent/localization/monte_carlo/particle_set.h"
+#include "docent/sensor_models/proximity_model.h"
+#include "docent/sensor_models/range_sweep.h"
+
+namespace docent {
+
+/// Weighs particles by the proximity model, P(d | o) of [Markov1998] 3.2, with the expected ranges of the grid's table.
+///
+/// The table knows the middle of each cell only. Seen from a particle beside it, a wall across the beam is nearer or
+/// farther by as much as the particle lies ahead of the middle, so the reading is carried to the middle before it is
+/// looked up: particles of one cell weigh differently, and the best of them is the one in the right place.
+class BeamScores {
+ public:
+  /// Both must outlive the object.
+  BeamScores(const StateSpace& space, const RangeTable& table, const ProximityModel& model, double max_range);
+
+  /// As FieldBeams: sector by sector, capped.
+  struct Beams {
+    struct Beam {
+      float range;      ///< [m]
+      float x, y;       ///< unit vector, robot frame
+      float direction;  ///< bearing in heading steps, 0..headings
+      bool no_return;
+    };
+    std::vector<Beam> beams;
+    std::vector<std::uint32_t> ends;
+    std::uint32_t cap = 1U << 30U;
+  };
+  /// Costs in steps of 1 / kScorePerNat; off the free places, all sectors' caps. `costs` has padded_size() entries.
+  /// O(particles * beams).
+  void score(const Beams& beams, const ParticleSet& particles, std::uint32_t* costs) const;
+
+ private:
+  static constexpr double kBinsPerMetre = 100.0;  ///< of the table from ranges to bins
+
+  [[nodiscard]] std::uint32_t score_one(const Beams& beams, const std::uint8_t* row, float heading, float ahead,
+                                        float aside) const;
+
+  const StateSpace* space_;
+  const RangeTable* table_;
+  std::vector<std::uint8_t> bins_;   ///< of a range in centimetres
+  std::vector<std::uint8_t> costs_;  ///< [measured][expected]
+};
+
+}  // namespace docent

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "docent/base/random.h"
+#include "docent/localization/markov/range_table.h"
+#include "docent/localization/markov/score_kernel.h"
+#include "docent/localization/markov/state_space.h"
+#include "docent/localization/monte_carlo/particle_set.h"
+
+namespace docent {
+
+/// Poses drawn from what the sensors see, q(x) ~ p(z | x) (mixture MCL's dual; S. Thrun, D. Fox, W. Burgard, Monte
+/// Carlo localization with mixture proposal distribution, 2000). There a tree over features stands for p(x | z); here
+/// all states of the grid are weighed, which takes some tens of milliseconds.
+struct ScanProposal {
+  ParticleSet poses;              ///< spread evenly over their cells, weights all 1
+  std::vector<float> likelihood;  ///< of each pose: p(z | x) relative to a perfect fit, exp(-cost)
+  double mean_likelihood = 0.0;   ///< over all states that were weighed: p(z) of a robot that may be anywhere
+};
+
+/// Which of the places are weighed: first, first + stride, …
+struct PlaceChoice {
+  std::size_t first = 0;
+  std::size_t stride = 1;
+};
+
+/// `beams`: tempered costs by rising direction; the beams of one of `sectors` cost at most `cap` together.
+/// O(places / stride * headings * beams + count). Deterministic for the state of `rng`, on every instruction set.
+[[nodiscard]] ScanProposal draw_from_scan(const StateSpace& space, const RangeTable& table,
+                                          std::span<const BeamCosts> beams, std::size_t sectors, std::uint16_t cap,
+                                          std::size_t count, const PlaceChoice& places, ScoreKernel kernel, Rng& rng);
+
+}  // namespace docent
