@@ -28,17 +28,20 @@ std::size_t first_line(const Plan& plan, std::size_t beam, std::size_t first_hea
 /// The plain kernel: [2] lines of tables a beam, the tile as it is.
 void score_plain(const Plan& plan, const Line* tables, const Line* tile, std::size_t first, std::size_t count,
                  std::uint16_t* sums) {
-  std::array<std::uint16_t, kBlock * kTile> part;
+  std::array<std::uint32_t, kTile> part;  // whole registers: parts of them are slower to write
   std::fill_n(sums, count * kTile, std::uint16_t{0});
-  for (const TileScorer::Sector& sector : plan.sectors) {
-    std::fill_n(part.begin(), count * kTile, std::uint16_t{0});
-    for (std::size_t beam = sector.first; beam < sector.last; ++beam) {
-      const std::uint8_t* const costs = tables[2 * beam].bytes.data();
-      const std::uint8_t* const seen = tile[first_line(plan, beam, first)].bytes.data();
-      for (std::size_t i = 0; i < count * kTile; ++i) part[i] = static_cast<std::uint16_t>(part[i] + costs[seen[i]]);
+  for (std::size_t k = 0; k < count; ++k) {
+    std::uint16_t* const out = sums + k * kTile;
+    for (const TileScorer::Sector& sector : plan.sectors) {
+      part.fill(0);
+      for (std::size_t beam = sector.first; beam < sector.last; ++beam) {
+        const std::uint8_t* const costs = tables[2 * beam].bytes.data();
+        const std::uint8_t* const seen = tile[first_line(plan, beam, first) + k].bytes.data();
+        for (std::size_t i = 0; i < kTile; ++i) part[i] += costs[seen[i]];
+      }
+      for (std::size_t i = 0; i < kTile; ++i)
+        out[i] = static_cast<std::uint16_t>(out[i] + std::min<std::uint32_t>(part[i], plan.cap));
     }
-    for (std::size_t i = 0; i < count * kTile; ++i)
-      sums[i] = static_cast<std::uint16_t>(sums[i] + std::min(part[i], plan.cap));
   }
 }
 
