@@ -18,9 +18,10 @@
 /// What is compared is meant to be fair. The scalar code is not made slow: it has a table of its own, in the order that
 /// suits it (headings innermost, each direction twice, no modulo), adds floats of ln P so that two look-ups and one
 /// addition are all it does for a state and a beam, knows no sectors, takes one exponential a state, and moves by the
-/// same two passes and the same taps. It goes from state to state, as the papers describe it; beside it stands the same
-/// with all headings of a place abreast, which a processor likes better, and the ratio to the better of both. It is
-/// compiled with the flags of the other files of this folder (-O3), so the compiler makes SSE2 of its motion and its
+/// same two passes and the same taps. It takes all headings
+/// of a place abreast, the order that a processor likes best, and is what the others are measured against; the same
+/// from state to state, as the papers describe it, waits for its own additions and stands beside it. It is compiled
+/// with the flags of the other files of this folder (-O3), so the compiler makes SSE2 of its motion and its
 /// normalisation; of a gather it cannot. The bare loop beside it is what its innermost loop is, without anything around
 /// it.
 namespace docent {
@@ -316,7 +317,7 @@ void full_cycle(benchmark::State& state) {
       }
     }
   }
-  const double cycle = median(by_state.cycle);
+  const double cycle = median(abreast.cycle);
   const double state_beams = static_cast<double>(hall().space.states()) * kBeams;
   const auto per_state_beam = [state_beams](const std::vector<double>& ms) { return median(ms) * 1e6 / state_beams; };
   std::printf("full cycle: %.2f million states, %d beams; medians [ms of the processor]\n", state_beams / kBeams * 1e-6,
@@ -330,7 +331,8 @@ void full_cycle(benchmark::State& state) {
               per_state_beam(bare_floats), per_state_beam(bare_costs), per_state_beam(by_state.scoring),
               per_state_beam(abreast.scoring));
   const double bare = std::min(median(bare_floats), median(bare_costs));
-  print_bound("scalar scoring, state by state / bare gather and add", median(by_state.scoring) / bare, 2.0, false);
+  print_bound("scalar scoring, abreast / bare gather and add", median(abreast.scoring) / bare, 2.0, false);
+  std::printf("  %-66s %6.2f\n", "  the same, state by state", median(by_state.scoring) / bare);
   for (const auto& [set, bound] : {std::pair{InstructionSet::avx2, 8.0}, std::pair{InstructionSet::avx512, 30.0}}) {
     const std::string name{name_of(set)};
     if (!times.contains(set)) {
@@ -338,9 +340,9 @@ void full_cycle(benchmark::State& state) {
       continue;
     }
     const double ours = median(times.at(set).cycle);
-    print_bound(("scalar cycle, state by state / " + name + " cycle").c_str(), cycle / ours, bound, true);
-    std::printf("  %-66s %6.2f\n", ("  the best scalar order / " + name + " cycle").c_str(),
-                std::min(cycle, median(abreast.cycle)) / ours);
+    print_bound(("scalar cycle, abreast / " + name + " cycle").c_str(), cycle / ours, bound, true);
+    std::printf("  %-66s %6.2f\n", ("  scalar cycle, state by state / " + name + " cycle").c_str(),
+                median(by_state.cycle) / ours);
   }
   state.counters["states"] = static_cast<double>(hall().space.states());
 }

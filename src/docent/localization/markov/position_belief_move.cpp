@@ -121,8 +121,12 @@ void PositionBelief::move(const MotionKernel& kernel) {
     for (int line = std::min({row + reach, mixed_from - 1, rows - 1}); line >= std::max(row - reach, 0); --line)
       mix_line(line, kernel, target_begin);
     mixed_from = std::max(row - reach, 0);
-    for (std::size_t i = end; i-- > begin;)
+    for (std::size_t i = begin; i < end; ++i) {
+      // A row is long enough for its lines of the cache to be late: ask for the next but one.
+      const float* const ahead = rows_.data() + std::min(i + 2, end - 1) * stride_;
+      for (std::size_t h = 0; h < stride_; h += kRowBlock) __builtin_prefetch(ahead + h, 1);
       move_row(static_cast<std::size_t>(targets_[i]), kernel, rows_.data() + i * stride_, totals);
+    }
   }
   for (const std::int32_t place : kept_) slot_[static_cast<std::size_t>(place)] = -1;
   kept_.swap(targets_);

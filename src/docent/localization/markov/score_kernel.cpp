@@ -54,20 +54,22 @@ void score_plain(const Plan& plan, const Line* tables, const Line* tile, std::si
 /// AVX2 looks up 128 entries by eight shuffles of 16. A shuffle gives zero where bit 7 of its index is set, so with the
 /// index less 16 t, shuffle t counts wherever the index is at least 16 t. The tables therefore hold differences (by
 /// exclusive or) of successive sixteenths, and the result is the exclusive or of all eight. The shifted indices of a
-/// line serve all beams and headings: they are laid out once a tile, [half][directions + kBlock][8][32].
+/// line serve all beams and headings: they are laid out once a tile, every second one, the others being a
+/// subtraction away: [half][directions + kBlock][kStored][32].
 constexpr std::size_t kShifts = 8;
+constexpr std::size_t kStored = 4;
 constexpr std::size_t kHalf = 32;
 
 DOCENT_AVX2 void shift_tile(const std::uint8_t* tile, std::size_t headings, Line* out) {
-  const __m256i sixteen = _mm256_set1_epi8(16);
+  const __m256i step = _mm256_set1_epi8(16 * kShifts / kStored);
   for (std::size_t half = 0; half < 2; ++half) {
     for (std::size_t line = 0; line < headings + kBlock; ++line) {
       const std::size_t from = line % headings;
-      auto* const to = reinterpret_cast<__m256i*>(out + (half * (headings + kBlock) + line) * kShifts / 2);
+      auto* const to = reinterpret_cast<__m256i*>(out + (half * (headings + kBlock) + line) * kStored / 2);
       __m256i index = _mm256_load_si256(reinterpret_cast<const __m256i*>(tile + from * kTile + half * kHalf));
-      for (std::size_t shift = 0; shift < kShifts; ++shift) {
-        _mm256_store_si256(to + shift, index);
-        index = _mm256_sub_epi8(index, sixteen);
+      for (std::size_t i = 0; i < kStored; ++i) {
+        _mm256_store_si256(to + i, index);
+        index = _mm256_sub_epi8(index, step);
       }
     }
   }
@@ -80,10 +82,15 @@ DOCENT_AVX2 DOCENT_INLINE void load_avx2(const Line* tables, std::size_t beam, A
   const auto* const from = reinterpret_cast<const __m256i*>(tables + beam * kShifts / 2);
   for (std::size_t shift = 0; shift < kShifts; ++shift) out.sixteenths[shift] = _mm256_load_si256(from + shift);
 }
-DOCENT_AVX2 DOCENT_INLINE void look_up_avx2(const Avx2Tables& tables, const __m256i* indices, __m256i& cost) {
-  cost = _mm256_shuffle_epi8(tables.sixteenths[0], _mm256_load_si256(indices));
-  for (std::size_t shift = 1; shift < kShifts; ++shift)
-    cost = _mm256_xor_si256(cost, _mm256_shuffle_epi8(tables.sixteenths[shift], _mm256_load_si256(indices + shift)));
+DOCENT_AVX2 DOCENT_INLINE void look_up_avx2(const Avx2Tables& tables, const __m256i* indices, const __m256i& sixteen,
+                                            __m256i& cost) {
+  __m256i part[kStored];
+  for (std::size_t i = 0; i < kStored; ++i) {
+    const __m256i index = _mm256_load_si256(indices + i);
+    part[i] = _mm256_xor_si256(_mm256_shuffle_epi8(tables.sixteenths[2 * i], index),
+                               _mm256_shuffle_epi8(tables.sixteenths[2 * i + 1], _mm256_sub_epi8(index, sixteen)));
+  }
+  cost = _mm256_xor_si256(_mm256_xor_si256(part[0], part[1]), _mm256_xor_si256(part[2], part[3]));
 }
 DOCENT_AVX2 DOCENT_INLINE void widen_avx2(const __m256i& bytes, std::uint16_t* sums, std::uint16_t cap) {
   const __m256i most = _mm256_set1_epi16(static_cast<short>(cap));
@@ -97,14 +104,15 @@ DOCENT_AVX2 DOCENT_INLINE void widen_avx2(const __m256i& bytes, std::uint16_t* s
 /// Half a tile. `part` [count] gets the sums of the beams, saturated.
 DOCENT_AVX2 void add_beams_avx2(const Plan& plan, const Line* tables, const Line* half_tile, TileScorer::Sector beams,
                                 std::size_t first, std::size_t count, __m256i* part) {
+  const __m256i sixteen = _mm256_set1_epi8(16);
   for (std::size_t k = 0; k < count; ++k) part[k] = _mm256_setzero_si256();
   for (std::size_t beam = beams.first; beam < beams.last; ++beam) {
     Avx2Tables table;
     load_avx2(tables, beam, table);
-    const auto* indices = reinterpret_cast<const __m256i*>(half_tile + first_line(plan, beam, first) * kShifts / 2);
-    for (std::size_t k = 0; k < count; ++k, indices += kShifts) {
+    const auto* indices = reinterpret_cast<const __m256i*>(half_tile + first_line(plan, beam, first) * kStored / 2);
+    for (std::size_t k = 0; k < count; ++k, indices += kStored) {
       __m256i cost;
-      look_up_avx2(table, indices, cost);
+      look_up_avx2(table, indices, sixteen, cost);
       part[k] = _mm256_adds_epu8(part[k], cost);
     }
   }
@@ -117,7 +125,7 @@ DOCENT_AVX2 void score_avx2(const Plan& plan, const Line* tables, const Line* ti
   std::array<std::uint16_t, kBlock * kHalf> wide;
   std::fill_n(sums, count * kTile, std::uint16_t{0});
   for (std::size_t half = 0; half < 2; ++half) {
-    const Line* const half_tile = tile + half * (plan.headings + kBlock) * kShifts / 2;
+    const Line* const half_tile = tile + half * (plan.headings + kBlock) * kStored / 2;
     std::uint16_t* const out = sums + half * kHalf;
     const auto flush = [&]() DOCENT_AVX2 {
       for (std::size_t k = 0; k < count; ++k) {
@@ -285,7 +293,7 @@ TileScorer::TileScorer(std::span<const BeamCosts> beams, std::size_t headings, s
     plan_.sectors.back().last = i + 1;
     plan_.directions.push_back(beam.direction);
   }
-  tile_.resize((headings + kBlock) * (set == InstructionSet::avx2 ? 8 : 1));
+  tile_.resize((headings + kBlock) * (set == InstructionSet::avx2 ? 4 : 1));
 }
 
 void TileScorer::load(const std::uint8_t* tile) {
