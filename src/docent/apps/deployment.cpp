@@ -79,12 +79,6 @@ std::string default_state() {
   return std::string{home != nullptr && *home != '\0' ? home : "/tmp"} + "/.local/state/docent";
 }
 
-const char* simd_of_this_cpu() {
-  if (__builtin_cpu_supports("avx512bw") != 0) return "avx512";
-  if (__builtin_cpu_supports("avx2") != 0) return "avx2";
-  return "scalar";
-}
-
 /// How the robot is crippled, if it is (architecture 10.17).
 std::string crippled_by(const std::vector<std::string>& settings) {
   for (const char* way : {"avoid.blind_to_people", "localize.dead_reckoning", "hazards.best_pose_only"}) {

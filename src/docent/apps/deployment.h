@@ -42,8 +42,6 @@ struct Deployment {
 /// $XDG_STATE_HOME/docent, else ~/.local/state/docent.
 [[nodiscard]] std::string default_state();
 
-/// What the vector code dispatches to here: avx512, avx2 or scalar.
-[[nodiscard]] const char* simd_of_this_cpu();
 /// How the robot is crippled by its settings, if it is (architecture 10.17); else empty.
 [[nodiscard]] std::string crippled_by(const std::vector<std::string>& settings);
 

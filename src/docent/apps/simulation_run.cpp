@@ -10,6 +10,7 @@
 #include "docent/apps/simulation_picture.h"
 #include "docent/evaluation/deployment_evaluator.h"
 #include "docent/messages/conversions.h"
+#include "docent/modules/localize_module.h"
 #include "docent/modules/module_host.h"
 #include "docent/recording/recorder.h"
 #include "docent/simulator/simulated_museum.h"
@@ -138,7 +139,9 @@ class SimulationRun::Parts {
     options.run_info.museum = museum_.folder.filename().string();
     options.run_info.mode = options_.mode;
     options.run_info.config_hash = config_.hash();
-    options.run_info.simd = simd_of_this_cpu();
+    auto simd = simd_of_localize(config_);
+    if (!simd) return tl::unexpected<Error>(simd.error());
+    options.run_info.simd = *simd;
     options.run_info.crippled = crippled_by(options_.settings);
     if (!options_.scenario.empty()) {
       auto scenario = simulator::load_scenario(options_.scenario);

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "docent/apps/arguments.h"
+#include "docent/modules/localize_module.h"
 #include "docent/simulator/simulated_museum.h"
 #include "docent/transport/dds_bus.h"
 
@@ -39,7 +40,9 @@ Result<simulator::SimulationOptions> simulation_of(const Deployment& deployment,
   simulation.run_info.museum = museum->folder.filename().string();
   simulation.run_info.mode = options.mode;
   simulation.run_info.config_hash = config->hash();
-  simulation.run_info.simd = simd_of_this_cpu();
+  auto simd = simd_of_localize(*config);
+  if (!simd) return tl::unexpected<Error>(simd.error());
+  simulation.run_info.simd = *simd;
   simulation.run_info.crippled = crippled_by(deployment.settings);
   if (auto valid = validate(simulation); !valid) return tl::unexpected<Error>(valid.error());
   return simulation;

@@ -292,4 +292,10 @@ Result<std::unique_ptr<Module>> make_localize(const ModuleContext& context) {
   return module;
 }
 
+Result<std::string> simd_of_localize(const RobotConfig& config) {
+  auto params = config.section<LocalizeParams>("localize");
+  if (!params) return tl::unexpected<Error>(params.error());
+  return instruction_set_of(params->markov.simd).map([](InstructionSet set) { return std::string{name_of(set)}; });
+}
+
 }  // namespace docent

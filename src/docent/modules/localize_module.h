@@ -8,4 +8,8 @@ namespace docent {
 /// explain.
 [[nodiscard]] Result<std::unique_ptr<Module>> make_localize(const ModuleContext& context);
 
+/// The instruction set that `localize` runs with under this configuration: plain, avx2 or avx512. Error: the section is
+/// faulty.
+[[nodiscard]] Result<std::string> simd_of_localize(const RobotConfig& config);
+
 }  // namespace docent

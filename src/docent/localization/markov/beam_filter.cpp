@@ -27,11 +27,12 @@ ExpectedRanges::ExpectedRanges(std::span<const LikelyState> states, const RangeT
   mass_.assign(count * kExpectedRanges, 0.0F);
   log_mass_.assign(count * kExpectedRanges, 0.0F);
   for (const LikelyState& state : states) {
-    const std::uint8_t* const row = table.row(static_cast<std::size_t>(state.place)) + state.heading;
+    const RangeTable::Row row = table.row(static_cast<std::size_t>(state.place));
+    const auto heading = static_cast<std::size_t>(state.heading);
     const float log_part = state.mass * std::log(state.mass);
     entropy_ -= static_cast<double>(log_part);
     for (std::size_t d = 0; d < count; ++d) {
-      const std::size_t i = d * kExpectedRanges + (row[d] & 127U);
+      const std::size_t i = d * kExpectedRanges + row[heading + d];
       mass_[i] += state.mass;
       log_mass_[i] += log_part;
     }

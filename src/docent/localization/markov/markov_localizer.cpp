@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <thread>
 
 #include "docent/base/check.h"
 #include "docent/localization/markov/position_summary.h"
@@ -25,8 +26,9 @@ std::string table_key(const OccupancyGrid& map, const MarkovLocalizerParams& par
 RangeTable make_table(const OccupancyGrid& map, const MarkovLocalizerParams& params, const std::filesystem::path& cache,
                       const StateSpace& space, const RayCaster& caster) {
   const ProximityModel model{params.sensor};
-  return cache.empty() ? RangeTable::build(space, caster, model)
-                       : RangeTable::load_or_build(cache, table_key(map, params), space, caster, model);
+  const RangeTable::Building how{std::max(1U, std::thread::hardware_concurrency()), {}};
+  return cache.empty() ? RangeTable::build(space, caster, model, how)
+                       : RangeTable::load_or_build(cache, table_key(map, params), space, caster, model, how);
 }
 
 }  // namespace
@@ -55,6 +57,7 @@ Result<void> MarkovLocalizerParams::validate() const {
   if (!(sectors >= 1 && sectors <= 60)) return fail("sectors must be 1..60");
   if (!(most_sector_nats > 0.0)) return fail("most_sector_nats must be > 0");
   if (!(work_per_second > 0.0)) return fail("work_per_second must be > 0");
+  if (auto known = instruction_set_of(simd); !known) return tl::unexpected<Error>(known.error());
   return {};
 }
 
@@ -70,6 +73,7 @@ MarkovLocalizer::MarkovLocalizer(const OccupancyGrid& map, const MarkovLocalizer
       verdict_{params.verdict},
       refiner_{params.refiner},
       rng_{Rng{seed}.stream("localize")} {
+  belief_.use(instruction_set_of(params.simd).value_or(InstructionSet::plain));
   start_unknown();
 }
 
@@ -210,10 +214,10 @@ std::optional<double> MarkovLocalizer::fit(const RangeSweep& seen, std::span<con
   const auto headings = static_cast<std::size_t>(space_.headings());
   const double turns = map_from_frame.theta.radians() / space_.heading_step() + space_.headings();
   const auto heading = static_cast<std::size_t>(std::lround(turns)) % headings;
-  const std::uint8_t* const row = table_.row(static_cast<std::size_t>(place));
+  const RangeTable::Row row = table_.row(static_cast<std::size_t>(place));
   double sum = 0.0;
   for (const BinnedBeam& beam : beams) {
-    const std::size_t expected = row[(heading + beam.direction) % headings];
+    const std::size_t expected = row[heading + beam.direction];
     sum += static_cast<double>(model_.log_probabilities(bin_of(seen.beams[beam.beam]))[expected]);
   }
   return sum / static_cast<double>(beams.size());

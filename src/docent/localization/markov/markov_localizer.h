@@ -42,6 +42,7 @@ struct MarkovLocalizerParams {
   double most_nats = 8.0;              ///< [nat] that one scan counts at most
   double most_nats_far = 2.0;          ///< and, once the robot is sure of a place, between it and others
   double work_per_second = 1e9;        ///< states * beams that may be scored in a second of the robot's time
+  std::string simd = "auto";           ///< auto (the widest there is), plain, avx2, avx512: same belief, other speed
   template <class V>
   void visit(V& v) {
     v("states", states);
@@ -69,6 +70,7 @@ struct MarkovLocalizerParams {
     v("most_nats", most_nats);
     v("most_nats_far", most_nats_far);
     v("work_per_second", work_per_second);
+    v("simd", simd);
   }
   [[nodiscard]] Result<void> validate() const;
 };
@@ -95,7 +97,6 @@ class MarkovLocalizer final : public Localizer {
   [[nodiscard]] const PositionBelief& belief() const { return belief_; }
   [[nodiscard]] const StateSpace& space() const { return space_; }
   [[nodiscard]] const RangeTable& table() const { return table_; }
-  void use_kernel(ScoreKernel kernel) { belief_.use_kernel(kernel); }
 
  private:
   struct Choice {

@@ -51,6 +51,9 @@ std::vector<double> with_slow_tail(const std::vector<double>& weights, double ta
   return slow;
 }
 
+/// Offsets below this weight are left out, and what they had goes to the others.
+constexpr double kLeastWeight = 1e-6;
+
 /// Where a coordinate [cells] lands: bilinear shares of two cells, blurred. Index 0 is cell `first`.
 struct Landing {
   int first = 0;
@@ -66,58 +69,73 @@ Landing landing(double position, double variance, double tail) {
     result.shares[i] += (1.0 - f) * blur[i];
     result.shares[i + 1] += f * blur[i];
   }
+  double kept = 0.0;
+  for (double& share : result.shares) {
+    if (share < kLeastWeight) share = 0.0;
+    kept += share;
+  }
+  for (double& share : result.shares) share /= kept;
   return result;
 }
 
+/// One landing a heading, as the offsets that each block of headings needs.
+AxisTaps taps_of(const std::vector<Landing>& landings) {
+  AxisTaps taps;
+  int widest = 0;
+  for (const Landing& at : landings)
+    widest = std::max({widest, std::abs(at.first), std::abs(at.first + static_cast<int>(at.shares.size()) - 1)});
+  taps.begin.push_back(0);
+  for (std::size_t first = 0; first < landings.size(); first += kRowBlock) {
+    const std::size_t count = std::min(kRowBlock, landings.size() - first);
+    for (int offset = -widest; offset <= widest; ++offset) {
+      std::array<float, kRowBlock> weights{};
+      for (std::size_t h = 0; h < count; ++h) {
+        const Landing& at = landings[first + h];
+        const int i = offset - at.first;
+        if (i >= 0 && i < static_cast<int>(at.shares.size()))
+          weights[h] = static_cast<float>(at.shares[static_cast<std::size_t>(i)]);
+      }
+      if (std::all_of(weights.begin(), weights.end(), [](float weight) { return weight == 0.0F; })) continue;
+      taps.reach = std::max(taps.reach, std::abs(offset));
+      taps.offsets.push_back(offset);
+      taps.weights.insert(taps.weights.end(), weights.begin(), weights.end());
+    }
+    taps.begin.push_back(static_cast<std::uint32_t>(taps.offsets.size()));
+  }
+  return taps;
+}
+
+float weight_of(const AxisTaps& taps, int offset, int heading) {
+  const auto h = static_cast<std::size_t>(heading);
+  for (std::size_t tap = taps.begin[h / kRowBlock]; tap < taps.begin[h / kRowBlock + 1]; ++tap)
+    if (taps.offsets[tap] == offset) return taps.weights[tap * kRowBlock + h % kRowBlock];
+  return 0.0F;
+}
+
 }  // namespace
+
+float MotionKernel::weight(int column_offset, int row_offset, int heading) const {
+  return weight_of(columns, column_offset, heading) * weight_of(rows, row_offset, heading);
+}
 
 MotionKernel motion_kernel(const StateSpace& space, const OdometryModelParams& params, Point2 shift,
                            const OdometryStep& odometry) {
   const MotionNoise noise = odometry.noise;
   const double cell = space.frame().resolution;
   const double step = space.heading_step();
-  const auto headings = static_cast<std::size_t>(space.headings());
   // A robot that stands does not slip; the tails come with the motion.
   const double way_tail = params.slip_probability * std::min(1.0, odometry.way / 0.25);
   const double turn_tail = params.slip_probability * std::min(1.0, odometry.way / 0.25 + odometry.turn / 0.5);
 
-  const int most = static_cast<int>(std::ceil(norm(shift) / cell)) + 12;
-  const int width = 2 * most + 1;
-  std::vector<std::vector<float>> weights(static_cast<std::size_t>(width) * static_cast<std::size_t>(width));
-  const double variance = noise.position_variance / (cell * cell);
-  for (std::size_t h = 0; h < headings; ++h) {
-    const Pose2 turn_only{0.0, 0.0, Angle::radians(static_cast<double>(h) * step)};
-    const Point2 moved = turn_only * shift;
-    const Landing x = landing(moved.x / cell, std::min(variance, 9.0), way_tail);
-    const Landing y = landing(moved.y / cell, std::min(variance, 9.0), way_tail);
-    for (std::size_t j = 0; j < y.shares.size(); ++j) {
-      for (std::size_t i = 0; i < x.shares.size(); ++i) {
-        const double weight = x.shares[i] * y.shares[j];
-        if (weight < 1e-7) continue;
-        const int column = std::clamp(x.first + static_cast<int>(i), -most, most);
-        const int row = std::clamp(y.first + static_cast<int>(j), -most, most);
-        auto& entry = weights[static_cast<std::size_t>((row + most) * width + column + most)];
-        if (entry.empty()) entry.assign(headings, 0.0F);
-        entry[h] += static_cast<float>(weight);
-      }
-    }
+  const double variance = std::min(noise.position_variance / (cell * cell), 9.0);
+  std::vector<Landing> x;
+  std::vector<Landing> y;
+  for (int h = 0; h < space.headings(); ++h) {
+    const Point2 moved = Pose2{0.0, 0.0, Angle::radians(h * step)} * shift;
+    x.push_back(landing(moved.x / cell, variance, way_tail));
+    y.push_back(landing(moved.y / cell, variance, way_tail));
   }
-
-  MotionKernel kernel;
-  for (int row = -most; row <= most; ++row) {
-    for (int column = -most; column <= most; ++column) {
-      auto& entry = weights[static_cast<std::size_t>((row + most) * width + column + most)];
-      if (entry.empty()) continue;
-      MotionKernel::Offset offset{column, row, std::move(entry), headings, 0};
-      for (std::size_t h = 0; h < headings; ++h) {
-        if (offset.weights[h] == 0.0F) continue;
-        offset.first = std::min(offset.first, h);
-        offset.last = h + 1;
-      }
-      kernel.reach = std::max({kernel.reach, std::abs(column), std::abs(row)});
-      kernel.offsets.push_back(std::move(offset));
-    }
-  }
+  MotionKernel kernel{taps_of(x), taps_of(y), {}};
 
   const double heading_variance = std::min(noise.heading_variance / (step * step), 100.0);
   constexpr double kSlipTurn = 5.0 * std::numbers::pi / 180.0;

@@ -1,26 +1,26 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "docent/geometry/pose2.h"
+#include "docent/localization/markov/row_kernel.h"
 #include "docent/localization/markov/state_space.h"
 #include "docent/motion_models/odometry_model.h"
 
 namespace docent {
 
-/// P(l | l', a) of [Markov1998] eq. 2 on the grid: every heading's cells are moved and blurred in x and y, then
-/// headings are blurred. Where to a heading moves is a matter of its direction, so each offset in x and y has one
-/// weight a heading.
+/// P(l | l', a) of [Markov1998] eq. 2 on the grid: every heading's cells are moved and blurred in x, then in y, then
+/// headings are blurred. Where to a heading moves is a matter of its direction, so each offset in x, and each in y, has
+/// one weight a heading. Their product is what x and y together do: two passes of a few offsets instead of one of many.
 struct MotionKernel {
-  struct Offset {
-    int columns = 0;  ///< from the source cell to the target cell
-    int rows = 0;
-    std::vector<float> weights;       ///< [headings]; 0 where this heading does not go there
-    std::size_t first = 0, last = 0;  ///< weights outside [first, last) are 0
-  };
-  std::vector<Offset> offsets;
+  AxisTaps columns;                    ///< along x
+  AxisTaps rows;                       ///< along y
   std::vector<float> heading_weights;  ///< symmetric, odd length
-  int reach = 0;                       ///< [cells]
+
+  [[nodiscard]] int reach() const { return std::max(columns.reach, rows.reach); }  ///< [cells]
+  /// Of the offset (columns, rows) from the source cell to the target cell.
+  [[nodiscard]] float weight(int column_offset, int row_offset, int heading) const;
 };
 
 /// What odometry saw since the last kernel.

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "docent/localization/belief/belief_summary.h"
+#include "docent/localization/markov/aligned_vector.h"
 #include "docent/localization/markov/motion_kernel.h"
 #include "docent/localization/markov/range_table.h"
+#include "docent/localization/markov/row_kernel.h"
 #include "docent/localization/markov/score_kernel.h"
 #include "docent/localization/markov/state_space.h"
 
@@ -37,18 +39,47 @@ struct EvidenceWeights {
 /// above the threshold are kept as rows of headings, ascending by place; all other places are nothing but sea. States
 /// of a kept row that are under water hold the sea level themselves, so that a row is a plain array for every loop.
 /// When the sea rises over the threshold, every state is above it, and all places are kept again: all wake.
+///
+/// A pass over the belief costs as much as its arithmetic, so nothing is walked over twice: rows are left without
+/// normalisation until the next pass reads them (RowScale), and motion works in place.
 class PositionBelief {
  public:
+  /// Probabilities of all headings of a place.
+  class Row {
+   public:
+    Row(const float* values, std::size_t size, const RowScale& scale) : values_{values}, size_{size}, scale_{scale} {}
+    [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] float operator[](std::size_t heading) const { return scale_.probability(values_, heading); }
+    struct Iterator {
+      const Row* row;
+      std::size_t heading;
+      float operator*() const { return (*row)[heading]; }
+      Iterator& operator++() {
+        ++heading;
+        return *this;
+      }
+      bool operator==(const Iterator& other) const { return heading == other.heading; }
+    };
+    [[nodiscard]] Iterator begin() const { return {this, 0}; }
+    [[nodiscard]] Iterator end() const { return {this, size_}; }
+
+   private:
+    const float* values_;
+    std::size_t size_;
+    RowScale scale_;
+  };
+
   /// `threshold_fraction`: the threshold as a share of the a priori probability 1 / states; 0.001 in [Rhino1999] 3.1.5.
   /// With 0 no state ever sinks: the plain, dense algorithm. `space` must outlive the belief.
+  /// Memory: 4 bytes a state, 2 more while it is reweighed.
   PositionBelief(const StateSpace& space, double threshold_fraction);
 
   void make_uniform();
   /// Gaussians; what their masses leave out is uniform, and at least `uniform_mass` is.
   void make_modes(std::span<const BeliefMode> modes, double uniform_mass);
 
-  /// [Markov1998] eq. 2. Mass that would leave the free places is taken out and shared by all. O(kept places * offsets
-  /// * headings).
+  /// [Markov1998] eq. 2. Mass that would leave the free places is taken out and shared by all. O(kept states * (offsets
+  /// in x + offsets in y + heading weights)).
   void move(const MotionKernel& kernel);
 
   /// [Markov1998] eq. 4: active states are multiplied by P(s | l), the rest by P~(s). `log_best_over_mean` is the sum
@@ -68,54 +99,74 @@ class PositionBelief {
   [[nodiscard]] double active_mass() const { return active_mass_; }
   [[nodiscard]] float peak() const { return peak_; }
   [[nodiscard]] std::span<const std::int32_t> kept_places() const { return kept_; }
-  /// Probabilities of all headings of the index-th kept place.
-  [[nodiscard]] std::span<const float> row(std::size_t index) const {
-    return {rows_.data() + index * stride_, static_cast<std::size_t>(space_->headings())};
+  /// Of the index-th kept place.
+  [[nodiscard]] Row row(std::size_t index) const {
+    return {rows_.data() + index * stride_, static_cast<std::size_t>(space_->headings()), scale()};
   }
   [[nodiscard]] float probability(std::size_t place, int heading) const;
   [[nodiscard]] double entropy() const;  ///< [nat], eq. 5
 
-  /// For tests and benchmarks: an instruction set by hand.
-  void use_kernel(ScoreKernel kernel) { score_ = kernel; }
+  /// @pre this processor has it. The widest one is the default.
+  void use(InstructionSet set);
+  [[nodiscard]] InstructionSet instruction_set() const { return set_; }
 
  private:
   void keep_all(float value);
   void wake();
+  [[nodiscard]] RowScale scale() const { return {scale_, bias_, limit_}; }
+  void set_scale(double scale, double bias);
   /// Fills costs_ where states are active; the least of them.
   std::size_t score(const RangeTable& table, std::span<const BeamCosts> beams, const EvidenceWeights& weights);
   /// The neighbourhood of EvidenceWeights::focus among the kept states.
   struct Focus {
-    std::vector<std::uint32_t> rows;     ///< indices into kept_
+    std::vector<std::size_t> rows;       ///< indices into kept_, ascending
     std::vector<std::uint8_t> headings;  ///< [headings] 1: in focus
     std::size_t best = 0;                ///< cost
+    float scale = 0.0F;                  ///< what the slow evidence gives to the neighbourhood as a whole
   };
-  [[nodiscard]] Focus focus_of(const EvidenceWeights& weights) const;
-  void normalise(double teleport);
-  void settle(double inactive_mass, std::size_t inactive_states);
-  void find_targets(int reach, std::vector<std::int32_t>& targets);
-  void move_row(std::int32_t target, const MotionKernel& kernel, float* out);
+  [[nodiscard]] Focus focus_of(const EvidenceWeights& weights, const RowEvidence& slow) const;
+  void reweigh_in_focus(std::size_t index, const Focus& focus, const EvidenceWeights& weights, const RowEvidence& slow,
+                        RowTotals& totals);
+  /// Rows hold `totals`, the sea its old level: makes the whole sum to 1, and lets `teleport` of it be uniform.
+  void normalise(const RowTotals& totals, double teleport);
+  void settle();
+  [[nodiscard]] RowTotals totals() const;
+
+  void find_targets(int reach);
+  void mix_line(int row, const MotionKernel& kernel, std::span<const std::size_t> target_begin);
+  void mark_needed(int row, int reach, std::span<const std::size_t> target_begin);
+  void move_row(std::size_t target, const MotionKernel& kernel, float* out, RowTotals& totals);
+  [[nodiscard]] float* mixed_line(int row) { return mixed_.data() + static_cast<std::size_t>(row) % ring_ * line_; }
 
   const StateSpace* space_;
-  std::size_t stride_;  ///< [floats] of a row; a multiple of 64
+  std::size_t stride_;  ///< [floats] of a row: whole blocks
   double threshold_;
-  ScoreKernel score_;
-  std::vector<float> decay_;      ///< exp(-cost / kCostPerNat)
-  std::vector<float> far_decay_;  ///< scratch of reweigh: the slow evidence's factor of a cost above the best
+  InstructionSet set_ = InstructionSet::plain;
+  const RowKernels* kernels_ = nullptr;
 
   std::vector<std::int32_t> kept_;  ///< places, ascending
   std::vector<std::int32_t> slot_;  ///< of each place: index in kept_, or -1
-  std::vector<float> rows_;         ///< [kept][stride]
-  double sea_ = 0.0;
+  AlignedVector<float> rows_;       ///< [kept][stride], times scale_, plus bias_
+  float scale_ = 1.0F;
+  AlignedVector<float> bias_;   ///< [stride]
+  AlignedVector<float> limit_;  ///< [stride]: the threshold
+  double sea_ = 0.0;            ///< a probability
   std::size_t active_states_ = 0;
   double active_mass_ = 1.0;
   float peak_ = 0.0F;
 
-  std::vector<float> next_rows_;      ///< scratch of move
-  std::vector<std::uint16_t> costs_;  ///< scratch of reweigh: [kept][stride]
+  AlignedVector<std::uint16_t> costs_;  ///< scratch of reweigh: [kept][stride]
+  // Scratch of move.
   std::vector<std::int32_t> targets_;
-  std::vector<std::uint8_t> marks_;
-  std::vector<float> shifted_;
-  std::vector<float> extended_;
+  std::vector<std::uint8_t> marks_;   ///< [places]
+  std::vector<std::uint8_t> needed_;  ///< [columns]
+  AlignedVector<float> expanded_;     ///< a stretch of a line of cells
+  AlignedVector<float> mixed_;        ///< [ring][columns][stride]: lines after the pass along x
+  std::size_t ring_ = 1, line_ = 0;   ///< lines of mixed_; floats of one
+  AlignedVector<float> shifted_;      ///< [stride]
+  AlignedVector<float> extended_;     ///< [headings + 2 * heading reach], whole blocks
+  AlignedVector<float> nothing_;      ///< [stride]: zeros
+  std::vector<const float*> around_;  ///< the lines about a target
 };
 
 }  // namespace docent

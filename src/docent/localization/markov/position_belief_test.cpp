@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <numbers>
 #include <string>
@@ -57,18 +58,22 @@ struct DenseTwin {
   }
   void move(const MotionKernel& kernel) {
     std::vector<double> moved(p.size(), 0.0);
+    const int width = 2 * kernel.reach() + 1;
+    const int square = width * width;
     for (std::size_t place = 0; place < space.places(); ++place) {
       const CellIndex cell = space.cell(place);
       for (int h = 0; h < space.headings(); ++h) {
-        for (const auto& offset : kernel.offsets) {
-          const auto target = space.place_at({cell.column + offset.columns, cell.row + offset.rows});
-          if (target == StateSpace::kNoPlace) continue;
+        for (int i = 0; i < square; ++i) {
+          const int column = i % width - kernel.reach();
+          const int row = i / width - kernel.reach();
+          const double weight = static_cast<double>(kernel.weight(column, row, h));
+          const auto target = space.place_at({cell.column + column, cell.row + row});
+          if (weight <= 0.0 || target == StateSpace::kNoPlace) continue;
           for (std::size_t k = 0; k < kernel.heading_weights.size(); ++k) {
             const int blur = static_cast<int>(k) - static_cast<int>(kernel.heading_weights.size() / 2);
             const int turned = ((h + blur) % space.headings() + space.headings()) % space.headings();
             moved[index(static_cast<std::size_t>(target), turned)] +=
-                p[index(place, h)] * static_cast<double>(offset.weights[static_cast<std::size_t>(h)]) *
-                static_cast<double>(kernel.heading_weights[k]);
+                p[index(place, h)] * weight * static_cast<double>(kernel.heading_weights[k]);
           }
         }
       }
@@ -218,23 +223,129 @@ TEST(PositionBelief, MovesAPeakWhereTheRobotWent) {
   EXPECT_NEAR(y / mass, 1.575 + 0.45, 0.03);
 }
 
-TEST(ScoreKernel, AllAgreeBitForBit) {
-  const auto kernels = score_kernels();
-  Rng rng{7};
-  std::vector<std::uint8_t> row(1024);
-  for (auto& value : row) value = static_cast<std::uint8_t>(rng.integer(0, 127));
-  for (const std::size_t count : {1U, 20U, 52U, 64U}) {
-    for (const int beams_count : {0, 1, 2, 59, 60, 180}) {
-      const auto beams = any_beams(rng, beams_count, 180);
-      std::array<std::uint16_t, 64> expected{};
-      kernels.front().kernel(row.data(), 64, count, beams, expected.data());
-      for (const auto& [name, kernel] : kernels) {
-        std::array<std::uint16_t, 64> found{};
-        kernel(row.data(), 64, count, beams, found.data());
-        for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(found[i], expected[i]) << name << ' ' << i;
+/// A drive with everything that reweighs differently: caps, focus, sea, teleport, odd shifts.
+std::vector<PositionBelief> after_a_drive(const testing::Room& room, double threshold) {
+  std::vector<PositionBelief> beliefs;
+  for (const InstructionSet set : instruction_sets()) {
+    PositionBelief belief{room.space, threshold};
+    belief.use(set);
+    Pose2 truth{1.2, 1.0, Angle::degrees(40)};
+    for (int step = 0; step < 8; ++step) {
+      double best_over_mean = 0.0;
+      const auto beams = testing::beams_at(room, truth, 0.2, best_over_mean);
+      EvidenceWeights weights;
+      weights.sectors = 12;
+      weights.most_sector_nats = step % 2 == 0 ? 1.0 : 20.0;
+      weights.most_nats = weights.far_most_nats = 8.0;
+      if (step > 3) {
+        weights.focus = truth;
+        weights.far_share = 0.3;
+      }
+      belief.reweigh(room.table, beams, best_over_mean, weights, 1e-7);
+      const Pose2 moved{0.11, 0.02, Angle{}};
+      truth = truth * moved;
+      belief.move(motion_kernel(room.space, {}, moved.position(), {{1e-3, 1e-3}, 0.11, 0.05}));
+      if (step == 5) belief.flood(0.2);
+    }
+    beliefs.push_back(std::move(belief));
+  }
+  return beliefs;
+}
+
+TEST(PositionBelief, EveryInstructionSetGivesTheSameBeliefBitForBit) {
+  for (const double heading_step : {6.0, 2.0}) {
+    const testing::Room room{heading_step};
+    for (const double threshold : {0.0, 0.001}) {
+      const auto beliefs = after_a_drive(room, threshold);
+      for (std::size_t i = 1; i < beliefs.size(); ++i) {
+        SCOPED_TRACE(std::string{name_of(instruction_sets()[i])} + ' ' + std::to_string(threshold));
+        ASSERT_EQ(beliefs[i].active_states(), beliefs[0].active_states());
+        EXPECT_EQ(beliefs[i].peak(), beliefs[0].peak());
+        EXPECT_EQ(beliefs[i].sea_level(), beliefs[0].sea_level());
+        EXPECT_EQ(beliefs[i].entropy(), beliefs[0].entropy());
+        for (std::size_t place = 0; place < room.space.places(); ++place)
+          for (int h = 0; h < room.space.headings(); ++h)
+            ASSERT_EQ(beliefs[i].probability(place, h), beliefs[0].probability(place, h)) << place << ' ' << h;
+      }
+      EXPECT_GT(beliefs[0].peak(), 100.0 / static_cast<double>(room.space.states()));  // else this test shows nothing
+    }
+  }
+  for (const InstructionSet set : {InstructionSet::avx2, InstructionSet::avx512}) {
+    const auto sets = instruction_sets();
+    if (std::find(sets.begin(), sets.end(), set) == sets.end())
+      std::printf("[  NOT RUN ] %s: this processor has none\n", std::string{name_of(set)}.c_str());
+  }
+}
+
+TEST(PositionBelief, EntropyIsThatOfTheProbabilities) {
+  const testing::Room room;
+  const auto beliefs = after_a_drive(room, 0.0);
+  double entropy = 0.0;
+  for (std::size_t place = 0; place < room.space.places(); ++place) {
+    for (int h = 0; h < room.space.headings(); ++h) {
+      const auto p = static_cast<double>(beliefs[0].probability(place, h));
+      if (p > 0.0) entropy -= p * std::log(p);
+    }
+  }
+  EXPECT_NEAR(beliefs[0].entropy(), entropy, 1e-5 * entropy);
+}
+
+/// Means and variances of where a heading's states go.
+struct Spread {
+  double mass = 0.0, mean_x = 0.0, mean_y = 0.0, variance_x = 0.0, variance_y = 0.0;
+};
+Spread spread_of(const MotionKernel& kernel, int heading) {
+  Spread s;
+  const int reach = kernel.reach();
+  for (int pass = 0; pass < 2; ++pass)
+    for (int row = -reach; row <= reach; ++row)
+      for (int column = -reach; column <= reach; ++column) {
+        const auto w = static_cast<double>(kernel.weight(column, row, heading));
+        if (pass == 0) {
+          s.mass += w;
+          s.mean_x += w * column;
+          s.mean_y += w * row;
+        } else {
+          s.variance_x += w * (column - s.mean_x) * (column - s.mean_x);
+          s.variance_y += w * (row - s.mean_y) * (row - s.mean_y);
+        }
+      }
+  return s;
+}
+
+TEST(MotionKernel, MovesEveryHeadingItsWayWithTheVarianceOfOdometry) {
+  const auto room = drawn_room();
+  const double cell = room->space.frame().resolution;
+  OdometryModelParams params;
+  params.slip_probability = 0.0;
+  for (const double variance : {0.006, 0.02, 0.05}) {  // [m2]; the least is more than bilinear shares blur: cell^2 / 4
+    for (const Point2 shift : {Point2{0.0, 0.0}, Point2{0.15, 0.0}, Point2{0.4, -0.22}}) {
+      const MotionKernel kernel = motion_kernel(room->space, params, shift, {{variance, 0.01}, 0.3, 0.0});
+      for (int h = 0; h < room->space.headings(); ++h) {
+        const Point2 moved = Pose2{0.0, 0.0, Angle::radians(h * room->space.heading_step())} * shift;
+        const Spread s = spread_of(kernel, h);
+        EXPECT_NEAR(s.mass, 1.0, 1e-4);
+        EXPECT_NEAR(s.mean_x * cell, moved.x, 1e-4);
+        EXPECT_NEAR(s.mean_y * cell, moved.y, 1e-4);
+        EXPECT_NEAR(s.variance_x * cell * cell, variance, 0.06 * variance);  // a Gaussian is cut off at three sigma
+        EXPECT_NEAR(s.variance_y * cell * cell, variance, 0.06 * variance);
       }
     }
   }
+}
+
+TEST(MotionKernel, ARobotThatSlipsMayBeACellFurther) {
+  const auto room = drawn_room();
+  OdometryModelParams params;
+  params.slip_probability = 0.1;
+  const MotionKernel kernel = motion_kernel(room->space, params, {0.15, 0.0}, {{1e-6, 1e-6}, 0.25, 0.0});
+  const double twice = static_cast<double>(kernel.weight(2, 0, 0));
+  EXPECT_GT(twice, 0.01);
+  EXPECT_LT(twice, 0.1);
+  double turned = 0.0;
+  for (const float weight : kernel.heading_weights) turned += static_cast<double>(weight);
+  EXPECT_NEAR(turned, 1.0, 1e-5);
+  EXPECT_NEAR(spread_of(kernel, 0).mass, 1.0, 1e-5);
 }
 
 }  // namespace

@@ -5,26 +5,27 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
+#include <thread>
 #include <vector>
-
-#include "docent/base/files.h"
 
 namespace docent {
 
 namespace {
 
 struct Header {
-  char magic[8];  // "DOCRNG01"
+  char magic[8];  // kMagic
   std::uint64_t key;
   std::uint64_t places;
-  std::uint64_t stride;
-  std::uint64_t checksum;  ///< of the rows
-  std::uint8_t rest[24];   ///< rows begin at a multiple of 64 bytes
+  std::uint64_t directions;
+  std::uint64_t checksum;  ///< of the tiles
+  std::uint8_t rest[24];   ///< tiles begin at a multiple of 64 bytes
 };
 static_assert(sizeof(Header) == 64);
-constexpr char kMagic[9] = "DOCRNG01";
+constexpr char kMagic[9] = "DOCRNG02";
 
 /// Eight bytes at a time: a table has tens of megabytes and is checked at every start. @pre size is a multiple of 8
 std::uint64_t checksum_of(const std::uint8_t* data, std::size_t size) {
@@ -44,44 +45,119 @@ std::uint64_t key_number(const std::string& key) {
   return number;
 }
 
-std::size_t stride_of(int headings) {
-  return (2 * static_cast<std::size_t>(headings) + RangeTable::kReadAhead + 63) / 64 * 64;
+std::size_t tiles_of(std::size_t places) { return (places + RangeTable::kTile - 1) / RangeTable::kTile; }
+std::size_t size_of(const StateSpace& space) {
+  return tiles_of(space.places()) * static_cast<std::size_t>(space.headings()) * RangeTable::kTile;
 }
+
+/// Fills the tiles of a table. Each byte depends on its place and direction alone, so threads may share the work.
+class Builder {
+ public:
+  Builder(const StateSpace& space, const RayCaster& caster, const ProximityModel& model)
+      : space_{space}, caster_{caster}, model_{model}, max_range_{model.centre(kNoReturn)} {
+    for (int h = 0; h < space.headings(); ++h) directions_.push_back(unit(Angle::radians(h * space.heading_step())));
+  }
+
+  void fill(std::uint8_t* data, const RangeTable::Building& how) {
+    const std::size_t tiles = tiles_of(space_.places());
+    std::atomic<std::size_t> next{0};
+    const auto work = [&](bool reports) {
+      for (std::size_t tile = next++; tile < tiles; tile = next++) {
+        fill_tile(tile, data + tile * directions_.size() * RangeTable::kTile);
+        if (reports && how.progress) how.progress(static_cast<double>(tile + 1) / static_cast<double>(tiles));
+      }
+    };
+    std::vector<std::jthread> helpers;
+    for (unsigned i = 1; i < how.threads; ++i) helpers.emplace_back(work, false);
+    work(true);
+  }
+
+ private:
+  void fill_tile(std::size_t tile, std::uint8_t* out) const {
+    constexpr double kUnknownAllowance = 0.3;  // [m]: single unknown cells are gaps of mapping, not the end of the map
+    const double behind = 0.5 * caster_.frame().resolution;
+    const std::size_t first = tile * RangeTable::kTile;
+    const std::size_t count = std::min(RangeTable::kTile, space_.places() - first);
+    std::memset(out, kUnknownRange, directions_.size() * RangeTable::kTile);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Point2 from = space_.centre(first + i);
+      for (std::size_t h = 0; h < directions_.size(); ++h) {
+        const auto range = caster_.cast(from, directions_[h], max_range_, kUnknownAllowance);
+        const int bin = !range ? kUnknownRange : *range >= max_range_ ? kNoReturn : model_.bin(*range + behind);
+        out[h * RangeTable::kTile + i] = static_cast<std::uint8_t>(bin);
+      }
+    }
+  }
+
+  const StateSpace& space_;
+  const RayCaster& caster_;
+  const ProximityModel& model_;
+  double max_range_;
+  std::vector<Point2> directions_;
+};
+
+using Mapping = std::shared_ptr<void>;
+Mapping map_file(int file, std::size_t size, int protection, int flags) {
+  void* const memory = ::mmap(nullptr, size, protection, flags, file, 0);
+  if (memory == MAP_FAILED) return nullptr;
+  return {memory, [size](void* p) { ::munmap(p, size); }};
+}
+
+/// A file of its own beside `path`, which is renamed when it is whole. Invalid when anything fails.
+class NewFile {
+ public:
+  NewFile(const std::filesystem::path& path, std::size_t size)
+      : path_{path}, part_{path.string() + ".part" + std::to_string(::getpid())} {
+    file_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+    // Space is claimed now: a full disk must show here, not as a signal while the mapping is written.
+    if (file_ >= 0 && ::posix_fallocate(file_, 0, static_cast<off_t>(size)) == 0)
+      memory_ = map_file(file_, size, PROT_READ | PROT_WRITE, MAP_SHARED);
+  }
+  NewFile(const NewFile&) = delete;
+  NewFile& operator=(const NewFile&) = delete;
+  ~NewFile() {
+    if (file_ >= 0) ::close(file_);
+    if (!kept_) ::unlink(part_.c_str());
+  }
+  [[nodiscard]] std::uint8_t* memory() const { return static_cast<std::uint8_t*>(memory_.get()); }
+  [[nodiscard]] bool keep() {
+    kept_ = ::fsync(file_) == 0 && ::rename(part_.c_str(), path_.c_str()) == 0;
+    return kept_;
+  }
+
+ private:
+  std::filesystem::path path_;
+  std::string part_;
+  int file_ = -1;
+  Mapping memory_;
+  bool kept_ = false;
+};
 
 }  // namespace
 
-RangeTable RangeTable::build(const StateSpace& space, const RayCaster& caster, const ProximityModel& model) {
-  constexpr double kUnknownAllowance = 0.3;  // [m]: single unknown cells are gaps of mapping, not the end of the map
-  const int headings = space.headings();
-  const double max_range = model.centre(kNoReturn);
-  const double behind = 0.5 * caster.frame().resolution;
-  std::vector<Point2> directions;
-  for (int h = 0; h < headings; ++h) directions.push_back(unit(Angle::radians(h * space.heading_step())));
-
+RangeTable RangeTable::build(const StateSpace& space, const RayCaster& caster, const ProximityModel& model,
+                             const Building& how) {
   RangeTable table;
-  table.stride_ = stride_of(headings);
-  auto rows = std::make_shared<std::vector<std::uint8_t>>(space.places() * table.stride_, std::uint8_t{0});
-  for (std::size_t place = 0; place < space.places(); ++place) {
-    std::uint8_t* const row = rows->data() + place * table.stride_;
-    const Point2 from = space.centre(place);
-    for (int h = 0; h < headings; ++h) {
-      const auto range = caster.cast(from, directions[static_cast<std::size_t>(h)], max_range, kUnknownAllowance);
-      const int bin = !range ? kUnknownRange : *range >= max_range ? kNoReturn : model.bin(*range + behind);
-      row[h] = static_cast<std::uint8_t>(bin);
-    }
-    for (std::size_t i = static_cast<std::size_t>(headings); i < table.stride_; ++i)
-      row[i] = row[i - static_cast<std::size_t>(headings)];
-  }
-  table.data_ = rows->data();
-  table.owner_ = std::move(rows);
-  table.count(space.places(), headings);
+  table.directions_ = static_cast<std::size_t>(space.headings());
+  const std::size_t size = size_of(space);
+  const std::shared_ptr<void> memory{::operator new (std::max<std::size_t>(size, 1), std::align_val_t{64}),
+                                     [](void* p) { ::operator delete (p, std::align_val_t{64}); }};
+  auto* const data = static_cast<std::uint8_t*>(memory.get());
+  Builder{space, caster, model}.fill(data, how);
+  table.data_ = data;
+  table.owner_ = memory;
+  table.count(space.places());
   return table;
 }
 
-void RangeTable::count(std::size_t places, int headings) {
+void RangeTable::count(std::size_t places) {
   std::array<std::uint64_t, kExpectedRanges> counts{};
-  for (std::size_t place = 0; place < places; ++place)
-    for (int h = 0; h < headings; ++h) ++counts[row(place)[h] & 127U];
+  for (std::size_t i = 0; i < tiles_of(places); ++i) {
+    const std::size_t used = std::min(kTile, places - i * kTile);
+    const std::uint8_t* line = tile(i);
+    for (std::size_t d = 0; d < directions_; ++d, line += kTile)
+      for (std::size_t place = 0; place < used; ++place) ++counts[line[place] & 127U];
+  }
   for (std::size_t i = 0; i < counts.size(); ++i) frequency_[i] = static_cast<double>(counts[i]);
 }
 
@@ -90,45 +166,44 @@ Result<RangeTable> RangeTable::load(const std::filesystem::path& path, const std
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) return fail(path.string() + ": cannot be read");
   struct stat status {};
-  const std::size_t expected = sizeof(Header) + space.places() * stride_of(space.headings());
+  const std::size_t expected = sizeof(Header) + size_of(space);
   const bool whole = ::fstat(file, &status) == 0 && static_cast<std::size_t>(status.st_size) == expected;
-  void* const memory = whole ? ::mmap(nullptr, expected, PROT_READ, MAP_PRIVATE, file, 0) : MAP_FAILED;
+  const Mapping memory = whole ? map_file(file, expected, PROT_READ, MAP_PRIVATE) : nullptr;
   ::close(file);
-  if (memory == MAP_FAILED) return fail(path.string() + ": not a whole range table of this map");
+  if (!memory) return fail(path.string() + ": not a whole range table of this map");
   RangeTable table;
-  table.owner_ =
-      std::shared_ptr<const void>(memory, [expected](const void* p) { ::munmap(const_cast<void*>(p), expected); });
-  table.data_ = static_cast<const std::uint8_t*>(memory) + sizeof(Header);
-  table.stride_ = stride_of(space.headings());
+  table.owner_ = memory;
+  table.data_ = static_cast<const std::uint8_t*>(memory.get()) + sizeof(Header);
+  table.directions_ = static_cast<std::size_t>(space.headings());
   Header header{};
-  std::memcpy(&header, memory, sizeof header);
+  std::memcpy(&header, memory.get(), sizeof header);
   const bool right = std::memcmp(header.magic, kMagic, 8) == 0 && header.key == key_number(key) &&
-                     header.places == space.places() && header.stride == table.stride_ &&
+                     header.places == space.places() && header.directions == table.directions_ &&
                      header.checksum == checksum_of(table.data_, expected - sizeof(Header));
   if (!right) return fail(path.string() + ": damaged, or of another map");
-  table.count(space.places(), space.headings());
+  table.count(space.places());
   return table;
 }
 
 RangeTable RangeTable::load_or_build(const std::filesystem::path& path, const std::string& key, const StateSpace& space,
-                                     const RayCaster& caster, const ProximityModel& model) {
+                                     const RayCaster& caster, const ProximityModel& model, const Building& how) {
   if (auto loaded = load(path, key, space)) return std::move(*loaded);
-  RangeTable table = build(space, caster, model);
-  Header header{};
-  std::memcpy(header.magic, kMagic, 8);
-  header.key = key_number(key);
-  header.places = space.places();
-  header.stride = table.stride_;
-  const std::size_t size = space.places() * table.stride_;
-  header.checksum = checksum_of(table.data_, size);
-  std::string content(sizeof(Header) + size, '\0');
-  std::memcpy(content.data(), &header, sizeof header);
-  std::memcpy(content.data() + sizeof header, table.data_, size);
-  if (!write_file_atomically(path, content)) return table;
-  if (auto loaded = load(path, key, space)) {
-    return std::move(*loaded);
+  {
+    NewFile file{path, sizeof(Header) + size_of(space)};
+    if (std::uint8_t* const data = file.memory()) {
+      Builder{space, caster, model}.fill(data + sizeof(Header), how);
+      Header header{};
+      std::memcpy(header.magic, kMagic, 8);
+      header.key = key_number(key);
+      header.places = space.places();
+      header.directions = static_cast<std::uint64_t>(space.headings());
+      header.checksum = checksum_of(data + sizeof(Header), size_of(space));
+      std::memcpy(data, &header, sizeof header);
+      static_cast<void>(file.keep());
+    }
   }
-  return table;
+  if (auto loaded = load(path, key, space)) return std::move(*loaded);
+  return build(space, caster, model, how);
 }
 
 }  // namespace docent

@@ -3,9 +3,10 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
+#include "docent/base/instruction_set.h"
+#include "docent/localization/markov/range_table.h"
 #include "docent/sensor_models/proximity_model.h"
 
 namespace docent {
@@ -19,18 +20,49 @@ struct BeamCosts {
 inline constexpr int kMaxCost = 127;
 inline constexpr double kCostPerNat = 32.0;
 
-/// Adds, for `count` headings from `first_heading` on, the costs of all beams in one place:
-/// sums[i] = sum over beams of costs[row[first_heading + i + direction]]. `row` is a RangeTable's; it may be read up to
-/// RangeTable::kReadAhead bytes past its end of use, `sums` be written up to the next multiple of 64.
-/// @pre beams.size() * kMaxCost < 65536
-using ScoreKernel = void (*)(const std::uint8_t* row, std::size_t first_heading, std::size_t count,
-                             std::span<const BeamCosts> beams, std::uint16_t* sums);
+/// The costs of all beams of a scan in the places of a tile: for each heading h of some blocks, the sum over sectors of
+/// min(cap, sum over the sector's beams of costs[tile[(h + direction) % headings][place]]). Made once a scan.
+///
+/// Sums stay in bytes as long as they can: a sector whose cap fits in a byte is summed with saturation, and as many
+/// capped sectors as fit are added up before anything is widened. That is exact.
+class TileScorer {
+ public:
+  static constexpr std::size_t kBlock = 16;  ///< headings that are scored together
 
-/// The kernels this processor can run, the plain one first, the fastest last. They agree bit for bit.
-struct NamedScoreKernel {
-  std::string name;
-  ScoreKernel kernel;
+  /// `beams` in the order of directions; sector of a beam: direction * sectors / headings. `cap` in cost steps.
+  /// @pre beams.size() * kMaxCost < 65536; directions < headings
+  TileScorer(std::span<const BeamCosts> beams, std::size_t headings, std::size_t sectors, std::uint16_t cap,
+             InstructionSet set);
+
+  /// Scores the blocks whose bits are set in `blocks`, block i being the headings from i * kBlock on, and writes
+  /// costs[place][i * kBlock + k] for the places of `lanes` (ascending, 0..63). What lies in a last block beyond the
+  /// headings is undefined. `rows[j]`: where the costs of lanes[j] go; a multiple of kBlock wide.
+  void score(const std::uint8_t* tile, std::uint64_t blocks, std::span<const std::uint8_t> lanes,
+             std::span<std::uint16_t* const> rows);
+
+  /// A run of beams whose costs are added up before the cap. Public for the kernels.
+  struct Sector {
+    std::size_t first = 0, last = 0;
+  };
+  struct Plan {
+    std::size_t headings = 0;
+    std::uint16_t cap = 0;
+    std::size_t capped_in_byte = 0;  ///< sectors that add up in a byte; 0: the cap needs 16 bits
+    std::vector<Sector> sectors;
+    std::vector<std::size_t> directions;
+  };
+  struct alignas(64) Line {
+    std::array<std::uint8_t, 64> bytes;
+  };
+
+ private:
+  void score_block(std::size_t first, std::size_t count, std::uint16_t* sums);
+  void load(const std::uint8_t* tile);
+
+  InstructionSet set_;
+  Plan plan_;
+  std::vector<Line> tables_;  ///< of the look-ups, in the form that the instruction set wants
+  std::vector<Line> tile_;    ///< the tile, its first block of directions once more at the end; for AVX2 see there
 };
-[[nodiscard]] std::vector<NamedScoreKernel> score_kernels();
 
 }  // namespace docent

@@ -21,7 +21,7 @@ BeamScores::BeamScores(const StateSpace& space, const RangeTable& table, const P
   }
 }
 
-std::uint32_t BeamScores::score_one(const Beams& beams, const std::uint8_t* row, float heading, float ahead,
+std::uint32_t BeamScores::score_one(const Beams& beams, const RangeTable::Row& row, float heading, float ahead,
                                     float aside) const {
   const auto last = static_cast<std::int32_t>(bins_.size()) - 1;
   std::uint32_t total = 0;

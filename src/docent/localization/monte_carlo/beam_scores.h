@@ -42,7 +42,7 @@ class BeamScores {
  private:
   static constexpr double kBinsPerMetre = 100.0;  ///< of the table from ranges to bins
 
-  [[nodiscard]] std::uint32_t score_one(const Beams& beams, const std::uint8_t* row, float heading, float ahead,
+  [[nodiscard]] std::uint32_t score_one(const Beams& beams, const RangeTable::Row& row, float heading, float ahead,
                                         float aside) const;
 
   const StateSpace* space_;

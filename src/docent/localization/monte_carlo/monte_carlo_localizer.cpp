@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <thread>
 
 #include "docent/localization/monte_carlo/particle_strata.h"
 #include "docent/localization/monte_carlo/particle_summary.h"
@@ -26,8 +27,9 @@ RangeTable make_table(const OccupancyGrid& map, const MarkovLocalizerParams& par
                           std::to_string(params.states.heading_step) + " " +
                           std::to_string(params.states.min_clearance) + " " + std::to_string(params.states.wall_depth) +
                           " " + std::to_string(params.sensor.max_range);
-  return cache.empty() ? RangeTable::build(space, caster, model)
-                       : RangeTable::load_or_build(cache, key, space, caster, model);
+  const RangeTable::Building how{std::max(1U, std::thread::hardware_concurrency()), {}};
+  return cache.empty() ? RangeTable::build(space, caster, model, how)
+                       : RangeTable::load_or_build(cache, key, space, caster, model, how);
 }
 
 }  // namespace
@@ -66,17 +68,19 @@ MonteCarloLocalizer::MonteCarloLocalizer(const OccupancyGrid& map, const MarkovL
               static_cast<std::size_t>(shared.sectors),
               shared.most_sector_nats,
               shared.sensor.max_range},
-      grid_kernel_{score_kernels().back().kernel},
+      instructions_{instruction_set_of(shared.simd).value_or(InstructionSet::plain)},
       verdict_{shared.verdict},
       refiner_{shared.refiner},
       rng_{Rng{seed}.stream("localize")},
       noise_{Rng{seed}.stream("particles")()} {
+  const auto fields = field_kernels();  // as many as the processor has sets, in their order
+  scores_.use_kernel(fields[std::min(fields.size() - 1, static_cast<std::size_t>(instructions_))].kernel);
   start_unknown();
 }
 
-void MonteCarloLocalizer::use_kernels(FieldKernel field, ScoreKernel grid) {
+void MonteCarloLocalizer::use_kernels(FieldKernel field, InstructionSet grid) {
   scores_.use_kernel(field);
-  grid_kernel_ = grid;
+  instructions_ = grid;
 }
 
 void MonteCarloLocalizer::start_unknown() {
@@ -244,15 +248,15 @@ void MonteCarloLocalizer::draw_elsewhere(const RangeSweep& sweep, std::span<cons
   const std::size_t some = std::max<std::size_t>(most / 8, 64);
   const std::size_t count = is_first ? most : knows ? std::min(some, particles_.size()) : some;
 
-  // As many places as there is time for; others the next time.
+  // As many tiles of places as there is time for; others the next time.
   const double work = static_cast<double>(space_.states()) * static_cast<double>(beams.size());
   const double affordable = std::max(shared_.work_per_second * kUpdateSeconds, 1.0);
   const auto stride = is_first ? std::size_t{1} : static_cast<std::size_t>(std::ceil(std::max(1.0, work / affordable)));
-  first_place_ = (first_place_ + 1) % stride;
+  first_tile_ = (first_tile_ + 1) % stride;
   const auto cap = static_cast<std::uint16_t>(std::min(shared_.most_sector_nats * temper * kCostPerNat, 4000.0));
   ScanProposal proposal =
       draw_from_scan(space_, table_, grid_costs(sweep, beams, temper), static_cast<std::size_t>(shared_.sectors), cap,
-                     count, {first_place_, stride}, grid_kernel_, rng_);
+                     count, {first_tile_, stride}, instructions_, rng_);
   last_work_ += work / static_cast<double>(stride);
   if (proposal.poses.size() == 0) return;
 
@@ -288,7 +292,7 @@ std::optional<double> MonteCarloLocalizer::fit(const RangeSweep& sweep, std::spa
   const auto headings = static_cast<std::size_t>(space_.headings());
   const double turns = best.theta.radians() / space_.heading_step() + space_.headings();
   const auto heading = static_cast<std::size_t>(std::lround(turns)) % headings;
-  const std::uint8_t* const row = table_.row(static_cast<std::size_t>(place));
+  const RangeTable::Row row = table_.row(static_cast<std::size_t>(place));
   double sum = 0.0;
   for (const BinnedBeam& beam : beams) {
     const std::size_t expected = row[(heading + beam.direction) % headings];

@@ -83,7 +83,7 @@ class MonteCarloLocalizer final : public Localizer {
 
   [[nodiscard]] const ParticleSet& particles() const { return particles_; }
   [[nodiscard]] const StateSpace& space() const { return space_; }
-  void use_kernels(FieldKernel field, ScoreKernel grid);
+  void use_kernels(FieldKernel field, InstructionSet grid);
 
  private:
   struct Choice {
@@ -113,7 +113,7 @@ class MonteCarloLocalizer final : public Localizer {
   RangeTable table_;
   ProximityModel model_;
   SweepScores scores_;
-  ScoreKernel grid_kernel_;
+  InstructionSet instructions_;
   Verdict verdict_;
   PoseRefiner refiner_;
   Rng rng_;
@@ -128,7 +128,7 @@ class MonteCarloLocalizer final : public Localizer {
   double last_work_ = 0.0;
   std::size_t phase_ = 0;
   int undrawn_ = 0;  ///< updates since poses were drawn from the sensors
-  std::size_t first_place_ = 0;
+  std::size_t first_tile_ = 0;
   BeliefSummary summary_;
   std::vector<LikelyState> likely_;
 };

@@ -103,7 +103,7 @@ TEST_P(MonteCarlo, RecoversWhenSomebodyCarriedItAway) {
 }
 
 TEST_P(MonteCarlo, ASeedGivesTheSameRunWithEveryInstructionSet) {
-  const auto run = [this](FieldKernel field, ScoreKernel grid) {
+  const auto run = [this](FieldKernel field, InstructionSet grid) {
     const auto at = localizer(3);
     at->use_kernels(field, grid);
     Drive drive{at->caster(), 9, 0.3};
@@ -114,8 +114,8 @@ TEST_P(MonteCarlo, ASeedGivesTheSameRunWithEveryInstructionSet) {
     const ParticleSet& particles = at->particles();
     return std::tuple{particles.x, particles.y, particles.heading_x, particles.weight};
   };
-  const auto plain = run(field_kernels().front().kernel, score_kernels().front().kernel);
-  EXPECT_EQ(plain, run(field_kernels().back().kernel, score_kernels().back().kernel));
+  const auto plain = run(field_kernels().front().kernel, instruction_sets().front());
+  EXPECT_EQ(plain, run(field_kernels().back().kernel, instruction_sets().back()));
   EXPECT_FALSE(std::get<0>(plain).empty());
 }
 

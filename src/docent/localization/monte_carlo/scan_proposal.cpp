@@ -9,45 +9,41 @@ namespace docent {
 
 namespace {
 
-constexpr std::size_t kBlock = 64;  // headings a kernel takes at a time
-
-/// Likelihoods of all headings of a place.
-class PlaceScorer {
+/// Likelihoods of all headings of the places of a tile.
+class TileWeigher {
  public:
-  PlaceScorer(const StateSpace& space, const RangeTable& table, std::span<const BeamCosts> beams, std::size_t sectors,
-              std::uint16_t cap, ScoreKernel kernel)
-      : table_{table},
+  TileWeigher(const StateSpace& space, const RangeTable& table, std::span<const BeamCosts> beams, std::size_t sectors,
+              std::uint16_t cap, InstructionSet set)
+      : space_{space},
+        table_{table},
         headings_{static_cast<std::size_t>(space.headings())},
-        cap_{cap},
-        kernel_{kernel},
-        costs_((headings_ + kBlock - 1) / kBlock * kBlock),
+        blocks_{(headings_ + TileScorer::kBlock - 1) / TileScorer::kBlock},
+        scorer_{beams, headings_, sectors, cap, set},
+        costs_(RangeTable::kTile * blocks_ * TileScorer::kBlock),
         likelihoods_(headings_) {
-    for (std::size_t first = 0; first < beams.size();) {
-      const auto sector = [&](std::size_t i) { return beams[i].direction * sectors / headings_; };
-      std::size_t last = first + 1;
-      while (last < beams.size() && sector(last) == sector(first)) ++last;
-      sectors_.push_back(beams.subspan(first, last - first));
-      first = last;
-    }
     for (std::size_t cost = 0; cost <= std::numeric_limits<std::uint16_t>::max(); ++cost)
       decay_.push_back(static_cast<float>(std::exp(-static_cast<double>(cost) / kCostPerNat)));
   }
 
-  /// Their sum; they stay in likelihoods().
-  double weigh(std::size_t place) {
-    for (std::size_t first = 0; first < headings_; first += kBlock) {
-      const std::size_t count = std::min(kBlock, headings_ - first);
-      std::uint16_t* const costs = costs_.data() + first;
-      std::fill_n(costs, kBlock, std::uint16_t{0});
-      for (const auto& sector : sectors_) {
-        kernel_(table_.row(place), first, count, sector, part_.data());
-        for (std::size_t i = 0; i < kBlock; ++i)
-          costs[i] = static_cast<std::uint16_t>(costs[i] + std::min(part_[i], cap_));
-      }
+  /// @returns how many places the tile has.
+  std::size_t score(std::size_t tile) {
+    const std::size_t places = std::min(RangeTable::kTile, space_.places() - tile * RangeTable::kTile);
+    std::array<std::uint8_t, RangeTable::kTile> lanes{};
+    std::array<std::uint16_t*, RangeTable::kTile> rows{};
+    for (std::size_t lane = 0; lane < places; ++lane) {
+      lanes[lane] = static_cast<std::uint8_t>(lane);
+      rows[lane] = costs_.data() + lane * blocks_ * TileScorer::kBlock;
     }
+    scorer_.score(table_.tile(tile), (std::uint64_t{1} << blocks_) - 1, std::span{lanes}.first(places),
+                  std::span{rows}.first(places));
+    return places;
+  }
+  /// Of a place of the tile that was scored last: the sum of its likelihoods, which stay in likelihoods().
+  double weigh(std::size_t lane) {
+    const std::uint16_t* const costs = costs_.data() + lane * blocks_ * TileScorer::kBlock;
     double sum = 0.0;
     for (std::size_t h = 0; h < headings_; ++h) {
-      likelihoods_[h] = decay_[costs_[h]];
+      likelihoods_[h] = decay_[costs[h]];
       sum += static_cast<double>(likelihoods_[h]);
     }
     return sum;
@@ -55,46 +51,52 @@ class PlaceScorer {
   [[nodiscard]] std::span<const float> likelihoods() const { return likelihoods_; }
 
  private:
+  const StateSpace& space_;
   const RangeTable& table_;
   std::size_t headings_;
-  std::uint16_t cap_;
-  ScoreKernel kernel_;
-  std::vector<std::span<const BeamCosts>> sectors_;
+  std::size_t blocks_;
+  TileScorer scorer_;
   std::vector<float> decay_;
-  std::vector<std::uint16_t> costs_;
+  std::vector<std::uint16_t> costs_;  ///< [kTile][blocks][kBlock]
   std::vector<float> likelihoods_;
-  std::array<std::uint16_t, kBlock> part_{};
 };
 
 }  // namespace
 
 ScanProposal draw_from_scan(const StateSpace& space, const RangeTable& table, std::span<const BeamCosts> beams,
-                            std::size_t sectors, std::uint16_t cap, std::size_t count, const PlaceChoice& places,
-                            ScoreKernel kernel, Rng& rng) {
-  PlaceScorer scorer{space, table, beams, sectors, cap, kernel};
+                            std::size_t sectors, std::uint16_t cap, std::size_t count, const TileChoice& tiles,
+                            InstructionSet set, Rng& rng) {
+  TileWeigher weigher{space, table, beams, sectors, cap, set};
+  const std::size_t all_tiles = (space.places() + RangeTable::kTile - 1) / RangeTable::kTile;
   std::vector<float> sums;  // of the places that are weighed
   double total = 0.0;
-  for (std::size_t place = places.first; place < space.places(); place += places.stride) {
-    sums.push_back(static_cast<float>(scorer.weigh(place)));
-    total += static_cast<double>(sums.back());
+  for (std::size_t tile = tiles.first; tile < all_tiles; tile += tiles.stride) {
+    const std::size_t places = weigher.score(tile);
+    for (std::size_t lane = 0; lane < places; ++lane) {
+      sums.push_back(static_cast<float>(weigher.weigh(lane)));
+      total += static_cast<double>(sums.back());
+    }
   }
   ScanProposal proposal;
   if (sums.empty() || !(total > 0.0)) return proposal;
   proposal.mean_likelihood = total / (static_cast<double>(sums.size()) * space.headings());
   proposal.poses.resize(count);
   proposal.likelihood.resize(count);
-  // Draws are even steps through all states in a row; what lies between two places that are drawn from is not weighed
-  // a second time.
+  // Draws are even steps through all states in a row; a tile that nothing is drawn from is not scored a second time.
   const double step = total / static_cast<double>(count);
   double target = step * rng.uniform();
   double before = 0.0;
   std::size_t drawn = 0;
+  std::size_t scored = all_tiles;
   for (std::size_t k = 0; k < sums.size() && drawn < count; ++k) {
     const double after = before + static_cast<double>(sums[k]);
     if (target < after) {
-      const std::size_t place = places.first + k * places.stride;
-      scorer.weigh(place);
-      const auto likelihoods = scorer.likelihoods();
+      const std::size_t tile = tiles.first + k / RangeTable::kTile * tiles.stride;
+      const std::size_t lane = k % RangeTable::kTile;
+      if (scored != tile) weigher.score(scored = tile);
+      weigher.weigh(lane);
+      const std::size_t place = tile * RangeTable::kTile + lane;
+      const auto likelihoods = weigher.likelihoods();
       double passed = before;
       std::size_t h = 0;
       for (; drawn < count && target < after; target += step, ++drawn) {

@@ -22,8 +22,8 @@ struct ScanProposal {
   double mean_likelihood = 0.0;   ///< over all states that were weighed: p(z) of a robot that may be anywhere
 };
 
-/// Which of the places are weighed: first, first + stride, …
-struct PlaceChoice {
+/// Which tiles of the range table are weighed: first, first + stride, …
+struct TileChoice {
   std::size_t first = 0;
   std::size_t stride = 1;
 };
@@ -32,6 +32,6 @@ struct PlaceChoice {
 /// O(places / stride * headings * beams + count). Deterministic for the state of `rng`, on every instruction set.
 [[nodiscard]] ScanProposal draw_from_scan(const StateSpace& space, const RangeTable& table,
                                           std::span<const BeamCosts> beams, std::size_t sectors, std::uint16_t cap,
-                                          std::size_t count, const PlaceChoice& places, ScoreKernel kernel, Rng& rng);
+                                          std::size_t count, const TileChoice& tiles, InstructionSet set, Rng& rng);
 
 }  // namespace docent

@@ -1,0 +1,96 @@
+#include "docent/localization/markov/range_table.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "docent/localization/markov/testing.h"
+
+namespace docent {
+namespace {
+
+bool equal(const RangeTable& a, const RangeTable& b, const StateSpace& space) {
+  for (std::size_t place = 0; place < space.places(); ++place)
+    for (std::size_t d = 0; d < 2 * a.directions(); ++d)
+      if (a.row(place)[d] != b.row(place)[d]) return false;
+  return a.frequency() == b.frequency();
+}
+
+class CachedTable : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path{::testing::TempDir()} /
+              ("range_table_" + std::string{::testing::UnitTest::GetInstance()->current_test_info()->name()});
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  [[nodiscard]] RangeTable get(const std::string& key, int& told) const {
+    const RangeTable::Building how{1, [&told](double share) {
+                                     EXPECT_GT(share, 0.0);
+                                     EXPECT_LE(share, 1.0);
+                                     ++told;
+                                   }};
+    return RangeTable::load_or_build(folder_ / "table", key, room_.space, room_.caster, ProximityModel{{}}, how);
+  }
+  testing::Room room_;
+  std::filesystem::path folder_;
+};
+
+TEST_F(CachedTable, RowsAndTilesHoldTheRaysOfEachPlace) {
+  const ProximityModel model{{}};
+  for (const std::size_t place : {std::size_t{0}, std::size_t{63}, std::size_t{64}, room_.space.places() - 1}) {
+    for (int h = 0; h < room_.space.headings(); ++h) {
+      const Point2 direction = unit(Angle::radians(h * room_.space.heading_step()));
+      const double range = room_.caster.cast(room_.space.centre(place), direction, 10.0, 0.3).value() + 0.025;
+      const auto d = static_cast<std::size_t>(h);
+      EXPECT_EQ(room_.table.row(place)[d], model.bin(range));
+      EXPECT_EQ(room_.table.row(place)[d + room_.table.directions()], model.bin(range));
+      EXPECT_EQ(room_.table.tile(place / 64)[d * 64 + place % 64], model.bin(range));
+    }
+  }
+  ASSERT_NE(room_.space.places() % 64, 0U);
+  EXPECT_EQ(room_.table.tile(room_.space.places() / 64)[63], kUnknownRange);
+}
+
+TEST_F(CachedTable, ThreadsMakeTheSameTable) {
+  const RangeTable table = RangeTable::build(room_.space, room_.caster, ProximityModel{{}}, {5, {}});
+  EXPECT_TRUE(equal(table, room_.table, room_.space));
+}
+
+TEST_F(CachedTable, IsBuiltOnceAndThenRead) {
+  int told = 0;
+  EXPECT_TRUE(equal(get("a", told), room_.table, room_.space));
+  EXPECT_GT(told, 0);
+  told = 0;
+  EXPECT_TRUE(equal(get("a", told), room_.table, room_.space));
+  EXPECT_EQ(told, 0);
+  EXPECT_TRUE(equal(get("another map", told), room_.table, room_.space));
+  EXPECT_GT(told, 0);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator{folder_}, {}), 1);  // nothing is left beside it
+}
+
+TEST_F(CachedTable, ADamagedFileIsBuiltAnew) {
+  int told = 0;
+  static_cast<void>(get("a", told));
+  {
+    std::fstream file{folder_ / "table", std::ios::in | std::ios::out | std::ios::binary};
+    file.seekp(1000);
+    file.put('\x55');
+  }
+  told = 0;
+  EXPECT_TRUE(equal(get("a", told), room_.table, room_.space));
+  EXPECT_GT(told, 0);
+  std::filesystem::resize_file(folder_ / "table", 500);
+  EXPECT_TRUE(equal(get("a", told), room_.table, room_.space));
+}
+
+TEST_F(CachedTable, WhatCannotBeWrittenStaysInMemory) {
+  int told = 0;
+  std::filesystem::remove_all(folder_);
+  EXPECT_TRUE(equal(get("a", told), room_.table, room_.space));
+}
+
+}  // namespace
+}  // namespace docent

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "docent/base/instruction_set.h"
+
+namespace docent {
+
+/// What walks over a belief walks over rows: one place, its headings in blocks of sixteen floats. What lies in the last
+/// block beyond the headings is 0. Sums are made in sixteen lanes and reduced in one order, whatever the instruction
+/// set, so all sets agree bit for bit.
+inline constexpr std::size_t kRowBlock = 16;
+
+/// Rows are not normalised when they are written, for the sum is known only afterwards. A probability is
+/// row[h] * scale + bias[h], and it is active above limit[h].
+struct RowScale {
+  float scale = 1.0F;
+  std::span<const float> bias;   ///< [blocks * 16], 0 beyond the headings
+  std::span<const float> limit;  ///< [blocks * 16], infinite beyond the headings
+  [[nodiscard]] float probability(const float* row, std::size_t heading) const {
+    return row[heading] * scale + bias[heading];
+  }
+};
+
+/// A convolution along one axis whose weights depend on the heading: for each block of headings the offsets at which
+/// any of them has a weight.
+struct AxisTaps {
+  int reach = 0;                     ///< largest |offset| [cells]
+  std::vector<std::uint32_t> begin;  ///< [blocks + 1] into offsets
+  std::vector<int> offsets;          ///< [cells] from the source to the target
+  std::vector<float> weights;        ///< [offsets][16]
+};
+
+struct RowTotals {
+  double mass = 0.0;
+  float peak = 0.0F;
+};
+
+struct RowCensus {
+  double inactive_mass = 0.0;
+  std::size_t inactive = 0;
+};
+
+/// How a row is multiplied: active states by exp(-min(max(cost - best, 0) * nats_per_cost, most_nats)).
+struct RowEvidence {
+  std::uint16_t best = 0;
+  float nats_per_cost = 0.0F;
+  float most_nats = 60.0F;  ///< <= 87
+  float sea_factor = 1.0F;  ///< for the inactive ones
+};
+
+/// The passes over rows, for one instruction set. All rows are aligned to 64 bytes and whole blocks long.
+struct RowKernels {
+  /// out = probabilities.
+  void (*expand)(const float* row, const RowScale& scale, float* out);
+  /// For `count` cells: out[c][h] = sum over taps of weight * line[c + reach - offset][h]; line [count + 2 * reach].
+  void (*mix_columns)(const AxisTaps& taps, const float* line, std::size_t count, std::size_t blocks, float* out);
+  /// out[h] = sum over taps of weight * rows[reach - offset][h]; rows [2 * reach + 1].
+  void (*mix_rows)(const AxisTaps& taps, const float* const* rows, std::size_t blocks, float* out);
+  /// out[h] = sum over k of weights[k] * extended[h + k]; `extended` need not be aligned.
+  void (*turn)(const float* extended, std::span<const float> weights, std::size_t headings, float* out,
+               RowTotals& totals);
+  /// A bit for each block with an active state.
+  std::uint64_t (*active_blocks)(const float* row, const RowScale& scale);
+  /// The least cost of an active state; 65535 if there is none.
+  std::uint16_t (*least_cost)(const float* row, const RowScale& scale, const std::uint16_t* costs);
+  /// [Markov1998] eq. 1 without eta.
+  void (*reweigh)(float* row, const RowScale& scale, const std::uint16_t* costs, const RowEvidence& evidence,
+                  RowTotals& totals);
+  void (*take_census)(const float* row, const RowScale& scale, std::size_t headings, RowCensus& census);
+  /// Makes the row hold its probabilities, and `level` where they are inactive; whether any is active.
+  bool (*settle)(float* row, const RowScale& scale, float level, std::size_t headings);
+  /// Sum of p ln p over active states [nat], within 2e-6 relative, and how many they are.
+  double (*sum_p_log_p)(const float* row, const RowScale& scale, std::size_t& active);
+};
+
+[[nodiscard]] const RowKernels& row_kernels(InstructionSet set);
+
+}  // namespace docent
