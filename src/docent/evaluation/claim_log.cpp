@@ -11,7 +11,7 @@ namespace {
 constexpr const char* kColumns =
     "time,true_x,true_y,true_heading,has_pose,x,y,heading,mass,localized,p_lost,entropy,hypotheses,active_cells,"
     "beams_used,beams_filtered,blocked,distance,speed,kidnaps,"
-    "agreement,contradiction,surprise,confirmation\n";
+    "agreement,contradiction,surprise,hidden,confirmation\n";
 constexpr std::size_t kMostWaiting = 1000;
 
 }  // namespace
@@ -44,14 +44,15 @@ void ClaimLog::judge(const docent_msgs::Belief& belief, const Pose2& truth) {
   const bool has_pose = !belief.hypotheses.empty();
   const docent_msgs::Hypothesis best = has_pose ? belief.hypotheses.front() : docent_msgs::Hypothesis{};
   char line[500];
-  const int size = std::snprintf(
-      line, sizeof line,
-      "%.2f,%.4f,%.4f,%.2f,%d,%.4f,%.4f,%.2f,%.6f,%d,%.6f,%.4f,%zu,%u,%u,%u,%.4f,%.3f,%.3f,%d,%.4f,%.4f,%.4f,%.4f\n",
-      to_seconds(last_stamp_ - first_), truth.x, truth.y, truth.theta.degrees(), has_pose ? 1 : 0, best.x, best.y,
-      Angle::radians(best.theta).degrees(), best.mass, belief.localized ? 1 : 0, belief.p_lost, belief.entropy,
-      belief.hypotheses.size(), belief.active_cells, belief.beams_used, belief.beams_filtered, state.blocked_beams,
-      state.distance_m, state.linear, kidnaps_, belief.agreement, belief.contradiction, belief.surprise,
-      belief.confirmation);
+  const int size =
+      std::snprintf(line, sizeof line,
+                    "%.2f,%.4f,%.4f,%.2f,%d,%.4f,%.4f,%.2f,%.6f,%d,%.6f,%.4f,%zu,%u,%u,%u,%.4f,%.3f,%.3f,%d,%.4f,%.4f,%"
+                    ".4f,%.4f,%.4f\n",
+                    to_seconds(last_stamp_ - first_), truth.x, truth.y, truth.theta.degrees(), has_pose ? 1 : 0, best.x,
+                    best.y, Angle::radians(best.theta).degrees(), best.mass, belief.localized ? 1 : 0, belief.p_lost,
+                    belief.entropy, belief.hypotheses.size(), belief.active_cells, belief.beams_used,
+                    belief.beams_filtered, state.blocked_beams, state.distance_m, state.linear, kidnaps_,
+                    belief.agreement, belief.contradiction, belief.surprise, belief.hidden, belief.confirmation);
   lines_.append(line, static_cast<std::size_t>(size));
 }
 

@@ -15,7 +15,7 @@ namespace docent {
 /// time [s] since the first truth; true x, y [m], heading [deg]; whether there was a best hypothesis, its x, y [m],
 /// heading [deg], mass; localized; p_lost; entropy [nat]; hypotheses; active cells; beams used and filtered; blocked
 /// share of the beams; distance driven [m]; speed [m/s]; number of kidnaps so far; agreement,
-/// contradiction, surprise and confirmation as in the message.
+/// contradiction, surprise, hidden and confirmation as in the message.
 class ClaimLog {
  public:
   /// Topics that do not matter are passed over.

@@ -86,7 +86,8 @@ struct Belief {
   geometry_msgs::Pose odom_pose;  ///< odom_from_base at the stamp, so that others can carry the belief forward
   float agreement = 0;            ///< 0..1: share of the readings that the map explains, lately
   float contradiction = 0;        ///< 0..1: share of the readings that pass through walls of the map, lately
-  float surprise = 0;             ///< the same, in the last sweep alone
+  float surprise = 0;             ///< the same, in the last sweep alone, against the best hypothesis
+  float hidden = 0;               ///< 0..1: share of the last sweep that is too short, more than lately
   float confirmation = 0;         ///< 0..1: of the updates and the motion that it takes to say "here"
   template <class Self, class V>
   static void visit(Self& m, V& v) {
@@ -108,6 +109,7 @@ struct Belief {
     v("agreement", m.agreement);
     v("contradiction", m.contradiction);
     v("surprise", m.surprise);
+    v("hidden", m.hidden);
     v("confirmation", m.confirmation);
   }
 };

@@ -193,6 +193,7 @@ class LocalizeModule final : public Module {
     message.agreement = static_cast<float>(localizer_->verdict().agreement());
     message.contradiction = static_cast<float>(localizer_->verdict().contradiction());
     message.surprise = static_cast<float>(localizer_->verdict().surprise());
+    message.hidden = static_cast<float>(localizer_->verdict().hidden());
     message.confirmation = static_cast<float>(localizer_->verdict().confirmation());
     message.active_mass = summary.active_mass;
     message.active_cells = static_cast<std::uint32_t>(summary.active_states);

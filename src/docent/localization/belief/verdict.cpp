@@ -1,9 +1,24 @@
 #include "docent/localization/belief/verdict.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace docent {
+
+namespace {
+
+// Weights of the logistic function, learned from recordings by scripts/evaluation/calibration.py.
+constexpr double kBias = -3.939;
+constexpr double kOfMass = 0.354;
+constexpr double kOfYouth = 1.484;
+constexpr double kOfContradiction = -8.948;
+constexpr double kOfSurprise = 9.197;
+constexpr double kOfDisagreement = 5.306;
+constexpr double kOfHidden = 0.0;
+constexpr double kOfDoubt = -0.608;
+
+}  // namespace
 
 Result<void> VerdictParams::validate() const {
   if (!(enough_mass > 0.5 && enough_mass < 1.0)) return fail("verdict.enough_mass must be 0.5..1");
@@ -34,8 +49,7 @@ void Verdict::add(const Evidence& evidence) {
   const double through = evidence.agrees + evidence.longer;
   if (all >= kFewReadings) agreement_ += share * (evidence.agrees / all - agreement_);
   if (through >= kFewReadings) {
-    surprise_ = evidence.longer / through;
-    contradiction_ += share * (surprise_ - contradiction_);
+    contradiction_ += share * (evidence.longer / through - contradiction_);
   }
 
   const bool is_good = evidence.mass >= params_.enough_mass && evidence.spread <= params_.widest_spread;
@@ -55,19 +69,30 @@ void Verdict::add(const Evidence& evidence) {
   if (contradicted && (through >= kFewReadings || blind_ > params_.blind_way))
     bad_ += evidence.way + 0.5 * evidence.turn;
 
-  const double moved = this->moved();
-  const double seen = this->seen();
   if (localized_) {
     if (!evidence.is_same_mode || evidence.mass < params_.too_little_mass || contradicted) localized_ = false;
   } else {
-    localized_ = is_good && borne_out && moved >= 1.0 && seen >= 1.0;
+    localized_ = is_good && borne_out && moved() >= 1.0 && seen() >= 1.0;
   }
   if (!localized_ && contradicted) confirmed_ = way_ = turn_ = 0.0;
 
-  double trust = evidence.mass;
-  if (!localized_) trust *= 0.5 * (moved + seen) * (borne_out ? 1.0 : 0.5);
-  const double doubt = std::clamp((contradiction_ - params_.most_contradiction) / params_.most_contradiction, 0.0, 1.0);
-  p_lost_ = std::clamp(1.0 - trust * (1.0 - 0.8 * doubt), 0.0, 1.0);
+  mass_ = evidence.mass;
+}
+
+void Verdict::look(const Glance& glance) {
+  constexpr double kMemory = 0.1;
+  glance_ = glance;
+  hidden_ = std::max(0.0, glance.shorter - shorter_);
+  shorter_ += kMemory * (glance.shorter - shorter_);
+}
+
+double Verdict::p_lost() const {
+  if (mass_ <= 0.0) return 1.0;
+  const double left = std::clamp(1.0 - mass_, 1e-4, 1.0 - 1e-4);
+  const double z = kBias + kOfMass * std::log(left / (1.0 - left)) + kOfYouth * (1.0 - confirmation()) +
+                   kOfContradiction * contradiction_ + kOfSurprise * glance_.through +
+                   kOfDisagreement * (1.0 - agreement_) + kOfHidden * hidden_ + (localized_ ? 0.0 : kOfDoubt);
+  return 1.0 / (1.0 + std::exp(-z));
 }
 
 double Verdict::moved() const {

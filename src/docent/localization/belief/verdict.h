@@ -1,6 +1,7 @@
 #pragma once
 
 #include "docent/base/result.h"
+#include "docent/localization/belief/glance.h"
 
 namespace docent {
 
@@ -47,20 +48,24 @@ class Verdict {
   explicit Verdict(const VerdictParams& params) : params_{params} {}
 
   void add(const Evidence& evidence);
+  /// A sweep between updates, or the one that led to the last, against the best pose.
+  void look(const Glance& glance);
   /// After a restart or a given start: the mode was known already, and needs one confirmation only.
   void assume_localized();
   void reset();
 
   [[nodiscard]] bool localized() const { return localized_; }
-  /// Probability that the best hypothesis is wrong: what its mass leaves, more while it is young or contradicted.
-  [[nodiscard]] double p_lost() const { return p_lost_; }
+  /// Probability that the best hypothesis is wrong: a logistic function of what its mass leaves, of how far it has been
+  /// confirmed and of how the readings agree with it. Its weights are learned, see scripts/evaluation/calibration.py.
+  [[nodiscard]] double p_lost() const;
   /// Readings pass through walls of the map, so many that the place must be wrong, or for long nothing of the map was
   /// seen at all.
   [[nodiscard]] bool contradicted() const;
   [[nodiscard]] double agreement() const { return agreement_; }          ///< share of the readings, running mean
   [[nodiscard]] double contradiction() const { return contradiction_; }  ///< likewise
-  [[nodiscard]] double surprise() const { return surprise_; }            ///< share that contradicts in the last update
-  [[nodiscard]] double confirmation() const;                             ///< 0..1 of what it takes to say "here"
+  [[nodiscard]] double surprise() const { return glance_.through; }      ///< of the last sweep, see Glance
+  [[nodiscard]] double hidden() const { return hidden_; }  ///< share of the last sweep that is newly too short
+  [[nodiscard]] double confirmation() const;               ///< 0..1 of what it takes to say "here"
   /// The readings have contradicted the belief for a while: better to start over.
   [[nodiscard]] bool collapsed() const;
 
@@ -70,13 +75,15 @@ class Verdict {
 
   VerdictParams params_;
   bool localized_ = false;
-  double p_lost_ = 1.0;
+  double mass_ = 0.0;  ///< of the best mode
+  Glance glance_;
+  double shorter_ = 0.0;  ///< Glance::shorter, running mean
+  double hidden_ = 0.0;
   double confirmed_ = 0.0;
   double way_ = 0.0;
   double turn_ = 0.0;
   double agreement_ = 0.5;
   double contradiction_ = 0.0;
-  double surprise_ = 0.0;
   double bad_ = 0.0;    ///< [m] with bad readings; a radian turned counts half a metre
   double blind_ = 0.0;  ///< [m] driven since readings last agreed with the map
 };

@@ -125,9 +125,10 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   if (sweep.beams.empty()) return step;
   const std::optional<Pose2> predicted = started_ ? map_from_robot(odom_from_robot) : std::nullopt;
   step.weight = started_ ? due_weight(way, turn, time) : 1.0;
+  if (predicted) verdict_.look(glance(caster_, sweep, *predicted, params_.sensor.max_range));
   // Someone may have carried the robot: then this is not the same view again, and nothing to wait for.
-  if (step.weight < 1.0 && predicted && verdict_.localized() && to_seconds(time - last_update_) >= kSurpriseWaits &&
-      through_walls(sweep, *predicted) > params_.surprised_at)
+  if (step.weight < 1.0 && verdict_.localized() && to_seconds(time - last_update_) >= kSurpriseWaits &&
+      verdict_.surprise() > params_.surprised_at)
     step.weight = 1.0;
   if (step.weight <= 0.0) return step;
 
@@ -183,27 +184,9 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   choice.evidence.way = way;
   choice.evidence.turn = turn;
   judge(choice.evidence, predicted);
+  if (const auto now = map_from_robot(odom_from_robot))
+    verdict_.look(glance(caster_, sweep, *now, params_.sensor.max_range));
   return step;
-}
-
-double MarkovLocalizer::through_walls(const RangeSweep& sweep, const Pose2& map_from_robot) const {
-  constexpr std::size_t kBeams = 40;
-  constexpr double kBeyond = 0.5;  // [m]
-  constexpr int kFewest = 10;
-  int through = 0;
-  int all = 0;
-  const std::size_t stride = std::max<std::size_t>(1, sweep.beams.size() / kBeams);
-  for (std::size_t i = 0; i < sweep.beams.size(); i += stride) {
-    const SweepBeam& beam = sweep.beams[i];
-    if (beam.no_return) continue;
-    const auto expected =
-        caster_.cast(map_from_robot.position(), unit(map_from_robot.theta + Angle::radians(beam.bearing)),
-                     params_.sensor.max_range, kBeyond);
-    if (!expected || beam.range < *expected - kBeyond) continue;
-    ++all;
-    through += beam.range > *expected + kBeyond ? 1 : 0;
-  }
-  return all < kFewest ? 0.0 : static_cast<double>(through) / all;
 }
 
 std::optional<double> MarkovLocalizer::fit(const RangeSweep& seen, std::span<const BinnedBeam> beams) const {

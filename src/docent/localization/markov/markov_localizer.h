@@ -105,8 +105,6 @@ class MarkovLocalizer final : public Localizer {
     Evidence evidence;
   };
   [[nodiscard]] double due_weight(double way, double turn, Time time) const;
-  /// Share of a sweep's readings that pass through walls of the map at a pose, of those that are not too short.
-  [[nodiscard]] double through_walls(const RangeSweep& sweep, const Pose2& map_from_robot) const;
   [[nodiscard]] Choice choose_beams(const RangeSweep& sweep, const std::vector<BinnedBeam>& beams);
   void thin(std::vector<BinnedBeam>& beams);
   [[nodiscard]] std::optional<double> fit(const RangeSweep& seen, std::span<const BinnedBeam> beams) const;

@@ -16,6 +16,7 @@ namespace {
 constexpr double kLikelyFraction = 1e-3;   // of the likeliest state: those that the filters ask
 constexpr std::size_t kMostLikely = 6000;  // more, and the belief is too wide for filters
 constexpr double kRadians = std::numbers::pi / 180.0;
+constexpr double kSurpriseWaits = 0.15;  // [s]
 constexpr double kSurprising = 0.5;      // of the evidence is missing: at every update poses are drawn
 constexpr double kNewView = 0.1;         // of the usual likelihood: less is not the view that was there
 constexpr double kUpdateSeconds = 0.25;  // what one update may take of the robot's time, if the work is paid
@@ -154,10 +155,15 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
   const Pose2 before_from_after = started_ ? inverse(odom_from_robot_) * odom_from_robot : Pose2{};
   const double way = norm(before_from_after.position());
   const double turn = std::abs(before_from_after.theta.radians());
-  step.weight = started_ ? due_weight(way, turn, time) : 1.0;
-  if (step.weight <= 0.0 || sweep.beams.empty()) return step;
-
+  if (sweep.beams.empty()) return step;
   const std::optional<Pose2> predicted = started_ ? map_from_robot(odom_from_robot) : std::nullopt;
+  if (predicted) verdict_.look(glance(caster_, sweep, *predicted, shared_.sensor.max_range));
+  step.weight = started_ ? due_weight(way, turn, time) : 1.0;
+  if (step.weight < 1.0 && verdict_.localized() && to_seconds(time - last_update_) >= kSurpriseWaits &&
+      verdict_.surprise() > shared_.surprised_at)
+    step.weight = 1.0;
+  if (step.weight <= 0.0) return step;
+
   odom_from_robot_ = odom_from_robot;
   started_ = true;
   last_update_ = time;
@@ -209,6 +215,8 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
   choice.evidence.way = way;
   choice.evidence.turn = turn;
   judge(choice.evidence, predicted);
+  if (const auto now = map_from_robot(odom_from_robot))
+    verdict_.look(glance(caster_, sweep, *now, shared_.sensor.max_range));
   return step;
 }
 

@@ -1,0 +1,68 @@
+"""Learns the weights of P(lost) (src/docent/localization/belief/verdict.cpp) from recordings in which the robot is carried off
+again and again: a logistic regression of "was it lost?" on what the robot itself knew, by Newton's method.
+
+Seeds differ from those of `scripts/evaluate localization`, which holds the result against other recordings."""
+import math
+
+from . import localization
+
+FIRST_SEED = 5000
+NAMES = ["kBias", "kOfMass", "kOfYouth", "kOfContradiction", "kOfSurprise", "kOfDisagreement", "kOfHidden", "kOfDoubt"]
+
+
+def features(row):
+    """As Verdict::p_lost has them."""
+    left = min(max(1.0 - row["mass"], 1e-4), 1.0 - 1e-4)
+    return [1.0, math.log(left / (1.0 - left)), 1.0 - row["confirmation"], row["contradiction"], row["surprise"],
+            1.0 - row["agreement"], row["hidden"], 1.0 - row["localized"]]
+
+
+def probability(weights, values):
+    z = sum(w * v for w, v in zip(weights, values))
+    return 1.0 / (1.0 + math.exp(-max(-30.0, min(30.0, z))))
+
+
+def solve(matrix, right):
+    """Gauss-Jordan with pivots."""
+    n = len(right)
+    rows = [list(row) + [value] for row, value in zip(matrix, right)]
+    for i in range(n):
+        pivot = max(range(i, n), key=lambda k: abs(rows[k][i]))
+        rows[i], rows[pivot] = rows[pivot], rows[i]
+        for k in range(n):
+            if k != i:
+                factor = rows[k][i] / rows[i][i]
+                rows[k] = [a - factor * b for a, b in zip(rows[k], rows[i])]
+    return [rows[i][n] / rows[i][i] for i in range(n)]
+
+
+def fit(data, ridge=0.01):
+    """Weights of the likeliest logistic function over (features, was lost)."""
+    n = len(NAMES)
+    weights = [0.0] * n
+    for _ in range(30):
+        gradient = [-ridge * w for w in weights]
+        hessian = [[ridge if i == j else 0.0 for j in range(n)] for i in range(n)]
+        for values, lost in data:
+            p = probability(weights, values)
+            curve = p * (1.0 - p) + 1e-9
+            for i in range(n):
+                gradient[i] += (lost - p) * values[i]
+                for j in range(n):
+                    hessian[i][j] += curve * values[i] * values[j]
+        step = solve(hessian, gradient)
+        weights = [w + s for w, s in zip(weights, step)]
+        if max(map(abs, step)) < 1e-4:
+            break
+    return weights
+
+
+def learn(bench, museums, count, method):
+    """Prints the weights, and what those of one half of the runs are worth on the other half."""
+    runs = localization.honesty_claims(bench, museums, count, method, FIRST_SEED)
+    pairs = [[(features(row), float(localization.is_lost(row))) for row in run if row["has_pose"]] for run in runs]
+    half = fit([pair for run in pairs[::2] for pair in run])
+    other = [(probability(half, values), lost) for run in pairs[1::2] for values, lost in run]
+    print(f"Brier score of one half's weights on the other half: {localization.brier(other):.4f} over {len(other)} updates")
+    for name, weight in zip(NAMES, fit([pair for run in pairs for pair in run])):
+        print(f"constexpr double {name} = {weight:.3f};")

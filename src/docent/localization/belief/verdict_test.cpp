@@ -1,0 +1,77 @@
+#include "docent/localization/belief/verdict.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace docent {
+namespace {
+
+Evidence good() {
+  Evidence evidence;
+  evidence.mass = 0.998;
+  evidence.spread = 0.1;
+  evidence.is_same_mode = true;
+  evidence.way = 0.25;
+  evidence.agrees = 50.0;
+  evidence.shorter = 5.0;
+  return evidence;
+}
+
+Verdict sure() {
+  Verdict verdict{{}};
+  for (int i = 0; i < 20; ++i) {
+    verdict.add(good());
+    verdict.look({0.0, 0.1, 40});
+  }
+  return verdict;
+}
+
+TEST(Verdict, SaysThatItDoesNotKnowUntilItDoes) {
+  Verdict verdict{{}};
+  EXPECT_FALSE(verdict.localized());
+  EXPECT_EQ(verdict.p_lost(), 1.0);
+  verdict.add(good());
+  EXPECT_FALSE(verdict.localized());
+  EXPECT_TRUE(sure().localized());
+}
+
+TEST(Verdict, DoubtFallsWithConfirmationAndIsSmallWhenSure) {
+  Verdict verdict{{}};
+  verdict.add(good());
+  const double young = verdict.p_lost();
+  EXPECT_GT(young, sure().p_lost());
+  EXPECT_LT(sure().p_lost(), 0.01);
+}
+
+TEST(Verdict, OneSweepThroughWallsRaisesTheDoubtAtOnce) {
+  Verdict verdict = sure();
+  const double before = verdict.p_lost();
+  verdict.look({0.7, 0.1, 40});
+  EXPECT_GT(verdict.p_lost(), 0.3);
+  verdict.look({0.0, 0.1, 40});
+  EXPECT_LT(verdict.p_lost(), 2.0 * before);
+}
+
+TEST(Verdict, ReadingsThroughWallsTakeTheKnowledgeBack) {
+  Verdict verdict = sure();
+  Evidence bad = good();
+  bad.agrees = 10.0;
+  bad.longer = 40.0;
+  int updates = 0;
+  while (verdict.localized() && updates < 50) verdict.add(bad), ++updates;
+  EXPECT_LE(updates, 6);
+  EXPECT_TRUE(verdict.contradicted());
+}
+
+TEST(Verdict, PeopleAllRoundDoNot) {
+  Verdict verdict = sure();
+  Evidence crowd = good();
+  crowd.agrees = 12.0;
+  crowd.shorter = 43.0;
+  for (int i = 0; i < 40; ++i) verdict.add(crowd);
+  EXPECT_TRUE(verdict.localized());
+}
+
+}  // namespace
+}  // namespace docent
