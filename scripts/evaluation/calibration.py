@@ -7,14 +7,14 @@ import math
 from . import localization
 
 FIRST_SEED = 5000
-NAMES = ["kBias", "kOfMass", "kOfYouth", "kOfContradiction", "kOfSurprise", "kOfDisagreement", "kOfHidden", "kOfDoubt"]
+NAMES = ["bias", "mass", "youth", "contradiction", "surprise", "disagreement", "hidden", "entropy"]
 
 
 def features(row):
     """As Verdict::p_lost has them."""
     left = min(max(1.0 - row["mass"], 1e-4), 1.0 - 1e-4)
     return [1.0, math.log(left / (1.0 - left)), 1.0 - row["confirmation"], row["contradiction"], row["surprise"],
-            1.0 - row["agreement"], row["hidden"], 1.0 - row["localized"]]
+            1.0 - row["agreement"], row["hidden"], row["entropy"]]
 
 
 def probability(weights, values):
@@ -36,7 +36,7 @@ def solve(matrix, right):
     return [rows[i][n] / rows[i][i] for i in range(n)]
 
 
-def fit(data, ridge=0.01):
+def fit(data, ridge=0.1):
     """Weights of the likeliest logistic function over (features, was lost)."""
     n = len(NAMES)
     weights = [0.0] * n
@@ -57,12 +57,20 @@ def fit(data, ridge=0.01):
     return weights
 
 
+def fit_both(runs):
+    """One set of weights for a robot that has said "here", one for a robot that has not."""
+    return {sure: fit([(values, lost) for run in runs for values, lost, said in run if said == sure]) for sure in (0.0, 1.0)}
+
+
 def learn(bench, museums, count, method):
     """Prints the weights, and what those of one half of the runs are worth on the other half."""
     runs = localization.honesty_claims(bench, museums, count, method, FIRST_SEED)
-    pairs = [[(features(row), float(localization.is_lost(row))) for row in run if row["has_pose"]] for run in runs]
-    half = fit([pair for run in pairs[::2] for pair in run])
-    other = [(probability(half, values), lost) for run in pairs[1::2] for values, lost in run]
+    pairs = [[(features(row), float(localization.is_lost(row)), row["localized"]) for row in run if row["has_pose"]]
+             for run in runs]
+    half = fit_both(pairs[::2])
+    other = [(probability(half[sure], values), lost) for run in pairs[1::2] for values, lost, sure in run]
     print(f"Brier score of one half's weights on the other half: {localization.brier(other):.4f} over {len(other)} updates")
-    for name, weight in zip(NAMES, fit([pair for run in pairs for pair in run])):
-        print(f"constexpr double {name} = {weight:.3f};")
+    print("// " + ", ".join(NAMES))
+    weights = fit_both(pairs)
+    for name, sure in (("kWhenSure", 1.0), ("kWhenNot", 0.0)):
+        print(f"constexpr DoubtWeights {name}{{{', '.join(f'{w:.3f}' for w in weights[sure])}}};")

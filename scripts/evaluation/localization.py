@@ -34,6 +34,11 @@ def scenario(path, escort, kidnaps=()):
     path.write_text("events:\n" + "\n".join(events) + "\n")
 
 
+def read_claims(path):
+    with open(path, newline="", encoding="ascii") as file:
+        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+
 class Bench:
     """Recordings and claims, kept under a key of everything that decides them."""
 
@@ -74,8 +79,7 @@ class Bench:
                 command += ["--set", setting]
             self.run(command)
             made.rename(claims)
-        with open(claims, newline="", encoding="ascii") as file:
-            return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        return read_claims(claims)
 
     def forget(self, museum, seed, minutes, crowd, escort, kidnaps):
         self.path(museum, "mcap", [seed, minutes, crowd, escort, list(kidnaps)]).unlink(missing_ok=True)
@@ -285,6 +289,62 @@ def recovery(bench, verdict, print_table, museums, count, methods):
     print_table(["method", "filter", "kidnaps", "recovered %", "median s", "90 % s"], rows)
 
 
+def kidnapped(bench, museum, seed, at, minutes, settings):
+    """A whole robot on its tours, carried off once; what it said beside the truth, until the end."""
+    claims = bench.path(museum, "csv", ["kidnapped", seed, at, minutes, settings])
+    if not claims.exists():
+        plan = claims.with_suffix(f".part{os.getpid()}.yaml")
+        plan.write_text(f"events:\n  - {{at: {at:.1f}, kidnap: {{from_hazards: 1.5}}}}\n")
+        made = claims.with_suffix(f".part{os.getpid()}")
+        command = [bench.docent, "simulate", "--museum", bench.museums / museum, "--hours", f"{minutes / 60:.6f}", "--seed",
+                   str(seed), "--crowd", "quiet", "--requests-per-hour", "40", "--scenario", plan, "--claims", made, "--quiet"]
+        for setting in settings:
+            command += ["--set", setting]
+        bench.run(command)
+        plan.unlink()
+        made.rename(claims)
+    return read_claims(claims)
+
+
+def kidnapping(bench, verdict, print_table, museums, count):
+    print(f"\n## kidnapping: {count} whole robots a museum, quiet, carried off once in the middle of their tours\n")
+    rows = []
+    for museum in museums:
+        draw = random.Random(13)
+        plans = [(4000 + i, round(draw.uniform(100.0, 160.0), 1)) for i in range(count)]
+        runs = bench.each([lambda s=s, a=a: kidnapped(bench, museum, s, a, 7, []) for s, a in plans])
+        times, noticed, resumed, touched, was_sure, km = [], [], 0, 0, 0, 0.0
+        for run in runs:
+            after = [row for row in run if row["kidnaps"] > 0]
+            before = run[-len(after) - 1] if len(run) > len(after) else run[0]
+            km += run[-1]["distance"] / 1000
+            was_sure += before["localized"] > 0
+            lost_from = next((i for i, row in enumerate(after) if not row["localized"]), None)
+            found = next((i for i, row in enumerate(after) if row["localized"] and not is_lost(row)), None)
+            resumed += bool(after) and after[-1]["explained"] > after[0]["explained"]
+            if lost_from is not None:
+                noticed.append(after[lost_from]["time"] - after[0]["time"])
+                touched += after[-1]["contacts"] - after[lost_from]["contacts"] + after[-1]["violations"] - after[lost_from]["violations"]
+            if found is None:
+                continue
+            driving = sum(min(1.0, b["time"] - a["time"]) for a, b in zip(after[:found], after[1:found + 1])
+                          if abs(b["speed"]) > 0.02 or abs(b["true_heading"] - a["true_heading"]) > 0.3)
+            times.append((driving, after[found]["time"] - after[0]["time"]))
+        times.sort()
+        noticed.sort()
+        share = len(times) / count
+        median = times[len(times) // 2][0] if times else float("inf")
+        rows.append([museum, count, was_sure, f"{km:.1f}", f"{100 * share:.0f}", f"{median:.1f}",
+                     f"{times[int(0.9 * len(times))][0]:.1f}" if times else "-",
+                     f"{noticed[len(noticed) // 2]:.1f}" if noticed else "-", int(touched), resumed])
+        verdict.want(f"{museum}, kidnapped: recovers in at least 95 %", f"{100 * share:.0f} % of {count}", share >= 0.95)
+        verdict.want(f"{museum}, kidnapped: median under 15 s of driving", f"{median:.1f} s", median < 15.0)
+        verdict.want(f"{museum}, kidnapped: no contact once it reports being lost", f"{int(touched)} in {km:.1f} km", touched == 0)
+        verdict.want(f"{museum}, kidnapped: the tour resumes, at least 95 %", f"{resumed} of {count}", resumed >= 0.95 * count)
+    print_table(["museum", "kidnaps", "knew before", "km", "recovered %", "median s of driving", "90 % s", "noticed after s",
+                 "contacts", "resumed"], rows)
+
+
 def evaluate(bench, verdict, print_table, parts, is_slice, methods):
     museums = ["bonn"] if is_slice else ["bonn", "smithsonian"]
     if "tracking" in parts:
@@ -293,5 +353,7 @@ def evaluate(bench, verdict, print_table, parts, is_slice, methods):
         unknown_start(bench, verdict, print_table, 6 if is_slice else 100, museums, methods)
     if "honest" in parts and not is_slice:
         honesty(bench, verdict, print_table, museums, 30, DEFAULT[0])
+    if "kidnap" in parts and not is_slice:
+        kidnapping(bench, verdict, print_table, museums, 100)
     if "recovery" in parts and not is_slice:
         recovery(bench, verdict, print_table, museums, 10, methods)

@@ -8,6 +8,7 @@
 
 #include "docent/apps/deployment.h"
 #include "docent/apps/simulation_picture.h"
+#include "docent/evaluation/claim_log.h"
 #include "docent/evaluation/deployment_evaluator.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/localize_module.h"
@@ -48,6 +49,7 @@ class SimulationRun::Parts {
       const auto start = std::chrono::steady_clock::now();
       evaluator_.add(topic, time, message);
       picture_.add(topic, message);
+      if (!options_.claims.empty()) claims_.add(topic, time, message);
       if (recorder_ && failure_.empty()) {
         if (auto written = recorder_->write(topic, time, message); !written) failure_ = written.error().message;
       }
@@ -193,6 +195,7 @@ class SimulationRun::Parts {
   std::filesystem::path state_;
   VirtualTimeHub hub_;
   DeploymentEvaluator evaluator_;
+  ClaimLog claims_;
   SimulationPicture picture_;
   std::optional<Recorder> recorder_;
   std::string failure_;
@@ -243,6 +246,9 @@ std::map<std::string, double> SimulationRun::wall_seconds_by_module() const {
 }
 
 Result<void> SimulationRun::finish() {
+  if (!parts_->options_.claims.empty()) {
+    if (auto saved = parts_->claims_.save(parts_->options_.claims); !saved) return saved;
+  }
   if (!parts_->recorder_) return {};
   return parts_->recorder_->close();
 }

@@ -26,6 +26,7 @@ struct SimulationRunOptions {
   std::optional<Pose2> start;  ///< none: somewhere in the area, drawn from the seed
   std::string mode = "open";
   std::string recording;   ///< MCAP file; empty: none
+  std::string claims;      ///< CSV file of every belief beside the truth; empty: none
   std::string state;       ///< folder; empty: a temporary one that goes with the run
   bool hosts_web = false;  ///< the page too
   bool has_robot = true;   ///< false: the world and the robot's body alone, no module

@@ -15,7 +15,8 @@ namespace docent {
 /// time [s] since the first truth; true x, y [m], heading [deg]; whether there was a best hypothesis, its x, y [m],
 /// heading [deg], mass; localized; p_lost; entropy [nat]; hypotheses; active cells; beams used and filtered; blocked
 /// share of the beams; distance driven [m]; speed [m/s]; number of kidnaps so far; agreement,
-/// contradiction, surprise, hidden and confirmation as in the message.
+/// contradiction, surprise, hidden and confirmation as in the message; exhibits explained, contacts and area violations
+/// so far.
 class ClaimLog {
  public:
   /// Topics that do not matter are passed over.
@@ -31,6 +32,9 @@ class ClaimLog {
   Time first_{};
   Time last_stamp_{};
   int kidnaps_ = 0;
+  int explained_ = 0;
+  int contacts_ = 0;
+  int violations_ = 0;
   std::size_t claims_ = 0;
   std::string lines_;
 };

@@ -102,14 +102,15 @@ void DeploymentEvaluator::add_state(std::shared_ptr<const docent_msgs::TrueState
   people_.step(truth_);
 }
 
+bool is_contact(const docent_msgs::TrueContact& touch) {
+  const bool excused = touch.braked_in_time && touch.other_speed > touch.robot_speed;
+  return touch.kind != "people" || (touch.robot_speed > kContactSpeed && !excused);
+}
+
 void DeploymentEvaluator::add_contact(const docent_msgs::TrueContact& contact) {
   DeploymentReport::Contacts& contacts = report_.contacts;
   if (contact.kind == "people") {
-    // Section 9: it counts if the robot's own speed towards the person exceeds 0.1 m/s, unless it had begun to brake
-    // fully in time and the person was the faster of the two.
-    const bool excused = contact.braked_in_time && contact.other_speed > contact.robot_speed;
-    const bool counts = contact.robot_speed > kContactSpeed && !excused;
-    ++(counts ? contacts.people : report_.bumped_by_people);
+    ++(is_contact(contact) ? contacts.people : report_.bumped_by_people);
   } else if (contact.kind == "walls") {
     ++contacts.walls;
   } else if (contact.kind == "hazards") {

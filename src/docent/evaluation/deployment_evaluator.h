@@ -13,6 +13,10 @@
 
 namespace docent {
 
+/// Whether a touch is a contact (architecture 9): walls, furniture and hazards always; a person if the robot's own
+/// speed towards them exceeds 0.1 m/s, unless it had begun to brake fully in time and they were the faster of the two.
+[[nodiscard]] bool is_contact(const docent_msgs::TrueContact& touch);
+
 /// Accumulates the deployment report (architecture 9) from messages in the order of their times: the same code sees a
 /// run while it happens and its recording, so both give the same numbers. The truth decides wherever it knows.
 class DeploymentEvaluator {

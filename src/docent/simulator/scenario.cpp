@@ -151,7 +151,11 @@ class EventReader {
     Kidnap event;
     std::optional<Point2> to;
     double heading = 0.0;
-    fields(node, {{"to", [&](const YAML::Node& at) { to = point(at); }}, {"heading", degrees_into(heading)}}, {});
+    fields(node,
+           {{"to", [&](const YAML::Node& at) { to = point(at); }},
+            {"heading", degrees_into(heading)},
+            {"from_hazards", into(event.from_hazards, 0.0, 20.0)}},
+           {});
     if (to) event.to = Pose2{to->x, to->y, Angle::radians(heading)};
     return event;
   }

@@ -13,7 +13,8 @@ namespace docent::simulator {
 
 /// Someone carries the robot to another place; its wheels do not turn. Without a place: a random free one.
 struct Kidnap {
-  std::optional<Pose2> to;  ///< world_from_base
+  std::optional<Pose2> to;    ///< world_from_base
+  double from_hazards = 0.0;  ///< [m] a random place keeps from hazards
 };
 enum class Sensor { laser_front, laser_rear, sonar, odom };
 enum class FaultKind {

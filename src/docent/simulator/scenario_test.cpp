@@ -70,7 +70,8 @@ constexpr Broken kBroken[] = {
      "s.yaml:2: unknown kind 'abduct' (known: kidnap, fault, stool, closed, pose_error, "
      "visitors, escort, steering, request, kill)"},
     {"events:\n  - at: 1\n    kidnap: {to: [1]}", "s.yaml:3: expected a point [x, y]"},
-    {"events:\n  - at: 1\n    kidnap: {where: [1, 2]}", "s.yaml:3: unknown key 'where' (known: heading, to)"},
+    {"events:\n  - at: 1\n    kidnap: {where: [1, 2]}",
+     "s.yaml:3: unknown key 'where' (known: from_hazards, heading, to)"},
     {"events:\n  - at: 1\n    kidnap: [1, 2]", "s.yaml:3: expected a mapping (key: value)"},
     {"events:\n  - at: 1\n    fault: {sensor: nose, kind: dead}",
      "s.yaml:3: expected one of laser_front, laser_rear, sonar, odom, found 'nose'"},

@@ -299,7 +299,11 @@ class SimulatedMuseum::Impl {
   void play(const Kidnap& event) {
     std::optional<Pose2> to = event.to;
     const Point2 here = body_.pose().position();
-    if (!to) to = random_start(world_, crowd_.floor(), place_rng_, 0.6, here, 3.0);
+    constexpr int kTries = 200;
+    for (int i = 0; !to && i < kTries; ++i) {
+      to = random_start(world_, crowd_.floor(), place_rng_, 0.6, here, 3.0);
+      if (to && hazard_distance(to->position()) < event.from_hazards) to.reset();
+    }
     if (!to) return;
     body_.carry_to(*to);
     // Who carries it asks for room.
@@ -309,6 +313,13 @@ class SimulatedMuseum::Impl {
     has_fallen_ = false;
     log_.forget();
     offer("kidnap", "");
+  }
+  [[nodiscard]] double hazard_distance(Point2 point) const {
+    double least = 1e9;
+    for (const Solid& solid : world_.solids)
+      if (solid.kind == SolidKind::glass || solid.kind == SolidKind::plate || solid.kind == SolidKind::stairs)
+        least = std::min(least, distance(solid.polygon, point));
+    return least;
   }
   void play(const SensorFault& event) {
     instruments_.set_fault(event, time_);

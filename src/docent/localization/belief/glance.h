@@ -8,9 +8,11 @@ namespace docent {
 /// How one sweep fits a pose at first sight: a few of its beams against the map. Cheap enough for every scan, so that
 /// a robot that was carried off notices at once, not at its next update.
 struct Glance {
-  double through = 0.0;  ///< share of the readings that are not too short which pass through walls of the map
+  /// Share of the readings that are not too short which pass through walls of the map, or come back from nowhere though
+  /// a wall is well within reach.
+  double through = 0.0;
   double shorter = 0.0;  ///< share of all readings that end before the wall
-  int readings = 0;      ///< with a return, where the map says what to expect
+  int readings = 0;      ///< where the map says what to expect
 };
 
 /// O(1): at most some forty rays. `max_range` [m].

@@ -8,15 +8,20 @@ namespace docent {
 
 namespace {
 
-// Weights of the logistic function, learned from recordings by scripts/evaluation/calibration.py.
-constexpr double kBias = -3.939;
-constexpr double kOfMass = 0.354;
-constexpr double kOfYouth = 1.484;
-constexpr double kOfContradiction = -8.948;
-constexpr double kOfSurprise = 9.197;
-constexpr double kOfDisagreement = 5.306;
-constexpr double kOfHidden = 0.0;
-constexpr double kOfDoubt = -0.608;
+/// Weights of the logistic function behind P(lost), one set for a robot that has said "here" and one for a robot that
+/// has not. Learned from recordings by `scripts/evaluate localization --part calibrate`.
+struct DoubtWeights {
+  double bias;
+  double mass;  ///< of ln(m / (1 - m)), m: the mass outside the best mode
+  double youth;
+  double contradiction;
+  double surprise;
+  double disagreement;
+  double hidden;
+  double entropy;
+};
+constexpr DoubtWeights kWhenSure{-7.25, 0.34, 1.0, 1.1, 8.8, 8.4, 17.0, 0.0};
+constexpr DoubtWeights kWhenNot{-7.25, 0.34, 1.0, 1.1, 8.8, 8.4, 17.0, 0.0};
 
 }  // namespace
 
@@ -30,6 +35,8 @@ Result<void> VerdictParams::validate() const {
   if (!(blind_way > 0.0)) return fail("verdict.blind_way must be > 0");
   if (!(least_agreement >= 0.0 && least_agreement < 1.0)) return fail("verdict.least_agreement must be 0..1");
   if (!(most_contradiction > 0.0 && most_contradiction <= 1.0)) return fail("verdict.most_contradiction must be 0..1");
+  if (!(startled_through > 0.0 && startled_hidden > 0.0))
+    return fail("verdict.startled_through and startled_hidden must be > 0");
   return {};
 }
 
@@ -77,6 +84,7 @@ void Verdict::add(const Evidence& evidence) {
   if (!localized_ && contradicted) confirmed_ = way_ = turn_ = 0.0;
 
   mass_ = evidence.mass;
+  entropy_ = evidence.entropy;
 }
 
 void Verdict::look(const Glance& glance) {
@@ -89,9 +97,10 @@ void Verdict::look(const Glance& glance) {
 double Verdict::p_lost() const {
   if (mass_ <= 0.0) return 1.0;
   const double left = std::clamp(1.0 - mass_, 1e-4, 1.0 - 1e-4);
-  const double z = kBias + kOfMass * std::log(left / (1.0 - left)) + kOfYouth * (1.0 - confirmation()) +
-                   kOfContradiction * contradiction_ + kOfSurprise * glance_.through +
-                   kOfDisagreement * (1.0 - agreement_) + kOfHidden * hidden_ + (localized_ ? 0.0 : kOfDoubt);
+  const DoubtWeights& w = localized_ ? kWhenSure : kWhenNot;
+  const double z = w.bias + w.mass * std::log(left / (1.0 - left)) + w.youth * (1.0 - confirmation()) +
+                   w.contradiction * contradiction_ + w.surprise * glance_.through +
+                   w.disagreement * (1.0 - agreement_) + w.hidden * hidden_ + w.entropy * entropy_;
   return 1.0 / (1.0 + std::exp(-z));
 }
 

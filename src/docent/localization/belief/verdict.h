@@ -15,6 +15,8 @@ struct VerdictParams {
   double least_agreement = 0.2;     ///< share of the readings that the map explains
   double blind_way = 20.0;          ///< [m] that odometry is trusted while people hide everything that the map holds
   double most_contradiction = 0.2;  ///< share of the readings that pass through walls of the map
+  double startled_through = 0.45;   ///< share of one sweep that does so, or
+  double startled_hidden = 0.35;    ///< that is suddenly too short: nobody steps before so many beams at once
   template <class V>
   void visit(V& v) {
     v("enough_mass", enough_mass);
@@ -26,6 +28,8 @@ struct VerdictParams {
     v("least_agreement", least_agreement);
     v("blind_way", blind_way);
     v("most_contradiction", most_contradiction);
+    v("startled_through", startled_through);
+    v("startled_hidden", startled_hidden);
   }
   [[nodiscard]] Result<void> validate() const;
 };
@@ -35,6 +39,7 @@ struct Evidence {
   double weight = 1.0;                               ///< of the update, 0..1
   double mass = 0.0;                                 ///< of the best mode
   double spread = 0.0;                               ///< [m]
+  double entropy = 0.0;                              ///< [nat] of the whole belief
   bool is_same_mode = false;                         ///< the mode of the last update, moved by odometry
   double way = 0.0;                                  ///< [m] since the last update
   double turn = 0.0;                                 ///< [rad], >= 0
@@ -61,6 +66,10 @@ class Verdict {
   /// Readings pass through walls of the map, so many that the place must be wrong, or for long nothing of the map was
   /// seen at all.
   [[nodiscard]] bool contradicted() const;
+  /// The last sweep is of another place, as it seems: someone may have carried the robot.
+  [[nodiscard]] bool startled() const {
+    return glance_.through > params_.startled_through || hidden_ > params_.startled_hidden;
+  }
   [[nodiscard]] double agreement() const { return agreement_; }          ///< share of the readings, running mean
   [[nodiscard]] double contradiction() const { return contradiction_; }  ///< likewise
   [[nodiscard]] double surprise() const { return glance_.through; }      ///< of the last sweep, see Glance
@@ -75,7 +84,8 @@ class Verdict {
 
   VerdictParams params_;
   bool localized_ = false;
-  double mass_ = 0.0;  ///< of the best mode
+  double mass_ = 0.0;     ///< of the best mode
+  double entropy_ = 0.0;  ///< [nat]
   Glance glance_;
   double shorter_ = 0.0;  ///< Glance::shorter, running mean
   double hidden_ = 0.0;

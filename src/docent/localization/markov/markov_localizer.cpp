@@ -48,7 +48,6 @@ Result<void> MarkovLocalizerParams::validate() const {
   if (!(sea_threshold >= 0.0 && sea_threshold < 1.0)) return fail("sea_threshold must be 0..1");
   if (!(teleport_probability >= 0.0 && teleport_probability < 0.1)) return fail("teleport_probability must be 0..0.1");
   if (!(teleport_in_doubt >= 0.0 && teleport_in_doubt <= 0.5)) return fail("teleport_in_doubt must be 0..0.5");
-  if (!(surprised_at > 0.0 && surprised_at <= 1.0)) return fail("surprised_at must be 0..1");
   if (!(update_way > 0.0 && update_turn > 0.0)) return fail("update_way and update_turn must be > 0");
   if (!(creeping_period > 0.0 && standing_period > 0.0)) return fail("creeping_period and standing_period must be > 0");
   if (!(standing_weight >= 0.0 && standing_weight <= 1.0)) return fail("standing_weight must be 0..1");
@@ -128,7 +127,7 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   if (predicted) verdict_.look(glance(caster_, sweep, *predicted, params_.sensor.max_range));
   // Someone may have carried the robot: then this is not the same view again, and nothing to wait for.
   if (step.weight < 1.0 && verdict_.localized() && to_seconds(time - last_update_) >= kSurpriseWaits &&
-      verdict_.surprise() > params_.surprised_at)
+      verdict_.startled())
     step.weight = 1.0;
   if (step.weight <= 0.0) return step;
 
@@ -166,8 +165,9 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
     weights.far_most_nats = params_.most_nats_far;
     weights.focus = *predicted * inverse(frame_from_robot());
   }
+  const bool in_doubt = verdict_.contradicted() || verdict_.startled();
   belief_.reweigh(table_, costs, log_best_over_mean, weights,
-                  verdict_.contradicted() ? params_.teleport_in_doubt : params_.teleport_probability);
+                  in_doubt ? params_.teleport_in_doubt : params_.teleport_probability);
   step.updated = true;
   step.beams_used = costs.size();
   step.beams_filtered = choice.filtered;
@@ -263,6 +263,7 @@ void MarkovLocalizer::judge(Evidence evidence, const std::optional<Pose2>& predi
   if (!summary_.modes.empty()) {
     const BeliefMode& best = summary_.modes.front();
     evidence.mass = best.mass;
+    evidence.entropy = summary_.entropy;
     evidence.spread = std::sqrt(std::max(0.0, best.covariance[0] + best.covariance[4]));
     if (predicted) {
       const double off = distance(predicted->position(), best.map_from_robot.position());

@@ -33,7 +33,6 @@ struct MarkovLocalizerParams {
   double sea_threshold = 0.001;        ///< of the a priori probability
   double teleport_probability = 1e-7;  ///< per update: somebody carried the robot elsewhere
   double teleport_in_doubt = 0.02;     ///< and per update while the readings contradict the map
-  double surprised_at = 0.45;          ///< share of the readings that pass through walls: an update now, a whole one
   double update_way = 0.25;            ///< [m] driven that is worth an update, or
   double update_turn = 10.0;           ///< [deg] turned, or
   double creeping_period = 2.0;        ///< [s] when it moves less, or
@@ -61,7 +60,6 @@ struct MarkovLocalizerParams {
     v("sea_threshold", sea_threshold);
     v("teleport_probability", teleport_probability);
     v("teleport_in_doubt", teleport_in_doubt);
-    v("surprised_at", surprised_at);
     v("update_way", update_way);
     v("update_turn", update_turn);
     v("creeping_period", creeping_period);

@@ -160,7 +160,7 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
   if (predicted) verdict_.look(glance(caster_, sweep, *predicted, shared_.sensor.max_range));
   step.weight = started_ ? due_weight(way, turn, time) : 1.0;
   if (step.weight < 1.0 && verdict_.localized() && to_seconds(time - last_update_) >= kSurpriseWaits &&
-      verdict_.surprise() > shared_.surprised_at)
+      verdict_.startled())
     step.weight = 1.0;
   if (step.weight <= 0.0) return step;
 
@@ -350,6 +350,7 @@ void MonteCarloLocalizer::judge(Evidence evidence, const std::optional<Pose2>& p
   if (!summary_.modes.empty()) {
     const BeliefMode& best = summary_.modes.front();
     evidence.mass = best.mass;
+    evidence.entropy = summary_.entropy;
     evidence.spread = std::sqrt(std::max(0.0, best.covariance[0] + best.covariance[4]));
     if (predicted) {
       const double off = distance(predicted->position(), best.map_from_robot.position());
