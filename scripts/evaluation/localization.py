@@ -110,6 +110,11 @@ def mean(values):
     return sum(values) / len(values) if values else float("nan")
 
 
+def filters_of(method):
+    """All for the default method; for the other, the default filter and none."""
+    return FILTERS if method == DEFAULT[0] else ["none", DEFAULT[1]]
+
+
 def settings_of(method, name=DEFAULT[1]):
     if method == "grid":
         return [f"localize.filter={name}"]
@@ -124,22 +129,22 @@ def tracking(bench, verdict, print_table, seeds, minutes, museums, methods):
         def one(museum, seed):
             found = {}
             for method in methods:
-                for name in FILTERS:
+                for name in filters_of(method):
                     claims = bench.claims(museum, seed, minutes, crowd, escort, [], settings_of(method, name))
                     known = next((i for i, row in enumerate(claims) if row["localized"]), len(claims))
                     found[method, name] = claims, claims[known:]
             bench.forget(museum, seed, minutes, crowd, escort, [])
             return found
         runs = bench.each([lambda m=museum, s=seed: one(m, s) for museum in museums for seed in seeds])
-        claims = [row for run in runs for row in run[methods[0], FILTERS[0]][0]]
+        claims = [row for run in runs for row in run[methods[0], "none"][0]]
         blocked = mean(row["blocked"] for row in claims)
         moving = mean(abs(row["speed"]) > 0.02 or abs(row["true_heading"] - before["true_heading"]) > 0.3
                       for before, row in zip(claims, claims[1:]))
-        km = sum(run[methods[0], FILTERS[0]][0][-1]["distance"] for run in runs) / 1000
+        km = sum(run[methods[0], "none"][0][-1]["distance"] for run in runs) / 1000
         verdict.want(f"{crowd_name}: moving at least 70 % of the time", f"{100 * moving:.0f} % in {km:.2f} km, "
                      f"{100 * blocked:.0f} % of the beams blocked", moving >= 0.7)
         for method in methods:
-            for name in FILTERS:
+            for name in filters_of(method):
                 updates = [row for run in runs for row in run[method, name][1]]
                 never = sum(not run[method, name][1] for run in runs)
                 lost = mean(map(is_lost, updates))
@@ -262,7 +267,7 @@ def recovery(bench, verdict, print_table, museums, count, methods):
     plans = [[m, 3000 + i, sorted(round(draw.uniform(60.0, 500.0), 1) for _ in range(draw.choice([1, 1, 2])))]
              for m in museums for i in range(count)]
     for method in methods:
-        for name in FILTERS:
+        for name in filters_of(method):
             runs = bench.each([lambda m=m, s=s, k=k: bench.claims(m, s, 10, "quiet", (8, 0.5, 1.4), k, settings_of(method, name))
                                for m, s, k in plans])
             kidnaps, recovered, times = 0, 0, []
@@ -345,15 +350,16 @@ def kidnapping(bench, verdict, print_table, museums, count):
                  "contacts", "resumed"], rows)
 
 
-def evaluate(bench, verdict, print_table, parts, is_slice, methods):
+def evaluate(bench, verdict, print_table, parts, is_slice, methods, seeds=None):
+    """`seeds`: how many of the twenty seeds, or of the hundred starts and kidnaps a museum; None: all."""
     museums = ["bonn"] if is_slice else ["bonn", "smithsonian"]
     if "tracking" in parts:
-        tracking(bench, verdict, print_table, range(1, 2 if is_slice else 21), 2 if is_slice else 10, museums, methods)
+        tracking(bench, verdict, print_table, range(1, 2 if is_slice else 1 + (seeds or 20)), 2 if is_slice else 10, museums, methods)
     if "start" in parts:
-        unknown_start(bench, verdict, print_table, 6 if is_slice else 100, museums, methods)
+        unknown_start(bench, verdict, print_table, 6 if is_slice else seeds or 100, museums, methods)
     if "honest" in parts and not is_slice:
-        honesty(bench, verdict, print_table, museums, 30, DEFAULT[0])
+        honesty(bench, verdict, print_table, museums, seeds or 30, DEFAULT[0])
     if "kidnap" in parts and not is_slice:
-        kidnapping(bench, verdict, print_table, museums, 100)
+        kidnapping(bench, verdict, print_table, museums, seeds or 100)
     if "recovery" in parts and not is_slice:
-        recovery(bench, verdict, print_table, museums, 10, methods)
+        recovery(bench, verdict, print_table, museums, seeds or 10, methods)

@@ -206,11 +206,11 @@ class Bootstrap {
         const PoseLabel& at = labels[i].labels[j];
         moments.push_back({recordings_[i].lasers[j].odom_from_base, at.map_from_base, at.sure});
       }
-      for (PlacedWindow& placed : motion_windows(moments)) {
+      for (const PlacedWindow& placed : motion_windows(moments)) {
         const bool first = Pieces::is_held_out(pieces_[i].piece[placed.first]);
         const bool last = Pieces::is_held_out(pieces_[i].piece[placed.last]);
-        if (first && last) held_out.push_back(std::move(placed.window));
-        if (!first && !last) fitted.push_back(std::move(placed.window));
+        if (first && last) held_out.push_back(placed.window);
+        if (!first && !last) fitted.push_back(placed.window);
       }
     }
     LabelledMotionNoise start;

@@ -21,7 +21,7 @@ int Expectation::expected(const Pose2& map_from_sensor, std::size_t place, doubl
   const int headings = space_.headings();
   const auto steps = [&](double angle) { return static_cast<int>(std::lround(angle / space_.heading_step())); };
   const int heading = (steps(map_from_sensor.theta.radians()) + steps(bearing) + 2 * headings) % headings;
-  return table_.row(place)[heading];
+  return table_.row(place)[static_cast<std::size_t>(heading)];
 }
 
 void Expectation::add(const RangeSweep& sweep, const Pose2& map_from_sensor, ReadingCounts& counts) const {
