@@ -56,9 +56,11 @@ LogRun run_once(const Options& options, const LaserLog& log, const OccupancyGrid
   std::optional<BeliefMovie> movie;
   if (!pictures.empty()) movie.emplace(value_or_fail(BeliefMovie::create(map)));
   std::size_t seen = 0;
+  const bool has_two = has_two_lasers(log);
   run_options.watch = [&](const Localizer& at, std::size_t scan, const Localizer::Step& step) {
     if (++seen % 500 == 0) std::fprintf(stderr, "%zu of %zu scans\n", seen, log.scans.size());
-    if (movie && step.updated && !movie->is_full()) value_or_fail(movie->add(at, log.scans[scan], log.max_range));
+    if (movie && step.updated && !movie->is_full())
+      value_or_fail(movie->add(at, log.scans[scan], log.max_range, has_two));
   };
   LogRun run = localize_log(log, localizer, run_options);
   if (!pictures.empty()) {

@@ -39,9 +39,19 @@ RangeSweep sweep_of(const LoggedScan& scan, double max_range) {
   return sweep;
 }
 
+bool has_two_lasers(const LaserLog& log) {
+  return std::any_of(log.scans.begin(), log.scans.end(),
+                     [&](const LoggedScan& scan) { return scan.rear != log.scans.front().rear; });
+}
+
+Pose2 base_from_tracked(bool has_two_lasers, const LoggedScan& scan) {
+  return has_two_lasers ? Pose2{} : scan.base_from_laser;
+}
+
 LogRun localize_log(const LaserLog& log, Localizer& localizer, const LogRunOptions& options) {
   LogRun run;
   run.poses.resize(log.scans.size());
+  const bool has_two = has_two_lasers(log);
   std::size_t fitted = 0;
   const double end = log.scans.empty() ? 0.0 : to_seconds(log.scans.back().time);
   for (std::size_t n = 0; n < log.scans.size(); ++n) {
@@ -49,13 +59,16 @@ LogRun localize_log(const LaserLog& log, Localizer& localizer, const LogRunOptio
     const LoggedScan& scan = log.scans[i];
     const double logged = to_seconds(scan.time);
     const Time time = time_from_seconds(options.reverse ? end - logged : logged);
-    const Pose2 odom_from_laser = scan.odom_from_base * scan.base_from_laser;
+    const Pose2 tracked = base_from_tracked(has_two, scan);
+    const Pose2 odom_from_tracked = scan.odom_from_base * tracked;
     if (n == 0 && options.start) {
-      const BeliefMode mode{*options.start * scan.base_from_laser, {0.04, 0, 0, 0, 0.04, 0, 0, 0, 0.01}, 1.0};
-      localizer.start_at(std::span{&mode, 1}, odom_from_laser, time);
+      const BeliefMode mode{*options.start * tracked, {0.04, 0, 0, 0, 0.04, 0, 0, 0, 0.01}, 1.0};
+      localizer.start_at(std::span{&mode, 1}, odom_from_tracked, time);
     }
     const auto begin = WallClock::now();
-    const auto step = localizer.observe(sweep_of(scan, log.max_range), odom_from_laser, time);
+    const RangeSweep of_laser = sweep_of(scan, log.max_range);
+    const auto step =
+        localizer.observe(has_two ? seen_from(of_laser, scan.base_from_laser) : of_laser, odom_from_tracked, time);
     const double seconds = std::chrono::duration<double>(WallClock::now() - begin).count();
     if (n == 0) run.seconds_first = seconds;
     if (step.updated) {
@@ -70,8 +83,8 @@ LogRun localize_log(const LaserLog& log, Localizer& localizer, const LogRunOptio
     }
     LoggedPose& pose = run.poses[i];
     pose = {i, logged, {}, false, localizer.verdict().localized(), localizer.verdict().p_lost()};
-    if (const auto best = localizer.map_from_robot(odom_from_laser)) {
-      pose.map_from_base = *best * inverse(scan.base_from_laser);
+    if (const auto best = localizer.map_from_robot(odom_from_tracked)) {
+      pose.map_from_base = *best * inverse(tracked);
       pose.has_pose = true;
     }
     if (pose.localized && !run.localized_after) run.localized_after = n + 1;

@@ -40,8 +40,13 @@ struct LogRunOptions {
   std::function<void(const Localizer&, std::size_t, const Localizer::Step&)> watch;
 };
 
-/// Localizes every scan of a log. The localizer's state is the *laser's* pose, moved by the laser's odometry, and the
-/// robot's follows from it: seen from the robot's centre, a beam along a wall would pass through the door post.
+/// What is localized, seen from the robot. With one laser the *laser*, moved by its own odometry, and the robot's pose
+/// follows from it: seen from the robot's centre, a beam along a wall would pass through the door post. With two lasers
+/// the robot's centre.
+[[nodiscard]] Pose2 base_from_tracked(bool has_two_lasers, const LoggedScan& scan);
+[[nodiscard]] bool has_two_lasers(const LaserLog& log);
+
+/// Localizes every scan of a log.
 [[nodiscard]] LogRun localize_log(const LaserLog& log, Localizer& localizer, const LogRunOptions& options);
 
 /// The scan in the laser's frame.

@@ -20,14 +20,17 @@ std::vector<Point2> endpoints_at(const LoggedScan& scan, double max_range, const
 }  // namespace
 
 Image draw_belief(const Image& map_picture, const MapView& view, const Localizer& localizer, const LoggedScan& scan,
-                  double max_range) {
+                  double max_range, bool two_lasers) {
   Image image = map_picture;
   const PositionDensity density = localizer.density();
   draw_density(image, view, density.frame, density.mass);
-  if (const auto best = localizer.map_from_robot(scan.odom_from_base * scan.base_from_laser)) {
+  const Pose2 tracked = base_from_tracked(two_lasers, scan);
+  if (const auto best = localizer.map_from_robot(scan.odom_from_base * tracked)) {
+    const Pose2 map_from_base = *best * inverse(tracked);
     const Color color = localizer.verdict().localized() ? colors::kGreen : colors::kGrey;
-    draw_points(image, view, endpoints_at(scan, max_range, *best), 3.0, with_alpha(color, 180));
-    draw_robot(image, view, *best * inverse(scan.base_from_laser), kRobotRadius, color);
+    draw_points(image, view, endpoints_at(scan, max_range, map_from_base * scan.base_from_laser), 3.0,
+                with_alpha(color, 180));
+    draw_robot(image, view, map_from_base, kRobotRadius, color);
   }
   return image;
 }
@@ -44,11 +47,11 @@ Result<BeliefMovie> BeliefMovie::create(const OccupancyGrid& map) {
 
 bool BeliefMovie::is_full() const { return frames_localized_ >= 12 || frames_ >= 150; }
 
-Result<void> BeliefMovie::add(const Localizer& localizer, const LoggedScan& scan, double max_range) {
+Result<void> BeliefMovie::add(const Localizer& localizer, const LoggedScan& scan, double max_range, bool two_lasers) {
   ++frames_;
   if (localizer.verdict().localized()) ++frames_localized_;
   const Duration shown = std::chrono::milliseconds(is_full() ? 3000 : 300);
-  return animation_.add(draw_belief(map_picture_, view_, localizer, scan, max_range), shown);
+  return animation_.add(draw_belief(map_picture_, view_, localizer, scan, max_range, two_lasers), shown);
 }
 
 Result<void> BeliefMovie::save(const std::filesystem::path& path) { return animation_.save(path); }

@@ -14,7 +14,7 @@ namespace docent {
 class BeliefMovie {
  public:
   [[nodiscard]] static Result<BeliefMovie> create(const OccupancyGrid& map);
-  [[nodiscard]] Result<void> add(const Localizer& localizer, const LoggedScan& scan, double max_range);
+  [[nodiscard]] Result<void> add(const Localizer& localizer, const LoggedScan& scan, double max_range, bool two_lasers);
   [[nodiscard]] Result<void> save(const std::filesystem::path& path);
   [[nodiscard]] bool is_full() const;  ///< enough frames
 
@@ -29,7 +29,7 @@ class BeliefMovie {
 
 /// Belief summed over headings, the scan at the best pose.
 [[nodiscard]] Image draw_belief(const Image& map_picture, const MapView& view, const Localizer& localizer,
-                                const LoggedScan& scan, double max_range);
+                                const LoggedScan& scan, double max_range, bool two_lasers);
 
 /// One scan at its pose, 24 m of the map around the robot.
 [[nodiscard]] Image draw_scan(const OccupancyGrid& map, const LoggedScan& scan, double max_range,

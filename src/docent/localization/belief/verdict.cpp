@@ -20,8 +20,8 @@ struct DoubtWeights {
   double hidden;
   double entropy;
 };
-constexpr DoubtWeights kWhenSure{-7.25, 0.34, 1.0, 1.1, 8.8, 8.4, 17.0, 0.0};
-constexpr DoubtWeights kWhenNot{-7.25, 0.34, 1.0, 1.1, 8.8, 8.4, 17.0, 0.0};
+constexpr DoubtWeights kWhenSure{-7.753, 0.460, 0.000, 11.697, 7.792, 1.756, 17.765, 1.595};
+constexpr DoubtWeights kWhenNot{-7.066, 0.290, 1.071, -1.324, 8.463, 6.985, 3.795, 0.074};
 
 }  // namespace
 

@@ -11,6 +11,7 @@ Evidence good() {
   Evidence evidence;
   evidence.mass = 0.998;
   evidence.spread = 0.1;
+  evidence.entropy = 2.0;
   evidence.is_same_mode = true;
   evidence.way = 0.25;
   evidence.agrees = 50.0;
@@ -48,7 +49,7 @@ TEST(Verdict, OneSweepThroughWallsRaisesTheDoubtAtOnce) {
   Verdict verdict = sure();
   const double before = verdict.p_lost();
   verdict.look({0.7, 0.1, 40});
-  EXPECT_GT(verdict.p_lost(), 0.3);
+  EXPECT_GT(verdict.p_lost(), 20.0 * before);
   verdict.look({0.0, 0.1, 40});
   EXPECT_LT(verdict.p_lost(), 2.0 * before);
 }
