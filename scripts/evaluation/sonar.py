@@ -1,4 +1,4 @@
-"""Position control of a robot with sonars only (issue "A robot that always knows where it is", row 8).
+"""Position control of a robot with sonars only.
 
 A drawn office building a seed, its survey as the robot's map, a scripted drive through random places with the simulated
 base and sonars; the tracker sees odometry and pings. Dead reckoning on the same drives must fail.
