@@ -116,9 +116,7 @@ def filters_of(method):
 
 
 def settings_of(method, name=DEFAULT[1]):
-    if method == "grid":
-        return [f"localize.filter={name}"]
-    return [f"localize.method={method}", f"localize.particles={{filter: {name}}}"]
+    return [f"localize.method={method}", f"localize.filter={name}"]
 
 
 def tracking(bench, verdict, print_table, seeds, minutes, museums, methods):
