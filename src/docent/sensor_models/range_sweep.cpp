@@ -65,4 +65,12 @@ std::vector<BinnedBeam> binned(const RangeSweep& sweep, int directions) {
   return result;
 }
 
+std::vector<BinnedBeam> thinned(std::span<const BinnedBeam> beams, std::size_t most, std::size_t phase) {
+  if (beams.size() <= most) return {beams.begin(), beams.end()};
+  std::vector<BinnedBeam> chosen;
+  const std::size_t start = phase * 7 % beams.size();
+  for (std::size_t i = 0; i < most; ++i) chosen.push_back(beams[(start + i * beams.size() / most) % beams.size()]);
+  return chosen;
+}
+
 }  // namespace docent

@@ -49,4 +49,7 @@ struct BinnedBeam {
 /// At most one beam a direction, the one nearest to its middle. In the order of directions. O(beams + directions).
 [[nodiscard]] std::vector<BinnedBeam> binned(const RangeSweep& sweep, int directions);
 
+/// At most `most` of the beams, evenly spread; each `phase` begins elsewhere, so that all beams have their turn.
+[[nodiscard]] std::vector<BinnedBeam> thinned(std::span<const BinnedBeam> beams, std::size_t most, std::size_t phase);
+
 }  // namespace docent

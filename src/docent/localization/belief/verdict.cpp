@@ -25,6 +25,20 @@ constexpr DoubtWeights kWhenNot{-7.066, 0.290, 1.071, -1.324, 8.463, 6.985, 3.79
 
 }  // namespace
 
+Evidence with_best_mode(Evidence evidence, const BeliefSummary& summary, const std::optional<Pose2>& predicted) {
+  if (summary.modes.empty()) return evidence;
+  const BeliefMode& best = summary.modes.front();
+  evidence.mass = best.mass;
+  evidence.entropy = summary.entropy;
+  evidence.spread = std::sqrt(std::max(0.0, best.covariance[0] + best.covariance[4]));
+  if (predicted) {
+    const double off = distance(predicted->position(), best.map_from_robot.position());
+    const double turned = std::abs((predicted->theta - best.map_from_robot.theta).degrees());
+    evidence.is_same_mode = off < 0.5 && turned < 15.0;
+  }
+  return evidence;
+}
+
 Result<void> VerdictParams::validate() const {
   if (!(enough_mass > 0.5 && enough_mass < 1.0)) return fail("verdict.enough_mass must be 0.5..1");
   if (!(too_little_mass >= 0.0 && too_little_mass < enough_mass))

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
+
 #include "docent/base/result.h"
+#include "docent/localization/belief/belief_summary.h"
 #include "docent/localization/belief/glance.h"
 
 namespace docent {
@@ -45,6 +48,11 @@ struct Evidence {
   double turn = 0.0;                                 ///< [rad], >= 0
   double agrees = 0.0, shorter = 0.0, longer = 0.0;  ///< number of readings, as the belief sees them
 };
+
+/// `evidence` with what a summary says of its best mode. `predicted`: the best pose of the last update, moved by
+/// odometry.
+[[nodiscard]] Evidence with_best_mode(Evidence evidence, const BeliefSummary& summary,
+                                      const std::optional<Pose2>& predicted);
 
 /// Decides whether the robot may say where it is. It says "I do not know" until one mode has held nearly all the mass
 /// over several updates and some motion, and the readings bear it out; and takes it back when they stop doing so.

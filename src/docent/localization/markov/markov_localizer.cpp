@@ -23,15 +23,15 @@ std::string table_key(const OccupancyGrid& map, const MarkovLocalizerParams& par
          std::to_string(params.states.wall_depth) + " " + std::to_string(params.sensor.max_range);
 }
 
-RangeTable make_table(const OccupancyGrid& map, const MarkovLocalizerParams& params, const std::filesystem::path& cache,
-                      const StateSpace& space, const RayCaster& caster) {
+}  // namespace
+
+RangeTable range_table_of(const OccupancyGrid& map, const MarkovLocalizerParams& params,
+                          const std::filesystem::path& cache, const StateSpace& space, const RayCaster& caster) {
   const ProximityModel model{params.sensor};
   const RangeTable::Building how{std::max(1U, std::thread::hardware_concurrency()), {}};
   return cache.empty() ? RangeTable::build(space, caster, model, how)
                        : RangeTable::load_or_build(cache, table_key(map, params), space, caster, model, how);
 }
-
-}  // namespace
 
 Result<void> MarkovLocalizerParams::validate() const {
   for (const auto& valid :
@@ -66,7 +66,7 @@ MarkovLocalizer::MarkovLocalizer(const OccupancyGrid& map, const MarkovLocalizer
       filter_{beam_filter_of(params.filter).value_or(BeamFilter::distance)},
       caster_{peeled(map, params.states.wall_depth)},
       space_{map, caster_, params.states},
-      table_{make_table(map, params, cache, space_, caster_)},
+      table_{range_table_of(map, params, cache, space_, caster_)},
       model_{params.sensor, table_.frequency()},
       belief_{space_, params.sea_threshold},
       verdict_{params.verdict},
@@ -230,7 +230,7 @@ MarkovLocalizer::Choice MarkovLocalizer::choose_beams(const RangeSweep& sweep, c
   likely_ = likely_states(belief_, kLikelyFraction, kMostLikely);
   if (likely_.empty()) {
     choice.used = beams;
-    thin(choice.used);
+    choice.used = thinned(choice.used, static_cast<std::size_t>(params_.beams), ++phase_);
     return choice;
   }
   const ExpectedRanges expected{likely_, table_, space_.headings()};
@@ -244,34 +244,12 @@ MarkovLocalizer::Choice MarkovLocalizer::choose_beams(const RangeSweep& sweep, c
     choice.filtered += filtered ? 1 : 0;
     if (!filtered || rng_.chance(params_.unfiltered_share)) choice.used.push_back(beam);
   }
-  thin(choice.used);
+  choice.used = thinned(choice.used, static_cast<std::size_t>(params_.beams), ++phase_);
   return choice;
 }
 
-void MarkovLocalizer::thin(std::vector<BinnedBeam>& beams) {
-  const auto most = static_cast<std::size_t>(params_.beams);
-  ++phase_;
-  if (beams.size() <= most) return;
-  // Evenly, and beginning elsewhere each time, so that all beams have their turn.
-  std::vector<BinnedBeam> chosen;
-  const std::size_t start = phase_ * 7 % beams.size();
-  for (std::size_t i = 0; i < most; ++i) chosen.push_back(beams[(start + i * beams.size() / most) % beams.size()]);
-  beams.swap(chosen);
-}
-
-void MarkovLocalizer::judge(Evidence evidence, const std::optional<Pose2>& predicted) {
-  if (!summary_.modes.empty()) {
-    const BeliefMode& best = summary_.modes.front();
-    evidence.mass = best.mass;
-    evidence.entropy = summary_.entropy;
-    evidence.spread = std::sqrt(std::max(0.0, best.covariance[0] + best.covariance[4]));
-    if (predicted) {
-      const double off = distance(predicted->position(), best.map_from_robot.position());
-      const double turned = std::abs((predicted->theta - best.map_from_robot.theta).degrees());
-      evidence.is_same_mode = off < 0.5 && turned < 15.0;
-    }
-  }
-  verdict_.add(evidence);
+void MarkovLocalizer::judge(const Evidence& evidence, const std::optional<Pose2>& predicted) {
+  verdict_.add(with_best_mode(evidence, summary_, predicted));
   if (!verdict_.collapsed()) return;
   belief_.flood(0.9);
   verdict_.reset();

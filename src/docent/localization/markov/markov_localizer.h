@@ -73,6 +73,11 @@ struct MarkovLocalizerParams {
   [[nodiscard]] Result<void> validate() const;
 };
 
+/// The range table of a map, from the file `cache` when it was made for these parameters; empty: none.
+[[nodiscard]] RangeTable range_table_of(const OccupancyGrid& map, const MarkovLocalizerParams& params,
+                                        const std::filesystem::path& cache, const StateSpace& space,
+                                        const RayCaster& caster);
+
 /// Grid-based Markov localization [Markov1998], [Rhino1999] 3.1: a belief over all poses, from sweeps of range readings
 /// and odometry. Deterministic; knows no wall clock.
 class MarkovLocalizer final : public Localizer {
@@ -104,12 +109,11 @@ class MarkovLocalizer final : public Localizer {
   };
   [[nodiscard]] double due_weight(double way, double turn, Time time) const;
   [[nodiscard]] Choice choose_beams(const RangeSweep& sweep, const std::vector<BinnedBeam>& beams);
-  void thin(std::vector<BinnedBeam>& beams);
   [[nodiscard]] std::optional<double> fit(const RangeSweep& seen, std::span<const BinnedBeam> beams) const;
   void move(const Pose2& before_from_after);
   void summarise_now();
   [[nodiscard]] Pose2 frame_from_robot() const { return inverse(odom_from_frame_) * odom_from_robot_; }
-  void judge(Evidence evidence, const std::optional<Pose2>& predicted);
+  void judge(const Evidence& evidence, const std::optional<Pose2>& predicted);
   [[nodiscard]] int bin_of(const SweepBeam& beam) const { return beam.no_return ? kNoReturn : model_.bin(beam.range); }
 
   MarkovLocalizerParams params_;

@@ -34,7 +34,7 @@ class FieldKernels : public ::testing::TestWithParam<const char*> {};
 TEST_P(FieldKernels, IsThePlainOneBitForBit) {
   const auto kernels = field_kernels();
   const auto found = std::find_if(kernels.begin(), kernels.end(), [](const auto& k) { return k.name == GetParam(); });
-  if (found == kernels.end()) GTEST_SKIP() << "this processor has no " << GetParam();
+  if (found == kernels.end()) GTEST_SKIP() << "not run: this processor has no " << GetParam();
   const RayCaster caster{testing::room_map()};
   const LikelihoodField field{caster, {}, 10.0};
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <thread>
 
 #include "docent/localization/monte_carlo/particle_strata.h"
 #include "docent/localization/monte_carlo/particle_summary.h"
@@ -20,18 +19,6 @@ constexpr double kSurpriseWaits = 0.15;  // [s]
 constexpr double kSurprising = 0.5;      // of the evidence is missing: at every update poses are drawn
 constexpr double kNewView = 0.1;         // of the usual likelihood: less is not the view that was there
 constexpr double kUpdateSeconds = 0.25;  // what one update may take of the robot's time, if the work is paid
-
-RangeTable make_table(const OccupancyGrid& map, const MarkovLocalizerParams& params, const std::filesystem::path& cache,
-                      const StateSpace& space, const RayCaster& caster) {
-  const ProximityModel model{params.sensor};
-  const std::string key = map_hash(map) + " " + std::to_string(params.states.cell_size) + " " +
-                          std::to_string(params.states.heading_step) + " " +
-                          std::to_string(params.states.min_clearance) + " " + std::to_string(params.states.wall_depth) +
-                          " " + std::to_string(params.sensor.max_range);
-  const RangeTable::Building how{std::max(1U, std::thread::hardware_concurrency()), {}};
-  return cache.empty() ? RangeTable::build(space, caster, model, how)
-                       : RangeTable::load_or_build(cache, key, space, caster, model, how);
-}
 
 }  // namespace
 
@@ -60,7 +47,7 @@ MonteCarloLocalizer::MonteCarloLocalizer(const OccupancyGrid& map, const MarkovL
       filter_{beam_filter_of(shared.filter).value_or(BeamFilter::distance)},
       caster_{peeled(map, shared.states.wall_depth)},
       space_{map, caster_, shared.states},
-      table_{make_table(map, shared, cache, space_, caster_)},
+      table_{range_table_of(map, shared, cache, space_, caster_)},
       model_{shared.sensor, table_.frequency()},
       scores_{params.model == "field" ? SweepScores::Model::field : SweepScores::Model::beam,
               BeamScores{space_, table_, model_, shared.sensor.max_range},
@@ -329,36 +316,14 @@ MonteCarloLocalizer::Choice MonteCarloLocalizer::choose_beams(const RangeSweep& 
       if (!filtered || rng_.chance(shared_.unfiltered_share)) choice.used.push_back(beam);
     }
   }
-  thin(choice.used);
+  choice.used = thinned(choice.used, static_cast<std::size_t>(shared_.beams), ++phase_);
   std::sort(choice.used.begin(), choice.used.end(),
             [](const auto& a, const auto& b) { return a.direction < b.direction; });
   return choice;
 }
 
-void MonteCarloLocalizer::thin(std::vector<BinnedBeam>& beams) {
-  const auto most = static_cast<std::size_t>(shared_.beams);
-  ++phase_;
-  if (beams.size() <= most) return;
-  // Evenly, and beginning elsewhere each time, so that all beams have their turn.
-  std::vector<BinnedBeam> chosen;
-  const std::size_t start = phase_ * 7 % beams.size();
-  for (std::size_t i = 0; i < most; ++i) chosen.push_back(beams[(start + i * beams.size() / most) % beams.size()]);
-  beams.swap(chosen);
-}
-
-void MonteCarloLocalizer::judge(Evidence evidence, const std::optional<Pose2>& predicted) {
-  if (!summary_.modes.empty()) {
-    const BeliefMode& best = summary_.modes.front();
-    evidence.mass = best.mass;
-    evidence.entropy = summary_.entropy;
-    evidence.spread = std::sqrt(std::max(0.0, best.covariance[0] + best.covariance[4]));
-    if (predicted) {
-      const double off = distance(predicted->position(), best.map_from_robot.position());
-      const double turned = std::abs((predicted->theta - best.map_from_robot.theta).degrees());
-      evidence.is_same_mode = off < 0.5 && turned < 15.0;
-    }
-  }
-  verdict_.add(evidence);
+void MonteCarloLocalizer::judge(const Evidence& evidence, const std::optional<Pose2>& predicted) {
+  verdict_.add(with_best_mode(evidence, summary_, predicted));
   if (!verdict_.collapsed()) return;
   start_over_ = 0.9;
   verdict_.reset();

@@ -93,14 +93,13 @@ class MonteCarloLocalizer final : public Localizer {
   };
   [[nodiscard]] double due_weight(double way, double turn, Time time) const;
   [[nodiscard]] Choice choose_beams(const RangeSweep& sweep);
-  void thin(std::vector<BinnedBeam>& beams);
   void notice_surprise(double likelihood, double weight);
   /// Adds poses drawn from the sensors, for the case that the truth is near no particle.
   void draw_elsewhere(const RangeSweep& sweep, std::span<const BinnedBeam> beams, double temper, double likelihood);
   [[nodiscard]] std::vector<BeamCosts> grid_costs(const RangeSweep& sweep, std::span<const BinnedBeam> beams,
                                                   double temper) const;
   void summarise_now();
-  void judge(Evidence evidence, const std::optional<Pose2>& predicted);
+  void judge(const Evidence& evidence, const std::optional<Pose2>& predicted);
   [[nodiscard]] std::optional<double> fit(const RangeSweep& sweep, std::span<const BinnedBeam> beams) const;
   [[nodiscard]] std::size_t most_particles() const;
   [[nodiscard]] int bin_of(const SweepBeam& beam) const { return beam.no_return ? kNoReturn : model_.bin(beam.range); }
