@@ -19,8 +19,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 Result<void> AvoiderParams::validate() const {
   if (auto valid = window.validate(); !valid) return valid;
   if (!(lookahead >= 0.3 && lookahead <= 5.0)) return fail("avoid.lookahead must lie between 0.3 and 5 m");
-  if (!(person_distance >= 0.0 && person_speed > 0.0))
-    return fail("avoid.person_distance and person_speed must be > 0");
+  if (auto valid = people.validate(); !valid) return valid;
   if (!(arrival_deceleration > 0.0)) return fail("avoid.arrival_deceleration must be > 0 m/s2");
   if (!(target_timeout > 0.0 && virtual_timeout > 0.0)) return fail("avoid: timeouts must be > 0 s");
   return {};
@@ -243,14 +242,14 @@ void Avoider::cap_by_surroundings(std::span<const Obstacle> obstacles, double be
       cap_speed(window.creep_speed + std::max(0.0, slack) / window.security_time,
                 obstacle.is_virtual ? "a hazard is near" : "something is near", decision);
     }
-    const bool moves = obstacle.velocity != Point2{};
-    if (!obstacle.person && !moves) continue;
-    // Towards people only as fast as one can be forgiven for.
-    const double toward = std::max(ahead, std::cos(std::atan2(obstacle.at.y, obstacle.at.x) - bearing));
-    if (toward <= 0.2 || way > 2.5) continue;
-    const double closing = std::max(0.0, -dot(obstacle.velocity, obstacle.at) / way);
-    const double room = way - limits_.radius - 0.5 * closing - params_.person_distance;
-    cap_speed((params_.person_speed + 0.8 * std::max(0.0, room)) / toward, "people are near", decision);
+    if (!obstacle.person && obstacle.velocity == Point2{}) continue;
+    // Towards people only as fast as one can be forgiven for: on the way that is steered for, and as it heads now.
+    for (const Point2 way_ahead : {unit(Angle::radians(bearing)), Point2{1.0, 0.0}}) {
+      const PersonPoint person{{dot(way_ahead, obstacle.at), cross(way_ahead, obstacle.at)},
+                               {dot(way_ahead, obstacle.velocity), cross(way_ahead, obstacle.velocity)},
+                               limits_.radius + obstacle.margin};
+      cap_speed(speed_near_person(person, decision.speed_cap, limits_, params_.people), "people are near", decision);
+    }
   }
 }
 

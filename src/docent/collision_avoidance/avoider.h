@@ -10,14 +10,14 @@
 #include "docent/collision_avoidance/dynamic_window.h"
 #include "docent/collision_avoidance/freshness.h"
 #include "docent/collision_avoidance/obstacle_memory.h"
+#include "docent/collision_avoidance/speed_near_people.h"
 
 namespace docent {
 
 struct AvoiderParams {
   DynamicWindowParams window;
+  PeopleCautionParams people;
   double lookahead = 1.2;              ///< [m] the path is followed by steering for a point so far along it
-  double person_distance = 0.35;       ///< [m] from the outline: towards a person nearer than this, only person_speed
-  double person_speed = 0.1;           ///< [m/s]
   double arrival_deceleration = 0.35;  ///< [m/s2]
   double target_timeout = 1.5;         ///< [s]
   double virtual_timeout = 1.5;        ///< [s]
@@ -27,8 +27,7 @@ struct AvoiderParams {
   void visit(V& v) {
     v("window", window);
     v("lookahead", lookahead);
-    v("person_distance", person_distance);
-    v("person_speed", person_speed);
+    v("people", people);
     v("arrival_deceleration", arrival_deceleration);
     v("target_timeout", target_timeout);
     v("virtual_timeout", virtual_timeout);

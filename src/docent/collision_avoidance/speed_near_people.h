@@ -1,0 +1,37 @@
+#pragma once
+
+#include "docent/base/result.h"
+#include "docent/collision_avoidance/base_motion.h"
+#include "docent/geometry/pose2.h"
+
+namespace docent {
+
+/// What people may do that nobody foresees, and what a robot may do about it.
+struct PeopleCautionParams {
+  double surprise = 0.6;  ///< [m/s] by which anybody may come nearer than their motion tells
+  double reaction = 0.3;  ///< [s] from a surprise to full braking: a sweep, a choice, the base
+  double harmless = 0.1;  ///< [m/s] towards somebody: nobody minds
+  template <class V>
+  void visit(V& v) {
+    v("surprise", surprise);
+    v("reaction", reaction);
+    v("harmless", harmless);
+  }
+  [[nodiscard]] Result<void> validate() const;
+};
+
+/// A piece of somebody's outline as the robot sees it, base frame turned so that +x is the robot's way.
+struct PersonPoint {
+  Point2 at;           ///< [m]
+  Point2 velocity{};   ///< [m/s], zero for who stands
+  double reach = 0.0;  ///< [m] between the robot's centre and the point counts as a touch
+};
+
+/// The highest speed [m/s] up to `cap` along +x from which the robot never runs into this person: it brakes fully one
+/// reaction after the person begins to come nearer than foreseen, and wherever the two may meet before it stands, its
+/// speed towards them is harmless. Who stands beside the way thus slows the robot less than who stands in it, who walks
+/// away less than who comes. At least `harmless`. In steps of 0.05 m/s, O(cap^2).
+[[nodiscard]] double speed_near_person(const PersonPoint& person, double cap, const BaseLimits& limits,
+                                       const PeopleCautionParams& params);
+
+}  // namespace docent

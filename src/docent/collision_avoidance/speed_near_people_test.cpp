@@ -1,0 +1,88 @@
+#include "docent/collision_avoidance/speed_near_people.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "docent/base/random.h"
+
+namespace docent {
+namespace {
+
+constexpr double kReach = 0.35;  // [m]
+const BaseLimits kLimits;
+
+double speed_for(Point2 at, Point2 velocity = {}) {
+  return speed_near_person({at, velocity, kReach}, 0.8, kLimits, {});
+}
+
+TEST(SpeedNearPerson, FarAwayAndBehindNothingIsLost) {
+  EXPECT_EQ(speed_for({2.5, 0.0}), 0.8);
+  EXPECT_EQ(speed_for({-0.5, 0.2}), 0.8);
+  EXPECT_EQ(speed_for({0.0, 0.45}), 0.8);
+}
+
+TEST(SpeedNearPerson, StoppingDistanceOfBothByHand) {
+  // Straight ahead: speed * reaction + speed^2 / 2a + surprise * (reaction + speed / a) = gap, here 0.5 m: 0.33 m/s;
+  // but the last decimetre a second is harmless.
+  EXPECT_NEAR(speed_for({kReach + 0.5, 0.0}), 0.35, 0.051);
+  EXPECT_NEAR(speed_for({kReach + 0.05, 0.0}), PeopleCautionParams{}.harmless, 1e-9);
+}
+
+TEST(SpeedNearPerson, WhoStandsBesideTheWaySlowsLessThanWhoStandsInIt) {
+  double last = 0.0;
+  for (const double degrees : {0.0, 45.0, 60.0, 75.0, 90.0}) {
+    const double speed = speed_for(0.75 * unit(Angle::radians(degrees * std::numbers::pi / 180.0)));
+    EXPECT_GE(speed, last);
+    last = speed;
+  }
+  EXPECT_EQ(last, 0.8);
+}
+
+TEST(SpeedNearPerson, WhoComesSlowsMoreThanWhoGoes) {
+  const double stands = speed_for({1.0, 0.0});
+  EXPECT_LT(speed_for({1.0, 0.0}, {-0.6, 0.0}), stands - 0.1);
+  EXPECT_GT(speed_for({1.0, 0.0}, {0.6, 0.0}), stands + 0.1);
+  // Who crosses is met where they will be.
+  EXPECT_LT(speed_for({0.8, 0.8}, {0.0, -1.0}), speed_for({0.8, 0.8}, {0.0, 1.0}));
+}
+
+TEST(SpeedNearPerson, WhoDartsAtTheRobotIsMetAtHarmlessSpeed) {
+  // A person anywhere around starts at any moment with up to the surprise in the worst direction, which is towards the
+  // robot; the robot brakes one reaction later. Property: its speed towards them at the touch is harmless.
+  Rng rng{7};
+  const PeopleCautionParams params;
+  int met = 0;
+  for (int round = 0; round < 3000; ++round) {
+    const double bearing = rng.uniform(-std::numbers::pi, std::numbers::pi);
+    Point2 person = rng.uniform(kReach + 0.02, 1.6) * unit(Angle::radians(bearing));
+    const double speed = speed_near_person({person, {}, kReach}, 0.8, kLimits, params);
+    const double surprise = rng.uniform(0.0, params.surprise);
+    constexpr double kStep = 0.01;
+    double way = 0.0;
+    for (double time = 0.0; time < 2.0; time += kStep) {
+      const double now = std::max(0.0, speed - kLimits.deceleration * std::max(0.0, time - params.reaction));
+      way += kStep * now;
+      const Point2 offset = person - Point2{way, 0.0};
+      const double apart = norm(offset);
+      if (apart < kReach) {
+        EXPECT_LE(now * offset.x / apart, params.harmless + 0.06) << round << " at " << bearing << ", " << speed;
+        ++met;
+        break;
+      }
+      person = person - (kStep * surprise / apart) * offset;
+    }
+  }
+  EXPECT_GT(met, 200);
+}
+
+TEST(PeopleCautionParams, RefusesNonsense) {
+  EXPECT_TRUE(PeopleCautionParams{}.validate());
+  EXPECT_FALSE((PeopleCautionParams{-0.1, 0.3, 0.1}.validate()));
+  EXPECT_FALSE((PeopleCautionParams{0.6, -1.0, 0.1}.validate()));
+  EXPECT_FALSE((PeopleCautionParams{0.6, 0.3, 0.0}.validate()));
+}
+
+}  // namespace
+}  // namespace docent
