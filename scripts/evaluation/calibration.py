@@ -4,7 +4,7 @@ again and again: a logistic regression of "was it lost?" on what the robot itsel
 Seeds differ from those of `scripts/evaluate localization`, which holds the result against other recordings."""
 import math
 
-from . import localization
+from . import claims, localization
 
 FIRST_SEED = 5000
 NAMES = ["bias", "mass", "youth", "contradiction", "surprise", "disagreement", "hidden", "entropy"]
@@ -65,7 +65,7 @@ def fit_both(runs):
 def learn(bench, museums, count, method):
     """Prints the weights, and what those of one half of the runs are worth on the other half."""
     runs = localization.honesty_claims(bench, museums, count, method, FIRST_SEED)
-    pairs = [[(features(row), float(localization.is_lost(row)), row["localized"]) for row in run if row["has_pose"]]
+    pairs = [[(features(row), float(claims.is_lost(row)), row["localized"]) for row in run if row["has_pose"]]
              for run in runs]
     half = fit_both(pairs[::2])
     other = [(probability(half[sure], values), lost) for run in pairs[1::2] for values, lost, sure in run]

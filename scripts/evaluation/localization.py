@@ -4,17 +4,17 @@ replayed open-loop through every method and filter; and the whole robot, carried
 What the robot knows while a recording is made decides nothing in it, so that every method sees the same.
 """
 import concurrent.futures
-import csv
 import hashlib
 import json
-import math
 import os
 import random
 import subprocess
 import sys
 import time
 
-LOST_M, LOST_DEG = 0.5, 20.0
+from evaluation import twins
+from evaluation.claims import error_m, is_lost, mean, read_claims
+
 CROWDS = {  # name: crowd, people in the escort, bounds: lost share, mean error [m]
     "empty": ("empty", None, 0.0, 0.03),
     "escort of 8": ("quiet", (8, 0.5, 1.4), 0.0, 0.04),
@@ -32,11 +32,6 @@ def scenario(path, escort, kidnaps=()):
         events.append(f"  - {{at: 0, escort: {{count: {count}, near: {near}, far: {far}}}}}")
     events += [f"  - {{at: {at:.1f}, kidnap: }}" for at in kidnaps]
     path.write_text("events:\n" + "\n".join(events) + "\n")
-
-
-def read_claims(path):
-    with open(path, newline="", encoding="ascii") as file:
-        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
 
 
 class Bench:
@@ -94,20 +89,6 @@ class Bench:
                 if (i + 1) % 20 == 0:
                     print(f"   {i + 1} of {len(jobs)}, {time.monotonic() - started:.0f} s", file=sys.stderr)
         return results
-
-
-def error_m(row):
-    return math.hypot(row["x"] - row["true_x"], row["y"] - row["true_y"])
-
-
-def is_lost(row):
-    turned = abs((row["heading"] - row["true_heading"] + 180.0) % 360.0 - 180.0)
-    return row["has_pose"] == 0 or error_m(row) > LOST_M or turned > LOST_DEG
-
-
-def mean(values):
-    values = list(values)
-    return sum(values) / len(values) if values else float("nan")
 
 
 def filters_of(method):
@@ -359,5 +340,7 @@ def evaluate(bench, verdict, print_table, parts, is_slice, methods, seeds=None):
         honesty(bench, verdict, print_table, museums, seeds or 30, DEFAULT[0])
     if "kidnap" in parts and not is_slice:
         kidnapping(bench, verdict, print_table, museums, seeds or 100)
+    if "active" in parts and not is_slice:
+        twins.active(bench, verdict, print_table, seeds or 20)
     if "recovery" in parts and not is_slice:
         recovery(bench, verdict, print_table, museums, seeds or 10, methods)

@@ -5,6 +5,7 @@
 
 #include "docent/modules/pose_tracker.h"
 #include "docent/planning/exploration/look_around.h"
+#include "docent/planning/exploration/tell_apart.h"
 #include "docent/planning/pursuit/pursuit.h"
 #include "docent/planning/value_iteration/route.h"
 
@@ -20,16 +21,21 @@ constexpr Duration kBeliefStaleAfter = std::chrono::seconds{3};
 struct PlanParams {
   RouteParams route;
   PursuitParams pursuit;
+  TellApartParams tell_apart;
+  bool active = true;           ///< lost: drives to where its hypotheses are told apart; else it only looks round
   double goal_tolerance = 0.2;  ///< [m] cells so near to the goal are goals
   template <class V>
   void visit(V& v) {
     v("route", route);
     v("pursuit", pursuit);
+    v("tell_apart", tell_apart);
+    v("active", active);
     v("goal_tolerance", goal_tolerance);
   }
   [[nodiscard]] Result<void> validate() const {
     if (!(goal_tolerance >= 0.0)) return fail("goal_tolerance must be >= 0");
     if (auto valid = route.validate(); !valid) return valid;
+    if (auto valid = tell_apart.validate(); !valid) return valid;
     return pursuit.validate();
   }
 };
@@ -47,6 +53,7 @@ class PlanModule final : public Module {
         params_{params},
         route_{context.museum.map, polygons_of(context.museum.hazards), context.museum.area, params.route},
         pursuit_{params.pursuit},
+        tell_apart_{context.museum.map, context.config.body().radius, params.tell_apart},
         base_from_laser_{context.config.body().scan_front.base_from_sensor(),
                          context.config.body().scan_rear.base_from_sensor()},
         target_{bus_.publisher(topics::kTarget)},
@@ -56,7 +63,11 @@ class PlanModule final : public Module {
     static_cells_ = coarse.cells;
     obstacles_.assign(route_.frame().size(), false);
 
-    bus_.subscribe<docent_msgs::Belief>(topics::kBelief, [this](const auto& belief) { pose_.on_belief(belief); });
+    bus_.subscribe<docent_msgs::Belief>(topics::kBelief, [this](const auto& belief) {
+      pose_.on_belief(belief);
+      hypotheses_ = belief.hypotheses;
+      odom_at_belief_ = from_message(belief.odom_pose);
+    });
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry,
                                        [this](const auto& odometry) { pose_.on_odometry(odometry); });
     bus_.subscribe<sensor_msgs::LaserScan>(topics::kScanFront, [this](const auto& scan) { scans_[0] = scan; });
@@ -142,7 +153,7 @@ class PlanModule final : public Module {
     pursuit.state = pose_.localized() ? "arrived" : "waiting";
     pursuit.reason = pose_.localized() ? "" : "looking around to find the position";
     if (!pose_.localized() && pose_.odom_from_base()) {
-      const auto step = look_around_.step(*pose_.odom_from_base(), clearances(now), now);
+      const auto step = look_around(now);
       target.mode = step.drive ? "drive" : "turn";
       target.heading = step.heading.radians();
       if (step.drive) {
@@ -153,6 +164,20 @@ class PlanModule final : public Module {
     }
     target_.publish(std::move(target));
     publish_state(pursuit);
+  }
+
+  LookAroundStep look_around(Time now) {
+    const auto free = clearances(now);
+    const auto telling = [&]() -> std::optional<Point2> {
+      if (!params_.active || !pose_.map_from_odom()) return std::nullopt;
+      // The hypotheses are those of the last update: odometry carries them on.
+      const Pose2 moved = inverse(odom_at_belief_) * *pose_.odom_from_base();
+      std::vector<PossiblePose> possible;
+      for (const auto& h : hypotheses_) possible.push_back({Pose2{h.x, h.y, Angle::radians(h.theta)} * moved, h.mass});
+      const auto place = tell_apart_.best_place(possible, free, static_cast<double>(scans_[0].range_max));
+      return place ? std::optional{place->in_base} : std::nullopt;
+    };
+    return look_around_.step(*pose_.odom_from_base(), free, telling, now);
   }
 
   /// The smaller of real and virtual measurements in every direction; empty when any is missing or old.
@@ -229,11 +254,14 @@ class PlanModule final : public Module {
   RoutePlanner route_;
   GoalPursuit pursuit_;
   LookAround look_around_;
+  TellApart tell_apart_;
   std::array<Pose2, 2> base_from_laser_;
   Publisher<docent_msgs::Target> target_;
   Publisher<docent_msgs::GoalState> goal_state_;
   Publisher<nav_msgs::Path> path_;
   PoseTracker pose_;
+  std::vector<docent_msgs::Hypothesis> hypotheses_;  ///< of the last belief
+  Pose2 odom_at_belief_;
   docent_msgs::DriveGoal goal_;
   std::array<sensor_msgs::LaserScan, 2> scans_;
   sensor_msgs::LaserScan virtual_scan_;

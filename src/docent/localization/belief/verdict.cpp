@@ -29,6 +29,7 @@ Evidence with_best_mode(Evidence evidence, const BeliefSummary& summary, const s
   if (summary.modes.empty()) return evidence;
   const BeliefMode& best = summary.modes.front();
   evidence.mass = best.mass;
+  evidence.rival = summary.modes.size() > 1 ? summary.modes[1].mass : 0.0;
   evidence.entropy = summary.entropy;
   evidence.spread = std::sqrt(std::max(0.0, best.covariance[0] + best.covariance[4]));
   if (predicted) {
@@ -98,6 +99,7 @@ void Verdict::add(const Evidence& evidence) {
   if (!localized_ && contradicted) confirmed_ = way_ = turn_ = 0.0;
 
   mass_ = evidence.mass;
+  rival_ = evidence.rival;
   entropy_ = evidence.entropy;
 }
 
@@ -115,7 +117,8 @@ double Verdict::p_lost() const {
   const double z = w.bias + w.mass * std::log(left / (1.0 - left)) + w.youth * (1.0 - confirmation()) +
                    w.contradiction * contradiction_ + w.surprise * glance_.through +
                    w.disagreement * (1.0 - agreement_) + w.hidden * hidden_ + w.entropy * entropy_;
-  return 1.0 / (1.0 + std::exp(-z));
+  const double right = 1.0 / (1.0 + std::exp(z));
+  return 1.0 - right * mass_ / (mass_ + rival_);
 }
 
 double Verdict::moved() const {

@@ -41,6 +41,7 @@ struct VerdictParams {
 struct Evidence {
   double weight = 1.0;                               ///< of the update, 0..1
   double mass = 0.0;                                 ///< of the best mode
+  double rival = 0.0;                                ///< mass of the second best mode
   double spread = 0.0;                               ///< [m]
   double entropy = 0.0;                              ///< [nat] of the whole belief
   bool is_same_mode = false;                         ///< the mode of the last update, moved by odometry
@@ -70,6 +71,8 @@ class Verdict {
   [[nodiscard]] bool localized() const { return localized_; }
   /// Probability that the best hypothesis is wrong: a logistic function of what its mass leaves, of how far it has been
   /// confirmed and of how the readings agree with it. Its weights are learned, see scripts/evaluation/calibration.py.
+  /// Besides, the second best mode may be the right one, as probably as the two share their mass: a building in which
+  /// two places look the same need not have been among those that were learned from.
   [[nodiscard]] double p_lost() const;
   /// Readings pass through walls of the map, so many that the place must be wrong, or for long nothing of the map was
   /// seen at all.
@@ -93,6 +96,7 @@ class Verdict {
   VerdictParams params_;
   bool localized_ = false;
   double mass_ = 0.0;     ///< of the best mode
+  double rival_ = 0.0;    ///< of the second best
   double entropy_ = 0.0;  ///< [nat]
   Glance glance_;
   double shorter_ = 0.0;  ///< Glance::shorter, running mean

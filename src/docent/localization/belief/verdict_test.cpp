@@ -45,6 +45,15 @@ TEST(Verdict, DoubtFallsWithConfirmationAndIsSmallWhenSure) {
   EXPECT_LT(sure().p_lost(), 0.01);
 }
 
+TEST(Verdict, ATwinPlaceIsDoubtHoweverWellTheReadingsFit) {
+  Verdict verdict = sure();
+  Evidence twin = good();
+  twin.mass = 0.7;
+  twin.rival = 0.3;
+  verdict.add(twin);
+  EXPECT_GE(verdict.p_lost(), 0.3);
+}
+
 TEST(Verdict, OneSweepThroughWallsRaisesTheDoubtAtOnce) {
   Verdict verdict = sure();
   const double before = verdict.p_lost();

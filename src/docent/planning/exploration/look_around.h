@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 
@@ -14,9 +15,9 @@ struct LookAroundStep {
   Angle heading{};     ///< odom: where to turn
 };
 
-/// Moves a robot that does not know where it is (architecture 8.4): a full turn on the spot, then a short drive into
-/// the widest direction that its sensors and the virtual measurements of its whole belief leave free, then another
-/// turn.
+/// Moves a robot that does not know where it is (architecture 8.4): to where its hypotheses are told apart, where it
+/// has such; else a full turn on the spot, then a short drive into the widest direction that its sensors and the
+/// virtual measurements of its whole belief leave free, then another turn.
 class LookAround {
  public:
   /// Starts over.
@@ -24,14 +25,21 @@ class LookAround {
   /// @param odom_from_base  where the robot is, odometry
   /// @param clearances  [180] free distance [m] round the robot, every 2 degrees from -180, base frame: the smaller of
   /// real and virtual measurements; empty: not known, only turning is safe
-  [[nodiscard]] LookAroundStep step(const Pose2& odom_from_base, std::span<const double> clearances, Time now);
+  /// @param telling  base frame [m]: a free place from which the hypotheses can be told apart, if there is one; asked
+  /// for only where a drive may begin
+  [[nodiscard]] LookAroundStep step(const Pose2& odom_from_base, std::span<const double> clearances,
+                                    const std::function<std::optional<Point2>()>& telling, Time now);
 
  private:
+  [[nodiscard]] LookAroundStep drive_to(Point2 in_odom, Time now);
+  [[nodiscard]] LookAroundStep turn_on(const Pose2& odom_from_base);
+
   enum class Phase { turning, driving } phase_ = Phase::turning;
   double turned_ = 0.0;  ///< [rad] in this turn
   std::optional<Angle> last_heading_;
   std::optional<Point2> aim_;
   Time phase_start_{};
+  std::optional<Time> asked_;  ///< when `telling` was asked last
 };
 
 }  // namespace docent

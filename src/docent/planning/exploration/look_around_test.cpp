@@ -11,7 +11,8 @@ namespace {
 std::optional<LookAroundStep> turn_until_drive(LookAround& look, const std::vector<double>& clearances, double limit) {
   Pose2 pose{1, 1, {}};
   for (double t = 0.0; t < limit; t += 0.25) {
-    const auto step = look.step(pose, clearances, time_from_seconds(t));
+    const auto step = look.step(
+        pose, clearances, [] { return std::nullopt; }, time_from_seconds(t));
     if (step.drive) return step;
     pose.theta = pose.theta + Angle::degrees(10);
   }
