@@ -174,8 +174,13 @@ class PlanModule final : public Module {
       const Pose2 moved = inverse(odom_at_belief_) * *pose_.odom_from_base();
       std::vector<PossiblePose> possible;
       for (const auto& h : hypotheses_) possible.push_back({Pose2{h.x, h.y, Angle::radians(h.theta)} * moved, h.mass});
-      const auto place = tell_apart_.best_place(possible, free, static_cast<double>(scans_[0].range_max));
-      return place ? std::optional{place->in_base} : std::nullopt;
+      std::optional<Point2> last;
+      if (telling_goal_) last = inverse(*pose_.odom_from_base()) * *telling_goal_;
+      const auto place = tell_apart_.best_place(possible, free, static_cast<double>(scans_[0].range_max), last);
+      telling_goal_.reset();
+      if (!place) return std::nullopt;
+      telling_goal_ = *pose_.odom_from_base() * place->goal;
+      return place->in_base;
     };
     return look_around_.step(*pose_.odom_from_base(), free, telling, now);
   }
@@ -255,6 +260,7 @@ class PlanModule final : public Module {
   GoalPursuit pursuit_;
   LookAround look_around_;
   TellApart tell_apart_;
+  std::optional<Point2> telling_goal_;  ///< odom: where it drives to tell its hypotheses apart
   std::array<Pose2, 2> base_from_laser_;
   Publisher<docent_msgs::Target> target_;
   Publisher<docent_msgs::GoalState> goal_state_;

@@ -82,20 +82,35 @@ void MarkovLocalizer::start_unknown() {
   last_work_ = 0.0;
   verdict_.reset();
   refiner_.reset();
+  rivals_.forget();
   summarise_now();
 }
 
 void MarkovLocalizer::start_at(std::span<const BeliefMode> modes, const Pose2& odom_from_robot, Time time) {
   odom_from_robot_ = odom_from_robot;
   odom_from_frame_ = {odom_from_robot.x, odom_from_robot.y, Angle{}};
-  std::vector<BeliefMode> of_frame{modes.begin(), modes.end()};
-  for (BeliefMode& mode : of_frame) mode.map_from_robot = mode.map_from_robot * inverse(frame_from_robot());
-  belief_.make_modes(of_frame, 1e-4);
+  believe(modes);
   started_ = true;
   last_update_ = time;
   last_work_ = 0.0;
   verdict_.assume_localized();
   refiner_.reset();
+  rivals_.forget();
+  summarise_now();
+}
+
+void MarkovLocalizer::believe(std::span<const BeliefMode> modes) {
+  std::vector<BeliefMode> of_frame{modes.begin(), modes.end()};
+  for (BeliefMode& mode : of_frame) mode.map_from_robot = mode.map_from_robot * inverse(frame_from_robot());
+  belief_.make_modes(of_frame, 1e-4);
+}
+
+void MarkovLocalizer::keep_rivals(const RangeSweep& sweep, const Pose2& before_from_after) {
+  if (verdict_.localized()) return rivals_.forget();
+  rivals_.follow(summary_, sweep, before_from_after, caster_, params_.sensor.max_range);
+  const auto modes = rivals_.restored(summary_);
+  if (!modes) return;
+  believe(*modes);
   summarise_now();
 }
 
@@ -173,6 +188,7 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   step.beams_filtered = choice.filtered;
 
   summarise_now();
+  keep_rivals(sweep, before_from_after);
   if (!summary_.modes.empty()) {
     const MotionNoise noise = motion_noise(params_.motion, before_from_after);
     BeliefMode& best = summary_.modes.front();
@@ -253,6 +269,7 @@ void MarkovLocalizer::judge(const Evidence& evidence, const std::optional<Pose2>
   if (!verdict_.collapsed()) return;
   belief_.flood(0.9);
   verdict_.reset();
+  rivals_.forget();
   summarise_now();
 }
 

@@ -9,6 +9,7 @@
 #include "docent/base/time.h"
 #include "docent/localization/belief/localizer.h"
 #include "docent/localization/belief/pose_refiner.h"
+#include "docent/localization/belief/rivals.h"
 #include "docent/localization/markov/beam_filter.h"
 #include "docent/localization/markov/position_belief.h"
 #include "docent/motion_models/odometry_model.h"
@@ -112,6 +113,8 @@ class MarkovLocalizer final : public Localizer {
   [[nodiscard]] std::optional<double> fit(const RangeSweep& seen, std::span<const BinnedBeam> beams) const;
   void move(const Pose2& before_from_after);
   void summarise_now();
+  void believe(std::span<const BeliefMode> modes);
+  void keep_rivals(const RangeSweep& sweep, const Pose2& before_from_after);
   [[nodiscard]] Pose2 frame_from_robot() const { return inverse(odom_from_frame_) * odom_from_robot_; }
   void judge(const Evidence& evidence, const std::optional<Pose2>& predicted);
   [[nodiscard]] int bin_of(const SweepBeam& beam) const { return beam.no_return ? kNoReturn : model_.bin(beam.range); }
@@ -125,6 +128,7 @@ class MarkovLocalizer final : public Localizer {
   PositionBelief belief_;
   Verdict verdict_;
   PoseRefiner refiner_;
+  Rivals rivals_;
   Rng rng_;
   /// The belief is over a frame that goes along with the robot in whole cells and never turns, as odometry sees it:
   /// what odometry knows well need not be blurred by the grid. Between the two lie some centimetres and the robot's

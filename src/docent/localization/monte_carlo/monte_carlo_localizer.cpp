@@ -77,10 +77,11 @@ void MonteCarloLocalizer::start_unknown() {
   last_work_ = 0.0;
   long_mean_ = short_mean_ = start_over_ = 0.0;
   verdict_.reset();
+  rivals_.forget();
   summarise_now();
 }
 
-void MonteCarloLocalizer::start_at(std::span<const BeliefMode> modes, const Pose2& odom_from_robot, Time time) {
+void MonteCarloLocalizer::believe(std::span<const BeliefMode> modes) {
   particles_.clear();
   const auto each = static_cast<std::size_t>(std::max(params_.least, params_.most / 20));
   double mass = 0.0;
@@ -99,12 +100,26 @@ void MonteCarloLocalizer::start_at(std::span<const BeliefMode> modes, const Pose
       particles_.set(i, {x, y, theta}, static_cast<float>(mode.mass / mass / static_cast<double>(each)));
     }
   }
+}
+
+void MonteCarloLocalizer::keep_rivals(const RangeSweep& sweep, const Pose2& before_from_after) {
+  if (verdict_.localized()) return rivals_.forget();
+  rivals_.follow(summary_, sweep, before_from_after, caster_, shared_.sensor.max_range);
+  const auto modes = rivals_.restored(summary_);
+  if (!modes) return;
+  believe(*modes);
+  summarise_now();
+}
+
+void MonteCarloLocalizer::start_at(std::span<const BeliefMode> modes, const Pose2& odom_from_robot, Time time) {
+  believe(modes);
   odom_from_robot_ = odom_from_robot;
   started_ = true;
   last_update_ = time;
   last_work_ = 0.0;
   long_mean_ = short_mean_ = start_over_ = 0.0;
   verdict_.assume_localized();
+  rivals_.forget();
   summarise_now();
 }
 
@@ -188,6 +203,7 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
   step.beams_filtered = choice.filtered;
 
   summarise_now();
+  keep_rivals(sweep, before_from_after);
   if (!summary_.modes.empty()) {
     const Strata strata{static_cast<std::size_t>(params_.least), most_particles(),
                         static_cast<std::size_t>(params_.reserve), params_.resample_below, params_.kld};
@@ -327,6 +343,7 @@ void MonteCarloLocalizer::judge(const Evidence& evidence, const std::optional<Po
   if (!verdict_.collapsed()) return;
   start_over_ = 0.9;
   verdict_.reset();
+  rivals_.forget();
 }
 
 PositionDensity MonteCarloLocalizer::density() const {

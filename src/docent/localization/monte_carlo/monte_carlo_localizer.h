@@ -7,6 +7,7 @@
 
 #include "docent/base/random.h"
 #include "docent/localization/belief/localizer.h"
+#include "docent/localization/belief/rivals.h"
 #include "docent/localization/markov/beam_filter.h"
 #include "docent/localization/markov/markov_localizer.h"
 #include "docent/localization/monte_carlo/likelihood_field.h"
@@ -99,6 +100,8 @@ class MonteCarloLocalizer final : public Localizer {
   [[nodiscard]] std::vector<BeamCosts> grid_costs(const RangeSweep& sweep, std::span<const BinnedBeam> beams,
                                                   double temper) const;
   void summarise_now();
+  void believe(std::span<const BeliefMode> modes);
+  void keep_rivals(const RangeSweep& sweep, const Pose2& before_from_after);
   void judge(const Evidence& evidence, const std::optional<Pose2>& predicted);
   [[nodiscard]] std::optional<double> fit(const RangeSweep& sweep, std::span<const BinnedBeam> beams) const;
   [[nodiscard]] std::size_t most_particles() const;
@@ -115,6 +118,7 @@ class MonteCarloLocalizer final : public Localizer {
   InstructionSet instructions_;
   Verdict verdict_;
   PoseRefiner refiner_;
+  Rivals rivals_;
   Rng rng_;
   NoiseStreams noise_;
   ParticleSet particles_;

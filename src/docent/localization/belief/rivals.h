@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "docent/localization/belief/belief_summary.h"
+#include "docent/sensor_models/range_sweep.h"
+#include "docent/sensor_models/ray_caster.h"
+
+namespace docent {
+
+/// Places that nothing has told from the best one yet.
+///
+/// Scans from one spot err together: a wall that the survey has two centimetres off speaks for the wrong one of two
+/// places that look the same, in every scan, and the product of likelihoods is sure of it within seconds. So while the
+/// robot does not know where it is, every place that ever was a mode stays possible until readings differ from it
+/// grossly, by more than maps and poses are wrong, where they fit the best place. docs/decisions/0010.
+class Rivals {
+ public:
+  /// Takes in the modes of `summary`, carries on the ones it knows, and drops those that the sweep speaks against.
+  /// O(rivals * beams casts).
+  void follow(const BeliefSummary& summary, const RangeSweep& sweep, const Pose2& before_from_after,
+              const RayCaster& caster, double max_range);
+  void forget() { places_.clear(); }
+  /// The belief as it should be when evidence has all but ruled out a rival that nothing was seen to speak against: the
+  /// best mode and every rival with a fair share. nullopt: it is so already, or the belief is not concentrated on
+  /// modes.
+  [[nodiscard]] std::optional<std::vector<BeliefMode>> restored(const BeliefSummary& summary) const;
+
+ private:
+  struct Place {
+    BeliefMode mode;
+    double against = 0.0;  ///< sweeps that differ from it grossly
+  };
+  void take_in(const BeliefMode& mode, double least_mass);
+
+  std::vector<Place> places_;  ///< the best mode's among them
+};
+
+/// Of the beams of a sweep: how many fit the first pose and differ grossly from the second, and the other way round.
+struct GrossDifference {
+  int first_only = 0;
+  int second_only = 0;
+  int beams = 0;
+};
+[[nodiscard]] GrossDifference gross_difference(const RayCaster& caster, const RangeSweep& sweep, const Pose2& first,
+                                               const Pose2& second, double max_range);
+
+}  // namespace docent
