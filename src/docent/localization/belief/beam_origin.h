@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,14 +11,6 @@
 #include "docent/sensor_models/ray_caster.h"
 
 namespace docent {
-
-/// What a beam ended on, as far as a belief and a map can tell.
-enum class BeamOrigin : std::uint8_t {
-  unknown = 0,    ///< nothing came back, the map says nothing there, or the place of the robot is not known
-  map = 1,        ///< what the map holds
-  maybe_map = 2,  ///< short of the map, but so near to something in it that it may be this, a little displaced
-  not_map = 3,    ///< clear of everything in the map: a person or another unmapped thing
-};
 
 /// The inverse of the beam filters [Rhino1999] 3.1.7, [Minerva2000] 3.3: what they reject tells of people.
 struct PersonFilterParams {

@@ -1,0 +1,80 @@
+#include "docent/people/free_memory.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace docent {
+namespace {
+
+constexpr std::int32_t kSide = 160;  // cells
+constexpr double kCell = 0.1;        // [m]
+constexpr double kReach = 7.0;       // [m]
+constexpr std::int32_t kKept = 600;  // [0.1 s]: odometry drifts
+constexpr double kBeforeEnd = 0.2;   // [m] of a beam that may be its end already
+constexpr double kBody = 0.35;       // [m] the robot itself
+constexpr std::int32_t kStays = 10;  // [0.1 s] after an end, beams that pass through the cell graze what stands there
+
+std::size_t place_of(std::int32_t column, std::int32_t row) {
+  const auto wrapped = [](std::int32_t i) { return static_cast<std::size_t>(((i % kSide) + kSide) % kSide); };
+  return wrapped(row) * static_cast<std::size_t>(kSide) + wrapped(column);
+}
+
+std::int32_t index_of(double metres) { return static_cast<std::int32_t>(std::floor(metres / kCell)); }
+
+}  // namespace
+
+FreeMemory::FreeMemory() : cells_(static_cast<std::size_t>(kSide) * static_cast<std::size_t>(kSide)) {}
+
+const FreeMemory::Cell* FreeMemory::find(std::int32_t column, std::int32_t row) const {
+  const Cell& cell = cells_[place_of(column, row)];
+  const bool is_it = cell.column == column && cell.row == row && now_ - cell.time <= kKept;
+  return is_it ? &cell : nullptr;
+}
+
+FreeMemory::Cell& FreeMemory::touch(std::int32_t column, std::int32_t row) {
+  Cell& cell = cells_[place_of(column, row)];
+  if (cell.column != column || cell.row != row || now_ - cell.time > kKept) cell = {column, row, now_};
+  cell.time = now_;
+  return cell;
+}
+
+void FreeMemory::add(const RangeSweep& sweep, const Pose2& odom_from_base, Time time) {
+  now_ = static_cast<std::int32_t>(time.nanoseconds / 100'000'000);
+  const Point2 from = odom_from_base.position();
+  for (const SweepBeam& beam : sweep.beams) {
+    const Point2 ray = unit(odom_from_base.theta + Angle::radians(beam.bearing));
+    const double free = std::min(kReach, beam.range - kBeforeEnd);
+    for (double way = kBody; way < free; way += kCell) {
+      Cell& cell = touch(index_of(from.x + way * ray.x), index_of(from.y + way * ray.y));
+      if (now_ - cell.end > kStays) cell.kind = Kind::free;
+    }
+  }
+  // Ends after ways: where one beam ends, another may have passed a hand's breadth away.
+  for (const SweepBeam& beam : sweep.beams) {
+    if (beam.no_return || beam.range > kReach) continue;
+    const Point2 end = odom_from_base * endpoint(beam);
+    Cell& cell = touch(index_of(end.x), index_of(end.y));
+    cell.end = now_;
+    if (cell.kind == Kind::free) cell.kind = Kind::come;
+    if (cell.kind == Kind::unknown) cell.kind = Kind::standing;
+  }
+}
+
+bool FreeMemory::has_come(Point2 in_odom) const {
+  const std::int32_t column = index_of(in_odom.x);
+  const std::int32_t row = index_of(in_odom.y);
+  int known = 0;
+  for (std::int32_t dr = -1; dr <= 1; ++dr) {
+    for (std::int32_t dc = -1; dc <= 1; ++dc) {
+      const Cell* cell = find(column + dc, row + dr);
+      if (cell == nullptr || cell->kind == Kind::unknown) continue;
+      if (cell->kind == Kind::standing) return false;
+      ++known;
+    }
+  }
+  constexpr int kMost = 6;  // of nine: behind the near side nobody looks
+  const Cell* here = find(column, row);
+  return here != nullptr && here->kind == Kind::come && known >= kMost;
+}
+
+}  // namespace docent
