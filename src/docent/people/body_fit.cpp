@@ -19,7 +19,6 @@ constexpr double kTooClose = 0.34;                           // [m] between cent
 constexpr double kOverlapPrice = 12.0;                       // [nat]
 constexpr double kCounts = 12.0;  // points that count fully on a body: neighbouring beams err together
 constexpr double kThingWidth = 0.7;
-constexpr double kThingGain = 3.0;  // [nat] that a thing must explain better
 constexpr std::size_t kThingPoints = 6;
 constexpr int kIterations = 7;
 
@@ -55,6 +54,11 @@ std::vector<std::size_t> settle(std::span<const Point2> points, double radius, s
   return owner;
 }
 
+bool is_known(Point2 centre, std::span<const Point2> known) {
+  return std::any_of(known.begin(), known.end(),
+                     [centre](Point2 place) { return distance(place, centre) < kKnownWithin; });
+}
+
 BodyFit judged(std::span<const Point2> points, double radius, std::vector<Point2> centres,
                std::span<const Point2> known) {
   const auto owner = settle(points, radius, centres);
@@ -66,14 +70,19 @@ BodyFit judged(std::span<const Point2> points, double radius, std::vector<Point2
     ++fit.bodies[owner[p]].points;
   }
   for (std::size_t c = 0; c < centres.size(); ++c) {
-    const bool is_known = std::any_of(known.begin(), known.end(),
-                                      [&](Point2 place) { return distance(place, centres[c]) < kKnownWithin; });
-    fit.cost += is_known ? kKnownPrice : kPrice;
+    fit.cost += is_known(centres[c], known) ? kKnownPrice : kPrice;
     fit.cost += costs[c] * std::min(1.0, kCounts / std::max(1, fit.bodies[c].points));
     for (std::size_t other = 0; other < c; ++other)
       if (distance(centres[c], centres[other]) < kTooClose) fit.cost += kOverlapPrice;
   }
   return fit;
+}
+
+/// What bodies cost where nobody is expected: a bench taken for two people must not stay two people for that.
+double full_price(const BodyFit& fit, std::span<const Point2> known) {
+  double cost = fit.cost;
+  for (const Body& body : fit.bodies) cost += is_known(body.centre, known) ? kPrice - kKnownPrice : 0.0;
+  return cost;
 }
 
 std::vector<Point2> spread_evenly(std::span<const Point2> points, Point2 sensor, std::size_t count, double radius) {
@@ -113,6 +122,15 @@ double face_cost(std::span<const Point2> points) {
   return cost * std::min(1.0, kCounts / static_cast<double>(points.size())) + kPrice;
 }
 
+/// Cost of two faces that meet at a corner.
+double corner_cost(std::span<const Point2> points) {
+  constexpr std::size_t kFace = 3;  // points
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t corner = kFace; corner + kFace <= points.size(); ++corner)
+    least = std::min(least, face_cost(points.first(corner)) + face_cost(points.subspan(corner)));
+  return least;
+}
+
 }  // namespace
 
 BodyFit fit_bodies(std::span<const Point2> points, Point2 sensor, std::span<const Point2> known) {
@@ -136,10 +154,10 @@ BodyFit fit_bodies(std::span<const Point2> points, Point2 sensor, std::span<cons
     if (!expected.empty() && expected.size() <= 8) offer(judged(points, radius, expected, known));
   }
   if (extent < kThingWidth || points.size() < kThingPoints) return best;
-  double thing = face_cost(points);
+  double thing = std::min(face_cost(points), corner_cost(points));
   for (const double radius : kThings)
     thing = std::min(thing, judged(points, radius, spread_evenly(points, sensor, 1, radius), {}).cost);
-  best.is_thing = thing < best.cost - kThingGain;
+  best.thing_gain = full_price(best, known) - thing;
   return best;
 }
 

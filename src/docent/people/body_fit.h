@@ -17,8 +17,10 @@ struct Body {
 /// The fewest discs of people's width that explain a run of points on their near sides.
 struct BodyFit {
   std::vector<Body> bodies;
-  double cost = 0.0;      ///< [nat], with the price of every body
-  bool is_thing = false;  ///< one straight face, or one disc wider than any person, explains the points better
+  double cost = 0.0;  ///< [nat], with the price of every body
+  /// [nat] by which one straight face, a corner, or one disc wider than any person explains the points better; very
+  /// negative where the points are too few or too close to tell.
+  double thing_gain = -10.0;
 };
 
 /// Fits one disc, two, … to the points. Centres move to where the points, pushed inward by a radius along their

@@ -1,6 +1,7 @@
 #include "docent/people/free_memory.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace docent {
@@ -61,8 +62,12 @@ void FreeMemory::add(const RangeSweep& sweep, const Pose2& odom_from_base, Time 
 }
 
 bool FreeMemory::has_come(Point2 in_odom) const {
+  constexpr int kMost = 8;  // of nine cells
+  constexpr std::array<std::array<std::int32_t, 2>, 4> kApart{{{2, 0}, {-2, 0}, {0, 2}, {0, -2}}};
   const std::int32_t column = index_of(in_odom.x);
   const std::int32_t row = index_of(in_odom.y);
+  const Cell* here = find(column, row);
+  if (here == nullptr || here->kind != Kind::come) return false;
   int known = 0;
   for (std::int32_t dr = -1; dr <= 1; ++dr) {
     for (std::int32_t dc = -1; dc <= 1; ++dc) {
@@ -72,9 +77,10 @@ bool FreeMemory::has_come(Point2 in_odom) const {
       ++known;
     }
   }
-  constexpr int kMost = 6;  // of nine: behind the near side nobody looks
-  const Cell* here = find(column, row);
-  return here != nullptr && here->kind == Kind::come && known >= kMost;
+  // The faces of walls and furniture waver from cell to cell.
+  for (const auto& [dc, dr] : kApart)
+    if (const Cell* cell = find(column + dc, row + dr); cell != nullptr && cell->kind == Kind::standing) return false;
+  return known >= kMost;
 }
 
 }  // namespace docent

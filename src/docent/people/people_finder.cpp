@@ -6,6 +6,8 @@ namespace {
 constexpr double kOdometryReset = 2.0;  // [m] between two sweeps: odometry has begun anew
 constexpr double kStands = 0.2;         // [m/s]
 constexpr double kHalf = 0.5;
+constexpr double kRatherThing = 1.0;       // [nat]
+constexpr double kSurelyThing = 3.5;       // [nat] in spite of motion: a body fitted to a face slides along it
 constexpr double kThingsSeenWithin = 6.0;  // [m]
 constexpr double kForEver = 1e9;           // [s]
 
@@ -55,9 +57,11 @@ void PeopleFinder::watch_things(const Sightlines& sightlines, const Pose2& map_f
 
 bool PeopleFinder::is_person(const PersonTrack& track, const std::optional<Pose2>& map_from_odom) const {
   if (!tracker_.is_confirmed(track)) return false;
-  if (params_.keeps_all || track.is_alive()) return true;
-  if (track.by_map < kHalf || track.thing > kHalf) return false;
-  return !map_from_odom || !things_.is_thing(*map_from_odom * track.person.position);
+  if (params_.keeps_all) return true;
+  // Even who was seen to move: where a thing stands, nobody stands, but tracks of those who pass may stay there.
+  if (map_from_odom && things_.is_thing(*map_from_odom * track.person.position)) return false;
+  if (track.thing_gain > (track.is_alive() ? kSurelyThing : kRatherThing)) return false;
+  return track.is_alive() || track.by_map > kHalf;
 }
 
 }  // namespace docent

@@ -10,10 +10,15 @@ namespace {
 constexpr double kLongest = 2.0;    // [s] that a prediction reaches
 constexpr double kSlowsDown = 0.8;  // [s] in which somebody unseen is thought to stop
 constexpr double kShare = 0.15;     // of a new sighting in the running shares
+constexpr double kShoulder = 0.38;  // [m] nobody stands nearer to another
+constexpr double kSoonGone = 0.3;   // [s]
 constexpr double kTwice = 0.25;     // [m] two tracks so near are one person
-constexpr int kCome = 3;            // sightings
+constexpr double kCome = 0.6;       // share
+constexpr int kSoon = 12;           // sightings: later the floor beside something may seem to be what it stands on
+constexpr int kAway = 4;            // sightings in a row: one may be of somebody who passes
 constexpr double kStands = 0.25;    // [m/s]
 constexpr double kNewcomer = 0.15;  // [m] that a track must be nearer than a confirmed one
+constexpr double kMostGain = 6.0;   // [nat] that one sighting says
 constexpr double kRadiusShare = 0.1;
 
 }  // namespace
@@ -30,7 +35,7 @@ Result<void> PeopleTrackerParams::validate() const {
   return {};
 }
 
-bool PersonTrack::is_alive() const { return moved || come >= kCome; }
+bool PersonTrack::is_alive() const { return moved || came; }
 
 void PeopleTracker::predict(Time time) {
   seconds_ = std::clamp(to_seconds(time - time_), 0.0, kLongest);
@@ -61,11 +66,15 @@ void PeopleTracker::correct(PersonTrack& track, const PersonSighting& sighting) 
   ++track.sightings;
   track.seen = time_;
   track.missed = 0.0;
-  track.come += sighting.has_come ? 1 : 0;
+  track.come += kShare * ((sighting.has_come ? 1.0 : 0.0) - track.come);
+  if (track.sightings >= params_.sightings && track.sightings <= kSoon && track.come > kCome) track.came = true;
   track.by_map += kShare * ((sighting.by_map ? 1.0 : 0.0) - track.by_map);
-  track.thing += kShare * ((sighting.is_thing ? 1.0 : 0.0) - track.thing);
+  track.thing_gain += kShare * (std::clamp(sighting.thing_gain, -kMostGain, kMostGain) - track.thing_gain);
   track.radius += kRadiusShare * (sighting.radius - track.radius);
-  if (distance(track.person.position, track.anchor) > params_.step) track.moved = true;
+  // What slides along an unmapped face does not stand where the floor was free.
+  const bool is_away = sighting.has_come && distance(track.person.position, track.anchor) > params_.step;
+  track.away = is_away ? track.away + 1 : 0;
+  if (track.away >= kAway) track.moved = true;
 }
 
 void PeopleTracker::miss(PersonTrack& track, const Sightlines& sightlines) const {
@@ -94,9 +103,9 @@ void PeopleTracker::begin(const PersonSighting& sighting) {
   track.radius = sighting.radius;
   track.seen = time_;
   track.anchor = sighting.position;
-  track.come = sighting.has_come ? 1 : 0;
+  track.come = sighting.has_come ? 1.0 : 0.0;
   track.by_map = sighting.by_map ? 1.0 : 0.0;
-  track.thing = sighting.is_thing ? 1.0 : 0.0;
+  track.thing_gain = std::clamp(sighting.thing_gain, -kMostGain, kMostGain);
   tracks_.push_back(track);
 }
 
@@ -117,8 +126,16 @@ void PeopleTracker::update(std::span<const PersonSighting> sightings, const Sigh
     track_taken[t] = sighting_taken[s] = true;
     correct(tracks_[t], sightings[s]);
   }
-  for (std::size_t t = 0; t < tracks_.size(); ++t)
-    if (!track_taken[t]) miss(tracks_[t], sightlines);
+  for (std::size_t t = 0; t < tracks_.size(); ++t) {
+    if (track_taken[t]) continue;
+    miss(tracks_[t], sightlines);
+    // Where somebody is seen, nobody else stands hidden.
+    for (std::size_t other = 0; other < tracks_.size(); ++other)
+      if (track_taken[other] && distance(tracks_[other].person.position, tracks_[t].person.position) < kShoulder) {
+        tracks_[t].missed += seconds_ / kSoonGone;
+        break;
+      }
+  }
   // The elder of two that came together stays.
   for (std::size_t t = 1; t < tracks_.size(); ++t)
     for (std::size_t elder = 0; elder < t; ++elder)

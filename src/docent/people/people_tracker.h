@@ -18,7 +18,7 @@ struct PeopleTrackerParams {
   int sightings = 3;              ///< before somebody counts
   double patience = 0.5;          ///< [s] not seen where they should be seen, then forgotten
   double patience_unclear = 1.2;  ///< [s] the same where the beams do not tell
-  double patience_hidden = 4.0;   ///< [s] hidden behind others
+  double patience_hidden = 2.0;   ///< [s] hidden behind others
   double fastest = 2.5;           ///< [m/s]
   double step = 0.45;             ///< [m] away from where they were first seen: moves, and is no thing
   template <class V>
@@ -48,13 +48,15 @@ struct PersonTrack {
   double pp = 0.0, pv = 0.0, vv = 0.0;  ///< covariance of position and velocity along an axis
   double radius = 0.22;                 ///< [m]
   int sightings = 1;
-  double missed = 0.0;  ///< 0..1 of the patience
-  Time seen;            ///< last
-  Point2 anchor;        ///< [m] where it was first seen, or last stood
-  bool moved = false;   ///< it has gone a step
-  int come = 0;         ///< sightings in which it stood where the floor was free before
-  double by_map = 0.0;  ///< running share of the sightings that are surely not the map
-  double thing = 0.0;   ///< running share of the sightings whose shape no person has
+  double missed = 0.0;      ///< 0..1 of the patience
+  Time seen;                ///< last
+  Point2 anchor;            ///< [m] where it was first seen, or last stood
+  int away = 0;             ///< sightings in a row a step away from the anchor
+  bool moved = false;       ///< it has gone a step
+  double come = 0.0;        ///< running share of the sightings where the floor was free before
+  bool came = false;        ///< it was seen to come, soon after it was first seen
+  double by_map = 0.0;      ///< running share of the sightings that are surely not the map
+  double thing_gain = 0.0;  ///< [nat] running mean, see BodyFit
   [[nodiscard]] bool is_seen_now(Time now) const { return seen == now; }
   /// It was seen to come or to go: then it is alive.
   [[nodiscard]] bool is_alive() const;

@@ -162,7 +162,7 @@ std::vector<PersonSighting> find_people(const PeopleSweep& seen, const FreeMemor
     const BodyFit fit = fit_bodies(points, seen.odom_from_base.position(), known);
     for (const Body& body : fit.bodies) {
       PersonSighting sighting = sighting_of(run, body);
-      sighting.is_thing = fit.is_thing;
+      sighting.thing_gain = fit.thing_gain;
       if (sighting.points >= params.least_points) people.push_back(sighting);
     }
   }

@@ -35,12 +35,12 @@ struct PeopleSweep {
 
 /// Something person-sized that the map does not hold, or that came to where the floor was free.
 struct PersonSighting {
-  Point2 position;        ///< [m] of its middle, odom
-  double radius = 0.22;   ///< [m] that fits best
-  int points = 0;         ///< beams on it
-  bool by_map = false;    ///< half of them or more are surely not the map
-  bool has_come = false;  ///< most of them end where the floor was free before
-  bool is_thing = false;  ///< of a shape that no person has: a bench, a panel, a broad column
+  Point2 position;          ///< [m] of its middle, odom
+  double radius = 0.22;     ///< [m] that fits best
+  int points = 0;           ///< beams on it
+  bool by_map = false;      ///< half of them or more are surely not the map
+  bool has_come = false;    ///< most of them end where the floor was free before
+  double thing_gain = 0.0;  ///< [nat] see BodyFit: above 0 its shape is rather a bench's, a panel's, a column's
 };
 
 /// People in a sweep [Rhino1999] 3.1.7, [Minerva2000] 3.3: what the inverse filter lets pass, and, where the map tells

@@ -7,6 +7,7 @@ namespace docent {
 namespace {
 
 constexpr int kSurelyFree = 5;                              // sweeps in a row
+constexpr double kJustBegun = 3.0;                          // [s]
 constexpr double kBody = 0.2;                               // [m]
 constexpr Duration kRemembered = std::chrono::minutes{30};  // without being seen again
 constexpr double kSlow = 0.05;                              // how fast a place follows what is seen there
@@ -40,7 +41,8 @@ void StandingThings::see(Point2 in_map, bool came, Time now) {
     Place& place = places_[static_cast<std::size_t>(known - places_.data())];
     place.stood += std::min(params_.unwatched, std::max(0.0, to_seconds(now - place.seen)));
     place.in_map = place.in_map + kSlow * (in_map - place.in_map);
-    place.came = place.came || came;
+    // A place that was taken before did not become free for a newcomer.
+    place.came = place.came || (came && place.stood < kJustBegun);
     place.seen = now;
     place.seen_free = 0;
     return;

@@ -10,8 +10,8 @@
 namespace docent {
 
 struct StandingThingParams {
-  double person_stands = 45.0;  ///< [s], > 0: how long visitors stand without a step, mean of an exponential
-  double person_odds = 20.0;    ///< > 1: of a person to a person-shaped thing where neither map nor motion tell
+  double person_stands = 40.0;  ///< [s], > 0: how long visitors stand without a step, mean of an exponential
+  double person_odds = 10.0;    ///< > 1: of a person to a person-shaped thing where neither map nor motion tell
   double same_place = 0.2;      ///< [m], > 0
   double unwatched = 20.0;      ///< [s], >= 0: a time out of sight counts at most so long
   template <class V>
