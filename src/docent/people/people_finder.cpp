@@ -9,6 +9,7 @@ constexpr double kHalf = 0.5;
 constexpr double kRatherThing = 1.0;       // [nat]
 constexpr double kSurelyThing = 3.5;       // [nat] in spite of motion: a body fitted to a face slides along it
 constexpr double kThingsSeenWithin = 6.0;  // [m]
+constexpr double kSolid = 0.4;             // share of the beams towards a person that end there: legs leave a gap
 constexpr double kForEver = 1e9;           // [s]
 
 PeopleTrackerParams tracker_of(const PeopleFinderParams& params) {
@@ -37,7 +38,12 @@ void PeopleFinder::update(const PeopleSweep& sweep, const std::optional<Pose2>& 
   const Sightlines sightlines{sweep.sweep, sweep.odom_from_base};
   memory_.add(sweep.sweep, sweep.odom_from_base, time);
   tracker_.predict(time);
-  tracker_.update(find_people(sweep, memory_, tracker_.places(), params_.sightings), sightlines);
+  std::vector<PersonSighting> sightings = find_people(sweep, memory_, tracker_.places(), params_.sightings);
+  // Most beams pass: glass that now and then returns one, or dust.
+  std::erase_if(sightings, [&](const PersonSighting& sighting) {
+    return sightlines.share_on(sighting.position, sighting.radius) < kSolid;
+  });
+  tracker_.update(sightings, sightlines);
   if (map_from_odom) watch_things(sightlines, *map_from_odom, sweep.odom_from_base, time);
   people_.clear();
   for (const PersonTrack& track : tracker_.tracks())

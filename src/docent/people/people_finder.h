@@ -9,6 +9,7 @@
 #include "docent/people/free_memory.h"
 #include "docent/people/groups.h"
 #include "docent/people/people_tracker.h"
+#include "docent/people/sightlines.h"
 #include "docent/people/standing_things.h"
 
 namespace docent {
