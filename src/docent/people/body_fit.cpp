@@ -71,18 +71,12 @@ BodyFit judged(std::span<const Point2> points, double radius, std::vector<Point2
   }
   for (std::size_t c = 0; c < centres.size(); ++c) {
     fit.cost += is_known(centres[c], known) ? kKnownPrice : kPrice;
+    fit.misfit += costs[c];
     fit.cost += costs[c] * std::min(1.0, kCounts / std::max(1, fit.bodies[c].points));
     for (std::size_t other = 0; other < c; ++other)
       if (distance(centres[c], centres[other]) < kTooClose) fit.cost += kOverlapPrice;
   }
   return fit;
-}
-
-/// What bodies cost where nobody is expected: a bench taken for two people must not stay two people for that.
-double full_price(const BodyFit& fit, std::span<const Point2> known) {
-  double cost = fit.cost;
-  for (const Body& body : fit.bodies) cost += is_known(body.centre, known) ? kPrice - kKnownPrice : 0.0;
-  return cost;
 }
 
 std::vector<Point2> spread_evenly(std::span<const Point2> points, Point2 sensor, std::size_t count, double radius) {
@@ -102,8 +96,8 @@ double extent_of(std::span<const Point2> points) {
   return std::max(extent, distance(points.front(), points.back()));
 }
 
-/// Cost of one straight face: the line of least squares.
-double face_cost(std::span<const Point2> points) {
+/// Misfit of one straight face: the line of least squares.
+double face_misfit(std::span<const Point2> points) {
   Point2 mean;
   for (const Point2 point : points) mean = mean + point;
   mean = (1.0 / static_cast<double>(points.size())) * mean;
@@ -119,15 +113,15 @@ double face_cost(std::span<const Point2> points) {
   const Point2 along = unit(Angle::radians(0.5 * std::atan2(2.0 * xy, xx - yy)));
   double cost = 0.0;
   for (const Point2 point : points) cost += rim_cost(cross(along, point - mean), kNoise);
-  return cost * std::min(1.0, kCounts / static_cast<double>(points.size())) + kPrice;
+  return cost;
 }
 
-/// Cost of two faces that meet at a corner.
-double corner_cost(std::span<const Point2> points) {
+/// Misfit of two faces that meet at a corner.
+double corner_misfit(std::span<const Point2> points) {
   constexpr std::size_t kFace = 3;  // points
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t corner = kFace; corner + kFace <= points.size(); ++corner)
-    least = std::min(least, face_cost(points.first(corner)) + face_cost(points.subspan(corner)));
+    least = std::min(least, face_misfit(points.first(corner)) + face_misfit(points.subspan(corner)));
   return least;
 }
 
@@ -154,10 +148,15 @@ BodyFit fit_bodies(std::span<const Point2> points, Point2 sensor, std::span<cons
     if (!expected.empty() && expected.size() <= 8) offer(judged(points, radius, expected, known));
   }
   if (extent < kThingWidth || points.size() < kThingPoints) return best;
-  double thing = std::min(face_cost(points), corner_cost(points));
-  for (const double radius : kThings)
-    thing = std::min(thing, judged(points, radius, spread_evenly(points, sensor, 1, radius), {}).cost);
-  best.thing_gain = full_price(best, known) - thing;
+  // As many points count for a thing as for the people instead of whom it would stand there.
+  const auto count = static_cast<double>(best.bodies.size());
+  const double weight = std::min(1.0, kCounts * count / static_cast<double>(points.size()));
+  double thing = std::min(weight * face_misfit(points) + kPrice, weight * corner_misfit(points) + 2.0 * kPrice);
+  for (const double radius : kThings) {
+    const BodyFit column = judged(points, radius, spread_evenly(points, sensor, 1, radius), {});
+    thing = std::min(thing, weight * column.misfit + kPrice);
+  }
+  best.thing_gain = weight * best.misfit + kPrice * count - thing;
   return best;
 }
 

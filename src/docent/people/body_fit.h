@@ -17,7 +17,8 @@ struct Body {
 /// The fewest discs of people's width that explain a run of points on their near sides.
 struct BodyFit {
   std::vector<Body> bodies;
-  double cost = 0.0;  ///< [nat], with the price of every body
+  double cost = 0.0;    ///< [nat], with the price of every body
+  double misfit = 0.0;  ///< [nat] of all points, without it
   /// [nat] by which one straight face, a corner, or one disc wider than any person explains the points better; very
   /// negative where the points are too few or too close to tell.
   double thing_gain = -10.0;

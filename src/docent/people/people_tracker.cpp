@@ -68,7 +68,7 @@ void PeopleTracker::correct(PersonTrack& track, const PersonSighting& sighting) 
   track.missed = 0.0;
   track.come += kShare * ((sighting.has_come ? 1.0 : 0.0) - track.come);
   if (track.sightings >= params_.sightings && track.sightings <= kSoon && track.come > kCome) track.came = true;
-  track.by_map += kShare * ((sighting.by_map ? 1.0 : 0.0) - track.by_map);
+  if (sighting.is_mapped) track.by_map += kShare * ((sighting.by_map ? 1.0 : 0.0) - track.by_map);
   track.thing_gain += kShare * (std::clamp(sighting.thing_gain, -kMostGain, kMostGain) - track.thing_gain);
   track.radius += kRadiusShare * (sighting.radius - track.radius);
   // What slides along an unmapped face does not stand where the floor was free.

@@ -14,9 +14,12 @@ struct Point {
   double range = 0.0;
   std::size_t order = 0;  ///< of its beam by bearing
   bool by_map = false;
+  bool is_mapped = false;
   bool has_come = false;
 };
-using Run = std::vector<Point>;
+struct Run : std::vector<Point> {
+  bool are_legs = false;  ///< two narrow ones
+};
 
 /// Two beams on one body lie nearer to each other than this: the step at the rim of a disc, and the beams' distance.
 double neighbour_gap(double range) { return 0.10 + 0.05 * range; }
@@ -65,6 +68,7 @@ void join_legs(std::vector<Run>& runs, const SightingParams& params) {
       continue;
     }
     runs[i].insert(runs[i].end(), right.begin(), right.end());
+    runs[i].are_legs = true;
     runs.erase(runs.begin() + static_cast<std::ptrdiff_t>(i) + 1);
   }
 }
@@ -104,20 +108,35 @@ void keep_what_may_be_people(std::vector<Run>& runs, const Isolation& isolation,
 }
 
 PersonSighting sighting_of(const Run& run, const Body& body) {
+  constexpr double kRim = 0.15;  // [m]
   PersonSighting sighting;
   sighting.position = body.centre;
   sighting.radius = body.radius;
   int by_map = 0;
   int come = 0;
   for (const Point& point : run) {
-    if (std::abs(distance(point.at, body.centre) - body.radius) > 0.15) continue;
+    if (!run.are_legs && std::abs(distance(point.at, body.centre) - body.radius) > kRim) continue;
     ++sighting.points;
     by_map += point.by_map ? 1 : 0;
+    sighting.is_mapped = sighting.is_mapped || point.is_mapped;
     come += point.has_come ? 1 : 0;
   }
   sighting.by_map = by_map > 0 && 2 * by_map >= sighting.points;
   sighting.has_come = come > 0 && 2 * come >= sighting.points;
   return sighting;
+}
+
+/// Two legs are one body, unless two people are known to stand there, one half hidden.
+void join_bodies(BodyFit& fit, std::span<const Point2> points, Point2 sensor, std::span<const Point2> known) {
+  constexpr double kWithin = 0.4;   // [m]
+  constexpr double kRadius = 0.22;  // [m]
+  constexpr double kBehind = 0.1;   // [m] a body's middle behind the near side of its legs
+  const auto here = std::count_if(known.begin(), known.end(), [&](Point2 place) {
+    return std::any_of(points.begin(), points.end(), [&](Point2 point) { return distance(place, point) < kWithin; });
+  });
+  if (fit.bodies.size() < 2 || here >= 2) return;
+  const Point2 middle = 0.5 * (points.front() + points.back());
+  fit.bodies = {{middle + kBehind * unit(direction(sensor, middle)), kRadius, static_cast<int>(points.size())}};
 }
 
 }  // namespace
@@ -141,7 +160,8 @@ std::vector<PersonSighting> find_people(const PeopleSweep& seen, const FreeMemor
     const BeamOrigin origin = seen.origins[order[i]];
     if (beam.no_return || beam.range > params.range || origin == BeamOrigin::map) continue;
     const Point2 at = seen.odom_from_base * endpoint(beam);
-    const Point point{at, beam.range, i, origin == BeamOrigin::not_map, memory.has_come(at)};
+    const Point point{
+        at, beam.range, i, origin == BeamOrigin::not_map, origin != BeamOrigin::unknown, memory.has_come(at)};
     (origin == BeamOrigin::unknown ? unknown : unmapped).push_back(point);
   }
   std::vector<Run> runs = runs_of(unmapped, order.size());
@@ -159,7 +179,8 @@ std::vector<PersonSighting> find_people(const PeopleSweep& seen, const FreeMemor
     if (static_cast<int>(run.size()) < params.least_points) continue;
     points.clear();
     for (const Point& point : run) points.push_back(point.at);
-    const BodyFit fit = fit_bodies(points, seen.odom_from_base.position(), known);
+    BodyFit fit = fit_bodies(points, seen.odom_from_base.position(), known);
+    if (run.are_legs) join_bodies(fit, points, seen.odom_from_base.position(), known);
     for (const Body& body : fit.bodies) {
       PersonSighting sighting = sighting_of(run, body);
       sighting.thing_gain = fit.thing_gain;

@@ -39,6 +39,7 @@ struct PersonSighting {
   double radius = 0.22;     ///< [m] that fits best
   int points = 0;           ///< beams on it
   bool by_map = false;      ///< half of them or more are surely not the map
+  bool is_mapped = false;   ///< the map could tell
   bool has_come = false;    ///< most of them end where the floor was free before
   double thing_gain = 0.0;  ///< [nat] see BodyFit: above 0 its shape is rather a bench's, a panel's, a column's
 };
