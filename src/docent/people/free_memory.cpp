@@ -7,17 +7,20 @@
 namespace docent {
 namespace {
 
-constexpr std::int32_t kSide = 160;  // cells
+constexpr std::int32_t kSide = 128;  // cells
 constexpr double kCell = 0.1;        // [m]
-constexpr double kReach = 7.0;       // [m]
+constexpr double kReach = 6.2;       // [m]
 constexpr std::int32_t kKept = 600;  // [0.1 s]: odometry drifts
 constexpr double kBeforeEnd = 0.2;   // [m] of a beam that may be its end already
 constexpr double kBody = 0.35;       // [m] the robot itself
+constexpr std::int32_t kEvery = 2;   // [0.1 s]
 constexpr std::int32_t kStays = 10;  // [0.1 s] after an end, beams that pass through the cell graze what stands there
 
 std::size_t place_of(std::int32_t column, std::int32_t row) {
-  const auto wrapped = [](std::int32_t i) { return static_cast<std::size_t>(((i % kSide) + kSide) % kSide); };
-  return wrapped(row) * static_cast<std::size_t>(kSide) + wrapped(column);
+  static_assert((kSide & (kSide - 1)) == 0, "wraps by masking");
+  constexpr auto kMask = static_cast<std::uint32_t>(kSide - 1);
+  return static_cast<std::size_t>((static_cast<std::uint32_t>(row) & kMask) * static_cast<std::uint32_t>(kSide) +
+                                  (static_cast<std::uint32_t>(column) & kMask));
 }
 
 std::int32_t index_of(double metres) { return static_cast<std::int32_t>(std::floor(metres / kCell)); }
@@ -40,13 +43,16 @@ FreeMemory::Cell& FreeMemory::touch(std::int32_t column, std::int32_t row) {
 }
 
 void FreeMemory::add(const RangeSweep& sweep, const Pose2& odom_from_base, Time time) {
-  now_ = static_cast<std::int32_t>(time.nanoseconds / 100'000'000);
+  const auto now = static_cast<std::int32_t>(time.nanoseconds / 100'000'000);
+  if (now >= now_ && now - now_ < kEvery) return;  // every other sweep tells enough
+  now_ = now;
   const Point2 from = odom_from_base.position();
   for (const SweepBeam& beam : sweep.beams) {
     const Point2 ray = unit(odom_from_base.theta + Angle::radians(beam.bearing));
-    const double free = std::min(kReach, beam.range - kBeforeEnd);
-    for (double way = kBody; way < free; way += kCell) {
-      Cell& cell = touch(index_of(from.x + way * ray.x), index_of(from.y + way * ray.y));
+    const int steps = static_cast<int>((std::min(kReach, beam.range - kBeforeEnd) - kBody) / kCell) + 1;
+    Point2 at = (1.0 / kCell) * (from + kBody * ray);  // in cells
+    for (int i = 0; i < steps; ++i, at = at + ray) {
+      Cell& cell = touch(static_cast<std::int32_t>(std::floor(at.x)), static_cast<std::int32_t>(std::floor(at.y)));
       if (now_ - cell.end > kStays) cell.kind = Kind::free;
     }
   }

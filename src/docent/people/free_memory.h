@@ -31,8 +31,8 @@ class FreeMemory {
   [[nodiscard]] const Cell* find(std::int32_t column, std::int32_t row) const;
   Cell& touch(std::int32_t column, std::int32_t row);
 
-  std::vector<Cell> cells_;  ///< [kSide * kSide], wrapping round
-  std::int32_t now_ = 0;     ///< [0.1 s]
+  std::vector<Cell> cells_;      ///< [kSide * kSide], wrapping round
+  std::int32_t now_ = -1000000;  ///< [0.1 s]
 };
 
 }  // namespace docent

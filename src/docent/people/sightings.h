@@ -13,7 +13,7 @@ namespace docent {
 struct SightingParams {
   double range = 6.0;        ///< [m], > 0: people are looked for so far away
   int least_points = 2;      ///< beams on a person, at least
-  double legs_apart = 0.32;  ///< [m], >= 0: gap between two narrow things that may be the legs of one person, or one
+  double legs_apart = 0.38;  ///< [m], >= 0: gap between two narrow things that may be the legs of one person, or one
                              ///< person's sides beside another who stands before them
   double one_person = 0.6;   ///< [m], > 0: width of one person with legs apart
   template <class V>
