@@ -8,8 +8,7 @@
 
 namespace docent {
 
-/// Holds tracked people against the true ones, within 5 m of the robot. A track is right when a person is within 0.6 m
-/// of it; every person counts for one track at most, nearest pairs first.
+/// Holds tracked people against the true ones, within 5 m of the robot, by the rules of people_match.h.
 class PeopleScore {
  public:
   /// @param is_localized  tracks are in the map's frame: while the robot is lost they cannot be judged.

@@ -114,7 +114,8 @@ struct Belief {
   }
 };
 
-/// Endpoints of beams that the filters found too short for the map: people and other unmapped things.
+/// Endpoints of beams that the filters found too short for the map: people and other unmapped things. And the whole
+/// sweep that they are of, with what the map says of each beam, so that people can be followed where it says nothing.
 struct PersonBeams {
   static constexpr const char* kType = "docent_msgs/msg/PersonBeams";
   std_msgs::Header header;                ///< frame base_link
@@ -122,6 +123,10 @@ struct PersonBeams {
   std::vector<float> y;                   ///< [m]
   std::array<double, 3> map_from_base{};  ///< best pose at the stamp: x, y [m], theta [rad]
   bool localized = false;
+  std::array<double, 3> odom_from_base{};  ///< at the stamp
+  std::vector<float> bearings;             ///< [rad] of all valid beams, base_link
+  std::vector<float> ranges;               ///< [m] from base_link; negative: as far at least, nothing came back
+  std::vector<std::uint8_t> origins;       ///< 0 nobody knows, 1 the map, 2 likely not the map, 3 surely not the map
   template <class Self, class V>
   static void visit(Self& m, V& v) {
     v("header", m.header);
@@ -129,6 +134,10 @@ struct PersonBeams {
     v("y", m.y);
     v("map_from_base", m.map_from_base);
     v("localized", m.localized);
+    v("odom_from_base", m.odom_from_base);
+    v("bearings", m.bearings);
+    v("ranges", m.ranges);
+    v("origins", m.origins);
   }
 };
 
@@ -136,7 +145,7 @@ struct PersonBeams {
 struct Person {
   static constexpr const char* kType = "docent_msgs/msg/Person";
   std::uint32_t id = 0;
-  float x = 0;  ///< [m], map
+  float x = 0;  ///< [m], map or odom: see the header of People
   float y = 0;
   float vx = 0;  ///< [m/s]
   float vy = 0;
@@ -153,12 +162,18 @@ struct Person {
 /// Tracked people.
 struct People {
   static constexpr const char* kType = "docent_msgs/msg/People";
-  std_msgs::Header header;  ///< frame map
+  std_msgs::Header header;  ///< frame map on docent/people, frame odom on docent/people_odom
   std::vector<Person> people;
+  std::vector<std::uint32_t> groups;        ///< [people] the same number: they stand or walk together; 0: alone
+  std::array<double, 3> frame_from_base{};  ///< the robot at the stamp, in the message's frame: x, y [m], theta [rad]
+  bool localized = false;  ///< places in the map are known; without, `people` on docent/people is empty
   template <class Self, class V>
   static void visit(Self& m, V& v) {
     v("header", m.header);
     v("people", m.people);
+    v("groups", m.groups);
+    v("frame_from_base", m.frame_from_base);
+    v("localized", m.localized);
   }
 };
 
@@ -656,8 +671,9 @@ struct TrueState {
   double nearest_person_m = 0;  ///< outline to outline
   double blocked_beams = 0;     ///< fraction of the last laser sweep that ended on people
   std::vector<TruePerson> people;
-  double contact_seconds = 0;  ///< so far: time in which something was touched and the wheels turned
-  std::uint32_t visitors = 0;  ///< different people so far
+  double contact_seconds = 0;              ///< so far: time in which something was touched and the wheels turned
+  std::uint32_t visitors = 0;              ///< different people so far
+  std::vector<std::uint8_t> person_beams;  ///< [people] beams of the last sweep that ended on each, 255 or more as 255
   template <class Self, class V>
   static void visit(Self& m, V& v) {
     v("header", m.header);
@@ -674,6 +690,7 @@ struct TrueState {
     v("people", m.people);
     v("contact_seconds", m.contact_seconds);
     v("visitors", m.visitors);
+    v("person_beams", m.person_beams);
   }
 };
 

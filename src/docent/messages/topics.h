@@ -46,6 +46,7 @@ inline constexpr Topic<docent_msgs::Belief> kBelief{"docent/belief", Qos::state}
 inline constexpr Topic<geometry_msgs::PoseWithCovarianceStamped> kPose{"amcl_pose", Qos::state};
 inline constexpr Topic<docent_msgs::PersonBeams> kPersonBeams{"docent/person_beams", Qos::sensor};
 inline constexpr Topic<docent_msgs::People> kPeople{"docent/people", Qos::sensor};
+inline constexpr Topic<docent_msgs::People> kPeopleInOdom{"docent/people_odom", Qos::sensor};
 // Motion.
 inline constexpr Topic<sensor_msgs::LaserScan> kVirtualScan{"docent/virtual_scan", Qos::sensor};
 inline constexpr Topic<docent_msgs::DriveGoal> kDriveGoal{"docent/drive_goal", Qos::state};
@@ -81,8 +82,9 @@ void for_each_robot_topic(F&& f) {
   using namespace topics;
   f(kScanFront), f(kScanRear), f(kSonar), f(kOdometry), f(kBattery), f(kTactile), f(kCommandVelocity);
   f(kTransforms), f(kStaticTransforms), f(kStaticMap), f(kLiveMap), f(kLiveMapUpdate), f(kBelief), f(kPose);
-  f(kPersonBeams), f(kPeople), f(kVirtualScan), f(kDriveGoal), f(kGoalState), f(kTarget), f(kPath), f(kDrive);
-  f(kAvoidState), f(kRequest), f(kChoice), f(kRequestBoard), f(kMissionState), f(kTask), f(kTaskState), f(kEvent);
+  f(kPersonBeams), f(kPeople), f(kPeopleInOdom), f(kVirtualScan), f(kDriveGoal), f(kGoalState), f(kTarget), f(kPath);
+  f(kDrive), f(kAvoidState), f(kRequest), f(kChoice), f(kRequestBoard), f(kMissionState), f(kTask), f(kTaskState),
+      f(kEvent);
   f(kSay), f(kSpeechState), f(kHorn), f(kLimits), f(kHealth);
 }
 template <class F>

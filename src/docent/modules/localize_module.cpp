@@ -31,6 +31,7 @@ struct LocalizeParams {
   MarkovLocalizerParams markov;
   MonteCarloParams particles;
   SonarLocalizeParams sonar;
+  PersonFilterParams people;    ///< the inverse filter
   double person_range = 6.0;    ///< [m], > 0: how far away people are looked for
   bool dead_reckoning = false;  ///< crippled, for evaluation: odometry alone after the first "here"
   /// For evaluation: the best hypothesis is published so far off, while the cells of the belief stay true.
@@ -43,6 +44,7 @@ struct LocalizeParams {
     markov.visit(v);
     v("particles", particles);
     v("sonar", sonar);
+    v("people", people);
     v("person_range", person_range);
     v("dead_reckoning", dead_reckoning);
     v("best_pose_error_x", best_pose_error_x);
@@ -53,7 +55,7 @@ struct LocalizeParams {
     if (!(person_range > 0.0)) return fail("person_range must be > 0");
     if (method != "grid" && method != "particles" && method != "sonar")
       return fail("method must be grid, particles or sonar, not '" + method + "'");
-    for (const auto& valid : {particles.validate(), sonar.validate()})
+    for (const auto& valid : {particles.validate(), sonar.validate(), people.validate()})
       if (!valid) return valid;
     return markov.validate();
   }
@@ -210,8 +212,15 @@ class LocalizeModule final : public Module {
     message.localized = localized();
     if (const auto best = localizer_->map_from_robot(odom_from_base))
       message.map_from_base = {best->x, best->y, best->theta.radians()};
-    for (const std::size_t i : localizer_->unexpected_beams(sweep, odom_from_base, params_.person_range)) {
-      const Point2 end = endpoint(sweep.beams[i]);
+    message.odom_from_base = {odom_from_base.x, odom_from_base.y, odom_from_base.theta.radians()};
+    const auto origins = localizer_->origins(sweep, odom_from_base, params_.markov.sensor.max_range, params_.people);
+    for (std::size_t i = 0; i < sweep.beams.size(); ++i) {
+      const SweepBeam& beam = sweep.beams[i];
+      message.bearings.push_back(static_cast<float>(beam.bearing));
+      message.ranges.push_back(static_cast<float>(beam.no_return ? -beam.range : beam.range));
+      message.origins.push_back(static_cast<std::uint8_t>(origins[i]));
+      if (origins[i] != BeamOrigin::not_map || beam.range > params_.person_range) continue;
+      const Point2 end = endpoint(beam);
       message.x.push_back(static_cast<float>(end.x));
       message.y.push_back(static_cast<float>(end.y));
     }

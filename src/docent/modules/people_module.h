@@ -4,7 +4,8 @@
 
 namespace docent {
 
-/// `people`: people found by the inverse filter of `localize`, tracked in the map.
+/// `people`: people found by the inverse filter of `localize`, tracked in odometry's frame and published in it and in
+/// the map's.
 [[nodiscard]] Result<std::unique_ptr<Module>> make_people(const ModuleContext& context);
 
 }  // namespace docent

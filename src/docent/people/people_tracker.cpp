@@ -1,33 +1,60 @@
 #include "docent/people/people_tracker.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace docent {
+namespace {
+
+constexpr double kLongest = 2.0;    // [s] that a prediction reaches
+constexpr double kSlowsDown = 0.8;  // [s] in which somebody unseen is thought to stop
+constexpr double kShare = 0.15;     // of a new sighting in the running shares
+constexpr double kShoulder = 0.38;  // [m] nobody stands nearer to another
+constexpr double kSoonGone = 0.3;   // [s]
+constexpr double kTwice = 0.25;     // [m] two tracks so near are one person
+constexpr double kCome = 0.6;       // share
+constexpr int kSoon = 12;           // sightings: later the floor beside something may seem to be what it stands on
+constexpr int kAway = 4;            // sightings in a row: one may be of somebody who passes
+constexpr double kStands = 0.25;    // [m/s]
+constexpr double kNewcomer = 0.15;  // [m] that a track must be nearer than a confirmed one
+constexpr double kMostGain = 6.0;   // [nat] that one sighting says
+constexpr double kRadiusShare = 0.1;
+
+}  // namespace
 
 Result<void> PeopleTrackerParams::validate() const {
   if (!(gate > 0.0)) return fail("tracker.gate must be > 0");
   if (!(acceleration > 0.0)) return fail("tracker.acceleration must be > 0");
   if (!(sighting_noise > 0.0)) return fail("tracker.sighting_noise must be > 0");
   if (!(sightings >= 1)) return fail("tracker.sightings must be >= 1");
-  if (!(patience > 0.0)) return fail("tracker.patience must be > 0");
+  for (const double wait : {patience, patience_unclear, patience_hidden})
+    if (!(wait > 0.0)) return fail("tracker.patience, patience_unclear and patience_hidden must be > 0");
   if (!(fastest > 0.0)) return fail("tracker.fastest must be > 0");
+  if (!(step > 0.0)) return fail("tracker.step must be > 0");
   return {};
 }
 
-void PeopleTracker::predict(Track& track, double seconds) const {
-  track.person.position = track.person.position + seconds * track.person.velocity;
+bool PersonTrack::is_alive() const { return moved || came; }
+
+void PeopleTracker::predict(Time time) {
+  seconds_ = std::clamp(to_seconds(time - time_), 0.0, kLongest);
   const double q = params_.acceleration * params_.acceleration;
-  track.pp += seconds * (2.0 * track.pv + seconds * track.vv) + q * seconds * seconds * seconds / 3.0;
-  track.pv += seconds * track.vv + q * seconds * seconds / 2.0;
-  track.vv += q * seconds;
+  for (PersonTrack& track : tracks_) {
+    if (track.seen < time_) track.person.velocity = std::exp(-seconds_ / kSlowsDown) * track.person.velocity;
+    track.person.position = track.person.position + seconds_ * track.person.velocity;
+    track.pp += seconds_ * (2.0 * track.pv + seconds_ * track.vv) + q * seconds_ * seconds_ * seconds_ / 3.0;
+    track.pv += seconds_ * track.vv + q * seconds_ * seconds_ / 2.0;
+    track.vv += q * seconds_;
+  }
+  if (time > time_) time_ = time;
 }
 
-void PeopleTracker::correct(Track& track, Point2 seen) const {
+void PeopleTracker::correct(PersonTrack& track, const PersonSighting& sighting) const {
   const double noise = params_.sighting_noise * params_.sighting_noise;
   const double gain_position = track.pp / (track.pp + noise);
   const double gain_velocity = track.pv / (track.pp + noise);
-  const Point2 off = seen - track.person.position;
+  const Point2 off = sighting.position - track.person.position;
   track.person.position = track.person.position + gain_position * off;
   track.person.velocity = track.person.velocity + gain_velocity * off;
   const double speed = norm(track.person.velocity);
@@ -35,49 +62,95 @@ void PeopleTracker::correct(Track& track, Point2 seen) const {
   track.vv -= gain_velocity * track.pv;
   track.pv -= gain_position * track.pv;
   track.pp -= gain_position * track.pp;
+
+  ++track.sightings;
+  track.seen = time_;
+  track.missed = 0.0;
+  track.come += kShare * ((sighting.has_come ? 1.0 : 0.0) - track.come);
+  if (track.sightings >= params_.sightings && track.sightings <= kSoon && track.come > kCome) track.came = true;
+  if (sighting.is_mapped) track.by_map += kShare * ((sighting.by_map ? 1.0 : 0.0) - track.by_map);
+  track.thing_gain += kShare * (std::clamp(sighting.thing_gain, -kMostGain, kMostGain) - track.thing_gain);
+  track.radius += kRadiusShare * (sighting.radius - track.radius);
+  // What slides along an unmapped face does not stand where the floor was free.
+  const bool is_away = sighting.has_come && distance(track.person.position, track.anchor) > params_.step;
+  track.away = is_away ? track.away + 1 : 0;
+  if (track.away >= kAway) track.moved = true;
 }
 
-void PeopleTracker::update(std::span<const PersonSighting> sightings, Time time) {
-  const double seconds = std::max(0.0, to_seconds(time - time_));
-  if (time > time_) time_ = time;
-  for (Track& track : tracks_) predict(track, std::min(seconds, 2.0));
+void PeopleTracker::miss(PersonTrack& track, const Sightlines& sightlines) const {
+  double wait = params_.patience_unclear;
+  switch (sightlines.look(track.person.position, track.radius)) {
+    case Look::free:
+      wait = params_.patience;
+      break;
+    case Look::hidden:
+      // Who walks comes out on the other side soon, or has gone elsewhere.
+      wait = norm(track.person.velocity) > kStands ? 0.5 * params_.patience_hidden : params_.patience_hidden;
+      break;
+    case Look::unclear:
+      break;
+  }
+  // Who was not confirmed yet is forgotten sooner.
+  if (!is_confirmed(track)) wait = std::min(wait, 0.3 * params_.patience_unclear);
+  track.missed += seconds_ / wait;
+}
 
-  // Nearest first, each track and each sighting once.
+void PeopleTracker::begin(const PersonSighting& sighting) {
+  PersonTrack track;
+  track.person = {next_id_++, sighting.position, {}};
+  track.pp = params_.sighting_noise * params_.sighting_noise;
+  track.vv = 1.0;
+  track.radius = sighting.radius;
+  track.seen = time_;
+  track.anchor = sighting.position;
+  track.come = sighting.has_come ? 1.0 : 0.0;
+  track.by_map = sighting.by_map ? 1.0 : 0.0;
+  track.thing_gain = std::clamp(sighting.thing_gain, -kMostGain, kMostGain);
+  tracks_.push_back(track);
+}
+
+void PeopleTracker::update(std::span<const PersonSighting> sightings, const Sightlines& sightlines) {
+  // Nearest first, each track and each sighting once; those who are known before those who may be nobody.
   std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
-  for (std::size_t t = 0; t < tracks_.size(); ++t)
+  for (std::size_t t = 0; t < tracks_.size(); ++t) {
+    const double handicap = is_confirmed(tracks_[t]) ? 0.0 : kNewcomer;
     for (std::size_t s = 0; s < sightings.size(); ++s)
       if (const double off = distance(tracks_[t].person.position, sightings[s].position); off <= params_.gate)
-        pairs.emplace_back(off, t, s);
+        pairs.emplace_back(off + handicap, t, s);
+  }
   std::sort(pairs.begin(), pairs.end());
   std::vector<bool> track_taken(tracks_.size(), false);
   std::vector<bool> sighting_taken(sightings.size(), false);
   for (const auto& [off, t, s] : pairs) {
     if (track_taken[t] || sighting_taken[s]) continue;
     track_taken[t] = sighting_taken[s] = true;
-    correct(tracks_[t], sightings[s].position);
-    ++tracks_[t].sightings;
-    tracks_[t].seen = time_;
+    correct(tracks_[t], sightings[s]);
   }
-  // Who was not confirmed yet is forgotten sooner.
-  std::erase_if(tracks_, [this](const Track& track) {
-    const double patience = track.sightings >= params_.sightings ? params_.patience : 0.3 * params_.patience;
-    return to_seconds(time_ - track.seen) > patience;
-  });
-  for (std::size_t s = 0; s < sightings.size(); ++s) {
-    if (sighting_taken[s]) continue;
-    Track track;
-    track.person = {next_id_++, sightings[s].position, {}};
-    track.pp = params_.sighting_noise * params_.sighting_noise;
-    track.vv = 1.0;
-    track.seen = time_;
-    tracks_.push_back(track);
+  for (std::size_t t = 0; t < tracks_.size(); ++t) {
+    if (track_taken[t]) continue;
+    miss(tracks_[t], sightlines);
+    // Where somebody is seen, nobody else stands hidden.
+    for (std::size_t other = 0; other < tracks_.size(); ++other)
+      if (track_taken[other] && distance(tracks_[other].person.position, tracks_[t].person.position) < kShoulder) {
+        tracks_[t].missed += seconds_ / kSoonGone;
+        break;
+      }
   }
+  // The elder of two that came together stays.
+  for (std::size_t t = 1; t < tracks_.size(); ++t)
+    for (std::size_t elder = 0; elder < t; ++elder)
+      if (tracks_[elder].missed < 1.0 && !track_taken[t] &&
+          distance(tracks_[elder].person.position, tracks_[t].person.position) < kTwice)
+        tracks_[t].missed = 1.0;
+  std::erase_if(tracks_, [](const PersonTrack& track) { return track.missed >= 1.0; });
+  for (std::size_t s = 0; s < sightings.size(); ++s)
+    if (!sighting_taken[s]) begin(sightings[s]);
 }
 
-std::vector<TrackedPerson> PeopleTracker::people() const {
-  std::vector<TrackedPerson> result;
-  for (const Track& track : tracks_)
-    if (track.sightings >= params_.sightings) result.push_back(track.person);
+std::vector<Point2> PeopleTracker::places() const {
+  std::vector<Point2> result;
+  for (const PersonTrack& track : tracks_)
+    if (is_confirmed(track)) result.push_back(track.person.position);
   return result;
 }
 

@@ -48,8 +48,17 @@ Result<void> RobotConfig::set(const std::string& assignment) {
   if (equals == std::string::npos || dot == std::string::npos || dot > equals || dot == 0 || dot + 1 == equals) {
     return fail("--set " + assignment + ": expected section.key=value");
   }
-  const std::string text = assignment.substr(0, dot) + ":\n  " + assignment.substr(dot + 1, equals - dot - 1) + ": " +
-                           assignment.substr(equals + 1);
+  // Every further dot opens a part of the section.
+  std::string text;
+  std::string indent;
+  for (std::size_t from = 0; from < equals;) {
+    const std::size_t to = std::min(assignment.find('.', from), equals);
+    if (to == from || to + 1 == equals) return fail("--set " + assignment + ": expected section.key=value");
+    text += (from == 0 ? "" : "\n" + indent) + assignment.substr(from, to - from) + ":";
+    indent += "  ";
+    from = to + 1;
+  }
+  text += " " + assignment.substr(equals + 1);
   auto setting = YamlFile::parse(text, "--set " + assignment);
   if (!setting) return tl::unexpected<Error>(setting.error());
   settings_.push_back(std::move(*setting));

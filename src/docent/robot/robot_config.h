@@ -64,7 +64,8 @@ class RobotConfig {
   /// All defaults.
   RobotConfig();
   [[nodiscard]] static Result<RobotConfig> load(const std::filesystem::path& path);
-  /// `--set localize.beams=90`: section.key=value over what the file says.
+  /// `--set localize.beams=90`: section.key=value over what the file says; section.part.key=value where a section has
+  /// parts.
   [[nodiscard]] Result<void> set(const std::string& assignment);
 
   [[nodiscard]] const RobotBody& body() const { return body_; }

@@ -46,6 +46,29 @@ TEST(RobotConfig, SettingsGoOverTheFileAndTheLastWins) {
   EXPECT_FALSE(config.check_sections({}).has_value());
 }
 
+struct Legs {
+  Speeds speeds;
+  int count = 2;
+  template <class V>
+  void visit(V& v) {
+    v("speeds", speeds);
+    v("count", count);
+  }
+  [[nodiscard]] Result<void> validate() const { return speeds.validate(); }
+};
+
+TEST(RobotConfig, SettingsReachThePartsOfASection) {
+  RobotConfig config = config_of("legs:\n  speeds:\n    slow: 0.5\n");
+  ASSERT_TRUE(config.set("legs.speeds.fast=2").has_value());
+  ASSERT_TRUE(config.set("legs.count=4").has_value());
+  const auto legs = config.section<Legs>("legs");
+  ASSERT_TRUE(legs.has_value()) << legs.error().message;
+  EXPECT_EQ(legs->speeds.fast, 2.0);
+  EXPECT_EQ(legs->speeds.slow, 0.5);
+  EXPECT_EQ(legs->count, 4);
+  for (const char* bad : {"legs..fast=2", "legs.speeds.=2"}) EXPECT_FALSE(config.set(bad).has_value()) << bad;
+}
+
 TEST(RobotConfig, FaultsNameTheLineOfTheFileOrTheSetting) {
   RobotConfig config = config_of("# a comment\n\nspeeds:\n  slow: 0.5\n  medium: 0.7\n");
   ASSERT_TRUE(config.set("speeds.fast=2").has_value());

@@ -30,6 +30,14 @@ struct RangeSweep {
   std::vector<SweepBeam> beams;
 };
 
+/// What a beam ended on, as far as a belief and a map can tell.
+enum class BeamOrigin : std::uint8_t {
+  unknown = 0,    ///< nothing came back, the map says nothing there, or the place of the robot is not known
+  map = 1,        ///< what the map holds
+  maybe_map = 2,  ///< short of the map, but so near to something in it that it may be this, a little displaced
+  not_map = 3,    ///< clear of everything in the map: a person or another unmapped thing
+};
+
 /// Adds the valid beams of a reading. `base_from_sensor` is the sensor's place at the time of the sweep; multiply by
 /// the robot's motion where the reading is older. Beams without a return keep their direction. O(beams).
 void append(RangeSweep& sweep, const LaserReading& reading, const Pose2& base_from_sensor);

@@ -124,7 +124,7 @@ void Instruments::publish_scan(Time now, Sensor sensor, LaserScanner& scanner, c
   for (const std::int32_t person : sweep.persons) {
     if (person < 0) continue;
     ++blocked;
-    met_[static_cast<std::size_t>(person)] = true;
+    ++met_[static_cast<std::size_t>(person)];
   }
   blocked_share_ += static_cast<double>(blocked) / (2.0 * params.beams);
   const bool is_front = sensor == Sensor::laser_front;
@@ -132,7 +132,7 @@ void Instruments::publish_scan(Time now, Sensor sensor, LaserScanner& scanner, c
 }
 
 void Instruments::publish_scans(Time now, const Pose2& world_from_base, std::span<const Disc> people) {
-  met_.assign(people.size(), false);
+  met_.assign(people.size(), 0);
   blocked_share_ = 0.0;
   publish_scan(now, Sensor::laser_front, front_, world_from_base, people);
   publish_scan(now, Sensor::laser_rear, rear_, world_from_base, people);

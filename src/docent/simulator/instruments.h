@@ -32,8 +32,8 @@ class Instruments {
   void publish_battery(Time now, const Battery& battery);
   void publish_tactile(Time now, const std::vector<std::uint8_t>& segments);
 
-  /// People that a beam of the last sweep met.
-  [[nodiscard]] bool met(std::size_t person) const { return person < met_.size() && met_[person]; }
+  /// Beams of the last sweep of both scanners that met a person.
+  [[nodiscard]] int met(std::size_t person) const { return person < met_.size() ? met_[person] : 0; }
   [[nodiscard]] double blocked_share() const { return blocked_share_; }  ///< beams of the last sweep that met people
   /// True when a ray from the robot's centre within laser range reaches a person, past walls and other people.
   [[nodiscard]] bool sees(Point2 robot, std::size_t person, std::span<const Disc> people) const;
@@ -58,7 +58,7 @@ class Instruments {
   SonarRing ring_;
   Rng fault_rng_;
   std::array<std::optional<Fault>, 4> faults_;
-  std::vector<bool> met_;
+  std::vector<int> met_;
   double blocked_share_ = 0.0;
   bool skips_ = false;
   Time last_odometry_{};

@@ -259,7 +259,8 @@ class SimulatedMuseum::Impl {
           state.nearest_person_m, distance(person.position, pose.position()) - person.radius - body_.params().radius);
       state.people.push_back({person.id, static_cast<float>(person.position.x), static_cast<float>(person.position.y),
                               static_cast<float>(person.velocity.x), static_cast<float>(person.velocity.y),
-                              static_cast<float>(person.radius), instruments_.met(i)});
+                              static_cast<float>(person.radius), instruments_.met(i) > 0});
+      state.person_beams.push_back(static_cast<std::uint8_t>(std::min(instruments_.met(i), 255)));
     }
     tell(states_, std::move(state));
   }

@@ -7,6 +7,7 @@
 
 #include "docent/base/time.h"
 #include "docent/grid/occupancy_grid.h"
+#include "docent/localization/belief/beam_origin.h"
 #include "docent/localization/belief/belief_summary.h"
 #include "docent/localization/belief/verdict.h"
 #include "docent/sensor_models/range_sweep.h"
@@ -47,10 +48,9 @@ class Localizer {
   [[nodiscard]] virtual const BeliefSummary& summary() const = 0;  ///< as of the last update
   [[nodiscard]] virtual const Verdict& verdict() const = 0;
   [[nodiscard]] virtual const Pose2& odom_from_robot() const = 0;  ///< at the last update
-  /// Beams that the belief finds too short by the distance filter, and whose ends, seen from the best pose, lie clear
-  /// of everything in the map: people and other unmapped things. Indices into the sweep. Empty while not localized.
-  [[nodiscard]] virtual std::vector<std::size_t> unexpected_beams(const RangeSweep& sweep, const Pose2& odom_now,
-                                                                  double max_range) const = 0;
+  /// Entropy gains [nat] of the beams of a sweep, H(L | s) - H(L): above 0 the beam would make the robot less sure
+  /// ([Rhino1999] eq. 10). 0 where it would tell nothing; empty while the belief is too wide to ask.
+  [[nodiscard]] virtual std::vector<float> entropy_gains(const RangeSweep& sweep, const Pose2& odom_now) const = 0;
   [[nodiscard]] virtual PositionDensity density() const = 0;  ///< for pictures
   [[nodiscard]] virtual const RayCaster& caster() const = 0;
 
@@ -59,6 +59,10 @@ class Localizer {
     if (summary().modes.empty()) return std::nullopt;
     return summary().modes.front().map_from_robot * (inverse(odom_from_robot()) * odom_now);
   }
+  /// What the beams of a sweep ended on, by the inverse filter. All unknown while not localized: then nobody can say
+  /// what the map lets expect.
+  [[nodiscard]] std::vector<BeamOrigin> origins(const RangeSweep& sweep, const Pose2& odom_now, double max_range,
+                                                const PersonFilterParams& params) const;
 };
 
 }  // namespace docent

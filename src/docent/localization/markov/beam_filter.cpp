@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace docent {
 
@@ -87,6 +88,20 @@ bool rejects(BeamFilter filter, const ExpectedRanges& expected, const ProximityM
       return shorter() > kMayBeShort && confuses();
   }
   return false;
+}
+
+std::vector<float> entropy_gains(const ExpectedRanges& expected, const ProximityModel& model, const RangeSweep& seen,
+                                 int headings) {
+  std::vector<float> gains(seen.beams.size(), 0.0F);
+  const double step = 2.0 * std::numbers::pi / headings;
+  for (std::size_t i = 0; i < gains.size(); ++i) {
+    const SweepBeam& beam = seen.beams[i];
+    if (beam.no_return) continue;
+    const int direction = (static_cast<int>(std::lround(beam.bearing / step)) + headings) % headings;
+    // ExpectedRanges counts as [Markov1998] does, before minus after.
+    gains[i] = static_cast<float>(-expected.entropy_gain(direction, model.log_probabilities(model.bin(beam.range))));
+  }
+  return gains;
 }
 
 Agreement agreement(const ExpectedRanges& expected, const ProximityModel& model, int direction, int measured,

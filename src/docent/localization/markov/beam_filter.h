@@ -8,6 +8,7 @@
 #include "docent/localization/markov/position_belief.h"
 #include "docent/localization/markov/range_table.h"
 #include "docent/sensor_models/proximity_model.h"
+#include "docent/sensor_models/range_sweep.h"
 
 namespace docent {
 
@@ -51,6 +52,11 @@ enum class BeamFilter { none, entropy, distance, novelty };
 /// Whether a filter rejects a reading. `sureness` (theta of [Markov1998] 3.3, e.g. 0.99) is the distance filter's.
 [[nodiscard]] bool rejects(BeamFilter filter, const ExpectedRanges& expected, const ProximityModel& model,
                            int direction, int measured, double sureness);
+
+/// H(L | s) - H(L) [nat] of every beam, [Rhino1999] eq. 10: what its inverse filter asks. 0 without a return: dark
+/// things and mirrors are no people. `seen`: in the frame of the belief. O(beams * kExpectedRanges).
+[[nodiscard]] std::vector<float> entropy_gains(const ExpectedRanges& expected, const ProximityModel& model,
+                                               const RangeSweep& seen, int headings);
 
 /// How a reading compares with what the belief expects: the mass of the states for which it is what the map says,
 /// surely (with `sureness`, e.g. 0.99) shorter, or surely longer. All 0 where the map does not say or nothing came

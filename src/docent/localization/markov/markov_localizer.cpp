@@ -283,26 +283,11 @@ PositionDensity MarkovLocalizer::density() const {
   return density;
 }
 
-std::vector<std::size_t> MarkovLocalizer::unexpected_beams(const RangeSweep& sweep, const Pose2& odom_now,
-                                                           double max_range) const {
-  constexpr float kClear = 0.25F;  // [m] from anything in the map
-  std::vector<std::size_t> found;
-  if (!verdict_.localized() || likely_.empty()) return found;
-  const Pose2 best = *map_from_robot(odom_now);
-  const RangeSweep seen = seen_from(sweep, inverse(odom_from_frame_) * odom_now);
+std::vector<float> MarkovLocalizer::entropy_gains(const RangeSweep& sweep, const Pose2& odom_now) const {
+  if (likely_.empty()) return {};
   const ExpectedRanges expected{likely_, table_, space_.headings()};
-  const double step = space_.heading_step();
-  for (std::size_t i = 0; i < sweep.beams.size(); ++i) {
-    const SweepBeam& beam = sweep.beams[i];
-    if (beam.no_return || beam.range > max_range) continue;
-    auto direction = static_cast<int>(std::lround(seen.beams[i].bearing / step)) % space_.headings();
-    if (direction < 0) direction += space_.headings();
-    if (expected.shorter(direction, model_.shorter_probabilities(bin_of(seen.beams[i]))) <= params_.filter_sureness)
-      continue;
-    const float clearance = caster_.clearance(best * endpoint(beam));
-    if (clearance >= kClear) found.push_back(i);
-  }
-  return found;
+  return docent::entropy_gains(expected, model_, seen_from(sweep, inverse(odom_from_frame_) * odom_now),
+                               space_.headings());
 }
 
 }  // namespace docent

@@ -93,8 +93,7 @@ class MarkovLocalizer final : public Localizer {
   [[nodiscard]] const BeliefSummary& summary() const override { return summary_; }
   [[nodiscard]] const Verdict& verdict() const override { return verdict_; }
   [[nodiscard]] const Pose2& odom_from_robot() const override { return odom_from_robot_; }
-  [[nodiscard]] std::vector<std::size_t> unexpected_beams(const RangeSweep& sweep, const Pose2& odom_now,
-                                                          double max_range) const override;
+  [[nodiscard]] std::vector<float> entropy_gains(const RangeSweep& sweep, const Pose2& odom_now) const override;
   [[nodiscard]] PositionDensity density() const override;
   [[nodiscard]] const RayCaster& caster() const override { return caster_; }
 

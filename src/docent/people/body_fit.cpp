@@ -1,0 +1,163 @@
+#include "docent/people/body_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace docent {
+namespace {
+
+constexpr std::array<double, 3> kPeople{0.165, 0.22, 0.27};  // [m] radii
+constexpr std::array<double, 2> kThings{0.42, 0.65};         // [m] columns, globes, round tables
+constexpr double kNoise = 0.045;                             // [m] of the rim: sensor and clothes
+constexpr double kFarOff = 0.15;                             // [m] a point farther off the rim costs no more
+constexpr double kPrice = 5.0;                               // [nat] of a body
+constexpr double kKnownPrice = 3.0;                          // [nat] of a body where one is expected
+constexpr double kKnownWithin = 0.35;                        // [m]
+constexpr double kTooClose = 0.34;                           // [m] between centres
+constexpr double kOverlapPrice = 12.0;                       // [nat]
+constexpr double kCounts = 12.0;  // points that count fully on a body: neighbouring beams err together
+constexpr double kThingWidth = 0.7;
+constexpr std::size_t kThingPoints = 6;
+constexpr int kIterations = 7;
+
+double rim_cost(double off, double noise) {
+  const double bounded = std::min(std::abs(off), kFarOff);
+  return bounded * bounded / (2.0 * noise * noise);
+}
+
+/// Moves the centres to the points; returns the disc of each point.
+std::vector<std::size_t> settle(std::span<const Point2> points, double radius, std::vector<Point2>& centres) {
+  std::vector<std::size_t> owner(points.size(), 0);
+  for (int i = 0; i < kIterations; ++i) {
+    std::vector<Point2> sums(centres.size());
+    std::vector<int> counts(centres.size(), 0);
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t c = 0; c < centres.size(); ++c) {
+        const double off = std::abs(distance(points[p], centres[c]) - radius);
+        if (off < least) {
+          least = off;
+          owner[p] = c;
+        }
+      }
+      const Point2 inward = centres[owner[p]] - points[p];
+      const double way = norm(inward);
+      const Point2 middle = way > 1e-6 ? points[p] + (radius / way) * inward : points[p];
+      sums[owner[p]] = sums[owner[p]] + middle;
+      ++counts[owner[p]];
+    }
+    for (std::size_t c = 0; c < centres.size(); ++c)
+      if (counts[c] > 0) centres[c] = (1.0 / counts[c]) * sums[c];
+  }
+  return owner;
+}
+
+bool is_known(Point2 centre, std::span<const Point2> known) {
+  return std::any_of(known.begin(), known.end(),
+                     [centre](Point2 place) { return distance(place, centre) < kKnownWithin; });
+}
+
+BodyFit judged(std::span<const Point2> points, double radius, std::vector<Point2> centres,
+               std::span<const Point2> known) {
+  const auto owner = settle(points, radius, centres);
+  BodyFit fit;
+  std::vector<double> costs(centres.size(), 0.0);
+  for (const Point2 centre : centres) fit.bodies.push_back({centre, radius, 0});
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    costs[owner[p]] += rim_cost(distance(points[p], centres[owner[p]]) - radius, kNoise);
+    ++fit.bodies[owner[p]].points;
+  }
+  for (std::size_t c = 0; c < centres.size(); ++c) {
+    fit.cost += is_known(centres[c], known) ? kKnownPrice : kPrice;
+    fit.misfit += costs[c];
+    fit.cost += costs[c] * std::min(1.0, kCounts / std::max(1, fit.bodies[c].points));
+    for (std::size_t other = 0; other < c; ++other)
+      if (distance(centres[c], centres[other]) < kTooClose) fit.cost += kOverlapPrice;
+  }
+  return fit;
+}
+
+std::vector<Point2> spread_evenly(std::span<const Point2> points, Point2 sensor, std::size_t count, double radius) {
+  std::vector<Point2> centres;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto at = static_cast<std::size_t>((static_cast<double>(i) + 0.5) / static_cast<double>(count) *
+                                             static_cast<double>(points.size()));
+    const Point2 point = points[std::min(at, points.size() - 1)];
+    centres.push_back(point + radius * unit(direction(sensor, point)));
+  }
+  return centres;
+}
+
+double extent_of(std::span<const Point2> points) {
+  double extent = 0.0;
+  for (const Point2 point : points) extent = std::max(extent, distance(points.front(), point));
+  return std::max(extent, distance(points.front(), points.back()));
+}
+
+/// Misfit of one straight face: the line of least squares.
+double face_misfit(std::span<const Point2> points) {
+  Point2 mean;
+  for (const Point2 point : points) mean = mean + point;
+  mean = (1.0 / static_cast<double>(points.size())) * mean;
+  double xx = 0.0;
+  double yy = 0.0;
+  double xy = 0.0;
+  for (const Point2 point : points) {
+    const Point2 off = point - mean;
+    xx += off.x * off.x;
+    yy += off.y * off.y;
+    xy += off.x * off.y;
+  }
+  const Point2 along = unit(Angle::radians(0.5 * std::atan2(2.0 * xy, xx - yy)));
+  double cost = 0.0;
+  for (const Point2 point : points) cost += rim_cost(cross(along, point - mean), kNoise);
+  return cost;
+}
+
+/// Misfit of two faces that meet at a corner.
+double corner_misfit(std::span<const Point2> points) {
+  constexpr std::size_t kFace = 3;  // points
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t corner = kFace; corner + kFace <= points.size(); ++corner)
+    least = std::min(least, face_misfit(points.first(corner)) + face_misfit(points.subspan(corner)));
+  return least;
+}
+
+}  // namespace
+
+BodyFit fit_bodies(std::span<const Point2> points, Point2 sensor, std::span<const Point2> known) {
+  const double extent = extent_of(points);
+  const auto most = static_cast<std::size_t>(std::clamp(std::ceil(extent / 0.36), 1.0, 8.0));
+  const auto fewest = static_cast<std::size_t>(std::clamp(std::floor(extent / 0.8), 1.0, 8.0));
+  std::vector<Point2> expected;  // of the known: those whose near side is among the points
+  for (const Point2 place : known) {
+    if (std::any_of(points.begin(), points.end(), [&](Point2 point) { return distance(point, place) < 0.4; }))
+      expected.push_back(place);
+  }
+  BodyFit best;
+  best.cost = std::numeric_limits<double>::infinity();
+  const auto offer = [&](BodyFit fit) {
+    std::erase_if(fit.bodies, [](const Body& body) { return body.points == 0; });
+    if (fit.cost < best.cost) best = std::move(fit);
+  };
+  for (const double radius : kPeople) {
+    for (std::size_t count = fewest; count <= std::max(fewest, most); ++count)
+      offer(judged(points, radius, spread_evenly(points, sensor, count, radius), known));
+    if (!expected.empty() && expected.size() <= 8) offer(judged(points, radius, expected, known));
+  }
+  if (extent < kThingWidth || points.size() < kThingPoints) return best;
+  // As many points count for a thing as for the people instead of whom it would stand there.
+  const auto count = static_cast<double>(best.bodies.size());
+  const double weight = std::min(1.0, kCounts * count / static_cast<double>(points.size()));
+  double thing = std::min(weight * face_misfit(points) + kPrice, weight * corner_misfit(points) + 2.0 * kPrice);
+  for (const double radius : kThings) {
+    const BodyFit column = judged(points, radius, spread_evenly(points, sensor, 1, radius), {});
+    thing = std::min(thing, weight * column.misfit + kPrice);
+  }
+  best.thing_gain = weight * best.misfit + kPrice * count - thing;
+  return best;
+}
+
+}  // namespace docent

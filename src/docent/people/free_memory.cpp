@@ -1,0 +1,92 @@
+#include "docent/people/free_memory.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace docent {
+namespace {
+
+constexpr std::int32_t kSide = 128;  // cells
+constexpr double kCell = 0.1;        // [m]
+constexpr double kReach = 6.2;       // [m]
+constexpr std::int32_t kKept = 600;  // [0.1 s]: odometry drifts
+constexpr double kBeforeEnd = 0.2;   // [m] of a beam that may be its end already
+constexpr double kBody = 0.35;       // [m] the robot itself
+constexpr std::int32_t kEvery = 2;   // [0.1 s]
+constexpr std::int32_t kStays = 10;  // [0.1 s] after an end, beams that pass through the cell graze what stands there
+
+std::size_t place_of(std::int32_t column, std::int32_t row) {
+  static_assert((kSide & (kSide - 1)) == 0, "wraps by masking");
+  constexpr auto kMask = static_cast<std::uint32_t>(kSide - 1);
+  return static_cast<std::size_t>((static_cast<std::uint32_t>(row) & kMask) * static_cast<std::uint32_t>(kSide) +
+                                  (static_cast<std::uint32_t>(column) & kMask));
+}
+
+std::int32_t index_of(double metres) { return static_cast<std::int32_t>(std::floor(metres / kCell)); }
+
+}  // namespace
+
+FreeMemory::FreeMemory() : cells_(static_cast<std::size_t>(kSide) * static_cast<std::size_t>(kSide)) {}
+
+const FreeMemory::Cell* FreeMemory::find(std::int32_t column, std::int32_t row) const {
+  const Cell& cell = cells_[place_of(column, row)];
+  const bool is_it = cell.column == column && cell.row == row && now_ - cell.time <= kKept;
+  return is_it ? &cell : nullptr;
+}
+
+FreeMemory::Cell& FreeMemory::touch(std::int32_t column, std::int32_t row) {
+  Cell& cell = cells_[place_of(column, row)];
+  if (cell.column != column || cell.row != row || now_ - cell.time > kKept) cell = {column, row, now_};
+  cell.time = now_;
+  return cell;
+}
+
+void FreeMemory::add(const RangeSweep& sweep, const Pose2& odom_from_base, Time time) {
+  const auto now = static_cast<std::int32_t>(time.nanoseconds / 100'000'000);
+  if (now >= now_ && now - now_ < kEvery) return;  // every other sweep tells enough
+  now_ = now;
+  const Point2 from = odom_from_base.position();
+  for (const SweepBeam& beam : sweep.beams) {
+    const Point2 ray = unit(odom_from_base.theta + Angle::radians(beam.bearing));
+    const int steps = static_cast<int>((std::min(kReach, beam.range - kBeforeEnd) - kBody) / kCell) + 1;
+    Point2 at = (1.0 / kCell) * (from + kBody * ray);  // in cells
+    for (int i = 0; i < steps; ++i, at = at + ray) {
+      Cell& cell = touch(static_cast<std::int32_t>(std::floor(at.x)), static_cast<std::int32_t>(std::floor(at.y)));
+      if (now_ - cell.end > kStays) cell.kind = Kind::free;
+    }
+  }
+  // Ends after ways: where one beam ends, another may have passed a hand's breadth away.
+  for (const SweepBeam& beam : sweep.beams) {
+    if (beam.no_return || beam.range > kReach) continue;
+    const Point2 end = odom_from_base * endpoint(beam);
+    Cell& cell = touch(index_of(end.x), index_of(end.y));
+    cell.end = now_;
+    if (cell.kind == Kind::free) cell.kind = Kind::come;
+    if (cell.kind == Kind::unknown) cell.kind = Kind::standing;
+  }
+}
+
+bool FreeMemory::has_come(Point2 in_odom) const {
+  constexpr int kMost = 8;  // of nine cells
+  constexpr std::array<std::array<std::int32_t, 2>, 4> kApart{{{2, 0}, {-2, 0}, {0, 2}, {0, -2}}};
+  const std::int32_t column = index_of(in_odom.x);
+  const std::int32_t row = index_of(in_odom.y);
+  const Cell* here = find(column, row);
+  if (here == nullptr || here->kind != Kind::come) return false;
+  int known = 0;
+  for (std::int32_t dr = -1; dr <= 1; ++dr) {
+    for (std::int32_t dc = -1; dc <= 1; ++dc) {
+      const Cell* cell = find(column + dc, row + dr);
+      if (cell == nullptr || cell->kind == Kind::unknown) continue;
+      if (cell->kind == Kind::standing) return false;
+      ++known;
+    }
+  }
+  // The faces of walls and furniture waver from cell to cell.
+  for (const auto& [dc, dr] : kApart)
+    if (const Cell* cell = find(column + dc, row + dr); cell != nullptr && cell->kind == Kind::standing) return false;
+  return known >= kMost;
+}
+
+}  // namespace docent

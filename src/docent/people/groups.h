@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "docent/base/result.h"
+#include "docent/base/time.h"
+#include "docent/people/people_tracker.h"
+
+namespace docent {
+
+struct GroupParams {
+  double distance = 1.3;  ///< [m], > 0: who belongs together keeps so near
+  double speed = 0.4;     ///< [m/s], > 0: and goes as fast, in the same direction
+  double seconds = 2.0;   ///< [s], > 0: for so long
+  template <class V>
+  void visit(V& v) {
+    v("distance", distance);
+    v("speed", speed);
+    v("seconds", seconds);
+  }
+  [[nodiscard]] Result<void> validate() const;
+};
+
+/// Who stands or walks together.
+class Groups {
+ public:
+  explicit Groups(const GroupParams& params) : params_{params} {}
+  /// The group of each person: the lowest id among its members, 0 for who is alone. O(people^2 log people).
+  [[nodiscard]] std::vector<std::uint32_t> update(std::span<const TrackedPerson> people, Time now);
+
+ private:
+  GroupParams params_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, double> together_;  ///< [s] by ids; falls when they part
+  Time time_{};
+};
+
+}  // namespace docent

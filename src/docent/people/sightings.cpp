@@ -1,0 +1,193 @@
+#include "docent/people/sightings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "docent/people/body_fit.h"
+
+namespace docent {
+namespace {
+
+struct Point {
+  Point2 at;  ///< odom
+  double range = 0.0;
+  std::size_t order = 0;  ///< of its beam by bearing
+  bool by_map = false;
+  bool is_mapped = false;
+  bool has_come = false;
+};
+struct Run : std::vector<Point> {
+  bool are_legs = false;  ///< two narrow ones
+};
+
+/// Two beams on one body lie nearer to each other than this: the step at the rim of a disc, and the beams' distance.
+double neighbour_gap(double range) { return 0.10 + 0.05 * range; }
+
+double width_of(const Run& run) { return distance(run.front().at, run.back().at); }
+
+std::vector<std::size_t> by_bearing(const RangeSweep& sweep) {
+  std::vector<std::size_t> order(sweep.beams.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return sweep.beams[a].bearing < sweep.beams[b].bearing; });
+  return order;
+}
+
+/// Consecutive points without a step. `beams` in the whole turn; the last run may go on in the first.
+std::vector<Run> runs_of(const std::vector<Point>& points, std::size_t beams) {
+  constexpr std::size_t kMostSkipped = 3;  // stray readings between
+  std::vector<Run> runs;
+  const auto goes_on = [](const Point& a, const Point& b, std::size_t skipped) {
+    return skipped <= kMostSkipped && distance(a.at, b.at) <= neighbour_gap(std::min(a.range, b.range));
+  };
+  for (const Point& point : points) {
+    if (runs.empty() || !goes_on(runs.back().back(), point, point.order - runs.back().back().order))
+      runs.emplace_back();
+    runs.back().push_back(point);
+  }
+  if (runs.size() > 1 && goes_on(runs.back().back(), runs.front().front(),
+                                 runs.front().front().order + beams - runs.back().back().order)) {
+    runs.back().insert(runs.back().end(), runs.front().begin(), runs.front().end());
+    runs.erase(runs.begin());
+  }
+  return runs;
+}
+
+/// Narrow runs side by side become one.
+void join_legs(std::vector<Run>& runs, const SightingParams& params) {
+  constexpr double kLeg = 0.3;  // [m]
+  for (std::size_t i = 0; i + 1 < runs.size();) {
+    const Run& left = runs[i];
+    const Run& right = runs[i + 1];
+    const bool joins = width_of(left) < kLeg && width_of(right) < kLeg &&
+                       distance(left.back().at, right.front().at) < params.legs_apart &&
+                       distance(left.front().at, right.back().at) < params.one_person;
+    if (!joins) {
+      ++i;
+      continue;
+    }
+    runs[i].insert(runs[i].end(), right.begin(), right.end());
+    runs[i].are_legs = true;
+    runs.erase(runs.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+  }
+}
+
+/// A run of returns that stands by itself: both neighbours end clearly behind it.
+class Isolation {
+ public:
+  Isolation(const RangeSweep& sweep, const std::vector<std::size_t>& order) : sweep_{sweep}, order_{order} {}
+  /// `first`, `last`: in the order of bearings.
+  [[nodiscard]] bool holds(std::size_t first, std::size_t last) const {
+    return is_behind(first, first + order_.size() - 1) && is_behind(last, last + 1);
+  }
+
+ private:
+  [[nodiscard]] bool is_behind(std::size_t edge, std::size_t neighbour) const {
+    constexpr double kBehind = 0.4;  // [m]
+    const SweepBeam& here = sweep_.beams[order_[edge % order_.size()]];
+    const SweepBeam& next = sweep_.beams[order_[neighbour % order_.size()]];
+    return next.no_return || next.range > here.range + kBehind;
+  }
+  const RangeSweep& sweep_;
+  const std::vector<std::size_t>& order_;
+};
+
+/// What the map does not know: only what has come, or stands by itself as narrow as a person.
+void keep_what_may_be_people(std::vector<Run>& runs, const Isolation& isolation, const SightingParams& params) {
+  constexpr double kNarrowest = 0.06;  // [m]
+  std::erase_if(runs, [&](Run& run) {
+    const bool known = std::any_of(run.begin(), run.end(), [](const Point& point) { return point.by_map; });
+    if (known) return false;
+    const double width = width_of(run);
+    if (width > kNarrowest && width < params.one_person && isolation.holds(run.front().order, run.back().order))
+      return false;
+    std::erase_if(run, [](const Point& point) { return !point.has_come; });
+    return run.empty();
+  });
+}
+
+PersonSighting sighting_of(const Run& run, const Body& body) {
+  constexpr double kRim = 0.15;  // [m]
+  PersonSighting sighting;
+  sighting.position = body.centre;
+  sighting.radius = body.radius;
+  int by_map = 0;
+  int come = 0;
+  for (const Point& point : run) {
+    if (!run.are_legs && std::abs(distance(point.at, body.centre) - body.radius) > kRim) continue;
+    ++sighting.points;
+    by_map += point.by_map ? 1 : 0;
+    sighting.is_mapped = sighting.is_mapped || point.is_mapped;
+    come += point.has_come ? 1 : 0;
+  }
+  sighting.by_map = by_map > 0 && 2 * by_map >= sighting.points;
+  sighting.has_come = come > 0 && 2 * come >= sighting.points;
+  return sighting;
+}
+
+/// Two legs are one body, unless two people are known to stand there, one half hidden.
+void join_bodies(BodyFit& fit, std::span<const Point2> points, Point2 sensor, std::span<const Point2> known) {
+  constexpr double kWithin = 0.4;   // [m]
+  constexpr double kRadius = 0.22;  // [m]
+  constexpr double kBehind = 0.1;   // [m] a body's middle behind the near side of its legs
+  const auto here = std::count_if(known.begin(), known.end(), [&](Point2 place) {
+    return std::any_of(points.begin(), points.end(), [&](Point2 point) { return distance(place, point) < kWithin; });
+  });
+  if (fit.bodies.size() < 2 || here >= 2) return;
+  const Point2 middle = 0.5 * (points.front() + points.back());
+  fit.bodies = {{middle + kBehind * unit(direction(sensor, middle)), kRadius, static_cast<int>(points.size())}};
+}
+
+}  // namespace
+
+Result<void> SightingParams::validate() const {
+  if (!(range > 0.0)) return fail("sightings.range must be > 0");
+  if (!(least_points >= 1)) return fail("sightings.least_points must be >= 1");
+  if (!(legs_apart >= 0.0)) return fail("sightings.legs_apart must be >= 0");
+  if (!(one_person > 0.0)) return fail("sightings.one_person must be > 0");
+  return {};
+}
+
+std::vector<PersonSighting> find_people(const PeopleSweep& seen, const FreeMemory& memory,
+                                        std::span<const Point2> known, const SightingParams& params) {
+  const std::vector<std::size_t> order = by_bearing(seen.sweep);
+  // Beams that the map explains part the runs; those it knows nothing of are looked at apart.
+  std::vector<Point> unmapped;
+  std::vector<Point> unknown;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const SweepBeam& beam = seen.sweep.beams[order[i]];
+    const BeamOrigin origin = seen.origins[order[i]];
+    if (beam.no_return || beam.range > params.range || origin == BeamOrigin::map) continue;
+    const Point2 at = seen.odom_from_base * endpoint(beam);
+    const Point point{
+        at, beam.range, i, origin == BeamOrigin::not_map, origin != BeamOrigin::unknown, memory.has_come(at)};
+    (origin == BeamOrigin::unknown ? unknown : unmapped).push_back(point);
+  }
+  std::vector<Run> runs = runs_of(unmapped, order.size());
+  std::erase_if(runs, [](const Run& run) {  // what only may be the map is no person by itself
+    return std::none_of(run.begin(), run.end(), [](const Point& point) { return point.by_map || point.has_come; });
+  });
+  std::vector<Run> strangers = runs_of(unknown, order.size());
+  keep_what_may_be_people(strangers, Isolation{seen.sweep, order}, params);
+  runs.insert(runs.end(), strangers.begin(), strangers.end());
+  join_legs(runs, params);
+
+  std::vector<PersonSighting> people;
+  std::vector<Point2> points;
+  for (const Run& run : runs) {
+    if (static_cast<int>(run.size()) < params.least_points) continue;
+    points.clear();
+    for (const Point& point : run) points.push_back(point.at);
+    BodyFit fit = fit_bodies(points, seen.odom_from_base.position(), known);
+    if (run.are_legs) join_bodies(fit, points, seen.odom_from_base.position(), known);
+    for (const Body& body : fit.bodies) {
+      PersonSighting sighting = sighting_of(run, body);
+      sighting.thing_gain = fit.thing_gain;
+      if (sighting.points >= params.least_points) people.push_back(sighting);
+    }
+  }
+  return people;
+}
+
+}  // namespace docent
