@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "docent/localization/markov/score_kernel.h"
@@ -21,33 +23,56 @@ namespace docent {
 class SixteenthScorer {
  public:
   static constexpr std::size_t kHalf = 32;  ///< places in a vector
+  struct alignas(32) Vector {
+    std::array<std::uint8_t, kHalf> bytes;
+  };
 
-  explicit SixteenthScorer(std::size_t headings);
+  /// `beams` are those of the plan, which must outlive the scorer.
+  SixteenthScorer(const TileScorer::Plan& plan, std::span<const BeamCosts> beams);
 
   /// Lays out places 32 half … 32 half + 31 of a tile. O(headings).
   void load(const std::uint8_t* tile, std::size_t half);
 
   /// sums[k * kTile + i], as TileScorer defines them, of headings first + k, k < count, in the places that were loaded.
-  /// `tables` [2] lines a beam: its costs. O(count * beams). @pre first + count <= headings
-  void score(const TileScorer::Plan& plan, const TileScorer::Line* tables, std::size_t first, std::size_t count,
-             std::uint16_t* sums);
+  /// O(count * beams). @pre first + count <= headings
+  void score(std::size_t first, std::size_t count, std::uint16_t* sums);
 
  private:
-  struct Stretch {
-    std::uint32_t begin = 0, end = 0;  ///< vectors of a line
+  /// What the innermost loop wants of a beam, side by side.
+  struct alignas(16) Beam {
+    std::array<std::uint8_t, kExpectedRanges> costs;
+    std::int32_t back;  ///< vectors of sums from the line that is seen to the heading that sees it, in bytes: < 0
   };
+  /// Vectors that are looked up together: all of a line, or four of more. Pieces of one length make a list, so that the
+  /// loop over them takes no turn that a processor cannot foresee.
+  static constexpr std::size_t kLongest = 4;
+  struct Piece {
+    std::uint32_t first;  ///< vector
+    std::uint32_t line;
+  };
+  using Ends = std::array<std::uint16_t, kLongest>;  ///< of the lists, each by length - 1
   struct Run {
     std::size_t first, count;  ///< headings
   };
-  void add_beams(const TileScorer::Plan& plan, const TileScorer::Line* tables, TileScorer::Sector beams, Run run);
+  struct Span {
+    std::size_t begin, end;
+  };
+  /// [run.count]: the sums of the beams, saturated. In part_.
+  const Vector* add_beams(TileScorer::Sector beams, Run run);
+  const Vector* add_all_round(TileScorer::Sector beams);
+  void add_lines(TileScorer::Sector beams, Span lines, Vector* sums);
+  template <std::size_t kLength>
+  void add_pieces(TileScorer::Sector beams, Span pieces, Vector* sums);
 
-  std::size_t headings_;
-  std::vector<TileScorer::Line> indices_;  ///< vectors, two a Line
-  std::vector<std::uint32_t> offsets_;     ///< of each vector: where its sixteenth begins in a table
-  std::vector<Stretch> lines_;             ///< [headings]
-  std::vector<TileScorer::Line> part_;     ///< [headings] vectors: the beams of a sector, added up
-  std::vector<TileScorer::Line> group_;    ///< [headings] vectors: capped sectors, added up
-  std::vector<std::uint16_t> wide_;        ///< [headings][32]: a sector, where bytes do not hold it
+  const TileScorer::Plan* plan_;
+  std::vector<Beam> beams_;
+  std::vector<Vector> indices_;
+  std::vector<std::uint32_t> offsets_;  ///< of each vector: where its sixteenth begins in a table
+  std::array<std::vector<Piece>, kLongest> pieces_;
+  std::vector<Ends> begins_;         ///< [headings + 1]: where the pieces of a line begin in the lists
+  std::vector<Vector> part_;         ///< the beams of a sector, added up: headings, with room before and behind
+  std::vector<Vector> group_;        ///< [headings]: capped sectors, added up
+  std::vector<std::uint16_t> wide_;  ///< [headings][32]: a sector, where bytes do not hold it
 };
 
 }  // namespace docent

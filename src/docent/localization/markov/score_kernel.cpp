@@ -184,7 +184,7 @@ TileScorer::TileScorer(std::span<const BeamCosts> beams, std::size_t headings, s
   plan_.beams_in_byte = 255U / most;
   const std::size_t blocks = (headings + kBlock - 1) / kBlock;
   if (set == InstructionSet::avx2) {
-    by_sixteenths_ = std::make_unique<SixteenthScorer>(headings);
+    by_sixteenths_ = std::make_unique<SixteenthScorer>(plan_, beams);
     sums_.resize(blocks * kBlock * kTile);
   } else {
     tile_.resize(headings + kBlock);
@@ -233,7 +233,7 @@ void TileScorer::score_by_sixteenths(const std::uint8_t* tile, std::uint64_t blo
       const std::size_t first = block * kBlock;
       while (wanted(block + 1)) ++block;
       const std::size_t end = std::min((block + 1) * kBlock, plan_.headings);
-      by_sixteenths_->score(plan_, tables_.data(), first, end - first, sums_.data() + first * kTile + half * kHalf);
+      by_sixteenths_->score(first, end - first, sums_.data() + first * kTile + half * kHalf);
     }
   }
   for (std::size_t block = 0; block < count; ++block)
