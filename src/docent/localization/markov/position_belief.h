@@ -144,7 +144,8 @@ class PositionBelief {
   void make_room(const MotionKernel& kernel);
   void count_targets(int row, int sign, std::span<const std::size_t> target_begin);
   void mix_line(int row, const MotionKernel& kernel);
-  void move_column(int column, int low, const MotionKernel& kernel, std::span<const std::int32_t> targets,
+  void find_lines(int low, int reach);
+  void move_column(std::size_t column, const MotionKernel& kernel, std::span<const std::int32_t> targets,
                    RowTotals& totals);
   [[nodiscard]] float* mixed_line(int row) { return mixed_.data() + static_cast<std::size_t>(row) % ring_ * line_; }
 
@@ -175,7 +176,7 @@ class PositionBelief {
   std::size_t ring_ = 1, line_ = 0;   ///< lines of mixed_; floats of one
   AlignedVector<float> extended_;     ///< [kRowGroup] rows of headings, with the reach of the blur before and behind
   AlignedVector<float> fours_;        ///< and their sums of four
-  AlignedVector<float> nothing_;      ///< [stride]: zeros
+  AlignedVector<float> nothing_;      ///< a line of zeros
   std::vector<const float*> around_;  ///< the lines about a target
 };
 

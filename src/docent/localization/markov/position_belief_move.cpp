@@ -78,28 +78,32 @@ void PositionBelief::mix_line(int row, const MotionKernel& kernel) {
   }
 }
 
-/// The new rows of a column's targets among kRowGroup lines of cells, from `low` on; targets[r] is negative where there
-/// is none.
-void PositionBelief::move_column(int column, int low, const MotionKernel& kernel, std::span<const std::int32_t> targets,
-                                 RowTotals& totals) {
+/// The lines of cells, mixed along x, that targets in kRowGroup lines from `low` on ask for.
+void PositionBelief::find_lines(int low, int reach) {
   for (std::size_t i = 0; i < around_.size(); ++i) {
-    const int row = low - kernel.rows.reach + static_cast<int>(i);
-    around_[i] = row < 0 || row >= space_->frame().rows ? nothing_.data()
-                                                        : mixed_line(row) + static_cast<std::size_t>(column) * stride_;
+    const int row = low - reach + static_cast<int>(i);
+    around_[i] = row < 0 || row >= space_->frame().rows ? nothing_.data() : mixed_line(row);
   }
+}
+
+/// The new rows of a column's targets among kRowGroup lines of cells; targets[r] is negative where there is none.
+void PositionBelief::move_column(std::size_t column, const MotionKernel& kernel, std::span<const std::int32_t> targets,
+                                 RowTotals& totals) {
   const std::size_t reach = kernel.headings.reach();
   const std::size_t halo = halo_of(kernel.headings);
   const std::size_t blocks = stride_ / kRowBlock;
   const std::size_t length = extended_.size() / kRowGroup;
   const auto headings = static_cast<std::size_t>(space_->headings());
-  kernels_->mix_rows(kernel.rows, around_.data(), blocks, extended_.data() + halo, length);
+  kernels_->mix_rows(kernel.rows, around_.data(), column * stride_, blocks, extended_.data() + halo, length);
   // Each step for all rows: what was just written is better not read at once, from where no store began.
   for (std::size_t r = 0; r < kRowGroup; ++r) {
     float* const centre = extended_.data() + r * length + halo;
     float* const end = centre + headings;  // the headings go round, so that the blur needs no modulo
-    if (reach <= headings) {
-      std::copy_n(centre, reach, end);
-      std::copy_n(end - reach, reach, centre - reach);
+    if (halo <= headings) {
+      for (std::size_t i = 0; i < halo; i += kRowBlock) {
+        std::copy_n(centre + i, kRowBlock, end + i);  // more than the reach, but of a length that is known
+        std::copy_n(end - halo + i, kRowBlock, centre - halo + i);
+      }
       continue;
     }
     for (std::size_t i = 0; i < reach; ++i) end[i] = centre[i];  // more than once round
@@ -125,6 +129,7 @@ void PositionBelief::make_room(const MotionKernel& kernel) {
   around_.resize(ring_);
   extended_.assign(kRowGroup * (stride_ + 2 * halo_of(kernel.headings) + kRowBlock), 0.0F);
   fours_.resize(extended_.size());
+  nothing_.assign(line_, 0.0F);
   rows_.resize(targets_.size() * stride_);
 }
 
@@ -153,6 +158,7 @@ void PositionBelief::move(const MotionKernel& kernel) {
       mix_line(line, kernel);
     }
     mixed_from = std::max(low - reach, 0);
+    find_lines(low, reach);
     std::array<std::int32_t, kRowGroup> none;
     none.fill(-1);
     std::fill(group.begin(), group.end(), none);
@@ -163,13 +169,7 @@ void PositionBelief::move(const MotionKernel& kernel) {
              [static_cast<std::size_t>(row - low)] = static_cast<std::int32_t>(i);
     for (std::size_t column = 0; column < group.size(); ++column) {
       if (group[column] == none) continue;
-      // What is written was read many lines ago: ask for it while the column before is at work.
-      for (const std::int32_t target : group[std::min(column + 1, group.size() - 1)]) {
-        if (target < 0) continue;
-        const float* const ahead = rows_.data() + static_cast<std::size_t>(target) * stride_;
-        for (std::size_t h = 0; h < stride_; h += kRowBlock) __builtin_prefetch(ahead + h, 1);
-      }
-      move_column(static_cast<int>(column), low, kernel, group[column], totals);
+      move_column(column, kernel, group[column], totals);
     }
   }
   for (const std::int32_t place : kept_) slot_[static_cast<std::size_t>(place)] = -1;

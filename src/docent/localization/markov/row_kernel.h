@@ -72,9 +72,9 @@ struct RowKernels {
   void (*expand)(const float* row, const RowScale& scale, float* out);
   /// For `count` cells: out[c][h] = sum over taps of weight * line[c + reach - offset][h]; line [count + 2 * reach].
   void (*mix_columns)(const AxisTaps& taps, const float* line, std::size_t count, std::size_t blocks, float* out);
-  /// For kRowGroup lines of cells: out[r * out_stride + h] = sum over taps of weight * lines[r + reach - offset][h];
-  /// lines [2 * reach + kRowGroup].
-  void (*mix_rows)(const AxisTaps& taps, const float* const* lines, std::size_t blocks, float* out,
+  /// For kRowGroup lines of cells: out[r * out_stride + h] = sum over taps of weight * lines[r + reach - offset][at +
+  /// h]; lines [2 * reach + kRowGroup].
+  void (*mix_rows)(const AxisTaps& taps, const float* const* lines, std::size_t at, std::size_t blocks, float* out,
                    std::size_t out_stride);
   /// fours[h] = centre[h] + … + centre[h + 3] for h from -halo on, before `blocks` blocks and behind them. Both lie in
   /// buffers with room for the halo, whole blocks, on both sides, and a block more.
@@ -84,6 +84,7 @@ struct RowKernels {
                RowTotals& totals);
   /// A bit for each block with an active state.
   std::uint64_t (*active_blocks)(const float* row, const RowScale& scale);
+  std::uint16_t (*least_of_all)(const std::uint16_t* costs, std::size_t headings);
   /// The least cost of an active state; 65535 if there is none.
   std::uint16_t (*least_cost)(const float* row, const RowScale& scale, const std::uint16_t* costs);
   /// [Markov1998] eq. 1 without eta.

@@ -27,7 +27,8 @@ std::size_t first_line(const Plan& plan, std::size_t beam, std::size_t first_hea
   return at < plan.headings ? at : at - plan.headings;
 }
 
-/// A beam at one heading. Not inlined: what compilers make of this loop within others is twice as slow, or not, by chance.
+/// A beam at one heading. Not inlined: what compilers make of this loop within others is twice as slow, or not, by
+/// chance.
 [[gnu::noinline]] void add_costs(const std::uint8_t* costs, const std::uint8_t* seen, std::uint32_t* sums) {
   for (std::size_t i = 0; i < kTile; ++i) sums[i] += costs[seen[i]];
 }
