@@ -216,7 +216,9 @@ void TileScorer::score_block(std::size_t first, std::size_t count) {
 
 void TileScorer::score(const std::uint8_t* tile, std::uint64_t blocks, std::span<const std::uint8_t> lanes,
                        std::span<std::uint16_t* const> rows) {
+#if defined(__x86_64__)
   if (by_sixteenths_) return score_by_sixteenths(tile, blocks, lanes, rows);
+#endif
   load(tile);
   for (std::size_t first = 0; first < plan_.headings; first += kBlock) {
     if ((blocks >> (first / kBlock) & 1U) == 0) continue;
@@ -225,6 +227,7 @@ void TileScorer::score(const std::uint8_t* tile, std::uint64_t blocks, std::span
   }
 }
 
+#if defined(__x86_64__)
 /// Blocks that follow each other are scored together: they share the lines that their beams look along.
 void TileScorer::score_by_sixteenths(const std::uint8_t* tile, std::uint64_t blocks,
                                      std::span<const std::uint8_t> lanes, std::span<std::uint16_t* const> rows) {
@@ -245,5 +248,6 @@ void TileScorer::score_by_sixteenths(const std::uint8_t* tile, std::uint64_t blo
   for (std::size_t block = 0; block < count; ++block)
     if (wanted(block)) hand_out(sums_.data() + block * kBlock * kTile, block * kBlock, lanes, rows);
 }
+#endif
 
 }  // namespace docent
