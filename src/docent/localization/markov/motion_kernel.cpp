@@ -31,24 +31,26 @@ std::vector<double> blur_weights(double variance, double tail) {
   return wider;
 }
 
-/// `weights`, and `tail` of the mass falling off slowly to both sides: wheels that slip turn a robot by many degrees,
-/// and a belief without tails never looks there.
-std::vector<double> with_slow_tail(const std::vector<double>& weights, double tail, double scale) {
-  if (tail <= 0.0) return weights;
+/// `weights`, and `tail` of the mass falling off slowly to both sides, in steps of four headings: wheels that slip turn
+/// a robot by many degrees, and a belief without tails never looks there.
+HeadingBlur with_slow_tail(const std::vector<double>& weights, double tail, double scale) {
+  HeadingBlur blur;
+  if (tail <= 0.0) {
+    blur.middle.assign(weights.begin(), weights.end());
+    return blur;
+  }
   const int half = static_cast<int>(weights.size() / 2);
-  const int reach = std::max(half, static_cast<int>(std::ceil(4.0 * scale)));
-  std::vector<double> slow;
+  const int fours = std::max(0, (static_cast<int>(std::ceil(4.0 * scale)) - half + 3) / 4);
+  const int reach = half + 4 * fours;
+  const auto slow = [scale](int turn) { return std::exp(-std::abs(turn) / scale); };
   double sum = 0.0;
-  for (int i = -reach; i <= reach; ++i) {
-    slow.push_back(std::exp(-std::abs(i) / scale));
-    sum += slow.back();
-  }
-  for (int i = -reach; i <= reach; ++i) {
-    double& weight = slow[static_cast<std::size_t>(i + reach)];
-    weight *= tail / sum;
-    if (std::abs(i) <= half) weight += (1.0 - tail) * weights[static_cast<std::size_t>(i + half)];
-  }
-  return slow;
+  for (int i = -reach; i <= reach; ++i) sum += slow(i);
+  for (int i = -half; i <= half; ++i)
+    blur.middle.push_back(
+        static_cast<float>((1.0 - tail) * weights[static_cast<std::size_t>(i + half)] + tail / sum * slow(i)));
+  for (int i = half + 1; i <= reach; i += 4)
+    blur.fours.push_back(static_cast<float>(tail / sum * (slow(i) + slow(i + 1) + slow(i + 2) + slow(i + 3)) / 4.0));
+  return blur;
 }
 
 /// Offsets below this weight are left out, and what they had goes to the others.
@@ -118,6 +120,16 @@ float MotionKernel::weight(int column_offset, int row_offset, int heading) const
   return weight_of(columns, column_offset, heading) * weight_of(rows, row_offset, heading);
 }
 
+std::vector<float> MotionKernel::heading_weights() const {
+  std::vector<float> weights(2 * headings.reach() + 1);
+  const std::size_t middle = weights.size() / 2;
+  const std::size_t half = headings.half();
+  for (std::size_t turn = 0; turn <= headings.reach(); ++turn)
+    weights[middle - turn] = weights[middle + turn] =
+        turn <= half ? headings.middle[half + turn] : headings.fours[(turn - half - 1) / 4];
+  return weights;
+}
+
 MotionKernel motion_kernel(const StateSpace& space, const OdometryModelParams& params, Point2 shift,
                            const OdometryStep& odometry) {
   const MotionNoise noise = odometry.noise;
@@ -139,8 +151,7 @@ MotionKernel motion_kernel(const StateSpace& space, const OdometryModelParams& p
 
   const double heading_variance = std::min(noise.heading_variance / (step * step), 100.0);
   constexpr double kSlipTurn = 5.0 * std::numbers::pi / 180.0;
-  for (const double weight : with_slow_tail(blur_weights(heading_variance, 0.0), turn_tail, kSlipTurn / step))
-    kernel.heading_weights.push_back(static_cast<float>(weight));
+  kernel.headings = with_slow_tail(blur_weights(heading_variance, 0.0), turn_tail, kSlipTurn / step);
   return kernel;
 }
 

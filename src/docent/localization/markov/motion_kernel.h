@@ -14,11 +14,13 @@ namespace docent {
 /// headings are blurred. Where to a heading moves is a matter of its direction, so each offset in x, and each in y, has
 /// one weight a heading. Their product is what x and y together do: two passes of a few offsets instead of one of many.
 struct MotionKernel {
-  AxisTaps columns;                    ///< along x
-  AxisTaps rows;                       ///< along y
-  std::vector<float> heading_weights;  ///< symmetric, odd length
+  AxisTaps columns;      ///< along x
+  AxisTaps rows;         ///< along y
+  HeadingBlur headings;  ///< of turns
 
   [[nodiscard]] int reach() const { return std::max(columns.reach, rows.reach); }  ///< [cells]
+  /// Of turns by -reach … reach headings: those of `headings`, each on its own.
+  [[nodiscard]] std::vector<float> heading_weights() const;
   /// Of the offset (columns, rows) from the source cell to the target cell.
   [[nodiscard]] float weight(int column_offset, int row_offset, int heading) const;
 };

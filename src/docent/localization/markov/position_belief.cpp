@@ -23,8 +23,7 @@ PositionBelief::PositionBelief(const StateSpace& space, double threshold_fractio
       stride_{(static_cast<std::size_t>(space.headings()) + kRowBlock - 1) / kRowBlock * kRowBlock},
       threshold_{threshold_fraction > 0.0 ? threshold_fraction / static_cast<double>(space.states()) : -1.0},
       bias_(stride_, 0.0F),
-      limit_(stride_, std::numeric_limits<float>::infinity()),
-      nothing_(stride_, 0.0F) {
+      limit_(stride_, std::numeric_limits<float>::infinity()) {
   use(instruction_sets().back());
   std::fill_n(limit_.begin(), space.headings(), static_cast<float>(threshold_));
   slot_.assign(space.places(), -1);
@@ -200,7 +199,6 @@ std::size_t PositionBelief::score(const RangeTable& table, std::span<const BeamC
   TileScorer scorer{beams, headings, weights.sectors, cap, set_};
   costs_.resize(kept_.size() * stride_);
   const bool all = threshold_ < 0.0;
-  const std::vector<float> ones(stride_, 1.0F);  // where all are active, the belief need not be read
   const std::uint64_t all_blocks = (std::uint64_t{1} << (stride_ / kRowBlock)) - 1;
   std::uint16_t best = std::numeric_limits<std::uint16_t>::max();
   std::vector<std::uint8_t> lanes;
@@ -221,8 +219,9 @@ std::size_t PositionBelief::score(const RangeTable& table, std::span<const BeamC
     if (blocks == 0) continue;
     scorer.score(table.tile(tile), blocks, lanes, rows);
     for (std::size_t k = first; k < i; ++k) {
-      const float* const row = all ? ones.data() : rows_.data() + k * stride_;
-      best = std::min(best, kernels_->least_cost(row, scale(), costs_.data() + k * stride_));
+      const std::uint16_t* const costs = costs_.data() + k * stride_;
+      best = std::min(best, all ? kernels_->least_of_all(costs, headings)
+                                : kernels_->least_cost(rows_.data() + k * stride_, scale(), costs));
     }
   }
   return best;

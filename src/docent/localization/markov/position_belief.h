@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -133,9 +134,19 @@ class PositionBelief {
   [[nodiscard]] RowTotals totals() const;
 
   void find_targets(int reach);
-  void mix_line(int row, const MotionKernel& kernel, std::span<const std::size_t> target_begin);
-  void mark_needed(int row, int reach, std::span<const std::size_t> target_begin);
-  void move_row(std::size_t target, const MotionKernel& kernel, float* out, RowTotals& totals);
+  /// Asks the cache for a row that will be read soon: belief and costs are larger than caches, and rows that are taken
+  /// by their places come too irregularly for the processor to foresee.
+  void prefetch_row(std::size_t index) const {
+    const float* const row = rows_.data() + std::min(index, kept_.size() - 1) * stride_;
+    for (std::size_t h = 0; h < stride_; h += kRowBlock) __builtin_prefetch(row + h);
+  }
+
+  void make_room(const MotionKernel& kernel);
+  void count_targets(int row, int sign, std::span<const std::size_t> target_begin);
+  void mix_line(int row, const MotionKernel& kernel);
+  void find_lines(int low, int reach);
+  void move_column(std::size_t column, const MotionKernel& kernel, std::span<const std::int32_t> targets,
+                   RowTotals& totals);
   [[nodiscard]] float* mixed_line(int row) { return mixed_.data() + static_cast<std::size_t>(row) % ring_ * line_; }
 
   const StateSpace* space_;
@@ -159,13 +170,13 @@ class PositionBelief {
   // Scratch of move.
   std::vector<std::int32_t> targets_;
   std::vector<std::uint8_t> marks_;   ///< [places]
-  std::vector<std::uint8_t> needed_;  ///< [columns]
+  std::vector<int> asked_;            ///< [columns] targets about a line of cells
   AlignedVector<float> expanded_;     ///< a stretch of a line of cells
   AlignedVector<float> mixed_;        ///< [ring][columns][stride]: lines after the pass along x
   std::size_t ring_ = 1, line_ = 0;   ///< lines of mixed_; floats of one
-  AlignedVector<float> shifted_;      ///< [stride]
-  AlignedVector<float> extended_;     ///< [headings + 2 * heading reach], whole blocks
-  AlignedVector<float> nothing_;      ///< [stride]: zeros
+  AlignedVector<float> extended_;     ///< [kRowGroup] rows of headings, with the reach of the blur before and behind
+  AlignedVector<float> fours_;        ///< and their sums of four
+  AlignedVector<float> nothing_;      ///< a line of zeros
   std::vector<const float*> around_;  ///< the lines about a target
 };
 

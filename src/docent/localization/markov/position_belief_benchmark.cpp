@@ -185,7 +185,7 @@ class ScalarCycle {
     }
   }
   double turn(const std::vector<float>& shifted, float* __restrict out) {
-    const std::vector<float>& weights = hall().moved.heading_weights;
+    const std::vector<float>& weights = heading_weights_;
     const std::size_t reach = weights.size() / 2;
     extended_.resize(headings_ + 2 * reach);
     for (std::size_t i = 0; i < extended_.size(); ++i) extended_[i] = shifted[(i + 2 * headings_ - reach) % headings_];
@@ -208,6 +208,7 @@ class ScalarCycle {
   std::vector<float> belief_, sums_;      ///< [places][headings]
   std::vector<float> along_x_;            ///< [cells][headings]
   std::vector<float> extended_;
+  std::vector<float> heading_weights_ = hall().moved.heading_weights();
 };
 
 /// One gather from a small table and one addition a state-beam, headings innermost; nothing else.

@@ -1,8 +1,16 @@
 #include <algorithm>
+#include <array>
 
 #include "docent/localization/markov/position_belief.h"
 
 namespace docent {
+
+namespace {
+
+/// Room for the blur before the headings and behind, in whole blocks.
+std::size_t halo_of(const HeadingBlur& blur) { return (blur.reach() + kRowBlock - 1) / kRowBlock * kRowBlock; }
+
+}  // namespace
 
 /// The motion of a belief, in place. Lines of cells are taken from the last to the first: a line is mixed along x,
 /// once, into a ring of as many lines as the motion reaches up and down, and what the ring holds about a line gives the
@@ -30,27 +38,26 @@ void PositionBelief::find_targets(int reach) {
   for (const std::int32_t place : targets_) marks_[static_cast<std::size_t>(place)] = 0;
 }
 
-/// Columns of a line that targets in the lines about it will ask for.
-void PositionBelief::mark_needed(int row, int reach, std::span<const std::size_t> target_begin) {
-  std::fill(needed_.begin(), needed_.end(), std::uint8_t{0});
-  const auto first = static_cast<std::size_t>(std::max(row - reach, 0));
-  const auto last = static_cast<std::size_t>(std::min(row + reach + 1, space_->frame().rows));
-  for (std::size_t i = target_begin[first]; i < target_begin[last]; ++i)
-    needed_[static_cast<std::size_t>(space_->cell(static_cast<std::size_t>(targets_[i])).column)] = 1;
+/// Counts the targets of a line of cells in their columns, with sign.
+void PositionBelief::count_targets(int row, int sign, std::span<const std::size_t> target_begin) {
+  if (row < 0 || row >= space_->frame().rows) return;
+  const auto line = static_cast<std::size_t>(row);
+  for (std::size_t i = target_begin[line]; i < target_begin[line + 1]; ++i)
+    asked_[static_cast<std::size_t>(space_->cell(static_cast<std::size_t>(targets_[i])).column)] += sign;
 }
 
-void PositionBelief::mix_line(int row, const MotionKernel& kernel, std::span<const std::size_t> target_begin) {
-  mark_needed(row, kernel.rows.reach, target_begin);
+/// Of the columns that targets ask for.
+void PositionBelief::mix_line(int row, const MotionKernel& kernel) {
   const int columns = space_->frame().columns;
   const int reach = kernel.columns.reach;
   const auto headings = static_cast<std::size_t>(space_->headings());
   for (int first = 0; first < columns;) {
-    if (needed_[static_cast<std::size_t>(first)] == 0) {
+    if (asked_[static_cast<std::size_t>(first)] == 0) {
       ++first;
       continue;
     }
     int last = first;
-    while (last < columns && needed_[static_cast<std::size_t>(last)] != 0) ++last;
+    while (last < columns && asked_[static_cast<std::size_t>(last)] != 0) ++last;
     const auto count = static_cast<std::size_t>(last - first);
     expanded_.resize((count + 2 * static_cast<std::size_t>(reach)) * stride_);
     float* out = expanded_.data();
@@ -58,6 +65,7 @@ void PositionBelief::mix_line(int row, const MotionKernel& kernel, std::span<con
       const std::int32_t place = space_->place_at({column, row});
       const std::int32_t slot = place == StateSpace::kNoPlace ? -1 : slot_[static_cast<std::size_t>(place)];
       if (slot >= 0) {
+        prefetch_row(static_cast<std::size_t>(slot) + 10);
         kernels_->expand(rows_.data() + static_cast<std::size_t>(slot) * stride_, scale(), out);
         continue;
       }
@@ -70,30 +78,63 @@ void PositionBelief::mix_line(int row, const MotionKernel& kernel, std::span<con
   }
 }
 
-void PositionBelief::move_row(std::size_t target, const MotionKernel& kernel, float* out, RowTotals& totals) {
+/// The lines of cells, mixed along x, that targets in kRowGroup lines from `low` on ask for.
+void PositionBelief::find_lines(int low, int reach) {
+  for (std::size_t i = 0; i < around_.size(); ++i) {
+    const int row = low - reach + static_cast<int>(i);
+    around_[i] = row < 0 || row >= space_->frame().rows ? nothing_.data() : mixed_line(row);
+  }
+}
+
+/// The new rows of a column's targets among kRowGroup lines of cells; targets[r] is negative where there is none.
+void PositionBelief::move_column(std::size_t column, const MotionKernel& kernel, std::span<const std::int32_t> targets,
+                                 RowTotals& totals) {
+  const std::size_t reach = kernel.headings.reach();
+  const std::size_t halo = halo_of(kernel.headings);
+  const std::size_t blocks = stride_ / kRowBlock;
+  const std::size_t length = extended_.size() / kRowGroup;
   const auto headings = static_cast<std::size_t>(space_->headings());
-  const CellIndex cell = space_->cell(target);
-  for (int i = 0; i <= 2 * kernel.rows.reach; ++i) {
-    const int row = cell.row - kernel.rows.reach + i;
-    around_[static_cast<std::size_t>(i)] = row < 0 || row >= space_->frame().rows
-                                               ? nothing_.data()
-                                               : mixed_line(row) + static_cast<std::size_t>(cell.column) * stride_;
+  kernels_->mix_rows(kernel.rows, around_.data(), column * stride_, blocks, extended_.data() + halo, length);
+  // Each step for all rows: what was just written is better not read at once, from where no store began.
+  for (std::size_t r = 0; r < kRowGroup; ++r) {
+    float* const centre = extended_.data() + r * length + halo;
+    float* const end = centre + headings;  // the headings go round, so that the blur needs no modulo
+    if (halo <= headings) {
+      for (std::size_t i = 0; i < halo; i += kRowBlock) {
+        std::copy_n(centre + i, kRowBlock, end + i);  // more than the reach, but of a length that is known
+        std::copy_n(end - halo + i, kRowBlock, centre - halo + i);
+      }
+      continue;
+    }
+    for (std::size_t i = 0; i < reach; ++i) end[i] = centre[i];  // more than once round
+    for (std::size_t i = 1; i <= reach; ++i) *(centre - i) = *(end - i);
   }
-  kernels_->mix_rows(kernel.rows, around_.data(), stride_ / kRowBlock, shifted_.data());
-  // extended_[i] is the heading i - reach, so that the blur needs no modulo.
-  const std::size_t reach = kernel.heading_weights.size() / 2;
-  if (reach <= headings) {
-    std::copy_n(shifted_.data() + headings - reach, reach, extended_.data());
-    std::copy_n(shifted_.data(), headings, extended_.data() + reach);
-    std::copy_n(shifted_.data(), reach, extended_.data() + reach + headings);
-  } else {
-    std::size_t from = headings - reach % headings;
-    for (std::size_t i = 0; i < headings + 2 * reach; ++i, ++from) extended_[i] = shifted_[from % headings];
+  if (!kernel.headings.fours.empty())
+    for (std::size_t at = halo; at < extended_.size(); at += length)
+      kernels_->add_fours(extended_.data() + at, halo, blocks, fours_.data() + at);
+  for (std::size_t r = 0; r < kRowGroup; ++r) {
+    if (targets[r] < 0) continue;
+    const std::size_t at = r * length + halo;
+    kernels_->turn(extended_.data() + at, kernel.headings, fours_.data() + at, headings,
+                   rows_.data() + static_cast<std::size_t>(targets[r]) * stride_, totals);
   }
-  kernels_->turn(extended_.data(), kernel.heading_weights, headings, out, totals);
+}
+
+void PositionBelief::make_room(const MotionKernel& kernel) {
+  const auto columns = static_cast<std::size_t>(space_->frame().columns);
+  asked_.assign(columns, 0);
+  ring_ = 2 * static_cast<std::size_t>(kernel.rows.reach) + kRowGroup;
+  line_ = columns * stride_ + kRowBlock;  // lines that lie a power of two apart would share a set of the cache
+  mixed_.resize(ring_ * line_);
+  around_.resize(ring_);
+  extended_.assign(kRowGroup * (stride_ + 2 * halo_of(kernel.headings) + kRowBlock), 0.0F);
+  fours_.resize(extended_.size());
+  nothing_.assign(line_, 0.0F);
+  rows_.resize(targets_.size() * stride_);
 }
 
 void PositionBelief::move(const MotionKernel& kernel) {
+  constexpr int kGroup = kRowGroup;
   const int rows = space_->frame().rows;
   const int reach = kernel.rows.reach;
   find_targets(kernel.reach());
@@ -101,31 +142,34 @@ void PositionBelief::move(const MotionKernel& kernel) {
   for (const std::int32_t place : targets_)
     ++target_begin[static_cast<std::size_t>(space_->cell(static_cast<std::size_t>(place)).row) + 1];
   for (std::size_t row = 0; row < static_cast<std::size_t>(rows); ++row) target_begin[row + 1] += target_begin[row];
-
-  const auto columns = static_cast<std::size_t>(space_->frame().columns);
-  needed_.resize(columns);
-  ring_ = 2 * static_cast<std::size_t>(reach) + 1;
-  line_ = columns * stride_;
-  mixed_.resize(ring_ * line_);
-  around_.resize(ring_);
-  shifted_.resize(stride_);
-  extended_.assign(stride_ + 2 * (kernel.heading_weights.size() / 2) + kRowBlock, 0.0F);
-  rows_.resize(targets_.size() * stride_);
+  make_room(kernel);
 
   RowTotals totals;
-  int mixed_from = rows;  // lines from here on are in the ring, as far as they are still needed
-  for (int row = rows - 1; row >= 0; --row) {
-    const std::size_t begin = target_begin[static_cast<std::size_t>(row)];
-    const std::size_t end = target_begin[static_cast<std::size_t>(row) + 1];
-    if (begin == end) continue;
-    for (int line = std::min({row + reach, mixed_from - 1, rows - 1}); line >= std::max(row - reach, 0); --line)
-      mix_line(line, kernel, target_begin);
-    mixed_from = std::max(row - reach, 0);
-    for (std::size_t i = begin; i < end; ++i) {
-      // A row is long enough for its lines of the cache to be late: ask for the next but one.
-      const float* const ahead = rows_.data() + std::min(i + 2, end - 1) * stride_;
-      for (std::size_t h = 0; h < stride_; h += kRowBlock) __builtin_prefetch(ahead + h, 1);
-      move_row(static_cast<std::size_t>(targets_[i]), kernel, rows_.data() + i * stride_, totals);
+  std::vector<std::array<std::int32_t, kRowGroup>> group(static_cast<std::size_t>(space_->frame().columns));
+  int mixed_from = rows;              // lines from here on are in the ring, as far as they are still needed
+  int counted_from = rows + reach;    // and the targets of lines from here
+  int counted_before = counted_from;  // to here are counted
+  for (int low = (rows - 1) / kGroup * kGroup; low >= 0; low -= kGroup) {
+    const int end = std::min(low + kGroup, rows);
+    if (target_begin[static_cast<std::size_t>(low)] == target_begin[static_cast<std::size_t>(end)]) continue;
+    for (int line = std::min({end - 1 + reach, mixed_from - 1, rows - 1}); line >= std::max(low - reach, 0); --line) {
+      while (counted_from > line - reach) count_targets(--counted_from, 1, target_begin);
+      while (counted_before > line + reach + 1) count_targets(--counted_before, -1, target_begin);
+      mix_line(line, kernel);
+    }
+    mixed_from = std::max(low - reach, 0);
+    find_lines(low, reach);
+    std::array<std::int32_t, kRowGroup> none;
+    none.fill(-1);
+    std::fill(group.begin(), group.end(), none);
+    for (int row = low; row < end; ++row)
+      for (std::size_t i = target_begin[static_cast<std::size_t>(row)];
+           i < target_begin[static_cast<std::size_t>(row) + 1]; ++i)
+        group[static_cast<std::size_t>(space_->cell(static_cast<std::size_t>(targets_[i])).column)]
+             [static_cast<std::size_t>(row - low)] = static_cast<std::int32_t>(i);
+    for (std::size_t column = 0; column < group.size(); ++column) {
+      if (group[column] == none) continue;
+      move_column(column, kernel, group[column], totals);
     }
   }
   for (const std::int32_t place : kept_) slot_[static_cast<std::size_t>(place)] = -1;

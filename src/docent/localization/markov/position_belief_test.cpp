@@ -60,6 +60,7 @@ struct DenseTwin {
     std::vector<double> moved(p.size(), 0.0);
     const int width = 2 * kernel.reach() + 1;
     const int square = width * width;
+    const std::vector<float> turns = kernel.heading_weights();
     for (std::size_t place = 0; place < space.places(); ++place) {
       const CellIndex cell = space.cell(place);
       for (int h = 0; h < space.headings(); ++h) {
@@ -69,11 +70,11 @@ struct DenseTwin {
           const double weight = static_cast<double>(kernel.weight(column, row, h));
           const auto target = space.place_at({cell.column + column, cell.row + row});
           if (weight <= 0.0 || target == StateSpace::kNoPlace) continue;
-          for (std::size_t k = 0; k < kernel.heading_weights.size(); ++k) {
-            const int blur = static_cast<int>(k) - static_cast<int>(kernel.heading_weights.size() / 2);
+          for (std::size_t k = 0; k < turns.size(); ++k) {
+            const int blur = static_cast<int>(k) - static_cast<int>(turns.size() / 2);
             const int turned = ((h + blur) % space.headings() + space.headings()) % space.headings();
             moved[index(static_cast<std::size_t>(target), turned)] +=
-                p[index(place, h)] * weight * static_cast<double>(kernel.heading_weights[k]);
+                p[index(place, h)] * weight * static_cast<double>(turns[k]);
           }
         }
       }
@@ -343,7 +344,7 @@ TEST(MotionKernel, ARobotThatSlipsMayBeACellFurther) {
   EXPECT_GT(twice, 0.01);
   EXPECT_LT(twice, 0.1);
   double turned = 0.0;
-  for (const float weight : kernel.heading_weights) turned += static_cast<double>(weight);
+  for (const float weight : kernel.heading_weights()) turned += static_cast<double>(weight);
   EXPECT_NEAR(turned, 1.0, 1e-5);
   EXPECT_NEAR(spread_of(kernel, 0).mass, 1.0, 1e-5);
 }

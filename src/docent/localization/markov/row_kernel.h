@@ -15,6 +15,9 @@ namespace docent {
 /// set, so all sets agree bit for bit.
 inline constexpr std::size_t kRowBlock = 16;
 
+/// Lines of cells that are mixed along y together: they share most of what they read.
+inline constexpr std::size_t kRowGroup = 4;
+
 /// Rows are not normalised when they are written, for the sum is known only afterwards. A probability is
 /// row[h] * scale + bias[h], and it is active above limit[h].
 struct RowScale {
@@ -33,6 +36,16 @@ struct AxisTaps {
   std::vector<std::uint32_t> begin;  ///< [blocks + 1] into offsets
   std::vector<int> offsets;          ///< [cells] from the source to the target
   std::vector<float> weights;        ///< [offsets][16]
+};
+
+/// A symmetric blur along the headings, which go round: single weights about the middle, then weights that four
+/// headings share, so that a long tail costs a quarter.
+struct HeadingBlur {
+  std::vector<float> middle;  ///< odd length
+  std::vector<float>
+      fours;  ///< of the headings half + 1 + 4 i … half + 4 + 4 i on both sides, half = middle.size() / 2
+  [[nodiscard]] std::size_t half() const { return middle.size() / 2; }
+  [[nodiscard]] std::size_t reach() const { return half() + 4 * fours.size(); }  ///< [headings]
 };
 
 struct RowTotals {
@@ -59,13 +72,19 @@ struct RowKernels {
   void (*expand)(const float* row, const RowScale& scale, float* out);
   /// For `count` cells: out[c][h] = sum over taps of weight * line[c + reach - offset][h]; line [count + 2 * reach].
   void (*mix_columns)(const AxisTaps& taps, const float* line, std::size_t count, std::size_t blocks, float* out);
-  /// out[h] = sum over taps of weight * rows[reach - offset][h]; rows [2 * reach + 1].
-  void (*mix_rows)(const AxisTaps& taps, const float* const* rows, std::size_t blocks, float* out);
-  /// out[h] = sum over k of weights[k] * extended[h + k]; `extended` need not be aligned.
-  void (*turn)(const float* extended, std::span<const float> weights, std::size_t headings, float* out,
+  /// For kRowGroup lines of cells: out[r * out_stride + h] = sum over taps of weight * lines[r + reach - offset][at +
+  /// h]; lines [2 * reach + kRowGroup].
+  void (*mix_rows)(const AxisTaps& taps, const float* const* lines, std::size_t at, std::size_t blocks, float* out,
+                   std::size_t out_stride);
+  /// fours[h] = centre[h] + … + centre[h + 3] for h from -halo on, before `blocks` blocks and behind them. Both lie in
+  /// buffers with room for the halo, whole blocks, on both sides, and a block more.
+  void (*add_fours)(const float* centre, std::size_t halo, std::size_t blocks, float* fours);
+  /// out[h] = sum over k of blur's weight of k * centre[h + k], |k| <= reach. `centre` and `fours` as above.
+  void (*turn)(const float* centre, const HeadingBlur& blur, const float* fours, std::size_t headings, float* out,
                RowTotals& totals);
   /// A bit for each block with an active state.
   std::uint64_t (*active_blocks)(const float* row, const RowScale& scale);
+  std::uint16_t (*least_of_all)(const std::uint16_t* costs, std::size_t headings);
   /// The least cost of an active state; 65535 if there is none.
   std::uint16_t (*least_cost)(const float* row, const RowScale& scale, const std::uint16_t* costs);
   /// [Markov1998] eq. 1 without eta.

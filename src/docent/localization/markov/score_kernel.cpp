@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "docent/localization/markov/score_by_sixteenths.h"
+
 #if defined(__x86_64__)
 #include <immintrin.h>
 #if defined(__GNUC__) && !defined(__clang__)
@@ -25,6 +27,12 @@ std::size_t first_line(const Plan& plan, std::size_t beam, std::size_t first_hea
   return at < plan.headings ? at : at - plan.headings;
 }
 
+/// A beam at one heading. Not inlined: what compilers make of this loop within others is twice as slow, or not, by
+/// chance.
+[[gnu::noinline]] void add_costs(const std::uint8_t* costs, const std::uint8_t* seen, std::uint32_t* sums) {
+  for (std::size_t i = 0; i < kTile; ++i) sums[i] += costs[seen[i]];
+}
+
 /// The plain kernel: [2] lines of tables a beam, the tile as it is.
 void score_plain(const Plan& plan, const Line* tables, const Line* tile, std::size_t first, std::size_t count,
                  std::uint16_t* sums) {
@@ -37,7 +45,7 @@ void score_plain(const Plan& plan, const Line* tables, const Line* tile, std::si
       for (std::size_t beam = sector.first; beam < sector.last; ++beam) {
         const std::uint8_t* const costs = tables[2 * beam].bytes.data();
         const std::uint8_t* const seen = tile[first_line(plan, beam, first) + k].bytes.data();
-        for (std::size_t i = 0; i < kTile; ++i) part[i] += costs[seen[i]];
+        add_costs(costs, seen, part.data());
       }
       for (std::size_t i = 0; i < kTile; ++i)
         out[i] = static_cast<std::uint16_t>(out[i] + std::min<std::uint32_t>(part[i], plan.cap));
@@ -47,115 +55,8 @@ void score_plain(const Plan& plan, const Line* tables, const Line* tile, std::si
 
 #if defined(__x86_64__)
 
-#define DOCENT_AVX2 __attribute__((target("avx2")))
 #define DOCENT_AVX512 __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,avx512vbmi")))
 #define DOCENT_INLINE __attribute__((always_inline)) inline
-
-/// AVX2 looks up 128 entries by eight shuffles of 16. A shuffle gives zero where bit 7 of its index is set, so with the
-/// index less 16 t, shuffle t counts wherever the index is at least 16 t. The tables therefore hold differences (by
-/// exclusive or) of successive sixteenths, and the result is the exclusive or of all eight. The shifted indices of a
-/// line serve all beams and headings: they are laid out once a tile, every second one, the others being a
-/// subtraction away: [half][directions + kBlock][kStored][32].
-constexpr std::size_t kShifts = 8;
-constexpr std::size_t kStored = 4;
-constexpr std::size_t kHalf = 32;
-
-DOCENT_AVX2 void shift_tile(const std::uint8_t* tile, std::size_t headings, Line* out) {
-  const __m256i step = _mm256_set1_epi8(16 * kShifts / kStored);
-  for (std::size_t half = 0; half < 2; ++half) {
-    for (std::size_t line = 0; line < headings + kBlock; ++line) {
-      const std::size_t from = line % headings;
-      auto* const to = reinterpret_cast<__m256i*>(out + (half * (headings + kBlock) + line) * kStored / 2);
-      __m256i index = _mm256_load_si256(reinterpret_cast<const __m256i*>(tile + from * kTile + half * kHalf));
-      for (std::size_t i = 0; i < kStored; ++i) {
-        _mm256_store_si256(to + i, index);
-        index = _mm256_sub_epi8(index, step);
-      }
-    }
-  }
-}
-
-struct Avx2Tables {
-  __m256i sixteenths[kShifts];
-};
-DOCENT_AVX2 DOCENT_INLINE void load_avx2(const Line* tables, std::size_t beam, Avx2Tables& out) {
-  const auto* const from = reinterpret_cast<const __m256i*>(tables + beam * kShifts / 2);
-  for (std::size_t shift = 0; shift < kShifts; ++shift) out.sixteenths[shift] = _mm256_load_si256(from + shift);
-}
-DOCENT_AVX2 DOCENT_INLINE void look_up_avx2(const Avx2Tables& tables, const __m256i* indices, const __m256i& sixteen,
-                                            __m256i& cost) {
-  __m256i part[kStored];
-  for (std::size_t i = 0; i < kStored; ++i) {
-    const __m256i index = _mm256_load_si256(indices + i);
-    part[i] = _mm256_xor_si256(_mm256_shuffle_epi8(tables.sixteenths[2 * i], index),
-                               _mm256_shuffle_epi8(tables.sixteenths[2 * i + 1], _mm256_sub_epi8(index, sixteen)));
-  }
-  cost = _mm256_xor_si256(_mm256_xor_si256(part[0], part[1]), _mm256_xor_si256(part[2], part[3]));
-}
-DOCENT_AVX2 DOCENT_INLINE void widen_avx2(const __m256i& bytes, std::uint16_t* sums, std::uint16_t cap) {
-  const __m256i most = _mm256_set1_epi16(static_cast<short>(cap));
-  auto* const out = reinterpret_cast<__m256i*>(sums);
-  const __m256i low = _mm256_cvtepu8_epi16(_mm256_castsi256_si128(bytes));
-  const __m256i high = _mm256_cvtepu8_epi16(_mm256_extracti128_si256(bytes, 1));
-  _mm256_storeu_si256(out, _mm256_min_epu16(most, _mm256_add_epi16(_mm256_loadu_si256(out), low)));
-  _mm256_storeu_si256(out + 1, _mm256_min_epu16(most, _mm256_add_epi16(_mm256_loadu_si256(out + 1), high)));
-}
-
-/// Half a tile. `part` [count] gets the sums of the beams, saturated.
-DOCENT_AVX2 void add_beams_avx2(const Plan& plan, const Line* tables, const Line* half_tile, TileScorer::Sector beams,
-                                std::size_t first, std::size_t count, __m256i* part) {
-  const __m256i sixteen = _mm256_set1_epi8(16);
-  for (std::size_t k = 0; k < count; ++k) part[k] = _mm256_setzero_si256();
-  for (std::size_t beam = beams.first; beam < beams.last; ++beam) {
-    Avx2Tables table;
-    load_avx2(tables, beam, table);
-    const auto* indices = reinterpret_cast<const __m256i*>(half_tile + first_line(plan, beam, first) * kStored / 2);
-    for (std::size_t k = 0; k < count; ++k, indices += kStored) {
-      __m256i cost;
-      look_up_avx2(table, indices, sixteen, cost);
-      part[k] = _mm256_adds_epu8(part[k], cost);
-    }
-  }
-}
-
-DOCENT_AVX2 void score_avx2(const Plan& plan, const Line* tables, const Line* tile, std::size_t first,
-                            std::size_t count, std::uint16_t* sums) {
-  __m256i part[kBlock];
-  __m256i group[kBlock];
-  std::array<std::uint16_t, kBlock * kHalf> wide;
-  std::fill_n(sums, count * kTile, std::uint16_t{0});
-  for (std::size_t half = 0; half < 2; ++half) {
-    const Line* const half_tile = tile + half * (plan.headings + kBlock) * kStored / 2;
-    std::uint16_t* const out = sums + half * kHalf;
-    const auto flush = [&]() DOCENT_AVX2 {
-      for (std::size_t k = 0; k < count; ++k) {
-        widen_avx2(group[k], out + k * kTile, 0xffff);
-        group[k] = _mm256_setzero_si256();
-      }
-    };
-    if (plan.capped_in_byte > 0) {
-      const __m256i cap = _mm256_set1_epi8(static_cast<char>(plan.cap));
-      for (std::size_t k = 0; k < count; ++k) group[k] = _mm256_setzero_si256();
-      for (std::size_t s = 0; s < plan.sectors.size(); ++s) {
-        add_beams_avx2(plan, tables, half_tile, plan.sectors[s], first, count, part);
-        for (std::size_t k = 0; k < count; ++k) group[k] = _mm256_add_epi8(group[k], _mm256_min_epu8(part[k], cap));
-        if ((s + 1) % plan.capped_in_byte == 0) flush();
-      }
-      flush();
-      continue;
-    }
-    for (const TileScorer::Sector& sector : plan.sectors) {
-      wide.fill(0);
-      for (std::size_t beam = sector.first; beam < sector.last; beam += 2) {  // two costs fit in a byte
-        add_beams_avx2(plan, tables, half_tile, {beam, std::min(beam + 2, sector.last)}, first, count, part);
-        for (std::size_t k = 0; k < count; ++k) widen_avx2(part[k], wide.data() + k * kHalf, plan.cap);
-      }
-      for (std::size_t k = 0; k < count; ++k)
-        for (std::size_t i = 0; i < kHalf; ++i)
-          out[k * kTile + i] = static_cast<std::uint16_t>(out[k * kTile + i] + wide[k * kHalf + i]);
-    }
-  }
-}
 
 DOCENT_AVX512 DOCENT_INLINE void widen_avx512(const __m512i& bytes, std::uint16_t* sums, std::uint16_t cap) {
   const __m512i most = _mm512_set1_epi16(static_cast<short>(cap));
@@ -203,8 +104,9 @@ DOCENT_AVX512 void score_some_avx512(const Plan& plan, const Line* tables, const
   std::array<std::uint16_t, kCount * kTile> wide;
   for (const TileScorer::Sector& sector : plan.sectors) {
     wide.fill(0);
-    for (std::size_t beam = sector.first; beam < sector.last; beam += 2) {  // two costs fit in a byte
-      add_beams_avx512<kCount>(plan, tables, tile, {beam, std::min(beam + 2, sector.last)}, first, part);
+    for (std::size_t beam = sector.first; beam < sector.last; beam += plan.beams_in_byte) {
+      add_beams_avx512<kCount>(plan, tables, tile, {beam, std::min(beam + plan.beams_in_byte, sector.last)}, first,
+                               part);
       for (std::size_t k = 0; k < kCount; ++k) widen_avx512(part[k], wide.data() + k * kTile, plan.cap);
     }
     for (std::size_t i = 0; i < wide.size(); ++i) sums[i] = static_cast<std::uint16_t>(sums[i] + wide[i]);
@@ -261,20 +163,10 @@ void hand_out(const std::uint16_t* sums, std::size_t first, std::span<const std:
     for (std::size_t k = 0; k < kBlock; ++k) rows[j][first + k] = sums[k * kTile + lanes[j]];
 }
 
-std::vector<Line> tables_of(std::span<const BeamCosts> beams, InstructionSet set) {
-  std::vector<Line> tables(beams.size() * (set == InstructionSet::avx2 ? 4 : 2));
-  for (std::size_t b = 0; b < beams.size(); ++b) {
-    const auto& costs = beams[b].costs;
-    if (set != InstructionSet::avx2) {
-      std::memcpy(tables.data() + 2 * b, costs.data(), costs.size());
-      continue;
-    }
-    auto* out = reinterpret_cast<std::uint8_t*>(tables.data() + 4 * b);
-    for (std::size_t i = 0; i < costs.size(); ++i) {
-      const auto value = static_cast<std::uint8_t>(i < 16 ? costs[i] : costs[i] ^ costs[i - 16]);
-      out[i / 16 * 32 + i % 16] = out[i / 16 * 32 + 16 + i % 16] = value;
-    }
-  }
+std::vector<Line> tables_of(std::span<const BeamCosts> beams) {
+  std::vector<Line> tables(beams.size() * 2);
+  for (std::size_t b = 0; b < beams.size(); ++b)
+    std::memcpy(tables.data() + 2 * b, beams[b].costs.data(), beams[b].costs.size());
   return tables;
 }
 
@@ -282,46 +174,80 @@ std::vector<Line> tables_of(std::span<const BeamCosts> beams, InstructionSet set
 
 TileScorer::TileScorer(std::span<const BeamCosts> beams, std::size_t headings, std::size_t sectors, std::uint16_t cap,
                        InstructionSet set)
-    : set_{set}, tables_{tables_of(beams, set)} {
+    : set_{set}, tables_{tables_of(beams)} {
   plan_.headings = headings;
   plan_.cap = cap;
   plan_.capped_in_byte = cap == 0 || cap > 255 ? 0 : 255U / cap;
+  std::uint8_t most = 1;
   for (const BeamCosts& beam : beams) {
     const std::size_t i = plan_.directions.size();
     const auto sector = [&](std::size_t direction) { return direction * sectors / headings; };
     if (i == 0 || sector(beam.direction) != sector(plan_.directions.back())) plan_.sectors.push_back({i, i});
     plan_.sectors.back().last = i + 1;
-    plan_.directions.push_back(beam.direction);
+    plan_.directions.push_back(static_cast<std::uint32_t>(beam.direction));
+    most = std::max(most, *std::max_element(beam.costs.begin(), beam.costs.end()));
   }
-  tile_.resize((headings + kBlock) * (set == InstructionSet::avx2 ? 4 : 1));
+  plan_.beams_in_byte = 255U / most;
+  const std::size_t blocks = (headings + kBlock - 1) / kBlock;
+  if (set == InstructionSet::avx2) {
+    by_sixteenths_ = std::make_unique<SixteenthScorer>(plan_, beams);
+    sums_.resize(blocks * kBlock * kTile);
+  } else {
+    tile_.resize(headings + kBlock);
+    sums_.resize(kBlock * kTile);
+  }
 }
 
+TileScorer::~TileScorer() = default;
+
 void TileScorer::load(const std::uint8_t* tile) {
-#if defined(__x86_64__)
-  if (set_ == InstructionSet::avx2) return shift_tile(tile, plan_.headings, tile_.data());
-#endif
   std::memcpy(tile_.data(), tile, plan_.headings * kTile);
   for (std::size_t i = 0; i < kBlock; ++i)
     std::memcpy(tile_.data() + plan_.headings + i, tile + i % plan_.headings * kTile, kTile);
 }
 
-void TileScorer::score_block(std::size_t first, std::size_t count, std::uint16_t* sums) {
+void TileScorer::score_block(std::size_t first, std::size_t count) {
 #if defined(__x86_64__)
-  if (set_ == InstructionSet::avx512) return score_avx512(plan_, tables_.data(), tile_.data(), first, count, sums);
-  if (set_ == InstructionSet::avx2) return score_avx2(plan_, tables_.data(), tile_.data(), first, count, sums);
+  if (set_ == InstructionSet::avx512)
+    return score_avx512(plan_, tables_.data(), tile_.data(), first, count, sums_.data());
 #endif
-  score_plain(plan_, tables_.data(), tile_.data(), first, count, sums);
+  score_plain(plan_, tables_.data(), tile_.data(), first, count, sums_.data());
 }
 
 void TileScorer::score(const std::uint8_t* tile, std::uint64_t blocks, std::span<const std::uint8_t> lanes,
                        std::span<std::uint16_t* const> rows) {
+#if defined(__x86_64__)
+  if (by_sixteenths_) return score_by_sixteenths(tile, blocks, lanes, rows);
+#endif
   load(tile);
-  alignas(64) std::array<std::uint16_t, kBlock * kTile> sums{};
   for (std::size_t first = 0; first < plan_.headings; first += kBlock) {
     if ((blocks >> (first / kBlock) & 1U) == 0) continue;
-    score_block(first, std::min(kBlock, plan_.headings - first), sums.data());
-    hand_out(sums.data(), first, lanes, rows);
+    score_block(first, std::min(kBlock, plan_.headings - first));
+    hand_out(sums_.data(), first, lanes, rows);
   }
 }
+
+#if defined(__x86_64__)
+/// Blocks that follow each other are scored together: they share the lines that their beams look along.
+void TileScorer::score_by_sixteenths(const std::uint8_t* tile, std::uint64_t blocks,
+                                     std::span<const std::uint8_t> lanes, std::span<std::uint16_t* const> rows) {
+  constexpr std::size_t kHalf = SixteenthScorer::kHalf;
+  const std::size_t count = (plan_.headings + kBlock - 1) / kBlock;
+  const auto wanted = [&](std::size_t block) { return block < count && (blocks >> block & 1U) != 0; };
+  for (std::size_t half = 0; half < 2; ++half) {
+    if (std::none_of(lanes.begin(), lanes.end(), [&](std::uint8_t lane) { return lane / kHalf == half; })) continue;
+    by_sixteenths_->load(tile, half);
+    for (std::size_t block = 0; block < count; ++block) {
+      if (!wanted(block)) continue;
+      const std::size_t first = block * kBlock;
+      while (wanted(block + 1)) ++block;
+      const std::size_t end = std::min((block + 1) * kBlock, plan_.headings);
+      by_sixteenths_->score(first, end - first, sums_.data() + first * kTile + half * kHalf);
+    }
+  }
+  for (std::size_t block = 0; block < count; ++block)
+    if (wanted(block)) hand_out(sums_.data() + block * kBlock * kTile, block * kBlock, lanes, rows);
+}
+#endif
 
 }  // namespace docent

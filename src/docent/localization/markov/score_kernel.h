@@ -2,14 +2,18 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "docent/base/instruction_set.h"
+#include "docent/localization/markov/aligned_vector.h"
 #include "docent/localization/markov/range_table.h"
 #include "docent/sensor_models/proximity_model.h"
 
 namespace docent {
+
+class SixteenthScorer;
 
 /// What a beam costs at each expected range: how far ln P(d | o), tempered, stays below its best, in steps of
 /// 1 / kCostPerNat. Whole numbers, so that every instruction set gives the same belief, bit for bit.
@@ -33,6 +37,9 @@ class TileScorer {
   /// @pre beams.size() * kMaxCost < 65536; directions < headings
   TileScorer(std::span<const BeamCosts> beams, std::size_t headings, std::size_t sectors, std::uint16_t cap,
              InstructionSet set);
+  ~TileScorer();
+  TileScorer(const TileScorer&) = delete;
+  TileScorer& operator=(const TileScorer&) = delete;
 
   /// Scores the blocks whose bits are set in `blocks`, block i being the headings from i * kBlock on, and writes
   /// costs[place][i * kBlock + k] for the places of `lanes` (ascending, 0..63). What lies in a last block beyond the
@@ -48,21 +55,26 @@ class TileScorer {
     std::size_t headings = 0;
     std::uint16_t cap = 0;
     std::size_t capped_in_byte = 0;  ///< sectors that add up in a byte; 0: the cap needs 16 bits
+    std::size_t beams_in_byte = 1;   ///< whose costs add up in a byte, whatever they see
     std::vector<Sector> sectors;
-    std::vector<std::size_t> directions;
+    std::vector<std::uint32_t> directions;  ///< ascending
   };
   struct alignas(64) Line {
     std::array<std::uint8_t, 64> bytes;
   };
 
  private:
-  void score_block(std::size_t first, std::size_t count, std::uint16_t* sums);
   void load(const std::uint8_t* tile);
+  void score_block(std::size_t first, std::size_t count);
+  void score_by_sixteenths(const std::uint8_t* tile, std::uint64_t blocks, std::span<const std::uint8_t> lanes,
+                           std::span<std::uint16_t* const> rows);
 
   InstructionSet set_;
   Plan plan_;
-  std::vector<Line> tables_;  ///< of the look-ups, in the form that the instruction set wants
-  std::vector<Line> tile_;    ///< the tile, its first block of directions once more at the end; for AVX2 see there
+  std::vector<Line> tables_;                        ///< [2] a beam: its costs
+  std::vector<Line> tile_;                          ///< the tile, its first block of directions once more at the end
+  AlignedVector<std::uint16_t> sums_;               ///< [headings][kTile], of a block or of all
+  std::unique_ptr<SixteenthScorer> by_sixteenths_;  ///< for AVX2
 };
 
 }  // namespace docent

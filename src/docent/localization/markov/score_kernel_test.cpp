@@ -113,5 +113,28 @@ TEST_P(EverySet, ScoresOnlyTheBlocksThatAreAsked) {
   }
 }
 
+/// Some blocks of many beams, one sector or several, also across the end of the circle: what is scored is right, and
+/// the rest is left alone.
+TEST_P(EverySet, AnyBlocksOfAnyBeams) {
+  Rng rng{11};
+  constexpr std::size_t kHeadings = 180;
+  const Lines tile = any_tile(rng, kHeadings);
+  auto beams = testing::any_beams(rng, 90, static_cast<int>(kHeadings));
+  std::sort(beams.begin(), beams.end(), [](const auto& a, const auto& b) { return a.direction < b.direction; });
+  for (const std::size_t sectors : {1U, 5U, 12U}) {
+    for (const std::uint64_t blocks : {0b1ULL, 0b100000000000ULL, 0b111000000111ULL, 0b011011110101ULL}) {
+      for (const std::uint8_t lane : {std::uint8_t{3}, std::uint8_t{45}}) {
+        SCOPED_TRACE(std::to_string(sectors) + ' ' + std::to_string(blocks) + ' ' + std::to_string(lane));
+        std::vector<std::uint16_t> costs(192, 65535);
+        std::uint16_t* const row = costs.data();
+        TileScorer{beams, kHeadings, sectors, 250, GetParam()}.score(tile.data(), blocks, {&lane, 1}, {&row, 1});
+        const auto expected = obvious(tile.data(), beams, kHeadings, sectors, 250, lane);
+        for (std::size_t h = 0; h < kHeadings; ++h)
+          ASSERT_EQ(costs[h], (blocks >> (h / kBlock) & 1U) != 0 ? expected[h] : 65535U) << h;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace docent
