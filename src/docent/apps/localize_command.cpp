@@ -110,7 +110,8 @@ nlohmann::json report_of(const LaserLog& log, const LogRun& run, const RayCaster
 }
 
 /// The run against the truth, where there is any.
-void add_score(nlohmann::json& report, const LogRun& run, const ScanReference& reference, bool reverse) {
+void add_score(nlohmann::json& report, const LogRun& run, const ScanReference& reference, bool reverse,
+               bool start_is_known) {
   std::vector<LocalizedScan> scans;
   for (const LoggedPose& pose : run.poses)
     scans.push_back({pose.has_pose ? std::optional{pose.map_from_base} : std::nullopt, pose.localized});
@@ -119,7 +120,7 @@ void add_score(nlohmann::json& report, const LogRun& run, const ScanReference& r
     std::reverse(scans.begin(), scans.end());
     std::reverse(truth.begin(), truth.end());
   }
-  const ReferenceScore score = score_against(truth, scans);
+  const ReferenceScore score = score_against(truth, scans, start_is_known);
   report["reference_scans"] = score.scans;
   if (score.scans == 0) return;
   report["mean_error_m"] = score.mean_m;
@@ -172,7 +173,7 @@ std::unique_ptr<Localizer> make_localizer(const Options& options, const Occupanc
 
 MethodParams params_for(const Options& options, const OccupancyGrid& map, const LaserLog& log) {
   RobotConfig config;
-  value_or_fail(set_log_defaults(config, map, log.max_range));
+  value_or_fail(set_log_defaults(config, map, log.max_range, log.times_are_invented));
   value_or_fail(config.set("localize.particles={most: 300000, reserve: 30000, draw_every: 1}"));  // there is time
   for (const std::string& setting : options.settings) {
     for (const std::string own : {"filter", "states"})
@@ -243,7 +244,7 @@ void localize(const Options& options) {
   report["scans_used"] = options.choice.scans;
   report["odometry"] = options.odometry;
   report["dead_reckoning"] = options.dead_reckoning;
-  if (has_reference) add_score(report, run, referenced.reference, options.reverse);
+  if (has_reference) add_score(report, run, referenced.reference, options.reverse, options.start != "unknown");
   report["method"] = options.method;
   report["filter"] = options.filter;
   report["start"] = options.start;
@@ -254,7 +255,8 @@ void localize(const Options& options) {
     localizer->start_unknown();
     const LogRun other = run_once(options, referenced, map, *localizer, !options.reverse, options.picture);
     report["other_way"] = report_of(log, other, caster);
-    if (has_reference) add_score(report["other_way"], other, referenced.reference, !options.reverse);
+    if (has_reference)
+      add_score(report["other_way"], other, referenced.reference, !options.reverse, options.start == "reference");
     report["agreement"] = to_json(agreement_of(run.poses, other.poses));
     print("the other way", report["other_way"]);
     print("agreement", report["agreement"]);

@@ -105,7 +105,7 @@ LogRun localize_log(const LaserLog& log, Localizer& localizer, const LogRunOptio
       pose.map_from_base = *best * inverse(tracked);
       pose.has_pose = true;
     }
-    if (pose.localized && !known) known = i;
+    if (!known && (pose.localized || options.start)) known = i;
     if (pose.localized && !run.localized_after) run.localized_after = n + 1;
     if (options.watch) options.watch(localizer, i, step);
   }

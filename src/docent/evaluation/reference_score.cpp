@@ -18,11 +18,12 @@ double quantile(const std::vector<double>& sorted, double q) {
 
 }  // namespace
 
-ReferenceScore score_against(const ScanReference& reference, std::span<const LocalizedScan> scans) {
+ReferenceScore score_against(const ScanReference& reference, std::span<const LocalizedScan> scans,
+                             bool start_is_known) {
   DOCENT_CHECK(reference.size() == scans.size());
   ReferenceScore score;
   std::vector<double> errors;
-  while (score.waited < scans.size() && !scans[score.waited].localized) ++score.waited;
+  while (!start_is_known && score.waited < scans.size() && !scans[score.waited].localized) ++score.waited;
   for (std::size_t i = score.waited; i < scans.size(); ++i) {
     if (!reference[i]) continue;
     ++score.scans;

@@ -15,7 +15,8 @@ struct LocalizedScan {
 };
 
 /// A localized log against its reference, over the scans that have one, from the first in which the robot says where it
-/// is. Lost, as everywhere: without a pose, or more than 0.5 m or 20 degrees off.
+/// is, or from the very first where it was told. Lost, as everywhere: without a pose, or more than 0.5 m or 20 degrees
+/// off.
 struct ReferenceScore {
   std::size_t scans = 0;           ///< that count
   std::size_t waited = 0;          ///< scans before, with or without a reference
@@ -30,6 +31,7 @@ struct ReferenceScore {
 };
 
 /// @pre both have one entry a scan. O(scans log scans).
-[[nodiscard]] ReferenceScore score_against(const ScanReference& reference, std::span<const LocalizedScan> scans);
+[[nodiscard]] ReferenceScore score_against(const ScanReference& reference, std::span<const LocalizedScan> scans,
+                                           bool start_is_known);
 
 }  // namespace docent

@@ -8,6 +8,9 @@
 namespace docent {
 namespace {
 
+constexpr double kVague = 0.1;        // [m] deviation by odometry, or
+constexpr double kVagueTurn = 0.052;  // [rad]
+
 constexpr double kUnknownAllowance = 0.3;  // [m]
 constexpr std::size_t kMostBeams = 120;
 constexpr std::size_t kFewestBeams = 10;
@@ -80,7 +83,10 @@ Pose2 PoseRefiner::refine(const BeliefMode& mode, const RangeSweep& sweep, const
     prior.diagonal() += Eigen::Vector3d{position_variance, position_variance, heading_variance};
     prior.diagonal().array() += 1e-8;
   }
-  if (!estimate_ || !is_in(mode)) {
+  // After a long way odometry knows the pose less well than the belief does: then the belief's is the better beginning.
+  const bool is_vague = prior(0, 0) + prior(1, 1) > mode.covariance[0] + mode.covariance[4] + kVague * kVague ||
+                        prior(2, 2) > mode.covariance[8] + kVagueTurn * kVagueTurn;
+  if (!estimate_ || is_vague || !is_in(mode)) {
     estimate_ = Estimate{mode.map_from_robot, mode.covariance};
     prior = matrix(mode.covariance);
     prior.diagonal() += Eigen::Vector3d{0.003, 0.003, 0.0005};

@@ -8,6 +8,7 @@
 #include "docent/localization/markov/position_belief.h"
 #include "docent/localization/markov/range_table.h"
 #include "docent/sensor_models/proximity_model.h"
+#include "docent/sensor_models/range_sweep.h"
 
 namespace docent {
 
@@ -60,5 +61,8 @@ struct Agreement {
 };
 [[nodiscard]] Agreement agreement(const ExpectedRanges& expected, const ProximityModel& model, int direction,
                                   int measured, double sureness);
+/// Summed over all beams of a sweep: agrees + shorter + longer = beams whose range the map says.
+[[nodiscard]] Agreement agreement_of_all(const ExpectedRanges& expected, const ProximityModel& model,
+                                         const RangeSweep& sweep, double sureness, int directions);
 
 }  // namespace docent

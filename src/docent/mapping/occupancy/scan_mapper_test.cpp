@@ -19,7 +19,7 @@ constexpr double kNorth = 3.02;
 PlacedSweep in_room(const Pose2& map_from_sensor, int beams) {
   PlacedSweep placed{{}, map_from_sensor};
   for (int i = 0; i < beams; ++i) {
-    const double bearing = Angle::radians(2.0 * std::numbers::pi * i / beams).radians();
+    const double bearing = Angle::radians(2.0 * std::numbers::pi * (i + 0.5) / beams).radians();
     const Point2 along = unit(map_from_sensor.theta + Angle::radians(bearing));
     const double to_x = ((along.x > 0 ? kEast : -kEast) - map_from_sensor.x) / along.x;
     const double to_y = ((along.y > 0 ? kNorth : -kNorth) - map_from_sensor.y) / along.y;
