@@ -106,16 +106,19 @@ void ScanMapper::add(const PlacedSweep& placed) {
   const auto& beams = placed.sweep.beams;
   const Point2 sensor = placed.map_from_sensor.position();
   const double widest_gap = params_.widest_gap * std::numbers::pi / 180.0;
-  const auto has_neighbour = [&](std::size_t i) {
-    return i + 1 < beams.size() && !beams[i].no_return && !beams[i + 1].no_return &&
-           std::abs(Angle::radians(beams[i + 1].bearing - beams[i].bearing).radians()) <= widest_gap;
+  // The last beam of a full turn is the neighbour of the first.
+  const auto neighbour_of = [&](std::size_t i) -> const SweepBeam* {
+    const SweepBeam& next = beams[i + 1 < beams.size() ? i + 1 : 0];
+    const double apart = std::abs(Angle::radians(next.bearing - beams[i].bearing).radians());
+    return &next != &beams[i] && !next.no_return && apart <= widest_gap ? &next : nullptr;
   };
   for (std::size_t i = 0; i < beams.size(); ++i) {  // hits first: they win
     if (beams[i].no_return || beams[i].range > params_.reach) continue;
     const Point2 end = placed.map_from_sensor * endpoint(beams[i]);
     add_evidence(frame_.cell_at(end), hit_);
-    if (!has_neighbour(i) || beams[i + 1].range > params_.reach) continue;
-    const Point2 next = placed.map_from_sensor * endpoint(beams[i + 1]);
+    const SweepBeam* const neighbour = neighbour_of(i);
+    if (neighbour == nullptr || neighbour->range > params_.reach) continue;
+    const Point2 next = placed.map_from_sensor * endpoint(*neighbour);
     if (distance(end, next) <= params_.widest_wall) mark_line(end, next, hit_);
   }
   const auto seen_to = [&](const SweepBeam& beam, double at_most) {
@@ -125,9 +128,10 @@ void ScanMapper::add(const PlacedSweep& placed) {
   for (std::size_t i = 0; i < beams.size(); ++i) {
     if (beams[i].no_return) continue;
     mark_line(sensor, seen_to(beams[i], beams[i].range), pass_);
-    if (!has_neighbour(i)) continue;
-    const double both = std::min(beams[i].range, beams[i + 1].range) - params_.margin;
-    clear_triangle(sensor, seen_to(beams[i], both), seen_to(beams[i + 1], both));
+    const SweepBeam* const neighbour = neighbour_of(i);
+    if (neighbour == nullptr) continue;
+    const double both = std::min(beams[i].range, neighbour->range) - params_.margin;
+    clear_triangle(sensor, seen_to(beams[i], both), seen_to(*neighbour, both));
   }
 }
 
