@@ -7,7 +7,9 @@ lasers; the odd scans make the map, the even ones are localized, with odometry t
 import json
 import os
 import subprocess
+import sys
 import tempfile
+import time
 from pathlib import Path
 
 from evaluation.tables import Verdict, print_table
@@ -44,10 +46,14 @@ class Logs:
         return folder / "map.yaml"
 
     def localize(self, name, arguments):
+        started = time.monotonic()
         report = Path(self.scratch.name) / "report.json"
         drawn = ["--picture", self.pictures / name] if self.pictures else []
         self._call(name, ["localize", "--report", report, *drawn, *arguments])
-        return json.loads(report.read_text())
+        run = json.loads(report.read_text())
+        error = f", mean error {100 * run['mean_error_m']:.1f} cm, lost {run['lost_scans']}" if "mean_error_m" in run else ""
+        print(f"   {name}: {time.monotonic() - started:.0f} s{error}", file=sys.stderr, flush=True)
+        return run
 
 
 def wean(logs, is_slice, methods, verdict):
@@ -122,8 +128,8 @@ def corrected(logs, is_slice, methods, seeds, verdict, crippled):
         for method in methods:
             means = []
             for seed in seeds:
-                run = logs.localize(f"{name}-{method}-{seed}", [*common, "--method", method, "--odometry-seed", seed, "--seed",
-                                                                seed])
+                run = logs.localize(f"{name}-{method}-{seed}", [*common, "--method", method, "--odometry-seed", seed,
+                                                                "--seed", seed])
                 rows.append(row_of(name, method, "reference", f"seed {seed}", run))
                 means.append(run["mean_error_m"])
             verdict.want(f"{name} {method}: mean error, worst seed (10 cm)", f"{100 * max(means):.1f} cm",
