@@ -76,7 +76,7 @@ LogRun run_once(const Options& options, const ReferencedLog& referenced, const O
   if (!pictures.empty()) {
     std::filesystem::create_directories(pictures);
     const std::string suffix = reverse ? "-reversed" : "";
-    value_or_fail(movie->save(pictures / ("belief" + suffix + ".webp")));
+    if (run.updates > 0) value_or_fail(movie->save(pictures / ("belief" + suffix + ".webp")));
     const std::size_t stride = std::max<std::size_t>(1, log.scans.size() / 25);
     value_or_fail(
         save_png(draw_run(map, log, run, stride, referenced.reference), pictures / ("scans" + suffix + ".png")));
