@@ -13,7 +13,9 @@
 #include "docent/apps/localize_log.h"
 #include "docent/apps/localize_picture.h"
 #include "docent/apps/log_defaults.h"
+#include "docent/apps/log_reference.h"
 #include "docent/base/files.h"
+#include "docent/evaluation/reference_score.h"
 #include "docent/localization/markov/markov_localizer.h"
 #include "docent/localization/monte_carlo/monte_carlo_localizer.h"
 #include "docent/recording/laser_log.h"
@@ -24,10 +26,14 @@ namespace {
 
 struct Options {
   std::string map;
-  std::string log;
+  LogChoice choice;
   std::string method = "grid";
   std::string filter = "distance";
   std::string start = "unknown";
+  std::string odometry = "logged";
+  OdometryNoiseParams noise;
+  std::uint64_t noise_seed = 1;
+  bool dead_reckoning = false;
   bool reverse = false;
   bool both_ways = false;
   std::string compare;
@@ -46,13 +52,17 @@ double quantile(std::vector<double> values, double q) {
 }
 
 /// Runs the log once; draws into `pictures` when it is not empty.
-LogRun run_once(const Options& options, const LaserLog& log, const OccupancyGrid& map, Localizer& localizer,
+LogRun run_once(const Options& options, const ReferencedLog& referenced, const OccupancyGrid& map, Localizer& localizer,
                 bool reverse, const std::filesystem::path& pictures) {
+  const LaserLog& log = referenced.log;
   LogRunOptions run_options;
   run_options.reverse = reverse;
-  // The other direction begins where nobody said.
-  if (options.start != "unknown" && reverse == options.reverse)
+  run_options.dead_reckoning = options.dead_reckoning;
+  if (options.start == "reference") {
+    run_options.start = reverse ? referenced.reference.back() : referenced.reference.front();
+  } else if (options.start != "unknown" && reverse == options.reverse) {  // the other way begins where nobody said
     run_options.start = parse_pose("--start", options.start);
+  }
   std::optional<BeliefMovie> movie;
   if (!pictures.empty()) movie.emplace(value_or_fail(BeliefMovie::create(map)));
   std::size_t seen = 0;
@@ -66,9 +76,10 @@ LogRun run_once(const Options& options, const LaserLog& log, const OccupancyGrid
   if (!pictures.empty()) {
     std::filesystem::create_directories(pictures);
     const std::string suffix = reverse ? "-reversed" : "";
-    value_or_fail(movie->save(pictures / ("belief" + suffix + ".webp")));
+    if (run.updates > 0) value_or_fail(movie->save(pictures / ("belief" + suffix + ".webp")));
     const std::size_t stride = std::max<std::size_t>(1, log.scans.size() / 25);
-    value_or_fail(save_png(draw_run(map, log, run, stride), pictures / ("scans" + suffix + ".png")));
+    value_or_fail(
+        save_png(draw_run(map, log, run, stride, referenced.reference), pictures / ("scans" + suffix + ".png")));
     for (std::size_t n = 1; n <= 12; ++n) {
       const std::size_t i = n * log.scans.size() / 13;
       if (!run.poses[i].has_pose) continue;
@@ -96,6 +107,32 @@ nlohmann::json report_of(const LaserLog& log, const LogRun& run, const RayCaster
       std::count_if(run.poses.begin(), run.poses.end(), [](const auto& pose) { return pose.localized; });
   report["localized_fraction"] = static_cast<double>(localized) / static_cast<double>(run.poses.size());
   return report;
+}
+
+/// The run against the truth, where there is any.
+void add_score(nlohmann::json& report, const LogRun& run, const ScanReference& reference, bool reverse,
+               bool start_is_known) {
+  std::vector<LocalizedScan> scans;
+  for (const LoggedPose& pose : run.poses)
+    scans.push_back({pose.has_pose ? std::optional{pose.map_from_base} : std::nullopt, pose.localized});
+  ScanReference truth = reference;
+  if (reverse) {
+    std::reverse(scans.begin(), scans.end());
+    std::reverse(truth.begin(), truth.end());
+  }
+  const ReferenceScore score = score_against(truth, scans, start_is_known);
+  report["reference_scans"] = score.scans;
+  if (score.scans == 0) return;
+  report["mean_error_m"] = score.mean_m;
+  report["median_error_m"] = score.median_m;
+  report["p95_error_m"] = score.p95_m;
+  report["max_error_m"] = score.max_m;
+  report["mean_heading_error_deg"] = score.mean_deg;
+  report["max_heading_error_deg"] = score.max_deg;
+  report["lost_scans"] = score.lost;
+  report["lost_fraction"] = score.lost_fraction();
+  report["sure_and_wrong_scans"] = score.sure_and_wrong;
+  report["unsure_scans"] = score.unsure;
 }
 
 nlohmann::json to_json(const RunAgreement& agreement) {
@@ -136,7 +173,7 @@ std::unique_ptr<Localizer> make_localizer(const Options& options, const Occupanc
 
 MethodParams params_for(const Options& options, const OccupancyGrid& map, const LaserLog& log) {
   RobotConfig config;
-  value_or_fail(set_log_defaults(config, map, log.max_range));
+  value_or_fail(set_log_defaults(config, map, log.max_range, log.times_are_invented));
   value_or_fail(config.set("localize.particles={most: 300000, reserve: 30000, draw_every: 1}"));  // there is time
   for (const std::string& setting : options.settings) {
     for (const std::string own : {"filter", "states"})
@@ -152,7 +189,8 @@ MethodParams params_for(const Options& options, const OccupancyGrid& map, const 
 /// Maps made from scans have walls as thick as the scans were uncertain, and the true surface lies inside. The depth
 /// at which the map explains the log best, over a run from its beginning and one from its end. The walls are the same
 /// for every method, and the grid is the fastest from an unknown start.
-double find_wall_depth(const Options& options, const LaserLog& log, const OccupancyGrid& map, MethodParams params) {
+double find_wall_depth(const Options& options, const ReferencedLog& log, const OccupancyGrid& map,
+                       MethodParams params) {
   double best_depth = 0.0;
   double best_fit = 0.0;
   for (const double depth : {0.0, 0.2, 0.4}) {  // nearer ones differ less than two runs do
@@ -171,25 +209,42 @@ double find_wall_depth(const Options& options, const LaserLog& log, const Occupa
   return best_depth;
 }
 
+/// The log as it is localized: with the odometry that was asked for, and from the first scan whose pose is known where
+/// the start is.
+ReferencedLog load_log(const Options& options) {
+  ReferencedLog referenced = load_referenced_log(options.choice);
+  for (const std::string& note : referenced.log.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
+  value_or_fail(options.noise.validate(), 2);
+  if (options.odometry == "perturbed") replace_odometry(referenced, options.noise, options.noise_seed);
+  if (options.start == "reference") begin_where_known(referenced);
+  return referenced;
+}
+
 void localize(const Options& options) {
   const OccupancyGrid map = value_or_fail(load_map(options.map));
-  const LaserLog log = value_or_fail(read_laser_log(options.log));
+  const ReferencedLog referenced = load_log(options);
+  const LaserLog& log = referenced.log;
+  const bool has_reference = !options.choice.reference.empty();
   MethodParams params = params_for(options, map, log);
   if (StateSpace{map, RayCaster{map}, params.grid.states}.places() == 0)
     throw CommandFailed{options.map + ": no free place in this map"};
   if (options.wall_depth == "auto") {
-    params.grid.states.wall_depth = find_wall_depth(options, log, map, params);
+    params.grid.states.wall_depth = find_wall_depth(options, referenced, map, params);
   } else {
     params.grid.states.wall_depth = parse_numbers("--wall-depth", options.wall_depth, 1).front();
     value_or_fail(params.validate(), 2);
   }
   const auto localizer = make_localizer(options, map, params);
 
-  const LogRun run = run_once(options, log, map, *localizer, options.reverse, options.picture);
+  const LogRun run = run_once(options, referenced, map, *localizer, options.reverse, options.picture);
   const RayCaster caster{map};
   nlohmann::json report = report_of(log, run, caster);
   report["map"] = options.map;
-  report["log"] = options.log;
+  report["log"] = options.choice.log;
+  report["scans_used"] = options.choice.scans;
+  report["odometry"] = options.odometry;
+  report["dead_reckoning"] = options.dead_reckoning;
+  if (has_reference) add_score(report, run, referenced.reference, options.reverse, options.start != "unknown");
   report["method"] = options.method;
   report["filter"] = options.filter;
   report["start"] = options.start;
@@ -198,8 +253,10 @@ void localize(const Options& options) {
   print(options.reverse ? "reversed" : "forward", report);
   if (options.both_ways) {
     localizer->start_unknown();
-    const LogRun other = run_once(options, log, map, *localizer, !options.reverse, options.picture);
+    const LogRun other = run_once(options, referenced, map, *localizer, !options.reverse, options.picture);
     report["other_way"] = report_of(log, other, caster);
+    if (has_reference)
+      add_score(report["other_way"], other, referenced.reference, !options.reverse, options.start == "reference");
     report["agreement"] = to_json(agreement_of(run.poses, other.poses));
     print("the other way", report["other_way"]);
     print("agreement", report["agreement"]);
@@ -220,9 +277,7 @@ void add_localize_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("localize", "Localize a recorded log in a map");
   command->add_option("--map", options->map, "map_server YAML file")->required();
-  command
-      ->add_option("--log", options->log, "CARMEN text log (plain or .gz), MCAP recording, rosbag2 folder or database")
-      ->required();
+  add_log_options(*command, options->choice);
   command->add_option("--method", options->method, "grid, particles")
       ->check(CLI::IsMember({"grid", "particles"}))
       ->capture_default_str();
@@ -231,8 +286,22 @@ void add_localize_command(CLI::App& app) {
       ->capture_default_str();
   command
       ->add_option("--start", options->start,
-                   "unknown, or X,Y,DEG of the first scan that is offered (with --reverse the last of the log)")
+                   "unknown, or X,Y,DEG of the first scan that is offered (with --reverse the last of the log), or "
+                   "reference: where the reference says, from the first scan that has one")
       ->capture_default_str();
+  command
+      ->add_option("--odometry", options->odometry,
+                   "logged, or perturbed: the reference's own way with errors drawn from --odometry-seed")
+      ->check(CLI::IsMember({"logged", "perturbed"}))
+      ->capture_default_str();
+  command->add_option("--odometry-seed", options->noise_seed, "seed of perturbed odometry")->capture_default_str();
+  command
+      ->add_option(
+          "--odometry-noise", options->noise.way_share,
+          "deviation of each perturbed way and turn, as a share of it; half a degree a metre and more come on top")
+      ->capture_default_str();
+  command->add_flag("--dead-reckoning", options->dead_reckoning,
+                    "crippled, to compare with: odometry alone once the robot knows where it is");
   command->add_flag("--reverse", options->reverse, "from the last scan to the first, with inverse odometry");
   command->add_flag("--both-ways", options->both_ways, "forward and reversed, and how they agree");
   command->add_option("--compare", options->compare, "poses of another run over this log");
@@ -245,7 +314,10 @@ void add_localize_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--set", options->settings, "key=value of the localizer's parameters, e.g. beams=90");
   command->add_option("--seed", options->seed, "seed of the random choice of beams")->capture_default_str();
-  command->callback([options] { localize(*options); });
+  command->callback([options] {
+    options->noise.turn_share = options->noise.way_share;
+    localize(*options);
+  });
 }
 
 }  // namespace docent

@@ -48,15 +48,33 @@ Pose2 base_from_tracked(bool has_two_lasers, const LoggedScan& scan) {
   return has_two_lasers ? Pose2{} : scan.base_from_laser;
 }
 
+namespace {
+
+/// Odometry alone from a known pose on.
+LoggedPose reckoned(const LoggedPose& from, const LoggedScan& at_from, std::size_t scan, const LoggedScan& now) {
+  LoggedPose pose = from;
+  pose.scan = scan;
+  pose.time = to_seconds(now.time);
+  pose.map_from_base = from.map_from_base * (inverse(at_from.odom_from_base) * now.odom_from_base);
+  return pose;
+}
+
+}  // namespace
+
 LogRun localize_log(const LaserLog& log, Localizer& localizer, const LogRunOptions& options) {
   LogRun run;
   run.poses.resize(log.scans.size());
   const bool has_two = has_two_lasers(log);
   std::size_t fitted = 0;
+  std::optional<std::size_t> known;  // the first scan at which the robot said where it is
   const double end = log.scans.empty() ? 0.0 : to_seconds(log.scans.back().time);
   for (std::size_t n = 0; n < log.scans.size(); ++n) {
     const std::size_t i = options.reverse ? log.scans.size() - 1 - n : n;
     const LoggedScan& scan = log.scans[i];
+    if (options.dead_reckoning && known) {
+      run.poses[i] = reckoned(run.poses[*known], log.scans[*known], i, scan);
+      continue;
+    }
     const double logged = to_seconds(scan.time);
     const Time time = time_from_seconds(options.reverse ? end - logged : logged);
     const Pose2 tracked = base_from_tracked(has_two, scan);
@@ -87,6 +105,7 @@ LogRun localize_log(const LaserLog& log, Localizer& localizer, const LogRunOptio
       pose.map_from_base = *best * inverse(tracked);
       pose.has_pose = true;
     }
+    if (!known && (pose.localized || options.start)) known = i;
     if (pose.localized && !run.localized_after) run.localized_after = n + 1;
     if (options.watch) options.watch(localizer, i, step);
   }

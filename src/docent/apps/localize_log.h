@@ -34,8 +34,9 @@ struct LogRun {
 };
 
 struct LogRunOptions {
-  bool reverse = false;        ///< scans from the last to the first, with inverse odometry
-  std::optional<Pose2> start;  ///< map_from_base at the first scan; nullopt: unknown
+  bool reverse = false;         ///< scans from the last to the first, with inverse odometry
+  std::optional<Pose2> start;   ///< map_from_base at the first scan; nullopt: unknown
+  bool dead_reckoning = false;  ///< crippled: once it knows where it is, odometry alone
   /// After every scan: localizer, index in the log, what the scan did (for pictures).
   std::function<void(const Localizer&, std::size_t, const Localizer::Step&)> watch;
 };

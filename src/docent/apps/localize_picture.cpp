@@ -67,9 +67,14 @@ Image draw_scan(const OccupancyGrid& map, const LoggedScan& scan, double max_ran
   return image;
 }
 
-Image draw_run(const OccupancyGrid& map, const LaserLog& log, const LogRun& run, std::size_t stride) {
+Image draw_run(const OccupancyGrid& map, const LaserLog& log, const LogRun& run, std::size_t stride,
+               const std::vector<std::optional<Pose2>>& reference) {
   const MapView view = MapView::whole(map.frame, 1600);
   Image image = draw_map(map, view);
+  std::vector<Point2> true_way;
+  for (const auto& pose : reference)
+    if (pose) true_way.push_back(pose->position());
+  if (true_way.size() > 1) draw_path(image, view, true_way, 6.0, with_alpha(colors::kGrey, 150));
   std::vector<Point2> way;
   for (std::size_t i = 0; i < run.poses.size(); ++i) {
     const LoggedPose& pose = run.poses[i];

@@ -35,7 +35,9 @@ class BeliefMovie {
 [[nodiscard]] Image draw_scan(const OccupancyGrid& map, const LoggedScan& scan, double max_range,
                               const LoggedPose& pose);
 
-/// The way through the map, and scans drawn at their poses along it (every `stride`-th).
-[[nodiscard]] Image draw_run(const OccupancyGrid& map, const LaserLog& log, const LogRun& run, std::size_t stride);
+/// The way through the map, and scans drawn at their poses along it (every `stride`-th). Beneath it the reference's
+/// way, broad, where there is one.
+[[nodiscard]] Image draw_run(const OccupancyGrid& map, const LaserLog& log, const LogRun& run, std::size_t stride,
+                             const std::vector<std::optional<Pose2>>& reference);
 
 }  // namespace docent

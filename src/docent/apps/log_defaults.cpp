@@ -12,7 +12,8 @@ double reach_of_log(double max_range) {
   return std::min(max_range > 0.0 ? max_range : kMost, kMost);
 }
 
-Result<void> set_log_defaults(RobotConfig& config, const OccupancyGrid& map, double max_range) {
+Result<void> set_log_defaults(RobotConfig& config, const OccupancyGrid& map, double max_range,
+                              bool times_are_invented) {
   // A map's cells are as coarse as its walls are uncertain.
   const double sigma = std::hypot(0.13, 1.5 * map.frame.resolution);
   for (const std::string& setting : {
@@ -25,7 +26,8 @@ Result<void> set_log_defaults(RobotConfig& config, const OccupancyGrid& map, dou
        }) {
     if (auto set = config.set("localize." + setting); !set) return set;
   }
-  return {};
+  // Steps of time that nobody measured say nothing of the time there was for an update.
+  return times_are_invented ? config.set("localize.work_per_second=1e15") : Result<void>{};
 }
 
 }  // namespace docent

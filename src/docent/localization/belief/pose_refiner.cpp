@@ -8,6 +8,9 @@
 namespace docent {
 namespace {
 
+constexpr double kVague = 0.1;        // [m] deviation by odometry, or
+constexpr double kVagueTurn = 0.052;  // [rad]
+
 constexpr double kUnknownAllowance = 0.3;  // [m]
 constexpr std::size_t kMostBeams = 120;
 constexpr std::size_t kFewestBeams = 10;
@@ -56,9 +59,9 @@ Result<void> PoseRefinerParams::validate() const {
   return {};
 }
 
-bool PoseRefiner::is_in(const BeliefMode& mode) const {
+bool PoseRefiner::is_in(const BeliefMode& mode, double spread) const {
   const Pose2& pose = estimate_->map_from_robot;
-  return distance(pose.position(), mode.map_from_robot.position()) <= params_.farthest &&
+  return distance(pose.position(), mode.map_from_robot.position()) <= std::max(params_.farthest, spread) &&
          std::abs((pose.theta - mode.map_from_robot.theta).degrees()) <= params_.farthest_turn;
 }
 
@@ -80,7 +83,9 @@ Pose2 PoseRefiner::refine(const BeliefMode& mode, const RangeSweep& sweep, const
     prior.diagonal() += Eigen::Vector3d{position_variance, position_variance, heading_variance};
     prior.diagonal().array() += 1e-8;
   }
-  if (!estimate_ || !is_in(mode)) {
+  // After a long way odometry knows the pose less well than the belief does: then the belief's is the better beginning.
+  const bool is_vague = position_variance > kVague * kVague || heading_variance > kVagueTurn * kVagueTurn;
+  if (!estimate_ || is_vague || !is_in(mode, 0.0)) {
     estimate_ = Estimate{mode.map_from_robot, mode.covariance};
     prior = matrix(mode.covariance);
     prior.diagonal() += Eigen::Vector3d{0.003, 0.003, 0.0005};
@@ -91,7 +96,10 @@ Pose2 PoseRefiner::refine(const BeliefMode& mode, const RangeSweep& sweep, const
   Pose2 pose = predicted;
   Eigen::Matrix3d information = prior_information;
   const std::size_t step = std::max<std::size_t>(1, sweep.beams.size() / kMostBeams);
-  for (int iteration = 0; iteration < 3; ++iteration) {
+  // A vague beginning is drawn in from farther away, step by step.
+  const int iterations = is_vague ? 6 : 3;
+  for (int iteration = 0; iteration < iterations; ++iteration) {
+    const double gate = params_.gate * std::max(1, iterations - 2 - iteration);
     Eigen::Matrix3d wall_information = Eigen::Matrix3d::Zero();
     Eigen::Vector3d pull = Eigen::Vector3d::Zero();
     std::size_t count = 0;
@@ -102,7 +110,7 @@ Pose2 PoseRefiner::refine(const BeliefMode& mode, const RangeSweep& sweep, const
       if (!wall) continue;
       const Point2 end = pose * endpoint(beam);
       const double residual = dot(wall->normal, end - wall->at);
-      if (std::abs(residual) > params_.gate || distance(end, wall->at) > 3.0 * params_.gate) continue;
+      if (std::abs(residual) > gate || distance(end, wall->at) > 3.0 * gate) continue;
       const Point2 arm = end - pose.position();
       const Eigen::Vector3d gradient{wall->normal.x, wall->normal.y, dot(wall->normal, Point2{-arm.y, arm.x})};
       // Cauchy: what lies far off counts little.
@@ -123,13 +131,13 @@ Pose2 PoseRefiner::refine(const BeliefMode& mode, const RangeSweep& sweep, const
     const Eigen::Vector3d off{pose.x - predicted.x, pose.y - predicted.y, (pose.theta - predicted.theta).radians()};
     const Eigen::Vector3d change = information.ldlt().solve(share * pull - prior_information * off);
     pose = {pose.x + change[0], pose.y + change[1], pose.theta + Angle::radians(change[2])};
-    if (change.head<2>().norm() < 0.001 && std::abs(change[2]) < 0.0005) break;
+    if (gate <= params_.gate && change.head<2>().norm() < 0.001 && std::abs(change[2]) < 0.0005) break;
   }
   estimate_->map_from_robot = pose;
   const Eigen::Matrix3d covariance = information.inverse();
   for (std::size_t i = 0; i < 9; ++i)
     estimate_->covariance[i] = covariance(static_cast<Eigen::Index>(i / 3), static_cast<Eigen::Index>(i % 3));
-  if (!is_in(mode)) {
+  if (!is_in(mode, is_vague ? 1.5 * std::sqrt(mode.covariance[0] + mode.covariance[4]) : 0.0)) {
     estimate_.reset();
     return mode.map_from_robot;
   }

@@ -50,7 +50,7 @@ class PoseRefiner {
     Pose2 map_from_robot;
     std::array<double, 9> covariance{};
   };
-  [[nodiscard]] bool is_in(const BeliefMode& mode) const;
+  [[nodiscard]] bool is_in(const BeliefMode& mode, double spread) const;
 
   PoseRefinerParams params_;
   std::optional<Estimate> estimate_;

@@ -35,7 +35,9 @@ Evidence with_best_mode(Evidence evidence, const BeliefSummary& summary, const s
   if (predicted) {
     const double off = distance(predicted->position(), best.map_from_robot.position());
     const double turned = std::abs((predicted->theta - best.map_from_robot.theta).degrees());
-    evidence.is_same_mode = off < 0.5 && turned < 15.0;
+    // Odometry errs in proportion: after a long way the mode may come out farther from where it was foreseen.
+    const double turn = evidence.turn * 180.0 / std::numbers::pi;
+    evidence.is_same_mode = off < std::max(0.5, 0.3 * evidence.way) && turned < std::max(15.0, 0.3 * turn);
   }
   return evidence;
 }

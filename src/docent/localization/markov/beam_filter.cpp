@@ -125,4 +125,18 @@ Agreement agreement(const ExpectedRanges& expected, const ProximityModel& model,
   return result;
 }
 
+Agreement agreement_of_all(const ExpectedRanges& expected, const ProximityModel& model, const RangeSweep& sweep,
+                           double sureness, int directions) {
+  Agreement sum;
+  for (const BinnedBeam& beam : binned(sweep, directions)) {
+    const SweepBeam& reading = sweep.beams[beam.beam];
+    const int bin = reading.no_return ? kNoReturn : model.bin(reading.range);
+    const Agreement found = agreement(expected, model, beam.direction, bin, sureness);
+    sum.agrees += found.agrees;
+    sum.shorter += found.shorter;
+    sum.longer += found.longer;
+  }
+  return sum;
+}
+
 }  // namespace docent

@@ -66,5 +66,8 @@ struct Agreement {
 };
 [[nodiscard]] Agreement agreement(const ExpectedRanges& expected, const ProximityModel& model, int direction,
                                   int measured, double sureness);
+/// Summed over all beams of a sweep: agrees + shorter + longer = beams whose range the map says.
+[[nodiscard]] Agreement agreement_of_all(const ExpectedRanges& expected, const ProximityModel& model,
+                                         const RangeSweep& sweep, double sureness, int directions);
 
 }  // namespace docent

@@ -51,6 +51,7 @@ Result<void> MarkovLocalizerParams::validate() const {
   if (!(update_way > 0.0 && update_turn > 0.0)) return fail("update_way and update_turn must be > 0");
   if (!(creeping_period > 0.0 && standing_period > 0.0)) return fail("creeping_period and standing_period must be > 0");
   if (!(standing_weight >= 0.0 && standing_weight <= 1.0)) return fail("standing_weight must be 0..1");
+  if (!(most_views >= 1.0 && most_views <= 10.0)) return fail("most_views must be 1..10");
   for (const double nats : {most_nats, most_nats_far})
     if (!(nats > 0.0 && nats <= 60.0)) return fail("most_nats and most_nats_far must be > 0 and <= 60");
   if (!(sectors >= 1 && sectors <= 60)) return fail("sectors must be 1..60");
@@ -58,6 +59,11 @@ Result<void> MarkovLocalizerParams::validate() const {
   if (!(work_per_second > 0.0)) return fail("work_per_second must be > 0");
   if (auto known = instruction_set_of(simd); !known) return tl::unexpected<Error>(known.error());
   return {};
+}
+
+double MarkovLocalizerParams::views(double way, double turn) const {
+  const double updates = std::max(way / update_way, turn / (update_turn * kRadians));
+  return std::clamp(0.5 * updates, 1.0, most_views);
 }
 
 MarkovLocalizer::MarkovLocalizer(const OccupancyGrid& map, const MarkovLocalizerParams& params,
@@ -139,7 +145,8 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   if (sweep.beams.empty()) return step;
   const std::optional<Pose2> predicted = started_ ? map_from_robot(odom_from_robot) : std::nullopt;
   step.weight = started_ ? due_weight(way, turn, time) : 1.0;
-  if (predicted) verdict_.look(glance(caster_, sweep, *predicted, params_.sensor.max_range));
+  const double views = params_.views(way, turn);
+  if (predicted && views <= 1.0) verdict_.look(glance(caster_, sweep, *predicted, params_.sensor.max_range));
   // Someone may have carried the robot: then this is not the same view again, and nothing to wait for.
   if (step.weight < 1.0 && verdict_.localized() && to_seconds(time - last_update_) >= kSurpriseWaits &&
       verdict_.startled())
@@ -154,7 +161,7 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
 
   const RangeSweep seen = seen_from(sweep, frame_from_robot());
   Choice choice = choose_beams(seen, binned(seen, space_.headings()));
-  const double temper = step.weight * params_.independent_beams / params_.beams;
+  const double temper = step.weight * std::min(1.0, views * params_.independent_beams / params_.beams);
   std::sort(choice.used.begin(), choice.used.end(),
             [](const auto& a, const auto& b) { return a.direction < b.direction; });
   std::vector<BeamCosts> costs(choice.used.size());
@@ -172,7 +179,7 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   }
   last_work_ = static_cast<double>(belief_.active_states()) * static_cast<double>(costs.size());
   EvidenceWeights weights;
-  weights.most_nats = weights.far_most_nats = params_.most_nats;
+  weights.most_nats = weights.far_most_nats = params_.most_nats * std::sqrt(views);
   weights.most_sector_nats = params_.most_sector_nats * temper;
   weights.sectors = static_cast<std::size_t>(params_.sectors);
   if (verdict_.localized() && predicted) {
@@ -196,6 +203,14 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
                                           noise.heading_variance, caster_, params_.sensor.max_range);
   }
   step.fit = fit(seen, choice.used);
+  // After a long way odometry foretells too little: the belief of after the update is held against the readings.
+  if (views > 1.0 && !likely_.empty()) {
+    const ExpectedRanges expected{likely_, table_, space_.headings()};
+    const Agreement found = agreement_of_all(expected, model_, seen, params_.filter_sureness, space_.headings());
+    choice.evidence.agrees = found.agrees;
+    choice.evidence.shorter = found.shorter;
+    choice.evidence.longer = found.longer;
+  }
   choice.evidence.weight = step.weight;
   choice.evidence.way = way;
   choice.evidence.turn = turn;

@@ -39,6 +39,7 @@ struct MarkovLocalizerParams {
   double creeping_period = 2.0;        ///< [s] when it moves less, or
   double standing_period = 3.0;        ///< [s] when it stands
   double standing_weight = 0.1;        ///< of such an update: the same view again says little
+  double most_views = 4.0;             ///< >= 1: what a scan after a long way is worth, see views()
   double most_nats = 8.0;              ///< [nat] that one scan counts at most
   double most_nats_far = 2.0;          ///< and, once the robot is sure of a place, between it and others
   double work_per_second = 1e9;        ///< states * beams that may be scored in a second of the robot's time
@@ -66,12 +67,17 @@ struct MarkovLocalizerParams {
     v("creeping_period", creeping_period);
     v("standing_period", standing_period);
     v("standing_weight", standing_weight);
+    v("most_views", most_views);
     v("most_nats", most_nats);
     v("most_nats_far", most_nats_far);
     v("work_per_second", work_per_second);
     v("simd", simd);
   }
   [[nodiscard]] Result<void> validate() const;
+  /// How many scans' evidence a scan carries after so much motion [m, rad]. What the map has wrong shows in scan after
+  /// scan, so that evidence comes by the metre and not by the scan: sparse scans, with half a metre or 20 degrees and
+  /// more between them, count for several. 1..most_views.
+  [[nodiscard]] double views(double way, double turn) const;
 };
 
 /// The range table of a map, from the file `cache` when it was made for these parameters; empty: none.

@@ -159,7 +159,8 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
   const double turn = std::abs(before_from_after.theta.radians());
   if (sweep.beams.empty()) return step;
   const std::optional<Pose2> predicted = started_ ? map_from_robot(odom_from_robot) : std::nullopt;
-  if (predicted) verdict_.look(glance(caster_, sweep, *predicted, shared_.sensor.max_range));
+  const double views = shared_.views(way, turn);
+  if (predicted && views <= 1.0) verdict_.look(glance(caster_, sweep, *predicted, shared_.sensor.max_range));
   step.weight = started_ ? due_weight(way, turn, time) : 1.0;
   if (step.weight < 1.0 && verdict_.localized() && to_seconds(time - last_update_) >= kSurpriseWaits &&
       verdict_.startled())
@@ -177,7 +178,8 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
                  noise_);
 
   Choice choice = choose_beams(sweep);
-  const double full_temper = shared_.independent_beams / shared_.beams;
+  const double one_view = shared_.independent_beams / shared_.beams;
+  const double full_temper = std::min(1.0, views * one_view);
   last_work_ = static_cast<double>(particles_.size()) * static_cast<double>(choice.used.size());
   double likelihood = 0.0;
   if (particles_.size() > 0) {
@@ -188,14 +190,14 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
     if (is_new) step.weight = 1.0;
     ParticleEvidence evidence;
     evidence.nats_per_cost = step.weight * full_temper / kScorePerNat;
-    evidence.most_nats = shared_.most_nats;
+    evidence.most_nats = shared_.most_nats * std::sqrt(views);
     if (verdict_.localized()) {  // as the grid: sharp where the robot knows to be, slow between there and elsewhere
       evidence.focus = predicted;
       evidence.far_share = shared_.independent_beams_far / shared_.independent_beams;
       evidence.far_most_nats = shared_.most_nats_far;
     }
     likelihood = reweigh(particles_, costs, evidence);
-    notice_surprise(likelihood, step.weight);
+    notice_surprise(likelihood, step.weight, full_temper / one_view);
   }
   draw_elsewhere(sweep, choice.used, step.weight * full_temper, likelihood);
   step.updated = true;
@@ -214,6 +216,14 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
                                           noise.heading_variance, caster_, shared_.sensor.max_range);
   }
   step.fit = fit(sweep, choice.used);
+  // After a long way odometry foretells too little: the belief of after the update is held against the readings.
+  if (views > 1.0 && !likely_.empty()) {
+    const ExpectedRanges expected{likely_, table_, space_.headings()};
+    const Agreement found = agreement_of_all(expected, model_, sweep, shared_.filter_sureness, space_.headings());
+    choice.evidence.agrees = found.agrees;
+    choice.evidence.shorter = found.shorter;
+    choice.evidence.longer = found.longer;
+  }
   choice.evidence.weight = step.weight;
   choice.evidence.way = way;
   choice.evidence.turn = turn;
@@ -223,8 +233,9 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
   return step;
 }
 
-void MonteCarloLocalizer::notice_surprise(double likelihood, double weight) {
-  const double whole = std::exp(std::log(std::max(likelihood, 1e-30)) / weight);  // as of a full update
+void MonteCarloLocalizer::notice_surprise(double likelihood, double weight, double views) {
+  // As of a full update of one view.
+  const double whole = std::exp(std::log(std::max(likelihood, 1e-30)) / (weight * views));
   if (long_mean_ == 0.0) long_mean_ = short_mean_ = whole;
   long_mean_ += weight * params_.surprise_slow * (whole - long_mean_);
   short_mean_ += weight * params_.surprise_fast * (whole - short_mean_);

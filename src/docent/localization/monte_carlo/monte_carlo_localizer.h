@@ -93,7 +93,7 @@ class MonteCarloLocalizer final : public Localizer {
   };
   [[nodiscard]] double due_weight(double way, double turn, Time time) const;
   [[nodiscard]] Choice choose_beams(const RangeSweep& sweep);
-  void notice_surprise(double likelihood, double weight);
+  void notice_surprise(double likelihood, double weight, double views);
   /// Adds poses drawn from the sensors, for the case that the truth is near no particle.
   void draw_elsewhere(const RangeSweep& sweep, std::span<const BinnedBeam> beams, double temper, double likelihood);
   [[nodiscard]] std::vector<BeamCosts> grid_costs(const RangeSweep& sweep, std::span<const BinnedBeam> beams,

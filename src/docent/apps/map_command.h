@@ -1,0 +1,12 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace docent {
+
+/// `docent map`: a map from a recorded log.
+void add_map_command(CLI::App& app);
+
+}  // namespace docent

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "docent/base/result.h"
+#include "docent/recording/laser_log.h"
+
+namespace docent {
+
+/// Where a recorded robot was, as somebody found out afterwards with more than the robot had: the truth of a real log.
+struct TimedPose {
+  Time time;
+  Pose2 map_from_base;
+};
+
+/// Lines of "time x y theta" [s, m, m, rad]; "#" begins a comment. Sorted by time. Error: "FILE:LINE: …".
+[[nodiscard]] Result<std::vector<TimedPose>> load_timed_poses(const std::filesystem::path& path);
+/// The same from memory; `name` stands where the file's name would.
+[[nodiscard]] Result<std::vector<TimedPose>> parse_timed_poses(std::string_view text, const std::string& name);
+
+/// map_from_base of every scan of a log; nullopt where nobody knows.
+using ScanReference = std::vector<std::optional<Pose2>>;
+
+/// Between two poses the way is odometry's, bent so that it meets both.
+struct ReferenceGaps {
+  double most_seconds = 5.0;   ///< between two poses
+  double most_degrees = 15.0;  ///< of a turn between them: odometry says little of when the robot turned
+};
+/// The poses at the scans' times. A scan between two poses that differ by more than `gaps` has none, unless it has a
+/// pose's very time (1 ms). O((scans + poses) log).
+[[nodiscard]] ScanReference reference_of(const LaserLog& log, std::span<const TimedPose> poses,
+                                         const ReferenceGaps& gaps = {});
+
+/// The poses that a corrected log carries itself, in place of its odometry or beside it.
+[[nodiscard]] ScanReference logged_reference(const LaserLog& log);
+
+}  // namespace docent

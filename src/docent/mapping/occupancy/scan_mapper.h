@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "docent/base/result.h"
+#include "docent/grid/occupancy_grid.h"
+#include "docent/sensor_models/range_sweep.h"
+
+namespace docent {
+
+struct ScanMapperParams {
+  double resolution = 0.05;  ///< [m/cell], 0.01..1
+  double hit = 0.7;          ///< P(occupied | a beam ends in the cell), 0.5..1
+  double pass = 0.35;        ///< P(occupied | a beam goes through it), 0..0.5
+  double most_log_odds = 4;  ///< [nat], > 0: so that a cell can change its mind
+  double reach = 25.0;       ///< [m], > 0: beyond it an error of half a degree is many cells
+  double margin = 0.05;      ///< [m], >= 0: so far before its end a beam says nothing; walls are rough
+  double widest_gap = 2.0;   ///< [deg], >= 0: between beams no farther apart the floor is clear as far as both saw
+  double widest_wall = 0.4;  ///< [m], >= 0: ends of such neighbours no farther apart lie on one surface
+  double border = 1.0;       ///< [m], >= 0, about everything that was seen
+  double occupied = 0.6;     ///< a cell of at least this probability is drawn occupied, and
+  double free = 0.4;         ///< of at most this one free; the rest is unknown
+  template <class V>
+  void visit(V& v) {
+    v("resolution", resolution);
+    v("hit", hit);
+    v("pass", pass);
+    v("most_log_odds", most_log_odds);
+    v("reach", reach);
+    v("margin", margin);
+    v("widest_gap", widest_gap);
+    v("widest_wall", widest_wall);
+    v("border", border);
+    v("occupied", occupied);
+    v("free", free);
+  }
+  [[nodiscard]] Result<void> validate() const;
+};
+
+/// A sweep as seen from its sensor, and where the sensor was.
+struct PlacedSweep {
+  RangeSweep sweep;
+  Pose2 map_from_sensor;
+};
+
+/// Occupancy map of sweeps at known poses [Rhino1999] 3.2.1, Table 3: evidence of each sweep is added to each cell as
+/// log odds (eq. 17, prior 0.5). The inverse sensor model is made by hand: the cell a beam ends in was hit, those
+/// before it were passed. Departures: a cell counts once a sweep, however many beams meet it there (beams of one sweep
+/// err together), and a hit wins; log odds are bounded. A beam without a return says nothing: glass and black cloth
+/// give none either.
+class ScanMapper {
+ public:
+  /// The smallest frame that holds all sensors and endpoints within reach, and the border. Error: nothing to map, or
+  /// more than 400 million cells. @pre params are valid
+  [[nodiscard]] static Result<GridFrame> frame_of(std::span<const PlacedSweep> sweeps, const ScanMapperParams& params);
+
+  /// All cells unknown. `frame`: of any resolution. @pre params are valid
+  ScanMapper(const GridFrame& frame, const ScanMapperParams& params);
+
+  /// O(cells in view). What lies outside the frame is passed over.
+  void add(const PlacedSweep& placed);
+  [[nodiscard]] OccupancyGrid map() const;
+  [[nodiscard]] std::span<const float> log_odds() const { return log_odds_; }  ///< [rows * columns]
+
+ private:
+  void add_evidence(CellIndex cell, float evidence);
+  void mark_line(Point2 from, Point2 to, float evidence);
+  void clear_triangle(Point2 a, Point2 b, Point2 c);
+
+  GridFrame frame_;
+  ScanMapperParams params_;
+  float hit_;                       ///< log odds
+  float pass_;                      ///< log odds
+  std::vector<float> log_odds_;     ///< [rows * columns]
+  std::vector<std::uint32_t> met_;  ///< the last sweep that said something of the cell
+  std::uint32_t sweep_ = 0;
+};
+
+}  // namespace docent

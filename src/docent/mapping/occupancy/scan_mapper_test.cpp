@@ -1,0 +1,156 @@
+#include "docent/mapping/occupancy/scan_mapper.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "docent/base/random.h"
+
+namespace docent {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+constexpr double kEast = 4.02;  ///< [m], within a cell and not at its border
+constexpr double kNorth = 3.02;
+
+/// What a laser with `beams` readings over 360 degrees sees in a room of 8 x 6 m about the origin.
+PlacedSweep in_room(const Pose2& map_from_sensor, int beams) {
+  PlacedSweep placed{{}, map_from_sensor};
+  for (int i = 0; i < beams; ++i) {
+    const double bearing = Angle::radians(2.0 * std::numbers::pi * (i + 0.5) / beams).radians();
+    const Point2 along = unit(map_from_sensor.theta + Angle::radians(bearing));
+    const double to_x = ((along.x > 0 ? kEast : -kEast) - map_from_sensor.x) / along.x;
+    const double to_y = ((along.y > 0 ? kNorth : -kNorth) - map_from_sensor.y) / along.y;
+    placed.sweep.beams.push_back({bearing, std::min(to_x, to_y), false});
+  }
+  return placed;
+}
+
+OccupancyGrid map_of(const std::vector<PlacedSweep>& sweeps, const ScanMapperParams& params = {}) {
+  ScanMapper mapper{ScanMapper::frame_of(sweeps, params).value(), params};
+  for (const PlacedSweep& placed : sweeps) mapper.add(placed);
+  return mapper.map();
+}
+
+std::int8_t at(const OccupancyGrid& map, Point2 point) { return map.at(map.frame.cell_at(point)); }
+
+TEST(ScanMapper, ARoomHasItsWallsWhereTheyStandAndAClearFloor) {
+  Rng rng{5};
+  std::vector<PlacedSweep> sweeps;
+  for (int i = 0; i < 20; ++i)
+    sweeps.push_back(in_room({rng.uniform(-3, 3), rng.uniform(-2, 2), Angle::radians(rng.uniform(-3.1, 3.1))}, 360));
+  const OccupancyGrid map = map_of(sweeps);
+  EXPECT_NEAR(map.frame.columns * map.frame.resolution, 10.0, 0.2);  // the room and its border
+  std::size_t free = 0;
+  std::size_t occupied = 0;
+  for (int row = 0; row < map.frame.rows; ++row) {
+    for (int column = 0; column < map.frame.columns; ++column) {
+      const Point2 centre = map.frame.centre({column, row});
+      const double outside = std::max(std::abs(centre.x) - kEast, std::abs(centre.y) - kNorth);
+      const bool is_occupied = map.is_occupied({column, row});
+      free += map.is_free({column, row}) ? 1 : 0;
+      occupied += is_occupied ? 1 : 0;
+      if (is_occupied) {
+        EXPECT_LT(std::abs(outside), 0.05) << centre.x << ", " << centre.y;
+      }
+      if (outside > 0.05) {
+        EXPECT_EQ(map.at({column, row}), OccupancyGrid::kUnknown) << centre.x << ", " << centre.y;
+      }
+      if (outside < -0.15) {
+        EXPECT_TRUE(map.is_free({column, row})) << centre.x << ", " << centre.y;
+      }
+    }
+  }
+  EXPECT_NEAR(static_cast<double>(free), 8.0 * 6.0 / 0.0025, 800.0);
+  EXPECT_GT(occupied, 500U);  // of 560 cells along the walls
+}
+
+TEST(ScanMapper, WhoWalkedThroughLeavesNoTrace) {
+  std::vector<PlacedSweep> sweeps;
+  for (int i = 0; i < 8; ++i) sweeps.push_back(in_room({-2.0, 0.02, Angle{}}, 360));
+  // Somebody at 1 m before the sensor, in two of the sweeps.
+  for (std::size_t sweep : {2U, 3U})
+    for (SweepBeam& beam : sweeps[sweep].sweep.beams)
+      if (std::abs(beam.bearing) < 10.0 * kDegree) beam.range = 1.02;
+  EXPECT_TRUE(map_of({sweeps[2]}).is_occupied(map_of({sweeps[2]}).frame.cell_at({-0.98, 0.02})));
+  EXPECT_EQ(at(map_of(sweeps), {-0.98, 0.02}), OccupancyGrid::kFree);
+  EXPECT_EQ(at(map_of(sweeps), {kEast, 0.02}), OccupancyGrid::kOccupied);
+}
+
+TEST(ScanMapper, EvidenceIsTheSumOfLogOddsAndOneASweep) {
+  ScanMapperParams params;
+  params.most_log_odds = 2.0;
+  const std::vector<PlacedSweep> sweeps{in_room({0, 0, Angle{}}, 3600)};  // many beams a cell
+  ScanMapper mapper{ScanMapper::frame_of(sweeps, params).value(), params};
+  const GridFrame frame = ScanMapper::frame_of(sweeps, params).value();
+  const auto log_odds = [&](Point2 point) {
+    return static_cast<double>(mapper.log_odds()[frame.index(frame.cell_at(point))]);
+  };
+  mapper.add(sweeps[0]);
+  EXPECT_NEAR(log_odds({1.0, 1.0}), std::log(0.35 / 0.65), 1e-6);
+  EXPECT_NEAR(log_odds({kEast, 1.0}), std::log(0.7 / 0.3), 1e-6);
+  mapper.add(sweeps[0]);
+  EXPECT_NEAR(log_odds({1.0, 1.0}), 2.0 * std::log(0.35 / 0.65), 1e-6);
+  for (int i = 0; i < 10; ++i) mapper.add(sweeps[0]);
+  EXPECT_NEAR(log_odds({1.0, 1.0}), -2.0, 1e-6);
+}
+
+TEST(ScanMapper, TheFloorBetweenNeighboursIsClearAndBehindThemUnknown) {
+  PlacedSweep placed;
+  for (int i = -20; i <= 20; ++i) placed.sweep.beams.push_back({i * kDegree, 10.0 / std::cos(i * kDegree), false});
+  const OccupancyGrid map = map_of({placed});
+  const Point2 between = 9.0 * unit(Angle::degrees(0.5));  // 8 cm from either beam
+  EXPECT_EQ(at(map, between), OccupancyGrid::kFree);
+  EXPECT_EQ(at(map, {10.5, 0.0}), OccupancyGrid::kUnknown);
+  ScanMapperParams rays;
+  rays.widest_gap = 0.0;
+  EXPECT_EQ(at(map_of({placed}, rays), between), OccupancyGrid::kUnknown);
+}
+
+TEST(ScanMapper, AWallSeenFromAfarHasNoGapsAndADoorStaysOpen) {
+  PlacedSweep placed;  // a wall at 12 m, beams 21 cm apart, and a door of 1.2 m in it
+  for (int i = -20; i <= 20; ++i) {
+    const double range = 12.02 / std::cos(i * kDegree);
+    const bool is_door = std::abs(range * std::sin(i * kDegree) - 1.5) < 0.6;
+    placed.sweep.beams.push_back({i * kDegree, is_door ? 18.0 : range, false});
+  }
+  const OccupancyGrid map = map_of({placed});
+  for (double y = -4.0; y < 4.0; y += 0.05) {
+    if (std::abs(std::abs(y - 1.5) - 0.6) < 0.25) continue;  // at the door's posts
+    EXPECT_EQ(at(map, {12.02, y}) == OccupancyGrid::kOccupied, std::abs(y - 1.5) > 0.6) << y;
+  }
+}
+
+TEST(ScanMapper, ABeamWithoutReturnSaysNothingAndAFarOneOnlyClears) {
+  PlacedSweep placed;
+  placed.sweep.beams = {{0.0, 80.0, true}, {0.5 * std::numbers::pi, 30.0, false}, {std::numbers::pi, 5.0, false}};
+  ScanMapperParams params;
+  params.reach = 20.0;
+  params.border = 40.0;
+  const OccupancyGrid map = map_of({placed}, params);
+  EXPECT_EQ(at(map, {1.0, 0.01}), OccupancyGrid::kUnknown);
+  EXPECT_EQ(at(map, {0.0, 19.0}), OccupancyGrid::kFree);
+  EXPECT_EQ(at(map, {0.0, 21.0}), OccupancyGrid::kUnknown);
+  EXPECT_EQ(at(map, {0.0, 30.0}), OccupancyGrid::kUnknown);
+  EXPECT_TRUE(map.is_occupied(map.frame.cell_at(placed.map_from_sensor * endpoint(placed.sweep.beams[2]))));
+}
+
+TEST(ScanMapper, RefusesWhatCannotBeMapped) {
+  EXPECT_FALSE(ScanMapper::frame_of({}, {}));
+  std::vector<PlacedSweep> far(2);
+  far[1].map_from_sensor.x = 1e9;
+  far[1].map_from_sensor.y = 1e9;
+  EXPECT_FALSE(ScanMapper::frame_of(far, {}));
+  ScanMapperParams params;
+  params.pass = 0.5;
+  EXPECT_FALSE(params.validate());
+  params = {};
+  params.free = 0.7;
+  EXPECT_FALSE(params.validate());
+  EXPECT_TRUE(ScanMapperParams{}.validate());
+}
+
+}  // namespace
+}  // namespace docent
