@@ -7,8 +7,8 @@
 namespace docent {
 namespace {
 
-constexpr double kFar = 1.0;            // [m] nearer is the same place
-constexpr double kTurned = 30.0;        // [deg]
+constexpr double kFar = 3.0;            // [m] nearer is the same place
+constexpr double kTurned = 60.0;        // [deg]
 constexpr double kWorthMention = 2e-3;  // of the best mode's mass: a mode that is followed
 constexpr double kFairShare = 0.25;     // of the best mode's mass, for a place that nothing speaks against
 constexpr double kConcentrated = 0.8;   // mass of the modes together, before they may stand for the belief
@@ -17,6 +17,8 @@ constexpr double kGross = 0.5;         // [m] more than maps are wrong and thing
 constexpr double kHeadingError = 2.5;  // [deg]
 constexpr double kFewBeams = 3.0;      // so many more that fit the best place only, and
 constexpr double kShareOfBeams = 0.03;
+constexpr double kApart = 1.5;  // [m] evidence of one spot errs together
+constexpr int kSpots = 4;
 constexpr double kEnough = 2.0;  // sweeps that speak against a place
 
 bool is_same_place(const BeliefMode& a, const BeliefMode& b) {
@@ -61,6 +63,7 @@ GrossDifference gross_difference(const RayCaster& caster, const RangeSweep& swee
 void Rivals::follow(const BeliefSummary& summary, const RangeSweep& sweep, const Pose2& before_from_after,
                     const RayCaster& caster, double max_range) {
   if (summary.modes.empty()) return;
+  way_ += norm(before_from_after.position());
   for (Place& place : places_) {
     place.mode.map_from_robot = place.mode.map_from_robot * before_from_after;
     place.mode.mass = 0.0;
@@ -83,29 +86,37 @@ void Rivals::take_in(const BeliefMode& mode, double least_mass) {
   const auto known =
       std::find_if(places_.begin(), places_.end(), [&](const Place& place) { return is_same_place(place.mode, mode); });
   if (known == places_.end()) {
-    if (mode.mass >= least_mass && places_.size() < kMost) places_.push_back({mode, 0.0});
+    if (mode.mass >= least_mass && places_.size() < kMost) places_.push_back({mode, 0.0, 0, way_});
   } else if (mode.mass > known->mode.mass) {
     known->mode = mode;
   }
 }
 
-std::optional<std::vector<BeliefMode>> Rivals::restored(const BeliefSummary& summary) const {
+std::optional<std::vector<BeliefMode>> Rivals::restored(const BeliefSummary& summary) {
   if (summary.modes.empty()) return std::nullopt;
   double mass = 0.0;
   for (const BeliefMode& mode : summary.modes) mass += mode.mass;
   if (mass < kConcentrated) return std::nullopt;
-  std::vector<BeliefMode> modes{summary.modes.front()};
-  const double fair = kFairShare * modes.front().mass;
-  bool is_missing = false;
+  const BeliefMode& best = summary.modes.front();
+  const double fair = kFairShare * best.mass;
+  const auto is_missing = [&](const Place& place) {
+    return !is_same_place(place.mode, best) && place.mode.mass < 0.5 * fair;
+  };
+  std::erase_if(places_, [&](Place& place) {
+    if (is_same_place(place.mode, best)) place.outweighed = 0;
+    if (!is_missing(place) || way_ - place.outweighed_at < kApart) return false;
+    place.outweighed_at = way_;
+    return ++place.outweighed >= kSpots;
+  });
+  if (std::none_of(places_.begin(), places_.end(), is_missing)) return std::nullopt;
+  std::vector<BeliefMode> modes{best};
+  double sum = best.mass;
   for (const Place& place : places_) {
-    if (is_same_place(place.mode, modes.front())) continue;
-    is_missing = is_missing || place.mode.mass < 0.5 * fair;
+    if (is_same_place(place.mode, best)) continue;
     modes.push_back(place.mode);
     modes.back().mass = std::max(place.mode.mass, fair);
+    sum += modes.back().mass;
   }
-  if (!is_missing) return std::nullopt;
-  double sum = 0.0;
-  for (const BeliefMode& mode : modes) sum += mode.mass;
   for (BeliefMode& mode : modes) mode.mass /= sum;
   return modes;
 }

@@ -15,7 +15,8 @@ namespace docent {
 /// Scans from one spot err together: a wall that the survey has two centimetres off speaks for the wrong one of two
 /// places that look the same, in every scan, and the product of likelihoods is sure of it within seconds. So while the
 /// robot does not know where it is, every place that ever was a mode stays possible until readings differ from it
-/// grossly, by more than maps and poses are wrong, where they fit the best place. docs/decisions/0010.
+/// grossly, by more than maps and poses are wrong, where they fit the best place; or until evidence has ruled it out at
+/// several spots, each some way from the last. docs/decisions/0010.
 class Rivals {
  public:
   /// Takes in the modes of `summary`, carries on the ones it knows, and drops those that the sweep speaks against.
@@ -26,16 +27,19 @@ class Rivals {
   /// The belief as it should be when evidence has all but ruled out a rival that nothing was seen to speak against: the
   /// best mode and every rival with a fair share. nullopt: it is so already, or the belief is not concentrated on
   /// modes.
-  [[nodiscard]] std::optional<std::vector<BeliefMode>> restored(const BeliefSummary& summary) const;
+  [[nodiscard]] std::optional<std::vector<BeliefMode>> restored(const BeliefSummary& summary);
 
  private:
   struct Place {
     BeliefMode mode;
-    double against = 0.0;  ///< sweeps that differ from it grossly
+    double against = 0.0;    ///< sweeps that differ from it grossly
+    int outweighed = 0;      ///< spots at which the evidence ruled it out
+    double outweighed_at{};  ///< [m] of way_, the last of them
   };
   void take_in(const BeliefMode& mode, double least_mass);
 
   std::vector<Place> places_;  ///< the best mode's among them
+  double way_ = 0.0;           ///< [m] driven
 };
 
 /// Of the beams of a sweep: how many fit the first pose and differ grossly from the second, and the other way round.

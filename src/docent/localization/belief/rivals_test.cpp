@@ -82,6 +82,24 @@ TEST(Rivals, PlacesAreCarriedOnByOdometry) {
   EXPECT_LT(distance((*restored)[1].map_from_robot.position(), (kTwin * step).position()), 1e-6);
 }
 
+TEST(Rivals, EvidenceOfSeveralSpotsRulesAPlaceOut) {
+  const RayCaster caster{room(false)};
+  Rivals rivals;
+  rivals.follow(summary_of(0.6, 0.4), sweep_from(caster, kHere), {}, caster, kRange);
+  const Pose2 there{0.8, 0.0, {}};
+  const Pose2 back = inverse(there);
+  int restored = 0;
+  auto summary = summary_of(0.999, 0.0);
+  for (int i = 0; i < 20; ++i) {
+    const Pose2 step = i % 2 == 0 ? there : back;
+    summary.modes.front().map_from_robot = summary.modes.front().map_from_robot * step;
+    rivals.follow(summary, sweep_from(caster, summary.modes.front().map_from_robot), step, caster, kRange);
+    restored += rivals.restored(summary).has_value() ? 1 : 0;
+  }
+  EXPECT_GT(restored, 3);
+  EXPECT_LT(restored, 10);
+}
+
 TEST(Rivals, ABeliefThatIsSpreadOutIsLeftAlone) {
   const RayCaster caster{room(false)};
   Rivals rivals;

@@ -95,7 +95,7 @@ void MarkovLocalizer::start_unknown() {
 void MarkovLocalizer::start_at(std::span<const BeliefMode> modes, const Pose2& odom_from_robot, Time time) {
   odom_from_robot_ = odom_from_robot;
   odom_from_frame_ = {odom_from_robot.x, odom_from_robot.y, Angle{}};
-  believe(modes);
+  believe(modes, 1e-4);
   started_ = true;
   last_update_ = time;
   last_work_ = 0.0;
@@ -105,18 +105,18 @@ void MarkovLocalizer::start_at(std::span<const BeliefMode> modes, const Pose2& o
   summarise_now();
 }
 
-void MarkovLocalizer::believe(std::span<const BeliefMode> modes) {
+void MarkovLocalizer::believe(std::span<const BeliefMode> modes, double uniform_mass) {
   std::vector<BeliefMode> of_frame{modes.begin(), modes.end()};
   for (BeliefMode& mode : of_frame) mode.map_from_robot = mode.map_from_robot * inverse(frame_from_robot());
-  belief_.make_modes(of_frame, 1e-4);
+  belief_.make_modes(of_frame, uniform_mass);
 }
 
 void MarkovLocalizer::keep_rivals(const RangeSweep& sweep, const Pose2& before_from_after) {
-  if (verdict_.localized()) return rivals_.forget();
+  if (!params_.rivals || verdict_.localized()) return rivals_.forget();
   rivals_.follow(summary_, sweep, before_from_after, caster_, params_.sensor.max_range);
   const auto modes = rivals_.restored(summary_);
   if (!modes) return;
-  believe(*modes);
+  believe(*modes, params_.teleport_probability);
   summarise_now();
 }
 

@@ -39,6 +39,7 @@ struct MarkovLocalizerParams {
   double creeping_period = 2.0;        ///< [s] when it moves less, or
   double standing_period = 3.0;        ///< [s] when it stands
   double standing_weight = 0.1;        ///< of such an update: the same view again says little
+  bool rivals = true;                  ///< see Rivals; for a map whose walls are where it says
   double most_views = 4.0;             ///< >= 1: what a scan after a long way is worth, see views()
   double most_nats = 8.0;              ///< [nat] that one scan counts at most
   double most_nats_far = 2.0;          ///< and, once the robot is sure of a place, between it and others
@@ -67,6 +68,7 @@ struct MarkovLocalizerParams {
     v("creeping_period", creeping_period);
     v("standing_period", standing_period);
     v("standing_weight", standing_weight);
+    v("rivals", rivals);
     v("most_views", most_views);
     v("most_nats", most_nats);
     v("most_nats_far", most_nats_far);
@@ -118,7 +120,7 @@ class MarkovLocalizer final : public Localizer {
   [[nodiscard]] std::optional<double> fit(const RangeSweep& seen, std::span<const BinnedBeam> beams) const;
   void move(const Pose2& before_from_after);
   void summarise_now();
-  void believe(std::span<const BeliefMode> modes);
+  void believe(std::span<const BeliefMode> modes, double uniform_mass);
   void keep_rivals(const RangeSweep& sweep, const Pose2& before_from_after);
   [[nodiscard]] Pose2 frame_from_robot() const { return inverse(odom_from_frame_) * odom_from_robot_; }
   void judge(const Evidence& evidence, const std::optional<Pose2>& predicted);

@@ -103,7 +103,7 @@ void MonteCarloLocalizer::believe(std::span<const BeliefMode> modes) {
 }
 
 void MonteCarloLocalizer::keep_rivals(const RangeSweep& sweep, const Pose2& before_from_after) {
-  if (verdict_.localized()) return rivals_.forget();
+  if (!shared_.rivals || verdict_.localized()) return rivals_.forget();
   rivals_.follow(summary_, sweep, before_from_after, caster_, shared_.sensor.max_range);
   const auto modes = rivals_.restored(summary_);
   if (!modes) return;
