@@ -59,6 +59,22 @@ LoggedPose reckoned(const LoggedPose& from, const LoggedScan& at_from, std::size
   return pose;
 }
 
+/// The mode that a robot became sure of is the one it had followed until then: back along odometry, as far as the best
+/// pose kept to it.
+void know_in_hindsight(const LaserLog& log, bool reverse, std::vector<LoggedPose>& poses) {
+  const std::size_t count = poses.size();
+  const auto at = [&](std::size_t n) { return reverse ? count - 1 - n : n; };  // by the order of the run
+  for (std::size_t n = count; n-- > 1;) {
+    const LoggedPose& later = poses[at(n)];
+    LoggedPose& before = poses[at(n - 1)];
+    if (!later.localized || before.localized || !before.has_pose) continue;
+    const Pose2 moved = inverse(log.scans[at(n - 1)].odom_from_base) * log.scans[at(n)].odom_from_base;
+    const Pose2 expected = before.map_from_base * moved;
+    before.localized = distance(expected.position(), later.map_from_base.position()) < 0.5 &&
+                       std::abs((expected.theta - later.map_from_base.theta).degrees()) < 15.0;
+  }
+}
+
 }  // namespace
 
 LogRun localize_log(const LaserLog& log, Localizer& localizer, const LogRunOptions& options) {
@@ -109,6 +125,7 @@ LogRun localize_log(const LaserLog& log, Localizer& localizer, const LogRunOptio
     if (pose.localized && !run.localized_after) run.localized_after = n + 1;
     if (options.watch) options.watch(localizer, i, step);
   }
+  if (!options.dead_reckoning) know_in_hindsight(log, options.reverse, run.poses);
   run.fit = fitted > 0 ? run.fit / static_cast<double>(fitted) : -std::numeric_limits<double>::infinity();
   return run;
 }

@@ -17,8 +17,8 @@ struct LoggedPose {
   std::size_t scan = 0;  ///< index in the log, also in a reversed run
   double time = 0.0;     ///< [s] of the log
   Pose2 map_from_base;
-  bool has_pose = false;  ///< there was a best mode at all
-  bool localized = false;
+  bool has_pose = false;   ///< there was a best mode at all
+  bool localized = false;  ///< the robot said where it is, or, in hindsight, followed the mode that it then was sure of
   double p_lost = 1.0;
 };
 
