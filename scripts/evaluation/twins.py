@@ -10,7 +10,7 @@ from evaluation.claims import error_m, is_lost, mean, read_claims
 
 def draw_hall(folder, seed, docent):
     """A museum folder of one hall, the same after half a turn about its middle but for one case near its far end; its
-    length, width, pillars and niches are drawn by the seed. Returns the poses from which robots start."""
+    length, width, pillars and niches are drawn by the seed. Returns the pose from which a robot starts."""
     draw = random.Random(seed)
     length, width = draw.uniform(32.0, 42.0), draw.uniform(7.0, 9.0)
     solids = []
@@ -56,13 +56,11 @@ def draw_hall(folder, seed, docent):
                           capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise RuntimeError(f"docent survey: {done.stderr.strip()}")
-    starts = []
     blocks = [[float(v) for v in part.split("polygon: [[")[1].split("]")[0].split(",")] for part in solids]
-    while len(starts) < 1:
+    while True:
         x, y = length / 2 + draw.uniform(-3.0, 3.0), draw.uniform(0.3, 0.7) * width
         if all(math.hypot(x - bx - 0.5, y - by - 0.5) > 1.5 for bx, by in blocks):
-            starts.append((x, y, draw.uniform(-180.0, 180.0)))
-    return starts
+            return x, y, draw.uniform(-180.0, 180.0)
 
 
 def start(bench, museum, seed, begin, active):
@@ -84,7 +82,7 @@ def active(bench, verdict, print_table, count):
     halls = []
     for seed in range(1, count + 1):
         folder = bench.cache / f"twins-{seed}"
-        halls.append((folder, seed, draw_hall(folder, seed, bench.docent)[0]))
+        halls.append((folder, seed, draw_hall(folder, seed, bench.docent)))
     for choice in ("true", "false"):
         for run in bench.each([lambda m=m, s=s, b=b: start(bench, m, s, b, choice) for m, s, b in halls]):
             right = next((row for row in run if row["localized"] and not is_lost(row)), None)

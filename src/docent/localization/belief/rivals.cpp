@@ -60,6 +60,13 @@ GrossDifference gross_difference(const RayCaster& caster, const RangeSweep& swee
   return result;
 }
 
+std::optional<std::vector<BeliefMode>> Rivals::update(const BeliefSummary& summary, const RangeSweep& sweep,
+                                                      const Pose2& before_from_after, const RayCaster& caster,
+                                                      double max_range) {
+  follow(summary, sweep, before_from_after, caster, max_range);
+  return restored(summary);
+}
+
 void Rivals::follow(const BeliefSummary& summary, const RangeSweep& sweep, const Pose2& before_from_after,
                     const RayCaster& caster, double max_range) {
   if (summary.modes.empty()) return;

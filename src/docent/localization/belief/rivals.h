@@ -20,14 +20,12 @@ namespace docent {
 class Rivals {
  public:
   /// Takes in the modes of `summary`, carries on the ones it knows, and drops those that the sweep speaks against.
-  /// O(rivals * beams casts).
-  void follow(const BeliefSummary& summary, const RangeSweep& sweep, const Pose2& before_from_after,
+  /// Returns the belief as it should be when evidence has all but ruled out a rival that nothing was seen to speak
+  /// against: the best mode and every rival with a fair share. nullopt: it is so already, or the belief is not
+  /// concentrated on modes. O(rivals * beams casts).
+  [[nodiscard]] std::optional<std::vector<BeliefMode>> update(const BeliefSummary& summary, const RangeSweep& sweep, const Pose2& before_from_after,
               const RayCaster& caster, double max_range);
   void forget() { places_.clear(); }
-  /// The belief as it should be when evidence has all but ruled out a rival that nothing was seen to speak against: the
-  /// best mode and every rival with a fair share. nullopt: it is so already, or the belief is not concentrated on
-  /// modes.
-  [[nodiscard]] std::optional<std::vector<BeliefMode>> restored(const BeliefSummary& summary);
 
  private:
   struct Place {
@@ -36,6 +34,11 @@ class Rivals {
     int outweighed = 0;      ///< spots at which the evidence ruled it out
     double outweighed_at{};  ///< [m] of way_, the last of them
   };
+  /// Takes in, carries on and drops.
+  void follow(const BeliefSummary& summary, const RangeSweep& sweep, const Pose2& before_from_after,
+              const RayCaster& caster, double max_range);
+  /// The belief with a fair share for every rival.
+  [[nodiscard]] std::optional<std::vector<BeliefMode>> restored(const BeliefSummary& summary);
   void take_in(const BeliefMode& mode, double least_mass);
 
   std::vector<Place> places_;  ///< the best mode's among them

@@ -50,11 +50,11 @@ BeliefSummary summary_of(double best, double twin) {
 TEST(Rivals, ATwinThatNothingSpeaksAgainstKeepsItsShare) {
   const RayCaster caster{room(false)};
   Rivals rivals;
-  rivals.follow(summary_of(0.6, 0.4), sweep_from(caster, kHere), {}, caster, kRange);
-  EXPECT_FALSE(rivals.restored(summary_of(0.6, 0.4)).has_value());
+  const auto sweep = sweep_from(caster, kHere);
+  EXPECT_FALSE(rivals.update(summary_of(0.6, 0.4), sweep, {}, caster, kRange).has_value());
   // Two centimetres of the survey have spoken for the one: the twin is nearly out of the belief.
-  for (int i = 0; i < 20; ++i) rivals.follow(summary_of(0.999, 0.0), sweep_from(caster, kHere), {}, caster, kRange);
-  const auto restored = rivals.restored(summary_of(0.999, 0.0));
+  std::optional<std::vector<BeliefMode>> restored;
+  for (int i = 0; i < 20; ++i) restored = rivals.update(summary_of(0.999, 0.0), sweep, {}, caster, kRange);
   ASSERT_TRUE(restored.has_value());
   ASSERT_EQ(restored->size(), 2U);
   EXPECT_GT((*restored)[1].mass, 0.15);
@@ -65,19 +65,19 @@ TEST(Rivals, ATwinThatNothingSpeaksAgainstKeepsItsShare) {
 TEST(Rivals, WhatTheReadingsSpeakAgainstIsDroppedAfterTwoSweeps) {
   const RayCaster caster{room(true)};
   Rivals rivals;
-  for (int i = 0; i < 2; ++i) rivals.follow(summary_of(0.6, 0.4), sweep_from(caster, kHere), {}, caster, kRange);
-  EXPECT_FALSE(rivals.restored(summary_of(0.999, 0.0)).has_value());
+  const auto sweep = sweep_from(caster, kHere);
+  EXPECT_TRUE(rivals.update(summary_of(0.99, 0.01), sweep, {}, caster, kRange).has_value());
+  EXPECT_FALSE(rivals.update(summary_of(0.999, 0.0), sweep, {}, caster, kRange).has_value());
 }
 
 TEST(Rivals, PlacesAreCarriedOnByOdometry) {
   const RayCaster caster{room(false)};
   Rivals rivals;
-  rivals.follow(summary_of(0.6, 0.4), sweep_from(caster, kHere), {}, caster, kRange);
+  ASSERT_FALSE(rivals.update(summary_of(0.6, 0.4), sweep_from(caster, kHere), {}, caster, kRange).has_value());
   const Pose2 step{0.5, 0.0, {}};
   auto moved = summary_of(0.999, 0.0);
   moved.modes.front().map_from_robot = kHere * step;
-  rivals.follow(moved, sweep_from(caster, kHere * step), step, caster, kRange);
-  const auto restored = rivals.restored(moved);
+  const auto restored = rivals.update(moved, sweep_from(caster, kHere * step), step, caster, kRange);
   ASSERT_TRUE(restored.has_value());
   EXPECT_LT(distance((*restored)[1].map_from_robot.position(), (kTwin * step).position()), 1e-6);
 }
@@ -85,7 +85,7 @@ TEST(Rivals, PlacesAreCarriedOnByOdometry) {
 TEST(Rivals, EvidenceOfSeveralSpotsRulesAPlaceOut) {
   const RayCaster caster{room(false)};
   Rivals rivals;
-  rivals.follow(summary_of(0.6, 0.4), sweep_from(caster, kHere), {}, caster, kRange);
+  ASSERT_FALSE(rivals.update(summary_of(0.6, 0.4), sweep_from(caster, kHere), {}, caster, kRange).has_value());
   const Pose2 there{0.8, 0.0, {}};
   const Pose2 back = inverse(there);
   int restored = 0;
@@ -93,8 +93,8 @@ TEST(Rivals, EvidenceOfSeveralSpotsRulesAPlaceOut) {
   for (int i = 0; i < 20; ++i) {
     const Pose2 step = i % 2 == 0 ? there : back;
     summary.modes.front().map_from_robot = summary.modes.front().map_from_robot * step;
-    rivals.follow(summary, sweep_from(caster, summary.modes.front().map_from_robot), step, caster, kRange);
-    restored += rivals.restored(summary).has_value() ? 1 : 0;
+    const auto sweep = sweep_from(caster, summary.modes.front().map_from_robot);
+    restored += rivals.update(summary, sweep, step, caster, kRange).has_value() ? 1 : 0;
   }
   EXPECT_GT(restored, 3);
   EXPECT_LT(restored, 10);
@@ -103,8 +103,9 @@ TEST(Rivals, EvidenceOfSeveralSpotsRulesAPlaceOut) {
 TEST(Rivals, ABeliefThatIsSpreadOutIsLeftAlone) {
   const RayCaster caster{room(false)};
   Rivals rivals;
-  rivals.follow(summary_of(0.1, 0.08), sweep_from(caster, kHere), {}, caster, kRange);
-  EXPECT_FALSE(rivals.restored(summary_of(0.1, 0.0)).has_value());
+  const auto sweep = sweep_from(caster, kHere);
+  EXPECT_FALSE(rivals.update(summary_of(0.1, 0.08), sweep, {}, caster, kRange).has_value());
+  EXPECT_FALSE(rivals.update(summary_of(0.1, 0.0), sweep, {}, caster, kRange).has_value());
 }
 
 TEST(GrossDifference, CountsBeamsThatFitOnePlaceOnly) {

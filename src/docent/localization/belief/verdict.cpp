@@ -57,6 +57,13 @@ Result<void> VerdictParams::validate() const {
   return {};
 }
 
+Agreement& Agreement::operator+=(const Agreement& other) {
+  agrees += other.agrees;
+  shorter += other.shorter;
+  longer += other.longer;
+  return *this;
+}
+
 void Verdict::reset() { *this = Verdict{params_}; }
 
 void Verdict::assume_localized() {
@@ -66,14 +73,15 @@ void Verdict::assume_localized() {
 }
 
 void Verdict::add(const Evidence& evidence) {
+  const Agreement& readings = evidence.readings;
   constexpr double kMemory = 0.25;      // an update's share in the running means
   constexpr double kFewReadings = 8.0;  // fewer tell nothing
   const double share = kMemory * evidence.weight;
-  const double all = evidence.agrees + evidence.shorter + evidence.longer;
-  const double through = evidence.agrees + evidence.longer;
-  if (all >= kFewReadings) agreement_ += share * (evidence.agrees / all - agreement_);
+  const double all = readings.agrees + readings.shorter + readings.longer;
+  const double through = readings.agrees + readings.longer;
+  if (all >= kFewReadings) agreement_ += share * (readings.agrees / all - agreement_);
   if (through >= kFewReadings) {
-    contradiction_ += share * (evidence.longer / through - contradiction_);
+    contradiction_ += share * (readings.longer / through - contradiction_);
   }
 
   const bool is_good = evidence.mass >= params_.enough_mass && evidence.spread <= params_.widest_spread;

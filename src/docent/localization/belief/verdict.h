@@ -37,6 +37,14 @@ struct VerdictParams {
   [[nodiscard]] Result<void> validate() const;
 };
 
+/// How readings compare with what the belief expects: how many (each counted by the mass of the states for which it is
+/// so) are what the map says, surely shorter, or surely longer. All 0 where the map does not say or nothing came back:
+/// some surfaces give no return.
+struct Agreement {
+  double agrees = 0.0, shorter = 0.0, longer = 0.0;
+  Agreement& operator+=(const Agreement& other);
+};
+
 /// What one update says about the best mode.
 struct Evidence {
   double weight = 1.0;                               ///< of the update, 0..1
@@ -47,7 +55,7 @@ struct Evidence {
   bool is_same_mode = false;                         ///< the mode of the last update, moved by odometry
   double way = 0.0;                                  ///< [m] since the last update
   double turn = 0.0;                                 ///< [rad], >= 0
-  double agrees = 0.0, shorter = 0.0, longer = 0.0;  ///< number of readings, as the belief sees them
+  Agreement readings;                                ///< of one sweep
 };
 
 /// `evidence` with what a summary says of its best mode. `predicted`: the best pose of the last update, moved by

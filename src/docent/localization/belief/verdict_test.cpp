@@ -14,8 +14,8 @@ Evidence good() {
   evidence.entropy = 2.0;
   evidence.is_same_mode = true;
   evidence.way = 0.25;
-  evidence.agrees = 50.0;
-  evidence.shorter = 5.0;
+  evidence.readings.agrees = 50.0;
+  evidence.readings.shorter = 5.0;
   return evidence;
 }
 
@@ -59,6 +59,7 @@ TEST(Verdict, OneSweepThroughWallsRaisesTheDoubtAtOnce) {
   const double before = verdict.p_lost();
   verdict.look({0.7, 0.1, 40});
   EXPECT_GT(verdict.p_lost(), 20.0 * before);
+  EXPECT_GT(verdict.p_lost(), 0.02);  // no longer sure
   verdict.look({0.0, 0.1, 40});
   EXPECT_LT(verdict.p_lost(), 2.0 * before);
 }
@@ -66,8 +67,8 @@ TEST(Verdict, OneSweepThroughWallsRaisesTheDoubtAtOnce) {
 TEST(Verdict, ReadingsThroughWallsTakeTheKnowledgeBack) {
   Verdict verdict = sure();
   Evidence bad = good();
-  bad.agrees = 10.0;
-  bad.longer = 40.0;
+  bad.readings.agrees = 10.0;
+  bad.readings.longer = 40.0;
   int updates = 0;
   while (verdict.localized() && updates < 50) verdict.add(bad), ++updates;
   EXPECT_LE(updates, 6);
@@ -77,8 +78,8 @@ TEST(Verdict, ReadingsThroughWallsTakeTheKnowledgeBack) {
 TEST(Verdict, PeopleAllRoundDoNot) {
   Verdict verdict = sure();
   Evidence crowd = good();
-  crowd.agrees = 12.0;
-  crowd.shorter = 43.0;
+  crowd.readings.agrees = 12.0;
+  crowd.readings.shorter = 43.0;
   for (int i = 0; i < 40; ++i) verdict.add(crowd);
   EXPECT_TRUE(verdict.localized());
 }

@@ -131,10 +131,7 @@ Agreement agreement_of_all(const ExpectedRanges& expected, const ProximityModel&
   for (const BinnedBeam& beam : binned(sweep, directions)) {
     const SweepBeam& reading = sweep.beams[beam.beam];
     const int bin = reading.no_return ? kNoReturn : model.bin(reading.range);
-    const Agreement found = agreement(expected, model, beam.direction, bin, sureness);
-    sum.agrees += found.agrees;
-    sum.shorter += found.shorter;
-    sum.longer += found.longer;
+    sum += agreement(expected, model, beam.direction, bin, sureness);
   }
   return sum;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "docent/localization/belief/verdict.h"
 #include "docent/localization/markov/position_belief.h"
 #include "docent/localization/markov/range_table.h"
 #include "docent/sensor_models/proximity_model.h"
@@ -58,12 +59,7 @@ enum class BeamFilter { none, entropy, distance, novelty };
 [[nodiscard]] std::vector<float> entropy_gains(const ExpectedRanges& expected, const ProximityModel& model,
                                                const RangeSweep& seen, int headings);
 
-/// How a reading compares with what the belief expects: the mass of the states for which it is what the map says,
-/// surely (with `sureness`, e.g. 0.99) shorter, or surely longer. All 0 where the map does not say or nothing came
-/// back: some surfaces give no return.
-struct Agreement {
-  double agrees = 0.0, shorter = 0.0, longer = 0.0;
-};
+/// How a reading compares with what the belief expects; surely: with `sureness`, e.g. 0.99.
 [[nodiscard]] Agreement agreement(const ExpectedRanges& expected, const ProximityModel& model, int direction,
                                   int measured, double sureness);
 /// Summed over all beams of a sweep: agrees + shorter + longer = beams whose range the map says.

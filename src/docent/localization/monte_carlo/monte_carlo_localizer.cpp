@@ -104,8 +104,7 @@ void MonteCarloLocalizer::believe(std::span<const BeliefMode> modes) {
 
 void MonteCarloLocalizer::keep_rivals(const RangeSweep& sweep, const Pose2& before_from_after) {
   if (!shared_.rivals || verdict_.localized()) return rivals_.forget();
-  rivals_.follow(summary_, sweep, before_from_after, caster_, shared_.sensor.max_range);
-  const auto modes = rivals_.restored(summary_);
+  const auto modes = rivals_.update(summary_, sweep, before_from_after, caster_, shared_.sensor.max_range);
   if (!modes) return;
   believe(*modes);
   summarise_now();
@@ -219,10 +218,7 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
   // After a long way odometry foretells too little: the belief of after the update is held against the readings.
   if (views > 1.0 && !likely_.empty()) {
     const ExpectedRanges expected{likely_, table_, space_.headings()};
-    const Agreement found = agreement_of_all(expected, model_, sweep, shared_.filter_sureness, space_.headings());
-    choice.evidence.agrees = found.agrees;
-    choice.evidence.shorter = found.shorter;
-    choice.evidence.longer = found.longer;
+    choice.evidence.readings = agreement_of_all(expected, model_, sweep, shared_.filter_sureness, space_.headings());
   }
   choice.evidence.weight = step.weight;
   choice.evidence.way = way;
@@ -334,10 +330,7 @@ MonteCarloLocalizer::Choice MonteCarloLocalizer::choose_beams(const RangeSweep& 
     const ExpectedRanges expected{likely_, table_, space_.headings()};
     for (const BinnedBeam& beam : beams) {
       const int bin = bin_of(sweep.beams[beam.beam]);
-      const Agreement found = agreement(expected, model_, beam.direction, bin, shared_.filter_sureness);
-      choice.evidence.agrees += found.agrees;
-      choice.evidence.shorter += found.shorter;
-      choice.evidence.longer += found.longer;
+      choice.evidence.readings += agreement(expected, model_, beam.direction, bin, shared_.filter_sureness);
       const bool filtered = rejects(filter_, expected, model_, beam.direction, bin, shared_.filter_sureness);
       choice.filtered += filtered ? 1 : 0;
       if (!filtered || rng_.chance(shared_.unfiltered_share)) choice.used.push_back(beam);
