@@ -204,7 +204,7 @@ struct GoalState {
   static constexpr const char* kType = "docent_msgs/msg/GoalState";
   std_msgs::Header header;
   std::string id;
-  std::string state;       ///< idle, waiting (no pose), driving, turning, arrived, blocked, unreachable
+  std::string state;       ///< idle, waiting (no pose or no plan yet), driving, turning, arrived, blocked, unreachable
   double remaining_m = 0;  ///< along the path
   double blocked_s = 0;    ///< no progress for so long
   std::string reason;

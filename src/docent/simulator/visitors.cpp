@@ -31,7 +31,12 @@ std::string make_uuid_v7(Time time, Rng& rng) {
 
 WishingVisitors::WishingVisitors(const WishParams& params, std::vector<std::string> exhibits,
                                  std::vector<std::string> tours, Rng rng)
-    : params_{params}, exhibits_{std::move(exhibits)}, tours_{std::move(tours)}, rng_{rng} {
+    : params_{params},
+      exhibits_{std::move(exhibits)},
+      tours_{std::move(tours)},
+      wish_rng_{rng.stream("wishes")},
+      answer_rng_{rng.stream("answers")},
+      id_rng_{rng.stream("ids")} {
   next_wish_ = next_gap();
 }
 
@@ -39,17 +44,18 @@ double WishingVisitors::next_gap() {
   if (!(params_.requests_per_hour > 0.0) || (exhibits_.empty() && tours_.empty())) return 1e18;
   const double mean = 3600.0 / params_.requests_per_hour;
   // An exponential cut off at 1.8 means; the factor 1.365 keeps the mean of the cut one.
-  return std::min(rng_.exponential(1.365 * mean), 1.8 * mean);
+  return std::min(wish_rng_.exponential(1.365 * mean), 1.8 * mean);
 }
 
-std::string WishingVisitors::new_id(Time now) { return make_uuid_v7(now, rng_); }
+std::string WishingVisitors::new_id(Time now) { return make_uuid_v7(now, id_rng_); }
 
 void WishingVisitors::ask(Time now, const std::string& kind, const std::string& target, const std::string& language) {
   docent_msgs::Request request;
   request.id = new_id(now);
   request.stamp = to_message(now);
   request.source = "visitor";
-  request.visitor = kNames[static_cast<std::size_t>(rng_.integer(0, static_cast<std::int64_t>(kNames.size()) - 1))];
+  request.visitor =
+      kNames[static_cast<std::size_t>(wish_rng_.integer(0, static_cast<std::int64_t>(kNames.size()) - 1))];
   request.kind = kind;
   request.target = target;
   request.language = language;
@@ -62,10 +68,10 @@ WishingVisitors::Output WishingVisitors::step(Time now, Duration since_start) {
   Output output;
   while (to_seconds(since_start) >= next_wish_) {
     next_wish_ += next_gap();
-    const bool wants_exhibit = tours_.empty() || (!exhibits_.empty() && rng_.chance(params_.exhibit_share));
+    const bool wants_exhibit = tours_.empty() || (!exhibits_.empty() && wish_rng_.chance(params_.exhibit_share));
     const auto& list = wants_exhibit ? exhibits_ : tours_;
-    const auto pick = static_cast<std::size_t>(rng_.integer(0, static_cast<std::int64_t>(list.size()) - 1));
-    ask(now, wants_exhibit ? "exhibit" : "tour", list[pick], rng_.chance(params_.german_share) ? "de" : "en");
+    const auto pick = static_cast<std::size_t>(wish_rng_.integer(0, static_cast<std::int64_t>(list.size()) - 1));
+    ask(now, wants_exhibit ? "exhibit" : "tour", list[pick], wish_rng_.chance(params_.german_share) ? "de" : "en");
   }
   for (Open& open : open_) {
     if (now < open.next_send) continue;
@@ -92,8 +98,8 @@ void WishingVisitors::see_mission(Time now, const docent_msgs::MissionState& mis
   const docent_msgs::Prompt& prompt = mission.prompt;
   if (prompt.id.empty() || prompt.options.empty() || !seen_prompts_.insert(prompt.id).second) return;
   if (seen_prompts_.size() > 1000) seen_prompts_ = {prompt.id};
-  const double luck = rng_.uniform();
-  const double delay = rng_.uniform(1.0, 4.0);
+  const double luck = answer_rng_.uniform();
+  const double delay = answer_rng_.uniform(1.0, 4.0);
   const auto option = [&](const char* a, const char* b) -> std::string {
     for (const std::string& name : prompt.options) {
       if (name == a || name == b) return name;

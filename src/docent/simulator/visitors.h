@@ -51,7 +51,9 @@ class WishingVisitors {
   WishParams params_;
   std::vector<std::string> exhibits_;
   std::vector<std::string> tours_;
-  Rng rng_;
+  Rng wish_rng_;    ///< who wishes for what, and when: the same whatever the robot asks them
+  Rng answer_rng_;  ///< what they answer
+  Rng id_rng_;
   double next_wish_ = 0.0;  ///< [s] since the start
   std::vector<Open> open_;
   std::set<std::string> seen_prompts_;

@@ -9,6 +9,7 @@ Result<void> PursuitParams::validate() const {
   if (!(horizon > 0.0)) return fail("horizon must be > 0");
   if (!(progress > 0.0)) return fail("progress must be > 0");
   if (!(blocked_after > 0.0)) return fail("blocked_after must be > 0");
+  if (!(find_way_for >= 0.0)) return fail("find_way_for must be >= 0");
   if (!(settle_for >= 0.0)) return fail("settle_for must be >= 0");
   if (!(settle_after > 0.0)) return fail("settle_after must be > 0");
   return {};
@@ -65,6 +66,11 @@ Pursuit GoalPursuit::step(const std::optional<Pose2>& map_from_base, const Route
   }
 
   const auto way = planner.way(here);
+  if (way.empty() && !planner.is_settled() && stuck_for() < params_.find_way_for) {
+    pursuit.state = "waiting";
+    pursuit.reason = "looking for the way";
+    return pursuit;
+  }
   if (way.empty()) {
     pursuit.state = "unreachable";
     pursuit.reason = planner.is_closed(here) ? "no way out of this place" : "no way to the goal";

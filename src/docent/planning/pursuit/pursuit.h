@@ -15,6 +15,7 @@ struct PursuitParams {
   double horizon = 3.0;        ///< [m] of the way handed on as via-points
   double progress = 0.3;       ///< [m] of remaining way that count as progress
   double blocked_after = 4.0;  ///< [s] without progress until the state is "blocked"
+  double find_way_for = 3.0;   ///< [s] that planning may take before a goal without a way is "unreachable"
   double settle_for = 0.5;     ///< [m]: so near to a goal that others stand on, the robot takes it as reached
   double settle_after = 6.0;   ///< [s] without progress until it does
   template <class V>
@@ -22,6 +23,7 @@ struct PursuitParams {
     v("horizon", horizon);
     v("progress", progress);
     v("blocked_after", blocked_after);
+    v("find_way_for", find_way_for);
     v("settle_for", settle_for);
     v("settle_after", settle_after);
   }

@@ -58,6 +58,20 @@ TEST_F(PursuitTest, SettlesBesideAGoalThatPeopleStandOn) {
   EXPECT_EQ(step({5.55, 4, {}}, 7.0).state, "turning");
 }
 
+TEST_F(PursuitTest, AGoalIsUnreachableOnlyWhenPlanningHasEnded) {
+  RoutePlanner busy{hall(), {}, {}, {}};
+  busy.set_goal(goal_.map_from_goal.position(), 0.2);
+  busy.iterate(1);
+  EXPECT_EQ(pursuit_.step(Pose2{2, 4, {}}, busy, Time{}).state, "waiting");
+  EXPECT_EQ(pursuit_.step(Pose2{2, 4, {}}, busy, time_from_seconds(4.0)).state, "unreachable") << "not for ever";
+  auto walled = hall();
+  for (int row = 0; row < walled.frame.rows; ++row) walled.cells[walled.frame.index({80, row})] = 100;
+  RoutePlanner settled{walled, {}, {}, {}};
+  settled.set_goal(goal_.map_from_goal.position(), 0.2);
+  settled.iterate(1000);
+  EXPECT_EQ(pursuit_.step(Pose2{2, 4, {}}, settled, Time{}).state, "unreachable");
+}
+
 TEST_F(PursuitTest, WaitsWhileItDoesNotKnowWhereItIs) {
   const auto now = pursuit_.step(std::nullopt, planner_, Time{});
   EXPECT_EQ(now.state, "waiting");

@@ -68,6 +68,7 @@ void RoutePlanner::set_obstacles(const std::vector<bool>& obstacles) {
       costs[i] *= static_cast<float>(params_.obstacle_cost);
   }
   planner_.set_costs(costs);
+  is_settled_ = false;
 }
 
 void RoutePlanner::set_goal(Point2 goal, double tolerance) {
@@ -86,6 +87,7 @@ void RoutePlanner::set_goal(Point2 goal, double tolerance) {
     }
   }
   planner_.set_goals(goals);
+  is_settled_ = false;
 }
 
 bool RoutePlanner::is_closed(Point2 in_map) const {

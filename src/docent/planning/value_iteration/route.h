@@ -48,7 +48,9 @@ class RoutePlanner {
   /// Every cell within `tolerance` [m] of the goal is a goal. Clears what was planned before.
   void set_goal(Point2 goal, double tolerance);
   /// @returns true when converged
-  bool iterate(int most_sweeps) { return planner_.iterate(most_sweeps); }
+  bool iterate(int most_sweeps) { return is_settled_ = planner_.iterate(most_sweeps); }
+  /// False while `iterate` may still find a way or a better one.
+  [[nodiscard]] bool is_settled() const { return is_settled_; }
 
   /// The way from `start` (map) to the goal: points some centimetres apart, smoothed, start excluded. Empty: no way
   /// known.
@@ -65,6 +67,7 @@ class RoutePlanner {
 
   RouteParams params_;
   ValueIteration planner_;
+  bool is_settled_ = false;
   std::vector<float> static_costs_;  ///< [rows * columns]
 };
 

@@ -12,6 +12,7 @@ namespace docent {
 struct SchedulerParams {
   int max_open = 40;            ///< open requests, >= 1; more are refused
   double overdue_s = 600.0;     ///< [s] > 0: who waited longer comes first
+  double hurry_after_s = 120;   ///< [s] > 0: while somebody has waited longer, exhibits are shown in the short version
   int max_attempts = 3;         ///< visits tried for a request, >= 1
   double retry_delay_s = 45.0;  ///< [s] >= 0 between two of them
   double max_detour_m = 4.0;    ///< [m] >= 0: what a tour goes out of its way for a single exhibit
@@ -22,6 +23,7 @@ struct SchedulerParams {
   void visit(V& v) {
     v("max_open", max_open);
     v("overdue_s", overdue_s);
+    v("hurry_after_s", hurry_after_s);
     v("max_attempts", max_attempts);
     v("retry_delay_s", retry_delay_s);
     v("max_detour_m", max_detour_m);

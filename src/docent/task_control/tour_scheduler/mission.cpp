@@ -29,7 +29,7 @@ Mission::Mission(const MissionParams& params, Programme programme, TravelDistanc
   // The running visit goes on under its old task id, so that an executive that works on it is not disturbed.
   if (const auto& visit = scheduler_.state().visit) {
     activity_ = Activity::visit;
-    if (task_.kind != "visit" || !is_same(task_.map_from_base, visit->map_from_base)) start_visit();
+    if (task_.kind != "visit" || !is_same(task_.map_from_base, visit->map_from_base)) start_visit(now);
   } else if (task_.kind == "home" && is_same(task_.map_from_base, scheduler_.programme().home)) {
     activity_ = Activity::home;
   } else {
@@ -123,13 +123,13 @@ void Mission::decide(Time now) {
     was_ever_localized_ = true;
     if (activity_ == Activity::relocalize) {
       start_task(Activity::none, {});
-      if (scheduler_.state().visit) start_visit();  // what was suspended goes on
+      if (scheduler_.state().visit) start_visit(now);  // what was suspended goes on
     }
   }
   if (activity_ == Activity::visit) return;
   if (!conditions_.battery_low) {
     if (scheduler_.begin_visit(position(), now)) {
-      start_visit();
+      start_visit(now);
       return;
     }
   }
@@ -152,10 +152,11 @@ void Mission::decide_when_lost(Time now) {
                    was_ever_localized_ ? "lost" : "waking up"});
 }
 
-void Mission::start_visit() {
+void Mission::start_visit(Time now) {
   const Visit& visit = *scheduler_.state().visit;
+  const bool offer_more = params_.offer_more && !scheduler_.is_in_a_hurry(now);
   start_task(Activity::visit,
-             {"", "visit", visit.exhibit_id, visit.map_from_base, visit.language, params_.offer_more, visit.tour_id});
+             {"", "visit", visit.exhibit_id, visit.map_from_base, visit.language, offer_more, visit.tour_id});
   is_resting_ = false;
 }
 

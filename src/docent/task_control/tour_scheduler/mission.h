@@ -29,7 +29,7 @@ struct MissionParams {
   double home_retry_s = 30.0;      ///< [s] >= 0 after a failed way home
   double battery_low = 0.15;       ///< 0..1: below, nothing is taken on and the robot goes to its charger
   double battery_full = 0.8;       ///< 0..1, > battery_low: from here on it works again
-  bool offer_more = true;          ///< ask at each exhibit: more, or next?
+  bool offer_more = true;          ///< ask at each exhibit, unless others wait for long: more, or next?
   template <class V>
   void visit(V& v) {
     schedule.visit(v);
@@ -92,7 +92,7 @@ class Mission {
   void decide(Time now);
   void decide_when_lost(Time now);
   void start_task(Activity activity, TaskOrder order);
-  void start_visit();
+  void start_visit(Time now);
   [[nodiscard]] bool may_interrupt() const;
   [[nodiscard]] bool is_lost(Time now) const;
   [[nodiscard]] Pose2 resting_place() const;

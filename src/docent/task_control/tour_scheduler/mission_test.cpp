@@ -88,6 +88,27 @@ TEST_F(MissionTest, AWishInterruptsTheWayHome) {
   EXPECT_EQ(phase(), "driving") << "the old task no longer counts";
 }
 
+TEST_F(MissionTest, AsksNobodyForMoreWhileOthersHaveWaitedLong) {
+  pass(5.0);
+  wish("1", "tour", "both");
+  EXPECT_TRUE(mission->task().offer_more);
+  report("explaining");
+  wish("2", "tour", "both");  // too late to join
+  pass(60.0);
+  report("done");
+  ASSERT_EQ(mission->task().exhibit_id, "b");
+  EXPECT_TRUE(mission->task().offer_more) << "a minute is not long";
+  report("done");
+  ASSERT_EQ(mission->task().exhibit_id, "a");
+  EXPECT_TRUE(mission->task().offer_more) << "nobody waits but those whose turn it is";
+  report("explaining");
+  wish("3", "tour", "both");
+  pass(200.0);
+  report("done");
+  ASSERT_EQ(mission->task().exhibit_id, "b");
+  EXPECT_FALSE(mission->task().offer_more);
+}
+
 TEST_F(MissionTest, TalksToTheEndWhenItLosesItsPlace) {
   pass(5.0);
   wish("1", "exhibit", "a");

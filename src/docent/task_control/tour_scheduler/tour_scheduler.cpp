@@ -234,6 +234,13 @@ void TourScheduler::end_tour_if_over(Time now) {
       {is_success ? "tour_completed" : "tour_failed", tour.tour_id, reason, to_seconds(now - tour.started)});
 }
 
+bool TourScheduler::is_in_a_hurry(Time now) const {
+  const auto& entries = state_.board.entries();
+  return std::any_of(entries.begin(), entries.end(), [&](const BoardEntry& entry) {
+    return entry.status == RequestStatus::queued && now - entry.created > seconds(params_.hurry_after_s);
+  });
+}
+
 bool TourScheduler::is_visit_unwanted() const {
   return state_.visit && state_.visit->tour_id.empty() &&
          ids("exhibit", RequestStatus::active, state_.visit->exhibit_id).empty();

@@ -85,6 +85,8 @@ class TourScheduler {
   void close_visit();
   /// The visit ended; its requests are fulfilled, tried again later or failed. @pre a visit is under way.
   void finish_visit(bool is_success, const std::string& reason, Time now);
+  /// True while somebody has waited long who is not being served: then nobody is asked whether they want more.
+  [[nodiscard]] bool is_in_a_hurry(Time now) const;
   /// True when no request wants the visit under way any more.
   [[nodiscard]] bool is_visit_unwanted() const;
   /// Ends a visit that nobody wants any more, without counting it. @pre is_visit_unwanted()
