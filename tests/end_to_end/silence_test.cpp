@@ -20,6 +20,7 @@ constexpr const char* kScenario = R"(events:
   - {at: 30, fault: {sensor: laser_front, kind: dead, for: 10}}
   - {at: 55, fault: {sensor: laser_rear, kind: dead, for: 10}}
   - {at: 80, fault: {sensor: odom, kind: dead, for: 10}}
+  - {at: 105, fault: {sensor: sonar, kind: dead, for: 10}}
 )";
 
 /// Some module says in its health that `word` is missing.
@@ -39,8 +40,9 @@ TEST(Silence, HealthNamesItTheRobotStandsAndGoesOn) {
               "quiet", "--requests-per-hour", "0", "--start=9,3.6,90", "--scenario", scenario}};
   ASSERT_TRUE(eventually([&] { return watch.look().localized; }, 60s)) << up.output();
   watch.ask_for("tour", "highlights");
-  const std::map<std::string, std::string> words{{"laser_front", "front"}, {"laser_rear", "rear"}, {"odom", "odom"}};
-  for (const auto* sensor : {"laser_front", "laser_rear", "odom"}) {
+  const std::map<std::string, std::string> words{
+      {"laser_front", "front"}, {"laser_rear", "rear"}, {"odom", "odom"}, {"sonar", "sonar"}};
+  for (const auto* sensor : {"laser_front", "laser_rear", "odom", "sonar"}) {
     SCOPED_TRACE(sensor);
     ASSERT_TRUE(eventually([&] { return watch.look().faults.contains(sensor); }, 120s)) << up.output();
     const auto since = watch.look().faults.at(sensor);

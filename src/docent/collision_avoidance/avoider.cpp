@@ -11,7 +11,10 @@ namespace docent {
 
 namespace {
 
-constexpr double kBeyondReach = 3.5;  // [m] obstacles farther away do not matter within one cycle
+constexpr double kBeyondReach = 3.5;      // [m] obstacles farther away do not matter within one cycle
+constexpr double kNearlyAll = 0.9;        // of a sweep's readings: the sensor is covered or has failed
+constexpr double kSonarPatience = 1.5;    // [s] for one sonar of many
+constexpr double kTactilePatience = 1.5;  // [s]
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -47,10 +50,13 @@ void Avoider::add_sweep(Time now, std::size_t sensor, const SensorSweep& sweep) 
 void Avoider::add_sonar(Time now, std::size_t index, const SonarReading& reading) {
   if (odometry_.empty()) return;
   sonar_freshness_.receive(now, reading.stamp);
+  if (each_sonar_freshness_.size() <= index) each_sonar_freshness_.resize(index + 1);
+  each_sonar_freshness_[index].receive(now, reading.stamp);
   memory_.add_sonar(index, reading, odometry_.pose_at(reading.stamp));
 }
 
 void Avoider::add_tactile(Time now, Time stamp, std::span<const double> bearings) {
+  tactile_freshness_.receive(now, stamp);
   if (odometry_.empty() || bearings.empty()) return;
   touched_ = now;
   for (const double bearing : bearings) {
@@ -59,7 +65,8 @@ void Avoider::add_tactile(Time now, Time stamp, std::span<const double> bearings
 }
 
 void Avoider::add_virtual(Time now, const VirtualSweep& sweep) {
-  if (odometry_.empty()) return;
+  const auto is_unfit = [](float range) { return std::isnan(range); };
+  if (odometry_.empty() || std::any_of(sweep.ranges.begin(), sweep.ranges.end(), is_unfit)) return;
   virtual_freshness_.receive(now, sweep.stamp);
   odom_from_virtual_ = odometry_.pose_at(sweep.stamp);
   virtual_ = sweep;
@@ -85,8 +92,19 @@ std::string Avoider::fault(Time now) const {
     const std::string name = i == 0 ? "front laser" : i == 1 ? "rear laser" : "laser";
     if (sweep_freshness_[i].is_stale(now)) return "no fresh sweep of the " + name;
     if (memory_.is_frozen(i)) return "the " + name + " is frozen";
+    if (memory_.invalid_share(i) > kNearlyAll) return "the " + name + " gives no readings";
   }
   if (params_.needs_sonar && sonar_freshness_.is_stale(now)) return "no fresh sonar reading";
+  // One that falls silent is made up for by its neighbours; two side by side leave a gap.
+  for (std::size_t i = 0; i < each_sonar_freshness_.size() && params_.needs_sonar; ++i) {
+    const auto is_silent = [&](std::size_t index) {
+      const Freshness& sonar = each_sonar_freshness_[index % each_sonar_freshness_.size()];
+      return sonar.period() > 0.0 && sonar.is_stale(now, kSonarPatience);
+    };
+    if (is_silent(i) && is_silent(i + 1)) return "no fresh reading of sonar " + std::to_string(i) + " and the next";
+  }
+  if (tactile_freshness_.period() > 0.0 && tactile_freshness_.is_stale(now, kTactilePatience))
+    return "the tactile ring is silent";
   if (virtual_freshness_.silence(now) > params_.virtual_timeout) return "no fresh virtual measurements";
   return "";
 }

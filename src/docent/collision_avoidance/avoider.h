@@ -130,7 +130,9 @@ class Avoider {
 
   std::vector<Freshness> sweep_freshness_;
   Freshness odometry_freshness_;
-  Freshness sonar_freshness_;
+  Freshness sonar_freshness_;  ///< of any
+  std::vector<Freshness> each_sonar_freshness_;
+  Freshness tactile_freshness_;  ///< a robot without the ring never sends; one that has sent must go on
   Freshness virtual_freshness_;
   Freshness target_freshness_;
   std::optional<AvoiderTarget> target_;

@@ -154,6 +154,72 @@ TEST(Avoider, DoesNotDriveWhereTheLaserIsBlind) {
   EXPECT_EQ(world.velocity.linear, 0.0);
 }
 
+TEST(Avoider, DoesNotDriveWhereTheLaserGivesNothingButZeros) {
+  Rehearsal world;
+  world.box(-3, -5, 40, 5);
+  world.drive_to({{2, 0}, {4, 0}, {8, 0}, {30, 0}});
+  world.blind_from = -1.5;
+  world.blind_to = 1.5;
+  world.blind_range = 0.0F;  // as a covered or failed scanner may say it
+  world.run(10);
+  EXPECT_LT(world.driven, 0.3);
+  EXPECT_EQ(world.velocity.linear, 0.0);
+}
+
+TEST(Avoider, StandsWhenTheTactileRingThatWasThereFallsSilent) {
+  Rehearsal world;
+  world.box(-3, -5, 40, 5);
+  world.drive_to({{2, 0}, {4, 0}, {8, 0}, {30, 0}});
+  for (int i = 0; i < 25; ++i) {
+    world.run(0.2);
+    world.avoider.add_tactile(world.now, world.now, {});
+  }
+  ASSERT_GT(world.velocity.linear, 0.5);
+  world.run(3.0);
+  EXPECT_EQ(world.velocity.linear, 0.0);
+  EXPECT_EQ(world.decision.reason, "the tactile ring is silent");
+  for (int i = 0; i < 25; ++i) {
+    world.run(0.2);
+    world.avoider.add_tactile(world.now, world.now, {});
+  }
+  EXPECT_GT(world.velocity.linear, 0.5);
+}
+
+TEST(Avoider, StandsWhenTwoSonarsSideBySideFallSilentButNotForOne) {
+  AvoiderParams params;
+  params.needs_sonar = true;
+  Rehearsal world{1, params};
+  world.box(-3, -5, 40, 5);
+  world.drive_to({{2, 0}, {4, 0}, {8, 0}, {30, 0}});
+  const auto run = [&](double duration, auto is_silent) {
+    for (double t = 0.0; t < duration; t += 0.4) {
+      for (std::size_t i = 0; i < 24; ++i) {
+        const Pose2 mount{0.0, 0.0, Angle::degrees(15.0 * static_cast<double>(i))};
+        if (!is_silent(i)) world.avoider.add_sonar(world.now, i, {world.now, mount, 0.26, 5.0, 5.0});
+      }
+      world.run(0.4);
+    }
+  };
+  run(4.0, [](std::size_t) { return false; });
+  run(4.0, [](std::size_t i) { return i == 7 || i == 23; });
+  EXPECT_GT(world.velocity.linear, 0.5);
+  run(4.0, [](std::size_t i) { return i == 0 || i == 23; });
+  EXPECT_EQ(world.velocity.linear, 0.0);
+  EXPECT_EQ(world.decision.reason, "no fresh reading of sonar 23 and the next");
+}
+
+TEST(Avoider, VirtualMeasurementsThatAreNoNumbersAreNone) {
+  Rehearsal world;
+  world.box(-3, -5, 40, 5);
+  world.drive_to({{2, 0}, {4, 0}, {8, 0}, {30, 0}});
+  world.run(5);
+  ASSERT_GT(world.velocity.linear, 0.5);
+  world.virtual_is_nan = true;
+  world.run(3);
+  EXPECT_EQ(world.velocity.linear, 0.0);
+  EXPECT_NE(world.decision.reason.find("virtual"), std::string::npos);
+}
+
 TEST(Avoider, GetsFreeFromInsideAMargin) {
   Rehearsal world;
   world.box(-3, -3, 6, 3);

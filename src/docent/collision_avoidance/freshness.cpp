@@ -1,12 +1,22 @@
 #include "docent/collision_avoidance/freshness.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace docent {
 
 void Freshness::receive(Time now, Time stamp) {
   constexpr double kCreep = 0.0005;  // [s/s] more than two quartz clocks drift apart
+  constexpr double kFuture = 1.0;    // [s] before what the clock said so far
+  constexpr double kAgree = 0.3;     // [s]
+  constexpr int kEnough = 3;         // messages that agree: the clock was set
   const double delay = to_seconds(now - stamp);
+  if (received_ && delay < offset_ - kFuture) {
+    early_count_ = early_count_ > 0 && std::abs(delay - early_) < kAgree ? early_count_ + 1 : 1;
+    early_ = delay;
+    if (early_count_ < kEnough) return;  // not received: it may be of any age
+  }
+  early_count_ = 0;
   if (!received_) {
     offset_ = delay;
   } else {

@@ -11,7 +11,8 @@ namespace docent {
 ///
 /// Stamps may come from another computer's clock. The least difference seen between receipt and stamp, which may creep
 /// up by half a millisecond a second, is taken as the offset of that clock; what a message is late beyond it counts as
-/// age.
+/// age. A stamp far in the future is no word of that clock until a few more agree: one wrong message must not make all
+/// later ones look old.
 class Freshness {
  public:
   void receive(Time now, Time stamp);
@@ -30,6 +31,8 @@ class Freshness {
   double offset_ = 0.0;    ///< [s] receipt minus stamp, at its least
   double lateness_ = 0.0;  ///< [s] of the newest message
   double period_ = 0.0;
+  double early_ = 0.0;  ///< [s] delay of the last message from the future
+  int early_count_ = 0;
 };
 
 }  // namespace docent

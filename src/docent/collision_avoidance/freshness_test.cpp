@@ -31,5 +31,22 @@ TEST(Freshness, AnotherClockIsNoLatenessButADelayIs) {
   EXPECT_TRUE(freshness.is_stale(time_from_seconds(2.1)));
 }
 
+TEST(Freshness, OneStampFromTheFutureIsForgotten) {
+  Freshness freshness;
+  for (int i = 0; i <= 20; ++i) freshness.receive(time_from_seconds(0.1 * i), time_from_seconds(0.1 * i));
+  freshness.receive(time_from_seconds(2.1), time_from_seconds(12.1));
+  for (int i = 22; i <= 24; ++i) freshness.receive(time_from_seconds(0.1 * i), time_from_seconds(0.1 * i));
+  EXPECT_NEAR(freshness.age(time_from_seconds(2.4)), 0.0, 1e-3);
+}
+
+TEST(Freshness, AClockThatWasSetForwardIsBelievedAfterThreeMessages) {
+  Freshness freshness;
+  for (int i = 0; i <= 20; ++i) freshness.receive(time_from_seconds(0.1 * i), time_from_seconds(0.1 * i));
+  for (int i = 21; i <= 23; ++i) freshness.receive(time_from_seconds(0.1 * i), time_from_seconds(0.1 * i + 10.0));
+  EXPECT_NEAR(freshness.age(time_from_seconds(2.3)), 0.0, 1e-3);
+  freshness.receive(time_from_seconds(2.4), time_from_seconds(2.4 + 10.0 - 0.7));
+  EXPECT_TRUE(freshness.is_stale(time_from_seconds(2.4)));
+}
+
 }  // namespace
 }  // namespace docent

@@ -94,13 +94,13 @@ void ObstacleMemory::add_sweep(std::size_t index, const SensorSweep& sweep, cons
   };
   for (std::size_t i = 0; i < sweep.ranges.size(); ++i) {
     const double range = sweep.ranges[i];
-    if (!is_valid(range)) {
+    if (!is_valid(range) || range < sweep.min_range) {  // covered, or the sensor's way to say "failed"
       ++invalid;
       ++run;
       continue;
     }
     end_run(i);
-    if (range >= sweep.max_range || range < sweep.min_range || range > kReach) continue;
+    if (range >= sweep.max_range || range > kReach) continue;
     const Angle bearing = Angle::radians(sweep.first_bearing + static_cast<double>(i) * sweep.bearing_step);
     places.push_back(sensor.odom_from_sensor * (range * unit(bearing)));
     ranges.push_back(range);

@@ -39,7 +39,9 @@ class Rehearsal {
   double noise = 0.02;  ///< [m] of the lasers, one standard deviation
   bool front_works = true, rear_works = true, odometry_works = true, virtual_works = true, target_works = true;
   bool front_repeats = false;               ///< the front laser gives its last sweep again and again
-  double blind_from = 0.0, blind_to = 0.0;  ///< [rad] base frame: the front laser gives NaN there
+  double blind_from = 0.0, blind_to = 0.0;  ///< [rad] base frame: the front laser gives this there:
+  float blind_range = std::numeric_limits<float>::quiet_NaN();
+  bool virtual_is_nan = false;  ///< one of the virtual measurements
   AvoiderTarget target;
 
   // What happened.
@@ -153,7 +155,7 @@ class Rehearsal {
       }
       if (range < sweep.max_range) range = std::max(0.05, range + rng_.normal(0.0, noise));
       const double in_base = (sweep.base_from_sensor.theta + bearing).radians();
-      if (sensor == 0 && in_base > blind_from && in_base < blind_to) range = std::nan("");
+      if (sensor == 0 && in_base > blind_from && in_base < blind_to) range = blind_range;
       sweep.ranges.push_back(static_cast<float>(range));
     }
     if (sensor == 0 && front_repeats && !last_front_.empty()) sweep.ranges = last_front_;
@@ -173,6 +175,7 @@ class Rehearsal {
       }
       sweep.ranges.push_back(static_cast<float>(range));
     }
+    if (virtual_is_nan) sweep.ranges[7] = std::nanf("");
     avoider.add_virtual(now, sweep);
   }
 

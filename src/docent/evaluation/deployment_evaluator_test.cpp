@@ -265,17 +265,20 @@ TEST(DeploymentEvaluator, RequestsAreCountedOnce) {
   story.board({{"a", "fulfilled"}, {"b", "failed"}, {"c", "refused"}, {"d", "cancelled"}, {"e", "queued"}});
   story.board({{"a", "fulfilled"}, {"b", "failed"}, {"c", "refused"}, {"d", "cancelled"}, {"e", "queued"}});
   story.run(700);
-  story.offer("late");  // in the last ten minutes, open: not counted
+  story.offer("late");  // in the last ten minutes: not counted, whatever becomes of it
+  story.offer("late and quick");
+  story.board({{"late and quick", "fulfilled"}});
   story.run(100);
   const auto report = story.report();
-  EXPECT_EQ(report.requests.offered, 7);
-  EXPECT_EQ(report.requests.fulfilled, 1);
+  EXPECT_EQ(report.requests.offered, 8);
+  EXPECT_EQ(report.requests.fulfilled, 2);
   EXPECT_EQ(report.requests.failed, 1);
   EXPECT_EQ(report.requests.refused, (std::map<std::string, int>{{"closed", 1}}));
   EXPECT_EQ(report.requests.cancelled, 1);
   EXPECT_EQ(report.requests.open, 3);
   EXPECT_EQ(report.requests.never_seen, 2);
-  EXPECT_EQ(report.requests.open_not_counted, 1);
+  EXPECT_EQ(report.requests.counted, 5);
+  EXPECT_EQ(report.requests.counted_served, 1);
   ASSERT_TRUE(report.success_rate);
   EXPECT_NEAR(*report.success_rate, 1.0 / 5.0, 1e-12);  // a of a, b, c, e, gone
 }
@@ -293,6 +296,7 @@ TEST(DeploymentEvaluator, AnExplanationElsewhereDoesNotCount) {
     story.run(10);
     story.event("explained", "vase");
     story.board({{"a", "fulfilled"}});
+    story.run(700);
     const auto report = story.report();
     const bool in_place = x < 6.0;
     EXPECT_EQ(report.exhibits_explained, in_place ? 1 : 0);

@@ -66,7 +66,8 @@ std::string to_json(const DeploymentReport& r, const std::optional<RunCost>& cos
                       {"failed", r.requests.failed},
                       {"cancelled", r.requests.cancelled},
                       {"open", r.requests.open},
-                      {"open_not_counted", r.requests.open_not_counted},
+                      {"counted", r.requests.counted},
+                      {"counted_served", r.requests.counted_served},
                       {"never_seen", r.requests.never_seen},
                       {"in_wrong_place", r.requests.in_wrong_place}};
   json["success_rate"] = or_null(r.success_rate.has_value(), r.success_rate.value_or(0.0));
@@ -141,9 +142,9 @@ std::string summary_table(const DeploymentReport& r, const std::optional<RunCost
   row("requests",
       fmt::format("{} offered: {} fulfilled, {} failed, {} refused, {} cancelled, {} open", r.requests.offered,
                   r.requests.fulfilled, r.requests.failed, refused(r), r.requests.cancelled, r.requests.open));
-  row("success", r.success_rate ? fmt::format("{:.1f} % of {}", 100.0 * *r.success_rate,
-                                              r.requests.offered - r.requests.cancelled - r.requests.open_not_counted)
-                                : "nothing to count");
+  row("success", r.success_rate ? fmt::format("{:.1f} % of {} (those of the last ten minutes are not counted)",
+                                              100.0 * *r.success_rate, r.requests.counted)
+                                : "nothing to count: no request was made ten minutes before the end");
   row("tours", fmt::format("{} given, {} completed; {} exhibits explained", r.tours.given, r.tours.completed,
                            r.exhibits_explained));
   row("contacts", fmt::format("{} people, {} furniture, {} walls, {} hazards in {:.2f} km and {} passes within 1 m; "

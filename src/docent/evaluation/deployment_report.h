@@ -46,13 +46,14 @@ struct DeploymentReport {
     int fulfilled = 0;
     std::map<std::string, int> refused;  ///< by reason
     int failed = 0;
-    int cancelled = 0;         ///< taken back by who made them
-    int open = 0;              ///< not closed at the end
-    int open_not_counted = 0;  ///< of these, offered in the last ten minutes
-    int never_seen = 0;        ///< offered, and never on the request board
-    int in_wrong_place = 0;    ///< said to be fulfilled, and truly more than 1 m from the place; counted as failed
+    int cancelled = 0;       ///< taken back by who made them
+    int open = 0;            ///< not closed at the end
+    int counted = 0;         ///< offered more than ten minutes before the end, and not cancelled
+    int counted_served = 0;  ///< of these, fulfilled
+    int never_seen = 0;      ///< offered, and never on the request board
+    int in_wrong_place = 0;  ///< said to be fulfilled, and truly more than 1 m from the place; counted as failed
   } requests;
-  std::optional<double> success_rate;  ///< nullopt: no request is to be counted
+  std::optional<double> success_rate;  ///< counted_served / counted; nullopt: no request is to be counted
 
   struct Tours {
     int given = 0;

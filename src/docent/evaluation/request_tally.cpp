@@ -81,7 +81,12 @@ void RequestTally::fill(DeploymentReport& report, Time end) const {
     } else {
       ++hall;
     }
-    if (wish.state == "fulfilled" && !wish.in_wrong_place) {
+    const bool is_served = wish.state == "fulfilled" && !wish.in_wrong_place;
+    if (wish.state != "cancelled" && to_seconds(end - wish.offered) > kStillInTime) {
+      ++requests.counted;
+      requests.counted_served += is_served ? 1 : 0;
+    }
+    if (is_served) {
       ++requests.fulfilled;
     } else if (wish.state == "fulfilled") {
       ++requests.in_wrong_place;
@@ -95,14 +100,12 @@ void RequestTally::fill(DeploymentReport& report, Time end) const {
     } else {
       ++requests.open;
       requests.never_seen += wish.on_board ? 0 : 1;
-      requests.open_not_counted += to_seconds(end - wish.offered) <= kStillInTime ? 1 : 0;
     }
   }
   report.visitors = hall;
   report.web_visitors = static_cast<int>(web_visitors.size());
-  const int counted = requests.offered - requests.cancelled - requests.open_not_counted;
   report.success_rate.reset();
-  if (counted > 0) report.success_rate = static_cast<double>(requests.fulfilled) / counted;
+  if (requests.counted > 0) report.success_rate = static_cast<double>(requests.counted_served) / requests.counted;
 }
 
 }  // namespace docent

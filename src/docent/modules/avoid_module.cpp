@@ -1,7 +1,10 @@
 #include "docent/modules/avoid_module.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <cmath>
+#include <initializer_list>
 #include <numbers>
 
 #include "docent/collision_avoidance/avoider.h"
@@ -28,6 +31,11 @@ SensorSweep to_sweep(const sensor_msgs::LaserScan& scan, const Pose2& base_from_
           scan.range_min,
           scan.range_max,
           scan.ranges};
+}
+
+/// What is not a number has no place in any comparison below: such a message counts as none.
+bool are_finite(std::initializer_list<double> values) {
+  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }
 
 const char* name_of(AvoiderDecision::State state) {
@@ -68,9 +76,11 @@ class AvoidModule final : public Module {
  private:
   void subscribe_sensors() {
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const nav_msgs::Odometry& odometry) {
-      avoider_.add_odometry(
-          bus_.now(), from_message(odometry.header.stamp),
-          {from_message(odometry.pose.pose), {odometry.twist.twist.linear.x, odometry.twist.twist.angular.z}});
+      const BaseState state{from_message(odometry.pose.pose),
+                            {odometry.twist.twist.linear.x, odometry.twist.twist.angular.z}};
+      const Pose2& pose = state.odom_from_base;
+      if (!are_finite({pose.x, pose.y, pose.theta.radians(), state.velocity.linear, state.velocity.angular})) return;
+      avoider_.add_odometry(bus_.now(), from_message(odometry.header.stamp), state);
     });
     bus_.subscribe<sensor_msgs::LaserScan>(topics::kScanFront, [this](const sensor_msgs::LaserScan& scan) {
       see(0, scan, body_.scan_front.base_from_sensor());
@@ -123,6 +133,8 @@ class AvoidModule final : public Module {
       }
       wish.is_final = target.is_final;
       wish.heading = Angle::radians(target.heading);
+      const auto is_unfit = [](const Point2& via) { return !are_finite({via.x, via.y}); };
+      if (std::any_of(wish.via.begin(), wish.via.end(), is_unfit) || !std::isfinite(target.heading)) return;
       wish.position_tolerance = target.position_tolerance;
       wish.heading_tolerance = target.heading_tolerance;
       avoider_.set_target(bus_.now(), from_message(target.header.stamp), std::move(wish));
@@ -130,7 +142,11 @@ class AvoidModule final : public Module {
   }
 
   void see(std::size_t sensor, const sensor_msgs::LaserScan& scan, const Pose2& base_from_sensor) {
-    if (!(scan.angle_increment > 0.0F)) return;
+    // A scan of a part of the field would leave the rest as if nothing were there.
+    constexpr double kFieldShare = 0.9;
+    const double field = static_cast<double>(scan.angle_increment) * static_cast<double>(scan.ranges.size());
+    widest_field_[sensor] = std::max(widest_field_[sensor], std::isfinite(field) ? field : 0.0);
+    if (!(scan.angle_increment > 0.0F) || !(field >= kFieldShare * widest_field_[sensor])) return;
     avoider_.add_sweep(bus_.now(), sensor, to_sweep(scan, base_from_sensor));
     reflex();
   }
@@ -145,6 +161,7 @@ class AvoidModule final : public Module {
       decided_ = now;
       publish(avoider_.decide(now));
     } else if (now - driven_ >= seconds(kHeartbeat - 0.5 * kTick)) {
+      if (auto decision = avoider_.reflex(now)) return publish(*decision);  // something may have fallen silent
       publish_drive(avoider_.command());
     }
   }
@@ -183,6 +200,7 @@ class AvoidModule final : public Module {
   Bus& bus_;
   RobotBody body_;
   double cycle_;
+  std::array<double, 2> widest_field_{};  ///< [rad] that each laser has shown
   Avoider avoider_;
   Horn horn_;
   Publisher<docent_msgs::Drive> drive_;

@@ -16,6 +16,10 @@ Result<void> RobotBody::validate() const {
     if (!(limit > 0.0 && limit <= 20.0)) return fail("body: accelerations must be > 0 and <= 20");
   if (!(latency >= 0.0 && latency <= 1.0)) return fail("body.latency must be 0..1 s");
   if (!(watchdog > 0.0 && watchdog <= 0.3)) return fail("body.watchdog must be > 0 and <= 0.3 s");
+  // `avoid` looks 3.5 m far: what it cannot brake within that it cannot promise.
+  if (!(max_speed * (watchdog + latency) + max_speed * max_speed / (2.0 * deceleration) <= 3.0 &&
+        watchdog + latency + max_speed / deceleration <= 3.0))
+    return fail("body: from max_speed it must stand within 3 m and 3 s (watchdog and latency included)");
   if (!(sonars >= 0 && sonars <= 100)) return fail("body.sonars must be 0..100");
   if (!(sonar_radius >= 0.0 && sonar_radius <= radius)) return fail("body.sonar_radius must be 0 to the body's radius");
   return {};

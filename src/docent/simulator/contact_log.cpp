@@ -13,17 +13,23 @@ constexpr double kForgotten = 0.5;    // [s] outside, then a new approach begins
 constexpr double kSameContact = 1.0;  // [s] apart, then a new contact begins
 constexpr double kMargin = 0.03;      // [m] to the sides of the robot's way
 
-/// True when the person stands in what the robot sweeps until it has stopped.
+/// True when the person stands in what the robot sweeps, on the arc it is on, until it has stopped.
 bool is_inside_stopping_distance(const ContactLog::PersonSample& person, const Body& body) {
+  constexpr double kStep = 0.02;  // [m]
   const double sign = body.linear() < 0.0 ? -1.0 : 1.0;
-  const Point2 ahead = sign * unit(body.pose().theta);
-  const double reach = body.params().radius + person.radius;
-  const double forward = dot(person.offset, ahead);
-  const double sideways = std::abs(cross(ahead, person.offset));
-  if (forward <= 0.0 || sideways >= reach + kMargin) return false;
-  // Along the way until the outlines meet.
-  const double half_chord = sideways < reach ? std::sqrt(reach * reach - sideways * sideways) : 0.0;
-  return forward - half_chord < body.stopping_distance(kReaction);
+  const double speed = std::max(std::abs(body.linear()), 1e-3);
+  const double reach = body.params().radius + person.radius + kMargin;
+  const double stop = body.stopping_distance(kReaction);
+  const Angle turned = Angle::radians(kStep * body.angular() / speed);
+  Point2 at{};
+  Angle heading = body.pose().theta;
+  for (double way = 0.0; way <= stop; way += kStep) {
+    const Point2 ahead = sign * unit(heading);
+    if (dot(person.offset - at, ahead) > 0.0 && distance(person.offset, at) < reach) return true;
+    at = at + kStep * ahead;
+    heading = heading + turned;
+  }
+  return false;
 }
 
 }  // namespace

@@ -23,8 +23,9 @@ class Rivals {
   /// Returns the belief as it should be when evidence has all but ruled out a rival that nothing was seen to speak
   /// against: the best mode and every rival with a fair share. nullopt: it is so already, or the belief is not
   /// concentrated on modes. O(rivals * beams casts).
-  [[nodiscard]] std::optional<std::vector<BeliefMode>> update(const BeliefSummary& summary, const RangeSweep& sweep, const Pose2& before_from_after,
-              const RayCaster& caster, double max_range);
+  [[nodiscard]] std::optional<std::vector<BeliefMode>> update(const BeliefSummary& summary, const RangeSweep& sweep,
+                                                              const Pose2& before_from_after, const RayCaster& caster,
+                                                              double max_range);
   void forget() { places_.clear(); }
 
  private:

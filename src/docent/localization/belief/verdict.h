@@ -47,15 +47,15 @@ struct Agreement {
 
 /// What one update says about the best mode.
 struct Evidence {
-  double weight = 1.0;                               ///< of the update, 0..1
-  double mass = 0.0;                                 ///< of the best mode
-  double rival = 0.0;                                ///< mass of the second best mode
-  double spread = 0.0;                               ///< [m]
-  double entropy = 0.0;                              ///< [nat] of the whole belief
-  bool is_same_mode = false;                         ///< the mode of the last update, moved by odometry
-  double way = 0.0;                                  ///< [m] since the last update
-  double turn = 0.0;                                 ///< [rad], >= 0
-  Agreement readings;                                ///< of one sweep
+  double weight = 1.0;        ///< of the update, 0..1
+  double mass = 0.0;          ///< of the best mode
+  double rival = 0.0;         ///< mass of the second best mode
+  double spread = 0.0;        ///< [m]
+  double entropy = 0.0;       ///< [nat] of the whole belief
+  bool is_same_mode = false;  ///< the mode of the last update, moved by odometry
+  double way = 0.0;           ///< [m] since the last update
+  double turn = 0.0;          ///< [rad], >= 0
+  Agreement readings;         ///< of one sweep
 };
 
 /// `evidence` with what a summary says of its best mode. `predicted`: the best pose of the last update, moved by

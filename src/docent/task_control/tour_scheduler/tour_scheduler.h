@@ -64,10 +64,10 @@ struct SchedulerState {
 ///
 /// Requests for one exhibit are merged into one visit, requests for one tour into one run; each keeps a state and a
 /// reason of its own. Without a tour, single exhibits are visited in the order of the least travel, anew after every
-/// visit, but who is overdue comes first, and the oldest open request decides whether a tour begins. A tour keeps its
-/// order; between two of its stops at most one single exhibit is put in: an overdue one, or one with a small detour. A
-/// composed tour gets longer or shorter on the way, so that it ends in time ([Minerva2000] 5.3), and shows first what
-/// others have wished for.
+/// visit, but who is overdue comes first, and the oldest open request decides whether a tour begins; so does a visit
+/// that a waiting tour would make as well: then one visit serves both. A tour keeps its order; between two of its stops
+/// at most one single exhibit is put in: an overdue one, or one with a small detour. A composed tour gets longer or
+/// shorter on the way, so that it ends in time ([Minerva2000] 5.3), and shows first what others have wished for.
 class TourScheduler {
  public:
   /// Open requests in `state` for what the museum no longer has are failed at once.
@@ -114,6 +114,8 @@ class TourScheduler {
   /// Exhibits wished for singly and due, in the order to visit them.
   [[nodiscard]] std::vector<std::string> single_order(Point2 robot, Time now) const;
   [[nodiscard]] const BoardEntry* oldest_due(Time now) const;
+  /// The first tour that somebody waits for and that stops at the exhibit.
+  [[nodiscard]] std::optional<std::string> waiting_tour_to(const std::string& exhibit_id, Time now) const;
   [[nodiscard]] std::optional<std::string> exhibit_to_insert(Point2 robot, Time now) const;
   [[nodiscard]] std::vector<std::string> wished_exhibits() const;
   [[nodiscard]] std::vector<std::string> first_stops(double target_s, Point2 robot) const;

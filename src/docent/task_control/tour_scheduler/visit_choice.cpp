@@ -34,6 +34,15 @@ const BoardEntry* TourScheduler::oldest_due(Time now) const {
   return nullptr;
 }
 
+std::optional<std::string> TourScheduler::waiting_tour_to(const std::string& exhibit_id, Time now) const {
+  for (const BoardEntry& entry : state_.board.entries()) {
+    if (entry.status != RequestStatus::queued || entry.request.kind != "tour" || entry.not_before > now) continue;
+    const ProgrammeTour* tour = programme_.find_tour(entry.request.target);
+    if (tour != nullptr && holds(tour->exhibits, exhibit_id)) return tour->id;
+  }
+  return std::nullopt;
+}
+
 std::vector<std::string> TourScheduler::single_order(Point2 robot, Time now) const {
   std::vector<std::string> order;  // overdue ones, the oldest first
   std::vector<std::string> others;
@@ -89,8 +98,13 @@ const std::optional<Visit>& TourScheduler::begin_visit(Point2 robot, Time now) {
     if (oldest == nullptr) break;
     if (oldest->request.kind == "tour") {
       begin_tour(std::string{oldest->request.target}, robot, now);
+      continue;
+    }
+    const std::string next = single_order(robot, now).front();
+    if (const auto tour = waiting_tour_to(next, now)) {
+      begin_tour(*tour, robot, now);
     } else {
-      begin_visit_of(single_order(robot, now).front(), false, now);
+      begin_visit_of(next, false, now);
     }
   }
   return state_.visit;
