@@ -146,6 +146,18 @@ TEST_F(Scheduling, ATourKeepsItsOrderAndServesSinglesOnTheWay) {
   EXPECT_EQ(scheduler.state().counters.tours_completed, 1U);
 }
 
+TEST_F(Scheduling, AVisitThatAWaitingTourWouldMakeAsWellBeginsTheTour) {
+  wish("now", "exhibit", "e2", 0);
+  EXPECT_EQ(next(1), "e2");
+  scheduler.close_visit();
+  wish("single", "exhibit", "e3", 2);
+  wish("tour", "tour", "t", 3);
+  wish("other", "exhibit", "e4", 4);
+  finish(true, 30);
+  EXPECT_EQ(serve_all(31), (std::vector<std::string>{"e1", "e3", "e4", "e5"})) << "e3 once for both";
+  for (const char* id : {"single", "tour", "other"}) EXPECT_EQ(state_of(id), "fulfilled") << id;
+}
+
 TEST_F(Scheduling, ATourMakesNoLongDetours) {
   params.max_detour_m = 1.0;
   TourScheduler strict{params, programme_on_a_line(), straight_distance(), {}, {}};
