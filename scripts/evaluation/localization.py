@@ -26,21 +26,21 @@ DEFAULT = ("grid", "distance")
 CRIPPLED = ("crippled", "dead reckoning")  # odometry alone after the first "here": must fail where it has a way to drift
 
 
-def scenario(path, escort, kidnaps=()):
+def scenario(escort, kidnaps=()):
     events = ["  - {at: 0, steering: {speed: 0.5}}"]
     if escort:
         count, near, far = escort
         events.append(f"  - {{at: 0, escort: {{count: {count}, near: {near}, far: {far}}}}}")
     events += [f"  - {{at: {at:.1f}, kidnap: }}" for at in kidnaps]
-    path.write_text("events:\n" + "\n".join(events) + "\n")
+    return "events:\n" + "\n".join(events) + "\n"
 
 
 class Bench:
     """Recordings and claims, kept under a key of everything that decides them."""
 
-    def __init__(self, docent, cache, source_key, museums, jobs):
+    def __init__(self, docent, cache, run_key, museums, jobs):
         self.docent, self.cache, self.museums, self.jobs = docent, cache / "localization", museums, jobs
-        self.keys = {museum: source_key(museums / museum) for museum in ("bonn", "smithsonian")}
+        self.keys = {museum: run_key(museums / museum) for museum in ("bonn", "smithsonian")}
         self.cache.mkdir(parents=True, exist_ok=True)
 
     def path(self, museum, kind, what):
@@ -55,13 +55,13 @@ class Bench:
     def claims(self, museum, seed, minutes, crowd, escort, kidnaps, settings, method=None):
         """Rows of what the robot said beside the truth: one recording, one configuration. The recording itself goes
         when all its replays are made, see `forget`."""
-        what = [seed, minutes, crowd, escort, list(kidnaps)]
+        what = [seed, minutes, crowd, scenario(escort, kidnaps)]
         claims = self.path(museum, "csv", what + [settings])
         if not claims.exists():
             record = self.path(museum, "mcap", what)
             if not record.exists():
                 part = record.with_suffix(f".part{os.getpid()}-{seed}.yaml")
-                scenario(part, escort, kidnaps)
+                part.write_text(scenario(escort, kidnaps))
                 made = record.with_suffix(f".part{os.getpid()}-{seed}.mcap")
                 self.run([self.docent, "simulate", "--museum", self.museums / museum, "--hours", f"{minutes / 60:.6f}",
                           "--seed", str(seed), "--crowd", crowd, "--scenario", part, "--world-only", "--record", made,
@@ -78,7 +78,7 @@ class Bench:
         return read_claims(claims)
 
     def forget(self, museum, seed, minutes, crowd, escort, kidnaps):
-        self.path(museum, "mcap", [seed, minutes, crowd, escort, list(kidnaps)]).unlink(missing_ok=True)
+        self.path(museum, "mcap", [seed, minutes, crowd, scenario(escort, kidnaps)]).unlink(missing_ok=True)
 
     def each(self, jobs):
         """Runs functions beside each other, their results in order, with a word now and then."""

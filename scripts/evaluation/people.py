@@ -103,9 +103,9 @@ class Run:
 
 
 class Bench:
-    def __init__(self, docent, cache, source_key, museums, jobs):
+    def __init__(self, docent, cache, run_key, museums, jobs):
         self.docent, self.cache, self.museums, self.jobs = docent, cache / "people", museums, jobs
-        self.keys = {museum: source_key(museums / museum) for museum in MUSEUMS}
+        self.keys = {museum: run_key(museums / museum) for museum in MUSEUMS}
         self.cache.mkdir(parents=True, exist_ok=True)
 
     def run(self, museum, seed, minutes, arguments):

@@ -12,6 +12,7 @@ import sys
 import time
 from pathlib import Path
 
+from evaluation.keys import key_of
 from evaluation.tables import Verdict, print_table
 
 P95_BOUND = 0.30  # [m]
@@ -35,16 +36,6 @@ def binary(root):
     subprocess.run(["cmake", "--build", "--preset", "dev", "--target", TARGET], cwd=root, check=True,
                    stdout=subprocess.DEVNULL)
     return built
-
-
-def source_key(root):
-    digest = hashlib.sha256()
-    for folder in (root / "src", root / "cmake", root / "tests" / "sonar_tracking"):
-        for path in sorted(folder.rglob("*")):
-            if path.is_file() and not path.name.endswith(("_test.cpp", "_benchmark.cpp", "_fuzzer.cpp", ".md")):
-                digest.update(str(path.relative_to(root)).encode())
-                digest.update(path.read_bytes())
-    return digest.hexdigest()[:16]
 
 
 def drive(program, folder, key, seed, minutes, arguments):
@@ -98,7 +89,7 @@ def protocol(root, cache, options):
     program = binary(root)
     folder = cache / "sonar"
     folder.mkdir(parents=True, exist_ok=True)
-    key = source_key(root)
+    key = key_of(program)
     count = options.seeds or (2 if options.slice else 10)
     minutes = 8 if options.slice else options.minutes
     seeds = list(range(options.first_seed, options.first_seed + count))

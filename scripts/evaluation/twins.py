@@ -6,6 +6,7 @@ import shutil
 import subprocess
 
 from evaluation.claims import error_m, is_lost, mean, read_claims
+from evaluation.keys import key_of
 
 
 def draw_hall(folder, seed, docent):
@@ -64,7 +65,7 @@ def draw_hall(folder, seed, docent):
 
 
 def start(bench, museum, seed, begin, active):
-    claims = bench.cache / f"twins-{bench.keys['bonn'][:12]}-{seed}-{active}.csv"
+    claims = bench.cache / f"twins-{key_of(bench.docent, museum)}-{active}.csv"
     if not claims.exists():
         made = claims.with_suffix(".part")
         bench.run([bench.docent, "simulate", "--museum", museum, "--crowd", "empty", "--hours", "0.1", "--seed", str(seed),
