@@ -91,7 +91,7 @@ def protocol(root, cache, options):
     folder.mkdir(parents=True, exist_ok=True)
     key = key_of(program)
     count = options.seeds or (2 if options.slice else 10)
-    minutes = 8 if options.slice else options.minutes
+    minutes = 8 if options.slice else options.minutes or 30
     seeds = list(range(options.first_seed, options.first_seed + count))
 
     def run_all(some, arguments):
