@@ -41,7 +41,7 @@ void DeploymentEvaluator::add(const TopicInfo& topic, Time time, const std::shar
   } else if (is(topics::kBelief)) {
     localization_.add_belief(as(topics::kBelief));
   } else if (is(topics::kPeople)) {
-    people_.add(as(topics::kPeople), localization_.is_right());
+    people_.add(as(topics::kPeople));
   } else if (is(topics::kGoalState)) {
     add_goal_state(as(topics::kGoalState));
   } else if (is(topics::kDriveGoal)) {

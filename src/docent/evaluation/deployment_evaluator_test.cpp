@@ -344,6 +344,7 @@ TEST(DeploymentEvaluator, PeopleAreMatchedOneToOneWithinFiveMetres) {
     return p;
   };
   docent_msgs::People people;
+  people.localized = true;
   people.header.stamp = story.state.header.stamp;
   people.people = {track(1.1F), track(1.3F), track(4.2F), track(7.9F)};
   story.say(topics::kPeople, people);

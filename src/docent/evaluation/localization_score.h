@@ -16,8 +16,6 @@ class LocalizationScore {
   /// After every new true state.
   void step(const TruthHistory& truth);
 
-  /// The robot knows where it is, and is right. What it does meanwhile counts as done on purpose.
-  [[nodiscard]] bool is_right() const { return is_right_; }
   [[nodiscard]] DeploymentReport::Localization result() const;
 
  private:

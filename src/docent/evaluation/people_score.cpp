@@ -12,8 +12,8 @@ constexpr std::size_t kMostWaiting = 100;
 
 }  // namespace
 
-void PeopleScore::add(const docent_msgs::People& people, bool is_localized) {
-  if (!is_localized) return;
+void PeopleScore::add(const docent_msgs::People& people) {
+  if (!people.localized) return;
   waiting_.push_back(people);
   if (waiting_.size() > kMostWaiting) waiting_.pop_front();
 }

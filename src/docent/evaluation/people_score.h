@@ -11,8 +11,8 @@ namespace docent {
 /// Holds tracked people against the true ones, within 5 m of the robot, by the rules of people_match.h.
 class PeopleScore {
  public:
-  /// @param is_localized  tracks are in the map's frame: while the robot is lost they cannot be judged.
-  void add(const docent_msgs::People& people, bool is_localized);
+  /// Tracks are in the map's frame: only while the robot says that it is localized does it claim any, right or wrong.
+  void add(const docent_msgs::People& people);
   /// After every new true state.
   void step(const TruthHistory& truth);
   [[nodiscard]] const DeploymentReport::People& result() const { return result_; }
