@@ -92,7 +92,9 @@ void add_replay_command(CLI::App& app) {
   command->add_option("--out", options->replay.out, "MCAP file to write: what happened this time");
   command->add_option("--report", options->report, "JSON file to write: the deployment report of this time");
   command->add_option("--claims", options->replay.claims, "CSV file to write: every belief beside the truth");
-  command->add_flag("--check", options->check, "Fail where the mission events are not those of the recording");
+  command->add_flag("--check", options->check,
+                    "Fail where the mission events are not those of the recording, in the same order; how it went "
+                    "under way is not compared");
   command->callback([options] { replay_recording(*options); });
 }
 
