@@ -102,4 +102,5 @@ def active(bench, verdict, print_table, count):
     verdict.want("told apart: found itself within 6 minutes in at least 90 % of the halls",
                  f"{sum(d < math.inf for _, d in found['true'])} of {count}",
                  sum(d < math.inf for _, d in found["true"]) >= 0.9 * count)
+    verdict.want("told apart: never sure and wrong", f"{wrong['true']} of {count}", wrong["true"] == 0)
     verdict.want("told apart: sooner than by looking round", f"mean {told:.0f} s against {looked:.0f} s", told < looked)

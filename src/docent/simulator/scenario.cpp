@@ -154,8 +154,11 @@ class EventReader {
     fields(node,
            {{"to", [&](const YAML::Node& at) { to = point(at); }},
             {"heading", degrees_into(heading)},
-            {"from_hazards", into(event.from_hazards, 0.0, 20.0)}},
+            {"from_hazards", into(event.from_hazards, 0.0, 20.0)},
+            {"shift", into(event.shift, 0.0, 1000.0)},
+            {"turn", into(event.turn, -360.0, 360.0)}},
            {});
+    if (to && event.shift > 0.0) fault(kind_at_, "'to' or 'shift', not both");
     if (to) event.to = Pose2{to->x, to->y, Angle::radians(heading)};
     return event;
   }

@@ -15,6 +15,8 @@ namespace docent::simulator {
 struct Kidnap {
   std::optional<Pose2> to;    ///< world_from_base
   double from_hazards = 0.0;  ///< [m] a random place keeps from hazards
+  double shift = 0.0;         ///< [m] > 0: a random place at most so far from here, the robot turned by `turn`
+  double turn = 0.0;          ///< [deg]
 };
 enum class Sensor { laser_front, laser_rear, sonar, odom };
 enum class FaultKind {

@@ -300,12 +300,21 @@ class SimulatedMuseum::Impl {
   void play(const Kidnap& event) {
     std::optional<Pose2> to = event.to;
     const Point2 here = body_.pose().position();
-    constexpr int kTries = 200;
-    for (int i = 0; !to && i < kTries; ++i) {
-      to = random_start(world_, crowd_.floor(), place_rng_, 0.6, here, 3.0);
+    const bool is_near = event.shift > 0.0;
+    const int tries = is_near ? 20000 : 200;
+    for (int i = 0; !to && i < tries; ++i) {
+      to = random_start(world_, crowd_.floor(), place_rng_, 0.6, here, is_near ? 0.0 : 3.0);
       if (to && hazard_distance(to->position()) < event.from_hazards) to.reset();
+      if (to && is_near && distance(to->position(), here) > event.shift) to.reset();
     }
-    if (!to) return;
+    if (is_near) {
+      const Point2 place = to ? to->position() : here;  // no room: it is turned where it is
+      to = Pose2{place.x, place.y, body_.pose().theta + Angle::degrees(event.turn)};
+    }
+    if (!to) {
+      offer("kidnap_failed", "no free place");
+      return;
+    }
     body_.carry_to(*to);
     // Who carries it asks for room.
     for (std::size_t i = 0; i < crowd_.people().size(); ++i) {

@@ -277,6 +277,17 @@ TEST(SimulatedMuseum, VisitorsAskUntilTheyStandOnTheBoard) {
   EXPECT_GE(offered, 1);
 }
 
+TEST(SimulatedMuseum, AKidnapMayTurnTheRobotAndShiftItALittle) {
+  SimulationOptions all = options("empty", Pose2{3.0, 4.0, Angle{}});
+  all.scenario = *parse_scenario("events:\n  - {at: 1, kidnap: {shift: 1.5, turn: 180}}\n", "s.yaml");
+  Bench bench{std::move(all)};
+  bench.run(2.0);
+  const Pose2 pose{bench.state.x, bench.state.y, Angle::radians(bench.state.theta)};
+  EXPECT_NEAR(std::abs(pose.theta.degrees()), 180.0, 1e-6);
+  EXPECT_GT(distance(pose.position(), {3.0, 4.0}), 0.01);
+  EXPECT_LE(distance(pose.position(), {3.0, 4.0}), 1.5);
+}
+
 TEST(SimulatedMuseum, PlaysItsScenario) {
   SimulationOptions all = options("empty", Pose2{3.0, 4.0, Angle{}});
   const auto scenario = parse_scenario(R"(events:
