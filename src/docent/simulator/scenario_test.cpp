@@ -71,7 +71,7 @@ constexpr Broken kBroken[] = {
      "visitors, escort, steering, request, kill)"},
     {"events:\n  - at: 1\n    kidnap: {to: [1]}", "s.yaml:3: expected a point [x, y]"},
     {"events:\n  - at: 1\n    kidnap: {where: [1, 2]}",
-     "s.yaml:3: unknown key 'where' (known: from_hazards, heading, to)"},
+     "s.yaml:3: unknown key 'where' (known: from_hazards, heading, shift, to, turn)"},
     {"events:\n  - at: 1\n    kidnap: {to: [1, 2], shift: 3}", "s.yaml:3: 'to' or 'shift', not both"},
     {"events:\n  - at: 1\n    kidnap: [1, 2]", "s.yaml:3: expected a mapping (key: value)"},
     {"events:\n  - at: 1\n    fault: {sensor: nose, kind: dead}",
