@@ -12,7 +12,7 @@ import subprocess
 import sys
 import time
 
-from evaluation import twins
+from evaluation import sonar_dies, twins
 from evaluation.claims import error_m, is_lost, mean, read_claims
 
 CROWDS = {  # name: crowd, people in the escort, bounds: lost share, mean error [m]
@@ -342,5 +342,7 @@ def evaluate(bench, verdict, print_table, parts, is_slice, methods, seeds=None):
         kidnapping(bench, verdict, print_table, museums, seeds or 100)
     if "active" in parts and not is_slice:
         twins.active(bench, verdict, print_table, seeds or 20)
+    if "sonar-dies" in parts:
+        sonar_dies.protocol(bench, verdict, print_table, museums, 1 if is_slice else seeds or 5, is_slice, methods)
     if "recovery" in parts and not is_slice:
         recovery(bench, verdict, print_table, museums, seeds or 10, methods)

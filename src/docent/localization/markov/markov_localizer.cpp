@@ -56,6 +56,7 @@ Result<void> MarkovLocalizerParams::validate() const {
     if (!(nats > 0.0 && nats <= 60.0)) return fail("most_nats and most_nats_far must be > 0 and <= 60");
   if (!(sectors >= 1 && sectors <= 60)) return fail("sectors must be 1..60");
   if (!(most_sector_nats > 0.0)) return fail("most_sector_nats must be > 0");
+  if (!(most_states_asked >= 0)) return fail("most_states_asked must be >= 0");
   if (!(work_per_second > 0.0)) return fail("work_per_second must be > 0");
   if (auto known = instruction_set_of(simd); !known) return tl::unexpected<Error>(known.error());
   return {};
@@ -186,9 +187,11 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
     weights.far_most_nats = params_.most_nats_far;
     weights.focus = *predicted * inverse(frame_from_robot());
   }
+  const PlaceCosts others = ask_sensors(step.weight);
+  if (others) log_best_over_mean += step.weight * sensors_.mean_cost();
   const bool in_doubt = verdict_.contradicted() || verdict_.startled();
   belief_.reweigh(table_, costs, log_best_over_mean, weights,
-                  in_doubt ? params_.teleport_in_doubt : params_.teleport_probability);
+                  in_doubt ? params_.teleport_in_doubt : params_.teleport_probability, others);
   step.updated = true;
   step.beams_used = costs.size();
   step.beams_filtered = choice.filtered;
@@ -214,6 +217,33 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   if (const auto now = map_from_robot(odom_from_robot))
     verdict_.look(glance(caster_, sweep, *now, params_.sensor.max_range));
   return step;
+}
+
+PlaceCosts MarkovLocalizer::ask_sensors(double weight) {
+  if (sensors_.none() || belief_.active_states() > static_cast<std::size_t>(params_.most_states_asked)) return {};
+  const Pose2 robot = frame_from_robot();
+  std::vector<LikelyPose> likely;
+  for (const LikelyState& state : likely_) {
+    const Point2 at = space_.centre(static_cast<std::size_t>(state.place));
+    const Pose2 map_from_frame{at.x, at.y, Angle::radians(state.heading * space_.heading_step())};
+    likely.push_back({map_from_frame * robot, static_cast<double>(state.mass)});
+  }
+  if (!sensors_.observe({last_update_, odom_from_robot_, likely})) return {};
+  std::vector<Pose2> offsets;  // from the middle of a place to the robot, for each heading
+  for (int h = 0; h < space_.headings(); ++h)
+    offsets.push_back(Pose2{0.0, 0.0, Angle::radians(h * space_.heading_step())} * robot);
+  return [this, weight, offsets = std::move(offsets), poses = std::vector<Pose2>{}, nats = std::vector<float>{}](
+             std::size_t place, std::span<std::uint16_t> costs) mutable {
+    const Point2 at = space_.centre(place);
+    poses = offsets;
+    for (Pose2& pose : poses) pose.x += at.x, pose.y += at.y;
+    nats.assign(poses.size(), 0.0F);
+    sensors_.add_costs(poses, nats);
+    for (std::size_t h = 0; h < costs.size(); ++h) {
+      const double cost = weight * static_cast<double>(nats[h]) * kCostPerNat + 0.5;
+      costs[h] = static_cast<std::uint16_t>(std::min(65535.0, static_cast<double>(costs[h]) + std::floor(cost)));
+    }
+  };
 }
 
 std::optional<double> MarkovLocalizer::fit(const RangeSweep& seen, std::span<const BinnedBeam> beams) const {
