@@ -19,4 +19,10 @@ double ObservationModels::mean_cost() const {
   return sum;
 }
 
+double ObservationModels::cost(const Pose2& map_from_robot) const {
+  float nats = 0.0F;
+  add_costs({&map_from_robot, 1}, {&nats, 1});
+  return static_cast<double>(nats);
+}
+
 }  // namespace docent

@@ -48,9 +48,12 @@ class ObservationModels {
 
   /// Asks all of them, in the order in which they were added; whether any has something to say.
   bool observe(const ObservationMoment& moment);
+  /// An update without them.
+  void pass_over() { speaking_.clear(); }
   /// Sums over those that had.
   void add_costs(std::span<const Pose2> map_from_robot, std::span<float> nats) const;
   [[nodiscard]] double mean_cost() const;
+  [[nodiscard]] double cost(const Pose2& map_from_robot) const;  ///< [nat] of a single pose
 
  private:
   std::vector<std::shared_ptr<ObservationModel>> models_;

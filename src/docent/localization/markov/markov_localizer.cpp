@@ -112,9 +112,10 @@ void MarkovLocalizer::believe(std::span<const BeliefMode> modes, double uniform_
   belief_.make_modes(of_frame, uniform_mass);
 }
 
-void MarkovLocalizer::keep_rivals(const RangeSweep& sweep, const Pose2& before_from_after) {
+void MarkovLocalizer::keep_rivals(const RangeSweep& sweep, const Pose2& before_from_after, double weight) {
   if (!params_.rivals || verdict_.localized()) return rivals_.forget();
   const auto modes = rivals_.update(summary_, sweep, before_from_after, caster_, params_.sensor.max_range);
+  rivals_.hear(summary_, sensors_, weight);
   if (!modes) return;
   believe(*modes, params_.teleport_probability);
   summarise_now();
@@ -197,7 +198,7 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   step.beams_filtered = choice.filtered;
 
   summarise_now();
-  keep_rivals(sweep, before_from_after);
+  keep_rivals(sweep, before_from_after, step.weight);
   if (!summary_.modes.empty()) {
     const MotionNoise noise = motion_noise(params_.motion, before_from_after);
     BeliefMode& best = summary_.modes.front();
@@ -220,6 +221,7 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
 }
 
 PlaceCosts MarkovLocalizer::ask_sensors(double weight) {
+  sensors_.pass_over();
   if (sensors_.none() || belief_.active_states() > static_cast<std::size_t>(params_.most_states_asked)) return {};
   const Pose2 robot = frame_from_robot();
   std::vector<LikelyPose> likely;

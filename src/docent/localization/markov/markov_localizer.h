@@ -125,7 +125,7 @@ class MarkovLocalizer final : public Localizer {
   void move(const Pose2& before_from_after);
   void summarise_now();
   void believe(std::span<const BeliefMode> modes, double uniform_mass);
-  void keep_rivals(const RangeSweep& sweep, const Pose2& before_from_after);
+  void keep_rivals(const RangeSweep& sweep, const Pose2& before_from_after, double weight);
   [[nodiscard]] Pose2 frame_from_robot() const { return inverse(odom_from_frame_) * odom_from_robot_; }
   void judge(const Evidence& evidence, const std::optional<Pose2>& predicted);
   [[nodiscard]] int bin_of(const SweepBeam& beam) const { return beam.no_return ? kNoReturn : model_.bin(beam.range); }

@@ -102,9 +102,10 @@ void MonteCarloLocalizer::believe(std::span<const BeliefMode> modes) {
   }
 }
 
-void MonteCarloLocalizer::keep_rivals(const RangeSweep& sweep, const Pose2& before_from_after) {
+void MonteCarloLocalizer::keep_rivals(const RangeSweep& sweep, const Pose2& before_from_after, double weight) {
   if (!shared_.rivals || verdict_.localized()) return rivals_.forget();
   const auto modes = rivals_.update(summary_, sweep, before_from_after, caster_, shared_.sensor.max_range);
+  rivals_.hear(summary_, sensors_, weight);
   if (!modes) return;
   believe(*modes);
   summarise_now();
@@ -206,7 +207,7 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
   step.beams_filtered = choice.filtered;
 
   summarise_now();
-  keep_rivals(sweep, before_from_after);
+  keep_rivals(sweep, before_from_after, step.weight);
   if (!summary_.modes.empty()) {
     const Strata strata{static_cast<std::size_t>(params_.least), most_particles(),
                         static_cast<std::size_t>(params_.reserve), params_.resample_below, params_.kld};
@@ -232,6 +233,7 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
 }
 
 MonteCarloLocalizer::Others MonteCarloLocalizer::ask_sensors(double temper) {
+  sensors_.pass_over();
   if (sensors_.none() || particles_.size() == 0) return {};
   std::vector<LikelyPose> likely;
   for (const LikelyState& state : likely_) {
