@@ -1,9 +1,9 @@
 """The sonars die in the middle of a crowd, which preceded RHINO's error of 30 cm: the robot must not be lost, touch
 nothing, and say which sensor it is where that can be known.
 
-By hand: a robot is walked through a busy museum amid an escort, so that it goes on whatever it thinks of its sensors, and
+By hand: a robot is walked through a museum amid an escort of eight, so that it goes on whatever it thinks of its sensors, and
 its sonars fall silent, freeze, hear everything at 0.3 m, hear nothing, hear the echoes of others, each for a minute or
-more; replayed by every way to believe. By itself: the whole robot on its tours, struck once and for good.
+more; replayed by every way to believe. By itself: the whole robot on its tours in a busy museum, struck once and for good.
 """
 import csv
 import os
@@ -56,7 +56,7 @@ def by_hand(bench, museum, seed, minutes, ways):
                 part.write_text("\n".join(lines) + "\n")
                 made = record.with_suffix(f".part{os.getpid()}-{seed}.mcap")
                 bench.run([bench.docent, "simulate", "--museum", bench.museums / museum, "--hours", f"{minutes / 60:.6f}", "--seed",
-                           str(seed), "--crowd", "busy", "--scenario", part, "--world-only", "--record", made, "--quiet"])
+                           str(seed), "--crowd", "quiet", "--scenario", part, "--world-only", "--record", made, "--quiet"])
                 made.rename(record)
                 part.unlink()
             made = claims.with_suffix(f".part{os.getpid()}")
@@ -85,7 +85,7 @@ def judge_by_hand(rows):
 
 
 def hand_protocol(bench, verdict, print_table, museums, seeds, minutes, methods, crippled):
-    print(f"\n## sonars die, walked by hand in a busy museum amid {ESCORT[0]} people: {len(seeds)} seeds x {minutes:g} minutes "
+    print(f"\n## sonars die, walked by hand amid an escort of {ESCORT[0]}: {len(seeds)} seeds x {minutes:g} minutes "
           f"in {', '.join(museums)}, each kind of death once a run\n")
     ways = {f"{method}, {name}": [f"localize.method={method}", *settings] for method in methods for name, settings in WAYS.items()}
     if crippled:

@@ -10,12 +10,12 @@ void tell(HealthLog& log, double time, const char* module, const char* state, co
   health->module = module;
   health->state = state;
   health->reason = reason;
-  log.add(topics::kHealth, time_from_seconds(time), health);
+  log.add(topic_info(topics::kHealth), time_from_seconds(time), health);
 }
 
 TEST(HealthLog, HasARowForEveryChange) {
   HealthLog log;
-  log.add(topics::kTrueState, time_from_seconds(100.0), std::make_shared<docent_msgs::TrueState>());
+  log.add(topic_info(topics::kTrueState), time_from_seconds(100.0), std::make_shared<docent_msgs::TrueState>());
   tell(log, 100.5, "localize", "ready", "");
   tell(log, 101.0, "localize", "ready", "");
   tell(log, 101.0, "avoid", "ready", "");

@@ -65,8 +65,10 @@ TEST_F(CachedTable, AConeExpectsTheNearestOfItsDirections) {
   for (std::size_t place = 0; place < room_.space.places(); ++place) {
     for (int d = 0; d < headings; ++d) {
       double nearest = 100.0;
-      for (int k = -2; k <= 2; ++k)
-        nearest = std::min(nearest, rays.centre(room_.table.row(place)[static_cast<std::size_t>(d + k + headings)]));
+      for (int k = -2; k <= 2; ++k) {
+        const auto direction = static_cast<std::size_t>((d + k + headings) % headings);
+        nearest = std::min(nearest, rays.centre(room_.table.row(place)[direction]));
+      }
       ASSERT_EQ(cones.row(place)[static_cast<std::size_t>(d)], model.bin(nearest)) << place << ", " << d;
       beyond += nearest >= 3.0 ? 1 : 0;
     }
