@@ -37,7 +37,9 @@ def scenario(path, escort, kidnaps=()):
 class Bench:
     """Recordings and claims, kept under a key of everything that decides them."""
 
-    def __init__(self, docent, cache, source_key, museums, jobs):
+    def __init__(self, docent, cache, source_key, museums, jobs, settings=()):
+        """`settings`: of every replay of a recording, besides those that a protocol makes."""
+        self.settings = list(settings)
         self.docent, self.cache, self.museums, self.jobs = docent, cache / "localization", museums, jobs
         self.keys = {museum: source_key(museums / museum) for museum in ("bonn", "smithsonian")}
         self.cache.mkdir(parents=True, exist_ok=True)
@@ -54,6 +56,7 @@ class Bench:
     def claims(self, museum, seed, minutes, crowd, escort, kidnaps, settings, method=None):
         """Rows of what the robot said beside the truth: one recording, one configuration. The recording itself goes
         when all its replays are made, see `forget`."""
+        settings = settings + self.settings
         what = [seed, minutes, crowd, escort, list(kidnaps)]
         claims = self.path(museum, "csv", what + [settings])
         if not claims.exists():

@@ -158,7 +158,7 @@ def tour_protocol(bench, verdict, print_table, museums, seeds, minutes):
         runs = bench.each([lambda p=p: by_itself(bench, *p, minutes, settings) for p in plans])
         lost = unsure = updates = touched = 0
         km = minutes_after = 0.0
-        late, moved, worst = [], [], 0.0
+        late, moved, worst, alarms, well_minutes = [], [], 0.0, 0, 0.0
         for (museum, seed, kind, at), (claims, health) in zip(plans, runs):
             after = [row for row in claims if row["time"] >= at]
             before = [row for row in claims if row["time"] < at]
@@ -172,6 +172,8 @@ def tour_protocol(bench, verdict, print_table, museums, seeds, minutes):
             km += (after[-1]["distance"] - after[0]["distance"]) / 1000 if after else 0.0
             minutes_after += minutes - at / 60.0
             named = named_after(health, at)
+            alarms += sum("sonar" in row["reason"] and 2.0 < float(row["time"]) < at for row in health)
+            well_minutes += at / 60.0
             if kind == "dead":
                 late.append(NAMED_WITHIN + 1 if named is None else named)
                 if "avoid.needs_sonar=false" not in settings:
@@ -187,6 +189,7 @@ def tour_protocol(bench, verdict, print_table, museums, seeds, minutes):
         verdict.want(f"{name}: contacts and area violations", f"{int(touched)}", touched == 0)
         verdict.want(f"{name}: silent sonars are named within {NAMED_WITHIN:g} s", f"worst {max(late, default=99):.1f} s of {len(late)}",
                      bool(late) and max(late) <= NAMED_WITHIN)
+        verdict.want(f"{name}: sonars that are well are not called dead", f"{alarms} alarms in {well_minutes:.0f} minutes", alarms == 0)
         if moved:
             verdict.want(f"{name}: stands from 2 s after the sonars fell silent", f"at most {max(moved):.3f} m/s", max(moved) <= 0.02)
     print_table(["robot", "museum", "seed", "sonars", "at s", "knew", "updates", "lost", "unsure %", "worst cm", "named after s",

@@ -120,6 +120,7 @@ void expect_never_lost(const Outcome& outcome) {
   EXPECT_LE(outcome.unsure, outcome.updates / 50);
   EXPECT_LE(outcome.worst, 0.5);
   EXPECT_EQ(outcome.touched, 0.0);
+  EXPECT_FALSE(outcome.named_before) << "a false alarm";
 }
 
 TEST(SonarDies, SilentItIsNamedAndTheRobotStands) {

@@ -70,6 +70,9 @@ class Localizer {
                                                 const PersonFilterParams& params) const;
 
  protected:
+  [[nodiscard]] ObservationModels& sensors() { return sensors_; }
+
+ private:
   ObservationModels sensors_;
 };
 

@@ -24,8 +24,9 @@ class Rivals {
   /// Returns the belief as it should be when evidence has all but ruled out a rival that nothing was seen to speak
   /// against: the best mode and every rival with a fair share. nullopt: it is so already, or the belief is not
   /// concentrated on modes. O(rivals * beams casts).
-  [[nodiscard]] std::optional<std::vector<BeliefMode>> update(const BeliefSummary& summary, const RangeSweep& sweep, const Pose2& before_from_after,
-              const RayCaster& caster, double max_range);
+  [[nodiscard]] std::optional<std::vector<BeliefMode>> update(const BeliefSummary& summary, const RangeSweep& sweep,
+                                                              const Pose2& before_from_after, const RayCaster& caster,
+                                                              double max_range);
   /// What other sensors say of the places besides, for `weight` of an update; after `update`. Whom they have told from
   /// the best place by enough nats gets no fair share any more, until they take it back. O(rivals).
   void hear(const BeliefSummary& summary, const ObservationModels& others, double weight);
@@ -34,10 +35,10 @@ class Rivals {
  private:
   struct Place {
     BeliefMode mode;
-    double against = 0.0;    ///< sweeps that differ from it grossly
+    double against = 0.0;         ///< sweeps that differ from it grossly
     double others_against = 0.0;  ///< [nat] that other sensors say against it, in all
-    int outweighed = 0;      ///< spots at which the evidence ruled it out
-    double outweighed_at{};  ///< [m] of way_, the last of them
+    int outweighed = 0;           ///< spots at which the evidence ruled it out
+    double outweighed_at{};       ///< [m] of way_, the last of them
   };
   /// Takes in, carries on and drops.
   void follow(const BeliefSummary& summary, const RangeSweep& sweep, const Pose2& before_from_after,

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <numbers>
 #include <memory>
+#include <numbers>
 
 namespace docent {
 

@@ -115,7 +115,7 @@ void MarkovLocalizer::believe(std::span<const BeliefMode> modes, double uniform_
 void MarkovLocalizer::keep_rivals(const RangeSweep& sweep, const Pose2& before_from_after, double weight) {
   if (!params_.rivals || verdict_.localized()) return rivals_.forget();
   const auto modes = rivals_.update(summary_, sweep, before_from_after, caster_, params_.sensor.max_range);
-  rivals_.hear(summary_, sensors_, weight);
+  rivals_.hear(summary_, sensors(), weight);
   if (!modes) return;
   believe(*modes, params_.teleport_probability);
   summarise_now();
@@ -189,7 +189,10 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
     weights.focus = *predicted * inverse(frame_from_robot());
   }
   const PlaceCosts others = ask_sensors(step.weight);
-  if (others) log_best_over_mean += step.weight * sensors_.mean_cost();
+  if (others) {
+    log_best_over_mean += step.weight * sensors().mean_cost();
+    last_work_ += kWorkOfOthers * static_cast<double>(belief_.active_states());
+  }
   const bool in_doubt = verdict_.contradicted() || verdict_.startled();
   belief_.reweigh(table_, costs, log_best_over_mean, weights,
                   in_doubt ? params_.teleport_in_doubt : params_.teleport_probability, others);
@@ -221,8 +224,8 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
 }
 
 PlaceCosts MarkovLocalizer::ask_sensors(double weight) {
-  sensors_.pass_over();
-  if (sensors_.none() || belief_.active_states() > static_cast<std::size_t>(params_.most_states_asked)) return {};
+  sensors().pass_over();
+  if (sensors().none() || belief_.active_states() > static_cast<std::size_t>(params_.most_states_asked)) return {};
   const Pose2 robot = frame_from_robot();
   std::vector<LikelyPose> likely;
   for (const LikelyState& state : likely_) {
@@ -230,7 +233,7 @@ PlaceCosts MarkovLocalizer::ask_sensors(double weight) {
     const Pose2 map_from_frame{at.x, at.y, Angle::radians(state.heading * space_.heading_step())};
     likely.push_back({map_from_frame * robot, static_cast<double>(state.mass)});
   }
-  if (!sensors_.observe({last_update_, odom_from_robot_, likely})) return {};
+  if (!sensors().observe({last_update_, odom_from_robot_, likely})) return {};
   std::vector<Pose2> offsets;  // from the middle of a place to the robot, for each heading
   for (int h = 0; h < space_.headings(); ++h)
     offsets.push_back(Pose2{0.0, 0.0, Angle::radians(h * space_.heading_step())} * robot);
@@ -240,7 +243,7 @@ PlaceCosts MarkovLocalizer::ask_sensors(double weight) {
     poses = offsets;
     for (Pose2& pose : poses) pose.x += at.x, pose.y += at.y;
     nats.assign(poses.size(), 0.0F);
-    sensors_.add_costs(poses, nats);
+    sensors().add_costs(poses, nats);
     for (std::size_t h = 0; h < costs.size(); ++h) {
       const double cost = weight * static_cast<double>(nats[h]) * kCostPerNat + 0.5;
       costs[h] = static_cast<std::uint16_t>(std::min(65535.0, static_cast<double>(costs[h]) + std::floor(cost)));

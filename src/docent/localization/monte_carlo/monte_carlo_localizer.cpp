@@ -105,7 +105,7 @@ void MonteCarloLocalizer::believe(std::span<const BeliefMode> modes) {
 void MonteCarloLocalizer::keep_rivals(const RangeSweep& sweep, const Pose2& before_from_after, double weight) {
   if (!shared_.rivals || verdict_.localized()) return rivals_.forget();
   const auto modes = rivals_.update(summary_, sweep, before_from_after, caster_, shared_.sensor.max_range);
-  rivals_.hear(summary_, sensors_, weight);
+  rivals_.hear(summary_, sensors(), weight);
   if (!modes) return;
   believe(*modes);
   summarise_now();
@@ -182,6 +182,7 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
   const double full_temper = std::min(1.0, views * one_view);
   last_work_ = static_cast<double>(particles_.size()) * static_cast<double>(choice.used.size());
   others_ = ask_sensors(full_temper);
+  if (others_.steps_per_nat > 0.0) last_work_ += kWorkOfOthers * static_cast<double>(particles_.size());
   double likelihood = 0.0;
   if (particles_.size() > 0) {
     std::vector<std::uint32_t> costs;
@@ -233,15 +234,15 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
 }
 
 MonteCarloLocalizer::Others MonteCarloLocalizer::ask_sensors(double temper) {
-  sensors_.pass_over();
-  if (sensors_.none() || particles_.size() == 0) return {};
+  sensors().pass_over();
+  if (sensors().none() || particles_.size() == 0) return {};
   std::vector<LikelyPose> likely;
   for (const LikelyState& state : likely_) {
     const Point2 at = space_.centre(static_cast<std::size_t>(state.place));
     const Angle heading = Angle::radians(state.heading * space_.heading_step());
     likely.push_back({{at.x, at.y, heading}, static_cast<double>(state.mass)});
   }
-  if (!sensors_.observe({last_update_, odom_from_robot_, likely})) return {};
+  if (!sensors().observe({last_update_, odom_from_robot_, likely})) return {};
   return {kScorePerNat / temper, {}};
 }
 
@@ -251,7 +252,7 @@ void MonteCarloLocalizer::add_others(const ParticleSet& particles, std::vector<s
   poses.reserve(particles.size());
   for (std::size_t i = 0; i < particles.size(); ++i) poses.push_back(particles.pose(i));
   std::vector<float> nats(poses.size(), 0.0F);
-  sensors_.add_costs(poses, nats);
+  sensors().add_costs(poses, nats);
   // Relative to the best particle: a sensor that fits none must not look like a surprise of the lasers.
   if (!others_.least) others_.least = *std::min_element(nats.begin(), nats.end());
   for (std::size_t i = 0; i < poses.size(); ++i) {
