@@ -22,7 +22,8 @@ void SonarTrust::compare(const Agreement& readings) {
   constexpr double kMemory = 0.1;  // an update's share in the running mean
   constexpr double kTooLittle = 0.1;
   constexpr double kEnough = 0.2;
-  const double all = readings.agrees + readings.shorter + readings.longer;
+  // What is too short may be people, however many there are.
+  const double all = readings.agrees + readings.longer;
   if (all < kFewest) return;
   agreement_ += kMemory * (readings.agrees / all - agreement_);
   at_odds_ = agreement_ < (at_odds_ ? kEnough : kTooLittle);

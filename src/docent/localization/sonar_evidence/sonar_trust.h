@@ -8,8 +8,9 @@
 
 namespace docent {
 
-/// Whether a ring of sonars may be believed. Who hears the same again and again though the robot moves has died with
-/// its last reading on the line; who hears nothing of what the belief lets expect is deaf, or hears the others' pings.
+/// Whether a ring of sonars may be believed. Who hears the same again and again though the robot moves has died with its
+/// last reading on the line; who hears nothing of what the belief lets expect is deaf. Too short readings tell nothing:
+/// they may be people as well as a sensor's fault, and a filter takes out both.
 class SonarTrust {
  public:
   enum class State { well, frozen, at_odds };
@@ -24,7 +25,8 @@ class SonarTrust {
   void compare(const Agreement& readings);
 
   [[nodiscard]] State state() const;
-  [[nodiscard]] double agreement() const { return agreement_; }  ///< share of the readings, running mean
+  /// Share of the readings that are not too short, running mean.
+  [[nodiscard]] double agreement() const { return agreement_; }
 
  private:
   struct Ear {
