@@ -12,7 +12,7 @@ import subprocess
 import sys
 import time
 
-from evaluation import reliability, twins
+from evaluation import reliability, sonar_dies, twins
 from evaluation.claims import error_m, is_lost, mean, read_claims
 
 CROWDS = {  # name: crowd, people in the escort, beams blocked as wanted, bounds: lost share, mean error [m]
@@ -40,7 +40,9 @@ def scenario(escort, kidnaps=()):
 class Bench:
     """Recordings and claims, kept under a key of everything that decides them."""
 
-    def __init__(self, docent, cache, run_key, museums, jobs):
+    def __init__(self, docent, cache, run_key, museums, jobs, settings=()):
+        """`settings`: of every replay of a recording, besides those that a protocol makes."""
+        self.settings = list(settings)
         self.docent, self.cache, self.museums, self.jobs = docent, cache / "localization", museums, jobs
         self.keys = {museum: run_key(museums / museum) for museum in ("bonn", "smithsonian")}
         self.cache.mkdir(parents=True, exist_ok=True)
@@ -57,6 +59,7 @@ class Bench:
     def claims(self, museum, seed, minutes, crowd, escort, kidnaps, settings, method=None):
         """Rows of what the robot said beside the truth: one recording, one configuration. The recording itself goes
         when all its replays are made, see `forget`."""
+        settings = settings + self.settings
         what = [seed, minutes, crowd, scenario(escort, kidnaps)]
         claims = self.path(museum, "csv", what + [settings])
         if not claims.exists():
@@ -364,5 +367,7 @@ def evaluate(bench, verdict, print_table, parts, is_slice, methods, seeds=None):
         kidnapping(bench, verdict, print_table, museums, seeds or 100)
     if "active" in parts and not is_slice:
         twins.active(bench, verdict, print_table, seeds or 20)
+    if "sonar-dies" in parts:
+        sonar_dies.protocol(bench, verdict, print_table, museums, 1 if is_slice else seeds or 5, is_slice, methods)
     if "recovery" in parts and not is_slice:
         recovery(bench, verdict, print_table, museums, seeds or 10, methods)

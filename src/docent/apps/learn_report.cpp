@@ -116,7 +116,11 @@ std::string learned_yaml(const LearningOutcome& outcome) {
   text += format("# ln P of a reading held out: %.4f before, %.4f learned.\n", held_out.before, held_out.after);
   text += "localize:\n";
   if (learned.wall_depth > 0.0) text += format("  states:\n    wall_depth: %.5g\n", learned.wall_depth);
-  text += "  sensor:\n" + yaml_fields(learned.sensor, "    ");
+  if (outcome.sensor == "sonar") {
+    text += "  sonar:\n    model:\n" + yaml_fields(learned.sensor, "      ");
+  } else {
+    text += "  sensor:\n" + yaml_fields(learned.sensor, "    ");
+  }
   if (learned.motion) text += "  motion:\n" + yaml_fields(learned.motion->noise.motion, "    ");
   return text;
 }

@@ -49,6 +49,14 @@ TEST(LearnReport, RobotYamlIsReadAsItIs) {
   EXPECT_DOUBLE_EQ(params->motion.rotation_per_metre, 0.000123);
 }
 
+TEST(LearnReport, ASonarsModelIsNotTheLasers) {
+  LearningOutcome of_sonar = outcome(0.0, false);
+  of_sonar.sensor = "sonar";
+  const std::string text = learned_yaml(of_sonar);
+  EXPECT_NE(text.find("  sonar:\n    model:\n      max_range: 30\n"), std::string::npos) << text;
+  EXPECT_EQ(text.find("  sensor:"), std::string::npos);
+}
+
 TEST(LearnReport, WhatWasNotLearnedStaysAsItIs) {
   const auto params = read_back(outcome(0.0, false));
   ASSERT_TRUE(params) << params.error().message;

@@ -10,6 +10,7 @@
 #include "docent/apps/simulation_picture.h"
 #include "docent/evaluation/claim_log.h"
 #include "docent/evaluation/deployment_evaluator.h"
+#include "docent/evaluation/health_log.h"
 #include "docent/evaluation/people_log.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/localize_module.h"
@@ -51,6 +52,7 @@ class SimulationRun::Parts {
       evaluator_.add(topic, time, message);
       picture_.add(topic, message);
       if (!options_.claims.empty()) claims_.add(topic, time, message);
+      if (!options_.health_log.empty()) health_.add(topic, time, message);
       if (!options_.people_log.empty()) people_.add(topic, time, message);
       if (recorder_ && failure_.empty()) {
         if (auto written = recorder_->write(topic, time, message); !written) failure_ = written.error().message;
@@ -198,6 +200,7 @@ class SimulationRun::Parts {
   VirtualTimeHub hub_;
   DeploymentEvaluator evaluator_;
   ClaimLog claims_;
+  HealthLog health_;
   PeopleLog people_;
   SimulationPicture picture_;
   std::optional<Recorder> recorder_;
@@ -251,6 +254,9 @@ std::map<std::string, double> SimulationRun::wall_seconds_by_module() const {
 Result<void> SimulationRun::finish() {
   if (!parts_->options_.claims.empty()) {
     if (auto saved = parts_->claims_.save(parts_->options_.claims); !saved) return saved;
+  }
+  if (!parts_->options_.health_log.empty()) {
+    if (auto saved = parts_->health_.save(parts_->options_.health_log); !saved) return saved;
   }
   if (!parts_->options_.people_log.empty()) {
     if (auto saved = parts_->people_.save(parts_->options_.people_log); !saved) return saved;

@@ -1,6 +1,7 @@
 #include "docent/modules/localize_module.h"
 
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -10,6 +11,7 @@
 #include "docent/localization/belief/checkpoint.h"
 #include "docent/localization/markov/markov_localizer.h"
 #include "docent/localization/monte_carlo/monte_carlo_localizer.h"
+#include "docent/localization/sonar_evidence/sonar_evidence.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/sonar_localize.h"
 #include "docent/motion_models/odometry_history.h"
@@ -25,12 +27,27 @@ constexpr Duration kCheckpointEvery = std::chrono::seconds{1};
 constexpr Duration kCheckpointAge = std::chrono::seconds{60};
 constexpr double kCheckpointWay = 5.0;  // [m] that odometry may have gone on meanwhile
 
+/// Section `localize.sonar`: sonars alone, with `localize.method: sonar`, or beside the lasers.
+struct SonarParams {
+  SonarLocalizeParams alone;
+  SonarEvidenceParams beside;
+  template <class V>
+  void visit(V& v) {
+    alone.visit(v);
+    beside.visit(v);
+  }
+  [[nodiscard]] Result<void> validate() const {
+    if (auto valid = alone.validate(); !valid) return valid;
+    return beside.validate();
+  }
+};
+
 struct LocalizeParams {
   /// grid; particles, which share all of the grid's parameters that concern them; sonar: a tracker without laser
   std::string method = "grid";
   MarkovLocalizerParams markov;
   MonteCarloParams particles;
-  SonarLocalizeParams sonar;
+  SonarParams sonar;
   PersonFilterParams people;    ///< the inverse filter
   double person_range = 6.0;    ///< [m], > 0: how far away people are looked for
   bool dead_reckoning = false;  ///< crippled, for evaluation: odometry alone after the first "here"
@@ -61,12 +78,31 @@ struct LocalizeParams {
   }
 };
 
-std::unique_ptr<Localizer> make_localizer(const ModuleContext& context, const LocalizeParams& params) {
+/// A localizer and, where they take part in its belief, the sonars.
+struct Believer {
+  std::unique_ptr<Localizer> localizer;
+  std::shared_ptr<SonarEvidence> sonars;
+};
+
+Believer with_sonars(auto localizer, const ModuleContext& context, const LocalizeParams& params) {
+  std::shared_ptr<SonarEvidence> sonars;
+  const int count = context.config.body().sonars;
+  if (params.sonar.beside.beams > 0 && count > 0) {
+    sonars = std::make_shared<SonarEvidence>(params.sonar.beside, count, localizer->space(), localizer->table(),
+                                             ProximityModel{params.markov.sensor}, context.seed);
+    localizer->add_sensor(sonars);
+  }
+  return {std::move(localizer), std::move(sonars)};
+}
+
+Believer make_believer(const ModuleContext& context, const LocalizeParams& params) {
   const std::filesystem::path table = context.state / "range_table.bin";
   if (params.method == "particles")
-    return std::make_unique<MonteCarloLocalizer>(context.museum.map, params.markov, params.particles, table,
-                                                 context.seed);
-  return std::make_unique<MarkovLocalizer>(context.museum.map, params.markov, table, context.seed);
+    return with_sonars(
+        std::make_unique<MonteCarloLocalizer>(context.museum.map, params.markov, params.particles, table, context.seed),
+        context, params);
+  return with_sonars(std::make_unique<MarkovLocalizer>(context.museum.map, params.markov, table, context.seed), context,
+                     params);
 }
 
 class LocalizeModule final : public Module {
@@ -76,7 +112,9 @@ class LocalizeModule final : public Module {
         params_{params},
         checkpoint_path_{context.state / "localize.yaml"},
         map_hash_{map_hash(context.museum.map)},
-        localizer_{make_localizer(context, params)},
+        body_{context.config.body()},
+        believer_{make_believer(context, params)},
+        localizer_{believer_.localizer.get()},
         lasers_{Laser{context.config.body().scan_front.base_from_sensor(), {}, {}, false},
                 Laser{context.config.body().scan_rear.base_from_sensor(), {}, {}, false}},
         belief_{bus_.publisher(topics::kBelief)},
@@ -92,6 +130,8 @@ class LocalizeModule final : public Module {
     });
     bus_.subscribe<sensor_msgs::LaserScan>(topics::kScanFront, [this](const auto& scan) { on_scan(0, scan); });
     bus_.subscribe<sensor_msgs::LaserScan>(topics::kScanRear, [this](const auto& scan) { on_scan(1, scan); });
+    if (believer_.sonars)
+      bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const auto& range) { on_sonar(range); });
     bus_.every(kPeriod, [this] { look(); });
   }
 
@@ -101,6 +141,7 @@ class LocalizeModule final : public Module {
     if (now - lasers_[0].received > kSilent) return {"degraded", "no scan_front"};
     if (now - lasers_[1].received > kSilent) return {"degraded", "no scan_rear"};
     if (!localized()) return {"degraded", "I do not know where I am"};
+    if (believer_.sonars) return health_of_sonars(now);
     return {};
   }
 
@@ -118,6 +159,32 @@ class LocalizeModule final : public Module {
     lasers_[laser].scan = scan;  // the last one only: who is late drops scans
     lasers_[laser].received = bus_.now();
     lasers_[laser].is_new = true;
+  }
+
+  [[nodiscard]] ModuleHealth health_of_sonars(Time now) const {
+    if (now - sonar_received_ > kSilent) return {"degraded", "no sonar"};
+    switch (believer_.sonars->trust().state()) {
+      case SonarTrust::State::frozen:
+        return {"degraded", "sonar is frozen"};
+      case SonarTrust::State::at_odds:
+        return {"degraded", "sonar hears nothing of what the map holds"};
+      case SonarTrust::State::well:
+        break;
+    }
+    return {};
+  }
+
+  void on_sonar(const sensor_msgs::Range& range) {
+    const std::string& frame = range.header.frame_id;
+    int index = -1;
+    if (frame.starts_with("sonar_")) std::from_chars(frame.data() + 6, frame.data() + frame.size(), index);
+    if (index < 0 || index >= body_.sonars) return;
+    sonar_received_ = bus_.now();
+    const Time stamp = from_message(range.header.stamp);
+    const auto odom_from_base = odometry_.at(stamp);
+    if (!odom_from_base) return;
+    believer_.sonars->hear({stamp, index, body_.base_from_sonar(index), *odom_from_base,
+                            static_cast<double>(range.range), static_cast<double>(range.max_range)});
   }
 
   /// One sweep of what came since the last look, or nothing.
@@ -277,7 +344,9 @@ class LocalizeModule final : public Module {
   LocalizeParams params_;
   std::filesystem::path checkpoint_path_;
   std::string map_hash_;
-  std::unique_ptr<Localizer> localizer_;
+  RobotBody body_;
+  Believer believer_;
+  Localizer* localizer_;
   std::array<Laser, 2> lasers_;
   Publisher<docent_msgs::Belief> belief_;
   Publisher<geometry_msgs::PoseWithCovarianceStamped> pose_;
@@ -288,6 +357,7 @@ class LocalizeModule final : public Module {
   Localizer::Step last_step_;
   bool frozen_ = false;
   Time odometry_received_{};
+  Time sonar_received_{};
   Time belief_published_{};
   Time saved_{};
 };
@@ -297,7 +367,7 @@ class LocalizeModule final : public Module {
 Result<std::unique_ptr<Module>> make_localize(const ModuleContext& context) {
   auto params = context.config.section<LocalizeParams>("localize");
   if (!params) return tl::unexpected<Error>(params.error());
-  if (params->method == "sonar") return make_sonar_localize(context, params->sonar);
+  if (params->method == "sonar") return make_sonar_localize(context, params->sonar.alone);
   auto module = std::make_unique<LocalizeModule>(context, *params);
   return module;
 }

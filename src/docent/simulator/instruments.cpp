@@ -26,6 +26,23 @@ bool halve(nav_msgs::Odometry&, Rng&, bool& skips) {
   return !skips;
 }
 
+/// What a sensor reads that hears, or sees, something else than the world.
+float spoilt(float range, float largest, FaultKind kind, Rng& rng) {
+  constexpr float kNear = 0.3F;  // [m]
+  if (kind == FaultKind::near) return kNear;
+  if (kind == FaultKind::deaf) return largest;
+  return rng.chance(0.5)
+             ? static_cast<float>(rng.uniform(static_cast<double>(kNear), static_cast<double>(std::max(range, kNear))))
+             : range;
+}
+void spoil(sensor_msgs::LaserScan& scan, FaultKind kind, Rng& rng) {
+  for (float& range : scan.ranges) range = spoilt(range, scan.range_max, kind, rng);
+}
+void spoil(sensor_msgs::Range& ping, FaultKind kind, Rng& rng) {
+  ping.range = spoilt(ping.range, ping.max_range, kind, rng);
+}
+void spoil(nav_msgs::Odometry&, FaultKind, Rng&) {}  // no ranges: the scenario refuses it
+
 }  // namespace
 
 Instruments::Instruments(Bus& bus, const World& world, const Rng& rng)
@@ -81,6 +98,12 @@ void Instruments::emit(Sensor sensor, const Publisher<T>& publisher, T message, 
       return;
     case FaultKind::late:
       bus_.after(seconds(fault->delay), [publisher, message = std::move(message)] { publisher.publish(message); });
+      return;
+    case FaultKind::near:
+    case FaultKind::deaf:
+    case FaultKind::storm:
+      spoil(message, fault->kind, fault_rng_);
+      publisher.publish(std::move(message));
       return;
   }
 }

@@ -180,12 +180,18 @@ class EventReader {
                                  {{"dead", FaultKind::dead},
                                   {"frozen", FaultKind::frozen},
                                   {"half", FaultKind::half},
-                                  {"late", FaultKind::late}},
+                                  {"late", FaultKind::late},
+                                  {"short", FaultKind::near},
+                                  {"deaf", FaultKind::deaf},
+                                  {"storm", FaultKind::storm}},
                                  event.kind);
              }},
             {"for", into(event.duration, 0.0, kLongest)},
             {"delay", into(event.delay, 0.01, 60.0)}},
            {"sensor", "kind"});
+    const bool is_of_ranges =
+        event.kind == FaultKind::near || event.kind == FaultKind::deaf || event.kind == FaultKind::storm;
+    if (event.sensor == Sensor::odom && is_of_ranges) fault(kind_at_, "odometry has no ranges to be wrong");
     return event;
   }
   [[nodiscard]] Stool stool(const YAML::Node& node) const {

@@ -24,6 +24,9 @@ enum class FaultKind {
   frozen,  ///< the last reading again and again, with fresh stamps
   half,    ///< half of the readings invalid (NaN); odometry: every second message is missing
   late,    ///< messages arrive `delay` seconds after their stamp
+  near,    ///< every reading is 0.3 m; "short" in a file. The last three are of lasers and sonars only
+  deaf,    ///< nothing comes back: every reading is the largest
+  storm,   ///< echoes of others: every reading is the true one or anything shorter, half and half
 };
 struct SensorFault {
   Sensor sensor = Sensor::laser_front;

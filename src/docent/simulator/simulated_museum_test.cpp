@@ -288,6 +288,40 @@ TEST(SimulatedMuseum, AKidnapMayTurnTheRobotAndShiftItALittle) {
   EXPECT_LE(distance(pose.position(), {3.0, 4.0}), 1.5);
 }
 
+TEST(SimulatedMuseum, SonarsDieInManyWays) {
+  SimulationOptions all = options("empty", Pose2{3.0, 4.0, Angle{}});
+  const auto scenario = parse_scenario(R"(events:
+  - {at: 1, fault: {sensor: sonar, kind: short, for: 1}}
+  - {at: 3, fault: {sensor: sonar, kind: deaf, for: 1}}
+  - {at: 5, fault: {sensor: sonar, kind: storm, for: 4}}
+)",
+                                       "s.yaml");
+  ASSERT_TRUE(scenario);
+  all.scenario = *scenario;
+  all.requests_per_hour = 0.0;
+  Bench bench{std::move(all)};
+  std::vector<std::pair<std::string, sensor_msgs::Range>> heard;
+  bench.robot_bus->subscribe(
+      topics::kSonar, std::function<void(const sensor_msgs::Range&)>{
+                          [&](const sensor_msgs::Range& range) { heard.emplace_back(range.header.frame_id, range); }});
+  std::map<std::string, float> well;
+  bench.run(1.0);
+  for (const auto& [frame, range] : heard) well[frame] = range.range;
+  ASSERT_EQ(well.size(), 24U);
+  bench.run(0.1), heard.clear(), bench.run(0.8);  // 1.9
+  EXPECT_GE(heard.size(), 40U);
+  for (const auto& [frame, range] : heard) EXPECT_FLOAT_EQ(range.range, 0.3F);
+  bench.run(1.2), heard.clear(), bench.run(0.8);  // 3.9
+  EXPECT_GE(heard.size(), 40U);
+  for (const auto& [frame, range] : heard) EXPECT_EQ(range.range, range.max_range);
+  bench.run(1.2), heard.clear(), bench.run(3.8);  // 8.9
+  const auto shorter = std::count_if(heard.begin(), heard.end(), [&](const auto& reading) {
+    return reading.second.range < well[reading.first] - 0.1F;
+  });
+  EXPECT_GT(shorter, static_cast<std::ptrdiff_t>(heard.size() / 5));
+  EXPECT_LT(shorter, static_cast<std::ptrdiff_t>(heard.size() * 3 / 4));
+}
+
 TEST(SimulatedMuseum, PlaysItsScenario) {
   SimulationOptions all = options("empty", Pose2{3.0, 4.0, Angle{}});
   const auto scenario = parse_scenario(R"(events:

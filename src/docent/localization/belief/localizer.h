@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "docent/grid/occupancy_grid.h"
 #include "docent/localization/belief/beam_origin.h"
 #include "docent/localization/belief/belief_summary.h"
+#include "docent/localization/belief/observation_model.h"
 #include "docent/localization/belief/verdict.h"
 #include "docent/sensor_models/range_sweep.h"
 #include "docent/sensor_models/ray_caster.h"
@@ -29,6 +31,9 @@ class Localizer {
   Localizer(const Localizer&) = delete;
   Localizer& operator=(const Localizer&) = delete;
   virtual ~Localizer() = default;
+
+  /// Another sensor, whose observations count in every update from now on.
+  void add_sensor(std::shared_ptr<ObservationModel> sensor) { sensors_.add(std::move(sensor)); }
 
   virtual void start_unknown() = 0;
   /// `odom_from_robot`: where odometry saw the robot when it was as `modes` say.
@@ -63,6 +68,12 @@ class Localizer {
   /// what the map lets expect.
   [[nodiscard]] std::vector<BeamOrigin> origins(const RangeSweep& sweep, const Pose2& odom_now, double max_range,
                                                 const PersonFilterParams& params) const;
+
+ protected:
+  [[nodiscard]] ObservationModels& sensors() { return sensors_; }
+
+ private:
+  ObservationModels sensors_;
 };
 
 }  // namespace docent

@@ -19,7 +19,8 @@ constexpr double kFewBeams = 3.0;      // so many more that fit the best place o
 constexpr double kShareOfBeams = 0.03;
 constexpr double kApart = 1.5;  // [m] evidence of one spot errs together
 constexpr int kSpots = 4;
-constexpr double kEnough = 2.0;  // sweeps that speak against a place
+constexpr double kEnough = 2.0;     // sweeps that speak against a place
+constexpr double kToldApart = 6.0;  // [nat] of other sensors
 
 bool is_same_place(const BeliefMode& a, const BeliefMode& b) {
   return distance(a.map_from_robot.position(), b.map_from_robot.position()) < kFar &&
@@ -93,9 +94,18 @@ void Rivals::take_in(const BeliefMode& mode, double least_mass) {
   const auto known =
       std::find_if(places_.begin(), places_.end(), [&](const Place& place) { return is_same_place(place.mode, mode); });
   if (known == places_.end()) {
-    if (mode.mass >= least_mass && places_.size() < kMost) places_.push_back({mode, 0.0, 0, way_});
+    if (mode.mass >= least_mass && places_.size() < kMost) places_.push_back({mode, 0.0, 0.0, 0, way_});
   } else if (mode.mass > known->mode.mass) {
     known->mode = mode;
+  }
+}
+
+void Rivals::hear(const BeliefSummary& summary, const ObservationModels& others, double weight) {
+  if (summary.modes.empty()) return;
+  const double of_best = others.cost(summary.modes.front().map_from_robot);
+  for (Place& place : places_) {
+    const double more = weight * (others.cost(place.mode.map_from_robot) - of_best);
+    place.others_against = std::clamp(place.others_against + more, -kToldApart, 2.0 * kToldApart);
   }
 }
 
@@ -107,7 +117,7 @@ std::optional<std::vector<BeliefMode>> Rivals::restored(const BeliefSummary& sum
   const BeliefMode& best = summary.modes.front();
   const double fair = kFairShare * best.mass;
   const auto is_missing = [&](const Place& place) {
-    return !is_same_place(place.mode, best) && place.mode.mass < 0.5 * fair;
+    return !is_same_place(place.mode, best) && place.mode.mass < 0.5 * fair && place.others_against < kToldApart;
   };
   std::erase_if(places_, [&](Place& place) {
     if (is_same_place(place.mode, best)) place.outweighed = 0;
@@ -121,7 +131,7 @@ std::optional<std::vector<BeliefMode>> Rivals::restored(const BeliefSummary& sum
   for (const Place& place : places_) {
     if (is_same_place(place.mode, best)) continue;
     modes.push_back(place.mode);
-    modes.back().mass = std::max(place.mode.mass, fair);
+    if (place.others_against < kToldApart) modes.back().mass = std::max(place.mode.mass, fair);
     sum += modes.back().mass;
   }
   for (BeliefMode& mode : modes) mode.mass /= sum;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "docent/localization/belief/belief_summary.h"
+#include "docent/localization/belief/observation_model.h"
 #include "docent/sensor_models/range_sweep.h"
 #include "docent/sensor_models/ray_caster.h"
 
@@ -26,14 +27,18 @@ class Rivals {
   [[nodiscard]] std::optional<std::vector<BeliefMode>> update(const BeliefSummary& summary, const RangeSweep& sweep,
                                                               const Pose2& before_from_after, const RayCaster& caster,
                                                               double max_range);
+  /// What other sensors say of the places besides, for `weight` of an update; after `update`. Whom they have told from
+  /// the best place by enough nats gets no fair share any more, until they take it back. O(rivals).
+  void hear(const BeliefSummary& summary, const ObservationModels& others, double weight);
   void forget() { places_.clear(); }
 
  private:
   struct Place {
     BeliefMode mode;
-    double against = 0.0;    ///< sweeps that differ from it grossly
-    int outweighed = 0;      ///< spots at which the evidence ruled it out
-    double outweighed_at{};  ///< [m] of way_, the last of them
+    double against = 0.0;         ///< sweeps that differ from it grossly
+    double others_against = 0.0;  ///< [nat] that other sensors say against it, in all
+    int outweighed = 0;           ///< spots at which the evidence ruled it out
+    double outweighed_at{};       ///< [m] of way_, the last of them
   };
   /// Takes in, carries on and drops.
   void follow(const BeliefSummary& summary, const RangeSweep& sweep, const Pose2& before_from_after,

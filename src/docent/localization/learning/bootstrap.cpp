@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
+#include <numbers>
 
 namespace docent {
 
@@ -177,7 +178,9 @@ class Bootstrap {
     localizer_ = std::make_unique<MarkovLocalizer>(map_, localizer_params_, params_.cache, params_.seed + proof);
     if (params_.sonar) {
       const ProximityModel bins{*params_.sonar};
-      sonar_table_ = std::make_unique<RangeTable>(RangeTable::build(localizer_->space(), localizer_->caster(), bins));
+      sonar_table_ = std::make_unique<RangeTable>(
+          RangeTable::cones(localizer_->table(), ProximityModel{localizer_params_.sensor}, localizer_->space(), bins,
+                            params_.sonar_cone * std::numbers::pi / 180.0));
     }
   }
 

@@ -25,6 +25,7 @@ struct BootstrapParams {
   ExpectedAt expected_at = ExpectedAt::cell;
   /// Of the sonar, as far as it is known before; nullopt: the lasers are learned.
   std::optional<ProximityModelParams> sonar;
+  double sonar_cone = 15.0;  ///< [deg], full opening; see SonarEvidence
   LabelParams labels;
   RefinementParams refinement;
   ReadingParams readings;

@@ -56,6 +56,7 @@ Result<void> MarkovLocalizerParams::validate() const {
     if (!(nats > 0.0 && nats <= 60.0)) return fail("most_nats and most_nats_far must be > 0 and <= 60");
   if (!(sectors >= 1 && sectors <= 60)) return fail("sectors must be 1..60");
   if (!(most_sector_nats > 0.0)) return fail("most_sector_nats must be > 0");
+  if (!(most_states_asked >= 0)) return fail("most_states_asked must be >= 0");
   if (!(work_per_second > 0.0)) return fail("work_per_second must be > 0");
   if (auto known = instruction_set_of(simd); !known) return tl::unexpected<Error>(known.error());
   return {};
@@ -111,9 +112,10 @@ void MarkovLocalizer::believe(std::span<const BeliefMode> modes, double uniform_
   belief_.make_modes(of_frame, uniform_mass);
 }
 
-void MarkovLocalizer::keep_rivals(const RangeSweep& sweep, const Pose2& before_from_after) {
+void MarkovLocalizer::keep_rivals(const RangeSweep& sweep, const Pose2& before_from_after, double weight) {
   if (!params_.rivals || verdict_.localized()) return rivals_.forget();
   const auto modes = rivals_.update(summary_, sweep, before_from_after, caster_, params_.sensor.max_range);
+  rivals_.hear(summary_, sensors(), weight);
   if (!modes) return;
   believe(*modes, params_.teleport_probability);
   summarise_now();
@@ -186,15 +188,20 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
     weights.far_most_nats = params_.most_nats_far;
     weights.focus = *predicted * inverse(frame_from_robot());
   }
+  const PlaceCosts others = ask_sensors(step.weight);
+  if (others) {
+    log_best_over_mean += step.weight * sensors().mean_cost();
+    last_work_ += kWorkOfOthers * static_cast<double>(belief_.active_states());
+  }
   const bool in_doubt = verdict_.contradicted() || verdict_.startled();
   belief_.reweigh(table_, costs, log_best_over_mean, weights,
-                  in_doubt ? params_.teleport_in_doubt : params_.teleport_probability);
+                  in_doubt ? params_.teleport_in_doubt : params_.teleport_probability, others);
   step.updated = true;
   step.beams_used = costs.size();
   step.beams_filtered = choice.filtered;
 
   summarise_now();
-  keep_rivals(sweep, before_from_after);
+  keep_rivals(sweep, before_from_after, step.weight);
   if (!summary_.modes.empty()) {
     const MotionNoise noise = motion_noise(params_.motion, before_from_after);
     BeliefMode& best = summary_.modes.front();
@@ -214,6 +221,34 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   if (const auto now = map_from_robot(odom_from_robot))
     verdict_.look(glance(caster_, sweep, *now, params_.sensor.max_range));
   return step;
+}
+
+PlaceCosts MarkovLocalizer::ask_sensors(double weight) {
+  sensors().pass_over();
+  if (sensors().none() || belief_.active_states() > static_cast<std::size_t>(params_.most_states_asked)) return {};
+  const Pose2 robot = frame_from_robot();
+  std::vector<LikelyPose> likely;
+  for (const LikelyState& state : likely_) {
+    const Point2 at = space_.centre(static_cast<std::size_t>(state.place));
+    const Pose2 map_from_frame{at.x, at.y, Angle::radians(state.heading * space_.heading_step())};
+    likely.push_back({map_from_frame * robot, static_cast<double>(state.mass)});
+  }
+  if (!sensors().observe({last_update_, odom_from_robot_, likely})) return {};
+  std::vector<Pose2> offsets;  // from the middle of a place to the robot, for each heading
+  for (int h = 0; h < space_.headings(); ++h)
+    offsets.push_back(Pose2{0.0, 0.0, Angle::radians(h * space_.heading_step())} * robot);
+  return [this, weight, offsets = std::move(offsets), poses = std::vector<Pose2>{}, nats = std::vector<float>{}](
+             std::size_t place, std::span<std::uint16_t> costs) mutable {
+    const Point2 at = space_.centre(place);
+    poses = offsets;
+    for (Pose2& pose : poses) pose.x += at.x, pose.y += at.y;
+    nats.assign(poses.size(), 0.0F);
+    sensors().add_costs(poses, nats);
+    for (std::size_t h = 0; h < costs.size(); ++h) {
+      const double cost = weight * static_cast<double>(nats[h]) * kCostPerNat + 0.5;
+      costs[h] = static_cast<std::uint16_t>(std::min(65535.0, static_cast<double>(costs[h]) + std::floor(cost)));
+    }
+  };
 }
 
 std::optional<double> MarkovLocalizer::fit(const RangeSweep& seen, std::span<const BinnedBeam> beams) const {

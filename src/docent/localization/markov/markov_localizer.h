@@ -43,6 +43,7 @@ struct MarkovLocalizerParams {
   double most_views = 4.0;             ///< >= 1: what a scan after a long way is worth, see views()
   double most_nats = 8.0;              ///< [nat] that one scan counts at most
   double most_nats_far = 2.0;          ///< and, once the robot is sure of a place, between it and others
+  int most_states_asked = 300000;      ///< active states up to which sensors beside the lasers are asked
   double work_per_second = 1e9;        ///< states * beams that may be scored in a second of the robot's time
   std::string simd = "auto";           ///< auto (the widest there is), plain, avx2, avx512: same belief, other speed
   template <class V>
@@ -72,6 +73,7 @@ struct MarkovLocalizerParams {
     v("most_views", most_views);
     v("most_nats", most_nats);
     v("most_nats_far", most_nats_far);
+    v("most_states_asked", most_states_asked);
     v("work_per_second", work_per_second);
     v("simd", simd);
   }
@@ -117,11 +119,13 @@ class MarkovLocalizer final : public Localizer {
   };
   [[nodiscard]] double due_weight(double way, double turn, Time time) const;
   [[nodiscard]] Choice choose_beams(const RangeSweep& sweep, const std::vector<BinnedBeam>& beams);
+  /// What the sensors beside the lasers say now, for `weight` of an update; empty: nothing.
+  [[nodiscard]] PlaceCosts ask_sensors(double weight);
   [[nodiscard]] std::optional<double> fit(const RangeSweep& seen, std::span<const BinnedBeam> beams) const;
   void move(const Pose2& before_from_after);
   void summarise_now();
   void believe(std::span<const BeliefMode> modes, double uniform_mass);
-  void keep_rivals(const RangeSweep& sweep, const Pose2& before_from_after);
+  void keep_rivals(const RangeSweep& sweep, const Pose2& before_from_after, double weight);
   [[nodiscard]] Pose2 frame_from_robot() const { return inverse(odom_from_frame_) * odom_from_robot_; }
   void judge(const Evidence& evidence, const std::optional<Pose2>& predicted);
   [[nodiscard]] int bin_of(const SweepBeam& beam) const { return beam.no_return ? kNoReturn : model_.bin(beam.range); }

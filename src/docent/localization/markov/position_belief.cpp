@@ -114,8 +114,8 @@ RowTotals PositionBelief::totals() const {
 }
 
 void PositionBelief::reweigh(const RangeTable& table, std::span<const BeamCosts> beams, double log_best_over_mean,
-                             const EvidenceWeights& weights, double teleport) {
-  const std::size_t best = score(table, beams, weights);
+                             const EvidenceWeights& weights, double teleport, const PlaceCosts& others) {
+  const std::size_t best = score(table, beams, weights, others);
   // Everything relative to the best active state, the states under water too.
   const double best_over_mean = log_best_over_mean - static_cast<double>(best) / kCostPerNat;
   const double most = std::min(weights.far_most_nats, kMostNats);
@@ -193,7 +193,7 @@ void PositionBelief::reweigh_in_focus(std::size_t index, const Focus& focus, con
 }
 
 std::size_t PositionBelief::score(const RangeTable& table, std::span<const BeamCosts> beams,
-                                  const EvidenceWeights& weights) {
+                                  const EvidenceWeights& weights, const PlaceCosts& others) {
   const auto headings = static_cast<std::size_t>(space_->headings());
   const auto cap = static_cast<std::uint16_t>(std::min(weights.most_sector_nats * kCostPerNat, 60000.0));
   TileScorer scorer{beams, headings, weights.sectors, cap, set_};
@@ -218,6 +218,8 @@ std::size_t PositionBelief::score(const RangeTable& table, std::span<const BeamC
     }
     if (blocks == 0) continue;
     scorer.score(table.tile(tile), blocks, lanes, rows);
+    for (std::size_t k = 0; others && k < rows.size(); ++k)
+      others(tile * RangeTable::kTile + lanes[k], {rows[k], headings});
     for (std::size_t k = first; k < i; ++k) {
       const std::uint16_t* const costs = costs_.data() + k * stride_;
       best = std::min(best, all ? kernels_->least_of_all(costs, headings)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -33,6 +34,9 @@ struct EvidenceWeights {
   double focus_radius = 0.75;  ///< [m]
   double focus_turn = 0.45;    ///< [rad]
 };
+
+/// Adds the costs of other sensors, in steps of 1 / kCostPerNat, to those of all headings of a place.
+using PlaceCosts = std::function<void(std::size_t place, std::span<std::uint16_t> costs)>;
 
 /// P(L = l) over all states of a StateSpace, with the selective update of [Markov1998] 3.1.
 ///
@@ -85,9 +89,10 @@ class PositionBelief {
 
   /// [Markov1998] eq. 4: active states are multiplied by P(s | l), the rest by P~(s). `log_best_over_mean` is the sum
   /// over beams of ln(best P(d | o)) - ln P~(d), tempered like the costs. Then, with a small probability `teleport`,
-  /// somebody carried the robot elsewhere. Departures, see EvidenceWeights. O(active states * beams).
+  /// somebody carried the robot elsewhere. Departures, see EvidenceWeights. `others`: what other sensors say, asked for
+  /// places with an active state; empty: nothing. `log_best_over_mean` is then theirs, too. O(active states * beams).
   void reweigh(const RangeTable& table, std::span<const BeamCosts> beams, double log_best_over_mean,
-               const EvidenceWeights& weights, double teleport);
+               const EvidenceWeights& weights, double teleport, const PlaceCosts& others = {});
 
   /// Shares `mass` evenly over all states, in proportion taken from the others.
   void flood(double mass);
@@ -117,7 +122,8 @@ class PositionBelief {
   [[nodiscard]] RowScale scale() const { return {scale_, bias_, limit_}; }
   void set_scale(double scale, double bias);
   /// Fills costs_ where states are active; the least of them.
-  std::size_t score(const RangeTable& table, std::span<const BeamCosts> beams, const EvidenceWeights& weights);
+  std::size_t score(const RangeTable& table, std::span<const BeamCosts> beams, const EvidenceWeights& weights,
+                    const PlaceCosts& others);
   /// The neighbourhood of EvidenceWeights::focus among the kept states.
   struct Focus {
     std::vector<std::size_t> rows;       ///< indices into kept_, ascending

@@ -50,6 +50,11 @@ std::size_t size_of(const StateSpace& space) {
   return tiles_of(space.places()) * static_cast<std::size_t>(space.headings()) * RangeTable::kTile;
 }
 
+std::shared_ptr<void> aligned_memory(std::size_t size) {
+  return {::operator new (std::max<std::size_t>(size, 1), std::align_val_t{64}),
+          [](void* p) { ::operator delete (p, std::align_val_t{64}); }};
+}
+
 /// Fills the tiles of a table. Each byte depends on its place and direction alone, so threads may share the work.
 class Builder {
  public:
@@ -140,8 +145,7 @@ RangeTable RangeTable::build(const StateSpace& space, const RayCaster& caster, c
   RangeTable table;
   table.directions_ = static_cast<std::size_t>(space.headings());
   const std::size_t size = size_of(space);
-  const std::shared_ptr<void> memory{::operator new (std::max<std::size_t>(size, 1), std::align_val_t{64}),
-                                     [](void* p) { ::operator delete (p, std::align_val_t{64}); }};
+  const std::shared_ptr<void> memory = aligned_memory(size);
   auto* const data = static_cast<std::uint8_t*>(memory.get());
   Builder{space, caster, model}.fill(data, how);
   table.data_ = data;
@@ -159,6 +163,37 @@ void RangeTable::count(std::size_t places) {
       for (std::size_t place = 0; place < used; ++place) ++counts[line[place] & 127U];
   }
   for (std::size_t i = 0; i < counts.size(); ++i) frequency_[i] = static_cast<double>(counts[i]);
+}
+
+RangeTable RangeTable::cones(const RangeTable& rays, const ProximityModel& rays_model, const StateSpace& space,
+                             const ProximityModel& model, double opening) {
+  std::array<std::uint8_t, 256> bin{};
+  bin.fill(kUnknownRange);
+  for (int o = 0; o < kUnknownRange; ++o)
+    bin[static_cast<std::size_t>(o)] = static_cast<std::uint8_t>(model.bin(rays_model.centre(o)));
+  RangeTable table;
+  table.directions_ = rays.directions_;
+  const std::size_t tiles = tiles_of(space.places());
+  const std::shared_ptr<void> memory = aligned_memory(size_of(space));
+  auto* const data = static_cast<std::uint8_t*>(memory.get());
+  const auto half = static_cast<std::size_t>(std::lround(0.5 * opening / space.heading_step()));
+  const std::size_t width = std::min(2 * half + 1, rays.directions_);
+  std::vector<std::uint8_t> single(rays.directions_ * kTile);
+  for (std::size_t tile = 0; tile < tiles; ++tile) {
+    const std::uint8_t* const from = rays.tile(tile);
+    for (std::size_t i = 0; i < single.size(); ++i) single[i] = bin[from[i]];
+    std::uint8_t* const to = data + tile * single.size();
+    std::copy(single.begin(), single.end(), to);
+    for (std::size_t d = 0; d < rays.directions_; ++d)
+      for (std::size_t k = 0; k < width; ++k) {
+        const std::uint8_t* const line = single.data() + (d + k + rays.directions_ - half) % rays.directions_ * kTile;
+        for (std::size_t i = 0; i < kTile; ++i) to[d * kTile + i] = std::min(to[d * kTile + i], line[i]);
+      }
+  }
+  table.data_ = data;
+  table.owner_ = memory;
+  table.count(space.places());
+  return table;
 }
 
 Result<RangeTable> RangeTable::load(const std::filesystem::path& path, const std::string& key,

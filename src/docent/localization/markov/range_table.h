@@ -48,6 +48,11 @@ class RangeTable {
   [[nodiscard]] static RangeTable build(const StateSpace& space, const RayCaster& caster, const ProximityModel& model) {
     return build(space, caster, model, Building{});
   }
+  /// What sensors with a cone of `opening` [rad] expect, who hear the nearest thing in it wherever it lies: the
+  /// shortest range of `rays` over the directions of the cone. Ranges are cut into the bins of `model`, those of `rays`
+  /// were by `rays_model`. O(places * directions * directions in the cone).
+  [[nodiscard]] static RangeTable cones(const RangeTable& rays, const ProximityModel& rays_model,
+                                        const StateSpace& space, const ProximityModel& model, double opening);
   /// Maps PATH into memory when it is whole and was made for `key`; else builds the table there, beside the old one,
   /// and renames it. A file that cannot be written is not an error: the table is then kept in memory.
   [[nodiscard]] static RangeTable load_or_build(const std::filesystem::path& path, const std::string& key,

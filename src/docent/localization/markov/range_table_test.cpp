@@ -54,6 +54,29 @@ TEST_F(CachedTable, RowsAndTilesHoldTheRaysOfEachPlace) {
   EXPECT_EQ(room_.table.tile(room_.space.places() / 64)[63], kUnknownRange);
 }
 
+TEST_F(CachedTable, AConeExpectsTheNearestOfItsDirections) {
+  ProximityModelParams sonar;
+  sonar.max_range = 3.0;
+  const ProximityModel rays{{}};
+  const ProximityModel model{sonar};
+  const RangeTable cones = RangeTable::cones(room_.table, rays, room_.space, model, 0.42);  // 24 degrees: 5 directions
+  const int headings = room_.space.headings();
+  int beyond = 0;
+  for (std::size_t place = 0; place < room_.space.places(); ++place) {
+    for (int d = 0; d < headings; ++d) {
+      double nearest = 100.0;
+      for (int k = -2; k <= 2; ++k) {
+        const auto direction = static_cast<std::size_t>((d + k + headings) % headings);
+        nearest = std::min(nearest, rays.centre(room_.table.row(place)[direction]));
+      }
+      ASSERT_EQ(cones.row(place)[static_cast<std::size_t>(d)], model.bin(nearest)) << place << ", " << d;
+      beyond += nearest >= 3.0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(beyond, 0);
+  EXPECT_EQ(cones.tile(room_.space.places() / 64)[63], kUnknownRange);
+}
+
 TEST_F(CachedTable, ThreadsMakeTheSameTable) {
   const RangeTable table = RangeTable::build(room_.space, room_.caster, ProximityModel{{}}, {5, {}});
   EXPECT_TRUE(equal(table, room_.table, room_.space));

@@ -102,9 +102,10 @@ void MonteCarloLocalizer::believe(std::span<const BeliefMode> modes) {
   }
 }
 
-void MonteCarloLocalizer::keep_rivals(const RangeSweep& sweep, const Pose2& before_from_after) {
+void MonteCarloLocalizer::keep_rivals(const RangeSweep& sweep, const Pose2& before_from_after, double weight) {
   if (!shared_.rivals || verdict_.localized()) return rivals_.forget();
   const auto modes = rivals_.update(summary_, sweep, before_from_after, caster_, shared_.sensor.max_range);
+  rivals_.hear(summary_, sensors(), weight);
   if (!modes) return;
   believe(*modes);
   summarise_now();
@@ -180,10 +181,13 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
   const double one_view = shared_.independent_beams / shared_.beams;
   const double full_temper = std::min(1.0, views * one_view);
   last_work_ = static_cast<double>(particles_.size()) * static_cast<double>(choice.used.size());
+  others_ = ask_sensors(full_temper);
+  if (others_.steps_per_nat > 0.0) last_work_ += kWorkOfOthers * static_cast<double>(particles_.size());
   double likelihood = 0.0;
   if (particles_.size() > 0) {
     std::vector<std::uint32_t> costs;
     scores_.score(sweep, choice.used, particles_, costs);
+    add_others(particles_, costs);
     // The same view again says little; another view, without motion, says that somebody carried the robot.
     const bool is_new = mean_likelihood(particles_, costs, full_temper / kScorePerNat) < kNewView * long_mean_;
     if (is_new) step.weight = 1.0;
@@ -204,7 +208,7 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
   step.beams_filtered = choice.filtered;
 
   summarise_now();
-  keep_rivals(sweep, before_from_after);
+  keep_rivals(sweep, before_from_after, step.weight);
   if (!summary_.modes.empty()) {
     const Strata strata{static_cast<std::size_t>(params_.least), most_particles(),
                         static_cast<std::size_t>(params_.reserve), params_.resample_below, params_.kld};
@@ -227,6 +231,34 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
   if (const auto now = map_from_robot(odom_from_robot))
     verdict_.look(glance(caster_, sweep, *now, shared_.sensor.max_range));
   return step;
+}
+
+MonteCarloLocalizer::Others MonteCarloLocalizer::ask_sensors(double temper) {
+  sensors().pass_over();
+  if (sensors().none() || particles_.size() == 0) return {};
+  std::vector<LikelyPose> likely;
+  for (const LikelyState& state : likely_) {
+    const Point2 at = space_.centre(static_cast<std::size_t>(state.place));
+    const Angle heading = Angle::radians(state.heading * space_.heading_step());
+    likely.push_back({{at.x, at.y, heading}, static_cast<double>(state.mass)});
+  }
+  if (!sensors().observe({last_update_, odom_from_robot_, likely})) return {};
+  return {kScorePerNat / temper, {}};
+}
+
+void MonteCarloLocalizer::add_others(const ParticleSet& particles, std::vector<std::uint32_t>& costs) {
+  if (others_.steps_per_nat == 0.0 || particles.size() == 0) return;
+  std::vector<Pose2> poses;
+  poses.reserve(particles.size());
+  for (std::size_t i = 0; i < particles.size(); ++i) poses.push_back(particles.pose(i));
+  std::vector<float> nats(poses.size(), 0.0F);
+  sensors().add_costs(poses, nats);
+  // Relative to the best particle: a sensor that fits none must not look like a surprise of the lasers.
+  if (!others_.least) others_.least = *std::min_element(nats.begin(), nats.end());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const auto above = static_cast<double>(std::max(0.0F, nats[i] - *others_.least));
+    costs[i] += static_cast<std::uint32_t>(std::lround(above * others_.steps_per_nat));
+  }
 }
 
 void MonteCarloLocalizer::notice_surprise(double likelihood, double weight, double views) {
@@ -282,6 +314,7 @@ void MonteCarloLocalizer::draw_elsewhere(const RangeSweep& sweep, std::span<cons
   constexpr double kMostRatio = 20.0;
   std::vector<std::uint32_t> costs;
   scores_.score(sweep, beams, proposal.poses, costs);
+  add_others(proposal.poses, costs);
   double sum = 0.0;
   for (std::size_t i = 0; i < proposal.poses.size(); ++i) {
     const double weight = std::exp(-temper / kScorePerNat * costs[i]);

@@ -83,6 +83,7 @@ class MonteCarloLocalizer final : public Localizer {
 
   [[nodiscard]] const ParticleSet& particles() const { return particles_; }
   [[nodiscard]] const StateSpace& space() const { return space_; }
+  [[nodiscard]] const RangeTable& table() const { return table_; }
   void use_kernels(FieldKernel field, InstructionSet grid);
 
  private:
@@ -98,9 +99,16 @@ class MonteCarloLocalizer final : public Localizer {
   void draw_elsewhere(const RangeSweep& sweep, std::span<const BinnedBeam> beams, double temper, double likelihood);
   [[nodiscard]] std::vector<BeamCosts> grid_costs(const RangeSweep& sweep, std::span<const BinnedBeam> beams,
                                                   double temper) const;
+  /// What the sensors beside the lasers say in one update.
+  struct Others {
+    double steps_per_nat = 0.0;  ///< of costs; 0: they say nothing
+    std::optional<float> least;  ///< [nat] of a particle that was asked: it costs nothing
+  };
+  [[nodiscard]] Others ask_sensors(double temper);
+  void add_others(const ParticleSet& particles, std::vector<std::uint32_t>& costs);
   void summarise_now();
   void believe(std::span<const BeliefMode> modes);
-  void keep_rivals(const RangeSweep& sweep, const Pose2& before_from_after);
+  void keep_rivals(const RangeSweep& sweep, const Pose2& before_from_after, double weight);
   void judge(const Evidence& evidence, const std::optional<Pose2>& predicted);
   [[nodiscard]] std::optional<double> fit(const RangeSweep& sweep, std::span<const BinnedBeam> beams) const;
   [[nodiscard]] std::size_t most_particles() const;
@@ -131,6 +139,7 @@ class MonteCarloLocalizer final : public Localizer {
   std::size_t phase_ = 0;
   int undrawn_ = 0;  ///< updates since poses were drawn from the sensors
   std::size_t first_tile_ = 0;
+  Others others_;
   BeliefSummary summary_;
   std::vector<LikelyState> likely_;
 };
