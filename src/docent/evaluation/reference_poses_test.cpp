@@ -42,10 +42,10 @@ TEST(ReferenceOf, FollowsOdometryBetweenTwoPosesAndMeetsBoth) {
     const ScanReference reference = reference_of(log, poses);
     ASSERT_EQ(reference.size(), 4U);
     ASSERT_TRUE(reference[0] && reference[1] && reference[2]);
-    EXPECT_NEAR(reference[0]->y, 5.0, 1e-3);
-    EXPECT_NEAR(reference[2]->y, 7.1, 1e-3);
-    EXPECT_NEAR(reference[1]->x, 4.6, 1e-3);   // the detour
-    EXPECT_NEAR(reference[1]->y, 6.05, 1e-3);  // half of what odometry fell short by
+    EXPECT_NEAR(reference[0]->y, 5.0, 0.01);
+    EXPECT_NEAR(reference[2]->y, 7.1, 0.01);
+    EXPECT_NEAR(reference[1]->x, 4.6, 0.01);   // the detour
+    EXPECT_NEAR(reference[1]->y, 6.05, 0.01);  // half of what odometry fell short by
     EXPECT_FALSE(reference[3]);                // after the last pose
   }
 }
