@@ -153,7 +153,7 @@ ScanReference reference_of(const LaserLog& log, std::span<const TimedPose> poses
   }
   if (known.size() < 2 || static_cast<double>(known.size()) < kOwnScans * static_cast<double>(in_time)) {
     follow_time(log, poses, gaps, reference);
-  } else {
+  } else if (gaps.between_own_scans) {
     for (std::size_t n = 1; n < known.size(); ++n) follow_odometry(log, known[n - 1], known[n], gaps, reference);
   }
   return reference;

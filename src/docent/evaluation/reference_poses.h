@@ -31,6 +31,7 @@ struct ReferenceGaps {
   double most_degrees = 15.0;  ///< of a turn between them: odometry says little of when the robot turned
   double most_missed = 0.15;   ///< [m] that odometry may miss the second pose by, seen from the first, and
   double most_missed_degrees = 8.0;
+  bool between_own_scans = true;  ///< place scans between those that have a pose; see below
 };
 /// The poses at the scans' times. A scan between two poses that differ by more than `gaps`, or by something else than
 /// odometry says, has none, unless it has a pose's very time (10 us).

@@ -67,6 +67,11 @@ TEST(ReferenceOf, IsNotMisledByStampsOfArrival) {
     EXPECT_NEAR(reference[i]->x, static_cast<double>(i), 1e-9);
   }
   EXPECT_FALSE(reference[17]);  // no scan after it has a pose
+  ReferenceGaps only_known;
+  only_known.between_own_scans = false;
+  const ScanReference known = reference_of(log, poses, only_known);
+  EXPECT_TRUE(known[4]);
+  EXPECT_FALSE(known[5]);
 }
 
 TEST(ReferenceOf, SaysNothingWhereOdometryDisagreesWithThePoses) {
