@@ -18,8 +18,8 @@ Result<void> set_log_defaults(RobotConfig& config, const OccupancyGrid& map, dou
   const double sigma = std::hypot(0.13, 1.5 * map.frame.resolution);
   for (const std::string& setting : {
            "sensor={max_range: " + std::to_string(reach_of_log(max_range)) + ", sigma: " + std::to_string(sigma) + "}",
-           // Whose wheels these were is not known: raw odometry veers by some degrees a metre, always to one side.
-           std::string{"motion={rotation_per_metre: 0.005}"},
+           // Whose wheels these were is not known.
+           std::string{"motion={rotation_per_metre: 0.0015}"},
            // Corridors repeat: a place must bear out over some metres, turning tells nothing. Hindsight knows the way
            // there.
            std::string{"verdict={travelled: 4, turned: 100000}"},

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kVague = 0.1;        // [m] deviation by odometry, or
 constexpr double kVagueTurn = 0.052;  // [rad]
+constexpr double kFarTurn = 0.12;     // [rad] deviation by odometry: a gradient would lead anywhere
 
 constexpr double kUnknownAllowance = 0.3;  // [m]
 constexpr std::size_t kMostBeams = 120;
@@ -20,6 +21,7 @@ constexpr std::size_t kFewestBeams = 10;
 constexpr double kWidestMode = 0.5;  // [m] standard deviation; wider ones have no inside to speak of
 
 // A search for the pose, see best_pose_near:
+constexpr double kSearchedWithin = 2.0;     // [m] of the mode: farther off the belief has left where odometry leads
 constexpr double kSearchedViews = 2.5;      // what its sweep is worth, in sweeps of every quarter of a metre
 constexpr double kSearchedPosition = 0.02;  // [m2] and
 constexpr double kSearchedTurn = 0.002;     // [rad2] that the guesses may be off beyond what they say
@@ -100,7 +102,7 @@ Pose2 PoseRefiner::refine(const BeliefMode& mode, const RangeSweep& sweep, const
   // After a long way odometry knows the pose less well than the belief does: then the belief's is the better beginning,
   // and the readings are asked which pose in it, or where odometry expected it, they fit best. Walls of a corridor look
   // alike every few decimetres: from a wrong beginning no gradient leads to the right place.
-  const bool is_far = position_variance > kVague * kVague;
+  const bool is_far = position_variance > kVague * kVague || heading_variance > kFarTurn * kFarTurn;
   const std::optional<Pose2> expected = estimate_ ? std::optional{estimate_->map_from_robot} : std::nullopt;
   const bool is_vague = position_variance > kVague * kVague || heading_variance > kVagueTurn * kVagueTurn;
   if (!estimate_ || is_vague || !is_in(mode, 0.0)) {
@@ -110,8 +112,9 @@ Pose2 PoseRefiner::refine(const BeliefMode& mode, const RangeSweep& sweep, const
   }
   if (is_far) {
     std::vector<PoseGuess> guesses{guess_of(mode)};
-    if (expected)
-      guesses.push_back({*expected, std::sqrt(position_variance), std::sqrt(heading_variance + kSearchedTurn)});
+    if (expected && distance(expected->position(), mode.map_from_robot.position()) < kSearchedWithin)
+      guesses.push_back(
+          {*expected, std::sqrt(position_variance + kSearchedPosition), std::sqrt(heading_variance + kSearchedTurn)});
     estimate_->map_from_robot =
         best_pose_near(guesses, sweep, caster, max_range, kSearchedViews * params_.independent_beams);
     prior = Eigen::Vector3d{0.01, 0.01, 0.001}.asDiagonal();

@@ -49,16 +49,50 @@ double log_density(const PoseGuess& guess, Point2 position, double heading) {
   return -kMostSurprise * nats / (kMostSurprise + nats);
 }
 
-/// A range of values, in steps.
-struct Range {
-  double low;
-  double high;
-  [[nodiscard]] int steps(double step) const { return static_cast<int>(std::ceil((high - low) / step)); }
-  void include(double middle, double aside) {
-    low = std::min(low, middle - aside);
-    high = std::max(high, middle + aside);
+struct Scoring {
+  std::span<const PoseGuess> guesses;
+  const RayCaster& caster;
+  double share;  ///< of a reading's nats that count
+  std::array<double, kEntries> by_distance;
+
+  /// `arms`: the readings' ends seen from the robot, turned into the map's directions.
+  [[nodiscard]] double operator()(Point2 at, double heading, std::span<const Point2> arms) const {
+    double sum = 0.0;
+    for (const Point2& arm : arms) {
+      const double entry = 100.0 * static_cast<double>(caster.clearance(at + arm));
+      sum += by_distance[entry < kEntries - 1 ? static_cast<std::size_t>(entry) : kEntries - 1];
+    }
+    sum *= share;
+    for (const PoseGuess& guess : guesses) sum += log_density(guess, at, heading);
+    return sum;
   }
 };
+
+struct Scored {
+  Pose2 pose;
+  double score;
+};
+
+/// The box about one guess; keeps the better of `best` and what it finds.
+void search(const PoseGuess& guess, std::span<const Point2> seen, const Scoring& scoring, Scored& best) {
+  const int aside = static_cast<int>(std::ceil(std::min(kFarthest, kDeviations * guess.position_deviation) / kStep));
+  const int turns =
+      static_cast<int>(std::ceil(std::min(kFarthestTurn, kDeviations * guess.heading_deviation) / kTurnStep));
+  std::vector<Point2> arms(seen.size());
+  for (int turn = -turns; turn <= turns; ++turn) {
+    const double heading = guess.map_from_robot.theta.radians() + turn * kTurnStep;
+    const Pose2 turned{0.0, 0.0, Angle::radians(heading)};
+    for (std::size_t i = 0; i < seen.size(); ++i) arms[i] = turned * seen[i];
+    for (int row = -aside; row <= aside; ++row) {
+      for (int column = -aside; column <= aside; ++column) {
+        const Point2 at = guess.map_from_robot.position() + Point2{column * kStep, row * kStep};
+        if (scoring.caster.clearance(at) < static_cast<float>(kStep)) continue;
+        const double score = scoring(at, heading, arms);
+        if (score > best.score) best = {{at.x, at.y, turned.theta}, score};
+      }
+    }
+  }
+}
 
 }  // namespace
 
@@ -67,43 +101,11 @@ Pose2 best_pose_near(std::span<const PoseGuess> guesses, const RangeSweep& sweep
   const Pose2& first = guesses.front().map_from_robot;
   const std::vector<Point2> seen = ends(sweep, max_range);
   if (seen.size() < kFewestReadings) return first;
-  Range x{first.x, first.x};
-  Range y{first.y, first.y};
-  Range turn{0.0, 0.0};  // about the first guess
-  for (const PoseGuess& guess : guesses) {
-    const double aside = std::min(kFarthest, kDeviations * guess.position_deviation);
-    x.include(guess.map_from_robot.x, aside);
-    y.include(guess.map_from_robot.y, aside);
-    turn.include((guess.map_from_robot.theta - first.theta).radians(),
-                 std::min(kFarthestTurn, kDeviations * guess.heading_deviation));
-  }
-  const double share = std::min(1.0, readings / static_cast<double>(seen.size()));
-  const std::array<double, kEntries> scores = score_by_distance();
-  Pose2 best = first;
-  double best_score = -std::numeric_limits<double>::infinity();
-  std::vector<Point2> arms(seen.size());
-  for (int h = 0; h <= turn.steps(kTurnStep); ++h) {
-    const double heading = first.theta.radians() + turn.low + h * kTurnStep;
-    const Pose2 turned{0.0, 0.0, Angle::radians(heading)};
-    for (std::size_t i = 0; i < seen.size(); ++i) arms[i] = turned * seen[i];
-    for (int row = 0; row <= y.steps(kStep); ++row) {
-      for (int column = 0; column <= x.steps(kStep); ++column) {
-        const Point2 at{x.low + column * kStep, y.low + row * kStep};
-        if (caster.clearance(at) < static_cast<float>(kStep)) continue;
-        double sum = 0.0;
-        for (const Point2& arm : arms) {
-          const double entry = 100.0 * static_cast<double>(caster.clearance(at + arm));
-          sum += scores[entry < kEntries - 1 ? static_cast<std::size_t>(entry) : kEntries - 1];
-        }
-        double score = share * sum;
-        for (const PoseGuess& guess : guesses) score += log_density(guess, at, heading);
-        if (score <= best_score) continue;
-        best_score = score;
-        best = {at.x, at.y, turned.theta};
-      }
-    }
-  }
-  return best;
+  const Scoring scoring{guesses, caster, std::min(1.0, readings / static_cast<double>(seen.size())),
+                        score_by_distance()};
+  Scored best{first, -std::numeric_limits<double>::infinity()};
+  for (const PoseGuess& guess : guesses) search(guess, seen, scoring, best);
+  return best.pose;
 }
 
 }  // namespace docent

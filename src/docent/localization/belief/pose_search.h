@@ -16,11 +16,12 @@ struct PoseGuess {
 };
 
 /// The pose near the guesses from which the readings of a sweep end nearest to walls: an exhaustive search in steps of
-/// 10 cm and a degree over the box of all guesses (three deviations, at most 2 m and 20 degrees about each), for when
+/// 10 cm and a degree over a box about each (three deviations, at most 2 m and 20 degrees), for when
 /// nothing foretells the pose well enough to follow a gradient. Score: the sum over the readings of the log of a
 /// Gaussian of the distance to the nearest wall, mixed with a constant for what is not in the map, and the guesses' log
 /// densities. `readings`: how many independent ones all readings are worth, > 0. Readings from `max_range` [m] on are
-/// left out. The first guess where fewer than ten readings remain. O(poses in the box * readings), at most 80 readings.
+/// left out. The first guess where fewer than ten readings remain. O(poses in the boxes * readings), at most 80
+/// readings.
 /// @pre guesses is not empty
 [[nodiscard]] Pose2 best_pose_near(std::span<const PoseGuess> guesses, const RangeSweep& sweep, const RayCaster& caster,
                                    double max_range, double readings);
