@@ -206,14 +206,14 @@ def honesty_claims(bench, museums, count, method, first_seed=2000):
     for museum in museums:
         for i in range(count):
             escort = [None, (8, 0.5, 1.4), (20, 0.4, 1.4)][i % 3]
-            kidnaps = [(at, "") for at in sorted(round(draw.uniform(20.0, 290.0), 1) for _ in range(12))]
+            kidnaps = [(at, "") for at in sorted(round(draw.uniform(20.0, 290.0), 1) for _ in range(16))]
             jobs.append(lambda m=museum, s=first_seed + i, e=escort, k=kidnaps: bench.claims(
                 m, s, 5, "quiet" if e else "empty", e, k, settings_of(method)))
     return bench.each(jobs)
 
 
 def honesty(bench, verdict, print_table, museums, count, method):
-    print(f"\n## honest: P(lost) against what is true, {count} runs of 5 minutes with 12 kidnaps a museum, {method}\n")
+    print(f"\n## honest: P(lost) against what is true, {count} runs of 5 minutes with 16 kidnaps each a museum, {method}\n")
     runs = honesty_claims(bench, museums, count, method)
     rows = [row for run in runs for row in run]
     pairs = [(row["p_lost"], 1.0 if is_lost(row) else 0.0) for row in rows]

@@ -1,7 +1,7 @@
 """Localization on logs that real robots recorded, where nobody simulated anything.
 
-wean: a drawn map of the building, no truth: forward and time-reversed runs must agree. intel: a map made from the scans at
-their reference poses, then the whole log with its raw odometry. corrected: logs without odometry, of other buildings and
+wean: a drawn map of the building, no truth: forward and time-reversed runs must agree. intel: a map made from the scans
+that have a reference pose of their own, then the whole log with its raw odometry. corrected: logs without odometry, of other buildings and
 lasers; the odd scans make the map, the even ones are localized, with odometry that is the reference's way with seeded errors.
 """
 import json
@@ -91,7 +91,7 @@ def row_of(log, method, start, odometry, run):
 
 
 def intel(logs, methods, verdict, crippled):
-    print("\n## Intel: map from all scans at their reference poses, raw odometry\n")
+    print("\n## Intel: map from the scans that have a reference pose, raw odometry\n")
     log = logs.log("intel-raw.clf.gz")
     reference = ["--log", log, "--reference", logs.log("intel-reference.txt")]
     themap = logs.map("intel", log, reference[2:])
@@ -149,7 +149,7 @@ def protocol(program, root, options):
     logs = Logs(program, data, options.pictures)
     methods = [options.method] if options.method else ["grid"] if options.slice else METHODS
     parts = [options.part] if options.part else ["wean", "corrected"] if options.slice else PARTS
-    seeds = range(options.first_seed, options.first_seed + (options.seeds or (1 if options.slice else 3)))
+    seeds = range(options.first_seed, options.first_seed + (options.seeds or (1 if options.slice else 5)))
     verdict = Verdict()
     if "wean" in parts:
         wean(logs, options.slice, methods, verdict)

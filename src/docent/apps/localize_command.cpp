@@ -176,8 +176,12 @@ MethodParams params_for(const Options& options, const OccupancyGrid& map, const 
   value_or_fail(set_log_defaults(config, map, log.max_range, log.times_are_invented));
   value_or_fail(config.set("localize.particles={most: 300000, reserve: 30000, draw_every: 1}"));  // there is time
   // Of its poses drawn elsewhere some always weigh: a set of particles is hardly ever sure over metres on end.
-  if (options.method == "particles")
+  // And raw odometry may veer by some degrees a metre, always to one side: where the grid's sea has neighbouring
+  // headings in store, samples that all follow odometry must spread that far themselves.
+  if (options.method == "particles") {
     value_or_fail(config.set("localize.verdict={confirmations: 3, travelled: 0.5, turned: 60}"));
+    value_or_fail(config.set("localize.motion={rotation_per_metre: 0.005}"));
+  }
   for (const std::string& setting : options.settings) {
     for (const std::string own : {"filter", "states"})
       if (setting.rfind(own + "=", 0) == 0 && (own == "filter" || setting.find("wall_depth") != std::string::npos))

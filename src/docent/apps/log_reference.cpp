@@ -37,7 +37,7 @@ void add_log_options(CLI::App& command, LogChoice& choice) {
       ->capture_default_str();
 }
 
-ReferencedLog load_referenced_log(const LogChoice& choice) {
+ReferencedLog load_referenced_log(const LogChoice& choice, const ReferenceGaps& gaps) {
   ReferencedLog referenced{value_or_fail(read_laser_log(choice.log)), {}};
   const LaserLog& log = referenced.log;
   if (choice.reference.empty()) {
@@ -45,7 +45,7 @@ ReferencedLog load_referenced_log(const LogChoice& choice) {
   } else if (choice.reference == "logged") {
     referenced.reference = logged_reference(log);
   } else {
-    referenced.reference = reference_of(log, value_or_fail(load_timed_poses(choice.reference)));
+    referenced.reference = reference_of(log, value_or_fail(load_timed_poses(choice.reference)), gaps);
     if (std::none_of(referenced.reference.begin(), referenced.reference.end(), [](const auto& p) { return !!p; }))
       throw CommandFailed{choice.reference + ": no pose at the time of any scan of " + choice.log};
   }

@@ -27,7 +27,7 @@ struct ReferencedLog {
   ScanReference reference;  ///< of every scan of the log; all nullopt without a reference
 };
 /// CommandFailed on bad input.
-[[nodiscard]] ReferencedLog load_referenced_log(const LogChoice& choice);
+[[nodiscard]] ReferencedLog load_referenced_log(const LogChoice& choice, const ReferenceGaps& gaps = {});
 
 /// Keeps the scans that have a reference and gives them odometry of our making in place of the log's. CommandFailed
 /// when no scan has one.

@@ -64,7 +64,10 @@ Image draw(const OccupancyGrid& map, const std::vector<PlacedSweep>& placed) {
 
 void make_map(const MapOptions& options) {
   const ScanMapperParams params = params_of(options.settings);
-  const ReferencedLog referenced = load_referenced_log(options.choice);
+  // What odometry places between known poses would blur the walls: good enough to judge by, not to map.
+  ReferenceGaps gaps;
+  gaps.between_own_scans = false;
+  const ReferencedLog referenced = load_referenced_log(options.choice, gaps);
   for (const std::string& note : referenced.log.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
   const std::vector<PlacedSweep> placed = placed_sweeps(referenced);
   if (placed.empty()) throw CommandFailed{options.choice.log + ": no scan has a pose (--reference)"};

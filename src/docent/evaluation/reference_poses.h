@@ -29,9 +29,17 @@ using ScanReference = std::vector<std::optional<Pose2>>;
 struct ReferenceGaps {
   double most_seconds = 5.0;   ///< between two poses
   double most_degrees = 15.0;  ///< of a turn between them: odometry says little of when the robot turned
+  double most_missed = 0.15;   ///< [m] that odometry may miss the second pose by, seen from the first, and
+  double most_missed_degrees = 8.0;
+  bool between_own_scans = true;  ///< place scans between those that have a pose; see below
 };
-/// The poses at the scans' times. A scan between two poses that differ by more than `gaps` has none, unless it has a
-/// pose's very time (1 ms). O((scans + poses) log).
+/// The poses at the scans' times. A scan between two poses that differ by more than `gaps`, or by something else than
+/// odometry says, has none, unless it has a pose's very time (10 us).
+///
+/// Where many scans have a pose's very time, the poses are those of the log's own scans, some of which were left out.
+/// Then the other scans are placed between these by odometry alone, and `gaps` are of what odometry misses only: stamps
+/// are often of a reading's arrival, some late, several at once, so that a pose half a second from a scan says nothing
+/// of where the robot was at that scan. O((scans + poses) log).
 [[nodiscard]] ScanReference reference_of(const LaserLog& log, std::span<const TimedPose> poses,
                                          const ReferenceGaps& gaps = {});
 

@@ -28,34 +28,79 @@ TEST(TimedPoses, AreReadSortedAndFaultsNameTheLine) {
   EXPECT_FALSE(parse_timed_poses("# nothing\n", "ref.txt"));
 }
 
+const Angle kNorth = Angle::degrees(90);
+
 TEST(ReferenceOf, FollowsOdometryBetweenTwoPosesAndMeetsBoth) {
   LaserLog log;  // odometry: a detour to the side between the poses; and it is turned against the map by 90 degrees
   log.scans = {scan_at(0.0, {0, 0, Angle{}}), scan_at(1.0, {1, 0.4, Angle{}}), scan_at(2.0, {2, 0, Angle{}}),
                scan_at(9.0, {9, 0, Angle{}})};
-  const Angle north = Angle::degrees(90);
-  const std::vector<TimedPose> poses{{time_from_seconds(0), {5, 5, north}}, {time_from_seconds(2), {5, 7.2, north}}};
-  const ScanReference reference = reference_of(log, poses);
-  ASSERT_EQ(reference.size(), 4U);
-  ASSERT_TRUE(reference[0] && reference[1] && reference[2]);
-  EXPECT_NEAR(reference[0]->y, 5.0, 1e-9);
-  EXPECT_NEAR(reference[2]->y, 7.2, 1e-9);
-  EXPECT_NEAR(reference[1]->x, 4.6, 1e-9);  // the detour
-  EXPECT_NEAR(reference[1]->y, 6.1, 1e-9);  // half of what odometry fell short by
-  EXPECT_FALSE(reference[3]);               // after the last pose
+  const std::vector<TimedPose> of_scans{{time_from_seconds(0), {5, 5, kNorth}},
+                                        {time_from_seconds(2), {5, 7.1, kNorth}}};
+  const std::vector<TimedPose> of_another_clock{{time_from_seconds(-0.001), {5, 5, kNorth}},
+                                                {time_from_seconds(2.001), {5, 7.1, kNorth}}};
+  for (const auto& poses : {of_scans, of_another_clock}) {
+    const ScanReference reference = reference_of(log, poses);
+    ASSERT_EQ(reference.size(), 4U);
+    ASSERT_TRUE(reference[0] && reference[1] && reference[2]);
+    EXPECT_NEAR(reference[0]->y, 5.0, 0.01);
+    EXPECT_NEAR(reference[2]->y, 7.1, 0.01);
+    EXPECT_NEAR(reference[1]->x, 4.6, 0.01);   // the detour
+    EXPECT_NEAR(reference[1]->y, 6.05, 0.01);  // half of what odometry fell short by
+    EXPECT_FALSE(reference[3]);                // after the last pose
+  }
 }
 
-TEST(ReferenceOf, SaysNothingAcrossGapsAndTurnsButAtAPoseItself) {
+TEST(ReferenceOf, IsNotMisledByStampsOfArrival) {
+  // A robot at 1 m/s, a scan every second. Poses of scans that the log does not hold any more lie between them; their
+  // stamps are those of their arrival, three at once.
   LaserLog log;
-  log.scans = {scan_at(0.0, {}), scan_at(1.0, {}), scan_at(2.0, {}), scan_at(10.0, {}), scan_at(20.0, {})};
+  std::vector<TimedPose> poses;
+  for (int i = 0; i < 20; ++i) log.scans.push_back(scan_at(i, {0.97 * i, 0, Angle{}}));
+  for (const double x : {0.0, 4.0, 8.0, 12.0, 16.0}) {
+    poses.push_back({time_from_seconds(x), {x, 0, Angle{}}});
+    for (const double late : {1.3, 1.9, 2.5})
+      poses.push_back({time_from_seconds(x + 2.9 + 0.001 * late), {x + late, 0, Angle{}}});
+  }
+  const ScanReference reference = reference_of(log, poses);
+  for (std::size_t i = 0; i <= 16; ++i) {
+    ASSERT_TRUE(reference[i]) << i;
+    EXPECT_NEAR(reference[i]->x, static_cast<double>(i), 1e-9);
+  }
+  EXPECT_FALSE(reference[17]);  // no scan after it has a pose
+  ReferenceGaps only_known;
+  only_known.between_own_scans = false;
+  const ScanReference known = reference_of(log, poses, only_known);
+  EXPECT_TRUE(known[4]);
+  EXPECT_FALSE(known[5]);
+}
+
+TEST(ReferenceOf, SaysNothingWhereOdometryDisagreesWithThePoses) {
+  LaserLog log;
+  log.scans = {scan_at(0.0, {}), scan_at(1.0, {}), scan_at(2.0, {}), scan_at(3.0, {}), scan_at(4.0, {})};
   const std::vector<TimedPose> poses{{time_from_seconds(0), {}},
-                                     {time_from_seconds(2.0004), {0, 0, Angle::degrees(40)}},
+                                     {time_from_seconds(2.000004), {0, 0, Angle::degrees(40)}},
+                                     {time_from_seconds(4), {0.1, 0, Angle::degrees(40)}}};
+  const ScanReference reference = reference_of(log, poses);
+  EXPECT_TRUE(reference[0] && reference[2] && reference[4]);
+  EXPECT_FALSE(reference[1]);  // somebody turned it
+  EXPECT_TRUE(reference[3]);
+  const std::vector<TimedPose> of_another_clock{{time_from_seconds(0.5), {}},
+                                                {time_from_seconds(1.5), {0.4, 0, Angle{}}}};
+  EXPECT_FALSE(reference_of(log, of_another_clock)[1]);
+}
+
+TEST(ReferenceOf, SaysNothingAcrossGapsAndTurnsOfAnotherClock) {
+  LaserLog log;
+  log.scans = {scan_at(1.0, {}), scan_at(2.0, {0, 0, Angle::degrees(40)}), scan_at(10.0, {0, 0, Angle::degrees(40)}),
+               scan_at(19.0, {0, 0, Angle::degrees(40)})};
+  const std::vector<TimedPose> poses{{time_from_seconds(0.9), {}},
+                                     {time_from_seconds(2.1), {0, 0, Angle::degrees(40)}},
+                                     {time_from_seconds(18), {0, 0, Angle::degrees(40)}},
                                      {time_from_seconds(20), {0, 0, Angle::degrees(40)}}};
   const ScanReference reference = reference_of(log, poses);
-  EXPECT_TRUE(reference[0]);
-  EXPECT_FALSE(reference[1]);  // somewhere in the turn
-  EXPECT_TRUE(reference[2]);
-  EXPECT_FALSE(reference[3]);  // 18 s without a pose
-  EXPECT_TRUE(reference[4]);
+  EXPECT_FALSE(reference[0] || reference[1]);  // somewhere in the turn
+  EXPECT_FALSE(reference[2]);                  // 16 s without a pose
+  EXPECT_TRUE(reference[3]);
 }
 
 TEST(LoggedReference, TakesTheLaserOffItsMountAndACorrectedPoseAsItIs) {

@@ -4,17 +4,27 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
+
+#include "docent/localization/belief/pose_search.h"
 
 namespace docent {
 namespace {
 
 constexpr double kVague = 0.1;        // [m] deviation by odometry, or
 constexpr double kVagueTurn = 0.052;  // [rad]
+constexpr double kFarTurn = 0.12;     // [rad] deviation by odometry: a gradient would lead anywhere
 
 constexpr double kUnknownAllowance = 0.3;  // [m]
 constexpr std::size_t kMostBeams = 120;
 constexpr std::size_t kFewestBeams = 10;
 constexpr double kWidestMode = 0.5;  // [m] standard deviation; wider ones have no inside to speak of
+
+// A search for the pose, see best_pose_near:
+constexpr double kSearchedWithin = 2.0;     // [m] of the mode: farther off the belief has left where odometry leads
+constexpr double kSearchedViews = 2.5;      // what its sweep is worth, in sweeps of every quarter of a metre
+constexpr double kSearchedPosition = 0.02;  // [m2] and
+constexpr double kSearchedTurn = 0.002;     // [rad2] that the guesses may be off beyond what they say
 
 /// A piece of wall: where a ray meets it, and its normal.
 struct Wall {
@@ -44,6 +54,12 @@ std::optional<Wall> wall_at(const RayCaster& caster, Point2 from, Angle directio
   const Point2 centre = (1.0 / 3.0) * (*left + *middle + *right);  // averages the map's steps
   if (std::abs(dot(normal, *middle - *left)) > 0.06) return std::nullopt;
   return Wall{centre, normal};
+}
+
+/// Where the belief has a mode. Wider than the mode: the belief is of this sweep, too, which shall not count twice.
+PoseGuess guess_of(const BeliefMode& mode) {
+  return {mode.map_from_robot, std::sqrt(mode.covariance[0] + mode.covariance[4] + kSearchedPosition),
+          std::sqrt(2.0 * mode.covariance[8] + kSearchedTurn)};
 }
 
 Eigen::Matrix3d matrix(const std::array<double, 9>& values) {
@@ -83,12 +99,25 @@ Pose2 PoseRefiner::refine(const BeliefMode& mode, const RangeSweep& sweep, const
     prior.diagonal() += Eigen::Vector3d{position_variance, position_variance, heading_variance};
     prior.diagonal().array() += 1e-8;
   }
-  // After a long way odometry knows the pose less well than the belief does: then the belief's is the better beginning.
+  // After a long way odometry knows the pose less well than the belief does: then the belief's is the better beginning,
+  // and the readings are asked which pose in it, or where odometry expected it, they fit best. Walls of a corridor look
+  // alike every few decimetres: from a wrong beginning no gradient leads to the right place.
+  const bool is_far = position_variance > kVague * kVague || heading_variance > kFarTurn * kFarTurn;
+  const std::optional<Pose2> expected = estimate_ ? std::optional{estimate_->map_from_robot} : std::nullopt;
   const bool is_vague = position_variance > kVague * kVague || heading_variance > kVagueTurn * kVagueTurn;
   if (!estimate_ || is_vague || !is_in(mode, 0.0)) {
     estimate_ = Estimate{mode.map_from_robot, mode.covariance};
     prior = matrix(mode.covariance);
     prior.diagonal() += Eigen::Vector3d{0.003, 0.003, 0.0005};
+  }
+  if (is_far) {
+    std::vector<PoseGuess> guesses{guess_of(mode)};
+    if (expected && distance(expected->position(), mode.map_from_robot.position()) < kSearchedWithin)
+      guesses.push_back(
+          {*expected, std::sqrt(position_variance + kSearchedPosition), std::sqrt(heading_variance + kSearchedTurn)});
+    estimate_->map_from_robot =
+        best_pose_near(guesses, sweep, caster, max_range, kSearchedViews * params_.independent_beams);
+    prior = Eigen::Vector3d{0.01, 0.01, 0.001}.asDiagonal();
   }
 
   const Pose2 predicted = estimate_->map_from_robot;
@@ -97,7 +126,7 @@ Pose2 PoseRefiner::refine(const BeliefMode& mode, const RangeSweep& sweep, const
   Eigen::Matrix3d information = prior_information;
   const std::size_t step = std::max<std::size_t>(1, sweep.beams.size() / kMostBeams);
   // A vague beginning is drawn in from farther away, step by step.
-  const int iterations = is_vague ? 6 : 3;
+  const int iterations = is_vague && !is_far ? 6 : 3;
   for (int iteration = 0; iteration < iterations; ++iteration) {
     const double gate = params_.gate * std::max(1, iterations - 2 - iteration);
     Eigen::Matrix3d wall_information = Eigen::Matrix3d::Zero();
@@ -137,7 +166,7 @@ Pose2 PoseRefiner::refine(const BeliefMode& mode, const RangeSweep& sweep, const
   const Eigen::Matrix3d covariance = information.inverse();
   for (std::size_t i = 0; i < 9; ++i)
     estimate_->covariance[i] = covariance(static_cast<Eigen::Index>(i / 3), static_cast<Eigen::Index>(i % 3));
-  if (!is_in(mode, is_vague ? 1.5 * std::sqrt(mode.covariance[0] + mode.covariance[4]) : 0.0)) {
+  if (!is_far && !is_in(mode, is_vague ? 1.5 * std::sqrt(mode.covariance[0] + mode.covariance[4]) : 0.0)) {
     estimate_.reset();
     return mode.map_from_robot;
   }

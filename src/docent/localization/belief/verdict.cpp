@@ -74,8 +74,9 @@ void Verdict::assume_localized() {
 
 void Verdict::add(const Evidence& evidence) {
   const Agreement& readings = evidence.readings;
-  constexpr double kMemory = 0.25;      // an update's share in the running means
-  constexpr double kFewReadings = 8.0;  // fewer tell nothing
+  constexpr double kMemory = 0.25;        // an update's share in the running means
+  constexpr double kFewReadings = 8.0;    // fewer tell nothing
+  constexpr double kMostOfOneScan = 1.0;  // [m]: three scans, however far apart, are no reason to give up a place
   const double share = kMemory * evidence.weight;
   const double all = readings.agrees + readings.shorter + readings.longer;
   const double through = readings.agrees + readings.longer;
@@ -99,7 +100,7 @@ void Verdict::add(const Evidence& evidence) {
   const bool contradicted = this->contradicted();
   if (!contradicted) bad_ = 0.0;
   if (contradicted && (through >= kFewReadings || blind_ > params_.blind_way))
-    bad_ += evidence.way + 0.5 * evidence.turn;
+    bad_ += std::min(evidence.way + 0.5 * evidence.turn, kMostOfOneScan);
 
   if (localized_) {
     if (!evidence.is_same_mode || evidence.mass < params_.too_little_mass || contradicted) localized_ = false;

@@ -75,6 +75,21 @@ TEST(Verdict, ReadingsThroughWallsTakeTheKnowledgeBack) {
   EXPECT_TRUE(verdict.contradicted());
 }
 
+TEST(Verdict, GivesUpByScansWhereTheyAreFarApart) {
+  Verdict verdict = sure();
+  Evidence bad = good();
+  bad.readings.agrees = 5.0;
+  bad.readings.longer = 45.0;
+  bad.way = 3.0;
+  int contradicting = 0;
+  while (!verdict.collapsed() && contradicting < 50) {
+    verdict.add(bad);
+    contradicting += verdict.contradicted() ? 1 : 0;
+  }
+  EXPECT_GE(contradicting, 5);  // 15 m, and not the 6 m that a scan every quarter of a metre takes
+  EXPECT_LE(contradicting, 10);
+}
+
 TEST(Verdict, PeopleAllRoundDoNot) {
   Verdict verdict = sure();
   Evidence crowd = good();

@@ -101,36 +101,58 @@ void ScanMapper::clear_triangle(Point2 a, Point2 b, Point2 c) {
   }
 }
 
+const SweepBeam* ScanMapper::neighbour_of(std::span<const SweepBeam> beams, std::size_t i, std::size_t n) const {
+  // The last beam of a full turn is the neighbour of the first.
+  const double apart = std::abs(Angle::radians(beams[n].bearing - beams[i].bearing).radians());
+  const bool is_one = n != i && !beams[n].no_return && apart <= params_.widest_gap * std::numbers::pi / 180.0;
+  return is_one ? &beams[n] : nullptr;
+}
+
+std::vector<double> ScanMapper::clear_ranges(std::span<const SweepBeam> beams) const {
+  std::vector<double> clear(beams.size(), 0.0);
+  for (std::size_t i = 0; i < beams.size(); ++i) {
+    if (beams[i].no_return) continue;
+    const Point2 end = endpoint(beams[i]);
+    double steepest = 0.0;  // sine of the angle at which the beam meets its surface
+    bool is_alone = true;
+    for (const std::size_t n : {i + 1 < beams.size() ? i + 1 : 0, i > 0 ? i - 1 : beams.size() - 1}) {
+      const SweepBeam* const neighbour = neighbour_of(beams, i, n);
+      if (neighbour == nullptr) continue;
+      is_alone = false;
+      const Point2 along = endpoint(*neighbour) - end;
+      const Point2 across = unit(Angle::radians(beams[i].bearing + 0.5 * std::numbers::pi));
+      steepest = std::max(steepest, std::abs(dot(across, along)) / std::max(norm(along), 1e-9));
+    }
+    const double margin = params_.margin / (is_alone ? 1.0 : std::max(steepest, 1e-6));
+    clear[i] = std::max(0.0, std::min(beams[i].range - margin, params_.reach));
+  }
+  return clear;
+}
+
 void ScanMapper::add(const PlacedSweep& placed) {
   ++sweep_;
   const auto& beams = placed.sweep.beams;
   const Point2 sensor = placed.map_from_sensor.position();
-  const double widest_gap = params_.widest_gap * std::numbers::pi / 180.0;
-  // The last beam of a full turn is the neighbour of the first.
-  const auto neighbour_of = [&](std::size_t i) -> const SweepBeam* {
-    const SweepBeam& next = beams[i + 1 < beams.size() ? i + 1 : 0];
-    const double apart = std::abs(Angle::radians(next.bearing - beams[i].bearing).radians());
-    return &next != &beams[i] && !next.no_return && apart <= widest_gap ? &next : nullptr;
-  };
+  const auto next_of = [&](std::size_t i) { return i + 1 < beams.size() ? i + 1 : 0; };
   for (std::size_t i = 0; i < beams.size(); ++i) {  // hits first: they win
     if (beams[i].no_return || beams[i].range > params_.reach) continue;
     const Point2 end = placed.map_from_sensor * endpoint(beams[i]);
     add_evidence(frame_.cell_at(end), hit_);
-    const SweepBeam* const neighbour = neighbour_of(i);
+    const SweepBeam* const neighbour = neighbour_of(beams, i, next_of(i));
     if (neighbour == nullptr || neighbour->range > params_.reach) continue;
     const Point2 next = placed.map_from_sensor * endpoint(*neighbour);
     if (distance(end, next) <= params_.widest_wall) mark_line(end, next, hit_);
   }
-  const auto seen_to = [&](const SweepBeam& beam, double at_most) {
-    const double clear = std::max(0.0, std::min({beam.range - params_.margin, params_.reach, at_most}));
+  const auto seen_to = [&](const SweepBeam& beam, double clear) {
     return sensor + clear * unit(placed.map_from_sensor.theta + Angle::radians(beam.bearing));
   };
+  const std::vector<double> clear = clear_ranges(beams);
   for (std::size_t i = 0; i < beams.size(); ++i) {
     if (beams[i].no_return) continue;
-    mark_line(sensor, seen_to(beams[i], beams[i].range), pass_);
-    const SweepBeam* const neighbour = neighbour_of(i);
+    mark_line(sensor, seen_to(beams[i], clear[i]), pass_);
+    const SweepBeam* const neighbour = neighbour_of(beams, i, next_of(i));
     if (neighbour == nullptr) continue;
-    const double both = std::min(beams[i].range, neighbour->range) - params_.margin;
+    const double both = std::min(clear[i], clear[next_of(i)]);
     clear_triangle(sensor, seen_to(beams[i], both), seen_to(*neighbour, both));
   }
 }

@@ -16,7 +16,7 @@ struct ScanMapperParams {
   double pass = 0.35;        ///< P(occupied | a beam goes through it), 0..0.5
   double most_log_odds = 4;  ///< [nat], > 0: so that a cell can change its mind
   double reach = 25.0;       ///< [m], > 0: beyond it an error of half a degree is many cells
-  double margin = 0.05;      ///< [m], >= 0: so far before its end a beam says nothing; walls are rough
+  double margin = 0.10;      ///< [m], >= 0: so near the surface it ends on a beam says nothing; walls are rough
   double widest_gap = 2.0;   ///< [deg], >= 0: between beams no farther apart the floor is clear as far as both saw
   double widest_wall = 0.4;  ///< [m], >= 0: ends of such neighbours no farther apart lie on one surface
   double border = 1.0;       ///< [m], >= 0, about everything that was seen
@@ -68,6 +68,11 @@ class ScanMapper {
   void add_evidence(CellIndex cell, float evidence);
   void mark_line(Point2 from, Point2 to, float evidence);
   void clear_triangle(Point2 a, Point2 b, Point2 c);
+  /// Beam `n` where it is the neighbour of beam `i` and came back; else none.
+  [[nodiscard]] const SweepBeam* neighbour_of(std::span<const SweepBeam> beams, std::size_t i, std::size_t n) const;
+  /// [m] up to where each beam passed free space for certain: `margin` from the surface it ended on, measured square
+  /// to it. A beam that grazes a wall runs beside it for metres, nearer than poses are known.
+  [[nodiscard]] std::vector<double> clear_ranges(std::span<const SweepBeam> beams) const;
 
   GridFrame frame_;
   ScanMapperParams params_;
