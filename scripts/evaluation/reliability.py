@@ -1,13 +1,13 @@
 """The reliability diagram of P(lost): what the robot said against how often it was so, as SVG."""
 import os
 
-SIZE, LEFT, TOP = 420, 70, 70
+SIZE, LEFT, TOP = 420, 70, 86
 STYLE = ("text{font:11px sans-serif;fill:#222}.title{font:bold 14px sans-serif}.tick{fill:#777}.grid{stroke:#ddd}"
          ".ideal{stroke:#222}.bound{fill:#3d7dd8;opacity:.12}.curve{fill:none;stroke:#3d7dd8;stroke-width:2}.bin{fill:#3d7dd8}")
 
 
-def plot(path, curve, bound, subtitle):
-    """`curve`: (mean P(lost), share lost) of each bin; `bound`: how far a bin may be off."""
+def plot(path, curve, bound, subtitles):
+    """`curve`: (mean P(lost), share lost) of each bin; `bound`: how far a bin may be off; two lines of text."""
     x = lambda value: LEFT + SIZE * value
     y = lambda value: TOP + SIZE * (1.0 - value)
     points = lambda pairs: " ".join(f"{x(a):.1f},{y(b):.1f}" for a, b in pairs)
@@ -24,7 +24,8 @@ def plot(path, curve, bound, subtitle):
     width, height = LEFT + SIZE + 40, TOP + SIZE + 60
     head = (f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}">'
             f'<style>{STYLE}</style><rect width="100%" height="100%" fill="#fff"/>'
-            f'<text x="20" y="26" class="title">Does the robot know when it is lost?</text><text x="20" y="46">{subtitle}</text>')
+            f'<text x="20" y="26" class="title">Does the robot know when it is lost?</text>'
+            + "".join(f'<text x="20" y="{46 + 16 * i}">{line}</text>' for i, line in enumerate(subtitles)))
     tail = (f'<text x="{x(0.5)}" y="{y(0) + 38}" text-anchor="middle">P(lost), as the robot says</text>'
             f'<text transform="translate({LEFT - 44} {y(0.5)}) rotate(-90)" text-anchor="middle">share of the updates that were lost</text>')
     beside = path.with_suffix(f".part{os.getpid()}")
