@@ -1,5 +1,5 @@
 """Learns the weights of P(lost) (src/docent/localization/belief/verdict.cpp) from recordings in which the robot is carried off
-again and again: a logistic regression of "was it lost?" on what the robot itself knew, by Newton's method.
+again and again, and from tours on which it stands amid people: a logistic regression of "was it lost?" on what the robot itself knew, by Newton's method.
 
 Seeds differ from those of `scripts/evaluate localization`, which holds the result against other recordings."""
 import math
@@ -65,6 +65,7 @@ def fit_both(runs):
 def learn(bench, museums, count, method):
     """Prints the weights, and what those of one half of the runs are worth on the other half."""
     runs = localization.honesty_claims(bench, museums, count, method, FIRST_SEED)
+    runs += localization.tour_claims(bench, museums, max(1, count // 3), method, FIRST_SEED)
     pairs = [[(features(row), float(claims.is_lost(row)), row["localized"]) for row in run if row["has_pose"]]
              for run in runs]
     half = fit_both(pairs[::2])
