@@ -71,7 +71,7 @@ def wean(logs, is_slice, methods, verdict):
                 verdict.want(f"{log} {method} {way}: endpoints within 0.2 m of a wall (80 %)",
                              f"{100 * run['endpoints_near_walls']:.1f} %", run["endpoints_near_walls"] >= 0.8)
             verdict.want(f"{log} {method}: both ways within 0.5 m and 10 degrees (95 %)",
-                         f"{100 * agreement['within_half_a_metre_and_10_degrees']:.1f} % of {agreement['both_know']} scans",
+                         f"{100 * agreement['within_half_a_metre_and_10_degrees']:.1f} % of {agreement['both_know']} scans, of {agreement['scans']} after both ways had become sure",
                          agreement["both_know"] > 0 and agreement["within_half_a_metre_and_10_degrees"] >= 0.95)
     print_table(["log", "method", "way", "scans", "sure after", "sure %", "endpoints %", "ms a scan"], rows)
 
