@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <initializer_list>
 #include <numbers>
@@ -89,12 +88,10 @@ class AvoidModule final : public Module {
       see(1, scan, body_.scan_rear.base_from_sensor());
     });
     bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const sensor_msgs::Range& range) {
-      const std::string& frame = range.header.frame_id;
-      int index = -1;
-      if (frame.starts_with("sonar_")) std::from_chars(frame.data() + 6, frame.data() + frame.size(), index);
-      if (index < 0 || index >= body_.sonars) return;
-      avoider_.add_sonar(bus_.now(), static_cast<std::size_t>(index),
-                         {from_message(range.header.stamp), body_.base_from_sonar(index), range.field_of_view,
+      const auto index = body_.sonar_of(range.header.frame_id);
+      if (!index) return;
+      avoider_.add_sonar(bus_.now(), static_cast<std::size_t>(*index),
+                         {from_message(range.header.stamp), body_.base_from_sonar(*index), range.field_of_view,
                           range.max_range, range.range});
     });
     bus_.subscribe<docent_msgs::Tactile>(topics::kTactile, [this](const docent_msgs::Tactile& tactile) {

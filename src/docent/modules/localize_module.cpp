@@ -1,7 +1,6 @@
 #include "docent/modules/localize_module.h"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -175,15 +174,13 @@ class LocalizeModule final : public Module {
   }
 
   void on_sonar(const sensor_msgs::Range& range) {
-    const std::string& frame = range.header.frame_id;
-    int index = -1;
-    if (frame.starts_with("sonar_")) std::from_chars(frame.data() + 6, frame.data() + frame.size(), index);
-    if (index < 0 || index >= body_.sonars) return;
+    const auto index = body_.sonar_of(range.header.frame_id);
+    if (!index) return;
     sonar_received_ = bus_.now();
     const Time stamp = from_message(range.header.stamp);
     const auto odom_from_base = odometry_.at(stamp);
     if (!odom_from_base) return;
-    believer_.sonars->hear({stamp, index, body_.base_from_sonar(index), *odom_from_base,
+    believer_.sonars->hear({stamp, *index, body_.base_from_sonar(*index), *odom_from_base,
                             static_cast<double>(range.range), static_cast<double>(range.max_range)});
   }
 

@@ -68,7 +68,7 @@ class RobotModule final : public Module {
     add(body.scan_front.frame, body.scan_front.base_from_sensor());
     add(body.scan_rear.frame, body.scan_rear.base_from_sensor());
     for (int i = 0; i < body.sonars; ++i) {
-      add("sonar_" + std::string(i < 10 ? "0" : "") + std::to_string(i), body.base_from_sonar(i));
+      add(RobotBody::sonar_frame(i), body.base_from_sonar(i));
     }
     bus_.publisher(topics::kStaticTransforms).publish(std::move(mounts));
   }

@@ -1,7 +1,6 @@
 #include "docent/modules/sonar_localize.h"
 
 #include <array>
-#include <charconv>
 #include <numbers>
 
 #include "docent/localization/belief/checkpoint.h"
@@ -74,15 +73,13 @@ class SonarLocalizeModule final : public Module {
   }
 
   void on_sonar(const sensor_msgs::Range& range) {
-    const std::string& frame = range.header.frame_id;
-    int index = -1;
-    if (frame.starts_with("sonar_")) std::from_chars(frame.data() + 6, frame.data() + frame.size(), index);
-    if (index < 0 || index >= body_.sonars) return;
+    const auto index = body_.sonar_of(range.header.frame_id);
+    if (!index) return;
     sonar_received_ = bus_.now();
     const auto odom_from_robot = odometry_.at(from_message(range.header.stamp));
     if (!odom_from_robot) return;
     tracker_.hear(
-        {index, body_.base_from_sonar(index), static_cast<double>(range.range), static_cast<double>(range.max_range)},
+        {*index, body_.base_from_sonar(*index), static_cast<double>(range.range), static_cast<double>(range.max_range)},
         *odom_from_robot);
   }
 

@@ -1,6 +1,7 @@
 #include "docent/robot/robot_config.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <numbers>
 
@@ -29,6 +30,20 @@ Pose2 RobotBody::base_from_sonar(int index) const {
   const Angle heading = Angle::radians(2.0 * std::numbers::pi * index / sonars);
   const Point2 place = sonar_radius * unit(heading);
   return {place.x, place.y, heading};
+}
+
+std::string RobotBody::sonar_frame(int index) {
+  return "sonar_" + std::string(index < 10 ? "0" : "") + std::to_string(index);
+}
+
+std::optional<int> RobotBody::sonar_of(std::string_view frame) const {
+  constexpr std::string_view kPrefix = "sonar_";
+  if (!frame.starts_with(kPrefix)) return std::nullopt;
+  frame.remove_prefix(kPrefix.size());
+  int index = -1;
+  const auto [end, error] = std::from_chars(frame.data(), frame.data() + frame.size(), index);
+  const bool is_number = error == std::errc{} && end == frame.data() + frame.size();
+  return is_number && index >= 0 && index < sonars ? std::optional<int>{index} : std::nullopt;
 }
 
 RobotConfig::RobotConfig() : file_{YamlFile::parse("{}", "robot.yaml (defaults)").value()} {}

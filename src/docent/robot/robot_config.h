@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "docent/base/result.h"
@@ -55,6 +57,9 @@ struct RobotBody {
     v("sonar_radius", sonar_radius);
   }
   [[nodiscard]] Pose2 base_from_sonar(int index) const;
+  /// The frame of a sonar: sonar_00, sonar_01, … and back; nullopt for what is none of this body's.
+  [[nodiscard]] static std::string sonar_frame(int index);
+  [[nodiscard]] std::optional<int> sonar_of(std::string_view frame) const;
   [[nodiscard]] Result<void> validate() const;
 };
 

@@ -89,5 +89,13 @@ TEST(RobotConfig, FaultsNameTheLineOfTheFileOrTheSetting) {
   EXPECT_EQ(slower.body().radius, RobotBody{}.radius) << "a refused setting leaves nothing behind";
 }
 
+TEST(RobotBody, KnowsItsSonarsByTheirFrames) {
+  const RobotBody body;
+  for (const int index : {0, 7, 10, 23}) EXPECT_EQ(body.sonar_of(RobotBody::sonar_frame(index)), index);
+  EXPECT_EQ(RobotBody::sonar_frame(7), "sonar_07");
+  for (const char* frame : {"", "sonar_", "sonar_24", "sonar_-1", "sonar_7x", "laser_front"})
+    EXPECT_FALSE(body.sonar_of(frame)) << frame;
+}
+
 }  // namespace
 }  // namespace docent

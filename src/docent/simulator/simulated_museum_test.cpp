@@ -277,10 +277,16 @@ TEST(SimulatedMuseum, VisitorsAskUntilTheyStandOnTheBoard) {
   EXPECT_GE(offered, 1);
 }
 
+/// An empty hall in which nobody asks for anything and a scenario is played.
+SimulationOptions playing(const std::string& scenario) {
+  SimulationOptions result = options("empty", Pose2{3.0, 4.0, Angle{}});
+  result.scenario = parse_scenario(scenario, "s.yaml").value();
+  result.requests_per_hour = 0.0;
+  return result;
+}
+
 TEST(SimulatedMuseum, AKidnapMayTurnTheRobotAndShiftItALittle) {
-  SimulationOptions all = options("empty", Pose2{3.0, 4.0, Angle{}});
-  all.scenario = *parse_scenario("events:\n  - {at: 1, kidnap: {shift: 1.5, turn: 180}}\n", "s.yaml");
-  Bench bench{std::move(all)};
+  Bench bench{playing("events:\n  - {at: 1, kidnap: {shift: 1.5, turn: 180}}\n")};
   bench.run(2.0);
   const Pose2 pose{bench.state.x, bench.state.y, Angle::radians(bench.state.theta)};
   EXPECT_NEAR(std::abs(pose.theta.degrees()), 180.0, 1e-6);
@@ -289,17 +295,11 @@ TEST(SimulatedMuseum, AKidnapMayTurnTheRobotAndShiftItALittle) {
 }
 
 TEST(SimulatedMuseum, SonarsDieInManyWays) {
-  SimulationOptions all = options("empty", Pose2{3.0, 4.0, Angle{}});
-  const auto scenario = parse_scenario(R"(events:
+  Bench bench{playing(R"(events:
   - {at: 1, fault: {sensor: sonar, kind: short, for: 1}}
   - {at: 3, fault: {sensor: sonar, kind: deaf, for: 1}}
   - {at: 5, fault: {sensor: sonar, kind: storm, for: 4}}
-)",
-                                       "s.yaml");
-  ASSERT_TRUE(scenario);
-  all.scenario = *scenario;
-  all.requests_per_hour = 0.0;
-  Bench bench{std::move(all)};
+)")};
   std::vector<std::pair<std::string, sensor_msgs::Range>> heard;
   bench.robot_bus->subscribe(
       topics::kSonar, std::function<void(const sensor_msgs::Range&)>{
@@ -323,8 +323,7 @@ TEST(SimulatedMuseum, SonarsDieInManyWays) {
 }
 
 TEST(SimulatedMuseum, PlaysItsScenario) {
-  SimulationOptions all = options("empty", Pose2{3.0, 4.0, Angle{}});
-  const auto scenario = parse_scenario(R"(events:
+  Bench bench{playing(R"(events:
   - {at: 2, kidnap: {to: [8, 8], heading: 90}}
   - {at: 3, fault: {sensor: laser_rear, kind: dead, for: 2}}
   - {at: 6, fault: {sensor: laser_front, kind: half, for: 1}}
@@ -332,12 +331,7 @@ TEST(SimulatedMuseum, PlaysItsScenario) {
   - {at: 12, fault: {sensor: odom, kind: late, delay: 0.4, for: 1}}
   - {at: 14, visitors: {count: 4, formation: wall, for: 5}}
   - {at: 16, request: {target: case}}
-)",
-                                       "s.yaml");
-  ASSERT_TRUE(scenario);
-  all.scenario = *scenario;
-  all.requests_per_hour = 0.0;
-  Bench bench{std::move(all)};
+)")};
   double ahead = 0.0;
   int invalid = 0;
   double odom_age = 0.0;
