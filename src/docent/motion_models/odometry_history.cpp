@@ -5,7 +5,10 @@
 namespace docent {
 
 void OdometryHistory::add(Time time, const Pose2& odom_from_robot) {
-  if (!readings_.empty() && time <= readings_.back().time) return;
+  if (!readings_.empty() && time <= readings_.back().time) {
+    if (readings_.back().time - time < std::chrono::seconds{2}) return;  // late or doubled
+    readings_.clear();                                                   // a stamp was wrong, or the clock was set
+  }
   readings_.push_back({time, odom_from_robot});
   while (readings_.size() > 1 && time - readings_.front().time > kept_) readings_.pop_front();
 }

@@ -13,7 +13,7 @@ class OdometryHistory {
  public:
   explicit OdometryHistory(Duration kept = std::chrono::seconds{3}) : kept_{kept} {}
 
-  /// Readings older than the last one are left out.
+  /// A reading older than the last one is left out; one that is older by two seconds begins anew: a stamp was wrong.
   void add(Time time, const Pose2& odom_from_robot);
   /// Interpolated; the newest when `time` is up to `ahead` later; nullopt when it is older than what is kept, or newer.
   [[nodiscard]] std::optional<Pose2> at(Time time, Duration ahead = std::chrono::milliseconds{200}) const;

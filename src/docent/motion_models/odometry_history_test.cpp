@@ -29,5 +29,13 @@ TEST(OdometryHistory, KnowsNeitherThePastNorTheFuture) {
   EXPECT_NEAR(history.latest().x, 3.0, 1e-9);
 }
 
+TEST(OdometryHistory, OneStampFromTheFutureDoesNotEndIt) {
+  OdometryHistory history;
+  for (int i = 0; i <= 10; ++i) history.add(time_from_seconds(0.1 * i), {0.1 * i, 0.0, {}});
+  history.add(time_from_seconds(3600.0), {99.0, 0.0, {}});
+  for (int i = 12; i <= 14; ++i) history.add(time_from_seconds(0.1 * i), {0.1 * i, 0.0, {}});
+  EXPECT_NEAR(history.at(time_from_seconds(1.3))->x, 1.3, 1e-9);
+}
+
 }  // namespace
 }  // namespace docent
