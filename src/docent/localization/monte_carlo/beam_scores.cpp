@@ -57,7 +57,8 @@ void BeamScores::score(const Beams& beams, const ParticleSet& particles, std::ui
     const double s = static_cast<double>(particles.heading_y[i]);
     double heading = pose.theta.radians() * steps_per_radian;
     heading += heading < 0.0 ? turn + 0.5 : 0.5;  // to the nearest by cutting off
-    if (heading >= turn) heading -= turn;         // with a beam's direction, less than two turns: what a row holds
+    if (heading >= turn) heading -= turn;
+    heading = std::min(heading, turn - 1e-3);  // with a beam's direction below two turns, in float as well
     costs[i] = score_one(beams, table_->row(static_cast<std::size_t>(place)), static_cast<float>(heading),
                          static_cast<float>(c * off.x + s * off.y), static_cast<float>(c * off.y - s * off.x));
   }
