@@ -3,17 +3,11 @@ replayed open-loop through every method and filter; and the whole robot, carried
 
 What the robot knows while a recording is made decides nothing in it, so that every method sees the same.
 """
-import concurrent.futures
-import hashlib
-import json
-import os
 import random
-import subprocess
-import sys
-import time
 
 from evaluation import reliability, sonar_dies, twins
-from evaluation.claims import error_m, is_lost, mean, read_claims
+from evaluation.bench import scenario
+from evaluation.claims import error_m, is_lost, mean
 
 CROWDS = {  # name: crowd, people in the escort, beams blocked as wanted, bounds: lost share, mean error [m]
     "empty": ("empty", None, 0.0, 0.0, 0.03),
@@ -25,76 +19,6 @@ FILTERS = ["none", "entropy", "distance", "novelty"]
 METHODS = ["grid", "particles"]
 DEFAULT = ("grid", "distance")
 CRIPPLED = ("crippled", "dead reckoning")  # odometry alone after the first "here": must fail where it has a way to drift
-
-
-def scenario(escort, kidnaps=()):
-    """`kidnaps`: pairs of a time [s] and how, as a scenario says it."""
-    events = ["  - {at: 0, steering: {speed: 0.5}}"]
-    if escort:
-        count, near, far = escort
-        events.append(f"  - {{at: 0, escort: {{count: {count}, near: {near}, far: {far}}}}}")
-    events += [f"  - {{at: {at:.1f}, kidnap: {how}}}" for at, how in kidnaps]
-    return "events:\n" + "\n".join(events) + "\n"
-
-
-class Bench:
-    """Recordings and claims, kept under a key of everything that decides them."""
-
-    def __init__(self, docent, cache, run_key, museums, jobs, settings=()):
-        """`settings`: of every replay of a recording, besides those that a protocol makes."""
-        self.settings = list(settings)
-        self.docent, self.cache, self.museums, self.jobs = docent, cache / "localization", museums, jobs
-        self.keys = {museum: run_key(museums / museum) for museum in ("bonn", "smithsonian")}
-        self.cache.mkdir(parents=True, exist_ok=True)
-
-    def path(self, museum, kind, what):
-        key = hashlib.sha256(json.dumps([self.keys[museum], kind, what]).encode()).hexdigest()[:20]
-        return self.cache / f"{museum}-{key}.{kind}"
-
-    def run(self, command):
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            raise RuntimeError(f"{' '.join(map(str, command[:4]))} exited {done.returncode}: {done.stderr.strip()[-400:]}")
-
-    def claims(self, museum, seed, minutes, crowd, escort, kidnaps, settings, method=None):
-        """Rows of what the robot said beside the truth: one recording, one configuration. The recording itself goes
-        when all its replays are made, see `forget`."""
-        settings = settings + self.settings
-        what = [seed, minutes, crowd, scenario(escort, kidnaps)]
-        claims = self.path(museum, "csv", what + [settings])
-        if not claims.exists():
-            record = self.path(museum, "mcap", what)
-            if not record.exists():
-                part = record.with_suffix(f".part{os.getpid()}-{seed}.yaml")
-                part.write_text(scenario(escort, kidnaps))
-                made = record.with_suffix(f".part{os.getpid()}-{seed}.mcap")
-                self.run([self.docent, "simulate", "--museum", self.museums / museum, "--hours", f"{minutes / 60:.6f}",
-                          "--seed", str(seed), "--crowd", crowd, "--scenario", part, "--world-only", "--record", made,
-                          "--quiet"])
-                made.rename(record)
-                part.unlink()
-            made = claims.with_suffix(f".part{os.getpid()}")
-            command = [self.docent, "replay", record, "--museum", self.museums / museum, "--modules", "localize",
-                       "--claims", made]
-            for setting in settings:
-                command += ["--set", setting]
-            self.run(command)
-            made.rename(claims)
-        return read_claims(claims)
-
-    def forget(self, museum, seed, minutes, crowd, escort, kidnaps):
-        self.path(museum, "mcap", [seed, minutes, crowd, scenario(escort, kidnaps)]).unlink(missing_ok=True)
-
-    def each(self, jobs):
-        """Runs functions beside each other, their results in order, with a word now and then."""
-        results = []
-        started = time.monotonic()
-        with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
-            for i, future in enumerate([pool.submit(job) for job in jobs]):
-                results.append(future.result())
-                if (i + 1) % 20 == 0:
-                    print(f"   {i + 1} of {len(jobs)}, {time.monotonic() - started:.0f} s", file=sys.stderr)
-        return results
 
 
 def filters_of(method):
@@ -116,10 +40,10 @@ def tracking(bench, verdict, print_table, seeds, minutes, museums, methods, is_s
             ways = {(method, name): settings_of(method, name) for method in methods for name in filters_of(method)}
             ways[CRIPPLED] = settings_of(*DEFAULT) + ["localize.dead_reckoning=true"]
             for way, settings in ways.items():
-                claims = bench.claims(museum, seed, minutes, crowd, escort, [], settings)
+                claims = bench.claims(museum, seed, minutes, crowd, scenario(escort), settings)
                 known = next((i for i, row in enumerate(claims) if row["localized"]), len(claims))
                 found[way] = claims, claims[known:]
-            bench.forget(museum, seed, minutes, crowd, escort, [])
+            bench.forget(museum, seed, minutes, crowd, scenario(escort))
             return found
         runs = bench.each([lambda m=museum, s=seed: one(m, s) for museum in museums for seed in seeds])
         claims = [row for run in runs for row in run[methods[0], "none"][0]]
@@ -176,7 +100,7 @@ def unknown_start(bench, verdict, print_table, count, museums, methods):
             for method in methods:
                 def one(seed):
                     # Ten metres at half a metre a second, and what it takes to be sure that it lasts.
-                    return bench.claims(museum, seed, 1.2, crowd, escort, [], settings_of(method))
+                    return bench.claims(museum, seed, 1.2, crowd, scenario(escort), settings_of(method))
                 runs = bench.each([lambda s=1000 + seed: one(s) for seed in range(count)])
                 found = [found_after(run) for run in runs]
                 right = [f for f in found if f is not None and f[0] <= 10.0]
@@ -208,21 +132,15 @@ def honesty_claims(bench, museums, count, method, first_seed=2000):
             escort = [None, (8, 0.5, 1.4), (20, 0.4, 1.4)][i % 3]
             kidnaps = [(at, "") for at in sorted(round(draw.uniform(20.0, 290.0), 1) for _ in range(16))]
             jobs.append(lambda m=museum, s=first_seed + i, e=escort, k=kidnaps: bench.claims(
-                m, s, 5, "quiet" if e else "empty", e, k, settings_of(method)))
+                m, s, 5, "quiet" if e else "empty", scenario(e, k), settings_of(method)))
     return bench.each(jobs)
 
 
 def tour_claims(bench, museums, count, method, first_seed=2500):
     """Whole robots on busy tours, which stand and talk for most of the time amid people; nobody carries them off."""
-    def one(museum, seed):
-        claims = bench.path(museum, "csv", ["tour", seed, method])
-        if not claims.exists():
-            made = claims.with_suffix(f".part{os.getpid()}")
-            bench.run([bench.docent, "simulate", "--museum", bench.museums / museum, "--hours", "0.25", "--seed", str(seed),
-                       "--crowd", "busy", "--claims", made, "--quiet", "--set", f"localize.method={method}"])
-            made.rename(claims)
-        return read_claims(claims)
-    return bench.each([lambda m=m, s=first_seed + i: one(m, s) for m in museums for i in range(count)])
+    jobs = [lambda m=m, s=first_seed + i: bench.of_tours(m, s, 15, "busy", settings=[f"localize.method={method}"])[0]
+            for m in museums for i in range(count)]
+    return bench.each(jobs)
 
 
 def honesty(bench, verdict, print_table, museums, count, method):
@@ -291,7 +209,7 @@ def recovery(bench, verdict, print_table, museums, count, methods):
     plans = [[m, 3000 + i, carried_off(draw, 10)] for m in museums for i in range(count)]
     for method in methods:
         for name in filters_of(method):
-            runs = bench.each([lambda m=m, s=s, k=k: bench.claims(m, s, 10, "quiet", (8, 0.5, 1.4), k, settings_of(method, name))
+            runs = bench.each([lambda m=m, s=s, k=k: bench.claims(m, s, 10, "quiet", scenario((8, 0.5, 1.4), k), settings_of(method, name))
                                for m, s, k in plans])
             kidnaps, recovered, times = 0, 0, []
             for run, (_, _, plan) in zip(runs, plans):
@@ -318,30 +236,14 @@ def recovery(bench, verdict, print_table, museums, count, methods):
     print_table(["method", "filter", "kidnaps", "recovered %", "median s", "90 % s"], rows)
 
 
-def kidnapped(bench, museum, seed, at, minutes, settings):
-    """A whole robot on its tours, carried off once; what it said beside the truth, until the end."""
-    claims = bench.path(museum, "csv", ["kidnapped", seed, at, minutes, settings])
-    if not claims.exists():
-        plan = claims.with_suffix(f".part{os.getpid()}.yaml")
-        plan.write_text(f"events:\n  - {{at: {at:.1f}, kidnap: {{from_hazards: 1.5}}}}\n")
-        made = claims.with_suffix(f".part{os.getpid()}")
-        command = [bench.docent, "simulate", "--museum", bench.museums / museum, "--hours", f"{minutes / 60:.6f}", "--seed",
-                   str(seed), "--crowd", "quiet", "--requests-per-hour", "40", "--scenario", plan, "--claims", made, "--quiet"]
-        for setting in settings:
-            command += ["--set", setting]
-        bench.run(command)
-        plan.unlink()
-        made.rename(claims)
-    return read_claims(claims)
-
-
 def kidnapping(bench, verdict, print_table, museums, count):
     print(f"\n## kidnapping: {count} whole robots a museum, quiet, carried off once in the middle of their tours\n")
     rows = []
     for museum in museums:
         draw = random.Random(13)
         plans = [(4000 + i, round(draw.uniform(100.0, 160.0), 1)) for i in range(count)]
-        runs = bench.each([lambda s=s, a=a: kidnapped(bench, museum, s, a, 7, []) for s, a in plans])
+        carried = "events:\n  - {{at: {:.1f}, kidnap: {{from_hazards: 1.5}}}}\n"
+        runs = bench.each([lambda s=s, a=a: bench.of_tours(museum, s, 7, "quiet", 40, carried.format(a))[0] for s, a in plans])
         times, noticed, resumed, touched, was_sure, km = [], [], 0, 0, 0, 0.0
         for run in runs:
             after = [row for row in run if row["kidnaps"] > 0]

@@ -5,11 +5,9 @@ By hand: a robot is walked through a museum amid an escort of eight, so that it 
 its sonars fall silent, freeze, hear everything at 0.3 m, hear nothing, hear the echoes of others, each for a minute or
 more; replayed by every way to believe. By itself: the whole robot on its tours in a busy museum, struck once and for good.
 """
-import csv
-import os
 import random
 
-from evaluation.claims import LOST_M, error_m, is_lost, mean, read_claims
+from evaluation.claims import LOST_M, error_m, is_lost, mean
 
 KINDS = ["dead", "frozen", "short", "deaf", "storm"]
 ESCORT = (8, 0.5, 1.4)
@@ -41,32 +39,12 @@ def faults_by_hand(seed, minutes):
 def by_hand(bench, museum, seed, minutes, ways):
     """Rows of what each way to believe said, for one recording."""
     faults = faults_by_hand(seed, minutes)
-    what = ["sonar dies", seed, minutes, faults, ESCORT]
-    record = bench.path(museum, "mcap", what)
-    found = {}
-    for name, settings in ways.items():
-        claims = bench.path(museum, "csv", what + [settings])
-        if not claims.exists():
-            if not record.exists():
-                part = record.with_suffix(f".part{os.getpid()}-{seed}.yaml")
-                count, near, far = ESCORT
-                lines = ["events:", "  - {at: 0, steering: {speed: 0.5}}",
-                         f"  - {{at: 0, escort: {{count: {count}, near: {near}, far: {far}}}}}"]
-                lines += [f"  - {{at: {at}, fault: {{sensor: sonar, kind: {kind}, for: {to - at:.1f}}}}}" for kind, at, to in faults]
-                part.write_text("\n".join(lines) + "\n")
-                made = record.with_suffix(f".part{os.getpid()}-{seed}.mcap")
-                bench.run([bench.docent, "simulate", "--museum", bench.museums / museum, "--hours", f"{minutes / 60:.6f}", "--seed",
-                           str(seed), "--crowd", "quiet", "--scenario", part, "--world-only", "--record", made, "--quiet"])
-                made.rename(record)
-                part.unlink()
-            made = claims.with_suffix(f".part{os.getpid()}")
-            command = [bench.docent, "replay", record, "--museum", bench.museums / museum, "--modules", "localize", "--claims", made]
-            for setting in settings:
-                command += ["--set", setting]
-            bench.run(command)
-            made.rename(claims)
-        found[name] = read_claims(claims)
-    record.unlink(missing_ok=True)
+    count, near, far = ESCORT
+    lines = ["events:", "  - {at: 0, steering: {speed: 0.5}}", f"  - {{at: 0, escort: {{count: {count}, near: {near}, far: {far}}}}}"]
+    lines += [f"  - {{at: {at}, fault: {{sensor: sonar, kind: {kind}, for: {to - at:.1f}}}}}" for kind, at, to in faults]
+    events = "\n".join(lines) + "\n"
+    found = {name: bench.claims(museum, seed, minutes, "quiet", events, settings) for name, settings in ways.items()}
+    bench.forget(museum, seed, minutes, "quiet", events)
     return faults, found
 
 
@@ -120,22 +98,8 @@ def hand_protocol(bench, verdict, print_table, museums, seeds, minutes, methods,
 
 
 def by_itself(bench, museum, seed, kind, at, minutes, settings):
-    what = ["sonar dies on tour", seed, kind, at, minutes, settings]
-    claims, health = bench.path(museum, "csv", what), bench.path(museum, "health.csv", what)
-    if not claims.exists() or not health.exists():
-        plan = claims.with_suffix(f".part{os.getpid()}.yaml")
-        plan.write_text(f"events:\n  - {{at: {at:.1f}, fault: {{sensor: sonar, kind: {kind}}}}}\n")
-        made, told = claims.with_suffix(f".part{os.getpid()}"), claims.with_suffix(f".part{os.getpid()}h")
-        command = [bench.docent, "simulate", "--museum", bench.museums / museum, "--hours", f"{minutes / 60:.6f}", "--seed", str(seed),
-                   "--crowd", "busy", "--requests-per-hour", "40", "--scenario", plan, "--claims", made, "--health-log", told, "--quiet"]
-        for setting in settings:
-            command += ["--set", setting]
-        bench.run(command)
-        plan.unlink()
-        told.rename(health)
-        made.rename(claims)
-    with open(health, newline="", encoding="utf-8") as file:
-        return read_claims(claims), list(csv.DictReader(file))
+    events = f"events:\n  - {{at: {at:.1f}, fault: {{sensor: sonar, kind: {kind}}}}}\n"
+    return bench.of_tours(museum, seed, minutes, "busy", 40, events, settings)
 
 
 def named_after(health, at):

@@ -89,6 +89,7 @@ struct Belief {
   float surprise = 0;             ///< the same, in the last sweep alone, against the best hypothesis
   float hidden = 0;               ///< 0..1: share of the last sweep that is too short, more than lately
   float confirmation = 0;         ///< 0..1: of the updates and the motion that it takes to say "here"
+  float blind_way = 0;            ///< [m] driven since readings last agreed with the map
   template <class Self, class V>
   static void visit(Self& m, V& v) {
     v("header", m.header);
@@ -111,6 +112,7 @@ struct Belief {
     v("surprise", m.surprise);
     v("hidden", m.hidden);
     v("confirmation", m.confirmation);
+    v("blind_way", m.blind_way);
   }
 };
 

@@ -92,8 +92,9 @@ class Verdict {
   [[nodiscard]] double agreement() const { return agreement_; }          ///< share of the readings, running mean
   [[nodiscard]] double contradiction() const { return contradiction_; }  ///< likewise
   [[nodiscard]] double surprise() const { return glance_.through; }      ///< of the last sweep, see Glance
-  [[nodiscard]] double hidden() const { return hidden_; }  ///< share of the last sweep that is newly too short
-  [[nodiscard]] double confirmation() const;               ///< 0..1 of what it takes to say "here"
+  [[nodiscard]] double hidden() const { return hidden_; }    ///< share of the last sweep that is newly too short
+  [[nodiscard]] double confirmation() const;                 ///< 0..1 of what it takes to say "here"
+  [[nodiscard]] double blind_way() const { return blind_; }  ///< [m] driven since readings last agreed with the map
   /// The readings have contradicted the belief for a while: better to start over.
   [[nodiscard]] bool collapsed() const;
 
