@@ -7,14 +7,15 @@ import math
 from . import claims, localization
 
 FIRST_SEED = 5000
-NAMES = ["bias", "mass", "youth", "contradiction", "surprise", "disagreement", "hidden", "entropy"]
+NAMES = ["bias", "mass", "youth", "contradiction", "surprise", "hidden", "unmapped", "spread"]
+TOUR_WEIGHT = 0.1  # of an update on a tour: nobody is lost there
 
 
 def features(row):
     """As Verdict::p_lost has them."""
     left = min(max(1.0 - row["mass"], 1e-4), 1.0 - 1e-4)
     return [1.0, math.log(left / (1.0 - left)), 1.0 - row["confirmation"], row["contradiction"], row["surprise"],
-            1.0 - row["agreement"], row["hidden"], row["entropy"]]
+            row["hidden"], row["unmapped"] * (1.0 - row["agreement"]), min(row["spread"], 1.0)]
 
 
 def probability(weights, values):
@@ -37,17 +38,17 @@ def solve(matrix, right):
 
 
 def fit(data, ridge=0.1):
-    """Weights of the likeliest logistic function over (features, was lost)."""
+    """Weights of the likeliest logistic function over (features, was lost, how much it counts)."""
     n = len(NAMES)
     weights = [0.0] * n
     for _ in range(30):
         gradient = [-ridge * w for w in weights]
         hessian = [[ridge if i == j else 0.0 for j in range(n)] for i in range(n)]
-        for values, lost in data:
+        for values, lost, share in data:
             p = probability(weights, values)
-            curve = p * (1.0 - p) + 1e-9
+            curve = share * (p * (1.0 - p) + 1e-9)
             for i in range(n):
-                gradient[i] += (lost - p) * values[i]
+                gradient[i] += share * (lost - p) * values[i]
                 for j in range(n):
                     hessian[i][j] += curve * values[i] * values[j]
         step = solve(hessian, gradient)
@@ -57,21 +58,21 @@ def fit(data, ridge=0.1):
     return weights
 
 
-def fit_both(runs):
-    """One set of weights for a robot that has said "here", one for a robot that has not."""
-    return {sure: fit([(values, lost) for run in runs for values, lost, said in run if said == sure]) for sure in (0.0, 1.0)}
+def rows_of(bench, museums, count, method, settings):
+    carried_off = localization.honesty_claims(bench, museums, count, method, FIRST_SEED, settings)
+    tours = localization.tour_claims(bench, museums, count, method, FIRST_SEED, settings)
+    return [[(features(row), float(claims.is_lost(row)), share, row["localized"]) for row in run if row["has_pose"]]
+            for some, share in ((carried_off, 1.0), (tours, TOUR_WEIGHT)) for run in some]
 
 
 def learn(bench, museums, count, method):
     """Prints the weights, and what those of one half of the runs are worth on the other half."""
-    runs = localization.honesty_claims(bench, museums, count, method, FIRST_SEED)
-    runs += localization.tour_claims(bench, museums, max(1, count // 3), method, FIRST_SEED)
-    pairs = [[(features(row), float(claims.is_lost(row)), row["localized"]) for row in run if row["has_pose"]]
-             for run in runs]
-    half = fit_both(pairs[::2])
-    other = [(probability(half[sure], values), lost) for run in pairs[1::2] for values, lost, sure in run]
-    print(f"Brier score of one half's weights on the other half: {localization.brier(other):.4f} over {len(other)} updates")
     print("// " + ", ".join(NAMES))
-    weights = fit_both(pairs)
-    for name, sure in (("kWhenSure", 1.0), ("kWhenNot", 0.0)):
-        print(f"constexpr DoubtWeights {name}{{{', '.join(f'{w:.3f}' for w in weights[sure])}}};")
+    # A robot that takes "here" back when in doubt leaves few examples of being wrong and sure of it.
+    for name, said, settings in (("kWhenSure", 1.0, ["localize.verdict.most_doubt=1"]), ("kWhenNot", 0.0, [])):
+        runs = [[row[:3] for row in run if row[3] == said] for run in rows_of(bench, museums, count, method, settings)]
+        half = fit([row for run in runs[::2] for row in run])
+        other = [(probability(half, values), lost) for run in runs[1::2] for values, lost, _ in run]
+        weights = fit([row for run in runs for row in run])
+        print(f"constexpr DoubtWeights {name}{{{', '.join(f'{w:.3f}' for w in weights)}}};")
+        print(f"// Brier score of one half's weights on the other half: {localization.brier(other):.4f} over {len(other)} updates")

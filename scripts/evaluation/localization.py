@@ -123,7 +123,7 @@ def brier(pairs):
     return mean((p - lost) ** 2 for p, lost in pairs)
 
 
-def honesty_claims(bench, museums, count, method, first_seed=2000):
+def honesty_claims(bench, museums, count, method, first_seed=2000, settings=()):
     """Unknown starts, kidnaps and dense escorts: data in which many updates are lost."""
     draw = random.Random(first_seed)
     jobs = []
@@ -132,13 +132,13 @@ def honesty_claims(bench, museums, count, method, first_seed=2000):
             escort = [None, (8, 0.5, 1.4), (20, 0.4, 1.4)][i % 3]
             kidnaps = [(at, "") for at in sorted(round(draw.uniform(20.0, 290.0), 1) for _ in range(16))]
             jobs.append(lambda m=museum, s=first_seed + i, e=escort, k=kidnaps: bench.claims(
-                m, s, 5, "quiet" if e else "empty", scenario(e, k), settings_of(method)))
+                m, s, 5, "quiet" if e else "empty", scenario(e, k), settings_of(method) + list(settings)))
     return bench.each(jobs)
 
 
-def tour_claims(bench, museums, count, method, first_seed=2500):
+def tour_claims(bench, museums, count, method, first_seed=2500, settings=()):
     """Whole robots on busy tours, which stand and talk for most of the time amid people; nobody carries them off."""
-    jobs = [lambda m=m, s=first_seed + i: bench.of_tours(m, s, 15, "busy", settings=[f"localize.method={method}"])[0]
+    jobs = [lambda m=m, s=first_seed + i: bench.of_tours(m, s, 15, "busy", settings=[f"localize.method={method}", *settings])[0]
             for m in museums for i in range(count)]
     return bench.each(jobs)
 

@@ -90,6 +90,7 @@ struct Belief {
   float hidden = 0;               ///< 0..1: share of the last sweep that is too short, more than lately
   float confirmation = 0;         ///< 0..1: of the updates and the motion that it takes to say "here"
   float blind_way = 0;            ///< [m] driven since readings last agreed with the map
+  float unmapped = 0;             ///< 0..1: share of the straight walls in sight that the map lacks, lately
   template <class Self, class V>
   static void visit(Self& m, V& v) {
     v("header", m.header);
@@ -113,6 +114,7 @@ struct Belief {
     v("hidden", m.hidden);
     v("confirmation", m.confirmation);
     v("blind_way", m.blind_way);
+    v("unmapped", m.unmapped);
   }
 };
 

@@ -1,12 +1,38 @@
 #include "docent/localization/belief/glance.h"
 
 #include <algorithm>
+#include <numeric>
+
+#include "docent/localization/belief/straight_walls.h"
 
 namespace docent {
+namespace {
+
+constexpr std::size_t kBeams = 40;
+constexpr double kOff = 0.5;  // [m] from the wall: noise of the map and of the heading
+
+double unmapped_share(const RayCaster& caster, const RangeSweep& sweep, const Pose2& map_from_robot) {
+  constexpr int kPrior = 5;  // looks at mapped walls: a single short piece of wall tells little
+  const auto is_wall = on_straight_walls(sweep);
+  const std::size_t walls = std::accumulate(is_wall.begin(), is_wall.end(), std::size_t{0});
+  const std::size_t stride = std::max<std::size_t>(1, walls / kBeams);
+  std::size_t wall = 0;
+  int looks = 0, unmapped = 0;
+  for (std::size_t i = 0; i < sweep.beams.size(); ++i) {
+    if (is_wall[i] == 0 || wall++ % stride != 0) continue;
+    const SweepBeam& beam = sweep.beams[i];
+    const Point2 direction = unit(map_from_robot.theta + Angle::radians(beam.bearing));
+    const auto expected = caster.cast(map_from_robot.position(), direction, beam.range + 2.0 * kOff, kOff);
+    if (!expected) continue;
+    ++looks;
+    unmapped += *expected > beam.range + kOff ? 1 : 0;
+  }
+  return static_cast<double>(unmapped) / (looks + kPrior);
+}
+
+}  // namespace
 
 Glance glance(const RayCaster& caster, const RangeSweep& sweep, const Pose2& map_from_robot, double max_range) {
-  constexpr std::size_t kBeams = 40;
-  constexpr double kOff = 0.5;  // [m] from the wall: noise of the map and of the heading
   constexpr double kWithinReach = 0.8;
   int through = 0;
   Glance result;
@@ -26,6 +52,7 @@ Glance glance(const RayCaster& caster, const RangeSweep& sweep, const Pose2& map
     }
     ++result.readings;
   }
+  result.unmapped = unmapped_share(caster, sweep, map_from_robot);
   const int not_short = result.readings - shorter;
   constexpr int kFewest = 10;  // fewer tell nothing
   if (not_short >= kFewest) result.through = static_cast<double>(through) / not_short;

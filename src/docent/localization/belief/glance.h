@@ -12,10 +12,13 @@ struct Glance {
   /// a wall is well within reach.
   double through = 0.0;
   double shorter = 0.0;  ///< share of all readings that end before the wall
-  int readings = 0;      ///< where the map says what to expect
+  /// Share of the beams on straight walls (see on_straight_walls) that end well before the map's: walls that it lacks.
+  /// People hide walls, they do not look like them; another place does both.
+  double unmapped = 0.0;
+  int readings = 0;  ///< where the map says what to expect
 };
 
-/// O(1): at most some forty rays. `max_range` [m].
+/// O(beams), and at most some eighty rays. `max_range` [m].
 [[nodiscard]] Glance glance(const RayCaster& caster, const RangeSweep& sweep, const Pose2& map_from_robot,
                             double max_range);
 

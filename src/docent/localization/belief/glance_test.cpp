@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace docent {
 namespace {
 
@@ -49,6 +51,22 @@ TEST(Glance, AnotherPlacePassesThroughWalls) {
   const RayCaster caster = hall();
   const Glance glanced = glance(caster, seen_at(caster, {4.0, 4.0, Angle{}}, 0.0), {0.8, 0.8, Angle{}}, 10.0);
   EXPECT_GT(glanced.through, 0.4);
+}
+
+TEST(Glance, WallsThatTheMapLacksAreNoPeople) {
+  const RayCaster caster = hall();
+  const Pose2 here{4.0, 4.0, Angle{}};
+  RangeSweep panel = seen_at(caster, here, 0.0);
+  RangeSweep people = panel;
+  for (SweepBeam& beam : panel.beams) {  // 3 m long, 1.5 m ahead
+    const double ahead = 1.5 / std::cos(beam.bearing);
+    if (std::abs(beam.bearing) < 0.78) beam.range = ahead;
+  }
+  for (std::size_t i = 0; i < people.beams.size(); ++i)  // shoulder to shoulder
+    if (std::abs(people.beams[i].bearing) < 0.78) people.beams[i].range = 1.5 + 0.1 * static_cast<double>(i % 8);
+  EXPECT_EQ(glance(caster, seen_at(caster, here, 0.0), here, 10.0).unmapped, 0.0);
+  EXPECT_GT(glance(caster, panel, here, 10.0).unmapped, 0.2);
+  EXPECT_LT(glance(caster, people, here, 10.0).unmapped, 0.05);
 }
 
 TEST(Glance, TooFewReadingsTellNothing) {

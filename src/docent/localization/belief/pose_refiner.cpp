@@ -18,6 +18,9 @@ constexpr double kFarTurn = 0.12;     // [rad] deviation by odometry: a gradient
 constexpr double kUnknownAllowance = 0.3;  // [m]
 constexpr std::size_t kMostBeams = 120;
 constexpr std::size_t kFewestBeams = 10;
+constexpr double kGateDeviations = 2.0;
+constexpr double kWidestGate = 0.8;  // [m]
+constexpr double kTornApart = 2.0;   // times the farthest: more, and the belief is right
 constexpr double kWidestMode = 0.5;  // [m] standard deviation; wider ones have no inside to speak of
 
 // A search for the pose, see best_pose_near:
@@ -66,6 +69,12 @@ Eigen::Matrix3d matrix(const std::array<double, 9>& values) {
   return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(values.data());
 }
 
+std::array<double, 9> values(const Eigen::Matrix3d& matrix) {
+  std::array<double, 9> result{};
+  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(result.data()) = matrix;
+  return result;
+}
+
 }  // namespace
 
 Result<void> PoseRefinerParams::validate() const {
@@ -75,10 +84,9 @@ Result<void> PoseRefinerParams::validate() const {
   return {};
 }
 
-bool PoseRefiner::is_in(const BeliefMode& mode, double spread) const {
-  const Pose2& pose = estimate_->map_from_robot;
-  return distance(pose.position(), mode.map_from_robot.position()) <= std::max(params_.farthest, spread) &&
-         std::abs((pose.theta - mode.map_from_robot.theta).degrees()) <= params_.farthest_turn;
+bool PoseRefiner::is_in(const BeliefMode& mode, const Pose2& pose, double times, double spread) const {
+  return distance(pose.position(), mode.map_from_robot.position()) <= std::max(times * params_.farthest, spread) &&
+         std::abs((pose.theta - mode.map_from_robot.theta).degrees()) <= times * params_.farthest_turn;
 }
 
 Pose2 PoseRefiner::refine(const BeliefMode& mode, const RangeSweep& sweep, const Pose2& before_from_after,
@@ -88,45 +96,69 @@ Pose2 PoseRefiner::refine(const BeliefMode& mode, const RangeSweep& sweep, const
     estimate_.reset();
     return mode.map_from_robot;
   }
-  Eigen::Matrix3d prior = Eigen::Matrix3d::Zero();
   if (estimate_) {
     const Pose2 before = estimate_->map_from_robot;
-    estimate_->map_from_robot = before * before_from_after;
+    const Pose2 after = before * before_from_after;
     Eigen::Matrix3d moved = Eigen::Matrix3d::Identity();
-    moved(0, 2) = -(estimate_->map_from_robot.y - before.y);
-    moved(1, 2) = estimate_->map_from_robot.x - before.x;
-    prior = moved * matrix(estimate_->covariance) * moved.transpose();
-    prior.diagonal() += Eigen::Vector3d{position_variance, position_variance, heading_variance};
-    prior.diagonal().array() += 1e-8;
+    moved(0, 2) = -(after.y - before.y);
+    moved(1, 2) = after.x - before.x;
+    Eigen::Matrix3d covariance = moved * matrix(estimate_->covariance) * moved.transpose();
+    covariance.diagonal() += Eigen::Vector3d{position_variance, position_variance, heading_variance};
+    covariance.diagonal().array() += 1e-8;
+    estimate_ = Estimate{after, values(covariance)};
   }
+  Eigen::Matrix3d wide = matrix(mode.covariance);
+  wide.diagonal() += Eigen::Vector3d{0.003, 0.003, 0.0005};
+  const Estimate of_mode{mode.map_from_robot, values(wide)};
+
   // After a long way odometry knows the pose less well than the belief does: then the belief's is the better beginning,
   // and the readings are asked which pose in it, or where odometry expected it, they fit best. Walls of a corridor look
   // alike every few decimetres: from a wrong beginning no gradient leads to the right place.
-  const bool is_far = position_variance > kVague * kVague || heading_variance > kFarTurn * kFarTurn;
-  const std::optional<Pose2> expected = estimate_ ? std::optional{estimate_->map_from_robot} : std::nullopt;
-  const bool is_vague = position_variance > kVague * kVague || heading_variance > kVagueTurn * kVagueTurn;
-  if (!estimate_ || is_vague || !is_in(mode, 0.0)) {
-    estimate_ = Estimate{mode.map_from_robot, mode.covariance};
-    prior = matrix(mode.covariance);
-    prior.diagonal() += Eigen::Vector3d{0.003, 0.003, 0.0005};
-  }
-  if (is_far) {
+  if (position_variance > kVague * kVague || heading_variance > kFarTurn * kFarTurn) {
     std::vector<PoseGuess> guesses{guess_of(mode)};
-    if (expected && distance(expected->position(), mode.map_from_robot.position()) < kSearchedWithin)
-      guesses.push_back(
-          {*expected, std::sqrt(position_variance + kSearchedPosition), std::sqrt(heading_variance + kSearchedTurn)});
-    estimate_->map_from_robot =
-        best_pose_near(guesses, sweep, caster, max_range, kSearchedViews * params_.independent_beams);
-    prior = Eigen::Vector3d{0.01, 0.01, 0.001}.asDiagonal();
+    if (estimate_ && distance(estimate_->map_from_robot.position(), mode.map_from_robot.position()) < kSearchedWithin)
+      guesses.push_back({estimate_->map_from_robot, std::sqrt(position_variance + kSearchedPosition),
+                         std::sqrt(heading_variance + kSearchedTurn)});
+    const Pose2 found = best_pose_near(guesses, sweep, caster, max_range, kSearchedViews * params_.independent_beams);
+    estimate_ =
+        corrected({found, values(Eigen::Vector3d{0.01, 0.01, 0.001}.asDiagonal())}, sweep, caster, max_range, false);
+    return estimate_->map_from_robot;
   }
+  const bool is_vague = heading_variance > kVagueTurn * kVagueTurn;
+  if (estimate_ && !is_vague) {
+    const Estimate kept = corrected(*estimate_, sweep, caster, max_range, false);
+    if (is_in(mode, kept.map_from_robot, 1.0, 0.0)) {
+      estimate_ = kept;
+      return kept.map_from_robot;
+    }
+    // People before the walls push belief and refined pose apart. The readings tell which of them knows better.
+    if (is_in(mode, kept.map_from_robot, kTornApart, 0.0)) {
+      const Estimate begun = corrected(of_mode, sweep, caster, max_range, false);
+      const auto fit = [&](const Estimate& estimate) {
+        return log_fit(estimate.map_from_robot, sweep, caster, max_range, params_.independent_beams);
+      };
+      estimate_ = fit(kept) > fit(begun) ? kept : begun;
+      if (is_in(mode, estimate_->map_from_robot, kTornApart, 0.0)) return estimate_->map_from_robot;
+    }
+  }
+  estimate_ = corrected(of_mode, sweep, caster, max_range, is_vague);
+  if (is_in(mode, estimate_->map_from_robot, 1.0,
+            is_vague ? 1.5 * std::sqrt(mode.covariance[0] + mode.covariance[4]) : 0.0))
+    return estimate_->map_from_robot;
+  estimate_.reset();
+  return mode.map_from_robot;
+}
 
-  const Pose2 predicted = estimate_->map_from_robot;
+PoseRefiner::Estimate PoseRefiner::corrected(const Estimate& predicted, const RangeSweep& sweep,
+                                             const RayCaster& caster, double max_range, bool is_vague) const {
+  const Eigen::Matrix3d prior = matrix(predicted.covariance);
   const Eigen::Matrix3d prior_information = prior.inverse();
-  Pose2 pose = predicted;
+  const Pose2& begin = predicted.map_from_robot;
+  Pose2 pose = begin;
   Eigen::Matrix3d information = prior_information;
   const std::size_t step = std::max<std::size_t>(1, sweep.beams.size() / kMostBeams);
   // A vague beginning is drawn in from farther away, step by step.
-  const int iterations = is_vague && !is_far ? 6 : 3;
+  const int iterations = is_vague ? 6 : 3;
   for (int iteration = 0; iteration < iterations; ++iteration) {
     const double gate = params_.gate * std::max(1, iterations - 2 - iteration);
     Eigen::Matrix3d wall_information = Eigen::Matrix3d::Zero();
@@ -138,10 +170,13 @@ Pose2 PoseRefiner::refine(const BeliefMode& mode, const RangeSweep& sweep, const
       const auto wall = wall_at(caster, pose.position(), pose.theta + Angle::radians(beam.bearing), max_range);
       if (!wall) continue;
       const Point2 end = pose * endpoint(beam);
-      const double residual = dot(wall->normal, end - wall->at);
-      if (std::abs(residual) > gate || distance(end, wall->at) > 3.0 * gate) continue;
       const Point2 arm = end - pose.position();
       const Eigen::Vector3d gradient{wall->normal.x, wall->normal.y, dot(wall->normal, Point2{-arm.y, arm.x})};
+      const double residual = dot(wall->normal, end - wall->at);
+      // At first the walls may be as far off as the pose may be: far ones are when the heading has drifted.
+      const double doubt = iteration == 0 ? kGateDeviations * std::sqrt(gradient.dot(prior * gradient)) : 0.0;
+      const double wide = std::max(gate, std::min(doubt, kWidestGate));
+      if (std::abs(residual) > wide || distance(end, wall->at) > 3.0 * wide) continue;
       // Cauchy: what lies far off counts little.
       const double scaled = residual / (2.0 * params_.beam_sigma);
       const double weight = 1.0 / (1.0 + scaled * scaled);
@@ -150,27 +185,19 @@ Pose2 PoseRefiner::refine(const BeliefMode& mode, const RangeSweep& sweep, const
       ++count;
     }
     if (count < kFewestBeams) {
-      pose = predicted;
+      pose = begin;
       information = prior_information;
       break;
     }
     const double share = std::min(1.0, params_.independent_beams / static_cast<double>(count)) /
                          (params_.beam_sigma * params_.beam_sigma);
     information = prior_information + share * wall_information;
-    const Eigen::Vector3d off{pose.x - predicted.x, pose.y - predicted.y, (pose.theta - predicted.theta).radians()};
+    const Eigen::Vector3d off{pose.x - begin.x, pose.y - begin.y, (pose.theta - begin.theta).radians()};
     const Eigen::Vector3d change = information.ldlt().solve(share * pull - prior_information * off);
     pose = {pose.x + change[0], pose.y + change[1], pose.theta + Angle::radians(change[2])};
-    if (gate <= params_.gate && change.head<2>().norm() < 0.001 && std::abs(change[2]) < 0.0005) break;
+    if (iteration > 0 && gate <= params_.gate && change.head<2>().norm() < 0.001 && std::abs(change[2]) < 0.0005) break;
   }
-  estimate_->map_from_robot = pose;
-  const Eigen::Matrix3d covariance = information.inverse();
-  for (std::size_t i = 0; i < 9; ++i)
-    estimate_->covariance[i] = covariance(static_cast<Eigen::Index>(i / 3), static_cast<Eigen::Index>(i % 3));
-  if (!is_far && !is_in(mode, is_vague ? 1.5 * std::sqrt(mode.covariance[0] + mode.covariance[4]) : 0.0)) {
-    estimate_.reset();
-    return mode.map_from_robot;
-  }
-  return pose;
+  return {pose, values(information.inverse())};
 }
 
 }  // namespace docent

@@ -50,7 +50,11 @@ class PoseRefiner {
     Pose2 map_from_robot;
     std::array<double, 9> covariance{};
   };
-  [[nodiscard]] bool is_in(const BeliefMode& mode, double spread) const;
+  /// Within `times` the farthest that the refined pose may be from the mode's mean, or `spread` [m] if that is more.
+  [[nodiscard]] bool is_in(const BeliefMode& mode, const Pose2& pose, double times, double spread) const;
+  /// Gauss-Newton from `predicted`; that itself where too few readings meet walls.
+  [[nodiscard]] Estimate corrected(const Estimate& predicted, const RangeSweep& sweep, const RayCaster& caster,
+                                   double max_range, bool is_vague) const;
 
   PoseRefinerParams params_;
   std::optional<Estimate> estimate_;

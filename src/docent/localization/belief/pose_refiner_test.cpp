@@ -99,6 +99,21 @@ TEST(PoseRefiner, GoesOnByOdometryWhileItSeesNoWall) {
   EXPECT_LT(distance(refined.position(), moved.position()), 0.02);
 }
 
+TEST(PoseRefiner, FollowsTheWallsWhenPeoplePushTheBeliefAside) {
+  Trial trial;
+  PoseRefiner refiner{{}};
+  const Pose2 truth{2.0, 1.5, Angle::degrees(10.0)};
+  (void)refiner.refine(mode_about(truth), trial.sweep_at(truth, 0.0), {}, 0.0, 0.0, trial.caster, 10.0);
+  const Pose2 pushed{truth.x + 0.4, truth.y, truth.theta};
+  const Pose2 refined =
+      refiner.refine(mode_about(pushed), trial.sweep_at(truth, 0.5), {}, 1e-4, 1e-4, trial.caster, 10.0);
+  EXPECT_LT(distance(refined.position(), truth.position()), 0.05);
+  const Pose2 elsewhere{truth.x + 1.0, truth.y, truth.theta};  // so far aside the belief knows better
+  const Pose2 moved =
+      refiner.refine(mode_about(elsewhere), trial.sweep_at(truth, 0.5), {}, 1e-4, 1e-4, trial.caster, 10.0);
+  EXPECT_LE(distance(moved.position(), elsewhere.position()), PoseRefinerParams{}.farthest);
+}
+
 TEST(PoseRefiner, LeavesAWideModeAlone) {
   Trial trial;
   PoseRefiner refiner{{}};

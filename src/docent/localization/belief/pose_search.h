@@ -26,4 +26,9 @@ struct PoseGuess {
 [[nodiscard]] Pose2 best_pose_near(std::span<const PoseGuess> guesses, const RangeSweep& sweep, const RayCaster& caster,
                                    double max_range, double readings);
 
+/// ln of how well the readings of a sweep fit a pose: the score of `best_pose_near` without guesses. Higher is better.
+/// O(beams).
+[[nodiscard]] double log_fit(const Pose2& map_from_robot, const RangeSweep& sweep, const RayCaster& caster,
+                             double max_range, double readings);
+
 }  // namespace docent

@@ -16,12 +16,12 @@ struct DoubtWeights {
   double youth;
   double contradiction;
   double surprise;
-  double disagreement;
   double hidden;
-  double entropy;
+  double unmapped;  ///< of the walls that the map lacks, the less the more it explains besides
+  double spread;
 };
-constexpr DoubtWeights kWhenSure{-7.753, 0.460, 0.000, 11.697, 7.792, 1.756, 17.765, 1.595};
-constexpr DoubtWeights kWhenNot{-7.066, 0.290, 1.071, -1.324, 8.463, 6.985, 3.795, 0.074};
+constexpr DoubtWeights kWhenSure{-3.86, 0.73, 0.00, 14.12, 6.93, 7.86, 18.22, 12.86};
+constexpr DoubtWeights kWhenNot{-6.56, 0.02, 0.34, 0.12, 9.90, 9.27, 6.85, 20.19};
 
 }  // namespace
 
@@ -30,7 +30,6 @@ Evidence with_best_mode(Evidence evidence, const BeliefSummary& summary, const s
   const BeliefMode& best = summary.modes.front();
   evidence.mass = best.mass;
   evidence.rival = summary.modes.size() > 1 ? summary.modes[1].mass : 0.0;
-  evidence.entropy = summary.entropy;
   evidence.spread = std::sqrt(std::max(0.0, best.covariance[0] + best.covariance[4]));
   if (predicted) {
     const double off = distance(predicted->position(), best.map_from_robot.position());
@@ -46,6 +45,7 @@ Result<void> VerdictParams::validate() const {
   if (!(enough_mass > 0.5 && enough_mass < 1.0)) return fail("verdict.enough_mass must be 0.5..1");
   if (!(too_little_mass >= 0.0 && too_little_mass < enough_mass))
     return fail("verdict.too_little_mass must be below enough_mass");
+  if (!(most_doubt > 0.0 && most_doubt <= 1.0)) return fail("verdict.most_doubt must be 0..1");
   if (!(widest_spread > 0.0)) return fail("verdict.widest_spread must be > 0");
   if (!(confirmations >= 0.0 && travelled >= 0.0 && turned >= 0.0))
     return fail("verdict.confirmations, travelled and turned must be >= 0");
@@ -70,6 +70,7 @@ void Verdict::assume_localized() {
   reset();
   confirmed_ = params_.confirmations;
   way_ = params_.travelled;
+  keeps_its_place_ = true;
 }
 
 void Verdict::add(const Evidence& evidence) {
@@ -99,19 +100,21 @@ void Verdict::add(const Evidence& evidence) {
   blind_ = sees_nothing ? blind_ + evidence.way : 0.0;
   const bool contradicted = this->contradicted();
   if (!contradicted) bad_ = 0.0;
-  if (contradicted && (through >= kFewReadings || blind_ > params_.blind_way))
+  if (contradicted && (through >= kFewReadings || hopelessly_blind()))
     bad_ += std::min(evidence.way + 0.5 * evidence.turn, kMostOfOneScan);
-
-  if (localized_) {
-    if (!evidence.is_same_mode || evidence.mass < params_.too_little_mass || contradicted) localized_ = false;
-  } else {
-    localized_ = is_good && borne_out && moved() >= 1.0 && seen() >= 1.0;
-  }
-  if (!localized_ && contradicted) confirmed_ = way_ = turn_ = 0.0;
 
   mass_ = evidence.mass;
   rival_ = evidence.rival;
-  entropy_ = evidence.entropy;
+  spread_ = evidence.spread;
+
+  if (localized_) {
+    if (!evidence.is_same_mode || evidence.mass < params_.too_little_mass || contradicted || blind_ > params_.blind_way)
+      localized_ = false;
+  } else {
+    localized_ = is_good && borne_out && moved() >= 1.0 && seen() >= 1.0 && p_lost(true) <= params_.most_doubt;
+  }
+  if (!localized_ && contradicted) confirmed_ = way_ = turn_ = 0.0;
+  keeps_its_place_ = localized_ || (keeps_its_place_ && evidence.is_same_mode && !contradicted);
 }
 
 void Verdict::look(const Glance& glance) {
@@ -119,15 +122,23 @@ void Verdict::look(const Glance& glance) {
   glance_ = glance;
   hidden_ = std::max(0.0, glance.shorter - shorter_);
   shorter_ += kMemory * (glance.shorter - shorter_);
+  unmapped_ += kMemory * (glance.unmapped - unmapped_);
+
+  constexpr int kPatience = 8;  // sweeps: somebody who steps before the robot is a doubt for less
+  doubtful_ = keeps_its_place_ && p_lost(true) > params_.most_doubt ? doubtful_ + 1 : 0;
+  if (doubtful_ < kPatience) return;
+  localized_ = keeps_its_place_ = false;
+  doubtful_ = 0;
+  confirmed_ = way_ = turn_ = 0.0;
 }
 
-double Verdict::p_lost() const {
+double Verdict::p_lost(bool has_said) const {
   if (mass_ <= 0.0) return 1.0;
   const double left = std::clamp(1.0 - mass_, 1e-4, 1.0 - 1e-4);
-  const DoubtWeights& w = localized_ ? kWhenSure : kWhenNot;
+  const DoubtWeights& w = has_said ? kWhenSure : kWhenNot;
   const double z = w.bias + w.mass * std::log(left / (1.0 - left)) + w.youth * (1.0 - confirmation()) +
-                   w.contradiction * contradiction_ + w.surprise * glance_.through +
-                   w.disagreement * (1.0 - agreement_) + w.hidden * hidden_ + w.entropy * entropy_;
+                   w.contradiction * contradiction_ + w.surprise * glance_.through + w.hidden * hidden_ +
+                   w.unmapped * unmapped_ * (1.0 - agreement_) + w.spread * std::min(spread_, 1.0);
   const double right = 1.0 / (1.0 + std::exp(z));
   return 1.0 - right * mass_ / (mass_ + rival_);
 }
@@ -141,9 +152,9 @@ double Verdict::seen() const { return std::min(1.0, confirmed_ / std::max(params
 
 double Verdict::confirmation() const { return 0.5 * (moved() + seen()); }
 
-bool Verdict::contradicted() const {
-  return contradiction_ > 2.0 * params_.most_contradiction || blind_ > params_.blind_way;
-}
+bool Verdict::contradicted() const { return contradiction_ > 2.0 * params_.most_contradiction || hopelessly_blind(); }
+
+bool Verdict::hopelessly_blind() const { return blind_ > 3.0 * params_.blind_way; }
 
 bool Verdict::collapsed() const {
   constexpr double kPatience = 6.0;  // [m]: furniture that has moved contradicts the map too, over some metres

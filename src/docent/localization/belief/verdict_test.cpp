@@ -11,7 +11,6 @@ Evidence good() {
   Evidence evidence;
   evidence.mass = 0.998;
   evidence.spread = 0.1;
-  evidence.entropy = 2.0;
   evidence.is_same_mode = true;
   evidence.way = 0.25;
   evidence.readings.agrees = 50.0;
@@ -23,7 +22,7 @@ Verdict sure() {
   Verdict verdict{{}};
   for (int i = 0; i < 20; ++i) {
     verdict.add(good());
-    verdict.look({0.0, 0.1, 40});
+    verdict.look({0.0, 0.1, 0.0, 40});
   }
   return verdict;
 }
@@ -57,11 +56,37 @@ TEST(Verdict, ATwinPlaceIsDoubtHoweverWellTheReadingsFit) {
 TEST(Verdict, OneSweepThroughWallsRaisesTheDoubtAtOnce) {
   Verdict verdict = sure();
   const double before = verdict.p_lost();
-  verdict.look({0.7, 0.1, 40});
+  verdict.look({0.7, 0.1, 0.0, 40});
   EXPECT_GT(verdict.p_lost(), 20.0 * before);
   EXPECT_GT(verdict.p_lost(), 0.02);  // no longer sure
-  verdict.look({0.0, 0.1, 40});
+  verdict.look({0.0, 0.1, 0.0, 40});
   EXPECT_LT(verdict.p_lost(), 2.0 * before);
+}
+
+TEST(Verdict, WallsThatTheMapLacksTakeTheKnowledgeBackThoughNothingElseSpeaksAgainstThePlace) {
+  Verdict verdict = sure();
+  Evidence hidden = good();
+  hidden.readings = {0.0, 60.0, 0.0};
+  int sweeps = 0;
+  for (; verdict.localized() && sweeps < 100; ++sweeps) {
+    if (sweeps % 4 == 0) verdict.add(hidden);
+    verdict.look({0.0, 0.9, 0.8, 40});
+  }
+  EXPECT_LT(sweeps, 40);
+  EXPECT_GT(verdict.p_lost(), 0.5);
+}
+
+TEST(Verdict, ACrowdThatHidesEverythingIsNoReasonForDoubt) {
+  Verdict verdict = sure();
+  Evidence hidden = good();
+  hidden.readings = {0.0, 60.0, 0.0};
+  for (int sweep = 0; sweep < 100; ++sweep) {
+    hidden.way = sweep < 60 ? 0.1 : 0.0;
+    if (sweep % 4 == 0) verdict.add(hidden);
+    verdict.look({0.0, 0.9, 0.0, 40});
+  }
+  EXPECT_TRUE(verdict.localized());
+  EXPECT_LT(verdict.p_lost(), 0.5);
 }
 
 TEST(Verdict, ReadingsThroughWallsTakeTheKnowledgeBack) {

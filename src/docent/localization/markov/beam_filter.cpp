@@ -125,13 +125,30 @@ Agreement agreement(const ExpectedRanges& expected, const ProximityModel& model,
   return result;
 }
 
+BeamChoice chosen_beams(const ExpectedRanges& expected, const ProximityModel& model, const RangeSweep& sweep,
+                        std::span<const BinnedBeam> beams, const BeamChoiceParams& params, Rng& rng) {
+  BeamChoice choice;
+  std::vector<bool> is_rejected;
+  for (const BinnedBeam& beam : beams) {
+    const int bin = bin_of(sweep.beams[beam.beam], model);
+    choice.readings += agreement(expected, model, beam.direction, bin, params.sureness);
+    is_rejected.push_back(rejects(params.filter, expected, model, beam.direction, bin, params.sureness));
+    choice.filtered += is_rejected.back() ? 1 : 0;
+  }
+  const std::size_t others = beams.size() - choice.filtered;
+  double share = params.unfiltered_share;
+  if (params.is_sure_of_its_place && choice.filtered > others)
+    share *= static_cast<double>(others) / static_cast<double>(choice.filtered);
+  for (std::size_t i = 0; i < beams.size(); ++i)
+    if (!is_rejected[i] || rng.chance(share)) choice.used.push_back(beams[i]);
+  return choice;
+}
+
 Agreement agreement_of_all(const ExpectedRanges& expected, const ProximityModel& model, const RangeSweep& sweep,
                            double sureness, int directions) {
   Agreement sum;
   for (const BinnedBeam& beam : binned(sweep, directions)) {
-    const SweepBeam& reading = sweep.beams[beam.beam];
-    const int bin = reading.no_return ? kNoReturn : model.bin(reading.range);
-    sum += agreement(expected, model, beam.direction, bin, sureness);
+    sum += agreement(expected, model, beam.direction, bin_of(sweep.beams[beam.beam], model), sureness);
   }
   return sum;
 }

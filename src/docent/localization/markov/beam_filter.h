@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "docent/base/random.h"
 #include "docent/localization/belief/verdict.h"
 #include "docent/localization/markov/position_belief.h"
 #include "docent/localization/markov/range_table.h"
@@ -53,6 +54,29 @@ enum class BeamFilter { none, entropy, distance, novelty };
 /// Whether a filter rejects a reading. `sureness` (theta of [Markov1998] 3.3, e.g. 0.99) is the distance filter's.
 [[nodiscard]] bool rejects(BeamFilter filter, const ExpectedRanges& expected, const ProximityModel& model,
                            int direction, int measured, double sureness);
+
+[[nodiscard]] inline int bin_of(const SweepBeam& beam, const ProximityModel& model) {
+  return beam.no_return ? kNoReturn : model.bin(beam.range);
+}
+
+/// Which beams of a sweep count.
+struct BeamChoice {
+  std::vector<BinnedBeam> used;  ///< in the order of directions
+  std::size_t filtered = 0;
+  Agreement readings;  ///< of all beams, used or not
+};
+struct BeamChoiceParams {
+  BeamFilter filter = BeamFilter::none;
+  double sureness = 0.99;
+  double unfiltered_share = 0.1;  ///< of the filtered beams, chosen at random, that count anyway: for recovery
+  /// Beams rejected in a crowd are people. Where there are more of them than others the random set, too, is mostly
+  /// people: then it is a share of the others. Not while the robot may be elsewhere, when most beams are rejected and
+  /// right.
+  bool is_sure_of_its_place = false;
+};
+[[nodiscard]] BeamChoice chosen_beams(const ExpectedRanges& expected, const ProximityModel& model,
+                                      const RangeSweep& sweep, std::span<const BinnedBeam> beams,
+                                      const BeamChoiceParams& params, Rng& rng);
 
 /// H(L | s) - H(L) [nat] of every beam, [Rhino1999] eq. 10: what its inverse filter asks. 0 without a return: dark
 /// things and mirrors are no people. `seen`: in the frame of the belief. O(beams * kExpectedRanges).

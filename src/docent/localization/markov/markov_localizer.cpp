@@ -113,7 +113,7 @@ void MarkovLocalizer::believe(std::span<const BeliefMode> modes, double uniform_
 }
 
 void MarkovLocalizer::keep_rivals(const RangeSweep& sweep, const Pose2& before_from_after, double weight) {
-  if (!params_.rivals || verdict_.localized()) return rivals_.forget();
+  if (!params_.rivals || verdict_.keeps_its_place()) return rivals_.forget();
   const auto modes = rivals_.update(summary_, sweep, before_from_after, caster_, params_.sensor.max_range);
   rivals_.hear(summary_, sensors(), weight);
   if (!modes) return;
@@ -149,7 +149,7 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   const double views = params_.views(way, turn);
   if (predicted && views <= 1.0) verdict_.look(glance(caster_, sweep, *predicted, params_.sensor.max_range));
   // Someone may have carried the robot: then this is not the same view again, and nothing to wait for.
-  if (step.weight < 1.0 && verdict_.localized() && to_seconds(time - last_update_) >= kSurpriseWaits &&
+  if (step.weight < 1.0 && verdict_.keeps_its_place() && to_seconds(time - last_update_) >= kSurpriseWaits &&
       verdict_.startled())
     step.weight = 1.0;
   if (step.weight <= 0.0) return step;
@@ -161,14 +161,12 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   if (way > 0.0 || turn > 0.0) move(before_from_after);
 
   const RangeSweep seen = seen_from(sweep, frame_from_robot());
-  Choice choice = choose_beams(seen, binned(seen, space_.headings()));
+  BeamChoice choice = choose_beams(seen, binned(seen, space_.headings()));
   const double temper = step.weight * std::min(1.0, views * params_.independent_beams / params_.beams);
-  std::sort(choice.used.begin(), choice.used.end(),
-            [](const auto& a, const auto& b) { return a.direction < b.direction; });
   std::vector<BeamCosts> costs(choice.used.size());
   double log_best_over_mean = 0.0;
   for (std::size_t i = 0; i < costs.size(); ++i) {
-    const int bin = bin_of(seen.beams[choice.used[i].beam]);
+    const int bin = bin_of(seen.beams[choice.used[i].beam], model_);
     const auto log_probabilities = model_.log_probabilities(bin);
     const float best = *std::max_element(log_probabilities.begin(), log_probabilities.end());
     for (std::size_t o = 0; o < kExpectedRanges; ++o) {
@@ -183,7 +181,7 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   weights.most_nats = weights.far_most_nats = params_.most_nats * std::sqrt(views);
   weights.most_sector_nats = params_.most_sector_nats * temper;
   weights.sectors = static_cast<std::size_t>(params_.sectors);
-  if (verdict_.localized() && predicted) {
+  if (verdict_.keeps_its_place() && predicted) {
     weights.far_share = params_.independent_beams_far / params_.independent_beams;
     weights.far_most_nats = params_.most_nats_far;
     weights.focus = *predicted * inverse(frame_from_robot());
@@ -212,12 +210,14 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   // After a long way odometry foretells too little: the belief of after the update is held against the readings.
   if (views > 1.0 && !likely_.empty()) {
     const ExpectedRanges expected{likely_, table_, space_.headings()};
-    choice.evidence.readings = agreement_of_all(expected, model_, seen, params_.filter_sureness, space_.headings());
+    choice.readings = agreement_of_all(expected, model_, seen, params_.filter_sureness, space_.headings());
   }
-  choice.evidence.weight = step.weight;
-  choice.evidence.way = way;
-  choice.evidence.turn = turn;
-  judge(choice.evidence, predicted);
+  Evidence evidence;
+  evidence.weight = step.weight;
+  evidence.way = way;
+  evidence.turn = turn;
+  evidence.readings = choice.readings;
+  judge(evidence, predicted);
   if (const auto now = map_from_robot(odom_from_robot))
     verdict_.look(glance(caster_, sweep, *now, params_.sensor.max_range));
   return step;
@@ -263,7 +263,7 @@ std::optional<double> MarkovLocalizer::fit(const RangeSweep& seen, std::span<con
   double sum = 0.0;
   for (const BinnedBeam& beam : beams) {
     const std::size_t expected = row[heading + beam.direction];
-    sum += static_cast<double>(model_.log_probabilities(bin_of(seen.beams[beam.beam]))[expected]);
+    sum += static_cast<double>(model_.log_probabilities(bin_of(seen.beams[beam.beam], model_))[expected]);
   }
   return sum / static_cast<double>(beams.size());
 }
@@ -273,7 +273,7 @@ void MarkovLocalizer::move(const Pose2& before_from_after) {
   const Point2 ahead = frame_from_robot().position();  // how far the robot has left the frame behind
   // In whole cells as the likeliest heading sees them: then its states are not smeared over their neighbours. Others
   // are, so that the frame follows in longer steps as long as they count.
-  const double patience = verdict_.localized() ? 0.6 * cell : 2.0 * cell;
+  const double patience = verdict_.keeps_its_place() ? 0.6 * cell : 2.0 * cell;
   Point2 shift{};
   if (norm(ahead) > patience) {
     const Pose2 turned{0.0, 0.0, likeliest_heading_};
@@ -287,23 +287,20 @@ void MarkovLocalizer::move(const Pose2& before_from_after) {
   belief_.move(motion_kernel(space_, params_.motion, shift, step));
 }
 
-MarkovLocalizer::Choice MarkovLocalizer::choose_beams(const RangeSweep& sweep, const std::vector<BinnedBeam>& beams) {
-  Choice choice;
+BeamChoice MarkovLocalizer::choose_beams(const RangeSweep& sweep, const std::vector<BinnedBeam>& beams) {
+  BeamChoice choice;
   likely_ = likely_states(belief_, kLikelyFraction, kMostLikely);
   if (likely_.empty()) {
     choice.used = beams;
-    choice.used = thinned(choice.used, static_cast<std::size_t>(params_.beams), ++phase_);
-    return choice;
-  }
-  const ExpectedRanges expected{likely_, table_, space_.headings()};
-  for (const BinnedBeam& beam : beams) {
-    const int bin = bin_of(sweep.beams[beam.beam]);
-    choice.evidence.readings += agreement(expected, model_, beam.direction, bin, params_.filter_sureness);
-    const bool filtered = rejects(filter_, expected, model_, beam.direction, bin, params_.filter_sureness);
-    choice.filtered += filtered ? 1 : 0;
-    if (!filtered || rng_.chance(params_.unfiltered_share)) choice.used.push_back(beam);
+  } else {
+    const ExpectedRanges expected{likely_, table_, space_.headings()};
+    const BeamChoiceParams params{filter_, params_.filter_sureness, params_.unfiltered_share,
+                                  verdict_.keeps_its_place()};
+    choice = chosen_beams(expected, model_, sweep, beams, params, rng_);
   }
   choice.used = thinned(choice.used, static_cast<std::size_t>(params_.beams), ++phase_);
+  std::sort(choice.used.begin(), choice.used.end(),
+            [](const auto& a, const auto& b) { return a.direction < b.direction; });
   return choice;
 }
 

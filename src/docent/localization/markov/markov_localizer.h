@@ -112,13 +112,8 @@ class MarkovLocalizer final : public Localizer {
   [[nodiscard]] const RangeTable& table() const { return table_; }
 
  private:
-  struct Choice {
-    std::vector<BinnedBeam> used;
-    std::size_t filtered = 0;
-    Evidence evidence;
-  };
   [[nodiscard]] double due_weight(double way, double turn, Time time) const;
-  [[nodiscard]] Choice choose_beams(const RangeSweep& sweep, const std::vector<BinnedBeam>& beams);
+  [[nodiscard]] BeamChoice choose_beams(const RangeSweep& sweep, const std::vector<BinnedBeam>& beams);
   /// What the sensors beside the lasers say now, for `weight` of an update; empty: nothing.
   [[nodiscard]] PlaceCosts ask_sensors(double weight);
   [[nodiscard]] std::optional<double> fit(const RangeSweep& seen, std::span<const BinnedBeam> beams) const;
@@ -128,7 +123,6 @@ class MarkovLocalizer final : public Localizer {
   void keep_rivals(const RangeSweep& sweep, const Pose2& before_from_after, double weight);
   [[nodiscard]] Pose2 frame_from_robot() const { return inverse(odom_from_frame_) * odom_from_robot_; }
   void judge(const Evidence& evidence, const std::optional<Pose2>& predicted);
-  [[nodiscard]] int bin_of(const SweepBeam& beam) const { return beam.no_return ? kNoReturn : model_.bin(beam.range); }
 
   MarkovLocalizerParams params_;
   BeamFilter filter_;

@@ -103,7 +103,7 @@ void MonteCarloLocalizer::believe(std::span<const BeliefMode> modes) {
 }
 
 void MonteCarloLocalizer::keep_rivals(const RangeSweep& sweep, const Pose2& before_from_after, double weight) {
-  if (!shared_.rivals || verdict_.localized()) return rivals_.forget();
+  if (!shared_.rivals || verdict_.keeps_its_place()) return rivals_.forget();
   const auto modes = rivals_.update(summary_, sweep, before_from_after, caster_, shared_.sensor.max_range);
   rivals_.hear(summary_, sensors(), weight);
   if (!modes) return;
@@ -162,7 +162,7 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
   const double views = shared_.views(way, turn);
   if (predicted && views <= 1.0) verdict_.look(glance(caster_, sweep, *predicted, shared_.sensor.max_range));
   step.weight = started_ ? due_weight(way, turn, time) : 1.0;
-  if (step.weight < 1.0 && verdict_.localized() && to_seconds(time - last_update_) >= kSurpriseWaits &&
+  if (step.weight < 1.0 && verdict_.keeps_its_place() && to_seconds(time - last_update_) >= kSurpriseWaits &&
       verdict_.startled())
     step.weight = 1.0;
   if (step.weight <= 0.0) return step;
@@ -177,7 +177,7 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
   move_particles(particles_, shared_.motion, before_from_after, {params_.shake_position, params_.shake_heading}, box,
                  noise_);
 
-  Choice choice = choose_beams(sweep);
+  BeamChoice choice = choose_beams(sweep);
   const double one_view = shared_.independent_beams / shared_.beams;
   const double full_temper = std::min(1.0, views * one_view);
   last_work_ = static_cast<double>(particles_.size()) * static_cast<double>(choice.used.size());
@@ -194,7 +194,7 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
     ParticleEvidence evidence;
     evidence.nats_per_cost = step.weight * full_temper / kScorePerNat;
     evidence.most_nats = shared_.most_nats * std::sqrt(views);
-    if (verdict_.localized()) {  // as the grid: sharp where the robot knows to be, slow between there and elsewhere
+    if (verdict_.keeps_its_place()) {  // as the grid: sharp where the robot is, slow between there and elsewhere
       evidence.focus = predicted;
       evidence.far_share = shared_.independent_beams_far / shared_.independent_beams;
       evidence.far_most_nats = shared_.most_nats_far;
@@ -222,12 +222,14 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
   // After a long way odometry foretells too little: the belief of after the update is held against the readings.
   if (views > 1.0 && !likely_.empty()) {
     const ExpectedRanges expected{likely_, table_, space_.headings()};
-    choice.evidence.readings = agreement_of_all(expected, model_, sweep, shared_.filter_sureness, space_.headings());
+    choice.readings = agreement_of_all(expected, model_, sweep, shared_.filter_sureness, space_.headings());
   }
-  choice.evidence.weight = step.weight;
-  choice.evidence.way = way;
-  choice.evidence.turn = turn;
-  judge(choice.evidence, predicted);
+  Evidence judged;
+  judged.weight = step.weight;
+  judged.way = way;
+  judged.turn = turn;
+  judged.readings = choice.readings;
+  judge(judged, predicted);
   if (const auto now = map_from_robot(odom_from_robot))
     verdict_.look(glance(caster_, sweep, *now, shared_.sensor.max_range));
   return step;
@@ -273,7 +275,7 @@ std::vector<BeamCosts> MonteCarloLocalizer::grid_costs(const RangeSweep& sweep, 
                                                        double temper) const {
   std::vector<BeamCosts> costs(beams.size());
   for (std::size_t i = 0; i < costs.size(); ++i) {
-    const auto log_probabilities = model_.log_probabilities(bin_of(sweep.beams[beams[i].beam]));
+    const auto log_probabilities = model_.log_probabilities(bin_of(sweep.beams[beams[i].beam], model_));
     const float best = *std::max_element(log_probabilities.begin(), log_probabilities.end());
     for (std::size_t o = 0; o < kExpectedRanges; ++o) {
       const double nats = temper * static_cast<double>(best - log_probabilities[o]);
@@ -286,7 +288,7 @@ std::vector<BeamCosts> MonteCarloLocalizer::grid_costs(const RangeSweep& sweep, 
 
 void MonteCarloLocalizer::draw_elsewhere(const RangeSweep& sweep, std::span<const BinnedBeam> beams, double temper,
                                          double likelihood) {
-  const bool knows = verdict_.localized();
+  const bool knows = verdict_.keeps_its_place();
   const double surprise = long_mean_ > 0.0 ? std::max(0.0, 1.0 - short_mean_ / long_mean_) : 0.0;
   if (knows && start_over_ == 0.0 && surprise < kSurprising && ++undrawn_ < params_.draw_every) return;
   undrawn_ = 0;
@@ -347,13 +349,13 @@ std::optional<double> MonteCarloLocalizer::fit(const RangeSweep& sweep, std::spa
   double sum = 0.0;
   for (const BinnedBeam& beam : beams) {
     const std::size_t expected = row[(heading + beam.direction) % headings];
-    sum += static_cast<double>(model_.log_probabilities(bin_of(sweep.beams[beam.beam]))[expected]);
+    sum += static_cast<double>(model_.log_probabilities(bin_of(sweep.beams[beam.beam], model_))[expected]);
   }
   return sum / static_cast<double>(beams.size());
 }
 
-MonteCarloLocalizer::Choice MonteCarloLocalizer::choose_beams(const RangeSweep& sweep) {
-  Choice choice;
+BeamChoice MonteCarloLocalizer::choose_beams(const RangeSweep& sweep) {
+  BeamChoice choice;
   const std::vector<BinnedBeam> beams = binned(sweep, space_.headings());
   likely_ = particles_.size() > 0 ? likely_states(bins_of(particles_, space_), space_, kLikelyFraction, kMostLikely)
                                   : std::vector<LikelyState>{};
@@ -361,13 +363,9 @@ MonteCarloLocalizer::Choice MonteCarloLocalizer::choose_beams(const RangeSweep& 
     choice.used = beams;
   } else {
     const ExpectedRanges expected{likely_, table_, space_.headings()};
-    for (const BinnedBeam& beam : beams) {
-      const int bin = bin_of(sweep.beams[beam.beam]);
-      choice.evidence.readings += agreement(expected, model_, beam.direction, bin, shared_.filter_sureness);
-      const bool filtered = rejects(filter_, expected, model_, beam.direction, bin, shared_.filter_sureness);
-      choice.filtered += filtered ? 1 : 0;
-      if (!filtered || rng_.chance(shared_.unfiltered_share)) choice.used.push_back(beam);
-    }
+    const BeamChoiceParams params{filter_, shared_.filter_sureness, shared_.unfiltered_share,
+                                  verdict_.keeps_its_place()};
+    choice = chosen_beams(expected, model_, sweep, beams, params, rng_);
   }
   choice.used = thinned(choice.used, static_cast<std::size_t>(shared_.beams), ++phase_);
   std::sort(choice.used.begin(), choice.used.end(),

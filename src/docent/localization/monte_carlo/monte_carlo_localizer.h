@@ -87,13 +87,8 @@ class MonteCarloLocalizer final : public Localizer {
   void use_kernels(FieldKernel field, InstructionSet grid);
 
  private:
-  struct Choice {
-    std::vector<BinnedBeam> used;  ///< by rising direction
-    std::size_t filtered = 0;
-    Evidence evidence;
-  };
   [[nodiscard]] double due_weight(double way, double turn, Time time) const;
-  [[nodiscard]] Choice choose_beams(const RangeSweep& sweep);
+  [[nodiscard]] BeamChoice choose_beams(const RangeSweep& sweep);
   void notice_surprise(double likelihood, double weight, double views);
   /// Adds poses drawn from the sensors, for the case that the truth is near no particle.
   void draw_elsewhere(const RangeSweep& sweep, std::span<const BinnedBeam> beams, double temper, double likelihood);
@@ -112,7 +107,6 @@ class MonteCarloLocalizer final : public Localizer {
   void judge(const Evidence& evidence, const std::optional<Pose2>& predicted);
   [[nodiscard]] std::optional<double> fit(const RangeSweep& sweep, std::span<const BinnedBeam> beams) const;
   [[nodiscard]] std::size_t most_particles() const;
-  [[nodiscard]] int bin_of(const SweepBeam& beam) const { return beam.no_return ? kNoReturn : model_.bin(beam.range); }
 
   MarkovLocalizerParams shared_;
   MonteCarloParams params_;

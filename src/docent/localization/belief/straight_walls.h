@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "docent/sensor_models/range_sweep.h"
+
+namespace docent {
+
+/// 1 for every beam of the sweep that ended on a straight, unbroken surface of at least 1.5 m: a wall, whether the map
+/// holds it or not. People stand in rows, but not in lines of 6 cm. Split and merge over neighbouring beams.
+/// O(beams log beams) for most sweeps, O(beams^2) at worst.
+[[nodiscard]] std::vector<std::uint8_t> on_straight_walls(const RangeSweep& sweep);
+
+}  // namespace docent
