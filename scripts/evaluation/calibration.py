@@ -18,9 +18,18 @@ def features(row):
             row["hidden"], row["unmapped"] * (1.0 - row["agreement"]), min(row["spread"], 1.0)]
 
 
-def probability(weights, values):
+def logistic(weights, values):
     z = sum(w * v for w, v in zip(weights, values))
     return 1.0 / (1.0 + math.exp(-max(-30.0, min(30.0, z))))
+
+
+def share_of_best(row):
+    """What the second best mode leaves to the best: the other factor of Verdict::p_lost."""
+    return row["mass"] / (row["mass"] + row["rival"]) if row["mass"] > 0.0 else 1.0
+
+
+def probability(weights, values, best):
+    return 1.0 - (1.0 - logistic(weights, values)) * best
 
 
 def solve(matrix, right):
@@ -38,22 +47,24 @@ def solve(matrix, right):
 
 
 def fit(data, ridge=0.1):
-    """Weights of the likeliest logistic function over (features, was lost, how much it counts)."""
+    """Weights of the likeliest P(lost) over (features, was lost, how much it counts, share of the best mode). A lost update
+    may be one because the second mode was right: it counts as far as the logistic function explains it (EM)."""
     n = len(NAMES)
     weights = [0.0] * n
-    for _ in range(30):
+    for _ in range(60):
         gradient = [-ridge * w for w in weights]
         hessian = [[ridge if i == j else 0.0 for j in range(n)] for i in range(n)]
-        for values, lost, share in data:
-            p = probability(weights, values)
+        for values, lost, share, best in data:
+            p = logistic(weights, values)
+            due = lost * p / max(1e-12, 1.0 - (1.0 - p) * best)
             curve = share * (p * (1.0 - p) + 1e-9)
             for i in range(n):
-                gradient[i] += share * (lost - p) * values[i]
+                gradient[i] += share * (due - p) * values[i]
                 for j in range(n):
                     hessian[i][j] += curve * values[i] * values[j]
         step = solve(hessian, gradient)
         weights = [w + s for w, s in zip(weights, step)]
-        if max(map(abs, step)) < 1e-4:
+        if max(map(abs, step)) < 1e-3:
             break
     return weights
 
@@ -61,7 +72,7 @@ def fit(data, ridge=0.1):
 def rows_of(bench, museums, count, method, settings):
     carried_off = localization.honesty_claims(bench, museums, count, method, FIRST_SEED, settings)
     tours = localization.tour_claims(bench, museums, count, method, FIRST_SEED, settings)
-    return [[(features(row), float(claims.is_lost(row)), share, row["localized"]) for row in run if row["has_pose"]]
+    return [[(features(row), float(claims.is_lost(row)), share, share_of_best(row), row["localized"]) for row in run if row["has_pose"]]
             for some, share in ((carried_off, 1.0), (tours, TOUR_WEIGHT)) for run in some]
 
 
@@ -70,9 +81,9 @@ def learn(bench, museums, count, method):
     print("// " + ", ".join(NAMES))
     # A robot that takes "here" back when in doubt leaves few examples of being wrong and sure of it.
     for name, said, settings in (("kWhenSure", 1.0, ["localize.verdict.most_doubt=1"]), ("kWhenNot", 0.0, [])):
-        runs = [[row[:3] for row in run if row[3] == said] for run in rows_of(bench, museums, count, method, settings)]
+        runs = [[row[:4] for row in run if row[4] == said] for run in rows_of(bench, museums, count, method, settings)]
         half = fit([row for run in runs[::2] for row in run])
-        other = [(probability(half, values), lost) for run in runs[1::2] for values, lost, _ in run]
+        other = [(probability(half, values, best), lost) for run in runs[1::2] for values, lost, _, best in run]
         weights = fit([row for run in runs for row in run])
         print(f"constexpr DoubtWeights {name}{{{', '.join(f'{w:.3f}' for w in weights)}}};")
         print(f"// Brier score of one half's weights on the other half: {localization.brier(other):.4f} over {len(other)} updates")

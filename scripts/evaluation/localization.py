@@ -12,7 +12,7 @@ from evaluation.claims import error_m, is_lost, mean
 CROWDS = {  # name: crowd, people in the escort, beams blocked as wanted, bounds: lost share, mean error [m]
     "empty": ("empty", None, 0.0, 0.0, 0.03),
     "escort of 8": ("quiet", (8, 0.5, 1.4), 0.40, 0.0, 0.04),
-    "escort of 26": ("quiet", (26, 0.4, 1.4), 0.65, 0.01, 0.06),
+    "escort of 20": ("quiet", (20, 0.4, 1.4), 0.65, 0.01, 0.06),
 }
 BLOCKED_WITHIN = 0.08
 FILTERS = ["none", "entropy", "distance", "novelty"]

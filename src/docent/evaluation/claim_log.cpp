@@ -14,7 +14,8 @@ namespace {
 constexpr const char* kColumns =
     "time,true_x,true_y,true_heading,has_pose,x,y,heading,mass,localized,p_lost,entropy,hypotheses,active_cells,"
     "beams_used,beams_filtered,blocked,distance,speed,kidnaps,"
-    "agreement,contradiction,surprise,hidden,confirmation,blind_way,unmapped,spread,explained,contacts,violations\n";
+    "agreement,contradiction,surprise,hidden,confirmation,blind_way,unmapped,spread,rival,explained,contacts,"
+    "violations\n";
 constexpr std::size_t kMostWaiting = 1000;
 
 }  // namespace
@@ -52,17 +53,18 @@ void ClaimLog::judge(const docent_msgs::Belief& belief, const Pose2& truth) {
   const auto& state = truth_.latest();
   const bool has_pose = !belief.hypotheses.empty();
   const docent_msgs::Hypothesis best = has_pose ? belief.hypotheses.front() : docent_msgs::Hypothesis{};
+  const double rival = belief.hypotheses.size() > 1 ? belief.hypotheses[1].mass : 0.0;
   char line[600];
   const int size = std::snprintf(
       line, sizeof line,
       "%.2f,%.4f,%.4f,%.2f,%d,%.4f,%.4f,%.2f,%.6f,%d,%.6f,%.4f,%zu,%u,%u,%u,%.4f,%.3f,%.3f,%d,%.4f,%.4f,%"
-      ".4f,%.4f,%.4f,%.3f,%.4f,%.4f,%d,%d,%d\n",
+      ".4f,%.4f,%.4f,%.3f,%.4f,%.4f,%.6f,%d,%d,%d\n",
       to_seconds(last_stamp_ - first_), truth.x, truth.y, truth.theta.degrees(), has_pose ? 1 : 0, best.x, best.y,
       Angle::radians(best.theta).degrees(), best.mass, belief.localized ? 1 : 0, belief.p_lost, belief.entropy,
       belief.hypotheses.size(), belief.active_cells, belief.beams_used, belief.beams_filtered, state.blocked_beams,
       state.distance_m, state.linear, kidnaps_, belief.agreement, belief.contradiction, belief.surprise, belief.hidden,
       belief.confirmation, belief.blind_way, belief.unmapped,
-      std::sqrt(std::max(0.0, best.covariance[0] + best.covariance[4])), explained_, contacts_, violations_);
+      std::sqrt(std::max(0.0, best.covariance[0] + best.covariance[4])), rival, explained_, contacts_, violations_);
   lines_.append(line, static_cast<std::size_t>(size));
 }
 

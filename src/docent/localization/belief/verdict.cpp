@@ -20,8 +20,8 @@ struct DoubtWeights {
   double unmapped;  ///< of the walls that the map lacks, the less the more it explains besides
   double spread;
 };
-constexpr DoubtWeights kWhenSure{-3.86, 0.73, 0.00, 14.12, 6.93, 7.86, 18.22, 12.86};
-constexpr DoubtWeights kWhenNot{-6.56, 0.02, 0.34, 0.12, 9.90, 9.27, 6.85, 20.19};
+constexpr DoubtWeights kWhenSure{-2.382, 0.791, 0.000, 7.433, 7.706, 7.680, 25.512, 0.878};
+constexpr DoubtWeights kWhenNot{-9.845, -0.295, 1.931, -1.486, 11.211, 11.389, 8.505, 28.127};
 
 }  // namespace
 

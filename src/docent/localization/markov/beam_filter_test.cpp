@@ -1,0 +1,67 @@
+#include "docent/localization/markov/beam_filter.h"
+
+#include <gtest/gtest.h>
+
+#include "docent/localization/markov/testing.h"
+
+namespace docent {
+namespace {
+
+struct Crowd {
+  std::unique_ptr<testing::Room> room = testing::drawn_room();
+  std::vector<LikelyState> states;
+  RangeSweep sweep;
+
+  /// The robot at the middle of a cell, with people at half a metre in `share` of the directions.
+  explicit Crowd(double share) {
+    const auto place = room->space.place_at(room->space.frame().cell_at({1.5, 1.2}));
+    states.push_back({place, 0, 1.0F});
+    const Point2 at = room->space.centre(static_cast<std::size_t>(place));
+    sweep = testing::sweep_at(room->caster, {at.x, at.y, Angle{}}, 10.0);
+    const auto people = static_cast<std::size_t>(share * static_cast<double>(sweep.beams.size()));
+    for (std::size_t i = 0; i < people; ++i) sweep.beams[i].range = std::min(sweep.beams[i].range, 0.5);
+  }
+
+  [[nodiscard]] BeamChoice choose(BeamFilter filter, bool is_sure, std::uint64_t seed) const {
+    Rng rng{seed};
+    const ExpectedRanges expected{states, room->table, room->space.headings()};
+    const auto beams = binned(sweep, room->space.headings());
+    return chosen_beams(expected, room->model, sweep, beams, {filter, 0.99, 0.1, is_sure}, rng);
+  }
+  [[nodiscard]] double mean_of_random_set(bool is_sure) const {
+    double sum = 0.0;
+    for (std::uint64_t seed = 0; seed < 200; ++seed) {
+      const BeamChoice choice = choose(BeamFilter::distance, is_sure, seed);
+      sum += static_cast<double>(choice.used.size()) - static_cast<double>(60 - choice.filtered);
+    }
+    return sum / 200.0;
+  }
+};
+
+TEST(ChosenBeams, WithoutAFilterAllCount) {
+  const BeamChoice choice = Crowd{0.5}.choose(BeamFilter::none, true, 1);
+  EXPECT_EQ(choice.used.size(), 60U);  // directions
+  EXPECT_EQ(choice.filtered, 0U);
+}
+
+TEST(ChosenBeams, TheDistanceFilterRejectsPeopleAndAgreementCountsThem) {
+  const BeamChoice nobody = Crowd{0.0}.choose(BeamFilter::distance, true, 1);
+  const BeamChoice crowd = Crowd{0.5}.choose(BeamFilter::distance, true, 1);
+  EXPECT_EQ(nobody.filtered, 0U);
+  EXPECT_GT(crowd.filtered, 25U);
+  EXPECT_GT(crowd.readings.shorter, 25.0);
+  EXPECT_GT(crowd.readings.agrees, 25.0);
+}
+
+TEST(ChosenBeams, TheRandomSetIsASmallShareOfThoseThatCountInACrowd) {
+  const Crowd crowd{0.8};
+  const auto filtered = static_cast<double>(crowd.choose(BeamFilter::distance, true, 1).filtered);
+  ASSERT_GT(filtered, 40.0);
+  EXPECT_NEAR(crowd.mean_of_random_set(false), 0.1 * filtered, 0.5);  // it may be elsewhere: then they are right
+  EXPECT_NEAR(crowd.mean_of_random_set(true), 0.1 * (60.0 - filtered), 0.3);
+  const Crowd few{0.3};
+  EXPECT_EQ(few.mean_of_random_set(true), few.mean_of_random_set(false));
+}
+
+}  // namespace
+}  // namespace docent
