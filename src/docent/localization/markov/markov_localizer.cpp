@@ -86,6 +86,8 @@ MarkovLocalizer::MarkovLocalizer(const OccupancyGrid& map, const MarkovLocalizer
 void MarkovLocalizer::start_unknown() {
   belief_.make_uniform();
   started_ = false;
+  likeliest_heading_ = {};
+  phase_ = 0;
   last_work_ = 0.0;
   verdict_.reset();
   refiner_.reset();

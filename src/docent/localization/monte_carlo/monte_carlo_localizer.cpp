@@ -76,7 +76,9 @@ void MonteCarloLocalizer::start_unknown() {
   started_ = false;
   last_work_ = 0.0;
   long_mean_ = short_mean_ = start_over_ = 0.0;
+  phase_ = 0;
   verdict_.reset();
+  refiner_.reset();
   rivals_.forget();
   summarise_now();
 }
@@ -119,6 +121,7 @@ void MonteCarloLocalizer::start_at(std::span<const BeliefMode> modes, const Pose
   last_work_ = 0.0;
   long_mean_ = short_mean_ = start_over_ = 0.0;
   verdict_.assume_localized();
+  refiner_.reset();
   rivals_.forget();
   summarise_now();
 }
