@@ -84,6 +84,29 @@ Result<void> PoseRefinerParams::validate() const {
   return {};
 }
 
+/// Covariance intersection (Julier and Uhlmann): both are of the same readings and nobody knows how much, so neither
+/// counts in full. What is sharp wins: the refined pose beside walls, the belief where only odometry is left of it.
+PoseRefiner::Estimate PoseRefiner::intersection(const Estimate& a, const Estimate& b) {
+  const Eigen::Matrix3d of_a = matrix(a.covariance).inverse();
+  const Eigen::Matrix3d of_b = matrix(b.covariance).inverse();
+  constexpr int kSteps = 10;
+  double share = 1.0, most = -1.0;
+  for (int step = kSteps; step >= 0; --step) {
+    const double candidate = static_cast<double>(step) / kSteps;
+    const double determinant = (candidate * of_a + (1.0 - candidate) * of_b).determinant();
+    if (determinant <= most) continue;
+    most = determinant;
+    share = candidate;
+  }
+  const Eigen::Matrix3d information = share * of_a + (1.0 - share) * of_b;
+  const Pose2& from = a.map_from_robot;
+  const Pose2& to = b.map_from_robot;
+  const Eigen::Vector3d off{to.x - from.x, to.y - from.y, (to.theta - from.theta).radians()};
+  const Eigen::Vector3d change = information.ldlt().solve((1.0 - share) * of_b * off);
+  return {{from.x + change[0], from.y + change[1], from.theta + Angle::radians(change[2])},
+          values(information.inverse())};
+}
+
 bool PoseRefiner::is_in(const BeliefMode& mode, const Pose2& pose, double times, double spread) const {
   return distance(pose.position(), mode.map_from_robot.position()) <= std::max(times * params_.farthest, spread) &&
          std::abs((pose.theta - mode.map_from_robot.theta).degrees()) <= times * params_.farthest_turn;
@@ -126,7 +149,7 @@ Pose2 PoseRefiner::refine(const BeliefMode& mode, const RangeSweep& sweep, const
   }
   const bool is_vague = heading_variance > kVagueTurn * kVagueTurn;
   if (estimate_ && !is_vague) {
-    const Estimate kept = corrected(*estimate_, sweep, caster, max_range, false);
+    const Estimate kept = intersection(corrected(*estimate_, sweep, caster, max_range, false), of_mode);
     if (is_in(mode, kept.map_from_robot, 1.0, 0.0)) {
       estimate_ = kept;
       return kept.map_from_robot;

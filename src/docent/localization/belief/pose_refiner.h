@@ -52,6 +52,7 @@ class PoseRefiner {
   };
   /// Within `times` the farthest that the refined pose may be from the mode's mean, or `spread` [m] if that is more.
   [[nodiscard]] bool is_in(const BeliefMode& mode, const Pose2& pose, double times, double spread) const;
+  [[nodiscard]] static Estimate intersection(const Estimate& a, const Estimate& b);
   /// Gauss-Newton from `predicted`; that itself where too few readings meet walls.
   [[nodiscard]] Estimate corrected(const Estimate& predicted, const RangeSweep& sweep, const RayCaster& caster,
                                    double max_range, bool is_vague) const;
