@@ -25,7 +25,7 @@ class Bench:
     """Recordings and claims, kept under a key of everything that decides them."""
 
     def __init__(self, docent, cache, run_key, museums, jobs, settings=()):
-        """`settings`: of every replay of a recording, besides those that a protocol makes."""
+        """`settings`: of every run, besides those that a protocol makes."""
         self.settings = list(settings)
         self.docent, self.cache, self.museums, self.jobs = docent, cache / "localization", museums, jobs
         self.keys = {museum: run_key(museums / museum) for museum in ("bonn", "smithsonian")}
@@ -68,7 +68,8 @@ class Bench:
 
     def of_tours(self, museum, seed, minutes, crowd, requests_per_hour=None, events=None, settings=()):
         """Rows of what a whole robot on its tours said beside the truth, and what its modules said of their health."""
-        what = ["tours", seed, minutes, crowd, requests_per_hour, events, list(settings)]
+        settings = [*settings, *self.settings]
+        what = ["tours", seed, minutes, crowd, requests_per_hour, events, settings]
         claims, health = self.path(museum, "csv", what), self.path(museum, "health.csv", what)
         if not claims.exists() or not health.exists():
             part = claims.with_suffix(f".part{os.getpid()}.yaml")

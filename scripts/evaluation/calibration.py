@@ -47,11 +47,23 @@ def solve(matrix, right):
 
 
 def fit(data, ridge=0.1):
-    """Weights of the likeliest P(lost) over (features, was lost, how much it counts, share of the best mode). A lost update
-    may be one because the second mode was right: it counts as far as the logistic function explains it (EM)."""
+    """Weights of the likeliest P(lost) over (features, was lost, how much it counts, share of the best mode), none below 0
+    but the bias: more evidence of being lost never makes it less likely."""
+    left_out = []
+    while True:
+        weights = fit_without(data, left_out, ridge)
+        least = min(range(1, len(NAMES)), key=lambda i: weights[i])
+        if weights[least] >= 0.0:
+            return weights
+        left_out.append(least)
+
+
+def fit_without(data, left_out, ridge):
+    """A lost update may be one because the second mode was right: it counts as far as the logistic function explains it
+    (EM, a step of Newton's method in each round)."""
     n = len(NAMES)
     weights = [0.0] * n
-    for _ in range(60):
+    for _ in range(200):
         gradient = [-ridge * w for w in weights]
         hessian = [[ridge if i == j else 0.0 for j in range(n)] for i in range(n)]
         for values, lost, share, best in data:
@@ -62,11 +74,14 @@ def fit(data, ridge=0.1):
                 gradient[i] += share * (due - p) * values[i]
                 for j in range(n):
                     hessian[i][j] += curve * values[i] * values[j]
+        for i in left_out:
+            gradient[i] = 0.0
+            hessian[i] = [float(i == j) for j in range(n)]
         step = solve(hessian, gradient)
         weights = [w + s for w, s in zip(weights, step)]
-        if max(map(abs, step)) < 1e-3:
-            break
-    return weights
+        if max(map(abs, step)) < 1e-4:
+            return weights
+    raise RuntimeError("the weights of P(lost) do not converge")
 
 
 def rows_of(bench, museums, count, method, settings):

@@ -22,3 +22,9 @@ def is_lost(row):
 def mean(values):
     values = list(values)
     return sum(values) / len(values) if values else float("nan")
+
+
+def since_known(claims):
+    """From the first "here" on."""
+    known = next((i for i, row in enumerate(claims) if row["localized"]), len(claims))
+    return claims[known:]

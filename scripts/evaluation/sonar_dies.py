@@ -7,7 +7,7 @@ more; replayed by every way to believe. By itself: the whole robot on its tours 
 """
 import random
 
-from evaluation.claims import LOST_M, error_m, is_lost, mean
+from evaluation.claims import LOST_M, error_m, is_lost, mean, since_known
 
 KINDS = ["dead", "frozen", "short", "deaf", "storm"]
 ESCORT = (8, 0.5, 1.4)
@@ -46,11 +46,6 @@ def by_hand(bench, museum, seed, minutes, ways):
     found = {name: bench.claims(museum, seed, minutes, "quiet", events, settings) for name, settings in ways.items()}
     bench.forget(museum, seed, minutes, "quiet", events)
     return faults, found
-
-
-def since_known(claims):
-    known = next((i for i, row in enumerate(claims) if row["localized"]), len(claims))
-    return claims[known:]
 
 
 def judge_by_hand(rows):

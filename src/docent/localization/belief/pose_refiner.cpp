@@ -11,17 +11,17 @@
 namespace docent {
 namespace {
 
-constexpr double kVague = 0.1;        // [m] deviation by odometry, or
-constexpr double kVagueTurn = 0.052;  // [rad]
-constexpr double kFarTurn = 0.12;     // [rad] deviation by odometry: a gradient would lead anywhere
+constexpr double kVagueTurn = 0.052;  // [rad] deviation by odometry: the belief is the better beginning
+constexpr double kFar = 0.1;          // [m] deviation by odometry, or
+constexpr double kFarTurn = 0.12;     // [rad]: a gradient would lead anywhere
 
 constexpr double kUnknownAllowance = 0.3;  // [m]
 constexpr std::size_t kMostBeams = 120;
 constexpr std::size_t kFewestBeams = 10;
-constexpr double kGateDeviations = 2.0;
-constexpr double kWidestGate = 0.8;  // [m]
-constexpr double kTornApart = 2.0;   // times the farthest: more, and the belief is right
-constexpr double kWidestMode = 0.5;  // [m] standard deviation; wider ones have no inside to speak of
+constexpr double kGateDeviations = 2.0;  // of the prior, by which a wall may be off at first
+constexpr double kWidestGate = 0.8;      // [m]
+constexpr double kTornApart = 1.4;       // times the farthest: more, and the belief is right
+constexpr double kWidestMode = 0.5;      // [m] standard deviation; wider ones have no inside to speak of
 
 // A search for the pose, see best_pose_near:
 constexpr double kSearchedWithin = 2.0;     // [m] of the mode: farther off the belief has left where odometry leads
@@ -84,7 +84,7 @@ Result<void> PoseRefinerParams::validate() const {
   return {};
 }
 
-/// Covariance intersection (Julier and Uhlmann): both are of the same readings and nobody knows how much, so neither
+/// Covariance intersection ([Julier1997]): both are of the same readings and nobody knows how much, so neither
 /// counts in full. What is sharp wins: the refined pose beside walls, the belief where only odometry is left of it.
 PoseRefiner::Estimate PoseRefiner::intersection(const Estimate& a, const Estimate& b) {
   const Eigen::Matrix3d of_a = matrix(a.covariance).inverse();
@@ -137,7 +137,7 @@ Pose2 PoseRefiner::refine(const BeliefMode& mode, const RangeSweep& sweep, const
   // After a long way odometry knows the pose less well than the belief does: then the belief's is the better beginning,
   // and the readings are asked which pose in it, or where odometry expected it, they fit best. Walls of a corridor look
   // alike every few decimetres: from a wrong beginning no gradient leads to the right place.
-  if (position_variance > kVague * kVague || heading_variance > kFarTurn * kFarTurn) {
+  if (position_variance > kFar * kFar || heading_variance > kFarTurn * kFarTurn) {
     std::vector<PoseGuess> guesses{guess_of(mode)};
     if (estimate_ && distance(estimate_->map_from_robot.position(), mode.map_from_robot.position()) < kSearchedWithin)
       guesses.push_back({estimate_->map_from_robot, std::sqrt(position_variance + kSearchedPosition),
@@ -157,11 +157,11 @@ Pose2 PoseRefiner::refine(const BeliefMode& mode, const RangeSweep& sweep, const
     // People before the walls push belief and refined pose apart. The readings tell which of them knows better.
     if (is_in(mode, kept.map_from_robot, kTornApart, 0.0)) {
       const Estimate begun = corrected(of_mode, sweep, caster, max_range, false);
-      const auto fit = [&](const Estimate& estimate) {
-        return log_fit(estimate.map_from_robot, sweep, caster, max_range, params_.independent_beams);
-      };
-      estimate_ = fit(kept) > fit(begun) ? kept : begun;
-      if (is_in(mode, estimate_->map_from_robot, kTornApart, 0.0)) return estimate_->map_from_robot;
+      const auto fit_of_kept = log_fit(kept.map_from_robot, sweep, caster, max_range);
+      if (fit_of_kept && *fit_of_kept > log_fit(begun.map_from_robot, sweep, caster, max_range)) {
+        estimate_ = kept;
+        return kept.map_from_robot;
+      }
     }
   }
   estimate_ = corrected(of_mode, sweep, caster, max_range, is_vague);

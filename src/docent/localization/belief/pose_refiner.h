@@ -13,11 +13,12 @@ namespace docent {
 
 struct PoseRefinerParams {
   bool enabled = true;
-  double gate = 0.25;             ///< [m], > 0: readings farther from the wall they should meet are of something else
+  double gate = 0.25;             ///< [m], > 0: readings farther from the wall they should meet are of something else;
+                                  ///< at first as far as the pose may be off
   double beam_sigma = 0.05;       ///< [m], > 0: sensor and map together
   double independent_beams = 12;  ///< > 0: what all beams of a sweep are worth; their errors hang together
   double farthest = 0.35;         ///< [m], > 0, from the belief's own mean, and
-  double farthest_turn = 8.0;     ///< [deg]; beyond it the belief is right and the refined pose starts again
+  double farthest_turn = 8.0;     ///< [deg]; beyond it the refined pose starts again, unless the readings bear it out
   template <class V>
   void visit(V& v) {
     v("enabled", enabled);
@@ -32,7 +33,8 @@ struct PoseRefinerParams {
 
 /// Where inside the best mode the robot is: finer than cells or bins. Follows the pose by odometry and corrects it by
 /// the distances of the readings to the walls that they should meet (an extended Kalman filter, Gauss-Newton over
-/// point-to-line distances). Which mode is right remains the belief's business: the refined pose never leaves it.
+/// point-to-line distances). Where no walls do, it and the mode meet by covariance intersection. Which mode is right
+/// remains the belief's business: the refined pose never goes far from it.
 class PoseRefiner {
  public:
   explicit PoseRefiner(const PoseRefinerParams& params) : params_{params} {}

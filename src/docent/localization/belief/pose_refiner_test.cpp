@@ -99,6 +99,23 @@ TEST(PoseRefiner, GoesOnByOdometryWhileItSeesNoWall) {
   EXPECT_LT(distance(refined.position(), moved.position()), 0.02);
 }
 
+TEST(PoseRefiner, MeetsTheBeliefWhereOdometryIsAllThatIsLeft) {
+  Trial trial;
+  PoseRefiner refiner{{}};
+  Pose2 truth{1.0, 1.0, Angle{}};
+  Pose2 refined = refiner.refine(mode_about(truth), trial.sweep_at(truth, 0.0), {}, 0.0, 0.0, trial.caster, 10.0);
+  Pose2 by_odometry = refined;
+  for (int i = 0; i < 20; ++i) {  // odometry veers by a degree each 25 cm, and nothing is seen
+    const Pose2 step{0.25, 0.0, Angle{}};
+    const Pose2 measured{0.25, 0.0, Angle::degrees(1.0)};
+    truth = truth * step;
+    by_odometry = by_odometry * measured;
+    refined = refiner.refine(mode_about(truth), {}, measured, 1e-5, 4e-4, trial.caster, 10.0);
+  }
+  EXPECT_GT(distance(by_odometry.position(), truth.position()), 0.8);
+  EXPECT_LT(distance(refined.position(), truth.position()), 0.15);
+}
+
 TEST(PoseRefiner, FollowsTheWallsWhenPeoplePushTheBeliefAside) {
   Trial trial;
   PoseRefiner refiner{{}};

@@ -108,13 +108,14 @@ Pose2 best_pose_near(std::span<const PoseGuess> guesses, const RangeSweep& sweep
   return best.pose;
 }
 
-double log_fit(const Pose2& map_from_robot, const RangeSweep& sweep, const RayCaster& caster, double max_range,
-               double readings) {
+std::optional<double> log_fit(const Pose2& map_from_robot, const RangeSweep& sweep, const RayCaster& caster,
+                              double max_range) {
   std::vector<Point2> arms = ends(sweep, max_range);
+  if (arms.size() < kFewestReadings) return std::nullopt;
   const Pose2 turned{0.0, 0.0, map_from_robot.theta};
   for (Point2& arm : arms) arm = turned * arm;
-  const double share = std::min(1.0, readings / std::max(1.0, static_cast<double>(arms.size())));
-  return Scoring{{}, caster, share, score_by_distance()}(map_from_robot.position(), turned.theta.radians(), arms);
+  const Scoring scoring{{}, caster, 1.0 / static_cast<double>(arms.size()), score_by_distance()};
+  return scoring(map_from_robot.position(), turned.theta.radians(), arms);
 }
 
 }  // namespace docent

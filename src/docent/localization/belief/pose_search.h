@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "docent/geometry/pose2.h"
@@ -26,9 +27,9 @@ struct PoseGuess {
 [[nodiscard]] Pose2 best_pose_near(std::span<const PoseGuess> guesses, const RangeSweep& sweep, const RayCaster& caster,
                                    double max_range, double readings);
 
-/// ln of how well the readings of a sweep fit a pose: the score of `best_pose_near` without guesses. Higher is better.
-/// O(beams).
-[[nodiscard]] double log_fit(const Pose2& map_from_robot, const RangeSweep& sweep, const RayCaster& caster,
-                             double max_range, double readings);
+/// How well the readings of a sweep fit a pose: the score of `best_pose_near` without guesses, a reading; higher is
+/// better. None where fewer than ten readings remain. O(beams).
+[[nodiscard]] std::optional<double> log_fit(const Pose2& map_from_robot, const RangeSweep& sweep,
+                                            const RayCaster& caster, double max_range);
 
 }  // namespace docent

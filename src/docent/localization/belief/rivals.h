@@ -15,7 +15,7 @@ namespace docent {
 ///
 /// Scans from one spot err together: a wall that the survey has two centimetres off speaks for the wrong one of two
 /// places that look the same, in every scan, and the product of likelihoods is sure of it within seconds. So while the
-/// robot does not know where it is, every place that ever was a mode stays possible until readings differ from it
+/// robot has no place to keep (Verdict), every place that ever was a mode stays possible until readings differ from it
 /// grossly, by more than maps and poses are wrong, where they fit the best place; or until evidence has ruled it out at
 /// several spots, each some way from the last. docs/decisions/0010.
 class Rivals {

@@ -7,14 +7,14 @@
 namespace docent {
 namespace {
 
-constexpr double kLength = 1.5;      // [m]
+constexpr double kLength = 1.5;      // [m] of a wall, at least
 constexpr double kDeviation = 0.06;  // [m] from the chord
 constexpr double kGap = 0.5;         // [m] between neighbours, more is a break
-constexpr std::size_t kBeams = 8;
+constexpr std::size_t kFewest = 8;   // beams on a wall
 
 /// Marks the straight parts of an unbroken run, splitting it where it is farthest from its chord.
 void split(std::span<const Point2> run, std::span<std::uint8_t> is_wall) {
-  if (run.size() < kBeams) return;
+  if (run.size() < kFewest) return;
   const Point2 chord = run.back() - run.front();
   const double length = norm(chord);
   std::size_t farthest = 0;
@@ -38,21 +38,31 @@ void split(std::span<const Point2> run, std::span<std::uint8_t> is_wall) {
 }  // namespace
 
 std::vector<std::uint8_t> on_straight_walls(const RangeSweep& sweep) {
-  std::vector<Point2> points(sweep.beams.size());
-  std::vector<std::uint8_t> is_wall(sweep.beams.size(), 0);
-  const std::span<std::uint8_t> marks{is_wall};
-  const std::span<const Point2> all{points};
-  std::size_t begin = 0;
-  for (std::size_t i = 0; i < sweep.beams.size(); ++i) {
-    const bool is_end = sweep.beams[i].no_return;
-    points[i] = endpoint(sweep.beams[i]);
-    if (i > begin && (is_end || norm(points[i] - points[i - 1]) > kGap)) {
-      split(all.subspan(begin, i - begin), marks.subspan(begin, i - begin));
-      begin = i;
-    }
-    if (is_end) begin = i + 1;
+  const std::size_t size = sweep.beams.size();
+  std::vector<std::uint8_t> is_wall(size, 0);
+  const auto breaks_before = [&](std::size_t i) {
+    const SweepBeam& beam = sweep.beams[i];
+    const SweepBeam& before = sweep.beams[(i + size - 1) % size];
+    return beam.no_return || before.no_return || distance(endpoint(beam), endpoint(before)) > kGap;
+  };
+  // The sweep is closed: what its first and its last beam see may be one wall.
+  std::size_t first = 0;
+  while (first < size && !breaks_before(first)) ++first;
+  first %= std::max<std::size_t>(size, 1);
+  std::vector<Point2> run;
+  std::vector<std::uint8_t> marks;
+  for (std::size_t begin = 0; begin < size;) {
+    run.clear();
+    std::size_t end = begin;
+    do {
+      run.push_back(endpoint(sweep.beams[(first + end) % size]));
+      ++end;
+    } while (end < size && !breaks_before((first + end) % size));
+    marks.assign(run.size(), 0);
+    split(run, marks);
+    for (std::size_t i = 0; i < run.size(); ++i) is_wall[(first + begin + i) % size] = marks[i];
+    begin = end;
   }
-  if (begin < points.size()) split(all.subspan(begin), marks.subspan(begin));
   return is_wall;
 }
 

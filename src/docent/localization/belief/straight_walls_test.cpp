@@ -56,6 +56,17 @@ TEST(StraightWalls, AGapEndsAWall) {
   EXPECT_EQ(count(on_straight_walls(sweep)), 0U);  // pieces of 0.8 m
 }
 
+TEST(StraightWalls, AWallIsOneAcrossTheEndOfTheSweep) {
+  Rng rng{6};
+  RangeSweep behind;
+  for (int degree = -180; degree < 180; ++degree) {
+    const double bearing = degree * M_PI / 180.0;
+    const bool is_wall = std::abs(degree) > 180 - 40;  // 1 m behind, 1.7 m long, the end in its middle
+    behind.beams.push_back({bearing, is_wall ? -1.0 / std::cos(bearing) + 0.01 * rng.normal() : 10.0, !is_wall});
+  }
+  EXPECT_GT(count(on_straight_walls(behind)), 75U);
+}
+
 TEST(StraightWalls, EmptySweepsAreEmpty) { EXPECT_TRUE(on_straight_walls({}).empty()); }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace docent {
 namespace {
 
 /// Weights of the logistic function behind P(lost), one set for a robot that has said "here" and one for a robot that
-/// has not. Learned from recordings by `scripts/evaluate localization --part calibrate`.
+/// has not; >= 0 but for the bias. Learned from recordings by `scripts/evaluate localization --part calibrate`.
 struct DoubtWeights {
   double bias;
   double mass;  ///< of ln(m / (1 - m)), m: the mass outside the best mode
@@ -21,7 +21,7 @@ struct DoubtWeights {
   double spread;
 };
 constexpr DoubtWeights kWhenSure{-2.382, 0.791, 0.000, 7.433, 7.706, 7.680, 25.512, 0.878};
-constexpr DoubtWeights kWhenNot{-9.845, -0.295, 1.931, -1.486, 11.211, 11.389, 8.505, 28.127};
+constexpr DoubtWeights kWhenNot{-7.027, 0.000, 0.000, 0.000, 10.330, 9.928, 8.322, 22.043};
 
 }  // namespace
 
@@ -124,8 +124,9 @@ void Verdict::look(const Glance& glance) {
   shorter_ += kMemory * (glance.shorter - shorter_);
   unmapped_ += kMemory * (glance.unmapped - unmapped_);
 
-  constexpr int kPatience = 8;  // sweeps: somebody who steps before the robot is a doubt for less
-  doubtful_ = keeps_its_place_ && p_lost(true) > params_.most_doubt ? doubtful_ + 1 : 0;
+  constexpr int kPatience = 8;          // glances: somebody who steps before the robot is a doubt for less
+  const bool was_judged = mass_ > 0.0;  // not yet where the place was given
+  doubtful_ = keeps_its_place_ && was_judged && p_lost(true) > params_.most_doubt ? doubtful_ + 1 : 0;
   if (doubtful_ < kPatience) return;
   localized_ = keeps_its_place_ = false;
   doubtful_ = 0;

@@ -11,13 +11,14 @@ namespace docent {
 struct VerdictParams {
   double enough_mass = 0.995;       ///< of the best mode, to say "here"
   double too_little_mass = 0.6;     ///< to take it back, or
-  double most_doubt = 0.9;          ///< P(lost), for some sweeps in a row
+  double most_doubt = 0.9;          ///< P(lost), for eight glances in a row
   double widest_spread = 0.35;      ///< [m] standard deviation of the best mode
   double confirmations = 6.0;       ///< full updates in a row that kept to one mode
   double travelled = 1.0;           ///< [m] driven since, or
   double turned = 120.0;            ///< [deg] turned since
   double least_agreement = 0.2;     ///< share of the readings that the map explains
-  double blind_way = 20.0;          ///< [m] to say "here" by odometry while people hide everything that the map holds
+  double blind_way = 20.0;          ///< [m] to say "here" by odometry while people hide all that the map holds; after
+                                    ///< three times as many the place is given up
   double most_contradiction = 0.2;  ///< share of the readings that pass through walls of the map
   double startled_through = 0.45;   ///< share of one sweep that does so, or
   double startled_hidden = 0.35;    ///< that is suddenly too short: nobody steps before so many beams at once
@@ -71,7 +72,8 @@ class Verdict {
   explicit Verdict(const VerdictParams& params) : params_{params} {}
 
   void add(const Evidence& evidence);
-  /// A sweep between updates, or the one that led to the last, against the best pose.
+  /// A sweep between updates, or the one that led to the last, against the best pose. Eight that leave more than the
+  /// most doubt take "here" back.
   void look(const Glance& glance);
   /// After a restart or a given start: the mode was known already, and needs one confirmation only.
   void assume_localized();

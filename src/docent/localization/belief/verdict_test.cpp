@@ -76,6 +76,62 @@ TEST(Verdict, WallsThatTheMapLacksTakeTheKnowledgeBackThoughNothingElseSpeaksAga
   EXPECT_GT(verdict.p_lost(), 0.5);
 }
 
+TEST(Verdict, AGivenPlaceIsKeptWhileTheRobotStands) {
+  Verdict verdict{{}};
+  verdict.assume_localized();
+  for (int sweep = 0; sweep < 40; ++sweep) verdict.look({0.0, 0.1, 0.0, 40});
+  verdict.add(good());
+  EXPECT_TRUE(verdict.localized());
+}
+
+TEST(Verdict, SomebodyWhoStepsBeforeTheRobotForAMomentIsNoReasonForDoubt) {
+  Verdict verdict = sure();
+  for (int i = 0; i < 7; ++i) verdict.look({1.0, 0.9, 1.0, 40});
+  EXPECT_TRUE(verdict.localized());
+  verdict.look({0.0, 0.1, 0.0, 40});
+  for (int i = 0; i < 8; ++i) verdict.look({1.0, 0.9, 1.0, 40});
+  EXPECT_FALSE(verdict.localized());
+  EXPECT_FALSE(verdict.keeps_its_place());
+}
+
+TEST(Verdict, BlindItStopsSayingHereKeepsItsPlaceAndGivesItUpAtLast) {
+  Verdict verdict = sure();
+  Evidence hidden = good();
+  hidden.readings = {0.0, 60.0, 0.0};
+  double way = 0.0;
+  const auto drive_on_while = [&](auto holds) {
+    for (; holds() && way < 200.0; way += hidden.way) verdict.add(hidden);
+  };
+  drive_on_while([&] { return verdict.localized(); });
+  EXPECT_NEAR(way, VerdictParams{}.blind_way, 6.0);
+  EXPECT_TRUE(verdict.keeps_its_place());
+  drive_on_while([&] { return verdict.keeps_its_place(); });
+  EXPECT_NEAR(way, 3.0 * VerdictParams{}.blind_way, 6.0);
+  EXPECT_TRUE(verdict.contradicted());
+}
+
+TEST(Verdict, AnotherModeIsAnotherPlace) {
+  Verdict verdict = sure();
+  Evidence elsewhere = good();
+  elsewhere.is_same_mode = false;
+  verdict.add(elsewhere);
+  EXPECT_FALSE(verdict.localized());
+  EXPECT_FALSE(verdict.keeps_its_place());
+}
+
+TEST(Verdict, MoreAgainstThePlaceIsNeverLessDoubt) {
+  for (const bool has_said : {false, true}) {
+    double before = 0.0;
+    for (double through = 0.0; through <= 1.0; through += 0.1) {
+      Verdict verdict = has_said ? sure() : Verdict{{}};
+      verdict.add(good());
+      verdict.look({through, 0.1 + 0.5 * through, through, 40});
+      EXPECT_GE(verdict.p_lost(), before);
+      before = verdict.p_lost();
+    }
+  }
+}
+
 TEST(Verdict, ACrowdThatHidesEverythingIsNoReasonForDoubt) {
   Verdict verdict = sure();
   Evidence hidden = good();

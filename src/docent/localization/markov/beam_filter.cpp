@@ -125,22 +125,33 @@ Agreement agreement(const ExpectedRanges& expected, const ProximityModel& model,
   return result;
 }
 
-BeamChoice chosen_beams(const ExpectedRanges& expected, const ProximityModel& model, const RangeSweep& sweep,
-                        std::span<const BinnedBeam> beams, const BeamChoiceParams& params, Rng& rng) {
+BeamChoice chosen_beams(std::span<const LikelyState> likely, const RangeTable& table, int directions,
+                        const ProximityModel& model, const RangeSweep& sweep, const BeamChoiceParams& params,
+                        std::size_t phase, Rng& rng) {
+  constexpr std::size_t kFewest = 10;  // others: with fewer there is still something to recover by
   BeamChoice choice;
-  std::vector<bool> is_rejected;
-  for (const BinnedBeam& beam : beams) {
-    const int bin = bin_of(sweep.beams[beam.beam], model);
-    choice.readings += agreement(expected, model, beam.direction, bin, params.sureness);
-    is_rejected.push_back(rejects(params.filter, expected, model, beam.direction, bin, params.sureness));
-    choice.filtered += is_rejected.back() ? 1 : 0;
+  const std::vector<BinnedBeam> beams = binned(sweep, directions);
+  if (likely.empty()) {
+    choice.used = beams;
+  } else {
+    const ExpectedRanges expected{likely, table, directions};
+    std::vector<bool> is_rejected;
+    for (const BinnedBeam& beam : beams) {
+      const int bin = bin_of(sweep.beams[beam.beam], model);
+      choice.readings += agreement(expected, model, beam.direction, bin, params.sureness);
+      is_rejected.push_back(rejects(params.filter, expected, model, beam.direction, bin, params.sureness));
+      choice.filtered += is_rejected.back() ? 1 : 0;
+    }
+    const std::size_t others = std::max(beams.size() - choice.filtered, kFewest);
+    double share = params.unfiltered_share;
+    if (params.keeps_its_place && choice.filtered > others)
+      share *= static_cast<double>(others) / static_cast<double>(choice.filtered);
+    for (std::size_t i = 0; i < beams.size(); ++i)
+      if (!is_rejected[i] || rng.chance(share)) choice.used.push_back(beams[i]);
   }
-  const std::size_t others = beams.size() - choice.filtered;
-  double share = params.unfiltered_share;
-  if (params.is_sure_of_its_place && choice.filtered > others)
-    share *= static_cast<double>(others) / static_cast<double>(choice.filtered);
-  for (std::size_t i = 0; i < beams.size(); ++i)
-    if (!is_rejected[i] || rng.chance(share)) choice.used.push_back(beams[i]);
+  choice.used = thinned(choice.used, params.most, phase);
+  std::sort(choice.used.begin(), choice.used.end(),
+            [](const BinnedBeam& a, const BinnedBeam& b) { return a.direction < b.direction; });
   return choice;
 }
 

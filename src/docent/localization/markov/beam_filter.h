@@ -61,7 +61,7 @@ enum class BeamFilter { none, entropy, distance, novelty };
 
 /// Which beams of a sweep count.
 struct BeamChoice {
-  std::vector<BinnedBeam> used;  ///< in the order of directions
+  std::vector<BinnedBeam> used;  ///< by rising direction
   std::size_t filtered = 0;
   Agreement readings;  ///< of all beams, used or not
 };
@@ -69,14 +69,16 @@ struct BeamChoiceParams {
   BeamFilter filter = BeamFilter::none;
   double sureness = 0.99;
   double unfiltered_share = 0.1;  ///< of the filtered beams, chosen at random, that count anyway: for recovery
-  /// Beams rejected in a crowd are people. Where there are more of them than others the random set, too, is mostly
-  /// people: then it is a share of the others. Not while the robot may be elsewhere, when most beams are rejected and
-  /// right.
-  bool is_sure_of_its_place = false;
+  std::size_t most = 60;
+  /// Beams rejected in a crowd are people. Where there are more of them than others the random set, too, would be
+  /// mostly people: then it is a share of the others. Not while the robot may be elsewhere, when most beams are
+  /// rejected and right. See Verdict::keeps_its_place.
+  bool keeps_its_place = false;
 };
-[[nodiscard]] BeamChoice chosen_beams(const ExpectedRanges& expected, const ProximityModel& model,
-                                      const RangeSweep& sweep, std::span<const BinnedBeam> beams,
-                                      const BeamChoiceParams& params, Rng& rng);
+/// Without likely states no filter can be asked, and all beams count. `phase`: see `thinned`.
+[[nodiscard]] BeamChoice chosen_beams(std::span<const LikelyState> likely, const RangeTable& table, int directions,
+                                      const ProximityModel& model, const RangeSweep& sweep,
+                                      const BeamChoiceParams& params, std::size_t phase, Rng& rng);
 
 /// H(L | s) - H(L) [nat] of every beam, [Rhino1999] eq. 10: what its inverse filter asks. 0 without a return: dark
 /// things and mirrors are no people. `seen`: in the frame of the belief. O(beams * kExpectedRanges).

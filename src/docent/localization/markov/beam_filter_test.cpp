@@ -22,16 +22,15 @@ struct Crowd {
     for (std::size_t i = 0; i < people; ++i) sweep.beams[i].range = std::min(sweep.beams[i].range, 0.5);
   }
 
-  [[nodiscard]] BeamChoice choose(BeamFilter filter, bool is_sure, std::uint64_t seed) const {
+  [[nodiscard]] BeamChoice choose(BeamFilter filter, bool keeps_its_place, std::uint64_t seed) const {
     Rng rng{seed};
-    const ExpectedRanges expected{states, room->table, room->space.headings()};
-    const auto beams = binned(sweep, room->space.headings());
-    return chosen_beams(expected, room->model, sweep, beams, {filter, 0.99, 0.1, is_sure}, rng);
+    return chosen_beams(states, room->table, room->space.headings(), room->model, sweep,
+                        {filter, 0.99, 0.1, 1000, keeps_its_place}, 1, rng);
   }
-  [[nodiscard]] double mean_of_random_set(bool is_sure) const {
+  [[nodiscard]] double mean_of_random_set(bool keeps_its_place) const {
     double sum = 0.0;
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
-      const BeamChoice choice = choose(BeamFilter::distance, is_sure, seed);
+      const BeamChoice choice = choose(BeamFilter::distance, keeps_its_place, seed);
       sum += static_cast<double>(choice.used.size()) - static_cast<double>(60 - choice.filtered);
     }
     return sum / 200.0;
@@ -42,6 +41,18 @@ TEST(ChosenBeams, WithoutAFilterAllCount) {
   const BeamChoice choice = Crowd{0.5}.choose(BeamFilter::none, true, 1);
   EXPECT_EQ(choice.used.size(), 60U);  // directions
   EXPECT_EQ(choice.filtered, 0U);
+}
+
+TEST(ChosenBeams, AtMostSoManyCountAndAllWhereNothingIsLikely) {
+  const Crowd crowd{0.5};
+  Rng rng{1};
+  const auto chosen = [&](std::span<const LikelyState> likely, std::size_t most) {
+    return chosen_beams(likely, crowd.room->table, crowd.room->space.headings(), crowd.room->model, crowd.sweep,
+                        {BeamFilter::distance, 0.99, 0.1, most, true}, 1, rng);
+  };
+  EXPECT_EQ(chosen({}, 1000).used.size(), 60U);
+  EXPECT_EQ(chosen({}, 15).used.size(), 15U);
+  EXPECT_LE(chosen(crowd.states, 15).used.size(), 15U);
 }
 
 TEST(ChosenBeams, TheDistanceFilterRejectsPeopleAndAgreementCountsThem) {
@@ -59,6 +70,7 @@ TEST(ChosenBeams, TheRandomSetIsASmallShareOfThoseThatCountInACrowd) {
   ASSERT_GT(filtered, 40.0);
   EXPECT_NEAR(crowd.mean_of_random_set(false), 0.1 * filtered, 0.5);  // it may be elsewhere: then they are right
   EXPECT_NEAR(crowd.mean_of_random_set(true), 0.1 * (60.0 - filtered), 0.3);
+  EXPECT_GT(Crowd{1.0}.mean_of_random_set(true), 0.3);  // never nothing
   const Crowd few{0.3};
   EXPECT_EQ(few.mean_of_random_set(true), few.mean_of_random_set(false));
 }

@@ -163,7 +163,7 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   if (way > 0.0 || turn > 0.0) move(before_from_after);
 
   const RangeSweep seen = seen_from(sweep, frame_from_robot());
-  BeamChoice choice = choose_beams(seen, binned(seen, space_.headings()));
+  BeamChoice choice = choose_beams(seen);
   const double temper = step.weight * std::min(1.0, views * params_.independent_beams / params_.beams);
   std::vector<BeamCosts> costs(choice.used.size());
   double log_best_over_mean = 0.0;
@@ -289,21 +289,11 @@ void MarkovLocalizer::move(const Pose2& before_from_after) {
   belief_.move(motion_kernel(space_, params_.motion, shift, step));
 }
 
-BeamChoice MarkovLocalizer::choose_beams(const RangeSweep& sweep, const std::vector<BinnedBeam>& beams) {
-  BeamChoice choice;
+BeamChoice MarkovLocalizer::choose_beams(const RangeSweep& sweep) {
   likely_ = likely_states(belief_, kLikelyFraction, kMostLikely);
-  if (likely_.empty()) {
-    choice.used = beams;
-  } else {
-    const ExpectedRanges expected{likely_, table_, space_.headings()};
-    const BeamChoiceParams params{filter_, params_.filter_sureness, params_.unfiltered_share,
-                                  verdict_.keeps_its_place()};
-    choice = chosen_beams(expected, model_, sweep, beams, params, rng_);
-  }
-  choice.used = thinned(choice.used, static_cast<std::size_t>(params_.beams), ++phase_);
-  std::sort(choice.used.begin(), choice.used.end(),
-            [](const auto& a, const auto& b) { return a.direction < b.direction; });
-  return choice;
+  const BeamChoiceParams params{filter_, params_.filter_sureness, params_.unfiltered_share,
+                                static_cast<std::size_t>(params_.beams), verdict_.keeps_its_place()};
+  return chosen_beams(likely_, table_, space_.headings(), model_, sweep, params, ++phase_, rng_);
 }
 
 void MarkovLocalizer::judge(const Evidence& evidence, const std::optional<Pose2>& predicted) {
@@ -311,6 +301,7 @@ void MarkovLocalizer::judge(const Evidence& evidence, const std::optional<Pose2>
   if (!verdict_.collapsed()) return;
   belief_.flood(0.9);
   verdict_.reset();
+  refiner_.reset();
   rivals_.forget();
   summarise_now();
 }

@@ -113,7 +113,7 @@ class MarkovLocalizer final : public Localizer {
 
  private:
   [[nodiscard]] double due_weight(double way, double turn, Time time) const;
-  [[nodiscard]] BeamChoice choose_beams(const RangeSweep& sweep, const std::vector<BinnedBeam>& beams);
+  [[nodiscard]] BeamChoice choose_beams(const RangeSweep& sweep);
   /// What the sensors beside the lasers say now, for `weight` of an update; empty: nothing.
   [[nodiscard]] PlaceCosts ask_sensors(double weight);
   [[nodiscard]] std::optional<double> fit(const RangeSweep& seen, std::span<const BinnedBeam> beams) const;

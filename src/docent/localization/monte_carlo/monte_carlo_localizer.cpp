@@ -77,6 +77,7 @@ void MonteCarloLocalizer::start_unknown() {
   last_work_ = 0.0;
   long_mean_ = short_mean_ = start_over_ = 0.0;
   phase_ = 0;
+  undrawn_ = 0;
   verdict_.reset();
   refiner_.reset();
   rivals_.forget();
@@ -358,22 +359,11 @@ std::optional<double> MonteCarloLocalizer::fit(const RangeSweep& sweep, std::spa
 }
 
 BeamChoice MonteCarloLocalizer::choose_beams(const RangeSweep& sweep) {
-  BeamChoice choice;
-  const std::vector<BinnedBeam> beams = binned(sweep, space_.headings());
   likely_ = particles_.size() > 0 ? likely_states(bins_of(particles_, space_), space_, kLikelyFraction, kMostLikely)
                                   : std::vector<LikelyState>{};
-  if (likely_.empty()) {
-    choice.used = beams;
-  } else {
-    const ExpectedRanges expected{likely_, table_, space_.headings()};
-    const BeamChoiceParams params{filter_, shared_.filter_sureness, shared_.unfiltered_share,
-                                  verdict_.keeps_its_place()};
-    choice = chosen_beams(expected, model_, sweep, beams, params, rng_);
-  }
-  choice.used = thinned(choice.used, static_cast<std::size_t>(shared_.beams), ++phase_);
-  std::sort(choice.used.begin(), choice.used.end(),
-            [](const auto& a, const auto& b) { return a.direction < b.direction; });
-  return choice;
+  const BeamChoiceParams params{filter_, shared_.filter_sureness, shared_.unfiltered_share,
+                                static_cast<std::size_t>(shared_.beams), verdict_.keeps_its_place()};
+  return chosen_beams(likely_, table_, space_.headings(), model_, sweep, params, ++phase_, rng_);
 }
 
 void MonteCarloLocalizer::judge(const Evidence& evidence, const std::optional<Pose2>& predicted) {
@@ -381,6 +371,7 @@ void MonteCarloLocalizer::judge(const Evidence& evidence, const std::optional<Po
   if (!verdict_.collapsed()) return;
   start_over_ = 0.9;
   verdict_.reset();
+  refiner_.reset();
   rivals_.forget();
 }
 
