@@ -15,7 +15,7 @@ def features(row):
     """As Verdict::p_lost has them."""
     left = min(max(1.0 - row["mass"], 1e-4), 1.0 - 1e-4)
     return [1.0, math.log(left / (1.0 - left)), 1.0 - row["confirmation"], row["contradiction"], row["surprise"],
-            row["hidden"], row["unmapped"] * (1.0 - row["agreement"]), min(row["spread"], 1.0)]
+            row["hidden"], row["unmapped"] * (1.0 - row["agreement"]) ** 2, min(row["spread"], 1.0)]
 
 
 def logistic(weights, values):

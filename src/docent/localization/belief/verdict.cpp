@@ -20,8 +20,8 @@ struct DoubtWeights {
   double unmapped;  ///< of the walls that the map lacks, the less the more it explains besides
   double spread;
 };
-constexpr DoubtWeights kWhenSure{-2.382, 0.791, 0.000, 7.433, 7.706, 7.680, 25.512, 0.878};
-constexpr DoubtWeights kWhenNot{-7.027, 0.000, 0.000, 0.000, 10.330, 9.928, 8.322, 22.043};
+constexpr DoubtWeights kWhenSure{-2.305, 0.775, 0.000, 7.979, 7.725, 8.585, 28.282, 0.266};
+constexpr DoubtWeights kWhenNot{-6.906, 0.000, 0.295, 0.000, 10.290, 10.476, 9.306, 20.700};
 
 }  // namespace
 
@@ -137,9 +137,10 @@ double Verdict::p_lost(bool has_said) const {
   if (mass_ <= 0.0) return 1.0;
   const double left = std::clamp(1.0 - mass_, 1e-4, 1.0 - 1e-4);
   const DoubtWeights& w = has_said ? kWhenSure : kWhenNot;
+  const double strangeness = 1.0 - agreement_;
   const double z = w.bias + w.mass * std::log(left / (1.0 - left)) + w.youth * (1.0 - confirmation()) +
                    w.contradiction * contradiction_ + w.surprise * glance_.through + w.hidden * hidden_ +
-                   w.unmapped * unmapped_ * (1.0 - agreement_) + w.spread * std::min(spread_, 1.0);
+                   w.unmapped * unmapped_ * strangeness * strangeness + w.spread * std::min(spread_, 1.0);
   const double right = 1.0 / (1.0 + std::exp(z));
   return 1.0 - right * mass_ / (mass_ + rival_);
 }
