@@ -8,6 +8,7 @@ from . import claims, localization
 
 FIRST_SEED = 5000
 NAMES = ["bias", "mass", "youth", "contradiction", "surprise", "hidden", "unmapped", "spread"]
+LEAST = {"mass": 0.2}  # weights: a robot with hardly any mass anywhere is never sure of it; the others 0
 TOUR_WEIGHT = 0.1  # of an update on a tour: nobody is lost there
 
 
@@ -49,20 +50,21 @@ def solve(matrix, right):
 def fit(data, ridge=0.1):
     """Weights of the likeliest P(lost) over (features, was lost, how much it counts, share of the best mode), none below 0
     but the bias: more evidence of being lost never makes it less likely."""
-    left_out = []
+    held = {}
     while True:
-        weights = fit_without(data, left_out, ridge)
-        least = min(range(1, len(NAMES)), key=lambda i: weights[i])
-        if weights[least] >= 0.0:
+        weights = fit_holding(held, data, ridge)
+        off = {i: weights[i] - LEAST.get(NAMES[i], 0.0) for i in range(1, len(NAMES)) if i not in held}
+        worst = min(off, key=off.get)
+        if off[worst] >= 0.0:
             return weights
-        left_out.append(least)
+        held[worst] = LEAST.get(NAMES[worst], 0.0)
 
 
-def fit_without(data, left_out, ridge):
+def fit_holding(held, data, ridge):
     """A lost update may be one because the second mode was right: it counts as far as the logistic function explains it
     (EM, a step of Newton's method in each round)."""
     n = len(NAMES)
-    weights = [0.0] * n
+    weights = [held.get(i, 0.0) for i in range(n)]
     for _ in range(200):
         gradient = [-ridge * w for w in weights]
         hessian = [[ridge if i == j else 0.0 for j in range(n)] for i in range(n)]
@@ -74,7 +76,7 @@ def fit_without(data, left_out, ridge):
                 gradient[i] += share * (due - p) * values[i]
                 for j in range(n):
                     hessian[i][j] += curve * values[i] * values[j]
-        for i in left_out:
+        for i in held:
             gradient[i] = 0.0
             hessian[i] = [float(i == j) for j in range(n)]
         step = solve(hessian, gradient)

@@ -21,7 +21,7 @@ struct DoubtWeights {
   double spread;
 };
 constexpr DoubtWeights kWhenSure{-2.305, 0.775, 0.000, 7.979, 7.725, 8.585, 28.282, 0.266};
-constexpr DoubtWeights kWhenNot{-6.906, 0.000, 0.295, 0.000, 10.290, 10.476, 9.306, 20.700};
+constexpr DoubtWeights kWhenNot{-6.594, 0.200, 0.000, 0.000, 10.029, 14.982, 9.282, 22.097};
 
 }  // namespace
 

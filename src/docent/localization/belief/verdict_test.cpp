@@ -119,6 +119,17 @@ TEST(Verdict, AnotherModeIsAnotherPlace) {
   EXPECT_FALSE(verdict.keeps_its_place());
 }
 
+TEST(Verdict, HardlyAnyMassIsNeverSure) {
+  Verdict verdict{{}};
+  Evidence scattered = good();
+  scattered.mass = 1e-5;
+  scattered.spread = 0.05;
+  scattered.is_same_mode = false;
+  verdict.add(scattered);
+  verdict.look({0.0, 0.0, 0.0, 40});
+  EXPECT_GT(verdict.p_lost(), 0.01);
+}
+
 TEST(Verdict, MoreAgainstThePlaceIsNeverLessDoubt) {
   for (const bool has_said : {false, true}) {
     double before = 0.0;
