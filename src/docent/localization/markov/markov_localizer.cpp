@@ -214,12 +214,7 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
     const ExpectedRanges expected{likely_, table_, space_.headings()};
     choice.readings = agreement_of_all(expected, model_, seen, params_.filter_sureness, space_.headings());
   }
-  Evidence evidence;
-  evidence.weight = step.weight;
-  evidence.way = way;
-  evidence.turn = turn;
-  evidence.readings = choice.readings;
-  judge(evidence, predicted);
+  judge({.weight = step.weight, .way = way, .turn = turn, .readings = choice.readings}, predicted);
   if (const auto now = map_from_robot(odom_from_robot))
     verdict_.look(glance(caster_, sweep, *now, params_.sensor.max_range));
   return step;

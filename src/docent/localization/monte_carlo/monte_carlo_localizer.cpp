@@ -228,12 +228,7 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
     const ExpectedRanges expected{likely_, table_, space_.headings()};
     choice.readings = agreement_of_all(expected, model_, sweep, shared_.filter_sureness, space_.headings());
   }
-  Evidence judged;
-  judged.weight = step.weight;
-  judged.way = way;
-  judged.turn = turn;
-  judged.readings = choice.readings;
-  judge(judged, predicted);
+  judge({.weight = step.weight, .way = way, .turn = turn, .readings = choice.readings}, predicted);
   if (const auto now = map_from_robot(odom_from_robot))
     verdict_.look(glance(caster_, sweep, *now, shared_.sensor.max_range));
   return step;
