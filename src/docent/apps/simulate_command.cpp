@@ -104,6 +104,8 @@ void add_simulate_command(CLI::App& app) {
   command->add_option("--scenario", options->run.scenario, "YAML file of timed events");
   command->add_option("--start", options->start, "X,Y,DEG in the map; without: anywhere, and the robot is not told");
   command->add_option("--mode", options->run.mode, "open, web, closed")->capture_default_str();
+  command->add_option("--max-speed", options->run.max_speed, "[m/s] instead of the mode's speed limit")
+      ->check(CLI::PositiveNumber);
   command->add_option("--set", options->run.settings, "section.key=value over robot.yaml; may be repeated");
   command->add_option("--state", options->run.state, "folder of checkpoints and databases; without: a temporary one");
   command->add_flag("!--world-only", options->run.has_robot,
@@ -114,6 +116,8 @@ void add_simulate_command(CLI::App& app) {
                       "CSV file to write: what the modules said of themselves, a row a change");
   command->add_option("--people-log", options->run.people_log,
                       "CSV file to write: tracked people beside the true ones");
+  command->add_option("--speed-log", options->run.speed_log,
+                      "CSV file to write: true speed, what is near, and why the robot is slow");
   command->add_option("--record", options->run.recording, "MCAP file of all messages and the truth");
   command->add_option("--picture", options->picture, "PNG file: the way driven over the map");
   command->add_option("--pace", options->pace, "virtual seconds a second; 0: as fast as possible")

@@ -12,6 +12,7 @@
 #include "docent/evaluation/deployment_evaluator.h"
 #include "docent/evaluation/health_log.h"
 #include "docent/evaluation/people_log.h"
+#include "docent/evaluation/speed_log.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/localize_module.h"
 #include "docent/modules/module_host.h"
@@ -53,6 +54,7 @@ class SimulationRun::Parts {
       picture_.add(topic, message);
       if (!options_.claims.empty()) claims_.add(topic, time, message);
       if (!options_.health_log.empty()) health_.add(topic, time, message);
+      if (!options_.speed_log.empty()) speed_.add(topic, time, message);
       if (!options_.people_log.empty()) people_.add(topic, time, message);
       if (recorder_ && failure_.empty()) {
         if (auto written = recorder_->write(topic, time, message); !written) failure_ = written.error().message;
@@ -123,6 +125,7 @@ class SimulationRun::Parts {
     } else if (options_.mode != "open") {
       return fail("--mode " + options_.mode + ": the museum has no such mode");
     }
+    if (options_.max_speed) limits.max_speed = std::min(config_.body().max_speed, *options_.max_speed);
     operator_bus_->publisher(topics::kLimits).publish(limits);
     return {};
   }
@@ -202,6 +205,7 @@ class SimulationRun::Parts {
   ClaimLog claims_;
   HealthLog health_;
   PeopleLog people_;
+  SpeedLog speed_;
   SimulationPicture picture_;
   std::optional<Recorder> recorder_;
   std::string failure_;
@@ -260,6 +264,9 @@ Result<void> SimulationRun::finish() {
   }
   if (!parts_->options_.people_log.empty()) {
     if (auto saved = parts_->people_.save(parts_->options_.people_log); !saved) return saved;
+  }
+  if (!parts_->options_.speed_log.empty()) {
+    if (auto saved = parts_->speed_.save(parts_->options_.speed_log); !saved) return saved;
   }
   if (!parts_->recorder_) return {};
   return parts_->recorder_->close();

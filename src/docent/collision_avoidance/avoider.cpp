@@ -11,7 +11,8 @@ namespace docent {
 
 namespace {
 
-constexpr double kBeyondReach = 3.5;      // [m] obstacles farther away do not matter within one cycle
+constexpr double kLeastReach = 3.5;       // [m] obstacles farther away do not matter to a slow robot within one cycle
+constexpr double kFastWalk = 1.5;         // [m/s] of who may come towards the robot
 constexpr double kNearlyAll = 0.9;        // of a sweep's readings: the sensor is covered or has failed
 constexpr double kSonarPatience = 1.5;    // [s] for one sonar of many
 constexpr double kTactilePatience = 1.5;  // [s]
@@ -22,6 +23,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 Result<void> AvoiderParams::validate() const {
   if (auto valid = window.validate(); !valid) return valid;
   if (!(lookahead >= 0.3 && lookahead <= 5.0)) return fail("avoid.lookahead must lie between 0.3 and 5 m");
+  if (!(lookahead_time >= 0.0 && lookahead_time <= 5.0)) return fail("avoid.lookahead_time must lie in 0..5 s");
   if (auto valid = people.validate(); !valid) return valid;
   if (!(arrival_deceleration > 0.0)) return fail("avoid.arrival_deceleration must be > 0 m/s2");
   if (!(target_timeout > 0.0 && virtual_timeout > 0.0)) return fail("avoid: timeouts must be > 0 s");
@@ -113,15 +115,22 @@ BaseState Avoider::state_when_effective(Time now) const {
   return predict(odometry_.newest(), odometry_.newest_stamp(), now + seconds(limits_.latency), commands_, limits_);
 }
 
+double Avoider::reach() const {
+  const double speed = std::min(max_speed_, limits_.max_speed);
+  const double until_it_stands = window_.hold() + speed / limits_.deceleration;
+  return std::max(kLeastReach, limits_.radius + 0.5 * speed * until_it_stands + kFastWalk * until_it_stands);
+}
+
 std::vector<Obstacle> Avoider::obstacles_from(const Pose2& odom_from_base, Time when) const {
   std::vector<Obstacle> result;
+  const double reach = this->reach();
   const Pose2 base_from_odom = inverse(odom_from_base);
   const auto turned = [&](Point2 in_odom) { return base_from_odom * in_odom - base_from_odom.position(); };
   if (!params_.blind_to_people) {
     const bool judged = beams_localized_ && unmapped_time_ && when - *unmapped_time_ < seconds(1.0);
     for (const auto& point : memory_.points(when)) {
       const Point2 at = base_from_odom * point.in_odom;
-      if (norm(at) > kBeyondReach) continue;
+      if (norm(at) > reach) continue;
       const bool moves = point.velocity != Point2{};
       bool person = point.person;
       if (person && judged && !moves) {  // what the map explains is no person
@@ -147,13 +156,14 @@ std::vector<Obstacle> Avoider::obstacles_from(const Pose2& odom_from_base, Time 
       const double bearing = virtual_->first_bearing + static_cast<double>(i) * virtual_->bearing_step;
       // A zero would lie in no direction at all.
       const Point2 at = base_from_virtual * (std::max(range, 0.02) * unit(Angle::radians(bearing)));
-      if (norm(at) < kBeyondReach) result.push_back({at, {}, params_.window.virtual_margin, false, true});
+      if (norm(at) < reach) result.push_back({at, {}, params_.window.virtual_margin, false, true});
     }
   }
   return result;
 }
 
-Avoider::Carrot Avoider::carrot(const Pose2& odom_from_base, std::span<const Obstacle> obstacles) const {
+Avoider::Carrot Avoider::carrot(const Pose2& odom_from_base, double speed, std::span<const Obstacle> obstacles) const {
+  const double lookahead = std::max(params_.lookahead, params_.lookahead_time * speed);
   const Pose2 base_from_odom = inverse(odom_from_base);
   std::vector<Point2> path;
   for (const auto& via : target_->via) path.push_back(base_from_odom * via);
@@ -186,7 +196,7 @@ Avoider::Carrot Avoider::carrot(const Pose2& odom_from_base, std::span<const Obs
       rest -= step;
       along += step;
       const double way = norm(at);
-      is_inside = is_inside && way <= params_.lookahead;
+      is_inside = is_inside && way <= lookahead;
       if (!is_inside) continue;
       end = at;
       if (straight_free_way(std::atan2(at.y, at.x), obstacles, limits_.radius, way) >= way - 0.05) result.in_base = at;
@@ -313,7 +323,7 @@ AvoiderDecision Avoider::stand(Time now, AvoiderDecision decision, std::string r
 AvoiderDecision Avoider::decide(Time now) {
   AvoiderDecision decision;
   decision.speed_cap = 0.0;
-  decision.nearest_real = decision.nearest_virtual = kBeyondReach;
+  decision.nearest_real = decision.nearest_virtual = reach();
   if (odometry_.empty()) return stand(now, std::move(decision), "no fresh odometry");
 
   const BaseState start = state_when_effective(now);
@@ -340,7 +350,7 @@ AvoiderDecision Avoider::decide(Time now) {
   } else if (target_->via.empty()) {
     return stand(now, std::move(decision), "");
   } else {
-    const Carrot ahead = carrot(start.odom_from_base, obstacles);
+    const Carrot ahead = carrot(start.odom_from_base, start.velocity.linear, obstacles);
     wanted = ahead.in_base;
     if (target_->is_final) {
       const double to_goal = norm(inverse(start.odom_from_base) * target_->via.back());

@@ -17,16 +17,18 @@ namespace docent {
 struct AvoiderParams {
   DynamicWindowParams window;
   PeopleCautionParams people;
-  double lookahead = 1.2;              ///< [m] the path is followed by steering for a point so far along it
-  double arrival_deceleration = 0.35;  ///< [m/s2]
-  double target_timeout = 1.5;         ///< [s]
-  double virtual_timeout = 1.5;        ///< [s]
-  bool needs_sonar = true;             ///< stands when the sonars are silent
-  bool blind_to_people = false;        ///< crippled, for evaluation: sees virtual measurements and touch only
+  double lookahead = 1.2;             ///< [m] the path is followed by steering for a point so far along it, at least,
+  double lookahead_time = 1.5;        ///< [s] and as far as the robot drives in this time
+  double arrival_deceleration = 0.6;  ///< [m/s2]
+  double target_timeout = 1.5;        ///< [s]
+  double virtual_timeout = 1.5;       ///< [s]
+  bool needs_sonar = true;            ///< stands when the sonars are silent
+  bool blind_to_people = false;       ///< crippled, for evaluation: sees virtual measurements and touch only
   template <class V>
   void visit(V& v) {
     v("window", window);
     v("lookahead", lookahead);
+    v("lookahead_time", lookahead_time);
     v("people", people);
     v("arrival_deceleration", arrival_deceleration);
     v("target_timeout", target_timeout);
@@ -106,8 +108,11 @@ class Avoider {
     double remaining = 0.0;  ///< [m] along the path to its end
   };
   [[nodiscard]] BaseState state_when_effective(Time now) const;
+  /// How far [m] what may matter before the robot can stand lies at most.
+  [[nodiscard]] double reach() const;
   [[nodiscard]] std::vector<Obstacle> obstacles_from(const Pose2& odom_from_base, Time when) const;
-  [[nodiscard]] Carrot carrot(const Pose2& odom_from_base, std::span<const Obstacle> obstacles) const;
+  /// @param speed  [m/s] of the robot now
+  [[nodiscard]] Carrot carrot(const Pose2& odom_from_base, double speed, std::span<const Obstacle> obstacles) const;
   [[nodiscard]] double steer_around(Point2 carrot, const Pose2& odom_from_base, std::span<const Obstacle> obstacles);
   /// Caps the speed and says why.
   void cap_speed(double cap, const char* why, AvoiderDecision& decision) const;

@@ -48,7 +48,7 @@ struct ObstaclePoint {
 class ObstacleMemory {
  public:
   static constexpr double kMemory = 1.5;      ///< [s]
-  static constexpr double kReach = 5.0;       ///< [m] from the robot; what is farther does not matter yet
+  static constexpr double kReach = 6.0;       ///< [m] from the robot; what is farther does not matter yet
   static constexpr double kSonarReach = 1.5;  ///< [m]
 
   /// @param odom_from_base  pose at the sweep's stamp. Sensors are numbered from 0.

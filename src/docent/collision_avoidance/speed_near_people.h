@@ -8,7 +8,7 @@ namespace docent {
 
 /// What people may do that nobody foresees, and what a robot may do about it.
 struct PeopleCautionParams {
-  double surprise = 0.6;  ///< [m/s] by which anybody may come nearer than their motion tells
+  double surprise = 0.4;  ///< [m/s] by which anybody may come nearer than their motion tells
   double reaction = 0.3;  ///< [s] from a surprise to full braking: a sweep, a choice, the base
   double harmless = 0.1;  ///< [m/s] towards somebody: nobody minds
   template <class V>

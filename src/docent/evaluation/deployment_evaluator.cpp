@@ -125,6 +125,20 @@ void DeploymentEvaluator::add_goal_state(const docent_msgs::GoalState& goal) {
   const bool blocked = goal_is_active_ && goal.state == "blocked";
   report_.blocked.events += blocked && !is_blocked_ ? 1 : 0;
   is_blocked_ = blocked;
+  if (!truth_.empty()) follow_trip(goal);
+}
+
+void DeploymentEvaluator::follow_trip(const docent_msgs::GoalState& goal) {
+  const bool is_under_way = goal_is_active_ && !is_relocalizing_ && goal.state != "turning";
+  if (trip_ && trip_->goal == goal.id && (goal.state == "turning" || goal.state == "arrived")) {
+    report_.trips.push_back(
+        {to_seconds(truth_.latest_time() - trip_->begin), truth_.latest().distance_m - trip_->distance_m});
+  }
+  if (!is_under_way) {
+    trip_.reset();
+  } else if (!trip_ || trip_->goal != goal.id) {
+    trip_ = Trip{goal.id, truth_.latest_time(), truth_.latest().distance_m};
+  }
 }
 
 void DeploymentEvaluator::add_health(const docent_msgs::Health& health) {

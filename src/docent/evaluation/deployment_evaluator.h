@@ -2,6 +2,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "docent/evaluation/deployment_report.h"
@@ -33,6 +34,7 @@ class DeploymentEvaluator {
   void add_state(std::shared_ptr<const docent_msgs::TrueState> state);
   void add_contact(const docent_msgs::TrueContact& contact);
   void add_goal_state(const docent_msgs::GoalState& goal);
+  void follow_trip(const docent_msgs::GoalState& goal);
   void add_health(const docent_msgs::Health& health);
   void count_passes(const docent_msgs::TrueState& state);
   void count_battery(double level);
@@ -49,6 +51,12 @@ class DeploymentEvaluator {
   double first_contact_seconds_ = 0.0;
   bool is_relocalizing_ = false;  ///< the goal is to find itself, not to go somewhere
   bool goal_is_active_ = false;
+  struct Trip {
+    std::string goal;
+    Time begin{};
+    double distance_m = 0.0;  ///< of the odometer then
+  };
+  std::optional<Trip> trip_;  ///< under way
   bool is_blocked_ = false;
   bool was_inside_ = true;
   std::map<std::uint32_t, bool> is_passing_;  ///< persons near by: closer than 1 m while the robot moved

@@ -100,6 +100,25 @@ TEST(DeploymentEvaluator, SpeedCountsBlockedTimeAndNothingWithoutAGoal) {
   EXPECT_NEAR(report.blocked.seconds, 5.0, 1e-6);
 }
 
+TEST(DeploymentEvaluator, ATripEndsWhereTheRobotHasComeToItsPlace) {
+  Story story;
+  story.run(0.1);
+  story.goal("driving");
+  story.state.linear = 0.5;
+  story.run(20);
+  story.goal("blocked");
+  story.state.linear = 0.0;
+  story.run(5);
+  story.goal("turning");
+  story.run(4);
+  story.goal("arrived");
+  story.run(3);
+  const auto trips = story.report().trips;
+  ASSERT_EQ(trips.size(), 1U);
+  EXPECT_NEAR(trips[0].seconds, 25.0, 1e-6);
+  EXPECT_NEAR(trips[0].distance_m, 10.0, 1e-6);
+}
+
 TEST(DeploymentEvaluator, TurningToFindItselfIsNoTravel) {
   Story story;
   story.run(0.1);
@@ -417,6 +436,7 @@ TEST(DeploymentReport, JsonHasTheKeysOfTheArchitectureInTheirOrder) {
                                             "blocked",
                                             "battery",
                                             "module_restarts",
+                                            "trips",
                                             "p99_ms"}));
   EXPECT_EQ(json["requests"]["refused"]["closed"], 2);
   EXPECT_TRUE(json["success_rate"].is_null());

@@ -116,6 +116,10 @@ std::string to_json(const DeploymentReport& r, const std::optional<RunCost>& cos
                      {"global_detours", r.blocked.global_detours}};
   json["battery"] = {{"charges", r.battery.charges}, {"depleted", r.battery.depleted}};
   json["module_restarts"] = r.module_restarts;
+  json["trips"] = Json::array();
+  for (const auto& trip : r.trips) {
+    json["trips"].push_back({{"seconds", rounded(trip.seconds)}, {"distance_m", rounded(trip.distance_m)}});
+  }
   if (cost) {
     Json p99 = Json::object();
     for (const auto& [module, ms] : cost->p99_ms) p99[module] = rounded(ms);

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace docent {
 
@@ -40,6 +41,12 @@ struct DeploymentReport {
   double distance_m = 0.0;
   double travel_distance_m = 0.0;  ///< while a drive goal was active
   double max_speed_mps = 0.0;
+  /// From a goal's first driving state until the robot had come to its place.
+  struct Trip {
+    double seconds = 0.0;
+    double distance_m = 0.0;
+  };
+  std::vector<Trip> trips;
 
   struct Requests {
     int offered = 0;

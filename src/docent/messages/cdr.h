@@ -6,6 +6,7 @@
 #include <cstring>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -78,13 +79,17 @@ class CdrWriter {
 /// Reads what CdrWriter (or any ROS 2 peer on a little-endian machine) wrote. After a fault all reads do nothing.
 class CdrReader {
  public:
-  explicit CdrReader(std::span<const std::uint8_t> bytes) : bytes_{bytes} {
+  /// @param may_be_older  the bytes may end between two fields of the message itself, behind the first one: whoever
+  /// wrote them did not know the later fields, which keep what they are (messages only grow)
+  explicit CdrReader(std::span<const std::uint8_t> bytes, bool may_be_older = false)
+      : bytes_{bytes}, may_be_older_{may_be_older} {
     if (bytes.size() < 4 || bytes[0] != 0 || bytes[1] != 1) good_ = false;
     at_ = 4;
   }
 
   template <class T>
   void operator()(const char* /*name*/, T& field) {
+    if (may_be_older_ && depth_ == 0 && at_ > 4 && at_ == bytes_.size()) return;
     read(field);
   }
   [[nodiscard]] bool good() const { return good_; }
@@ -93,7 +98,9 @@ class CdrReader {
   template <class T>
   void read(T& field) {
     if constexpr (Message<T>) {
+      ++depth_;
       T::visit(field, *this);
+      --depth_;
     } else if constexpr (std::is_same_v<T, bool>) {
       std::uint8_t byte = 0;
       read(byte);
@@ -142,6 +149,8 @@ class CdrReader {
 
   std::span<const std::uint8_t> bytes_;
   std::size_t at_ = 4;
+  int depth_ = 0;  ///< of the message that is being read in the message
+  bool may_be_older_ = false;
   bool good_ = true;
 };
 
@@ -152,10 +161,11 @@ template <Message T>
   return writer.take();
 }
 
-/// Error when the bytes end early or lie about a length.
+/// Error when the bytes end early or lie about a length. Docent's own messages may have been written by an older
+/// Docent.
 template <Message T>
 [[nodiscard]] Result<T> decode_cdr(std::span<const std::uint8_t> bytes) {
-  CdrReader reader{bytes};
+  CdrReader reader{bytes, std::string_view{T::kType}.starts_with("docent_msgs/")};
   T message;
   T::visit(message, reader);
   if (!reader.good()) return fail(std::string{"damaged "} + T::kType);

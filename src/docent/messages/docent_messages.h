@@ -678,6 +678,7 @@ struct TrueState {
   double contact_seconds = 0;              ///< so far: time in which something was touched and the wheels turned
   std::uint32_t visitors = 0;              ///< different people so far
   std::vector<std::uint8_t> person_beams;  ///< [people] beams of the last sweep that ended on each, 255 or more as 255
+  double nearest_solid_m = 0;              ///< from the outline to the nearest wall, furniture or hazard
   template <class Self, class V>
   static void visit(Self& m, V& v) {
     v("header", m.header);
@@ -695,6 +696,7 @@ struct TrueState {
     v("contact_seconds", m.contact_seconds);
     v("visitors", m.visitors);
     v("person_beams", m.person_beams);
+    v("nearest_solid_m", m.nearest_solid_m);
   }
 };
 

@@ -30,7 +30,7 @@ struct Mount {
 /// Body, limits and sensors, section `body` of robot.yaml.
 struct RobotBody {
   double radius = 0.265;           ///< [m], the body is a disc
-  double max_speed = 0.8;          ///< [m/s]
+  double max_speed = 1.63;         ///< [m/s]
   double max_turn_rate = 1.2;      ///< [rad/s]
   double acceleration = 0.5;       ///< [m/s2]
   double deceleration = 1.0;       ///< [m/s2]

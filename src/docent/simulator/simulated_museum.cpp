@@ -129,6 +129,9 @@ class SimulatedMuseum::Impl {
   WishParams wish_params() const {
     WishParams params;
     params.requests_per_hour = options_.requests_per_hour.value_or(world_.visitors_per_hour);
+    const std::string& mode = options_.run_info.mode;
+    if (mode == "closed") params.source = "staff";
+    if (mode == "web") params.source = "web";
     return params;
   }
   [[nodiscard]] RobotView view() const {
@@ -250,6 +253,7 @@ class SimulatedMuseum::Impl {
     state.blocked_beams = instruments_.blocked_share();
     state.contact_seconds = log_.seconds_wheels_turning();
     state.visitors = crowd_.visitors();
+    state.nearest_solid_m = obstacles_.clearance(pose.position()) - body_.params().radius;
     state.nearest_person_m = 1e3;
     const auto people = crowd_.people();
     state.people.reserve(people.size());

@@ -53,7 +53,7 @@ void WishingVisitors::ask(Time now, const std::string& kind, const std::string& 
   docent_msgs::Request request;
   request.id = new_id(now);
   request.stamp = to_message(now);
-  request.source = "visitor";
+  request.source = params_.source;
   request.visitor =
       kNames[static_cast<std::size_t>(wish_rng_.integer(0, static_cast<std::int64_t>(kNames.size()) - 1))];
   request.kind = kind;
@@ -116,7 +116,7 @@ void WishingVisitors::see_mission(Time now, const docent_msgs::MissionState& mis
   choice.id = new_id(now);
   choice.prompt_id = prompt.id;
   choice.choice = answer;
-  choice.source = "visitor";
+  choice.source = params_.source;
   answers_.push_back({now + seconds(delay), std::move(choice)});
 }
 

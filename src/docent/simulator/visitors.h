@@ -13,6 +13,7 @@
 namespace docent::simulator {
 
 struct WishParams {
+  std::string source = "visitor";   ///< who asks: visitor, web, staff
   double requests_per_hour = 24.0;  ///< mean; no gap is longer than 1.8 times the mean
   double exhibit_share = 0.6;       ///< the rest asks for a tour
   double german_share = 0.5;

@@ -12,7 +12,7 @@
 namespace docent {
 
 struct PursuitParams {
-  double horizon = 3.0;        ///< [m] of the way handed on as via-points
+  double horizon = 5.0;        ///< [m] of the way handed on as via-points
   double progress = 0.3;       ///< [m] of remaining way that count as progress
   double blocked_after = 4.0;  ///< [s] without progress until the state is "blocked"
   double find_way_for = 3.0;   ///< [s] that planning may take before a goal without a way is "unreachable"

@@ -81,8 +81,9 @@ std::string TourScheduler::refusal(const VisitorRequest& request, const Conditio
   } else {
     return "I do not understand the wish '" + request.kind + "'.";
   }
-  if (!conditions.is_open || conditions.mode == "closed") return "The museum is closed.";
-  if (conditions.mode == "web" && request.source != "web") return "Just now only Web visitors guide me.";
+  const bool is_staff = request.source == "staff";
+  if ((!conditions.is_open || conditions.mode == "closed") && !is_staff) return "The museum is closed.";
+  if (conditions.mode == "web" && request.source != "web" && !is_staff) return "Just now only Web visitors guide me.";
   if (conditions.battery_low) return "My battery is low, I have to rest.";
   if (state_.board.open_count() >= static_cast<std::size_t>(params_.max_open))
     return "Too many people are waiting already. Please try again later.";

@@ -226,6 +226,15 @@ TEST_F(Scheduling, RefusesWithReasons) {
   EXPECT_NE(reason({"7", {}, "web", "", "exhibit", "e1", -1, ""}, {}).find("waiting"), std::string::npos);
 }
 
+TEST_F(Scheduling, ServesTheStaffInEveryMode) {
+  int number = 0;
+  for (const Conditions& now : {Conditions{true, "closed", false}, {false, "open", false}, {true, "web", false}}) {
+    const std::string id = "staff-" + std::to_string(++number);
+    scheduler.submit({id, {}, "staff", "", "exhibit", "e1", -1, "en"}, now, {});
+    EXPECT_NE(state_of(id), "refused") << now.mode;
+  }
+}
+
 TEST_F(Scheduling, FailsWhatTheMuseumNoLongerHas) {
   wish("a", "exhibit", "e1", 0);
   wish("b", "tour", "t", 0);

@@ -1,0 +1,219 @@
+"""How fast the robot drives: among people, at night, and between the things of an office.
+
+people: Bonn at a limit of 0.8 m/s; mean speed is the way made while a drive goal is active over that time, blocked time
+included. night: the Smithsonian, closed and empty, up to 1.63 m/s; trips of at least 20 m, held against the least time that
+the base needs for the way driven (speeding up at 0.5, braking at 1.0 m/s2: a trapezoid). office: drawn office buildings at a
+limit of 1.2 m/s; the way driven at 0.9 m/s and more with something solid within 1.2 m of the robot's outline, by the truth.
+"""
+import concurrent.futures
+import csv
+import hashlib
+import json
+import os
+import statistics
+import subprocess
+import sys
+import time
+
+from evaluation.tables import Verdict, print_table
+
+PARTS = ["people", "night", "office"]
+PEOPLE_LIMIT = 0.8  # [m/s]
+PEOPLE_BOUNDS = {"busy": 0.45, "packed": 0.30}  # [m/s]
+TOP_SPEED, ACCELERATION, BRAKING = 1.63, 0.5, 1.0
+TRIP = 20.0  # [m]
+NIGHT_SPEED, NIGHT_SHARE = 1.2, 0.8
+OFFICE_LIMIT, OFFICE_SPEED, OFFICE_NEAR = 1.2, 0.9, 1.2  # [m/s], [m/s], [m]
+OFFICE_WAY = 5.0  # [m a minute] at that speed that near
+CRIPPLED_SEEDS = 2
+
+
+def contacts_of(report):
+    return sum(report["contacts"].values())
+
+
+def least_time(way):
+    """Of the base for a straight way [m] from rest to rest."""
+    ramp = 0.5 * TOP_SPEED**2 * (1 / ACCELERATION + 1 / BRAKING)
+    if way >= ramp:
+        return way / TOP_SPEED + 0.5 * TOP_SPEED * (1 / ACCELERATION + 1 / BRAKING)
+    return (2 * way * (1 / ACCELERATION + 1 / BRAKING)) ** 0.5
+
+
+def touched(reports):
+    km = sum(report["distance_m"] for report in reports) / 1000
+    count = sum(contacts_of(report) + report["area_violations"] for report in reports)
+    return count, f"{count} in {km:.2f} km, {sum(report['passes_within_1m'] for report in reports)} passes within 1 m"
+
+
+def mean_speed(reports):
+    seconds = sum(report["travel_seconds"] for report in reports)
+    return sum(report["mean_speed_mps"] * report["travel_seconds"] for report in reports) / seconds if seconds else 0.0
+
+
+def people(run_all, root, seeds, minutes, verdict, crippled):
+    header = ["seed", "km", "m/s", "with a goal s", "blocked s", "contacts", "bumped", "area", "passes", "lost"]
+    museum = root / "museums/bonn"
+    for crowd, bound in PEOPLE_BOUNDS.items():
+        print(f"\n## bonn, {crowd}, limit {PEOPLE_LIMIT} m/s, {len(seeds)} seeds x {minutes:g} minutes\n")
+        arguments = ["--crowd", crowd, "--max-speed", str(PEOPLE_LIMIT)]
+        reports = run_all("speed", museum, seeds, minutes, arguments)
+        print_table(header, [[seed, f"{r['distance_m'] / 1000:.2f}", f"{r['mean_speed_mps']:.2f}",
+                              f"{r['travel_seconds']:.0f}", f"{r['blocked']['seconds']:.0f}", contacts_of(r),
+                              r["bumped_by_people"], r["area_violations"], r["passes_within_1m"],
+                              r["localization"]["lost_events"]] for seed, r in zip(seeds, reports)])
+        speed = mean_speed(reports)
+        speeds = [r["mean_speed_mps"] for r in reports]
+        seconds = sum(r["travel_seconds"] for r in reports)
+        count, seen = touched(reports)
+        verdict.want(f"{crowd}, mean speed ({bound} m/s)", f"{speed:.3f} m/s over {seconds:.0f} s, seeds "
+                     f"{min(speeds):.2f} to {max(speeds):.2f}", speed >= bound and seconds >= 0.3 * 60 * minutes * len(seeds))
+        verdict.want(f"{crowd}, contacts and area violations", seen, count == 0)
+    if not crippled:
+        return
+    some = seeds[:CRIPPLED_SEEDS]
+    reports = run_all("speed", museum, some, minutes, ["--crowd", "packed", "--max-speed", str(PEOPLE_LIMIT), "--set",
+                                                       "avoid.blind_to_people=true"])
+    count, seen = touched(reports)
+    verdict.want("crippled, blind to people, packed (must touch)", seen, count > 0)
+
+
+def night(run_all, root, seeds, minutes, verdict):
+    print(f"\n## smithsonian, closed and empty, up to {TOP_SPEED} m/s, {len(seeds)} seeds x {minutes:g} minutes\n")
+    reports = run_all("speed", root / "museums/smithsonian", seeds, minutes,
+                      ["--crowd", "empty", "--mode", "closed", "--requests-per-hour", "60"])
+    rows, trips = [], []
+    for seed, report in zip(seeds, reports):
+        long = [trip for trip in report["trips"] if trip["distance_m"] >= TRIP]
+        trips += long
+        speeds = [trip["distance_m"] / trip["seconds"] for trip in long]
+        shares = [least_time(trip["distance_m"]) / trip["seconds"] for trip in long]
+        rows.append([seed, f"{report['distance_m'] / 1000:.2f}", len(long),
+                     f"{statistics.mean(speeds):.2f}" if long else "-", f"{min(speeds):.2f}" if long else "-",
+                     f"{100 * statistics.mean(shares):.0f}" if long else "-", f"{report['max_speed_mps']:.2f}",
+                     contacts_of(report), report["area_violations"]])
+    print_table(["seed", "km", f"trips of {TRIP:g} m", "m/s", "least", "of the bound %", "top m/s", "contacts", "area"], rows)
+    seconds = sum(trip["seconds"] for trip in trips)
+    way = sum(trip["distance_m"] for trip in trips)
+    count, seen = touched(reports)
+    share = sum(least_time(trip["distance_m"]) for trip in trips) / seconds if trips else 0.0
+    enough = len(trips) >= 0.1 * minutes * len(seeds)
+    verdict.want(f"night, mean speed of trips of {TRIP:g} m and more ({NIGHT_SPEED} m/s)",
+                 f"{way / seconds if trips else 0:.2f} m/s over {len(trips)} trips, {way / 1000:.2f} km",
+                 enough and way / seconds >= NIGHT_SPEED)
+    verdict.want(f"night, of the trapezoid bound ({100 * NIGHT_SHARE:.0f} %)", f"{100 * share:.0f} %",
+                 share >= NIGHT_SHARE)
+    verdict.want("night, contacts and area violations", seen, count == 0)
+
+
+def read_profile(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        text = ("state", "reason", "goal")
+        return [{key: value if key in text else float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+
+def fast_and_near(rows):
+    """[m] driven at OFFICE_SPEED and more, with something solid within OFFICE_NEAR of the outline."""
+    return sum(max(0.0, b["distance"] - a["distance"]) for a, b in zip(rows, rows[1:])
+               if a["speed"] >= OFFICE_SPEED and a["solid"] <= OFFICE_NEAR)
+
+
+def drive_office(docent, folder, key, seed, minutes):
+    """One building; its report and profile, from the cache when it was driven before."""
+    name = hashlib.sha256(json.dumps([key, seed, minutes, OFFICE_LIMIT]).encode()).hexdigest()[:16]
+    report, profile = folder / f"seed{seed}-{name}.json", folder / f"seed{seed}-{name}.csv"
+    if not (report.exists() and profile.exists()):
+        started = time.monotonic()
+        building = folder / f"building-{seed}-{name}"
+        commands = [[docent, "office", "--seed", str(seed), "--out", building],
+                    [docent, "simulate", "--museum", building, "--hours", f"{minutes / 60:.6f}", "--seed", str(seed),
+                     "--crowd", "empty", "--max-speed", str(OFFICE_LIMIT), "--requests-per-hour", "60", "--quiet",
+                     "--report", f"{report}.part{os.getpid()}", "--speed-log", f"{profile}.part{os.getpid()}"]]
+        for command in commands:
+            done = subprocess.run(command, capture_output=True, text=True, check=False)
+            if done.returncode != 0:
+                raise RuntimeError(f"office {seed}: exited {done.returncode}: {done.stderr.strip()[-400:]}")
+        os.rename(f"{profile}.part{os.getpid()}", profile)
+        os.rename(f"{report}.part{os.getpid()}", report)
+        print(f"   office {seed}: {time.monotonic() - started:.0f} s", file=sys.stderr)
+    return json.loads(report.read_text()), read_profile(profile)
+
+
+def office(docent, folder, key, seeds, minutes, jobs, verdict):
+    print(f"\n## {len(seeds)} drawn offices, empty, limit {OFFICE_LIMIT} m/s, {minutes:g} minutes each\n")
+    folder.mkdir(parents=True, exist_ok=True)
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        runs = list(pool.map(lambda seed: drive_office(docent, folder, key, seed, minutes), seeds))
+    ways = [fast_and_near(rows) for _, rows in runs]
+    print_table(["seed", "km", "m/s", "top m/s", f"m at {OFFICE_SPEED} within {OFFICE_NEAR} m", "contacts", "area"],
+                [[seed, f"{r['distance_m'] / 1000:.2f}", f"{r['mean_speed_mps']:.2f}", f"{r['max_speed_mps']:.2f}",
+                  f"{way:.0f}", contacts_of(r), r["area_violations"]] for seed, (r, _), way in zip(seeds, runs, ways)])
+    count, seen = touched([report for report, _ in runs])
+    verdict.want(f"office, way at {OFFICE_SPEED} m/s and more within {OFFICE_NEAR} m of things ({OFFICE_WAY:g} m a minute, "
+                 "in every building)", f"{min(ways):.0f} to {max(ways):.0f} m in {minutes:g} minutes",
+                 min(ways) >= OFFICE_WAY * minutes)
+    verdict.want("office, contacts and area violations", seen, count == 0)
+    path = folder / "velocity-profile.svg"
+    plot(path, [(f"office {seed}", rows) for seed, (_, rows) in zip(seeds, runs)])
+    print(f"\n      drawn: {path}")
+
+
+STYLE = ("text{font:11px sans-serif;fill:#222}.title{font:bold 14px sans-serif}.tick{fill:#777;text-anchor:end;font-size:9px}"
+         ".grid{stroke:#ddd}.bound{stroke:#c33;stroke-dasharray:4 3}.far{fill:none;stroke:#9bb7dd}"
+         ".near{fill:none;stroke:#1f5fbf;stroke-width:1.4}")
+
+
+def plot(path, profiles, seconds=240.0):
+    """Speed over time, a panel a building; dark where something solid is within OFFICE_NEAR."""
+    width, height, columns, left = 560, 84, 2, 46
+    rows = (len(profiles) + columns - 1) // columns
+    total = (columns * (width + 20) + 20, 60 + rows * height)
+    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{total[0]}" height="{total[1]}" viewBox="0 0 {total[0]} '
+             f'{total[1]}"><style>{STYLE}</style><rect width="100%" height="100%" fill="#fff"/><text x="20" y="24" class="title">'
+             f'Speed between office-like obstacles, {seconds:g} s a panel</text><text x="20" y="42">dark: something solid within '
+             f'{OFFICE_NEAR} m of the outline; dashed: {OFFICE_SPEED} m/s; limit {OFFICE_LIMIT} m/s</text>']
+    for i, (name, profile) in enumerate(profiles):
+        x0, y0 = 20 + (i % columns) * (width + 20) + left, 60 + (i // columns) * height
+        scale_x, scale_y = (width - left) / seconds, (height - 24) / OFFICE_LIMIT
+        bottom = y0 + height - 24
+        begin = next((row["time"] for row in profile if row["speed"] > 0.3), 0.0)
+        for speed in (0.0, 0.3, 0.6, 0.9, 1.2):
+            y = bottom - scale_y * speed
+            kind = "bound" if speed == OFFICE_SPEED else "grid"
+            parts.append(f'<line x1="{x0}" y1="{y:.1f}" x2="{x0 + width - left}" y2="{y:.1f}" class="{kind}"/>')
+            parts.append(f'<text x="{x0 - 4}" y="{y + 3:.1f}" class="tick">{speed:.1f}</text>')
+        parts.append(f'<text x="{x0 + 4}" y="{y0 - 2}">{name}</text>')
+        line, is_near = [], None
+        for row in [r for r in profile if begin <= r["time"] <= begin + seconds]:
+            at = f'{x0 + scale_x * (row["time"] - begin):.1f},{bottom - scale_y * min(row["speed"], OFFICE_LIMIT):.1f}'
+            near = row["solid"] <= OFFICE_NEAR
+            if near != is_near and line:
+                parts.append(f'<polyline points="{" ".join([*line, at])}" class="{"near" if is_near else "far"}"/>')
+                line = []
+            is_near = near
+            line.append(at)
+        parts.append(f'<polyline points="{" ".join(line)}" class="{"near" if is_near else "far"}"/>')
+    beside = path.with_suffix(f".part{os.getpid()}")
+    beside.write_text("".join(parts) + "</svg>\n", encoding="utf-8")
+    beside.rename(path)
+
+
+def protocol(docent, root, cache, run_all, key, options):
+    parts = [options.part] if options.part else PARTS
+    count = options.seeds or (1 if options.slice else None)
+    verdict = Verdict()
+
+    def seeds_of(default):
+        return list(range(options.first_seed, options.first_seed + (count or default)))
+
+    if "people" in parts:
+        people(run_all, root, seeds_of(20), options.minutes or (10 if options.slice else 20), verdict,
+               not options.no_crippled and not options.slice)
+    if "night" in parts:
+        night(run_all, root, seeds_of(10), options.minutes or (8 if options.slice else 20), verdict)
+    if "office" in parts:
+        office(docent, cache / "office", key, seeds_of(20), options.minutes or (4 if options.slice else 10), options.jobs,
+               verdict)
+    print("\n## bounds\n")
+    verdict.print()
+    return verdict.good
