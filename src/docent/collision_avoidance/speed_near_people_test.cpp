@@ -24,9 +24,9 @@ TEST(SpeedNearPerson, FarAwayAndBehindNothingIsLost) {
 }
 
 TEST(SpeedNearPerson, StoppingDistanceOfBothByHand) {
-  // Straight ahead: speed * reaction + speed^2 / 2a + surprise * (reaction + speed / a) = gap, here 0.5 m: 0.33 m/s;
+  // Straight ahead: speed * reaction + speed^2 / 2a + surprise * (reaction + speed / a) = gap, here 0.5 m: 0.42 m/s;
   // but the last decimetre a second is harmless.
-  EXPECT_NEAR(speed_for({kReach + 0.5, 0.0}), 0.35, 0.051);
+  EXPECT_NEAR(speed_for({kReach + 0.5, 0.0}), 0.42, 0.051);
   EXPECT_NEAR(speed_for({kReach + 0.05, 0.0}), PeopleCautionParams{}.harmless, 1e-9);
 }
 
