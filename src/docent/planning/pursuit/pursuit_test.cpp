@@ -26,10 +26,10 @@ class PursuitTest : public ::testing::Test {
 };
 
 TEST_F(PursuitTest, DrivesThenTurnsThenStays) {
-  auto now = step({2, 4, {}}, 0.0);
+  auto now = step({0.6, 4, {}}, 0.0);
   EXPECT_EQ(now.state, "driving");
-  EXPECT_NEAR(now.remaining_m, 4.0, 0.4);
-  EXPECT_FALSE(now.is_final);
+  EXPECT_NEAR(now.remaining_m, 5.4, 0.4);
+  EXPECT_FALSE(now.is_final) << "farther than the horizon";
   now = step({4, 4, {}}, 3.0);
   EXPECT_TRUE(now.is_final);
   now = step({5.9, 4, {}}, 6.0);
