@@ -102,11 +102,14 @@ class SlowWindow {
         if (here.value < 0.0) continue;
         double sum = 3.0 * here.value;
         double weight = 3.0;
-        for (int r = std::max(0, row - 1); r <= std::min(rows - 1, row + 1); ++r) {
+        for (const int r : {row, row - 1, row + 1}) {  // in this order, so that ties stay ties
+          if (r < 0 || r >= rows) continue;
+          double three = 0.0;
           for (int c = std::max(0, column - 1); c <= std::min(columns - 1, column + 1); ++c) {
-            sum += std::max(0.0, raw[static_cast<std::size_t>(r * columns + c)].value);
+            three += std::max(0.0, raw[static_cast<std::size_t>(r * columns + c)].value);
             weight += 1.0;
           }
+          sum += three;
         }
         here.value = sum / weight;
       }
