@@ -29,33 +29,4 @@ double arc_distance(double curvature, const ReachPoint& point) {
   return radius * angle;
 }
 
-double ArcTable::curvature(int index) {
-  // Finer near straight on, where a small change moves the far end of the way.
-  const double s = 2.0 * index / (kCurvatures - 1) - 1.0;
-  return kMaxCurvature * s * std::abs(s);
-}
-
-void ArcTable::build(std::span<const ReachPoint> points, bool backwards) {
-  std::fill(free_.begin(), free_.end(), kHorizon);
-  for (ReachPoint point : points) {
-    if (backwards) point.at.x = -point.at.x;
-    for (int i = 0; i < kCurvatures; ++i) {
-      double& free = free_[static_cast<std::size_t>(i)];
-      free = std::min(free, arc_distance(curvature(i), point));
-    }
-  }
-}
-
-double ArcTable::free_way(double linear, double angular) const {
-  if (std::abs(linear) < 1e-6) return kHorizon;
-  const double wanted = std::clamp(angular / linear, -kMaxCurvature, kMaxCurvature);  // mirrored in reverse
-  const double s = std::copysign(std::sqrt(std::abs(wanted) / kMaxCurvature), wanted);
-  const double place = 0.5 * (s + 1.0) * (kCurvatures - 1);
-  const auto low = static_cast<std::size_t>(std::clamp(static_cast<int>(std::floor(place)), 0, kCurvatures - 2));
-  const double above = place - static_cast<double>(low);
-  if (above < 1e-6) return free_[low];
-  if (above > 1.0 - 1e-6) return free_[low + 1];
-  return std::min(free_[low], free_[low + 1]);
-}
-
 }  // namespace docent

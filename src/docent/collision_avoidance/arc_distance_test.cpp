@@ -68,42 +68,5 @@ TEST(ArcDistance, AgreesWithDenseSampling) {
   EXPECT_GT(met, 400);
 }
 
-TEST(ArcTable, IsNeverLongerThanTheWorseNeighbourAndExactOnItsCurvatures) {
-  Rng rng{12};
-  for (int round = 0; round < 50; ++round) {
-    std::vector<ReachPoint> points;
-    for (int i = 0; i < 20; ++i) {
-      const ReachPoint point{{rng.uniform(-3, 3), rng.uniform(-3, 3)}, 0.35};
-      if (norm(point.at) > point.reach) points.push_back(point);
-    }
-    ArcTable table;
-    table.build(points, false);
-    for (int i = 0; i < ArcTable::kCurvatures; ++i) {
-      const double curvature = ArcTable::curvature(i);
-      double expected = ArcTable::kHorizon;
-      for (const auto& point : points) expected = std::min(expected, arc_distance(curvature, point));
-      EXPECT_NEAR(table.free_way(0.5, 0.5 * curvature), expected, 1e-9);
-      if (i + 1 < ArcTable::kCurvatures) {
-        const double between = 0.5 * (curvature + ArcTable::curvature(i + 1));
-        EXPECT_LE(table.free_way(0.5, 0.5 * between), expected + 1e-9);
-      }
-    }
-    EXPECT_EQ(table.free_way(0.0, 1.0), ArcTable::kHorizon);
-  }
-}
-
-TEST(ArcTable, ReverseIsTheMirrorImage) {
-  ArcTable table;
-  const std::vector<ReachPoint> points{{{-1.0, 1.0}, 1e-6}};
-  table.build(points, true);
-  // Backwards with the nose turning right, the tail goes to the left: a quarter turn to (-1, 1).
-  EXPECT_NEAR(table.free_way(-0.1, -0.1 * ArcTable::curvature(ArcTable::kCurvatures / 2)), ArcTable::kHorizon, 1e-9);
-  EXPECT_NEAR(arc_distance(1.0, {{1.0, 1.0}, 1e-6}), 0.5 * std::numbers::pi, 1e-5);
-  const std::vector<ReachPoint> wide{{{-1.0, 0.8}, 0.3}};
-  table.build(wide, true);
-  EXPECT_LT(table.free_way(-0.1, 0.1 * -1.0), 2.0);
-  EXPECT_EQ(table.free_way(-0.1, 0.1 * 1.0), ArcTable::kHorizon);
-}
-
 }  // namespace
 }  // namespace docent

@@ -266,9 +266,8 @@ void Avoider::cap_by_surroundings(std::span<const Obstacle> obstacles, double be
     const double slack = way - limits_.radius - obstacle.margin;
     const double ahead = obstacle.at.x / way;
     // The security distance grows with the speed [Buhmann1995]: read backwards, the speed with the distance.
-    if (ahead > -0.2 && slack < 0.15) {
-      cap_speed(window.creep_speed + std::max(0.0, slack) / window.security_time,
-                obstacle.is_virtual ? "a hazard is near" : "something is near", decision);
+    if (ahead > -0.2) {
+      cap_speed(window.speed_with(slack), obstacle.is_virtual ? "a hazard is near" : "something is near", decision);
     }
     if (!obstacle.person && obstacle.velocity == Point2{}) continue;
     // Towards people only as fast as one can be forgiven for: on the way that is steered for, and as it heads now.

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+#include <limits>
+#include <utility>
 
 namespace docent {
 
@@ -12,6 +13,7 @@ namespace {
 constexpr double kStep = 0.05;         // [s] of the simulated braking
 constexpr double kStandsStill = 0.08;  // [m/s] towards a person: less is no push
 constexpr double kNearestReal = 0.02;  // [m] the last bit of margin is never given up
+constexpr double kOnTheSpot = 1e-6;    // [m/s]
 
 struct Sample {
   Pose2 start_from_base;
@@ -55,9 +57,18 @@ Result<void> DynamicWindowParams::validate() const {
     return fail("avoid.window: linear_steps must lie in 3..41 and angular_steps in 3..81");
   }
   if (!(real_margin >= 0.03 && virtual_margin >= 0.03)) return fail("avoid.window: margins must be >= 0.03 m");
-  if (!(security_time >= 0.0)) return fail("avoid.window.security_time must be >= 0 s");
+  if (!(security_time >= 0.0 && security_most >= 0.0)) return fail("avoid.window: security must be >= 0");
   if (!(creep_speed > 0.0 && creep_speed <= 0.3)) return fail("avoid.window.creep_speed must lie in (0, 0.3] m/s");
   return {};
+}
+
+double DynamicWindowParams::security(double speed) const {
+  return std::min(security_most, security_time * std::max(0.0, std::abs(speed) - creep_speed));
+}
+
+double DynamicWindowParams::speed_with(double slack) const {
+  if (slack >= security_most || security_time == 0.0) return std::numeric_limits<double>::infinity();
+  return creep_speed + std::max(0.0, slack) / security_time;
 }
 
 bool can_brake_in_time(const Velocity& velocity, const Velocity& command, double hold,
@@ -103,121 +114,191 @@ double straight_free_way(double bearing, std::span<const Obstacle> obstacles, do
   return least;
 }
 
-DynamicWindow::DynamicWindow(const BaseLimits& limits, const DynamicWindowParams& params)
-    : limits_{limits}, params_{params} {}
-
-double DynamicWindow::value_of(const Velocity& candidate, const Velocity& last, double free_way,
-                               const Steering& steering) const {
-  const double t = params_.heading_time;
-  const double turn = candidate.angular * t;
-  const Point2 place = candidate.linear * t * unit(Angle::radians(0.5 * turn));
-  // Where the steered-for point is nearly reached its bearing tells little: look at most from half way.
-  const double far = std::max(steering.distance, 2.0 * norm(place));
-  const Point2 goal = far * unit(Angle::radians(steering.bearing));
-  const double error = std::abs((direction(place, goal) - Angle::radians(turn)).radians());
-  const double heading = 1.0 - error / std::numbers::pi;
-  const double speed = std::max(steering.speed_cap, 0.1);
-  const double progress = candidate.linear * std::cos(error) / speed;
-  const double clearance = std::min(free_way, 2.0) / 2.0;
-  const double change = std::abs(candidate.linear - last.linear) / limits_.max_speed +
-                        std::abs(candidate.angular - last.angular) / limits_.max_turn_rate;
-  return params_.heading_weight * heading + params_.speed_weight * progress + params_.clearance_weight * clearance -
-         params_.change_weight * change;
+DynamicWindow::DynamicWindow(const BaseLimits& limits, const DynamicWindowParams& params, InstructionSet set)
+    : limits_{limits}, params_{params}, kernels_{velocity_kernels(set)}, forwards_{set}, backwards_{set} {
+  const std::size_t lanes = VelocityKernels::kLanes;
+  stride_ = (static_cast<std::size_t>(params.angular_steps) + lanes - 1) / lanes * lanes;
+  linear_.resize(static_cast<std::size_t>(params.linear_steps));
+  for (auto* columns : {&angular_, &half_cosine_, &half_sine_, &cosine_, &sine_, &change_}) columns->resize(stride_);
+  for (auto* cells : {&curvatures_, &ways_, &clearances_, &values_}) cells->resize(linear_.size() * stride_);
 }
 
-void DynamicWindow::smooth(std::vector<EvaluatedVelocity>& window, int rows, int columns) const {
-  // A good velocity whose neighbours are bad is one that noise made: mean of the admissible 3 x 3 neighbours.
-  const auto raw = window;
+DynamicWindow::Reachable DynamicWindow::reachable(const Velocity& velocity, const Steering& steering) const {
+  const double cycle = params_.cycle;
+  const double cap = std::clamp(steering.speed_cap, 0.0, limits_.max_speed);
+  const double floor = steering.may_reverse ? -params_.creep_speed : 0.0;
+  const double braked = velocity.linear - limits_.deceleration * cycle;
+  const double low = std::min(std::max(floor, braked), std::max(cap, braked));
+  const double high = std::max(low, std::min(cap, velocity.linear + limits_.acceleration * cycle));
+  const double turn = limits_.turn_acceleration * cycle;
+  return {low, high, std::max(-limits_.max_turn_rate, velocity.angular - turn),
+          std::min(limits_.max_turn_rate, velocity.angular + turn)};
+}
+
+/// The way [m] that must be free at a speed.
+double DynamicWindow::least_way(double linear) const {
+  constexpr double kTwoSeconds = 2.0;
+  const double stopping = std::abs(linear) * hold() + linear * linear / (2.0 * limits_.deceleration);
+  return params_.two_second_rule ? std::max(stopping, kTwoSeconds * std::abs(linear)) : stopping;
+}
+
+void DynamicWindow::lay_out(const Reachable& range) {
+  const int rows = params_.linear_steps;
+  const int columns = params_.angular_steps;
   for (int row = 0; row < rows; ++row) {
+    linear_[static_cast<std::size_t>(row)] = range.slowest + (range.fastest - range.slowest) * row / (rows - 1);
+  }
+  for (std::size_t i = 0; i < stride_; ++i) {
+    const int column = std::min(static_cast<int>(i), columns - 1);
+    angular_[i] = range.right + (range.left - range.right) * column / (columns - 1);
+    const double turn = angular_[i] * params_.heading_time;
+    half_cosine_[i] = std::cos(0.5 * turn);
+    half_sine_[i] = std::sin(0.5 * turn);
+    cosine_[i] = std::cos(turn);
+    sine_[i] = std::sin(turn);
+  }
+  for (int row = 0; row < rows; ++row) {
+    const double linear = linear_[static_cast<std::size_t>(row)];
+    // On the spot the way is free whatever the curvature.
+    const double per_speed = std::abs(linear) < kOnTheSpot ? 0.0 : 1.0 / linear;
+    for (std::size_t i = 0; i < stride_; ++i) curvatures_[padded(row, 0) + i] = angular_[i] * per_speed;
+  }
+}
+
+void DynamicWindow::measure_ways(std::span<const Obstacle> obstacles) {
+  reach_points_.clear();
+  for (const auto& obstacle : obstacles) {
+    Point2 at = obstacle.at;
+    if (obstacle.velocity != Point2{}) {
+      // A thing that comes nearer is met half way; one that goes away is taken as standing.
+      const double way = norm(at);
+      const double closing = way > 0.0 ? std::max(0.0, -dot(obstacle.velocity, at) / way) : 0.0;
+      if (way > 0.0) at = std::max(0.2, 1.0 - closing * 0.5 / way) * at;
+    }
+    reach_points_.push_back({at, limits_.radius + obstacle.margin});
+  }
+  // Rows rise: first those in reverse, then those on the spot, then those forwards.
+  std::size_t row = 0;
+  const auto rows_while = [&](auto&& is_of_them) {
+    const std::size_t first = row * stride_;
+    while (row < linear_.size() && is_of_them(linear_[row])) ++row;
+    return std::pair{first, row * stride_ - first};
+  };
+  const auto ask = [&](FreeWays& ways, bool backwards, const std::pair<std::size_t, std::size_t>& part) {
+    if (part.second == 0) return;
+    ways.build(reach_points_, backwards);
+    ways.along(std::span{curvatures_}.subspan(part.first, part.second),
+               std::span{ways_}.subspan(part.first, part.second));
+  };
+  ask(backwards_, true, rows_while([](double linear) { return linear <= -kOnTheSpot; }));
+  const auto still = rows_while([](double linear) { return linear < kOnTheSpot; });
+  std::fill_n(ways_.begin() + static_cast<std::ptrdiff_t>(still.first), still.second, FreeWays::kHorizon);
+  ask(forwards_, false, rows_while([](double) { return true; }));
+}
+
+void DynamicWindow::judge_rows(const Velocity& last, std::span<const Obstacle> obstacles, const Steering& steering) {
+  // On the spot every way is free: what counts is the way that is turned to.
+  constexpr double kSlow = 0.03;
+  const double steered_way = straight_free_way(steering.bearing, obstacles, limits_.radius, VelocityRow::kEnough);
+  const VelocityColumns columns{half_cosine_.data(), half_sine_.data(), cosine_.data(), sine_.data(), change_.data()};
+  const double speed = std::max(steering.speed_cap, 0.1);
+  const Point2 ahead = unit(Angle::radians(steering.bearing));
+  for (std::size_t row = 0; row < linear_.size(); ++row) {
+    const double linear = linear_[row];
+    for (std::size_t i = 0; i < stride_; ++i) {
+      change_[i] = params_.change_weight * (std::abs(linear - last.linear) / limits_.max_speed +
+                                            std::abs(angular_[i] - last.angular) / limits_.max_turn_rate);
+    }
+    const std::size_t first = row * stride_;
+    const auto ways = std::span{ways_}.subspan(first, stride_);
+    std::copy(ways.begin(), ways.end(), clearances_.begin() + static_cast<std::ptrdiff_t>(first));
+    if (std::abs(linear) < kSlow)
+      std::fill_n(clearances_.begin() + static_cast<std::ptrdiff_t>(first), stride_, steered_way);
+    // Where the steered-for point is nearly reached its bearing tells little: look at most from half way.
+    const double far = std::max(steering.distance, 2.0 * std::abs(linear) * params_.heading_time);
+    const VelocityRow judged{linear,
+                             params_.heading_time,
+                             far * ahead.x,
+                             far * ahead.y,
+                             params_.heading_weight,
+                             params_.speed_weight / speed,
+                             params_.clearance_weight,
+                             least_way(linear)};
+    kernels_.values(judged, columns, ways.data(), clearances_.data() + first, stride_, values_.data() + first);
+  }
+}
+
+/// A good velocity whose neighbours are bad is one that noise made: each admissible one gets the mean of its 3 x 3
+/// neighbours, itself four times; those refused count as nothing.
+void DynamicWindow::smooth(std::vector<EvaluatedVelocity>& window) const {
+  const int rows = params_.linear_steps;
+  const int columns = params_.angular_steps;
+  std::vector<double> beside(linear_.size() * stride_, 0.0);  // sums of three in a row
+  for (int row = 0; row < rows; ++row) {
+    double before = 0.0;
+    double here = std::max(0.0, values_[padded(row, 0)]);
     for (int column = 0; column < columns; ++column) {
-      const auto here =
-          static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
-      if (raw[here].value < 0.0) continue;
-      double sum = 4.0 * raw[here].value;
-      double weight = 4.0;
-      for (int dr = -1; dr <= 1; ++dr) {
-        for (int dc = -1; dc <= 1; ++dc) {
-          const int r = row + dr;
-          const int c = column + dc;
-          if ((dr == 0 && dc == 0) || r < 0 || c < 0 || r >= rows || c >= columns) continue;
-          sum += std::max(
-              0.0,
-              raw[static_cast<std::size_t>(r) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(c)].value);
-          weight += 1.0;
-        }
-      }
-      window[here].value = sum / weight;
+      const double after = column + 1 < columns ? std::max(0.0, values_[padded(row, column + 1)]) : 0.0;
+      beside[padded(row, column)] = before + here + after;
+      before = here;
+      here = after;
+    }
+  }
+  for (int row = 0; row < rows; ++row) {
+    const int high = (row > 0 ? 1 : 0) + 1 + (row + 1 < rows ? 1 : 0);
+    for (int column = 0; column < columns; ++column) {
+      const double value = values_[padded(row, column)];
+      const int wide = (column > 0 ? 1 : 0) + 1 + (column + 1 < columns ? 1 : 0);
+      double sum = 3.0 * value + beside[padded(row, column)];
+      if (row > 0) sum += beside[padded(row - 1, column)];
+      if (row + 1 < rows) sum += beside[padded(row + 1, column)];
+      window.push_back({{linear_[static_cast<std::size_t>(row)], angular_[static_cast<std::size_t>(column)]},
+                        value < 0.0 ? -1.0 : sum / (3 + high * wide)});
     }
   }
 }
 
 WindowChoice DynamicWindow::choose(const Velocity& velocity, const Velocity& last, std::span<const Obstacle> obstacles,
                                    const Steering& steering) {
-  reach_points_.clear();
-  for (const auto& obstacle : obstacles) {
-    // A thing that comes nearer is met half way; one that goes away is taken as standing.
-    const double way = norm(obstacle.at);
-    const double closing = way > 0.0 ? std::max(0.0, -dot(obstacle.velocity, obstacle.at) / way) : 0.0;
-    const double nearer = way > 0.0 ? std::max(0.2, 1.0 - closing * 0.5 / way) : 1.0;
-    reach_points_.push_back({nearer * obstacle.at, limits_.radius + obstacle.margin});
-  }
-  const double cycle = params_.cycle;
-  const double cap = std::clamp(steering.speed_cap, 0.0, limits_.max_speed);
-  const double floor = steering.may_reverse ? -params_.creep_speed : 0.0;
-  const double slowest = std::max(floor, velocity.linear - limits_.deceleration * cycle);
-  const double low = std::min(slowest, std::max(cap, velocity.linear - limits_.deceleration * cycle));
-  const double high = std::max(low, std::min(cap, velocity.linear + limits_.acceleration * cycle));
-  const double turn = limits_.turn_acceleration * cycle;
-  const double left = std::min(limits_.max_turn_rate, velocity.angular + turn);
-  const double right = std::max(-limits_.max_turn_rate, velocity.angular - turn);
-
-  forwards_.build(reach_points_, false);
-  if (low < 0.0) backwards_.build(reach_points_, true);
-
-  const double steered_way = straight_free_way(steering.bearing, obstacles, limits_.radius, 2.0);
+  const Reachable range = reachable(velocity, steering);
+  lay_out(range);
+  measure_ways(obstacles);
+  judge_rows(last, obstacles, steering);
   WindowChoice choice;
-  const int rows = params_.linear_steps;
-  const int columns = params_.angular_steps;
-  choice.window.reserve(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
-  for (int row = 0; row < rows; ++row) {
-    const double linear = low + (high - low) * row / (rows - 1);
-    for (int column = 0; column < columns; ++column) {
-      const double angular = right + (left - right) * column / (columns - 1);
-      EvaluatedVelocity& candidate = choice.window.emplace_back(EvaluatedVelocity{{linear, angular}, -1.0});
-      const double free_way = (linear < 0.0 ? backwards_ : forwards_).free_way(linear, angular);
-      const double stopping = std::abs(linear) * hold() + linear * linear / (2.0 * limits_.deceleration);
-      if (stopping > free_way) continue;
-      // On the spot every way is free: what counts is the way that is turned to.
-      const double clearance = std::abs(linear) < 0.03 ? steered_way : free_way;
-      candidate.value = std::max(1e-6, value_of(candidate.velocity, last, clearance, steering));
-    }
-  }
-  smooth(choice.window, rows, columns);
+  choice.window.reserve(linear_.size() * static_cast<std::size_t>(params_.angular_steps));
+  smooth(choice.window);
 
   // The closed form takes the velocity as reached at once. The few best are checked with the real dynamics: kept until
   // the watchdog bites, and braked at the next scan.
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < choice.window.size(); ++i) {
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t i = 0; i < choice.window.size(); ++i) {
     if (choice.window[i].value >= 0.0) order.push_back(i);
   }
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return choice.window[a].value > choice.window[b].value; });
+  const auto is_worse = [&](std::uint32_t a, std::uint32_t b) {
+    const double of_a = choice.window[a].value;
+    const double of_b = choice.window[b].value;
+    return of_a < of_b || (of_a == of_b && a > b);
+  };
+  std::make_heap(order.begin(), order.end(), is_worse);
   constexpr std::size_t kTries = 60;
-  std::size_t tried = 0;
   // Of many refused ones only every so many is tried, so that the slow end of the window has its turn.
-  for (std::size_t k = 0; k < order.size() && tried < kTries; k += 1 + tried / 8, ++tried) {
-    EvaluatedVelocity& candidate = choice.window[order[k]];
+  for (std::size_t tried = 0; !order.empty() && tried < kTries; ++tried) {
+    EvaluatedVelocity& candidate = choice.window[order.front()];
     if (can_brake_in_time(velocity, candidate.velocity, hold(), obstacles, limits_, 0.0) &&
         can_brake_in_time(velocity, candidate.velocity, 0.1, obstacles, limits_, 0.0)) {
       choice.command = candidate.velocity;
       return choice;
     }
     candidate.value = -1.0;
+    for (std::size_t skip = 0; skip < 1 + tried / 8 && !order.empty(); ++skip) {
+      std::pop_heap(order.begin(), order.end(), is_worse);
+      order.pop_back();
+    }
   }
   // Standing still or turning on the spot is always right where it can be reached.
   choice.is_braking = true;
   if (std::abs(velocity.linear) < 0.02) {
-    const double wanted = std::clamp(steering.bearing / params_.heading_time, right, left);
+    const double wanted = std::clamp(steering.bearing / params_.heading_time, range.right, range.left);
     choice.command = {0.0, wanted};
     choice.is_braking = false;
   }

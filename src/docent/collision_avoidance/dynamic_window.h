@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "docent/base/result.h"
-#include "docent/collision_avoidance/arc_distance.h"
 #include "docent/collision_avoidance/base_motion.h"
+#include "docent/collision_avoidance/free_ways.h"
 
 namespace docent {
 
@@ -21,8 +21,10 @@ struct DynamicWindowParams {
   int angular_steps = 31;
   double real_margin = 0.08;     ///< [m] kept to what was sensed, sensor noise included
   double virtual_margin = 0.15;  ///< [m] kept to virtual measurements
-  double security_time = 0.15;   ///< [s] more margin for every m/s of speed
+  double security_time = 0.15;   ///< [s] more margin for every m/s of speed above creep_speed
+  double security_most = 0.22;   ///< [m] no more margin than that is added
   double creep_speed = 0.12;     ///< [m/s] inside a margin, and backwards
+  bool two_second_rule = false;  ///< refuses what would meet an obstacle within two seconds
   template <class V>
   void visit(V& v) {
     v("cycle", cycle);
@@ -37,8 +39,16 @@ struct DynamicWindowParams {
     v("virtual_margin", virtual_margin);
     v("security_time", security_time);
     v("creep_speed", creep_speed);
+    v("two_second_rule", two_second_rule);
+    v("security_most", security_most);
   }
   [[nodiscard]] Result<void> validate() const;
+
+  /// What the margin grows by [m] at a speed [m/s]: the security distance of [BuhmannEtAl1995], 10 to 30 cm there.
+  [[nodiscard]] double security(double speed) const;
+  /// The speed [m/s] whose security distance is `slack` [m] more than the margin; infinite where more is never asked
+  /// for.
+  [[nodiscard]] double speed_with(double slack) const;
 };
 
 /// A thing not to touch, in the frame of the base at the moment from which motion is planned.
@@ -79,13 +89,17 @@ struct WindowChoice {
                                      std::span<const Obstacle> obstacles, const BaseLimits& limits, double slack);
 
 /// The dynamic window [BurgardEtAl1999 4.1.1]: all velocities that the base can reach in one cycle. Hard constraint:
-/// full braking before contact, whatever fails. Soft ones: speed, heading at the predicted pose, clearance; smoothed.
+/// full braking before contact, whatever fails; as an option the two-second rule of [BuhmannEtAl1995] as well. Soft
+/// ones: speed, heading at the predicted pose, clearance; smoothed.
 class DynamicWindow {
  public:
-  DynamicWindow(const BaseLimits& limits, const DynamicWindowParams& params);
+  /// @param set  all give the same choice
+  DynamicWindow(const BaseLimits& limits, const DynamicWindowParams& params,
+                InstructionSet set = instruction_sets().back());
 
   /// @param velocity  of the base when the command will take effect
   /// @param last      the command before
+  /// O(velocities * obstacles that lie in their way), some hundred times less than velocities * obstacles.
   [[nodiscard]] WindowChoice choose(const Velocity& velocity, const Velocity& last, std::span<const Obstacle> obstacles,
                                     const Steering& steering);
 
@@ -93,15 +107,32 @@ class DynamicWindow {
   [[nodiscard]] double hold() const { return limits_.watchdog + 0.05; }
 
  private:
-  [[nodiscard]] double value_of(const Velocity& candidate, const Velocity& last, double free_way,
-                                const Steering& steering) const;
-  void smooth(std::vector<EvaluatedVelocity>& window, int rows, int columns) const;
+  /// The range of velocities that can be reached in one cycle.
+  struct Reachable {
+    double slowest, fastest;  ///< [m/s]
+    double right, left;       ///< [rad/s]
+  };
+  [[nodiscard]] Reachable reachable(const Velocity& velocity, const Steering& steering) const;
+  [[nodiscard]] double least_way(double linear) const;
+  void lay_out(const Reachable& range);
+  void measure_ways(std::span<const Obstacle> obstacles);
+  void judge_rows(const Velocity& last, std::span<const Obstacle> obstacles, const Steering& steering);
+  void smooth(std::vector<EvaluatedVelocity>& window) const;
+  [[nodiscard]] std::size_t padded(int row, int column) const {
+    return static_cast<std::size_t>(row) * stride_ + static_cast<std::size_t>(column);
+  }
 
   BaseLimits limits_;
   DynamicWindowParams params_;
-  ArcTable forwards_;
-  ArcTable backwards_;
+  const VelocityKernels& kernels_;
+  FreeWays forwards_;
+  FreeWays backwards_;
   std::vector<ReachPoint> reach_points_;
+  std::size_t stride_ = 0;                                                ///< columns, padded to whole vectors
+  std::vector<double> linear_;                                            ///< [linear_steps] [m/s]
+  std::vector<double> angular_;                                           ///< [stride] [rad/s]
+  std::vector<double> half_cosine_, half_sine_, cosine_, sine_, change_;  ///< [stride], see VelocityColumns
+  std::vector<double> curvatures_, ways_, clearances_, values_;           ///< [linear_steps][stride]
 };
 
 /// Free way [m] of a disc of radius `reach` straight along `bearing`, at most `horizon`; points within reach block only

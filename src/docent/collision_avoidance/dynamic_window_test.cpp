@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "docent/base/random.h"
+#include "docent/collision_avoidance/slow_window_for_test.h"
 
 namespace docent {
 namespace {
@@ -66,6 +67,90 @@ TEST(DynamicWindow, EveryChoiceCanBeBrakedWheneverWeDie) {
     }
   }
   EXPECT_GT(chosen, 150);
+}
+
+struct AnyCase {
+  Velocity velocity, last;
+  Steering steering;
+  std::vector<Obstacle> obstacles;
+};
+AnyCase any_case(std::uint64_t seed) {
+  Rng rng{seed};
+  AnyCase one{{rng.uniform(-0.1, 0.7), rng.uniform(-0.8, 0.8)},
+              {rng.uniform(0.0, 0.7), rng.uniform(-0.8, 0.8)},
+              {rng.uniform(-3.0, 3.0), rng.uniform(0.1, 3.0), rng.uniform(0.0, 0.8), rng.chance(0.3)},
+              {}};
+  const auto count = rng.integer(0, 80);
+  for (int i = 0; i < count; ++i) {
+    const Obstacle obstacle = real_at(rng.uniform(-3.0, 3.0), rng.uniform(-3.0, 3.0));
+    if (norm(obstacle.at) > 0.36) one.obstacles.push_back(obstacle);
+  }
+  return one;
+}
+
+TEST(DynamicWindow, ChoosesWhatTheSlowTwinChooses) {
+  const BaseLimits limits;
+  int moving = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    DynamicWindowParams params;
+    params.two_second_rule = seed % 3 == 0;
+    if (seed % 5 == 0) params.linear_steps = params.angular_steps = 64;
+    const AnyCase one = any_case(seed);
+    const auto slow = SlowWindow{limits, params}.choose(one.velocity, one.last, one.obstacles, one.steering);
+    DynamicWindow window{limits, params};
+    const auto fast = window.choose(one.velocity, one.last, one.obstacles, one.steering);
+    ASSERT_EQ(fast.command, slow.command) << "seed " << seed;
+    ASSERT_EQ(fast.is_braking, slow.is_braking) << "seed " << seed;
+    moving += fast.command.linear > 0.05 ? 1 : 0;
+  }
+  EXPECT_GT(moving, 100);
+}
+
+TEST(DynamicWindow, GivesTheSameBitsInEveryInstructionSet) {
+  const BaseLimits limits;
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    const AnyCase one = any_case(seed);
+    DynamicWindow plain{limits, {}, InstructionSet::plain};
+    const auto wanted = plain.choose(one.velocity, one.last, one.obstacles, one.steering);
+    for (const InstructionSet set : instruction_sets()) {
+      DynamicWindow window{limits, {}, set};
+      const auto choice = window.choose(one.velocity, one.last, one.obstacles, one.steering);
+      ASSERT_EQ(choice.command, wanted.command) << name_of(set);
+      for (std::size_t i = 0; i < choice.window.size(); ++i) {
+        ASSERT_EQ(choice.window[i].value, wanted.window[i].value) << name_of(set);
+      }
+    }
+  }
+}
+
+TEST(DynamicWindow, KeepsTwoSecondsAwayWhereTheRuleIsOn) {
+  const BaseLimits limits;
+  const std::vector wall{real_at(1.345, -0.2), real_at(1.345, 0.0), real_at(1.345, 0.2)};  // a free way of 1 m
+  const Steering steering{0.0, 3.0, 0.8, false};
+  const Velocity velocity{0.6, 0.0};
+  DynamicWindowParams params;
+  DynamicWindow without{limits, params};
+  EXPECT_GT(without.choose(velocity, velocity, wall, steering).command.linear, 0.55);
+  params.two_second_rule = true;
+  DynamicWindow with{limits, params};
+  const auto choice = with.choose(velocity, velocity, wall, steering);
+  for (const auto& candidate : choice.window) {
+    if (std::abs(candidate.velocity.angular) < 1e-9 && candidate.value >= 0.0) {
+      EXPECT_LE(candidate.velocity.linear, 0.5 + 1e-9);
+    }
+  }
+}
+
+TEST(DynamicWindow, SecurityGrowsWithSpeedAndBackwardsSpeedWithTheGap) {
+  const DynamicWindowParams params;
+  EXPECT_EQ(params.security(0.1), 0.0);
+  EXPECT_NEAR(params.real_margin + params.security(0.25), 0.10, 0.01);
+  EXPECT_NEAR(params.real_margin + params.security(1.63), 0.30, 0.01);  // [BuhmannEtAl1995]: 10 to 30 cm
+  for (double speed = 0.15; speed < 1.5; speed += 0.1) {
+    EXPECT_NEAR(params.speed_with(params.security(speed)), speed, 1e-9);
+    EXPECT_GE(params.security(speed + 0.1), params.security(speed));
+  }
+  EXPECT_TRUE(std::isinf(params.speed_with(0.3)));
 }
 
 TEST(DynamicWindow, StaysInsideWhatTheBaseCanReach) {
