@@ -28,7 +28,7 @@ double mean(const std::vector<double>& values) {
 }  // namespace
 
 SonarTrialResult run_trial(const SonarTrialOptions& options, std::ostream* trace) {
-  const simulator::Office office = simulator::draw_office(Rng{options.seed});
+  const simulator::Office office = simulator::draw_office(options.seed);
   const simulator::Survey survey = simulator::survey(office.world, {}, Rng{options.seed}.stream("survey"));
   SonarTrialResult result;
   result.floor_area = std::abs(signed_area(office.world.floor));

@@ -8,6 +8,7 @@
 #include "docent/apps/learn_command.h"
 #include "docent/apps/localize_command.h"
 #include "docent/apps/map_command.h"
+#include "docent/apps/museum_command.h"
 #include "docent/apps/office_command.h"
 #include "docent/apps/plan_command.h"
 #include "docent/apps/replay_command.h"
@@ -25,6 +26,7 @@ int main(int argc, char** argv) {
   docent::add_learn_command(app);
   docent::add_localize_command(app);
   docent::add_map_command(app);
+  docent::add_museum_command(app);
   docent::add_office_command(app);
   docent::add_plan_command(app);
   docent::add_replay_command(app);

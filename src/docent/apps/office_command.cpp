@@ -7,7 +7,7 @@
 #include "docent/apps/command.h"
 #include "docent/pictures/image.h"
 #include "docent/pictures/map_picture.h"
-#include "docent/simulator/office/office_folder.h"
+#include "docent/simulator/office/office.h"
 #include "docent/simulator/world/world_picture.h"
 
 namespace docent {
@@ -21,9 +21,9 @@ struct OfficeOptions {
 
 void run(const OfficeOptions& options) {
   const std::filesystem::path out{options.out};
-  const simulator::Office office = simulator::draw_office(Rng{options.seed});
+  const simulator::Office office = simulator::draw_office(options.seed);
   const simulator::Survey survey = simulator::survey(office.world, {}, Rng{options.seed}.stream("survey"));
-  value_or_fail(simulator::write_office(office, survey, options.seed, out));
+  value_or_fail(simulator::write_museum(office, survey, out));
   std::printf("%s: %zu solids, %zu hazards, %zu pieces drawn where they no longer stand, %zu not on the map\n",
               (out / "museum.yaml").c_str(), office.world.solids.size(), survey.hazards.size(), survey.moved.size(),
               survey.missing.size());

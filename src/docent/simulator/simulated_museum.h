@@ -17,7 +17,7 @@ struct SimulationOptions {
   World world;
   std::uint64_t seed = 0;
   std::string crowd = "busy";              ///< empty, quiet, busy, packed (architecture 10.3)
-  std::optional<std::size_t> crowd_count;  ///< instead of the level's density
+  std::optional<std::size_t> crowd_count;  ///< instead of the level's density; recorded people are among them
   CrowdParams crowd_params;
   std::optional<Pose2> start;     ///< world_from_base; without: random, free, inside the operating area
   std::optional<Point2> charger;  ///< [m]; standing within 0.4 m of it charges the battery

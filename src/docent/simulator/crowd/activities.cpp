@@ -78,6 +78,8 @@ Point2 Crowd::desired_velocity(Person& person, const Sight& sight, double now) {
       return stepping_aside(person, sight);
     case Activity::escort:
       return escorting(person, now);
+    case Activity::recorded:
+      return {};  // who never decides wants nothing
     case Activity::stand:
       if (now >= person.until) return_to_strolling(person, now, true);
       return {};

@@ -11,6 +11,14 @@ constexpr double kCell = 1.5;               // [m] of the neighbour search
 constexpr double kWallGap = 0.26;           // [m] no centre comes nearer to a wall, however broad the person
 constexpr double kPersonalRobotGap = 0.05;  // [m] nobody walks nearer to the robot, but those who push or do not look
 constexpr double kSimulationStep = 0.02;    // [s]
+constexpr double kEntersAway = 2.5;         // [m] between the outlines: no recorded person appears nearer to the robot
+constexpr double kHurry = 3.0;              // [m/s] at most, of a recorded person who was pushed off their track
+
+/// Of all walks of the recorded people: so many that they are no more than `count` on average.
+double share_of_walks(const World& world, std::size_t count) {
+  const double recorded = mean_people(world.pedestrians);
+  return recorded > 0.0 ? std::min(1.0, static_cast<double>(count) / recorded) : 0.0;
+}
 
 }  // namespace
 
@@ -24,7 +32,12 @@ std::optional<double> crowd_density(std::string_view level) {
 
 Crowd::Crowd(const World& world, WalkableFloor floor, const CrowdParams& params, std::size_t count, Rng rng,
              const RobotView& robot)
-    : world_{world}, params_{params}, rng_{rng}, floor_{std::move(floor)}, robot_{robot} {
+    : world_{world},
+      params_{params},
+      rng_{rng},
+      floor_{std::move(floor)},
+      replay_{world.pedestrians, share_of_walks(world, count), rng.stream("replay")},
+      robot_{robot} {
   fields_.resize(world_.attractions.size() + world_.entrances.size());
   Point2 high{};
   if (!world_.floor.empty()) cells_low_ = high = world_.floor.front();
@@ -34,7 +47,10 @@ Crowd::Crowd(const World& world, WalkableFloor floor, const CrowdParams& params,
   }
   cell_columns_ = static_cast<int>((high.x - cells_low_.x) / kCell) + 1;
   cell_rows_ = static_cast<int>((high.y - cells_low_.y) / kCell) + 1;
-  for (std::size_t i = 0; i < count; ++i) {
+  let_recorded_in(0.0, robot);
+  const double recorded = share_of_walks(world, count) * mean_people(world.pedestrians);
+  const auto others = count - std::min(count, static_cast<std::size_t>(std::lround(recorded)));
+  for (std::size_t i = 0; i < others; ++i) {
     people_.push_back(new_person(0.0));
     Person& person = people_.back();
     // Those of the start came at different times.
@@ -98,6 +114,25 @@ void Crowd::enter(Person& person) {
   }
   // The door is beset: they come in elsewhere, out of the robot's sight.
   place_anywhere(person, robot_, false);
+}
+
+void Crowd::let_recorded_in(double now, const RobotView& robot) {
+  replay_.begin(now, waiting_);
+  // Who would appear right before the robot comes in a little later on their way, or not at all.
+  std::erase_if(waiting_, [&](const Walk& walk) {
+    if (replay_.is_over(walk, now)) return true;
+    const Point2 place = replay_.at(walk, now);
+    if (distance(place, robot.position) < robot_.radius + kRecordedRadius + kEntersAway) return false;
+    Person person;
+    person.id = next_id_++;
+    person.is_extra = true;
+    person.activity = Activity::recorded;
+    person.radius = kRecordedRadius;
+    person.walk = walk;
+    person.position = person.progress_from = place;
+    people_.push_back(person);
+    return true;
+  });
 }
 
 void Crowd::add_standing(std::span<const Point2> places, double until) {
@@ -169,7 +204,13 @@ void Crowd::step(double now, double dt, const RobotView& robot) {
     if ((steps_ + i) % kDecisionSteps == 0) decide(i, now);
   }
   if (steps_ % 50 == 0 && params_.near_share > 0.0) draw_people_near(now);
-  for (std::size_t i = 0; i < people_.size(); ++i) move(i, dt, robot);
+  for (std::size_t i = 0; i < people_.size(); ++i) {
+    if (people_[i].activity == Activity::recorded) {
+      follow_track(people_[i], now, dt);
+    } else {
+      move(i, dt, robot);
+    }
+  }
 
   // Who has left makes room for someone else; who was put there by a scenario just goes.
   const auto has_left = [](const Person& person) { return person.activity == Activity::leave && person.has_arrived; };
@@ -181,7 +222,21 @@ void Crowd::step(double now, double dt, const RobotView& robot) {
     enter(other);
     person = other;
   }
+  let_recorded_in(now, robot);
   ++steps_;
+}
+
+void Crowd::follow_track(Person& person, double now, double dt) const {
+  if (replay_.is_over(person.walk, now)) {
+    person.activity = Activity::leave;
+    person.has_arrived = true;
+    return;
+  }
+  const Point2 way = replay_.at(person.walk, now) - person.position;
+  const double length = norm(way);
+  const Point2 step = length > kHurry * dt ? (kHurry * dt / length) * way : way;
+  person.velocity = person.wanted = (1.0 / dt) * step;
+  person.position = person.position + step;
 }
 
 void Crowd::move(std::size_t index, double dt, const RobotView& robot) {

@@ -9,6 +9,7 @@
 #include "docent/base/random.h"
 #include "docent/simulator/crowd/crowd_params.h"
 #include "docent/simulator/crowd/person.h"
+#include "docent/simulator/crowd/replay.h"
 #include "docent/simulator/crowd/steering.h"
 #include "docent/simulator/crowd/walkable_floor.h"
 #include "docent/simulator/world/world.h"
@@ -20,11 +21,12 @@ namespace docent::simulator {
 
 /// The visitors of a museum. They stroll, gather, follow the robot, step in its way, line up, block, push and listen
 /// (RHINO, sections 1 and 5; Minerva, section 4). They know of the robot what people know: where it is and how it
-/// moves, its horn and its voice.
+/// moves, its horn and its voice. The world's recorded people are among them; these know nothing of it.
 class Crowd {
  public:
   /// @param floor  of this world
-  /// @param count  how many people; those who leave are replaced at an entrance
+  /// @param count  how many people. The recorded ones are as many as they are, on average, but no more than this; the
+  ///               others make up the rest, and who of them leaves is replaced at an entrance
   Crowd(const World& world, WalkableFloor floor, const CrowdParams& params, std::size_t count, Rng rng,
         const RobotView& robot);
 
@@ -64,6 +66,7 @@ class Crowd {
   [[nodiscard]] Person new_person(double now);
   void place_anywhere(Person& person, const RobotView& robot, bool near_robot);
   void enter(Person& person);
+  void let_recorded_in(double now, const RobotView& robot);
   void sort_into_cells();
   template <class F>
   void for_each_within(Point2 point, double range, F&& action) const;
@@ -91,11 +94,14 @@ class Crowd {
   [[nodiscard]] std::size_t count_of(Activity activity) const;
   void draw_people_near(double now);
   void move(std::size_t index, double dt, const RobotView& robot);
+  void follow_track(Person& person, double now, double dt) const;
 
   World world_;
   CrowdParams params_;
   Rng rng_;
   WalkableFloor floor_;
+  Replay replay_;
+  std::vector<Walk> waiting_;  ///< recorded people who have not come in yet
   std::vector<Person> people_;
   std::vector<Group> groups_;
   std::vector<FlowField> fields_;  ///< of attractions, then entrances; empty until asked for

@@ -56,6 +56,7 @@ const FlowField& Crowd::field(int attraction) {
 
 void Crowd::decide(std::size_t index, double now) {
   Person& person = people_[index];
+  if (person.activity == Activity::recorded) return;
   Sight sight;
   sight.offset = robot_.position - person.position;
   sight.away = norm(sight.offset);
@@ -241,6 +242,7 @@ void Crowd::form_wall(std::size_t leader, double now) {
 
 void Crowd::hear_horn(double now) {
   for (Person& person : people_) {
+    if (person.activity == Activity::recorded) continue;
     const Point2 from_robot = person.position - robot_.position;
     const double away = norm(from_robot);
     if (away > params_.horn_range) continue;

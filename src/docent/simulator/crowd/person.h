@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "docent/geometry/pose2.h"
+#include "docent/simulator/crowd/replay.h"
 
 namespace docent::simulator {
 
@@ -22,13 +23,14 @@ enum class Activity {
   leave,       ///< to the entrance
   stand,       ///< where a scenario put them
   escort,      ///< walks along with the robot in a ring that is open ahead
+  recorded,    ///< walks as someone once walked before a camera, whatever the robot does
 };
 
 /// One visitor. Positions in the world frame, metres and seconds.
 struct Person {
   std::uint32_t id = 0;
   bool is_child = false;
-  bool is_extra = false;  ///< came by a scenario: nobody comes instead when they have left
+  bool is_extra = false;  ///< came by a scenario or a recording: nobody comes instead when they have left
   double radius = 0.25;
   double height = 1.7;
   double preferred_speed = 1.1;
@@ -46,6 +48,8 @@ struct Person {
   double side = 1.0;            ///< +1 left, -1 right of the robot
   double slot = 0.0;            ///< [rad] for the escort: place in the ring, from the robot's heading
   double keeps_distance = 1.0;  ///< [m] to the robot's outline, for followers and listeners
+
+  Walk walk;  ///< for the recorded
 
   double leaves_at = 0.0;
   double bored_until = 0.0;  ///< takes no interest in the robot before

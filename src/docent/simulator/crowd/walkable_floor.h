@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "docent/base/random.h"
@@ -32,6 +33,8 @@ class WalkableFloor {
   [[nodiscard]] bool is_reachable(Point2 point) const;
   /// Free floor of the part that hangs together with the entrance [m2].
   [[nodiscard]] double free_area() const { return free_area_; }
+  /// Lower left and upper right corner of all that clearance() tells [m].
+  [[nodiscard]] std::pair<Point2, Point2> bounds() const { return {low_, low_ + Point2{0.1 * columns_, 0.1 * rows_}}; }
   /// A uniform draw from the reachable floor with at least `clearance`; nullopt after 2,000 misses.
   [[nodiscard]] std::optional<Point2> random_point(Rng& rng, double clearance) const;
 

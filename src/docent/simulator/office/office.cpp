@@ -350,6 +350,12 @@ class Architect {
 
 }  // namespace
 
-Office draw_office(const Rng& rng) { return Architect{rng}.draw(); }
+Office draw_office(std::uint64_t seed) {
+  Office office = Architect{Rng{seed}}.draw();
+  office.title = "Office building " + std::to_string(seed);
+  office.made_of = "Drawn and surveyed with seed " + std::to_string(seed);
+  office.topic = "offices";
+  return office;
+}
 
 }  // namespace docent::simulator

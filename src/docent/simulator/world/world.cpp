@@ -7,6 +7,7 @@
 
 #include "docent/base/files.h"
 #include "docent/base/yaml.h"
+#include "docent/simulator/pedestrians/tracks_file.h"
 
 namespace docent::simulator {
 namespace {
@@ -139,6 +140,7 @@ class WorldParser {
     reader("tours", world.tours);
     reader("ceiling_height", world.ceiling_height);
     reader("ceiling", ceiling);
+    reader("pedestrians", world.pedestrians_file);
     reader.finish();
 
     world.floor = polygon(root_["floor"], floor);
@@ -313,7 +315,12 @@ Result<World> parse_world(const std::string& text, const std::string& name) {
 Result<World> load_world(const std::filesystem::path& simulation_yaml) {
   auto text = read_file(simulation_yaml);
   if (!text) return tl::unexpected<Error>(text.error());
-  return parse_world(*text, simulation_yaml.string());
+  auto world = parse_world(*text, simulation_yaml.string());
+  if (!world || world->pedestrians_file.empty()) return world;
+  auto pedestrians = load_tracks(simulation_yaml.parent_path() / world->pedestrians_file);
+  if (!pedestrians) return tl::unexpected<Error>(pedestrians.error());
+  world->pedestrians = std::move(*pedestrians);
+  return world;
 }
 
 }  // namespace docent::simulator

@@ -6,6 +6,7 @@
 
 #include "docent/base/result.h"
 #include "docent/geometry/polygon.h"
+#include "docent/simulator/pedestrians/track.h"
 
 namespace docent::simulator {
 
@@ -53,8 +54,10 @@ struct World {
   double visitors_per_hour = 24.0;    ///< who ask the robot for something
   std::vector<std::string> exhibits;  ///< ids that they may ask for
   std::vector<std::string> tours;
-  double ceiling_height = 3.0;       ///< [m], where no part says otherwise
-  std::vector<CeilingPart> ceiling;  ///< the last part that holds a point counts
+  double ceiling_height = 3.0;         ///< [m], where no part says otherwise
+  std::vector<CeilingPart> ceiling;    ///< the last part that holds a point counts
+  std::string pedestrians_file;        ///< beside simulation.yaml; empty: nobody was recorded
+  std::vector<Recording> pedestrians;  ///< recorded people who walk here, whatever the robot does
 
   [[nodiscard]] double ceiling_at(Point2 in_world) const;
 };
@@ -62,9 +65,9 @@ struct World {
 /// Reads simulation.yaml. A solid's outline is written in one of four ways: `polygon: [[x, y], …]`,
 /// `line: [[x, y], …]` with `thickness` (one solid a piece, ids "ID-1", "ID-2", …; `closed: true` joins the ends),
 /// `box: {x, y, length, width, heading}` (centre, degrees) or `circle: {x, y, radius}` (a 16-gon).
-/// Faults name file and line.
+/// `pedestrians: FILE` names the recorded people (pedestrians/tracks_file). Faults name file and line.
 [[nodiscard]] Result<World> load_world(const std::filesystem::path& simulation_yaml);
-/// From memory; `name` stands where the file's name would.
+/// From memory, without the recorded people; `name` stands where the file's name would.
 [[nodiscard]] Result<World> parse_world(const std::string& text, const std::string& name);
 
 [[nodiscard]] const char* to_string(SolidKind kind);

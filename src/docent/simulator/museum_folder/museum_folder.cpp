@@ -1,10 +1,11 @@
-#include "docent/simulator/office/office_folder.h"
+#include "docent/simulator/museum_folder/museum_folder.h"
 
 #include <array>
 #include <cstdio>
 
 #include "docent/base/files.h"
 #include "docent/grid/occupancy_grid.h"
+#include "docent/simulator/pedestrians/tracks_file.h"
 
 namespace docent::simulator {
 namespace {
@@ -33,21 +34,21 @@ std::string list(const std::vector<std::string>& words) {
   return text + "]";
 }
 
-std::string museum_yaml(const Office& office, const Survey& survey, std::uint64_t seed) {
-  const std::string name = "Office building " + std::to_string(seed);
-  std::string text =
-      "# Drawn and surveyed with seed " + std::to_string(seed) + "; metres and degrees in the map's frame.\n";
-  text += "name: {en: \"" + name + "\"}\nlanguages: [en]\nmap: map.yaml\n";
-  text += "area: " + corners(office.world.operating_area) + "\n";
+std::string museum_yaml(const MuseumPlan& plan, const Survey& survey) {
+  std::string text = "# " + plan.made_of + "; metres and degrees in the map's frame.\n";
+  text += "name: {en: \"" + plan.title + "\"}\nlanguages: [en]\nmap: map.yaml\n";
+  text += "area: " + corners(plan.world.operating_area) + "\n";
   text += survey.hazards.empty() ? "hazards: []\n" : to_yaml(survey.hazards);
-  text += "home: " + pose(office.home) + "\nexhibits:\n";
-  for (const OfficeStop& stop : office.stops) {
+  text += "home: " + pose(plan.home) + "\n";
+  if (plan.charger) text += "charger: " + pose(*plan.charger) + "\n";
+  text += "exhibits:\n";
+  for (const Stop& stop : plan.stops) {
     text += "  - id: " + stop.id + "\n    title: {en: \"" + stop.id + "\"}\n    pose: " + pose(stop.pose) +
             "\n    look_at: " + point(stop.look_at) + "\n    short: {en: content/" + stop.id + ".short.en.md}\n" +
-            "    topics: [offices]\n";
+            "    topics: [" + plan.topic + "]\n";
   }
   std::vector<std::string> ids;
-  for (const OfficeStop& stop : office.stops) ids.push_back(stop.id);
+  for (const Stop& stop : plan.stops) ids.push_back(stop.id);
   text += "tours:\n  - {id: round, title: {en: \"Round the floor\"}, exhibits: " + list(ids) + "}\n";
   return text + "simulation: simulation.yaml\n";
 }
@@ -69,22 +70,27 @@ std::string to_yaml(const World& world) {
     text += "  - {id: " + a.id + ", centre: " + point(a.centre) + ", radius: " + number(a.radius) +
             ", weight: " + number(a.weight) + "}\n";
   }
+  if (!world.pedestrians_file.empty()) text += "pedestrians: " + world.pedestrians_file + "\n";
   return text;
 }
 
-Result<void> write_office(const Office& office, const Survey& survey, std::uint64_t seed,
-                          const std::filesystem::path& folder) {
+Result<void> write_museum(const MuseumPlan& plan, const Survey& survey, const std::filesystem::path& folder) {
   std::error_code code;
   std::filesystem::create_directories(folder / "content", code);
   if (code) return fail(folder.string() + ": cannot be made: " + code.message());
   if (auto saved = save_map(survey.map, folder / "map"); !saved) return saved;
-  for (const OfficeStop& stop : office.stops) {
+  for (const Stop& stop : plan.stops) {
     auto written = write_file_atomically(folder / "content" / (stop.id + ".short.en.md"),
                                          "This is " + stop.id + " of the building.\n");
     if (!written) return written;
   }
-  if (auto written = write_file_atomically(folder / "simulation.yaml", to_yaml(office.world)); !written) return written;
-  return write_file_atomically(folder / "museum.yaml", museum_yaml(office, survey, seed));
+  if (!plan.world.pedestrians_file.empty()) {
+    const auto path = folder / plan.world.pedestrians_file;
+    auto written = write_file_atomically(path, to_text(plan.world.pedestrians));
+    if (!written) return written;
+  }
+  if (auto written = write_file_atomically(folder / "simulation.yaml", to_yaml(plan.world)); !written) return written;
+  return write_file_atomically(folder / "museum.yaml", museum_yaml(plan, survey));
 }
 
 }  // namespace docent::simulator

@@ -1,0 +1,128 @@
+#include "docent/apps/museum_command.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+
+#include "docent/apps/command.h"
+#include "docent/museum/museum.h"
+#include "docent/pictures/drawing.h"
+#include "docent/pictures/image.h"
+#include "docent/pictures/map_picture.h"
+#include "docent/simulator/crowd/walkable_floor.h"
+#include "docent/simulator/pedestrians/recording.h"
+#include "docent/simulator/traced/pedestrian_fit.h"
+#include "docent/simulator/traced/traced_museum.h"
+#include "docent/simulator/world/world_picture.h"
+
+namespace docent {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPedestriansFile = "pedestrians.txt";
+
+struct MuseumOptions {
+  std::string map;
+  std::string out;
+  std::string title;
+  std::string picture;
+  std::vector<std::string> pedestrians;
+  std::uint64_t seed = 1;
+};
+
+/// A path, or the name of a recording in DOCENT_DATA/pedestrians.
+fs::path recording_path(const std::string& name_or_path) {
+  std::error_code code;
+  if (fs::exists(name_or_path, code)) return name_or_path;
+  const char* data = std::getenv("DOCENT_DATA");
+  const fs::path recordings = fs::path{data != nullptr ? data : "../shared/data"} / "pedestrians";
+  const fs::path found = recordings / (name_or_path == "univ" ? "students01" : name_or_path);
+  if (fs::exists(found, code)) return found;
+  throw CommandFailed{"--pedestrians " + name_or_path + ": neither a path nor a recording in " + recordings.string() +
+                      " (DOCENT_DATA)"};
+}
+
+void add_pedestrians(const std::string& name_or_path, const simulator::WalkableFloor& floor, simulator::World& world) {
+  const auto recording = value_or_fail(simulator::load_recording(recording_path(name_or_path)));
+  auto fit = simulator::fit_pedestrians(recording, floor);
+  const Pose2& pose = fit.world_from_recording;
+  const std::size_t all = recording.tracks.size();
+  const std::size_t kept = fit.recording.tracks.size();
+  std::printf(
+      "%s: %zu of %zu tracks kept (%.0f %%), %zu walk through walls; turned by %.1f degrees, moved by %.2f, %.2f m; "
+      "%.1f people on average, a loop of %.0f s\n",
+      recording.name.c_str(), kept, all, 100.0 * static_cast<double>(kept) / static_cast<double>(all), fit.dropped,
+      pose.theta.degrees(), pose.x, pose.y, fit.recording.mean_people(), fit.recording.duration);
+  if (kept == 0) throw CommandFailed{"--pedestrians " + name_or_path + ": no track has room on the floor of this map"};
+  world.pedestrians_file = kPedestriansFile;
+  world.pedestrians.push_back(std::move(fit.recording));
+}
+
+/// The true world with the ways of the recorded people, and beside it what the robot is told.
+Image draw(const simulator::World& world, const simulator::Survey& survey) {
+  constexpr int kSide = 1000;  // [pixels]
+  const MapView view = MapView::whole(survey.map.frame, kSide);
+  Image truth = simulator::draw_world(world, view);
+  for (const auto& recording : world.pedestrians) {
+    for (const auto& track : recording.tracks) {
+      draw_path(truth, view, track.points, 1.0, with_alpha(colors::kViolet, 60));
+    }
+  }
+  Image told = draw_map(survey.map, view);
+  for (const auto& hazard : survey.hazards) draw_area(told, view, hazard.polygon, {206, 48, 44, 90});
+  draw_polygon(told, view.pixels(world.operating_area), 1.5, with_alpha(colors::kGreen, 170));
+  Image both{truth.width() + told.width() + 10, truth.height()};
+  both.paste(truth, 0, 0);
+  both.paste(told, truth.width() + 10, 0);
+  return both;
+}
+
+void run(const MuseumOptions& options) {
+  const fs::path out{options.out};
+  const OccupancyGrid map = value_or_fail(load_map(options.map));
+  const std::string title = options.title.empty() ? fs::path{options.map}.stem().string() : options.title;
+  auto traced = simulator::trace_museum(map, title, options.seed);
+  if (!traced) throw CommandFailed{options.map + ": " + traced.error().message};
+  simulator::MuseumPlan& plan = *traced;
+  if (!options.pedestrians.empty()) {
+    const simulator::WalkableFloor floor{plan.world};
+    for (const std::string& name : options.pedestrians) add_pedestrians(name, floor, plan.world);
+  }
+  const simulator::Survey survey = simulator::survey(plan.world, {}, Rng{options.seed}.stream("survey"));
+  value_or_fail(simulator::write_museum(plan, survey, out));
+  std::printf(
+      "%s: %zu exhibits, %zu solids, %zu hazards, %zu pieces drawn where they no longer stand, %zu not on the map\n",
+      (out / "museum.yaml").c_str(), plan.stops.size(), plan.world.solids.size(), survey.hazards.size(),
+      survey.moved.size(), survey.missing.size());
+  if (!options.picture.empty()) value_or_fail(save_png(draw(plan.world, survey), options.picture));
+  const std::vector<Error> faults = check_museum(out);
+  for (const Error& fault : faults) std::fprintf(stderr, "%s\n", fault.message.c_str());
+  if (!faults.empty()) throw CommandFailed{out.string() + ": cannot work; another --seed may help"};
+}
+
+}  // namespace
+
+void add_museum_command(CLI::App& app) {
+  auto* command = app.add_subcommand(
+      "museum",
+      "Make a museum folder from a map: a true world traced from it, exhibits, hazards, recorded people, and "
+      "the map that a survey of it gives the robot");
+  auto options = std::make_shared<MuseumOptions>();
+  command->add_option("map", options->map, "map.yaml of map_server")->required();
+  command->add_option("--out", options->out, "Folder for museum.yaml, simulation.yaml, the map and texts")->required();
+  command
+      ->add_option("--pedestrians", options->pedestrians,
+                   "Recorded people for its halls: a folder or file, or a name in DOCENT_DATA/pedestrians (eth, "
+                   "univ, zara01, edinburgh, …); several are fitted one by one")
+      ->type_name("NAME-or-DIR");
+  command->add_option("--seed", options->seed, "Seed of what a map does not show and of the survey's errors")
+      ->capture_default_str();
+  command->add_option("--title", options->title, "Name of the museum; without it the map's file name");
+  command->add_option("--picture", options->picture, "Also draw the true world and the robot's map, as a PNG");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace docent

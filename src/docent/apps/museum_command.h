@@ -1,0 +1,12 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace docent {
+
+/// `docent museum`: a museum folder from a map, with recorded people in its halls.
+void add_museum_command(CLI::App& app);
+
+}  // namespace docent

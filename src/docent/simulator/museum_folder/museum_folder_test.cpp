@@ -1,0 +1,71 @@
+#include "docent/simulator/museum_folder/museum_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "docent/base/files.h"
+#include "docent/simulator/office/office.h"
+
+namespace docent::simulator {
+namespace {
+
+class MuseumFolder : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (std::filesystem::temp_directory_path() / "docent-museum-XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::filesystem::path folder_;
+};
+
+TEST_F(MuseumFolder, HoldsTheWorldAndWhatTheSurveySays) {
+  const Office office = draw_office(5);
+  const Survey surveyed = survey(office.world, {}, Rng{5});
+  ASSERT_TRUE(write_museum(office, surveyed, folder_));
+  const auto world = load_world(folder_ / "simulation.yaml");
+  ASSERT_TRUE(world) << world.error().message;
+  const auto map = load_map(folder_ / "map.yaml");
+  ASSERT_TRUE(map) << map.error().message;
+  EXPECT_EQ(map_hash(*map), map_hash(surveyed.map));
+  EXPECT_FALSE(surveyed.moved.empty());
+  EXPECT_FALSE(surveyed.missing.empty());
+  const std::string museum = read_file(folder_ / "museum.yaml").value();
+  for (const Stop& stop : office.stops) EXPECT_NE(museum.find("id: " + stop.id), std::string::npos);
+  EXPECT_FALSE(write_museum(office, surveyed, folder_ / "map.yaml" / "inside a file"));
+}
+
+TEST_F(MuseumFolder, TheWorldIsReadBackAsItWas) {
+  const Office office = draw_office(4);
+  const auto world = parse_world(to_yaml(office.world), "simulation.yaml");
+  ASSERT_TRUE(world) << world.error().message;
+  ASSERT_EQ(world->solids.size(), office.world.solids.size());
+  for (std::size_t i = 0; i < world->solids.size(); ++i) {
+    EXPECT_EQ(world->solids[i].id, office.world.solids[i].id);
+    EXPECT_EQ(world->solids[i].movable, office.world.solids[i].movable);
+    for (std::size_t k = 0; k < world->solids[i].polygon.size(); ++k) {
+      EXPECT_NEAR(distance(world->solids[i].polygon[k], office.world.solids[i].polygon[k]), 0.0, 1e-9);
+    }
+  }
+}
+
+TEST_F(MuseumFolder, KeepsTheRecordedPeopleInAFileOfTheirOwn) {
+  Office office = draw_office(6);
+  office.world.pedestrians_file = "pedestrians.txt";
+  office.world.pedestrians = {{"eth", 12.0, {{2.0, {{1.0, 2.0}, {1.5, 2.25}, {2.0, 2.5}}}}}};
+  ASSERT_TRUE(write_museum(office, survey(office.world, {}, Rng{6}), folder_));
+  const auto world = load_world(folder_ / "simulation.yaml");
+  ASSERT_TRUE(world) << world.error().message;
+  ASSERT_EQ(world->pedestrians.size(), 1U);
+  EXPECT_EQ(world->pedestrians[0].name, "eth");
+  EXPECT_EQ(world->pedestrians[0].tracks.at(0).points, office.world.pedestrians[0].tracks[0].points);
+  // Nothing that the robot reads names it.
+  EXPECT_EQ(read_file(folder_ / "museum.yaml").value().find("pedestrians"), std::string::npos);
+  std::filesystem::remove(folder_ / "pedestrians.txt");
+  EXPECT_FALSE(load_world(folder_ / "simulation.yaml"));
+}
+
+}  // namespace
+}  // namespace docent::simulator

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "docent/geometry/pose2.h"
+#include "docent/simulator/crowd/walkable_floor.h"
+#include "docent/simulator/pedestrians/track.h"
+
+namespace docent::simulator {
+
+/// Where in a building a recording may have been made.
+struct PedestrianFit {
+  Pose2 world_from_recording;
+  Recording recording;      ///< in the world's frame: the tracks that lie on free floor all the way
+  std::size_t dropped = 0;  ///< tracks that would walk through walls
+};
+
+/// The rigid motion (a turn and a shift, no scaling) of the recording with the most tracks on floor that is reachable
+/// and clear for a disc of kRecordedRadius, and its tracks moved by it. Found over turns of 10 degrees and shifts of a
+/// metre, then by ever smaller ones round the best of these; deterministic.
+/// O(motions * tracks), as most motions are given up after the first points of some tracks.
+[[nodiscard]] PedestrianFit fit_pedestrians(const Recording& recording, const WalkableFloor& floor);
+
+}  // namespace docent::simulator
