@@ -7,13 +7,12 @@
 namespace docent {
 namespace {
 
-constexpr double kLength = 1.5;      // [m] of a wall, at least
 constexpr double kDeviation = 0.06;  // [m] from the chord
 constexpr double kGap = 0.5;         // [m] between neighbours, more is a break
 constexpr std::size_t kFewest = 8;   // beams on a wall
 
 /// Marks the straight parts of an unbroken run, splitting it where it is farthest from its chord.
-void split(std::span<const Point2> run, std::span<std::uint8_t> is_wall) {
+void split(std::span<const Point2> run, double least_length, std::span<std::uint8_t> is_wall) {
   if (run.size() < kFewest) return;
   const Point2 chord = run.back() - run.front();
   const double length = norm(chord);
@@ -28,16 +27,16 @@ void split(std::span<const Point2> run, std::span<std::uint8_t> is_wall) {
     }
   }
   if (deviation <= kDeviation) {
-    if (length >= kLength) std::fill(is_wall.begin(), is_wall.end(), std::uint8_t{1});
+    if (length >= least_length) std::fill(is_wall.begin(), is_wall.end(), std::uint8_t{1});
     return;
   }
-  split(run.first(farthest + 1), is_wall.first(farthest + 1));
-  split(run.subspan(farthest), is_wall.subspan(farthest));
+  split(run.first(farthest + 1), least_length, is_wall.first(farthest + 1));
+  split(run.subspan(farthest), least_length, is_wall.subspan(farthest));
 }
 
 }  // namespace
 
-std::vector<std::uint8_t> on_straight_walls(const RangeSweep& sweep) {
+std::vector<std::uint8_t> on_straight_walls(const RangeSweep& sweep, double length) {
   const std::size_t size = sweep.beams.size();
   std::vector<std::uint8_t> is_wall(size, 0);
   const auto breaks_before = [&](std::size_t i) {
@@ -59,7 +58,7 @@ std::vector<std::uint8_t> on_straight_walls(const RangeSweep& sweep) {
       ++end;
     } while (end < size && !breaks_before((first + end) % size));
     marks.assign(run.size(), 0);
-    split(run, marks);
+    split(run, length, marks);
     for (std::size_t i = 0; i < run.size(); ++i) is_wall[(first + begin + i) % size] = marks[i];
     begin = end;
   }

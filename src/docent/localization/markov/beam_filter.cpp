@@ -125,12 +125,27 @@ Agreement agreement(const ExpectedRanges& expected, const ProximityModel& model,
   return result;
 }
 
+namespace {
+
+/// Those of the beams that ended on what is shaped like a person, see BeamChoiceParams::on_persons.
+std::vector<BinnedBeam> persons_taken_out(std::vector<BinnedBeam>& beams, std::span<const std::uint8_t> on_persons) {
+  if (on_persons.empty()) return {};
+  const auto first =
+      std::stable_partition(beams.begin(), beams.end(), [&](const BinnedBeam& b) { return on_persons[b.beam] == 0; });
+  std::vector<BinnedBeam> persons{first, beams.end()};
+  beams.erase(first, beams.end());
+  return persons;
+}
+
+}  // namespace
+
 BeamChoice chosen_beams(std::span<const LikelyState> likely, const RangeTable& table, int directions,
                         const ProximityModel& model, const RangeSweep& sweep, const BeamChoiceParams& params,
                         std::size_t phase, Rng& rng) {
   constexpr std::size_t kFewest = 10;  // others: with fewer there is still something to recover by
   BeamChoice choice;
-  const std::vector<BinnedBeam> beams = binned(sweep, directions);
+  std::vector<BinnedBeam> beams = binned(sweep, directions);
+  const auto persons = persons_taken_out(beams, params.on_persons);
   if (likely.empty()) {
     choice.used = beams;
   } else {
@@ -149,6 +164,9 @@ BeamChoice chosen_beams(std::span<const LikelyState> likely, const RangeTable& t
     for (std::size_t i = 0; i < beams.size(); ++i)
       if (!is_rejected[i] || rng.chance(share)) choice.used.push_back(beams[i]);
   }
+  choice.filtered += persons.size();
+  for (const BinnedBeam& beam : persons)
+    if (rng.chance(params.person_share)) choice.used.push_back(beam);
   choice.used = thinned(choice.used, params.most, phase);
   std::sort(choice.used.begin(), choice.used.end(),
             [](const BinnedBeam& a, const BinnedBeam& b) { return a.direction < b.direction; });

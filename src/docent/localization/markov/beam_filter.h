@@ -74,8 +74,12 @@ struct BeamChoiceParams {
   /// mostly people: then it is a share of the others. Not while the robot may be elsewhere, when most beams are
   /// rejected and right. See Verdict::keeps_its_place.
   bool keeps_its_place = false;
+  /// [beams of the sweep] 1: on what is shaped like a person, see on_person_shapes; empty: nobody looked. Such a beam
+  /// counts with the probability `person_share`, whatever the belief says, and tells nothing of agreement.
+  std::vector<std::uint8_t> on_persons{};
+  double person_share = 0.1;
 };
-/// Without likely states no filter can be asked, and all beams count. `phase`: see `thinned`.
+/// Without likely states no filter can be asked, and all other beams count. `phase`: see `thinned`.
 [[nodiscard]] BeamChoice chosen_beams(std::span<const LikelyState> likely, const RangeTable& table, int directions,
                                       const ProximityModel& model, const RangeSweep& sweep,
                                       const BeamChoiceParams& params, std::size_t phase, Rng& rng);

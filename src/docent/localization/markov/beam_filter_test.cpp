@@ -75,5 +75,26 @@ TEST(ChosenBeams, TheRandomSetIsASmallShareOfThoseThatCountInACrowd) {
   EXPECT_EQ(few.mean_of_random_set(true), few.mean_of_random_set(false));
 }
 
+TEST(ChosenBeams, OnPersonShapesAShareCountsWithAndWithoutABelief) {
+  const Crowd crowd{0.5};
+  BeamChoiceParams params{BeamFilter::distance, 0.99, 0.1, 1000, false, {}, 0.0};
+  params.on_persons.assign(crowd.sweep.beams.size(), 0);
+  for (std::size_t i = 0; i < params.on_persons.size() / 2; ++i) params.on_persons[i] = 1;
+  Rng rng{1};
+  const auto choose = [&](std::span<const LikelyState> likely) {
+    return chosen_beams(likely, crowd.room->table, crowd.room->space.headings(), crowd.room->model, crowd.sweep, params,
+                        1, rng);
+  };
+  const BeamChoice blind = choose({});
+  EXPECT_EQ(blind.used.size(), 30U);
+  EXPECT_EQ(blind.filtered, 30U);
+  const BeamChoice knowing = choose(crowd.states);
+  EXPECT_EQ(knowing.used.size(), 30U);
+  EXPECT_EQ(knowing.readings.shorter, 0.0) << "people are no disagreement";
+  EXPECT_GT(knowing.readings.agrees, 25.0);
+  params.person_share = 1.0;
+  EXPECT_EQ(choose({}).used.size(), 60U);
+}
+
 }  // namespace
 }  // namespace docent

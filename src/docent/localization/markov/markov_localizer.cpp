@@ -4,8 +4,10 @@
 #include <cmath>
 #include <numbers>
 #include <thread>
+#include <utility>
 
 #include "docent/base/check.h"
+#include "docent/localization/belief/person_shapes.h"
 #include "docent/localization/markov/position_summary.h"
 
 namespace docent {
@@ -45,6 +47,7 @@ Result<void> MarkovLocalizerParams::validate() const {
   if (auto known = beam_filter_of(filter); !known) return tl::unexpected<Error>(known.error());
   if (!(filter_sureness > 0.5 && filter_sureness < 1.0)) return fail("filter_sureness must be 0.5..1");
   if (!(unfiltered_share >= 0.0 && unfiltered_share <= 1.0)) return fail("unfiltered_share must be 0..1");
+  if (!(person_share >= 0.0 && person_share <= 1.0)) return fail("person_share must be 0..1");
   if (!(sea_threshold >= 0.0 && sea_threshold < 1.0)) return fail("sea_threshold must be 0..1");
   if (!(teleport_probability >= 0.0 && teleport_probability < 0.1)) return fail("teleport_probability must be 0..0.1");
   if (!(teleport_in_doubt >= 0.0 && teleport_in_doubt <= 0.5)) return fail("teleport_in_doubt must be 0..0.5");
@@ -67,10 +70,25 @@ double MarkovLocalizerParams::views(double way, double turn) const {
   return std::clamp(0.5 * updates, 1.0, most_views);
 }
 
+std::vector<std::uint8_t> MarkovLocalizerParams::on_persons(const RangeSweep& sweep, bool keeps_its_place) const {
+  return keeps_its_place || person_share >= 1.0 ? std::vector<std::uint8_t>{} : on_person_shapes(sweep);
+}
+
+BeamChoiceParams MarkovLocalizerParams::beam_choice(std::vector<std::uint8_t> on_persons, bool keeps_its_place) const {
+  BeamChoiceParams choice;
+  choice.filter = beam_filter_of(filter).value_or(BeamFilter::distance);
+  choice.sureness = filter_sureness;
+  choice.unfiltered_share = unfiltered_share;
+  choice.most = static_cast<std::size_t>(beams);
+  choice.keeps_its_place = keeps_its_place;
+  choice.on_persons = std::move(on_persons);
+  choice.person_share = person_share;
+  return choice;
+}
+
 MarkovLocalizer::MarkovLocalizer(const OccupancyGrid& map, const MarkovLocalizerParams& params,
                                  const std::filesystem::path& cache, std::uint64_t seed)
     : params_{params},
-      filter_{beam_filter_of(params.filter).value_or(BeamFilter::distance)},
       caster_{peeled(map, params.states.wall_depth)},
       space_{map, caster_, params.states},
       table_{range_table_of(map, params, cache, space_, caster_)},
@@ -163,7 +181,8 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   if (way > 0.0 || turn > 0.0) move(before_from_after);
 
   const RangeSweep seen = seen_from(sweep, frame_from_robot());
-  BeamChoice choice = choose_beams(seen);
+  const std::vector<std::uint8_t> on_persons = params_.on_persons(sweep, verdict_.keeps_its_place());
+  BeamChoice choice = choose_beams(seen, on_persons);
   const double temper = step.weight * std::min(1.0, views * params_.independent_beams / params_.beams);
   std::vector<BeamCosts> costs(choice.used.size());
   double log_best_over_mean = 0.0;
@@ -201,7 +220,7 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   step.beams_filtered = choice.filtered;
 
   summarise_now();
-  keep_rivals(sweep, before_from_after, step.weight);
+  keep_rivals(on_persons.empty() ? sweep : without(sweep, on_persons), before_from_after, step.weight);
   if (!summary_.modes.empty()) {
     const MotionNoise noise = motion_noise(params_.motion, before_from_after);
     BeliefMode& best = summary_.modes.front();
@@ -284,11 +303,10 @@ void MarkovLocalizer::move(const Pose2& before_from_after) {
   belief_.move(motion_kernel(space_, params_.motion, shift, step));
 }
 
-BeamChoice MarkovLocalizer::choose_beams(const RangeSweep& sweep) {
+BeamChoice MarkovLocalizer::choose_beams(const RangeSweep& seen, std::vector<std::uint8_t> on_persons) {
   likely_ = likely_states(belief_, kLikelyFraction, kMostLikely);
-  const BeamChoiceParams params{filter_, params_.filter_sureness, params_.unfiltered_share,
-                                static_cast<std::size_t>(params_.beams), verdict_.keeps_its_place()};
-  return chosen_beams(likely_, table_, space_.headings(), model_, sweep, params, ++phase_, rng_);
+  const BeamChoiceParams params = params_.beam_choice(std::move(on_persons), verdict_.keeps_its_place());
+  return chosen_beams(likely_, table_, space_.headings(), model_, seen, params, ++phase_, rng_);
 }
 
 void MarkovLocalizer::judge(const Evidence& evidence, const std::optional<Pose2>& predicted) {

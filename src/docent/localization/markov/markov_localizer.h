@@ -31,6 +31,9 @@ struct MarkovLocalizerParams {
   std::string filter = "distance";     ///< none, entropy, distance, novelty
   double filter_sureness = 0.99;       ///< theta of [Markov1998] 3.3
   double unfiltered_share = 0.1;       ///< of the filtered beams, chosen at random, counts anyway: for recovery
+  /// Of the beams on what is shaped like a person, chosen at random, that count while the robot does not know its
+  /// place; 1: nobody looks for shapes
+  double person_share = 0.1;
   double sea_threshold = 0.001;        ///< of the a priori probability
   double teleport_probability = 1e-7;  ///< per update: somebody carried the robot elsewhere
   double teleport_in_doubt = 0.02;     ///< and per update while the readings contradict the map
@@ -61,6 +64,7 @@ struct MarkovLocalizerParams {
     v("filter", filter);
     v("filter_sureness", filter_sureness);
     v("unfiltered_share", unfiltered_share);
+    v("person_share", person_share);
     v("sea_threshold", sea_threshold);
     v("teleport_probability", teleport_probability);
     v("teleport_in_doubt", teleport_in_doubt);
@@ -82,6 +86,9 @@ struct MarkovLocalizerParams {
   /// scan, so that evidence comes by the metre and not by the scan: sparse scans, with half a metre or 20 degrees and
   /// more between them, count for several. 1..most_views.
   [[nodiscard]] double views(double way, double turn) const;
+  /// The beams on what is shaped like a person, while the robot does not know its place; empty: nobody looks.
+  [[nodiscard]] std::vector<std::uint8_t> on_persons(const RangeSweep& sweep, bool keeps_its_place) const;
+  [[nodiscard]] BeamChoiceParams beam_choice(std::vector<std::uint8_t> on_persons, bool keeps_its_place) const;
 };
 
 /// The range table of a map, from the file `cache` when it was made for these parameters; empty: none.
@@ -113,7 +120,8 @@ class MarkovLocalizer final : public Localizer {
 
  private:
   [[nodiscard]] double due_weight(double way, double turn, Time time) const;
-  [[nodiscard]] BeamChoice choose_beams(const RangeSweep& sweep);
+  /// `seen`: the sweep in the belief's frame.
+  [[nodiscard]] BeamChoice choose_beams(const RangeSweep& seen, std::vector<std::uint8_t> on_persons);
   /// What the sensors beside the lasers say now, for `weight` of an update; empty: nothing.
   [[nodiscard]] PlaceCosts ask_sensors(double weight);
   [[nodiscard]] std::optional<double> fit(const RangeSweep& seen, std::span<const BinnedBeam> beams) const;
@@ -125,7 +133,6 @@ class MarkovLocalizer final : public Localizer {
   void judge(const Evidence& evidence, const std::optional<Pose2>& predicted);
 
   MarkovLocalizerParams params_;
-  BeamFilter filter_;
   RayCaster caster_;
   StateSpace space_;
   RangeTable table_;

@@ -98,6 +98,24 @@ TEST(MarkovLocalizer, EveryFilterTracksThroughPeople) {
   }
 }
 
+TEST(MarkovLocalizer, ASurroundedRobotFindsItselfByWhatItSeesBetweenPeople) {
+  const OccupancyGrid map = testing::room_map();
+  const RayCaster caster{map};
+  const auto with_share = [&](double person_share) {
+    return testing::look_round(caster, 12, [&](std::uint64_t seed) {
+      MarkovLocalizerParams params = coarse();
+      params.person_share = person_share;
+      return std::make_unique<MarkovLocalizer>(map, params, "", seed);
+    });
+  };
+  const testing::LookingRound by_shapes = with_share(0.1);
+  const testing::LookingRound by_all = with_share(1.0);
+  EXPECT_GE(by_shapes.likeliest, 11);
+  EXPECT_GE(by_shapes.sure, 6);  // others have a rival, until they move
+  EXPECT_EQ(by_shapes.wrong, 0);
+  EXPECT_LE(by_all.likeliest, 3) << "then people need not be told by their shapes";
+}
+
 TEST(MarkovLocalizer, AnUnknownFilterIsAFault) {
   MarkovLocalizerParams params;
   params.filter = "magic";

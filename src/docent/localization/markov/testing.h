@@ -1,11 +1,16 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "docent/base/random.h"
+#include "docent/base/time.h"
+#include "docent/geometry/polygon.h"
 #include "docent/localization/markov/position_belief.h"
 #include "docent/localization/markov/range_table.h"
 #include "docent/sensor_models/range_sweep.h"
@@ -64,6 +69,79 @@ inline RangeSweep sweep_at(const RayCaster& caster, const Pose2& truth, double m
     sweep.beams.push_back({bearing.radians(), std::min(range, max_range), range >= max_range});
   }
   return sweep;
+}
+
+/// A robot that turns on the spot in a ring of people who stand round it: of the room it sees what the gaps between
+/// them show.
+class Surrounded {
+ public:
+  Surrounded(const RayCaster& caster, std::uint64_t seed) : caster_{caster}, rng_{Rng{seed}.stream("surrounded")} {
+    do {
+      truth_ = {rng_.uniform(0.5, 5.5), rng_.uniform(0.5, 3.5), Angle::degrees(rng_.uniform(-180.0, 180.0))};
+    } while (caster.clearance(truth_.position()) < 0.8F);
+    for (double degrees = 0.0; degrees < 345.0; degrees += rng_.uniform(34.0, 46.0)) {
+      const Point2 off = rng_.uniform(0.75, 1.05) * unit(Angle::degrees(degrees));
+      people_.push_back(truth_.position() + off);
+    }
+  }
+  void turn() {
+    truth_.theta = truth_.theta + Angle::degrees(12.0);
+    odom_.theta = odom_.theta + Angle::degrees(12.0 + rng_.normal(0.0, 0.2));
+    time_ = time_ + seconds(0.4);
+  }
+  [[nodiscard]] RangeSweep look() {
+    constexpr double kBody = 0.24;  // [m]
+    RangeSweep sweep = sweep_at(caster_, truth_, 10.0);
+    for (SweepBeam& beam : sweep.beams) {
+      const Point2 ray = unit(truth_.theta + Angle::radians(beam.bearing));
+      for (const Point2 person : people_) {
+        const auto range = ray_distance(truth_.position(), ray, person, kBody);
+        if (range && *range < beam.range) beam = {beam.bearing, *range, false};
+      }
+      beam.range += beam.no_return ? 0.0 : rng_.normal(0.0, 0.02);
+    }
+    return sweep;
+  }
+  [[nodiscard]] bool is_here(const std::optional<Pose2>& found) const {
+    return found && distance(found->position(), truth_.position()) < 0.5 &&
+           std::abs((found->theta - truth_.theta).degrees()) < 20.0;
+  }
+  [[nodiscard]] const Pose2& odom() const { return odom_; }
+  [[nodiscard]] Time time() const { return time_; }
+
+ private:
+  const RayCaster& caster_;
+  Rng rng_;
+  Pose2 truth_;
+  Pose2 odom_{};
+  Time time_ = time_from_seconds(100.0);
+  std::vector<Point2> people_;
+};
+
+/// Of `trials` robots that stand surrounded and have turned twice. `localizer_of` makes a localizer for a seed.
+struct LookingRound {
+  int likeliest = 0;  ///< whose best pose is right
+  int sure = 0;       ///< who say so, too
+  int wrong = 0;      ///< who ever said that they were elsewhere
+};
+inline LookingRound look_round(const RayCaster& caster, int trials, const auto& localizer_of) {
+  LookingRound result;
+  for (int trial = 0; trial < trials; ++trial) {
+    Surrounded robot{caster, static_cast<std::uint64_t>(trial)};
+    auto localizer = localizer_of(static_cast<std::uint64_t>(trial));
+    const auto is_here = [&] { return robot.is_here(localizer->map_from_robot(robot.odom())); };
+    bool was_wrong = false;
+    for (int step = 0; step < 60; ++step) {
+      localizer->observe(robot.look(), robot.odom(), robot.time());
+      was_wrong = was_wrong || (localizer->verdict().localized() && !is_here());
+      robot.turn();
+    }
+    const bool is_right = is_here();
+    result.likeliest += is_right ? 1 : 0;
+    result.sure += is_right && localizer->verdict().localized() ? 1 : 0;
+    result.wrong += was_wrong ? 1 : 0;
+  }
+  return result;
 }
 
 /// The costs of that reading, tempered by `temper`.

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
+#include "docent/localization/belief/person_shapes.h"
 #include "docent/localization/monte_carlo/particle_strata.h"
 #include "docent/localization/monte_carlo/particle_summary.h"
 #include "docent/localization/monte_carlo/particle_weights.h"
@@ -44,7 +46,6 @@ MonteCarloLocalizer::MonteCarloLocalizer(const OccupancyGrid& map, const MarkovL
                                          std::uint64_t seed)
     : shared_{shared},
       params_{params},
-      filter_{beam_filter_of(shared.filter).value_or(BeamFilter::distance)},
       caster_{peeled(map, shared.states.wall_depth)},
       space_{map, caster_, shared.states},
       table_{range_table_of(map, shared, cache, space_, caster_)},
@@ -181,7 +182,8 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
   move_particles(particles_, shared_.motion, before_from_after, {params_.shake_position, params_.shake_heading}, box,
                  noise_);
 
-  BeamChoice choice = choose_beams(sweep);
+  const std::vector<std::uint8_t> on_persons = shared_.on_persons(sweep, verdict_.keeps_its_place());
+  BeamChoice choice = choose_beams(sweep, on_persons);
   const double one_view = shared_.independent_beams / shared_.beams;
   const double full_temper = std::min(1.0, views * one_view);
   last_work_ = static_cast<double>(particles_.size()) * static_cast<double>(choice.used.size());
@@ -212,7 +214,7 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
   step.beams_filtered = choice.filtered;
 
   summarise_now();
-  keep_rivals(sweep, before_from_after, step.weight);
+  keep_rivals(on_persons.empty() ? sweep : without(sweep, on_persons), before_from_after, step.weight);
   if (!summary_.modes.empty()) {
     const Strata strata{static_cast<std::size_t>(params_.least), most_particles(),
                         static_cast<std::size_t>(params_.reserve), params_.resample_below, params_.kld};
@@ -353,11 +355,10 @@ std::optional<double> MonteCarloLocalizer::fit(const RangeSweep& sweep, std::spa
   return sum / static_cast<double>(beams.size());
 }
 
-BeamChoice MonteCarloLocalizer::choose_beams(const RangeSweep& sweep) {
+BeamChoice MonteCarloLocalizer::choose_beams(const RangeSweep& sweep, std::vector<std::uint8_t> on_persons) {
   likely_ = particles_.size() > 0 ? likely_states(bins_of(particles_, space_), space_, kLikelyFraction, kMostLikely)
                                   : std::vector<LikelyState>{};
-  const BeamChoiceParams params{filter_, shared_.filter_sureness, shared_.unfiltered_share,
-                                static_cast<std::size_t>(shared_.beams), verdict_.keeps_its_place()};
+  const BeamChoiceParams params = shared_.beam_choice(std::move(on_persons), verdict_.keeps_its_place());
   return chosen_beams(likely_, table_, space_.headings(), model_, sweep, params, ++phase_, rng_);
 }
 

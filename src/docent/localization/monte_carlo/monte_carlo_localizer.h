@@ -88,7 +88,7 @@ class MonteCarloLocalizer final : public Localizer {
 
  private:
   [[nodiscard]] double due_weight(double way, double turn, Time time) const;
-  [[nodiscard]] BeamChoice choose_beams(const RangeSweep& sweep);
+  [[nodiscard]] BeamChoice choose_beams(const RangeSweep& sweep, std::vector<std::uint8_t> on_persons);
   void notice_surprise(double likelihood, double weight, double views);
   /// Adds poses drawn from the sensors, for the case that the truth is near no particle.
   void draw_elsewhere(const RangeSweep& sweep, std::span<const BinnedBeam> beams, double temper, double likelihood);
@@ -110,7 +110,6 @@ class MonteCarloLocalizer final : public Localizer {
 
   MarkovLocalizerParams shared_;
   MonteCarloParams params_;
-  BeamFilter filter_;
   RayCaster caster_;
   StateSpace space_;
   RangeTable table_;

@@ -167,5 +167,18 @@ TEST(MonteCarloLocalizer, ASmallComputerGetsFewerParticlesAndWaits) {
   EXPECT_LE(most, 2000U);
 }
 
+TEST(MonteCarloLocalizer, ASurroundedRobotFindsItselfByWhatItSeesBetweenPeople) {
+  const OccupancyGrid map = testing::room_map();
+  const RayCaster caster{map};
+  const testing::LookingRound seen = testing::look_round(caster, 12, [&](std::uint64_t seed) {
+    MarkovLocalizerParams shared;
+    shared.states.heading_step = 3.0;
+    return std::make_unique<MonteCarloLocalizer>(map, shared, MonteCarloParams{}, "", seed);
+  });
+  EXPECT_GE(seen.likeliest, 11);
+  EXPECT_GE(seen.sure, 6);
+  EXPECT_EQ(seen.wrong, 0);
+}
+
 }  // namespace
 }  // namespace docent
