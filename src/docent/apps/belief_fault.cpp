@@ -31,7 +31,8 @@ void BeliefFault::add_mode(docent_msgs::Belief& belief, Second& second) const {
   const auto moved = [&](double x, double y, double theta) {
     return *second.second_from_first * Pose2{x, y, Angle::radians(theta)};
   };
-  std::stable_sort(belief.cells.begin(), belief.cells.end(), [](const auto& a, const auto& b) { return a.mass > b.mass; });
+  std::stable_sort(belief.cells.begin(), belief.cells.end(),
+                   [](const auto& a, const auto& b) { return a.mass > b.mass; });
   if (belief.cells.size() > kMostCells / 2) belief.cells.resize(kMostCells / 2);
   for (std::size_t i = 0, count = belief.cells.size(); i < count; ++i) {
     auto& cell = belief.cells[i];

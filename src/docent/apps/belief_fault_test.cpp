@@ -37,8 +37,9 @@ TEST(BeliefFault, TheSecondModeIsAsHeavyAndMovesAlong) {
   EXPECT_NEAR(first.hypotheses[1].x, 10.0, 1e-9);
   EXPECT_NEAR(first.hypotheses[1].theta, 1.5708, 1e-4);
   EXPECT_LE(first.cells.size(), 8192U);
-  const double there = std::accumulate(first.cells.begin(), first.cells.end(), 0.0,
-                                       [](double sum, const auto& cell) { return sum + (cell.x > 5.0F ? cell.mass : 0.0F); });
+  const double there = std::accumulate(first.cells.begin(), first.cells.end(), 0.0, [](double sum, const auto& cell) {
+    return sum + (cell.x > 5.0F ? cell.mass : 0.0F);
+  });
   EXPECT_NEAR(there, 0.47, 0.02);
   const auto then = fault.apply(belief_at(2.0, 2.0, 0.0), time_from_seconds(12.0));  // a metre ahead
   EXPECT_NEAR(then.hypotheses[1].x, 10.0, 1e-6);

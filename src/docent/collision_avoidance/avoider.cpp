@@ -100,7 +100,8 @@ std::optional<Complaint> Avoider::complaint_of_laser(Time now, std::size_t index
   if (memory_.is_frozen(index)) found = worse(Complaint{0.0, "the " + name + " is frozen"}, found);
   const double missing = memory_.invalid_share(index);
   if (!found && missing > kNearlyAll) return Complaint{0.0, "the " + name + " gives no readings"};
-  if (missing > kManyMissing) found = worse(found, Complaint{kCrippledSpeed, "the " + name + " gives too few readings"});
+  if (missing > kManyMissing)
+    found = worse(found, Complaint{kCrippledSpeed, "the " + name + " gives too few readings"});
   return found;
 }
 

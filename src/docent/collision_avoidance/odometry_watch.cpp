@@ -14,7 +14,9 @@ constexpr double kMemory = 0.08;    // a message's share in the running means
 constexpr double kMany = 0.2;
 constexpr double kAfterJump = 3.0;  // [s] in which the localizer looks several times
 
-bool is_same(const Pose2& a, const Pose2& b) { return a.x == b.x && a.y == b.y && a.theta.radians() == b.theta.radians(); }
+bool is_same(const Pose2& a, const Pose2& b) {
+  return a.x == b.x && a.y == b.y && a.theta.radians() == b.theta.radians();
+}
 
 }  // namespace
 

@@ -28,8 +28,8 @@ class OdometryWatch {
   BaseLimits limits_;
   Freshness freshness_;
   std::optional<Time> stamp_;
-  BaseState state_;         ///< newest
-  Velocity expected_;       ///< that the commands must have given the base
+  BaseState state_;            ///< newest
+  Velocity expected_;          ///< that the commands must have given the base
   double expected_way_ = 0.0;  ///< [m] of the rim, since the odometry last changed
   std::optional<Time> frozen_;
   std::optional<Time> jumped_;

@@ -11,9 +11,9 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kUnknownSpeed = 0.4;  // [m/s] looking around
 constexpr double kDoubtful = 0.5;      // P(lost)
 constexpr double kRivalShare = 1.0 / 3.0;
-constexpr double kRivalWay = 0.5;      // [m] nearer modes are one place
+constexpr double kRivalWay = 0.5;  // [m] nearer modes are one place
 constexpr double kRivalTurn = 20.0 * kDegree;
-constexpr double kOff = 0.2;           // [m]
+constexpr double kOff = 0.2;  // [m]
 constexpr double kOffTurn = 6.5 * kDegree;
 
 std::optional<Complaint> judge(const BeliefOutline& belief) {

@@ -41,9 +41,9 @@ class Rehearsal {
   bool front_repeats = false;               ///< the front laser gives its last sweep again and again
   double blind_from = 0.0, blind_to = 0.0;  ///< [rad] base frame: the front laser gives this there:
   float blind_range = std::numeric_limits<float>::quiet_NaN();
-  double front_missing = 0.0;    ///< share of the front laser's readings that are none
-  bool virtual_is_nan = false;   ///< one of the virtual measurements
-  Pose2 raw_from_map;            ///< what the odometry has made of the map: a change is a jump
+  double front_missing = 0.0;   ///< share of the front laser's readings that are none
+  bool virtual_is_nan = false;  ///< one of the virtual measurements
+  Pose2 raw_from_map;           ///< what the odometry has made of the map: a change is a jump
   AvoiderTarget target;
 
   // What happened.

@@ -7,10 +7,10 @@ namespace docent {
 namespace {
 
 constexpr int kRepeats = 14;
-constexpr double kMoved = 0.03;       // [m]
-constexpr double kTurned = 0.1;       // [rad]
-constexpr double kPatience = 1.5;     // [s] for two of many
-constexpr double kMemory = 0.05;      // a reading's share in the running mean
+constexpr double kMoved = 0.03;    // [m]
+constexpr double kTurned = 0.1;    // [rad]
+constexpr double kPatience = 1.5;  // [s] for two of many
+constexpr double kMemory = 0.05;   // a reading's share in the running mean
 constexpr double kManyMissing = 0.25;
 constexpr double kNearlyAll = 0.9;
 
@@ -53,7 +53,8 @@ std::optional<Complaint> RingWatch::complaint(Time now, bool required) const {
     found = {0.0, "no fresh " + one_ + " of number " + std::to_string(*pair) + " and the next"};
   if (repeats_ >= kRepeats) found = worse(found, Complaint{0.0, "the " + all_ + " are frozen"});
   if (missing_ > kManyMissing)
-    found = worse(found, Complaint{missing_ > kNearlyAll ? 0.0 : kCrippledSpeed, "the " + all_ + " give too few readings"});
+    found =
+        worse(found, Complaint{missing_ > kNearlyAll ? 0.0 : kCrippledSpeed, "the " + all_ + " give too few readings"});
   return found;
 }
 

@@ -29,8 +29,8 @@ class RingWatch {
  private:
   struct Sensor {
     Freshness freshness;
-    double range = -1.0;          ///< [m] of the last echo; negative: none
-    Pose2 odom_from_base;         ///< when it first gave that range
+    double range = -1.0;   ///< [m] of the last echo; negative: none
+    Pose2 odom_from_base;  ///< when it first gave that range
   };
   void watch_for_freeze(Sensor& sensor, double range, bool is_echo, const Pose2& odom_from_base);
   [[nodiscard]] std::optional<std::size_t> silent_pair(Time now) const;

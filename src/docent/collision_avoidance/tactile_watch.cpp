@@ -30,7 +30,8 @@ std::optional<Complaint> TactileWatch::complaint(Time now) const {
   auto found = complaint_of(freshness_, now, "tactile ring's word", kPatience);
   if (repeats_ >= kRepeats) found = worse(found, Complaint{0.0, "the tactile ring is frozen"});
   if (missing_ > kManyMissing)
-    found = worse(found, Complaint{missing_ > kNearlyAll ? 0.0 : kCrippledSpeed, "the tactile ring gives too few readings"});
+    found = worse(found,
+                  Complaint{missing_ > kNearlyAll ? 0.0 : kCrippledSpeed, "the tactile ring gives too few readings"});
   return found;
 }
 

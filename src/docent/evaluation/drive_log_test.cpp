@@ -20,8 +20,8 @@ TEST(DriveLog, HasARowForEveryTrueStateWithWhatAvoidSaidLast) {
   log.add(topic_info(topics::kAvoidState), time_from_seconds(50.05), avoid);
   log.add(topic_info(topics::kTrueState), time_from_seconds(50.1), truth);
   EXPECT_EQ(log.rows(),
-            "0.00,0.000,0.000,0.500,0.000,2.000,0,0,0,0.700,,0.000,\n"
-            "0.10,0.000,0.000,0.500,0.000,2.000,0,0,0,0.700,driving,0.250,slow; and late\n");
+            "0.00,0.000,0.000,0.00,0.500,0.000,2.000,0,0,0,0.700,,0.000,\n"
+            "0.10,0.000,0.000,0.00,0.500,0.000,2.000,0,0,0,0.700,driving,0.250,slow; and late\n");
 }
 
 }  // namespace

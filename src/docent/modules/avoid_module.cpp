@@ -96,7 +96,8 @@ class AvoidModule final : public Module {
       avoider_.add_tactile(bus_.now(), from_message(tactile.header.stamp), tactile.segments, tactile.scan);
       reflex();
     });
-    bus_.subscribe<docent_msgs::Belief>(topics::kBelief, [this](const docent_msgs::Belief& belief) { on_belief(belief); });
+    bus_.subscribe<docent_msgs::Belief>(topics::kBelief,
+                                        [this](const docent_msgs::Belief& belief) { on_belief(belief); });
     bus_.subscribe<sensor_msgs::LaserScan>(topics::kVirtualScan, [this](const sensor_msgs::LaserScan& scan) {
       avoider_.add_virtual(bus_.now(), {from_message(scan.header.stamp), scan.angle_min, scan.angle_increment,
                                         scan.range_max, scan.ranges});

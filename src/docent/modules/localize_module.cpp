@@ -360,7 +360,7 @@ class LocalizeModule final : public Module {
   Publisher<docent_msgs::PersonBeams> person_beams_;
   UnbrokenOdometry unbroken_;
   OdometryHistory odometry_;
-  bool has_jumped_ = false;         ///< since the last belief: others carry that one by an odometry that is torn
+  bool has_jumped_ = false;        ///< since the last belief: others carry that one by an odometry that is torn
   std::optional<Pose2> restored_;  ///< odometry of the checkpoint, until odometry speaks
   Localizer::Step last_step_;
   bool frozen_ = false;

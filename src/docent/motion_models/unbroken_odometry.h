@@ -34,11 +34,11 @@ class UnbrokenOdometry {
   [[nodiscard]] bool is_jump(double dt, const Pose2& motion) const;
 
   std::optional<Time> stamp_;
-  Time changed_{};         ///< when the pose last changed
-  Pose2 raw_from_base_;    ///< newest
-  double linear_ = 0.0;    ///< [m/s] of the last step that was none of standing still
-  double angular_ = 0.0;   ///< [rad/s]
-  Pose2 odom_from_raw_;    ///< now
+  Time changed_{};        ///< when the pose last changed
+  Pose2 raw_from_base_;   ///< newest
+  double linear_ = 0.0;   ///< [m/s] of the last step that was none of standing still
+  double angular_ = 0.0;  ///< [rad/s]
+  Pose2 odom_from_raw_;   ///< now
   Pose2 odom_from_raw_before_;
   Time jumped_{};
 };

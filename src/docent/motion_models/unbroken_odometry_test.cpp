@@ -43,7 +43,8 @@ TEST(UnbrokenOdometry, LeavesADriveAsItIs) {
 }
 
 TEST(UnbrokenOdometry, TakesOutJumpsAndGoesOn) {
-  for (const Pose2& jump : {Pose2{0.3, 0.0, {}}, Pose2{0.0, 0.0, Angle::degrees(15)}, Pose2{-4.0, 9.0, Angle::degrees(120)}}) {
+  for (const Pose2& jump :
+       {Pose2{0.3, 0.0, {}}, Pose2{0.0, 0.0, Angle::degrees(15)}, Pose2{-4.0, 9.0, Angle::degrees(120)}}) {
     Drive drive;
     UnbrokenOdometry odometry;
     Pose2 raw_from_true;

@@ -48,7 +48,7 @@ void spoil(sensor_msgs::LaserScan& scan, FaultKind kind, Rng& rng) {
 void spoil(sensor_msgs::Range& ping, FaultKind kind, Rng& rng) {
   ping.range = spoilt(ping.range, ping.max_range, kind, rng);
 }
-void spoil(nav_msgs::Odometry&, FaultKind, Rng&) {}  // no ranges: the scenario refuses it
+void spoil(nav_msgs::Odometry&, FaultKind, Rng&) {}    // no ranges: the scenario refuses it
 void spoil(docent_msgs::Tactile&, FaultKind, Rng&) {}  // likewise
 
 }  // namespace

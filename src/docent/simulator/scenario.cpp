@@ -231,8 +231,7 @@ class EventReader {
     SecondMode event;
     Point2 at;
     double heading = 0.0;
-    fields(node,
-           {{"at", into(at)}, {"heading", degrees_into(heading)}, {"for", into(event.duration, 0.0, kLongest)}},
+    fields(node, {{"at", into(at)}, {"heading", degrees_into(heading)}, {"for", into(event.duration, 0.0, kLongest)}},
            {"at"});
     event.at = {at.x, at.y, Angle::radians(heading)};
     return event;
@@ -241,9 +240,7 @@ class EventReader {
     double x = 0.0;
     double y = 0.0;
     double heading = 0.0;
-    fields(node,
-           {{"x", into(x, -kFar, kFar)}, {"y", into(y, -kFar, kFar)}, {"heading", degrees_into(heading)}},
-           {});
+    fields(node, {{"x", into(x, -kFar, kFar)}, {"y", into(y, -kFar, kFar)}, {"heading", degrees_into(heading)}}, {});
     if (x == 0.0 && y == 0.0 && heading == 0.0) fault(kind_at_, "a jump of nothing");
     return {{x, y, Angle::radians(heading)}};
   }
