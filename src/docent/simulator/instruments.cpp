@@ -116,12 +116,22 @@ void Instruments::emit(Sensor sensor, const Publisher<T>& publisher, T message, 
   }
 }
 
+void Instruments::jump(const Pose2& base_from_base, double over) {
+  constexpr double kReading = 0.05;  // [s]
+  jump_parts_ = std::max(1, static_cast<int>(std::lround(over / kReading)));
+  const double share = 1.0 / jump_parts_;
+  jump_part_ = {share * base_from_base.x, share * base_from_base.y,
+                Angle::radians(share * base_from_base.theta.radians())};
+}
+
 void Instruments::publish_odometry(Time now, const Body& body) {
   nav_msgs::Odometry message;
   message.header = {to_message(now), "odom"};
   message.child_frame_id = "base_link";
-  if (jump_) odom_from_body_odom_ = odom_from_body_odom_ * body.odometry() * *jump_ * inverse(body.odometry());
-  jump_.reset();
+  if (jump_parts_ > 0) {
+    --jump_parts_;
+    odom_from_body_odom_ = odom_from_body_odom_ * body.odometry() * jump_part_ * inverse(body.odometry());
+  }
   const Pose2 odometry = odom_from_body_odom_ * body.odometry();
   message.pose.pose = to_message(odometry);
   const double dt = to_seconds(now - last_odometry_);

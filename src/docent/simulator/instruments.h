@@ -24,8 +24,8 @@ class Instruments {
   void change_world(const World& world);
   void set_fault(const SensorFault& fault, Time now);
 
-  /// The odometry makes a step, in the base's frame, that the base does not.
-  void jump(const Pose2& base_from_base) { jump_ = base_from_base; }
+  /// The odometry makes a step, in the base's frame, that the base does not: at once, or in equal parts [s] long.
+  void jump(const Pose2& base_from_base, double over);
 
   void publish_odometry(Time now, const Body& body);
   /// Both scanners at once.
@@ -67,7 +67,8 @@ class Instruments {
   Time last_odometry_{};
   Pose2 last_pose_{};
   bool has_odometry_ = false;
-  std::optional<Pose2> jump_;  ///< for the next reading
+  Pose2 jump_part_;            ///< base_from_base that the next readings are off
+  int jump_parts_ = 0;         ///< so many readings
   Pose2 odom_from_body_odom_;  ///< what jumps have made of the wheels' odometry
   std::uint32_t tactile_scan_ = 0;
 

@@ -237,12 +237,19 @@ class EventReader {
     return event;
   }
   [[nodiscard]] OdometryJump odometry_jump(const YAML::Node& node) const {
+    OdometryJump event;
     double x = 0.0;
     double y = 0.0;
     double heading = 0.0;
-    fields(node, {{"x", into(x, -kFar, kFar)}, {"y", into(y, -kFar, kFar)}, {"heading", degrees_into(heading)}}, {});
+    fields(node,
+           {{"x", into(x, -kFar, kFar)},
+            {"y", into(y, -kFar, kFar)},
+            {"heading", degrees_into(heading)},
+            {"over", into(event.over, 0.0, 60.0)}},
+           {});
     if (x == 0.0 && y == 0.0 && heading == 0.0) fault(kind_at_, "a jump of nothing");
-    return {{x, y, Angle::radians(heading)}};
+    event.by = {x, y, Angle::radians(heading)};
+    return event;
   }
   [[nodiscard]] Visitors visitors(const YAML::Node& node) const {
     Visitors event;

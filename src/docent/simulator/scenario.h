@@ -61,7 +61,8 @@ struct SecondMode {
 };
 /// The odometry makes a step that the base does not.
 struct OdometryJump {
-  Pose2 by;  ///< base_from_base, in one reading
+  Pose2 by;           ///< base_from_base
+  double over = 0.0;  ///< [s] in equal steps, as wheels slip; 0: in one reading
 };
 enum class Formation { gather, wall, ushape };
 struct Visitors {

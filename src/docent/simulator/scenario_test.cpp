@@ -18,7 +18,7 @@ TEST(Scenario, ReadsEveryKindOfEventInOrderOfTime) {
   - {at: 70, visitors: {count: 6, at: [5, 5], formation: wall, heading: 180, for: 45}}
   - {at: 80, request: {kind: tour, target: space, language: de}}
   - {at: 90, second_mode: {at: [3, 4], heading: 90, for: 20}}
-  - {at: 95, odometry_jump: {x: 1, heading: -40}}
+  - {at: 95, odometry_jump: {x: 1, heading: -40, over: 2}}
   - {at: 99, fault: {sensor: tactile, kind: half}}
 )",
                                        "s.yaml");
@@ -44,6 +44,7 @@ TEST(Scenario, ReadsEveryKindOfEventInOrderOfTime) {
   EXPECT_DOUBLE_EQ(std::get<SecondMode>(events[8].what).at.y, 4.0);
   EXPECT_DOUBLE_EQ(std::get<SecondMode>(events[8].what).duration, 20.0);
   EXPECT_NEAR(std::get<OdometryJump>(events[9].what).by.theta.degrees(), -40.0, 1e-9);
+  EXPECT_DOUBLE_EQ(std::get<OdometryJump>(events[9].what).over, 2.0);
   EXPECT_EQ(std::get<SensorFault>(events[10].what).sensor, Sensor::tactile);
   EXPECT_EQ(std::get<Kill>(events[11].what).signal, "stop");
   EXPECT_DOUBLE_EQ(events[11].at, 300.0);

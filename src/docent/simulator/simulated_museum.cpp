@@ -388,7 +388,7 @@ class SimulatedMuseum::Impl {
   }
   void play(const Wish& event) { visitors_.ask(time_, event); }
   void play(const OdometryJump& event) {
-    instruments_.jump(event.by);
+    instruments_.jump(event.by, event.over);
     offer("odometry_jump", "");
   }
   void play(const PoseError&) { offer("pose_error", ""); }       // the application applies it
