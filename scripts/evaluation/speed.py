@@ -108,14 +108,14 @@ def night(run_all, root, seeds, minutes, verdict):
 
 def read_profile(path):
     with open(path, newline="", encoding="utf-8") as file:
-        text = ("state", "reason", "goal")
+        text = ("state", "reason")
         return [{key: value if key in text else float(value) for key, value in row.items()} for row in csv.DictReader(file)]
 
 
 def fast_and_near(rows):
     """[m] driven at OFFICE_SPEED and more, with something solid within OFFICE_NEAR of the outline."""
     return sum(max(0.0, b["distance"] - a["distance"]) for a, b in zip(rows, rows[1:])
-               if a["speed"] >= OFFICE_SPEED and a["solid"] <= OFFICE_NEAR)
+               if a["speed"] >= OFFICE_SPEED and a["nearest_solid"] <= OFFICE_NEAR)
 
 
 def drive_office(docent, folder, key, seed, minutes):
@@ -128,7 +128,7 @@ def drive_office(docent, folder, key, seed, minutes):
         commands = [[docent, "office", "--seed", str(seed), "--out", building],
                     [docent, "simulate", "--museum", building, "--hours", f"{minutes / 60:.6f}", "--seed", str(seed),
                      "--crowd", "empty", "--max-speed", str(OFFICE_LIMIT), "--requests-per-hour", "60", "--quiet",
-                     "--report", f"{report}.part{os.getpid()}", "--speed-log", f"{profile}.part{os.getpid()}"]]
+                     "--report", f"{report}.part{os.getpid()}", "--drive-log", f"{profile}.part{os.getpid()}"]]
         for command in commands:
             done = subprocess.run(command, capture_output=True, text=True, check=False)
             if done.returncode != 0:
@@ -186,7 +186,7 @@ def plot(path, profiles, seconds=240.0):
         line, is_near = [], None
         for row in [r for r in profile if begin <= r["time"] <= begin + seconds]:
             at = f'{x0 + scale_x * (row["time"] - begin):.1f},{bottom - scale_y * min(row["speed"], OFFICE_LIMIT):.1f}'
-            near = row["solid"] <= OFFICE_NEAR
+            near = row["nearest_solid"] <= OFFICE_NEAR
             if near != is_near and line:
                 parts.append(f'<polyline points="{" ".join([*line, at])}" class="{"near" if is_near else "far"}"/>')
                 line = []

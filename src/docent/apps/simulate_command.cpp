@@ -114,10 +114,10 @@ void add_simulate_command(CLI::App& app) {
   command->add_option("--claims", options->run.claims, "CSV file to write: every belief beside the truth");
   command->add_option("--health-log", options->run.health_log,
                       "CSV file to write: what the modules said of themselves, a row a change");
+  command->add_option("--drive-log", options->run.drive_log,
+                      "CSV file to write: how the robot drives beside what collision avoidance says");
   command->add_option("--people-log", options->run.people_log,
                       "CSV file to write: tracked people beside the true ones");
-  command->add_option("--speed-log", options->run.speed_log,
-                      "CSV file to write: true speed, what is near, and why the robot is slow");
   command->add_option("--record", options->run.recording, "MCAP file of all messages and the truth");
   command->add_option("--picture", options->picture, "PNG file: the way driven over the map");
   command->add_option("--pace", options->pace, "virtual seconds a second; 0: as fast as possible")

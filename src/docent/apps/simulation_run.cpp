@@ -6,13 +6,14 @@
 #include <chrono>
 #include <cstdio>
 
+#include "docent/apps/belief_fault.h"
 #include "docent/apps/deployment.h"
 #include "docent/apps/simulation_picture.h"
 #include "docent/evaluation/claim_log.h"
 #include "docent/evaluation/deployment_evaluator.h"
+#include "docent/evaluation/drive_log.h"
 #include "docent/evaluation/health_log.h"
 #include "docent/evaluation/people_log.h"
-#include "docent/evaluation/speed_log.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/localize_module.h"
 #include "docent/modules/module_host.h"
@@ -54,7 +55,7 @@ class SimulationRun::Parts {
       picture_.add(topic, message);
       if (!options_.claims.empty()) claims_.add(topic, time, message);
       if (!options_.health_log.empty()) health_.add(topic, time, message);
-      if (!options_.speed_log.empty()) speed_.add(topic, time, message);
+      if (!options_.drive_log.empty()) drive_.add(topic, time, message);
       if (!options_.people_log.empty()) people_.add(topic, time, message);
       if (recorder_ && failure_.empty()) {
         if (auto written = recorder_->write(topic, time, message); !written) failure_ = written.error().message;
@@ -157,6 +158,8 @@ class SimulationRun::Parts {
       if (!scenario) return tl::unexpected<Error>(scenario.error());
       for (const auto& event : scenario->events) {
         if (const auto* kill = std::get_if<simulator::Kill>(&event.what)) schedule_kill(event.at, *kill);
+        if (const auto* error = std::get_if<simulator::PoseError>(&event.what)) schedule_strike(event.at, *error);
+        if (const auto* mode = std::get_if<simulator::SecondMode>(&event.what)) schedule_strike(event.at, *mode);
       }
       options.scenario = std::move(*scenario);
     }
@@ -176,6 +179,16 @@ class SimulationRun::Parts {
     if (!host) return tl::unexpected<Error>(host.error());
     hosts_[entry.name] = std::move(*host);
     return {};
+  }
+
+  /// Faults of the belief, between `localize` and its readers.
+  template <class Event>
+  void schedule_strike(double at, const Event& event) {
+    hub_.alter(topic_info(topics::kBelief), [this](Time now, std::shared_ptr<const void> message) {
+      const auto& belief = *static_cast<const docent_msgs::Belief*>(message.get());
+      return std::make_shared<docent_msgs::Belief>(belief_fault_.apply(belief, now));
+    });
+    operator_bus_->after(seconds(at), [this, event] { belief_fault_.strike(event, hub_.now()); });
   }
 
   /// A killed module is gone at once and back a second later, as its process would be; a stopped one is gone for the
@@ -204,8 +217,9 @@ class SimulationRun::Parts {
   DeploymentEvaluator evaluator_;
   ClaimLog claims_;
   HealthLog health_;
+  DriveLog drive_;
+  BeliefFault belief_fault_;
   PeopleLog people_;
-  SpeedLog speed_;
   SimulationPicture picture_;
   std::optional<Recorder> recorder_;
   std::string failure_;
@@ -262,11 +276,11 @@ Result<void> SimulationRun::finish() {
   if (!parts_->options_.health_log.empty()) {
     if (auto saved = parts_->health_.save(parts_->options_.health_log); !saved) return saved;
   }
+  if (!parts_->options_.drive_log.empty()) {
+    if (auto saved = parts_->drive_.save(parts_->options_.drive_log); !saved) return saved;
+  }
   if (!parts_->options_.people_log.empty()) {
     if (auto saved = parts_->people_.save(parts_->options_.people_log); !saved) return saved;
-  }
-  if (!parts_->options_.speed_log.empty()) {
-    if (auto saved = parts_->speed_.save(parts_->options_.speed_log); !saved) return saved;
   }
   if (!parts_->recorder_) return {};
   return parts_->recorder_->close();

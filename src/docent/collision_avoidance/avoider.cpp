@@ -13,9 +13,8 @@ namespace {
 
 constexpr double kLeastReach = 3.5;       // [m] obstacles farther away do not matter to a slow robot within one cycle
 constexpr double kFastWalk = 1.5;         // [m/s] of who may come towards the robot
-constexpr double kNearlyAll = 0.9;        // of a sweep's readings: the sensor is covered or has failed
-constexpr double kSonarPatience = 1.5;    // [s] for one sonar of many
-constexpr double kTactilePatience = 1.5;  // [s]
+constexpr double kNearlyAll = 0.9;     // of a sweep's readings: the sensor is covered or has failed
+constexpr double kManyMissing = 0.35;  // of a sweep's readings
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -36,11 +35,15 @@ Avoider::Avoider(const BaseLimits& limits, const AvoiderParams& params, std::siz
       laser_count_{laser_count},
       window_{limits, params.window},
       max_speed_{std::min(0.7, limits.max_speed)},
-      sweep_freshness_(laser_count) {}
+      sweep_freshness_(laser_count),
+      odometry_watch_{limits} {}
 
 void Avoider::add_odometry(Time now, Time stamp, const BaseState& state) {
-  odometry_freshness_.receive(now, stamp);
-  odometry_.add(stamp, state);
+  const auto unbroken = unbroken_.add(stamp, state.odom_from_base);
+  odometry_watch_.receive(now, stamp, state, unbroken.jumped, commands_);
+  // A base that derives its velocity from its pose says nonsense in a jump.
+  const bool keeps = unbroken.jumped && !odometry_.empty();
+  odometry_.add(stamp, {unbroken.odom_from_base, keeps ? odometry_.newest().velocity : state.velocity});
 }
 
 void Avoider::add_sweep(Time now, std::size_t sensor, const SensorSweep& sweep) {
@@ -51,18 +54,20 @@ void Avoider::add_sweep(Time now, std::size_t sensor, const SensorSweep& sweep) 
 
 void Avoider::add_sonar(Time now, std::size_t index, const SonarReading& reading) {
   if (odometry_.empty()) return;
-  sonar_freshness_.receive(now, reading.stamp);
-  if (each_sonar_freshness_.size() <= index) each_sonar_freshness_.resize(index + 1);
-  each_sonar_freshness_[index].receive(now, reading.stamp);
-  memory_.add_sonar(index, reading, odometry_.pose_at(reading.stamp));
+  const Pose2 odom_from_base = odometry_.pose_at(reading.stamp);
+  sonar_watch_.hear(now, reading.stamp, index, reading.range, reading.range < reading.max_range, odom_from_base);
+  memory_.add_sonar(index, reading, odom_from_base);
 }
 
-void Avoider::add_tactile(Time now, Time stamp, std::span<const double> bearings) {
-  tactile_freshness_.receive(now, stamp);
-  if (odometry_.empty() || bearings.empty()) return;
-  touched_ = now;
-  for (const double bearing : bearings) {
-    memory_.add_touch(stamp, limits_.radius * unit(Angle::radians(bearing)), odometry_.pose_at(stamp));
+void Avoider::add_tactile(Time now, Time stamp, std::span<const std::uint8_t> segments, std::uint32_t scan) {
+  tactile_watch_.feel(now, stamp, segments, scan);
+  if (odometry_.empty()) return;
+  const double step = 2.0 * std::numbers::pi / static_cast<double>(segments.size());
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    if (segments[i] == 0 || segments[i] == TactileWatch::kNoReading) continue;
+    touched_ = now;
+    const Angle bearing = Angle::radians(step * static_cast<double>(i));
+    memory_.add_touch(stamp, limits_.radius * unit(bearing), odometry_.pose_at(stamp));
   }
 }
 
@@ -85,30 +90,41 @@ void Avoider::add_person_beams(Time now, Time stamp, std::span<const Point2> in_
 
 void Avoider::set_target(Time now, Time stamp, AvoiderTarget target) {
   target_freshness_.receive(now, stamp);
+  const Pose2& odom_from_raw = unbroken_.odom_from_raw(stamp);
+  for (Point2& via : target.via) via = odom_from_raw * via;
+  target.heading = odom_from_raw.theta + target.heading;
   target_ = std::move(target);
 }
 
+std::optional<Complaint> Avoider::complaint_of_laser(Time now, std::size_t index) const {
+  const std::string name = index == 0 ? "front laser" : index == 1 ? "rear laser" : "laser";
+  auto found = complaint_of(sweep_freshness_[index], now, "sweep of the " + name);
+  if (memory_.is_frozen(index)) found = worse(Complaint{0.0, "the " + name + " is frozen"}, found);
+  const double missing = memory_.invalid_share(index);
+  if (!found && missing > kNearlyAll) return Complaint{0.0, "the " + name + " gives no readings"};
+  if (missing > kManyMissing)
+    found = worse(found, Complaint{kCrippledSpeed, "the " + name + " gives too few readings"});
+  return found;
+}
+
+std::optional<Complaint> Avoider::complaint_of_inputs(Time now) const {
+  if (!params_.watches) return std::nullopt;
+  auto found = odometry_watch_.complaint(now);
+  for (std::size_t i = 0; i < laser_count_; ++i) found = worse(found, complaint_of_laser(now, i));
+  if (params_.needs_sonar) found = worse(found, sonar_watch_.complaint(now, true));
+  found = worse(found, tactile_watch_.complaint(now));
+  if (virtual_freshness_.silence(now) > params_.virtual_timeout)
+    found = worse(found, Complaint{0.0, "no fresh virtual measurements"});
+  return found;
+}
+
+std::optional<Complaint> Avoider::complaint(Time now) const {
+  return params_.watches ? worse(complaint_of_inputs(now), doubt_.complaint()) : std::nullopt;
+}
+
 std::string Avoider::fault(Time now) const {
-  if (odometry_freshness_.is_stale(now)) return "no fresh odometry";
-  for (std::size_t i = 0; i < laser_count_; ++i) {
-    const std::string name = i == 0 ? "front laser" : i == 1 ? "rear laser" : "laser";
-    if (sweep_freshness_[i].is_stale(now)) return "no fresh sweep of the " + name;
-    if (memory_.is_frozen(i)) return "the " + name + " is frozen";
-    if (memory_.invalid_share(i) > kNearlyAll) return "the " + name + " gives no readings";
-  }
-  if (params_.needs_sonar && sonar_freshness_.is_stale(now)) return "no fresh sonar reading";
-  // One that falls silent is made up for by its neighbours; two side by side leave a gap.
-  for (std::size_t i = 0; i < each_sonar_freshness_.size() && params_.needs_sonar; ++i) {
-    const auto is_silent = [&](std::size_t index) {
-      const Freshness& sonar = each_sonar_freshness_[index % each_sonar_freshness_.size()];
-      return sonar.period() > 0.0 && sonar.is_stale(now, kSonarPatience);
-    };
-    if (is_silent(i) && is_silent(i + 1)) return "no fresh reading of sonar " + std::to_string(i) + " and the next";
-  }
-  if (tactile_freshness_.period() > 0.0 && tactile_freshness_.is_stale(now, kTactilePatience))
-    return "the tactile ring is silent";
-  if (virtual_freshness_.silence(now) > params_.virtual_timeout) return "no fresh virtual measurements";
-  return "";
+  const auto found = complaint(now);
+  return found && found->max_speed <= 0.0 ? found->reason : "";
 }
 
 BaseState Avoider::state_when_effective(Time now) const {
@@ -237,16 +253,22 @@ double Avoider::steer_around(Point2 carrot, const Pose2& odom_from_base, std::sp
   return turning_side_ * kBehind;
 }
 
-void Avoider::cap_speed(double cap, const char* why, AvoiderDecision& decision) const {
+void Avoider::cap_speed(double cap, const std::string& why, AvoiderDecision& decision) const {
   if (cap >= decision.speed_cap) return;
   decision.speed_cap = std::max(0.0, cap);
   decision.reason = why;
 }
 
 void Avoider::cap_by_knowledge(Time now, AvoiderDecision& decision) const {
-  double oldest = odometry_freshness_.age(now);
-  for (const auto& freshness : sweep_freshness_) oldest = std::max(oldest, freshness.age(now));
-  cap_speed(max_speed_ * std::clamp(1.0 - (oldest - 0.2) / 0.3, 0.0, 1.0), "sensor readings come late", decision);
+  if (!params_.watches) return;
+  if (const auto found = complaint(now)) cap_speed(found->max_speed, found->reason, decision);
+  const auto cap_by_age = [&](const Freshness& freshness, const char* name) {
+    const double share = std::clamp(1.0 - (freshness.age(now) - 0.2) / 0.3, 0.0, 1.0);
+    cap_speed(max_speed_ * share, std::string{"the "} + name + " comes late", decision);
+  };
+  cap_by_age(odometry_watch_.freshness(), "odometry");
+  for (std::size_t i = 0; i < laser_count_; ++i)
+    cap_by_age(sweep_freshness_[i], i == 0 ? "sweep of the front laser" : "sweep of the rear laser");
 
   if (virtual_) {
     // What was computed for where we were still holds while we stand; driving wears it out.
@@ -306,6 +328,8 @@ void Avoider::judge_blocking(Time now, Point2 carrot, const Pose2& odom_from_bas
 }
 
 AvoiderDecision Avoider::finish(Time now, AvoiderDecision decision) {
+  // Whatever else hinders it: what is broken must be known.
+  if (auto found = complaint(now)) decision.reason = std::move(found->reason);
   command_ = decision.command;
   commands_.add(now, command_);
   return decision;

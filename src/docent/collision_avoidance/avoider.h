@@ -7,10 +7,16 @@
 
 #include "docent/base/result.h"
 #include "docent/collision_avoidance/base_motion.h"
+#include "docent/collision_avoidance/complaint.h"
 #include "docent/collision_avoidance/dynamic_window.h"
 #include "docent/collision_avoidance/freshness.h"
 #include "docent/collision_avoidance/obstacle_memory.h"
+#include "docent/collision_avoidance/odometry_watch.h"
+#include "docent/collision_avoidance/position_doubt.h"
+#include "docent/collision_avoidance/ring_watch.h"
 #include "docent/collision_avoidance/speed_near_people.h"
+#include "docent/collision_avoidance/tactile_watch.h"
+#include "docent/motion_models/unbroken_odometry.h"
 
 namespace docent {
 
@@ -24,6 +30,7 @@ struct AvoiderParams {
   double virtual_timeout = 1.5;       ///< [s]
   bool needs_sonar = true;            ///< stands when the sonars are silent
   bool blind_to_people = false;       ///< crippled, for evaluation: sees virtual measurements and touch only
+  bool watches = true;                ///< false: crippled, for evaluation: takes every sensor and belief for well
   template <class V>
   void visit(V& v) {
     v("window", window);
@@ -35,6 +42,7 @@ struct AvoiderParams {
     v("virtual_timeout", virtual_timeout);
     v("needs_sonar", needs_sonar);
     v("blind_to_people", blind_to_people);
+    v("watches", watches);
   }
   [[nodiscard]] Result<void> validate() const;
 };
@@ -81,14 +89,18 @@ class Avoider {
  public:
   Avoider(const BaseLimits& limits, const AvoiderParams& params, std::size_t laser_count);
 
+  /// @param state  as the base says it: jumps are taken out here, and targets are carried over them
   void add_odometry(Time now, Time stamp, const BaseState& state);
   void add_sweep(Time now, std::size_t sensor, const SensorSweep& sweep);
   void add_sonar(Time now, std::size_t index, const SonarReading& reading);
-  /// @param bearings  [rad] of the pressed segments
-  void add_tactile(Time now, Time stamp, std::span<const double> bearings);
+  /// @param segments  evenly round the body, the first at the front: 1 pressed, TactileWatch::kNoReading
+  /// @param scan  count of the ring's own scans; 0: it keeps none
+  void add_tactile(Time now, Time stamp, std::span<const std::uint8_t> segments, std::uint32_t scan = 0);
   void add_virtual(Time now, const VirtualSweep& sweep);
   /// Endpoints that localization found unmapped, base frame at `stamp`.
   void add_person_beams(Time now, Time stamp, std::span<const Point2> in_base, bool localized);
+  /// What localization believes: it slows the robot where that is little (safety rule 4).
+  void add_belief(const BeliefOutline& belief) { doubt_.believe(belief); }
   void set_target(Time now, Time stamp, AvoiderTarget target);
   void set_max_speed(double max_speed) { max_speed_ = max_speed; }
 
@@ -99,7 +111,11 @@ class Avoider {
 
   [[nodiscard]] const ObstacleMemory& memory() const { return memory_; }
   [[nodiscard]] const Velocity& command() const { return command_; }
-  /// What is stale or broken, "" when all is well.
+  /// What is stale or broken, the worst of it; nullopt when all is well.
+  [[nodiscard]] std::optional<Complaint> complaint_of_inputs(Time now) const;
+  /// The same, or what is doubtful of the position.
+  [[nodiscard]] std::optional<Complaint> complaint(Time now) const;
+  /// Why it must stand, "" when it need not.
   [[nodiscard]] std::string fault(Time now) const;
 
  private:
@@ -107,6 +123,7 @@ class Avoider {
     Point2 in_base;
     double remaining = 0.0;  ///< [m] along the path to its end
   };
+  [[nodiscard]] std::optional<Complaint> complaint_of_laser(Time now, std::size_t index) const;
   [[nodiscard]] BaseState state_when_effective(Time now) const;
   /// How far [m] what may matter before the robot can stand lies at most.
   [[nodiscard]] double reach() const;
@@ -115,7 +132,7 @@ class Avoider {
   [[nodiscard]] Carrot carrot(const Pose2& odom_from_base, double speed, std::span<const Obstacle> obstacles) const;
   [[nodiscard]] double steer_around(Point2 carrot, const Pose2& odom_from_base, std::span<const Obstacle> obstacles);
   /// Caps the speed and says why.
-  void cap_speed(double cap, const char* why, AvoiderDecision& decision) const;
+  void cap_speed(double cap, const std::string& why, AvoiderDecision& decision) const;
   void cap_by_knowledge(Time now, AvoiderDecision& decision) const;
   void cap_by_surroundings(std::span<const Obstacle> obstacles, double bearing, AvoiderDecision& decision) const;
   void judge_blocking(Time now, Point2 carrot, const Pose2& odom_from_base, std::span<const Obstacle> obstacles,
@@ -134,10 +151,11 @@ class Avoider {
   double max_speed_ = 0.7;
 
   std::vector<Freshness> sweep_freshness_;
-  Freshness odometry_freshness_;
-  Freshness sonar_freshness_;  ///< of any
-  std::vector<Freshness> each_sonar_freshness_;
-  Freshness tactile_freshness_;  ///< a robot without the ring never sends; one that has sent must go on
+  UnbrokenOdometry unbroken_;
+  OdometryWatch odometry_watch_;
+  RingWatch sonar_watch_{"sonar reading", "sonars"};
+  TactileWatch tactile_watch_;
+  PositionDoubt doubt_;
   Freshness virtual_freshness_;
   Freshness target_freshness_;
   std::optional<AvoiderTarget> target_;

@@ -143,6 +143,64 @@ TEST(Avoider, DoesNotTrustAFrozenLaser) {
   EXPECT_GT(world.velocity.linear, 0.5);
 }
 
+TEST(Avoider, CreepsAndSaysWhyWhenHalfOfALasersReadingsAreGone) {
+  Rehearsal world;
+  world.box(-3, -5, 40, 5);
+  world.drive_to({{2, 0}, {4, 0}, {8, 0}, {30, 0}});
+  world.run(5);
+  ASSERT_GT(world.velocity.linear, 0.5);
+  world.front_missing = 0.5;
+  world.run(1.5);
+  for (int i = 0; i < 40; ++i) {
+    world.run(0.25);
+    EXPECT_LT(world.velocity.linear, kCrippledSpeed + 0.01);
+    EXPECT_EQ(world.decision.reason, "the front laser gives too few readings");
+  }
+}
+
+TEST(Avoider, AJumpOfTheOdometrySlowsItAndMovesNothingThatItKnows) {
+  Rehearsal world;
+  world.box(-3, -5, 40, 5);
+  world.drive_to({{2, 0}, {4, 0}, {8, 0}, {30, 0}});
+  world.run(5);
+  ASSERT_GT(world.velocity.linear, 0.5);
+  const std::size_t known = world.avoider.memory().points(world.now).size();
+  world.raw_from_map = {1.0, -0.4, Angle::degrees(40)};
+  world.run(1.0);
+  EXPECT_EQ(world.decision.reason, "the odometry jumped");
+  EXPECT_LT(world.velocity.linear, kCrippledSpeed + 0.01);
+  EXPECT_NEAR(static_cast<double>(world.avoider.memory().points(world.now).size()), static_cast<double>(known),
+              0.2 * static_cast<double>(known));
+  world.run(5.0);
+  EXPECT_GT(world.velocity.linear, 0.5);
+  EXPECT_NEAR(world.map_from_base.y, 0.0, 0.1) << "targets are carried over the jump";
+}
+
+TEST(Avoider, ADoubtfulPositionSlowsIt) {
+  Rehearsal world;
+  world.box(-3, -5, 40, 5);
+  world.drive_to({{2, 0}, {4, 0}, {8, 0}, {30, 0}});
+  world.run(5);
+  const std::vector<BelievedPose> modes{{{}, 0.5}, {{9, 9, {}}, 0.5}};
+  for (int i = 0; i < 2; ++i) world.avoider.add_belief({modes, modes, 0.02, true});
+  world.run(1.5);
+  EXPECT_LT(world.velocity.linear, kCrippledSpeed + 0.01);
+  EXPECT_EQ(world.decision.reason, "it may be in two places");
+  EXPECT_FALSE(world.avoider.complaint_of_inputs(world.now)) << "no sensor is to blame";
+}
+
+TEST(Avoider, CrippledItTakesEverythingForWell) {
+  AvoiderParams params = Rehearsal::without_sonar();
+  params.watches = false;
+  Rehearsal world{1, params};
+  world.box(-3, -5, 40, 5);
+  world.drive_to({{2, 0}, {4, 0}, {8, 0}, {30, 0}});
+  world.run(5);
+  world.front_works = false;
+  world.run(3);
+  EXPECT_GT(world.velocity.linear, 0.5);
+}
+
 TEST(Avoider, DoesNotDriveWhereTheLaserIsBlind) {
   for (const float says : {std::numeric_limits<float>::quiet_NaN(), 0.0F}) {  // a covered or failed scanner: zeros
     SCOPED_TRACE(says);
@@ -197,7 +255,7 @@ TEST(Avoider, StandsWhenTwoSonarsSideBySideFallSilentButNotForOne) {
   EXPECT_GT(world.velocity.linear, 0.5);
   run(4.0, [](std::size_t i) { return i == 0 || i == 23; });
   EXPECT_EQ(world.velocity.linear, 0.0);
-  EXPECT_EQ(world.decision.reason, "no fresh reading of sonar 23 and the next");
+  EXPECT_EQ(world.decision.reason, "no fresh sonar reading of number 23 and the next");
 }
 
 TEST(Avoider, VirtualMeasurementsThatAreNoNumbersAreNone) {

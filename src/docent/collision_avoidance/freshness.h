@@ -23,6 +23,8 @@ class Freshness {
   [[nodiscard]] double silence(Time now) const;
   /// Usual time [s] between messages; 0 until two have come.
   [[nodiscard]] double period() const { return period_; }
+  /// How much later [s] than the least delay the newest message came, by its stamp.
+  [[nodiscard]] double lateness() const { return lateness_; }
   /// Older than max(`least`, 2.5 periods) [s]: safety rule 1.
   [[nodiscard]] bool is_stale(Time now, double least = 0.5) const;
 

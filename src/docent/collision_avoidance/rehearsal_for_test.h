@@ -41,7 +41,9 @@ class Rehearsal {
   bool front_repeats = false;               ///< the front laser gives its last sweep again and again
   double blind_from = 0.0, blind_to = 0.0;  ///< [rad] base frame: the front laser gives this there:
   float blind_range = std::numeric_limits<float>::quiet_NaN();
+  double front_missing = 0.0;   ///< share of the front laser's readings that are none
   bool virtual_is_nan = false;  ///< one of the virtual measurements
+  Pose2 raw_from_map;           ///< what the odometry has made of the map: a change is a jump
   AvoiderTarget target;
 
   // What happened.
@@ -93,14 +95,21 @@ class Rehearsal {
     move_base(kStep);
     move_people(kStep);
     judge();
-    if (ticks_ % 5 == 0 && odometry_works) avoider.add_odometry(now, now, {map_from_base, velocity});
+    if (ticks_ % 5 == 0 && odometry_works) avoider.add_odometry(now, now, {raw_from_map * map_from_base, velocity});
     if (ticks_ % 10 == 0) {
       if (front_works) see(0, 0.0);
       if (rear_works) see(1, std::numbers::pi);
     }
     if (ticks_ % 20 == 0 && virtual_works) see_virtually();
-    if (ticks_ % 20 == 5 && target_works) avoider.set_target(now, now, target);
+    if (ticks_ % 20 == 5 && target_works) avoider.set_target(now, now, target_in_raw());
     if (ticks_ % 25 == 3) give(avoider.decide(now));
+  }
+
+  [[nodiscard]] AvoiderTarget target_in_raw() const {
+    AvoiderTarget result = target;
+    for (Point2& via : result.via) via = raw_from_map * via;
+    result.heading = raw_from_map.theta + target.heading;
+    return result;
   }
 
   void give(const AvoiderDecision& made) {
@@ -156,6 +165,7 @@ class Rehearsal {
       if (range < sweep.max_range) range = std::max(0.05, range + rng_.normal(0.0, noise));
       const double in_base = (sweep.base_from_sensor.theta + bearing).radians();
       if (sensor == 0 && in_base > blind_from && in_base < blind_to) range = blind_range;
+      if (sensor == 0 && front_missing > 0.0 && rng_.chance(front_missing)) range = std::nanf("");
       sweep.ranges.push_back(static_cast<float>(range));
     }
     if (sensor == 0 && front_repeats && !last_front_.empty()) sweep.ranges = last_front_;

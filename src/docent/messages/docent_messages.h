@@ -579,15 +579,17 @@ struct Health {
   }
 };
 
-/// The tactile ring: one byte a segment, counter-clockwise from the front; 1 = pressed.
+/// The tactile ring: one byte a segment, counter-clockwise from the front; 1 = pressed, 255 = no reading.
 struct Tactile {
   static constexpr const char* kType = "docent_msgs/msg/Tactile";
   std_msgs::Header header;  ///< frame base_link
   std::vector<std::uint8_t> segments;
+  std::uint32_t scan = 0;  ///< count of the ring's own scans, so that a frozen one can be told; 0: it keeps none
   template <class Self, class V>
   static void visit(Self& m, V& v) {
     v("header", m.header);
     v("segments", m.segments);
+    v("scan", m.scan);
   }
 };
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
-#include <numbers>
 
 #include "docent/collision_avoidance/avoider.h"
 #include "docent/messages/conversions.h"
@@ -67,8 +66,7 @@ class AvoidModule final : public Module {
   }
 
   [[nodiscard]] ModuleHealth health() const override {
-    auto why = avoider_.fault(bus_.now());
-    if (!why.empty()) return {"degraded", std::move(why)};
+    if (auto complaint = avoider_.complaint_of_inputs(bus_.now())) return {"degraded", std::move(complaint->reason)};
     return {};
   }
 
@@ -95,16 +93,11 @@ class AvoidModule final : public Module {
                           range.max_range, range.range});
     });
     bus_.subscribe<docent_msgs::Tactile>(topics::kTactile, [this](const docent_msgs::Tactile& tactile) {
-      std::vector<double> bearings;
-      for (std::size_t i = 0; i < tactile.segments.size(); ++i) {
-        if (tactile.segments[i] != 0) {
-          bearings.push_back(2.0 * std::numbers::pi * static_cast<double>(i) /
-                             static_cast<double>(tactile.segments.size()));
-        }
-      }
-      avoider_.add_tactile(bus_.now(), from_message(tactile.header.stamp), bearings);
-      if (!bearings.empty()) reflex();
+      avoider_.add_tactile(bus_.now(), from_message(tactile.header.stamp), tactile.segments, tactile.scan);
+      reflex();
     });
+    bus_.subscribe<docent_msgs::Belief>(topics::kBelief,
+                                        [this](const docent_msgs::Belief& belief) { on_belief(belief); });
     bus_.subscribe<sensor_msgs::LaserScan>(topics::kVirtualScan, [this](const sensor_msgs::LaserScan& scan) {
       avoider_.add_virtual(bus_.now(), {from_message(scan.header.stamp), scan.angle_min, scan.angle_increment,
                                         scan.range_max, scan.ranges});
@@ -136,6 +129,16 @@ class AvoidModule final : public Module {
       wish.heading_tolerance = target.heading_tolerance;
       avoider_.set_target(bus_.now(), from_message(target.header.stamp), std::move(wish));
     });
+  }
+
+  void on_belief(const docent_msgs::Belief& belief) {
+    cells_.clear();
+    for (const auto& cell : belief.cells)
+      cells_.push_back({{cell.x, cell.y, Angle::radians(cell.theta)}, static_cast<double>(cell.mass)});
+    hypotheses_.clear();
+    for (const auto& mode : belief.hypotheses)
+      hypotheses_.push_back({{mode.x, mode.y, Angle::radians(mode.theta)}, mode.mass});
+    avoider_.add_belief({cells_, hypotheses_, belief.p_lost, belief.localized});
   }
 
   void see(std::size_t sensor, const sensor_msgs::LaserScan& scan, const Pose2& base_from_sensor) {
@@ -199,6 +202,8 @@ class AvoidModule final : public Module {
   double cycle_;
   std::array<double, 2> widest_field_{};  ///< [rad] that each laser has shown
   Avoider avoider_;
+  std::vector<BelievedPose> cells_;       ///< of the newest belief
+  std::vector<BelievedPose> hypotheses_;  ///< likewise
   Horn horn_;
   Publisher<docent_msgs::Drive> drive_;
   Publisher<docent_msgs::AvoidState> state_;

@@ -14,6 +14,7 @@
 #include "docent/messages/conversions.h"
 #include "docent/modules/sonar_localize.h"
 #include "docent/motion_models/odometry_history.h"
+#include "docent/motion_models/unbroken_odometry.h"
 
 namespace docent {
 namespace {
@@ -124,7 +125,11 @@ class LocalizeModule final : public Module {
     publish_belief(bus_.now(), localizer_->odom_from_robot());
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const auto& odometry) {
       odometry_received_ = bus_.now();
-      odometry_.add(from_message(odometry.header.stamp), from_message(odometry.pose.pose));
+      const Time stamp = from_message(odometry.header.stamp);
+      // The belief moves by odometry without jumps; what is published is in the odometry's own frame.
+      const auto reading = unbroken_.add(stamp, from_message(odometry.pose.pose));
+      odometry_.add(stamp, reading.odom_from_base);
+      has_jumped_ = has_jumped_ || reading.jumped;
       if (restored_) check_restored();
     });
     bus_.subscribe<sensor_msgs::LaserScan>(topics::kScanFront, [this](const auto& scan) { on_scan(0, scan); });
@@ -214,7 +219,9 @@ class LocalizeModule final : public Module {
     if (!frozen_) step = localizer_->observe(sweep, odom_from_base, stamp);
     if (params_.dead_reckoning && localizer_->verdict().localized()) frozen_ = true;
     if (step.updated) last_step_ = step;
-    if (step.updated || bus_.now() - belief_published_ >= kRepublish) publish_belief(stamp, odom_from_base);
+    const bool is_torn = has_jumped_ && !(stamp < unbroken_.jumped());
+    if (step.updated || is_torn || bus_.now() - belief_published_ >= kRepublish) publish_belief(stamp, odom_from_base);
+    if (is_torn) has_jumped_ = false;
     publish_person_beams(sweep, odom_from_base, stamp);
     publish_transform(stamp);
     if (step.updated && localized()) {
@@ -267,7 +274,7 @@ class LocalizeModule final : public Module {
     message.active_cells = static_cast<std::uint32_t>(summary.active_states);
     message.beams_used = static_cast<std::uint32_t>(last_step_.beams_used);
     message.beams_filtered = static_cast<std::uint32_t>(last_step_.beams_filtered);
-    message.odom_pose = docent::to_message(odom_from_base);
+    message.odom_pose = docent::to_message(inverse(unbroken_.odom_from_raw(stamp)) * odom_from_base);
     belief_.publish(std::move(message));
     belief_published_ = bus_.now();
   }
@@ -295,7 +302,7 @@ class LocalizeModule final : public Module {
 
   void publish_transform(Time stamp) {
     if (!localized()) return;
-    const Pose2 map_from_odom = *localizer_->map_from_robot({});
+    const Pose2 map_from_odom = *localizer_->map_from_robot({}) * unbroken_.odom_from_raw(stamp);
     geometry_msgs::TransformStamped transform;
     transform.header = {docent::to_message(stamp), "map"};
     transform.child_frame_id = "odom";
@@ -320,8 +327,8 @@ class LocalizeModule final : public Module {
     if (bus_.now() - saved_ < kCheckpointEvery) return;
     saved_ = bus_.now();
     // A checkpoint that cannot be written costs a restarted robot a new search, nothing else.
-    (void)save_localizer_checkpoint({map_hash_, stamp, localizer_->odom_from_robot(), localizer_->summary().modes},
-                                    checkpoint_path_);
+    const Pose2 raw_from_robot = inverse(unbroken_.odom_from_raw(stamp)) * localizer_->odom_from_robot();
+    (void)save_localizer_checkpoint({map_hash_, stamp, raw_from_robot, localizer_->summary().modes}, checkpoint_path_);
   }
 
   void restore() {
@@ -351,7 +358,9 @@ class LocalizeModule final : public Module {
   Publisher<geometry_msgs::PoseWithCovarianceStamped> pose_;
   Publisher<tf2_msgs::TFMessage> transforms_;
   Publisher<docent_msgs::PersonBeams> person_beams_;
+  UnbrokenOdometry unbroken_;
   OdometryHistory odometry_;
+  bool has_jumped_ = false;        ///< since the last belief: others carry that one by an odometry that is torn
   std::optional<Pose2> restored_;  ///< odometry of the checkpoint, until odometry speaks
   Localizer::Step last_step_;
   bool frozen_ = false;

@@ -21,6 +21,13 @@ bool halve(sensor_msgs::Range& ping, Rng& rng, bool&) {
   if (rng.chance(0.5)) ping.range = std::numeric_limits<float>::quiet_NaN();
   return true;
 }
+bool halve(docent_msgs::Tactile& tactile, Rng& rng, bool&) {
+  constexpr std::uint8_t kNoReading = 255;
+  for (std::uint8_t& segment : tactile.segments) {
+    if (rng.chance(0.5)) segment = kNoReading;
+  }
+  return true;
+}
 bool halve(nav_msgs::Odometry&, Rng&, bool& skips) {
   skips = !skips;
   return !skips;
@@ -41,7 +48,8 @@ void spoil(sensor_msgs::LaserScan& scan, FaultKind kind, Rng& rng) {
 void spoil(sensor_msgs::Range& ping, FaultKind kind, Rng& rng) {
   ping.range = spoilt(ping.range, ping.max_range, kind, rng);
 }
-void spoil(nav_msgs::Odometry&, FaultKind, Rng&) {}  // no ranges: the scenario refuses it
+void spoil(nav_msgs::Odometry&, FaultKind, Rng&) {}    // no ranges: the scenario refuses it
+void spoil(docent_msgs::Tactile&, FaultKind, Rng&) {}  // likewise
 
 }  // namespace
 
@@ -108,20 +116,33 @@ void Instruments::emit(Sensor sensor, const Publisher<T>& publisher, T message, 
   }
 }
 
+void Instruments::jump(const Pose2& base_from_base, double over) {
+  constexpr double kReading = 0.05;  // [s]
+  jump_parts_ = std::max(1, static_cast<int>(std::lround(over / kReading)));
+  const double share = 1.0 / jump_parts_;
+  jump_part_ = {share * base_from_base.x, share * base_from_base.y,
+                Angle::radians(share * base_from_base.theta.radians())};
+}
+
 void Instruments::publish_odometry(Time now, const Body& body) {
   nav_msgs::Odometry message;
   message.header = {to_message(now), "odom"};
   message.child_frame_id = "base_link";
-  message.pose.pose = to_message(body.odometry());
+  if (jump_parts_ > 0) {
+    --jump_parts_;
+    odom_from_body_odom_ = odom_from_body_odom_ * body.odometry() * jump_part_ * inverse(body.odometry());
+  }
+  const Pose2 odometry = odom_from_body_odom_ * body.odometry();
+  message.pose.pose = to_message(odometry);
   const double dt = to_seconds(now - last_odometry_);
   if (has_odometry_ && dt > 0.0) {
-    const Pose2 motion = inverse(last_pose_) * body.odometry();
+    const Pose2 motion = inverse(last_pose_) * odometry;
     message.twist.twist.linear.x = motion.x / dt;
     message.twist.twist.angular.z = motion.theta.radians() / dt;
   }
   has_odometry_ = true;
   last_odometry_ = now;
-  last_pose_ = body.odometry();
+  last_pose_ = odometry;
   constexpr std::array<double, 6> kVariance{1e-4, 1e-4, 1e6, 1e6, 1e6, 1e-3};
   for (std::size_t i = 0; i < 6; ++i) {
     message.pose.covariance[7 * i] = kVariance[i];
@@ -201,7 +222,7 @@ void Instruments::publish_battery(Time now, const Battery& battery) {
 }
 
 void Instruments::publish_tactile(Time now, const std::vector<std::uint8_t>& segments) {
-  tactile_.publish({{to_message(now), "base_link"}, segments});
+  emit(Sensor::tactile, tactile_, {{to_message(now), "base_link"}, segments, ++tactile_scan_}, last_tactile_, now);
 }
 
 bool Instruments::sees(Point2 robot, std::size_t person, std::span<const Disc> people) const {

@@ -24,6 +24,9 @@ class Instruments {
   void change_world(const World& world);
   void set_fault(const SensorFault& fault, Time now);
 
+  /// The odometry makes a step, in the base's frame, that the base does not: at once, or in equal parts [s] long.
+  void jump(const Pose2& base_from_base, double over);
+
   void publish_odometry(Time now, const Body& body);
   /// Both scanners at once.
   void publish_scans(Time now, const Pose2& world_from_base, std::span<const Disc> people);
@@ -57,13 +60,17 @@ class Instruments {
   LaserScanner rear_;
   SonarRing ring_;
   Rng fault_rng_;
-  std::array<std::optional<Fault>, 4> faults_;
+  std::array<std::optional<Fault>, kSensors> faults_;
   std::vector<int> met_;
   double blocked_share_ = 0.0;
   bool skips_ = false;
   Time last_odometry_{};
   Pose2 last_pose_{};
   bool has_odometry_ = false;
+  Pose2 jump_part_;            ///< base_from_base that the next readings are off
+  int jump_parts_ = 0;         ///< so many readings
+  Pose2 odom_from_body_odom_;  ///< what jumps have made of the wheels' odometry
+  std::uint32_t tactile_scan_ = 0;
 
   Publisher<sensor_msgs::LaserScan> front_scans_;
   Publisher<sensor_msgs::LaserScan> rear_scans_;
@@ -75,6 +82,7 @@ class Instruments {
   std::optional<sensor_msgs::LaserScan> last_rear_;
   std::vector<std::optional<sensor_msgs::Range>> last_pings_;
   std::optional<nav_msgs::Odometry> last_odom_;
+  std::optional<docent_msgs::Tactile> last_tactile_;
 };
 
 }  // namespace docent::simulator

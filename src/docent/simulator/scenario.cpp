@@ -60,9 +60,12 @@ class EventReader {
     if (kind == "steering") return steering(body);
     if (kind == "request") return wish(body);
     if (kind == "kill") return kill(body);
+    if (kind == "second_mode") return second_mode(body);
+    if (kind == "odometry_jump") return odometry_jump(body);
     fault(kind_at_,
           "unknown kind '" + kind +
-              "' (known: kidnap, fault, stool, closed, pose_error, visitors, escort, steering, request, kill)");
+              "' (known: kidnap, fault, stool, closed, pose_error, visitors, escort, steering, request, kill, "
+              "second_mode, odometry_jump)");
   }
 
   [[nodiscard]] double number(const YAML::Node& node, double low, double high) const {
@@ -171,7 +174,8 @@ class EventReader {
                               {{"laser_front", Sensor::laser_front},
                                {"laser_rear", Sensor::laser_rear},
                                {"sonar", Sensor::sonar},
-                               {"odom", Sensor::odom}},
+                               {"odom", Sensor::odom},
+                               {"tactile", Sensor::tactile}},
                               event.sensor);
              }},
             {"kind",
@@ -192,6 +196,7 @@ class EventReader {
     const bool is_of_ranges =
         event.kind == FaultKind::near || event.kind == FaultKind::deaf || event.kind == FaultKind::storm;
     if (event.sensor == Sensor::odom && is_of_ranges) fault(kind_at_, "odometry has no ranges to be wrong");
+    if (event.sensor == Sensor::tactile && is_of_ranges) fault(kind_at_, "the tactile ring has no ranges to be wrong");
     return event;
   }
   [[nodiscard]] Stool stool(const YAML::Node& node) const {
@@ -216,9 +221,34 @@ class EventReader {
     fields(node,
            {{"x", into(event.x, -kFar, kFar)},
             {"y", into(event.y, -kFar, kFar)},
-            {"heading", degrees_into(event.heading)}},
+            {"heading", degrees_into(event.heading)},
+            {"for", into(event.duration, 0.0, kLongest)}},
            {});
     if (event.x == 0.0 && event.y == 0.0 && event.heading == 0.0) fault(kind_at_, "a pose error of nothing");
+    return event;
+  }
+  [[nodiscard]] SecondMode second_mode(const YAML::Node& node) const {
+    SecondMode event;
+    Point2 at;
+    double heading = 0.0;
+    fields(node, {{"at", into(at)}, {"heading", degrees_into(heading)}, {"for", into(event.duration, 0.0, kLongest)}},
+           {"at"});
+    event.at = {at.x, at.y, Angle::radians(heading)};
+    return event;
+  }
+  [[nodiscard]] OdometryJump odometry_jump(const YAML::Node& node) const {
+    OdometryJump event;
+    double x = 0.0;
+    double y = 0.0;
+    double heading = 0.0;
+    fields(node,
+           {{"x", into(x, -kFar, kFar)},
+            {"y", into(y, -kFar, kFar)},
+            {"heading", degrees_into(heading)},
+            {"over", into(event.over, 0.0, 60.0)}},
+           {});
+    if (x == 0.0 && y == 0.0 && heading == 0.0) fault(kind_at_, "a jump of nothing");
+    event.by = {x, y, Angle::radians(heading)};
     return event;
   }
   [[nodiscard]] Visitors visitors(const YAML::Node& node) const {

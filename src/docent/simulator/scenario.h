@@ -18,11 +18,12 @@ struct Kidnap {
   double shift = 0.0;         ///< [m] > 0: a random place at most so far from here, the robot turned by `turn`
   double turn = 0.0;          ///< [deg]
 };
-enum class Sensor { laser_front, laser_rear, sonar, odom };
+enum class Sensor { laser_front, laser_rear, sonar, odom, tactile };
+inline constexpr std::size_t kSensors = 5;
 enum class FaultKind {
   dead,    ///< no message at all
   frozen,  ///< the last reading again and again, with fresh stamps
-  half,    ///< half of the readings invalid (NaN); odometry: every second message is missing
+  half,    ///< half of the readings invalid (NaN, tactile 255); odometry: every second message is missing
   late,    ///< messages arrive `delay` seconds after their stamp
   near,    ///< every reading is 0.3 m; "short" in a file. The last three are of lasers and sonars only
   deaf,    ///< nothing comes back: every reading is the largest
@@ -47,10 +48,21 @@ struct ClosedPassage {
   Point2 to{};
   double duration = 0.0;  ///< [s]; 0: to the end
 };
-/// Published to the robot as if someone had set its pose: carried out by the application.
+/// The best pose of the belief is published so far off while its cells stay true: carried out by the application.
 struct PoseError {
-  double x = 0.0, y = 0.0;  ///< [m], added
+  double x = 0.0, y = 0.0;  ///< [m], map, added
   double heading = 0.0;     ///< [rad], added
+  double duration = 0.0;    ///< [s]; 0: to the end
+};
+/// The belief gets a second, equally heavy mode: carried out by the application. It moves along with the first one.
+struct SecondMode {
+  Pose2 at;               ///< map_from_robot of the second mode, when it appears
+  double duration = 0.0;  ///< [s]; 0: to the end
+};
+/// The odometry makes a step that the base does not.
+struct OdometryJump {
+  Pose2 by;           ///< base_from_base
+  double over = 0.0;  ///< [s] in equal steps, as wheels slip; 0: in one reading
 };
 enum class Formation { gather, wall, ushape };
 struct Visitors {
@@ -86,7 +98,9 @@ struct Kill {
 
 struct ScenarioEvent {
   double at = 0.0;  ///< [s] since the start
-  std::variant<Kidnap, SensorFault, Stool, ClosedPassage, PoseError, Visitors, Escort, Steering, Wish, Kill> what;
+  std::variant<Kidnap, SensorFault, Stool, ClosedPassage, PoseError, Visitors, Escort, Steering, Wish, Kill, SecondMode,
+               OdometryJump>
+      what;
 };
 
 /// Timed events over a run (architecture 10.2), by rising time; equal times keep the file's order.
@@ -95,7 +109,7 @@ struct Scenario {
 };
 
 /// Reads `events:`, a list of `{at: SECONDS, KIND: {...}}` with KIND one of kidnap, fault, stool, closed, pose_error,
-/// visitors, escort, steering, request, kill. Error: "FILE:LINE: ...".
+/// visitors, escort, steering, request, kill, second_mode, odometry_jump. Error: "FILE:LINE: ...".
 [[nodiscard]] Result<Scenario> load_scenario(const std::filesystem::path& path);
 [[nodiscard]] Result<Scenario> parse_scenario(const std::string& text, const std::string& name);
 

@@ -17,11 +17,14 @@ TEST(Scenario, ReadsEveryKindOfEventInOrderOfTime) {
   - {at: 60, pose_error: {x: 0.5, heading: 10}}
   - {at: 70, visitors: {count: 6, at: [5, 5], formation: wall, heading: 180, for: 45}}
   - {at: 80, request: {kind: tour, target: space, language: de}}
+  - {at: 90, second_mode: {at: [3, 4], heading: 90, for: 20}}
+  - {at: 95, odometry_jump: {x: 1, heading: -40, over: 2}}
+  - {at: 99, fault: {sensor: tactile, kind: half}}
 )",
                                        "s.yaml");
   ASSERT_TRUE(scenario) << scenario.error().message;
   const auto& events = scenario->events;
-  ASSERT_EQ(events.size(), 9U);
+  ASSERT_EQ(events.size(), 12U);
   const auto& kidnap = std::get<Kidnap>(events[0].what);
   ASSERT_TRUE(kidnap.to);
   EXPECT_DOUBLE_EQ(kidnap.to->y, 4.5);
@@ -38,8 +41,13 @@ TEST(Scenario, ReadsEveryKindOfEventInOrderOfTime) {
   EXPECT_EQ(std::get<Visitors>(events[6].what).formation, Formation::wall);
   EXPECT_EQ(std::get<Visitors>(events[6].what).count, 6);
   EXPECT_EQ(std::get<Wish>(events[7].what).kind, "tour");
-  EXPECT_EQ(std::get<Kill>(events[8].what).signal, "stop");
-  EXPECT_DOUBLE_EQ(events[8].at, 300.0);
+  EXPECT_DOUBLE_EQ(std::get<SecondMode>(events[8].what).at.y, 4.0);
+  EXPECT_DOUBLE_EQ(std::get<SecondMode>(events[8].what).duration, 20.0);
+  EXPECT_NEAR(std::get<OdometryJump>(events[9].what).by.theta.degrees(), -40.0, 1e-9);
+  EXPECT_DOUBLE_EQ(std::get<OdometryJump>(events[9].what).over, 2.0);
+  EXPECT_EQ(std::get<SensorFault>(events[10].what).sensor, Sensor::tactile);
+  EXPECT_EQ(std::get<Kill>(events[11].what).signal, "stop");
+  EXPECT_DOUBLE_EQ(events[11].at, 300.0);
 }
 
 struct Broken {
@@ -68,17 +76,21 @@ constexpr Broken kBroken[] = {
     {"events:\n  - {at: 1, kidnap: , stool: {at: [1, 2]}}", "s.yaml:2: one kind an event: 'kidnap' or 'stool'"},
     {"events:\n  - {at: 1, abduct: }",
      "s.yaml:2: unknown kind 'abduct' (known: kidnap, fault, stool, closed, pose_error, "
-     "visitors, escort, steering, request, kill)"},
+     "visitors, escort, steering, request, kill, second_mode, odometry_jump)"},
     {"events:\n  - at: 1\n    kidnap: {to: [1]}", "s.yaml:3: expected a point [x, y]"},
     {"events:\n  - at: 1\n    kidnap: {where: [1, 2]}",
      "s.yaml:3: unknown key 'where' (known: from_hazards, heading, shift, to, turn)"},
     {"events:\n  - at: 1\n    kidnap: {to: [1, 2], shift: 3}", "s.yaml:3: 'to' or 'shift', not both"},
     {"events:\n  - at: 1\n    kidnap: [1, 2]", "s.yaml:3: expected a mapping (key: value)"},
     {"events:\n  - at: 1\n    fault: {sensor: nose, kind: dead}",
-     "s.yaml:3: expected one of laser_front, laser_rear, sonar, odom, found 'nose'"},
+     "s.yaml:3: expected one of laser_front, laser_rear, sonar, odom, tactile, found 'nose'"},
     {"events:\n  - at: 1\n    fault: {sensor: odom, kind: sad}",
      "s.yaml:3: expected one of dead, frozen, half, late, short, deaf, storm, found 'sad'"},
     {"events:\n  - at: 1\n    fault: {sensor: odom, kind: deaf}", "s.yaml:3: odometry has no ranges to be wrong"},
+    {"events:\n  - at: 1\n    fault: {sensor: tactile, kind: storm}",
+     "s.yaml:3: the tactile ring has no ranges to be wrong"},
+    {"events:\n  - at: 1\n    odometry_jump: {}", "s.yaml:3: a jump of nothing"},
+    {"events:\n  - at: 1\n    second_mode: {heading: 3}", "s.yaml:3: missing key 'at'"},
     {"events:\n  - at: 1\n    fault: {sensor: odom}", "s.yaml:3: missing key 'kind'"},
     {"events:\n  - at: 1\n    fault:", "s.yaml:3: missing key 'sensor'"},
     {"events:\n  - at: 1\n    stool: {at: [1, 2], radius: 9}", "s.yaml:3: expected a number from 0.05 to 2, found 9"},

@@ -1,6 +1,7 @@
 #include "docent/simulator/simulated_museum.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -337,8 +338,8 @@ class SimulatedMuseum::Impl {
   }
   void play(const SensorFault& event) {
     instruments_.set_fault(event, time_);
-    constexpr const char* kSensors[] = {"laser_front", "laser_rear", "sonar", "odom"};
-    offer("fault", kSensors[static_cast<std::size_t>(event.sensor)]);
+    constexpr std::array<const char*, kSensors> kNames{"laser_front", "laser_rear", "sonar", "odom", "tactile"};
+    offer("fault", kNames[static_cast<std::size_t>(event.sensor)]);
   }
   void play(const Stool& event) {
     Polygon outline;
@@ -390,7 +391,12 @@ class SimulatedMuseum::Impl {
     offer("steering", "");
   }
   void play(const Wish& event) { visitors_.ask(time_, event); }
+  void play(const OdometryJump& event) {
+    instruments_.jump(event.by, event.over);
+    offer("odometry_jump", "");
+  }
   void play(const PoseError&) { offer("pose_error", ""); }       // the application applies it
+  void play(const SecondMode&) { offer("second_mode", ""); }     // likewise
   void play(const Kill& event) { offer("kill", event.module); }  // likewise
 
   struct Temporary {

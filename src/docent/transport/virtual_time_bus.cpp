@@ -57,6 +57,7 @@ class VirtualTimeHub::Node final : public Bus {
   }
   void publish(int publisher, std::shared_ptr<const void> message) override {
     TopicState& state = *publishers_[static_cast<std::size_t>(publisher)];
+    if (state.alteration) message = state.alteration(hub_.now_, std::move(message));
     for (const auto& tap : hub_.taps_) tap(state.info, hub_.now_, message);
     if (state.info.qos == Qos::state) state.latched = message;
     for (const auto& subscription : state.subscriptions) {

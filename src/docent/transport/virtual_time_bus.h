@@ -33,6 +33,9 @@ class VirtualTimeHub {
   /// Runs everything due up to and at `end`; then now() == end.
   void run_until(Time end);
   void tap(Tap tap) { taps_.push_back(std::move(tap)); }
+  /// Every message of the topic passes through this before anybody sees it: for faults between modules.
+  using Alteration = std::function<std::shared_ptr<const void>(Time, std::shared_ptr<const void>)>;
+  void alter(const TopicInfo& info, Alteration alteration) { topic(info).alteration = std::move(alteration); }
 
   /// Topics that the modules of this name have made publishers for so far: what a replay leaves to them.
   [[nodiscard]] std::set<std::string> topics_published_by(std::string_view name) const;
@@ -54,6 +57,7 @@ class VirtualTimeHub {
     TopicInfo info{};
     std::vector<Subscription> subscriptions;
     std::shared_ptr<const void> latched;
+    Alteration alteration;  ///< empty: none
   };
   struct Event {
     Time time;

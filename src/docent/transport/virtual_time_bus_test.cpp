@@ -36,6 +36,25 @@ TEST(VirtualTimeBus, ALateJoinerGetsLatchedState) {
   EXPECT_EQ(mode, "web");
 }
 
+TEST(VirtualTimeBus, AnAlterationIsWhatEverybodySees) {
+  VirtualTimeHub hub;
+  std::vector<std::string> seen;
+  hub.tap([&](const TopicInfo&, Time, const std::shared_ptr<const void>& message) {
+    seen.push_back(static_cast<const docent_msgs::Horn*>(message.get())->reason);
+  });
+  hub.alter(topic_info(kHorn), [](Time, const std::shared_ptr<const void>& message) {
+    auto horn = *static_cast<const docent_msgs::Horn*>(message.get());
+    horn.reason += "!";
+    return std::make_shared<docent_msgs::Horn>(horn);
+  });
+  const auto a = hub.connect("a");
+  const auto b = hub.connect("b");
+  b->subscribe<docent_msgs::Horn>(kHorn, [&](const auto& message) { seen.push_back(message.reason); });
+  a->publisher(kHorn).publish({{}, "beep"});
+  hub.run_until(time_from_seconds(1));
+  EXPECT_EQ(seen, (std::vector<std::string>{"beep!", "beep!"}));
+}
+
 TEST(VirtualTimeBus, ADestroyedNodeIsSilent) {
   VirtualTimeHub hub;
   const auto a = hub.connect("a");
