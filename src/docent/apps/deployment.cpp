@@ -3,6 +3,7 @@
 #include <signal.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <system_error>
@@ -81,11 +82,15 @@ std::string default_state() {
 
 /// How the robot is crippled, if it is (architecture 10.17).
 std::string crippled_by(const std::vector<std::string>& settings) {
-  for (const char* way : {"avoid.blind_to_people", "localize.dead_reckoning", "hazards.best_pose_only"}) {
+  for (const char* way : {"avoid.blind_to_people", "localize.dead_reckoning", "hazards.best_pose_only",
+                          "hazards.ignored", "plan.ignore_live_map"}) {
     for (const auto& setting : settings) {
       if (setting == std::string{way} + "=true") return way;
     }
   }
+  constexpr const char* kNoLadder = "executive.ladder.active";
+  if (std::find(settings.begin(), settings.end(), std::string{kNoLadder} + "=false") != settings.end())
+    return kNoLadder;
   return "";
 }
 

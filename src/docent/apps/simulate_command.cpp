@@ -112,6 +112,9 @@ void add_simulate_command(CLI::App& app) {
   command->add_option("--claims", options->run.claims, "CSV file to write: every belief beside the truth");
   command->add_option("--health-log", options->run.health_log,
                       "CSV file to write: what the modules said of themselves, a row a change");
+  command->add_option(
+      "--event-log", options->run.event_log,
+      "CSV file to write: events, reactions to blocked ways, lines said and touches, with times and places");
   command->add_option("--people-log", options->run.people_log,
                       "CSV file to write: tracked people beside the true ones");
   command->add_option("--record", options->run.recording, "MCAP file of all messages and the truth");

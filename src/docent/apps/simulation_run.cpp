@@ -10,6 +10,7 @@
 #include "docent/apps/simulation_picture.h"
 #include "docent/evaluation/claim_log.h"
 #include "docent/evaluation/deployment_evaluator.h"
+#include "docent/evaluation/event_log.h"
 #include "docent/evaluation/health_log.h"
 #include "docent/evaluation/people_log.h"
 #include "docent/messages/conversions.h"
@@ -53,6 +54,7 @@ class SimulationRun::Parts {
       picture_.add(topic, message);
       if (!options_.claims.empty()) claims_.add(topic, time, message);
       if (!options_.health_log.empty()) health_.add(topic, time, message);
+      if (!options_.event_log.empty()) events_.add(topic, time, message);
       if (!options_.people_log.empty()) people_.add(topic, time, message);
       if (recorder_ && failure_.empty()) {
         if (auto written = recorder_->write(topic, time, message); !written) failure_ = written.error().message;
@@ -201,6 +203,7 @@ class SimulationRun::Parts {
   DeploymentEvaluator evaluator_;
   ClaimLog claims_;
   HealthLog health_;
+  EventLog events_;
   PeopleLog people_;
   SimulationPicture picture_;
   std::optional<Recorder> recorder_;
@@ -257,6 +260,9 @@ Result<void> SimulationRun::finish() {
   }
   if (!parts_->options_.health_log.empty()) {
     if (auto saved = parts_->health_.save(parts_->options_.health_log); !saved) return saved;
+  }
+  if (!parts_->options_.event_log.empty()) {
+    if (auto saved = parts_->events_.save(parts_->options_.event_log); !saved) return saved;
   }
   if (!parts_->options_.people_log.empty()) {
     if (auto saved = parts_->people_.save(parts_->options_.people_log); !saved) return saved;

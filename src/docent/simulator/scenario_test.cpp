@@ -17,11 +17,14 @@ TEST(Scenario, ReadsEveryKindOfEventInOrderOfTime) {
   - {at: 60, pose_error: {x: 0.5, heading: 10}}
   - {at: 70, visitors: {count: 6, at: [5, 5], formation: wall, heading: 180, for: 45}}
   - {at: 80, request: {kind: tour, target: space, language: de}}
+  - {at: 90, visitors: {count: 4, at: [5, 5], formation: wall, heading: 90, heeds: 0.5}}
+  - {at: 100, pushers: {count: 5, at: [6, 7], heading: -90, for: 120}}
+  - {at: 110, runners: {count: 3, at: [6, 7], within: 2.5}}
 )",
                                        "s.yaml");
   ASSERT_TRUE(scenario) << scenario.error().message;
   const auto& events = scenario->events;
-  ASSERT_EQ(events.size(), 9U);
+  ASSERT_EQ(events.size(), 12U);
   const auto& kidnap = std::get<Kidnap>(events[0].what);
   ASSERT_TRUE(kidnap.to);
   EXPECT_DOUBLE_EQ(kidnap.to->y, 4.5);
@@ -38,8 +41,13 @@ TEST(Scenario, ReadsEveryKindOfEventInOrderOfTime) {
   EXPECT_EQ(std::get<Visitors>(events[6].what).formation, Formation::wall);
   EXPECT_EQ(std::get<Visitors>(events[6].what).count, 6);
   EXPECT_EQ(std::get<Wish>(events[7].what).kind, "tour");
-  EXPECT_EQ(std::get<Kill>(events[8].what).signal, "stop");
-  EXPECT_DOUBLE_EQ(events[8].at, 300.0);
+  EXPECT_FALSE(std::get<Visitors>(events[6].what).heeds);
+  EXPECT_DOUBLE_EQ(*std::get<Visitors>(events[8].what).heeds, 0.5);
+  EXPECT_NEAR(std::get<Pushers>(events[9].what).heading, -1.5708, 1e-4);
+  EXPECT_EQ(std::get<Pushers>(events[9].what).count, 5);
+  EXPECT_DOUBLE_EQ(std::get<Runners>(events[10].what).within, 2.5);
+  EXPECT_EQ(std::get<Kill>(events[11].what).signal, "stop");
+  EXPECT_DOUBLE_EQ(events[11].at, 300.0);
 }
 
 struct Broken {
@@ -68,7 +76,7 @@ constexpr Broken kBroken[] = {
     {"events:\n  - {at: 1, kidnap: , stool: {at: [1, 2]}}", "s.yaml:2: one kind an event: 'kidnap' or 'stool'"},
     {"events:\n  - {at: 1, abduct: }",
      "s.yaml:2: unknown kind 'abduct' (known: kidnap, fault, stool, closed, pose_error, "
-     "visitors, escort, steering, request, kill)"},
+     "visitors, pushers, runners, escort, steering, request, kill)"},
     {"events:\n  - at: 1\n    kidnap: {to: [1]}", "s.yaml:3: expected a point [x, y]"},
     {"events:\n  - at: 1\n    kidnap: {where: [1, 2]}",
      "s.yaml:3: unknown key 'where' (known: from_hazards, heading, shift, to, turn)"},
