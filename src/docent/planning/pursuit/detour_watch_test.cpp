@@ -44,7 +44,7 @@ TEST_F(DetourWatchTest, RoundAPersonIsLocal) {
 
 TEST_F(DetourWatchTest, AnotherPassageIsGlobalAndThenMeant) {
   look({{0, 0}, {10, 0}});
-  EXPECT_EQ(look({{2, 0}, {-1, 0}, {-1, 5}, {10, 5}, {10, 0}}, 0.9), WayChange::none) << "it must last";
+  EXPECT_EQ(look({{2, 0}, {-1, 0}, {-1, 5}, {10, 5}, {10, 0}}, 0.7), WayChange::none) << "it must last";
   EXPECT_EQ(look({{2, 0}, {-1, 0}, {-1, 5}, {10, 5}, {10, 0}}, 0.4), WayChange::global);
   EXPECT_EQ(look({{0, 0}, {-1, 0}, {-1, 5}, {10, 5}, {10, 0}}), WayChange::none) << "now it is the way";
 }
