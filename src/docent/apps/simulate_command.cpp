@@ -116,6 +116,9 @@ void add_simulate_command(CLI::App& app) {
                       "CSV file to write: what the modules said of themselves, a row a change");
   command->add_option("--drive-log", options->run.drive_log,
                       "CSV file to write: how the robot drives beside what collision avoidance says");
+  command->add_option(
+      "--event-log", options->run.event_log,
+      "CSV file to write: events, reactions to blocked ways, lines said and touches, with times and places");
   command->add_option("--people-log", options->run.people_log,
                       "CSV file to write: tracked people beside the true ones");
   command->add_option("--record", options->run.recording, "MCAP file of all messages and the truth");

@@ -12,6 +12,7 @@
 #include "docent/evaluation/claim_log.h"
 #include "docent/evaluation/deployment_evaluator.h"
 #include "docent/evaluation/drive_log.h"
+#include "docent/evaluation/event_log.h"
 #include "docent/evaluation/health_log.h"
 #include "docent/evaluation/people_log.h"
 #include "docent/messages/conversions.h"
@@ -56,6 +57,7 @@ class SimulationRun::Parts {
       if (!options_.claims.empty()) claims_.add(topic, time, message);
       if (!options_.health_log.empty()) health_.add(topic, time, message);
       if (!options_.drive_log.empty()) drive_.add(topic, time, message);
+      if (!options_.event_log.empty()) events_.add(topic, time, message);
       if (!options_.people_log.empty()) people_.add(topic, time, message);
       if (recorder_ && failure_.empty()) {
         if (auto written = recorder_->write(topic, time, message); !written) failure_ = written.error().message;
@@ -219,6 +221,7 @@ class SimulationRun::Parts {
   HealthLog health_;
   DriveLog drive_;
   BeliefFault belief_fault_;
+  EventLog events_;
   PeopleLog people_;
   SimulationPicture picture_;
   std::optional<Recorder> recorder_;
@@ -275,6 +278,9 @@ Result<void> SimulationRun::finish() {
   }
   if (!parts_->options_.health_log.empty()) {
     if (auto saved = parts_->health_.save(parts_->options_.health_log); !saved) return saved;
+  }
+  if (!parts_->options_.event_log.empty()) {
+    if (auto saved = parts_->events_.save(parts_->options_.event_log); !saved) return saved;
   }
   if (!parts_->options_.drive_log.empty()) {
     if (auto saved = parts_->drive_.save(parts_->options_.drive_log); !saved) return saved;

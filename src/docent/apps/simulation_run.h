@@ -29,6 +29,7 @@ struct SimulationRunOptions {
   std::string recording;            ///< MCAP file; empty: none
   std::string claims;               ///< CSV file of every belief beside the truth; empty: none
   std::string health_log;           ///< CSV file of what the modules said of themselves; empty: none
+  std::string event_log;            ///< CSV file of what happened and where the robot was then; empty: none
   std::string drive_log;   ///< CSV file of how it drives beside what avoid says; empty: none
   std::string people_log;  ///< CSV file of tracked people beside the true ones; empty: none
   std::string state;       ///< folder; empty: a temporary one that goes with the run

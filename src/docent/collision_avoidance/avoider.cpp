@@ -416,17 +416,4 @@ std::optional<AvoiderDecision> Avoider::reflex(Time now) {
   return stand(now, std::move(decision), "braking");
 }
 
-bool Horn::is_due(Time now, bool blocked_by_unmapped) {
-  if (!blocked_by_unmapped) {
-    if (!last_clear_) last_clear_ = now;
-    if (now - *last_clear_ > seconds(0.6)) blocked_since_.reset();  // a flicker is no way out
-    return false;
-  }
-  last_clear_.reset();
-  if (!blocked_since_) blocked_since_ = now;
-  if (now - *blocked_since_ < seconds(1.5) || (blown_ && now - *blown_ < seconds(6.0))) return false;
-  blown_ = now;
-  return true;
-}
-
 }  // namespace docent

@@ -169,16 +169,4 @@ class Avoider {
   double turning_side_ = 0.0;  ///< +1 left, -1 right, while something behind is turned to; else 0
 };
 
-/// Blows the horn at people in the way [BurgardEtAl1999 5.3]: after 1.5 s behind an unmapped obstacle, every 6 s at
-/// most.
-class Horn {
- public:
-  [[nodiscard]] bool is_due(Time now, bool blocked_by_unmapped);
-
- private:
-  std::optional<Time> blocked_since_;
-  std::optional<Time> last_clear_;
-  std::optional<Time> blown_;
-};
-
 }  // namespace docent

@@ -309,15 +309,5 @@ TEST(Avoider, NeverTouchesAnythingInRandomClutter) {
   EXPECT_GT(driven, 150.0);
 }
 
-TEST(Horn, SoundsAfterPatienceAndNotTooOften) {
-  Horn horn;
-  int blown = 0;
-  for (int i = 0; i < 80; ++i) {  // 20 s, with a flicker
-    if (horn.is_due(time_from_seconds(0.25 * i), i % 10 != 9)) ++blown;
-  }
-  EXPECT_EQ(blown, 4);
-  EXPECT_FALSE(Horn{}.is_due(time_from_seconds(0), true));
-}
-
 }  // namespace
 }  // namespace docent

@@ -51,10 +51,11 @@ void DeploymentEvaluator::add(const TopicInfo& topic, Time time, const std::shar
   } else if (is(topics::kTask)) {
     requests_.add_task(as(topics::kTask));
   } else if (is(topics::kEvent)) {
-    const docent_msgs::Event& event = as(topics::kEvent);
-    requests_.add_event(time, event, true_place());
-    report_.blocked.local_detours += event.kind == "local_detour" ? 1 : 0;
-    report_.blocked.global_detours += event.kind == "global_detour" ? 1 : 0;
+    requests_.add_event(time, as(topics::kEvent), true_place());
+  } else if (is(topics::kReaction)) {
+    const docent_msgs::Reaction& reaction = as(topics::kReaction);
+    report_.blocked.local_detours += reaction.step == "local_detour" ? 1 : 0;
+    report_.blocked.global_detours += reaction.step == "global_detour" ? 1 : 0;
   } else if (is(topics::kHorn)) {
     ++report_.blocked.horn;
   } else if (is(topics::kHealth)) {

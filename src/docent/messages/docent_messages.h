@@ -212,6 +212,8 @@ struct GoalState {
   double remaining_m = 0;  ///< along the path
   double blocked_s = 0;    ///< no progress for so long
   std::string reason;
+  std::string detour;       ///< none, local, global: how the way differs from the one that was meant
+  double detour_extra = 0;  ///< [m] that it is longer
   template <class Self, class V>
   static void visit(Self& m, V& v) {
     v("header", m.header);
@@ -220,6 +222,25 @@ struct GoalState {
     v("remaining_m", m.remaining_m);
     v("blocked_s", m.blocked_s);
     v("reason", m.reason);
+    v("detour", m.detour);
+    v("detour_extra", m.detour_extra);
+  }
+};
+
+/// Where the robot wants to go, for the head: it looks there while its way is blocked ([Rhino1999] 5.3). From plan, 5
+/// Hz.
+struct Gaze {
+  static constexpr const char* kType = "docent_msgs/msg/Gaze";
+  std_msgs::Header header;  ///< frame odom
+  std::string at;           ///< way: the direction it wants to drive; goal: the heading it turns to; none
+  double heading = 0;       ///< [rad], odom: the direction itself, good while the robot turns
+  double bearing = 0;       ///< [rad], base_link at the header's stamp
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("header", m.header);
+    v("at", m.at);
+    v("heading", m.heading);
+    v("bearing", m.bearing);
   }
 };
 
@@ -488,6 +509,26 @@ struct Event {
     v("subject", m.subject);
     v("detail", m.detail);
     v("value", m.value);
+  }
+};
+
+/// A step of the reaction ladder ([Rhino1999] 5.3): for the interaction, the mission and the report.
+struct Reaction {
+  static constexpr const char* kType = "docent_msgs/msg/Reaction";
+  std_msgs::Header header;
+  std::string goal_id;
+  std::string step;        ///< slow, horn, local_detour, global_detour, wait, ask, give_up, free
+  std::string cause;       ///< what is in the way, for a person
+  double after = 0;        ///< [s] since the way was blocked
+  std::int32_t count = 0;  ///< how often this step was taken since then, from 1
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("header", m.header);
+    v("goal_id", m.goal_id);
+    v("step", m.step);
+    v("cause", m.cause);
+    v("after", m.after);
+    v("count", m.count);
   }
 };
 

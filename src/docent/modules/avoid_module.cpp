@@ -58,8 +58,7 @@ class AvoidModule final : public Module {
         cycle_{params.window.cycle},
         avoider_{limits_of(body_), params, 2},
         drive_{bus_.publisher(topics::kDrive)},
-        state_{bus_.publisher(topics::kAvoidState)},
-        horn_blower_{bus_.publisher(topics::kHorn)} {
+        state_{bus_.publisher(topics::kAvoidState)} {
     subscribe_sensors();
     subscribe_wishes();
     bus_.every(seconds(kTick), [this] { tick(); });
@@ -192,9 +191,6 @@ class AvoidModule final : public Module {
       }
     }
     state_.publish(std::move(state));
-    if (horn_.is_due(driven_, decision.path_blocked && decision.unmapped_obstacle)) {
-      horn_blower_.publish({{to_message(driven_), "base_link"}, decision.reason});
-    }
   }
 
   Bus& bus_;
@@ -204,10 +200,8 @@ class AvoidModule final : public Module {
   Avoider avoider_;
   std::vector<BelievedPose> cells_;       ///< of the newest belief
   std::vector<BelievedPose> hypotheses_;  ///< likewise
-  Horn horn_;
   Publisher<docent_msgs::Drive> drive_;
   Publisher<docent_msgs::AvoidState> state_;
-  Publisher<docent_msgs::Horn> horn_blower_;
   Time decided_{};
   Time driven_{};
   Time window_shown_{};

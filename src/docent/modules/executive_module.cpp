@@ -24,14 +24,17 @@ class ExecutiveModule final : public Module {
         goal_{bus_.publisher(topics::kDriveGoal)},
         say_{bus_.publisher(topics::kSay)},
         state_{bus_.publisher(topics::kTaskState)},
-        event_{bus_.publisher(topics::kEvent)} {
+        event_{bus_.publisher(topics::kEvent)},
+        reaction_{bus_.publisher(topics::kReaction)},
+        horn_{bus_.publisher(topics::kHorn)} {
     flush();
     bus_.subscribe<docent_msgs::Task>(topics::kTask, [this](const auto& task) {
       executive_.set_task(to_task(task), bus_.now());
       flush();
     });
     bus_.subscribe<docent_msgs::GoalState>(topics::kGoalState, [this](const auto& state) {
-      executive_.goal_report({state.id, state.state, state.remaining_m, state.blocked_s, state.reason}, bus_.now());
+      executive_.goal_report({state.id, state.state, state.remaining_m, state.blocked_s, state.reason, state.detour},
+                             bus_.now());
       flush();
     });
     bus_.subscribe<docent_msgs::SpeechState>(topics::kSpeechState, [this](const auto& state) {
@@ -43,7 +46,8 @@ class ExecutiveModule final : public Module {
       flush();
     });
     bus_.subscribe<docent_msgs::AvoidState>(topics::kAvoidState, [this](const auto& state) {
-      executive_.obstacle_report(state.path_blocked && state.unmapped_obstacle, bus_.now());
+      executive_.obstacle_report(
+          {state.path_blocked, state.unmapped_obstacle, state.path_blocked ? state.reason : std::string{}});
     });
     bus_.every(kPeriod, [this] {
       executive_.tick(bus_.now());
@@ -99,6 +103,11 @@ class ExecutiveModule final : public Module {
                        std::move(question.default_option), to_message(question.deadline)},
                       report.took_long});
     }
+    for (LadderStep& step : actions.reactions) {
+      if (step.rung == Rung::horn) horn_.publish({{stamp, "base_link"}, step.cause});
+      reaction_.publish(
+          {{stamp, "map"}, actions.reactions_of, to_text(step.rung), std::move(step.cause), step.after_s, step.count});
+    }
     for (Happening& happening : actions.happenings) {
       event_.publish({{stamp, "map"},
                       std::move(happening.kind),
@@ -119,6 +128,8 @@ class ExecutiveModule final : public Module {
   Publisher<docent_msgs::Say> say_;
   Publisher<docent_msgs::TaskState> state_;
   Publisher<docent_msgs::Event> event_;
+  Publisher<docent_msgs::Reaction> reaction_;
+  Publisher<docent_msgs::Horn> horn_;
 };
 
 }  // namespace

@@ -15,6 +15,7 @@ class HazardsModule final : public Module {
       : bus_{context.bus},
         measurements_{context.museum.area, outlines(context.museum), params},
         best_pose_only_{params.best_pose_only},
+        ignored_{params.ignored},
         scan_{bus_.publisher(topics::kVirtualScan)} {
     bus_.subscribe<docent_msgs::Belief>(topics::kBelief,
                                         [this](const docent_msgs::Belief& belief) { measure(belief); });
@@ -66,7 +67,8 @@ class HazardsModule final : public Module {
     scan.angle_min = static_cast<float>(-std::numbers::pi);
     scan.angle_max = scan.angle_min + scan.angle_increment * (VirtualMeasurements::kDirections - 1);
     scan.range_max = static_cast<float>(VirtualMeasurements::kMaxRange);
-    for (const double range : measured.ranges) scan.ranges.push_back(static_cast<float>(range));
+    for (const double range : measured.ranges)
+      scan.ranges.push_back(ignored_ ? scan.range_max : static_cast<float>(range));
     last_ = std::move(scan);
     received_ = bus_.now();
     publish();
@@ -80,6 +82,7 @@ class HazardsModule final : public Module {
   Bus& bus_;
   VirtualMeasurements measurements_;
   bool best_pose_only_;  ///< crippled, for evaluation
+  bool ignored_;         ///< likewise
   Publisher<sensor_msgs::LaserScan> scan_;
   std::vector<WeightedPose> poses_;
   std::vector<WeightedSquare> squares_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "docent/mapping/occupancy/live_map.h"
 #include "docent/modules/pose_tracker.h"
 #include "docent/planning/exploration/look_around.h"
 #include "docent/planning/exploration/tell_apart.h"
@@ -13,22 +14,26 @@ namespace docent {
 namespace {
 
 constexpr Duration kPeriod = std::chrono::milliseconds{200};
-constexpr int kSweepsAStep = 40;  ///< any-time: so many sweeps of the bounding box between two targets
-constexpr int kClearances = 180;  ///< directions, every 2 degrees
-constexpr int kStepsAPath = 5;    ///< the page sees the path at 1 Hz
+constexpr int kSweepsAStep = 40;    ///< any-time: so many sweeps of the bounding box between two targets
+constexpr int kClearances = 180;    ///< directions, every 2 degrees
+constexpr int kStepsAPath = 5;      ///< the page sees the path at 1 Hz
+constexpr double kLookAhead = 1.5;  ///< [m] along the way: where the head looks
 constexpr Duration kBeliefStaleAfter = std::chrono::seconds{3};
 
 struct PlanParams {
   RouteParams route;
   PursuitParams pursuit;
   TellApartParams tell_apart;
-  bool active = true;           ///< lost: drives to where its hypotheses are told apart; else it only looks round
+  bool ignore_live_map =
+      false;           ///< crippled, for evaluation: plans as if nothing stood there that the map does not show
+  bool active = true;  ///< lost: drives to where its hypotheses are told apart; else it only looks round
   double goal_tolerance = 0.2;  ///< [m] cells so near to the goal are goals
   template <class V>
   void visit(V& v) {
     v("route", route);
     v("pursuit", pursuit);
     v("tell_apart", tell_apart);
+    v("ignore_live_map", ignore_live_map);
     v("active", active);
     v("goal_tolerance", goal_tolerance);
   }
@@ -58,10 +63,12 @@ class PlanModule final : public Module {
                          context.config.body().scan_rear.base_from_sensor()},
         target_{bus_.publisher(topics::kTarget)},
         goal_state_{bus_.publisher(topics::kGoalState)},
-        path_{bus_.publisher(topics::kPath)} {
+        path_{bus_.publisher(topics::kPath)},
+        gaze_{bus_.publisher(topics::kGaze)} {
     const OccupancyGrid coarse = coarsened(context.museum.map, params.route.coarsening);
     static_cells_ = coarse.cells;
     obstacles_.assign(route_.frame().size(), false);
+    settled_.assign(route_.frame().size(), false);
 
     bus_.subscribe<docent_msgs::Belief>(topics::kBelief, [this](const auto& belief) {
       pose_.on_belief(belief);
@@ -97,7 +104,7 @@ class PlanModule final : public Module {
     if (!is_new) return;
     if (goal.relocalize) look_around_.start(bus_.now());
     if (!goal.id.empty() && !goal.relocalize) {
-      route_.set_obstacles(obstacles_);
+      route_.set_obstacles(obstacles_, settled_);
       route_.set_goal({goal.x, goal.y}, params_.goal_tolerance);
     }
     step();
@@ -107,7 +114,7 @@ class PlanModule final : public Module {
     if (map.data.size() != obstacles_.size()) return;  // another map: this one knows only its own
     base_ = from_message(map.header.stamp);
     number_ = 0;
-    for (std::size_t i = 0; i < map.data.size(); ++i) obstacles_[i] = is_obstacle(i, map.data[i]);
+    for (std::size_t i = 0; i < map.data.size(); ++i) take(i, map.data[i]);
     changed_ = true;
   }
   void on_update(const docent_msgs::LiveMapUpdate& update) {
@@ -119,14 +126,14 @@ class PlanModule final : public Module {
       for (std::uint32_t column = 0; column < update.width; ++column, ++k) {
         const CellIndex cell{update.x + static_cast<int>(column), update.y + static_cast<int>(row)};
         if (!route_.frame().holds(cell)) continue;
-        const std::size_t index = route_.frame().index(cell);
-        obstacles_[index] = is_obstacle(index, update.data[k]);
+        take(route_.frame().index(cell), update.data[k]);
       }
     }
     changed_ = true;
   }
-  [[nodiscard]] bool is_obstacle(std::size_t index, std::int8_t live) const {
-    return live >= 65 && static_cells_[index] < 65;
+  void take(std::size_t index, std::int8_t live) {
+    obstacles_[index] = live >= 65 && static_cells_[index] < 65 && !params_.ignore_live_map;
+    settled_[index] = obstacles_[index] && live >= LiveMap::kSettled;
   }
 
   void step() {
@@ -134,7 +141,7 @@ class PlanModule final : public Module {
     if (goal_.relocalize && !goal_.id.empty()) return step_relocalize(now);
     if (changed_ && !goal_.id.empty()) {
       changed_ = false;
-      route_.set_obstacles(obstacles_);
+      route_.set_obstacles(obstacles_, settled_);
     }
     if (!goal_.id.empty()) route_.iterate(kSweepsAStep);
     const bool knows = pose_.localized() && now - pose_.belief_stamp() < kBeliefStaleAfter;
@@ -226,7 +233,25 @@ class PlanModule final : public Module {
         target.via_y.push_back(in_odom.y);
       }
     }
+    publish_gaze(target, now);
     target_.publish(std::move(target));
+  }
+
+  /// The head looks where the robot wants to go, above all while it cannot.
+  void publish_gaze(const docent_msgs::Target& target, Time now) {
+    if (!pose_.odom_from_base()) return;
+    docent_msgs::Gaze gaze;
+    gaze.header = {to_message(now), "odom"};
+    gaze.at = target.mode == "drive" ? "way" : target.mode == "turn" ? "goal" : "none";
+    const Pose2& odom_from_base = *pose_.odom_from_base();
+    gaze.heading = gaze.at == "none" ? odom_from_base.theta.radians() : target.heading;
+    for (std::size_t i = 0; gaze.at == "way" && i < target.via_x.size(); ++i) {
+      const Point2 via{target.via_x[i], target.via_y[i]};
+      gaze.heading = direction(odom_from_base.position(), via).radians();
+      if (distance(odom_from_base.position(), via) > kLookAhead) break;
+    }
+    gaze.bearing = (Angle::radians(gaze.heading) - odom_from_base.theta).radians();
+    gaze_.publish(std::move(gaze));
   }
 
   void publish_state(const Pursuit& pursuit) {
@@ -236,6 +261,8 @@ class PlanModule final : public Module {
     state.remaining_m = pursuit.remaining_m;
     state.blocked_s = pursuit.blocked_s;
     state.reason = pursuit.reason;
+    state.detour = to_text(pursuit.detour);
+    state.detour_extra = pursuit.detour_extra;
     state.header = {to_message(bus_.now()), "map"};
     goal_state_.publish(std::move(state));
   }
@@ -265,6 +292,7 @@ class PlanModule final : public Module {
   Publisher<docent_msgs::Target> target_;
   Publisher<docent_msgs::GoalState> goal_state_;
   Publisher<nav_msgs::Path> path_;
+  Publisher<docent_msgs::Gaze> gaze_;
   PoseTracker pose_;
   std::vector<docent_msgs::Hypothesis> hypotheses_;  ///< of the last belief
   Pose2 odom_at_belief_;
@@ -272,7 +300,8 @@ class PlanModule final : public Module {
   std::array<sensor_msgs::LaserScan, 2> scans_;
   sensor_msgs::LaserScan virtual_scan_;
   std::vector<std::int8_t> static_cells_;  ///< [rows * columns of the planning grid]
-  std::vector<bool> obstacles_;
+  std::vector<bool> obstacles_;            ///< [rows * columns] what stands there now
+  std::vector<bool> settled_;              ///< those of them that have stood there for long
   Time base_{};
   std::uint32_t number_ = 0;
   bool changed_ = false;

@@ -83,8 +83,10 @@ class GlidingPlan {
       state.state = "arrived";
     } else if (bus_->now() < blocked_until) {
       state.state = "blocked";
+      state.blocked_s = to_seconds(bus_->now() - moved_);
     } else {
       state.state = "driving";
+      moved_ = bus_->now();
       const double stride = std::min(kStep * 0.6, state.remaining_m);
       position = position + stride / state.remaining_m * (to - position);
       driven_m += stride;
@@ -100,6 +102,7 @@ class GlidingPlan {
   Publisher<docent_msgs::Belief> belief_;
   Publisher<docent_msgs::GoalState> state_;
   docent_msgs::DriveGoal goal_;
+  Time moved_{};
 };
 
 /// A visitor's page: sends each wish every two seconds until it sees it on the board (architecture 10.8).

@@ -56,6 +56,8 @@ class EventReader {
     if (kind == "closed") return closed(body);
     if (kind == "pose_error") return pose_error(body);
     if (kind == "visitors") return visitors(body);
+    if (kind == "pushers") return pushers(body);
+    if (kind == "runners") return runners(body);
     if (kind == "escort") return escort(body);
     if (kind == "steering") return steering(body);
     if (kind == "request") return wish(body);
@@ -64,7 +66,7 @@ class EventReader {
     if (kind == "odometry_jump") return odometry_jump(body);
     fault(kind_at_,
           "unknown kind '" + kind +
-              "' (known: kidnap, fault, stool, closed, pose_error, visitors, escort, steering, request, kill, "
+              "' (known: kidnap, fault, stool, closed, pose_error, visitors, pushers, runners, escort, steering, request, kill, "
               "second_mode, odometry_jump)");
   }
 
@@ -267,8 +269,29 @@ class EventReader {
                degrees_into(event.heading)(at);
                event.has_heading = true;
              }},
+            {"heeds", [&](const YAML::Node& at) { event.heeds = number(at, 0.0, 1.0); }},
             {"for", into(event.duration, 0.1, kLongest)}},
            {"count"});
+    return event;
+  }
+  [[nodiscard]] Pushers pushers(const YAML::Node& node) const {
+    Pushers event;
+    fields(node,
+           {{"count", [&](const YAML::Node& at) { event.count = whole(at, 100.0); }},
+            {"at", into(event.at)},
+            {"heading", degrees_into(event.heading)},
+            {"for", into(event.duration, 0.0, kLongest)}},
+           {"count", "at", "heading"});
+    return event;
+  }
+  [[nodiscard]] Runners runners(const YAML::Node& node) const {
+    Runners event;
+    fields(node,
+           {{"count", [&](const YAML::Node& at) { event.count = whole(at, 100.0); }},
+            {"at", into(event.at)},
+            {"within", into(event.within, 0.5, 50.0)},
+            {"for", into(event.duration, 0.0, kLongest)}},
+           {"count", "at"});
     return event;
   }
   [[nodiscard]] int whole(const YAML::Node& at, double most) const {

@@ -71,7 +71,22 @@ struct Visitors {
   Formation formation = Formation::gather;
   double heading = 0.0;  ///< [rad] the direction that the wall or the open side of the U faces
   bool has_heading = false;
-  double duration = 60.0;  ///< [s] they stand there
+  double duration = 60.0;       ///< [s] they stand there
+  std::optional<double> heeds;  ///< 0..1 chance that one steps aside at a blast of the horn; without: as the crowd's
+};
+/// People who wait at a place until the robot comes by and then press it in one direction, in a close half ring.
+struct Pushers {
+  int count = 1;
+  Point2 at{};
+  double heading = 0.0;   ///< [rad] the direction they press in
+  double duration = 0.0;  ///< [s]; 0: to the end
+};
+/// Children who run about round a place and heed nothing.
+struct Runners {
+  int count = 1;
+  Point2 at{};
+  double within = 4.0;    ///< [m] of the place
+  double duration = 0.0;  ///< [s]; 0: to the end
 };
 /// People who walk along with the robot all round it, but not before it.
 struct Escort {
@@ -98,7 +113,7 @@ struct Kill {
 
 struct ScenarioEvent {
   double at = 0.0;  ///< [s] since the start
-  std::variant<Kidnap, SensorFault, Stool, ClosedPassage, PoseError, Visitors, Escort, Steering, Wish, Kill, SecondMode,
+  std::variant<Kidnap, SensorFault, Stool, ClosedPassage, PoseError, Visitors, Pushers, Runners, Escort, Steering, Wish, Kill, SecondMode,
                OdometryJump>
       what;
 };
@@ -109,7 +124,7 @@ struct Scenario {
 };
 
 /// Reads `events:`, a list of `{at: SECONDS, KIND: {...}}` with KIND one of kidnap, fault, stool, closed, pose_error,
-/// visitors, escort, steering, request, kill, second_mode, odometry_jump. Error: "FILE:LINE: ...".
+/// visitors, pushers, runners, escort, steering, request, kill, second_mode, odometry_jump. Error: "FILE:LINE: ...".
 [[nodiscard]] Result<Scenario> load_scenario(const std::filesystem::path& path);
 [[nodiscard]] Result<Scenario> parse_scenario(const std::string& text, const std::string& name);
 

@@ -20,11 +20,14 @@ TEST(Scenario, ReadsEveryKindOfEventInOrderOfTime) {
   - {at: 90, second_mode: {at: [3, 4], heading: 90, for: 20}}
   - {at: 95, odometry_jump: {x: 1, heading: -40, over: 2}}
   - {at: 99, fault: {sensor: tactile, kind: half}}
+  - {at: 100, visitors: {count: 4, at: [5, 5], formation: wall, heading: 90, heeds: 0.5}}
+  - {at: 105, pushers: {count: 5, at: [6, 7], heading: -90, for: 120}}
+  - {at: 110, runners: {count: 3, at: [6, 7], within: 2.5}}
 )",
                                        "s.yaml");
   ASSERT_TRUE(scenario) << scenario.error().message;
   const auto& events = scenario->events;
-  ASSERT_EQ(events.size(), 12U);
+  ASSERT_EQ(events.size(), 15U);
   const auto& kidnap = std::get<Kidnap>(events[0].what);
   ASSERT_TRUE(kidnap.to);
   EXPECT_DOUBLE_EQ(kidnap.to->y, 4.5);
@@ -46,8 +49,13 @@ TEST(Scenario, ReadsEveryKindOfEventInOrderOfTime) {
   EXPECT_NEAR(std::get<OdometryJump>(events[9].what).by.theta.degrees(), -40.0, 1e-9);
   EXPECT_DOUBLE_EQ(std::get<OdometryJump>(events[9].what).over, 2.0);
   EXPECT_EQ(std::get<SensorFault>(events[10].what).sensor, Sensor::tactile);
-  EXPECT_EQ(std::get<Kill>(events[11].what).signal, "stop");
-  EXPECT_DOUBLE_EQ(events[11].at, 300.0);
+  EXPECT_FALSE(std::get<Visitors>(events[6].what).heeds);
+  EXPECT_DOUBLE_EQ(*std::get<Visitors>(events[11].what).heeds, 0.5);
+  EXPECT_NEAR(std::get<Pushers>(events[12].what).heading, -1.5708, 1e-4);
+  EXPECT_EQ(std::get<Pushers>(events[12].what).count, 5);
+  EXPECT_DOUBLE_EQ(std::get<Runners>(events[13].what).within, 2.5);
+  EXPECT_EQ(std::get<Kill>(events[14].what).signal, "stop");
+  EXPECT_DOUBLE_EQ(events[14].at, 300.0);
 }
 
 struct Broken {
@@ -76,7 +84,7 @@ constexpr Broken kBroken[] = {
     {"events:\n  - {at: 1, kidnap: , stool: {at: [1, 2]}}", "s.yaml:2: one kind an event: 'kidnap' or 'stool'"},
     {"events:\n  - {at: 1, abduct: }",
      "s.yaml:2: unknown kind 'abduct' (known: kidnap, fault, stool, closed, pose_error, "
-     "visitors, escort, steering, request, kill, second_mode, odometry_jump)"},
+     "visitors, pushers, runners, escort, steering, request, kill, second_mode, odometry_jump)"},
     {"events:\n  - at: 1\n    kidnap: {to: [1]}", "s.yaml:3: expected a point [x, y]"},
     {"events:\n  - at: 1\n    kidnap: {where: [1, 2]}",
      "s.yaml:3: unknown key 'where' (known: from_hazards, heading, shift, to, turn)"},

@@ -377,12 +377,20 @@ class SimulatedMuseum::Impl {
         places.push_back(centre + ring * unit(Angle::degrees(137.5 * i)));
       }
     }
-    crowd_.add_standing(places, run_seconds() + event.duration);
+    crowd_.add_standing(places, run_seconds() + event.duration, event.heeds);
     offer("visitors", std::to_string(event.count));
   }
+  [[nodiscard]] double end_of(double duration) const { return duration > 0.0 ? run_seconds() + duration : 1e9; }
+  void play(const Pushers& event) {
+    crowd_.add_pushers(event.count, event.at, event.heading, end_of(event.duration));
+    offer("pushers", std::to_string(event.count));
+  }
+  void play(const Runners& event) {
+    crowd_.add_runners(event.count, event.at, event.within, end_of(event.duration));
+    offer("runners", std::to_string(event.count));
+  }
   void play(const Escort& event) {
-    const double until = event.duration > 0.0 ? run_seconds() + event.duration : 1e9;
-    crowd_.add_escort(event.count, event.near, event.far, run_seconds(), until);
+    crowd_.add_escort(event.count, event.near, event.far, run_seconds(), end_of(event.duration));
     offer("escort", std::to_string(event.count));
   }
   void play(const Steering& event) {

@@ -12,6 +12,8 @@ Result<void> LiveMapParams::validate() const {
   if (!(static_margin >= 0.0)) return fail("static_margin must be >= 0");
   if (hits_to_block < 1 || hits_to_block > 4) return fail("hits_to_block must be in 1..4");
   if (!(forget > 0.0)) return fail("forget must be > 0");
+  if (!(settle >= 0.0)) return fail("settle must be >= 0");
+  if (!(forget_settled >= forget)) return fail("forget_settled must be >= forget");
   if (!(period > 0.0)) return fail("period must be > 0");
   return {};
 }
@@ -33,6 +35,8 @@ LiveMap::LiveMap(const OccupancyGrid& static_map, LiveMapParams params)
   }
   history_.assign(grid.size(), 0);
   seen_.assign(grid.size(), Time{});
+  blocked_since_.assign(grid.size(), Time{});
+  settled_.assign(grid.size(), false);
   look_of_.assign(grid.size(), 0);
 }
 
@@ -41,13 +45,15 @@ bool LiveMap::is_blocked(std::size_t index) const {
 }
 
 std::int8_t LiveMap::cell(std::size_t index) const {
-  return std::max(static_.cells[index], is_blocked(index) ? OccupancyGrid::kOccupied : OccupancyGrid::kUnknown);
+  if (!is_blocked(index)) return static_.cells[index];
+  return std::max(static_.cells[index], is_settled(index) ? kSettled : kPassing);
 }
 
 void LiveMap::mark(CellIndex cell, bool hit, Time now) {
   if (!static_.frame.holds(cell)) return;
   const std::size_t index = static_.frame.index(cell);
   const bool was_blocked = is_blocked(index);
+  const bool was_settled = was_blocked && settled_[index];
   if (look_of_[index] == look_) {
     // Hit and passed in one look: something stands in a part of the cell.
     history_[index] = static_cast<std::uint8_t>(history_[index] | (hit ? 1U : 0U));
@@ -56,7 +62,9 @@ void LiveMap::mark(CellIndex cell, bool hit, Time now) {
     history_[index] = static_cast<std::uint8_t>(static_cast<unsigned>(history_[index]) << 1U | (hit ? 1U : 0U));
   }
   seen_[index] = now;
-  if (was_blocked != is_blocked(index)) {
+  if (!was_blocked && is_blocked(index)) blocked_since_[index] = now;
+  settled_[index] = is_blocked(index) && to_seconds(now - blocked_since_[index]) >= params_.settle;
+  if (was_blocked != is_blocked(index) || was_settled != settled_[index]) {
     if (!changes_) changes_ = Rectangle{cell, cell};
     changes_->low = {std::min(changes_->low.column, cell.column), std::min(changes_->low.row, cell.row)};
     changes_->high = {std::max(changes_->high.column, cell.column), std::max(changes_->high.row, cell.row)};
@@ -88,7 +96,8 @@ void LiveMap::forget(Time now) {
   for (int row = 0; row < static_.frame.rows; ++row) {
     for (int column = 0; column < static_.frame.columns; ++column) {
       const std::size_t index = static_.frame.index({column, row});
-      if (history_[index] == 0 || to_seconds(now - seen_[index]) < params_.forget) continue;
+      const double memory = is_settled(index) ? params_.forget_settled : params_.forget;
+      if (history_[index] == 0 || to_seconds(now - seen_[index]) < memory) continue;
       const Time seen = seen_[index];
       while (history_[index] != 0) {
         mark({column, row}, false, seen);

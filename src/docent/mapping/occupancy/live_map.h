@@ -17,6 +17,8 @@ struct LiveMapParams {
   double static_margin = 0.25;  ///< [m]: nearer to a mapped obstacle an endpoint is that obstacle
   int hits_to_block = 3;        ///< of the last four looks at a cell, 1..4
   double forget = 30.0;         ///< [s] until a cell that nobody looked at is free again
+  double settle = 20.0;         ///< [s] that a cell was seen blocked, then what stands there is no passer-by
+  double forget_settled = 300;  ///< [s] until such a cell that nobody looked at is free again
   double period = 0.5;          ///< [s] between looks
   template <class V>
   void visit(V& v) {
@@ -25,13 +27,17 @@ struct LiveMapParams {
     v("static_margin", static_margin);
     v("hits_to_block", hits_to_block);
     v("forget", forget);
+    v("settle", settle);
+    v("forget_settled", forget_settled);
     v("period", period);
   }
   [[nodiscard]] Result<void> validate() const;
 };
 
 /// What stands in the hall now and not in the static map: a laser layer over it with decay, joined by the max rule
-/// [Burgard1999, eq. (19)]. A person who walks by leaves no trace; who stands for two looks of four, does.
+/// [Burgard1999, eq. (19)]. A person who walks by leaves no trace; who stands for three looks of four, does. What was
+/// seen to stand for longer, a stool or a closed passage, is settled: it is remembered for minutes while nobody looks,
+/// and freed like all else by looks that pass through it.
 class LiveMap {
  public:
   LiveMap(const OccupancyGrid& static_map, LiveMapParams params);
@@ -43,9 +49,12 @@ class LiveMap {
   void forget(Time now);
 
   [[nodiscard]] const GridFrame& frame() const { return static_.frame; }
+  static constexpr std::int8_t kPassing = 80;  ///< blocked, as a person may block it
+  static constexpr std::int8_t kSettled = OccupancyGrid::kOccupied;
   /// The max rule: the larger of the static cell and the live one.
   [[nodiscard]] std::int8_t cell(std::size_t index) const;
   [[nodiscard]] bool is_blocked(std::size_t index) const;
+  [[nodiscard]] bool is_settled(std::size_t index) const { return is_blocked(index) && settled_[index]; }
   /// Cells [rows * columns] that are blocked now and not in the static map.
   [[nodiscard]] std::vector<bool> obstacles() const;
   /// Rectangle of the cells that changed since the last call; nullopt when none did.
@@ -62,6 +71,8 @@ class LiveMap {
   std::vector<bool> near_static_;      ///< an endpoint here belongs to the static map
   std::vector<std::uint8_t> history_;  ///< the last eight looks, the newest in bit 0
   std::vector<Time> seen_;
+  std::vector<Time> blocked_since_;
+  std::vector<bool> settled_;
   std::vector<std::uint32_t> look_of_;  ///< the last look that touched the cell: one entry in the history a look
   std::uint32_t look_ = 0;
   std::optional<Rectangle> changes_;

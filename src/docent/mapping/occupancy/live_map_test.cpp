@@ -45,5 +45,29 @@ TEST(LiveMap, ForgetsWhatNobodyLooksAt) {
   EXPECT_FALSE(blocked(map, {3.0, 2.5}));
 }
 
+TEST(LiveMap, RemembersForMinutesWhatStoodForLong) {
+  LiveMap map{hall(), {}};
+  const auto index = map.frame().index(map.frame().cell_at({3.0, 2.5}));
+  for (int i = 0; i < 20; ++i) map.look({1, 2.5}, std::vector<Point2>{{3.0, 2.5}}, time_from_seconds(i));
+  EXPECT_EQ(map.cell(index), LiveMap::kPassing);
+  (void)map.take_changes();
+  for (int i = 20; i < 30; ++i) map.look({1, 2.5}, std::vector<Point2>{{3.0, 2.5}}, time_from_seconds(i));
+  EXPECT_EQ(map.cell(index), LiveMap::kSettled);
+  EXPECT_TRUE(map.take_changes().has_value()) << "the planner must know";
+  map.forget(time_from_seconds(300));
+  EXPECT_EQ(map.cell(index), LiveMap::kSettled);
+  map.forget(time_from_seconds(335));
+  EXPECT_EQ(map.cell(index), 0);
+}
+
+TEST(LiveMap, FreesWhatWasSettledAsSoonAsItIsSeenFree) {
+  LiveMap map{hall(), {}};
+  for (int i = 0; i < 40; ++i) map.look({1, 2.5}, std::vector<Point2>{{3.0, 2.5}}, time_from_seconds(i));
+  for (int i = 100; i < 102; ++i) map.look({1, 2.5}, std::vector<Point2>{{4.9, 2.5}}, time_from_seconds(i));
+  EXPECT_FALSE(blocked(map, {3.0, 2.5}));
+  for (int i = 110; i < 113; ++i) map.look({1, 2.5}, std::vector<Point2>{{3.0, 2.5}}, time_from_seconds(i));
+  EXPECT_EQ(map.cell(map.frame().index(map.frame().cell_at({3.0, 2.5}))), LiveMap::kPassing) << "it counts anew";
+}
+
 }  // namespace
 }  // namespace docent

@@ -12,7 +12,7 @@ Result<void> PursuitParams::validate() const {
   if (!(find_way_for >= 0.0)) return fail("find_way_for must be >= 0");
   if (!(settle_for >= 0.0)) return fail("settle_for must be >= 0");
   if (!(settle_after > 0.0)) return fail("settle_after must be > 0");
-  return {};
+  return detour.validate();
 }
 
 void GoalPursuit::set_goal(const PursuitGoal& goal, Time now) {
@@ -22,6 +22,7 @@ void GoalPursuit::set_goal(const PursuitGoal& goal, Time now) {
   phase_ = Phase::driving;
   best_remaining_ = std::numeric_limits<double>::infinity();
   last_progress_ = now;
+  detour_.restart();
 }
 
 Pursuit GoalPursuit::step(const std::optional<Pose2>& map_from_base, const RoutePlanner& planner, Time now) {
@@ -88,6 +89,9 @@ Pursuit GoalPursuit::step(const std::optional<Pose2>& map_from_base, const Route
     }
   }
   pursuit.remaining_m = length;
+  if (planner.is_settled()) detour_.update(way, now);
+  pursuit.detour = detour_.change();
+  pursuit.detour_extra = detour_.extra();
   pursuit.mode = Pursuit::Mode::drive;
   pursuit.heading = goal_.map_from_goal.theta;
   if (length < best_remaining_ - params_.progress) {

@@ -7,6 +7,7 @@
 #include "docent/base/result.h"
 #include "docent/base/time.h"
 #include "docent/geometry/pose2.h"
+#include "docent/planning/pursuit/detour_watch.h"
 #include "docent/planning/value_iteration/route.h"
 
 namespace docent {
@@ -18,6 +19,7 @@ struct PursuitParams {
   double find_way_for = 3.0;   ///< [s] that planning may take before a goal without a way is "unreachable"
   double settle_for = 0.5;     ///< [m]: so near to a goal that others stand on, the robot takes it as reached
   double settle_after = 6.0;   ///< [s] without progress until it does
+  DetourParams detour;
   template <class V>
   void visit(V& v) {
     v("horizon", horizon);
@@ -26,6 +28,7 @@ struct PursuitParams {
     v("find_way_for", find_way_for);
     v("settle_for", settle_for);
     v("settle_after", settle_after);
+    v("detour", detour);
   }
   [[nodiscard]] Result<void> validate() const;
 };
@@ -48,12 +51,14 @@ struct Pursuit {
   std::string reason;
   double remaining_m = 0.0;
   double blocked_s = 0.0;
+  WayChange detour = WayChange::none;
+  double detour_extra = 0.0;  ///< [m]
 };
 
 /// Follows one goal after another: drive there along the route, turn to the heading, stay. Deterministic.
 class GoalPursuit {
  public:
-  explicit GoalPursuit(PursuitParams params) : params_{params} {}
+  explicit GoalPursuit(PursuitParams params) : params_{params}, detour_{params.detour} {}
 
   /// A goal with another id replaces the one before.
   void set_goal(const PursuitGoal& goal, Time now);
@@ -69,6 +74,7 @@ class GoalPursuit {
   enum class Phase { driving, turning, arrived } phase_ = Phase::driving;
   double best_remaining_ = 0.0;
   Time last_progress_{};
+  DetourWatch detour_;
 };
 
 }  // namespace docent

@@ -15,6 +15,9 @@ Result<void> RouteParams::validate() const {
   if (!(comfort_cost >= 0.0)) return fail("comfort_cost must be >= 0");
   if (!(obstacle_cost >= 1.0)) return fail("obstacle_cost must be >= 1");
   if (!(obstacle_margin >= 0.0)) return fail("obstacle_margin must be >= 0");
+  if (!(obstacle_comfort >= obstacle_margin)) return fail("obstacle_comfort must be >= obstacle_margin");
+  if (!(obstacle_comfort_cost >= 0.0)) return fail("obstacle_comfort_cost must be >= 0");
+  if (!(settled_cost >= obstacle_cost)) return fail("settled_cost must be >= obstacle_cost");
   return {};
 }
 
@@ -59,13 +62,26 @@ RoutePlanner::RoutePlanner(const OccupancyGrid& map, std::span<const Polygon> ha
   planner_.set_costs(static_costs_);
 }
 
-void RoutePlanner::set_obstacles(const std::vector<bool>& obstacles) {
+/// @param away  [m] from the nearest obstacle that is not in the map
+float RoutePlanner::obstacle_factor(double away) const {
+  if (away <= params_.obstacle_margin) return static_cast<float>(params_.obstacle_cost);
+  if (away >= params_.obstacle_comfort) return 1.0F;
+  const double near = (params_.obstacle_comfort - away) / (params_.obstacle_comfort - params_.obstacle_margin);
+  return static_cast<float>(1.0 + params_.obstacle_comfort_cost * near * near);
+}
+
+void RoutePlanner::set_obstacles(const std::vector<bool>& obstacles, const std::vector<bool>& settled) {
   const GridFrame& frame = planner_.frame();
   const auto distances = distance_transform(frame, obstacles);
   std::vector<float> costs = static_costs_;
-  for (std::size_t i = 0; i < costs.size(); ++i) {
-    if (static_cast<double>(distances[i]) <= params_.obstacle_margin)
-      costs[i] *= static_cast<float>(params_.obstacle_cost);
+  for (std::size_t i = 0; i < costs.size(); ++i) costs[i] *= obstacle_factor(static_cast<double>(distances[i]));
+  if (std::find(settled.begin(), settled.end(), true) != settled.end()) {
+    const auto to_settled = distance_transform(frame, settled);
+    const auto dear = static_cast<float>(params_.settled_cost);
+    for (std::size_t i = 0; i < costs.size(); ++i) {
+      if (static_cast<double>(to_settled[i]) > params_.obstacle_margin) continue;
+      costs[i] = params_.settled_closed ? ValueIteration::kClosed : static_costs_[i] * dear;
+    }
   }
   planner_.set_costs(costs);
   is_settled_ = false;

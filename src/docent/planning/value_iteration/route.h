@@ -21,6 +21,10 @@ struct RouteParams {
   double comfort_cost = 2.0;      ///< extra cost, as a factor, at the least clearance
   double obstacle_cost = 30.0;    ///< factor for cells that are blocked now by what is not in the map
   double obstacle_margin = 0.35;  ///< [m] round such cells
+  double obstacle_comfort = 0.9;  ///< [m] from such cells beyond which they cost nothing: a way keeps off who stands
+  double obstacle_comfort_cost = 3.0;  ///< extra cost, as a factor, at the margin
+  double settled_cost = 90.0;          ///< factor for cells where something has stood for long
+  bool settled_closed = false;         ///< such cells are closed, not dear: only a look from elsewhere frees them
   template <class V>
   void visit(V& v) {
     v("coarsening", coarsening);
@@ -31,6 +35,10 @@ struct RouteParams {
     v("comfort_cost", comfort_cost);
     v("obstacle_cost", obstacle_cost);
     v("obstacle_margin", obstacle_margin);
+    v("obstacle_comfort", obstacle_comfort);
+    v("obstacle_comfort_cost", obstacle_comfort_cost);
+    v("settled_cost", settled_cost);
+    v("settled_closed", settled_closed);
   }
   [[nodiscard]] Result<void> validate() const;
 };
@@ -44,7 +52,8 @@ class RoutePlanner {
   RoutePlanner(const OccupancyGrid& map, std::span<const Polygon> hazards, const Polygon& area, RouteParams params);
 
   /// @param obstacles  [rows * columns of frame()] true where something stands now that the map does not show
-  void set_obstacles(const std::vector<bool>& obstacles);
+  /// @param settled  likewise, those of them that have stood there for long; empty: none
+  void set_obstacles(const std::vector<bool>& obstacles, const std::vector<bool>& settled = {});
   /// Every cell within `tolerance` [m] of the goal is a goal. Clears what was planned before.
   void set_goal(Point2 goal, double tolerance);
   /// @returns true when converged
@@ -63,6 +72,7 @@ class RoutePlanner {
 
  private:
   [[nodiscard]] std::optional<CellIndex> nearest_open(Point2 in_map, double within) const;
+  [[nodiscard]] float obstacle_factor(double away) const;
   [[nodiscard]] bool sees(Point2 from, Point2 to, float most_cost) const;
 
   RouteParams params_;

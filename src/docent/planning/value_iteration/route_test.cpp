@@ -78,5 +78,56 @@ TEST(RoutePlanner, GoesRoundWhatStandsInTheWayNow) {
   EXPECT_LT(least_distance(planner.way({1, 3}), {3, 3}), 0.2);
 }
 
+/// The planner's cells along a line across the hall.
+std::vector<bool> barrier(const RoutePlanner& planner, double x, double from_y, double to_y) {
+  std::vector<bool> cells(planner.frame().size());
+  for (double y = from_y; y < to_y; y += 0.05) {
+    const CellIndex cell = planner.frame().cell_at({x, y});
+    if (planner.frame().holds(cell)) cells[planner.frame().index(cell)] = true;
+  }
+  return cells;
+}
+
+OccupancyGrid empty_hall() {
+  OccupancyGrid hall;
+  hall.frame = {120, 120, 0.05, {0, 0}};
+  hall.cells.assign(hall.frame.size(), 0);
+  return hall;
+}
+
+TEST(RoutePlanner, KeepsOffWhoStandsBesideTheWay) {
+  RouteParams close;
+  close.obstacle_comfort = close.obstacle_margin;
+  RoutePlanner indifferent{empty_hall(), {}, {}, close};
+  RoutePlanner planner{empty_hall(), {}, {}, {}};
+  for (RoutePlanner* each : {&indifferent, &planner}) {
+    std::vector<bool> obstacles(each->frame().size());
+    obstacles[each->frame().index(each->frame().cell_at({3, 3.4}))] = true;
+    each->set_obstacles(obstacles);
+    each->set_goal({5, 3}, 0.1);
+    ASSERT_TRUE(each->iterate(1000));
+  }
+  EXPECT_LT(least_distance(indifferent.way({1, 3}), {3, 3.4}), 0.55);
+  EXPECT_GT(least_distance(planner.way({1, 3}), {3, 3.4}), 0.6);
+}
+
+TEST(RoutePlanner, WhatHasStoodForLongIsDearerAndMayBeClosed) {
+  const auto cost = [](RouteParams params, bool is_settled) {
+    RoutePlanner planner{empty_hall(), {}, {}, params};
+    const auto cells = barrier(planner, 3.0, 0.0, 6.0);
+    planner.set_obstacles(cells, is_settled ? cells : std::vector<bool>{});
+    planner.set_goal({5, 3}, 0.1);
+    EXPECT_TRUE(planner.iterate(1000));
+    return planner.cost_from({1, 3});
+  };
+  const double passing = cost({}, false);
+  const double settled = cost({}, true);
+  EXPECT_GT(settled, 2.0 * passing) << "it would rather go far round";
+  EXPECT_TRUE(std::isfinite(settled)) << "but with no other way it goes there and looks";
+  RouteParams closed;
+  closed.settled_closed = true;
+  EXPECT_FALSE(std::isfinite(cost(closed, true)));
+}
+
 }  // namespace
 }  // namespace docent

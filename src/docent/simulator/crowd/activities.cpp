@@ -80,6 +80,10 @@ Point2 Crowd::desired_velocity(Person& person, const Sight& sight, double now) {
       return escorting(person, now);
     case Activity::recorded:
       return {};  // who never decides wants nothing
+    case Activity::press:
+      return pressing(person, sight, now);
+    case Activity::romp:
+      return romping(person, now);
     case Activity::stand:
       if (now >= person.until) return_to_strolling(person, now, true);
       return {};
@@ -266,6 +270,40 @@ Point2 Crowd::pushing(Person& person, const Sight& sight) const {
     return along(person.position, robot_.position + person.side * (robot_.radius + person.radius + 0.5) * left, 0.8);
   }
   return std::clamp(1.2 * sight.gap, 0.25, person.preferred_speed) * to_robot;
+}
+
+Point2 Crowd::pressing(Person& person, const Sight& sight, double now) {
+  if (now >= person.until) {
+    return_to_strolling(person, now, true);
+    return {};
+  }
+  constexpr double kComesBy = 5.0;  // [m]
+  if (!sight.in_sight || sight.away > kComesBy) return {};
+  const Point2 to_robot = (1.0 / std::max(sight.away, 0.05)) * sight.offset;
+  if (-dot(robot_.velocity, to_robot) > 0.12 && sight.gap < 0.8) return -0.8 * to_robot;  // it comes on: back
+  const Point2 place = robot_.position + (robot_.radius + person.radius - 0.02) * unit(Angle::radians(person.slot));
+  const double away = distance(person.position, place);
+  if (away < 0.03) return {};
+  return (std::clamp(1.2 * away, 0.2, 1.0) / away) * (place - person.position);
+}
+
+Point2 Crowd::romping(Person& person, double now) {
+  if (now >= person.until) {
+    return_to_strolling(person, now, false);
+    return {};
+  }
+  if (!person.has_goal || distance(person.position, person.goal) < 0.4) {
+    person.has_goal = false;
+    for (int attempt = 0; attempt < 8 && !person.has_goal; ++attempt) {
+      const Point2 goal =
+          person.home + rng_.uniform(0.0, person.ground) * unit(Angle::radians(rng_.uniform(-3.14, 3.14)));
+      if (distance(goal, person.position) < 1.0 || floor_.clearance(goal) < 0.35) continue;
+      if (!floor_.is_clear(person.position, goal, 0.2)) continue;
+      person.goal = goal;
+      person.has_goal = true;
+    }
+  }
+  return person.has_goal ? along(person.position, person.goal, person.preferred_speed) : Point2{};
 }
 
 Point2 Crowd::stepping_aside(const Person& person, const Sight& sight) const {

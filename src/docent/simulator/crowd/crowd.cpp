@@ -136,12 +136,57 @@ void Crowd::let_recorded_in(double now, const RobotView& robot) {
 }
 
 void Crowd::add_standing(std::span<const Point2> places, double until) {
+void Crowd::add_standing(std::span<const Point2> places, double until, std::optional<double> heeds) {
   for (const Point2 place : places) {
     if (floor_.clearance(place) < 0.2 || distance(place, robot_.position) < robot_.radius + 0.3) continue;
     Person person = new_person(0.0);
     person.is_extra = true;
     person.activity = Activity::stand;
     person.position = person.goal = person.progress_from = place;
+    person.until = until;
+    person.leaves_at = until + rng_.uniform(5.0, 60.0);
+    person.heeds = heeds.value_or(-1.0);
+    people_.push_back(person);
+  }
+}
+
+Point2 Crowd::place_near(Point2 centre, double within) {
+  for (int attempt = 0; attempt < 200; ++attempt) {
+    const Point2 place = centre + rng_.uniform(0.0, within) * unit(Angle::radians(rng_.uniform(-3.14, 3.14)));
+    if (floor_.clearance(place) < 0.3 || distance(place, robot_.position) < robot_.radius + 0.5) continue;
+    const bool is_taken = std::any_of(people_.begin(), people_.end(),
+                                      [&](const Person& other) { return distance(other.position, place) < 0.55; });
+    if (!is_taken) return place;
+  }
+  return centre;
+}
+
+void Crowd::add_pushers(int count, Point2 at, double heading, double until) {
+  constexpr double kHalfRing = 1.1;  // [rad] to each side
+  for (int i = 0; i < count; ++i) {
+    Person person = new_person(0.0);
+    person.is_extra = true;
+    person.activity = Activity::press;
+    const double share = count > 1 ? 2.0 * i / (count - 1) - 1.0 : 0.0;
+    person.slot = heading + std::numbers::pi + kHalfRing * share;
+    person.position = person.progress_from = place_near(at, 1.2);
+    person.until = until;
+    person.leaves_at = until + rng_.uniform(5.0, 60.0);
+    people_.push_back(person);
+  }
+}
+
+void Crowd::add_runners(int count, Point2 at, double within, double until) {
+  for (int i = 0; i < count; ++i) {
+    Person person = new_person(0.0);
+    person.is_extra = person.is_child = true;
+    person.radius = rng_.uniform(0.15, 0.18);
+    person.height = rng_.uniform(0.95, 1.35);
+    person.preferred_speed = rng_.uniform(1.4, 1.9);
+    person.activity = Activity::romp;
+    person.home = at;
+    person.ground = within;
+    person.position = person.progress_from = place_near(at, within);
     person.until = until;
     person.leaves_at = until + rng_.uniform(5.0, 60.0);
     people_.push_back(person);
@@ -257,8 +302,9 @@ void Crowd::move(std::size_t index, double dt, const RobotView& robot) {
   }
   const Point2 from_robot = next - robot.position;
   const double away = norm(from_robot);
-  const bool walks_into_it =
-      person.activity == Activity::push || (person.is_inattentive && dot(person.velocity, from_robot) < -0.2 * away);
+  const bool walks_into_it = person.activity == Activity::push || person.activity == Activity::press ||
+                             person.activity == Activity::romp ||
+                             (person.is_inattentive && dot(person.velocity, from_robot) < -0.2 * away);
   if (!walks_into_it && away > 1e-6 && away < robot.radius + person.radius + kPersonalRobotGap) {
     const double before = distance(person.position, robot.position);
     if (away < before) {

@@ -36,7 +36,13 @@ class Crowd {
   /// The robot talks until then [s]; a time in the past ends it.
   void hear_speech(double until) { speech_until_ = until; }
   /// Puts people where a scenario wants them; they stay until `until` [s], then behave as the others and leave.
-  void add_standing(std::span<const Point2> places, double until);
+  /// @param heeds  chance that one steps aside at the horn, a blast
+  void add_standing(std::span<const Point2> places, double until, std::optional<double> heeds = std::nullopt);
+  /// People wait round `at` until the robot comes within sight and 5 m, then press it towards `heading` [rad] in a half
+  /// ring, as near as they can. They give way to what comes at them, as all who push.
+  void add_pushers(int count, Point2 at, double heading, double until);
+  /// Children run about within `within` [m] of `at` and heed neither the robot nor the horn.
+  void add_runners(int count, Point2 at, double within, double until);
   /// People come and walk along with the robot until `until` [s], as near as `near` and as far as `far` [m] between the
   /// outlines, all round it but ahead; then they behave as the others and leave.
   void add_escort(int count, double near, double far, double now, double until);
@@ -64,6 +70,8 @@ class Crowd {
   };
 
   [[nodiscard]] Person new_person(double now);
+  /// A free place within `within` [m] of `centre`, apart from the others; the centre where there is none.
+  [[nodiscard]] Point2 place_near(Point2 centre, double within);
   void place_anywhere(Person& person, const RobotView& robot, bool near_robot);
   void enter(Person& person);
   void let_recorded_in(double now, const RobotView& robot);
@@ -87,6 +95,8 @@ class Crowd {
   [[nodiscard]] Point2 standing_in_the_way(Person& person, const Sight& sight, double now);
   [[nodiscard]] Point2 escorting(Person& person, double now);
   [[nodiscard]] Point2 pushing(Person& person, const Sight& sight) const;
+  [[nodiscard]] Point2 pressing(Person& person, const Sight& sight, double now);
+  [[nodiscard]] Point2 romping(Person& person, double now);
   [[nodiscard]] Point2 stepping_aside(const Person& person, const Sight& sight) const;
   [[nodiscard]] std::optional<Point2> walk_to(const Person& person, Point2 goal, double speed) const;
   [[nodiscard]] Point2 robot_ahead(double distance) const;

@@ -278,5 +278,43 @@ TEST(Crowd, APersonWithAWallBehindIsNotPushedIntoIt) {
   EXPECT_NEAR(distance(run.crowd.people()[0].position, {9.6, 3.4}), reach, 1e-6);
 }
 
+TEST(Crowd, PushersWaitAndThenPressFromTheirSide) {
+  Visit run = make_run(0, 5, robot_at(3.0, 3.0));
+  run.steps(0.1);
+  run.crowd.add_pushers(4, {8.0, 4.0}, Angle::degrees(-90.0).radians(), 60.0);
+  run.robot = robot_at(2.0, 1.0);  // 6.7 m away
+  run.steps(10.0);
+  for (const Person& person : run.crowd.people()) EXPECT_LT(distance(person.position, {8.0, 4.0}), 1.5);
+  run.robot = robot_at(7.0, 2.5);
+  run.steps(12.0);
+  int near = 0;
+  for (const Person& person : run.crowd.people()) {
+    const bool is_near = distance(person.position, run.robot.position) < run.robot.radius + person.radius + 0.3;
+    near += is_near && person.position.y > run.robot.position.y ? 1 : 0;
+  }
+  EXPECT_GE(near, 3) << "close to it, and all on the side from which they press";
+  run.steps(200.0);
+  EXPECT_TRUE(run.crowd.people().empty()) << "they leave for good";
+}
+
+TEST(Crowd, ChildrenWhoRompKeepToTheirGroundAndHeedNoHorn) {
+  Visit run = make_run(0, 6, robot_at(5.0, 5.0));
+  run.steps(0.1);
+  run.crowd.add_runners(5, {5.0, 4.5}, 2.5, 120.0);
+  double fastest = 0.0;
+  double farthest = 0.0;
+  for (int i = 0; i < 400; ++i) {
+    if (i % 50 == 0) run.crowd.hear_horn(run.now);
+    run.steps(0.1);
+    for (const Person& person : run.crowd.people()) {
+      EXPECT_EQ(person.activity, Activity::romp);
+      fastest = std::max(fastest, norm(person.velocity));
+      farthest = std::max(farthest, distance(person.position, {5.0, 4.5}));
+    }
+  }
+  EXPECT_GT(fastest, 1.3);
+  EXPECT_LT(farthest, 3.5);
+}
+
 }  // namespace
 }  // namespace docent::simulator

@@ -82,7 +82,10 @@ void Crowd::decide(std::size_t index, double now) {
     person.progress_at = now;
     if (person.activity == Activity::stroll)
       next_attraction(person, now);
-    else if (person.activity != Activity::leave && person.activity != Activity::escort)
+    else if (person.activity == Activity::romp)
+      person.has_goal = false;
+    else if (person.activity != Activity::leave && person.activity != Activity::escort &&
+             person.activity != Activity::press)
       return_to_strolling(person, now, false);
     desired = rng_.uniform(0.3, 0.8) * unit(Angle::radians(rng_.uniform(-3.14, 3.14)));
   }
@@ -103,7 +106,8 @@ void Crowd::decide(std::size_t index, double now) {
   const bool stands_firm =
       person.has_arrived &&
       (person.activity == Activity::curious || person.activity == Activity::block || person.activity == Activity::wall);
-  bool minds_robot = person.activity != Activity::push && person.activity != Activity::stand && !stands_firm &&
+  bool minds_robot = person.activity != Activity::push && person.activity != Activity::stand &&
+                     person.activity != Activity::press && person.activity != Activity::romp && !stands_firm &&
                      !(person.activity == Activity::look && person.back_turned) && sight.away < 6.0;
   if (minds_robot && person.is_inattentive) {
     const auto time = time_to_touch(sight.offset, person.velocity - robot_.velocity, robot_.radius + person.radius);
@@ -248,9 +252,12 @@ void Crowd::hear_horn(double now) {
     if (away > params_.horn_range) continue;
     const bool is_ahead = dot(from_robot, unit(Angle::radians(robot_.heading))) > 0.2 * away;
     if (!is_ahead && away > 1.5) continue;
-    const double effect = person.activity == Activity::block   ? params_.horn_effect_block
+    if (person.activity == Activity::romp) continue;
+    const double effect = person.heeds >= 0.0                  ? person.heeds
+                          : person.activity == Activity::block ? params_.horn_effect_block
                           : person.activity == Activity::wall  ? params_.horn_effect_wall
                           : person.activity == Activity::push  ? params_.horn_effect_wall
+                          : person.activity == Activity::press ? params_.horn_effect_block
                           : person.activity == Activity::stand ? params_.horn_effect_block
                                                                : params_.horn_effect;
     person.back_turned = false;

@@ -24,6 +24,8 @@ enum class Activity {
   stand,       ///< where a scenario put them
   escort,      ///< walks along with the robot in a ring that is open ahead
   recorded,    ///< walks as someone once walked before a camera, whatever the robot does
+  press,       ///< waits until the robot comes by, then presses it in one direction with others
+  romp,        ///< a child that runs about round a place and heeds nothing
 };
 
 /// One visitor. Positions in the world frame, metres and seconds.
@@ -40,13 +42,16 @@ struct Person {
   Point2 wanted{};  ///< velocity that they try to take
 
   Activity activity = Activity::stroll;
-  double until = 0.0;           ///< when it ends
-  Point2 goal{};                ///< where they want to stand; meaning depends on the activity
-  bool has_goal = false;        ///< for stroll: the spot was chosen
-  bool has_arrived = false;     ///< for those who stand in the way: reached the goal
-  int attraction = -1;          ///< index in the world's list
-  double side = 1.0;            ///< +1 left, -1 right of the robot
-  double slot = 0.0;            ///< [rad] for the escort: place in the ring, from the robot's heading
+  double until = 0.0;        ///< when it ends
+  Point2 goal{};             ///< where they want to stand; meaning depends on the activity
+  bool has_goal = false;     ///< for stroll: the spot was chosen
+  bool has_arrived = false;  ///< for those who stand in the way: reached the goal
+  int attraction = -1;       ///< index in the world's list
+  double side = 1.0;         ///< +1 left, -1 right of the robot
+  double slot = 0.0;    ///< [rad] for the escort: place in the ring, from the robot's heading; to press: in the map
+  double ground = 0.0;  ///< [m] for a child that romps: how far it runs from where it came
+  Point2 home{};        ///< where it came
+  double heeds = -1.0;  ///< chance to step aside at the horn; < 0: as its activity has it
   double keeps_distance = 1.0;  ///< [m] to the robot's outline, for followers and listeners
 
   Walk walk;  ///< for the recorded

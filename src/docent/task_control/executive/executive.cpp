@@ -26,11 +26,8 @@ std::optional<Step> step_of(const std::string& text) {
 }
 
 Result<void> ExecutiveParams::validate() const {
-  if (!is_positive(blocked_patience_s)) return fail("executive.blocked_patience_s must be > 0");
-  if (!is_positive(unreachable_patience_s)) return fail("executive.unreachable_patience_s must be > 0");
+  if (auto valid = ladder.validate(); !valid) return fail("executive." + valid.error().message);
   if (!is_positive(max_drive_s)) return fail("executive.max_drive_s must be > 0");
-  if (!is_positive(please_every_s)) return fail("executive.please_every_s must be > 0");
-  if (!(please_after_s >= 0.0)) return fail("executive.please_after_s must be >= 0");
   if (!is_positive(offer_s)) return fail("executive.offer_s must be > 0");
   if (!is_positive(resend_s)) return fail("executive.resend_s must be > 0");
   if (!is_positive(checkpoint_age_s)) return fail("executive.checkpoint_age_s must be > 0");
@@ -38,7 +35,7 @@ Result<void> ExecutiveParams::validate() const {
 }
 
 Executive::Executive(const ExecutiveParams& params, ExecutiveMemory memory, Time now)
-    : params_{params}, memory_{std::move(memory)} {
+    : params_{params}, memory_{std::move(memory)}, ladder_{params.ladder} {
   resume(now);
 }
 
@@ -86,11 +83,7 @@ bool Executive::is_speaking() const {
 void Executive::enter(Step step, Time now) {
   memory_.step = step;
   memory_.step_began = now;
-  stuck_since_.reset();
-  unreachable_since_.reset();
-  person_since_.reset();
-  please_said_.reset();
-  please_count_ = 0;
+  ladder_.restart();
   heard_.reset();
   speech_sent_.reset();
   note_.clear();
@@ -181,27 +174,15 @@ void Executive::goal_report(const GoalReport& goal, Time now) {
     arrive(now);
     return;
   }
-  const bool is_unreachable = goal.state == "unreachable";
-  if (!is_unreachable) unreachable_since_.reset();
-  if (is_unreachable && !unreachable_since_) unreachable_since_ = now;
+  const bool is_stuck = goal.state == "blocked" || goal.state == "unreachable";
   if (goal.state == "driving" || goal.state == "turning") {
-    stuck_since_.reset();
     set_note("");
-  } else if ((goal.state == "blocked" || is_unreachable) && !stuck_since_) {
-    stuck_since_ = now;
-    set_note(is_unreachable ? "I see no way there." : "Someone is in my way.");
+  } else if (is_stuck && note_.empty()) {
+    set_note(goal.state == "unreachable" ? "I see no way there." : "Someone is in my way.");
     actions_.happenings.push_back(
         {"drive_blocked", memory_.task.order.exhibit_id, goal.state + " " + goal.reason, goal.remaining_m});
   }
   watch_drive(now);
-}
-
-void Executive::obstacle_report(bool is_person, Time now) {
-  if (!is_person) {
-    person_since_.reset();
-  } else if (!person_since_) {
-    person_since_ = now;
-  }
 }
 
 void Executive::arrive(Time now) {
@@ -217,31 +198,34 @@ void Executive::arrive(Time now) {
 }
 
 void Executive::watch_drive(Time now) {
-  if (unreachable_since_ && now - *unreachable_since_ > seconds(params_.unreachable_patience_s)) {
-    finish(false, "I found no way there.", now);
-  } else if (stuck_since_ && now - *stuck_since_ > seconds(params_.blocked_patience_s)) {
-    finish(false, "The way was blocked for too long.", now);
-  } else if (now - memory_.drive_began > seconds(params_.max_drive_s)) {
+  if (now - memory_.drive_began > seconds(params_.max_drive_s)) {
     finish(false, "It took me too long to get there.", now);
-  } else {
-    ask_for_way(now);
+  } else if (goal_.id == own_id("drive")) {
+    climb_ladder(now);
   }
 }
 
-void Executive::ask_for_way(Time now) {
-  const bool is_blocked = goal_.state == "blocked" && stuck_since_;
-  const Duration patience = seconds(params_.please_after_s);
-  const bool is_due =
-      (is_blocked && now - *stuck_since_ >= patience) || (person_since_ && now - *person_since_ >= patience);
-  if (!is_due) return;
-  if (please_said_ && now - *please_said_ < seconds(params_.please_every_s)) return;
-  please_said_ = now;
-  ++please_count_;
+void Executive::climb_ladder(Time now) {
+  const bool is_unreachable = goal_.state == "unreachable";
+  const LadderView view{obstacle_.is_hindered,   obstacle_.is_unmapped,
+                        is_unreachable,          goal_.blocked_s,
+                        detour_of(goal_.detour), obstacle_.reason.empty() ? goal_.reason : obstacle_.reason};
+  auto steps = ladder_.step(view, now);
+  bool gives_up = false;
+  for (const LadderStep& step : steps) {
+    if (step.rung == Rung::ask) ask_for_way(now, step.count);
+    gives_up = gives_up || step.rung == Rung::give_up;
+  }
+  actions_.reactions_of = goal_.id;
+  actions_.reactions.insert(actions_.reactions.end(), steps.begin(), steps.end());
+  if (gives_up) finish(false, is_unreachable ? "I found no way there." : "The way was blocked for too long.", now);
+}
+
+void Executive::ask_for_way(Time now, int count) {
   // The name carries the time, so that a restarted executive does not repeat an id that was spoken already.
   say("please-" + std::to_string(std::max<std::int64_t>(0, (now - memory_.step_began).count() / 1000000)),
-      sentence(Sentence::let_me_through, memory_.task.order.language), please_count_ == 1 ? "neutral" : "sad");
-  actions_.happenings.push_back(
-      {"asked_for_way", memory_.task.order.exhibit_id, "", static_cast<double>(please_count_)});
+      sentence(Sentence::let_me_through, memory_.task.order.language), count == 1 ? "neutral" : "sad");
+  actions_.happenings.push_back({"asked_for_way", memory_.task.order.exhibit_id, "", static_cast<double>(count)});
 }
 
 void Executive::speech_report(const SpeechReport& report, Time now) {

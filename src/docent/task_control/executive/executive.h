@@ -6,27 +6,22 @@
 #include <vector>
 
 #include "docent/base/result.h"
+#include "docent/task_control/reaction_ladder/reaction_ladder.h"
 #include "docent/task_control/tour_scheduler/mission.h"
 
 namespace docent {
 
 /// Section `executive` of robot.yaml.
 struct ExecutiveParams {
-  double blocked_patience_s = 90.0;    ///< [s] > 0 without progress, then the drive has failed
-  double unreachable_patience_s = 20;  ///< [s] > 0: people may close the only way for a moment
-  double max_drive_s = 600.0;          ///< [s] > 0 under way in all
-  double please_every_s = 15.0;        ///< [s] > 0: "Please let me through" at most so often
-  double please_after_s = 4.0;         ///< [s] >= 0 blocked before it is said
-  double offer_s = 5.0;                ///< [s] > 0 to choose more or next ([Rhino1999] 5.1 (3))
-  double resend_s = 1.0;               ///< [s] > 0: an utterance is sent again until it is heard
-  double checkpoint_age_s = 900.0;     ///< [s] > 0: an older running step begins again
+  LadderParams ladder;              ///< what it does about a blocked way, and when
+  double max_drive_s = 600.0;       ///< [s] > 0 under way in all
+  double offer_s = 5.0;             ///< [s] > 0 to choose more or next ([Rhino1999] 5.1 (3))
+  double resend_s = 1.0;            ///< [s] > 0: an utterance is sent again until it is heard
+  double checkpoint_age_s = 900.0;  ///< [s] > 0: an older running step begins again
   template <class V>
   void visit(V& v) {
-    v("blocked_patience_s", blocked_patience_s);
-    v("unreachable_patience_s", unreachable_patience_s);
+    v("ladder", ladder);
     v("max_drive_s", max_drive_s);
-    v("please_every_s", please_every_s);
-    v("please_after_s", please_after_s);
     v("offer_s", offer_s);
     v("resend_s", resend_s);
     v("checkpoint_age_s", checkpoint_age_s);
@@ -66,7 +61,14 @@ struct GoalReport {
   std::string id;
   std::string state;  ///< as docent_msgs/GoalState
   double remaining_m = 0.0;
-  double blocked_s = 0.0;
+  double blocked_s = 0.0;  ///< without progress
+  std::string reason;
+  std::string detour;
+};
+/// What the collision avoidance says of the way ahead.
+struct ObstacleReport {
+  bool is_hindered = false;  ///< an obstacle in the wanted direction holds the robot up
+  bool is_unmapped = false;  ///< that obstacle is not in the map
   std::string reason;
 };
 struct Utterance {
@@ -102,9 +104,9 @@ struct TaskReport {
 ///   home:       driving -> done
 ///   relocalize: relocalizing -> done
 ///
-/// Every step has a limit, so that a dead module holds nothing up: a drive fails after its patience, a speech counts as
-/// spoken 1.5 times its foreseen length plus 5 s after it was sent, a question has its default. Deterministic; knows
-/// nothing of messages and files.
+/// A drive whose way is blocked climbs the reaction ladder. Every step has a limit, so that a dead module holds nothing
+/// up: a drive fails after its patience, a speech counts as spoken 1.5 times its foreseen length plus 5 s after it was
+/// sent, a question has its default. Deterministic; knows nothing of messages and files.
 class Executive {
  public:
   Executive(const ExecutiveParams& params, ExecutiveMemory memory, Time now);
@@ -112,8 +114,7 @@ class Executive {
   /// The task to work on. The same id again changes nothing; another one replaces the present; an empty one stops it.
   void set_task(ExecutiveTask task, Time now);
   void goal_report(const GoalReport& report, Time now);
-  /// @param is_person  something that is not in the map stands in the way just now
-  void obstacle_report(bool is_person, Time now);
+  void obstacle_report(const ObstacleReport& report) { obstacle_ = report; }
   void speech_report(const SpeechReport& report, Time now);
   void choose(const std::string& question_id, const std::string& option, Time now);
   /// Several times a second.
@@ -126,6 +127,8 @@ class Executive {
     std::vector<Utterance> utterances;
     std::optional<TaskReport> report;
     std::vector<Happening> happenings;
+    std::vector<LadderStep> reactions;  ///< to a blocked way, of the drive `reactions_of`
+    std::string reactions_of;
   };
   [[nodiscard]] Actions take_actions() { return std::exchange(actions_, {}); }
   [[nodiscard]] const ExecutiveMemory& memory() const { return memory_; }
@@ -140,9 +143,10 @@ class Executive {
   void send_speech(Time now);
   void report();
   void watch_drive(Time now);
+  void climb_ladder(Time now);
   void watch_speech(Time now);
   void arrive(Time now);
-  void ask_for_way(Time now);
+  void ask_for_way(Time now, int count);
   void set_note(const std::string& note);
   [[nodiscard]] bool is_speaking() const;
   [[nodiscard]] std::string own_id(const std::string& name) const;
@@ -155,11 +159,8 @@ class Executive {
   Actions actions_;
 
   GoalReport goal_;
-  std::optional<Time> stuck_since_;  ///< blocked or unreachable without a break since
-  std::optional<Time> unreachable_since_;
-  std::optional<Time> person_since_;
-  std::optional<Time> please_said_;
-  int please_count_ = 0;
+  ObstacleReport obstacle_;
+  ReactionLadder ladder_;
   std::optional<SpeechReport> heard_;  ///< of the present utterance
   std::optional<Time> speech_sent_;
   std::string note_;  ///< shown while driving: why it does not go on

@@ -26,6 +26,7 @@ class ExecutiveTest : public testing::Test {
     if (actions.drive) drive = actions.drive;
     if (actions.report) state = *actions.report;
     said.insert(said.end(), actions.utterances.begin(), actions.utterances.end());
+    for (const LadderStep& step : actions.reactions) rungs.push_back(step.rung);
     happenings.insert(happenings.end(), actions.happenings.begin(), actions.happenings.end());
     if (actions.must_save) saved = executive.memory();
   }
@@ -33,8 +34,10 @@ class ExecutiveTest : public testing::Test {
     executive.set_task(task, time());
     collect();
   }
+  /// What the planner says; a drive that goes on makes progress.
   void goal(const std::string& what) {
-    executive.goal_report({drive->id, what, 1.0, 0.0, ""}, time());
+    if (what != "blocked") progress_s = now_s;
+    executive.goal_report({drive->id, what, 1.0, now_s - progress_s, "", "none"}, time());
     collect();
   }
   void speech(const std::string& id, const std::string& what, double duration_s = 3.0) {
@@ -61,12 +64,14 @@ class ExecutiveTest : public testing::Test {
   }
 
   double now_s = 100.0;
+  double progress_s = 100.0;
   Executive executive{{}, {}, time_from_seconds(100.0)};
   std::optional<DriveOrder> drive;
   TaskReport state;
   ExecutiveMemory saved;
   std::vector<Utterance> said;
   std::vector<Happening> happenings;
+  std::vector<Rung> rungs;
 };
 
 TEST_F(ExecutiveTest, AVisitStepByStep) {
@@ -143,9 +148,10 @@ TEST_F(ExecutiveTest, AVoiceThatDiesInTheMiddleHoldsNothingUp) {
 TEST_F(ExecutiveTest, ABlockedWayIsAskedForAndThenGivenUp) {
   start(visit("t1"));
   said.clear();
+  goal("driving");
   for (int i = 0; i < 85; ++i) {
-    goal("blocked");
     pass(1.0);
+    goal("blocked");
   }
   EXPECT_EQ(state.state, "driving");
   EXPECT_EQ(state.reason, "Someone is in my way.");
@@ -153,27 +159,35 @@ TEST_F(ExecutiveTest, ABlockedWayIsAskedForAndThenGivenUp) {
   EXPECT_LE(said.size(), 6U) << "at most every fifteen seconds";
   for (std::size_t i = 1; i < said.size(); ++i) EXPECT_NE(said[i].id, said[i - 1].id);
   goal("driving");
+  pass(4.0);
   EXPECT_EQ(state.reason, "");
+  EXPECT_EQ(rungs.back(), Rung::free);
   for (int i = 0; i < 92; ++i) {
     if (state.state == "driving") goal("blocked");
     pass(1.0);
   }
   EXPECT_EQ(state.state, "failed");
   EXPECT_FALSE(state.reason.empty());
+  EXPECT_EQ(rungs.back(), Rung::give_up);
   EXPECT_EQ(drive->id, "") << "it stays where it is";
 }
 
-TEST_F(ExecutiveTest, APersonInTheWayIsAskedSooner) {
+TEST_F(ExecutiveTest, APersonInTheWayIsBlownAtAndAsked) {
   start(visit("t1"));
   said.clear();
   goal("driving");
-  executive.obstacle_report(true, time());
-  pass(3.0);
-  EXPECT_TRUE(said.empty());
-  pass(2.0);
+  executive.obstacle_report({true, true, "somebody is in the way"});
+  pass(1.0);
+  EXPECT_EQ(rungs, std::vector<Rung>{Rung::slow});
+  for (int i = 0; i < 8; ++i) {
+    pass(1.0);
+    goal("blocked");
+  }
+  EXPECT_EQ(std::count(rungs.begin(), rungs.end(), Rung::horn), 2);
   ASSERT_EQ(said.size(), 1U);
   EXPECT_EQ(said[0].text, "Please let me through.");
-  executive.obstacle_report(false, time());
+  executive.obstacle_report({});
+  goal("driving");
   pass(30.0);
   EXPECT_EQ(said.size(), 1U);
 }
@@ -186,16 +200,16 @@ TEST_F(ExecutiveTest, AnUnreachablePlaceFailsAfterAShortPatience) {
   }
   EXPECT_EQ(state.state, "driving");
   goal("driving");
-  for (int i = 0; i < 22 && state.state == "driving"; ++i) {
-    goal("unreachable");
+  for (int i = 0; i < 24 && state.state == "driving"; ++i) {
     pass(1.0);
+    goal("unreachable");
   }
   EXPECT_EQ(state.state, "failed");
 }
 
 TEST_F(ExecutiveTest, ReportsOfOtherGoalsDoNotCount) {
   start(visit("t1"));
-  executive.goal_report({"t0/drive", "arrived", 0.0, 0.0, ""}, time());
+  executive.goal_report({"t0/drive", "arrived", 0.0, 0.0, "", ""}, time());
   collect();
   EXPECT_EQ(state.state, "driving");
 }

@@ -1,6 +1,7 @@
 #include "docent/task_control/tour_scheduler/composition.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace docent {
@@ -11,11 +12,17 @@ Result<void> SchedulerParams::validate() const {
   if (!(hurry_after_s > 0.0)) return fail("mission.hurry_after_s must be > 0");
   if (max_attempts < 1) return fail("mission.max_attempts must be >= 1");
   if (!(retry_delay_s >= 0.0)) return fail("mission.retry_delay_s must be >= 0");
+  if (!(retry_most_s >= retry_delay_s)) return fail("mission.retry_most_s must be >= retry_delay_s");
+  if (max_stop_attempts < 1) return fail("mission.max_stop_attempts must be >= 1");
   if (!(max_detour_m >= 0.0)) return fail("mission.max_detour_m must be >= 0");
   if (!(cruise_speed > 0.0)) return fail("mission.cruise_speed must be > 0");
   if (!(stop_overhead_s >= 0.0)) return fail("mission.stop_overhead_s must be >= 0");
   if (max_skipped < 0) return fail("mission.max_skipped must be >= 0");
   return {};
+}
+
+double SchedulerParams::retry_after(int attempts) const {
+  return std::min(retry_most_s, std::ldexp(retry_delay_s, attempts - 1));
 }
 
 double stop_duration(const ProgrammeExhibit& exhibit, double way_m, const SchedulerParams& params) {

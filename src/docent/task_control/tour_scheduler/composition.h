@@ -13,8 +13,10 @@ struct SchedulerParams {
   int max_open = 40;            ///< open requests, >= 1; more are refused
   double overdue_s = 600.0;     ///< [s] > 0: who waited longer comes first
   double hurry_after_s = 120;   ///< [s] > 0: while somebody has waited longer, exhibits are shown in the short version
-  int max_attempts = 3;         ///< visits tried for a request, >= 1
-  double retry_delay_s = 45.0;  ///< [s] >= 0 between two of them
+  int max_attempts = 5;         ///< visits tried for a request, >= 1
+  double retry_delay_s = 45.0;  ///< [s] >= 0 until the second one; each wait is twice as long as the one before
+  double retry_most_s = 240.0;  ///< [s] >= retry_delay_s: but never longer
+  int max_stop_attempts = 3;    ///< visits tried for a stop of a tour, >= 1
   double max_detour_m = 4.0;    ///< [m] >= 0: what a tour goes out of its way for a single exhibit
   double cruise_speed = 0.35;   ///< [m/s] > 0: for composing tours; people in the way included
   double stop_overhead_s = 15;  ///< [s] >= 0: turning and asking at each exhibit, for composing tours
@@ -26,12 +28,16 @@ struct SchedulerParams {
     v("hurry_after_s", hurry_after_s);
     v("max_attempts", max_attempts);
     v("retry_delay_s", retry_delay_s);
+    v("retry_most_s", retry_most_s);
+    v("max_stop_attempts", max_stop_attempts);
     v("max_detour_m", max_detour_m);
     v("cruise_speed", cruise_speed);
     v("stop_overhead_s", stop_overhead_s);
     v("max_skipped", max_skipped);
   }
   [[nodiscard]] Result<void> validate() const;
+  /// [s] before a request is tried again of which so many visits failed. @pre attempts >= 1
+  [[nodiscard]] double retry_after(int attempts) const;
 };
 
 /// How long it takes to go to an exhibit and show it, in the short version [s].

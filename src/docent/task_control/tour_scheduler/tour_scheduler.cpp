@@ -176,7 +176,7 @@ void TourScheduler::finish_visit(bool is_success, const std::string& reason, Tim
       close_request(id, RequestStatus::fulfilled, "", now);
       continue;
     }
-    state_.board.count_attempt(id, now + seconds(params_.retry_delay_s));
+    state_.board.count_attempt(id, now + seconds(params_.retry_after(state_.board.find(id)->attempts + 1)));
     if (state_.board.find(id)->attempts >= params_.max_attempts) {
       close_request(id, RequestStatus::failed, reason, now);
     } else {
@@ -199,7 +199,7 @@ void TourScheduler::finish_stop(const std::string& exhibit_id, bool is_success) 
     return;
   }
   ++stop->attempts;
-  if (stop->attempts >= params_.max_attempts) {
+  if (stop->attempts >= params_.max_stop_attempts) {
     stop->status = StopStatus::skipped;
     happenings_.push_back({"plan_removed", exhibit_id, state_.tour->tour_id});
   } else {

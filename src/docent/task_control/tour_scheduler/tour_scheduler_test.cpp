@@ -127,14 +127,25 @@ TEST_F(Scheduling, AFailedVisitIsTriedAgainBehindTheOthers) {
   EXPECT_EQ(next(61), "e5");
   finish(true, 90);
   EXPECT_EQ(next(91), "") << "not before the delay is over";
+  double at = 60.0;
   for (int attempt = 2; attempt <= params.max_attempts; ++attempt) {
-    const double at = 60.0 + attempt * (params.retry_delay_s + 1.0);
+    at += params.retry_after(attempt - 1) + 1.0;
+    EXPECT_EQ(next(at - 2.0), "") << "a way that stays blocked is tried after longer and longer waits";
     EXPECT_EQ(next(at), "e1");
     finish(false, at);
   }
   EXPECT_EQ(state_of("a"), "failed");
   EXPECT_EQ(scheduler.state().board.find("a")->reason, "why");
-  EXPECT_EQ(next(1000), "");
+  EXPECT_EQ(next(10000), "");
+}
+
+TEST_F(Scheduling, APassageThatIsClosedForTenMinutesOutlastsNoRequest) {
+  double tried = 90.0;  // patience at the closed passage, every time
+  for (int attempt = 1; attempt < params.max_attempts; ++attempt) tried += params.retry_after(attempt) + 90.0;
+  EXPECT_GT(tried, 600.0 + 90.0);
+  EXPECT_EQ(params.retry_after(1), params.retry_delay_s);
+  EXPECT_EQ(params.retry_after(2), 2.0 * params.retry_delay_s);
+  EXPECT_EQ(params.retry_after(30), params.retry_most_s);
 }
 
 TEST_F(Scheduling, ATourKeepsItsOrderAndServesSinglesOnTheWay) {

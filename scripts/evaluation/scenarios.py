@@ -1,0 +1,225 @@
+"""Blocked ways, ten seeds each: what the robot must do and by when, in a small annex that is drawn for it; and crippled robots, which
+must fail. A seed draws where the robot starts, what its sensors and wheels do, and what people make of it."""
+import concurrent.futures
+import csv
+import hashlib
+import json
+import os
+import random
+import statistics
+import subprocess
+import sys
+import time
+from dataclasses import dataclass, field
+
+from evaluation.keys import key_of
+from evaluation.tables import Verdict, print_table
+
+REQUEST = 60.0  # [s] when the first wish is made, in every scenario
+POSES = {"clock": (2.8, 10.1), "globe": (15.3, 9.4), "lantern": (16.6, 5.0)}  # as in annex/museum.head.yaml
+SEEDS, CRIPPLED_SEEDS = 10, 3
+
+
+class Run:
+    """One run: its report and its events in order of time."""
+
+    def __init__(self, report, events):
+        self.report = report
+        self.events = [dict(row, time=float(row["time"]), x=float(row["x"]), y=float(row["y"])) for row in events]
+
+    def first(self, source, kind, after=0.0, about=""):
+        """Time of the first such event; None where there is none. `about`: in its subject."""
+        return next((row["time"] for row in self.events if row["source"] == source and row["kind"] == kind
+                     and row["time"] >= after and about in row["subject"]), None)
+
+    def arrived(self, exhibit):
+        """When it said to be there and truly was, within 1 m."""
+        x, y = POSES[exhibit]
+        return next((row["time"] for row in self.events if row["source"] == "event" and row["kind"] == "arrived"
+                     and row["subject"] == exhibit and (row["x"] - x) ** 2 + (row["y"] - y) ** 2 <= 1.0), None)
+
+    def blocked(self):
+        """When its way was blocked first on the way to what was asked for."""
+        times = [t for t in (self.first("reaction", kind, REQUEST) for kind in ("slow", "wait")) if t is not None]
+        return min(times) if times else None
+
+    def looks_along_the_way(self):
+        """Reactions to a blocked way, and those of them at which the head showed where the robot wants to go."""
+        rows = [row for row in self.events if row["source"] == "reaction" and row["kind"] in ("horn", "wait", "ask")]
+        return len(rows), sum(row["gaze"] == "way" for row in rows)
+
+
+def after(later, earlier):
+    return None if later is None or earlier is None else later - earlier
+
+
+@dataclass
+class Duty:
+    """What must happen, and by when."""
+    what: str
+    bound: float  # [s]
+    seconds: object  # of a Run; None: it did not happen
+
+
+@dataclass
+class Scenario:
+    minutes: float
+    duties: list
+    crippled: dict = field(default_factory=dict)  # name: settings
+
+
+BLIND = {"blind to people": ["avoid.blind_to_people=true"]}
+NO_LADDER = {"without the ladder": ["executive.ladder.active=false"]}
+
+SCENARIOS = {
+    "u-shape": Scenario(5, [
+        Duty("at the clock, after the request", 120, lambda run: after(run.arrived("clock"), REQUEST)),
+    ], {"without the live map": ["plan.ignore_live_map=true"]}),
+    "people-wall": Scenario(6, [
+        Duty("blows the horn, after the way was blocked", 8, lambda run: after(run.first("reaction", "horn", REQUEST), run.blocked())),
+        Duty("at the globe, after the way was blocked", 150, lambda run: after(run.arrived("globe"), run.blocked())),
+    ], NO_LADDER),
+    "stool": Scenario(4, [
+        Duty("at the globe, after the request", 100, lambda run: after(run.arrived("globe"), REQUEST)),
+    ], BLIND),
+    "closed-passage": Scenario(17, [
+        Duty("asks, after the way was blocked", 25, lambda run: after(run.first("reaction", "ask", REQUEST), run.blocked())),
+        Duty("gives up for now, after the way was blocked", 130,
+             lambda run: after(run.first("reaction", "give_up", REQUEST), run.blocked())),
+        Duty("shows the clock meanwhile, after its request", 240, lambda run: after(run.arrived("clock"), 80.0)),
+        Duty("at the globe, after the passage was opened", 320, lambda run: after(run.arrived("globe"), 650.0)),
+    ], NO_LADDER),
+    "staircase": Scenario(7, [
+        Duty("at the lantern, after the request", 280, lambda run: after(run.arrived("lantern"), REQUEST)),
+    ], {"hazards ignored": ["hazards.ignored=true"]}),
+    "children": Scenario(7, [
+        Duty("at the clock, after the request", 150, lambda run: after(run.arrived("clock"), REQUEST)),
+        Duty("at the globe, after its request", 250, lambda run: after(run.arrived("globe"), 100.0)),
+    ], BLIND),
+}
+
+
+class Annex:
+    """Runs in the annex, kept under a key of the program, the museum and the scenario."""
+
+    def __init__(self, docent, root, cache, jobs):
+        self.docent, self.scenarios, self.jobs = docent, root / "scripts" / "scenarios", jobs
+        self.cache = cache / "scenarios"
+        self.key = key_of(docent, self.scenarios / "annex")
+        self.museum = self.cache / f"annex-{self.key}"
+        if not (self.museum / "museum.yaml").exists():
+            self.draw()
+
+    def draw(self):
+        """Surveys the annex: the robot gets a map and hazards with the small errors that a survey has."""
+        (self.museum / "content").mkdir(parents=True, exist_ok=True)
+        world = (self.scenarios / "annex" / "simulation.yaml").read_text()
+        (self.museum / "simulation.yaml").write_text(world)
+        subprocess.run([self.docent, "survey", "--world", self.museum / "simulation.yaml", "--seed", "7", "--out", self.museum],
+                       check=True, stdout=subprocess.DEVNULL)
+        for exhibit in POSES:
+            (self.museum / "content" / f"{exhibit}.short.en.md").write_text(f"This is the {exhibit} of the annex.\n")
+        head = (self.scenarios / "annex" / "museum.head.yaml").read_text()
+        (self.museum / "museum.yaml").write_text(head + (self.museum / "hazards.yaml").read_text())
+
+    def run(self, name, seed, settings):
+        scenario = self.scenarios / f"{name}.yaml"
+        what = [self.key, scenario.read_text(), SCENARIOS[name].minutes, seed, settings]
+        path = self.cache / f"{name}-seed{seed}-{hashlib.sha256(json.dumps(what).encode()).hexdigest()[:16]}.json"
+        log = path.with_suffix(".csv")
+        if not path.exists() or not log.exists():
+            draw = random.Random(f"annex {seed}")
+            start = f"{draw.uniform(1.3, 5.0):.2f},{draw.uniform(1.5, 4.0):.2f},{draw.uniform(-180, 180):.0f}"
+            part, part_log = path.with_suffix(f".part{os.getpid()}"), path.with_suffix(f".part{os.getpid()}.csv")
+            began = time.monotonic()
+            done = subprocess.run([self.docent, "simulate", "--museum", self.museum, "--scenario", scenario, "--hours",
+                                   f"{SCENARIOS[name].minutes / 60:.6f}", "--seed", str(seed), "--crowd", "quiet", "--people", "2",
+                                   "--requests-per-hour", "0", f"--start={start}", "--report", part, "--event-log", part_log,
+                                   "--quiet", *(word for setting in settings for word in ("--set", setting))],
+                                  capture_output=True, text=True, check=False)
+            if done.returncode != 0:
+                raise RuntimeError(f"{name}, seed {seed}: docent simulate exited {done.returncode}: {done.stderr.strip()[-400:]}")
+            part_log.rename(log)
+            part.rename(path)
+            print(f"   {name} seed {seed}: {time.monotonic() - began:.0f} s", file=sys.stderr)
+        with open(log, newline="", encoding="utf-8") as file:
+            return Run(json.loads(path.read_text()), list(csv.DictReader(file)))
+
+    def runs(self, name, seeds, settings=()):
+        with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
+            return list(pool.map(lambda seed: self.run(name, seed, list(settings)), seeds))
+
+
+def contacts_of(run):
+    return sum(run.report["contacts"].values())
+
+
+def faults_of(name, run):
+    """What a run did not do in time, or did and must not."""
+    faults = [f"touched {contacts_of(run)}"] if contacts_of(run) else []
+    if run.report["area_violations"]:
+        faults.append("left its area")
+    for duty in SCENARIOS[name].duties:
+        seconds = duty.seconds(run)
+        if seconds is None or seconds > duty.bound:
+            faults.append(f"{duty.what}: {'never' if seconds is None else f'{seconds:.0f} s'}")
+    return faults
+
+
+def rows_of(name, runs):
+    rows = []
+    for duty in SCENARIOS[name].duties:
+        seen = [duty.seconds(run) for run in runs]
+        times = sorted(float("inf") if s is None else s for s in seen)
+        text = lambda s: "never" if s == float("inf") else f"{s:.0f}"
+        rows.append([name, duty.what, f"{duty.bound:g}", text(statistics.median_low(times)), text(times[-1]),
+                     f"{sum(s <= duty.bound for s in times)}/{len(times)}"])
+    return rows
+
+
+def exposure_of(name, runs):
+    blocked = [run.report["blocked"] for run in runs]
+    return [name, f"{sum(run.report['distance_m'] for run in runs) / 1000:.2f}",
+            sum(run.report["passes_within_1m"] for run in runs), sum(map(contacts_of, runs)),
+            sum(run.report["area_violations"] for run in runs), sum(run.report["bumped_by_people"] for run in runs),
+            sum(b["horn"] for b in blocked), sum(b["local_detours"] for b in blocked), sum(b["global_detours"] for b in blocked),
+            f"{sum(b['seconds'] for b in blocked):.0f}"]
+
+
+def protocol(docent, root, cache, options):
+    annex = Annex(docent, root, cache, options.jobs)
+    names = [options.part] if options.part else list(SCENARIOS)
+    count = options.seeds or (1 if options.slice else SEEDS)
+    seeds = list(range(options.first_seed, options.first_seed + count))
+    verdict = Verdict()
+    runs = {name: annex.runs(name, seeds) for name in names}
+    print(f"\n## what the robot must do, {count} seed{'s' if count > 1 else ''} each\n")
+    print_table(["scenario", "what", "by s", "median", "worst", "in time"], [row for name in names for row in rows_of(name, runs[name])])
+    print("\n## exposure\n")
+    print_table(["scenario", "km", "passes", "contacts", "area", "bumped", "horn", "local", "global", "blocked s"],
+                [exposure_of(name, runs[name]) for name in names])
+    print()
+    for name in names:
+        bad = {seed: faults for seed, run in zip(seeds, runs[name]) if (faults := faults_of(name, run))}
+        km = sum(run.report["distance_m"] for run in runs[name]) / 1000
+        verdict.want(f"{name}: all it must, nothing touched, never outside", f"{count - len(bad)} of {count} seeds, {km:.2f} km"
+                     + "".join(f"; seed {seed}: {', '.join(faults)}" for seed, faults in bad.items()), not bad)
+    looks = [run.looks_along_the_way() for name in names for run in runs[name]]
+    shown, total = sum(good for _, good in looks), sum(n for n, _ in looks)
+    verdict.want("the head shows the wanted direction at horn, wait and ask (95 %)", f"{shown} of {total}", shown >= 0.95 * total)
+    hashes = {run.report["config_hash"] for name in names for run in runs[name]}
+    verdict.want("one configuration", f"{len(hashes)}", len(hashes) == 1)
+    if not options.no_crippled:
+        judge_crippled(annex, names, seeds[:CRIPPLED_SEEDS], verdict)
+    verdict.print()
+    return verdict.good
+
+
+def judge_crippled(annex, names, seeds, verdict):
+    """Each must fail what the whole robot passes, with most of the seeds."""
+    for name in names:
+        for how, settings in SCENARIOS[name].crippled.items():
+            failed = [faults_of(name, run) for run in annex.runs(name, seeds, settings)]
+            first = next((", ".join(faults) for faults in failed if faults), "nothing")
+            verdict.want(f"{name}, crippled: {how} (must fail)", f"fails {sum(map(bool, failed))} of {len(seeds)}: {first}",
+                         2 * sum(map(bool, failed)) > len(seeds))

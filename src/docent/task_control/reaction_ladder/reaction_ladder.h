@@ -1,0 +1,114 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "docent/base/result.h"
+#include "docent/base/time.h"
+
+namespace docent {
+
+/// How long the robot waits before each step of the ladder, counted from the last progress.
+struct LadderParams {
+  bool active = true;                    ///< false: crippled, for evaluation: it stands before what is in its way
+  double horn_after_s = 1.5;             ///< [s] >= 0 behind something unmapped, without progress
+  double horn_every_s = 6.0;             ///< [s] > 0
+  double wait_after_s = 4.0;             ///< [s] > 0
+  double ask_after_s = 6.0;              ///< [s] >= wait_after_s
+  double ask_every_s = 15.0;             ///< [s] > 0
+  double patience_s = 90.0;              ///< [s] > ask_after_s without progress, then something else is chosen
+  double unreachable_patience_s = 20.0;  ///< [s] > 0: people may close the only way for a moment
+  double calm_s = 3.0;                   ///< [s] > 0 of progress until the way counts as free
+  template <class V>
+  void visit(V& v) {
+    v("active", active);
+    v("horn_after_s", horn_after_s);
+    v("horn_every_s", horn_every_s);
+    v("wait_after_s", wait_after_s);
+    v("ask_after_s", ask_after_s);
+    v("ask_every_s", ask_every_s);
+    v("patience_s", patience_s);
+    v("unreachable_patience_s", unreachable_patience_s);
+    v("calm_s", calm_s);
+  }
+  [[nodiscard]] Result<void> validate() const;
+};
+
+/// How the way differs from the one that was meant before something stood in it.
+enum class Detour { none, local, global };
+[[nodiscard]] const char* to_text(Detour detour);
+[[nodiscard]] Detour detour_of(const std::string& text);  ///< none for an unknown text
+
+/// What the ladder sees of a drive.
+struct LadderView {
+  bool is_hindered = false;         ///< an obstacle in the wanted direction holds the robot up
+  bool is_unmapped = false;         ///< and it is not in the map: likely a person
+  bool is_unreachable = false;      ///< the planner knows no way
+  double without_progress_s = 0.0;  ///< [s] along the value function
+  Detour detour = Detour::none;
+  std::string cause;  ///< what is in the way, for a person
+};
+
+enum class Rung { slow, horn, local_detour, global_detour, wait, ask, give_up, free };
+[[nodiscard]] const char* to_text(Rung rung);
+
+/// A step that is taken now.
+struct LadderStep {
+  Rung rung = Rung::slow;
+  std::string cause;
+  double after_s = 0.0;  ///< [s] since the blockage began
+  int count = 1;         ///< how often since then
+};
+
+/// What the robot does about a blocked way, step by step, each with a time constant of its own ([Rhino1999] 5.3):
+///
+///   slow            the collision avoidance holds the robot up
+///   horn            something unmapped stands there and there is no progress; again every few seconds
+///   local_detour    the way leads round it, and comes back to the one that was meant
+///   global_detour   the modified map leads another way altogether
+///   wait, ask       no way round: it stands, and says so
+///   give_up         patience is over: the mission chooses something else, and tries this again later
+///   free            it drives again
+///
+/// Detours are the planner's and the avoidance's doing; the ladder only tells of them. Deterministic; knows nothing of
+/// messages.
+class ReactionLadder {
+ public:
+  explicit ReactionLadder(const LadderParams& params) : params_{params} {}
+
+  /// Another drive: what was in the way of the last one is forgotten.
+  void restart() {
+    episode_.reset();
+    detour_ = Detour::none;
+  }
+  /// Several times a second while driving. @returns the steps that are taken now, in their order.
+  [[nodiscard]] std::vector<LadderStep> step(const LadderView& view, Time now);
+
+  [[nodiscard]] bool is_blocked() const { return episode_.has_value(); }
+
+ private:
+  /// From the first sign of a blockage until the way was free for a while.
+  struct Episode {
+    Time began;
+    std::optional<Time> unmapped_since;
+    std::optional<Time> unmapped_seen;
+    std::optional<Time> unreachable_since;
+    std::optional<Time> calm_since;
+    bool was_hindered = false;
+    bool waits = false;
+    std::map<Rung, int> counts;
+    std::map<Rung, Time> last;
+  };
+  void look(const LadderView& view, Time now);
+  void take(Rung rung, const LadderView& view, Time now, std::vector<LadderStep>& steps);
+  [[nodiscard]] bool is_due_again(Rung rung, double period_s, Time now) const;
+  void climb(const LadderView& view, Time now, std::vector<LadderStep>& steps);
+
+  LadderParams params_;
+  std::optional<Episode> episode_;
+  Detour detour_ = Detour::none;  ///< that was told
+};
+
+}  // namespace docent
