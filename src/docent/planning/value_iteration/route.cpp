@@ -15,6 +15,8 @@ Result<void> RouteParams::validate() const {
   if (!(comfort_cost >= 0.0)) return fail("comfort_cost must be >= 0");
   if (!(obstacle_cost >= 1.0)) return fail("obstacle_cost must be >= 1");
   if (!(obstacle_margin >= 0.0)) return fail("obstacle_margin must be >= 0");
+  if (!(lane_width >= 0.0)) return fail("lane_width must be >= 0");
+  if (!(lane_cost >= 0.0)) return fail("lane_cost must be >= 0");
   return {};
 }
 
@@ -60,12 +62,42 @@ RoutePlanner::RoutePlanner(const OccupancyGrid& map, std::span<const Polygon> ha
 }
 
 void RoutePlanner::set_obstacles(const std::vector<bool>& obstacles) {
-  const GridFrame& frame = planner_.frame();
-  const auto distances = distance_transform(frame, obstacles);
+  const auto distances = distance_transform(planner_.frame(), obstacles);
+  near_factors_.assign(distances.size(), 1.0F);
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    if (static_cast<double>(distances[i]) <= params_.obstacle_margin)
+      near_factors_[i] = static_cast<float>(params_.obstacle_cost);
+  }
+  apply_costs();
+}
+
+void RoutePlanner::prefer(std::span<const Point2> way) {
+  constexpr double kShoulder = 1.0;  // [m] over which the floor beside the lane becomes dear
+  lane_factors_.clear();
+  if (!way.empty()) {
+    const GridFrame& frame = planner_.frame();
+    std::vector<bool> on_way(frame.size(), false);
+    for (std::size_t i = 0; i < way.size(); ++i) {
+      const Point2 from = way[i == 0 ? 0 : i - 1];
+      const int pieces = std::max(1, static_cast<int>(std::ceil(2.0 * distance(from, way[i]) / frame.resolution)));
+      for (int piece = 1; piece <= pieces; ++piece) {
+        const CellIndex cell = frame.cell_at(from + (static_cast<double>(piece) / pieces) * (way[i] - from));
+        if (frame.holds(cell)) on_way[frame.index(cell)] = true;
+      }
+    }
+    for (const float off : distance_transform(frame, on_way)) {
+      const double beside = std::clamp((static_cast<double>(off) - 0.5 * params_.lane_width) / kShoulder, 0.0, 1.0);
+      lane_factors_.push_back(static_cast<float>(1.0 + params_.lane_cost * beside));
+    }
+  }
+  apply_costs();
+}
+
+void RoutePlanner::apply_costs() {
   std::vector<float> costs = static_costs_;
   for (std::size_t i = 0; i < costs.size(); ++i) {
-    if (static_cast<double>(distances[i]) <= params_.obstacle_margin)
-      costs[i] *= static_cast<float>(params_.obstacle_cost);
+    if (!lane_factors_.empty()) costs[i] *= lane_factors_[i];
+    if (!near_factors_.empty()) costs[i] *= near_factors_[i];
   }
   planner_.set_costs(costs);
   is_settled_ = false;

@@ -21,6 +21,8 @@ struct RouteParams {
   double comfort_cost = 2.0;      ///< extra cost, as a factor, at the least clearance
   double obstacle_cost = 30.0;    ///< factor for cells that are blocked now by what is not in the map
   double obstacle_margin = 0.35;  ///< [m] round such cells
+  double lane_width = 0.6;        ///< [m] of the lane round a preferred way
+  double lane_cost = 2.0;         ///< extra cost, as a factor, a metre and more beside the lane
   template <class V>
   void visit(V& v) {
     v("coarsening", coarsening);
@@ -31,6 +33,8 @@ struct RouteParams {
     v("comfort_cost", comfort_cost);
     v("obstacle_cost", obstacle_cost);
     v("obstacle_margin", obstacle_margin);
+    v("lane_width", lane_width);
+    v("lane_cost", lane_cost);
   }
   [[nodiscard]] Result<void> validate() const;
 };
@@ -45,6 +49,9 @@ class RoutePlanner {
 
   /// @param obstacles  [rows * columns of frame()] true where something stands now that the map does not show
   void set_obstacles(const std::vector<bool>& obstacles);
+  /// From now on the robot would rather go along this line of points (map): floor beside it is dearer. For ways that
+  /// another planner found; what is closed stays closed, and obstacles are driven round. Empty: no preference.
+  void prefer(std::span<const Point2> way);
   /// Every cell within `tolerance` [m] of the goal is a goal. Clears what was planned before.
   void set_goal(Point2 goal, double tolerance);
   /// @returns true when converged
@@ -58,6 +65,9 @@ class RoutePlanner {
   [[nodiscard]] bool is_closed(Point2 in_map) const;
   [[nodiscard]] const GridFrame& frame() const { return planner_.frame(); }
   [[nodiscard]] const ValueIteration& values() const { return planner_; }
+  /// [rows * columns of frame()] costs of cells in metres of free floor, without obstacles and preferences; infinity:
+  /// closed.
+  [[nodiscard]] std::span<const float> static_costs() const { return static_costs_; }
   /// Cost of the way from `start` in metres of free floor; infinity where there is none.
   [[nodiscard]] double cost_from(Point2 start) const;
 
@@ -68,7 +78,11 @@ class RoutePlanner {
   RouteParams params_;
   ValueIteration planner_;
   bool is_settled_ = false;
+  void apply_costs();
+
   std::vector<float> static_costs_;  ///< [rows * columns]
+  std::vector<float> lane_factors_;  ///< [rows * columns] of a preferred way, >= 1; empty: none
+  std::vector<float> near_factors_;  ///< [rows * columns] of obstacles, >= 1; empty: none
 };
 
 }  // namespace docent
