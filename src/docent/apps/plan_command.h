@@ -6,7 +6,7 @@ class App;
 
 namespace docent {
 
-/// `docent plan --map MAP.yaml --from X,Y --to X,Y`
+/// `docent plan --map MAP.yaml | --museum FOLDER --from X,Y --to X,Y [--coastal WEIGHT]`
 void add_plan_command(CLI::App& app);
 
 }  // namespace docent

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <memory>
 
+#include "docent/apps/arguments.h"
 #include "docent/apps/command.h"
 #include "docent/apps/deployment.h"
 #include "docent/apps/replay_run.h"
@@ -20,6 +21,7 @@ struct Options {
   ReplayOptions replay;
   Deployment deployment;
   std::string report;
+  std::string start;
   bool check = false;
 };
 
@@ -43,6 +45,7 @@ void replay_recording(Options& options) {
   const bool shows_progress = isatty(STDERR_FILENO) != 0;
   if (shows_progress) options.replay.progress = [](double share) { std::fprintf(stderr, "\r%3.0f %%", 100.0 * share); };
   options.replay.seed = options.deployment.seed;
+  if (!options.start.empty()) options.replay.start = parse_pose("--start", options.start);
   const ReplayOutcome outcome = value_or_fail(replay(museum, config, options.replay));
   if (shows_progress) std::fputc('\n', stderr);
 
@@ -88,6 +91,7 @@ void add_replay_command(CLI::App& app) {
   command->add_option("--robot", options->deployment.robot, "robot.yaml of the robot; without it all defaults");
   command->add_option("--set", options->deployment.settings, "section.key=value, over robot.yaml; may be repeated")
       ->allow_extra_args(false);
+  command->add_option("--start", options->start, "X,Y,DEG: where localize is told that the robot stands at the start");
   command->add_option("--seed", options->deployment.seed, "Seed of everything random")->capture_default_str();
   command->add_option("--out", options->replay.out, "MCAP file to write: what happened this time");
   command->add_option("--report", options->report, "JSON file to write: the deployment report of this time");

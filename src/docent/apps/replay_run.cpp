@@ -11,6 +11,8 @@
 #include "docent/apps/recorded_voice.h"
 #include "docent/evaluation/claim_log.h"
 #include "docent/evaluation/deployment_evaluator.h"
+#include "docent/localization/belief/checkpoint.h"
+#include "docent/messages/conversions.h"
 #include "docent/modules/module_host.h"
 #include "docent/recording/recorder.h"
 #include "docent/transport/virtual_time_bus.h"
@@ -140,6 +142,26 @@ Result<std::vector<const ModuleEntry*>> chosen_modules(const std::vector<std::st
   return chosen;
 }
 
+/// Leaves in the state what a localizer leaves that knew its place: `start`, to a few centimetres and degrees, where
+/// the recording's odometry begins.
+Result<void> tell_start(McapReader& reader, const Museum& museum, const Pose2& start, Time first,
+                        const std::filesystem::path& state) {
+  constexpr double kPosition = 0.05;  // [m]
+  constexpr double kHeading = 0.03;   // [rad]
+  std::optional<Pose2> odom_from_robot;
+  McapReader::Selection odometry;
+  odometry.topics = {std::string{"/"} + topics::kOdometry.name};
+  const auto read = read_recording(reader, odometry, [&](const RecordedMessage& message) {
+    odom_from_robot = from_message(message.as(topics::kOdometry)->pose.pose);
+    return false;
+  });
+  if (!read) return tl::unexpected<Error>(read.error());
+  if (!odom_from_robot) return fail("--start: the recording holds no odometry");
+  BeliefMode mode{start, {}, 1.0};
+  mode.covariance = {kPosition * kPosition, 0.0, 0.0, 0.0, kPosition * kPosition, 0.0, 0.0, 0.0, kHeading * kHeading};
+  return save_localizer_checkpoint({map_hash(museum.map), first, *odom_from_robot, {mode}}, state / "localize.yaml");
+}
+
 }  // namespace
 
 Result<ReplayOutcome> replay(const Museum& museum, const RobotConfig& config, const ReplayOptions& options) {
@@ -162,6 +184,10 @@ Result<ReplayOutcome> replay(const Museum& museum, const RobotConfig& config, co
   ReplayOutcome outcome;
   outcome.seconds = to_seconds(extent->last - extent->first);
   const TemporaryState state;
+  if (options.start) {
+    if (auto told = tell_start(*reader, museum, *options.start, extent->first, state.path()); !told)
+      return tl::unexpected<Error>(told.error());
+  }
   VirtualTimeHub hub;
   hub.run_until(extent->first);
   DeploymentEvaluator evaluator;

@@ -9,6 +9,7 @@
 
 #include "docent/base/result.h"
 #include "docent/evaluation/deployment_report.h"
+#include "docent/geometry/pose2.h"
 #include "docent/museum/museum.h"
 #include "docent/robot/robot_config.h"
 
@@ -19,6 +20,7 @@ struct ReplayOptions {
   std::vector<std::string> modules;  ///< empty: all that decide something (not record, web, sound)
   std::string out;                   ///< MCAP file of what happened this time; empty: none
   std::string claims;                ///< CSV file of every belief beside the truth; empty: none
+  std::optional<Pose2> start;        ///< map_from_robot, told to localize at the first odometry; empty: unknown
   std::uint64_t seed = 1;
   std::function<void(double share)> progress;  ///< may be empty
 };

@@ -5,6 +5,7 @@
 
 #include "docent/mapping/occupancy/live_map.h"
 #include "docent/modules/pose_tracker.h"
+#include "docent/planning/coastal/coastal_planner.h"
 #include "docent/planning/exploration/look_around.h"
 #include "docent/planning/exploration/tell_apart.h"
 #include "docent/planning/pursuit/pursuit.h"
@@ -14,10 +15,13 @@ namespace docent {
 namespace {
 
 constexpr Duration kPeriod = std::chrono::milliseconds{200};
-constexpr int kSweepsAStep = 40;    ///< any-time: so many sweeps of the bounding box between two targets
-constexpr int kClearances = 180;    ///< directions, every 2 degrees
-constexpr int kStepsAPath = 5;      ///< the page sees the path at 1 Hz
-constexpr double kLookAhead = 1.5;  ///< [m] along the way: where the head looks
+constexpr int kSweepsAStep = 40;      ///< any-time: so many sweeps of the bounding box between two targets
+constexpr int kCoastSweepsAStep = 2;  ///< of the coastal planner, which has more to do in one
+constexpr int kCoastCoarsening = 2;   ///< its cell = so many planning cells
+constexpr double kOffCoast = 2.0;     ///< [m] beside its way, from where it looks for another
+constexpr int kClearances = 180;      ///< directions, every 2 degrees
+constexpr int kStepsAPath = 5;        ///< the page sees the path at 1 Hz
+constexpr double kLookAhead = 1.5;    ///< [m] along the way: where the head looks
 constexpr Duration kBeliefStaleAfter = std::chrono::seconds{3};
 
 struct PlanParams {
@@ -26,7 +30,8 @@ struct PlanParams {
   TellApartParams tell_apart;
   bool ignore_live_map =
       false;           ///< crippled, for evaluation: plans as if nothing stood there that the map does not show
-  bool active = true;  ///< lost: drives to where its hypotheses are told apart; else it only looks round
+  CoastalParams coastal;
+  bool active = true;           ///< lost: drives to where its hypotheses are told apart; else it only looks round
   double goal_tolerance = 0.2;  ///< [m] cells so near to the goal are goals
   template <class V>
   void visit(V& v) {
@@ -34,6 +39,7 @@ struct PlanParams {
     v("pursuit", pursuit);
     v("tell_apart", tell_apart);
     v("ignore_live_map", ignore_live_map);
+    v("coastal", coastal);
     v("active", active);
     v("goal_tolerance", goal_tolerance);
   }
@@ -41,6 +47,7 @@ struct PlanParams {
     if (!(goal_tolerance >= 0.0)) return fail("goal_tolerance must be >= 0");
     if (auto valid = route.validate(); !valid) return valid;
     if (auto valid = tell_apart.validate(); !valid) return valid;
+    if (auto valid = coastal.validate(); !valid) return fail("coastal." + valid.error().message);
     return pursuit.validate();
   }
 };
@@ -69,6 +76,9 @@ class PlanModule final : public Module {
     static_cells_ = coarse.cells;
     obstacles_.assign(route_.frame().size(), false);
     settled_.assign(route_.frame().size(), false);
+    if (params.coastal.weight > 0.0)
+      coastal_.emplace(context.museum.map, CoastalFloor::of(route_.frame(), route_.static_costs(), kCoastCoarsening),
+                       params.coastal);
 
     bus_.subscribe<docent_msgs::Belief>(topics::kBelief, [this](const auto& belief) {
       pose_.on_belief(belief);
@@ -105,6 +115,7 @@ class PlanModule final : public Module {
     if (goal.relocalize) look_around_.start(bus_.now());
     if (!goal.id.empty() && !goal.relocalize) {
       route_.set_obstacles(obstacles_, settled_);
+      seek_coast({goal.x, goal.y});
       route_.set_goal({goal.x, goal.y}, params_.goal_tolerance);
     }
     step();
@@ -143,12 +154,34 @@ class PlanModule final : public Module {
       changed_ = false;
       route_.set_obstacles(obstacles_, settled_);
     }
+    if (!goal_.id.empty()) follow_coast();
     if (!goal_.id.empty()) route_.iterate(kSweepsAStep);
     const bool knows = pose_.localized() && now - pose_.belief_stamp() < kBeliefStaleAfter;
     const Pursuit pursuit = pursuit_.step(knows ? pose_.map_from_base() : std::nullopt, route_, now);
     publish_target(pursuit, now);
     publish_state(pursuit);
     if (step_count_++ % kStepsAPath == 0) publish_path(pursuit, now);
+  }
+
+  /// The coastal planner begins; until it has a way the robot takes the shortest.
+  void seek_coast(Point2 goal) {
+    if (!coastal_) return;
+    coast_.clear();
+    route_.prefer({});
+    coastal_->set_goal(goal, params_.goal_tolerance);
+  }
+
+  /// Any-time, like the route: when the values have settled, or the robot has been driven off, the way is taken anew.
+  void follow_coast() {
+    if (!coastal_ || hypotheses_.empty()) return;
+    const bool was_settled = coastal_->is_settled();
+    const auto here = pose_.map_from_base();
+    if (!coastal_->iterate(kCoastSweepsAStep) || !here) return;
+    const bool is_off = std::none_of(coast_.begin(), coast_.end(),
+                                     [&](Point2 point) { return distance(point, here->position()) < kOffCoast; });
+    if (was_settled && !(is_off && !coast_.empty())) return;
+    coast_ = coastal_->way(here->position(), coastal_->uncertainty().variance_of(hypotheses_.front().covariance));
+    route_.prefer(coast_);
   }
 
   void step_relocalize(Time now) {
@@ -284,6 +317,8 @@ class PlanModule final : public Module {
   Bus& bus_;
   PlanParams params_;
   RoutePlanner route_;
+  std::optional<CoastalPlanner> coastal_;  ///< with `coastal.weight` alone
+  std::vector<Point2> coast_;              ///< [m], map: its way; empty: none yet
   GoalPursuit pursuit_;
   LookAround look_around_;
   TellApart tell_apart_;

@@ -22,6 +22,11 @@ class Instruments {
   Instruments(Bus& bus, const World& world, const Rng& rng);
 
   void change_world(const World& world);
+  /// Both lasers look no farther than `range` [m] from now on.
+  void limit_reach(double range) {
+    front_.limit_reach(range);
+    rear_.limit_reach(range);
+  }
   void set_fault(const SensorFault& fault, Time now);
 
   /// The odometry makes a step, in the base's frame, that the base does not: at once, or in equal parts [s] long.

@@ -60,13 +60,14 @@ class EventReader {
     if (kind == "runners") return runners(body);
     if (kind == "escort") return escort(body);
     if (kind == "steering") return steering(body);
+    if (kind == "lasers") return lasers(body);
     if (kind == "request") return wish(body);
     if (kind == "kill") return kill(body);
     if (kind == "second_mode") return second_mode(body);
     if (kind == "odometry_jump") return odometry_jump(body);
     fault(kind_at_,
           "unknown kind '" + kind +
-              "' (known: kidnap, fault, stool, closed, pose_error, visitors, pushers, runners, escort, steering, request, kill, "
+              "' (known: kidnap, fault, stool, closed, pose_error, visitors, pushers, runners, escort, steering, lasers, request, kill, "
               "second_mode, odometry_jump)");
   }
 
@@ -312,7 +313,20 @@ class EventReader {
   }
   [[nodiscard]] Steering steering(const YAML::Node& node) const {
     Steering event;
-    fields(node, {{"speed", into(event.speed, 0.05, 1.7)}, {"for", into(event.duration, 0.0, kLongest)}}, {});
+    fields(node,
+           {{"speed", into(event.speed, 0.05, 1.7)},
+            {"for", into(event.duration, 0.0, kLongest)},
+            {"way",
+             [&](const YAML::Node& at) {
+               if (!at.IsSequence() || at.size() == 0) fault(at, "expected a list of points [[x, y], …]");
+               for (const auto& place : at) event.way.push_back(point(place));
+             }}},
+           {});
+    return event;
+  }
+  [[nodiscard]] LaserReach lasers(const YAML::Node& node) const {
+    LaserReach event;
+    fields(node, {{"reach", into(event.range, 0.5, 10.0)}}, {"reach"});
     return event;
   }
   [[nodiscard]] Wish wish(const YAML::Node& node) const {

@@ -96,8 +96,13 @@ struct Escort {
 };
 /// Someone walks the robot through the museum by hand: its own commands do nothing meanwhile.
 struct Steering {
-  double speed = 0.5;     ///< [m/s]
-  double duration = 0.0;  ///< [s]; 0: to the end
+  double speed = 0.5;       ///< [m/s]
+  double duration = 0.0;    ///< [s]; 0: to the end
+  std::vector<Point2> way;  ///< along these points, there to stand; empty: from one random place to the next
+};
+/// From now on both lasers are of a kind that does not look so far.
+struct LaserReach {
+  double range = 10.0;  ///< [m]
 };
 struct Wish {
   std::string kind = "exhibit";  ///< exhibit or tour
@@ -113,7 +118,7 @@ struct Kill {
 
 struct ScenarioEvent {
   double at = 0.0;  ///< [s] since the start
-  std::variant<Kidnap, SensorFault, Stool, ClosedPassage, PoseError, Visitors, Pushers, Runners, Escort, Steering, Wish, Kill, SecondMode,
+  std::variant<Kidnap, SensorFault, Stool, ClosedPassage, PoseError, Visitors, Pushers, Runners, Escort, Steering, LaserReach, Wish, Kill, SecondMode,
                OdometryJump>
       what;
 };
@@ -124,7 +129,7 @@ struct Scenario {
 };
 
 /// Reads `events:`, a list of `{at: SECONDS, KIND: {...}}` with KIND one of kidnap, fault, stool, closed, pose_error,
-/// visitors, pushers, runners, escort, steering, request, kill, second_mode, odometry_jump. Error: "FILE:LINE: ...".
+/// visitors, pushers, runners, escort, steering, lasers, request, kill, second_mode, odometry_jump. Error: "FILE:LINE: ...".
 [[nodiscard]] Result<Scenario> load_scenario(const std::filesystem::path& path);
 [[nodiscard]] Result<Scenario> parse_scenario(const std::string& text, const std::string& name);
 

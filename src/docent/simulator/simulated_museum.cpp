@@ -394,9 +394,13 @@ class SimulatedMuseum::Impl {
     offer("escort", std::to_string(event.count));
   }
   void play(const Steering& event) {
-    steersman_.emplace(world_, event.speed, rng_.stream("steersman"));
+    steersman_.emplace(world_, event.speed, rng_.stream("steersman"), event.way);
     steered_until_ = event.duration > 0.0 ? run_seconds() + event.duration : 0.0;
     offer("steering", "");
+  }
+  void play(const LaserReach& event) {
+    instruments_.limit_reach(event.range);
+    offer("lasers", "");
   }
   void play(const Wish& event) { visitors_.ask(time_, event); }
   void play(const OdometryJump& event) {

@@ -9,6 +9,8 @@ namespace docent::simulator {
 namespace {
 
 constexpr double kArrived = 0.6;      // [m]
+constexpr double kAhead = 0.5;        // [m] to the point of a given way that is walked to
+constexpr double kThere = 0.15;       // [m] from the end of a given way
 constexpr double kPatience = 6.0;     // [s] without getting anywhere, then another goal
 constexpr double kTurn = 0.7;         // [rad/s] at most
 constexpr double kClearOfWall = 0.1;  // [m] between the outline and what stands there
@@ -23,22 +25,34 @@ void Steersman::choose_goal(double now, Point2 from, const WalkableFloor& floor)
   if (goal_) field_ = floor.field_to(*goal_, 0.4);
 }
 
-Steersman::Command Steersman::steer(double now, const Pose2& world_from_base, double robot_radius,
-                                    std::span<const Disc> people, const WalkableFloor& floor) {
-  const Point2 here = world_from_base.position();
+std::optional<Point2> Steersman::heading_for(double now, Point2 here, double robot_radius, const WalkableFloor& floor) {
+  if (!way_.empty()) return along_way(here);
   if (distance(here, progress_from_) > 0.3) {
     progress_from_ = here;
     progress_at_ = now;
   }
   if (!goal_ || distance(here, *goal_) < kArrived || now - progress_at_ > kPatience) choose_goal(now, here, floor);
-  if (!goal_) return {};
+  if (!goal_) return std::nullopt;
   const auto way = floor.direction(field_, here, robot_radius + kClearOfWall);
-  if (!way) {
-    goal_.reset();
-    return {};
-  }
-  // Away from walls by as much as is missing to a comfortable clearance.
-  const double missing = std::max(0.0, 0.6 - floor.clearance(here));
+  if (!way) goal_.reset();
+  return way;
+}
+
+std::optional<Point2> Steersman::along_way(Point2 here) {
+  while (next_ + 1 < way_.size() && distance(here, way_[next_]) < kAhead) ++next_;
+  const double off = distance(here, way_[next_]);
+  if (next_ + 1 == way_.size() && off < kThere) return std::nullopt;
+  return (1.0 / off) * (way_[next_] - here);
+}
+
+Steersman::Command Steersman::steer(double now, const Pose2& world_from_base, double robot_radius,
+                                    std::span<const Disc> people, const WalkableFloor& floor) {
+  const Point2 here = world_from_base.position();
+  const auto way = heading_for(now, here, robot_radius, floor);
+  if (!way) return {};
+  // Away from walls by as much as is missing to a comfortable clearance; on a given way, to a bare one.
+  const double comfort = way_.empty() ? 0.6 : robot_radius + kClearOfWall;
+  const double missing = std::max(0.0, comfort - floor.clearance(here));
   const Point2 wanted = *way + (1.2 * missing) * floor.away_from_walls(here);
   const Angle error = Angle::radians(std::atan2(wanted.y, wanted.x)) - world_from_base.theta;
   Command command;
@@ -62,7 +76,7 @@ Steersman::Command Steersman::steer(double now, const Pose2& world_from_base, do
     const Polygon& area = world_->operating_area;
     if (area.size() < 3 || contains(area, there)) continue;
     command.linear = 0.0;
-    if (contains(area, here) && now - progress_at_ > 2.0) goal_.reset();
+    if (way_.empty() && contains(area, here) && now - progress_at_ > 2.0) goal_.reset();
   }
   return command;
 }

@@ -2,6 +2,8 @@
 
 #include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "docent/base/random.h"
 #include "docent/geometry/pose2.h"
@@ -10,8 +12,8 @@
 
 namespace docent::simulator {
 
-/// Someone who walks the robot through the museum by hand, from one random place to the next, and sees everything: for
-/// recordings in which the robot's own knowledge must not decide where it goes.
+/// Someone who walks the robot through the museum by hand, from one random place to the next or along a given way, and
+/// sees everything: for recordings in which the robot's own knowledge must not decide where it goes.
 class Steersman {
  public:
   struct Command {
@@ -20,18 +22,26 @@ class Steersman {
   };
 
   /// `speed` [m/s] on free floor. `world` must outlive it.
-  Steersman(const World& world, double speed, Rng rng) : world_{&world}, speed_{speed}, rng_{rng} {}
+  /// `way` [m], world: not empty: along these points, and at the last one the robot is let stand.
+  Steersman(const World& world, double speed, Rng rng, std::vector<Point2> way = {})
+      : world_{&world}, speed_{speed}, rng_{rng}, way_{std::move(way)} {}
 
   /// 10 Hz. `now` [s]; `robot_radius` [m]. O(people); a new goal O(cells log cells).
   [[nodiscard]] Command steer(double now, const Pose2& world_from_base, double robot_radius,
                               std::span<const Disc> people, const WalkableFloor& floor);
 
  private:
+  /// Where to walk now; nullopt: nowhere.
+  [[nodiscard]] std::optional<Point2> heading_for(double now, Point2 here, double robot_radius,
+                                                  const WalkableFloor& floor);
+  [[nodiscard]] std::optional<Point2> along_way(Point2 here);
   void choose_goal(double now, Point2 from, const WalkableFloor& floor);
 
   const World* world_;
   double speed_;
   Rng rng_;
+  std::vector<Point2> way_;
+  std::size_t next_ = 0;  ///< of way_: the first point that has not been passed
   std::optional<Point2> goal_;
   FlowField field_;
   Point2 progress_from_{};

@@ -18,6 +18,8 @@ Result<void> RouteParams::validate() const {
   if (!(obstacle_comfort >= obstacle_margin)) return fail("obstacle_comfort must be >= obstacle_margin");
   if (!(obstacle_comfort_cost >= 0.0)) return fail("obstacle_comfort_cost must be >= 0");
   if (!(settled_cost >= obstacle_cost)) return fail("settled_cost must be >= obstacle_cost");
+  if (!(lane_width >= 0.0)) return fail("lane_width must be >= 0");
+  if (!(lane_cost >= 0.0)) return fail("lane_cost must be >= 0");
   return {};
 }
 
@@ -73,15 +75,46 @@ float RoutePlanner::obstacle_factor(double away) const {
 void RoutePlanner::set_obstacles(const std::vector<bool>& obstacles, const std::vector<bool>& settled) {
   const GridFrame& frame = planner_.frame();
   const auto distances = distance_transform(frame, obstacles);
-  std::vector<float> costs = static_costs_;
-  for (std::size_t i = 0; i < costs.size(); ++i) costs[i] *= obstacle_factor(static_cast<double>(distances[i]));
+  near_factors_.resize(distances.size());
+  for (std::size_t i = 0; i < distances.size(); ++i)
+    near_factors_[i] = obstacle_factor(static_cast<double>(distances[i]));
   if (std::find(settled.begin(), settled.end(), true) != settled.end()) {
     const auto to_settled = distance_transform(frame, settled);
-    const auto dear = static_cast<float>(params_.settled_cost);
-    for (std::size_t i = 0; i < costs.size(); ++i) {
-      if (static_cast<double>(to_settled[i]) > params_.obstacle_margin) continue;
-      costs[i] = params_.settled_closed ? ValueIteration::kClosed : static_costs_[i] * dear;
+    const float dear = params_.settled_closed ? ValueIteration::kClosed : static_cast<float>(params_.settled_cost);
+    for (std::size_t i = 0; i < near_factors_.size(); ++i) {
+      if (static_cast<double>(to_settled[i]) <= params_.obstacle_margin) near_factors_[i] = dear;
     }
+  }
+  apply_costs();
+}
+
+void RoutePlanner::prefer(std::span<const Point2> way) {
+  constexpr double kShoulder = 1.0;  // [m] over which the floor beside the lane becomes dear
+  lane_factors_.clear();
+  if (!way.empty()) {
+    const GridFrame& frame = planner_.frame();
+    std::vector<bool> on_way(frame.size(), false);
+    for (std::size_t i = 0; i < way.size(); ++i) {
+      const Point2 from = way[i == 0 ? 0 : i - 1];
+      const int pieces = std::max(1, static_cast<int>(std::ceil(2.0 * distance(from, way[i]) / frame.resolution)));
+      for (int piece = 1; piece <= pieces; ++piece) {
+        const CellIndex cell = frame.cell_at(from + (static_cast<double>(piece) / pieces) * (way[i] - from));
+        if (frame.holds(cell)) on_way[frame.index(cell)] = true;
+      }
+    }
+    for (const float off : distance_transform(frame, on_way)) {
+      const double beside = std::clamp((static_cast<double>(off) - 0.5 * params_.lane_width) / kShoulder, 0.0, 1.0);
+      lane_factors_.push_back(static_cast<float>(1.0 + params_.lane_cost * beside));
+    }
+  }
+  apply_costs();
+}
+
+void RoutePlanner::apply_costs() {
+  std::vector<float> costs = static_costs_;
+  for (std::size_t i = 0; i < costs.size(); ++i) {
+    if (!lane_factors_.empty()) costs[i] *= lane_factors_[i];
+    if (!near_factors_.empty()) costs[i] *= near_factors_[i];
   }
   planner_.set_costs(costs);
   is_settled_ = false;

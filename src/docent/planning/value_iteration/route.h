@@ -25,6 +25,8 @@ struct RouteParams {
   double obstacle_comfort_cost = 3.0;  ///< extra cost, as a factor, at the margin
   double settled_cost = 90.0;          ///< factor for cells where something has stood for long
   bool settled_closed = false;         ///< such cells are closed, not dear: only a look from elsewhere frees them
+  double lane_width = 0.6;        ///< [m] of the lane round a preferred way
+  double lane_cost = 2.0;         ///< extra cost, as a factor, a metre and more beside the lane
   template <class V>
   void visit(V& v) {
     v("coarsening", coarsening);
@@ -39,6 +41,8 @@ struct RouteParams {
     v("obstacle_comfort_cost", obstacle_comfort_cost);
     v("settled_cost", settled_cost);
     v("settled_closed", settled_closed);
+    v("lane_width", lane_width);
+    v("lane_cost", lane_cost);
   }
   [[nodiscard]] Result<void> validate() const;
 };
@@ -54,6 +58,9 @@ class RoutePlanner {
   /// @param obstacles  [rows * columns of frame()] true where something stands now that the map does not show
   /// @param settled  likewise, those of them that have stood there for long; empty: none
   void set_obstacles(const std::vector<bool>& obstacles, const std::vector<bool>& settled = {});
+  /// From now on the robot would rather go along this line of points (map): floor beside it is dearer. For ways that
+  /// another planner found; what is closed stays closed, and obstacles are driven round. Empty: no preference.
+  void prefer(std::span<const Point2> way);
   /// Every cell within `tolerance` [m] of the goal is a goal. Clears what was planned before.
   void set_goal(Point2 goal, double tolerance);
   /// @returns true when converged
@@ -67,6 +74,9 @@ class RoutePlanner {
   [[nodiscard]] bool is_closed(Point2 in_map) const;
   [[nodiscard]] const GridFrame& frame() const { return planner_.frame(); }
   [[nodiscard]] const ValueIteration& values() const { return planner_; }
+  /// [rows * columns of frame()] costs of cells in metres of free floor, without obstacles and preferences; infinity:
+  /// closed.
+  [[nodiscard]] std::span<const float> static_costs() const { return static_costs_; }
   /// Cost of the way from `start` in metres of free floor; infinity where there is none.
   [[nodiscard]] double cost_from(Point2 start) const;
 
@@ -78,7 +88,11 @@ class RoutePlanner {
   RouteParams params_;
   ValueIteration planner_;
   bool is_settled_ = false;
+  void apply_costs();
+
   std::vector<float> static_costs_;  ///< [rows * columns]
+  std::vector<float> lane_factors_;  ///< [rows * columns] of a preferred way, >= 1; empty: none
+  std::vector<float> near_factors_;  ///< [rows * columns] of obstacles, >= 1; empty: none
 };
 
 }  // namespace docent

@@ -13,6 +13,11 @@ LaserScanner::LaserScanner(const LaserParams& params, const Pose2& base_from_nom
   base_from_scanner_ = base_from_nominal * error;
 }
 
+void LaserScanner::limit_reach(double range) {
+  params_.noise_far = params_.noise_near + (params_.noise_far - params_.noise_near) * range / params_.max_range;
+  params_.max_range = range;
+}
+
 double LaserScanner::measure(double ideal, double neighbour) {
   const double max = params_.max_range;
   double range = ideal;

@@ -46,6 +46,9 @@ class LaserScanner {
   /// Takes one scan. @param people  those who may be met; any order. O(beams * cells + people).
   [[nodiscard]] const Sweep& sweep(const RayCaster& walls, std::span<const Disc> people, const Pose2& world_from_base);
 
+  /// A scanner that looks no farther than `range` [m]; the noise at a distance stays what it is there.
+  void limit_reach(double range);
+
   [[nodiscard]] const LaserParams& params() const { return params_; }
   [[nodiscard]] const Pose2& base_from_scanner() const { return base_from_scanner_; }
 

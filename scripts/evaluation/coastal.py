@@ -1,0 +1,166 @@
+"""Coastal against shortest ways [Minerva2000, 5.2 and Fig. 12]: the same start and goal, the same crowd, the real localizer.
+
+For each pair of places, drawn evenly over the Smithsonian's floor, and each reach of the lasers, `docent plan` makes both
+ways. The robot is walked along each of them amid an escort that hides about 60 % of the beams; what its sensors measured
+is replayed through `localize`, which is told the start. What counts is the belief when the robot arrives.
+"""
+import json
+import math
+import os
+import random
+import statistics
+import threading
+
+from evaluation.claims import error_m, is_lost, mean, read_claims
+
+MUSEUM = "smithsonian"
+LOW, HIGH = (0.9, 0.9), (64.1, 39.1)  # [m] the museum's area lies inside
+LEAST_WAY = 15.0  # [m] as the crow flies
+REACHES = [10.0, 4.0, 2.5]  # [m] of today's laser, and of what a dense crowd or a sensor of 1998 leaves of it
+ESCORT = "{count: 20, near: 0.4, far: 1.4}"
+BLOCKED, BLOCKED_WITHIN = 0.60, 0.08
+WEIGHT = 0.2  # [1/nat]
+SPEED = 0.5  # [m/s]
+ARRIVED = 0.5  # [m]
+KINDS = ["shortest", "coastal"]
+
+
+class Runs:
+    """Ways and claims, kept under a key of everything that decides them."""
+
+    def __init__(self, bench, weight):
+        self.bench, self.weight = bench, weight
+        self.museum = bench.museums / MUSEUM
+
+    def kept(self, kind, what, make):
+        path = self.bench.path(MUSEUM, kind, what)
+        if not path.exists():
+            part = path.with_suffix(f".part{os.getpid()}-{threading.get_ident()}")
+            make(part)
+            part.rename(path)
+        return path
+
+    def ways(self, start, goal, reach):
+        """Both ways, as `docent plan` writes them; None where the robot cannot be."""
+        def make(part):
+            try:
+                self.bench.run([self.bench.docent, "plan", "--museum", self.museum, "--from", "%.2f,%.2f" % start, "--to",
+                                "%.2f,%.2f" % goal, "--coastal", str(self.weight), "--range", str(reach), "--blocked",
+                                str(BLOCKED), "--ways", part])
+            except RuntimeError as error:
+                if "no room for the robot" not in str(error) and "no way from" not in str(error):
+                    raise
+                part.write_text("null")
+        return json.loads(self.kept("ways.json", ["ways", start, goal, reach, self.weight], make).read_text())
+
+    def pair(self, number):
+        """Two places that the robot can drive between; the same for every reach."""
+        draw = random.Random(7000 + number)
+        while True:
+            start, goal = (tuple(round(draw.uniform(LOW[i], HIGH[i]), 2) for i in (0, 1)) for _ in range(2))
+            if math.dist(start, goal) >= LEAST_WAY and self.ways(start, goal, REACHES[0]):
+                return start, goal
+
+    def claims(self, number, reach, way):
+        """What the robot said on its way, from the start's heading on."""
+        points = way["points"]
+        towards = points[min(3, len(points) - 1)]
+        start = "%.3f,%.3f,%.1f" % (*points[0], math.degrees(math.atan2(towards[1] - points[0][1], towards[0] - points[0][0])))
+        seconds = 20.0 + way["length_m"] / (0.7 * SPEED)
+        events = ["events:", f"  - {{at: 0, escort: {ESCORT}}}"]
+        if reach < 10.0:
+            events.append(f"  - {{at: 0, lasers: {{reach: {reach}}}}}")
+        events.append(f"  - {{at: 4, steering: {{speed: {SPEED}, way: {json.dumps(points[1:])}}}}}")
+
+        def make(part):
+            scenario, record = part.with_suffix(part.suffix + ".yaml"), part.with_suffix(part.suffix + ".mcap")
+            scenario.write_text("\n".join(events) + "\n")
+            self.bench.run([self.bench.docent, "simulate", "--museum", self.museum, "--hours", f"{seconds / 3600:.6f}", "--seed",
+                            str(9000 + number), "--crowd", "quiet", "--start", start, "--scenario", scenario, "--world-only",
+                            "--record", record, "--quiet"])
+            self.bench.run([self.bench.docent, "replay", record, "--museum", self.museum, "--modules", "localize", "--start",
+                            start, "--set", f"localize.sensor.max_range={reach}", "--claims", part,
+                            *(word for setting in self.bench.settings for word in ("--set", setting))])
+            scenario.unlink()
+            record.unlink()
+        return read_claims(self.kept("coast.csv", [number, events, start, seconds, self.bench.settings], make))
+
+    def run(self, number, reach, kind):
+        way = self.ways(*self.pair(number), reach)[kind]
+        rows = self.claims(number, reach, way)
+        goal = way["points"][-1]
+        arrival = next((i for i, row in enumerate(rows) if math.dist((row["true_x"], row["true_y"]), goal) < ARRIVED), None)
+        driven = rows[:len(rows) if arrival is None else arrival + 1]
+        last = driven[-1]
+        return {"arrived": arrival is not None, "entropy": last["entropy"], "error": error_m(last), "lost": is_lost(last),
+                "was_lost": mean(map(is_lost, driven)), "blocked": mean(row["blocked"] for row in driven),
+                "metres": last["distance"], "planned": way["length_m"], "foretold": way["entropy_at_goal"],
+                "way_entropy": mean(row["entropy"] for row in driven)}
+
+
+def interval(values):
+    """Mean and half the width of its 95 % interval."""
+    half = 1.96 * statistics.stdev(values) / math.sqrt(len(values)) if len(values) > 1 else float("inf")
+    return mean(values), half
+
+
+def correlation(a, b):
+    try:
+        return statistics.correlation(a, b)
+    except statistics.StatisticsError:
+        return float("nan")
+
+
+def evaluate(bench, verdict, print_table, count, reaches, weight):
+    runs = Runs(bench, weight)
+    print(f"\n## {MUSEUM}, {count} pairs of places, an escort of 20, weight {weight:g}\n")
+    bench.each([lambda n=n: runs.pair(n) for n in range(count)])
+    rows, paired = [], []
+    for reach in reaches:
+        jobs = [lambda n=n, k=kind: runs.run(n, reach, k) for n in range(count) for kind in KINDS]
+        results = bench.each(jobs)
+        of_kind = {kind: results[i::2] for i, kind in enumerate(KINDS)}
+        both = [(s, c) for s, c in zip(of_kind["shortest"], of_kind["coastal"]) if s["arrived"] and c["arrived"]]
+        ratio = mean(c["metres"] / s["metres"] for s, c in both)
+        for i, kind in enumerate(KINDS):
+            found = [pair[i] for pair in both]
+            errors = sorted(run["error"] for run in found)
+            rows.append([f"{reach:g}", kind, len(found), f"{100 * mean(run['blocked'] for run in found):.0f}",
+                         f"{mean(run['entropy'] for run in found):.2f}",
+                         f"{statistics.stdev(run['entropy'] for run in found):.2f}" if len(found) > 1 else "-",
+                         f"{mean(run['foretold'] for run in found):.2f}", f"{100 * mean(errors):.1f}",
+                         f"{100 * statistics.stdev(errors):.1f}" if len(errors) > 1 else "-",
+                         f"{100 * errors[int(0.95 * len(errors))]:.0f}", f"{100 * mean(run['lost'] for run in found):.0f}",
+                         f"{100 * mean(run['was_lost'] for run in found):.1f}",
+                         f"{mean(run['metres'] for run in found):.1f}", f"{ratio:.2f}" if kind == "coastal" else "1"])
+        fall, half = interval([c["entropy"] - s["entropy"] for s, c in both])
+        nearer, width = interval([c["error"] - s["error"] for s, c in both])
+        fewer, span = interval([float(c["lost"]) - float(s["lost"]) for s, c in both])
+        lower = sum(c["entropy"] < s["entropy"] for s, c in both)
+        said = correlation([c["foretold"] - s["foretold"] for s, c in both], [c["entropy"] - s["entropy"] for s, c in both])
+        paired.append([f"{reach:g}", len(both), f"{fall:+.2f} ± {half:.2f}", f"{lower} of {len(both)}",
+                       f"{100 * nearer:+.1f} ± {100 * width:.1f}", f"{100 * fewer:+.0f} ± {100 * span:.0f}", f"{said:.2f}"])
+        name = f"lasers of {reach:g} m"
+        arrived = [run["arrived"] for run in results]
+        blocked = mean(run["blocked"] for run in results)
+        verdict.want(f"{name}: walked to the goal, at least 90 %", f"{100 * mean(arrived):.0f} % of {len(arrived)} runs",
+                     mean(arrived) >= 0.9)
+        verdict.want(f"{name}: {100 * BLOCKED:.0f} % of the beams blocked, within {100 * BLOCKED_WITHIN:.0f}",
+                     f"{100 * blocked:.0f} %", abs(blocked - BLOCKED) <= BLOCKED_WITHIN)
+        if reach < 10.0:
+            verdict.want(f"{name}: entropy at the goal lower by the coast (95 %)", f"{fall:+.2f} ± {half:.2f} nat",
+                         fall + half < 0.0)
+            verdict.want(f"{name}: error at the goal lower by the coast (95 %)", f"{100 * nearer:+.1f} ± {100 * width:.1f} cm",
+                         nearer + width < 0.0)
+            verdict.want(f"{name}: lost at the goal no more often by the coast", f"{100 * fewer:+.0f} ± {100 * span:.0f} %",
+                         fewer <= 0.0)
+        else:
+            # A laser that looks all round and far, in a museum full of walls: there is little to win, and nothing may be lost.
+            verdict.want(f"{name}: entropy at the goal not higher by the coast (95 %)", f"{fall:+.2f} ± {half:.2f} nat",
+                         fall - half <= 0.0)
+            verdict.want(f"{name}: lost at the goal no more often by the coast", f"{100 * fewer:+.0f} ± {100 * span:.0f} %",
+                         fewer <= 0.0)
+    print_table(["reach m", "way", "runs", "blocked %", "entropy nat", "sd", "foretold", "error cm", "sd", "95 %", "lost %",
+                 "lost on the way %", "driven m", "ratio"], rows)
+    print("\nThe coast less the shortest way, pair by pair, with 95 % intervals:\n")
+    print_table(["reach m", "pairs", "entropy nat", "lower in", "error cm", "lost %", "correlation with what was foretold"], paired)
