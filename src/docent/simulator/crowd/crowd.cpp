@@ -67,6 +67,7 @@ Person Crowd::new_person(double now) {
   person.leaves_at = now + rng_.uniform(params_.stay_min, params_.stay_max);
   person.bored_until = now + rng_.uniform(0.0, 40.0);
   person.progress_at = now;
+  person.ignores_robot = params_.ignoring_share > 0.0 && rng_.chance(params_.ignoring_share);
   return person;
 }
 
@@ -157,6 +158,7 @@ void Crowd::sort_into_cells() {
 }
 
 void Crowd::step(double now, double dt, const RobotView& robot) {
+  now_ = now;
   seen_[seen_count_++ % seen_.size()] = robot;
   const auto delay = std::min(static_cast<std::size_t>(params_.reaction_time / kSimulationStep),
                               std::min(seen_count_, seen_.size()) - 1);
@@ -202,8 +204,8 @@ void Crowd::move(std::size_t index, double dt, const RobotView& robot) {
   }
   const Point2 from_robot = next - robot.position;
   const double away = norm(from_robot);
-  const bool walks_into_it =
-      person.activity == Activity::push || (person.is_inattentive && dot(person.velocity, from_robot) < -0.2 * away);
+  const bool walks_into_it = person.activity == Activity::push || ignores_robot(person) ||
+                             (person.is_inattentive && dot(person.velocity, from_robot) < -0.2 * away);
   if (!walks_into_it && away > 1e-6 && away < robot.radius + person.radius + kPersonalRobotGap) {
     const double before = distance(person.position, robot.position);
     if (away < before) {
@@ -237,7 +239,9 @@ double Crowd::give_way(std::size_t index, Point2 robot, double reach) {
   const Point2 place = robot + reach * outward;
   const double inward = std::min(0.0, dot(person.velocity, outward));
   person.velocity = person.velocity - inward * outward;
-  person.is_inattentive = false;  // that was noticed
+  person.is_inattentive = false;      // that was noticed
+  constexpr double kRemembers = 3.0;  // [s]
+  person.bumped_until = now_ + kRemembers;
   if (floor_.clearance(place) < std::min({person.radius, kWallGap, floor_.clearance(person.position)})) {
     return reach - away;
   }

@@ -91,6 +91,9 @@ class Crowd {
   [[nodiscard]] std::size_t count_of(Activity activity) const;
   void draw_people_near(double now);
   void move(std::size_t index, double dt, const RobotView& robot);
+  [[nodiscard]] bool ignores_robot(const Person& person) const {
+    return person.ignores_robot && now_ >= person.bumped_until;
+  }
 
   World world_;
   CrowdParams params_;
@@ -104,6 +107,7 @@ class Crowd {
   std::uint32_t next_id_ = 0;
   int next_group_left_ = 0;  ///< members that the newest group still lacks
   std::uint64_t steps_ = 0;
+  double now_ = 0.0;  ///< [s] of the last step
   double speech_until_ = -1.0;
 
   std::array<RobotView, 32> seen_{};  ///< ring of what there was to see
