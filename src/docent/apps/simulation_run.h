@@ -30,11 +30,11 @@ struct SimulationRunOptions {
   std::string claims;               ///< CSV file of every belief beside the truth; empty: none
   std::string health_log;           ///< CSV file of what the modules said of themselves; empty: none
   std::string event_log;            ///< CSV file of what happened and where the robot was then; empty: none
-  std::string drive_log;   ///< CSV file of how it drives beside what avoid says; empty: none
-  std::string people_log;  ///< CSV file of tracked people beside the true ones; empty: none
-  std::string state;       ///< folder; empty: a temporary one that goes with the run
-  bool hosts_web = false;  ///< the page too
-  bool has_robot = true;   ///< false: the world and the robot's body alone, no module
+  std::string drive_log;            ///< CSV file of how it drives beside what avoid says; empty: none
+  std::string people_log;           ///< CSV file of tracked people beside the true ones; empty: none
+  std::string state;                ///< folder; empty: a temporary one that goes with the run
+  bool hosts_web = false;           ///< the page too
+  bool has_robot = true;            ///< false: the world and the robot's body alone, no module
 };
 
 /// The whole robot and its museum in one process in virtual time: simulator, modules, evaluation. One thread,

@@ -11,8 +11,8 @@ namespace docent {
 
 namespace {
 
-constexpr double kLeastReach = 3.5;       // [m] obstacles farther away do not matter to a slow robot within one cycle
-constexpr double kFastWalk = 1.5;         // [m/s] of who may come towards the robot
+constexpr double kLeastReach = 3.5;    // [m] obstacles farther away do not matter to a slow robot within one cycle
+constexpr double kFastWalk = 1.5;      // [m/s] of who may come towards the robot
 constexpr double kNearlyAll = 0.9;     // of a sweep's readings: the sensor is covered or has failed
 constexpr double kManyMissing = 0.35;  // of a sweep's readings
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -24,6 +24,9 @@ Result<void> AvoiderParams::validate() const {
   if (!(lookahead >= 0.3 && lookahead <= 5.0)) return fail("avoid.lookahead must lie between 0.3 and 5 m");
   if (!(lookahead_time >= 0.0 && lookahead_time <= 5.0)) return fail("avoid.lookahead_time must lie in 0..5 s");
   if (auto valid = people.validate(); !valid) return valid;
+  if (auto valid = crowd.validate(); !valid) return valid;
+  if (method != "crowd_fit" && method != "cautious_window" && method != "dynamic_window")
+    return fail("avoid.method must be crowd_fit, cautious_window or dynamic_window");
   if (!(arrival_deceleration > 0.0)) return fail("avoid.arrival_deceleration must be > 0 m/s2");
   if (!(target_timeout > 0.0 && virtual_timeout > 0.0)) return fail("avoid: timeouts must be > 0 s");
   return {};
@@ -34,6 +37,7 @@ Avoider::Avoider(const BaseLimits& limits, const AvoiderParams& params, std::siz
       params_{params},
       laser_count_{laser_count},
       window_{limits, params.window},
+      crowd_{limits, params.crowd},
       max_speed_{std::min(0.7, limits.max_speed)},
       sweep_freshness_(laser_count),
       odometry_watch_{limits} {}
@@ -147,6 +151,10 @@ std::vector<Obstacle> Avoider::obstacles_from(const Pose2& odom_from_base, Time 
     for (const auto& point : memory_.points(when)) {
       const Point2 at = base_from_odom * point.in_odom;
       if (norm(at) > reach) continue;
+      if (params_.method == "dynamic_window") {  // where they are now
+        result.push_back({at, {}, params_.window.real_margin, point.person, false});
+        continue;
+      }
       const bool moves = point.velocity != Point2{};
       bool person = point.person;
       if (person && judged && !moves) {  // what the map explains is no person
@@ -302,6 +310,24 @@ void Avoider::cap_by_surroundings(std::span<const Obstacle> obstacles, double be
   }
 }
 
+Steering Avoider::steering_for(const Carrot& ahead, const BaseState& start, std::span<const Obstacle> obstacles,
+                               AvoiderDecision& decision) {
+  Steering steering;
+  steering.bearing = std::atan2(ahead.in_base.y, ahead.in_base.x);
+  steering.distance = norm(ahead.in_base);
+  if (params_.method == "dynamic_window") return steering;
+  if (params_.method == "crowd_fit") {
+    const CrowdAdvice advice = crowd_.steer(start, obstacles, target_->via, decision.speed_cap);
+    steering.bearing = advice.bearing;
+    steering.distance = std::max(steering.distance, 1.0);
+    cap_speed(advice.speed, "people are in the way", decision);
+  } else {
+    steering.bearing = steer_around(ahead.in_base, start.odom_from_base, obstacles);
+  }
+  cap_by_surroundings(obstacles, steering.bearing, decision);
+  return steering;
+}
+
 void Avoider::judge_blocking(Time now, Point2 carrot, const Pose2& odom_from_base, std::span<const Obstacle> obstacles,
                              AvoiderDecision& decision) const {
   const double bearing = std::atan2(carrot.y, carrot.x);
@@ -340,6 +366,7 @@ AvoiderDecision Avoider::stand(Time now, AvoiderDecision decision, std::string r
   decision.state = AvoiderDecision::State::stopped;
   decision.reason = std::move(reason);
   steered_in_odom_.reset();
+  crowd_.forget();
   return finish(now, std::move(decision));
 }
 
@@ -382,9 +409,7 @@ AvoiderDecision Avoider::decide(Time now) {
       cap_speed(std::max(0.08, std::sqrt(2.0 * params_.arrival_deceleration * rest)), "", decision);
     }
     cap_by_knowledge(now, decision);
-    steering.bearing = steer_around(ahead.in_base, start.odom_from_base, obstacles);
-    steering.distance = norm(ahead.in_base);
-    cap_by_surroundings(obstacles, steering.bearing, decision);
+    steering = steering_for(ahead, start, obstacles, decision);
     // Sharp turns slowly, and on the spot when the way lies behind.
     const double turn = std::abs(steering.bearing);
     cap_speed(max_speed_ * std::clamp(1.35 - turn / 1.1, 0.0, 1.0), "", decision);

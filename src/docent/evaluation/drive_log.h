@@ -12,8 +12,8 @@ namespace docent {
 
 /// How the robot truly drives beside what `avoid` says of it, as CSV with a row for every true state (10 Hz): time [s]
 /// since the first truth; true x, y [m], heading [deg], speed [m/s] and turn rate [rad/s]; distance driven [m];
-/// contacts, bumps by people and area violations so far; room to the nearest person and to the nearest solid [m]; avoid's state, speed cap [m/s]
-/// and reason (commas in it become semicolons).
+/// contacts, bumps by people and area violations so far; room to the nearest person and to the nearest solid [m];
+/// avoid's state, speed cap [m/s] and reason (commas in it become semicolons).
 class DriveLog {
  public:
   /// Topics that do not matter are passed over.

@@ -29,7 +29,7 @@ struct PlanParams {
   PursuitParams pursuit;
   TellApartParams tell_apart;
   bool ignore_live_map =
-      false;           ///< crippled, for evaluation: plans as if nothing stood there that the map does not show
+      false;  ///< crippled, for evaluation: plans as if nothing stood there that the map does not show
   CoastalParams coastal;
   bool active = true;           ///< lost: drives to where its hypotheses are told apart; else it only looks round
   double goal_tolerance = 0.2;  ///< [m] cells so near to the goal are goals

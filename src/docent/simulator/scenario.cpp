@@ -65,10 +65,10 @@ class EventReader {
     if (kind == "kill") return kill(body);
     if (kind == "second_mode") return second_mode(body);
     if (kind == "odometry_jump") return odometry_jump(body);
-    fault(kind_at_,
-          "unknown kind '" + kind +
-              "' (known: kidnap, fault, stool, closed, pose_error, visitors, pushers, runners, escort, steering, lasers, request, kill, "
-              "second_mode, odometry_jump)");
+    fault(kind_at_, "unknown kind '" + kind +
+                        "' (known: kidnap, fault, stool, closed, pose_error, visitors, pushers, runners, escort, "
+                        "steering, lasers, request, kill, "
+                        "second_mode, odometry_jump)");
   }
 
   [[nodiscard]] double number(const YAML::Node& node, double low, double high) const {

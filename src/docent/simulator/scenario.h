@@ -118,8 +118,8 @@ struct Kill {
 
 struct ScenarioEvent {
   double at = 0.0;  ///< [s] since the start
-  std::variant<Kidnap, SensorFault, Stool, ClosedPassage, PoseError, Visitors, Pushers, Runners, Escort, Steering, LaserReach, Wish, Kill, SecondMode,
-               OdometryJump>
+  std::variant<Kidnap, SensorFault, Stool, ClosedPassage, PoseError, Visitors, Pushers, Runners, Escort, Steering,
+               LaserReach, Wish, Kill, SecondMode, OdometryJump>
       what;
 };
 
@@ -129,7 +129,8 @@ struct Scenario {
 };
 
 /// Reads `events:`, a list of `{at: SECONDS, KIND: {...}}` with KIND one of kidnap, fault, stool, closed, pose_error,
-/// visitors, pushers, runners, escort, steering, lasers, request, kill, second_mode, odometry_jump. Error: "FILE:LINE: ...".
+/// visitors, pushers, runners, escort, steering, lasers, request, kill, second_mode, odometry_jump. Error: "FILE:LINE:
+/// ...".
 [[nodiscard]] Result<Scenario> load_scenario(const std::filesystem::path& path);
 [[nodiscard]] Result<Scenario> parse_scenario(const std::string& text, const std::string& name);
 

@@ -25,8 +25,8 @@ struct RouteParams {
   double obstacle_comfort_cost = 3.0;  ///< extra cost, as a factor, at the margin
   double settled_cost = 90.0;          ///< factor for cells where something has stood for long
   bool settled_closed = false;         ///< such cells are closed, not dear: only a look from elsewhere frees them
-  double lane_width = 0.6;        ///< [m] of the lane round a preferred way
-  double lane_cost = 2.0;         ///< extra cost, as a factor, a metre and more beside the lane
+  double lane_width = 0.6;             ///< [m] of the lane round a preferred way
+  double lane_cost = 2.0;              ///< extra cost, as a factor, a metre and more beside the lane
   template <class V>
   void visit(V& v) {
     v("coarsening", coarsening);

@@ -36,8 +36,9 @@ Point2 Crowd::desired_velocity(Person& person, const Sight& sight, double now) {
         return {};
       }
       // Back to the spot once nothing drives them off it.
-      return distance(person.position, person.goal) > 0.5 && sight.gap > 1.0 ? along(person.position, person.goal, 0.5)
-                                                                             : Point2{};
+      return distance(person.position, person.goal) > 0.5 && (sight.gap > 1.0 || person.ignores_robot)
+                 ? along(person.position, person.goal, 0.5)
+                 : Point2{};
     case Activity::run: {
       if (now >= person.until) {
         return_to_strolling(person, now, false);

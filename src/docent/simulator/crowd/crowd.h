@@ -105,6 +105,9 @@ class Crowd {
   void draw_people_near(double now);
   void move(std::size_t index, double dt, const RobotView& robot);
   void follow_track(Person& person, double now, double dt) const;
+  [[nodiscard]] bool ignores_robot(const Person& person) const {
+    return person.ignores_robot && now_ >= person.bumped_until;
+  }
 
   World world_;
   CrowdParams params_;
@@ -120,6 +123,7 @@ class Crowd {
   std::uint32_t next_id_ = 0;
   int next_group_left_ = 0;  ///< members that the newest group still lacks
   std::uint64_t steps_ = 0;
+  double now_ = 0.0;  ///< [s] of the last step
   double speech_until_ = -1.0;
 
   std::array<RobotView, 32> seen_{};  ///< ring of what there was to see

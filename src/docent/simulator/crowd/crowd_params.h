@@ -30,10 +30,11 @@ struct CrowdParams {
   double horn_effect_block = 0.3;
   double horn_reward = 0.15;  ///< chance to come back and have it blow again
 
-  double acceleration = 2.5;   ///< [m/s^2]
-  double braking = 3.0;        ///< [m/s^2]
-  double reaction_time = 0.3;  ///< [s] they see the robot as it was so long ago, carried forward
-  double near_share = 0.0;     ///< of all people, kept within 5 m of the robot; packed: 0.25
+  double acceleration = 2.5;    ///< [m/s^2]
+  double braking = 3.0;         ///< [m/s^2]
+  double reaction_time = 0.3;   ///< [s] they see the robot as it was so long ago, carried forward
+  double ignoring_share = 0.0;  ///< of all people: walk and stand as if no robot were there, until they touch it
+  double near_share = 0.0;      ///< of all people, kept within 5 m of the robot; packed: 0.25
 };
 
 }  // namespace docent::simulator

@@ -106,8 +106,9 @@ void Crowd::decide(std::size_t index, double now) {
   const bool stands_firm =
       person.has_arrived &&
       (person.activity == Activity::curious || person.activity == Activity::block || person.activity == Activity::wall);
-  bool minds_robot = person.activity != Activity::push && person.activity != Activity::stand &&
-                     person.activity != Activity::press && person.activity != Activity::romp && !stands_firm &&
+  bool minds_robot = !ignores_robot(person) && person.activity != Activity::push &&
+                     person.activity != Activity::stand && person.activity != Activity::press &&
+                     person.activity != Activity::romp && !stands_firm &&
                      !(person.activity == Activity::look && person.back_turned) && sight.away < 6.0;
   if (minds_robot && person.is_inattentive) {
     const auto time = time_to_touch(sight.offset, person.velocity - robot_.velocity, robot_.radius + person.radius);
@@ -174,7 +175,8 @@ void Crowd::take_interest(std::size_t index, const Sight& sight, double now) {
     person.until = now + rng_.uniform(5.0, 12.0);
     person.has_goal = false;
   }
-  if (now < person.bored_until || !sight.in_sight || sight.away > params_.interest_range) return;
+  if (person.ignores_robot || now < person.bored_until || !sight.in_sight || sight.away > params_.interest_range)
+    return;
   if (speech_until_ > now && person.activity != Activity::run) {
     // Once a person and talk: the first decision after it began.
     if (rng_.chance(params_.listen_share)) {
@@ -249,7 +251,7 @@ void Crowd::hear_horn(double now) {
     if (person.activity == Activity::recorded) continue;
     const Point2 from_robot = person.position - robot_.position;
     const double away = norm(from_robot);
-    if (away > params_.horn_range) continue;
+    if (away > params_.horn_range || person.ignores_robot) continue;
     const bool is_ahead = dot(from_robot, unit(Angle::radians(robot_.heading))) > 0.2 * away;
     if (!is_ahead && away > 1.5) continue;
     if (person.activity == Activity::romp) continue;

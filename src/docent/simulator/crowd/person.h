@@ -60,6 +60,8 @@ struct Person {
   double bored_until = 0.0;  ///< takes no interest in the robot before
   double attention_until = 0.0;
   bool is_inattentive = false;  ///< notices the robot late
+  bool ignores_robot = false;   ///< walks and stands as if it were not there
+  double bumped_until = 0.0;    ///< who ignored it and touched it minds it until then
   bool back_turned = false;     ///< while looking at an exhibit: does not notice it at all
   double reacts_at = std::numeric_limits<double>::infinity();  ///< begins to step aside
   Point2 progress_from{};

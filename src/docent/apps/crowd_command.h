@@ -1,0 +1,12 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace docent {
+
+/// `docent crowd --seed N --density 0.8 --ignoring 0.5 --method crowd_fit`
+void add_crowd_command(CLI::App& app);
+
+}  // namespace docent

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "docent/base/result.h"
+#include "docent/evaluation/social_score.h"
+#include "docent/geometry/pose2.h"
+#include "docent/pictures/image.h"
+#include "docent/simulator/hall/hall.h"
+
+namespace docent {
+
+struct CrowdTrialOptions {
+  std::uint64_t seed = 1;  ///< of the hall, its crowd and the sensors' noise; never of the method
+  double density = 0.8;    ///< [1/m2] persons a square metre of free floor
+  double ignoring = 0.5;   ///< share who walk and stand as if no robot were there
+  double settle_s = 30.0;  ///< the crowd takes its places before the robot has a goal
+  double limit_s = 120.0;  ///< then the trial is over
+  double max_speed = 0.7;  ///< [m/s] open mode
+  double goal_radius = 0.6;
+  std::vector<std::string> settings;  ///< section.key=value over robot.yaml's defaults
+};
+
+struct CrowdTrialOutcome {
+  SocialReport report;
+  int people = 0;
+  double free_area = 0.0;  ///< [m2]
+  double walking = 0.0;    ///< share of the people who moved faster than 0.2 m/s, mean over the trial
+  int horns = 0;
+  std::string config_hash;
+  simulator::Hall hall;
+  /// Once a second, and at the end.
+  struct Moment {
+    double time = 0.0;
+    Pose2 robot;
+    double speed = 0.0;
+    std::string reason;  ///< why it is slow, as it says itself
+    std::vector<docent_msgs::TruePerson> people;
+  };
+  std::vector<Moment> moments;
+};
+
+/// One crossing of a crowded hall: the modules `avoid` and `robot` as they are, with the simulated lasers, sonars and
+/// odometry, and a courier in the planner's place that leads along the straight way to the goal by odometry alone.
+/// Nothing of the robot's sees the truth; the score does. Deterministic.
+[[nodiscard]] Result<CrowdTrialOutcome> run_crowd_trial(const CrowdTrialOptions& options);
+
+/// The hall at the end of a trial, the way driven (a dot a second, redder where it stood), the people there.
+[[nodiscard]] Image draw_crowd_trial(const CrowdTrialOutcome& outcome);
+
+}  // namespace docent

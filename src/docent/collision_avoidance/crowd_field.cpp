@@ -1,0 +1,208 @@
+#include "docent/collision_avoidance/crowd_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+namespace docent {
+namespace {
+
+constexpr int kCount = CrowdField::kCells * CrowdField::kCells;
+constexpr float kFar = 1e6F;            // [s]
+constexpr double kHazardCost = 1000.0;  // nobody steps out of the way there
+constexpr double kWaitShare = 0.2;      // of the cost: who comes near somebody that waits means no harm
+constexpr double kMovesNot = 1e-6;      // [m/s]
+
+}  // namespace
+
+Result<void> CrowdFitParams::validate() const {
+  if (!(horizon >= 0.6 && horizon <= 6.0)) return fail("avoid.crowd.horizon must lie between 0.6 and 6 s");
+  if (!(hard_margin >= 0.0 && hard_margin <= intimate && intimate <= personal && personal <= 2.0))
+    return fail("avoid.crowd: 0 <= hard_margin <= intimate <= personal <= 2 m must hold");
+  for (const double weight : {intimate_weight, personal_weight, blocked_weight, uncertainty, change_weight}) {
+    if (!(weight >= 0.0)) return fail("avoid.crowd: weights must be >= 0");
+  }
+  return {};
+}
+
+CrowdField::CrowdField(const CrowdFitParams& params, double robot_radius)
+    : params_{params},
+      robot_radius_{robot_radius},
+      layers_{static_cast<int>(std::lround(params.horizon / kStep))},
+      costs_(static_cast<std::size_t>(layers_) + 1, Layer(kCount)),
+      values_(costs_) {}
+
+int CrowdField::cell_at(Point2 in_odom) const {
+  const auto column = std::lround((in_odom.x - low_.x) / kCell);
+  const auto row = std::lround((in_odom.y - low_.y) / kCell);
+  if (column < 0 || row < 0 || column >= kCells || row >= kCells) return -1;
+  return static_cast<int>(row) * kCells + static_cast<int>(column);
+}
+
+void CrowdField::stamp(const Obstacle& obstacle, double time, Layer& layer) const {
+  const Point2 at = obstacle.at + time * obstacle.velocity;
+  const double reach = obstacle.is_virtual ? robot_radius_ + obstacle.margin : robot_radius_ + params_.personal;
+  const double widened = norm(obstacle.velocity) > kMovesNot ? params_.uncertainty * time : 0.0;
+  const auto bound = [](double value) { return std::clamp(static_cast<int>(std::ceil(value)), 0, kCells); };
+  const int first_row = bound((at.y - reach - low_.y) / kCell);
+  const int last_row = bound((at.y + reach - low_.y) / kCell);
+  const int first = bound((at.x - reach - low_.x) / kCell);
+  const int last = bound((at.x + reach - low_.x) / kCell);
+  for (int row = first_row; row < last_row; ++row) {
+    const double dy = low_.y + row * kCell - at.y;
+    for (int column = first; column < last; ++column) {
+      const double dx = low_.x + column * kCell - at.x;
+      const double squared = dx * dx + dy * dy;
+      if (squared >= reach * reach) continue;
+      const double gap = std::sqrt(squared) - robot_radius_;
+      double cost = 0.0;
+      if (obstacle.is_virtual) {
+        cost = kHazardCost;
+      } else if (gap < params_.hard_margin) {
+        cost = params_.blocked_weight;
+      } else if (gap - widened < params_.intimate) {
+        cost = params_.intimate_weight;
+      } else {
+        cost = params_.personal_weight * (params_.personal - gap) / (params_.personal - params_.intimate);
+      }
+      float& here = layer[static_cast<std::size_t>(row * kCells + column)];
+      here = std::max(here, static_cast<float>(cost));
+    }
+  }
+}
+
+void CrowdField::build(Point2 robot, std::span<const Obstacle> obstacles, std::span<const Point2> path) {
+  // Cells keep their places in odom: what is decided does not flicker with the robot's own motion.
+  constexpr int kMiddle = kCells / 2;
+  low_ = {(std::round(robot.x / kCell) - kMiddle) * kCell, (std::round(robot.y / kCell) - kMiddle) * kCell};
+  Layer& standing = costs_.back();
+  std::fill(standing.begin(), standing.end(), 0.0F);
+  for (const auto& obstacle : obstacles) {
+    if (norm(obstacle.velocity) <= kMovesNot) stamp(obstacle, 0.0, standing);
+  }
+  solve_standing(path);
+  for (std::size_t layer = 0; layer + 1 < costs_.size(); ++layer) costs_[layer] = standing;
+  for (std::size_t layer = 0; layer < costs_.size(); ++layer) {
+    for (const auto& obstacle : obstacles) {
+      if (norm(obstacle.velocity) > kMovesNot) stamp(obstacle, static_cast<double>(layer) * kStep, costs_[layer]);
+    }
+  }
+  for (std::size_t layer = costs_.size() - 1; layer-- > 0;) solve_layer(layer);
+}
+
+void CrowdField::solve_standing(std::span<const Point2> path) {
+  Layer& values = values_.back();
+  const Layer& costs = costs_.back();
+  std::fill(values.begin(), values.end(), kFar);
+  open_.clear();
+  double left = 0.0;
+  for (std::size_t i = path.size(); i-- > 0;) {
+    if (i + 1 < path.size()) left += distance(path[i], path[i + 1]);
+    const int cell = cell_at(path[i]);
+    // Somebody stands on the path there: not a place to make for, unless all of it is beset.
+    const bool is_last = i + 1 == path.size();
+    if (cell < 0 || (!is_last && costs[static_cast<std::size_t>(cell)] >= params_.blocked_weight)) continue;
+    const auto seconds_left = static_cast<float>(left / kSpeed);
+    if (seconds_left >= values[static_cast<std::size_t>(cell)]) continue;
+    values[static_cast<std::size_t>(cell)] = seconds_left;
+    open_.emplace_back(seconds_left, cell);
+  }
+  std::make_heap(open_.begin(), open_.end(), std::greater<>{});
+  while (!open_.empty()) {
+    const auto [value, cell] = open_.front();
+    std::pop_heap(open_.begin(), open_.end(), std::greater<>{});
+    open_.pop_back();
+    if (value > values[static_cast<std::size_t>(cell)]) continue;
+    for (int dr = -1; dr <= 1; ++dr) {
+      for (int dc = -1; dc <= 1; ++dc) {
+        const int row = cell / kCells + dr;
+        const int column = cell % kCells + dc;
+        if ((dr == 0 && dc == 0) || row < 0 || column < 0 || row >= kCells || column >= kCells) continue;
+        const int next = row * kCells + column;
+        const float seconds_a_cell = static_cast<float>(kCell / kSpeed) * (dr != 0 && dc != 0 ? 1.41421356F : 1.0F);
+        const float slowed =
+            1.0F + 0.5F * (costs[static_cast<std::size_t>(cell)] + costs[static_cast<std::size_t>(next)]);
+        const float reached = value + seconds_a_cell * slowed;
+        if (reached >= values[static_cast<std::size_t>(next)]) continue;
+        values[static_cast<std::size_t>(next)] = reached;
+        open_.emplace_back(reached, next);
+        std::push_heap(open_.begin(), open_.end(), std::greater<>{});
+      }
+    }
+  }
+}
+
+void CrowdField::solve_layer(std::size_t layer) {
+  const Layer& next = values_[layer + 1];
+  const Layer& costs = costs_[layer + 1];
+  Layer& values = values_[layer];
+  constexpr auto kSeconds = static_cast<float>(kStep);
+  for (int row = 0; row < kCells; ++row) {
+    for (int column = 0; column < kCells; ++column) {
+      const auto here = static_cast<std::size_t>(row * kCells + column);
+      float best = next[here] + kSeconds * (1.0F + static_cast<float>(kWaitShare) * costs[here]);
+      for (int r = std::max(0, row - 1); r <= std::min(kCells - 1, row + 1); ++r) {
+        for (int c = std::max(0, column - 1); c <= std::min(kCells - 1, column + 1); ++c) {
+          if (r == row && c == column) continue;
+          const auto there = static_cast<std::size_t>(r * kCells + c);
+          best = std::min(best, next[there] + kSeconds * (1.0F + costs[there]));
+        }
+      }
+      values[here] = best;
+    }
+  }
+}
+
+double CrowdField::sample(const Layer& layer, Point2 in_odom) const {
+  constexpr double kLast = kCells - 1 - 1e-6;
+  const double x = std::clamp((in_odom.x - low_.x) / kCell, 0.0, kLast);
+  const double y = std::clamp((in_odom.y - low_.y) / kCell, 0.0, kLast);
+  const auto column = static_cast<std::size_t>(x);
+  const auto row = static_cast<std::size_t>(y);
+  const double right = x - static_cast<double>(column);
+  const double up = y - static_cast<double>(row);
+  const std::size_t cell = row * kCells + column;
+  return (1.0 - up) *
+             ((1.0 - right) * static_cast<double>(layer[cell]) + right * static_cast<double>(layer[cell + 1])) +
+         up * ((1.0 - right) * static_cast<double>(layer[cell + kCells]) +
+               right * static_cast<double>(layer[cell + kCells + 1]));
+}
+
+double CrowdField::value(int layer, Point2 in_odom) const {
+  return sample(values_[static_cast<std::size_t>(std::clamp(layer, 0, layers_))], in_odom);
+}
+
+double CrowdField::cost(int layer, Point2 in_odom) const {
+  return sample(costs_[static_cast<std::size_t>(std::clamp(layer, 0, layers_))], in_odom);
+}
+
+std::optional<Point2> CrowdField::way_on(Point2 from, double away) const {
+  int cell = cell_at(from);
+  if (cell < 0) return std::nullopt;
+  const auto centre = [&](int index) { return low_ + Point2{kCell * (index % kCells), kCell * (index / kCells)}; };
+  const int start = cell;
+  for (std::size_t layer = 0; layer + 1 < values_.size(); ++layer) {
+    const Layer& next = values_[layer + 1];
+    const Layer& costs = costs_[layer + 1];
+    const auto here = static_cast<std::size_t>(cell);
+    double best = static_cast<double>(next[here]) + kStep * (1.0 + kWaitShare * static_cast<double>(costs[here]));
+    const int row = cell / kCells;
+    const int column = cell % kCells;
+    for (int r = std::max(0, row - 1); r <= std::min(kCells - 1, row + 1); ++r) {
+      for (int c = std::max(0, column - 1); c <= std::min(kCells - 1, column + 1); ++c) {
+        const auto there = static_cast<std::size_t>(r * kCells + c);
+        if (there == here) continue;
+        const double value = static_cast<double>(next[there]) + kStep * (1.0 + static_cast<double>(costs[there]));
+        if (value >= best) continue;
+        best = value;
+        cell = r * kCells + c;
+      }
+    }
+    if (distance(centre(cell), from) >= away) return centre(cell);
+  }
+  if (cell == start) return std::nullopt;
+  return centre(cell);
+}
+
+}  // namespace docent
