@@ -19,8 +19,8 @@ struct CoastalParams {
   double least_deviation = 0.01;   ///< [m], > 0: of the pose, at the level that costs nothing
   double largest_deviation = 3.0;  ///< [m], more is all the same
   int levels = 24;                 ///< 2..200 of entropy, evenly spaced
-  PlaceInformationParams places;
-  UncertaintyParams uncertainty;
+  PlaceInformationParams places{};
+  UncertaintyParams uncertainty{};
   template <class V>
   void visit(V& v) {
     v("weight", weight);

@@ -136,218 +136,217 @@ void Crowd::let_recorded_in(double now, const RobotView& robot) {
   });
 }
 
-void Crowd::add_standing(std::span<const Point2> places, double until) {
-  void Crowd::add_standing(std::span<const Point2> places, double until, std::optional<double> heeds) {
-    for (const Point2 place : places) {
-      if (floor_.clearance(place) < 0.2 || distance(place, robot_.position) < robot_.radius + 0.3) continue;
-      Person person = new_person(0.0);
-      person.is_extra = true;
-      person.activity = Activity::stand;
-      person.position = person.goal = person.progress_from = place;
-      person.until = until;
-      person.leaves_at = until + rng_.uniform(5.0, 60.0);
-      person.heeds = heeds.value_or(-1.0);
-      people_.push_back(person);
+void Crowd::add_standing(std::span<const Point2> places, double until, std::optional<double> heeds) {
+  for (const Point2 place : places) {
+    if (floor_.clearance(place) < 0.2 || distance(place, robot_.position) < robot_.radius + 0.3) continue;
+    Person person = new_person(0.0);
+    person.is_extra = true;
+    person.activity = Activity::stand;
+    person.position = person.goal = person.progress_from = place;
+    person.until = until;
+    person.leaves_at = until + rng_.uniform(5.0, 60.0);
+    person.heeds = heeds.value_or(-1.0);
+    people_.push_back(person);
+  }
+}
+
+Point2 Crowd::place_near(Point2 centre, double within) {
+  for (int attempt = 0; attempt < 200; ++attempt) {
+    const Point2 place = centre + rng_.uniform(0.0, within) * unit(Angle::radians(rng_.uniform(-3.14, 3.14)));
+    if (floor_.clearance(place) < 0.3 || distance(place, robot_.position) < robot_.radius + 0.5) continue;
+    const bool is_taken = std::any_of(people_.begin(), people_.end(),
+                                      [&](const Person& other) { return distance(other.position, place) < 0.55; });
+    if (!is_taken) return place;
+  }
+  return centre;
+}
+
+void Crowd::add_pushers(int count, Point2 at, double heading, double until) {
+  constexpr double kHalfRing = 1.1;  // [rad] to each side
+  for (int i = 0; i < count; ++i) {
+    Person person = new_person(0.0);
+    person.is_extra = true;
+    person.activity = Activity::press;
+    const double share = count > 1 ? 2.0 * i / (count - 1) - 1.0 : 0.0;
+    person.slot = heading + std::numbers::pi + kHalfRing * share;
+    person.position = person.progress_from = place_near(at, 1.2);
+    person.until = until;
+    person.leaves_at = until + rng_.uniform(5.0, 60.0);
+    people_.push_back(person);
+  }
+}
+
+void Crowd::add_runners(int count, Point2 at, double within, double until) {
+  for (int i = 0; i < count; ++i) {
+    Person person = new_person(0.0);
+    person.is_extra = person.is_child = true;
+    person.radius = rng_.uniform(0.15, 0.18);
+    person.height = rng_.uniform(0.95, 1.35);
+    person.preferred_speed = rng_.uniform(1.4, 1.9);
+    person.activity = Activity::romp;
+    person.home = at;
+    person.ground = within;
+    person.position = person.progress_from = place_near(at, within);
+    person.until = until;
+    person.leaves_at = until + rng_.uniform(5.0, 60.0);
+    people_.push_back(person);
+  }
+}
+
+void Crowd::add_escort(int count, double near, double far, double now, double until) {
+  constexpr double kOpenAhead = 0.75;  // [rad] to each side
+  for (int i = 0; i < count; ++i) {
+    Person person = new_person(now);
+    person.is_extra = true;
+    person.activity = Activity::escort;
+    const double share = (i + rng_.uniform(0.3, 0.7)) / count;
+    person.slot = kOpenAhead + share * 2.0 * (std::numbers::pi - kOpenAhead);
+    person.keeps_distance = rng_.uniform(near, far);
+    person.preferred_speed = std::max(person.preferred_speed, 1.0);
+    person.until = until;
+    person.leaves_at = until + rng_.uniform(5.0, 60.0);
+    person.attention_until = 1e9;  // they came for the robot
+    const Angle bearing = Angle::radians(robot_.heading + person.slot);
+    person.position = robot_.position + (robot_.radius + person.radius + person.keeps_distance) * unit(bearing);
+    if (floor_.clearance(person.position) < 0.26 || !floor_.is_clear(robot_.position, person.position, 0.0))
+      place_anywhere(person, robot_, true);
+    person.progress_from = person.position;
+    people_.push_back(person);
+  }
+}
+
+void Crowd::change_world(const World& world) {
+  world_.solids = world.solids;
+  floor_ = WalkableFloor{world_};
+  for (FlowField& field : fields_) field.cost.clear();
+  robot_field_.cost.clear();
+  robot_field_at_ = -1e9;
+}
+
+void Crowd::sort_into_cells() {
+  cell_first_.assign(static_cast<std::size_t>(cell_columns_ * cell_rows_), -1);
+  cell_next_.assign(people_.size(), -1);
+  for (std::size_t i = people_.size(); i-- > 0;) {
+    const int column =
+        std::clamp(static_cast<int>((people_[i].position.x - cells_low_.x) / kCell), 0, cell_columns_ - 1);
+    const int row = std::clamp(static_cast<int>((people_[i].position.y - cells_low_.y) / kCell), 0, cell_rows_ - 1);
+    int& first = cell_first_[static_cast<std::size_t>(row * cell_columns_ + column)];
+    cell_next_[i] = first;
+    first = static_cast<int>(i);
+  }
+}
+
+void Crowd::step(double now, double dt, const RobotView& robot) {
+  now_ = now;
+  seen_[seen_count_++ % seen_.size()] = robot;
+  const auto delay = std::min(static_cast<std::size_t>(params_.reaction_time / kSimulationStep),
+                              std::min(seen_count_, seen_.size()) - 1);
+  robot_ = seen_[(seen_count_ - 1 - delay) % seen_.size()];
+  robot_.position = robot_.position + (static_cast<double>(delay) * kSimulationStep) * robot_.velocity;
+
+  sort_into_cells();
+  constexpr std::size_t kDecisionSteps = 5;
+  for (std::size_t i = 0; i < people_.size(); ++i) {
+    if ((steps_ + i) % kDecisionSteps == 0) decide(i, now);
+  }
+  if (steps_ % 50 == 0 && params_.near_share > 0.0) draw_people_near(now);
+  for (std::size_t i = 0; i < people_.size(); ++i) {
+    if (people_[i].activity == Activity::recorded) {
+      follow_track(people_[i], now, dt);
+    } else {
+      move(i, dt, robot);
     }
   }
 
-  Point2 Crowd::place_near(Point2 centre, double within) {
-    for (int attempt = 0; attempt < 200; ++attempt) {
-      const Point2 place = centre + rng_.uniform(0.0, within) * unit(Angle::radians(rng_.uniform(-3.14, 3.14)));
-      if (floor_.clearance(place) < 0.3 || distance(place, robot_.position) < robot_.radius + 0.5) continue;
-      const bool is_taken = std::any_of(people_.begin(), people_.end(),
-                                        [&](const Person& other) { return distance(other.position, place) < 0.55; });
-      if (!is_taken) return place;
-    }
-    return centre;
+  // Who has left makes room for someone else; who was put there by a scenario just goes.
+  const auto has_left = [](const Person& person) { return person.activity == Activity::leave && person.has_arrived; };
+  const auto gone = std::erase_if(people_, [&](const Person& person) { return person.is_extra && has_left(person); });
+  for (Person& person : people_) {
+    if (gone > 0) person.near_count = 0;  // indices of others have changed
+    if (!has_left(person)) continue;
+    Person other = new_person(now);
+    enter(other);
+    person = other;
   }
+  let_recorded_in(now, robot);
+  ++steps_;
+}
 
-  void Crowd::add_pushers(int count, Point2 at, double heading, double until) {
-    constexpr double kHalfRing = 1.1;  // [rad] to each side
-    for (int i = 0; i < count; ++i) {
-      Person person = new_person(0.0);
-      person.is_extra = true;
-      person.activity = Activity::press;
-      const double share = count > 1 ? 2.0 * i / (count - 1) - 1.0 : 0.0;
-      person.slot = heading + std::numbers::pi + kHalfRing * share;
-      person.position = person.progress_from = place_near(at, 1.2);
-      person.until = until;
-      person.leaves_at = until + rng_.uniform(5.0, 60.0);
-      people_.push_back(person);
-    }
+void Crowd::follow_track(Person& person, double now, double dt) const {
+  if (replay_.is_over(person.walk, now)) {
+    person.activity = Activity::leave;
+    person.has_arrived = true;
+    return;
   }
+  const Point2 way = replay_.at(person.walk, now) - person.position;
+  const double length = norm(way);
+  const Point2 step = length > kHurry * dt ? (kHurry * dt / length) * way : way;
+  person.velocity = person.wanted = (1.0 / dt) * step;
+  person.position = person.position + step;
+}
 
-  void Crowd::add_runners(int count, Point2 at, double within, double until) {
-    for (int i = 0; i < count; ++i) {
-      Person person = new_person(0.0);
-      person.is_extra = person.is_child = true;
-      person.radius = rng_.uniform(0.15, 0.18);
-      person.height = rng_.uniform(0.95, 1.35);
-      person.preferred_speed = rng_.uniform(1.4, 1.9);
-      person.activity = Activity::romp;
-      person.home = at;
-      person.ground = within;
-      person.position = person.progress_from = place_near(at, within);
-      person.until = until;
-      person.leaves_at = until + rng_.uniform(5.0, 60.0);
-      people_.push_back(person);
-    }
+void Crowd::move(std::size_t index, double dt, const RobotView& robot) {
+  Person& person = people_[index];
+  const Point2 change = person.wanted - person.velocity;
+  const double limit = (dot(change, person.velocity) < 0.0 ? params_.braking : params_.acceleration) * dt;
+  const double size = norm(change);
+  person.velocity = size > limit ? person.velocity + (limit / size) * change : person.wanted;
+
+  Point2 next = person.position + dt * person.velocity;
+  for (int k = 0; k < person.near_count; ++k) {
+    const Person& other = people_[person.near[static_cast<std::size_t>(k)]];
+    const Point2 apart = next - other.position;
+    const double away = norm(apart);
+    const double overlap = person.radius + other.radius - away;
+    // Shoulders give: people in a throng slide past each other, not through.
+    if (overlap > 0.0 && away > 1e-6) next = next + (std::min(0.5 * overlap, 0.5 * dt) / away) * apart;
   }
-
-  void Crowd::add_escort(int count, double near, double far, double now, double until) {
-    constexpr double kOpenAhead = 0.75;  // [rad] to each side
-    for (int i = 0; i < count; ++i) {
-      Person person = new_person(now);
-      person.is_extra = true;
-      person.activity = Activity::escort;
-      const double share = (i + rng_.uniform(0.3, 0.7)) / count;
-      person.slot = kOpenAhead + share * 2.0 * (std::numbers::pi - kOpenAhead);
-      person.keeps_distance = rng_.uniform(near, far);
-      person.preferred_speed = std::max(person.preferred_speed, 1.0);
-      person.until = until;
-      person.leaves_at = until + rng_.uniform(5.0, 60.0);
-      person.attention_until = 1e9;  // they came for the robot
-      const Angle bearing = Angle::radians(robot_.heading + person.slot);
-      person.position = robot_.position + (robot_.radius + person.radius + person.keeps_distance) * unit(bearing);
-      if (floor_.clearance(person.position) < 0.26 || !floor_.is_clear(robot_.position, person.position, 0.0))
-        place_anywhere(person, robot_, true);
-      person.progress_from = person.position;
-      people_.push_back(person);
-    }
-  }
-
-  void Crowd::change_world(const World& world) {
-    world_.solids = world.solids;
-    floor_ = WalkableFloor{world_};
-    for (FlowField& field : fields_) field.cost.clear();
-    robot_field_.cost.clear();
-    robot_field_at_ = -1e9;
-  }
-
-  void Crowd::sort_into_cells() {
-    cell_first_.assign(static_cast<std::size_t>(cell_columns_ * cell_rows_), -1);
-    cell_next_.assign(people_.size(), -1);
-    for (std::size_t i = people_.size(); i-- > 0;) {
-      const int column =
-          std::clamp(static_cast<int>((people_[i].position.x - cells_low_.x) / kCell), 0, cell_columns_ - 1);
-      const int row = std::clamp(static_cast<int>((people_[i].position.y - cells_low_.y) / kCell), 0, cell_rows_ - 1);
-      int& first = cell_first_[static_cast<std::size_t>(row * cell_columns_ + column)];
-      cell_next_[i] = first;
-      first = static_cast<int>(i);
-    }
-  }
-
-  void Crowd::step(double now, double dt, const RobotView& robot) {
-    now_ = now;
-    seen_[seen_count_++ % seen_.size()] = robot;
-    const auto delay = std::min(static_cast<std::size_t>(params_.reaction_time / kSimulationStep),
-                                std::min(seen_count_, seen_.size()) - 1);
-    robot_ = seen_[(seen_count_ - 1 - delay) % seen_.size()];
-    robot_.position = robot_.position + (static_cast<double>(delay) * kSimulationStep) * robot_.velocity;
-
-    sort_into_cells();
-    constexpr std::size_t kDecisionSteps = 5;
-    for (std::size_t i = 0; i < people_.size(); ++i) {
-      if ((steps_ + i) % kDecisionSteps == 0) decide(i, now);
-    }
-    if (steps_ % 50 == 0 && params_.near_share > 0.0) draw_people_near(now);
-    for (std::size_t i = 0; i < people_.size(); ++i) {
-      if (people_[i].activity == Activity::recorded) {
-        follow_track(people_[i], now, dt);
-      } else {
-        move(i, dt, robot);
-      }
-    }
-
-    // Who has left makes room for someone else; who was put there by a scenario just goes.
-    const auto has_left = [](const Person& person) { return person.activity == Activity::leave && person.has_arrived; };
-    const auto gone = std::erase_if(people_, [&](const Person& person) { return person.is_extra && has_left(person); });
-    for (Person& person : people_) {
-      if (gone > 0) person.near_count = 0;  // indices of others have changed
-      if (!has_left(person)) continue;
-      Person other = new_person(now);
-      enter(other);
-      person = other;
-    }
-    let_recorded_in(now, robot);
-    ++steps_;
-  }
-
-  void Crowd::follow_track(Person & person, double now, double dt) const {
-    if (replay_.is_over(person.walk, now)) {
-      person.activity = Activity::leave;
-      person.has_arrived = true;
-      return;
-    }
-    const Point2 way = replay_.at(person.walk, now) - person.position;
-    const double length = norm(way);
-    const Point2 step = length > kHurry * dt ? (kHurry * dt / length) * way : way;
-    person.velocity = person.wanted = (1.0 / dt) * step;
-    person.position = person.position + step;
-  }
-
-  void Crowd::move(std::size_t index, double dt, const RobotView& robot) {
-    Person& person = people_[index];
-    const Point2 change = person.wanted - person.velocity;
-    const double limit = (dot(change, person.velocity) < 0.0 ? params_.braking : params_.acceleration) * dt;
-    const double size = norm(change);
-    person.velocity = size > limit ? person.velocity + (limit / size) * change : person.wanted;
-
-    Point2 next = person.position + dt * person.velocity;
-    for (int k = 0; k < person.near_count; ++k) {
-      const Person& other = people_[person.near[static_cast<std::size_t>(k)]];
-      const Point2 apart = next - other.position;
-      const double away = norm(apart);
-      const double overlap = person.radius + other.radius - away;
-      // Shoulders give: people in a throng slide past each other, not through.
-      if (overlap > 0.0 && away > 1e-6) next = next + (std::min(0.5 * overlap, 0.5 * dt) / away) * apart;
-    }
-    const Point2 from_robot = next - robot.position;
-    const double away = norm(from_robot);
-    const bool walks_into_it = person.activity == Activity::push || ignores_robot(person) ||
-                               person.activity == Activity::press || person.activity == Activity::romp ||
-                               (person.is_inattentive && dot(person.velocity, from_robot) < -0.2 * away);
-    if (!walks_into_it && away > 1e-6 && away < robot.radius + person.radius + kPersonalRobotGap) {
-      const double before = distance(person.position, robot.position);
-      if (away < before) {
-        next = robot.position + (before / away) * from_robot;
-        const Point2 outward = (1.0 / away) * from_robot;
-        const double inward = std::min(0.0, dot(person.velocity, outward));
-        person.velocity = person.velocity - inward * outward;
-      }
-    }
-    const double need = std::min(person.radius, kWallGap);
-    const double gap = floor_.clearance(next);
-    if (gap < need) {
-      const Point2 outward = floor_.away_from_walls(next);
-      next = next + (need - gap) * outward;
+  const Point2 from_robot = next - robot.position;
+  const double away = norm(from_robot);
+  const bool walks_into_it = person.activity == Activity::push || ignores_robot(person) ||
+                             person.activity == Activity::press || person.activity == Activity::romp ||
+                             (person.is_inattentive && dot(person.velocity, from_robot) < -0.2 * away);
+  if (!walks_into_it && away > 1e-6 && away < robot.radius + person.radius + kPersonalRobotGap) {
+    const double before = distance(person.position, robot.position);
+    if (away < before) {
+      next = robot.position + (before / away) * from_robot;
+      const Point2 outward = (1.0 / away) * from_robot;
       const double inward = std::min(0.0, dot(person.velocity, outward));
       person.velocity = person.velocity - inward * outward;
-      if (floor_.clearance(next) < need - 0.02 && floor_.clearance(next) < floor_.clearance(person.position)) {
-        next = person.position;
-        person.velocity = {};
-      }
     }
-    person.position = next;
   }
-
-  double Crowd::give_way(std::size_t index, Point2 robot, double reach) {
-    Person& person = people_[index];
-    const Point2 apart = person.position - robot;
-    const double away = norm(apart);
-    if (away >= reach) return 0.0;
-    const Point2 outward = away > 1e-6 ? (1.0 / away) * apart : Point2{1.0, 0.0};
-    const Point2 place = robot + reach * outward;
+  const double need = std::min(person.radius, kWallGap);
+  const double gap = floor_.clearance(next);
+  if (gap < need) {
+    const Point2 outward = floor_.away_from_walls(next);
+    next = next + (need - gap) * outward;
     const double inward = std::min(0.0, dot(person.velocity, outward));
     person.velocity = person.velocity - inward * outward;
-    person.is_inattentive = false;      // that was noticed
-    constexpr double kRemembers = 3.0;  // [s]
-    person.bumped_until = now_ + kRemembers;
-    if (floor_.clearance(place) < std::min({person.radius, kWallGap, floor_.clearance(person.position)})) {
-      return reach - away;
+    if (floor_.clearance(next) < need - 0.02 && floor_.clearance(next) < floor_.clearance(person.position)) {
+      next = person.position;
+      person.velocity = {};
     }
-    person.position = place;
-    return 0.0;
   }
+  person.position = next;
+}
+
+double Crowd::give_way(std::size_t index, Point2 robot, double reach) {
+  Person& person = people_[index];
+  const Point2 apart = person.position - robot;
+  const double away = norm(apart);
+  if (away >= reach) return 0.0;
+  const Point2 outward = away > 1e-6 ? (1.0 / away) * apart : Point2{1.0, 0.0};
+  const Point2 place = robot + reach * outward;
+  const double inward = std::min(0.0, dot(person.velocity, outward));
+  person.velocity = person.velocity - inward * outward;
+  person.is_inattentive = false;      // that was noticed
+  constexpr double kRemembers = 3.0;  // [s]
+  person.bumped_until = now_ + kRemembers;
+  if (floor_.clearance(place) < std::min({person.radius, kWallGap, floor_.clearance(person.position)})) {
+    return reach - away;
+  }
+  person.position = place;
+  return 0.0;
+}
 
 }  // namespace docent::simulator
