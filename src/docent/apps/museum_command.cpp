@@ -11,9 +11,7 @@
 #include "docent/pictures/drawing.h"
 #include "docent/pictures/image.h"
 #include "docent/pictures/map_picture.h"
-#include "docent/simulator/crowd/walkable_floor.h"
 #include "docent/simulator/pedestrians/recording.h"
-#include "docent/simulator/traced/pedestrian_fit.h"
 #include "docent/simulator/traced/traced_museum.h"
 #include "docent/simulator/world/world_picture.h"
 
@@ -21,8 +19,6 @@ namespace docent {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kPedestriansFile = "pedestrians.txt";
 
 struct MuseumOptions {
   std::string map;
@@ -45,20 +41,16 @@ fs::path recording_path(const std::string& name_or_path) {
                       " (DOCENT_DATA)"};
 }
 
-void add_pedestrians(const std::string& name_or_path, const simulator::WalkableFloor& floor, simulator::World& world) {
-  const auto recording = value_or_fail(simulator::load_recording(recording_path(name_or_path)));
-  auto fit = simulator::fit_pedestrians(recording, floor);
+void print_fit(const simulator::PedestrianFit& fit) {
   const Pose2& pose = fit.world_from_recording;
-  const std::size_t all = recording.tracks.size();
   const std::size_t kept = fit.recording.tracks.size();
+  const std::size_t all = kept + fit.dropped;
+  if (kept == 0) throw CommandFailed{"--pedestrians: no track of " + fit.recording.name + " has room on this map"};
   std::printf(
       "%s: %zu of %zu tracks kept (%.0f %%), %zu walk through walls; turned by %.1f degrees, moved by %.2f, %.2f m; "
       "%.1f people on average, a loop of %.0f s\n",
-      recording.name.c_str(), kept, all, 100.0 * static_cast<double>(kept) / static_cast<double>(all), fit.dropped,
+      fit.recording.name.c_str(), kept, all, 100.0 * static_cast<double>(kept) / static_cast<double>(all), fit.dropped,
       pose.theta.degrees(), pose.x, pose.y, fit.recording.mean_people(), fit.recording.duration);
-  if (kept == 0) throw CommandFailed{"--pedestrians " + name_or_path + ": no track has room on the floor of this map"};
-  world.pedestrians_file = kPedestriansFile;
-  world.pedestrians.push_back(std::move(fit.recording));
 }
 
 /// The true world with the ways of the recorded people, and beside it what the robot is told.
@@ -84,13 +76,15 @@ void run(const MuseumOptions& options) {
   const fs::path out{options.out};
   const OccupancyGrid map = value_or_fail(load_map(options.map));
   const std::string title = options.title.empty() ? fs::path{options.map}.stem().string() : options.title;
-  auto traced = simulator::trace_museum(map, title, options.seed);
-  if (!traced) throw CommandFailed{options.map + ": " + traced.error().message};
-  simulator::MuseumPlan& plan = *traced;
-  if (!options.pedestrians.empty()) {
-    const simulator::WalkableFloor floor{plan.world};
-    for (const std::string& name : options.pedestrians) add_pedestrians(name, floor, plan.world);
+  std::vector<simulator::Recording> recordings;
+  for (const std::string& name : options.pedestrians) {
+    recordings.push_back(value_or_fail(simulator::load_recording(recording_path(name))));
   }
+  const auto traced = simulator::trace_museum(map, recordings, title, options.seed);
+  if (!traced) throw CommandFailed{options.map + ": " + traced.error().message};
+  const simulator::MuseumPlan& plan = traced->plan;
+  for (const auto& fit : traced->fits) print_fit(fit);
+  if (traced->carried_away > 0) std::printf("%zu small things carried out of their way\n", traced->carried_away);
   const simulator::Survey survey = simulator::survey(plan.world, {}, Rng{options.seed}.stream("survey"));
   value_or_fail(simulator::write_museum(plan, survey, out));
   std::printf(

@@ -95,6 +95,9 @@ Source read_edinburgh(std::string_view text, const std::string& name) {
       const std::vector<double>& n = *numbers;
       why = source.add(person, {n[i + 2], {kEdinburghPixel * n[i], -kEdinburghPixel * n[i + 1]}, number});
     }
+    // The tracker now and then has someone at two places at a time.
+    auto& seen = source.people[static_cast<std::int64_t>(person)];
+    seen.erase(std::unique(seen.begin(), seen.end(), [](auto& a, auto& b) { return a.frame == b.frame; }), seen.end());
     ++person;
     if (!why.empty()) source.fault = Error{name + ":" + std::to_string(number) + ": " + why};
     return !source.fault;

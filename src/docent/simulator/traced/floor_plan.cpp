@@ -128,7 +128,8 @@ Result<FloorPlan> trace_floor(const OccupancyGrid& bare, const FloorPlanParams& 
                 " m2 that hangs together by passages of " + std::to_string(std::lround(100.0 * params.passage)) +
                 " cm");
   }
-  Cells floor = grown(frame, core, half);
+  // A little more than the disc reaches, so that rooms keep their corners.
+  Cells floor = grown(frame, core, 1.45 * half);
   for (std::size_t i = 0; i < floor.size(); ++i) floor[i] = floor[i] && free[i];
   Cells solid = inverted(floor);
   join_corners(frame, solid);
@@ -158,7 +159,9 @@ Polygon trace_area(const FloorPlan& plan, std::span<const Polygon> kept_off, dou
     inside[i] = inside[i] && std::none_of(kept_off.begin(), kept_off.end(),
                                           [&](const Polygon& polygon) { return contains(polygon, centre); });
   }
-  Cells outside = inverted(largest_region(frame, shrunk(frame, inside, rim)));
+  constexpr double kBay = 0.2;  // [m] half the width of bays that are not worth their corners
+  const Cells open = largest_region(frame, shrunk(frame, inside, rim + kBay));
+  Cells outside = inverted(grown(frame, open, kBay));
   join_corners(frame, outside);
   return simplified(outermost(frame, inverted(outside)), tolerance);
 }

@@ -19,7 +19,7 @@ struct FloorPlan {
 
 struct FloorPlanParams {
   double passage = 0.75;       ///< [m] what is narrower is closed: gaps in clutter, rays through a window
-  double tolerance = 0.06;     ///< [m] of outlines
+  double tolerance = 0.1;      ///< [m] of outlines
   double least_floor = 20.0;   ///< [m2]
   double least_island = 0.01;  ///< [m2] smaller things are noise
 };

@@ -26,6 +26,9 @@ Point2 middle_of(const Recording& recording) {
   return (1.0 / std::max(count, 1.0)) * sum;
 }
 
+bool by_x(Point2 a, Point2 b) { return a.x < b.x; }
+bool by_y(Point2 a, Point2 b) { return a.y < b.y; }
+
 /// A rotation and a shift with the cosine and sine at hand.
 class Motion {
  public:
@@ -100,6 +103,23 @@ Candidate refined(Candidate candidate, const Recording& centred, const WalkableF
   return candidate;
 }
 
+bool is_walked_on(const Polygon& polygon, const Track& track) {
+  constexpr int kPieces = 6;  // of a step, each of a hand's breadth
+  const auto [low_x, high_x] = std::minmax_element(polygon.begin(), polygon.end(), by_x);
+  const auto [low_y, high_y] = std::minmax_element(polygon.begin(), polygon.end(), by_y);
+  constexpr double kStride = 1.5;  // [m] of a step at most, and the disc
+  for (std::size_t i = 1; i < track.points.size(); ++i) {
+    const Point2 from = track.points[i - 1];
+    if (from.x < low_x->x - kStride || from.x > high_x->x + kStride) continue;
+    if (from.y < low_y->y - kStride || from.y > high_y->y + kStride) continue;
+    for (int k = 0; k <= kPieces; ++k) {
+      const Point2 point = from + (static_cast<double>(k) / kPieces) * (track.points[i] - from);
+      if (distance(polygon, point) < kRecordedRadius) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 PedestrianFit fit_pedestrians(const Recording& recording, const WalkableFloor& floor) {
@@ -125,6 +145,13 @@ PedestrianFit fit_pedestrians(const Recording& recording, const WalkableFloor& f
   }
   fit.dropped = recording.tracks.size() - fit.recording.tracks.size();
   return fit;
+}
+
+bool is_walked_on(const Polygon& polygon, std::span<const Recording> recordings) {
+  return std::any_of(recordings.begin(), recordings.end(), [&](const Recording& recording) {
+    return std::any_of(recording.tracks.begin(), recording.tracks.end(),
+                       [&](const Track& track) { return is_walked_on(polygon, track); });
+  });
 }
 
 }  // namespace docent::simulator

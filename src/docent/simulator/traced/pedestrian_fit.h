@@ -1,8 +1,8 @@
 #pragma once
 
-#include <vector>
+#include <span>
 
-#include "docent/geometry/pose2.h"
+#include "docent/geometry/polygon.h"
 #include "docent/simulator/crowd/walkable_floor.h"
 #include "docent/simulator/pedestrians/track.h"
 
@@ -18,7 +18,11 @@ struct PedestrianFit {
 /// The rigid motion (a turn and a shift, no scaling) of the recording with the most tracks on floor that is reachable
 /// and clear for a disc of kRecordedRadius, and its tracks moved by it. Found over turns of 10 degrees and shifts of a
 /// metre, then by ever smaller ones round the best of these; deterministic.
-/// O(motions * tracks), as most motions are given up after the first points of some tracks.
+/// No track that fits: an empty recording. O(motions * tracks), as most motions are given up after the first points of
+/// some tracks.
 [[nodiscard]] PedestrianFit fit_pedestrians(const Recording& recording, const WalkableFloor& floor);
+
+/// True when one of them comes so near to the polygon that their discs touch it. O(points near it).
+[[nodiscard]] bool is_walked_on(const Polygon& polygon, std::span<const Recording> recordings);
 
 }  // namespace docent::simulator

@@ -77,17 +77,18 @@ class Curator {
   Curator(FloorPlan floor_plan, std::uint64_t seed)
       : traced_{std::move(floor_plan)}, rng_{Rng{seed}.stream("curator")} {}
 
-  Result<MuseumPlan> make() {
+  Result<TracedMuseum> make(std::span<const Recording> recordings) {
     World& world = plan_.world;
     world.floor = traced_.floor;
     build_walls();
-    set_up_islands();
     world.entrances = {interior_point()};
     world.home = world.entrances.front();
+    let_people_walk(recordings);
+    set_up_islands();
     furnish();
     world.operating_area = trace_area(traced_, stairs_, kRim, 0.5 * kRim);
     if (!find_places()) return fail("the map has no room for a home and two exhibits that a robot reaches");
-    return std::move(plan_);
+    return std::move(museum_);
   }
 
  private:
@@ -103,14 +104,27 @@ class Curator {
 
   void build_walls() {
     for (Polygon& wall : walls_round(traced_.floor)) add("wall", SolidKind::wall, std::move(wall), 3.0);
+    for (const Polygon& island : traced_.islands) {
+      if (signed_area(island) > kLargestCase) add("block", SolidKind::wall, island, 3.0);
+    }
+  }
+
+  void let_people_walk(std::span<const Recording> recordings) {
+    if (recordings.empty()) return;
+    const WalkableFloor floor{plan_.world};
+    for (const Recording& recording : recordings) {
+      museum_.fits.push_back(fit_pedestrians(recording, floor));
+      plan_.world.pedestrians.push_back(museum_.fits.back().recording);
+    }
   }
 
   void set_up_islands() {
     Rng rng = rng_.stream("islands");
     for (const Polygon& island : traced_.islands) {
       const double area = signed_area(island);
-      if (area > kLargestCase) {
-        add("block", SolidKind::wall, island, 3.0);
+      if (area > kLargestCase) continue;
+      if (is_walked_on(island, plan_.world.pedestrians)) {
+        ++museum_.carried_away;
       } else if (area > 0.2 && rng.chance(0.2)) {
         add_glass_case(island);
       } else {
@@ -139,7 +153,8 @@ class Curator {
     const WalkableFloor floor{plan_.world};
     WallSpots spots{traced_.floor, floor, rng_.stream("spots")};
     const auto put = [&](double width, double depth, auto&& use) {
-      if (const auto box = spots.place(width, depth, 4.0)) use(*box);
+      const auto is_free = [&](const Polygon& box) { return !is_walked_on(box, plan_.world.pedestrians); };
+      if (const auto box = spots.place(width, depth, 4.0, is_free)) use(*box);
     };
     put(2.0, 1.4, [&](const Polygon& box) {
       plan_.world.solids.push_back({"stairs", SolidKind::stairs, box, 0.0, 0.0, false});
@@ -288,23 +303,27 @@ class Curator {
 
   FloorPlan traced_;
   Rng rng_;
-  MuseumPlan plan_;
+  TracedMuseum museum_;
+  MuseumPlan& plan_{museum_.plan};
   std::vector<Polygon> stairs_;  ///< with the room that the robot keeps
   int count_ = 0;
 };
 
 }  // namespace
 
-Result<MuseumPlan> trace_museum(const OccupancyGrid& map, const std::string& title, std::uint64_t seed) {
+Result<TracedMuseum> trace_museum(const OccupancyGrid& map, std::span<const Recording> recordings,
+                                  const std::string& title, std::uint64_t seed) {
   auto floor_plan = trace_floor(map, {});
   if (!floor_plan) return tl::unexpected<Error>(floor_plan.error());
-  auto plan = Curator{std::move(*floor_plan), seed}.make();
-  if (!plan) return plan;
-  plan->title = title;
-  plan->made_of = "Traced from a map, furnished and surveyed with seed " + std::to_string(seed);
-  plan->topic = "rooms";
-  plan->world.tours = {"round"};
-  return plan;
+  auto museum = Curator{std::move(*floor_plan), seed}.make(recordings);
+  if (!museum) return museum;
+  MuseumPlan& plan = museum->plan;
+  plan.title = title;
+  plan.made_of = "Traced from a map, furnished and surveyed with seed " + std::to_string(seed);
+  plan.topic = "rooms";
+  plan.world.tours = {"round"};
+  if (!recordings.empty()) plan.world.pedestrians_file = "pedestrians.txt";
+  return museum;
 }
 
 }  // namespace docent::simulator

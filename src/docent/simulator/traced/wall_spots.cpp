@@ -42,16 +42,19 @@ bool WallSpots::is_free(const Pose2& world_from_spot, double width, double depth
   return floor_.is_reachable(world_from_spot * Point2{depth + 0.5 * kBefore, 0.0});
 }
 
-std::optional<Polygon> WallSpots::place(double width, double depth, double apart) {
+std::optional<Polygon> WallSpots::place(double width, double depth, double apart,
+                                        const std::function<bool(const Polygon&)>& accept) {
   for (const Pose2& spot : spots_) {
     const bool is_near = std::any_of(taken_.begin(), taken_.end(),
                                      [&](Point2 other) { return distance(other, spot.position()) < apart; });
     if (is_near || !is_free(spot, width, depth)) continue;
-    taken_.push_back(spot.position());
     constexpr double kGap = 0.02;  // [m] to the wall
     const double w = 0.5 * width;
-    return Polygon{spot * Point2{kGap, -w}, spot * Point2{kGap + depth, -w}, spot * Point2{kGap + depth, w},
-                   spot * Point2{kGap, w}};
+    const Polygon box{spot * Point2{kGap, -w}, spot * Point2{kGap + depth, -w}, spot * Point2{kGap + depth, w},
+                      spot * Point2{kGap, w}};
+    if (!accept(box)) continue;
+    taken_.push_back(spot.position());
+    return box;
   }
   return std::nullopt;
 }

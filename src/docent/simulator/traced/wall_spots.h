@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -17,8 +18,9 @@ class WallSpots {
   WallSpots(const Polygon& outline, const WalkableFloor& floor, const Rng& rng);
 
   /// The outline of a box of width x depth [m] at a spot that was not given away before, at least `apart` [m] from all
-  /// that was; nullopt where there is none. O(spots * box).
-  [[nodiscard]] std::optional<Polygon> place(double width, double depth, double apart);
+  /// that was, and which is accepted; nullopt where there is none. O(spots * box).
+  [[nodiscard]] std::optional<Polygon> place(double width, double depth, double apart,
+                                             const std::function<bool(const Polygon&)>& accept);
 
  private:
   [[nodiscard]] bool is_free(const Pose2& world_from_spot, double width, double depth) const;

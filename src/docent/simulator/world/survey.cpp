@@ -51,6 +51,28 @@ void for_cells(const GridFrame& frame, const Polygon& polygon, double reach, F&&
   }
 }
 
+/// Calls f(index) for each cell whose centre lies inside the polygon. O(rows * corners + cells inside).
+template <class F>
+void for_cells_inside(const GridFrame& frame, const Polygon& polygon, F&& f) {
+  std::vector<double> crossings;
+  for (int row = 0; row < frame.rows; ++row) {
+    const double y = frame.centre({0, row}).y;
+    crossings.clear();
+    for (const auto& [b, a] : sides(polygon)) {
+      if ((a.y > y) != (b.y > y)) crossings.push_back((b.x - a.x) * (y - a.y) / (b.y - a.y) + a.x);
+    }
+    std::sort(crossings.begin(), crossings.end());
+    for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
+      const int first = std::max(0, frame.cell_at({crossings[i], y}).column);
+      const int last = std::min(frame.columns - 1, frame.cell_at({crossings[i + 1], y}).column);
+      for (int column = first; column <= last; ++column) {
+        const double x = frame.centre({column, row}).x;
+        if (x >= crossings[i] && x < crossings[i + 1]) f(frame.index({column, row}));
+      }
+    }
+  }
+}
+
 /// A polygon that holds another needs no hazard for it: the podium under a glass case.
 bool covers(const Polygon& outer, const Polygon& inner) {
   return std::all_of(inner.begin(), inner.end(), [&](Point2 corner) { return distance(outer, corner) < 0.02; });
@@ -104,7 +126,7 @@ Survey survey(const World& world, const SurveyParams& params, const Rng& rng) {
   frame.columns = static_cast<int>(std::ceil((bounds.high.x + params.margin) / r) - left);
   frame.rows = static_cast<int>(std::ceil((bounds.high.y + params.margin) / r) - bottom);
   result.map.cells.assign(frame.size(), OccupancyGrid::kUnknown);
-  for_cells(frame, world.floor, 0.0, [&](std::size_t i) { result.map.cells[i] = OccupancyGrid::kFree; });
+  for_cells_inside(frame, world.floor, [&](std::size_t i) { result.map.cells[i] = OccupancyGrid::kFree; });
 
   const std::vector<Fate> fates = draw_fates(world, params, rng.stream("fates"));
   for (std::size_t i = 0; i < world.solids.size(); ++i) {
