@@ -317,7 +317,7 @@ Steering Avoider::steering_for(const Carrot& ahead, const BaseState& start, std:
   steering.distance = norm(ahead.in_base);
   if (params_.method == "dynamic_window") return steering;
   if (params_.method == "crowd_fit") {
-    const CrowdAdvice advice = crowd_.steer(start, obstacles, target_->via, decision.speed_cap);
+    const CrowdAdvice advice = crowd_.steer(start, obstacles, target_->via, decision.speed_cap, params_.window.cycle);
     steering.bearing = advice.bearing;
     steering.distance = std::max(steering.distance, 1.0);
     cap_speed(advice.speed, "people are in the way", decision);

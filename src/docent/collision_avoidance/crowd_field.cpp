@@ -1,9 +1,11 @@
 #include "docent/collision_avoidance/crowd_field.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 
 namespace docent {
 namespace {
@@ -12,7 +14,6 @@ constexpr int kCount = CrowdField::kCells * CrowdField::kCells;
 constexpr float kFar = 1e6F;            // [s]
 constexpr double kHazardCost = 1000.0;  // nobody steps out of the way there
 constexpr double kWaitShare = 0.2;      // of the cost: who comes near somebody that waits means no harm
-constexpr double kMovesNot = 1e-6;      // [m/s]
 
 }  // namespace
 
@@ -20,9 +21,11 @@ Result<void> CrowdFitParams::validate() const {
   if (!(horizon >= 0.6 && horizon <= 6.0)) return fail("avoid.crowd.horizon must lie between 0.6 and 6 s");
   if (!(hard_margin >= 0.0 && hard_margin <= intimate && intimate <= personal && personal <= 2.0))
     return fail("avoid.crowd: 0 <= hard_margin <= intimate <= personal <= 2 m must hold");
-  for (const double weight : {intimate_weight, personal_weight, blocked_weight, uncertainty, change_weight}) {
+  for (const double weight :
+       {intimate_weight, personal_weight, hidden_weight, blocked_weight, crossed_weight, uncertainty, change_weight}) {
     if (!(weight >= 0.0)) return fail("avoid.crowd: weights must be >= 0");
   }
+  if (!(patience > 0.0)) return fail("avoid.crowd.patience must be > 0 s");
   return {};
 }
 
@@ -41,9 +44,9 @@ int CrowdField::cell_at(Point2 in_odom) const {
 }
 
 void CrowdField::stamp(const Obstacle& obstacle, double time, Layer& layer) const {
-  const Point2 at = obstacle.at + time * obstacle.velocity;
+  const Point2 at = is_walking(obstacle) ? obstacle.at + time * obstacle.velocity : obstacle.at;
   const double reach = obstacle.is_virtual ? robot_radius_ + obstacle.margin : robot_radius_ + params_.personal;
-  const double widened = norm(obstacle.velocity) > kMovesNot ? params_.uncertainty * time : 0.0;
+  const double widened = is_walking(obstacle) ? params_.uncertainty * time : 0.0;
   const auto bound = [](double value) { return std::clamp(static_cast<int>(std::ceil(value)), 0, kCells); };
   const int first_row = bound((at.y - reach - low_.y) / kCell);
   const int last_row = bound((at.y + reach - low_.y) / kCell);
@@ -60,11 +63,11 @@ void CrowdField::stamp(const Obstacle& obstacle, double time, Layer& layer) cons
       if (obstacle.is_virtual) {
         cost = kHazardCost;
       } else if (gap < params_.hard_margin) {
-        cost = params_.blocked_weight;
+        cost = is_walking(obstacle) ? params_.crossed_weight : params_.blocked_weight;
       } else if (gap - widened < params_.intimate) {
-        cost = params_.intimate_weight;
+        cost = ease_ * params_.intimate_weight;
       } else {
-        cost = params_.personal_weight * (params_.personal - gap) / (params_.personal - params_.intimate);
+        cost = ease_ * params_.personal_weight * (params_.personal - gap) / (params_.personal - params_.intimate);
       }
       float& here = layer[static_cast<std::size_t>(row * kCells + column)];
       here = std::max(here, static_cast<float>(cost));
@@ -72,20 +75,46 @@ void CrowdField::stamp(const Obstacle& obstacle, double time, Layer& layer) cons
   }
 }
 
-void CrowdField::build(Point2 robot, std::span<const Obstacle> obstacles, std::span<const Point2> path) {
+void CrowdField::add_shadows(Point2 robot, std::span<const Obstacle> obstacles, Layer& layer) const {
+  constexpr int kDirections = 180;
+  constexpr double kBody = 0.5;  // [m] behind its near side the shadow begins
+  constexpr double kToIndex = kDirections / (2.0 * std::numbers::pi);
+  std::array<double, kDirections> seen{};
+  seen.fill(std::numeric_limits<double>::infinity());
+  const auto index_of = [&](Point2 offset) {
+    const double turned = std::atan2(offset.y, offset.x) + std::numbers::pi;
+    return static_cast<std::size_t>(turned * kToIndex) % kDirections;
+  };
+  for (const auto& obstacle : obstacles) {
+    if (obstacle.is_virtual) continue;
+    const Point2 offset = obstacle.at - robot;
+    double& range = seen[index_of(offset)];
+    range = std::min(range, norm(offset));
+  }
+  const auto hidden = static_cast<float>(ease_ * params_.hidden_weight);
+  for (int cell = 0; cell < kCount; ++cell) {
+    const Point2 offset = low_ + Point2{kCell * (cell % kCells), kCell * (cell / kCells)} - robot;
+    float& cost = layer[static_cast<std::size_t>(cell)];
+    if (norm(offset) > seen[index_of(offset)] + kBody) cost = std::max(cost, hidden);
+  }
+}
+
+void CrowdField::build(Point2 robot, std::span<const Obstacle> obstacles, std::span<const Point2> path, double ease) {
+  ease_ = ease;
   // Cells keep their places in odom: what is decided does not flicker with the robot's own motion.
   constexpr int kMiddle = kCells / 2;
   low_ = {(std::round(robot.x / kCell) - kMiddle) * kCell, (std::round(robot.y / kCell) - kMiddle) * kCell};
   Layer& standing = costs_.back();
   std::fill(standing.begin(), standing.end(), 0.0F);
   for (const auto& obstacle : obstacles) {
-    if (norm(obstacle.velocity) <= kMovesNot) stamp(obstacle, 0.0, standing);
+    if (!is_walking(obstacle)) stamp(obstacle, 0.0, standing);
   }
+  add_shadows(robot, obstacles, standing);
   solve_standing(path);
   for (std::size_t layer = 0; layer + 1 < costs_.size(); ++layer) costs_[layer] = standing;
   for (std::size_t layer = 0; layer < costs_.size(); ++layer) {
     for (const auto& obstacle : obstacles) {
-      if (norm(obstacle.velocity) > kMovesNot) stamp(obstacle, static_cast<double>(layer) * kStep, costs_[layer]);
+      if (is_walking(obstacle)) stamp(obstacle, static_cast<double>(layer) * kStep, costs_[layer]);
     }
   }
   for (std::size_t layer = costs_.size() - 1; layer-- > 0;) solve_layer(layer);
@@ -97,16 +126,28 @@ void CrowdField::solve_standing(std::span<const Point2> path) {
   std::fill(values.begin(), values.end(), kFar);
   open_.clear();
   double left = 0.0;
-  for (std::size_t i = path.size(); i-- > 0;) {
-    if (i + 1 < path.size()) left += distance(path[i], path[i + 1]);
-    const int cell = cell_at(path[i]);
-    // Somebody stands on the path there: not a place to make for, unless all of it is beset.
-    const bool is_last = i + 1 == path.size();
-    if (cell < 0 || (!is_last && costs[static_cast<std::size_t>(cell)] >= params_.blocked_weight)) continue;
+  end_ = -1;
+  const auto seed = [&](Point2 at) {
+    const int cell = cell_at(at);
+    if (cell < 0) return;
+    const bool is_end = end_ < 0;  // as far as the field reaches
+    if (is_end) end_ = cell;
+    float& value = values[static_cast<std::size_t>(cell)];
+    // Somebody stands on the path there: not a place to make for, unless it is the end.
+    const bool is_beset = costs[static_cast<std::size_t>(cell)] >= static_cast<float>(params_.blocked_weight);
     const auto seconds_left = static_cast<float>(left / kSpeed);
-    if (seconds_left >= values[static_cast<std::size_t>(cell)]) continue;
-    values[static_cast<std::size_t>(cell)] = seconds_left;
+    if ((is_beset && !is_end) || seconds_left >= value) return;
+    value = seconds_left;
     open_.emplace_back(seconds_left, cell);
+  };
+  seed(path.back());
+  for (std::size_t i = path.size() - 1; i-- > 0;) {
+    const double length = distance(path[i], path[i + 1]);
+    const int steps = std::max(1, static_cast<int>(std::ceil(length / kCell)));
+    for (int k = 1; k <= steps; ++k) {
+      left += length / steps;
+      seed(path[i + 1] + (static_cast<double>(k) / steps) * (path[i] - path[i + 1]));
+    }
   }
   std::make_heap(open_.begin(), open_.end(), std::greater<>{});
   while (!open_.empty()) {
@@ -152,6 +193,7 @@ void CrowdField::solve_layer(std::size_t layer) {
       values[here] = best;
     }
   }
+  if (end_ >= 0) values[static_cast<std::size_t>(end_)] = values_.back()[static_cast<std::size_t>(end_)];
 }
 
 double CrowdField::sample(const Layer& layer, Point2 in_odom) const {

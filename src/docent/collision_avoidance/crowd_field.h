@@ -16,9 +16,13 @@ struct CrowdFitParams {
   double hard_margin = 0.06;     ///< [m] between the outlines: no way leads nearer
   double intimate = 0.25;        ///< [m] between the outlines; with half a body the 0.45 m of intimate space
   double personal = 0.95;        ///< [m] the same; with half a body 1.2 m
-  double intimate_weight = 5.0;  ///< inside intimate space
-  double personal_weight = 0.6;  ///< at the inner rim of personal space; falls to 0 at the outer one
+  double intimate_weight = 3.0;  ///< inside intimate space
+  double personal_weight = 0.4;  ///< at the inner rim of personal space; falls to 0 at the outer one
+  double hidden_weight = 1.0;    ///< behind people, where nobody looks: there may be more of them
+  double patience = 8.0;         ///< [s] of standing after which personal space counts half as much
   double blocked_weight = 40.0;  ///< where somebody stands: they may go, or make room
+  double crossed_weight = 10.0;  ///< where somebody will walk: better waited for than run into
+  double walks = 0.35;           ///< [m/s] below: stands, and is not counted upon to be gone
   double uncertainty = 0.12;     ///< [m/s] by which the place of somebody who walks becomes less certain
   double change_weight = 0.3;    ///< [s/rad] against needless changes of the way
   template <class V>
@@ -29,7 +33,11 @@ struct CrowdFitParams {
     v("personal", personal);
     v("intimate_weight", intimate_weight);
     v("personal_weight", personal_weight);
+    v("hidden_weight", hidden_weight);
+    v("patience", patience);
     v("blocked_weight", blocked_weight);
+    v("crossed_weight", crossed_weight);
+    v("walks", walks);
     v("uncertainty", uncertainty);
     v("change_weight", change_weight);
   }
@@ -51,8 +59,9 @@ class CrowdField {
 
   /// @param obstacles  odom frame
   /// @param path  [m], odom, not empty; at its end the time to go is 0, at its other points what is left of it
+  /// @param ease  times the weights of personal space
   /// O(cells log cells + layers * (9 cells + 200 moving obstacles)), no allocation after the first call.
-  void build(Point2 robot, std::span<const Obstacle> obstacles, std::span<const Point2> path);
+  void build(Point2 robot, std::span<const Obstacle> obstacles, std::span<const Point2> path, double ease = 1.0);
 
   [[nodiscard]] int layers() const { return layers_; }
   /// Time to go [s] from a point at a layer, bilinear; outside as at the border.
@@ -67,13 +76,17 @@ class CrowdField {
   using Layer = std::vector<float>;  ///< [rows * columns]
   [[nodiscard]] double sample(const Layer& layer, Point2 in_odom) const;
   [[nodiscard]] int cell_at(Point2 in_odom) const;  ///< -1 outside
+  [[nodiscard]] bool is_walking(const Obstacle& obstacle) const { return norm(obstacle.velocity) > params_.walks; }
   void stamp(const Obstacle& obstacle, double time, Layer& layer) const;
+  void add_shadows(Point2 robot, std::span<const Obstacle> obstacles, Layer& layer) const;
   void solve_standing(std::span<const Point2> path);
   void solve_layer(std::size_t layer);
 
   CrowdFitParams params_;
   double robot_radius_;
   int layers_;
+  double ease_ = 1.0;
+  int end_ = -1;               ///< cell where the path ends or leaves the field: who is there has arrived, at any time
   Point2 low_{};               ///< [m], odom, centre of cell (0, 0)
   std::vector<Layer> costs_;   ///< [layers + 1], the first is now
   std::vector<Layer> values_;  ///< [layers + 1]

@@ -13,6 +13,9 @@ constexpr int kHeadings = 48;
 constexpr std::array<double, 4> kSpeeds{0.25, 0.5, 0.75, 1.0};  // shares of the cap
 constexpr double kRolledOut = 1.5;                              // [s]
 constexpr double kWaitShare = 0.2;                              // as in the field
+constexpr double kStands = 0.05;                                // [m/s]
+constexpr double kRecovers = 2.0;                               // driving gives patience back so much faster
+constexpr double kLongest = 4.0;                                // patiences
 constexpr double kOpening = 0.5;                                // [m] so far on lies what is turned to while waiting
 
 /// How much of its speed the base drives while it still has so far to turn; on the spot when the way lies behind.
@@ -45,7 +48,7 @@ double CrowdSteering::cost_of(const BaseState& start, double bearing, double spe
 }
 
 CrowdAdvice CrowdSteering::steer(const BaseState& start, std::span<const Obstacle> obstacles,
-                                 std::span<const Point2> path, double speed_cap) {
+                                 std::span<const Point2> path, double speed_cap, double cycle) {
   const Pose2& odom_from_base = start.odom_from_base;
   in_odom_.clear();
   for (const auto& obstacle : obstacles) {
@@ -54,7 +57,11 @@ CrowdAdvice CrowdSteering::steer(const BaseState& start, std::span<const Obstacl
     placed.velocity = odom_from_base * obstacle.velocity - odom_from_base.position();
     in_odom_.push_back(placed);
   }
-  field_.build(odom_from_base.position(), in_odom_, path);
+  // Who has stood for long becomes less shy: personal space is kept where it can be, not at the price of never going
+  // on.
+  const bool stands = std::abs(start.velocity.linear) < kStands;
+  stood_ = std::clamp(stood_ + (stands ? cycle : -kRecovers * cycle), 0.0, kLongest * params_.patience);
+  field_.build(odom_from_base.position(), in_odom_, path, params_.patience / (params_.patience + stood_));
 
   CrowdAdvice best;
   best.waits = true;

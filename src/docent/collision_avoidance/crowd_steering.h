@@ -25,9 +25,10 @@ class CrowdSteering {
   /// @param start  the base when what is chosen takes effect
   /// @param obstacles  [m] in the frame of that base
   /// @param path  [m], odom, from the robot on, not empty
+  /// @param cycle  [s] since the last choice
   /// O(field + headings * speeds * steps).
   [[nodiscard]] CrowdAdvice steer(const BaseState& start, std::span<const Obstacle> obstacles,
-                                  std::span<const Point2> path, double speed_cap);
+                                  std::span<const Point2> path, double speed_cap, double cycle);
   void forget() { last_in_odom_.reset(); }
 
  private:
@@ -38,6 +39,7 @@ class CrowdSteering {
   CrowdField field_;
   std::vector<Obstacle> in_odom_;
   std::optional<Angle> last_in_odom_;
+  double stood_ = 0.0;  ///< [s] lately
 };
 
 }  // namespace docent
