@@ -58,6 +58,16 @@ TEST(Scenario, ReadsEveryKindOfEventInOrderOfTime) {
   EXPECT_DOUBLE_EQ(events[14].at, 300.0);
 }
 
+TEST(Scenario, ReadsAWayAndAReach) {
+  const auto scenario = parse_scenario(
+      "events:\n  - {at: 1, steering: {way: [[1, 2], [3, 4.5]]}}\n  - {at: 2, lasers: {reach: 2.5}}", "s.yaml");
+  ASSERT_TRUE(scenario) << scenario.error().message;
+  const auto& steering = std::get<Steering>(scenario->events[0].what);
+  ASSERT_EQ(steering.way.size(), 2U);
+  EXPECT_DOUBLE_EQ(steering.way[1].y, 4.5);
+  EXPECT_DOUBLE_EQ(std::get<LaserReach>(scenario->events[1].what).range, 2.5);
+}
+
 struct Broken {
   const char* text;
   const char* fault;
@@ -111,6 +121,9 @@ constexpr Broken kBroken[] = {
     {"events:\n  - at: 1\n    escort: {count: 3, near: 2, far: 1}", "s.yaml:3: 'far' must not be less than 'near'"},
     {"events:\n  - at: 1\n    escort: {near: 2}", "s.yaml:3: missing key 'count'"},
     {"events:\n  - at: 1\n    steering: {speed: 9}", "s.yaml:3: expected a number from 0.05 to 1.7, found 9"},
+    {"events:\n  - at: 1\n    steering: {way: []}", "s.yaml:3: expected a list of points [[x, y], …]"},
+    {"events:\n  - at: 1\n    lasers: {reach: 0.1}", "s.yaml:3: expected a number from 0.5 to 10, found 0.1"},
+    {"events:\n  - at: 1\n    lasers: {}", "s.yaml:3: missing key 'reach'"},
     {"events:\n  - at: 1\n    request: {kind: cancel, target: a}",
      "s.yaml:3: expected one of exhibit, tour, found 'cancel'"},
     {"events:\n  - at: 1\n    kill: {signal: stop}", "s.yaml:3: missing key 'module'"},

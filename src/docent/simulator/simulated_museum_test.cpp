@@ -467,7 +467,7 @@ TEST(SimulatedMuseum, MayBeDestroyedWhileTheBusGoesOn) {
 TEST(SimulatedMuseum, IsWalkedByHandAmidAnEscortWithoutTouchingAnything) {
   const auto walk = [](int escort) {
     SimulationOptions of_walk = options("empty", Pose2{3.0, 3.0, Angle{}}, 4);
-    of_walk.scenario.events.push_back({0.0, Steering{0.5, 0.0}});
+    of_walk.scenario.events.push_back({0.0, Steering{0.5, 0.0, {}}});
     if (escort > 0) of_walk.scenario.events.push_back({0.0, Escort{escort, 0.4, 1.2, 0.0}});
     Bench bench{std::move(of_walk)};
     double blocked = 0.0;
@@ -482,6 +482,38 @@ TEST(SimulatedMuseum, IsWalkedByHandAmidAnEscortWithoutTouchingAnything) {
   };
   EXPECT_EQ(walk(0), 0.0);
   EXPECT_GT(walk(14), 0.35);
+}
+
+TEST(SimulatedMuseum, IsWalkedAlongAWayAndThenStands) {
+  SimulationOptions of_walk = options("empty", Pose2{3.0, 3.0, Angle{}}, 4);
+  const std::vector<Point2> way{{7.0, 3.0}, {7.0, 9.0}, {3.0, 8.0}};
+  of_walk.scenario.events.push_back({0.0, Steering{0.5, 0.0, way}});
+  Bench bench{std::move(of_walk)};
+  std::vector<double> nearest(way.size(), 1e9);
+  for (int i = 0; i < 600; ++i) {
+    bench.drive(0.0, 0.0, 0.1);
+    for (std::size_t k = 0; k < way.size(); ++k)
+      nearest[k] = std::min(nearest[k], distance(way[k], {bench.state.x, bench.state.y}));
+  }
+  for (const double off : nearest) EXPECT_LT(off, 0.6);
+  EXPECT_LT(distance(way.back(), {bench.state.x, bench.state.y}), 0.3);
+  EXPECT_NEAR(bench.state.distance_m, 4.0 + 6.0 + std::sqrt(17.0), 1.5);
+  EXPECT_EQ(bench.state.linear, 0.0);
+}
+
+TEST(SimulatedMuseum, LasersCanBeMadeNearSighted) {
+  SimulationOptions near_sighted = options("empty", Pose2{7.0, 7.0, Angle{}}, 4);
+  near_sighted.scenario.events.push_back({1.0, LaserReach{2.5}});
+  Bench bench{std::move(near_sighted)};
+  sensor_msgs::LaserScan scan;
+  bench.robot_bus->subscribe(topics::kScanFront, std::function<void(const sensor_msgs::LaserScan&)>{
+                                                     [&](const sensor_msgs::LaserScan& s) { scan = s; }});
+  bench.run(0.9);
+  EXPECT_EQ(scan.range_max, 10.0F);
+  EXPECT_GT(*std::max_element(scan.ranges.begin(), scan.ranges.end()), 6.0F);
+  bench.run(0.5);
+  EXPECT_EQ(scan.range_max, 2.5F);
+  EXPECT_EQ(*std::max_element(scan.ranges.begin(), scan.ranges.end()), 2.5F);
 }
 
 }  // namespace

@@ -176,9 +176,16 @@ TEST(CoastalFloor, OpensACoarseCellWithAnyOpenOne) {
 
 TEST(CoastalParams, RefusesNonsense) {
   EXPECT_TRUE(CoastalParams{}.validate());
-  EXPECT_FALSE((CoastalParams{.weight = -1.0}.validate()));
-  EXPECT_FALSE((CoastalParams{.levels = 1}.validate()));
-  EXPECT_FALSE((CoastalParams{.least_deviation = 2.0, .largest_deviation = 1.0}.validate()));
+  const auto is_refused = [](auto set) {
+    CoastalParams params;
+    set(params);
+    return !params.validate();
+  };
+  EXPECT_TRUE(is_refused([](CoastalParams& params) { params.weight = -1.0; }));
+  EXPECT_TRUE(is_refused([](CoastalParams& params) { params.levels = 1; }));
+  EXPECT_TRUE(is_refused([](CoastalParams& params) { params.largest_deviation = params.least_deviation; }));
+  EXPECT_TRUE(is_refused([](CoastalParams& params) { params.places.range = 0.0; }));
+  EXPECT_TRUE(is_refused([](CoastalParams& params) { params.uncertainty.heading_scale = 0.0; }));
 }
 
 }  // namespace

@@ -12,14 +12,14 @@ namespace {
 
 using coastal_testing::hall;
 
-PoseInformation information_at(const OccupancyGrid& map, Point2 place, const PlaceInformationParams& params,
+PoseInformation information_at(const RayCaster& caster, Point2 place, const PlaceInformationParams& params,
                                double rate = 0.0) {
-  return scan_information(ranges_around(RayCaster{map}, place, params), rate, params);
+  return scan_information(ranges_around(caster, place, params), rate, params);
 }
 
 TEST(PlaceInformation, OfACorridorIsAcrossItAndOfTheHeading) {
   // 40 m long, so that its ends are out of reach.
-  const auto corridor = information_at(hall(40.0, 3.0), {20.0, 1.2}, {});
+  const auto corridor = information_at(RayCaster{hall(40.0, 3.0)}, {20.0, 1.2}, {});
   EXPECT_GT(corridor.yy, 1000.0);
   EXPECT_GT(corridor.tt, 100.0);
   EXPECT_LT(corridor.xx, 1e-3 * corridor.yy);
@@ -28,7 +28,7 @@ TEST(PlaceInformation, OfACorridorIsAcrossItAndOfTheHeading) {
 }
 
 TEST(PlaceInformation, OfASquareRoomIsTheSameBothWays) {
-  const auto room = information_at(hall(6.0, 6.0), {3.0, 3.0}, {});
+  const auto room = information_at(RayCaster{hall(6.0, 6.0)}, {3.0, 3.0}, {});
   EXPECT_NEAR(room.xx, room.yy, 0.02 * room.xx);
   EXPECT_NEAR(room.xy, 0.0, 0.02 * room.xx);
 }
@@ -36,9 +36,10 @@ TEST(PlaceInformation, OfASquareRoomIsTheSameBothWays) {
 TEST(PlaceInformation, IsNoneWhereNothingIsInReach) {
   PlaceInformationParams params;
   params.range = 2.5;
-  const auto middle = information_at(hall(20.0, 20.0), {10.0, 10.0}, params);
+  const RayCaster caster{hall(20.0, 20.0)};
+  const auto middle = information_at(caster, {10.0, 10.0}, params);
   EXPECT_EQ(middle.xx + middle.yy + middle.tt, 0.0);
-  const auto beside = information_at(hall(20.0, 20.0), {10.0, 1.0}, params);
+  const auto beside = information_at(caster, {10.0, 1.0}, params);
   EXPECT_GT(beside.yy, 100.0);
 }
 
@@ -56,7 +57,7 @@ TEST(PlaceInformation, IsTheSquareOfTheRangesSlopes) {
   params.beams = 360;
   const RayCaster caster{map};
   const Point2 place{3.2, 2.9};
-  const auto found = information_at(map, place, params);
+  const auto found = information_at(caster, place, params);
   PoseInformation wanted;
   constexpr double kAside = 0.15;  // [m], some cells of the map
   const auto at = [&](Point2 offset) { return ranges_around(caster, place + offset, params); };
@@ -76,13 +77,13 @@ TEST(PlaceInformation, IsTheSquareOfTheRangesSlopes) {
 }
 
 TEST(PlaceInformation, FallsWithTheCrowdAndGrowsWithTheReach) {
-  const auto map = hall(12.0, 9.0);
+  const RayCaster caster{hall(12.0, 9.0)};
   Rng rng{7};
   for (int trial = 0; trial < 50; ++trial) {
     const Point2 place{rng.uniform(0.5, 11.5), rng.uniform(0.5, 8.5)};
     double before = std::numeric_limits<double>::infinity();
     for (const double rate : {0.0, 0.1, 0.5, 2.0}) {
-      const auto place_in_crowd = information_at(map, place, {}, rate);
+      const auto place_in_crowd = information_at(caster, place, {}, rate);
       EXPECT_LT(place_in_crowd.xx + place_in_crowd.yy, before);
       before = place_in_crowd.xx + place_in_crowd.yy;
     }
@@ -90,7 +91,7 @@ TEST(PlaceInformation, FallsWithTheCrowdAndGrowsWithTheReach) {
     for (const double range : {1.0, 2.5, 4.0, 10.0}) {
       PlaceInformationParams params;
       params.range = range;
-      const auto seen = information_at(map, place, params);
+      const auto seen = information_at(caster, place, params);
       // A beam beside the last one that ends in reach is taken for an edge: a few may be lost.
       EXPECT_GE(seen.xx + seen.yy, 0.98 * nearer);
       nearer = seen.xx + seen.yy;

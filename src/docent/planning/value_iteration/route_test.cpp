@@ -129,5 +129,29 @@ TEST(RoutePlanner, WhatHasStoodForLongIsDearerAndMayBeClosed) {
   EXPECT_FALSE(std::isfinite(cost(closed, true)));
 }
 
+TEST(RoutePlanner, KeepsToAPreferredLaneAndLeavesItForObstacles) {
+  OccupancyGrid hall;
+  hall.frame = {200, 200, 0.05, {0, 0}};
+  hall.cells.assign(hall.frame.size(), 0);
+  RoutePlanner planner{hall, {}, {}, {}};
+  planner.set_goal({9, 5}, 0.2);
+  const std::vector<Point2> lane{{1, 5}, {1, 8}, {9, 8}, {9, 5}};
+  planner.prefer(lane);
+  ASSERT_TRUE(planner.iterate(1000));
+  const auto along = planner.way({1, 5});
+  EXPECT_GT(least_distance(along, {5, 5}), 2.5);
+  EXPECT_LT(least_distance(along, {5, 8}), 0.5);
+  std::vector<bool> obstacles(planner.frame().size());
+  obstacles[planner.frame().index(planner.frame().cell_at({5, 8}))] = true;
+  planner.set_obstacles(obstacles);
+  ASSERT_TRUE(planner.iterate(1000));
+  EXPECT_GT(least_distance(planner.way({1, 5}), {5, 8}), 0.3);
+  EXPECT_GT(least_distance(planner.way({1, 5}), {5, 5}), 1.5) << "round the obstacle, not off the lane";
+  planner.set_obstacles(std::vector<bool>(planner.frame().size()));
+  planner.prefer({});
+  ASSERT_TRUE(planner.iterate(1000));
+  EXPECT_LT(least_distance(planner.way({1, 5}), {5, 5}), 0.2);
+}
+
 }  // namespace
 }  // namespace docent
