@@ -96,7 +96,8 @@ TEST(Replay, NobodyAppearsBeforeTheRobot) {
   double now = 0.0;
   for (int i = 0; i < 5000; ++i) {
     for (const Person* person : recorded(crowd)) {
-      if (known.insert(person->id).second) EXPECT_GE(distance(person->position, robot.position), 2.9);
+      if (!known.insert(person->id).second) continue;
+      EXPECT_GE(distance(person->position, robot.position), 2.9);
     }
     run(crowd, robot, now, 0.02);
   }
@@ -138,7 +139,8 @@ TEST(Replay, WhoIsPushedOffTheirTrackComesBackToIt) {
   EXPECT_EQ(crowd.give_way(index, before + Point2{0.0, 0.2}, 0.5), 0.0);
   EXPECT_NEAR(distance(crowd.people()[index].position, before), 0.3, 1e-6);
   run(crowd, robot, now, 0.3);
-  if (index < crowd.people().size()) EXPECT_NEAR(crowd.people()[index].position.y, before.y, 1e-6);
+  ASSERT_LT(index, crowd.people().size());
+  EXPECT_NEAR(crowd.people()[index].position.y, before.y, 1e-6);
 }
 
 }  // namespace
