@@ -21,6 +21,8 @@ constexpr double kOffStairs = 0.25;      // [m] more, from the edge of stairs
 constexpr double kMayMove = 0.4;         // [m] a movable thing may stand elsewhere on the map
 constexpr double kPassable = 0.5;        // [m] clearance of the robot's ways
 constexpr double kCell = 0.1;            // [m] of the search for places
+constexpr double kOpen = 1.1;            // [m] clearance of open floor
+constexpr double kToOpen = 1.0;          // [m] from a place where a group can gather to open floor
 
 /// A convex outline round the polygon that keeps `by` [m] from it: its bounding box, grown.
 Polygon grown_box(const Polygon& polygon, double by) {
@@ -181,6 +183,7 @@ class Curator {
   struct Place {
     Point2 point;
     double clearance = 0.0;  ///< [m] also from where movable things may be drawn
+    bool has_room = false;   ///< for a group: open floor is near
   };
 
   /// Where a robot can stand and drive to the rest, by the world in which everything movable is as broad as it may be.
@@ -207,10 +210,16 @@ class Curator {
       if (label > 0) ++sizes[static_cast<std::size_t>(label)];
     }
     const auto best = static_cast<int>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+    std::vector<bool> is_wide(frame.size());
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      is_wide[i] = open[i] && labels[i] == best && floor.clearance(centre_of(frame, i)) >= kOpen;
+    }
+    const std::vector<float> to_open = distance_transform(frame, is_wide);
     std::vector<Place> places;
     for (std::size_t i = 0; i < open.size(); ++i) {
       const Point2 point = centre_of(frame, i);
-      if (open[i] && labels[i] == best) places.push_back({point, floor.clearance(point)});
+      if (!open[i] || labels[i] != best) continue;
+      places.push_back({point, floor.clearance(point), static_cast<double>(to_open[i]) <= kToOpen});
     }
     return places;
   }
@@ -239,7 +248,8 @@ class Curator {
     if (places.empty()) return false;
     // The ends of the building: as far apart as can be.
     const auto far_from = [&](Point2 point) {
-      return best_place(places, [&](const Place& p) { return p.clearance >= 0.6 ? distance(p.point, point) : 0.0; });
+      return best_place(
+          places, [&](const Place& p) { return p.clearance >= 0.8 && p.has_room ? distance(p.point, point) : 0.0; });
     };
     const auto first = far_from(places.front().point);
     const auto second = first ? far_from(*first) : std::nullopt;
@@ -247,7 +257,7 @@ class Curator {
     world.entrances = {*second, *first};
     const auto home = best_place(places, [&](const Place& p) {
       const double away = distance(p.point, *second);
-      return away > 2.0 && away < 15.0 ? std::min(p.clearance, 1.2) / (1.0 + 0.1 * away) : 0.0;
+      return p.has_room && away > 2.0 ? std::min(p.clearance, 1.4) / (1.0 + 0.05 * away) : 0.0;
     });
     if (!home) return false;
     plan_.home = {home->x, home->y, direction(*home, *first)};
@@ -261,8 +271,10 @@ class Curator {
     return plan_.stops.size() >= 2;
   }
 
-  /// Near enough to something to show it.
-  [[nodiscard]] static bool is_beside(const Place& place) { return place.clearance >= 0.6 && place.clearance <= 0.9; }
+  /// Near enough to something to show it, with room for those who listen.
+  [[nodiscard]] static bool is_beside(const Place& place) {
+    return place.has_room && place.clearance >= 0.6 && place.clearance <= 0.9;
+  }
 
   /// On the outline of what stands nearest.
   [[nodiscard]] Point2 nearest_thing(Point2 point) const {
@@ -282,7 +294,7 @@ class Curator {
   void choose_stops(const std::vector<Place>& places) {
     World& world = plan_.world;
     const double square_metres = static_cast<double>(places.size()) * kCell * kCell;
-    const auto wanted = static_cast<std::size_t>(std::clamp(square_metres / 60.0, 3.0, 14.0));
+    const auto wanted = static_cast<std::size_t>(std::clamp(square_metres / 40.0, 3.0, 16.0));
     std::vector<Point2> chosen{plan_.home.position()};
     while (plan_.stops.size() < wanted) {
       const auto place = best_place(places, [&](const Place& p) {
