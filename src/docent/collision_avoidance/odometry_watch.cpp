@@ -25,7 +25,7 @@ void OdometryWatch::receive(Time now, Time stamp, const BaseState& state, bool j
   if (jumped) jumped_ = now;
   if (stamp_ && stamp > *stamp_) {
     watch_for_gaps(to_seconds(stamp - *stamp_));
-    watch_for_freeze(now, stamp, state, commands);
+    if (!jumped) watch_for_freeze(now, stamp, state, commands);  // the velocity of a jump is none
   }
   if (!stamp_ || stamp > *stamp_ || *stamp_ - stamp > seconds(1.0)) {
     stamp_ = stamp;

@@ -104,5 +104,19 @@ TEST(OdometryWatch, SilentLateAndJumped) {
   EXPECT_EQ(base.reason(), "");
 }
 
+TEST(OdometryWatch, AJumpOfAStandingBaseDoesNotMakeItSeemFrozen) {
+  Base base;
+  base.run(2.0, {});
+  base.now += 0.05;
+  BaseState jumped = base.state;
+  jumped.odom_from_base.x += 1.0;
+  jumped.velocity.linear = 20.0;  // the step over 50 ms
+  base.watch.receive(time_from_seconds(base.now), time_from_seconds(base.now), jumped, true, base.commands);
+  base.state.odom_from_base = jumped.odom_from_base;
+  base.now += 0.05;
+  base.run(5.0, {});
+  EXPECT_EQ(base.reason(), "");
+}
+
 }  // namespace
 }  // namespace docent

@@ -15,7 +15,9 @@ constexpr double kAngularChange = 10.0;   // [rad/s2]
 constexpr double kLinearNoise = 0.06;     // [m]
 constexpr double kAngularNoise = 0.0873;  // [rad]
 
-bool is_still(const Pose2& motion) { return motion.x == 0.0 && motion.y == 0.0 && motion.theta.radians() == 0.0; }
+bool is_same(const Pose2& a, const Pose2& b) {
+  return a.x == b.x && a.y == b.y && a.theta.radians() == b.theta.radians();
+}
 
 }  // namespace
 
@@ -41,7 +43,8 @@ UnbrokenOdometry::Reading UnbrokenOdometry::add(Time stamp, const Pose2& raw_fro
   if (to_seconds(stamp - *stamp_) < kShortest) return {odom_from_raw_ * raw_from_base_, false};
   const Pose2 motion = inverse(raw_from_base_) * raw_from_base;
   const bool in_full_drive = std::abs(linear_) > kInFullDrive || std::abs(angular_) > kInFullDrive;
-  const bool frozen = is_still(motion) && in_full_drive && stamp - changed_ < seconds(kLongestFrozen);
+  const bool frozen =
+      is_same(raw_from_base, raw_from_base_) && in_full_drive && stamp - changed_ < seconds(kLongestFrozen);
   const double dt = std::max(kShortest, to_seconds(stamp - (in_full_drive ? changed_ : *stamp_)));
   stamp_ = stamp;
   if (frozen) return {odom_from_raw_ * raw_from_base_, false};
