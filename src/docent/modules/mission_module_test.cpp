@@ -106,7 +106,7 @@ TEST(Tour, AnUnreachableExhibitIsTriedAgainThenFails) {
   rehearsal.plan.unreachable.insert({10, 0});
   rehearsal.client.wish_for("r1", "exhibit", "breeze");
   rehearsal.client.wish_for("t1", "tour", "all");
-  rehearsal.run_for(900);
+  rehearsal.run_for(1800);
   EXPECT_EQ(rehearsal.client.state_of("r1"), "failed");
   EXPECT_FALSE(rehearsal.client.states["r1"].reason.empty());
   EXPECT_EQ(rehearsal.client.state_of("t1"), "fulfilled") << "one exhibit may be skipped";
