@@ -22,7 +22,7 @@ struct AvoiderParams {
   /// crowd_fit: through the gaps between people as they will be in the next seconds; cautious_window: the dynamic
   /// window, slower near people, who are foreseen for a second; dynamic_window: the plain one, for comparison, with
   /// people as things that stand where they are now.
-  std::string method = "crowd_fit";
+  std::string method = "cautious_window";
   double lookahead = 1.2;              ///< [m] the path is followed by steering for a point so far along it
   double arrival_deceleration = 0.35;  ///< [m/s2]
   double target_timeout = 1.5;         ///< [s]
@@ -113,6 +113,7 @@ class Avoider {
     Point2 in_base;
     double remaining = 0.0;  ///< [m] along the path to its end
   };
+  [[nodiscard]] bool is_touched(Time now, double within) const;
   [[nodiscard]] BaseState state_when_effective(Time now) const;
   [[nodiscard]] std::vector<Obstacle> obstacles_from(const Pose2& odom_from_base, Time when) const;
   [[nodiscard]] Carrot carrot(const Pose2& odom_from_base, std::span<const Obstacle> obstacles) const;
@@ -154,6 +155,7 @@ class Avoider {
   std::optional<Time> unmapped_time_;
   bool beams_localized_ = false;
   std::optional<Time> touched_;
+  Time touched_since_{};
   std::optional<Angle> steered_in_odom_;
   double turning_side_ = 0.0;  ///< +1 left, -1 right, while something behind is turned to; else 0
 };
