@@ -131,6 +131,10 @@ std::string Avoider::fault(Time now) const {
   return found && found->max_speed <= 0.0 ? found->reason : "";
 }
 
+bool Avoider::is_touched(Time now, double within) const {
+  return touched_ && now - *touched_ < seconds(within) && now - touched_since_ < seconds(kLeansOn);
+}
+
 BaseState Avoider::state_when_effective(Time now) const {
   return predict(odometry_.newest(), odometry_.newest_stamp(), now + seconds(limits_.latency), commands_, limits_);
 }
@@ -317,7 +321,8 @@ Steering Avoider::steering_for(const Carrot& ahead, const BaseState& start, std:
   steering.distance = norm(ahead.in_base);
   if (params_.method == "dynamic_window") return steering;
   if (params_.method == "crowd_fit") {
-    const CrowdAdvice advice = crowd_.steer(start, obstacles, target_->via, decision.speed_cap, params_.window.cycle);
+    const CrowdAdvice advice =
+        crowd_.steer(start, obstacles, {target_->via, !target_->is_final}, decision.speed_cap, params_.window.cycle);
     steering.bearing = advice.bearing;
     steering.distance = std::max(steering.distance, 1.0);
     cap_speed(advice.speed, "people are in the way", decision);
@@ -386,7 +391,7 @@ AvoiderDecision Avoider::decide(Time now) {
   if (auto why = fault(now); !why.empty()) return stand(now, std::move(decision), std::move(why));
   if (!target_ || target_->mode == AvoiderTarget::Mode::stop) return stand(now, std::move(decision), "");
   if (target_freshness_.age(now) > params_.target_timeout) return stand(now, std::move(decision), "no fresh target");
-  if (touched_ && now - *touched_ < seconds(1.0)) return stand(now, std::move(decision), "the robot was touched");
+  if (is_touched(now, kStandsTouched)) return stand(now, std::move(decision), "the robot was touched");
 
   decision.speed_cap = std::min(max_speed_, limits_.max_speed);
   Steering steering;
@@ -430,7 +435,7 @@ std::optional<AvoiderDecision> Avoider::reflex(Time now) {
   if (odometry_.empty() || (std::abs(command_.linear) < 1e-9 && std::abs(command_.angular) < 1e-9)) return std::nullopt;
   AvoiderDecision decision;
   if (auto why = fault(now); !why.empty()) return stand(now, std::move(decision), std::move(why));
-  if (touched_ && now - *touched_ < seconds(0.2)) return stand(now, std::move(decision), "the robot was touched");
+  if (is_touched(now, 0.2)) return stand(now, std::move(decision), "the robot was touched");
   const BaseState start = state_when_effective(now);
   if (std::abs(start.velocity.linear) < 0.03 && std::abs(command_.linear) < 0.03) return std::nullopt;
   const auto obstacles = obstacles_from(start.odom_from_base, now + seconds(limits_.latency));

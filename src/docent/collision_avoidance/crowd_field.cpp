@@ -13,6 +13,7 @@ namespace {
 constexpr int kCount = CrowdField::kCells * CrowdField::kCells;
 constexpr float kFar = 1e6F;            // [s]
 constexpr double kHazardCost = 1000.0;  // nobody steps out of the way there
+constexpr double kBeyond = 4.0;         // [m] a path that goes on is made for so far beyond its end
 constexpr double kWaitShare = 0.2;      // of the cost: who comes near somebody that waits means no harm
 
 }  // namespace
@@ -99,8 +100,9 @@ void CrowdField::add_shadows(Point2 robot, std::span<const Obstacle> obstacles, 
   }
 }
 
-void CrowdField::build(Point2 robot, std::span<const Obstacle> obstacles, std::span<const Point2> path, double ease) {
+void CrowdField::build(Point2 robot, std::span<const Obstacle> obstacles, const CrowdPath& path, double ease) {
   ease_ = ease;
+  is_final_ = !path.goes_on;
   // Cells keep their places in odom: what is decided does not flicker with the robot's own motion.
   constexpr int kMiddle = kCells / 2;
   low_ = {(std::round(robot.x / kCell) - kMiddle) * kCell, (std::round(robot.y / kCell) - kMiddle) * kCell};
@@ -110,7 +112,11 @@ void CrowdField::build(Point2 robot, std::span<const Obstacle> obstacles, std::s
     if (!is_walking(obstacle)) stamp(obstacle, 0.0, standing);
   }
   add_shadows(robot, obstacles, standing);
-  solve_standing(path);
+  std::fill(values_.back().begin(), values_.back().end(), kFar);
+  open_.clear();
+  seed_path(path, path.goes_on ? kBeyond : 0.0);
+  if (path.goes_on) seed_front(robot, path);
+  solve_standing();
   for (std::size_t layer = 0; layer + 1 < costs_.size(); ++layer) costs_[layer] = standing;
   for (std::size_t layer = 0; layer < costs_.size(); ++layer) {
     for (const auto& obstacle : obstacles) {
@@ -120,12 +126,9 @@ void CrowdField::build(Point2 robot, std::span<const Obstacle> obstacles, std::s
   for (std::size_t layer = costs_.size() - 1; layer-- > 0;) solve_layer(layer);
 }
 
-void CrowdField::solve_standing(std::span<const Point2> path) {
+void CrowdField::seed_path(const CrowdPath& path, double beyond) {
   Layer& values = values_.back();
-  const Layer& costs = costs_.back();
-  std::fill(values.begin(), values.end(), kFar);
-  open_.clear();
-  double left = 0.0;
+  double left = beyond;
   end_ = -1;
   const auto seed = [&](Point2 at) {
     const int cell = cell_at(at);
@@ -134,21 +137,52 @@ void CrowdField::solve_standing(std::span<const Point2> path) {
     if (is_end) end_ = cell;
     float& value = values[static_cast<std::size_t>(cell)];
     // Somebody stands on the path there: not a place to make for, unless it is the end.
-    const bool is_beset = costs[static_cast<std::size_t>(cell)] >= static_cast<float>(params_.blocked_weight);
+    const bool is_beset = costs_.back()[static_cast<std::size_t>(cell)] >= static_cast<float>(params_.blocked_weight);
     const auto seconds_left = static_cast<float>(left / kSpeed);
     if ((is_beset && !is_end) || seconds_left >= value) return;
     value = seconds_left;
     open_.emplace_back(seconds_left, cell);
   };
-  seed(path.back());
-  for (std::size_t i = path.size() - 1; i-- > 0;) {
-    const double length = distance(path[i], path[i + 1]);
+  const auto& points = path.points;
+  seed(points.back());
+  for (std::size_t i = points.size() - 1; i-- > 0;) {
+    const double length = distance(points[i], points[i + 1]);
     const int steps = std::max(1, static_cast<int>(std::ceil(length / kCell)));
     for (int k = 1; k <= steps; ++k) {
       left += length / steps;
-      seed(path[i + 1] + (static_cast<double>(k) / steps) * (path[i] - path[i + 1]));
+      seed(points[i + 1] + (static_cast<double>(k) / steps) * (points[i] - points[i + 1]));
     }
   }
+}
+
+void CrowdField::seed_front(Point2 robot, const CrowdPath& path) {
+  constexpr double kStraight = 0.95;  // of its length; one that bends has walls to go round
+  constexpr double kAhead = 0.5;      // cosine of half the front
+  constexpr double kRim = 3.1;        // [m] from the robot
+  const Point2 way = path.points.back() - robot;
+  const double length = norm(way);
+  double along = distance(robot, path.points.front());
+  for (std::size_t i = 0; i + 1 < path.points.size(); ++i) along += distance(path.points[i], path.points[i + 1]);
+  if (length < 1.0 || length < kStraight * along) return;
+  const Point2 ahead = (1.0 / length) * way;
+  const Point2 far = path.points.back() + kBeyond * ahead;
+  for (int cell = 0; cell < kCount; ++cell) {
+    const Point2 at = low_ + Point2{kCell * (cell % kCells), kCell * (cell / kCells)};
+    const Point2 offset = at - robot;
+    const auto index = static_cast<std::size_t>(cell);
+    const double away = norm(offset);
+    if (away < std::max(kRim, length) || dot(offset, ahead) < kAhead * away) continue;
+    if (costs_.back()[index] >= static_cast<float>(params_.blocked_weight)) continue;
+    const auto left = static_cast<float>(distance(at, far) / kSpeed);
+    if (left >= values_.back()[index]) continue;
+    values_.back()[index] = left;
+    open_.emplace_back(left, cell);
+  }
+}
+
+void CrowdField::solve_standing() {
+  Layer& values = values_.back();
+  const Layer& costs = costs_.back();
   std::make_heap(open_.begin(), open_.end(), std::greater<>{});
   while (!open_.empty()) {
     const auto [value, cell] = open_.front();
@@ -193,7 +227,7 @@ void CrowdField::solve_layer(std::size_t layer) {
       values[here] = best;
     }
   }
-  if (end_ >= 0) values[static_cast<std::size_t>(end_)] = values_.back()[static_cast<std::size_t>(end_)];
+  if (is_final_ && end_ >= 0) values[static_cast<std::size_t>(end_)] = values_.back()[static_cast<std::size_t>(end_)];
 }
 
 double CrowdField::sample(const Layer& layer, Point2 in_odom) const {

@@ -18,7 +18,7 @@ struct CrowdFitParams {
   double personal = 0.95;        ///< [m] the same; with half a body 1.2 m
   double intimate_weight = 3.0;  ///< inside intimate space
   double personal_weight = 0.4;  ///< at the inner rim of personal space; falls to 0 at the outer one
-  double hidden_weight = 1.0;    ///< behind people, where nobody looks: there may be more of them
+  double hidden_weight = 1.5;    ///< behind people, where nobody looks: there may be more of them
   double patience = 8.0;         ///< [s] of standing after which personal space counts half as much
   double blocked_weight = 40.0;  ///< where somebody stands: they may go, or make room
   double crossed_weight = 10.0;  ///< where somebody will walk: better waited for than run into
@@ -44,6 +44,12 @@ struct CrowdFitParams {
   [[nodiscard]] Result<void> validate() const;
 };
 
+/// The way that is wanted.
+struct CrowdPath {
+  std::span<const Point2> points;  ///< [m], odom, from the robot on, not empty
+  bool goes_on = false;            ///< beyond its last point
+};
+
 /// Time to go [s] over place and time for a robot among people: value iteration [BurgardEtAl1999 4.2] over the floor
 /// round the robot and over the next seconds. In layer k people are where they will be k steps from now; beyond the
 /// last layer those who walk are gone and those who stand still stand. A move goes to one of eight neighbours or
@@ -57,11 +63,12 @@ class CrowdField {
 
   CrowdField(const CrowdFitParams& params, double robot_radius);
 
+  /// At the path's end the time to go is 0, at its other points what is left of it. A straight path that goes on is
+  /// made for on a broad front: all places of the rim ahead count by their distance to a point farther on.
   /// @param obstacles  odom frame
-  /// @param path  [m], odom, not empty; at its end the time to go is 0, at its other points what is left of it
   /// @param ease  times the weights of personal space
   /// O(cells log cells + layers * (9 cells + 200 moving obstacles)), no allocation after the first call.
-  void build(Point2 robot, std::span<const Obstacle> obstacles, std::span<const Point2> path, double ease = 1.0);
+  void build(Point2 robot, std::span<const Obstacle> obstacles, const CrowdPath& path, double ease = 1.0);
 
   [[nodiscard]] int layers() const { return layers_; }
   /// Time to go [s] from a point at a layer, bilinear; outside as at the border.
@@ -79,13 +86,16 @@ class CrowdField {
   [[nodiscard]] bool is_walking(const Obstacle& obstacle) const { return norm(obstacle.velocity) > params_.walks; }
   void stamp(const Obstacle& obstacle, double time, Layer& layer) const;
   void add_shadows(Point2 robot, std::span<const Obstacle> obstacles, Layer& layer) const;
-  void solve_standing(std::span<const Point2> path);
+  void seed_path(const CrowdPath& path, double beyond);
+  void seed_front(Point2 robot, const CrowdPath& path);
+  void solve_standing();
   void solve_layer(std::size_t layer);
 
   CrowdFitParams params_;
   double robot_radius_;
   int layers_;
   double ease_ = 1.0;
+  bool is_final_ = true;
   int end_ = -1;               ///< cell where the path ends or leaves the field: who is there has arrived, at any time
   Point2 low_{};               ///< [m], odom, centre of cell (0, 0)
   std::vector<Layer> costs_;   ///< [layers + 1], the first is now

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace docent {
 namespace {
 
@@ -12,7 +14,7 @@ Obstacle standing(double x, double y) { return {{x, y}, {}, 0.08, true, false}; 
 
 TEST(CrowdField, TimeToGoIsTheWayInTheOpen) {
   CrowdField field{{}, kRadius};
-  field.build({0.0, 0.0}, {}, kPath);
+  field.build({0.0, 0.0}, {}, {kPath, false});
   EXPECT_NEAR(field.value(field.layers(), {0.0, 0.0}), 3.0 / CrowdField::kSpeed, 0.2);
   EXPECT_NEAR(field.value(field.layers(), {3.0, 0.0}), 0.0, 0.2);
   EXPECT_NEAR(field.value(field.layers(), {3.0, 1.5}), 1.5 / CrowdField::kSpeed, 0.2);
@@ -21,22 +23,33 @@ TEST(CrowdField, TimeToGoIsTheWayInTheOpen) {
 
 TEST(CrowdField, WhoIsAtTheEndHasArrivedAtAnyTime) {
   CrowdField field{{}, kRadius};
-  field.build({0.0, 0.0}, {}, kPath);
+  field.build({0.0, 0.0}, {}, {kPath, false});
   for (int layer = 0; layer <= field.layers(); ++layer) EXPECT_NEAR(field.value(layer, {3.0, 0.0}), 0.0, 1e-6);
 }
 
 TEST(CrowdField, APathThatLeavesTheFieldEndsAtItsRim) {
   CrowdField field{{}, kRadius};
   const std::vector<Point2> path{{0.0, 0.0}, {1.0, 0.0}, {9.0, 0.0}};
-  field.build({0.0, 0.0}, {}, path);
+  field.build({0.0, 0.0}, {}, {path, false});
   EXPECT_GT(field.value(0, {2.0, 0.0}), field.value(0, {3.0, 0.0})) << "it goes on beyond the last point inside";
+}
+
+TEST(CrowdField, AStraightPathThatGoesOnIsMadeForOnABroadFront) {
+  CrowdField field{{}, kRadius};
+  // People round the path's last point: who goes on need not join them.
+  std::vector<Obstacle> people;
+  for (int i = 0; i < 12; ++i) people.push_back(standing(3.0 + 0.9 * std::cos(0.52 * i), 0.9 * std::sin(0.52 * i)));
+  field.build({0.0, 0.0}, people, {kPath, true});
+  EXPECT_LT(field.value(field.layers(), {2.8, 1.9}), field.value(field.layers(), {2.0, 0.0}));
+  field.build({0.0, 0.0}, people, {kPath, false});
+  EXPECT_GT(field.value(field.layers(), {2.8, 1.9}), field.value(field.layers(), {3.0, 0.0}));
 }
 
 TEST(CrowdField, SpaceRoundPeopleCostsMoreTheNearer) {
   const CrowdFitParams params;
   CrowdField field{params, kRadius};
   const std::vector<Obstacle> people{standing(1.5, 0.0)};
-  field.build({0.0, 0.0}, people, kPath);
+  field.build({0.0, 0.0}, people, {kPath, false});
   const auto at_gap = [&](double gap) { return field.cost(0, {1.5, kRadius + gap}); };
   EXPECT_NEAR(at_gap(-0.15), params.blocked_weight, 1e-3);
   EXPECT_NEAR(at_gap(0.16), params.intimate_weight, 0.5);
@@ -48,7 +61,7 @@ TEST(CrowdField, SpaceRoundPeopleCostsMoreTheNearer) {
 TEST(CrowdField, WhoWalksIsWhereTheyWillBe) {
   CrowdField field{{}, kRadius};
   const std::vector<Obstacle> people{{{1.5, -0.9}, {0.0, 1.0}, 0.08, true, false}};
-  field.build({0.0, 0.0}, people, kPath);
+  field.build({0.0, 0.0}, people, {kPath, false});
   EXPECT_GT(field.cost(3, {1.5, 0.0}), 4.0) << "0.9 s from now they are there";
   EXPECT_LT(field.cost(0, {1.5, 0.3}), 1.0);
   EXPECT_LT(field.cost(8, {1.5, 0.0}), 1.0) << "and then gone";
@@ -58,7 +71,7 @@ TEST(CrowdField, WhoWalksIsWhereTheyWillBe) {
 TEST(CrowdField, AWayLeadsRoundWhoStands) {
   CrowdField field{{}, kRadius};
   const std::vector<Obstacle> people{standing(1.2, 0.1), standing(1.2, 0.4)};
-  field.build({0.0, 0.0}, people, kPath);
+  field.build({0.0, 0.0}, people, {kPath, false});
   const auto on = field.way_on({0.0, 0.0}, 0.9);
   ASSERT_TRUE(on);
   EXPECT_LT(on->y, -0.1) << "on the side that is open";

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kHeadings = 48;
 constexpr std::array<double, 4> kSpeeds{0.25, 0.5, 0.75, 1.0};  // shares of the cap
-constexpr double kRolledOut = 1.5;                              // [s]
+constexpr double kRolledOut = 2.4;                              // [s]
 constexpr double kWaitShare = 0.2;                              // as in the field
 constexpr double kStands = 0.05;                                // [m/s]
 constexpr double kRecovers = 2.0;                               // driving gives patience back so much faster
@@ -47,8 +47,8 @@ double CrowdSteering::cost_of(const BaseState& start, double bearing, double spe
   return cost + field_.value(steps, at);
 }
 
-CrowdAdvice CrowdSteering::steer(const BaseState& start, std::span<const Obstacle> obstacles,
-                                 std::span<const Point2> path, double speed_cap, double cycle) {
+CrowdAdvice CrowdSteering::steer(const BaseState& start, std::span<const Obstacle> obstacles, const CrowdPath& path,
+                                 double speed_cap, double cycle) {
   const Pose2& odom_from_base = start.odom_from_base;
   in_odom_.clear();
   for (const auto& obstacle : obstacles) {

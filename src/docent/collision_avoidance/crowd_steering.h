@@ -24,11 +24,10 @@ class CrowdSteering {
 
   /// @param start  the base when what is chosen takes effect
   /// @param obstacles  [m] in the frame of that base
-  /// @param path  [m], odom, from the robot on, not empty
   /// @param cycle  [s] since the last choice
   /// O(field + headings * speeds * steps).
-  [[nodiscard]] CrowdAdvice steer(const BaseState& start, std::span<const Obstacle> obstacles,
-                                  std::span<const Point2> path, double speed_cap, double cycle);
+  [[nodiscard]] CrowdAdvice steer(const BaseState& start, std::span<const Obstacle> obstacles, const CrowdPath& path,
+                                  double speed_cap, double cycle);
   void forget() { last_in_odom_.reset(); }
 
  private:

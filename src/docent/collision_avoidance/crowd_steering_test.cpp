@@ -23,7 +23,7 @@ void add_wall(std::vector<Obstacle>& obstacles, Point2 from, Point2 to) {
 }
 CrowdAdvice steer(std::span<const Obstacle> obstacles, double speed = 0.0) {
   CrowdSteering steering{{}, {}};
-  return steering.steer({{}, {speed, 0.0}}, obstacles, kPath, kCap, 0.25);
+  return steering.steer({{}, {speed, 0.0}}, obstacles, {kPath, false}, kCap, 0.25);
 }
 
 TEST(CrowdSteering, GoesStraightOnInTheOpen) {
