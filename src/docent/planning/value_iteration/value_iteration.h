@@ -84,7 +84,8 @@ class ValueIteration {
   struct Tile {
     float falls_from = kClosed;   ///< the least offer that was not taken yet
     float lost_from = kClosed;    ///< the least value that may have lost its ground
-    float least = kClosed;        ///< on its borders
+    float least = kClosed;        ///< of the values on its borders
+    float most = 0.0F;            ///< of those that are finite
     bool is_blank = true;         ///< all values infinite, whatever the memory holds
     std::uint64_t lost_rows = 0;  ///< where that is
     Stirred stirred;
