@@ -1,0 +1,334 @@
+#include "docent/planning/value_iteration/value_iteration.h"
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+#include <functional>
+#include <numeric>
+#include <queue>
+#include <string>
+
+#include "docent/base/random.h"
+#include "docent/grid/occupancy_grid.h"
+
+/// Value iteration against Dijkstra's algorithm with a std::priority_queue, over random buildings of 5 cm a cell, on
+/// one core: the full value function, and after an obstacle of 1 x 1 m has appeared on the way of a robot. Ratios
+/// within one run mean something.
+///
+/// Dijkstra is meant to be fair: flat arrays with a closed border, so that nothing tests bounds, entries of eight
+/// bytes, nothing allocated while it runs.
+namespace docent {
+namespace {
+
+using Goal = ValueIteration::Goal;
+constexpr float kClosed = ValueIteration::kClosed;
+constexpr double kResolution = 0.05;
+
+void fill(OccupancyGrid& map, int left, int bottom, int right, int top, std::int8_t as) {
+  for (int row = std::max(0, bottom); row < std::min(top, map.frame.rows); ++row)
+    for (int column = std::max(0, left); column < std::min(right, map.frame.columns); ++column)
+      map.cells[map.frame.index({column, row})] = as;
+}
+
+OccupancyGrid floor_of(int side) {
+  OccupancyGrid map;
+  map.frame = {side, side, kResolution, {}};
+  map.cells.assign(map.frame.size(), OccupancyGrid::kFree);
+  return map;
+}
+
+/// One hall with cases of 0.3 to 3 m.
+OccupancyGrid hall(int side, Rng& rng) {
+  OccupancyGrid map = floor_of(side);
+  for (int i = 0; i < side * side / 8000; ++i) {
+    const int left = static_cast<int>(rng.integer(0, side));
+    const int bottom = static_cast<int>(rng.integer(0, side));
+    fill(map, left, bottom, left + static_cast<int>(rng.integer(6, 60)), bottom + static_cast<int>(rng.integer(6, 60)),
+         OccupancyGrid::kOccupied);
+  }
+  return map;
+}
+
+/// Rooms of 5 to 12 m, most with a door of 1.2 m or two to their neighbours, and some furniture.
+OccupancyGrid rooms(int side, Rng& rng) {
+  OccupancyGrid map = floor_of(side);
+  std::vector<int> walls{0};
+  while (walls.back() < side) walls.push_back(walls.back() + static_cast<int>(rng.integer(100, 240)));
+  const auto door = [&](int from, int to) {
+    return static_cast<int>(rng.integer(from + 10, std::max(from + 11, to - 34)));
+  };
+  for (const int wall : walls) {
+    fill(map, wall, 0, wall + 4, side, OccupancyGrid::kOccupied);
+    fill(map, 0, wall, side, wall + 4, OccupancyGrid::kOccupied);
+  }
+  for (std::size_t i = 0; i + 1 < walls.size(); ++i) {
+    for (const int wall : walls) {
+      for (int doors = rng.chance(0.25) ? 2 : rng.chance(0.85) ? 1 : 0; doors > 0; --doors) {
+        const int at = door(walls[i], walls[i + 1]);
+        fill(map, wall, at, wall + 4, at + 24, OccupancyGrid::kFree);
+        const int across = door(walls[i], walls[i + 1]);
+        fill(map, across, wall, across + 24, wall + 4, OccupancyGrid::kFree);
+      }
+    }
+  }
+  for (int i = 0; i < side * side / 20000; ++i) {
+    const int left = static_cast<int>(rng.integer(0, side));
+    const int bottom = static_cast<int>(rng.integer(0, side));
+    fill(map, left, bottom, left + static_cast<int>(rng.integer(6, 30)), bottom + static_cast<int>(rng.integer(6, 30)),
+         OccupancyGrid::kOccupied);
+  }
+  return map;
+}
+
+/// Corridors of 1.6 m between walls of 0.2 m: a tree, with a tenth of the other walls taken out.
+OccupancyGrid maze(int side, Rng& rng) {
+  constexpr int kPitch = 36;
+  OccupancyGrid map = floor_of(side);
+  const int count = (side - 4) / kPitch;
+  fill(map, 0, 0, side, side, OccupancyGrid::kOccupied);
+  std::vector<int> group(static_cast<std::size_t>(count * count));
+  std::iota(group.begin(), group.end(), 0);
+  const std::function<int(int)> root = [&](int i) {
+    while (group[static_cast<std::size_t>(i)] != i) i = group[static_cast<std::size_t>(i)];
+    return i;
+  };
+  std::vector<std::pair<int, bool>> doors;  // of a place, to the right or up
+  for (int i = 0; i < count * count; ++i) {
+    const int left = 4 + i % count * kPitch;
+    const int bottom = 4 + i / count * kPitch;
+    fill(map, left, bottom, left + kPitch - 4, bottom + kPitch - 4, OccupancyGrid::kFree);
+    if (i % count + 1 < count) doors.emplace_back(i, true);
+    if (i / count + 1 < count) doors.emplace_back(i, false);
+  }
+  for (std::size_t i = doors.size(); i > 1; --i)
+    std::swap(doors[i - 1], doors[static_cast<std::size_t>(rng.integer(0, static_cast<std::int64_t>(i) - 1))]);
+  for (const auto& [place, right] : doors) {
+    const int here = root(place);
+    const int there = root(place + (right ? 1 : count));
+    if (here == there && !rng.chance(0.1)) continue;
+    group[static_cast<std::size_t>(here)] = there;
+    const int left = 4 + place % count * kPitch;
+    const int bottom = 4 + place / count * kPitch;
+    if (right) {
+      fill(map, left + kPitch - 4, bottom, left + kPitch, bottom + kPitch - 4, OccupancyGrid::kFree);
+    } else {
+      fill(map, left, bottom + kPitch - 4, left + kPitch - 4, bottom + kPitch, OccupancyGrid::kFree);
+    }
+  }
+  return map;
+}
+
+/// As RoutePlanner gives them: closed within the robot's radius and a margin, dearer near to walls.
+std::vector<float> costs_of(const OccupancyGrid& map) {
+  std::vector<bool> solid(map.frame.size());
+  for (std::size_t i = 0; i < solid.size(); ++i) solid[i] = map.cells[i] != OccupancyGrid::kFree;
+  const auto clearances = distance_transform(map.frame, solid);
+  std::vector<float> costs(map.frame.size(), kClosed);
+  for (std::size_t i = 0; i < costs.size(); ++i) {
+    const double spare = static_cast<double>(clearances[i]) - 0.365;
+    if (spare < 0.0) continue;
+    const double discomfort = std::max(0.0, 1.0 - spare / 0.8);
+    costs[i] = static_cast<float>(kResolution * (1.0 + 2.0 * discomfort * discomfort));
+  }
+  return costs;
+}
+
+/// Backwards from the goal, over a grid with a closed border.
+class Dijkstra {
+ public:
+  Dijkstra(const GridFrame& frame, const std::vector<float>& costs)
+      : frame_{frame}, stride_{static_cast<std::size_t>(frame.columns) + 2} {
+    costs_.assign(stride_ * (static_cast<std::size_t>(frame.rows) + 2), kClosed);
+    for (int row = 0; row < frame.rows; ++row)
+      for (int column = 0; column < frame.columns; ++column)
+        costs_[index({column, row})] = costs[frame.index({column, row})];
+    values_.resize(costs_.size());
+    std::vector<Entry> room;
+    room.reserve(costs_.size());
+    queue_ = Queue{std::greater<>{}, std::move(room)};
+  }
+  void solve(CellIndex goal) {
+    std::fill(values_.begin(), values_.end(), kClosed);
+    const auto s = static_cast<std::ptrdiff_t>(stride_);
+    const std::array<std::ptrdiff_t, 8> steps{1, -1, s, -s, s + 1, s - 1, 1 - s, -s - 1};
+    values_[index(goal)] = 0.0F;
+    queue_.push({0.0F, static_cast<std::uint32_t>(index(goal))});
+    while (!queue_.empty()) {
+      const auto [value, at] = queue_.top();
+      queue_.pop();
+      if (value > values_[at]) continue;
+      const float cost = costs_[at];
+      if (cost == kClosed) continue;  // nobody goes through here
+      const float straight = value + cost;
+      const float aslant = value + cost * std::numbers::sqrt2_v<float>;
+      relaxations_ += 8;
+      for (std::size_t i = 0; i < steps.size(); ++i) {
+        const std::size_t beside = at + static_cast<std::size_t>(steps[i]);
+        const float through = i < 4 ? straight : aslant;
+        if (through < values_[beside]) {
+          values_[beside] = through;
+          queue_.push({through, static_cast<std::uint32_t>(beside)});
+        }
+      }
+    }
+  }
+  [[nodiscard]] float value(CellIndex cell) const { return values_[index(cell)]; }
+  [[nodiscard]] std::uint64_t relaxations() const { return relaxations_; }
+
+ private:
+  using Entry = std::pair<float, std::uint32_t>;
+  using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
+  [[nodiscard]] std::size_t index(CellIndex cell) const {
+    return static_cast<std::size_t>(cell.row + 1) * stride_ + static_cast<std::size_t>(cell.column + 1);
+  }
+  GridFrame frame_;
+  std::size_t stride_;
+  std::vector<float> costs_, values_;
+  Queue queue_;
+  std::uint64_t relaxations_ = 0;
+};
+
+/// Of the processor, not of the wall: others may be at work on this machine.
+double milliseconds(const auto& work) {
+  const auto now = [] {
+    timespec time{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+  };
+  const double start = now();
+  work();
+  return now() - start;
+}
+
+double quantile(std::vector<double> values, double at) {
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(at * static_cast<double>(values.size() - 1))];
+}
+
+bool print_bound(const char* what, double value, double bound, bool at_least) {
+  const bool good = at_least ? value >= bound : value <= bound;
+  std::printf("  %-58s %8.3f   %s %6.3f   %s\n", what, value, at_least ? ">=" : "<=", bound, good ? "pass" : "FAIL");
+  return good;
+}
+
+struct Building {
+  const char* name;
+  OccupancyGrid (*build)(int, Rng&);
+};
+constexpr std::array<Building, 3> kBuildings{{{"hall", &hall}, {"rooms", &rooms}, {"maze", &maze}}};
+
+CellIndex any_open(const GridFrame& frame, const auto& is_open, Rng& rng) {
+  while (true) {
+    const CellIndex cell{static_cast<int>(rng.integer(0, frame.columns - 1)),
+                         static_cast<int>(rng.integer(0, frame.rows - 1))};
+    if (is_open(cell)) return cell;
+  }
+}
+
+constexpr int kEnough = 1 << 30;
+
+/// Cells of an obstacle of 1 x 1 m in the middle of the way, and what they cost where the robot cannot go then.
+std::vector<ValueIteration::Change> obstacle_at(const GridFrame& frame, CellIndex centre) {
+  constexpr int kHalf = 10;
+  std::vector<ValueIteration::Change> changes;
+  for (int row = centre.row - kHalf; row < centre.row + kHalf; ++row)
+    for (int column = centre.column - kHalf; column < centre.column + kHalf; ++column)
+      if (frame.holds({column, row})) changes.push_back({{column, row}, kClosed});
+  return changes;
+}
+
+struct Replanning {
+  std::vector<double> time, work;  ///< as shares of the full solve's
+};
+
+/// Obstacles one at a time on the robot's way, each taken away again; values at the robot against Dijkstra's.
+void replan(ValueIteration& planner, const std::vector<float>& costs, CellIndex goal, int obstacles, double full_time,
+            double full_work, Rng& rng, Replanning& result) {
+  const GridFrame& frame = planner.frame();
+  for (int i = 0; i < obstacles; ++i) {
+    const CellIndex robot = any_open(
+        frame, [&](CellIndex c) { return planner.cost(c) < kClosed && planner.value(c) < kClosed; }, rng);
+    const auto way = planner.descend(robot);
+    if (way.size() < 60) continue;
+    const CellIndex centre = way[static_cast<std::size_t>(rng.integer(15, static_cast<std::int64_t>(way.size()) - 15))];
+    const auto changes = obstacle_at(frame, centre);
+    const std::uint64_t before = planner.relaxations();
+    const double time = milliseconds([&] {
+      planner.change_costs(changes);
+      planner.settle(robot, kEnough);
+    });
+    result.time.push_back(time / full_time);
+    result.work.push_back(static_cast<double>(planner.relaxations() - before) / full_work);
+    std::vector<ValueIteration::Change> back = changes;
+    for (auto& change : back) change.cost = costs[frame.index(change.cell)];
+    planner.change_costs(back);
+    planner.iterate(kEnough);
+  }
+  static_cast<void>(goal);
+}
+
+void full_solve_and_replanning(benchmark::State& state) {
+  const int side = static_cast<int>(state.range(0));
+  const int maps = static_cast<int>(state.range(1));
+  const int obstacles = static_cast<int>(state.range(2));
+  std::vector<double> ratios;
+  Replanning all;
+  for (auto _ : state) {
+    std::printf("%d x %d cells, one core, %d maps a kind, times in ms of the processor (medians)\n", side, side, maps);
+    std::printf("  %-8s %10s %10s %8s  %12s %12s  %10s %10s %10s %10s\n", "", "Dijkstra", "ours", "faster", "offers",
+                "offers", "replan", "p99", "work", "most");
+    for (const Building& building : kBuildings) {
+      std::vector<double> slow, fast;
+      std::vector<double> work_of_both[2];
+      Replanning replanning;
+      for (int i = 0; i < maps; ++i) {
+        Rng rng = Rng{static_cast<std::uint64_t>(i)}.stream(building.name);
+        const OccupancyGrid map = building.build(side, rng);
+        const std::vector<float> costs = costs_of(map);
+        const CellIndex goal = any_open(
+            map.frame, [&](CellIndex c) { return costs[map.frame.index(c)] < kClosed; }, rng);
+        Dijkstra dijkstra{map.frame, costs};
+        ValueIteration planner{map.frame};
+        planner.set_costs(costs);
+        std::vector<double> rounds[2];
+        for (int round = 0; round < 3; ++round) {
+          const std::uint64_t before = planner.relaxations();
+          const std::uint64_t before_slow = dijkstra.relaxations();
+          rounds[0].push_back(milliseconds([&] { dijkstra.solve(goal); }));
+          rounds[1].push_back(milliseconds([&] {
+            planner.set_goals(std::vector<Goal>{{goal, 0.0F}});
+            planner.iterate(kEnough);
+          }));
+          work_of_both[0].push_back(static_cast<double>(dijkstra.relaxations() - before_slow));
+          work_of_both[1].push_back(static_cast<double>(planner.relaxations() - before));
+        }
+        slow.push_back(quantile(rounds[0], 0.5));
+        fast.push_back(quantile(rounds[1], 0.5));
+        for (int row = 0; row < side; ++row)
+          for (int column = 0; column < side; ++column)
+            if (planner.value({column, row}) != dijkstra.value({column, row})) {
+              state.SkipWithError("values differ from Dijkstra's");
+              return;
+            }
+        replan(planner, costs, goal, obstacles, fast.back(), work_of_both[1].back(), rng, replanning);
+      }
+      ratios.push_back(quantile(slow, 0.5) / quantile(fast, 0.5));
+      std::printf("  %-8s %10.1f %10.2f %8.1f  %12.3g %12.3g  %10.4f %10.4f %10.4f %10.4f\n", building.name,
+                  quantile(slow, 0.5), quantile(fast, 0.5), ratios.back(), quantile(work_of_both[0], 0.5),
+                  quantile(work_of_both[1], 0.5), quantile(replanning.time, 0.5), quantile(replanning.time, 0.99),
+                  quantile(replanning.work, 0.5), quantile(replanning.work, 1.0));
+      all.time.insert(all.time.end(), replanning.time.begin(), replanning.time.end());
+      all.work.insert(all.work.end(), replanning.work.begin(), replanning.work.end());
+    }
+    print_bound("full value function: Dijkstra / ours, worst kind", *std::min_element(ratios.begin(), ratios.end()),
+                10.0, true);
+    print_bound("replanning / full solve, median time", quantile(all.time, 0.5), 0.125, false);
+    print_bound("replanning / full solve, most relaxations", quantile(all.work, 1.0), 1.0, false);
+  }
+}
+BENCHMARK(full_solve_and_replanning)->Args({1000, 2, 30})->Args({4000, 2, 40})->Iterations(1)->Unit(benchmark::kSecond);
+
+}  // namespace
+}  // namespace docent
