@@ -11,10 +11,12 @@ namespace docent {
 
 namespace {
 
-constexpr double kLeastReach = 3.5;    // [m] obstacles farther away do not matter to a slow robot within one cycle
-constexpr double kFastWalk = 1.5;      // [m/s] of who may come towards the robot
-constexpr double kNearlyAll = 0.9;     // of a sweep's readings: the sensor is covered or has failed
-constexpr double kManyMissing = 0.35;  // of a sweep's readings
+constexpr double kLeastReach = 3.5;     // [m] obstacles farther away do not matter to a slow robot within one cycle
+constexpr double kFastWalk = 1.5;       // [m/s] of who may come towards the robot
+constexpr double kNearlyAll = 0.9;      // of a sweep's readings: the sensor is covered or has failed
+constexpr double kManyMissing = 0.35;   // of a sweep's readings
+constexpr double kStandsTouched = 1.0;  // [s] after a touch
+constexpr double kLeansOn = 3.0;        // [s] then it may leave who leans on it: away from them, nobody minds
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -69,6 +71,7 @@ void Avoider::add_tactile(Time now, Time stamp, std::span<const std::uint8_t> se
   const double step = 2.0 * std::numbers::pi / static_cast<double>(segments.size());
   for (std::size_t i = 0; i < segments.size(); ++i) {
     if (segments[i] == 0 || segments[i] == TactileWatch::kNoReading) continue;
+    if (!touched_ || now - *touched_ > seconds(kStandsTouched)) touched_since_ = now;
     touched_ = now;
     const Angle bearing = Angle::radians(step * static_cast<double>(i));
     memory_.add_touch(stamp, limits_.radius * unit(bearing), odometry_.pose_at(stamp));

@@ -29,7 +29,6 @@ struct AvoiderParams {
   /// window, slower near people, who are foreseen for a second; dynamic_window: the plain one, for comparison, with
   /// people as things that stand where they are now.
   std::string method = "cautious_window";
-<<<<<<< HEAD
   double lookahead = 1.2;             ///< [m] the path is followed by steering for a point so far along it, at least,
   double lookahead_time = 1.5;        ///< [s] and as far as the robot drives in this time
   double arrival_deceleration = 0.6;  ///< [m/s2]
@@ -38,14 +37,6 @@ struct AvoiderParams {
   bool needs_sonar = true;            ///< stands when the sonars are silent
   bool blind_to_people = false;       ///< crippled, for evaluation: sees virtual measurements and touch only
   bool watches = true;                ///< false: crippled, for evaluation: takes every sensor and belief for well
-=======
-  double lookahead = 1.2;              ///< [m] the path is followed by steering for a point so far along it
-  double arrival_deceleration = 0.35;  ///< [m/s2]
-  double target_timeout = 1.5;         ///< [s]
-  double virtual_timeout = 1.5;        ///< [s]
-  bool needs_sonar = true;             ///< stands when the sonars are silent
-  bool blind_to_people = false;        ///< crippled, for evaluation: sees virtual measurements and touch only
->>>>>>> crowdfit
   template <class V>
   void visit(V& v) {
     v("window", window);
@@ -140,11 +131,8 @@ class Avoider {
     Point2 in_base;
     double remaining = 0.0;  ///< [m] along the path to its end
   };
-<<<<<<< HEAD
-  [[nodiscard]] std::optional<Complaint> complaint_of_laser(Time now, std::size_t index) const;
-=======
   [[nodiscard]] bool is_touched(Time now, double within) const;
->>>>>>> crowdfit
+  [[nodiscard]] std::optional<Complaint> complaint_of_laser(Time now, std::size_t index) const;
   [[nodiscard]] BaseState state_when_effective(Time now) const;
   /// How far [m] what may matter before the robot can stand lies at most.
   [[nodiscard]] double reach() const;

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "docent/localization/belief/belief_summary.h"
 #include "docent/base/aligned_vector.h"
+#include "docent/localization/belief/belief_summary.h"
 #include "docent/localization/markov/motion_kernel.h"
 #include "docent/localization/markov/range_table.h"
 #include "docent/localization/markov/row_kernel.h"

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "docent/base/instruction_set.h"
 #include "docent/base/aligned_vector.h"
+#include "docent/base/instruction_set.h"
 #include "docent/localization/markov/range_table.h"
 #include "docent/sensor_models/proximity_model.h"
 
