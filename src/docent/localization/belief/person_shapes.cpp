@@ -9,7 +9,7 @@
 namespace docent {
 namespace {
 
-constexpr double kReach = 6.0;      // [m] farther off too few beams end on a person
+constexpr double kReach = 9.5;      // [m] farther off too few beams end on a person
 constexpr double kFace = 0.7;       // [m] a straight face so long is a thing, and
 constexpr double kSlim = 0.7;       // [m] so wide, at most, is a person
 constexpr double kBehind = 0.1;     // [m] that what follows at an edge is nearer or farther off
@@ -79,15 +79,16 @@ double extent_of(std::span<const Point2> points) {
 
 /// A piece no wider than a person.
 bool is_person(const Piece& piece) {
-  constexpr double kSurely = 1.5;  // deviations
+  constexpr double kNotFlat = 1.5;  // deviations: what stands alone is a person unless it is flat, and
+  constexpr double kNoWall = 1.0;   // what may go on is none unless it is round
   const bool is_free = piece.left == Edge::free || piece.right == Edge::free;
   const bool is_attached = piece.left == Edge::attached || piece.right == Edge::attached;
   const bool stands_alone = is_free && !is_attached;
   if (piece.points.size() < kFew) return piece.left == Edge::free && piece.right == Edge::free;
   if (piece.points.size() < kFewest) return stands_alone;
   const Curvature curvature = curvature_of(piece.points);
-  if (stands_alone) return curvature.value + kSurely * curvature.deviation > kRound;
-  return curvature.value - kSurely * curvature.deviation > kRound;
+  if (stands_alone) return curvature.value + kNotFlat * curvature.deviation > kRound;
+  return curvature.value - kNoWall * curvature.deviation > kRound;
 }
 
 /// The point farthest behind the chord, where two bodies that touch meet; 0: none. Round a corner of more than a right

@@ -164,9 +164,12 @@ BeamChoice chosen_beams(std::span<const LikelyState> likely, const RangeTable& t
     for (std::size_t i = 0; i < beams.size(); ++i)
       if (!is_rejected[i] || rng.chance(share)) choice.used.push_back(beams[i]);
   }
+  const double person_share =
+      params.person_share *
+      std::min(1.0, static_cast<double>(beams.size()) / static_cast<double>(std::max<std::size_t>(persons.size(), 1)));
   choice.filtered += persons.size();
   for (const BinnedBeam& beam : persons)
-    if (rng.chance(params.person_share)) choice.used.push_back(beam);
+    if (rng.chance(person_share)) choice.used.push_back(beam);
   choice.used = thinned(choice.used, params.most, phase);
   std::sort(choice.used.begin(), choice.used.end(),
             [](const BinnedBeam& a, const BinnedBeam& b) { return a.direction < b.direction; });
