@@ -15,6 +15,7 @@ constexpr double kBeyondReach = 3.5;      // [m] obstacles farther away do not m
 constexpr double kNearlyAll = 0.9;        // of a sweep's readings: the sensor is covered or has failed
 constexpr double kSonarPatience = 1.5;    // [s] for one sonar of many
 constexpr double kTactilePatience = 1.5;  // [s]
+constexpr double kCameraPatience = 1.5;   // [s]
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -53,6 +54,19 @@ void Avoider::add_sonar(Time now, std::size_t index, const SonarReading& reading
   if (each_sonar_freshness_.size() <= index) each_sonar_freshness_.resize(index + 1);
   each_sonar_freshness_[index].receive(now, reading.stamp);
   memory_.add_sonar(index, reading, odometry_.pose_at(reading.stamp));
+}
+
+void Avoider::add_infrared(Time now, std::size_t index, const SonarReading& reading) {
+  if (odometry_.empty()) return;
+  infrared_freshness_.receive(now, reading.stamp);
+  memory_.add_infrared(index, reading, odometry_.pose_at(reading.stamp));
+}
+
+void Avoider::add_lines(Time now, Time stamp, const std::string& source, double lifetime,
+                        std::span<const Segment> in_base) {
+  if (odometry_.empty()) return;
+  line_freshness_[source].receive(now, stamp);
+  memory_.add_lines(source, stamp, lifetime, in_base, odometry_.pose_at(stamp));
 }
 
 void Avoider::add_tactile(Time now, Time stamp, std::span<const double> bearings) {
@@ -105,6 +119,10 @@ std::string Avoider::fault(Time now) const {
   }
   if (tactile_freshness_.period() > 0.0 && tactile_freshness_.is_stale(now, kTactilePatience))
     return "the tactile ring is silent";
+  if (infrared_freshness_.period() > 0.0 && infrared_freshness_.is_stale(now)) return "no fresh infrared reading";
+  for (const auto& [source, freshness] : line_freshness_) {
+    if (freshness.is_stale(now, kCameraPatience)) return "no fresh lines of the camera " + source;
+  }
   if (virtual_freshness_.silence(now) > params_.virtual_timeout) return "no fresh virtual measurements";
   return "";
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -82,6 +83,9 @@ class Avoider {
   void add_odometry(Time now, Time stamp, const BaseState& state);
   void add_sweep(Time now, std::size_t sensor, const SensorSweep& sweep);
   void add_sonar(Time now, std::size_t index, const SonarReading& reading);
+  void add_infrared(Time now, std::size_t index, const SonarReading& reading);
+  /// What a camera saw on the floor, base frame at `stamp`.
+  void add_lines(Time now, Time stamp, const std::string& source, double lifetime, std::span<const Segment> in_base);
   /// @param bearings  [rad] of the pressed segments
   void add_tactile(Time now, Time stamp, std::span<const double> bearings);
   void add_virtual(Time now, const VirtualSweep& sweep);
@@ -132,7 +136,9 @@ class Avoider {
   Freshness odometry_freshness_;
   Freshness sonar_freshness_;  ///< of any
   std::vector<Freshness> each_sonar_freshness_;
-  Freshness tactile_freshness_;  ///< a robot without the ring never sends; one that has sent must go on
+  Freshness tactile_freshness_;   ///< a robot without the ring never sends; one that has sent must go on
+  Freshness infrared_freshness_;  ///< likewise, of any
+  std::map<std::string, Freshness> line_freshness_;  ///< likewise, of each camera
   Freshness virtual_freshness_;
   Freshness target_freshness_;
   std::optional<AvoiderTarget> target_;

@@ -171,7 +171,8 @@ class EventReader {
                               {{"laser_front", Sensor::laser_front},
                                {"laser_rear", Sensor::laser_rear},
                                {"sonar", Sensor::sonar},
-                               {"odom", Sensor::odom}},
+                               {"odom", Sensor::odom},
+                               {"infrared", Sensor::infrared}},
                               event.sensor);
              }},
             {"kind",

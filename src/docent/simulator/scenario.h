@@ -18,7 +18,7 @@ struct Kidnap {
   double shift = 0.0;         ///< [m] > 0: a random place at most so far from here, the robot turned by `turn`
   double turn = 0.0;          ///< [deg]
 };
-enum class Sensor { laser_front, laser_rear, sonar, odom };
+enum class Sensor { laser_front, laser_rear, sonar, odom, infrared };
 enum class FaultKind {
   dead,    ///< no message at all
   frozen,  ///< the last reading again and again, with fresh stamps

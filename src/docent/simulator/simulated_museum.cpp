@@ -221,6 +221,7 @@ class SimulatedMuseum::Impl {
     if (every(5)) instruments_.publish_odometry(time_, body_);
     if (every(10)) instruments_.publish_scans(time_, body_.pose(), people_);
     instruments_.publish_sonar(time_, steps_, body_.pose(), people_);
+    instruments_.publish_infrared(time_, steps_, body_.pose(), people_);
     if (tactile_now_ != tactile_ || every(20)) {
       tactile_ = tactile_now_;
       instruments_.publish_tactile(time_, tactile_);
@@ -333,7 +334,7 @@ class SimulatedMuseum::Impl {
   }
   void play(const SensorFault& event) {
     instruments_.set_fault(event, time_);
-    constexpr const char* kSensors[] = {"laser_front", "laser_rear", "sonar", "odom"};
+    constexpr const char* kSensors[] = {"laser_front", "laser_rear", "sonar", "odom", "infrared"};
     offer("fault", kSensors[static_cast<std::size_t>(event.sensor)]);
   }
   void play(const Stool& event) {
