@@ -11,12 +11,13 @@ namespace docent {
 
 namespace {
 
-constexpr double kLeastReach = 3.5;     // [m] obstacles farther away do not matter to a slow robot within one cycle
-constexpr double kFastWalk = 1.5;       // [m/s] of who may come towards the robot
-constexpr double kNearlyAll = 0.9;      // of a sweep's readings: the sensor is covered or has failed
-constexpr double kManyMissing = 0.35;   // of a sweep's readings
-constexpr double kStandsTouched = 1.0;  // [s] after a touch
-constexpr double kLeansOn = 3.0;        // [s] then it may leave who leans on it: away from them, nobody minds
+constexpr double kLeastReach = 3.5;      // [m] obstacles farther away do not matter to a slow robot within one cycle
+constexpr double kFastWalk = 1.5;        // [m/s] of who may come towards the robot
+constexpr double kNearlyAll = 0.9;       // of a sweep's readings: the sensor is covered or has failed
+constexpr double kManyMissing = 0.35;    // of a sweep's readings
+constexpr double kCameraPatience = 1.5;  // [s]
+constexpr double kStandsTouched = 1.0;   // [s] after a touch
+constexpr double kLeansOn = 3.0;         // [s] then it may leave who leans on it: away from them, nobody minds
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -63,6 +64,20 @@ void Avoider::add_sonar(Time now, std::size_t index, const SonarReading& reading
   const Pose2 odom_from_base = odometry_.pose_at(reading.stamp);
   sonar_watch_.hear(now, reading.stamp, index, reading.range, reading.range < reading.max_range, odom_from_base);
   memory_.add_sonar(index, reading, odom_from_base);
+}
+
+void Avoider::add_infrared(Time now, std::size_t index, const SonarReading& reading) {
+  if (odometry_.empty()) return;
+  const Pose2 odom_from_base = odometry_.pose_at(reading.stamp);
+  infrared_watch_.hear(now, reading.stamp, index, reading.range, reading.range < reading.max_range, odom_from_base);
+  memory_.add_infrared(index, reading, odom_from_base);
+}
+
+void Avoider::add_lines(Time now, Time stamp, const std::string& source, double lifetime,
+                        std::span<const Segment> in_base) {
+  if (odometry_.empty()) return;
+  line_freshness_[source].receive(now, stamp);
+  memory_.add_lines(source, stamp, lifetime, in_base, odometry_.pose_at(stamp));
 }
 
 void Avoider::add_tactile(Time now, Time stamp, std::span<const std::uint8_t> segments, std::uint32_t scan) {
@@ -120,6 +135,11 @@ std::optional<Complaint> Avoider::complaint_of_inputs(Time now) const {
   for (std::size_t i = 0; i < laser_count_; ++i) found = worse(found, complaint_of_laser(now, i));
   if (params_.needs_sonar) found = worse(found, sonar_watch_.complaint(now, true));
   found = worse(found, tactile_watch_.complaint(now));
+  found = worse(found, infrared_watch_.complaint(now, false));
+  for (const auto& [source, freshness] : line_freshness_) {
+    if (freshness.is_stale(now, kCameraPatience))
+      found = worse(found, Complaint{0.0, "no fresh lines of the camera " + source});
+  }
   if (virtual_freshness_.silence(now) > params_.virtual_timeout)
     found = worse(found, Complaint{0.0, "no fresh virtual measurements"});
   return found;

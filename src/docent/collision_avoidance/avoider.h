@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -101,6 +102,9 @@ class Avoider {
   void add_odometry(Time now, Time stamp, const BaseState& state);
   void add_sweep(Time now, std::size_t sensor, const SensorSweep& sweep);
   void add_sonar(Time now, std::size_t index, const SonarReading& reading);
+  void add_infrared(Time now, std::size_t index, const SonarReading& reading);
+  /// What a camera saw on the floor, base frame at `stamp`.
+  void add_lines(Time now, Time stamp, const std::string& source, double lifetime, std::span<const Segment> in_base);
   /// @param segments  evenly round the body, the first at the front: 1 pressed, TactileWatch::kNoReading
   /// @param scan  count of the ring's own scans; 0: it keeps none
   void add_tactile(Time now, Time stamp, std::span<const std::uint8_t> segments, std::uint32_t scan = 0);
@@ -167,7 +171,9 @@ class Avoider {
   UnbrokenOdometry unbroken_;
   OdometryWatch odometry_watch_;
   RingWatch sonar_watch_{"sonar reading", "sonars"};
+  RingWatch infrared_watch_{"infrared reading", "infrared sensors"};
   TactileWatch tactile_watch_;
+  std::map<std::string, Freshness> line_freshness_;  ///< of each camera; one that has sent must go on
   PositionDoubt doubt_;
   Freshness virtual_freshness_;
   Freshness target_freshness_;

@@ -107,6 +107,36 @@ TEST(Avoider, SaysThatTheWayIsBlocked) {
   EXPECT_EQ(world.worst_push, 0.0);
 }
 
+TEST(Avoider, StopsBeforeWhatOnlyACameraSees) {
+  Rehearsal world;
+  world.box(-3, -1, 12, 1);
+  world.drive_to({{1, 0}, {2, 0}, {4, 0}, {8, 0}});
+  for (int i = 0; i < 150; ++i) {  // a picture every 0.1 s: a cable across the way at x = 4
+    const Pose2 base_from_map = inverse(world.map_from_base);
+    const std::vector<Segment> cable{{base_from_map * Point2{4.0, -1.0}, base_from_map * Point2{4.0, 1.0}}};
+    world.avoider.add_lines(world.now, world.now, "front", 0.5, cable);
+    world.run(0.1);
+  }
+  EXPECT_LT(world.map_from_base.x, 4.0 - world.limits.radius);
+  EXPECT_GT(world.map_from_base.x, 3.0);
+  world.run(3.0);  // the camera falls silent
+  EXPECT_EQ(world.avoider.fault(world.now), "no fresh lines of the camera front");
+}
+
+TEST(Avoider, StandsWhenTheInfraredRingFallsSilent) {
+  Rehearsal world;
+  world.box(-3, -5, 40, 5);
+  world.drive_to({{2, 0}, {4, 0}, {8, 0}, {30, 0}});
+  for (int i = 0; i < 25; ++i) {
+    world.avoider.add_infrared(world.now, 0, {world.now, {0.25, 0.0, {}}, 0.09, 0.8, 0.8});
+    world.run(0.2);
+  }
+  EXPECT_GT(world.velocity.linear, 0.5);
+  world.run(2.0);
+  EXPECT_EQ(world.velocity.linear, 0.0);
+  EXPECT_EQ(world.avoider.fault(world.now), "no fresh infrared reading");
+}
+
 TEST(Avoider, StandsWhenAnythingItNeedsFallsSilentAndGoesOnWhenItReturns) {
   const std::vector<std::pair<bool Rehearsal::*, const char*>> parts{{&Rehearsal::front_works, "front laser"},
                                                                      {&Rehearsal::rear_works, "rear laser"},

@@ -53,17 +53,19 @@ std::vector<bool> ObstacleMemory::confirm(std::span<const Point2> points, std::s
   return confirmed;
 }
 
-bool ObstacleMemory::is_seen_through(const Sensor& sensor, Point2 in_odom) {
+ObstacleMemory::View ObstacleMemory::view_of(const Sensor& sensor, Point2 in_odom) {
   const Point2 in_sensor = inverse(sensor.odom_from_sensor) * in_odom;
   const auto& sweep = sensor.sweep;
   const double bearing = std::atan2(in_sensor.y, in_sensor.x);
   const double place = Angle::radians(bearing - sweep.first_bearing).radians();
   const double unwrapped = place < -0.5 * sweep.bearing_step ? place + 6.283185307179586 : place;
   const auto beam = std::lround(unwrapped / sweep.bearing_step);
-  if (beam < 0 || beam >= static_cast<long>(sweep.ranges.size())) return false;
+  if (beam < 0 || beam >= static_cast<long>(sweep.ranges.size())) return View::hidden;
   const double range = sweep.ranges[static_cast<std::size_t>(beam)];
-  // Also forgotten when the beam met it again: the new point stands for it.
-  return is_valid(range) && range > norm(in_sensor) - 0.15;
+  constexpr double kSame = 0.15;  // [m]
+  const double beyond = range - norm(in_sensor);
+  if (!is_valid(range) || beyond <= -kSame) return View::hidden;
+  return beyond < kSame ? View::met_again : View::looked_through;
 }
 
 void ObstacleMemory::add_sweep(std::size_t index, const SensorSweep& sweep, const Pose2& odom_from_base) {
@@ -135,36 +137,65 @@ void ObstacleMemory::add_sweep(std::size_t index, const SensorSweep& sweep, cons
     }
   }
   sensor.points.insert(sensor.points.end(), lone.begin(), lone.end());
-  std::erase_if(sensor.remembered, [&](const ObstaclePoint& point) {
-    return sweep.stamp - point.seen > seconds(kMemory) || is_seen_through(sensor, point.in_odom);
+  std::erase_if(sensor.remembered, [&](ObstaclePoint& point) {
+    if (sweep.stamp - point.seen > seconds(kMemory)) return true;
+    const View view = view_of(sensor, point.in_odom);
+    if (view == View::met_again) return true;  // the new point stands for it
+    if (view == View::hidden) return false;
+    return point.velocity != Point2{} || ++point.missed >= kSweeps;
   });
 }
 
 void ObstacleMemory::add_sonar(std::size_t index, const SonarReading& reading, const Pose2& odom_from_base) {
-  if (echoes_.size() <= index) echoes_.resize(index + 1);
-  Echo& last = echoes_[index];
+  add_echo(sonars_, kSonarReach, index, reading, odom_from_base);
+}
+
+void ObstacleMemory::add_infrared(std::size_t index, const SonarReading& reading, const Pose2& odom_from_base) {
+  add_echo(infrareds_, kInfraredReach, index, reading, odom_from_base);
+}
+
+void ObstacleMemory::add_echo(Ring& ring, double reach, std::size_t index, const SonarReading& reading,
+                              const Pose2& odom_from_base) {
+  if (ring.last.size() <= index) ring.last.resize(index + 1);
+  Echo& last = ring.last[index];
   const Pose2 odom_from_sensor = odom_from_base * reading.base_from_sensor;
   Echo echo{odom_from_sensor * Point2{reading.range, 0.0}, reading.stamp, false};
-  echo.valid = is_valid(reading.range) && reading.range < std::min(reading.max_range, kSonarReach);
+  echo.valid = is_valid(reading.range) && reading.range < std::min(reading.max_range, reach);
   const bool confirmed = echo.valid && last.valid && reading.stamp - last.stamp < seconds(1.0) &&
                          distance(echo.in_odom, last.in_odom) < 0.2;
   last = echo;
-  while (!sonar_points_.empty() && reading.stamp - sonar_points_.front().seen > seconds(kMemory)) {
-    sonar_points_.pop_front();
-  }
+  while (!ring.points.empty() && reading.stamp - ring.points.front().seen > seconds(kMemory)) ring.points.pop_front();
   if (!confirmed) return;
   const double half = 0.5 * reading.field_of_view;
+  constexpr double kLeastCone = 0.13;  // [rad] a ring's places and axes are known no better
+  const double cone = std::max(half, kLeastCone);
   for (const auto& sensor : sensors_) {
     for (const auto& point : sensor.points) {
       const Point2 in_sonar = inverse(odom_from_sensor) * point.in_odom;
       if (in_sonar.x <= 0.0) continue;
       // Half a cone more to each side, and nearer than the echo: it is what the sonar heard.
-      if (norm(in_sonar) < reading.range + 0.25 && std::abs(std::atan2(in_sonar.y, in_sonar.x)) < 2.0 * half) return;
+      if (norm(in_sonar) < reading.range + 0.25 && std::abs(std::atan2(in_sonar.y, in_sonar.x)) < 2.0 * cone) return;
     }
   }
   for (const double share : {-0.5, 0.0, 0.5}) {
     const Angle bearing = Angle::radians(share * half);
-    sonar_points_.push_back({odom_from_sensor * (reading.range * unit(bearing)), {}, reading.stamp, false});
+    ring.points.push_back({odom_from_sensor * (reading.range * unit(bearing)), {}, reading.stamp, false});
+  }
+}
+
+void ObstacleMemory::add_lines(const std::string& source, Time stamp, double lifetime, std::span<const Segment> in_base,
+                               const Pose2& odom_from_base) {
+  constexpr double kLongest = 20.0;  // [m]
+  CameraView& view = cameras_[source];
+  view.points.clear();
+  view.until = stamp + seconds(std::clamp(lifetime, 0.0, kLongestLife));
+  for (const Segment& line : in_base) {
+    const double length = std::min(distance(line.a, line.b), kLongest);
+    const int steps = 1 + static_cast<int>(length / kLineStep);
+    for (int i = 0; i <= steps; ++i) {
+      const Point2 at = line.a + (static_cast<double>(i) / steps) * (line.b - line.a);
+      view.points.push_back({odom_from_base * at, {}, stamp, false});
+    }
   }
 }
 
@@ -189,8 +220,12 @@ std::vector<ObstaclePoint> ObstacleMemory::points(Time now) const {
     add(sensor.points);
     add(sensor.remembered);
   }
-  add(sonar_points_);
+  add(sonars_.points);
+  add(infrareds_.points);
   add(touches_);
+  for (const auto& [source, view] : cameras_) {
+    if (now < view.until) result.insert(result.end(), view.points.begin(), view.points.end());
+  }
   return result;
 }
 

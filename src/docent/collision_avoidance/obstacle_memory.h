@@ -1,12 +1,14 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "docent/base/time.h"
 #include "docent/collision_avoidance/moving_objects.h"
-#include "docent/geometry/pose2.h"
+#include "docent/geometry/polygon.h"
 
 namespace docent {
 
@@ -21,7 +23,7 @@ struct SensorSweep {
   std::vector<float> ranges;   ///< [m]; NaN: no reading
 };
 
-/// One reading of a sonar.
+/// One reading of a sonar, or of an infrared sensor.
 struct SonarReading {
   Time stamp;
   Pose2 base_from_sensor;
@@ -37,25 +39,37 @@ struct ObstaclePoint {
   Time seen;
   bool person = false;    ///< part of something slim that stands free: likely a person
   bool confirmed = true;  ///< false: a lone reading that the sweep before knew nothing of; does not count yet
+  int missed = 0;         ///< later sweeps that looked through it
 };
 
-/// The obstacle field [BuhmannEtAl1995, obstacle line field]: what the lasers and sonars met in the last moments, kept
-/// in the odometry's frame so that a jump of the localization never moves it (architecture 10.6).
+/// The obstacle field [BuhmannEtAl1995, obstacle line field]: what lasers, sonars, infrared sensors, touch and cameras
+/// met in the last moments, kept in the odometry's frame so that a jump of the localization never moves it
+/// (architecture 10.6). Lines are kept as points, a few centimetres apart.
 ///
-/// A new sweep replaces the last one of its sensor. Points of earlier sweeps live on for kMemory where the new sweep
-/// could not look: behind something nearer, or where a beam gave no reading. A lone reading (dust, cross talk) counts
-/// from the second sweep on.
+/// What the newest sweep of a sensor looks through still counts while it is one of the last three: a beam may pass a
+/// chair's leg. Not so what moves, which is where the newest sweep meets it. Where a sweep cannot
+/// look, behind something nearer or where a beam gave no reading, points live on for kMemory. A lone reading (dust,
+/// cross talk) counts from the second sweep on.
 class ObstacleMemory {
  public:
-  static constexpr double kMemory = 1.5;      ///< [s]
-  static constexpr double kReach = 6.0;       ///< [m] from the robot; what is farther does not matter yet
-  static constexpr double kSonarReach = 1.5;  ///< [m]
+  static constexpr double kMemory = 1.5;         ///< [s]
+  static constexpr double kReach = 6.0;          ///< [m] from the robot; what is farther does not matter yet
+  static constexpr double kSonarReach = 1.5;     ///< [m]
+  static constexpr double kInfraredReach = 0.7;  ///< [m]
+  static constexpr int kSweeps = 3;              ///< of each sensor that count
+  static constexpr double kLineStep = 0.05;      ///< [m] between the points of a line
+  static constexpr double kLongestLife = 5.0;    ///< [s] of a camera's lines
 
   /// @param odom_from_base  pose at the sweep's stamp. Sensors are numbered from 0.
   void add_sweep(std::size_t sensor, const SensorSweep& sweep, const Pose2& odom_from_base);
   /// A sonar echo counts when two readings in a row agree and no laser point explains it (a laser looks through glass
   /// and over low things).
   void add_sonar(std::size_t index, const SonarReading& reading, const Pose2& odom_from_base);
+  /// Likewise: an infrared sensor sees low things, and what sound slides off.
+  void add_infrared(std::size_t index, const SonarReading& reading, const Pose2& odom_from_base);
+  /// What a camera saw on the floor; replaces what it saw before. The lines count for `lifetime` [s] after their stamp.
+  void add_lines(const std::string& source, Time stamp, double lifetime, std::span<const Segment> in_base,
+                 const Pose2& odom_from_base);
   /// The body was touched at `in_base` (on its outline).
   void add_touch(Time stamp, Point2 in_base, const Pose2& odom_from_base);
 
@@ -87,15 +101,27 @@ class ObstacleMemory {
     Time stamp;
     bool valid = false;
   };
+  /// Sensors all round the body that measure one distance each.
+  struct Ring {
+    std::vector<Echo> last;  ///< of each sensor
+    std::deque<ObstaclePoint> points;
+  };
+  struct CameraView {
+    std::vector<ObstaclePoint> points;
+    Time until;
+  };
+  void add_echo(Ring& ring, double reach, std::size_t index, const SonarReading& reading, const Pose2& odom_from_base);
   void watch_for_freeze(Sensor& sensor, const SensorSweep& sweep, const Pose2& odom_from_base) const;
   /// True for points that have a neighbour in their own sweep or lie where the sweep before had one.
   [[nodiscard]] static std::vector<bool> confirm(std::span<const Point2> points, std::span<const int> beams,
                                                  std::span<const ObstaclePoint> before);
-  [[nodiscard]] static bool is_seen_through(const Sensor& sensor, Point2 in_odom);
+  enum class View { hidden, met_again, looked_through };
+  [[nodiscard]] static View view_of(const Sensor& sensor, Point2 in_odom);
 
   std::vector<Sensor> sensors_;
-  std::vector<Echo> echoes_;
-  std::deque<ObstaclePoint> sonar_points_;
+  Ring sonars_;
+  Ring infrareds_;
+  std::map<std::string, CameraView> cameras_;
   std::deque<ObstaclePoint> touches_;
   MovingObjects moving_;
 };

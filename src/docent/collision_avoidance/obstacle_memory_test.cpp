@@ -39,8 +39,65 @@ TEST(ObstacleMemory, ALoneReadingCountsFromTheSecondSweepOn) {
   sweep.stamp = time_from_seconds(1.1);
   memory.add_sweep(0, sweep, {});
   EXPECT_EQ(memory.points(time_from_seconds(1.1)).size(), 1U);
-  memory.add_sweep(0, sweep_at(1.2), {});
-  EXPECT_TRUE(memory.points(time_from_seconds(1.2)).empty());  // seen through
+  for (const double time : {1.2, 1.3, 1.4}) memory.add_sweep(0, sweep_at(time), {});
+  EXPECT_TRUE(memory.points(time_from_seconds(1.4)).empty());  // seen through
+}
+
+TEST(ObstacleMemory, WhatOneBeamMissesIsStillOfTheLastThreeSweeps) {
+  ObstacleMemory memory;
+  auto leg = sweep_at(1.0);
+  put(leg, 90, 91, 1.0F);
+  memory.add_sweep(0, leg, {});
+  for (const double time : {1.1, 1.2}) {
+    memory.add_sweep(0, sweep_at(time), {});
+    EXPECT_EQ(memory.points(time_from_seconds(time)).size(), 2U) << time;
+  }
+  leg.stamp = time_from_seconds(1.3);
+  memory.add_sweep(0, leg, {});
+  EXPECT_EQ(memory.points(time_from_seconds(1.3)).size(), 2U);  // met again: not twice
+  for (const double time : {1.4, 1.5, 1.6}) memory.add_sweep(0, sweep_at(time), {});
+  EXPECT_TRUE(memory.points(time_from_seconds(1.6)).empty());
+}
+
+TEST(ObstacleMemory, InfraredSeesWhatTheLasersLookOver) {
+  ObstacleMemory memory;
+  memory.add_sweep(0, sweep_at(0.9), {});
+  const SonarReading low{time_from_seconds(1.0), {0.25, 0.0, {}}, 0.09, 0.8, 0.4};
+  memory.add_infrared(0, low, {});
+  EXPECT_TRUE(memory.points(time_from_seconds(1.0)).empty());
+  SonarReading again = low;
+  again.stamp = time_from_seconds(1.2);
+  memory.add_infrared(0, again, {});
+  const auto points = memory.points(time_from_seconds(1.2));
+  ASSERT_EQ(points.size(), 3U);
+  EXPECT_NEAR(points[1].in_odom.x, 0.65, 1e-9);
+  SonarReading nothing = low;
+  nothing.range = 0.8;
+  for (const double time : {2.0, 2.2, 3.0}) {
+    nothing.stamp = time_from_seconds(time);
+    memory.add_infrared(1, nothing, {});
+  }
+  EXPECT_TRUE(memory.points(time_from_seconds(3.0)).empty());
+}
+
+TEST(ObstacleMemory, ACamerasLinesCountForTheirLifetimeAndUntilItsNextPicture) {
+  ObstacleMemory memory;
+  const std::vector<Segment> step{{{1.0, -0.5}, {1.0, 0.5}}};
+  const Pose2 odom_from_base{2.0, 0.0, Angle::degrees(90)};
+  memory.add_lines("front", time_from_seconds(1.0), 2.0, step, odom_from_base);
+  memory.add_lines("rear", time_from_seconds(1.0), 1.0, step, {});
+  const auto points = memory.points(time_from_seconds(1.5));
+  ASSERT_GE(points.size(), 2U * 21U);
+  for (std::size_t i = 0; i < points.size() / 2; ++i) {
+    EXPECT_NEAR(points[i].in_odom.y, 1.0, 1e-9);
+    EXPECT_NEAR(points[i].in_odom.x, 2.5 - ObstacleMemory::kLineStep * static_cast<double>(i), 0.06);
+  }
+  EXPECT_EQ(memory.points(time_from_seconds(2.5)).size(), points.size() / 2);
+  EXPECT_TRUE(memory.points(time_from_seconds(3.1)).empty());
+  memory.add_lines("front", time_from_seconds(1.6), 2.0, {}, odom_from_base);
+  EXPECT_EQ(memory.points(time_from_seconds(1.7)).size(), points.size() / 2);
+  memory.add_lines("front", time_from_seconds(2.0), 1e9, step, odom_from_base);
+  EXPECT_TRUE(memory.points(time_from_seconds(8.0)).empty());  // for ever is too long
 }
 
 TEST(ObstacleMemory, RemembersWhatANewSweepCannotSee) {

@@ -1,8 +1,15 @@
 #include "docent/collision_avoidance/virtual_measurements.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
+#include <limits>
 #include <numbers>
+
+#if defined(__x86_64__)
+#include <emmintrin.h>
+#endif
 
 namespace docent {
 
@@ -13,6 +20,9 @@ constexpr double kStep = 2.0 * kPi / VirtualMeasurements::kDirections;
 constexpr double kLattice = 0.025;        // [m] positions closer than this share their distances
 constexpr std::size_t kMaxRows = 300000;  // 60 MB
 constexpr double kReentry = 0.5;          // [m]
+constexpr std::size_t kSample = 256;      // poses from which the limits are guessed
+constexpr std::size_t kFewPoses = 1024;   // not worth a guess
+constexpr double kAmple = 4.0;            // times the mass that is wanted: so much may the sample be off
 
 std::uint8_t bin_of(double range) {
   return static_cast<std::uint8_t>(
@@ -123,19 +133,131 @@ void VirtualMeasurements::fill_from_outside(Row& row, Point2 position) const {
   }
 }
 
-const VirtualMeasurements::Row& VirtualMeasurements::row_at(Point2 position) {
-  if (rows_.size() >= kMaxRows) {
-    rows_.clear();
-    index_.clear();
-  }
-  const auto [entry, is_new] = index_.try_emplace(key_of(position), rows_.size());
+std::uint32_t VirtualMeasurements::row_of(Point2 position) {
+  const auto [entry, is_new] = index_.try_emplace(key_of(position), static_cast<std::uint32_t>(rows_.size()));
   if (is_new) {
     const Point2 centre{kLattice * std::round(position.x / kLattice), kLattice * std::round(position.y / kLattice)};
     Row& row = rows_.emplace_back();
     row.possible = is_possible(centre);
     row.possible ? fill(row, centre) : fill_from_outside(row, centre);
   }
-  return rows_[entry->second];
+  return entry->second;
+}
+
+void VirtualMeasurements::sight(std::span<const WeightedPose> poses) {
+  if (rows_.size() + poses.size() > kMaxRows) {  // not in the middle of a belief
+    rows_.clear();
+    index_.clear();
+  }
+  sightings_.resize(poses.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const WeightedPose& pose = poses[i];
+    // Beliefs list the headings of a position one after the other.
+    const bool is_same = i > 0 && pose.position == poses[i - 1].position;
+    const std::uint32_t row = is_same ? sightings_[i - 1].row : row_of(pose.position);
+    sightings_[i] = {row, wrapped(static_cast<int>(std::lround(pose.heading / kStep)) - kDirections / 2), pose.mass};
+  }
+}
+
+double VirtualMeasurements::count(std::span<const WeightedSquare> rest, bool leave_out) {
+  double counted = 0.0;
+  for (const auto& square : rest) {
+    if (!(square.mass > 0.0)) continue;
+    const double half = 0.5 * std::numbers::sqrt2 * square.side;
+    const auto [place, is_new] = square_ranges_.try_emplace(key_of(square.centre), 0.0);
+    if (is_new) place->second = square_range(square.centre, half);
+    const double range = place->second;
+    if (range < 0.0 && leave_out) continue;  // the robot can be nowhere in it
+    counted += square.mass;
+    const std::uint8_t bin = bin_of(std::max(0.0, range));
+    if (bin > last_limit()) continue;
+    for (std::size_t i = 0; i < kDirections; ++i) histogram_[bin * std::size_t{kDirections} + i] += square.mass;
+  }
+  return counted;
+}
+
+void VirtualMeasurements::count(const Sighting& sighting) {
+  const std::uint8_t* bins = rows_[sighting.row].bins.data();
+  double* masses = histogram_.data();
+  const int split = kDirections - sighting.first;
+  for (int i = 0; i < split; ++i, ++masses) masses[bins[sighting.first + i] * kDirections] += sighting.mass;
+  for (int i = 0; i < sighting.first; ++i, ++masses) masses[bins[i] * kDirections] += sighting.mass;
+}
+
+void VirtualMeasurements::count_within_limits(const Sighting& sighting) {
+  const std::uint8_t* bins = rows_[sighting.row].bins.data();
+  const std::uint8_t* limits = limits_.data() + (kDirections - sighting.first);
+  const auto add = [&](int direction) {
+    const int ahead = direction - sighting.first;
+    const int robots = ahead < 0 ? ahead + kDirections : ahead;
+    histogram_[static_cast<std::size_t>(bins[direction] * kDirections + robots)] += sighting.mass;
+  };
+#if defined(__x86_64__)
+  constexpr int kVector = sizeof(__m128i);
+  constexpr int kWord = 64;
+  for (int first = 0; first < kStride; first += kWord) {
+    std::uint64_t matters = 0;
+    for (int part = 0; part < kWord; part += kVector) {
+      const __m128i seen = _mm_loadu_si128(reinterpret_cast<const __m128i*>(bins + first + part));
+      const __m128i limit = _mm_loadu_si128(reinterpret_cast<const __m128i*>(limits + first + part));
+      const auto within = static_cast<unsigned>(_mm_movemask_epi8(_mm_cmpeq_epi8(_mm_min_epu8(seen, limit), seen)));
+      matters |= std::uint64_t{within} << static_cast<unsigned>(part);
+    }
+    for (; matters != 0; matters &= matters - 1) add(first + std::countr_zero(matters));
+  }
+#else
+  for (int direction = 0; direction < kDirections; ++direction) {
+    if (bins[direction] <= limits[direction]) add(direction);
+  }
+#endif
+}
+
+bool VirtualMeasurements::lower_limits(double allowed) {
+  // Two directions at a time, over all directions before the next bin: no sum waits for the one before.
+  using Masses [[gnu::vector_size(16)]] = double;
+  using Counts [[gnu::vector_size(16)]] = std::int64_t;
+  constexpr std::size_t kPairs = kDirections / 2;
+  std::array<Masses, kPairs> below{};
+  std::array<Counts, kPairs> bins{};  // those with less mass up to them than is allowed
+  const Masses wanted{allowed, allowed};
+  const std::size_t last = last_limit();
+  for (std::size_t bin = 0; bin <= last && bin + 1 < kBins; ++bin) {
+    const double* masses = histogram_.data() + bin * kDirections;
+    for (std::size_t i = 0; i < kPairs; ++i) {
+      Masses here;
+      std::memcpy(&here, masses + 2 * i, sizeof(here));
+      below[i] += here;
+      bins[i] -= below[i] < wanted;
+    }
+  }
+  bool all_reached = true;
+  for (std::size_t i = 0; i < kDirections; ++i) {
+    const auto bin = static_cast<std::uint8_t>(bins[i / 2][i % 2]);
+    all_reached = all_reached && bin <= limits_[i];
+    limits_[i] = limits_[i + kDirections] = bin;
+  }
+  return all_reached;
+}
+
+std::size_t VirtualMeasurements::last_limit() const {
+  return *std::max_element(limits_.begin(), limits_.begin() + kDirections);
+}
+
+void VirtualMeasurements::clear_histogram() {
+  std::fill_n(histogram_.begin(), static_cast<std::ptrdiff_t>((last_limit() + 1) * kDirections), 0.0);
+}
+
+void VirtualMeasurements::guess_limits() {
+  limits_.fill(kBins - 1);
+  if (sightings_.size() < kFewPoses) return;
+  clear_histogram();
+  double total = 0.0;
+  const std::size_t step = sightings_.size() / kSample;
+  for (std::size_t i = step / 2; i < sightings_.size(); i += step) {
+    count(sightings_[i]);
+    total += sightings_[i].mass;
+  }
+  lower_limits(kAmple * (1.0 - params_.confidence) * total);
 }
 
 VirtualMeasurements::Scan VirtualMeasurements::measure(std::span<const WeightedPose> poses,
@@ -147,16 +269,12 @@ VirtualMeasurements::Scan VirtualMeasurements::measure(std::span<const WeightedP
     poses = best;
     rest = {};
   }
-  if (rows_.size() + poses.size() > kMaxRows) {  // not in the middle of a belief
-    rows_.clear();
-    index_.clear();
-  }
-
+  sight(poses);
   double all = 0.0;
   double possible = 0.0;
-  for (const auto& pose : poses) {
-    all += pose.mass;
-    if (row_at(pose.position).possible) possible += pose.mass;
+  for (const auto& sighting : sightings_) {
+    all += sighting.mass;
+    if (rows_[sighting.row].possible) possible += sighting.mass;
   }
   double rest_mass = 0.0;
   for (const auto& square : rest) rest_mass += square.mass;
@@ -164,42 +282,18 @@ VirtualMeasurements::Scan VirtualMeasurements::measure(std::span<const WeightedP
   if (!(all + rest_mass > 0.0)) return scan;
   scan.possible_mass = all > 0.0 ? possible / all : 0.0;
   const bool leave_out = possible >= (1.0 - params_.max_impossible) * all;
+  if (leave_out) std::erase_if(sightings_, [&](const Sighting& sighting) { return !rows_[sighting.row].possible; });
 
-  std::fill(histogram_.begin(), histogram_.end(), 0.0);
-  double total = 0.0;
-  for (const auto& pose : poses) {
-    const Row& row = row_at(pose.position);
-    if (leave_out && !row.possible) continue;
-    total += pose.mass;
-    // Robot direction i is map direction i + heading - 180 degrees.
-    int direction = wrapped(static_cast<int>(std::lround(pose.heading / kStep)) - kDirections / 2);
-    double* bins = histogram_.data();
-    for (int i = 0; i < kDirections; ++i, bins += kBins) {
-      bins[row.bins[static_cast<std::size_t>(direction)]] += pose.mass;
-      if (++direction == kDirections) direction = 0;
-    }
+  guess_limits();
+  for (bool is_enough = false; !is_enough;) {
+    clear_histogram();
+    const double total = count(rest, leave_out) + (leave_out ? possible : all);
+    const bool is_plain = *std::min_element(limits_.begin(), limits_.begin() + kDirections) == kBins - 1;
+    for (const auto& sighting : sightings_) is_plain ? count(sighting) : count_within_limits(sighting);
+    is_enough = lower_limits((1.0 - params_.confidence) * total);
+    if (!is_enough) limits_.fill(kBins - 1);  // the guess was too low somewhere: once more, and everything
   }
-  for (const auto& square : rest) {
-    if (!(square.mass > 0.0)) continue;
-    const double half = 0.5 * std::numbers::sqrt2 * square.side;
-    const auto [place, is_new] = square_ranges_.try_emplace(key_of(square.centre), 0.0);
-    if (is_new) place->second = square_range(square.centre, half);
-    const double range = place->second;
-    if (range < 0.0 && leave_out) continue;  // the robot can be nowhere in it
-    total += square.mass;
-    for (int i = 0; i < kDirections; ++i) {
-      histogram_[static_cast<std::size_t>(i) * kBins + bin_of(std::max(0.0, range))] += square.mass;
-    }
-  }
-
-  const double allowed = (1.0 - params_.confidence) * total;
-  for (int i = 0; i < kDirections; ++i) {
-    const double* bins = histogram_.data() + static_cast<std::ptrdiff_t>(i) * kBins;
-    double below = 0.0;
-    int bin = 0;
-    while (bin + 1 < kBins && (below += bins[bin]) < allowed) ++bin;
-    scan.ranges[static_cast<std::size_t>(i)] = kBin * bin;
-  }
+  for (std::size_t i = 0; i < kDirections; ++i) scan.ranges[i] = kBin * limits_[i];
   return scan;
 }
 

@@ -63,7 +63,11 @@ class VirtualMeasurements {
   /// The largest distances that, with the wanted confidence, underestimate the true ones: o* = sup {o : P(X > o) >
   /// 0.99}. Poses inside hazards or outside the area are left out, as the robot cannot be there, unless they are most
   /// of the belief. `rest` counts with its nearest hazard in every direction. An empty belief gives zeros.
-  /// O(poses * kDirections) and about 10 us once for every new position.
+  ///
+  /// A sample of the poses tells in which bins the hundredth must lie, with room to spare. All poses that see farther
+  /// are passed over, sixteen directions at a time, and few get as far as the histogram. Where the hundredth is not
+  /// reached within the guess, everything is counted: the result is that of the plain histogram. O(poses * kDirections
+  /// / 16), at worst O(poses * kDirections); about 10 us once for every new position.
   [[nodiscard]] Scan measure(std::span<const WeightedPose> poses, std::span<const WeightedSquare> rest);
 
   /// True where the robot's centre may be.
@@ -72,12 +76,30 @@ class VirtualMeasurements {
   [[nodiscard]] double nearest(Point2 position) const;
 
  private:
-  /// Distances seen from one position, in bins, direction i at 2 i degrees in the map.
+  static constexpr int kStride = 192;  ///< of a row: kDirections, padded to whole vectors
+  /// Distances seen from one position, in bins, direction i at 2 i degrees in the map; then padding that is far away.
   struct Row {
+    Row() { bins.fill(255); }
+    std::array<std::uint8_t, kStride> bins;
     bool possible = false;
-    std::array<std::uint8_t, kDirections> bins{};
   };
-  const Row& row_at(Point2 position);
+  /// A pose of a belief and what is seen from it.
+  struct Sighting {
+    std::uint32_t row = 0;
+    std::int32_t first = 0;  ///< the robot's direction i is the map's direction i + first
+    double mass = 0.0;
+  };
+  std::uint32_t row_of(Point2 position);
+  void sight(std::span<const WeightedPose> poses);
+  /// @returns the mass that was counted
+  double count(std::span<const WeightedSquare> rest, bool leave_out);
+  void count(const Sighting& sighting);
+  void count_within_limits(const Sighting& sighting);
+  void guess_limits();
+  /// Sets each limit to the bin where the counted mass reaches `allowed`. False: it does not within some former limit.
+  bool lower_limits(double allowed);
+  [[nodiscard]] std::size_t last_limit() const;
+  void clear_histogram();  ///< as far as the limits reach
   void fill(Row& row, Point2 position) const;
   void fill_from_outside(Row& row, Point2 position) const;
   [[nodiscard]] double border_distance(Point2 position) const;
@@ -88,10 +110,14 @@ class VirtualMeasurements {
   std::vector<Polygon> hazards_;
   std::vector<Segment> borders_;
   VirtualMeasurementParams params_;
-  std::unordered_map<std::uint64_t, std::size_t> index_;  ///< never iterated: the order of its entries is arbitrary
+  std::unordered_map<std::uint64_t, std::uint32_t> index_;  ///< never iterated: the order of its entries is arbitrary
   std::vector<Row> rows_;
   std::unordered_map<std::uint64_t, double> square_ranges_;
-  std::vector<double> histogram_;  ///< [kDirections][kBins] mass
+  std::vector<Sighting> sightings_;
+  std::vector<double> histogram_;  ///< [kBins][kDirections] mass; of bins beyond the limits not all
+  /// For each of the robot's directions the last bin that still matters; twice in succession, as rows may start
+  /// anywhere.
+  std::array<std::uint8_t, 2 * kDirections + kStride> limits_{};
 };
 
 }  // namespace docent

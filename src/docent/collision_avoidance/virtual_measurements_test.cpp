@@ -96,6 +96,50 @@ TEST(VirtualMeasurements, NinetyNinePercentRuleAgreesWithASlowTwin) {
   }
 }
 
+/// The slow twin: the mass of every pose in the bin of every direction, added up.
+std::array<double, 180> plain_histogram(VirtualMeasurements& measurements, const std::vector<WeightedPose>& belief) {
+  std::array<std::array<double, VirtualMeasurements::kBins>, 180> histogram{};
+  double total = 0.0;
+  for (const auto& pose : belief) {
+    if (!measurements.is_possible(pose.position)) continue;
+    total += pose.mass;
+    const auto seen = measurements.measure({&pose, 1}, {}).ranges;
+    for (std::size_t i = 0; i < 180; ++i) {
+      histogram[i][static_cast<std::size_t>(std::lround(seen[i] / VirtualMeasurements::kBin))] += pose.mass;
+    }
+  }
+  std::array<double, 180> ranges{};
+  for (std::size_t i = 0; i < 180; ++i) {
+    double below = 0.0;
+    std::size_t bin = 0;
+    while (bin + 1 < VirtualMeasurements::kBins && (below += histogram[i][bin]) < 0.01 * total) ++bin;
+    ranges[i] = VirtualMeasurements::kBin * static_cast<double>(bin);
+  }
+  return ranges;
+}
+
+TEST(VirtualMeasurements, PassOverNothingThatMatters) {
+  VirtualMeasurements measurements{kArea, {kPlate}, {}};
+  for (std::uint64_t seed = 0; seed < 24; ++seed) {
+    Rng rng{seed};
+    std::vector<WeightedPose> belief;
+    const double spread = std::array{0.05, 0.4, 2.0}[seed % 3];
+    const Point2 centre{rng.uniform(1, 9), rng.uniform(1, 2)};  // mostly clear of the plate
+    const auto count = seed % 2 == 0 ? 1600 : rng.integer(1, 300);
+    while (static_cast<std::int64_t>(belief.size()) < count) {
+      const Point2 at{centre.x + rng.normal(0.0, spread), centre.y + rng.normal(0.0, spread)};
+      // On the lattice, and no tie between two masses.
+      const Point2 place{0.15 * std::round(at.x / 0.15), 0.15 * std::round(at.y / 0.15)};
+      const double mass = seed % 4 == 0 ? std::exp(rng.normal(0.0, 3.0)) : rng.uniform(0.5, 1.5);
+      if (!measurements.is_possible(place) && belief.size() % 7 != 0) continue;  // some may be impossible
+      belief.push_back({place, rng.uniform(-kPi, kPi), mass});
+    }
+    const auto wanted = plain_histogram(measurements, belief);
+    const auto ranges = measurements.measure(belief, {}).ranges;
+    for (std::size_t i = 0; i < 180; ++i) ASSERT_DOUBLE_EQ(ranges[i], wanted[i]) << "seed " << seed << " at " << i;
+  }
+}
+
 TEST(VirtualMeasurements, TheWholeBeliefCountsNotTheBestPoseAlone) {
   const std::vector<WeightedPose> belief{{{1.0, 4.0}, 0.0, 0.97}, {{3.5, 4.0}, 0.0, 0.03}};
   VirtualMeasurements whole{kArea, {kPlate}, {}};

@@ -634,6 +634,36 @@ struct Tactile {
   }
 };
 
+/// A line on the floor that nothing may touch, [m], frame of the message.
+struct ObstacleLine {
+  static constexpr const char* kType = "docent_msgs/msg/ObstacleLine";
+  float x1 = 0, y1 = 0, x2 = 0, y2 = 0;
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("x1", m.x1);
+    v("y1", m.y1);
+    v("x2", m.x2);
+    v("y2", m.y2);
+  }
+};
+
+/// Obstacles that a camera saw. A new message replaces the one before of the same source. Sent at a steady rate, also
+/// when nothing is seen: a source that falls silent stops the robot.
+struct ObstacleLines {
+  static constexpr const char* kType = "docent_msgs/msg/ObstacleLines";
+  std_msgs::Header header;  ///< frame base_link, when the picture was taken
+  std::string source;       ///< which camera
+  double lifetime_s = 1.0;  ///< [s] the lines count for so long after the stamp, at most 5
+  std::vector<ObstacleLine> lines;
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("header", m.header);
+    v("source", m.source);
+    v("lifetime_s", m.lifetime_s);
+    v("lines", m.lines);
+  }
+};
+
 /// A changed rectangle of the live map. It builds on the full map of stamp `base`; numbers count up from 1 behind each
 /// full map. Who misses a number waits for the next full map, at most ten seconds.
 struct LiveMapUpdate {

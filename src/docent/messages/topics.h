@@ -30,10 +30,12 @@ namespace topics {
 // Hardware, as any ROS 2 base offers it. Published by the simulator or by drivers.
 inline constexpr Topic<sensor_msgs::LaserScan> kScanFront{"scan_front", Qos::sensor};
 inline constexpr Topic<sensor_msgs::LaserScan> kScanRear{"scan_rear", Qos::sensor};
-inline constexpr Topic<sensor_msgs::Range> kSonar{"sonar", Qos::sensor, 96};  // 24 sensors, one topic
+inline constexpr Topic<sensor_msgs::Range> kSonar{"sonar", Qos::sensor, 96};        // 24 sensors, one topic
+inline constexpr Topic<sensor_msgs::Range> kInfrared{"infrared", Qos::sensor, 96};  // likewise
 inline constexpr Topic<nav_msgs::Odometry> kOdometry{"odom", Qos::sensor};
 inline constexpr Topic<sensor_msgs::BatteryState> kBattery{"battery_state", Qos::sensor};
 inline constexpr Topic<docent_msgs::Tactile> kTactile{"tactile", Qos::sensor};
+inline constexpr Topic<docent_msgs::ObstacleLines> kObstacleLines{"obstacle_lines", Qos::sensor};
 inline constexpr Topic<geometry_msgs::Twist> kCommandVelocity{"cmd_vel", Qos::command, 0, 0.3};
 // Frames.
 inline constexpr Topic<tf2_msgs::TFMessage> kTransforms{"tf", Qos::sensor};
@@ -83,6 +85,7 @@ template <class F>
 void for_each_robot_topic(F&& f) {
   using namespace topics;
   f(kScanFront), f(kScanRear), f(kSonar), f(kOdometry), f(kBattery), f(kTactile), f(kCommandVelocity);
+  f(kInfrared), f(kObstacleLines);
   f(kTransforms), f(kStaticTransforms), f(kStaticMap), f(kLiveMap), f(kLiveMapUpdate), f(kBelief), f(kPose);
   f(kPersonBeams), f(kPeople), f(kPeopleInOdom), f(kVirtualScan), f(kDriveGoal), f(kGoalState), f(kTarget), f(kPath);
   f(kDrive), f(kAvoidState), f(kRequest), f(kChoice), f(kRequestBoard), f(kMissionState), f(kTask), f(kTaskState),

@@ -91,6 +91,23 @@ class AvoidModule final : public Module {
                          {from_message(range.header.stamp), body_.base_from_sonar(*index), range.field_of_view,
                           range.max_range, range.range});
     });
+    bus_.subscribe<sensor_msgs::Range>(topics::kInfrared, [this](const sensor_msgs::Range& range) {
+      const auto index = body_.infrared_of(range.header.frame_id);
+      if (!index) return;
+      avoider_.add_infrared(bus_.now(), static_cast<std::size_t>(*index),
+                            {from_message(range.header.stamp), body_.base_from_infrared(*index), range.field_of_view,
+                             range.max_range, range.range});
+    });
+    bus_.subscribe<docent_msgs::ObstacleLines>(topics::kObstacleLines, [this](const docent_msgs::ObstacleLines& seen) {
+      std::vector<Segment> lines;
+      for (const auto& line : seen.lines) {
+        if (!are_finite({line.x1, line.y1, line.x2, line.y2})) return;
+        lines.push_back({{line.x1, line.y1}, {line.x2, line.y2}});
+      }
+      if (!std::isfinite(seen.lifetime_s)) return;
+      avoider_.add_lines(bus_.now(), from_message(seen.header.stamp), seen.source, seen.lifetime_s, lines);
+      reflex();
+    });
     bus_.subscribe<docent_msgs::Tactile>(topics::kTactile, [this](const docent_msgs::Tactile& tactile) {
       avoider_.add_tactile(bus_.now(), from_message(tactile.header.stamp), tactile.segments, tactile.scan);
       reflex();

@@ -70,6 +70,7 @@ class RobotModule final : public Module {
     for (int i = 0; i < body.sonars; ++i) {
       add(RobotBody::sonar_frame(i), body.base_from_sonar(i));
     }
+    for (int i = 0; i < body.infrareds; ++i) add(RobotBody::infrared_frame(i), body.base_from_infrared(i));
     bus_.publisher(topics::kStaticTransforms).publish(std::move(mounts));
   }
 

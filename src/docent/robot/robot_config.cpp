@@ -23,27 +23,43 @@ Result<void> RobotBody::validate() const {
     return fail("body: from max_speed it must stand within 3 m and 3 s (watchdog and latency included)");
   if (!(sonars >= 0 && sonars <= 100)) return fail("body.sonars must be 0..100");
   if (!(sonar_radius >= 0.0 && sonar_radius <= radius)) return fail("body.sonar_radius must be 0 to the body's radius");
+  if (!(infrareds >= 0 && infrareds <= 100)) return fail("body.infrareds must be 0..100");
+  if (!(infrared_radius >= 0.0 && infrared_radius <= radius))
+    return fail("body.infrared_radius must be 0 to the body's radius");
   return {};
 }
 
-Pose2 RobotBody::base_from_sonar(int index) const {
-  const Angle heading = Angle::radians(2.0 * std::numbers::pi * index / sonars);
-  const Point2 place = sonar_radius * unit(heading);
+namespace {
+
+Pose2 place_on_ring(int index, int count, double radius) {
+  const Angle heading = Angle::radians(2.0 * std::numbers::pi * index / count);
+  const Point2 place = radius * unit(heading);
   return {place.x, place.y, heading};
 }
 
-std::string RobotBody::sonar_frame(int index) {
-  return "sonar_" + std::string(index < 10 ? "0" : "") + std::to_string(index);
+std::string numbered(const std::string& prefix, int index) {
+  return prefix + (index < 10 ? "0" : "") + std::to_string(index);
 }
 
-std::optional<int> RobotBody::sonar_of(std::string_view frame) const {
-  constexpr std::string_view kPrefix = "sonar_";
-  if (!frame.starts_with(kPrefix)) return std::nullopt;
-  frame.remove_prefix(kPrefix.size());
+std::optional<int> number_of(std::string_view frame, std::string_view prefix, int count) {
+  if (!frame.starts_with(prefix)) return std::nullopt;
+  frame.remove_prefix(prefix.size());
   int index = -1;
   const auto [end, error] = std::from_chars(frame.data(), frame.data() + frame.size(), index);
   const bool is_number = error == std::errc{} && end == frame.data() + frame.size();
-  return is_number && index >= 0 && index < sonars ? std::optional<int>{index} : std::nullopt;
+  return is_number && index >= 0 && index < count ? std::optional<int>{index} : std::nullopt;
+}
+
+}  // namespace
+
+Pose2 RobotBody::base_from_sonar(int index) const { return place_on_ring(index, sonars, sonar_radius); }
+std::string RobotBody::sonar_frame(int index) { return numbered("sonar_", index); }
+std::optional<int> RobotBody::sonar_of(std::string_view frame) const { return number_of(frame, "sonar_", sonars); }
+
+Pose2 RobotBody::base_from_infrared(int index) const { return place_on_ring(index, infrareds, infrared_radius); }
+std::string RobotBody::infrared_frame(int index) { return numbered("infrared_", index); }
+std::optional<int> RobotBody::infrared_of(std::string_view frame) const {
+  return number_of(frame, "infrared_", infrareds);
 }
 
 RobotConfig::RobotConfig() : file_{YamlFile::parse("{}", "robot.yaml (defaults)").value()} {}

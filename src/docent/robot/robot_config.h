@@ -39,8 +39,10 @@ struct RobotBody {
   double watchdog = 0.3;           ///< [s] without a command, then the base stops
   Mount scan_front{"laser_front", 0.0, 0.0, 0.0};
   Mount scan_rear{"laser_rear", 0.0, 0.0, 180.0};
-  int sonars = 24;             ///< evenly round the body, sonar_00 at the front, counter-clockwise
-  double sonar_radius = 0.25;  ///< [m] from the centre
+  int sonars = 24;                ///< evenly round the body, sonar_00 at the front, counter-clockwise
+  double sonar_radius = 0.25;     ///< [m] from the centre
+  int infrareds = 24;             ///< likewise, infrared_00 at the front; what never speaks is not missed
+  double infrared_radius = 0.25;  ///< [m] from the centre
   template <class V>
   void visit(V& v) {
     v("radius", radius);
@@ -55,11 +57,16 @@ struct RobotBody {
     v("scan_rear", scan_rear);
     v("sonars", sonars);
     v("sonar_radius", sonar_radius);
+    v("infrareds", infrareds);
+    v("infrared_radius", infrared_radius);
   }
   [[nodiscard]] Pose2 base_from_sonar(int index) const;
   /// The frame of a sonar: sonar_00, sonar_01, … and back; nullopt for what is none of this body's.
   [[nodiscard]] static std::string sonar_frame(int index);
   [[nodiscard]] std::optional<int> sonar_of(std::string_view frame) const;
+  [[nodiscard]] Pose2 base_from_infrared(int index) const;
+  [[nodiscard]] static std::string infrared_frame(int index);
+  [[nodiscard]] std::optional<int> infrared_of(std::string_view frame) const;
   [[nodiscard]] Result<void> validate() const;
 };
 

@@ -95,6 +95,9 @@ TEST(RobotBody, KnowsItsSonarsByTheirFrames) {
   EXPECT_EQ(RobotBody::sonar_frame(7), "sonar_07");
   for (const char* frame : {"", "sonar_", "sonar_24", "sonar_-1", "sonar_7x", "laser_front"})
     EXPECT_FALSE(body.sonar_of(frame)) << frame;
+  EXPECT_EQ(body.infrared_of("infrared_09"), 9);
+  EXPECT_EQ(RobotBody::infrared_frame(23), "infrared_23");
+  EXPECT_FALSE(body.infrared_of("sonar_09"));
 }
 
 }  // namespace

@@ -58,20 +58,24 @@ Instruments::Instruments(Bus& bus, const World& world, const Rng& rng)
       front_{LaserParams{}, Pose2{}, rng.stream("laser_front")},
       rear_{LaserParams{}, Pose2{0.0, 0.0, Angle::degrees(180.0)}, rng.stream("laser_rear")},
       ring_{SonarParams{}, rng.stream("sonar")},
+      infrared_{InfraredParams{}, rng.stream("infrared")},
       fault_rng_{rng.stream("faults")},
       front_scans_{bus.publisher(topics::kScanFront)},
       rear_scans_{bus.publisher(topics::kScanRear)},
       pings_{bus.publisher(topics::kSonar)},
+      infrared_readings_{bus.publisher(topics::kInfrared)},
       odometry_{bus.publisher(topics::kOdometry)},
       battery_{bus.publisher(topics::kBattery)},
       tactile_{bus.publisher(topics::kTactile)} {
   last_pings_.resize(static_cast<std::size_t>(ring_.params().count));
+  last_infrared_.resize(static_cast<std::size_t>(infrared_.params().count));
   change_world(world);
 }
 
 void Instruments::change_world(const World& world) {
   laser_walls_ = std::make_unique<RayCaster>(surfaces_at(world, kLaserHeight));
   sonar_walls_ = std::make_unique<RayCaster>(sonar_surfaces(world));
+  infrared_walls_ = std::make_unique<RayCaster>(surfaces_at(world, kInfraredHeight));
 }
 
 void Instruments::set_fault(const SensorFault& fault, Time now) {
@@ -204,6 +208,31 @@ void Instruments::publish_ping(Time now, const Ping& ping) {
   message.max_range = static_cast<float>(params.max_range);
   message.range = static_cast<float>(ping.range);
   emit(Sensor::sonar, pings_, std::move(message), last_pings_[static_cast<std::size_t>(ping.index)], now);
+}
+
+void Instruments::publish_infrared(Time now, std::uint64_t slot, const Pose2& world_from_base,
+                                   std::span<const Disc> people) {
+  constexpr std::uint64_t kSlots = 20;  // 0.2 s
+  const InfraredParams& params = infrared_.params();
+  const auto count = static_cast<std::uint64_t>(params.count);
+  const double reach = params.max_range + params.ring_radius;
+  near_.clear();
+  for (const Disc& disc : people) {
+    const Point2 offset = disc.centre - world_from_base.position();
+    if (std::max(std::abs(offset.x), std::abs(offset.y)) < reach + disc.radius) near_.push_back(disc);
+  }
+  for (std::uint64_t index = 0; index < count; ++index) {
+    if (index * kSlots / count != slot % kSlots) continue;
+    sensor_msgs::Range message;
+    message.header = {to_message(now), (index < 10 ? "infrared_0" : "infrared_") + std::to_string(index)};
+    message.radiation_type = 1;
+    message.field_of_view = static_cast<float>(params.field_of_view);
+    message.min_range = static_cast<float>(params.min_range);
+    message.max_range = static_cast<float>(params.max_range);
+    message.range =
+        static_cast<float>(infrared_.read(static_cast<int>(index), *infrared_walls_, near_, world_from_base));
+    emit(Sensor::infrared, infrared_readings_, std::move(message), last_infrared_[index], now);
+  }
 }
 
 void Instruments::publish_battery(Time now, const Battery& battery) {

@@ -9,6 +9,7 @@
 #include "docent/simulator/battery.h"
 #include "docent/simulator/body.h"
 #include "docent/simulator/scenario.h"
+#include "docent/simulator/sensing/infrared.h"
 #include "docent/simulator/sensing/laser.h"
 #include "docent/simulator/sensing/sonar.h"
 #include "docent/transport/bus.h"
@@ -37,6 +38,8 @@ class Instruments {
   void publish_scans(Time now, const Pose2& world_from_base, std::span<const Disc> people);
   /// @param slot  counts steps of 10 ms: the 24 sonars fire in groups of three, each every 0.4 s
   void publish_sonar(Time now, std::uint64_t slot, const Pose2& world_from_base, std::span<const Disc> people);
+  /// Each of the ring every 0.2 s, one or two a step of 10 ms.
+  void publish_infrared(Time now, std::uint64_t slot, const Pose2& world_from_base, std::span<const Disc> people);
   void publish_battery(Time now, const Battery& battery);
   void publish_tactile(Time now, const std::vector<std::uint8_t>& segments);
 
@@ -61,11 +64,14 @@ class Instruments {
   Bus& bus_;
   std::unique_ptr<RayCaster> laser_walls_;
   std::unique_ptr<RayCaster> sonar_walls_;
+  std::unique_ptr<RayCaster> infrared_walls_;
   LaserScanner front_;
   LaserScanner rear_;
   SonarRing ring_;
+  InfraredRing infrared_;
   Rng fault_rng_;
   std::array<std::optional<Fault>, kSensors> faults_;
+  std::vector<Disc> near_;  ///< people within reach of the infrared ring
   std::vector<int> met_;
   double blocked_share_ = 0.0;
   bool skips_ = false;
@@ -80,12 +86,14 @@ class Instruments {
   Publisher<sensor_msgs::LaserScan> front_scans_;
   Publisher<sensor_msgs::LaserScan> rear_scans_;
   Publisher<sensor_msgs::Range> pings_;
+  Publisher<sensor_msgs::Range> infrared_readings_;
   Publisher<nav_msgs::Odometry> odometry_;
   Publisher<sensor_msgs::BatteryState> battery_;
   Publisher<docent_msgs::Tactile> tactile_;
   std::optional<sensor_msgs::LaserScan> last_front_;
   std::optional<sensor_msgs::LaserScan> last_rear_;
   std::vector<std::optional<sensor_msgs::Range>> last_pings_;
+  std::vector<std::optional<sensor_msgs::Range>> last_infrared_;
   std::optional<nav_msgs::Odometry> last_odom_;
   std::optional<docent_msgs::Tactile> last_tactile_;
 };

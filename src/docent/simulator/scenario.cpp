@@ -178,7 +178,8 @@ class EventReader {
                                {"laser_rear", Sensor::laser_rear},
                                {"sonar", Sensor::sonar},
                                {"odom", Sensor::odom},
-                               {"tactile", Sensor::tactile}},
+                               {"tactile", Sensor::tactile},
+                               {"infrared", Sensor::infrared}},
                               event.sensor);
              }},
             {"kind",

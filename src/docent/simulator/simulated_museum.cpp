@@ -225,6 +225,7 @@ class SimulatedMuseum::Impl {
     if (every(5)) instruments_.publish_odometry(time_, body_);
     if (every(10)) instruments_.publish_scans(time_, body_.pose(), people_);
     instruments_.publish_sonar(time_, steps_, body_.pose(), people_);
+    instruments_.publish_infrared(time_, steps_, body_.pose(), people_);
     if (tactile_now_ != tactile_ || every(20)) {
       tactile_ = tactile_now_;
       instruments_.publish_tactile(time_, tactile_);
@@ -338,7 +339,8 @@ class SimulatedMuseum::Impl {
   }
   void play(const SensorFault& event) {
     instruments_.set_fault(event, time_);
-    constexpr std::array<const char*, kSensors> kNames{"laser_front", "laser_rear", "sonar", "odom", "tactile"};
+    constexpr std::array<const char*, kSensors> kNames{"laser_front", "laser_rear", "sonar",
+                                                       "odom",        "tactile",    "infrared"};
     offer("fault", kNames[static_cast<std::size_t>(event.sensor)]);
   }
   void play(const Stool& event) {

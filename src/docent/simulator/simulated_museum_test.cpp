@@ -98,6 +98,7 @@ TEST(SimulatedMuseum, OffersTheTopicsOfARobotAtTheirRates) {
   EXPECT_EQ(bench.counts["scan_rear"], 100);
   EXPECT_EQ(bench.counts["odom"], 200);
   EXPECT_EQ(bench.counts["sonar"], 24 * 25);
+  EXPECT_EQ(bench.counts["infrared"], 24 * 50);
   EXPECT_EQ(bench.counts["battery_state"], 10);
   EXPECT_GE(bench.counts["tactile"], 50);
   EXPECT_EQ(bench.counts["truth/state"], 100);

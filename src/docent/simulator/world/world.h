@@ -72,9 +72,10 @@ struct World {
 
 [[nodiscard]] const char* to_string(SolidKind kind);
 
-/// Height [m] at which lasers look, and that of the sonars.
+/// Height [m] at which lasers look, and those of the sonars and of the infrared sensors.
 inline constexpr double kLaserHeight = 0.38;
 inline constexpr double kSonarHeight = 0.25;
+inline constexpr double kInfraredHeight = 0.2;
 
 /// True when a laser at kLaserHeight is reflected by the solid.
 [[nodiscard]] bool is_seen_by_laser(const Solid& solid);
