@@ -276,7 +276,7 @@ class PlanModule final : public Module {
     docent_msgs::Gaze gaze;
     gaze.header = {to_message(now), "odom"};
     gaze.at = target.mode == "drive" ? "way" : target.mode == "turn" ? "goal" : "none";
-    const Pose2& odom_from_base = *pose_.odom_from_base();
+    const Pose2 odom_from_base = *pose_.odom_from_base();
     gaze.heading = gaze.at == "none" ? odom_from_base.theta.radians() : target.heading;
     for (std::size_t i = 0; gaze.at == "way" && i < target.via_x.size(); ++i) {
       const Point2 via{target.via_x[i], target.via_y[i]};
