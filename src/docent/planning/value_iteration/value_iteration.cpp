@@ -87,7 +87,6 @@ const float* ValueIteration::goals_of(std::size_t tile) const {
   return found == goals_.end() ? no_goals_.data() : found->second.data();
 }
 
-/// A goal from where no other one is nearer.
 bool ValueIteration::is_goal(CellIndex cell) const {
   const float own = goals_of(tile_of(cell))[index(cell) % kTileCells];
   return own < kClosed && value(cell) == own;
