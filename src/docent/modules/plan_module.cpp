@@ -13,9 +13,9 @@ namespace docent {
 namespace {
 
 constexpr Duration kPeriod = std::chrono::milliseconds{200};
-constexpr int kSweepsAStep = 40;  ///< any-time: so many sweeps of the bounding box between two targets
-constexpr int kClearances = 180;  ///< directions, every 2 degrees
-constexpr int kStepsAPath = 5;    ///< the page sees the path at 1 Hz
+constexpr int kVisitsAStep = 200;  ///< any-time: so many tiles of the value function between two targets
+constexpr int kClearances = 180;   ///< directions, every 2 degrees
+constexpr int kStepsAPath = 5;     ///< the page sees the path at 1 Hz
 constexpr Duration kBeliefStaleAfter = std::chrono::seconds{3};
 
 struct PlanParams {
@@ -136,12 +136,23 @@ class PlanModule final : public Module {
       changed_ = false;
       route_.set_obstacles(obstacles_);
     }
-    if (!goal_.id.empty()) route_.iterate(kSweepsAStep);
+    plan_ahead();
     const bool knows = pose_.localized() && now - pose_.belief_stamp() < kBeliefStaleAfter;
     const Pursuit pursuit = pursuit_.step(knows ? pose_.map_from_base() : std::nullopt, route_, now);
     publish_target(pursuit, now);
     publish_state(pursuit);
     if (step_count_++ % kStepsAPath == 0) publish_path(pursuit, now);
+  }
+
+  void plan_ahead() {
+    if (goal_.id.empty()) return;
+    const auto here = pose_.map_from_base();
+    if (!here) {
+      route_.iterate(kVisitsAStep);
+      return;
+    }
+    route_.settle(here->position(), kVisitsAStep);
+    route_.hold_way(here->position());
   }
 
   void step_relocalize(Time now) {
