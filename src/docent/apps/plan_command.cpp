@@ -1,11 +1,13 @@
 #include "docent/apps/plan_command.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <vector>
 
 #include "docent/apps/arguments.h"
 #include "docent/apps/command.h"
@@ -27,7 +29,7 @@ struct Options {
   std::string map;
   std::string museum;
   std::string from;
-  std::string to;
+  std::vector<std::string> goals;
   std::string planner = "shortest";
   std::string picture;
   std::string ways;
@@ -84,7 +86,9 @@ RoutePlanner planner_of(const OccupancyGrid& map, const std::optional<Museum>& m
 void plan(Options& options) {
   if (options.planner == "coastal" && options.coastal.weight == 0.0) options.coastal.weight = kUsualWeight;
   const Point2 from = parse_point("--from", options.from);
-  const Point2 to = parse_point("--to", options.to);
+  std::vector<Point2> goals;
+  for (const std::string& goal : options.goals) goals.push_back(parse_point("--to", goal));
+  if (options.coastal.weight > 0.0 && goals.size() > 1) throw CommandFailed{"--coastal plans to one goal", 2};
   if (options.map.empty() == options.museum.empty()) throw CommandFailed{"either --map or --museum is needed", 2};
   value_or_fail(options.coastal.validate());
   std::optional<Museum> museum;
@@ -92,17 +96,24 @@ void plan(Options& options) {
   const OccupancyGrid map = museum ? museum->map : value_or_fail(load_map(options.map));
   RoutePlanner planner = planner_of(map, museum, options);
   if (planner.is_closed(from)) throw CommandFailed{"--from " + options.from + ": no room for the robot there"};
-  if (planner.is_closed(to)) throw CommandFailed{"--to " + options.to + ": no room for the robot there"};
-  planner.set_goal(to, 0.1);
+  for (std::size_t i = 0; i < goals.size(); ++i)
+    if (planner.is_closed(goals[i])) throw CommandFailed{"--to " + options.goals[i] + ": no room for the robot there"};
+  planner.set_goals(goals, 0.1);
   std::vector<Way> ways{way_of("shortest", planner, from)};
-  if (ways[0].points.size() < 2) throw CommandFailed{"no way from " + options.from + " to " + options.to};
+  if (ways[0].points.size() < 2) throw CommandFailed{"no way from " + options.from + " to " + options.goals.front()};
+  if (goals.size() > 1) {
+    const auto nearest = std::min_element(goals.begin(), goals.end(), [&](Point2 a, Point2 b) {
+      return distance(a, ways[0].points.back()) < distance(b, ways[0].points.back());
+    });
+    std::printf("to %s\n", options.goals[static_cast<std::size_t>(nearest - goals.begin())].c_str());
+  }
   std::printf("length %.2f m, cost %.2f m of free floor, %zu points\n", ways[0].length, planner.cost_from(from),
               ways[0].points.size() - 1);
 
   std::optional<CoastalPlanner> coastal;
   if (options.coastal.weight > 0.0) {
     coastal.emplace(map, CoastalFloor::of(planner.frame(), planner.static_costs(), kCoarser), options.coastal);
-    coastal->set_goal(to, 0.1);
+    coastal->set_goal(goals.front(), 0.1);
     while (!coastal->iterate(100)) {
     }
     planner.prefer(coastal->way(from, kKnownStart * kKnownStart));
@@ -115,10 +126,9 @@ void plan(Options& options) {
   if (options.picture.empty()) return;
   std::vector<DrawnWay> drawn;
   for (const Way& way : ways) drawn.push_back({way.name, way.points, drawn.empty() ? colors::kBlue : colors::kRed});
-  const double heading_scale = options.coastal.uncertainty.heading_scale;
-  value_or_fail(
-      save_png(draw_plan(map, drawn, options.radius, coastal ? &coastal->information() : nullptr, heading_scale),
-               options.picture));
+  const PlanGround ground{&planner.values(), coastal ? &coastal->information() : nullptr,
+                          options.coastal.uncertainty.heading_scale};
+  value_or_fail(save_png(draw_plan(map, drawn, goals, options.radius, ground), options.picture));
   std::printf("picture %s\n", options.picture.c_str());
 }
 
@@ -126,11 +136,14 @@ void plan(Options& options) {
 
 void add_plan_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("plan", "Plan one way through a map, with its cost and a picture");
+  CLI::App* command = app.add_subcommand(
+      "plan", "Plan the way through a map to a goal, or to the nearest of several, with its cost and a picture");
   command->add_option("--map", options->map, "map_server YAML file");
   command->add_option("--museum", options->museum, "folder of a museum, instead of a map: with its area and hazards");
   command->add_option("--from", options->from, "X,Y in metres, map frame")->required();
-  command->add_option("--to", options->to, "X,Y in metres, map frame")->required();
+  command->add_option("--to,--goal", options->goals, "X,Y in metres, map frame; given again: the nearest by cost")
+      ->required()
+      ->allow_extra_args(false);
   command->add_option("--planner", options->planner, "shortest, or coastal for --coastal 0.2")
       ->check(CLI::IsMember({"shortest", "coastal"}))
       ->capture_default_str();
@@ -144,7 +157,9 @@ void add_plan_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--radius", options->radius, "radius of the robot [m]")->capture_default_str();
   command->add_option("--ways", options->ways, "JSON file to write: the ways and what was said of them");
-  command->add_option("--picture", options->picture, "PNG file to write");
+  command->add_option("--picture", options->picture,
+                      "PNG file to write: the ways over the value function, pale near the goals and dark far from\n"
+                      "them; with --coastal over the information of places, dark where a scan tells most");
   command->callback([options] { plan(*options); });
 }
 

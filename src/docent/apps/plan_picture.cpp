@@ -38,13 +38,38 @@ void draw_information(Image& image, const MapView& view, const InformationMap& i
   }
 }
 
+void draw_values(Image& image, const MapView& view, const ValueIteration& values) {
+  const GridFrame& frame = values.frame();
+  const auto for_cells = [&](const auto& work) {
+    for (int row = 0; row < frame.rows; ++row) {
+      for (int column = 0; column < frame.columns; ++column) {
+        const CellIndex cell{column, row};
+        if (values.value(cell) < ValueIteration::kClosed && values.cost(cell) < ValueIteration::kClosed) work(cell);
+      }
+    }
+  };
+  float most = 1e-6F;
+  for_cells([&](CellIndex cell) { most = std::max(most, values.value(cell)); });
+  const double half = 0.5 * frame.resolution;
+  for_cells([&](CellIndex cell) {
+    const Point2 centre = frame.centre(cell);
+    const Color color = heat(static_cast<double>(values.value(cell) / most));
+    fill_rectangle(image, view.pixel({centre.x - half, centre.y + half}),
+                   view.pixel({centre.x + half, centre.y - half}), with_alpha(color, 170));
+  });
+}
+
 }  // namespace
 
-Image draw_plan(const OccupancyGrid& map, const std::vector<DrawnWay>& ways, double radius,
-                const InformationMap* information, double heading_scale) {
+Image draw_plan(const OccupancyGrid& map, const std::vector<DrawnWay>& ways, const std::vector<Point2>& goals,
+                double radius, const PlanGround& ground) {
   const MapView view = MapView::whole(map.frame);
   Image image = draw_map(map, view);
-  if (information != nullptr) draw_information(image, view, *information, heading_scale);
+  if (ground.information != nullptr) {
+    draw_information(image, view, *ground.information, ground.heading_scale);
+  } else if (ground.values != nullptr) {
+    draw_values(image, view, *ground.values);
+  }
   double line = 8.0;
   for (const DrawnWay& way : ways) {
     if (way.points.size() < 2) continue;
@@ -56,7 +81,7 @@ Image draw_plan(const OccupancyGrid& map, const std::vector<DrawnWay>& ways, dou
   if (ways.empty() || ways.front().points.size() < 2) return image;
   const Point2 from = ways.front().points[0];
   draw_robot(image, view, {from.x, from.y, direction(from, ways.front().points[1])}, radius, distinct(1));
-  fill_disc(image, view.pixel(ways.front().points.back()), 5.0, distinct(2));
+  for (const Point2& goal : goals) fill_disc(image, view.pixel(goal), 5.0, distinct(2));
   return image;
 }
 

@@ -5,6 +5,7 @@
 
 #include "docent/pictures/image.h"
 #include "docent/planning/coastal/coastal_planner.h"
+#include "docent/planning/value_iteration/value_iteration.h"
 
 namespace docent {
 
@@ -15,10 +16,17 @@ struct DrawnWay {
   Color color;
 };
 
-/// Ways over the map, with a robot of `radius` [m] at their start and a disc at their end.
-/// `information`: where given, laid over the floor: what one scan tells a robot that knows its place to 25 cm, pale for
-/// nothing, dark for the most that there is, as in [Minerva2000, Fig. 12].
-[[nodiscard]] Image draw_plan(const OccupancyGrid& map, const std::vector<DrawnWay>& ways, double radius,
-                              const InformationMap* information, double heading_scale);
+/// What lies over the floor under the ways.
+struct PlanGround {
+  const ValueIteration* values = nullptr;  ///< pale near the goals, dark far from them, clear where no way leads
+  /// Instead, where given: what one scan tells a robot that knows its place to 25 cm, pale for nothing, dark for the
+  /// most that there is, as in [Minerva2000, Fig. 12].
+  const InformationMap* information = nullptr;
+  double heading_scale = 1.0;
+};
+
+/// Ways over the map, with a robot of `radius` [m] at their start and a disc at each goal.
+[[nodiscard]] Image draw_plan(const OccupancyGrid& map, const std::vector<DrawnWay>& ways,
+                              const std::vector<Point2>& goals, double radius, const PlanGround& ground);
 
 }  // namespace docent

@@ -15,7 +15,7 @@ namespace docent {
 namespace {
 
 constexpr Duration kPeriod = std::chrono::milliseconds{200};
-constexpr int kSweepsAStep = 40;      ///< any-time: so many sweeps of the bounding box between two targets
+constexpr int kVisitsAStep = 200;     ///< any-time: so many tiles of the value function between two targets
 constexpr int kCoastSweepsAStep = 2;  ///< of the coastal planner, which has more to do in one
 constexpr int kCoastCoarsening = 2;   ///< its cell = so many planning cells
 constexpr double kOffCoast = 2.0;     ///< [m] beside its way, from where it looks for another
@@ -155,7 +155,7 @@ class PlanModule final : public Module {
       route_.set_obstacles(obstacles_, settled_);
     }
     if (!goal_.id.empty()) follow_coast();
-    if (!goal_.id.empty()) route_.iterate(kSweepsAStep);
+    plan_ahead();
     const bool knows = pose_.localized() && now - pose_.belief_stamp() < kBeliefStaleAfter;
     const Pursuit pursuit = pursuit_.step(knows ? pose_.map_from_base() : std::nullopt, route_, now);
     publish_target(pursuit, now);
@@ -182,6 +182,17 @@ class PlanModule final : public Module {
     if (was_settled && !(is_off && !coast_.empty())) return;
     coast_ = coastal_->way(here->position(), coastal_->uncertainty().variance_of(hypotheses_.front().covariance));
     route_.prefer(coast_);
+  }
+
+  void plan_ahead() {
+    if (goal_.id.empty()) return;
+    const auto here = pose_.map_from_base();
+    if (!here) {
+      route_.iterate(kVisitsAStep);
+      return;
+    }
+    route_.settle(here->position(), kVisitsAStep);
+    route_.hold_way(here->position());
   }
 
   void step_relocalize(Time now) {

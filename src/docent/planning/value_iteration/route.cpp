@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace docent {
 
@@ -20,10 +21,14 @@ Result<void> RouteParams::validate() const {
   if (!(settled_cost >= obstacle_cost)) return fail("settled_cost must be >= obstacle_cost");
   if (!(lane_width >= 0.0)) return fail("lane_width must be >= 0");
   if (!(lane_cost >= 0.0)) return fail("lane_cost must be >= 0");
+  if (!(switch_gain >= 0.0)) return fail("switch_gain must be >= 0");
   return {};
 }
 
 namespace {
+
+constexpr double kNear = 0.6;   ///< [m] from a place where the robot cannot be to one where a way begins
+constexpr double kAlong = 0.5;  ///< [m] from the way held, within which it is followed
 
 GridFrame coarse_frame(const GridFrame& fine, int factor) {
   return {(fine.columns + factor - 1) / factor, (fine.rows + factor - 1) / factor, fine.resolution * factor,
@@ -120,23 +125,34 @@ void RoutePlanner::apply_costs() {
   is_settled_ = false;
 }
 
-void RoutePlanner::set_goal(Point2 goal, double tolerance) {
+void RoutePlanner::set_goals(std::span<const Point2> goals, double tolerance) {
   const GridFrame& frame = planner_.frame();
-  std::vector<ValueIteration::Goal> goals;
+  std::vector<ValueIteration::Goal> cells;
   const int reach = static_cast<int>(std::ceil(tolerance / frame.resolution));
-  const CellIndex centre = frame.cell_at(goal);
-  for (int row = centre.row - reach; row <= centre.row + reach; ++row) {
-    for (int column = centre.column - reach; column <= centre.column + reach; ++column) {
-      const CellIndex cell{column, row};
-      if (!frame.holds(cell)) continue;
-      const double off = distance(frame.centre(cell), goal);
-      if (cell == centre || (off <= tolerance && planner_.cost(cell) < ValueIteration::kClosed)) {
-        goals.push_back({cell, static_cast<float>(off)});
+  for (const Point2& goal : goals) {
+    const CellIndex centre = frame.cell_at(goal);
+    for (int row = centre.row - reach; row <= centre.row + reach; ++row) {
+      for (int column = centre.column - reach; column <= centre.column + reach; ++column) {
+        const CellIndex cell{column, row};
+        if (!frame.holds(cell)) continue;
+        const double off = distance(frame.centre(cell), goal);
+        if (cell == centre || (off <= tolerance && planner_.cost(cell) < ValueIteration::kClosed)) {
+          cells.push_back({cell, static_cast<float>(off)});
+        }
       }
     }
   }
-  planner_.set_goals(goals);
+  planner_.set_goals(cells);
   is_settled_ = false;
+  held_.clear();
+}
+
+bool RoutePlanner::settle(Point2 start, int most_visits) {
+  // Where the way begins may be found only when values are there.
+  const auto cell = nearest_open(start, kNear);
+  if (!cell) return iterate(most_visits);
+  is_settled_ = planner_.settle(*cell, most_visits) && nearest_open(start, kNear) == cell;
+  return is_settled_;
 }
 
 bool RoutePlanner::is_closed(Point2 in_map) const {
@@ -166,7 +182,7 @@ std::optional<CellIndex> RoutePlanner::nearest_open(Point2 in_map, double within
 }
 
 double RoutePlanner::cost_from(Point2 start) const {
-  const auto cell = nearest_open(start, 0.6);
+  const auto cell = nearest_open(start, kNear);
   return cell ? static_cast<double>(planner_.value(*cell)) : std::numeric_limits<double>::infinity();
 }
 
@@ -181,11 +197,55 @@ bool RoutePlanner::sees(Point2 from, Point2 to, float most_cost) const {
   return true;
 }
 
-std::vector<Point2> RoutePlanner::way(Point2 start) const {
-  const auto cell = nearest_open(start, 0.6);
+/// Where on the way held `start` is; its end if it is not near.
+std::size_t RoutePlanner::nearest_held(Point2 start) const {
+  std::size_t best = held_.size();
+  double least = kAlong;
+  for (std::size_t i = 0; i < held_.size(); ++i) {
+    const double off = distance(planner_.frame().centre(held_[i]), start);
+    if (off > least) continue;
+    least = off;
+    best = i;
+  }
+  return best;
+}
+
+double RoutePlanner::cost_held(std::size_t first) const {
+  auto cost = static_cast<double>(planner_.value(held_.back()));
+  for (std::size_t i = first + 1; i < held_.size(); ++i) {
+    const bool aslant = held_[i].column != held_[i - 1].column && held_[i].row != held_[i - 1].row;
+    cost += static_cast<double>(planner_.cost(held_[i])) * (aslant ? std::numbers::sqrt2 : 1.0);
+  }
+  return cost;
+}
+
+std::vector<CellIndex> RoutePlanner::cells_from(Point2 start) const {
+  if (const std::size_t first = nearest_held(start); first < held_.size())
+    return {held_.begin() + static_cast<std::ptrdiff_t>(first), held_.end()};
+  const auto cell = nearest_open(start, kNear);
   if (!cell) return {};
-  std::vector<Point2> corners{planner_.frame().centre(*cell)};
-  for (const CellIndex& next : planner_.descend(*cell)) corners.push_back(planner_.frame().centre(next));
+  std::vector<CellIndex> cells = planner_.descend(*cell);
+  if (cells.empty() && !planner_.is_goal(*cell)) return {};
+  cells.insert(cells.begin(), *cell);
+  return cells;
+}
+
+void RoutePlanner::hold_way(Point2 start) {
+  const auto cell = nearest_open(start, kNear);
+  const std::size_t first = nearest_held(start);
+  if (cell && first < held_.size()) {
+    held_.erase(held_.begin(), held_.begin() + static_cast<std::ptrdiff_t>(first));
+    const auto best = static_cast<double>(planner_.value(*cell));
+    if (cost_held(0) <= (1.0 + params_.switch_gain) * best + planner_.frame().resolution) return;
+  }
+  held_.clear();
+  if (cell) held_ = cells_from(start);
+}
+
+std::vector<Point2> RoutePlanner::way(Point2 start) const {
+  std::vector<Point2> corners;
+  for (const CellIndex& cell : cells_from(start)) corners.push_back(planner_.frame().centre(cell));
+  if (corners.empty()) return {};
 
   // Shortcuts between points that see each other over floor no dearer than the way itself, at most 2 m long: the
   // staircase of the grid becomes straight, and the clearance that the costs bought stays.

@@ -27,6 +27,7 @@ struct RouteParams {
   bool settled_closed = false;         ///< such cells are closed, not dear: only a look from elsewhere frees them
   double lane_width = 0.6;             ///< [m] of the lane round a preferred way
   double lane_cost = 2.0;              ///< extra cost, as a factor, a metre and more beside the lane
+  double switch_gain = 0.10;           ///< share of its cost by which another way must be better than the one held
   template <class V>
   void visit(V& v) {
     v("coarsening", coarsening);
@@ -43,6 +44,7 @@ struct RouteParams {
     v("settled_closed", settled_closed);
     v("lane_width", lane_width);
     v("lane_cost", lane_cost);
+    v("switch_gain", switch_gain);
   }
   [[nodiscard]] Result<void> validate() const;
 };
@@ -62,14 +64,22 @@ class RoutePlanner {
   /// another planner found; what is closed stays closed, and obstacles are driven round. Empty: no preference.
   void prefer(std::span<const Point2> way);
   /// Every cell within `tolerance` [m] of the goal is a goal. Clears what was planned before.
-  void set_goal(Point2 goal, double tolerance);
-  /// @returns true when converged
-  bool iterate(int most_sweeps) { return is_settled_ = planner_.iterate(most_sweeps); }
-  /// False while `iterate` may still find a way or a better one.
+  void set_goal(Point2 goal, double tolerance) { set_goals({&goal, 1}, tolerance); }
+  /// Several goals at once: ways lead to the one that is nearest by cost.
+  void set_goals(std::span<const Point2> goals, double tolerance);
+  /// Works on all values, see ValueIteration::iterate. @returns true when converged
+  bool iterate(int most_visits) { return is_settled_ = planner_.iterate(most_visits); }
+  /// Works until the way from `start` is the best one, whatever is not final elsewhere. @returns true when it is
+  bool settle(Point2 start, int most_visits);
+  /// False while `iterate` or `settle` may still find a way or a better one.
   [[nodiscard]] bool is_settled() const { return is_settled_; }
 
-  /// The way from `start` (map) to the goal: points some centimetres apart, smoothed, start excluded. Empty: no way
-  /// known.
+  /// Decides which way to follow from `start`: the one held, as long as it leads on from here and no other is better by
+  /// `switch_gain`. So two ways that cost the same do not take turns when noise favours now the one and now the other.
+  void hold_way(Point2 start);
+
+  /// The way from `start` (map) to the goal, along the one held where there is one: points some centimetres apart,
+  /// smoothed, start excluded. Empty: no way known.
   [[nodiscard]] std::vector<Point2> way(Point2 start) const;
   [[nodiscard]] bool is_closed(Point2 in_map) const;
   [[nodiscard]] const GridFrame& frame() const { return planner_.frame(); }
@@ -84,6 +94,9 @@ class RoutePlanner {
   [[nodiscard]] std::optional<CellIndex> nearest_open(Point2 in_map, double within) const;
   [[nodiscard]] float obstacle_factor(double away) const;
   [[nodiscard]] bool sees(Point2 from, Point2 to, float most_cost) const;
+  [[nodiscard]] std::size_t nearest_held(Point2 start) const;
+  [[nodiscard]] double cost_held(std::size_t first) const;
+  [[nodiscard]] std::vector<CellIndex> cells_from(Point2 start) const;
 
   RouteParams params_;
   ValueIteration planner_;
@@ -93,6 +106,7 @@ class RoutePlanner {
   std::vector<float> static_costs_;  ///< [rows * columns]
   std::vector<float> lane_factors_;  ///< [rows * columns] of a preferred way, >= 1; empty: none
   std::vector<float> near_factors_;  ///< [rows * columns] of obstacles, >= 1; empty: none
+  std::vector<CellIndex> held_;      ///< the way that is followed, to a goal
 };
 
 }  // namespace docent

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+
+#include "docent/base/random.h"
 
 namespace docent {
 namespace {
@@ -151,6 +154,69 @@ TEST(RoutePlanner, KeepsToAPreferredLaneAndLeavesItForObstacles) {
   planner.prefer({});
   ASSERT_TRUE(planner.iterate(1000));
   EXPECT_LT(least_distance(planner.way({1, 5}), {5, 5}), 0.2);
+}
+
+TEST(RoutePlanner, GoesToTheNearestOfSeveralGoals) {
+  const auto map = two_rooms();
+  RoutePlanner planner{map, {}, {}, {}};
+  const std::vector<Point2> goals{{5, 1}, {1, 3}};
+  planner.set_goals(goals, 0.2);
+  ASSERT_TRUE(planner.settle({1, 1}, 1000));
+  EXPECT_LT(distance(planner.way({1, 1}).back(), goals[1]), 0.25) << "2 m, not 5 m round the wall";
+  ASSERT_TRUE(planner.settle({4, 1}, 1000));
+  EXPECT_LT(distance(planner.way({4, 1}).back(), goals[0]), 0.25);
+}
+
+/// How often the way changes sides while things come and go beside a block with two ways round it that are equal.
+int changes_of_side(bool hold) {
+  OccupancyGrid hall;
+  hall.frame = {160, 160, 0.05, {0, 0}};
+  hall.cells.assign(hall.frame.size(), 0);
+  for (int row = 60; row < 100; ++row)
+    for (int column = 60; column < 100; ++column) hall.cells[hall.frame.index({column, row})] = 100;
+  RoutePlanner planner{hall, {}, {}, {}};
+  planner.set_goal({7, 4}, 0.2);
+  Rng rng{7};
+  int changes = 0;
+  int side = 0;
+  for (int step = 0; step < 60; ++step) {
+    std::vector<bool> obstacles(planner.frame().size());
+    const double y = rng.chance(0.5) ? 2.2 : 5.8;  // at the edge of the one way or of the other
+    obstacles[planner.frame().index(planner.frame().cell_at({rng.uniform(3.0, 5.0), y}))] = true;
+    planner.set_obstacles(obstacles);
+    EXPECT_TRUE(planner.settle({1, 4}, 10000));
+    if (hold) planner.hold_way({1, 4});
+    double most = 0.0;
+    for (const Point2& point : planner.way({1, 4}))
+      if (std::abs(point.y - 4.0) > std::abs(most)) most = point.y - 4.0;
+    const int now = most > 0.0 ? 1 : -1;
+    changes += side != 0 && now != side ? 1 : 0;
+    side = now;
+  }
+  return changes;
+}
+
+TEST(RoutePlanner, DoesNotTakeTurnsBetweenEqualWays) {
+  EXPECT_GE(changes_of_side(false), 10) << "the noise is too weak to show anything";
+  EXPECT_EQ(changes_of_side(true), 0);
+}
+
+TEST(RoutePlanner, GivesUpTheWayHeldForOneThatIsClearlyBetter) {
+  OccupancyGrid hall;
+  hall.frame = {160, 160, 0.05, {0, 0}};
+  hall.cells.assign(hall.frame.size(), 0);
+  RoutePlanner planner{hall, {}, {}, {}};
+  planner.set_goal({7, 4}, 0.2);
+  planner.settle({1, 4}, 1000);
+  planner.hold_way({1, 4});
+  std::vector<bool> wall(planner.frame().size());
+  for (double y = 2.5; y < 8.0; y += 0.1) wall[planner.frame().index(planner.frame().cell_at({4, y}))] = true;
+  planner.set_obstacles(wall);
+  ASSERT_TRUE(planner.settle({1, 4}, 1000));
+  planner.hold_way({1, 4});
+  double lowest = 8.0;
+  for (const Point2& point : planner.way({1, 4})) lowest = std::min(lowest, point.y);
+  EXPECT_LT(lowest, 2.3);
 }
 
 }  // namespace

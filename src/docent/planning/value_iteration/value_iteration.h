@@ -63,6 +63,8 @@ class ValueIteration {
   [[nodiscard]] float value(CellIndex cell) const;
   [[nodiscard]] float cost(CellIndex cell) const { return costs_[index(cell)]; }
   [[nodiscard]] const GridFrame& frame() const { return frame_; }
+  /// A goal from where no other one is nearer.
+  [[nodiscard]] bool is_goal(CellIndex cell) const;
   /// Offers of one cell to a neighbour that were computed so far, those of the selective reset among them.
   [[nodiscard]] std::uint64_t relaxations() const { return relaxations_; }
 
@@ -107,7 +109,6 @@ class ValueIteration {
   [[nodiscard]] std::size_t tile_of(CellIndex cell) const;
   [[nodiscard]] std::size_t index(CellIndex cell) const;
   [[nodiscard]] std::ptrdiff_t neighbour(std::size_t tile, int columns, int rows) const;
-  [[nodiscard]] bool is_goal(CellIndex cell) const;
   [[nodiscard]] const float* goals_of(std::size_t tile) const;
 
   void unblank(std::size_t tile);

@@ -11,8 +11,7 @@ namespace docent {
 namespace {
 
 constexpr double kGoalTolerance = 0.3;  ///< [m]
-constexpr int kSweeps = 100;            ///< between two looks whether it has converged
-constexpr int kMostRounds = 100;
+constexpr int kMostVisits = 100'000;    ///< of tiles
 
 class TravelOnMap {
  public:
@@ -45,8 +44,7 @@ class TravelOnMap {
     const auto [place, is_new] = fields_.try_emplace({to.x, to.y});
     if (!is_new) return place->second;
     planner_.set_goal(to, kGoalTolerance);
-    for (int round = 0; round < kMostRounds && !planner_.iterate(kSweeps); ++round) {
-    }
+    planner_.iterate(kMostVisits);
     const GridFrame& frame = planner_.frame();
     place->second.reserve(frame.size());
     for (int row = 0; row < frame.rows; ++row) {

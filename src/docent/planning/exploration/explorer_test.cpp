@@ -1,0 +1,169 @@
+#include "docent/planning/exploration/explorer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <queue>
+
+#include "docent/base/random.h"
+#include "docent/sensor_models/ray_caster.h"
+
+namespace docent {
+namespace {
+
+constexpr double kRange = 4.0;  // [m]
+
+/// A floor of rooms with doors of 1.2 m, some of them shut, and furniture; unknown to the robot.
+OccupancyGrid any_floor(Rng& rng) {
+  OccupancyGrid map;
+  map.frame = {240, 200, 0.05, {-2.0, 1.0}};
+  map.cells.assign(map.frame.size(), OccupancyGrid::kFree);
+  const auto fill = [&](int left, int bottom, int right, int top, std::int8_t as) {
+    for (int row = std::max(0, bottom); row < std::min(map.frame.rows, top); ++row)
+      for (int column = std::max(0, left); column < std::min(map.frame.columns, right); ++column)
+        map.cells[map.frame.index({column, row})] = as;
+  };
+  for (const int column : {0, 80, 160, 236}) fill(column, 0, column + 4, 200, OccupancyGrid::kOccupied);
+  for (const int row : {0, 100, 196}) fill(0, row, 240, row + 4, OccupancyGrid::kOccupied);
+  for (const int column : {80, 160}) {
+    for (const int row : {0, 100}) {
+      if (rng.chance(0.2)) continue;
+      const int at = row + static_cast<int>(rng.integer(20, 60));
+      fill(column, at, column + 4, at + 24, OccupancyGrid::kFree);
+    }
+  }
+  for (const int column : {0, 80, 160}) {
+    if (rng.chance(0.2)) continue;
+    const int at = column + static_cast<int>(rng.integer(15, 45));
+    fill(at, 100, at + 24, 104, OccupancyGrid::kFree);
+  }
+  for (int i = 0; i < 8; ++i) {
+    const int left = static_cast<int>(rng.integer(10, 220));
+    const int bottom = static_cast<int>(rng.integer(10, 180));
+    fill(left, bottom, left + static_cast<int>(rng.integer(4, 14)), bottom + static_cast<int>(rng.integer(4, 14)),
+         OccupancyGrid::kOccupied);
+  }
+  fill(30, 30, 50, 50, OccupancyGrid::kFree);  // the robot starts here
+  return map;
+}
+
+/// What 720 beams from here show.
+void see(const RayCaster& caster, Point2 from, OccupancyGrid& known) {
+  const double step = 0.3 * known.frame.resolution;
+  for (int beam = 0; beam < 720; ++beam) {
+    const double bearing = beam * std::numbers::pi / 360.0;
+    const Point2 ahead{std::cos(bearing), std::sin(bearing)};
+    const double range = caster.cast(from, ahead, kRange, 0.0).value_or(0.0);
+    const auto mark = [&](double at, std::int8_t as) {
+      const CellIndex cell = known.frame.cell_at(from + at * ahead);
+      if (!known.frame.holds(cell)) return;
+      auto& now = known.cells[known.frame.index(cell)];
+      now = std::max(now, as);
+    };
+    for (double at = 0.0; at < range - 1e-6; at += step) mark(at, OccupancyGrid::kFree);
+    if (range < kRange) mark(range + 1e-3, OccupancyGrid::kOccupied);
+  }
+}
+
+/// Free cells that a disc of this radius can get to from here.
+std::vector<bool> reachable(const OccupancyGrid& map, Point2 from, double radius) {
+  std::vector<bool> solid(map.frame.size());
+  for (std::size_t i = 0; i < solid.size(); ++i) solid[i] = map.cells[i] != OccupancyGrid::kFree;
+  const auto clearances = distance_transform(map.frame, solid);
+  std::vector<bool> seen(map.frame.size());
+  std::queue<CellIndex> queue;
+  queue.push(map.frame.cell_at(from));
+  seen[map.frame.index(queue.front())] = true;
+  while (!queue.empty()) {
+    const CellIndex cell = queue.front();
+    queue.pop();
+    for (const auto& [dc, dr] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+      const CellIndex next{cell.column + dc, cell.row + dr};
+      if (!map.frame.holds(next) || seen[map.frame.index(next)]) continue;
+      if (static_cast<double>(clearances[map.frame.index(next)]) < radius) continue;
+      seen[map.frame.index(next)] = true;
+      queue.push(next);
+    }
+  }
+  return seen;
+}
+
+TEST(Explorer, ExploresUntilNothingReachableIsUnknown) {
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    Rng rng{seed};
+    const OccupancyGrid truth = any_floor(rng);
+    const RayCaster caster{truth};
+    OccupancyGrid known = truth;
+    std::fill(known.cells.begin(), known.cells.end(), OccupancyGrid::kUnknown);
+    Point2 robot = truth.frame.centre({40, 40});
+    Explorer explorer{{}};
+    double driven = 0.0;
+    int looks = 0;
+    for (;; ++looks) {
+      ASSERT_LT(looks, 400) << "seed " << seed << ": it goes on for ever";
+      see(caster, robot, known);
+      const auto next = explorer.next(known, robot);
+      if (!next) break;
+      for (double gone = 0.0; const Point2& point : next->way) {
+        const CellIndex cell = known.frame.cell_at(point);
+        if (gone > 1.0 || !known.is_free(cell)) break;  // half a metre or so, then it looks again
+        gone += distance(robot, point);
+        driven += distance(robot, point);
+        robot = point;
+        ASSERT_GE(caster.clearance(robot), 0.265F) << "seed " << seed << ": against a wall";
+      }
+    }
+    // What a slightly stouter robot could reach is known, with what borders on it.
+    const auto could = reachable(truth, truth.frame.centre({40, 40}), 0.265 + 0.10 + 0.15);
+    std::size_t reached = 0;
+    std::size_t missed = 0;
+    for (std::size_t i = 0; i < could.size(); ++i) {
+      if (!could[i]) continue;
+      ++reached;
+      missed += known.cells[i] != OccupancyGrid::kFree ? 1U : 0U;
+    }
+    EXPECT_GT(reached, 2000U) << "seed " << seed;
+    EXPECT_EQ(missed, 0U) << "seed " << seed << ", " << driven << " m";
+    EXPECT_LT(driven, 250.0) << "seed " << seed << ": 12 x 10 m";
+  }
+}
+
+TEST(Explorer, ShutRoomsAndCracksAreNoGoals) {
+  OccupancyGrid map;
+  map.frame = {100, 60, 0.05, {}};
+  map.cells.assign(map.frame.size(), OccupancyGrid::kUnknown);
+  for (int row = 5; row < 55; ++row) {
+    for (int column = 5; column < 50; ++column) {
+      const bool border = row == 5 || row == 54 || column == 5 || column == 49;
+      map.cells[map.frame.index({column, row})] = border ? OccupancyGrid::kOccupied : OccupancyGrid::kFree;
+    }
+  }
+  EXPECT_FALSE((Explorer{{}}.next(map, {1.0, 1.0})));
+  for (int row = 30; row < 36; ++row) map.cells[map.frame.index({49, row})] = OccupancyGrid::kUnknown;
+  EXPECT_FALSE((Explorer{{}}.next(map, {1.0, 1.0}))) << "30 cm";
+  for (int row = 20; row < 40; ++row) map.cells[map.frame.index({49, row})] = OccupancyGrid::kUnknown;
+  const auto door = Explorer{{}}.next(map, {1.0, 1.0});
+  ASSERT_TRUE(door);
+  EXPECT_NEAR(door->way.back().x, 49.5 * 0.05, 0.1);
+}
+
+TEST(Explorer, WhatCannotBeSeenIsGivenUp) {
+  OccupancyGrid map;
+  map.frame = {80, 40, 0.05, {}};
+  map.cells.assign(map.frame.size(), OccupancyGrid::kFree);
+  for (int row = 10; row < 30; ++row)
+    for (int column = 50; column < 54; ++column) map.cells[map.frame.index({column, row})] = OccupancyGrid::kUnknown;
+  Explorer explorer{{}};
+  Point2 robot{1.0, 1.0};
+  int calls = 0;
+  for (auto next = explorer.next(map, robot); next; next = explorer.next(map, robot)) {
+    ASSERT_LT(++calls, 60);
+    robot = next->way.back();
+  }
+  EXPECT_GT(calls, 0);
+}
+
+}  // namespace
+}  // namespace docent
