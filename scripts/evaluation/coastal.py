@@ -17,7 +17,7 @@ MUSEUM = "smithsonian"
 LOW, HIGH = (0.9, 0.9), (64.1, 39.1)  # [m] the museum's area lies inside
 LEAST_WAY = 15.0  # [m] as the crow flies
 REACHES = [10.0, 4.0, 2.5]  # [m] of today's laser, and of what a dense crowd or a sensor of 1998 leaves of it
-ESCORT = "{count: 15, near: 0.4, far: 1.4}"
+ESCORT = "{count: 13, near: 0.4, far: 1.4}"
 BLOCKED, BLOCKED_WITHIN = 0.60, 0.08
 WEIGHT = 0.2  # [1/nat]
 SPEED = 0.5  # [m/s]
@@ -114,7 +114,7 @@ def correlation(a, b):
 
 def evaluate(bench, verdict, print_table, count, reaches, weight):
     runs = Runs(bench, weight)
-    print(f"\n## {MUSEUM}, {count} pairs of places, an escort of 15, weight {weight:g}\n")
+    print(f"\n## {MUSEUM}, {count} pairs of places, an escort of 13, weight {weight:g}\n")
     bench.each([lambda n=n: runs.pair(n) for n in range(count)])
     rows, paired = [], []
     for reach in reaches:

@@ -9,7 +9,7 @@ namespace docent::simulator {
 namespace {
 
 constexpr double kArrived = 0.6;      // [m]
-constexpr double kAhead = 0.5;        // [m] to the point of a given way that is walked to
+constexpr double kAhead = 0.8;        // [m] to the point of a given way that is walked to
 constexpr double kThere = 0.15;       // [m] from the end of a given way
 constexpr double kPatience = 6.0;     // [s] without getting anywhere, then another goal
 constexpr double kTurn = 0.7;         // [rad/s] at most
@@ -26,7 +26,7 @@ void Steersman::choose_goal(double now, Point2 from, const WalkableFloor& floor)
 }
 
 std::optional<Point2> Steersman::heading_for(double now, Point2 here, double robot_radius, const WalkableFloor& floor) {
-  if (!way_.empty()) return along_way(here);
+  if (!way_.empty()) return along_way(here, robot_radius, floor);
   if (distance(here, progress_from_) > 0.3) {
     progress_from_ = here;
     progress_at_ = now;
@@ -38,11 +38,20 @@ std::optional<Point2> Steersman::heading_for(double now, Point2 here, double rob
   return way;
 }
 
-std::optional<Point2> Steersman::along_way(Point2 here) {
-  while (next_ + 1 < way_.size() && distance(here, way_[next_]) < kAhead) ++next_;
-  const double off = distance(here, way_[next_]);
-  if (next_ + 1 == way_.size() && off < kThere) return std::nullopt;
-  return (1.0 / off) * (way_[next_] - here);
+std::optional<Point2> Steersman::along_way(Point2 here, double robot_radius, const WalkableFloor& floor) {
+  const Point2 end = way_.back();
+  if (distance(here, end) < kThere) return std::nullopt;
+  const double room = robot_radius + kClearOfWall;
+  // Points that are passed, and those on which something stands that who made the way did not know.
+  const auto is_done = [&](Point2 point) { return distance(here, point) < kAhead || floor.clearance(point) < room; };
+  while (next_ + 1 < way_.size() && is_done(way_[next_])) ++next_;
+  const Point2 next = way_[next_];
+  const double off = distance(here, next);
+  const Point2 straight = (1.0 / off) * (next - here);
+  if (off < kAhead || floor.is_clear(here, next, room)) return straight;
+  if (!goal_ || !(*goal_ == next)) field_ = floor.field_to(next, 0.4);
+  goal_ = next;
+  return floor.direction(field_, here, room).value_or(straight);
 }
 
 Steersman::Command Steersman::steer(double now, const Pose2& world_from_base, double robot_radius,

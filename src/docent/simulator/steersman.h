@@ -34,7 +34,7 @@ class Steersman {
   /// Where to walk now; nullopt: nowhere.
   [[nodiscard]] std::optional<Point2> heading_for(double now, Point2 here, double robot_radius,
                                                   const WalkableFloor& floor);
-  [[nodiscard]] std::optional<Point2> along_way(Point2 here);
+  [[nodiscard]] std::optional<Point2> along_way(Point2 here, double robot_radius, const WalkableFloor& floor);
   void choose_goal(double now, Point2 from, const WalkableFloor& floor);
 
   const World* world_;
