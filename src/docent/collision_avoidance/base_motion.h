@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "docent/base/time.h"
+#include "docent/collision_avoidance/outline_distance.h"
 #include "docent/geometry/pose2.h"
 
 namespace docent {
@@ -26,6 +27,7 @@ struct BaseLimits {
   double turn_acceleration = 1.5;  ///< [rad/s2], up and down
   double latency = 0.15;           ///< [s] from a command to the wheels
   double watchdog = 0.3;           ///< [s] without a command, then the base stops
+  Outline outline{};  ///< of a body that is no disc; the window and the braking keep to it, not to `radius`
 };
 
 /// A moving base: where it is and how it moves.

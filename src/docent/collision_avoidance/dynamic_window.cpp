@@ -71,9 +71,36 @@ double DynamicWindowParams::speed_with(double slack) const {
   return creep_speed + std::max(0.0, slack) / security_time;
 }
 
+namespace {
+
+/// The same for a body with an outline, which may also touch something by turning.
+bool can_outline_brake(const Manoeuvre& manoeuvre, std::span<const Obstacle> obstacles, const Outline& outline,
+                       double slack) {
+  const double duration = manoeuvre.samples[manoeuvre.count - 1].time;
+  for (const auto& obstacle : obstacles) {
+    double required = obstacle.margin - slack;
+    const double speed = norm(obstacle.velocity);
+    if (norm(obstacle.at) - speed * duration - manoeuvre.way > outline.circumradius() + required) continue;
+    const double now = outline.distance_to(obstacle.at);
+    if (speed == 0.0 && now - 0.01 < required) {
+      required = now > kNearestReal + 0.01 ? std::max(now - 0.01, kNearestReal) : now - 0.001;
+    }
+    for (std::size_t i = 0; i < manoeuvre.count; ++i) {
+      const Sample& sample = manoeuvre.samples[i];
+      const Point2 at = inverse(sample.start_from_base) * (obstacle.at + sample.time * obstacle.velocity);
+      if (outline.distance_to(at) >= required) continue;
+      if (speed == 0.0 || sample.linear * at.x > kStandsStill * norm(at)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
 bool can_brake_in_time(const Velocity& velocity, const Velocity& command, double hold,
                        std::span<const Obstacle> obstacles, const BaseLimits& limits, double slack) {
   const Manoeuvre manoeuvre = simulate(velocity, command, hold, limits);
+  if (!limits.outline.empty()) return can_outline_brake(manoeuvre, obstacles, limits.outline, slack);
   const double duration = manoeuvre.samples[manoeuvre.count - 1].time;
   for (const auto& obstacle : obstacles) {
     const double now = norm(obstacle.at);
@@ -120,6 +147,9 @@ DynamicWindow::DynamicWindow(const BaseLimits& limits, const DynamicWindowParams
   stride_ = (static_cast<std::size_t>(params.angular_steps) + lanes - 1) / lanes * lanes;
   linear_.resize(static_cast<std::size_t>(params.linear_steps));
   for (auto* columns : {&angular_, &half_cosine_, &half_sine_, &cosine_, &sine_, &change_}) columns->resize(stride_);
+  Polygon mirrored = limits.outline.corners();
+  for (Point2& corner : mirrored) corner.x = -corner.x;
+  if (auto tail_first = Outline::make(std::move(mirrored))) tail_first_ = std::move(*tail_first);
   for (auto* cells : {&curvatures_, &ways_, &clearances_, &values_}) cells->resize(linear_.size() * stride_);
 }
 
@@ -175,8 +205,9 @@ void DynamicWindow::measure_ways(std::span<const Obstacle> obstacles) {
       const double closing = way > 0.0 ? std::max(0.0, -dot(obstacle.velocity, at) / way) : 0.0;
       if (way > 0.0) at = std::max(0.2, 1.0 - closing * 0.5 / way) * at;
     }
-    reach_points_.push_back({at, limits_.radius + obstacle.margin});
+    reach_points_.push_back({at, (limits_.outline.empty() ? limits_.radius : 0.0) + obstacle.margin});
   }
+  if (!limits_.outline.empty()) return measure_ways_of_outline();
   // Rows rise: first those in reverse, then those on the spot, then those forwards.
   std::size_t row = 0;
   const auto rows_while = [&](auto&& is_of_them) {
@@ -194,6 +225,26 @@ void DynamicWindow::measure_ways(std::span<const Obstacle> obstacles) {
   const auto still = rows_while([](double linear) { return linear < kOnTheSpot; });
   std::fill_n(ways_.begin() + static_cast<std::ptrdiff_t>(still.first), still.second, FreeWays::kHorizon);
   ask(forwards_, false, rows_while([](double) { return true; }));
+}
+
+/// Here `reach` of a point is the margin alone. O(velocities * points), the closed form for those in the way alone.
+void DynamicWindow::measure_ways_of_outline() {
+  for (std::size_t row = 0; row < linear_.size(); ++row) {
+    const bool backwards = linear_[row] < 0.0;
+    const Outline& outline = backwards ? tail_first_ : limits_.outline;
+    for (std::size_t i = row * stride_; i < (row + 1) * stride_; ++i) {
+      ways_[i] = FreeWays::kHorizon;
+      if (std::abs(linear_[row]) < kOnTheSpot) continue;
+      const double curvature = std::clamp(curvatures_[i], -FreeWays::kMaxCurvature, FreeWays::kMaxCurvature);
+      for (const auto& point : reach_points_) {
+        const Point2 at{backwards ? -point.at.x : point.at.x, point.at.y};
+        const double reach = outline.circumradius() + point.reach;
+        const double power = 0.5 * (dot(at, at) - reach * reach);
+        if (power > 0.0 && (std::abs(curvature * power - at.y) >= reach || norm(at) - reach >= ways_[i])) continue;
+        ways_[i] = std::min(ways_[i], outline.arc_distance(curvature, at, point.reach));
+      }
+    }
+  }
 }
 
 void DynamicWindow::judge_rows(const Velocity& last, std::span<const Obstacle> obstacles, const Steering& steering) {
@@ -299,8 +350,11 @@ WindowChoice DynamicWindow::choose(const Velocity& velocity, const Velocity& las
   choice.is_braking = true;
   if (std::abs(velocity.linear) < 0.02) {
     const double wanted = std::clamp(steering.bearing / params_.heading_time, range.right, range.left);
-    choice.command = {0.0, wanted};
     choice.is_braking = false;
+    // A disc turns in its own place; another body may not.
+    const bool may_turn =
+        limits_.outline.empty() || can_brake_in_time(velocity, {0.0, wanted}, hold(), obstacles, limits_, 0.0);
+    choice.command = {0.0, may_turn ? wanted : 0.0};
   }
   return choice;
 }

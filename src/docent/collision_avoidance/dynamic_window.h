@@ -116,6 +116,7 @@ class DynamicWindow {
   [[nodiscard]] double least_way(double linear) const;
   void lay_out(const Reachable& range);
   void measure_ways(std::span<const Obstacle> obstacles);
+  void measure_ways_of_outline();
   void judge_rows(const Velocity& last, std::span<const Obstacle> obstacles, const Steering& steering);
   void smooth(std::vector<EvaluatedVelocity>& window) const;
   [[nodiscard]] std::size_t padded(int row, int column) const {
@@ -127,6 +128,7 @@ class DynamicWindow {
   const VelocityKernels& kernels_;
   FreeWays forwards_;
   FreeWays backwards_;
+  Outline tail_first_;  ///< the outline, mirrored: what drives ahead in reverse
   std::vector<ReachPoint> reach_points_;
   std::size_t stride_ = 0;                                                ///< columns, padded to whole vectors
   std::vector<double> linear_;                                            ///< [linear_steps] [m/s]

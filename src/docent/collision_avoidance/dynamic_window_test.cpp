@@ -153,6 +153,47 @@ TEST(DynamicWindow, SecurityGrowsWithSpeedAndBackwardsSpeedWithTheGap) {
   EXPECT_TRUE(std::isinf(params.speed_with(0.3)));
 }
 
+TEST(DynamicWindow, ABodyWithAnOutlineTouchesNothingEither) {
+  BaseLimits limits;
+  limits.outline = Outline::make({{0.45, 0.25}, {-0.55, 0.25}, {-0.55, -0.25}, {0.45, -0.25}}).value();
+  int chosen = 0;
+  for (std::uint64_t seed = 0; seed < 150; ++seed) {
+    Rng rng{seed};
+    DynamicWindow window{limits, {}};
+    std::vector<Obstacle> obstacles;
+    for (int i = 0; i < 20; ++i) {
+      const Obstacle obstacle = real_at(rng.uniform(-2.0, 2.0), rng.uniform(-2.0, 2.0));
+      if (limits.outline.distance_to(obstacle.at) > 0.1) obstacles.push_back(obstacle);
+    }
+    const Velocity velocity{rng.uniform(0.0, 0.4), rng.uniform(-0.5, 0.5)};
+    const auto choice = window.choose(velocity, velocity, obstacles, {rng.uniform(-2.0, 2.0), 2.0, 0.7, false});
+    if (choice.is_braking || choice.command == Velocity{}) continue;
+    ++chosen;
+    for (const double silence : {0.0, 0.1, window.hold()}) {
+      BaseState state{{}, velocity};
+      for (double time = 0.0; time < 3.0; time += 0.02) {
+        state = advance(state, time < silence ? choice.command : Velocity{}, limits, 0.02);
+        for (const auto& obstacle : obstacles) {
+          ASSERT_GT(limits.outline.distance_to(inverse(state.odom_from_base) * obstacle.at), 0.03)
+              << "seed " << seed << ", silence " << silence << " s, at " << time << " s";
+        }
+      }
+    }
+  }
+  EXPECT_GT(chosen, 40);
+}
+
+TEST(DynamicWindow, ALongBodyDoesNotSwingItsTailIntoAWall) {
+  BaseLimits limits;
+  limits.outline = Outline::make({{0.3, 0.25}, {-0.7, 0.25}, {-0.7, -0.25}, {0.3, -0.25}}).value();
+  std::vector<Obstacle> wall;  // to the right, 15 cm away
+  for (double x = -1.5; x < 1.5; x += 0.05) wall.push_back(real_at(x, -0.40));
+  EXPECT_FALSE(can_brake_in_time({}, {0.0, 0.8}, 0.35, wall, limits, 0.0));
+  EXPECT_TRUE(can_brake_in_time({}, {0.3, 0.0}, 0.35, wall, limits, 0.0));
+  BaseLimits disc;
+  EXPECT_TRUE(can_brake_in_time({}, {0.0, 0.8}, 0.35, wall, disc, 0.0));
+}
+
 TEST(DynamicWindow, StaysInsideWhatTheBaseCanReach) {
   const BaseLimits limits;
   DynamicWindow window{limits, {}};

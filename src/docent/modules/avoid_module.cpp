@@ -16,9 +16,17 @@ constexpr double kTick = 0.05;  // [s]
 constexpr double kHeartbeat = 0.1;
 constexpr double kWindowPeriod = 0.5;
 
-BaseLimits limits_of(const RobotBody& body) {
-  return {body.radius,       body.max_speed,         body.max_turn_rate, body.acceleration,
-          body.deceleration, body.turn_acceleration, body.latency,       body.watchdog};
+Result<BaseLimits> limits_of(const RobotBody& body) {
+  BaseLimits limits{body.radius,       body.max_speed,    body.max_turn_rate,
+                    body.acceleration, body.deceleration, body.turn_acceleration,
+                    body.latency,      body.watchdog,     {}};
+  if (body.outline.empty()) return limits;
+  Polygon corners;
+  for (const auto& corner : body.outline) corners.push_back({corner[0], corner[1]});
+  auto outline = Outline::make(std::move(corners));
+  if (!outline) return tl::unexpected<Error>(outline.error());
+  limits.outline = std::move(*outline);
+  return limits;
 }
 
 SensorSweep to_sweep(const sensor_msgs::LaserScan& scan, const Pose2& base_from_sensor) {
@@ -52,11 +60,11 @@ const char* name_of(AvoiderDecision::State state) {
 
 class AvoidModule final : public Module {
  public:
-  AvoidModule(const ModuleContext& context, const AvoiderParams& params)
+  AvoidModule(const ModuleContext& context, const BaseLimits& limits, const AvoiderParams& params)
       : bus_{context.bus},
         body_{context.config.body()},
         cycle_{params.window.cycle},
-        avoider_{limits_of(body_), params, 2},
+        avoider_{limits, params, 2},
         drive_{bus_.publisher(topics::kDrive)},
         state_{bus_.publisher(topics::kAvoidState)} {
     subscribe_sensors();
@@ -229,7 +237,9 @@ class AvoidModule final : public Module {
 Result<std::unique_ptr<Module>> make_avoid(const ModuleContext& context) {
   auto params = context.config.section<AvoiderParams>("avoid");
   if (!params) return tl::unexpected<Error>(params.error());
-  return std::make_unique<AvoidModule>(context, *params);
+  auto limits = limits_of(context.config.body());
+  if (!limits) return tl::unexpected<Error>(limits.error());
+  return std::make_unique<AvoidModule>(context, *limits, *params);
 }
 
 }  // namespace docent

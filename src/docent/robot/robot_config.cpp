@@ -11,6 +11,8 @@ namespace docent {
 
 Result<void> RobotBody::validate() const {
   if (!(radius > 0.05 && radius <= 1.0)) return fail("body.radius must be 0.05..1 m");
+  for (const auto& corner : outline)
+    if (corner.size() != 2) return fail("body.outline must be a list of corners [x, y]");
   if (!(max_speed > 0.0 && max_speed <= 3.0)) return fail("body.max_speed must be > 0 and <= 3 m/s");
   if (!(max_turn_rate > 0.0 && max_turn_rate <= 6.3)) return fail("body.max_turn_rate must be > 0 and <= 6.3 rad/s");
   for (const double limit : {acceleration, deceleration, turn_acceleration})

@@ -29,7 +29,9 @@ struct Mount {
 
 /// Body, limits and sensors, section `body` of robot.yaml.
 struct RobotBody {
-  double radius = 0.265;           ///< [m], the body is a disc
+  double radius = 0.265;                     ///< [m], the body is a disc,
+  std::vector<std::vector<double>> outline;  ///< [m] or this convex polygon [[x, y], …], robot frame; then `radius` is
+                                             ///< what plans and steering take for it
   double max_speed = 1.63;         ///< [m/s]
   double max_turn_rate = 1.2;      ///< [rad/s]
   double acceleration = 0.5;       ///< [m/s2]
@@ -46,6 +48,7 @@ struct RobotBody {
   template <class V>
   void visit(V& v) {
     v("radius", radius);
+    v("outline", outline);
     v("max_speed", max_speed);
     v("max_turn_rate", max_turn_rate);
     v("acceleration", acceleration);

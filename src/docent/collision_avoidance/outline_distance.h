@@ -1,0 +1,49 @@
+#pragma once
+
+#include <span>
+
+#include "docent/base/result.h"
+#include "docent/geometry/polygon.h"
+
+namespace docent {
+
+/// The body's outline where it is no disc: a convex polygon round the robot's centre, counter-clockwise, robot frame
+/// [m].
+///
+/// Seen from the robot, a point of the world moves against the robot's way: on a circle about the centre of the turn,
+/// or straight. A contact is where that path first comes within `margin` of the polygon: where it crosses a side moved
+/// outwards by the margin, or the margin's circle about a corner.
+class Outline {
+ public:
+  Outline() = default;  ///< none
+  /// Error: fewer than three corners, not convex, or the centre is not inside.
+  [[nodiscard]] static Result<Outline> make(Polygon corners);
+
+  [[nodiscard]] bool empty() const { return corners_.empty(); }
+  [[nodiscard]] const Polygon& corners() const { return corners_; }
+  /// Distance [m] from the centre to the farthest corner.
+  [[nodiscard]] double circumradius() const { return circumradius_; }
+  /// Distance [m] from a point to the outline as a filled shape; 0 inside. O(corners).
+  [[nodiscard]] double distance_to(Point2 in_base) const { return distance(corners_, in_base); }
+
+  /// Length of the way [m] along the circle of the given curvature, heading +x, until the outline is `margin` away from
+  /// the point. Closed form, O(corners). A point within the margin already gives 0 when the first step brings them
+  /// nearer, else infinity; infinity also when they never meet.
+  /// @param curvature  [1/m], positive to the left, of the centre's path
+  [[nodiscard]] double arc_distance(double curvature, Point2 point, double margin) const;
+  /// Angle [rad] of a turn on the spot until the outline is `margin` away from the point, likewise.
+  /// @param side  +1 to the left, -1 to the right
+  [[nodiscard]] double turn_distance(double side, Point2 point, double margin) const;
+
+ private:
+  /// Angle [rad] in (0, 2 pi) that the point turns about `pivot`, in the direction of `side`, until it is within
+  /// `margin`.
+  [[nodiscard]] double first_contact(Point2 pivot, double side, Point2 point, double margin) const;
+  [[nodiscard]] double straight_contact(Point2 point, double margin) const;
+  [[nodiscard]] bool comes_nearer(Point2 motion, Point2 point) const;
+
+  Polygon corners_;
+  double circumradius_ = 0.0;
+};
+
+}  // namespace docent
