@@ -48,13 +48,14 @@ struct ClosedPassage {
   Point2 to{};
   double duration = 0.0;  ///< [s]; 0: to the end
 };
-/// The best pose of the belief is published so far off while its cells stay true: carried out by the application.
+/// The best pose of the belief is published so far off while its cells stay true: carried out by `docent simulate`.
 struct PoseError {
   double x = 0.0, y = 0.0;  ///< [m], map, added
   double heading = 0.0;     ///< [rad], added
   double duration = 0.0;    ///< [s]; 0: to the end
 };
-/// The belief gets a second, equally heavy mode: carried out by the application. It moves along with the first one.
+/// The belief gets a second, equally heavy mode, which moves along with the first one: carried out by
+/// `docent simulate`.
 struct SecondMode {
   Pose2 at;               ///< map_from_robot of the second mode, when it appears
   double duration = 0.0;  ///< [s]; 0: to the end
