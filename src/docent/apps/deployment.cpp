@@ -83,7 +83,7 @@ std::string default_state() {
 /// How the robot is crippled, if it is (architecture 10.17).
 std::string crippled_by(const std::vector<std::string>& settings) {
   for (const char* way : {"avoid.blind_to_people", "localize.dead_reckoning", "hazards.best_pose_only",
-                          "hazards.ignored", "plan.ignore_live_map"}) {
+                          "hazards.ignored", "plan.ignore_live_map", "plan.ignore_hazards"}) {
     for (const auto& setting : settings) {
       if (setting == std::string{way} + "=true") return way;
     }

@@ -25,8 +25,9 @@ struct PlanParams {
   PursuitParams pursuit;
   TellApartParams tell_apart;
   bool ignore_live_map =
-      false;           ///< crippled, for evaluation: plans as if nothing stood there that the map does not show
-  bool active = true;  ///< lost: drives to where its hypotheses are told apart; else it only looks round
+      false;  ///< crippled, for evaluation: plans as if nothing stood there that the map does not show
+  bool ignore_hazards = false;  ///< likewise: plans as if there were no hazards and no border
+  bool active = true;           ///< lost: drives to where its hypotheses are told apart; else it only looks round
   double goal_tolerance = 0.2;  ///< [m] cells so near to the goal are goals
   template <class V>
   void visit(V& v) {
@@ -34,6 +35,7 @@ struct PlanParams {
     v("pursuit", pursuit);
     v("tell_apart", tell_apart);
     v("ignore_live_map", ignore_live_map);
+    v("ignore_hazards", ignore_hazards);
     v("active", active);
     v("goal_tolerance", goal_tolerance);
   }
@@ -56,7 +58,8 @@ class PlanModule final : public Module {
   PlanModule(const ModuleContext& context, const PlanParams& params)
       : bus_{context.bus},
         params_{params},
-        route_{context.museum.map, polygons_of(context.museum.hazards), context.museum.area, params.route},
+        route_{context.museum.map, params.ignore_hazards ? std::vector<Polygon>{} : polygons_of(context.museum.hazards),
+               params.ignore_hazards ? Polygon{} : context.museum.area, params.route},
         pursuit_{params.pursuit},
         tell_apart_{context.museum.map, context.config.body().radius, params.tell_apart},
         base_from_laser_{context.config.body().scan_front.base_from_sensor(),
