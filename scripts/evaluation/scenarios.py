@@ -91,7 +91,7 @@ SCENARIOS = {
     ], NO_LADDER),
     "staircase": Scenario(7, [
         Duty("at the lantern, after the request", 280, lambda run: after(run.arrived("lantern"), REQUEST)),
-    ], {"hazards ignored": ["hazards.ignored=true"]}),
+    ], {"hazards ignored": ["hazards.ignored=true", "plan.ignore_hazards=true"]}),
     "children": Scenario(7, [
         Duty("at the clock, after the request", 150, lambda run: after(run.arrived("clock"), REQUEST)),
         Duty("at the globe, after its request", 250, lambda run: after(run.arrived("globe"), 100.0)),

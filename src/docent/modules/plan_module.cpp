@@ -31,6 +31,7 @@ struct PlanParams {
   bool ignore_live_map =
       false;  ///< crippled, for evaluation: plans as if nothing stood there that the map does not show
   CoastalParams coastal;
+  bool ignore_hazards = false;  ///< likewise: plans as if there were no hazards and no border
   bool active = true;           ///< lost: drives to where its hypotheses are told apart; else it only looks round
   double goal_tolerance = 0.2;  ///< [m] cells so near to the goal are goals
   template <class V>
@@ -40,6 +41,7 @@ struct PlanParams {
     v("tell_apart", tell_apart);
     v("ignore_live_map", ignore_live_map);
     v("coastal", coastal);
+    v("ignore_hazards", ignore_hazards);
     v("active", active);
     v("goal_tolerance", goal_tolerance);
   }
@@ -63,7 +65,8 @@ class PlanModule final : public Module {
   PlanModule(const ModuleContext& context, const PlanParams& params)
       : bus_{context.bus},
         params_{params},
-        route_{context.museum.map, polygons_of(context.museum.hazards), context.museum.area, params.route},
+        route_{context.museum.map, params.ignore_hazards ? std::vector<Polygon>{} : polygons_of(context.museum.hazards),
+               params.ignore_hazards ? Polygon{} : context.museum.area, params.route},
         pursuit_{params.pursuit},
         tell_apart_{context.museum.map, context.config.body().radius, params.tell_apart},
         base_from_laser_{context.config.body().scan_front.base_from_sensor(),
