@@ -51,8 +51,10 @@ std::string json_of(const Options& options, const CrowdTrialOutcome& outcome, do
 
 void print_trace(const CrowdTrialOutcome& outcome) {
   for (const auto& moment : outcome.moments)
-    std::printf("%6.1f s  x %5.2f  y %5.2f  %4.0f deg  %.2f m/s  %s\n", moment.time, moment.robot.x, moment.robot.y,
-                moment.robot.theta.degrees(), moment.speed, moment.reason.c_str());
+    std::printf("%6.1f s  x %5.2f  y %5.2f  %4.0f deg  %.2f m/s  command %5.2f %5.2f  cap %.2f  free %.2f m  %s\n",
+                moment.time, moment.robot.x, moment.robot.y, moment.robot.theta.degrees(), moment.speed,
+                moment.avoid.linear, moment.avoid.angular, moment.avoid.speed_cap, moment.avoid.nearest_real_m,
+                moment.avoid.reason.c_str());
 }
 
 void run(Options& options) {

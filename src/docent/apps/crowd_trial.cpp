@@ -122,8 +122,7 @@ class Trial {
     truth_->subscribe<docent_msgs::TrueState>(topics::kTrueState, [this](const auto& state) { judge(state); });
     truth_->subscribe<docent_msgs::TrueContact>(topics::kTrueContact,
                                                 [this](const auto& contact) { score_.add(contact); });
-    self_->subscribe<docent_msgs::AvoidState>(topics::kAvoidState,
-                                              [this](const auto& state) { reason_ = state.reason; });
+    self_->subscribe<docent_msgs::AvoidState>(topics::kAvoidState, [this](const auto& state) { avoid_ = state; });
     self_->subscribe<docent_msgs::Horn>(topics::kHorn, [this](const auto&) { ++outcome_.horns; });
   }
 
@@ -165,7 +164,7 @@ class Trial {
     }
     if (samples_++ % 10 == 0 || score_.is_over()) {
       outcome_.moments.push_back(
-          {time, {state.x, state.y, Angle::radians(state.theta)}, state.linear, reason_, state.people});
+          {time, {state.x, state.y, Angle::radians(state.theta)}, state.linear, avoid_, state.people});
     }
   }
 
@@ -180,7 +179,7 @@ class Trial {
   SocialScore score_;
   std::vector<std::unique_ptr<ModuleHost>> modules_;
   CrowdTrialOutcome outcome_;
-  std::string reason_;
+  docent_msgs::AvoidState avoid_;
   int samples_ = 0;
   double walking_sum_ = 0.0;
   int walking_samples_ = 0;

@@ -35,7 +35,7 @@ struct CrowdTrialOutcome {
     double time = 0.0;
     Pose2 robot;
     double speed = 0.0;
-    std::string reason;  ///< why it is slow, as it says itself
+    docent_msgs::AvoidState avoid;  ///< as it says itself
     std::vector<docent_msgs::TruePerson> people;
   };
   std::vector<Moment> moments;

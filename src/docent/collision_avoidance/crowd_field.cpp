@@ -13,8 +13,8 @@ namespace {
 constexpr int kCount = CrowdField::kCells * CrowdField::kCells;
 constexpr float kFar = 1e6F;            // [s]
 constexpr double kHazardCost = 1000.0;  // nobody steps out of the way there
-constexpr double kBeyond = 4.0;         // [m] a path that goes on is made for so far beyond its end
-constexpr double kWaitShare = 0.2;      // of the cost: who comes near somebody that waits means no harm
+constexpr float kAslant = 1.41421356F;
+constexpr double kBeyond = 4.0;  // [m] a path that goes on is made for so far beyond its end
 
 }  // namespace
 
@@ -195,7 +195,7 @@ void CrowdField::solve_standing() {
         const int column = cell % kCells + dc;
         if ((dr == 0 && dc == 0) || row < 0 || column < 0 || row >= kCells || column >= kCells) continue;
         const int next = row * kCells + column;
-        const float seconds_a_cell = static_cast<float>(kCell / kSpeed) * (dr != 0 && dc != 0 ? 1.41421356F : 1.0F);
+        const float seconds_a_cell = static_cast<float>(kCell / kSpeed) * (dr != 0 && dc != 0 ? kAslant : 1.0F);
         const float slowed =
             1.0F + 0.5F * (costs[static_cast<std::size_t>(cell)] + costs[static_cast<std::size_t>(next)]);
         const float reached = value + seconds_a_cell * slowed;
@@ -216,12 +216,14 @@ void CrowdField::solve_layer(std::size_t layer) {
   for (int row = 0; row < kCells; ++row) {
     for (int column = 0; column < kCells; ++column) {
       const auto here = static_cast<std::size_t>(row * kCells + column);
-      float best = next[here] + kSeconds * (1.0F + static_cast<float>(kWaitShare) * costs[here]);
+      // Staying costs what the place costs: who waits beside people for nothing would wait for ever.
+      float best = next[here] + kSeconds * (1.0F + costs[here]);
       for (int r = std::max(0, row - 1); r <= std::min(kCells - 1, row + 1); ++r) {
         for (int c = std::max(0, column - 1); c <= std::min(kCells - 1, column + 1); ++c) {
-          if (r == row && c == column) continue;
           const auto there = static_cast<std::size_t>(r * kCells + c);
-          best = std::min(best, next[there] + kSeconds * (1.0F + costs[there]));
+          // A step aslant is longer: as if it took longer, or ways would prefer it.
+          const float longer = r != row && c != column ? kAslant : 1.0F;
+          best = std::min(best, next[there] + longer * kSeconds * (1.0F + costs[there]));
         }
       }
       values[here] = best;
@@ -262,14 +264,14 @@ std::optional<Point2> CrowdField::way_on(Point2 from, double away) const {
     const Layer& next = values_[layer + 1];
     const Layer& costs = costs_[layer + 1];
     const auto here = static_cast<std::size_t>(cell);
-    double best = static_cast<double>(next[here]) + kStep * (1.0 + kWaitShare * static_cast<double>(costs[here]));
+    float best = next[here] + static_cast<float>(kStep) * (1.0F + costs[here]);
     const int row = cell / kCells;
     const int column = cell % kCells;
     for (int r = std::max(0, row - 1); r <= std::min(kCells - 1, row + 1); ++r) {
       for (int c = std::max(0, column - 1); c <= std::min(kCells - 1, column + 1); ++c) {
         const auto there = static_cast<std::size_t>(r * kCells + c);
-        if (there == here) continue;
-        const double value = static_cast<double>(next[there]) + kStep * (1.0 + static_cast<double>(costs[there]));
+        const float longer = r != row && c != column ? kAslant : 1.0F;
+        const float value = next[there] + longer * static_cast<float>(kStep) * (1.0F + costs[there]);
         if (value >= best) continue;
         best = value;
         cell = r * kCells + c;

@@ -13,7 +13,7 @@ namespace docent {
 /// What it costs to be near people, and how far they are foreseen. Costs are seconds that a second counts more.
 struct CrowdFitParams {
   double horizon = 3.0;          ///< [s] that people who walk are foreseen
-  double hard_margin = 0.06;     ///< [m] between the outlines: no way leads nearer
+  double hard_margin = 0.04;     ///< [m] between the outlines: no way leads nearer
   double intimate = 0.25;        ///< [m] between the outlines; with half a body the 0.45 m of intimate space
   double personal = 0.95;        ///< [m] the same; with half a body 1.2 m
   double intimate_weight = 3.0;  ///< inside intimate space
@@ -24,7 +24,7 @@ struct CrowdFitParams {
   double crossed_weight = 10.0;  ///< where somebody will walk: better waited for than run into
   double walks = 0.35;           ///< [m/s] below: stands, and is not counted upon to be gone
   double uncertainty = 0.12;     ///< [m/s] by which the place of somebody who walks becomes less certain
-  double change_weight = 0.3;    ///< [s/rad] against needless changes of the way
+  double change_weight = 0.8;    ///< [s/rad] against needless changes of the way
   template <class V>
   void visit(V& v) {
     v("horizon", horizon);

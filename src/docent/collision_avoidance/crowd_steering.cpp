@@ -12,7 +12,6 @@ namespace {
 constexpr int kHeadings = 48;
 constexpr std::array<double, 4> kSpeeds{0.25, 0.5, 0.75, 1.0};  // shares of the cap
 constexpr double kRolledOut = 2.4;                              // [s]
-constexpr double kWaitShare = 0.2;                              // as in the field
 constexpr double kStands = 0.05;                                // [m/s]
 constexpr double kRecovers = 2.0;                               // driving gives patience back so much faster
 constexpr double kLongest = 4.0;                                // patiences
@@ -41,8 +40,7 @@ double CrowdSteering::cost_of(const BaseState& start, double bearing, double spe
     linear += std::clamp(aimed - linear, -limits_.deceleration * kDt, limits_.acceleration * kDt);
     at = at + (linear * kDt) * unit(heading + Angle::radians(0.5 * turn));
     heading = heading + Angle::radians(turn);
-    const double share = std::abs(linear) < 0.03 ? kWaitShare : 1.0;
-    cost += kDt * (1.0 + share * field_.cost(k, at));
+    cost += kDt * (1.0 + field_.cost(k, at));
   }
   return cost + field_.value(steps, at);
 }
