@@ -83,8 +83,8 @@ std::string default_state() {
 /// How the robot is crippled, if it is (architecture 10.17).
 std::string crippled_by(const std::vector<std::string>& settings) {
   for (const char* way : {"avoid.blind_to_people=true", "avoid.watches=false", "localize.dead_reckoning=true",
-                          "hazards.best_pose_only=true", "hazards.ignored=true", "plan.ignore_live_map=true", "plan.ignore_hazards=true",
-                          "executive.ladder.active=false"}) {
+                          "hazards.best_pose_only=true", "hazards.ignored=true", "plan.ignore_live_map=true",
+                          "plan.ignore_hazards=true", "executive.ladder.active=false"}) {
     for (const auto& setting : settings) {
       if (setting == way) return std::string{way}.substr(0, std::string{way}.find('='));
     }
