@@ -38,9 +38,9 @@ struct SimulationOptions {
 class SimulatedMuseum {
  public:
   /// Subscribes cmd_vel, docent/horn, docent/speech_state, docent/request_board and docent/mission_state; publishes
-  /// scan_front, scan_rear, sonar, infrared, odom, battery_state, tactile, docent/request and docent/choice, and the truth.
-  /// The truth is posted to `truth_bus`, so under DDS both buses must be run, each on a thread of its own if need be.
-  /// Both buses must outlive it or die before the next event; it may be destroyed at any time.
+  /// scan_front, scan_rear, sonar, infrared, odom, battery_state, tactile, docent/request and docent/choice, and the
+  /// truth. The truth is posted to `truth_bus`, so under DDS both buses must be run, each on a thread of its own if
+  /// need be. Both buses must outlive it or die before the next event; it may be destroyed at any time.
   /// @pre validate(options)
   SimulatedMuseum(Bus& robot_bus, Bus& truth_bus, SimulationOptions options);
   SimulatedMuseum(const SimulatedMuseum&) = delete;
