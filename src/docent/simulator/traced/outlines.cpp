@@ -54,7 +54,7 @@ class Cracks {
     return 4 * (static_cast<std::size_t>(corner.row) * width + static_cast<std::size_t>(corner.column)) + direction;
   }
   [[nodiscard]] Point2 point(CellIndex corner) const {
-    return {frame_.origin.x + corner.column * frame_.resolution, frame_.origin.y + corner.row * frame_.resolution};
+    return to_millimetre(frame_.origin + Point2{corner.column * frame_.resolution, corner.row * frame_.resolution});
   }
 
   const GridFrame& frame_;
@@ -103,6 +103,10 @@ Polygon reduced(const Polygon& outline, double tolerance) {
 }
 
 }  // namespace
+
+Point2 to_millimetre(Point2 point) {
+  return {std::round(point.x * 1000.0) / 1000.0, std::round(point.y * 1000.0) / 1000.0};
+}
 
 void join_corners(const GridFrame& frame, std::vector<bool>& cells) {
   for (bool changed = true; changed;) {

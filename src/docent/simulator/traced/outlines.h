@@ -7,6 +7,9 @@
 
 namespace docent::simulator {
 
+/// To the millimetre, as files hold it: an outline that is simple here is simple when it is read back.
+[[nodiscard]] Point2 to_millimetre(Point2 point);
+
 /// Sets cells until no two set cells touch by a corner alone: after it every outline is a simple polygon.
 void join_corners(const GridFrame& frame, std::vector<bool>& cells);
 

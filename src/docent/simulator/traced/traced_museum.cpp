@@ -7,6 +7,7 @@
 #include "docent/base/random.h"
 #include "docent/simulator/crowd/walkable_floor.h"
 #include "docent/simulator/traced/floor_plan.h"
+#include "docent/simulator/traced/outlines.h"
 #include "docent/simulator/traced/wall_spots.h"
 
 namespace docent::simulator {
@@ -58,7 +59,7 @@ std::vector<Polygon> walls_round(const Polygon& outline) {
     const Point2 sum = before + outwards[corner];
     // Of a sharp corner the mitre is cut.
     const double share = 2.0 / std::max(dot(sum, sum), 1.0);
-    return outline[corner] + (kWallThickness * share) * sum;
+    return to_millimetre(outline[corner] + (kWallThickness * share) * sum);
   };
   std::vector<Polygon> walls;
   for (std::size_t i = 0; i < count; ++i) {
@@ -66,7 +67,7 @@ std::vector<Polygon> walls_round(const Polygon& outline) {
     Polygon wall{outline[i], mitre(i), mitre(j), outline[j]};
     if (!is_simple(wall) || signed_area(wall) < 1e-4) {
       const Point2 off = kWallThickness * outwards[i];
-      wall = {outline[i], outline[i] + off, outline[j] + off, outline[j]};
+      wall = {outline[i], to_millimetre(outline[i] + off), to_millimetre(outline[j] + off), outline[j]};
     }
     walls.push_back(std::move(wall));
   }

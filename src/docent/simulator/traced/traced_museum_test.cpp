@@ -35,6 +35,7 @@ OccupancyGrid hall_map() {
   fill(6.0, 6.0, 2.0, 2.0, OccupancyGrid::kOccupied);
   fill(15.0, 9.0, 4.0, 1.2, OccupancyGrid::kOccupied);
   for (int i = 0; i < 5; ++i) fill(5.0 + 3.5 * i, 13.0, 0.8, 0.6, OccupancyGrid::kOccupied);
+  fill(12.0, 0.9, 0.3, 0.6, OccupancyGrid::kOccupied);    // a pilaster, twice as wide as walls are thick
   fill(10.0, 3.0, 0.05, 0.05, OccupancyGrid::kOccupied);  // noise
   return map;
 }
