@@ -155,7 +155,8 @@ std::string Avoider::fault(Time now) const {
 }
 
 bool Avoider::is_touched(Time now, double within) const {
-  return touched_ && now - *touched_ < seconds(within) && now - touched_since_ < seconds(kLeansOn);
+  const bool may_leave = params_.method == "crowd_fit" && now - touched_since_ > seconds(kLeansOn);
+  return touched_ && now - *touched_ < seconds(within) && !may_leave;
 }
 
 BaseState Avoider::state_when_effective(Time now) const {

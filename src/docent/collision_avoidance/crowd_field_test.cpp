@@ -52,7 +52,7 @@ TEST(CrowdField, SpaceRoundPeopleCostsMoreTheNearer) {
   field.build({0.0, 0.0}, people, {kPath, false});
   const auto at_gap = [&](double gap) { return field.cost(0, {1.5, kRadius + gap}); };
   EXPECT_NEAR(at_gap(-0.15), params.blocked_weight, 1e-3);
-  EXPECT_NEAR(at_gap(0.16), params.intimate_weight, 0.5);
+  EXPECT_NEAR(at_gap(0.185), params.intimate_weight, 1e-3);
   EXPECT_LT(at_gap(0.5), params.personal_weight);
   EXPECT_GT(at_gap(0.5), at_gap(0.7));
   EXPECT_DOUBLE_EQ(at_gap(1.3), 0.0);
