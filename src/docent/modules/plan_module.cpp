@@ -24,11 +24,10 @@ struct PlanParams {
   RouteParams route;
   PursuitParams pursuit;
   TellApartParams tell_apart;
-  bool ignore_live_map =
-      false;  ///< crippled, for evaluation: plans as if nothing stood there that the map does not show
-  bool ignore_hazards = false;  ///< likewise: plans as if there were no hazards and no border
-  bool active = true;           ///< lost: drives to where its hypotheses are told apart; else it only looks round
-  double goal_tolerance = 0.2;  ///< [m] cells so near to the goal are goals
+  bool ignore_live_map = false;  ///< crippled, for evaluation: plans with the static map alone
+  bool ignore_hazards = false;   ///< likewise: plans as if there were no hazards and no border
+  bool active = true;            ///< lost: drives to where its hypotheses are told apart; else it only looks round
+  double goal_tolerance = 0.2;   ///< [m] cells so near to the goal are goals
   template <class V>
   void visit(V& v) {
     v("route", route);
