@@ -28,8 +28,7 @@ struct PlanParams {
   RouteParams route;
   PursuitParams pursuit;
   TellApartParams tell_apart;
-  bool ignore_live_map =
-      false;  ///< crippled, for evaluation: plans as if nothing stood there that the map does not show
+  bool ignore_live_map = false;  ///< crippled, for evaluation: plans with the static map alone
   CoastalParams coastal;
   bool ignore_hazards = false;  ///< likewise: plans as if there were no hazards and no border
   bool active = true;           ///< lost: drives to where its hypotheses are told apart; else it only looks round
