@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "docent/base/random.h"
+#include "docent/collision_avoidance/rehearsal_for_test.h"
 
 namespace docent {
 namespace {
@@ -69,6 +69,25 @@ TEST(CrowdSteering, NeverSteersIntoAThing) {
     EXPECT_GT(straight_free_way(advice.bearing, obstacles, BaseLimits{}.radius - 0.08, 1.0), 0.2) << "seed " << seed;
   }
   EXPECT_GT(moved, 40);
+}
+
+TEST(CrowdSteering, CrossesAHallOfPeopleWhoIgnoreItWithoutPushing) {
+  int arrived = 0;
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+    AvoiderParams params = Rehearsal::without_sonar();
+    params.method = "crowd_fit";
+    Rehearsal world{seed, params};
+    world.box(-2, -5, 14, 5);
+    world.drive_to({{1, 0}, {2, 0}, {3, 0}, {4, 0}, {5, 0}, {6, 0}, {7, 0}, {8, 0}, {9, 0}, {10, 0}});
+    Rng rng{seed + 100};
+    for (int i = 0; i < 30; ++i) {
+      const Point2 place{rng.uniform(1.0, 12.0), rng.uniform(-20.0, 20.0)};
+      world.people.push_back({place, {rng.uniform(-0.2, 0.2), place.y > 0.0 ? -0.8 : 0.8}});
+    }
+    arrived += world.run_until_arrived(60.0) ? 1 : 0;
+    EXPECT_LE(world.worst_push, 0.1) << "seed " << seed;
+  }
+  EXPECT_GE(arrived, 1);
 }
 
 }  // namespace
