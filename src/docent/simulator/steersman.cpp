@@ -26,10 +26,16 @@ void Steersman::choose_goal(double now, Point2 from, const WalkableFloor& floor)
 }
 
 std::optional<Point2> Steersman::heading_for(double now, Point2 here, double robot_radius, const WalkableFloor& floor) {
-  if (!way_.empty()) return along_way(here, robot_radius, floor);
   if (distance(here, progress_from_) > 0.3) {
     progress_from_ = here;
     progress_at_ = now;
+  }
+  if (!way_.empty()) {
+    if (now - progress_at_ > kPatience && next_ + 1 < way_.size()) {
+      ++next_;
+      progress_at_ = now;
+    }
+    return along_way(here, robot_radius, floor);
   }
   if (!goal_ || distance(here, *goal_) < kArrived || now - progress_at_ > kPatience) choose_goal(now, here, floor);
   if (!goal_) return std::nullopt;
@@ -59,9 +65,8 @@ Steersman::Command Steersman::steer(double now, const Pose2& world_from_base, do
   const Point2 here = world_from_base.position();
   const auto way = heading_for(now, here, robot_radius, floor);
   if (!way) return {};
-  // Away from walls by as much as is missing to a comfortable clearance; on a given way, to a bare one.
-  const double comfort = way_.empty() ? 0.6 : robot_radius + kClearOfWall;
-  const double missing = std::max(0.0, comfort - floor.clearance(here));
+  // Away from walls by as much as is missing to a comfortable clearance.
+  const double missing = std::max(0.0, 0.6 - floor.clearance(here));
   const Point2 wanted = *way + (1.2 * missing) * floor.away_from_walls(here);
   const Angle error = Angle::radians(std::atan2(wanted.y, wanted.x)) - world_from_base.theta;
   Command command;
