@@ -181,7 +181,7 @@ int changes_of_side(bool hold) {
   int side = 0;
   for (int step = 0; step < 60; ++step) {
     std::vector<bool> obstacles(planner.frame().size());
-    const double y = rng.chance(0.5) ? 2.2 : 5.8;  // at the edge of the one way or of the other
+    const double y = rng.chance(0.5) ? 1.5 : 6.5;  // at the edge of the one way or of the other
     obstacles[planner.frame().index(planner.frame().cell_at({rng.uniform(3.0, 5.0), y}))] = true;
     planner.set_obstacles(obstacles);
     EXPECT_TRUE(planner.settle({1, 4}, 10000));
