@@ -7,7 +7,10 @@
 namespace docent::simulator {
 namespace {
 
-RayCaster wall_at(double x, bool glass = false) { return RayCaster{{{{{x, -3.0}, {x, 3.0}}, glass, 0.3}}}; }
+RayCaster wall_at(double x, bool glass = false) {
+  const std::vector<Surface> wall{Surface{Segment{{x, -3.0}, {x, 3.0}}, glass, 0.3}};
+  return RayCaster{wall};
+}
 
 TEST(InfraredRing, ReadsAWallWithNoiseThatGrowsWithTheDistance) {
   const auto spread = [](double distance) {
