@@ -61,7 +61,6 @@ TEST_F(PursuitTest, SettlesBesideAGoalThatPeopleStandOn) {
 TEST_F(PursuitTest, AGoalIsUnreachableOnlyWhenPlanningHasEnded) {
   RoutePlanner busy{hall(), {}, {}, {}};
   busy.set_goal(goal_.map_from_goal.position(), 0.2);
-  busy.iterate(1);
   EXPECT_EQ(pursuit_.step(Pose2{2, 4, {}}, busy, Time{}).state, "waiting");
   EXPECT_EQ(pursuit_.step(Pose2{2, 4, {}}, busy, time_from_seconds(4.0)).state, "unreachable") << "not for ever";
   auto walled = hall();

@@ -174,7 +174,9 @@ int changes_of_side(bool hold) {
   hall.cells.assign(hall.frame.size(), 0);
   for (int row = 60; row < 100; ++row)
     for (int column = 60; column < 100; ++column) hall.cells[hall.frame.index({column, row})] = 100;
-  RoutePlanner planner{hall, {}, {}, {}};
+  RouteParams params;
+  params.obstacle_comfort = params.obstacle_margin;  // what stands beside a way is no reason to leave it
+  RoutePlanner planner{hall, {}, {}, params};
   planner.set_goal({7, 4}, 0.2);
   Rng rng{7};
   int changes = 0;
