@@ -270,14 +270,14 @@ std::optional<CellIndex> ValueIteration::support_of(CellIndex cell) const {
 }
 
 /// Offers that may go into repairing, so that with a start over behind it the work stays below that of a start from
-/// nothing: three fifths of what a start over spares, the tiles that keep their values and those well beyond the robot.
+/// nothing: half of what a start over spares, the tiles that keep their values and those well beyond the robot.
 /// @param value_of_robot  too small perhaps, never too large: it rises as the repair goes on
 std::uint64_t ValueIteration::worth_repairing(float value_of_robot) const {
   const float sound_below = losses_.top().first;
   const auto spared = std::count_if(tiles_.begin(), tiles_.end(), [&](const Tile& tile) {
     return !tile.is_blank && (tile.most < sound_below || tile.least > 1.15F * value_of_robot);
   });
-  return static_cast<std::uint64_t>(spared) * work_a_tile_ * 3 / 5;
+  return static_cast<std::uint64_t>(spared) * work_a_tile_ / 2;
 }
 
 /// Forgets all tiles but those whose values are all less than `sound`.
@@ -292,8 +292,17 @@ void ValueIteration::start_over_above(float sound) {
     tiles_[tile].lost_rows = 0;
     queue_fall(tile, std::exchange(tiles_[tile].falls_from, kClosed));
   }
+  const auto borders_on_blank = [this](std::size_t tile) {
+    for (const int rows : {-1, 0, 1}) {
+      for (const int columns : {-1, 0, 1}) {
+        const std::ptrdiff_t beside = neighbour(tile, columns, rows);
+        if (beside >= 0 && tiles_[static_cast<std::size_t>(beside)].is_blank) return true;
+      }
+    }
+    return false;
+  };
   for (std::size_t tile = 0; tile < tiles_.size(); ++tile)
-    if (!tiles_[tile].is_blank) offer_to_neighbours(tile);
+    if (!tiles_[tile].is_blank && borders_on_blank(tile)) offer_to_neighbours(tile);
   for (const auto& [tile, of_tile] : goals_) {
     if (!tiles_[tile].is_blank) continue;
     unblank(tile);
