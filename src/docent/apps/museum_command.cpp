@@ -35,7 +35,7 @@ fs::path recording_path(const std::string& name_or_path) {
   if (fs::exists(name_or_path, code)) return name_or_path;
   const char* data = std::getenv("DOCENT_DATA");
   const fs::path recordings = fs::path{data != nullptr ? data : "../shared/data"} / "pedestrians";
-  const fs::path found = recordings / (name_or_path == "univ" ? "students01" : name_or_path);
+  fs::path found = recordings / (name_or_path == "univ" ? "students01" : name_or_path);
   if (fs::exists(found, code)) return found;
   throw CommandFailed{"--pedestrians " + name_or_path + ": neither a path nor a recording in " + recordings.string() +
                       " (DOCENT_DATA)"};

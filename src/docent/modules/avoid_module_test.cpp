@@ -94,6 +94,7 @@ class MotionModules : public ::testing::Test {
         {static_cast<float>(pose.x), static_cast<float>(pose.y), static_cast<float>(pose.theta.radians()), 1}};
     belief.hypotheses.push_back({pose.x, pose.y, pose.theta.radians(), {}, 0.99});
     belief.odom_pose = to_message(pose);
+    belief.p_lost = 0.001;
     belief.localized = true;
     if (localize_works) belief_publisher.publish(belief);
   }

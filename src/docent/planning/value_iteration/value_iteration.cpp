@@ -234,7 +234,9 @@ bool ValueIteration::settle(CellIndex cell, int most_visits) {
     }
     if (most_visits-- <= 0) return false;
     if (relaxations_ - began >= worth_repairing(value(cell))) {
-      start_over_above(losses_.top().first);
+      const float sound = losses_.top().first;
+      // To go on from next to nothing costs more than to begin with nothing, where no work is lost.
+      start_over_above(relaxations_ == began && sound_share(sound) < 0.15 ? 0.0F : sound);
       chain = {cell};
       continue;
     }
@@ -270,14 +272,27 @@ std::optional<CellIndex> ValueIteration::support_of(CellIndex cell) const {
 }
 
 /// Offers that may go into repairing, so that with a start over behind it the work stays below that of a start from
-/// nothing: three fifths of what a start over spares, the tiles that keep their values and those well beyond the robot.
+/// nothing: half of what a start over spares, the tiles that keep their values and those well beyond the robot.
 /// @param value_of_robot  too small perhaps, never too large: it rises as the repair goes on
 std::uint64_t ValueIteration::worth_repairing(float value_of_robot) const {
   const float sound_below = losses_.top().first;
   const auto spared = std::count_if(tiles_.begin(), tiles_.end(), [&](const Tile& tile) {
     return !tile.is_blank && (tile.most < sound_below || tile.least > 1.15F * value_of_robot);
   });
-  return static_cast<std::uint64_t>(spared) * work_a_tile_ * 3 / 5;
+  constexpr std::uint64_t kOneReset = 2;  // [tiles' work] by which the last one may exceed it
+  const std::uint64_t most = static_cast<std::uint64_t>(spared) * work_a_tile_ / 2;
+  return most - std::min(most, kOneReset * work_a_tile_);
+}
+
+/// Share of the tiles that would keep their values in a start over above `sound`.
+double ValueIteration::sound_share(float sound) const {
+  std::ptrdiff_t known = 0;
+  std::ptrdiff_t kept = 0;
+  for (const Tile& tile : tiles_) {
+    known += tile.is_blank ? 0 : 1;
+    kept += !tile.is_blank && tile.most < sound ? 1 : 0;
+  }
+  return known == 0 ? 0.0 : static_cast<double>(kept) / static_cast<double>(known);
 }
 
 /// Forgets all tiles but those whose values are all less than `sound`.
@@ -292,8 +307,17 @@ void ValueIteration::start_over_above(float sound) {
     tiles_[tile].lost_rows = 0;
     queue_fall(tile, std::exchange(tiles_[tile].falls_from, kClosed));
   }
+  const auto borders_on_blank = [this](std::size_t tile) {
+    for (const int rows : {-1, 0, 1}) {
+      for (const int columns : {-1, 0, 1}) {
+        const std::ptrdiff_t beside = neighbour(tile, columns, rows);
+        if (beside >= 0 && tiles_[static_cast<std::size_t>(beside)].is_blank) return true;
+      }
+    }
+    return false;
+  };
   for (std::size_t tile = 0; tile < tiles_.size(); ++tile)
-    if (!tiles_[tile].is_blank) offer_to_neighbours(tile);
+    if (!tiles_[tile].is_blank && borders_on_blank(tile)) offer_to_neighbours(tile);
   for (const auto& [tile, of_tile] : goals_) {
     if (!tiles_[tile].is_blank) continue;
     unblank(tile);

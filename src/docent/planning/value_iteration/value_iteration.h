@@ -127,6 +127,7 @@ class ValueIteration {
   void pass_on_losses(std::size_t tile, const std::array<Edge, 4>& before);
   [[nodiscard]] std::optional<CellIndex> support_of(CellIndex cell) const;
   [[nodiscard]] std::uint64_t worth_repairing(float value_of_robot) const;
+  [[nodiscard]] double sound_share(float sound) const;
   void start_over_above(float sound);
 
   GridFrame frame_;
