@@ -210,7 +210,7 @@ def protocol(docent, root, cache, run_all, key, options):
         people(run_all, root, seeds_of(20), options.minutes or (10 if options.slice else 20), verdict,
                not options.no_crippled and not options.slice)
     if "night" in parts:
-        night(run_all, root, seeds_of(10), options.minutes or (8 if options.slice else 20), verdict)
+        night(run_all, root, seeds_of(10), options.minutes or (16 if options.slice else 20), verdict)
     if "office" in parts:
         office(docent, cache / "office", key, seeds_of(20), options.minutes or (4 if options.slice else 10), options.jobs,
                verdict)

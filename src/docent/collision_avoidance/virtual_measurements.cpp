@@ -180,8 +180,9 @@ void VirtualMeasurements::count(const Sighting& sighting) {
   const std::uint8_t* bins = rows_[sighting.row].bins.data();
   double* masses = histogram_.data();
   const int split = kDirections - sighting.first;
-  for (int i = 0; i < split; ++i, ++masses) masses[bins[sighting.first + i] * kDirections] += sighting.mass;
-  for (int i = 0; i < sighting.first; ++i, ++masses) masses[bins[i] * kDirections] += sighting.mass;
+  const auto row = [](std::uint8_t bin) { return static_cast<std::ptrdiff_t>(bin) * kDirections; };
+  for (int i = 0; i < split; ++i, ++masses) masses[row(bins[sighting.first + i])] += sighting.mass;
+  for (int i = 0; i < sighting.first; ++i, ++masses) masses[row(bins[i])] += sighting.mass;
 }
 
 void VirtualMeasurements::count_within_limits(const Sighting& sighting) {
