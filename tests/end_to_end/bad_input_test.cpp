@@ -133,7 +133,7 @@ TEST(BadInput, MapsAndLogs) {
            {"plan from a wall", {"plan", "--map", kMap, "--from", "0,0", "--to", "9,3.6"}, "--from 0,0: "},
            {"plan to nowhere", {"plan", "--map", kMap, "--from", "9,3.6", "--to", "900,3"}, "--to 900,3: "},
            {"point of one number", {"plan", "--map", kMap, "--from", "9", "--to", "1,1"}, "--from 9: "},
-           {"plan without map", {"plan", "--from", "9,3", "--to", "1,1"}, "--map is required"},
+           {"plan without map", {"plan", "--from", "9,3", "--to", "1,1"}, "either --map or --museum is needed"},
            {"no log", {"localize", "--map", kMap, "--log", "/nowhere.log"}, "/nowhere.log: "},
            {"log without scans", {"localize", "--map", kMap, "--log", text}, "text.log: "},
            {"line cut", {"localize", "--map", kMap, "--log", cut_line}, "cut.log:2: "},

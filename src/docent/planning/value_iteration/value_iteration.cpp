@@ -22,8 +22,9 @@ constexpr std::array<Step, 8> kSteps{{{1, 0, 1.0F},
                                       {-1, -1, kDiagonalStep},
                                       {1, -1, kDiagonalStep}}};
 
-constexpr std::uint64_t kOffersALine = 3 * kTileSide;  ///< in a sweep each cell looks at three neighbours
-constexpr std::uint64_t kOffersALineReset = 8 * kTileSide;
+constexpr std::uint64_t kOffersALine =
+    std::uint64_t{3} * kTileSide;  ///< in a sweep each cell looks at three neighbours
+constexpr std::uint64_t kOffersALineReset = std::uint64_t{8} * kTileSide;
 constexpr std::uint64_t kAll = ~std::uint64_t{0} >> (64 - kTileSide);  ///< all lines of a tile
 
 constexpr int kLast = kTileSide - 1;
@@ -339,7 +340,7 @@ void ValueIteration::for_offers_into(std::size_t tile, bool firm, Take take) {
     const Edges& edges = edges_[static_cast<std::size_t>(from)];
     kernels_->offers(edges.values[opposite(side)].data(), edges.costs[opposite(side)].data(), firm, line.data());
     for (int k = 0; k < kTileSide; ++k) take(on_side(side, k), line[static_cast<std::size_t>(k)], side);
-    relaxations_ += 3 * kTileSide;
+    relaxations_ += kOffersALine;
   }
   for (const int rows : {-1, 1}) {
     for (const int columns : {-1, 1}) {
@@ -431,7 +432,7 @@ void ValueIteration::offer_to_neighbours(std::size_t tile) {
     const float* const held = tiles_[other].is_blank ? no_goals_.data() : edges_[other].values[opposite(side)].data();
     kernels_->offers(own.values[side].data(), own.costs[side].data(), false, line.data());
     queue_fall(other, kernels_->least_gain(line.data(), held));
-    relaxations_ += 3 * kTileSide;
+    relaxations_ += kOffersALine;
   }
   for (const int rows : {-1, 1}) {
     for (const int columns : {-1, 1}) {
@@ -541,7 +542,7 @@ void ValueIteration::pass_on_losses(std::size_t tile, const std::array<Edge, 4>&
     for (std::size_t k = 0; k < kTileSide; ++k)
       if (old_line[k] <= held[k] && held[k] < new_line[k])
         queue_loss(other, held[k], std::uint64_t{1} << on_side(opposite(side), static_cast<int>(k)) / kTileSide);
-    relaxations_ += 6 * kTileSide;
+    relaxations_ += 2 * kOffersALine;
   }
   for (const int rows : {-1, 1}) {
     for (const int columns : {-1, 1}) {
