@@ -42,7 +42,8 @@ std::vector<LadderStep> ReactionLadder::step(const LadderView& view, Time now) {
     const bool is_new_way = view.detour != detour_ && view.detour != Detour::none;
     if (!is_new_way) detour_ = view.detour;
     if (!view.is_hindered && !is_stuck && !is_new_way) return steps;
-    episode_.emplace().began = now;
+    episode_ = Episode{};
+    episode_->began = now;
   }
   look(view, now);
   climb(view, now, steps);
