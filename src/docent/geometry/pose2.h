@@ -17,7 +17,8 @@ struct Point2 {
 
 [[nodiscard]] inline double dot(Point2 a, Point2 b) { return a.x * b.x + a.y * b.y; }
 [[nodiscard]] inline double cross(Point2 a, Point2 b) { return a.x * b.y - a.y * b.x; }
-[[nodiscard]] inline double norm(Point2 a) { return std::hypot(a.x, a.y); }
+/// Not std::hypot: metres neither overflow nor vanish, and this is a tenth of its time.
+[[nodiscard]] inline double norm(Point2 a) { return std::sqrt(a.x * a.x + a.y * a.y); }
 [[nodiscard]] inline double distance(Point2 a, Point2 b) { return norm(a - b); }
 [[nodiscard]] inline Angle direction(Point2 from, Point2 to) {
   return Angle::radians(std::atan2(to.y - from.y, to.x - from.x));

@@ -21,6 +21,7 @@ constexpr double kCounts = 12.0;  // points that count fully on a body: neighbou
 constexpr double kThingWidth = 0.7;
 constexpr std::size_t kThingPoints = 6;
 constexpr int kIterations = 7;
+constexpr double kSettled = 0.001;  // [m] centres that move no farther stay
 
 double rim_cost(double off, double noise) {
   const double bounded = std::min(std::abs(off), kFarOff);
@@ -48,8 +49,14 @@ std::vector<std::size_t> settle(std::span<const Point2> points, double radius, s
       sums[owner[p]] = sums[owner[p]] + middle;
       ++counts[owner[p]];
     }
-    for (std::size_t c = 0; c < centres.size(); ++c)
-      if (counts[c] > 0) centres[c] = (1.0 / counts[c]) * sums[c];
+    double moved = 0.0;
+    for (std::size_t c = 0; c < centres.size(); ++c) {
+      if (counts[c] == 0) continue;
+      const Point2 next = (1.0 / counts[c]) * sums[c];
+      moved = std::max(moved, distance(centres[c], next));
+      centres[c] = next;
+    }
+    if (moved < kSettled) break;
   }
   return owner;
 }
@@ -142,9 +149,12 @@ BodyFit fit_bodies(std::span<const Point2> points, Point2 sensor, std::span<cons
     std::erase_if(fit.bodies, [](const Body& body) { return body.points == 0; });
     if (fit.cost < best.cost) best = std::move(fit);
   };
+  const double least_price = known.empty() ? kPrice : kKnownPrice;
   for (const double radius : kPeople) {
-    for (std::size_t count = fewest; count <= std::max(fewest, most); ++count)
+    for (std::size_t count = fewest; count <= std::max(fewest, most); ++count) {
+      if (least_price * static_cast<double>(count) >= best.cost) break;  // even a perfect fit would cost more
       offer(judged(points, radius, spread_evenly(points, sensor, count, radius), known));
+    }
     if (!expected.empty() && expected.size() <= 8) offer(judged(points, radius, expected, known));
   }
   if (extent < kThingWidth || points.size() < kThingPoints) return best;

@@ -46,6 +46,9 @@ RoutePlanner::RoutePlanner(const OccupancyGrid& map, std::span<const Polygon> ha
 
   const GridFrame& frame = planner_.frame();
   static_costs_.assign(frame.size(), ValueIteration::kClosed);
+  near_factors_.assign(frame.size(), 1.0F);
+  obstacles_.assign(frame.size(), false);
+  settled_.assign(frame.size(), false);
   for (int row = 0; row < frame.rows; ++row) {
     for (int column = 0; column < frame.columns; ++column) {
       const Point2 centre = frame.centre({column, row});
@@ -79,18 +82,62 @@ float RoutePlanner::obstacle_factor(double away) const {
 
 void RoutePlanner::set_obstacles(const std::vector<bool>& obstacles, const std::vector<bool>& settled) {
   const GridFrame& frame = planner_.frame();
-  const auto distances = distance_transform(frame, obstacles);
-  near_factors_.resize(distances.size());
-  for (std::size_t i = 0; i < distances.size(); ++i)
-    near_factors_[i] = obstacle_factor(static_cast<double>(distances[i]));
-  if (std::find(settled.begin(), settled.end(), true) != settled.end()) {
-    const auto to_settled = distance_transform(frame, settled);
-    const float dear = params_.settled_closed ? ValueIteration::kClosed : static_cast<float>(params_.settled_cost);
-    for (std::size_t i = 0; i < near_factors_.size(); ++i) {
-      if (static_cast<double>(to_settled[i]) <= params_.obstacle_margin) near_factors_[i] = dear;
+  const auto is_still = [&](std::size_t i) { return !settled.empty() && settled[i]; };
+  CellIndex low{frame.columns, frame.rows};
+  CellIndex high{-1, -1};
+  for (int row = 0; row < frame.rows; ++row) {
+    for (int column = 0; column < frame.columns; ++column) {
+      const std::size_t i = frame.index({column, row});
+      if (obstacles_[i] == obstacles[i] && settled_[i] == is_still(i)) continue;
+      obstacles_[i] = obstacles[i];
+      settled_[i] = is_still(i);
+      low = {std::min(low.column, column), std::min(low.row, row)};
+      high = {std::max(high.column, column), std::max(high.row, row)};
     }
   }
-  apply_costs();
+  if (high.column >= 0) apply_obstacles(low, high);
+}
+
+void RoutePlanner::apply_obstacles(CellIndex low, CellIndex high) {
+  const GridFrame& frame = planner_.frame();
+  const int reach = 1 + static_cast<int>(params_.obstacle_comfort / frame.resolution);
+  const auto grown = [&](CellIndex& least, CellIndex& most) {
+    least = {std::max(0, least.column - reach), std::max(0, least.row - reach)};
+    most = {std::min(frame.columns - 1, most.column + reach), std::min(frame.rows - 1, most.row + reach)};
+  };
+  grown(low, high);  // the cells that become dearer or cheaper ...
+  CellIndex first = low;
+  CellIndex last = high;
+  grown(first, last);  // ... and what stands near enough to count there
+  const GridFrame part{last.column - first.column + 1, last.row - first.row + 1, frame.resolution, {}};
+  std::vector<bool> near(part.size());
+  std::vector<bool> near_settled(part.size());
+  for (int row = 0; row < part.rows; ++row) {
+    for (int column = 0; column < part.columns; ++column) {
+      const std::size_t i = frame.index({first.column + column, first.row + row});
+      near[part.index({column, row})] = obstacles_[i];
+      near_settled[part.index({column, row})] = settled_[i];
+    }
+  }
+  const bool any_settled = std::find(near_settled.begin(), near_settled.end(), true) != near_settled.end();
+  const auto away = distance_transform(part, near);
+  const auto from_settled = any_settled ? distance_transform(part, near_settled) : std::vector<float>{};
+  const float dear = params_.settled_closed ? ValueIteration::kClosed : static_cast<float>(params_.settled_cost);
+  std::vector<ValueIteration::Change> changes;
+  for (int row = low.row; row <= high.row; ++row) {
+    for (int column = low.column; column <= high.column; ++column) {
+      const std::size_t i = frame.index({column, row});
+      const std::size_t k = part.index({column - first.column, row - first.row});
+      float factor = obstacle_factor(static_cast<double>(away[k]));
+      if (any_settled && static_cast<double>(from_settled[k]) <= params_.obstacle_margin) factor = dear;
+      if (factor == near_factors_[i]) continue;
+      near_factors_[i] = factor;
+      changes.push_back({{column, row}, cost_at(i)});
+    }
+  }
+  if (changes.empty()) return;
+  planner_.change_costs(changes);
+  is_settled_ = false;
 }
 
 void RoutePlanner::prefer(std::span<const Point2> way) {
@@ -115,12 +162,14 @@ void RoutePlanner::prefer(std::span<const Point2> way) {
   apply_costs();
 }
 
+float RoutePlanner::cost_at(std::size_t cell) const {
+  const float beside = lane_factors_.empty() ? 1.0F : lane_factors_[cell];
+  return static_costs_[cell] * beside * near_factors_[cell];
+}
+
 void RoutePlanner::apply_costs() {
-  std::vector<float> costs = static_costs_;
-  for (std::size_t i = 0; i < costs.size(); ++i) {
-    if (!lane_factors_.empty()) costs[i] *= lane_factors_[i];
-    if (!near_factors_.empty()) costs[i] *= near_factors_[i];
-  }
+  std::vector<float> costs(static_costs_.size());
+  for (std::size_t i = 0; i < costs.size(); ++i) costs[i] = cost_at(i);
   planner_.set_costs(costs);
   is_settled_ = false;
 }

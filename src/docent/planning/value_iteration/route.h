@@ -59,6 +59,7 @@ class RoutePlanner {
 
   /// @param obstacles  [rows * columns of frame()] true where something stands now that the map does not show
   /// @param settled  likewise, those of them that have stood there for long; empty: none
+  /// Changes costs only around what changed: O(cells) bits compared, O(box of the changes) beyond.
   void set_obstacles(const std::vector<bool>& obstacles, const std::vector<bool>& settled = {});
   /// From now on the robot would rather go along this line of points (map): floor beside it is dearer. For ways that
   /// another planner found; what is closed stays closed, and obstacles are driven round. Empty: no preference.
@@ -93,6 +94,10 @@ class RoutePlanner {
  private:
   [[nodiscard]] std::optional<CellIndex> nearest_open(Point2 in_map, double within) const;
   [[nodiscard]] float obstacle_factor(double away) const;
+  [[nodiscard]] float cost_at(std::size_t cell) const;
+  void apply_costs();
+  /// The obstacles changed within these cells, corners included.
+  void apply_obstacles(CellIndex low, CellIndex high);
   [[nodiscard]] bool sees(Point2 from, Point2 to, float most_cost) const;
   [[nodiscard]] std::size_t nearest_held(Point2 start) const;
   [[nodiscard]] double cost_held(std::size_t first) const;
@@ -101,11 +106,11 @@ class RoutePlanner {
   RouteParams params_;
   ValueIteration planner_;
   bool is_settled_ = false;
-  void apply_costs();
-
   std::vector<float> static_costs_;  ///< [rows * columns]
   std::vector<float> lane_factors_;  ///< [rows * columns] of a preferred way, >= 1; empty: none
-  std::vector<float> near_factors_;  ///< [rows * columns] of obstacles, >= 1; empty: none
+  std::vector<float> near_factors_;  ///< [rows * columns] of obstacles, >= 1
+  std::vector<bool> obstacles_;      ///< [rows * columns] as last set
+  std::vector<bool> settled_;        ///< [rows * columns] as last set
   std::vector<CellIndex> held_;      ///< the way that is followed, to a goal
 };
 

@@ -81,6 +81,33 @@ TEST(RoutePlanner, GoesRoundWhatStandsInTheWayNow) {
   EXPECT_LT(least_distance(planner.way({1, 3}), {3, 3}), 0.2);
 }
 
+TEST(RoutePlanner, PlansAsIfAllObstaclesHadBeenSetAtOnce) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    Rng rng{seed};
+    const auto map = two_rooms();
+    RoutePlanner planner{map, {}, {}, {}};
+    planner.set_goal({5, 1}, 0.2);
+    ASSERT_TRUE(planner.iterate(100000));
+    std::vector<bool> obstacles(planner.frame().size());
+    std::vector<bool> settled(planner.frame().size());
+    for (int step = 0; step < 12; ++step) {
+      for (int k = 0; k < 6; ++k) {
+        const auto cell = static_cast<std::size_t>(rng.integer(0, static_cast<std::int64_t>(obstacles.size()) - 1));
+        obstacles[cell] = rng.chance(0.6);
+        settled[cell] = obstacles[cell] && rng.chance(0.3);
+      }
+      planner.set_obstacles(obstacles, settled);
+      ASSERT_TRUE(planner.iterate(100000));
+      RoutePlanner fresh{map, {}, {}, {}};
+      fresh.set_goal({5, 1}, 0.2);
+      fresh.set_obstacles(obstacles, settled);
+      ASSERT_TRUE(fresh.iterate(100000));
+      for (const Point2 start : {Point2{1, 1}, Point2{2.2, 3}, Point2{4, 2.5}})
+        ASSERT_NEAR(planner.cost_from(start), fresh.cost_from(start), 1e-4) << "seed " << seed << ", step " << step;
+    }
+  }
+}
+
 /// The planner's cells along a line across the hall.
 std::vector<bool> barrier(const RoutePlanner& planner, double x, double from_y, double to_y) {
   std::vector<bool> cells(planner.frame().size());
@@ -176,7 +203,7 @@ int changes_of_side(bool hold) {
     for (int column = 60; column < 100; ++column) hall.cells[hall.frame.index({column, row})] = 100;
   RouteParams params;
   params.obstacle_comfort = params.obstacle_margin;  // what stands beside a way is no reason to leave it
-  params.obstacle_cost = 1.3;  // noise; what really blocks the way held is a reason to leave it
+  params.obstacle_cost = 1.3;                        // noise; what really blocks the way held is a reason to leave it
   RoutePlanner planner{hall, {}, {}, params};
   planner.set_goal({7, 4}, 0.2);
   Rng rng{7};

@@ -3,7 +3,7 @@
 
 #include "docent/simulator/crowd/crowd.h"
 
-// What a person wants next. Every person decides at 10 Hz.
+// What a person wants next. Every person decides at 10 Hz, those far from the robot at 5 Hz.
 
 namespace docent::simulator {
 namespace {

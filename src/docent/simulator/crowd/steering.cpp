@@ -3,14 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace docent::simulator {
 namespace {
 
 constexpr double kHorizon = 2.5;  // [s] people look so far ahead
 
+/// What a velocity costs; some cost of at least `bound` as soon as it is known to be no less.
 double cost_of(Point2 velocity, Point2 desired, const Person& person, std::span<const Neighbour> neighbours,
-               const WalkableFloor& floor) {
+               const WalkableFloor& floor, double bound) {
   const double speed = norm(desired);
   double cost = 0.15 * norm(velocity - person.velocity);
   if (speed < 0.05) {
@@ -22,6 +24,7 @@ double cost_of(Point2 velocity, Point2 desired, const Person& person, std::span<
     cost += (speed - forward) + 0.35 * sideways + 0.6 * std::max(0.0, 0.4 * speed - norm(velocity));
   }
   for (const Neighbour& neighbour : neighbours) {
+    if (cost >= bound) return cost;
     const auto time = time_to_touch(neighbour.offset, velocity - neighbour.velocity, neighbour.reach);
     if (!time || *time > kHorizon) continue;
     if (*time > 0.0) {
@@ -33,7 +36,7 @@ double cost_of(Point2 velocity, Point2 desired, const Person& person, std::span<
       cost += neighbour.weight * (1.0 + 3.0 * std::max(0.0, closing + 0.2));
     }
   }
-  if (dot(velocity, velocity) > 1e-6) {
+  if (cost < bound && dot(velocity, velocity) > 1e-6) {
     const double near = floor.clearance(person.position + 0.3 * velocity) - std::min(person.radius, 0.26);
     const double far = floor.clearance(person.position + 0.8 * velocity) - std::min(person.radius, 0.26);
     if (near < 0.0) cost += 4.0;
@@ -68,9 +71,9 @@ Point2 choose_velocity(const Person& person, Point2 desired, std::span<const Nei
     if (!is_threatened) return {};
   }
   Point2 best = desired;
-  double best_cost = cost_of(desired, desired, person, neighbours, floor);
+  double best_cost = cost_of(desired, desired, person, neighbours, floor, std::numeric_limits<double>::infinity());
   const auto consider = [&](Point2 velocity) {
-    const double cost = cost_of(velocity, desired, person, neighbours, floor);
+    const double cost = cost_of(velocity, desired, person, neighbours, floor, best_cost);
     if (cost < best_cost - 1e-9) {
       best_cost = cost;
       best = velocity;

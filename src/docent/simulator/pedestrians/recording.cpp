@@ -163,6 +163,7 @@ Result<Recording> parse_recording(std::string_view text, const std::string& name
   const bool is_edinburgh = text.find("TRACK.") != std::string_view::npos;
   Source source = is_edinburgh ? read_edinburgh(text, name) : read_columns(text, name);
   if (source.fault) return tl::unexpected<Error>(*source.fault);
+  std::erase_if(source.people, [](const auto& one) { return one.second.empty(); });
   double begin = kMostFrames;
   for (auto& [person, seen] : source.people) {
     std::stable_sort(seen.begin(), seen.end(), [](const Sighting& a, const Sighting& b) { return a.frame < b.frame; });

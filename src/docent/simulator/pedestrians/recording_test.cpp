@@ -48,6 +48,11 @@ TEST(Recording, ReadsPixelsOfEdinburghAndSkipsItsProperties) {
   EXPECT_NEAR(track.points.back().y, -0.247, 1e-9);
 }
 
+TEST(Recording, ATrackWithoutSightingsIsNobody) {
+  const auto recording = parse_recording("TRACK.R1=[[100 10 90];[110 10 99]];\nTRACK.R2=[];\nTRACK.acks\n", "e.txt");
+  if (recording) EXPECT_EQ(recording->tracks.size(), 1U);
+}
+
 TEST(Recording, BridgesShortGapsAndCutsAtLongOnes) {
   const auto recording =
       parse_recording("0 1 0 0\n10 1 1 0\n30 1 3 0\n40 1 4 0\n200 1 9 0\n210 1 9.5 0\n900 1 0 0\n", "gaps.txt");
