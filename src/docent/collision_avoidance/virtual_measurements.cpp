@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <numbers>
 
@@ -161,6 +162,7 @@ void VirtualMeasurements::sight(std::span<const WeightedPose> poses) {
 
 double VirtualMeasurements::count(std::span<const WeightedSquare> rest, bool leave_out) {
   double counted = 0.0;
+  rest_bins_.clear();
   for (const auto& square : rest) {
     if (!(square.mass > 0.0)) continue;
     const double half = 0.5 * std::numbers::sqrt2 * square.side;
@@ -170,6 +172,7 @@ double VirtualMeasurements::count(std::span<const WeightedSquare> rest, bool lea
     if (range < 0.0 && leave_out) continue;  // the robot can be nowhere in it
     counted += square.mass;
     const std::uint8_t bin = bin_of(std::max(0.0, range));
+    rest_bins_.push_back({bin, square.mass});
     if (bin > last_limit()) continue;
     for (std::size_t i = 0; i < kDirections; ++i) histogram_[bin * std::size_t{kDirections} + i] += square.mass;
   }
@@ -248,6 +251,43 @@ void VirtualMeasurements::clear_histogram() {
   std::fill_n(histogram_.begin(), static_cast<std::ptrdiff_t>((last_limit() + 1) * kDirections), 0.0);
 }
 
+bool VirtualMeasurements::is_overstated(const Sighting& sighting) const {
+  const std::uint8_t* bins = rows_[sighting.row].bins.data();
+  const std::uint8_t* limits = limits_.data() + (kDirections - sighting.first);
+  bool is_nearer = false;  // no early end: compilers compare many at a time
+  for (int direction = 0; direction < kDirections; ++direction) is_nearer |= bins[direction] < limits[direction];
+  return is_nearer;
+}
+
+void VirtualMeasurements::lower_jointly(double allowed) {
+  const auto lower = [&](std::size_t direction, std::uint8_t bin) {
+    limits_[direction] = limits_[direction + kDirections] = std::min(limits_[direction], bin);
+  };
+  std::vector<Sighting> overstated;
+  std::copy_if(sightings_.begin(), sightings_.end(), std::back_inserter(overstated),
+               [&](const Sighting& sighting) { return is_overstated(sighting); });
+  const auto is_far = [&](const RestBin& rest) { return rest.bin >= last_limit(); };
+  std::erase_if(rest_bins_, is_far);
+  double left = 0.0;
+  for (const Sighting& sighting : overstated) left += sighting.mass;
+  for (const RestBin& rest : rest_bins_) left += rest.mass;
+  const auto is_likelier = [](const auto& a, const auto& b) { return a.mass > b.mass; };
+  std::stable_sort(overstated.begin(), overstated.end(), is_likelier);
+  for (const Sighting& sighting : overstated) {
+    if (left < allowed) return;
+    left -= sighting.mass;
+    const auto& bins = rows_[sighting.row].bins;
+    for (int direction = 0; direction < kDirections; ++direction)
+      lower(static_cast<std::size_t>(wrapped(direction - sighting.first)), bins[static_cast<std::size_t>(direction)]);
+  }
+  std::stable_sort(rest_bins_.begin(), rest_bins_.end(), is_likelier);
+  for (const RestBin& rest : rest_bins_) {
+    if (left < allowed) return;
+    left -= rest.mass;
+    for (std::size_t direction = 0; direction < kDirections; ++direction) lower(direction, rest.bin);
+  }
+}
+
 void VirtualMeasurements::guess_limits() {
   limits_.fill(kBins - 1);
   if (sightings_.size() < kFewPoses) return;
@@ -286,14 +326,16 @@ VirtualMeasurements::Scan VirtualMeasurements::measure(std::span<const WeightedP
   if (leave_out) std::erase_if(sightings_, [&](const Sighting& sighting) { return !rows_[sighting.row].possible; });
 
   guess_limits();
+  double total = 0.0;
   for (bool is_enough = false; !is_enough;) {
     clear_histogram();
-    const double total = count(rest, leave_out) + (leave_out ? possible : all);
+    total = count(rest, leave_out) + (leave_out ? possible : all);
     const bool is_plain = *std::min_element(limits_.begin(), limits_.begin() + kDirections) == kBins - 1;
     for (const auto& sighting : sightings_) is_plain ? count(sighting) : count_within_limits(sighting);
     is_enough = lower_limits((1.0 - params_.confidence) * total);
     if (!is_enough) limits_.fill(kBins - 1);  // the guess was too low somewhere: once more, and everything
   }
+  if (params_.jointly) lower_jointly((1.0 - params_.confidence) * total);
   for (std::size_t i = 0; i < kDirections; ++i) scan.ranges[i] = kBin * limits_[i];
   return scan;
 }

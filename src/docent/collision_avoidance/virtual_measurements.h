@@ -13,6 +13,7 @@ namespace docent {
 
 struct VirtualMeasurementParams {
   double confidence = 0.99;     ///< probability with which a virtual measurement underestimates the true distance
+  bool jointly = true;          ///< in all directions at once; else in each direction by itself, as in the papers
   double cell_padding = 0.05;   ///< [m] the robot may be so far from the centre of its belief cell
   double max_impossible = 0.5;  ///< when more mass than this lies where the robot cannot be, that is believed
   bool best_pose_only = false;  ///< crippled, for evaluation: trusts the likeliest pose
@@ -20,6 +21,7 @@ struct VirtualMeasurementParams {
   template <class V>
   void visit(V& v) {
     v("confidence", confidence);
+    v("jointly", jointly);
     v("cell_padding", cell_padding);
     v("max_impossible", max_impossible);
     v("best_pose_only", best_pose_only);
@@ -61,8 +63,12 @@ class VirtualMeasurements {
     double possible_mass = 0.0;  ///< share of the belief that lies where the robot can be
   };
   /// The largest distances that, with the wanted confidence, underestimate the true ones: o* = sup {o : P(X > o) >
-  /// 0.99}. Poses inside hazards or outside the area are left out, as the robot cannot be there, unless they are most
-  /// of the belief. `rest` counts with its nearest hazard in every direction. An empty belief gives zeros.
+  /// 0.99}. That holds for each direction by itself: another hundredth of the belief may lie nearer in another one, and
+  /// a robot that drives past something passes many directions. So, unless `jointly` is off, they are then lowered
+  /// until all of them underestimate at once with that confidence: the likeliest pose that one of them overstates is
+  /// given its way, then the next, until at most a hundredth is left that is not. What is left are the unlikeliest.
+  /// Poses inside hazards or outside the area are left out, as the robot cannot be there, unless they are most of the
+  /// belief. `rest` counts with its nearest hazard in every direction. An empty belief gives zeros.
   ///
   /// A sample of the poses tells in which bins the hundredth must lie, with room to spare. All poses that see farther
   /// are passed over, sixteen directions at a time, and few get as far as the histogram. Where the hundredth is not
@@ -89,6 +95,11 @@ class VirtualMeasurements {
     std::int32_t first = 0;  ///< the robot's direction i is the map's direction i + first
     double mass = 0.0;
   };
+  /// Mass that may be anywhere in a square and sees something so near, whichever the direction.
+  struct RestBin {
+    std::uint8_t bin = 0;
+    double mass = 0.0;
+  };
   std::uint32_t row_of(Point2 position);
   void sight(std::span<const WeightedPose> poses);
   /// @returns the mass that was counted
@@ -100,6 +111,8 @@ class VirtualMeasurements {
   bool lower_limits(double allowed);
   [[nodiscard]] std::size_t last_limit() const;
   void clear_histogram();  ///< as far as the limits reach
+  [[nodiscard]] bool is_overstated(const Sighting& sighting) const;
+  void lower_jointly(double allowed);
   void fill(Row& row, Point2 position) const;
   void fill_from_outside(Row& row, Point2 position) const;
   [[nodiscard]] double border_distance(Point2 position) const;
@@ -114,6 +127,7 @@ class VirtualMeasurements {
   std::vector<Row> rows_;
   std::unordered_map<std::uint64_t, double> square_ranges_;
   std::vector<Sighting> sightings_;
+  std::vector<RestBin> rest_bins_;
   std::vector<double> histogram_;  ///< [kBins][kDirections] mass; of bins beyond the limits not all
   /// For each of the robot's directions the last bin that still matters; twice in succession, as rows may start
   /// anywhere.

@@ -13,14 +13,17 @@
 namespace docent {
 namespace {
 
-VirtualMeasurements museum() {
+/// @param jointly  false: the same measurements as the plain histogram's
+VirtualMeasurements museum(bool jointly = false) {
   std::vector<Polygon> hazards;
   for (int i = 0; i < 12; ++i) {
     const double x = 3.0 + 7.0 * (i % 4);
     const double y = 3.0 + 9.0 * (i / 4);
     hazards.push_back({{x, y}, {x + 1.5, y}, {x + 1.5, y + 1.0}, {x, y + 1.0}});
   }
-  return {{{0, 0}, {30, 0}, {30, 30}, {0, 30}}, hazards, {}};
+  VirtualMeasurementParams params;
+  params.jointly = jointly;
+  return {{{0, 0}, {30, 0}, {30, 30}, {0, 30}}, hazards, params};
 }
 
 /// A belief of cells with some headings each, row after row as a localizer lists it. broad: all over the museum.
@@ -115,6 +118,11 @@ void virtual_measurements(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(measurements.measure(belief, {}));
   const double time = (computed() - begin) / static_cast<double>(state.iterations());
   state.counters["times_faster"] = plain_time / time;
+  auto joint = museum(true);
+  benchmark::DoNotOptimize(joint.measure(belief, {}));
+  const double begin_jointly = computed();
+  for (int i = 0; i < kRounds; ++i) benchmark::DoNotOptimize(joint.measure(belief, {}));
+  state.counters["jointly_times_faster"] = plain_time * kRounds / (computed() - begin_jointly);
   state.counters["plain_histogram_us"] = 1e6 * plain_time;
   state.counters["evaluations_per_s"] = static_cast<double>(belief.size()) * VirtualMeasurements::kDirections / time;
 }

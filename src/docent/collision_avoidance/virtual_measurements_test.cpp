@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -22,6 +24,12 @@ double true_range(Point2 position, double bearing) {
     }
   }
   return least;
+}
+/// The rule of the papers: each direction by itself.
+VirtualMeasurements each_direction() {
+  VirtualMeasurementParams params;
+  params.jointly = false;
+  return {kArea, {kPlate}, params};
 }
 double bearing_of(int direction) { return (2.0 * direction - 180.0) * kPi / 180.0; }
 
@@ -76,7 +84,7 @@ double quantile(std::vector<std::pair<double, double>> distance_and_mass) {
 TEST(VirtualMeasurements, NinetyNinePercentRuleAgreesWithASlowTwin) {
   Rng rng{9};
   for (int round = 0; round < 10; ++round) {
-    VirtualMeasurements measurements{kArea, {kPlate}, {}};
+    VirtualMeasurements measurements = each_direction();
     const Point2 middle{rng.uniform(1, 3), rng.uniform(1, 7)};
     std::vector<WeightedPose> belief;
     for (int i = 0; i < 400; ++i) {
@@ -119,7 +127,7 @@ std::array<double, 180> plain_histogram(VirtualMeasurements& measurements, const
 }
 
 TEST(VirtualMeasurements, PassOverNothingThatMatters) {
-  VirtualMeasurements measurements{kArea, {kPlate}, {}};
+  VirtualMeasurements measurements = each_direction();
   for (std::uint64_t seed = 0; seed < 24; ++seed) {
     Rng rng{seed};
     std::vector<WeightedPose> belief;
@@ -138,6 +146,48 @@ TEST(VirtualMeasurements, PassOverNothingThatMatters) {
     const auto ranges = measurements.measure(belief, {}).ranges;
     for (std::size_t i = 0; i < 180; ++i) ASSERT_DOUBLE_EQ(ranges[i], wanted[i]) << "seed " << seed << " at " << i;
   }
+}
+
+TEST(VirtualMeasurements, AllDirectionsUnderestimateAtOnce) {
+  VirtualMeasurements alone = each_direction();
+  VirtualMeasurements together{kArea, {kPlate}, {}};
+  int alone_over = 0;
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    Rng rng{seed};
+    const double spread = std::array{0.05, 0.3, 1.0}[seed % 3];
+    const Point2 centre{rng.uniform(1, 3), rng.uniform(1, 7)};
+    std::vector<WeightedPose> belief;
+    double total = 0.0;
+    for (int i = 0; i < 600; ++i) {
+      const Point2 at{centre.x + rng.normal(0.0, spread), centre.y + rng.normal(0.0, spread)};
+      if (!together.is_possible(at)) continue;
+      belief.push_back({at, rng.normal(0.3, 0.2), std::exp(rng.normal(0.0, 1.0))});
+      total += belief.back().mass;
+    }
+    const std::vector<WeightedSquare> rest{{{8.0, 1.0}, 0.5, 0.004 * total}, {{8.0, 4.0}, 0.5, 0.002 * total}};
+    const auto mass_overstated = [&](VirtualMeasurements& measurements) {
+      const auto ranges = measurements.measure(belief, rest).ranges;
+      const double longest = *std::max_element(ranges.begin(), ranges.end());
+      double over = 0.0;
+      for (const auto& pose : belief) {
+        const auto seen = alone.measure({&pose, 1}, {}).ranges;
+        bool is_over = false;
+        for (std::size_t i = 0; i < 180; ++i) is_over = is_over || ranges[i] > seen[i] + 1e-9;
+        over += is_over ? pose.mass : 0.0;
+      }
+      for (const auto& square : rest) {
+        const double seen = alone.nearest(square.centre) - 0.5 * std::sqrt(2.0) * square.side;
+        over += longest > seen + 0.05 ? square.mass : 0.0;
+      }
+      return over / (1.006 * total);
+    };
+    EXPECT_LE(mass_overstated(together), 0.01 + 1e-9) << "seed " << seed;
+    alone_over += mass_overstated(alone) > 0.01 ? 1 : 0;
+    const auto careful = together.measure(belief, rest).ranges;
+    const auto plain = alone.measure(belief, rest).ranges;
+    for (std::size_t i = 0; i < 180; ++i) EXPECT_LE(careful[i], plain[i]) << "seed " << seed << " direction " << i;
+  }
+  EXPECT_GE(alone_over, 20) << "each direction by itself leaves more than a hundredth";
 }
 
 TEST(VirtualMeasurements, TheWholeBeliefCountsNotTheBestPoseAlone) {

@@ -49,8 +49,10 @@ TEST(Recording, ReadsPixelsOfEdinburghAndSkipsItsProperties) {
 }
 
 TEST(Recording, ATrackWithoutSightingsIsNobody) {
-  const auto recording = parse_recording("TRACK.R1=[[100 10 90];[110 10 99]];\nTRACK.R2=[];\nTRACK.acks\n", "e.txt");
-  if (recording) EXPECT_EQ(recording->tracks.size(), 1U);
+  EXPECT_EQ(fault_of("TRACK.acks\n"), "people.txt: nobody was seen twice");
+  const auto recording = parse_recording("TRACK.R1=[[1 2 9];[1 2 18]];\nTRACK.acks\n", "e.txt");
+  ASSERT_TRUE(recording) << recording.error().message;
+  EXPECT_EQ(recording->tracks.size(), 1U);
 }
 
 TEST(Recording, BridgesShortGapsAndCutsAtLongOnes) {
