@@ -176,7 +176,7 @@ int changes_of_side(bool hold) {
     for (int column = 60; column < 100; ++column) hall.cells[hall.frame.index({column, row})] = 100;
   RouteParams params;
   params.obstacle_comfort = params.obstacle_margin;  // what stands beside a way is no reason to leave it
-  params.obstacle_cost = 1.3;  // noise; what really blocks the way held is a reason to leave it
+  params.obstacle_cost = 1.3;                        // noise; what really blocks the way held is a reason to leave it
   RoutePlanner planner{hall, {}, {}, params};
   planner.set_goal({7, 4}, 0.2);
   Rng rng{7};
