@@ -150,13 +150,15 @@ void ValueIteration::aim_at(std::optional<CellIndex> cell) {
 
 /// No way from the cell to any of the tile's is cheaper: over the cheapest floor, as the crow flies on a grid.
 float ValueIteration::least_cost_to(CellIndex cell, std::size_t tile) const {
-  constexpr float kRounding = 0.98F;  // what sums below farthest() may round away, and more
+  // Less by what sums below farthest() may round away; and by more, so that of tiles that lie on ways of equal cost
+  // those nearer to a goal come first.
+  constexpr float kShare = 0.9F;
   const auto away = [](int at, int first) { return std::max({first - at, at - (first + kLast), 0}); };
   const int columns = away(cell.column, static_cast<int>(tile) % tile_columns_ * kTileSide);
   const int rows = away(cell.row, static_cast<int>(tile) / tile_columns_ * kTileSide);
   const auto aslant = static_cast<float>(std::min(columns, rows));
   const auto straight = static_cast<float>(std::max(columns, rows)) - aslant;
-  return columns == 0 && rows == 0 ? 0.0F : kRounding * least_cost_ * (straight + aslant * kDiagonalStep);
+  return columns == 0 && rows == 0 ? 0.0F : kShare * least_cost_ * (straight + aslant * kDiagonalStep);
 }
 void ValueIteration::set_costs(std::span<const float> costs) {
   DOCENT_CHECK(costs.size() == frame_.size());
@@ -347,22 +349,27 @@ bool ValueIteration::knows_the_way(CellIndex cell) const {
     const float there = *std::min_element(of_tile.begin(), of_tile.end());
     least = std::min(least, least_cost_to(cell, tile) + there);
   }
-  return least > 0.6F * value(cell);
+  return least > 0.7F * value(cell);
 }
 
 /// Offers that may go into repairing, so that with a start over behind it the work stays below that of a start from
-/// nothing: half of what a start over spares, the tiles that keep their values and those well beyond the robot.
+/// nothing: half of what a start over spares, the tiles that keep their values and those well beyond the robot; of
+/// those that lie off its way a quarter.
 std::uint64_t ValueIteration::worth_repairing(const Repair& repair) const {
+  constexpr std::uint64_t kOneReset = 2;              // [tiles' work] by which the last one may exceed it
   const float beyond = 1.15F * value(repair.wanted);  // too small perhaps, never too large
   const float sound_below = losses_.top().first;
-  std::uint64_t spared = 0;
+  std::uint64_t quarters = 0;  // of the work of a tile
   for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
-    if (tiles_[tile].is_blank) continue;
-    const float from = tiles_[tile].least + (repair.is_straight ? least_cost_to(repair.wanted, tile) : 0.0F);
-    spared += tiles_[tile].most < sound_below || from > beyond ? 1 : 0;
+    const Tile& here = tiles_[tile];
+    if (here.is_blank) continue;
+    if (here.most < sound_below || here.least > beyond) {
+      quarters += 2;
+    } else if (repair.is_straight && here.least + least_cost_to(repair.wanted, tile) > beyond) {
+      quarters += 1;
+    }
   }
-  constexpr std::uint64_t kOneReset = 2;  // [tiles' work] by which the last one may exceed it
-  const std::uint64_t most = spared * work_a_tile_ / 2;
+  const std::uint64_t most = quarters * work_a_tile_ / 4;
   return most - std::min(most, kOneReset * work_a_tile_);
 }
 
