@@ -397,7 +397,7 @@ void full_solve_and_replanning(benchmark::State& state) {
       " Replanning until the robot's value is exact, as shares of our own full solve of the same map. Cases: on\n");
   std::printf(" each map %d random places of the robot with a way of 60 cells and more, and for each an obstacle of\n",
               obstacles);
-  std::printf(" 1 x 1 m at a random place of its way, at least 15 cells from both ends; no case is left out\n");
+  std::printf(" 1 x 1 m at a random place of its way, at least 15 cells from both ends\n");
   std::printf("  %-8s %6s %9s %9s  %29s  %29s\n", "map", "cases", "ms", "plans/s", "time: median, p99, most",
               "offers: median, p99, most");
   for (std::size_t kind = 0; kind < kBuildings.size(); ++kind)
