@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <queue>
+#include <utility>
 
 namespace docent {
 
@@ -22,6 +24,7 @@ Result<void> RouteParams::validate() const {
   if (!(lane_width >= 0.0)) return fail("lane_width must be >= 0");
   if (!(lane_cost >= 0.0)) return fail("lane_cost must be >= 0");
   if (!(switch_gain >= 0.0)) return fail("switch_gain must be >= 0");
+  if (!(aside >= 0.0)) return fail("aside must be >= 0");
   return {};
 }
 
@@ -259,13 +262,72 @@ std::size_t RoutePlanner::nearest_held(Point2 start) const {
   return best;
 }
 
-double RoutePlanner::cost_held(std::size_t first) const {
-  auto cost = static_cast<double>(planner_.value(held_.back()));
-  for (std::size_t i = first + 1; i < held_.size(); ++i) {
-    const bool aslant = held_[i].column != held_[i - 1].column && held_[i].row != held_[i - 1].row;
-    cost += static_cast<double>(planner_.cost(held_[i])) * (aslant ? std::numbers::sqrt2 : 1.0);
+/// Of a way that ends at a goal, as its values would be. `unmoved` by whom it passes at a distance: only who stands in
+/// the way costs anything then.
+double RoutePlanner::cost_of(std::span<const CellIndex> way, bool unmoved) const {
+  auto cost = static_cast<double>(planner_.value(way.back()));
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    const bool aslant = way[i].column != way[i - 1].column && way[i].row != way[i - 1].row;
+    const float near = near_factors_.empty() ? 1.0F : near_factors_[planner_.frame().index(way[i])];
+    const float counts = unmoved && near < static_cast<float>(params_.obstacle_cost) ? near : 1.0F;
+    cost += static_cast<double>(planner_.cost(way[i]) / counts) * (aslant ? std::numbers::sqrt2 : 1.0);
   }
   return cost;
+}
+
+/// [rows * columns] true within `aside` of the way held as it was when it was chosen: steps aside do not add up.
+std::vector<bool> RoutePlanner::beside_chosen() const {
+  const GridFrame& frame = planner_.frame();
+  const int reach = static_cast<int>(params_.aside / frame.resolution);
+  std::vector<bool> cells(frame.size(), false);
+  for (const CellIndex& at : chosen_) {
+    for (int row = -reach; row <= reach; ++row) {
+      for (int column = -reach; column <= reach; ++column) {
+        const CellIndex cell{at.column + column, at.row + row};
+        if (column * column + row * row <= reach * reach && frame.holds(cell)) cells[frame.index(cell)] = true;
+      }
+    }
+  }
+  return cells;
+}
+
+/// The best way from `start` to a goal that does not leave these cells, by Dijkstra's algorithm; empty: none.
+std::vector<CellIndex> RoutePlanner::best_within(const std::vector<bool>& cells, CellIndex start) const {
+  using Entry = std::pair<double, std::size_t>;
+  const GridFrame& frame = planner_.frame();
+  const auto cell_of = [&](std::size_t i) {
+    return CellIndex{static_cast<int>(i) % frame.columns, static_cast<int>(i) / frame.columns};
+  };
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  std::vector<double> costs(cells.size(), std::numeric_limits<double>::infinity());
+  std::vector<std::size_t> next(cells.size(), cells.size());
+  const auto offer = [&](std::size_t to, double cost, std::size_t from) {
+    if (!cells[to] || !(cost < costs[to])) return;
+    costs[to] = cost;
+    next[to] = from;
+    queue.emplace(cost, to);
+  };
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    if (cells[i] && planner_.is_goal(cell_of(i))) offer(i, static_cast<double>(planner_.value(cell_of(i))), i);
+  while (!queue.empty() && queue.top().second != frame.index(start)) {
+    const auto [cost, at] = queue.top();
+    queue.pop();
+    if (cost > costs[at]) continue;
+    const auto step = static_cast<double>(planner_.cost(cell_of(at)));
+    for (int row = -1; row <= 1; ++row) {
+      for (int column = -1; column <= 1; ++column) {
+        const CellIndex beside{cell_of(at).column + column, cell_of(at).row + row};
+        const double length = row != 0 && column != 0 ? std::numbers::sqrt2 : 1.0;
+        if (frame.holds(beside)) offer(frame.index(beside), cost + length * step, at);
+      }
+    }
+  }
+  std::vector<CellIndex> way;
+  if (queue.empty()) return way;
+  std::size_t at = frame.index(start);
+  for (; next[at] != at; at = next[at]) way.push_back(cell_of(at));
+  way.push_back(cell_of(at));
+  return way;
 }
 
 std::vector<CellIndex> RoutePlanner::cells_from(Point2 start) const {
@@ -284,11 +346,17 @@ void RoutePlanner::hold_way(Point2 start) {
   const std::size_t first = nearest_held(start);
   if (cell && first < held_.size()) {
     held_.erase(held_.begin(), held_.begin() + static_cast<std::ptrdiff_t>(first));
-    const auto best = static_cast<double>(planner_.value(*cell));
-    if (cost_held(0) <= (1.0 + params_.switch_gain) * best + planner_.frame().resolution) return;
+    const double most = (1.0 + params_.switch_gain) * static_cast<double>(planner_.value(*cell));
+    if (cost_of(held_, false) <= most + planner_.frame().resolution) return;
+    auto aside = best_within(beside_chosen(), *cell);
+    if (!aside.empty() && cost_of(aside, true) <= most + params_.aside) {
+      held_ = std::move(aside);
+      return;
+    }
   }
   held_.clear();
   if (cell) held_ = cells_from(start);
+  chosen_ = held_;
 }
 
 std::vector<Point2> RoutePlanner::way(Point2 start) const {

@@ -28,6 +28,7 @@ struct RouteParams {
   double lane_width = 0.6;             ///< [m] of the lane round a preferred way
   double lane_cost = 2.0;              ///< extra cost, as a factor, a metre and more beside the lane
   double switch_gain = 0.10;           ///< share of its cost by which another way must be better than the one held
+  double aside = 1.2;                  ///< [m] from the way held: within it a step aside is no other way
   template <class V>
   void visit(V& v) {
     v("coarsening", coarsening);
@@ -45,6 +46,7 @@ struct RouteParams {
     v("lane_width", lane_width);
     v("lane_cost", lane_cost);
     v("switch_gain", switch_gain);
+    v("aside", aside);
   }
   [[nodiscard]] Result<void> validate() const;
 };
@@ -77,6 +79,8 @@ class RoutePlanner {
 
   /// Decides which way to follow from `start`: the one held, as long as it leads on from here and no other is better by
   /// `switch_gain`. So two ways that cost the same do not take turns when noise favours now the one and now the other.
+  /// Who stands on it is passed within `aside` of it, where there is room and that is hardly longer; what closes it, or
+  /// what cannot be passed there, makes it as dear as it is.
   void hold_way(Point2 start);
 
   /// The way from `start` (map) to the goal, along the one held where there is one: points some centimetres apart,
@@ -100,7 +104,9 @@ class RoutePlanner {
   void apply_obstacles(CellIndex low, CellIndex high);
   [[nodiscard]] bool sees(Point2 from, Point2 to, float most_cost) const;
   [[nodiscard]] std::size_t nearest_held(Point2 start) const;
-  [[nodiscard]] double cost_held(std::size_t first) const;
+  [[nodiscard]] double cost_of(std::span<const CellIndex> way, bool unmoved) const;
+  [[nodiscard]] std::vector<bool> beside_chosen() const;
+  [[nodiscard]] std::vector<CellIndex> best_within(const std::vector<bool>& cells, CellIndex start) const;
   [[nodiscard]] std::vector<CellIndex> cells_from(Point2 start) const;
 
   RouteParams params_;
@@ -112,6 +118,7 @@ class RoutePlanner {
   std::vector<bool> obstacles_;      ///< [rows * columns] as last set
   std::vector<bool> settled_;        ///< [rows * columns] as last set
   std::vector<CellIndex> held_;      ///< the way that is followed, to a goal
+  std::vector<CellIndex> chosen_;    ///< the same before any step aside
 };
 
 }  // namespace docent

@@ -231,6 +231,100 @@ TEST(RoutePlanner, DoesNotTakeTurnsBetweenEqualWays) {
   EXPECT_EQ(changes_of_side(true), 0);
 }
 
+/// A hall with a block of 2 x 2 m in its middle, and the way from its left to its right: below the block or above it.
+class TwoEqualWays {
+ public:
+  explicit TwoEqualWays(RouteParams params) : planner_{hall(), {}, {}, params} {
+    planner_.set_goal({7, 4}, 0.2);
+    EXPECT_TRUE(planner_.settle(kStart, 10000));
+    planner_.hold_way(kStart);
+  }
+  /// Discs of a person's size, and a wall from one to another point.
+  void see(std::span<const Point2> people, Point2 from = {}, Point2 to = {}) {
+    const GridFrame& frame = planner_.frame();
+    std::vector<bool> obstacles(frame.size());
+    for (int row = 0; row < frame.rows; ++row)
+      for (int column = 0; column < frame.columns; ++column)
+        for (const Point2& person : people)
+          if (distance(frame.centre({column, row}), person) <= 0.25) obstacles[frame.index({column, row})] = true;
+    for (double along = 0.0; along < distance(from, to); along += 0.05)
+      obstacles[frame.index(frame.cell_at(from + (along / distance(from, to)) * (to - from)))] = true;
+    planner_.set_obstacles(obstacles);
+    EXPECT_TRUE(planner_.settle(kStart, 10000));
+    planner_.hold_way(kStart);
+  }
+  [[nodiscard]] bool is_above() const {
+    double most = 0.0;
+    for (const Point2& point : planner_.way(kStart))
+      if (std::abs(point.y - 4.0) > std::abs(most)) most = point.y - 4.0;
+    return most > 0.0;
+  }
+  [[nodiscard]] std::vector<Point2> way() const { return planner_.way(kStart); }
+
+ private:
+  static constexpr Point2 kStart{1, 4};
+  static OccupancyGrid hall() {
+    OccupancyGrid map;
+    map.frame = {160, 160, 0.05, {0, 0}};
+    map.cells.assign(map.frame.size(), 0);
+    for (int row = 60; row < 100; ++row)
+      for (int column = 60; column < 100; ++column) map.cells[map.frame.index({column, row})] = 100;
+    return map;
+  }
+  RoutePlanner planner_;
+};
+
+/// Changes of side while somebody walks to and fro over the way that is held, as he likes.
+int changes_while_somebody_walks(std::uint64_t seed, RouteParams params) {
+  Rng rng{seed};
+  TwoEqualWays ways{params};
+  bool was_above = ways.is_above();
+  int changes = 0;
+  Point2 person{};
+  Point2 wanted{};
+  for (int step = 0; step < 40; ++step) {
+    const std::vector<Point2> way = ways.way();
+    if (step == 0 || distance(person, wanted) < 0.3) {
+      const Point2 on_way = way[static_cast<std::size_t>(
+          rng.integer(static_cast<std::int64_t>(way.size()) / 5, static_cast<std::int64_t>(way.size()) * 4 / 5))];
+      wanted = on_way + rng.uniform(0.0, 1.5) * unit(Angle::radians(rng.uniform(0.0, 6.283)));
+      if (step == 0) person = wanted;
+    }
+    const double left = distance(person, wanted);
+    if (left > 0.0) person = person + (std::min(left, 0.3) / left) * (wanted - person);
+    ways.see({&person, 1});
+    changes += ways.is_above() != was_above ? 1 : 0;
+    was_above = ways.is_above();
+  }
+  return changes;
+}
+
+TEST(RoutePlanner, SomebodyWhoWalksOverTheWayHeldDoesNotChangeIt) {
+  RouteParams exactly;
+  exactly.aside = 0.0;
+  int changes = 0;
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    EXPECT_EQ(changes_while_somebody_walks(seed, {}), 0) << "seed " << seed;
+    changes += changes_while_somebody_walks(seed, exactly);
+  }
+  EXPECT_GE(changes, 30) << "nobody was in the way";
+}
+
+TEST(RoutePlanner, AClosureChangesTheWayHeldOnceAndForAll) {
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    Rng rng{seed};
+    TwoEqualWays ways{{}};
+    const bool above = ways.is_above();
+    const double x = rng.uniform(3.0, 5.0);
+    const Point2 from{x, above ? 4.9 : 0.0};
+    const Point2 to{x, above ? 7.99 : 3.1};
+    ways.see({}, from, to);
+    EXPECT_NE(ways.is_above(), above) << "seed " << seed;
+    ways.see({});
+    EXPECT_NE(ways.is_above(), above) << "it does not turn back when the wall has gone, seed " << seed;
+  }
+}
+
 TEST(RoutePlanner, GivesUpTheWayHeldForOneThatIsClearlyBetter) {
   OccupancyGrid hall;
   hall.frame = {160, 160, 0.05, {0, 0}};

@@ -47,6 +47,7 @@ ValueIteration::ValueIteration(const GridFrame& frame, InstructionSet set)
   values_.assign(tiles * kTileCells, kClosed);
   tiles_.resize(tiles);
   edges_.resize(tiles);
+  to_tile_.assign(tiles, 0.0F);
   for (Edges& edges : edges_) {
     for (Edge& edge : edges.values) edge.fill(kClosed);
     for (Edge& edge : edges.costs) edge.fill(kClosed);
@@ -118,7 +119,7 @@ void ValueIteration::copy_edges(std::size_t tile) {
 void ValueIteration::queue_fall(std::size_t tile, float from) {
   if (!(from < tiles_[tile].falls_from)) return;
   tiles_[tile].falls_from = from;
-  falls_.emplace(from, static_cast<std::uint32_t>(tile));
+  falls_.emplace(from + to_tile_[tile], static_cast<std::uint32_t>(tile));
 }
 void ValueIteration::queue_loss(std::size_t tile, float from, std::uint64_t rows) {
   tiles_[tile].lost_rows |= rows;
@@ -130,8 +131,34 @@ void ValueIteration::queue_loss(std::size_t tile, float from, std::uint64_t rows
 void ValueIteration::settle_next() {
   const std::size_t tile = falls_.top().second;
   tiles_[tile].falls_from = kClosed;
-  while (!falls_.empty() && falls_.top().first != tiles_[falls_.top().second].falls_from) falls_.pop();
+  const auto is_stale = [this](const auto& entry) {
+    return entry.first != tiles_[entry.second].falls_from + to_tile_[entry.second];
+  };
+  while (!falls_.empty() && is_stale(falls_.top())) falls_.pop();
   settle_tile(tile);
+}
+
+void ValueIteration::aim_at(std::optional<CellIndex> cell) {
+  if (cell == aim_) return;
+  aim_ = cell;
+  falls_ = {};
+  for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
+    to_tile_[tile] = cell ? least_cost_to(*cell, tile) : 0.0F;
+    queue_fall(tile, std::exchange(tiles_[tile].falls_from, kClosed));
+  }
+}
+
+/// No way from the cell to any of the tile's is cheaper: over the cheapest floor, as the crow flies on a grid.
+float ValueIteration::least_cost_to(CellIndex cell, std::size_t tile) const {
+  // Less by what sums below farthest() may round away; and by more, so that of tiles that lie on ways of equal cost
+  // those nearer to a goal come first.
+  constexpr float kShare = 0.9F;
+  const auto away = [](int at, int first) { return std::max({first - at, at - (first + kLast), 0}); };
+  const int columns = away(cell.column, static_cast<int>(tile) % tile_columns_ * kTileSide);
+  const int rows = away(cell.row, static_cast<int>(tile) / tile_columns_ * kTileSide);
+  const auto aslant = static_cast<float>(std::min(columns, rows));
+  const auto straight = static_cast<float>(std::max(columns, rows)) - aslant;
+  return columns == 0 && rows == 0 ? 0.0F : kShare * least_cost_ * (straight + aslant * kDiagonalStep);
 }
 void ValueIteration::set_costs(std::span<const float> costs) {
   DOCENT_CHECK(costs.size() == frame_.size());
@@ -151,6 +178,7 @@ void ValueIteration::change_costs(std::span<const Change> changes) {
     const std::size_t at = index(change.cell);
     const std::size_t tile = tile_of(change.cell);
     const float old = std::exchange(costs_[at], change.cost);
+    least_cost_ = std::min(least_cost_, change.cost);
     const int row = change.cell.row % kTileSide;
     const int column = change.cell.column % kTileSide;
     auto& edges = edges_[tile].costs;
@@ -199,6 +227,7 @@ void ValueIteration::set_goals(std::span<const Goal> goals) {
 
 bool ValueIteration::iterate(int most_visits) {
   if (is_settled()) return true;
+  aim_at(std::nullopt);
   for (int i = 0; i < most_visits && !is_settled(); ++i) {
     if (!losses_.empty()) {
       reset_and_tell(losses_.top().second);
@@ -215,15 +244,16 @@ bool ValueIteration::iterate(int most_visits) {
 }
 
 bool ValueIteration::settle(CellIndex cell, int most_visits) {
-  // A value is final when nothing that falls can be less and when a chain of cells, each less than the one before and
+  // A value is final when nothing that falls can lower it and when a chain of cells, each less than the one before and
   // holding it up, leads from it to where all values are sound. Values that have lost their ground elsewhere do not
-  // matter: they are too small, so they would have been gone to. Where the chain breaks, that tile is done anew.
+  // matter: they are too small, so they would have been gone to. Where the chain breaks, it is repaired.
+  aim_at(std::nullopt);
   std::vector<CellIndex> chain{cell};
-  std::vector<bool> under_repair(tiles_.size());
-  const std::uint64_t began = relaxations_;
+  Repair repair{cell, std::vector<bool>(tiles_.size()), relaxations_};
   for (;;) {
-    while (!falls_.empty() && falls_.top().first < value(cell)) {
+    while (!falls_.empty() && (falls_.top().first < value(cell) || value(cell) > farthest())) {
       if (most_visits-- <= 0) return false;
+      if (!is_worth_it(repair)) start_over(repair);
       settle_next();
       chain = {cell};
     }
@@ -233,19 +263,58 @@ bool ValueIteration::settle(CellIndex cell, int most_visits) {
       chain.push_back(*next);
       continue;
     }
-    if (most_visits-- <= 0) return false;
-    if (relaxations_ - began >= worth_repairing(value(cell))) {
-      const float sound = losses_.top().first;
-      // To go on from next to nothing costs more than to begin with nothing, where no work is lost.
-      start_over_above(relaxations_ == began && sound_share(sound) < 0.15 ? 0.0F : sound);
-      chain = {cell};
-      continue;
-    }
-    const std::size_t tile = tile_of(last);
-    reset_with(tile, under_repair);
-    const auto first = std::find_if(chain.begin(), chain.end(), [&](CellIndex c) { return under_repair[tile_of(c)]; });
-    chain.erase(std::max(first, chain.begin() + 1), chain.end());
+    if (most_visits <= 0) return false;
+    repair.is_straight = knows_the_way(cell);
+    repair.most = worth_repairing(repair);
+    widen(repair, chain);
+    most_visits -= reset_all(repair);
+    if (!is_worth_it(repair)) start_over(repair);
+    chain = {cell};
   }
+}
+
+bool ValueIteration::is_worth_it(const Repair& repair) const {
+  return losses_.empty() || relaxations_ - repair.began < repair.most;
+}
+
+/// Takes in the tiles near a broken chain. The farther round it the more often it broke before: tiles that are reset
+/// take what falls from those beside them, and if that has lost its ground as well, they must be reset once more.
+void ValueIteration::widen(Repair& repair, std::span<const CellIndex> chain) const {
+  const auto tile_at = [](int at, int count) { return std::clamp(at, 0, count - 1) / kTileSide; };
+  for (const CellIndex cell : chain) {
+    const int right = tile_at(cell.column + repair.reach, frame_.columns);
+    const int top = tile_at(cell.row + repair.reach, frame_.rows);
+    for (int row = tile_at(cell.row - repair.reach, frame_.rows); row <= top; ++row)
+      for (int column = tile_at(cell.column - repair.reach, frame_.columns); column <= right; ++column)
+        repair.takes_in[static_cast<std::size_t>(row * tile_columns_ + column)] = true;
+  }
+  if (++repair.rounds % 2 == 0) repair.reach = std::min(2 * repair.reach, 64 * kTileSide);
+}
+
+/// Resets what has lost its ground in the tiles of a repair, the least values first, for as long as it is worth it.
+/// @returns how many tiles were visited
+int ValueIteration::reset_all(const Repair& repair) {
+  Queue lost;
+  const auto enter = [&](std::size_t tile) {
+    if (repair.takes_in[tile] && tiles_[tile].lost_from < kClosed)
+      lost.emplace(tiles_[tile].lost_from, static_cast<std::uint32_t>(tile));
+  };
+  for (std::size_t tile = 0; tile < tiles_.size(); ++tile) enter(tile);
+  int visits = 0;
+  while (!lost.empty() && is_worth_it(repair)) {
+    const auto [from, tile] = lost.top();
+    lost.pop();
+    if (from != tiles_[tile].lost_from) continue;
+    reset_and_tell(tile);
+    ++visits;
+    for (const int rows : {-1, 0, 1}) {
+      for (const int columns : {-1, 0, 1}) {
+        const std::ptrdiff_t beside = neighbour(tile, columns, rows);
+        if (beside >= 0) enter(static_cast<std::size_t>(beside));
+      }
+    }
+  }
+  return visits;
 }
 
 /// The neighbour that holds up a cell's value; none if it has lost its ground.
@@ -272,16 +341,35 @@ std::optional<CellIndex> ValueIteration::support_of(CellIndex cell) const {
   return least <= held ? best : std::nullopt;
 }
 
+/// Whether the cheapest floor straight to a goal says something about the way there: not so in a maze, where looking
+/// that way first means to look often.
+bool ValueIteration::knows_the_way(CellIndex cell) const {
+  float least = kClosed;
+  for (const auto& [tile, of_tile] : goals_) {
+    const float there = *std::min_element(of_tile.begin(), of_tile.end());
+    least = std::min(least, least_cost_to(cell, tile) + there);
+  }
+  return least > 0.7F * value(cell);
+}
+
 /// Offers that may go into repairing, so that with a start over behind it the work stays below that of a start from
-/// nothing: half of what a start over spares, the tiles that keep their values and those well beyond the robot.
-/// @param value_of_robot  too small perhaps, never too large: it rises as the repair goes on
-std::uint64_t ValueIteration::worth_repairing(float value_of_robot) const {
+/// nothing: half of what a start over spares, the tiles that keep their values and those well beyond the robot; of
+/// those that lie off its way a quarter.
+std::uint64_t ValueIteration::worth_repairing(const Repair& repair) const {
+  constexpr std::uint64_t kOneReset = 2;              // [tiles' work] by which the last one may exceed it
+  const float beyond = 1.15F * value(repair.wanted);  // too small perhaps, never too large
   const float sound_below = losses_.top().first;
-  const auto spared = std::count_if(tiles_.begin(), tiles_.end(), [&](const Tile& tile) {
-    return !tile.is_blank && (tile.most < sound_below || tile.least > 1.15F * value_of_robot);
-  });
-  constexpr std::uint64_t kOneReset = 2;  // [tiles' work] by which the last one may exceed it
-  const std::uint64_t most = static_cast<std::uint64_t>(spared) * work_a_tile_ / 2;
+  std::uint64_t quarters = 0;  // of the work of a tile
+  for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
+    const Tile& here = tiles_[tile];
+    if (here.is_blank) continue;
+    if (here.most < sound_below || here.least > beyond) {
+      quarters += 2;
+    } else if (repair.is_straight && here.least + least_cost_to(repair.wanted, tile) > beyond) {
+      quarters += 1;
+    }
+  }
+  const std::uint64_t most = quarters * work_a_tile_ / 4;
   return most - std::min(most, kOneReset * work_a_tile_);
 }
 
@@ -294,6 +382,13 @@ double ValueIteration::sound_share(float sound) const {
     kept += !tile.is_blank && tile.most < sound ? 1 : 0;
   }
   return known == 0 ? 0.0 : static_cast<double>(kept) / static_cast<double>(known);
+}
+
+/// To go on from next to nothing costs more than to begin with nothing, where no work is lost.
+void ValueIteration::start_over(const Repair& repair) {
+  const float sound = losses_.top().first;
+  if (repair.is_straight) aim_at(repair.wanted);
+  start_over_above(relaxations_ == repair.began && sound_share(sound) < 0.15 ? 0.0F : sound);
 }
 
 /// Forgets all tiles but those whose values are all less than `sound`.
@@ -453,29 +548,32 @@ void ValueIteration::reset_and_tell(std::size_t tile) {
   const float from = tiles_[tile].lost_from;
   const std::array<Edge, 4> before = edges_[tile].values;
   if (!reset_tile(tile)) return;
-  copy_edges(tile);
+  if (!tiles_[tile].is_blank) copy_edges(tile);
   pass_on_losses(tile, before);
   queue_fall(tile, from);
 }
 
-/// Resets a tile, and of those `under_repair` whatever leaned on what was reset: together, or they would hold each
-/// other up. The others are marked only.
-void ValueIteration::reset_with(std::size_t tile, std::vector<bool>& under_repair) {
-  under_repair[tile] = true;
-  std::vector<std::size_t> to_do{tile};
-  while (!to_do.empty()) {
-    const std::size_t next = to_do.back();
-    to_do.pop_back();
-    if (tiles_[next].lost_from == kClosed) continue;
-    reset_and_tell(next);
-    for (const int rows : {-1, 0, 1}) {
-      for (const int columns : {-1, 0, 1}) {
-        const std::ptrdiff_t beside = neighbour(next, columns, rows);
-        if (beside >= 0 && under_repair[static_cast<std::size_t>(beside)])
-          to_do.push_back(static_cast<std::size_t>(beside));
-      }
+/// Whether anything outside a tile without goals holds up any of its values. @pre scratch_.support is that of the tile
+bool ValueIteration::is_held_up(std::size_t tile) const {
+  const float* const values = values_.data() + tile * kTileCells;
+  for (const Side side : kSides) {
+    for (int k = 0; k < kTileSide; ++k) {
+      const std::size_t at = on_side(side, k);
+      if (values[at] < kClosed && scratch_.support[at] <= values[at]) return true;
     }
   }
+  return false;
+}
+
+/// Forgets a tile without goals.
+void ValueIteration::blank(std::size_t tile) {
+  Tile& blank = tiles_[tile];
+  blank.is_blank = true;
+  blank.least = kClosed;
+  blank.most = 0.0F;
+  blank.lost_rows = 0;
+  blank.stirred = {};
+  for (Edge& edge : edges_[tile].values) edge.fill(kClosed);
 }
 
 /// Step (4) in one tile. @returns whether any value was reset.
@@ -491,6 +589,10 @@ bool ValueIteration::reset_tile(std::size_t tile) {
   std::copy_n(goals, kTileCells, support);
   for_offers_into(tile, true, [&](std::size_t at, float offer, Side) { support[at] = std::min(support[at], offer); });
 
+  if (!has_goals && !is_held_up(tile)) {
+    blank(tile);
+    return true;
+  }
   // A line must be looked at when it or one beside it has lost something; along the other axis likewise.
   Stirred& stirred = tiles_[tile].stirred;
   std::uint64_t lines = std::exchange(tiles_[tile].lost_rows, 0);

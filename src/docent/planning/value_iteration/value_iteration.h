@@ -106,12 +106,29 @@ class ValueIteration {
     AlignedVector<float> goals{AlignedVector<float>(kTileCells)};
   };
 
+  /// What one call of `settle` resets: tiles together, or they would hold each other up.
+  struct Repair {
+    CellIndex wanted;            ///< whose value
+    std::vector<bool> takes_in;  ///< [tiles]
+    std::uint64_t began = 0;     ///< relaxations
+    std::uint64_t most = 0;      ///< relaxations that it may take
+    int reach = 16;              ///< [cells] from the robot's way
+    int rounds = 0;
+    bool is_straight = false;
+  };
+
   [[nodiscard]] std::size_t tile_of(CellIndex cell) const;
   [[nodiscard]] std::size_t index(CellIndex cell) const;
   [[nodiscard]] std::ptrdiff_t neighbour(std::size_t tile, int columns, int rows) const;
   [[nodiscard]] const float* goals_of(std::size_t tile) const;
 
   void unblank(std::size_t tile);
+  void blank(std::size_t tile);
+  [[nodiscard]] bool is_held_up(std::size_t tile) const;
+  void aim_at(std::optional<CellIndex> cell);
+  [[nodiscard]] float least_cost_to(CellIndex cell, std::size_t tile) const;
+  /// Sums of costs that are greater may round away more of a step than least_cost_to allows for.
+  [[nodiscard]] float farthest() const { return least_cost_ * 0x1p17F; }
   void copy_edges(std::size_t tile);
   void queue_fall(std::size_t tile, float from);
   void queue_loss(std::size_t tile, float from, std::uint64_t rows);
@@ -123,10 +140,14 @@ class ValueIteration {
   void settle_tile(std::size_t tile);
   void offer_to_neighbours(std::size_t tile);
   bool reset_tile(std::size_t tile);
-  void reset_with(std::size_t tile, std::vector<bool>& under_repair);
+  void widen(Repair& repair, std::span<const CellIndex> chain) const;
+  int reset_all(const Repair& repair);
+  [[nodiscard]] bool is_worth_it(const Repair& repair) const;
+  void start_over(const Repair& repair);
   void pass_on_losses(std::size_t tile, const std::array<Edge, 4>& before);
   [[nodiscard]] std::optional<CellIndex> support_of(CellIndex cell) const;
-  [[nodiscard]] std::uint64_t worth_repairing(float value_of_robot) const;
+  [[nodiscard]] bool knows_the_way(CellIndex cell) const;
+  [[nodiscard]] std::uint64_t worth_repairing(const Repair& repair) const;
   [[nodiscard]] double sound_share(float sound) const;
   void start_over_above(float sound);
 
@@ -140,8 +161,11 @@ class ValueIteration {
   std::vector<Tile> tiles_;
   std::map<std::size_t, AlignedVector<float>> goals_;  ///< of a tile that has some: their values, else infinite
   AlignedVector<float> no_goals_;
-  Queue falls_;   ///< (falls_from, tile), with entries that are out of date
-  Queue losses_;  ///< (lost_from, tile), likewise
+  float least_cost_ = kClosed;    ///< of all that were ever set
+  std::optional<CellIndex> aim_;  ///< whose value `settle` wants; none: all
+  std::vector<float> to_tile_;    ///< [tiles] lower bound of the cost from there to the tile; 0 without an aim
+  Queue falls_;                   ///< (falls_from + to_tile_, tile), with entries that are out of date
+  Queue losses_;                  ///< (lost_from, tile), likewise
   Scratch scratch_;
   std::uint64_t relaxations_ = 0;
   std::optional<std::uint64_t> started_at_;  ///< relaxations at set_goals, until its values have settled

@@ -240,8 +240,35 @@ std::vector<ValueIteration::Change> obstacle_at(const GridFrame& frame, CellInde
 }
 
 struct Replanning {
+  std::vector<double> milliseconds;
   std::vector<double> time, work;  ///< as shares of the full solve's
+  void add(const Replanning& other) {
+    milliseconds.insert(milliseconds.end(), other.milliseconds.begin(), other.milliseconds.end());
+    time.insert(time.end(), other.time.begin(), other.time.end());
+    work.insert(work.end(), other.work.begin(), other.work.end());
+  }
 };
+
+void print_replanning(const char* name, const Replanning& of) {
+  std::printf("  %-8s %6zu %9.2f %9.0f  %9.4f %9.4f %9.4f  %9.4f %9.4f %9.4f\n", name, of.time.size(),
+              quantile(of.milliseconds, 0.5), 1e3 / quantile(of.milliseconds, 0.5), quantile(of.time, 0.5),
+              quantile(of.time, 0.99), quantile(of.time, 1.0), quantile(of.work, 0.5), quantile(of.work, 0.99),
+              quantile(of.work, 1.0));
+}
+
+/// Times [ms] and offers of full value functions, a pair a map: of Dijkstra and of ours.
+struct FullSolves {
+  std::vector<double> slow, fast;
+  std::vector<double> slow_work, fast_work;
+  [[nodiscard]] double ratio() const { return quantile(slow, 0.5) / quantile(fast, 0.5); }
+};
+
+void print_full(const char* name, const FullSolves& of, double cells) {
+  const double slow = quantile(of.slow, 0.5);
+  const double fast = quantile(of.fast, 0.5);
+  std::printf("  %-8s %10.1f %10.2f %8.1f  %12.3g %12.3g  %12.3g %12.3g\n", name, slow, fast, of.ratio(),
+              cells / (1e-3 * slow), cells / (1e-3 * fast), quantile(of.slow_work, 0.5), quantile(of.fast_work, 0.5));
+}
 
 /// Offers of a start from nothing in the changed map.
 double work_from_nothing(const GridFrame& frame, std::vector<float> costs,
@@ -271,6 +298,7 @@ void replan(ValueIteration& planner, const std::vector<float>& costs, CellIndex 
       planner.change_costs(changes);
       planner.settle(robot, kEnough);
     });
+    result.milliseconds.push_back(time);
     result.time.push_back(time / full_time);
     const auto work = static_cast<double>(planner.relaxations() - before);
     const bool is_near = work > 0.7 * full_work;
@@ -282,64 +310,104 @@ void replan(ValueIteration& planner, const std::vector<float>& costs, CellIndex 
   }
 }
 
+/// Both solve the map, several times; the medians count. @returns whether all values are equal
+bool solve_fully(const std::vector<float>& costs, CellIndex goal, ValueIteration& planner, FullSolves& result) {
+  const GridFrame& frame = planner.frame();
+  const bool is_large = frame.size() > 4'000'000;  // Dijkstra takes seconds there, and one more makes no difference
+  Dijkstra dijkstra{frame, costs};
+  std::vector<double> slow, fast;
+  for (int round = 0; round < (is_large ? 1 : 3); ++round) slow.push_back(milliseconds([&] { dijkstra.solve(goal); }));
+  result.slow.push_back(quantile(slow, 0.5));
+  result.slow_work.push_back(static_cast<double>(dijkstra.relaxations()) / static_cast<double>(slow.size()));
+  for (int round = 0; round < 3; ++round) {
+    const std::uint64_t before = planner.relaxations();
+    fast.push_back(milliseconds([&] {
+      planner.set_goals(std::vector<Goal>{{goal, 0.0F}});
+      planner.iterate(kEnough);
+    }));
+    if (round == 0) result.fast_work.push_back(static_cast<double>(planner.relaxations() - before));
+  }
+  result.fast.push_back(quantile(fast, 0.5));
+  for (int row = 0; row < frame.rows; ++row)
+    for (int column = 0; column < frame.columns; ++column)
+      if (planner.value({column, row}) != dijkstra.value({column, row})) return false;
+  return true;
+}
+
+/// Median time [ms] of our full solve with one instruction set.
+double full_solve_with(InstructionSet set, const GridFrame& frame, const std::vector<float>& costs, CellIndex goal) {
+  ValueIteration planner{frame, set};
+  planner.set_costs(costs);
+  std::vector<double> rounds;
+  for (int round = 0; round < 3; ++round) {
+    rounds.push_back(milliseconds([&] {
+      planner.set_goals(std::vector<Goal>{{goal, 0.0F}});
+      planner.iterate(kEnough);
+    }));
+  }
+  return quantile(rounds, 0.5);
+}
+
 void full_solve_and_replanning(benchmark::State& state) {
   const int side = static_cast<int>(state.range(0));
   const int maps = static_cast<int>(state.range(1));
   const int obstacles = static_cast<int>(state.range(2));
-  std::vector<double> ratios;
+  std::array<FullSolves, kBuildings.size()> full;
+  std::array<Replanning, kBuildings.size()> replanning;
   Replanning all;
+  std::vector<std::vector<double>> ratios_of_sets(instruction_sets().size());
   for (auto _ : state) {
-    std::printf("%d x %d cells, one core, %d maps a kind, times in ms of the processor (medians)\n", side, side, maps);
-    std::printf("  %-8s %10s %10s %8s  %12s %12s  %10s %10s %10s %10s\n", "", "Dijkstra", "ours", "faster", "offers",
-                "offers", "replan", "p99", "work", "most");
-    for (const Building& building : kBuildings) {
-      std::vector<double> slow, fast;
-      std::vector<double> work_of_both[2];
-      Replanning replanning;
+    for (std::size_t kind = 0; kind < kBuildings.size(); ++kind) {
       for (int i = 0; i < maps; ++i) {
-        Rng rng = Rng{static_cast<std::uint64_t>(i)}.stream(building.name);
-        const OccupancyGrid map = building.build(side, rng);
+        Rng rng = Rng{static_cast<std::uint64_t>(i)}.stream(kBuildings[kind].name);
+        const OccupancyGrid map = kBuildings[kind].build(side, rng);
         const std::vector<float> costs = costs_of(map);
         const CellIndex goal = any_open(
             map.frame, [&](CellIndex c) { return costs[map.frame.index(c)] < kClosed; }, rng);
-        Dijkstra dijkstra{map.frame, costs};
         ValueIteration planner{map.frame};
         planner.set_costs(costs);
-        std::vector<double> rounds[2];
-        for (int round = 0; round < 3; ++round) {
-          const std::uint64_t before = planner.relaxations();
-          const std::uint64_t before_slow = dijkstra.relaxations();
-          rounds[0].push_back(milliseconds([&] { dijkstra.solve(goal); }));
-          rounds[1].push_back(milliseconds([&] {
-            planner.set_goals(std::vector<Goal>{{goal, 0.0F}});
-            planner.iterate(kEnough);
-          }));
-          work_of_both[0].push_back(static_cast<double>(dijkstra.relaxations() - before_slow));
-          work_of_both[1].push_back(static_cast<double>(planner.relaxations() - before));
+        if (!solve_fully(costs, goal, planner, full[kind])) {
+          state.SkipWithError("values differ from Dijkstra's");
+          return;
         }
-        slow.push_back(quantile(rounds[0], 0.5));
-        fast.push_back(quantile(rounds[1], 0.5));
-        for (int row = 0; row < side; ++row)
-          for (int column = 0; column < side; ++column)
-            if (planner.value({column, row}) != dijkstra.value({column, row})) {
-              state.SkipWithError("values differ from Dijkstra's");
-              return;
-            }
-        replan(planner, costs, goal, obstacles, fast.back(), work_of_both[1].back(), rng, replanning);
+        for (std::size_t set = 0; set < ratios_of_sets.size(); ++set)
+          ratios_of_sets[set].push_back(full[kind].slow.back() /
+                                        full_solve_with(instruction_sets()[set], map.frame, costs, goal));
+        replan(planner, costs, goal, obstacles, full[kind].fast.back(), full[kind].fast_work.back(), rng,
+               replanning[kind]);
       }
-      ratios.push_back(quantile(slow, 0.5) / quantile(fast, 0.5));
-      std::printf("  %-8s %10.1f %10.2f %8.1f  %12.3g %12.3g  %10.4f %10.4f %10.4f %10.4f\n", building.name,
-                  quantile(slow, 0.5), quantile(fast, 0.5), ratios.back(), quantile(work_of_both[0], 0.5),
-                  quantile(work_of_both[1], 0.5), quantile(replanning.time, 0.5), quantile(replanning.time, 0.99),
-                  quantile(replanning.work, 0.5), quantile(replanning.work, 1.0));
-      all.time.insert(all.time.end(), replanning.time.begin(), replanning.time.end());
-      all.work.insert(all.work.end(), replanning.work.begin(), replanning.work.end());
+      all.add(replanning[kind]);
     }
-    print_bound("full value function: Dijkstra / ours, worst kind", *std::min_element(ratios.begin(), ratios.end()),
-                10.0, true);
-    print_bound("replanning / full solve, median time", quantile(all.time, 0.5), 0.125, false);
-    print_bound("replanning / full solve, most relaxations", quantile(all.work, 1.0), 1.0, false);
   }
+  const auto cells = static_cast<double>(side) * side;
+  std::printf("%d x %d cells of 5 cm, one core, %s, times of the processor; medians over %d random maps of each kind\n",
+              side, side, std::string{name_of(instruction_sets().back())}.c_str(), maps);
+  std::printf(
+      " Full value function, all values equal bit for bit: Dijkstra's algorithm with std::priority_queue, ours\n");
+  std::printf("  %-8s %10s %10s %8s  %12s %12s  %12s %12s\n", "map", "Dijkstra", "ours", "faster", "Dijkstra", "ours",
+              "Dijkstra", "ours");
+  std::printf("  %-8s %10s %10s %8s  %12s %12s  %12s %12s\n", "", "ms", "ms", "", "values/s", "values/s", "offers",
+              "offers");
+  for (std::size_t kind = 0; kind < kBuildings.size(); ++kind) print_full(kBuildings[kind].name, full[kind], cells);
+  std::printf("  faster than Dijkstra, median over all maps:");
+  for (std::size_t set = 0; set < ratios_of_sets.size(); ++set)
+    std::printf(" %s %.1f", std::string{name_of(instruction_sets()[set])}.c_str(), quantile(ratios_of_sets[set], 0.5));
+  std::printf("\n");
+  std::printf(
+      " Replanning until the robot's value is exact, as shares of our own full solve of the same map. Cases: on\n");
+  std::printf(" each map %d random places of the robot with a way of 60 cells and more, and for each an obstacle of\n",
+              obstacles);
+  std::printf(" 1 x 1 m at a random place of its way, at least 15 cells from both ends\n");
+  std::printf("  %-8s %6s %9s %9s  %29s  %29s\n", "map", "cases", "ms", "plans/s", "time: median, p99, most",
+              "offers: median, p99, most");
+  for (std::size_t kind = 0; kind < kBuildings.size(); ++kind)
+    print_replanning(kBuildings[kind].name, replanning[kind]);
+  print_replanning("all", all);
+  double least = full[0].ratio();
+  for (const FullSolves& of : full) least = std::min(least, of.ratio());
+  print_bound("full value function: Dijkstra / ours, worst kind", least, 10.0, true);
+  print_bound("replanning / full solve, median time", quantile(all.time, 0.5), 0.125, false);
+  print_bound("replanning / full solve, most relaxations", quantile(all.work, 1.0), 1.0, false);
 }
 BENCHMARK(full_solve_and_replanning)->Args({1000, 4, 40})->Args({4000, 2, 40})->Iterations(1)->Unit(benchmark::kSecond);
 
