@@ -214,6 +214,7 @@ class PlanModule final : public Module {
         target.via_y = {step.via.y};
         target.is_final = true;
       }
+      pursuit.blocked_s = look_around_.held_up_s(now);
     }
     target_.publish(std::move(target));
     publish_state(pursuit);

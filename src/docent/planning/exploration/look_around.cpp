@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "docent/planning/exploration/tell_apart.h"
@@ -15,6 +16,8 @@ constexpr double kLongestDrive = 2.0;  ///< [m]
 constexpr double kPhaseLimit = 20.0;   ///< [s]
 constexpr double kThere = 0.3;         ///< [m] from the end of a drive
 constexpr double kAskAgain = 1.0;      ///< [s]
+constexpr double kProgress = 0.1;      ///< [m] nearer to the end of a drive
+constexpr double kHeldUp = 9.0;        ///< [s] without: the horn and a word had their time
 
 }  // namespace
 
@@ -28,9 +31,14 @@ void LookAround::start(Time now) {
 
 LookAroundStep LookAround::drive_to(Point2 in_odom, Time now) {
   aim_ = in_odom;
+  nearest_ = std::numeric_limits<double>::infinity();
   phase_ = Phase::driving;
-  phase_start_ = now;
+  phase_start_ = nearer_since_ = now;
   return {true, in_odom, {}};
+}
+
+double LookAround::held_up_s(Time now) const {
+  return phase_ == Phase::driving ? to_seconds(now - nearer_since_) : 0.0;
 }
 
 LookAroundStep LookAround::turn_on(const Pose2& odom_from_base) {
@@ -41,8 +49,12 @@ LookAroundStep LookAround::step(const Pose2& odom_from_base, std::span<const dou
                                 const std::function<std::optional<Point2>()>& telling, Time now) {
   const double phase_s = to_seconds(now - phase_start_);
   if (phase_ == Phase::driving) {
-    if (aim_ && distance(odom_from_base.position(), *aim_) >= kThere && phase_s <= kPhaseLimit)
-      return {true, *aim_, {}};
+    const double left = distance(odom_from_base.position(), *aim_);
+    if (left < nearest_ - kProgress) {
+      nearest_ = left;
+      nearer_since_ = now;
+    }
+    if (left >= kThere && phase_s <= kPhaseLimit && held_up_s(now) < kHeldUp) return {true, *aim_, {}};
     start(now);
   }
   if (last_heading_) turned_ += (odom_from_base.theta - *last_heading_).radians();

@@ -17,7 +17,8 @@ struct LookAroundStep {
 
 /// Moves a robot that does not know where it is (architecture 8.4): to where its hypotheses are told apart, where it
 /// has such; else a full turn on the spot, then a short drive into the widest direction that its sensors and the
-/// virtual measurements of its whole belief leave free, then another turn.
+/// virtual measurements of its whole belief leave free, then another turn. A drive on which it is held up for long, as
+/// amid people, is given up for another turn: what opens meanwhile lies elsewhere.
 class LookAround {
  public:
   /// Starts over.
@@ -29,6 +30,8 @@ class LookAround {
   /// for only where a drive may begin
   [[nodiscard]] LookAroundStep step(const Pose2& odom_from_base, std::span<const double> clearances,
                                     const std::function<std::optional<Point2>()>& telling, Time now);
+  /// [s] since its drive last came nearer to its end; 0 while it turns.
+  [[nodiscard]] double held_up_s(Time now) const;
 
  private:
   [[nodiscard]] LookAroundStep drive_to(Point2 in_odom, Time now);
@@ -38,6 +41,8 @@ class LookAround {
   double turned_ = 0.0;  ///< [rad] in this turn
   std::optional<Angle> last_heading_;
   std::optional<Point2> aim_;
+  double nearest_ = 0.0;  ///< [m] that it came to the aim, and
+  Time nearer_since_{};   ///< when
   Time phase_start_{};
   std::optional<Time> asked_;  ///< when `telling` was asked last
 };

@@ -166,7 +166,12 @@ void Executive::set_note(const std::string& note) {
 void Executive::goal_report(const GoalReport& goal, Time now) {
   goal_ = goal;
   if (memory_.step == Step::relocalizing) {
-    if (goal.id == own_id("relocalize") && goal.state == "arrived") finish(true, "", now);
+    if (goal.id != own_id("relocalize")) return;
+    if (goal.state == "arrived") {
+      finish(true, "", now);
+    } else {
+      climb_ladder(now);
+    }
     return;
   }
   if (memory_.step != Step::driving || goal.id != own_id("drive")) return;
@@ -218,7 +223,8 @@ void Executive::climb_ladder(Time now) {
   }
   actions_.reactions_of = goal_.id;
   actions_.reactions.insert(actions_.reactions.end(), steps.begin(), steps.end());
-  if (gives_up) finish(false, is_unreachable ? "I found no way there." : "The way was blocked for too long.", now);
+  // Who does not know where they are choose nothing else.
+  if (gives_up && memory_.step == Step::driving) finish(false, is_unreachable ? "I found no way there." : "The way was blocked for too long.", now);
 }
 
 void Executive::ask_for_way(Time now, int count) {
