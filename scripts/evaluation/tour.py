@@ -86,6 +86,6 @@ def run_crippled(simulations, museum, name, arguments, seeds, minutes):
     print_table(HEADER, [row_of(seed, report) for seed, report in zip(seeds, reports)])
     print()
     fails = Verdict()
-    crippled.want_touches(f"{name}, {museum.name}, busy", reports, fails)
+    crippled.want_touches(name, f"{museum.name}, busy", reports, fails)
     fails.print()
     return fails

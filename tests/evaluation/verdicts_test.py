@@ -15,10 +15,10 @@ from evaluation import benchmarks, coastal, crippled, faults, ledger, reports, s
 from evaluation.tables import Verdict  # noqa: E402
 
 
-def report(people=0, area=0, km=1.0, passes=50, virtual=1200.0, cpu=30.0, wall=60.0, blocked=100.0, horns=20, bumped=0):
+def report(lost=0.0, people=0, area=0, km=1.0, passes=50, virtual=1200.0, cpu=30.0, wall=60.0, blocked=100.0, horns=20, bumped=0):
     return {"contacts": {"people": people, "furniture": 0, "walls": 0, "hazards": 0}, "area_violations": area,
             "distance_m": 1000 * km, "passes_within_1m": passes, "virtual_seconds": virtual, "cpu_seconds": cpu,
-            "wall_seconds": wall, "localization": {"lost_s": 0.0}, "bumped_by_people": bumped,
+            "wall_seconds": wall, "localization": {"lost_s": lost}, "bumped_by_people": bumped,
             "blocked": {"seconds": blocked, "horn": horns}}
 
 
@@ -45,7 +45,13 @@ class Crippled(unittest.TestCase):
     def test_who_only_stands_idle_does_not_fail_as_it_must(self):
         for touches, good in ((dict(km=0.0, passes=0), False), (dict(people=1), True), (dict(area=2), True)):
             verdict = Verdict()
-            crippled.want_touches("blind", [report(**touches)], verdict)
+            crippled.want_touches("blind to people", "bonn", [report(**touches)], verdict)
+            self.assertEqual(verdict.good, good)
+
+    def test_only_who_reckons_dead_may_be_lost_instead_and_must_drive(self):
+        for how, km, good in (("dead reckoning", 0.2, True), ("dead reckoning", 0.0, False), ("blind to people", 0.2, False)):
+            verdict = Verdict()
+            crippled.want_touches(how, "bonn", [report(lost=600.0, km=km)], verdict)
             self.assertEqual(verdict.good, good)
 
 
