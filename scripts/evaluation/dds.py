@@ -7,6 +7,8 @@ import tempfile
 import time
 from pathlib import Path
 
+from evaluation.reports import contacts_of
+
 DOMAIN, PORT = 61, 18061
 SETTLE = 60.0  # [s] that the processes have to stop and the recording to be closed
 
@@ -44,7 +46,7 @@ def protocol(docent, root, cache, minutes, seed, verdict):
     print("\n".join(replay.stdout.strip().splitlines()[-6:] + replay.stderr.strip().splitlines()[-3:]))
     print(f"   evaluated and replayed in {time.monotonic() - started:.0f} s\n")
     result = json.loads(report.read_text())
-    contacts = sum(result["contacts"].values())
+    contacts = contacts_of(result)
     requests = result["requests"]
     localized = result["localization"]["localized_after_s"]
     verdict.want("ran", f"{result['virtual_seconds']:.0f} s", result["virtual_seconds"] >= 0.95 * 60 * minutes)
@@ -57,4 +59,4 @@ def protocol(docent, root, cache, minutes, seed, verdict):
     verdict.want("exhibits explained", f"{result['exhibits_explained']}", result["exhibits_explained"] >= minutes / 4)
     verdict.want("the same mission events in the same order when replayed", f"exit {replay.returncode}", replay.returncode == 0)
     verdict.print()
-    return verdict.good
+    return verdict

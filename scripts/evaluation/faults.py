@@ -25,6 +25,7 @@ MUSEUM = "bonn"
 CROWD = "busy"
 MINUTES = 4.0  # of an unharmed run
 DRIVES = 0.35  # [m/s]
+NEAR = 0.6  # [m] from the outline: within reach of the infrared ring, which reads 0.8 m from the ring
 SLOW = 0.28  # [m/s]: 0.25, and what the wheels are off
 STANDS = 0.02  # [m/s]
 REACTION_S = 2.0  # [s]: the bound of slowing and of saying why
@@ -40,6 +41,7 @@ SENSORS = {  # name in a scenario: what the reason must name
     "sonar": "sonar",
     "odom": "odometry",
     "tactile": "tactile ring",
+    "infrared": "infrared",
 }
 KINDS = {  # and one of these words
     "dead": ["no fresh", "silent", "late"],
@@ -59,9 +61,10 @@ CRIPPLED_FAULTS = ["laser_front dead", "laser_front frozen", "odom late", "two m
 class Fault:
     """One row of the table: how it strikes and what the robot must say of it."""
 
-    def __init__(self, name, event, says, watched=WATCHED_S, passes=False):
-        """`says`: groups of words, one of each; none: nothing can be said, and it need not slow down."""
-        self.name, self.event, self.says, self.watched, self.passes = name, event, says, watched, passes
+    def __init__(self, name, event, says, watched=WATCHED_S, passes=False, is_near=False):
+        """`says`: groups of words, one of each; none: nothing can be said, and it need not slow down.
+        `is_near`: strikes where something is within NEAR, for else nothing is to be noticed."""
+        self.name, self.event, self.says, self.watched, self.passes, self.is_near = name, event, says, watched, passes, is_near
 
     def is_said(self, reason):
         return bool(self.says) and all(any(word in reason for word in words) for words in self.says)
@@ -91,7 +94,7 @@ def odometry_slip(seed, _row, _rows):
 
 def all_faults():
     faults = [Fault(f"{sensor} {kind}", lambda _s, _r, _all, sensor=sensor, kind=kind: f"fault: {{sensor: {sensor}, kind: {kind}}}",
-                    [[name], words])
+                    [[name], words], is_near=(sensor, kind) == ("infrared", "frozen"))
               for sensor, name in SENSORS.items() for kind, words in KINDS.items()]
     return faults + [Fault("best pose 30 cm and 10 degrees off", pose_error, [["best pose"]]),
                      Fault("two modes", second_mode, [["two places"]]),
@@ -105,26 +108,30 @@ class Bench:
     def __init__(self, docent, cache, run_key, museums, jobs):
         self.docent, self.cache, self.museum, self.jobs = docent, cache / "faults", museums / MUSEUM, jobs
         self.key = run_key(self.museum)
+        self.hashes = set()
         self.cache.mkdir(parents=True, exist_ok=True)
 
     def run(self, seed, duration, events, extra):
         """(rows of the drive log, rows of the claims) of one run."""
         key = hashlib.sha256(json.dumps([self.key, CROWD, seed, duration, events, extra]).encode()).hexdigest()[:20]
-        drive, claims = self.cache / f"{key}.drive.csv", self.cache / f"{key}.claims.csv"
-        if not drive.exists() or not claims.exists():
+        drive, claims, report = (self.cache / f"{key}.{what}" for what in ("drive.csv", "claims.csv", "report.json"))
+        if not all(path.exists() for path in (drive, claims, report)):
             mark = f"part{os.getpid()}"
             scenario = self.cache / f"{key}.{mark}.yaml"
             scenario.write_text("\n".join(["events:", TOUR, *events]) + "\n")
-            made, told = drive.with_suffix(f".{mark}"), claims.with_suffix(f".{mark}")
+            made, told, judged = (path.with_suffix(f".{mark}") for path in (drive, claims, report))
             command = [self.docent, "simulate", "--museum", self.museum, "--hours", f"{duration / 3600:.8f}", "--seed", str(seed),
                        "--crowd", CROWD, "--requests-per-hour", "40", "--scenario", scenario, "--drive-log", made, "--claims", told,
-                       "--quiet", *extra]
+                       "--report", judged, "--quiet", *extra]
             done = subprocess.run(command, capture_output=True, text=True, check=False)
             scenario.unlink()
             if done.returncode != 0:
                 raise RuntimeError(f"seed {seed}: docent simulate exited {done.returncode}: {done.stderr.strip()[-400:]}")
+            judged.rename(report)
             told.rename(claims)
             made.rename(drive)
+        if not extra:  # of the whole robot
+            self.hashes.add(json.loads(report.read_text())["config_hash"])
         return read(drive), read(claims)
 
     def each(self, jobs):
@@ -143,11 +150,13 @@ def read(path):
                 for row in csv.DictReader(file)]
 
 
-def moments(rows):
-    """Rows at which a fault may strike."""
+def moments(rows, is_near=False):
+    """Rows at which a fault may strike; with `is_near` those at which something is within NEAR, for a second and more."""
     found = []
     for i in range(400, len(rows) - 40):
-        if min(row["speed"] for row in rows[i - 10:i + 31]) >= DRIVES:
+        if min(row["speed"] for row in rows[i - 10:i + 31]) < DRIVES:
+            continue
+        if not is_near or max(min(row["nearest_solid"], row["nearest_person"]) for row in rows[i:i + 11]) <= NEAR:
             found.append(rows[i])
     return found
 
@@ -199,7 +208,7 @@ def count_passes(rows):
 
 def strike(bench, fault, seed, rows, extra):
     draw = random.Random(f"{fault.name} {seed}")
-    places = moments(rows)
+    places = moments(rows, fault.is_near)
     if not places:
         return None
     row = draw.choice(places)
@@ -247,7 +256,7 @@ def protocol(bench, options):
     unharmed = dict(zip(seeds, bench.each([lambda s=s: bench.run(s, 60.0 * minutes, [], [])[0] for s in seeds])))
     faults = all_faults()
     if options.slice:
-        names = ["laser_front frozen", "sonar half", "odom dead", "tactile frozen", *[fault.name for fault in faults[-4:]]]
+        names = ["laser_front frozen", "sonar half", "odom dead", "tactile frozen", "infrared dead", "infrared frozen", *[fault.name for fault in faults[-4:]]]
         faults = [fault for fault in faults if fault.name in names]
     print(f"\n## faults, {MUSEUM}, {CROWD}, {len(seeds)} seeds; slow or standing, and said why, within {REACTION_S:g} s\n")
     plan = [(fault, seed) for fault in faults for seed in seeds]
@@ -266,10 +275,11 @@ def protocol(bench, options):
     words = ", ".join(f"{alarms.count(alarm)} x {alarm}" for alarm in sorted(set(alarms))) or "none"
     verdict.want("false alarms without a fault, at most one a km", f"{words} in {minutes * len(seeds):.0f} minutes and {km:.2f} km",
                  km > 0 and len(alarms) <= km)
+    verdict.want_one_configuration(bench.hashes)
     if not options.no_crippled:
         cripple(bench, verdict, [f for f in faults if f.name in CRIPPLED_FAULTS], list(seeds)[:CRIPPLED_SEEDS])
     verdict.print()
-    return verdict.good
+    return verdict
 
 
 def cripple(bench, verdict, faults, seeds):

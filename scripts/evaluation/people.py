@@ -249,7 +249,6 @@ def protocol(bench, options):
         panels += [(museum, cases), (f"{museum}, by distance from the robot", bands)]
     path = bench.cache / ("people-slice.svg" if options.slice else "people.svg")
     plot(path, panels, f"{count} seeds x {minutes:g} minutes a museum")
-    good = True
     some = seeds[:CRIPPLED_SEEDS]
     for name, arguments in {} if options.slice else OTHER_FILTERS.items():
         print(f"\n## people, by the {name}, for comparison, {len(some)} seeds\n")
@@ -262,9 +261,9 @@ def protocol(bench, options):
         museum_tables("bonn", bench.all("bonn", some, minutes, arguments), crippled)
         print()
         crippled.print()
-        print("pass  fails as it must" if not crippled.good else "FAIL  a crippled robot passed: the protocol sees nothing")
-        good = good and not crippled.good
+        failed = [what for result, what, _ in crippled.rows if result == "FAIL"]
+        verdict.want(f"crippled, {name} (must fail)", f"fails {len(failed)} bounds: {'; '.join(failed)}", bool(failed))
     print("\n## bounds\n")
     verdict.print()
     print(f"      drawn: {path}")
-    return verdict.good and good
+    return verdict

@@ -159,4 +159,4 @@ def protocol(program, root, options):
         corrected(logs, options.slice, methods, seeds, verdict, not options.no_crippled)
     print()
     verdict.print()
-    return verdict.good
+    return verdict

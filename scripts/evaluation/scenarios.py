@@ -12,6 +12,7 @@ import sys
 import time
 from dataclasses import dataclass, field
 
+from evaluation import reports
 from evaluation.keys import key_of
 from evaluation.tables import Verdict, print_table
 
@@ -66,7 +67,11 @@ class Scenario:
     minutes: float
     duties: list
     crippled: dict = field(default_factory=dict)  # name: settings
+    floors: dict = field(default_factory=dict)  # what its crowd must do to the robot, a seed on average; without the crowd it fails
+    crowd: str = ""  # the event that brings this crowd
 
+
+LOOKS = 0.95  # of the reactions show the wanted direction
 
 BLIND = {"blind to people": ["avoid.blind_to_people=true"]}
 NO_LADDER = {"without the ladder": ["executive.ladder.active=false"]}
@@ -78,7 +83,7 @@ SCENARIOS = {
     "people-wall": Scenario(6, [
         Duty("blows the horn, after the way was blocked", 8, lambda run: after(run.first("reaction", "horn", REQUEST), run.blocked())),
         Duty("at the globe, after the way was blocked", 150, lambda run: after(run.arrived("globe"), run.blocked())),
-    ], NO_LADDER),
+    ], NO_LADDER, {"passes within 1 m": 1, "horns": 1}),
     "stool": Scenario(4, [
         Duty("at the globe, after the request", 100, lambda run: after(run.arrived("globe"), REQUEST)),
     ], BLIND),
@@ -88,14 +93,14 @@ SCENARIOS = {
              lambda run: after(run.first("reaction", "give_up", REQUEST), run.blocked())),
         Duty("shows the clock meanwhile, after its request", 240, lambda run: after(run.arrived("clock"), 80.0)),
         Duty("at the globe, after the passage was opened", 320, lambda run: after(run.arrived("globe"), 650.0)),
-    ], NO_LADDER),
+    ], NO_LADDER, {"s blocked": 60, "horns": 8}),
     "staircase": Scenario(7, [
         Duty("at the lantern, after the request", 280, lambda run: after(run.arrived("lantern"), REQUEST)),
-    ], {"hazards ignored": ["hazards.ignored=true", "plan.ignore_hazards=true"]}),
+    ], {"hazards ignored": ["hazards.ignored=true", "plan.ignore_hazards=true"]}, {"passes within 1 m": 2, "s blocked": 15}, "pushers"),
     "children": Scenario(7, [
         Duty("at the clock, after the request", 150, lambda run: after(run.arrived("clock"), REQUEST)),
         Duty("at the globe, after its request", 250, lambda run: after(run.arrived("globe"), 100.0)),
-    ], BLIND),
+    ], BLIND, {"passes within 1 m": 10}, "runners"),
 }
 
 
@@ -122,21 +127,27 @@ class Annex:
         head = (self.scenarios / "annex" / "museum.head.yaml").read_text()
         (self.museum / "museum.yaml").write_text(head + (self.museum / "hazards.yaml").read_text())
 
-    def run(self, name, seed, settings):
-        scenario = self.scenarios / f"{name}.yaml"
-        what = [self.key, scenario.read_text(), SCENARIOS[name].minutes, seed, settings]
+    def run(self, name, seed, settings, without=""):
+        """@param without  the kind of event that is left out"""
+        text = (self.scenarios / f"{name}.yaml").read_text()
+        if without:
+            text = "".join(line for line in text.splitlines(keepends=True) if f" {without}:" not in line)
+        what = [self.key, text, SCENARIOS[name].minutes, seed, settings]
         path = self.cache / f"{name}-seed{seed}-{hashlib.sha256(json.dumps(what).encode()).hexdigest()[:16]}.json"
         log = path.with_suffix(".csv")
         if not path.exists() or not log.exists():
             draw = random.Random(f"annex {seed}")
             start = f"{draw.uniform(1.3, 5.0):.2f},{draw.uniform(1.5, 4.0):.2f},{draw.uniform(-180, 180):.0f}"
             part, part_log = path.with_suffix(f".part{os.getpid()}"), path.with_suffix(f".part{os.getpid()}.csv")
+            scenario = path.with_suffix(f".part{os.getpid()}.yaml")
+            scenario.write_text(text)
             began = time.monotonic()
             done = subprocess.run([self.docent, "simulate", "--museum", self.museum, "--scenario", scenario, "--hours",
                                    f"{SCENARIOS[name].minutes / 60:.6f}", "--seed", str(seed), "--crowd", "quiet", "--people", "2",
                                    "--requests-per-hour", "0", f"--start={start}", "--report", part, "--event-log", part_log,
                                    "--quiet", *(word for setting in settings for word in ("--set", setting))],
                                   capture_output=True, text=True, check=False)
+            scenario.unlink()
             if done.returncode != 0:
                 raise RuntimeError(f"{name}, seed {seed}: docent simulate exited {done.returncode}: {done.stderr.strip()[-400:]}")
             part_log.rename(log)
@@ -145,13 +156,28 @@ class Annex:
         with open(log, newline="", encoding="utf-8") as file:
             return Run(json.loads(path.read_text()), list(csv.DictReader(file)))
 
-    def runs(self, name, seeds, settings=()):
+    def runs(self, name, seeds, settings=(), without=""):
         with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
-            return list(pool.map(lambda seed: self.run(name, seed, list(settings)), seeds))
+            return list(pool.map(lambda seed: self.run(name, seed, list(settings), without), seeds))
 
 
 def contacts_of(run):
-    return sum(run.report["contacts"].values())
+    return reports.contacts_of(run.report)
+
+
+EXPOSURES = {  # of a run
+    "passes within 1 m": lambda run: run.report["passes_within_1m"],
+    "s blocked": lambda run: run.report["blocked"]["seconds"],
+    "horns": lambda run: run.report["blocked"]["horn"],
+    "bumps": lambda run: run.report["bumped_by_people"],
+}
+
+
+def exposures_of(name, runs):
+    """What its crowd did to the robot, a seed on average, and whether that was enough."""
+    seen = {what: statistics.mean(EXPOSURES[what](run) for run in runs) for what in SCENARIOS[name].floors}
+    words = ", ".join(f"{seen[what]:.1f} {what} ({floor:g})" for what, floor in SCENARIOS[name].floors.items())
+    return words, all(seen[what] >= floor for what, floor in SCENARIOS[name].floors.items())
 
 
 def faults_of(name, run):
@@ -186,8 +212,8 @@ def exposure_of(name, runs):
             f"{sum(b['seconds'] for b in blocked):.0f}"]
 
 
-def protocol(docent, root, cache, options):
-    annex = Annex(docent, root, cache, options.jobs)
+def protocol(simulations, options):
+    annex = Annex(simulations.docent, simulations.root, simulations.cache, options.jobs)
     names = [options.part] if options.part else list(SCENARIOS)
     count = options.seeds or (1 if options.slice else SEEDS)
     seeds = list(range(options.first_seed, options.first_seed + count))
@@ -204,15 +230,20 @@ def protocol(docent, root, cache, options):
         km = sum(run.report["distance_m"] for run in runs[name]) / 1000
         verdict.want(f"{name}: all it must, nothing touched, never outside", f"{count - len(bad)} of {count} seeds, {km:.2f} km"
                      + "".join(f"; seed {seed}: {', '.join(faults)}" for seed, faults in bad.items()), not bad)
+        if SCENARIOS[name].floors:
+            words, enough = exposures_of(name, runs[name])
+            verdict.want(f"{name}: what was in the way, a seed on average", words, enough)
     looks = [run.looks_along_the_way() for name in names for run in runs[name]]
     shown, total = sum(good for _, good in looks), sum(n for n, _ in looks)
-    verdict.want("the head shows the wanted direction at horn, wait and ask (95 %)", f"{shown} of {total}", shown >= 0.95 * total)
-    hashes = {run.report["config_hash"] for name in names for run in runs[name]}
-    verdict.want("one configuration", f"{len(hashes)}", len(hashes) == 1)
+    least = count * sum(SCENARIOS[name].floors.get("horns", 0) for name in names)
+    if least > 0:
+        verdict.want(f"the head shows the wanted direction at horn, wait and ask ({100 * LOOKS:.0f} %, of at least {least})",
+                     f"{shown} of {total}", total >= least and shown >= LOOKS * total)
+    verdict.want_one_configuration(run.report["config_hash"] for name in names for run in runs[name])
     if not options.no_crippled:
         judge_crippled(annex, names, seeds[:CRIPPLED_SEEDS], verdict)
     verdict.print()
-    return verdict.good
+    return verdict
 
 
 def judge_crippled(annex, names, seeds, verdict):
@@ -223,3 +254,6 @@ def judge_crippled(annex, names, seeds, verdict):
             first = next((", ".join(faults) for faults in failed if faults), "nothing")
             verdict.want(f"{name}, crippled: {how} (must fail)", f"fails {sum(map(bool, failed))} of {len(seeds)}: {first}",
                          2 * sum(map(bool, failed)) > len(seeds))
+        if SCENARIOS[name].crowd:
+            words, enough = exposures_of(name, annex.runs(name, seeds, without=SCENARIOS[name].crowd))
+            verdict.want(f"{name}, without its {SCENARIOS[name].crowd} (must fall short)", words, not enough)

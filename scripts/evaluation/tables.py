@@ -10,13 +10,27 @@ def print_table(header, rows):
 
 
 class Verdict:
-    """Bounds, each printed with what was seen; every rate with its exposure."""
+    """Bounds, each printed with what was seen; every rate with its exposure. And the configurations that they are of."""
 
     def __init__(self):
         self.rows = []
+        self.hashes = set()
 
     def want(self, what, seen, good):
         self.rows.append(("pass" if good else "FAIL", what, seen))
+
+    def note(self, what, seen):
+        """Shown, not judged."""
+        self.rows.append(("    ", what, seen))
+
+    def want_one_configuration(self, hashes, of=""):
+        """`of`: a part of the protocol whose configuration is one of its own."""
+        self.hashes |= set(hashes)
+        self.want(f"one configuration{of and ', ' + of}", ", ".join(sorted(set(hashes))), len(set(hashes)) == 1)
+
+    def add(self, other):
+        self.rows += other.rows
+        self.hashes |= other.hashes
 
     def print(self):
         for result, what, seen in self.rows:
@@ -24,4 +38,4 @@ class Verdict:
 
     @property
     def good(self):
-        return all(row[0] == "pass" for row in self.rows)
+        return bool(self.rows) and all(row[0] != "FAIL" for row in self.rows)

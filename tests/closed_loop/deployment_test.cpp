@@ -30,7 +30,10 @@ TEST(Deployment, TheSameSeedGivesTheSameReport) {
   auto first = report_of(busy_bonn(11), 4.0);
   auto second = report_of(busy_bonn(11), 4.0);
   ASSERT_GT(first.at("distance_m").get<double>(), 5.0) << "nothing is the same because it is idle";
-  for (const char* key : {"wall_seconds", "speedup", "p99_ms"}) {
+  EXPECT_GT(first.at("cpu_seconds").get<double>(), 0.0);
+  EXPECT_LT(first.at("cpu_seconds").get<double>(), 1.1 * first.at("wall_seconds").get<double>() + 0.5)
+      << "one thread runs all";
+  for (const char* key : {"wall_seconds", "cpu_seconds", "speedup", "p99_ms"}) {
     first.erase(key);
     second.erase(key);
   }

@@ -222,6 +222,44 @@ TEST(BadInput, Simulations) {
   }
 }
 
+TEST(BadInput, CrowdsAndMuseumsToBeMade) {
+  const TemporaryFolder folder;
+  const std::string out = folder.path() / "made";
+  folder.write("tiny.pgm", "P5\n2 2\n255\nabcd");
+  const std::string tiny = folder.write("tiny.yaml", "image: tiny.pgm\nresolution: 0.05\norigin: [0, 0, 0]\n");
+  const std::string file = folder.write("file", "");
+  const std::string tracks = folder.write("tracks.txt", "1 2\n");
+  for (const auto& bad : std::vector<BadInput>{
+           {"too dense a crowd", {"crowd", "--density", "9"}, "--density must lie between 0 and 3"},
+           {"a crowd of no number", {"crowd", "--density", "nan"}, "--density must lie between 0 and 3"},
+           {"more than all", {"crowd", "--ignoring", "2"}, "--ignoring must lie between 0 and 1"},
+           {"unknown method", {"crowd", "--method", "teleport"}, "--method"},
+           {"unknown setting", {"crowd", "--set", "avoid.wings=2"}, "unknown key 'wings'"},
+           {"score into nothing", {"crowd", "--density", "0", "--report", "/nowhere/x.json"}, "/nowhere/x.json"},
+           {"no map", {"museum", "/nowhere.yaml", "--out", out}, "/nowhere.yaml"},
+           {"no folder to make", {"museum", kMap}, "--out is required"},
+           {"folder in a file", {"museum", kMap, "--out", file + "/x"}, "/file/x: cannot be made"},
+           {"no room", {"museum", tiny, "--out", out}, "tiny.yaml: the map has no open floor"},
+           {"unknown recording", {"museum", kMap, "--out", out, "--pedestrians", "nobody"}, "--pedestrians nobody"},
+           {"recording cut", {"museum", kMap, "--out", out, "--pedestrians", tracks}, "tracks.txt:1: "},
+       }) {
+    expect_refused(bad);
+  }
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST(MadeMuseum, IsFitToDriveInWhateverItsTitle) {
+  const TemporaryFolder folder;
+  const std::string out = folder.path() / "made";
+  const auto made = run_program({"museum", kMap, "--out", out, "--seed", "3", "--title", "The \"old\" mill"});
+  EXPECT_EQ(made.code, 0) << made.output;
+  EXPECT_NE(made.output.find(" exhibits, "), std::string::npos) << made.output;
+  const auto checked = run_program({"check", out});
+  EXPECT_EQ(checked.code, 0) << checked.output;
+  const auto driven = run_program({"simulate", "--museum", out, "--hours", "0.002", "--seed", "1", "--quiet"});
+  EXPECT_EQ(driven.code, 0) << driven.output;
+}
+
 struct BrokenMuseum {
   std::string folder;
   std::string line;  ///< of museum.yaml, that was changed

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <ctime>
 
 #include "docent/apps/belief_fault.h"
 #include "docent/apps/deployment.h"
@@ -43,6 +44,13 @@ class TemporaryFolder {
  private:
   std::filesystem::path path_;
 };
+
+/// [s] that this process has had of the processor.
+double computed_seconds() {
+  timespec time{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
 
 }  // namespace
 
@@ -94,7 +102,9 @@ class SimulationRun::Parts {
 
   Result<void> run_until(Time end) {
     const auto start = std::chrono::steady_clock::now();
+    const double computed = computed_seconds();
     hub_.run_until(end);
+    cpu_s_ += computed_seconds() - computed;
     wall_s_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (!failure_.empty()) return fail(failure_);
     return {};
@@ -103,6 +113,7 @@ class SimulationRun::Parts {
   [[nodiscard]] RunCost cost() const {
     RunCost result;
     result.wall_seconds = wall_s_;
+    result.cpu_seconds = cpu_s_;
     for (const auto& [name, cost] : hub_.costs()) {
       if (cost.steps_ms.empty()) continue;
       std::vector<float> steps = cost.steps_ms;
@@ -227,6 +238,7 @@ class SimulationRun::Parts {
   std::optional<Recorder> recorder_;
   std::string failure_;
   double wall_s_ = 0.0;
+  double cpu_s_ = 0.0;
   double evaluation_s_ = 0.0;
   std::unique_ptr<Bus> operator_bus_;
   std::unique_ptr<Bus> world_robot_bus_;

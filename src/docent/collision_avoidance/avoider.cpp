@@ -134,8 +134,8 @@ std::optional<Complaint> Avoider::complaint_of_inputs(Time now) const {
   auto found = odometry_watch_.complaint(now);
   for (std::size_t i = 0; i < laser_count_; ++i) found = worse(found, complaint_of_laser(now, i));
   if (params_.needs_sonar) found = worse(found, sonar_watch_.complaint(now, true));
-  found = worse(found, tactile_watch_.complaint(now));
-  found = worse(found, infrared_watch_.complaint(now, false));
+  found = worse(found, tactile_watch_.complaint(now, params_.has_tactile));
+  found = worse(found, infrared_watch_.complaint(now, params_.has_infrared));
   for (const auto& [source, freshness] : line_freshness_) {
     if (freshness.is_stale(now, kCameraPatience))
       found = worse(found, Complaint{0.0, "no fresh lines of the camera " + source});

@@ -36,8 +36,10 @@ struct AvoiderParams {
   double target_timeout = 1.5;        ///< [s]
   double virtual_timeout = 1.5;       ///< [s]
   bool needs_sonar = true;            ///< stands when the sonars are silent
-  bool blind_to_people = false;       ///< crippled, for evaluation: sees virtual measurements and touch only
-  bool watches = true;                ///< false: crippled, for evaluation: takes every sensor and belief for well
+  bool has_infrared = false;          ///< the body has these rings: stands when they are silent, from the start on
+  bool has_tactile = false;
+  bool blind_to_people = false;  ///< crippled, for evaluation: sees virtual measurements and touch only
+  bool watches = true;           ///< false: crippled, for evaluation: takes every sensor and belief for well
   template <class V>
   void visit(V& v) {
     v("window", window);

@@ -23,8 +23,8 @@ void TactileWatch::feel(Time now, Time stamp, std::span<const std::uint8_t> segm
   missing_ += kMemory * (share - missing_);
 }
 
-std::optional<Complaint> TactileWatch::complaint(Time now) const {
-  if (!(freshness_.period() > 0.0)) return std::nullopt;
+std::optional<Complaint> TactileWatch::complaint(Time now, bool required) const {
+  if (!(freshness_.period() > 0.0) && !required) return std::nullopt;
   if (freshness_.silence(now) > std::max(kPatience, 2.5 * freshness_.period()))
     return Complaint{0.0, "the tactile ring is silent"};
   auto found = complaint_of(freshness_, now, "tactile ring's word", kPatience);

@@ -9,7 +9,7 @@
 namespace docent {
 
 /// Watches the tactile ring. A ring that nobody touches says the same for hours, so its electronics count their scans:
-/// who repeats the count is frozen. A robot without the ring never sends; one that has sent must go on.
+/// who repeats the count is frozen. What has sent must go on.
 class TactileWatch {
  public:
   static constexpr std::uint8_t kNoReading = 255;  ///< of a segment
@@ -17,7 +17,8 @@ class TactileWatch {
   /// @param scan  count of the ring's own scans; 0: it keeps none
   void feel(Time now, Time stamp, std::span<const std::uint8_t> segments, std::uint32_t scan);
 
-  [[nodiscard]] std::optional<Complaint> complaint(Time now) const;
+  /// @param required  complain about a ring that never spoke, too
+  [[nodiscard]] std::optional<Complaint> complaint(Time now, bool required) const;
 
  private:
   Freshness freshness_;

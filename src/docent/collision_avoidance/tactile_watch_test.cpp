@@ -21,12 +21,21 @@ struct Ring {
     now -= 0.2;
   }
   [[nodiscard]] std::string reason() const {
-    const auto found = watch.complaint(time_from_seconds(now));
+    const auto found = watch.complaint(time_from_seconds(now), false);
     return found ? found->reason : "";
   }
 };
 
-TEST(TactileWatch, ARobotWithoutTheRingIsNotBlamed) { EXPECT_FALSE(TactileWatch{}.complaint(time_from_seconds(5.0))); }
+TEST(TactileWatch, ARobotWithoutTheRingIsNotBlamed) {
+  EXPECT_FALSE(TactileWatch{}.complaint(time_from_seconds(5.0), false));
+}
+
+TEST(TactileWatch, ARingThatNeverSpokeIsMissedWhereThereIsOne) {
+  const auto found = TactileWatch{}.complaint(time_from_seconds(5.0), true);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->reason, "the tactile ring is silent");
+  EXPECT_EQ(found->max_speed, 0.0);
+}
 
 TEST(TactileWatch, WhatNobodyTouchesSaysTheSameForHours) {
   Ring ring;

@@ -401,7 +401,7 @@ TEST(DeploymentReport, JsonHasTheKeysOfTheArchitectureInTheirOrder) {
   DeploymentReport report;
   report.museum = "bonn";
   report.requests.refused = {{"closed", 2}};
-  const auto json = nlohmann::ordered_json::parse(to_json(report, RunCost{2.0, {{"plan", 1.5}}}));
+  const auto json = nlohmann::ordered_json::parse(to_json(report, RunCost{2.0, 1.75, {{"plan", 1.5}}}));
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
   EXPECT_EQ(keys, (std::vector<std::string>{"museum",
@@ -412,6 +412,7 @@ TEST(DeploymentReport, JsonHasTheKeysOfTheArchitectureInTheirOrder) {
                                             "simd",
                                             "virtual_seconds",
                                             "wall_seconds",
+                                            "cpu_seconds",
                                             "speedup",
                                             "travel_seconds",
                                             "distance_m",
@@ -442,6 +443,7 @@ TEST(DeploymentReport, JsonHasTheKeysOfTheArchitectureInTheirOrder) {
   EXPECT_TRUE(json["success_rate"].is_null());
   EXPECT_TRUE(json["localization"]["localized_after_s"].is_null());
   EXPECT_EQ(json["p99_ms"]["plan"], 1.5);
+  EXPECT_EQ(json["cpu_seconds"], 1.75);
   EXPECT_FALSE(nlohmann::json::parse(to_json(report, std::nullopt)).contains("wall_seconds"));
 }
 

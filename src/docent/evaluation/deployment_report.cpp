@@ -54,6 +54,7 @@ std::string to_json(const DeploymentReport& r, const std::optional<RunCost>& cos
   json["virtual_seconds"] = rounded(r.virtual_seconds);
   if (cost) {
     json["wall_seconds"] = rounded(cost->wall_seconds);
+    json["cpu_seconds"] = rounded(cost->cpu_seconds);
     json["speedup"] = cost->wall_seconds > 0.0 ? rounded(r.virtual_seconds / cost->wall_seconds) : 0.0;
   }
   json["travel_seconds"] = rounded(r.travel_seconds);

@@ -29,6 +29,7 @@ class Spread {
 /// What a run cost; known to who ran it, not to a recording.
 struct RunCost {
   double wall_seconds = 0.0;
+  double cpu_seconds = 0.0;              ///< of the processor, all threads: what others do meanwhile is not in it
   std::map<std::string, double> p99_ms;  ///< of the steps, by module
 };
 
@@ -113,7 +114,7 @@ struct DeploymentReport {
   int module_restarts = 0;
 };
 
-/// JSON with keys in the order of architecture 9. With `cost`: wall_seconds, speedup and p99_ms too.
+/// JSON with keys in the order of architecture 9. With `cost`: wall_seconds, cpu_seconds, speedup and p99_ms too.
 [[nodiscard]] std::string to_json(const DeploymentReport& report, const std::optional<RunCost>& cost);
 
 /// A table for a terminal, every rate with its exposure.

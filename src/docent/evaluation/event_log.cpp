@@ -43,6 +43,11 @@ void EventLog::add(const TopicInfo& topic, Time time, const std::shared_ptr<cons
   } else if (is(topics::kReaction)) {
     const docent_msgs::Reaction& reaction = as(topics::kReaction);
     write(time, "reaction", reaction.step, reaction.goal_id, reaction.cause, reaction.after);
+  } else if (is(topics::kGoalState)) {
+    const docent_msgs::GoalState& goal = as(topics::kGoalState);
+    if (goal.detour.empty() || goal.detour == detour_) return;
+    detour_ = goal.detour;
+    write(time, "way", goal.detour, goal.id, "", goal.detour_extra);
   } else if (is(topics::kSay)) {
     write(time, "say", as(topics::kSay).mood, as(topics::kSay).id, as(topics::kSay).text, 0.0);
   } else if (is(topics::kTrueOffer)) {

@@ -10,8 +10,9 @@
 namespace docent {
 
 /// What happened in a run, as CSV with a row for every event: time [s] since the first truth; source (event, reaction,
-/// say, scenario or contact); kind, subject, detail (commas become semicolons) and value as the message has them; where
-/// the robot truly was, x and y [m]; and where its head looked, at and bearing [deg].
+/// way, say, scenario or contact; way: local or global when a detour of so many more metres begins, none when it ends);
+/// kind, subject, detail (commas become semicolons) and value as the message has them; where the robot truly was, x and
+/// y [m]; and where its head looked, at and bearing [deg].
 class EventLog {
  public:
   /// Topics that do not matter are passed over.
@@ -26,6 +27,7 @@ class EventLog {
   bool has_truth_ = false;
   double x_ = 0.0, y_ = 0.0;
   std::string gaze_at_ = "none";
+  std::string detour_ = "none";
   double gaze_deg_ = 0.0;
   std::string rows_;
 };

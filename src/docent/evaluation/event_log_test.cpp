@@ -34,5 +34,22 @@ TEST(EventLog, HasARowForEveryEventWithPlaceAndGaze) {
             "5.00,contact,people,person-3,counts,0.200,1.500,-2.000,way,28.6\n");
 }
 
+TEST(EventLog, TellsOnceOfEveryDetourAndHowMuchLongerItIs) {
+  EventLog log;
+  tell(log, topics::kTrueState, 0.0, {});
+  docent_msgs::GoalState goal;
+  goal.id = "t1/drive";
+  double time = 0.0;
+  for (const char* detour : {"", "none", "local", "local", "global", "none"}) {
+    goal.detour = detour;
+    goal.detour_extra = std::string{detour} == "global" ? 12.5 : 1.0;
+    tell(log, topics::kGoalState, time += 1.0, goal);
+  }
+  EXPECT_EQ(log.rows(),
+            "3.00,way,local,t1/drive,,1.000,0.000,0.000,none,0.0\n"
+            "5.00,way,global,t1/drive,,12.500,0.000,0.000,none,0.0\n"
+            "6.00,way,none,t1/drive,,1.000,0.000,0.000,none,0.0\n");
+}
+
 }  // namespace
 }  // namespace docent

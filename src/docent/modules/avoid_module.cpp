@@ -237,7 +237,10 @@ class AvoidModule final : public Module {
 Result<std::unique_ptr<Module>> make_avoid(const ModuleContext& context) {
   auto params = context.config.section<AvoiderParams>("avoid");
   if (!params) return tl::unexpected<Error>(params.error());
-  auto limits = limits_of(context.config.body());
+  const RobotBody& body = context.config.body();
+  params->has_infrared = body.infrareds > 0;
+  params->has_tactile = body.tactile;
+  auto limits = limits_of(body);
   if (!limits) return tl::unexpected<Error>(limits.error());
   return std::make_unique<AvoidModule>(context, *limits, *params);
 }

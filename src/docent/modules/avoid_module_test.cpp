@@ -20,6 +20,7 @@ using std::numbers::pi;
 class MotionModules : public ::testing::Test {
  protected:
   MotionModules() {
+    for (const char* has_no : {"body.infrareds=0", "body.tactile=false"}) EXPECT_TRUE(config.set(has_no));
     museum.area = {{-2, -4}, {18, -4}, {18, 4}, {-2, 4}};
     museum.hazards.push_back({"plate", HazardKind::plate, {{9, -3.9}, {11, -3.9}, {11, -1.0}, {9, -1.0}}});
     world->subscribe<geometry_msgs::Twist>(topics::kCommandVelocity, [this](const geometry_msgs::Twist& twist) {
@@ -187,6 +188,19 @@ TEST_F(MotionModules, StandWhenALaserOrTheHazardsOrThePlanFallSilent) {
   run(3.0);
   EXPECT_EQ(speed, 0.0);
   EXPECT_EQ(state.reason, "no fresh target");
+}
+
+TEST_F(MotionModules, StandForARingThatNeverSpokeAndThatTheBodyHas) {
+  for (const auto& [has, name] : {std::pair{"body.infrareds=24", "no fresh infrared reading"},
+                                  std::pair{"body.tactile=true", "the tactile ring is silent"}}) {
+    config = RobotConfig{};
+    for (const char* setting : {"body.infrareds=0", "body.tactile=false", has}) ASSERT_TRUE(config.set(setting));
+    start(avoid, avoid_bus, "avoid", make_avoid);
+    run(3.0);
+    EXPECT_EQ(speed, 0.0);
+    EXPECT_EQ(avoid->health().reason, name);
+    EXPECT_EQ(state.reason, name);
+  }
 }
 
 TEST_F(MotionModules, ALostBeliefWearsOutWhileDriving) {

@@ -43,8 +43,9 @@ struct RobotBody {
   Mount scan_rear{"laser_rear", 0.0, 0.0, 180.0};
   int sonars = 24;                ///< evenly round the body, sonar_00 at the front, counter-clockwise
   double sonar_radius = 0.25;     ///< [m] from the centre
-  int infrareds = 24;             ///< likewise, infrared_00 at the front; what never speaks is not missed
+  int infrareds = 24;             ///< likewise, infrared_00 at the front; 0: it has none
   double infrared_radius = 0.25;  ///< [m] from the centre
+  bool tactile = true;            ///< it has a tactile ring, which may not be silent
   template <class V>
   void visit(V& v) {
     v("radius", radius);
@@ -62,6 +63,7 @@ struct RobotBody {
     v("sonar_radius", sonar_radius);
     v("infrareds", infrareds);
     v("infrared_radius", infrared_radius);
+    v("tactile", tactile);
   }
   [[nodiscard]] Pose2 base_from_sonar(int index) const;
   /// The frame of a sonar: sonar_00, sonar_01, … and back; nullopt for what is none of this body's.

@@ -23,11 +23,6 @@ Nearest nearest_on(const MeasuredWay& way, Point2 point, std::size_t from) {
 
 }  // namespace
 
-const char* to_text(WayChange change) {
-  constexpr std::array<const char*, 3> kTexts{"none", "local", "global"};
-  return kTexts[static_cast<std::size_t>(change)];
-}
-
 Result<void> DetourParams::validate() const {
   if (!(corridor > 0.0)) return fail("detour.corridor must be > 0");
   if (!(back_within > 0.0)) return fail("detour.back_within must be > 0");
@@ -63,12 +58,12 @@ DetourWatch::Judgement DetourWatch::judge(const MeasuredWay& way) const {
     const Nearest back = nearest_on(meant_, way.points[i], left.index);
     if (back.away > 0.5 * params_.corridor) continue;
     const double longer = way.along[i] - from - (meant_.along[back.index] - meant_.along[left.index]);
-    if (longer <= params_.local_extra) return {WayChange::local, std::max(0.0, longer)};
+    if (longer <= params_.local_extra) return {Detour::local, std::max(0.0, longer)};
   }
-  return {WayChange::global, extra};
+  return {Detour::global, extra};
 }
 
-WayChange DetourWatch::update(std::span<const Point2> way, Time now) {
+Detour DetourWatch::update(std::span<const Point2> way, Time now) {
   if (way.empty()) return change_;
   MeasuredWay measured{way};
   if (meant_.points.empty()) {
@@ -84,7 +79,7 @@ WayChange DetourWatch::update(std::span<const Point2> way, Time now) {
   if (now - seen_since_ < seconds(params_.lasts)) return change_;
   change_ = seen_;
   extra_ = judgement.extra;
-  if (change_ != WayChange::local) meant_ = std::move(measured);
+  if (change_ != Detour::local) meant_ = std::move(measured);
   return change_;
 }
 

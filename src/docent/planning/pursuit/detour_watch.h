@@ -25,9 +25,6 @@ struct DetourParams {
   [[nodiscard]] Result<void> validate() const;
 };
 
-enum class WayChange { none, local, global };
-[[nodiscard]] const char* to_text(WayChange change);
-
 /// A line of points and the length [m] from its first point to each.
 struct MeasuredWay {
   std::vector<Point2> points;
@@ -47,23 +44,23 @@ class DetourWatch {
   /// Another goal: the next way is the one that is meant.
   void restart() { *this = DetourWatch{params_}; }
   /// @param way  from the robot to the goal, map frame. O(points of both ways) where they agree, else O(product).
-  WayChange update(std::span<const Point2> way, Time now);
-  [[nodiscard]] WayChange change() const { return change_; }
+  Detour update(std::span<const Point2> way, Time now);
+  [[nodiscard]] Detour change() const { return change_; }
   /// [m] that the present detour is longer than the meant way.
   [[nodiscard]] double extra() const { return extra_; }
 
  private:
   struct Judgement {
-    WayChange change = WayChange::none;
+    Detour change = Detour::none;
     double extra = 0.0;
   };
   [[nodiscard]] Judgement judge(const MeasuredWay& way) const;
 
   DetourParams params_;
   MeasuredWay meant_;
-  WayChange seen_ = WayChange::none;  ///< as it looks now
+  Detour seen_ = Detour::none;  ///< as it looks now
   Time seen_since_{};
-  WayChange change_ = WayChange::none;
+  Detour change_ = Detour::none;
   double extra_ = 0.0;
 };
 

@@ -19,8 +19,8 @@ std::vector<Point2> way_through(const std::vector<Point2>& corners) {
 
 class DetourWatchTest : public testing::Test {
  protected:
-  WayChange look(const std::vector<Point2>& corners, double for_s = 1.2) {
-    WayChange change = WayChange::none;
+  Detour look(const std::vector<Point2>& corners, double for_s = 1.2) {
+    Detour change = Detour::none;
     for (const double end = now_s + for_s; now_s < end; now_s += 0.2)
       change = watch.update(way_through(corners), time_from_seconds(now_s));
     return change;
@@ -30,43 +30,43 @@ class DetourWatchTest : public testing::Test {
 };
 
 TEST_F(DetourWatchTest, DrivingOnIsNoDetour) {
-  EXPECT_EQ(look({{0, 0}, {10, 0}}), WayChange::none);
-  for (double x = 0.0; x < 9.0; x += 0.5) EXPECT_EQ(look({{x, 0.3}, {10, 0}}), WayChange::none);
+  EXPECT_EQ(look({{0, 0}, {10, 0}}), Detour::none);
+  for (double x = 0.0; x < 9.0; x += 0.5) EXPECT_EQ(look({{x, 0.3}, {10, 0}}), Detour::none);
 }
 
 TEST_F(DetourWatchTest, RoundAPersonIsLocal) {
   look({{0, 0}, {10, 0}});
-  EXPECT_EQ(look({{0, 0}, {2, 0}, {3, 1.2}, {4, 0}, {10, 0}}), WayChange::local);
+  EXPECT_EQ(look({{0, 0}, {2, 0}, {3, 1.2}, {4, 0}, {10, 0}}), Detour::local);
   EXPECT_GT(watch.extra(), 0.3);
   EXPECT_LT(watch.extra(), 1.5);
-  EXPECT_EQ(look({{4, 0}, {10, 0}}), WayChange::none) << "past it";
+  EXPECT_EQ(look({{4, 0}, {10, 0}}), Detour::none) << "past it";
 }
 
 TEST_F(DetourWatchTest, AnotherPassageIsGlobalAndThenMeant) {
   look({{0, 0}, {10, 0}});
-  EXPECT_EQ(look({{2, 0}, {-1, 0}, {-1, 5}, {10, 5}, {10, 0}}, 0.7), WayChange::none) << "it must last";
-  EXPECT_EQ(look({{2, 0}, {-1, 0}, {-1, 5}, {10, 5}, {10, 0}}, 0.4), WayChange::global);
-  EXPECT_EQ(look({{0, 0}, {-1, 0}, {-1, 5}, {10, 5}, {10, 0}}), WayChange::none) << "now it is the way";
+  EXPECT_EQ(look({{2, 0}, {-1, 0}, {-1, 5}, {10, 5}, {10, 0}}, 0.7), Detour::none) << "it must last";
+  EXPECT_EQ(look({{2, 0}, {-1, 0}, {-1, 5}, {10, 5}, {10, 0}}, 0.4), Detour::global);
+  EXPECT_EQ(look({{0, 0}, {-1, 0}, {-1, 5}, {10, 5}, {10, 0}}), Detour::none) << "now it is the way";
 }
 
 TEST_F(DetourWatchTest, ALongWayRoundASmallThingIsGlobal) {
   look({{0, 0}, {10, 0}});
-  EXPECT_EQ(look({{0, 0}, {2, 0}, {2, 4}, {4, 4}, {4, 0}, {10, 0}}), WayChange::global);
+  EXPECT_EQ(look({{0, 0}, {2, 0}, {2, 4}, {4, 4}, {4, 0}, {10, 0}}), Detour::global);
   EXPECT_NEAR(watch.extra(), 8.0, 1.5);
 }
 
 TEST_F(DetourWatchTest, TwoWaysThatTakeTurnsAreNone) {
   look({{0, 0}, {10, 0}});
   for (int i = 0; i < 10; ++i) {
-    EXPECT_EQ(look({{0, 0}, {2, 0}, {3, 1.2}, {4, 0}, {10, 0}}, 0.4), WayChange::none);
-    EXPECT_EQ(look({{0, 0}, {10, 0}}, 0.4), WayChange::none);
+    EXPECT_EQ(look({{0, 0}, {2, 0}, {3, 1.2}, {4, 0}, {10, 0}}, 0.4), Detour::none);
+    EXPECT_EQ(look({{0, 0}, {10, 0}}, 0.4), Detour::none);
   }
 }
 
 TEST_F(DetourWatchTest, AnotherGoalIsNoDetour) {
   look({{0, 0}, {10, 0}});
   watch.restart();
-  EXPECT_EQ(look({{0, 0}, {0, 10}}), WayChange::none);
+  EXPECT_EQ(look({{0, 0}, {0, 10}}), Detour::none);
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ struct Pursuit {
   std::string reason;
   double remaining_m = 0.0;
   double blocked_s = 0.0;
-  WayChange detour = WayChange::none;
+  Detour detour = Detour::none;
   double detour_extra = 0.0;  ///< [m]
 };
 

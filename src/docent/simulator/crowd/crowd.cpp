@@ -14,12 +14,6 @@ constexpr double kSimulationStep = 0.02;    // [s]
 constexpr double kEntersAway = 2.5;         // [m] between the outlines: no recorded person appears nearer to the robot
 constexpr double kHurry = 3.0;              // [m/s] at most, of a recorded person who was pushed off their track
 
-/// Of all walks of the recorded people: so many that they are no more than `count` on average.
-double share_of_walks(const World& world, std::size_t count) {
-  const double recorded = mean_people(world.pedestrians);
-  return recorded > 0.0 ? std::min(1.0, static_cast<double>(count) / recorded) : 0.0;
-}
-
 }  // namespace
 
 std::optional<double> crowd_density(std::string_view level) {
@@ -36,7 +30,7 @@ Crowd::Crowd(const World& world, WalkableFloor floor, const CrowdParams& params,
       params_{params},
       rng_{rng},
       floor_{std::move(floor)},
-      replay_{world.pedestrians, share_of_walks(world, count), rng.stream("replay")},
+      replay_{count > 0 ? world.pedestrians : std::vector<Recording>{}, rng.stream("replay")},
       robot_{robot} {
   fields_.resize(world_.attractions.size() + world_.entrances.size());
   Point2 high{};
@@ -48,8 +42,8 @@ Crowd::Crowd(const World& world, WalkableFloor floor, const CrowdParams& params,
   cell_columns_ = static_cast<int>((high.x - cells_low_.x) / kCell) + 1;
   cell_rows_ = static_cast<int>((high.y - cells_low_.y) / kCell) + 1;
   let_recorded_in(0.0, robot);
-  const double recorded = share_of_walks(world, count) * mean_people(world.pedestrians);
-  const auto others = count - std::min(count, static_cast<std::size_t>(std::lround(recorded)));
+  const auto recorded = static_cast<std::size_t>(std::lround(mean_people(world.pedestrians)));
+  const std::size_t others = count - std::min(count, recorded);
   for (std::size_t i = 0; i < others; ++i) {
     people_.push_back(new_person(0.0));
     Person& person = people_.back();

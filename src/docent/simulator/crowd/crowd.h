@@ -25,8 +25,8 @@ namespace docent::simulator {
 class Crowd {
  public:
   /// @param floor  of this world
-  /// @param count  how many people. The recorded ones are as many as they are, on average, but no more than this; the
-  ///               others make up the rest, and who of them leaves is replaced at an entrance
+  /// @param count  how many people; 0: nobody. The recorded ones walk in full, even where they are more; the others
+  ///               make up the rest on average, and who of them leaves is replaced at an entrance
   Crowd(const World& world, WalkableFloor floor, const CrowdParams& params, std::size_t count, Rng rng,
         const RobotView& robot);
 

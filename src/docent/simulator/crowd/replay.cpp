@@ -5,8 +5,7 @@
 
 namespace docent::simulator {
 
-Replay::Replay(std::vector<Recording> recordings, double share, const Rng& rng)
-    : recordings_{std::move(recordings)}, share_{share}, rng_{rng} {
+Replay::Replay(std::vector<Recording> recordings, Rng rng) : recordings_{std::move(recordings)} {
   for (const Recording& recording : recordings_) {
     Loop loop;
     loop.order.resize(recording.tracks.size());
@@ -14,7 +13,7 @@ Replay::Replay(std::vector<Recording> recordings, double share, const Rng& rng)
     std::stable_sort(loop.order.begin(), loop.order.end(), [&](std::size_t a, std::size_t b) {
       return recording.tracks[a].start < recording.tracks[b].start;
     });
-    loop.origin = -rng_.uniform(0.0, recording.duration);
+    loop.origin = -rng.uniform(0.0, recording.duration);
     loops_.push_back(std::move(loop));
   }
 }
@@ -23,10 +22,10 @@ void Replay::begin(double now, std::vector<Walk>& walks) {
   for (std::size_t i = 0; i < loops_.size(); ++i) {
     Loop& loop = loops_[i];
     const Recording& recording = recordings_[i];
-    if (loop.order.empty() || share_ <= 0.0) continue;
+    if (loop.order.empty()) continue;
     while (loop.origin + recording.tracks[loop.order[loop.next]].start <= now) {
       const Walk walk{i, loop.order[loop.next], loop.origin};
-      if (rng_.chance(share_) && !is_over(walk, now)) walks.push_back(walk);
+      if (!is_over(walk, now)) walks.push_back(walk);
       if (++loop.next < loop.order.size()) continue;
       loop.next = 0;
       loop.origin += recording.duration;

@@ -18,8 +18,7 @@ struct Walk {
 /// Plays recordings again and again, each in a loop of its own that begins at a drawn time.
 class Replay {
  public:
-  /// @param share  0..1 of the walks that take place; each is drawn
-  Replay(std::vector<Recording> recordings, double share, const Rng& rng);
+  Replay(std::vector<Recording> recordings, Rng rng);
 
   /// Appends the walks that began since the last call; the first call, those that are under way. @pre now grows [s]
   /// O(new walks)
@@ -37,8 +36,6 @@ class Replay {
 
   std::vector<Recording> recordings_;
   std::vector<Loop> loops_;
-  double share_;
-  Rng rng_;
 };
 
 }  // namespace docent::simulator

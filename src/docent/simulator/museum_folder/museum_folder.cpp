@@ -34,9 +34,19 @@ std::string list(const std::vector<std::string>& words) {
   return text + "]";
 }
 
+/// A text as YAML's double quotes hold it, whatever is in it.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+  }
+  return result + "\"";
+}
+
 std::string museum_yaml(const MuseumPlan& plan, const Survey& survey) {
   std::string text = "# " + plan.made_of + "; metres and degrees in the map's frame.\n";
-  text += "name: {en: \"" + plan.title + "\"}\nlanguages: [en]\nmap: map.yaml\n";
+  text += "name: {en: " + quoted(plan.title) + "}\nlanguages: [en]\nmap: map.yaml\n";
   text += "area: " + corners(plan.world.operating_area) + "\n";
   text += survey.hazards.empty() ? "hazards: []\n" : to_yaml(survey.hazards);
   text += "home: " + pose(plan.home) + "\n";

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "docent/base/files.h"
+#include "docent/base/yaml.h"
 #include "docent/simulator/office/office.h"
 
 namespace docent::simulator {
@@ -35,6 +36,15 @@ TEST_F(MuseumFolder, HoldsTheWorldAndWhatTheSurveySays) {
   const std::string museum = read_file(folder_ / "museum.yaml").value();
   for (const Stop& stop : office.stops) EXPECT_NE(museum.find("id: " + stop.id), std::string::npos);
   EXPECT_FALSE(write_museum(office, surveyed, folder_ / "map.yaml" / "inside a file"));
+}
+
+TEST_F(MuseumFolder, AnyTitleIsOne) {
+  Office office = draw_office(5);
+  office.title = "The \"old\" \\ mill:\n{new} # 7";
+  ASSERT_TRUE(write_museum(office, survey(office.world, {}, Rng{5}), folder_));
+  const auto museum = YamlFile::load(folder_ / "museum.yaml");
+  ASSERT_TRUE(museum) << museum.error().message;
+  EXPECT_EQ(museum->root()["name"]["en"].as<std::string>(), "The \"old\" \\ mill: {new} # 7");
 }
 
 TEST_F(MuseumFolder, TheWorldIsReadBackAsItWas) {

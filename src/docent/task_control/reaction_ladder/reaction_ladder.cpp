@@ -10,17 +10,10 @@ constexpr double kProgress = 1.5;  // [s] since the last progress is still drivi
 
 constexpr std::array<const char*, 8> kRungs{"slow", "horn", "local_detour", "global_detour",
                                             "wait", "ask",  "give_up",      "free"};
-constexpr std::array<const char*, 3> kDetours{"none", "local", "global"};
 
 }  // namespace
 
 const char* to_text(Rung rung) { return kRungs[static_cast<std::size_t>(rung)]; }
-const char* to_text(Detour detour) { return kDetours[static_cast<std::size_t>(detour)]; }
-
-Detour detour_of(const std::string& text) {
-  if (text == to_text(Detour::local)) return Detour::local;
-  return text == to_text(Detour::global) ? Detour::global : Detour::none;
-}
 
 Result<void> LadderParams::validate() const {
   if (!(horn_after_s >= 0.0)) return fail("ladder.horn_after_s must be >= 0");

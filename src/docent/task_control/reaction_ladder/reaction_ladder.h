@@ -7,6 +7,7 @@
 
 #include "docent/base/result.h"
 #include "docent/base/time.h"
+#include "docent/planning/detour/detour.h"
 
 namespace docent {
 
@@ -35,11 +36,6 @@ struct LadderParams {
   }
   [[nodiscard]] Result<void> validate() const;
 };
-
-/// How the way differs from the one that was meant before something stood in it.
-enum class Detour { none, local, global };
-[[nodiscard]] const char* to_text(Detour detour);
-[[nodiscard]] Detour detour_of(const std::string& text);  ///< none for an unknown text
 
 /// What the ladder sees of a drive.
 struct LadderView {
@@ -85,8 +81,6 @@ class ReactionLadder {
   }
   /// Several times a second while driving. @returns the steps that are taken now, in their order.
   [[nodiscard]] std::vector<LadderStep> step(const LadderView& view, Time now);
-
-  [[nodiscard]] bool is_blocked() const { return episode_.has_value(); }
 
  private:
   /// From the first sign of a blockage until the way was free for a while.

@@ -1,0 +1,51 @@
+"""Runs of the whole robot in a museum, kept under a key of everything that decides them."""
+import concurrent.futures
+import hashlib
+import json
+import os
+import subprocess
+import sys
+import time
+
+from evaluation.keys import key_of
+
+
+class Simulations:
+    def __init__(self, docent, root, cache, jobs):
+        self.docent, self.root, self.cache, self.jobs = docent, root, cache, jobs
+
+    @property
+    def museums(self):
+        return self.root / "museums"
+
+    def key(self, museum, *programs):
+        """Of everything that decides a run: the programs as they are built, scenarios, the museum."""
+        return key_of(self.docent, *programs, self.root / "scripts" / "scenarios", museum)
+
+    def run(self, name, museum, seed, minutes, arguments, timeout=3600):
+        """One run; its report, from the cache when it was made before."""
+        arguments = [str(argument) for argument in arguments]
+        key = hashlib.sha256(json.dumps([self.key(museum), seed, minutes, arguments]).encode()).hexdigest()[:16]
+        folder = self.cache / name
+        folder.mkdir(parents=True, exist_ok=True)
+        path = folder / f"{museum.name}-seed{seed}-{key}.json"
+        if not path.exists():
+            part = path.with_suffix(f".part{os.getpid()}")
+            command = [self.docent, "simulate", "--museum", museum, "--hours", f"{minutes / 60:.6f}", "--seed", str(seed),
+                       "--report", part, "--quiet", *arguments]
+            started = time.monotonic()
+            done = subprocess.run(command, capture_output=True, text=True, timeout=timeout, check=False)
+            if done.returncode != 0 or not part.exists():
+                raise RuntimeError(f"seed {seed}: docent simulate exited {done.returncode}: {done.stderr.strip()[-500:]}")
+            part.rename(path)
+            print(f"   {museum.name} seed {seed}: {time.monotonic() - started:.0f} s", file=sys.stderr)
+        return json.loads(path.read_text())
+
+    def of_seeds(self, name, museum, seeds, minutes, arguments):
+        return self.all([(name, museum, seed, minutes, arguments) for seed in seeds])
+
+    def all(self, runs):
+        """Reports of many runs, in their order; each what `run` takes."""
+        with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
+            futures = [pool.submit(self.run, *run) for run in runs]
+            return [future.result() for future in futures]

@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+"""What the protocols of scripts/evaluate must not let pass: idle robots, empty worlds, missing rows, other configurations."""
+import json
+import os
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+from types import SimpleNamespace
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / "scripts"))
+from evaluation import benchmarks, coastal, crippled, faults, ledger, reports, safety, scenarios  # noqa: E402
+from evaluation.tables import Verdict  # noqa: E402
+
+
+def report(lost=0.0, people=0, area=0, km=1.0, passes=50, virtual=1200.0, cpu=30.0, wall=60.0, blocked=100.0, horns=20, bumped=0):
+    return {"contacts": {"people": people, "furniture": 0, "walls": 0, "hazards": 0}, "area_violations": area,
+            "distance_m": 1000 * km, "passes_within_1m": passes, "virtual_seconds": virtual, "cpu_seconds": cpu,
+            "wall_seconds": wall, "localization": {"lost_s": lost}, "bumped_by_people": bumped,
+            "blocked": {"seconds": blocked, "horn": horns}}
+
+
+class Reports(unittest.TestCase):
+    def test_the_speedup_is_of_all_seconds_of_one_core(self):
+        self.assertAlmostEqual(reports.speedup_of([report(cpu=30.0), report(cpu=50.0)]), 30.0)
+        for cpu, holds in ((40.0, True), (41.0, False)):
+            verdict = Verdict()
+            reports.want_speedup(verdict, "bonn", [report(cpu=cpu)])
+            self.assertEqual(verdict.good, holds)
+
+    def test_what_is_only_shown_is_neither_good_nor_bad(self):
+        verdict = Verdict()
+        reports.want_speedup(verdict, "bonn", [report(cpu=600.0)], is_judged=False)
+        self.assertEqual(len(verdict.rows), 1)
+        verdict.want("something", "seen", True)
+        self.assertTrue(verdict.good)
+
+    def test_nothing_judged_is_not_good(self):
+        self.assertFalse(Verdict().good)
+
+
+class Crippled(unittest.TestCase):
+    def test_who_only_stands_idle_does_not_fail_as_it_must(self):
+        for touches, good in ((dict(km=0.0, passes=0), False), (dict(people=1), True), (dict(area=2), True)):
+            verdict = Verdict()
+            crippled.want_touches("blind to people", "bonn", [report(**touches)], verdict)
+            self.assertEqual(verdict.good, good)
+
+    def test_only_who_reckons_dead_may_be_lost_instead_and_must_drive(self):
+        for how, km, good in (("dead reckoning", 0.2, True), ("dead reckoning", 0.0, False), ("blind to people", 0.2, False)):
+            verdict = Verdict()
+            crippled.want_touches(how, "bonn", [report(lost=600.0, km=km)], verdict)
+            self.assertEqual(verdict.good, good)
+
+
+class Safety(unittest.TestCase):
+    def test_without_the_third_museum_only_a_slice_holds(self):
+        before = os.environ.get("DOCENT_DATA")
+        os.environ["DOCENT_DATA"] = "/nowhere"
+        try:
+            for is_slice, failed in ((False, 1), (True, 0)):
+                verdict = Verdict()
+                self.assertIsNone(safety.made_museum(SimpleNamespace(root=ROOT), verdict, is_slice))
+                self.assertEqual(sum(row[0] == "FAIL" for row in verdict.rows), failed)
+        finally:
+            del os.environ["DOCENT_DATA"]
+            if before is not None:
+                os.environ["DOCENT_DATA"] = before
+
+
+class Scenarios(unittest.TestCase):
+    def test_an_empty_world_falls_short(self):
+        crowded, empty = SimpleNamespace(report=report()), SimpleNamespace(report=report(passes=0, blocked=0.0, horns=0))
+        for name in ("people-wall", "closed-passage", "staircase", "children"):
+            self.assertTrue(scenarios.exposures_of(name, [crowded])[1], name)
+            self.assertFalse(scenarios.exposures_of(name, [empty])[1], name)
+
+    def test_the_crowds_that_are_left_out_are_in_the_files(self):
+        for name, scenario in scenarios.SCENARIOS.items():
+            if scenario.crowd:
+                self.assertIn(f" {scenario.crowd}:", (ROOT / "scripts" / "scenarios" / f"{name}.yaml").read_text())
+
+
+class Faults(unittest.TestCase):
+    def test_every_sensor_breaks_in_every_way(self):
+        names = [fault.name for fault in faults.all_faults()]
+        for sensor in ("laser_front", "laser_rear", "sonar", "infrared", "odom", "tactile"):
+            for kind in ("dead", "frozen", "half", "late"):
+                self.assertIn(f"{sensor} {kind}", names)
+
+    def test_an_infrared_ring_freezes_where_it_sees_something(self):
+        row = {"speed": 0.5, "nearest_solid": 2.0, "nearest_person": 3.0}
+        open_floor = [dict(row) for _ in range(500)]
+        beside = [dict(row, nearest_solid=0.4) for _ in range(500)]
+        self.assertTrue(faults.moments(open_floor))
+        self.assertFalse(faults.moments(open_floor, is_near=True))
+        self.assertTrue(faults.moments(beside, is_near=True))
+
+
+class Coastal(unittest.TestCase):
+    def test_noise_does_not_count_as_not_higher(self):
+        for fewer, span, good in ((0.0, 0.02, True), (0.0, 0.2, False), (-0.1, 0.2, False), (-0.1, 0.1, True)):
+            verdict = Verdict()
+            coastal.want_not_lost(verdict, "lasers", fewer, span)
+            self.assertEqual(verdict.good, good)
+
+
+class Ledger(unittest.TestCase):
+    def write(self, folder, configurations, program="a", failed=()):
+        (folder / "verdicts").mkdir(exist_ok=True)
+        for name in ledger.ROWS:
+            row = {"good": not failed, "configurations": configurations.get(name, ["c"]), "program": program, "failed": list(failed),
+                   "made": "today"}
+            (folder / "verdicts" / f"{name}.json").write_text(json.dumps(row))
+
+    def test_rows_are_of_one_configuration_and_one_program(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            self.assertFalse(ledger.protocol(folder).good, "no row")
+            self.write(folder, {"crowd": ["x", "y"], "coastal": ["z"]})
+            self.assertTrue(ledger.protocol(folder).good)
+            self.write(folder, {"speed": ["d"]})
+            self.assertFalse(ledger.protocol(folder).good)
+            self.write(folder, {}, failed=["contacts"])
+            self.assertFalse(ledger.protocol(folder).good)
+            self.write(folder, {})
+            row = json.loads((folder / "verdicts" / "tour.json").read_text())
+            (folder / "verdicts" / "tour.json").write_text(json.dumps(dict(row, program="b")))
+            self.assertFalse(ledger.protocol(folder).good)
+            (folder / "verdicts" / "tour.json").unlink()
+            self.assertFalse(ledger.protocol(folder).good)
+
+    def test_two_configurations_in_one_protocol_fail(self):
+        verdict = Verdict()
+        verdict.want_one_configuration(["a", "b", "a"])
+        self.assertFalse(verdict.good)
+        self.assertEqual(verdict.hashes, {"a", "b"})
+
+
+class Benchmarks(unittest.TestCase):
+    ROWS = [{"name": "velocity_selection/0", "times_faster": 30.0}, {"name": "velocity_selection/1", "times_faster": 120.0},
+            {"name": "velocity_selection/2", "error_occurred": True, "error_message": benchmarks.NO_MATTER},
+            {"name": "virtual_measurements/5000/0", "times_faster": 3.5}, {"name": "virtual_measurements/5000/1", "times_faster": 4.0}]
+
+    def good(self, rows, code=0, printed="", name="collision_avoidance"):
+        return benchmarks.judge(name, code, {"benchmarks": rows}, printed).good
+
+    def test_ratios_errors_and_the_exit_code_count(self):
+        self.assertTrue(self.good(self.ROWS))
+        self.assertFalse(self.good(self.ROWS, code=1))
+        self.assertFalse(self.good([]))
+        self.assertFalse(self.good(self.ROWS[:-1]), "a row is missing")
+        self.assertFalse(self.good([dict(row, times_faster=2.0) for row in self.ROWS]))
+        self.assertFalse(self.good([*self.ROWS, {"name": "more", "error_occurred": True, "error_message": "not the same decision"}]))
+
+    def test_bounds_that_a_program_prints_count(self):
+        row, line = [{"name": "full_solve"}], "  full value function   12.0   >= 10.0   {}\n"
+        name = "planning_value_iteration"
+        self.assertTrue(self.good(row, printed=6 * line.format("pass"), name=name))
+        self.assertFalse(self.good(row, printed=5 * line.format("pass"), name=name))
+        self.assertFalse(self.good(row, printed=6 * line.format("pass") + line.format("FAIL"), name=name))
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=1)
