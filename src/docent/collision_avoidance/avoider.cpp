@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "docent/geometry/polygon.h"
 
@@ -46,30 +47,34 @@ Avoider::Avoider(const BaseLimits& limits, const AvoiderParams& params, std::siz
       odometry_watch_{limits} {}
 
 void Avoider::add_odometry(Time now, Time stamp, const BaseState& state) {
-  const auto unbroken = unbroken_.add(stamp, state.odom_from_base);
+  const Time taken = local_time_.receive("odometry", now, stamp);
+  const auto unbroken = unbroken_.add(taken, state.odom_from_base);
   odometry_watch_.receive(now, stamp, state, unbroken.jumped, commands_);
   // A base that derives its velocity from its pose says nonsense in a jump.
   const bool keeps = unbroken.jumped && !odometry_.empty();
-  odometry_.add(stamp, {unbroken.odom_from_base, keeps ? odometry_.newest().velocity : state.velocity});
+  odometry_.add(taken, {unbroken.odom_from_base, keeps ? odometry_.newest().velocity : state.velocity});
 }
 
-void Avoider::add_sweep(Time now, std::size_t sensor, const SensorSweep& sweep) {
+void Avoider::add_sweep(Time now, std::size_t sensor, SensorSweep sweep) {
   if (sensor >= laser_count_ || odometry_.empty()) return;
   sweep_freshness_[sensor].receive(now, sweep.stamp);
+  sweep.stamp = local_time_.receive("laser " + std::to_string(sensor), now, sweep.stamp);
   memory_.add_sweep(sensor, sweep, odometry_.pose_at(sweep.stamp));
 }
 
-void Avoider::add_sonar(Time now, std::size_t index, const SonarReading& reading) {
+void Avoider::add_sonar(Time now, std::size_t index, SonarReading reading) {
   if (odometry_.empty()) return;
+  const Time stamp = std::exchange(reading.stamp, local_time_.receive("sonars", now, reading.stamp));
   const Pose2 odom_from_base = odometry_.pose_at(reading.stamp);
-  sonar_watch_.hear(now, reading.stamp, index, reading.range, reading.range < reading.max_range, odom_from_base);
+  sonar_watch_.hear(now, stamp, index, reading.range, reading.range < reading.max_range, odom_from_base);
   memory_.add_sonar(index, reading, odom_from_base);
 }
 
-void Avoider::add_infrared(Time now, std::size_t index, const SonarReading& reading) {
+void Avoider::add_infrared(Time now, std::size_t index, SonarReading reading) {
   if (odometry_.empty()) return;
+  const Time stamp = std::exchange(reading.stamp, local_time_.receive("infrared", now, reading.stamp));
   const Pose2 odom_from_base = odometry_.pose_at(reading.stamp);
-  infrared_watch_.hear(now, reading.stamp, index, reading.range, reading.range < reading.max_range, odom_from_base);
+  infrared_watch_.hear(now, stamp, index, reading.range, reading.range < reading.max_range, odom_from_base);
   memory_.add_infrared(index, reading, odom_from_base);
 }
 
@@ -77,33 +82,36 @@ void Avoider::add_lines(Time now, Time stamp, const std::string& source, double 
                         std::span<const Segment> in_base) {
   if (odometry_.empty()) return;
   line_freshness_[source].receive(now, stamp);
-  memory_.add_lines(source, stamp, lifetime, in_base, odometry_.pose_at(stamp));
+  const Time taken = local_time_.receive("camera " + source, now, stamp, LocalTime::kWayOfAPicture);
+  memory_.add_lines(source, taken, lifetime, in_base, odometry_.pose_at(taken));
 }
 
 void Avoider::add_tactile(Time now, Time stamp, std::span<const std::uint8_t> segments, std::uint32_t scan) {
   tactile_watch_.feel(now, stamp, segments, scan);
   if (odometry_.empty()) return;
+  const Time taken = local_time_.receive("tactile", now, stamp);
   const double step = 2.0 * std::numbers::pi / static_cast<double>(segments.size());
   for (std::size_t i = 0; i < segments.size(); ++i) {
     if (segments[i] == 0 || segments[i] == TactileWatch::kNoReading) continue;
     if (!touched_ || now - *touched_ > seconds(kStandsTouched)) touched_since_ = now;
     touched_ = now;
     const Angle bearing = Angle::radians(step * static_cast<double>(i));
-    memory_.add_touch(stamp, limits_.radius * unit(bearing), odometry_.pose_at(stamp));
+    memory_.add_touch(taken, limits_.edge(bearing), odometry_.pose_at(taken));
   }
 }
 
-void Avoider::add_virtual(Time now, const VirtualSweep& sweep) {
+void Avoider::add_virtual(Time now, VirtualSweep sweep) {
   const auto is_unfit = [](float range) { return std::isnan(range); };
   if (odometry_.empty() || std::any_of(sweep.ranges.begin(), sweep.ranges.end(), is_unfit)) return;
   virtual_freshness_.receive(now, sweep.stamp);
+  sweep.stamp = local_time_.receive_handed_on("virtual", now, sweep.stamp);
   odom_from_virtual_ = odometry_.pose_at(sweep.stamp);
-  virtual_ = sweep;
+  virtual_ = std::move(sweep);
 }
 
 void Avoider::add_person_beams(Time now, Time stamp, std::span<const Point2> in_base, bool localized) {
   if (odometry_.empty()) return;
-  const Pose2 odom_from_base = odometry_.pose_at(stamp);
+  const Pose2 odom_from_base = odometry_.pose_at(local_time_.receive_handed_on("person beams", now, stamp));
   unmapped_in_odom_.clear();
   for (const auto& point : in_base) unmapped_in_odom_.push_back(odom_from_base * point);
   unmapped_time_ = now;
@@ -112,7 +120,7 @@ void Avoider::add_person_beams(Time now, Time stamp, std::span<const Point2> in_
 
 void Avoider::set_target(Time now, Time stamp, AvoiderTarget target) {
   target_freshness_.receive(now, stamp);
-  const Pose2& odom_from_raw = unbroken_.odom_from_raw(stamp);
+  const Pose2& odom_from_raw = unbroken_.odom_from_raw(local_time_.receive("target", now, stamp));
   for (Point2& via : target.via) via = odom_from_raw * via;
   target.heading = odom_from_raw.theta + target.heading;
   target_ = std::move(target);
@@ -193,7 +201,7 @@ std::vector<Obstacle> Avoider::obstacles_from(const Pose2& odom_from_base, Time 
     }
     for (const double bearing : memory_.blind_directions()) {
       // Nobody knows what is there: as if something were just within the margin, wherever the robot is.
-      result.push_back({(limits_.radius + params_.window.real_margin - 1e-3) * unit(Angle::radians(bearing)),
+      result.push_back({limits_.edge(Angle::radians(bearing), params_.window.real_margin - 1e-3),
                         {},
                         params_.window.real_margin,
                         false,
@@ -321,7 +329,7 @@ void Avoider::cap_by_surroundings(std::span<const Obstacle> obstacles, double be
   for (const auto& obstacle : obstacles) {
     const double way = norm(obstacle.at);
     if (way < 1e-6) continue;
-    const double slack = way - limits_.radius - obstacle.margin;
+    const double slack = limits_.gap_to(obstacle.at) - obstacle.margin;
     const double ahead = obstacle.at.x / way;
     // The security distance grows with the speed [Buhmann1995]: read backwards, the speed with the distance.
     if (ahead > -0.2) {
@@ -410,7 +418,7 @@ AvoiderDecision Avoider::decide(Time now) {
   const auto obstacles = obstacles_from(start.odom_from_base, effective);
   for (const auto& obstacle : obstacles) {
     double& nearest = obstacle.is_virtual ? decision.nearest_virtual : decision.nearest_real;
-    nearest = std::min(nearest, norm(obstacle.at) - limits_.radius);
+    nearest = std::min(nearest, limits_.gap_to(obstacle.at));
   }
   if (auto why = fault(now); !why.empty()) return stand(now, std::move(decision), std::move(why));
   if (!target_ || target_->mode == AvoiderTarget::Mode::stop) return stand(now, std::move(decision), "");
@@ -461,7 +469,9 @@ std::optional<AvoiderDecision> Avoider::reflex(Time now) {
   if (auto why = fault(now); !why.empty()) return stand(now, std::move(decision), std::move(why));
   if (is_touched(now, 0.2)) return stand(now, std::move(decision), "the robot was touched");
   const BaseState start = state_when_effective(now);
-  if (std::abs(start.velocity.linear) < 0.03 && std::abs(command_.linear) < 0.03) return std::nullopt;
+  // A disc turns in its own place; another body sweeps more.
+  const bool stays = std::abs(start.velocity.linear) < 0.03 && std::abs(command_.linear) < 0.03;
+  if (stays && limits_.outline.empty()) return std::nullopt;
   const auto obstacles = obstacles_from(start.odom_from_base, now + seconds(limits_.latency));
   // Less margin than at the choice, or the noise of every sweep would brake; until the next sweep, then brake.
   constexpr double kSlack = 0.03;

@@ -12,6 +12,7 @@
 #include "docent/collision_avoidance/crowd_steering.h"
 #include "docent/collision_avoidance/dynamic_window.h"
 #include "docent/collision_avoidance/freshness.h"
+#include "docent/collision_avoidance/local_time.h"
 #include "docent/collision_avoidance/obstacle_memory.h"
 #include "docent/collision_avoidance/odometry_watch.h"
 #include "docent/collision_avoidance/position_doubt.h"
@@ -95,22 +96,23 @@ struct AvoiderDecision {
 /// knows how old everything is, steers along via-points with the dynamic window, and brakes on any scan that says so.
 /// Safe without planner, localization or radio (architecture 8).
 ///
-/// Sensor inputs take the local time of receipt and the stamp of their message.
+/// Sensor inputs take the local time of receipt and the stamp of their message, by whatever clock; all that is kept and
+/// compared is in local time.
 class Avoider {
  public:
   Avoider(const BaseLimits& limits, const AvoiderParams& params, std::size_t laser_count);
 
   /// @param state  as the base says it: jumps are taken out here, and targets are carried over them
   void add_odometry(Time now, Time stamp, const BaseState& state);
-  void add_sweep(Time now, std::size_t sensor, const SensorSweep& sweep);
-  void add_sonar(Time now, std::size_t index, const SonarReading& reading);
-  void add_infrared(Time now, std::size_t index, const SonarReading& reading);
+  void add_sweep(Time now, std::size_t sensor, SensorSweep sweep);
+  void add_sonar(Time now, std::size_t index, SonarReading reading);
+  void add_infrared(Time now, std::size_t index, SonarReading reading);
   /// What a camera saw on the floor, base frame at `stamp`.
   void add_lines(Time now, Time stamp, const std::string& source, double lifetime, std::span<const Segment> in_base);
   /// @param segments  evenly round the body, the first at the front: 1 pressed, TactileWatch::kNoReading
   /// @param scan  count of the ring's own scans; 0: it keeps none
   void add_tactile(Time now, Time stamp, std::span<const std::uint8_t> segments, std::uint32_t scan = 0);
-  void add_virtual(Time now, const VirtualSweep& sweep);
+  void add_virtual(Time now, VirtualSweep sweep);
   /// Endpoints that localization found unmapped, base frame at `stamp`.
   void add_person_beams(Time now, Time stamp, std::span<const Point2> in_base, bool localized);
   /// What localization believes: it slows the robot where that is little (safety rule 4).
@@ -169,6 +171,7 @@ class Avoider {
   Velocity command_;
   double max_speed_ = 0.7;
 
+  LocalTime local_time_;
   std::vector<Freshness> sweep_freshness_;
   UnbrokenOdometry unbroken_;
   OdometryWatch odometry_watch_;

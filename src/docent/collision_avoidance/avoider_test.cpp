@@ -2,6 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <optional>
+
 #include "docent/collision_avoidance/rehearsal_for_test.h"
 
 namespace docent {
@@ -204,6 +210,107 @@ TEST(Avoider, AJumpOfTheOdometrySlowsItAndMovesNothingThatItKnows) {
   world.run(5.0);
   EXPECT_GT(world.velocity.linear, 0.5);
   EXPECT_NEAR(world.map_from_base.y, 0.0, 0.1) << "targets are carried over the jump";
+}
+
+TEST(Avoider, TheClocksOfOtherComputersDoNotBlindIt) {
+  for (const double sensor : {0.0, 5.0, -5.0, 0.6, -0.6}) {
+    for (const double odometry : {0.0, sensor, -sensor}) {
+      SCOPED_TRACE("sensors " + std::to_string(sensor) + " s, odometry " + std::to_string(odometry) + " s ahead");
+      Rehearsal world;
+      world.sensor_clock = sensor;
+      world.odometry_clock = odometry;
+      world.box(-3, -2, 6, 2);
+      world.hazards = sides({{2.0, 0.7}, {4.0, 0.7}, {4.0, 1.5}, {2.0, 1.5}});
+      world.now = time_from_seconds(20.0);
+      world.drive_to({{1, 0.4}, {2, 0}, {4, 0}, {4.5, 1}, {9, 1}});  // the end lies behind the wall
+      world.run(3.0);
+      EXPECT_GT(world.velocity.linear, 0.4) << world.decision.reason;
+      EXPECT_GT(world.avoider.memory().points(world.now).size(), 200U);
+      world.run(17.0);
+      EXPECT_GT(world.least_wall, 0.03);
+      EXPECT_GT(world.driven, 4.0);
+    }
+  }
+}
+
+/// A long body that stands or turns on its own behalf: the test is its base, its lasers and what they see.
+class LongBody : public ::testing::Test {
+ protected:
+  LongBody() {
+    limits.radius = 0.6;
+    limits.outline = Outline::make({{0.5, 0.2}, {-0.5, 0.2}, {-0.5, -0.2}, {0.5, -0.2}}).value();
+    avoider.emplace(limits, Rehearsal::without_sonar(), 1);
+  }
+  /// One cycle in which the only laser sees `ranges` (NaN: blind).
+  void cycle(const std::function<float(Angle)>& range) {
+    now = now + seconds(0.05);
+    avoider->add_odometry(now, now, {odom_from_base, velocity});
+    SensorSweep sweep{now, {}, -std::numbers::pi, std::numbers::pi / 180.0, 0.02, 10.0, {}};
+    for (int i = 0; i < 360; ++i) sweep.ranges.push_back(range(Angle::degrees(i - 180.0)));
+    avoider->add_sweep(now, 0, sweep);
+    VirtualSweep nothing{now, -std::numbers::pi, std::numbers::pi / 90.0, 6.0, std::vector<float>(180, 6.0F)};
+    avoider->add_virtual(now, nothing);
+    avoider->set_target(now, now, target);
+  }
+  void turn() {
+    velocity.angular = std::min(1.0, velocity.angular + 0.05 * limits.turn_acceleration);
+    odom_from_base = odom_from_base * Pose2{0.0, 0.0, Angle::radians(0.05 * velocity.angular)};
+  }
+  BaseLimits limits;
+  std::optional<Avoider> avoider;
+  AvoiderTarget target;
+  Time now = time_from_seconds(10.0);
+  Pose2 odom_from_base;
+  Velocity velocity;
+};
+
+TEST_F(LongBody, BrakesATurnForWhatComesBesideIt) {
+  target.mode = AvoiderTarget::Mode::turn;
+  target.heading = Angle::degrees(170);
+  const auto nothing = [](Angle) { return 10.0F; };
+  for (int i = 0; i < 20; ++i) {
+    cycle(nothing);
+    if (i % 5 == 0) (void)avoider->decide(now);
+    turn();
+  }
+  ASSERT_GT(avoider->command().angular, 0.5);
+  const auto post = [](Angle bearing) {  // just left of the front left corner, which turns to it
+    return std::abs(bearing.degrees() - 45.0) < 3.0 ? 0.45F : 10.0F;
+  };
+  for (int i = 0; i < 2; ++i) cycle(post);
+  const auto decision = avoider->reflex(now);
+  ASSERT_TRUE(decision) << "no reflex";
+  EXPECT_EQ(decision->reason, "braking");
+  EXPECT_EQ(decision->command, Velocity{});
+}
+
+TEST_F(LongBody, WhatTouchesItOrCannotBeSeenLiesAtItsEdge) {
+  const auto blind_to_the_left = [](Angle bearing) {
+    return std::abs(bearing.degrees() - 90.0) < 10.0 ? std::numeric_limits<float>::quiet_NaN() : 10.0F;
+  };
+  cycle(blind_to_the_left);
+  EXPECT_NEAR(avoider->decide(now).nearest_real, 0.08, 0.01) << "the margin, from its side and not from its radius";
+  std::vector<std::uint8_t> segments(4, 0);
+  segments[3] = 1;  // right
+  avoider->add_tactile(now, now, segments);
+  const auto points = avoider->memory().points(now);
+  ASSERT_EQ(points.size(), 1U);
+  EXPECT_NEAR(points[0].in_odom.y, -0.2, 1e-9);
+  EXPECT_NEAR(avoider->decide(now).nearest_real, 0.0, 1e-9);
+}
+
+TEST_F(LongBody, SlowsForWhatIsNearItsEdgeNotItsRadius) {
+  target.mode = AvoiderTarget::Mode::drive;
+  target.via = {{5.0, 0.0}};
+  // A wall 0.5 m beside the middle: 0.3 m from the side, but inside the radius.
+  const auto wall = [](Angle bearing) {
+    const double aside = std::sin(bearing.radians());
+    return aside > 0.11 ? static_cast<float>(0.5 / aside) : 10.0F;
+  };
+  for (int i = 0; i < 4; ++i) cycle(wall);
+  const auto decision = avoider->decide(now);
+  EXPECT_NEAR(decision.nearest_real, 0.3, 0.01);
+  EXPECT_GT(decision.speed_cap, 0.3) << decision.reason;
 }
 
 TEST(Avoider, ADoubtfulPositionSlowsIt) {

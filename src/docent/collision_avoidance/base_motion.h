@@ -28,6 +28,15 @@ struct BaseLimits {
   double latency = 0.15;           ///< [s] from a command to the wheels
   double watchdog = 0.3;           ///< [s] without a command, then the base stops
   Outline outline{};  ///< of a body that is no disc; the window and the braking keep to it, not to `radius`
+
+  /// The point on a ray from the centre that lies `beyond` [m] outside the body, base frame.
+  [[nodiscard]] Point2 edge(Angle bearing, double beyond = 0.0) const {
+    return ((outline.empty() ? radius : outline.radius_at(bearing)) + beyond) * unit(bearing);
+  }
+  /// Distance [m] from the body to a point, base frame. Inside it is negative for a disc, else 0.
+  [[nodiscard]] double gap_to(Point2 in_base) const {
+    return outline.empty() ? norm(in_base) - radius : outline.distance_to(in_base);
+  }
 };
 
 /// A moving base: where it is and how it moves.

@@ -18,7 +18,7 @@ constexpr double kOnTheSpot = 1e-6;    // [m/s]
 struct Sample {
   Pose2 start_from_base;
   double time = 0.0;
-  double linear = 0.0;
+  Velocity velocity;
 };
 
 /// The manoeuvre "obey, then brake": at most 64 samples; `reach` is how far the base gets from its start.
@@ -38,8 +38,10 @@ Manoeuvre simulate(const Velocity& velocity, const Velocity& command, double hol
     state = advance(state, obeys ? command : Velocity{}, limits, dt);
     time += dt;
     result.way += std::abs(state.velocity.linear) * dt;
-    result.samples[result.count++] = {state.odom_from_base, time, state.velocity.linear};
-    if (!obeys && state.velocity.linear == 0.0) break;
+    result.samples[result.count++] = {state.odom_from_base, time, state.velocity};
+    // What is left of a turn moves no disc, but it moves every other body.
+    const bool stands = state.velocity.linear == 0.0 && (limits.outline.empty() || state.velocity.angular == 0.0);
+    if (!obeys && stands) break;
   }
   result.way += std::abs(velocity.linear) * kStep;
   return result;
@@ -60,10 +62,6 @@ Result<void> DynamicWindowParams::validate() const {
   if (!(security_time >= 0.0 && security_most >= 0.0)) return fail("avoid.window: security must be >= 0");
   if (!(creep_speed > 0.0 && creep_speed <= 0.3)) return fail("avoid.window.creep_speed must lie in (0, 0.3] m/s");
   return {};
-}
-
-double DynamicWindowParams::security(double speed) const {
-  return std::min(security_most, security_time * std::max(0.0, std::abs(speed) - creep_speed));
 }
 
 double DynamicWindowParams::speed_with(double slack) const {
@@ -89,7 +87,8 @@ bool can_outline_brake(const Manoeuvre& manoeuvre, std::span<const Obstacle> obs
       const Sample& sample = manoeuvre.samples[i];
       const Point2 at = inverse(sample.start_from_base) * (obstacle.at + sample.time * obstacle.velocity);
       if (outline.distance_to(at) >= required) continue;
-      if (speed == 0.0 || sample.linear * at.x > kStandsStill * norm(at)) return false;
+      const Velocity& moves = sample.velocity;
+      if (speed == 0.0 || outline.closing_speed(moves.linear, moves.angular, at) > kStandsStill) return false;
     }
   }
   return true;
@@ -113,7 +112,7 @@ bool can_brake_in_time(const Velocity& velocity, const Velocity& command, double
         const Point2 offset = obstacle.at + sample.time * obstacle.velocity - sample.start_from_base.position();
         const double away = norm(offset);
         if (away >= required) continue;
-        const double towards = sample.linear * dot(unit(sample.start_from_base.theta), offset);
+        const double towards = sample.velocity.linear * dot(unit(sample.start_from_base.theta), offset);
         if (towards > kStandsStill * away) return false;
       }
       continue;

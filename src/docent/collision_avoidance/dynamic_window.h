@@ -44,10 +44,9 @@ struct DynamicWindowParams {
   }
   [[nodiscard]] Result<void> validate() const;
 
-  /// What the margin grows by [m] at a speed [m/s]: the security distance of [BuhmannEtAl1995], 10 to 30 cm there.
-  [[nodiscard]] double security(double speed) const;
   /// The speed [m/s] whose security distance is `slack` [m] more than the margin; infinite where more is never asked
-  /// for.
+  /// for. The security distance of [BuhmannEtAl1995], 10 to 30 cm there: the margin, and security_time for every m/s
+  /// above creep_speed, at most security_most.
   [[nodiscard]] double speed_with(double slack) const;
 };
 

@@ -141,16 +141,14 @@ TEST(DynamicWindow, KeepsTwoSecondsAwayWhereTheRuleIsOn) {
   }
 }
 
-TEST(DynamicWindow, SecurityGrowsWithSpeedAndBackwardsSpeedWithTheGap) {
+TEST(DynamicWindow, TheSpeedGrowsWithTheGapBeyondTheMargin) {
   const DynamicWindowParams params;
-  EXPECT_EQ(params.security(0.1), 0.0);
-  EXPECT_NEAR(params.real_margin + params.security(0.25), 0.10, 0.01);
-  EXPECT_NEAR(params.real_margin + params.security(1.63), 0.30, 0.01);  // [BuhmannEtAl1995]: 10 to 30 cm
-  for (double speed = 0.15; speed < 1.5; speed += 0.1) {
-    EXPECT_NEAR(params.speed_with(params.security(speed)), speed, 1e-9);
-    EXPECT_GE(params.security(speed + 0.1), params.security(speed));
-  }
-  EXPECT_TRUE(std::isinf(params.speed_with(0.3)));
+  EXPECT_EQ(params.speed_with(-0.1), params.creep_speed);
+  EXPECT_EQ(params.speed_with(0.0), params.creep_speed);
+  // [BuhmannEtAl1995]: 10 cm from slow speeds on, 30 cm from fast ones.
+  EXPECT_NEAR(params.speed_with(0.10 - params.real_margin), 0.25, 0.01);
+  EXPECT_NEAR(params.speed_with(0.2999 - params.real_margin), 1.58, 0.01);
+  EXPECT_TRUE(std::isinf(params.speed_with(0.30 - params.real_margin + 1e-9)));
 }
 
 TEST(DynamicWindow, ABodyWithAnOutlineTouchesNothingEither) {
@@ -192,6 +190,28 @@ TEST(DynamicWindow, ALongBodyDoesNotSwingItsTailIntoAWall) {
   EXPECT_TRUE(can_brake_in_time({}, {0.3, 0.0}, 0.35, wall, limits, 0.0));
   BaseLimits disc;
   EXPECT_TRUE(can_brake_in_time({}, {0.0, 0.8}, 0.35, wall, disc, 0.0));
+}
+
+TEST(CanBrakeInTime, TheRestOfATurnCountsForABodyThatIsNoDisc) {
+  BaseLimits limits;
+  limits.outline = Outline::make({{0.5, 0.2}, {-0.5, 0.2}, {-0.5, -0.2}, {0.5, -0.2}}).value();
+  // 1.2 rad/s for 0.1 s and then 1.5 rad/s2 against it: 0.12 + 0.48 = 0.6 rad, of which most after the command.
+  const auto beyond_corner = [&](double turn, double side) {
+    Obstacle post = real_at(0.0, 0.0);
+    post.at = 0.5 * unit(Angle::radians(side * (std::atan2(0.2, 0.5) + turn)));
+    post.margin = 0.03;
+    return std::vector{post};
+  };
+  for (const double side : {1.0, -1.0}) {
+    const Velocity turning{0.0, side * 1.2};
+    EXPECT_FALSE(can_brake_in_time(turning, turning, 0.1, beyond_corner(0.5, side), limits, 0.0));
+    EXPECT_TRUE(can_brake_in_time(turning, turning, 0.1, beyond_corner(0.9, side), limits, 0.0));
+    EXPECT_FALSE(can_brake_in_time(turning, {}, 0.1, beyond_corner(0.4, side), limits, 0.0)) << "braking at once";
+    EXPECT_TRUE(can_brake_in_time({}, {}, 0.1, beyond_corner(0.4, side), limits, 0.0));
+    auto person = beyond_corner(0.5, side);
+    person.front().velocity = {0.0, -0.05 * side};
+    EXPECT_FALSE(can_brake_in_time(turning, turning, 0.1, person, limits, 0.0)) << "its corner would push";
+  }
 }
 
 TEST(DynamicWindow, StaysInsideWhatTheBaseCanReach) {

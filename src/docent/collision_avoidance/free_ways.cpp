@@ -18,7 +18,7 @@ int FreeWays::lane_of(double curvature) {
   // Finer near straight on, where a small change moves the far end of the way.
   constexpr double kScale = 0.5 * kLanes * (1.0 + kMaxCurvature) / kMaxCurvature;
   const double place = kScale * curvature / (1.0 + std::abs(curvature)) + 0.5 * kLanes;
-  return std::clamp(static_cast<int>(place), 0, kLanes - 1);
+  return place >= 0.0 ? static_cast<int>(std::min(place, kLanes - 1.0)) : 0;  // what is no number: in the first
 }
 
 void FreeWays::build(std::span<const ReachPoint> points, bool backwards) {
@@ -33,7 +33,7 @@ void FreeWays::build(std::span<const ReachPoint> points, bool backwards) {
       continue;
     }
     contact.least = std::sqrt(way2) - contact.reach;
-    if (contact.least >= kHorizon) continue;
+    if (!(contact.least < kHorizon)) continue;  // far, or no number: it lies nowhere
     contact.power = std::max(0.5 * (way2 - reach2), 1e-12);
     unsorted_.push_back(contact);
   }

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "docent/base/random.h"
@@ -114,6 +116,19 @@ TEST(FreeWays, WithinReachOnlyDrivingNearerIsBlocked) {
   fast.build({&ahead, 1}, true);
   fast.along({&curvature, 1}, {&way, 1});
   EXPECT_EQ(way, FreeWays::kHorizon);
+}
+
+TEST(FreeWays, WhatIsNoNumberLiesNowhereAndDisturbsNothing) {
+  const double nan = std::nan("");
+  const double infinity = std::numeric_limits<double>::infinity();
+  FreeWays fast;
+  const std::vector<ReachPoint> points{{{nan, 0.0}, 0.4}, {{1.0, nan}, 0.4},      {{1.0, 0.0}, nan},
+                                       {{2.0, 0.0}, 0.4}, {{infinity, 0.0}, 0.4}, {{-infinity, nan}, 0.4}};
+  const std::array curvatures{0.0, nan, infinity};
+  std::array<double, 3> ways{};
+  fast.build(points, false);
+  fast.along(curvatures, ways);
+  EXPECT_NEAR(ways[0], 1.6, 1e-9);
 }
 
 }  // namespace

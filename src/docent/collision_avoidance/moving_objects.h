@@ -30,6 +30,7 @@ class MovingObjects {
   /// Matches the clusters with what is followed and fills in their velocities. O(clusters * followed).
   void follow(Time stamp, std::vector<Cluster>& clusters);
 
+ private:
   struct Followed {
     Point2 place;
     Point2 velocity{};
@@ -37,9 +38,6 @@ class MovingObjects {
     Point2 first_place;
     int sightings = 1;
   };
-  [[nodiscard]] const std::vector<Followed>& followed() const { return followed_; }
-
- private:
   std::vector<Followed> followed_;
 };
 

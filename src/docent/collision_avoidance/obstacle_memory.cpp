@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kBlindGap = 0.105;  // [rad] 6 degrees
 constexpr int kFrozenSweeps = 2;     // repeats: noise alone makes even one unlikely
+constexpr int kFrozenHits = 3;       // beams that met something: fewer prove nothing
+constexpr int kFrozenReadings = 9;   // noisy readings that were all repeated
 
 bool is_valid(double range) { return !std::isnan(range) && range >= 0.0; }
 
@@ -23,7 +25,7 @@ void ObstacleMemory::watch_for_freeze(Sensor& sensor, const SensorSweep& sweep, 
       last.size() == sweep.ranges.size() && std::equal(last.begin(), last.end(), sweep.ranges.begin(), equal);
   const auto hits = std::count_if(sweep.ranges.begin(), sweep.ranges.end(),
                                   [&](float range) { return is_valid(range) && range < sweep.max_range; });
-  if (!same || hits * 20 < static_cast<std::ptrdiff_t>(sweep.ranges.size())) {
+  if (!same || hits < kFrozenHits) {
     sensor.repeats = 0;
     sensor.frozen = false;
     sensor.odom_from_base_at_change = odom_from_base;
@@ -32,7 +34,7 @@ void ObstacleMemory::watch_for_freeze(Sensor& sensor, const SensorSweep& sweep, 
   ++sensor.repeats;
   const Pose2 moved = inverse(sensor.odom_from_base_at_change) * odom_from_base;
   const bool has_moved = norm(moved.position()) > 0.015 || std::abs(moved.theta.radians()) > 0.02;
-  if (sensor.repeats >= kFrozenSweeps && has_moved) sensor.frozen = true;
+  if (sensor.repeats >= kFrozenSweeps && hits * sensor.repeats >= kFrozenReadings && has_moved) sensor.frozen = true;
 }
 
 std::vector<bool> ObstacleMemory::confirm(std::span<const Point2> points, std::span<const int> beams,

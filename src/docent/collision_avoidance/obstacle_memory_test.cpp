@@ -144,6 +144,28 @@ TEST(ObstacleMemory, FindsAFrozenLaserOnlyWhenTheBaseMoves) {
   EXPECT_FALSE(memory.is_frozen(0));
 }
 
+TEST(ObstacleMemory, AHandfulOfReadingsProvesThatALaserIsFrozen) {
+  for (const int hits : {2, 3, 5}) {
+    SCOPED_TRACE(hits);
+    ObstacleMemory memory;
+    auto sweep = sweep_at(0.0);
+    put(sweep, 90, 90 + hits - 1, 3.0F);
+    const auto drive = [&](int from, int to) {
+      for (int i = from; i < to; ++i) {
+        sweep.stamp = time_from_seconds(0.1 * i);
+        memory.add_sweep(0, sweep, {0.03 * i, 0.0, {}});
+      }
+    };
+    drive(0, 2);
+    EXPECT_FALSE(memory.is_frozen(0)) << "one repeat may be chance";
+    drive(2, 6);
+    EXPECT_EQ(memory.is_frozen(0), hits >= 3);
+    put(sweep, 90, 90, 2.99F);
+    drive(6, 7);
+    EXPECT_FALSE(memory.is_frozen(0));
+  }
+}
+
 TEST(ObstacleMemory, OpenSpaceIsNoFrozenLaser) {
   ObstacleMemory memory;
   for (int i = 0; i < 20; ++i) memory.add_sweep(0, sweep_at(0.1 * i), {0.1 * i, 0.0, {}});

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "docent/geometry/convex.h"
+
 namespace docent {
 
 namespace {
@@ -20,20 +22,22 @@ Point2 turned_left(Point2 a) { return {-a.y, a.x}; }
 Result<Outline> Outline::make(Polygon corners) {
   if (corners.size() < 3) return fail("body.outline needs at least three corners");
   if (signed_area(corners) < 0.0) std::reverse(corners.begin(), corners.end());
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Point2 a = corners[i];
-    const Point2 b = corners[(i + 1) % corners.size()];
-    const Point2 c = corners[(i + 2) % corners.size()];
-    if (!(cross(b - a, c - b) > 0.0)) return fail("body.outline must be convex, without corners on a straight line");
-    if (!(cross(b - a, Point2{} - a) > 0.0)) return fail("body.outline must hold the robot's centre");
-  }
+  if (!is_convex(corners)) return fail("body.outline must be convex, without corners on a straight line");
+  if (!holds_inside(corners, {})) return fail("body.outline must hold the robot's centre");
   Outline outline;
   for (const Point2& corner : corners) outline.circumradius_ = std::max(outline.circumradius_, norm(corner));
   outline.corners_ = std::move(corners);
   return outline;
 }
 
-bool Outline::comes_nearer(Point2 motion, Point2 point) const {
+double Outline::radius_at(Angle bearing) const {
+  double least = kNever;
+  for (const auto& side : sides(corners_))
+    least = std::min(least, ray_distance({}, unit(bearing), side).value_or(kNever));
+  return std::min(least, circumradius_);  // a ray that slips between two sides meets their corner
+}
+
+Point2 Outline::nearest(Point2 point) const {
   Point2 nearest = corners_.front();
   double least = kNever;
   for (const auto& side : sides(corners_)) {
@@ -44,23 +48,28 @@ bool Outline::comes_nearer(Point2 motion, Point2 point) const {
       nearest = foot;
     }
   }
+  return nearest;
+}
+
+Point2 Outline::outwards(Point2 point) const {
+  const Point2 foot = nearest(point);
   // Inside, the way out is past the nearest side.
-  const Point2 outwards = contains(corners_, point) ? nearest - point : point - nearest;
-  return dot(motion, outwards) < 0.0;
+  const Point2 away = contains(corners_, point) ? foot - point : point - foot;
+  const double length = norm(away);
+  return length > 0.0 ? (1.0 / length) * away : Point2{};
+}
+
+double Outline::closing_speed(double linear, double angular, Point2 point) const {
+  // Seen from the robot it is the point that moves.
+  return dot(Point2{linear, 0.0} + angular * turned_left(point), outwards(point));
 }
 
 double Outline::arc_distance(double curvature, Point2 point, double margin) const {
   // Seen from the robot the point moves backwards, and about the centre of the turn against it.
-  const Point2 motion = Point2{-1.0, 0.0} - curvature * turned_left(point);
-  if (distance_to(point) <= margin) return comes_nearer(motion, point) ? 0.0 : kNever;
+  if (distance_to(point) <= margin) return closing_speed(1.0, curvature, point) > 0.0 ? 0.0 : kNever;
   if (std::abs(curvature) < 1e-6) return straight_contact(point, margin);
   const double angle = first_contact({0.0, 1.0 / curvature}, curvature > 0.0 ? -1.0 : 1.0, point, margin);
   return angle / std::abs(curvature);
-}
-
-double Outline::turn_distance(double side, Point2 point, double margin) const {
-  if (distance_to(point) <= margin) return comes_nearer(-side * turned_left(point), point) ? 0.0 : kNever;
-  return first_contact({}, -side, point, margin);
 }
 
 double Outline::first_contact(Point2 pivot, double side, Point2 point, double margin) const {

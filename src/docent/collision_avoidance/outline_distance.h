@@ -23,6 +23,10 @@ class Outline {
   [[nodiscard]] const Polygon& corners() const { return corners_; }
   /// Distance [m] from the centre to the farthest corner.
   [[nodiscard]] double circumradius() const { return circumradius_; }
+  /// Distance [m] from the centre to the outline along `bearing`. O(corners).
+  [[nodiscard]] double radius_at(Angle bearing) const;
+  /// The point of the outline that is nearest. O(corners).
+  [[nodiscard]] Point2 nearest(Point2 in_base) const;
   /// Distance [m] from a point to the outline as a filled shape; 0 inside. O(corners).
   [[nodiscard]] double distance_to(Point2 in_base) const { return distance(corners_, in_base); }
 
@@ -31,16 +35,16 @@ class Outline {
   /// nearer, else infinity; infinity also when they never meet.
   /// @param curvature  [1/m], positive to the left, of the centre's path
   [[nodiscard]] double arc_distance(double curvature, Point2 point, double margin) const;
-  /// Angle [rad] of a turn on the spot until the outline is `margin` away from the point, likewise.
-  /// @param side  +1 to the left, -1 to the right
-  [[nodiscard]] double turn_distance(double side, Point2 point, double margin) const;
+  /// Speed [m/s] at which the body, driving and turning so, comes nearer to a point that stands; negative: goes away.
+  [[nodiscard]] double closing_speed(double linear, double angular, Point2 point) const;
 
  private:
   /// Angle [rad] in (0, 2 pi) that the point turns about `pivot`, in the direction of `side`, until it is within
   /// `margin`.
   [[nodiscard]] double first_contact(Point2 pivot, double side, Point2 point, double margin) const;
   [[nodiscard]] double straight_contact(Point2 point, double margin) const;
-  [[nodiscard]] bool comes_nearer(Point2 motion, Point2 point) const;
+  /// Unit vector along which the point leaves the body soonest.
+  [[nodiscard]] Point2 outwards(Point2 point) const;
 
   Polygon corners_;
   double circumradius_ = 0.0;

@@ -32,19 +32,37 @@ TEST(Outline, KnownByHand) {
   // The corner's circle: 0.06 beside the corner, 0.08 before it.
   EXPECT_NEAR(body.arc_distance(0.0, {2.0, 0.26}, 0.1), 1.5 - 0.08, 1e-12);
   EXPECT_EQ(body.arc_distance(0.0, {-2.0, 0.0}, 0.1), kInfinity);
-  // Turning left on the spot, the front right corner (0.5, -0.2) comes round to a point on its circle.
-  const double reach = std::hypot(0.5, 0.2);
-  EXPECT_NEAR(body.turn_distance(1.0, {reach, 0.0}, 0.0), std::atan2(0.2, 0.5), 1e-6);
-  EXPECT_EQ(body.turn_distance(1.0, {reach + 0.11, 0.0}, 0.1), kInfinity);
-  EXPECT_NEAR(body.circumradius(), reach, 1e-12);
+  EXPECT_NEAR(body.circumradius(), std::hypot(0.5, 0.2), 1e-12);
+}
+
+TEST(Outline, ReachesAsFarAsItsSides) {
+  const Outline body = box(0.5, 0.3, 0.2);
+  EXPECT_NEAR(body.radius_at({}), 0.5, 1e-12);
+  EXPECT_NEAR(body.radius_at(Angle::degrees(90)), 0.2, 1e-12);
+  EXPECT_NEAR(body.radius_at(Angle::degrees(180)), 0.3, 1e-12);
+  for (int degree = -180; degree < 180; ++degree) {
+    const Angle bearing = Angle::degrees(degree);
+    EXPECT_NEAR(outline_distance(body.corners(), body.radius_at(bearing) * unit(bearing)), 0.0, 1e-9);
+  }
+  EXPECT_NEAR(body.radius_at(Angle::radians(std::atan2(0.2, 0.5))), body.circumradius(), 1e-9);
+}
+
+TEST(Outline, ATurningBodyComesNearerToWhatStandsBesideIt) {
+  const Outline body = box(0.5, 0.3, 0.2);
+  EXPECT_NEAR(body.closing_speed(0.7, 0.0, {0.6, 0.0}), 0.7, 1e-12);
+  EXPECT_NEAR(body.closing_speed(0.7, 0.0, {-0.6, 0.0}), -0.7, 1e-12);
+  EXPECT_NEAR(body.closing_speed(0.7, 0.0, {0.0, 0.3}), 0.0, 1e-12);
+  EXPECT_NEAR(body.closing_speed(0.0, 1.0, {0.4, 0.3}), 0.4, 1e-12);
+  EXPECT_NEAR(body.closing_speed(0.0, 1.0, {-0.2, 0.3}), -0.2, 1e-12);
+  EXPECT_NEAR(body.closing_speed(0.7, 0.0, {0.45, 0.0}), 0.7, 1e-12) << "inside, past the nearest side";
 }
 
 TEST(Outline, WithinTheMarginOnlyDrivingNearerIsBlocked) {
   const Outline body = box(0.5, 0.3, 0.2);
   EXPECT_EQ(body.arc_distance(0.0, {0.55, 0.0}, 0.1), 0.0);
   EXPECT_EQ(body.arc_distance(0.0, {-0.35, 0.0}, 0.1), kInfinity);
-  EXPECT_EQ(body.turn_distance(1.0, {0.45, 0.25}, 0.1), 0.0);
-  EXPECT_EQ(body.turn_distance(-1.0, {0.45, 0.25}, 0.1), kInfinity);
+  EXPECT_EQ(body.arc_distance(2.0, {0.45, 0.25}, 0.1), 0.0);
+  EXPECT_EQ(body.arc_distance(-2.0, {0.45, 0.25}, 0.1), kInfinity);
 }
 
 /// Against dense sampling of the motion: the slow twin is the first of many small steps that is too near.

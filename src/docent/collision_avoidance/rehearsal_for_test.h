@@ -43,6 +43,8 @@ class Rehearsal {
   float blind_range = std::numeric_limits<float>::quiet_NaN();
   double front_missing = 0.0;   ///< share of the front laser's readings that are none
   bool virtual_is_nan = false;  ///< one of the virtual measurements
+  double sensor_clock = 0.0;    ///< [s] before ours, of the lasers' computer, which localizes
+  double odometry_clock = 0.0;  ///< [s] of the base's
   Pose2 raw_from_map;           ///< what the odometry has made of the map: a change is a jump
   AvoiderTarget target;
 
@@ -95,7 +97,8 @@ class Rehearsal {
     move_base(kStep);
     move_people(kStep);
     judge();
-    if (ticks_ % 5 == 0 && odometry_works) avoider.add_odometry(now, now, {raw_from_map * map_from_base, velocity});
+    if (ticks_ % 5 == 0 && odometry_works)
+      avoider.add_odometry(now, now + seconds(odometry_clock), {raw_from_map * map_from_base, velocity});
     if (ticks_ % 10 == 0) {
       if (front_works) see(0, 0.0);
       if (rear_works) see(1, std::numbers::pi);
@@ -147,8 +150,13 @@ class Rehearsal {
   }
 
   void see(std::size_t sensor, double heading) {
-    SensorSweep sweep{
-        now, {0.0, 0.0, Angle::radians(heading)}, -0.5 * std::numbers::pi + 0.5 * kBeam, kBeam, 0.02, 10.0, {}};
+    SensorSweep sweep{now + seconds(sensor_clock),
+                      {0.0, 0.0, Angle::radians(heading)},
+                      -0.5 * std::numbers::pi + 0.5 * kBeam,
+                      kBeam,
+                      0.02,
+                      10.0,
+                      {}};
     const Pose2 map_from_sensor = map_from_base * sweep.base_from_sensor;
     for (int i = 0; i < 180; ++i) {
       const Angle bearing = Angle::radians(sweep.first_bearing + i * kBeam);
@@ -175,7 +183,7 @@ class Rehearsal {
   }
 
   void see_virtually() {
-    VirtualSweep sweep{now, -std::numbers::pi, std::numbers::pi / 90.0, 6.0, {}};
+    VirtualSweep sweep{now + seconds(sensor_clock), -std::numbers::pi, std::numbers::pi / 90.0, 6.0, {}};
     for (int i = 0; i < 180; ++i) {
       const Angle bearing = Angle::radians(sweep.first_bearing + i * sweep.bearing_step);
       double range = sweep.max_range;

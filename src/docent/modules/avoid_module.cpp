@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <initializer_list>
 
 #include "docent/collision_avoidance/avoider.h"
 #include "docent/messages/conversions.h"
+#include "docent/modules/message_fitness.h"
 
 namespace docent {
 
@@ -37,11 +37,6 @@ SensorSweep to_sweep(const sensor_msgs::LaserScan& scan, const Pose2& base_from_
           scan.range_min,
           scan.range_max,
           scan.ranges};
-}
-
-/// What is not a number has no place in any comparison below: such a message counts as none.
-bool are_finite(std::initializer_list<double> values) {
-  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }
 
 const char* name_of(AvoiderDecision::State state) {
@@ -80,10 +75,9 @@ class AvoidModule final : public Module {
  private:
   void subscribe_sensors() {
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const nav_msgs::Odometry& odometry) {
+      if (!is_fit(odometry)) return;
       const BaseState state{from_message(odometry.pose.pose),
                             {odometry.twist.twist.linear.x, odometry.twist.twist.angular.z}};
-      const Pose2& pose = state.odom_from_base;
-      if (!are_finite({pose.x, pose.y, pose.theta.radians(), state.velocity.linear, state.velocity.angular})) return;
       avoider_.add_odometry(bus_.now(), from_message(odometry.header.stamp), state);
     });
     bus_.subscribe<sensor_msgs::LaserScan>(topics::kScanFront, [this](const sensor_msgs::LaserScan& scan) {
@@ -94,25 +88,22 @@ class AvoidModule final : public Module {
     });
     bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const sensor_msgs::Range& range) {
       const auto index = body_.sonar_of(range.header.frame_id);
-      if (!index) return;
+      if (!index || !is_fit(range)) return;
       avoider_.add_sonar(bus_.now(), static_cast<std::size_t>(*index),
                          {from_message(range.header.stamp), body_.base_from_sonar(*index), range.field_of_view,
                           range.max_range, range.range});
     });
     bus_.subscribe<sensor_msgs::Range>(topics::kInfrared, [this](const sensor_msgs::Range& range) {
       const auto index = body_.infrared_of(range.header.frame_id);
-      if (!index) return;
+      if (!index || !is_fit(range)) return;
       avoider_.add_infrared(bus_.now(), static_cast<std::size_t>(*index),
                             {from_message(range.header.stamp), body_.base_from_infrared(*index), range.field_of_view,
                              range.max_range, range.range});
     });
     bus_.subscribe<docent_msgs::ObstacleLines>(topics::kObstacleLines, [this](const docent_msgs::ObstacleLines& seen) {
+      if (!is_fit(seen)) return;
       std::vector<Segment> lines;
-      for (const auto& line : seen.lines) {
-        if (!are_finite({line.x1, line.y1, line.x2, line.y2})) return;
-        lines.push_back({{line.x1, line.y1}, {line.x2, line.y2}});
-      }
-      if (!std::isfinite(seen.lifetime_s)) return;
+      for (const auto& line : seen.lines) lines.push_back({{line.x1, line.y1}, {line.x2, line.y2}});
       avoider_.add_lines(bus_.now(), from_message(seen.header.stamp), seen.source, seen.lifetime_s, lines);
       reflex();
     });
@@ -123,10 +114,12 @@ class AvoidModule final : public Module {
     bus_.subscribe<docent_msgs::Belief>(topics::kBelief,
                                         [this](const docent_msgs::Belief& belief) { on_belief(belief); });
     bus_.subscribe<sensor_msgs::LaserScan>(topics::kVirtualScan, [this](const sensor_msgs::LaserScan& scan) {
+      if (!is_fit_all_round(scan)) return;
       avoider_.add_virtual(bus_.now(), {from_message(scan.header.stamp), scan.angle_min, scan.angle_increment,
                                         scan.range_max, scan.ranges});
     });
     bus_.subscribe<docent_msgs::PersonBeams>(topics::kPersonBeams, [this](const docent_msgs::PersonBeams& beams) {
+      if (!is_fit(beams)) return;
       std::vector<Point2> points;
       for (std::size_t i = 0; i < std::min(beams.x.size(), beams.y.size()); ++i)
         points.push_back({beams.x[i], beams.y[i]});
@@ -135,9 +128,11 @@ class AvoidModule final : public Module {
   }
 
   void subscribe_wishes() {
-    bus_.subscribe<docent_msgs::Limits>(
-        topics::kLimits, [this](const docent_msgs::Limits& limits) { avoider_.set_max_speed(limits.max_speed); });
+    bus_.subscribe<docent_msgs::Limits>(topics::kLimits, [this](const docent_msgs::Limits& limits) {
+      if (is_fit(limits)) avoider_.set_max_speed(limits.max_speed);
+    });
     bus_.subscribe<docent_msgs::Target>(topics::kTarget, [this](const docent_msgs::Target& target) {
+      if (!is_fit(target)) return;
       AvoiderTarget wish;
       wish.mode = target.mode == "drive"  ? AvoiderTarget::Mode::drive
                   : target.mode == "turn" ? AvoiderTarget::Mode::turn
@@ -147,8 +142,6 @@ class AvoidModule final : public Module {
       }
       wish.is_final = target.is_final;
       wish.heading = Angle::radians(target.heading);
-      const auto is_unfit = [](const Point2& via) { return !are_finite({via.x, via.y}); };
-      if (std::any_of(wish.via.begin(), wish.via.end(), is_unfit) || !std::isfinite(target.heading)) return;
       wish.position_tolerance = target.position_tolerance;
       wish.heading_tolerance = target.heading_tolerance;
       avoider_.set_target(bus_.now(), from_message(target.header.stamp), std::move(wish));
@@ -156,6 +149,7 @@ class AvoidModule final : public Module {
   }
 
   void on_belief(const docent_msgs::Belief& belief) {
+    if (!is_fit(belief)) return avoider_.add_belief({});  // it knows nothing
     cells_.clear();
     for (const auto& cell : belief.cells)
       cells_.push_back({{cell.x, cell.y, Angle::radians(cell.theta)}, static_cast<double>(cell.mass)});
@@ -169,8 +163,9 @@ class AvoidModule final : public Module {
     // A scan of a part of the field would leave the rest as if nothing were there.
     constexpr double kFieldShare = 0.9;
     const double field = static_cast<double>(scan.angle_increment) * static_cast<double>(scan.ranges.size());
-    widest_field_[sensor] = std::max(widest_field_[sensor], std::isfinite(field) ? field : 0.0);
-    if (!(scan.angle_increment > 0.0F) || !(field >= kFieldShare * widest_field_[sensor])) return;
+    if (!is_fit(scan)) return;
+    widest_field_[sensor] = std::max(widest_field_[sensor], field);
+    if (field < kFieldShare * widest_field_[sensor]) return;
     avoider_.add_sweep(bus_.now(), sensor, to_sweep(scan, base_from_sensor));
     reflex();
   }

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 #include "docent/messages/conversions.h"
 #include "docent/modules/hazards_module.h"
@@ -87,6 +90,7 @@ class MotionModules : public ::testing::Test {
         // Never twice the same, as a real laser.
         scan.ranges.push_back(static_cast<float>(range + 0.001 * ((++noise * 7) % 13)));
       }
+      if (front) spoil_scan(scan);
       if (front ? front_works : true) (front ? front_publisher : rear_publisher).publish(scan);
     }
     docent_msgs::Belief belief;
@@ -97,6 +101,7 @@ class MotionModules : public ::testing::Test {
     belief.odom_pose = to_message(pose);
     belief.p_lost = 0.001;
     belief.localized = true;
+    spoil_belief(belief);
     if (localize_works) belief_publisher.publish(belief);
   }
   void ping(int index) {
@@ -105,6 +110,7 @@ class MotionModules : public ::testing::Test {
                     index < 10 ? "sonar_0" + std::to_string(index) : "sonar_" + std::to_string(index)};
     range.field_of_view = 0.26F;
     range.max_range = range.range = 5.0F;
+    spoil_range(range);
     sonar_publisher.publish(range);
   }
   void want() {
@@ -115,6 +121,7 @@ class MotionModules : public ::testing::Test {
       target.via_x.push_back(x);
       target.via_y.push_back(0.0);
     }
+    spoil_target(target);
     if (plan_works) target_publisher.publish(target);
   }
 
@@ -136,6 +143,10 @@ class MotionModules : public ::testing::Test {
   double speed = 0.0;
   double turn_rate = 0.0;
   int noise = 0;
+  std::function<void(sensor_msgs::LaserScan&)> spoil_scan = [](auto&) {};  ///< done to what the front laser says
+  std::function<void(sensor_msgs::Range&)> spoil_range = [](auto&) {};
+  std::function<void(docent_msgs::Belief&)> spoil_belief = [](auto&) {};
+  std::function<void(docent_msgs::Target&)> spoil_target = [](auto&) {};
   bool front_works = true, localize_works = true, plan_works = true;
   std::unique_ptr<Bus> avoid_bus, hazards_bus, robot_bus;
   std::unique_ptr<Module> avoid, hazards, robot;
@@ -211,6 +222,57 @@ TEST_F(MotionModules, ALostBeliefWearsOutWhileDriving) {
   localize_works = true;
   run(2.0);
   EXPECT_GT(speed, 0.3);
+}
+
+TEST_F(MotionModules, AMessageThatIsNoNumberCountsAsNone) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  const auto spoilt = [&](auto& spoil, auto how, const std::string& reason) {
+    SCOPED_TRACE(reason);
+    run(2.5);
+    ASSERT_GT(speed, 0.3);
+    const auto well = std::exchange(spoil, how);
+    run(2.8);
+    EXPECT_EQ(speed, 0.0);
+    EXPECT_EQ(state.reason, reason);
+    spoil = well;
+  };
+  const std::string laser = "no fresh sweep of the front laser";
+  spoilt(
+      spoil_scan, [](auto& scan) { scan.angle_min = kNan; }, laser);
+  spoilt(
+      spoil_scan, [](auto& scan) { scan.angle_increment = kNan; }, laser);
+  spoilt(
+      spoil_scan, [](auto& scan) { scan.range_min = kNan; }, laser);
+  spoilt(
+      spoil_scan, [](auto& scan) { scan.range_max = kNan; }, laser);
+  spoilt(
+      spoil_range, [](auto& range) { range.field_of_view = kNan; }, "no fresh sonar reading");
+  spoilt(
+      spoil_range, [](auto& range) { range.max_range = kNan; }, "no fresh sonar reading");
+  spoilt(
+      spoil_target, [](auto& target) { target.via_y.back() = kNan; }, "no fresh target");
+}
+
+TEST_F(MotionModules, ALimitThatIsNoNumberIsNone) {
+  auto limits_publisher = world->publisher(topics::kLimits);
+  docent_msgs::Limits limits;
+  limits.max_speed = 0.4;
+  limits_publisher.publish(limits);
+  limits.max_speed = std::numeric_limits<double>::quiet_NaN();
+  limits_publisher.publish(limits);
+  run(4.0);
+  EXPECT_GT(speed, 0.35);
+  EXPECT_LT(speed, 0.41);
+}
+
+TEST_F(MotionModules, ABeliefThatIsNoNumberKnowsNothing) {
+  run(4.0);
+  ASSERT_GT(speed, 0.6);
+  spoil_belief = [](auto& belief) { belief.p_lost = std::nan(""); };
+  run(0.5);
+  EXPECT_EQ(state.reason, "the position is not known");
+  run(3.0);
+  EXPECT_EQ(speed, 0.0) << "and no hazards are known from it";
 }
 
 TEST_F(MotionModules, RefuseBadParameters) {

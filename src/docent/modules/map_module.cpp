@@ -1,8 +1,10 @@
 #include "docent/modules/map_module.h"
 
+#include <array>
 #include <cmath>
 
 #include "docent/mapping/occupancy/live_map.h"
+#include "docent/modules/message_fitness.h"
 #include "docent/modules/pose_tracker.h"
 
 namespace docent {
@@ -40,8 +42,8 @@ class MapModule final : public Module {
     bus_.subscribe<docent_msgs::Belief>(topics::kBelief, [this](const auto& belief) { pose_.on_belief(belief); });
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry,
                                        [this](const auto& odometry) { pose_.on_odometry(odometry); });
-    bus_.subscribe<sensor_msgs::LaserScan>(topics::kScanFront, [this](const auto& scan) { scans_[0] = scan; });
-    bus_.subscribe<sensor_msgs::LaserScan>(topics::kScanRear, [this](const auto& scan) { scans_[1] = scan; });
+    bus_.subscribe<sensor_msgs::LaserScan>(topics::kScanFront, [this](const auto& scan) { take(0, scan); });
+    bus_.subscribe<sensor_msgs::LaserScan>(topics::kScanRear, [this](const auto& scan) { take(1, scan); });
     bus_.every(seconds(params.period), [this] { look(); });
     bus_.every(kFullMapPeriod, [this] {
       live_.forget(bus_.now());
@@ -55,13 +57,22 @@ class MapModule final : public Module {
   }
 
  private:
+  struct Sight {
+    sensor_msgs::LaserScan scan;
+    Time received{};
+  };
+
+  void take(std::size_t laser, const sensor_msgs::LaserScan& scan) {
+    if (is_fit(scan)) sights_[laser] = {scan, bus_.now()};
+  }
+
   void look() {
-    const auto map_from_base = pose_.map_from_base();
-    if (!pose_.localized() || !map_from_base) return;
+    if (!pose_.localized()) return;
     const Time now = bus_.now();
-    for (std::size_t i = 0; i < scans_.size(); ++i) {
-      const auto& scan = scans_[i];
-      if (scan.ranges.empty() || now - from_message(scan.header.stamp) > kStaleAfter) continue;
+    for (std::size_t i = 0; i < sights_.size(); ++i) {
+      const auto& scan = sights_[i].scan;
+      const auto map_from_base = pose_.map_from_base_at(from_message(scan.header.stamp));
+      if (scan.ranges.empty() || now - sights_[i].received > kStaleAfter || !map_from_base) continue;
       const Pose2 map_from_laser = *map_from_base * base_from_laser_[i];
       endpoints_.clear();
       for (std::size_t k = 0; k < scan.ranges.size(); ++k) {
@@ -115,7 +126,7 @@ class MapModule final : public Module {
   Publisher<nav_msgs::OccupancyGrid> live_map_;
   Publisher<docent_msgs::LiveMapUpdate> updates_;
   PoseTracker pose_;
-  std::array<sensor_msgs::LaserScan, 2> scans_;
+  std::array<Sight, 2> sights_;  ///< newest sweeps
   std::vector<Point2> endpoints_;
   Time full_stamp_{};
   std::uint32_t number_ = 0;

@@ -239,20 +239,27 @@ class PlanModule final : public Module {
     return look_around_.step(*pose_.odom_from_base(), free, telling, now);
   }
 
-  /// The smaller of real and virtual measurements in every direction; empty when any is missing or old.
+  /// The smaller of real and virtual measurements in every direction from where the base is now; empty when any is
+  /// missing or old.
   [[nodiscard]] std::vector<double> clearances(Time now) const {
     constexpr Duration kStale = std::chrono::seconds{2};
     std::vector<double> result(kClearances, std::numeric_limits<double>::infinity());
-    const auto lower = [&](const sensor_msgs::LaserScan& scan, const Pose2& base_from_sensor) {
-      if (scan.ranges.empty() || now - from_message(scan.header.stamp) > kStale) return false;
+    const auto lower = [&](const sensor_msgs::LaserScan& scan, const Pose2& then_from_sensor) {
+      const Time stamp = from_message(scan.header.stamp);
+      const auto odom_from_then = pose_.odom_from_base_at(stamp);
+      if (scan.ranges.empty() || now - stamp > kStale || !odom_from_then) return false;
+      const Pose2 base_from_sensor = inverse(*pose_.odom_from_base()) * *odom_from_then * then_from_sensor;
       for (std::size_t k = 0; k < scan.ranges.size(); ++k) {
         const auto range = static_cast<double>(std::isfinite(scan.ranges[k]) ? scan.ranges[k] : 0.0F);
         const Angle bearing = Angle::radians(static_cast<double>(scan.angle_min) +
                                              static_cast<double>(k) * static_cast<double>(scan.angle_increment));
         const Point2 point = base_from_sensor * (range * unit(bearing));
-        const double degrees = direction({}, point).degrees() + 180.0;
-        auto& least = result[static_cast<std::size_t>(std::lround(degrees / 2.0)) % kClearances];
-        least = std::min(least, norm(point));
+        const double place = 0.5 * (direction({}, point).degrees() + 180.0);
+        // What points between two directions counts for both: a base that has turned leaves no gap.
+        for (const double side : {-0.25, 0.25}) {
+          auto& least = result[static_cast<std::size_t>(std::lround(place + side)) % kClearances];
+          least = std::min(least, norm(point));
+        }
       }
       return true;
     };

@@ -6,13 +6,30 @@
 #include <numbers>
 
 #include "docent/base/random.h"
+#include "docent/geometry/convex.h"
 
 namespace docent {
 
+namespace {
+
+Result<void> check_outline(const RobotBody& body) {
+  if (body.outline.empty()) return {};
+  Polygon corners;
+  for (const auto& corner : body.outline) {
+    if (corner.size() != 2) return fail("body.outline must be a list of corners [x, y]");
+    corners.push_back({corner[0], corner[1]});
+    if (!(norm(corners.back()) <= body.radius)) return fail("body.radius must reach to every corner of body.outline");
+  }
+  if (!is_convex(corners)) return fail("body.outline must be convex, with three corners and none on a straight line");
+  if (!holds_inside(corners, {})) return fail("body.outline must hold the robot's centre");
+  return {};
+}
+
+}  // namespace
+
 Result<void> RobotBody::validate() const {
   if (!(radius > 0.05 && radius <= 1.0)) return fail("body.radius must be 0.05..1 m");
-  for (const auto& corner : outline)
-    if (corner.size() != 2) return fail("body.outline must be a list of corners [x, y]");
+  if (auto valid = check_outline(*this); !valid) return valid;
   if (!(max_speed > 0.0 && max_speed <= 3.0)) return fail("body.max_speed must be > 0 and <= 3 m/s");
   if (!(max_turn_rate > 0.0 && max_turn_rate <= 6.3)) return fail("body.max_turn_rate must be > 0 and <= 6.3 rad/s");
   for (const double limit : {acceleration, deceleration, turn_acceleration})

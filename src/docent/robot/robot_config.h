@@ -30,15 +30,15 @@ struct Mount {
 /// Body, limits and sensors, section `body` of robot.yaml.
 struct RobotBody {
   double radius = 0.265;                     ///< [m], the body is a disc,
-  std::vector<std::vector<double>> outline;  ///< [m] or this convex polygon [[x, y], …], robot frame; then `radius` is
-                                             ///< what plans and steering take for it
-  double max_speed = 1.63;         ///< [m/s]
-  double max_turn_rate = 1.2;      ///< [rad/s]
-  double acceleration = 0.5;       ///< [m/s2]
-  double deceleration = 1.0;       ///< [m/s2]
-  double turn_acceleration = 1.5;  ///< [rad/s2]
-  double latency = 0.15;           ///< [s] from a command to the wheels
-  double watchdog = 0.3;           ///< [s] without a command, then the base stops
+  std::vector<std::vector<double>> outline;  ///< [m] or this convex polygon [[x, y], …], robot frame; then `radius`
+                                             ///< holds it: plans and steering take that
+  double max_speed = 1.63;                   ///< [m/s]
+  double max_turn_rate = 1.2;                ///< [rad/s]
+  double acceleration = 0.5;                 ///< [m/s2]
+  double deceleration = 1.0;                 ///< [m/s2]
+  double turn_acceleration = 1.5;            ///< [rad/s2]
+  double latency = 0.15;                     ///< [s] from a command to the wheels
+  double watchdog = 0.3;                     ///< [s] without a command, then the base stops
   Mount scan_front{"laser_front", 0.0, 0.0, 0.0};
   Mount scan_rear{"laser_rear", 0.0, 0.0, 180.0};
   int sonars = 24;                ///< evenly round the body, sonar_00 at the front, counter-clockwise

@@ -89,6 +89,27 @@ TEST(RobotConfig, FaultsNameTheLineOfTheFileOrTheSetting) {
   EXPECT_EQ(slower.body().radius, RobotBody{}.radius) << "a refused setting leaves nothing behind";
 }
 
+TEST(RobotBody, TheRadiusHoldsTheOutlineWhichIsConvexRoundTheCentre) {
+  const std::string outline = "body.outline=[[0.4, 0.25], [-0.5, 0.25], [-0.5, -0.25], [0.4, -0.25]]";
+  RobotConfig config = config_of("body:\n  radius: 0.6\n");
+  ASSERT_TRUE(config.set(outline).has_value());
+  EXPECT_FALSE(config.set("body.radius=0.5").has_value()) << "two corners lie 0.56 m from the centre";
+  for (const char* bad :
+       {"[[0.4, 0.2], [-0.4, 0.2]]", "[[0.4, 0.2], [-0.4]]", "[[0.4, 0.2], [0.0, 0.1], [-0.4, 0.2], [0.0, -0.3]]",
+        "[[0.4, 0.2], [0.1, 0.2], [0.1, -0.2], [0.4, -0.2]]", "[[0.4, 0.0], [-0.4, 0.2], [-0.4, 0.0]]",
+        "[[.nan, 0.2], [-0.4, 0.2], [0.0, -0.3]]"}) {
+    EXPECT_FALSE(config.set(std::string{"body.outline="} + bad).has_value()) << bad;
+  }
+  EXPECT_EQ(config.body().outline.size(), 4U);
+
+  const auto path = std::filesystem::temp_directory_path() / ("docent-outline-" + std::to_string(getpid()) + ".yaml");
+  ASSERT_TRUE(write_file_atomically(path, "# a comment\nbody:\n  outline: [[1, 1], [-1, 1], [0, -1]]\n").has_value());
+  const auto small = RobotConfig::load(path);
+  std::filesystem::remove(path);
+  ASSERT_FALSE(small.has_value());
+  EXPECT_NE(small.error().message.find(".yaml:3: body.radius"), std::string::npos) << small.error().message;
+}
+
 TEST(RobotBody, KnowsItsSonarsByTheirFrames) {
   const RobotBody body;
   for (const int index : {0, 7, 10, 23}) EXPECT_EQ(body.sonar_of(RobotBody::sonar_frame(index)), index);

@@ -12,6 +12,8 @@ namespace {
 constexpr std::array<const char*, 8> kSteps{"idle",   "driving",         "relocalizing", "explaining",
                                             "asking", "explaining_more", "done",         "failed"};
 
+constexpr Duration kObstacleLife = std::chrono::seconds{1};  // the collision avoidance speaks four times a second
+
 bool is_positive(double value) { return value > 0.0; }
 
 }  // namespace
@@ -210,7 +212,13 @@ void Executive::watch_drive(Time now) {
   }
 }
 
+void Executive::obstacle_report(const ObstacleReport& report, Time now) {
+  obstacle_ = report;
+  obstacle_time_ = now;
+}
+
 void Executive::climb_ladder(Time now) {
+  if (now - obstacle_time_ > kObstacleLife) obstacle_ = {};
   const bool is_unreachable = goal_.state == "unreachable";
   const LadderView view{obstacle_.is_hindered,   obstacle_.is_unmapped,
                         is_unreachable,          goal_.blocked_s,

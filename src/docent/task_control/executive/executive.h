@@ -65,7 +65,7 @@ struct GoalReport {
   std::string reason;
   std::string detour;
 };
-/// What the collision avoidance says of the way ahead.
+/// What the collision avoidance says of the way ahead; counts for a second, for who is silent may be dead.
 struct ObstacleReport {
   bool is_hindered = false;  ///< an obstacle in the wanted direction holds the robot up
   bool is_unmapped = false;  ///< that obstacle is not in the map
@@ -114,7 +114,7 @@ class Executive {
   /// The task to work on. The same id again changes nothing; another one replaces the present; an empty one stops it.
   void set_task(ExecutiveTask task, Time now);
   void goal_report(const GoalReport& report, Time now);
-  void obstacle_report(const ObstacleReport& report) { obstacle_ = report; }
+  void obstacle_report(const ObstacleReport& report, Time now);
   void speech_report(const SpeechReport& report, Time now);
   void choose(const std::string& question_id, const std::string& option, Time now);
   /// Several times a second.
@@ -160,6 +160,7 @@ class Executive {
 
   GoalReport goal_;
   ObstacleReport obstacle_;
+  Time obstacle_time_{};  ///< when it was reported
   ReactionLadder ladder_;
   std::optional<SpeechReport> heard_;  ///< of the present utterance
   std::optional<Time> speech_sent_;

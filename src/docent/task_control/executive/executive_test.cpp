@@ -176,20 +176,38 @@ TEST_F(ExecutiveTest, APersonInTheWayIsBlownAtAndAsked) {
   start(visit("t1"));
   said.clear();
   goal("driving");
-  executive.obstacle_report({true, true, "somebody is in the way"});
+  executive.obstacle_report({true, true, "somebody is in the way"}, time());
   pass(1.0);
   EXPECT_EQ(rungs, std::vector<Rung>{Rung::slow});
   for (int i = 0; i < 8; ++i) {
+    executive.obstacle_report({true, true, "somebody is in the way"}, time());
     pass(1.0);
     goal("blocked");
   }
   EXPECT_EQ(std::count(rungs.begin(), rungs.end(), Rung::horn), 2);
   ASSERT_EQ(said.size(), 1U);
   EXPECT_EQ(said[0].text, "Please let me through.");
-  executive.obstacle_report({});
+  executive.obstacle_report({}, time());
   goal("driving");
   pass(30.0);
   EXPECT_EQ(said.size(), 1U);
+}
+
+TEST_F(ExecutiveTest, ADeadCollisionAvoidanceBlowsAtNobody) {
+  start(visit("t1"));
+  goal("driving");
+  for (int i = 0; i < 4; ++i) {
+    executive.obstacle_report({true, true, "somebody is in the way"}, time());
+    pass(1.0);
+    goal("blocked");
+  }
+  const auto horns = std::count(rungs.begin(), rungs.end(), Rung::horn);
+  ASSERT_GE(horns, 1);
+  for (int i = 0; i < 30; ++i) {  // its last word was that somebody stands there
+    pass(1.0);
+    goal("blocked");
+  }
+  EXPECT_EQ(std::count(rungs.begin(), rungs.end(), Rung::horn), horns);
 }
 
 TEST_F(ExecutiveTest, AnUnreachablePlaceFailsAfterAShortPatience) {
