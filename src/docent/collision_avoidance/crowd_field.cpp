@@ -14,7 +14,8 @@ constexpr int kCount = CrowdField::kCells * CrowdField::kCells;
 constexpr float kFar = 1e6F;            // [s]
 constexpr double kHazardCost = 1000.0;  // nobody steps out of the way there
 constexpr float kAslant = 1.41421356F;
-constexpr double kBeyond = 4.0;  // [m] a path that goes on is made for so far beyond its end
+constexpr double kLastPart = 1.0;  // [m] of a path that may be made for: to join it earlier may be to wait for ever
+constexpr double kBeyond = 4.0;    // [m] a path that goes on is made for so far beyond its end
 
 }  // namespace
 
@@ -150,6 +151,7 @@ void CrowdField::seed_path(const CrowdPath& path, double beyond) {
     const int steps = std::max(1, static_cast<int>(std::ceil(length / kCell)));
     for (int k = 1; k <= steps; ++k) {
       left += length / steps;
+      if (left > beyond + kLastPart && end_ >= 0) return;
       seed(points[i + 1] + (static_cast<double>(k) / steps) * (points[i] - points[i + 1]));
     }
   }

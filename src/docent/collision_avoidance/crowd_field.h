@@ -24,6 +24,7 @@ struct CrowdFitParams {
   double crossed_weight = 10.0;  ///< where somebody will walk: better waited for than run into
   double walks = 0.35;           ///< [m/s] below: stands, and is not counted upon to be gone
   double uncertainty = 0.12;     ///< [m/s] by which the place of somebody who walks becomes less certain
+  double memory = 10.0;          ///< [s] for who stands behind somebody else by now
   double change_weight = 0.8;    ///< [s/rad] against needless changes of the way
   template <class V>
   void visit(V& v) {
@@ -39,6 +40,7 @@ struct CrowdFitParams {
     v("crossed_weight", crossed_weight);
     v("walks", walks);
     v("uncertainty", uncertainty);
+    v("memory", memory);
     v("change_weight", change_weight);
   }
   [[nodiscard]] Result<void> validate() const;

@@ -10,9 +10,10 @@ namespace docent {
 
 /// Where to head and how fast at most.
 struct CrowdAdvice {
-  double bearing = 0.0;  ///< [rad], base frame
+  double bearing = 0.0;  ///< [rad], base frame; of the back when `tail_first`
   double speed = 0.0;    ///< [m/s]; 0: wait, turned to where the way will open
   bool waits = false;
+  bool tail_first = false;  ///< a disc with eyes all round drives either way
 };
 
 /// Crowd-fit driving: chooses a heading and a speed through the gaps between people in place and time. Candidates are
@@ -31,12 +32,20 @@ class CrowdSteering {
   void forget() { last_in_odom_.reset(); }
 
  private:
+  /// Who stood there before somebody else hid them.
+  struct Remembered {
+    Obstacle in_odom;
+    double age = 0.0;  ///< [s]
+  };
+  void place(const Pose2& odom_from_base, std::span<const Obstacle> obstacles);
+  void remember(Point2 robot, double cycle);
   [[nodiscard]] double cost_of(const BaseState& start, double bearing, double speed) const;
 
   BaseLimits limits_;
   CrowdFitParams params_;
   CrowdField field_;
   std::vector<Obstacle> in_odom_;
+  std::vector<Remembered> remembered_;
   std::optional<Angle> last_in_odom_;
   double stood_ = 0.0;  ///< [s] lately
 };
