@@ -173,7 +173,8 @@ BaseState Avoider::state_when_effective(Time now) const {
 double Avoider::reach() const {
   const double speed = std::min(max_speed_, limits_.max_speed);
   const double until_it_stands = window_.hold() + speed / limits_.deceleration;
-  return std::max(kLeastReach, limits_.radius + 0.5 * speed * until_it_stands + kFastWalk * until_it_stands);
+  const double least = params_.method == "crowd_fit" ? CrowdField::kReach : kLeastReach;
+  return std::max(least, limits_.radius + 0.5 * speed * until_it_stands + kFastWalk * until_it_stands);
 }
 
 std::vector<Obstacle> Avoider::obstacles_from(const Pose2& odom_from_base, Time when) const {

@@ -10,10 +10,11 @@ namespace docent {
 namespace {
 
 constexpr int kHeadings = 31;
-constexpr double kWidest = 1.2;      // right angles that are turned through at most, forwards and backwards
+constexpr double kWidest = 1.9;      // [rad] that is turned through at most by who may also drive tail first
 constexpr double kMostChange = 1.0;  // [rad] a change by more costs no more
 constexpr int kLeastSteps = 3;       // of a rollout
 constexpr double kRemembered = 4.5;  // [m]
+constexpr double kStandCell = 0.15;  // [m]
 constexpr std::array<double, 4> kSpeeds{0.25, 0.5, 0.75, 1.0};  // shares of the cap
 constexpr double kRolledOut = 2.4;                              // [s]
 constexpr double kStands = 0.05;                                // [m/s]
@@ -69,30 +70,49 @@ void CrowdSteering::place(const Pose2& odom_from_base, std::span<const Obstacle>
   }
 }
 
+std::size_t CrowdSteering::index_of(Point2 in_odom) {
+  const auto wrapped = [](double value) { return static_cast<std::size_t>(std::lround(value / kStandCell) & 63); };
+  return wrapped(in_odom.y) * 64 + wrapped(in_odom.x);
+}
+
 void CrowdSteering::remember(Point2 robot, double cycle) {
   constexpr std::size_t kDirections = 180;
   constexpr double kToIndex = kDirections / (2.0 * std::numbers::pi);
   constexpr double kBehind = 0.2;  // [m]
   std::array<double, kDirections> seen{};
   seen.fill(std::numeric_limits<double>::infinity());
-  const auto index_of = [&](Point2 offset) {
+  const auto towards = [&](Point2 at) {
+    const Point2 offset = at - robot;
     return static_cast<std::size_t>((std::atan2(offset.y, offset.x) + std::numbers::pi) * kToIndex) % kDirections;
   };
   for (const auto& obstacle : in_odom_) {
     if (obstacle.is_virtual) continue;
-    double& range = seen[index_of(obstacle.at - robot)];
+    double& range = seen[towards(obstacle.at)];
     range = std::min(range, distance(obstacle.at, robot));
   }
-  std::erase_if(remembered_, [&](Remembered& one) {
-    one.age += cycle;
-    const Point2 offset = one.in_odom.at - robot;
-    return one.age > params_.memory || norm(offset) > kRemembered || norm(offset) < seen[index_of(offset)] + kBehind;
-  });
-  const std::size_t hidden = remembered_.size();
-  for (const auto& obstacle : in_odom_) {
-    if (!obstacle.is_virtual && norm(obstacle.velocity) <= params_.walks) remembered_.push_back({obstacle, 0.0});
+  const Stands before = stands_;
+  for (Stand& stand : stands_) {
+    if (stand.stood == 0.0) continue;
+    const double away = distance(stand.at, robot);
+    const bool is_hidden = away > seen[towards(stand.at)] + kBehind && away < kRemembered;
+    stand.hidden += cycle;
+    if (!is_hidden || stand.stood < params_.stands || stand.hidden > params_.memory) stand = {};
   }
-  for (std::size_t i = 0; i < hidden; ++i) in_odom_.push_back(remembered_[i].in_odom);
+  for (auto& obstacle : in_odom_) {
+    if (obstacle.is_virtual || norm(obstacle.velocity) > params_.walks) continue;
+    double stood = 0.0;
+    for (const double dy : {-kStandCell, 0.0, kStandCell}) {
+      for (const double dx : {-kStandCell, 0.0, kStandCell}) {
+        const Stand& near = before[index_of(obstacle.at + Point2{dx, dy})];
+        if (near.stood > stood && distance(near.at, obstacle.at) < kRemembered) stood = near.stood;
+      }
+    }
+    obstacle.stood = stood + cycle;
+    stands_[index_of(obstacle.at)] = {obstacle.at, obstacle.stood, 0.0};
+  }
+  for (const Stand& stand : stands_) {
+    if (stand.hidden > 0.0) in_odom_.push_back({stand.at, {}, 0.0, true, false, stand.stood});
+  }
 }
 
 CrowdAdvice CrowdSteering::steer(const BaseState& start, std::span<const Obstacle> obstacles, const CrowdPath& path,
@@ -110,11 +130,12 @@ CrowdAdvice CrowdSteering::steer(const BaseState& start, std::span<const Obstacl
   best.waits = true;
   double least = cost_of(start, 0.0, 0.0);
   Angle towards = odom_from_base.theta;
+  const double widest = limits_.outline.empty() ? kWidest : std::numbers::pi;
   for (const bool tail_first : {false, true}) {
     if (tail_first && !limits_.outline.empty()) continue;
     const BaseState facing = tail_first ? turned_round(start) : start;
     for (int i = 0; i < kHeadings; ++i) {
-      const double bearing = std::numbers::pi * (static_cast<double>(i) / (kHeadings - 1) - 0.5) * kWidest;
+      const double bearing = widest * (2.0 * i / (kHeadings - 1) - 1.0);
       const Angle in_odom = facing.odom_from_base.theta + Angle::radians(bearing);
       const double change =
           last_in_odom_ ? params_.change_weight * std::min(kMostChange, std::abs((in_odom - *last_in_odom_).radians()))

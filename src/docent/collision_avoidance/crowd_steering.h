@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 
@@ -29,23 +30,30 @@ class CrowdSteering {
   /// O(field + headings * speeds * steps).
   [[nodiscard]] CrowdAdvice steer(const BaseState& start, std::span<const Obstacle> obstacles, const CrowdPath& path,
                                   double speed_cap, double cycle);
-  void forget() { last_in_odom_.reset(); }
+  [[nodiscard]] const CrowdField& field() const { return field_; }
+  void forget() {
+    last_in_odom_.reset();
+    field_.forget();
+  }
 
  private:
-  /// Who stood there before somebody else hid them.
-  struct Remembered {
-    Obstacle in_odom;
-    double age = 0.0;  ///< [s]
+  /// A place where something stood when it was last in sight.
+  struct Stand {
+    Point2 at;            ///< [m], odom
+    double stood = 0.0;   ///< [s]
+    double hidden = 0.0;  ///< [s] behind somebody else
   };
+  using Stands = std::array<Stand, 64 * 64>;  ///< by cells of 15 cm, repeated every 9.6 m
   void place(const Pose2& odom_from_base, std::span<const Obstacle> obstacles);
   void remember(Point2 robot, double cycle);
+  [[nodiscard]] static std::size_t index_of(Point2 in_odom);
   [[nodiscard]] double cost_of(const BaseState& start, double bearing, double speed) const;
 
   BaseLimits limits_;
   CrowdFitParams params_;
   CrowdField field_;
   std::vector<Obstacle> in_odom_;
-  std::vector<Remembered> remembered_;
+  Stands stands_{};
   std::optional<Angle> last_in_odom_;
   double stood_ = 0.0;  ///< [s] lately
 };

@@ -58,6 +58,7 @@ struct Obstacle {
   double margin = 0.0;  ///< [m] between its point and the robot's outline
   bool person = false;  ///< slim and free-standing
   bool is_virtual = false;
+  double stood = 60.0;  ///< [s] that it has been known not to move; the window does not ask
 };
 
 /// What the window shall steer for.
