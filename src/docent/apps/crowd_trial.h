@@ -42,8 +42,8 @@ struct CrowdTrialOutcome {
 };
 
 /// One crossing of a crowded hall: the modules `avoid` and `robot` as they are, with the simulated lasers, sonars and
-/// odometry, and a courier in the planner's place that leads along the straight way to the goal by odometry alone.
-/// Nothing of the robot's sees the truth; the score does. Deterministic.
+/// odometry, and a courier in the place of localization and planner that leads along the straight way to the goal.
+/// Nothing of the robot's sees the truth; the courier and the score do. Deterministic.
 [[nodiscard]] Result<CrowdTrialOutcome> run_crowd_trial(const CrowdTrialOptions& options);
 
 /// The hall at the end of a trial, the way driven (a dot a second, redder where it stood), the people there.

@@ -18,7 +18,8 @@ constexpr double kNearlyAll = 0.9;       // of a sweep's readings: the sensor is
 constexpr double kManyMissing = 0.35;    // of a sweep's readings
 constexpr double kCameraPatience = 1.5;  // [s]
 constexpr double kStandsTouched = 1.0;   // [s] after a touch
-constexpr double kLeansOn = 3.0;         // [s] then it may leave who leans on it: away from them, nobody minds
+constexpr double kFlinches = 0.4;        // [s] then it may leave who touched it: away from them, nobody minds
+constexpr double kElsewhere = 0.8;       // [rad] from the touch before: another one
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -93,9 +94,15 @@ void Avoider::add_tactile(Time now, Time stamp, std::span<const std::uint8_t> se
   const double step = 2.0 * std::numbers::pi / static_cast<double>(segments.size());
   for (std::size_t i = 0; i < segments.size(); ++i) {
     if (segments[i] == 0 || segments[i] == TactileWatch::kNoReading) continue;
-    if (!touched_ || now - *touched_ > seconds(kStandsTouched)) touched_since_ = now;
-    touched_ = now;
     const Angle bearing = Angle::radians(step * static_cast<double>(i));
+    const Angle in_odom = odometry_.newest().odom_from_base.theta + bearing;
+    const bool is_new = !touched_ || now - *touched_ > seconds(kStandsTouched) ||
+                        std::abs((in_odom - touched_from_).radians()) > kElsewhere;
+    if (is_new) {
+      touched_since_ = now;
+      touched_from_ = in_odom;
+    }
+    touched_ = now;
     memory_.add_touch(taken, limits_.edge(bearing), odometry_.pose_at(taken));
   }
 }
@@ -163,7 +170,7 @@ std::string Avoider::fault(Time now) const {
 }
 
 bool Avoider::is_touched(Time now, double within) const {
-  const bool may_leave = params_.method == "crowd_fit" && now - touched_since_ > seconds(kLeansOn);
+  const bool may_leave = params_.method == "crowd_fit" && now - touched_since_ > seconds(kFlinches);
   return touched_ && now - *touched_ < seconds(within) && !may_leave;
 }
 
@@ -174,7 +181,8 @@ BaseState Avoider::state_when_effective(Time now) const {
 double Avoider::reach() const {
   const double speed = std::min(max_speed_, limits_.max_speed);
   const double until_it_stands = window_.hold() + speed / limits_.deceleration;
-  return std::max(kLeastReach, limits_.radius + 0.5 * speed * until_it_stands + kFastWalk * until_it_stands);
+  const double least = params_.method == "crowd_fit" ? CrowdField::kReach : kLeastReach;
+  return std::max(least, limits_.radius + 0.5 * speed * until_it_stands + kFastWalk * until_it_stands);
 }
 
 std::vector<Obstacle> Avoider::obstacles_from(const Pose2& odom_from_base, Time when) const {
@@ -356,8 +364,13 @@ Steering Avoider::steering_for(const Carrot& ahead, const BaseState& start, std:
     const CrowdAdvice advice =
         crowd_.steer(start, obstacles, {target_->via, !target_->is_final}, decision.speed_cap, params_.window.cycle);
     steering.bearing = advice.bearing;
+    steering.tail_first = advice.tail_first;
     steering.distance = std::max(steering.distance, 1.0);
     cap_speed(advice.speed, "people are in the way", decision);
+    if (advice.tail_first) {
+      cap_by_surroundings(turned_round(obstacles), steering.bearing, decision);
+      return steering;
+    }
   } else {
     steering.bearing = steer_around(ahead.in_base, start.odom_from_base, obstacles);
   }

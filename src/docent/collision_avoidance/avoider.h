@@ -190,6 +190,7 @@ class Avoider {
   bool beams_localized_ = false;
   std::optional<Time> touched_;
   Time touched_since_{};
+  Angle touched_from_{};  ///< odom
   std::optional<Angle> steered_in_odom_;
   double turning_side_ = 0.0;  ///< +1 left, -1 right, while something behind is turned to; else 0
 };

@@ -425,6 +425,28 @@ TEST(Avoider, GetsFreeWhenTheHazardsJumpNearer) {
   EXPECT_GT(world.least_wall, 0.01);
 }
 
+TEST(Avoider, LeavesWhoTouchedItAwayFromThemOnly) {
+  for (const bool from_behind : {true, false}) {
+    AvoiderParams params = Rehearsal::without_sonar();
+    params.method = "crowd_fit";
+    Rehearsal world{5, params};
+    world.box(-3, -5, 15, 5);
+    world.drive_to({{1, 0}, {2, 0}, {4, 0}, {8, 0}, {12, 0}});
+    world.run(1.0);
+    std::vector<std::uint8_t> segments(24, 0);
+    segments[from_behind ? 12 : 0] = 1;
+    world.avoider.add_tactile(world.now, world.now, segments, 1);
+    const auto reflex = world.avoider.reflex(world.now);
+    ASSERT_TRUE(reflex);
+    EXPECT_EQ(reflex->command, Velocity{}) << "it stands at once, wherever it was touched";
+    world.run(1.2);
+    if (from_behind)
+      EXPECT_GT(world.velocity.linear, 0.1);
+    else
+      EXPECT_LT(world.velocity.linear, 0.05);
+  }
+}
+
 TEST(Avoider, NeverTouchesAnythingInRandomClutter) {
   double driven = 0.0;
   for (std::uint64_t seed = 0; seed < 30; ++seed) {

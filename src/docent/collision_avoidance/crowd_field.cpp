@@ -14,7 +14,8 @@ constexpr int kCount = CrowdField::kCells * CrowdField::kCells;
 constexpr float kFar = 1e6F;            // [s]
 constexpr double kHazardCost = 1000.0;  // nobody steps out of the way there
 constexpr float kAslant = 1.41421356F;
-constexpr double kBeyond = 4.0;  // [m] a path that goes on is made for so far beyond its end
+constexpr double kLastPart = 1.0;  // [m] of a path that may be made for: to join it earlier may be to wait for ever
+constexpr double kBeyond = 4.0;    // [m] a path that goes on is made for so far beyond its end
 
 }  // namespace
 
@@ -26,6 +27,7 @@ Result<void> CrowdFitParams::validate() const {
        {intimate_weight, personal_weight, hidden_weight, blocked_weight, crossed_weight, uncertainty, change_weight}) {
     if (!(weight >= 0.0)) return fail("avoid.crowd: weights must be >= 0");
   }
+  if (!(keeping > 0.0 && keeping <= 1.0)) return fail("avoid.crowd.keeping must lie in (0, 1]");
   if (!(patience > 0.0)) return fail("avoid.crowd.patience must be > 0 s");
   return {};
 }
@@ -35,7 +37,8 @@ CrowdField::CrowdField(const CrowdFitParams& params, double robot_radius)
       robot_radius_{robot_radius},
       layers_{static_cast<int>(std::lround(params.horizon / kStep))},
       costs_(static_cast<std::size_t>(layers_) + 1, Layer(kCount)),
-      values_(costs_) {}
+      values_(costs_),
+      share_(kCount) {}
 
 int CrowdField::cell_at(Point2 in_odom) const {
   const auto column = std::lround((in_odom.x - low_.x) / kCell);
@@ -64,7 +67,8 @@ void CrowdField::stamp(const Obstacle& obstacle, double time, Layer& layer) cons
       if (obstacle.is_virtual) {
         cost = kHazardCost;
       } else if (gap < params_.hard_margin) {
-        cost = is_walking(obstacle) ? params_.crossed_weight : params_.blocked_weight;
+        cost =
+            is_walking(obstacle) || obstacle.stood < params_.stands ? params_.crossed_weight : params_.blocked_weight;
       } else if (gap - widened < params_.intimate) {
         cost = ease_ * params_.intimate_weight;
       } else {
@@ -116,7 +120,9 @@ void CrowdField::build(Point2 robot, std::span<const Obstacle> obstacles, const 
   open_.clear();
   seed_path(path, path.goes_on ? kBeyond : 0.0);
   if (path.goes_on) seed_front(robot, path);
+  keep_to_way();
   solve_standing();
+  find_way(robot);
   for (std::size_t layer = 0; layer + 1 < costs_.size(); ++layer) costs_[layer] = standing;
   for (std::size_t layer = 0; layer < costs_.size(); ++layer) {
     for (const auto& obstacle : obstacles) {
@@ -150,15 +156,16 @@ void CrowdField::seed_path(const CrowdPath& path, double beyond) {
     const int steps = std::max(1, static_cast<int>(std::ceil(length / kCell)));
     for (int k = 1; k <= steps; ++k) {
       left += length / steps;
+      if (left > beyond + kLastPart && end_ >= 0) return;
       seed(points[i + 1] + (static_cast<double>(k) / steps) * (points[i] - points[i + 1]));
     }
   }
 }
 
 void CrowdField::seed_front(Point2 robot, const CrowdPath& path) {
-  constexpr double kStraight = 0.95;  // of its length; one that bends has walls to go round
-  constexpr double kAhead = 0.5;      // cosine of half the front
-  constexpr double kRim = 3.1;        // [m] from the robot
+  constexpr double kStraight = 0.95;                   // of its length; one that bends has walls to go round
+  constexpr double kAhead = 0.5;                       // cosine of half the front
+  constexpr double kRim = (kCells / 2) * kCell - 0.5;  // [m] from the robot
   const Point2 way = path.points.back() - robot;
   const double length = norm(way);
   double along = distance(robot, path.points.front());
@@ -180,6 +187,43 @@ void CrowdField::seed_front(Point2 robot, const CrowdPath& path) {
   }
 }
 
+void CrowdField::keep_to_way() {
+  std::fill(share_.begin(), share_.end(), 1.0F);
+  constexpr int kWide = 3;  // cells
+  for (const Point2 at : way_) {
+    const int cell = cell_at(at);
+    if (cell < 0) continue;
+    const int row = cell / kCells;
+    const int column = cell % kCells;
+    for (int r = std::max(0, row - kWide); r <= std::min(kCells - 1, row + kWide); ++r) {
+      for (int c = std::max(0, column - kWide); c <= std::min(kCells - 1, column + kWide); ++c)
+        share_[static_cast<std::size_t>(r * kCells + c)] = static_cast<float>(params_.keeping);
+    }
+  }
+}
+
+/// Steepest descent over the values of the last layer.
+void CrowdField::find_way(Point2 from) {
+  way_.clear();
+  const Layer& values = values_.back();
+  for (int cell = cell_at(from); cell >= 0;) {
+    way_.push_back(low_ + Point2{kCell * (cell % kCells), kCell * (cell / kCells)});
+    const int row = cell / kCells;
+    const int column = cell % kCells;
+    int next = -1;
+    float least = values[static_cast<std::size_t>(cell)];
+    for (int r = std::max(0, row - 1); r <= std::min(kCells - 1, row + 1); ++r) {
+      for (int c = std::max(0, column - 1); c <= std::min(kCells - 1, column + 1); ++c) {
+        const int there = r * kCells + c;
+        if (values[static_cast<std::size_t>(there)] >= least) continue;
+        least = values[static_cast<std::size_t>(there)];
+        next = there;
+      }
+    }
+    cell = next;
+  }
+}
+
 void CrowdField::solve_standing() {
   Layer& values = values_.back();
   const Layer& costs = costs_.back();
@@ -196,8 +240,8 @@ void CrowdField::solve_standing() {
         if ((dr == 0 && dc == 0) || row < 0 || column < 0 || row >= kCells || column >= kCells) continue;
         const int next = row * kCells + column;
         const float seconds_a_cell = static_cast<float>(kCell / kSpeed) * (dr != 0 && dc != 0 ? kAslant : 1.0F);
-        const float slowed =
-            1.0F + 0.5F * (costs[static_cast<std::size_t>(cell)] + costs[static_cast<std::size_t>(next)]);
+        const float slowed = share_[static_cast<std::size_t>(next)] +
+                             0.5F * (costs[static_cast<std::size_t>(cell)] + costs[static_cast<std::size_t>(next)]);
         const float reached = value + seconds_a_cell * slowed;
         if (reached >= values[static_cast<std::size_t>(next)]) continue;
         values[static_cast<std::size_t>(next)] = reached;

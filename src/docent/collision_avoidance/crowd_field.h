@@ -23,7 +23,10 @@ struct CrowdFitParams {
   double blocked_weight = 40.0;  ///< where somebody stands: they may go, or make room
   double crossed_weight = 10.0;  ///< where somebody will walk: better waited for than run into
   double walks = 0.35;           ///< [m/s] below: stands, and is not counted upon to be gone
+  double stands = 2.0;           ///< [s] in one place: then it stands; before, it may be somebody who walks
   double uncertainty = 0.12;     ///< [m/s] by which the place of somebody who walks becomes less certain
+  double memory = 10.0;          ///< [s] for who stands behind somebody else by now
+  double keeping = 0.6;          ///< share of its time that the way chosen before counts: another one must be better
   double change_weight = 0.8;    ///< [s/rad] against needless changes of the way
   template <class V>
   void visit(V& v) {
@@ -38,7 +41,10 @@ struct CrowdFitParams {
     v("blocked_weight", blocked_weight);
     v("crossed_weight", crossed_weight);
     v("walks", walks);
+    v("stands", stands);
     v("uncertainty", uncertainty);
+    v("memory", memory);
+    v("keeping", keeping);
     v("change_weight", change_weight);
   }
   [[nodiscard]] Result<void> validate() const;
@@ -56,8 +62,9 @@ struct CrowdPath {
 /// nowhere. Frame: odom, axis-parallel, the robot in the middle.
 class CrowdField {
  public:
-  static constexpr int kCells = 49;      ///< a side
+  static constexpr int kCells = 65;      ///< a side
   static constexpr double kCell = 0.15;  ///< [m]
+  static constexpr double kReach = 4.8;  ///< [m] what is farther away does not matter
   static constexpr double kStep = 0.3;   ///< [s] a layer; a cell a step is 0.5 m/s, aslant 0.7
   static constexpr double kSpeed = 0.5;  ///< [m/s] of the time to go beyond the last layer
 
@@ -78,6 +85,8 @@ class CrowdField {
   /// Where the best way from `from` leads within the layers: the first of its points at least `away` [m] from there,
   /// or its last. Nothing when it waits in all layers.
   [[nodiscard]] std::optional<Point2> way_on(Point2 from, double away) const;
+  /// The next build thinks of no way.
+  void forget() { way_.clear(); }
 
  private:
   using Layer = std::vector<float>;  ///< [rows * columns]
@@ -88,7 +97,9 @@ class CrowdField {
   void add_shadows(Point2 robot, std::span<const Obstacle> obstacles, Layer& layer) const;
   void seed_path(const CrowdPath& path, double beyond);
   void seed_front(Point2 robot, const CrowdPath& path);
+  void keep_to_way();
   void solve_standing();
+  void find_way(Point2 from);
   void solve_layer(std::size_t layer);
 
   CrowdFitParams params_;
@@ -100,6 +111,8 @@ class CrowdField {
   Point2 low_{};               ///< [m], odom, centre of cell (0, 0)
   std::vector<Layer> costs_;   ///< [layers + 1], the first is now
   std::vector<Layer> values_;  ///< [layers + 1]
+  std::vector<Point2> way_;    ///< [m], odom: the best among those who stand, by the last build
+  Layer share_;                ///< [rows * columns] of its time that a cell counts: less along that way
   std::vector<std::pair<float, int>> open_;
 };
 

@@ -45,6 +45,25 @@ TEST(CrowdField, AStraightPathThatGoesOnIsMadeForOnABroadFront) {
   EXPECT_GT(field.value(field.layers(), {2.8, 1.9}), field.value(field.layers(), {3.0, 0.0}));
 }
 
+TEST(CrowdField, NoPlaceOfTheWayIsAGoalButItsEnd) {
+  CrowdField field{{}, kRadius};
+  // A row of people across the way, open at one side: where the way meets it there is nothing to be had.
+  std::vector<Obstacle> row;
+  for (double y = -4.5; y < 1.6; y += 0.3) row.push_back(standing(1.2, y));
+  field.build({0.0, 0.0}, row, {kPath, true});
+  EXPECT_LT(field.value(field.layers(), {0.6, 1.8}), field.value(field.layers(), {0.6, 0.0}) - 2.0);
+}
+
+TEST(CrowdField, SomebodyNewMayBeSomebodyWhoWalks) {
+  CrowdField field{{}, kRadius};
+  std::vector<Obstacle> people{standing(1.5, 0.0)};
+  field.build({0.0, 0.0}, people, {kPath, false});
+  const double of_known = field.cost(0, {1.5, 0.0});
+  people[0].stood = 0.25;
+  field.build({0.0, 0.0}, people, {kPath, false});
+  EXPECT_LT(field.cost(0, {1.5, 0.0}), 0.5 * of_known);
+}
+
 TEST(CrowdField, SpaceRoundPeopleCostsMoreTheNearer) {
   const CrowdFitParams params;
   CrowdField field{params, kRadius};

@@ -54,6 +54,30 @@ TEST(CrowdSteering, GoesStraightOnBehindWhoWillBeGone) {
   EXPECT_LT(steer(stands, 0.6).bearing, -0.1) << "who stays is passed on the other side";
 }
 
+TEST(CrowdSteering, DrivesTailFirstRatherThanTurnRound) {
+  CrowdSteering steering{{}, {}};
+  const std::vector<Point2> back{{0.0, 0.0}, {-1.5, 0.0}, {-3.0, 0.0}};
+  const CrowdAdvice advice = steering.steer({}, {}, {back, false}, kCap, 0.25);
+  EXPECT_TRUE(advice.tail_first);
+  EXPECT_NEAR(advice.bearing, 0.0, 0.1);
+  EXPECT_GT(advice.speed, 0.3);
+}
+
+TEST(CrowdSteering, RemembersWhoStandsBehindSomebody) {
+  CrowdSteering steering{{}, {}};
+  std::vector<Obstacle> row;
+  for (double y = -3.0; y < 1.0; y += 0.5) add_person(row, {2.2, y});
+  for (int i = 0; i < 12; ++i) (void)steering.steer({}, row, {kPath, true}, kCap, 0.25);
+  // Two step between: the row is out of sight behind them, and still there.
+  std::vector<Obstacle> hidden;
+  for (double y = -0.9; y < 0.5; y += 0.1) hidden.push_back({{0.9, y}, {0.0, 0.9}, 0.08, true, false});
+  (void)steering.steer({}, hidden, {kPath, true}, kCap, 0.25);
+  EXPECT_GT(steering.field().cost(steering.field().layers(), {2.0, 0.0}), 5.0);
+  CrowdSteering forgetful{{}, {}};
+  (void)forgetful.steer({}, hidden, {kPath, true}, kCap, 0.25);
+  EXPECT_LT(forgetful.field().cost(forgetful.field().layers(), {2.0, 0.0}), 5.0);
+}
+
 TEST(CrowdSteering, NeverSteersIntoAThing) {
   int moved = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
@@ -66,7 +90,8 @@ TEST(CrowdSteering, NeverSteersIntoAThing) {
     const CrowdAdvice advice = steer(obstacles);
     if (advice.waits) continue;
     ++moved;
-    EXPECT_GT(straight_free_way(advice.bearing, obstacles, BaseLimits{}.radius - 0.08, 1.0), 0.2) << "seed " << seed;
+    const double bearing = advice.bearing + (advice.tail_first ? 3.14159265 : 0.0);
+    EXPECT_GT(straight_free_way(bearing, obstacles, BaseLimits{}.radius - 0.08, 1.0), 0.2) << "seed " << seed;
   }
   EXPECT_GT(moved, 40);
 }
