@@ -25,8 +25,9 @@ class Verdict:
 
     def want_one_configuration(self, hashes, of=""):
         """`of`: a part of the protocol whose configuration is one of its own."""
-        self.hashes |= set(hashes)
-        self.want(f"one configuration{of and ', ' + of}", ", ".join(sorted(set(hashes))), len(set(hashes)) == 1)
+        hashes = set(hashes)
+        self.hashes |= hashes
+        self.want(f"one configuration{of and ', ' + of}", ", ".join(sorted(hashes)) or "none", len(hashes) == 1)
 
     def add(self, other):
         self.rows += other.rows

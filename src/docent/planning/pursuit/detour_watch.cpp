@@ -1,7 +1,6 @@
 #include "docent/planning/pursuit/detour_watch.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 namespace docent {

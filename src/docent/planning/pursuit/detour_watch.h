@@ -7,6 +7,7 @@
 #include "docent/base/result.h"
 #include "docent/base/time.h"
 #include "docent/geometry/pose2.h"
+#include "docent/planning/detour/detour.h"
 
 namespace docent {
 
