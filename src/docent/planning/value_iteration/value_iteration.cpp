@@ -138,6 +138,7 @@ void ValueIteration::settle_next() {
   settle_tile(tile);
 }
 
+/// From now on those tiles come first from where a way to this cell can be cheapest; none: those with the least offer.
 void ValueIteration::aim_at(std::optional<CellIndex> cell) {
   if (cell == aim_) return;
   aim_ = cell;

@@ -108,11 +108,11 @@ class ValueIteration {
 
   /// What one call of `settle` resets: tiles together, or they would hold each other up.
   struct Repair {
-    CellIndex wanted;            ///< whose value
-    std::vector<bool> takes_in;  ///< [tiles]
-    std::uint64_t began = 0;     ///< relaxations
-    std::uint64_t most = 0;      ///< relaxations that it may take
-    int reach = 16;              ///< [cells] from the robot's way
+    CellIndex wanted;                        ///< whose value
+    std::vector<bool> takes_in;              ///< [tiles]
+    std::uint64_t began = 0;                 ///< relaxations
+    std::uint64_t most = ~std::uint64_t{0};  ///< relaxations that it may take; no bound until something broke
+    int reach = 16;                          ///< [cells] from the robot's way
     int rounds = 0;
     bool is_straight = false;
   };
