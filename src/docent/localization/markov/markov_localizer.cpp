@@ -58,7 +58,8 @@ Result<void> MarkovLocalizerParams::validate() const {
   for (const double nats : {most_nats, most_nats_far})
     if (!(nats > 0.0 && nats <= 60.0)) return fail("most_nats and most_nats_far must be > 0 and <= 60");
   if (!(sectors >= 1 && sectors <= 60)) return fail("sectors must be 1..60");
-  if (!(most_sector_nats > 0.0)) return fail("most_sector_nats must be > 0");
+  for (const double nats : {most_sector_nats, most_sector_nats_lost})
+    if (!(nats > 0.0)) return fail("most_sector_nats and most_sector_nats_lost must be > 0");
   if (!(most_states_asked >= 0)) return fail("most_states_asked must be >= 0");
   if (!(work_per_second > 0.0)) return fail("work_per_second must be > 0");
   if (auto known = instruction_set_of(simd); !known) return tl::unexpected<Error>(known.error());
@@ -72,6 +73,16 @@ double MarkovLocalizerParams::views(double way, double turn) const {
 
 std::vector<std::uint8_t> MarkovLocalizerParams::on_persons(const RangeSweep& sweep, bool keeps_its_place) const {
   return keeps_its_place || person_share >= 1.0 ? std::vector<std::uint8_t>{} : on_person_shapes(sweep);
+}
+
+double MarkovLocalizerParams::sector_nats(std::span<const std::uint8_t> on_persons) const {
+  constexpr double kMostlyPeople = 0.2;  // share of the beams that are left
+  constexpr double kFewPeople = 0.4;
+  if (!rivals || on_persons.empty()) return most_sector_nats;
+  const auto left = static_cast<double>(std::count(on_persons.begin(), on_persons.end(), std::uint8_t{0}));
+  const double share = left / static_cast<double>(on_persons.size());
+  const double trust = std::clamp((share - kMostlyPeople) / (kFewPeople - kMostlyPeople), 0.0, 1.0);
+  return most_sector_nats + trust * (most_sector_nats_lost - most_sector_nats);
 }
 
 BeamChoiceParams MarkovLocalizerParams::beam_choice(std::vector<std::uint8_t> on_persons, bool keeps_its_place) const {
@@ -200,7 +211,7 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   last_work_ = static_cast<double>(belief_.active_states()) * static_cast<double>(costs.size());
   EvidenceWeights weights;
   weights.most_nats = weights.far_most_nats = params_.most_nats * std::sqrt(views);
-  weights.most_sector_nats = params_.most_sector_nats * temper;
+  weights.most_sector_nats = params_.sector_nats(on_persons) * temper;
   weights.sectors = static_cast<std::size_t>(params_.sectors);
   if (verdict_.keeps_its_place() && predicted) {
     const double telling = choice.readings.telling();

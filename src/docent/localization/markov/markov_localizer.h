@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,9 +29,13 @@ struct MarkovLocalizerParams {
   double independent_beams_far = 3.5;  ///< and, once the robot is sure of a place, between it and others
   int sectors = 12;                    ///< of a turn: one thing that the map does not know hides the beams of a sector
   double most_sector_nats = 5.0;       ///< [nat] that a sector's beams count at most together
-  std::string filter = "distance";     ///< none, entropy, distance, novelty
-  double filter_sureness = 0.99;       ///< theta of [Markov1998] 3.3
-  double unfiltered_share = 0.1;       ///< of the filtered beams, chosen at random, counts anyway: for recovery
+  /// and, in the grid, while the robot has no place to keep and walls are where the map says (`rivals`): people are out
+  /// by their shape then, and beams through walls must cost more than those that are hidden. Where shapes take out most
+  /// beams, some of the others are of people, too, and it is as above.
+  double most_sector_nats_lost = 12.0;
+  std::string filter = "distance";  ///< none, entropy, distance, novelty
+  double filter_sureness = 0.99;    ///< theta of [Markov1998] 3.3
+  double unfiltered_share = 0.1;    ///< of the filtered beams, chosen at random, counts anyway: for recovery
   /// Of the beams on what is shaped like a person, chosen at random, that count while the robot does not know its
   /// place; 1: nobody looks for shapes
   double person_share = 0.1;
@@ -61,6 +66,7 @@ struct MarkovLocalizerParams {
     v("independent_beams_far", independent_beams_far);
     v("sectors", sectors);
     v("most_sector_nats", most_sector_nats);
+    v("most_sector_nats_lost", most_sector_nats_lost);
     v("filter", filter);
     v("filter_sureness", filter_sureness);
     v("unfiltered_share", unfiltered_share);
@@ -86,6 +92,8 @@ struct MarkovLocalizerParams {
   /// scan, so that evidence comes by the metre and not by the scan: sparse scans, with half a metre or 20 degrees and
   /// more between them, count for several. 1..most_views.
   [[nodiscard]] double views(double way, double turn) const;
+  /// What a sector counts at most. `on_persons`: see below; empty once the robot has a place to keep.
+  [[nodiscard]] double sector_nats(std::span<const std::uint8_t> on_persons) const;
   /// The beams on what is shaped like a person, while the robot does not know its place; empty: nobody looks.
   [[nodiscard]] std::vector<std::uint8_t> on_persons(const RangeSweep& sweep, bool keeps_its_place) const;
   [[nodiscard]] BeamChoiceParams beam_choice(std::vector<std::uint8_t> on_persons, bool keeps_its_place) const;

@@ -116,6 +116,21 @@ TEST(MarkovLocalizer, ASurroundedRobotFindsItselfByWhatItSeesBetweenPeople) {
   EXPECT_LE(by_all.likeliest, 2) << "then people need not be told by their shapes";
 }
 
+TEST(MarkovLocalizer, ASectorCountsMoreWhereShapesLeaveEnoughBeams) {
+  const MarkovLocalizerParams params;
+  const auto with_people = [](std::size_t people) {
+    std::vector<std::uint8_t> marks(100, 0);
+    std::fill_n(marks.begin(), people, std::uint8_t{1});
+    return marks;
+  };
+  EXPECT_EQ(params.sector_nats({}), params.most_sector_nats) << "it has a place to keep";
+  EXPECT_EQ(params.sector_nats(with_people(40)), params.most_sector_nats_lost);
+  EXPECT_EQ(params.sector_nats(with_people(85)), params.most_sector_nats);
+  MarkovLocalizerParams recorded;  // walls are not where the map says
+  recorded.rivals = false;
+  EXPECT_EQ(recorded.sector_nats(with_people(40)), recorded.most_sector_nats);
+}
+
 TEST(MarkovLocalizer, AnUnknownFilterIsAFault) {
   MarkovLocalizerParams params;
   params.filter = "magic";

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "docent/planning/exploration/tell_apart.h"
@@ -29,12 +28,12 @@ void LookAround::start(Time now) {
   phase_start_ = now;
 }
 
-LookAroundStep LookAround::drive_to(Point2 in_odom, Time now) {
-  aim_ = in_odom;
-  nearest_ = std::numeric_limits<double>::infinity();
+LookAroundStep LookAround::drive_to(const Pose2& odom_from_base, Point2 in_base, Time now) {
+  aim_ = odom_from_base * in_base;
+  nearest_ = norm(in_base);
   phase_ = Phase::driving;
   phase_start_ = nearer_since_ = now;
-  return {true, in_odom, {}};
+  return {true, *aim_, {}};
 }
 
 double LookAround::held_up_s(Time now) const {
@@ -61,7 +60,7 @@ LookAroundStep LookAround::step(const Pose2& odom_from_base, std::span<const dou
   last_heading_ = odom_from_base.theta;
   if (!clearances.empty() && (!asked_ || to_seconds(now - *asked_) >= kAskAgain)) {
     asked_ = now;
-    if (const auto place = telling()) return drive_to(odom_from_base * *place, now);
+    if (const auto place = telling()) return drive_to(odom_from_base, *place, now);
   }
   if (turned_ <= 2.0 * std::numbers::pi && phase_s <= kPhaseLimit) return turn_on(odom_from_base);
   if (!clearances.empty()) {
@@ -72,7 +71,7 @@ LookAroundStep LookAround::step(const Pose2& odom_from_base, std::span<const dou
     const double free = clearance_of_cone(clearances, best);
     if (free >= kNeeded) {
       const Angle bearing = Angle::degrees(-180.0 + 360.0 * best / static_cast<double>(clearances.size()));
-      return drive_to(odom_from_base * (std::min(free - kKeepOff, kLongestDrive) * unit(bearing)), now);
+      return drive_to(odom_from_base, std::min(free - kKeepOff, kLongestDrive) * unit(bearing), now);
     }
   }
   start(now);

@@ -34,7 +34,7 @@ class LookAround {
   [[nodiscard]] double held_up_s(Time now) const;
 
  private:
-  [[nodiscard]] LookAroundStep drive_to(Point2 in_odom, Time now);
+  [[nodiscard]] LookAroundStep drive_to(const Pose2& odom_from_base, Point2 in_base, Time now);
   [[nodiscard]] LookAroundStep turn_on(const Pose2& odom_from_base);
 
   enum class Phase { turning, driving } phase_ = Phase::turning;

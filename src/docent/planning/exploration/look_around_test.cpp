@@ -37,5 +37,22 @@ TEST(LookAround, OnlyTurnsWhereNothingIsFree) {
   EXPECT_FALSE(turn_until_drive(look, {}, 120).has_value());
 }
 
+TEST(LookAround, LeavesADriveThatIsHeldUpAndTurnsAgain) {
+  LookAround look;
+  look.start(Time{});
+  const std::vector<double> clearances(180, 3.0);
+  const auto telling = [] { return Point2{2, 0}; };
+  const Pose2 pose{1, 1, {}};
+  EXPECT_TRUE(look.step(pose, clearances, telling, Time{}).drive);
+  EXPECT_TRUE(look.step(pose, clearances, telling, time_from_seconds(5.0)).drive);
+  EXPECT_NEAR(look.held_up_s(time_from_seconds(5.0)), 5.0, 1e-9);
+  const Pose2 nearer{1.3, 1, {}};  // it goes on
+  EXPECT_TRUE(look.step(nearer, clearances, telling, time_from_seconds(8.0)).drive);
+  EXPECT_TRUE(look.step(nearer, clearances, telling, time_from_seconds(12.0)).drive);
+  const auto nowhere = [] { return std::nullopt; };
+  EXPECT_FALSE(look.step(nearer, clearances, nowhere, time_from_seconds(18.0)).drive);
+  EXPECT_EQ(look.held_up_s(time_from_seconds(18.0)), 0.0);
+}
+
 }  // namespace
 }  // namespace docent

@@ -248,6 +248,21 @@ TEST_F(ExecutiveTest, HomeAndRelocalizing) {
   EXPECT_EQ(state.id, "");
 }
 
+TEST_F(ExecutiveTest, WhoIsLostAmidPeopleAsksForTheWayAndDoesNotGiveUp) {
+  start({{"l", "relocalize", "", {}, "en", false, ""}, "", "", ""});
+  executive.obstacle_report({true, true, "somebody is in the way"});
+  for (int i = 0; i < 120; ++i) {
+    pass(1.0);
+    goal("blocked");
+  }
+  EXPECT_GE(std::count(rungs.begin(), rungs.end(), Rung::horn), 10);
+  ASSERT_FALSE(said.empty());
+  EXPECT_EQ(said[0].text, "Please let me through.");
+  EXPECT_NE(state.state, "failed") << "there is nothing else that it could do";
+  goal("arrived");
+  EXPECT_EQ(state.state, "done");
+}
+
 TEST_F(ExecutiveTest, ARestartContinuesTheStep) {
   start(visit("t1"));
   restart();
