@@ -250,8 +250,8 @@ TEST_F(ExecutiveTest, HomeAndRelocalizing) {
 
 TEST_F(ExecutiveTest, WhoIsLostAmidPeopleAsksForTheWayAndDoesNotGiveUp) {
   start({{"l", "relocalize", "", {}, "en", false, ""}, "", "", ""});
-  executive.obstacle_report({true, true, "somebody is in the way"});
   for (int i = 0; i < 120; ++i) {
+    executive.obstacle_report({true, true, "somebody is in the way"}, time());
     pass(1.0);
     goal("blocked");
   }
