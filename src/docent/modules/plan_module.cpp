@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "docent/mapping/occupancy/live_map.h"
+#include "docent/modules/message_fitness.h"
 #include "docent/modules/pose_tracker.h"
 #include "docent/planning/coastal/coastal_planner.h"
+#include "docent/planning/exploration/clearances.h"
 #include "docent/planning/exploration/look_around.h"
 #include "docent/planning/exploration/tell_apart.h"
 #include "docent/planning/pursuit/pursuit.h"
@@ -19,7 +21,6 @@ constexpr int kVisitsAStep = 200;     ///< any-time: so many tiles of the value 
 constexpr int kCoastSweepsAStep = 2;  ///< of the coastal planner, which has more to do in one
 constexpr int kCoastCoarsening = 2;   ///< its cell = so many planning cells
 constexpr double kOffCoast = 2.0;     ///< [m] beside its way, from where it looks for another
-constexpr int kClearances = 180;      ///< directions, every 2 degrees
 constexpr int kStepsAPath = 5;        ///< the page sees the path at 1 Hz
 constexpr double kLookAhead = 1.5;    ///< [m] along the way: where the head looks
 constexpr Duration kBeliefStaleAfter = std::chrono::seconds{3};
@@ -243,29 +244,23 @@ class PlanModule final : public Module {
   /// missing or old.
   [[nodiscard]] std::vector<double> clearances(Time now) const {
     constexpr Duration kStale = std::chrono::seconds{2};
-    std::vector<double> result(kClearances, std::numeric_limits<double>::infinity());
-    const auto lower = [&](const sensor_msgs::LaserScan& scan, const Pose2& then_from_sensor) {
+    const auto look = [&](Clearances& clearances, const sensor_msgs::LaserScan& scan, const Pose2& then_from_sensor) {
       const Time stamp = from_message(scan.header.stamp);
       const auto odom_from_then = pose_.odom_from_base_at(stamp);
-      if (scan.ranges.empty() || now - stamp > kStale || !odom_from_then) return false;
-      const Pose2 base_from_sensor = inverse(*pose_.odom_from_base()) * *odom_from_then * then_from_sensor;
-      for (std::size_t k = 0; k < scan.ranges.size(); ++k) {
-        const auto range = static_cast<double>(std::isfinite(scan.ranges[k]) ? scan.ranges[k] : 0.0F);
-        const Angle bearing = Angle::radians(static_cast<double>(scan.angle_min) +
-                                             static_cast<double>(k) * static_cast<double>(scan.angle_increment));
-        const Point2 point = base_from_sensor * (range * unit(bearing));
-        const double place = 0.5 * (direction({}, point).degrees() + 180.0);
-        // What points between two directions counts for both: a base that has turned leaves no gap.
-        for (const double side : {-0.25, 0.25}) {
-          auto& least = result[static_cast<std::size_t>(std::lround(place + side)) % kClearances];
-          least = std::min(least, norm(point));
-        }
-      }
+      if (!is_fit(scan) || scan.ranges.empty() || now - stamp > kStale || !odom_from_then) return false;
+      const Pose2 base_from_then = inverse(*pose_.odom_from_base()) * *odom_from_then;
+      clearances.add(base_from_then * then_from_sensor, scan.angle_min, scan.angle_increment, scan.range_max,
+                     scan.ranges);
       return true;
     };
-    const bool complete =
-        lower(scans_[0], base_from_laser_[0]) && lower(scans_[1], base_from_laser_[1]) && lower(virtual_scan_, Pose2{});
-    if (!complete) result.clear();
+    Clearances real;
+    Clearances virtual_ones;
+    const bool complete = look(real, scans_[0], base_from_laser_[0]) && look(real, scans_[1], base_from_laser_[1]) &&
+                          look(virtual_ones, virtual_scan_, Pose2{});
+    if (!complete) return {};
+    std::vector<double> result = real.free();
+    const auto of_hazards = virtual_ones.free();
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] = std::min(result[i], of_hazards[i]);
     return result;
   }
 
