@@ -11,7 +11,7 @@ namespace docent {
 
 /// Value iteration works on square tiles of the grid, [kTileSide][kTileSide] floats each, row by row, aligned to 64
 /// bytes: a tile's values and costs stay in the first caches until nothing changes in it.
-inline constexpr int kTileSide = 64;
+inline constexpr int kTileSide = 32;
 inline constexpr std::size_t kTileCells = static_cast<std::size_t>(kTileSide) * kTileSide;
 
 inline constexpr float kUnreached = std::numeric_limits<float>::infinity();

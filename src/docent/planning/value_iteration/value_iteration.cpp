@@ -463,7 +463,7 @@ void ValueIteration::settle_tile(std::size_t tile) {
     std::uint64_t forwards = 0;
     std::uint64_t backwards = 0;
     void after(std::uint64_t fallen) {
-      forwards |= fallen << 1U;
+      forwards |= fallen << 1U & kAll;
       backwards |= fallen >> 1U;
     }
     [[nodiscard]] bool any() const { return (forwards | backwards) != 0; }
@@ -504,7 +504,7 @@ void ValueIteration::settle_tile(std::size_t tile) {
       const TileChanges fell = kernels_->sweep(of, by, backwards, lines);
       relaxations_ += fell.looked_at * kOffersALine;
       if (backwards) {
-        along.forwards |= fell.lines << 1U;
+        along.forwards |= fell.lines << 1U & kAll;
       } else {
         along.backwards |= fell.lines >> 1U;
       }
