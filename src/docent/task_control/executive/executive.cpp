@@ -224,7 +224,8 @@ void Executive::climb_ladder(Time now) {
   actions_.reactions_of = goal_.id;
   actions_.reactions.insert(actions_.reactions.end(), steps.begin(), steps.end());
   // Who does not know where they are choose nothing else.
-  if (gives_up && memory_.step == Step::driving) finish(false, is_unreachable ? "I found no way there." : "The way was blocked for too long.", now);
+  if (gives_up && memory_.step == Step::driving)
+    finish(false, is_unreachable ? "I found no way there." : "The way was blocked for too long.", now);
 }
 
 void Executive::ask_for_way(Time now, int count) {
