@@ -96,11 +96,11 @@ SCENARIOS = {
     ], NO_LADDER, {"s blocked": 60, "horns": 8}),
     "staircase": Scenario(7, [
         Duty("at the lantern, after the request", 280, lambda run: after(run.arrived("lantern"), REQUEST)),
-    ], {"hazards ignored": ["hazards.ignored=true", "plan.ignore_hazards=true"]}, {"passes within 1 m": 2, "s blocked": 15}, "pushers"),
+    ], {"hazards ignored": ["hazards.ignored=true", "plan.ignore_hazards=true"]}, {"s blocked": 40, "bumps": 1}, "pushers"),
     "children": Scenario(7, [
         Duty("at the clock, after the request", 150, lambda run: after(run.arrived("clock"), REQUEST)),
         Duty("at the globe, after its request", 250, lambda run: after(run.arrived("globe"), 100.0)),
-    ], BLIND, {"passes within 1 m": 10}, "runners"),
+    ], BLIND, {"passes within 1 m": 20}, "runners"),
 }
 
 

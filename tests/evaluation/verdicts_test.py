@@ -72,7 +72,7 @@ class Safety(unittest.TestCase):
 
 class Scenarios(unittest.TestCase):
     def test_an_empty_world_falls_short(self):
-        crowded, empty = SimpleNamespace(report=report()), SimpleNamespace(report=report(passes=0, blocked=0.0, horns=0))
+        crowded, empty = SimpleNamespace(report=report(bumped=5)), SimpleNamespace(report=report(passes=0, blocked=0.0, horns=0))
         for name in ("people-wall", "closed-passage", "staircase", "children"):
             self.assertTrue(scenarios.exposures_of(name, [crowded])[1], name)
             self.assertFalse(scenarios.exposures_of(name, [empty])[1], name)

@@ -333,7 +333,7 @@ struct Request {
   static constexpr const char* kType = "docent_msgs/msg/Request";
   std::string id;  ///< UUIDv7, made at the edge
   builtin_interfaces::Time stamp;
-  std::string source;           ///< web, kiosk, visitor
+  std::string source;           ///< web, kiosk, visitor, staff
   std::string visitor;          ///< a name to show
   std::string kind;             ///< exhibit, tour, cancel
   std::string target;           ///< exhibit or tour id; for cancel: the request's id
