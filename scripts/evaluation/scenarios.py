@@ -74,6 +74,7 @@ class Scenario:
 LOOKS = 0.95  # of the reactions show the wanted direction
 
 BLIND = {"blind to people": ["avoid.blind_to_people=true"]}
+BLIND_TO_ALL = {"blind to whatever stands there": ["avoid.blind_to_people=true", "plan.ignore_live_map=true"]}
 NO_LADDER = {"without the ladder": ["executive.ladder.active=false"]}
 
 SCENARIOS = {
@@ -86,7 +87,7 @@ SCENARIOS = {
     ], NO_LADDER, {"passes within 1 m": 1, "horns": 1}),
     "stool": Scenario(4, [
         Duty("at the globe, after the request", 100, lambda run: after(run.arrived("globe"), REQUEST)),
-    ], BLIND),
+    ], BLIND_TO_ALL),
     "closed-passage": Scenario(17, [
         Duty("asks, after the way was blocked", 25, lambda run: after(run.first("reaction", "ask", REQUEST), run.blocked())),
         Duty("gives up for now, after the way was blocked", 130,
