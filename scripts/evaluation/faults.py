@@ -25,10 +25,11 @@ MUSEUM = "bonn"
 CROWD = "busy"
 MINUTES = 4.0  # of an unharmed run
 DRIVES = 0.35  # [m/s]
-NEAR = 0.35  # [m] from the outline: well within reach of the infrared ring, dark clothes too
+NEAR = 0.7  # [m] from the outline to a solid: within reach of the infrared ring, which reads 0.8 m; dark clothes it does not see
 SLOW = 0.28  # [m/s]: 0.25, and what the wheels are off
 STANDS = 0.02  # [m/s]
 REACTION_S = 2.0  # [s]: the bound of slowing and of saying why
+NEAR_REACTION_S = 4.0  # [s]: where one of 24 sensors sees something, and all that can be noticed is that it repeats itself
 WATCHED_S = 8.0  # [s] after the fault
 JUMP_WATCHED_S = 25.0  # [s]: a jump is over at once, and the localizer must find its place
 FOUND_M = 0.3  # [m]
@@ -65,6 +66,11 @@ class Fault:
         """`says`: groups of words, one of each; none: nothing can be said, and it need not slow down.
         `is_near`: strikes where something is within NEAR, for else nothing is to be noticed."""
         self.name, self.event, self.says, self.watched, self.passes, self.is_near = name, event, says, watched, passes, is_near
+
+    @property
+    def within(self):
+        """[s] in which it is slow, and says why."""
+        return NEAR_REACTION_S if self.is_near else REACTION_S
 
     def is_said(self, reason):
         return bool(self.says) and all(any(word in reason for word in words) for words in self.says)
@@ -151,12 +157,12 @@ def read(path):
 
 
 def moments(rows, is_near=False):
-    """Rows at which a fault may strike; with `is_near` those at which something is within NEAR, for a second and more."""
+    """Rows at which a fault may strike; with `is_near` those at which a solid is within NEAR, for a second and more."""
     found = []
     for i in range(400, len(rows) - 40):
         if min(row["speed"] for row in rows[i - 10:i + 31]) < DRIVES:
             continue
-        if not is_near or max(min(row["nearest_solid"], row["nearest_person"]) for row in rows[i:i + 11]) <= NEAR:
+        if not is_near or max(row["nearest_solid"] for row in rows[i:i + 11]) <= NEAR:
             found.append(rows[i])
     return found
 
@@ -229,7 +235,7 @@ def judge(fault, outcomes, verdict, must_hold=True):
     stood = sum(outcome.stands for outcome in outcomes)
     good = bool(outcomes) and touched == 0
     if fault.says and outcomes:
-        good = good and slow[-1] <= REACTION_S and said[-1] <= REACTION_S
+        good = good and slow[-1] <= fault.within and said[-1] <= fault.within
     words = (f"slow after {seconds(slow[-1])} s, said after {seconds(said[-1])} s, {touched:.0f} touched, in {len(outcomes)} runs"
              if outcomes else "no run")
     if fault.passes and outcomes:
@@ -258,7 +264,7 @@ def protocol(bench, options):
     if options.slice:
         names = ["laser_front frozen", "sonar half", "odom dead", "tactile frozen", "infrared dead", "infrared frozen", *[fault.name for fault in faults[-4:]]]
         faults = [fault for fault in faults if fault.name in names]
-    print(f"\n## faults, {MUSEUM}, {CROWD}, {len(seeds)} seeds; slow or standing, and said why, within {REACTION_S:g} s\n")
+    print(f"\n## faults, {MUSEUM}, {CROWD}, {len(seeds)} seeds; slow or standing, and said why, within {REACTION_S:g} s ({NEAR_REACTION_S:g} s for what only a reading in reach can tell)\n")
     plan = [(fault, seed) for fault in faults for seed in seeds]
     made = bench.each([lambda f=f, s=s: strike(bench, f, s, unharmed[s], []) for f, s in plan])
     by_fault = {fault.name: [o for (f, _), o in zip(plan, made) if f is fault and o] for fault in faults}
