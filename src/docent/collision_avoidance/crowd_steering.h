@@ -43,7 +43,7 @@ class CrowdSteering {
     double stood = 0.0;   ///< [s]
     double hidden = 0.0;  ///< [s] behind somebody else
   };
-  using Stands = std::array<Stand, std::size_t{64} * 64>;  ///< by cells of 15 cm, repeated every 9.6 m
+  using Stands = std::array<Stand, 4096>;  ///< 64 x 64 cells of 15 cm, repeated every 9.6 m
   void place(const Pose2& odom_from_base, std::span<const Obstacle> obstacles);
   void remember(Point2 robot, double cycle);
   [[nodiscard]] static std::size_t index_of(Point2 in_odom);
