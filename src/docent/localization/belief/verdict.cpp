@@ -64,13 +64,6 @@ Agreement& Agreement::operator+=(const Agreement& other) {
   return *this;
 }
 
-double Agreement::telling() const {
-  constexpr double kNone = 0.1;  // share of the readings that are not too short: chance makes so many
-  constexpr double kAll = 0.25;
-  const double all = agrees + shorter + longer;
-  return all > 0.0 ? std::clamp(((agrees + longer) / all - kNone) / (kAll - kNone), 0.0, 1.0) : 1.0;
-}
-
 void Verdict::reset() { *this = Verdict{params_}; }
 
 void Verdict::assume_localized() {

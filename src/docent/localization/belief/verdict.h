@@ -46,9 +46,6 @@ struct VerdictParams {
 struct Agreement {
   double agrees = 0.0, shorter = 0.0, longer = 0.0;
   Agreement& operator+=(const Agreement& other);
-  /// 0..1: what the readings tell between places far apart. Those that are too short ended on people, who stand
-  /// anywhere: of a sweep in which nothing else is left, none speaks for another place. 1 without readings.
-  [[nodiscard]] double telling() const;
 };
 
 /// What one update says about the best mode.

@@ -27,14 +27,6 @@ Verdict sure() {
   return verdict;
 }
 
-TEST(Agreement, ReadingsThatAreTooShortTellNothingOfOtherPlaces) {
-  EXPECT_EQ((Agreement{5.0, 95.0, 0.0}.telling()), 0.0);
-  EXPECT_EQ((Agreement{20.0, 75.0, 5.0}.telling()), 1.0);
-  EXPECT_EQ((Agreement{5.0, 60.0, 35.0}.telling()), 1.0) << "those that pass through walls tell";
-  EXPECT_NEAR((Agreement{17.5, 82.5, 0.0}.telling()), 0.5, 1e-9);
-  EXPECT_EQ(Agreement{}.telling(), 1.0) << "nobody compared any";
-}
-
 TEST(Verdict, SaysThatItDoesNotKnowUntilItDoes) {
   Verdict verdict{{}};
   EXPECT_FALSE(verdict.localized());

@@ -214,9 +214,8 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   weights.most_sector_nats = params_.sector_nats(on_persons) * temper;
   weights.sectors = static_cast<std::size_t>(params_.sectors);
   if (verdict_.keeps_its_place() && predicted) {
-    const double telling = choice.readings.telling();
-    weights.far_share = telling * params_.independent_beams_far / params_.independent_beams;
-    weights.far_most_nats = telling * params_.most_nats_far;
+    weights.far_share = params_.independent_beams_far / params_.independent_beams;
+    weights.far_most_nats = params_.most_nats_far;
     weights.focus = *predicted * inverse(frame_from_robot());
   }
   const PlaceCosts others = ask_sensors(step.weight);

@@ -202,9 +202,8 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
     evidence.most_nats = shared_.most_nats * std::sqrt(views);
     if (verdict_.keeps_its_place()) {  // as the grid: sharp where the robot is, slow between there and elsewhere
       evidence.focus = predicted;
-      const double telling = choice.readings.telling();
-      evidence.far_share = telling * shared_.independent_beams_far / shared_.independent_beams;
-      evidence.far_most_nats = telling * shared_.most_nats_far;
+      evidence.far_share = shared_.independent_beams_far / shared_.independent_beams;
+      evidence.far_most_nats = shared_.most_nats_far;
     }
     likelihood = reweigh(particles_, costs, evidence);
     notice_surprise(likelihood, step.weight, full_temper / one_view);
