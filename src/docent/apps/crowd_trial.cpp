@@ -1,15 +1,20 @@
 #include "docent/apps/crowd_trial.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <optional>
 
+#include "docent/apps/temporary_folder.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/module_host.h"
 #include "docent/pictures/drawing.h"
+#include "docent/sensor_models/ray_caster.h"
 #include "docent/simulator/crowd/crowd.h"
 #include "docent/simulator/simulated_museum.h"
+#include "docent/simulator/world/survey.h"
 #include "docent/simulator/world/world_picture.h"
 #include "docent/transport/virtual_time_bus.h"
 
@@ -18,76 +23,100 @@ namespace {
 
 constexpr double kRobotRadius = 0.265;  // [m]
 
-/// Stands for localization, hazards and plan: in this hall nothing is hidden from the sensors, and the way is straight.
-/// It knows where the robot is; odometry alone would miss the goal by more than its radius, also in the empty hall.
-class Courier {
+/// All that drives the robot but localization; nobody asks for tours here.
+constexpr std::array kModules{"avoid", "hazards", "map", "plan", "robot", "executive"};
+
+/// Stands for mission and operator: one drive to the other end of the hall.
+class Errand {
  public:
-  Courier(Bus& bus, Point2 goal, double tolerance, double max_speed)
-      : bus_{bus},
-        goal_in_hall_{goal},
-        tolerance_{tolerance},
-        targets_{bus.publisher(topics::kTarget)},
-        virtual_scans_{bus.publisher(topics::kVirtualScan)} {
-    auto limits = bus.publisher(topics::kLimits);
+  Errand(Bus& bus, double max_speed) : tasks_{bus.publisher(topics::kTask)} {
     docent_msgs::Limits limit;
     limit.mode = "open";
     limit.max_speed = max_speed;
-    limits.publish(limit);
-    bus.subscribe<nav_msgs::Odometry>(topics::kOdometry,
-                                      [this](const auto& odometry) { here_ = from_message(odometry.pose.pose); });
-    bus.subscribe<docent_msgs::TrueState>(topics::kTrueState, [this](const auto& state) {
-      odom_from_hall_ = here_ * inverse(Pose2{state.x, state.y, Angle::radians(state.theta)});
-    });
-    bus.every(seconds(0.2), [this] {
-      publish_virtual_scan();
-      publish_target();
-    });
+    bus.publisher(topics::kLimits).publish(limit);
   }
-  void go() { goes_ = true; }
+  void go(Point2 goal) {
+    docent_msgs::Task task;
+    task.id = "across";
+    task.kind = "home";
+    task.x = goal.x;
+    task.y = goal.y;
+    task.language = "en";
+    tasks_.publish(task);
+  }
 
  private:
-  void publish_virtual_scan() {
-    sensor_msgs::LaserScan scan;
-    scan.header = {to_message(bus_.now()), "base_link"};
-    scan.angle_min = -std::numbers::pi_v<float>;
-    scan.angle_increment = std::numbers::pi_v<float> / 90.0F;
-    scan.range_max = 6.0F;
-    scan.ranges.assign(180, scan.range_max);
-    virtual_scans_.publish(std::move(scan));
+  Publisher<docent_msgs::Task> tasks_;
+};
+
+/// The hall as surveyed for the robot.
+Museum museum_of(const simulator::Hall& hall, std::uint64_t seed) {
+  Museum museum;
+  museum.map = simulator::survey(hall.world, {}, Rng{seed}.stream("survey")).map;
+  museum.area = hall.world.operating_area;
+  museum.home = hall.start;
+  museum.languages = {"en"};
+  return museum;
+}
+
+/// Stands for localization, which is measured elsewhere: knows the place to a few centimetres, and which readings lie
+/// where the map has nothing.
+class Surveyor {
+ public:
+  Surveyor(Bus& bus, const Museum& museum)
+      : bus_{bus},
+        walls_{museum.map},
+        beliefs_{bus.publisher(topics::kBelief)},
+        beams_{bus.publisher(topics::kPersonBeams)} {
+    bus.subscribe<nav_msgs::Odometry>(
+        topics::kOdometry, [this](const auto& odometry) { odom_from_base_ = from_message(odometry.pose.pose); });
+    bus.subscribe<sensor_msgs::LaserScan>(topics::kScanFront,
+                                          [this](const auto& scan) { see(scan, body_.scan_front.base_from_sensor()); });
+    bus.subscribe<sensor_msgs::LaserScan>(topics::kScanRear,
+                                          [this](const auto& scan) { see(scan, body_.scan_rear.base_from_sensor()); });
   }
-  /// Three metres of the way, as the planner gives.
-  void publish_target() {
-    docent_msgs::Target target;
-    target.header = {to_message(bus_.now()), "odom"};
-    target.goal_id = "across";
-    target.mode = goes_ ? "drive" : "stop";
-    target.position_tolerance = tolerance_;
-    const Point2 goal = odom_from_hall_ * goal_in_hall_;
-    const Point2 way = goal - here_.position();
-    const double rest = norm(way);
-    constexpr double kHorizon = 3.0;
-    constexpr double kStep = 0.25;
-    for (double along = 0.0; goes_ && along < std::min(rest, kHorizon); along += kStep) {
-      const Point2 via = here_.position() + (along / rest) * way;
-      target.via_x.push_back(via.x);
-      target.via_y.push_back(via.y);
+  void know(const docent_msgs::TrueState& truth) {
+    map_from_base_ = Pose2{truth.x, truth.y, Angle::radians(truth.theta)};
+    docent_msgs::Belief belief;
+    belief.header = {truth.header.stamp, "map"};
+    belief.localized = true;
+    belief.p_lost = 0.0;
+    belief.odom_pose = to_message(odom_from_base_);
+    belief.hypotheses.push_back({truth.x, truth.y, truth.theta, {0.0009, 0, 0, 0, 0.0009, 0, 0, 0, 0.0003}, 1.0});
+    for (const double x : {-0.03, 0.0, 0.03})
+      for (const double y : {-0.03, 0.0, 0.03})
+        belief.cells.push_back({static_cast<float>(truth.x + x), static_cast<float>(truth.y + y),
+                                static_cast<float>(truth.theta), 1.0F / 9.0F});
+    beliefs_.publish(std::move(belief));
+  }
+
+ private:
+  void see(const sensor_msgs::LaserScan& scan, const Pose2& base_from_laser) {
+    if (!map_from_base_) return;
+    constexpr float kOffTheWall = 0.3F;  // [m]
+    docent_msgs::PersonBeams beams;
+    beams.header = {scan.header.stamp, "base_link"};
+    beams.localized = true;
+    for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
+      const float range = scan.ranges[i];
+      if (!std::isfinite(range) || range >= scan.range_max) continue;
+      const double bearing =
+          static_cast<double>(scan.angle_min) + static_cast<double>(i) * static_cast<double>(scan.angle_increment);
+      const Point2 end = base_from_laser * (static_cast<double>(range) * unit(Angle::radians(bearing)));
+      if (walls_.clearance(*map_from_base_ * end) < kOffTheWall) continue;
+      beams.x.push_back(static_cast<float>(end.x));
+      beams.y.push_back(static_cast<float>(end.y));
     }
-    target.is_final = rest <= kHorizon;
-    if (target.is_final) {
-      target.via_x.push_back(goal.x);
-      target.via_y.push_back(goal.y);
-    }
-    targets_.publish(std::move(target));
+    beams_.publish(std::move(beams));
   }
 
   Bus& bus_;
-  Point2 goal_in_hall_;
-  double tolerance_;
-  Publisher<docent_msgs::Target> targets_;
-  Publisher<sensor_msgs::LaserScan> virtual_scans_;
-  Pose2 here_;
-  Pose2 odom_from_hall_;
-  bool goes_ = false;
+  RobotBody body_;
+  RayCaster walls_;
+  Publisher<docent_msgs::Belief> beliefs_;
+  Publisher<docent_msgs::PersonBeams> beams_;
+  Pose2 odom_from_base_;
+  std::optional<Pose2> map_from_base_;
 };
 
 /// A crowd of ordinary visitors: none of them plays with the robot, so that what is measured is how it moves among
@@ -118,13 +147,18 @@ class Trial {
  public:
   Trial(const CrowdTrialOptions& options, const simulator::Hall& hall)
       : options_{options},
+        museum_{museum_of(hall, options.seed)},
         simulation_{*world_, *truth_, simulation_of(options, hall)},
-        courier_{*self_, hall.goal, 0.5 * options.goal_radius, options.max_speed},
+        errand_{*self_, options.max_speed},
+        surveyor_{*self_, museum_},
         score_{time_from_seconds(options.settle_s), hall.goal, options.goal_radius, options.limit_s, kRobotRadius} {
     outcome_.hall = hall;
     outcome_.people = static_cast<int>(simulation_.people());
     outcome_.free_area = simulation_.free_area();
-    truth_->subscribe<docent_msgs::TrueState>(topics::kTrueState, [this](const auto& state) { judge(state); });
+    truth_->subscribe<docent_msgs::TrueState>(topics::kTrueState, [this](const auto& state) {
+      judge(state);
+      surveyor_.know(state);
+    });
     truth_->subscribe<docent_msgs::TrueContact>(topics::kTrueContact,
                                                 [this](const auto& contact) { score_.add(contact); });
     self_->subscribe<docent_msgs::AvoidState>(topics::kAvoidState, [this](const auto& state) { avoid_ = state; });
@@ -133,8 +167,9 @@ class Trial {
 
   Result<void> start_modules(const RobotConfig& config) {
     outcome_.config_hash = config.hash();
-    for (const char* name : {"avoid", "robot"}) {
+    for (const char* name : kModules) {
       ModuleHost::Options host;
+      host.state = state_.path();
       host.virtual_time = true;
       host.seed = options_.seed;
       auto module = ModuleHost::create(*find_module(name), hub_.connect(name), museum_, config, host);
@@ -147,7 +182,7 @@ class Trial {
   CrowdTrialOutcome run() {
     const Time begin = time_from_seconds(options_.settle_s);
     hub_.run_until(begin);
-    courier_.go();
+    errand_.go(outcome_.hall.goal);
     while (!score_.is_over()) hub_.run_until(hub_.now() + seconds(1.0));
     hub_.run_until(hub_.now() + seconds(0.5));  // contacts are told late
     outcome_.report = score_.report();
@@ -174,13 +209,15 @@ class Trial {
   }
 
   CrowdTrialOptions options_;
+  TemporaryFolder state_;
   VirtualTimeHub hub_;
   Museum museum_;
   std::unique_ptr<Bus> world_ = hub_.connect("world");
   std::unique_ptr<Bus> truth_ = hub_.connect("truth");
-  std::unique_ptr<Bus> self_ = hub_.connect("courier");
+  std::unique_ptr<Bus> self_ = hub_.connect("errand");
   simulator::SimulatedMuseum simulation_;
-  Courier courier_;
+  Errand errand_;
+  Surveyor surveyor_;
   SocialScore score_;
   std::vector<std::unique_ptr<ModuleHost>> modules_;
   CrowdTrialOutcome outcome_;

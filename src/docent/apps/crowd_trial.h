@@ -41,9 +41,9 @@ struct CrowdTrialOutcome {
   std::vector<Moment> moments;
 };
 
-/// One crossing of a crowded hall: the modules `avoid` and `robot` as they are, with the simulated lasers, sonars and
-/// odometry, and a courier in the place of localization and planner that leads along the straight way to the goal.
-/// Nothing of the robot's sees the truth; the courier and the score do. Deterministic.
+/// One crossing of a crowded hall by the robot as it is: all modules that drive it but localization, with the simulated
+/// lasers, sonars and odometry and a survey of the hall. Where it is, which localization would say, and the order to go
+/// come from here. Nothing else of the robot's sees the truth; the score does. Deterministic.
 [[nodiscard]] Result<CrowdTrialOutcome> run_crowd_trial(const CrowdTrialOptions& options);
 
 /// The hall at the end of a trial, the way driven (a dot a second, redder where it stood), the people there.

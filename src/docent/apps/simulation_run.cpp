@@ -1,7 +1,5 @@
 #include "docent/apps/simulation_run.h"
 
-#include <stdlib.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -10,6 +8,7 @@
 #include "docent/apps/belief_fault.h"
 #include "docent/apps/deployment.h"
 #include "docent/apps/simulation_picture.h"
+#include "docent/apps/temporary_folder.h"
 #include "docent/evaluation/claim_log.h"
 #include "docent/evaluation/deployment_evaluator.h"
 #include "docent/evaluation/drive_log.h"
@@ -25,25 +24,6 @@
 
 namespace docent {
 namespace {
-
-/// A folder of its own that goes when the run goes.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "docent-XXXXXX").string();
-    if (::mkdtemp(name.data()) != nullptr) path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code code;
-    if (!path_.empty()) std::filesystem::remove_all(path_, code);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// [s] that this process has had of the processor.
 double computed_seconds() {
