@@ -64,10 +64,7 @@ Museum museum_of(const simulator::Hall& hall, std::uint64_t seed) {
 class Surveyor {
  public:
   Surveyor(Bus& bus, const Museum& museum)
-      : bus_{bus},
-        walls_{museum.map},
-        beliefs_{bus.publisher(topics::kBelief)},
-        beams_{bus.publisher(topics::kPersonBeams)} {
+      : walls_{museum.map}, beliefs_{bus.publisher(topics::kBelief)}, beams_{bus.publisher(topics::kPersonBeams)} {
     bus.subscribe<nav_msgs::Odometry>(
         topics::kOdometry, [this](const auto& odometry) { odom_from_base_ = from_message(odometry.pose.pose); });
     bus.subscribe<sensor_msgs::LaserScan>(topics::kScanFront,
@@ -110,7 +107,6 @@ class Surveyor {
     beams_.publish(std::move(beams));
   }
 
-  Bus& bus_;
   RobotBody body_;
   RayCaster walls_;
   Publisher<docent_msgs::Belief> beliefs_;
