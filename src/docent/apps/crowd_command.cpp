@@ -13,11 +13,14 @@
 namespace docent {
 namespace {
 
+constexpr std::size_t kStripEvery = 3;  // moments, one a second
+
 struct Options {
   CrowdTrialOptions trial;
   std::string method;
   std::string report;
   std::string picture;
+  std::string strip;
   bool trace = false;
   bool quiet = false;
 };
@@ -70,6 +73,7 @@ void run(Options& options) {
   if (options.trace) print_trace(outcome);
   if (!options.report.empty()) value_or_fail(write_file_atomically(options.report, json_of(options, outcome, empty)));
   if (!options.picture.empty()) value_or_fail(save_png(draw_crowd_trial(outcome), options.picture));
+  if (!options.strip.empty()) value_or_fail(save_png(draw_crowd_strip(outcome, kStripEvery), options.strip));
   if (options.quiet) return;
   const auto people = report.contacts.find("people");
   std::printf(
@@ -100,6 +104,7 @@ void add_crowd_command(CLI::App& app) {
   command->add_option("--set", options->trial.settings, "section.key=value over robot.yaml; may be repeated");
   command->add_option("--report", options->report, "JSON file for the score");
   command->add_option("--picture", options->picture, "PNG file: the way driven and the crowd at the end");
+  command->add_option("--strip", options->strip, "PNG file: the hall every three seconds, with the way planned");
   command->add_flag("--trace", options->trace, "print where it was every second, and why it was slow");
   command->add_flag("--quiet", options->quiet, "no summary");
   command->callback([options] { run(*options); });

@@ -11,6 +11,7 @@
 #include "docent/messages/conversions.h"
 #include "docent/modules/module_host.h"
 #include "docent/pictures/drawing.h"
+#include "docent/pictures/text.h"
 #include "docent/sensor_models/ray_caster.h"
 #include "docent/simulator/crowd/crowd.h"
 #include "docent/simulator/simulated_museum.h"
@@ -158,6 +159,10 @@ class Trial {
     truth_->subscribe<docent_msgs::TrueContact>(topics::kTrueContact,
                                                 [this](const auto& contact) { score_.add(contact); });
     self_->subscribe<docent_msgs::AvoidState>(topics::kAvoidState, [this](const auto& state) { avoid_ = state; });
+    self_->subscribe<nav_msgs::Path>(topics::kPath, [this](const auto& path) {
+      way_.clear();
+      for (const auto& pose : path.poses) way_.push_back(from_message(pose.pose).position());
+    });
     self_->subscribe<docent_msgs::Horn>(topics::kHorn, [this](const auto&) { ++outcome_.horns; });
   }
 
@@ -200,7 +205,7 @@ class Trial {
     }
     if (samples_++ % 10 == 0 || score_.is_over()) {
       outcome_.moments.push_back(
-          {time, {state.x, state.y, Angle::radians(state.theta)}, state.linear, avoid_, state.people});
+          {time, {state.x, state.y, Angle::radians(state.theta)}, state.linear, avoid_, state.people, way_});
     }
   }
 
@@ -218,6 +223,7 @@ class Trial {
   std::vector<std::unique_ptr<ModuleHost>> modules_;
   CrowdTrialOutcome outcome_;
   docent_msgs::AvoidState avoid_;
+  std::vector<Point2> way_;
   int samples_ = 0;
   double walking_sum_ = 0.0;
   int walking_samples_ = 0;
@@ -235,37 +241,83 @@ Result<CrowdTrialOutcome> run_crowd_trial(const CrowdTrialOptions& options) {
   return trial.run();
 }
 
-Image draw_crowd_trial(const CrowdTrialOutcome& outcome) {
-  constexpr double kScale = 70.0;  // pixels a metre
-  Image image{static_cast<int>(14.4 * kScale), static_cast<int>(10.4 * kScale)};
-  const auto pixel = [](Point2 in_world) { return Point2{(in_world.x + 0.2) * kScale, (10.2 - in_world.y) * kScale}; };
-  const auto pixels = [&](const Polygon& polygon) {
-    std::vector<Point2> corners;
-    for (const Point2 corner : polygon) corners.push_back(pixel(corner));
-    return corners;
-  };
-  for (const auto& solid : outcome.hall.world.solids) fill_polygon(image, pixels(solid.polygon), {70, 70, 80, 255});
-  for (const auto& attraction : outcome.hall.world.attractions)
-    draw_circle(image, pixel(attraction.centre), kScale * attraction.radius, 1.0, {200, 200, 210, 255});
-  if (outcome.moments.empty()) return image;
-  for (const auto& person : outcome.moments.back().people) {
-    const Point2 at{person.x, person.y};
-    fill_disc(image, pixel(at), kScale * static_cast<double>(person.radius), {120, 160, 220, 255});
-    draw_line(image, pixel(at), pixel(at + Point2{person.vx, person.vy}), 2.0, {40, 80, 160, 255});
+namespace {
+
+/// Draws a hall, its corner 0.2 m off the picture's.
+class HallPicture {
+ public:
+  HallPicture(const simulator::Hall& hall, double scale)
+      : image_{static_cast<int>(14.4 * scale), static_cast<int>(10.4 * scale)}, scale_{scale} {
+    for (const auto& solid : hall.world.solids) {
+      std::vector<Point2> corners;
+      for (const Point2 corner : solid.polygon) corners.push_back(pixel(corner));
+      fill_polygon(image_, corners, {70, 70, 80, 255});
+    }
+    for (const auto& attraction : hall.world.attractions)
+      draw_circle(image_, pixel(attraction.centre), scale * attraction.radius, 1.0, {200, 200, 210, 255});
+    draw_circle(image_, pixel(hall.goal), 0.3 * scale, 2.0, {40, 160, 60, 255});
   }
+  void draw(const std::vector<docent_msgs::TruePerson>& people) {
+    for (const auto& person : people) {
+      const Point2 at{person.x, person.y};
+      fill_disc(image_, pixel(at), scale_ * static_cast<double>(person.radius), {120, 160, 220, 255});
+      draw_line(image_, pixel(at), pixel(at + Point2{person.vx, person.vy}), 2.0, {40, 80, 160, 255});
+    }
+  }
+  void draw(const Pose2& robot) {
+    draw_circle(image_, pixel(robot.position()), scale_ * kRobotRadius, 3.0, {220, 120, 40, 255});
+    draw_arrow(image_, pixel(robot.position()), pixel(robot * Point2{0.5, 0.0}), 3.0, {220, 120, 40, 255});
+  }
+  void draw_way(std::span<const Point2> way, Color color) {
+    for (std::size_t i = 1; i < way.size(); ++i) draw_line(image_, pixel(way[i - 1]), pixel(way[i]), 2.0, color);
+  }
+  void mark(Point2 place, Color color) { fill_disc(image_, pixel(place), 3.5, color); }
+  void label(const std::string& text) { draw_text(image_, {4.0, 1.0}, text, colors::kWhite); }
+  [[nodiscard]] const Image& image() const { return image_; }
+
+ private:
+  [[nodiscard]] Point2 pixel(Point2 in_world) const {
+    return {(in_world.x + 0.2) * scale_, (10.2 - in_world.y) * scale_};
+  }
+  Image image_;
+  double scale_;  // pixels a metre
+};
+
+}  // namespace
+
+Image draw_crowd_trial(const CrowdTrialOutcome& outcome) {
+  HallPicture picture{outcome.hall, 70.0};
+  if (outcome.moments.empty()) return picture.image();
+  picture.draw(outcome.moments.back().people);
   for (std::size_t i = 0; i < outcome.moments.size(); ++i) {
     const auto& moment = outcome.moments[i];
     if (i > 0)
-      draw_line(image, pixel(outcome.moments[i - 1].robot.position()), pixel(moment.robot.position()), 2.0,
-                {220, 120, 40, 255});
+      picture.draw_way(std::array{outcome.moments[i - 1].robot.position(), moment.robot.position()},
+                       {220, 120, 40, 255});
     const bool stands = std::abs(moment.speed) < 0.02;
-    fill_disc(image, pixel(moment.robot.position()), 3.5, stands ? Color{220, 30, 30, 255} : Color{40, 160, 60, 255});
+    picture.mark(moment.robot.position(), stands ? Color{220, 30, 30, 255} : Color{40, 160, 60, 255});
   }
-  const Pose2& robot = outcome.moments.back().robot;
-  draw_circle(image, pixel(robot.position()), kScale * kRobotRadius, 3.0, {220, 120, 40, 255});
-  draw_arrow(image, pixel(robot.position()), pixel(robot * Point2{0.5, 0.0}), 3.0, {220, 120, 40, 255});
-  draw_circle(image, pixel(outcome.hall.goal), 0.3 * kScale, 2.0, {40, 160, 60, 255});
-  return image;
+  picture.draw(outcome.moments.back().robot);
+  return picture.image();
+}
+
+Image draw_crowd_strip(const CrowdTrialOutcome& outcome, std::size_t every) {
+  constexpr int kColumns = 4;
+  constexpr double kScale = 30.0;
+  const int rows = static_cast<int>((outcome.moments.size() + every - 1) / every + kColumns - 1) / kColumns;
+  const HallPicture hall{outcome.hall, kScale};
+  Image strip{kColumns * hall.image().width(), std::max(1, rows) * hall.image().height()};
+  int place = 0;
+  for (std::size_t i = 0; i < outcome.moments.size(); i += every, ++place) {
+    const auto& moment = outcome.moments[i];
+    HallPicture picture = hall;
+    picture.draw(moment.people);
+    picture.draw_way(moment.way, {150, 60, 170, 255});
+    picture.draw(moment.robot);
+    picture.label(std::to_string(std::lround(moment.time)) + " s " + moment.avoid.reason);
+    strip.paste(picture.image(), place % kColumns * hall.image().width(), place / kColumns * hall.image().height());
+  }
+  return strip;
 }
 
 }  // namespace docent

@@ -37,6 +37,7 @@ struct CrowdTrialOutcome {
     double speed = 0.0;
     docent_msgs::AvoidState avoid;  ///< as it says itself
     std::vector<docent_msgs::TruePerson> people;
+    std::vector<Point2> way;  ///< [m], world: as planned
   };
   std::vector<Moment> moments;
 };
@@ -48,5 +49,10 @@ struct CrowdTrialOutcome {
 
 /// The hall at the end of a trial, the way driven (a dot a second, redder where it stood), the people there.
 [[nodiscard]] Image draw_crowd_trial(const CrowdTrialOutcome& outcome);
+
+/// The hall at every `every`th of the moments, four in a row: where the robot and the people were, and the way it had
+/// planned.
+/// @pre every > 0
+[[nodiscard]] Image draw_crowd_strip(const CrowdTrialOutcome& outcome, std::size_t every);
 
 }  // namespace docent

@@ -170,7 +170,7 @@ std::string Avoider::fault(Time now) const {
 }
 
 bool Avoider::is_touched(Time now, double within) const {
-  const bool may_leave = params_.method == "crowd_fit" && now - touched_since_ > seconds(kFlinches);
+  const bool may_leave = params_.method != "dynamic_window" && now - touched_since_ > seconds(kFlinches);
   return touched_ && now - *touched_ < seconds(within) && !may_leave;
 }
 
