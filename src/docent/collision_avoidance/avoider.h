@@ -155,6 +155,8 @@ class Avoider {
   void cap_speed(double cap, const std::string& why, AvoiderDecision& decision) const;
   void cap_by_knowledge(Time now, AvoiderDecision& decision) const;
   void cap_by_surroundings(std::span<const Obstacle> obstacles, double bearing, AvoiderDecision& decision) const;
+  /// The present command, slowed at once for who does what the last choice did not foresee; nullopt when it may stay.
+  [[nodiscard]] std::optional<Velocity> slowed_for_people(std::span<const Obstacle> obstacles) const;
   void judge_blocking(Time now, Point2 carrot, const Pose2& odom_from_base, std::span<const Obstacle> obstacles,
                       AvoiderDecision& decision) const;
   AvoiderDecision finish(Time now, AvoiderDecision decision);
@@ -185,7 +187,11 @@ class Avoider {
   std::optional<AvoiderTarget> target_;
   std::optional<VirtualSweep> virtual_;
   std::optional<Pose2> odom_from_virtual_;
-  std::vector<Point2> unmapped_in_odom_;
+  struct Unmapped {
+    Point2 in_odom;
+    Time taken;
+  };
+  std::vector<Unmapped> unmapped_;
   std::optional<Time> unmapped_time_;
   bool beams_localized_ = false;
   std::optional<Time> touched_;
