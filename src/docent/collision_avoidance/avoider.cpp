@@ -126,6 +126,9 @@ void Avoider::add_person_beams(Time now, Time stamp, std::span<const Point2> in_
   // Each laser may be judged by itself: one must not wipe out what the other has met.
   std::erase_if(unmapped_, [&](const Unmapped& beam) { return taken - beam.taken > seconds(kJudgedTogether); });
   for (const auto& point : in_base) unmapped_.push_back({odom_from_base * point, taken});
+  std::vector<Point2> places;
+  for (const Unmapped& beam : unmapped_) places.push_back(beam.in_odom);
+  near_unmapped_.emplace(places, odom_from_base.position(), kBySomebody);
   unmapped_time_ = now;
   beams_localized_ = localized;
 }
@@ -196,13 +199,11 @@ std::vector<Obstacle> Avoider::obstacles_from(const Pose2& odom_from_base, Time 
   const Pose2 base_from_odom = inverse(odom_from_base);
   const auto turned = [&](Point2 in_odom) { return base_from_odom * in_odom - base_from_odom.position(); };
   if (!params_.blind_to_people) {
-    const bool judged = beams_localized_ && unmapped_time_ && when - *unmapped_time_ < seconds(1.0);
-    std::vector<Point2> unmapped;
-    for (const Unmapped& beam : unmapped_)
-      if (distance(beam.in_odom, odom_from_base.position()) < reach) unmapped.push_back(beam.in_odom);
+    const bool judged = beams_localized_ && near_unmapped_ && when - unmapped_time_ < seconds(1.0);
     for (const auto& point : memory_.points(when)) {
       const Point2 at = base_from_odom * point.in_odom;
-      if (norm(at) > reach) continue;
+      const double away = norm(at);
+      if (away > reach) continue;
       if (params_.method == "dynamic_window") {  // where they are now
         result.push_back({at, {}, params_.window.real_margin, point.person, false});
         continue;
@@ -210,13 +211,12 @@ std::vector<Obstacle> Avoider::obstacles_from(const Pose2& odom_from_base, Time 
       const bool moves = point.velocity != Point2{};
       bool person = point.person;
       bool may_step = moves || !point.straight;
-      if (judged && !moves && (person || norm(at) < kStepsIn)) {  // what the map explains is no person
-        may_step = std::any_of(unmapped.begin(), unmapped.end(),
-                               [&](Point2 some) { return distance(some, point.in_odom) < kBySomebody; });
+      if (judged && !moves && (person || away < kStepsIn)) {  // what the map explains is no person
+        may_step = near_unmapped_->is_near(point.in_odom);
         person = person && may_step;
       }
       result.push_back({at, turned(point.velocity), params_.window.real_margin, person, false});
-      result.back().may_step = may_step && norm(at) < kStepsIn;
+      result.back().may_step = may_step && away < kStepsIn;
     }
     for (const double bearing : memory_.blind_directions()) {
       // Nobody knows what is there: as if something were just within the margin, wherever the robot is.
@@ -424,12 +424,9 @@ void Avoider::judge_blocking(Time now, Point2 carrot, const Pose2& odom_from_bas
   decision.state = AvoiderDecision::State::blocked;
   decision.reason = blocker->is_virtual ? "a hazard is in the way" : "something is in the way";
   if (blocker->is_virtual) return;
-  const bool judged = beams_localized_ && unmapped_time_ && now - *unmapped_time_ < seconds(1.0);
+  const bool judged = beams_localized_ && near_unmapped_ && now - unmapped_time_ < seconds(1.0);
   const Point2 in_odom = odom_from_base * blocker->at;
-  decision.unmapped_obstacle =
-      judged ? std::any_of(unmapped_.begin(), unmapped_.end(),
-                           [&](const Unmapped& beam) { return distance(beam.in_odom, in_odom) < kBySomebody; })
-             : blocker->person;
+  decision.unmapped_obstacle = judged ? near_unmapped_->is_near(in_odom) : blocker->person;
   if (decision.unmapped_obstacle) decision.reason = "somebody is in the way";
 }
 

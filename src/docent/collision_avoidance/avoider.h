@@ -13,6 +13,7 @@
 #include "docent/collision_avoidance/dynamic_window.h"
 #include "docent/collision_avoidance/freshness.h"
 #include "docent/collision_avoidance/local_time.h"
+#include "docent/collision_avoidance/near_points.h"
 #include "docent/collision_avoidance/obstacle_memory.h"
 #include "docent/collision_avoidance/odometry_watch.h"
 #include "docent/collision_avoidance/position_doubt.h"
@@ -192,7 +193,8 @@ class Avoider {
     Time taken;
   };
   std::vector<Unmapped> unmapped_;
-  std::optional<Time> unmapped_time_;
+  std::optional<NearPoints> near_unmapped_;  ///< of these
+  Time unmapped_time_{};
   bool beams_localized_ = false;
   std::optional<Time> touched_;
   Time touched_since_{};

@@ -30,24 +30,28 @@ Result<void> PeopleCautionParams::validate() const {
 bool is_forgivable(const PersonPoint& person, double speed, double curvature, const BaseLimits& limits,
                    const PeopleCautionParams& params) {
   const double end = params.reaction + speed / limits.deceleration;
+  // Too far for any meeting: most people are.
+  if (norm(person.at) - person.reach > (speed + params.surprise + norm(person.velocity)) * end) return true;
+  const auto along = [&](double way) {
+    return curvature == 0.0 ? Point2{1.0, 0.0} : unit(Angle::radians(curvature * way));
+  };
   for (double time = 0.0; time < end; time += kTimeStep) {
     const double braking = std::max(0.0, time - params.reaction);
     const double now = speed - limits.deceleration * braking;
     const double way = speed * time - 0.5 * limits.deceleration * braking * braking;
     // The middle of a short arc lies along half its turn.
-    const Point2 robot = way * unit(Angle::radians(0.5 * curvature * way));
+    const Point2 robot = way * along(0.5 * way);
     const Point2 offset = person.at + time * person.velocity - robot;
     const double apart = norm(offset);
     if (apart - person.reach >= surprise_after(time, params)) continue;
-    const Point2 heading = unit(Angle::radians(curvature * way));
-    if (now * dot(heading, offset) > params.harmless * apart) return false;
+    if (now * dot(along(way), offset) > params.harmless * apart) return false;
   }
   return true;
 }
 
 double speed_near_person(const PersonPoint& person, double cap, const BaseLimits& limits,
                          const PeopleCautionParams& params) {
-  // Too far for any speed up to the cap: most people are.
+  // Too far for any speed up to the cap.
   const double end = params.reaction + cap / limits.deceleration;
   if (norm(person.at) - person.reach > (cap + params.surprise + norm(person.velocity)) * end) return cap;
   double speed = cap;
