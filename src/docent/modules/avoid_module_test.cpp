@@ -182,9 +182,7 @@ TEST_F(MotionModules, TheBaseStopsWhenAvoidDiesAndGoesOnAfterItsReturn) {
 TEST_F(MotionModules, BrakingCommandsWaitForNoTick) {
   kill(avoid, avoid_bus);
   auto drive = world->publisher(topics::kDrive);
-  const auto command = [&](double linear) {
-    drive.publish({{to_message(world->now()), "base_link"}, linear, 0.0});
-  };
+  const auto command = [&](double linear) { drive.publish({{to_message(world->now()), "base_link"}, linear, 0.0}); };
   command(0.5);
   run(0.11);  // the base was told at the last tick, 10 ms ago
   ASSERT_EQ(wanted.linear.x, 0.5);
