@@ -12,14 +12,17 @@ namespace docent {
 
 namespace {
 
-constexpr double kLeastReach = 3.5;      // [m] obstacles farther away do not matter to a slow robot within one cycle
-constexpr double kFastWalk = 1.5;        // [m/s] of who may come towards the robot
-constexpr double kNearlyAll = 0.9;       // of a sweep's readings: the sensor is covered or has failed
-constexpr double kManyMissing = 0.35;    // of a sweep's readings
-constexpr double kCameraPatience = 1.5;  // [s]
-constexpr double kStandsTouched = 1.0;   // [s] after a touch
-constexpr double kFlinches = 0.4;        // [s] then it may leave who touched it: away from them, nobody minds
-constexpr double kElsewhere = 0.8;       // [rad] from the touch before: another one
+constexpr double kLeastReach = 3.5;       // [m] obstacles farther away do not matter to a slow robot within one cycle
+constexpr double kStepsIn = 2.5;          // [m] who stands farther away is not in the way with a step or two
+constexpr double kBySomebody = 0.4;       // [m] from a beam that the map does not explain
+constexpr double kJudgedTogether = 0.15;  // [s]
+constexpr double kFastWalk = 1.5;         // [m/s] of who may come towards the robot
+constexpr double kNearlyAll = 0.9;        // of a sweep's readings: the sensor is covered or has failed
+constexpr double kManyMissing = 0.35;     // of a sweep's readings
+constexpr double kCameraPatience = 1.5;   // [s]
+constexpr double kStandsTouched = 1.0;    // [s] after a touch
+constexpr double kFlinches = 0.4;         // [s] then it may leave who touched it: away from them, nobody minds
+constexpr double kElsewhere = 0.8;        // [rad] from the touch before: another one
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -118,9 +121,14 @@ void Avoider::add_virtual(Time now, VirtualSweep sweep) {
 
 void Avoider::add_person_beams(Time now, Time stamp, std::span<const Point2> in_base, bool localized) {
   if (odometry_.empty()) return;
-  const Pose2 odom_from_base = odometry_.pose_at(local_time_.receive_handed_on("person beams", now, stamp));
-  unmapped_in_odom_.clear();
-  for (const auto& point : in_base) unmapped_in_odom_.push_back(odom_from_base * point);
+  const Time taken = local_time_.receive_handed_on("person beams", now, stamp);
+  const Pose2 odom_from_base = odometry_.pose_at(taken);
+  // Each laser may be judged by itself: one must not wipe out what the other has met.
+  std::erase_if(unmapped_, [&](const Unmapped& beam) { return taken - beam.taken > seconds(kJudgedTogether); });
+  for (const auto& point : in_base) unmapped_.push_back({odom_from_base * point, taken});
+  std::vector<Point2> places;
+  for (const Unmapped& beam : unmapped_) places.push_back(beam.in_odom);
+  near_unmapped_.emplace(places, odom_from_base.position(), kBySomebody);
   unmapped_time_ = now;
   beams_localized_ = localized;
 }
@@ -191,21 +199,24 @@ std::vector<Obstacle> Avoider::obstacles_from(const Pose2& odom_from_base, Time 
   const Pose2 base_from_odom = inverse(odom_from_base);
   const auto turned = [&](Point2 in_odom) { return base_from_odom * in_odom - base_from_odom.position(); };
   if (!params_.blind_to_people) {
-    const bool judged = beams_localized_ && unmapped_time_ && when - *unmapped_time_ < seconds(1.0);
+    const bool judged = beams_localized_ && near_unmapped_ && when - unmapped_time_ < seconds(1.0);
     for (const auto& point : memory_.points(when)) {
       const Point2 at = base_from_odom * point.in_odom;
-      if (norm(at) > reach) continue;
+      const double away = norm(at);
+      if (away > reach) continue;
       if (params_.method == "dynamic_window") {  // where they are now
         result.push_back({at, {}, params_.window.real_margin, point.person, false});
         continue;
       }
       const bool moves = point.velocity != Point2{};
       bool person = point.person;
-      if (person && judged && !moves) {  // what the map explains is no person
-        person = std::any_of(unmapped_in_odom_.begin(), unmapped_in_odom_.end(),
-                             [&](Point2 unmapped) { return distance(unmapped, point.in_odom) < 0.4; });
+      bool may_step = moves || !point.straight;
+      if (judged && !moves && (person || away < kStepsIn)) {  // what the map explains is no person
+        may_step = near_unmapped_->is_near(point.in_odom);
+        person = person && may_step;
       }
       result.push_back({at, turned(point.velocity), params_.window.real_margin, person, false});
+      result.back().may_step = may_step && away < kStepsIn;
     }
     for (const double bearing : memory_.blind_directions()) {
       // Nobody knows what is there: as if something were just within the margin, wherever the robot is.
@@ -343,7 +354,7 @@ void Avoider::cap_by_surroundings(std::span<const Obstacle> obstacles, double be
     if (ahead > -0.2) {
       cap_speed(window.speed_with(slack), obstacle.is_virtual ? "a hazard is near" : "something is near", decision);
     }
-    if (!obstacle.person && obstacle.velocity == Point2{}) continue;
+    if (!obstacle.may_step && !obstacle.person && obstacle.velocity == Point2{}) continue;
     // Towards people only as fast as one can be forgiven for: on the way that is steered for, and as it heads now.
     for (const Point2 way_ahead : {unit(Angle::radians(bearing)), Point2{1.0, 0.0}}) {
       const PersonPoint person{{dot(way_ahead, obstacle.at), cross(way_ahead, obstacle.at)},
@@ -378,6 +389,24 @@ Steering Avoider::steering_for(const Carrot& ahead, const BaseState& start, std:
   return steering;
 }
 
+std::optional<Velocity> Avoider::slowed_for_people(std::span<const Obstacle> obstacles) const {
+  constexpr double kStep = 0.05;     // [m/s]
+  constexpr double kSharpest = 3.0;  // [1/m]
+  if (params_.method == "dynamic_window" || command_.linear <= params_.people.harmless) return std::nullopt;
+  const double curvature = std::clamp(command_.angular / command_.linear, -kSharpest, kSharpest);
+  double speed = command_.linear;
+  for (const auto& obstacle : obstacles) {
+    if (!obstacle.may_step && !obstacle.person && obstacle.velocity == Point2{}) continue;
+    const PersonPoint person{obstacle.at, obstacle.velocity, limits_.radius + obstacle.margin};
+    while (speed > params_.people.harmless && !is_forgivable(person, speed, curvature, limits_, params_.people))
+      speed -= kStep;
+  }
+  // The choice may be so much too bold by noise alone.
+  if (speed > command_.linear - 1.5 * kStep) return std::nullopt;
+  speed = std::max(speed, params_.people.harmless);
+  return Velocity{speed, command_.angular * speed / command_.linear};
+}
+
 void Avoider::judge_blocking(Time now, Point2 carrot, const Pose2& odom_from_base, std::span<const Obstacle> obstacles,
                              AvoiderDecision& decision) const {
   const double bearing = std::atan2(carrot.y, carrot.x);
@@ -395,11 +424,9 @@ void Avoider::judge_blocking(Time now, Point2 carrot, const Pose2& odom_from_bas
   decision.state = AvoiderDecision::State::blocked;
   decision.reason = blocker->is_virtual ? "a hazard is in the way" : "something is in the way";
   if (blocker->is_virtual) return;
-  const bool judged = beams_localized_ && unmapped_time_ && now - *unmapped_time_ < seconds(1.0);
+  const bool judged = beams_localized_ && near_unmapped_ && now - unmapped_time_ < seconds(1.0);
   const Point2 in_odom = odom_from_base * blocker->at;
-  decision.unmapped_obstacle = judged ? std::any_of(unmapped_in_odom_.begin(), unmapped_in_odom_.end(),
-                                                    [&](Point2 unmapped) { return distance(unmapped, in_odom) < 0.4; })
-                                      : blocker->person;
+  decision.unmapped_obstacle = judged ? near_unmapped_->is_near(in_odom) : blocker->person;
   if (decision.unmapped_obstacle) decision.reason = "somebody is in the way";
 }
 
@@ -489,7 +516,16 @@ std::optional<AvoiderDecision> Avoider::reflex(Time now) {
   // Less margin than at the choice, or the noise of every sweep would brake; until the next sweep, then brake.
   constexpr double kSlack = 0.03;
   constexpr double kUntilNextSweep = 0.12;
-  if (can_brake_in_time(start.velocity, command_, kUntilNextSweep, obstacles, limits_, kSlack)) return std::nullopt;
+  if (can_brake_in_time(start.velocity, command_, kUntilNextSweep, obstacles, limits_, kSlack)) {
+    if (const auto slowed = slowed_for_people(obstacles)) {
+      decision.command = *slowed;
+      decision.state = AvoiderDecision::State::driving;
+      decision.speed_cap = slowed->linear;
+      decision.reason = "people are near";
+      return finish(now, std::move(decision));
+    }
+    return std::nullopt;
+  }
   return stand(now, std::move(decision), "braking");
 }
 

@@ -13,6 +13,7 @@
 #include "docent/collision_avoidance/dynamic_window.h"
 #include "docent/collision_avoidance/freshness.h"
 #include "docent/collision_avoidance/local_time.h"
+#include "docent/collision_avoidance/near_points.h"
 #include "docent/collision_avoidance/obstacle_memory.h"
 #include "docent/collision_avoidance/odometry_watch.h"
 #include "docent/collision_avoidance/position_doubt.h"
@@ -155,6 +156,8 @@ class Avoider {
   void cap_speed(double cap, const std::string& why, AvoiderDecision& decision) const;
   void cap_by_knowledge(Time now, AvoiderDecision& decision) const;
   void cap_by_surroundings(std::span<const Obstacle> obstacles, double bearing, AvoiderDecision& decision) const;
+  /// The present command, slowed at once for who does what the last choice did not foresee; nullopt when it may stay.
+  [[nodiscard]] std::optional<Velocity> slowed_for_people(std::span<const Obstacle> obstacles) const;
   void judge_blocking(Time now, Point2 carrot, const Pose2& odom_from_base, std::span<const Obstacle> obstacles,
                       AvoiderDecision& decision) const;
   AvoiderDecision finish(Time now, AvoiderDecision decision);
@@ -185,8 +188,13 @@ class Avoider {
   std::optional<AvoiderTarget> target_;
   std::optional<VirtualSweep> virtual_;
   std::optional<Pose2> odom_from_virtual_;
-  std::vector<Point2> unmapped_in_odom_;
-  std::optional<Time> unmapped_time_;
+  struct Unmapped {
+    Point2 in_odom;
+    Time taken;
+  };
+  std::vector<Unmapped> unmapped_;
+  std::optional<NearPoints> near_unmapped_;  ///< of these
+  Time unmapped_time_{};
   bool beams_localized_ = false;
   std::optional<Time> touched_;
   Time touched_since_{};

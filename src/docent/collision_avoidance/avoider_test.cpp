@@ -93,6 +93,41 @@ TEST(Avoider, DoesNotPushAPersonWhoCrosses) {
   }
 }
 
+/// Along two rows of people, shoulder to shoulder; one of them steps in with 0.7 m/s when the robot is `before` [m]
+/// away.
+double push_of_who_steps_in(std::uint64_t seed, double before, const AvoiderParams& params) {
+  Rehearsal rehearsal{seed, params};
+  rehearsal.box(-2.0, -3.0, 10.0, 3.0);
+  for (int i = 0; i < 11; ++i) {
+    for (const double side : {-1.0, 1.0}) rehearsal.people.push_back({{1.0 + 0.48 * i, side * 0.72}, {}});
+  }
+  constexpr std::size_t kSteps = 13;
+  rehearsal.drive_to({{7.0, 0.0}});
+  while (rehearsal.map_from_base.x < rehearsal.people[kSteps].place.x - before &&
+         rehearsal.now < time_from_seconds(30.0))
+    rehearsal.run(0.01);
+  rehearsal.people[kSteps].velocity = {0.0, -0.7};
+  rehearsal.run(1.0);
+  rehearsal.people[kSteps].velocity = {};
+  rehearsal.run(1.0);
+  return rehearsal.worst_push;
+}
+
+TEST(Avoider, DoesNotPushWhoStepsOutOfARow) {
+  AvoiderParams blunt = Rehearsal::without_sonar();
+  blunt.people.surprise = 0.0;
+  double worst = 0.0;
+  double worst_of_blunt = 0.0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    for (const double before : {0.3, 0.5, 0.7, 0.9}) {
+      worst = std::max(worst, push_of_who_steps_in(seed, before, Rehearsal::without_sonar()));
+      worst_of_blunt = std::max(worst_of_blunt, push_of_who_steps_in(seed, before, blunt));
+    }
+  }
+  EXPECT_LE(worst, 0.2);
+  EXPECT_GT(worst_of_blunt, 0.25);
+}
+
 TEST(Avoider, GoesRoundAPersonWhoStandsInTheWay) {
   Rehearsal world;
   world.box(-3, -3, 12, 3);

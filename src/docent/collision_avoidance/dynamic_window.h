@@ -57,7 +57,8 @@ struct Obstacle {
   double margin = 0.0;  ///< [m] between its point and the robot's outline
   bool person = false;  ///< slim and free-standing
   bool is_virtual = false;
-  double stood = 60.0;  ///< [s] that it has been known not to move; the window does not ask
+  double stood = 60.0;    ///< [s] that it has been known not to move; the window does not ask
+  bool may_step = false;  ///< may be somebody, also in a throng or half hidden: they may step nearer; nor this
 };
 
 /// What the window shall steer for.

@@ -8,6 +8,7 @@
 
 #include "docent/base/time.h"
 #include "docent/collision_avoidance/moving_objects.h"
+#include "docent/collision_avoidance/range_flow.h"
 #include "docent/geometry/polygon.h"
 
 namespace docent {
@@ -38,6 +39,7 @@ struct ObstaclePoint {
   Point2 velocity{};  ///< [m/s] of the moving thing it belongs to
   Time seen;
   bool person = false;    ///< part of something slim that stands free: likely a person
+  bool straight = false;  ///< part of a long straight piece: nobody
   bool confirmed = true;  ///< false: a lone reading that the sweep before knew nothing of; does not count yet
   int missed = 0;         ///< later sweeps that looked through it
 };
@@ -91,6 +93,7 @@ class ObstacleMemory {
     std::vector<ObstaclePoint> points;      ///< of the newest sweep
     std::vector<ObstaclePoint> remembered;  ///< of earlier ones
     std::vector<double> blind;              ///< [rad], base frame
+    RangeFlow flow;
     double invalid_share = 0.0;
     Pose2 odom_from_base_at_change;  ///< where the base was when the ranges last changed
     int repeats = 0;
@@ -115,6 +118,8 @@ class ObstacleMemory {
   /// True for points that have a neighbour in their own sweep or lie where the sweep before had one.
   [[nodiscard]] static std::vector<bool> confirm(std::span<const Point2> points, std::span<const int> beams,
                                                  std::span<const ObstaclePoint> before);
+  /// Where something comes nearer that is not followed, or faster than what is followed there.
+  static void let_come_nearer(Sensor& sensor, std::span<const Point2> places, std::span<const int> beams);
   enum class View { hidden, met_again, looked_through };
   [[nodiscard]] static View view_of(const Sensor& sensor, Point2 in_odom);
 

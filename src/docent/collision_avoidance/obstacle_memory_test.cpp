@@ -232,6 +232,31 @@ TEST(MovingObjects, FollowsAWalkerAndLeavesAStanderAlone) {
   EXPECT_GT(standing, 3);
 }
 
+TEST(ObstacleMemory, WhoComesOutOfAThrongComesNearerThoughNobodyIsFollowed) {
+  ObstacleMemory memory;
+  for (int k = 0; k < 6; ++k) {
+    const std::vector<Point2> row{{1.8, -0.8}, {1.8, -0.4}, {1.8 - 0.1 * k, 0.0}, {1.8, 0.4}, {1.8, 0.8}};
+    auto sweep = sweep_at(0.1 * k);
+    for (std::size_t i = 0; i < sweep.ranges.size(); ++i) {
+      const Point2 way = unit(Angle::radians(sweep.first_bearing + static_cast<double>(i) * kBeam));
+      for (const Point2 person : row) {
+        if (const auto hit = ray_distance({}, way, person, 0.22))
+          sweep.ranges[i] = std::min(sweep.ranges[i], static_cast<float>(*hit));
+      }
+    }
+    memory.add_sweep(0, sweep, {});
+  }
+  int coming = 0;
+  for (const auto& point : memory.points(time_from_seconds(0.5))) {
+    EXPECT_FALSE(point.straight);
+    if (std::abs(point.in_odom.y) > 0.12 || point.in_odom.x > 1.4) continue;
+    EXPECT_NEAR(point.velocity.x, -1.0, 0.25);
+    EXPECT_TRUE(point.person);
+    ++coming;
+  }
+  EXPECT_GT(coming, 5);
+}
+
 TEST(MovingObjects, AWallIsNoPersonNorIsAPieceSeenThroughAGap) {
   ObstacleMemory memory;
   auto sweep = sweep_at(1.0, 1.0F);

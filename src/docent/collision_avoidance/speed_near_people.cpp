@@ -10,36 +10,52 @@ namespace {
 constexpr double kTimeStep = 0.05;   // [s]
 constexpr double kSpeedStep = 0.05;  // [m/s]
 
-/// Nowhere before the robot stands can it meet the person faster than harmless.
-bool is_forgivable(const PersonPoint& person, double speed, double deceleration, const PeopleCautionParams& params) {
-  const double end = params.reaction + speed / deceleration;
-  for (double time = 0.0; time < end; time += kTimeStep) {
-    const double braking = std::max(0.0, time - params.reaction);
-    const double now = speed - deceleration * braking;
-    const double way = speed * time - 0.5 * deceleration * braking * braking;
-    const Point2 offset = person.at + time * person.velocity - Point2{way, 0.0};
-    const double apart = norm(offset);
-    if (now * offset.x > params.harmless * apart && apart - person.reach < params.surprise * time) return false;
-  }
-  return true;
+/// How much nearer [m] a surprise may have brought somebody after `time`.
+double surprise_after(double time, const PeopleCautionParams& params) {
+  const double gathering = params.surprise / params.spurt;
+  if (time < gathering) return 0.5 * params.spurt * time * time;
+  return params.surprise * (time - 0.5 * gathering);
 }
 
 }  // namespace
 
 Result<void> PeopleCautionParams::validate() const {
   if (!(surprise >= 0.0 && surprise <= 3.0)) return fail("avoid.people.surprise must lie between 0 and 3 m/s");
+  if (!(spurt >= 0.5 && spurt <= 100.0)) return fail("avoid.people.spurt must lie between 0.5 and 100 m/s2");
   if (!(reaction >= 0.0 && reaction <= 2.0)) return fail("avoid.people.reaction must lie between 0 and 2 s");
   if (!(harmless > 0.0 && harmless <= 0.3)) return fail("avoid.people.harmless must lie in (0, 0.3] m/s");
   return {};
 }
 
+bool is_forgivable(const PersonPoint& person, double speed, double curvature, const BaseLimits& limits,
+                   const PeopleCautionParams& params) {
+  const double end = params.reaction + speed / limits.deceleration;
+  // Too far for any meeting: most people are.
+  if (norm(person.at) - person.reach > (speed + params.surprise + norm(person.velocity)) * end) return true;
+  const auto along = [&](double way) {
+    return curvature == 0.0 ? Point2{1.0, 0.0} : unit(Angle::radians(curvature * way));
+  };
+  for (double time = 0.0; time < end; time += kTimeStep) {
+    const double braking = std::max(0.0, time - params.reaction);
+    const double now = speed - limits.deceleration * braking;
+    const double way = speed * time - 0.5 * limits.deceleration * braking * braking;
+    // The middle of a short arc lies along half its turn.
+    const Point2 robot = way * along(0.5 * way);
+    const Point2 offset = person.at + time * person.velocity - robot;
+    const double apart = norm(offset);
+    if (apart - person.reach >= surprise_after(time, params)) continue;
+    if (now * dot(along(way), offset) > params.harmless * apart) return false;
+  }
+  return true;
+}
+
 double speed_near_person(const PersonPoint& person, double cap, const BaseLimits& limits,
                          const PeopleCautionParams& params) {
-  // Too far for any speed up to the cap: most people are.
+  // Too far for any speed up to the cap.
   const double end = params.reaction + cap / limits.deceleration;
   if (norm(person.at) - person.reach > (cap + params.surprise + norm(person.velocity)) * end) return cap;
   double speed = cap;
-  while (speed > params.harmless && !is_forgivable(person, speed, limits.deceleration, params)) speed -= kSpeedStep;
+  while (speed > params.harmless && !is_forgivable(person, speed, 0.0, limits, params)) speed -= kSpeedStep;
   return std::max(speed, std::min(cap, params.harmless));
 }
 

@@ -9,6 +9,7 @@ namespace docent {
 /// What people may do that nobody foresees, and what a robot may do about it.
 struct PeopleCautionParams {
   double surprise = 0.4;  ///< [m/s] by which anybody may come nearer than their motion tells
+  double spurt = 2.5;     ///< [m/s2] with which they begin to
   double reaction = 0.3;  ///< [s] from a surprise to full braking: a sweep, a choice, the base
   double harmless = 0.1;  ///< [m/s] towards somebody: nobody minds
   template <class V>
@@ -16,6 +17,7 @@ struct PeopleCautionParams {
     v("surprise", surprise);
     v("reaction", reaction);
     v("harmless", harmless);
+    v("spurt", spurt);
   }
   [[nodiscard]] Result<void> validate() const;
 };
@@ -26,6 +28,11 @@ struct PersonPoint {
   Point2 velocity{};   ///< [m/s], zero for who stands
   double reach = 0.0;  ///< [m] between the robot's centre and the point counts as a touch
 };
+
+/// True when the robot, driving with `speed` [m/s] along an arc of `curvature` [1/m], braking fully one reaction after
+/// the person begins to come nearer than foreseen, meets them nowhere faster than harmless before it stands.
+[[nodiscard]] bool is_forgivable(const PersonPoint& person, double speed, double curvature, const BaseLimits& limits,
+                                 const PeopleCautionParams& params);
 
 /// The highest speed [m/s] up to `cap` along +x from which the robot never runs into this person: it brakes fully one
 /// reaction after the person begins to come nearer than foreseen, and wherever the two may meet before it stands, its

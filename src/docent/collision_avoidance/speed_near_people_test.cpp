@@ -24,9 +24,12 @@ TEST(SpeedNearPerson, FarAwayAndBehindNothingIsLost) {
 }
 
 TEST(SpeedNearPerson, StoppingDistanceOfBothByHand) {
-  // Straight ahead: speed * reaction + speed^2 / 2a + surprise * (reaction + speed / a) = gap, here 0.5 m: 0.42 m/s;
-  // but the last decimetre a second is harmless.
-  EXPECT_NEAR(speed_for({kReach + 0.5, 0.0}), 0.42, 0.051);
+  // Straight ahead: speed * reaction + speed^2 / 2a + surprise * (reaction + speed / a - surprise / 2 spurt) = gap,
+  // here 0.5 m, with 0.4 m/s and 2.5 m/s2: 0.45 m/s; but the last decimetre a second is harmless.
+  PeopleCautionParams params;
+  params.surprise = 0.4;
+  params.spurt = 2.5;
+  EXPECT_NEAR(speed_near_person({{kReach + 0.5, 0.0}, {}, kReach}, 0.8, kLimits, params), 0.45, 0.051);
   EXPECT_NEAR(speed_for({kReach + 0.05, 0.0}), PeopleCautionParams{}.harmless, 1e-9);
 }
 
@@ -49,7 +52,7 @@ TEST(SpeedNearPerson, WhoComesSlowsMoreThanWhoGoes) {
 }
 
 TEST(SpeedNearPerson, WhoDartsAtTheRobotIsMetAtHarmlessSpeed) {
-  // A person anywhere around starts at any moment with up to the surprise in the worst direction, which is towards the
+  // A person anywhere around starts at any moment, up to the surprise, in the worst direction, which is towards the
   // robot; the robot brakes one reaction later. Property: its speed towards them at the touch is harmless.
   Rng rng{7};
   const PeopleCautionParams params;
@@ -66,22 +69,31 @@ TEST(SpeedNearPerson, WhoDartsAtTheRobotIsMetAtHarmlessSpeed) {
       way += kStep * now;
       const Point2 offset = person - Point2{way, 0.0};
       const double apart = norm(offset);
+      const double gathered = std::min(surprise, params.spurt * time);
       if (apart < kReach) {
         EXPECT_LE(now * offset.x / apart, params.harmless + 0.06) << round << " at " << bearing << ", " << speed;
         ++met;
         break;
       }
-      person = person - (kStep * surprise / apart) * offset;
+      person = person - (kStep * gathered / apart) * offset;
     }
   }
   EXPECT_GT(met, 200);
 }
 
+TEST(SpeedNearPerson, ATurnLeadsTowardsWhoStandsOnItsInside) {
+  const PersonPoint inside{{0.45, 0.4}, {}, kReach};
+  const PeopleCautionParams params;
+  EXPECT_TRUE(is_forgivable(inside, 0.6, -1.0, kLimits, params));
+  EXPECT_FALSE(is_forgivable(inside, 0.6, 1.0, kLimits, params));
+}
+
 TEST(PeopleCautionParams, RefusesNonsense) {
   EXPECT_TRUE(PeopleCautionParams{}.validate());
-  EXPECT_FALSE((PeopleCautionParams{-0.1, 0.3, 0.1}.validate()));
-  EXPECT_FALSE((PeopleCautionParams{0.6, -1.0, 0.1}.validate()));
-  EXPECT_FALSE((PeopleCautionParams{0.6, 0.3, 0.0}.validate()));
+  EXPECT_FALSE((PeopleCautionParams{-0.1, 2.5, 0.3, 0.1}.validate()));
+  EXPECT_FALSE((PeopleCautionParams{0.6, 0.0, 0.3, 0.1}.validate()));
+  EXPECT_FALSE((PeopleCautionParams{0.6, 2.5, -1.0, 0.1}.validate()));
+  EXPECT_FALSE((PeopleCautionParams{0.6, 2.5, 0.3, 0.0}.validate()));
 }
 
 }  // namespace

@@ -179,6 +179,24 @@ TEST_F(MotionModules, TheBaseStopsWhenAvoidDiesAndGoesOnAfterItsReturn) {
   EXPECT_GT(speed, 0.4);
 }
 
+TEST_F(MotionModules, BrakingCommandsWaitForNoTick) {
+  kill(avoid, avoid_bus);
+  auto drive = world->publisher(topics::kDrive);
+  const auto command = [&](double linear) { drive.publish({{to_message(world->now()), "base_link"}, linear, 0.0}); };
+  command(0.5);
+  run(0.11);  // the base was told at the last tick, 10 ms ago
+  ASSERT_EQ(wanted.linear.x, 0.5);
+  command(0.6);
+  run(0.01);
+  EXPECT_EQ(wanted.linear.x, 0.5);
+  command(0.2);
+  run(0.01);
+  EXPECT_EQ(wanted.linear.x, 0.2);
+  command(0.0);
+  run(0.01);
+  EXPECT_EQ(wanted.linear.x, 0.0);
+}
+
 TEST_F(MotionModules, StandWhenALaserOrTheHazardsOrThePlanFallSilent) {
   run(3.0);
   front_works = false;

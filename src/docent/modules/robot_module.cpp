@@ -1,5 +1,7 @@
 #include "docent/modules/robot_module.h"
 
+#include <cmath>
+
 #include "docent/messages/conversions.h"
 #include "docent/robot/watchdog.h"
 
@@ -8,7 +10,7 @@ namespace docent {
 namespace {
 
 struct RobotParams {
-  double rate = 20.0;         ///< [Hz] of cmd_vel
+  double rate = 20.0;         ///< [Hz] of cmd_vel; what brakes goes out at once
   double battery_low = 0.15;  ///< share of the charge below which the module calls itself degraded
   template <class V>
   void visit(V& v) {
@@ -32,7 +34,10 @@ class RobotModule final : public Module {
         transforms_{bus_.publisher(topics::kTransforms)} {
     publish_mounts(context.config.body());
     bus_.subscribe<docent_msgs::Drive>(topics::kDrive, [this](const docent_msgs::Drive& drive) {
+      const double before = std::abs(watchdog_.output(bus_.now()).linear);
       watchdog_.receive(bus_.now(), {drive.linear, drive.angular});
+      // Braking waits for no tick: people do not either.
+      if (std::abs(watchdog_.output(bus_.now()).linear) < before) command_base();
     });
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const nav_msgs::Odometry& odometry) {
       odometry_received_ = bus_.now();
@@ -43,10 +48,7 @@ class RobotModule final : public Module {
     });
     bus_.subscribe<sensor_msgs::BatteryState>(
         topics::kBattery, [this](const sensor_msgs::BatteryState& battery) { battery_ = battery.percentage; });
-    bus_.every(seconds(1.0 / params_.rate), [this] {
-      const auto command = watchdog_.output(bus_.now());
-      velocity_.publish({{command.linear, 0.0, 0.0}, {0.0, 0.0, command.angular}});
-    });
+    bus_.every(seconds(1.0 / params_.rate), [this] { command_base(); });
   }
 
   [[nodiscard]] ModuleHealth health() const override {
@@ -57,6 +59,11 @@ class RobotModule final : public Module {
   }
 
  private:
+  void command_base() {
+    const auto command = watchdog_.output(bus_.now());
+    velocity_.publish({{command.linear, 0.0, 0.0}, {0.0, 0.0, command.angular}});
+  }
+
   void publish_mounts(const RobotBody& body) {
     tf2_msgs::TFMessage mounts;
     const auto add = [&](const std::string& frame, const Pose2& base_from_sensor) {

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "docent/base/time.h"
+#include "docent/geometry/pose2.h"
+
+namespace docent {
+
+/// How fast what a laser meets comes nearer, place by place, without knowing what belongs together: in a throng people
+/// hide and touch each other, and nothing slim stands free that could be followed.
+///
+/// A place through which the sensor looked kLookBack ago and where it now meets something has been reached by whatever
+/// was nearest to it then: that is the motion along the surface's normal [SpiesJaehneBarron2002, range flow]. The
+/// normals of one piece together say how it moves. What was hidden then may always have been there, and of who goes
+/// away nothing is said.
+class RangeFlow {
+ public:
+  static constexpr double kLookBack = 0.25;   ///< [s] at least
+  static constexpr double kForget = 0.55;     ///< [s] older sweeps tell of another motion
+  static constexpr double kClear = 0.1;       ///< [m] so much behind a place the beams must have ended
+  static constexpr double kLeastSpeed = 0.3;  ///< [m/s] less is noise
+  static constexpr double kMostSpeed = 2.2;   ///< [m/s]
+
+  /// The newest sweep of the sensor, its points in the order of their bearings.
+  /// @param ranges  [m] of all beams; NaN: no reading
+  /// @param places  [m] odom, of the beams that met something; `beams` says which
+  void add(Time stamp, const Pose2& odom_from_sensor, double first_bearing, double bearing_step,
+           std::span<const float> ranges, std::span<const Point2> places, std::span<const int> beams);
+  /// Velocity [m/s], odom, of each place of the newest sweep, zero where nothing is known to come nearer. Three places
+  /// of a piece must have been looked through. O(places), with a window of beams each.
+  [[nodiscard]] std::vector<Point2> velocities() const;
+
+ private:
+  struct Look {
+    Time stamp;
+    Pose2 odom_from_sensor;
+    double first_bearing = 0.0;
+    double bearing_step = 0.0;
+    std::vector<float> ranges;
+    std::vector<Point2> places;
+    std::vector<int> beams;
+  };
+  /// Motion [m/s] along the surface's normal of what has come to `place`.
+  [[nodiscard]] static std::optional<Point2> approach(const Look& before, const Look& now, Point2 place);
+
+  /// The motion whose components along its normals are these.
+  [[nodiscard]] static Point2 motion(std::span<const Point2> along_normals);
+
+  std::deque<Look> looks_;
+};
+
+}  // namespace docent
