@@ -28,26 +28,61 @@ double rim_cost(double off, double noise) {
   return bounded * bounded / (2.0 * noise * noise);
 }
 
+/// Whose rim is nearest to a point, the first of them.
+class NearestRim {
+ public:
+  NearestRim(std::span<const Point2> centres, double radius) : centres_{centres}, radius_{radius} {}
+  struct Found {
+    std::size_t owner = 0;
+    double way = 0.0;  ///< [m] to its centre
+  };
+  /// `guess`: to be asked first.
+  [[nodiscard]] Found at(Point2 point, std::size_t guess) const {
+    Found found{guess, distance(point, centres_[guess])};
+    double least = std::abs(found.way - radius_);
+    for (std::size_t c = 0; c < centres_.size(); ++c) {
+      if (c == guess) continue;
+      const Point2 off = point - centres_[c];
+      const double squared = dot(off, off);
+      if (is_farther_off(squared, least)) continue;
+      const double way = std::sqrt(squared);
+      const double off_rim = std::abs(way - radius_);
+      if (off_rim < least || (off_rim == least && c < found.owner)) {
+        least = off_rim;
+        found = {c, way};
+      }
+    }
+    return found;
+  }
+
+ private:
+  /// Most are: no root is needed for them.
+  [[nodiscard]] bool is_farther_off(double squared, double least) const {
+    constexpr double kRounding = 1e-9;
+    const double outer = radius_ + least;
+    const double inner = radius_ - least;
+    return squared > (1.0 + kRounding) * outer * outer || (inner > 0.0 && squared < (1.0 - kRounding) * inner * inner);
+  }
+  std::span<const Point2> centres_;
+  double radius_;
+};
+
 /// Moves the centres to the points; returns the disc of each point.
 std::vector<std::size_t> settle(std::span<const Point2> points, double radius, std::vector<Point2>& centres) {
   std::vector<std::size_t> owner(points.size(), 0);
+  std::vector<Point2> sums;
+  std::vector<int> counts;
   for (int i = 0; i < kIterations; ++i) {
-    std::vector<Point2> sums(centres.size());
-    std::vector<int> counts(centres.size(), 0);
+    const NearestRim nearest{centres, radius};
+    sums.assign(centres.size(), {});
+    counts.assign(centres.size(), 0);
     for (std::size_t p = 0; p < points.size(); ++p) {
-      double least = std::numeric_limits<double>::infinity();
-      for (std::size_t c = 0; c < centres.size(); ++c) {
-        const double off = std::abs(distance(points[p], centres[c]) - radius);
-        if (off < least) {
-          least = off;
-          owner[p] = c;
-        }
-      }
-      const Point2 inward = centres[owner[p]] - points[p];
-      const double way = norm(inward);
+      const auto [disc, way] = nearest.at(points[p], owner[p]);
+      owner[p] = disc;
+      const Point2 inward = centres[disc] - points[p];
       const Point2 middle = way > 1e-6 ? points[p] + (radius / way) * inward : points[p];
-      sums[owner[p]] = sums[owner[p]] + middle;
-      ++counts[owner[p]];
+      sums[disc] = sums[disc] + middle;
+      ++counts[disc];
     }
     double moved = 0.0;
     for (std::size_t c = 0; c < centres.size(); ++c) {

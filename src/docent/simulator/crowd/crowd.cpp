@@ -220,6 +220,8 @@ void Crowd::change_world(const World& world) {
 void Crowd::sort_into_cells() {
   cell_first_.assign(static_cast<std::size_t>(cell_columns_ * cell_rows_), -1);
   cell_next_.assign(people_.size(), -1);
+  positions_.resize(people_.size());
+  for (std::size_t i = 0; i < people_.size(); ++i) positions_[i] = people_[i].position;
   for (std::size_t i = people_.size(); i-- > 0;) {
     const int column =
         std::clamp(static_cast<int>((people_[i].position.x - cells_low_.x) / kCell), 0, cell_columns_ - 1);

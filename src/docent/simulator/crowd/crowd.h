@@ -135,6 +135,7 @@ class Crowd {
   int cell_rows_ = 1;
   std::vector<int> cell_first_;
   std::vector<int> cell_next_;
+  std::vector<Point2> positions_;  ///< [people] while they decide: packed, for the search reads many
 };
 
 }  // namespace docent::simulator

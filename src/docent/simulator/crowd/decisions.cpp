@@ -24,7 +24,7 @@ void Crowd::for_each_within(Point2 point, double range, F&& action) const {
       for (int i = cell_first_[static_cast<std::size_t>(row * cell_columns_ + column)]; i >= 0;
            i = cell_next_[static_cast<std::size_t>(i)]) {
         const auto index = static_cast<std::size_t>(i);
-        const Point2 offset = people_[index].position - point;
+        const Point2 offset = positions_[index] - point;
         const double squared = dot(offset, offset);
         if (squared <= range * range) action(index, offset, squared);
       }

@@ -10,6 +10,22 @@ namespace {
 
 constexpr double kHorizon = 2.5;  // [s] people look so far ahead
 
+/// time_to_touch() where it is within the horizon.
+inline std::optional<double> touch_within(Point2 offset, Point2 relative_velocity, double reach, double horizon) {
+  const double closing = dot(offset, relative_velocity);
+  if (closing <= 0.0) return std::nullopt;
+  const double gap = dot(offset, offset) - reach * reach;
+  if (gap <= 0.0) return 0.0;
+  // The root is at most `closing`: for most pairs none is needed.
+  constexpr double kRounding = 1.0 + 1e-9;
+  if (gap > 2.0 * kRounding * horizon * closing) return std::nullopt;
+  const double speed_squared = dot(relative_velocity, relative_velocity);
+  const double discriminant = closing * closing - speed_squared * gap;
+  if (discriminant < 0.0) return std::nullopt;
+  const double time = gap / (closing + std::sqrt(discriminant));
+  return time > horizon ? std::nullopt : std::optional{time};
+}
+
 /// What a velocity costs; some cost of at least `bound` as soon as it is known to be no less.
 double cost_of(Point2 velocity, Point2 desired, const Person& person, std::span<const Neighbour> neighbours,
                const WalkableFloor& floor, double bound) {
@@ -25,8 +41,8 @@ double cost_of(Point2 velocity, Point2 desired, const Person& person, std::span<
   }
   for (const Neighbour& neighbour : neighbours) {
     if (cost >= bound) return cost;
-    const auto time = time_to_touch(neighbour.offset, velocity - neighbour.velocity, neighbour.reach);
-    if (!time || *time > kHorizon) continue;
+    const auto time = touch_within(neighbour.offset, velocity - neighbour.velocity, neighbour.reach, kHorizon);
+    if (!time) continue;
     if (*time > 0.0) {
       cost += neighbour.weight * 0.6 * (1.0 / (*time + 0.2) - 1.0 / (kHorizon + 0.2));
     } else {
@@ -49,14 +65,7 @@ double cost_of(Point2 velocity, Point2 desired, const Person& person, std::span<
 }  // namespace
 
 std::optional<double> time_to_touch(Point2 offset, Point2 relative_velocity, double reach) {
-  const double closing = dot(offset, relative_velocity);
-  if (closing <= 0.0) return std::nullopt;
-  const double gap = dot(offset, offset) - reach * reach;
-  if (gap <= 0.0) return 0.0;
-  const double speed_squared = dot(relative_velocity, relative_velocity);
-  const double discriminant = closing * closing - speed_squared * gap;
-  if (discriminant < 0.0) return std::nullopt;
-  return gap / (closing + std::sqrt(discriminant));
+  return touch_within(offset, relative_velocity, reach, std::numeric_limits<double>::infinity());
 }
 
 Point2 choose_velocity(const Person& person, Point2 desired, std::span<const Neighbour> neighbours,
