@@ -169,13 +169,14 @@ double VirtualMeasurements::count(std::span<const WeightedSquare> rest, bool lea
     const WeightedSquare& square = rest[i];
     if (!(square.mass > 0.0)) continue;
     KnownSquare& known = squares_[i];
-    if (known.range < -1.0 || !(known.centre == square.centre && known.side == square.side))
-      known = {square.centre, square.side, square_range(square.centre, 0.5 * std::numbers::sqrt2 * square.side)};
-    if (known.range < 0.0 && leave_out) continue;  // the robot can be nowhere in it
+    if (!(known.centre == square.centre && known.side == square.side)) {
+      const double range = square_range(square.centre, 0.5 * std::numbers::sqrt2 * square.side);
+      known = {square.centre, square.side, range >= 0.0, bin_of(std::max(0.0, range))};
+    }
+    if (!known.possible && leave_out) continue;  // the robot can be nowhere in it
     counted += square.mass;
-    const std::uint8_t bin = bin_of(std::max(0.0, known.range));
-    rest_bins_.push_back({bin, square.mass});
-    masses[bin] += square.mass;
+    rest_bins_.push_back({known.bin, square.mass});
+    masses[known.bin] += square.mass;
   }
   for (std::size_t bin = 0; bin <= last_limit(); ++bin)
     std::fill_n(histogram_.data() + bin * kDirections, kDirections, masses[bin]);

@@ -128,8 +128,9 @@ class VirtualMeasurements {
   /// What was asked of last time: the coarse cells of a belief are always the same ones.
   struct KnownSquare {
     Point2 centre;
-    double side = 0.0;
-    double range = -2.0;  ///< square_range(); -2: unknown
+    double side = -1.0;  ///< none yet
+    bool possible = false;
+    std::uint8_t bin = 0;  ///< of the least distance
   };
   std::vector<KnownSquare> squares_;
   std::vector<Sighting> sightings_;

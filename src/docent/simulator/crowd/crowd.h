@@ -135,7 +135,13 @@ class Crowd {
   int cell_rows_ = 1;
   std::vector<int> cell_first_;
   std::vector<int> cell_next_;
-  std::vector<Point2> positions_;  ///< [people] while they decide: packed, for the search reads many
+  /// What others see of a person while they decide: packed, for the search reads many.
+  struct Outline {
+    Point2 position;
+    Point2 velocity;
+    double radius;
+  };
+  std::vector<Outline> outlines_;  ///< [people]
 };
 
 }  // namespace docent::simulator

@@ -24,7 +24,7 @@ void Crowd::for_each_within(Point2 point, double range, F&& action) const {
       for (int i = cell_first_[static_cast<std::size_t>(row * cell_columns_ + column)]; i >= 0;
            i = cell_next_[static_cast<std::size_t>(i)]) {
         const auto index = static_cast<std::size_t>(i);
-        const Point2 offset = positions_[index] - point;
+        const Point2 offset = outlines_[index].position - point;
         const double squared = dot(offset, offset);
         if (squared <= range * range) action(index, offset, squared);
       }
@@ -90,16 +90,16 @@ void Crowd::decide(std::size_t index, double now) {
     desired = rng_.uniform(0.3, 0.8) * unit(Angle::radians(rng_.uniform(-3.14, 3.14)));
   }
 
-  std::array<Neighbour, 14> neighbours;
+  std::array<Neighbour, kMostNeighbours> neighbours;
   std::size_t count = 0;
   person.near_count = 0;
   for_each_within(person.position, 2.5, [&](std::size_t other, Point2 offset, double squared) {
     if (other == index) return;
-    const Person& neighbour = people_[other];
     if (squared < 1.0 && person.near_count < 8) {
       person.near[static_cast<std::size_t>(person.near_count++)] = static_cast<std::uint16_t>(other);
     }
     if (count + 1 < neighbours.size()) {
+      const Outline& neighbour = outlines_[other];
       neighbours[count++] = {offset, neighbour.velocity, person.radius + neighbour.radius + 0.06, 1.0};
     }
   });

@@ -193,16 +193,16 @@ Point2 WalkableFloor::away_from_walls(Point2 point) const {
   return length > 1e-9 ? (1.0 / length) * gradient : Point2{};
 }
 
-bool WalkableFloor::is_clear(Point2 a, Point2 b, double radius) const {
+bool WalkableFloor::is_clear(Point2 a, double at_a, Point2 b, double radius) const {
   const double length = distance(a, b);
   double along = 0.0;
+  double gap = at_a - radius;
   while (true) {
-    const Point2 point = length > 0.0 ? a + (along / length) * (b - a) : a;
-    const double gap = clearance(point) - radius;
     if (gap < 0.0) return false;
     if (along >= length) return true;
     // Nothing can be nearer than the gap, so that step is safe.
     along = std::min(length, along + std::max(0.1, gap));
+    gap = clearance(a + (along / length) * (b - a)) - radius;
   }
 }
 
@@ -321,6 +321,7 @@ std::optional<Point2> WalkableFloor::direction(const FlowField& field, Point2 po
     return norm(step) > 1e-6 ? std::optional{(1.0 / norm(step)) * step} : std::nullopt;
   }
   Point2 ahead = coarse_centre(cell);
+  const double room = clearance(point);
   constexpr int kLookAhead = 8;
   for (int i = 0; i < kLookAhead && field.cost[cell] > 0.0F; ++i) {
     const int column = static_cast<int>(cell) % coarse_columns_;
@@ -335,7 +336,7 @@ std::optional<Point2> WalkableFloor::direction(const FlowField& field, Point2 po
     }
     if (best == cell) break;
     cell = best;
-    if (i > 0 && !is_clear(point, coarse_centre(cell), std::min(radius, kWalkable - 0.02))) break;
+    if (i > 0 && !is_clear(point, room, coarse_centre(cell), std::min(radius, kWalkable - 0.02))) break;
     ahead = coarse_centre(cell);
   }
   const Point2 step = ahead - point;

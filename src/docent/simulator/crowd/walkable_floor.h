@@ -28,7 +28,7 @@ class WalkableFloor {
   /// Unit vector along which the clearance grows; zero in the open.
   [[nodiscard]] Point2 away_from_walls(Point2 point) const;
   /// True when a disc can move straight from a to b.
-  [[nodiscard]] bool is_clear(Point2 a, Point2 b, double radius) const;
+  [[nodiscard]] bool is_clear(Point2 a, Point2 b, double radius) const { return is_clear(a, clearance(a), b, radius); }
   /// True where a person can stand and walk to the rest of the museum.
   [[nodiscard]] bool is_reachable(Point2 point) const;
   /// Free floor of the part that hangs together with the entrance [m2].
@@ -48,6 +48,8 @@ class WalkableFloor {
   [[nodiscard]] std::size_t coarse_cell(Point2 point) const;
   [[nodiscard]] Point2 coarse_centre(std::size_t cell) const;
   [[nodiscard]] std::optional<std::size_t> nearest_walkable(Point2 point, double limit) const;
+  /// `at_a`: the clearance there.
+  [[nodiscard]] bool is_clear(Point2 a, double at_a, Point2 b, double radius) const;
   template <class Action>
   void for_coarse_cells_within(Point2 point, double reach, const Action& action) const;
   void find_reachable(const World& world);
