@@ -277,34 +277,36 @@ double RoutePlanner::cost_of(std::span<const CellIndex> way, bool unmoved) const
   return cost;
 }
 
-/// Indices of the cells within `aside` of the way held as it was when it was chosen: steps aside do not add up.
-std::vector<std::size_t> RoutePlanner::beside_chosen() const {
+/// Indices of the cells within `aside` of the way held as it was when it was chosen: steps aside do not add up. Each
+/// finds itself in the list by `places_`.
+std::vector<std::size_t> RoutePlanner::list_beside_chosen() {
   const GridFrame& frame = planner_.frame();
   const int reach = static_cast<int>(params_.aside / frame.resolution);
+  places_.resize(frame.size(), kNowhere);
   std::vector<std::size_t> cells;
   for (const CellIndex& at : chosen_) {
     for (int row = -reach; row <= reach; ++row) {
       for (int column = -reach; column <= reach; ++column) {
         const CellIndex cell{at.column + column, at.row + row};
-        if (column * column + row * row <= reach * reach && frame.holds(cell)) cells.push_back(frame.index(cell));
+        if (column * column + row * row > reach * reach || !frame.holds(cell)) continue;
+        std::int32_t& place = places_[frame.index(cell)];
+        if (place != kNowhere) continue;
+        place = static_cast<std::int32_t>(cells.size());
+        cells.push_back(frame.index(cell));
       }
     }
   }
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   return cells;
 }
 
-/// The best way from `start` to a goal that does not leave these cells, by Dijkstra's algorithm; empty: none.
-std::vector<CellIndex> RoutePlanner::best_within(const std::vector<std::size_t>& cells, CellIndex start) {
+/// The best way from `start` to a goal beside the way that was chosen, by Dijkstra's algorithm; empty: none.
+std::vector<CellIndex> RoutePlanner::best_beside_chosen(CellIndex start) {
   using Entry = std::pair<double, std::size_t>;
-  constexpr std::int32_t kNowhere = -1;
   const GridFrame& frame = planner_.frame();
   const auto cell_of = [&](std::size_t i) {
     return CellIndex{static_cast<int>(i) % frame.columns, static_cast<int>(i) / frame.columns};
   };
-  places_.resize(frame.size(), kNowhere);
-  for (std::size_t i = 0; i < cells.size(); ++i) places_[cells[i]] = static_cast<std::int32_t>(i);
+  const std::vector<std::size_t> cells = list_beside_chosen();
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   std::vector<double> costs(cells.size(), std::numeric_limits<double>::infinity());
   std::vector<std::size_t> next(cells.size(), frame.size());
@@ -358,7 +360,7 @@ void RoutePlanner::hold_way(Point2 start) {
     held_.erase(held_.begin(), held_.begin() + static_cast<std::ptrdiff_t>(first));
     const double most = (1.0 + params_.switch_gain) * static_cast<double>(planner_.value(*cell));
     if (cost_of(held_, false) <= most + planner_.frame().resolution) return;
-    auto aside = best_within(beside_chosen(), *cell);
+    auto aside = best_beside_chosen(*cell);
     if (!aside.empty() && cost_of(aside, true) <= most + params_.aside) {
       held_ = std::move(aside);
       return;

@@ -113,19 +113,20 @@ class RoutePlanner {
   [[nodiscard]] bool sees(Point2 from, Point2 to, float most_cost) const;
   [[nodiscard]] std::size_t nearest_held(Point2 start) const;
   [[nodiscard]] double cost_of(std::span<const CellIndex> way, bool unmoved) const;
-  [[nodiscard]] std::vector<std::size_t> beside_chosen() const;
-  [[nodiscard]] std::vector<CellIndex> best_within(const std::vector<std::size_t>& cells, CellIndex start);
+  [[nodiscard]] std::vector<std::size_t> list_beside_chosen();
+  [[nodiscard]] std::vector<CellIndex> best_beside_chosen(CellIndex start);
   [[nodiscard]] std::vector<CellIndex> cells_from(Point2 start) const;
 
   RouteParams params_;
   ValueIteration planner_;
   bool is_settled_ = false;
-  std::vector<float> static_costs_;   ///< [rows * columns]
-  std::vector<float> lane_factors_;   ///< [rows * columns] of a preferred way, >= 1; empty: none
-  std::vector<float> near_factors_;   ///< [rows * columns] of obstacles, >= 1
-  std::vector<bool> obstacles_;       ///< [rows * columns] as last set
-  std::vector<bool> settled_;         ///< [rows * columns] as last set
-  std::vector<std::int32_t> places_;  ///< [rows * columns] scratch of best_within: in its list of cells, or -1
+  std::vector<float> static_costs_;  ///< [rows * columns]
+  std::vector<float> lane_factors_;  ///< [rows * columns] of a preferred way, >= 1; empty: none
+  std::vector<float> near_factors_;  ///< [rows * columns] of obstacles, >= 1
+  std::vector<bool> obstacles_;      ///< [rows * columns] as last set
+  std::vector<bool> settled_;        ///< [rows * columns] as last set
+  static constexpr std::int32_t kNowhere = -1;
+  std::vector<std::int32_t> places_;  ///< [rows * columns] scratch: in a list of cells, or kNowhere
   std::vector<CellIndex> held_;       ///< the way that is followed, to a goal
   std::vector<CellIndex> chosen_;     ///< the same before any step aside
 };
