@@ -258,9 +258,10 @@ void VirtualMeasurements::clear_histogram() {
 bool VirtualMeasurements::is_overstated(const Sighting& sighting) const {
   const std::uint8_t* bins = rows_[sighting.row].bins.data();
   const std::uint8_t* limits = limits_.data() + (kDirections - sighting.first);
-  bool is_nearer = false;  // no early end: compilers compare many at a time
-  for (int direction = 0; direction < kDirections; ++direction) is_nearer |= bins[direction] < limits[direction];
-  return is_nearer;
+  // No early end, and whole vectors, for what follows the row is far away: compilers compare many at a time.
+  std::uint8_t is_nearer = 0;
+  for (int direction = 0; direction < kStride; ++direction) is_nearer |= bins[direction] < limits[direction] ? 1 : 0;
+  return is_nearer != 0;
 }
 
 void VirtualMeasurements::lower_jointly(double allowed) {

@@ -21,7 +21,8 @@ constexpr double kCounts = 12.0;  // points that count fully on a body: neighbou
 constexpr double kThingWidth = 0.7;
 constexpr std::size_t kThingPoints = 6;
 constexpr int kIterations = 7;
-constexpr double kSettled = 0.001;  // [m] centres that move no farther stay
+constexpr std::size_t kMostBodies = 8;  // in one run of points
+constexpr double kSettled = 0.001;      // [m] centres that move no farther stay
 
 double rim_cost(double off, double noise) {
   const double bounded = std::min(std::abs(off), kFarOff);
@@ -39,6 +40,7 @@ class NearestRim {
   /// `guess`: to be asked first.
   [[nodiscard]] Found at(Point2 point, std::size_t guess) const {
     Found found{guess, distance(point, centres_[guess])};
+    if (centres_.size() == 1) return found;
     double least = std::abs(found.way - radius_);
     for (std::size_t c = 0; c < centres_.size(); ++c) {
       if (c == guess) continue;
@@ -70,12 +72,10 @@ class NearestRim {
 /// Moves the centres to the points; returns the disc of each point.
 std::vector<std::size_t> settle(std::span<const Point2> points, double radius, std::vector<Point2>& centres) {
   std::vector<std::size_t> owner(points.size(), 0);
-  std::vector<Point2> sums;
-  std::vector<int> counts;
   for (int i = 0; i < kIterations; ++i) {
     const NearestRim nearest{centres, radius};
-    sums.assign(centres.size(), {});
-    counts.assign(centres.size(), 0);
+    std::array<Point2, kMostBodies> sums{};
+    std::array<int, kMostBodies> counts{};
     for (std::size_t p = 0; p < points.size(); ++p) {
       const auto [disc, way] = nearest.at(points[p], owner[p]);
       owner[p] = disc;
@@ -105,7 +105,8 @@ BodyFit judged(std::span<const Point2> points, double radius, std::vector<Point2
                std::span<const Point2> known) {
   const auto owner = settle(points, radius, centres);
   BodyFit fit;
-  std::vector<double> costs(centres.size(), 0.0);
+  std::array<double, kMostBodies> costs{};
+  fit.bodies.reserve(centres.size());
   for (const Point2 centre : centres) fit.bodies.push_back({centre, radius, 0});
   for (std::size_t p = 0; p < points.size(); ++p) {
     costs[owner[p]] += rim_cost(distance(points[p], centres[owner[p]]) - radius, kNoise);
@@ -171,8 +172,8 @@ double corner_misfit(std::span<const Point2> points) {
 
 BodyFit fit_bodies(std::span<const Point2> points, Point2 sensor, std::span<const Point2> known) {
   const double extent = extent_of(points);
-  const auto most = static_cast<std::size_t>(std::clamp(std::ceil(extent / 0.36), 1.0, 8.0));
-  const auto fewest = static_cast<std::size_t>(std::clamp(std::floor(extent / 0.8), 1.0, 8.0));
+  const auto most = static_cast<std::size_t>(std::clamp(std::ceil(extent / 0.36), 1.0, kMostBodies * 1.0));
+  const auto fewest = static_cast<std::size_t>(std::clamp(std::floor(extent / 0.8), 1.0, kMostBodies * 1.0));
   std::vector<Point2> expected;  // of the known: those whose near side is among the points
   for (const Point2 place : known) {
     if (std::any_of(points.begin(), points.end(), [&](Point2 point) { return distance(point, place) < 0.4; }))
@@ -190,7 +191,7 @@ BodyFit fit_bodies(std::span<const Point2> points, Point2 sensor, std::span<cons
       if (least_price * static_cast<double>(count) >= best.cost) break;  // even a perfect fit would cost more
       offer(judged(points, radius, spread_evenly(points, sensor, count, radius), known));
     }
-    if (!expected.empty() && expected.size() <= 8) offer(judged(points, radius, expected, known));
+    if (!expected.empty() && expected.size() <= kMostBodies) offer(judged(points, radius, expected, known));
   }
   if (extent < kThingWidth || points.size() < kThingPoints) return best;
   // As many points count for a thing as for the people instead of whom it would stand there.

@@ -78,6 +78,7 @@ float RayCaster::clearance(Point2 in_map) const {
 std::optional<double> RayCaster::cast(Point2 from, Point2 direction, double max_range, double unknown_allowance) const {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const double resolution = frame_.resolution;
+  const double cells_a_metre = 1.0 / resolution;
   const Point2 start = from - frame_.origin;
   CellIndex cell = frame_.cell_at(from);
   double way = 0.0;
@@ -87,8 +88,8 @@ std::optional<double> RayCaster::cast(Point2 from, Point2 direction, double max_
     const std::size_t i = frame_.index(cell);
     if (const double leap = static_cast<double>(leap_[i]); leap > resolution) {  // free, then
       way += leap;
-      cell = {floor_of((start.x + way * direction.x) / resolution),
-              floor_of((start.y + way * direction.y) / resolution)};
+      cell = {floor_of((start.x + way * direction.x) * cells_a_metre),
+              floor_of((start.y + way * direction.y) * cells_a_metre)};
       continue;
     }
     const Kind kind = kinds_[i];

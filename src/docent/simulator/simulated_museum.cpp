@@ -179,6 +179,7 @@ class SimulatedMuseum::Impl {
     for (std::size_t i = 0; i < people_.size(); ++i) {
       const double reach = radius + people_[i].radius;
       const Point2 offset = people_[i].centre - centre;
+      if (dot(offset, offset) > 1.1 * reach * reach) continue;  // no root for most
       const double away = norm(offset);
       if (away > reach + 0.001) continue;
       const Point2 towards = away > 1e-6 ? (1.0 / away) * offset : Point2{1.0, 0.0};

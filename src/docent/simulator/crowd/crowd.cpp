@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace docent::simulator {
 namespace {
@@ -219,18 +220,19 @@ void Crowd::change_world(const World& world) {
 }
 
 void Crowd::sort_into_cells() {
-  cell_first_.assign(static_cast<std::size_t>(cell_columns_ * cell_rows_), -1);
-  cell_next_.assign(people_.size(), -1);
-  outlines_.resize(people_.size());
-  for (std::size_t i = 0; i < people_.size(); ++i)
-    outlines_[i] = {people_[i].position, people_[i].velocity, people_[i].radius};
-  for (std::size_t i = people_.size(); i-- > 0;) {
-    const Point2 place = outlines_[i].position - cells_low_;
+  const auto cell_of = [&](const Person& person) {
+    const Point2 place = person.position - cells_low_;
     const int column = std::clamp(static_cast<int>(place.x / kCell), 0, cell_columns_ - 1);
     const int row = std::clamp(static_cast<int>(place.y / kCell), 0, cell_rows_ - 1);
-    int& first = cell_first_[static_cast<std::size_t>(row * cell_columns_ + column)];
-    cell_next_[i] = first;
-    first = static_cast<int>(i);
+    return static_cast<std::size_t>(row * cell_columns_ + column);
+  };
+  cell_begin_.assign(static_cast<std::size_t>(cell_columns_ * cell_rows_) + 1, 0);
+  for (const Person& person : people_) ++cell_begin_[cell_of(person)];
+  std::partial_sum(cell_begin_.begin(), cell_begin_.end(), cell_begin_.begin());  // where cells end
+  outlines_.resize(people_.size());
+  for (std::size_t i = people_.size(); i-- > 0;) {
+    const Person& person = people_[i];
+    outlines_[--cell_begin_[cell_of(person)]] = {person.position, person.velocity, person.radius, i};
   }
 }
 
@@ -246,7 +248,7 @@ void Crowd::step(double now, double dt, const RobotView& robot) {
   constexpr std::size_t kDecisionSteps = 5;
   constexpr double kFarOff = 12.0;  // [m] no sensor reaches there: they decide half as often
   for (std::size_t i = 0; i < people_.size(); ++i) {
-    const bool is_far = distance(outlines_[i].position, robot.position) > kFarOff;
+    const bool is_far = distance(people_[i].position, robot.position) > kFarOff;
     if ((steps_ + i) % (is_far ? 2 * kDecisionSteps : kDecisionSteps) == 0) decide(i, now);
   }
   if (steps_ % 50 == 0 && params_.near_share > 0.0) draw_people_near(now);
