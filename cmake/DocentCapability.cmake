@@ -4,7 +4,9 @@
 #   docent_capability(localization/markov
 #     SOURCES belief_grid sensor_update   # NAME.h and/or NAME.cpp; NAME_test.cpp is added where it exists,
 #     DEPENDS grid motion_models          # NAME_benchmark.cpp and NAME_fuzzer.cpp likewise
-#     LIBRARIES yaml-cpp)                 # third-party libraries
+#     LIBRARIES yaml-cpp                  # third-party libraries
+#     HOT)                                # inner loops: roots and sines set no errno, comparisons trap nothing. The values
+#                                         # are the same, and compilers may take such calls out of a loop
 
 add_library(docent_options INTERFACE)
 # -ffp-contract=off: the same arithmetic with and without FMA, so that a seed gives the same run on every CPU.
@@ -28,7 +30,7 @@ function(docent_target_name folder result)
 endfunction()
 
 function(docent_capability folder)
-  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "SOURCES;DEPENDS;LIBRARIES;TEST_DEPENDS;TEST_LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "HOT" "" "SOURCES;DEPENDS;LIBRARIES;TEST_DEPENDS;TEST_LIBRARIES")
   docent_target_name(${folder} target)
   set(directory ${DOCENT_SOURCE_ROOT}/${folder})
 
@@ -68,6 +70,9 @@ function(docent_capability folder)
   if(files)
     add_library(${target} STATIC ${files})
     set(scope PUBLIC)
+    if(ARG_HOT)
+      target_compile_options(${target} PRIVATE -fno-math-errno -fno-trapping-math)
+    endif()
   else()
     add_library(${target} INTERFACE)
     set(scope INTERFACE)

@@ -94,7 +94,7 @@ def main():
             folder = words[0]
             section = ""
             for word in words[1:]:
-                if word in {"SOURCES", "DEPENDS", "LIBRARIES", "TEST_DEPENDS", "TEST_LIBRARIES"}:
+                if word in {"SOURCES", "HOT", "DEPENDS", "LIBRARIES", "TEST_DEPENDS", "TEST_LIBRARIES"}:
                     section = word
                 elif section == "DEPENDS":
                     check_arrow(folder, word, f"{cmake.relative_to(ROOT)}")

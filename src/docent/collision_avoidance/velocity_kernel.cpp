@@ -4,12 +4,7 @@
 #include <cstring>
 #include <numbers>
 
-#if defined(__x86_64__)
-#include <immintrin.h>
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // gcc 12's own AVX-512 header sets it off
-#endif
-#endif
+#include "docent/base/kernel_targets.h"
 
 namespace docent {
 
@@ -34,7 +29,7 @@ constexpr int kWidth = 1;
 
 namespace avx2 {
 constexpr int kWidth = 4;
-#define DOCENT_TARGET __attribute__((target("avx2")))
+#define DOCENT_TARGET DOCENT_AVX2
 #define DOCENT_SQRT(v) _mm256_sqrt_pd(v)
 #include "docent/collision_avoidance/velocity_kernel_passes.inc"
 #undef DOCENT_SQRT
@@ -43,7 +38,7 @@ constexpr int kWidth = 4;
 
 namespace avx512 {
 constexpr int kWidth = 8;
-#define DOCENT_TARGET __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,avx512vbmi")))
+#define DOCENT_TARGET DOCENT_AVX512
 #define DOCENT_SQRT(v) _mm512_maskz_sqrt_pd(0xFF, v)
 #include "docent/collision_avoidance/velocity_kernel_passes.inc"
 #undef DOCENT_SQRT
@@ -55,12 +50,7 @@ constexpr int kWidth = 8;
 }  // namespace
 
 const VelocityKernels& velocity_kernels(InstructionSet set) {
-#if defined(__x86_64__)
-  if (set == InstructionSet::avx512) return avx512::kKernels;
-  if (set == InstructionSet::avx2) return avx2::kKernels;
-#endif
-  static_cast<void>(set);
-  return plain::kKernels;
+  return kernels_for<VelocityKernels>(set, DOCENT_KERNELS);
 }
 
 }  // namespace docent

@@ -163,19 +163,23 @@ void VirtualMeasurements::sight(std::span<const WeightedPose> poses) {
 double VirtualMeasurements::count(std::span<const WeightedSquare> rest, bool leave_out) {
   double counted = 0.0;
   rest_bins_.clear();
-  for (const auto& square : rest) {
+  std::array<double, kBins> masses{};  // the same in all directions
+  squares_.resize(rest.size());
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    const WeightedSquare& square = rest[i];
     if (!(square.mass > 0.0)) continue;
-    const double half = 0.5 * std::numbers::sqrt2 * square.side;
-    const auto [place, is_new] = square_ranges_.try_emplace(key_of(square.centre), 0.0);
-    if (is_new) place->second = square_range(square.centre, half);
-    const double range = place->second;
-    if (range < 0.0 && leave_out) continue;  // the robot can be nowhere in it
+    KnownSquare& known = squares_[i];
+    if (!(known.centre == square.centre && known.side == square.side)) {
+      const double range = square_range(square.centre, 0.5 * std::numbers::sqrt2 * square.side);
+      known = {square.centre, square.side, range >= 0.0, bin_of(std::max(0.0, range))};
+    }
+    if (!known.possible && leave_out) continue;  // the robot can be nowhere in it
     counted += square.mass;
-    const std::uint8_t bin = bin_of(std::max(0.0, range));
-    rest_bins_.push_back({bin, square.mass});
-    if (bin > last_limit()) continue;
-    for (std::size_t i = 0; i < kDirections; ++i) histogram_[bin * std::size_t{kDirections} + i] += square.mass;
+    rest_bins_.push_back({known.bin, square.mass});
+    masses[known.bin] += square.mass;
   }
+  for (std::size_t bin = 0; bin <= last_limit(); ++bin)
+    std::fill_n(histogram_.data() + bin * kDirections, kDirections, masses[bin]);
   return counted;
 }
 
@@ -254,9 +258,10 @@ void VirtualMeasurements::clear_histogram() {
 bool VirtualMeasurements::is_overstated(const Sighting& sighting) const {
   const std::uint8_t* bins = rows_[sighting.row].bins.data();
   const std::uint8_t* limits = limits_.data() + (kDirections - sighting.first);
-  bool is_nearer = false;  // no early end: compilers compare many at a time
-  for (int direction = 0; direction < kDirections; ++direction) is_nearer |= bins[direction] < limits[direction];
-  return is_nearer;
+  // No early end, and whole vectors, for what follows the row is far away: compilers compare many at a time.
+  std::uint8_t is_nearer = 0;
+  for (int direction = 0; direction < kStride; ++direction) is_nearer |= bins[direction] < limits[direction] ? 1 : 0;
+  return is_nearer != 0;
 }
 
 void VirtualMeasurements::lower_jointly(double allowed) {
@@ -266,7 +271,7 @@ void VirtualMeasurements::lower_jointly(double allowed) {
   std::vector<Sighting> overstated;
   std::copy_if(sightings_.begin(), sightings_.end(), std::back_inserter(overstated),
                [&](const Sighting& sighting) { return is_overstated(sighting); });
-  const auto is_far = [&](const RestBin& rest) { return rest.bin >= last_limit(); };
+  const auto is_far = [last = last_limit()](const RestBin& rest) { return rest.bin >= last; };
   std::erase_if(rest_bins_, is_far);
   double left = 0.0;
   for (const Sighting& sighting : overstated) left += sighting.mass;
@@ -328,7 +333,6 @@ VirtualMeasurements::Scan VirtualMeasurements::measure(std::span<const WeightedP
   guess_limits();
   double total = 0.0;
   for (bool is_enough = false; !is_enough;) {
-    clear_histogram();
     total = count(rest, leave_out) + (leave_out ? possible : all);
     const bool is_plain = *std::min_element(limits_.begin(), limits_.begin() + kDirections) == kBins - 1;
     for (const auto& sighting : sightings_) is_plain ? count(sighting) : count_within_limits(sighting);

@@ -102,7 +102,7 @@ class VirtualMeasurements {
   };
   std::uint32_t row_of(Point2 position);
   void sight(std::span<const WeightedPose> poses);
-  /// @returns the mass that was counted
+  /// The first: fills the histogram as far as the limits reach. @returns the mass that was counted
   double count(std::span<const WeightedSquare> rest, bool leave_out);
   void count(const Sighting& sighting);
   void count_within_limits(const Sighting& sighting);
@@ -125,7 +125,14 @@ class VirtualMeasurements {
   VirtualMeasurementParams params_;
   std::unordered_map<std::uint64_t, std::uint32_t> index_;  ///< never iterated: the order of its entries is arbitrary
   std::vector<Row> rows_;
-  std::unordered_map<std::uint64_t, double> square_ranges_;
+  /// What was asked of last time: the coarse cells of a belief are always the same ones.
+  struct KnownSquare {
+    Point2 centre;
+    double side = -1.0;  ///< none yet
+    bool possible = false;
+    std::uint8_t bin = 0;  ///< of the least distance
+  };
+  std::vector<KnownSquare> squares_;
   std::vector<Sighting> sightings_;
   std::vector<RestBin> rest_bins_;
   std::vector<double> histogram_;  ///< [kBins][kDirections] mass; of bins beyond the limits not all

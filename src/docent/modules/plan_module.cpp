@@ -129,12 +129,13 @@ class PlanModule final : public Module {
     base_ = from_message(map.header.stamp);
     number_ = 0;
     for (std::size_t i = 0; i < map.data.size(); ++i) take(i, map.data[i]);
-    changed_ = true;
+    note_change({0, 0}, {route_.frame().columns - 1, route_.frame().rows - 1});
   }
   void on_update(const docent_msgs::LiveMapUpdate& update) {
     if (from_message(update.base) != base_ || update.number != number_ + 1) return;  // a gap: wait for the full map
     if (update.data.size() != static_cast<std::size_t>(update.width) * update.height) return;
     number_ = update.number;
+    if (update.data.empty()) return;
     std::size_t k = 0;
     for (std::uint32_t row = 0; row < update.height; ++row) {
       for (std::uint32_t column = 0; column < update.width; ++column, ++k) {
@@ -143,7 +144,18 @@ class PlanModule final : public Module {
         take(route_.frame().index(cell), update.data[k]);
       }
     }
-    changed_ = true;
+    note_change({update.x, update.y},
+                {update.x + static_cast<int>(update.width) - 1, update.y + static_cast<int>(update.height) - 1});
+  }
+  /// Between the last setting of obstacles and the next.
+  void note_change(CellIndex low, CellIndex high) {
+    low = {std::max(low.column, 0), std::max(low.row, 0)};
+    high = {std::min(high.column, route_.frame().columns - 1), std::min(high.row, route_.frame().rows - 1)};
+    if (changed_) {
+      low = {std::min(low.column, changed_->low.column), std::min(low.row, changed_->low.row)};
+      high = {std::max(high.column, changed_->high.column), std::max(high.row, changed_->high.row)};
+    }
+    changed_ = CellBox{low, high};
   }
   void take(std::size_t index, std::int8_t live) {
     obstacles_[index] = live >= 65 && static_cells_[index] < 65 && !params_.ignore_live_map;
@@ -154,8 +166,8 @@ class PlanModule final : public Module {
     const Time now = bus_.now();
     if (goal_.relocalize && !goal_.id.empty()) return step_relocalize(now);
     if (changed_ && !goal_.id.empty()) {
-      changed_ = false;
-      route_.set_obstacles(obstacles_, settled_);
+      route_.set_obstacles(obstacles_, settled_, changed_);
+      changed_.reset();
     }
     if (!goal_.id.empty()) follow_coast();
     plan_ahead();
@@ -355,7 +367,7 @@ class PlanModule final : public Module {
   std::vector<bool> settled_;              ///< those of them that have stood there for long
   Time base_{};
   std::uint32_t number_ = 0;
-  bool changed_ = false;
+  std::optional<CellBox> changed_;  ///< where `obstacles_` may differ from those of `route_`
   bool path_was_empty_ = true;
   int step_count_ = 0;
 };

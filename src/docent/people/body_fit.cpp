@@ -21,33 +21,68 @@ constexpr double kCounts = 12.0;  // points that count fully on a body: neighbou
 constexpr double kThingWidth = 0.7;
 constexpr std::size_t kThingPoints = 6;
 constexpr int kIterations = 7;
-constexpr double kSettled = 0.001;  // [m] centres that move no farther stay
+constexpr std::size_t kMostBodies = 8;  // in one run of points
+constexpr double kSettled = 0.001;      // [m] centres that move no farther stay
 
 double rim_cost(double off, double noise) {
   const double bounded = std::min(std::abs(off), kFarOff);
   return bounded * bounded / (2.0 * noise * noise);
 }
 
+/// Whose rim is nearest to a point, the first of them.
+class NearestRim {
+ public:
+  NearestRim(std::span<const Point2> centres, double radius) : centres_{centres}, radius_{radius} {}
+  struct Found {
+    std::size_t owner = 0;
+    double way = 0.0;  ///< [m] to its centre
+  };
+  /// `guess`: to be asked first.
+  [[nodiscard]] Found at(Point2 point, std::size_t guess) const {
+    Found found{guess, distance(point, centres_[guess])};
+    if (centres_.size() == 1) return found;
+    double least = std::abs(found.way - radius_);
+    for (std::size_t c = 0; c < centres_.size(); ++c) {
+      if (c == guess) continue;
+      const Point2 off = point - centres_[c];
+      const double squared = dot(off, off);
+      if (is_farther_off(squared, least)) continue;
+      const double way = std::sqrt(squared);
+      const double off_rim = std::abs(way - radius_);
+      if (off_rim < least || (off_rim == least && c < found.owner)) {
+        least = off_rim;
+        found = {c, way};
+      }
+    }
+    return found;
+  }
+
+ private:
+  /// Most are: no root is needed for them.
+  [[nodiscard]] bool is_farther_off(double squared, double least) const {
+    constexpr double kRounding = 1e-9;
+    const double outer = radius_ + least;
+    const double inner = radius_ - least;
+    return squared > (1.0 + kRounding) * outer * outer || (inner > 0.0 && squared < (1.0 - kRounding) * inner * inner);
+  }
+  std::span<const Point2> centres_;
+  double radius_;
+};
+
 /// Moves the centres to the points; returns the disc of each point.
 std::vector<std::size_t> settle(std::span<const Point2> points, double radius, std::vector<Point2>& centres) {
   std::vector<std::size_t> owner(points.size(), 0);
   for (int i = 0; i < kIterations; ++i) {
-    std::vector<Point2> sums(centres.size());
-    std::vector<int> counts(centres.size(), 0);
+    const NearestRim nearest{centres, radius};
+    std::array<Point2, kMostBodies> sums{};
+    std::array<int, kMostBodies> counts{};
     for (std::size_t p = 0; p < points.size(); ++p) {
-      double least = std::numeric_limits<double>::infinity();
-      for (std::size_t c = 0; c < centres.size(); ++c) {
-        const double off = std::abs(distance(points[p], centres[c]) - radius);
-        if (off < least) {
-          least = off;
-          owner[p] = c;
-        }
-      }
-      const Point2 inward = centres[owner[p]] - points[p];
-      const double way = norm(inward);
+      const auto [disc, way] = nearest.at(points[p], owner[p]);
+      owner[p] = disc;
+      const Point2 inward = centres[disc] - points[p];
       const Point2 middle = way > 1e-6 ? points[p] + (radius / way) * inward : points[p];
-      sums[owner[p]] = sums[owner[p]] + middle;
-      ++counts[owner[p]];
+      sums[disc] = sums[disc] + middle;
+      ++counts[disc];
     }
     double moved = 0.0;
     for (std::size_t c = 0; c < centres.size(); ++c) {
@@ -70,7 +105,8 @@ BodyFit judged(std::span<const Point2> points, double radius, std::vector<Point2
                std::span<const Point2> known) {
   const auto owner = settle(points, radius, centres);
   BodyFit fit;
-  std::vector<double> costs(centres.size(), 0.0);
+  std::array<double, kMostBodies> costs{};
+  fit.bodies.reserve(centres.size());
   for (const Point2 centre : centres) fit.bodies.push_back({centre, radius, 0});
   for (std::size_t p = 0; p < points.size(); ++p) {
     costs[owner[p]] += rim_cost(distance(points[p], centres[owner[p]]) - radius, kNoise);
@@ -136,8 +172,8 @@ double corner_misfit(std::span<const Point2> points) {
 
 BodyFit fit_bodies(std::span<const Point2> points, Point2 sensor, std::span<const Point2> known) {
   const double extent = extent_of(points);
-  const auto most = static_cast<std::size_t>(std::clamp(std::ceil(extent / 0.36), 1.0, 8.0));
-  const auto fewest = static_cast<std::size_t>(std::clamp(std::floor(extent / 0.8), 1.0, 8.0));
+  const auto most = static_cast<std::size_t>(std::clamp(std::ceil(extent / 0.36), 1.0, kMostBodies * 1.0));
+  const auto fewest = static_cast<std::size_t>(std::clamp(std::floor(extent / 0.8), 1.0, kMostBodies * 1.0));
   std::vector<Point2> expected;  // of the known: those whose near side is among the points
   for (const Point2 place : known) {
     if (std::any_of(points.begin(), points.end(), [&](Point2 point) { return distance(point, place) < 0.4; }))
@@ -155,7 +191,7 @@ BodyFit fit_bodies(std::span<const Point2> points, Point2 sensor, std::span<cons
       if (least_price * static_cast<double>(count) >= best.cost) break;  // even a perfect fit would cost more
       offer(judged(points, radius, spread_evenly(points, sensor, count, radius), known));
     }
-    if (!expected.empty() && expected.size() <= 8) offer(judged(points, radius, expected, known));
+    if (!expected.empty() && expected.size() <= kMostBodies) offer(judged(points, radius, expected, known));
   }
   if (extent < kThingWidth || points.size() < kThingPoints) return best;
   // As many points count for a thing as for the people instead of whom it would stand there.

@@ -1,10 +1,20 @@
 #include "docent/sensor_models/ray_caster.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 namespace docent {
+namespace {
+
+/// Without a call into the library.
+int floor_of(double value) {
+  const int whole = static_cast<int>(value);
+  return whole - (value < static_cast<double>(whole) ? 1 : 0);
+}
+
+}  // namespace
 
 OccupancyGrid peeled(const OccupancyGrid& map, double depth) {
   const GridFrame& frame = map.frame;
@@ -68,6 +78,7 @@ float RayCaster::clearance(Point2 in_map) const {
 std::optional<double> RayCaster::cast(Point2 from, Point2 direction, double max_range, double unknown_allowance) const {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const double resolution = frame_.resolution;
+  const double cells_a_metre = 1.0 / resolution;
   const Point2 start = from - frame_.origin;
   CellIndex cell = frame_.cell_at(from);
   double way = 0.0;
@@ -75,23 +86,23 @@ std::optional<double> RayCaster::cast(Point2 from, Point2 direction, double max_
   while (way < max_range) {
     if (!frame_.holds(cell)) return std::nullopt;
     const std::size_t i = frame_.index(cell);
-    const Kind kind = kinds_[i];
-    if (kind == Kind::occupied) return way;
-    if (kind == Kind::free && leap_[i] > resolution) {
-      way += leap_[i];
-      cell = {static_cast<int>(std::floor((start.x + way * direction.x) / resolution)),
-              static_cast<int>(std::floor((start.y + way * direction.y) / resolution))};
+    if (const double leap = static_cast<double>(leap_[i]); leap > resolution) {  // free, then
+      way += leap;
+      cell = {floor_of((start.x + way * direction.x) * cells_a_metre),
+              floor_of((start.y + way * direction.y) * cells_a_metre)};
       continue;
     }
+    const Kind kind = kinds_[i];
+    if (kind == Kind::occupied) return way;
     const double to_column = direction.x > 0.0   ? ((cell.column + 1) * resolution - start.x) / direction.x
                              : direction.x < 0.0 ? (cell.column * resolution - start.x) / direction.x
                                                  : kNever;
     const double to_row = direction.y > 0.0   ? ((cell.row + 1) * resolution - start.y) / direction.y
                           : direction.y < 0.0 ? (cell.row * resolution - start.y) / direction.y
                                               : kNever;
-    const double next = std::fmax(way, std::fmin(to_column, to_row));
+    const double next = std::max(way, std::min(to_column, to_row));
     if (kind == Kind::unknown) {
-      unknown += std::fmin(next, max_range) - way;
+      unknown += std::min(next, max_range) - way;
       if (unknown > unknown_allowance) return std::nullopt;
     }
     way = next;

@@ -8,18 +8,22 @@
 namespace docent::simulator {
 namespace {
 
+using PersonSample = ContactLog::PersonSample;
+
 constexpr double kReaction = 0.3;     // [s]
 constexpr double kForgotten = 0.5;    // [s] outside, then a new approach begins
 constexpr double kSameContact = 1.0;  // [s] apart, then a new contact begins
 constexpr double kMargin = 0.03;      // [m] to the sides of the robot's way
 
-/// True when the person stands in what the robot sweeps, on the arc it is on, until it has stopped.
-bool is_inside_stopping_distance(const ContactLog::PersonSample& person, const Body& body) {
+}  // namespace
+
+bool is_inside_stopping_distance(const PersonSample& person, const Body& body) {
   constexpr double kStep = 0.02;  // [m]
   const double sign = body.linear() < 0.0 ? -1.0 : 1.0;
   const double speed = std::max(std::abs(body.linear()), 1e-3);
   const double reach = body.params().radius + person.radius + kMargin;
   const double stop = body.stopping_distance(kReaction);
+  if (norm(person.offset) > reach + stop + kStep) return false;
   const Angle turned = Angle::radians(kStep * body.angular() / speed);
   Point2 at{};
   Angle heading = body.pose().theta;
@@ -31,8 +35,6 @@ bool is_inside_stopping_distance(const ContactLog::PersonSample& person, const B
   }
   return false;
 }
-
-}  // namespace
 
 void ContactLog::watch(Time now, const Body& body, const std::vector<PersonSample>& people) {
   for (const PersonSample& person : people) {

@@ -22,7 +22,8 @@ class ContactLog {
     std::uint32_t id = 0;
     Point2 offset{};  ///< [m] from the robot's centre
     double radius = 0.25;
-    bool in_sight = false;  ///< a ray from a scanner within its range reaches them
+    /// A ray from a scanner within its range reaches them; asked for inside the stopping distance only.
+    bool in_sight = false;
   };
   /// Those near the robot, once every step, before the touches.
   void watch(Time now, const Body& body, const std::vector<PersonSample>& people);
@@ -67,5 +68,8 @@ class ContactLog {
   int touches_this_step_ = 0;
   double wheels_turning_ = 0.0;
 };
+
+/// True when the person stands in what the robot sweeps, on the arc it is on, until it has stopped.
+[[nodiscard]] bool is_inside_stopping_distance(const ContactLog::PersonSample& person, const Body& body);
 
 }  // namespace docent::simulator

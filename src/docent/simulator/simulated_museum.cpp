@@ -179,6 +179,7 @@ class SimulatedMuseum::Impl {
     for (std::size_t i = 0; i < people_.size(); ++i) {
       const double reach = radius + people_[i].radius;
       const Point2 offset = people_[i].centre - centre;
+      if (dot(offset, offset) > 1.1 * reach * reach) continue;  // no root for most
       const double away = norm(offset);
       if (away > reach + 0.001) continue;
       const Point2 towards = away > 1e-6 ? (1.0 / away) * offset : Point2{1.0, 0.0};
@@ -215,8 +216,10 @@ class SimulatedMuseum::Impl {
       constexpr double kWatched = 3.0;  // [m] more than any stopping distance
       if (std::abs(offset.x) > kWatched || std::abs(offset.y) > kWatched) continue;
       const bool in_the_way = std::abs(cross(ahead, offset)) < body_.params().radius + people_[i].radius + 0.1;
-      const bool in_sight = in_the_way && std::abs(body_.linear()) > 0.01 && instruments_.sees(centre, i, people_);
-      samples_.push_back({crowd_.people()[i].id, offset, people_[i].radius, in_sight});
+      ContactLog::PersonSample sample{crowd_.people()[i].id, offset, people_[i].radius, false};
+      sample.in_sight = in_the_way && std::abs(body_.linear()) > 0.01 && is_inside_stopping_distance(sample, body_) &&
+                        instruments_.sees(centre, i, people_);
+      samples_.push_back(sample);
     }
     log_.watch(time_, body_, samples_);
   }

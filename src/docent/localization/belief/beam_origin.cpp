@@ -64,10 +64,10 @@ std::vector<BeamOrigin> beam_origins(const RayCaster& caster, std::span<const Be
       if (!shorter) continue;
       is_odd = *shorter > params.sureness;
     }
+    origins[i] = BeamOrigin::map;
+    if (!is_odd) continue;
     const double clearance = static_cast<double>(caster.clearance(best * endpoint(beam)));
-    origins[i] = !is_odd || clearance < params.near ? BeamOrigin::map
-                 : clearance < params.clear         ? BeamOrigin::maybe_map
-                                                    : BeamOrigin::not_map;
+    if (clearance >= params.near) origins[i] = clearance < params.clear ? BeamOrigin::maybe_map : BeamOrigin::not_map;
   }
   return origins;
 }

@@ -39,10 +39,12 @@ void split(std::span<const Point2> run, double least_length, std::span<std::uint
 std::vector<std::uint8_t> on_straight_walls(const RangeSweep& sweep, double length) {
   const std::size_t size = sweep.beams.size();
   std::vector<std::uint8_t> is_wall(size, 0);
+  std::vector<Point2> ends;
+  ends.reserve(size);
+  for (const SweepBeam& beam : sweep.beams) ends.push_back(endpoint(beam));
   const auto breaks_before = [&](std::size_t i) {
-    const SweepBeam& beam = sweep.beams[i];
-    const SweepBeam& before = sweep.beams[(i + size - 1) % size];
-    return beam.no_return || before.no_return || distance(endpoint(beam), endpoint(before)) > kGap;
+    const std::size_t before = (i + size - 1) % size;
+    return sweep.beams[i].no_return || sweep.beams[before].no_return || distance(ends[i], ends[before]) > kGap;
   };
   // The sweep is closed: what its first and its last beam see may be one wall.
   std::size_t first = 0;
@@ -54,7 +56,7 @@ std::vector<std::uint8_t> on_straight_walls(const RangeSweep& sweep, double leng
     run.clear();
     std::size_t end = begin;
     do {
-      run.push_back(endpoint(sweep.beams[(first + end) % size]));
+      run.push_back(ends[(first + end) % size]);
       ++end;
     } while (end < size && !breaks_before((first + end) % size));
     marks.assign(run.size(), 0);

@@ -11,6 +11,7 @@ std::vector<LikelyState> likely_states(const PositionBelief& belief, double frac
   const auto least = static_cast<float>(fraction * static_cast<double>(belief.peak()));
   double total = 0.0;
   for (std::size_t i = 0; i < belief.kept_places().size(); ++i) {
+    if (belief.row_peak(i) < least) continue;
     const auto row = belief.row(i);
     for (std::size_t h = 0; h < row.size(); ++h) {
       if (row[h] < least) continue;

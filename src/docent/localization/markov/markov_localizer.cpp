@@ -8,7 +8,6 @@
 
 #include "docent/base/check.h"
 #include "docent/localization/belief/person_shapes.h"
-#include "docent/localization/markov/position_summary.h"
 
 namespace docent {
 
@@ -104,6 +103,7 @@ MarkovLocalizer::MarkovLocalizer(const OccupancyGrid& map, const MarkovLocalizer
       space_{map, caster_, params.states},
       table_{range_table_of(map, params, cache, space_, caster_)},
       model_{params.sensor, table_.frequency()},
+      coarse_{space_, SummaryParams{}.rest_cell_size},
       belief_{space_, params.sea_threshold},
       verdict_{params.verdict},
       refiner_{params.refiner},
@@ -154,7 +154,7 @@ void MarkovLocalizer::keep_rivals(const RangeSweep& sweep, const Pose2& before_f
 
 void MarkovLocalizer::summarise_now() {
   likely_ = likely_states(belief_, kLikelyFraction, kMostLikely);
-  summary_ = summarise(belief_, frame_from_robot(), {});
+  summary_ = summarise(belief_, coarse_, frame_from_robot(), {});
   if (!summary_.modes.empty())
     likeliest_heading_ = summary_.modes.front().map_from_robot.theta - frame_from_robot().theta;
 }

@@ -13,6 +13,7 @@
 #include "docent/localization/belief/rivals.h"
 #include "docent/localization/markov/beam_filter.h"
 #include "docent/localization/markov/position_belief.h"
+#include "docent/localization/markov/position_summary.h"
 #include "docent/motion_models/odometry_model.h"
 #include "docent/sensor_models/range_sweep.h"
 
@@ -145,6 +146,7 @@ class MarkovLocalizer final : public Localizer {
   StateSpace space_;
   RangeTable table_;
   ProximityModel model_;
+  CoarseCells coarse_;
   PositionBelief belief_;
   Verdict verdict_;
   PoseRefiner refiner_;

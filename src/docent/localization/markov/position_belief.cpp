@@ -28,7 +28,7 @@ PositionBelief::PositionBelief(const StateSpace& space, double threshold_fractio
   std::fill_n(limit_.begin(), space.headings(), static_cast<float>(threshold_));
   slot_.assign(space.places(), -1);
   marks_.assign(space.places(), 0);
-  rows_.reserve(space.places() * stride_);  // never copied when it grows; pages come when they are touched
+  rows_.resize(space.places() * stride_);  // of which the first kept_.size() count: nothing is cleared or copied
   make_uniform();
 }
 
@@ -47,10 +47,17 @@ void PositionBelief::keep_all(float value) {
   kept_.resize(places);
   std::iota(kept_.begin(), kept_.end(), 0);
   std::iota(slot_.begin(), slot_.end(), 0);
-  rows_.assign(places * stride_, 0.0F);
+  const auto headings = static_cast<std::size_t>(space_->headings());
   set_scale(1.0, 0.0);
-  for (std::size_t i = 0; i < places; ++i)
-    std::fill_n(rows_.begin() + static_cast<std::ptrdiff_t>(i * stride_), space_->headings(), value);
+  for (std::size_t i = 0; i < places; ++i) fill_row(i, value);
+  contents_.assign(places, {value, value * static_cast<float>(headings), static_cast<std::uint32_t>(headings)});
+}
+
+void PositionBelief::fill_row(std::size_t index, float value) {
+  float* const row = rows_.data() + index * stride_;
+  const auto headings = static_cast<std::size_t>(space_->headings());
+  std::fill_n(row, headings, value);
+  std::fill(row + headings, row + stride_, 0.0F);
 }
 
 void PositionBelief::make_uniform() {
@@ -60,42 +67,74 @@ void PositionBelief::make_uniform() {
 }
 
 void PositionBelief::make_modes(std::span<const BeliefMode> modes, double uniform_mass) {
-  sea_ = 0.0;
-  keep_all(0.0F);
-  const auto headings = static_cast<std::size_t>(space_->headings());
+  struct Entry {
+    std::int32_t place;
+    std::size_t heading;
+    float mass;
+  };
+  std::vector<Entry> entries;
   double total = 0.0;
   for (const BeliefMode& mode : modes) {
-    // The grid cannot hold anything narrower than half a cell.
-    const double floor_xy = 0.25 * space_->frame().resolution * space_->frame().resolution;
-    const double floor_theta = 0.25 * space_->heading_step() * space_->heading_step();
-    const double sx = std::sqrt(std::max(mode.covariance[0], floor_xy));
-    const double sy = std::sqrt(std::max(mode.covariance[4], floor_xy));
-    const double st = std::sqrt(std::max(mode.covariance[8], floor_theta));
-    std::vector<std::pair<std::size_t, float>> entries;
+    const std::size_t first = entries.size();
     double sum = 0.0;
-    for (std::size_t place = 0; place < space_->places(); ++place) {
-      const Point2 off = space_->centre(place) - mode.map_from_robot.position();
-      if (std::abs(off.x) > 4.0 * sx + space_->frame().resolution ||
-          std::abs(off.y) > 4.0 * sy + space_->frame().resolution)
-        continue;
-      for (std::size_t h = 0; h < headings; ++h) {
+    for_states_near(mode, [&](std::int32_t place, std::size_t heading, double square) {
+      entries.push_back({place, heading, static_cast<float>(std::exp(-0.5 * square))});
+      sum += static_cast<double>(entries.back().mass);
+    });
+    if (sum <= 0.0) continue;  // no free place there
+    for (std::size_t i = first; i < entries.size(); ++i) entries[i].mass *= static_cast<float>(mode.mass / sum);
+    total += mode.mass;
+  }
+  // Everything else is sea.
+  const double rest = std::max({uniform_mass, 1.0 - total, 1e-12});
+  sea_ = rest / static_cast<double>(space_->states());
+  kept_.clear();
+  for (const Entry& entry : entries) kept_.push_back(entry.place);
+  std::sort(kept_.begin(), kept_.end());
+  kept_.erase(std::unique(kept_.begin(), kept_.end()), kept_.end());
+  std::fill(slot_.begin(), slot_.end(), -1);
+  for (std::size_t i = 0; i < kept_.size(); ++i) {
+    slot_[static_cast<std::size_t>(kept_[i])] = static_cast<std::int32_t>(i);
+    fill_row(i, static_cast<float>(sea_));
+  }
+  for (const Entry& entry : entries)
+    rows_[static_cast<std::size_t>(slot_[static_cast<std::size_t>(entry.place)]) * stride_ + entry.heading] +=
+        entry.mass;
+  set_scale(1.0, 0.0);
+  contents_.resize(kept_.size());
+  if (threshold_ < 0.0) wake();
+  normalise(totals(), 0.0);
+}
+
+/// visit(place, heading, squared distance in deviations) within five of them.
+template <class Visitor>
+void PositionBelief::for_states_near(const BeliefMode& mode, const Visitor& visit) const {
+  // The grid cannot hold anything narrower than half a cell.
+  const double cell = space_->frame().resolution;
+  const double floor_xy = 0.25 * cell * cell;
+  const double floor_theta = 0.25 * space_->heading_step() * space_->heading_step();
+  const double sx = std::sqrt(std::max(mode.covariance[0], floor_xy));
+  const double sy = std::sqrt(std::max(mode.covariance[4], floor_xy));
+  const double st = std::sqrt(std::max(mode.covariance[8], floor_theta));
+  const Point2 middle = mode.map_from_robot.position();
+  const Point2 reach{4.0 * sx + cell, 4.0 * sy + cell};
+  const GridFrame& frame = space_->frame();
+  const CellIndex low = frame.cell_at(middle - reach);
+  const CellIndex high = frame.cell_at(middle + reach);
+  for (int row = std::max(low.row, 0); row <= std::min(high.row, frame.rows - 1); ++row) {
+    for (int column = std::max(low.column, 0); column <= std::min(high.column, frame.columns - 1); ++column) {
+      const std::int32_t place = space_->place_at({column, row});
+      if (place == StateSpace::kNoPlace) continue;
+      const Point2 off = space_->centre(static_cast<std::size_t>(place)) - middle;
+      if (std::abs(off.x) > reach.x || std::abs(off.y) > reach.y) continue;
+      for (std::size_t h = 0; h < static_cast<std::size_t>(space_->headings()); ++h) {
         const double turn =
             (Angle::radians(static_cast<double>(h) * space_->heading_step()) - mode.map_from_robot.theta).radians();
         const double square = off.x * off.x / (sx * sx) + off.y * off.y / (sy * sy) + turn * turn / (st * st);
-        if (square > 25.0) continue;
-        entries.emplace_back(place * stride_ + h, static_cast<float>(std::exp(-0.5 * square)));
-        sum += static_cast<double>(entries.back().second);
+        if (square <= 25.0) visit(place, h, square);
       }
     }
-    if (sum <= 0.0) continue;  // no free place there
-    for (const auto& [index, weight] : entries) rows_[index] += static_cast<float>(mode.mass / sum) * weight;
-    total += mode.mass;
   }
-  const double rest = std::max({uniform_mass, 1.0 - total, 1e-12});
-  const auto base = static_cast<float>(rest / static_cast<double>(space_->states()));
-  for (std::size_t i = 0; i < space_->places(); ++i)
-    for (std::size_t h = 0; h < headings; ++h) rows_[i * stride_ + h] += base;
-  normalise(totals(), 0.0);
 }
 
 RowTotals PositionBelief::totals() const {
@@ -197,7 +236,7 @@ std::size_t PositionBelief::score(const RangeTable& table, std::span<const BeamC
   const auto headings = static_cast<std::size_t>(space_->headings());
   const auto cap = static_cast<std::uint16_t>(std::min(weights.most_sector_nats * kCostPerNat, 60000.0));
   TileScorer scorer{beams, headings, weights.sectors, cap, set_};
-  costs_.resize(kept_.size() * stride_);
+  costs_.resize(std::max(costs_.size(), kept_.size() * stride_));  // never less: nothing is cleared again
   const bool all = threshold_ < 0.0;
   const std::uint64_t all_blocks = (std::uint64_t{1} << (stride_ / kRowBlock)) - 1;
   std::uint16_t best = std::numeric_limits<std::uint16_t>::max();
@@ -210,7 +249,8 @@ std::size_t PositionBelief::score(const RangeTable& table, std::span<const BeamC
     lanes.clear();
     rows.clear();
     for (; i < kept_.size() && static_cast<std::size_t>(kept_[i]) / RangeTable::kTile == tile; ++i) {
-      const std::uint64_t active = all ? all_blocks : kernels_->active_blocks(rows_.data() + i * stride_, scale());
+      const std::uint64_t active =
+          all || is_all_active(i) ? all_blocks : kernels_->active_blocks(rows_.data() + i * stride_, scale());
       if (active == 0) continue;
       blocks |= active;
       lanes.push_back(static_cast<std::uint8_t>(static_cast<std::size_t>(kept_[i]) % RangeTable::kTile));
@@ -222,8 +262,8 @@ std::size_t PositionBelief::score(const RangeTable& table, std::span<const BeamC
       others(tile * RangeTable::kTile + lanes[k], {rows[k], headings});
     for (std::size_t k = first; k < i; ++k) {
       const std::uint16_t* const costs = costs_.data() + k * stride_;
-      best = std::min(best, all ? kernels_->least_of_all(costs, headings)
-                                : kernels_->least_cost(rows_.data() + k * stride_, scale(), costs));
+      best = std::min(best, all || is_all_active(k) ? kernels_->least_of_all(costs, headings)
+                                                    : kernels_->least_cost(rows_.data() + k * stride_, scale(), costs));
     }
   }
   return best;
@@ -261,31 +301,38 @@ void PositionBelief::settle() {
   const auto headings = static_cast<std::size_t>(space_->headings());
   active_states_ = space_->states();
   active_mass_ = 1.0;
-  if (threshold_ < 0.0) return;
+  if (threshold_ < 0.0) {
+    contents_.assign(kept_.size(), {std::numeric_limits<float>::infinity(), 0.0F, 0});  // nobody has looked
+    return;
+  }
   RowCensus census;
   census.inactive = space_->states() - kept_.size() * headings;
   census.inactive_mass = sea_ * static_cast<double>(census.inactive);
+  contents_.resize(kept_.size());
   for (std::size_t i = 0; i < kept_.size(); ++i)
-    kernels_->take_census(rows_.data() + i * stride_, scale(), headings, census);
+    contents_[i] = kernels_->take_census(rows_.data() + i * stride_, scale(), headings, census);
   if (census.inactive == 0) {
     sea_ = 0.0;
     return;
   }
   sea_ = census.inactive_mass / static_cast<double>(census.inactive);
-  const bool wakes = static_cast<float>(sea_) > limit_[0];
+  const auto level = static_cast<float>(sea_);
+  const bool wakes = level > limit_[0];
   std::size_t out = 0;
   for (std::size_t i = 0; i < kept_.size(); ++i) {
     float* const row = rows_.data() + i * stride_;
-    const bool any = kernels_->settle(row, scale(), static_cast<float>(sea_), headings);
     const std::int32_t place = kept_[i];
     slot_[static_cast<std::size_t>(place)] = -1;
-    if (!any && !wakes) continue;
+    if (contents_[i].active == 0 && !wakes) continue;
+    kernels_->settle(row, scale(), level, headings);
+    contents_[i].peak = std::max(contents_[i].peak, level);
     if (out != i) std::copy_n(row, stride_, rows_.data() + out * stride_);
     slot_[static_cast<std::size_t>(place)] = static_cast<std::int32_t>(out);
+    contents_[out] = contents_[i];
     kept_[out++] = place;
   }
   kept_.resize(out);
-  rows_.resize(out * stride_);
+  contents_.resize(out);
   set_scale(1.0, 0.0);
   if (wakes) return wake();  // the sea has risen over the threshold: every state is above it again
   active_states_ = space_->states() - census.inactive;
@@ -296,23 +343,34 @@ void PositionBelief::settle() {
 void PositionBelief::wake() {
   const std::size_t places = space_->places();
   const auto level = static_cast<float>(sea_);
-  const auto headings = static_cast<std::size_t>(space_->headings());
+  const auto headings = static_cast<std::uint32_t>(space_->headings());
+  const RowContent sea{level, level * static_cast<float>(headings), headings};
   std::size_t from = kept_.size();
-  rows_.resize(places * stride_);
+  contents_.resize(places);
   for (std::size_t place = places; place-- > 0;) {
-    float* const row = rows_.data() + place * stride_;
     if (from > 0 && kept_[from - 1] == static_cast<std::int32_t>(place)) {
       --from;
-      if (from != place) std::copy_n(rows_.data() + from * stride_, stride_, row);
+      if (from != place) std::copy_n(rows_.data() + from * stride_, stride_, rows_.data() + place * stride_);
+      RowContent content = contents_[from];  // what was under water counts again
+      content.active_mass += level * static_cast<float>(headings - content.active);
+      content.active = headings;
+      contents_[place] = content;
     } else {
-      std::fill_n(row, headings, level);
-      std::fill(row + headings, row + stride_, 0.0F);
+      fill_row(place, level);
+      contents_[place] = sea;
     }
   }
   kept_.resize(places);
   std::iota(kept_.begin(), kept_.end(), 0);
   std::iota(slot_.begin(), slot_.end(), 0);
   sea_ = 0.0;
+}
+
+std::optional<double> PositionBelief::row_mass(std::size_t index) const {
+  if (threshold_ < 0.0) return std::nullopt;
+  const RowContent& content = contents_[index];
+  const auto headings = static_cast<std::uint32_t>(space_->headings());
+  return static_cast<double>(content.active_mass) + sea_ * static_cast<double>(headings - content.active);
 }
 
 float PositionBelief::probability(std::size_t place, int heading) const {

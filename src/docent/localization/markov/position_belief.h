@@ -109,6 +109,10 @@ class PositionBelief {
   [[nodiscard]] Row row(std::size_t index) const {
     return {rows_.data() + index * stride_, static_cast<std::size_t>(space_->headings()), scale()};
   }
+  /// No probability of the index-th kept place is above it: others need not be looked for there.
+  [[nodiscard]] float row_peak(std::size_t index) const { return contents_[index].peak; }
+  /// Of all headings of the index-th kept place, within 1e-6 of itself; nullopt: nobody has added them up.
+  [[nodiscard]] std::optional<double> row_mass(std::size_t index) const;
   [[nodiscard]] float probability(std::size_t place, int heading) const;
   [[nodiscard]] double entropy() const;  ///< [nat], eq. 5
 
@@ -118,6 +122,12 @@ class PositionBelief {
 
  private:
   void keep_all(float value);
+  void fill_row(std::size_t index, float value);
+  template <class Visitor>
+  void for_states_near(const BeliefMode& mode, const Visitor& visit) const;
+  [[nodiscard]] bool is_all_active(std::size_t index) const {
+    return contents_[index].active == static_cast<std::uint32_t>(space_->headings());
+  }
   void wake();
   [[nodiscard]] RowScale scale() const { return {scale_, bias_, limit_}; }
   void set_scale(double scale, double bias);
@@ -163,7 +173,9 @@ class PositionBelief {
 
   std::vector<std::int32_t> kept_;  ///< places, ascending
   std::vector<std::int32_t> slot_;  ///< of each place: index in kept_, or -1
-  AlignedVector<float> rows_;       ///< [kept][stride], times scale_, plus bias_
+  AlignedVector<float> rows_;       ///< [kept][stride], times scale_, plus bias_; room for all places
+  /// [kept]: of the probabilities since the last pass over them.
+  std::vector<RowContent> contents_;
   float scale_ = 1.0F;
   AlignedVector<float> bias_;   ///< [stride]
   AlignedVector<float> limit_;  ///< [stride]: the threshold

@@ -59,7 +59,8 @@ void PositionBelief::mix_line(int row, const MotionKernel& kernel) {
     int last = first;
     while (last < columns && asked_[static_cast<std::size_t>(last)] != 0) ++last;
     const auto count = static_cast<std::size_t>(last - first);
-    expanded_.resize((count + 2 * static_cast<std::size_t>(reach)) * stride_);
+    const std::size_t stretch = count + 2 * static_cast<std::size_t>(reach);
+    expanded_.resize(std::max(expanded_.size(), stretch * stride_));
     float* out = expanded_.data();
     for (int column = first - reach; column < last + reach; ++column, out += stride_) {
       const std::int32_t place = space_->place_at({column, row});
@@ -130,7 +131,6 @@ void PositionBelief::make_room(const MotionKernel& kernel) {
   extended_.assign(kRowGroup * (stride_ + 2 * halo_of(kernel.headings) + kRowBlock), 0.0F);
   fours_.resize(extended_.size());
   nothing_.assign(line_, 0.0F);
-  rows_.resize(targets_.size() * stride_);
 }
 
 void PositionBelief::move(const MotionKernel& kernel) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace docent {
 
@@ -17,13 +18,18 @@ bool is_likelier(const Entry& a, const Entry& b) {  // a total order, so that ru
   return a.place != b.place ? a.place < b.place : a.heading < b.heading;
 }
 
-std::vector<Entry> likeliest(const PositionBelief& belief, const SummaryParams& params) {
-  // A state can be among the first N only with a share of the mass that beats the uniform belief by far, or there is
-  // nothing worth listing.
-  const auto least = static_cast<float>(
+/// Less cannot be listed: a state can be among the first N only with a share of the mass that beats the uniform belief
+/// by far, or there is nothing worth listing.
+float least_listed(const PositionBelief& belief) {
+  return static_cast<float>(
       std::max(4.0 / static_cast<double>(belief.space().states()), 1e-7 * static_cast<double>(belief.peak())));
+}
+
+std::vector<Entry> likeliest(const PositionBelief& belief, const SummaryParams& params) {
+  const float least = least_listed(belief);
   std::vector<Entry> entries;
   for (std::size_t i = 0; i < belief.kept_places().size(); ++i) {
+    if (belief.row_peak(i) <= least) continue;
     const auto row = belief.row(i);
     for (std::size_t h = 0; h < row.size(); ++h)
       if (row[h] > least) entries.push_back({row[h], belief.kept_places()[i], static_cast<std::int32_t>(h)});
@@ -41,42 +47,57 @@ std::vector<Entry> likeliest(const PositionBelief& belief, const SummaryParams& 
   return entries;
 }
 
-void fill_rest(const PositionBelief& belief, const std::vector<Entry>& listed, const SummaryParams& params,
+double sum_of(const PositionBelief::Row& row) {
+  double sum = 0.0;
+  for (const float value : row) sum += static_cast<double>(value);
+  return sum;
+}
+
+/// Mass in each coarse cell that no listed state has.
+void fill_rest(const PositionBelief& belief, const std::vector<Entry>& listed, const CoarseCells& coarse,
                BeliefSummary& summary) {
-  const StateSpace& space = belief.space();
-  const GridFrame& frame = space.frame();
-  summary.rest_origin = frame.origin;
-  summary.rest_cell_size = params.rest_cell_size;
-  summary.rest_columns = static_cast<int>(std::ceil(frame.columns * frame.resolution / params.rest_cell_size));
-  summary.rest_rows = static_cast<int>(std::ceil(frame.rows * frame.resolution / params.rest_cell_size));
-  std::vector<double> mass(static_cast<std::size_t>(summary.rest_columns) * static_cast<std::size_t>(summary.rest_rows),
-                           0.0);
-  const auto coarse = [&](std::size_t place) -> double& {
-    const Point2 middle = space.centre(place) - frame.origin;
-    const auto column = static_cast<std::size_t>(middle.x / params.rest_cell_size);
-    const auto row = static_cast<std::size_t>(middle.y / params.rest_cell_size);
-    return mass[row * static_cast<std::size_t>(summary.rest_columns) + column];
+  summary.rest_origin = coarse.origin;
+  summary.rest_cell_size = coarse.size;
+  summary.rest_columns = coarse.columns;
+  summary.rest_rows = coarse.rows;
+  const float least = least_listed(belief);
+  std::vector<double> mass(coarse.places.size(), 0.0);
+  std::vector<std::int32_t> under_sea = coarse.places;
+  const auto cell_of = [&](std::int32_t place) {
+    return static_cast<std::size_t>(coarse.of_place[static_cast<std::size_t>(place)]);
   };
-  const double sea = belief.sea_level() * space.headings();
-  std::size_t next = 0;
-  for (std::size_t place = 0; place < space.places(); ++place) {
-    if (next < belief.kept_places().size() && belief.kept_places()[next] == static_cast<std::int32_t>(place)) {
-      double sum = 0.0;
-      for (const float value : belief.row(next)) sum += static_cast<double>(value);
-      coarse(place) += sum;
-      ++next;
-    } else {
-      coarse(place) += sea;
-    }
+  for (std::size_t i = 0; i < belief.kept_places().size(); ++i) {
+    const std::size_t cell = cell_of(belief.kept_places()[i]);
+    --under_sea[cell];
+    // From what is listed nothing but rounding may be left.
+    const auto known = belief.row_peak(i) > least ? std::nullopt : belief.row_mass(i);
+    mass[cell] += known ? *known : sum_of(belief.row(i));
   }
-  for (const Entry& entry : listed) coarse(static_cast<std::size_t>(entry.place)) -= static_cast<double>(entry.mass);
+  const double sea = belief.sea_level() * belief.space().headings();
+  for (std::size_t cell = 0; cell < mass.size(); ++cell) mass[cell] += sea * static_cast<double>(under_sea[cell]);
+  for (const Entry& entry : listed) mass[cell_of(entry.place)] -= static_cast<double>(entry.mass);
   summary.rest.reserve(mass.size());
   for (const double value : mass) summary.rest.push_back(static_cast<float>(std::max(0.0, value)));
 }
 
 }  // namespace
 
-BeliefSummary summarise(const PositionBelief& belief, const Pose2& frame_from_robot, const SummaryParams& params) {
+CoarseCells::CoarseCells(const StateSpace& space, double cell_size)
+    : origin{space.frame().origin},
+      size{cell_size},
+      columns{static_cast<int>(std::ceil(space.frame().columns * space.frame().resolution / cell_size))},
+      rows{static_cast<int>(std::ceil(space.frame().rows * space.frame().resolution / cell_size))},
+      of_place(space.places()),
+      places(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0) {
+  for (std::size_t place = 0; place < space.places(); ++place) {
+    const Point2 middle = space.centre(place) - origin;
+    of_place[place] = static_cast<int>(middle.y / size) * columns + static_cast<int>(middle.x / size);
+    ++places[static_cast<std::size_t>(of_place[place])];
+  }
+}
+
+BeliefSummary summarise(const PositionBelief& belief, const CoarseCells& coarse, const Pose2& frame_from_robot,
+                        const SummaryParams& params) {
   BeliefSummary summary;
   const std::vector<Entry> entries = likeliest(belief, params);
   summary.cells.reserve(entries.size());
@@ -87,7 +108,7 @@ BeliefSummary summarise(const PositionBelief& belief, const Pose2& frame_from_ro
     summary.cells.push_back(
         {static_cast<float>(pose.x), static_cast<float>(pose.y), static_cast<float>(pose.theta.radians()), entry.mass});
   }
-  fill_rest(belief, entries, params, summary);
+  fill_rest(belief, entries, coarse, summary);
   find_modes(summary, params);
   summary.entropy = belief.entropy();
   summary.active_mass = belief.active_mass();

@@ -4,12 +4,7 @@
 #include <cstring>
 #include <utility>
 
-#if defined(__x86_64__)
-#include <immintrin.h>
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // gcc 12's own AVX-512 header sets it off
-#endif
-#endif
+#include "docent/base/kernel_targets.h"
 
 namespace docent {
 
@@ -26,14 +21,14 @@ constexpr int kWidth = 4;
 
 namespace avx2 {
 constexpr int kWidth = 8;
-#define DOCENT_TARGET __attribute__((target("avx2")))
+#define DOCENT_TARGET DOCENT_AVX2
 #include "docent/localization/markov/row_kernel_passes.inc"
 #undef DOCENT_TARGET
 }  // namespace avx2
 
 namespace avx512 {
 constexpr int kWidth = 16;
-#define DOCENT_TARGET __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,avx512vbmi")))
+#define DOCENT_TARGET DOCENT_AVX512
 #include "docent/localization/markov/row_kernel_passes.inc"
 #undef DOCENT_TARGET
 }  // namespace avx512
@@ -42,13 +37,6 @@ constexpr int kWidth = 16;
 
 }  // namespace
 
-const RowKernels& row_kernels(InstructionSet set) {
-#if defined(__x86_64__)
-  if (set == InstructionSet::avx512) return avx512::kKernels;
-  if (set == InstructionSet::avx2) return avx2::kKernels;
-#endif
-  static_cast<void>(set);
-  return plain::kKernels;
-}
+const RowKernels& row_kernels(InstructionSet set) { return kernels_for<RowKernels>(set, DOCENT_KERNELS); }
 
 }  // namespace docent

@@ -58,6 +58,13 @@ struct RowCensus {
   std::size_t inactive = 0;
 };
 
+/// What a row holds.
+struct RowContent {
+  float peak = 0.0F;         ///< no probability is above it
+  float active_mass = 0.0F;  ///< sum over the active states
+  std::uint32_t active = 0;  ///< how many
+};
+
 /// How a row is multiplied: active states by exp(-min(max(cost - best, 0) * nats_per_cost, most_nats)).
 struct RowEvidence {
   std::uint16_t best = 0;
@@ -90,9 +97,10 @@ struct RowKernels {
   /// [Markov1998] eq. 1 without eta.
   void (*reweigh)(float* row, const RowScale& scale, const std::uint16_t* costs, const RowEvidence& evidence,
                   RowTotals& totals);
-  void (*take_census)(const float* row, const RowScale& scale, std::size_t headings, RowCensus& census);
-  /// Makes the row hold its probabilities, and `level` where they are inactive; whether any is active.
-  bool (*settle)(float* row, const RowScale& scale, float level, std::size_t headings);
+  /// Adds what is inactive to the census.
+  RowContent (*take_census)(const float* row, const RowScale& scale, std::size_t headings, RowCensus& census);
+  /// Makes the row hold its probabilities, and `level` where they are inactive.
+  void (*settle)(float* row, const RowScale& scale, float level, std::size_t headings);
   /// Sum of p ln p over active states [nat], within 2e-6 relative, and how many they are.
   double (*sum_p_log_p)(const float* row, const RowScale& scale, std::size_t& active);
 };

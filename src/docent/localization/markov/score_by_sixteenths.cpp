@@ -2,9 +2,7 @@
 
 #include <algorithm>
 
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
+#include "docent/base/kernel_targets.h"
 
 namespace docent {
 
@@ -31,7 +29,6 @@ SixteenthScorer::SixteenthScorer(const TileScorer::Plan& plan, std::span<const B
 
 #if defined(__x86_64__)
 
-#define DOCENT_AVX2 __attribute__((target("avx2")))
 #define DOCENT_INLINE __attribute__((always_inline)) inline
 
 namespace {

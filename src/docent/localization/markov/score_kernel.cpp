@@ -3,14 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "docent/base/kernel_targets.h"
 #include "docent/localization/markov/score_by_sixteenths.h"
-
-#if defined(__x86_64__)
-#include <immintrin.h>
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // gcc 12's own AVX-512 header sets it off
-#endif
-#endif
 
 namespace docent {
 
@@ -55,7 +49,6 @@ void score_plain(const Plan& plan, const Line* tables, const Line* tile, std::si
 
 #if defined(__x86_64__)
 
-#define DOCENT_AVX512 __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,avx512vbmi")))
 #define DOCENT_INLINE __attribute__((always_inline)) inline
 
 DOCENT_AVX512 DOCENT_INLINE void widen_avx512(const __m512i& bytes, std::uint16_t* sums, std::uint16_t cap) {

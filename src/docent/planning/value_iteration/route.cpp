@@ -83,13 +83,15 @@ float RoutePlanner::obstacle_factor(double away) const {
   return static_cast<float>(1.0 + params_.obstacle_comfort_cost * near * near);
 }
 
-void RoutePlanner::set_obstacles(const std::vector<bool>& obstacles, const std::vector<bool>& settled) {
+void RoutePlanner::set_obstacles(const std::vector<bool>& obstacles, const std::vector<bool>& settled,
+                                 const std::optional<CellBox>& within) {
   const GridFrame& frame = planner_.frame();
+  const CellBox part = within.value_or(CellBox{{0, 0}, {frame.columns - 1, frame.rows - 1}});
   const auto is_still = [&](std::size_t i) { return !settled.empty() && settled[i]; };
   CellIndex low{frame.columns, frame.rows};
   CellIndex high{-1, -1};
-  for (int row = 0; row < frame.rows; ++row) {
-    for (int column = 0; column < frame.columns; ++column) {
+  for (int row = part.low.row; row <= part.high.row; ++row) {
+    for (int column = part.low.column; column <= part.high.column; ++column) {
       const std::size_t i = frame.index({column, row});
       if (obstacles_[i] == obstacles[i] && settled_[i] == is_still(i)) continue;
       obstacles_[i] = obstacles[i];
@@ -275,44 +277,52 @@ double RoutePlanner::cost_of(std::span<const CellIndex> way, bool unmoved) const
   return cost;
 }
 
-/// [rows * columns] true within `aside` of the way held as it was when it was chosen: steps aside do not add up.
-std::vector<bool> RoutePlanner::beside_chosen() const {
+/// Indices of the cells within `aside` of the way held as it was when it was chosen: steps aside do not add up. Each
+/// finds itself in the list by `places_`.
+std::vector<std::size_t> RoutePlanner::list_beside_chosen() {
   const GridFrame& frame = planner_.frame();
   const int reach = static_cast<int>(params_.aside / frame.resolution);
-  std::vector<bool> cells(frame.size(), false);
+  places_.resize(frame.size(), kNowhere);
+  std::vector<std::size_t> cells;
   for (const CellIndex& at : chosen_) {
     for (int row = -reach; row <= reach; ++row) {
       for (int column = -reach; column <= reach; ++column) {
         const CellIndex cell{at.column + column, at.row + row};
-        if (column * column + row * row <= reach * reach && frame.holds(cell)) cells[frame.index(cell)] = true;
+        if (column * column + row * row > reach * reach || !frame.holds(cell)) continue;
+        std::int32_t& place = places_[frame.index(cell)];
+        if (place != kNowhere) continue;
+        place = static_cast<std::int32_t>(cells.size());
+        cells.push_back(frame.index(cell));
       }
     }
   }
   return cells;
 }
 
-/// The best way from `start` to a goal that does not leave these cells, by Dijkstra's algorithm; empty: none.
-std::vector<CellIndex> RoutePlanner::best_within(const std::vector<bool>& cells, CellIndex start) const {
+/// The best way from `start` to a goal beside the way that was chosen, by Dijkstra's algorithm; empty: none.
+std::vector<CellIndex> RoutePlanner::best_beside_chosen(CellIndex start) {
   using Entry = std::pair<double, std::size_t>;
   const GridFrame& frame = planner_.frame();
   const auto cell_of = [&](std::size_t i) {
     return CellIndex{static_cast<int>(i) % frame.columns, static_cast<int>(i) / frame.columns};
   };
+  const std::vector<std::size_t> cells = list_beside_chosen();
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   std::vector<double> costs(cells.size(), std::numeric_limits<double>::infinity());
-  std::vector<std::size_t> next(cells.size(), cells.size());
+  std::vector<std::size_t> next(cells.size(), frame.size());
+  const auto place_of = [&](std::size_t cell) { return static_cast<std::size_t>(places_[cell]); };
   const auto offer = [&](std::size_t to, double cost, std::size_t from) {
-    if (!cells[to] || !(cost < costs[to])) return;
-    costs[to] = cost;
-    next[to] = from;
+    if (places_[to] == kNowhere || !(cost < costs[place_of(to)])) return;
+    costs[place_of(to)] = cost;
+    next[place_of(to)] = from;
     queue.emplace(cost, to);
   };
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    if (cells[i] && planner_.is_goal(cell_of(i))) offer(i, static_cast<double>(planner_.value(cell_of(i))), i);
+  for (const std::size_t i : cells)
+    if (planner_.is_goal(cell_of(i))) offer(i, static_cast<double>(planner_.value(cell_of(i))), i);
   while (!queue.empty() && queue.top().second != frame.index(start)) {
     const auto [cost, at] = queue.top();
     queue.pop();
-    if (cost > costs[at]) continue;
+    if (cost > costs[place_of(at)]) continue;
     const auto step = static_cast<double>(planner_.cost(cell_of(at)));
     for (int row = -1; row <= 1; ++row) {
       for (int column = -1; column <= 1; ++column) {
@@ -323,10 +333,12 @@ std::vector<CellIndex> RoutePlanner::best_within(const std::vector<bool>& cells,
     }
   }
   std::vector<CellIndex> way;
-  if (queue.empty()) return way;
-  std::size_t at = frame.index(start);
-  for (; next[at] != at; at = next[at]) way.push_back(cell_of(at));
-  way.push_back(cell_of(at));
+  if (!queue.empty()) {
+    std::size_t at = frame.index(start);
+    for (; next[place_of(at)] != at; at = next[place_of(at)]) way.push_back(cell_of(at));
+    way.push_back(cell_of(at));
+  }
+  for (const std::size_t cell : cells) places_[cell] = kNowhere;
   return way;
 }
 
@@ -348,7 +360,7 @@ void RoutePlanner::hold_way(Point2 start) {
     held_.erase(held_.begin(), held_.begin() + static_cast<std::ptrdiff_t>(first));
     const double most = (1.0 + params_.switch_gain) * static_cast<double>(planner_.value(*cell));
     if (cost_of(held_, false) <= most + planner_.frame().resolution) return;
-    auto aside = best_within(beside_chosen(), *cell);
+    auto aside = best_beside_chosen(*cell);
     if (!aside.empty() && cost_of(aside, true) <= most + params_.aside) {
       held_ = std::move(aside);
       return;

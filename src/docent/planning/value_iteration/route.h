@@ -51,6 +51,12 @@ struct RouteParams {
   [[nodiscard]] Result<void> validate() const;
 };
 
+/// Cells from `low` to `high`, both among them.
+struct CellBox {
+  CellIndex low;
+  CellIndex high;
+};
+
 /// Plans for a disc-shaped robot in a museum's map: costs of cells from clearance, value iteration, and the way as a
 /// line of points. Cells behind walls, hazards and the area's border are closed; what is seen now and not in the map is
 /// dear but not closed, for people move.
@@ -61,8 +67,10 @@ class RoutePlanner {
 
   /// @param obstacles  [rows * columns of frame()] true where something stands now that the map does not show
   /// @param settled  likewise, those of them that have stood there for long; empty: none
-  /// Changes costs only around what changed: O(cells) bits compared, O(box of the changes) beyond.
-  void set_obstacles(const std::vector<bool>& obstacles, const std::vector<bool>& settled = {});
+  /// @param within  where they may differ from those set last; nullopt: anywhere
+  /// Changes costs only around what changed: O(cells within) bits compared, O(box of the changes) beyond.
+  void set_obstacles(const std::vector<bool>& obstacles, const std::vector<bool>& settled = {},
+                     const std::optional<CellBox>& within = std::nullopt);
   /// From now on the robot would rather go along this line of points (map): floor beside it is dearer. For ways that
   /// another planner found; what is closed stays closed, and obstacles are driven round. Empty: no preference.
   void prefer(std::span<const Point2> way);
@@ -105,8 +113,8 @@ class RoutePlanner {
   [[nodiscard]] bool sees(Point2 from, Point2 to, float most_cost) const;
   [[nodiscard]] std::size_t nearest_held(Point2 start) const;
   [[nodiscard]] double cost_of(std::span<const CellIndex> way, bool unmoved) const;
-  [[nodiscard]] std::vector<bool> beside_chosen() const;
-  [[nodiscard]] std::vector<CellIndex> best_within(const std::vector<bool>& cells, CellIndex start) const;
+  [[nodiscard]] std::vector<std::size_t> list_beside_chosen();
+  [[nodiscard]] std::vector<CellIndex> best_beside_chosen(CellIndex start);
   [[nodiscard]] std::vector<CellIndex> cells_from(Point2 start) const;
 
   RouteParams params_;
@@ -117,8 +125,10 @@ class RoutePlanner {
   std::vector<float> near_factors_;  ///< [rows * columns] of obstacles, >= 1
   std::vector<bool> obstacles_;      ///< [rows * columns] as last set
   std::vector<bool> settled_;        ///< [rows * columns] as last set
-  std::vector<CellIndex> held_;      ///< the way that is followed, to a goal
-  std::vector<CellIndex> chosen_;    ///< the same before any step aside
+  static constexpr std::int32_t kNowhere = -1;
+  std::vector<std::int32_t> places_;  ///< [rows * columns] scratch: in a list of cells, or kNowhere
+  std::vector<CellIndex> held_;       ///< the way that is followed, to a goal
+  std::vector<CellIndex> chosen_;     ///< the same before any step aside
 };
 
 }  // namespace docent

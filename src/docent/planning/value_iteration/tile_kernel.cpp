@@ -6,12 +6,7 @@
 #include <cstring>
 #include <utility>
 
-#if defined(__x86_64__)
-#include <immintrin.h>
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // gcc 12's own AVX-512 header sets it off
-#endif
-#endif
+#include "docent/base/kernel_targets.h"
 
 namespace docent {
 
@@ -44,7 +39,7 @@ constexpr int kWidth = 4;
 
 namespace avx2 {
 constexpr int kWidth = 8;
-#define DOCENT_TARGET __attribute__((target("avx2")))
+#define DOCENT_TARGET DOCENT_AVX2
 #define DOCENT_BITS(set) static_cast<std::uint64_t>(_mm256_movemask_ps(std::bit_cast<__m256>(set)))
 #include "docent/planning/value_iteration/tile_kernel_passes.inc"
 #undef DOCENT_BITS
@@ -53,7 +48,7 @@ constexpr int kWidth = 8;
 
 namespace avx512 {
 constexpr int kWidth = 16;
-#define DOCENT_TARGET __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,avx512vbmi")))
+#define DOCENT_TARGET DOCENT_AVX512
 #define DOCENT_BITS(set) static_cast<std::uint64_t>(_mm512_movepi32_mask(std::bit_cast<__m512i>(set)))
 #include "docent/planning/value_iteration/tile_kernel_passes.inc"
 #undef DOCENT_BITS
@@ -64,13 +59,6 @@ constexpr int kWidth = 16;
 
 }  // namespace
 
-const TileKernels& tile_kernels(InstructionSet set) {
-#if defined(__x86_64__)
-  if (set == InstructionSet::avx512) return avx512::kKernels;
-  if (set == InstructionSet::avx2) return avx2::kKernels;
-#endif
-  static_cast<void>(set);
-  return plain::kKernels;
-}
+const TileKernels& tile_kernels(InstructionSet set) { return kernels_for<TileKernels>(set, DOCENT_KERNELS); }
 
 }  // namespace docent

@@ -133,8 +133,15 @@ class Crowd {
   Point2 cells_low_{};
   int cell_columns_ = 1;
   int cell_rows_ = 1;
-  std::vector<int> cell_first_;
-  std::vector<int> cell_next_;
+  /// What others see of a person while they decide: packed, for the search reads many.
+  struct Outline {
+    Point2 position;
+    Point2 velocity;
+    double radius;
+    std::size_t person;
+  };
+  std::vector<Outline> outlines_;          ///< [people] by cell, then by person
+  std::vector<std::uint32_t> cell_begin_;  ///< [cells + 1] into outlines_
 };
 
 }  // namespace docent::simulator

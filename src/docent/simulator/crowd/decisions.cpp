@@ -17,17 +17,16 @@ template <class F>
 void Crowd::for_each_within(Point2 point, double range, F&& action) const {
   constexpr double kCell = 1.5;
   const auto bound = [](double value, int limit) { return std::clamp(static_cast<int>(value / kCell), 0, limit - 1); };
+  const int first_column = bound(point.x - range - cells_low_.x, cell_columns_);
+  const int last_column = bound(point.x + range - cells_low_.x, cell_columns_);
   for (int row = bound(point.y - range - cells_low_.y, cell_rows_);
        row <= bound(point.y + range - cells_low_.y, cell_rows_); ++row) {
-    for (int column = bound(point.x - range - cells_low_.x, cell_columns_);
-         column <= bound(point.x + range - cells_low_.x, cell_columns_); ++column) {
-      for (int i = cell_first_[static_cast<std::size_t>(row * cell_columns_ + column)]; i >= 0;
-           i = cell_next_[static_cast<std::size_t>(i)]) {
-        const auto index = static_cast<std::size_t>(i);
-        const Point2 offset = people_[index].position - point;
-        const double squared = dot(offset, offset);
-        if (squared <= range * range) action(index, offset, squared);
-      }
+    const auto line = static_cast<std::size_t>(row * cell_columns_);
+    const std::size_t end = cell_begin_[line + static_cast<std::size_t>(last_column) + 1];
+    for (std::size_t i = cell_begin_[line + static_cast<std::size_t>(first_column)]; i < end; ++i) {
+      const Point2 offset = outlines_[i].position - point;
+      const double squared = dot(offset, offset);
+      if (squared <= range * range) action(outlines_[i], offset, squared);
     }
   }
 }
@@ -90,17 +89,16 @@ void Crowd::decide(std::size_t index, double now) {
     desired = rng_.uniform(0.3, 0.8) * unit(Angle::radians(rng_.uniform(-3.14, 3.14)));
   }
 
-  std::array<Neighbour, 14> neighbours;
+  std::array<Neighbour, kMostNeighbours> neighbours;
   std::size_t count = 0;
   person.near_count = 0;
-  for_each_within(person.position, 2.5, [&](std::size_t other, Point2 offset, double squared) {
-    if (other == index) return;
-    const Person& neighbour = people_[other];
+  for_each_within(person.position, 2.5, [&](const Outline& other, Point2 offset, double squared) {
+    if (other.person == index) return;
     if (squared < 1.0 && person.near_count < 8) {
-      person.near[static_cast<std::size_t>(person.near_count++)] = static_cast<std::uint16_t>(other);
+      person.near[static_cast<std::size_t>(person.near_count++)] = static_cast<std::uint16_t>(other.person);
     }
     if (count + 1 < neighbours.size()) {
-      neighbours[count++] = {offset, neighbour.velocity, person.radius + neighbour.radius + 0.06, 1.0};
+      neighbours[count++] = {offset, other.velocity, person.radius + other.radius + 0.06, 1.0};
     }
   });
   const bool stands_firm =
@@ -239,9 +237,9 @@ void Crowd::form_wall(std::size_t leader, double now) {
     ++placed;
   };
   join(people_[leader]);
-  for_each_within(centre, 4.0, [&](std::size_t other, Point2, double) {
-    Person& person = people_[other];
-    if (other == leader || placed == 0 || placed >= wanted) return;
+  for_each_within(centre, 4.0, [&](const Outline& other, Point2, double) {
+    Person& person = people_[other.person];
+    if (other.person == leader || placed == 0 || placed >= wanted) return;
     if (person.activity == Activity::stroll || person.activity == Activity::look) join(person);
   });
 }

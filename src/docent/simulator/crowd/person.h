@@ -67,6 +67,8 @@ struct Person {
   Point2 progress_from{};
   double progress_at = 0.0;
 
+  Point2 roomy_at{};                    ///< where the clearance was looked up last
+  double room = 0.0;                    ///< [m] by which it was more than this person needs
   std::array<std::uint16_t, 8> near{};  ///< indices of those within reach
   int near_count = 0;
 };

@@ -10,8 +10,37 @@ namespace {
 
 constexpr double kHorizon = 2.5;  // [s] people look so far ahead
 
+/// A neighbour, and how far it is until both touch.
+struct Threat {
+  explicit Threat(const Neighbour& neighbour)
+      : offset{neighbour.offset},
+        velocity{neighbour.velocity},
+        gap{dot(offset, offset) - neighbour.reach * neighbour.reach},
+        weight{neighbour.weight} {}
+  Threat() = default;
+  Point2 offset;
+  Point2 velocity;
+  double gap = 0.0;  ///< [m2] square of the distance less that of the reach
+  double weight = 1.0;
+};
+
+/// time_to_touch() where it is within the horizon [s].
+inline std::optional<double> touch_within(Point2 offset, Point2 relative_velocity, double gap, double horizon) {
+  const double closing = dot(offset, relative_velocity);
+  if (closing <= 0.0) return std::nullopt;
+  if (gap <= 0.0) return 0.0;
+  // The root is at most `closing`: for most pairs none is needed.
+  constexpr double kRounding = 1.0 + 1e-9;
+  if (gap > 2.0 * kRounding * horizon * closing) return std::nullopt;
+  const double speed_squared = dot(relative_velocity, relative_velocity);
+  const double discriminant = closing * closing - speed_squared * gap;
+  if (discriminant < 0.0) return std::nullopt;
+  const double time = gap / (closing + std::sqrt(discriminant));
+  return time > horizon ? std::nullopt : std::optional{time};
+}
+
 /// What a velocity costs; some cost of at least `bound` as soon as it is known to be no less.
-double cost_of(Point2 velocity, Point2 desired, const Person& person, std::span<const Neighbour> neighbours,
+double cost_of(Point2 velocity, Point2 desired, const Person& person, std::span<const Threat> threats,
                const WalkableFloor& floor, double bound) {
   const double speed = norm(desired);
   double cost = 0.15 * norm(velocity - person.velocity);
@@ -23,17 +52,18 @@ double cost_of(Point2 velocity, Point2 desired, const Person& person, std::span<
     const double sideways = std::abs(cross(velocity, desired)) / speed;
     cost += (speed - forward) + 0.35 * sideways + 0.6 * std::max(0.0, 0.4 * speed - norm(velocity));
   }
-  for (const Neighbour& neighbour : neighbours) {
+  for (const Threat& threat : threats) {
     if (cost >= bound) return cost;
-    const auto time = time_to_touch(neighbour.offset, velocity - neighbour.velocity, neighbour.reach);
-    if (!time || *time > kHorizon) continue;
+    const Point2 relative = velocity - threat.velocity;
+    const auto time = touch_within(threat.offset, relative, threat.gap, kHorizon);
+    if (!time) continue;
     if (*time > 0.0) {
-      cost += neighbour.weight * 0.6 * (1.0 / (*time + 0.2) - 1.0 / (kHorizon + 0.2));
+      cost += threat.weight * 0.6 * (1.0 / (*time + 0.2) - 1.0 / (kHorizon + 0.2));
     } else {
       // Too near already: what counts is how fast the gap closes.
-      const double away = std::max(norm(neighbour.offset), 1e-3);
-      const double closing = dot(velocity - neighbour.velocity, neighbour.offset) / away;
-      cost += neighbour.weight * (1.0 + 3.0 * std::max(0.0, closing + 0.2));
+      const double away = std::max(norm(threat.offset), 1e-3);
+      const double closing = dot(relative, threat.offset) / away;
+      cost += threat.weight * (1.0 + 3.0 * std::max(0.0, closing + 0.2));
     }
   }
   if (cost < bound && dot(velocity, velocity) > 1e-6) {
@@ -49,14 +79,8 @@ double cost_of(Point2 velocity, Point2 desired, const Person& person, std::span<
 }  // namespace
 
 std::optional<double> time_to_touch(Point2 offset, Point2 relative_velocity, double reach) {
-  const double closing = dot(offset, relative_velocity);
-  if (closing <= 0.0) return std::nullopt;
-  const double gap = dot(offset, offset) - reach * reach;
-  if (gap <= 0.0) return 0.0;
-  const double speed_squared = dot(relative_velocity, relative_velocity);
-  const double discriminant = closing * closing - speed_squared * gap;
-  if (discriminant < 0.0) return std::nullopt;
-  return gap / (closing + std::sqrt(discriminant));
+  return touch_within(offset, relative_velocity, dot(offset, offset) - reach * reach,
+                      std::numeric_limits<double>::infinity());
 }
 
 Point2 choose_velocity(const Person& person, Point2 desired, std::span<const Neighbour> neighbours,
@@ -70,10 +94,13 @@ Point2 choose_velocity(const Person& person, Point2 desired, std::span<const Nei
     });
     if (!is_threatened) return {};
   }
+  std::array<Threat, kMostNeighbours> room;
+  std::transform(neighbours.begin(), neighbours.end(), room.begin(), [](const Neighbour& n) { return Threat{n}; });
+  const auto threats = std::span<const Threat>{room}.first(neighbours.size());
   Point2 best = desired;
-  double best_cost = cost_of(desired, desired, person, neighbours, floor, std::numeric_limits<double>::infinity());
+  double best_cost = cost_of(desired, desired, person, threats, floor, std::numeric_limits<double>::infinity());
   const auto consider = [&](Point2 velocity) {
-    const double cost = cost_of(velocity, desired, person, neighbours, floor, best_cost);
+    const double cost = cost_of(velocity, desired, person, threats, floor, best_cost);
     if (cost < best_cost - 1e-9) {
       best_cost = cost;
       best = velocity;

@@ -19,9 +19,11 @@ struct Neighbour {
 /// Time until two discs touch that keep their velocities [s]; nullopt: never; 0 when they overlap and approach.
 [[nodiscard]] std::optional<double> time_to_touch(Point2 offset, Point2 relative_velocity, double reach);
 
+inline constexpr std::size_t kMostNeighbours = 14;
+
 /// The velocity that a person takes to move as desired and yet touch nobody: the best of a small fan of velocities
 /// round the desired one, each judged by its time to touch (as people do) and by the room to walls.
-/// O(candidates * neighbours), deterministic.
+/// O(candidates * neighbours), deterministic. @pre at most kMostNeighbours
 [[nodiscard]] Point2 choose_velocity(const Person& person, Point2 desired, std::span<const Neighbour> neighbours,
                                      const WalkableFloor& floor);
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <queue>
 
 namespace docent::simulator {
 namespace {
@@ -12,6 +11,7 @@ constexpr double kCell = 0.1;         // [m]
 constexpr double kCoarse = 0.2;       // [m]
 constexpr double kFar = 1.5;          // [m] clearances are not told apart beyond
 constexpr double kWalkable = 0.27;    // [m] clearance that a way needs
+constexpr double kRoomy = 0.7;        // [m] clearance from which a way costs no more than its length
 constexpr float kUnreachable = 1e9F;  // [m]
 constexpr double kHeadroom = 2.0;     // [m] people walk below what hangs higher
 constexpr std::array<std::array<int, 2>, 8> kNeighbours{
@@ -75,7 +75,22 @@ WalkableFloor::WalkableFloor(const World& world) {
   for (std::size_t cell = 0; cell < coarse_clearance_.size(); ++cell) {
     coarse_clearance_[cell] = static_cast<float>(clearance(coarse_centre(cell)));
   }
+  weigh_steps();
   find_reachable(world);
+}
+
+void WalkableFloor::weigh_steps() {
+  step_weight_.assign(coarse_clearance_.size(), 0.0F);
+  // Nobody walks on the margin, so that every walkable cell has eight neighbours.
+  for (int row = 1; row + 1 < coarse_rows_; ++row) {
+    for (int column = 1; column + 1 < coarse_columns_; ++column) {
+      const auto cell = static_cast<std::size_t>(row * coarse_columns_ + column);
+      const float gap = coarse_clearance_[cell];
+      if (gap < static_cast<float>(kWalkable)) continue;
+      // People keep off walls where there is room.
+      step_weight_[cell] = 1.0F + 2.0F * std::max(0.0F, static_cast<float>(kRoomy) - gap);
+    }
+  }
 }
 
 std::size_t WalkableFloor::fine_cell(Point2 point) const {
@@ -178,16 +193,16 @@ Point2 WalkableFloor::away_from_walls(Point2 point) const {
   return length > 1e-9 ? (1.0 / length) * gradient : Point2{};
 }
 
-bool WalkableFloor::is_clear(Point2 a, Point2 b, double radius) const {
+bool WalkableFloor::is_clear(Point2 a, double at_a, Point2 b, double radius) const {
   const double length = distance(a, b);
   double along = 0.0;
+  double gap = at_a - radius;
   while (true) {
-    const Point2 point = length > 0.0 ? a + (along / length) * (b - a) : a;
-    const double gap = clearance(point) - radius;
     if (gap < 0.0) return false;
     if (along >= length) return true;
     // Nothing can be nearer than the gap, so that step is safe.
     along = std::min(length, along + std::max(0.1, gap));
+    gap = clearance(a + (along / length) * (b - a)) - radius;
   }
 }
 
@@ -211,7 +226,7 @@ std::optional<std::size_t> WalkableFloor::nearest_walkable(Point2 point, double 
   std::optional<std::size_t> best;
   double best_distance = limit;
   for (std::size_t cell = 0; cell < coarse_clearance_.size(); ++cell) {
-    if (coarse_clearance_[cell] < static_cast<float>(kWalkable)) continue;
+    if (step_weight_[cell] <= 0.0F) continue;
     const Point2 centre = coarse_centre(cell);
     const double away = distance(centre, point);
     if (away < best_distance && is_reachable(centre)) {
@@ -223,47 +238,65 @@ std::optional<std::size_t> WalkableFloor::nearest_walkable(Point2 point, double 
 }
 
 FlowField WalkableFloor::field_to(Point2 goal, double reach) const {
+  // Dijkstra's algorithm with buckets narrower than the shortest step: within one nobody makes another cheaper, so any
+  // order gives the same costs. The longest step goes less than kBuckets - 1 of them ahead.
+  constexpr float kBucket = 0.19F;  // [m]
+  constexpr std::size_t kBuckets = 4;
+  static_assert(kBucket < kCoarse && kCoarse * 1.415 * (1.0 + 2.0 * (kRoomy - kWalkable)) < (kBuckets - 1) * kBucket);
+  const auto bucket_of = [](float cost) { return static_cast<std::size_t>(cost / kBucket); };
   FlowField field;
   field.cost.assign(coarse_clearance_.size(), kUnreachable);
-  using Entry = std::pair<float, std::uint32_t>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  const auto start = [&](std::size_t cell) {
-    field.cost[cell] = 0.0F;
-    queue.emplace(0.0F, static_cast<std::uint32_t>(cell));
+  std::array<std::vector<std::uint32_t>, kBuckets> buckets;
+  std::size_t pending = 0;
+  const auto offer = [&](std::size_t cell, float cost) {
+    if (cost >= field.cost[cell]) return;
+    field.cost[cell] = cost;
+    buckets[bucket_of(cost) % kBuckets].push_back(static_cast<std::uint32_t>(cell));
+    ++pending;
   };
-  for (std::size_t cell = 0; cell < coarse_clearance_.size(); ++cell) {
-    if (coarse_clearance_[cell] < static_cast<float>(kWalkable)) continue;
-    const Point2 centre = coarse_centre(cell);
-    if (distance(centre, goal) <= reach && is_reachable(centre)) start(cell);
-  }
-  if (queue.empty()) {
+  for_coarse_cells_within(goal, reach, [&](std::size_t cell) {
+    if (step_weight_[cell] > 0.0F && is_reachable(coarse_centre(cell))) offer(cell, 0.0F);
+  });
+  if (pending == 0) {
     const auto nearest = nearest_walkable(goal, 50.0);
     if (!nearest) return field;
-    start(*nearest);
+    offer(*nearest, 0.0F);
   }
-  while (!queue.empty()) {
-    const auto [cost, cell] = queue.top();
-    queue.pop();
-    if (cost > field.cost[cell]) continue;
-    const int column = static_cast<int>(cell) % coarse_columns_;
-    const int row = static_cast<int>(cell) / coarse_columns_;
-    for (std::size_t k = 0; k < kNeighbours.size(); ++k) {
-      const int c = column + kNeighbours[k][0];
-      const int r = row + kNeighbours[k][1];
-      if (c < 0 || r < 0 || c >= coarse_columns_ || r >= coarse_rows_) continue;
-      const auto next = static_cast<std::size_t>(r * coarse_columns_ + c);
-      const float gap = coarse_clearance_[next];
-      if (gap < static_cast<float>(kWalkable)) continue;
-      // People keep off walls where there is room.
-      const float length = static_cast<float>(kCoarse) * (k < 4 ? 1.0F : 1.41421356F);
-      const float total = cost + length * (1.0F + 2.0F * std::max(0.0F, 0.7F - gap));
-      if (total < field.cost[next]) {
-        field.cost[next] = total;
-        queue.emplace(total, static_cast<std::uint32_t>(next));
+  std::array<std::ptrdiff_t, kNeighbours.size()> offsets{};
+  for (std::size_t k = 0; k < kNeighbours.size(); ++k)
+    offsets[k] = kNeighbours[k][1] * static_cast<std::ptrdiff_t>(coarse_columns_) + kNeighbours[k][0];
+  std::vector<std::uint32_t> cells;
+  for (std::size_t bucket = 0; pending > 0; ++bucket) {
+    cells.clear();
+    cells.swap(buckets[bucket % kBuckets]);
+    pending -= cells.size();
+    for (const std::uint32_t cell : cells) {
+      const float cost = field.cost[cell];
+      if (bucket_of(cost) != bucket) continue;  // has become cheaper since
+      for (std::size_t k = 0; k < kNeighbours.size(); ++k) {
+        const auto next = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(cell) + offsets[k]);
+        if (step_weight_[next] <= 0.0F) continue;
+        const float length = static_cast<float>(kCoarse) * (k < 4 ? 1.0F : 1.41421356F);
+        offer(next, cost + length * step_weight_[next]);
       }
     }
   }
   return field;
+}
+
+template <class Action>
+void WalkableFloor::for_coarse_cells_within(Point2 point, double reach, const Action& action) const {
+  const auto bound = [](double value, int limit) {
+    return static_cast<int>(std::clamp(value / kCoarse, 0.0, static_cast<double>(limit - 1)));
+  };
+  const Point2 low = point - low_ - Point2{reach + kCoarse, reach + kCoarse};
+  const Point2 high = point - low_ + Point2{reach + kCoarse, reach + kCoarse};
+  for (int row = bound(low.y, coarse_rows_); row <= bound(high.y, coarse_rows_); ++row) {
+    for (int column = bound(low.x, coarse_columns_); column <= bound(high.x, coarse_columns_); ++column) {
+      const auto cell = static_cast<std::size_t>(row * coarse_columns_ + column);
+      if (distance(coarse_centre(cell), point) <= reach) action(cell);
+    }
+  }
 }
 
 std::optional<Point2> WalkableFloor::direction(const FlowField& field, Point2 point, double radius) const {
@@ -288,6 +321,7 @@ std::optional<Point2> WalkableFloor::direction(const FlowField& field, Point2 po
     return norm(step) > 1e-6 ? std::optional{(1.0 / norm(step)) * step} : std::nullopt;
   }
   Point2 ahead = coarse_centre(cell);
+  const double room = clearance(point);
   constexpr int kLookAhead = 8;
   for (int i = 0; i < kLookAhead && field.cost[cell] > 0.0F; ++i) {
     const int column = static_cast<int>(cell) % coarse_columns_;
@@ -302,7 +336,7 @@ std::optional<Point2> WalkableFloor::direction(const FlowField& field, Point2 po
     }
     if (best == cell) break;
     cell = best;
-    if (i > 0 && !is_clear(point, coarse_centre(cell), std::min(radius, kWalkable - 0.02))) break;
+    if (i > 0 && !is_clear(point, room, coarse_centre(cell), std::min(radius, kWalkable - 0.02))) break;
     ahead = coarse_centre(cell);
   }
   const Point2 step = ahead - point;

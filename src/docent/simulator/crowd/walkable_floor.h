@@ -28,7 +28,7 @@ class WalkableFloor {
   /// Unit vector along which the clearance grows; zero in the open.
   [[nodiscard]] Point2 away_from_walls(Point2 point) const;
   /// True when a disc can move straight from a to b.
-  [[nodiscard]] bool is_clear(Point2 a, Point2 b, double radius) const;
+  [[nodiscard]] bool is_clear(Point2 a, Point2 b, double radius) const { return is_clear(a, clearance(a), b, radius); }
   /// True where a person can stand and walk to the rest of the museum.
   [[nodiscard]] bool is_reachable(Point2 point) const;
   /// Free floor of the part that hangs together with the entrance [m2].
@@ -38,7 +38,7 @@ class WalkableFloor {
   /// A uniform draw from the reachable floor with at least `clearance`; nullopt after 2,000 misses.
   [[nodiscard]] std::optional<Point2> random_point(Rng& rng, double clearance) const;
 
-  /// Ways to all points within `reach` of `goal`, or to the nearest reachable point. O(cells log cells).
+  /// Ways to all points within `reach` of `goal`, or to the nearest reachable point. O(cells).
   [[nodiscard]] FlowField field_to(Point2 goal, double reach) const;
   /// Which way to walk from `point`: looks a few cells ahead. nullopt: no way.
   [[nodiscard]] std::optional<Point2> direction(const FlowField& field, Point2 point, double radius) const;
@@ -48,7 +48,12 @@ class WalkableFloor {
   [[nodiscard]] std::size_t coarse_cell(Point2 point) const;
   [[nodiscard]] Point2 coarse_centre(std::size_t cell) const;
   [[nodiscard]] std::optional<std::size_t> nearest_walkable(Point2 point, double limit) const;
+  /// `at_a`: the clearance there.
+  [[nodiscard]] bool is_clear(Point2 a, double at_a, Point2 b, double radius) const;
+  template <class Action>
+  void for_coarse_cells_within(Point2 point, double reach, const Action& action) const;
   void find_reachable(const World& world);
+  void weigh_steps();
 
   Point2 low_{};
   int columns_ = 0;
@@ -60,6 +65,7 @@ class WalkableFloor {
   int coarse_columns_ = 0;
   int coarse_rows_ = 0;
   std::vector<float> coarse_clearance_;
+  std::vector<float> step_weight_;  ///< of each coarse cell: what a metre into it costs; 0: nobody walks there
 };
 
 }  // namespace docent::simulator

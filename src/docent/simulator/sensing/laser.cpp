@@ -11,6 +11,8 @@ LaserScanner::LaserScanner(const LaserParams& params, const Pose2& base_from_nom
                     rng_.uniform(-params.mount_offset, params.mount_offset) * 0.7,
                     Angle::radians(rng_.uniform(-params.mount_heading, params.mount_heading))};
   base_from_scanner_ = base_from_nominal * error;
+  for (int i = 0; i < params.beams; ++i)
+    rays_.push_back(unit(Angle::radians(params.first_bearing + i * params.bearing_step)));
 }
 
 void LaserScanner::limit_reach(double range) {
@@ -68,8 +70,7 @@ const LaserScanner::Sweep& LaserScanner::sweep(const RayCaster& walls, std::span
       if (to < 0.0 || from > params_.beams - 1) continue;
       const auto last = static_cast<std::size_t>(std::min<double>(std::floor(to), params_.beams - 1));
       for (auto i = static_cast<std::size_t>(std::max(0.0, std::ceil(from))); i <= last; ++i) {
-        const double beam = params_.first_bearing + static_cast<double>(i) * params_.bearing_step;
-        const auto range = ray_distance({}, {std::cos(beam), std::sin(beam)}, centre, disc.radius);
+        const auto range = ray_distance({}, rays_[i], centre, disc.radius);
         if (range && *range < ideal_[i]) {
           ideal_[i] = *range;
           sweep_.persons[i] = static_cast<std::int32_t>(person);

@@ -60,6 +60,7 @@ class LaserScanner {
   Rng rng_;
   Sweep sweep_;
   std::vector<double> ideal_;
+  std::vector<Point2> rays_;  ///< [beams] unit vectors, scanner
 };
 
 }  // namespace docent::simulator

@@ -17,6 +17,11 @@ constexpr double kEar = 0.12;           // [m] so near must it pass the sonar
 double first_person(Point2 origin, Point2 direction, std::span<const Disc> people) {
   double range = std::numeric_limits<double>::infinity();
   for (const Disc& disc : people) {
+    const Point2 offset = disc.centre - origin;
+    const double along = dot(offset, direction);
+    const double beside = dot(offset, offset) - along * along;
+    const bool is_outside = dot(offset, offset) > disc.radius * disc.radius;
+    if (is_outside && (along < 0.0 || beside > disc.radius * disc.radius)) continue;  // most are missed
     if (const auto hit = ray_distance(origin, direction, disc.centre, disc.radius)) range = std::min(range, *hit);
   }
   return range;
