@@ -176,7 +176,7 @@ void PositionBelief::reweigh(const RangeTable& table, std::span<const BeamCosts>
     }
   }
   sea_ *= static_cast<double>(slow.sea_factor);
-  normalise(totals, teleport);
+  normalise(totals, teleport, true);
 }
 
 PositionBelief::Focus PositionBelief::focus_of(const EvidenceWeights& weights, const RowEvidence& slow) const {
@@ -277,12 +277,13 @@ void PositionBelief::flood(double mass) {
   settle();
 }
 
-void PositionBelief::normalise(const RowTotals& totals, double teleport) {
+void PositionBelief::normalise(const RowTotals& totals, double teleport, bool wants_entropy) {
   const std::size_t states = space_->states();
   const std::size_t under_sea = states - kept_.size() * static_cast<std::size_t>(space_->headings());
   const double total = totals.mass + sea_ * static_cast<double>(under_sea);
   if (!(total > 1e-300) || !std::isfinite(total)) {  // no state explains it: evidence 0, we know nothing
     sea_ = 0.0;
+    entropy_.reset();
     keep_all(static_cast<float>(1.0 / static_cast<double>(states)));
     active_states_ = states;
     active_mass_ = 1.0;
@@ -294,10 +295,11 @@ void PositionBelief::normalise(const RowTotals& totals, double teleport) {
   set_scale(scale, bias);
   sea_ = sea_ * scale + bias;
   peak_ = totals.peak * scale_ + bias_[0];
-  settle();
+  settle(wants_entropy);
 }
 
-void PositionBelief::settle() {
+void PositionBelief::settle(bool wants_entropy) {
+  entropy_.reset();
   const auto headings = static_cast<std::size_t>(space_->headings());
   active_states_ = space_->states();
   active_mass_ = 1.0;
@@ -309,10 +311,16 @@ void PositionBelief::settle() {
   census.inactive = space_->states() - kept_.size() * headings;
   census.inactive_mass = sea_ * static_cast<double>(census.inactive);
   contents_.resize(kept_.size());
-  for (std::size_t i = 0; i < kept_.size(); ++i)
-    contents_[i] = kernels_->take_census(rows_.data() + i * stride_, scale(), headings, census);
+  double sum_p_log_p = 0.0;
+  std::size_t active = 0;
+  for (std::size_t i = 0; i < kept_.size(); ++i) {
+    const float* const row = rows_.data() + i * stride_;
+    contents_[i] = kernels_->take_census(row, scale(), headings, census);
+    if (wants_entropy && contents_[i].active > 0) sum_p_log_p += kernels_->sum_p_log_p(row, scale(), active);
+  }
   if (census.inactive == 0) {
     sea_ = 0.0;
+    if (wants_entropy) entropy_ = entropy_of(sum_p_log_p, active);
     return;
   }
   sea_ = census.inactive_mass / static_cast<double>(census.inactive);
@@ -334,6 +342,7 @@ void PositionBelief::settle() {
   kept_.resize(out);
   contents_.resize(out);
   set_scale(1.0, 0.0);
+  if (wants_entropy && !wakes) entropy_ = entropy_of(sum_p_log_p, active);
   if (wakes) return wake();  // the sea has risen over the threshold: every state is above it again
   active_states_ = space_->states() - census.inactive;
   active_mass_ = std::clamp(1.0 - census.inactive_mass, 0.0, 1.0);
@@ -379,12 +388,17 @@ float PositionBelief::probability(std::size_t place, int heading) const {
 }
 
 double PositionBelief::entropy() const {
+  if (entropy_) return *entropy_;
   double sum = 0.0;
   std::size_t active = 0;
   for (std::size_t i = 0; i < kept_.size(); ++i)
-    sum -= kernels_->sum_p_log_p(rows_.data() + i * stride_, scale(), active);
-  if (sea_ > 0.0) sum -= static_cast<double>(space_->states() - active) * sea_ * std::log(sea_);
-  return sum;
+    sum += kernels_->sum_p_log_p(rows_.data() + i * stride_, scale(), active);
+  return entropy_of(sum, active);
+}
+
+double PositionBelief::entropy_of(double sum_p_log_p, std::size_t active) const {
+  if (sea_ <= 0.0) return -sum_p_log_p;
+  return -sum_p_log_p - static_cast<double>(space_->states() - active) * sea_ * std::log(sea_);
 }
 
 }  // namespace docent

@@ -145,8 +145,10 @@ class PositionBelief {
   void reweigh_in_focus(std::size_t index, const Focus& focus, const EvidenceWeights& weights, const RowEvidence& slow,
                         RowTotals& totals);
   /// Rows hold `totals`, the sea its old level: makes the whole sum to 1, and lets `teleport` of it be uniform.
-  void normalise(const RowTotals& totals, double teleport);
-  void settle();
+  /// `wants_entropy`: it is asked for next, and the rows are at hand.
+  void normalise(const RowTotals& totals, double teleport, bool wants_entropy = false);
+  void settle(bool wants_entropy = false);
+  [[nodiscard]] double entropy_of(double sum_p_log_p, std::size_t active) const;
   [[nodiscard]] RowTotals totals() const;
 
   void find_targets(int reach);
@@ -183,6 +185,7 @@ class PositionBelief {
   std::size_t active_states_ = 0;
   double active_mass_ = 1.0;
   float peak_ = 0.0F;
+  std::optional<double> entropy_;  ///< [nat], when it was found in passing
 
   AlignedVector<std::uint16_t> costs_;  ///< scratch of reweigh: [kept][stride]
   // Scratch of move.
