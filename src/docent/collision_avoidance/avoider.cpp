@@ -289,14 +289,20 @@ Avoider::Carrot Avoider::carrot(const Pose2& odom_from_base, double speed, std::
 double Avoider::steer_around(Point2 carrot, const Pose2& odom_from_base, std::span<const Obstacle> obstacles) {
   const double wanted = std::atan2(carrot.y, carrot.x);
   const double need = std::clamp(norm(carrot), 0.3, 1.5);
-  constexpr int kSteps = 16;  // 5 degrees each, to 80 degrees on either side: more is no way to the goal
+  // To 80 degrees on either side: more is no way to the goal. What stands at the body, though, leaves only ways that
+  // lead along it or off, and one that does not even begin is none.
   constexpr double kStep = 5.0 * std::numbers::pi / 180.0;
+  constexpr double kBegins = 0.04;  // [m]
+  constexpr double kNone = 2.0;
+  const bool is_hemmed = straight_free_way(wanted, obstacles, limits_.radius, need) < kBegins;
+  const int steps = is_hemmed ? 27 : 16;
   double best = wanted;
   double least = kInfinity;
-  for (int i = -kSteps; i <= kSteps; ++i) {
+  for (int i = -steps; i <= steps; ++i) {
     const double bearing = wanted + i * kStep;
-    const double lacking = 1.0 - straight_free_way(bearing, obstacles, limits_.radius, need) / need;
-    double cost = std::abs(i) * kStep + 1.4 * lacking;
+    const double way = straight_free_way(bearing, obstacles, limits_.radius, need);
+    double cost = std::abs(i) * kStep + 1.4 * (1.0 - way / need);
+    if (way < kBegins) cost += kNone;
     if (steered_in_odom_) {
       const Angle in_odom = odom_from_base.theta + Angle::radians(bearing);
       cost += 0.25 * std::abs((in_odom - *steered_in_odom_).radians());
