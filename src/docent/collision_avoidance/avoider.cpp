@@ -23,6 +23,7 @@ constexpr double kCameraPatience = 1.5;   // [s]
 constexpr double kStandsTouched = 1.0;    // [s] after a touch
 constexpr double kFlinches = 0.4;         // [s] then it may leave who touched it: away from them, nobody minds
 constexpr double kElsewhere = 0.8;        // [rad] from the touch before: another one
+constexpr double kBegins = 0.04;          // [m] of a way; one that is shorter is none
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -286,23 +287,32 @@ Avoider::Carrot Avoider::carrot(const Pose2& odom_from_base, double speed, std::
   return result;
 }
 
+bool Avoider::is_held_from_beside(double bearing, std::span<const Obstacle> obstacles) const {
+  constexpr double kAhead = 0.25 * std::numbers::pi;
+  bool is_held = false;
+  for (const auto& obstacle : obstacles) {
+    if (straight_free_way(bearing, {&obstacle, 1}, limits_.radius, 1.0) >= kBegins) continue;
+    const double off = std::abs(Angle::radians(std::atan2(obstacle.at.y, obstacle.at.x) - bearing).radians());
+    if (off < kAhead && !obstacle.is_virtual) return false;
+    is_held = true;
+  }
+  return is_held;
+}
+
 double Avoider::steer_around(Point2 carrot, const Pose2& odom_from_base, std::span<const Obstacle> obstacles) {
   const double wanted = std::atan2(carrot.y, carrot.x);
   const double need = std::clamp(norm(carrot), 0.3, 1.5);
-  // To 80 degrees on either side: more is no way to the goal. What stands at the body, though, leaves only ways that
-  // lead along it or off, and one that does not even begin is none.
+  constexpr int kSteps = 16;  // 5 degrees each, to 80 degrees on either side: more is no way to the goal
   constexpr double kStep = 5.0 * std::numbers::pi / 180.0;
-  constexpr double kBegins = 0.04;  // [m]
   constexpr double kNone = 2.0;
-  const bool is_hemmed = straight_free_way(wanted, obstacles, limits_.radius, need) < kBegins;
-  const int steps = is_hemmed ? 27 : 16;
+  const bool slides = is_held_from_beside(wanted, obstacles);
   double best = wanted;
   double least = kInfinity;
-  for (int i = -steps; i <= steps; ++i) {
+  for (int i = -kSteps; i <= kSteps; ++i) {
     const double bearing = wanted + i * kStep;
     const double way = straight_free_way(bearing, obstacles, limits_.radius, need);
     double cost = std::abs(i) * kStep + 1.4 * (1.0 - way / need);
-    if (way < kBegins) cost += kNone;
+    if (slides && way < kBegins) cost += kNone;
     if (steered_in_odom_) {
       const Angle in_odom = odom_from_base.theta + Angle::radians(bearing);
       cost += 0.25 * std::abs((in_odom - *steered_in_odom_).radians());

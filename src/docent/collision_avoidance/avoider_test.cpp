@@ -460,11 +460,19 @@ TEST(Avoider, GetsFreeWhenTheHazardsJumpNearer) {
   EXPECT_GT(world.least_wall, 0.01);
 }
 
+TEST(Avoider, SlidesOutOfAMarginThatShutsTheWayAhead) {
+  Rehearsal world;
+  world.box(-3, -4, 8, 4);
+  world.hazards = {{{-2, -0.40}, {5, -0.42}}, {{-2, 0.52}, {5, 0.50}}};  // comes nearer on the way, 0.92 m wide
+  world.drive_to({{1, 0.0}, {2, 0.0}, {3, 0.0}, {6, 0.0}});
+  world.run(30);
+  EXPECT_GT(world.map_from_base.x, 2.0);
+  EXPECT_GT(world.least_wall, 0.1);
+}
+
 TEST(Avoider, LeavesWhoTouchedItAwayFromThemOnly) {
   for (const bool from_behind : {true, false}) {
-    AvoiderParams params = Rehearsal::without_sonar();
-    params.method = "crowd_fit";
-    Rehearsal world{5, params};
+    Rehearsal world{5};
     world.box(-3, -5, 15, 5);
     world.drive_to({{1, 0}, {2, 0}, {4, 0}, {8, 0}, {12, 0}});
     world.run(1.0);
