@@ -19,7 +19,7 @@ struct RouteParams {
   double hazard_margin = 0.20;    ///< [m] kept from hazards and the area's border, beyond the radius
   double comfort = 0.8;           ///< [m] beyond which clearance costs nothing
   double comfort_cost = 2.0;      ///< extra cost, as a factor, at the least clearance
-  double obstacle_cost = 8.0;    ///< factor for cells that are blocked now by what is not in the map
+  double obstacle_cost = 8.0;     ///< factor for cells that are blocked now by what is not in the map
   double obstacle_margin = 0.35;  ///< [m] round such cells
   double obstacle_comfort = 0.9;  ///< [m] from such cells beyond which they cost nothing: a way keeps off who stands
   double obstacle_comfort_cost = 3.0;  ///< extra cost, as a factor, at the margin
