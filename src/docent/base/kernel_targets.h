@@ -6,10 +6,11 @@
 #include "docent/base/instruction_set.h"
 
 #if defined(__x86_64__)
-#include <immintrin.h>
 #if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // gcc 12's own AVX-512 header sets it off
+// gcc 12's own AVX-512 header sets it off wherever its functions are inlined: in all of a file with such kernels.
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
+#include <immintrin.h>
 #endif
 
 /// For sources that compile the same loops once for every InstructionSet: each in a namespace `plain`, `avx2` or

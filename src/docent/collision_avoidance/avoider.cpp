@@ -13,9 +13,10 @@ namespace docent {
 namespace {
 
 constexpr double kLeastReach = 3.5;       // [m] obstacles farther away do not matter to a slow robot within one cycle
-constexpr double kStepsIn = 2.5;          // [m] who stands farther away is not in the way with a step or two
+constexpr double kStepsIn = 2.5;          // [m] at walking speed
 constexpr double kBySomebody = 0.4;       // [m] from a beam that the map does not explain
 constexpr double kJudgedTogether = 0.15;  // [s]
+constexpr double kStillJudged = 0.6;      // [s] until what came into view since counts for more
 constexpr double kFastWalk = 1.5;         // [m/s] of who may come towards the robot
 constexpr double kNearlyAll = 0.9;        // of a sweep's readings: the sensor is covered or has failed
 constexpr double kManyMissing = 0.35;     // of a sweep's readings
@@ -125,12 +126,12 @@ void Avoider::add_person_beams(Time now, Time stamp, std::span<const Point2> in_
   const Time taken = local_time_.receive_handed_on("person beams", now, stamp);
   const Pose2 odom_from_base = odometry_.pose_at(taken);
   // Each laser may be judged by itself: one must not wipe out what the other has met.
-  std::erase_if(unmapped_, [&](const Unmapped& beam) { return taken - beam.taken > seconds(kJudgedTogether); });
-  for (const auto& point : in_base) unmapped_.push_back({odom_from_base * point, taken});
+  std::erase_if(unmapped_, [&](const Unmapped& beam) { return now - beam.heard > seconds(kJudgedTogether); });
+  for (const auto& point : in_base) unmapped_.push_back({odom_from_base * point, now});
   std::vector<Point2> places;
   for (const Unmapped& beam : unmapped_) places.push_back(beam.in_odom);
   near_unmapped_.emplace(places, odom_from_base.position(), kBySomebody);
-  unmapped_time_ = now;
+  unmapped_time_ = taken;
   beams_localized_ = localized;
 }
 
@@ -194,13 +195,28 @@ double Avoider::reach() const {
   return std::max(least, limits_.radius + 0.5 * speed * until_it_stands + kFastWalk * until_it_stands);
 }
 
+double Avoider::steps_in() const {
+  const double speed = std::min(max_speed_, limits_.max_speed);
+  const double until_it_stands = window_.hold() + speed / limits_.deceleration;
+  const double way = speed * window_.hold() + speed * speed / (2.0 * limits_.deceleration);
+  return std::max(kStepsIn, limits_.radius + way + params_.people.surprise * until_it_stands);
+}
+
+void Avoider::tell_nearest(std::span<const Obstacle> obstacles, const BaseLimits& limits, AvoiderDecision& decision) {
+  for (const auto& obstacle : obstacles) {
+    double& nearest = obstacle.is_virtual ? decision.nearest_virtual : decision.nearest_real;
+    nearest = std::min(nearest, limits.gap_to(obstacle.at));
+  }
+}
+
 std::vector<Obstacle> Avoider::obstacles_from(const Pose2& odom_from_base, Time when) const {
   std::vector<Obstacle> result;
   const double reach = this->reach();
   const Pose2 base_from_odom = inverse(odom_from_base);
   const auto turned = [&](Point2 in_odom) { return base_from_odom * in_odom - base_from_odom.position(); };
   if (!params_.blind_to_people) {
-    const bool judged = beams_localized_ && near_unmapped_ && when - unmapped_time_ < seconds(1.0);
+    const bool judged = beams_localized_ && near_unmapped_ && when - unmapped_time_ < seconds(kStillJudged);
+    const double steps_in = this->steps_in();
     for (const auto& point : memory_.points(when)) {
       const Point2 at = base_from_odom * point.in_odom;
       const double away = norm(at);
@@ -212,12 +228,12 @@ std::vector<Obstacle> Avoider::obstacles_from(const Pose2& odom_from_base, Time 
       const bool moves = point.velocity != Point2{};
       bool person = point.person;
       bool may_step = moves || !point.straight;
-      if (judged && !moves && (person || away < kStepsIn)) {  // what the map explains is no person
+      if (judged && !moves && (person || away < steps_in)) {  // what the map explains is no person
         may_step = near_unmapped_->is_near(point.in_odom);
         person = person && may_step;
       }
       result.push_back({at, turned(point.velocity), params_.window.real_margin, person, false});
-      result.back().may_step = may_step && away < kStepsIn;
+      result.back().may_step = may_step && away < steps_in;
     }
     for (const double bearing : memory_.blind_directions()) {
       // Nobody knows what is there: as if something were just within the margin, wherever the robot is.
@@ -440,7 +456,7 @@ void Avoider::judge_blocking(Time now, Point2 carrot, const Pose2& odom_from_bas
   decision.state = AvoiderDecision::State::blocked;
   decision.reason = blocker->is_virtual ? "a hazard is in the way" : "something is in the way";
   if (blocker->is_virtual) return;
-  const bool judged = beams_localized_ && near_unmapped_ && now - unmapped_time_ < seconds(1.0);
+  const bool judged = beams_localized_ && near_unmapped_ && now - unmapped_time_ < seconds(kStillJudged);
   const Point2 in_odom = odom_from_base * blocker->at;
   decision.unmapped_obstacle = judged ? near_unmapped_->is_near(in_odom) : blocker->person;
   if (decision.unmapped_obstacle) decision.reason = "somebody is in the way";
@@ -472,10 +488,7 @@ AvoiderDecision Avoider::decide(Time now) {
   const BaseState start = state_when_effective(now);
   const Time effective = now + seconds(limits_.latency);
   const auto obstacles = obstacles_from(start.odom_from_base, effective);
-  for (const auto& obstacle : obstacles) {
-    double& nearest = obstacle.is_virtual ? decision.nearest_virtual : decision.nearest_real;
-    nearest = std::min(nearest, limits_.gap_to(obstacle.at));
-  }
+  tell_nearest(obstacles, limits_, decision);
   if (auto why = fault(now); !why.empty()) return stand(now, std::move(decision), std::move(why));
   if (!target_ || target_->mode == AvoiderTarget::Mode::stop) return stand(now, std::move(decision), "");
   if (target_freshness_.age(now) > params_.target_timeout) return stand(now, std::move(decision), "no fresh target");
@@ -522,6 +535,7 @@ AvoiderDecision Avoider::decide(Time now) {
 std::optional<AvoiderDecision> Avoider::reflex(Time now) {
   if (odometry_.empty() || (std::abs(command_.linear) < 1e-9 && std::abs(command_.angular) < 1e-9)) return std::nullopt;
   AvoiderDecision decision;
+  decision.nearest_real = decision.nearest_virtual = reach();
   if (auto why = fault(now); !why.empty()) return stand(now, std::move(decision), std::move(why));
   if (is_touched(now, 0.2)) return stand(now, std::move(decision), "the robot was touched");
   const BaseState start = state_when_effective(now);
@@ -529,18 +543,23 @@ std::optional<AvoiderDecision> Avoider::reflex(Time now) {
   const bool stays = std::abs(start.velocity.linear) < 0.03 && std::abs(command_.linear) < 0.03;
   if (stays && limits_.outline.empty()) return std::nullopt;
   const auto obstacles = obstacles_from(start.odom_from_base, now + seconds(limits_.latency));
+  tell_nearest(obstacles, limits_, decision);
   // Less margin than at the choice, or the noise of every sweep would brake; until the next sweep, then brake.
   constexpr double kSlack = 0.03;
   constexpr double kUntilNextSweep = 0.12;
-  if (can_brake_in_time(start.velocity, command_, kUntilNextSweep, obstacles, limits_, kSlack)) {
-    if (const auto slowed = slowed_for_people(obstacles)) {
+  const auto is_safe = [&](const Velocity& command) {
+    return can_brake_in_time(start.velocity, command, kUntilNextSweep, obstacles, limits_, kSlack);
+  };
+  if (is_safe(command_)) {
+    const auto slowed = slowed_for_people(obstacles);
+    if (!slowed) return std::nullopt;
+    if (is_safe(*slowed)) {
       decision.command = *slowed;
       decision.state = AvoiderDecision::State::driving;
       decision.speed_cap = slowed->linear;
       decision.reason = "people are near";
       return finish(now, std::move(decision));
     }
-    return std::nullopt;
   }
   return stand(now, std::move(decision), "braking");
 }

@@ -123,7 +123,8 @@ class Avoider {
 
   /// One selection, every `window.cycle`. The command counts as given at `now`.
   [[nodiscard]] AvoiderDecision decide(Time now);
-  /// To be called on every scan: full braking when the present command is no longer safe against what was just seen.
+  /// To be called on every scan: full braking when the present command is no longer safe against what was just seen,
+  /// and the same arc more slowly where people are nearer than it was chosen for.
   [[nodiscard]] std::optional<AvoiderDecision> reflex(Time now);
 
   [[nodiscard]] const ObstacleMemory& memory() const { return memory_; }
@@ -145,6 +146,9 @@ class Avoider {
   [[nodiscard]] BaseState state_when_effective(Time now) const;
   /// How far [m] what may matter before the robot can stand lies at most.
   [[nodiscard]] double reach() const;
+  /// [m] from the robot: who stands farther away cannot step into its way in time.
+  [[nodiscard]] double steps_in() const;
+  static void tell_nearest(std::span<const Obstacle> obstacles, const BaseLimits& limits, AvoiderDecision& decision);
   [[nodiscard]] std::vector<Obstacle> obstacles_from(const Pose2& odom_from_base, Time when) const;
   /// @param speed  [m/s] of the robot now
   [[nodiscard]] Carrot carrot(const Pose2& odom_from_base, double speed, std::span<const Obstacle> obstacles) const;
@@ -193,11 +197,11 @@ class Avoider {
   std::optional<Pose2> odom_from_virtual_;
   struct Unmapped {
     Point2 in_odom;
-    Time taken;
+    Time heard;
   };
   std::vector<Unmapped> unmapped_;
   std::optional<NearPoints> near_unmapped_;  ///< of these
-  Time unmapped_time_{};
+  Time unmapped_time_{};                     ///< when the newest were taken
   bool beams_localized_ = false;
   std::optional<Time> touched_;
   Time touched_since_{};

@@ -58,7 +58,7 @@ struct Obstacle {
   bool person = false;  ///< slim and free-standing
   bool is_virtual = false;
   double stood = 60.0;    ///< [s] that it has been known not to move; the window does not ask
-  bool may_step = false;  ///< may be somebody, also in a throng or half hidden: they may step nearer; nor this
+  bool may_step = false;  ///< may be somebody, also in a throng or half hidden: they may step nearer; likewise
 };
 
 /// What the window shall steer for.

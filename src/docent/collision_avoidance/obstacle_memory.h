@@ -38,7 +38,7 @@ struct ObstaclePoint {
   Point2 in_odom;     ///< [m]
   Point2 velocity{};  ///< [m/s] of the moving thing it belongs to
   Time seen;
-  bool person = false;    ///< part of something slim that stands free: likely a person
+  bool person = false;    ///< slim and free-standing, or comes nearer amid a throng: likely a person
   bool straight = false;  ///< part of a long straight piece: nobody
   bool confirmed = true;  ///< false: a lone reading that the sweep before knew nothing of; does not count yet
   int missed = 0;         ///< later sweeps that looked through it

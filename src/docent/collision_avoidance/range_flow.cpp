@@ -18,6 +18,8 @@ constexpr std::size_t kLeastPlaces = 3;
 
 void RangeFlow::add(Time stamp, const Pose2& odom_from_sensor, double first_bearing, double bearing_step,
                     std::span<const float> ranges, std::span<const Point2> places, std::span<const int> beams) {
+  // A clock that stands still or was set back tells of no motion.
+  if (!looks_.empty() && stamp <= looks_.back().stamp) looks_.clear();
   looks_.push_back({stamp,
                     odom_from_sensor,
                     first_bearing,

@@ -7,9 +7,9 @@
 
 namespace docent {
 
-/// Which points of a sweep lie on straight pieces of at least kLeastLength: walls and long sides of things, never
+/// Which points of a sweep lie on straight pieces of at least 0.75 m: walls and long sides of things, never
 /// people. Iterative end point fit [BorgesAldon2004]: a piece is split at its point farthest from the line between its
-/// ends, until none lies farther than kOff.
+/// ends, until none lies farther than 7 cm.
 /// @param points  in the order of their bearings
 /// @param ranges  [points] [m] from the sensor
 /// O(points * log points) where pieces are halved, O(points^2) at worst.

@@ -182,7 +182,9 @@ TEST_F(MotionModules, TheBaseStopsWhenAvoidDiesAndGoesOnAfterItsReturn) {
 TEST_F(MotionModules, BrakingCommandsWaitForNoTick) {
   kill(avoid, avoid_bus);
   auto drive = world->publisher(topics::kDrive);
-  const auto command = [&](double linear) { drive.publish({{to_message(world->now()), "base_link"}, linear, 0.0}); };
+  const auto command = [&](double linear, double angular = 0.0) {
+    drive.publish({{to_message(world->now()), "base_link"}, linear, angular});
+  };
   command(0.5);
   run(0.11);  // the base was told at the last tick, 10 ms ago
   ASSERT_EQ(wanted.linear.x, 0.5);
@@ -192,9 +194,18 @@ TEST_F(MotionModules, BrakingCommandsWaitForNoTick) {
   command(0.2);
   run(0.01);
   EXPECT_EQ(wanted.linear.x, 0.2);
+  command(-0.3);
+  run(0.01);
+  EXPECT_EQ(wanted.linear.x, -0.3);
   command(0.0);
   run(0.01);
   EXPECT_EQ(wanted.linear.x, 0.0);
+  command(0.0, 1.0);
+  run(0.06);
+  ASSERT_EQ(wanted.angular.z, 1.0);
+  command(0.0);
+  run(0.001);
+  EXPECT_EQ(wanted.angular.z, 0.0);
 }
 
 TEST_F(MotionModules, StandWhenALaserOrTheHazardsOrThePlanFallSilent) {

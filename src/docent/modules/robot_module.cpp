@@ -34,10 +34,12 @@ class RobotModule final : public Module {
         transforms_{bus_.publisher(topics::kTransforms)} {
     publish_mounts(context.config.body());
     bus_.subscribe<docent_msgs::Drive>(topics::kDrive, [this](const docent_msgs::Drive& drive) {
-      const double before = std::abs(watchdog_.output(bus_.now()).linear);
+      const auto before = watchdog_.output(bus_.now());
       watchdog_.receive(bus_.now(), {drive.linear, drive.angular});
       // Braking waits for no tick: people do not either.
-      if (std::abs(watchdog_.output(bus_.now()).linear) < before) command_base();
+      const auto after = watchdog_.output(bus_.now());
+      const bool brakes = std::abs(after.linear) < std::abs(before.linear) || after.linear * before.linear < 0.0;
+      if (brakes || (after == CommandWatchdog::Command{} && before != after)) command_base();
     });
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const nav_msgs::Odometry& odometry) {
       odometry_received_ = bus_.now();

@@ -1,5 +1,6 @@
 #include "docent/localization/belief/checkpoint.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <span>
@@ -37,6 +38,8 @@ struct Stored {
   }
 };
 
+constexpr double kMostOfAnything = 1e4;  // [m], [rad] and their squares: no building is so wide
+
 std::string list_of(std::span<const double> values) {
   std::string text = "[";
   for (const double value : values) {
@@ -71,7 +74,10 @@ Result<LocalizerCheckpoint> load_localizer_checkpoint(const std::filesystem::pat
                                  {stored.odometry[0], stored.odometry[1], Angle::radians(stored.odometry[2])},
                                  {}};
   for (const StoredMode& mode : stored.modes) {
-    if (mode.pose.size() != 3 || mode.covariance.size() != 9 || !(mode.mass > 0.0 && mode.mass <= 1.0))
+    const auto is_sane = [](double value) { return std::abs(value) < kMostOfAnything; };  // false for NaN
+    if (mode.pose.size() != 3 || mode.covariance.size() != 9 || !(mode.mass > 0.0 && mode.mass <= 1.0) ||
+        !std::all_of(mode.pose.begin(), mode.pose.end(), is_sane) ||
+        !std::all_of(mode.covariance.begin(), mode.covariance.end(), is_sane))
       return fail(path.string() + ": not a checkpoint");
     BeliefMode restored{{mode.pose[0], mode.pose[1], Angle::radians(mode.pose[2])}, {}, mode.mass};
     std::copy(mode.covariance.begin(), mode.covariance.end(), restored.covariance.begin());
