@@ -303,7 +303,7 @@ Avoider::Carrot Avoider::carrot(const Pose2& odom_from_base, double speed, std::
   return result;
 }
 
-bool Avoider::is_held_from_beside(double bearing, std::span<const Obstacle> obstacles) const {
+bool Avoider::must_slide_off(double bearing, std::span<const Obstacle> obstacles) const {
   constexpr double kAhead = 0.25 * std::numbers::pi;
   bool is_held = false;
   for (const auto& obstacle : obstacles) {
@@ -321,7 +321,7 @@ double Avoider::steer_around(Point2 carrot, const Pose2& odom_from_base, std::sp
   constexpr int kSteps = 16;  // 5 degrees each, to 80 degrees on either side: more is no way to the goal
   constexpr double kStep = 5.0 * std::numbers::pi / 180.0;
   constexpr double kNone = 2.0;
-  const bool slides = is_held_from_beside(wanted, obstacles);
+  const bool slides = must_slide_off(wanted, obstacles);
   double best = wanted;
   double least = kInfinity;
   for (int i = -kSteps; i <= kSteps; ++i) {

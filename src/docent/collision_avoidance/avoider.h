@@ -154,7 +154,7 @@ class Avoider {
   [[nodiscard]] Carrot carrot(const Pose2& odom_from_base, double speed, std::span<const Obstacle> obstacles) const;
   /// True when the way does not even begin because of a hazard's margin, or of what is sensed beside the robot: it must
   /// slide off. What stands ahead is another matter: that may go, and it waits.
-  [[nodiscard]] bool is_held_from_beside(double bearing, std::span<const Obstacle> obstacles) const;
+  [[nodiscard]] bool must_slide_off(double bearing, std::span<const Obstacle> obstacles) const;
   [[nodiscard]] double steer_around(Point2 carrot, const Pose2& odom_from_base, std::span<const Obstacle> obstacles);
   /// What to steer for, by the method; caps the speed.
   [[nodiscard]] Steering steering_for(const Carrot& ahead, const BaseState& start, std::span<const Obstacle> obstacles,
