@@ -68,7 +68,7 @@ void ours(benchmark::State& state, FieldKernel kernel) {
     x += static_cast<double>(next.x[i]) / static_cast<double>(next.size());
     y += static_cast<double>(next.y[i]) / static_cast<double>(next.size());
   }
-  state.counters["off_cm"] = 100.0 * distance({x, y}, testing::kHallPose.position());
+  state.counters["off_cm"] = 100.0 * distance(Point2{x, y}, testing::kHallPose.position());
 }
 
 mrpt::maps::COccupancyGridMap2D::Ptr mrpt_map() {
@@ -128,7 +128,7 @@ void mrpts(benchmark::State& state) {
   }
   mrpt::poses::CPose2D mean;
   particles.getMean(mean);
-  state.counters["off_cm"] = 100.0 * distance({mean.x(), mean.y()}, testing::kHallPose.position());
+  state.counters["off_cm"] = 100.0 * distance(Point2{mean.x(), mean.y()}, testing::kHallPose.position());
 }
 
 [[maybe_unused]] const int kRegistered = [] {
