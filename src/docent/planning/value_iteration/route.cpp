@@ -240,15 +240,18 @@ double RoutePlanner::cost_from(Point2 start) const {
   return cell ? static_cast<double>(planner_.value(*cell)) : std::numeric_limits<double>::infinity();
 }
 
-/// True when no cell between the points is dearer than `most_cost`.
-bool RoutePlanner::sees(Point2 from, Point2 to, float most_cost) const {
+/// Cost of the straight line between the points; infinity where a cell on it is dearer than `most_cost`.
+double RoutePlanner::line_cost(Point2 from, Point2 to, float most_cost) const {
   const double length = distance(from, to);
   const int steps = std::max(1, static_cast<int>(std::ceil(length / (0.4 * planner_.frame().resolution))));
+  double sum = 0.0;
   for (int i = 0; i <= steps; ++i) {
     const CellIndex cell = planner_.frame().cell_at(from + (static_cast<double>(i) / steps) * (to - from));
-    if (!planner_.frame().holds(cell) || planner_.cost(cell) > most_cost) return false;
+    if (!planner_.frame().holds(cell) || planner_.cost(cell) > most_cost)
+      return std::numeric_limits<double>::infinity();
+    sum += (i == 0 || i == steps ? 0.5 : 1.0) * static_cast<double>(planner_.cost(cell));
   }
-  return true;
+  return sum / steps * length / planner_.frame().resolution;
 }
 
 /// Where on the way held `start` is; its end if it is not near.
@@ -376,18 +379,23 @@ std::vector<Point2> RoutePlanner::way(Point2 start) const {
   for (const CellIndex& cell : cells_from(start)) corners.push_back(planner_.frame().centre(cell));
   if (corners.empty()) return {};
 
-  // Shortcuts between points that see each other over floor no dearer than the way itself, at most 2 m long: the
-  // staircase of the grid becomes straight, and the clearance that the costs bought stays.
+  // Shortcuts over floor that is nowhere dearer than the way and costs no more, at most 2 m long: the staircase of the
+  // grid becomes straight, and the clearance that the costs bought stays. Where the way begins beside somebody, all of
+  // it is dear there: it is the sum that keeps the shortcut from leading through them.
   std::vector<Point2> way;
   std::size_t at = 0;
   way.push_back(corners[0]);
+  const auto cost_at_corner = [&](std::size_t i) { return planner_.cost(planner_.frame().cell_at(corners[i])); };
   while (at + 1 < corners.size()) {
     std::size_t next = at + 1;
-    float dearest = std::max(planner_.cost(planner_.frame().cell_at(corners[at])),
-                             planner_.cost(planner_.frame().cell_at(corners[next])));
-    for (std::size_t far = at + 2; far < corners.size() && distance(corners[at], corners[far]) <= 2.0; ++far) {
-      dearest = std::max(dearest, planner_.cost(planner_.frame().cell_at(corners[far])));
-      if (sees(corners[at], corners[far], dearest)) next = far;
+    float dearest = cost_at_corner(at);
+    double cost = 0.0;
+    for (std::size_t far = at + 1; far < corners.size() && distance(corners[at], corners[far]) <= 2.0; ++far) {
+      dearest = std::max(dearest, cost_at_corner(far));
+      cost += 0.5 * static_cast<double>(cost_at_corner(far - 1) + cost_at_corner(far)) *
+              distance(corners[far - 1], corners[far]) / planner_.frame().resolution;
+      constexpr double kRounding = 1.001;
+      if (line_cost(corners[at], corners[far], dearest) <= kRounding * cost) next = far;
     }
     const double length = distance(corners[at], corners[next]);
     const int pieces = std::max(1, static_cast<int>(std::lround(length / 0.2)));

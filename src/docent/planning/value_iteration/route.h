@@ -110,7 +110,7 @@ class RoutePlanner {
   void apply_costs();
   /// The obstacles changed within these cells, corners included.
   void apply_obstacles(CellIndex low, CellIndex high);
-  [[nodiscard]] bool sees(Point2 from, Point2 to, float most_cost) const;
+  [[nodiscard]] double line_cost(Point2 from, Point2 to, float most_cost) const;
   [[nodiscard]] std::size_t nearest_held(Point2 start) const;
   [[nodiscard]] double cost_of(std::span<const CellIndex> way, bool unmoved) const;
   [[nodiscard]] std::vector<std::size_t> list_beside_chosen();

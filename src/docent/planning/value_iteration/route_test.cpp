@@ -81,6 +81,25 @@ TEST(RoutePlanner, GoesRoundWhatStandsInTheWayNow) {
   EXPECT_LT(least_distance(planner.way({1, 3}), {3, 3}), 0.2);
 }
 
+TEST(RoutePlanner, WhoStandsAtTheRobotIsGoneRoundToo) {
+  // The robot touches a row of three cells: where its way begins all floor is dear, and no shortcut leads through them.
+  OccupancyGrid hall;
+  hall.frame = {180, 120, 0.05, {0, 0}};
+  hall.cells.assign(hall.frame.size(), 0);
+  RoutePlanner planner{hall, {}, {}, {}};
+  planner.set_goal({8, 3}, 0.2);
+  const GridFrame& frame = planner.frame();
+  std::vector<bool> obstacles(frame.size());
+  const CellIndex body = frame.cell_at({3, 3});
+  for (const int off : {-1, 0, 1}) obstacles[frame.index({body.column, body.row + off})] = true;
+  for (const bool settled : {false, true}) {
+    planner.set_obstacles(obstacles, settled ? obstacles : std::vector<bool>{});
+    ASSERT_TRUE(planner.iterate(1000));
+    const Point2 start = frame.centre(body) - Point2{0.3, 0.0};
+    EXPECT_GT(least_distance(planner.way(start), frame.centre(body)), 0.25) << settled;
+  }
+}
+
 TEST(RoutePlanner, PlansAsIfAllObstaclesHadBeenSetAtOnce) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     Rng rng{seed};

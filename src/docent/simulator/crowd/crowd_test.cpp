@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "docent/simulator/crowd/steering.h"
+
 namespace docent::simulator {
 namespace {
 
@@ -143,6 +145,34 @@ TEST(Crowd, PeopleDoNotWalkIntoAStandingRobotUnlessTheyPush) {
     for (const Person& person : run.crowd.people()) {
       if (person.is_inattentive) continue;  // children who run
       ASSERT_GT(distance(person.position, run.robot.position), run.robot.radius + person.radius - 1e-6) << run.now;
+    }
+  }
+}
+
+TEST(Crowd, WhoHasWalkedIntoSomethingGetsRoundIt) {
+  // Something stands before them, a hand's breadth to a side, and they want to where it stands in the way of.
+  const World world = two_halls();
+  const WalkableFloor floor{world};
+  for (const double aside : {-0.05, 0.0, 0.05}) {
+    for (const double speed : {0.5, 0.9, 1.3}) {
+      Person person;
+      person.position = {3.0, 4.0};
+      const Point2 thing{3.52, 4.0 + aside};
+      double since = 0.0;
+      Point2 from = person.position;
+      for (double now = 0.0; now < 15.0 && person.position.x < 4.5; now += 0.1) {
+        if (distance(person.position, from) > 0.4) {
+          from = person.position;
+          since = now;
+        }
+        const Point2 goal{6.0, 4.0};
+        const Point2 desired = (speed / distance(person.position, goal)) * (goal - person.position);
+        const Neighbour neighbour{thing - person.position, {}, 0.265 + 0.25 + 0.35, 2.0};
+        person.velocity = choose_velocity(person, desired, {&neighbour, 1}, floor, now - since);
+        person.position = person.position + 0.1 * person.velocity;
+        ASSERT_GT(distance(person.position, thing), 0.45);
+      }
+      EXPECT_GE(person.position.x, 4.5) << "aside " << aside << ", speed " << speed;
     }
   }
 }

@@ -118,7 +118,8 @@ void Crowd::decide(std::size_t index, double now) {
     const double space = person.activity == Activity::run ? 0.15 : keeps_close ? 0.25 : 0.35;
     neighbours[count++] = {sight.offset, robot_.velocity, robot_.radius + person.radius + space, 2.0};
   }
-  person.wanted = choose_velocity(person, desired, std::span{neighbours}.first(count), floor_);
+  person.wanted =
+      choose_velocity(person, desired, std::span{neighbours}.first(count), floor_, now - person.progress_at);
 }
 
 void Crowd::return_to_strolling(Person& person, double now, bool bored) {

@@ -41,16 +41,18 @@ inline std::optional<double> touch_within(Point2 offset, Point2 relative_velocit
 
 /// What a velocity costs; some cost of at least `bound` as soon as it is known to be no less.
 double cost_of(Point2 velocity, Point2 desired, const Person& person, std::span<const Threat> threats,
-               const WalkableFloor& floor, double bound) {
+               const WalkableFloor& floor, double waited, double bound) {
   const double speed = norm(desired);
   double cost = 0.15 * norm(velocity - person.velocity);
   if (speed < 0.05) {
     cost += norm(velocity);
   } else {
-    // A step aside costs less than waiting: else two who meet head on would stand for ever.
+    // A step aside costs less than waiting: else two who meet head on would stand for ever. Who has waited for some
+    // seconds goes back a little, too, to get round what they stand against.
     const double forward = dot(velocity, desired) / speed;
     const double sideways = std::abs(cross(velocity, desired)) / speed;
-    cost += (speed - forward) + 0.35 * sideways + 0.6 * std::max(0.0, 0.4 * speed - norm(velocity));
+    cost += (speed - forward) + 0.35 * sideways +
+            (0.6 + 0.3 * std::min(waited, 4.0)) * std::max(0.0, 0.4 * speed - norm(velocity));
   }
   for (const Threat& threat : threats) {
     if (cost >= bound) return cost;
@@ -84,7 +86,7 @@ std::optional<double> time_to_touch(Point2 offset, Point2 relative_velocity, dou
 }
 
 Point2 choose_velocity(const Person& person, Point2 desired, std::span<const Neighbour> neighbours,
-                       const WalkableFloor& floor) {
+                       const WalkableFloor& floor, double waited) {
   const double wanted_speed = norm(desired);
   if (wanted_speed < 0.05) {
     // Who stands moves only when something comes at them.
@@ -98,9 +100,9 @@ Point2 choose_velocity(const Person& person, Point2 desired, std::span<const Nei
   std::transform(neighbours.begin(), neighbours.end(), room.begin(), [](const Neighbour& n) { return Threat{n}; });
   const auto threats = std::span<const Threat>{room}.first(neighbours.size());
   Point2 best = desired;
-  double best_cost = cost_of(desired, desired, person, threats, floor, std::numeric_limits<double>::infinity());
+  double best_cost = cost_of(desired, desired, person, threats, floor, waited, std::numeric_limits<double>::infinity());
   const auto consider = [&](Point2 velocity) {
-    const double cost = cost_of(velocity, desired, person, threats, floor, best_cost);
+    const double cost = cost_of(velocity, desired, person, threats, floor, waited, best_cost);
     if (cost < best_cost - 1e-9) {
       best_cost = cost;
       best = velocity;

@@ -23,8 +23,9 @@ inline constexpr std::size_t kMostNeighbours = 14;
 
 /// The velocity that a person takes to move as desired and yet touch nobody: the best of a small fan of velocities
 /// round the desired one, each judged by its time to touch (as people do) and by the room to walls.
+/// @param waited  [s] since they last got on: patience ends
 /// O(candidates * neighbours), deterministic. @pre at most kMostNeighbours
 [[nodiscard]] Point2 choose_velocity(const Person& person, Point2 desired, std::span<const Neighbour> neighbours,
-                                     const WalkableFloor& floor);
+                                     const WalkableFloor& floor, double waited);
 
 }  // namespace docent::simulator
