@@ -24,6 +24,8 @@ constexpr double kReentry = 0.5;          // [m]
 constexpr std::size_t kSample = 256;      // poses from which the limits are guessed
 constexpr std::size_t kFewPoses = 1024;   // not worth a guess
 constexpr double kAmple = 4.0;            // times the mass that is wanted: so much may the sample be off
+constexpr int kTurned = 6;                // directions, between one belief and the next
+constexpr int kDriven = 8;                // bins
 
 std::uint8_t bin_of(double range) {
   return static_cast<std::uint8_t>(
@@ -293,7 +295,20 @@ void VirtualMeasurements::lower_jointly(double allowed) {
   }
 }
 
-void VirtualMeasurements::guess_limits() {
+void VirtualMeasurements::remember_limits() { std::copy_n(limits_.begin(), kDirections, last_limits_.begin()); }
+
+void VirtualMeasurements::recall_limits() {
+  for (int i = 0; i < kDirections; ++i) {
+    int farthest = 0;
+    for (int near = i - kTurned; near <= i + kTurned; ++near)
+      farthest = std::max<int>(farthest, last_limits_[static_cast<std::size_t>(wrapped(near))]);
+    const auto direction = static_cast<std::size_t>(i);
+    limits_[direction] = limits_[direction + kDirections] =
+        static_cast<std::uint8_t>(std::min(farthest + kDriven, kBins - 1));
+  }
+}
+
+void VirtualMeasurements::sample_limits() {
   limits_.fill(kBins - 1);
   if (sightings_.size() < kFewPoses) return;
   clear_histogram();
@@ -330,15 +345,22 @@ VirtualMeasurements::Scan VirtualMeasurements::measure(std::span<const WeightedP
   const bool leave_out = possible >= (1.0 - params_.max_impossible) * all;
   if (leave_out) std::erase_if(sightings_, [&](const Sighting& sighting) { return !rows_[sighting.row].possible; });
 
-  guess_limits();
   double total = 0.0;
-  for (bool is_enough = false; !is_enough;) {
+  const auto is_reached = [&] {
     total = count(rest, leave_out) + (leave_out ? possible : all);
     const bool is_plain = *std::min_element(limits_.begin(), limits_.begin() + kDirections) == kBins - 1;
     for (const auto& sighting : sightings_) is_plain ? count(sighting) : count_within_limits(sighting);
-    is_enough = lower_limits((1.0 - params_.confidence) * total);
-    if (!is_enough) limits_.fill(kBins - 1);  // the guess was too low somewhere: once more, and everything
+    return lower_limits((1.0 - params_.confidence) * total);
+  };
+  recall_limits();
+  if (!is_reached()) {  // a guess was too low somewhere: the next one, and then everything
+    sample_limits();
+    if (!is_reached()) {
+      limits_.fill(kBins - 1);
+      is_reached();
+    }
   }
+  remember_limits();
   if (params_.jointly) lower_jointly((1.0 - params_.confidence) * total);
   for (std::size_t i = 0; i < kDirections; ++i) scan.ranges[i] = kBin * limits_[i];
   return scan;

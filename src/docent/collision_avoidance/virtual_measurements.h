@@ -70,7 +70,8 @@ class VirtualMeasurements {
   /// Poses inside hazards or outside the area are left out, as the robot cannot be there, unless they are most of the
   /// belief. `rest` counts with its nearest hazard in every direction. An empty belief gives zeros.
   ///
-  /// A sample of the poses tells in which bins the hundredth must lie, with room to spare. All poses that see farther
+  /// The belief before, and when that was quite another a sample of the poses, tells in which bins the hundredth must
+  /// lie, with room to spare. All poses that see farther
   /// are passed over, sixteen directions at a time, and few get as far as the histogram. Where the hundredth is not
   /// reached within the guess, everything is counted: the result is that of the plain histogram. O(poses * kDirections
   /// / 16), at worst O(poses * kDirections); about 10 us once for every new position.
@@ -106,7 +107,9 @@ class VirtualMeasurements {
   double count(std::span<const WeightedSquare> rest, bool leave_out);
   void count(const Sighting& sighting);
   void count_within_limits(const Sighting& sighting);
-  void guess_limits();
+  void remember_limits();
+  void recall_limits();  ///< those of the belief before, with room for what the robot has driven and turned
+  void sample_limits();
   /// Sets each limit to the bin where the counted mass reaches `allowed`. False: it does not within some former limit.
   bool lower_limits(double allowed);
   [[nodiscard]] std::size_t last_limit() const;
@@ -139,6 +142,7 @@ class VirtualMeasurements {
   /// For each of the robot's directions the last bin that still matters; twice in succession, as rows may start
   /// anywhere.
   std::array<std::uint8_t, 2 * kDirections + kStride> limits_{};
+  std::array<std::uint8_t, kDirections> last_limits_{};
 };
 
 }  // namespace docent
