@@ -427,11 +427,14 @@ std::optional<Velocity> Avoider::slowed_for_people(std::span<const Obstacle> obs
   if (params_.method == "dynamic_window" || command_.linear <= params_.people.harmless) return std::nullopt;
   const double curvature = std::clamp(command_.angular / command_.linear, -kSharpest, kSharpest);
   double speed = command_.linear;
+  BrakingWay braking{speed, curvature, limits_, params_.people};
   for (const auto& obstacle : obstacles) {
     if (!obstacle.may_step && !obstacle.person && obstacle.velocity == Point2{}) continue;
     const PersonPoint person{obstacle.at, obstacle.velocity, limits_.radius + obstacle.margin};
-    while (speed > params_.people.harmless && !is_forgivable(person, speed, curvature, limits_, params_.people))
+    while (speed > params_.people.harmless && !braking.is_forgivable(person)) {
       speed -= kStep;
+      braking = {speed, curvature, limits_, params_.people};
+    }
   }
   // The choice may be so much too bold by noise alone.
   if (speed > command_.linear - 1.5 * kStep) return std::nullopt;
