@@ -185,18 +185,11 @@ double VirtualMeasurements::count(std::span<const WeightedSquare> rest, bool lea
   return counted;
 }
 
-void VirtualMeasurements::count(const Sighting& sighting) {
-  const std::uint8_t* bins = rows_[sighting.row].bins.data();
-  double* masses = histogram_.data();
-  const int split = kDirections - sighting.first;
-  const auto row = [](std::uint8_t bin) { return static_cast<std::ptrdiff_t>(bin) * kDirections; };
-  for (int i = 0; i < split; ++i, ++masses) masses[row(bins[sighting.first + i])] += sighting.mass;
-  for (int i = 0; i < sighting.first; ++i, ++masses) masses[row(bins[i])] += sighting.mass;
-}
-
 void VirtualMeasurements::count_within_limits(const Sighting& sighting) {
   const std::uint8_t* bins = rows_[sighting.row].bins.data();
   const std::uint8_t* limits = limits_.data() + (kDirections - sighting.first);
+  // The last bin is never asked for: most of what is seen lies there.
+  constexpr std::uint8_t kLastAsked = kBins - 2;
   const auto add = [&](int direction) {
     const int ahead = direction - sighting.first;
     const int robots = ahead < 0 ? ahead + kDirections : ahead;
@@ -205,11 +198,13 @@ void VirtualMeasurements::count_within_limits(const Sighting& sighting) {
 #if defined(__x86_64__)
   constexpr int kVector = sizeof(__m128i);
   constexpr int kWord = 64;
+  const __m128i last_asked = _mm_set1_epi8(static_cast<char>(kLastAsked));
   for (int first = 0; first < kStride; first += kWord) {
     std::uint64_t matters = 0;
     for (int part = 0; part < kWord; part += kVector) {
       const __m128i seen = _mm_loadu_si128(reinterpret_cast<const __m128i*>(bins + first + part));
-      const __m128i limit = _mm_loadu_si128(reinterpret_cast<const __m128i*>(limits + first + part));
+      const __m128i limit =
+          _mm_min_epu8(_mm_loadu_si128(reinterpret_cast<const __m128i*>(limits + first + part)), last_asked);
       const auto within = static_cast<unsigned>(_mm_movemask_epi8(_mm_cmpeq_epi8(_mm_min_epu8(seen, limit), seen)));
       matters |= std::uint64_t{within} << static_cast<unsigned>(part);
     }
@@ -217,7 +212,7 @@ void VirtualMeasurements::count_within_limits(const Sighting& sighting) {
   }
 #else
   for (int direction = 0; direction < kDirections; ++direction) {
-    if (bins[direction] <= limits[direction]) add(direction);
+    if (bins[direction] <= std::min(limits[direction], kLastAsked)) add(direction);
   }
 #endif
 }
@@ -315,7 +310,7 @@ void VirtualMeasurements::sample_limits() {
   double total = 0.0;
   const std::size_t step = sightings_.size() / kSample;
   for (std::size_t i = step / 2; i < sightings_.size(); i += step) {
-    count(sightings_[i]);
+    count_within_limits(sightings_[i]);
     total += sightings_[i].mass;
   }
   lower_limits(kAmple * (1.0 - params_.confidence) * total);
@@ -348,8 +343,7 @@ VirtualMeasurements::Scan VirtualMeasurements::measure(std::span<const WeightedP
   double total = 0.0;
   const auto is_reached = [&] {
     total = count(rest, leave_out) + (leave_out ? possible : all);
-    const bool is_plain = *std::min_element(limits_.begin(), limits_.begin() + kDirections) == kBins - 1;
-    for (const auto& sighting : sightings_) is_plain ? count(sighting) : count_within_limits(sighting);
+    for (const auto& sighting : sightings_) count_within_limits(sighting);
     return lower_limits((1.0 - params_.confidence) * total);
   };
   recall_limits();

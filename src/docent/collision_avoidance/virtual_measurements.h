@@ -105,7 +105,6 @@ class VirtualMeasurements {
   void sight(std::span<const WeightedPose> poses);
   /// The first: fills the histogram as far as the limits reach. @returns the mass that was counted
   double count(std::span<const WeightedSquare> rest, bool leave_out);
-  void count(const Sighting& sighting);
   void count_within_limits(const Sighting& sighting);
   void remember_limits();
   void recall_limits();  ///< those of the belief before, with room for what the robot has driven and turned
