@@ -1,6 +1,7 @@
 #include "docent/localization/markov/position_summary.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -47,10 +48,38 @@ std::vector<Entry> likeliest(const PositionBelief& belief, const SummaryParams& 
   return entries;
 }
 
-double sum_of(const PositionBelief::Row& row) {
-  double sum = 0.0;
-  for (const float value : row) sum += static_cast<double>(value);
-  return sum;
+/// Sums of rows, kTogether at a time: each in the order of its headings, but none waits for the other.
+constexpr std::size_t kTogether = 4;
+std::array<double, kTogether> sums_of(const PositionBelief& belief, const std::array<std::size_t, kTogether>& rows) {
+  const std::array some{belief.row(rows[0]), belief.row(rows[1]), belief.row(rows[2]), belief.row(rows[3])};
+  std::array<double, kTogether> sums{};
+  for (std::size_t h = 0; h < some[0].size(); ++h)
+    for (std::size_t k = 0; k < kTogether; ++k) sums[k] += static_cast<double>(some[k][h]);
+  return sums;
+}
+
+/// [kept] mass of each row.
+std::vector<double> row_masses(const PositionBelief& belief) {
+  const float least = least_listed(belief);
+  std::vector<double> masses(belief.kept_places().size());
+  std::array<std::size_t, kTogether> waiting{};
+  std::size_t count = 0;
+  const auto add_up = [&] {
+    const auto sums = sums_of(belief, waiting);
+    for (std::size_t k = 0; k < count; ++k) masses[waiting[k]] = sums[k];
+    count = 0;
+  };
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    // From what is listed nothing but rounding may be left.
+    if (const auto known = belief.row_peak(i) > least ? std::nullopt : belief.row_mass(i)) {
+      masses[i] = *known;
+      continue;
+    }
+    waiting[count++] = i;
+    if (count == kTogether) add_up();
+  }
+  if (count > 0) add_up();
+  return masses;
 }
 
 /// Mass in each coarse cell that no listed state has.
@@ -60,7 +89,7 @@ void fill_rest(const PositionBelief& belief, const std::vector<Entry>& listed, c
   summary.rest_cell_size = coarse.size;
   summary.rest_columns = coarse.columns;
   summary.rest_rows = coarse.rows;
-  const float least = least_listed(belief);
+  const std::vector<double> masses = row_masses(belief);
   std::vector<double> mass(coarse.places.size(), 0.0);
   std::vector<std::int32_t> under_sea = coarse.places;
   const auto cell_of = [&](std::int32_t place) {
@@ -69,9 +98,7 @@ void fill_rest(const PositionBelief& belief, const std::vector<Entry>& listed, c
   for (std::size_t i = 0; i < belief.kept_places().size(); ++i) {
     const std::size_t cell = cell_of(belief.kept_places()[i]);
     --under_sea[cell];
-    // From what is listed nothing but rounding may be left.
-    const auto known = belief.row_peak(i) > least ? std::nullopt : belief.row_mass(i);
-    mass[cell] += known ? *known : sum_of(belief.row(i));
+    mass[cell] += masses[i];
   }
   const double sea = belief.sea_level() * belief.space().headings();
   for (std::size_t cell = 0; cell < mass.size(); ++cell) mass[cell] += sea * static_cast<double>(under_sea[cell]);
