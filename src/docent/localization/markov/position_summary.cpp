@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <optional>
+#include <span>
 
 namespace docent {
 
@@ -28,12 +31,16 @@ float least_listed(const PositionBelief& belief) {
 
 std::vector<Entry> likeliest(const PositionBelief& belief, const SummaryParams& params) {
   const float least = least_listed(belief);
+  const std::vector<float> levels(belief.row_stride(), least);
   std::vector<Entry> entries;
   for (std::size_t i = 0; i < belief.kept_places().size(); ++i) {
     if (belief.row_peak(i) <= least) continue;
     const auto row = belief.row(i);
-    for (std::size_t h = 0; h < row.size(); ++h)
-      if (row[h] > least) entries.push_back({row[h], belief.kept_places()[i], static_cast<std::int32_t>(h)});
+    for (std::uint64_t blocks = belief.blocks_above(i, levels); blocks != 0; blocks &= blocks - 1) {
+      const std::size_t first = static_cast<std::size_t>(std::countr_zero(blocks)) * kRowBlock;
+      for (std::size_t h = first; h < std::min(first + kRowBlock, row.size()); ++h)
+        if (row[h] > least) entries.push_back({row[h], belief.kept_places()[i], static_cast<std::int32_t>(h)});
+    }
   }
   if (entries.size() > params.most_cells) {
     std::nth_element(entries.begin(), entries.begin() + static_cast<std::ptrdiff_t>(params.most_cells), entries.end(),
@@ -48,24 +55,21 @@ std::vector<Entry> likeliest(const PositionBelief& belief, const SummaryParams& 
   return entries;
 }
 
-/// Sums of rows, kTogether at a time: each in the order of its headings, but none waits for the other.
-constexpr std::size_t kTogether = 4;
-std::array<double, kTogether> sums_of(const PositionBelief& belief, const std::array<std::size_t, kTogether>& rows) {
-  const std::array some{belief.row(rows[0]), belief.row(rows[1]), belief.row(rows[2]), belief.row(rows[3])};
-  std::array<double, kTogether> sums{};
-  for (std::size_t h = 0; h < some[0].size(); ++h)
-    for (std::size_t k = 0; k < kTogether; ++k) sums[k] += static_cast<double>(some[k][h]);
-  return sums;
-}
-
-/// [kept] mass of each row.
+/// [kept] mass of each row. Rows are added up four at a time, each in the order of its headings: none waits for
+/// another.
 std::vector<double> row_masses(const PositionBelief& belief) {
+  constexpr std::size_t kTogether = 4;
   const float least = least_listed(belief);
+  const std::size_t stride = belief.row_stride();
   std::vector<double> masses(belief.kept_places().size());
+  std::vector<float> rows(kTogether * stride, 0.0F);
   std::array<std::size_t, kTogether> waiting{};
   std::size_t count = 0;
   const auto add_up = [&] {
-    const auto sums = sums_of(belief, waiting);
+    std::array<double, kTogether> sums{};
+    const float* const first = rows.data();
+    for (std::size_t h = 0; h < stride; ++h)
+      for (std::size_t k = 0; k < kTogether; ++k) sums[k] += static_cast<double>(first[k * stride + h]);
     for (std::size_t k = 0; k < count; ++k) masses[waiting[k]] = sums[k];
     count = 0;
   };
@@ -75,6 +79,7 @@ std::vector<double> row_masses(const PositionBelief& belief) {
       masses[i] = *known;
       continue;
     }
+    belief.read_row(i, std::span{rows}.subspan(count * stride, stride));
     waiting[count++] = i;
     if (count == kTogether) add_up();
   }
