@@ -20,6 +20,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kStep = 2.0 * kPi / VirtualMeasurements::kDirections;
 constexpr double kLattice = 0.025;        // [m] positions closer than this share their distances
 constexpr std::size_t kMaxRows = 300000;  // 60 MB
+constexpr double kBlock = 0.5;            // [m] positions in one block have the same borders within range
 constexpr double kReentry = 0.5;          // [m]
 constexpr std::size_t kSample = 256;      // poses from which the limits are guessed
 constexpr std::size_t kFewPoses = 1024;   // not worth a guess
@@ -32,9 +33,9 @@ std::uint8_t bin_of(double range) {
       std::clamp(static_cast<int>(range / VirtualMeasurements::kBin), 0, VirtualMeasurements::kBins - 1));
 }
 
-std::uint64_t key_of(Point2 position) {
-  const auto column = static_cast<std::uint64_t>(std::llround(position.x / kLattice));
-  const auto line = static_cast<std::uint64_t>(std::llround(position.y / kLattice));
+std::uint64_t key_of(Point2 position, double lattice) {
+  const auto column = static_cast<std::uint64_t>(std::llround(position.x / lattice));
+  const auto line = static_cast<std::uint64_t>(std::llround(position.y / lattice));
   return (column << 32U) ^ (line & 0xffffffffU);
 }
 
@@ -85,11 +86,28 @@ double VirtualMeasurements::square_range(Point2 centre, double half_diagonal) co
   return range < 0.0 ? 0.0 : is_possible(centre) ? range : -1.0;
 }
 
-void VirtualMeasurements::fill(Row& row, Point2 position) const {
+const VirtualMeasurements::Surroundings& VirtualMeasurements::surroundings_of(Point2 position) {
+  const Point2 index{std::floor(position.x / kBlock), std::floor(position.y / kBlock)};
+  const auto [entry, is_new] = surroundings_.try_emplace(key_of(index, 1.0));
+  Surroundings& result = entry->second;
+  if (!is_new) return result;
+  const Point2 middle{(index.x + 0.5) * kBlock, (index.y + 0.5) * kBlock};
+  constexpr double kReach = 0.5 * std::numbers::sqrt2 * kBlock + 1e-6;
+  bool is_parted = false;
+  for (const auto& border : borders_) {
+    const double away = distance(border, middle);
+    is_parted = is_parted || away <= kReach;
+    if (away - kReach < kMaxRange + params_.cell_padding) result.borders.push_back(border);
+  }
+  if (!is_parted) result.possible = is_possible(middle);
+  return result;
+}
+
+void VirtualMeasurements::fill(Row& row, Point2 position, std::span<const Segment> borders) const {
   const double padding = params_.cell_padding;
   std::array<double, kDirections> ranges;
   ranges.fill(kMaxRange);
-  for (const auto& border : borders_) {
+  for (const auto& border : borders) {
     const Point2 foot = nearest_point(border, position);
     const double nearest = distance(foot, position);
     if (nearest - padding >= kMaxRange) continue;
@@ -137,12 +155,13 @@ void VirtualMeasurements::fill_from_outside(Row& row, Point2 position) const {
 }
 
 std::uint32_t VirtualMeasurements::row_of(Point2 position) {
-  const auto [entry, is_new] = index_.try_emplace(key_of(position), static_cast<std::uint32_t>(rows_.size()));
+  const auto [entry, is_new] = index_.try_emplace(key_of(position, kLattice), static_cast<std::uint32_t>(rows_.size()));
   if (is_new) {
     const Point2 centre{kLattice * std::round(position.x / kLattice), kLattice * std::round(position.y / kLattice)};
     Row& row = rows_.emplace_back();
-    row.possible = is_possible(centre);
-    row.possible ? fill(row, centre) : fill_from_outside(row, centre);
+    const Surroundings& around = surroundings_of(centre);
+    row.possible = around.possible ? *around.possible : is_possible(centre);
+    row.possible ? fill(row, centre, around.borders) : fill_from_outside(row, centre);
   }
   return entry->second;
 }

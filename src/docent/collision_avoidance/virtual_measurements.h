@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -115,7 +116,13 @@ class VirtualMeasurements {
   void clear_histogram();  ///< as far as the limits reach
   [[nodiscard]] bool is_overstated(const Sighting& sighting) const;
   void lower_jointly(double allowed);
-  void fill(Row& row, Point2 position) const;
+  /// What all positions of a block of half a metre share.
+  struct Surroundings {
+    std::vector<Segment> borders;  ///< that may be within range, in their order
+    std::optional<bool> possible;  ///< whether the robot can be there; nullopt: a border parts the block
+  };
+  const Surroundings& surroundings_of(Point2 position);
+  void fill(Row& row, Point2 position, std::span<const Segment> borders) const;
   void fill_from_outside(Row& row, Point2 position) const;
   [[nodiscard]] double border_distance(Point2 position) const;
   /// Least distance [m] from within a square; -1 where the robot can be nowhere in it.
@@ -127,6 +134,7 @@ class VirtualMeasurements {
   VirtualMeasurementParams params_;
   std::unordered_map<std::uint64_t, std::uint32_t> index_;  ///< never iterated: the order of its entries is arbitrary
   std::vector<Row> rows_;
+  std::unordered_map<std::uint64_t, Surroundings> surroundings_;  ///< never iterated; of blocks that were asked for
   /// What was asked of last time: the coarse cells of a belief are always the same ones.
   struct KnownSquare {
     Point2 centre;
