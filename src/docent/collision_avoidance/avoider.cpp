@@ -213,12 +213,13 @@ std::vector<Obstacle> Avoider::obstacles_from(const Pose2& odom_from_base, Time 
   std::vector<Obstacle> result;
   const double reach = this->reach();
   const Pose2 base_from_odom = inverse(odom_from_base);
-  const auto turned = [&](Point2 in_odom) { return base_from_odom * in_odom - base_from_odom.position(); };
+  const PointTransform of_points{base_from_odom};
+  const auto turned = [&](Point2 in_odom) { return of_points * in_odom - base_from_odom.position(); };
   if (!params_.blind_to_people) {
     const bool judged = beams_localized_ && near_unmapped_ && when - unmapped_time_ < seconds(kStillJudged);
     const double steps_in = this->steps_in();
     for (const auto& point : memory_.points(when)) {
-      const Point2 at = base_from_odom * point.in_odom;
+      const Point2 at = of_points * point.in_odom;
       const double away = norm(at);
       if (away > reach) continue;
       if (params_.method == "dynamic_window") {  // where they are now
@@ -427,11 +428,14 @@ std::optional<Velocity> Avoider::slowed_for_people(std::span<const Obstacle> obs
   if (params_.method == "dynamic_window" || command_.linear <= params_.people.harmless) return std::nullopt;
   const double curvature = std::clamp(command_.angular / command_.linear, -kSharpest, kSharpest);
   double speed = command_.linear;
+  BrakingWay braking{speed, curvature, limits_, params_.people};
   for (const auto& obstacle : obstacles) {
     if (!obstacle.may_step && !obstacle.person && obstacle.velocity == Point2{}) continue;
     const PersonPoint person{obstacle.at, obstacle.velocity, limits_.radius + obstacle.margin};
-    while (speed > params_.people.harmless && !is_forgivable(person, speed, curvature, limits_, params_.people))
+    while (speed > params_.people.harmless && !braking.is_forgivable(person)) {
       speed -= kStep;
+      braking = {speed, curvature, limits_, params_.people};
+    }
   }
   // The choice may be so much too bold by noise alone.
   if (speed > command_.linear - 1.5 * kStep) return std::nullopt;

@@ -57,8 +57,9 @@ std::vector<bool> ObstacleMemory::confirm(std::span<const Point2> points, std::s
   return confirmed;
 }
 
-ObstacleMemory::View ObstacleMemory::view_of(const Sensor& sensor, Point2 in_odom) {
-  const Point2 in_sensor = inverse(sensor.odom_from_sensor) * in_odom;
+ObstacleMemory::View ObstacleMemory::view_of(const Sensor& sensor, const PointTransform& sensor_from_odom,
+                                             Point2 in_odom) {
+  const Point2 in_sensor = sensor_from_odom * in_odom;
   const auto& sweep = sensor.sweep;
   const double bearing = std::atan2(in_sensor.y, in_sensor.x);
   const double place = Angle::radians(bearing - sweep.first_bearing).radians();
@@ -84,6 +85,7 @@ void ObstacleMemory::add_sweep(std::size_t index, const SensorSweep& sweep, cons
   sensor.sweep = sweep;
   sensor.odom_from_sensor = odom_from_base * sweep.base_from_sensor;
 
+  const PointTransform odom_from_sensor{sensor.odom_from_sensor};
   std::vector<Point2> places;
   std::vector<double> ranges;
   std::vector<int> beams;
@@ -108,7 +110,7 @@ void ObstacleMemory::add_sweep(std::size_t index, const SensorSweep& sweep, cons
     end_run(i);
     if (range >= sweep.max_range || range > kReach) continue;
     const Angle bearing = Angle::radians(sweep.first_bearing + static_cast<double>(i) * sweep.bearing_step);
-    places.push_back(sensor.odom_from_sensor * (range * unit(bearing)));
+    places.push_back(odom_from_sensor * (range * unit(bearing)));
     ranges.push_back(range);
     beams.push_back(static_cast<int>(i));
   }
@@ -144,9 +146,10 @@ void ObstacleMemory::add_sweep(std::size_t index, const SensorSweep& sweep, cons
   for (std::size_t i = 0; i < places.size(); ++i) sensor.points[i].straight = straight[i];
   let_come_nearer(sensor, places, beams);
   sensor.points.insert(sensor.points.end(), lone.begin(), lone.end());
+  const PointTransform sensor_from_odom{inverse(sensor.odom_from_sensor)};
   std::erase_if(sensor.remembered, [&](ObstaclePoint& point) {
     if (sweep.stamp - point.seen > seconds(kMemory)) return true;
-    const View view = view_of(sensor, point.in_odom);
+    const View view = view_of(sensor, sensor_from_odom, point.in_odom);
     if (view == View::met_again) return true;  // the new point stands for it
     if (view == View::hidden) return false;
     return point.velocity != Point2{} || ++point.missed >= kSweeps;
@@ -192,9 +195,10 @@ void ObstacleMemory::add_echo(Ring& ring, double reach, std::size_t index, const
   const double half = 0.5 * reading.field_of_view;
   constexpr double kLeastCone = 0.13;  // [rad] a ring's places and axes are known no better
   const double cone = std::max(half, kLeastCone);
+  const PointTransform sonar_from_odom{inverse(odom_from_sensor)};
   for (const auto& sensor : sensors_) {
     for (const auto& point : sensor.points) {
-      const Point2 in_sonar = inverse(odom_from_sensor) * point.in_odom;
+      const Point2 in_sonar = sonar_from_odom * point.in_odom;
       if (in_sonar.x <= 0.0) continue;
       // Half a cone more to each side, and nearer than the echo: it is what the sonar heard.
       if (norm(in_sonar) < reading.range + 0.25 && std::abs(std::atan2(in_sonar.y, in_sonar.x)) < 2.0 * cone) return;

@@ -9,6 +9,7 @@
 #include "docent/base/time.h"
 #include "docent/collision_avoidance/moving_objects.h"
 #include "docent/collision_avoidance/range_flow.h"
+#include "docent/geometry/point_transform.h"
 #include "docent/geometry/polygon.h"
 
 namespace docent {
@@ -121,7 +122,7 @@ class ObstacleMemory {
   /// Where something comes nearer that is not followed, or faster than what is followed there.
   static void let_come_nearer(Sensor& sensor, std::span<const Point2> places, std::span<const int> beams);
   enum class View { hidden, met_again, looked_through };
-  [[nodiscard]] static View view_of(const Sensor& sensor, Point2 in_odom);
+  [[nodiscard]] static View view_of(const Sensor& sensor, const PointTransform& sensor_from_odom, Point2 in_odom);
 
   std::vector<Sensor> sensors_;
   Ring sonars_;

@@ -31,8 +31,9 @@ void RangeFlow::add(Time stamp, const Pose2& odom_from_sensor, double first_bear
   while (looks_.size() > 1 && stamp - looks_[1].stamp >= seconds(kLookBack)) looks_.pop_front();
 }
 
-std::optional<Point2> RangeFlow::approach(const Look& before, const Look& now, Point2 place) {
-  const Point2 seen = inverse(before.odom_from_sensor) * place;
+std::optional<Point2> RangeFlow::approach(const Look& before, const PointTransform& before_from_odom, const Look& now,
+                                          Point2 place) {
+  const Point2 seen = before_from_odom * place;
   const double range = norm(seen);
   const double turn = Angle::radians(std::atan2(seen.y, seen.x) - before.first_bearing).radians();
   const double unwrapped = turn < -0.5 * before.bearing_step ? turn + 2.0 * std::numbers::pi : turn;
@@ -91,10 +92,11 @@ std::vector<Point2> RangeFlow::velocities() const {
   std::vector<Point2> result(now.places.size());
   const Duration age = now.stamp - before.stamp;
   if (age < seconds(kLookBack) || age > seconds(kForget)) return result;
+  const PointTransform before_from_odom{inverse(before.odom_from_sensor)};
   std::vector<std::size_t> reached;
   std::vector<Point2> flows;
   for (std::size_t i = 0; i < now.places.size(); ++i) {
-    if (const auto flow = approach(before, now, now.places[i])) {
+    if (const auto flow = approach(before, before_from_odom, now, now.places[i])) {
       reached.push_back(i);
       flows.push_back(*flow);
     }

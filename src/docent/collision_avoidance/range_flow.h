@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "docent/base/time.h"
-#include "docent/geometry/pose2.h"
+#include "docent/geometry/point_transform.h"
 
 namespace docent {
 
@@ -45,7 +45,8 @@ class RangeFlow {
     std::vector<int> beams;
   };
   /// Motion [m/s] along the surface's normal of what has come to `place`.
-  [[nodiscard]] static std::optional<Point2> approach(const Look& before, const Look& now, Point2 place);
+  [[nodiscard]] static std::optional<Point2> approach(const Look& before, const PointTransform& before_from_odom,
+                                                      const Look& now, Point2 place);
 
   /// The motion whose components along its normals are these.
   [[nodiscard]] static Point2 motion(std::span<const Point2> along_normals);

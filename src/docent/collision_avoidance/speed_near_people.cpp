@@ -27,26 +27,29 @@ Result<void> PeopleCautionParams::validate() const {
   return {};
 }
 
-bool is_forgivable(const PersonPoint& person, double speed, double curvature, const BaseLimits& limits,
-                   const PeopleCautionParams& params) {
-  const double end = params.reaction + speed / limits.deceleration;
-  // Too far for any meeting: most people are.
-  if (norm(person.at) - person.reach > (speed + params.surprise + norm(person.velocity)) * end) return true;
+BrakingWay::BrakingWay(double speed, double curvature, const BaseLimits& limits, const PeopleCautionParams& params)
+    : speed_{speed}, end_{params.reaction + speed / limits.deceleration}, params_{params} {
   const auto along = [&](double way) {
     return curvature == 0.0 ? Point2{1.0, 0.0} : unit(Angle::radians(curvature * way));
   };
-  for (double time = 0.0; time < end; time += kTimeStep) {
+  for (double time = 0.0; time < end_; time += kTimeStep) {
     const double braking = std::max(0.0, time - params.reaction);
-    const double now = speed - limits.deceleration * braking;
     const double way = speed * time - 0.5 * limits.deceleration * braking * braking;
     // The middle of a short arc lies along half its turn.
-    const Point2 robot = way * along(0.5 * way);
-    const Point2 offset = person.at + time * person.velocity - robot;
-    const double apart = norm(offset);
-    if (apart - person.reach >= surprise_after(time, params)) continue;
-    if (now * dot(along(way), offset) > params.harmless * apart) return false;
+    steps_.push_back({time, speed - limits.deceleration * braking, way * along(0.5 * way), along(way),
+                      surprise_after(time, params)});
   }
-  return true;
+}
+
+bool BrakingWay::is_forgivable(const PersonPoint& person) const {
+  // Too far for any meeting: most people are.
+  if (norm(person.at) - person.reach > (speed_ + params_.surprise + norm(person.velocity)) * end_) return true;
+  return std::none_of(steps_.begin(), steps_.end(), [&](const Step& step) {
+    const Point2 offset = person.at + step.time * person.velocity - step.at;
+    const double apart = norm(offset);
+    if (apart - person.reach >= step.surprise) return false;
+    return step.speed * dot(step.ahead, offset) > params_.harmless * apart;
+  });
 }
 
 double speed_near_person(const PersonPoint& person, double cap, const BaseLimits& limits,
@@ -55,7 +58,7 @@ double speed_near_person(const PersonPoint& person, double cap, const BaseLimits
   const double end = params.reaction + cap / limits.deceleration;
   if (norm(person.at) - person.reach > (cap + params.surprise + norm(person.velocity)) * end) return cap;
   double speed = cap;
-  while (speed > params.harmless && !is_forgivable(person, speed, 0.0, limits, params)) speed -= kSpeedStep;
+  while (speed > params.harmless && !BrakingWay{speed, 0.0, limits, params}.is_forgivable(person)) speed -= kSpeedStep;
   return std::max(speed, std::min(cap, params.harmless));
 }
 

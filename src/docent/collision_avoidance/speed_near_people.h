@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "docent/base/result.h"
 #include "docent/collision_avoidance/base_motion.h"
 #include "docent/geometry/pose2.h"
@@ -29,10 +31,27 @@ struct PersonPoint {
   double reach = 0.0;  ///< [m] between the robot's centre and the point counts as a touch
 };
 
-/// True when the robot, driving with `speed` [m/s] along an arc of `curvature` [1/m], braking fully one reaction after
-/// the person begins to come nearer than foreseen, meets them nowhere faster than harmless before it stands.
-[[nodiscard]] bool is_forgivable(const PersonPoint& person, double speed, double curvature, const BaseLimits& limits,
-                                 const PeopleCautionParams& params);
+/// The way of a robot that drives with `speed` [m/s] along an arc of `curvature` [1/m] and brakes fully one reaction
+/// after somebody begins to come nearer than foreseen. Steps of 0.05 s, found once for all people.
+class BrakingWay {
+ public:
+  BrakingWay(double speed, double curvature, const BaseLimits& limits, const PeopleCautionParams& params);
+  /// True when the robot meets them nowhere faster than harmless before it stands.
+  [[nodiscard]] bool is_forgivable(const PersonPoint& person) const;
+
+ private:
+  struct Step {
+    double time;      ///< [s]
+    double speed;     ///< [m/s]
+    Point2 at;        ///< [m]
+    Point2 ahead;     ///< unit vector
+    double surprise;  ///< [m] by which somebody may have come nearer
+  };
+  double speed_;
+  double end_;  ///< [s] when it stands
+  PeopleCautionParams params_;
+  std::vector<Step> steps_;
+};
 
 /// The highest speed [m/s] up to `cap` along +x from which the robot never runs into this person: it brakes fully one
 /// reaction after the person begins to come nearer than foreseen, and wherever the two may meet before it stands, its

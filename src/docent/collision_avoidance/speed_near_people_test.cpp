@@ -84,8 +84,8 @@ TEST(SpeedNearPerson, WhoDartsAtTheRobotIsMetAtHarmlessSpeed) {
 TEST(SpeedNearPerson, ATurnLeadsTowardsWhoStandsOnItsInside) {
   const PersonPoint inside{{0.45, 0.4}, {}, kReach};
   const PeopleCautionParams params;
-  EXPECT_TRUE(is_forgivable(inside, 0.6, -1.0, kLimits, params));
-  EXPECT_FALSE(is_forgivable(inside, 0.6, 1.0, kLimits, params));
+  EXPECT_TRUE((BrakingWay{0.6, -1.0, kLimits, params}.is_forgivable(inside)));
+  EXPECT_FALSE((BrakingWay{0.6, 1.0, kLimits, params}.is_forgivable(inside)));
 }
 
 TEST(PeopleCautionParams, RefusesNonsense) {

@@ -20,19 +20,22 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kStep = 2.0 * kPi / VirtualMeasurements::kDirections;
 constexpr double kLattice = 0.025;        // [m] positions closer than this share their distances
 constexpr std::size_t kMaxRows = 300000;  // 60 MB
+constexpr double kBlock = 0.5;            // [m] positions in one block have the same borders within range
 constexpr double kReentry = 0.5;          // [m]
 constexpr std::size_t kSample = 256;      // poses from which the limits are guessed
 constexpr std::size_t kFewPoses = 1024;   // not worth a guess
 constexpr double kAmple = 4.0;            // times the mass that is wanted: so much may the sample be off
+constexpr int kTurned = 6;                // directions, between one belief and the next
+constexpr int kDriven = 8;                // bins
 
 std::uint8_t bin_of(double range) {
   return static_cast<std::uint8_t>(
       std::clamp(static_cast<int>(range / VirtualMeasurements::kBin), 0, VirtualMeasurements::kBins - 1));
 }
 
-std::uint64_t key_of(Point2 position) {
-  const auto column = static_cast<std::uint64_t>(std::llround(position.x / kLattice));
-  const auto line = static_cast<std::uint64_t>(std::llround(position.y / kLattice));
+std::uint64_t key_of(Point2 position, double lattice) {
+  const auto column = static_cast<std::uint64_t>(std::llround(position.x / lattice));
+  const auto line = static_cast<std::uint64_t>(std::llround(position.y / lattice));
   return (column << 32U) ^ (line & 0xffffffffU);
 }
 
@@ -83,11 +86,28 @@ double VirtualMeasurements::square_range(Point2 centre, double half_diagonal) co
   return range < 0.0 ? 0.0 : is_possible(centre) ? range : -1.0;
 }
 
-void VirtualMeasurements::fill(Row& row, Point2 position) const {
+const VirtualMeasurements::Surroundings& VirtualMeasurements::surroundings_of(Point2 position) {
+  const Point2 index{std::floor(position.x / kBlock), std::floor(position.y / kBlock)};
+  const auto [entry, is_new] = surroundings_.try_emplace(key_of(index, 1.0));
+  Surroundings& result = entry->second;
+  if (!is_new) return result;
+  const Point2 middle{(index.x + 0.5) * kBlock, (index.y + 0.5) * kBlock};
+  constexpr double kReach = 0.5 * std::numbers::sqrt2 * kBlock + 1e-6;
+  bool is_parted = false;
+  for (const auto& border : borders_) {
+    const double away = distance(border, middle);
+    is_parted = is_parted || away <= kReach;
+    if (away - kReach < kMaxRange + params_.cell_padding) result.borders.push_back(border);
+  }
+  if (!is_parted) result.possible = is_possible(middle);
+  return result;
+}
+
+void VirtualMeasurements::fill(Row& row, Point2 position, std::span<const Segment> borders) const {
   const double padding = params_.cell_padding;
   std::array<double, kDirections> ranges;
   ranges.fill(kMaxRange);
-  for (const auto& border : borders_) {
+  for (const auto& border : borders) {
     const Point2 foot = nearest_point(border, position);
     const double nearest = distance(foot, position);
     if (nearest - padding >= kMaxRange) continue;
@@ -135,12 +155,13 @@ void VirtualMeasurements::fill_from_outside(Row& row, Point2 position) const {
 }
 
 std::uint32_t VirtualMeasurements::row_of(Point2 position) {
-  const auto [entry, is_new] = index_.try_emplace(key_of(position), static_cast<std::uint32_t>(rows_.size()));
+  const auto [entry, is_new] = index_.try_emplace(key_of(position, kLattice), static_cast<std::uint32_t>(rows_.size()));
   if (is_new) {
     const Point2 centre{kLattice * std::round(position.x / kLattice), kLattice * std::round(position.y / kLattice)};
     Row& row = rows_.emplace_back();
-    row.possible = is_possible(centre);
-    row.possible ? fill(row, centre) : fill_from_outside(row, centre);
+    const Surroundings& around = surroundings_of(centre);
+    row.possible = around.possible ? *around.possible : is_possible(centre);
+    row.possible ? fill(row, centre, around.borders) : fill_from_outside(row, centre);
   }
   return entry->second;
 }
@@ -183,18 +204,11 @@ double VirtualMeasurements::count(std::span<const WeightedSquare> rest, bool lea
   return counted;
 }
 
-void VirtualMeasurements::count(const Sighting& sighting) {
-  const std::uint8_t* bins = rows_[sighting.row].bins.data();
-  double* masses = histogram_.data();
-  const int split = kDirections - sighting.first;
-  const auto row = [](std::uint8_t bin) { return static_cast<std::ptrdiff_t>(bin) * kDirections; };
-  for (int i = 0; i < split; ++i, ++masses) masses[row(bins[sighting.first + i])] += sighting.mass;
-  for (int i = 0; i < sighting.first; ++i, ++masses) masses[row(bins[i])] += sighting.mass;
-}
-
 void VirtualMeasurements::count_within_limits(const Sighting& sighting) {
   const std::uint8_t* bins = rows_[sighting.row].bins.data();
   const std::uint8_t* limits = limits_.data() + (kDirections - sighting.first);
+  // The last bin is never asked for: most of what is seen lies there.
+  constexpr std::uint8_t kLastAsked = kBins - 2;
   const auto add = [&](int direction) {
     const int ahead = direction - sighting.first;
     const int robots = ahead < 0 ? ahead + kDirections : ahead;
@@ -203,11 +217,13 @@ void VirtualMeasurements::count_within_limits(const Sighting& sighting) {
 #if defined(__x86_64__)
   constexpr int kVector = sizeof(__m128i);
   constexpr int kWord = 64;
+  const __m128i last_asked = _mm_set1_epi8(static_cast<char>(kLastAsked));
   for (int first = 0; first < kStride; first += kWord) {
     std::uint64_t matters = 0;
     for (int part = 0; part < kWord; part += kVector) {
       const __m128i seen = _mm_loadu_si128(reinterpret_cast<const __m128i*>(bins + first + part));
-      const __m128i limit = _mm_loadu_si128(reinterpret_cast<const __m128i*>(limits + first + part));
+      const __m128i limit =
+          _mm_min_epu8(_mm_loadu_si128(reinterpret_cast<const __m128i*>(limits + first + part)), last_asked);
       const auto within = static_cast<unsigned>(_mm_movemask_epi8(_mm_cmpeq_epi8(_mm_min_epu8(seen, limit), seen)));
       matters |= std::uint64_t{within} << static_cast<unsigned>(part);
     }
@@ -215,7 +231,7 @@ void VirtualMeasurements::count_within_limits(const Sighting& sighting) {
   }
 #else
   for (int direction = 0; direction < kDirections; ++direction) {
-    if (bins[direction] <= limits[direction]) add(direction);
+    if (bins[direction] <= std::min(limits[direction], kLastAsked)) add(direction);
   }
 #endif
 }
@@ -293,14 +309,27 @@ void VirtualMeasurements::lower_jointly(double allowed) {
   }
 }
 
-void VirtualMeasurements::guess_limits() {
+void VirtualMeasurements::remember_limits() { std::copy_n(limits_.begin(), kDirections, last_limits_.begin()); }
+
+void VirtualMeasurements::recall_limits() {
+  for (int i = 0; i < kDirections; ++i) {
+    int farthest = 0;
+    for (int near = i - kTurned; near <= i + kTurned; ++near)
+      farthest = std::max<int>(farthest, last_limits_[static_cast<std::size_t>(wrapped(near))]);
+    const auto direction = static_cast<std::size_t>(i);
+    limits_[direction] = limits_[direction + kDirections] =
+        static_cast<std::uint8_t>(std::min(farthest + kDriven, kBins - 1));
+  }
+}
+
+void VirtualMeasurements::sample_limits() {
   limits_.fill(kBins - 1);
   if (sightings_.size() < kFewPoses) return;
   clear_histogram();
   double total = 0.0;
   const std::size_t step = sightings_.size() / kSample;
   for (std::size_t i = step / 2; i < sightings_.size(); i += step) {
-    count(sightings_[i]);
+    count_within_limits(sightings_[i]);
     total += sightings_[i].mass;
   }
   lower_limits(kAmple * (1.0 - params_.confidence) * total);
@@ -330,15 +359,21 @@ VirtualMeasurements::Scan VirtualMeasurements::measure(std::span<const WeightedP
   const bool leave_out = possible >= (1.0 - params_.max_impossible) * all;
   if (leave_out) std::erase_if(sightings_, [&](const Sighting& sighting) { return !rows_[sighting.row].possible; });
 
-  guess_limits();
   double total = 0.0;
-  for (bool is_enough = false; !is_enough;) {
+  const auto is_reached = [&] {
     total = count(rest, leave_out) + (leave_out ? possible : all);
-    const bool is_plain = *std::min_element(limits_.begin(), limits_.begin() + kDirections) == kBins - 1;
-    for (const auto& sighting : sightings_) is_plain ? count(sighting) : count_within_limits(sighting);
-    is_enough = lower_limits((1.0 - params_.confidence) * total);
-    if (!is_enough) limits_.fill(kBins - 1);  // the guess was too low somewhere: once more, and everything
+    for (const auto& sighting : sightings_) count_within_limits(sighting);
+    return lower_limits((1.0 - params_.confidence) * total);
+  };
+  recall_limits();
+  if (!is_reached()) {  // a guess was too low somewhere: the next one, and then everything
+    sample_limits();
+    if (!is_reached()) {
+      limits_.fill(kBins - 1);
+      is_reached();
+    }
   }
+  remember_limits();
   if (params_.jointly) lower_jointly((1.0 - params_.confidence) * total);
   for (std::size_t i = 0; i < kDirections; ++i) scan.ranges[i] = kBin * limits_[i];
   return scan;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -70,7 +71,8 @@ class VirtualMeasurements {
   /// Poses inside hazards or outside the area are left out, as the robot cannot be there, unless they are most of the
   /// belief. `rest` counts with its nearest hazard in every direction. An empty belief gives zeros.
   ///
-  /// A sample of the poses tells in which bins the hundredth must lie, with room to spare. All poses that see farther
+  /// The belief before, and when that was quite another a sample of the poses, tells in which bins the hundredth must
+  /// lie, with room to spare. All poses that see farther
   /// are passed over, sixteen directions at a time, and few get as far as the histogram. Where the hundredth is not
   /// reached within the guess, everything is counted: the result is that of the plain histogram. O(poses * kDirections
   /// / 16), at worst O(poses * kDirections); about 10 us once for every new position.
@@ -104,16 +106,23 @@ class VirtualMeasurements {
   void sight(std::span<const WeightedPose> poses);
   /// The first: fills the histogram as far as the limits reach. @returns the mass that was counted
   double count(std::span<const WeightedSquare> rest, bool leave_out);
-  void count(const Sighting& sighting);
   void count_within_limits(const Sighting& sighting);
-  void guess_limits();
+  void remember_limits();
+  void recall_limits();  ///< those of the belief before, with room for what the robot has driven and turned
+  void sample_limits();
   /// Sets each limit to the bin where the counted mass reaches `allowed`. False: it does not within some former limit.
   bool lower_limits(double allowed);
   [[nodiscard]] std::size_t last_limit() const;
   void clear_histogram();  ///< as far as the limits reach
   [[nodiscard]] bool is_overstated(const Sighting& sighting) const;
   void lower_jointly(double allowed);
-  void fill(Row& row, Point2 position) const;
+  /// What all positions of a block of half a metre share.
+  struct Surroundings {
+    std::vector<Segment> borders;  ///< that may be within range, in their order
+    std::optional<bool> possible;  ///< whether the robot can be there; nullopt: a border parts the block
+  };
+  const Surroundings& surroundings_of(Point2 position);
+  void fill(Row& row, Point2 position, std::span<const Segment> borders) const;
   void fill_from_outside(Row& row, Point2 position) const;
   [[nodiscard]] double border_distance(Point2 position) const;
   /// Least distance [m] from within a square; -1 where the robot can be nowhere in it.
@@ -125,6 +134,7 @@ class VirtualMeasurements {
   VirtualMeasurementParams params_;
   std::unordered_map<std::uint64_t, std::uint32_t> index_;  ///< never iterated: the order of its entries is arbitrary
   std::vector<Row> rows_;
+  std::unordered_map<std::uint64_t, Surroundings> surroundings_;  ///< never iterated; of blocks that were asked for
   /// What was asked of last time: the coarse cells of a belief are always the same ones.
   struct KnownSquare {
     Point2 centre;
@@ -139,6 +149,7 @@ class VirtualMeasurements {
   /// For each of the robot's directions the last bin that still matters; twice in succession, as rows may start
   /// anywhere.
   std::array<std::uint8_t, 2 * kDirections + kStride> limits_{};
+  std::array<std::uint8_t, kDirections> last_limits_{};
 };
 
 }  // namespace docent

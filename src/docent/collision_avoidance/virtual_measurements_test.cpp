@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "docent/base/random.h"
 
@@ -145,6 +146,27 @@ TEST(VirtualMeasurements, PassOverNothingThatMatters) {
     const auto wanted = plain_histogram(measurements, belief);
     const auto ranges = measurements.measure(belief, {}).ranges;
     for (std::size_t i = 0; i < 180; ++i) ASSERT_DOUBLE_EQ(ranges[i], wanted[i]) << "seed " << seed << " at " << i;
+  }
+}
+
+TEST(VirtualMeasurements, WhatWasMeasuredBeforeChangesNothing) {
+  VirtualMeasurements used = each_direction();
+  Rng rng{11};
+  Point2 middle{2.0, 2.0};
+  double heading = 0.0;
+  for (int round = 0; round < 60; ++round) {
+    const bool is_carried = round % 6 == 5;  // else it drives on and turns, slowly or fast
+    middle = is_carried ? Point2{rng.uniform(0.5, 9.5), rng.uniform(0.5, 7.5)}
+                        : middle + rng.uniform(0.0, 0.4) * unit(Angle::radians(heading));
+    heading += rng.uniform(-0.5, 0.5);
+    const double spread = rng.chance(0.5) ? 0.1 : 1.5;
+    std::vector<WeightedPose> poses;
+    for (int i = 0; i < (round % 2 == 0 ? 300 : 1500); ++i)
+      poses.push_back({middle + Point2{rng.uniform(-spread, spread), rng.uniform(-spread, spread)},
+                       heading + rng.uniform(-0.1, 0.1), rng.uniform(0.0, 1.0)});
+    const WeightedSquare rest{{5.0, 2.0}, 1.0, rng.uniform(0.0, 5.0)};
+    VirtualMeasurements fresh = each_direction();
+    EXPECT_EQ(used.measure(poses, {&rest, 1}).ranges, fresh.measure(poses, {&rest, 1}).ranges) << round;
   }
 }
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "docent/geometry/point_transform.h"
+
 namespace docent {
 namespace {
 
@@ -56,10 +58,11 @@ void FreeMemory::add(const RangeSweep& sweep, const Pose2& odom_from_base, Time 
       if (now_ - cell.end > kStays) cell.kind = Kind::free;
     }
   }
+  const PointTransform of_points{odom_from_base};
   // Ends after ways: where one beam ends, another may have passed a hand's breadth away.
   for (const SweepBeam& beam : sweep.beams) {
     if (beam.no_return || beam.range > kReach) continue;
-    const Point2 end = odom_from_base * endpoint(beam);
+    const Point2 end = of_points * endpoint(beam);
     Cell& cell = touch(index_of(end.x), index_of(end.y));
     cell.end = now_;
     if (cell.kind == Kind::free) cell.kind = Kind::come;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "docent/geometry/point_transform.h"
 #include "docent/people/body_fit.h"
 
 namespace docent {
@@ -155,11 +156,12 @@ std::vector<PersonSighting> find_people(const PeopleSweep& seen, const FreeMemor
   // Beams that the map explains part the runs; those it knows nothing of are looked at apart.
   std::vector<Point> unmapped;
   std::vector<Point> unknown;
+  const PointTransform odom_from_base{seen.odom_from_base};
   for (std::size_t i = 0; i < order.size(); ++i) {
     const SweepBeam& beam = seen.sweep.beams[order[i]];
     const BeamOrigin origin = seen.origins[order[i]];
     if (beam.no_return || beam.range > params.range || origin == BeamOrigin::map) continue;
-    const Point2 at = seen.odom_from_base * endpoint(beam);
+    const Point2 at = odom_from_base * endpoint(beam);
     const Point point{
         at, beam.range, i, origin == BeamOrigin::not_map, origin != BeamOrigin::unknown, memory.has_come(at)};
     (origin == BeamOrigin::unknown ? unknown : unmapped).push_back(point);

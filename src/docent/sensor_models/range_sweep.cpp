@@ -2,11 +2,14 @@
 
 #include <cmath>
 #include <limits>
+
 #include <numbers>
+#include "docent/geometry/point_transform.h"
 
 namespace docent {
 
 void append(RangeSweep& sweep, const LaserReading& reading, const Pose2& base_from_sensor) {
+  const PointTransform of_points{base_from_sensor};
   for (std::size_t i = 0; i < reading.ranges.size(); ++i) {
     const double range = reading.ranges[i];
     if (std::isnan(range) || range < reading.min_range) continue;
@@ -16,7 +19,7 @@ void append(RangeSweep& sweep, const LaserReading& reading, const Pose2& base_fr
       sweep.beams.push_back({(base_from_sensor.theta + bearing).radians(), reading.max_range, true});
       continue;
     }
-    const Point2 end = base_from_sensor * (range * unit(bearing));
+    const Point2 end = of_points * (range * unit(bearing));
     sweep.beams.push_back({std::atan2(end.y, end.x), norm(end), false});
   }
 }
@@ -24,13 +27,14 @@ void append(RangeSweep& sweep, const LaserReading& reading, const Pose2& base_fr
 RangeSweep seen_from(const RangeSweep& sweep, const Pose2& there_from_here) {
   RangeSweep result;
   result.beams.reserve(sweep.beams.size());
+  const PointTransform of_points{there_from_here};
   for (const SweepBeam& beam : sweep.beams) {
     if (beam.no_return) {
       const Angle bearing = Angle::radians(beam.bearing) + there_from_here.theta;
       result.beams.push_back({bearing.radians(), beam.range, true});
       continue;
     }
-    const Point2 end = there_from_here * endpoint(beam);
+    const Point2 end = of_points * endpoint(beam);
     result.beams.push_back({std::atan2(end.y, end.x), norm(end), false});
   }
   return result;

@@ -9,19 +9,17 @@ namespace docent {
 namespace {
 
 /// Mass, mean and covariance of the cells near a pose.
-BeliefMode gathered(const std::vector<BeliefSummary::Cell>& cells, const std::vector<bool>& taken, const Pose2& about,
-                    const SummaryParams& params) {
+BeliefMode gathered(const std::vector<BeliefSummary::Cell>& cells, const Pose2& about, const SummaryParams& params) {
   const double turn = params.mode_turn * std::numbers::pi / 180.0;
   double mass = 0.0, x = 0.0, y = 0.0, t = 0.0;
   double xx = 0.0, yy = 0.0, tt = 0.0, xy = 0.0, xt = 0.0, yt = 0.0;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (taken[i]) continue;
-    const double dx = static_cast<double>(cells[i].x) - about.x;
-    const double dy = static_cast<double>(cells[i].y) - about.y;
+  for (const BeliefSummary::Cell& cell : cells) {
+    const double dx = static_cast<double>(cell.x) - about.x;
+    const double dy = static_cast<double>(cell.y) - about.y;
     if (dx * dx + dy * dy > params.mode_radius * params.mode_radius) continue;
-    const double dt = (Angle::radians(static_cast<double>(cells[i].theta)) - about.theta).radians();
+    const double dt = (Angle::radians(static_cast<double>(cell.theta)) - about.theta).radians();
     if (std::abs(dt) > turn) continue;
-    const double m = static_cast<double>(cells[i].mass);
+    const double m = static_cast<double>(cell.mass);
     mass += m, x += m * dx, y += m * dy, t += m * dt;
     xx += m * dx * dx, yy += m * dy * dy, tt += m * dt * dt, xy += m * dx * dy, xt += m * dx * dt, yt += m * dy * dt;
   }
@@ -40,22 +38,22 @@ BeliefMode gathered(const std::vector<BeliefSummary::Cell>& cells, const std::ve
 void find_modes(BeliefSummary& summary, const SummaryParams& params) {
   constexpr std::size_t kMostModes = 8;
   const double turn = params.mode_turn * std::numbers::pi / 180.0;
-  std::vector<bool> taken(summary.cells.size(), false);
-  for (std::size_t i = 0; i < summary.cells.size() && summary.modes.size() < kMostModes; ++i) {
-    if (taken[i]) continue;
-    const auto& top = summary.cells[i];
+  std::vector<BeliefSummary::Cell> left = summary.cells;  // that no mode has taken, the likeliest first
+  while (!left.empty() && summary.modes.size() < kMostModes) {
+    const auto& top = left.front();
     const Pose2 peak{static_cast<double>(top.x), static_cast<double>(top.y),
                      Angle::radians(static_cast<double>(top.theta))};
-    BeliefMode mode = gathered(summary.cells, taken, peak, params);
-    mode = gathered(summary.cells, taken, mode.map_from_robot, params);  // once more, about its own mean
-    for (std::size_t j = i; j < summary.cells.size(); ++j) {
-      const auto& cell = summary.cells[j];
+    BeliefMode mode = gathered(left, peak, params);
+    mode = gathered(left, mode.map_from_robot, params);  // once more, about its own mean
+    const auto is_taken = [&](const BeliefSummary::Cell& cell) {
       const Point2 off =
           Point2{static_cast<double>(cell.x), static_cast<double>(cell.y)} - mode.map_from_robot.position();
+      if (norm(off) > params.mode_radius) return false;
       const double dt = (Angle::radians(static_cast<double>(cell.theta)) - mode.map_from_robot.theta).radians();
-      if (norm(off) <= params.mode_radius && std::abs(dt) <= turn) taken[j] = true;
-    }
-    taken[i] = true;
+      return std::abs(dt) <= turn;
+    };
+    left.erase(std::remove_if(left.begin() + 1, left.end(), is_taken), left.end());
+    left.erase(left.begin());
     if (mode.mass > 0.0) summary.modes.push_back(mode);
   }
   std::stable_sort(summary.modes.begin(), summary.modes.end(),

@@ -24,13 +24,18 @@ std::vector<LikelyState> likely_states(const PositionBelief& belief, double frac
   return states;
 }
 
-ExpectedRanges::ExpectedRanges(std::span<const LikelyState> states, const RangeTable& table, int directions) {
+ExpectedRanges::ExpectedRanges(std::span<const LikelyState> states, const RangeTable& table, int directions,
+                               bool for_entropy) {
   const auto count = static_cast<std::size_t>(directions);
   mass_.assign(count * kExpectedRanges, 0.0F);
-  log_mass_.assign(count * kExpectedRanges, 0.0F);
+  if (for_entropy) log_mass_.assign(count * kExpectedRanges, 0.0F);
   for (const LikelyState& state : states) {
     const RangeTable::Row row = table.row(static_cast<std::size_t>(state.place));
     const auto heading = static_cast<std::size_t>(state.heading);
+    if (!for_entropy) {
+      for (std::size_t d = 0; d < count; ++d) mass_[d * kExpectedRanges + row[heading + d]] += state.mass;
+      continue;
+    }
     const float log_part = state.mass * std::log(state.mass);
     entropy_ -= static_cast<double>(log_part);
     for (std::size_t d = 0; d < count; ++d) {
@@ -150,7 +155,7 @@ BeamChoice chosen_beams(std::span<const LikelyState> likely, const RangeTable& t
   if (likely.empty()) {
     choice.used = beams;
   } else {
-    const ExpectedRanges expected{likely, table, directions};
+    const ExpectedRanges expected{likely, table, directions, asks_entropy(params.filter)};
     std::vector<bool> is_rejected;
     for (const BinnedBeam& beam : beams) {
       const int bin = bin_of(sweep.beams[beam.beam], model);

@@ -27,12 +27,13 @@ struct LikelyState {
 /// [Markov1998] 3.3 need of the belief, gathered once for all beams.
 class ExpectedRanges {
  public:
-  /// O(states * directions). @pre states is not empty
-  ExpectedRanges(std::span<const LikelyState> states, const RangeTable& table, int directions);
+  /// `for_entropy`: entropy_gain() will be asked. O(states * directions). @pre states is not empty
+  ExpectedRanges(std::span<const LikelyState> states, const RangeTable& table, int directions, bool for_entropy);
 
   /// P_short(d), eq. 8: the mean of eq. 7 over the belief.
   [[nodiscard]] double shorter(int direction, std::span<const float> shorter_probabilities) const;
   /// Delta H(L | s), eq. 6 [nat]: how much surer the robot gets by the reading whose ln P(d | o) are given.
+  /// @pre for_entropy
   [[nodiscard]] double entropy_gain(int direction, std::span<const float> log_probabilities) const;
   /// Mass of the states that expect each range.
   [[nodiscard]] std::span<const float> masses(int direction) const { return of(mass_, direction); }
@@ -42,7 +43,7 @@ class ExpectedRanges {
     return std::span{all}.subspan(static_cast<std::size_t>(direction) * kExpectedRanges, kExpectedRanges);
   }
   std::vector<float> mass_;      ///< [directions][kExpectedRanges]: sum of p
-  std::vector<float> log_mass_;  ///< [directions][kExpectedRanges]: sum of p ln p
+  std::vector<float> log_mass_;  ///< [directions][kExpectedRanges]: sum of p ln p; empty unless for_entropy
   double entropy_ = 0.0;         ///< [nat] of the list
 };
 
@@ -51,6 +52,10 @@ class ExpectedRanges {
 /// announces): a surprise that people cannot have made is kept.
 enum class BeamFilter { none, entropy, distance, novelty };
 [[nodiscard]] Result<BeamFilter> beam_filter_of(const std::string& name);
+/// Whether it asks ExpectedRanges::entropy_gain().
+[[nodiscard]] inline bool asks_entropy(BeamFilter filter) {
+  return filter == BeamFilter::entropy || filter == BeamFilter::novelty;
+}
 /// Whether a filter rejects a reading. `sureness` (theta of [Markov1998] 3.3, e.g. 0.99) is the distance filter's.
 [[nodiscard]] bool rejects(BeamFilter filter, const ExpectedRanges& expected, const ProximityModel& model,
                            int direction, int measured, double sureness);

@@ -241,7 +241,7 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   step.fit = fit(seen, choice.used);
   // After a long way odometry foretells too little: the belief of after the update is held against the readings.
   if (views > 1.0 && !likely_.empty()) {
-    const ExpectedRanges expected{likely_, table_, space_.headings()};
+    const ExpectedRanges expected{likely_, table_, space_.headings(), false};
     choice.readings = agreement_of_all(expected, model_, seen, params_.filter_sureness, space_.headings());
   }
   judge({.weight = step.weight, .way = way, .turn = turn, .readings = choice.readings}, predicted);
@@ -342,7 +342,7 @@ PositionDensity MarkovLocalizer::density() const {
 
 std::vector<float> MarkovLocalizer::entropy_gains(const RangeSweep& sweep, const Pose2& odom_now) const {
   if (likely_.empty()) return {};
-  const ExpectedRanges expected{likely_, table_, space_.headings()};
+  const ExpectedRanges expected{likely_, table_, space_.headings(), true};
   return docent::entropy_gains(expected, model_, seen_from(sweep, inverse(odom_from_frame_) * odom_now),
                                space_.headings());
 }

@@ -313,10 +313,13 @@ void PositionBelief::settle(bool wants_entropy) {
   contents_.resize(kept_.size());
   double sum_p_log_p = 0.0;
   std::size_t active = 0;
+  std::size_t summed = 0;  // rows; those from the first inactive state on wait until it is known whether all will wake
   for (std::size_t i = 0; i < kept_.size(); ++i) {
     const float* const row = rows_.data() + i * stride_;
     contents_[i] = kernels_->take_census(row, scale(), headings, census);
-    if (wants_entropy && contents_[i].active > 0) sum_p_log_p += kernels_->sum_p_log_p(row, scale(), active);
+    if (!wants_entropy || census.inactive > 0) continue;
+    sum_p_log_p += kernels_->sum_p_log_p(row, scale(), active);
+    summed = i + 1;
   }
   if (census.inactive == 0) {
     sea_ = 0.0;
@@ -332,6 +335,7 @@ void PositionBelief::settle(bool wants_entropy) {
     const std::int32_t place = kept_[i];
     slot_[static_cast<std::size_t>(place)] = -1;
     if (contents_[i].active == 0 && !wakes) continue;
+    if (wants_entropy && !wakes && i >= summed) sum_p_log_p += kernels_->sum_p_log_p(row, scale(), active);
     kernels_->settle(row, scale(), level, headings);
     contents_[i].peak = std::max(contents_[i].peak, level);
     if (out != i) std::copy_n(row, stride_, rows_.data() + out * stride_);

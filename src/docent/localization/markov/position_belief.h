@@ -113,6 +113,16 @@ class PositionBelief {
   [[nodiscard]] float row_peak(std::size_t index) const { return contents_[index].peak; }
   /// Of all headings of the index-th kept place, within 1e-6 of itself; nullopt: nobody has added them up.
   [[nodiscard]] std::optional<double> row_mass(std::size_t index) const;
+  /// A bit for each block of kRowBlock headings of the index-th kept place that has a probability above its level.
+  /// @param levels  [row_stride()]
+  [[nodiscard]] std::uint64_t blocks_above(std::size_t index, std::span<const float> levels) const {
+    return kernels_->active_blocks(rows_.data() + index * stride_, {scale_, bias_, levels});
+  }
+  /// All of row(index), and zeros up to whole blocks. @param out  [row_stride()]
+  void read_row(std::size_t index, std::span<float> out) const {
+    kernels_->expand(rows_.data() + index * stride_, scale(), out.data());
+  }
+  [[nodiscard]] std::size_t row_stride() const { return stride_; }
   [[nodiscard]] float probability(std::size_t place, int heading) const;
   [[nodiscard]] double entropy() const;  ///< [nat], eq. 5
 

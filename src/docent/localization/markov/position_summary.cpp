@@ -1,8 +1,12 @@
 #include "docent/localization/markov/position_summary.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <optional>
+#include <span>
 
 namespace docent {
 
@@ -27,12 +31,16 @@ float least_listed(const PositionBelief& belief) {
 
 std::vector<Entry> likeliest(const PositionBelief& belief, const SummaryParams& params) {
   const float least = least_listed(belief);
+  const std::vector<float> levels(belief.row_stride(), least);
   std::vector<Entry> entries;
   for (std::size_t i = 0; i < belief.kept_places().size(); ++i) {
     if (belief.row_peak(i) <= least) continue;
     const auto row = belief.row(i);
-    for (std::size_t h = 0; h < row.size(); ++h)
-      if (row[h] > least) entries.push_back({row[h], belief.kept_places()[i], static_cast<std::int32_t>(h)});
+    for (std::uint64_t blocks = belief.blocks_above(i, levels); blocks != 0; blocks &= blocks - 1) {
+      const std::size_t first = static_cast<std::size_t>(std::countr_zero(blocks)) * kRowBlock;
+      for (std::size_t h = first; h < std::min(first + kRowBlock, row.size()); ++h)
+        if (row[h] > least) entries.push_back({row[h], belief.kept_places()[i], static_cast<std::int32_t>(h)});
+    }
   }
   if (entries.size() > params.most_cells) {
     std::nth_element(entries.begin(), entries.begin() + static_cast<std::ptrdiff_t>(params.most_cells), entries.end(),
@@ -47,10 +55,36 @@ std::vector<Entry> likeliest(const PositionBelief& belief, const SummaryParams& 
   return entries;
 }
 
-double sum_of(const PositionBelief::Row& row) {
-  double sum = 0.0;
-  for (const float value : row) sum += static_cast<double>(value);
-  return sum;
+/// [kept] mass of each row. Rows are added up four at a time, each in the order of its headings: none waits for
+/// another.
+std::vector<double> row_masses(const PositionBelief& belief) {
+  constexpr std::size_t kTogether = 4;
+  const float least = least_listed(belief);
+  const std::size_t stride = belief.row_stride();
+  std::vector<double> masses(belief.kept_places().size());
+  std::vector<float> rows(kTogether * stride, 0.0F);
+  std::array<std::size_t, kTogether> waiting{};
+  std::size_t count = 0;
+  const auto add_up = [&] {
+    std::array<double, kTogether> sums{};
+    const float* const first = rows.data();
+    for (std::size_t h = 0; h < stride; ++h)
+      for (std::size_t k = 0; k < kTogether; ++k) sums[k] += static_cast<double>(first[k * stride + h]);
+    for (std::size_t k = 0; k < count; ++k) masses[waiting[k]] = sums[k];
+    count = 0;
+  };
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    // From what is listed nothing but rounding may be left.
+    if (const auto known = belief.row_peak(i) > least ? std::nullopt : belief.row_mass(i)) {
+      masses[i] = *known;
+      continue;
+    }
+    belief.read_row(i, std::span{rows}.subspan(count * stride, stride));
+    waiting[count++] = i;
+    if (count == kTogether) add_up();
+  }
+  if (count > 0) add_up();
+  return masses;
 }
 
 /// Mass in each coarse cell that no listed state has.
@@ -60,7 +94,7 @@ void fill_rest(const PositionBelief& belief, const std::vector<Entry>& listed, c
   summary.rest_cell_size = coarse.size;
   summary.rest_columns = coarse.columns;
   summary.rest_rows = coarse.rows;
-  const float least = least_listed(belief);
+  const std::vector<double> masses = row_masses(belief);
   std::vector<double> mass(coarse.places.size(), 0.0);
   std::vector<std::int32_t> under_sea = coarse.places;
   const auto cell_of = [&](std::int32_t place) {
@@ -69,9 +103,7 @@ void fill_rest(const PositionBelief& belief, const std::vector<Entry>& listed, c
   for (std::size_t i = 0; i < belief.kept_places().size(); ++i) {
     const std::size_t cell = cell_of(belief.kept_places()[i]);
     --under_sea[cell];
-    // From what is listed nothing but rounding may be left.
-    const auto known = belief.row_peak(i) > least ? std::nullopt : belief.row_mass(i);
-    mass[cell] += known ? *known : sum_of(belief.row(i));
+    mass[cell] += masses[i];
   }
   const double sea = belief.sea_level() * belief.space().headings();
   for (std::size_t cell = 0; cell < mass.size(); ++cell) mass[cell] += sea * static_cast<double>(under_sea[cell]);

@@ -109,7 +109,7 @@ std::vector<BinnedBeam> SonarEvidence::filtered(const RangeSweep& sweep, std::sp
   filtered_ = 0;
   const std::vector<LikelyState> states = states_of(likely);
   if (states.empty()) return beams;
-  const ExpectedRanges expected{states, table_, space_->headings()};
+  const ExpectedRanges expected{states, table_, space_->headings(), asks_entropy(filter_)};
   std::vector<BinnedBeam> kept;
   Agreement readings;
   for (const BinnedBeam& beam : beams) {

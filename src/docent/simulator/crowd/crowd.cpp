@@ -247,9 +247,10 @@ void Crowd::step(double now, double dt, const RobotView& robot) {
   sort_into_cells();
   constexpr std::size_t kDecisionSteps = 5;
   constexpr double kFarOff = 12.0;  // [m] no sensor reaches there: they decide half as often
-  for (std::size_t i = 0; i < people_.size(); ++i) {
+  const std::uint64_t first = (kDecisionSteps - steps_ % kDecisionSteps) % kDecisionSteps;
+  for (std::size_t i = first; i < people_.size(); i += kDecisionSteps) {
     const bool is_far = distance(people_[i].position, robot.position) > kFarOff;
-    if ((steps_ + i) % (is_far ? 2 * kDecisionSteps : kDecisionSteps) == 0) decide(i, now);
+    if (!is_far || (steps_ + i) % (2 * kDecisionSteps) == 0) decide(i, now);
   }
   if (steps_ % 50 == 0 && params_.near_share > 0.0) draw_people_near(now);
   for (std::size_t i = 0; i < people_.size(); ++i) {
