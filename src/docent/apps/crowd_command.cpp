@@ -89,7 +89,7 @@ void run(Options& options) {
 
 void add_crowd_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  options->method = "crowd_fit";
+  options->method = "cautious_window";
   CLI::App* command =
       app.add_subcommand("crowd", "Cross a crowded hall once in virtual time, scored after HuNavSim's definitions");
   command->add_option("--seed", options->trial.seed, "of the hall, its crowd and the noise; same seed, same run")
@@ -98,8 +98,8 @@ void add_crowd_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--ignoring", options->trial.ignoring, "share of them who take no notice of the robot")
       ->capture_default_str();
-  command->add_option("--method", options->method, "crowd_fit, cautious_window, dynamic_window")
-      ->check(CLI::IsMember({"crowd_fit", "cautious_window", "dynamic_window"}))
+  command->add_option("--method", options->method, "cautious_window, dynamic_window")
+      ->check(CLI::IsMember({"cautious_window", "dynamic_window"}))
       ->capture_default_str();
   command->add_option("--set", options->trial.settings, "section.key=value over robot.yaml; may be repeated");
   command->add_option("--report", options->report, "JSON file for the score");

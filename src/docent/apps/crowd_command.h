@@ -6,7 +6,7 @@ class App;
 
 namespace docent {
 
-/// `docent crowd --seed N --density 0.8 --ignoring 0.5 --method crowd_fit`
+/// `docent crowd --seed N --density 0.8 --ignoring 0.5 --method cautious_window`
 void add_crowd_command(CLI::App& app);
 
 }  // namespace docent

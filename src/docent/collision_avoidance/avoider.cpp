@@ -34,9 +34,8 @@ Result<void> AvoiderParams::validate() const {
   if (!(lookahead >= 0.3 && lookahead <= 5.0)) return fail("avoid.lookahead must lie between 0.3 and 5 m");
   if (!(lookahead_time >= 0.0 && lookahead_time <= 5.0)) return fail("avoid.lookahead_time must lie in 0..5 s");
   if (auto valid = people.validate(); !valid) return valid;
-  if (auto valid = crowd.validate(); !valid) return valid;
-  if (method != "crowd_fit" && method != "cautious_window" && method != "dynamic_window")
-    return fail("avoid.method must be crowd_fit, cautious_window or dynamic_window");
+  if (method != "cautious_window" && method != "dynamic_window")
+    return fail("avoid.method must be cautious_window or dynamic_window");
   if (!(arrival_deceleration > 0.0)) return fail("avoid.arrival_deceleration must be > 0 m/s2");
   if (!(target_timeout > 0.0 && virtual_timeout > 0.0)) return fail("avoid: timeouts must be > 0 s");
   return {};
@@ -47,7 +46,6 @@ Avoider::Avoider(const BaseLimits& limits, const AvoiderParams& params, std::siz
       params_{params},
       laser_count_{laser_count},
       window_{limits, params.window},
-      crowd_{limits, params.crowd},
       max_speed_{std::min(0.7, limits.max_speed)},
       sweep_freshness_(laser_count),
       odometry_watch_{limits} {}
@@ -191,8 +189,7 @@ BaseState Avoider::state_when_effective(Time now) const {
 double Avoider::reach() const {
   const double speed = std::min(max_speed_, limits_.max_speed);
   const double until_it_stands = window_.hold() + speed / limits_.deceleration;
-  const double least = params_.method == "crowd_fit" ? CrowdField::kReach : kLeastReach;
-  return std::max(least, limits_.radius + 0.5 * speed * until_it_stands + kFastWalk * until_it_stands);
+  return std::max(kLeastReach, limits_.radius + 0.5 * speed * until_it_stands + kFastWalk * until_it_stands);
 }
 
 double Avoider::steps_in() const {
@@ -398,26 +395,13 @@ void Avoider::cap_by_surroundings(std::span<const Obstacle> obstacles, double be
   }
 }
 
-Steering Avoider::steering_for(const Carrot& ahead, const BaseState& start, std::span<const Obstacle> obstacles,
+Steering Avoider::steering_for(const Carrot& ahead, const Pose2& odom_from_base, std::span<const Obstacle> obstacles,
                                AvoiderDecision& decision) {
   Steering steering;
   steering.bearing = std::atan2(ahead.in_base.y, ahead.in_base.x);
   steering.distance = norm(ahead.in_base);
   if (params_.method == "dynamic_window") return steering;
-  if (params_.method == "crowd_fit") {
-    const CrowdAdvice advice =
-        crowd_.steer(start, obstacles, {target_->via, !target_->is_final}, decision.speed_cap, params_.window.cycle);
-    steering.bearing = advice.bearing;
-    steering.tail_first = advice.tail_first;
-    steering.distance = std::max(steering.distance, 1.0);
-    cap_speed(advice.speed, "people are in the way", decision);
-    if (advice.tail_first) {
-      cap_by_surroundings(turned_round(obstacles), steering.bearing, decision);
-      return steering;
-    }
-  } else {
-    steering.bearing = steer_around(ahead.in_base, start.odom_from_base, obstacles);
-  }
+  steering.bearing = steer_around(ahead.in_base, odom_from_base, obstacles);
   cap_by_surroundings(obstacles, steering.bearing, decision);
   return steering;
 }
@@ -479,7 +463,6 @@ AvoiderDecision Avoider::stand(Time now, AvoiderDecision decision, std::string r
   decision.state = AvoiderDecision::State::stopped;
   decision.reason = std::move(reason);
   steered_in_odom_.reset();
-  crowd_.forget();
   return finish(now, std::move(decision));
 }
 
@@ -519,7 +502,7 @@ AvoiderDecision Avoider::decide(Time now) {
       cap_speed(std::max(0.08, std::sqrt(2.0 * params_.arrival_deceleration * rest)), "", decision);
     }
     cap_by_knowledge(now, decision);
-    steering = steering_for(ahead, start, obstacles, decision);
+    steering = steering_for(ahead, start.odom_from_base, obstacles, decision);
     // Sharp turns slowly, and on the spot when the way lies behind.
     const double turn = std::abs(steering.bearing);
     cap_speed(max_speed_ * std::clamp(1.35 - turn / 1.1, 0.0, 1.0), "", decision);

@@ -9,7 +9,6 @@
 #include "docent/base/result.h"
 #include "docent/collision_avoidance/base_motion.h"
 #include "docent/collision_avoidance/complaint.h"
-#include "docent/collision_avoidance/crowd_steering.h"
 #include "docent/collision_avoidance/dynamic_window.h"
 #include "docent/collision_avoidance/freshness.h"
 #include "docent/collision_avoidance/local_time.h"
@@ -27,10 +26,8 @@ namespace docent {
 struct AvoiderParams {
   DynamicWindowParams window;
   PeopleCautionParams people;
-  CrowdFitParams crowd;
-  /// crowd_fit: through the gaps between people as they will be in the next seconds; cautious_window: the dynamic
-  /// window, slower near people, who are foreseen for a second; dynamic_window: the plain one, for comparison, with
-  /// people as things that stand where they are now.
+  /// cautious_window: the dynamic window, slower near people, who are foreseen for a second; dynamic_window: the plain
+  /// one, for comparison, with people as things that stand where they are now.
   std::string method = "cautious_window";
   double lookahead = 1.2;             ///< [m] the path is followed by steering for a point so far along it, at least,
   double lookahead_time = 1.5;        ///< [s] and as far as the robot drives in this time
@@ -48,7 +45,6 @@ struct AvoiderParams {
     v("lookahead", lookahead);
     v("lookahead_time", lookahead_time);
     v("people", people);
-    v("crowd", crowd);
     v("method", method);
     v("arrival_deceleration", arrival_deceleration);
     v("target_timeout", target_timeout);
@@ -157,8 +153,8 @@ class Avoider {
   [[nodiscard]] bool must_slide_off(double bearing, std::span<const Obstacle> obstacles) const;
   [[nodiscard]] double steer_around(Point2 carrot, const Pose2& odom_from_base, std::span<const Obstacle> obstacles);
   /// What to steer for, by the method; caps the speed.
-  [[nodiscard]] Steering steering_for(const Carrot& ahead, const BaseState& start, std::span<const Obstacle> obstacles,
-                                      AvoiderDecision& decision);
+  [[nodiscard]] Steering steering_for(const Carrot& ahead, const Pose2& odom_from_base,
+                                      std::span<const Obstacle> obstacles, AvoiderDecision& decision);
   /// Caps the speed and says why.
   void cap_speed(double cap, const std::string& why, AvoiderDecision& decision) const;
   void cap_by_knowledge(Time now, AvoiderDecision& decision) const;
@@ -174,7 +170,6 @@ class Avoider {
   AvoiderParams params_;
   std::size_t laser_count_;
   DynamicWindow window_;
-  CrowdSteering crowd_;
   ObstacleMemory memory_;
   BaseHistory odometry_;
   CommandHistory commands_;

@@ -308,27 +308,8 @@ void DynamicWindow::smooth(std::vector<EvaluatedVelocity>& window) const {
   }
 }
 
-std::vector<Obstacle> turned_round(std::span<const Obstacle> obstacles) {
-  std::vector<Obstacle> turned{obstacles.begin(), obstacles.end()};
-  for (Obstacle& obstacle : turned) {
-    obstacle.at = -1.0 * obstacle.at;
-    obstacle.velocity = -1.0 * obstacle.velocity;
-  }
-  return turned;
-}
-
 WindowChoice DynamicWindow::choose(const Velocity& velocity, const Velocity& last, std::span<const Obstacle> obstacles,
                                    const Steering& steering) {
-  if (!steering.tail_first) return choose_head_first(velocity, last, obstacles, steering);
-  const auto reversed = [](const Velocity& some) { return Velocity{-some.linear, some.angular}; };
-  WindowChoice choice = choose_head_first(reversed(velocity), reversed(last), turned_round(obstacles), steering);
-  choice.command = reversed(choice.command);
-  for (auto& candidate : choice.window) candidate.velocity = reversed(candidate.velocity);
-  return choice;
-}
-
-WindowChoice DynamicWindow::choose_head_first(const Velocity& velocity, const Velocity& last,
-                                              std::span<const Obstacle> obstacles, const Steering& steering) {
   const Reachable range = reachable(velocity, steering);
   lay_out(range);
   measure_ways(obstacles);

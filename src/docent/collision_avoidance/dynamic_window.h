@@ -57,8 +57,7 @@ struct Obstacle {
   double margin = 0.0;  ///< [m] between its point and the robot's outline
   bool person = false;  ///< slim and free-standing
   bool is_virtual = false;
-  double stood = 60.0;    ///< [s] that it has been known not to move; the window does not ask
-  bool may_step = false;  ///< may be somebody, also in a throng or half hidden: they may step nearer; likewise
+  bool may_step = false;  ///< may be somebody, also half hidden in a throng, who steps nearer; the window does not ask
 };
 
 /// What the window shall steer for.
@@ -67,11 +66,7 @@ struct Steering {
   double distance = 10.0;  ///< [m] to the point that is steered for
   double speed_cap = 0.0;  ///< [m/s]; 0: turn on the spot
   bool may_reverse = false;
-  bool tail_first = false;  ///< bearing and cap are those of a disc that takes its back for its front
 };
-
-/// The same things as a base sees them that takes its back for its front.
-[[nodiscard]] std::vector<Obstacle> turned_round(std::span<const Obstacle> obstacles);
 
 struct EvaluatedVelocity {
   Velocity velocity;
@@ -112,8 +107,6 @@ class DynamicWindow {
   [[nodiscard]] double hold() const { return limits_.watchdog + 0.05; }
 
  private:
-  [[nodiscard]] WindowChoice choose_head_first(const Velocity& velocity, const Velocity& last,
-                                               std::span<const Obstacle> obstacles, const Steering& steering);
   /// The range of velocities that can be reached in one cycle.
   struct Reachable {
     double slowest, fastest;  ///< [m/s]
