@@ -33,7 +33,7 @@ NEAR_REACTION_S = 4.0  # [s]: where one of 24 sensors sees something, and all th
 WATCHED_S = 8.0  # [s] after the fault
 JUMP_WATCHED_S = 25.0  # [s]: a jump is over at once, and the localizer must find its place
 FOUND_M = 0.3  # [m]
-FOUND_S = 15.0  # [s]: who rightly doubts its place stands, and standing it learns little that is new
+FOUND_S = 10.0  # [s]
 TOUR = "  - {at: 5, request: {kind: tour, target: highlights, language: en}}"
 
 SENSORS = {  # name in a scenario: what the reason must name
