@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace docent::simulator {
@@ -10,28 +11,18 @@ namespace {
 
 constexpr double kHorizon = 2.5;  // [s] people look so far ahead
 
-/// A neighbour, and how far it is until both touch.
-struct Threat {
-  explicit Threat(const Neighbour& neighbour)
-      : offset{neighbour.offset},
-        velocity{neighbour.velocity},
-        gap{dot(offset, offset) - neighbour.reach * neighbour.reach},
-        weight{neighbour.weight} {}
-  Threat() = default;
-  Point2 offset;
-  Point2 velocity;
-  double gap = 0.0;  ///< [m2] square of the distance less that of the reach
-  double weight = 1.0;
-};
+/// False when the time to touch is over the horizon for sure: its root is at most `closing`.
+bool may_touch(double gap, double closing, double horizon = kHorizon) {
+  constexpr double kRounding = 1.0 + 1e-9;
+  return gap <= 2.0 * kRounding * horizon * closing;
+}
 
 /// time_to_touch() where it is within the horizon [s].
 inline std::optional<double> touch_within(Point2 offset, Point2 relative_velocity, double gap, double horizon) {
   const double closing = dot(offset, relative_velocity);
   if (closing <= 0.0) return std::nullopt;
   if (gap <= 0.0) return 0.0;
-  // The root is at most `closing`: for most pairs none is needed.
-  constexpr double kRounding = 1.0 + 1e-9;
-  if (gap > 2.0 * kRounding * horizon * closing) return std::nullopt;
+  if (!may_touch(gap, closing, horizon)) return std::nullopt;
   const double speed_squared = dot(relative_velocity, relative_velocity);
   const double discriminant = closing * closing - speed_squared * gap;
   if (discriminant < 0.0) return std::nullopt;
@@ -39,44 +30,97 @@ inline std::optional<double> touch_within(Point2 offset, Point2 relative_velocit
   return time > horizon ? std::nullopt : std::optional{time};
 }
 
-/// What a velocity costs; some cost of at least `bound` as soon as it is known to be no less.
-double cost_of(Point2 velocity, Point2 desired, const Person& person, std::span<const Threat> threats,
-               const WalkableFloor& floor, double waited, double bound) {
-  const double speed = norm(desired);
-  double cost = 0.15 * norm(velocity - person.velocity);
-  if (speed < 0.05) {
-    cost += norm(velocity);
-  } else {
-    // A step aside costs less than waiting: else two who meet head on would stand for ever. Who has waited for some
-    // seconds goes back a little, too, to get round what they stand against.
-    const double forward = dot(velocity, desired) / speed;
-    const double sideways = std::abs(cross(velocity, desired)) / speed;
-    cost += (speed - forward) + 0.35 * sideways +
-            (0.6 + 0.3 * std::min(waited, 4.0)) * std::max(0.0, 0.4 * speed - norm(velocity));
+/// [m2] square of the distance less that of the reach
+double gap_of(const Neighbour& neighbour) {
+  return dot(neighbour.offset, neighbour.offset) - neighbour.reach * neighbour.reach;
+}
+
+/// What a person weighs velocities by.
+class Scales {
+ public:
+  Scales(const Person& person, Point2 desired, std::span<const Neighbour> neighbours, const WalkableFloor& floor,
+         double waited)
+      : person_{person},
+        desired_{desired},
+        speed_{norm(desired)},
+        haste_{0.6 + 0.3 * std::min(waited, 4.0)},
+        neighbours_{neighbours},
+        floor_{floor},
+        need_{std::min(person.radius, 0.26)},
+        room_{floor.clearance(person.position) - need_} {
+    std::transform(neighbours.begin(), neighbours.end(), gaps_.begin(), gap_of);
   }
-  for (const Threat& threat : threats) {
-    if (cost >= bound) return cost;
-    const Point2 relative = velocity - threat.velocity;
-    const auto time = touch_within(threat.offset, relative, threat.gap, kHorizon);
-    if (!time) continue;
-    if (*time > 0.0) {
-      cost += threat.weight * 0.6 * (1.0 / (*time + 0.2) - 1.0 / (kHorizon + 0.2));
+
+  /// What a velocity costs; some cost of at least `bound` as soon as it is known to be no less.
+  [[nodiscard]] double cost_of(Point2 velocity, double bound) const {
+    const double speed = norm(velocity);
+    double cost = 0.0;
+    if (speed_ < 0.05) {
+      cost = 0.15 * norm(velocity - person_.velocity) + speed;
     } else {
-      // Too near already: what counts is how fast the gap closes.
-      const double away = std::max(norm(threat.offset), 1e-3);
-      const double closing = dot(relative, threat.offset) / away;
-      cost += threat.weight * (1.0 + 3.0 * std::max(0.0, closing + 0.2));
+      // A step aside costs less than waiting: else two who meet head on would stand for ever. Who has waited for some
+      // seconds goes back a little, too, to get round what they stand against.
+      const double forward = dot(velocity, desired_) / speed_;
+      const double sideways = std::abs(cross(velocity, desired_)) / speed_;
+      const double off = (speed_ - forward) + 0.35 * sideways;
+      if (off >= bound) return off;
+      cost = 0.15 * norm(velocity - person_.velocity) + (off + haste_ * std::max(0.0, 0.4 * speed_ - speed));
     }
+    if (cost < bound) cost = with_neighbours(cost, velocity, bound);
+    return cost < bound ? with_walls(cost, velocity, speed) : cost;
   }
-  if (cost < bound && dot(velocity, velocity) > 1e-6) {
-    const double near = floor.clearance(person.position + 0.3 * velocity) - std::min(person.radius, 0.26);
-    const double far = floor.clearance(person.position + 0.8 * velocity) - std::min(person.radius, 0.26);
-    if (near < 0.0) cost += 4.0;
+
+ private:
+  [[nodiscard]] double with_neighbours(double cost, Point2 velocity, double bound) const {
+    // First, and without a branch, who comes near at all: the time to touch is more than half of gap / closing.
+    std::array<std::uint8_t, kMostNeighbours> near{};
+    std::size_t near_count = 0;
+    for (std::size_t i = 0; i < neighbours_.size(); ++i) {
+      const double closing = dot(neighbours_[i].offset, velocity - neighbours_[i].velocity);
+      near[near_count] = static_cast<std::uint8_t>(i);
+      near_count += static_cast<std::size_t>(closing > 0.0) & static_cast<std::size_t>(may_touch(gaps_[i], closing));
+    }
+    for (std::size_t i = 0; i < near_count && cost < bound; ++i) {
+      const Neighbour& neighbour = neighbours_[near[i]];
+      const Point2 relative = velocity - neighbour.velocity;
+      const auto time = touch_within(neighbour.offset, relative, gaps_[near[i]], kHorizon);
+      if (!time) continue;
+      if (*time > 0.0) {
+        cost += neighbour.weight * 0.6 * (1.0 / (*time + 0.2) - 1.0 / (kHorizon + 0.2));
+      } else {
+        // Too near already: what counts is how fast the gap closes.
+        const double away = std::max(norm(neighbour.offset), 1e-3);
+        const double closing = dot(relative, neighbour.offset) / away;
+        cost += neighbour.weight * (1.0 + 3.0 * std::max(0.0, closing + 0.2));
+      }
+    }
+    return cost;
+  }
+
+  [[nodiscard]] double with_walls(double cost, Point2 velocity, double speed) const {
+    if (dot(velocity, velocity) <= 1e-6) return cost;
+    // The clearance falls by less than 1.5 m a metre: where there is room enough here, walls need not be looked for.
+    if (room_ < 1.5 * 0.3 * speed && clearance_after(0.3, velocity) < 0.0) cost += 4.0;
+    if (room_ > 0.15 + 1.5 * 0.8 * speed) return cost;
+    const double far = clearance_after(0.8, velocity);
     if (far < 0.0) cost += 1.0;
     if (far < 0.15) cost += 0.3 * (0.15 - far) / 0.15;
+    return cost;
   }
-  return cost;
-}
+  [[nodiscard]] double clearance_after(double time, Point2 velocity) const {
+    return floor_.clearance(person_.position + time * velocity) - need_;
+  }
+
+  const Person& person_;
+  Point2 desired_;
+  double speed_;  ///< [m/s] desired
+  double haste_;  ///< what it costs to be slower than one might
+  std::span<const Neighbour> neighbours_;
+  const WalkableFloor& floor_;
+  double need_;  ///< [m] clearance
+  double room_;  ///< [m] how much more there is here
+  std::array<double, kMostNeighbours> gaps_;
+};
 
 }  // namespace
 
@@ -96,13 +140,11 @@ Point2 choose_velocity(const Person& person, Point2 desired, std::span<const Nei
     });
     if (!is_threatened) return {};
   }
-  std::array<Threat, kMostNeighbours> room;
-  std::transform(neighbours.begin(), neighbours.end(), room.begin(), [](const Neighbour& n) { return Threat{n}; });
-  const auto threats = std::span<const Threat>{room}.first(neighbours.size());
+  const Scales scales{person, desired, neighbours, floor, waited};
   Point2 best = desired;
-  double best_cost = cost_of(desired, desired, person, threats, floor, waited, std::numeric_limits<double>::infinity());
+  double best_cost = scales.cost_of(desired, std::numeric_limits<double>::infinity());
   const auto consider = [&](Point2 velocity) {
-    const double cost = cost_of(velocity, desired, person, threats, floor, waited, best_cost);
+    const double cost = scales.cost_of(velocity, best_cost);
     if (cost < best_cost - 1e-9) {
       best_cost = cost;
       best = velocity;

@@ -75,6 +75,8 @@ WalkableFloor::WalkableFloor(const World& world) {
   for (std::size_t cell = 0; cell < coarse_clearance_.size(); ++cell) {
     coarse_clearance_[cell] = static_cast<float>(clearance(coarse_centre(cell)));
   }
+  for (std::size_t k = 0; k < kNeighbours.size(); ++k)
+    to_neighbour_[k] = kNeighbours[k][1] * static_cast<std::ptrdiff_t>(coarse_columns_) + kNeighbours[k][0];
   weigh_steps();
   find_reachable(world);
 }
@@ -105,10 +107,12 @@ std::size_t WalkableFloor::coarse_cell(Point2 point) const {
   return static_cast<std::size_t>(row) * static_cast<std::size_t>(coarse_columns_) + static_cast<std::size_t>(column);
 }
 
+Point2 WalkableFloor::coarse_centre(int column, int row) const {
+  return low_ + Point2{(column + 0.5) * kCoarse, (row + 0.5) * kCoarse};
+}
+
 Point2 WalkableFloor::coarse_centre(std::size_t cell) const {
-  const auto width = static_cast<std::size_t>(coarse_columns_);
-  return low_ + Point2{(static_cast<double>(cell % width) + 0.5) * kCoarse,
-                       (static_cast<double>(cell / width) + 0.5) * kCoarse};
+  return coarse_centre(static_cast<int>(cell) % coarse_columns_, static_cast<int>(cell) / coarse_columns_);
 }
 
 void WalkableFloor::find_reachable(const World& world) {
@@ -175,11 +179,11 @@ double WalkableFloor::clearance(Point2 point) const {
   const double x = (point.x - low_.x) / kCell - 0.5;
   const double y = (point.y - low_.y) / kCell - 0.5;
   if (!(x >= 0.0 && y >= 0.0 && x < columns_ - 1 && y < rows_ - 1)) return -kFar;
-  const auto column = static_cast<std::size_t>(x);
-  const auto row = static_cast<std::size_t>(y);
-  const double fx = x - static_cast<double>(column);
-  const double fy = y - static_cast<double>(row);
-  const float* cell = &clearance_[row * static_cast<std::size_t>(columns_) + column];
+  const int column = static_cast<int>(x);
+  const int row = static_cast<int>(y);
+  const double fx = x - column;
+  const double fy = y - row;
+  const float* cell = clearance_.data() + static_cast<std::ptrdiff_t>(row) * columns_ + column;
   const double below = (1.0 - fx) * static_cast<double>(cell[0]) + fx * static_cast<double>(cell[1]);
   const double above = (1.0 - fx) * static_cast<double>(cell[columns_]) + fx * static_cast<double>(cell[columns_ + 1]);
   return (1.0 - fy) * below + fy * above;
@@ -193,16 +197,19 @@ Point2 WalkableFloor::away_from_walls(Point2 point) const {
   return length > 1e-9 ? (1.0 / length) * gradient : Point2{};
 }
 
-bool WalkableFloor::is_clear(Point2 a, double at_a, Point2 b, double radius) const {
-  const double length = distance(a, b);
-  double along = 0.0;
+bool WalkableFloor::is_clear(Point2 a, double at_a, Point2 b, double radius, bool has_room_at_b) const {
+  const Point2 way = b - a;
   double gap = at_a - radius;
+  if (has_room_at_b && gap >= 0.0 && dot(way, way) < gap * gap) return true;
+  const double length = norm(way);
+  double along = 0.0;
   while (true) {
     if (gap < 0.0) return false;
     if (along >= length) return true;
     // Nothing can be nearer than the gap, so that step is safe.
     along = std::min(length, along + std::max(0.1, gap));
-    gap = clearance(a + (along / length) * (b - a)) - radius;
+    if (has_room_at_b && along >= length) return true;
+    gap = clearance(a + (along / length) * way) - radius;
   }
 }
 
@@ -243,7 +250,9 @@ FlowField WalkableFloor::field_to(Point2 goal, double reach) const {
   constexpr float kBucket = 0.19F;  // [m]
   constexpr std::size_t kBuckets = 4;
   static_assert(kBucket < kCoarse && kCoarse * 1.415 * (1.0 + 2.0 * (kRoomy - kWalkable)) < (kBuckets - 1) * kBucket);
-  const auto bucket_of = [](float cost) { return static_cast<std::size_t>(cost / kBucket); };
+  const auto bucket_of = [](float cost) {
+    return static_cast<std::uint32_t>(static_cast<int>(cost * (1.0F / kBucket)));
+  };
   FlowField field;
   field.cost.assign(coarse_clearance_.size(), kUnreachable);
   std::array<std::vector<std::uint32_t>, kBuckets> buckets;
@@ -262,11 +271,8 @@ FlowField WalkableFloor::field_to(Point2 goal, double reach) const {
     if (!nearest) return field;
     offer(*nearest, 0.0F);
   }
-  std::array<std::ptrdiff_t, kNeighbours.size()> offsets{};
-  for (std::size_t k = 0; k < kNeighbours.size(); ++k)
-    offsets[k] = kNeighbours[k][1] * static_cast<std::ptrdiff_t>(coarse_columns_) + kNeighbours[k][0];
   std::vector<std::uint32_t> cells;
-  for (std::size_t bucket = 0; pending > 0; ++bucket) {
+  for (std::uint32_t bucket = 0; pending > 0; ++bucket) {
     cells.clear();
     cells.swap(buckets[bucket % kBuckets]);
     pending -= cells.size();
@@ -274,7 +280,7 @@ FlowField WalkableFloor::field_to(Point2 goal, double reach) const {
       const float cost = field.cost[cell];
       if (bucket_of(cost) != bucket) continue;  // has become cheaper since
       for (std::size_t k = 0; k < kNeighbours.size(); ++k) {
-        const auto next = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(cell) + offsets[k]);
+        const auto next = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(cell) + to_neighbour_[k]);
         if (step_weight_[next] <= 0.0F) continue;
         const float length = static_cast<float>(kCoarse) * (k < 4 ? 1.0F : 1.41421356F);
         offer(next, cost + length * step_weight_[next]);
@@ -320,24 +326,30 @@ std::optional<Point2> WalkableFloor::direction(const FlowField& field, Point2 po
     const Point2 step = coarse_centre(cell) - point;
     return norm(step) > 1e-6 ? std::optional{(1.0 / norm(step)) * step} : std::nullopt;
   }
-  Point2 ahead = coarse_centre(cell);
+  int column = static_cast<int>(cell) % coarse_columns_;
+  int row = static_cast<int>(cell) / coarse_columns_;
+  Point2 ahead = coarse_centre(column, row);
   const double room = clearance(point);
+  const double width = std::min(radius, kWalkable - 0.02);
   constexpr int kLookAhead = 8;
   for (int i = 0; i < kLookAhead && field.cost[cell] > 0.0F; ++i) {
-    const int column = static_cast<int>(cell) % coarse_columns_;
-    const int row = static_cast<int>(cell) / coarse_columns_;
-    std::size_t best = cell;
-    for (const auto& [dc, dr] : kNeighbours) {
-      const int c = column + dc;
-      const int r = row + dr;
-      if (c < 0 || r < 0 || c >= coarse_columns_ || r >= coarse_rows_) continue;
-      const auto next = static_cast<std::size_t>(r * coarse_columns_ + c);
-      if (field.cost[next] < field.cost[best]) best = next;
+    // Nobody walks on the margin: a cell that the goal is reached from has eight neighbours.
+    const float* here = &field.cost[cell];
+    float least = *here;
+    std::size_t best = kNeighbours.size();
+    for (std::size_t k = 0; k < kNeighbours.size(); ++k) {
+      const float cost = here[to_neighbour_[k]];
+      if (cost >= least) continue;
+      least = cost;
+      best = k;
     }
-    if (best == cell) break;
-    cell = best;
-    if (i > 0 && !is_clear(point, room, coarse_centre(cell), std::min(radius, kWalkable - 0.02))) break;
-    ahead = coarse_centre(cell);
+    if (best == kNeighbours.size()) break;
+    cell = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(cell) + to_neighbour_[best]);
+    column += kNeighbours[best][0];
+    row += kNeighbours[best][1];
+    const Point2 centre = coarse_centre(column, row);
+    if (i > 0 && !is_clear(point, room, centre, width, true)) break;
+    ahead = centre;
   }
   const Point2 step = ahead - point;
   const double length = norm(step);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -46,10 +48,11 @@ class WalkableFloor {
  private:
   [[nodiscard]] std::size_t fine_cell(Point2 point) const;
   [[nodiscard]] std::size_t coarse_cell(Point2 point) const;
+  [[nodiscard]] Point2 coarse_centre(int column, int row) const;
   [[nodiscard]] Point2 coarse_centre(std::size_t cell) const;
   [[nodiscard]] std::optional<std::size_t> nearest_walkable(Point2 point, double limit) const;
-  /// `at_a`: the clearance there.
-  [[nodiscard]] bool is_clear(Point2 a, double at_a, Point2 b, double radius) const;
+  /// @param at_a  the clearance there. @param has_room_at_b  the disc is known to fit there
+  [[nodiscard]] bool is_clear(Point2 a, double at_a, Point2 b, double radius, bool has_room_at_b = false) const;
   template <class Action>
   void for_coarse_cells_within(Point2 point, double reach, const Action& action) const;
   void find_reachable(const World& world);
@@ -64,6 +67,7 @@ class WalkableFloor {
   double free_area_ = 0.0;
   int coarse_columns_ = 0;
   int coarse_rows_ = 0;
+  std::array<std::ptrdiff_t, 8> to_neighbour_{};  ///< from a coarse cell to those round it
   std::vector<float> coarse_clearance_;
   std::vector<float> step_weight_;  ///< of each coarse cell: what a metre into it costs; 0: nobody walks there
 };
