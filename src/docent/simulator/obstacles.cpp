@@ -80,8 +80,13 @@ bool Obstacles::has_fallen(Point2 centre) const {
 }
 
 double Obstacles::clearance(Point2 point) const {
+  constexpr double kRounding = 1e-9;  // [m]
   double least = std::numeric_limits<double>::infinity();
-  for (const Item& item : items_) least = std::min(least, distance(item.polygon, point));
+  for (const Item& item : items_) {
+    const double beside = std::max({item.low.x - point.x, point.x - item.high.x, 0.0});
+    const double before = std::max({item.low.y - point.y, point.y - item.high.y, 0.0});
+    if (std::max(beside, before) < least + kRounding) least = std::min(least, distance(item.polygon, point));
+  }
   return least;
 }
 

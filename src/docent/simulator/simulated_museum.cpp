@@ -149,7 +149,14 @@ class SimulatedMuseum::Impl {
     if (has_fallen_) body_.carry_to(before);
     if (steps_ % 2 == 0) crowd_.step(run_seconds(), kPeopleStep, view());
     people_.clear();
-    for (const Person& person : crowd_.people()) people_.push_back({person.position, person.radius});
+    beside_.clear();
+    const Point2 centre = body_.pose().position();
+    for (const Person& person : crowd_.people()) {
+      constexpr double kBeside = 3.0;  // [m] more than any stopping distance
+      const Point2 offset = person.position - centre;
+      if (std::max(std::abs(offset.x), std::abs(offset.y)) <= kBeside) beside_.push_back(people_.size());
+      people_.push_back({person.position, person.radius});
+    }
     touch();
     distance_ += distance(before.position(), body_.pose().position());
     const bool at_charger = options_.charger && distance(*options_.charger, body_.pose().position()) < kChargerReach &&
@@ -176,7 +183,7 @@ class SimulatedMuseum::Impl {
       log_.touch(time_, body_, {contact_kind(solid.kind), solid.id, touch.point, touch.towards, 0.0, std::nullopt});
       press(touch.towards);
     }
-    for (std::size_t i = 0; i < people_.size(); ++i) {
+    for (const std::size_t i : beside_) {
       const double reach = radius + people_[i].radius;
       const Point2 offset = people_[i].centre - centre;
       if (dot(offset, offset) > 1.1 * reach * reach) continue;  // no root for most
@@ -211,10 +218,8 @@ class SimulatedMuseum::Impl {
     samples_.clear();
     const Point2 centre = body_.pose().position();
     const Point2 ahead = unit(body_.pose().theta);
-    for (std::size_t i = 0; i < people_.size(); ++i) {
+    for (const std::size_t i : beside_) {
       const Point2 offset = people_[i].centre - centre;
-      constexpr double kWatched = 3.0;  // [m] more than any stopping distance
-      if (std::abs(offset.x) > kWatched || std::abs(offset.y) > kWatched) continue;
       const bool in_the_way = std::abs(cross(ahead, offset)) < body_.params().radius + people_[i].radius + 0.1;
       ContactLog::PersonSample sample{crowd_.people()[i].id, offset, people_[i].radius, false};
       sample.in_sight = in_the_way && std::abs(body_.linear()) > 0.01 && is_inside_stopping_distance(sample, body_) &&
@@ -447,6 +452,7 @@ class SimulatedMuseum::Impl {
   std::size_t next_event_ = 0;
   std::vector<Temporary> temporary_;
   std::vector<Disc> people_;
+  std::vector<std::size_t> beside_;  ///< indices of the people who are near the robot
   std::vector<Touch> touches_;
   std::vector<ContactLog::PersonSample> samples_;
   std::vector<std::uint8_t> tactile_;

@@ -76,8 +76,8 @@ class Crowd {
   void enter(Person& person);
   void let_recorded_in(double now, const RobotView& robot);
   void sort_into_cells();
-  template <class F>
-  void for_each_within(Point2 point, double range, F&& action) const;
+  /// Indices in outlines_; they live until the next call.
+  [[nodiscard]] std::span<const std::uint32_t> outlines_within(Point2 point, double range);
 
   // decisions.cpp
   void decide(std::size_t index, double now);
@@ -142,6 +142,7 @@ class Crowd {
   };
   std::vector<Outline> outlines_;          ///< [people] by cell, then by person
   std::vector<std::uint32_t> cell_begin_;  ///< [cells + 1] into outlines_
+  std::vector<std::uint32_t> within_;      ///< of outlines_within
 };
 
 }  // namespace docent::simulator

@@ -13,22 +13,25 @@ constexpr double kNearRobot = 5.0;       // [m]
 
 }  // namespace
 
-template <class F>
-void Crowd::for_each_within(Point2 point, double range, F&& action) const {
+std::span<const std::uint32_t> Crowd::outlines_within(Point2 point, double range) {
   constexpr double kCell = 1.5;
   const auto bound = [](double value, int limit) { return std::clamp(static_cast<int>(value / kCell), 0, limit - 1); };
   const int first_column = bound(point.x - range - cells_low_.x, cell_columns_);
   const int last_column = bound(point.x + range - cells_low_.x, cell_columns_);
+  within_.resize(outlines_.size() + 1);
+  std::size_t count = 0;
   for (int row = bound(point.y - range - cells_low_.y, cell_rows_);
        row <= bound(point.y + range - cells_low_.y, cell_rows_); ++row) {
     const auto line = static_cast<std::size_t>(row * cell_columns_);
     const std::size_t end = cell_begin_[line + static_cast<std::size_t>(last_column) + 1];
     for (std::size_t i = cell_begin_[line + static_cast<std::size_t>(first_column)]; i < end; ++i) {
       const Point2 offset = outlines_[i].position - point;
-      const double squared = dot(offset, offset);
-      if (squared <= range * range) action(outlines_[i], offset, squared);
+      // No branch: about every other one is within.
+      within_[count] = static_cast<std::uint32_t>(i);
+      count += static_cast<std::size_t>(dot(offset, offset) <= range * range);
     }
   }
+  return std::span{within_}.first(count);
 }
 
 std::size_t Crowd::count_of(Activity activity) const {
@@ -92,15 +95,17 @@ void Crowd::decide(std::size_t index, double now) {
   std::array<Neighbour, kMostNeighbours> neighbours;
   std::size_t count = 0;
   person.near_count = 0;
-  for_each_within(person.position, 2.5, [&](const Outline& other, Point2 offset, double squared) {
-    if (other.person == index) return;
-    if (squared < 1.0 && person.near_count < 8) {
+  for (const std::uint32_t i : outlines_within(person.position, 2.5)) {
+    const Outline& other = outlines_[i];
+    if (other.person == index) continue;
+    const Point2 offset = other.position - person.position;
+    if (dot(offset, offset) < 1.0 && person.near_count < 8) {
       person.near[static_cast<std::size_t>(person.near_count++)] = static_cast<std::uint16_t>(other.person);
     }
     if (count + 1 < neighbours.size()) {
       neighbours[count++] = {offset, other.velocity, person.radius + other.radius + 0.06, 1.0};
     }
-  });
+  }
   const bool stands_firm =
       person.has_arrived &&
       (person.activity == Activity::curious || person.activity == Activity::block || person.activity == Activity::wall);
@@ -189,8 +194,8 @@ void Crowd::take_interest(std::size_t index, const Sight& sight, double now) {
   }
   const auto happens = [&](double rate) { return rng_.chance(rate * kDecisionPeriod); };
   const double speed = norm(robot_.velocity);
-  const double company = static_cast<double>(count_of(Activity::follow));
-  if (happens(params_.follow_rate) && company < 2.0 + 0.12 * static_cast<double>(people_.size())) {
+  const double most_company = 2.0 + 0.12 * static_cast<double>(people_.size());
+  if (happens(params_.follow_rate) && static_cast<double>(count_of(Activity::follow)) < most_company) {
     person.activity = Activity::follow;
     person.until = now + rng_.uniform(20.0, 120.0);
     person.keeps_distance = rng_.uniform(0.45, 1.3);
@@ -238,11 +243,11 @@ void Crowd::form_wall(std::size_t leader, double now) {
     ++placed;
   };
   join(people_[leader]);
-  for_each_within(centre, 4.0, [&](const Outline& other, Point2, double) {
-    Person& person = people_[other.person];
-    if (other.person == leader || placed == 0 || placed >= wanted) return;
+  for (const std::uint32_t i : outlines_within(centre, 4.0)) {
+    Person& person = people_[outlines_[i].person];
+    if (outlines_[i].person == leader || placed == 0 || placed >= wanted) continue;
     if (person.activity == Activity::stroll || person.activity == Activity::look) join(person);
-  });
+  }
 }
 
 void Crowd::hear_horn(double now) {

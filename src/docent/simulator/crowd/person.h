@@ -29,29 +29,38 @@ enum class Activity {
 };
 
 /// One visitor. Positions in the world frame, metres and seconds.
-struct Person {
-  std::uint32_t id = 0;
-  bool is_child = false;
-  bool is_extra = false;  ///< came by a scenario or a recording: nobody comes instead when they have left
-  double radius = 0.25;
-  double height = 1.7;
-  double preferred_speed = 1.1;
-  int group = 0;  ///< family or friends, who go from exhibit to exhibit together
+/// What every step of the crowd reads comes first, in two cache lines.
+struct alignas(64) Person {
   Point2 position{};
   Point2 velocity{};
   Point2 wanted{};  ///< velocity that they try to take
-
+  double radius = 0.25;
+  double room = 0.0;                    ///< [m] by which the clearance at `roomy_at` was more than this person needs
+  Point2 roomy_at{};                    ///< where the clearance was looked up last
+  std::array<std::uint16_t, 8> near{};  ///< indices of those within reach
+  int near_count = 0;
   Activity activity = Activity::stroll;
-  double until = 0.0;        ///< when it ends
-  Point2 goal{};             ///< where they want to stand; meaning depends on the activity
-  bool has_goal = false;     ///< for stroll: the spot was chosen
-  bool has_arrived = false;  ///< for those who stand in the way: reached the goal
-  int attraction = -1;       ///< index in the world's list
-  double side = 1.0;         ///< +1 left, -1 right of the robot
-  double slot = 0.0;    ///< [rad] for the escort: place in the ring, from the robot's heading; to press: in the map
-  double ground = 0.0;  ///< [m] for a child that romps: how far it runs from where it came
-  Point2 home{};        ///< where it came
-  double heeds = -1.0;  ///< chance to step aside at the horn; < 0: as its activity has it
+  double bumped_until = 0.0;  ///< who ignored the robot and touched it minds it until then
+  std::uint32_t id = 0;
+  bool is_extra = false;        ///< came by a scenario or a recording: nobody comes instead when they have left
+  bool has_arrived = false;     ///< for those who stand in the way: reached the goal
+  bool is_inattentive = false;  ///< notices the robot late
+  bool ignores_robot = false;   ///< walks and stands as if it were not there
+
+  bool is_child = false;
+  double height = 1.7;
+  double preferred_speed = 1.1;
+  int group = 0;  ///< family or friends, who go from exhibit to exhibit together
+
+  double until = 0.0;     ///< when it ends
+  Point2 goal{};          ///< where they want to stand; meaning depends on the activity
+  bool has_goal = false;  ///< for stroll: the spot was chosen
+  int attraction = -1;    ///< index in the world's list
+  double side = 1.0;      ///< +1 left, -1 right of the robot
+  double slot = 0.0;      ///< [rad] for the escort: place in the ring, from the robot's heading; to press: in the map
+  double ground = 0.0;    ///< [m] for a child that romps: how far it runs from where it came
+  Point2 home{};          ///< where it came
+  double heeds = -1.0;    ///< chance to step aside at the horn; < 0: as its activity has it
   double keeps_distance = 1.0;  ///< [m] to the robot's outline, for followers and listeners
 
   Walk walk;  ///< for the recorded
@@ -59,18 +68,10 @@ struct Person {
   double leaves_at = 0.0;
   double bored_until = 0.0;  ///< takes no interest in the robot before
   double attention_until = 0.0;
-  bool is_inattentive = false;  ///< notices the robot late
-  bool ignores_robot = false;   ///< walks and stands as if it were not there
-  double bumped_until = 0.0;    ///< who ignored it and touched it minds it until then
-  bool back_turned = false;     ///< while looking at an exhibit: does not notice it at all
+  bool back_turned = false;  ///< while looking at an exhibit: does not notice it at all
   double reacts_at = std::numeric_limits<double>::infinity();  ///< begins to step aside
   Point2 progress_from{};
   double progress_at = 0.0;
-
-  Point2 roomy_at{};                    ///< where the clearance was looked up last
-  double room = 0.0;                    ///< [m] by which it was more than this person needs
-  std::array<std::uint16_t, 8> near{};  ///< indices of those within reach
-  int near_count = 0;
 };
 
 /// What people see of the robot.
