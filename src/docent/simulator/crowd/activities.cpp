@@ -164,7 +164,7 @@ Point2 Crowd::keeping_company(Person& person, const Sight& sight, double now) {
   }
   if (!sight.in_sight || sight.away > params_.interest_range) {
     // Round the corner: a way through the building, found now and then.
-    if (now - robot_field_at_ > 3.0 || robot_field_.cost.empty()) {
+    if (now - robot_field_at_ > 3.0 || robot_field_.is_empty()) {
       robot_field_ = floor_.field_to(robot_.position, 0.8);
       robot_field_at_ = now;
     }
@@ -249,7 +249,7 @@ Point2 Crowd::escorting(Person& person, double now) {
     if (speed < 0.08) return {};
     return speed > kFastest ? (kFastest / speed) * wanted : wanted;
   }
-  if (now - robot_field_at_ > 1.5 || robot_field_.cost.empty()) {
+  if (now - robot_field_at_ > 1.5 || robot_field_.is_empty()) {
     robot_field_ = floor_.field_to(robot_.position, 0.8);
     robot_field_at_ = now;
   }

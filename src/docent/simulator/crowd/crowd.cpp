@@ -214,8 +214,8 @@ void Crowd::change_world(const World& world) {
   world_.solids = world.solids;
   floor_ = WalkableFloor{world_};
   for (Person& person : people_) person.room = 0.0;
-  for (FlowField& field : fields_) field.cost.clear();
-  robot_field_.cost.clear();
+  for (FlowField& field : fields_) field.clear();
+  robot_field_.clear();
   robot_field_at_ = -1e9;
 }
 
@@ -288,6 +288,23 @@ void Crowd::follow_track(Person& person, double now, double dt) const {
   person.position = person.position + step;
 }
 
+void Crowd::keep_off(Person& person, Point2& next, const RobotView& robot) const {
+  const double least = robot.radius + person.radius + kPersonalRobotGap;
+  const Point2 from_robot = next - robot.position;
+  if (dot(from_robot, from_robot) > 1.01 * least * least) return;  // no root for most
+  const double away = norm(from_robot);
+  const bool walks_into_it = person.activity == Activity::push || ignores_robot(person) ||
+                             person.activity == Activity::press || person.activity == Activity::romp ||
+                             (person.is_inattentive && dot(person.velocity, from_robot) < -0.2 * away);
+  if (walks_into_it || away <= 1e-6 || away >= least) return;
+  const double before = distance(person.position, robot.position);
+  if (away >= before) return;
+  next = robot.position + (before / away) * from_robot;
+  const Point2 outward = (1.0 / away) * from_robot;
+  const double inward = std::min(0.0, dot(person.velocity, outward));
+  person.velocity = person.velocity - inward * outward;
+}
+
 void Crowd::move(std::size_t index, double dt, const RobotView& robot) {
   Person& person = people_[index];
   const Point2 change = person.wanted - person.velocity;
@@ -306,20 +323,7 @@ void Crowd::move(std::size_t index, double dt, const RobotView& robot) {
     // Shoulders give: people in a throng slide past each other, not through.
     if (overlap > 0.0 && away > 1e-6) next = next + (std::min(0.5 * overlap, 0.5 * dt) / away) * apart;
   }
-  const Point2 from_robot = next - robot.position;
-  const double away = norm(from_robot);
-  const bool walks_into_it = person.activity == Activity::push || ignores_robot(person) ||
-                             person.activity == Activity::press || person.activity == Activity::romp ||
-                             (person.is_inattentive && dot(person.velocity, from_robot) < -0.2 * away);
-  if (!walks_into_it && away > 1e-6 && away < robot.radius + person.radius + kPersonalRobotGap) {
-    const double before = distance(person.position, robot.position);
-    if (away < before) {
-      next = robot.position + (before / away) * from_robot;
-      const Point2 outward = (1.0 / away) * from_robot;
-      const double inward = std::min(0.0, dot(person.velocity, outward));
-      person.velocity = person.velocity - inward * outward;
-    }
-  }
+  keep_off(person, next, robot);
   const double need = std::min(person.radius, kWallGap);
   const Point2 since = next - person.roomy_at;
   // The clearance falls by less than 1.5 m a metre: where there was room enough, walls need not be looked for.

@@ -100,10 +100,12 @@ class Crowd {
   [[nodiscard]] Point2 stepping_aside(const Person& person, const Sight& sight) const;
   [[nodiscard]] std::optional<Point2> walk_to(const Person& person, Point2 goal, double speed) const;
   [[nodiscard]] Point2 robot_ahead(double distance) const;
-  [[nodiscard]] const FlowField& field(int attraction);
+  [[nodiscard]] FlowField& field(int attraction);
   [[nodiscard]] std::size_t count_of(Activity activity) const;
   void draw_people_near(double now);
   void move(std::size_t index, double dt, const RobotView& robot);
+  /// Who does not walk into the robot comes no nearer to it than a hand's breadth.
+  void keep_off(Person& person, Point2& next, const RobotView& robot) const;
   void follow_track(Person& person, double now, double dt) const;
   [[nodiscard]] bool ignores_robot(const Person& person) const {
     return person.ignores_robot && now_ >= person.bumped_until;

@@ -68,7 +68,7 @@ TEST(WalkableFloor, KnowsClearanceAndFreeArea) {
 TEST(WalkableFloor, FindsTheWayThroughTheDoor) {
   const World world = two_halls();
   const WalkableFloor floor{world};
-  const FlowField field = floor.field_to({15.0, 2.0}, 0.3);
+  FlowField field = floor.field_to({15.0, 2.0}, 0.3);
   Point2 point{2.0, 2.0};
   double walked = 0.0;
   for (int i = 0; i < 1000 && distance(point, {15.0, 2.0}) > 0.5; ++i) {

@@ -45,9 +45,9 @@ Point2 Crowd::robot_ahead(double distance) const {
   return robot_.position + distance * ahead;
 }
 
-const FlowField& Crowd::field(int attraction) {
+FlowField& Crowd::field(int attraction) {
   FlowField& field = fields_[static_cast<std::size_t>(attraction)];
-  if (field.cost.empty()) {
+  if (field.is_empty()) {
     const auto index = static_cast<std::size_t>(attraction);
     const std::size_t places = world_.attractions.size();
     field = index < places ? floor_.field_to(world_.attractions[index].centre, world_.attractions[index].radius + 0.4)

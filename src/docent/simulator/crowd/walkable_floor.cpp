@@ -17,6 +17,9 @@ constexpr double kHeadroom = 2.0;     // [m] people walk below what hangs higher
 constexpr std::array<std::array<int, 2>, 8> kNeighbours{
     {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
 
+constexpr float kBucket = 0.19F;  // [m] of a flow field's frontier
+int bucket_of(float cost) { return static_cast<int>(cost * (1.0F / kBucket)); }
+
 struct Box {
   Point2 low;
   Point2 high;
@@ -245,49 +248,47 @@ std::optional<std::size_t> WalkableFloor::nearest_walkable(Point2 point, double 
 }
 
 FlowField WalkableFloor::field_to(Point2 goal, double reach) const {
-  // Dijkstra's algorithm with buckets narrower than the shortest step: within one nobody makes another cheaper, so any
-  // order gives the same costs. The longest step goes less than kBuckets - 1 of them ahead.
-  constexpr float kBucket = 0.19F;  // [m]
-  constexpr std::size_t kBuckets = 4;
-  static_assert(kBucket < kCoarse && kCoarse * 1.415 * (1.0 + 2.0 * (kRoomy - kWalkable)) < (kBuckets - 1) * kBucket);
-  const auto bucket_of = [](float cost) {
-    return static_cast<std::uint32_t>(static_cast<int>(cost * (1.0F / kBucket)));
-  };
   FlowField field;
-  field.cost.assign(coarse_clearance_.size(), kUnreachable);
-  std::array<std::vector<std::uint32_t>, kBuckets> buckets;
-  std::size_t pending = 0;
-  const auto offer = [&](std::size_t cell, float cost) {
-    if (cost >= field.cost[cell]) return;
-    field.cost[cell] = cost;
-    buckets[bucket_of(cost) % kBuckets].push_back(static_cast<std::uint32_t>(cell));
-    ++pending;
-  };
+  field.cost_.assign(coarse_clearance_.size(), kUnreachable);
   for_coarse_cells_within(goal, reach, [&](std::size_t cell) {
-    if (step_weight_[cell] > 0.0F && is_reachable(coarse_centre(cell))) offer(cell, 0.0F);
+    if (step_weight_[cell] > 0.0F && is_reachable(coarse_centre(cell))) field.offer(cell, 0.0F);
   });
-  if (pending == 0) {
-    const auto nearest = nearest_walkable(goal, 50.0);
-    if (!nearest) return field;
-    offer(*nearest, 0.0F);
-  }
-  std::vector<std::uint32_t> cells;
-  for (std::uint32_t bucket = 0; pending > 0; ++bucket) {
-    cells.clear();
-    cells.swap(buckets[bucket % kBuckets]);
-    pending -= cells.size();
-    for (const std::uint32_t cell : cells) {
-      const float cost = field.cost[cell];
-      if (bucket_of(cost) != bucket) continue;  // has become cheaper since
-      for (std::size_t k = 0; k < kNeighbours.size(); ++k) {
-        const auto next = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(cell) + to_neighbour_[k]);
-        if (step_weight_[next] <= 0.0F) continue;
-        const float length = static_cast<float>(kCoarse) * (k < 4 ? 1.0F : 1.41421356F);
-        offer(next, cost + length * step_weight_[next]);
-      }
-    }
+  if (field.pending_ == 0) {
+    if (const auto nearest = nearest_walkable(goal, 50.0)) field.offer(*nearest, 0.0F);
   }
   return field;
+}
+
+void FlowField::offer(std::size_t cell, float cost) {
+  cost_[cell] = cost;
+  open(bucket_of(cost)).push_back(static_cast<std::uint32_t>(cell));
+  ++pending_;
+}
+
+void WalkableFloor::grow(FlowField& field, std::size_t cell) const {
+  // Dijkstra's algorithm with buckets narrower than the shortest step: within one nobody makes another cheaper, so any
+  // order gives the same costs. The longest step goes less than all of them but one ahead.
+  static_assert(kBucket < kCoarse &&
+                kCoarse * 1.415 * (1.0 + 2.0 * (kRoomy - kWalkable)) < (FlowField::kBuckets - 1) * kBucket);
+  const auto is_known = [&] {
+    return field.cost_[cell] < kUnreachable && bucket_of(field.cost_[cell]) < field.bucket_;
+  };
+  for (; field.pending_ > 0 && !is_known(); ++field.bucket_) {
+    auto& cells = field.open(field.bucket_);
+    for (const std::uint32_t from : cells) {
+      const float cost = field.cost_[from];
+      if (bucket_of(cost) != field.bucket_) continue;  // has become cheaper since
+      for (std::size_t k = 0; k < kNeighbours.size(); ++k) {
+        const auto next = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(from) + to_neighbour_[k]);
+        if (step_weight_[next] <= 0.0F) continue;
+        const float length = static_cast<float>(kCoarse) * (k < 4 ? 1.0F : 1.41421356F);
+        const float offered = cost + length * step_weight_[next];
+        if (offered < field.cost_[next]) field.offer(next, offered);
+      }
+    }
+    field.pending_ -= cells.size();
+    cells.clear();
+  }
 }
 
 template <class Action>
@@ -305,10 +306,11 @@ void WalkableFloor::for_coarse_cells_within(Point2 point, double reach, const Ac
   }
 }
 
-std::optional<Point2> WalkableFloor::direction(const FlowField& field, Point2 point, double radius) const {
-  if (field.cost.empty()) return std::nullopt;
+std::optional<Point2> WalkableFloor::direction(FlowField& field, Point2 point, double radius) const {
+  if (field.is_empty()) return std::nullopt;
   std::size_t cell = coarse_cell(point);
-  if (!field.reaches(cell)) {
+  if (step_weight_[cell] > 0.0F) grow(field, cell);
+  if (field.cost_[cell] >= kUnreachable) {
     // Pressed against a wall: the best cell around.
     const int column = static_cast<int>(cell) % coarse_columns_;
     const int row = static_cast<int>(cell) / coarse_columns_;
@@ -316,8 +318,10 @@ std::optional<Point2> WalkableFloor::direction(const FlowField& field, Point2 po
     for (int r = std::max(0, row - 2); r <= std::min(coarse_rows_ - 1, row + 2); ++r) {
       for (int c = std::max(0, column - 2); c <= std::min(coarse_columns_ - 1, column + 2); ++c) {
         const auto next = static_cast<std::size_t>(r * coarse_columns_ + c);
-        if (field.cost[next] < least && is_clear(point, coarse_centre(next), 0.05)) {
-          least = field.cost[next];
+        if (step_weight_[next] <= 0.0F) continue;
+        grow(field, next);
+        if (field.cost_[next] < least && is_clear(point, coarse_centre(next), 0.05)) {
+          least = field.cost_[next];
           cell = next;
         }
       }
@@ -332,9 +336,9 @@ std::optional<Point2> WalkableFloor::direction(const FlowField& field, Point2 po
   const double room = clearance(point);
   const double width = std::min(radius, kWalkable - 0.02);
   constexpr int kLookAhead = 8;
-  for (int i = 0; i < kLookAhead && field.cost[cell] > 0.0F; ++i) {
+  for (int i = 0; i < kLookAhead && field.cost_[cell] > 0.0F; ++i) {
     // Nobody walks on the margin: a cell that the goal is reached from has eight neighbours.
-    const float* here = &field.cost[cell];
+    const float* here = &field.cost_[cell];
     float least = *here;
     std::size_t best = kNeighbours.size();
     for (std::size_t k = 0; k < kNeighbours.size(); ++k) {

@@ -12,11 +12,25 @@
 
 namespace docent::simulator {
 
-/// Cost to go to one place from everywhere that people can walk, on cells of 0.2 m.
+/// Cost to go to one place from everywhere that people can walk, on cells of 0.2 m. It grows round the place as far as
+/// it is asked for.
 class FlowField {
  public:
-  [[nodiscard]] bool reaches(std::size_t cell) const { return cost[cell] < 1e9F; }
-  std::vector<float> cost;  ///< [m, weighted]; >= 1e9 where the goal cannot be reached
+  [[nodiscard]] bool is_empty() const { return cost_.empty(); }
+  void clear() { cost_.clear(); }
+
+ private:
+  friend class WalkableFloor;
+  static constexpr int kBuckets = 4;
+  [[nodiscard]] std::vector<std::uint32_t>& open(int bucket) {
+    return open_[static_cast<std::size_t>(bucket % kBuckets)];
+  }
+  void offer(std::size_t cell, float cost);
+
+  std::vector<float> cost_;                                ///< [m, weighted]; >= 1e9 where the goal is not reached from
+  std::array<std::vector<std::uint32_t>, kBuckets> open_;  ///< whose cost may yet fall, in buckets by cost
+  std::size_t pending_ = 0;                                ///< cells in these
+  int bucket_ = 0;                                         ///< whose cost is in a lower one has it for good
 };
 
 /// Where people can walk: clearance to walls, furniture and hazards on a 0.1 m grid, and ways through the building.
@@ -40,10 +54,10 @@ class WalkableFloor {
   /// A uniform draw from the reachable floor with at least `clearance`; nullopt after 2,000 misses.
   [[nodiscard]] std::optional<Point2> random_point(Rng& rng, double clearance) const;
 
-  /// Ways to all points within `reach` of `goal`, or to the nearest reachable point. O(cells).
+  /// Ways to all points within `reach` of `goal`, or to the nearest reachable point. O(cells), when it has grown.
   [[nodiscard]] FlowField field_to(Point2 goal, double reach) const;
   /// Which way to walk from `point`: looks a few cells ahead. nullopt: no way.
-  [[nodiscard]] std::optional<Point2> direction(const FlowField& field, Point2 point, double radius) const;
+  [[nodiscard]] std::optional<Point2> direction(FlowField& field, Point2 point, double radius) const;
 
  private:
   [[nodiscard]] std::size_t fine_cell(Point2 point) const;
@@ -53,6 +67,8 @@ class WalkableFloor {
   [[nodiscard]] std::optional<std::size_t> nearest_walkable(Point2 point, double limit) const;
   /// @param at_a  the clearance there. @param has_room_at_b  the disc is known to fit there
   [[nodiscard]] bool is_clear(Point2 a, double at_a, Point2 b, double radius, bool has_room_at_b = false) const;
+  /// Until the cost of that cell is known.
+  void grow(FlowField& field, std::size_t cell) const;
   template <class Action>
   void for_coarse_cells_within(Point2 point, double reach, const Action& action) const;
   void find_reachable(const World& world);

@@ -29,7 +29,7 @@ TEST(Office, ARobotReachesEveryStopAndMostOfTheFloor) {
   for (std::uint64_t seed = 1; seed <= 25; ++seed) {
     const Office office = draw_office(seed);
     const WalkableFloor floor{office.world};
-    const FlowField field = floor.field_to(office.home.position(), 0.3);
+    FlowField field = floor.field_to(office.home.position(), 0.3);
     EXPECT_TRUE(floor.is_reachable(office.home.position())) << seed;
     EXPECT_GE(office.stops.size(), 2U);
     for (const Stop& stop : office.stops) {

@@ -136,12 +136,13 @@ RayHit RayCaster::cast(Point2 origin, Point2 direction, double max_range) const 
     if (starts_[cell] != starts_[cell + 1]) test_cell(cell, origin, direction, hit);
     const double exit = std::min(next_column, next_row);
     if (hit.distance <= exit || exit > leave) break;
-    // No branch: which side a ray leaves a cell by cannot be foretold.
-    const bool is_aside = next_column < next_row;
-    column += is_aside ? column_step : 0;
-    row += is_aside ? 0 : row_step;
-    next_column += is_aside ? column_stride : 0.0;
-    next_row += is_aside ? 0.0 : row_stride;
+    if (next_column < next_row) {
+      column += column_step;
+      next_column += column_stride;
+    } else {
+      row += row_step;
+      next_row += row_stride;
+    }
     if (column < 0 || column >= columns_ || row < 0 || row >= rows_) break;
   }
   if (hit.distance > max_range) hit.distance = kInfinity;

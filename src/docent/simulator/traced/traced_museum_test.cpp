@@ -90,7 +90,7 @@ TEST(TracedMuseum, ARobotReachesItsPlacesAlsoOnTheSurvey) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const MuseumPlan plan = traced(seed).plan;
     const WalkableFloor floor{plan.world};
-    const FlowField field = floor.field_to(plan.home.position(), 0.3);
+    FlowField field = floor.field_to(plan.home.position(), 0.3);
     ASSERT_GE(plan.stops.size(), 3U);
     ASSERT_TRUE(plan.charger);
     const Survey surveyed = survey(plan.world, {}, Rng{seed});
