@@ -227,12 +227,16 @@ void Crowd::sort_into_cells() {
     return static_cast<std::size_t>(row * cell_columns_ + column);
   };
   cell_begin_.assign(static_cast<std::size_t>(cell_columns_ * cell_rows_) + 1, 0);
-  for (const Person& person : people_) ++cell_begin_[cell_of(person)];
+  cell_of_.clear();
+  for (const Person& person : people_) {
+    cell_of_.push_back(static_cast<std::uint32_t>(cell_of(person)));
+    ++cell_begin_[cell_of_.back()];
+  }
   std::partial_sum(cell_begin_.begin(), cell_begin_.end(), cell_begin_.begin());  // where cells end
   outlines_.resize(people_.size());
   for (std::size_t i = people_.size(); i-- > 0;) {
     const Person& person = people_[i];
-    outlines_[--cell_begin_[cell_of(person)]] = {person.position, person.velocity, person.radius, i};
+    outlines_[--cell_begin_[cell_of_[i]]] = {person.position, person.velocity, person.radius, i};
   }
 }
 

@@ -144,6 +144,7 @@ class Crowd {
   };
   std::vector<Outline> outlines_;          ///< [people] by cell, then by person
   std::vector<std::uint32_t> cell_begin_;  ///< [cells + 1] into outlines_
+  std::vector<std::uint32_t> cell_of_;     ///< [people]
   std::vector<std::uint32_t> within_;      ///< of outlines_within
 };
 

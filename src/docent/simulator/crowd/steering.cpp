@@ -11,24 +11,27 @@ namespace {
 
 constexpr double kHorizon = 2.5;  // [s] people look so far ahead
 
-/// False when the time to touch is over the horizon for sure: its root is at most `closing`.
-bool may_touch(double gap, double closing, double horizon = kHorizon) {
-  constexpr double kRounding = 1.0 + 1e-9;
-  return gap <= 2.0 * kRounding * horizon * closing;
-}
+/// How two discs approach each other that keep their velocities.
+struct Approach {
+  Approach(Point2 offset, Point2 relative_velocity, double squared_gap)
+      : gap{squared_gap},
+        closing{dot(offset, relative_velocity)},
+        discriminant{closing * closing - dot(relative_velocity, relative_velocity) * gap} {}
+  Approach() = default;
 
-/// time_to_touch() where it is within the horizon [s].
-inline std::optional<double> touch_within(Point2 offset, Point2 relative_velocity, double gap, double horizon) {
-  const double closing = dot(offset, relative_velocity);
-  if (closing <= 0.0) return std::nullopt;
-  if (gap <= 0.0) return 0.0;
-  if (!may_touch(gap, closing, horizon)) return std::nullopt;
-  const double speed_squared = dot(relative_velocity, relative_velocity);
-  const double discriminant = closing * closing - speed_squared * gap;
-  if (discriminant < 0.0) return std::nullopt;
-  const double time = gap / (closing + std::sqrt(discriminant));
-  return time > horizon ? std::nullopt : std::optional{time};
-}
+  /// False when they do not touch within the horizon [s] for sure: the root is at most `closing`. No branch.
+  [[nodiscard]] bool may_touch(double horizon) const {
+    constexpr double kRounding = 1.0 + 1e-9;
+    return static_cast<bool>(static_cast<int>(closing > 0.0) & static_cast<int>(discriminant >= 0.0) &
+                             static_cast<int>(gap <= 2.0 * kRounding * horizon * closing));
+  }
+  /// [s], 0 when they overlap. @pre may_touch
+  [[nodiscard]] double time() const { return gap <= 0.0 ? 0.0 : gap / (closing + std::sqrt(discriminant)); }
+
+  double gap;      ///< [m2] square of the distance less that of the reach
+  double closing;  ///< [m2/s]
+  double discriminant;
+};
 
 /// [m2] square of the distance less that of the reach
 double gap_of(const Neighbour& neighbour) {
@@ -72,25 +75,25 @@ class Scales {
 
  private:
   [[nodiscard]] double with_neighbours(double cost, Point2 velocity, double bound) const {
-    // First, and without a branch, who comes near at all: the time to touch is more than half of gap / closing.
-    std::array<std::uint8_t, kMostNeighbours> near{};
-    std::size_t near_count = 0;
+    // First, and without a branch, who may be touched at all.
+    std::array<Approach, kMostNeighbours> approaches;
+    std::array<std::uint8_t, kMostNeighbours> whose{};
+    std::size_t count = 0;
     for (std::size_t i = 0; i < neighbours_.size(); ++i) {
-      const double closing = dot(neighbours_[i].offset, velocity - neighbours_[i].velocity);
-      near[near_count] = static_cast<std::uint8_t>(i);
-      near_count += static_cast<std::size_t>(closing > 0.0) & static_cast<std::size_t>(may_touch(gaps_[i], closing));
+      approaches[count] = {neighbours_[i].offset, velocity - neighbours_[i].velocity, gaps_[i]};
+      whose[count] = static_cast<std::uint8_t>(i);
+      count += static_cast<std::size_t>(approaches[count].may_touch(kHorizon));
     }
-    for (std::size_t i = 0; i < near_count && cost < bound; ++i) {
-      const Neighbour& neighbour = neighbours_[near[i]];
-      const Point2 relative = velocity - neighbour.velocity;
-      const auto time = touch_within(neighbour.offset, relative, gaps_[near[i]], kHorizon);
-      if (!time) continue;
-      if (*time > 0.0) {
-        cost += neighbour.weight * 0.6 * (1.0 / (*time + 0.2) - 1.0 / (kHorizon + 0.2));
+    for (std::size_t i = 0; i < count && cost < bound; ++i) {
+      const double time = approaches[i].time();
+      if (time > kHorizon) continue;
+      const Neighbour& neighbour = neighbours_[whose[i]];
+      if (time > 0.0) {
+        cost += neighbour.weight * 0.6 * (1.0 / (time + 0.2) - 1.0 / (kHorizon + 0.2));
       } else {
         // Too near already: what counts is how fast the gap closes.
         const double away = std::max(norm(neighbour.offset), 1e-3);
-        const double closing = dot(relative, neighbour.offset) / away;
+        const double closing = approaches[i].closing / away;
         cost += neighbour.weight * (1.0 + 3.0 * std::max(0.0, closing + 0.2));
       }
     }
@@ -125,8 +128,8 @@ class Scales {
 }  // namespace
 
 std::optional<double> time_to_touch(Point2 offset, Point2 relative_velocity, double reach) {
-  return touch_within(offset, relative_velocity, dot(offset, offset) - reach * reach,
-                      std::numeric_limits<double>::infinity());
+  const Approach approach{offset, relative_velocity, dot(offset, offset) - reach * reach};
+  return approach.may_touch(std::numeric_limits<double>::infinity()) ? std::optional{approach.time()} : std::nullopt;
 }
 
 Point2 choose_velocity(const Person& person, Point2 desired, std::span<const Neighbour> neighbours,

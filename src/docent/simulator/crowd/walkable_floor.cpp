@@ -200,10 +200,12 @@ Point2 WalkableFloor::away_from_walls(Point2 point) const {
   return length > 1e-9 ? (1.0 / length) * gradient : Point2{};
 }
 
-bool WalkableFloor::is_clear(Point2 a, double at_a, Point2 b, double radius, bool has_room_at_b) const {
+bool WalkableFloor::is_clear(Point2 a, double at_a, Point2 b, double radius, double at_b) const {
   const Point2 way = b - a;
   double gap = at_a - radius;
-  if (has_room_at_b && gap >= 0.0 && dot(way, way) < gap * gap) return true;
+  // The clearance falls by less than 1.5 m a metre: so far round b it is known to be enough.
+  const double safe = std::max(0.0, (at_b - radius) / 1.5);
+  if (safe > 0.0 && gap >= 0.0 && dot(way, way) < (gap + safe) * (gap + safe)) return true;
   const double length = norm(way);
   double along = 0.0;
   while (true) {
@@ -211,7 +213,7 @@ bool WalkableFloor::is_clear(Point2 a, double at_a, Point2 b, double radius, boo
     if (along >= length) return true;
     // Nothing can be nearer than the gap, so that step is safe.
     along = std::min(length, along + std::max(0.1, gap));
-    if (has_room_at_b && along >= length) return true;
+    if (length - along < safe) return true;
     gap = clearance(a + (along / length) * way) - radius;
   }
 }
@@ -352,7 +354,7 @@ std::optional<Point2> WalkableFloor::direction(FlowField& field, Point2 point, d
     column += kNeighbours[best][0];
     row += kNeighbours[best][1];
     const Point2 centre = coarse_centre(column, row);
-    if (i > 0 && !is_clear(point, room, centre, width, true)) break;
+    if (i > 0 && !is_clear(point, room, centre, width, static_cast<double>(coarse_clearance_[cell]))) break;
     ahead = centre;
   }
   const Point2 step = ahead - point;

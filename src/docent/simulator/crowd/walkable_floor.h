@@ -65,8 +65,8 @@ class WalkableFloor {
   [[nodiscard]] Point2 coarse_centre(int column, int row) const;
   [[nodiscard]] Point2 coarse_centre(std::size_t cell) const;
   [[nodiscard]] std::optional<std::size_t> nearest_walkable(Point2 point, double limit) const;
-  /// @param at_a  the clearance there. @param has_room_at_b  the disc is known to fit there
-  [[nodiscard]] bool is_clear(Point2 a, double at_a, Point2 b, double radius, bool has_room_at_b = false) const;
+  /// @param at_a  the clearance there. @param at_b  likewise where it is known, else 0
+  [[nodiscard]] bool is_clear(Point2 a, double at_a, Point2 b, double radius, double at_b = 0.0) const;
   /// Until the cost of that cell is known.
   void grow(FlowField& field, std::size_t cell) const;
   template <class Action>

@@ -58,9 +58,12 @@ const LaserScanner::Sweep& LaserScanner::sweep(const RayCaster& walls, std::span
   const Pose2 scanner_from_world = inverse(world_from_scanner);
   for (std::size_t person = 0; person < people.size(); ++person) {
     const Disc& disc = people[person];
+    const double reach = params_.max_range + disc.radius;
+    const Point2 offset = disc.centre - origin;
+    if (dot(offset, offset) > 1.01 * reach * reach) continue;  // most are out of reach
     const Point2 centre = scanner_from_world * disc.centre;
     const double away = norm(centre);
-    if (away > params_.max_range + disc.radius) continue;
+    if (away > reach) continue;
     const double half_angle = away > disc.radius ? std::asin(disc.radius / away) : 3.2;
     const double bearing = std::atan2(centre.y, centre.x);
     // A disc behind the scanner may reach into its field on both sides.
