@@ -6,7 +6,9 @@
 #     DEPENDS grid motion_models          # NAME_benchmark.cpp and NAME_fuzzer.cpp likewise
 #     LIBRARIES yaml-cpp                  # third-party libraries
 #     HOT)                                # inner loops: roots and sines set no errno, comparisons trap nothing. The values
-#                                         # are the same, and compilers may take such calls out of a loop
+#                                         # are the same, and compilers may take such calls out of a loop. No vectors of two
+#                                         # from the coordinates of one point: to read back together what a call has just
+#                                         # stored apart takes longer than they save
 
 add_library(docent_options INTERFACE)
 # -ffp-contract=off: the same arithmetic with and without FMA, so that a seed gives the same run on every CPU.
@@ -71,7 +73,7 @@ function(docent_capability folder)
     add_library(${target} STATIC ${files})
     set(scope PUBLIC)
     if(ARG_HOT)
-      target_compile_options(${target} PRIVATE -fno-math-errno -fno-trapping-math)
+      target_compile_options(${target} PRIVATE -fno-math-errno -fno-trapping-math -fno-tree-slp-vectorize)
     endif()
   else()
     add_library(${target} INTERFACE)
