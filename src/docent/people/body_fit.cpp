@@ -122,7 +122,7 @@ class Discs {
   [[nodiscard]] static Point2 middle_for(Point2 point, Point2 centre, double way, double radius) {
     return way > 1e-6 ? point + (radius / way) * (centre - point) : point;
   }
-  /// All points are the one disc's: the same as `settle`, in half the time.
+  /// What `settle` does where all points are the one disc's.
   void settle_alone(double radius) {
     Point2& centre = centres_.front();
     for (int i = 0; i < kIterations; ++i) {
