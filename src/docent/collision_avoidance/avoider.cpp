@@ -127,6 +127,7 @@ void Avoider::add_person_beams(Time now, Time stamp, std::span<const Point2> in_
   std::erase_if(unmapped_, [&](const Unmapped& beam) { return now - beam.heard > seconds(kJudgedTogether); });
   for (const auto& point : in_base) unmapped_.push_back({odom_from_base * point, now});
   std::vector<Point2> places;
+  places.reserve(unmapped_.size());
   for (const Unmapped& beam : unmapped_) places.push_back(beam.in_odom);
   near_unmapped_.emplace(places, odom_from_base.position(), kBySomebody);
   unmapped_time_ = taken;
@@ -215,7 +216,9 @@ std::vector<Obstacle> Avoider::obstacles_from(const Pose2& odom_from_base, Time 
   if (!params_.blind_to_people) {
     const bool judged = beams_localized_ && near_unmapped_ && when - unmapped_time_ < seconds(kStillJudged);
     const double steps_in = this->steps_in();
-    for (const auto& point : memory_.points(when)) {
+    const std::vector<ObstaclePoint> points = memory_.points(when);
+    result.reserve(points.size());
+    for (const auto& point : points) {
       const Point2 at = of_points * point.in_odom;
       const double away = norm(at);
       if (away > reach) continue;
@@ -346,7 +349,7 @@ double Avoider::steer_around(Point2 carrot, const Pose2& odom_from_base, std::sp
   return turning_side_ * kBehind;
 }
 
-void Avoider::cap_speed(double cap, const std::string& why, AvoiderDecision& decision) const {
+void Avoider::cap_speed(double cap, std::string_view why, AvoiderDecision& decision) const {
   if (cap >= decision.speed_cap) return;
   decision.speed_cap = std::max(0.0, cap);
   decision.reason = why;

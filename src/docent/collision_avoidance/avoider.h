@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "docent/base/result.h"
@@ -156,7 +157,7 @@ class Avoider {
   [[nodiscard]] Steering steering_for(const Carrot& ahead, const Pose2& odom_from_base,
                                       std::span<const Obstacle> obstacles, AvoiderDecision& decision);
   /// Caps the speed and says why.
-  void cap_speed(double cap, const std::string& why, AvoiderDecision& decision) const;
+  void cap_speed(double cap, std::string_view why, AvoiderDecision& decision) const;
   void cap_by_knowledge(Time now, AvoiderDecision& decision) const;
   void cap_by_surroundings(std::span<const Obstacle> obstacles, double bearing, AvoiderDecision& decision) const;
   /// The present command, slowed at once for who does what the last choice did not foresee; nullopt when it may stay.

@@ -2,16 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace docent {
 
 NearPoints::NearPoints(std::span<const Point2> points, Point2 middle, double near) : middle_{middle}, near_{near} {
-  for (const Point2 point : points) {
-    const int column = index_of(point.x - middle.x);
-    const int row = index_of(point.y - middle.y);
-    if (column < 0 || column >= kSide || row < 0 || row >= kSide) continue;
-    buckets_[static_cast<std::size_t>(row * kSide + column)].push_back(point);
+  std::vector<std::size_t> buckets(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const int column = index_of(points[i].x - middle.x);
+    const int row = index_of(points[i].y - middle.y);
+    const bool is_inside = column >= 0 && column < kSide && row >= 0 && row < kSide;
+    buckets[i] = is_inside ? bucket_at(column, row) : kBuckets;
+    ++starts_[buckets[i] + 1];
   }
+  std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+  auto next = starts_;
+  points_.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) points_[next[buckets[i]]++] = points[i];
 }
 
 int NearPoints::index_of(double offset) const {
@@ -20,13 +27,16 @@ int NearPoints::index_of(double offset) const {
 }
 
 bool NearPoints::is_near(Point2 place) const {
+  constexpr double kSurely = 1.0 + 1e-9;  // more than rounding may do
   const int column = index_of(place.x - middle_.x);
   const int row = index_of(place.y - middle_.y);
+  const int left = std::max(0, column - 1);
+  const int right = std::min(kSide - 1, column + 1);
+  if (left > right) return false;
   for (int y = std::max(0, row - 1); y <= std::min(kSide - 1, row + 1); ++y) {
-    for (int x = std::max(0, column - 1); x <= std::min(kSide - 1, column + 1); ++x) {
-      const auto& bucket = buckets_[static_cast<std::size_t>(y * kSide + x)];
-      if (std::any_of(bucket.begin(), bucket.end(), [&](Point2 some) { return distance(some, place) < near_; }))
-        return true;
+    for (std::size_t i = starts_[bucket_at(left, y)]; i < starts_[bucket_at(right, y) + 1]; ++i) {
+      const Point2 off = points_[i] - place;
+      if (dot(off, off) <= kSurely * near_ * near_ && norm(off) < near_) return true;
     }
   }
   return false;

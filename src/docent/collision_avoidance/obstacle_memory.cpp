@@ -89,6 +89,9 @@ void ObstacleMemory::add_sweep(std::size_t index, const SensorSweep& sweep, cons
   std::vector<Point2> places;
   std::vector<double> ranges;
   std::vector<int> beams;
+  places.reserve(sweep.ranges.size());
+  ranges.reserve(sweep.ranges.size());
+  beams.reserve(sweep.ranges.size());
   std::size_t invalid = 0;
   std::size_t run = 0;  // beams without a reading in a row
   const auto end_run = [&](std::size_t end) {
@@ -120,6 +123,7 @@ void ObstacleMemory::add_sweep(std::size_t index, const SensorSweep& sweep, cons
 
   const std::vector<bool> confirmed = confirm(places, beams, before);
   std::vector<ObstaclePoint> lone;
+  sensor.points.reserve(places.size());
   std::size_t kept = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (!confirmed[i]) {
@@ -233,6 +237,9 @@ void ObstacleMemory::add_touch(Time stamp, Point2 in_base, const Pose2& odom_fro
 
 std::vector<ObstaclePoint> ObstacleMemory::points(Time now) const {
   std::vector<ObstaclePoint> result;
+  std::size_t of_lasers = 0;
+  for (const auto& sensor : sensors_) of_lasers += sensor.points.size() + sensor.remembered.size();
+  result.reserve(of_lasers);
   const auto add = [&](const auto& points) {
     for (ObstaclePoint point : points) {
       const double age = to_seconds(now - point.seen);

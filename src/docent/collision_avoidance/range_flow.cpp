@@ -13,6 +13,7 @@ constexpr double kWindow = 0.45;     // [rad] to either side, for what was met n
 constexpr double kSideBySide = 0.2;  // [m]
 constexpr double kStiff = 0.05;      // share of a place, towards no motion across the normals
 constexpr std::size_t kLeastPlaces = 3;
+constexpr double kSurely = 1.0 + 1e-9;  // more than rounding may do
 
 }  // namespace
 
@@ -43,21 +44,28 @@ std::optional<Point2> RangeFlow::approach(const Look& before, const PointTransfo
     if (i < 0 || i >= count) return std::nullopt;
     if (!(before.ranges[static_cast<std::size_t>(i)] > range + kClear)) return std::nullopt;
   }
-  const int width = static_cast<int>(kWindow / before.bearing_step);
-  const auto first = std::lower_bound(before.beams.begin(), before.beams.end(), beam - width);
   const double dt = to_seconds(now.stamp - before.stamp);
-  Point2 way =
-      kMostSpeed * dt *
-      unit(Angle::radians(std::atan2(place.y - before.odom_from_sensor.y, place.x - before.odom_from_sensor.x) +
-                          std::numbers::pi));
-  double least = kMostSpeed * dt;
+  const double most = kMostSpeed * dt;
+  // What lies farther aside, by the tangent, lies farther off than `most`.
+  const double aside = range > most ? most / std::sqrt(range * range - most * most) : kWindow;
+  const int width = static_cast<int>(std::min(kWindow, aside + 2.0 * before.bearing_step) / before.bearing_step);
+  const auto first = std::lower_bound(before.beams.begin(), before.beams.end(), beam - width);
+  const Point2* nearest = nullptr;
+  double least = most;
   for (auto i = static_cast<std::size_t>(first - before.beams.begin());
        i < before.beams.size() && before.beams[i] <= beam + width; ++i) {
-    const double away = distance(before.places[i], place);
+    const Point2 off = place - before.places[i];
+    if (dot(off, off) > kSurely * least * least) continue;  // most: no root is needed for them
+    const double away = norm(off);
     if (away >= least) continue;
     least = away;
-    way = place - before.places[i];
+    nearest = &before.places[i];
   }
+  const auto towards_sensor = [&] {
+    return unit(Angle::radians(std::atan2(place.y - before.odom_from_sensor.y, place.x - before.odom_from_sensor.x) +
+                               std::numbers::pi));
+  };
+  const Point2 way = nearest != nullptr ? place - *nearest : most * towards_sensor();
   const Point2 velocity = (1.0 / dt) * way;
   if (norm(velocity) < kLeastSpeed || dot(velocity, place - now.odom_from_sensor.position()) >= 0.0)
     return std::nullopt;

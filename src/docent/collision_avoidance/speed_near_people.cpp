@@ -32,6 +32,7 @@ BrakingWay::BrakingWay(double speed, double curvature, const BaseLimits& limits,
   const auto along = [&](double way) {
     return curvature == 0.0 ? Point2{1.0, 0.0} : unit(Angle::radians(curvature * way));
   };
+  steps_.reserve(static_cast<std::size_t>(end_ / kTimeStep) + 2);
   for (double time = 0.0; time < end_; time += kTimeStep) {
     const double braking = std::max(0.0, time - params.reaction);
     const double way = speed * time - 0.5 * limits.deceleration * braking * braking;

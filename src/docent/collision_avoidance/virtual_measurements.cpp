@@ -199,7 +199,8 @@ double VirtualMeasurements::count(std::span<const WeightedSquare> rest, bool lea
     rest_bins_.push_back({known.bin, square.mass});
     masses[known.bin] += square.mass;
   }
-  for (std::size_t bin = 0; bin <= last_limit(); ++bin)
+  const std::size_t last = last_limit();
+  for (std::size_t bin = 0; bin <= last; ++bin)
     std::fill_n(histogram_.data() + bin * kDirections, kDirections, masses[bin]);
   return counted;
 }

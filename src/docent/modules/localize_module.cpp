@@ -286,6 +286,9 @@ class LocalizeModule final : public Module {
     if (const auto best = localizer_->map_from_robot(odom_from_base))
       message.map_from_base = {best->x, best->y, best->theta.radians()};
     message.odom_from_base = {odom_from_base.x, odom_from_base.y, odom_from_base.theta.radians()};
+    message.bearings.reserve(sweep.beams.size());
+    message.ranges.reserve(sweep.beams.size());
+    message.origins.reserve(sweep.beams.size());
     const auto origins = localizer_->origins(sweep, odom_from_base, params_.markov.sensor.max_range, params_.people);
     for (std::size_t i = 0; i < sweep.beams.size(); ++i) {
       const SweepBeam& beam = sweep.beams[i];

@@ -43,6 +43,8 @@ class PeopleModule final : public Module {
     PeopleSweep sweep;
     sweep.odom_from_base = odom_from_base;
     const std::size_t count = std::min({beams.bearings.size(), beams.ranges.size(), beams.origins.size()});
+    sweep.sweep.beams.reserve(count);
+    sweep.origins.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
       const auto range = static_cast<double>(beams.ranges[i]);
       sweep.sweep.beams.push_back({static_cast<double>(beams.bearings[i]), std::abs(range), range < 0.0});

@@ -25,19 +25,25 @@ std::size_t place_of(std::int32_t column, std::int32_t row) {
                                   (static_cast<std::uint32_t>(column) & kMask));
 }
 
-std::int32_t index_of(double metres) { return static_cast<std::int32_t>(std::floor(metres / kCell)); }
+/// Without a call into the library, and no way back to a double.
+std::int32_t floor_of(double value) {
+  const auto whole = static_cast<std::int32_t>(value);
+  return whole - (value < static_cast<double>(whole) ? 1 : 0);
+}
+
+std::int32_t index_of(double metres) { return floor_of(metres / kCell); }
 
 }  // namespace
 
 FreeMemory::FreeMemory() : cells_(static_cast<std::size_t>(kSide) * static_cast<std::size_t>(kSide)) {}
 
-const FreeMemory::Cell* FreeMemory::find(std::int32_t column, std::int32_t row) const {
+inline const FreeMemory::Cell* FreeMemory::find(std::int32_t column, std::int32_t row) const {
   const Cell& cell = cells_[place_of(column, row)];
   const bool is_it = cell.column == column && cell.row == row && now_ - cell.time <= kKept;
   return is_it ? &cell : nullptr;
 }
 
-FreeMemory::Cell& FreeMemory::touch(std::int32_t column, std::int32_t row) {
+inline FreeMemory::Cell& FreeMemory::touch(std::int32_t column, std::int32_t row) {
   Cell& cell = cells_[place_of(column, row)];
   if (cell.column != column || cell.row != row || now_ - cell.time > kKept) cell = {column, row, now_};
   cell.time = now_;
@@ -54,8 +60,8 @@ void FreeMemory::add(const RangeSweep& sweep, const Pose2& odom_from_base, Time 
     const int steps = static_cast<int>((std::min(kReach, beam.range - kBeforeEnd) - kBody) / kCell) + 1;
     Point2 at = (1.0 / kCell) * (from + kBody * ray);  // in cells
     for (int i = 0; i < steps; ++i, at = at + ray) {
-      Cell& cell = touch(static_cast<std::int32_t>(std::floor(at.x)), static_cast<std::int32_t>(std::floor(at.y)));
-      if (now_ - cell.end > kStays) cell.kind = Kind::free;
+      Cell& cell = touch(floor_of(at.x), floor_of(at.y));
+      if (now - cell.end > kStays) cell.kind = Kind::free;
     }
   }
   const PointTransform of_points{odom_from_base};

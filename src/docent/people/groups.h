@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <span>
 #include <utility>
 #include <vector>
@@ -29,12 +28,16 @@ struct GroupParams {
 class Groups {
  public:
   explicit Groups(const GroupParams& params) : params_{params} {}
-  /// The group of each person: the lowest id among its members, 0 for who is alone. O(people^2 log people).
+  /// The group of each person: the lowest id among its members, 0 for who is alone. O(people^2).
   [[nodiscard]] std::vector<std::uint32_t> update(std::span<const TrackedPerson> people, Time now);
 
  private:
   GroupParams params_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, double> together_;  ///< [s] by ids; falls when they part
+  struct Pair {
+    std::pair<std::uint32_t, std::uint32_t> ids;  ///< rising
+    double seconds = 0.0;                         ///< [s] together; falls when they part
+  };
+  std::vector<Pair> together_;  ///< by ids
   Time time_{};
 };
 

@@ -26,9 +26,12 @@ bool Sightlines::for_each_towards(Point2 in_odom, double radius, F&& f) const {
   const double middle = std::atan2(place.y, place.x);
   const double half = std::asin(std::min(1.0, kMiddle * radius / away));
   for (const double turn : {-2.0 * std::numbers::pi, 0.0, 2.0 * std::numbers::pi}) {
-    auto beam = std::lower_bound(beams_.begin(), beams_.end(), middle + turn - half,
+    const double first = middle + turn - half;
+    const double last = middle + turn + half;
+    if (beams_.empty() || last < beams_.front().bearing || first > beams_.back().bearing) continue;
+    auto beam = std::lower_bound(beams_.begin(), beams_.end(), first,
                                  [](const SweepBeam& b, double bearing) { return b.bearing < bearing; });
-    for (; beam != beams_.end() && beam->bearing <= middle + turn + half; ++beam) f(*beam, away);
+    for (; beam != beams_.end() && beam->bearing <= last; ++beam) f(*beam, away);
   }
   return true;
 }

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "docent/geometry/pose2.h"
+#include "docent/geometry/point_transform.h"
 #include "docent/sensor_models/range_sweep.h"
 
 namespace docent {
@@ -29,7 +29,7 @@ class Sightlines {
   /// Calls f(beam, away) for the beams towards the middle of a disc; false when the robot stands in it.
   template <class F>
   bool for_each_towards(Point2 in_odom, double radius, F&& f) const;
-  Pose2 base_from_odom_;
+  PointTransform base_from_odom_;
   std::vector<SweepBeam> beams_;  ///< by bearing
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "docent/geometry/point_transform.h"
+
 namespace docent {
 namespace {
 
@@ -10,6 +12,7 @@ constexpr int kSurelyFree = 5;                              // sweeps in a row
 constexpr double kJustBegun = 3.0;                          // [s]
 constexpr double kBody = 0.2;                               // [m]
 constexpr Duration kRemembered = std::chrono::minutes{30};  // without being seen again
+constexpr double kSurely = 1.0 + 1e-9;                      // more than rounding may do
 constexpr double kSlow = 0.05;                              // how fast a place follows what is seen there
 
 }  // namespace
@@ -28,7 +31,9 @@ const StandingThings::Place* StandingThings::nearest(Point2 in_map) const {
   const Place* best = nullptr;
   double least = params_.same_place;
   for (const Place& place : places_) {
-    const double away = distance(place.in_map, in_map);
+    const Point2 off = place.in_map - in_map;
+    if (dot(off, off) > kSurely * least * least) continue;  // most: no root is needed for them
+    const double away = norm(off);
     if (away > least) continue;
     least = away;
     best = &place;
@@ -52,10 +57,11 @@ void StandingThings::see(Point2 in_map, bool came, Time now) {
 
 void StandingThings::forget(const Sightlines& sightlines, const Pose2& odom_from_map, Point2 robot_in_map, double range,
                             Time now) {
+  const PointTransform of_points{odom_from_map};
   std::erase_if(places_, [&](Place& place) {
     if (now - place.seen > kRemembered) return true;
     if (distance(place.in_map, robot_in_map) > range) return false;
-    if (sightlines.look(odom_from_map * place.in_map, kBody) != Look::free) {
+    if (sightlines.look(of_points * place.in_map, kBody) != Look::free) {
       place.seen_free = 0;
       return false;
     }

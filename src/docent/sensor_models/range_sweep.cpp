@@ -10,6 +10,7 @@ namespace docent {
 
 void append(RangeSweep& sweep, const LaserReading& reading, const Pose2& base_from_sensor) {
   const PointTransform of_points{base_from_sensor};
+  sweep.beams.reserve(sweep.beams.size() + reading.ranges.size());
   for (std::size_t i = 0; i < reading.ranges.size(); ++i) {
     const double range = reading.ranges[i];
     if (std::isnan(range) || range < reading.min_range) continue;

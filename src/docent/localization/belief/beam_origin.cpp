@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "docent/geometry/point_transform.h"
+
 namespace docent {
 namespace {
 
@@ -48,7 +50,7 @@ std::vector<BeamOrigin> beam_origins(const RayCaster& caster, std::span<const Be
                                      const PersonFilterParams& params) {
   std::vector<BeamOrigin> origins(sweep.beams.size(), BeamOrigin::unknown);
   if (modes.empty()) return origins;
-  const Pose2& best = modes.front().map_from_robot;
+  const PointTransform best{modes.front().map_from_robot};
   for (std::size_t i = 0; i < sweep.beams.size(); ++i) {
     const SweepBeam& beam = sweep.beams[i];
     if (beam.no_return) continue;

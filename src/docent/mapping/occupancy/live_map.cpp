@@ -41,7 +41,8 @@ LiveMap::LiveMap(const OccupancyGrid& static_map, LiveMapParams params)
 }
 
 bool LiveMap::is_blocked(std::size_t index) const {
-  return std::popcount(static_cast<unsigned>(history_[index] & 0x0FU)) >= params_.hits_to_block;
+  const unsigned last_four = history_[index] & 0x0FU;
+  return last_four != 0 && std::popcount(last_four) >= params_.hits_to_block;
 }
 
 std::int8_t LiveMap::cell(std::size_t index) const {
@@ -78,12 +79,12 @@ void LiveMap::look(Point2 sensor, std::span<const Point2> endpoints, Time now) {
     const double range = distance(sensor, endpoint);
     const double clear_to = std::min(range, params_.reach) - static_.frame.resolution;
     const Point2 along = range > 0.0 ? (1.0 / range) * (endpoint - sensor) : Point2{};
-    CellIndex last{-1, -1};
     for (double d = 0.0; d < clear_to; d += step) {
       const CellIndex cell = static_.frame.cell_at(sensor + d * along);
-      if (cell == last) continue;
-      last = cell;
-      if (static_.frame.holds(cell) && history_[static_.frame.index(cell)] != 0) mark(cell, false, now);
+      if (!static_.frame.holds(cell)) continue;
+      // That a second ray passes says nothing more.
+      const std::size_t index = static_.frame.index(cell);
+      if (history_[index] != 0 && look_of_[index] != look_) mark(cell, false, now);
     }
     if (range > params_.reach) continue;
     const CellIndex cell = static_.frame.cell_at(endpoint);
@@ -96,8 +97,9 @@ void LiveMap::forget(Time now) {
   for (int row = 0; row < static_.frame.rows; ++row) {
     for (int column = 0; column < static_.frame.columns; ++column) {
       const std::size_t index = static_.frame.index({column, row});
+      if (history_[index] == 0) continue;
       const double memory = is_settled(index) ? params_.forget_settled : params_.forget;
-      if (history_[index] == 0 || to_seconds(now - seen_[index]) < memory) continue;
+      if (to_seconds(now - seen_[index]) < memory) continue;
       const Time seen = seen_[index];
       while (history_[index] != 0) {
         mark({column, row}, false, seen);
