@@ -117,7 +117,7 @@ void MarkovLocalizer::start_unknown() {
   started_ = false;
   likeliest_heading_ = {};
   phase_ = 0;
-  last_work_ = 0.0;
+  last_work_ = turned_here_ = 0.0;
   verdict_.reset();
   refiner_.reset();
   rivals_.forget();
@@ -130,7 +130,7 @@ void MarkovLocalizer::start_at(std::span<const BeliefMode> modes, const Pose2& o
   believe(modes, 1e-4);
   started_ = true;
   last_update_ = time;
-  last_work_ = 0.0;
+  last_work_ = turned_here_ = 0.0;
   verdict_.assume_localized();
   refiner_.reset();
   rivals_.forget();
@@ -163,7 +163,8 @@ double MarkovLocalizer::due_weight(double way, double turn, Time time) const {
   const double waited = to_seconds(time - last_update_);
   if (waited * params_.work_per_second < last_work_) return 0.0;
   const double moved = std::max(way / params_.update_way, turn / (params_.update_turn * kRadians));
-  if (moved >= 1.0) return 1.0;
+  const bool shows_news = way >= params_.update_way || !goes_round() || waited >= params_.creeping_period;
+  if (moved >= 1.0) return shows_news ? 1.0 : 0.0;
   const bool stands = way < 0.005 && turn < 0.005;
   if (waited < (stands ? params_.standing_period : params_.creeping_period)) return 0.0;
   return std::max(moved, params_.standing_weight);
@@ -177,7 +178,7 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   if (sweep.beams.empty()) return step;
   const std::optional<Pose2> predicted = started_ ? map_from_robot(odom_from_robot) : std::nullopt;
   step.weight = started_ ? due_weight(way, turn, time) : 1.0;
-  const double views = params_.views(way, turn);
+  const double views = params_.views(way, goes_round() ? 0.0 : turn);
   if (predicted && views <= 1.0) verdict_.look(glance(caster_, sweep, *predicted, params_.sensor.max_range));
   // Someone may have carried the robot: then this is not the same view again, and nothing to wait for.
   if (step.weight < 1.0 && verdict_.keeps_its_place() && to_seconds(time - last_update_) >= kSurpriseWaits &&
@@ -190,6 +191,11 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   started_ = true;
   last_update_ = time;
   if (way > 0.0 || turn > 0.0) move(before_from_after);
+  if (distance(odom_from_robot.position(), turns_at_) >= params_.update_way) {
+    turns_at_ = odom_from_robot.position();
+    turned_here_ = 0.0;
+  }
+  turned_here_ += turn;
 
   const RangeSweep seen = seen_from(sweep, frame_from_robot());
   const std::vector<std::uint8_t> on_persons = params_.on_persons(sweep, verdict_.keeps_its_place());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -129,6 +130,8 @@ class MarkovLocalizer final : public Localizer {
 
  private:
   [[nodiscard]] double due_weight(double way, double turn, Time time) const;
+  /// It has turned all round on the spot: what there is to see from here is seen, until people have moved.
+  [[nodiscard]] bool goes_round() const { return turned_here_ > 2.0 * std::numbers::pi; }
   /// `seen`: the sweep in the belief's frame.
   [[nodiscard]] BeamChoice choose_beams(const RangeSweep& seen, std::vector<std::uint8_t> on_persons);
   /// What the sensors beside the lasers say now, for `weight` of an update; empty: nothing.
@@ -161,6 +164,8 @@ class MarkovLocalizer final : public Localizer {
   Pose2 odom_from_robot_;
   Time last_update_{};
   double last_work_ = 0.0;
+  Point2 turns_at_{};         ///< [m], odom
+  double turned_here_ = 0.0;  ///< [rad] since it came there
   std::size_t phase_ = 0;
   BeliefSummary summary_;
   std::vector<LikelyState> likely_;

@@ -116,6 +116,25 @@ TEST(MarkovLocalizer, ASurroundedRobotFindsItselfByWhatItSeesBetweenPeople) {
   EXPECT_LE(by_all.likeliest, 2) << "then people need not be told by their shapes";
 }
 
+TEST(MarkovLocalizer, ARobotThatTurnsRoundAndRoundSeesNothingNewButInTime) {
+  Drive drive;
+  const auto updates = [&](const Pose2& motion, int steps) {
+    int count = 0;
+    for (int i = 0; i < steps; ++i) {
+      drive.truth = drive.truth * motion;
+      drive.odom = drive.odom * motion;
+      drive.seconds += 0.2;
+      count += drive.localizer.observe(drive.look(0.3), drive.odom, time_from_seconds(drive.seconds)).updated ? 1 : 0;
+    }
+    return count;
+  };
+  const Pose2 turn{0.0, 0.0, Angle::degrees(10.5)};
+  EXPECT_GE(updates(turn, 35), 34) << "a circle";
+  EXPECT_LE(updates(turn, 70), 8) << "two more, 14 s";
+  updates({0.05, 0.0, {}}, 6);
+  EXPECT_GE(updates(turn, 30), 28) << "another place";
+}
+
 TEST(MarkovLocalizer, ASectorCountsMoreWhereShapesLeaveEnoughBeams) {
   const MarkovLocalizerParams params;
   const auto with_people = [](std::size_t people) {

@@ -1,12 +1,10 @@
 #include "docent/localization/markov/position_summary.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <span>
 
 namespace docent {
 
@@ -55,35 +53,20 @@ std::vector<Entry> likeliest(const PositionBelief& belief, const SummaryParams& 
   return entries;
 }
 
-/// [kept] mass of each row. Rows are added up four at a time, each in the order of its headings: none waits for
-/// another.
+/// [kept] mass of each row.
 std::vector<double> row_masses(const PositionBelief& belief) {
-  constexpr std::size_t kTogether = 4;
   const float least = least_listed(belief);
-  const std::size_t stride = belief.row_stride();
   std::vector<double> masses(belief.kept_places().size());
-  std::vector<float> rows(kTogether * stride, 0.0F);
-  std::array<std::size_t, kTogether> waiting{};
-  std::size_t count = 0;
-  const auto add_up = [&] {
-    std::array<double, kTogether> sums{};
-    const float* const first = rows.data();
-    for (std::size_t h = 0; h < stride; ++h)
-      for (std::size_t k = 0; k < kTogether; ++k) sums[k] += static_cast<double>(first[k * stride + h]);
-    for (std::size_t k = 0; k < count; ++k) masses[waiting[k]] = sums[k];
-    count = 0;
-  };
+  std::vector<float> row(belief.row_stride(), 0.0F);
   for (std::size_t i = 0; i < masses.size(); ++i) {
     // From what is listed nothing but rounding may be left.
     if (const auto known = belief.row_peak(i) > least ? std::nullopt : belief.row_mass(i)) {
       masses[i] = *known;
       continue;
     }
-    belief.read_row(i, std::span{rows}.subspan(count * stride, stride));
-    waiting[count++] = i;
-    if (count == kTogether) add_up();
+    belief.read_row(i, row);
+    for (const float value : row) masses[i] += static_cast<double>(value);
   }
-  if (count > 0) add_up();
   return masses;
 }
 
