@@ -21,7 +21,6 @@ KM_AN_HOUR = 0.25
 PASSES_AN_HOUR = 30
 RECORDINGS = {"eth": 0.60, "students01": 0.40}  # share of the tracks that the museum must keep
 MUSEUM_SEED = 1
-CRIPPLED_SEEDS = 1  # in every museum
 HEADER = ["museum", "crowd", "seed", "km", "passes", *KINDS, "bumped", "area", "m/s", "lost s", "speedup"]
 
 
@@ -131,7 +130,7 @@ def protocol(simulations, options):
     if options.slice or options.no_crippled:
         return verdict
     for name, arguments in crippled.CRIPPLED.items():
-        some = seeds[:CRIPPLED_SEEDS]
+        some = seeds[:crippled.CRIPPLED_SEEDS]
         print(f"\n## crippled: {name}, packed, seeds {some[0]} to {some[-1]} (must touch)\n")
         fails = Verdict()
         for (museum, _), reports in run_cells(simulations, museums, ["packed"], some, minutes, arguments).items():
