@@ -91,6 +91,7 @@ class PositionBelief {
   /// over beams of ln(best P(d | o)) - ln P~(d), tempered like the costs. Then, with a small probability `teleport`,
   /// somebody carried the robot elsewhere. Departures, see EvidenceWeights. `others`: what other sensors say, asked for
   /// places with an active state; empty: nothing. `log_best_over_mean` is then theirs, too. O(active states * beams).
+  /// @pre beams in the order of directions
   void reweigh(const RangeTable& table, std::span<const BeamCosts> beams, double log_best_over_mean,
                const EvidenceWeights& weights, double teleport, const PlaceCosts& others = {});
 

@@ -33,8 +33,8 @@ class TileScorer {
  public:
   static constexpr std::size_t kBlock = 16;  ///< headings that are scored together
 
-  /// `beams` in the order of directions; sector of a beam: direction * sectors / headings. `cap` in cost steps.
-  /// @pre beams.size() * kMaxCost < 65536; directions < headings
+  /// Sector of a beam: direction * sectors / headings. `cap` in cost steps.
+  /// @pre beams in the order of directions; beams.size() * kMaxCost < 65536; directions < headings
   TileScorer(std::span<const BeamCosts> beams, std::size_t headings, std::size_t sectors, std::uint16_t cap,
              InstructionSet set);
   ~TileScorer();

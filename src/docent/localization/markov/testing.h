@@ -50,12 +50,14 @@ struct Room {
 };
 inline std::unique_ptr<Room> drawn_room() { return std::make_unique<Room>(); }
 
+/// In the order of directions, as a belief wants them.
 inline std::vector<BeamCosts> any_beams(Rng& rng, int count, int headings) {
   std::vector<BeamCosts> beams(static_cast<std::size_t>(count));
   for (BeamCosts& beam : beams) {
     for (auto& cost : beam.costs) cost = static_cast<std::uint8_t>(rng.integer(0, kMaxCost));
     beam.direction = static_cast<std::size_t>(rng.integer(0, headings - 1));
   }
+  std::sort(beams.begin(), beams.end(), [](const auto& a, const auto& b) { return a.direction < b.direction; });
   return beams;
 }
 
