@@ -15,6 +15,8 @@ constexpr double kBlindGap = 0.105;  // [rad] 6 degrees
 constexpr int kFrozenSweeps = 2;     // repeats: noise alone makes even one unlikely
 constexpr int kFrozenHits = 3;       // beams that met something: fewer prove nothing
 constexpr int kFrozenReadings = 9;   // noisy readings that were all repeated
+constexpr double kTouched = 0.15;    // [m] a laser's point so near to a touch is what touches
+constexpr double kSeenTouch = 0.3;   // [s] a touch of what a laser sees counts: from then on the laser knows better
 
 bool is_valid(double range) { return !std::isnan(range) && range >= 0.0; }
 
@@ -231,8 +233,13 @@ void ObstacleMemory::add_lines(const std::string& source, Time stamp, double lif
 }
 
 void ObstacleMemory::add_touch(Time stamp, Point2 in_base, const Pose2& odom_from_base) {
-  touches_.push_back({odom_from_base * in_base, {}, stamp, false});
-  while (!touches_.empty() && stamp - touches_.front().seen > seconds(kMemory)) touches_.pop_front();
+  const Point2 in_odom = odom_from_base * in_base;
+  const bool is_seen = std::any_of(sensors_.begin(), sensors_.end(), [&](const Sensor& sensor) {
+    return std::any_of(sensor.points.begin(), sensor.points.end(),
+                       [&](const ObstaclePoint& point) { return distance(point.in_odom, in_odom) < kTouched; });
+  });
+  std::erase_if(touches_, [&](const Touch& touch) { return stamp > touch.until; });
+  touches_.push_back({{in_odom, {}, stamp, false}, stamp + seconds(is_seen ? kSeenTouch : kMemory)});
 }
 
 std::vector<ObstaclePoint> ObstacleMemory::points(Time now) const {
@@ -256,7 +263,9 @@ std::vector<ObstaclePoint> ObstacleMemory::points(Time now) const {
   }
   add(sonars_.points);
   add(infrareds_.points);
-  add(touches_);
+  for (const auto& touch : touches_) {
+    if (now <= touch.until) result.push_back(touch.point);
+  }
   for (const auto& [source, view] : cameras_) {
     if (now < view.until) result.insert(result.end(), view.points.begin(), view.points.end());
   }

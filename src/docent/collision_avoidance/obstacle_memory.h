@@ -73,7 +73,8 @@ class ObstacleMemory {
   /// What a camera saw on the floor; replaces what it saw before. The lines count for `lifetime` [s] after their stamp.
   void add_lines(const std::string& source, Time stamp, double lifetime, std::span<const Segment> in_base,
                  const Pose2& odom_from_base);
-  /// The body was touched at `in_base` (on its outline).
+  /// The body was touched at `in_base` (on its outline). Counts for kMemory, and only for 0.3 s where a laser sees who
+  /// touches: whether they are still there, the laser tells.
   void add_touch(Time stamp, Point2 in_base, const Pose2& odom_from_base);
 
   /// Everything that counts at `now`, moving things where they are by now.
@@ -128,7 +129,11 @@ class ObstacleMemory {
   Ring sonars_;
   Ring infrareds_;
   std::map<std::string, CameraView> cameras_;
-  std::deque<ObstaclePoint> touches_;
+  struct Touch {
+    ObstaclePoint point;
+    Time until;
+  };
+  std::vector<Touch> touches_;
   MovingObjects moving_;
 };
 

@@ -232,6 +232,24 @@ TEST(MovingObjects, FollowsAWalkerAndLeavesAStanderAlone) {
   EXPECT_GT(standing, 3);
 }
 
+TEST(ObstacleMemory, ATouchOfWhatALaserSeesIsForTheLaserToFollow) {
+  const auto touched = [](bool is_seen, double time) {
+    ObstacleMemory memory;
+    auto sweep = sweep_at(1.0);
+    if (is_seen) put(sweep, 80, 100, 0.3F);  // somebody before the body, whose edge is 0.265 m off
+    memory.add_sweep(0, sweep, {});
+    memory.add_touch(time_from_seconds(1.0), {0.265, 0.0}, {});
+    for (int i = 1; 1.0 + 0.1 * i <= time; ++i) memory.add_sweep(0, sweep_at(1.0 + 0.1 * i), {});  // they are gone
+    const auto points = memory.points(time_from_seconds(time));
+    return std::any_of(points.begin(), points.end(),
+                       [](const ObstaclePoint& point) { return std::abs(point.in_odom.x - 0.265) < 1e-6; });
+  };
+  EXPECT_TRUE(touched(true, 1.2));
+  EXPECT_FALSE(touched(true, 1.5));
+  EXPECT_TRUE(touched(false, 2.4)) << "nothing but the touch tells of it";
+  EXPECT_FALSE(touched(false, 2.6));
+}
+
 TEST(ObstacleMemory, WhoComesOutOfAThrongComesNearerThoughNobodyIsFollowed) {
   ObstacleMemory memory;
   for (int k = 0; k < 6; ++k) {
