@@ -27,6 +27,18 @@ constexpr double kElsewhere = 0.8;        // [rad] from the touch before: anothe
 constexpr double kBegins = 0.04;          // [m] of a way; one that is shorter is none
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+/// Nothing is inside the robot: whoever was foreseen there has come up to its outline, on the way that they came.
+Point2 stopped_at_outline(Point2 at, Point2 velocity, const BaseLimits& limits) {
+  constexpr double kStep = 0.02;     // [m]
+  constexpr double kFarthest = 0.6;  // [m]
+  const double speed = norm(velocity);
+  for (double back = 0.0; speed > 0.0 && back < kFarthest; back += kStep) {
+    const Point2 before = at - (back / speed) * velocity;
+    if (limits.gap_to(before) >= 0.0) return before;
+  }
+  return limits.edge(Angle::radians(std::atan2(at.y, at.x)));
+}
+
 }  // namespace
 
 Result<void> AvoiderParams::validate() const {
@@ -219,7 +231,8 @@ std::vector<Obstacle> Avoider::obstacles_from(const Pose2& odom_from_base, Time 
     const std::vector<ObstaclePoint> points = memory_.points(when);
     result.reserve(points.size());
     for (const auto& point : points) {
-      const Point2 at = of_points * point.in_odom;
+      Point2 at = of_points * point.in_odom;
+      if (limits_.gap_to(at) < 0.0) at = stopped_at_outline(at, turned(point.velocity), limits_);
       const double away = norm(at);
       if (away > reach) continue;
       if (params_.method == "dynamic_window") {  // where they are now
@@ -375,8 +388,7 @@ void Avoider::cap_by_knowledge(Time now, AvoiderDecision& decision) const {
   }
 }
 
-void Avoider::cap_by_surroundings(std::span<const Obstacle> obstacles, double bearing,
-                                  AvoiderDecision& decision) const {
+void Avoider::cap_by_surroundings(std::span<const Obstacle> obstacles, AvoiderDecision& decision) const {
   const auto& window = params_.window;
   for (const auto& obstacle : obstacles) {
     const double way = norm(obstacle.at);
@@ -386,14 +398,6 @@ void Avoider::cap_by_surroundings(std::span<const Obstacle> obstacles, double be
     // The security distance grows with the speed [Buhmann1995]: read backwards, the speed with the distance.
     if (ahead > -0.2) {
       cap_speed(window.speed_with(slack), obstacle.is_virtual ? "a hazard is near" : "something is near", decision);
-    }
-    if (!obstacle.may_step && !obstacle.person && obstacle.velocity == Point2{}) continue;
-    // Towards people only as fast as one can be forgiven for: on the way that is steered for, and as it heads now.
-    for (const Point2 way_ahead : {unit(Angle::radians(bearing)), Point2{1.0, 0.0}}) {
-      const PersonPoint person{{dot(way_ahead, obstacle.at), cross(way_ahead, obstacle.at)},
-                               {dot(way_ahead, obstacle.velocity), cross(way_ahead, obstacle.velocity)},
-                               limits_.radius + obstacle.margin};
-      cap_speed(speed_near_person(person, decision.speed_cap, limits_, params_.people), "people are near", decision);
     }
   }
 }
@@ -405,7 +409,7 @@ Steering Avoider::steering_for(const Carrot& ahead, const Pose2& odom_from_base,
   steering.distance = norm(ahead.in_base);
   if (params_.method == "dynamic_window") return steering;
   steering.bearing = steer_around(ahead.in_base, odom_from_base, obstacles);
-  cap_by_surroundings(obstacles, steering.bearing, decision);
+  cap_by_surroundings(obstacles, decision);
   return steering;
 }
 
@@ -424,8 +428,8 @@ std::optional<Velocity> Avoider::slowed_for_people(std::span<const Obstacle> obs
       braking = {speed, curvature, limits_, params_.people};
     }
   }
-  // The choice may be so much too bold by noise alone.
-  if (speed > command_.linear - 1.5 * kStep) return std::nullopt;
+  // The choice may be so much too bold by noise alone; not where anything faster than harmless is too fast.
+  if (speed > params_.people.harmless && speed > command_.linear - 1.5 * kStep) return std::nullopt;
   speed = std::max(speed, params_.people.harmless);
   return Velocity{speed, command_.angular * speed / command_.linear};
 }
@@ -477,7 +481,10 @@ AvoiderDecision Avoider::decide(Time now) {
 
   const BaseState start = state_when_effective(now);
   const Time effective = now + seconds(limits_.latency);
-  const auto obstacles = obstacles_from(start.odom_from_base, effective);
+  auto obstacles = obstacles_from(start.odom_from_base, effective);
+  // Where to go among people is chosen as they stand: who walks is elsewhere soon. How fast is for the reflex to say,
+  // which foresees them at every scan.
+  for (Obstacle& obstacle : obstacles) obstacle.velocity = {};
   tell_nearest(obstacles, limits_, decision);
   if (auto why = fault(now); !why.empty()) return stand(now, std::move(decision), std::move(why));
   if (!target_ || target_->mode == AvoiderTarget::Mode::stop) return stand(now, std::move(decision), "");

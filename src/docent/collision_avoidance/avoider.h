@@ -118,10 +118,10 @@ class Avoider {
   void set_target(Time now, Time stamp, AvoiderTarget target);
   void set_max_speed(double max_speed) { max_speed_ = max_speed; }
 
-  /// One selection, every `window.cycle`. The command counts as given at `now`.
+  /// One selection, every `window.cycle`, with people where they are now. The command counts as given at `now`.
   [[nodiscard]] AvoiderDecision decide(Time now);
-  /// To be called on every scan: full braking when the present command is no longer safe against what was just seen,
-  /// and the same arc more slowly where people are nearer than it was chosen for.
+  /// To be called on every scan: full braking when the present command is no longer safe against what was just seen and
+  /// where it will be, and the same arc more slowly where people may come nearer than is forgivable.
   [[nodiscard]] std::optional<AvoiderDecision> reflex(Time now);
 
   [[nodiscard]] const ObstacleMemory& memory() const { return memory_; }
@@ -159,8 +159,8 @@ class Avoider {
   /// Caps the speed and says why.
   void cap_speed(double cap, std::string_view why, AvoiderDecision& decision) const;
   void cap_by_knowledge(Time now, AvoiderDecision& decision) const;
-  void cap_by_surroundings(std::span<const Obstacle> obstacles, double bearing, AvoiderDecision& decision) const;
-  /// The present command, slowed at once for who does what the last choice did not foresee; nullopt when it may stay.
+  void cap_by_surroundings(std::span<const Obstacle> obstacles, AvoiderDecision& decision) const;
+  /// The present command, slowed for whoever may come nearer within a second; nullopt when it may stay.
   [[nodiscard]] std::optional<Velocity> slowed_for_people(std::span<const Obstacle> obstacles) const;
   void judge_blocking(Time now, Point2 carrot, const Pose2& odom_from_base, std::span<const Obstacle> obstacles,
                       AvoiderDecision& decision) const;

@@ -128,6 +128,89 @@ TEST(Avoider, DoesNotPushWhoStepsOutOfARow) {
   EXPECT_GT(worst_of_blunt, 0.25);
 }
 
+/// A robot that creeps with 0.15 m/s through an empty hall, where somebody then stands, in the end `gap` [m] before it.
+/// @return  what the check of the last scan says, without another choice
+std::optional<AvoiderDecision> reflex_to_somebody(double gap) {
+  constexpr double kDriven = 0.13;  // [m] in all
+  Avoider avoider{BaseLimits{}, Rehearsal::without_sonar(), 1};
+  avoider.set_max_speed(0.15);
+  const Point2 person{kDriven + BaseLimits{}.radius + gap + 0.22, 0.0};
+  Time now = time_from_seconds(10.0);
+  Pose2 odom_from_base;
+  for (int i = 0; i < 22; ++i) {
+    now = now + seconds(0.05);
+    const Velocity velocity = avoider.command();
+    odom_from_base = odom_from_base * Pose2{0.05 * velocity.linear, 0.0, {}};
+    avoider.add_odometry(now, now, {odom_from_base, velocity});
+    SensorSweep sweep{now, {}, -std::numbers::pi, std::numbers::pi / 180.0, 0.02, 10.0, {}};
+    for (int k = 0; k < 360; ++k) {
+      const auto hit = ray_distance(odom_from_base.position(), unit(Angle::degrees(k - 180.0)), person, 0.22);
+      sweep.ranges.push_back(i >= 10 && hit ? static_cast<float>(*hit) : 10.0F);
+    }
+    avoider.add_sweep(now, 0, sweep);
+    avoider.add_virtual(now, {now, -std::numbers::pi, std::numbers::pi / 90.0, 6.0, std::vector<float>(180, 6.0F)});
+    AvoiderTarget target;
+    target.mode = AvoiderTarget::Mode::drive;
+    target.via = {{9.0, 0.0}};
+    avoider.set_target(now, now, target);
+    if (i == 3 || i == 8) (void)avoider.decide(now);
+  }
+  EXPECT_NEAR(avoider.command().linear, 0.15, 0.01);
+  EXPECT_NEAR(odom_from_base.x, kDriven, 0.03);
+  return avoider.reflex(now);
+}
+
+TEST(Avoider, TheCheckOfEveryScanSlowsACreepWhereOnlyLessIsHarmless) {
+  const auto near = reflex_to_somebody(0.16);
+  ASSERT_TRUE(near) << "no reflex";
+  EXPECT_EQ(near->reason, "people are near");
+  EXPECT_NEAR(near->command.linear, PeopleCautionParams{}.harmless, 1e-6);
+  EXPECT_FALSE(reflex_to_somebody(1.5)) << "far off";
+}
+
+TEST(Avoider, TheChoiceTakesPeopleAsTheyStandAndTheCheckForeseesThem) {
+  for (const double speed : {0.0, 0.9}) {  // towards the robot, which stands
+    Avoider avoider{BaseLimits{}, Rehearsal::without_sonar(), 1};
+    Time now = time_from_seconds(10.0);
+    AvoiderTarget target;
+    target.mode = AvoiderTarget::Mode::drive;
+    target.via = {{9.0, 0.0}};
+    for (int i = 15; i >= 0; --i) {
+      now = now + seconds(0.05);
+      avoider.add_odometry(now, now, {});
+      SensorSweep sweep{now, {}, -std::numbers::pi, std::numbers::pi / 180.0, 0.02, 10.0, {}};
+      for (int k = 0; k < 360; ++k) {
+        const auto hit = ray_distance({}, unit(Angle::degrees(k - 180.0)), {1.04 + 0.05 * i * speed, 0.0}, 0.22);
+        sweep.ranges.push_back(hit ? static_cast<float>(*hit) : 10.0F);
+      }
+      avoider.add_sweep(now, 0, sweep);
+      avoider.add_virtual(now, {now, -std::numbers::pi, std::numbers::pi / 90.0, 6.0, std::vector<float>(180, 6.0F)});
+      avoider.set_target(now, now, target);
+    }
+    EXPECT_GT(avoider.decide(now).command.linear, 0.1) << "at " << speed << " m/s";
+    const auto check = avoider.reflex(now);
+    EXPECT_EQ(check.has_value(), speed > 0.0);
+    if (check) {
+      EXPECT_LT(check->command.linear, 0.1 + 1e-9);
+    }
+  }
+}
+
+TEST(Avoider, NobodyIsInsideTheRobot) {
+  for (const Point2 from : {Point2{0.1, -1.8}, Point2{1.8, 0.15}, Point2{-1.3, 1.3}}) {
+    Rehearsal world;
+    world.box(-3, -3, 3, 3);
+    world.people.push_back({from, (-1.2 / norm(from)) * from});  // walks into it and stops there
+    double least = 1.0;
+    for (int i = 0; i < 25; ++i) {
+      world.run(0.1);
+      least = std::min(least, world.decision.nearest_real);
+    }
+    EXPECT_LT(least, 0.08) << "they came";
+    EXPECT_GE(least, -1e-6) << "from " << from.x << "," << from.y;
+  }
+}
+
 TEST(Avoider, GoesRoundAPersonWhoStandsInTheWay) {
   Rehearsal world;
   world.box(-3, -3, 12, 3);

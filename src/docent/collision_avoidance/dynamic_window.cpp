@@ -107,10 +107,13 @@ bool can_brake_in_time(const Velocity& velocity, const Velocity& command, double
     double required = limits.radius + obstacle.margin - slack;
     if (now - speed * duration - manoeuvre.way > required) continue;
     if (speed > 0.0) {
+      double walks = duration;  // who has come up to the robot stands there
       for (std::size_t i = 0; i < manoeuvre.count; ++i) {
         const Sample& sample = manoeuvre.samples[i];
-        const Point2 offset = obstacle.at + sample.time * obstacle.velocity - sample.start_from_base.position();
+        const double walked = std::min(walks, sample.time);
+        const Point2 offset = obstacle.at + walked * obstacle.velocity - sample.start_from_base.position();
         const double away = norm(offset);
+        if (away < limits.radius) walks = walked;
         if (away >= required) continue;
         const double towards = sample.velocity.linear * dot(unit(sample.start_from_base.theta), offset);
         if (towards > kStandsStill * away) return false;
@@ -196,16 +199,8 @@ void DynamicWindow::lay_out(const Reachable& range) {
 
 void DynamicWindow::measure_ways(std::span<const Obstacle> obstacles) {
   reach_points_.clear();
-  for (const auto& obstacle : obstacles) {
-    Point2 at = obstacle.at;
-    if (obstacle.velocity != Point2{}) {
-      // A thing that comes nearer is met half way; one that goes away is taken as standing.
-      const double way = norm(at);
-      const double closing = way > 0.0 ? std::max(0.0, -dot(obstacle.velocity, at) / way) : 0.0;
-      if (way > 0.0) at = std::max(0.2, 1.0 - closing * 0.5 / way) * at;
-    }
-    reach_points_.push_back({at, (limits_.outline.empty() ? limits_.radius : 0.0) + obstacle.margin});
-  }
+  const double body = limits_.outline.empty() ? limits_.radius : 0.0;
+  for (const auto& obstacle : obstacles) reach_points_.push_back({obstacle.at, body + obstacle.margin});
   if (!limits_.outline.empty()) return measure_ways_of_outline();
   // Rows rise: first those in reverse, then those on the spot, then those forwards.
   std::size_t row = 0;

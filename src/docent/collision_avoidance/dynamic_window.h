@@ -83,7 +83,8 @@ struct WindowChoice {
 /// does that when we die) without coming nearer to an obstacle than its margin, less `slack` [m].
 ///
 /// The motion is simulated with the base's real accelerations. Inside a margin the base may not get nearer. Things that
-/// move are followed at constant velocity, and count as long as the base moves towards them.
+/// move are followed at constant velocity until they touch the base, where they stand; they count as long as the base
+/// moves towards them.
 /// O((hold + braking time) / 50 ms * obstacles).
 [[nodiscard]] bool can_brake_in_time(const Velocity& velocity, const Velocity& command, double hold,
                                      std::span<const Obstacle> obstacles, const BaseLimits& limits, double slack);
@@ -99,6 +100,7 @@ class DynamicWindow {
 
   /// @param velocity  of the base when the command will take effect
   /// @param last      the command before
+  /// @param obstacles  ways lead past where they are now; that the base can brake is asked of where they will be
   /// O(velocities * obstacles that lie in their way), some hundred times less than velocities * obstacles.
   [[nodiscard]] WindowChoice choose(const Velocity& velocity, const Velocity& last, std::span<const Obstacle> obstacles,
                                     const Steering& steering);

@@ -192,6 +192,17 @@ TEST(DynamicWindow, ALongBodyDoesNotSwingItsTailIntoAWall) {
   EXPECT_TRUE(can_brake_in_time({}, {0.0, 0.8}, 0.35, wall, disc, 0.0));
 }
 
+TEST(CanBrakeInTime, WhoComesUpToTheRobotDoesNotWalkThroughIt) {
+  const BaseLimits limits;
+  const Velocity slowly{0.25, 0.0};
+  std::vector<Obstacle> person{real_at(-0.35, 0.25)};
+  person.front().velocity = {1.6, -0.8};  // at its back, to the left: through it, they would come out before it
+  EXPECT_TRUE(can_brake_in_time(slowly, slowly, 0.55, person, limits, 0.0));
+  person.front() = real_at(0.75, 0.25);
+  person.front().velocity = {-0.8, -0.4};  // from before it
+  EXPECT_FALSE(can_brake_in_time(slowly, slowly, 0.55, person, limits, 0.0));
+}
+
 TEST(CanBrakeInTime, TheRestOfATurnCountsForABodyThatIsNoDisc) {
   BaseLimits limits;
   limits.outline = Outline::make({{0.5, 0.2}, {-0.5, 0.2}, {-0.5, -0.2}, {0.5, -0.2}}).value();

@@ -7,8 +7,7 @@ namespace docent {
 
 namespace {
 
-constexpr double kTimeStep = 0.05;   // [s]
-constexpr double kSpeedStep = 0.05;  // [m/s]
+constexpr double kTimeStep = 0.05;  // [s]
 
 /// How much nearer [m] a surprise may have brought somebody after `time`.
 double surprise_after(double time, const PeopleCautionParams& params) {
@@ -51,16 +50,6 @@ bool BrakingWay::is_forgivable(const PersonPoint& person) const {
     if (apart - person.reach >= step.surprise) return false;
     return step.speed * dot(step.ahead, offset) > params_.harmless * apart;
   });
-}
-
-double speed_near_person(const PersonPoint& person, double cap, const BaseLimits& limits,
-                         const PeopleCautionParams& params) {
-  // Too far for any speed up to the cap.
-  const double end = params.reaction + cap / limits.deceleration;
-  if (norm(person.at) - person.reach > (cap + params.surprise + norm(person.velocity)) * end) return cap;
-  double speed = cap;
-  while (speed > params.harmless && !BrakingWay{speed, 0.0, limits, params}.is_forgivable(person)) speed -= kSpeedStep;
-  return std::max(speed, std::min(cap, params.harmless));
 }
 
 }  // namespace docent

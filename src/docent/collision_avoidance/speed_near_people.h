@@ -36,7 +36,8 @@ struct PersonPoint {
 class BrakingWay {
  public:
   BrakingWay(double speed, double curvature, const BaseLimits& limits, const PeopleCautionParams& params);
-  /// True when the robot meets them nowhere faster than harmless before it stands.
+  /// True when the robot meets them nowhere faster than harmless before it stands. Who stands beside the way thus slows
+  /// the robot less than who stands in it, who walks away less than who comes. O(speed).
   [[nodiscard]] bool is_forgivable(const PersonPoint& person) const;
 
  private:
@@ -52,12 +53,5 @@ class BrakingWay {
   PeopleCautionParams params_;
   std::vector<Step> steps_;
 };
-
-/// The highest speed [m/s] up to `cap` along +x from which the robot never runs into this person: it brakes fully one
-/// reaction after the person begins to come nearer than foreseen, and wherever the two may meet before it stands, its
-/// speed towards them is harmless. Who stands beside the way thus slows the robot less than who stands in it, who walks
-/// away less than who comes. At least `harmless`. In steps of 0.05 m/s, O(cap^2).
-[[nodiscard]] double speed_near_person(const PersonPoint& person, double cap, const BaseLimits& limits,
-                                       const PeopleCautionParams& params);
 
 }  // namespace docent
