@@ -71,6 +71,7 @@ class Scenario:
     crowd: str = ""  # the event that brings this crowd
 
 
+SLICE_FLOORS = 0.5  # of the floors, which are of a mean over seeds, is asked of a single one
 LOOKS = 0.95  # of the reactions show the wanted direction
 
 BLIND = {"blind to people": ["avoid.blind_to_people=true"]}
@@ -174,11 +175,12 @@ EXPOSURES = {  # of a run
 }
 
 
-def exposures_of(name, runs):
-    """What its crowd did to the robot, a seed on average, and whether that was enough."""
-    seen = {what: statistics.mean(EXPOSURES[what](run) for run in runs) for what in SCENARIOS[name].floors}
-    words = ", ".join(f"{seen[what]:.1f} {what} ({floor:g})" for what, floor in SCENARIOS[name].floors.items())
-    return words, all(seen[what] >= floor for what, floor in SCENARIOS[name].floors.items())
+def exposures_of(name, runs, share):
+    """What its crowd did to the robot, a seed on average, and whether that was enough: this share of the floors."""
+    floors = {what: share * floor for what, floor in SCENARIOS[name].floors.items()}
+    seen = {what: statistics.mean(EXPOSURES[what](run) for run in runs) for what in floors}
+    words = ", ".join(f"{seen[what]:.1f} {what} ({floor:g})" for what, floor in floors.items())
+    return words, all(seen[what] >= floor for what, floor in floors.items())
 
 
 def faults_of(name, run):
@@ -218,6 +220,7 @@ def protocol(simulations, options):
     names = [options.part] if options.part else list(SCENARIOS)
     count = options.seeds or (1 if options.slice else SEEDS)
     seeds = list(range(options.first_seed, options.first_seed + count))
+    share = SLICE_FLOORS if options.slice else 1.0
     verdict = Verdict()
     runs = {name: annex.runs(name, seeds) for name in names}
     print(f"\n## what the robot must do, {count} seed{'s' if count > 1 else ''} each\n")
@@ -232,7 +235,7 @@ def protocol(simulations, options):
         verdict.want(f"{name}: all it must, nothing touched, never outside", f"{count - len(bad)} of {count} seeds, {km:.2f} km"
                      + "".join(f"; seed {seed}: {', '.join(faults)}" for seed, faults in bad.items()), not bad)
         if SCENARIOS[name].floors:
-            words, enough = exposures_of(name, runs[name])
+            words, enough = exposures_of(name, runs[name], share)
             verdict.want(f"{name}: what was in the way, a seed on average", words, enough)
     looks = [run.looks_along_the_way() for name in names for run in runs[name]]
     shown, total = sum(good for _, good in looks), sum(n for n, _ in looks)
@@ -242,12 +245,12 @@ def protocol(simulations, options):
                      f"{shown} of {total}", total >= least and shown >= LOOKS * total)
     verdict.want_one_configuration(run.report["config_hash"] for name in names for run in runs[name])
     if not options.no_crippled:
-        judge_crippled(annex, names, seeds[:CRIPPLED_SEEDS], verdict)
+        judge_crippled(annex, names, seeds[:CRIPPLED_SEEDS], share, verdict)
     verdict.print()
     return verdict
 
 
-def judge_crippled(annex, names, seeds, verdict):
+def judge_crippled(annex, names, seeds, share, verdict):
     """Each must fail what the whole robot passes, with most of the seeds."""
     for name in names:
         for how, settings in SCENARIOS[name].crippled.items():
@@ -256,5 +259,5 @@ def judge_crippled(annex, names, seeds, verdict):
             verdict.want(f"{name}, crippled: {how} (must fail)", f"fails {sum(map(bool, failed))} of {len(seeds)}: {first}",
                          2 * sum(map(bool, failed)) > len(seeds))
         if SCENARIOS[name].crowd:
-            words, enough = exposures_of(name, annex.runs(name, seeds, without=SCENARIOS[name].crowd))
+            words, enough = exposures_of(name, annex.runs(name, seeds, without=SCENARIOS[name].crowd), share)
             verdict.want(f"{name}, without its {SCENARIOS[name].crowd} (must fall short)", words, not enough)

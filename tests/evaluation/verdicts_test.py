@@ -74,8 +74,14 @@ class Scenarios(unittest.TestCase):
     def test_an_empty_world_falls_short(self):
         crowded, empty = SimpleNamespace(report=report(bumped=5)), SimpleNamespace(report=report(passes=0, blocked=0.0, horns=0))
         for name in ("people-wall", "closed-passage", "staircase", "children"):
-            self.assertTrue(scenarios.exposures_of(name, [crowded])[1], name)
-            self.assertFalse(scenarios.exposures_of(name, [empty])[1], name)
+            for share in (1.0, scenarios.SLICE_FLOORS):
+                self.assertTrue(scenarios.exposures_of(name, [crowded], share)[1], name)
+                self.assertFalse(scenarios.exposures_of(name, [empty], share)[1], name)
+
+    def test_the_share_is_of_the_floors(self):
+        half = SimpleNamespace(report=report(blocked=0.5 * scenarios.SCENARIOS["staircase"].floors["s blocked"], bumped=5))
+        self.assertFalse(scenarios.exposures_of("staircase", [half], 1.0)[1])
+        self.assertTrue(scenarios.exposures_of("staircase", [half], 0.5)[1])
 
     def test_the_crowds_that_are_left_out_are_in_the_files(self):
         for name, scenario in scenarios.SCENARIOS.items():
