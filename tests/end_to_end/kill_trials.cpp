@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 using Clock = RobotWatch::Clock;
 using Seconds = std::chrono::duration<double>;
 
-constexpr Seconds kStop = 10s;
+constexpr Seconds kStop = 12s;  // longer than the lease that DDS gives by itself, 10 s
 
 /// What a module says of itself and of its work, by which a new process shows that it has the present state.
 const char* output_of(const std::string& module) {

@@ -14,11 +14,14 @@ namespace docent {
 namespace {
 
 // Loopback only. Twenty modules and their tools need more than the nine participants that the default finds room for;
-// a map must fit into the writer's history while a reader is stopped.
+// a map must fit into the writer's history while a reader is stopped. Who was stopped for less than a minute is still
+// known when it goes on, and others are found within a second: that somebody died is told by liveliness, not by the
+// lease.
 constexpr const char* kConfig = R"(<CycloneDDS><Domain Id="any">
 <General><Interfaces><NetworkInterface name="lo"/></Interfaces><AllowMulticast>false</AllowMulticast></General>
 <Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>120</MaxAutoParticipantIndex>
-<Peers><Peer Address="127.0.0.1"/></Peers></Discovery>
+<Peers><Peer Address="127.0.0.1"/></Peers>
+<SPDPInterval>1s</SPDPInterval><LeaseDuration>60s</LeaseDuration></Discovery>
 <Internal><Watermarks><WhcHigh>32 MB</WhcHigh></Watermarks></Internal>
 </Domain></CycloneDDS>)";
 
