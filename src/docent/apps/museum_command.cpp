@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <memory>
 
+#include "docent/apps/arguments.h"
 #include "docent/apps/command.h"
 #include "docent/museum/museum.h"
 #include "docent/pictures/drawing.h"
@@ -106,7 +107,9 @@ void add_museum_command(CLI::App& app) {
       "the map that a survey of it gives the robot");
   auto options = std::make_shared<MuseumOptions>();
   command->add_option("map", options->map, "map.yaml of map_server")->required();
-  command->add_option("--out", options->out, "Folder for museum.yaml, simulation.yaml, the map and texts")->required();
+  command->add_option("--out", options->out, "Folder for museum.yaml, simulation.yaml, the map and texts")
+      ->check(output_folder())
+      ->required();
   command
       ->add_option("--pedestrians", options->pedestrians,
                    "Recorded people for its halls: a folder or file, or a name in DOCENT_DATA/pedestrians (eth, "
@@ -115,7 +118,8 @@ void add_museum_command(CLI::App& app) {
   command->add_option("--seed", options->seed, "Seed of what a map does not show and of the survey's errors")
       ->capture_default_str();
   command->add_option("--title", options->title, "Name of the museum; without it the map's file name");
-  command->add_option("--picture", options->picture, "Also draw the true world and the robot's map, as a PNG");
+  command->add_option("--picture", options->picture, "Also draw the true world and the robot's map, as a PNG")
+      ->check(output_file());
   command->callback([options] { run(*options); });
 }
 
