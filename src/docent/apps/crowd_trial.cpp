@@ -168,6 +168,7 @@ class Trial {
 
   Result<void> start_modules(const RobotConfig& config) {
     outcome_.config_hash = config.hash();
+    outcome_.crippled = config.evaluation().crippled();
     for (const char* name : kModules) {
       ModuleHost::Options host;
       host.state = state_.path();

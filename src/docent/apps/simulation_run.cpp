@@ -145,7 +145,7 @@ class SimulationRun::Parts {
     auto simd = simd_of_localize(config_);
     if (!simd) return tl::unexpected<Error>(simd.error());
     options.run_info.simd = *simd;
-    options.run_info.crippled = crippled_by(options_.settings);
+    options.run_info.crippled = config_.evaluation().crippled();
     if (!options_.scenario.empty()) {
       auto scenario = simulator::load_scenario(options_.scenario);
       if (!scenario) return tl::unexpected<Error>(scenario.error());

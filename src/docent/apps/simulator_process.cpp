@@ -15,7 +15,7 @@ namespace {
 Result<simulator::SimulationOptions> simulation_of(const Deployment& deployment, const SimulatorOptions& options) {
   auto museum = deployment.load();
   if (!museum) return tl::unexpected<Error>(museum.error());
-  auto config = deployment.load_config();
+  auto config = deployment.load_whole_config();
   if (!config) return tl::unexpected<Error>(config.error());
   if (!museum->simulation_path) return fail(deployment.museum + ": the museum has no simulation");
   auto world = simulator::load_world(*museum->simulation_path);
@@ -43,7 +43,6 @@ Result<simulator::SimulationOptions> simulation_of(const Deployment& deployment,
   auto simd = simd_of_localize(*config);
   if (!simd) return tl::unexpected<Error>(simd.error());
   simulation.run_info.simd = *simd;
-  simulation.run_info.crippled = crippled_by(deployment.settings);
   if (auto valid = validate(simulation); !valid) return tl::unexpected<Error>(valid.error());
   return simulation;
 }

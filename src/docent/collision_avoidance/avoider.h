@@ -39,7 +39,7 @@ struct AvoiderParams {
   bool has_infrared = false;          ///< the body has these rings: stands when they are silent, from the start on
   bool has_tactile = false;
   bool blind_to_people = false;  ///< crippled, for evaluation: sees virtual measurements and touch only
-  bool watches = true;           ///< false: crippled, for evaluation: takes every sensor and belief for well
+  bool watches = true;           ///< false: likewise: takes every sensor and belief for well
   template <class V>
   void visit(V& v) {
     v("window", window);
@@ -51,8 +51,6 @@ struct AvoiderParams {
     v("target_timeout", target_timeout);
     v("virtual_timeout", virtual_timeout);
     v("needs_sonar", needs_sonar);
-    v("blind_to_people", blind_to_people);
-    v("watches", watches);
   }
   [[nodiscard]] Result<void> validate() const;
 };

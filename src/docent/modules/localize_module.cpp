@@ -48,13 +48,8 @@ struct LocalizeParams {
   MarkovLocalizerParams markov;
   MonteCarloParams particles;
   SonarParams sonar;
-  PersonFilterParams people;    ///< the inverse filter
-  double person_range = 6.0;    ///< [m], > 0: how far away people are looked for
-  bool dead_reckoning = false;  ///< crippled, for evaluation: odometry alone after the first "here"
-  /// For evaluation: the best hypothesis is published so far off, while the cells of the belief stay true.
-  double best_pose_error_x = 0.0;        ///< [m], map
-  double best_pose_error_y = 0.0;        ///< [m], map
-  double best_pose_error_heading = 0.0;  ///< [deg]
+  PersonFilterParams people;  ///< the inverse filter
+  double person_range = 6.0;  ///< [m], > 0: how far away people are looked for
   template <class V>
   void visit(V& v) {
     v("method", method);
@@ -63,10 +58,6 @@ struct LocalizeParams {
     v("sonar", sonar);
     v("people", people);
     v("person_range", person_range);
-    v("dead_reckoning", dead_reckoning);
-    v("best_pose_error_x", best_pose_error_x);
-    v("best_pose_error_y", best_pose_error_y);
-    v("best_pose_error_heading", best_pose_error_heading);
   }
   [[nodiscard]] Result<void> validate() const {
     if (!(person_range > 0.0)) return fail("person_range must be > 0");
@@ -110,6 +101,7 @@ class LocalizeModule final : public Module {
   LocalizeModule(const ModuleContext& context, const LocalizeParams& params)
       : bus_{context.bus},
         params_{params},
+        evaluation_{context.config.evaluation()},
         checkpoint_path_{context.state / "localize.yaml"},
         map_hash_{map_hash(context.museum.map)},
         body_{context.config.body()},
@@ -217,7 +209,7 @@ class LocalizeModule final : public Module {
   void digest(const RangeSweep& sweep, const Pose2& odom_from_base, Time stamp) {
     Localizer::Step step;
     if (!frozen_) step = localizer_->observe(sweep, odom_from_base, stamp);
-    if (params_.dead_reckoning && localizer_->verdict().localized()) frozen_ = true;
+    if (evaluation_.dead_reckoning && localizer_->verdict().localized()) frozen_ = true;
     if (step.updated) last_step_ = step;
     const bool is_torn = has_jumped_ && !(stamp < unbroken_.jumped());
     if (step.updated || is_torn || bus_.now() - belief_published_ >= kRepublish) publish_belief(stamp, odom_from_base);
@@ -256,9 +248,9 @@ class LocalizeModule final : public Module {
     }
     if (!message.hypotheses.empty()) {
       auto& best = message.hypotheses.front();
-      best.x += params_.best_pose_error_x;
-      best.y += params_.best_pose_error_y;
-      best.theta += params_.best_pose_error_heading * std::numbers::pi / 180.0;
+      best.x += evaluation_.best_pose_error_x;
+      best.y += evaluation_.best_pose_error_y;
+      best.theta += evaluation_.best_pose_error_heading * std::numbers::pi / 180.0;
     }
     message.entropy = summary.entropy;
     message.p_lost = localizer_->verdict().p_lost();
@@ -351,6 +343,7 @@ class LocalizeModule final : public Module {
 
   Bus& bus_;
   LocalizeParams params_;
+  EvaluationParams evaluation_;
   std::filesystem::path checkpoint_path_;
   std::string map_hash_;
   RobotBody body_;
@@ -378,6 +371,7 @@ class LocalizeModule final : public Module {
 Result<std::unique_ptr<Module>> make_localize(const ModuleContext& context) {
   auto params = context.config.section<LocalizeParams>("localize");
   if (!params) return tl::unexpected<Error>(params.error());
+  params->sonar.beside.trusting = context.config.evaluation().trusts_dead_sonars;
   if (params->method == "sonar") return make_sonar_localize(context, params->sonar.alone);
   auto module = std::make_unique<LocalizeModule>(context, *params);
   return module;

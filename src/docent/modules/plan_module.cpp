@@ -29,9 +29,7 @@ struct PlanParams {
   RouteParams route;
   PursuitParams pursuit;
   TellApartParams tell_apart;
-  bool ignore_live_map = false;  ///< crippled, for evaluation: plans with the static map alone
   CoastalParams coastal;
-  bool ignore_hazards = false;  ///< likewise: plans as if there were no hazards and no border
   bool active = true;           ///< lost: drives to where its hypotheses are told apart; else it only looks round
   double goal_tolerance = 0.2;  ///< [m] cells so near to the goal are goals
   template <class V>
@@ -39,9 +37,7 @@ struct PlanParams {
     v("route", route);
     v("pursuit", pursuit);
     v("tell_apart", tell_apart);
-    v("ignore_live_map", ignore_live_map);
     v("coastal", coastal);
-    v("ignore_hazards", ignore_hazards);
     v("active", active);
     v("goal_tolerance", goal_tolerance);
   }
@@ -65,8 +61,11 @@ class PlanModule final : public Module {
   PlanModule(const ModuleContext& context, const PlanParams& params)
       : bus_{context.bus},
         params_{params},
-        route_{context.museum.map, params.ignore_hazards ? std::vector<Polygon>{} : polygons_of(context.museum.hazards),
-               params.ignore_hazards ? Polygon{} : context.museum.area, params.route},
+        ignores_live_map_{context.config.evaluation().ignores_live_map},
+        route_{
+            context.museum.map,
+            context.config.evaluation().ignores_hazards ? std::vector<Polygon>{} : polygons_of(context.museum.hazards),
+            context.config.evaluation().ignores_hazards ? Polygon{} : context.museum.area, params.route},
         pursuit_{params.pursuit},
         tell_apart_{context.museum.map, context.config.body().radius, params.tell_apart},
         base_from_laser_{context.config.body().scan_front.base_from_sensor(),
@@ -158,7 +157,7 @@ class PlanModule final : public Module {
     changed_ = CellBox{low, high};
   }
   void take(std::size_t index, std::int8_t live) {
-    obstacles_[index] = live >= 65 && static_cells_[index] < 65 && !params_.ignore_live_map;
+    obstacles_[index] = live >= 65 && static_cells_[index] < 65 && !ignores_live_map_;
     settled_[index] = obstacles_[index] && live >= LiveMap::kSettled;
   }
 
@@ -344,6 +343,7 @@ class PlanModule final : public Module {
 
   Bus& bus_;
   PlanParams params_;
+  bool ignores_live_map_;  ///< crippled, for evaluation
   RoutePlanner route_;
   std::optional<CoastalPlanner> coastal_;  ///< with `coastal.weight` alone
   std::vector<Point2> coast_;              ///< [m], map: its way; empty: none yet

@@ -90,9 +90,7 @@ Result<RobotConfig> RobotConfig::load(const std::filesystem::path& path) {
     return tl::unexpected<Error>(file->fault(file->root(), "expected sections (name: …)"));
   }
   RobotConfig config{std::move(*file)};
-  auto body = config.section<RobotBody>("body");
-  if (!body) return tl::unexpected<Error>(body.error());
-  config.body_ = *body;
+  if (auto read = config.read_shared(); !read) return tl::unexpected<Error>(read.error());
   return config;
 }
 
@@ -116,20 +114,38 @@ Result<void> RobotConfig::set(const std::string& assignment) {
   auto setting = YamlFile::parse(text, "--set " + assignment);
   if (!setting) return tl::unexpected<Error>(setting.error());
   settings_.push_back(std::move(*setting));
+  auto read = read_shared();
+  if (!read) settings_.pop_back();
+  return read;
+}
+
+Result<void> RobotConfig::read_shared() {
   auto body = section<RobotBody>("body");
-  if (!body) {
-    settings_.pop_back();
-    return tl::unexpected<Error>(body.error());
-  }
+  if (!body) return tl::unexpected<Error>(body.error());
+  auto evaluation = section<EvaluationParams>("evaluation");
+  if (!evaluation) return tl::unexpected<Error>(evaluation.error());
   body_ = *body;
+  evaluation_ = *evaluation;
   return {};
+}
+
+Result<void> RobotConfig::check_not_crippled() const {
+  const std::string names = evaluation_.crippled();
+  if (names.empty()) return {};
+  const YamlFile* last = &file_;
+  for (const auto& setting : settings_)
+    if (setting.root()["evaluation"].IsDefined()) last = &setting;
+  return tl::unexpected<Error>(
+      last->fault(last->root()["evaluation"], "section evaluation cripples the robot (" + names +
+                                                  "), which is for simulations only: remove it before the robot runs"));
 }
 
 Result<void> RobotConfig::check_sections(const std::vector<std::string>& names) const {
   const auto check = [&](const YamlFile& file) -> Result<void> {
     for (const auto& entry : file.root()) {
       const auto name = entry.first.as<std::string>();
-      if (name == "body" || std::find(names.begin(), names.end(), name) != names.end()) continue;
+      if (name == "body" || name == "evaluation" || std::find(names.begin(), names.end(), name) != names.end())
+        continue;
       return tl::unexpected<Error>(file.fault(entry.first, "unknown section '" + name + "'"));
     }
     return {};

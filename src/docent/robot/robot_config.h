@@ -9,6 +9,7 @@
 #include "docent/base/result.h"
 #include "docent/base/yaml.h"
 #include "docent/geometry/pose2.h"
+#include "docent/robot/evaluation_params.h"
 
 namespace docent {
 
@@ -86,6 +87,10 @@ class RobotConfig {
   [[nodiscard]] Result<void> set(const std::string& assignment);
 
   [[nodiscard]] const RobotBody& body() const { return body_; }
+  /// How the robot is crippled, if it is.
+  [[nodiscard]] const EvaluationParams& evaluation() const { return evaluation_; }
+  /// Error, with file and line, when the robot is crippled for an evaluation: such a robot meets nobody.
+  [[nodiscard]] Result<void> check_not_crippled() const;
   /// Reads section `name` over the defaults of `params` (its visit and validate); unknown keys are faults.
   template <class Params>
   [[nodiscard]] Result<Params> section(const std::string& name) const {
@@ -106,16 +111,20 @@ class RobotConfig {
     }
     return params;
   }
-  /// Error when the file has a section that is not in `names` (and not `body`).
+  /// Error when the file has a section that is not in `names` (and neither `body` nor `evaluation`).
   [[nodiscard]] Result<void> check_sections(const std::vector<std::string>& names) const;
   /// Hash of all that is set, as 16 hexadecimal digits.
   [[nodiscard]] std::string hash() const;
 
  private:
   explicit RobotConfig(YamlFile file) : file_{std::move(file)} {}
+  /// Reads the sections that every module shares.
+  [[nodiscard]] Result<void> read_shared();
+
   YamlFile file_;
   std::vector<YamlFile> settings_;  ///< one a --set, in their order; so that the file keeps its lines
   RobotBody body_;
+  EvaluationParams evaluation_;
 };
 
 }  // namespace docent
