@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "docent/apps/arguments.h"
+#include "docent/apps/simulated_hardware.h"
 #include "docent/modules/localize_module.h"
 #include "docent/simulator/simulated_museum.h"
 #include "docent/transport/dds_bus.h"
@@ -22,6 +23,7 @@ Result<simulator::SimulationOptions> simulation_of(const Deployment& deployment,
   if (!world) return tl::unexpected<Error>(world.error());
   simulator::SimulationOptions simulation;
   simulation.world = std::move(*world);
+  simulation.hardware = simulated_hardware(config->body());
   simulation.seed = deployment.seed;
   simulation.crowd = options.crowd;
   if (!options.start.empty()) {

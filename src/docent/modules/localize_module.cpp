@@ -1,6 +1,6 @@
 #include "docent/modules/localize_module.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -12,6 +12,7 @@
 #include "docent/localization/monte_carlo/monte_carlo_localizer.h"
 #include "docent/localization/sonar_evidence/sonar_evidence.h"
 #include "docent/messages/conversions.h"
+#include "docent/modules/scanners.h"
 #include "docent/modules/sonar_localize.h"
 #include "docent/motion_models/odometry_history.h"
 #include "docent/motion_models/unbroken_odometry.h"
@@ -107,8 +108,7 @@ class LocalizeModule final : public Module {
         body_{context.config.body()},
         believer_{make_believer(context, params)},
         localizer_{believer_.localizer.get()},
-        lasers_{Laser{context.config.body().scan_front.base_from_sensor(), {}, {}, false},
-                Laser{context.config.body().scan_rear.base_from_sensor(), {}, {}, false}},
+        lasers_(body_.scanners.size()),
         belief_{bus_.publisher(topics::kBelief)},
         pose_{bus_.publisher(topics::kPose)},
         transforms_{bus_.publisher(topics::kTransforms)},
@@ -124,8 +124,7 @@ class LocalizeModule final : public Module {
       has_jumped_ = has_jumped_ || reading.jumped;
       if (restored_) check_restored();
     });
-    bus_.subscribe<sensor_msgs::LaserScan>(topics::kScanFront, [this](const auto& scan) { on_scan(0, scan); });
-    bus_.subscribe<sensor_msgs::LaserScan>(topics::kScanRear, [this](const auto& scan) { on_scan(1, scan); });
+    subscribe_scanners(bus_, body_, [this](std::size_t i, const auto& scan) { on_scan(i, scan); });
     if (believer_.sonars)
       bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const auto& range) { on_sonar(range); });
     bus_.every(kPeriod, [this] { look(); });
@@ -134,8 +133,9 @@ class LocalizeModule final : public Module {
   [[nodiscard]] ModuleHealth health() const override {
     const Time now = bus_.now();
     if (now - odometry_received_ > kSilent) return {"degraded", "no odom"};
-    if (now - lasers_[0].received > kSilent) return {"degraded", "no scan_front"};
-    if (now - lasers_[1].received > kSilent) return {"degraded", "no scan_rear"};
+    if (lasers_.empty()) return {"degraded", "body.scanners is empty: nothing tells where I am"};
+    for (std::size_t i = 0; i < lasers_.size(); ++i)
+      if (now - lasers_[i].received > kSilent) return {"degraded", "no scan_" + body_.scanners[i].name};
     if (!localized()) return {"degraded", "I do not know where I am"};
     if (believer_.sonars) return health_of_sonars(now);
     return {};
@@ -143,10 +143,9 @@ class LocalizeModule final : public Module {
 
  private:
   struct Laser {
-    Pose2 base_from_laser;
     sensor_msgs::LaserScan scan;
-    Time received;
-    bool is_new;
+    Time received{};
+    bool is_new = false;
   };
 
   [[nodiscard]] bool localized() const { return frozen_ || localizer_->verdict().localized(); }
@@ -183,14 +182,15 @@ class LocalizeModule final : public Module {
 
   /// One sweep of what came since the last look, or nothing.
   void look() {
-    if (!lasers_[0].is_new && !lasers_[1].is_new) return;
+    if (std::none_of(lasers_.begin(), lasers_.end(), [](const Laser& laser) { return laser.is_new; })) return;
     Time stamp{};
     for (const Laser& laser : lasers_)
       if (laser.is_new) stamp = std::max(stamp, from_message(laser.scan.header.stamp));
     const auto odom_from_base = odometry_.at(stamp);
     if (!odom_from_base) return;  // wait for odometry, or the scan is too old to be placed
     RangeSweep sweep;
-    for (Laser& laser : lasers_) {
+    for (std::size_t i = 0; i < lasers_.size(); ++i) {
+      Laser& laser = lasers_[i];
       const Time taken = from_message(laser.scan.header.stamp);
       const auto then = odometry_.at(taken);
       laser.is_new = false;
@@ -200,7 +200,7 @@ class LocalizeModule final : public Module {
              {laser.scan.ranges, Angle::radians(static_cast<double>(laser.scan.angle_min)),
               static_cast<double>(laser.scan.angle_increment), static_cast<double>(laser.scan.range_min),
               static_cast<double>(laser.scan.range_max)},
-             base_from_then * laser.base_from_laser);
+             base_from_then * body_.scanners[i].base_from_sensor());
     }
     if (sweep.beams.empty()) return;
     digest(sweep, *odom_from_base, stamp);
@@ -349,7 +349,7 @@ class LocalizeModule final : public Module {
   RobotBody body_;
   Believer believer_;
   Localizer* localizer_;
-  std::array<Laser, 2> lasers_;
+  std::vector<Laser> lasers_;  ///< [scanners]
   Publisher<docent_msgs::Belief> belief_;
   Publisher<geometry_msgs::PoseWithCovarianceStamped> pose_;
   Publisher<tf2_msgs::TFMessage> transforms_;

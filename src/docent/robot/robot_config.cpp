@@ -25,6 +25,24 @@ Result<void> check_outline(const RobotBody& body) {
   return {};
 }
 
+Result<void> check_scanners(const std::vector<Scanner>& scanners) {
+  constexpr auto& kNames = RobotBody::kScannerNames;
+  for (auto scanner = scanners.begin(); scanner != scanners.end(); ++scanner) {
+    if (std::find(kNames.begin(), kNames.end(), scanner->name) == kNames.end())
+      return fail("body.scanners: a name must be front, rear, left or right, not '" + scanner->name + "'");
+    const auto is_like = [&](const Scanner& other) {
+      return other.name == scanner->name || other.frame == scanner->frame;
+    };
+    if (scanner->frame.empty() || std::any_of(scanners.begin(), scanner, is_like))
+      return fail("body.scanners: each needs a name and a frame of its own");
+    if (!(norm(scanner->base_from_sensor().position()) <= 1.0))
+      return fail("body.scanners: " + scanner->name + " must lie within 1 m of the robot's centre");
+    if (!(scanner->field > 0.0 && scanner->field <= 360.0))
+      return fail("body.scanners: the field of " + scanner->name + " must be > 0 and <= 360 degrees");
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<void> RobotBody::validate() const {
@@ -40,6 +58,7 @@ Result<void> RobotBody::validate() const {
   if (!(max_speed * (watchdog + latency) + max_speed * max_speed / (2.0 * deceleration) <= 3.0 &&
         watchdog + latency + max_speed / deceleration <= 3.0))
     return fail("body: from max_speed it must stand within 3 m and 3 s (watchdog and latency included)");
+  if (auto valid = check_scanners(scanners); !valid) return valid;
   if (!(sonars >= 0 && sonars <= 100)) return fail("body.sonars must be 0..100");
   if (!(sonar_radius >= 0.0 && sonar_radius <= radius)) return fail("body.sonar_radius must be 0 to the body's radius");
   if (!(infrareds >= 0 && infrareds <= 100)) return fail("body.infrareds must be 0..100");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -13,17 +14,21 @@
 
 namespace docent {
 
-/// A sensor's place on the robot, robot frame.
-struct Mount {
-  std::string frame;
-  double x = 0.0, y = 0.0;  ///< [m]
-  double heading = 0.0;     ///< [deg]
+/// A laser scanner and its place.
+struct Scanner {
+  std::string name = "front";         ///< of RobotBody::kScannerNames; "front" speaks on scan_front
+  std::string frame = "laser_front";  ///< of its messages
+  double x = 0.0, y = 0.0;            ///< [m], robot frame
+  double heading = 0.0;               ///< [deg], robot frame: of the middle of its field
+  double field = 180.0;  ///< [deg] of view; a simulated one gets so much, a real one says it in its messages
   template <class V>
   void visit(V& v) {
+    v("name", name);
     v("frame", frame);
     v("x", x);
     v("y", y);
     v("heading", heading);
+    v("field", field);
   }
   [[nodiscard]] Pose2 base_from_sensor() const { return {x, y, Angle::degrees(heading)}; }
 };
@@ -40,9 +45,10 @@ struct RobotBody {
   double turn_acceleration = 1.5;            ///< [rad/s2]
   double latency = 0.15;                     ///< [s] from a command to the wheels
   double watchdog = 0.3;                     ///< [s] without a command, then the base stops
-  Mount scan_front{"laser_front", 0.0, 0.0, 0.0};
-  Mount scan_rear{"laser_rear", 0.0, 0.0, 180.0};
-  int sonars = 24;                ///< evenly round the body, sonar_00 at the front, counter-clockwise
+  static constexpr std::array<std::string_view, 4> kScannerNames{"front", "rear", "left", "right"};
+  /// What none of them sees counts as unknown: the robot drives there only when it has looked.
+  std::vector<Scanner> scanners{{}, {"rear", "laser_rear", 0.0, 0.0, 180.0, 180.0}};
+  int sonars = 24;                ///< evenly round the body, sonar_00 at the front, counter-clockwise; 0: it has none
   double sonar_radius = 0.25;     ///< [m] from the centre
   int infrareds = 24;             ///< likewise, infrared_00 at the front; 0: it has none
   double infrared_radius = 0.25;  ///< [m] from the centre
@@ -58,8 +64,7 @@ struct RobotBody {
     v("turn_acceleration", turn_acceleration);
     v("latency", latency);
     v("watchdog", watchdog);
-    v("scan_front", scan_front);
-    v("scan_rear", scan_rear);
+    v("scanners", scanners);
     v("sonars", sonars);
     v("sonar_radius", sonar_radius);
     v("infrareds", infrareds);

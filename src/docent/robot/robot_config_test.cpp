@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <utility>
 
 #include "docent/base/files.h"
@@ -152,6 +153,25 @@ TEST(RobotBody, TheRadiusHoldsTheOutlineWhichIsConvexRoundTheCentre) {
   std::filesystem::remove(path);
   ASSERT_FALSE(small.has_value());
   EXPECT_NE(small.error().message.find(".yaml:3: body.radius"), std::string::npos) << small.error().message;
+}
+
+TEST(RobotBody, HasTheScannersThatItsConfigurationLists) {
+  const RobotBody body;
+  ASSERT_EQ(body.scanners.size(), 2U);
+  EXPECT_EQ(body.scanners[0].frame, "laser_front");
+  EXPECT_NEAR(std::abs(body.scanners[1].base_from_sensor().theta.degrees()), 180.0, 1e-9);
+
+  const auto one = config_of("body:\n  scanners:\n    - {x: 0.2, field: 270}\n  sonars: 0\n  infrareds: 0\n");
+  ASSERT_EQ(one.body().scanners.size(), 1U);
+  EXPECT_EQ(one.body().scanners[0].name, "front");
+  EXPECT_EQ(one.body().scanners[0].x, 0.2);
+  EXPECT_EQ(one.body().scanners[0].field, 270.0);
+  RobotConfig config;
+  EXPECT_TRUE(config.set("body.scanners=[{name: left, frame: l, heading: 90}, {name: right, frame: r, heading: -90}]"));
+  for (const char* bad : {"[{name: above}]", "[{}, {frame: other}]", "[{}, {name: rear}]", "[{frame: ''}]",
+                          "[{field: 0}]", "[{field: 361}]", "[{x: 3}]", "[{y: .nan}]", "[front]", "front"}) {
+    EXPECT_FALSE(config.set(std::string{"body.scanners="} + bad).has_value()) << bad;
+  }
 }
 
 TEST(RobotBody, KnowsItsSonarsByTheirFrames) {
