@@ -4,8 +4,8 @@ from evaluation.reports import contacts_of, touches_of
 from evaluation.tables import Verdict, print_table
 
 CRIPPLED = {
-    "blind to people": ["--set", "avoid.blind_to_people=true"],
-    "dead reckoning": ["--set", "localize.dead_reckoning=true"],
+    "blind to people": ["--set", "evaluation.blind_to_people=true"],
+    "dead reckoning": ["--set", "evaluation.dead_reckoning=true"],
 }
 CRIPPLED_SEEDS = 3  # of the seeds of the whole robot
 # Its eyes keep a robot that reckons dead off what they see: it may fail by being lost instead, while it drives.
@@ -37,8 +37,8 @@ def hazards(simulations):
     cells = [(name, best_only, x, y) for name, best_only in (("whole belief", "false"), ("best pose only", "true"))
              for x, y in BEST_POSE_OFF]
     reports = simulations.all([("hazards", museum, 1, 12, [
-        "--crowd", "quiet", "--scenario", scenario, "--set", f"localize.best_pose_error_x={x}", "--set",
-        f"localize.best_pose_error_y={y}", "--set", f"hazards.best_pose_only={best_only}"]) for _, best_only, x, y in cells])
+        "--crowd", "quiet", "--scenario", scenario, "--set", f"evaluation.best_pose_error_x={x}", "--set",
+        f"evaluation.best_pose_error_y={y}", "--set", f"evaluation.best_pose_only={best_only}"]) for _, best_only, x, y in cells])
     print_table(["hazards from", "off by x, y m", "driven m", "hazards", "contacts", "area"],
                 [[name, f"{x:+.1f}, {y:+.1f}", f"{report['distance_m']:.0f}", report["contacts"]["hazards"],
                   contacts_of(report), report["area_violations"]] for (name, _, x, y), report in zip(cells, reports)])

@@ -18,13 +18,13 @@ from evaluation.tables import Verdict, print_table
 
 DENSITY, IGNORING = 0.8, 0.5
 # What docs/decisions/0021 calls plain: the textbook's window on a way that is planned once, with the map as surveyed.
-PLAIN = ("dynamic_window", ["--set", "plan.ignore_live_map=true", "--set", "executive.ladder.active=false"])
+PLAIN = ("dynamic_window", ["--set", "evaluation.ignores_live_map=true", "--set", "evaluation.without_ladder=true"])
 METHODS = {"this robot": ("cautious_window", []), "plain window": PLAIN}
 # Shown, not judged: the plain window with all the rest of this robot.
 BESIDE = {"plain window, our ways": ("dynamic_window", [])}
 ARRIVES, PLAIN_ARRIVES = 0.95, 0.80
 INTIMATE_SHARE = 0.5
-CRIPPLED = {"blind to people": ["--set", "avoid.blind_to_people=true"]}
+CRIPPLED = {"blind to people": ["--set", "evaluation.blind_to_people=true"]}
 CRIPPLED_SEEDS = 10
 LEAST_TRIALS = 100
 

@@ -55,7 +55,7 @@ ALARMS = ["no fresh", "silent", "late", "frozen", "too few", "no readings", "mis
           "best pose", "doubtful"]
 SLIPS = [(0.5, 0.0, 12), (-0.4, 0.0, -15), (0.3, 0.0, 20), (0.6, 0.0, -8)]  # within a second
 JUMPS = [(1.0, 0.0, 40), (-0.5, 0.3, -25), (0.3, 0.0, 10), (4.0, -7.0, 170)]  # x, y [m], heading [deg]
-CRIPPLED = ["--set", "avoid.watches=false"]
+CRIPPLED = ["--set", "evaluation.without_watches=true"]
 CRIPPLED_SEEDS = 3
 CRIPPLED_FAULTS = ["laser_front dead", "laser_front frozen", "odom late", "two modes", "odometry jump"]
 

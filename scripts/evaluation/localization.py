@@ -39,7 +39,7 @@ def tracking(bench, verdict, print_table, seeds, minutes, museums, methods, is_s
         def one(museum, seed):
             found = {}
             ways = {(method, name): settings_of(method, name) for method in methods for name in filters_of(method)}
-            ways[CRIPPLED] = settings_of(*DEFAULT) + ["localize.dead_reckoning=true"]
+            ways[CRIPPLED] = settings_of(*DEFAULT) + ["evaluation.dead_reckoning=true"]
             for way, settings in ways.items():
                 claims = bench.claims(museum, seed, minutes, crowd, scenario(escort), settings)
                 found[way] = claims, since_known(claims)

@@ -29,7 +29,7 @@ CASES = [("driving", "moving"), ("driving", "standing"), ("standing", "moving"),
 BANDS = [(0, 1), (1, 2), (2, 3), (3, 4), (4, 5)]
 CRIPPLED = {  # each must fall below a bound
     "no reading counts as a person's": ["--set", "localize.people.filter=none"],
-    "no track is ever forgotten, no thing is told from a person": ["--set", "people.keeps_all=true"],
+    "no track is ever forgotten, no thing is told from a person": ["--set", "evaluation.keeps_all_people=true"],
 }
 CRIPPLED_SEEDS = 1
 OTHER_FILTERS = {"entropy filter": ["--set", "localize.people.filter=entropy"]}

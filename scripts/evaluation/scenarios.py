@@ -74,14 +74,14 @@ class Scenario:
 SLICE_FLOORS = 0.5  # of the floors, which are of a mean over seeds, is asked of a single one
 LOOKS = 0.95  # of the reactions show the wanted direction
 
-BLIND = {"blind to people": ["avoid.blind_to_people=true"]}
-BLIND_TO_ALL = {"blind to whatever stands there": ["avoid.blind_to_people=true", "plan.ignore_live_map=true"]}
-NO_LADDER = {"without the ladder": ["executive.ladder.active=false"]}
+BLIND = {"blind to people": ["evaluation.blind_to_people=true"]}
+BLIND_TO_ALL = {"blind to whatever stands there": ["evaluation.blind_to_people=true", "evaluation.ignores_live_map=true"]}
+NO_LADDER = {"without the ladder": ["evaluation.without_ladder=true"]}
 
 SCENARIOS = {
     "u-shape": Scenario(5, [
         Duty("at the clock, after the request", 120, lambda run: after(run.arrived("clock"), REQUEST)),
-    ], {"without the live map": ["plan.ignore_live_map=true"]}),
+    ], {"without the live map": ["evaluation.ignores_live_map=true"]}),
     "people-wall": Scenario(6, [
         Duty("blows the horn, after the way was blocked", 8, lambda run: after(run.first("reaction", "horn", REQUEST), run.blocked())),
         Duty("at the globe, after the way was blocked", 150, lambda run: after(run.arrived("globe"), run.blocked())),
@@ -98,7 +98,7 @@ SCENARIOS = {
     ], NO_LADDER, {"s blocked": 60, "horns": 8}),
     "staircase": Scenario(7, [
         Duty("at the lantern, after the request", 280, lambda run: after(run.arrived("lantern"), REQUEST)),
-    ], {"hazards ignored": ["hazards.ignored=true", "plan.ignore_hazards=true"]}, {"s blocked": 40, "bumps": 1}, "pushers"),
+    ], {"hazards ignored": ["evaluation.ignores_hazards=true"]}, {"s blocked": 40, "bumps": 1}, "pushers"),
     "children": Scenario(7, [
         Duty("at the clock, after the request", 150, lambda run: after(run.arrived("clock"), REQUEST)),
         Duty("at the globe, after its request", 250, lambda run: after(run.arrived("globe"), 100.0)),

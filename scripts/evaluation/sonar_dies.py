@@ -18,7 +18,7 @@ WAYS = {  # name: settings
 }
 # Takes every echo for certain, whatever the sonars do.
 CRIPPLED = ["localize.sonar.beams=24", "localize.sonar.filter=none", "localize.sonar.independent_beams=24",
-            "localize.sonar.most_nats=1000", "localize.sonar.trusting=true"]
+            "localize.sonar.most_nats=1000", "evaluation.trusts_dead_sonars=true"]
 NAMED_WITHIN = 5.0  # [s]
 
 

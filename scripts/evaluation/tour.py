@@ -6,6 +6,8 @@ from evaluation.tables import Verdict, print_table
 HEADER = ["seed", "km", "m/s", "explained", "offered", "served", "contacts", "bumped", "area", "passes", "localized s",
           "error cm", "lost", "speedup"]
 MINUTES, SLICE_MINUTES = 30, 25
+PARTS = ["one-scanner"]
+SCANNER_SEEDS = 5  # of the robot with one scanner in front, and of the full robot beside it
 
 
 def served_of(report):
@@ -52,8 +54,44 @@ def judge(reports, minutes, floors):
     return verdict
 
 
+def one_scanner(simulations, seeds, minutes):
+    """A robot with one scanner in front beside the full robot: nothing touched, tours given. What the full robot must
+    do besides, its own part says; here it is shown."""
+    museum = simulations.museums / "bonn"
+    print(f"\n## {museum.name}, busy, {len(seeds)} seeds x {minutes:g} minutes, unknown start: one scanner in front, and "
+          "the full robot\n")
+    robots = {"one scanner": ["--robot", simulations.root / "robots" / "one-scanner.yaml"], "full robot": []}
+    made = {name: simulations.of_seeds("tour", museum, seeds, minutes, ["--crowd", "busy", *arguments])
+            for name, arguments in robots.items()}
+    print_table(["robot", *HEADER], [[name, *row_of(seed, report)] for name, reports in made.items()
+                                     for seed, report in zip(seeds, reports)])
+    print()
+    verdict = Verdict()
+    reports = made["one scanner"]
+    km = sum(r["distance_m"] for r in reports) / 1000
+    contacts, violations = sum(map(contacts_of, reports)), sum(r["area_violations"] for r in reports)
+    verdict.want("one scanner: contacts", f"{contacts} in {km:.2f} km, {sum(r['passes_within_1m'] for r in reports)} "
+                 "passes within 1 m", contacts == 0)
+    verdict.want("one scanner: area violations", f"{violations}", violations == 0)
+    tours = [r["tours"]["completed"] for r in reports]
+    verdict.want("one scanner: tours completed, every seed", f"{sum(tours)}, the worst seed {min(tours)}", min(tours) >= 1)
+    served, counted = (sum(part) for part in zip(*map(served_of, reports)))
+    verdict.want("one scanner: requests served, pooled", f"{100 * served / max(1, counted):.1f} % of {counted}",
+                 counted > 0 and served >= 0.95 * counted)
+    # A robot that turns to look drives less; one that stands gives no tours.
+    full_km = sum(r["distance_m"] for r in made["full robot"]) / 1000
+    verdict.want("one scanner: driven, at least half of the full robot", f"{km:.2f} of {full_km:.2f} km", km >= 0.5 * full_km)
+    verdict.want_one_configuration(r["config_hash"] for r in reports)
+    verdict.print()
+    return verdict
+
+
 def protocol(simulations, options):
     is_bonn = options.name == "tour"
+    if options.part == "one-scanner":
+        count = options.seeds or (1 if options.slice else SCANNER_SEEDS)
+        return one_scanner(simulations, list(range(options.first_seed, options.first_seed + count)),
+                           SLICE_MINUTES if options.slice else options.minutes or MINUTES)
     museum = simulations.museums / ("bonn" if is_bonn else "smithsonian")
     count = options.seeds or (1 if options.slice else 10 if is_bonn else 5)
     seeds = list(range(options.first_seed, options.first_seed + count))
@@ -77,6 +115,7 @@ def protocol(simulations, options):
         verdict.add(run_crippled(simulations, museum, name, arguments, seeds[:crippled.CRIPPLED_SEEDS], minutes))
     if is_bonn:
         verdict.add(crippled.hazards(simulations))
+        verdict.add(one_scanner(simulations, seeds[:SCANNER_SEEDS], minutes))
     return verdict
 
 

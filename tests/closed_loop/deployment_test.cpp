@@ -46,6 +46,17 @@ TEST(Deployment, AnotherSeedGivesAnotherRun) {
   EXPECT_NE(first.at("distance_m"), second.at("distance_m"));
 }
 
+TEST(Deployment, OneScannerInFrontGivesATourInACrowd) {
+  SimulationRunOptions options = busy_bonn(2);
+  options.robot = std::string{DOCENT_SOURCES} + "/robots/one-scanner.yaml";
+  const auto report = report_of(options, 8.0);
+  EXPECT_GT(report.at("distance_m").get<double>(), 50.0);
+  EXPECT_GE(report.at("exhibits_explained").get<int>(), 1);
+  for (const char* kind : {"people", "furniture", "walls", "hazards"})
+    EXPECT_EQ(report.at("contacts").at(kind).get<int>(), 0) << kind;
+  EXPECT_EQ(report.at("area_violations").get<int>(), 0);
+}
+
 TEST(Deployment, KilledModulesComeBackAndTheTourGoesOn) {
   SimulationRunOptions options = busy_bonn(5);
   options.crowd = "quiet";

@@ -45,7 +45,7 @@ TEST(Motion, TouchesNobodyInABusyMuseum) {
 }
 
 TEST(Motion, ARobotBlindToPeopleDoesTouchThem) {
-  MotionLoop loop{{.crowd = "busy", .seed = 23, .settings = {"avoid.blind_to_people=true"}}};
+  MotionLoop loop{{.crowd = "busy", .seed = 23, .settings = {"evaluation.blind_to_people=true"}}};
   loop.run(600.0);
   EXPECT_GT(counted(loop.outcome()), 0);
 }

@@ -61,6 +61,7 @@ TEST(BadInput, UpSaysSoBeforeAnythingStarts) {
 
   const std::string key = folder.write("key.yaml", "plan: {}\nbody:\n  radius: 0.3\n  colour: red\n");
   const std::string section = folder.write("section.yaml", "plan: {}\nflying: {height: 3}\n");
+  const std::string crippled = folder.write("crippled.yaml", "plan: {}\nevaluation:\n  dead_reckoning: y\n");
   const std::string type = folder.write("type.yaml", "body:\n  radius: wide\n");
   const std::string syntax = folder.write("syntax.yaml", "body: [1, 2\nplan: }\n");
   const std::string list = folder.write("list.yaml", "- 1\n- 2\n");
@@ -76,6 +77,11 @@ TEST(BadInput, UpSaysSoBeforeAnythingStarts) {
            {"wrong type", with({"--robot", type}), "type.yaml:2: "},
            {"bad syntax", with({"--robot", syntax}), "syntax.yaml:"},
            {"no sections", with({"--robot", list}), "list.yaml:1: "},
+           {"crippled by robot.yaml", with({"--robot", crippled}),
+            "crippled.yaml:3: section evaluation cripples the robot"},
+           {"crippled by --set", with({"--set", "evaluation.blind_to_people=yes"}),
+            "section evaluation cripples the robot (blind_to_people)"},
+           {"a simulated robot crippled", with({"--sim", "--set", "evaluation.without_watches=on"}), "without_watches"},
            {"--set without value", with({"--set", "plan"}), "--set plan: expected section.key=value"},
            {"--set of a body that cannot be", with({"--set", "body.colour=red"}), "colour"},
            {"--set of an unknown section", with({"--set", "flying.height=3"}), "unknown section 'flying'"},
@@ -98,6 +104,20 @@ TEST(BadInput, UpSaysSoBeforeAnythingStarts) {
     expect_refused(bad);
   }
   close(taken);
+}
+
+TEST(BadInput, NoModuleRunsCrippled) {
+  const TemporaryFolder folder;
+  const std::string crippled = folder.write("crippled.yaml", "evaluation: {best_pose_error_x: 1.0}\n");
+  for (const char* module : {"avoid", "sim"}) {
+    const auto with = [&](std::vector<std::string> more) {
+      more.insert(more.begin(), {"run", module, "--domain", std::to_string(kDomain), "--museum", kMuseum, "--state",
+                                 folder.path() / "state"});
+      return more;
+    };
+    expect_refused({module, with({"--set", "evaluation.ignores_hazards=on"}), "ignores_hazards"});
+    expect_refused({module, with({"--robot", crippled}), "crippled.yaml:1: section evaluation cripples the robot"});
+  }
 }
 
 TEST(BadInput, MapsAndLogs) {

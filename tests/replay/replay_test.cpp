@@ -106,7 +106,7 @@ TEST_F(Replay, AChangedModuleIsSeenInItsRecording) {
   EXPECT_NEAR(repeated->localization.error_m.mean(), original->localization.error_m.mean(), 0.03);
   EXPECT_EQ(to_json(*repeated, std::nullopt), to_json(*again->report, std::nullopt));
   // A robot that only adds up its odometry once it has found itself drifts away in the same recording.
-  const auto crippled = replay_with({"localize"}, "localize.dead_reckoning=true");
+  const auto crippled = replay_with({"localize"}, "evaluation.dead_reckoning=true");
   ASSERT_TRUE(crippled) << crippled.error().message;
   ASSERT_TRUE(crippled->report);
   EXPECT_GT(crippled->report->localization.error_m.mean(), 2.0 * repeated->localization.error_m.mean());

@@ -9,6 +9,7 @@
 #include "docent/apps/deployment.h"
 #include "docent/apps/parameter_meanings.h"
 #include "docent/modules/registry.h"
+#include "docent/robot/evaluation_params.h"
 #include "docent/robot/parameter_list.h"
 
 namespace docent {
@@ -16,9 +17,11 @@ namespace docent {
 namespace {
 
 constexpr std::size_t kCommentColumn = 34;  ///< where comments begin, if the value leaves room
-constexpr const char* kBody = "body";       ///< the one section that belongs to no module
+constexpr const char* kBody = "body";
+constexpr const char* kEvaluation = "evaluation";
 
-/// Every section, `body` first, then the modules' in the order of their names. Error: what is wrong in `config`.
+/// Every section: `body` first, then the modules' in the order of their names, `evaluation` last. Error: what is wrong
+/// in `config`.
 Result<std::vector<ParameterRows>> all_sections(const RobotConfig& config) {
   std::vector<ParameterRows> all;
   auto body = list_parameters<RobotBody>(config, kBody);
@@ -31,6 +34,9 @@ Result<std::vector<ParameterRows>> all_sections(const RobotConfig& config) {
   }
   std::sort(all.begin() + 1, all.end(),
             [](const ParameterRows& a, const ParameterRows& b) { return a.front().key < b.front().key; });
+  auto evaluation = list_parameters<EvaluationParams>(config, kEvaluation);
+  if (!evaluation) return tl::unexpected<Error>(evaluation.error());
+  all.push_back(std::move(*evaluation));
   return all;
 }
 

@@ -19,7 +19,7 @@ TEST(Config, MeaningsAreTheDocCommentsOfTheStructs) {
   EXPECT_EQ(
       meaning_of("RobotBody", "outline"),
       "[m] or this convex polygon [[x, y], …], robot frame; then `radius` holds it: plans and steering take that");
-  EXPECT_NE(meaning_of("Mount", "y"), "") << "the second name of a declaration";
+  EXPECT_NE(meaning_of("Scanner", "y"), "") << "the second name of a declaration";
   EXPECT_NE(meaning_of("LocalizeParams", "beams"), "") << "a key of a struct whose keys are listed as its own";
   EXPECT_EQ(meaning_of("RobotBody", "no_such_key"), "");
 }

@@ -41,6 +41,7 @@ std::string json_of(const Options& options, const CrowdTrialOutcome& outcome, do
   json["seed"] = options.trial.seed;
   json["method"] = options.method;
   json["config_hash"] = outcome.config_hash;
+  json["crippled"] = outcome.crippled;
   json["density"] = rounded(outcome.people / outcome.free_area);
   json["ignoring"] = options.trial.ignoring;
   json["people"] = outcome.people;

@@ -7,9 +7,11 @@
 #include <numbers>
 #include <optional>
 
+#include "docent/apps/simulated_hardware.h"
 #include "docent/apps/temporary_folder.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/module_host.h"
+#include "docent/modules/scanners.h"
 #include "docent/pictures/drawing.h"
 #include "docent/pictures/text.h"
 #include "docent/sensor_models/ray_caster.h"
@@ -64,14 +66,15 @@ Museum museum_of(const simulator::Hall& hall, std::uint64_t seed) {
 /// where the map has nothing.
 class Surveyor {
  public:
-  Surveyor(Bus& bus, const Museum& museum)
-      : walls_{museum.map}, beliefs_{bus.publisher(topics::kBelief)}, beams_{bus.publisher(topics::kPersonBeams)} {
+  Surveyor(Bus& bus, const Museum& museum, const RobotBody& body)
+      : body_{body},
+        walls_{museum.map},
+        beliefs_{bus.publisher(topics::kBelief)},
+        beams_{bus.publisher(topics::kPersonBeams)} {
     bus.subscribe<nav_msgs::Odometry>(
         topics::kOdometry, [this](const auto& odometry) { odom_from_base_ = from_message(odometry.pose.pose); });
-    bus.subscribe<sensor_msgs::LaserScan>(topics::kScanFront,
-                                          [this](const auto& scan) { see(scan, body_.scan_front.base_from_sensor()); });
-    bus.subscribe<sensor_msgs::LaserScan>(topics::kScanRear,
-                                          [this](const auto& scan) { see(scan, body_.scan_rear.base_from_sensor()); });
+    subscribe_scanners(bus, body_,
+                       [this](std::size_t i, const auto& scan) { see(scan, body_.scanners[i].base_from_sensor()); });
   }
   void know(const docent_msgs::TrueState& truth) {
     map_from_base_ = Pose2{truth.x, truth.y, Angle::radians(truth.theta)};
@@ -127,8 +130,10 @@ simulator::CrowdParams visitors(double ignoring) {
   return params;
 }
 
-simulator::SimulationOptions simulation_of(const CrowdTrialOptions& options, const simulator::Hall& hall) {
+simulator::SimulationOptions simulation_of(const CrowdTrialOptions& options, const simulator::Hall& hall,
+                                           const RobotBody& body) {
   simulator::SimulationOptions simulation;
+  simulation.hardware = simulated_hardware(body);
   simulation.world = hall.world;
   simulation.seed = options.seed;
   simulation.crowd = "empty";
@@ -142,12 +147,12 @@ simulator::SimulationOptions simulation_of(const CrowdTrialOptions& options, con
 
 class Trial {
  public:
-  Trial(const CrowdTrialOptions& options, const simulator::Hall& hall)
+  Trial(const CrowdTrialOptions& options, const simulator::Hall& hall, const RobotBody& body)
       : options_{options},
         museum_{museum_of(hall, options.seed)},
-        simulation_{*world_, *truth_, simulation_of(options, hall)},
+        simulation_{*world_, *truth_, simulation_of(options, hall, body)},
         errand_{*self_, options.max_speed},
-        surveyor_{*self_, museum_},
+        surveyor_{*self_, museum_, body},
         score_{time_from_seconds(options.settle_s), hall.goal, options.goal_radius, options.limit_s, kRobotRadius} {
     outcome_.hall = hall;
     outcome_.people = static_cast<int>(simulation_.people());
@@ -168,6 +173,7 @@ class Trial {
 
   Result<void> start_modules(const RobotConfig& config) {
     outcome_.config_hash = config.hash();
+    outcome_.crippled = config.evaluation().crippled();
     for (const char* name : kModules) {
       ModuleHost::Options host;
       host.state = state_.path();
@@ -236,7 +242,7 @@ Result<CrowdTrialOutcome> run_crowd_trial(const CrowdTrialOptions& options) {
   for (const auto& setting : options.settings) {
     if (auto set = config.set(setting); !set) return tl::unexpected<Error>(set.error());
   }
-  Trial trial{options, simulator::draw_hall(Rng{options.seed}.stream("hall"))};
+  Trial trial{options, simulator::draw_hall(Rng{options.seed}.stream("hall")), config.body()};
   if (auto started = trial.start_modules(config); !started) return tl::unexpected<Error>(started.error());
   return trial.run();
 }

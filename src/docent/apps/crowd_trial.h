@@ -29,6 +29,7 @@ struct CrowdTrialOutcome {
   double walking = 0.0;    ///< share of the people who moved faster than 0.2 m/s, mean over the trial
   int horns = 0;
   std::string config_hash;
+  std::string crippled;  ///< EvaluationParams::crippled
   simulator::Hall hall;
   /// Once a second, and at the end.
   struct Moment {

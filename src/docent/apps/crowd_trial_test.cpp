@@ -58,7 +58,7 @@ TEST(CrowdTrial, TheSameSeedIsTheSameTrialAndTheMethodDrawsNothing) {
 
 TEST(CrowdTrial, ARobotThatSeesNobodyPushes) {
   CrowdTrialOptions options = short_trial(0.8);
-  options.settings = {"avoid.blind_to_people=true"};
+  options.settings = {"evaluation.blind_to_people=true"};
   options.ignoring = 1.0;
   int contacts = 0;
   for (options.seed = 1; options.seed <= 3; ++options.seed) contacts += contacts_of(outcome_of(options));

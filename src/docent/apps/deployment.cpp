@@ -54,6 +54,13 @@ Result<RobotConfig> Deployment::load_config() const {
   return config;
 }
 
+Result<RobotConfig> Deployment::load_whole_config() const {
+  auto config = load_config();
+  if (!config) return config;
+  if (auto whole = config->check_not_crippled(); !whole) return tl::unexpected<Error>(whole.error());
+  return config;
+}
+
 Result<void> Deployment::prepare_state() const {
   std::error_code error;
   std::filesystem::create_directories(state, error);
@@ -78,18 +85,6 @@ std::string default_state() {
   if (state != nullptr && *state != '\0') return std::string{state} + "/docent";
   const char* home = std::getenv("HOME");
   return std::string{home != nullptr && *home != '\0' ? home : "/tmp"} + "/.local/state/docent";
-}
-
-/// How the robot is crippled, if it is (architecture 10.17).
-std::string crippled_by(const std::vector<std::string>& settings) {
-  for (const char* way : {"avoid.blind_to_people=true", "avoid.watches=false", "localize.dead_reckoning=true",
-                          "hazards.best_pose_only=true", "hazards.ignored=true", "plan.ignore_live_map=true",
-                          "plan.ignore_hazards=true", "executive.ladder.active=false"}) {
-    for (const auto& setting : settings) {
-      if (setting == way) return std::string{way}.substr(0, std::string{way}.find('='));
-    }
-  }
-  return "";
 }
 
 namespace {

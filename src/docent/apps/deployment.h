@@ -31,6 +31,8 @@ struct Deployment {
   [[nodiscard]] std::vector<std::string> arguments() const;
   [[nodiscard]] Result<Museum> load() const;
   [[nodiscard]] Result<RobotConfig> load_config() const;
+  /// The same for a robot that may meet people: error when it is crippled for an evaluation.
+  [[nodiscard]] Result<RobotConfig> load_whole_config() const;
   /// Makes the folder of the state.
   [[nodiscard]] Result<void> prepare_state() const;
 };
@@ -41,9 +43,6 @@ struct Deployment {
 [[nodiscard]] std::string default_museum();
 /// $XDG_STATE_HOME/docent, else ~/.local/state/docent.
 [[nodiscard]] std::string default_state();
-
-/// How the robot is crippled by its settings, if it is (architecture 10.17); else empty.
-[[nodiscard]] std::string crippled_by(const std::vector<std::string>& settings);
 
 /// Blocks SIGTERM, SIGINT and SIGHUP in this thread and those that it starts: they are waited for instead.
 void block_end_signals();

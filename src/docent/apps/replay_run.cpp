@@ -273,6 +273,10 @@ Result<ReplayOutcome> replay(const Museum& museum, const RobotConfig& config, co
   }
   outcome.replayed_topics.assign(fed.begin(), fed.end());
   if (evaluator.has_truth()) outcome.report = evaluator.report();
+  if (const auto names = config.evaluation().crippled(); outcome.report && !names.empty()) {
+    std::string& crippled = outcome.report->crippled;
+    crippled += (crippled.empty() || crippled == names ? "" : ", ") + (crippled == names ? "" : names);
+  }
   return outcome;
 }
 

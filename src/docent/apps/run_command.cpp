@@ -46,7 +46,7 @@ void run(const Options& options) {
   }
   const Deployment& deployment = options.deployment;
   const Museum museum = value_or_fail(deployment.load(), kExitBadConfiguration);
-  const RobotConfig config = value_or_fail(deployment.load_config(), kExitBadConfiguration);
+  const RobotConfig config = value_or_fail(deployment.load_whole_config(), kExitBadConfiguration);
   value_or_fail(deployment.prepare_state(), kExitBadConfiguration);
 
   block_end_signals();

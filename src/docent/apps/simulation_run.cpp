@@ -7,6 +7,7 @@
 
 #include "docent/apps/belief_fault.h"
 #include "docent/apps/deployment.h"
+#include "docent/apps/simulated_hardware.h"
 #include "docent/apps/simulation_picture.h"
 #include "docent/apps/temporary_folder.h"
 #include "docent/evaluation/claim_log.h"
@@ -130,6 +131,7 @@ class SimulationRun::Parts {
     if (!world) return tl::unexpected<Error>(world.error());
     simulator::SimulationOptions options;
     options.world = std::move(*world);
+    options.hardware = simulated_hardware(config_.body());
     options.seed = options_.seed;
     options.crowd = options_.crowd;
     options.crowd_count = options_.people;
@@ -145,7 +147,7 @@ class SimulationRun::Parts {
     auto simd = simd_of_localize(config_);
     if (!simd) return tl::unexpected<Error>(simd.error());
     options.run_info.simd = *simd;
-    options.run_info.crippled = crippled_by(options_.settings);
+    options.run_info.crippled = config_.evaluation().crippled();
     if (!options_.scenario.empty()) {
       auto scenario = simulator::load_scenario(options_.scenario);
       if (!scenario) return tl::unexpected<Error>(scenario.error());

@@ -6,6 +6,7 @@
 
 #include "docent/apps/arguments.h"
 #include "docent/apps/log.h"
+#include "docent/apps/simulated_hardware.h"
 #include "docent/modules/localize_module.h"
 #include "docent/simulator/simulated_museum.h"
 #include "docent/transport/dds_bus.h"
@@ -16,13 +17,14 @@ namespace {
 Result<simulator::SimulationOptions> simulation_of(const Deployment& deployment, const SimulatorOptions& options) {
   auto museum = deployment.load();
   if (!museum) return tl::unexpected<Error>(museum.error());
-  auto config = deployment.load_config();
+  auto config = deployment.load_whole_config();
   if (!config) return tl::unexpected<Error>(config.error());
   if (!museum->simulation_path) return fail(deployment.museum + ": the museum has no simulation");
   auto world = simulator::load_world(*museum->simulation_path);
   if (!world) return tl::unexpected<Error>(world.error());
   simulator::SimulationOptions simulation;
   simulation.world = std::move(*world);
+  simulation.hardware = simulated_hardware(config->body());
   simulation.seed = deployment.seed;
   simulation.crowd = options.crowd;
   if (!options.start.empty()) {
@@ -44,7 +46,6 @@ Result<simulator::SimulationOptions> simulation_of(const Deployment& deployment,
   auto simd = simd_of_localize(*config);
   if (!simd) return tl::unexpected<Error>(simd.error());
   simulation.run_info.simd = *simd;
-  simulation.run_info.crippled = crippled_by(deployment.settings);
   if (auto valid = validate(simulation); !valid) return tl::unexpected<Error>(valid.error());
   return simulation;
 }

@@ -93,7 +93,7 @@ Result<docent_msgs::Limits> limits_of(const Options& options, const Museum& muse
 /// Everything that can be known to be wrong before a process is started.
 docent_msgs::Limits check(const Options& options) {
   const Museum museum = value_or_fail(options.deployment.load());
-  const RobotConfig config = value_or_fail(options.deployment.load_config());
+  const RobotConfig config = value_or_fail(options.deployment.load_whole_config());
   std::vector<std::string> sections;
   for (const auto& entry : all_modules()) sections.emplace_back(entry.name);
   value_or_fail(config.check_sections(sections));

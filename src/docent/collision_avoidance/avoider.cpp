@@ -48,18 +48,20 @@ Result<void> AvoiderParams::validate() const {
   if (auto valid = people.validate(); !valid) return valid;
   if (method != "cautious_window" && method != "dynamic_window")
     return fail("avoid.method must be cautious_window or dynamic_window");
+  if (!(seen_for >= 0.0 && seen_for <= 60.0)) return fail("avoid.seen_for must lie in 0..60 s");
   if (!(arrival_deceleration > 0.0)) return fail("avoid.arrival_deceleration must be > 0 m/s2");
   if (!(target_timeout > 0.0 && virtual_timeout > 0.0)) return fail("avoid: timeouts must be > 0 s");
   return {};
 }
 
-Avoider::Avoider(const BaseLimits& limits, const AvoiderParams& params, std::size_t laser_count)
+Avoider::Avoider(const BaseLimits& limits, const AvoiderParams& params, std::vector<std::string> lasers)
     : limits_{limits},
       params_{params},
-      laser_count_{laser_count},
+      lasers_{std::move(lasers)},
       window_{limits, params.window},
+      seen_{params.seen_for},
       max_speed_{std::min(0.7, limits.max_speed)},
-      sweep_freshness_(laser_count),
+      sweep_freshness_(lasers_.size()),
       odometry_watch_{limits} {}
 
 void Avoider::add_odometry(Time now, Time stamp, const BaseState& state) {
@@ -72,10 +74,12 @@ void Avoider::add_odometry(Time now, Time stamp, const BaseState& state) {
 }
 
 void Avoider::add_sweep(Time now, std::size_t sensor, SensorSweep sweep) {
-  if (sensor >= laser_count_ || odometry_.empty()) return;
+  if (sensor >= lasers_.size() || odometry_.empty()) return;
   sweep_freshness_[sensor].receive(now, sweep.stamp);
   sweep.stamp = local_time_.receive("laser " + std::to_string(sensor), now, sweep.stamp);
-  memory_.add_sweep(sensor, sweep, odometry_.pose_at(sweep.stamp));
+  const Pose2 odom_from_base = odometry_.pose_at(sweep.stamp);
+  memory_.add_sweep(sensor, sweep, odom_from_base);
+  seen_.add(sensor, std::move(sweep), odom_from_base);
 }
 
 void Avoider::add_sonar(Time now, std::size_t index, SonarReading reading) {
@@ -155,7 +159,7 @@ void Avoider::set_target(Time now, Time stamp, AvoiderTarget target) {
 }
 
 std::optional<Complaint> Avoider::complaint_of_laser(Time now, std::size_t index) const {
-  const std::string name = index == 0 ? "front laser" : index == 1 ? "rear laser" : "laser";
+  const std::string& name = lasers_[index];
   auto found = complaint_of(sweep_freshness_[index], now, "sweep of the " + name);
   if (memory_.is_frozen(index)) found = worse(Complaint{0.0, "the " + name + " is frozen"}, found);
   const double missing = memory_.invalid_share(index);
@@ -168,7 +172,7 @@ std::optional<Complaint> Avoider::complaint_of_laser(Time now, std::size_t index
 std::optional<Complaint> Avoider::complaint_of_inputs(Time now) const {
   if (!params_.watches) return std::nullopt;
   auto found = odometry_watch_.complaint(now);
-  for (std::size_t i = 0; i < laser_count_; ++i) found = worse(found, complaint_of_laser(now, i));
+  for (std::size_t i = 0; i < lasers_.size(); ++i) found = worse(found, complaint_of_laser(now, i));
   if (params_.needs_sonar) found = worse(found, sonar_watch_.complaint(now, true));
   found = worse(found, tactile_watch_.complaint(now, params_.has_tactile));
   found = worse(found, infrared_watch_.complaint(now, params_.has_infrared));
@@ -214,6 +218,7 @@ double Avoider::steps_in() const {
 
 void Avoider::tell_nearest(std::span<const Obstacle> obstacles, const BaseLimits& limits, AvoiderDecision& decision) {
   for (const auto& obstacle : obstacles) {
+    if (obstacle.is_unknown) continue;
     double& nearest = obstacle.is_virtual ? decision.nearest_virtual : decision.nearest_real;
     nearest = std::min(nearest, limits.gap_to(obstacle.at));
   }
@@ -256,6 +261,10 @@ std::vector<Obstacle> Avoider::obstacles_from(const Pose2& odom_from_base, Time 
                         params_.window.real_margin,
                         false,
                         false});
+    }
+    for (const Point2 at : seen_.unknown(odom_from_base, limits_, params_.window.real_margin, when)) {
+      result.push_back({.at = at, .margin = params_.window.real_margin});
+      result.back().is_unknown = true;
     }
   }
   if (virtual_ && odom_from_virtual_) {
@@ -321,7 +330,7 @@ bool Avoider::must_slide_off(double bearing, std::span<const Obstacle> obstacles
   constexpr double kAhead = 0.25 * std::numbers::pi;
   bool is_held = false;
   for (const auto& obstacle : obstacles) {
-    if (straight_free_way(bearing, {&obstacle, 1}, limits_.radius, 1.0) >= kBegins) continue;
+    if (obstacle.is_unknown || straight_free_way(bearing, {&obstacle, 1}, limits_.radius, 1.0) >= kBegins) continue;
     const double off = std::abs(Angle::radians(std::atan2(obstacle.at.y, obstacle.at.x) - bearing).radians());
     if (off < kAhead && !obstacle.is_virtual) return false;
     is_held = true;
@@ -371,13 +380,12 @@ void Avoider::cap_speed(double cap, std::string_view why, AvoiderDecision& decis
 void Avoider::cap_by_knowledge(Time now, AvoiderDecision& decision) const {
   if (!params_.watches) return;
   if (const auto found = complaint(now)) cap_speed(found->max_speed, found->reason, decision);
-  const auto cap_by_age = [&](const Freshness& freshness, const char* name) {
+  const auto cap_by_age = [&](const Freshness& freshness, const std::string& name) {
     const double share = std::clamp(1.0 - (freshness.age(now) - 0.2) / 0.3, 0.0, 1.0);
-    cap_speed(max_speed_ * share, std::string{"the "} + name + " comes late", decision);
+    cap_speed(max_speed_ * share, "the " + name + " comes late", decision);
   };
   cap_by_age(odometry_watch_.freshness(), "odometry");
-  for (std::size_t i = 0; i < laser_count_; ++i)
-    cap_by_age(sweep_freshness_[i], i == 0 ? "sweep of the front laser" : "sweep of the rear laser");
+  for (std::size_t i = 0; i < lasers_.size(); ++i) cap_by_age(sweep_freshness_[i], "sweep of the " + lasers_[i]);
 
   if (virtual_) {
     // What was computed for where we were still holds while we stand; driving wears it out.
@@ -392,7 +400,7 @@ void Avoider::cap_by_surroundings(std::span<const Obstacle> obstacles, AvoiderDe
   const auto& window = params_.window;
   for (const auto& obstacle : obstacles) {
     const double way = norm(obstacle.at);
-    if (way < 1e-6) continue;
+    if (obstacle.is_unknown || way < 1e-6) continue;
     const double slack = limits_.gap_to(obstacle.at) - obstacle.margin;
     const double ahead = obstacle.at.x / way;
     // The security distance grows with the speed [Buhmann1995]: read backwards, the speed with the distance.
@@ -440,6 +448,7 @@ void Avoider::judge_blocking(Time now, Point2 carrot, const Pose2& odom_from_bas
   const Obstacle* blocker = nullptr;
   double least = std::min(0.7, norm(carrot));
   for (const auto& obstacle : obstacles) {
+    if (obstacle.is_unknown) continue;  // nobody stands there who could be asked: the robot turns and looks
     const double way = straight_free_way(bearing, {&obstacle, 1}, limits_.radius, 2.0);
     if (way < least) {
       least = way;

@@ -18,6 +18,7 @@
 #include "docent/collision_avoidance/odometry_watch.h"
 #include "docent/collision_avoidance/position_doubt.h"
 #include "docent/collision_avoidance/ring_watch.h"
+#include "docent/collision_avoidance/seen_places.h"
 #include "docent/collision_avoidance/speed_near_people.h"
 #include "docent/collision_avoidance/tactile_watch.h"
 #include "docent/motion_models/unbroken_odometry.h"
@@ -36,11 +37,12 @@ struct AvoiderParams {
   double arrival_deceleration = 0.6;  ///< [m/s2] with which it comes to a stop at its goal
   double target_timeout = 1.5;        ///< [s] without a new target, then it stands
   double virtual_timeout = 1.5;       ///< [s] without new virtual measurements, then it stands
+  double seen_for = 3.0;              ///< [s] a place that a laser saw to be free counts as free when none looks there
   bool needs_sonar = true;            ///< stands when the sonars are silent
   bool has_infrared = false;          ///< the body has these rings: stands when they are silent, from the start on
   bool has_tactile = false;
   bool blind_to_people = false;  ///< crippled, for evaluation: sees virtual measurements and touch only
-  bool watches = true;           ///< false: crippled, for evaluation: takes every sensor and belief for well
+  bool watches = true;           ///< false: likewise: takes every sensor and belief for well
   template <class V>
   void visit(V& v) {
     v("window", window);
@@ -51,9 +53,8 @@ struct AvoiderParams {
     v("arrival_deceleration", arrival_deceleration);
     v("target_timeout", target_timeout);
     v("virtual_timeout", virtual_timeout);
+    v("seen_for", seen_for);
     v("needs_sonar", needs_sonar);
-    v("blind_to_people", blind_to_people);
-    v("watches", watches);
   }
   [[nodiscard]] Result<void> validate() const;
 };
@@ -99,7 +100,8 @@ struct AvoiderDecision {
 /// compared is in local time.
 class Avoider {
  public:
-  Avoider(const BaseLimits& limits, const AvoiderParams& params, std::size_t laser_count);
+  /// @param lasers  their names for a person: "front laser". Sweeps are numbered so
+  Avoider(const BaseLimits& limits, const AvoiderParams& params, std::vector<std::string> lasers);
 
   /// @param state  as the base says it: jumps are taken out here, and targets are carried over them
   void add_odometry(Time now, Time stamp, const BaseState& state);
@@ -170,9 +172,10 @@ class Avoider {
 
   BaseLimits limits_;
   AvoiderParams params_;
-  std::size_t laser_count_;
+  std::vector<std::string> lasers_;
   DynamicWindow window_;
   ObstacleMemory memory_;
+  SeenPlaces seen_;
   BaseHistory odometry_;
   CommandHistory commands_;
   Velocity command_;

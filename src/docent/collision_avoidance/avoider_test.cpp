@@ -132,7 +132,7 @@ TEST(Avoider, DoesNotPushWhoStepsOutOfARow) {
 /// @return  what the check of the last scan says, without another choice
 std::optional<AvoiderDecision> reflex_to_somebody(double gap) {
   constexpr double kDriven = 0.13;  // [m] in all
-  Avoider avoider{BaseLimits{}, Rehearsal::without_sonar(), 1};
+  Avoider avoider{BaseLimits{}, Rehearsal::without_sonar(), {"front laser"}};
   avoider.set_max_speed(0.15);
   const Point2 person{kDriven + BaseLimits{}.radius + gap + 0.22, 0.0};
   Time now = time_from_seconds(10.0);
@@ -170,7 +170,7 @@ TEST(Avoider, TheCheckOfEveryScanSlowsACreepWhereOnlyLessIsHarmless) {
 
 TEST(Avoider, TheChoiceTakesPeopleAsTheyStandAndTheCheckForeseesThem) {
   for (const double speed : {0.0, 0.9}) {  // towards the robot, which stands
-    Avoider avoider{BaseLimits{}, Rehearsal::without_sonar(), 1};
+    Avoider avoider{BaseLimits{}, Rehearsal::without_sonar(), {"front laser"}};
     Time now = time_from_seconds(10.0);
     AvoiderTarget target;
     target.mode = AvoiderTarget::Mode::drive;
@@ -351,20 +351,52 @@ TEST(Avoider, TheClocksOfOtherComputersDoNotBlindIt) {
   }
 }
 
+TEST(Avoider, WithOneLaserInFrontItTurnsAndLooksBeforeItDrives) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    for (const double bearing : {130.0, 150.0, -150.0}) {
+      SCOPED_TRACE(bearing);
+      Rehearsal rehearsal{seed, Rehearsal::without_sonar(), {"front laser"}};
+      rehearsal.box(-5.0, -5.0, 5.0, 5.0);
+      const Point2 goal = 3.0 * unit(Angle::degrees(bearing));
+      // Somebody stands behind it, nearly in touch, whom it has not seen.
+      rehearsal.people.push_back({0.6 * unit(Angle::degrees(bearing > 0.0 ? -135.0 : 135.0)), {}});
+      rehearsal.drive_to({goal});
+      const auto off = [&] { return std::abs((Angle::degrees(bearing) - rehearsal.map_from_base.theta).degrees()); };
+      while (off() > 85.0 && rehearsal.now < time_from_seconds(10.0)) rehearsal.run(0.01);
+      EXPECT_LT(rehearsal.driven, 0.03) << "it has not seen what lies there";
+      EXPECT_TRUE(rehearsal.run_until_arrived(20.0)) << rehearsal.decision.reason;
+      EXPECT_LT(rehearsal.worst_push, 0.02);
+      EXPECT_GT(rehearsal.least_wall, 0.05);
+    }
+  }
+}
+
+TEST(Avoider, WithOneLaserInFrontItDrivesAheadAsWithTwo) {
+  Rehearsal one{1, Rehearsal::without_sonar(), {"front laser"}};
+  Rehearsal two;
+  for (Rehearsal* rehearsal : {&one, &two}) {
+    rehearsal->box(-2.0, -1.5, 9.0, 1.5);
+    rehearsal->drive_to({{4.0, 0.3}, {8.0, 0.0}});
+    EXPECT_TRUE(rehearsal->run_until_arrived(30.0)) << rehearsal->decision.reason;
+    EXPECT_GT(rehearsal->top_speed, 0.65);
+  }
+  EXPECT_LT(to_seconds(one.now), 1.1 * to_seconds(two.now));
+}
+
 /// A long body that stands or turns on its own behalf: the test is its base, its lasers and what they see.
 class LongBody : public ::testing::Test {
  protected:
   LongBody() {
     limits.radius = 0.6;
     limits.outline = Outline::make({{0.5, 0.2}, {-0.5, 0.2}, {-0.5, -0.2}, {0.5, -0.2}}).value();
-    avoider.emplace(limits, Rehearsal::without_sonar(), 1);
+    avoider.emplace(limits, Rehearsal::without_sonar(), std::vector<std::string>{"front laser"});
   }
   /// One cycle in which the only laser sees `ranges` (NaN: blind).
-  void cycle(const std::function<float(Angle)>& range) {
+  void cycle(const std::function<float(Angle)>& range, double field = 360.0) {
     now = now + seconds(0.05);
     avoider->add_odometry(now, now, {odom_from_base, velocity});
-    SensorSweep sweep{now, {}, -std::numbers::pi, std::numbers::pi / 180.0, 0.02, 10.0, {}};
-    for (int i = 0; i < 360; ++i) sweep.ranges.push_back(range(Angle::degrees(i - 180.0)));
+    SensorSweep sweep{now, {}, -field * std::numbers::pi / 360.0, std::numbers::pi / 180.0, 0.02, 10.0, {}};
+    for (int i = 0; i < static_cast<int>(field); ++i) sweep.ranges.push_back(range(Angle::degrees(i - 0.5 * field)));
     avoider->add_sweep(now, 0, sweep);
     VirtualSweep nothing{now, -std::numbers::pi, std::numbers::pi / 90.0, 6.0, std::vector<float>(180, 6.0F)};
     avoider->add_virtual(now, nothing);
@@ -400,6 +432,21 @@ TEST_F(LongBody, BrakesATurnForWhatComesBesideIt) {
   ASSERT_TRUE(decision) << "no reflex";
   EXPECT_EQ(decision->reason, "braking");
   EXPECT_EQ(decision->command, Velocity{});
+}
+
+TEST_F(LongBody, DoesNotTurnIntoWhatNothingHasSeen) {
+  const auto command_of = [&](double field) {
+    avoider.emplace(limits, Rehearsal::without_sonar(), std::vector<std::string>{"front laser"});
+    target.mode = AvoiderTarget::Mode::turn;
+    target.heading = Angle::degrees(170);
+    for (int i = 0; i < 20; ++i) {
+      cycle([](Angle) { return 10.0F; }, field);
+      if (i == 19) (void)avoider->decide(now);
+    }
+    return avoider->command().angular;
+  };
+  EXPECT_GT(command_of(360.0), 0.3);
+  EXPECT_LT(command_of(180.0), 0.1) << "its tail would sweep what is behind";
 }
 
 TEST_F(LongBody, WhatTouchesItOrCannotBeSeenLiesAtItsEdge) {

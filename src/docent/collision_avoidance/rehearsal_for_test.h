@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "docent/base/random.h"
@@ -22,8 +23,9 @@ struct RehearsalPerson {
 /// measurements of hazards that the lasers do not see. Steps of 10 ms.
 class Rehearsal {
  public:
-  explicit Rehearsal(std::uint64_t seed = 1, const AvoiderParams& params = without_sonar())
-      : avoider{limits, params, 2}, rng_{seed} {}
+  explicit Rehearsal(std::uint64_t seed = 1, const AvoiderParams& params = without_sonar(),
+                     const std::vector<std::string>& lasers = {"front laser", "rear laser"})
+      : avoider{limits, params, lasers}, rng_{seed}, has_rear_{lasers.size() > 1} {}
 
   static AvoiderParams without_sonar() {
     AvoiderParams params;
@@ -101,7 +103,7 @@ class Rehearsal {
       avoider.add_odometry(now, now + seconds(odometry_clock), {raw_from_map * map_from_base, velocity});
     if (ticks_ % 10 == 0) {
       if (front_works) see(0, 0.0);
-      if (rear_works) see(1, std::numbers::pi);
+      if (rear_works && has_rear_) see(1, std::numbers::pi);
     }
     if (ticks_ % 20 == 0 && virtual_works) see_virtually();
     if (ticks_ % 20 == 5 && target_works) avoider.set_target(now, now, target_in_raw());
@@ -199,6 +201,7 @@ class Rehearsal {
 
   static constexpr double kBeam = std::numbers::pi / 180.0;
   Rng rng_;
+  bool has_rear_;
   CommandHistory commands_;
   std::vector<float> last_front_;
   long ticks_ = 0;

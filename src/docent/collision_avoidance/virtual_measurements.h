@@ -19,15 +19,12 @@ struct VirtualMeasurementParams {
   double cell_padding = 0.05;   ///< [m] the robot may be so far from the centre of its belief cell
   double max_impossible = 0.5;  ///< when more mass than this lies where the robot cannot be, that is believed
   bool best_pose_only = false;  ///< crippled, for evaluation: trusts the likeliest pose
-  bool ignored = false;         ///< crippled, for evaluation: as if there were no hazards and no border
   template <class V>
   void visit(V& v) {
     v("confidence", confidence);
     v("jointly", jointly);
     v("cell_padding", cell_padding);
     v("max_impossible", max_impossible);
-    v("best_pose_only", best_pose_only);
-    v("ignored", ignored);
   }
   [[nodiscard]] Result<void> validate() const;
 };

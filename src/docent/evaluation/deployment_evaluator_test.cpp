@@ -75,6 +75,16 @@ class Story {
   Time time_{1000000000};
 };
 
+TEST(DeploymentEvaluator, TheReportAlwaysSaysHowTheRobotWasCrippled) {
+  Story story;
+  const auto crippled = [&] { return nlohmann::json::parse(to_json(story.report(), std::nullopt)).at("crippled"); };
+  EXPECT_EQ(crippled(), nlohmann::json::array());
+  docent_msgs::RunInfo run;
+  run.crippled = "blind_to_people, without_ladder";
+  story.say(topics::kRunInfo, run);
+  EXPECT_EQ(crippled(), nlohmann::json::array({"blind_to_people", "without_ladder"}));
+}
+
 TEST(DeploymentEvaluator, SpeedCountsBlockedTimeAndNothingWithoutAGoal) {
   Story story;
   story.run(0.1);
@@ -410,6 +420,7 @@ TEST(DeploymentReport, JsonHasTheKeysOfTheArchitectureInTheirOrder) {
                                             "crowd",
                                             "config_hash",
                                             "simd",
+                                            "crippled",
                                             "virtual_seconds",
                                             "wall_seconds",
                                             "cpu_seconds",

@@ -19,6 +19,17 @@ Json ratio(std::uint64_t part, std::uint64_t whole) {
 }
 Json or_null(bool known, double value) { return known ? Json(rounded(value)) : Json{}; }
 
+/// @param names  with ", " between them
+Json names_in(std::string_view names) {
+  Json list = Json::array();
+  while (!names.empty()) {
+    const auto end = std::min(names.find(", "), names.size());
+    list.push_back(std::string{names.substr(0, end)});
+    names.remove_prefix(std::min(end + 2, names.size()));
+  }
+  return list;
+}
+
 double mean_speed(const DeploymentReport& report) {
   return report.travel_seconds > 0.0 ? report.travel_distance_m / report.travel_seconds : 0.0;
 }
@@ -50,7 +61,7 @@ std::string to_json(const DeploymentReport& r, const std::optional<RunCost>& cos
   json["crowd"] = r.crowd;
   json["config_hash"] = r.config_hash;
   json["simd"] = r.simd;
-  if (!r.crippled.empty()) json["crippled"] = r.crippled;
+  json["crippled"] = names_in(r.crippled);
   json["virtual_seconds"] = rounded(r.virtual_seconds);
   if (cost) {
     json["wall_seconds"] = rounded(cost->wall_seconds);

@@ -35,7 +35,8 @@ struct RunCost {
 
 /// The deployment report (architecture 9). Everything in it comes from the truth where the truth knows it.
 struct DeploymentReport {
-  std::string museum, mode, crowd, config_hash, simd, crippled;
+  std::string museum, mode, crowd, config_hash, simd;
+  std::string crippled;  ///< by what, with ", " between; empty: not at all (architecture 10.17)
   std::uint64_t seed = 0;
   double virtual_seconds = 0.0;
   double travel_seconds = 0.0;  ///< a drive goal was active, blocked time included

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "docent/base/time.h"
 #include "docent/messages/docent_messages.h"
 #include "docent/messages/standard_messages.h"
@@ -30,6 +32,8 @@ namespace topics {
 // Hardware, as any ROS 2 base offers it. Published by the simulator or by drivers.
 inline constexpr Topic<sensor_msgs::LaserScan> kScanFront{"scan_front", Qos::sensor};
 inline constexpr Topic<sensor_msgs::LaserScan> kScanRear{"scan_rear", Qos::sensor};
+inline constexpr Topic<sensor_msgs::LaserScan> kScanLeft{"scan_left", Qos::sensor};
+inline constexpr Topic<sensor_msgs::LaserScan> kScanRight{"scan_right", Qos::sensor};
 inline constexpr Topic<sensor_msgs::Range> kSonar{"sonar", Qos::sensor, 96};        // 24 sensors, one topic
 inline constexpr Topic<sensor_msgs::Range> kInfrared{"infrared", Qos::sensor, 96};  // likewise
 inline constexpr Topic<nav_msgs::Odometry> kOdometry{"odom", Qos::sensor};
@@ -78,6 +82,13 @@ inline constexpr Topic<docent_msgs::TrueState> kTrueState{"truth/state", Qos::co
 inline constexpr Topic<docent_msgs::TrueContact> kTrueContact{"truth/contact", Qos::command};
 inline constexpr Topic<docent_msgs::TrueOffer> kTrueOffer{"truth/offer", Qos::command};
 
+/// Of a laser scanner of the body: "front" speaks on scan_front. @pre name is one of RobotBody::kScannerNames
+[[nodiscard]] inline const Topic<sensor_msgs::LaserScan>& scan_topic(std::string_view name) {
+  for (const auto* topic : {&kScanRear, &kScanLeft, &kScanRight})
+    if (name == std::string_view{topic->name}.substr(std::string_view{"scan_"}.size())) return *topic;
+  return kScanFront;
+}
+
 }  // namespace topics
 
 /// Calls f(topic) for every topic of the robot, then for those of the truth.
@@ -85,7 +96,7 @@ template <class F>
 void for_each_robot_topic(F&& f) {
   using namespace topics;
   f(kScanFront), f(kScanRear), f(kSonar), f(kOdometry), f(kBattery), f(kTactile), f(kCommandVelocity);
-  f(kInfrared), f(kObstacleLines);
+  f(kScanLeft), f(kScanRight), f(kInfrared), f(kObstacleLines);
   f(kTransforms), f(kStaticTransforms), f(kStaticMap), f(kLiveMap), f(kLiveMapUpdate), f(kBelief), f(kPose);
   f(kPersonBeams), f(kPeople), f(kPeopleInOdom), f(kVirtualScan), f(kDriveGoal), f(kGoalState), f(kTarget), f(kPath);
   f(kDrive), f(kAvoidState), f(kRequest), f(kChoice), f(kRequestBoard), f(kMissionState), f(kTask), f(kTaskState),

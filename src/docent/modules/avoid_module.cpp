@@ -1,12 +1,12 @@
 #include "docent/modules/avoid_module.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "docent/collision_avoidance/avoider.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/message_fitness.h"
+#include "docent/modules/scanners.h"
 
 namespace docent {
 
@@ -53,13 +53,20 @@ const char* name_of(AvoiderDecision::State state) {
   return "stopped";
 }
 
+std::vector<std::string> laser_names(const RobotBody& body) {
+  std::vector<std::string> names;
+  for (const Scanner& scanner : body.scanners) names.push_back(scanner.name + " laser");
+  return names;
+}
+
 class AvoidModule final : public Module {
  public:
   AvoidModule(const ModuleContext& context, const BaseLimits& limits, const AvoiderParams& params)
       : bus_{context.bus},
         body_{context.config.body()},
         cycle_{params.window.cycle},
-        avoider_{limits, params, 2},
+        widest_field_(body_.scanners.size()),
+        avoider_{limits, params, laser_names(body_)},
         drive_{bus_.publisher(topics::kDrive)},
         state_{bus_.publisher(topics::kAvoidState)} {
     subscribe_sensors();
@@ -80,11 +87,8 @@ class AvoidModule final : public Module {
                             {odometry.twist.twist.linear.x, odometry.twist.twist.angular.z}};
       avoider_.add_odometry(bus_.now(), from_message(odometry.header.stamp), state);
     });
-    bus_.subscribe<sensor_msgs::LaserScan>(topics::kScanFront, [this](const sensor_msgs::LaserScan& scan) {
-      see(0, scan, body_.scan_front.base_from_sensor());
-    });
-    bus_.subscribe<sensor_msgs::LaserScan>(topics::kScanRear, [this](const sensor_msgs::LaserScan& scan) {
-      see(1, scan, body_.scan_rear.base_from_sensor());
+    subscribe_scanners(bus_, body_, [this](std::size_t i, const sensor_msgs::LaserScan& scan) {
+      see(i, scan, body_.scanners[i].base_from_sensor());
     });
     bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const sensor_msgs::Range& range) {
       const auto index = body_.sonar_of(range.header.frame_id);
@@ -216,7 +220,7 @@ class AvoidModule final : public Module {
   Bus& bus_;
   RobotBody body_;
   double cycle_;
-  std::array<double, 2> widest_field_{};  ///< [rad] that each laser has shown
+  std::vector<double> widest_field_;  ///< [scanners] [rad] that each has shown
   Avoider avoider_;
   std::vector<BelievedPose> cells_;       ///< of the newest belief
   std::vector<BelievedPose> hypotheses_;  ///< likewise
@@ -233,8 +237,11 @@ Result<std::unique_ptr<Module>> make_avoid(const ModuleContext& context) {
   auto params = context.config.section<AvoiderParams>("avoid");
   if (!params) return tl::unexpected<Error>(params.error());
   const RobotBody& body = context.config.body();
+  params->needs_sonar = params->needs_sonar && body.sonars > 0;
   params->has_infrared = body.infrareds > 0;
   params->has_tactile = body.tactile;
+  params->blind_to_people = context.config.evaluation().blind_to_people;
+  params->watches = !context.config.evaluation().without_watches;
   auto limits = limits_of(body);
   if (!limits) return tl::unexpected<Error>(limits.error());
   return std::make_unique<AvoidModule>(context, *limits, *params);

@@ -91,7 +91,7 @@ class MotionModules : public ::testing::Test {
         scan.ranges.push_back(static_cast<float>(range + 0.001 * ((++noise * 7) % 13)));
       }
       if (front) spoil_scan(scan);
-      if (front ? front_works : true) (front ? front_publisher : rear_publisher).publish(scan);
+      if (front ? front_works : rear_works) (front ? front_publisher : rear_publisher).publish(scan);
     }
     docent_msgs::Belief belief;
     belief.header = {to_message(world->now()), "map"};
@@ -111,7 +111,7 @@ class MotionModules : public ::testing::Test {
     range.field_of_view = 0.26F;
     range.max_range = range.range = 5.0F;
     spoil_range(range);
-    sonar_publisher.publish(range);
+    if (sonars_work) sonar_publisher.publish(range);
   }
   void want() {
     docent_msgs::Target target;
@@ -147,7 +147,7 @@ class MotionModules : public ::testing::Test {
   std::function<void(sensor_msgs::Range&)> spoil_range = [](auto&) {};
   std::function<void(docent_msgs::Belief&)> spoil_belief = [](auto&) {};
   std::function<void(docent_msgs::Target&)> spoil_target = [](auto&) {};
-  bool front_works = true, localize_works = true, plan_works = true;
+  bool front_works = true, rear_works = true, sonars_work = true, localize_works = true, plan_works = true;
   std::unique_ptr<Bus> avoid_bus, hazards_bus, robot_bus;
   std::unique_ptr<Module> avoid, hazards, robot;
 };
@@ -164,6 +164,21 @@ TEST_F(MotionModules, DriveAndPublishWhatTheyDo) {
   EXPECT_LT(pose.x, 18.0 - 0.265);  // the border of the area
   EXPECT_GT(pose.x, 16.5);
   EXPECT_TRUE(state.path_blocked);
+}
+
+TEST_F(MotionModules, OneScannerInFrontAndNoSonarsDo) {
+  ASSERT_TRUE(config.set("body.scanners=[{}]"));
+  ASSERT_TRUE(config.set("body.sonars=0"));
+  rear_works = sonars_work = false;
+  start_all();
+  run(5.0);
+  EXPECT_GT(speed, 0.6);
+  EXPECT_EQ(state.state, "driving");
+  EXPECT_EQ(avoid->health().state, "ready");
+  front_works = false;
+  run(1.5);
+  EXPECT_EQ(speed, 0.0);
+  EXPECT_NE(avoid->health().reason.find("front laser"), std::string::npos) << avoid->health().reason;
 }
 
 TEST_F(MotionModules, TheBaseStopsWhenAvoidDiesAndGoesOnAfterItsReturn) {

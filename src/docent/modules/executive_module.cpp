@@ -137,6 +137,7 @@ class ExecutiveModule final : public Module {
 Result<std::unique_ptr<Module>> make_executive(const ModuleContext& context) {
   auto params = context.config.section<ExecutiveParams>("executive");
   if (!params) return tl::unexpected<Error>(params.error());
+  params->ladder.active = !context.config.evaluation().without_ladder;
   auto memory = load_checkpoint(context.state / "executive.json", map_hash(context.museum.map));
   // A damaged checkpoint costs the running step, not the robot: the mission's task begins again.
   return std::make_unique<ExecutiveModule>(context, *params, memory.value_or(ExecutiveMemory{}),

@@ -16,7 +16,7 @@ class HazardsModule final : public Module {
       : bus_{context.bus},
         measurements_{context.museum.area, outlines(context.museum), params},
         best_pose_only_{params.best_pose_only},
-        ignored_{params.ignored},
+        ignored_{context.config.evaluation().ignores_hazards},
         scan_{bus_.publisher(topics::kVirtualScan)} {
     bus_.subscribe<docent_msgs::Belief>(topics::kBelief, [this](const docent_msgs::Belief& belief) {
       if (is_fit(belief)) measure(belief);
@@ -99,6 +99,7 @@ class HazardsModule final : public Module {
 Result<std::unique_ptr<Module>> make_hazards(const ModuleContext& context) {
   auto params = context.config.section<VirtualMeasurementParams>("hazards");
   if (!params) return tl::unexpected<Error>(params.error());
+  params->best_pose_only = context.config.evaluation().best_pose_only;
   return std::make_unique<HazardsModule>(context, *params);
 }
 

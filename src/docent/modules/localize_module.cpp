@@ -1,6 +1,6 @@
 #include "docent/modules/localize_module.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -12,6 +12,7 @@
 #include "docent/localization/monte_carlo/monte_carlo_localizer.h"
 #include "docent/localization/sonar_evidence/sonar_evidence.h"
 #include "docent/messages/conversions.h"
+#include "docent/modules/scanners.h"
 #include "docent/modules/sonar_localize.h"
 #include "docent/motion_models/odometry_history.h"
 #include "docent/motion_models/unbroken_odometry.h"
@@ -49,13 +50,8 @@ struct LocalizeParams {
   MarkovLocalizerParams markov;
   MonteCarloParams particles;
   SonarParams sonar;
-  PersonFilterParams people;    ///< the inverse filter
-  double person_range = 6.0;    ///< [m], > 0: how far away people are looked for
-  bool dead_reckoning = false;  ///< crippled, for evaluation: odometry alone after the first "here"
-  /// For evaluation: the best hypothesis is published so far off, while the cells of the belief stay true.
-  double best_pose_error_x = 0.0;        ///< [m], map
-  double best_pose_error_y = 0.0;        ///< [m], map
-  double best_pose_error_heading = 0.0;  ///< [deg]
+  PersonFilterParams people;  ///< the inverse filter
+  double person_range = 6.0;  ///< [m], > 0: how far away people are looked for
   template <class V>
   void visit(V& v) {
     v("method", method);
@@ -64,10 +60,6 @@ struct LocalizeParams {
     v("sonar", sonar);
     v("people", people);
     v("person_range", person_range);
-    v("dead_reckoning", dead_reckoning);
-    v("best_pose_error_x", best_pose_error_x);
-    v("best_pose_error_y", best_pose_error_y);
-    v("best_pose_error_heading", best_pose_error_heading);
   }
   [[nodiscard]] Result<void> validate() const {
     if (!(person_range > 0.0)) return fail("person_range must be > 0");
@@ -111,13 +103,13 @@ class LocalizeModule final : public Module {
   LocalizeModule(const ModuleContext& context, const LocalizeParams& params)
       : bus_{context.bus},
         params_{params},
+        evaluation_{context.config.evaluation()},
         checkpoint_path_{context.state / "localize.yaml"},
         map_hash_{map_hash(context.museum.map)},
         body_{context.config.body()},
         believer_{make_believer(context, params)},
         localizer_{believer_.localizer.get()},
-        lasers_{Laser{context.config.body().scan_front.base_from_sensor(), {}, {}, false},
-                Laser{context.config.body().scan_rear.base_from_sensor(), {}, {}, false}},
+        lasers_(body_.scanners.size()),
         belief_{bus_.publisher(topics::kBelief)},
         pose_{bus_.publisher(topics::kPose)},
         transforms_{bus_.publisher(topics::kTransforms)},
@@ -133,8 +125,7 @@ class LocalizeModule final : public Module {
       has_jumped_ = has_jumped_ || reading.jumped;
       if (restored_) check_restored();
     });
-    bus_.subscribe<sensor_msgs::LaserScan>(topics::kScanFront, [this](const auto& scan) { on_scan(0, scan); });
-    bus_.subscribe<sensor_msgs::LaserScan>(topics::kScanRear, [this](const auto& scan) { on_scan(1, scan); });
+    subscribe_scanners(bus_, body_, [this](std::size_t i, const auto& scan) { on_scan(i, scan); });
     if (believer_.sonars)
       bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const auto& range) { on_sonar(range); });
     bus_.every(kPeriod, [this] { look(); });
@@ -143,8 +134,9 @@ class LocalizeModule final : public Module {
   [[nodiscard]] ModuleHealth health() const override {
     const Time now = bus_.now();
     if (now - odometry_received_ > kSilent) return {"degraded", "no odom"};
-    if (now - lasers_[0].received > kSilent) return {"degraded", "no scan_front"};
-    if (now - lasers_[1].received > kSilent) return {"degraded", "no scan_rear"};
+    if (lasers_.empty()) return {"degraded", "body.scanners is empty: nothing tells where I am"};
+    for (std::size_t i = 0; i < lasers_.size(); ++i)
+      if (now - lasers_[i].received > kSilent) return {"degraded", "no scan_" + body_.scanners[i].name};
     if (!localized()) return {"degraded", "I do not know where I am"};
     if (believer_.sonars) return health_of_sonars(now);
     return {};
@@ -152,10 +144,9 @@ class LocalizeModule final : public Module {
 
  private:
   struct Laser {
-    Pose2 base_from_laser;
     sensor_msgs::LaserScan scan;
-    Time received;
-    bool is_new;
+    Time received{};
+    bool is_new = false;
   };
 
   [[nodiscard]] bool localized() const { return frozen_ || localizer_->verdict().localized(); }
@@ -192,14 +183,15 @@ class LocalizeModule final : public Module {
 
   /// One sweep of what came since the last look, or nothing.
   void look() {
-    if (!lasers_[0].is_new && !lasers_[1].is_new) return;
+    if (std::none_of(lasers_.begin(), lasers_.end(), [](const Laser& laser) { return laser.is_new; })) return;
     Time stamp{};
     for (const Laser& laser : lasers_)
       if (laser.is_new) stamp = std::max(stamp, from_message(laser.scan.header.stamp));
     const auto odom_from_base = odometry_.at(stamp);
     if (!odom_from_base) return;  // wait for odometry, or the scan is too old to be placed
     RangeSweep sweep;
-    for (Laser& laser : lasers_) {
+    for (std::size_t i = 0; i < lasers_.size(); ++i) {
+      Laser& laser = lasers_[i];
       const Time taken = from_message(laser.scan.header.stamp);
       const auto then = odometry_.at(taken);
       laser.is_new = false;
@@ -209,7 +201,7 @@ class LocalizeModule final : public Module {
              {laser.scan.ranges, Angle::radians(static_cast<double>(laser.scan.angle_min)),
               static_cast<double>(laser.scan.angle_increment), static_cast<double>(laser.scan.range_min),
               static_cast<double>(laser.scan.range_max)},
-             base_from_then * laser.base_from_laser);
+             base_from_then * body_.scanners[i].base_from_sensor());
     }
     if (sweep.beams.empty()) return;
     digest(sweep, *odom_from_base, stamp);
@@ -218,7 +210,7 @@ class LocalizeModule final : public Module {
   void digest(const RangeSweep& sweep, const Pose2& odom_from_base, Time stamp) {
     Localizer::Step step;
     if (!frozen_) step = localizer_->observe(sweep, odom_from_base, stamp);
-    if (params_.dead_reckoning && localizer_->verdict().localized()) frozen_ = true;
+    if (evaluation_.dead_reckoning && localizer_->verdict().localized()) frozen_ = true;
     if (step.updated) last_step_ = step;
     const bool is_torn = has_jumped_ && !(stamp < unbroken_.jumped());
     if (step.updated || is_torn || bus_.now() - belief_published_ >= kRepublish) publish_belief(stamp, odom_from_base);
@@ -257,9 +249,9 @@ class LocalizeModule final : public Module {
     }
     if (!message.hypotheses.empty()) {
       auto& best = message.hypotheses.front();
-      best.x += params_.best_pose_error_x;
-      best.y += params_.best_pose_error_y;
-      best.theta += params_.best_pose_error_heading * std::numbers::pi / 180.0;
+      best.x += evaluation_.best_pose_error_x;
+      best.y += evaluation_.best_pose_error_y;
+      best.theta += evaluation_.best_pose_error_heading * std::numbers::pi / 180.0;
     }
     message.entropy = summary.entropy;
     message.p_lost = localizer_->verdict().p_lost();
@@ -352,12 +344,13 @@ class LocalizeModule final : public Module {
 
   Bus& bus_;
   LocalizeParams params_;
+  EvaluationParams evaluation_;
   std::filesystem::path checkpoint_path_;
   std::string map_hash_;
   RobotBody body_;
   Believer believer_;
   Localizer* localizer_;
-  std::array<Laser, 2> lasers_;
+  std::vector<Laser> lasers_;  ///< [scanners]
   Publisher<docent_msgs::Belief> belief_;
   Publisher<geometry_msgs::PoseWithCovarianceStamped> pose_;
   Publisher<tf2_msgs::TFMessage> transforms_;
@@ -379,6 +372,7 @@ class LocalizeModule final : public Module {
 Result<std::unique_ptr<Module>> make_localize(const ModuleContext& context) {
   auto params = context.config.section<LocalizeParams>("localize");
   if (!params) return tl::unexpected<Error>(params.error());
+  params->sonar.beside.trusting = context.config.evaluation().trusts_dead_sonars;
   if (params->method == "sonar") return make_sonar_localize(context, params->sonar.alone);
   auto module = std::make_unique<LocalizeModule>(context, *params);
   return module;

@@ -1,11 +1,11 @@
 #include "docent/modules/map_module.h"
 
-#include <array>
 #include <cmath>
 
 #include "docent/mapping/occupancy/live_map.h"
 #include "docent/modules/message_fitness.h"
 #include "docent/modules/pose_tracker.h"
+#include "docent/modules/scanners.h"
 
 namespace docent {
 namespace {
@@ -28,8 +28,8 @@ class MapModule final : public Module {
   MapModule(const ModuleContext& context, const LiveMapParams& params)
       : bus_{context.bus},
         live_{context.museum.map, params},
-        base_from_laser_{context.config.body().scan_front.base_from_sensor(),
-                         context.config.body().scan_rear.base_from_sensor()},
+        base_from_laser_{mounts_of(context.config.body().scanners)},
+        sights_(base_from_laser_.size()),
         live_map_{bus_.publisher(topics::kLiveMap)},
         updates_{bus_.publisher(topics::kLiveMapUpdate)} {
     nav_msgs::OccupancyGrid map;
@@ -42,8 +42,7 @@ class MapModule final : public Module {
     bus_.subscribe<docent_msgs::Belief>(topics::kBelief, [this](const auto& belief) { pose_.on_belief(belief); });
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry,
                                        [this](const auto& odometry) { pose_.on_odometry(odometry); });
-    bus_.subscribe<sensor_msgs::LaserScan>(topics::kScanFront, [this](const auto& scan) { take(0, scan); });
-    bus_.subscribe<sensor_msgs::LaserScan>(topics::kScanRear, [this](const auto& scan) { take(1, scan); });
+    subscribe_scanners(bus_, context.config.body(), [this](std::size_t i, const auto& scan) { take(i, scan); });
     bus_.every(seconds(params.period), [this] { look(); });
     bus_.every(kFullMapPeriod, [this] {
       live_.forget(bus_.now());
@@ -122,11 +121,11 @@ class MapModule final : public Module {
 
   Bus& bus_;
   LiveMap live_;
-  std::array<Pose2, 2> base_from_laser_;
+  std::vector<Pose2> base_from_laser_;  ///< [scanners]
+  std::vector<Sight> sights_;           ///< [scanners] newest sweeps
   Publisher<nav_msgs::OccupancyGrid> live_map_;
   Publisher<docent_msgs::LiveMapUpdate> updates_;
   PoseTracker pose_;
-  std::array<Sight, 2> sights_;  ///< newest sweeps
   std::vector<Point2> endpoints_;
   Time full_stamp_{};
   std::uint32_t number_ = 0;

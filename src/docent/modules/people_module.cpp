@@ -89,6 +89,7 @@ class PeopleModule final : public Module {
 Result<std::unique_ptr<Module>> make_people(const ModuleContext& context) {
   auto params = context.config.section<PeopleFinderParams>("people");
   if (!params) return tl::unexpected<Error>(params.error());
+  params->keeps_all = context.config.evaluation().keeps_all_people;
   return std::make_unique<PeopleModule>(context, *params);
 }
 

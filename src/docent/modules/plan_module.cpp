@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 #include "docent/mapping/occupancy/live_map.h"
 #include "docent/modules/message_fitness.h"
 #include "docent/modules/pose_tracker.h"
+#include "docent/modules/scanners.h"
 #include "docent/planning/coastal/coastal_planner.h"
 #include "docent/planning/exploration/clearances.h"
 #include "docent/planning/exploration/look_around.h"
@@ -30,9 +32,7 @@ struct PlanParams {
   RouteParams route;
   PursuitParams pursuit;
   TellApartParams tell_apart;
-  bool ignore_live_map = false;  ///< crippled, for evaluation: plans with the static map alone
   CoastalParams coastal;
-  bool ignore_hazards = false;  ///< likewise: plans as if there were no hazards and no border
   bool active = true;           ///< lost: drives to where its hypotheses are told apart; else it only looks round
   double goal_tolerance = 0.2;  ///< [m] cells so near to the goal are goals
   template <class V>
@@ -40,9 +40,7 @@ struct PlanParams {
     v("route", route);
     v("pursuit", pursuit);
     v("tell_apart", tell_apart);
-    v("ignore_live_map", ignore_live_map);
     v("coastal", coastal);
-    v("ignore_hazards", ignore_hazards);
     v("active", active);
     v("goal_tolerance", goal_tolerance);
   }
@@ -66,12 +64,15 @@ class PlanModule final : public Module {
   PlanModule(const ModuleContext& context, const PlanParams& params)
       : bus_{context.bus},
         params_{params},
-        route_{context.museum.map, params.ignore_hazards ? std::vector<Polygon>{} : polygons_of(context.museum.hazards),
-               params.ignore_hazards ? Polygon{} : context.museum.area, params.route},
+        ignores_live_map_{context.config.evaluation().ignores_live_map},
+        route_{
+            context.museum.map,
+            context.config.evaluation().ignores_hazards ? std::vector<Polygon>{} : polygons_of(context.museum.hazards),
+            context.config.evaluation().ignores_hazards ? Polygon{} : context.museum.area, params.route},
         pursuit_{params.pursuit},
         tell_apart_{context.museum.map, context.config.body().radius, params.tell_apart},
-        base_from_laser_{context.config.body().scan_front.base_from_sensor(),
-                         context.config.body().scan_rear.base_from_sensor()},
+        base_from_laser_{mounts_of(context.config.body().scanners)},
+        scans_(base_from_laser_.size()),
         target_{bus_.publisher(topics::kTarget)},
         goal_state_{bus_.publisher(topics::kGoalState)},
         path_{bus_.publisher(topics::kPath)},
@@ -91,8 +92,7 @@ class PlanModule final : public Module {
     });
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry,
                                        [this](const auto& odometry) { pose_.on_odometry(odometry); });
-    bus_.subscribe<sensor_msgs::LaserScan>(topics::kScanFront, [this](const auto& scan) { scans_[0] = scan; });
-    bus_.subscribe<sensor_msgs::LaserScan>(topics::kScanRear, [this](const auto& scan) { scans_[1] = scan; });
+    subscribe_scanners(bus_, context.config.body(), [this](std::size_t i, const auto& scan) { scans_[i] = scan; });
     bus_.subscribe<sensor_msgs::LaserScan>(topics::kVirtualScan, [this](const auto& scan) { virtual_scan_ = scan; });
     bus_.subscribe<nav_msgs::OccupancyGrid>(topics::kLiveMap, [this](const auto& map) { on_full_map(map); });
     bus_.subscribe<docent_msgs::LiveMapUpdate>(topics::kLiveMapUpdate,
@@ -159,7 +159,7 @@ class PlanModule final : public Module {
     changed_ = CellBox{low, high};
   }
   void take(std::size_t index, std::int8_t live) {
-    obstacles_[index] = live >= 65 && static_cells_[index] < 65 && !params_.ignore_live_map;
+    obstacles_[index] = live >= 65 && static_cells_[index] < 65 && !ignores_live_map_;
     settled_[index] = obstacles_[index] && live >= LiveMap::kSettled;
   }
 
@@ -244,7 +244,7 @@ class PlanModule final : public Module {
       for (const auto& h : hypotheses_) possible.push_back({Pose2{h.x, h.y, Angle::radians(h.theta)} * moved, h.mass});
       std::optional<Point2> last;
       if (telling_goal_) last = inverse(*pose_.odom_from_base()) * *telling_goal_;
-      const auto place = tell_apart_.best_place(possible, free, static_cast<double>(scans_[0].range_max), last);
+      const auto place = tell_apart_.best_place(possible, free, reach_of_scanners(), last);
       telling_goal_.reset();
       if (!place) return std::nullopt;
       telling_goal_ = *pose_.odom_from_base() * place->goal;
@@ -253,14 +253,18 @@ class PlanModule final : public Module {
     return look_around_.step(*pose_.odom_from_base(), free, telling, now);
   }
 
-  /// The smaller of real and virtual measurements in every direction from where the base is now; empty when any is
-  /// missing or old.
-  [[nodiscard]] std::vector<double> clearances(Time now) const {
+  /// The smaller of real and virtual measurements in every direction from where the base is now; where no scanner reads
+  /// now, what one saw there a moment ago. Empty when any is missing or old.
+  [[nodiscard]] std::vector<double> clearances(Time now) {
     constexpr Duration kStale = std::chrono::seconds{2};
-    const auto look = [&](Clearances& clearances, const sensor_msgs::LaserScan& scan, const Pose2& then_from_sensor) {
+    constexpr Duration kLooked =
+        std::chrono::milliseconds{5500};  // about a full turn; odometry's poses are kept for 6 s
+    constexpr Duration kBetweenLooks = std::chrono::milliseconds{300};
+    const auto look = [&](Clearances& clearances, const sensor_msgs::LaserScan& scan, const Pose2& then_from_sensor,
+                          Duration stale) {
       const Time stamp = from_message(scan.header.stamp);
       const auto odom_from_then = pose_.odom_from_base_at(stamp);
-      if (!is_fit(scan) || scan.ranges.empty() || now - stamp > kStale || !odom_from_then) return false;
+      if (!is_fit(scan) || scan.ranges.empty() || now - stamp > stale || !odom_from_then) return false;
       const Pose2 base_from_then = inverse(*pose_.odom_from_base()) * *odom_from_then;
       clearances.add(base_from_then * then_from_sensor, scan.angle_min, scan.angle_increment, scan.range_max,
                      scan.ranges);
@@ -268,13 +272,29 @@ class PlanModule final : public Module {
     };
     Clearances real;
     Clearances virtual_ones;
-    const bool complete = look(real, scans_[0], base_from_laser_[0]) && look(real, scans_[1], base_from_laser_[1]) &&
-                          look(virtual_ones, virtual_scan_, Pose2{});
+    bool complete = !scans_.empty() && look(virtual_ones, virtual_scan_, Pose2{}, kStale);
+    for (std::size_t i = 0; i < scans_.size() && complete; ++i)
+      complete = look(real, scans_[i], base_from_laser_[i], kStale);
     if (!complete) return {};
+    for (auto past = past_looks_.rbegin(); past != past_looks_.rend(); ++past) {
+      Clearances then;
+      for (std::size_t i = 0; i < past->scans.size(); ++i)
+        (void)look(then, past->scans[i], base_from_laser_[i], kLooked);
+      real.fill(then);
+    }
+    while (!past_looks_.empty() && now - past_looks_.front().at > kLooked) past_looks_.pop_front();
+    if (past_looks_.empty() || now - past_looks_.back().at >= kBetweenLooks) past_looks_.push_back({now, scans_});
     std::vector<double> result = real.free();
     const auto of_hazards = virtual_ones.free();
     for (std::size_t i = 0; i < result.size(); ++i) result[i] = std::min(result[i], of_hazards[i]);
     return result;
+  }
+
+  /// [m] that the scanners look.
+  [[nodiscard]] double reach_of_scanners() const {
+    float reach = 0.0F;
+    for (const auto& scan : scans_) reach = std::max(reach, scan.range_max);
+    return static_cast<double>(reach);
   }
 
   void publish_target(const Pursuit& pursuit, Time now) {
@@ -345,6 +365,7 @@ class PlanModule final : public Module {
 
   Bus& bus_;
   PlanParams params_;
+  bool ignores_live_map_;  ///< crippled, for evaluation
   RoutePlanner route_;
   std::optional<CoastalPlanner> coastal_;  ///< with `coastal.weight` alone
   std::vector<Point2> coast_;              ///< [m], map: its way; empty: none yet
@@ -352,7 +373,13 @@ class PlanModule final : public Module {
   LookAround look_around_;
   TellApart tell_apart_;
   std::optional<Point2> telling_goal_;  ///< odom: where it drives to tell its hypotheses apart
-  std::array<Pose2, 2> base_from_laser_;
+  std::vector<Pose2> base_from_laser_;  ///< [scanners]
+  struct PastLook {
+    Time at;
+    std::vector<sensor_msgs::LaserScan> scans;  ///< [scanners]
+  };
+  std::deque<PastLook> past_looks_;            ///< while it looks round
+  std::vector<sensor_msgs::LaserScan> scans_;  ///< [scanners] newest sweeps
   Publisher<docent_msgs::Target> target_;
   Publisher<docent_msgs::GoalState> goal_state_;
   Publisher<nav_msgs::Path> path_;
@@ -361,7 +388,6 @@ class PlanModule final : public Module {
   std::vector<docent_msgs::Hypothesis> hypotheses_;  ///< of the last belief
   Pose2 odom_at_belief_;
   docent_msgs::DriveGoal goal_;
-  std::array<sensor_msgs::LaserScan, 2> scans_;
   sensor_msgs::LaserScan virtual_scan_;
   std::vector<std::int8_t> static_cells_;  ///< [rows * columns of the planning grid]
   std::vector<bool> obstacles_;            ///< [rows * columns] what stands there now

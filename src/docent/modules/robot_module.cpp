@@ -75,8 +75,7 @@ class RobotModule final : public Module {
            frame,
            {{base_from_sensor.x, base_from_sensor.y, 0.0}, to_quaternion(base_from_sensor.theta)}});
     };
-    add(body.scan_front.frame, body.scan_front.base_from_sensor());
-    add(body.scan_rear.frame, body.scan_rear.base_from_sensor());
+    for (const Scanner& scanner : body.scanners) add(scanner.frame, scanner.base_from_sensor());
     for (int i = 0; i < body.sonars; ++i) {
       add(RobotBody::sonar_frame(i), body.base_from_sonar(i));
     }

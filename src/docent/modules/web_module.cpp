@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "docent/messages/conversions.h"
+#include "docent/modules/scanners.h"
 #include "docent/telepresence/belief_carrier.h"
 #include "docent/telepresence/live_encoding.h"
 #include "docent/telepresence/museum_document.h"
@@ -133,8 +134,7 @@ class WebModule final : public Module {
 
   void subscribe() {
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const auto& m) { carrier_.add_odometry(m); });
-    bus_.subscribe<sensor_msgs::LaserScan>(topics::kScanFront, [this](const auto& m) { front_ = m; });
-    bus_.subscribe<sensor_msgs::LaserScan>(topics::kScanRear, [this](const auto& m) { rear_ = m; });
+    subscribe_scanners(bus_, body_, [this](std::size_t i, const auto& m) { scans_[i] = m; });
     bus_.subscribe<sensor_msgs::BatteryState>(topics::kBattery, [this](const auto& m) { battery_ = m.percentage; });
     bus_.subscribe<docent_msgs::People>(topics::kPeople, [this](const auto& m) { people_ = m; });
     bus_.subscribe<docent_msgs::Belief>(topics::kBelief, [this](const auto& m) {
@@ -183,13 +183,14 @@ class WebModule final : public Module {
     frame.p_lost = carrier_.p_lost();
     if (!frame.map_from_base) frame.hypotheses = carrier_.hypotheses(frame.now, 0.03);
     frame.is_scan_in_map = frame.map_from_base.has_value();
-    for (const auto& [scan, mount] : {std::pair{&front_, &body_.scan_front}, std::pair{&rear_, &body_.scan_rear}}) {
-      const Time taken = from_message(scan->header.stamp);
-      if (scan->ranges.empty() || frame.now - taken > kFresh) continue;
+    for (std::size_t i = 0; i < scans_.size(); ++i) {
+      const sensor_msgs::LaserScan& scan = scans_[i];
+      const Time taken = from_message(scan.header.stamp);
+      if (scan.ranges.empty() || frame.now - taken > kFresh) continue;
       const Pose2 from_base = frame.is_scan_in_map ? *carrier_.map_from_base(taken) : Pose2{};
       frame.scan_origin = from_base.position();
       for (const Point2 point :
-           scan_points(*scan, mount->base_from_sensor(), static_cast<std::size_t>(params_.scan_step)))
+           scan_points(scan, body_.scanners[i].base_from_sensor(), static_cast<std::size_t>(params_.scan_step)))
         frame.scan.push_back(from_base * point);
     }
     if (frame.now - from_message(people_.header.stamp) <= kFresh) frame.people = people_;
@@ -334,7 +335,7 @@ class WebModule final : public Module {
   std::shared_ptr<Site> site_ = std::make_shared<Site>();
 
   BeliefCarrier carrier_;
-  sensor_msgs::LaserScan front_, rear_;
+  std::vector<sensor_msgs::LaserScan> scans_;  ///< [scanners] newest sweeps
   docent_msgs::People people_;
   std::optional<docent_msgs::Belief> belief_;  ///< not yet shown
   std::optional<docent_msgs::AvoidState> avoid_;

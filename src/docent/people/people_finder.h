@@ -27,7 +27,6 @@ struct PeopleFinderParams {
     v("tracker", tracker);
     v("things", things);
     v("groups", groups);
-    v("keeps_all", keeps_all);
   }
   [[nodiscard]] Result<void> validate() const;
 };

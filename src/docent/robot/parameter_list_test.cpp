@@ -21,7 +21,7 @@ struct Arms {
   std::string name;
   std::optional<double> reach;
   Grip grip;
-  std::vector<Mount> sensors{{"elbow", 0.5, 0.0, 90.0}};
+  std::vector<Scanner> sensors{{"front", "elbow", 0.5, 0.0, 90.0, 180.0}};
   template <class V>
   void visit(V& v) {
     v("count", count);
@@ -54,7 +54,7 @@ TEST(ParameterList, ListsEveryKeyInOrderWithItsValue) {
   EXPECT_EQ(row_of(*rows, "reach").value, "~");
   EXPECT_EQ(row_of(*rows, "force").value, "0.1");
   EXPECT_EQ(row_of(*rows, "fingers").value, "[[1, 0.25]]");
-  EXPECT_EQ(row_of(*rows, "sensors").value, "[{frame: elbow, x: 0.5, y: 0, heading: 90}]");
+  EXPECT_EQ(row_of(*rows, "sensors").value, "[{name: front, frame: elbow, x: 0.5, y: 0, heading: 90, field: 180}]");
   EXPECT_EQ(row_of(*rows, "force").depth, 2);
   EXPECT_EQ(row_of(*rows, "force").declared_in, "Grip");
   EXPECT_EQ(row_of(*rows, "grip").holds, "Grip");

@@ -25,6 +25,24 @@ Result<void> check_outline(const RobotBody& body) {
   return {};
 }
 
+Result<void> check_scanners(const std::vector<Scanner>& scanners) {
+  constexpr auto& kNames = RobotBody::kScannerNames;
+  for (auto scanner = scanners.begin(); scanner != scanners.end(); ++scanner) {
+    if (std::find(kNames.begin(), kNames.end(), scanner->name) == kNames.end())
+      return fail("body.scanners: a name must be front, rear, left or right, not '" + scanner->name + "'");
+    const auto is_like = [&](const Scanner& other) {
+      return other.name == scanner->name || other.frame == scanner->frame;
+    };
+    if (scanner->frame.empty() || std::any_of(scanners.begin(), scanner, is_like))
+      return fail("body.scanners: each needs a name and a frame of its own");
+    if (!(norm(scanner->base_from_sensor().position()) <= 1.0))
+      return fail("body.scanners: " + scanner->name + " must lie within 1 m of the robot's centre");
+    if (!(scanner->field > 0.0 && scanner->field <= 360.0))
+      return fail("body.scanners: the field of " + scanner->name + " must be > 0 and <= 360 degrees");
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<void> RobotBody::validate() const {
@@ -40,6 +58,7 @@ Result<void> RobotBody::validate() const {
   if (!(max_speed * (watchdog + latency) + max_speed * max_speed / (2.0 * deceleration) <= 3.0 &&
         watchdog + latency + max_speed / deceleration <= 3.0))
     return fail("body: from max_speed it must stand within 3 m and 3 s (watchdog and latency included)");
+  if (auto valid = check_scanners(scanners); !valid) return valid;
   if (!(sonars >= 0 && sonars <= 100)) return fail("body.sonars must be 0..100");
   if (!(sonar_radius >= 0.0 && sonar_radius <= radius)) return fail("body.sonar_radius must be 0 to the body's radius");
   if (!(infrareds >= 0 && infrareds <= 100)) return fail("body.infrareds must be 0..100");
@@ -90,9 +109,7 @@ Result<RobotConfig> RobotConfig::load(const std::filesystem::path& path) {
     return tl::unexpected<Error>(file->fault(file->root(), "expected sections (name: …)"));
   }
   RobotConfig config{std::move(*file)};
-  auto body = config.section<RobotBody>("body");
-  if (!body) return tl::unexpected<Error>(body.error());
-  config.body_ = *body;
+  if (auto read = config.read_shared(); !read) return tl::unexpected<Error>(read.error());
   return config;
 }
 
@@ -116,20 +133,38 @@ Result<void> RobotConfig::set(const std::string& assignment) {
   auto setting = YamlFile::parse(text, "--set " + assignment);
   if (!setting) return tl::unexpected<Error>(setting.error());
   settings_.push_back(std::move(*setting));
+  auto read = read_shared();
+  if (!read) settings_.pop_back();
+  return read;
+}
+
+Result<void> RobotConfig::read_shared() {
   auto body = section<RobotBody>("body");
-  if (!body) {
-    settings_.pop_back();
-    return tl::unexpected<Error>(body.error());
-  }
+  if (!body) return tl::unexpected<Error>(body.error());
+  auto evaluation = section<EvaluationParams>("evaluation");
+  if (!evaluation) return tl::unexpected<Error>(evaluation.error());
   body_ = *body;
+  evaluation_ = *evaluation;
   return {};
+}
+
+Result<void> RobotConfig::check_not_crippled() const {
+  const std::string names = evaluation_.crippled();
+  if (names.empty()) return {};
+  const YamlFile* last = &file_;
+  for (const auto& setting : settings_)
+    if (setting.root()["evaluation"].IsDefined()) last = &setting;
+  return tl::unexpected<Error>(
+      last->fault(last->root()["evaluation"], "section evaluation cripples the robot (" + names +
+                                                  "), which is for simulations only: remove it before the robot runs"));
 }
 
 Result<void> RobotConfig::check_sections(const std::vector<std::string>& names) const {
   const auto check = [&](const YamlFile& file) -> Result<void> {
     for (const auto& entry : file.root()) {
       const auto name = entry.first.as<std::string>();
-      if (name == "body" || std::find(names.begin(), names.end(), name) != names.end()) continue;
+      if (name == "body" || name == "evaluation" || std::find(names.begin(), names.end(), name) != names.end())
+        continue;
       return tl::unexpected<Error>(file.fault(entry.first, "unknown section '" + name + "'"));
     }
     return {};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -9,20 +10,25 @@
 #include "docent/base/result.h"
 #include "docent/base/yaml.h"
 #include "docent/geometry/pose2.h"
+#include "docent/robot/evaluation_params.h"
 
 namespace docent {
 
-/// A sensor's place on the robot, robot frame.
-struct Mount {
-  std::string frame;        ///< header.frame_id of its messages
-  double x = 0.0, y = 0.0;  ///< [m] of the sensor, x ahead, y to the left
-  double heading = 0.0;     ///< [deg] of the middle of its field, counter-clockwise
+/// A laser scanner and its place.
+struct Scanner {
+  std::string name = "front";         ///< of RobotBody::kScannerNames; "front" speaks on scan_front
+  std::string frame = "laser_front";  ///< of its messages
+  double x = 0.0, y = 0.0;            ///< [m], robot frame
+  double heading = 0.0;               ///< [deg], robot frame: of the middle of its field
+  double field = 180.0;  ///< [deg] of view; a simulated one gets so much, a real one says it in its messages
   template <class V>
   void visit(V& v) {
+    v("name", name);
     v("frame", frame);
     v("x", x);
     v("y", y);
     v("heading", heading);
+    v("field", field);
   }
   [[nodiscard]] Pose2 base_from_sensor() const { return {x, y, Angle::degrees(heading)}; }
 };
@@ -39,9 +45,10 @@ struct RobotBody {
   double turn_acceleration = 1.5;            ///< [rad/s2] of the base when it begins or ends a turn
   double latency = 0.15;                     ///< [s] from a command to the wheels
   double watchdog = 0.3;                     ///< [s] without a command, then the base stops
-  Mount scan_front{"laser_front", 0.0, 0.0, 0.0};
-  Mount scan_rear{"laser_rear", 0.0, 0.0, 180.0};
-  int sonars = 24;                ///< evenly round the body, sonar_00 at the front, counter-clockwise
+  static constexpr std::array<std::string_view, 4> kScannerNames{"front", "rear", "left", "right"};
+  /// What none of them sees counts as unknown: the robot drives there only when it has looked.
+  std::vector<Scanner> scanners{{}, {"rear", "laser_rear", 0.0, 0.0, 180.0, 180.0}};
+  int sonars = 24;                ///< evenly round the body, sonar_00 at the front, counter-clockwise; 0: it has none
   double sonar_radius = 0.25;     ///< [m] from the centre
   int infrareds = 24;             ///< likewise, infrared_00 at the front; 0: it has none
   double infrared_radius = 0.25;  ///< [m] from the centre
@@ -57,8 +64,7 @@ struct RobotBody {
     v("turn_acceleration", turn_acceleration);
     v("latency", latency);
     v("watchdog", watchdog);
-    v("scan_front", scan_front);
-    v("scan_rear", scan_rear);
+    v("scanners", scanners);
     v("sonars", sonars);
     v("sonar_radius", sonar_radius);
     v("infrareds", infrareds);
@@ -86,6 +92,10 @@ class RobotConfig {
   [[nodiscard]] Result<void> set(const std::string& assignment);
 
   [[nodiscard]] const RobotBody& body() const { return body_; }
+  /// How the robot is crippled, if it is.
+  [[nodiscard]] const EvaluationParams& evaluation() const { return evaluation_; }
+  /// Error, with file and line, when the robot is crippled for an evaluation: such a robot meets nobody.
+  [[nodiscard]] Result<void> check_not_crippled() const;
   /// Reads section `name` over the defaults of `params` (its visit and validate); unknown keys are faults.
   template <class Params>
   [[nodiscard]] Result<Params> section(const std::string& name) const {
@@ -106,16 +116,20 @@ class RobotConfig {
     }
     return params;
   }
-  /// Error when the file has a section that is not in `names` (and not `body`).
+  /// Error when the file has a section that is not in `names` (and neither `body` nor `evaluation`).
   [[nodiscard]] Result<void> check_sections(const std::vector<std::string>& names) const;
   /// Hash of all that is set, as 16 hexadecimal digits.
   [[nodiscard]] std::string hash() const;
 
  private:
   explicit RobotConfig(YamlFile file) : file_{std::move(file)} {}
+  /// Reads the sections that every module shares.
+  [[nodiscard]] Result<void> read_shared();
+
   YamlFile file_;
   std::vector<YamlFile> settings_;  ///< one a --set, in their order; so that the file keeps its lines
   RobotBody body_;
+  EvaluationParams evaluation_;
 };
 
 }  // namespace docent

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
+#include <utility>
+
 #include "docent/base/files.h"
 
 namespace docent {
@@ -89,6 +92,48 @@ TEST(RobotConfig, FaultsNameTheLineOfTheFileOrTheSetting) {
   EXPECT_EQ(slower.body().radius, RobotBody{}.radius) << "a refused setting leaves nothing behind";
 }
 
+TEST(RobotConfig, WhatCripplesIsRecognisedByItsValueHoweverItIsWritten) {
+  for (const char* yes : {"yes", "true", "on", "True", "YES", "y"}) {
+    RobotConfig config;
+    EXPECT_TRUE(config.check_not_crippled().has_value());
+    ASSERT_TRUE(config.set(std::string{"evaluation.blind_to_people="} + yes).has_value()) << yes;
+    EXPECT_EQ(config.evaluation().crippled(), "blind_to_people") << yes;
+    const auto refused = config.check_not_crippled();
+    ASSERT_FALSE(refused.has_value()) << yes;
+    EXPECT_TRUE(refused.error().message.starts_with("--set evaluation.blind_to_people=")) << refused.error().message;
+    ASSERT_TRUE(config.set("evaluation.blind_to_people=off").has_value());
+    EXPECT_TRUE(config.check_not_crippled().has_value()) << "the last wins";
+    EXPECT_TRUE(config.check_sections({}).has_value());
+  }
+  RobotConfig config;
+  EXPECT_FALSE(config.set("evaluation.blind_to_people=1").has_value()) << "no truth value: refused, not ignored";
+  ASSERT_TRUE(config.set("evaluation.best_pose_error_x=1.5").has_value());
+  ASSERT_TRUE(config.set("evaluation.without_ladder=on").has_value());
+  EXPECT_EQ(config.evaluation().crippled(), "best_pose_error_x, without_ladder");
+}
+
+TEST(RobotConfig, WhatCripplesIsRefusedWithTheLineOfItsFile) {
+  EXPECT_TRUE(config_of("speeds: {}\nevaluation:\n  without_watches: no\n").check_not_crippled().has_value());
+  const auto refused = config_of("speeds: {}\n\nevaluation:\n  without_watches: on\n").check_not_crippled();
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_NE(refused.error().message.find(".yaml:4: "), std::string::npos) << refused.error().message;
+  EXPECT_NE(refused.error().message.find("without_watches"), std::string::npos) << refused.error().message;
+}
+
+TEST(EvaluationParams, EverySwitchIsNamedWhenItIsNotAsByDefault) {
+  EvaluationParams params;
+  EXPECT_EQ(params.crippled(), "");
+  int switches = 0;
+  const auto change_and_back = [&](const char* name, auto& value) {
+    const auto before = std::exchange(value, static_cast<std::remove_reference_t<decltype(value)>>(1));
+    EXPECT_EQ(params.crippled(), name);
+    value = before;
+    ++switches;
+  };
+  params.visit(change_and_back);
+  EXPECT_GE(switches, 12);
+}
+
 TEST(RobotBody, TheRadiusHoldsTheOutlineWhichIsConvexRoundTheCentre) {
   const std::string outline = "body.outline=[[0.4, 0.25], [-0.5, 0.25], [-0.5, -0.25], [0.4, -0.25]]";
   RobotConfig config = config_of("body:\n  radius: 0.6\n");
@@ -108,6 +153,25 @@ TEST(RobotBody, TheRadiusHoldsTheOutlineWhichIsConvexRoundTheCentre) {
   std::filesystem::remove(path);
   ASSERT_FALSE(small.has_value());
   EXPECT_NE(small.error().message.find(".yaml:3: body.radius"), std::string::npos) << small.error().message;
+}
+
+TEST(RobotBody, HasTheScannersThatItsConfigurationLists) {
+  const RobotBody body;
+  ASSERT_EQ(body.scanners.size(), 2U);
+  EXPECT_EQ(body.scanners[0].frame, "laser_front");
+  EXPECT_NEAR(std::abs(body.scanners[1].base_from_sensor().theta.degrees()), 180.0, 1e-9);
+
+  const auto one = config_of("body:\n  scanners:\n    - {x: 0.2, field: 270}\n  sonars: 0\n  infrareds: 0\n");
+  ASSERT_EQ(one.body().scanners.size(), 1U);
+  EXPECT_EQ(one.body().scanners[0].name, "front");
+  EXPECT_EQ(one.body().scanners[0].x, 0.2);
+  EXPECT_EQ(one.body().scanners[0].field, 270.0);
+  RobotConfig config;
+  EXPECT_TRUE(config.set("body.scanners=[{name: left, frame: l, heading: 90}, {name: right, frame: r, heading: -90}]"));
+  for (const char* bad : {"[{name: above}]", "[{}, {frame: other}]", "[{}, {name: rear}]", "[{frame: ''}]",
+                          "[{field: 0}]", "[{field: 361}]", "[{x: 3}]", "[{y: .nan}]", "[front]", "front"}) {
+    EXPECT_FALSE(config.set(std::string{"body.scanners="} + bad).has_value()) << bad;
+  }
 }
 
 TEST(RobotBody, KnowsItsSonarsByTheirFrames) {

@@ -51,22 +51,55 @@ void spoil(sensor_msgs::Range& ping, FaultKind kind, Rng& rng) {
 void spoil(nav_msgs::Odometry&, FaultKind, Rng&) {}    // no ranges: the scenario refuses it
 void spoil(docent_msgs::Tactile&, FaultKind, Rng&) {}  // likewise
 
+Sensor sensor_of(std::string_view scanner) {
+  if (scanner == "rear") return Sensor::laser_rear;
+  if (scanner == "left") return Sensor::laser_left;
+  return scanner == "right" ? Sensor::laser_right : Sensor::laser_front;
+}
+
+LaserParams laser_of(const Hardware::Scanner& scanner) {
+  LaserParams params;
+  params.beams = std::max(1, static_cast<int>(std::lround(scanner.field / params.bearing_step)));
+  params.first_bearing = -0.5 * params.beams * params.bearing_step;
+  return params;
+}
+
+SonarParams sonars_of(const Hardware& hardware) {
+  SonarParams params;
+  params.count = hardware.sonars;
+  params.ring_radius = hardware.sonar_radius;
+  if (params.count % params.together != 0) params.together = 1;
+  return params;
+}
+
+InfraredParams infrareds_of(const Hardware& hardware) {
+  InfraredParams params;
+  params.count = hardware.infrareds;
+  params.ring_radius = hardware.infrared_radius;
+  return params;
+}
+
 }  // namespace
 
-Instruments::Instruments(Bus& bus, const World& world, const Rng& rng)
+Instruments::Instruments(Bus& bus, const World& world, const Hardware& hardware, const Rng& rng)
     : bus_{bus},
-      front_{LaserParams{}, Pose2{}, rng.stream("laser_front")},
-      rear_{LaserParams{}, Pose2{0.0, 0.0, Angle::degrees(180.0)}, rng.stream("laser_rear")},
-      ring_{SonarParams{}, rng.stream("sonar")},
-      infrared_{InfraredParams{}, rng.stream("infrared")},
+      ring_{sonars_of(hardware), rng.stream("sonar")},
+      infrared_{infrareds_of(hardware), rng.stream("infrared")},
       fault_rng_{rng.stream("faults")},
-      front_scans_{bus.publisher(topics::kScanFront)},
-      rear_scans_{bus.publisher(topics::kScanRear)},
+      has_tactile_{hardware.has_tactile},
       pings_{bus.publisher(topics::kSonar)},
       infrared_readings_{bus.publisher(topics::kInfrared)},
       odometry_{bus.publisher(topics::kOdometry)},
       battery_{bus.publisher(topics::kBattery)},
       tactile_{bus.publisher(topics::kTactile)} {
+  for (const auto& scanner : hardware.scanners) {
+    scanners_.push_back({sensor_of(scanner.name),
+                         scanner.frame,
+                         {laser_of(scanner), scanner.base_from_scanner, rng.stream("laser_" + scanner.name)},
+                         bus.publisher(topics::scan_topic(scanner.name)),
+                         {}});
+    beams_ += scanners_.back().laser.params().beams;
+  }
   last_pings_.resize(static_cast<std::size_t>(ring_.params().count));
   last_infrared_.resize(static_cast<std::size_t>(infrared_.params().count));
   change_world(world);
@@ -155,12 +188,11 @@ void Instruments::publish_odometry(Time now, const Body& body) {
   emit(Sensor::odom, odometry_, std::move(message), last_odom_, now);
 }
 
-void Instruments::publish_scan(Time now, Sensor sensor, LaserScanner& scanner, const Pose2& pose,
-                               std::span<const Disc> people) {
-  const auto& sweep = scanner.sweep(*laser_walls_, people, pose);
-  const LaserParams& params = scanner.params();
+void Instruments::publish_scan(Time now, Scanner& scanner, const Pose2& pose, std::span<const Disc> people) {
+  const auto& sweep = scanner.laser.sweep(*laser_walls_, people, pose);
+  const LaserParams& params = scanner.laser.params();
   sensor_msgs::LaserScan message;
-  message.header = {to_message(now), sensor == Sensor::laser_front ? "laser_front" : "laser_rear"};
+  message.header = {to_message(now), scanner.frame};
   message.angle_min = static_cast<float>(params.first_bearing);
   message.angle_max = static_cast<float>(params.first_bearing + (params.beams - 1) * params.bearing_step);
   message.angle_increment = static_cast<float>(params.bearing_step);
@@ -174,16 +206,14 @@ void Instruments::publish_scan(Time now, Sensor sensor, LaserScanner& scanner, c
     ++blocked;
     ++met_[static_cast<std::size_t>(person)];
   }
-  blocked_share_ += static_cast<double>(blocked) / (2.0 * params.beams);
-  const bool is_front = sensor == Sensor::laser_front;
-  emit(sensor, is_front ? front_scans_ : rear_scans_, std::move(message), is_front ? last_front_ : last_rear_, now);
+  blocked_share_ += static_cast<double>(blocked) / beams_;
+  emit(scanner.sensor, scanner.scans, std::move(message), scanner.last, now);
 }
 
 void Instruments::publish_scans(Time now, const Pose2& world_from_base, std::span<const Disc> people) {
   met_.assign(people.size(), 0);
   blocked_share_ = 0.0;
-  publish_scan(now, Sensor::laser_front, front_, world_from_base, people);
-  publish_scan(now, Sensor::laser_rear, rear_, world_from_base, people);
+  for (Scanner& scanner : scanners_) publish_scan(now, scanner, world_from_base, people);
 }
 
 void Instruments::publish_sonar(Time now, std::uint64_t slot, const Pose2& world_from_base,
@@ -193,7 +223,7 @@ void Instruments::publish_sonar(Time now, std::uint64_t slot, const Pose2& world
   for (std::uint64_t turn = 0; turn < groups; ++turn) {
     if (turn * kSlots / groups != slot % kSlots) continue;
     // Neighbours never fire one after the other: each would hear the other's echo.
-    const auto group = static_cast<int>(turn * 3 % groups);
+    const auto group = static_cast<int>(turn * (groups % 3 == 0 ? 1 : 3) % groups);
     for (const Ping& ping : ring_.fire(group, *sonar_walls_, people, world_from_base)) publish_ping(now, ping);
   }
 }
@@ -251,6 +281,7 @@ void Instruments::publish_battery(Time now, const Battery& battery) {
 }
 
 void Instruments::publish_tactile(Time now, const std::vector<std::uint8_t>& segments) {
+  if (!has_tactile_) return;
   emit(Sensor::tactile, tactile_, {{to_message(now), "base_link"}, segments, ++tactile_scan_}, last_tactile_, now);
 }
 
@@ -259,7 +290,8 @@ bool Instruments::sees(Point2 robot, std::size_t person, std::span<const Disc> p
   const Point2 offset = target.centre - robot;
   const double away = norm(offset);
   if (away < 1e-6) return true;
-  if (away > front_.params().max_range) return false;
+  const double reach = scanners_.empty() ? LaserParams{}.max_range : scanners_.front().laser.params().max_range;
+  if (away > reach) return false;
   const Point2 across = (0.8 * target.radius / away) * Point2{-offset.y, offset.x};
   for (const double side : {0.0, 1.0, -1.0}) {
     const Point2 point = target.centre + side * across;

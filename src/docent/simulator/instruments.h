@@ -8,6 +8,7 @@
 
 #include "docent/simulator/battery.h"
 #include "docent/simulator/body.h"
+#include "docent/simulator/hardware.h"
 #include "docent/simulator/scenario.h"
 #include "docent/simulator/sensing/infrared.h"
 #include "docent/simulator/sensing/laser.h"
@@ -20,13 +21,12 @@ namespace docent::simulator {
 class Instruments {
  public:
   /// The bus must outlive this, or die with nothing scheduled.
-  Instruments(Bus& bus, const World& world, const Rng& rng);
+  Instruments(Bus& bus, const World& world, const Hardware& hardware, const Rng& rng);
 
   void change_world(const World& world);
-  /// Both lasers look no farther than `range` [m] from now on.
+  /// The lasers look no farther than `range` [m] from now on.
   void limit_reach(double range) {
-    front_.limit_reach(range);
-    rear_.limit_reach(range);
+    for (Scanner& scanner : scanners_) scanner.laser.limit_reach(range);
   }
   void set_fault(const SensorFault& fault, Time now);
 
@@ -34,22 +34,29 @@ class Instruments {
   void jump(const Pose2& base_from_base, double over);
 
   void publish_odometry(Time now, const Body& body);
-  /// Both scanners at once.
+  /// All scanners at once.
   void publish_scans(Time now, const Pose2& world_from_base, std::span<const Disc> people);
-  /// @param slot  counts steps of 10 ms: the 24 sonars fire in groups of three, each every 0.4 s
+  /// @param slot  counts steps of 10 ms: the sonars fire in groups of three, each every 0.4 s
   void publish_sonar(Time now, std::uint64_t slot, const Pose2& world_from_base, std::span<const Disc> people);
   /// Each of the ring every 0.2 s, one or two a step of 10 ms.
   void publish_infrared(Time now, std::uint64_t slot, const Pose2& world_from_base, std::span<const Disc> people);
   void publish_battery(Time now, const Battery& battery);
   void publish_tactile(Time now, const std::vector<std::uint8_t>& segments);
 
-  /// Beams of the last sweep of both scanners that met a person.
+  /// Beams of the last sweep of all scanners that met a person.
   [[nodiscard]] int met(std::size_t person) const { return person < met_.size() ? met_[person] : 0; }
   [[nodiscard]] double blocked_share() const { return blocked_share_; }  ///< beams of the last sweep that met people
   /// True when a ray from the robot's centre within laser range reaches a person, past walls and other people.
   [[nodiscard]] bool sees(Point2 robot, std::size_t person, std::span<const Disc> people) const;
 
  private:
+  struct Scanner {
+    Sensor sensor;
+    std::string frame;
+    LaserScanner laser;
+    Publisher<sensor_msgs::LaserScan> scans;
+    std::optional<sensor_msgs::LaserScan> last;
+  };
   struct Fault {
     FaultKind kind;
     Time until;
@@ -59,14 +66,14 @@ class Instruments {
   void emit(Sensor sensor, const Publisher<T>& publisher, T message, std::optional<T>& last, Time now);
   [[nodiscard]] const Fault* fault_of(Sensor sensor, Time now) const;
   void publish_ping(Time now, const Ping& ping);
-  void publish_scan(Time now, Sensor sensor, LaserScanner& scanner, const Pose2& pose, std::span<const Disc> people);
+  void publish_scan(Time now, Scanner& scanner, const Pose2& pose, std::span<const Disc> people);
 
   Bus& bus_;
   std::unique_ptr<RayCaster> laser_walls_;
   std::unique_ptr<RayCaster> sonar_walls_;
   std::unique_ptr<RayCaster> infrared_walls_;
-  LaserScanner front_;
-  LaserScanner rear_;
+  std::vector<Scanner> scanners_;
+  int beams_ = 0;  ///< of all scanners
   SonarRing ring_;
   InfraredRing infrared_;
   Rng fault_rng_;
@@ -81,17 +88,14 @@ class Instruments {
   Pose2 jump_part_;            ///< base_from_base that the next readings are off
   int jump_parts_ = 0;         ///< so many readings
   Pose2 odom_from_body_odom_;  ///< what jumps have made of the wheels' odometry
+  bool has_tactile_;
   std::uint32_t tactile_scan_ = 0;
 
-  Publisher<sensor_msgs::LaserScan> front_scans_;
-  Publisher<sensor_msgs::LaserScan> rear_scans_;
   Publisher<sensor_msgs::Range> pings_;
   Publisher<sensor_msgs::Range> infrared_readings_;
   Publisher<nav_msgs::Odometry> odometry_;
   Publisher<sensor_msgs::BatteryState> battery_;
   Publisher<docent_msgs::Tactile> tactile_;
-  std::optional<sensor_msgs::LaserScan> last_front_;
-  std::optional<sensor_msgs::LaserScan> last_rear_;
   std::vector<std::optional<sensor_msgs::Range>> last_pings_;
   std::vector<std::optional<sensor_msgs::Range>> last_infrared_;
   std::optional<nav_msgs::Odometry> last_odom_;

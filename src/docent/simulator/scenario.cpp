@@ -176,6 +176,8 @@ class EventReader {
                choice<Sensor>(at,
                               {{"laser_front", Sensor::laser_front},
                                {"laser_rear", Sensor::laser_rear},
+                               {"laser_left", Sensor::laser_left},
+                               {"laser_right", Sensor::laser_right},
                                {"sonar", Sensor::sonar},
                                {"odom", Sensor::odom},
                                {"tactile", Sensor::tactile},

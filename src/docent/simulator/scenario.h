@@ -18,8 +18,8 @@ struct Kidnap {
   double shift = 0.0;         ///< [m] > 0: a random place at most so far from here, the robot turned by `turn`
   double turn = 0.0;          ///< [deg]
 };
-enum class Sensor { laser_front, laser_rear, sonar, odom, tactile, infrared };
-inline constexpr std::size_t kSensors = 6;
+enum class Sensor { laser_front, laser_rear, laser_left, laser_right, sonar, odom, tactile, infrared };
+inline constexpr std::size_t kSensors = 8;
 enum class FaultKind {
   dead,    ///< no message at all
   frozen,  ///< the last reading again and again, with fresh stamps

@@ -101,7 +101,8 @@ constexpr Broken kBroken[] = {
     {"events:\n  - at: 1\n    kidnap: {to: [1, 2], shift: 3}", "s.yaml:3: 'to' or 'shift', not both"},
     {"events:\n  - at: 1\n    kidnap: [1, 2]", "s.yaml:3: expected a mapping (key: value)"},
     {"events:\n  - at: 1\n    fault: {sensor: nose, kind: dead}",
-     "s.yaml:3: expected one of laser_front, laser_rear, sonar, odom, tactile, infrared, found 'nose'"},
+     "s.yaml:3: expected one of laser_front, laser_rear, laser_left, laser_right, sonar, odom, tactile, infrared, "
+     "found 'nose'"},
     {"events:\n  - at: 1\n    fault: {sensor: odom, kind: sad}",
      "s.yaml:3: expected one of dead, frozen, half, late, short, deaf, storm, found 'sad'"},
     {"events:\n  - at: 1\n    fault: {sensor: odom, kind: deaf}", "s.yaml:3: odometry has no ranges to be wrong"},

@@ -60,7 +60,7 @@ class SimulatedMuseum::Impl {
         obstacles_{world_},
         body_{BodyParams{}, first_pose(), rng_.stream("body")},
         crowd_{make_crowd()},
-        instruments_{robot_bus, world_, rng_},
+        instruments_{robot_bus, world_, options_.hardware, rng_},
         visitors_{wish_params(), world_.exhibits, world_.tours, rng_.stream("visitors")},
         tactile_(kTactileSegments, 0),
         requests_{robot_bus.publisher(topics::kRequest)},

@@ -7,6 +7,7 @@
 
 #include "docent/base/result.h"
 #include "docent/simulator/crowd/crowd_params.h"
+#include "docent/simulator/hardware.h"
 #include "docent/simulator/scenario.h"
 #include "docent/simulator/world/world.h"
 #include "docent/transport/bus.h"
@@ -15,6 +16,7 @@ namespace docent::simulator {
 
 struct SimulationOptions {
   World world;
+  Hardware hardware;
   std::uint64_t seed = 0;
   std::string crowd = "busy";              ///< empty, quiet, busy, packed (architecture 10.3)
   std::optional<std::size_t> crowd_count;  ///< instead of the level's density; recorded people are among them
@@ -38,9 +40,10 @@ struct SimulationOptions {
 class SimulatedMuseum {
  public:
   /// Subscribes cmd_vel, docent/horn, docent/speech_state, docent/request_board and docent/mission_state; publishes
-  /// scan_front, scan_rear, sonar, infrared, odom, battery_state, tactile, docent/request and docent/choice, and the
-  /// truth. The truth is posted to `truth_bus`, so under DDS both buses must be run, each on a thread of its own if
-  /// need be. Both buses must outlive it or die before the next event; it may be destroyed at any time.
+  /// what its hardware has of scan_front, scan_rear, scan_left, scan_right, sonar, infrared and tactile, and odom,
+  /// battery_state, docent/request and docent/choice, and the truth. The truth is posted to `truth_bus`, so under DDS
+  /// both buses must be run, each on a thread of its own if need be. Both buses must outlive it or die before the next
+  /// event; it may be destroyed at any time.
   /// @pre validate(options)
   SimulatedMuseum(Bus& robot_bus, Bus& truth_bus, SimulationOptions options);
   SimulatedMuseum(const SimulatedMuseum&) = delete;

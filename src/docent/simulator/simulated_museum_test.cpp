@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "docent/base/random.h"
 #include "docent/messages/conversions.h"
@@ -89,6 +90,29 @@ SimulationOptions options(std::string crowd, std::optional<Pose2> start = std::n
   result.start = start;
   result.seed = seed;
   return result;
+}
+
+TEST(SimulatedMuseum, HasTheSensorsOfItsHardwareAndNoOthers) {
+  SimulationOptions small = options("quiet");
+  small.hardware.scanners = {{"left", "side", {0.0, 0.1, Angle::degrees(90.0)}, 0.5 * std::numbers::pi}};
+  small.hardware.sonars = 9;
+  small.hardware.infrareds = 0;
+  small.hardware.has_tactile = false;
+  Bench bench{std::move(small)};
+  sensor_msgs::LaserScan scan;
+  bench.robot_bus->subscribe(topics::kScanLeft, std::function<void(const sensor_msgs::LaserScan&)>{
+                                                    [&](const sensor_msgs::LaserScan& m) { scan = m; }});
+  std::map<std::string, int> pings;
+  bench.robot_bus->subscribe(topics::kSonar, std::function<void(const sensor_msgs::Range&)>{
+                                                 [&](const sensor_msgs::Range& m) { ++pings[m.header.frame_id]; }});
+  bench.run(4.0);
+  EXPECT_EQ(bench.counts["scan_left"], 40);
+  EXPECT_EQ(scan.header.frame_id, "side");
+  EXPECT_EQ(scan.ranges.size(), 90U);
+  EXPECT_NEAR(static_cast<double>(scan.angle_min), -0.25 * std::numbers::pi, 1e-6);
+  for (const char* none : {"scan_front", "scan_rear", "infrared", "tactile"}) EXPECT_EQ(bench.counts[none], 0) << none;
+  EXPECT_EQ(pings.size(), 9U) << "each fires";
+  EXPECT_EQ(bench.counts["sonar"], 90);
 }
 
 TEST(SimulatedMuseum, OffersTheTopicsOfARobotAtTheirRates) {

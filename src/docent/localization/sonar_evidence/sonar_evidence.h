@@ -39,7 +39,6 @@ struct SonarEvidenceParams {
     v("unfiltered_share", unfiltered_share);
     v("cone", cone);
     v("oldest", oldest);
-    v("trusting", trusting);
     v("model", model);
   }
   [[nodiscard]] Result<void> validate() const;

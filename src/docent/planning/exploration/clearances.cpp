@@ -20,6 +20,11 @@ void Clearances::add(const Pose2& base_from_sensor, double first_bearing, double
   }
 }
 
+void Clearances::fill(const Clearances& older) {
+  for (std::size_t i = 0; i < kDirections; ++i)
+    if (least_[i] == kUnread) least_[i] = older.least_[i];
+}
+
 std::vector<double> Clearances::free() const {
   std::vector<double> result;
   for (const double least : least_) result.push_back(std::max(0.0, least));

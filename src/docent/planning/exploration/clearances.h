@@ -21,6 +21,8 @@ class Clearances {
   /// @param ranges  [m]; max_range or more: free so far at least
   void add(const Pose2& base_from_sensor, double first_bearing, double bearing_step, double max_range,
            std::span<const float> ranges);
+  /// Where nothing was read here, what was read there.
+  void fill(const Clearances& older);
   /// [kDirections] [m]; 0 where nothing was read.
   [[nodiscard]] std::vector<double> free() const;
 

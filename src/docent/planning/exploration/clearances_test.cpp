@@ -45,6 +45,17 @@ TEST(Clearances, WhatWasAheadLiesAsideOfABaseThatHasTurned) {
 
 TEST(Clearances, AndNearerToOneThatHasDriven) { EXPECT_NEAR(seen({-0.4, 0.0, {}}, sweep()).free()[90], 0.6, 1e-6); }
 
+TEST(Clearances, WhereNothingIsReadNowWhatWasReadBefore) {
+  auto half = sweep();
+  std::fill(half.begin(), half.begin() + 40, std::numeric_limits<float>::quiet_NaN());
+  auto now = seen({}, half);
+  now.fill(seen({}, std::vector<float>(180, 2.0F)));
+  const auto free = now.free();
+  EXPECT_NEAR(free[20], 2.0, 1e-6);
+  EXPECT_NEAR(free[90], 1.0, 1e-6);
+  EXPECT_NEAR(free[120], 3.0, 1e-6) << "what is read now counts";
+}
+
 TEST(Clearances, NothingReadIsNothingFree) {
   EXPECT_EQ(Clearances{}.free(), std::vector<double>(180, 0.0));
   auto ranges = sweep();

@@ -24,7 +24,6 @@ struct LadderParams {
   double calm_s = 3.0;                   ///< [s] > 0 of progress until the way counts as free
   template <class V>
   void visit(V& v) {
-    v("active", active);
     v("horn_after_s", horn_after_s);
     v("horn_every_s", horn_every_s);
     v("wait_after_s", wait_after_s);

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+
+namespace docent {
+
+/// Section `evaluation` of robot.yaml: ways to cripple the robot, so that an evaluation shows what the crippled part is
+/// for (architecture 10.17). By default nothing is crippled. `docent up` and `docent run` refuse anything else.
+struct EvaluationParams {
+  bool blind_to_people = false;    ///< avoid: sees virtual measurements and touch only
+  bool without_watches = false;    ///< avoid: takes every sensor and belief for well
+  bool dead_reckoning = false;     ///< localize: odometry alone after the first "here"
+  double best_pose_error_x = 0.0;  ///< [m], map: localize publishes the best hypothesis so far off (its cells are true)
+  double best_pose_error_y = 0.0;  ///< [m], map: likewise
+  double best_pose_error_heading = 0.0;  ///< [deg]: likewise
+  bool trusts_dead_sonars = false;       ///< localize: readings of frozen and deaf sonars count as well
+  bool best_pose_only = false;           ///< hazards: trusts the likeliest pose
+  bool ignores_hazards = false;          ///< hazards, plan: as if there were no hazards and no border
+  bool ignores_live_map = false;         ///< plan: with the static map alone
+  bool keeps_all_people = false;         ///< people: nobody is ever forgotten, and every thing is a person
+  bool without_ladder = false;           ///< executive: it stands before what is in its way
+  template <class V>
+  void visit(V& v) {
+    v("blind_to_people", blind_to_people);
+    v("without_watches", without_watches);
+    v("dead_reckoning", dead_reckoning);
+    v("best_pose_error_x", best_pose_error_x);
+    v("best_pose_error_y", best_pose_error_y);
+    v("best_pose_error_heading", best_pose_error_heading);
+    v("trusts_dead_sonars", trusts_dead_sonars);
+    v("best_pose_only", best_pose_only);
+    v("ignores_hazards", ignores_hazards);
+    v("ignores_live_map", ignores_live_map);
+    v("keeps_all_people", keeps_all_people);
+    v("without_ladder", without_ladder);
+  }
+  /// Names of what is not as by default, with ", " between them.
+  [[nodiscard]] std::string crippled() const;
+};
+
+}  // namespace docent

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "docent/geometry/pose2.h"
+
+namespace docent::simulator {
+
+/// What the simulated robot is equipped with, as its drawing says: the true places are drawn around these.
+struct Hardware {
+  struct Scanner {
+    std::string name;         ///< "front", "rear", "left" or "right": it speaks on scan_NAME, faults call it laser_NAME
+    std::string frame;        ///< of its messages
+    Pose2 base_from_scanner;  ///< the middle of its field looks along x
+    double field = std::numbers::pi;  ///< [rad] of view, 0..2 pi, a beam a degree
+  };
+  std::vector<Scanner> scanners{{"front", "laser_front", {}},
+                                {"rear", "laser_rear", {0.0, 0.0, Angle::degrees(180.0)}}};
+  int sonars = 24;                ///< evenly round the body; 0: none
+  double sonar_radius = 0.25;     ///< [m] from the body's centre
+  int infrareds = 24;             ///< likewise
+  double infrared_radius = 0.25;  ///< [m]
+  bool has_tactile = true;
+};
+
+}  // namespace docent::simulator
