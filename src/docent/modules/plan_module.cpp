@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "docent/mapping/occupancy/live_map.h"
-#include "docent/modules/message_fitness.h"
 #include "docent/modules/pose_tracker.h"
 #include "docent/planning/coastal/coastal_planner.h"
 #include "docent/planning/exploration/clearances.h"
@@ -259,7 +258,7 @@ class PlanModule final : public Module {
     const auto look = [&](Clearances& clearances, const sensor_msgs::LaserScan& scan, const Pose2& then_from_sensor) {
       const Time stamp = from_message(scan.header.stamp);
       const auto odom_from_then = pose_.odom_from_base_at(stamp);
-      if (!is_fit(scan) || scan.ranges.empty() || now - stamp > kStale || !odom_from_then) return false;
+      if (scan.ranges.empty() || now - stamp > kStale || !odom_from_then) return false;
       const Pose2 base_from_then = inverse(*pose_.odom_from_base()) * *odom_from_then;
       clearances.add(base_from_then * then_from_sensor, scan.angle_min, scan.angle_increment, scan.range_max,
                      scan.ranges);
