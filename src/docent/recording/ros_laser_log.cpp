@@ -11,9 +11,8 @@
 namespace docent {
 namespace {
 
-constexpr int kMostLinks = 32;              ///< of a chain of frames; a longer one is a ring
-constexpr double kFarthestMount = 20.0;     ///< [m] from the robot's centre; no robot is so large
-constexpr double kLastSecond = 4294967295;  ///< [s] in the year 2106, as far as ROS's own times reach
+constexpr int kMostLinks = 32;           ///< of a chain of frames; a longer one is a ring
+constexpr double kFarthestMount = 20.0;  ///< [m] from the robot's centre; no robot is so large
 
 /// Turns `v` by the rotation `q`.
 geometry_msgs::Vector3 rotated(const geometry_msgs::Quaternion& q, const geometry_msgs::Vector3& v) {
