@@ -151,9 +151,10 @@ ModuleStage::ModuleStage(const std::string& module, std::filesystem::path state)
   for_each_robot_topic([this]<class T>(const Topic<T>& topic) {
     auto publisher = world_->publisher(topic);
     spoilt_.push_back([this, publisher](Rng& rng, double share) {
+      [[maybe_unused]] const Time now = hub_.now();
       T message;
       fill(message, rng);
-      if constexpr (requires { message.header.stamp; }) message.header.stamp = to_message(hub_.now());
+      if constexpr (requires { message.header.stamp; }) message.header.stamp = to_message(now);
       spoil(message, rng, share);
       publisher.publish(std::move(message));
     });
@@ -161,11 +162,9 @@ ModuleStage::ModuleStage(const std::string& module, std::filesystem::path state)
       auto message = decode_cdr<T>(bytes);
       if (message) publisher.publish(std::move(*message));
     });
-    // What the module says must be fit for others.
-    world_->subscribe<T>(topic, [this](const T& message) {
-      if constexpr (std::is_same_v<T, docent_msgs::Health>) health_ = message;
-    });
   });
+  world_->subscribe<docent_msgs::Health>(topics::kHealth, [this](const auto& message) { health_ = message; });
+  // What the module says must be fit for others.
   hub_.tap([this](const TopicInfo& info, Time, const std::shared_ptr<const void>& message) {
     if (is_ours_) return;
     for_each_robot_topic([&]<class T>(const Topic<T>& topic) {
