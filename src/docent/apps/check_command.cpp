@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "docent/apps/command.h"
+#include "docent/apps/map_note.h"
 #include "docent/base/yaml.h"
 #include "docent/museum/museum.h"
 #include "docent/simulator/world/world.h"
@@ -45,6 +46,7 @@ void check(const std::filesystem::path& folder) {
       std::printf("%s: fine. %zu exhibits (%zu sensible pairs), %zu hazards, %zu tours, map %.1f x %.1f m\n",
                   folder.string().c_str(), museum.exhibits.size(), sensible_pairs(museum), museum.hazards.size(),
                   museum.tours.size(), frame.columns * frame.resolution, frame.rows * frame.resolution);
+      say_classes(museum.map_path.string(), museum.map);
       return;
     }
   }

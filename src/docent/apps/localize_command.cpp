@@ -15,6 +15,7 @@
 #include "docent/apps/localize_summary.h"
 #include "docent/apps/log_defaults.h"
 #include "docent/apps/log_reference.h"
+#include "docent/apps/map_note.h"
 #include "docent/base/files.h"
 #include "docent/evaluation/reference_score.h"
 #include "docent/localization/markov/markov_localizer.h"
@@ -226,6 +227,7 @@ ReferencedLog load_log(const Options& options) {
 void localize(const Options& options) {
   const OccupancyGrid map = value_or_fail(load_map(options.map));
   const ReferencedLog referenced = load_log(options);
+  say_classes(options.map, map);
   const LaserLog& log = referenced.log;
   const bool has_reference = !options.choice.reference.empty();
   MethodParams params = params_for(options, map, log);

@@ -8,6 +8,7 @@
 
 #include "docent/apps/arguments.h"
 #include "docent/apps/command.h"
+#include "docent/apps/map_note.h"
 #include "docent/museum/museum.h"
 #include "docent/pictures/drawing.h"
 #include "docent/pictures/image.h"
@@ -86,6 +87,7 @@ void run(const MuseumOptions& options) {
   if (!options.places.empty()) places = value_or_fail(simulator::load_places(options.places));
   const auto traced = simulator::trace_museum(map, recordings, title, options.seed, places);
   if (!traced) throw CommandFailed{options.map + ": " + traced.error().message};
+  say_classes(options.map, map);
   const simulator::MuseumPlan& plan = traced->plan;
   for (const auto& fit : traced->fits) print_fit(fit);
   if (traced->carried_away > 0) std::printf("%zu small things carried out of their way\n", traced->carried_away);

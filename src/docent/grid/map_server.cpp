@@ -9,19 +9,23 @@
 #include "docent/base/yaml.h"
 #include "docent/grid/occupancy_grid.h"
 
-// Maps as ROS's map_server reads and writes them: a YAML file that names an image; the image's first row is the map's
-// top.
+// Maps as ROS's map_server (ROS 1 and Nav2) reads and writes them: a YAML file that names an image; the image's first
+// row is the map's top. In one thing more is known than it makes of them: every map_saver writes 205 of 255 for
+// unknown, and Nav2's writes `free_thresh: 0.25` beside it, by which the same picture would come back as one slab of
+// free floor.
 
 namespace docent {
 namespace {
 
 constexpr long kMostPixels = 400L * 1000L * 1000L;
+constexpr std::uint16_t kSaversUnknown = 205;  ///< of a white of 255
 
 struct GreyImage {
   long width = 0;
   long height = 0;
   double white = 255.0;
   std::vector<std::uint16_t> pixels;
+  std::vector<bool> is_clear;  ///< not opaque; empty: everything is
 };
 
 struct MapYaml {
@@ -127,17 +131,42 @@ Result<GreyImage> read_png(const std::string& bytes, const std::string& name) {
     png_image_free(&png);
     return fail(name + ":1: PNG too large");
   }
-  png.format = PNG_FORMAT_GRAY;
+  const bool has_alpha = (png.format & PNG_FORMAT_FLAG_ALPHA) != 0;
+  png.format = PNG_FORMAT_GA;
   std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(png));
-  const png_color white{255, 255, 255};
-  if (png_image_finish_read(&png, &white, pixels.data(), 0, nullptr) == 0) {
+  if (png_image_finish_read(&png, nullptr, pixels.data(), 0, nullptr) == 0) {
     return fail(name + ":1: damaged PNG image: " + png.message);
   }
   GreyImage image;
   image.width = png.width;
   image.height = png.height;
-  image.pixels.assign(pixels.begin(), pixels.end());
+  const std::size_t count = pixels.size() / 2;
+  image.pixels.resize(count);
+  if (has_alpha) image.is_clear.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    image.pixels[i] = pixels[2 * i];
+    if (has_alpha) image.is_clear[i] = pixels[2 * i + 1] != 255;
+  }
   return image;
+}
+
+/// What a pixel says by the file's mode. What is not opaque is unknown in every mode, as in map_server's `scale`.
+std::int8_t cell_of(const MapYaml& yaml, const GreyImage& image, std::size_t pixel) {
+  const std::uint16_t value = image.pixels[pixel];
+  const double shade = static_cast<double>(value) / image.white;
+  const double occupied = yaml.negate == 1 ? shade : 1.0 - shade;
+  if (!image.is_clear.empty() && image.is_clear[pixel]) return OccupancyGrid::kUnknown;
+  if (yaml.mode == "raw") {
+    const long percent = std::lround(shade * 255.0);
+    return percent <= OccupancyGrid::kOccupied ? static_cast<std::int8_t>(percent) : OccupancyGrid::kUnknown;
+  }
+  const bool is_savers_unknown = value == kSaversUnknown && image.white == 255.0 && yaml.negate == 0;
+  if (yaml.mode == "trinary" && is_savers_unknown) return OccupancyGrid::kUnknown;
+  if (occupied > yaml.occupied_thresh) return OccupancyGrid::kOccupied;
+  if (occupied < yaml.free_thresh) return OccupancyGrid::kFree;
+  if (yaml.mode == "trinary") return OccupancyGrid::kUnknown;
+  const double share = (occupied - yaml.free_thresh) / (yaml.occupied_thresh - yaml.free_thresh);
+  return static_cast<std::int8_t>(std::lround(100.0 * share));
 }
 
 }  // namespace
@@ -150,14 +179,20 @@ Result<OccupancyGrid> load_map(const std::filesystem::path& yaml_path) {
   const auto fault = [&](const char* key, const std::string& what) {
     return tl::unexpected<Error>(file->fault(file->root()[key], what));
   };
-  if (!(yaml.resolution > 0.0 && yaml.resolution < 10.0)) return fault("resolution", "resolution must be in (0, 10) m");
+  constexpr double kFinest = 1e-4;   // [m]
+  constexpr double kFarthest = 1e7;  // [m] as far as one coordinate goes on Earth
+  if (!(yaml.resolution >= kFinest && yaml.resolution < 10.0))
+    return fault("resolution", "resolution must be in (0, 10) m");
   if (yaml.origin.size() != 3) return fault("origin", "origin must be [x, y, yaw]");
+  if (!(std::abs(yaml.origin[0]) <= kFarthest && std::abs(yaml.origin[1]) <= kFarthest))
+    return fault("origin", "origin lies nowhere on Earth");
   if (yaml.origin[2] != 0.0) return fault("origin", "a turned origin (yaw not 0) is not supported");
   if (yaml.negate != 0 && yaml.negate != 1) return fault("negate", "negate must be 0 or 1");
   if (!(0.0 <= yaml.free_thresh && yaml.free_thresh < yaml.occupied_thresh && yaml.occupied_thresh <= 1.0)) {
     return fault("occupied_thresh", "thresholds must hold 0 <= free_thresh < occupied_thresh <= 1");
   }
-  if (yaml.mode != "trinary" && yaml.mode != "scale") return fault("mode", "mode must be trinary or scale");
+  if (yaml.mode != "trinary" && yaml.mode != "scale" && yaml.mode != "raw")
+    return fault("mode", "mode must be trinary, scale or raw");
 
   const auto image_path = yaml_path.parent_path() / yaml.image;
   const auto bytes = read_file(image_path);
@@ -175,19 +210,7 @@ Result<OccupancyGrid> load_map(const std::filesystem::path& yaml_path) {
   for (int row = 0; row < map.frame.rows; ++row) {
     for (int column = 0; column < map.frame.columns; ++column) {
       const std::size_t from = map.frame.index({column, map.frame.rows - 1 - row});
-      const double shade = static_cast<double>(image->pixels[from]) / image->white;
-      const double occupied = yaml.negate == 1 ? shade : 1.0 - shade;
-      auto& cell = map.cells[map.frame.index({column, row})];
-      if (occupied > yaml.occupied_thresh) {
-        cell = OccupancyGrid::kOccupied;
-      } else if (occupied < yaml.free_thresh) {
-        cell = OccupancyGrid::kFree;
-      } else if (yaml.mode == "scale") {
-        cell = static_cast<std::int8_t>(
-            std::lround(1.0 + 98.0 * (occupied - yaml.free_thresh) / (yaml.occupied_thresh - yaml.free_thresh)));
-      } else {
-        cell = OccupancyGrid::kUnknown;
-      }
+      map.cells[map.frame.index({column, row})] = cell_of(yaml, *image, from);
     }
   }
   return map;

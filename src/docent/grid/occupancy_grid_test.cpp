@@ -6,6 +6,7 @@
 
 #include "docent/base/files.h"
 #include "docent/base/random.h"
+#include "docent/grid/map_classes.h"
 
 namespace docent {
 namespace {
@@ -54,6 +55,46 @@ TEST_F(Maps, WhatIsSavedIsLoaded) {
   ASSERT_TRUE(back.has_value()) << back.error().message;
   EXPECT_EQ(back->cells, map.cells);
   EXPECT_EQ(map_hash(*back), map_hash(map));
+}
+
+/// Four pixels in a row: black, the shade of every map_saver for unknown, one a little lighter, white.
+std::vector<std::int8_t> row_of(const std::filesystem::path& folder, const std::string& yaml) {
+  EXPECT_TRUE(write_file_atomically(folder / "m.pgm", "P2\n4 1\n255\n0 205 230 254\n"));
+  EXPECT_TRUE(write_file_atomically(folder / "m.yaml", "image: m.pgm\nresolution: 0.5\norigin: [0, 0, 0]\n" + yaml));
+  const auto map = load_map(folder / "m.yaml");
+  EXPECT_TRUE(map.has_value()) << map.error().message;
+  return map ? map->cells : std::vector<std::int8_t>{};
+}
+
+TEST_F(Maps, WhatTheSaverOfNav2CallsUnknownIsUnknown) {
+  // (255 - 205) / 255 = 0.196 is less than its own threshold.
+  const std::string nav2 = "negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.25\n";
+  EXPECT_EQ(row_of(folder_, nav2), (std::vector<std::int8_t>{100, -1, 0, 0}));
+  EXPECT_EQ(row_of(folder_, "mode: trinary\n" + nav2), (std::vector<std::int8_t>{100, -1, 0, 0}));
+  EXPECT_EQ(row_of(folder_, "occupied_thresh: 0.65\nfree_thresh: 0.05\n"), (std::vector<std::int8_t>{100, -1, -1, 0}));
+  EXPECT_EQ(row_of(folder_, "negate: 1\noccupied_thresh: 0.65\nfree_thresh: 0.25\n"),
+            (std::vector<std::int8_t>{0, 100, 100, 100}));
+}
+
+TEST_F(Maps, ScaleAndRawAreReadAsMapServerReadsThem) {
+  EXPECT_EQ(row_of(folder_, "mode: scale\noccupied_thresh: 0.9\nfree_thresh: 0.05\n"),
+            (std::vector<std::int8_t>{100, 17, 6, 0}));
+  EXPECT_EQ(row_of(folder_, "mode: raw\n"), (std::vector<std::int8_t>{0, -1, -1, -1}));
+}
+
+TEST_F(Maps, SuspiciousClassesAreNamed) {
+  OccupancyGrid map;
+  map.frame = {20, 10, 0.1, {}};
+  map.cells.assign(200, OccupancyGrid::kUnknown);
+  EXPECT_NE(classes_of(map).warning().find("nothing is free"), std::string::npos);
+  for (int column = 5; column < 15; ++column) map.cells[map.frame.index({column, 5})] = OccupancyGrid::kFree;
+  EXPECT_NE(classes_of(map).warning().find("nothing is occupied"), std::string::npos);
+  map.cells[map.frame.index({4, 5})] = OccupancyGrid::kOccupied;
+  EXPECT_EQ(classes_of(map).warning(), "");
+  EXPECT_EQ(classes_of(map).text(), "5 % free, 94.5 % unknown, 0.5 % occupied");
+  for (auto& cell : map.cells)
+    if (cell == OccupancyGrid::kUnknown) cell = OccupancyGrid::kFree;  // the slab
+  EXPECT_NE(classes_of(map).warning().find("up to the picture's edge"), std::string::npos);
 }
 
 TEST_F(Maps, FaultsNameFileAndLine) {

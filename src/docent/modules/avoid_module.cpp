@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "docent/collision_avoidance/avoider.h"
 #include "docent/messages/conversions.h"
-#include "docent/modules/message_fitness.h"
 #include "docent/modules/scanners.h"
 
 namespace docent {
@@ -37,6 +37,14 @@ SensorSweep to_sweep(const sensor_msgs::LaserScan& scan, const Pose2& base_from_
           scan.range_min,
           scan.range_max,
           scan.ranges};
+}
+
+/// Virtual measurements: a number in every direction all round.
+bool is_all_round(const sensor_msgs::LaserScan& scan) {
+  constexpr double kNearlyRound = 0.99 * 2.0 * std::numbers::pi;
+  const double field = static_cast<double>(scan.angle_increment) * static_cast<double>(scan.ranges.size());
+  return field >= kNearlyRound &&
+         std::none_of(scan.ranges.begin(), scan.ranges.end(), [](float range) { return std::isnan(range); });
 }
 
 const char* name_of(AvoiderDecision::State state) {
@@ -82,7 +90,6 @@ class AvoidModule final : public Module {
  private:
   void subscribe_sensors() {
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const nav_msgs::Odometry& odometry) {
-      if (!is_fit(odometry)) return;
       const BaseState state{from_message(odometry.pose.pose),
                             {odometry.twist.twist.linear.x, odometry.twist.twist.angular.z}};
       avoider_.add_odometry(bus_.now(), from_message(odometry.header.stamp), state);
@@ -92,20 +99,19 @@ class AvoidModule final : public Module {
     });
     bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const sensor_msgs::Range& range) {
       const auto index = body_.sonar_of(range.header.frame_id);
-      if (!index || !is_fit(range)) return;
+      if (!index) return;
       avoider_.add_sonar(bus_.now(), static_cast<std::size_t>(*index),
                          {from_message(range.header.stamp), body_.base_from_sonar(*index), range.field_of_view,
                           range.max_range, range.range});
     });
     bus_.subscribe<sensor_msgs::Range>(topics::kInfrared, [this](const sensor_msgs::Range& range) {
       const auto index = body_.infrared_of(range.header.frame_id);
-      if (!index || !is_fit(range)) return;
+      if (!index) return;
       avoider_.add_infrared(bus_.now(), static_cast<std::size_t>(*index),
                             {from_message(range.header.stamp), body_.base_from_infrared(*index), range.field_of_view,
                              range.max_range, range.range});
     });
     bus_.subscribe<docent_msgs::ObstacleLines>(topics::kObstacleLines, [this](const docent_msgs::ObstacleLines& seen) {
-      if (!is_fit(seen)) return;
       std::vector<Segment> lines;
       for (const auto& line : seen.lines) lines.push_back({{line.x1, line.y1}, {line.x2, line.y2}});
       avoider_.add_lines(bus_.now(), from_message(seen.header.stamp), seen.source, seen.lifetime_s, lines);
@@ -115,15 +121,15 @@ class AvoidModule final : public Module {
       avoider_.add_tactile(bus_.now(), from_message(tactile.header.stamp), tactile.segments, tactile.scan);
       reflex();
     });
-    bus_.subscribe<docent_msgs::Belief>(topics::kBelief,
-                                        [this](const docent_msgs::Belief& belief) { on_belief(belief); });
+    bus_.subscribe<docent_msgs::Belief>(
+        topics::kBelief, [this](const docent_msgs::Belief& belief) { on_belief(belief); },
+        [this] { avoider_.add_belief({}); });  // it knows nothing
     bus_.subscribe<sensor_msgs::LaserScan>(topics::kVirtualScan, [this](const sensor_msgs::LaserScan& scan) {
-      if (!is_fit_all_round(scan)) return;
+      if (!is_all_round(scan)) return;
       avoider_.add_virtual(bus_.now(), {from_message(scan.header.stamp), scan.angle_min, scan.angle_increment,
                                         scan.range_max, scan.ranges});
     });
     bus_.subscribe<docent_msgs::PersonBeams>(topics::kPersonBeams, [this](const docent_msgs::PersonBeams& beams) {
-      if (!is_fit(beams)) return;
       std::vector<Point2> points;
       for (std::size_t i = 0; i < std::min(beams.x.size(), beams.y.size()); ++i)
         points.push_back({beams.x[i], beams.y[i]});
@@ -132,11 +138,9 @@ class AvoidModule final : public Module {
   }
 
   void subscribe_wishes() {
-    bus_.subscribe<docent_msgs::Limits>(topics::kLimits, [this](const docent_msgs::Limits& limits) {
-      if (is_fit(limits)) avoider_.set_max_speed(limits.max_speed);
-    });
+    bus_.subscribe<docent_msgs::Limits>(
+        topics::kLimits, [this](const docent_msgs::Limits& limits) { avoider_.set_max_speed(limits.max_speed); });
     bus_.subscribe<docent_msgs::Target>(topics::kTarget, [this](const docent_msgs::Target& target) {
-      if (!is_fit(target)) return;
       AvoiderTarget wish;
       wish.mode = target.mode == "drive"  ? AvoiderTarget::Mode::drive
                   : target.mode == "turn" ? AvoiderTarget::Mode::turn
@@ -153,7 +157,6 @@ class AvoidModule final : public Module {
   }
 
   void on_belief(const docent_msgs::Belief& belief) {
-    if (!is_fit(belief)) return avoider_.add_belief({});  // it knows nothing
     cells_.clear();
     for (const auto& cell : belief.cells)
       cells_.push_back({{cell.x, cell.y, Angle::radians(cell.theta)}, static_cast<double>(cell.mass)});
@@ -167,7 +170,6 @@ class AvoidModule final : public Module {
     // A scan of a part of the field would leave the rest as if nothing were there.
     constexpr double kFieldShare = 0.9;
     const double field = static_cast<double>(scan.angle_increment) * static_cast<double>(scan.ranges.size());
-    if (!is_fit(scan)) return;
     widest_field_[sensor] = std::max(widest_field_[sensor], field);
     if (field < kFieldShare * widest_field_[sensor]) return;
     avoider_.add_sweep(bus_.now(), sensor, to_sweep(scan, base_from_sensor));

@@ -4,7 +4,6 @@
 
 #include "docent/collision_avoidance/virtual_measurements.h"
 #include "docent/messages/conversions.h"
-#include "docent/modules/message_fitness.h"
 
 namespace docent {
 
@@ -18,9 +17,8 @@ class HazardsModule final : public Module {
         best_pose_only_{params.best_pose_only},
         ignored_{context.config.evaluation().ignores_hazards},
         scan_{bus_.publisher(topics::kVirtualScan)} {
-    bus_.subscribe<docent_msgs::Belief>(topics::kBelief, [this](const docent_msgs::Belief& belief) {
-      if (is_fit(belief)) measure(belief);
-    });
+    bus_.subscribe<docent_msgs::Belief>(topics::kBelief,
+                                        [this](const docent_msgs::Belief& belief) { measure(belief); });
     // Says that it lives while the belief rests; the stamp stays that of the belief, so nobody takes it for newer.
     bus_.every(seconds(0.25), [this] {
       if (last_ && bus_.now() - published_ > seconds(0.2) && bus_.now() - received_ < seconds(kBeliefLife)) publish();

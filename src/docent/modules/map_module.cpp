@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "docent/mapping/occupancy/live_map.h"
-#include "docent/modules/message_fitness.h"
 #include "docent/modules/pose_tracker.h"
 #include "docent/modules/scanners.h"
 
@@ -61,9 +60,7 @@ class MapModule final : public Module {
     Time received{};
   };
 
-  void take(std::size_t laser, const sensor_msgs::LaserScan& scan) {
-    if (is_fit(scan)) sights_[laser] = {scan, bus_.now()};
-  }
+  void take(std::size_t laser, const sensor_msgs::LaserScan& scan) { sights_[laser] = {scan, bus_.now()}; }
 
   void look() {
     if (!pose_.localized()) return;

@@ -6,7 +6,20 @@ namespace docent {
 
 namespace {
 constexpr Duration kHealthPeriod = std::chrono::milliseconds{500};
+constexpr Duration kRefusalsShown = std::chrono::seconds{5};  // after the last one
+
+/// What has come lately that could not be used; empty: all was well.
+std::string lately_refused(const Bus& bus) {
+  std::string text;
+  for (const auto& [topic, refusals] : bus.refusals()) {
+    if (bus.now() - refusals.last_at > kRefusalsShown) continue;
+    text += (text.empty() ? "" : "; ") + std::to_string(refusals.count) + " messages of " + topic +
+            " refused: " + refusals.last.text();
+  }
+  return text;
 }
+
+}  // namespace
 
 Result<std::unique_ptr<ModuleHost>> ModuleHost::create(const ModuleEntry& entry, std::unique_ptr<Bus> bus,
                                                        const Museum& museum, const RobotConfig& config,
@@ -24,7 +37,11 @@ Result<std::unique_ptr<ModuleHost>> ModuleHost::create(const ModuleEntry& entry,
 }
 
 void ModuleHost::publish_health() {
-  const ModuleHealth health = module_->health();
+  ModuleHealth health = module_->health();
+  if (const std::string refused = lately_refused(*bus_); !refused.empty()) {
+    if (health.state == "ready") health.state = "degraded";
+    health.reason += (health.reason.empty() ? "" : "; ") + refused;
+  }
   docent_msgs::Health message;
   message.header.stamp = to_message(bus_->now());
   message.module = name_;

@@ -5,7 +5,6 @@
 #include <deque>
 
 #include "docent/mapping/occupancy/live_map.h"
-#include "docent/modules/message_fitness.h"
 #include "docent/modules/pose_tracker.h"
 #include "docent/modules/scanners.h"
 #include "docent/planning/coastal/coastal_planner.h"
@@ -264,7 +263,7 @@ class PlanModule final : public Module {
                           Duration stale) {
       const Time stamp = from_message(scan.header.stamp);
       const auto odom_from_then = pose_.odom_from_base_at(stamp);
-      if (!is_fit(scan) || scan.ranges.empty() || now - stamp > stale || !odom_from_then) return false;
+      if (scan.ranges.empty() || now - stamp > stale || !odom_from_then) return false;
       const Pose2 base_from_then = inverse(*pose_.odom_from_base()) * *odom_from_then;
       clearances.add(base_from_then * then_from_sensor, scan.angle_min, scan.angle_increment, scan.range_max,
                      scan.ranges);

@@ -161,7 +161,8 @@ class WebModule final : public Module {
                                              [this](const auto& m) { server_->broadcast(kSpeech, encode_speech(m)); });
     bus_.subscribe<docent_msgs::RequestBoard>(topics::kRequestBoard, [this](const auto& m) { see_board(m); });
     bus_.subscribe<docent_msgs::Health>(topics::kHealth, [this](const auto& m) {
-      modules_[m.module] = {m, bus_.now()};
+      constexpr std::size_t kMostModules = 64;  // whoever invents names shall not fill the memory
+      if (modules_.size() < kMostModules || modules_.contains(m.module)) modules_[m.module] = {m, bus_.now()};
     });
     bus_.every(seconds(1.0 / params_.live_hz), [this] { show_live(); });
     bus_.every(seconds(1.0 / params_.belief_hz), [this] { show_slow(); });

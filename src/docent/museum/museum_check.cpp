@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kRobotRadius = 0.265;  // [m]
 constexpr double kRoom = 0.10;          // [m] of air that the robot wants round its body
+constexpr double kFarthestLook = 30.0;  // [m] from where an exhibit is explained to what is pointed at: a long hall
 
 std::string metres(double value) {
   std::array<char, 32> text{};
@@ -123,6 +124,11 @@ void check_places(const YamlFile& file, const MuseumSource& source, std::vector<
     const Exhibit& exhibit = museum.exhibits[i];
     const YAML::Node& node = source.exhibits[i];
     check(node["pose"], "exhibit '" + exhibit.id + "'", exhibit.pose);
+    const double look = distance(exhibit.look_at, exhibit.pose.position());
+    if (!(look <= kFarthestLook))
+      faults.push_back(file.fault(node["look_at"], "what exhibit '" + exhibit.id + "' looks at is " + metres(look) +
+                                                       " away, more than anybody is shown (" + metres(kFarthestLook) +
+                                                       ")"));
     for (std::size_t k = 0; k < exhibit.viewpoints.size(); ++k) {
       check(node["viewpoints"][k], "viewpoint " + std::to_string(k + 1) + " of exhibit '" + exhibit.id + "'",
             exhibit.viewpoints[k]);

@@ -181,6 +181,8 @@ const Broken kBroken[]{
     {"ViewpointUnreachable", "{x: 4.8, y: 3.6, heading: 180}", "{x: 8.0, y: 6.6, heading: 180}", "x: 8.0",
      "viewpoint 2 of exhibit 'clock' cannot be reached", true},
     {"ViewpointIncomplete", "{x: 4.8, y: 3.6, heading: 180}", "{x: 4.8, y: 3.6}", "x: 4.8", "missing key 'heading'"},
+    {"LooksFarAway", "look_at: {x: 8.5, y: 3.5}", "look_at: {x: 608.5, y: 3.5}", "look_at: {x: 608.5", "601 m away",
+     true},
     {"LooksAtItself", "look_at: {x: 8.5, y: 3.5}", "look_at: {x: 7.5, y: 3.5}", "look_at: {x: 7.5", "where the robot"},
     {"ExhibitTwice", "id: coin", "id: clock", "id: clock\n    title: {en: \"The coin\"",
      "exhibit 'clock' stands twice"},

@@ -9,11 +9,13 @@
 #include <utility>
 
 #include "docent/base/files.h"
+#include "docent/messages/message_fitness.h"
 
 namespace docent {
 namespace {
 
-constexpr double kMaxBeams = 10000;
+constexpr double kMostField = 2.0 * std::numbers::pi + 0.1;  ///< [rad] of one scan, as fault_of has it
+constexpr double kFinest = 1e-5;                             ///< [rad] between two beams, likewise
 constexpr double kSickLimit = 80.0;    ///< [m]; beyond it SICK scanners write codes, not distances
 constexpr double kInventedStep = 0.2;  ///< [s]
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -58,14 +60,17 @@ class Words {
   }
   [[nodiscard]] std::size_t count(const char* what) {
     const double value = number(what);
-    if (value < 0 || value > kMaxBeams || value != std::floor(value))
-      throw LineFault{std::string{what} + " must be 0 to 10000"};
+    if (value < 0 || value > static_cast<double>(kMostBeams) || value != std::floor(value))
+      throw LineFault{std::string{what} + " must be 0 to " + std::to_string(kMostBeams)};
     return static_cast<std::size_t>(value);
   }
   [[nodiscard]] Pose2 pose(const char* what) {
     const double x = number(what);
     const double y = number(what);
-    return {x, y, Angle::radians(number(what))};
+    const double theta = number(what);
+    for (const double part : {x, y, theta})
+      if (std::abs(part) > kMostAnything) throw LineFault{std::string{what} + " lies nowhere on Earth"};
+    return {x, y, Angle::radians(theta)};
   }
 
  private:
@@ -81,12 +86,13 @@ struct Clocks {
 Clocks read_clocks(Words& words) {
   Clocks clocks;
   clocks.message = words.number("the time");
+  if (std::abs(clocks.message) > kLastSecond) throw LineFault{"the time lies beyond the year 2106"};
   const std::string_view host = words.word();
   if (host.empty()) return clocks;
   const std::string_view logger = words.word();
   double value = 0.0;
   if (std::from_chars(logger.data(), logger.data() + logger.size(), value).ec == std::errc{} && std::isfinite(value) &&
-      std::abs(value) < 1e12)
+      std::abs(value) <= kLastSecond)
     clocks.logger = value;
   return clocks;
 }
@@ -144,10 +150,12 @@ class Collector {
     const double max_range = words.number("the maximum range");
     (void)words.number("the accuracy");
     (void)words.number("the remission mode");
-    if (std::abs(start) > 7.0 || !(step > 0.0 && step < 1.0)) throw LineFault{"no laser has such bearings"};
+    if (std::abs(start) > 7.0 || !(step >= kFinest && step < 1.0)) throw LineFault{"no laser has such bearings"};
     scan.first_bearing = Angle::radians(start);
     scan.bearing_step = step;
     read_ranges(words, scan);
+    if (step * (static_cast<double>(scan.ranges.size()) - 1.0) > kMostField)
+      throw LineFault{"the beams go more than once round"};
     for (std::size_t left = words.count("the number of remissions"); left > 0; --left)
       (void)words.reading("a remission");
     scan.logged_pose = words.pose("the laser's pose");

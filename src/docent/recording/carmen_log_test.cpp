@@ -153,6 +153,11 @@ TEST(CarmenLog, FaultsNameFileAndLine) {
       {good + "\n# x\nFLASER 3 1 2 three 0 0 0 0 0 0 1 host 1\n", "log:4: 'three'"},
       {"FLASER -1 0 0 0 0 0 0 1 host 1\n", "log:1: "},
       {"FLASER 1000000000 0 0 0 0 0 0 1 host 1\n", "log:1: "},
+      {"FLASER 1 2.0 1e11 0 0 0 0 0 1 host 1\n", "log:1: the laser's pose lies nowhere on Earth"},
+      {"FLASER 1 2.0 0 0 0 0 0 0 1e11 host 1\n", "log:1: the time lies beyond the year 2106"},
+      {"ROBOTLASER1 0 -1.5 3 0.9 30 0.1 0 20 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 0 0 0 0 0 0 0 0 0 0 0 0 1 host "
+       "1\n",
+       "log:1: the beams go more than once round"},
       {"FLASER 0 0 0 0 0 0 0 1 host 1\n", "log:1: "},
       {"FLASER 1 1 0 nan 0 0 0 0 1 host 1\n", "log:1: "},
       {good + "ODOM 0 0\n", "log:2: "},

@@ -11,6 +11,8 @@
 
 namespace docent {
 
+inline constexpr double kLastSecond = 4294967295;  ///< [s] in the year 2106; no time of a log lies beyond it
+
 /// One sweep of a laser scanner with the odometry of its moment, from whatever kind of recording.
 struct LoggedScan {
   Time time;

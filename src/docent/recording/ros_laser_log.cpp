@@ -11,7 +11,8 @@
 namespace docent {
 namespace {
 
-constexpr int kMostLinks = 32;  ///< of a chain of frames; a longer one is a ring
+constexpr int kMostLinks = 32;           ///< of a chain of frames; a longer one is a ring
+constexpr double kFarthestMount = 20.0;  ///< [m] from the robot's centre; no robot is so large
 
 /// Turns `v` by the rotation `q`.
 geometry_msgs::Vector3 rotated(const geometry_msgs::Quaternion& q, const geometry_msgs::Vector3& v) {
@@ -25,51 +26,71 @@ geometry_msgs::Vector3 rotated(const geometry_msgs::Quaternion& q, const geometr
           v.z + 2.0 * (q.w * once.z + twice.z)};
 }
 
-bool is_finite(const geometry_msgs::Transform& t) {
-  for (const double value :
-       {t.translation.x, t.translation.y, t.translation.z, t.rotation.x, t.rotation.y, t.rotation.z, t.rotation.w})
-    if (!std::isfinite(value)) return false;
-  return true;
+/// The same scan with its beams in the order of rising bearings, and with a reach: drivers that know none say infinity.
+sensor_msgs::LaserScan in_order(sensor_msgs::LaserScan scan) {
+  if (scan.angle_increment < 0.0F && !scan.ranges.empty()) {
+    scan.angle_min += scan.angle_increment * static_cast<float>(scan.ranges.size() - 1);
+    scan.angle_increment = -scan.angle_increment;
+    std::reverse(scan.ranges.begin(), scan.ranges.end());
+  }
+  if (scan.range_max > kFarthestReading) scan.range_max = kFarthestReading;
+  return scan;
 }
 
 std::string without_slash(const std::string& frame) { return frame.starts_with('/') ? frame.substr(1) : frame; }
 
 }  // namespace
 
+template <class T>
+bool RosLaserLogBuilder::admits(const T& content, const std::string& topic) {
+  const MessageFault fault = fault_of(content);
+  if (fault) refuse(topic, fault);
+  return !fault;
+}
+
+void RosLaserLogBuilder::refuse(const std::string& topic, const MessageFault& fault) {
+  Refused& refused = refused_[topic];
+  if (refused.count++ == 0) refused.first = fault;
+}
+
 Result<void> RosLaserLogBuilder::add(const Rosbag2Message& message) {
   const auto damaged = [&] {
     return fail("damaged " + message.type + " on " + message.topic + " at " + std::to_string(to_seconds(message.time)) +
                 " s");
   };
+  if (std::abs(to_seconds(message.time)) > kLastSecond) {
+    refuse(message.topic, {"the time in the file", "lies beyond the year 2106"});
+    return {};
+  }
   if (message.type == sensor_msgs::LaserScan::kType) {
     // Docent's virtual measurements come from the map, not from a sensor.
     if (message.topic.starts_with("/docent/")) return {};
-    const auto scan = decode_cdr<sensor_msgs::LaserScan>(message.data);
+    auto scan = decode_cdr<sensor_msgs::LaserScan>(message.data);
     if (!scan) return damaged();
-    add_scan(*scan, message.time);
+    if (scan->ranges.empty()) return {};
+    *scan = in_order(std::move(*scan));
+    if (admits(*scan, message.topic)) add_scan(*scan, message.time);
   } else if (with_sonars_ && message.type == sensor_msgs::Range::kType) {
     const auto range = decode_cdr<sensor_msgs::Range>(message.data);
     if (!range) return damaged();
-    add_ping(*range, message.time);
+    if (admits(*range, message.topic)) add_ping(*range, message.time);
   } else if (message.type == nav_msgs::Odometry::kType) {
     const auto odometry = decode_cdr<nav_msgs::Odometry>(message.data);
     if (!odometry) return damaged();
+    if (!admits(*odometry, message.topic)) return {};
     LoggedOdometry reading;
     reading.time = from_message(odometry->header.stamp);
     if (reading.time.nanoseconds == 0) reading.time = message.time;
     reading.odom_from_base = from_message(odometry->pose.pose);
     reading.linear = odometry->twist.twist.linear.x;
     reading.angular = odometry->twist.twist.angular.z;
-    if (!std::isfinite(reading.odom_from_base.x) || !std::isfinite(reading.odom_from_base.y) ||
-        !std::isfinite(reading.odom_from_base.theta.radians()))
-      return {};
     odometry_[message.topic].push_back(reading);
     base_frames_[message.topic] = without_slash(odometry->child_frame_id);
   } else if (message.type == tf2_msgs::TFMessage::kType && message.topic == "/tf_static") {
     const auto transforms = decode_cdr<tf2_msgs::TFMessage>(message.data);
     if (!transforms) return damaged();
     for (const auto& transform : transforms->transforms)
-      if (is_finite(transform.transform)) static_transforms_[without_slash(transform.child_frame_id)] = transform;
+      if (admits(transform, message.topic)) static_transforms_[without_slash(transform.child_frame_id)] = transform;
   }
   return {};
 }
@@ -81,7 +102,6 @@ void RosLaserLogBuilder::add_scan(const sensor_msgs::LaserScan& message, Time lo
   scan.frame = without_slash(message.header.frame_id);
   scan.scan.first_bearing = Angle::radians(static_cast<double>(message.angle_min));
   scan.scan.bearing_step = static_cast<double>(message.angle_increment);
-  if (message.ranges.empty() || !std::isfinite(message.angle_min) || !std::isfinite(message.angle_increment)) return;
   scan.scan.ranges.reserve(message.ranges.size());
   for (const float range : message.ranges) {
     const bool no_return = range >= message.range_max;  // +infinity too
@@ -89,14 +109,14 @@ void RosLaserLogBuilder::add_scan(const sensor_msgs::LaserScan& message, Time lo
     scan.scan.ranges.push_back(no_return ? std::numeric_limits<float>::infinity()
                                          : (invalid ? std::numeric_limits<float>::quiet_NaN() : range));
   }
-  if (std::isfinite(message.range_max))
+  if (message.range_max < kFarthestReading)
     log_.max_range = std::max(log_.max_range, static_cast<double>(message.range_max));
   scans_.push_back(std::move(scan));
 }
 
 void RosLaserLogBuilder::add_ping(const sensor_msgs::Range& message, Time log_time) {
   constexpr std::uint8_t kUltrasound = 0;
-  if (message.radiation_type != kUltrasound || !std::isfinite(message.max_range)) return;
+  if (message.radiation_type != kUltrasound) return;
   const bool no_return = message.range >= message.max_range;  // +infinity too
   if (!no_return && !(message.range >= message.min_range && message.range > 0.0F)) return;
   Ping ping;
@@ -140,6 +160,7 @@ std::optional<RosLaserLogBuilder::Mount> RosLaserLogBuilder::mount_of(const std:
       Mount mount;
       mount.base_from_laser = {origin.x, origin.y, Angle::radians(std::atan2(ahead.y, ahead.x))};
       mount.is_upside_down = up.z < 0.0;
+      if (norm(mount.base_from_laser.position()) > kFarthestMount) return std::nullopt;
       return mount;
     }
     const auto link = static_transforms_.find(at);
@@ -170,8 +191,19 @@ Pose2 RosLaserLogBuilder::odometry_at(Time time) const {
           Angle::radians(a.theta.radians() + share * (b.theta - a.theta).radians())};
 }
 
+std::string RosLaserLogBuilder::refused_text() const {
+  std::string text;
+  for (const auto& [topic, refused] : refused_)
+    text +=
+        (text.empty() ? "" : ", ") + std::to_string(refused.count) + " of " + topic + " (" + refused.first.text() + ")";
+  return text;
+}
+
 Result<LaserLog> RosLaserLogBuilder::finish() {
-  if (scans_.empty()) return fail("holds no laser scan");
+  const std::string refused = refused_text();
+  if (scans_.empty())
+    return fail(refused.empty() ? "holds no laser scan" : "holds no laser scan that is fit; refused: " + refused);
+  if (!refused.empty()) log_.notes.push_back("messages that cannot be were left out: " + refused);
   const auto most = std::max_element(odometry_.begin(), odometry_.end(),
                                      [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); });
   if (most == odometry_.end()) {

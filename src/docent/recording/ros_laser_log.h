@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "docent/messages/message_fitness.h"
 #include "docent/messages/standard_messages.h"
 #include "docent/recording/laser_log.h"
 #include "docent/recording/rosbag2_database.h"
@@ -16,9 +17,10 @@ class RosLaserLogBuilder {
  public:
   explicit RosLaserLogBuilder(bool with_sonars = false) : with_sonars_{with_sonars} {}
 
-  /// Messages that do not matter are passed over. Error: a message that does not decode.
+  /// Messages that do not matter are passed over; those that are not fit (message_fitness.h) are left out, and a note
+  /// says so. Error: a message that does not decode.
   [[nodiscard]] Result<void> add(const Rosbag2Message& message);
-  /// Error: no scan was in it. Call once.
+  /// Error: no scan was in it, or none that is fit. Call once.
   [[nodiscard]] Result<LaserLog> finish();
 
  private:
@@ -35,9 +37,19 @@ class RosLaserLogBuilder {
     std::string frame;
     LoggedPing ping;
   };
+  struct Refused {
+    std::size_t count = 0;
+    MessageFault first;
+  };
+  /// Whether the message is fit, and can be used so; counts those that are not.
+  template <class T>
+  [[nodiscard]] bool admits(const T& content, const std::string& topic);
+  void refuse(const std::string& topic, const MessageFault& fault);
+  [[nodiscard]] std::string refused_text() const;
   void add_scan(const sensor_msgs::LaserScan& message, Time log_time);
   void add_ping(const sensor_msgs::Range& message, Time log_time);
   void finish_pings();
+  /// nullopt: nobody says it, or it lies far off any robot.
   [[nodiscard]] std::optional<Mount> mount_of(const std::string& frame) const;
   [[nodiscard]] Pose2 odometry_at(Time time) const;
 
@@ -48,6 +60,7 @@ class RosLaserLogBuilder {
   std::map<std::string, std::string> base_frames_;                            ///< by odometry topic
   std::map<std::string, geometry_msgs::TransformStamped> static_transforms_;  ///< by child frame
   std::string base_frame_;
+  std::map<std::string, Refused> refused_;  ///< by topic
   LaserLog log_;
 };
 

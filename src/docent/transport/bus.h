@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include "docent/base/time.h"
 #include "docent/messages/cdr.h"
+#include "docent/messages/message_fitness.h"
 #include "docent/messages/topics.h"
 
 namespace docent {
@@ -75,11 +77,19 @@ class Bus {
   [[nodiscard]] Publisher<T> publisher(const Topic<T>& topic) {
     return {this, add_publisher(topic_info(topic))};
   }
-  /// A latched topic (Qos::state) delivers its present value at once.
+  /// A latched topic (Qos::state) delivers its present value at once. A message that is not fit (message_fitness.h) is
+  /// none: it is refused and counted, and the handler does not see it; `refused` is called instead.
   template <class T>
-  void subscribe(const Topic<T>& topic, std::function<void(const T&)> handler) {
-    add_subscription(topic_info(topic), [handler = std::move(handler)](const std::shared_ptr<const void>& message) {
-      handler(*static_cast<const T*>(message.get()));
+  void subscribe(const Topic<T>& topic, std::function<void(const T&)> handler, std::function<void()> refused = {}) {
+    add_subscription(topic_info(topic), [this, name = topic.name, handler = std::move(handler),
+                                         refused = std::move(refused)](const std::shared_ptr<const void>& message) {
+      const T& content = *static_cast<const T*>(message.get());
+      if (const MessageFault fault = fault_of(content)) {
+        refuse(name, fault);
+        if (refused) refused();
+      } else {
+        handler(content);
+      }
     });
   }
   /// First after one period. Who is late skips, never catches up.
@@ -92,7 +102,16 @@ class Bus {
   /// on how fast it was.
   [[nodiscard]] virtual double step_p99_ms() const { return 0.0; }
 
-  /// For recorders and gateways that do not care about the type.
+  /// What came on a topic and could not be used.
+  struct Refusals {
+    std::uint64_t count = 0;
+    MessageFault last;
+    Time last_at{};
+  };
+  /// By topic; empty as long as all was well.
+  [[nodiscard]] const std::map<std::string, Refusals>& refusals() const { return refusals_; }
+
+  /// For recorders and gateways that do not care about the type: they get all that decodes.
   virtual void add_subscription(const TopicInfo& topic, Handler handler) = 0;
 
  protected:
@@ -100,6 +119,15 @@ class Bus {
   friend class Publisher;
   virtual int add_publisher(const TopicInfo& topic) = 0;
   virtual void publish(int publisher, std::shared_ptr<const void> message) = 0;
+  void refuse(const std::string& topic, const MessageFault& fault) {
+    Refusals& refusals = refusals_[topic];
+    ++refusals.count;
+    refusals.last = fault;
+    refusals.last_at = now();
+  }
+
+ private:
+  std::map<std::string, Refusals> refusals_;
 };
 
 template <class T>

@@ -322,8 +322,9 @@ void DdsBus::take(Subscription& subscription) {
       if (message) {
         ++counters_.received;
         time_step([&] { subscription.handler(message); });
-      } else if (counters_.damaged++ == 0) {
-        warn_later("damaged sample on " + subscription.name + ", dropped");
+      } else {
+        refuse(subscription.name, {"it", "does not decode"});
+        if (counters_.damaged++ == 0) warn_later("damaged sample on " + subscription.name + ", dropped");
       }
     }
     ddsi_serdata_unref(samples[i]);

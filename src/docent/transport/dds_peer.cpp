@@ -20,6 +20,8 @@ int main(int argc, char** argv) {
   DdsBus& bus = **created;
   if (role == "scans") {
     sensor_msgs::LaserScan scan;
+    scan.angle_increment = 0.01F;
+    scan.range_max = 10.0F;
     for (int i = 0; i < 360; ++i) scan.ranges.push_back(static_cast<float>(i) * 0.01F);
     bus.every(std::chrono::milliseconds{20}, [scan, out = bus.publisher(topics::kScanFront)] { out.publish(scan); });
   } else if (role == "drive_echo") {
@@ -30,6 +32,7 @@ int main(int argc, char** argv) {
         });
   } else if (role == "map") {
     nav_msgs::OccupancyGrid map;
+    map.info.resolution = 0.05F;
     map.info.width = map.info.height = 2000;
     map.data.resize(std::size_t{2000} * 2000);
     for (std::size_t i = 0; i < map.data.size(); ++i) map.data[i] = static_cast<std::int8_t>(i % 101);
@@ -37,7 +40,7 @@ int main(int argc, char** argv) {
   } else if (role == "map_echo") {
     bus.subscribe<nav_msgs::OccupancyGrid>(topics::kStaticMap,
                                            [out = bus.publisher(topics::kHorn)](const nav_msgs::OccupancyGrid& map) {
-                                             out.publish({{}, std::to_string(std::lround(map.info.resolution))});
+                                             out.publish({{}, std::to_string(std::lround(map.info.origin.position.x))});
                                            });
   } else {
     return 2;

@@ -107,7 +107,8 @@ MarkovLocalizer::MarkovLocalizer(const OccupancyGrid& map, const MarkovLocalizer
       belief_{space_, params.sea_threshold},
       verdict_{params.verdict},
       refiner_{params.refiner},
-      rng_{Rng{seed}.stream("localize")} {
+      rng_{Rng{seed}.stream("localize")},
+      widest_{map.frame.resolution * std::hypot(map.frame.columns, map.frame.rows)} {
   belief_.use(instruction_set_of(params.simd).value_or(InstructionSet::plain));
   start_unknown();
 }
@@ -172,6 +173,8 @@ double MarkovLocalizer::due_weight(double way, double turn, Time time) const {
 
 MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Pose2& odom_from_robot, Time time) {
   Step step;
+  // Farther than the map reaches nobody has driven: odometry is torn, and says nothing of where the robot is now.
+  if (started_ && !(distance(odom_from_robot_.position(), odom_from_robot.position()) <= widest_)) start_unknown();
   const Pose2 before_from_after = started_ ? inverse(odom_from_robot_) * odom_from_robot : Pose2{};
   const double way = norm(before_from_after.position());
   const double turn = std::abs(before_from_after.theta.radians());

@@ -155,6 +155,7 @@ class MarkovLocalizer final : public Localizer {
   PoseRefiner refiner_;
   Rivals rivals_;
   Rng rng_;
+  double widest_;  ///< [m] from corner to corner of the map
   /// The belief is over a frame that goes along with the robot in whole cells and never turns, as odometry sees it:
   /// what odometry knows well need not be blurred by the grid. Between the two lie some centimetres and the robot's
   /// heading.

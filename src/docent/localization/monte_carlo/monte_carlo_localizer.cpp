@@ -61,6 +61,7 @@ MonteCarloLocalizer::MonteCarloLocalizer(const OccupancyGrid& map, const MarkovL
       verdict_{shared.verdict},
       refiner_{shared.refiner},
       rng_{Rng{seed}.stream("localize")},
+      widest_{map.frame.resolution * std::hypot(map.frame.columns, map.frame.rows)},
       noise_{Rng{seed}.stream("particles")()} {
   const auto fields = field_kernels();  // as many as the processor has sets, in their order
   scores_.use_kernel(fields[std::min(fields.size() - 1, static_cast<std::size_t>(instructions_))].kernel);
@@ -159,6 +160,8 @@ std::size_t MonteCarloLocalizer::most_particles() const {
 MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, const Pose2& odom_from_robot,
                                                        Time time) {
   Step step;
+  // As in the grid: such odometry is torn.
+  if (started_ && !(distance(odom_from_robot_.position(), odom_from_robot.position()) <= widest_)) start_unknown();
   const Pose2 before_from_after = started_ ? inverse(odom_from_robot_) * odom_from_robot : Pose2{};
   const double way = norm(before_from_after.position());
   const double turn = std::abs(before_from_after.theta.radians());

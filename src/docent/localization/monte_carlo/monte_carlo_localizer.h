@@ -120,6 +120,7 @@ class MonteCarloLocalizer final : public Localizer {
   PoseRefiner refiner_;
   Rivals rivals_;
   Rng rng_;
+  double widest_;  ///< [m] from corner to corner of the map
   NoiseStreams noise_;
   ParticleSet particles_;
   ParticleSet scratch_;
