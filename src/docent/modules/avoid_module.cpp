@@ -15,8 +15,9 @@ namespace {
 
 constexpr double kTick = 0.05;  // [s]
 constexpr double kHeartbeat = 0.1;
-constexpr double kLeastPause = 0.06;  // [s] between two choices: lasers faster than that are only checked in between
-constexpr double kTogether = 0.02;    // [s] a choice waits so long for another laser's sweep
+constexpr double kLeastPause =
+    0.06;                           // [s] from a choice to the next but one: faster lasers are only checked in between
+constexpr double kTogether = 0.02;  // [s] a choice waits so long for another laser's sweep
 constexpr double kWindowPeriod = 0.5;
 
 Result<BaseLimits> limits_of(const RobotBody& body) {
@@ -174,7 +175,7 @@ class AvoidModule final : public Module {
     if (field < kFieldShare * widest_field_[sensor]) return;
     const Time now = bus_.now();
     avoider_.add_sweep(now, sensor, to_sweep(scan, base_from_sensor));
-    if (now - decided_ < seconds(kLeastPause)) return reflex();
+    if (now - decided_before_ < seconds(kLeastPause)) return reflex();
     if (!avoider_.awaits_sweep(now, kTogether)) return decide();
     reflex();
     bus_.after(seconds(kTogether), [this, now] {
@@ -183,7 +184,7 @@ class AvoidModule final : public Module {
   }
 
   void decide() {
-    decided_ = bus_.now();
+    decided_before_ = std::exchange(decided_, bus_.now());
     const AvoiderDecision choice = avoider_.decide(decided_);
     const auto check = avoider_.reflex(decided_);
     publish(check ? *check : choice);
@@ -242,6 +243,7 @@ class AvoidModule final : public Module {
   Publisher<docent_msgs::AvoidState> state_;
   AvoiderTarget::Mode mode_ = AvoiderTarget::Mode::stop;
   Time decided_{};
+  Time decided_before_{};  ///< likewise, once more
   Time driven_{};
   Time window_shown_{};
 };

@@ -91,7 +91,9 @@ class MotionModules : public ::testing::Test {
         scan.ranges.push_back(static_cast<float>(range + 0.001 * ((++noise * 7) % 13)));
       }
       if (front) spoil_scan(scan);
-      if (front ? front_works : rear_works) (front ? front_publisher : rear_publisher).publish(scan);
+      if (!(front ? front_works : rear_works)) continue;
+      const double late = !front && ++rear_sweeps % 3 == 0 ? every_third_late : 0.0;
+      world->after(seconds(late), [this, front, scan] { (front ? front_publisher : rear_publisher).publish(scan); });
     }
     docent_msgs::Belief belief;
     belief.header = {to_message(world->now()), "map"};
@@ -148,7 +150,9 @@ class MotionModules : public ::testing::Test {
   std::function<void(docent_msgs::Belief&)> spoil_belief = [](auto&) {};
   std::function<void(docent_msgs::Target&)> spoil_target = [](auto&) {};
   bool front_works = true, rear_works = true, localize_works = true, plan_works = true;
-  double sees_late = 0.0;  ///< [s]
+  double sees_late = 0.0;         ///< [s]
+  double every_third_late = 0.0;  ///< [s] of the rear laser's sweeps
+  int rear_sweeps = 0;
   std::unique_ptr<Bus> avoid_bus, hazards_bus, robot_bus;
   std::unique_ptr<Module> avoid, hazards, robot;
 };
@@ -216,6 +220,26 @@ TEST_F(MotionModules, EverySweepIsAnsweredByANewCommandAtOnce) {
       ASSERT_NE(answer, answers->end());
       EXPECT_LT(*answer - at, 0.001);
     }
+  }
+}
+
+TEST_F(MotionModules, SweepsThatComeUnevenlyAreAnsweredAsWell) {
+  every_third_late = 0.03;
+  run(3.0);
+  std::vector<double> seen;
+  std::vector<double> decided;
+  for (const auto& topic : {topics::kScanFront, topics::kScanRear})
+    world->subscribe<sensor_msgs::LaserScan>(topic, [&](const auto&) { seen.push_back(to_seconds(world->now())); });
+  world->subscribe<docent_msgs::AvoidState>(topics::kAvoidState,
+                                            [&](const auto&) { decided.push_back(to_seconds(world->now())); });
+  run(3.0);
+  ASSERT_GT(speed, 0.5);
+  ASSERT_GE(seen.size(), 58U);
+  for (const double at : seen) {
+    if (at > to_seconds(world->now()) - 0.03) continue;
+    const auto answer = std::lower_bound(decided.begin(), decided.end(), at);
+    ASSERT_NE(answer, decided.end());
+    EXPECT_LT(*answer - at, 0.021);
   }
 }
 
