@@ -401,6 +401,7 @@ TEST(DeploymentReport, JsonHasTheKeysOfTheArchitectureInTheirOrder) {
   DeploymentReport report;
   report.museum = "bonn";
   report.requests.refused = {{"closed", 2}};
+  report.virtual_seconds = 3.5;
   const auto json = nlohmann::ordered_json::parse(to_json(report, RunCost{2.0, 1.75, {{"plan", 1.5}}}));
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
@@ -414,6 +415,7 @@ TEST(DeploymentReport, JsonHasTheKeysOfTheArchitectureInTheirOrder) {
                                             "wall_seconds",
                                             "cpu_seconds",
                                             "speedup",
+                                            "wall_speedup",
                                             "travel_seconds",
                                             "distance_m",
                                             "mean_speed_mps",
@@ -444,6 +446,8 @@ TEST(DeploymentReport, JsonHasTheKeysOfTheArchitectureInTheirOrder) {
   EXPECT_TRUE(json["localization"]["localized_after_s"].is_null());
   EXPECT_EQ(json["p99_ms"]["plan"], 1.5);
   EXPECT_EQ(json["cpu_seconds"], 1.75);
+  EXPECT_EQ(json["speedup"], 2.0) << "by what one core had to do, whatever else the machine did";
+  EXPECT_EQ(json["wall_speedup"], 1.75);
   EXPECT_FALSE(nlohmann::json::parse(to_json(report, std::nullopt)).contains("wall_seconds"));
 }
 
