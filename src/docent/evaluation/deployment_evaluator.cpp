@@ -190,7 +190,7 @@ void DeploymentEvaluator::count_battery(double level) {
 
 std::optional<DeploymentReport::Latency> DeploymentEvaluator::latency() const {
   const Quantiles& all = latency_.latencies();
-  if (!(all.at(1.0) > 0.0)) return std::nullopt;
+  if (!(all.at(0.5) > 0.0)) return std::nullopt;
   return DeploymentReport::Latency{all.count(), all.at(0.5), all.at(0.99), latency_.unanswered()};
 }
 
