@@ -57,6 +57,10 @@ def protocol(docent, root, cache, minutes, seed, verdict):
     verdict.want("requests served (95 %)", f"{requests['counted_served']} of {requests['counted']}",
                  requests["counted"] > 0 and requests["counted_served"] >= 0.95 * requests["counted"])
     verdict.want("exhibits explained", f"{result['exhibits_explained']}", result["exhibits_explained"] >= minutes / 4)
+    latency = result["scan_to_command"]
+    verdict.want("from a sweep of the lasers to the command that knows it: p50 10 ms, p99 30 ms",
+                 f"{latency['p50_ms']:.1f} and {latency['p99_ms']:.1f} ms, {latency['sweeps']} sweeps, {latency['unanswered']} unanswered",
+                 latency["p50_ms"] <= 10.0 and latency["p99_ms"] <= 30.0 and latency["unanswered"] <= 0.001 * latency["sweeps"])
     verdict.want("the same mission events in the same order when replayed", f"exit {replay.returncode}", replay.returncode == 0)
     verdict.print()
     return verdict

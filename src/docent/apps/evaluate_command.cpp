@@ -31,8 +31,12 @@ void evaluate(const Options& options) {
   if (!read && read.error().message.rfind(options.recording, 0) != 0)
     read = fail(options.recording + ": " + read.error().message);
   value_or_fail(std::move(read));
-  if (!evaluator.has_truth()) throw CommandFailed{options.recording + ": holds no ground truth (/truth/state)"};
   const DeploymentReport report = evaluator.report();
+  if (!evaluator.has_truth()) {
+    if (report.latency) std::printf("  scan to drive   %s\n", to_text(*report.latency).c_str());
+    if (report.latency && options.report.empty()) return;
+    throw CommandFailed{options.recording + ": holds no ground truth (/truth/state)"};
+  }
   std::fputs(summary_table(report, std::nullopt).c_str(), stdout);
   if (options.report.empty()) return;
   value_or_fail(write_file_atomically(options.report, to_json(report, std::nullopt)));

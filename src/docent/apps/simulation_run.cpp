@@ -39,8 +39,9 @@ class SimulationRun::Parts {
  public:
   Parts(Museum museum, RobotConfig config, const SimulationRunOptions& options)
       : museum_{std::move(museum)}, config_{std::move(config)}, options_{options} {
+    if (options.profile) hub_.measure_by(VirtualTimeHub::processor_clock);
     hub_.tap([this](const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
-      const auto start = std::chrono::steady_clock::now();
+      const double start = hub_.cost_clock();
       evaluator_.add(topic, time, message);
       picture_.add(topic, message);
       if (!options_.claims.empty()) claims_.add(topic, time, message);
@@ -51,7 +52,7 @@ class SimulationRun::Parts {
       if (recorder_ && failure_.empty()) {
         if (auto written = recorder_->write(topic, time, message); !written) failure_ = written.error().message;
       }
-      evaluation_s_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      evaluation_s_ += hub_.cost_clock() - start;
     });
   }
 
@@ -96,11 +97,7 @@ class SimulationRun::Parts {
     result.wall_seconds = wall_s_;
     result.cpu_seconds = cpu_s_;
     for (const auto& [name, cost] : hub_.costs()) {
-      if (cost.steps_ms.empty()) continue;
-      std::vector<float> steps = cost.steps_ms;
-      const auto place = steps.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(steps.size() - 1));
-      std::nth_element(steps.begin(), place, steps.end());
-      result.p99_ms[name] = static_cast<double>(*place);
+      if (cost.steps_ms.count() > 0) result.p99_ms[name] = cost.steps_ms.at(0.99);
     }
     return result;
   }
@@ -258,7 +255,9 @@ std::string SimulationRun::status() const {
   return text;
 }
 
-std::map<std::string, double> SimulationRun::wall_seconds_by_module() const {
+RunCost SimulationRun::cost() const { return parts_->cost(); }
+
+std::map<std::string, double> SimulationRun::seconds_by_module() const {
   std::map<std::string, double> seconds;
   double inside_taps = parts_->evaluation_s_;
   for (const auto& [name, cost] : parts_->hub_.costs()) seconds[name] = cost.total_s;

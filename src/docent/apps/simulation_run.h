@@ -9,6 +9,7 @@
 
 #include "docent/base/result.h"
 #include "docent/base/time.h"
+#include "docent/evaluation/deployment_report.h"
 #include "docent/geometry/pose2.h"
 
 namespace docent {
@@ -34,6 +35,7 @@ struct SimulationRunOptions {
   std::string people_log;           ///< CSV file of tracked people beside the true ones; empty: none
   std::string state;                ///< folder; empty: a temporary one that goes with the run
   bool hosts_web = false;           ///< the page too
+  bool profile = false;             ///< costs are counted by the processor's time, which is slower to ask for
   bool has_robot = true;            ///< false: the world and the robot's body alone, no module
 };
 
@@ -56,8 +58,10 @@ class SimulationRun {
   [[nodiscard]] std::string summary() const;
   /// One line about the present: for progress.
   [[nodiscard]] std::string status() const;
-  /// Wall seconds of all module steps so far, the simulator's and the evaluation's among them.
-  [[nodiscard]] std::map<std::string, double> wall_seconds_by_module() const;
+  /// Seconds of all module steps so far, the simulator's and the evaluation's among them: of the processor where
+  /// `profile` was asked for, else by the wall.
+  [[nodiscard]] std::map<std::string, double> seconds_by_module() const;
+  [[nodiscard]] RunCost cost() const;
   /// Closes the recording.
   [[nodiscard]] Result<void> finish();
   /// The way driven over the map, with hazards, exhibits, home and touches.

@@ -482,6 +482,13 @@ AvoiderDecision Avoider::stand(Time now, AvoiderDecision decision, std::string r
   return finish(now, std::move(decision));
 }
 
+bool Avoider::awaits_sweep(Time now, double soon) const {
+  constexpr double kNear = 0.25;  // of a period: a fast laser is not for ever about to come
+  return std::any_of(sweep_freshness_.begin(), sweep_freshness_.end(), [&](const Freshness& freshness) {
+    return std::abs(freshness.period() - freshness.silence(now)) < std::min(soon, kNear * freshness.period());
+  });
+}
+
 AvoiderDecision Avoider::decide(Time now) {
   AvoiderDecision decision;
   decision.speed_cap = 0.0;

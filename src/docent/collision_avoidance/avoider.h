@@ -121,10 +121,16 @@ class Avoider {
   void set_target(Time now, Time stamp, AvoiderTarget target);
   void set_max_speed(double max_speed) { max_speed_ = max_speed; }
 
-  /// One selection, every `window.cycle`, with people where they are now. The command counts as given at `now`.
+  /// True when another laser's sweep is due by its period within `soon` [s]: a choice had better wait for it.
+  [[nodiscard]] bool awaits_sweep(Time now, double soon) const;
+
+  /// One selection, with people where they are now; what was chosen is checked as by `reflex` before it is given. To be
+  /// called when the lasers have seen anew, and every `window.cycle` when they have not. The command counts as given at
+  /// `now`.
   [[nodiscard]] AvoiderDecision decide(Time now);
-  /// To be called on every scan: full braking when the present command is no longer safe against what was just seen and
-  /// where it will be, and the same arc more slowly where people may come nearer than is forgivable.
+  /// To be called on every scan that is not decided upon, and when hazards are measured: full braking when the present
+  /// command is no longer safe against what was just seen and where it will be, and the same arc more slowly where
+  /// people may come nearer than is forgivable.
   [[nodiscard]] std::optional<AvoiderDecision> reflex(Time now);
 
   [[nodiscard]] const ObstacleMemory& memory() const { return memory_; }

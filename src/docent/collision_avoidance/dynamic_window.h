@@ -12,7 +12,7 @@ namespace docent {
 
 /// The choice of a velocity within the dynamic window, and its margins.
 struct DynamicWindowParams {
-  double cycle = 0.25;             ///< [s] between two selections
+  double cycle = 0.25;  ///< [s] velocities are chosen from what can be reached in it; the most between two selections
   double heading_weight = 1.2;     ///< of the heading towards the goal at the predicted pose
   double clearance_weight = 0.35;  ///< of the free way ahead
   double speed_weight = 0.8;       ///< of the speed towards the goal
@@ -91,7 +91,7 @@ struct WindowChoice {
 [[nodiscard]] bool can_brake_in_time(const Velocity& velocity, const Velocity& command, double hold,
                                      std::span<const Obstacle> obstacles, const BaseLimits& limits, double slack);
 
-/// The dynamic window [BurgardEtAl1999 4.1.1]: all velocities that the base can reach in one cycle. Hard constraint:
+/// The dynamic window [BurgardEtAl1999 4.1.1]: all velocities that the base can reach in `cycle`. Hard constraint:
 /// full braking before contact, whatever fails; as an option the two-second rule of [BuhmannEtAl1995] as well. Soft
 /// ones: speed, heading at the predicted pose, clearance; smoothed.
 class DynamicWindow {

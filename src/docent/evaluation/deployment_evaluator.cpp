@@ -36,6 +36,7 @@ void DeploymentEvaluator::add(const TopicInfo& topic, Time time, const std::shar
   const auto as = [&message]<class T>(const Topic<T>& /*wanted*/) -> const T& {
     return *static_cast<const T*>(message.get());
   };
+  latency_.add(topic, time, message);
   if (is(topics::kTrueState)) {
     add_state(std::static_pointer_cast<const docent_msgs::TrueState>(message));
   } else if (is(topics::kBelief)) {
@@ -187,8 +188,15 @@ void DeploymentEvaluator::count_battery(double level) {
   is_depleted_ = level <= kDepleted;
 }
 
+std::optional<DeploymentReport::Latency> DeploymentEvaluator::latency() const {
+  const Quantiles& all = latency_.latencies();
+  if (!(all.at(0.5) > 0.0)) return std::nullopt;
+  return DeploymentReport::Latency{all.count(), all.at(0.5), all.at(0.99), latency_.unanswered()};
+}
+
 DeploymentReport DeploymentEvaluator::report() const {
   DeploymentReport report = report_;
+  report.latency = latency();
   if (truth_.empty()) return report;
   const Time end = truth_.latest_time();
   report.virtual_seconds = to_seconds(end - start_);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "docent/evaluation/command_latency.h"
 #include "docent/evaluation/deployment_report.h"
 #include "docent/evaluation/localization_score.h"
 #include "docent/evaluation/people_score.h"
@@ -27,6 +28,8 @@ class DeploymentEvaluator {
 
   /// So far. O(beliefs) for the percentile.
   [[nodiscard]] DeploymentReport report() const;
+  /// nullopt in virtual time.
+  [[nodiscard]] std::optional<DeploymentReport::Latency> latency() const;
   /// False: no ground truth was in it, and the report is empty.
   [[nodiscard]] bool has_truth() const { return !truth_.empty(); }
 
@@ -41,6 +44,7 @@ class DeploymentEvaluator {
   [[nodiscard]] std::optional<Point2> true_place() const;
 
   DeploymentReport report_;
+  CommandLatency latency_;
   TruthHistory truth_;
   LocalizationScore localization_;
   PeopleScore people_;

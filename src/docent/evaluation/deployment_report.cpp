@@ -34,6 +34,11 @@ double mean_speed(const DeploymentReport& report) {
   return report.travel_seconds > 0.0 ? report.travel_distance_m / report.travel_seconds : 0.0;
 }
 
+/// Than real time, when the run took so many seconds; 0 when that is not known.
+double times_faster(const DeploymentReport& report, double seconds) {
+  return seconds > 0.0 ? rounded(report.virtual_seconds / seconds) : 0.0;
+}
+
 int refused(const DeploymentReport& report) {
   int sum = 0;
   for (const auto& [reason, count] : report.requests.refused) sum += count;
@@ -66,7 +71,8 @@ std::string to_json(const DeploymentReport& r, const std::optional<RunCost>& cos
   if (cost) {
     json["wall_seconds"] = rounded(cost->wall_seconds);
     json["cpu_seconds"] = rounded(cost->cpu_seconds);
-    json["speedup"] = cost->wall_seconds > 0.0 ? rounded(r.virtual_seconds / cost->wall_seconds) : 0.0;
+    json["speedup"] = times_faster(r, cost->cpu_seconds);
+    json["wall_speedup"] = times_faster(r, cost->wall_seconds);
   }
   json["travel_seconds"] = rounded(r.travel_seconds);
   json["distance_m"] = rounded(r.distance_m);
@@ -128,6 +134,11 @@ std::string to_json(const DeploymentReport& r, const std::optional<RunCost>& cos
                      {"global_detours", r.blocked.global_detours}};
   json["battery"] = {{"charges", r.battery.charges}, {"depleted", r.battery.depleted}};
   json["module_restarts"] = r.module_restarts;
+  if (r.latency)
+    json["scan_to_command"] = {{"p50_ms", rounded(1e3 * r.latency->p50_s)},
+                               {"p99_ms", rounded(1e3 * r.latency->p99_s)},
+                               {"sweeps", r.latency->sweeps},
+                               {"unanswered", r.latency->unanswered}};
   json["trips"] = Json::array();
   for (const auto& trip : r.trips) {
     json["trips"].push_back({{"seconds", rounded(trip.seconds)}, {"distance_m", rounded(trip.distance_m)}});
@@ -140,6 +151,11 @@ std::string to_json(const DeploymentReport& r, const std::optional<RunCost>& cos
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+std::string to_text(const DeploymentReport::Latency& latency) {
+  return fmt::format("50 % after {:.1f} ms, 99 % after {:.1f} ms, of {} sweeps; {} unanswered", 1e3 * latency.p50_s,
+                     1e3 * latency.p99_s, latency.sweeps, latency.unanswered);
+}
+
 std::string summary_table(const DeploymentReport& r, const std::optional<RunCost>& cost) {
   std::string text;
   const auto row = [&text](std::string_view name, const std::string& value) {
@@ -150,8 +166,8 @@ std::string summary_table(const DeploymentReport& r, const std::optional<RunCost
                       r.crippled.empty() ? "" : ", crippled: " + r.crippled);
   std::string time = fmt::format("{:.0f} s", r.virtual_seconds);
   if (cost && cost->wall_seconds > 0.0)
-    time += fmt::format(" in {:.1f} s ({:.1f} times real time)", cost->wall_seconds,
-                        r.virtual_seconds / cost->wall_seconds);
+    time += fmt::format(" in {:.1f} s of the processor ({:.1f} times real time), {:.1f} s by the wall",
+                        cost->cpu_seconds, times_faster(r, cost->cpu_seconds), cost->wall_seconds);
   row("time", time);
   row("driven", fmt::format("{:.0f} m; {:.2f} m/s over {:.0f} s with a goal, at most {:.2f} m/s", r.distance_m,
                             mean_speed(r), r.travel_seconds, r.max_speed_mps));
@@ -183,6 +199,7 @@ std::string summary_table(const DeploymentReport& r, const std::optional<RunCost
   row("people", fmt::format("recall {}, precision {}", percent(r.people.found, r.people.present),
                             percent(r.people.right, r.people.claimed)));
   row("blocked", fmt::format("{} times, {:.0f} s; horn {} times", r.blocked.events, r.blocked.seconds, r.blocked.horn));
+  if (r.latency) row("scan to drive", to_text(*r.latency));
   if (r.module_restarts > 0) row("restarts", std::to_string(r.module_restarts));
   return text;
 }

@@ -113,10 +113,21 @@ struct DeploymentReport {
     int charges = 0, depleted = 0;
   } battery;
   int module_restarts = 0;
+  /// From what the lasers see to the command that knows it (CommandLatency); where time is that of the wall.
+  struct Latency {
+    std::uint64_t sweeps = 0;
+    double p50_s = 0.0, p99_s = 0.0;
+    std::uint64_t unanswered = 0;
+  };
+  std::optional<Latency> latency;
 };
 
-/// JSON with keys in the order of architecture 9. With `cost`: wall_seconds, cpu_seconds, speedup and p99_ms too.
+/// JSON with keys in the order of architecture 9. With `cost`: wall_seconds, cpu_seconds, speedup (times faster than
+/// real time, by the processor's seconds), wall_speedup and p99_ms too.
 [[nodiscard]] std::string to_json(const DeploymentReport& report, const std::optional<RunCost>& cost);
+
+/// For a terminal.
+[[nodiscard]] std::string to_text(const DeploymentReport::Latency& latency);
 
 /// A table for a terminal, every rate with its exposure.
 [[nodiscard]] std::string summary_table(const DeploymentReport& report, const std::optional<RunCost>& cost);

@@ -60,7 +60,7 @@ void LocalizationScore::judge(const Claim& claim, const Pose2& truth) {
   const double heading = std::abs((claim.map_from_base.theta - truth.theta).degrees());
   result_.error_m.add(error);
   result_.heading_error_deg.add(heading);
-  errors_m_.push_back(static_cast<float>(error));
+  errors_m_.add(error);
   claim_is_right_ = error <= kRightDistance && heading <= kRightHeading;
 }
 
@@ -91,12 +91,7 @@ void LocalizationScore::tick(Time now, double dt, double distance_m) {
 
 DeploymentReport::Localization LocalizationScore::result() const {
   DeploymentReport::Localization result = result_;
-  if (!errors_m_.empty()) {
-    std::vector<float> errors = errors_m_;
-    const auto place = errors.begin() + static_cast<std::ptrdiff_t>((errors.size() - 1) * 95 / 100);
-    std::nth_element(errors.begin(), place, errors.end());
-    result.p95_error_m = static_cast<double>(*place);
-  }
+  result.p95_error_m = errors_m_.at(0.95);
   return result;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <deque>
-#include <vector>
 
+#include "docent/base/quantiles.h"
 #include "docent/evaluation/deployment_report.h"
 #include "docent/evaluation/truth_history.h"
 #include "docent/messages/docent_messages.h"
@@ -29,7 +29,7 @@ class LocalizationScore {
 
   std::deque<Claim> waiting_;  ///< for a true state that is not older
   DeploymentReport::Localization result_;
-  std::vector<float> errors_m_;
+  Quantiles errors_m_;
 
   bool has_started_ = false;
   Time start_{};

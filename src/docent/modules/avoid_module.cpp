@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "docent/collision_avoidance/avoider.h"
 #include "docent/messages/conversions.h"
@@ -14,6 +15,9 @@ namespace {
 
 constexpr double kTick = 0.05;  // [s]
 constexpr double kHeartbeat = 0.1;
+constexpr double kLeastPause =
+    0.06;                           // [s] from a choice to the next but one: faster lasers are only checked in between
+constexpr double kTogether = 0.02;  // [s] a choice waits so long for another laser's sweep
 constexpr double kWindowPeriod = 0.5;
 
 Result<BaseLimits> limits_of(const RobotBody& body) {
@@ -128,6 +132,7 @@ class AvoidModule final : public Module {
       if (!is_all_round(scan)) return;
       avoider_.add_virtual(bus_.now(), {from_message(scan.header.stamp), scan.angle_min, scan.angle_increment,
                                         scan.range_max, scan.ranges});
+      reflex();
     });
     bus_.subscribe<docent_msgs::PersonBeams>(topics::kPersonBeams, [this](const docent_msgs::PersonBeams& beams) {
       std::vector<Point2> points;
@@ -152,7 +157,9 @@ class AvoidModule final : public Module {
       wish.heading = Angle::radians(target.heading);
       wish.position_tolerance = target.position_tolerance;
       wish.heading_tolerance = target.heading_tolerance;
+      const bool is_other = std::exchange(mode_, wish.mode) != wish.mode;
       avoider_.set_target(bus_.now(), from_message(target.header.stamp), std::move(wish));
+      if (is_other) decide();  // above all: a stop
     });
   }
 
@@ -172,8 +179,21 @@ class AvoidModule final : public Module {
     const double field = static_cast<double>(scan.angle_increment) * static_cast<double>(scan.ranges.size());
     widest_field_[sensor] = std::max(widest_field_[sensor], field);
     if (field < kFieldShare * widest_field_[sensor]) return;
-    avoider_.add_sweep(bus_.now(), sensor, to_sweep(scan, base_from_sensor));
+    const Time now = bus_.now();
+    avoider_.add_sweep(now, sensor, to_sweep(scan, base_from_sensor));
+    if (now - decided_before_ < seconds(kLeastPause)) return reflex();
+    if (!avoider_.awaits_sweep(now, kTogether)) return decide();
     reflex();
+    bus_.after(seconds(kTogether), [this, now] {
+      if (decided_ < now) decide();  // it has not come
+    });
+  }
+
+  void decide() {
+    decided_before_ = std::exchange(decided_, bus_.now());
+    const AvoiderDecision choice = avoider_.decide(decided_);
+    const auto check = avoider_.reflex(decided_);
+    publish(check ? *check : choice);
   }
 
   void reflex() {
@@ -183,8 +203,7 @@ class AvoidModule final : public Module {
   void tick() {
     const Time now = bus_.now();
     if (now - decided_ >= seconds(cycle_ - 0.5 * kTick)) {
-      decided_ = now;
-      publish(avoider_.decide(now));
+      decide();  // the lasers are slow, or silent
     } else if (now - driven_ >= seconds(kHeartbeat - 0.5 * kTick)) {
       if (auto decision = avoider_.reflex(now)) return publish(*decision);  // something may have fallen silent
       publish_drive(avoider_.command());
@@ -228,7 +247,9 @@ class AvoidModule final : public Module {
   std::vector<BelievedPose> hypotheses_;  ///< likewise
   Publisher<docent_msgs::Drive> drive_;
   Publisher<docent_msgs::AvoidState> state_;
+  AvoiderTarget::Mode mode_ = AvoiderTarget::Mode::stop;
   Time decided_{};
+  Time decided_before_{};  ///< likewise, once more
   Time driven_{};
   Time window_shown_{};
 };

@@ -33,7 +33,7 @@ class MotionModules : public ::testing::Test {
     world->subscribe<docent_msgs::AvoidState>(topics::kAvoidState, [this](const auto& message) { state = message; });
     world->subscribe<sensor_msgs::LaserScan>(topics::kVirtualScan, [this](const auto& scan) { virtual_scan = scan; });
     world->every(seconds(0.05), [this] { move(); });
-    world->every(seconds(0.1), [this] { see(); });
+    world->every(seconds(0.1), [this] { world->after(seconds(sees_late), [this] { see(); }); });
     world->every(seconds(0.2), [this] { want(); });
     for (int i = 0; i < 24; ++i) world->every(seconds(0.4), [this, i] { ping(i); });
     start_all();
@@ -91,7 +91,9 @@ class MotionModules : public ::testing::Test {
         scan.ranges.push_back(static_cast<float>(range + 0.001 * ((++noise * 7) % 13)));
       }
       if (front) spoil_scan(scan);
-      if (front ? front_works : rear_works) (front ? front_publisher : rear_publisher).publish(scan);
+      if (!(front ? front_works : rear_works)) continue;
+      const double late = !front && ++rear_sweeps % 3 == 0 ? every_third_late : 0.0;
+      world->after(seconds(late), [this, front, scan] { (front ? front_publisher : rear_publisher).publish(scan); });
     }
     docent_msgs::Belief belief;
     belief.header = {to_message(world->now()), "map"};
@@ -148,6 +150,9 @@ class MotionModules : public ::testing::Test {
   std::function<void(docent_msgs::Belief&)> spoil_belief = [](auto&) {};
   std::function<void(docent_msgs::Target&)> spoil_target = [](auto&) {};
   bool front_works = true, rear_works = true, sonars_work = true, localize_works = true, plan_works = true;
+  double sees_late = 0.0;         ///< [s]
+  double every_third_late = 0.0;  ///< [s] of the rear laser's sweeps
+  int rear_sweeps = 0;
   std::unique_ptr<Bus> avoid_bus, hazards_bus, robot_bus;
   std::unique_ptr<Module> avoid, hazards, robot;
 };
@@ -194,33 +199,76 @@ TEST_F(MotionModules, TheBaseStopsWhenAvoidDiesAndGoesOnAfterItsReturn) {
   EXPECT_GT(speed, 0.4);
 }
 
-TEST_F(MotionModules, BrakingCommandsWaitForNoTick) {
+TEST_F(MotionModules, NoCommandWaitsForATick) {
   kill(avoid, avoid_bus);
   auto drive = world->publisher(topics::kDrive);
-  const auto command = [&](double linear, double angular = 0.0) {
+  run(0.01);  // the ticks of the robot module fall between the commands
+  for (const auto& [linear, angular] :
+       {std::pair{0.5, 0.0}, {0.6, 0.0}, {0.2, 0.0}, {-0.3, 0.0}, {0.0, 0.0}, {0.0, 1.0}, {0.0, 0.0}}) {
     drive.publish({{to_message(world->now()), "base_link"}, linear, angular});
-  };
-  command(0.5);
-  run(0.11);  // the base was told at the last tick, 10 ms ago
-  ASSERT_EQ(wanted.linear.x, 0.5);
-  command(0.6);
-  run(0.01);
-  EXPECT_EQ(wanted.linear.x, 0.5);
-  command(0.2);
-  run(0.01);
-  EXPECT_EQ(wanted.linear.x, 0.2);
-  command(-0.3);
-  run(0.01);
-  EXPECT_EQ(wanted.linear.x, -0.3);
-  command(0.0);
-  run(0.01);
-  EXPECT_EQ(wanted.linear.x, 0.0);
-  command(0.0, 1.0);
-  run(0.06);
-  ASSERT_EQ(wanted.angular.z, 1.0);
-  command(0.0);
-  run(0.001);
-  EXPECT_EQ(wanted.angular.z, 0.0);
+    run(0.001);
+    EXPECT_EQ(wanted.linear.x, linear);
+    EXPECT_EQ(wanted.angular.z, angular);
+    run(0.012);
+  }
+}
+
+TEST_F(MotionModules, EverySweepIsAnsweredByANewCommandAtOnce) {
+  sees_late = 0.017;  // between the ticks of avoid and robot
+  run(3.0);
+  std::vector<double> seen;     // [s] when the second laser of two has
+  std::vector<double> decided;  // [s]
+  std::vector<double> told;     // [s] when the base was
+  world->subscribe<sensor_msgs::LaserScan>(topics::kScanRear,
+                                           [&](const auto&) { seen.push_back(to_seconds(world->now())); });
+  world->subscribe<docent_msgs::AvoidState>(topics::kAvoidState,
+                                            [&](const auto&) { decided.push_back(to_seconds(world->now())); });
+  world->subscribe<geometry_msgs::Twist>(topics::kCommandVelocity,
+                                         [&](const auto&) { told.push_back(to_seconds(world->now())); });
+  run(2.0);
+  ASSERT_GT(speed, 0.5);
+  ASSERT_GE(seen.size(), 19U);
+  EXPECT_LE(decided.size(), seen.size() + 2) << "one choice for two lasers";
+  for (const double at : seen) {
+    for (const auto* answers : {&decided, &told}) {
+      const auto answer = std::lower_bound(answers->begin(), answers->end(), at);
+      ASSERT_NE(answer, answers->end());
+      EXPECT_LT(*answer - at, 0.001);
+    }
+  }
+}
+
+TEST_F(MotionModules, SweepsThatComeUnevenlyAreAnsweredAsWell) {
+  every_third_late = 0.03;
+  run(3.0);
+  std::vector<double> seen;
+  std::vector<double> decided;
+  for (const auto& topic : {topics::kScanFront, topics::kScanRear})
+    world->subscribe<sensor_msgs::LaserScan>(topic, [&](const auto&) { seen.push_back(to_seconds(world->now())); });
+  world->subscribe<docent_msgs::AvoidState>(topics::kAvoidState,
+                                            [&](const auto&) { decided.push_back(to_seconds(world->now())); });
+  run(3.0);
+  ASSERT_GT(speed, 0.5);
+  ASSERT_GE(seen.size(), 58U);
+  for (const double at : seen) {
+    if (at > to_seconds(world->now()) - 0.03) continue;
+    const auto answer = std::lower_bound(decided.begin(), decided.end(), at);
+    ASSERT_NE(answer, decided.end());
+    EXPECT_LT(*answer - at, 0.021);
+  }
+}
+
+TEST_F(MotionModules, AChoiceDoesNotWaitForALaserThatStaysAway) {
+  run(3.0);
+  rear_works = false;
+  std::vector<double> answered;
+  world->subscribe<docent_msgs::AvoidState>(topics::kAvoidState, [&](const auto& decided) {
+    answered.push_back(to_seconds(from_message(decided.header.stamp)));
+  });
+  const double before = to_seconds(world->now());
+  run(0.15);
+  ASSERT_FALSE(answered.empty());
+  EXPECT_LT(answered.front() - before, 0.1 + 0.021);
 }
 
 TEST_F(MotionModules, StandWhenALaserOrTheHazardsOrThePlanFallSilent) {

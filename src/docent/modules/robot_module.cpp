@@ -1,7 +1,5 @@
 #include "docent/modules/robot_module.h"
 
-#include <cmath>
-
 #include "docent/messages/conversions.h"
 #include "docent/robot/watchdog.h"
 
@@ -11,7 +9,7 @@ namespace {
 
 /// Section `robot`: the base.
 struct RobotParams {
-  double rate = 20.0;         ///< [Hz] of cmd_vel; what brakes goes out at once
+  double rate = 20.0;         ///< [Hz] of cmd_vel while no command comes; one that comes goes out at once
   double battery_low = 0.15;  ///< share of the charge below which the module calls itself degraded
   template <class V>
   void visit(V& v) {
@@ -35,12 +33,8 @@ class RobotModule final : public Module {
         transforms_{bus_.publisher(topics::kTransforms)} {
     publish_mounts(context.config.body());
     bus_.subscribe<docent_msgs::Drive>(topics::kDrive, [this](const docent_msgs::Drive& drive) {
-      const auto before = watchdog_.output(bus_.now());
       watchdog_.receive(bus_.now(), {drive.linear, drive.angular});
-      // Braking waits for no tick: people do not either.
-      const auto after = watchdog_.output(bus_.now());
-      const bool brakes = std::abs(after.linear) < std::abs(before.linear) || after.linear * before.linear < 0.0;
-      if (brakes || (after == CommandWatchdog::Command{} && before != after)) command_base();
+      command_base();  // no command waits for a tick: people do not either
     });
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const nav_msgs::Odometry& odometry) {
       odometry_received_ = bus_.now();

@@ -1,5 +1,7 @@
 #include "docent/transport/virtual_time_bus.h"
 
+#include <time.h>
+
 #include <algorithm>
 #include <chrono>
 
@@ -42,11 +44,11 @@ class VirtualTimeHub::Node final : public Bus {
     }
   }
   void run(const std::function<void()>& action) {
-    const auto start = std::chrono::steady_clock::now();
+    const double start = hub_.cost_clock();
     action();
-    const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    const double ms = 1e3 * (hub_.cost_clock() - start);
     cost_.total_s += ms * 1e-3;
-    if (ms > 1e-3) cost_.steps_ms.push_back(static_cast<float>(ms));
+    if (ms > 1e-3) cost_.steps_ms.add(ms);
   }
 
  protected:
@@ -80,6 +82,16 @@ class VirtualTimeHub::Node final : public Bus {
   std::shared_ptr<Node*> self_;
   std::vector<TopicState*> publishers_;
 };
+
+double VirtualTimeHub::wall_clock() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double VirtualTimeHub::processor_clock() {
+  timespec time{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
 
 std::unique_ptr<Bus> VirtualTimeHub::connect(std::string name) {
   return std::make_unique<Node>(*this, std::move(name));

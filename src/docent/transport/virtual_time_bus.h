@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "docent/base/quantiles.h"
 #include "docent/transport/bus.h"
 
 namespace docent {
@@ -40,11 +41,17 @@ class VirtualTimeHub {
   /// Topics that the modules of this name have made publishers for so far: what a replay leaves to them.
   [[nodiscard]] std::set<std::string> topics_published_by(std::string_view name) const;
 
-  /// Wall-clock cost of the handlers of each module so far.
+  /// What the handlers of each module have cost so far, by the clock.
   struct Cost {
     double total_s = 0.0;
-    std::vector<float> steps_ms;  ///< one entry a handler call that took longer than 1 us
+    Quantiles steps_ms;  ///< of handler calls that took longer than 1 us
   };
+  /// The wall's clock, or, for a profile, this thread's time of the processor [s]: that is slower to ask.
+  using CostClock = double (*)();
+  [[nodiscard]] static double wall_clock();
+  [[nodiscard]] static double processor_clock();
+  void measure_by(CostClock clock) { clock_ = clock; }
+  [[nodiscard]] double cost_clock() const { return clock_(); }
   [[nodiscard]] const std::map<std::string, Cost, std::less<>>& costs() const { return costs_; }
 
  private:
@@ -73,6 +80,7 @@ class VirtualTimeHub {
   void drain_posts();
 
   Time now_{};
+  CostClock clock_ = wall_clock;
   std::uint64_t next_order_ = 0;
   std::priority_queue<Event> queue_;
   std::map<std::string, TopicState, std::less<>> topics_;

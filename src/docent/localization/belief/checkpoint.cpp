@@ -60,7 +60,7 @@ Result<void> save_localizer_checkpoint(const LocalizerCheckpoint& checkpoint, co
   for (const BeliefMode& mode : checkpoint.modes)
     text += "  - {pose: " + list_of(pose_of(mode.map_from_robot)) + ", covariance: " + list_of(mode.covariance) +
             ", mass: " + std::to_string(mode.mass) + "}\n";
-  return write_file_atomically(path, text);
+  return write_file_atomically(path, text, Survives::process_death);
 }
 
 Result<LocalizerCheckpoint> load_localizer_checkpoint(const std::filesystem::path& path) {
