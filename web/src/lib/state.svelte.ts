@@ -57,7 +57,7 @@ function firstLanguage(): string {
 /** The pose comes ten times a second: so long a silence [ms] is a dead line, which nobody else may ever report. */
 const SILENCE = 3000;
 /** A line that is not open after this time [ms] is tried anew. */
-const CONNECTING = 8000;
+const CONNECTING = 5000;
 /** What is not answered is said again after this time [ms]. */
 const ANSWER = 3000;
 
