@@ -18,7 +18,8 @@ async function stage(museum, ...words) {
 }
 
 /** What the page sees of the robot: every message goes through `change`, none comes while `isDown`. */
-const robot = { viewers: 1, isDown: false, change: (message) => message, sockets: new Set(), t: 0 };
+const untouched = (message) => message;
+const robot = { viewers: 1, isDown: false, change: untouched, sockets: new Set(), t: 0 };
 async function open({ url }, options = {}) {
   const browser = await browse(options);
   await browser.page.routeWebSocket(/\/live$/, (socket) => {
@@ -40,7 +41,8 @@ async function open({ url }, options = {}) {
 }
 const wires = (isDown) => {
   robot.isDown = isDown;
-  if (isDown) for (const socket of robot.sockets) socket.close();
+  if (!isDown) return;
+  for (const socket of robot.sockets) socket.close();
   robot.sockets.clear();
 };
 
@@ -86,6 +88,7 @@ const faults = (page, museum) =>
       if (meet(bar.getBoundingClientRect(), disc.getBoundingClientRect(), -2)) found.push(`"${name(bar)}" covers ${disc.parentElement.dataset.exhibit}`);
     }
     names.forEach((a, i) => {
+      for (const bar of bars) if (meet(a.getBoundingClientRect(), bar.getBoundingClientRect())) found.push(`"${name(bar)}" covers the name "${a.innerText}"`);
       for (const disc of discs) {
         if (disc.parentElement !== a.parentElement && meet(a.getBoundingClientRect(), disc.getBoundingClientRect(), -1)) found.push(`the name "${a.innerText}" covers ${disc.parentElement.dataset.exhibit}`);
       }
@@ -120,6 +123,7 @@ const axeSays = async (page) => {
 
 const bonn = await stage('bonn', 'horn=2');
 const { page, complaints } = await open(bonn);
+page.setDefaultTimeout(8000);
 const dark = (isDark) => page.evaluate((isDark) => (document.documentElement.dataset.theme === 'dark') !== isDark && document.querySelector('.buttons button[aria-label="Light or dark"]').click(), isDark);
 await page.emulateMedia({ reducedMotion: 'reduce' });
 await page.reload();
@@ -127,6 +131,7 @@ await page.waitForSelector('.map[data-localized=true]');
 
 for (const [width, height] of sizes) {
   await check(`${width} px: everything is in reach and covers nothing`, async () => {
+    wires(false);
     await page.setViewportSize({ width, height });
     for (const viewers of [1, 4]) {
       robot.viewers = viewers;
@@ -192,8 +197,8 @@ await check('a long story scrolls to the sentence that is spoken', async () => {
     const [spoken, box] = [await page.locator('.story .saying').boundingBox(), await page.locator('.story').boundingBox()];
     ensure(spoken.y >= box.y - 1 && spoken.y + spoken.height <= box.y + box.height + 1, `at ${part * 100} % the sentence lies at ${(spoken.y - box.y).toFixed(0)} px of ${box.height.toFixed(0)}`);
   }
-  await page.screenshot({ path: join(pictures, 'story.png') });
-  robot.change = (message) => message;
+  await page.locator('.now').screenshot({ path: join(pictures, 'story.png') });
+  robot.change = untouched;
 });
 
 await check('a lost robot says what it does about it', async () => {
@@ -209,7 +214,7 @@ await check('a lost robot says what it does about it', async () => {
   ensure(!text.includes('on my way') && text.includes('look around'), text);
   ensure((await page.locator('.now .far').count()) === 0, 'tells how far it is to go');
   await page.screenshot({ path: join(pictures, 'lost-under-way.png') });
-  robot.change = (message) => message;
+  robot.change = untouched;
 });
 
 await check('nothing complains', async () => {
@@ -219,6 +224,8 @@ await check('nothing complains', async () => {
 await page.context().close();
 
 await check('the Smithsonian shows its names', async () => {
+  robot.change = untouched;
+  wires(false);
   const smithsonian = await stage('smithsonian');
   const { page } = await open(smithsonian, { viewport: { width: 1400, height: 900 } });
   await pause(600);
