@@ -234,6 +234,25 @@ await check('the Smithsonian shows its names', async () => {
   ensure(named >= 0.9 * smithsonian.museum.exhibits.length, `${named} of ${smithsonian.museum.exhibits.length} names`);
   const found = await faults(page, smithsonian.museum);
   ensure(found.length === 0, found.join('; '));
+
+  // With the first wish the hint goes and the building moves: walls and markers together.
+  const wallOverMarker = () =>
+    page.evaluate(() => {
+      const canvas = document.querySelector('.map canvas');
+      const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+      const isWall = (at) => Math.abs(data[at] - 70) < 8 && Math.abs(data[at + 1] - 63) < 8 && Math.abs(data[at + 2] - 92) < 8;
+      let first = 0;
+      while (first < data.length && !isWall(first)) first += 4;
+      const marker = document.querySelector('[data-exhibit]').getBoundingClientRect();
+      return { gap: marker.top - (Math.floor(first / 4 / canvas.width) * canvas.clientHeight) / canvas.height, y: marker.top };
+    });
+  const before = await wallOverMarker();
+  await page.locator('[data-exhibit]').nth(4).click();
+  await page.click('.go');
+  await until('the building moves', async () => Math.abs((await wallOverMarker()).y - before.y) > 5, 5000);
+  await pause(300);
+  const after = await wallOverMarker();
+  ensure(Math.abs(after.gap - before.gap) < 2, `walls and markers are ${(after.gap - before.gap).toFixed(1)} px apart`);
   await page.context().close();
 });
 
