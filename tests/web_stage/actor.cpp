@@ -34,7 +34,8 @@ Actor::Actor(Bus& bus, const Museum& museum, Scenery& scenery, Rng rng, Options 
       mission_{bus.publisher(topics::kMissionState)},
       board_publisher_{bus.publisher(topics::kRequestBoard)},
       speech_{bus.publisher(topics::kSpeechState)},
-      health_{bus.publisher(topics::kHealth)} {
+      health_{bus.publisher(topics::kHealth)},
+      horn_{bus.publisher(topics::kHorn)} {
   const Point2 start = scenery_.any_place();
   map_from_base_ = {start.x, start.y, Angle::radians(rng_.uniform(-3.0, 3.0))};
   for (int i = 0; i < 5; ++i) {
@@ -54,6 +55,7 @@ Actor::Actor(Bus& bus, const Museum& museum, Scenery& scenery, Rng rng, Options 
   bus_.every(seconds(kStep), [this] { step(); });
   bus_.every(seconds(0.2), [this] { think(); });
   bus_.every(seconds(0.5), [this] { publish_health(); });
+  if (options_.horn_s > 0.0) bus_.every(seconds(options_.horn_s), [this] { horn_.publish({}); });
   publish_board();
   publish_mission();
   publish_belief();

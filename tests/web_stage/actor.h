@@ -17,6 +17,7 @@ class Actor {
     double lost_s = 12.0;  ///< how long it does not know where it is
     double speed = 0.7;    ///< [m/s]
     double talk = 1.0;     ///< time to say a text, as a factor
+    double horn_s = 0.0;   ///< it sounds its horn every so many seconds; 0: never
     bool is_busy = false;  ///< other visitors have wishes too
   };
   Actor(Bus& bus, const Museum& museum, Scenery& scenery, Rng rng, Options options);
@@ -73,6 +74,7 @@ class Actor {
   Publisher<docent_msgs::RequestBoard> board_publisher_;
   Publisher<docent_msgs::SpeechState> speech_;
   Publisher<docent_msgs::Health> health_;
+  Publisher<docent_msgs::Horn> horn_;
 };
 
 }  // namespace docent::stage

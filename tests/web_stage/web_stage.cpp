@@ -9,10 +9,11 @@
 
 #include "actor.h"
 #include "docent/base/files.h"
+#include "docent/interaction/speech/horn.h"
 #include "docent/modules/web_module.h"
 #include "docent/transport/virtual_time_bus.h"
 
-// docent_web_stage MUSEUM_DIR STATE_DIR PORT [lost=S] [people=N] [busy] [speed=V] [talk=F] [seconds=S]
+// docent_web_stage MUSEUM_DIR STATE_DIR PORT [lost=S] [people=N] [busy] [speed=V] [talk=F] [horn=S] [seconds=S]
 // The web module of the robot, in real time, among invented messages. Ends on SIGTERM or after `seconds`.
 
 namespace {
@@ -40,9 +41,10 @@ std::string tone() {
 int main(int argc, char** argv) {
   using namespace docent;
   if (argc < 4) {
-    std::fprintf(stderr,
-                 "usage: %s MUSEUM_DIR STATE_DIR PORT [lost=S] [people=N] [busy] [speed=V] [talk=F] [seconds=S]\n",
-                 argv[0]);
+    std::fprintf(
+        stderr,
+        "usage: %s MUSEUM_DIR STATE_DIR PORT [lost=S] [people=N] [busy] [speed=V] [talk=F] [horn=S] [seconds=S]\n",
+        argv[0]);
     return 2;
   }
   stage::Actor::Options options;
@@ -58,6 +60,7 @@ int main(int argc, char** argv) {
     if (const auto text = value("speed="); !text.empty()) options.speed = std::stod(text);
     if (const auto text = value("seconds="); !text.empty()) end_s = std::stod(text);
     if (const auto text = value("talk="); !text.empty()) options.talk = std::stod(text);
+    if (const auto text = value("horn="); !text.empty()) options.horn_s = std::stod(text);
     if (word == "busy") options.is_busy = true;
   }
   const auto museum = load_museum(argv[1]);
@@ -65,6 +68,7 @@ int main(int argc, char** argv) {
   const std::filesystem::path state = argv[2];
   std::filesystem::create_directories(state / "audio");
   if (!write_file_atomically(state / "audio/5a5a5a5a.wav", tone())) return 2;
+  if (!write_horn_sound(horn_sound(1.0), state / "audio")) return 2;
   RobotConfig config;
   if (const auto set = config.set(std::string{"web.port="} + argv[3]); !set) return 2;
 

@@ -5,6 +5,8 @@
 #include <mutex>
 #include <thread>
 
+#include "docent/interaction/speech/horn.h"
+#include "docent/interaction/speech/loudspeaker.h"
 #include "docent/interaction/speech/renderer.h"
 #include "docent/interaction/speech/speaker.h"
 #include "docent/interaction/speech/spoken_text.h"
@@ -20,10 +22,12 @@ constexpr std::size_t kMostText = 20000;  ///< [bytes]
 struct SoundParams {
   std::string program = "espeak-ng";  ///< renders the speech; empty: the words alone
   double timeout_s = 15.0;            ///< [s] > 0 for one line
+  std::string player;                 ///< plays a WAV file on the robot, for instance aplay; empty: the pages play it
   template <class V>
   void visit(V& v) {
     v("program", program);
     v("timeout_s", timeout_s);
+    v("player", player);
   }
   [[nodiscard]] Result<void> validate() const {
     if (!(timeout_s > 0.0)) return fail("sound.timeout_s must be > 0");
@@ -92,13 +96,16 @@ class SoundModule final : public Module {
   SoundModule(const ModuleContext& context, const SoundParams& params, SpeakerMemory memory)
       : bus_{context.bus},
         checkpoint_{context.state / "sound.json"},
+        audio_{context.state / "audio"},
+        makes_sound_{!context.virtual_time},
         survives_{context.virtual_time ? Survives::process_death : Survives::power_failure},
         speaker_{std::move(memory), bus_.now()},
-        state_{bus_.publisher(topics::kSpeechState)} {
-    if (!context.virtual_time && !params.program.empty()) {
+        state_{bus_.publisher(topics::kSpeechState)},
+        loudspeaker_{makes_sound_ ? params.player : ""} {
+    if (makes_sound_ && !params.program.empty()) {
       // The worker outlives no module: what it posts late finds the guard gone.
       const std::weak_ptr<SoundModule*> guard = guard_;
-      worker_ = std::make_unique<RenderWorker>(params, context.state / "audio",
+      worker_ = std::make_unique<RenderWorker>(params, audio_,
                                                [&bus = bus_, guard](std::string id, Result<RenderedLine> line) {
                                                  bus.post([guard, id = std::move(id), line = std::move(line)] {
                                                    if (const auto self = guard.lock()) (*self)->on_rendered(id, line);
@@ -108,7 +115,9 @@ class SoundModule final : public Module {
     if (!speaker_.present().id.empty()) publish();
     bus_.subscribe<docent_msgs::Limits>(topics::kLimits, [this](const auto& limits) { volume_ = limits.volume; });
     bus_.subscribe<docent_msgs::Say>(topics::kSay, [this](const auto& say) { on_say(say); });
+    bus_.subscribe<docent_msgs::Horn>(topics::kHorn, [this](const auto&) { honk(); });
     bus_.every(kPeriod, [this] {
+      prepare_horn();
       if (!speaker_.finish_if_over(bus_.now())) return;
       save();
       publish();
@@ -118,6 +127,8 @@ class SoundModule final : public Module {
   [[nodiscard]] ModuleHealth health() const override {
     if (!speech_fault_.empty()) return {"degraded", speech_fault_};
     if (!disk_fault_.empty()) return {"degraded", disk_fault_};
+    if (!horn_fault_.empty()) return {"degraded", horn_fault_};
+    if (!loudspeaker_fault_.empty()) return {"degraded", loudspeaker_fault_};
     return {};
   }
 
@@ -157,8 +168,31 @@ class SoundModule final : public Module {
 
   void begin(const std::string& audio, double duration_s) {
     speaker_.begin(duration_s, audio, bus_.now());
+    if (audio.empty()) {
+      loudspeaker_.hush();
+    } else {
+      note(loudspeaker_.speak(audio_ / audio));
+    }
     save();
     publish();
+  }
+
+  /// The horn's sound lies ready in the volume of the hour before it is needed: whoever hears of the horn may fetch it.
+  void prepare_horn() {
+    if (!makes_sound_ || volume_ <= 0.0 || volume_ == horn_volume_) return;
+    horn_volume_ = volume_;
+    const HornSound horn = horn_sound(volume_);
+    horn_file_ = horn.file;
+    const auto written = write_horn_sound(horn, audio_);
+    horn_fault_ = written ? "" : "no horn: " + written.error().message;
+  }
+  void honk() {
+    prepare_horn();
+    if (!makes_sound_ || volume_ <= 0.0 || !horn_fault_.empty()) return;
+    note(loudspeaker_.honk(audio_ / horn_file_));
+  }
+  void note(const Result<void>& played) {
+    loudspeaker_fault_ = played ? "" : "no loudspeaker: " + played.error().message;
   }
 
   void save() {
@@ -191,12 +225,19 @@ class SoundModule final : public Module {
 
   Bus& bus_;
   std::filesystem::path checkpoint_;
+  std::filesystem::path audio_;  ///< the folder of what is heard
+  bool makes_sound_;             ///< not in virtual time
   Survives survives_;
   Speaker speaker_;
   Publisher<docent_msgs::SpeechState> state_;
+  Loudspeaker loudspeaker_;
   double volume_ = 1.0;
+  double horn_volume_ = 0.0;  ///< of `horn_file_`; 0: there is none yet
+  std::string horn_file_;
   std::string speech_fault_;
   std::string disk_fault_;
+  std::string horn_fault_;
+  std::string loudspeaker_fault_;
   std::shared_ptr<SoundModule*> guard_ = std::make_shared<SoundModule*>(this);
   std::unique_ptr<RenderWorker> worker_;  ///< last: its thread ends first
 };

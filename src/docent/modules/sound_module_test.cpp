@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "docent/base/files.h"
+#include "docent/interaction/speech/horn.h"
 #include "docent/interaction/speech/renderer.h"
 #include "docent/interaction/speech/spoken_text.h"
 #include "docent/messages/conversions.h"
@@ -163,6 +164,56 @@ TEST_F(Sound, MutedItMakesNoSound) {
   ASSERT_EQ(heard_.size(), 1U);
   EXPECT_EQ(heard_[0].audio, "");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "audio"));
+}
+
+TEST_F(Sound, TheHornHasAFileThatEverybodyCanFetch) {
+  start(false);
+  run_for(0.3);
+  const HornSound horn = horn_sound(1.0);
+  EXPECT_NEAR(wav_duration(folder_ / "audio" / horn.file).value_or(0.0), horn.duration_s, 0.001) << "before it sounds";
+  limits_.publish({0.7, 0.3, "open", true});
+  run_for(0.3);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "audio" / horn_sound(0.3).file)) << "and in the volume of the hour";
+  EXPECT_EQ(module_->health().state, "ready");
+}
+
+TEST_F(Sound, ThePlayerPlaysTheHornAndTheLines) {
+  const auto notes = folder_ / "notes";
+  ASSERT_TRUE(write_file_atomically(folder_ / "player", "#!/bin/sh\necho $1 >> " + notes.string() + "\n"));
+  std::filesystem::permissions(folder_ / "player", std::filesystem::perms::owner_all);
+  ASSERT_TRUE(config_.set("sound.player=" + (folder_ / "player").string()));
+  start(false);
+  const auto horn = listener_->publisher(topics::kHorn);
+  const auto played = [&](const std::string& file) {
+    for (int i = 0; i < 400; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      if (read_file(notes).value_or("").find((folder_ / "audio" / file).string()) != std::string::npos) return true;
+    }
+    return false;
+  };
+  horn.publish({});
+  run_for(0.01);
+  EXPECT_TRUE(played(horn_sound(1.0).file));
+  say("t1/short", kText);
+  wait_for_news();
+  EXPECT_TRUE(played(heard_.back().audio));
+  EXPECT_EQ(module_->health().state, "ready");
+}
+
+TEST_F(Sound, AMissingPlayerIsToldAndMutedItIsNotAsked) {
+  ASSERT_TRUE(config_.set("sound.player=/nonexistent/player"));
+  limits_.publish({0.7, 0.0, "open", true});
+  start(false);
+  const auto horn = listener_->publisher(topics::kHorn);
+  run_for(0.1);
+  horn.publish({});
+  run_for(0.1);
+  EXPECT_EQ(module_->health().state, "ready") << "muted";
+  limits_.publish({0.7, 1.0, "open", true});
+  horn.publish({});
+  run_for(0.1);
+  EXPECT_EQ(module_->health().state, "degraded");
+  EXPECT_NE(module_->health().reason.find("/nonexistent/player"), std::string::npos);
 }
 
 TEST_F(Sound, DiesWhileItRendersWithoutWaiting) {

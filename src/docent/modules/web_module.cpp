@@ -10,6 +10,7 @@
 #include <set>
 #include <system_error>
 
+#include "docent/interaction/speech/horn.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/scanners.h"
 #include "docent/telepresence/belief_carrier.h"
@@ -56,7 +57,7 @@ struct WebParams : WebServerParams {
 };
 
 /// The slots of the live channel.
-enum Slot : int { kLive, kBelief, kPath, kMission, kSpeech, kBoard, kHealth, kWindow };
+enum Slot : int { kLive, kBelief, kPath, kMission, kSpeech, kBoard, kHealth, kWindow, kHorn };
 
 std::filesystem::path page_folder(const std::string& root) {
   if (!root.empty()) return root;
@@ -159,6 +160,11 @@ class WebModule final : public Module {
     });
     bus_.subscribe<docent_msgs::SpeechState>(topics::kSpeechState,
                                              [this](const auto& m) { server_->broadcast(kSpeech, encode_speech(m)); });
+    bus_.subscribe<docent_msgs::Limits>(topics::kLimits, [this](const auto& m) {
+      if (m.volume != volume_) horn_.reset();
+      volume_ = m.volume;
+    });
+    bus_.subscribe<docent_msgs::Horn>(topics::kHorn, [this](const auto&) { show_horn(); });
     bus_.subscribe<docent_msgs::RequestBoard>(topics::kRequestBoard, [this](const auto& m) { see_board(m); });
     bus_.subscribe<docent_msgs::Health>(topics::kHealth, [this](const auto& m) {
       constexpr std::size_t kMostModules = 64;  // whoever invents names shall not fill the memory
@@ -212,6 +218,12 @@ class WebModule final : public Module {
       health_text_ = text;
     }
     server_->broadcast(kHealth, std::move(text));
+  }
+
+  /// The `sound` module has written the file of this name.
+  void show_horn() {
+    if (!horn_) horn_ = horn_sound(volume_);
+    server_->broadcast(kHorn, encode_horn(bus_.now(), volume_ > 0.0 ? horn_->file : "", horn_->duration_s));
   }
 
   void see_board(const docent_msgs::RequestBoard& board) {
@@ -343,6 +355,8 @@ class WebModule final : public Module {
   std::optional<docent_msgs::MissionState> mission_;
   std::optional<docent_msgs::Choice> choice_;  ///< resent until its question is closed
   std::optional<double> battery_;
+  double volume_ = 1.0;
+  std::optional<HornSound> horn_;  ///< in this volume
   nav_msgs::Path path_;
   docent_msgs::GoalState goal_;
   bool is_path_new_ = false;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "docent/interaction/speech/horn.h"
 #include "docent/messages/conversions.h"
 #include "docent/telepresence/test_client.h"
 #include "docent/transport/virtual_time_bus.h"
@@ -281,6 +282,43 @@ TEST_F(WebModuleTest, NonsenseInTheConfigurationIsNamed) {
   const auto module = make_web({*bus, museum_, config, state_, 1, true});
   ASSERT_FALSE(module);
   EXPECT_NE(module.error().message.find("web.live_hz"), std::string::npos) << module.error().message;
+}
+
+TEST_F(WebModuleTest, TheHornIsToldWithTheNameOfItsSound) {
+  TestClient viewer{port_};
+  ASSERT_TRUE(viewer.upgrade());
+  const auto horn = robot_bus_->publisher(topics::kHorn);
+  horn.publish({});
+  const Json loud = next(viewer, "horn");
+  EXPECT_EQ(loud["audio"], "/audio/" + horn_sound(1.0).file);
+  EXPECT_NEAR(loud["t"].get<double>(), to_seconds(hub_.now()), 0.5);
+  EXPECT_NEAR(loud["duration"].get<double>(), horn_sound(1.0).duration_s, 0.01);
+  ASSERT_TRUE(write_horn_sound(horn_sound(1.0), state_ / "audio"));  // as `sound` does
+  TestClient listener{port_};
+  listener.send("GET " + loud["audio"].get<std::string>() + " HTTP/1.1\r\nHost: a\r\n\r\n");
+  EXPECT_EQ(listener.receive_reply().second, horn_sound(1.0).content);
+
+  const auto limits = robot_bus_->publisher(topics::kLimits);
+  limits.publish({0.7, 0.4, "open", true});
+  horn.publish({});
+  EXPECT_EQ(next(viewer, "horn")["audio"], "/audio/" + horn_sound(0.4).file);
+  limits.publish({0.7, 0.0, "open", true});
+  horn.publish({});
+  EXPECT_EQ(next(viewer, "horn")["audio"], "") << "muted";
+}
+
+TEST_F(WebModuleTest, AViewerHearsSomethingAtLeastEverySecond) {
+  TestClient viewer{port_};
+  ASSERT_TRUE(viewer.upgrade());
+  run(0.5);
+  while (viewer.receive_frame(std::chrono::milliseconds{20}).opcode == 1) {
+  }
+  for (int second = 0; second < 3; ++second) {  // of a robot from which nothing comes at all
+    run(1.0);
+    EXPECT_EQ(viewer.receive_frame(std::chrono::milliseconds{500}).opcode, 1);
+    while (viewer.receive_frame(std::chrono::milliseconds{20}).opcode == 1) {
+    }
+  }
 }
 
 }  // namespace

@@ -181,6 +181,13 @@ std::string encode_speech(const docent_msgs::SpeechState& speech) {
                   {"audio", is_audio_name(audio) ? "/audio/" + audio : ""}});
 }
 
+std::string encode_horn(Time t, const std::string& file, double duration_s) {
+  return text_of({{"type", "horn"},
+                  {"t", rounded(to_seconds(t))},
+                  {"duration", rounded(duration_s)},
+                  {"audio", is_audio_name(file) ? "/audio/" + file : ""}});
+}
+
 std::string encode_board(const docent_msgs::RequestBoard& board) {
   constexpr std::size_t kMaxOpen = 200;
   constexpr std::size_t kMaxClosed = 30;

@@ -41,6 +41,8 @@ struct HealthEntry {
 [[nodiscard]] std::string encode_path(const nav_msgs::Path& path, const docent_msgs::GoalState& state);
 [[nodiscard]] std::string encode_mission(const docent_msgs::MissionState& mission);
 [[nodiscard]] std::string encode_speech(const docent_msgs::SpeechState& speech);
+/// The horn sounds at `t`; `file`: what it sounds like, HASH.wav, or empty while the robot is muted.
+[[nodiscard]] std::string encode_horn(Time t, const std::string& file, double duration_s);
 /// All open requests and the newest closed ones. Viewers see the last 8 digits of an id only: who knows all of it may
 /// cancel the request.
 [[nodiscard]] std::string encode_board(const docent_msgs::RequestBoard& board);

@@ -1,6 +1,9 @@
 #include "docent/telepresence/site.h"
 
+#include <zlib.h>
+
 #include <algorithm>
+#include <charconv>
 #include <system_error>
 
 #include "docent/base/files.h"
@@ -35,7 +38,67 @@ SiteReply plain(int status, std::string text) {
   return reply;
 }
 
+/// `text` as a gzip file; empty when zlib fails.
+std::string gzip(const std::string& text) {
+  constexpr int kGzipWindow = 15 + 16;  // the largest window; 16 more asks for gzip's header
+  z_stream stream{};
+  if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, kGzipWindow, 9, Z_DEFAULT_STRATEGY) != Z_OK) return {};
+  std::string packed(deflateBound(&stream, static_cast<uLong>(text.size())), '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
+  stream.avail_in = static_cast<uInt>(text.size());
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  const int status = deflate(&stream, Z_FINISH);
+  packed.resize(stream.total_out);
+  deflateEnd(&stream);
+  return status == Z_STREAM_END ? packed : std::string{};
+}
+
+/// A reply that stays as it is, with its compressed form where that saves at least a tenth: pictures are left alone.
+SiteReply lasting(std::string content_type, std::string content) {
+  SiteReply reply;
+  reply.content_type = std::move(content_type);
+  auto packed = gzip(content);
+  if (!packed.empty() && packed.size() < content.size() - content.size() / 10) {
+    reply.gzipped = std::make_shared<const std::string>(std::move(packed));
+  }
+  reply.body = std::make_shared<const std::string>(std::move(content));
+  return reply;
+}
+
+std::string_view trimmed(std::string_view text) {
+  const auto begin = text.find_first_not_of(" \t");
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
+}
+
+bool equals_ignoring_case(std::string_view a, std::string_view b) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return lower(x) == lower(y); });
+}
+
 }  // namespace
+
+bool accepts_gzip(std::string_view accept_encoding) {
+  bool others = false;  // what "*" says of the encodings that are not named
+  while (!accept_encoding.empty()) {
+    const auto comma = accept_encoding.find(',');
+    const std::string_view item = accept_encoding.substr(0, comma);
+    accept_encoding.remove_prefix(comma == std::string_view::npos ? accept_encoding.size() : comma + 1);
+    const auto semicolon = item.find(';');
+    const std::string_view name = trimmed(item.substr(0, semicolon));
+    double quality = 1.0;  // 0 means: never
+    if (semicolon != std::string_view::npos) {
+      const std::string_view weight = trimmed(item.substr(semicolon + 1));
+      if (weight.size() < 3 || !equals_ignoring_case(weight.substr(0, 2), "q=")) continue;
+      const std::string_view number = weight.substr(2);
+      if (std::from_chars(number.data(), number.data() + number.size(), quality).ec != std::errc{}) continue;
+    }
+    if (equals_ignoring_case(name, "gzip") || equals_ignoring_case(name, "x-gzip")) return quality > 0.0;
+    if (name == "*") others = quality > 0.0;
+  }
+  return others;
+}
 
 bool is_audio_name(std::string_view name) {
   constexpr std::string_view kEnd = ".wav";
@@ -55,9 +118,7 @@ Result<void> Site::load_page(const std::filesystem::path& folder) {
     if (total > kMaxPageBytes) return fail(folder.string() + ": the page is larger than 64 MB");
     auto content = read_file(entry->path());
     if (!content) return tl::unexpected<Error>(content.error());
-    SiteReply reply;
-    reply.content_type = content_type_of(entry->path());
-    reply.body = std::make_shared<const std::string>(std::move(*content));
+    SiteReply reply = lasting(content_type_of(entry->path()), std::move(*content));
     const std::string path = "/" + entry->path().lexically_relative(folder).generic_string();
     reply.is_immutable = path.starts_with("/assets/");
     page.insert_or_assign(path, std::move(reply));
@@ -72,9 +133,7 @@ Result<void> Site::load_page(const std::filesystem::path& folder) {
 }
 
 void Site::set_document(const std::string& path, std::string content_type, std::string body) {
-  SiteReply reply;
-  reply.content_type = std::move(content_type);
-  reply.body = std::make_shared<const std::string>(std::move(body));
+  SiteReply reply = lasting(std::move(content_type), std::move(body));
   const std::scoped_lock lock{mutex_};
   documents_.insert_or_assign(path, std::move(reply));
 }

@@ -16,13 +16,14 @@ namespace docent {
 struct SiteReply {
   int status = 200;
   std::string content_type = "text/plain; charset=utf-8";
-  std::shared_ptr<const std::string> body;  ///< never null
-  bool is_immutable = false;                ///< its name changes with its content: keep it for ever
+  std::shared_ptr<const std::string> body;     ///< never null
+  std::shared_ptr<const std::string> gzipped;  ///< the same body compressed; null where that saves nothing
+  bool is_immutable = false;                   ///< its name changes with its content: keep it for ever
 };
 
 /// Everything that can be fetched, by exact path. The page is read into memory once, so no path from outside ever
-/// reaches the file system; audio files are, and their names may only be hexadecimal digits and ".wav".
-/// Any thread may call it.
+/// reaches the file system; audio files are, and their names may only be hexadecimal digits and ".wav". What does not
+/// change is compressed once, when it is set. Any thread may call it.
 class Site {
  public:
   /// Reads all files under `folder` as "/…"; "/" is index.html. Error: unreadable, no index.html, or over 64 MB.
@@ -48,6 +49,9 @@ class Site {
   std::map<std::string, SiteReply, std::less<>> documents_;
   std::map<std::string, Live, std::less<>> live_;
 };
+
+/// True when a reader whose Accept-Encoding (RFC 9110, 12.5.3) is this may be sent gzip.
+[[nodiscard]] bool accepts_gzip(std::string_view accept_encoding);
 
 /// True for 1 to 64 hexadecimal digits and ".wav": no other name can be a file of ours.
 [[nodiscard]] bool is_audio_name(std::string_view name);

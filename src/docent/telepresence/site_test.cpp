@@ -1,6 +1,7 @@
 #include "docent/telepresence/site.h"
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <fstream>
 
@@ -36,6 +37,54 @@ TEST_F(SiteTest, ServesThePage) {
   EXPECT_EQ(script.status, 200);
   EXPECT_EQ(script.content_type, "text/javascript; charset=utf-8");
   EXPECT_TRUE(script.is_immutable);
+}
+
+/// What a browser makes of a gzip body.
+std::string unzipped(const std::string& packed) {
+  z_stream stream{};
+  inflateInit2(&stream, 15 + 16);
+  std::string text(1 << 20, '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
+  stream.avail_in = static_cast<uInt>(packed.size());
+  stream.next_out = reinterpret_cast<Bytef*>(text.data());
+  stream.avail_out = static_cast<uInt>(text.size());
+  EXPECT_EQ(inflate(&stream, Z_FINISH), Z_STREAM_END);
+  text.resize(stream.total_out);
+  inflateEnd(&stream);
+  return text;
+}
+
+TEST_F(SiteTest, WhatCompressesIsHeldCompressedToo) {
+  std::string script;
+  for (int i = 0; i < 500; ++i) script += "export const value" + std::to_string(i) + " = " + std::to_string(i) + ";\n";
+  write("page/assets/long-3c4d.js", script);
+  Site site;
+  ASSERT_TRUE(site.load_page(folder_ / "page"));
+  const auto reply = site.get("/assets/long-3c4d.js");
+  EXPECT_EQ(*reply.body, script);
+  ASSERT_TRUE(reply.gzipped);
+  EXPECT_LT(reply.gzipped->size(), script.size() / 3);
+  EXPECT_EQ(unzipped(*reply.gzipped), script);
+  EXPECT_FALSE(site.get("/").gzipped) << "so short a text only grows";
+
+  site.set_document("/api/museum.json", "application/json", script);
+  EXPECT_EQ(unzipped(*site.get("/api/museum.json").gzipped), script);
+  std::string picture;
+  std::uint32_t noise = 1;
+  for (int i = 0; i < 5000; ++i) picture += static_cast<char>((noise = noise * 1664525 + 1013904223) >> 24U);
+  site.set_document("/api/map.png", "image/png", picture);
+  EXPECT_FALSE(site.get("/api/map.png").gzipped) << "what is compressed already is left alone";
+}
+
+TEST(AcceptsGzip, AsTheReaderSays) {
+  for (const char* text : {"gzip", "gzip, deflate, br", "br;q=1.0, gzip;q=0.8, *;q=0.1", " deflate ,\tGZip", "x-gzip",
+                           "*", "identity;q=0, *", "gzip ; q=0.001"}) {
+    EXPECT_TRUE(accepts_gzip(text)) << text;
+  }
+  for (const char* text : {"", "identity", "br", "gzip;q=0", "gzip; q=0.000, *", "*;q=0", "gzipped",
+                           "gzip;q=", "gzip;x", ",,;;", "gzip;q=0,br"}) {
+    EXPECT_FALSE(accepts_gzip(text)) << text;
+  }
 }
 
 TEST_F(SiteTest, NothingElseCanBeReached) {

@@ -308,7 +308,8 @@ class HttpSessionOf : public std::enable_shared_from_this<HttpSessionOf<TheCore>
       return reply_error(http::status::method_not_allowed, "GET only\n");
     }
     const SiteReply reply = core_.site->get({target.data(), target.size()});
-    send(reply, is_head, request.keep_alive());
+    const beast::string_view encodings = request[http::field::accept_encoding];
+    send(reply, is_head, request.keep_alive(), accepts_gzip({encodings.data(), encodings.size()}));
   }
 
   void upgrade(http::request<http::string_body> request) {
@@ -333,17 +334,20 @@ class HttpSessionOf : public std::enable_shared_from_this<HttpSessionOf<TheCore>
     SiteReply reply;
     reply.status = static_cast<int>(status);
     reply.body = std::make_shared<const std::string>(std::move(text));
-    send(reply, false, false);
+    send(reply, false, false, false);
   }
 
-  void send(const SiteReply& reply, bool is_head, bool keep_alive) {
-    body_ = reply.body;
+  void send(const SiteReply& reply, bool is_head, bool keep_alive, bool takes_gzip) {
+    const bool is_gzipped = takes_gzip && reply.gzipped != nullptr;
+    body_ = is_gzipped ? reply.gzipped : reply.body;
     response_.emplace();
     response_->result(static_cast<unsigned>(reply.status));
     response_->version(11);
     response_->set(http::field::server, "docent");
     response_->set(http::field::content_type, reply.content_type);
     response_->set(http::field::cache_control, reply.is_immutable ? "public, max-age=31536000, immutable" : "no-cache");
+    if (is_gzipped) response_->set(http::field::content_encoding, "gzip");
+    if (reply.gzipped) response_->set(http::field::vary, "Accept-Encoding");
     response_->set("X-Content-Type-Options", "nosniff");
     response_->set("Referrer-Policy", "no-referrer");
     response_->set(

@@ -64,6 +64,32 @@ TEST_F(WebServerTest, AnswersHttp) {
   EXPECT_NE(rest.find("HTTP/1.1 404"), std::string::npos);
 }
 
+TEST_F(WebServerTest, SendsCompressedToWhoeverTakesIt) {
+  start();
+  const std::string text(5000, 'a');
+  site_->set_document("/long", "text/css; charset=utf-8", text);
+  TestClient client{server_->port()};
+  const auto get = [&](const std::string& path, const std::string& accepted) {
+    client.send("GET " + path + " HTTP/1.1\r\nHost: a\r\n" + accepted + "\r\n");
+    return client.receive_reply();
+  };
+  const auto [packed_head, packed] = get("/long", "Accept-Encoding: gzip, deflate, br\r\n");
+  EXPECT_NE(packed_head.find("Content-Encoding: gzip\r\n"), std::string::npos) << packed_head;
+  EXPECT_NE(packed_head.find("Content-Type: text/css; charset=utf-8\r\n"), std::string::npos);
+  EXPECT_NE(packed_head.find("Vary: Accept-Encoding\r\n"), std::string::npos);
+  EXPECT_LT(packed.size(), 200U);
+  EXPECT_TRUE(packed.starts_with("\x1f\x8b"));
+  for (const char* accepted : {"", "Accept-Encoding: br\r\n", "Accept-Encoding: gzip;q=0\r\n"}) {
+    const auto [head, body] = get("/long", accepted);
+    EXPECT_EQ(head.find("Content-Encoding"), std::string::npos) << accepted;
+    EXPECT_NE(head.find("Vary: Accept-Encoding\r\n"), std::string::npos) << "a cache must know of both";
+    EXPECT_EQ(body, text);
+  }
+  const auto [head, body] = get("/", "Accept-Encoding: gzip\r\n");
+  EXPECT_EQ(head.find("Content-Encoding"), std::string::npos);
+  EXPECT_EQ(body, "<p>hello");
+}
+
 TEST_F(WebServerTest, RefusesWhatIsNotMeantForIt) {
   start();
   const std::vector<std::pair<std::string, std::string>> cases = {

@@ -110,6 +110,13 @@ export interface SpeechMessage {
   duration: number;
   audio: string;
 }
+/** The horn sounds at `t`; `audio` is empty while the robot is muted. */
+export interface HornMessage {
+  type: 'horn';
+  t: number;
+  duration: number;
+  audio: string;
+}
 export interface BoardEntry {
   key: string;
   source: string;
@@ -146,6 +153,7 @@ export type ServerMessage =
   | PathMessage
   | MissionMessage
   | SpeechMessage
+  | HornMessage
   | BoardMessage
   | HealthMessage
   | WindowMessage

@@ -7,6 +7,7 @@ import type {
   BoardMessage,
   Exhibit,
   HealthMessage,
+  HornMessage,
   LiveMessage,
   MissionMessage,
   Museum,
@@ -53,6 +54,13 @@ function firstLanguage(): string {
   return pageLanguages.includes(wanted) ? wanted : 'en';
 }
 
+/** The pose comes ten times a second: so long a silence [ms] is a dead line, which nobody else may ever report. */
+const SILENCE = 3000;
+/** A line that is not open after this time [ms] is tried anew. */
+const CONNECTING = 5000;
+/** What is not answered is said again after this time [ms]. */
+const ANSWER = 3000;
+
 const closedStates = ['fulfilled', 'failed', 'refused', 'cancelled'];
 export const keyOf = (id: string) => id.slice(-8);
 
@@ -61,6 +69,7 @@ class App {
   connection = $state<'connecting' | 'open' | 'lost'>('connecting');
   mission = $state.raw<MissionMessage | null>(null);
   speech = $state.raw<SpeechMessage | null>(null);
+  horn = $state.raw<HornMessage | null>(null);
   board = $state.raw<BoardMessage | null>(null);
   health = $state.raw<HealthMessage | null>(null);
   path = $state.raw<PathMessage | null>(null);
@@ -94,13 +103,15 @@ class App {
   private tries = 0;
   private lastHeard = 0;
   private toastTimer = 0;
+  /** Orders without an answer. They outlive a dead line: said again with the same id, they count once. */
+  private unanswered = new Map<string, { order: object; sent: number }>();
 
   async start(): Promise<void> {
     this.connect();
-    setInterval(() => this.watchOver(), 1000);
+    setInterval(() => this.watchOver(), 500);
     for (let pause = 500; ; pause = Math.min(pause * 2, 8000)) {
       try {
-        const reply = await fetch('/api/museum.json');
+        const reply = await fetch('/api/museum.json', { signal: AbortSignal.timeout(20000) });
         if (!reply.ok) throw new Error(String(reply.status));
         this.museum = await reply.json();
         return;
@@ -157,20 +168,22 @@ class App {
     this.keepWishes();
     this.sendWish(wish);
     this.selected = null;
-    this.notice(this.t('onItsWay'));
+    if (this.connection !== 'open') this.notice(this.t('kept'));
   }
   cancel(wish: Wish): void {
     if (wish.state === 'sending' && !wish.seen) {
       this.wishes = this.wishes.filter((other) => other.id !== wish.id);
       this.keepWishes();
     }
-    this.send({ type: 'cancel', id: uuid7(), request: wish.id });
+    this.unanswered.delete(wish.id);
+    this.order({ type: 'cancel', id: uuid7(), request: wish.id });
   }
   answer(choice: string): void {
     const prompt = this.mission?.prompt;
     if (!prompt) return;
     this.answered = prompt.id;
-    this.send({ type: 'choice', id: uuid7(), prompt: prompt.id, choice });
+    this.order({ type: 'choice', id: uuid7(), prompt: prompt.id, choice });
+    if (this.connection !== 'open') this.notice(this.t('kept'));
   }
   isMine(entry: BoardEntry): boolean {
     return this.wishes.some((wish) => keyOf(wish.id) === entry.key);
@@ -180,7 +193,7 @@ class App {
     store.write('wishes', this.wishes);
   }
   private sendWish(wish: Wish): void {
-    this.send({
+    this.order({
       type: 'request',
       id: wish.id,
       kind: wish.kind,
@@ -201,6 +214,8 @@ class App {
       const entry = entries.get(keyOf(wish.id));
       if (!entry || (entry.state === wish.state && wish.seen)) return wish;
       changed = true;
+      this.unanswered.delete(wish.id);
+      if (wish.state === 'sending' && !closedStates.includes(entry.state)) this.notice(this.t('onItsWay'));
       if (entry.state === 'fulfilled' && wish.state !== 'fulfilled') {
         ++this.joys;
         this.notice(`${this.t('hurray')} ${this.titleOf(wish.kind, wish.target)}`);
@@ -224,34 +239,55 @@ class App {
     this.socket = socket;
     this.lastHeard = performance.now();
     socket.onopen = () => {
-      this.tries = 0;
+      this.lastHeard = performance.now();
       this.connection = 'open';
       if (this.expert) this.send({ type: 'watch', details: true });
       // Whatever was not yet on the board is said again, with the same id: the server knows it if it had it.
       for (const wish of this.wishes) {
         if (!wish.seen && !closedStates.includes(wish.state)) this.sendWish(wish);
       }
+      this.repeatOrders(1);
     };
     socket.onmessage = (event) => {
       this.lastHeard = performance.now();
+      this.tries = 0;
       this.take(JSON.parse(event.data) as ServerMessage);
     };
-    socket.onclose = () => {
-      if (this.socket !== socket) return;
-      this.socket = null;
-      this.connection = 'lost';
-      // Spread out, so that ten thousand pages do not come back in the same moment.
-      const pause = Math.min(10000, 300 * 2 ** this.tries++) * (0.7 + 0.6 * Math.random());
-      setTimeout(() => this.connect(), pause);
-    };
+    socket.onclose = () => this.drop();
+  }
+  /**
+   * Gives the line up and calls again after a pause. Does not wait for the other end to agree: where the line is dead,
+   * `close` reports its end after minutes only.
+   */
+  private drop(): void {
+    const socket = this.socket;
+    if (!socket) return;
+    this.socket = null;
+    socket.onopen = socket.onmessage = socket.onclose = null;
+    socket.close();
+    if (this.connection === 'open' && this.wishes.some((wish) => wish.state === 'sending')) this.notice(this.t('kept'));
+    this.connection = 'lost';
+    // Spread out, so that ten thousand pages do not come back in the same moment.
+    const pause = Math.min(10000, 300 * 2 ** this.tries++) * (0.7 + 0.6 * Math.random());
+    setTimeout(() => this.connect(), pause);
   }
   private watchOver(): void {
-    // The pose comes ten times a second: five silent seconds are a dead line that nobody has reported yet.
-    const isSilent = performance.now() - this.lastHeard > 5000;
-    if (this.socket && isSilent && this.connection === 'open') this.socket.close();
-    if (this.connection !== 'open') return;
-    for (const wish of this.wishes) {
-      if (wish.state === 'sending' && Date.now() - wish.made > 3000) this.sendWish(wish);
+    const patience = this.connection === 'open' ? SILENCE : CONNECTING;
+    if (this.socket && performance.now() - this.lastHeard > patience) this.drop();
+    this.repeatOrders(ANSWER);
+  }
+  private order(order: { id: string; [field: string]: unknown }): void {
+    this.unanswered.set(order.id, { order, sent: performance.now() });
+    this.send(order);
+  }
+  /** Says again what had no answer for so long [ms]. */
+  private repeatOrders(age: number): void {
+    if (this.socket?.readyState !== WebSocket.OPEN) return;
+    const now = performance.now();
+    for (const entry of this.unanswered.values()) {
+      if (now - entry.sent < age) continue;
+      entry.sent = now;
+      this.send(entry.order);
     }
   }
   private send(message: object): void {
@@ -283,10 +319,18 @@ class App {
       case 'window':
         this.window = message;
         return;
+      case 'horn':
+        this.horn = message;
+        return;
       case 'ack':
-        if (this.wishes.some((wish) => wish.id === message.id && !wish.seen)) this.changeWish(message.id, { state: 'sent' });
+        this.unanswered.delete(message.id);
+        if (this.wishes.some((wish) => wish.id === message.id && wish.state === 'sending')) {
+          this.changeWish(message.id, { state: 'sent' });
+          this.notice(this.t('onItsWay'));
+        }
         return;
       case 'refused':
+        this.unanswered.delete(message.id);
         this.changeWish(message.id, { state: 'refused', reason: message.reason });
         this.notice(`${this.t('refused')}: ${message.reason}`);
         return;

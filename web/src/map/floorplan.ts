@@ -14,9 +14,9 @@ export class Floorplan {
 
   async load(): Promise<void> {
     const { columns, rows, resolution, origin, url } = this.museum.map;
-    const picture = new Image();
-    picture.src = url;
-    await picture.decode();
+    const reply = await fetch(url, { signal: AbortSignal.timeout(20000) });
+    if (!reply.ok) throw new Error(`${url}: ${reply.status}`);
+    const picture = await createImageBitmap(await reply.blob());
     const canvas = document.createElement('canvas');
     canvas.width = columns;
     canvas.height = rows;

@@ -1,8 +1,6 @@
 #include "docent/interaction/speech/renderer.h"
 
-#include <fcntl.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -19,6 +17,7 @@
 
 #include "docent/base/files.h"
 #include "docent/base/random.h"
+#include "docent/interaction/speech/child_process.h"
 #include "docent/interaction/speech/spoken_text.h"
 
 namespace docent {
@@ -45,21 +44,11 @@ struct TemporaryFile {
 /// Runs `arguments` with `input` as its standard input, its output thrown away. Returns its exit status.
 Result<int> run(const std::vector<std::string>& arguments, const std::filesystem::path& input, double timeout_s,
                 const std::atomic<bool>& stop) {
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_addopen(&files, STDIN_FILENO, input.c_str(), O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  std::vector<char*> argv;
-  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-  argv.push_back(nullptr);
-  pid_t child = 0;
-  const int fault = posix_spawnp(&child, argv[0], &files, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&files);
-  if (fault != 0) return fail(arguments[0] + ": cannot be started: " + std::strerror(fault));
-
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout_s);
+  const auto started = start_quietly(arguments, input);
+  if (!started) return tl::unexpected(started.error());
+  const pid_t child = *started;
   int status = 0;
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout_s);
   while (true) {
     const pid_t ended = waitpid(child, &status, WNOHANG);
     if (ended == child) break;
