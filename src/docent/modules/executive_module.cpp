@@ -86,6 +86,7 @@ class ExecutiveModule final : public Module {
       goal.y = actions.drive->map_from_base.y;
       goal.theta = actions.drive->map_from_base.theta.radians();
       goal.relocalize = actions.drive->relocalize;
+      goal.position_tolerance = actions.drive->position_tolerance;
       goal_.publish(std::move(goal));
     }
     for (Utterance& line : actions.utterances) {

@@ -12,6 +12,7 @@ namespace {
 constexpr std::array<const char*, 8> kSteps{"idle",   "driving",         "relocalizing", "explaining",
                                             "asking", "explaining_more", "done",         "failed"};
 
+constexpr double kChargerTolerance = 0.15;                   ///< [m] contacts lie closer than where an exhibit is shown
 constexpr Duration kObstacleLife = std::chrono::seconds{1};  // the collision avoidance speaks four times a second
 
 bool is_positive(double value) { return value > 0.0; }
@@ -63,9 +64,12 @@ void Executive::set_task(ExecutiveTask task, Time now) {
   const TaskOrder& order = memory_.task.order;
   if (order.id.empty()) {
     enter(Step::idle, now);
-  } else if (order.kind == "visit" || order.kind == "home") {
+  } else if (order.kind == "visit" || order.kind == "home" || order.kind == "charge") {
     if (order.kind == "visit") {
       say("announcement", sentence(Sentence::announcement, order.language, memory_.task.title), "happy");
+    }
+    if (order.kind == "charge" && !(order.exhibit_id.empty() && order.tour_id.empty())) {
+      say("announcement", sentence(Sentence::must_charge, order.language), "sad");
     }
     memory_.drive_began = now;
     enter(Step::driving, now);
@@ -115,7 +119,12 @@ void Executive::send_drive() {
       actions_.drive = DriveOrder{own_id("relocalize"), {}, true};
       break;
     default:  // the heading of the place is the one that faces the exhibit
-      actions_.drive = order.kind == "relocalize" ? DriveOrder{} : DriveOrder{own_id("drive"), order.map_from_base};
+      if (order.kind == "relocalize") {
+        actions_.drive = DriveOrder{};
+      } else {
+        actions_.drive = DriveOrder{own_id("drive"), order.map_from_base};
+        if (order.kind == "charge") actions_.drive->position_tolerance = kChargerTolerance;
+      }
       break;
   }
 }
@@ -200,7 +209,8 @@ void Executive::arrive(Time now) {
     enter(Step::explaining, now);
     return;
   }
-  say("home", sentence(Sentence::home_again, order.language), "happy");
+  const Sentence greeting = order.kind == "charge" ? Sentence::at_charger : Sentence::home_again;
+  say(order.kind, sentence(greeting, order.language), "happy");
   finish(true, "", now);
 }
 

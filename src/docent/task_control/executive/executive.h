@@ -56,6 +56,7 @@ struct DriveOrder {
   std::string id;  ///< empty: stay
   Pose2 map_from_base;
   bool relocalize = false;
+  double position_tolerance = 0.25;  ///< [m]
 };
 struct GoalReport {
   std::string id;
@@ -102,6 +103,7 @@ struct TaskReport {
 ///
 ///   visit:      driving -> explaining -> asking -> [explaining_more ->] done
 ///   home:       driving -> done
+///   charge:     driving -> done, nearer to the place
 ///   relocalize: relocalizing -> done
 ///
 /// A drive whose way is blocked climbs the reaction ladder. Every step has a limit, so that a dead module holds nothing

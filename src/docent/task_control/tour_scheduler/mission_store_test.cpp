@@ -34,7 +34,7 @@ MissionMemory full_memory() {
   MissionMemory memory;
   memory.next_task = 17;
   memory.task = {"abc-16", "visit", "sputnik", {1.5, -2.5, Angle::radians(0.7)}, "de", false, "space"};
-  memory.schedule.visit = Visit{"sputnik", {1.5, -2.5, Angle::radians(0.7)}, "de", "space", false, {99}};
+  memory.schedule.visit = Visit{"sputnik", -1, {1.5, -2.5, Angle::radians(0.7)}, "de", "space", false, {99}};
   memory.schedule.tour =
       TourRun{"space", "de", {{"a", StopStatus::explained, 1}, {"b", StopStatus::pending, 2}}, true, 360.0, {77}};
   memory.schedule.counters = {4, 5, 6};
