@@ -7,6 +7,7 @@
 #include "docent/collision_avoidance/avoider.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/message_fitness.h"
+#include "docent/modules/museum_mode.h"
 
 namespace docent {
 
@@ -15,6 +16,7 @@ namespace {
 constexpr double kTick = 0.05;  // [s]
 constexpr double kHeartbeat = 0.1;
 constexpr double kWindowPeriod = 0.5;
+constexpr Duration kModePeriod = std::chrono::seconds{1};
 
 Result<BaseLimits> limits_of(const RobotBody& body) {
   BaseLimits limits{body.radius,       body.max_speed,    body.max_turn_rate,
@@ -57,6 +59,7 @@ class AvoidModule final : public Module {
  public:
   AvoidModule(const ModuleContext& context, const BaseLimits& limits, const AvoiderParams& params)
       : bus_{context.bus},
+        mode_{context},
         body_{context.config.body()},
         cycle_{params.window.cycle},
         avoider_{limits, params, 2},
@@ -127,10 +130,16 @@ class AvoidModule final : public Module {
     });
   }
 
+  void limit_speed() {
+    if (const auto speed = mode_.max_speed(bus_.now())) avoider_.set_max_speed(*speed);
+  }
+
   void subscribe_wishes() {
     bus_.subscribe<docent_msgs::Limits>(topics::kLimits, [this](const docent_msgs::Limits& limits) {
-      if (is_fit(limits)) avoider_.set_max_speed(limits.max_speed);
+      if (is_fit(limits)) mode_.limits(limits);
+      limit_speed();
     });
+    bus_.every(kModePeriod, [this] { limit_speed(); });
     bus_.subscribe<docent_msgs::Target>(topics::kTarget, [this](const docent_msgs::Target& target) {
       if (!is_fit(target)) return;
       AvoiderTarget wish;
@@ -214,6 +223,7 @@ class AvoidModule final : public Module {
   }
 
   Bus& bus_;
+  MuseumMode mode_;
   RobotBody body_;
   double cycle_;
   std::array<double, 2> widest_field_{};  ///< [rad] that each laser has shown

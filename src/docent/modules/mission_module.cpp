@@ -10,6 +10,7 @@
 #include "docent/interaction/speech/sentences.h"
 #include "docent/interaction/speech/spoken_text.h"
 #include "docent/messages/conversions.h"
+#include "docent/modules/museum_mode.h"
 #include "docent/task_control/tour_scheduler/mission.h"
 #include "docent/task_control/tour_scheduler/mission_store.h"
 #include "docent/task_control/tour_scheduler/travel.h"
@@ -80,6 +81,7 @@ class MissionModule final : public Module {
   MissionModule(const ModuleContext& context, const MissionParams& params, MissionStore store, MissionMemory memory)
       : bus_{context.bus},
         museum_{context.museum},
+        mode_{context},
         store_{std::move(store)},
         set_aside_{store_.set_aside()},
         mission_{params, programme_of(context.museum), travel_in(context), std::move(memory), bus_.now()},
@@ -91,10 +93,7 @@ class MissionModule final : public Module {
     bus_.subscribe<docent_msgs::Request>(topics::kRequest, [this](const auto& message) { on_request(message); });
     bus_.subscribe<docent_msgs::TaskState>(topics::kTaskState, [this](const auto& message) { on_task(message); });
     bus_.subscribe<docent_msgs::Belief>(topics::kBelief, [this](const auto& message) { on_belief(message); });
-    bus_.subscribe<docent_msgs::Limits>(topics::kLimits, [this](const auto& message) {
-      mission_.limits(message.is_open, message.mode);
-      flush();
-    });
+    bus_.subscribe<docent_msgs::Limits>(topics::kLimits, [this](const auto& message) { mode_.limits(message); });
     bus_.subscribe<sensor_msgs::BatteryState>(topics::kBattery, [this](const auto& message) {
       if (message.present && std::isfinite(message.percentage)) {
         mission_.battery(static_cast<double>(message.percentage), is_charging(message), bus_.now());
@@ -115,6 +114,7 @@ class MissionModule final : public Module {
 
  private:
   void on_request(const docent_msgs::Request& message) {
+    mission_.limits(mode_.takes_requests(), mode_.name(bus_.now()));
     for (const std::string* text :
          {&message.id, &message.source, &message.visitor, &message.kind, &message.target, &message.language}) {
       if (text->size() > kMostText) return;
@@ -235,6 +235,7 @@ class MissionModule final : public Module {
 
   Bus& bus_;
   const Museum& museum_;
+  MuseumMode mode_;
   MissionStore store_;
   std::string set_aside_;
   Mission mission_;

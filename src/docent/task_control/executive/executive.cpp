@@ -9,8 +9,8 @@
 namespace docent {
 namespace {
 
-constexpr std::array<const char*, 8> kSteps{"idle",   "driving",         "relocalizing", "explaining",
-                                            "asking", "explaining_more", "done",         "failed"};
+constexpr std::array<const char*, 9> kSteps{
+    "idle", "driving", "relocalizing", "explaining", "asking", "explaining_more", "waiting", "done", "failed"};
 
 constexpr double kChargerTolerance = 0.15;                   ///< [m] contacts lie closer than where an exhibit is shown
 constexpr Duration kObstacleLife = std::chrono::seconds{1};  // the collision avoidance speaks four times a second
@@ -163,7 +163,7 @@ void Executive::report() {
   }
   TaskReport report{task_id(), to_text(memory_.step), memory_.reason, question(), memory_.took_long};
   if (memory_.step == Step::relocalizing) report.state = "driving";
-  if (memory_.step == Step::explaining_more) report.state = "explaining";
+  if (memory_.step == Step::explaining_more || memory_.step == Step::waiting) report.state = "explaining";
   if (!note_.empty()) report.reason = note_;
   actions_.report = std::move(report);
 }
@@ -274,6 +274,14 @@ void Executive::watch_speech(Time now) {
   if (memory_.step == Step::explaining && has_more) {
     enter(Step::asking, now);
   } else {
+    end_visit(now);
+  }
+}
+
+void Executive::end_visit(Time now) {
+  if (memory_.task.wait_s > 0.0) {
+    enter(Step::waiting, now);
+  } else {
     finish(true, "", now);
   }
 }
@@ -286,7 +294,7 @@ void Executive::choose(const std::string& question_id, const std::string& option
     memory_.took_long = true;
     enter(Step::explaining_more, now);
   } else {
-    finish(true, "", now);
+    end_visit(now);
   }
 }
 
@@ -297,6 +305,8 @@ void Executive::tick(Time now) {
     watch_speech(now);
   } else if (memory_.step == Step::asking && now >= question_deadline()) {
     actions_.happenings.push_back({"choice", memory_.task.order.exhibit_id, "next (default)"});
+    end_visit(now);
+  } else if (memory_.step == Step::waiting && now - memory_.step_began >= seconds(memory_.task.wait_s)) {
     finish(true, "", now);
   }
 }

@@ -214,12 +214,22 @@ TEST_F(MissionTest, ChargesWhenTheBatteryIsLowAndServesAfterwardsWhoCameMeanwhil
   for (const char* id : {"2", "3"}) EXPECT_EQ(status_of(id), RequestStatus::fulfilled) << id;
 }
 
-TEST_F(MissionTest, LeavesHomeForItsChargerWhenTheBatteryGetsLowThere) {
+TEST_F(MissionTest, DoesNotStayAtHomeWhenTheBatteryGotLowOnTheWayThere) {
   robot = {4, 4};
   pass(5.0);
   EXPECT_EQ(phase(), "going_home");
-  report("done");
+  const std::string home = mission->task().id;
+  battery(0.14);
+  mission->report(home, "done", "", time());
   robot = {0, 0.5};
+  pass(60.0);
+  EXPECT_EQ(mission->task().map_from_base.y, 3.0) << "the charger";
+  EXPECT_EQ(mission->task().kind, "charge");
+}
+
+TEST_F(MissionTest, LeavesHomeWhenTheBatteryGetsLowThere) {
+  pass(5.0);
+  EXPECT_EQ(phase(), "idle");
   battery(0.14);
   pass(2.0);
   EXPECT_EQ(mission->task().kind, "charge");
@@ -289,11 +299,12 @@ TEST_F(MissionTest, ChargesBeforeItMustWhenNobodyWantsAnything) {
   EXPECT_EQ(phase(), "charging");
   wish("1", "exhibit", "a");
   EXPECT_EQ(phase(), "driving") << "it leaves at once";
+  battery(0.66);
   report("done");
   EXPECT_EQ(mission->task().kind, "charge") << "and comes back";
   report("done");
   battery(0.96, true);
-  pass(1.0);
+  pass(15.0);
   EXPECT_EQ(mission->task().kind, "home");
 }
 
