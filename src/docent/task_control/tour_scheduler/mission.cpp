@@ -240,6 +240,7 @@ void Mission::start_visit(Time now) {
   start_task(Activity::visit,
              {"", "visit", visit.exhibit_id, visit.map_from_base, visit.language, offer_more, visit.tour_id});
   is_resting_ = false;
+  home_not_before_ = {};
 }
 
 void Mission::start_task(Activity activity, TaskOrder order) {
