@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "docent/apps/simulation_run.h"
+#include "docent/base/files.h"
 
 // The whole robot in a crowd, in virtual time.
 
@@ -44,6 +47,25 @@ TEST(Deployment, AnotherSeedGivesAnotherRun) {
   const auto first = report_of(busy_bonn(11), 1.0);
   const auto second = report_of(busy_bonn(12), 1.0);
   EXPECT_NE(first.at("distance_m"), second.at("distance_m"));
+}
+
+TEST(Deployment, ABatteryThatIsLowBesideTheChargerIsCharged) {
+  SimulationRunOptions options = busy_bonn(4711);
+  options.crowd = "empty";
+  options.requests_per_hour = 0.0;
+  options.start = Pose2{7.0, 2.05, Angle::degrees(90)};  // nearer to the charger than what counts as at home
+  options.settings = {"mission.battery_low=0.999", "mission.battery_full=1.0"};
+  const auto log = std::filesystem::temp_directory_path() / ("docent-charge-" + std::to_string(::getpid()) + ".csv");
+  options.event_log = log.string();
+  auto run = SimulationRun::create(options);
+  ASSERT_TRUE(run.has_value());
+  ASSERT_TRUE((*run)->run_until(time_from_seconds(40.0)));
+  ASSERT_TRUE((*run)->finish());
+  const std::string events = read_file(log).value();
+  std::filesystem::remove(log);
+  const auto arrived = events.find(",arrived,charge,");
+  ASSERT_NE(arrived, std::string::npos) << events;
+  EXPECT_NE(events.find(",battery_full,", arrived), std::string::npos) << events;
 }
 
 TEST(Deployment, KilledModulesComeBackAndTheTourGoesOn) {
