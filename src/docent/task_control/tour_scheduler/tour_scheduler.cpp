@@ -42,7 +42,10 @@ struct Outcome {
   int explained = 0;
   int skipped = 0;
   std::string missed;
-  [[nodiscard]] std::string reason() const { return skipped == 0 ? "" : "I could not get to: " + missed + "."; }
+  [[nodiscard]] std::string reason() const {
+    if (skipped > 0) return "I could not get to: " + missed + ".";
+    return explained > 0 ? "" : "The museum no longer has this.";
+  }
 };
 
 /// For one member, or (nullptr) for all: then what was shown in one round counts, though another left it out.
