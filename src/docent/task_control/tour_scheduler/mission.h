@@ -30,10 +30,10 @@ struct MissionParams {
   double home_retry_s = 30.0;      ///< [s] >= 0 after a failed way home
   double at_charger_m = 0.3;       ///< [m] > 0: so near, it is at a charger whose battery does not say that it charges
   double contact_s = 10.0;         ///< [s] >= 0 until a battery at its charger says so; then the robot tries again
-  double battery_low = 0.15;       ///< 0..1: with so much left it reaches its charger, and only then begins nothing new
+  double battery_low = 0.15;       ///< 0..1: still left on arrival at its charger; what has begun may use half of it
   double battery_full = 0.95;      ///< 0..1, > battery_low: charged; the last part takes real batteries long
-  /// 0..1: what makes the way to the charger worth while. An idle robot goes there when so much is missing; who waits
-  /// is served again when there is so much more than battery_low.
+  /// 0..1: what makes the way to the charger worth while. An idle robot goes there when so much is missing; people
+  /// who wait are served again when there is so much more than battery_low.
   double battery_gain = 0.25;
   double drain_per_s = 1.4e-4;   ///< [1/s] > 0 share of a full battery: two hours of driving; more is measured
   double charge_per_s = 2.2e-4;  ///< [1/s] > 0 likewise: 75 minutes; measured while it charges
