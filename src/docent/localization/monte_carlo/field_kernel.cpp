@@ -22,29 +22,7 @@ constexpr std::uint32_t kChunk = 32;      // beams whose cells are found before 
 std::uint32_t packed(std::int32_t low, std::int32_t high) {
   return (static_cast<std::uint32_t>(low) & 0xFFFFU) | (static_cast<std::uint32_t>(high) << 16U);
 }
-std::int32_t low_of(std::uint32_t pair) { return static_cast<std::int16_t>(pair & 0xFFFFU); }
-std::int32_t high_of(std::uint32_t pair) { return static_cast<std::int16_t>(pair >> 16U); }
-std::int32_t product(std::uint32_t a, std::uint32_t b) { return low_of(a) * low_of(b) + high_of(a) * high_of(b); }
 std::int32_t rounded(float value) { return static_cast<std::int32_t>(value + (value < 0.0F ? -0.5F : 0.5F)); }
-
-void score_plain(const LikelihoodField::View& field, const FieldBeams& beams, const FieldPoses& poses,
-                 std::uint32_t* costs) {
-  const std::size_t count = poses.column.size();
-  std::fill_n(costs, count, 0U);
-  std::uint32_t begin = 0;
-  for (const std::uint32_t end : beams.sector_ends) {
-    for (std::size_t i = 0; i < count; ++i) {
-      std::uint32_t sum = 0;
-      for (std::uint32_t b = begin; b < end; ++b) {
-        const std::int32_t column = (poses.column[i] + product(poses.along_columns[i], beams.ends[b])) >> 16;
-        const std::int32_t row = (poses.row[i] + product(poses.along_rows[i], beams.ends[b])) >> 16;
-        sum += field.costs[row * field.stride + column];
-      }
-      costs[i] += std::min(sum, beams.cap);
-    }
-    begin = end;
-  }
-}
 
 #if defined(__x86_64__)
 
@@ -61,6 +39,44 @@ inline void look_up(const std::uint8_t* costs, const std::uint32_t* at, std::uin
     }
     sums[first] += s0, sums[first + 1] += s1, sums[first + 2] += s2, sums[first + 3] += s3;
     sums[first + 4] += s4, sums[first + 5] += s5, sums[first + 6] += s6, sums[first + 7] += s7;
+  }
+}
+
+/// What every processor of this architecture has: SSE2, four particles at a time.
+void score_plain(const LikelihoodField::View& field, const FieldBeams& beams, const FieldPoses& poses,
+                 std::uint32_t* costs) {
+  constexpr std::size_t kLanes = 8;  // in two halves
+  const std::size_t count = poses.column.size();
+  std::fill_n(costs, count, 0U);
+  const __m128i stride = _mm_set1_epi32(static_cast<std::int32_t>(packed(1, field.stride)));
+  const __m128i high_halves = _mm_set1_epi32(static_cast<std::int32_t>(0xFFFF0000U));
+  alignas(64) std::array<std::uint32_t, kLanes * kChunk> cells;
+  const auto load = [](const void* from) { return _mm_loadu_si128(static_cast<const __m128i*>(from)); };
+  std::uint32_t begin = 0;
+  for (const std::uint32_t end : beams.sector_ends) {
+    for (std::size_t i = 0; i < count; i += kLanes) {
+      std::array<std::uint32_t, kLanes> sums{};
+      for (std::uint32_t first = begin; first < end; first += kChunk) {
+        const std::uint32_t last = std::min(first + kChunk, end);
+        for (std::size_t half = 0; half < kLanes; half += 4) {
+          const __m128i column = load(&poses.column[i + half]);
+          const __m128i row = load(&poses.row[i + half]);
+          const __m128i along_columns = load(&poses.along_columns[i + half]);
+          const __m128i along_rows = load(&poses.along_rows[i + half]);
+          for (std::uint32_t b = first; b < last; ++b) {
+            const __m128i beam = _mm_set1_epi32(static_cast<std::int32_t>(beams.ends[b]));
+            const __m128i at_column = _mm_add_epi32(column, _mm_madd_epi16(along_columns, beam));
+            const __m128i at_row = _mm_add_epi32(row, _mm_madd_epi16(along_rows, beam));
+            const __m128i both = _mm_or_si128(_mm_srli_epi32(at_column, 16), _mm_and_si128(at_row, high_halves));
+            _mm_store_si128(reinterpret_cast<__m128i*>(cells.data() + kLanes * (b - first) + half),
+                            _mm_madd_epi16(both, stride));
+          }
+        }
+        look_up<kLanes>(field.costs, cells.data(), last - first, sums.data());
+      }
+      for (std::size_t lane = 0; lane < kLanes; ++lane) costs[i + lane] += std::min(sums[lane], beams.cap);
+    }
+    begin = end;
   }
 }
 
@@ -130,6 +146,31 @@ __attribute__((target("avx512f,avx512bw"))) void score_avx512(const LikelihoodFi
         look_up<kLanes>(field.costs, cells.data(), last - first, sums.data());
       }
       for (std::size_t lane = 0; lane < kLanes; ++lane) costs[i + lane] += std::min(sums[lane], beams.cap);
+    }
+    begin = end;
+  }
+}
+
+#else
+
+std::int32_t low_of(std::uint32_t pair) { return static_cast<std::int16_t>(pair & 0xFFFFU); }
+std::int32_t high_of(std::uint32_t pair) { return static_cast<std::int16_t>(pair >> 16U); }
+std::int32_t product(std::uint32_t a, std::uint32_t b) { return low_of(a) * low_of(b) + high_of(a) * high_of(b); }
+
+void score_plain(const LikelihoodField::View& field, const FieldBeams& beams, const FieldPoses& poses,
+                 std::uint32_t* costs) {
+  const std::size_t count = poses.column.size();
+  std::fill_n(costs, count, 0U);
+  std::uint32_t begin = 0;
+  for (const std::uint32_t end : beams.sector_ends) {
+    for (std::size_t i = 0; i < count; ++i) {
+      std::uint32_t sum = 0;
+      for (std::uint32_t b = begin; b < end; ++b) {
+        const std::int32_t column = (poses.column[i] + product(poses.along_columns[i], beams.ends[b])) >> 16;
+        const std::int32_t row = (poses.row[i] + product(poses.along_rows[i], beams.ends[b])) >> 16;
+        sum += field.costs[row * field.stride + column];
+      }
+      costs[i] += std::min(sum, beams.cap);
     }
     begin = end;
   }
