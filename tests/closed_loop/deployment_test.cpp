@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "docent/apps/simulation_run.h"
+#include "docent/base/files.h"
 
 // The whole robot in a crowd, in virtual time.
 
@@ -81,6 +84,25 @@ TEST(Deployment, OneScannerInFrontGivesATourInACrowd) {
   for (const char* kind : {"people", "furniture", "walls", "hazards"})
     EXPECT_EQ(report.at("contacts").at(kind).get<int>(), 0) << kind;
   EXPECT_EQ(report.at("area_violations").get<int>(), 0);
+}
+
+TEST(Deployment, ABatteryThatIsLowBesideTheChargerIsCharged) {
+  SimulationRunOptions options = busy_bonn(4711);
+  options.crowd = "empty";
+  options.requests_per_hour = 0.0;
+  options.start = Pose2{7.0, 2.05, Angle::degrees(90)};  // nearer to the charger than what counts as at home
+  options.settings = {"mission.battery_low=0.999", "mission.battery_full=1.0"};
+  const auto log = std::filesystem::temp_directory_path() / ("docent-charge-" + std::to_string(::getpid()) + ".csv");
+  options.event_log = log.string();
+  auto run = SimulationRun::create(options);
+  ASSERT_TRUE(run.has_value());
+  ASSERT_TRUE((*run)->run_until(time_from_seconds(40.0)));
+  ASSERT_TRUE((*run)->finish());
+  const std::string events = read_file(log).value();
+  std::filesystem::remove(log);
+  const auto arrived = events.find(",arrived,charge,");
+  ASSERT_NE(arrived, std::string::npos) << events;
+  EXPECT_NE(events.find(",battery_full,", arrived), std::string::npos) << events;
 }
 
 TEST(Deployment, KilledModulesComeBackAndTheTourGoesOn) {

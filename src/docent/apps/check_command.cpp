@@ -1,12 +1,14 @@
 #include "docent/apps/check_command.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
 #include "docent/apps/command.h"
 #include "docent/apps/map_note.h"
 #include "docent/base/yaml.h"
+#include "docent/interaction/speech/sentences.h"
 #include "docent/museum/museum.h"
 #include "docent/simulator/world/world.h"
 
@@ -36,12 +38,26 @@ void check_simulation(const Museum& museum, std::vector<Error>& faults) {
   }
 }
 
+/// The museum's texts exist in each of its languages; the robot's own phrases may not.
+void note_languages(const Museum& museum) {
+  const auto spoken = sentence_languages();
+  for (const std::string& language : museum.languages) {
+    if (std::find(spoken.begin(), spoken.end(), language) != spoken.end()) continue;
+    const YamlFile file = value_or_fail(YamlFile::load(museum.folder / "museum.yaml"));
+    const YAML::Node& root = file.root();
+    const std::string what =
+        "note: the robot's own phrases do not exist in '" + language + "': it says them in English";
+    std::printf("%s\n", file.fault(root["languages"], what).message.c_str());
+  }
+}
+
 void check(const std::filesystem::path& folder) {
   std::vector<Error> faults = check_museum(folder);
   if (faults.empty()) {
     const Museum museum = value_or_fail(load_museum(folder));
     if (museum.simulation_path) check_simulation(museum, faults);
     if (faults.empty()) {
+      note_languages(museum);
       const GridFrame& frame = museum.map.frame;
       std::printf("%s: fine. %zu exhibits (%zu sensible pairs), %zu hazards, %zu tours, map %.1f x %.1f m\n",
                   folder.string().c_str(), museum.exhibits.size(), sensible_pairs(museum), museum.hazards.size(),

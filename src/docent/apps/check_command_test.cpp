@@ -52,6 +52,24 @@ class CheckCommand : public ::testing::Test {
 
 TEST_F(CheckCommand, PassesWhatIsFine) { EXPECT_EQ(run("check " + folder_.string()), ""); }
 
+TEST_F(CheckCommand, SaysInWhichLanguageTheRobotHasNoPhrases) {
+  const auto said = [&] {
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(run("check " + folder_.string()), "");
+    return testing::internal::GetCapturedStdout();
+  };
+  EXPECT_EQ(said().find("note:"), std::string::npos);
+  std::string text = read_file(folder_ / "museum.yaml").value();
+  for (const auto& [from, to] : {std::pair<std::string, std::string>{"[en, de]", "[en, fr]"}, {", de: ", ", fr: "}}) {
+    for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+      text.replace(at, from.size(), to);
+  }
+  ASSERT_TRUE(write_file_atomically(folder_ / "museum.yaml", text));
+  const std::string note = said();
+  EXPECT_NE(note.find("museum.yaml:3"), std::string::npos) << note;
+  EXPECT_NE(note.find("'fr'"), std::string::npos);
+}
+
 TEST_F(CheckCommand, PassesDrawnOffices) {
   for (int seed = 1; seed <= 25; ++seed) {
     const std::string out = (folder_ / ("office-" + std::to_string(seed))).string();

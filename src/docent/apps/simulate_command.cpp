@@ -14,6 +14,7 @@
 #include "docent/apps/deployment.h"
 #include "docent/apps/simulation_run.h"
 #include "docent/base/files.h"
+#include "docent/museum/museum.h"
 
 namespace docent {
 namespace {
@@ -22,6 +23,7 @@ struct Options {
   SimulationRunOptions run;
   double hours = 0.5;
   std::string start;
+  std::string time_of_day = "10:00";
   std::string report;
   std::string picture;
   double pace = 0.0;
@@ -49,6 +51,9 @@ void print_profile(const SimulationRun& run) {
 void simulate(Options& options) {
   if (!(options.hours > 0.0 && options.hours <= 10000.0)) throw CommandFailed{"--hours must be in (0, 10000]", 2};
   if (!options.start.empty()) options.run.start = parse_pose("--start", options.start);
+  const auto rest_of_day = parse_hours(options.time_of_day + "-24:00");
+  if (!rest_of_day) throw CommandFailed{"--time-of-day " + options.time_of_day + ": expected HH:MM", 2};
+  options.run.day_begins = std::chrono::minutes{rest_of_day->from_minute};
   if (options.pace < 0.0) throw CommandFailed{"--pace must be >= 0", 2};
   options.run.hosts_web = options.port != 0;
   if (options.run.hosts_web) {
@@ -104,7 +109,9 @@ void add_simulate_command(CLI::App& app) {
   command->add_option("--requests-per-hour", options->run.requests_per_hour, "wishes of simulated visitors");
   command->add_option("--scenario", options->run.scenario, "YAML file of timed events");
   command->add_option("--start", options->start, "X,Y,DEG in the map; without: anywhere, and the robot is not told");
-  command->add_option("--mode", options->run.mode, "open, web, closed")->capture_default_str();
+  command->add_option("--mode", options->run.mode, "open, web, closed, or hours: what the museum's hours say")
+      ->capture_default_str();
+  command->add_option("--time-of-day", options->time_of_day, "HH:MM at which the run begins")->capture_default_str();
   command->add_option("--max-speed", options->run.max_speed, "[m/s] instead of the mode's speed limit")
       ->check(CLI::PositiveNumber);
   command->add_option("--set", options->run.settings, "section.key=value over robot.yaml; may be repeated");

@@ -114,7 +114,7 @@ class SimulationRun::Parts {
     const auto mode = museum_.modes.find(options_.mode);
     if (mode != museum_.modes.end()) {
       limits.max_speed = std::min(limits.max_speed, mode->second.max_speed);
-    } else if (options_.mode != "open") {
+    } else if (options_.mode != "open" && options_.mode != "hours") {
       return fail("--mode " + options_.mode + ": the museum has no such mode");
     }
     if (options_.max_speed) limits.max_speed = std::min(config_.body().max_speed, *options_.max_speed);
@@ -167,6 +167,7 @@ class SimulationRun::Parts {
     options.state = state_;
     options.seed = options_.seed;
     options.virtual_time = true;
+    options.day_begins = options_.day_begins;
     auto host = ModuleHost::create(entry, hub_.connect(entry.name), museum_, config_, options);
     if (!host) return tl::unexpected<Error>(host.error());
     hosts_[entry.name] = std::move(*host);

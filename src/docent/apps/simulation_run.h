@@ -23,20 +23,21 @@ struct SimulationRunOptions {
   std::string crowd = "busy";
   std::optional<std::size_t> people;  ///< instead of the crowd level's density
   std::optional<double> requests_per_hour;
-  std::string scenario;        ///< file; empty: nothing special happens
-  std::optional<Pose2> start;  ///< none: somewhere in the area, drawn from the seed
-  std::string mode = "open";
-  std::optional<double> max_speed;  ///< [m/s] instead of the mode's limit
-  std::string recording;            ///< MCAP file; empty: none
-  std::string claims;               ///< CSV file of every belief beside the truth; empty: none
-  std::string health_log;           ///< CSV file of what the modules said of themselves; empty: none
-  std::string event_log;            ///< CSV file of what happened and where the robot was then; empty: none
-  std::string drive_log;            ///< CSV file of how it drives beside what avoid says; empty: none
-  std::string people_log;           ///< CSV file of tracked people beside the true ones; empty: none
-  std::string state;                ///< folder; empty: a temporary one that goes with the run
-  bool hosts_web = false;           ///< the page too
-  bool profile = false;             ///< costs are counted by the processor's time, which is slower to ask for
-  bool has_robot = true;            ///< false: the world and the robot's body alone, no module
+  std::string scenario;                          ///< file; empty: nothing special happens
+  std::optional<Pose2> start;                    ///< none: somewhere in the area, drawn from the seed
+  std::string mode = "open";                     ///< hours: what the museum's hours say
+  Duration day_begins = std::chrono::hours{10};  ///< the time of day at which the run begins
+  std::optional<double> max_speed;               ///< [m/s] instead of the mode's limit
+  std::string recording;                         ///< MCAP file; empty: none
+  std::string claims;                            ///< CSV file of every belief beside the truth; empty: none
+  std::string health_log;                        ///< CSV file of what the modules said of themselves; empty: none
+  std::string event_log;   ///< CSV file of what happened and where the robot was then; empty: none
+  std::string drive_log;   ///< CSV file of how it drives beside what avoid says; empty: none
+  std::string people_log;  ///< CSV file of tracked people beside the true ones; empty: none
+  std::string state;       ///< folder; empty: a temporary one that goes with the run
+  bool hosts_web = false;  ///< the page too
+  bool profile = false;    ///< costs are counted by the processor's time, which is slower to ask for
+  bool has_robot = true;   ///< false: the world and the robot's body alone, no module
 };
 
 /// The whole robot and its museum in one process in virtual time: simulator, modules, evaluation. One thread,

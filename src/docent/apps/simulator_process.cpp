@@ -58,7 +58,8 @@ void SimulatorOptions::add_options(CLI::App& command) {
       ->capture_default_str();
   command.add_option("--start", start, "Where the simulated robot wakes up: X,Y,DEG; without it somewhere");
   command.add_option("--scenario", scenario, "Scenario file for the simulator");
-  command.add_option("--mode", mode, "One of the museum's modes")->capture_default_str();
+  command.add_option("--mode", mode, "One of the museum's modes, or hours: what the museum's hours say")
+      ->capture_default_str();
   command.add_option("--requests-per-hour", requests_per_hour, "Of simulated visitors; without it as the museum says")
       ->check(CLI::Range(0.0, 10000.0));
 }

@@ -84,7 +84,7 @@ Result<docent_msgs::Limits> limits_of(const Options& options, const Museum& muse
   const auto mode = museum.modes.find(limits.mode);
   if (mode != museum.modes.end()) {
     limits.max_speed = std::min(limits.max_speed, mode->second.max_speed);
-  } else if (limits.mode != "open") {
+  } else if (limits.mode != "open" && limits.mode != "hours") {
     return fail("--mode " + limits.mode + ": the museum has no such mode");
   }
   return limits;
@@ -202,7 +202,11 @@ void add_up_command(CLI::App& app) {
                    "MCAP file that gets what the record module records in --state from the start to the end")
       ->check(output_file());
   options->simulator.add_options(*command->add_option_group("With --sim"));
-  command->callback([options] { up(*options); });
+  command->callback([options, command] {
+    // A real museum keeps its hours; a simulated one is open whenever somebody looks.
+    if (!options->simulate && command->count("--mode") == 0) options->simulator.mode = "hours";
+    up(*options);
+  });
 }
 
 }  // namespace docent

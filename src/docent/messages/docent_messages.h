@@ -422,7 +422,7 @@ struct Prompt {
 struct MissionState {
   static constexpr const char* kType = "docent_msgs/msg/MissionState";
   std_msgs::Header header;
-  std::string phase;  ///< waking, relocalizing, idle, driving, explaining, asking, going_home, waiting, paused
+  std::string phase;  ///< waking, relocalizing, idle, driving, explaining, asking, going_home, charging, waiting
   std::string tour_id;
   std::string exhibit_id;  ///< the present or next exhibit
   std::string text_en;     ///< one sentence for people: what it is doing
@@ -451,10 +451,10 @@ struct MissionState {
 /// One thing to do, from mission to executive; latched. A new id replaces the task before it.
 struct Task {
   static constexpr const char* kType = "docent_msgs/msg/Task";
-  std::string id;    ///< empty: nothing to do
-  std::string kind;  ///< visit, home, relocalize
-  std::string exhibit_id;
-  double x = 0;  ///< [m], map: where to stand
+  std::string id;          ///< empty: nothing to do
+  std::string kind;        ///< visit, home, charge, relocalize
+  std::string exhibit_id;  ///< for charge: of the visit that is broken off for it
+  double x = 0;            ///< [m], map: where to stand
   double y = 0;
   double theta = 0;
   std::string language;
@@ -589,7 +589,7 @@ struct Limits {
   static constexpr const char* kType = "docent_msgs/msg/Limits";
   double max_speed = 0.7;     ///< [m/s]
   double volume = 1;          ///< 0..1
-  std::string mode = "open";  ///< open, web, closed
+  std::string mode = "open";  ///< open, web, closed; hours: what the museum's hours say
   bool is_open = true;        ///< takes requests
   template <class Self, class V>
   static void visit(Self& m, V& v) {

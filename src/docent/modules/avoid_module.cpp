@@ -7,6 +7,7 @@
 
 #include "docent/collision_avoidance/avoider.h"
 #include "docent/messages/conversions.h"
+#include "docent/modules/museum_mode.h"
 #include "docent/modules/scanners.h"
 
 namespace docent {
@@ -19,6 +20,7 @@ constexpr double kLeastPause =
     0.06;                           // [s] from a choice to the next but one: faster lasers are only checked in between
 constexpr double kTogether = 0.02;  // [s] a choice waits so long for another laser's sweep
 constexpr double kWindowPeriod = 0.5;
+constexpr Duration kModePeriod = std::chrono::seconds{1};
 
 Result<BaseLimits> limits_of(const RobotBody& body) {
   BaseLimits limits{body.radius,       body.max_speed,    body.max_turn_rate,
@@ -75,6 +77,7 @@ class AvoidModule final : public Module {
  public:
   AvoidModule(const ModuleContext& context, const BaseLimits& limits, const AvoiderParams& params)
       : bus_{context.bus},
+        mode_{context},
         body_{context.config.body()},
         cycle_{params.window.cycle},
         widest_field_(body_.scanners.size()),
@@ -142,9 +145,16 @@ class AvoidModule final : public Module {
     });
   }
 
+  void limit_speed() {
+    if (const auto speed = mode_.max_speed(bus_.now())) avoider_.set_max_speed(*speed);
+  }
+
   void subscribe_wishes() {
-    bus_.subscribe<docent_msgs::Limits>(
-        topics::kLimits, [this](const docent_msgs::Limits& limits) { avoider_.set_max_speed(limits.max_speed); });
+    bus_.subscribe<docent_msgs::Limits>(topics::kLimits, [this](const docent_msgs::Limits& limits) {
+      mode_.limits(limits);
+      limit_speed();
+    });
+    bus_.every(kModePeriod, [this] { limit_speed(); });
     bus_.subscribe<docent_msgs::Target>(topics::kTarget, [this](const docent_msgs::Target& target) {
       AvoiderTarget wish;
       wish.mode = target.mode == "drive"  ? AvoiderTarget::Mode::drive
@@ -239,6 +249,7 @@ class AvoidModule final : public Module {
   }
 
   Bus& bus_;
+  MuseumMode mode_;
   RobotBody body_;
   double cycle_;
   std::vector<double> widest_field_;  ///< [scanners] [rad] that each has shown

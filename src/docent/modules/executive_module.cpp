@@ -2,6 +2,7 @@
 
 #include "docent/interaction/speech/spoken_text.h"
 #include "docent/messages/conversions.h"
+#include "docent/modules/museum_mode.h"
 #include "docent/task_control/executive/checkpoint.h"
 #include "docent/task_control/executive/executive.h"
 
@@ -16,6 +17,7 @@ class ExecutiveModule final : public Module {
                   std::string fault)
       : bus_{context.bus},
         museum_{context.museum},
+        mode_{context},
         checkpoint_{context.state / "executive.json"},
         map_{map_hash(context.museum.map)},
         survives_{context.virtual_time ? Survives::process_death : Survives::power_failure},
@@ -28,6 +30,7 @@ class ExecutiveModule final : public Module {
         reaction_{bus_.publisher(topics::kReaction)},
         horn_{bus_.publisher(topics::kHorn)} {
     flush();
+    bus_.subscribe<docent_msgs::Limits>(topics::kLimits, [this](const auto& limits) { mode_.limits(limits); });
     bus_.subscribe<docent_msgs::Task>(topics::kTask, [this](const auto& task) {
       executive_.set_task(to_task(task), bus_.now());
       flush();
@@ -68,6 +71,7 @@ class ExecutiveModule final : public Module {
       result.title = translated(exhibit->title, task.language);
       result.short_text = spoken_text(translated(exhibit->short_text, task.language));
       result.long_text = spoken_text(translated(exhibit->long_text, task.language));
+      result.wait_s = mode_.wait_s(bus_.now());
     }
     return result;
   }
@@ -86,6 +90,7 @@ class ExecutiveModule final : public Module {
       goal.y = actions.drive->map_from_base.y;
       goal.theta = actions.drive->map_from_base.theta.radians();
       goal.relocalize = actions.drive->relocalize;
+      goal.position_tolerance = actions.drive->position_tolerance;
       goal_.publish(std::move(goal));
     }
     for (Utterance& line : actions.utterances) {
@@ -119,6 +124,7 @@ class ExecutiveModule final : public Module {
 
   Bus& bus_;
   const Museum& museum_;
+  MuseumMode mode_;
   std::filesystem::path checkpoint_;
   std::string map_;
   Survives survives_;

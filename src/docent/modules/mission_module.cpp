@@ -1,13 +1,16 @@
 #include "docent/modules/mission_module.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <vector>
 
 #include "docent/base/random.h"
 #include "docent/interaction/speech/sentences.h"
 #include "docent/interaction/speech/spoken_text.h"
 #include "docent/messages/conversions.h"
+#include "docent/modules/museum_mode.h"
 #include "docent/task_control/tour_scheduler/mission.h"
 #include "docent/task_control/tour_scheduler/mission_store.h"
 #include "docent/task_control/tour_scheduler/travel.h"
@@ -26,8 +29,10 @@ Programme programme_of(const Museum& museum) {
   const std::string& language = programme.languages.front();
   for (const Exhibit& exhibit : museum.exhibits) {
     const std::string text = translated(exhibit.title, language) + ". " + translated(exhibit.short_text, language);
-    programme.exhibits.push_back({exhibit.id, exhibit.pose, exhibit.viewpoints,
-                                  speech_duration(spoken_text(text), language, "neutral"), exhibit.web_only});
+    ProgrammeExhibit& shown = programme.exhibits.emplace_back();
+    shown = {exhibit.id, exhibit.pose, exhibit.viewpoints, speech_duration(spoken_text(text), language, "neutral"),
+             exhibit.web_only};
+    for (const Exhibit* next : sensible_next(museum, exhibit)) shown.next.push_back(next->id);
   }
   for (const Tour& tour : museum.tours) {
     programme.tours.push_back({tour.id, tour.exhibits, 60.0 * tour.minutes.value_or(0.0)});
@@ -43,6 +48,15 @@ TravelDistance travel_in(const ModuleContext& context) {
   RouteParams params;
   params.robot_radius = context.config.body().radius;
   return travel_on_map(RoutePlanner{museum.map, hazards, museum.area, params});
+}
+
+/// What the battery says of itself; nullopt: nothing.
+std::optional<bool> is_charging(const sensor_msgs::BatteryState& battery) {
+  constexpr std::uint8_t kUnknown = 0;
+  constexpr std::uint8_t kCharging = 1;
+  constexpr std::uint8_t kFull = 4;  // and its charger holds it there
+  if (battery.power_supply_status == kUnknown) return std::nullopt;
+  return battery.power_supply_status == kCharging || battery.power_supply_status == kFull;
 }
 
 std::string deployment_name(std::uint64_t seed, Time now) {
@@ -67,6 +81,7 @@ class MissionModule final : public Module {
   MissionModule(const ModuleContext& context, const MissionParams& params, MissionStore store, MissionMemory memory)
       : bus_{context.bus},
         museum_{context.museum},
+        mode_{context},
         store_{std::move(store)},
         set_aside_{store_.set_aside()},
         mission_{params, programme_of(context.museum), travel_in(context), std::move(memory), bus_.now()},
@@ -78,13 +93,10 @@ class MissionModule final : public Module {
     bus_.subscribe<docent_msgs::Request>(topics::kRequest, [this](const auto& message) { on_request(message); });
     bus_.subscribe<docent_msgs::TaskState>(topics::kTaskState, [this](const auto& message) { on_task(message); });
     bus_.subscribe<docent_msgs::Belief>(topics::kBelief, [this](const auto& message) { on_belief(message); });
-    bus_.subscribe<docent_msgs::Limits>(topics::kLimits, [this](const auto& message) {
-      mission_.limits(message.is_open, message.mode);
-      flush();
-    });
+    bus_.subscribe<docent_msgs::Limits>(topics::kLimits, [this](const auto& message) { mode_.limits(message); });
     bus_.subscribe<sensor_msgs::BatteryState>(topics::kBattery, [this](const auto& message) {
       if (message.present && std::isfinite(message.percentage)) {
-        mission_.battery(static_cast<double>(message.percentage));
+        mission_.battery(static_cast<double>(message.percentage), is_charging(message), bus_.now());
       }
     });
     bus_.every(kPeriod, [this] {
@@ -95,12 +107,14 @@ class MissionModule final : public Module {
 
   [[nodiscard]] ModuleHealth health() const override {
     if (!fault_.empty()) return {"degraded", fault_};
+    if (mission_.is_battery_silent(bus_.now())) return {"degraded", "the battery says nothing"};
     if (!set_aside_.empty()) return {"degraded", "a damaged database was set aside: " + set_aside_};
     return {};
   }
 
  private:
   void on_request(const docent_msgs::Request& message) {
+    mission_.limits(mode_.takes_requests(), mode_.name(bus_.now()));
     for (const std::string* text :
          {&message.id, &message.source, &message.visitor, &message.kind, &message.target, &message.language}) {
       if (text->size() > kMostText) return;
@@ -188,8 +202,13 @@ class MissionModule final : public Module {
     message.exhibit_id = summary.exhibit_id;
     const Exhibit* exhibit = museum_.find_exhibit(summary.exhibit_id);
     const Translations title = exhibit != nullptr ? exhibit->title : Translations{};
-    message.text_en = sentence(sentence_of(summary), "en", translated(title, "en"));
-    message.text_de = sentence(sentence_of(summary), "de", translated(title, "de"));
+    const auto text = [&](const std::string& language) {
+      const std::string minutes = std::to_string(std::max(5, summary.charging_min));
+      return sentence(sentence_of(summary), language,
+                      summary.phase == "charging" ? minutes : translated(title, language));
+    };
+    message.text_en = text("en");
+    message.text_de = text("de");
     if (summary.phase == "asking") message.prompt = prompt_;
     message.exhibits_explained = summary.counters.exhibits_explained;
     message.tours_completed = summary.counters.tours_completed;
@@ -208,13 +227,15 @@ class MissionModule final : public Module {
     if (summary.phase == "driving") return summary.is_blocked ? Sentence::blocked : Sentence::driving;
     if (summary.phase == "explaining") return Sentence::explaining;
     if (summary.phase == "asking") return Sentence::asking;
-    if (summary.is_charging) return Sentence::charging;
+    if (summary.phase == "charging") return Sentence::charging;
+    if (summary.needs_charge) return Sentence::battery_low;
     if (summary.phase == "going_home") return Sentence::going_home;
     return summary.phase == "idle" ? Sentence::idle : Sentence::waiting;
   }
 
   Bus& bus_;
   const Museum& museum_;
+  MuseumMode mode_;
   MissionStore store_;
   std::string set_aside_;
   Mission mission_;

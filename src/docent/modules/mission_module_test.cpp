@@ -255,5 +255,63 @@ TEST(Tour, RequestsSurviveDeathsInAnyOrder) {
   }
 }
 
+TEST(Tour, ChargesServesAfterwardsAndSaysUntilWhen) {
+  Rehearsal rehearsal{20, "charge"};
+  rehearsal.museum.charger = Pose2{0.0, 3.0, Angle{}};
+  rehearsal.kill("mission");
+  rehearsal.start("mission");
+  const auto base = rehearsal.hub.connect("base");
+  const auto battery = base->publisher(topics::kBattery);
+  double charge = 0.5;
+  base->every(seconds(1), [&] {
+    const bool is_charging = distance(rehearsal.plan.position, {0.0, 3.0}) < 0.2;
+    charge = std::min(1.0, charge + (is_charging ? 2e-3 : -1e-4));
+    sensor_msgs::BatteryState message;
+    message.percentage = static_cast<float>(charge);
+    message.power_supply_status = is_charging ? 1 : 2;
+    message.present = true;
+    battery.publish(std::move(message));
+  });
+  rehearsal.run_for(10);
+  rehearsal.client.wish_for("t1", "tour", "all");
+  rehearsal.run_for(2);
+  charge = 0.06;
+  rehearsal.run_for(60);
+  EXPECT_EQ(rehearsal.events_of("tour_broken_off"), std::vector<std::string>{"all"});
+  EXPECT_EQ(rehearsal.client.state_of("t1"), "queued");
+  EXPECT_EQ(rehearsal.mission.phase, "charging");
+  EXPECT_EQ(rehearsal.mission.text_en,
+            "I am charging my battery, for about 5 more minutes. I keep your wishes in mind.");
+  rehearsal.client.wish_for("r1", "exhibit", "echo");
+  rehearsal.run_for(5);
+  EXPECT_EQ(rehearsal.client.state_of("r1"), "queued");
+  for (const auto& speech : rehearsal.speeches) EXPECT_EQ(speech.text.find("Who would like"), std::string::npos);
+  rehearsal.run_for(700);
+  EXPECT_EQ(rehearsal.client.state_of("t1"), "fulfilled");
+  EXPECT_EQ(rehearsal.client.state_of("r1"), "fulfilled");
+}
+
+TEST(Tour, TheHoursSayWhoIsServedAndHowLongItStays) {
+  Rehearsal rehearsal{21, "hours"};
+  rehearsal.museum.modes = {{"open", {0.7, 0.0, {}}}, {"web", {0.4, 30.0, {"10:05-10:30"}}}};
+  const auto visitor = [](const std::string& id) {
+    return docent_msgs::Request{id, {}, "visitor", "Bob", "exhibit", "breeze", -1, "en"};
+  };
+  rehearsal.client.wish(visitor("early"));
+  rehearsal.run_for(100);
+  EXPECT_EQ(rehearsal.client.state_of("early"), "fulfilled") << "virtual time begins at ten";
+  rehearsal.run_for(220);
+  rehearsal.client.wish(visitor("late"));
+  rehearsal.client.wish_for("web", "exhibit", "air");
+  rehearsal.run_for(5);
+  EXPECT_EQ(rehearsal.client.state_of("late"), "refused");
+  EXPECT_EQ(rehearsal.client.state_of("web"), "active");
+  while (rehearsal.mission.phase != "explaining") rehearsal.run_for(0.5);
+  const Time arrived = rehearsal.hub.now();
+  while (rehearsal.client.state_of("web") == "active") rehearsal.run_for(0.5);
+  EXPECT_GT(to_seconds(rehearsal.hub.now() - arrived), 35.0);
+  EXPECT_LT(to_seconds(rehearsal.hub.now() - arrived), 55.0);
+}
+
 }  // namespace
 }  // namespace docent

@@ -25,6 +25,7 @@ struct ModuleContext {
   /// For `record` alone, where a simulator runs: the bus of what is true. Its handlers run on a thread of their own, so
   /// they `bus.post` what they got. Null everywhere else.
   Bus* truth = nullptr;
+  Duration day_begins = std::chrono::hours{10};  ///< the time of day at which virtual time begins
 };
 
 struct ModuleHealth {

@@ -27,8 +27,8 @@ Result<std::unique_ptr<ModuleHost>> ModuleHost::create(const ModuleEntry& entry,
   std::unique_ptr<ModuleHost> host{new ModuleHost{entry.name, std::move(bus)}};
   host->pid_ = options.pid;
   host->health_ = host->bus_->publisher(topics::kHealth);
-  auto module =
-      entry.make({*host->bus_, museum, config, options.state, options.seed, options.virtual_time, options.truth});
+  auto module = entry.make({*host->bus_, museum, config, options.state, options.seed, options.virtual_time,
+                            options.truth, options.day_begins});
   if (!module) return tl::unexpected<Error>(module.error());
   host->module_ = std::move(*module);
   host->bus_->every(kHealthPeriod, [raw = host.get()] { raw->publish_health(); });

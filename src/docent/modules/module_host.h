@@ -15,8 +15,9 @@ class ModuleHost {
     std::filesystem::path state;
     std::uint64_t seed = 0;
     bool virtual_time = false;
-    int pid = 0;           ///< 0 in virtual time
-    Bus* truth = nullptr;  ///< see ModuleContext; outlives the host
+    int pid = 0;                                   ///< 0 in virtual time
+    Bus* truth = nullptr;                          ///< see ModuleContext; outlives the host
+    Duration day_begins = std::chrono::hours{10};  ///< see ModuleContext
   };
   /// Error: what the module's factory says of the configuration.
   [[nodiscard]] static Result<std::unique_ptr<ModuleHost>> create(const ModuleEntry& entry, std::unique_ptr<Bus> bus,

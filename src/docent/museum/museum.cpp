@@ -51,6 +51,24 @@ Result<Hours> parse_hours(const std::string& text) {
   return hours;
 }
 
+std::string mode_at(const Museum& museum, int minute_of_day) {
+  const auto has_hours = [&](const char* name) {
+    const auto mode = museum.modes.find(name);
+    return mode != museum.modes.end() && !mode->second.hours.empty();
+  };
+  const auto holds = [&](const char* name) {
+    if (!has_hours(name)) return false;
+    const auto& all = museum.modes.at(name).hours;
+    return std::any_of(all.begin(), all.end(), [&](const std::string& text) {
+      const auto hours = parse_hours(text);
+      return hours && hours->holds(minute_of_day);
+    });
+  };
+  if (holds("web")) return "web";
+  if (holds("closed")) return "closed";
+  return !has_hours("open") || holds("open") ? "open" : "closed";
+}
+
 const Exhibit* Museum::find_exhibit(const std::string& id) const {
   const auto found = std::find_if(exhibits.begin(), exhibits.end(), [&](const Exhibit& e) { return e.id == id; });
   return found == exhibits.end() ? nullptr : &*found;

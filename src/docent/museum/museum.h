@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -50,10 +51,13 @@ struct Hours {
 [[nodiscard]] Result<Hours> parse_hours(const std::string& text);
 
 struct Mode {
-  double max_speed = 0.7;  ///< [m/s]
-  double wait_s = 0.0;
-  std::vector<std::string> hours;
+  double max_speed = 0.7;          ///< [m/s]
+  double wait_s = 0.0;             ///< [s] at each exhibit, after the explanation, so that Web visitors can look round
+  std::vector<std::string> hours;  ///< as parse_hours reads them
 };
+
+/// The names of modes: everybody, Web visitors alone, nobody but the staff.
+inline constexpr std::array<const char*, 3> kModes{"open", "web", "closed"};
 
 struct Tour {
   std::string id;
@@ -87,6 +91,10 @@ struct Museum {
 [[nodiscard]] std::vector<const Exhibit*> sensible_next(const Museum& museum, const Exhibit& exhibit);
 /// How many directed pairs (a, b) there are with b in sensible_next(a).
 [[nodiscard]] std::size_t sensible_pairs(const Museum& museum);
+
+/// The mode that the museum's hours say: web in the hours of `web`, closed in those of `closed`, else open. Where
+/// `open` has hours, the museum is closed outside of all hours.
+[[nodiscard]] std::string mode_at(const Museum& museum, int minute_of_day);
 
 /// Reads FOLDER/museum.yaml with its map and texts. Error: the first fault, "FILE:LINE: …". Looks at the file's form,
 /// ids, texts, polygons, modes and tours; whether the robot fits where it must stand is check_museum's question.

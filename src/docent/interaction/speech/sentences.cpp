@@ -10,7 +10,7 @@ struct Pair {
   const char* german;
 };
 
-constexpr std::array<Pair, 14> kSentences{{
+constexpr std::array<Pair, kSentences> kPairs{{
     {"Good morning! I am looking round to find out where I am.",
      "Guten Morgen! Ich schaue mich um und finde heraus, wo ich bin."},
     {"I have lost my way. One moment, I am looking round.",
@@ -25,17 +25,27 @@ constexpr std::array<Pair, 14> kSentences{{
     {"Shall I tell you more about {}, or shall we go on?", "{}: Soll ich mehr erzählen, oder gehen wir weiter?"},
     {"I am on my way home. See you soon!", "Ich fahre nach Hause. Bis bald!"},
     {"My battery is low. I need a rest.", "Meine Batterie ist fast leer. Ich brauche eine Pause."},
+    {"I am charging my battery, for about {} more minutes. I keep your wishes in mind.",
+     "Ich lade meine Batterie, noch etwa {} Minuten. Ihre Wünsche merke ich mir."},
     {"Please follow me to {}.", "Nächstes Ziel: {}. Bitte folgen Sie mir."},
     {"Please let me through.", "Bitte lassen Sie mich durch."},
     {"Would you like to hear more, or shall we go on?", "Möchten Sie mehr hören, oder gehen wir weiter?"},
     {"Here I am again. It was nice with you! Who would like to see something?",
      "Da bin ich wieder. Schön war es mit Ihnen! Wer möchte etwas sehen?"},
+    {"I am sorry, my battery is low. I have to charge it now, and go on afterwards.",
+     "Entschuldigung, meine Batterie ist fast leer. Ich muss sie jetzt laden und mache danach weiter."},
+    {"Here is my charger. I am resting for a while. I keep your wishes in mind.",
+     "Hier ist meine Ladestation. Ich ruhe mich eine Weile aus. Ihre Wünsche merke ich mir."},
 }};
+
+constexpr std::array<std::string_view, 2> kLanguages{"en", "de"};  // as the members of Pair
 
 }  // namespace
 
+std::span<const std::string_view> sentence_languages() { return kLanguages; }
+
 std::string sentence(Sentence which, std::string_view language, std::string_view title) {
-  const Pair& pair = kSentences[static_cast<std::size_t>(which)];
+  const Pair& pair = kPairs[static_cast<std::size_t>(which)];
   std::string text = language == "de" ? pair.german : pair.english;
   const std::size_t place = text.find("{}");
   if (place == std::string::npos) return text;

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
 namespace docent {
 
-/// What the robot says and shows of itself, in English and German; other languages get English.
+/// What the robot says and shows of itself, in the languages of `sentence_languages`; other languages get English.
 enum class Sentence {
   waking,        ///< does not know yet where it is
   relocalizing,  ///< lost its place
@@ -16,12 +17,19 @@ enum class Sentence {
   explaining,    ///< talks about {title}
   asking,        ///< more about {title}, or next?
   going_home,
-  charging,        ///< at the charger or on the way to it
+  battery_low,     ///< must charge, and is not at the charger yet
+  charging,        ///< at the charger, for about {title} minutes more
   announcement,    ///< spoken when it sets out for {title}
   let_me_through,  ///< spoken when people block the way
   offer_more,      ///< spoken: more, or next?
   home_again,      ///< spoken on arrival at home
+  must_charge,     ///< spoken when a visit or a tour is broken off for the battery
+  at_charger,      ///< spoken on arrival at the charger
 };
+inline constexpr int kSentences = static_cast<int>(Sentence::at_charger) + 1;
+
+/// The languages in which all sentences exist.
+[[nodiscard]] std::span<const std::string_view> sentence_languages();
 
 /// The sentence with `title` put in. Never empty.
 [[nodiscard]] std::string sentence(Sentence which, std::string_view language, std::string_view title = {});

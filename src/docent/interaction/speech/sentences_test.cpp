@@ -6,7 +6,7 @@ namespace docent {
 namespace {
 
 TEST(Sentences, AreAllThereInBothLanguages) {
-  for (int i = 0; i <= static_cast<int>(Sentence::home_again); ++i) {
+  for (int i = 0; i < kSentences; ++i) {
     const auto which = static_cast<Sentence>(i);
     const std::string english = sentence(which, "en", "Sputnik");
     const std::string german = sentence(which, "de", "Sputnik");

@@ -21,6 +21,7 @@ Result<void> save_checkpoint(const std::filesystem::path& path, const ExecutiveM
                   {"title", memory.task.title},
                   {"short", memory.task.short_text},
                   {"long", memory.task.long_text},
+                  {"wait_s", memory.task.wait_s},
                   {"order",
                    {{"id", order.id},
                     {"kind", order.kind},
@@ -51,6 +52,7 @@ Result<ExecutiveMemory> load_checkpoint(const std::filesystem::path& path, const
     memory.task.title = json.at("title").get<std::string>();
     memory.task.short_text = json.at("short").get<std::string>();
     memory.task.long_text = json.at("long").get<std::string>();
+    memory.task.wait_s = json.at("wait_s").get<double>();
     const Json& order = json.at("order");
     const Json& pose = order.at("pose");
     memory.task.order = {order.at("id").get<std::string>(),

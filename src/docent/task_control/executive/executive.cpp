@@ -9,9 +9,10 @@
 namespace docent {
 namespace {
 
-constexpr std::array<const char*, 8> kSteps{"idle",   "driving",         "relocalizing", "explaining",
-                                            "asking", "explaining_more", "done",         "failed"};
+constexpr std::array<const char*, 9> kSteps{
+    "idle", "driving", "relocalizing", "explaining", "asking", "explaining_more", "waiting", "done", "failed"};
 
+constexpr double kChargerTolerance = 0.15;                   ///< [m] contacts lie closer than where an exhibit is shown
 constexpr Duration kObstacleLife = std::chrono::seconds{1};  // the collision avoidance speaks four times a second
 
 bool is_positive(double value) { return value > 0.0; }
@@ -63,9 +64,12 @@ void Executive::set_task(ExecutiveTask task, Time now) {
   const TaskOrder& order = memory_.task.order;
   if (order.id.empty()) {
     enter(Step::idle, now);
-  } else if (order.kind == "visit" || order.kind == "home") {
+  } else if (order.kind == "visit" || order.kind == "home" || order.kind == "charge") {
     if (order.kind == "visit") {
       say("announcement", sentence(Sentence::announcement, order.language, memory_.task.title), "happy");
+    }
+    if (order.kind == "charge" && !(order.exhibit_id.empty() && order.tour_id.empty())) {
+      say("announcement", sentence(Sentence::must_charge, order.language), "sad");
     }
     memory_.drive_began = now;
     enter(Step::driving, now);
@@ -115,7 +119,12 @@ void Executive::send_drive() {
       actions_.drive = DriveOrder{own_id("relocalize"), {}, true};
       break;
     default:  // the heading of the place is the one that faces the exhibit
-      actions_.drive = order.kind == "relocalize" ? DriveOrder{} : DriveOrder{own_id("drive"), order.map_from_base};
+      if (order.kind == "relocalize") {
+        actions_.drive = DriveOrder{};
+      } else {
+        actions_.drive = DriveOrder{own_id("drive"), order.map_from_base};
+        if (order.kind == "charge") actions_.drive->position_tolerance = kChargerTolerance;
+      }
       break;
   }
 }
@@ -154,7 +163,7 @@ void Executive::report() {
   }
   TaskReport report{task_id(), to_text(memory_.step), memory_.reason, question(), memory_.took_long};
   if (memory_.step == Step::relocalizing) report.state = "driving";
-  if (memory_.step == Step::explaining_more) report.state = "explaining";
+  if (memory_.step == Step::explaining_more || memory_.step == Step::waiting) report.state = "explaining";
   if (!note_.empty()) report.reason = note_;
   actions_.report = std::move(report);
 }
@@ -200,7 +209,8 @@ void Executive::arrive(Time now) {
     enter(Step::explaining, now);
     return;
   }
-  say("home", sentence(Sentence::home_again, order.language), "happy");
+  const Sentence greeting = order.kind == "charge" ? Sentence::at_charger : Sentence::home_again;
+  say(order.kind, sentence(greeting, order.language), "happy");
   finish(true, "", now);
 }
 
@@ -264,6 +274,14 @@ void Executive::watch_speech(Time now) {
   if (memory_.step == Step::explaining && has_more) {
     enter(Step::asking, now);
   } else {
+    end_visit(now);
+  }
+}
+
+void Executive::end_visit(Time now) {
+  if (memory_.task.wait_s > 0.0) {
+    enter(Step::waiting, now);
+  } else {
     finish(true, "", now);
   }
 }
@@ -276,7 +294,7 @@ void Executive::choose(const std::string& question_id, const std::string& option
     memory_.took_long = true;
     enter(Step::explaining_more, now);
   } else {
-    finish(true, "", now);
+    end_visit(now);
   }
 }
 
@@ -287,6 +305,8 @@ void Executive::tick(Time now) {
     watch_speech(now);
   } else if (memory_.step == Step::asking && now >= question_deadline()) {
     actions_.happenings.push_back({"choice", memory_.task.order.exhibit_id, "next (default)"});
+    end_visit(now);
+  } else if (memory_.step == Step::waiting && now - memory_.step_began >= seconds(memory_.task.wait_s)) {
     finish(true, "", now);
   }
 }

@@ -35,9 +35,10 @@ struct ExecutiveTask {
   std::string title;
   std::string short_text;  ///< as it is spoken
   std::string long_text;   ///< empty: there is no more to tell
+  double wait_s = 0.0;     ///< [s] it stays at the exhibit after its last word
 };
 
-enum class Step { idle, driving, relocalizing, explaining, asking, explaining_more, done, failed };
+enum class Step { idle, driving, relocalizing, explaining, asking, explaining_more, waiting, done, failed };
 [[nodiscard]] const char* to_text(Step step);
 [[nodiscard]] std::optional<Step> step_of(const std::string& text);
 
@@ -56,6 +57,7 @@ struct DriveOrder {
   std::string id;  ///< empty: stay
   Pose2 map_from_base;
   bool relocalize = false;
+  double position_tolerance = 0.25;  ///< [m]
 };
 struct GoalReport {
   std::string id;
@@ -100,8 +102,9 @@ struct TaskReport {
 
 /// Does one task after the other ([Rhino1999] 4.3, GOLEX: decompose, monitor, recover):
 ///
-///   visit:      driving -> explaining -> asking -> [explaining_more ->] done
+///   visit:      driving -> explaining -> asking -> [explaining_more ->] [waiting ->] done
 ///   home:       driving -> done
+///   charge:     driving -> done, nearer to the place
 ///   relocalize: relocalizing -> done
 ///
 /// A drive whose way is blocked climbs the reaction ladder. Every step has a limit, so that a dead module holds nothing
@@ -146,6 +149,8 @@ class Executive {
   void climb_ladder(Time now);
   void watch_speech(Time now);
   void arrive(Time now);
+  /// All is said: done, or stays a while.
+  void end_visit(Time now);
   void ask_for_way(Time now, int count);
   void set_note(const std::string& note);
   [[nodiscard]] bool is_speaking() const;

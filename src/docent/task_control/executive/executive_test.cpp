@@ -329,5 +329,33 @@ TEST(ExecutiveSteps, TextsRoundTrip) {
   EXPECT_FALSE(step_of("dancing"));
 }
 
+TEST_F(ExecutiveTest, ChargesNearerToThePlaceAndInvitesNobody) {
+  start({{"c1", "charge", "", {3, 4, {}}, "en", false, "space"}, "", "", ""});
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_NE(said.back().text.find("battery"), std::string::npos) << "the tour ends with a word";
+  EXPECT_LT(drive->position_tolerance, 0.25);
+  goal("arrived");
+  EXPECT_EQ(state.state, "done");
+  EXPECT_EQ(said.back().text.find("Who would like"), std::string::npos);
+  start({{"c2", "charge", "", {3, 4, {}}, "en", false, ""}, "", "", ""});
+  EXPECT_EQ(count("c2/announcement"), 0) << "nobody was with it";
+}
+
+TEST_F(ExecutiveTest, StaysAtTheExhibitAsLongAsTheModeSays) {
+  ExecutiveTask task = visit("t1", false);
+  task.wait_s = 30.0;
+  start(task);
+  goal("arrived");
+  speech("t1/short", "speaking");
+  speech("t1/short", "done");
+  EXPECT_EQ(state.state, "explaining");
+  pass(20.0);
+  restart();
+  pass(9.0);
+  EXPECT_EQ(state.state, "explaining");
+  pass(2.0);
+  EXPECT_EQ(state.state, "done");
+}
+
 }  // namespace
 }  // namespace docent

@@ -7,6 +7,7 @@
 namespace docent {
 
 Result<void> SchedulerParams::validate() const {
+  if (max_stops < 1) return fail("mission.max_stops must be >= 1");
   if (max_open < 1) return fail("mission.max_open must be >= 1");
   if (!(overdue_s > 0.0)) return fail("mission.overdue_s must be > 0");
   if (!(hurry_after_s > 0.0)) return fail("mission.hurry_after_s must be > 0");
@@ -36,6 +37,7 @@ std::vector<std::string> compose_tour(const Programme& programme, Point2 start, 
   };
   std::vector<std::string> chosen;
   Point2 at = start;
+  const ProgrammeExhibit* before = programme.find_exhibit(choice.after);
   while (true) {
     const ProgrammeExhibit* nearest = nullptr;
     double least = std::numeric_limits<double>::infinity();
@@ -43,7 +45,8 @@ std::vector<std::string> compose_tour(const Programme& programme, Point2 start, 
     for (const ProgrammeExhibit& exhibit : programme.exhibits) {
       if (exhibit.web_only || holds(chosen, exhibit.id) || holds(choice.done, exhibit.id)) continue;
       const double way = travel(at, exhibit.pose.position());
-      const double felt = holds(choice.wished, exhibit.id) ? kWishedFactor * way : way;
+      double felt = holds(choice.wished, exhibit.id) ? kWishedFactor * way : way;
+      if (before != nullptr && holds(before->next, exhibit.id)) felt *= kSensibleFactor;
       if (felt < least) {
         nearest = &exhibit;
         least = felt;
@@ -56,6 +59,7 @@ std::vector<std::string> compose_tour(const Programme& programme, Point2 start, 
     chosen.push_back(nearest->id);
     left_s -= cost_s;
     at = nearest->pose.position();
+    before = nearest;
   }
 }
 

@@ -10,7 +10,8 @@ namespace docent {
 
 /// Section `mission` of robot.yaml holds these, too.
 struct SchedulerParams {
-  int max_open = 40;            ///< open requests, >= 1; more are refused
+  int max_stops = 80;           ///< different things wished for at once, >= 1; Bonn has 50 places to stop at
+  int max_open = 500;           ///< open requests, >= 1: each change of the board is sent with all of them
   double overdue_s = 600.0;     ///< [s] > 0: who waited longer comes first
   double hurry_after_s = 120;   ///< [s] > 0: while somebody has waited longer, exhibits are shown in the short version
   int max_attempts = 5;         ///< visits tried for a request, >= 1
@@ -23,6 +24,7 @@ struct SchedulerParams {
   int max_skipped = 1;          ///< exhibits that a fulfilled tour may have left out, >= 0
   template <class V>
   void visit(V& v) {
+    v("max_stops", max_stops);
     v("max_open", max_open);
     v("overdue_s", overdue_s);
     v("hurry_after_s", hurry_after_s);
@@ -47,12 +49,14 @@ struct SchedulerParams {
 struct StopChoice {
   std::vector<std::string> done;    ///< left out
   std::vector<std::string> wished;  ///< others wait for these: they count as nearer, by kWishedFactor
+  std::string after{};              ///< shown last: what makes sense after it counts as nearer, by kSensibleFactor
 };
 inline constexpr double kWishedFactor = 0.2;
+inline constexpr double kSensibleFactor = 0.5;
 
 /// Exhibits for the `left_s` that remain of a composed tour, from where the robot stands: always the nearest one, as
-/// long as less than half of it lies beyond the end, so that the length comes out right on average. Those that only Web
-/// visitors may see are left out. O(exhibits^2).
+/// long as less than half of it lies beyond the end, so that the length comes out right on average. What makes sense
+/// after the exhibit before counts as nearer. Those that only Web visitors may see are left out. O(exhibits^2).
 [[nodiscard]] std::vector<std::string> compose_tour(const Programme& programme, Point2 start, double left_s,
                                                     const StopChoice& choice, const TravelDistance& travel,
                                                     const SchedulerParams& params);

@@ -1,9 +1,17 @@
 #include "docent/task_control/tour_scheduler/mission.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace docent {
+namespace {
+
+/// What has begun may use so much of `battery_low` before it is broken off: a tour is rather finished than given twice.
+constexpr double kReserveOfBegun = 0.5;
+
+}  // namespace
 
 Result<void> MissionParams::validate() const {
   if (auto valid = schedule.validate(); !valid) return valid;
@@ -14,6 +22,11 @@ Result<void> MissionParams::validate() const {
   if (!(battery_low >= 0.0 && battery_low <= 1.0)) return fail("mission.battery_low must be in 0..1");
   if (!(battery_full > battery_low && battery_full <= 1.0))
     return fail("mission.battery_full must be in battery_low..1");
+  if (!(at_charger_m > 0.0)) return fail("mission.at_charger_m must be > 0");
+  if (!(contact_s >= 0.0)) return fail("mission.contact_s must be >= 0");
+  if (!(battery_gain >= 0.0 && battery_gain <= 1.0)) return fail("mission.battery_gain must be in 0..1");
+  if (!(drain_per_s > 0.0)) return fail("mission.drain_per_s must be > 0");
+  if (!(charge_per_s > 0.0)) return fail("mission.charge_per_s must be > 0");
   return {};
 }
 
@@ -25,19 +38,24 @@ Mission::Mission(const MissionParams& params, Programme programme, TravelDistanc
       next_task_{memory.next_task},
       task_{std::move(memory.task)},
       localization_changed_{now},
-      lost_since_{now} {
+      lost_since_{now},
+      battery_{params.drain_per_s, params.charge_per_s},
+      must_charge_{memory.must_charge} {
   // The running visit goes on under its old task id, so that an executive that works on it is not disturbed.
   if (const auto& visit = scheduler_.state().visit) {
     activity_ = Activity::visit;
     if (task_.kind != "visit" || !is_same(task_.map_from_base, visit->map_from_base)) start_visit(now);
   } else if (task_.kind == "home" && is_same(task_.map_from_base, scheduler_.programme().home)) {
     activity_ = Activity::home;
+  } else if (task_.kind == "charge" && is_same(task_.map_from_base, resting_place())) {
+    activity_ = Activity::charge;
   } else {
     task_ = {};
   }
 }
 
 void Mission::submit(VisitorRequest request, Time now) {
+  conditions_.delay = must_charge_ ? "I am charging my battery first." : "";
   scheduler_.submit(std::move(request), conditions_, now);
   if (activity_ == Activity::visit && scheduler_.is_visit_unwanted() && may_interrupt()) {
     scheduler_.drop_visit(now);
@@ -57,15 +75,15 @@ void Mission::report(const std::string& task_id, const std::string& state, const
       scheduler_.finish_visit(state == "done", reason, now);
       start_task(Activity::none, {});
     }
-  } else if (activity_ == Activity::home && is_over) {
+  } else if ((activity_ == Activity::home || activity_ == Activity::charge) && is_over) {
+    const bool is_done = state == "done";
+    const std::string place = activity_ == Activity::home ? "home" : "charger";
+    is_resting_ = is_done && activity_ == Activity::home;
+    // At the charger the battery has a moment to say that it charges.
+    const double pause_s = is_done ? params_.contact_s : params_.home_retry_s;
+    if (!is_resting_) home_not_before_ = now + seconds(pause_s);
     start_task(Activity::none, {});
-    if (state == "done") {
-      is_resting_ = true;
-      scheduler_.note({"home", "", reason});
-    } else {
-      home_not_before_ = now + seconds(params_.home_retry_s);
-      scheduler_.note({"home_failed", "", reason});
-    }
+    scheduler_.note({is_done ? place : place + "_failed", "", reason});
   }
   decide(now);
 }
@@ -84,16 +102,9 @@ void Mission::limits(bool is_open, const std::string& mode) {
   conditions_.mode = mode;
 }
 
-void Mission::battery(double fraction) {
-  if (!conditions_.battery_low && fraction < params_.battery_low) {
-    conditions_.battery_low = true;
-    is_resting_ = false;
-    scheduler_.note({"battery_low", "", "", fraction});
-  } else if (conditions_.battery_low && fraction >= params_.battery_full) {
-    conditions_.battery_low = false;
-    is_resting_ = false;
-    scheduler_.note({"battery_full", "", "", fraction});
-  }
+void Mission::battery(double charge, std::optional<bool> is_charging, Time now) {
+  battery_.report(charge, is_charging, now);
+  decide(now);
 }
 
 void Mission::tick(Time now) { decide(now); }
@@ -106,12 +117,55 @@ bool Mission::may_interrupt() const { return task_state_ != "explaining" && task
 
 Pose2 Mission::resting_place() const {
   const Programme& programme = scheduler_.programme();
-  return conditions_.battery_low && programme.charger ? *programme.charger : programme.home;
+  return charges() && programme.charger ? *programme.charger : programme.home;
+}
+
+double Mission::enough_to_serve() const {
+  return std::min(params_.battery_full, params_.battery_low + params_.battery_gain);
+}
+
+double Mission::spare(Time now) const {
+  const auto charge = battery_.charge(now);
+  if (!charge) return std::numeric_limits<double>::infinity();
+  const SchedulerState& schedule = scheduler_.state();
+  const double reserve = schedule.visit || schedule.tour ? kReserveOfBegun * params_.battery_low : params_.battery_low;
+  const Programme& programme = scheduler_.programme();
+  const Point2 place = programme.charger.value_or(programme.home).position();
+  const double way_s = scheduler_.way_duration(position(), place);
+  // Where no way is known, the reserve must do.
+  return *charge - reserve - (std::isfinite(way_s) ? battery_.drain_per_s() * way_s : 0.0);
+}
+
+double Mission::budget_s(Time now) const {
+  const auto charge = battery_.charge(now);
+  const bool is_at_its_best = !charge || *charge >= params_.battery_full || !scheduler_.programme().charger;
+  return is_at_its_best ? std::numeric_limits<double>::infinity() : spare(now) / battery_.drain_per_s();
+}
+
+bool Mission::has_contact() const {
+  const auto& charger = scheduler_.programme().charger;
+  return battery_.is_charging().value_or(charger && distance(position(), charger->position()) <= params_.at_charger_m);
+}
+
+void Mission::watch_battery(Time now) {
+  const auto charge = battery_.charge(now);
+  if (!charge) return;
+  if (*charge >= params_.battery_full) {
+    if (must_charge_ || tops_up_) scheduler_.note({"battery_full", "", "", *charge});
+    must_charge_ = false;
+    tops_up_ = false;
+  } else if (!must_charge_ && spare(now) < 0.0) {
+    must_charge_ = true;
+    is_resting_ = false;
+    scheduler_.note({"battery_low", "", "", *charge});
+  }
+  if (scheduler_.programme().charger && *charge < params_.battery_full - params_.battery_gain) tops_up_ = true;
 }
 
 Point2 Mission::position() const { return position_.value_or(scheduler_.programme().home.position()); }
 
 void Mission::decide(Time now) {
+  watch_battery(now);
   if (!is_localized_) {
     decide_when_lost(now);
     return;
@@ -126,20 +180,48 @@ void Mission::decide(Time now) {
       if (scheduler_.state().visit) start_visit(now);  // what was suspended goes on
     }
   }
-  if (activity_ == Activity::visit) return;
-  if (!conditions_.battery_low) {
-    if (scheduler_.begin_visit(position(), now)) {
-      start_visit(now);
-      return;
-    }
+  if (break_off_to_charge(now) || activity_ == Activity::visit) return rest(now);
+  const bool may_serve = !must_charge_ || battery_.charge(now).value_or(1.0) >= enough_to_serve();
+  if (may_serve && scheduler_.begin_visit(position(), now, budget_s(now))) {
+    must_charge_ = false;
+    start_visit(now);
+    return;
   }
+  if (!must_charge_ && scheduler_.is_anything_due(now)) {  // what comes next would take more than there is
+    must_charge_ = true;
+    scheduler_.note({"battery_low", "", "for what comes next", battery_.charge(now).value_or(1.0)});
+  }
+  rest(now);
+}
+
+bool Mission::break_off_to_charge(Time now) {
+  const SchedulerState& schedule = scheduler_.state();
+  if (!must_charge_ || !(schedule.visit || schedule.tour)) return false;
+  if (activity_ == Activity::visit && !may_interrupt()) return false;
+  broken_exhibit_ = schedule.visit ? schedule.visit->exhibit_id : "";
+  broken_tour_ = schedule.tour ? schedule.tour->tour_id : "";
+  scheduler_.break_off("My battery is low, I have to charge it.", now);
+  start_task(Activity::none, {});
+  return true;
+}
+
+void Mission::rest(Time now) {
+  if (activity_ == Activity::visit) return;
+  if (charges() && scheduler_.programme().charger) return charge(now);
   if (activity_ == Activity::home || is_resting_ || now < home_not_before_) return;
-  const Pose2 place = resting_place();
+  const Pose2 place = scheduler_.programme().home;
   if (distance(position(), place.position()) <= params_.at_home_m) {
     is_resting_ = true;
     return;
   }
   start_task(Activity::home, {"", "home", "", place, scheduler_.programme().languages.front(), false, ""});
+}
+
+void Mission::charge(Time now) {
+  is_resting_ = false;
+  if (activity_ == Activity::charge || has_contact() || now < home_not_before_) return;
+  start_task(Activity::charge, {"", "charge", std::exchange(broken_exhibit_, ""), resting_place(),
+                                scheduler_.programme().languages.front(), false, std::exchange(broken_tour_, "")});
 }
 
 void Mission::decide_when_lost(Time now) {
@@ -158,6 +240,7 @@ void Mission::start_visit(Time now) {
   start_task(Activity::visit,
              {"", "visit", visit.exhibit_id, visit.map_from_base, visit.language, offer_more, visit.tour_id});
   is_resting_ = false;
+  home_not_before_ = {};
 }
 
 void Mission::start_task(Activity activity, TaskOrder order) {
@@ -168,36 +251,54 @@ void Mission::start_task(Activity activity, TaskOrder order) {
   task_reason_.clear();
 }
 
-MissionSummary Mission::summary(Time now) const {
+const std::vector<std::string>& Mission::agenda(Time now) {
+  const std::uint64_t revision = scheduler_.state().board.revision();
+  if (agenda_revision_ != revision || agenda_task_ != task_.id) agenda_ = scheduler_.agenda(position(), now);
+  agenda_revision_ = revision;
+  agenda_task_ = task_.id;
+  return agenda_;
+}
+
+MissionSummary Mission::summary(Time now) {
   MissionSummary summary;
   const SchedulerState& schedule = scheduler_.state();
   summary.counters = schedule.counters;
-  summary.agenda = scheduler_.agenda(position(), now);
+  summary.agenda = agenda(now);
   if (schedule.tour) summary.tour_id = schedule.tour->tour_id;
   if (schedule.visit) {
     summary.exhibit_id = schedule.visit->exhibit_id;
   } else if (!summary.agenda.empty()) {
     summary.exhibit_id = summary.agenda.front();
   }
-  summary.is_charging = conditions_.battery_low;
+  summary.is_charging = charges();
+  summary.needs_charge = must_charge_;
+  if (const auto charge = battery_.charge(now); charge && charges()) {
+    const bool is_awaited = scheduler_.is_anything_due(now);
+    const double missing = (is_awaited ? enough_to_serve() : params_.battery_full) - *charge;
+    summary.charging_min = 5 * static_cast<int>(std::ceil(std::max(0.0, missing) / battery_.charge_per_s() / 300.0));
+  }
   summary.is_blocked = task_state_ == "driving" && !task_reason_.empty();
   switch (activity_) {
     case Activity::visit:
       summary.phase = task_state_ == "explaining" || task_state_ == "asking" ? task_state_ : "driving";
       break;
     case Activity::home:
+    case Activity::charge:
       summary.phase = "going_home";
       break;
     case Activity::relocalize:
       summary.phase = was_ever_localized_ ? "relocalizing" : "waking";
       break;
     case Activity::none:
-      summary.phase = !was_ever_localized_ ? "waking" : is_resting_ ? "idle" : "waiting";
+      summary.phase = !was_ever_localized_         ? "waking"
+                      : charges() && has_contact() ? "charging"
+                      : is_resting_                ? "idle"
+                                                   : "waiting";
       break;
   }
   return summary;
 }
 
-MissionMemory Mission::memory() const { return {scheduler_.state(), deployment_, next_task_, task_}; }
+MissionMemory Mission::memory() const { return {scheduler_.state(), deployment_, next_task_, task_, must_charge_}; }
 
 }  // namespace docent

@@ -5,19 +5,20 @@
 #include <string>
 #include <vector>
 
+#include "docent/task_control/tour_scheduler/battery_watch.h"
 #include "docent/task_control/tour_scheduler/tour_scheduler.h"
 
 namespace docent {
 
 /// One thing to do, for the executive.
 struct TaskOrder {
-  std::string id;    ///< empty: nothing to do
-  std::string kind;  ///< visit, home, relocalize
-  std::string exhibit_id;
-  Pose2 map_from_base;  ///< where to stand
+  std::string id;          ///< empty: nothing to do
+  std::string kind;        ///< visit, home, charge, relocalize
+  std::string exhibit_id;  ///< for charge: the visit that is broken off for it
+  Pose2 map_from_base;     ///< where to stand
   std::string language;
   bool offer_more = true;
-  std::string tour_id;
+  std::string tour_id;  ///< for charge: the tour that is broken off for it
 };
 
 /// Section `mission` of robot.yaml.
@@ -27,9 +28,16 @@ struct MissionParams {
   double localized_after_s = 1.0;  ///< [s] >= 0 with localization before it is resumed
   double at_home_m = 0.7;          ///< [m] > 0: so near, the robot is at home
   double home_retry_s = 30.0;      ///< [s] >= 0 after a failed way home
-  double battery_low = 0.15;       ///< 0..1: below, nothing is taken on and the robot goes to its charger
-  double battery_full = 0.8;       ///< 0..1, > battery_low: from here on it works again
-  bool offer_more = true;          ///< ask at each exhibit, unless others wait for long: more, or next?
+  double at_charger_m = 0.3;       ///< [m] > 0: so near, it is at a charger whose battery does not say that it charges
+  double contact_s = 10.0;         ///< [s] >= 0 until a battery at its charger says so; then the robot tries again
+  double battery_low = 0.15;       ///< 0..1: still left on arrival at its charger; what has begun may use half of it
+  double battery_full = 0.95;      ///< 0..1, > battery_low: charged; the last part takes real batteries long
+  /// 0..1: what makes the way to the charger worth while. An idle robot goes there when so much is missing; people
+  /// who wait are served again when there is so much more than battery_low.
+  double battery_gain = 0.25;
+  double drain_per_s = 1.4e-4;   ///< [1/s] > 0 share of a full battery: two hours of driving; more is measured
+  double charge_per_s = 2.2e-4;  ///< [1/s] > 0 likewise: 75 minutes; measured while it charges
+  bool offer_more = true;        ///< ask at each exhibit, unless others wait for long: more, or next?
   template <class V>
   void visit(V& v) {
     schedule.visit(v);
@@ -37,8 +45,13 @@ struct MissionParams {
     v("localized_after_s", localized_after_s);
     v("at_home_m", at_home_m);
     v("home_retry_s", home_retry_s);
+    v("at_charger_m", at_charger_m);
+    v("contact_s", contact_s);
     v("battery_low", battery_low);
     v("battery_full", battery_full);
+    v("battery_gain", battery_gain);
+    v("drain_per_s", drain_per_s);
+    v("charge_per_s", charge_per_s);
     v("offer_more", offer_more);
   }
   [[nodiscard]] Result<void> validate() const;
@@ -50,6 +63,7 @@ struct MissionMemory {
   std::string deployment;       ///< begins every task id: no task of another life of the database is taken for ours
   std::uint64_t next_task = 1;  ///< number of the next task
   TaskOrder task;               ///< the present one
+  bool must_charge = false;     ///< the battery is too low to go on
 };
 
 /// What the robot is about. Phases as in docent_msgs/MissionState.
@@ -57,15 +71,22 @@ struct MissionSummary {
   std::string phase;
   std::string tour_id;
   std::string exhibit_id;
-  bool is_blocked = false;  ///< people are in the way
-  bool is_charging = false;
+  bool is_blocked = false;    ///< people are in the way
+  bool is_charging = false;   ///< or on its way to the charger
+  bool needs_charge = false;  ///< it must, before it goes on
+  int charging_min = 0;       ///< [min] until it is charged well enough, in steps of five
   Counters counters;
   std::vector<std::string> agenda;
 };
 
 /// Decides what the robot does, from waking up to going home: serves the requests on the board one visit after the
 /// other, returns home when none is open ([Rhino1999] Table 4, `internet-tourguide`), finds itself again when it is
-/// lost, rests when the battery is low. Deterministic; knows nothing of messages and files.
+/// lost. Deterministic; knows nothing of messages and files.
+///
+/// Wherever it is, it keeps enough charge to reach its charger with `battery_low` left, or half of that once it has
+/// begun a visit or a tour. It begins no tour that would take more, breaks off what does, between two explanations and
+/// with a word, and goes to charge; requests are taken and wait. It charges until it is full or, when somebody waits,
+/// has gained `battery_gain` and what comes next can be done. When nobody wants anything it charges before it must.
 class Mission {
  public:
   Mission(const MissionParams& params, Programme programme, TravelDistance travel, MissionMemory memory, Time now);
@@ -76,18 +97,20 @@ class Mission {
   /// @param position  best guess [m], map
   void localization(bool is_localized, Point2 position, Time now);
   void limits(bool is_open, const std::string& mode);
-  void battery(double fraction);  ///< 0..1
+  /// @param charge  0..1. @param is_charging  nullopt: the battery does not say
+  void battery(double charge, std::optional<bool> is_charging, Time now);
+  [[nodiscard]] bool is_battery_silent(Time now) const { return battery_.is_silent(now); }
   /// Once or twice a second.
   void tick(Time now);
 
   [[nodiscard]] const TaskOrder& task() const { return task_; }
-  [[nodiscard]] MissionSummary summary(Time now) const;
+  [[nodiscard]] MissionSummary summary(Time now);
   [[nodiscard]] MissionMemory memory() const;
   [[nodiscard]] TourScheduler& scheduler() { return scheduler_; }
   [[nodiscard]] std::vector<Happening> take_happenings() { return scheduler_.take_happenings(); }
 
  private:
-  enum class Activity { none, visit, home, relocalize };
+  enum class Activity { none, visit, home, charge, relocalize };
 
   void decide(Time now);
   void decide_when_lost(Time now);
@@ -95,7 +118,20 @@ class Mission {
   void start_visit(Time now);
   [[nodiscard]] bool may_interrupt() const;
   [[nodiscard]] bool is_lost(Time now) const;
+  [[nodiscard]] bool charges() const { return must_charge_ || tops_up_; }
   [[nodiscard]] Pose2 resting_place() const;
+  /// Charge left [share] after the way to the charger and what is kept in reserve; +infinity: the battery never spoke.
+  [[nodiscard]] double spare(Time now) const;
+  /// How long it may be busy before it must charge [s].
+  [[nodiscard]] double budget_s(Time now) const;
+  [[nodiscard]] double enough_to_serve() const;
+  void watch_battery(Time now);
+  /// Ends what is under way for want of charge; true when it may not go on.
+  [[nodiscard]] bool break_off_to_charge(Time now);
+  [[nodiscard]] const std::vector<std::string>& agenda(Time now);
+  void rest(Time now);
+  void charge(Time now);
+  [[nodiscard]] bool has_contact() const;
   [[nodiscard]] Point2 position() const;
 
   MissionParams params_;
@@ -113,8 +149,16 @@ class Mission {
   Time lost_since_;
   std::optional<Point2> position_;
   Conditions conditions_;
-  bool is_resting_ = false;  ///< arrived at the resting place, nothing has happened since
-  Time home_not_before_{};
+  BatteryWatch battery_;
+  bool must_charge_;            ///< too little is left to go on
+  bool tops_up_ = false;        ///< charges, or goes to its charger, whenever nobody wants anything
+  std::string broken_exhibit_;  ///< what was broken off for the charge that comes
+  std::string broken_tour_;
+  bool is_resting_ = false;          ///< arrived at home, nothing has happened since
+  Time home_not_before_{};           ///< nor to the charger
+  std::vector<std::string> agenda_;  ///< it is costly, so it is made anew only when board or task have changed
+  std::uint64_t agenda_revision_ = 0;
+  std::string agenda_task_ = "none yet";
 };
 
 }  // namespace docent

@@ -34,6 +34,7 @@ Pose2 pose_from(const Json& json) {
 Json plan_of(const MissionMemory& memory) {
   Json plan;
   plan["next_task"] = memory.next_task;
+  plan["must_charge"] = memory.must_charge;
   plan["revision"] = memory.schedule.board.revision();
   const Counters& counters = memory.schedule.counters;
   plan["counters"] = {counters.exhibits_explained, counters.tours_completed, counters.requests_served};
@@ -46,18 +47,25 @@ Json plan_of(const MissionMemory& memory) {
                   {"offer_more", task.offer_more},
                   {"tour", task.tour_id}};
   if (const auto& visit = memory.schedule.visit) {
-    plan["visit"] = {{"exhibit", visit->exhibit_id},      {"pose", to_json(visit->map_from_base)},
-                     {"language", visit->language},       {"tour", visit->tour_id},
-                     {"is_joinable", visit->is_joinable}, {"started", visit->started.nanoseconds}};
+    plan["visit"] = {{"exhibit", visit->exhibit_id},
+                     {"viewpoint", visit->viewpoint},
+                     {"pose", to_json(visit->map_from_base)},
+                     {"language", visit->language},
+                     {"tour", visit->tour_id},
+                     {"is_joinable", visit->is_joinable},
+                     {"started", visit->started.nanoseconds}};
   }
   if (const auto& tour = memory.schedule.tour) {
     Json stops = Json::array();
     for (const TourStop& stop : tour->stops) {
-      stops.push_back({stop.exhibit_id, static_cast<int>(stop.status), stop.attempts});
+      stops.push_back({stop.exhibit_id, static_cast<int>(stop.status), stop.attempts, stop.number});
     }
+    Json members = Json::array();
+    for (const TourMember& member : tour->members) members.push_back({member.request_id, member.stops});
     plan["tour"] = {{"id", tour->tour_id},
                     {"language", tour->language},
                     {"stops", stops},
+                    {"members", members},
                     {"just_inserted", tour->just_inserted},
                     {"target_s", tour->target_s},
                     {"started", tour->started.nanoseconds}};
@@ -68,6 +76,7 @@ Json plan_of(const MissionMemory& memory) {
 /// Throws nlohmann::json::exception when something is missing.
 void read_plan(const Json& plan, MissionMemory& memory, std::uint64_t& revision) {
   memory.next_task = plan.at("next_task").get<std::uint64_t>();
+  memory.must_charge = plan.at("must_charge").get<bool>();
   revision = plan.at("revision").get<std::uint64_t>();
   const Json& counters = plan.at("counters");
   memory.schedule.counters = {counters.at(0).get<std::uint32_t>(), counters.at(1).get<std::uint32_t>(),
@@ -79,9 +88,13 @@ void read_plan(const Json& plan, MissionMemory& memory, std::uint64_t& revision)
                  task.at("tour").get<std::string>()};
   if (plan.contains("visit")) {
     const Json& visit = plan.at("visit");
-    memory.schedule.visit = Visit{visit.at("exhibit").get<std::string>(),  pose_from(visit.at("pose")),
-                                  visit.at("language").get<std::string>(), visit.at("tour").get<std::string>(),
-                                  visit.at("is_joinable").get<bool>(),     {visit.at("started").get<std::int64_t>()}};
+    memory.schedule.visit = Visit{visit.at("exhibit").get<std::string>(),
+                                  visit.at("viewpoint").get<int>(),
+                                  pose_from(visit.at("pose")),
+                                  visit.at("language").get<std::string>(),
+                                  visit.at("tour").get<std::string>(),
+                                  visit.at("is_joinable").get<bool>(),
+                                  {visit.at("started").get<std::int64_t>()}};
   }
   if (plan.contains("tour")) {
     const Json& tour = plan.at("tour");
@@ -93,8 +106,11 @@ void read_plan(const Json& plan, MissionMemory& memory, std::uint64_t& revision)
     run.started = {tour.at("started").get<std::int64_t>()};
     for (const Json& stop : tour.at("stops")) {
       run.stops.push_back({stop.at(0).get<std::string>(),
-                           static_cast<StopStatus>(std::clamp(stop.at(1).get<int>(), 0, 2)), stop.at(2).get<int>()});
+                           static_cast<StopStatus>(std::clamp(stop.at(1).get<int>(), 0, 2)), stop.at(2).get<int>(),
+                           stop.at(3).get<int>()});
     }
+    for (const Json& member : tour.at("members"))
+      run.members.push_back({member.at(0).get<std::string>(), member.at(1).get<std::vector<int>>()});
     memory.schedule.tour = std::move(run);
   }
 }

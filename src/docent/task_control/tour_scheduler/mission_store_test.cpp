@@ -34,9 +34,10 @@ MissionMemory full_memory() {
   MissionMemory memory;
   memory.next_task = 17;
   memory.task = {"abc-16", "visit", "sputnik", {1.5, -2.5, Angle::radians(0.7)}, "de", false, "space"};
-  memory.schedule.visit = Visit{"sputnik", {1.5, -2.5, Angle::radians(0.7)}, "de", "space", false, {99}};
-  memory.schedule.tour =
-      TourRun{"space", "de", {{"a", StopStatus::explained, 1}, {"b", StopStatus::pending, 2}}, true, 360.0, {77}};
+  memory.schedule.visit = Visit{"sputnik", 2, {1.5, -2.5, Angle::radians(0.7)}, "de", "space", false, {99}};
+  memory.schedule.tour = TourRun{"space", "de", {}, true, 360.0, {77}, {{"c", {0, 5}}}};
+  memory.schedule.tour->stops = {{"a", StopStatus::explained, 1, 0}, {"b", StopStatus::pending, 2, 5}};
+  memory.must_charge = true;
   memory.schedule.counters = {4, 5, 6};
   return memory;
 }
@@ -63,11 +64,17 @@ TEST_F(Store, GivesBackWhatWasSaved) {
   EXPECT_FALSE(loaded->task.offer_more);
   ASSERT_TRUE(loaded->schedule.visit);
   EXPECT_EQ(loaded->schedule.visit->exhibit_id, "sputnik");
+  EXPECT_EQ(loaded->schedule.visit->viewpoint, 2);
   EXPECT_FALSE(loaded->schedule.visit->is_joinable);
   ASSERT_TRUE(loaded->schedule.tour);
   ASSERT_EQ(loaded->schedule.tour->stops.size(), 2U);
   EXPECT_EQ(loaded->schedule.tour->stops[0].status, StopStatus::explained);
   EXPECT_EQ(loaded->schedule.tour->stops[1].attempts, 2);
+  EXPECT_EQ(loaded->schedule.tour->stops[1].number, 5);
+  ASSERT_EQ(loaded->schedule.tour->members.size(), 1U);
+  EXPECT_EQ(loaded->schedule.tour->members[0].request_id, "c");
+  EXPECT_EQ(loaded->schedule.tour->members[0].stops, (std::vector<int>{0, 5}));
+  EXPECT_TRUE(loaded->must_charge);
   EXPECT_EQ(loaded->schedule.counters.requests_served, 6U);
   const auto& entries = loaded->schedule.board.entries();
   ASSERT_EQ(entries.size(), 3U);

@@ -22,8 +22,7 @@ class MissionTest : public testing::Test {
   MissionTest() { make({}); }
   void make(MissionMemory memory) {
     memory.deployment = "dep";
-    mission =
-        std::make_unique<Mission>(MissionParams{}, small_programme(), straight_distance(), std::move(memory), time());
+    mission = std::make_unique<Mission>(MissionParams{}, programme, straight_distance(), std::move(memory), time());
   }
   [[nodiscard]] Time time() const { return time_from_seconds(now_s); }
   /// Passes time with ticks; the robot stays where it is.
@@ -36,6 +35,12 @@ class MissionTest : public testing::Test {
   void wish(const std::string& id, const std::string& kind, const std::string& target) {
     mission->submit({id, {}, "web", "", kind, target, -1, "en"}, time());
   }
+  void battery(double charge, std::optional<bool> is_charging = false) {
+    mission->battery(charge, is_charging, time());
+  }
+  [[nodiscard]] RequestStatus status_of(const std::string& id) const {
+    return mission->memory().schedule.board.find(id)->status;
+  }
   void report(const std::string& state) { mission->report(mission->task().id, state, "", time()); }
   [[nodiscard]] std::string phase() const { return mission->summary(time()).phase; }
   bool happened(const std::string& kind) {
@@ -43,6 +48,7 @@ class MissionTest : public testing::Test {
     return std::find(seen.begin(), seen.end(), kind) != seen.end();
   }
 
+  Programme programme = small_programme();
   double now_s = 0.0;
   Point2 robot{0, 0};
   std::unique_ptr<Mission> mission;
@@ -93,16 +99,13 @@ TEST_F(MissionTest, AsksNobodyForMoreWhileOthersHaveWaitedLong) {
   wish("1", "tour", "both");
   EXPECT_TRUE(mission->task().offer_more);
   report("explaining");
-  wish("2", "tour", "both");  // too late to join
+  wish("2", "exhibit", "a");  // too late to join
   pass(60.0);
   report("done");
-  ASSERT_EQ(mission->task().exhibit_id, "b");
-  EXPECT_TRUE(mission->task().offer_more) << "a minute is not long";
-  report("done");
   ASSERT_EQ(mission->task().exhibit_id, "a");
-  EXPECT_TRUE(mission->task().offer_more) << "nobody waits but those whose turn it is";
+  EXPECT_TRUE(mission->task().offer_more) << "a minute is not long";
   report("explaining");
-  wish("3", "tour", "both");
+  wish("3", "exhibit", "a");
   pass(200.0);
   report("done");
   ASSERT_EQ(mission->task().exhibit_id, "b");
@@ -183,27 +186,192 @@ TEST_F(MissionTest, ARestartInTheMiddleOfRelocalizingResumesTheVisit) {
   EXPECT_NE(mission->task().id, memory.task.id);
 }
 
-TEST_F(MissionTest, RestsWhenTheBatteryIsLow) {
+TEST_F(MissionTest, ChargesWhenTheBatteryIsLowAndServesAfterwardsWhoCameMeanwhile) {
   pass(5.0);
   wish("1", "exhibit", "a");
-  mission->battery(0.1);
+  battery(0.12);
   EXPECT_EQ(phase(), "driving") << "what has begun is brought to its end";
   wish("2", "exhibit", "b");
   report("done");
   robot = {5, 0};
   pass(2.0);
-  EXPECT_EQ(phase(), "going_home");
+  EXPECT_EQ(mission->task().kind, "charge");
   EXPECT_EQ(mission->task().map_from_base.y, 3.0) << "the charger";
-  EXPECT_TRUE(mission->summary(time()).is_charging);
+  EXPECT_EQ(mission->task().exhibit_id, "") << "nothing was broken off";
   report("done");
   robot = {0, 3};
-  mission->battery(0.5);
+  battery(0.3, true);
+  EXPECT_EQ(phase(), "charging");
+  EXPECT_EQ(mission->summary(time()).charging_min, 10) << "0.1 more at 2.2e-4 1/s";
   wish("3", "exhibit", "a");
+  pass(60.0);
+  for (const char* id : {"2", "3"}) EXPECT_EQ(status_of(id), RequestStatus::queued) << id;
+  EXPECT_NE(mission->memory().schedule.board.find("3")->reason, "");
+  battery(0.41, true);
+  EXPECT_EQ(phase(), "driving") << "somebody waits: enough is enough";
+  report("done");
+  report("done");
+  for (const char* id : {"2", "3"}) EXPECT_EQ(status_of(id), RequestStatus::fulfilled) << id;
+}
+
+TEST_F(MissionTest, DoesNotStayAtHomeWhenTheBatteryGotLowOnTheWayThere) {
+  robot = {4, 4};
+  pass(5.0);
+  EXPECT_EQ(phase(), "going_home");
+  const std::string home = mission->task().id;
+  battery(0.14);
+  mission->report(home, "done", "", time());
+  robot = {0, 0.5};
+  pass(60.0);
+  EXPECT_EQ(mission->task().map_from_base.y, 3.0) << "the charger";
+  EXPECT_EQ(mission->task().kind, "charge");
+}
+
+TEST_F(MissionTest, LeavesHomeWhenTheBatteryGetsLowThere) {
+  pass(5.0);
   EXPECT_EQ(phase(), "idle");
-  EXPECT_TRUE(happened("request_refused"));
-  mission->battery(0.85);
-  wish("4", "exhibit", "b");
-  EXPECT_EQ(phase(), "driving");
+  battery(0.14);
+  pass(2.0);
+  EXPECT_EQ(mission->task().kind, "charge");
+}
+
+TEST_F(MissionTest, LeavesInTimeForTheWay) {
+  pass(5.0);
+  robot = {700, 3};  // 2000 s at 0.35 m/s: 0.28 of the charge
+  battery(0.44);
+  pass(1.0);
+  EXPECT_NE(mission->task().map_from_base.y, 0.0);
+  battery(0.42);
+  EXPECT_TRUE(mission->memory().must_charge);
+}
+
+TEST_F(MissionTest, ABatteryThatDrainsFasterThanForeseenCallsItEarlier) {
+  pass(5.0);
+  robot = {300, 3};  // 857 s
+  for (double charge = 0.5; charge > 0.45; charge -= 0.01) {
+    battery(charge);
+    pass(20.0);
+  }
+  EXPECT_TRUE(mission->memory().must_charge) << "5e-4 1/s: the way takes 0.43";
+}
+
+TEST_F(MissionTest, BreaksOffATourBetweenTwoExplanationsWithAWord) {
+  pass(5.0);
+  wish("t", "tour", "both");
+  report("explaining");
+  battery(0.05);
+  EXPECT_EQ(phase(), "explaining") << "the sentence is finished";
+  report("done");
+  EXPECT_EQ(mission->task().kind, "charge");
+  EXPECT_EQ(mission->task().tour_id, "both") << "this is said";
+  EXPECT_EQ(status_of("t"), RequestStatus::queued);
+  EXPECT_TRUE(happened("tour_broken_off"));
+  battery(0.45, true);
+  EXPECT_EQ(mission->task().tour_id, "both") << "it begins anew";
+  EXPECT_EQ(mission->task().exhibit_id, "a");
+  battery(0.05);
+  EXPECT_EQ(mission->task().kind, "charge") << "under way to an exhibit it turns round at once";
+  EXPECT_EQ(mission->task().exhibit_id, "a");
+  EXPECT_EQ(mission->memory().schedule.counters.tours_completed, 0U);
+}
+
+TEST_F(MissionTest, BeginsNoTourThatWouldTakeMoreThanThereIs) {
+  pass(5.0);
+  battery(0.16);
+  EXPECT_FALSE(mission->memory().must_charge);
+  wish("t", "tour", "both");
+  EXPECT_EQ(mission->task().kind, "charge");
+  EXPECT_EQ(status_of("t"), RequestStatus::queued);
+  battery(0.41, true);
+  EXPECT_EQ(mission->task().tour_id, "both");
+}
+
+TEST_F(MissionTest, ChargesBeforeItMustWhenNobodyWantsAnything) {
+  pass(5.0);
+  battery(0.75);
+  pass(1.0);
+  EXPECT_EQ(phase(), "idle");
+  battery(0.65);
+  EXPECT_EQ(mission->task().kind, "charge");
+  report("done");
+  robot = {0, 3};
+  battery(0.66, true);
+  EXPECT_EQ(phase(), "charging");
+  wish("1", "exhibit", "a");
+  EXPECT_EQ(phase(), "driving") << "it leaves at once";
+  battery(0.66);
+  report("done");
+  EXPECT_EQ(mission->task().kind, "charge") << "and comes back";
+  report("done");
+  battery(0.96, true);
+  pass(15.0);
+  EXPECT_EQ(mission->task().kind, "home");
+}
+
+TEST_F(MissionTest, TriesAgainWhenTheChargerDoesNotCharge) {
+  pass(5.0);
+  battery(0.1);
+  const std::string first = mission->task().id;
+  EXPECT_EQ(mission->task().kind, "charge");
+  report("done");
+  robot = {0, 3};
+  battery(0.1, false);
+  pass(5.0);
+  EXPECT_EQ(mission->task().id, "") << "contacts take a moment";
+  pass(6.0);
+  EXPECT_EQ(mission->task().kind, "charge");
+  EXPECT_NE(mission->task().id, first);
+  report("failed");
+  pass(20.0);
+  EXPECT_EQ(mission->task().id, "") << "people stand on it";
+  pass(15.0);
+  EXPECT_EQ(mission->task().kind, "charge");
+  report("done");
+  battery(0.1, std::nullopt);
+  pass(60.0);
+  EXPECT_EQ(phase(), "charging") << "the battery does not say: the place counts";
+}
+
+TEST_F(MissionTest, AMuseumWithoutAChargerLetsItRestAtHome) {
+  programme.charger.reset();
+  make({});
+  pass(5.0);
+  wish("1", "exhibit", "a");
+  battery(0.05);
+  EXPECT_EQ(mission->task().kind, "") << "home is where it stands";
+  EXPECT_EQ(status_of("1"), RequestStatus::queued);
+  pass(60.0);
+  battery(1.0);  // somebody changed the battery
+  EXPECT_EQ(mission->task().kind, "visit");
+}
+
+TEST_F(MissionTest, ARestartGoesOnCharging) {
+  pass(5.0);
+  battery(0.1);
+  const std::string task = mission->task().id;
+  MissionMemory memory = mission->memory();
+  make(memory);
+  EXPECT_EQ(mission->task().id, task) << "the way to the charger goes on";
+  report("done");
+  robot = {0, 3};
+  battery(0.3, true);
+  memory = mission->memory();
+  make(memory);
+  wish("1", "exhibit", "a");
+  battery(0.3, true);
+  pass(5.0);
+  EXPECT_EQ(phase(), "charging");
+  EXPECT_EQ(status_of("1"), RequestStatus::queued);
+}
+
+TEST_F(MissionTest, ASilentBatteryIsThoughtToGoOnAsItDid) {
+  pass(5.0);
+  battery(0.3);
+  pass(60.0);
+  EXPECT_TRUE(mission->is_battery_silent(time()));
+  EXPECT_FALSE(mission->memory().must_charge);
+  pass(1200.0);
+  EXPECT_TRUE(mission->memory().must_charge);
 }
 
 TEST_F(MissionTest, AClosedMuseumServesWhatItTookAndTakesNoMore) {

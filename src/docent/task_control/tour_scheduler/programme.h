@@ -17,6 +17,12 @@ struct ProgrammeExhibit {
   std::vector<Pose2> viewpoints;  ///< other places to show it from; Web visitors may choose one
   double speech_s = 15.0;         ///< [s] title and short text, spoken
   bool web_only = false;
+  std::vector<std::string> next{};  ///< exhibits that make sense right after this one (sensible_next)
+
+  /// Where to stand for the viewpoint of this number; -1: for the exhibit's own place.
+  [[nodiscard]] const Pose2& place(int viewpoint) const {
+    return viewpoint < 0 ? pose : viewpoints.at(static_cast<std::size_t>(viewpoint));
+  }
 };
 
 /// What the scheduler must know of a tour.
@@ -36,6 +42,13 @@ struct Programme {
 
   [[nodiscard]] const ProgrammeExhibit* find_exhibit(const std::string& id) const;
   [[nodiscard]] const ProgrammeTour* find_tour(const std::string& id) const;
+};
+
+/// One stop that somebody wishes for: an exhibit, seen from a viewpoint of it or (-1) from anywhere.
+struct WishedStop {
+  std::string exhibit_id;
+  int viewpoint = -1;
+  friend bool operator==(const WishedStop&, const WishedStop&) = default;
 };
 
 /// The same pose but for rounding.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 #include <utility>
 
 #include "docent/base/check.h"
@@ -93,6 +94,15 @@ void RequestBoard::count_attempt(const std::string& id, Time not_before) {
 std::size_t RequestBoard::open_count() const {
   return static_cast<std::size_t>(
       std::count_if(entries_.begin(), entries_.end(), [](const BoardEntry& entry) { return is_open(entry.status); }));
+}
+
+std::size_t RequestBoard::stops_with(const VisitorRequest& request) const {
+  std::set<std::tuple<std::string, std::string, int>> stops{{request.kind, request.target, request.viewpoint}};
+  for (const BoardEntry& entry : entries_) {
+    const VisitorRequest& other = entry.request;
+    if (is_open(entry.status)) stops.emplace(other.kind, other.target, other.viewpoint);
+  }
+  return stops.size();
 }
 
 void RequestBoard::touch(const std::string& id) {

@@ -66,6 +66,9 @@ class RequestBoard {
   /// Open ones in the order of their arrival, then closed ones, the last closed last.
   [[nodiscard]] const std::vector<BoardEntry>& entries() const { return entries_; }
   [[nodiscard]] std::size_t open_count() const;
+  /// How many different things (tours, exhibits, viewpoints of exhibits) the open requests wish for, if `request` is
+  /// one of them. O(open log open).
+  [[nodiscard]] std::size_t stops_with(const VisitorRequest& request) const;
   [[nodiscard]] std::uint64_t revision() const { return revision_; }
 
   /// Ids changed since the last `mark_stored`.

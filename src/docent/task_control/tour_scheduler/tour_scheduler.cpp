@@ -20,9 +20,54 @@ std::string joined(const std::vector<TourStop>& stops) {
   return text;
 }
 
-bool is_place_of(const ProgrammeExhibit& exhibit, const Pose2& pose) {
-  return is_same(exhibit.pose, pose) || std::any_of(exhibit.viewpoints.begin(), exhibit.viewpoints.end(),
-                                                    [&](const Pose2& viewpoint) { return is_same(viewpoint, pose); });
+bool has_viewpoint(const ProgrammeExhibit& exhibit, int viewpoint) {
+  return viewpoint < static_cast<int>(exhibit.viewpoints.size());
+}
+
+bool is_member(const TourRun& tour, const std::string& request_id) {
+  return std::any_of(tour.members.begin(), tour.members.end(),
+                     [&](const TourMember& member) { return member.request_id == request_id; });
+}
+
+/// The next stop at the exhibit, but not the one with the number `except`.
+std::vector<TourStop>::iterator pending_stop(std::vector<TourStop>& stops, const std::string& exhibit_id, int except) {
+  return std::find_if(stops.begin(), stops.end(), [&](const TourStop& stop) {
+    return stop.exhibit_id == exhibit_id && stop.status == StopStatus::pending && stop.number != except;
+  });
+}
+
+/// What became of the stops of a tour.
+struct Outcome {
+  int pending = 0;
+  int explained = 0;
+  int skipped = 0;
+  std::string missed;
+  [[nodiscard]] std::string reason() const {
+    if (skipped > 0) return "I could not get to: " + missed + ".";
+    return explained > 0 ? "" : "The museum no longer has this.";
+  }
+};
+
+/// For one member, or (nullptr) for all: then what was shown in one round counts, though another left it out.
+Outcome outcome_of(const TourRun& tour, const TourMember* member) {
+  Outcome outcome;
+  const auto concerns = [&](const TourStop& stop) {
+    return member == nullptr || member->stops.empty() || holds(member->stops, stop.number);
+  };
+  const auto is_shown = [&](const std::string& exhibit) {
+    return std::any_of(tour.stops.begin(), tour.stops.end(), [&](const TourStop& stop) {
+      return stop.exhibit_id == exhibit && stop.status == StopStatus::explained && concerns(stop);
+    });
+  };
+  for (const TourStop& stop : tour.stops) {
+    if (!concerns(stop)) continue;
+    if (stop.status == StopStatus::pending) ++outcome.pending;
+    if (stop.status == StopStatus::explained) ++outcome.explained;
+    if (stop.status != StopStatus::skipped || is_shown(stop.exhibit_id)) continue;
+    ++outcome.skipped;
+    outcome.missed += (outcome.missed.empty() ? "" : ", ") + stop.exhibit_id;
+  }
+  return outcome;
 }
 
 }  // namespace
@@ -38,8 +83,9 @@ void TourScheduler::drop_what_is_gone(Time now) {
   std::vector<std::string> gone;
   for (const BoardEntry& entry : state_.board.entries()) {
     const VisitorRequest& request = entry.request;
+    const ProgrammeExhibit* exhibit = programme_.find_exhibit(request.target);
     const bool is_known = request.kind == "tour" ? programme_.find_tour(request.target) != nullptr
-                                                 : programme_.find_exhibit(request.target) != nullptr;
+                                                 : exhibit != nullptr && has_viewpoint(*exhibit, request.viewpoint);
     if (docent::is_open(entry.status) && !is_known) gone.push_back(request.id);
   }
   for (const std::string& id : gone) close_request(id, RequestStatus::failed, "The museum no longer has this.", now);
@@ -47,23 +93,23 @@ void TourScheduler::drop_what_is_gone(Time now) {
     const ProgrammeExhibit* exhibit = programme_.find_exhibit(state_.visit->exhibit_id);
     if (exhibit == nullptr) {
       state_.visit.reset();
-    } else if (!is_place_of(*exhibit, state_.visit->map_from_base)) {  // it was moved, or the map is another
-      state_.visit->map_from_base = exhibit->pose;
+    } else {  // it may have been moved, or the map is another
+      if (!has_viewpoint(*exhibit, state_.visit->viewpoint)) state_.visit->viewpoint = -1;
+      state_.visit->map_from_base = exhibit->place(state_.visit->viewpoint);
     }
   }
-  if (!state_.tour) return;
-  std::erase_if(state_.tour->stops,
-                [&](const TourStop& stop) { return programme_.find_exhibit(stop.exhibit_id) == nullptr; });
-  if (ids("tour", RequestStatus::active, state_.tour->tour_id).empty()) {
-    state_.tour.reset();
-    if (state_.visit) state_.visit->tour_id.clear();
+  if (state_.tour) {
+    const auto members = ids("tour", RequestStatus::active, state_.tour->tour_id);
+    std::erase_if(state_.tour->stops,
+                  [&](const TourStop& stop) { return programme_.find_exhibit(stop.exhibit_id) == nullptr; });
+    std::erase_if(state_.tour->members, [&](const TourMember& member) { return !holds(members, member.request_id); });
+    end_tour_if_over(now);
   }
-  end_tour_if_over(now);
   // What is called active but belongs to nothing under way waits again.
   std::vector<std::string> orphans;
   for (const BoardEntry& entry : state_.board.entries()) {
     const VisitorRequest& request = entry.request;
-    const bool is_served = request.kind == "tour" ? state_.tour && state_.tour->tour_id == request.target
+    const bool is_served = request.kind == "tour" ? state_.tour && is_member(*state_.tour, request.id)
                                                   : state_.visit && state_.visit->exhibit_id == request.target;
     if (entry.status == RequestStatus::active && !is_served) orphans.push_back(request.id);
   }
@@ -75,7 +121,7 @@ std::string TourScheduler::refusal(const VisitorRequest& request, const Conditio
     const ProgrammeExhibit* exhibit = programme_.find_exhibit(request.target);
     if (exhibit == nullptr) return "There is no exhibit '" + request.target + "' here.";
     if (exhibit->web_only && request.source != "web") return "This one is shown to Web visitors only.";
-    if (request.viewpoint >= static_cast<int>(exhibit->viewpoints.size())) return "There is no such viewpoint.";
+    if (!has_viewpoint(*exhibit, request.viewpoint)) return "There is no such viewpoint.";
   } else if (request.kind == "tour") {
     if (programme_.find_tour(request.target) == nullptr) return "There is no tour '" + request.target + "' here.";
   } else {
@@ -84,8 +130,8 @@ std::string TourScheduler::refusal(const VisitorRequest& request, const Conditio
   const bool is_staff = request.source == "staff";
   if ((!conditions.is_open || conditions.mode == "closed") && !is_staff) return "The museum is closed.";
   if (conditions.mode == "web" && request.source != "web" && !is_staff) return "Just now only Web visitors guide me.";
-  if (conditions.battery_low) return "My battery is low, I have to rest.";
-  if (state_.board.open_count() >= static_cast<std::size_t>(params_.max_open))
+  if (state_.board.open_count() >= static_cast<std::size_t>(params_.max_open) ||
+      state_.board.stops_with(request) > static_cast<std::size_t>(params_.max_stops))
     return "Too many people are waiting already. Please try again later.";
   return "";
 }
@@ -93,6 +139,7 @@ std::string TourScheduler::refusal(const VisitorRequest& request, const Conditio
 void TourScheduler::submit(VisitorRequest request, const Conditions& conditions, Time now) {
   if (request.id.empty() || state_.board.find(request.id) != nullptr) return;
   if (!holds(programme_.languages, request.language)) request.language = programme_.languages.front();
+  request.viewpoint = std::max(request.viewpoint, -1);
   if (request.kind == "cancel") {
     cancel(request, now);
     return;
@@ -104,21 +151,65 @@ void TourScheduler::submit(VisitorRequest request, const Conditions& conditions,
     happenings_.push_back({"request_refused", id, why_not});
     return;
   }
-  const bool joins = may_join(request);
+  const bool joins = join(request);
   happenings_.push_back({"request_queued", id, request.target, static_cast<double>(state_.board.open_count() + 1)});
-  state_.board.add(std::move(request), RequestStatus::queued, "", now);
+  const bool is_late = joins && request.kind == "tour" && !is_at_its_beginning();
+  state_.board.add(std::move(request), RequestStatus::queued, joins ? "" : conditions.delay, now);
   if (joins) {
-    state_.board.change(id, RequestStatus::active, "I am on my way there already.", now);
+    state_.board.change(
+        id, RequestStatus::active,
+        is_late ? "The tour is under way. What you missed comes at its end." : "I am on my way there already.", now);
     happenings_.push_back({"request_active", id, state_.board.find(id)->request.target});
   }
 }
 
-bool TourScheduler::may_join(const VisitorRequest& request) const {
-  if (!state_.visit || !state_.visit->is_joinable) return false;
-  if (request.kind == "exhibit") return state_.visit->exhibit_id == request.target;
-  if (!state_.tour || state_.tour->tour_id != request.target || state_.visit->tour_id != request.target) return false;
-  return std::none_of(state_.tour->stops.begin(), state_.tour->stops.end(),
-                      [](const TourStop& stop) { return stop.status != StopStatus::pending; });
+bool TourScheduler::join(const VisitorRequest& request) {
+  if (request.kind == "tour") return join_tour(request);
+  return state_.visit && state_.visit->is_joinable && state_.visit->exhibit_id == request.target &&
+         (request.viewpoint < 0 || request.viewpoint == state_.visit->viewpoint);
+}
+
+bool TourScheduler::is_at_its_beginning() const {
+  const bool is_speaking = state_.visit && !state_.visit->tour_id.empty() && !state_.visit->is_joinable;
+  return !is_speaking && std::none_of(state_.tour->stops.begin(), state_.tour->stops.end(),
+                                      [](const TourStop& stop) { return stop.status != StopStatus::pending; });
+}
+
+bool TourScheduler::join_tour(const VisitorRequest& request) {
+  if (!state_.tour || state_.tour->tour_id != request.target) return false;
+  TourRun& tour = *state_.tour;
+  if (tour.target_s > 0.0) {
+    if (!is_at_its_beginning()) return false;
+    tour.members.push_back({request.id, {}});
+    return true;
+  }
+  const auto& exhibits = programme_.find_tour(tour.tour_id)->exhibits;
+  const auto is_first_round = [&](const TourStop& stop) {
+    return stop.status == StopStatus::pending && stop.number < static_cast<int>(exhibits.size());
+  };
+  if (std::none_of(tour.stops.begin(), tour.stops.end(), is_first_round)) return false;
+  // The stop that is being explained is over for whoever comes now.
+  const auto spoken_of = state_.visit && !state_.visit->tour_id.empty() && !state_.visit->is_joinable
+                             ? pending_stop(tour.stops, state_.visit->exhibit_id, -1)
+                             : tour.stops.end();
+  const int over = spoken_of == tour.stops.end() ? -1 : spoken_of->number;
+  TourMember member{request.id, {}};
+  for (const std::string& exhibit : exhibits) {
+    if (programme_.find_exhibit(exhibit) == nullptr) continue;
+    const auto stop = pending_stop(tour.stops, exhibit, over);
+    if (stop != tour.stops.end()) {
+      member.stops.push_back(stop->number);
+      continue;
+    }
+    int number = 0;
+    for (const TourStop& other : tour.stops) number = std::max(number, other.number + 1);
+    number = std::max(number, static_cast<int>(exhibits.size()));
+    tour.stops.push_back({exhibit, StopStatus::pending, 0, number});
+    member.stops.push_back(number);
+    happenings_.push_back({"plan_inserted", exhibit, tour.tour_id});
+  }
+  tour.members.push_back(std::move(member));
+  return true;
 }
 
 void TourScheduler::cancel(const VisitorRequest& request, Time now) {
@@ -133,7 +224,9 @@ void TourScheduler::cancel(const VisitorRequest& request, Time now) {
   state_.board.add(request, RequestStatus::queued, "", now);
   state_.board.change(request.id, RequestStatus::active, "", now);
   state_.board.change(request.id, RequestStatus::fulfilled, "", now);
-  if (state_.tour && ids("tour", RequestStatus::active, state_.tour->tour_id).empty()) {
+  if (!state_.tour || !is_member(*state_.tour, request.target)) return;
+  std::erase_if(state_.tour->members, [&](const TourMember& member) { return member.request_id == request.target; });
+  if (state_.tour->members.empty()) {
     happenings_.push_back({"tour_cancelled", state_.tour->tour_id, joined(state_.tour->stops)});
     state_.tour.reset();
     if (state_.visit) state_.visit->tour_id.clear();
@@ -176,23 +269,39 @@ void TourScheduler::finish_visit(bool is_success, const std::string& reason, Tim
       close_request(id, RequestStatus::fulfilled, "", now);
       continue;
     }
-    state_.board.count_attempt(id, now + seconds(params_.retry_after(state_.board.find(id)->attempts + 1)));
-    if (state_.board.find(id)->attempts >= params_.max_attempts) {
-      close_request(id, RequestStatus::failed, reason, now);
-    } else {
-      state_.board.change(id, RequestStatus::queued, reason + " I will try again.", now);
-      happenings_.push_back({"plan_rescheduled", visit.exhibit_id, reason});
-    }
+    try_again(id, reason, now + seconds(params_.retry_after(state_.board.find(id)->attempts + 1)), now);
   }
   if (state_.tour && visit.tour_id == state_.tour->tour_id) finish_stop(visit.exhibit_id, is_success);
   end_tour_if_over(now);
 }
 
+void TourScheduler::try_again(const std::string& id, const std::string& reason, Time not_before, Time now) {
+  state_.board.count_attempt(id, not_before);
+  if (state_.board.find(id)->attempts >= params_.max_attempts) {
+    close_request(id, RequestStatus::failed, reason, now);
+    return;
+  }
+  state_.board.change(id, RequestStatus::queued, reason + " I will try again.", now);
+  happenings_.push_back({"plan_rescheduled", state_.board.find(id)->request.target, reason});
+}
+
+void TourScheduler::break_off(const std::string& reason, Time now) {
+  if (state_.visit) {
+    for (const std::string& id : ids("exhibit", RequestStatus::active, state_.visit->exhibit_id))
+      try_again(id, reason, now, now);
+    happenings_.push_back({"visit_failed", state_.visit->exhibit_id, reason, to_seconds(now - state_.visit->started)});
+    state_.visit.reset();
+  }
+  if (state_.tour) {
+    for (const TourMember& member : state_.tour->members) try_again(member.request_id, reason, now, now);
+    happenings_.push_back({"tour_broken_off", state_.tour->tour_id, reason, to_seconds(now - state_.tour->started)});
+    state_.tour.reset();
+  }
+}
+
 void TourScheduler::finish_stop(const std::string& exhibit_id, bool is_success) {
   auto& stops = state_.tour->stops;
-  const auto stop = std::find_if(stops.begin(), stops.end(), [&](const TourStop& s) {
-    return s.exhibit_id == exhibit_id && s.status == StopStatus::pending;
-  });
+  const auto stop = pending_stop(stops, exhibit_id, -1);
   if (stop == stops.end()) return;
   if (is_success) {
     stop->status = StopStatus::explained;
@@ -210,29 +319,30 @@ void TourScheduler::finish_stop(const std::string& exhibit_id, bool is_success) 
 
 void TourScheduler::end_tour_if_over(Time now) {
   if (!state_.tour) return;
-  const TourRun tour = *state_.tour;
-  int explained = 0;
-  int skipped = 0;
-  std::string missed;
-  for (const TourStop& stop : tour.stops) {
-    if (stop.status == StopStatus::pending) return;
-    if (stop.status == StopStatus::explained) {
-      ++explained;
+  TourRun& tour = *state_.tour;
+  const bool is_composed = tour.target_s > 0.0;
+  // A composed tour shows something else instead of what it could not get to.
+  const auto is_good = [&](const Outcome& outcome) {
+    return outcome.explained > 0 && (is_composed || outcome.skipped <= params_.max_skipped);
+  };
+  std::vector<TourMember> others;
+  for (TourMember& member : tour.members) {
+    const Outcome outcome = outcome_of(tour, &member);
+    if (outcome.pending > 0) {
+      others.push_back(std::move(member));
     } else {
-      ++skipped;
-      missed += (missed.empty() ? "" : ", ") + stop.exhibit_id;
+      close_request(member.request_id, is_good(outcome) ? RequestStatus::fulfilled : RequestStatus::failed,
+                    outcome.reason(), now);
     }
   }
+  tour.members = std::move(others);
+  if (!tour.members.empty()) return;
+  const Outcome outcome = outcome_of(tour, nullptr);
+  if (is_good(outcome)) ++state_.counters.tours_completed;
+  happenings_.push_back({is_good(outcome) ? "tour_completed" : "tour_failed", tour.tour_id, outcome.reason(),
+                         to_seconds(now - tour.started)});
+  if (state_.visit) state_.visit->tour_id.clear();
   state_.tour.reset();
-  // A composed tour shows something else instead.
-  const bool is_success = explained > 0 && (tour.target_s > 0.0 || skipped <= params_.max_skipped);
-  const std::string reason = skipped == 0 ? "" : "I could not get to: " + missed + ".";
-  for (const std::string& id : ids("tour", RequestStatus::active, tour.tour_id)) {
-    close_request(id, is_success ? RequestStatus::fulfilled : RequestStatus::failed, reason, now);
-  }
-  if (is_success) ++state_.counters.tours_completed;
-  happenings_.push_back(
-      {is_success ? "tour_completed" : "tour_failed", tour.tour_id, reason, to_seconds(now - tour.started)});
 }
 
 bool TourScheduler::is_in_a_hurry(Time now) const {
@@ -263,8 +373,8 @@ std::vector<std::string> TourScheduler::agenda(Point2 robot, Time now) const {
       if (stop.status == StopStatus::pending && !is_under_way) list.push_back(stop.exhibit_id);
     }
   }
-  for (const std::string& exhibit : single_order(robot, now)) {
-    if (!holds(list, exhibit)) list.push_back(exhibit);
+  for (const WishedStop& stop : single_order(robot, now)) {
+    if (!holds(list, stop.exhibit_id)) list.push_back(stop.exhibit_id);
   }
   std::vector<std::string> tours;
   for (const BoardEntry& entry : state_.board.entries()) {

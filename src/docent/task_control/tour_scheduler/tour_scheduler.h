@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,12 +17,13 @@ namespace docent {
 struct Conditions {
   bool is_open = true;
   std::string mode = "open";  ///< open: everybody; web: Web visitors only
-  bool battery_low = false;
+  std::string delay = {};     ///< why all who come now wait a while, in words; empty: they do not
 };
 
 /// One exhibit to show, for one request or many.
 struct Visit {
   std::string exhibit_id;
+  int viewpoint = -1;       ///< -1: the exhibit's own place
   Pose2 map_from_base;      ///< where to stand
   std::string language;     ///< that of the first request
   std::string tour_id;      ///< empty: not a stop of the tour under way
@@ -34,6 +36,13 @@ struct TourStop {
   std::string exhibit_id;
   StopStatus status = StopStatus::pending;
   int attempts = 0;
+  int number = 0;  ///< from 0, in the order in which stops were added to a tour with a fixed order
+};
+
+/// Who takes part in a tour, and in which of its stops.
+struct TourMember {
+  std::string request_id;
+  std::vector<int> stops;  ///< their numbers; empty: all there are (composed tours)
 };
 
 /// A tour under way.
@@ -44,6 +53,7 @@ struct TourRun {
   bool just_inserted = false;   ///< the last visit was not one of the tour's
   double target_s = 0.0;        ///< [s] 0: none
   Time started;
+  std::vector<TourMember> members{};
 };
 
 struct Counters {
@@ -62,12 +72,14 @@ struct SchedulerState {
 
 /// Which exhibit comes next, and what becomes of each request (architecture 10.8; [Rhino1999] 4.3).
 ///
-/// Requests for one exhibit are merged into one visit, requests for one tour into one run; each keeps a state and a
-/// reason of its own. Without a tour, single exhibits are visited in the order of the least travel, anew after every
-/// visit, but who is overdue comes first, and the oldest open request decides whether a tour begins; so does a visit
-/// that a waiting tour would make as well: then one visit serves both. A tour keeps its order; between two of its stops
-/// at most one single exhibit is put in: an overdue one, or one with a small detour. A composed tour gets longer or
-/// shorter on the way, so that it ends in time ([Minerva2000] 5.3), and shows first what others have wished for.
+/// Requests for one exhibit are merged into one visit as far as their viewpoints allow, requests for one tour into one
+/// run; each keeps a state and a reason of its own. Who wishes for the tour under way joins it where it is, and what
+/// they missed is shown at its end; once its first round is over, or if it is composed, they get a run of their own.
+/// Without a tour, single exhibits are visited in the order of the least travel, anew after every visit, but who is
+/// overdue comes first, and the oldest open request decides whether a tour begins; so does a visit that a waiting tour
+/// would make as well: then one visit serves both. A tour keeps its order; between two of its stops at most one single
+/// exhibit is put in: an overdue one, or one with a small detour. A composed tour gets longer or shorter on the way, so
+/// that it ends in time ([Minerva2000] 5.3), and shows first what others have wished for.
 class TourScheduler {
  public:
   /// Open requests in `state` for what the museum no longer has are failed at once.
@@ -78,9 +90,17 @@ class TourScheduler {
   /// says. A known id changes nothing.
   void submit(VisitorRequest request, const Conditions& conditions, Time now);
 
-  /// Chooses and begins the next visit from where the robot stands; nullopt: nothing to do now.
-  /// @pre no visit is under way.
-  const std::optional<Visit>& begin_visit(Point2 robot, Time now);
+  /// Chooses and begins the next visit from where the robot stands; nullopt: nothing to do now, or what comes next, the
+  /// visit or the whole tour, is foreseen to take longer than `budget_s` [s]. @pre no visit is under way.
+  const std::optional<Visit>& begin_visit(Point2 robot, Time now,
+                                          double budget_s = std::numeric_limits<double>::infinity());
+  /// Somebody waits whose turn it may be, or a tour is under way.
+  [[nodiscard]] bool is_anything_due(Time now) const { return state_.tour || oldest_due(now) != nullptr; }
+  /// Ends the visit and the tour under way for a reason that is not theirs. Their requests wait again, a tour begins
+  /// anew; after `max_attempts` they fail.
+  void break_off(const std::string& reason, Time now);
+  /// [s] foreseen for the way.
+  [[nodiscard]] double way_duration(Point2 from, Point2 to) const { return travel_(from, to) / params_.cruise_speed; }
   /// The explanation began: from now on nobody joins the visit.
   void close_visit();
   /// The visit ended; its requests are fulfilled, tried again later or failed. @pre a visit is under way.
@@ -106,26 +126,38 @@ class TourScheduler {
  private:
   [[nodiscard]] std::string refusal(const VisitorRequest& request, const Conditions& conditions) const;
   void drop_what_is_gone(Time now);
-  [[nodiscard]] bool may_join(const VisitorRequest& request) const;
+  /// Whether the visit or the tour under way serves the request, too; a tour takes it as a member.
+  [[nodiscard]] bool join(const VisitorRequest& request);
+  /// Nothing of the tour under way was said yet. @pre a tour is under way.
+  [[nodiscard]] bool is_at_its_beginning() const;
+  [[nodiscard]] bool join_tour(const VisitorRequest& request);
   void cancel(const VisitorRequest& request, Time now);
   void close_request(const std::string& id, RequestStatus status, const std::string& reason, Time now);
   [[nodiscard]] std::vector<std::string> ids(const std::string& kind, RequestStatus status,
                                              const std::string& target) const;
-  /// Exhibits wished for singly and due, in the order to visit them.
-  [[nodiscard]] std::vector<std::string> single_order(Point2 robot, Time now) const;
+  /// The stop at which the exhibit is shown to the most patient of those who wish for it singly.
+  [[nodiscard]] WishedStop stop_at(const std::string& exhibit_id) const;
+  [[nodiscard]] Point2 place_of(const WishedStop& stop) const;
+  /// Stops wished for singly and due, in the order to visit them.
+  [[nodiscard]] std::vector<WishedStop> single_order(Point2 robot, Time now) const;
   [[nodiscard]] const BoardEntry* oldest_due(Time now) const;
   /// The first tour that somebody waits for and that stops at the exhibit.
   [[nodiscard]] std::optional<std::string> waiting_tour_to(const std::string& exhibit_id, Time now) const;
-  [[nodiscard]] std::optional<std::string> exhibit_to_insert(Point2 robot, Time now) const;
+  [[nodiscard]] std::optional<WishedStop> stop_to_insert(Point2 robot, Time now) const;
   [[nodiscard]] std::vector<std::string> wished_exhibits() const;
   [[nodiscard]] std::vector<std::string> first_stops(double target_s, Point2 robot) const;
-  void begin_tour(const std::string& tour_id, Point2 robot, Time now);
+  /// False: it would take longer than the budget.
+  [[nodiscard]] bool begin_tour(const std::string& tour_id, Point2 robot, Time now, double budget_s);
+  [[nodiscard]] double duration_of(const TourRun& tour, Point2 robot) const;
   /// A composed tour is fitted to the time that is left: its pending stops are chosen anew.
   void recompose(Point2 robot, Time now);
   void begin_stop(Point2 robot, Time now);
-  void begin_visit_of(const std::string& exhibit_id, bool is_stop, Time now);
+  void begin_visit_of(const WishedStop& stop, bool is_stop, Time now);
   void finish_stop(const std::string& exhibit_id, bool is_success);
+  /// Closes the requests of members whose stops are over, and the tour with the last of them.
   void end_tour_if_over(Time now);
+  /// One more attempt that came to nothing: waits again, not before `not_before`, or fails.
+  void try_again(const std::string& id, const std::string& reason, Time not_before, Time now);
   [[nodiscard]] bool is_overdue(const BoardEntry& entry, Time now) const;
 
   SchedulerParams params_;

@@ -21,6 +21,14 @@ std::string joined(const std::vector<TourStop>& stops) {
   return text;
 }
 
+/// The stops that a member of a tour with a fixed order takes part in from its beginning.
+std::vector<int> numbers_of(const TourRun& tour) {
+  std::vector<int> numbers;
+  if (tour.target_s > 0.0) return numbers;
+  for (const TourStop& stop : tour.stops) numbers.push_back(stop.number);
+  return numbers;
+}
+
 }  // namespace
 
 bool TourScheduler::is_overdue(const BoardEntry& entry, Time now) const {
@@ -43,28 +51,46 @@ std::optional<std::string> TourScheduler::waiting_tour_to(const std::string& exh
   return std::nullopt;
 }
 
-std::vector<std::string> TourScheduler::single_order(Point2 robot, Time now) const {
-  std::vector<std::string> order;  // overdue ones, the oldest first
-  std::vector<std::string> others;
+WishedStop TourScheduler::stop_at(const std::string& exhibit_id) const {
   for (const BoardEntry& entry : state_.board.entries()) {
-    if (entry.status != RequestStatus::queued || entry.request.kind != "exhibit" || entry.not_before > now) continue;
-    const std::string& exhibit = entry.request.target;
-    if (holds(order, exhibit) || programme_.find_exhibit(exhibit) == nullptr) continue;
+    const VisitorRequest& request = entry.request;
+    if (entry.status == RequestStatus::queued && request.kind == "exhibit" && request.target == exhibit_id &&
+        request.viewpoint >= 0)
+      return {exhibit_id, request.viewpoint};
+  }
+  return {exhibit_id};
+}
+
+Point2 TourScheduler::place_of(const WishedStop& stop) const {
+  return programme_.find_exhibit(stop.exhibit_id)->place(stop.viewpoint).position();
+}
+
+std::vector<WishedStop> TourScheduler::single_order(Point2 robot, Time now) const {
+  std::vector<WishedStop> order;  // overdue ones, the oldest first
+  std::vector<WishedStop> others;
+  for (const BoardEntry& entry : state_.board.entries()) {
+    const VisitorRequest& request = entry.request;
+    if (entry.status != RequestStatus::queued || request.kind != "exhibit" || entry.not_before > now) continue;
+    if (programme_.find_exhibit(request.target) == nullptr) continue;
+    // Who does not mind the viewpoint takes part in the first stop that is made there.
+    const WishedStop stop =
+        request.viewpoint < 0 ? stop_at(request.target) : WishedStop{request.target, request.viewpoint};
+    if (holds(order, stop)) continue;
     if (is_overdue(entry, now)) {
-      order.push_back(exhibit);
-    } else if (!holds(others, exhibit)) {
-      others.push_back(exhibit);
+      order.push_back(stop);
+    } else if (!holds(others, stop)) {
+      others.push_back(stop);
     }
   }
-  std::erase_if(others, [&](const std::string& exhibit) { return holds(order, exhibit); });
+  std::erase_if(others, [&](const WishedStop& stop) { return holds(order, stop); });
   std::vector<Point2> points;
-  for (const std::string& exhibit : others) points.push_back(programme_.find_exhibit(exhibit)->pose.position());
-  const Point2 start = order.empty() ? robot : programme_.find_exhibit(order.back())->pose.position();
+  for (const WishedStop& stop : others) points.push_back(place_of(stop));
+  const Point2 start = order.empty() ? robot : place_of(order.back());
   for (const std::size_t index : shortest_order(start, points, travel_)) order.push_back(others[index]);
   return order;
 }
 
-std::optional<std::string> TourScheduler::exhibit_to_insert(Point2 robot, Time now) const {
+std::optional<WishedStop> TourScheduler::stop_to_insert(Point2 robot, Time now) const {
   const TourRun& tour = *state_.tour;
   const auto next = std::find_if(tour.stops.begin(), tour.stops.end(),
                                  [](const TourStop& stop) { return stop.status == StopStatus::pending; });
@@ -79,14 +105,16 @@ std::optional<std::string> TourScheduler::exhibit_to_insert(Point2 robot, Time n
       return stop.exhibit_id == exhibit->id && stop.status == StopStatus::pending;
     });
     if (is_a_stop) continue;  // the tour comes by anyway
-    const Point2 place = exhibit->pose.position();
+    const WishedStop stop =
+        entry.request.viewpoint < 0 ? stop_at(exhibit->id) : WishedStop{exhibit->id, entry.request.viewpoint};
+    const Point2 place = place_of(stop);
     if (is_overdue(entry, now) || travel_(robot, place) + travel_(place, goal) - direct <= params_.max_detour_m)
-      return exhibit->id;
+      return stop;
   }
   return std::nullopt;
 }
 
-const std::optional<Visit>& TourScheduler::begin_visit(Point2 robot, Time now) {
+const std::optional<Visit>& TourScheduler::begin_visit(Point2 robot, Time now, double budget_s) {
   DOCENT_CHECK(!state_.visit);
   // A tour may turn out to be over, or to have nothing to show: then the next request has its turn.
   while (!state_.visit) {
@@ -97,15 +125,17 @@ const std::optional<Visit>& TourScheduler::begin_visit(Point2 robot, Time now) {
     const BoardEntry* oldest = oldest_due(now);
     if (oldest == nullptr) break;
     if (oldest->request.kind == "tour") {
-      begin_tour(std::string{oldest->request.target}, robot, now);
+      if (!begin_tour(std::string{oldest->request.target}, robot, now, budget_s)) break;
       continue;
     }
-    const std::string next = single_order(robot, now).front();
-    if (const auto tour = waiting_tour_to(next, now)) {
-      begin_tour(*tour, robot, now);
-    } else {
-      begin_visit_of(next, false, now);
+    const WishedStop next = single_order(robot, now).front();
+    if (const auto tour = waiting_tour_to(next.exhibit_id, now)) {
+      if (!begin_tour(*tour, robot, now, budget_s)) break;
+      continue;
     }
+    const double way_m = travel_(robot, place_of(next));
+    if (stop_duration(*programme_.find_exhibit(next.exhibit_id), way_m, params_) > budget_s) break;
+    begin_visit_of(next, false, now);
   }
   return state_.visit;
 }
@@ -114,8 +144,8 @@ void TourScheduler::begin_stop(Point2 robot, Time now) {
   recompose(robot, now);
   end_tour_if_over(now);
   if (!state_.tour) return;
-  if (const auto extra = exhibit_to_insert(robot, now)) {
-    happenings_.push_back({"plan_inserted", *extra, state_.tour->tour_id});
+  if (const auto extra = stop_to_insert(robot, now)) {
+    happenings_.push_back({"plan_inserted", extra->exhibit_id, state_.tour->tour_id});
     state_.tour->just_inserted = true;
     begin_visit_of(*extra, false, now);
     return;
@@ -123,7 +153,7 @@ void TourScheduler::begin_stop(Point2 robot, Time now) {
   state_.tour->just_inserted = false;
   const auto next = std::find_if(state_.tour->stops.begin(), state_.tour->stops.end(),
                                  [](const TourStop& stop) { return stop.status == StopStatus::pending; });
-  begin_visit_of(std::string{next->exhibit_id}, true, now);
+  begin_visit_of(stop_at(next->exhibit_id), true, now);
 }
 
 void TourScheduler::recompose(Point2 robot, Time now) {
@@ -145,7 +175,10 @@ void TourScheduler::recompose(Point2 robot, Time now) {
     stop.status = StopStatus::skipped;
     happenings_.push_back({"plan_removed", stop.exhibit_id, tour.tour_id});
   }
-  const auto chosen = compose_tour(programme_, robot, left_s, {done, wished_exhibits()}, travel_, params_);
+  const auto last = std::find_if(stops.rbegin(), stops.rend(),
+                                 [](const TourStop& stop) { return stop.status == StopStatus::explained; });
+  const StopChoice choice{done, wished_exhibits(), last == stops.rend() ? "" : last->exhibit_id};
+  const auto chosen = compose_tour(programme_, robot, left_s, choice, travel_, params_);
   const auto plans = [](const std::vector<TourStop>& list, const std::string& id) {
     return std::any_of(list.begin(), list.end(), [&](const TourStop& stop) { return stop.exhibit_id == id; });
   };
@@ -169,7 +202,7 @@ std::vector<std::string> TourScheduler::wished_exhibits() const {
 }
 
 std::vector<std::string> TourScheduler::first_stops(double target_s, Point2 robot) const {
-  const StopChoice choice{{}, wished_exhibits()};
+  const StopChoice choice{{}, wished_exhibits(), ""};
   auto stops = compose_tour(programme_, robot, target_s, choice, travel_, params_);
   if (!stops.empty()) return stops;
   // However short: one exhibit is the least that a tour shows.
@@ -178,7 +211,17 @@ std::vector<std::string> TourScheduler::first_stops(double target_s, Point2 robo
   return stops;
 }
 
-void TourScheduler::begin_tour(const std::string& tour_id, Point2 robot, Time now) {
+double TourScheduler::duration_of(const TourRun& tour, Point2 robot) const {
+  double duration_s = 0.0;
+  for (const TourStop& stop : tour.stops) {
+    const ProgrammeExhibit& exhibit = *programme_.find_exhibit(stop.exhibit_id);
+    duration_s += stop_duration(exhibit, travel_(robot, exhibit.pose.position()), params_);
+    robot = exhibit.pose.position();
+  }
+  return duration_s;
+}
+
+bool TourScheduler::begin_tour(const std::string& tour_id, Point2 robot, Time now, double budget_s) {
   const auto members = ids("tour", RequestStatus::queued, tour_id);
   const ProgrammeTour* tour = programme_.find_tour(tour_id);
   TourRun run{tour_id, state_.board.find(members.front())->request.language, {}, false, 0.0, now};
@@ -186,33 +229,37 @@ void TourScheduler::begin_tour(const std::string& tour_id, Point2 robot, Time no
     run.target_s = tour->target_s;
     const auto exhibits = tour->exhibits.empty() ? first_stops(tour->target_s, robot) : tour->exhibits;
     for (const std::string& exhibit : exhibits) {
-      if (programme_.find_exhibit(exhibit) != nullptr) run.stops.push_back({exhibit});
+      if (programme_.find_exhibit(exhibit) == nullptr) continue;
+      run.stops.push_back({exhibit, StopStatus::pending, 0, static_cast<int>(run.stops.size())});
     }
   }
   if (run.stops.empty()) {  // the museum changed while the request waited
     for (const std::string& id : members) close_request(id, RequestStatus::failed, "This tour no longer exists.", now);
-    return;
+    return true;
   }
+  if (duration_of(run, robot) > budget_s) return false;
   for (const std::string& id : members) {
+    run.members.push_back({id, numbers_of(run)});
     state_.board.change(id, RequestStatus::active, "The tour has begun.", now);
     happenings_.push_back({"request_active", id, tour_id});
   }
   happenings_.push_back({"tour_started", tour_id, joined(run.stops), run.target_s});
   state_.tour = std::move(run);
+  return true;
 }
 
-void TourScheduler::begin_visit_of(const std::string& exhibit_id, bool is_stop, Time now) {
+void TourScheduler::begin_visit_of(const WishedStop& stop, bool is_stop, Time now) {
+  const std::string& exhibit_id = stop.exhibit_id;
   const ProgrammeExhibit& exhibit = *programme_.find_exhibit(exhibit_id);
-  Visit visit{exhibit_id, exhibit.pose, "", is_stop ? state_.tour->tour_id : "", true, now};
-  const auto members = ids("exhibit", RequestStatus::queued, exhibit_id);
-  bool has_viewpoint = false;
+  Visit visit{exhibit_id, stop.viewpoint, exhibit.place(stop.viewpoint), "", is_stop ? state_.tour->tour_id : "", true,
+              now};
+  auto members = ids("exhibit", RequestStatus::queued, exhibit_id);
+  std::erase_if(members, [&](const std::string& id) {
+    const int wished = state_.board.find(id)->request.viewpoint;
+    return wished >= 0 && wished != stop.viewpoint;
+  });
   for (const std::string& id : members) {
-    const VisitorRequest& request = state_.board.find(id)->request;
-    if (visit.language.empty()) visit.language = request.language;
-    if (!has_viewpoint && request.viewpoint >= 0 && request.viewpoint < static_cast<int>(exhibit.viewpoints.size())) {
-      visit.map_from_base = exhibit.viewpoints[static_cast<std::size_t>(request.viewpoint)];
-      has_viewpoint = true;
-    }
+    if (visit.language.empty()) visit.language = state_.board.find(id)->request.language;
     state_.board.change(id, RequestStatus::active, "", now);
     happenings_.push_back({"request_active", id, exhibit_id});
   }
