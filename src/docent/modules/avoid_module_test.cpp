@@ -156,15 +156,48 @@ TEST_F(MotionModules, DriveAndPublishWhatTheyDo) {
   run(5.0);
   EXPECT_GT(speed, 0.6);
   EXPECT_EQ(state.state, "driving");
-  EXPECT_EQ(virtual_scan.ranges.size(), 180U);
+  EXPECT_EQ(virtual_scan.ranges.size(), 2U * 180U);  // of hazards, then of the border
   EXPECT_EQ(avoid->health().state, "ready");
   EXPECT_EQ(hazards->health().state, "ready");
   EXPECT_EQ(robot->health().state, "ready");
   run(25.0);
-  EXPECT_LT(pose.x, 18.0 - 0.265);  // the border of the area
+  EXPECT_LT(pose.x, 18.0 - 0.265);  // the wall
   EXPECT_GT(pose.x, 16.5);
   EXPECT_TRUE(state.path_blocked);
 }
+
+/// Both, an area and walls at its sides: the way leads along +x.
+class AtTheBorder : public MotionModules, public ::testing::WithParamInterface<double> {};
+
+TEST_P(AtTheBorder, GetsInsideFromWhereItStands) {
+  pose = {5.0, -4.0 + GetParam(), Angle::degrees(90)};
+  museum.hazards.clear();
+  walls_far = true;  // the body must have room beyond the border
+  start_all();
+  wants_inside = true;
+  run(8.0);
+  EXPECT_GT(pose.y, -3.0) << state.reason;
+}
+INSTANTIATE_TEST_SUITE_P(OnAndBeyond, AtTheBorder, ::testing::Values(0.12, 0.08, 0.02, 0.0, -0.05, -0.1));
+
+/// The area is a door of this width for the robot's centre, with walls 0.25 m outside of it.
+class Doors : public MotionModules, public ::testing::WithParamInterface<double> {};
+
+TEST_P(Doors, AreDrivenWhereTheClearanceSaysSo) {
+  const double half = GetParam();
+  museum.area = {{-2, -3}, {4, -3}, {4, -half}, {5, -half}, {5, -3}, {18, -3}, {18, 3}, {5, 3}, {5, half}, {4, half}, {4, 3}, {-2, 3}};
+  museum.hazards.clear();
+  start_all();
+  keeps_to_axis = true;
+  double widest = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    run(0.1);
+    if (pose.x > 4.0 && pose.x < 5.0) widest = std::max(widest, std::abs(pose.y));
+  }
+  EXPECT_GT(pose.x, 6.0) << state.reason;
+  EXPECT_LT(widest, half);
+}
+INSTANTIATE_TEST_SUITE_P(Narrow, Doors, ::testing::Values(0.21, 0.25, 0.30, 0.5));
 
 TEST_F(MotionModules, TheBaseStopsWhenAvoidDiesAndGoesOnAfterItsReturn) {
   run(5.0);
