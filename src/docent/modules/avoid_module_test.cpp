@@ -24,7 +24,7 @@ class MotionModules : public ::testing::Test {
  protected:
   MotionModules() {
     for (const char* has_no : {"body.infrareds=0", "body.tactile=false"}) EXPECT_TRUE(config.set(has_no));
-    museum.area = {{-2, -4}, {18, -4}, {18, 4}, {-2, 4}};
+    museum.area = walls;
     museum.hazards.push_back({"plate", HazardKind::plate, {{9, -3.9}, {11, -3.9}, {11, -1.0}, {9, -1.0}}});
     world->subscribe<geometry_msgs::Twist>(topics::kCommandVelocity, [this](const geometry_msgs::Twist& twist) {
       wanted = twist;
@@ -84,7 +84,7 @@ class MotionModules : public ::testing::Test {
       for (int i = 0; i < 181; ++i) {
         const Angle bearing = pose.theta + mount + Angle::radians(-0.5 * pi + i * pi / 180.0);
         double range = 10.0;
-        for (const auto& wall : sides(museum.area)) {
+        for (const auto& wall : sides(walls)) {
           if (const auto hit = ray_distance(pose.position(), unit(bearing), wall)) range = std::min(range, *hit);
         }
         // Never twice the same, as a real laser.
@@ -117,9 +117,9 @@ class MotionModules : public ::testing::Test {
     docent_msgs::Target target;
     target.header = {to_message(world->now()), "odom"};
     target.mode = "drive";
-    for (double x = pose.x + 0.5; x < pose.x + 3.0; x += 0.5) {
-      target.via_x.push_back(x);
-      target.via_y.push_back(0.0);
+    for (double way = 0.5; way < 3.0; way += 0.5) {
+      target.via_x.push_back(wants_inside ? pose.x : pose.x + way);
+      target.via_y.push_back(wants_inside ? pose.y + way : 0.0);
     }
     spoil_target(target);
     if (plan_works) target_publisher.publish(target);
@@ -148,6 +148,8 @@ class MotionModules : public ::testing::Test {
   std::function<void(docent_msgs::Belief&)> spoil_belief = [](auto&) {};
   std::function<void(docent_msgs::Target&)> spoil_target = [](auto&) {};
   bool front_works = true, localize_works = true, plan_works = true;
+  bool wants_inside = false;  ///< wants to go along +y, else along the hall's axis
+  Polygon walls{{-2, -4}, {18, -4}, {18, 4}, {-2, 4}};
   std::unique_ptr<Bus> avoid_bus, hazards_bus, robot_bus;
   std::unique_ptr<Module> avoid, hazards, robot;
 };
@@ -166,29 +168,29 @@ TEST_F(MotionModules, DriveAndPublishWhatTheyDo) {
   EXPECT_TRUE(state.path_blocked);
 }
 
-/// Both, an area and walls at its sides: the way leads along +x.
+/// On the border of its area or beyond, the way leads inside.
 class AtTheBorder : public MotionModules, public ::testing::WithParamInterface<double> {};
 
 TEST_P(AtTheBorder, GetsInsideFromWhereItStands) {
-  pose = {5.0, -4.0 + GetParam(), Angle::degrees(90)};
+  museum.area = {{-2, -3}, {18, -3}, {18, 3}, {-2, 3}};  // the body has room beyond it
   museum.hazards.clear();
-  walls_far = true;  // the body must have room beyond the border
+  pose = {5.0, -3.0 + GetParam(), Angle::degrees(90)};
   start_all();
   wants_inside = true;
   run(8.0);
-  EXPECT_GT(pose.y, -3.0) << state.reason;
+  EXPECT_GT(pose.y, -2.0) << state.reason;
 }
 INSTANTIATE_TEST_SUITE_P(OnAndBeyond, AtTheBorder, ::testing::Values(0.12, 0.08, 0.02, 0.0, -0.05, -0.1));
 
-/// The area is a door of this width for the robot's centre, with walls 0.25 m outside of it.
+/// The area has a door that leaves the robot's centre so much [m] to either side.
 class Doors : public MotionModules, public ::testing::WithParamInterface<double> {};
 
 TEST_P(Doors, AreDrivenWhereTheClearanceSaysSo) {
   const double half = GetParam();
-  museum.area = {{-2, -3}, {4, -3}, {4, -half}, {5, -half}, {5, -3}, {18, -3}, {18, 3}, {5, 3}, {5, half}, {4, half}, {4, 3}, {-2, 3}};
+  museum.area = {{-2, -3}, {4, -3}, {4, -half}, {5, -half}, {5, -3}, {18, -3},
+                 {18, 3},  {5, 3},  {5, half},  {4, half},  {4, 3},  {-2, 3}};
   museum.hazards.clear();
   start_all();
-  keeps_to_axis = true;
   double widest = 0.0;
   for (int i = 0; i < 200; ++i) {
     run(0.1);

@@ -13,9 +13,10 @@
 
 namespace docent {
 
+/// What makes floor dear or closed to a way.
 struct RouteParams {
   int coarsening = 3;             ///< planning cell = so many map cells
-  double robot_radius = 0.265;    ///< [m]
+  double robot_radius = 0.265;    ///< [m] set to body.radius
   Clearance clearance;            ///< that a way must leave
   double comfort = 0.8;           ///< [m] beyond which clearance costs nothing
   double comfort_cost = 2.0;      ///< extra cost, as a factor, at the least clearance
