@@ -83,17 +83,21 @@ bool VirtualMeasurements::is_possible(Point2 position) const { return is_in_area
 Point2 VirtualMeasurements::led_inside(Point2 position) const {
   constexpr double kOff = 1.01 * kBin;
   if (area_.size() < 3) return position;
-  Point2 foot = nearest_point({area_.back(), area_.front()}, position);
-  for (const auto& side : sides(area_)) {
-    const Point2 candidate = nearest_point(side, position);
-    if (distance(candidate, position) < distance(foot, position)) foot = candidate;
+  Segment side{area_.back(), area_.front()};
+  for (const auto& other : sides(area_)) {
+    if (distance(other, position) < distance(side, position)) side = other;
   }
+  const Point2 foot = nearest_point(side, position);
   const double away = distance(foot, position);
   const bool is_inside = contains(area_, position);
   if (is_inside && away >= kOff) return position;
-  if (away < 1e-6) return position;
-  const Point2 inwards = (is_inside ? 1.0 : -1.0) / away * (position - foot);
-  const Point2 led = foot + kOff * inwards;
+  Point2 inwards = (is_inside ? 1.0 : -1.0) * (position - foot);
+  if (away < 1e-6) {  // right on it: across the side
+    const Point2 along = side.b - side.a;
+    inwards = {-along.y, along.x};
+    if (!contains(area_, foot + kOff / norm(inwards) * inwards)) inwards = -1.0 * inwards;
+  }
+  const Point2 led = foot + kOff / norm(inwards) * inwards;
   return contains(area_, led) ? led : position;
 }
 
