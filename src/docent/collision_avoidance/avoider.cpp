@@ -220,7 +220,7 @@ void Avoider::tell_nearest(std::span<const Obstacle> obstacles, const BaseLimits
   for (const auto& obstacle : obstacles) {
     if (obstacle.is_unknown) continue;
     double& nearest = obstacle.is_virtual ? decision.nearest_virtual : decision.nearest_real;
-    nearest = std::min(nearest, limits.gap_to(obstacle.at));
+    nearest = std::min(nearest, obstacle.is_border ? norm(obstacle.at) : limits.gap_to(obstacle.at));
   }
 }
 
@@ -269,13 +269,17 @@ std::vector<Obstacle> Avoider::obstacles_from(const Pose2& odom_from_base, Time 
   }
   if (virtual_ && odom_from_virtual_) {
     const Pose2 base_from_virtual = base_from_odom * *odom_from_virtual_;
+    const double turn = (2.0 * std::numbers::pi - 0.5 * virtual_->bearing_step) / virtual_->bearing_step;
     for (std::size_t i = 0; i < virtual_->ranges.size(); ++i) {
       const double range = virtual_->ranges[i];
       if (!(range < virtual_->max_range)) continue;
       const double bearing = virtual_->first_bearing + static_cast<double>(i) * virtual_->bearing_step;
       // A zero would lie in no direction at all.
       const Point2 at = base_from_virtual * (std::max(range, 0.02) * unit(Angle::radians(bearing)));
-      if (norm(at) < reach) result.push_back({at, {}, params_.window.virtual_margin, false, true});
+      if (norm(at) >= reach) continue;
+      const bool is_border = static_cast<double>(i) > turn;
+      const double margin = is_border ? params_.window.border_margin : params_.window.virtual_margin;
+      result.push_back({at, {}, margin, false, true, is_border});
     }
   }
   return result;
@@ -401,11 +405,16 @@ void Avoider::cap_by_surroundings(std::span<const Obstacle> obstacles, AvoiderDe
   for (const auto& obstacle : obstacles) {
     const double way = norm(obstacle.at);
     if (obstacle.is_unknown || way < 1e-6) continue;
-    const double slack = limits_.gap_to(obstacle.at) - obstacle.margin;
+    const double slack = slack_to(obstacle, limits_);
     const double ahead = obstacle.at.x / way;
-    // The security distance grows with the speed [Buhmann1995]: read backwards, the speed with the distance.
-    if (ahead > -0.2) {
-      cap_speed(window.speed_with(slack), obstacle.is_virtual ? "a hazard is near" : "something is near", decision);
+    // The security distance grows with the speed [Buhmann1995]: read backwards, the speed with the distance. On the
+    // border of its area, or beyond, the robot is slow whichever way it goes.
+    if (ahead > -0.2 || (obstacle.is_border && slack < 0.0)) {
+      cap_speed(window.speed_with(slack),
+                obstacle.is_border    ? "the border of its area is near"
+                : obstacle.is_virtual ? "a hazard is near"
+                                      : "something is near",
+                decision);
     }
   }
 }
@@ -458,7 +467,9 @@ void Avoider::judge_blocking(Time now, Point2 carrot, const Pose2& odom_from_bas
   if (blocker == nullptr || std::abs(decision.command.linear) > 0.06) return;
   decision.path_blocked = true;
   decision.state = AvoiderDecision::State::blocked;
-  decision.reason = blocker->is_virtual ? "a hazard is in the way" : "something is in the way";
+  decision.reason = blocker->is_border    ? "the border of its area is in the way"
+                    : blocker->is_virtual ? "a hazard is in the way"
+                                          : "something is in the way";
   if (blocker->is_virtual) return;
   const bool judged = beams_localized_ && near_unmapped_ && now - unmapped_time_ < seconds(kStillJudged);
   const Point2 in_odom = odom_from_base * blocker->at;

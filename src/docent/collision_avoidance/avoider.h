@@ -70,7 +70,8 @@ struct AvoiderTarget {
   double heading_tolerance = 0.1;
 };
 
-/// Virtual measurements, base frame at their stamp.
+/// Virtual measurements, base frame at their stamp: a turn of those of hazards, from `first_bearing` on, then where
+/// there is more another turn, of those of the area's border.
 struct VirtualSweep {
   Time stamp;
   double first_bearing = 0.0;
@@ -88,7 +89,7 @@ struct AvoiderDecision {
   bool path_blocked = false;
   bool unmapped_obstacle = false;
   double nearest_real = 0.0;     ///< [m] from the outline
-  double nearest_virtual = 0.0;  ///< [m]
+  double nearest_virtual = 0.0;  ///< [m] likewise of hazards; from the centre of the area's border
   std::vector<EvaluatedVelocity> window;
 };
 

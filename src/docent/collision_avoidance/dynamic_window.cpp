@@ -59,6 +59,7 @@ Result<void> DynamicWindowParams::validate() const {
     return fail("avoid.window: linear_steps must lie in 3..41 and angular_steps in 3..81");
   }
   if (!(real_margin >= 0.03 && virtual_margin >= 0.03)) return fail("avoid.window: margins must be >= 0.03 m");
+  if (!(border_margin >= 0.05)) return fail("avoid.window.border_margin must be >= 0.05 m");
   if (!(security_time >= 0.0 && security_most >= 0.0)) return fail("avoid.window: security must be >= 0");
   if (!(creep_speed > 0.0 && creep_speed <= 0.3)) return fail("avoid.window.creep_speed must lie in (0, 0.3] m/s");
   return {};
@@ -76,6 +77,7 @@ bool can_outline_brake(const Manoeuvre& manoeuvre, std::span<const Obstacle> obs
                        double slack) {
   const double duration = manoeuvre.samples[manoeuvre.count - 1].time;
   for (const auto& obstacle : obstacles) {
+    if (obstacle.is_border) continue;
     double required = obstacle.margin - slack;
     const double speed = norm(obstacle.velocity);
     if (norm(obstacle.at) - speed * duration - manoeuvre.way > outline.circumradius() + required) continue;
@@ -99,12 +101,13 @@ bool can_outline_brake(const Manoeuvre& manoeuvre, std::span<const Obstacle> obs
 bool can_brake_in_time(const Velocity& velocity, const Velocity& command, double hold,
                        std::span<const Obstacle> obstacles, const BaseLimits& limits, double slack) {
   const Manoeuvre manoeuvre = simulate(velocity, command, hold, limits);
-  if (!limits.outline.empty()) return can_outline_brake(manoeuvre, obstacles, limits.outline, slack);
+  if (!limits.outline.empty() && !can_outline_brake(manoeuvre, obstacles, limits.outline, slack)) return false;
   const double duration = manoeuvre.samples[manoeuvre.count - 1].time;
   for (const auto& obstacle : obstacles) {
+    if (!limits.outline.empty() && !obstacle.is_border) continue;
     const double now = norm(obstacle.at);
     const double speed = norm(obstacle.velocity);
-    double required = limits.radius + obstacle.margin - slack;
+    double required = reach_of(obstacle, limits.radius) - slack;
     if (now - speed * duration - manoeuvre.way > required) continue;
     if (speed > 0.0) {
       double walks = duration;  // who has come up to the robot stands there
@@ -122,8 +125,8 @@ bool can_brake_in_time(const Velocity& velocity, const Velocity& command, double
     }
     // Too near already: not nearer still, but for a centimetre of noise where there is one to give.
     if (now - 0.01 < required) {
-      required =
-          now > limits.radius + kNearestReal + 0.01 ? std::max(now - 0.01, limits.radius + kNearestReal) : now - 0.001;
+      const double least = limits.radius + kNearestReal;
+      required = !obstacle.is_border && now > least + 0.01 ? std::max(now - 0.01, least) : now - 0.001;
     }
     for (std::size_t i = 0; i < manoeuvre.count; ++i) {
       if (distance(obstacle.at, manoeuvre.samples[i].start_from_base.position()) < required) return false;
@@ -136,7 +139,7 @@ double straight_free_way(double bearing, std::span<const Obstacle> obstacles, do
   const Point2 ahead = unit(Angle::radians(bearing));
   double least = horizon;
   for (const auto& obstacle : obstacles) {
-    const ReachPoint turned{{dot(ahead, obstacle.at), cross(ahead, obstacle.at)}, body_radius + obstacle.margin};
+    const ReachPoint turned{{dot(ahead, obstacle.at), cross(ahead, obstacle.at)}, reach_of(obstacle, body_radius)};
     if (turned.at.x > least + turned.reach || turned.at.x < -turned.reach) continue;
     least = std::min(least, arc_distance(0.0, turned));
   }
@@ -199,8 +202,12 @@ void DynamicWindow::lay_out(const Reachable& range) {
 
 void DynamicWindow::measure_ways(std::span<const Obstacle> obstacles) {
   reach_points_.clear();
+  border_points_.clear();
   const double body = limits_.outline.empty() ? limits_.radius : 0.0;
-  for (const auto& obstacle : obstacles) reach_points_.push_back({obstacle.at, body + obstacle.margin});
+  for (const auto& obstacle : obstacles) {
+    auto& points = obstacle.is_border && !limits_.outline.empty() ? border_points_ : reach_points_;
+    points.push_back({obstacle.at, reach_of(obstacle, body)});
+  }
   if (!limits_.outline.empty()) return measure_ways_of_outline();
   // Rows rise: first those in reverse, then those on the spot, then those forwards.
   std::size_t row = 0;
@@ -236,6 +243,10 @@ void DynamicWindow::measure_ways_of_outline() {
         const double power = 0.5 * (dot(at, at) - reach * reach);
         if (power > 0.0 && (std::abs(curvature * power - at.y) >= reach || norm(at) - reach >= ways_[i])) continue;
         ways_[i] = std::min(ways_[i], outline.arc_distance(curvature, at, point.reach));
+      }
+      for (const auto& point : border_points_) {
+        const Point2 at{backwards ? -point.at.x : point.at.x, point.at.y};
+        ways_[i] = std::min(ways_[i], arc_distance(curvature, {at, point.reach}));
       }
     }
   }

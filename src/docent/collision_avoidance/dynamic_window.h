@@ -21,7 +21,8 @@ struct DynamicWindowParams {
   int linear_steps = 13;           ///< speeds that are tried
   int angular_steps = 31;          ///< turn rates that are tried with each
   double real_margin = 0.08;       ///< [m] kept to what was sensed, sensor noise included
-  double virtual_margin = 0.15;    ///< [m] kept to virtual measurements
+  double virtual_margin = 0.15;    ///< [m] kept to virtual measurements of hazards
+  double border_margin = 0.07;     ///< [m] from the centre to virtual measurements of the area's border
   double security_time = 0.15;     ///< [s] more margin for every m/s of speed above creep_speed
   double security_most = 0.22;     ///< [m] no more margin than that is added
   double creep_speed = 0.12;       ///< [m/s] inside a margin, and backwards
@@ -38,6 +39,7 @@ struct DynamicWindowParams {
     v("angular_steps", angular_steps);
     v("real_margin", real_margin);
     v("virtual_margin", virtual_margin);
+    v("border_margin", border_margin);
     v("security_time", security_time);
     v("creep_speed", creep_speed);
     v("two_second_rule", two_second_rule);
@@ -55,12 +57,22 @@ struct DynamicWindowParams {
 struct Obstacle {
   Point2 at;            ///< [m]
   Point2 velocity{};    ///< [m/s]
-  double margin = 0.0;  ///< [m] between its point and the robot's outline
+  double margin = 0.0;  ///< [m] between its point and the robot's outline; of the border: its centre
   bool person = false;  ///< slim and free-standing
   bool is_virtual = false;
+  bool is_border = false;   ///< of the area: the robot's body may reach over it, its centre may not
   bool is_unknown = false;  ///< nothing has seen what is there
   bool may_step = false;  ///< may be somebody, also half hidden in a throng, who steps nearer; the window does not ask
 };
+
+/// Distance [m] from the robot's centre to an obstacle at which a disc of this radius just keeps its margin.
+[[nodiscard]] inline double reach_of(const Obstacle& obstacle, double body_radius) {
+  return obstacle.is_border ? obstacle.margin : body_radius + obstacle.margin;
+}
+/// How much farther away [m] an obstacle is than its margin asks.
+[[nodiscard]] inline double slack_to(const Obstacle& obstacle, const BaseLimits& limits) {
+  return (obstacle.is_border ? norm(obstacle.at) : limits.gap_to(obstacle.at)) - obstacle.margin;
+}
 
 /// What the window shall steer for.
 struct Steering {
@@ -134,9 +146,10 @@ class DynamicWindow {
   FreeWays backwards_;
   Outline tail_first_;  ///< the outline, mirrored: what drives ahead in reverse
   std::vector<ReachPoint> reach_points_;
-  std::size_t stride_ = 0;                                                ///< columns, padded to whole vectors
-  std::vector<double> linear_;                                            ///< [linear_steps] [m/s]
-  std::vector<double> angular_;                                           ///< [stride] [rad/s]
+  std::vector<ReachPoint> border_points_;  ///< for a body with an outline: what binds its centre
+  std::size_t stride_ = 0;                 ///< columns, padded to whole vectors
+  std::vector<double> linear_;             ///< [linear_steps] [m/s]
+  std::vector<double> angular_;            ///< [stride] [rad/s]
   std::vector<double> half_cosine_, half_sine_, cosine_, sine_, change_;  ///< [stride], see VelocityColumns
   std::vector<double> curvatures_, ways_, clearances_, values_;           ///< [linear_steps][stride]
 };

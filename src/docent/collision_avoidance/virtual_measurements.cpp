@@ -53,22 +53,52 @@ Result<void> VirtualMeasurementParams::validate() const {
   return {};
 }
 
-VirtualMeasurements::VirtualMeasurements(Polygon area, std::vector<Polygon> hazards, VirtualMeasurementParams params)
+VirtualMeasurements::VirtualMeasurements(Polygon area, std::vector<Polygon> hazards, VirtualMeasurementParams params,
+                                         Ends ends)
     : area_{std::move(area)},
       hazards_{std::move(hazards)},
       params_{params},
+      ends_{ends},
       histogram_(static_cast<std::size_t>(kDirections) * kBins) {
-  if (area_.size() >= 3) borders_ = sides(area_);
+  if (ends_ != Ends::hazards && area_.size() >= 3) borders_ = sides(area_);
+  if (ends_ == Ends::border) {
+    params_.cell_padding = 0.0;  // of the centre: the margin to the border holds it
+    return;
+  }
   for (const auto& hazard : hazards_) {
     const auto outline = sides(hazard);
     borders_.insert(borders_.end(), outline.begin(), outline.end());
   }
 }
 
-bool VirtualMeasurements::is_possible(Point2 position) const {
-  if (area_.size() >= 3 && !contains(area_, position)) return false;
-  return std::none_of(hazards_.begin(), hazards_.end(),
-                      [&](const Polygon& hazard) { return contains(hazard, position); });
+bool VirtualMeasurements::is_in_area(Point2 position) const { return area_.size() < 3 || contains(area_, position); }
+
+bool VirtualMeasurements::is_in_hazard(Point2 position) const {
+  return std::any_of(hazards_.begin(), hazards_.end(),
+                     [&](const Polygon& hazard) { return contains(hazard, position); });
+}
+
+bool VirtualMeasurements::is_possible(Point2 position) const { return is_in_area(position) && !is_in_hazard(position); }
+
+Point2 VirtualMeasurements::led_inside(Point2 position) const {
+  constexpr double kOff = 1.01 * kBin;
+  if (area_.size() < 3) return position;
+  Segment side{area_.back(), area_.front()};
+  for (const auto& other : sides(area_)) {
+    if (distance(other, position) < distance(side, position)) side = other;
+  }
+  const Point2 foot = nearest_point(side, position);
+  const double away = distance(foot, position);
+  const bool is_inside = contains(area_, position);
+  if (is_inside && away >= kOff) return position;
+  Point2 inwards = (is_inside ? 1.0 : -1.0) * (position - foot);
+  if (away < 1e-6) {  // right on it: across the side
+    const Point2 along = side.b - side.a;
+    inwards = {-along.y, along.x};
+    if (!contains(area_, foot + kOff / norm(inwards) * inwards)) inwards = -1.0 * inwards;
+  }
+  const Point2 led = foot + kOff / norm(inwards) * inwards;
+  return contains(area_, led) ? led : position;
 }
 
 double VirtualMeasurements::border_distance(Point2 position) const {
@@ -93,12 +123,13 @@ const VirtualMeasurements::Surroundings& VirtualMeasurements::surroundings_of(Po
   if (!is_new) return result;
   const Point2 middle{(index.x + 0.5) * kBlock, (index.y + 0.5) * kBlock};
   constexpr double kReach = 0.5 * std::numbers::sqrt2 * kBlock + 1e-6;
-  bool is_parted = false;
   for (const auto& border : borders_) {
-    const double away = distance(border, middle);
-    is_parted = is_parted || away <= kReach;
-    if (away - kReach < kMaxRange + params_.cell_padding) result.borders.push_back(border);
+    if (distance(border, middle) - kReach < kMaxRange + params_.cell_padding) result.borders.push_back(border);
   }
+  const auto parts = [&](const Polygon& polygon) {
+    return polygon.size() >= 3 && outline_distance(polygon, middle) <= kReach;
+  };
+  const bool is_parted = parts(area_) || std::any_of(hazards_.begin(), hazards_.end(), parts);
   if (!is_parted) result.possible = is_possible(middle);
   return result;
 }
@@ -161,7 +192,10 @@ std::uint32_t VirtualMeasurements::row_of(Point2 position) {
     Row& row = rows_.emplace_back();
     const Surroundings& around = surroundings_of(centre);
     row.possible = around.possible ? *around.possible : is_possible(centre);
-    row.possible ? fill(row, centre, around.borders) : fill_from_outside(row, centre);
+    const Point2 from = ends_ == Ends::border ? led_inside(centre) : centre;
+    const bool can_look = row.possible || (ends_ == Ends::border && is_in_area(from)) ||
+                          (ends_ == Ends::hazards && !is_in_hazard(centre));
+    can_look ? fill(row, from, around.borders) : fill_from_outside(row, centre);
   }
   return entry->second;
 }

@@ -55,7 +55,11 @@ class VirtualMeasurements {
   static constexpr double kMaxRange = kBin * (kBins - 1);
   using Ranges = std::array<double, kDirections>;  ///< [m]
 
-  VirtualMeasurements(Polygon area, std::vector<Polygon> hazards, VirtualMeasurementParams params);
+  /// What rays end on: hazards bind the robot's body, the border its centre.
+  enum class Ends { both, hazards, border };
+
+  VirtualMeasurements(Polygon area, std::vector<Polygon> hazards, VirtualMeasurementParams params,
+                      Ends ends = Ends::both);
 
   struct Scan {
     Ranges ranges{};
@@ -117,19 +121,25 @@ class VirtualMeasurements {
   /// What all positions of a block of half a metre share.
   struct Surroundings {
     std::vector<Segment> borders;  ///< that may be within range, in their order
-    std::optional<bool> possible;  ///< whether the robot can be there; nullopt: a border parts the block
+    std::optional<bool> possible;  ///< whether the robot can be there; nullopt: an outline parts the block
   };
   const Surroundings& surroundings_of(Point2 position);
   void fill(Row& row, Point2 position, std::span<const Segment> borders) const;
   void fill_from_outside(Row& row, Point2 position) const;
+  /// A place just inside the border for one that lies on it or beyond: its border is where the robot is, and all ways
+  /// inwards are open. Other places stay.
+  [[nodiscard]] Point2 led_inside(Point2 position) const;
+  [[nodiscard]] bool is_in_area(Point2 position) const;
+  [[nodiscard]] bool is_in_hazard(Point2 position) const;
   [[nodiscard]] double border_distance(Point2 position) const;
   /// Least distance [m] from within a square; -1 where the robot can be nowhere in it.
   [[nodiscard]] double square_range(Point2 centre, double half_diagonal) const;
 
   Polygon area_;
   std::vector<Polygon> hazards_;
-  std::vector<Segment> borders_;
+  std::vector<Segment> borders_;  ///< what rays end on
   VirtualMeasurementParams params_;
+  Ends ends_;
   std::unordered_map<std::uint64_t, std::uint32_t> index_;  ///< never iterated: the order of its entries is arbitrary
   std::vector<Row> rows_;
   std::unordered_map<std::uint64_t, Surroundings> surroundings_;  ///< never iterated; of blocks that were asked for

@@ -24,7 +24,7 @@ class MotionModules : public ::testing::Test {
  protected:
   MotionModules() {
     for (const char* has_no : {"body.infrareds=0", "body.tactile=false"}) EXPECT_TRUE(config.set(has_no));
-    museum.area = {{-2, -4}, {18, -4}, {18, 4}, {-2, 4}};
+    museum.area = walls;
     museum.hazards.push_back({"plate", HazardKind::plate, {{9, -3.9}, {11, -3.9}, {11, -1.0}, {9, -1.0}}});
     world->subscribe<geometry_msgs::Twist>(topics::kCommandVelocity, [this](const geometry_msgs::Twist& twist) {
       wanted = twist;
@@ -84,7 +84,7 @@ class MotionModules : public ::testing::Test {
       for (int i = 0; i < 181; ++i) {
         const Angle bearing = pose.theta + mount + Angle::radians(-0.5 * pi + i * pi / 180.0);
         double range = 10.0;
-        for (const auto& wall : sides(museum.area)) {
+        for (const auto& wall : sides(walls)) {
           if (const auto hit = ray_distance(pose.position(), unit(bearing), wall)) range = std::min(range, *hit);
         }
         // Never twice the same, as a real laser.
@@ -119,9 +119,9 @@ class MotionModules : public ::testing::Test {
     docent_msgs::Target target;
     target.header = {to_message(world->now()), "odom"};
     target.mode = "drive";
-    for (double x = pose.x + 0.5; x < pose.x + 3.0; x += 0.5) {
-      target.via_x.push_back(x);
-      target.via_y.push_back(0.0);
+    for (double way = 0.5; way < 3.0; way += 0.5) {
+      target.via_x.push_back(wants_inside ? pose.x : pose.x + way);
+      target.via_y.push_back(wants_inside ? pose.y + way : 0.0);
     }
     spoil_target(target);
     if (plan_works) target_publisher.publish(target);
@@ -153,6 +153,8 @@ class MotionModules : public ::testing::Test {
   double sees_late = 0.0;         ///< [s]
   double every_third_late = 0.0;  ///< [s] of the rear laser's sweeps
   int rear_sweeps = 0;
+  bool wants_inside = false;  ///< wants to go along +y, else along the hall's axis
+  Polygon walls{{-2, -4}, {18, -4}, {18, 4}, {-2, 4}};
   std::unique_ptr<Bus> avoid_bus, hazards_bus, robot_bus;
   std::unique_ptr<Module> avoid, hazards, robot;
 };
@@ -161,12 +163,12 @@ TEST_F(MotionModules, DriveAndPublishWhatTheyDo) {
   run(5.0);
   EXPECT_GT(speed, 0.6);
   EXPECT_EQ(state.state, "driving");
-  EXPECT_EQ(virtual_scan.ranges.size(), 180U);
+  EXPECT_EQ(virtual_scan.ranges.size(), 2U * 180U);  // of hazards, then of the border
   EXPECT_EQ(avoid->health().state, "ready");
   EXPECT_EQ(hazards->health().state, "ready");
   EXPECT_EQ(robot->health().state, "ready");
   run(25.0);
-  EXPECT_LT(pose.x, 18.0 - 0.265);  // the border of the area
+  EXPECT_LT(pose.x, 18.0 - 0.265);  // the wall
   EXPECT_GT(pose.x, 16.5);
   EXPECT_TRUE(state.path_blocked);
 }
@@ -185,6 +187,39 @@ TEST_F(MotionModules, OneScannerInFrontAndNoSonarsDo) {
   EXPECT_EQ(speed, 0.0);
   EXPECT_NE(avoid->health().reason.find("front laser"), std::string::npos) << avoid->health().reason;
 }
+
+/// On the border of its area or beyond, the way leads inside.
+class AtTheBorder : public MotionModules, public ::testing::WithParamInterface<double> {};
+
+TEST_P(AtTheBorder, GetsInsideFromWhereItStands) {
+  museum.area = {{-2, -3}, {18, -3}, {18, 3}, {-2, 3}};  // the body has room beyond it
+  museum.hazards.clear();
+  pose = {5.0, -3.0 + GetParam(), Angle::degrees(90)};
+  start_all();
+  wants_inside = true;
+  run(8.0);
+  EXPECT_GT(pose.y, -2.0) << state.reason;
+}
+INSTANTIATE_TEST_SUITE_P(OnAndBeyond, AtTheBorder, ::testing::Values(0.12, 0.08, 0.02, 0.0, -0.05, -0.1));
+
+/// The area has a door that leaves the robot's centre so much [m] to either side.
+class Doors : public MotionModules, public ::testing::WithParamInterface<double> {};
+
+TEST_P(Doors, AreDrivenWhereTheClearanceSaysSo) {
+  const double half = GetParam();
+  museum.area = {{-2, -3}, {4, -3}, {4, -half}, {5, -half}, {5, -3}, {18, -3},
+                 {18, 3},  {5, 3},  {5, half},  {4, half},  {4, 3},  {-2, 3}};
+  museum.hazards.clear();
+  start_all();
+  double widest = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    run(0.1);
+    if (pose.x > 4.0 && pose.x < 5.0) widest = std::max(widest, std::abs(pose.y));
+  }
+  EXPECT_GT(pose.x, 6.0) << state.reason;
+  EXPECT_LT(widest, half);
+}
+INSTANTIATE_TEST_SUITE_P(Narrow, Doors, ::testing::Values(0.21, 0.25, 0.30, 0.5));
 
 TEST_F(MotionModules, TheBaseStopsWhenAvoidDiesAndGoesOnAfterItsReturn) {
   run(5.0);

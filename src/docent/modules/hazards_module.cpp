@@ -13,7 +13,8 @@ class HazardsModule final : public Module {
  public:
   HazardsModule(const ModuleContext& context, const VirtualMeasurementParams& params)
       : bus_{context.bus},
-        measurements_{context.museum.area, outlines(context.museum), params},
+        hazards_{context.museum.area, outlines(context.museum), params, VirtualMeasurements::Ends::hazards},
+        border_{context.museum.area, outlines(context.museum), params, VirtualMeasurements::Ends::border},
         best_pose_only_{params.best_pose_only},
         ignored_{context.config.evaluation().ignores_hazards},
         scan_{bus_.publisher(topics::kVirtualScan)} {
@@ -58,17 +59,21 @@ class HazardsModule final : public Module {
       poses_.assign(1, {{best.x, best.y}, best.theta, 1.0});
       squares_.clear();
     }
-    const auto measured = measurements_.measure(poses_, squares_);
-    possible_mass_ = measured.possible_mass;
+    const auto of_hazards = hazards_.measure(poses_, squares_);
+    const auto of_border = border_.measure(poses_, squares_);
+    possible_mass_ = of_hazards.possible_mass;
 
     sensor_msgs::LaserScan scan;
     scan.header = {belief.header.stamp, "base_link"};
     scan.angle_increment = static_cast<float>(2.0 * std::numbers::pi / VirtualMeasurements::kDirections);
     scan.angle_min = static_cast<float>(-std::numbers::pi);
-    scan.angle_max = scan.angle_min + scan.angle_increment * (VirtualMeasurements::kDirections - 1);
+    scan.angle_max = scan.angle_min + scan.angle_increment * (2 * VirtualMeasurements::kDirections - 1);
     scan.range_max = static_cast<float>(VirtualMeasurements::kMaxRange);
-    for (const double range : measured.ranges)
-      scan.ranges.push_back(ignored_ ? scan.range_max : static_cast<float>(range));
+    // Two turns: the body keeps off the hazards of the first, the centre off the border in the second.
+    for (const auto* measured : {&of_hazards, &of_border}) {
+      for (const double range : measured->ranges)
+        scan.ranges.push_back(ignored_ ? scan.range_max : static_cast<float>(range));
+    }
     last_ = std::move(scan);
     received_ = bus_.now();
     publish();
@@ -80,7 +85,8 @@ class HazardsModule final : public Module {
   }
 
   Bus& bus_;
-  VirtualMeasurements measurements_;
+  VirtualMeasurements hazards_;
+  VirtualMeasurements border_;
   bool best_pose_only_;  ///< crippled, for evaluation
   bool ignored_;         ///< likewise
   Publisher<sensor_msgs::LaserScan> scan_;

@@ -1,8 +1,8 @@
 #include <array>
 #include <cstdio>
-#include <deque>
 
 #include "docent/base/files.h"
+#include "docent/grid/clearance.h"
 #include "docent/museum/museum.h"
 #include "docent/museum/museum_reader.h"
 
@@ -10,8 +10,8 @@ namespace docent {
 namespace {
 
 constexpr double kRobotRadius = 0.265;  // [m]
-constexpr double kRoom = 0.10;          // [m] of air that the robot wants round its body
 constexpr double kFarthestLook = 30.0;  // [m] from where an exhibit is explained to what is pointed at: a long hall
+constexpr int kCoarsening = 3;          // map cells to a planning cell
 
 std::string metres(double value) {
   std::array<char, 32> text{};
@@ -19,15 +19,17 @@ std::string metres(double value) {
   return text.data();
 }
 
-/// Where the robot's centre may be, by map, hazards and area.
+/// Where the robot's centre may be, by map, hazards and area: as the planner of ways sees it.
 class Room {
  public:
   explicit Room(const Museum& museum) : museum_{museum} {
     const GridFrame& frame = museum.map.frame;
     std::vector<bool> blocked(frame.size());
     for (std::size_t i = 0; i < frame.size(); ++i) blocked[i] = !(museum.map.cells[i] >= 0 && museum.map.cells[i] < 20);
-    for (const Hazard& hazard : museum.hazards) block(hazard.polygon, blocked);
-    clearance_ = distance_transform(frame, blocked);
+    to_walls_ = distance_transform(frame, blocked);
+    std::vector<Polygon> hazards;
+    for (const Hazard& hazard : museum.hazards) hazards.push_back(hazard.polygon);
+    spare_ = spare_room(museum.map, hazards, museum.area, kRobotRadius, kClearance, kCoarsening);
     flood();
   }
 
@@ -42,71 +44,63 @@ class Room {
       if (contains(hazard.polygon, place)) return "lies inside the hazard '" + hazard.id + "'";
     }
     if (!museum_.map.is_free(cell)) return "lies where the map is unknown";
-    const double clearance = clearance_[frame.index(cell)];
-    if (clearance < kRobotRadius + kRoom) {
-      return "is only " + metres(clearance) + " from " + nearest_hazard(place, clearance) + ", the robot needs " +
-             metres(kRobotRadius + kRoom);
+    const auto too_near = [](double is, double needs, const std::string& what) {
+      return "is only " + metres(is) + " from " + what + ", the robot needs " + metres(needs);
+    };
+    const double to_walls = to_walls_[frame.index(cell)];
+    if (to_walls < kRobotRadius + kClearance.walls)
+      return too_near(to_walls, kRobotRadius + kClearance.walls, "a wall or furniture of the map");
+    for (const Hazard& hazard : museum_.hazards) {
+      const double away = distance(hazard.polygon, place);
+      if (away < kRobotRadius + kClearance.hazards)
+        return too_near(away, kRobotRadius + kClearance.hazards, "the hazard '" + hazard.id + "'");
     }
-    if (!reached_[frame.index(cell)]) return "cannot be reached from home";
+    const double to_border = outline_distance(museum_.area, place);
+    if (to_border < kClearance.border) return too_near(to_border, kClearance.border, "the area's border");
+    if (!is_reached(place)) return "cannot be reached from home";
     return {};
   }
 
  private:
-  void block(const Polygon& polygon, std::vector<bool>& blocked) const {
-    const GridFrame& frame = museum_.map.frame;
-    Point2 low = polygon.front();
-    Point2 high = polygon.front();
-    for (const Point2 corner : polygon) {
-      low = {std::min(low.x, corner.x), std::min(low.y, corner.y)};
-      high = {std::max(high.x, corner.x), std::max(high.y, corner.y)};
-    }
-    const CellIndex first = frame.cell_at(low);
-    const CellIndex last = frame.cell_at(high);
-    for (int row = std::max(0, first.row); row <= std::min(frame.rows - 1, last.row); ++row) {
-      for (int column = std::max(0, first.column); column <= std::min(frame.columns - 1, last.column); ++column) {
-        const CellIndex cell{column, row};
-        if (distance(polygon, frame.centre(cell)) <= 0.5 * frame.resolution) blocked[frame.index(cell)] = true;
-      }
-    }
-  }
-
+  /// From home, by cells that the planner may use, corners included. Where a place's own cell has its centre too near
+  /// to something, the one beside it counts: so the planner arrives.
   void flood() {
-    const GridFrame& frame = museum_.map.frame;
-    reached_.assign(frame.size(), false);
-    const CellIndex home = frame.cell_at(museum_.home.position());
-    if (!is_open(home)) return;
-    std::deque<CellIndex> front{home};
-    reached_[frame.index(home)] = true;
+    reached_.assign(frame_.size(), false);
+    std::vector<CellIndex> front;
+    const auto reach_beside = [&](CellIndex cell) {
+      for (int row = cell.row - 1; row <= cell.row + 1; ++row) {
+        for (int column = cell.column - 1; column <= cell.column + 1; ++column) {
+          const CellIndex next{column, row};
+          if (!frame_.holds(next) || spare_[frame_.index(next)] < 0.0 || reached_[frame_.index(next)]) continue;
+          reached_[frame_.index(next)] = true;
+          front.push_back(next);
+        }
+      }
+    };
+    reach_beside(frame_.cell_at(museum_.home.position()));
     while (!front.empty()) {
-      const CellIndex cell = front.front();
-      front.pop_front();
-      for (const CellIndex next : {CellIndex{cell.column + 1, cell.row}, CellIndex{cell.column - 1, cell.row},
-                                   CellIndex{cell.column, cell.row + 1}, CellIndex{cell.column, cell.row - 1}}) {
-        if (!is_open(next) || reached_[frame.index(next)]) continue;
-        reached_[frame.index(next)] = true;
-        front.push_back(next);
-      }
+      const CellIndex cell = front.back();
+      front.pop_back();
+      reach_beside(cell);
     }
   }
 
-  [[nodiscard]] bool is_open(CellIndex cell) const {
-    const GridFrame& frame = museum_.map.frame;
-    return frame.holds(cell) && clearance_[frame.index(cell)] >= kRobotRadius + kRoom &&
-           contains(museum_.area, frame.centre(cell));
-  }
-
-  [[nodiscard]] std::string nearest_hazard(Point2 place, double clearance) const {
-    for (const Hazard& hazard : museum_.hazards) {
-      if (distance(hazard.polygon, place) < clearance + 2.0 * museum_.map.frame.resolution) {
-        return "the hazard '" + hazard.id + "'";
+  [[nodiscard]] bool is_reached(Point2 place) const {
+    const CellIndex cell = frame_.cell_at(place);
+    for (int row = cell.row - 1; row <= cell.row + 1; ++row) {
+      for (int column = cell.column - 1; column <= cell.column + 1; ++column) {
+        if (frame_.holds({column, row}) && reached_[frame_.index({column, row})]) return true;
       }
     }
-    return "a wall or furniture of the map";
+    return false;
   }
 
+  static constexpr Clearance kClearance{};
   const Museum& museum_;
-  std::vector<float> clearance_;
-  std::vector<bool> reached_;
+  GridFrame frame_{coarse_frame(museum_.map.frame, kCoarsening)};
+  std::vector<float> to_walls_;  ///< [rows * columns of the map] m
+  std::vector<double> spare_;    ///< [rows * columns of frame_] m
+  std::vector<bool> reached_;    ///< [rows * columns of frame_]
 };
 
 void check_places(const YamlFile& file, const MuseumSource& source, std::vector<Error>& faults) {

@@ -12,8 +12,7 @@ namespace docent {
 Result<void> RouteParams::validate() const {
   if (coarsening < 1 || coarsening > 20) return fail("coarsening must be in 1..20");
   if (!(robot_radius > 0.0)) return fail("robot_radius must be > 0");
-  if (!(wall_margin >= 0.0)) return fail("wall_margin must be >= 0");
-  if (!(hazard_margin >= 0.0)) return fail("hazard_margin must be >= 0");
+  if (auto valid = clearance.validate(); !valid) return valid;
   if (!(comfort >= 0.0)) return fail("comfort must be >= 0");
   if (!(comfort_cost >= 0.0)) return fail("comfort_cost must be >= 0");
   if (!(obstacle_cost >= 1.0)) return fail("obstacle_cost must be >= 1");
@@ -33,44 +32,21 @@ namespace {
 constexpr double kNear = 0.6;   ///< [m] from a place where the robot cannot be to one where a way begins
 constexpr double kAlong = 0.5;  ///< [m] from the way held, within which it is followed
 
-GridFrame coarse_frame(const GridFrame& fine, int factor) {
-  return {(fine.columns + factor - 1) / factor, (fine.rows + factor - 1) / factor, fine.resolution * factor,
-          fine.origin};
-}
-
 }  // namespace
 
 RoutePlanner::RoutePlanner(const OccupancyGrid& map, std::span<const Polygon> hazards, const Polygon& area,
                            RouteParams params)
     : params_{params}, planner_{coarse_frame(map.frame, params.coarsening)} {
-  std::vector<bool> solid(map.frame.size());
-  for (std::size_t i = 0; i < solid.size(); ++i) solid[i] = map.cells[i] < 0 || map.cells[i] >= 65;
-  const auto clearances = distance_transform(map.frame, solid);
-
+  const auto spares = spare_room(map, hazards, area, params_.robot_radius, params_.clearance, params_.coarsening);
   const GridFrame& frame = planner_.frame();
   static_costs_.assign(frame.size(), ValueIteration::kClosed);
   near_factors_.assign(frame.size(), 1.0F);
   obstacles_.assign(frame.size(), false);
   settled_.assign(frame.size(), false);
-  for (int row = 0; row < frame.rows; ++row) {
-    for (int column = 0; column < frame.columns; ++column) {
-      const Point2 centre = frame.centre({column, row});
-      const CellIndex fine = map.frame.cell_at(centre);
-      if (!map.frame.holds(fine)) continue;
-      double spare =
-          static_cast<double>(clearances[map.frame.index(fine)]) - params_.robot_radius - params_.wall_margin;
-      if (!area.empty()) {
-        if (!contains(area, centre)) continue;
-        spare = std::min(spare, outline_distance(area, centre) - params_.hazard_margin);
-      }
-      for (const Polygon& hazard : hazards) {
-        spare = std::min(spare, distance(hazard, centre) - params_.robot_radius - params_.hazard_margin);
-      }
-      if (spare < 0.0) continue;
-      const double discomfort = params_.comfort > 0.0 ? std::max(0.0, 1.0 - spare / params_.comfort) : 0.0;
-      static_costs_[frame.index({column, row})] =
-          static_cast<float>(frame.resolution * (1.0 + params_.comfort_cost * discomfort * discomfort));
-    }
+  for (std::size_t i = 0; i < spares.size(); ++i) {
+    if (spares[i] < 0.0) continue;
+    const double discomfort = params_.comfort > 0.0 ? std::max(0.0, 1.0 - spares[i] / params_.comfort) : 0.0;
+    static_costs_[i] = static_cast<float>(frame.resolution * (1.0 + params_.comfort_cost * discomfort * discomfort));
   }
   planner_.set_costs(static_costs_);
 }

@@ -7,6 +7,7 @@
 
 #include "docent/base/result.h"
 #include "docent/geometry/polygon.h"
+#include "docent/grid/clearance.h"
 #include "docent/grid/occupancy_grid.h"
 #include "docent/planning/value_iteration/value_iteration.h"
 
@@ -16,8 +17,7 @@ namespace docent {
 struct RouteParams {
   int coarsening = 3;             ///< planning cell = so many map cells
   double robot_radius = 0.265;    ///< [m] set to body.radius
-  double wall_margin = 0.10;      ///< [m] kept from what the map shows, beyond the radius
-  double hazard_margin = 0.20;    ///< [m] kept from hazards and the area's border, beyond the radius
+  Clearance clearance;            ///< that a way must leave
   double comfort = 0.8;           ///< [m] beyond which clearance costs nothing
   double comfort_cost = 2.0;      ///< extra cost, as a factor, at the least clearance
   double obstacle_cost = 8.0;     ///< factor for cells that are blocked now by what is not in the map
@@ -34,8 +34,7 @@ struct RouteParams {
   void visit(V& v) {
     v("coarsening", coarsening);
     v("robot_radius", robot_radius);
-    v("wall_margin", wall_margin);
-    v("hazard_margin", hazard_margin);
+    v("clearance", clearance);
     v("comfort", comfort);
     v("comfort_cost", comfort_cost);
     v("obstacle_cost", obstacle_cost);
