@@ -57,6 +57,7 @@ struct Obstacle {
   double margin = 0.0;  ///< [m] between its point and the robot's outline
   bool person = false;  ///< slim and free-standing
   bool is_virtual = false;
+  bool is_low = false;    ///< met below the lasers, which see nobody there: a thing
   bool may_step = false;  ///< may be somebody, also half hidden in a throng, who steps nearer; the window does not ask
 };
 

@@ -201,6 +201,7 @@ class AvoidModule final : public Module {
     state.angular = decision.command.angular;
     state.path_blocked = decision.path_blocked;
     state.unmapped_obstacle = decision.unmapped_obstacle;
+    state.low_obstacle = decision.low_obstacle;
     state.nearest_real_m = decision.nearest_real;
     state.nearest_virtual_m = decision.nearest_virtual;
     if (!decision.window.empty() && driven_ - window_shown_ >= seconds(kWindowPeriod - 0.5 * kTick)) {
