@@ -255,6 +255,10 @@ void ObstacleMemory::add_touch(Time stamp, Point2 in_base, const Pose2& odom_fro
   touches_.push_back({{.in_odom = in_odom, .seen = stamp, .low = low}, stamp + seconds(memory)});
 }
 
+void ObstacleMemory::stand(Point2 in_odom, double radius) {
+  std::erase_if(touches_, [&](const Touch& touch) { return distance(touch.point.in_odom, in_odom) < radius; });
+}
+
 std::vector<Point2> ObstacleMemory::touched_things(Time now) const {
   std::vector<Point2> result;
   for (const auto& touch : touches_)

@@ -78,6 +78,9 @@ class ObstacleMemory {
   /// The body was touched at `in_base` (on its outline). Counts for 0.3 s where a laser sees who touches: whether they
   /// are still there, the laser tells; for kMemory where a laser sees somebody near; for kTouchMemory where none does.
   void add_touch(Time stamp, Point2 in_base, const Pose2& odom_from_base);
+  /// The body stands here, odometry's frame: nothing that touched it is within `radius` [m]. Wheels that slip against a
+  /// thing carry the odometry through it.
+  void stand(Point2 in_odom, double radius);
   /// Where something that no laser sees has touched the body within kTouchMemory [m], odometry's frame.
   [[nodiscard]] std::vector<Point2> touched_things(Time now) const;
 

@@ -146,16 +146,14 @@ class MapModule final : public Module {
     const auto map_from_base = pose_.map_from_base_at(from_message(tactile.header.stamp));
     if (!pose_.localized() || !map_from_base || tactile.segments.empty()) return;
     const double step = 2.0 * std::numbers::pi / static_cast<double>(tactile.segments.size());
-    double narrowest = body_.radius;
     for (std::size_t i = 0; i < tactile.segments.size(); ++i) {
       const Angle bearing = Angle::radians(step * static_cast<double>(i));
       const double reach = outline_.empty() ? body_.radius : outline_.radius_at(bearing);
-      narrowest = std::min(narrowest, reach);
       if (tactile.segments[i] == 0 || tactile.segments[i] == TactileWatch::kNoReading) continue;
       live_.add_touch(*map_from_base * (reach * unit(bearing)), unit(map_from_base->theta + bearing), laser_looks(),
                       bus_.now());
     }
-    live_.stand(map_from_base->position(), narrowest);
+    live_.stand(map_from_base->position(), outline_.empty() ? body_.radius : norm(outline_.nearest({})));
   }
 
   void publish_changes() {

@@ -50,7 +50,7 @@ std::vector<LadderStep> ReactionLadder::step(const LadderView& view, Time now) {
 
 void ReactionLadder::look(const LadderView& view, Time now) {
   Episode& episode = *episode_;
-  if (view.is_hindered) episode.by_thing = view.is_thing;
+  if (view.is_hindered || view.is_thing) episode.by_thing = view.is_thing;
   if (view.is_hindered && view.is_unmapped) {
     episode.unmapped_seen = now;
     if (!episode.unmapped_since) episode.unmapped_since = now;

@@ -47,7 +47,7 @@ struct LadderView {
   double without_progress_s = 0.0;  ///< [s] along the value function
   Detour detour = Detour::none;
   std::string cause;      ///< what is in the way, for a person
-  bool is_thing = false;  ///< the obstacle is a thing below the lasers: it hears nothing
+  bool is_thing = false;  ///< the obstacle, or what has touched the robot here, is a thing: it hears nothing
 };
 
 enum class Rung { slow, horn, local_detour, global_detour, wait, ask, give_up, free };
@@ -97,7 +97,7 @@ class ReactionLadder {
     std::optional<Time> unreachable_since;
     std::optional<Time> calm_since;
     bool was_hindered = false;
-    bool by_thing = false;  ///< what hindered it last is a thing
+    bool by_thing = false;  ///< what hindered or touched it last is a thing
     bool waits = false;
     std::map<Rung, int> counts;
     std::map<Rung, Time> last;
