@@ -66,11 +66,11 @@ TEST(Up, AKilledModuleIsBackAndAStoppedOneGoesOn) {
   const auto killed = std::chrono::steady_clock::now();
   ASSERT_TRUE(eventually([&] { return listener.pid_of("plan") != plan; }, 10s)) << up.output();
   EXPECT_LT(std::chrono::steady_clock::now() - killed, 6s);
-  EXPECT_TRUE(up.prints("plan       ended (signal 9), starts again in 0.2 s", 2s)) << up.output();
+  EXPECT_TRUE(up.prints("error plan: ended (signal 9), starts again in 0.2 s", 2s)) << up.output();
 
   const int map = listener.pid_of("map");
   kill(map, SIGSTOP);
-  EXPECT_TRUE(up.prints("map        not responding", 8s)) << up.output();
+  EXPECT_TRUE(up.prints("error map: not responding", 8s)) << up.output();
   const int before = listener.count("map");
   kill(map, SIGCONT);
   EXPECT_TRUE(eventually([&] { return listener.count("map") > before + 1; }, 5s)) << up.output();

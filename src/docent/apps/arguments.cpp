@@ -1,7 +1,12 @@
 #include "docent/apps/arguments.h"
 
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
+#include <system_error>
 
 #include "docent/apps/command.h"
 
@@ -36,5 +41,42 @@ Pose2 parse_pose(const std::string& option, const std::string& text) {
   const auto numbers = parse_numbers(option, text, 3);
   return {numbers[0], numbers[1], Angle::degrees(numbers[2])};
 }
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string cannot(const std::string& text, const std::string& why) { return "cannot write " + text + ": " + why; }
+
+/// "" when something can be made in `folder`.
+std::string fault_of_folder(const std::string& text, const fs::path& folder) {
+  std::error_code code;
+  if (!fs::exists(folder, code)) return cannot(text, "there is no folder " + folder.string());
+  if (!fs::is_directory(folder, code)) return cannot(text, folder.string() + " is not a folder");
+  if (access(folder.c_str(), W_OK | X_OK) != 0) return cannot(text, "no permission to write in " + folder.string());
+  return "";
+}
+
+std::string fault_of_output_file(std::string& text) {
+  std::error_code code;
+  const fs::path path = fs::absolute(text, code);
+  if (text.empty() || code) return "expected a file to write";
+  if (fs::is_directory(path, code)) return cannot(text, "it is a folder");
+  if (fs::exists(path, code) && access(path.c_str(), W_OK) != 0) return cannot(text, "no permission to replace it");
+  return fault_of_folder(text, path.parent_path());
+}
+
+std::string fault_of_output_folder(std::string& text) {
+  std::error_code code;
+  fs::path existing = fs::absolute(text, code);
+  if (text.empty() || code) return "expected a folder to write to";
+  while (!fs::exists(existing, code) && existing.has_relative_path()) existing = existing.parent_path();
+  return fault_of_folder(text, existing);
+}
+
+}  // namespace
+
+CLI::Validator output_file() { return CLI::Validator{fault_of_output_file, "FILE"}; }
+CLI::Validator output_folder() { return CLI::Validator{fault_of_output_folder, "FOLDER"}; }
 
 }  // namespace docent

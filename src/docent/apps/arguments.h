@@ -5,11 +5,20 @@
 
 #include "docent/geometry/pose2.h"
 
+namespace CLI {
+class Validator;
+}
+
 namespace docent {
 
 /// "1.5,-2" and the like, exactly `count` numbers; CommandFailed naming the option otherwise.
 [[nodiscard]] std::vector<double> parse_numbers(const std::string& option, const std::string& text, std::size_t count);
 [[nodiscard]] Point2 parse_point(const std::string& option, const std::string& text);  ///< X,Y [m]
 [[nodiscard]] Pose2 parse_pose(const std::string& option, const std::string& text);    ///< X,Y,DEG
+
+/// For options that name what a command will write: refused before the work begins when it could not be written at the
+/// end. A file needs a folder that exists; a folder is made where it can be.
+[[nodiscard]] CLI::Validator output_file();
+[[nodiscard]] CLI::Validator output_folder();
 
 }  // namespace docent

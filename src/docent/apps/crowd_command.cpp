@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "docent/apps/arguments.h"
 #include "docent/apps/command.h"
 #include "docent/apps/crowd_trial.h"
 #include "docent/base/files.h"
@@ -102,9 +103,11 @@ void add_crowd_command(CLI::App& app) {
       ->check(CLI::IsMember({"cautious_window", "dynamic_window"}))
       ->capture_default_str();
   command->add_option("--set", options->trial.settings, "section.key=value over robot.yaml; may be repeated");
-  command->add_option("--report", options->report, "JSON file for the score");
-  command->add_option("--picture", options->picture, "PNG file: the way driven and the crowd at the end");
-  command->add_option("--strip", options->strip, "PNG file: the hall every three seconds, with the way planned");
+  command->add_option("--report", options->report, "JSON file for the score")->check(output_file());
+  command->add_option("--picture", options->picture, "PNG file: the way driven and the crowd at the end")
+      ->check(output_file());
+  command->add_option("--strip", options->strip, "PNG file: the hall every three seconds, with the way planned")
+      ->check(output_file());
   command->add_flag("--trace", options->trace, "print where it was every second, and why it was slow");
   command->add_flag("--quiet", options->quiet, "no summary");
   command->callback([options] { run(*options); });

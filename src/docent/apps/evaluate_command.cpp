@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "docent/apps/arguments.h"
 #include "docent/apps/command.h"
 #include "docent/base/files.h"
 #include "docent/evaluation/deployment_evaluator.h"
@@ -45,7 +46,7 @@ void add_evaluate_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("evaluate", "Compute the deployment report again from a recording and its truth channel");
   command->add_option("recording", options->recording, "MCAP file")->required();
-  command->add_option("--report", options->report, "JSON file to write");
+  command->add_option("--report", options->report, "JSON file to write")->check(output_file());
   command->callback([options] { evaluate(*options); });
 }
 

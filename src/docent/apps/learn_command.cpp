@@ -34,19 +34,6 @@ struct Options {
   std::uint64_t seed = 1;
 };
 
-/// Before the long work: where its results shall go.
-void check_outputs(const Options& options) {
-  for (const auto& [option, file] : {std::pair{"--out", &options.out}, std::pair{"--report", &options.report}}) {
-    const std::filesystem::path folder = std::filesystem::path{*file}.parent_path();
-    if (!folder.empty() && !std::filesystem::is_directory(folder))
-      throw CommandFailed{std::string{option} + ": no folder " + folder.string()};
-  }
-  if (options.pictures.empty()) return;
-  std::error_code error;
-  std::filesystem::create_directories(options.pictures, error);
-  if (error) throw CommandFailed{"--pictures " + options.pictures + ": " + error.message()};
-}
-
 OccupancyGrid load(const Options& options) {
   if (options.map.empty() == options.museum.empty()) throw CommandFailed{"either --map or --museum is required", 2};
   if (!options.map.empty()) return value_or_fail(load_map(options.map));
@@ -97,6 +84,9 @@ void write_results(const Options& options, const LearningOutcome& outcome) {
   if (!options.report.empty()) value_or_fail(write_file_atomically(options.report, learning_json(outcome)));
   if (options.pictures.empty()) return;
   const std::filesystem::path folder = options.pictures;
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw CommandFailed{"--pictures " + options.pictures + ": " + error.message()};
   const LearnedModels& learned = outcome.learned;
   value_or_fail(save_png(draw_sensor_model(learned.readings, outcome.before, learned.sensor),
                          folder / (outcome.sensor + "-model.png")));
@@ -107,7 +97,6 @@ void write_results(const Options& options, const LearningOutcome& outcome) {
 
 void learn(const Options& options) {
   const OccupancyGrid map = load(options);
-  check_outputs(options);
   const std::vector<LaserLog> logs = read_logs(options);
   double max_range = 0.0;
   for (const LaserLog& log : logs) max_range = std::max(max_range, log.max_range);
@@ -153,9 +142,9 @@ void add_learn_command(CLI::App& app) {
   command->add_option("--sensor", options->sensor, "laser, or sonar (labelled by the laser)")
       ->check(CLI::IsMember({"laser", "sonar"}))
       ->capture_default_str();
-  command->add_option("--out", options->out, "robot.yaml to write; without: on the terminal");
-  command->add_option("--pictures", options->pictures, "folder for pictures of both models");
-  command->add_option("--report", options->report, "JSON file to write");
+  command->add_option("--out", options->out, "robot.yaml to write; without: on the terminal")->check(output_file());
+  command->add_option("--pictures", options->pictures, "folder for pictures of both models")->check(output_folder());
+  command->add_option("--report", options->report, "JSON file to write")->check(output_file());
   command
       ->add_option("--expected", options->expected,
                    "where ranges are expected: cell (for the grid, whose cells blur), pose (for particles)")

@@ -12,6 +12,7 @@
 #include "docent/apps/command.h"
 #include "docent/apps/localize_log.h"
 #include "docent/apps/localize_picture.h"
+#include "docent/apps/localize_summary.h"
 #include "docent/apps/log_defaults.h"
 #include "docent/apps/log_reference.h"
 #include "docent/base/files.h"
@@ -144,11 +145,6 @@ nlohmann::json to_json(const RunAgreement& agreement) {
           {"max_m", agreement.max_m}};
 }
 
-void print(const char* title, const nlohmann::json& report) {
-  std::printf("%s\n", title);
-  for (const auto& [key, value] : report.items()) std::printf("  %-24s %s\n", key.c_str(), value.dump().c_str());
-}
-
 /// What both methods need, and the particles' own.
 struct MethodParams {
   MarkovLocalizerParams grid;
@@ -257,7 +253,8 @@ void localize(const Options& options) {
   report["start"] = options.start;
   report["reversed"] = options.reverse;
   report["wall_depth"] = params.grid.states.wall_depth;
-  print(options.reverse ? "reversed" : "forward", report);
+  std::printf("%s, by the method %s, %s start\n%s", options.reverse ? "reversed" : "forward", options.method.c_str(),
+              options.start == "unknown" ? "unknown" : "given", summary_of_run(report).c_str());
   if (options.both_ways) {
     localizer->start_unknown();
     const LogRun other = run_once(options, referenced, map, *localizer, !options.reverse, options.picture);
@@ -265,14 +262,14 @@ void localize(const Options& options) {
     if (has_reference)
       add_score(report["other_way"], other, referenced.reference, !options.reverse, options.start == "reference");
     report["agreement"] = to_json(agreement_of(run.poses, other.poses));
-    print("the other way", report["other_way"]);
-    print("agreement", report["agreement"]);
+    std::printf("the other way, unknown start\n%s", summary_of_run(report["other_way"]).c_str());
+    std::printf("both ways\n%s", summary_of_agreement(report["agreement"]).c_str());
   }
   if (!options.compare.empty()) {
     const auto others = value_or_fail(load_poses(options.compare));
     if (others.size() != run.poses.size()) throw CommandFailed{options.compare + ": poses of another log"};
     report["agreement"] = to_json(agreement_of(run.poses, others));
-    print("agreement", report["agreement"]);
+    std::printf("beside %s\n%s", options.compare.c_str(), summary_of_agreement(report["agreement"]).c_str());
   }
   if (!options.poses.empty()) value_or_fail(save_poses(run.poses, options.poses));
   if (!options.report.empty()) value_or_fail(write_file_atomically(options.report, report.dump(2) + "\n"));
@@ -312,9 +309,10 @@ void add_localize_command(CLI::App& app) {
   command->add_flag("--reverse", options->reverse, "from the last scan to the first, with inverse odometry");
   command->add_flag("--both-ways", options->both_ways, "forward and reversed, and how they agree");
   command->add_option("--compare", options->compare, "poses of another run over this log");
-  command->add_option("--poses", options->poses, "CSV file to write: the pose of every scan");
-  command->add_option("--report", options->report, "JSON file to write");
-  command->add_option("--picture", options->picture, "folder for pictures: the belief, the scans in the map");
+  command->add_option("--poses", options->poses, "CSV file to write: the pose of every scan")->check(output_file());
+  command->add_option("--report", options->report, "JSON file to write")->check(output_file());
+  command->add_option("--picture", options->picture, "folder for pictures: the belief, the scans in the map")
+      ->check(output_folder());
   command
       ->add_option("--wall-depth", options->wall_depth,
                    "[m] how deep inside the map's walls their surface lies, or auto: what explains the log best")

@@ -4,6 +4,7 @@
 
 #include "docent/apps/check_command.h"
 #include "docent/apps/command.h"
+#include "docent/apps/config_command.h"
 #include "docent/apps/crowd_command.h"
 #include "docent/apps/evaluate_command.h"
 #include "docent/apps/learn_command.h"
@@ -23,6 +24,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", "docent 0.1.0");
   docent::add_check_command(app);
+  docent::add_config_command(app);
   docent::add_crowd_command(app);
   docent::add_evaluate_command(app);
   docent::add_learn_command(app);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "docent/apps/arguments.h"
 #include "docent/apps/command.h"
 #include "docent/apps/localize_log.h"
 #include "docent/apps/log_reference.h"
@@ -107,11 +108,13 @@ void add_map_command(CLI::App& app) {
   auto options = std::make_shared<MapOptions>();
   CLI::App* command = app.add_subcommand("map", "Make a map from a recorded log");
   add_log_options(*command, options->choice);
-  command->add_option("--out", options->out, "folder for map.yaml, map.pgm and map.png")->required();
+  command->add_option("--out", options->out, "folder for map.yaml, map.pgm and map.png")
+      ->check(output_folder())
+      ->required();
   command->add_option("--method", options->method, "known-poses: scans are placed where --reference says")
       ->check(CLI::IsMember({"known-poses"}))
       ->capture_default_str();
-  command->add_option("--report", options->report, "JSON file to write");
+  command->add_option("--report", options->report, "JSON file to write")->check(output_file());
   command->add_option("--set", options->settings, "key=value of the mapper's parameters, e.g. resolution=0.1");
   command->callback([options] { make_map(*options); });
 }

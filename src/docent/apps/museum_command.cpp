@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <memory>
 
+#include "docent/apps/arguments.h"
 #include "docent/apps/command.h"
 #include "docent/museum/museum.h"
 #include "docent/pictures/drawing.h"
@@ -25,6 +26,7 @@ struct MuseumOptions {
   std::string out;
   std::string title;
   std::string picture;
+  std::string places;
   std::vector<std::string> pedestrians;
   std::uint64_t seed = 1;
 };
@@ -80,7 +82,9 @@ void run(const MuseumOptions& options) {
   for (const std::string& name : options.pedestrians) {
     recordings.push_back(value_or_fail(simulator::load_recording(recording_path(name))));
   }
-  const auto traced = simulator::trace_museum(map, recordings, title, options.seed);
+  std::optional<simulator::Places> places;
+  if (!options.places.empty()) places = value_or_fail(simulator::load_places(options.places));
+  const auto traced = simulator::trace_museum(map, recordings, title, options.seed, places);
   if (!traced) throw CommandFailed{options.map + ": " + traced.error().message};
   const simulator::MuseumPlan& plan = traced->plan;
   for (const auto& fit : traced->fits) print_fit(fit);
@@ -94,7 +98,9 @@ void run(const MuseumOptions& options) {
   if (!options.picture.empty()) value_or_fail(save_png(draw(plan.world, survey), options.picture));
   const std::vector<Error> faults = check_museum(out);
   for (const Error& fault : faults) std::fprintf(stderr, "%s\n", fault.message.c_str());
-  if (!faults.empty()) throw CommandFailed{out.string() + ": cannot work; another --seed may help"};
+  if (!faults.empty())
+    throw CommandFailed{out.string() + (places ? ": cannot work; mend " + options.places + " and run this again"
+                                               : std::string{": cannot work; another --seed may help"})};
 }
 
 }  // namespace
@@ -106,16 +112,22 @@ void add_museum_command(CLI::App& app) {
       "the map that a survey of it gives the robot");
   auto options = std::make_shared<MuseumOptions>();
   command->add_option("map", options->map, "map.yaml of map_server")->required();
-  command->add_option("--out", options->out, "Folder for museum.yaml, simulation.yaml, the map and texts")->required();
+  command->add_option("--out", options->out, "Folder for museum.yaml, simulation.yaml, the map and texts")
+      ->check(output_folder())
+      ->required();
   command
       ->add_option("--pedestrians", options->pedestrians,
                    "Recorded people for its halls: a folder or file, or a name in DOCENT_DATA/pedestrians (eth, "
                    "univ, zara01, edinburgh, …); several are fitted one by one")
       ->type_name("NAME-or-DIR");
+  command->add_option("--places", options->places,
+                      "YAML file that says where to stop and what no sensor sees, instead of drawing that: exhibits, "
+                      "hazards, home, charger (docs/museums.md)");
   command->add_option("--seed", options->seed, "Seed of what a map does not show and of the survey's errors")
       ->capture_default_str();
   command->add_option("--title", options->title, "Name of the museum; without it the map's file name");
-  command->add_option("--picture", options->picture, "Also draw the true world and the robot's map, as a PNG");
+  command->add_option("--picture", options->picture, "Also draw the true world and the robot's map, as a PNG")
+      ->check(output_file());
   command->callback([options] { run(*options); });
 }
 

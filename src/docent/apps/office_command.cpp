@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "docent/apps/arguments.h"
 #include "docent/apps/command.h"
 #include "docent/pictures/image.h"
 #include "docent/pictures/map_picture.h"
@@ -38,7 +39,9 @@ void add_office_command(CLI::App& app) {
   auto* command = app.add_subcommand(
       "office", "Draw an office building: a museum folder with a true world and the map that a survey of it gives");
   auto options = std::make_shared<OfficeOptions>();
-  command->add_option("--out", options->out, "Folder for museum.yaml, simulation.yaml, the map and texts")->required();
+  command->add_option("--out", options->out, "Folder for museum.yaml, simulation.yaml, the map and texts")
+      ->check(output_folder())
+      ->required();
   command->add_option("--seed", options->seed, "Seed of the building and of the survey's errors")
       ->capture_default_str();
   command->add_flag("--pictures", options->pictures, "Also draw world.png and survey.png");

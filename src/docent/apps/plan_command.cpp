@@ -157,9 +157,11 @@ void add_plan_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--radius", options->radius, "radius of the robot [m]")->capture_default_str();
   command->add_option("--ways", options->ways, "JSON file to write: the ways and what was said of them");
-  command->add_option("--picture", options->picture,
-                      "PNG file to write: the ways over the value function, pale near the goals and dark far from\n"
-                      "them; with --coastal over the information of places, dark where a scan tells most");
+  command
+      ->add_option("--picture", options->picture,
+                   "PNG file to write: the ways over the value function, pale near the goals and dark far from\n"
+                   "them; with --coastal over the information of places, dark where a scan tells most")
+      ->check(output_file());
   command->callback([options] { plan(*options); });
 }
 

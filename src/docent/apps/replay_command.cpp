@@ -93,9 +93,12 @@ void add_replay_command(CLI::App& app) {
       ->allow_extra_args(false);
   command->add_option("--start", options->start, "X,Y,DEG: where localize is told that the robot stands at the start");
   command->add_option("--seed", options->deployment.seed, "Seed of everything random")->capture_default_str();
-  command->add_option("--out", options->replay.out, "MCAP file to write: what happened this time");
-  command->add_option("--report", options->report, "JSON file to write: the deployment report of this time");
-  command->add_option("--claims", options->replay.claims, "CSV file to write: every belief beside the truth");
+  command->add_option("--out", options->replay.out, "MCAP file to write: what happened this time")
+      ->check(output_file());
+  command->add_option("--report", options->report, "JSON file to write: the deployment report of this time")
+      ->check(output_file());
+  command->add_option("--claims", options->replay.claims, "CSV file to write: every belief beside the truth")
+      ->check(output_file());
   command->add_flag("--check", options->check,
                     "Fail where the mission events are not those of the recording, in the same order; how it went "
                     "under way is not compared");

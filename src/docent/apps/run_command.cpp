@@ -9,6 +9,7 @@
 
 #include "docent/apps/command.h"
 #include "docent/apps/deployment.h"
+#include "docent/apps/log.h"
 #include "docent/apps/simulator_process.h"
 #include "docent/apps/supervisor.h"
 #include "docent/modules/module_host.h"
@@ -29,9 +30,10 @@ std::string module_names() {
   return names + kSimulatorProcess;
 }
 
-std::unique_ptr<DdsBus> join(const Deployment& deployment, int domain) {
-  return value_or_fail(DdsBus::create(
-      {domain, deployment.name, [](const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); }}));
+std::unique_ptr<DdsBus> join(const Deployment& deployment, int domain, const std::string& module) {
+  return value_or_fail(DdsBus::create({domain, deployment.name, [module](const std::string& text) {
+                                         log_to_stderr(LogLevel::warning, module, text);
+                                       }}));
 }
 
 void run(const Options& options) {
@@ -48,9 +50,9 @@ void run(const Options& options) {
   value_or_fail(deployment.prepare_state(), kExitBadConfiguration);
 
   block_end_signals();
-  auto dds_bus = join(deployment, deployment.domain);
+  auto dds_bus = join(deployment, deployment.domain, options.module);
   DdsBus& bus = *dds_bus;
-  const auto truth = entry->sees_truth ? join(deployment, truth_domain(deployment.domain)) : nullptr;
+  const auto truth = entry->sees_truth ? join(deployment, truth_domain(deployment.domain), options.module) : nullptr;
   const auto host = value_or_fail(ModuleHost::create(*entry, std::move(dds_bus), museum, config,
                                                      {deployment.state, deployment.seed, false, getpid(), truth.get()}),
                                   kExitBadConfiguration);

@@ -110,19 +110,27 @@ void add_simulate_command(CLI::App& app) {
   command->add_option("--state", options->run.state, "folder of checkpoints and databases; without: a temporary one");
   command->add_flag("!--world-only", options->run.has_robot,
                     "no module of the robot runs: for recordings of sensors, with a scenario that steers");
-  command->add_option("--report", options->report, "JSON file for the deployment report");
-  command->add_option("--claims", options->run.claims, "CSV file to write: every belief beside the truth");
-  command->add_option("--health-log", options->run.health_log,
-                      "CSV file to write: what the modules said of themselves, a row a change");
-  command->add_option("--drive-log", options->run.drive_log,
-                      "CSV file to write: how the robot drives beside what collision avoidance says");
-  command->add_option(
-      "--event-log", options->run.event_log,
-      "CSV file to write: events, reactions to blocked ways, lines said and touches, with times and places");
-  command->add_option("--people-log", options->run.people_log,
-                      "CSV file to write: tracked people beside the true ones");
-  command->add_option("--record", options->run.recording, "MCAP file of all messages and the truth");
-  command->add_option("--picture", options->picture, "PNG file: the way driven over the map");
+  command->add_option("--report", options->report, "JSON file for the deployment report")->check(output_file());
+  command->add_option("--claims", options->run.claims, "CSV file to write: every belief beside the truth")
+      ->check(output_file());
+  command
+      ->add_option("--health-log", options->run.health_log,
+                   "CSV file to write: what the modules said of themselves, a row a change")
+      ->check(output_file());
+  command
+      ->add_option("--drive-log", options->run.drive_log,
+                   "CSV file to write: how the robot drives beside what collision avoidance says")
+      ->check(output_file());
+  command
+      ->add_option(
+          "--event-log", options->run.event_log,
+          "CSV file to write: events, reactions to blocked ways, lines said and touches, with times and places")
+      ->check(output_file());
+  command->add_option("--people-log", options->run.people_log, "CSV file to write: tracked people beside the true ones")
+      ->check(output_file());
+  command->add_option("--record", options->run.recording, "MCAP file of all messages and the truth")
+      ->check(output_file());
+  command->add_option("--picture", options->picture, "PNG file: the way driven over the map")->check(output_file());
   command->add_option("--pace", options->pace, "virtual seconds a second; 0: as fast as possible")
       ->capture_default_str();
   command->add_option("--port", options->port, "also serve the page at this port (pace 1 unless given)");

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "docent/apps/arguments.h"
+#include "docent/apps/log.h"
 #include "docent/modules/localize_module.h"
 #include "docent/simulator/simulated_museum.h"
 #include "docent/transport/dds_bus.h"
@@ -78,7 +79,7 @@ Result<void> check_simulator(const Deployment& deployment, const SimulatorOption
 Result<void> run_simulator(const Deployment& deployment, const SimulatorOptions& options) {
   auto simulation = simulation_of(deployment, options);
   if (!simulation) return tl::unexpected<Error>(simulation.error());
-  const auto warn = [](const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); };
+  const auto warn = [](const std::string& text) { log_to_stderr(LogLevel::warning, kSimulatorProcess, text); };
   block_end_signals();
   auto robot_bus = DdsBus::create({deployment.domain, deployment.name, warn});
   if (!robot_bus) return tl::unexpected<Error>(robot_bus.error());

@@ -54,7 +54,7 @@ Supervisor::~Supervisor() { stop(); }
 void Supervisor::start(Child& child) {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) {
-    log_(child.spec.name, std::string{"cannot start: "} + std::strerror(errno));
+    log_(From::supervisor, child.spec.name, std::string{"cannot start: "} + std::strerror(errno));
     return;
   }
   // A supervisor that is stopped must not stop its children: what does not fit into the pipe is lost.
@@ -89,7 +89,7 @@ void Supervisor::read_output(Child& child) {
     for (auto end = child.partial_line.find('\n'); end != std::string::npos; end = child.partial_line.find('\n')) {
       child.last_line = child.partial_line.substr(0, end);
       child.partial_line.erase(0, end + 1);
-      if (!fatal_) log_(child.spec.name, child.last_line);
+      if (!fatal_) log_(From::child, child.spec.name, child.last_line);
     }
     constexpr std::size_t kLongestLine = 65536;
     if (child.partial_line.size() > kLongestLine) child.partial_line.clear();
@@ -120,7 +120,7 @@ void Supervisor::collect(Child& child) {
   if (child.life.starts() == 1 && *how == "exit code " + std::to_string(kExitBadConfiguration)) {
     if (!fatal_) fatal_ = child.last_line.empty() ? child.spec.name + " cannot start" : child.last_line;
   } else {
-    log_(child.spec.name, child.life.status(Clock::now()));
+    log_(From::supervisor, child.spec.name, child.life.status(Clock::now()));
   }
 }
 
@@ -136,7 +136,7 @@ void Supervisor::step() {
         start(child);
         break;
       case Lifecycle::Step::kill:
-        log_(child.spec.name, "does not respond: killed");
+        log_(From::supervisor, child.spec.name, "does not respond: killed");
         signal_group(child, SIGKILL);
         child.life.killed(Clock::now());
         break;

@@ -26,8 +26,9 @@ struct ChildSpec {
 class Supervisor {
  public:
   using Clock = std::chrono::steady_clock;
-  /// A line for people, and the name of whom it is about.
-  using Log = std::function<void(const std::string& name, const std::string& line)>;
+  enum class From { supervisor, child };  ///< whose words a line is
+  /// A line for people, and the name of the child that it is about.
+  using Log = std::function<void(From from, const std::string& name, const std::string& line)>;
 
   Supervisor(std::vector<ChildSpec> children, Log log, LifecycleParams params = {});
   Supervisor(const Supervisor&) = delete;

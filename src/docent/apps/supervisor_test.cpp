@@ -20,7 +20,9 @@ ChildSpec shell(std::string name, std::string script) {
 struct Lines {
   std::vector<std::string> lines;
   Supervisor::Log log() {
-    return [this](const std::string& name, const std::string& line) { lines.push_back(name + ": " + line); };
+    return [this](Supervisor::From, const std::string& name, const std::string& line) {
+      lines.push_back(name + ": " + line);
+    };
   }
   [[nodiscard]] int count(const std::string& part) const {
     return static_cast<int>(
@@ -117,7 +119,7 @@ TEST(Supervisor, ItsChildrenDieWithIt) {
   ASSERT_EQ(pipe(ends), 0);
   const pid_t host = fork();
   if (host == 0) {
-    Supervisor supervisor{{shell("a", "echo $$; exec sleep 100")}, [&](const std::string&, const std::string& line) {
+    Supervisor supervisor{{shell("a", "echo $$; exec sleep 100")}, [&](Supervisor::From, const std::string&, const std::string& line) {
                             static_cast<void>(!write(ends[1], line.c_str(), line.size()));
                           }};
     for (;;) {

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "docent/apps/arguments.h"
 #include "docent/apps/command.h"
 #include "docent/base/files.h"
 #include "docent/pictures/image.h"
@@ -55,7 +56,9 @@ void add_survey_command(CLI::App& app) {
       "survey", "Draw a robot's map and hazards from a true world, with the small errors that a survey has");
   auto options = std::make_shared<SurveyOptions>();
   command->add_option("--world", options->world, "simulation.yaml")->required();
-  command->add_option("--out", options->out, "Folder for map.yaml, map.pgm and hazards.yaml")->required();
+  command->add_option("--out", options->out, "Folder for map.yaml, map.pgm and hazards.yaml")
+      ->check(output_folder())
+      ->required();
   command->add_option("--seed", options->seed, "Seed of the errors")->capture_default_str();
   command->add_flag("--pictures", options->pictures, "Also draw world.png and survey.png");
   command->callback([options] { run(*options); });

@@ -15,6 +15,7 @@
 #include <cstring>
 #include <memory>
 
+#include "docent/apps/arguments.h"
 #include "docent/apps/command.h"
 #include "docent/apps/deployment.h"
 #include "docent/apps/simulator_process.h"
@@ -98,10 +99,6 @@ docent_msgs::Limits check(const Options& options) {
   value_or_fail(config.check_sections(sections));
   if (options.simulate) value_or_fail(check_simulator(options.deployment, options.simulator));
   docent_msgs::Limits limits = value_or_fail(limits_of(options, museum, config));
-  if (!options.record.empty()) {
-    const auto folder = std::filesystem::absolute(options.record).parent_path();
-    if (!std::filesystem::is_directory(folder)) throw CommandFailed{"--record: no folder " + folder.string()};
-  }
   value_or_fail(check_port(options.port));
   value_or_fail(options.deployment.prepare_state());
   value_or_fail(lock_state(options.deployment.state));
@@ -149,10 +146,18 @@ void up(const Options& options) {
   const docent_msgs::Limits limits = check(options);
   const auto recorded_before = recordings_in(recordings_folder(options));
   block_end_signals();
-  StatusDisplay display{isatty(STDOUT_FILENO) == 1};
-  const auto log = [&](const std::string& name, const std::string& line) { display.log(name, line); };
-  const auto bus = value_or_fail(DdsBus::create(
-      {options.deployment.domain, options.deployment.name, [&](const std::string& text) { log("bus", text); }}));
+  const auto print = [](const std::string& text) {
+    std::fputs(text.c_str(), stdout);
+    std::fflush(stdout);
+  };
+  StatusDisplay display{isatty(STDOUT_FILENO) == 1, print, StatusDisplay::Clock::now()};
+  const auto log = [&](Supervisor::From from, const std::string& name, const std::string& line) {
+    if (from == Supervisor::From::child) return display.log_output(name, line);
+    display.log(LogLevel::error, name, line);
+  };
+  const auto bus =
+      value_or_fail(DdsBus::create({options.deployment.domain, options.deployment.name,
+                                    [&](const std::string& text) { display.log(LogLevel::warning, "bus", text); }}));
   Supervisor supervisor{children_of(options), log};
   bus->publisher(topics::kLimits).publish(limits);
   bool is_announced = false;
@@ -160,7 +165,7 @@ void up(const Options& options) {
     supervisor.heard(health.module, health.pid, health.state, health.reason);
     if (!is_announced && health.module == "web" && health.state != "starting") {
       is_announced = true;
-      log("web", "open http://127.0.0.1:" + std::to_string(options.port) + "/");
+      display.log(LogLevel::info, "web", "open http://127.0.0.1:" + std::to_string(options.port) + "/");
     }
   });
   std::stop_source stop;
@@ -168,9 +173,9 @@ void up(const Options& options) {
     supervisor.step();
     if (supervisor.fatal() || wait_for_end_signal(0.0) != 0) stop.request_stop();
   });
-  bus->every(kShow, [&] { display.show(supervisor.status()); });
+  bus->every(kShow, [&] { display.show(supervisor.status(), StatusDisplay::Clock::now()); });
   bus->run(stop.get_token());
-  display.show(supervisor.status());
+  display.show(supervisor.status(), StatusDisplay::Clock::now());
   display.finish();
   supervisor.stop(kPatience);
   if (supervisor.fatal()) {
@@ -180,7 +185,7 @@ void up(const Options& options) {
   }
   if (!options.record.empty()) {
     value_or_fail(keep_recording(options, recorded_before));
-    log("record", options.record);
+    display.log(LogLevel::info, "record", "the recording is " + options.record);
   }
 }
 
@@ -192,8 +197,10 @@ void add_up_command(CLI::App& app) {
   options->deployment.add_options(*command);
   command->add_flag("--sim", options->simulate, "Simulate the museum, its visitors and the robot's body");
   command->add_option("--port", options->port, "Port of the page")->check(CLI::Range(1, 65535))->capture_default_str();
-  command->add_option("--record", options->record,
-                      "MCAP file that gets what the record module records in --state from the start to the end");
+  command
+      ->add_option("--record", options->record,
+                   "MCAP file that gets what the record module records in --state from the start to the end")
+      ->check(output_file());
   options->simulator.add_options(*command->add_option_group("With --sim"));
   command->callback([options] { up(*options); });
 }

@@ -24,6 +24,7 @@
 
 namespace docent {
 
+/// Section `avoid`: collision avoidance, which keeps clear of everything whatever the others want.
 struct AvoiderParams {
   DynamicWindowParams window;
   PeopleCautionParams people;
@@ -32,9 +33,9 @@ struct AvoiderParams {
   std::string method = "cautious_window";
   double lookahead = 1.2;             ///< [m] the path is followed by steering for a point so far along it, at least,
   double lookahead_time = 1.5;        ///< [s] and as far as the robot drives in this time
-  double arrival_deceleration = 0.6;  ///< [m/s2]
-  double target_timeout = 1.5;        ///< [s]
-  double virtual_timeout = 1.5;       ///< [s]
+  double arrival_deceleration = 0.6;  ///< [m/s2] with which it comes to a stop at its goal
+  double target_timeout = 1.5;        ///< [s] without a new target, then it stands
+  double virtual_timeout = 1.5;       ///< [s] without new virtual measurements, then it stands
   bool needs_sonar = true;            ///< stands when the sonars are silent
   bool has_infrared = false;          ///< the body has these rings: stands when they are silent, from the start on
   bool has_tactile = false;

@@ -10,6 +10,7 @@
 
 namespace docent {
 
+/// The choice of a velocity within the dynamic window, and its margins.
 struct DynamicWindowParams {
   double cycle = 0.25;             ///< [s] between two selections
   double heading_weight = 1.2;     ///< of the heading towards the goal at the predicted pose
@@ -17,14 +18,14 @@ struct DynamicWindowParams {
   double speed_weight = 0.8;       ///< of the speed towards the goal
   double change_weight = 0.08;     ///< against needless changes of the command
   double heading_time = 0.6;       ///< [s] the pose is predicted so far for the heading
-  int linear_steps = 13;
-  int angular_steps = 31;
-  double real_margin = 0.08;     ///< [m] kept to what was sensed, sensor noise included
-  double virtual_margin = 0.15;  ///< [m] kept to virtual measurements
-  double security_time = 0.15;   ///< [s] more margin for every m/s of speed above creep_speed
-  double security_most = 0.22;   ///< [m] no more margin than that is added
-  double creep_speed = 0.12;     ///< [m/s] inside a margin, and backwards
-  bool two_second_rule = false;  ///< refuses what would meet an obstacle within two seconds
+  int linear_steps = 13;           ///< speeds that are tried
+  int angular_steps = 31;          ///< turn rates that are tried with each
+  double real_margin = 0.08;       ///< [m] kept to what was sensed, sensor noise included
+  double virtual_margin = 0.15;    ///< [m] kept to virtual measurements
+  double security_time = 0.15;     ///< [s] more margin for every m/s of speed above creep_speed
+  double security_most = 0.22;     ///< [m] no more margin than that is added
+  double creep_speed = 0.12;       ///< [m/s] inside a margin, and backwards
+  bool two_second_rule = false;    ///< refuses what would meet an obstacle within two seconds
   template <class V>
   void visit(V& v) {
     v("cycle", cycle);

@@ -12,6 +12,7 @@
 
 namespace docent {
 
+/// Section `hazards`: virtual measurements, of what no sensor sees, from the belief.
 struct VirtualMeasurementParams {
   double confidence = 0.99;     ///< probability with which a virtual measurement underestimates the true distance
   bool jointly = true;          ///< in all directions at once; else in each direction by itself, as in the papers

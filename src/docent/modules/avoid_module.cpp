@@ -241,4 +241,8 @@ Result<std::unique_ptr<Module>> make_avoid(const ModuleContext& context) {
   return std::make_unique<AvoidModule>(context, *limits, *params);
 }
 
+Result<ParameterRows> parameters_of_avoid(const RobotConfig& config) {
+  return list_parameters<AvoiderParams>(config, "avoid");
+}
+
 }  // namespace docent

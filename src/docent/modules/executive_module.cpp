@@ -144,4 +144,8 @@ Result<std::unique_ptr<Module>> make_executive(const ModuleContext& context) {
                                            memory ? "" : memory.error().message);
 }
 
+Result<ParameterRows> parameters_of_executive(const RobotConfig& config) {
+  return list_parameters<ExecutiveParams>(config, "executive");
+}
+
 }  // namespace docent

@@ -102,4 +102,8 @@ Result<std::unique_ptr<Module>> make_hazards(const ModuleContext& context) {
   return std::make_unique<HazardsModule>(context, *params);
 }
 
+Result<ParameterRows> parameters_of_hazards(const RobotConfig& config) {
+  return list_parameters<VirtualMeasurementParams>(config, "hazards");
+}
+
 }  // namespace docent

@@ -42,6 +42,7 @@ struct SonarParams {
   }
 };
 
+/// Section `localize`: where the robot is.
 struct LocalizeParams {
   /// grid; particles, which share all of the grid's parameters that concern them; sonar: a tracker without laser
   std::string method = "grid";
@@ -387,6 +388,10 @@ Result<std::string> simd_of_localize(const RobotConfig& config) {
   auto params = config.section<LocalizeParams>("localize");
   if (!params) return tl::unexpected<Error>(params.error());
   return instruction_set_of(params->markov.simd).map([](InstructionSet set) { return std::string{name_of(set)}; });
+}
+
+Result<ParameterRows> parameters_of_localize(const RobotConfig& config) {
+  return list_parameters<LocalizeParams>(config, "localize");
 }
 
 }  // namespace docent

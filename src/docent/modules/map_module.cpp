@@ -220,4 +220,8 @@ Result<std::unique_ptr<Module>> make_map(const ModuleContext& context) {
   return std::make_unique<MapModule>(context, *params, std::move(outline));
 }
 
+Result<ParameterRows> parameters_of_map(const RobotConfig& config) {
+  return list_parameters<LiveMapParams>(config, "map");
+}
+
 }  // namespace docent

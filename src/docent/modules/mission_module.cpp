@@ -244,4 +244,8 @@ Result<std::unique_ptr<Module>> make_mission(const ModuleContext& context) {
   return std::make_unique<MissionModule>(context, *params, std::move(*store), std::move(*memory));
 }
 
+Result<ParameterRows> parameters_of_mission(const RobotConfig& config) {
+  return list_parameters<MissionParams>(config, "mission");
+}
+
 }  // namespace docent

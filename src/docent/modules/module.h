@@ -8,6 +8,7 @@
 
 #include "docent/base/result.h"
 #include "docent/museum/museum.h"
+#include "docent/robot/parameter_list.h"
 #include "docent/robot/robot_config.h"
 #include "docent/transport/bus.h"
 
@@ -44,5 +45,7 @@ class Module {
 
 /// Error: a fault of the configuration, with file and line. Every module NAME has `make_NAME` in NAME_module.h.
 using ModuleFactory = Result<std::unique_ptr<Module>> (*)(const ModuleContext& context);
+/// The keys of a module's section of robot.yaml with the values that hold; error: as above. `parameters_of_NAME`.
+using ModuleParameters = Result<ParameterRows> (*)(const RobotConfig& config);
 
 }  // namespace docent

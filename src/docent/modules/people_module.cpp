@@ -92,4 +92,8 @@ Result<std::unique_ptr<Module>> make_people(const ModuleContext& context) {
   return std::make_unique<PeopleModule>(context, *params);
 }
 
+Result<ParameterRows> parameters_of_people(const RobotConfig& config) {
+  return list_parameters<PeopleFinderParams>(config, "people");
+}
+
 }  // namespace docent

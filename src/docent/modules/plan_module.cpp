@@ -25,6 +25,7 @@ constexpr int kStepsAPath = 5;        ///< the page sees the path at 1 Hz
 constexpr double kLookAhead = 1.5;    ///< [m] along the way: where the head looks
 constexpr Duration kBeliefStaleAfter = std::chrono::seconds{3};
 
+/// Section `plan`: ways through the building.
 struct PlanParams {
   RouteParams route;
   PursuitParams pursuit;
@@ -379,6 +380,10 @@ Result<std::unique_ptr<Module>> make_plan(const ModuleContext& context) {
   if (!params) return tl::unexpected<Error>(params.error());
   params->route.robot_radius = context.config.body().radius;
   return std::make_unique<PlanModule>(context, *params);
+}
+
+Result<ParameterRows> parameters_of_plan(const RobotConfig& config) {
+  return list_parameters<PlanParams>(config, "plan");
 }
 
 }  // namespace docent

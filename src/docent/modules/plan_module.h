@@ -6,5 +6,6 @@ namespace docent {
 
 /// `plan`: value iteration to the goal over the live map; hands `avoid` via-points and says how it goes.
 [[nodiscard]] Result<std::unique_ptr<Module>> make_plan(const ModuleContext& context);
+[[nodiscard]] Result<ParameterRows> parameters_of_plan(const RobotConfig& config);
 
 }  // namespace docent

@@ -11,8 +11,9 @@ namespace {
 constexpr Duration kFlushPeriod = std::chrono::seconds{1};
 constexpr double kFaultShown = 5.0;  ///< [s] that a failed write shows in the health
 
+/// Section `record`: recordings of all topics.
 struct RecordParams {
-  bool enabled = true;
+  bool enabled = true;  ///< false: nothing is recorded
   RollingRecorderParams files;
   template <class V>
   void visit(V& v) {
@@ -81,6 +82,10 @@ Result<std::unique_ptr<Module>> make_record(const ModuleContext& context) {
   if (!params) return tl::unexpected<Error>(params.error());
   if (!params->enabled || context.virtual_time) return std::make_unique<NoRecording>();
   return std::make_unique<RecordModule>(context, *params);
+}
+
+Result<ParameterRows> parameters_of_record(const RobotConfig& config) {
+  return list_parameters<RecordParams>(config, "record");
 }
 
 }  // namespace docent

@@ -20,18 +20,18 @@ namespace {
 
 // clang-format off
 constexpr std::array kModules{
-    ModuleEntry{"avoid", make_avoid, true},
-    ModuleEntry{"hazards", make_hazards},
-    ModuleEntry{"localize", make_localize},
-    ModuleEntry{"map", make_map},
-    ModuleEntry{"people", make_people},
-    ModuleEntry{"plan", make_plan},
-    ModuleEntry{"record", make_record, false, true},
-    ModuleEntry{"robot", make_robot, true},
-    ModuleEntry{"sound", make_sound},
-    ModuleEntry{"mission", make_mission},
-    ModuleEntry{"executive", make_executive},
-    ModuleEntry{"web", make_web},
+    ModuleEntry{"avoid", make_avoid, parameters_of_avoid, true},
+    ModuleEntry{"hazards", make_hazards, parameters_of_hazards},
+    ModuleEntry{"localize", make_localize, parameters_of_localize},
+    ModuleEntry{"map", make_map, parameters_of_map},
+    ModuleEntry{"people", make_people, parameters_of_people},
+    ModuleEntry{"plan", make_plan, parameters_of_plan},
+    ModuleEntry{"record", make_record, parameters_of_record, false, true},
+    ModuleEntry{"robot", make_robot, parameters_of_robot, true},
+    ModuleEntry{"sound", make_sound, parameters_of_sound},
+    ModuleEntry{"mission", make_mission, parameters_of_mission},
+    ModuleEntry{"executive", make_executive, parameters_of_executive},
+    ModuleEntry{"web", make_web, parameters_of_web},
 };
 // clang-format on
 

@@ -10,6 +10,7 @@ namespace docent {
 struct ModuleEntry {
   const char* name;
   ModuleFactory make;
+  ModuleParameters parameters;
   bool is_urgent = false;   ///< runs at higher priority (architecture 10.15)
   bool sees_truth = false;  ///< record alone (architecture 10.1)
 };

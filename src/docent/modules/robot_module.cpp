@@ -9,6 +9,7 @@ namespace docent {
 
 namespace {
 
+/// Section `robot`: the base.
 struct RobotParams {
   double rate = 20.0;         ///< [Hz] of cmd_vel; what brakes goes out at once
   double battery_low = 0.15;  ///< share of the charge below which the module calls itself degraded
@@ -98,6 +99,10 @@ Result<std::unique_ptr<Module>> make_robot(const ModuleContext& context) {
   auto params = context.config.section<RobotParams>("robot");
   if (!params) return tl::unexpected<Error>(params.error());
   return std::make_unique<RobotModule>(context, *params);
+}
+
+Result<ParameterRows> parameters_of_robot(const RobotConfig& config) {
+  return list_parameters<RobotParams>(config, "robot");
 }
 
 }  // namespace docent

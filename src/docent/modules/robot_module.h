@@ -7,5 +7,6 @@ namespace docent {
 /// Between the base and everybody else: passes docent/drive on as cmd_vel at 20 Hz while it is fresh, zero otherwise
 /// (architecture 8.1, 10.7), and publishes the frames.
 [[nodiscard]] Result<std::unique_ptr<Module>> make_robot(const ModuleContext& context);
+[[nodiscard]] Result<ParameterRows> parameters_of_robot(const RobotConfig& config);
 
 }  // namespace docent

@@ -12,7 +12,7 @@ struct SonarLocalizeParams {
   SonarTrackerParams tracker;
   std::optional<double> start_x;        ///< [m], map; without: the museum's home
   std::optional<double> start_y;        ///< [m], map
-  std::optional<double> start_heading;  ///< [deg]
+  std::optional<double> start_heading;  ///< [deg] in the map; absent: unknown
   double start_position_error = 0.1;    ///< [m], > 0: standard deviation of the start
   double start_heading_error = 3.0;     ///< [deg], > 0
   template <class V>

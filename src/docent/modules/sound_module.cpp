@@ -16,6 +16,7 @@ namespace {
 constexpr Duration kPeriod = std::chrono::milliseconds{100};
 constexpr std::size_t kMostText = 20000;  ///< [bytes]
 
+/// Section `sound`: speech.
 struct SoundParams {
   std::string program = "espeak-ng";  ///< renders the speech; empty: the words alone
   double timeout_s = 15.0;            ///< [s] > 0 for one line
@@ -207,6 +208,10 @@ Result<std::unique_ptr<Module>> make_sound(const ModuleContext& context) {
   if (!params) return tl::unexpected<Error>(params.error());
   auto memory = load_speaker_checkpoint(context.state / "sound.json");
   return std::make_unique<SoundModule>(context, *params, memory.value_or(SpeakerMemory{}));
+}
+
+Result<ParameterRows> parameters_of_sound(const RobotConfig& config) {
+  return list_parameters<SoundParams>(config, "sound");
 }
 
 }  // namespace docent

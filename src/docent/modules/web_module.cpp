@@ -21,6 +21,7 @@
 namespace docent {
 namespace {
 
+/// Section `web`: the page and its server.
 struct WebParams : WebServerParams {
   std::string root;             ///< folder of the built page; empty: beside the program, else beside the sources
   double live_hz = 10.0;        ///< of what moves
@@ -356,5 +357,7 @@ class WebModule final : public Module {
 }  // namespace
 
 Result<std::unique_ptr<Module>> make_web(const ModuleContext& context) { return WebModule::make(context); }
+
+Result<ParameterRows> parameters_of_web(const RobotConfig& config) { return list_parameters<WebParams>(config, "web"); }
 
 }  // namespace docent

@@ -11,6 +11,7 @@
 
 namespace docent {
 
+/// Who stands together.
 struct GroupParams {
   double distance = 1.3;  ///< [m], > 0: who belongs together keeps so near
   double speed = 0.4;     ///< [m/s], > 0: and goes as fast, in the same direction

@@ -14,6 +14,7 @@
 
 namespace docent {
 
+/// Section `people`: who stands and walks round the robot.
 struct PeopleFinderParams {
   SightingParams sightings;
   PeopleTrackerParams tracker;

@@ -11,6 +11,7 @@
 
 namespace docent {
 
+/// How somebody is followed from scan to scan.
 struct PeopleTrackerParams {
   double gate = 0.8;              ///< [m], > 0: a sighting farther from where a person was expected is somebody else
   double acceleration = 1.0;      ///< [m/s2], > 0: how people change their pace (standard deviation)
@@ -19,7 +20,7 @@ struct PeopleTrackerParams {
   double patience = 0.5;          ///< [s] not seen where they should be seen, then forgotten
   double patience_unclear = 1.2;  ///< [s] the same where the beams do not tell
   double patience_hidden = 2.0;   ///< [s] hidden behind others
-  double fastest = 2.5;           ///< [m/s]
+  double fastest = 2.5;           ///< [m/s] that a person can move
   double step = 0.45;             ///< [m] away from where they were first seen: moves, and is no thing
   template <class V>
   void visit(V& v) {

@@ -10,6 +10,7 @@
 
 namespace docent {
 
+/// What in a scan is taken for somebody.
 struct SightingParams {
   double range = 6.0;        ///< [m], > 0: people are looked for so far away
   int least_points = 2;      ///< beams on a person, at least

@@ -9,6 +9,7 @@
 
 namespace docent {
 
+/// What stands and is nobody.
 struct StandingThingParams {
   double person_stands = 40.0;  ///< [s], > 0: how long visitors stand without a step, mean of an exponential
   double person_odds = 10.0;    ///< > 1: of a person to a person-shaped thing where neither map nor motion tell

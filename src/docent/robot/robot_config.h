@@ -14,9 +14,9 @@ namespace docent {
 
 /// A sensor's place on the robot, robot frame.
 struct Mount {
-  std::string frame;
-  double x = 0.0, y = 0.0;  ///< [m]
-  double heading = 0.0;     ///< [deg]
+  std::string frame;        ///< header.frame_id of its messages
+  double x = 0.0, y = 0.0;  ///< [m] of the sensor, x ahead, y to the left
+  double heading = 0.0;     ///< [deg] of the middle of its field, counter-clockwise
   template <class V>
   void visit(V& v) {
     v("frame", frame);
@@ -32,11 +32,11 @@ struct RobotBody {
   double radius = 0.265;                     ///< [m], the body is a disc,
   std::vector<std::vector<double>> outline;  ///< [m] or this convex polygon [[x, y], …], robot frame; then `radius`
                                              ///< holds it: plans and steering take that
-  double max_speed = 1.63;                   ///< [m/s]
-  double max_turn_rate = 1.2;                ///< [rad/s]
-  double acceleration = 0.5;                 ///< [m/s2]
-  double deceleration = 1.0;                 ///< [m/s2]
-  double turn_acceleration = 1.5;            ///< [rad/s2]
+  double max_speed = 1.63;                   ///< [m/s] that the base can do; museums limit it further
+  double max_turn_rate = 1.2;                ///< [rad/s] that the base can do
+  double acceleration = 0.5;                 ///< [m/s2] of the base when it speeds up
+  double deceleration = 1.0;                 ///< [m/s2] of the base when it brakes; safety counts on it
+  double turn_acceleration = 1.5;            ///< [rad/s2] of the base when it begins or ends a turn
   double latency = 0.15;                     ///< [s] from a command to the wheels
   double watchdog = 0.3;                     ///< [s] without a command, then the base stops
   Mount scan_front{"laser_front", 0.0, 0.0, 0.0};

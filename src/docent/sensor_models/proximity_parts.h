@@ -10,16 +10,16 @@ namespace docent {
 /// How a range finder errs, [Markov1998] 3.2 and [Rhino1999] 3.1.2: a mixture of a Gaussian about the expected range, a
 /// geometric density of unmapped things in front of it, a Dirac where nothing came back, and a uniform rest.
 struct ProximityModelParams {
-  double max_range = 10.0;        ///< [m], > 0; beyond it every range is "no return"
-  double sigma = 0.13;            ///< [m], > 0: the sensor's noise, widened by the size of a belief cell
-  double sigma_per_metre = 0.03;  ///< [m/m], >= 0: the heading's step seen from afar
-  double short_per_metre = 0.2;   ///< [1/m], > 0: rate of the geometric density
-  double weight_hit = 0.35;       ///< >= 0; the weights are normalised
-  double weight_near = 0.30;      ///< of a Laplace density about the expected range: the map's small faults
-  double near_factor = 3.0;       ///< > 0: its scale, as a multiple of the Gaussian's deviation
-  double weight_short = 0.30;
-  double weight_no_return = 0.03;
-  double weight_random = 0.05;  ///< > 0
+  double max_range = 10.0;         ///< [m], > 0; beyond it every range is "no return"
+  double sigma = 0.13;             ///< [m], > 0: the sensor's noise, widened by the size of a belief cell
+  double sigma_per_metre = 0.03;   ///< [m/m], >= 0: the heading's step seen from afar
+  double short_per_metre = 0.2;    ///< [1/m], > 0: rate of the geometric density
+  double weight_hit = 0.35;        ///< >= 0; the weights are normalised
+  double weight_near = 0.30;       ///< of a Laplace density about the expected range: the map's small faults
+  double near_factor = 3.0;        ///< > 0: its scale, as a multiple of the Gaussian's deviation
+  double weight_short = 0.30;      ///< >= 0, of the geometric density
+  double weight_no_return = 0.03;  ///< >= 0, of no return
+  double weight_random = 0.05;     ///< > 0
   template <class V>
   void visit(V& v) {
     v("max_range", max_range);

@@ -14,16 +14,16 @@
 namespace docent {
 
 struct WebServerParams {
-  std::string address = "127.0.0.1";
-  int port = 8080;                   ///< 0: any free one, see WebServer::port
-  int max_connections = 12000;       ///< all kinds together
-  int max_viewers = 10000;           ///< on the live channel
-  double messages_per_second = 2.0;  ///< of one viewer, sustained
-  double message_burst = 20.0;       ///< of one viewer
-  int max_message_bytes = 4096;      ///< a longer one ends the connection
-  int send_buffer_bytes = 65536;     ///< of the kernel, for one connection: small, so that old values do not pile up
-  double idle_timeout_s = 30.0;      ///< a viewer who answers no ping for so long is gone
-  std::vector<std::string> origins;  ///< hosts besides the server's own whose pages may open the live channel
+  std::string address = "127.0.0.1";  ///< that the server listens at; 0.0.0.0: all of this computer
+  int port = 8080;                    ///< 0: any free one, see WebServer::port
+  int max_connections = 12000;        ///< all kinds together
+  int max_viewers = 10000;            ///< on the live channel
+  double messages_per_second = 2.0;   ///< of one viewer, sustained
+  double message_burst = 20.0;        ///< of one viewer
+  int max_message_bytes = 4096;       ///< a longer one ends the connection
+  int send_buffer_bytes = 65536;      ///< of the kernel, for one connection: small, so that old values do not pile up
+  double idle_timeout_s = 30.0;       ///< a viewer who answers no ping for so long is gone
+  std::vector<std::string> origins;   ///< hosts besides the server's own whose pages may open the live channel
   template <class V>
   void visit(V& v) {
     v("address", address);

@@ -11,8 +11,9 @@
 
 namespace docent {
 
+/// Where inside the best mode the robot is, finer than cells.
 struct PoseRefinerParams {
-  bool enabled = true;
+  bool enabled = true;            ///< false: the mean of the mode is taken
   double gate = 0.25;             ///< [m], > 0: readings farther from the wall they should meet are of something else;
                                   ///< at first as far as the pose may be off
   double beam_sigma = 0.05;       ///< [m], > 0: sensor and map together

@@ -8,6 +8,7 @@
 
 namespace docent {
 
+/// When the robot says "here", and how likely it is lost.
 struct VerdictParams {
   double enough_mass = 0.995;       ///< of the best mode, to say "here"
   double too_little_mass = 0.6;     ///< to take it back, or

@@ -9,6 +9,7 @@
 
 namespace docent {
 
+/// The cells of the belief.
 struct StateSpaceParams {
   double cell_size = 0.15;      ///< [m], > 0
   double heading_step = 2.0;    ///< [deg], a divisor of 360

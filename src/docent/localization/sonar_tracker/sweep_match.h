@@ -8,6 +8,7 @@
 
 namespace docent {
 
+/// How echoes are matched with the map of echoes.
 struct SweepMatchParams {
   double half_cone = 10.0;   ///< [deg], > 0 and < 45: within it a surface is heard
   double max_range = 4.0;    ///< [m], > 0: longer echoes are not used

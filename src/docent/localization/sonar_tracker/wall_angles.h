@@ -8,6 +8,7 @@
 
 namespace docent {
 
+/// The directions of walls from echoes.
 struct WallAngleParams {
   double length = 1.0;      ///< [m], > 0.2: way that a run of echoes must span
   int echoes = 5;           ///< >= 3, of a run

@@ -15,6 +15,7 @@
 
 namespace docent {
 
+/// Section `map`: what stands in the hall now and not on the map.
 struct LiveMapParams {
   int coarsening = 3;           ///< live cell = so many cells of the static map
   double reach = 6.0;           ///< [m], farther endpoints are not believed

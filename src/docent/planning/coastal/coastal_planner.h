@@ -11,6 +11,7 @@
 
 namespace docent {
 
+/// Ways that keep near what the lasers can see.
 struct CoastalParams {
   /// [1/nat], >= 0, the trade-off: a metre driven with an entropy of u nats above the best costs 1 + weight * u metres.
   /// 0: the shortest way.

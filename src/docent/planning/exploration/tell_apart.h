@@ -11,10 +11,11 @@
 
 namespace docent {
 
+/// Where to drive while lost, to tell hypotheses apart.
 struct TellApartParams {
   double least_mass = 0.6;   ///< of the hypotheses together: with less nobody knows what there is to tell apart
   double least_gain = 0.1;   ///< [nat] that makes a drive worthwhile
-  double way_cost = 0.02;    ///< [nat/m]
+  double way_cost = 0.02;    ///< [nat/m] that a place must tell more for every metre of way
   double longest_way = 4.0;  ///< [m] at a time
   double keep_off = 0.7;     ///< [m] left free at the end of the way
   template <class V>

@@ -11,6 +11,7 @@
 
 namespace docent {
 
+/// When a blocked way is left for another one.
 struct DetourParams {
   double corridor = 0.7;     ///< [m] > 0: a way that stays so near to the meant one is the same
   double back_within = 6.0;  ///< [m] > 0 of way: a local detour is back on the meant one by then

@@ -12,6 +12,7 @@
 
 namespace docent {
 
+/// How a way is followed, and when it counts as blocked.
 struct PursuitParams {
   double horizon = 5.0;        ///< [m] of the way handed on as via-points
   double progress = 0.3;       ///< [m] of remaining way that count as progress

@@ -12,9 +12,10 @@
 
 namespace docent {
 
+/// What makes floor dear or closed to a way.
 struct RouteParams {
   int coarsening = 3;             ///< planning cell = so many map cells
-  double robot_radius = 0.265;    ///< [m]
+  double robot_radius = 0.265;    ///< [m] set to body.radius
   double wall_margin = 0.10;      ///< [m] kept from what the map shows, beyond the radius
   double hazard_margin = 0.20;    ///< [m] kept from hazards and the area's border, beyond the radius
   double comfort = 0.8;           ///< [m] beyond which clearance costs nothing

@@ -5,6 +5,7 @@
 
 #include "docent/base/files.h"
 #include "docent/grid/occupancy_grid.h"
+#include "docent/simulator/museum_folder/made_files.h"
 #include "docent/simulator/pedestrians/tracks_file.h"
 
 namespace docent::simulator {
@@ -44,22 +45,42 @@ std::string quoted(const std::string& text) {
   return result + "\"";
 }
 
+/// "{en: "…", de: "…"}"; where nothing is said, `otherwise` in each language.
+std::string in_languages(const std::vector<std::string>& languages, const std::map<std::string, std::string>& said,
+                         const std::string& otherwise) {
+  std::string text = "{";
+  for (const std::string& language : languages) {
+    const auto found = said.find(language);
+    text += (text.size() > 1 ? ", " : "") + language + ": " + quoted(found == said.end() ? otherwise : found->second);
+  }
+  return text + "}";
+}
+
+std::string content_file(const Stop& stop, const std::string& language) {
+  return "content/" + stop.id + ".short." + language + ".md";
+}
+
 std::string museum_yaml(const MuseumPlan& plan, const Survey& survey) {
   std::string text = "# " + plan.made_of + "; metres and degrees in the map's frame.\n";
-  text += "name: {en: " + quoted(plan.title) + "}\nlanguages: [en]\nmap: map.yaml\n";
+  text += "name: " + in_languages(plan.languages, {}, plan.title) + "\nlanguages: " + list(plan.languages) +
+          "\nmap: map.yaml\n";
   text += "area: " + corners(plan.world.operating_area) + "\n";
   text += survey.hazards.empty() ? "hazards: []\n" : to_yaml(survey.hazards);
   text += "home: " + pose(plan.home) + "\n";
   if (plan.charger) text += "charger: " + pose(*plan.charger) + "\n";
   text += "exhibits:\n";
   for (const Stop& stop : plan.stops) {
-    text += "  - id: " + stop.id + "\n    title: {en: \"" + stop.id + "\"}\n    pose: " + pose(stop.pose) +
-            "\n    look_at: " + point(stop.look_at) + "\n    short: {en: content/" + stop.id + ".short.en.md}\n" +
-            "    topics: [" + plan.topic + "]\n";
+    std::string files;
+    for (const std::string& language : plan.languages)
+      files += (files.empty() ? "" : ", ") + language + ": " + content_file(stop, language);
+    text += "  - id: " + stop.id + "\n    title: " + in_languages(plan.languages, stop.title, stop.id) +
+            "\n    pose: " + pose(stop.pose) + "\n    look_at: " + point(stop.look_at) + "\n    short: {" + files +
+            "}\n    topics: [" + plan.topic + "]\n";
   }
   std::vector<std::string> ids;
   for (const Stop& stop : plan.stops) ids.push_back(stop.id);
-  text += "tours:\n  - {id: round, title: {en: \"Round the floor\"}, exhibits: " + list(ids) + "}\n";
+  text += "tours:\n  - {id: round, title: " + in_languages(plan.languages, {}, "Round the floor") +
+          ", exhibits: " + list(ids) + "}\n";
   return text + "simulation: simulation.yaml\n";
 }
 
@@ -85,22 +106,31 @@ std::string to_yaml(const World& world) {
 }
 
 Result<void> write_museum(const MuseumPlan& plan, const Survey& survey, const std::filesystem::path& folder) {
+  std::map<std::string, std::string> texts;
+  for (const Stop& stop : plan.stops) {
+    for (const std::string& language : plan.languages) {
+      const auto found = stop.text.find(language);
+      texts[content_file(stop, language)] =
+          found == stop.text.end() ? "This is " + stop.id + " of the building.\n" : found->second + "\n";
+    }
+  }
+  if (!plan.world.pedestrians_file.empty()) texts[plan.world.pedestrians_file] = to_text(plan.world.pedestrians);
+  texts["simulation.yaml"] = to_yaml(plan.world);
+  texts["museum.yaml"] = museum_yaml(plan, survey);
+  std::vector<std::string> names{"map.yaml", "map.pgm"};
+  for (const auto& [name, text] : texts) names.push_back(name);
+
+  const auto made = MadeFiles::in(folder);
+  if (!made) return tl::unexpected<Error>(made.error());
+  if (auto checked = made->check(names); !checked) return checked;
   std::error_code code;
   std::filesystem::create_directories(folder / "content", code);
   if (code) return fail(folder.string() + ": cannot be made: " + code.message());
   if (auto saved = save_map(survey.map, folder / "map"); !saved) return saved;
-  for (const Stop& stop : plan.stops) {
-    auto written = write_file_atomically(folder / "content" / (stop.id + ".short.en.md"),
-                                         "This is " + stop.id + " of the building.\n");
-    if (!written) return written;
+  for (const auto& [name, text] : texts) {
+    if (auto written = write_file_atomically(folder / name, text); !written) return written;
   }
-  if (!plan.world.pedestrians_file.empty()) {
-    const auto path = folder / plan.world.pedestrians_file;
-    auto written = write_file_atomically(path, to_text(plan.world.pedestrians));
-    if (!written) return written;
-  }
-  if (auto written = write_file_atomically(folder / "simulation.yaml", to_yaml(plan.world)); !written) return written;
-  return write_file_atomically(folder / "museum.yaml", museum_yaml(plan, survey));
+  return made->note(names);
 }
 
 }  // namespace docent::simulator

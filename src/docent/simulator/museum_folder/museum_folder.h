@@ -6,22 +6,17 @@
 #include <vector>
 
 #include "docent/base/result.h"
+#include "docent/simulator/museum_folder/places.h"
 #include "docent/simulator/world/survey.h"
 
 namespace docent::simulator {
 
-/// A place where a robot may stop, and what it shows there.
-struct Stop {
-  std::string id;
-  Pose2 pose;      ///< world_from_base, facing what it shows
-  Point2 look_at;  ///< [m], world
-};
-
 /// A museum before it is a folder: the true world, and what its staff would write down of it.
 struct MuseumPlan {
-  std::string title;        ///< for people
-  std::string made_of;      ///< first line of museum.yaml: where it comes from
-  std::string topic;        ///< of every stop
+  std::string title;    ///< for people
+  std::string made_of;  ///< first line of museum.yaml: where it comes from
+  std::string topic;    ///< of every stop
+  std::vector<std::string> languages{"en"};
   World world;              ///< its exhibits are the stops, its tour is "round"
   std::vector<Stop> stops;  ///< at least two
   Pose2 home;               ///< world_from_base
@@ -32,7 +27,7 @@ struct MuseumPlan {
 [[nodiscard]] std::string to_yaml(const World& world);
 
 /// Writes a museum folder (architecture 5): the true world with its recorded people, and what a survey of it tells the
-/// robot. Error: a file that cannot be written.
+/// robot. Error: a file that cannot be written, or that somebody wrote or edited by hand (MadeFiles).
 [[nodiscard]] Result<void> write_museum(const MuseumPlan& plan, const Survey& survey,
                                         const std::filesystem::path& folder);
 

@@ -317,7 +317,7 @@ class Architect {
       const std::string id = "stop-" + std::to_string(office_.stops.size() + 1);
       const Pose2 pose = world_from_building_ * Pose2{at.x, at.y, Angle::degrees(90.0)};
       const Point2 look_at = world_from_building_ * Point2{at.x, corridor.y1};
-      office_.stops.push_back({id, pose, look_at});
+      office_.stops.push_back({id, pose, look_at, {}, {}});
       world.exhibits.push_back(id);
       world.attractions.push_back({id, look_at, 1.0, 1.0});
     };

@@ -77,8 +77,8 @@ std::vector<Polygon> walls_round(const Polygon& outline) {
 /// Chooses what stands where.
 class Curator {
  public:
-  Curator(FloorPlan floor_plan, std::uint64_t seed)
-      : traced_{std::move(floor_plan)}, rng_{Rng{seed}.stream("curator")} {}
+  Curator(FloorPlan floor_plan, const std::optional<Places>& places, std::uint64_t seed)
+      : traced_{std::move(floor_plan)}, places_{places}, rng_{Rng{seed}.stream("curator")} {}
 
   Result<TracedMuseum> make(std::span<const Recording> recordings) {
     World& world = plan_.world;
@@ -128,7 +128,7 @@ class Curator {
       if (area > kLargestCase) continue;
       if (is_walked_on(island, plan_.world.pedestrians)) {
         ++museum_.carried_away;
-      } else if (area > 0.2 && rng.chance(0.2)) {
+      } else if (!places_ && area > 0.2 && rng.chance(0.2)) {
         add_glass_case(island);
       } else {
         const bool is_movable = area > 0.05 && area < kLargestMovable && rng.chance(0.5);
@@ -152,6 +152,13 @@ class Curator {
     return best;
   }
 
+  void put_hazards() {
+    for (const Solid& hazard : places_->hazards) {
+      plan_.world.solids.push_back(hazard);
+      if (hazard.kind == SolidKind::stairs) stairs_.push_back(grown_box(hazard.polygon, kOffStairs));
+    }
+  }
+
   void furnish() {
     const WalkableFloor floor{plan_.world};
     WallSpots spots{traced_.floor, floor, rng_.stream("spots")};
@@ -159,13 +166,17 @@ class Curator {
       const auto is_free = [&](const Polygon& box) { return !is_walked_on(box, plan_.world.pedestrians); };
       if (const auto box = spots.place(width, depth, 4.0, is_free)) use(*box);
     };
-    put(2.0, 1.4, [&](const Polygon& box) {
-      plan_.world.solids.push_back({"stairs", SolidKind::stairs, box, 0.0, 0.0, false});
-      stairs_.push_back(grown_box(box, kOffStairs));
-    });
-    for (int i = 0; i < 2; ++i) {
-      put(1.6, 0.7, [&](const Polygon& box) { add_glass_case(box); });
-      put(1.2, 0.6, [&](const Polygon& box) { add("plate", SolidKind::plate, box, 0.02); });
+    if (places_) {
+      put_hazards();
+    } else {
+      put(2.0, 1.4, [&](const Polygon& box) {
+        plan_.world.solids.push_back({"stairs", SolidKind::stairs, box, 0.0, 0.0, false});
+        stairs_.push_back(grown_box(box, kOffStairs));
+      });
+      for (int i = 0; i < 2; ++i) {
+        put(1.6, 0.7, [&](const Polygon& box) { add_glass_case(box); });
+        put(1.2, 0.6, [&](const Polygon& box) { add("plate", SolidKind::plate, box, 0.02); });
+      }
     }
     for (int i = 0; i < 4; ++i) {
       put(1.4, 0.45, [&](const Polygon& box) { add("bench", SolidKind::furniture, box, 0.45, true); });
@@ -260,15 +271,21 @@ class Curator {
       const double away = distance(p.point, *second);
       return p.has_room && away > 2.0 ? std::min(p.clearance, 1.4) / (1.0 + 0.05 * away) : 0.0;
     });
-    if (!home) return false;
-    plan_.home = {home->x, home->y, direction(*home, *first)};
-    world.home = *home;
+    if (!home && !(places_ && places_->home)) return false;
+    plan_.home = places_ && places_->home ? *places_->home : Pose2{home->x, home->y, direction(*home, *first)};
+    world.home = plan_.home.position();
     const auto charger = best_place(places, [&](const Place& p) {
-      const double away = distance(p.point, *home);
+      const double away = distance(p.point, world.home);
       return is_beside(p) && away > 1.5 ? 1.0 / away : 0.0;
     });
     if (charger) plan_.charger = Pose2{charger->x, charger->y, direction(nearest_thing(*charger), *charger)};
-    choose_stops(places);
+    if (places_) {
+      if (places_->charger) plan_.charger = places_->charger;
+      plan_.languages = places_->languages;
+      for (const Stop& stop : places_->stops) show(stop);
+    } else {
+      choose_stops(places);
+    }
     return plan_.stops.size() >= 2;
   }
 
@@ -293,7 +310,6 @@ class Curator {
 
   /// One after the other, each as far as can be from home and from those before.
   void choose_stops(const std::vector<Place>& places) {
-    World& world = plan_.world;
     const double square_metres = static_cast<double>(places.size()) * kCell * kCell;
     const auto wanted = static_cast<std::size_t>(std::clamp(square_metres / 40.0, 3.0, 16.0));
     std::vector<Point2> chosen{plan_.home.position()};
@@ -308,13 +324,18 @@ class Curator {
       chosen.push_back(*place);
       const Point2 thing = nearest_thing(*place);
       const std::string id = "exhibit-" + std::to_string(plan_.stops.size() + 1);
-      plan_.stops.push_back({id, {place->x, place->y, direction(*place, thing)}, thing});
-      world.exhibits.push_back(id);
-      world.attractions.push_back({id, thing, 1.5, 1.0});
+      show({id, {place->x, place->y, direction(*place, thing)}, thing, {}, {}});
     }
   }
 
+  void show(const Stop& stop) {
+    plan_.stops.push_back(stop);
+    plan_.world.exhibits.push_back(stop.id);
+    plan_.world.attractions.push_back({stop.id, stop.look_at, 1.5, 1.0});
+  }
+
   FloorPlan traced_;
+  const std::optional<Places>& places_;
   Rng rng_;
   TracedMuseum museum_;
   MuseumPlan& plan_{museum_.plan};
@@ -325,10 +346,10 @@ class Curator {
 }  // namespace
 
 Result<TracedMuseum> trace_museum(const OccupancyGrid& map, std::span<const Recording> recordings,
-                                  const std::string& title, std::uint64_t seed) {
+                                  const std::string& title, std::uint64_t seed, const std::optional<Places>& places) {
   auto floor_plan = trace_floor(map, {});
   if (!floor_plan) return tl::unexpected<Error>(floor_plan.error());
-  auto museum = Curator{std::move(*floor_plan), seed}.make(recordings);
+  auto museum = Curator{std::move(*floor_plan), places, seed}.make(recordings);
   if (!museum) return museum;
   MuseumPlan& plan = museum->plan;
   plan.title = title;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "docent/base/result.h"
 #include "docent/grid/occupancy_grid.h"
 #include "docent/simulator/museum_folder/museum_folder.h"
+#include "docent/simulator/museum_folder/places.h"
 #include "docent/simulator/traced/pedestrian_fit.h"
 
 namespace docent::simulator {
@@ -25,7 +27,10 @@ struct TracedMuseum {
 ///
 /// Recordings are fitted between the building's fixed parts; what is small and stands where their people walk is
 /// carried away, and nothing is put there. Error: no room for a museum.
+/// @param places  what somebody says of the building instead: its stops and hazards are these, home and charger too
+///                where they are said
 [[nodiscard]] Result<TracedMuseum> trace_museum(const OccupancyGrid& map, std::span<const Recording> recordings,
-                                                const std::string& title, std::uint64_t seed);
+                                                const std::string& title, std::uint64_t seed,
+                                                const std::optional<Places>& places = std::nullopt);
 
 }  // namespace docent::simulator
