@@ -94,7 +94,9 @@ void ConeLayer::clear(const ConeReading& reading, Time now) {
     for (int column = std::max(0, box->low.column); column <= std::min(frame_.columns - 1, box->high.column);
          ++column) {
       const Point2 at = sensor_from_map * frame_.centre({column, row});
-      if (at.x <= 0.0 || std::abs(at.y) > slope * at.x || dot(at, at) > farthest * farthest) continue;
+      // A cell that the cone's edge cuts, too: between the cones of a ring, which begin apart, nothing is left out.
+      const double beside = slope * at.x + 0.5 * frame_.resolution;
+      if (at.x <= 0.0 || std::abs(at.y) > beside || dot(at, at) > farthest * farthest) continue;
       const std::size_t i = frame_.index({column, row});
       change({column, row}, static_cast<double>(evidence_[i]) - params_.pass, false, now);
     }
