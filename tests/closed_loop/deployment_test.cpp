@@ -59,7 +59,7 @@ TEST(Deployment, KilledModulesComeBackAndTheTourGoesOn) {
   EXPECT_GE(report.at("exhibits_explained").get<int>(), 2);
 }
 
-/// Two minutes in the empty Bonn with a stool in the way to the heart-lung machine, to which another way leads.
+/// Some minutes in the empty Bonn with a stool in the way to the heart-lung machine, to which another way leads.
 struct StoolRun {
   nlohmann::ordered_json report;
   int asked = 0;  ///< how often it asked to be let through
@@ -71,7 +71,7 @@ StoolRun run_with_stool(const std::string& scenario, std::uint64_t seed) {
   options.start = Pose2{7.0, 2.05, Angle::degrees(90.0)};
   options.scenario = std::string{DOCENT_SOURCES} + "/tests/closed_loop/" + scenario;
   options.event_log = testing::TempDir() + "stool_" + std::to_string(seed) + ".csv";
-  StoolRun result{report_of(options, 2.0)};
+  StoolRun result{report_of(options, 2.4)};
   std::ifstream log{options.event_log};
   EXPECT_TRUE(log.is_open());
   for (std::string line; std::getline(log, line);)
