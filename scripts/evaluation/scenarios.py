@@ -89,6 +89,9 @@ SCENARIOS = {
     "stool": Scenario(4, [
         Duty("at the globe, after the request", 100, lambda run: after(run.arrived("globe"), REQUEST)),
     ], BLIND_TO_ALL),
+    "low-stool": Scenario(4, [
+        Duty("at the globe, after the request", 100, lambda run: after(run.arrived("globe"), REQUEST)),
+    ]),
     "closed-passage": Scenario(17, [
         Duty("asks, after the way was blocked", 25, lambda run: after(run.first("reaction", "ask", REQUEST), run.blocked())),
         Duty("gives up for now, after the way was blocked", 130,

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "docent/apps/simulation_run.h"
@@ -115,6 +116,49 @@ TEST(Deployment, KilledModulesComeBackAndTheTourGoesOn) {
             0);
   EXPECT_EQ(report.at("area_violations").get<int>(), 0);
   EXPECT_GE(report.at("exhibits_explained").get<int>(), 2);
+}
+
+/// Some minutes in the empty Bonn with a stool in the way to the heart-lung machine, to which another way leads.
+struct StoolRun {
+  nlohmann::ordered_json report;
+  int asked = 0;  ///< how often it asked to be let through
+};
+StoolRun run_with_stool(const std::string& scenario, std::uint64_t seed) {
+  SimulationRunOptions options = busy_bonn(seed);
+  options.crowd = "empty";
+  options.requests_per_hour = 0.0;
+  options.start = Pose2{7.0, 2.05, Angle::degrees(90.0)};
+  options.scenario = std::string{DOCENT_SOURCES} + "/tests/closed_loop/" + scenario;
+  options.event_log = testing::TempDir() + "stool_" + std::to_string(seed) + ".csv";
+  StoolRun result{report_of(options, 2.4)};
+  std::ifstream log{options.event_log};
+  EXPECT_TRUE(log.is_open());
+  for (std::string line; std::getline(log, line);)
+    result.asked += line.find(",asked_for_way,") != std::string::npos ? 1 : 0;
+  return result;
+}
+
+TEST(Deployment, TakesAnotherWayRoundWhatLiesBelowTheLasers) {
+  for (const std::uint64_t seed : {3U, 4U}) {
+    SCOPED_TRACE(seed);
+    const StoolRun run = run_with_stool("stool_below_the_lasers.yaml", seed);
+    EXPECT_EQ(run.report.at("exhibits_explained").get<int>(), 1);
+    EXPECT_EQ(run.report.at("contacts").at("furniture").get<int>(), 0);
+    EXPECT_LT(run.report.at("blocked").at("seconds").get<double>(), 15.0);
+    EXPECT_EQ(run.asked, 0) << "nobody speaks to furniture";
+  }
+}
+
+TEST(Deployment, RemembersWhatOnlyTouchFinds) {
+  for (const std::uint64_t seed : {3U, 4U}) {
+    SCOPED_TRACE(seed);
+    const StoolRun run = run_with_stool("stool_below_all_sensors.yaml", seed);
+    EXPECT_EQ(run.report.at("exhibits_explained").get<int>(), 1);
+    const int touched = run.report.at("contacts").at("furniture").get<int>();
+    EXPECT_GE(touched, 1) << "else the stool is not in the way";
+    EXPECT_LE(touched, 2);
+    EXPECT_EQ(run.asked, 0) << "nobody speaks to furniture";
+  }
 }
 
 }  // namespace

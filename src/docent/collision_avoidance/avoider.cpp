@@ -24,6 +24,9 @@ constexpr double kCameraPatience = 1.5;   // [s]
 constexpr double kStandsTouched = 1.0;    // [s] after a touch
 constexpr double kFlinches = 0.4;         // [s] then it may leave who touched it: away from them, nobody minds
 constexpr double kElsewhere = 0.8;        // [rad] from the touch before: another one
+constexpr double kNearThing = 1.0;        // [m] from the body to where a thing touched it that no sensor sees: it is
+constexpr double kDent = 0.03;            // [m] into the body: what touches it there is pressed, deeper it is not there
+constexpr double kFeelsItsWay = 0.15;     // [m/s] larger than the place, and only another touch tells how much
 constexpr double kBegins = 0.04;          // [m] of a way; one that is shorter is none
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -110,6 +113,7 @@ void Avoider::add_tactile(Time now, Time stamp, std::span<const std::uint8_t> se
   tactile_watch_.feel(now, stamp, segments, scan);
   if (odometry_.empty()) return;
   const Time taken = local_time_.receive("tactile", now, stamp);
+  memory_.stand(odometry_.pose_at(taken).position(), limits_.inradius() - kDent);
   const double step = 2.0 * std::numbers::pi / static_cast<double>(segments.size());
   for (std::size_t i = 0; i < segments.size(); ++i) {
     if (segments[i] == 0 || segments[i] == TactileWatch::kNoReading) continue;
@@ -253,6 +257,7 @@ std::vector<Obstacle> Avoider::obstacles_from(const Pose2& odom_from_base, Time 
       }
       result.push_back({at, turned(point.velocity), params_.window.real_margin, person, false});
       result.back().may_step = may_step && away < steps_in;
+      result.back().is_low = point.low;
     }
     for (const double bearing : memory_.blind_directions()) {
       // Nobody knows what is there: as if something were just within the margin, wherever the robot is.
@@ -475,6 +480,7 @@ void Avoider::judge_blocking(Time now, Point2 carrot, const Pose2& odom_from_bas
   const Point2 in_odom = odom_from_base * blocker->at;
   decision.unmapped_obstacle = judged ? near_unmapped_->is_near(in_odom) : blocker->person;
   if (decision.unmapped_obstacle) decision.reason = "somebody is in the way";
+  decision.low_obstacle = blocker->is_low && !decision.unmapped_obstacle;
 }
 
 AvoiderDecision Avoider::finish(Time now, AvoiderDecision decision) {
@@ -539,6 +545,11 @@ AvoiderDecision Avoider::decide(Time now) {
       cap_speed(std::max(0.08, std::sqrt(2.0 * params_.arrival_deceleration * rest)), "", decision);
     }
     cap_by_knowledge(now, decision);
+    for (const Point2& thing : memory_.touched_things(now)) {
+      if (limits_.gap_to(inverse(start.odom_from_base) * thing) >= kNearThing) continue;
+      cap_speed(kFeelsItsWay, "something that only touch finds is near", decision);
+      decision.low_obstacle = true;
+    }
     steering = steering_for(ahead, start.odom_from_base, obstacles, decision);
     // Sharp turns slowly, and on the spot when the way lies behind.
     const double turn = std::abs(steering.bearing);

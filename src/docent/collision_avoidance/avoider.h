@@ -88,6 +88,7 @@ struct AvoiderDecision {
   double speed_cap = 0.0;  ///< [m/s]
   bool path_blocked = false;
   bool unmapped_obstacle = false;
+  bool low_obstacle = false;     ///< what blocks the path, or has touched it here, is a thing below the lasers
   double nearest_real = 0.0;     ///< [m] from the outline
   double nearest_virtual = 0.0;  ///< [m] likewise of hazards; from the centre of the area's border
   std::vector<EvaluatedVelocity> window;

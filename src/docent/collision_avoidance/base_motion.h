@@ -33,6 +33,8 @@ struct BaseLimits {
   [[nodiscard]] Point2 edge(Angle bearing, double beyond = 0.0) const {
     return ((outline.empty() ? radius : outline.radius_at(bearing)) + beyond) * unit(bearing);
   }
+  /// [m] of the largest disc round the centre that the body covers.
+  [[nodiscard]] double inradius() const { return outline.empty() ? radius : norm(outline.nearest({})); }
   /// Distance [m] from the body to a point, base frame. Inside it is negative for a disc, else 0.
   [[nodiscard]] double gap_to(Point2 in_base) const {
     return outline.empty() ? norm(in_base) - radius : outline.distance_to(in_base);

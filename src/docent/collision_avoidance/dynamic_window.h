@@ -62,6 +62,7 @@ struct Obstacle {
   bool is_virtual = false;
   bool is_border = false;   ///< of the area: the robot's body may reach over it, its centre may not
   bool is_unknown = false;  ///< nothing has seen what is there
+  bool is_low = false;      ///< met below the lasers, which see nobody there: a thing
   bool may_step = false;  ///< may be somebody, also half hidden in a throng, who steps nearer; the window does not ask
 };
 

@@ -17,6 +17,8 @@ constexpr int kFrozenHits = 3;       // beams that met something: fewer prove no
 constexpr int kFrozenReadings = 9;   // noisy readings that were all repeated
 constexpr double kTouched = 0.15;    // [m] a laser's point so near to a touch is what touches
 constexpr double kSeenTouch = 0.3;   // [s] a touch of what a laser sees counts: from then on the laser knows better
+constexpr double kBySomebody =
+    0.4;  // [m] from a touch: who stood here in the last sweep may have walked into the robot
 
 bool is_valid(double range) { return !std::isnan(range) && range >= 0.0; }
 
@@ -212,7 +214,8 @@ void ObstacleMemory::add_echo(Ring& ring, double reach, std::size_t index, const
   }
   for (const double share : {-0.5, 0.0, 0.5}) {
     const Angle bearing = Angle::radians(share * half);
-    ring.points.push_back({odom_from_sensor * (reading.range * unit(bearing)), {}, reading.stamp, false});
+    ring.points.push_back(
+        {.in_odom = odom_from_sensor * (reading.range * unit(bearing)), .seen = reading.stamp, .low = true});
   }
 }
 
@@ -234,12 +237,33 @@ void ObstacleMemory::add_lines(const std::string& source, Time stamp, double lif
 
 void ObstacleMemory::add_touch(Time stamp, Point2 in_base, const Pose2& odom_from_base) {
   const Point2 in_odom = odom_from_base * in_base;
-  const bool is_seen = std::any_of(sensors_.begin(), sensors_.end(), [&](const Sensor& sensor) {
-    return std::any_of(sensor.points.begin(), sensor.points.end(),
-                       [&](const ObstaclePoint& point) { return distance(point.in_odom, in_odom) < kTouched; });
+  bool is_seen = false;
+  bool is_somebody = false;
+  for (const Sensor& sensor : sensors_) {
+    for (const ObstaclePoint& point : sensor.points) {
+      const double away = distance(point.in_odom, in_odom);
+      is_seen = is_seen || away < kTouched;
+      is_somebody = is_somebody || (away < kBySomebody && !point.straight);
+    }
+  }
+  const double memory = is_seen ? kSeenTouch : is_somebody ? kMemory : kTouchMemory;
+  const bool low = !is_seen && !is_somebody;
+  // Who goes on touching says the same again.
+  std::erase_if(touches_, [&](const Touch& touch) {
+    return stamp > touch.until || (touch.point.low == low && distance(touch.point.in_odom, in_odom) < 0.01);
   });
-  std::erase_if(touches_, [&](const Touch& touch) { return stamp > touch.until; });
-  touches_.push_back({{in_odom, {}, stamp, false}, stamp + seconds(is_seen ? kSeenTouch : kMemory)});
+  touches_.push_back({{.in_odom = in_odom, .seen = stamp, .low = low}, stamp + seconds(memory)});
+}
+
+void ObstacleMemory::stand(Point2 in_odom, double radius) {
+  std::erase_if(touches_, [&](const Touch& touch) { return distance(touch.point.in_odom, in_odom) < radius; });
+}
+
+std::vector<Point2> ObstacleMemory::touched_things(Time now) const {
+  std::vector<Point2> result;
+  for (const auto& touch : touches_)
+    if (touch.point.low && now <= touch.until) result.push_back(touch.point.in_odom);
+  return result;
 }
 
 std::vector<ObstaclePoint> ObstacleMemory::points(Time now) const {

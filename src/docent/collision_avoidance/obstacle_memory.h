@@ -43,6 +43,7 @@ struct ObstaclePoint {
   bool straight = false;  ///< part of a long straight piece: nobody
   bool confirmed = true;  ///< false: a lone reading that the sweep before knew nothing of; does not count yet
   int missed = 0;         ///< later sweeps that looked through it
+  bool low = false;       ///< met by a sonar, an infrared sensor or touch, and by no laser: a thing, that stays
 };
 
 /// The obstacle field [BuhmannEtAl1995, obstacle line field]: what lasers, sonars, infrared sensors, touch and cameras
@@ -56,6 +57,7 @@ struct ObstaclePoint {
 class ObstacleMemory {
  public:
   static constexpr double kMemory = 1.5;         ///< [s]
+  static constexpr double kTouchMemory = 60.0;   ///< [s] of a touch by what no laser sees: nothing tells of it again
   static constexpr double kReach = 6.0;          ///< [m] from the robot; what is farther does not matter yet
   static constexpr double kSonarReach = 1.5;     ///< [m]
   static constexpr double kInfraredReach = 0.7;  ///< [m]
@@ -73,9 +75,14 @@ class ObstacleMemory {
   /// What a camera saw on the floor; replaces what it saw before. The lines count for `lifetime` [s] after their stamp.
   void add_lines(const std::string& source, Time stamp, double lifetime, std::span<const Segment> in_base,
                  const Pose2& odom_from_base);
-  /// The body was touched at `in_base` (on its outline). Counts for kMemory, and only for 0.3 s where a laser sees who
-  /// touches: whether they are still there, the laser tells.
+  /// The body was touched at `in_base` (on its outline). Counts for 0.3 s where a laser sees who touches: whether they
+  /// are still there, the laser tells; for kMemory where a laser sees somebody near; for kTouchMemory where none does.
   void add_touch(Time stamp, Point2 in_base, const Pose2& odom_from_base);
+  /// The body stands here, odometry's frame: nothing that touched it is within `radius` [m]. Wheels that slip against a
+  /// thing carry the odometry through it.
+  void stand(Point2 in_odom, double radius);
+  /// Where something that no laser sees has touched the body within kTouchMemory [m], odometry's frame.
+  [[nodiscard]] std::vector<Point2> touched_things(Time now) const;
 
   /// Everything that counts at `now`, moving things where they are by now.
   [[nodiscard]] std::vector<ObstaclePoint> points(Time now) const;

@@ -246,8 +246,28 @@ TEST(ObstacleMemory, ATouchOfWhatALaserSeesIsForTheLaserToFollow) {
   };
   EXPECT_TRUE(touched(true, 1.2));
   EXPECT_FALSE(touched(true, 1.5));
-  EXPECT_TRUE(touched(false, 2.4)) << "nothing but the touch tells of it";
-  EXPECT_FALSE(touched(false, 2.6));
+  EXPECT_TRUE(touched(false, 30.0)) << "nothing but the touch tells of it";
+  EXPECT_FALSE(touched(false, 61.1));
+}
+
+TEST(ObstacleMemory, WhatTouchesBesideSomebodyMayBeThem) {
+  ObstacleMemory memory;
+  auto sweep = sweep_at(1.0);
+  put(sweep, 80, 100, 0.55F);  // somebody who has come nearer since
+  memory.add_sweep(0, sweep, {});
+  memory.add_touch(time_from_seconds(1.0), {0.265, 0.0}, {});
+  EXPECT_TRUE(memory.touched_things(time_from_seconds(1.0)).empty());
+  memory.add_touch(time_from_seconds(1.0), {-0.265, 0.0}, {});
+  EXPECT_EQ(memory.touched_things(time_from_seconds(1.0)).size(), 1U);
+}
+
+TEST(ObstacleMemory, NothingThatTouchesIsInsideTheBody) {
+  ObstacleMemory memory;
+  memory.add_touch(time_from_seconds(1.0), {0.265, 0.0}, {});
+  memory.stand({0.02, 0.0}, 0.235);
+  EXPECT_EQ(memory.touched_things(time_from_seconds(1.1)).size(), 1U) << "it presses";
+  memory.stand({0.2, 0.0}, 0.235);  // the wheels slipped: so far the body cannot have come
+  EXPECT_TRUE(memory.touched_things(time_from_seconds(1.2)).empty());
 }
 
 TEST(ObstacleMemory, WhoComesOutOfAThrongComesNearerThoughNobodyIsFollowed) {

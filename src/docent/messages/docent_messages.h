@@ -312,6 +312,8 @@ struct AvoidState {
   double nearest_real_m = 0;       ///< [m] from the robot's outline
   double nearest_virtual_m = 0;
   std::vector<Candidate> window;
+  bool low_obstacle =
+      false;  ///< it, or what has touched the robot here, lies below the lasers, which see nobody: a thing
   template <class Self, class V>
   static void visit(Self& m, V& v) {
     v("header", m.header);
@@ -325,6 +327,7 @@ struct AvoidState {
     v("nearest_real_m", m.nearest_real_m);
     v("nearest_virtual_m", m.nearest_virtual_m);
     v("window", m.window);
+    v("low_obstacle", m.low_obstacle);
   }
 };
 

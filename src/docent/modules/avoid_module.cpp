@@ -167,7 +167,7 @@ class AvoidModule final : public Module {
       wish.heading = Angle::radians(target.heading);
       wish.position_tolerance = target.position_tolerance;
       wish.heading_tolerance = target.heading_tolerance;
-      const bool is_other = std::exchange(mode_, wish.mode) != wish.mode;
+      const bool is_other = std::exchange(target_mode_, wish.mode) != wish.mode;
       avoider_.set_target(bus_.now(), from_message(target.header.stamp), std::move(wish));
       if (is_other) decide();  // above all: a stop
     });
@@ -236,6 +236,7 @@ class AvoidModule final : public Module {
     state.angular = decision.command.angular;
     state.path_blocked = decision.path_blocked;
     state.unmapped_obstacle = decision.unmapped_obstacle;
+    state.low_obstacle = decision.low_obstacle;
     state.nearest_real_m = decision.nearest_real;
     state.nearest_virtual_m = decision.nearest_virtual;
     if (!decision.window.empty() && driven_ - window_shown_ >= seconds(kWindowPeriod - 0.5 * kTick)) {
@@ -258,7 +259,7 @@ class AvoidModule final : public Module {
   std::vector<BelievedPose> hypotheses_;  ///< likewise
   Publisher<docent_msgs::Drive> drive_;
   Publisher<docent_msgs::AvoidState> state_;
-  AvoiderTarget::Mode mode_ = AvoiderTarget::Mode::stop;
+  AvoiderTarget::Mode target_mode_ = AvoiderTarget::Mode::stop;
   Time decided_{};
   Time decided_before_{};  ///< likewise, once more
   Time driven_{};

@@ -49,8 +49,9 @@ class ExecutiveModule final : public Module {
       flush();
     });
     bus_.subscribe<docent_msgs::AvoidState>(topics::kAvoidState, [this](const auto& state) {
-      executive_.obstacle_report(
-          {state.path_blocked, state.unmapped_obstacle, state.path_blocked ? state.reason : std::string{}}, bus_.now());
+      executive_.obstacle_report({state.path_blocked, state.unmapped_obstacle,
+                                  state.path_blocked ? state.reason : std::string{}, state.low_obstacle},
+                                 bus_.now());
     });
     bus_.every(kPeriod, [this] {
       executive_.tick(bus_.now());

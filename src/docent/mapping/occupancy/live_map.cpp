@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace docent {
 
@@ -15,45 +16,81 @@ Result<void> LiveMapParams::validate() const {
   if (!(settle >= 0.0)) return fail("settle must be >= 0");
   if (!(forget_settled >= forget)) return fail("forget_settled must be >= forget");
   if (!(period > 0.0)) return fail("period must be > 0");
+  if (auto valid = sonar.validate(); !valid) return fail("sonar." + valid.error().message);
+  if (auto valid = infrared.validate(); !valid) return fail("infrared." + valid.error().message);
+  if (auto valid = touch.validate(); !valid) return fail("touch." + valid.error().message);
   return {};
 }
 
-LiveMap::LiveMap(const OccupancyGrid& static_map, LiveMapParams params)
-    : params_{params}, static_{coarsened(static_map, params.coarsening)} {
-  std::vector<bool> solid(static_map.frame.size());
-  for (std::size_t i = 0; i < solid.size(); ++i) solid[i] = static_map.cells[i] < 0 || static_map.cells[i] >= 65;
-  const auto distances = distance_transform(static_map.frame, solid);
-  const GridFrame& grid = static_.frame;
-  near_static_.assign(grid.size(), true);
+namespace {
+
+/// Cells of the coarse grid within `margin` [m] of what the map shows.
+std::vector<bool> near_what_is_mapped(const OccupancyGrid& map, const GridFrame& grid, double margin) {
+  std::vector<bool> solid(map.frame.size());
+  for (std::size_t i = 0; i < solid.size(); ++i) solid[i] = map.cells[i] < 0 || map.cells[i] >= 65;
+  const auto distances = distance_transform(map.frame, solid);
+  std::vector<bool> near(grid.size(), true);
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
-      const CellIndex fine = static_map.frame.cell_at(grid.centre({column, row}));
-      if (!static_map.frame.holds(fine)) continue;
-      near_static_[grid.index({column, row})] =
-          static_cast<double>(distances[static_map.frame.index(fine)]) <= params_.static_margin;
+      const CellIndex fine = map.frame.cell_at(grid.centre({column, row}));
+      if (!map.frame.holds(fine)) continue;
+      near[grid.index({column, row})] = static_cast<double>(distances[map.frame.index(fine)]) <= margin;
     }
   }
-  history_.assign(grid.size(), 0);
-  seen_.assign(grid.size(), Time{});
-  blocked_since_.assign(grid.size(), Time{});
-  settled_.assign(grid.size(), false);
-  look_of_.assign(grid.size(), 0);
+  return near;
 }
 
-bool LiveMap::is_blocked(std::size_t index) const {
+std::vector<bool> and_near_hazards(std::vector<bool> near, const GridFrame& grid, std::span<const Polygon> hazards,
+                                   double margin) {
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int column = 0; column < grid.columns; ++column) {
+      const Point2 centre = grid.centre({column, row});
+      if (std::any_of(hazards.begin(), hazards.end(),
+                      [&](const Polygon& hazard) { return distance(hazard, centre) <= margin; }))
+        near[grid.index({column, row})] = true;
+    }
+  }
+  return near;
+}
+
+}  // namespace
+
+LiveMap::LiveMap(const OccupancyGrid& static_map, const LiveMapParams& params, std::span<const Polygon> hazards)
+    : params_{params},
+      static_{coarsened(static_map, params.coarsening)},
+      near_static_{near_what_is_mapped(static_map, static_.frame, params.static_margin)},
+      history_(static_.frame.size()),
+      seen_(static_.frame.size()),
+      blocked_since_(static_.frame.size()),
+      settled_(static_.frame.size()),
+      look_of_(static_.frame.size()),
+      known_{and_near_hazards(near_static_, static_.frame, hazards, params.static_margin)},
+      sonar_{static_.frame, known_, params.sonar},
+      infrared_{static_.frame, known_, params.infrared},
+      touch_{static_.frame, known_, params.touch} {}
+
+bool LiveMap::is_seen(std::size_t index) const {
   const unsigned last_four = history_[index] & 0x0FU;
   return last_four != 0 && std::popcount(last_four) >= params_.hits_to_block;
 }
 
+std::int8_t LiveMap::live_cell(std::size_t index) const {
+  std::int8_t most = 0;
+  if (is_seen(index)) most = is_settled(index) ? kSettled : kPassing;
+  for (const ConeLayer* layer : {&sonar_, &infrared_})
+    if (layer->is_blocked(index)) most = std::max(most, layer->is_thing(index) ? kSettled : kPassing);
+  return touch_.is_blocked(index) ? kSettled : most;
+}
+
 std::int8_t LiveMap::cell(std::size_t index) const {
-  if (!is_blocked(index)) return static_.cells[index];
-  return std::max(static_.cells[index], is_settled(index) ? kSettled : kPassing);
+  const std::int8_t live = live_cell(index);
+  return live > 0 ? std::max(static_.cells[index], live) : static_.cells[index];
 }
 
 void LiveMap::mark(CellIndex cell, bool hit, Time now) {
   if (!static_.frame.holds(cell)) return;
   const std::size_t index = static_.frame.index(cell);
-  const bool was_blocked = is_blocked(index);
+  const bool was_blocked = is_seen(index);
   const bool was_settled = was_blocked && settled_[index];
   if (look_of_[index] == look_) {
     // Hit and passed in one look: something stands in a part of the cell.
@@ -63,13 +100,9 @@ void LiveMap::mark(CellIndex cell, bool hit, Time now) {
     history_[index] = static_cast<std::uint8_t>(static_cast<unsigned>(history_[index]) << 1U | (hit ? 1U : 0U));
   }
   seen_[index] = now;
-  if (!was_blocked && is_blocked(index)) blocked_since_[index] = now;
-  settled_[index] = is_blocked(index) && to_seconds(now - blocked_since_[index]) >= params_.settle;
-  if (was_blocked != is_blocked(index) || was_settled != settled_[index]) {
-    if (!changes_) changes_ = Rectangle{cell, cell};
-    changes_->low = {std::min(changes_->low.column, cell.column), std::min(changes_->low.row, cell.row)};
-    changes_->high = {std::max(changes_->high.column, cell.column), std::max(changes_->high.row, cell.row)};
-  }
+  if (!was_blocked && is_seen(index)) blocked_since_[index] = now;
+  settled_[index] = is_seen(index) && to_seconds(now - blocked_since_[index]) >= params_.settle;
+  if (was_blocked != is_seen(index) || was_settled != settled_[index]) widen(changes_, cell);
 }
 
 void LiveMap::look(Point2 sensor, std::span<const Point2> endpoints, Time now) {
@@ -93,6 +126,9 @@ void LiveMap::look(Point2 sensor, std::span<const Point2> endpoints, Time now) {
 }
 
 void LiveMap::forget(Time now) {
+  sonar_.forget(now);
+  infrared_.forget(now);
+  touch_.forget(now);
   ++look_;
   for (int row = 0; row < static_.frame.rows; ++row) {
     for (int column = 0; column < static_.frame.columns; ++column) {
@@ -109,16 +145,20 @@ void LiveMap::forget(Time now) {
   }
 }
 
-std::vector<bool> LiveMap::obstacles() const {
-  std::vector<bool> result(static_.frame.size());
-  for (std::size_t i = 0; i < result.size(); ++i) result[i] = is_blocked(i);
-  return result;
+void LiveMap::add_touch(Point2 at, Point2 outward, std::span<const LaserLook> lasers, Time now) {
+  for (const LaserLook& laser : lasers)
+    for (const Point2& endpoint : laser.endpoints)
+      if (distance(endpoint, at) < params_.touch.seen) return;
+  touch_.feel(at, outward, now);
 }
 
-std::optional<LiveMap::Rectangle> LiveMap::take_changes() {
-  const auto changes = changes_;
-  changes_.reset();
-  return changes;
+std::optional<CellRectangle> LiveMap::take_changes() {
+  for (const auto& changes : {sonar_.take_changes(), infrared_.take_changes(), touch_.take_changes()}) {
+    if (!changes) continue;
+    widen(changes_, changes->low);
+    widen(changes_, changes->high);
+  }
+  return std::exchange(changes_, std::nullopt);
 }
 
 }  // namespace docent

@@ -7,7 +7,11 @@
 
 #include "docent/base/result.h"
 #include "docent/base/time.h"
+#include "docent/geometry/polygon.h"
 #include "docent/grid/occupancy_grid.h"
+#include "docent/mapping/occupancy/cell_rectangle.h"
+#include "docent/mapping/occupancy/cone_layer.h"
+#include "docent/mapping/occupancy/touch_layer.h"
 
 namespace docent {
 
@@ -21,6 +25,9 @@ struct LiveMapParams {
   double settle = 20.0;         ///< [s] that a cell was seen blocked, then what stands there is no passer-by
   double forget_settled = 300;  ///< [s] until such a cell that nobody looked at is free again
   double period = 0.5;          ///< [s] between looks
+  ConeLayerParams sonar{};
+  ConeLayerParams infrared{.reach = 0.7};
+  TouchLayerParams touch{};
   template <class V>
   void visit(V& v) {
     v("coarsening", coarsening);
@@ -31,40 +38,57 @@ struct LiveMapParams {
     v("settle", settle);
     v("forget_settled", forget_settled);
     v("period", period);
+    v("sonar", sonar);
+    v("infrared", infrared);
+    v("touch", touch);
   }
   [[nodiscard]] Result<void> validate() const;
 };
 
-/// What stands in the hall now and not in the static map: a laser layer over it with decay, joined by the max rule
-/// [Burgard1999, eq. (19)]. A person who walks by leaves no trace; who stands for three looks of four, does. What was
+/// What stands in the hall now and not in the static map: layers over it with decay, one a kind of sensor, joined by
+/// the max rule [Rhino1999, eq. (19)], for each kind meets things at a height of its own: what one looks over the other
+/// does not free.
+///
+/// The lasers' layer: a person who walks by leaves no trace; who stands for three looks of four, does. What was
 /// seen to stand for longer, a stool or a closed passage, is settled: it is remembered for minutes while nobody looks,
-/// and freed like all else by looks that pass through it.
+/// and freed like all else by looks that pass through it. What sonars, infrared sensors or touch find and no laser sees
+/// is furniture, and settled at once.
 class LiveMap {
  public:
-  LiveMap(const OccupancyGrid& static_map, LiveMapParams params);
+  /// @param hazards  [m], map: what sonars or touch meet near them is no news
+  LiveMap(const OccupancyGrid& static_map, const LiveMapParams& params, std::span<const Polygon> hazards = {});
 
   /// One look: rays from `sensor` to `endpoints` (map frame). An endpoint beyond the reach only clears. O(rays * cells
   /// on them).
   void look(Point2 sensor, std::span<const Point2> endpoints, Time now);
+  /// A sonar's reading, and an infrared sensor's. What a laser of these meets is in its own layer already.
+  void add_sonar(const ConeReading& reading, std::span<const LaserLook> lasers, Time now) {
+    sonar_.add(reading, lasers, now);
+  }
+  void add_infrared(const ConeReading& reading, std::span<const LaserLook> lasers, Time now) {
+    infrared_.add(reading, lasers, now);
+  }
+  /// The body was touched, see TouchLayer::feel; by what a laser of these sees, it is no news.
+  void add_touch(Point2 at, Point2 outward, std::span<const LaserLook> lasers, Time now);
+  /// See TouchLayer::stand.
+  void stand(Point2 centre, double radius) { touch_.stand(centre, radius); }
   /// Frees what nobody looked at for too long. O(cells).
   void forget(Time now);
 
   [[nodiscard]] const GridFrame& frame() const { return static_.frame; }
   static constexpr std::int8_t kPassing = 80;  ///< blocked, as a person may block it
   static constexpr std::int8_t kSettled = OccupancyGrid::kOccupied;
-  /// The max rule: the larger of the static cell and the live one.
+  /// The max rule: the largest of the static cell and those of all layers.
   [[nodiscard]] std::int8_t cell(std::size_t index) const;
-  [[nodiscard]] bool is_blocked(std::size_t index) const;
-  [[nodiscard]] bool is_settled(std::size_t index) const { return is_blocked(index) && settled_[index]; }
-  /// Cells [rows * columns] that are blocked now and not in the static map.
-  [[nodiscard]] std::vector<bool> obstacles() const;
-  /// Rectangle of the cells that changed since the last call; nullopt when none did.
-  struct Rectangle {
-    CellIndex low, high;  ///< both included
-  };
-  [[nodiscard]] std::optional<Rectangle> take_changes();
+  /// By what any layer shows.
+  [[nodiscard]] bool is_blocked(std::size_t index) const { return live_cell(index) > 0; }
+  /// The cells that changed since the last call; nullopt when none did.
+  [[nodiscard]] std::optional<CellRectangle> take_changes();
 
  private:
+  [[nodiscard]] bool is_seen(std::size_t index) const;
+  [[nodiscard]] bool is_settled(std::size_t index) const { return is_seen(index) && settled_[index]; }
+  [[nodiscard]] std::int8_t live_cell(std::size_t index) const;
   void mark(CellIndex cell, bool hit, Time now);
 
   LiveMapParams params_;
@@ -76,7 +100,11 @@ class LiveMap {
   std::vector<bool> settled_;
   std::vector<std::uint32_t> look_of_;  ///< the last look that touched the cell: one entry in the history a look
   std::uint32_t look_ = 0;
-  std::optional<Rectangle> changes_;
+  std::optional<CellRectangle> changes_;
+  std::vector<bool> known_;  ///< an echo or a touch here belongs to the static map or to a hazard
+  ConeLayer sonar_;
+  ConeLayer infrared_;
+  TouchLayer touch_;
 };
 
 }  // namespace docent

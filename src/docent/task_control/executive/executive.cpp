@@ -232,7 +232,8 @@ void Executive::climb_ladder(Time now) {
   const bool is_unreachable = goal_.state == "unreachable";
   const LadderView view{obstacle_.is_hindered,   obstacle_.is_unmapped,
                         is_unreachable,          goal_.blocked_s,
-                        detour_of(goal_.detour), obstacle_.reason.empty() ? goal_.reason : obstacle_.reason};
+                        detour_of(goal_.detour), obstacle_.reason.empty() ? goal_.reason : obstacle_.reason,
+                        obstacle_.is_thing};
   auto steps = ladder_.step(view, now);
   bool gives_up = false;
   for (const LadderStep& step : steps) {

@@ -72,6 +72,7 @@ struct ObstacleReport {
   bool is_hindered = false;  ///< an obstacle in the wanted direction holds the robot up
   bool is_unmapped = false;  ///< that obstacle is not in the map
   std::string reason;
+  bool is_thing = false;  ///< it, or what has touched the robot here, lies below the lasers, which see nobody there
 };
 struct Utterance {
   std::string id;

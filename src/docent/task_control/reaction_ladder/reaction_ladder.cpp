@@ -23,6 +23,7 @@ Result<void> LadderParams::validate() const {
   if (!(ask_every_s > 0.0)) return fail("ladder.ask_every_s must be > 0");
   if (!(patience_s > ask_after_s)) return fail("ladder.patience_s must be > ask_after_s");
   if (!(unreachable_patience_s > 0.0)) return fail("ladder.unreachable_patience_s must be > 0");
+  if (!(thing_patience_s > 0.0)) return fail("ladder.thing_patience_s must be > 0");
   if (!(calm_s > 0.0)) return fail("ladder.calm_s must be > 0");
   return {};
 }
@@ -49,6 +50,7 @@ std::vector<LadderStep> ReactionLadder::step(const LadderView& view, Time now) {
 
 void ReactionLadder::look(const LadderView& view, Time now) {
   Episode& episode = *episode_;
+  if (view.is_hindered || view.is_thing) episode.by_thing = view.is_thing;
   if (view.is_hindered && view.is_unmapped) {
     episode.unmapped_seen = now;
     if (!episode.unmapped_since) episode.unmapped_since = now;
@@ -89,8 +91,8 @@ void ReactionLadder::climb(const LadderView& view, Time now, std::vector<LadderS
     return since && now - *since >= seconds(long_s);
   };
   // Two signs must coincide: something that is not in the map, and no progress.
-  if (lasts(episode.unmapped_since, params_.horn_after_s) && view.without_progress_s >= params_.horn_after_s &&
-      is_due_again(Rung::horn, params_.horn_every_s, now)) {
+  if (lasts(episode.unmapped_since, params_.horn_after_s) && !episode.by_thing &&
+      view.without_progress_s >= params_.horn_after_s && is_due_again(Rung::horn, params_.horn_every_s, now)) {
     take(Rung::horn, view, now, steps);
   }
   if (view.detour != detour_) {
@@ -105,9 +107,10 @@ void ReactionLadder::climb(const LadderView& view, Time now, std::vector<LadderS
   }
   const bool may_ask =
       view.without_progress_s >= params_.ask_after_s || lasts(episode.unreachable_since, params_.ask_after_s);
-  if (may_ask && is_due_again(Rung::ask, params_.ask_every_s, now)) take(Rung::ask, view, now, steps);
-  if (view.without_progress_s >= params_.patience_s ||
-      lasts(episode.unreachable_since, params_.unreachable_patience_s)) {
+  if (may_ask && !episode.by_thing && is_due_again(Rung::ask, params_.ask_every_s, now))
+    take(Rung::ask, view, now, steps);
+  const double patience_s = episode.by_thing ? params_.thing_patience_s : params_.patience_s;
+  if (view.without_progress_s >= patience_s || lasts(episode.unreachable_since, params_.unreachable_patience_s)) {
     if (episode.counts[Rung::give_up] == 0) take(Rung::give_up, view, now, steps);
   }
 }

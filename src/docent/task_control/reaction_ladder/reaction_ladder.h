@@ -21,6 +21,7 @@ struct LadderParams {
   double ask_every_s = 15.0;             ///< [s] > 0
   double patience_s = 90.0;              ///< [s] > ask_after_s without progress, then something else is chosen
   double unreachable_patience_s = 20.0;  ///< [s] > 0: people may close the only way for a moment
+  double thing_patience_s = 20.0;        ///< [s] > 0 without progress before a thing: it does not step aside
   double calm_s = 3.0;                   ///< [s] > 0 of progress until the way counts as free
   template <class V>
   void visit(V& v) {
@@ -31,6 +32,7 @@ struct LadderParams {
     v("ask_every_s", ask_every_s);
     v("patience_s", patience_s);
     v("unreachable_patience_s", unreachable_patience_s);
+    v("thing_patience_s", thing_patience_s);
     v("calm_s", calm_s);
   }
   [[nodiscard]] Result<void> validate() const;
@@ -43,7 +45,8 @@ struct LadderView {
   bool is_unreachable = false;      ///< the planner knows no way
   double without_progress_s = 0.0;  ///< [s] along the value function
   Detour detour = Detour::none;
-  std::string cause;  ///< what is in the way, for a person
+  std::string cause;      ///< what is in the way, for a person
+  bool is_thing = false;  ///< the obstacle, or what has touched the robot here, is a thing: it hears nothing
 };
 
 enum class Rung { slow, horn, local_detour, global_detour, wait, ask, give_up, free };
@@ -66,6 +69,9 @@ struct LadderStep {
 ///   wait, ask       no way round: it stands, and says so
 ///   give_up         patience is over: the mission chooses something else, and tries this again later
 ///   free            it drives again
+///
+/// Nobody speaks to a thing: before one there is no horn and no asking, and less patience. The planner knows it by then
+/// and has taken the detour, if there is any.
 ///
 /// Detours are the planner's and the avoidance's doing; the ladder only tells of them. Deterministic; knows nothing of
 /// messages.
@@ -90,6 +96,7 @@ class ReactionLadder {
     std::optional<Time> unreachable_since;
     std::optional<Time> calm_since;
     bool was_hindered = false;
+    bool by_thing = false;  ///< what hindered or touched it last is a thing
     bool waits = false;
     std::map<Rung, int> counts;
     std::map<Rung, Time> last;

@@ -67,6 +67,31 @@ TEST_F(ReactionLadderTest, WhoStaysInTheWaySeesStepAfterStep) {
   EXPECT_EQ(count(Rung::wait), 1);
 }
 
+TEST_F(ReactionLadderTest, NobodySpeaksToAThing) {
+  view.is_hindered = view.is_thing = true;
+  pass(19.0);
+  EXPECT_EQ(log, "slow wait");
+  view.is_hindered = view.is_thing = false;  // out of sight for a moment
+  stands = true;
+  pass(2.0);
+  EXPECT_EQ(log, "slow wait give_up") << "a thing does not step aside";
+}
+
+TEST_F(ReactionLadderTest, WhatTouchesIsSpokenToNeither) {
+  view.is_thing = stands = true;
+  pass(15.0);
+  EXPECT_EQ(log, "wait");
+}
+
+TEST_F(ReactionLadderTest, SomebodyWhoStandsThereThenIsAsked) {
+  view.is_hindered = view.is_thing = true;
+  pass(10.0);
+  view.is_thing = false;
+  view.is_unmapped = true;
+  pass(2.0);
+  EXPECT_EQ(count(Rung::ask), 1);
+}
+
 TEST_F(ReactionLadderTest, TheHornNeedsBothSigns) {
   view.is_hindered = true;  // by a wall, or a hazard
   pass(20.0);
