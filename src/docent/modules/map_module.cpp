@@ -135,7 +135,7 @@ class MapModule final : public Module {
   template <class Add>
   void take(const sensor_msgs::Range& range, const Pose2& base_from_sensor, const Add& add) {
     const auto map_from_base = pose_.map_from_base_at(from_message(range.header.stamp));
-    if (!is_fit(range) || !pose_.localized() || !map_from_base) return;
+    if (!pose_.localized() || !map_from_base) return;
     add(ConeReading{*map_from_base * base_from_sensor, range.field_of_view, range.max_range, range.range});
   }
 
