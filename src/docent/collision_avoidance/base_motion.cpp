@@ -52,7 +52,8 @@ Velocity CommandHistory::at(Time time) const {
 
 BaseState predict(BaseState state, Time from, Time to, const CommandHistory& commands, const BaseLimits& limits) {
   constexpr double kStep = 0.025;
-  Time time = from;
+  constexpr double kLongest = 5.0;  // [s] from an older state nothing follows; commands are forgotten sooner
+  Time time = std::max(from, to - seconds(kLongest));
   while (time < to) {
     const double dt = std::min(kStep, to_seconds(to - time));
     const Time middle = time + seconds(0.5 * dt);

@@ -44,5 +44,13 @@ TEST(BaseHistory, InterpolatesAndCarriesOn) {
   EXPECT_EQ(history.driven_since(time_from_seconds(2.0)), 0.0);
 }
 
+TEST(Predict, FromAStateOfLongAgoIsDoneAtOnce) {
+  const BaseState state{{1.0, 2.0, Angle{}}, {0.5, 0.0}};
+  const Time now = time_from_seconds(1e9);
+  const BaseState then = predict(state, Time{}, now, CommandHistory{}, BaseLimits{});
+  EXPECT_EQ(then.velocity.linear, 0.0);
+  EXPECT_LT(then.odom_from_base.x, 1.5) << "it braked";
+}
+
 }  // namespace
 }  // namespace docent

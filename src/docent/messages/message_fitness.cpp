@@ -7,7 +7,8 @@ namespace docent {
 
 MessageFault fault_of(const sensor_msgs::LaserScan& scan) {
   constexpr float kMostBearing = 4.0F * std::numbers::pi_v<float>;
-  constexpr double kMostField = 2.0 * std::numbers::pi + 0.1;  // [rad] both ends of a round scan may be the same
+  // [rad] The virtual scan goes round twice, once for hazards and once for the border; both ends may be the same.
+  constexpr double kMostField = 4.0 * std::numbers::pi + 0.1;
   constexpr float kFinest = 1e-5F;                             // [rad] between two beams
   if (const MessageFault fault = fault_of(scan.header)) return fault;
   if (scan.ranges.size() > kMostBeams) return {"ranges", "are more than any scanner has"};
@@ -16,7 +17,7 @@ MessageFault fault_of(const sensor_msgs::LaserScan& scan) {
   if (scan.ranges.size() > 1 && scan.angle_increment < kFinest)
     return {"angle_increment", "is too small for several beams"};
   if (!(static_cast<double>(scan.angle_increment) * (static_cast<double>(scan.ranges.size()) - 1.0) <= kMostField))
-    return {"angle_increment", "takes the beams more than once round"};
+    return {"angle_increment", "takes the beams more than twice round"};
   if (!(scan.range_min >= 0.0F)) return {"range_min", "is no distance"};
   if (!(scan.range_max > scan.range_min)) return {"range_max", "is not above range_min"};
   if (!(scan.range_max <= kFarthestReading)) return {"range_max", "is farther than any scanner reaches"};

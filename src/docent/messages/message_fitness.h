@@ -33,7 +33,7 @@ struct MessageFault {
   [[nodiscard]] std::string text() const { return std::string{field} + " " + what; }
 };
 
-/// Beams that no scanner has: not in order, more than once round, or without a reach. The readings themselves may be
+/// Beams that no scanner has: not in order, more than twice round, or without a reach. The readings themselves may be
 /// anything: what is not between the least and the greatest range is none.
 [[nodiscard]] MessageFault fault_of(const sensor_msgs::LaserScan& scan);
 /// Likewise the reading itself may be anything.

@@ -37,8 +37,8 @@ TEST(MessageFitness, AScanNeedsBeamsThatAScannerHas) {
   scan.angle_increment = std::numeric_limits<float>::denorm_min();
   EXPECT_EQ(fault_of(scan).text(), "angle_increment is too small for several beams");
   scan = scan_all_round();
-  scan.ranges.assign(200, 2.0F);
-  EXPECT_EQ(fault_of(scan).text(), "angle_increment takes the beams more than once round");
+  scan.ranges.assign(400, 2.0F);
+  EXPECT_EQ(fault_of(scan).text(), "angle_increment takes the beams more than twice round");
   scan.angle_increment = 1e-4F;
   scan.ranges.assign(kMostBeams + 1, 2.0F);
   EXPECT_EQ(fault_of(scan).text(), "ranges are more than any scanner has");
