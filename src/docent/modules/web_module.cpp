@@ -122,7 +122,8 @@ class WebModule final : public Module {
         params_{std::move(params)},
         outbox_{std::move(outbox)},
         requests_{bus_.publisher(topics::kRequest)},
-        choices_{bus_.publisher(topics::kChoice)} {
+        choices_{bus_.publisher(topics::kChoice)},
+        scans_(body_.scanners.size()) {
     if (outbox_->was_damaged()) reason_ = "web.sqlite was damaged and has been set aside; a new one was begun";
   }
 
