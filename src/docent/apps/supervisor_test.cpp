@@ -119,7 +119,8 @@ TEST(Supervisor, ItsChildrenDieWithIt) {
   ASSERT_EQ(pipe(ends), 0);
   const pid_t host = fork();
   if (host == 0) {
-    Supervisor supervisor{{shell("a", "echo $$; exec sleep 100")}, [&](Supervisor::From, const std::string&, const std::string& line) {
+    Supervisor supervisor{{shell("a", "echo $$; exec sleep 100")},
+                          [&](Supervisor::From, const std::string&, const std::string& line) {
                             static_cast<void>(!write(ends[1], line.c_str(), line.size()));
                           }};
     for (;;) {

@@ -9,7 +9,7 @@ MessageFault fault_of(const sensor_msgs::LaserScan& scan) {
   constexpr float kMostBearing = 4.0F * std::numbers::pi_v<float>;
   // [rad] The virtual scan goes round twice, once for hazards and once for the border; both ends may be the same.
   constexpr double kMostField = 4.0 * std::numbers::pi + 0.1;
-  constexpr float kFinest = 1e-5F;                             // [rad] between two beams
+  constexpr float kFinest = 1e-5F;  // [rad] between two beams
   if (const MessageFault fault = fault_of(scan.header)) return fault;
   if (scan.ranges.size() > kMostBeams) return {"ranges", "are more than any scanner has"};
   if (!(std::abs(scan.angle_min) <= kMostBearing)) return {"angle_min", "is no bearing"};

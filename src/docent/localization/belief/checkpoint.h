@@ -18,8 +18,8 @@ struct LocalizerCheckpoint {
   std::vector<BeliefMode> modes;
 };
 
-/// Outlives the process, and waits for no disk: after a power failure the robot's odometry begins anew, and an old place
-/// tells nothing.
+/// Outlives the process, and waits for no disk: after a power failure the robot's odometry begins anew, and an old
+/// place tells nothing.
 [[nodiscard]] Result<void> save_localizer_checkpoint(const LocalizerCheckpoint& checkpoint,
                                                      const std::filesystem::path& path);
 /// Error: absent or damaged; the caller then starts with an unknown place.
