@@ -151,7 +151,8 @@ class Ledger(unittest.TestCase):
 class Benchmarks(unittest.TestCase):
     ROWS = [{"name": "velocity_selection/0", "times_faster": 30.0}, {"name": "velocity_selection/1", "times_faster": 120.0},
             {"name": "velocity_selection/2", "error_occurred": True, "error_message": benchmarks.NO_MATTER},
-            {"name": "virtual_measurements/5000/0", "times_faster": 3.5}, {"name": "virtual_measurements/5000/1", "times_faster": 4.0}]
+            {"name": "virtual_measurements/5000/0", "jointly_times_faster": 3.5},
+            {"name": "virtual_measurements/5000/1", "jointly_times_faster": 4.0}]
 
     def good(self, rows, code=0, printed="", name="collision_avoidance"):
         return benchmarks.judge(name, code, {"benchmarks": rows}, printed).good
@@ -162,14 +163,23 @@ class Benchmarks(unittest.TestCase):
         self.assertFalse(self.good([]))
         self.assertFalse(self.good(self.ROWS[:-1]), "a row is missing")
         self.assertFalse(self.good([dict(row, times_faster=2.0) for row in self.ROWS]))
+        self.assertFalse(self.good([dict(row, jointly_times_faster=2.0) for row in self.ROWS]))
         self.assertFalse(self.good([*self.ROWS, {"name": "more", "error_occurred": True, "error_message": "not the same decision"}]))
+
+    def test_a_peer_in_the_same_run_is_the_measure(self):
+        name = "localization_monte_carlo_mrpt"
+        rows = [{"name": "step/mrpt", "cpu_time": 45.0}, {"name": "step/docent/plain", "cpu_time": 2.0},
+                {"name": "step/docent/avx2", "cpu_time": 1.0}]
+        self.assertTrue(self.good(rows, name=name))
+        self.assertFalse(self.good(rows[:2], name=name), "22 times faster, 30 wanted")
+        self.assertFalse(self.good(rows[1:], name=name), "the peer did not run")
 
     def test_bounds_that_a_program_prints_count(self):
         row, line = [{"name": "full_solve"}], "  full value function   12.0   >= 10.0   {}\n"
         name = "planning_value_iteration"
-        self.assertTrue(self.good(row, printed=6 * line.format("pass"), name=name))
-        self.assertFalse(self.good(row, printed=5 * line.format("pass"), name=name))
-        self.assertFalse(self.good(row, printed=6 * line.format("pass") + line.format("FAIL"), name=name))
+        self.assertTrue(self.good(row, printed=8 * line.format("pass"), name=name))
+        self.assertFalse(self.good(row, printed=7 * line.format("pass"), name=name))
+        self.assertFalse(self.good(row, printed=8 * line.format("pass") + line.format("FAIL"), name=name))
 
 
 if __name__ == "__main__":
