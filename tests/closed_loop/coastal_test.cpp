@@ -18,7 +18,8 @@ namespace docent {
 namespace {
 
 constexpr Point2 kCentre{32.5, 19.5};  // of the open floor, 20 m across
-constexpr double kOpen = 6.0;          // [m] round it, where a laser of 2.5 m sees nothing but people
+constexpr Point2 kTelephone{48.0, 12.4};
+constexpr double kOpen = 5.0;  // [m] round it: far inside where a laser of 2.5 m sees nothing but people
 
 struct Drive {
   double in_the_open = 0.0;  ///< [m] of its way
@@ -52,7 +53,7 @@ Drive drive(const std::string& weight) {
   std::string line;
   std::getline(file, line);
   std::optional<Point2> before;
-  while (std::getline(file, line)) {
+  while (std::getline(file, line) && (!before || distance(*before, kTelephone) > 1.0)) {  // home lies in the open
     double time = 0.0;
     Point2 here{};  // the truth
     EXPECT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf", &time, &here.x, &here.y), 3);

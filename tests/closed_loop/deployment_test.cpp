@@ -33,6 +33,7 @@ nlohmann::ordered_json report_of(const SimulationRunOptions& options, double min
   if (!run) return {};
   const auto done = (*run)->run_until(time_from_seconds(60.0 * minutes));
   EXPECT_TRUE(done.has_value()) << (done ? "" : done.error().message);
+  EXPECT_TRUE((*run)->finish().has_value());
   return nlohmann::ordered_json::parse((*run)->report_json());
 }
 
@@ -129,7 +130,7 @@ StoolRun run_with_stool(const std::string& scenario, std::uint64_t seed) {
   options.requests_per_hour = 0.0;
   options.start = Pose2{7.0, 2.05, Angle::degrees(90.0)};
   options.scenario = std::string{DOCENT_SOURCES} + "/tests/closed_loop/" + scenario;
-  options.event_log = testing::TempDir() + "stool_" + std::to_string(seed) + ".csv";
+  options.event_log = testing::TempDir() + "stool_" + std::to_string(::getpid()) + ".csv";
   StoolRun result{report_of(options, 2.4)};
   std::ifstream log{options.event_log};
   EXPECT_TRUE(log.is_open());

@@ -358,8 +358,8 @@ class SimulatedMuseum::Impl {
   }
   void play(const SensorFault& event) {
     instruments_.set_fault(event, time_);
-    constexpr std::array<const char*, kSensors> kNames{"laser_front", "laser_rear", "sonar",
-                                                       "odom",        "tactile",    "infrared"};
+    constexpr std::array<const char*, kSensors> kNames{"laser_front", "laser_rear", "laser_left", "laser_right",
+                                                       "sonar",       "odom",       "tactile",    "infrared"};
     offer("fault", kNames[static_cast<std::size_t>(event.sensor)]);
   }
   void play(const Stool& event) {
