@@ -96,7 +96,7 @@ TEST(Up, ChildrenDieWithASupervisorThatIsKilled) {
 TEST(Up, OneRobotAFolder) {
   const TemporaryFolder state;
   Program up{up_arguments(state.path())};
-  ASSERT_TRUE(up.prints("plan ", 10s)) << up.output();
+  ASSERT_TRUE(up.prints("open http", 10s)) << up.output();
   auto arguments = up_arguments(state.path());
   arguments.insert(arguments.end(), {"--port", "18045"});
   arguments.erase(std::find(arguments.begin(), arguments.end(), "--port"), arguments.end() - 2);
