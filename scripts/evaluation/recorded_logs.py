@@ -56,10 +56,10 @@ class Logs:
         return run
 
 
-def wean(logs, is_slice, methods, verdict):
+def wean(logs, methods, verdict):
     print("\n## Wean Hall: drawn map, unknown start, forward and time-reversed\n")
     rows = []
-    for log in ["wean-1"] if is_slice else ["wean-1", "wean-2"]:
+    for log in ["wean-1", "wean-2"]:
         for method in methods:
             forward = logs.localize(f"{log}-{method}", ["--map", logs.data / "maps" / "wean.yaml", "--log",
                                                         logs.log(f"{log}.clf.gz"), "--both-ways", "--method", method])
@@ -152,7 +152,7 @@ def protocol(program, root, options):
     seeds = range(options.first_seed, options.first_seed + (options.seeds or (1 if options.slice else 5)))
     verdict = Verdict()
     if "wean" in parts:
-        wean(logs, options.slice, methods, verdict)
+        wean(logs, methods, verdict)
     if "intel" in parts:
         intel(logs, methods, verdict, not options.no_crippled)
     if "corrected" in parts:

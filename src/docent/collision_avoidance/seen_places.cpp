@@ -87,19 +87,19 @@ bool SeenPlaces::is_known(Point2 in_odom, Time now) const {
 void SeenPlaces::add_beside(std::vector<Point2>& places, const Pose2& odom_from_base, const BaseLimits& limits,
                             double margin, Time now) const {
   // A lattice that stays where it is in the odometry's frame: what came along with the robot could be crept into.
-  constexpr double kStep = 0.05;    // [m]
-  constexpr double kBeyond = 0.08;  // [m] the margin
+  constexpr double kStep = 0.05;        // [m]
+  constexpr double kPastMargin = 0.08;  // [m]
   constexpr double kUncovered =
       0.02;  // [m] more at the sides of a disc: a turn uncovers places there between two sweeps
   const Point2 centre = odom_from_base.position();
   const PointTransform base_from_odom{inverse(odom_from_base)};
-  const double reach = limits.radius + margin + kBeyond;
+  const double reach = limits.radius + margin + kPastMargin;
   for (double x = std::ceil((centre.x - reach) / kStep) * kStep; x <= centre.x + reach; x += kStep) {
     for (double y = std::ceil((centre.y - reach) / kStep) * kStep; y <= centre.y + reach; y += kStep) {
       const Point2 in_base = base_from_odom * Point2{x, y};
       const double gap = limits.gap_to(in_base);
       const bool is_beside = limits.outline.empty() && in_base.x < 0.5 * norm(in_base);
-      if (gap <= (is_beside ? margin + kUncovered : 0.0) || gap > margin + kBeyond) continue;
+      if (gap <= (is_beside ? margin + kUncovered : 0.0) || gap > margin + kPastMargin) continue;
       if (!is_known({x, y}, now)) places.push_back(in_base);
     }
   }
