@@ -40,7 +40,7 @@ constexpr int kWidth = 4;
 namespace avx2 {
 constexpr int kWidth = 8;
 #define DOCENT_TARGET DOCENT_AVX2
-#define DOCENT_BITS(set) static_cast<std::uint64_t>(_mm256_movemask_ps(std::bit_cast<__m256>(set)))
+#define DOCENT_BITS(set) static_cast<std::uint64_t>(_mm256_movemask_ps(__builtin_bit_cast(__m256, set)))
 #include "docent/planning/value_iteration/tile_kernel_passes.inc"
 #undef DOCENT_BITS
 #undef DOCENT_TARGET
@@ -49,7 +49,7 @@ constexpr int kWidth = 8;
 namespace avx512 {
 constexpr int kWidth = 16;
 #define DOCENT_TARGET DOCENT_AVX512
-#define DOCENT_BITS(set) static_cast<std::uint64_t>(_mm512_movepi32_mask(std::bit_cast<__m512i>(set)))
+#define DOCENT_BITS(set) static_cast<std::uint64_t>(_mm512_movepi32_mask(__builtin_bit_cast(__m512i, set)))
 #include "docent/planning/value_iteration/tile_kernel_passes.inc"
 #undef DOCENT_BITS
 #undef DOCENT_TARGET
