@@ -18,15 +18,15 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kStep = 2.0 * kPi / VirtualMeasurements::kDirections;
-constexpr double kLattice = 0.025;        // [m] positions closer than this share their distances
-constexpr std::size_t kMaxRows = 300000;  // 60 MB
-constexpr double kBlock = 0.5;            // [m] positions in one block have the same borders within range
-constexpr double kReentry = 0.5;          // [m]
-constexpr std::size_t kSample = 256;      // poses from which the limits are guessed
-constexpr std::size_t kFewPoses = 1024;   // not worth a guess
-constexpr double kAmple = 4.0;            // times the mass that is wanted: so much may the sample be off
-constexpr int kTurned = 6;                // directions, between one belief and the next
-constexpr int kDriven = 8;                // bins
+constexpr double kLattice = 0.025;       // [m] positions closer than this share their distances
+constexpr std::size_t kMaxRows = 25000;  // 5 MB, reached within the first hour: a day takes no more memory than that
+constexpr double kBlock = 0.5;           // [m] positions in one block have the same borders within range
+constexpr double kReentry = 0.5;         // [m]
+constexpr std::size_t kSample = 256;     // poses from which the limits are guessed
+constexpr std::size_t kFewPoses = 1024;  // not worth a guess
+constexpr double kAmple = 4.0;           // times the mass that is wanted: so much may the sample be off
+constexpr int kTurned = 6;               // directions, between one belief and the next
+constexpr int kDriven = 8;               // bins
 
 std::uint8_t bin_of(double range) {
   return static_cast<std::uint8_t>(
