@@ -19,7 +19,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kStep = 2.0 * kPi / VirtualMeasurements::kDirections;
 constexpr double kLattice = 0.025;       // [m] positions closer than this share their distances
-constexpr std::size_t kMaxRows = 25000;  // 5 MB, reached within the first hour: a day takes no more memory than that
+constexpr std::size_t kMaxRows = 16000;  // 3 MB, reached within the first hour: a day takes no more memory than that
 constexpr double kBlock = 0.5;           // [m] positions in one block have the same borders within range
 constexpr double kReentry = 0.5;         // [m]
 constexpr std::size_t kSample = 256;     // poses from which the limits are guessed
