@@ -10,7 +10,7 @@ namespace docent {
 int MuseumMode::minute_of_day(Time now) const {
   if (is_virtual_) {
     const auto minutes = std::chrono::floor<std::chrono::minutes>(day_begins_ + Duration{now.nanoseconds});
-    return static_cast<int>(minutes.count() % std::int64_t{24 * 60});
+    return static_cast<int>(minutes.count() % (std::int64_t{24} * 60));
   }
   const std::time_t seconds = now.nanoseconds / 1'000'000'000;
   std::tm local{};
