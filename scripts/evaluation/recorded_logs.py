@@ -18,6 +18,8 @@ METHODS = ["grid", "particles"]
 PARTS = ["wean", "intel", "corrected"]
 SURFACES = "0"  # [m]: maps made here have their walls where the readings ended
 MEAN_BOUND = 0.10  # [m]
+LEAST_KNOWN = 0.8  # of all scans of the corrected logs, in which the robot says that it knows where it is
+MOST_WRONG = 0.005  # of those, where it is not there
 # What the perturbed odometry's wheels are known for, one setting for all logs: 10 % of a way, 10 % of a turn and about two
 # degrees a metre, over steps of two metres.
 MOTION = "motion={translation_per_metre: 0.03, rotation_per_metre: 0.004, rotation_per_radian: 0.02}"
@@ -120,6 +122,7 @@ def corrected(logs, is_slice, methods, seeds, verdict, crippled):
         raise RuntimeError(f"no corrected log in {logs.data}")
     print(f"\n## Corrected logs: odd scans make the map, even ones are localized, odometry perturbed with {len(seeds)} seeds\n")
     rows = []
+    runs = {method: [] for method in methods}
     for name in names:
         log = logs.log(f"{name}-corrected.log.gz")
         themap = logs.map(name, log, ["--reference", "logged", "--scans", "odd"])
@@ -132,6 +135,7 @@ def corrected(logs, is_slice, methods, seeds, verdict, crippled):
                                                                 "--seed", seed])
                 rows.append(row_of(name, method, "reference", f"seed {seed}", run))
                 means.append(run["mean_error_m"])
+                runs[method].append(run)
             verdict.want(f"{name} {method}: mean error, worst seed (10 cm)", f"{100 * max(means):.1f} cm",
                          max(means) <= MEAN_BOUND)
         if crippled:
@@ -139,6 +143,13 @@ def corrected(logs, is_slice, methods, seeds, verdict, crippled):
             rows.append(row_of(name, "dead reckoning", "reference", f"seed {seeds[0]}", run))
             verdict.want(f"{name}, dead reckoning (must exceed 10 cm)", f"{100 * run['mean_error_m']:.0f} cm",
                          run["mean_error_m"] > MEAN_BOUND)
+    for method in methods:
+        scans = sum(run["reference_scans"] for run in runs[method])
+        sure = scans - sum(run["unsure_scans"] for run in runs[method])
+        wrong = sum(run["sure_and_wrong_scans"] for run in runs[method])
+        verdict.want(f"{method}, given start: says that it knows (80 %)", f"{100 * sure / scans:.1f} % of {scans} scans",
+                     scans >= 100 and sure >= LEAST_KNOWN * scans)
+        verdict.want(f"{method}: sure and wrong (0.5 %)", f"{wrong} of {sure} scans", wrong <= MOST_WRONG * sure)
     print_table(HEADER, rows)
 
 

@@ -115,6 +115,7 @@ bool PoseRefiner::is_in(const BeliefMode& mode, const Pose2& pose, double times,
 Pose2 PoseRefiner::refine(const BeliefMode& mode, const RangeSweep& sweep, const Pose2& before_from_after,
                           double position_variance, double heading_variance, const RayCaster& caster,
                           double max_range) {
+  found_share_.reset();
   if (!params_.enabled || mode.covariance[0] + mode.covariance[4] > kWidestMode * kWidestMode) {
     estimate_.reset();
     return mode.map_from_robot;
@@ -142,9 +143,11 @@ Pose2 PoseRefiner::refine(const BeliefMode& mode, const RangeSweep& sweep, const
     if (estimate_ && distance(estimate_->map_from_robot.position(), mode.map_from_robot.position()) < kSearchedWithin)
       guesses.push_back({estimate_->map_from_robot, std::sqrt(position_variance + kSearchedPosition),
                          std::sqrt(heading_variance + kSearchedTurn)});
-    const Pose2 found = best_pose_near(guesses, sweep, caster, max_range, kSearchedViews * params_.independent_beams);
-    estimate_ =
-        corrected({found, values(Eigen::Vector3d{0.01, 0.01, 0.001}.asDiagonal())}, sweep, caster, max_range, false);
+    const FoundPose found =
+        best_pose_near(guesses, sweep, caster, max_range, kSearchedViews * params_.independent_beams);
+    found_share_ = found.share;
+    estimate_ = corrected({found.map_from_robot, values(Eigen::Vector3d{0.01, 0.01, 0.001}.asDiagonal())}, sweep,
+                          caster, max_range, false);
     return estimate_->map_from_robot;
   }
   const bool is_vague = heading_variance > kVagueTurn * kVagueTurn;

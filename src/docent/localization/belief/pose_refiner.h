@@ -40,13 +40,19 @@ class PoseRefiner {
  public:
   explicit PoseRefiner(const PoseRefinerParams& params) : params_{params} {}
 
-  void reset() { estimate_.reset(); }
+  void reset() {
+    estimate_.reset();
+    found_share_.reset();
+  }
 
   /// `mode`: the belief's best one now. `before_from_after`: odometry since the last call, with the given error.
   /// @returns map_from_robot; of the mode itself where it is too wide to be refined. O(beams).
   [[nodiscard]] Pose2 refine(const BeliefMode& mode, const RangeSweep& sweep, const Pose2& before_from_after,
                              double position_variance, double heading_variance, const RayCaster& caster,
                              double max_range);
+  /// The last call searched for the pose, because odometry had foretold too little: how surely it is the one that was
+  /// found, FoundPose::share.
+  [[nodiscard]] std::optional<double> found_share() const { return found_share_; }
 
  private:
   struct Estimate {
@@ -62,6 +68,7 @@ class PoseRefiner {
 
   PoseRefinerParams params_;
   std::optional<Estimate> estimate_;
+  std::optional<double> found_share_;
 };
 
 }  // namespace docent

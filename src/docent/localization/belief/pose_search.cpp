@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <vector>
+
+#include "docent/localization/belief/neighbourhood.h"
 
 namespace docent {
 namespace {
@@ -73,8 +74,9 @@ struct Scored {
   double score;
 };
 
-/// The box about one guess; keeps the better of `best` and what it finds.
-void search(const PoseGuess& guess, std::span<const Point2> seen, const Scoring& scoring, Scored& best) {
+/// The box about one guess; adds every pose that the robot may have there.
+void search(const PoseGuess& guess, std::span<const Point2> seen, const Scoring& scoring,
+            std::vector<Scored>& searched) {
   const int aside = static_cast<int>(std::ceil(std::min(kFarthest, kDeviations * guess.position_deviation) / kStep));
   const int turns =
       static_cast<int>(std::ceil(std::min(kFarthestTurn, kDeviations * guess.heading_deviation) / kTurnStep));
@@ -87,8 +89,7 @@ void search(const PoseGuess& guess, std::span<const Point2> seen, const Scoring&
       for (int column = -aside; column <= aside; ++column) {
         const Point2 at = guess.map_from_robot.position() + Point2{column * kStep, row * kStep};
         if (scoring.caster.clearance(at) < static_cast<float>(kStep)) continue;
-        const double score = scoring(at, heading, arms);
-        if (score > best.score) best = {{at.x, at.y, turned.theta}, score};
+        searched.push_back({{at.x, at.y, turned.theta}, scoring(at, heading, arms)});
       }
     }
   }
@@ -96,16 +97,27 @@ void search(const PoseGuess& guess, std::span<const Point2> seen, const Scoring&
 
 }  // namespace
 
-Pose2 best_pose_near(std::span<const PoseGuess> guesses, const RangeSweep& sweep, const RayCaster& caster,
-                     double max_range, double readings) {
+FoundPose best_pose_near(std::span<const PoseGuess> guesses, const RangeSweep& sweep, const RayCaster& caster,
+                         double max_range, double readings) {
   const Pose2& first = guesses.front().map_from_robot;
   const std::vector<Point2> seen = ends(sweep, max_range);
-  if (seen.size() < kFewestReadings) return first;
+  if (seen.size() < kFewestReadings) return {first, 0.0};
   const Scoring scoring{guesses, caster, std::min(1.0, readings / static_cast<double>(seen.size())),
                         score_by_distance()};
-  Scored best{first, -std::numeric_limits<double>::infinity()};
-  for (const PoseGuess& guess : guesses) search(guess, seen, scoring, best);
-  return best.pose;
+  std::vector<Scored> searched;
+  for (const PoseGuess& guess : guesses) search(guess, seen, scoring, searched);
+  if (searched.empty()) return {first, 0.0};
+  const auto best = *std::max_element(searched.begin(), searched.end(),
+                                      [](const Scored& a, const Scored& b) { return a.score < b.score; });
+  const Neighbourhood same = same_place(best.pose);
+  double in_same = 0.0;
+  double in_all = 0.0;
+  for (const Scored& one : searched) {
+    const double weight = std::exp(one.score - best.score);
+    in_all += weight;
+    if (same.holds(one.pose.position()) && same.holds(one.pose.theta)) in_same += weight;
+  }
+  return {best.pose, in_same / in_all};
 }
 
 std::optional<double> log_fit(const Pose2& map_from_robot, const RangeSweep& sweep, const RayCaster& caster,

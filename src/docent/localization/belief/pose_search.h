@@ -16,6 +16,14 @@ struct PoseGuess {
   double heading_deviation = 0.0;   ///< [rad], > 0
 };
 
+/// What a search found.
+struct FoundPose {
+  Pose2 map_from_robot;
+  /// 0..1, of all poses searched, weighed by their scores, that are the same place (same_place); 0: nothing was
+  /// searched
+  double share = 0.0;
+};
+
 /// The pose near the guesses from which the readings of a sweep end nearest to walls: an exhaustive search in steps of
 /// 10 cm and a degree over a box about each (three deviations, at most 2 m and 20 degrees), for when
 /// nothing foretells the pose well enough to follow a gradient. Score: the sum over the readings of the log of a
@@ -24,8 +32,8 @@ struct PoseGuess {
 /// left out. The first guess where fewer than ten readings remain. O(poses in the boxes * readings), at most 80
 /// readings.
 /// @pre guesses is not empty
-[[nodiscard]] Pose2 best_pose_near(std::span<const PoseGuess> guesses, const RangeSweep& sweep, const RayCaster& caster,
-                                   double max_range, double readings);
+[[nodiscard]] FoundPose best_pose_near(std::span<const PoseGuess> guesses, const RangeSweep& sweep,
+                                       const RayCaster& caster, double max_range, double readings);
 
 /// How well the readings of a sweep fit a pose: the score of `best_pose_near` without guesses, a reading; higher is
 /// better. None where fewer than ten readings remain. O(beams).

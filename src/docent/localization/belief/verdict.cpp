@@ -90,7 +90,7 @@ void Verdict::add(const Evidence& evidence) {
   if (!evidence.is_same_mode || (!is_good && !localized_)) {
     confirmed_ = way_ = turn_ = 0.0;
   } else {
-    confirmed_ += evidence.weight;
+    confirmed_ += evidence.weight * evidence.views;
     way_ += evidence.way;
     turn_ += evidence.turn;
   }

@@ -14,7 +14,7 @@ struct VerdictParams {
   double too_little_mass = 0.6;     ///< to take it back, or
   double most_doubt = 0.9;          ///< P(lost), for eight glances in a row
   double widest_spread = 0.35;      ///< [m] standard deviation of the best mode
-  double confirmations = 6.0;       ///< full updates in a row that kept to one mode
+  double confirmations = 6.0;       ///< full updates of one view in a row that kept to one mode
   double travelled = 1.0;           ///< [m] driven since, or
   double turned = 120.0;            ///< [deg] turned since
   double least_agreement = 0.2;     ///< share of the readings that the map explains
@@ -52,6 +52,7 @@ struct Agreement {
 /// What one update says about the best mode.
 struct Evidence {
   double weight = 1.0;        ///< of the update, 0..1
+  double views = 1.0;         ///< >= 1: how many scans the scan counts for, MarkovLocalizerParams::views
   double mass = 0.0;          ///< of the best mode
   double rival = 0.0;         ///< mass of the second best mode
   double spread = 0.0;        ///< [m]

@@ -36,6 +36,17 @@ TEST(Verdict, SaysThatItDoesNotKnowUntilItDoes) {
   EXPECT_TRUE(sure().localized());
 }
 
+TEST(Verdict, AScanAfterALongWayConfirmsForSeveral) {
+  Evidence sparse = good();
+  sparse.way = 2.0;
+  sparse.views = 4.0;
+  Verdict verdict{{}};
+  verdict.add(sparse);
+  EXPECT_FALSE(verdict.localized());
+  verdict.add(sparse);
+  EXPECT_TRUE(verdict.localized());
+}
+
 TEST(Verdict, DoubtFallsWithConfirmationAndIsSmallWhenSure) {
   Verdict verdict{{}};
   verdict.add(good());

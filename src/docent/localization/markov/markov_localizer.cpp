@@ -56,6 +56,8 @@ Result<void> MarkovLocalizerParams::validate() const {
   if (!(most_views >= 1.0 && most_views <= 10.0)) return fail("most_views must be 1..10");
   for (const double nats : {most_nats, most_nats_far})
     if (!(nats > 0.0 && nats <= 60.0)) return fail("most_nats and most_nats_far must be > 0 and <= 60");
+  if (!(focus_radius > 0.0 && focus_turn > 0.0 && focus_deviations >= 0.0))
+    return fail("focus_radius and focus_turn must be > 0 and focus_deviations >= 0");
   if (!(sectors >= 1 && sectors <= 60)) return fail("sectors must be 1..60");
   for (const double nats : {most_sector_nats, most_sector_nats_lost})
     if (!(nats > 0.0)) return fail("most_sector_nats and most_sector_nats_lost must be > 0");
@@ -68,6 +70,12 @@ Result<void> MarkovLocalizerParams::validate() const {
 double MarkovLocalizerParams::views(double way, double turn) const {
   const double updates = std::max(way / update_way, turn / (update_turn * kRadians));
   return std::clamp(0.5 * updates, 1.0, most_views);
+}
+
+Neighbourhood MarkovLocalizerParams::focus(const Pose2& predicted, const Pose2& before_from_after) const {
+  const MotionNoise noise = motion_noise(motion, before_from_after);
+  return {predicted, std::max(focus_radius, focus_deviations * std::sqrt(noise.position_variance)),
+          std::max(focus_turn, focus_deviations * std::sqrt(noise.heading_variance))};
 }
 
 std::vector<std::uint8_t> MarkovLocalizerParams::on_persons(const RangeSweep& sweep, bool keeps_its_place) const {
@@ -224,8 +232,8 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
   weights.sectors = static_cast<std::size_t>(params_.sectors);
   if (verdict_.keeps_its_place() && predicted) {
     weights.far_share = params_.independent_beams_far / params_.independent_beams;
-    weights.far_most_nats = params_.most_nats_far;
-    weights.focus = *predicted * inverse(frame_from_robot());
+    weights.far_most_nats = params_.most_nats_far * std::sqrt(views);
+    weights.focus = params_.focus(*predicted * inverse(frame_from_robot()), before_from_after);
   }
   const PlaceCosts others = ask_sensors(step.weight);
   if (others) {
@@ -246,6 +254,7 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
     BeliefMode& best = summary_.modes.front();
     best.map_from_robot = refiner_.refine(best, sweep, before_from_after, noise.position_variance,
                                           noise.heading_variance, caster_, params_.sensor.max_range);
+    if (weights.focus) gather(*weights.focus);
   }
   step.fit = fit(seen, choice.used);
   // After a long way odometry foretells too little: the belief of after the update is held against the readings.
@@ -253,10 +262,20 @@ MarkovLocalizer::Step MarkovLocalizer::observe(const RangeSweep& sweep, const Po
     const ExpectedRanges expected{likely_, table_, space_.headings(), false};
     choice.readings = agreement_of_all(expected, model_, seen, params_.filter_sureness, space_.headings());
   }
-  judge({.weight = step.weight, .way = way, .turn = turn, .readings = choice.readings}, predicted);
+  judge({.weight = step.weight, .views = views, .way = way, .turn = turn, .readings = choice.readings}, predicted);
   if (const auto now = map_from_robot(odom_from_robot))
     verdict_.look(glance(caster_, sweep, *now, params_.sensor.max_range));
   return step;
+}
+
+void MarkovLocalizer::gather(const Neighbourhood& focus) {
+  const auto share = refiner_.found_share();
+  if (!share) return;
+  const Pose2 refined = summary_.modes.front().map_from_robot;
+  const Pose2 found = refined * inverse(frame_from_robot());
+  belief_.gather({{found, focus.radius, focus.turn}, same_place(found), *share});
+  summarise_now();
+  if (!summary_.modes.empty()) summary_.modes.front().map_from_robot = refined;
 }
 
 PlaceCosts MarkovLocalizer::ask_sensors(double weight) {

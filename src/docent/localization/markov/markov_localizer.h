@@ -10,6 +10,7 @@
 #include "docent/base/random.h"
 #include "docent/base/time.h"
 #include "docent/localization/belief/localizer.h"
+#include "docent/localization/belief/neighbourhood.h"
 #include "docent/localization/belief/pose_refiner.h"
 #include "docent/localization/belief/rivals.h"
 #include "docent/localization/markov/beam_filter.h"
@@ -53,6 +54,9 @@ struct MarkovLocalizerParams {
   double most_views = 4.0;             ///< >= 1: what a scan after a long way is worth, see views()
   double most_nats = 8.0;              ///< [nat] that one scan counts at most
   double most_nats_far = 2.0;          ///< and, once the robot is sure of a place, between it and others
+  double focus_radius = 0.75;          ///< [m] about the place that the robot is sure of: evidence is sharp there
+  double focus_turn = 0.45;            ///< [rad] likewise
+  double focus_deviations = 8.0;       ///< of odometry's error since the last update that are in focus all the same
   int most_states_asked = 300000;      ///< active states up to which sensors beside the lasers are asked
   double work_per_second = 1e9;        ///< states * beams that may be scored in a second of the robot's time
   std::string simd = "auto";           ///< auto (the widest there is), plain, avx2, avx512: same belief, other speed
@@ -85,6 +89,9 @@ struct MarkovLocalizerParams {
     v("most_views", most_views);
     v("most_nats", most_nats);
     v("most_nats_far", most_nats_far);
+    v("focus_radius", focus_radius);
+    v("focus_turn", focus_turn);
+    v("focus_deviations", focus_deviations);
     v("most_states_asked", most_states_asked);
     v("work_per_second", work_per_second);
     v("simd", simd);
@@ -94,6 +101,8 @@ struct MarkovLocalizerParams {
   /// scan, so that evidence comes by the metre and not by the scan: sparse scans, with half a metre or 20 degrees and
   /// more between them, count for several. 1..most_views.
   [[nodiscard]] double views(double way, double turn) const;
+  /// Where evidence is sharp for a robot that is sure of its place and has driven so far since it was `predicted`.
+  [[nodiscard]] Neighbourhood focus(const Pose2& predicted, const Pose2& before_from_after) const;
   /// What a sector counts at most. `on_persons`: see below; empty once the robot has a place to keep.
   [[nodiscard]] double sector_nats(std::span<const std::uint8_t> on_persons) const;
   /// The beams on what is shaped like a person, while the robot does not know its place; empty: nobody looks.
@@ -140,6 +149,8 @@ class MarkovLocalizer final : public Localizer {
   void move(const Pose2& before_from_after);
   void summarise_now();
   void believe(std::span<const BeliefMode> modes, double uniform_mass);
+  /// After a search for the refined pose: the belief follows it inside the neighbourhood in focus.
+  void gather(const Neighbourhood& focus);
   void keep_rivals(const RangeSweep& sweep, const Pose2& before_from_after, double weight);
   [[nodiscard]] Pose2 frame_from_robot() const { return inverse(odom_from_frame_) * odom_from_robot_; }
   void judge(const Evidence& evidence, const std::optional<Pose2>& predicted);

@@ -186,11 +186,10 @@ PositionBelief::Focus PositionBelief::focus_of(const EvidenceWeights& weights, c
   focus.headings.assign(headings, 0);
   for (std::size_t h = 0; h < headings; ++h) {
     const Angle heading = Angle::radians(static_cast<double>(h) * space_->heading_step());
-    if (std::abs((heading - weights.focus->theta).radians()) <= weights.focus_turn) focus.headings[h] = 1;
+    if (weights.focus->holds(heading)) focus.headings[h] = 1;
   }
   for (std::size_t i = 0; i < kept_.size(); ++i) {
-    const Point2 centre = space_->centre(static_cast<std::size_t>(kept_[i]));
-    if (distance(centre, weights.focus->position()) <= weights.focus_radius) focus.rows.push_back(i);
+    if (weights.focus->holds(space_->centre(static_cast<std::size_t>(kept_[i])))) focus.rows.push_back(i);
   }
   const auto for_active = [&](const auto& visit) {
     for (const std::size_t i : focus.rows) {

@@ -9,6 +9,7 @@
 
 #include "docent/base/aligned_vector.h"
 #include "docent/localization/belief/belief_summary.h"
+#include "docent/localization/belief/neighbourhood.h"
 #include "docent/localization/markov/motion_kernel.h"
 #include "docent/localization/markov/range_table.h"
 #include "docent/localization/markov/row_kernel.h"
@@ -30,9 +31,7 @@ struct EvidenceWeights {
   double most_sector_nats = 1e3;  ///< [nat]
   std::size_t sectors = 1;        ///< of a turn
   /// The neighbourhood in which all of the evidence counts; everything else, and it as a whole, gets the share alone.
-  std::optional<Pose2> focus;
-  double focus_radius = 0.75;  ///< [m]
-  double focus_turn = 0.45;    ///< [rad]
+  std::optional<Neighbourhood> focus;
 };
 
 /// Adds the costs of other sensors, in steps of 1 / kCostPerNat, to those of all headings of a place.
@@ -94,6 +93,9 @@ class PositionBelief {
   /// @pre beams in the order of directions
   void reweigh(const RangeTable& table, std::span<const BeamCosts> beams, double log_best_over_mean,
                const EvidenceWeights& weights, double teleport, const PlaceCosts& others = {});
+
+  /// What a search has found inside a neighbourhood; the mass of the neighbourhood as a whole stays. O(kept states).
+  void gather(const Gathering& gathering);
 
   /// Shares `mass` evenly over all states, in proportion taken from the others.
   void flood(double mass);

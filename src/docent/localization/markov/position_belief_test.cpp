@@ -238,7 +238,7 @@ std::vector<PositionBelief> after_a_drive(const testing::Room& room, double thre
       weights.most_sector_nats = step % 2 == 0 ? 1.0 : 20.0;
       weights.most_nats = weights.far_most_nats = 8.0;
       if (step > 3) {
-        weights.focus = truth;
+        weights.focus = Neighbourhood{truth, 0.75, 0.45};
         weights.far_share = 0.3;
       }
       belief.reweigh(room.table, beams, best_over_mean, weights, 1e-7);
@@ -250,6 +250,37 @@ std::vector<PositionBelief> after_a_drive(const testing::Room& room, double thre
     beliefs.push_back(std::move(belief));
   }
   return beliefs;
+}
+
+double mass_in(const PositionBelief& belief, const Neighbourhood& neighbourhood) {
+  double mass = 0.0;
+  for (std::size_t i = 0; i < belief.kept_places().size(); ++i) {
+    if (!neighbourhood.holds(belief.space().centre(static_cast<std::size_t>(belief.kept_places()[i])))) continue;
+    for (int h = 0; h < belief.space().headings(); ++h)
+      if (neighbourhood.holds(Angle::radians(h * belief.space().heading_step())))
+        mass += static_cast<double>(belief.row(i)[static_cast<std::size_t>(h)]);
+  }
+  return mass;
+}
+
+TEST(PositionBelief, GatheringMovesMassInsideTheNeighbourhoodAndNothingElse) {
+  const testing::Room room{6.0};
+  for (const double threshold : {0.0, 0.001}) {
+    PositionBelief belief{room.space, threshold};
+    const Pose2 found{1.2, 1.0, Angle::degrees(40)};
+    const std::vector<BeliefMode> modes{{found, {0.01, 0, 0, 0, 0.01, 0, 0, 0, 0.01}, 0.5},
+                                        {{1.9, 1.0, Angle::degrees(40)}, {0.01, 0, 0, 0, 0.01, 0, 0, 0, 0.01}, 0.4}};
+    belief.make_modes(modes, 0.05);
+    const Neighbourhood all{found, 1.2, 0.6};
+    const double in_all = mass_in(belief, all);
+    const double in_found = mass_in(belief, same_place(found));
+    ASSERT_LT(in_found, 0.65 * in_all);
+    belief.gather({all, same_place(found), 0.97, 3.0});
+    EXPECT_NEAR(mass_in(belief, all), in_all, 2e-3);
+    EXPECT_NEAR(mass_in(belief, same_place(found)), 0.97 * in_all, 5e-3);
+    belief.gather({all, same_place(found), 0.5, 3.0});  // less sure than the belief: nothing changes
+    EXPECT_NEAR(mass_in(belief, same_place(found)), 0.97 * in_all, 5e-3);
+  }
 }
 
 TEST(PositionBelief, EveryInstructionSetGivesTheSameBeliefBitForBit) {

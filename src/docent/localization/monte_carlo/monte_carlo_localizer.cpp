@@ -193,6 +193,8 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
   others_ = ask_sensors(full_temper);
   if (others_.steps_per_nat > 0.0) last_work_ += kWorkOfOthers * static_cast<double>(particles_.size());
   double likelihood = 0.0;
+  std::optional<Neighbourhood> focus;
+  if (verdict_.keeps_its_place() && predicted) focus = shared_.focus(*predicted, before_from_after);
   if (particles_.size() > 0) {
     std::vector<std::uint32_t> costs;
     scores_.score(sweep, choice.used, particles_, costs);
@@ -203,10 +205,10 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
     ParticleEvidence evidence;
     evidence.nats_per_cost = step.weight * full_temper / kScorePerNat;
     evidence.most_nats = shared_.most_nats * std::sqrt(views);
-    if (verdict_.keeps_its_place()) {  // as the grid: sharp where the robot is, slow between there and elsewhere
-      evidence.focus = predicted;
+    if (focus) {  // as the grid: sharp where the robot is, slow between there and elsewhere
+      evidence.focus = focus;
       evidence.far_share = shared_.independent_beams_far / shared_.independent_beams;
-      evidence.far_most_nats = shared_.most_nats_far;
+      evidence.far_most_nats = shared_.most_nats_far * std::sqrt(views);
     }
     likelihood = reweigh(particles_, costs, evidence);
     notice_surprise(likelihood, step.weight, full_temper / one_view);
@@ -226,6 +228,7 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
     BeliefMode& best = summary_.modes.front();
     best.map_from_robot = refiner_.refine(best, sweep, before_from_after, noise.position_variance,
                                           noise.heading_variance, caster_, shared_.sensor.max_range);
+    if (focus) gather(*focus);
   }
   step.fit = fit(sweep, choice.used);
   // After a long way odometry foretells too little: the belief of after the update is held against the readings.
@@ -233,10 +236,19 @@ MonteCarloLocalizer::Step MonteCarloLocalizer::observe(const RangeSweep& sweep, 
     const ExpectedRanges expected{likely_, table_, space_.headings(), false};
     choice.readings = agreement_of_all(expected, model_, sweep, shared_.filter_sureness, space_.headings());
   }
-  judge({.weight = step.weight, .way = way, .turn = turn, .readings = choice.readings}, predicted);
+  judge({.weight = step.weight, .views = views, .way = way, .turn = turn, .readings = choice.readings}, predicted);
   if (const auto now = map_from_robot(odom_from_robot))
     verdict_.look(glance(caster_, sweep, *now, shared_.sensor.max_range));
   return step;
+}
+
+void MonteCarloLocalizer::gather(const Neighbourhood& focus) {
+  const auto share = refiner_.found_share();
+  if (!share) return;
+  const Pose2 found = summary_.modes.front().map_from_robot;
+  docent::gather(particles_, {{found, focus.radius, focus.turn}, same_place(found), *share});
+  summarise_now();
+  if (!summary_.modes.empty()) summary_.modes.front().map_from_robot = found;
 }
 
 MonteCarloLocalizer::Others MonteCarloLocalizer::ask_sensors(double temper) {

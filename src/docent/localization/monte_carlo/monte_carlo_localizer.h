@@ -103,6 +103,8 @@ class MonteCarloLocalizer final : public Localizer {
   void add_others(const ParticleSet& particles, std::vector<std::uint32_t>& costs);
   void summarise_now();
   void believe(std::span<const BeliefMode> modes);
+  /// As the grid's.
+  void gather(const Neighbourhood& focus);
   void keep_rivals(const RangeSweep& sweep, const Pose2& before_from_after, double weight);
   void judge(const Evidence& evidence, const std::optional<Pose2>& predicted);
   [[nodiscard]] std::optional<double> fit(const RangeSweep& sweep, std::span<const BinnedBeam> beams) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 namespace docent {
@@ -28,17 +29,16 @@ class Decay {
   std::vector<float> factors_;
 };
 
-/// 1 for the particles in focus.
-std::vector<std::uint8_t> near(const ParticleSet& particles, const ParticleEvidence& evidence) {
+/// 1 for the particles inside.
+std::vector<std::uint8_t> inside(const ParticleSet& particles, const Neighbourhood& neighbourhood) {
   std::vector<std::uint8_t> result(particles.size(), 0);
-  if (!evidence.focus) return result;
-  const auto x = static_cast<float>(evidence.focus->x);
-  const auto y = static_cast<float>(evidence.focus->y);
-  const Point2 heading = unit(evidence.focus->theta);
+  const auto x = static_cast<float>(neighbourhood.about.x);
+  const auto y = static_cast<float>(neighbourhood.about.y);
+  const Point2 heading = unit(neighbourhood.about.theta);
   const auto hx = static_cast<float>(heading.x);
   const auto hy = static_cast<float>(heading.y);
-  const auto reach = static_cast<float>(evidence.focus_radius * evidence.focus_radius);
-  const auto least_cosine = static_cast<float>(std::cos(evidence.focus_turn));
+  const auto reach = static_cast<float>(neighbourhood.radius * neighbourhood.radius);
+  const auto least_cosine = static_cast<float>(std::cos(std::min(neighbourhood.turn, std::numbers::pi)));
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const float dx = particles.x[i] - x;
     const float dy = particles.y[i] - y;
@@ -64,7 +64,8 @@ double mean_likelihood(const ParticleSet& particles, std::span<const std::uint32
 
 double reweigh(ParticleSet& particles, std::span<const std::uint32_t> costs, const ParticleEvidence& evidence) {
   const std::size_t count = particles.size();
-  const std::vector<std::uint8_t> is_near = near(particles, evidence);
+  const std::vector<std::uint8_t> is_near =
+      evidence.focus ? inside(particles, *evidence.focus) : std::vector<std::uint8_t>(count, 0);
   std::uint32_t best = kNone;
   std::uint32_t best_near = kNone;
   std::uint32_t worst = 0;
@@ -105,6 +106,18 @@ double reweigh(ParticleSet& particles, std::span<const std::uint32_t> costs, con
   const auto normalise = static_cast<float>(1.0 / total);
   for (float& weight : particles.weight) weight *= normalise;
   return likelihood / mass * std::exp(-evidence.nats_per_cost * best);
+}
+
+void gather(ParticleSet& particles, const Gathering& gathering) {
+  const std::vector<std::uint8_t> is_near = inside(particles, gathering.all);
+  const std::vector<std::uint8_t> is_found = inside(particles, gathering.found);
+  double found = 0.0;
+  double rest = 0.0;
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    if (is_near[i] != 0) (is_found[i] != 0 ? found : rest) += static_cast<double>(particles.weight[i]);
+  const Gathering::Factors factors = gathering.factors(found, rest);
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    if (is_near[i] != 0) particles.weight[i] *= static_cast<float>(is_found[i] != 0 ? factors.found : factors.rest);
 }
 
 }  // namespace docent

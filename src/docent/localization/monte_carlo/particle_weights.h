@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "docent/localization/belief/neighbourhood.h"
 #include "docent/localization/monte_carlo/particle_set.h"
 
 namespace docent {
@@ -14,10 +15,8 @@ struct ParticleEvidence {
   double most_nats = 60.0;            ///< [nat] that a scan counts at most against the best particle
   /// Particles near it keep all of the evidence among themselves; between them and the others only the far share
   /// counts.
-  std::optional<Pose2> focus;
-  double focus_radius = 0.75;  ///< [m]
-  double focus_turn = 0.45;    ///< [rad]
-  double far_share = 1.0;      ///< 0..1
+  std::optional<Neighbourhood> focus;
+  double far_share = 1.0;  ///< 0..1
   double far_most_nats = 60.0;
 };
 
@@ -29,5 +28,8 @@ struct ParticleEvidence {
 /// them. Returns the mean likelihood that the particles gave the scan before, as if all evidence counted; 0 when there
 /// is no weight at all, and then nothing is changed. O(particles).
 double reweigh(ParticleSet& particles, std::span<const std::uint32_t> costs, const ParticleEvidence& evidence);
+
+/// What a search has found inside a neighbourhood; the weight of the neighbourhood as a whole stays. O(particles).
+void gather(ParticleSet& particles, const Gathering& gathering);
 
 }  // namespace docent

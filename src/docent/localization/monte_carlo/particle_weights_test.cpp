@@ -66,7 +66,7 @@ TEST(ParticleWeights, InFocusSharpAndAsAWholeSlow) {
   for (std::size_t i = 0; i < 400; ++i) costs[i] = i < 200 ? 100 + static_cast<std::uint32_t>(i) : 300;
   ParticleEvidence evidence;
   evidence.nats_per_cost = 0.05;
-  evidence.focus = Pose2{2.0, 2.0, Angle{}};
+  evidence.focus = Neighbourhood{{2.0, 2.0, Angle{}}, 0.75, 0.45};
   evidence.far_share = 0.25;
   evidence.far_most_nats = 1.5;
   reweigh(particles, costs, evidence);
@@ -83,6 +83,29 @@ TEST(ParticleWeights, WithoutWeightNothingHappens) {
   for (float& weight : particles.weight) weight = 0.0F;
   EXPECT_EQ(reweigh(particles, any_costs(rng, particles), {}), 0.0);
   EXPECT_EQ(particles.weight[3], 0.0F);
+}
+
+TEST(ParticleWeights, GatheringMovesMassInsideTheNeighbourhoodAndNothingElse) {
+  ParticleSet particles;
+  particles.resize(4);
+  particles.set(0, {2.0, 2.0, Angle{}}, 0.4F);              // where the search found the robot
+  particles.set(1, {2.7, 2.0, Angle{}}, 0.3F);              // beside it
+  particles.set(2, {5.0, 2.0, Angle{}}, 0.2F);              // elsewhere
+  particles.set(3, {2.0, 2.0, Angle::degrees(120)}, 0.1F);  // there, but looking elsewhere
+  const Pose2 found{2.1, 2.0, Angle{}};
+  gather(particles, {{found, 1.5, 0.5}, same_place(found), 0.97, 3.0});
+  EXPECT_NEAR(particles.weight[0], 0.97F * 0.7F, 1e-5);
+  EXPECT_NEAR(particles.weight[1], 0.03F * 0.7F, 1e-5);
+  EXPECT_EQ(particles.weight[2], 0.2F);
+  EXPECT_EQ(particles.weight[3], 0.1F);
+  // Certain as the search may be, what lies beside loses no more than the most nats.
+  gather(particles, {{found, 1.5, 0.5}, same_place(found), 1.0, 1.0});
+  EXPECT_NEAR(particles.weight[1], 0.03F * 0.7F * std::exp(-1.0F), 1e-5);
+  EXPECT_NEAR(particles.weight[0] + particles.weight[1], 0.7F, 1e-5);
+  // A search that is less sure than the belief changes nothing.
+  const float before = particles.weight[0];
+  gather(particles, {{found, 1.5, 0.5}, same_place(found), 0.5, 3.0});
+  EXPECT_EQ(particles.weight[0], before);
 }
 
 }  // namespace
