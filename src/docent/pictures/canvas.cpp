@@ -171,12 +171,10 @@ void Canvas::draw_image(const Image& image, Point2 top_left, Point2 bottom_right
   const std::unique_ptr<cairo_surface_t, CairoDeleter> surface{
       cairo_image_surface_create(CAIRO_FORMAT_ARGB32, magnified * image.width(), magnified * image.height())};
   cairo_surface_flush(surface.get());
-  unsigned char* data = cairo_image_surface_get_data(surface.get());
-  const int stride = cairo_image_surface_get_stride(surface.get());
   for (int y = 0; y < magnified * image.height(); ++y) {
     for (int x = 0; x < magnified * image.width(); ++x) {
       const std::uint32_t pixel = argb(image.at(x / magnified, y / magnified));
-      std::memcpy(data + y * stride + 4 * x, &pixel, sizeof pixel);
+      std::memcpy(pixel_of(surface.get(), x, y), &pixel, sizeof pixel);
     }
   }
   cairo_surface_mark_dirty(surface.get());
@@ -209,6 +207,11 @@ void Canvas::draw_label(Point2 at, std::string_view utf8, const TextStyle& style
   const Point2 top_left = at - Point2{style.anchor.x * size.x + kMargin, style.anchor.y * size.y};
   fill_rectangle(top_left, top_left + Point2{size.x + 2.0 * kMargin, size.y}, plate);
   draw_text(at, utf8, style);
+}
+
+unsigned char* pixel_of(cairo_surface_t* surface, int x, int y) {
+  return cairo_image_surface_get_data(surface) +
+         static_cast<std::ptrdiff_t>(cairo_image_surface_get_stride(surface)) * y + std::ptrdiff_t{4} * x;
 }
 
 Point2 text_size(std::string_view utf8, const TextStyle& style) {

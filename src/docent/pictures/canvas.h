@@ -79,4 +79,7 @@ struct CairoDeleter {
   void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
 };
 
+/// The four bytes of a pixel of an image surface. @pre (x, y) lies in it
+[[nodiscard]] unsigned char* pixel_of(cairo_surface_t* surface, int x, int y);
+
 }  // namespace docent

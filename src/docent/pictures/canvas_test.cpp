@@ -24,8 +24,7 @@ class Page {
   [[nodiscard]] bool is_fine() const { return cairo_status(context_.get()) == CAIRO_STATUS_SUCCESS; }
   [[nodiscard]] Color at(int x, int y) const {
     cairo_surface_flush(surface_.get());
-    const unsigned char* pixel =
-        cairo_image_surface_get_data(surface_.get()) + y * cairo_image_surface_get_stride(surface_.get()) + 4 * x;
+    const unsigned char* pixel = pixel_of(surface_.get(), x, y);
     return {pixel[2], pixel[1], pixel[0]};  // of a little-endian machine
   }
   /// Total coverage in pixels of black shapes.

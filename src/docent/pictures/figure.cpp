@@ -199,8 +199,30 @@ std::string Figure::description() const {
 namespace {
 
 Surface pixels(Point2 size) {
-  return Surface{cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(size.x * kPixelsPerPoint),
-                                            static_cast<int>(size.y * kPixelsPerPoint))};
+  const auto whole = [](double points) { return static_cast<int>(std::lround(points * kPixelsPerPoint)); };
+  return Surface{cairo_image_surface_create(CAIRO_FORMAT_RGB24, whole(size.x), whole(size.y))};
+}
+
+template <class Draw>
+Image rasterized(Point2 size, const Draw& draw) {
+  const Surface surface = pixels(size);
+  {
+    const Context context{cairo_create(surface.get())};
+    cairo_scale(context.get(), kPixelsPerPoint, kPixelsPerPoint);
+    draw(context.get());
+    DOCENT_CHECK(cairo_status(context.get()) == CAIRO_STATUS_SUCCESS);
+  }
+  cairo_surface_flush(surface.get());
+  Image image{cairo_image_surface_get_width(surface.get()), cairo_image_surface_get_height(surface.get())};
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      std::uint32_t pixel = 0;
+      std::memcpy(&pixel, pixel_of(surface.get(), x, y), sizeof pixel);
+      const auto channel = [pixel](unsigned shift) { return static_cast<std::uint8_t>(pixel >> shift & 0xFFU); };
+      image.set(x, y, {channel(16), channel(8), channel(0)});
+    }
+  }
+  return image;
 }
 
 }  // namespace
@@ -236,26 +258,15 @@ Result<void> Figure::save(const std::filesystem::path& path) const {
 }
 
 Image Figure::raster() const {
-  const Surface surface = pixels(size());
-  {
-    const Context context{cairo_create(surface.get())};
-    cairo_scale(context.get(), kPixelsPerPoint, kPixelsPerPoint);
-    draw(context.get());
-    DOCENT_CHECK(cairo_status(context.get()) == CAIRO_STATUS_SUCCESS);
-  }
-  cairo_surface_flush(surface.get());
-  Image image{cairo_image_surface_get_width(surface.get()), cairo_image_surface_get_height(surface.get())};
-  const unsigned char* data = cairo_image_surface_get_data(surface.get());
-  const int stride = cairo_image_surface_get_stride(surface.get());
-  for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) {
-      std::uint32_t pixel = 0;
-      std::memcpy(&pixel, data + y * stride + 4 * x, sizeof pixel);
-      const auto channel = [pixel](unsigned shift) { return static_cast<std::uint8_t>(pixel >> shift & 0xFFU); };
-      image.set(x, y, {channel(16), channel(8), channel(0)});
-    }
-  }
-  return image;
+  return rasterized(size(), [this](cairo_t* context) { draw(context); });
+}
+
+Image raster_inside(const Axes& axes) {
+  return rasterized({axes.width(), axes.height()}, [&axes](cairo_t* context) {
+    Canvas canvas{context};
+    canvas.fill_rectangle({0.0, 0.0}, {axes.width(), axes.height()}, colors::kWhite);
+    axes.draw_layers(canvas);
+  });
 }
 
 }  // namespace docent

@@ -58,4 +58,7 @@ class Figure {
   std::vector<LegendEntry> legend_;
 };
 
+/// The inside of axes alone, without a frame.
+[[nodiscard]] Image raster_inside(const Axes& axes);
+
 }  // namespace docent

@@ -17,32 +17,10 @@ OccupancyGrid room() {
   return map;
 }
 
-/// What lies inside the frame of axes, kPixelsPerPoint pixels a point.
-Image pixels_of(const Axes& axes) {
-  const auto whole = [](double points) { return static_cast<int>(std::lround(points * kPixelsPerPoint)); };
-  const std::unique_ptr<cairo_surface_t, CairoDeleter> surface{
-      cairo_image_surface_create(CAIRO_FORMAT_RGB24, whole(axes.width()), whole(axes.height()))};
-  const std::unique_ptr<cairo_t, CairoDeleter> context{cairo_create(surface.get())};
-  cairo_set_source_rgb(context.get(), 1.0, 1.0, 1.0);
-  cairo_paint(context.get());
-  cairo_scale(context.get(), kPixelsPerPoint, kPixelsPerPoint);
-  Canvas canvas{context.get()};
-  axes.draw_layers(canvas);
-  cairo_surface_flush(surface.get());
-  Image image{whole(axes.width()), whole(axes.height())};
-  for (int y = 0; y < image.height(); ++y)
-    for (int x = 0; x < image.width(); ++x) {
-      const unsigned char* pixel =
-          cairo_image_surface_get_data(surface.get()) + y * cairo_image_surface_get_stride(surface.get()) + 4 * x;
-      image.set(x, y, {pixel[2], pixel[1], pixel[0]});
-    }
-  return image;
-}
-
 TEST(DrawMap, ShowsCellsWhereTheyAre) {
   Axes axes = Axes::metres(room().frame, 200.0);  // 10 pixels a cell
   draw_map(axes, room());
-  const Image image = pixels_of(axes);
+  const Image image = raster_inside(axes);
   EXPECT_EQ(image.width(), 400);
   EXPECT_EQ(image.height(), 200);
   EXPECT_EQ(image.at(5, 5), colors::kUnknown);
@@ -57,7 +35,7 @@ TEST(DrawMap, ShowsCellsWhereTheyAre) {
 TEST(DrawMap, AThinWallSurvivesAReducedPicture) {
   Axes axes = Axes::metres(room().frame, 6.5);  // three cells a pixel
   draw_map(axes, room());
-  const Image image = pixels_of(axes);
+  const Image image = raster_inside(axes);
   int dark = 0;
   for (int x = 0; x < image.width(); ++x) dark += image.at(x, 3) == colors::kInk ? 1 : 0;
   EXPECT_GE(dark, 1);
@@ -67,7 +45,7 @@ TEST(DrawMap, AThinWallSurvivesAReducedPicture) {
 TEST(DrawMap, APartOfItIsCutOutWhereItIs) {
   Axes axes = Axes::metres({1.5, 2.0}, {3.5, 4.0}, 100.0);  // 10 pixels a cell; the map ends at x = 3
   draw_map(axes, room());
-  const Image image = pixels_of(axes);
+  const Image image = raster_inside(axes);
   EXPECT_EQ(image.at(55, 100), colors::kInk);
   EXPECT_EQ(image.at(45, 100), colors::kFloor);
   EXPECT_EQ(image.at(145, 100), colors::kFloor);
@@ -78,12 +56,12 @@ TEST(DrawDensity, ASingleSmallCellIsSeen) {
   const OccupancyGrid map = room();
   Axes axes = Axes::metres(map.frame, 6.5);
   draw_map(axes, map);
-  const Image before = pixels_of(axes);
+  const Image before = raster_inside(axes);
   std::vector<float> mass(map.frame.size(), 0.0F);
   mass[map.frame.index({10, 10})] = 1.0F;
   mass[map.frame.index({20, 10})] = 1e-5F;  // under a thousandth: clear
   draw_density(axes, map.frame, mass);
-  const Image image = pixels_of(axes);
+  const Image image = raster_inside(axes);
   int changed = 0;
   for (int y = 0; y < image.height(); ++y)
     for (int x = 0; x < image.width(); ++x) changed += image.at(x, y) == before.at(x, y) ? 0 : 1;
@@ -98,7 +76,7 @@ TEST(DrawDensity, ItsBarSaysWhatTheColoursMean) {
   // Uniform over 8 m2: 1/8 everywhere, the darkest colour of a scale that ends there.
   Image floor{1, 1};
   floor.blend(0, 0, with_alpha(heat(1.0), 230));
-  EXPECT_EQ(pixels_of(axes).at(300, 150), floor.at(0, 0));
+  EXPECT_EQ(raster_inside(axes).at(300, 150), floor.at(0, 0));
 }
 
 TEST(DrawCells, NothingIsDrawnWhereNoValueIs) {
@@ -106,7 +84,7 @@ TEST(DrawCells, NothingIsDrawnWhereNoValueIs) {
   Axes axes = Axes::metres(frame, 10.0);
   const std::vector<float> values{std::numeric_limits<float>::quiet_NaN(), 0.5F};
   draw_cells(axes, frame, values, [](float) { return colors::kRed; });
-  const Image image = pixels_of(axes);
+  const Image image = raster_inside(axes);
   EXPECT_EQ(image.at(2, 2), colors::kWhite);
   EXPECT_EQ(image.at(15, 2), colors::kRed);
 }
@@ -114,7 +92,7 @@ TEST(DrawCells, NothingIsDrawnWhereNoValueIs) {
 TEST(DrawRobot, PointsTowardsItsHeading) {
   Axes axes = Axes::metres({0, 0}, {4, 4}, 100.0);  // 50 pixels a metre
   draw_robot(axes, {2.0, 2.0, Angle::degrees(90)}, 0.5, colors::kBlue);
-  const Image image = pixels_of(axes);
+  const Image image = raster_inside(axes);
   EXPECT_EQ(image.at(100, 90), colors::kWhite);  // up in the map is up in the picture
   EXPECT_NE(image.at(100, 110), colors::kWhite);
 }
@@ -124,7 +102,7 @@ TEST(DrawNote, StaysInsideTheFrame) {
     const Point2 size = text_size("a long name", {.size = 6.5});
     Axes axes = Axes::metres({0, 0}, {4, 2}, 100.0);
     draw_note(axes, place, "a long name", {0.5, 0.5});
-    const Image image = pixels_of(axes);
+    const Image image = raster_inside(axes);
     int left = image.width();
     int right = 0;
     for (int y = 0; y < image.height(); ++y)
@@ -142,7 +120,7 @@ TEST(DrawTimedPath, IsColouredFromItsBeginningToItsEnd) {
   std::vector<TimedPoint> way;
   for (int i = 0; i <= 100; ++i) way.push_back({30.0 + i, {0.1 * i, 1.0}});
   draw_timed_path(axes, way, 2.0);
-  const Image image = pixels_of(axes);
+  const Image image = raster_inside(axes);
   EXPECT_EQ(image.at(1, 40), rainbow(0.0));
   EXPECT_EQ(image.at(201, 40), rainbow(0.5));
   EXPECT_NE(axes.description().find("time [s]"), std::string::npos);
