@@ -28,6 +28,9 @@ std::uint32_t argb(Color color) {
          share(color.blue);
 }
 
+/// White, a 255th of it. What is clear is black, and that shows at the edges where a program smooths a bitmap.
+constexpr std::uint32_t kAllButClear = 0x01010101;
+
 /// Bytes of a UTF-8 character that begins with `lead`; 0 where none does.
 std::size_t length_of(unsigned char lead) {
   if (lead < 0x80) return 1;
@@ -173,7 +176,8 @@ void Canvas::draw_image(const Image& image, Point2 top_left, Point2 bottom_right
   cairo_surface_flush(surface.get());
   for (int y = 0; y < magnified * image.height(); ++y) {
     for (int x = 0; x < magnified * image.width(); ++x) {
-      const std::uint32_t pixel = argb(image.at(x / magnified, y / magnified));
+      const Color color = image.at(x / magnified, y / magnified);
+      const std::uint32_t pixel = color.alpha > 0 || is_raster ? argb(color) : kAllButClear;
       std::memcpy(pixel_of(surface.get(), x, y), &pixel, sizeof pixel);
     }
   }
