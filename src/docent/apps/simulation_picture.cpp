@@ -57,7 +57,7 @@ Result<void> SimulationPicture::save(const Museum& museum, const std::string& pa
     for (const Point2 place : places) canvas.draw_circle(place, 0.5 * kRing, 1.0, kTouch);
   });
   add_map_legend(figure);
-  figure.add_legend(legend_line("trajectory, by the truth", kWay, rainbow(0.4)));
+  figure.add_legend(legend_line("true trajectory, coloured by time", kWay, rainbow(0.4)));
   figure.add_legend(legend_disc("start", kDot, colors::kBlue));
   figure.add_legend(legend_disc("end", kDot, colors::kRed));
   if (!exhibits.empty()) figure.add_legend(legend_disc("exhibit", kDot, kExhibit));

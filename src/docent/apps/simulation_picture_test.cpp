@@ -28,8 +28,8 @@ TEST(SimulationPicture, HasTheSpanOfTimeAndSaysWhatIsDrawn) {
     return svg ? *svg : "";
   };
   const std::string svg = svg_of(picture);
-  for (const char* word : {"<title>bonn, 0 to 90 s</title>", "x [m], y [m], time [s]", "trajectory, by the truth",
-                           "start", "end", "exhibit", "hazard", "operating area"})
+  for (const char* word : {"<title>bonn, 0 to 90 s</title>", "x [m], y [m], time [s]",
+                           "true trajectory, coloured by time", "start", "end", "exhibit", "hazard", "operating area"})
     EXPECT_NE(svg.find(word), std::string::npos) << word;
   EXPECT_EQ(svg.find("contact"), std::string::npos);
   auto contact = std::make_shared<docent_msgs::TrueContact>();
