@@ -192,7 +192,7 @@ def honesty(bench, verdict, print_table, museums, count, method):
     picture = bench.cache / "reliability.svg"
     reliability.plot(picture, curve, 0.1, [
         f"{n} updates in ten equal bins ({sum(said < 0.02 for said, _ in curve)} of them under 0.02), {100 * lost:.0f} % lost, {method}",
-        f"band: the bound; Brier score {score:.3f}, best threshold on the entropy {best:.3f}"])
+        f"Brier score {score:.3f}, best threshold on the entropy {best:.3f}"])
     print(f"\ndrawn: {picture}")
 
 

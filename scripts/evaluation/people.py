@@ -17,6 +17,7 @@ import subprocess
 import sys
 import time
 
+from evaluation import figures
 from evaluation.tables import Verdict, print_table
 
 MUSEUMS = ["bonn", "smithsonian"]
@@ -190,51 +191,42 @@ def museum_tables(museum, runs, verdict):
     return points, [(name, total, tallies) for name, total, tallies, _ in bands]
 
 
-def bars(parts, x, y, width, title, data):
-    """One panel: recall and precision of each row of data, with the seeds' spread, over 50 to 100 %."""
-    row, label = 26, 210
-    scale = (width - label - 70) / 50.0
-    at = lambda value: x + label + scale * (max(50.0, 100 * value) - 50.0)
-    parts.append(f'<text x="{x}" y="{y}" class="title">{title}</text>')
-    bottom = y + 14 + row * len(data)
-    for tick in (50, 60, 70, 80, 90, 100):
-        tx = x + label + scale * (tick - 50)
-        bound = tick == 100 * BOUND
-        parts.append(f'<line x1="{tx:.1f}" y1="{y + 10}" x2="{tx:.1f}" y2="{bottom}" class="{"bound" if bound else "grid"}"/>')
-        parts.append(f'<text x="{tx:.1f}" y="{bottom + 14}" class="tick">{tick} %</text>')
-    for i, (name, total, tallies) in enumerate(data):
-        top = y + 14 + row * i
-        parts.append(f'<text x="{x + label - 8}" y="{top + 14}" class="name">{name}</text>')
-        for k, (kind, values, value) in enumerate([("recall", [t.recall for t in tallies], total.recall),
-                                                   ("precision", [t.precision for t in tallies], total.precision)]):
-            values = [v for v in values if v == v]
-            if value != value:
+def bars(axes, title, data):
+    """Recall and precision of each row of data, with the seeds' spread."""
+    from matplotlib.patches import Patch
+
+    thickness = 0.38
+    for kind, color, side in (("recall", figures.BLUE, -1), ("precision", figures.ORANGE, 1)):
+        for i, (_, total, tallies) in enumerate(data):
+            value = getattr(total, kind)
+            if value != value:  # nobody was there
                 continue
-            ty = top + 2 + 10 * k
-            parts.append(f'<rect x="{at(0.5):.1f}" y="{ty}" width="{max(0.0, at(value) - at(0.5)):.1f}" height="9" class="{kind}"/>')
-            parts.append(f'<line x1="{at(min(values)):.1f}" y1="{ty + 4.5}" x2="{at(max(values)):.1f}" y2="{ty + 4.5}" class="seeds"/>')
-            parts.append(f'<text x="{x + width - 62}" y="{ty + 8}" class="value">{100 * value:.1f} %</text>')
-    return bottom + 40
-
-
-STYLE = ("text{font:11px sans-serif;fill:#222}.title{font:bold 14px sans-serif}.name{text-anchor:end}.tick{text-anchor:middle;"
-         "fill:#777}.value{font-size:9px}.grid{stroke:#ddd}.bound{stroke:#c33;stroke-dasharray:4 3}.recall{fill:#3d7dd8}"
-         ".precision{fill:#e8a33d}.seeds{stroke:#222;stroke-width:1.5}")
+            seeds = [seed for seed in (getattr(tally, kind) for tally in tallies) if seed == seed]
+            at = i + 0.5 * side * thickness
+            axes.barh(at, 100 * value, thickness, color=color)
+            axes.plot([100 * min(seeds), 100 * max(seeds)], [at, at], color=figures.INK, linewidth=1.2)
+            axes.text(100.5, at, f"{100 * value:.1f} %", fontsize=6.5, verticalalignment="center")
+    axes.axvline(100 * BOUND, color=figures.RED, linewidth=0.9, linestyle=figures.DASHED)
+    axes.set(xlim=(50.0, 100.0), ylim=(len(data) - 0.5, -0.5), yticks=range(len(data)), yticklabels=[name for name, _, _ in data],
+             xlabel="share of the seconds [%]")
+    axes.set_title(title, loc="left")
+    axes.grid(axis="x")
+    return [Patch(color=figures.BLUE, label="recall"), Patch(color=figures.ORANGE, label="precision")]
 
 
 def plot(path, panels, subtitle):
-    parts, y, width = [], 64, 760
-    for title, data in panels:
-        y = bars(parts, 20, y, width, title, data)
-    head = (f'<svg xmlns="http://www.w3.org/2000/svg" width="{width + 40}" height="{y}" viewBox="0 0 {width + 40} {y}">'
-            f'<style>{STYLE}</style><rect width="100%" height="100%" fill="#fff"/>'
-            f'<text x="20" y="24" class="title">People found within 5 m, busy</text><text x="20" y="42">{subtitle}; '
-            'black: from the worst to the best seed; dashed: the bound</text>'
-            f'<rect x="560" y="14" width="12" height="9" class="recall"/><text x="576" y="23">recall</text>'
-            f'<rect x="640" y="14" width="12" height="9" class="precision"/><text x="656" y="23">precision</text>')
-    beside = path.with_suffix(f".part{os.getpid()}")
-    beside.write_text(head + "".join(parts) + "</svg>\n", encoding="utf-8")
-    beside.rename(path)
+    def fill(figure):
+        from matplotlib.lines import Line2D
+
+        heights = [len(data) + 1.0 for _, data in panels]
+        every = figures.under_legend(figure).subplots(len(panels), 1, squeeze=False, gridspec_kw={"height_ratios": heights})
+        for axes, (title, data) in zip(every.flat, panels):
+            samples = bars(axes, title, data)
+        samples.append(Line2D([], [], color=figures.INK, linewidth=1.2, label="from the worst to the best seed"))
+        samples.append(Line2D([], [], color=figures.RED, linewidth=0.9, linestyle=figures.DASHED, label=f"bound, {100 * BOUND:.0f} %"))
+        figures.legend(figure, f"People found within 5 m, busy; {subtitle}", samples)
+
+    figures.draw(path, (figures.WIDTH, 0.6 + sum(0.75 + 0.3 * len(data) for _, data in panels)), fill)
 
 
 def protocol(bench, options):

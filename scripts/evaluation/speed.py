@@ -10,13 +10,14 @@ import concurrent.futures
 import csv
 import hashlib
 import json
+import math
 import os
 import statistics
 import subprocess
 import sys
 import time
 
-from evaluation import crippled
+from evaluation import crippled, figures
 from evaluation.keys import key_of
 from evaluation.reports import contacts_of, mean_speed, touched
 from evaluation.tables import Verdict, print_table
@@ -158,44 +159,37 @@ def office(simulations, seeds, minutes, verdict):
     print(f"\n      drawn: {path}")
 
 
-STYLE = ("text{font:11px sans-serif;fill:#222}.title{font:bold 14px sans-serif}.tick{fill:#777;text-anchor:end;font-size:9px}"
-         ".grid{stroke:#ddd}.bound{stroke:#c33;stroke-dasharray:4 3}.far{fill:none;stroke:#9bb7dd}"
-         ".near{fill:none;stroke:#1f5fbf;stroke-width:1.4}")
-
-
 def plot(path, profiles, seconds=240.0):
-    """Speed over time, a panel a building; dark where something solid is within OFFICE_NEAR."""
-    width, height, columns, left = 560, 84, 2, 46
+    """Speed over time since it first drove, a panel a building; dark where something solid is within OFFICE_NEAR."""
+    columns = min(2, len(profiles))
     rows = (len(profiles) + columns - 1) // columns
-    total = (columns * (width + 20) + 20, 60 + rows * height)
-    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{total[0]}" height="{total[1]}" viewBox="0 0 {total[0]} '
-             f'{total[1]}"><style>{STYLE}</style><rect width="100%" height="100%" fill="#fff"/><text x="20" y="24" class="title">'
-             f'Speed between office-like obstacles, {seconds:g} s a panel</text><text x="20" y="42">dark: something solid within '
-             f'{OFFICE_NEAR} m of the outline; dashed: {OFFICE_SPEED} m/s; limit {OFFICE_LIMIT} m/s</text>']
-    for i, (name, profile) in enumerate(profiles):
-        x0, y0 = 20 + (i % columns) * (width + 20) + left, 60 + (i // columns) * height
-        scale_x, scale_y = (width - left) / seconds, (height - 24) / OFFICE_LIMIT
-        bottom = y0 + height - 24
-        begin = next((row["time"] for row in profile if row["speed"] > 0.3), 0.0)
-        for speed in (0.0, 0.3, 0.6, 0.9, 1.2):
-            y = bottom - scale_y * speed
-            kind = "bound" if speed == OFFICE_SPEED else "grid"
-            parts.append(f'<line x1="{x0}" y1="{y:.1f}" x2="{x0 + width - left}" y2="{y:.1f}" class="{kind}"/>')
-            parts.append(f'<text x="{x0 - 4}" y="{y + 3:.1f}" class="tick">{speed:.1f}</text>')
-        parts.append(f'<text x="{x0 + 4}" y="{y0 - 2}">{name}</text>')
-        line, is_near = [], None
-        for row in [r for r in profile if begin <= r["time"] <= begin + seconds]:
-            at = f'{x0 + scale_x * (row["time"] - begin):.1f},{bottom - scale_y * min(row["speed"], OFFICE_LIMIT):.1f}'
-            near = row["nearest_solid"] <= OFFICE_NEAR
-            if near != is_near and line:
-                parts.append(f'<polyline points="{" ".join([*line, at])}" class="{"near" if is_near else "far"}"/>')
-                line = []
-            is_near = near
-            line.append(at)
-        parts.append(f'<polyline points="{" ".join(line)}" class="{"near" if is_near else "far"}"/>')
-    beside = path.with_suffix(f".part{os.getpid()}")
-    beside.write_text("".join(parts) + "</svg>\n", encoding="utf-8")
-    beside.rename(path)
+
+    def fill(figure):
+        panels = figures.under_legend(figure).subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
+        for panel, (name, profile) in zip(panels.flat, profiles):
+            begin = next((row["time"] for row in profile if row["speed"] > 0.3), 0.0)
+            shown = [row for row in profile if begin <= row["time"] <= begin + seconds]
+            times = [row["time"] - begin for row in shown]
+            speeds = [row["speed"] for row in shown]
+            near = [row["nearest_solid"] <= OFFICE_NEAR for row in shown]
+            # A piece between two rows is what the first of them says.
+            dark = [speed if near[i] or (i > 0 and near[i - 1]) else math.nan for i, speed in enumerate(speeds)]
+            panel.plot(times, speeds, color=figures.LIGHT_BLUE, linewidth=0.8, label="speed")
+            panel.plot(times, dark, color=figures.BLUE, linewidth=1.0,
+                       label=f"speed with something solid within {OFFICE_NEAR:g} m of the outline")
+            panel.axhline(OFFICE_SPEED, color=figures.RED, linewidth=0.8, linestyle=figures.DASHED, label=f"{OFFICE_SPEED} m/s")
+            panel.set_title(name, loc="left")
+            panel.grid(axis="y")
+        for panel in list(panels.flat)[len(profiles):]:
+            panel.set_axis_off()
+        panels[0][0].set(xlim=(0.0, seconds), ylim=(0.0, 1.05 * OFFICE_LIMIT), yticks=[0.0, 0.3, 0.6, 0.9, 1.2])
+        for panel in panels[:, 0]:
+            panel.set_ylabel("speed [m/s]")
+        for panel in panels[-1]:
+            panel.set_xlabel("time since it first drove [s]")
+        figures.legend(figure, f"Speed in drawn offices, limit {OFFICE_LIMIT} m/s", panels[0][0].get_legend_handles_labels()[0])
+
+    figures.draw(path, (figures.WIDTH, 1.0 + 0.95 * rows), fill)
 
 
 def protocol(simulations, options):

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "docent/apps/command.h"
+#include "docent/pictures/figure.h"
 
 namespace docent {
 
@@ -66,6 +67,11 @@ std::string fault_of_output_file(std::string& text) {
   return fault_of_folder(text, path.parent_path());
 }
 
+std::string fault_of_output_picture(std::string& text) {
+  if (const auto format = figure_format(text); !format) return format.error().message;
+  return fault_of_output_file(text);
+}
+
 std::string fault_of_output_folder(std::string& text) {
   std::error_code code;
   fs::path existing = fs::absolute(text, code);
@@ -78,5 +84,12 @@ std::string fault_of_output_folder(std::string& text) {
 
 CLI::Validator output_file() { return CLI::Validator{fault_of_output_file, "FILE"}; }
 CLI::Validator output_folder() { return CLI::Validator{fault_of_output_folder, "FOLDER"}; }
+CLI::Validator output_picture() { return CLI::Validator{fault_of_output_picture, "FILE.svg, .pdf or .png"}; }
+
+void add_picture_format(CLI::App& command, std::string& format) {
+  command.add_option("--picture-format", format, "of the pictures: svg, pdf (both vectors) or png")
+      ->check(CLI::IsMember({"svg", "pdf", "png"}))
+      ->capture_default_str();
+}
 
 }  // namespace docent

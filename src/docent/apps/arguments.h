@@ -6,8 +6,9 @@
 #include "docent/geometry/pose2.h"
 
 namespace CLI {
+class App;
 class Validator;
-}
+}  // namespace CLI
 
 namespace docent {
 
@@ -20,5 +21,9 @@ namespace docent {
 /// end. A file needs a folder that exists; a folder is made where it can be.
 [[nodiscard]] CLI::Validator output_file();
 [[nodiscard]] CLI::Validator output_folder();
+/// A file whose extension is one that a figure can have.
+[[nodiscard]] CLI::Validator output_picture();
+/// "as FILE.svg, .pdf or .png" for commands that write pictures under names of their own: the option --picture-format.
+void add_picture_format(CLI::App& command, std::string& format);
 
 }  // namespace docent

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <CLI/CLI.hpp>
+
 #include "docent/apps/command.h"
 
 namespace docent {
@@ -22,6 +24,19 @@ TEST(Arguments, AnythingElseIsRefusedByName) {
       EXPECT_EQ(failure.exit_code, 2);
     }
   }
+}
+
+TEST(Arguments, APictureIsRefusedBeforeTheWorkByItsExtension) {
+  for (const char* good : {"a.svg", "a.pdf", "a.png", "/tmp/b.c.svg"}) {
+    std::string text = good;
+    EXPECT_EQ(output_picture()(text), "") << good;
+  }
+  for (const char* bad : {"a.jpg", "a", "svg", "a.svg.gz", ""}) {
+    std::string text = bad;
+    EXPECT_NE(output_picture()(text).find("must end in .svg, .pdf or .png"), std::string::npos) << bad;
+  }
+  std::string nowhere = "/nowhere/a.svg";
+  EXPECT_NE(output_picture()(nowhere).find("there is no folder /nowhere"), std::string::npos);
 }
 
 }  // namespace

@@ -78,6 +78,16 @@ TEST_F(CheckCommand, PassesDrawnOffices) {
   }
   EXPECT_EQ(run("office --seed 1 --pictures --out " + (folder_ / "drawn").string()), "");
   EXPECT_TRUE(std::filesystem::exists(folder_ / "drawn" / "world.png"));
+  const auto vectors = folder_ / "vectors";
+  EXPECT_EQ(run("office --seed 1 --pictures --picture-format svg --out " + vectors.string()), "");
+  const auto world = read_file(vectors / "world.svg");
+  ASSERT_TRUE(world);
+  for (const char* word : {"x [m], y [m]", "wall", "furniture", "operating area", "home"})
+    EXPECT_NE(world->find(word), std::string::npos) << word;
+  const auto survey = read_file(vectors / "survey.svg");
+  ASSERT_TRUE(survey);
+  for (const char* word : {"x [m], y [m]", "free", "occupied", "unknown"})
+    EXPECT_NE(survey->find(word), std::string::npos) << word;
 }
 
 TEST_F(CheckCommand, CountsFaults) {

@@ -74,8 +74,8 @@ void run(Options& options) {
   const SocialReport& report = outcome.report;
   if (options.trace) print_trace(outcome);
   if (!options.report.empty()) value_or_fail(write_file_atomically(options.report, json_of(options, outcome, empty)));
-  if (!options.picture.empty()) value_or_fail(save_png(draw_crowd_trial(outcome), options.picture));
-  if (!options.strip.empty()) value_or_fail(save_png(draw_crowd_strip(outcome, kStripEvery), options.strip));
+  if (!options.picture.empty()) value_or_fail(draw_crowd_trial(outcome).save(options.picture));
+  if (!options.strip.empty()) value_or_fail(draw_crowd_strip(outcome, kStripEvery).save(options.strip));
   if (options.quiet) return;
   const auto people = report.contacts.find("people");
   std::printf(
@@ -105,10 +105,10 @@ void add_crowd_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--set", options->trial.settings, "section.key=value over robot.yaml; may be repeated");
   command->add_option("--report", options->report, "JSON file for the score")->check(output_file());
-  command->add_option("--picture", options->picture, "PNG file: the way driven and the crowd at the end")
-      ->check(output_file());
-  command->add_option("--strip", options->strip, "PNG file: the hall every three seconds, with the way planned")
-      ->check(output_file());
+  command->add_option("--picture", options->picture, "the way driven and the crowd at the end")
+      ->check(output_picture());
+  command->add_option("--strip", options->strip, "the hall every three seconds, with the way planned")
+      ->check(output_picture());
   command->add_flag("--trace", options->trace, "print where it was every second, and why it was slow");
   command->add_flag("--quiet", options->quiet, "no summary");
   command->callback([options] { run(*options); });

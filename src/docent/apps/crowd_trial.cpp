@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -12,8 +13,7 @@
 #include "docent/messages/conversions.h"
 #include "docent/modules/module_host.h"
 #include "docent/modules/scanners.h"
-#include "docent/pictures/drawing.h"
-#include "docent/pictures/text.h"
+#include "docent/pictures/map_picture.h"
 #include "docent/sensor_models/ray_caster.h"
 #include "docent/simulator/crowd/crowd.h"
 #include "docent/simulator/simulated_museum.h"
@@ -249,81 +249,106 @@ Result<CrowdTrialOutcome> run_crowd_trial(const CrowdTrialOptions& options) {
 
 namespace {
 
-/// Draws a hall, its corner 0.2 m off the picture's.
-class HallPicture {
- public:
-  HallPicture(const simulator::Hall& hall, double scale)
-      : image_{static_cast<int>(14.4 * scale), static_cast<int>(10.4 * scale)}, scale_{scale} {
-    for (const auto& solid : hall.world.solids) {
-      std::vector<Point2> corners;
-      for (const Point2 corner : solid.polygon) corners.push_back(pixel(corner));
-      fill_polygon(image_, corners, {70, 70, 80, 255});
-    }
-    for (const auto& attraction : hall.world.attractions)
-      draw_circle(image_, pixel(attraction.centre), scale * attraction.radius, 1.0, {200, 200, 210, 255});
-    draw_circle(image_, pixel(hall.goal), 0.3 * scale, 2.0, {40, 160, 60, 255});
-  }
-  void draw(const std::vector<docent_msgs::TruePerson>& people) {
-    for (const auto& person : people) {
-      const Point2 at{person.x, person.y};
-      fill_disc(image_, pixel(at), scale_ * static_cast<double>(person.radius), {120, 160, 220, 255});
-      draw_line(image_, pixel(at), pixel(at + Point2{person.vx, person.vy}), 2.0, {40, 80, 160, 255});
-    }
-  }
-  void draw(const Pose2& robot) {
-    draw_circle(image_, pixel(robot.position()), scale_ * kRobotRadius, 3.0, {220, 120, 40, 255});
-    draw_arrow(image_, pixel(robot.position()), pixel(robot * Point2{0.5, 0.0}), 3.0, {220, 120, 40, 255});
-  }
-  void draw_way(std::span<const Point2> way, Color color) {
-    for (std::size_t i = 1; i < way.size(); ++i) draw_line(image_, pixel(way[i - 1]), pixel(way[i]), 2.0, color);
-  }
-  void mark(Point2 place, Color color) { fill_disc(image_, pixel(place), 3.5, color); }
-  void label(const std::string& text) { draw_text(image_, {4.0, 1.0}, text, colors::kWhite); }
-  [[nodiscard]] const Image& image() const { return image_; }
+constexpr Color kSolid{70, 70, 80};
+constexpr Color kNear{200, 200, 210};
+constexpr Color kGoalColor{40, 160, 60};
+constexpr Color kPerson{120, 160, 220};
+constexpr Color kVelocity{40, 80, 160};
+constexpr Color kRobot{220, 120, 40};
+constexpr Color kStands{220, 30, 30};
+constexpr Color kDrives{40, 160, 60};
+constexpr Color kPlanned{150, 60, 170};
+constexpr double kDot = 3.5;           // [points]
+constexpr double kGoalRadius = 0.3;    // [m], as drawn
+constexpr double kArrowLength = 0.5;   // [m]
+constexpr double kStandsStill = 0.05;  // [m/s]
 
- private:
-  [[nodiscard]] Point2 pixel(Point2 in_world) const {
-    return {(in_world.x + 0.2) * scale_, (10.2 - in_world.y) * scale_};
+/// All of the hall, with 20 cm around it.
+Axes hall_axes(const simulator::Hall& hall, double longest_side) {
+  Axes axes = Axes::metres({-0.2, -0.2}, {14.2, 10.2}, longest_side);
+  for (const auto& solid : hall.world.solids)
+    axes.add([corners = axes.page(solid.polygon)](Canvas& canvas) { canvas.fill_polygon(corners, kSolid); });
+  const auto ring = [&axes](Point2 centre, double radius, double width, Color color) {
+    axes.add([=, at = axes.page(centre), points = radius * axes.scale()](Canvas& canvas) {
+      canvas.draw_circle(at, points, width, color);
+    });
+  };
+  for (const auto& attraction : hall.world.attractions) ring(attraction.centre, attraction.radius, 0.6, kNear);
+  ring(hall.goal, kGoalRadius, 1.2, kGoalColor);
+  return axes;
+}
+
+void draw_people(Axes& axes, const std::vector<docent_msgs::TruePerson>& people) {
+  for (const auto& person : people) {
+    const Point2 at{person.x, person.y};
+    const Point2 places[] = {at};
+    draw_points(axes, places, 2.0 * axes.scale() * static_cast<double>(person.radius), kPerson);
+    if (norm({person.vx, person.vy}) < kStandsStill) continue;
+    const Point2 velocity[] = {at, at + Point2{person.vx, person.vy}};
+    draw_path(axes, velocity, 1.0, kVelocity);
   }
-  Image image_;
-  double scale_;  // pixels a metre
-};
+}
+
+void draw_true_robot(Axes& axes, const Pose2& robot) {
+  axes.add([centre = axes.page(robot.position()), front = axes.page(robot * Point2{kArrowLength, 0.0}),
+            radius = kRobotRadius * axes.scale()](Canvas& canvas) {
+    canvas.draw_circle(centre, radius, 1.5, kRobot);
+    canvas.draw_arrow(centre, front, 1.5, kRobot);
+  });
+}
+
+void add_hall_legend(Figure& figure) {
+  figure.add_legend(legend_area("solid", kSolid));
+  figure.add_legend(legend_ring("people stand within to look", 9.0, 0.6, kNear));
+  figure.add_legend(legend_ring("goal", 9.0, 1.2, kGoalColor));
+  figure.add_legend(legend_disc("person", 7.0, kPerson));
+  figure.add_legend(legend_line("way of a person in the next second", 1.0, kVelocity));
+  figure.add_legend(legend_ring("robot", 8.0, 1.5, kRobot));
+}
 
 }  // namespace
 
-Image draw_crowd_trial(const CrowdTrialOutcome& outcome) {
-  HallPicture picture{outcome.hall, 70.0};
-  if (outcome.moments.empty()) return picture.image();
-  picture.draw(outcome.moments.back().people);
-  for (std::size_t i = 0; i < outcome.moments.size(); ++i) {
-    const auto& moment = outcome.moments[i];
-    if (i > 0)
-      picture.draw_way(std::array{outcome.moments[i - 1].robot.position(), moment.robot.position()},
-                       {220, 120, 40, 255});
-    const bool stands = std::abs(moment.speed) < 0.02;
-    picture.mark(moment.robot.position(), stands ? Color{220, 30, 30, 255} : Color{40, 160, 60, 255});
+Figure draw_crowd_trial(const CrowdTrialOutcome& outcome) {
+  std::array<char, 80> title{};
+  const double end = outcome.moments.empty() ? 0.0 : outcome.moments.back().time;
+  std::snprintf(title.data(), title.size(), "Driven from 0 to %.1f s, people at %.1f s", end, end);
+  Figure figure{title.data()};
+  Axes& axes = figure.add(hall_axes(outcome.hall, 480.0));
+  add_hall_legend(figure);
+  if (outcome.moments.empty()) return figure;
+  draw_people(axes, outcome.moments.back().people);
+  std::vector<Point2> way;
+  std::vector<Point2> standing;
+  std::vector<Point2> driving;
+  for (const auto& moment : outcome.moments) {
+    way.push_back(moment.robot.position());
+    (std::abs(moment.speed) < 0.02 ? standing : driving).push_back(moment.robot.position());
   }
-  picture.draw(outcome.moments.back().robot);
-  return picture.image();
+  draw_path(axes, way, 1.2, kRobot);
+  draw_points(axes, driving, kDot, kDrives);
+  draw_points(axes, standing, kDot, kStands);
+  draw_true_robot(axes, outcome.moments.back().robot);
+  figure.add_legend(legend_line("trajectory", 1.2, kRobot));
+  figure.add_legend(legend_disc("driving, once a second", kDot, kDrives));
+  figure.add_legend(legend_disc("standing, once a second", kDot, kStands));
+  return figure;
 }
 
-Image draw_crowd_strip(const CrowdTrialOutcome& outcome, std::size_t every) {
-  constexpr int kColumns = 4;
-  constexpr double kScale = 30.0;
-  const int rows = static_cast<int>((outcome.moments.size() + every - 1) / every + kColumns - 1) / kColumns;
-  const HallPicture hall{outcome.hall, kScale};
-  Image strip{kColumns * hall.image().width(), std::max(1, rows) * hall.image().height()};
-  int place = 0;
-  for (std::size_t i = 0; i < outcome.moments.size(); i += every, ++place) {
+Figure draw_crowd_strip(const CrowdTrialOutcome& outcome, std::size_t every) {
+  constexpr std::size_t kColumns = 4;
+  constexpr double kSide = 216.0;  // [points]
+  Figure figure{""};
+  for (std::size_t i = 0, place = 0; i < outcome.moments.size(); i += every, ++place) {
     const auto& moment = outcome.moments[i];
-    HallPicture picture = hall;
-    picture.draw(moment.people);
-    picture.draw_way(moment.way, {150, 60, 170, 255});
-    picture.draw(moment.robot);
-    picture.label(std::to_string(std::lround(moment.time)) + " s " + moment.avoid.reason);
-    strip.paste(picture.image(), place % kColumns * hall.image().width(), place / kColumns * hall.image().height());
+    Axes& axes = figure.add(hall_axes(outcome.hall, kSide), place % kColumns == 0);
+    axes.set_title(std::to_string(std::lround(moment.time)) + " s " + moment.avoid.reason);
+    draw_people(axes, moment.people);
+    draw_path(axes, moment.way, 1.0, kPlanned);
+    draw_true_robot(axes, moment.robot);
   }
-  return strip;
+  add_hall_legend(figure);
+  figure.add_legend(legend_line("way planned", 1.0, kPlanned));
+  return figure;
 }
 
 }  // namespace docent

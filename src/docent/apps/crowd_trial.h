@@ -6,7 +6,7 @@
 #include "docent/base/result.h"
 #include "docent/evaluation/social_score.h"
 #include "docent/geometry/pose2.h"
-#include "docent/pictures/image.h"
+#include "docent/pictures/figure.h"
 #include "docent/simulator/hall/hall.h"
 
 namespace docent {
@@ -49,11 +49,11 @@ struct CrowdTrialOutcome {
 [[nodiscard]] Result<CrowdTrialOutcome> run_crowd_trial(const CrowdTrialOptions& options);
 
 /// The hall at the end of a trial, the way driven (a dot a second, redder where it stood), the people there.
-[[nodiscard]] Image draw_crowd_trial(const CrowdTrialOutcome& outcome);
+[[nodiscard]] Figure draw_crowd_trial(const CrowdTrialOutcome& outcome);
 
 /// The hall at every `every`th of the moments, four in a row: where the robot and the people were, and the way it had
 /// planned.
 /// @pre every > 0
-[[nodiscard]] Image draw_crowd_strip(const CrowdTrialOutcome& outcome, std::size_t every);
+[[nodiscard]] Figure draw_crowd_strip(const CrowdTrialOutcome& outcome, std::size_t every);
 
 }  // namespace docent

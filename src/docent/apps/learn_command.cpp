@@ -28,6 +28,7 @@ struct Options {
   std::string wall_depth = "auto";
   std::string out;
   std::string pictures;
+  std::string picture_format = "png";
   std::string report;
   std::vector<std::string> settings;
   int iterations = 6;
@@ -88,11 +89,12 @@ void write_results(const Options& options, const LearningOutcome& outcome) {
   std::filesystem::create_directories(folder, error);
   if (error) throw CommandFailed{"--pictures " + options.pictures + ": " + error.message()};
   const LearnedModels& learned = outcome.learned;
-  value_or_fail(save_png(draw_sensor_model(learned.readings, outcome.before, learned.sensor),
-                         folder / (outcome.sensor + "-model.png")));
+  const std::string extension = "-model." + options.picture_format;
+  value_or_fail(draw_sensor_model(learned.readings, outcome.before, learned.sensor, outcome.sensor)
+                    .save(folder / (outcome.sensor + extension)));
   if (learned.motion)
-    value_or_fail(save_png(draw_motion_model(outcome.motion_before, learned.motion->noise.motion, options.seed),
-                           folder / "motion-model.png"));
+    value_or_fail(draw_motion_model(outcome.motion_before, learned.motion->noise.motion, options.seed)
+                      .save(folder / ("motion" + extension)));
 }
 
 void learn(const Options& options) {
@@ -144,6 +146,7 @@ void add_learn_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--out", options->out, "robot.yaml to write; without: on the terminal")->check(output_file());
   command->add_option("--pictures", options->pictures, "folder for pictures of both models")->check(output_folder());
+  add_picture_format(*command, options->picture_format);
   command->add_option("--report", options->report, "JSON file to write")->check(output_file());
   command
       ->add_option("--expected", options->expected,

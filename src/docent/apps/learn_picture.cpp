@@ -4,48 +4,51 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <vector>
 
 #include "docent/base/random.h"
-#include "docent/pictures/drawing.h"
 #include "docent/pictures/map_picture.h"
-#include "docent/pictures/text.h"
 #include "docent/sensor_models/proximity_model.h"
 
 namespace docent {
 
 namespace {
 
-constexpr int kPanel = 380;  // [pixels], a square
-constexpr int kMargin = 46;
-constexpr int kCut = 200;  // height of a cut
+// [points]
+constexpr double kPanel = 190.0;
+constexpr double kCutWidth = 500.0;
+constexpr double kCutHeight = 100.0;
+constexpr double kLine = 1.0;
+constexpr double kDot = 1.0;
 
-/// Densities over expected (right) and measured (up) range, coloured over three decades.
+constexpr double kMostDensity = 3.0;  // [1/m] of the colours, over three decades
+constexpr double kLeastDensity = 3e-3;
+
+constexpr Color kBars{200, 200, 205};
+constexpr Color kBefore = colors::kOrange;
+constexpr Color kLearned = colors::kBlue;
+
+Color color_of_density(double value) { return heat(1.0 + std::log10(value / kMostDensity) / 3.0); }
+
+/// Densities [1/m] of the measured range (up) for each expected one (to the right).
 template <class Density>
-void draw_panel(Image& image, Point2 top_left, const RangeBins& bins, const std::string& title, Density density) {
-  const double scale = kPanel / bins.max_range();
-  for (int x = 0; x < kPanel; ++x) {
-    const int expected = bins.bin((x + 0.5) / scale);
-    for (int y = 0; y < kPanel; ++y) {
-      const int measured = bins.bin((kPanel - y - 0.5) / scale);
-      const double value = density(measured, expected);  // [1/m]
-      const double shade = value > 0.0 ? 1.0 + std::log10(value / 3.0) / 3.0 : 0.0;
-      if (shade > 0.0)
-        image.set(static_cast<int>(top_left.x) + x, static_cast<int>(top_left.y) + y, heat(std::min(shade, 1.0)));
+Axes density_axes(const RangeBins& bins, const std::string& title, Density density) {
+  Axes axes{{0.0, 0.0},          {bins.max_range(), bins.max_range()}, kPanel, kPanel, "expected range [m]",
+            "measured range [m]"};
+  axes.set_title(title);
+  const int pixels = static_cast<int>(kPanel * kPixelsPerPoint);
+  const GridFrame frame{pixels, pixels, bins.max_range() / pixels, {0.0, 0.0}};
+  std::vector<float> values;
+  for (int row = 0; row < pixels; ++row) {
+    for (int column = 0; column < pixels; ++column) {
+      const Point2 centre = frame.centre({column, row});
+      const double value = density(bins.bin(centre.y), bins.bin(centre.x));
+      values.push_back(value > kLeastDensity ? static_cast<float>(value) : std::numeric_limits<float>::quiet_NaN());
     }
   }
-  const Point2 bottom_right = top_left + Point2{kPanel, kPanel};
-  const std::array<Point2, 4> frame{top_left, {bottom_right.x, top_left.y}, bottom_right, {top_left.x, bottom_right.y}};
-  draw_polygon(image, frame, 1.0, colors::kInk);
-  draw_text(image, top_left + Point2{0.0, -15.0}, title, colors::kInk);
-  draw_text(image, {top_left.x, bottom_right.y + 18.0}, "expected [m] to the right, measured [m] up", colors::kGrey);
-  const double step = bins.max_range() > 15.0 ? 5.0 : bins.max_range() > 6.0 ? 2.0 : 1.0;
-  for (double range = 0.0; range <= bins.max_range() + 1e-9; range += step) {
-    char label[16];
-    std::snprintf(label, sizeof label, "%.0f", range);
-    draw_text(image, {top_left.x + scale * range - 3.0, bottom_right.y + 4.0}, label, colors::kInk);
-    draw_text(image, {top_left.x - 18.0, bottom_right.y - scale * range - 5.0}, label, colors::kInk);
-  }
+  draw_cells(axes, frame, values, [](float value) { return color_of_density(static_cast<double>(value)); });
+  return axes;
 }
 
 double width(const RangeBins& bins, int measured) { return bins.lower_edge(measured + 1) - bins.lower_edge(measured); }
@@ -59,8 +62,10 @@ Cut cut_at(const RangeBins& bins, double range) {
   return {std::max(middle - 2, 0), std::min(middle + 2, kNoReturn - 1)};
 }
 
-void draw_cut(Image& image, Point2 top_left, int length, const ReadingCounts& readings, double range,
-              const ProximityModel& before, const ProximityModel& learned) {
+/// Densities [1/m] over the measured range where one is expected. The square root shows the readings in front of the
+/// wall beside the peak.
+Axes cut_axes(const ReadingCounts& readings, double range, const ProximityModel& before,
+              const ProximityModel& learned) {
   const RangeBins& bins = readings.bins();
   const Cut cut = cut_at(bins, range);
   std::array<double, kRangeBins> counted{};
@@ -85,28 +90,31 @@ void draw_cut(Image& image, Point2 top_left, int length, const ReadingCounts& re
     if (all > 0.0) most = std::max(most, counted[static_cast<std::size_t>(measured)] / all / width(bins, measured));
     most = std::max(most, model_density(learned, measured));
   }
-  // The square root shows the readings in front of the wall beside the peak.
-  const auto height = [&](double density) { return kCut * std::sqrt(std::min(density / most, 1.0)); };
-  const auto right = [&](double at) { return top_left.x + length * at / bins.max_range(); };
-  const double bottom = top_left.y + kCut;
+  Axes axes{{0.0, 0.0},     {bins.max_range(), std::sqrt(most)}, kCutWidth, kCutHeight, "measured range [m]",
+            "density [1/m]"};
+  std::vector<Tick> ticks;
+  for (const Tick& tick : round_ticks(0.0, most, 5)) ticks.push_back({std::sqrt(tick.at), tick.label});
+  axes.set_y_ticks(std::move(ticks));
   std::vector<Point2> old_line;
   std::vector<Point2> new_line;
   for (int measured = 0; measured < kNoReturn; ++measured) {
-    const double low = right(bins.lower_edge(measured));
-    const double high = right(bins.lower_edge(measured + 1));
+    const double low = bins.lower_edge(measured);
+    const double high = bins.lower_edge(measured + 1);
     if (all > 0.0) {
       const double density = counted[static_cast<std::size_t>(measured)] / all / width(bins, measured);
-      fill_rectangle(image, {low, bottom - height(density)}, {high, bottom}, {200, 200, 205});
+      const Point2 top_left = axes.page({low, std::sqrt(density)});
+      const Point2 bottom_right = axes.page({high, 0.0});
+      axes.add([=](Canvas& canvas) { canvas.fill_rectangle(top_left, bottom_right, kBars); });
     }
-    old_line.push_back({0.5 * (low + high), bottom - height(model_density(before, measured))});
-    new_line.push_back({0.5 * (low + high), bottom - height(model_density(learned, measured))});
+    old_line.push_back({0.5 * (low + high), std::sqrt(model_density(before, measured))});
+    new_line.push_back({0.5 * (low + high), std::sqrt(model_density(learned, measured))});
   }
-  draw_polyline(image, old_line, 1.5, colors::kOrange);
-  draw_polyline(image, new_line, 1.8, colors::kBlue);
-  draw_line(image, {top_left.x, bottom}, {top_left.x + length, bottom}, 1.0, colors::kInk);
-  char title[120];
-  std::snprintf(title, sizeof title, "expected %.1f m: %.0f readings", range, all);
-  draw_text(image, top_left + Point2{0.0, -15.0}, title, colors::kInk);
+  draw_path(axes, old_line, kLine, kBefore);
+  draw_path(axes, new_line, kLine, kLearned);
+  std::array<char, 120> title{};
+  std::snprintf(title.data(), title.size(), "expected range %.1f m: %.0f readings (square root scale)", range, all);
+  axes.set_title(title.data());
+  return axes;
 }
 
 /// The ranges that cut the readings with a wall in sight into four parts of a size.
@@ -146,45 +154,44 @@ std::vector<Point2> ends_of(const OdometryModelParams& params, double way, Rng r
 
 }  // namespace
 
-Image draw_sensor_model(const ReadingCounts& readings, const ProximityModelParams& before,
-                        const ProximityModelParams& learned) {
+Figure draw_sensor_model(const ReadingCounts& readings, const ProximityModelParams& before,
+                         const ProximityModelParams& learned, const std::string& sensor) {
   const ProximityModel old_model{before};
   const ProximityModel new_model{learned};
   const RangeBins& bins = readings.bins();
-  Image image{2 * kPanel + 3 * kMargin, kPanel + 3 * (kCut + kMargin) + 3 * kMargin};
-  draw_panel(image, {kMargin, kMargin}, bins, "P(measured | expected), counted", [&](int measured, int expected) {
+  Figure figure{"p(measured range | expected range) of the " + sensor};
+  figure.add(density_axes(bins, "counted", [&](int measured, int expected) {
     const auto all = static_cast<double>(readings.expected(expected));
     return all > 0.0 ? static_cast<double>(readings.at(measured, expected)) / all / width(bins, measured) : 0.0;
-  });
-  draw_panel(
-      image, {2.0 * kMargin + kPanel, kMargin}, bins, "P(measured | expected), learned",
-      [&](int measured, int expected) { return new_model.probability(measured, expected) / width(bins, measured); });
-  double top = kPanel + 3.0 * kMargin;
-  for (const double range : cuts_of(readings)) {
-    draw_cut(image, {kMargin, top}, 2 * kPanel + kMargin, readings, range, old_model, new_model);
-    top += kCut + kMargin;
-  }
-  draw_text(image, {kMargin, top - kMargin + 8.0},
-            "bars: readings   orange: before   blue: learned   (square root scale)", colors::kInk);
-  return image;
+  }));
+  Axes& model = figure.add(density_axes(bins, "learned", [&](int measured, int expected) {
+    return new_model.probability(measured, expected) / width(bins, measured);
+  }));
+  model.set_color_bar({"density [1/m]", color_of_density, kLeastDensity, kMostDensity, true});
+  for (const double range : cuts_of(readings)) figure.add(cut_axes(readings, range, old_model, new_model), true);
+  figure.add_legend(legend_area("readings", kBars));
+  figure.add_legend(legend_line("model before", kLine, kBefore));
+  figure.add_legend(legend_line("model learned", kLine, kLearned));
+  return figure;
 }
 
-Image draw_motion_model(const OdometryModelParams& before, const OdometryModelParams& learned, std::uint64_t seed) {
-  const MapView view{{-5.0, -22.0}, {75.0, 55.0}, 7.0};
-  Image image{2 * view.width() + kMargin, view.height()};
-  int left = 0;
-  for (const auto& [params, title] : {std::pair{&before, "before"}, std::pair{&learned, "learned"}}) {
-    Image half{view.width(), view.height()};
+Figure draw_motion_model(const OdometryModelParams& before, const OdometryModelParams& learned, std::uint64_t seed) {
+  constexpr Color kAfter40 = with_alpha(colors::kBlue, 120);
+  constexpr Color kAfter80 = with_alpha(colors::kRed, 120);
+  Figure figure{"Where the robot may be by odometry alone"};
+  for (const auto& [params, title] : {std::pair{&before, "model before"}, std::pair{&learned, "model learned"}}) {
+    Axes& axes = figure.add(Axes::metres({-5.0, -22.0}, {75.0, 55.0}, 280.0));
+    axes.set_title(title);
     const std::array<Point2, 3> way{Point2{0.0, 0.0}, Point2{40.0, 0.0}, Point2{40.0, 40.0}};
-    draw_path(half, view, way, 1.0, colors::kGrey);
+    draw_path(axes, way, kLine, colors::kGrey);
     const Rng rng{seed};
-    draw_points(half, view, ends_of(*params, 40.0, rng.stream("40")), 2.0, with_alpha(colors::kBlue, 90));
-    draw_points(half, view, ends_of(*params, 80.0, rng.stream("80")), 2.0, with_alpha(colors::kRed, 90));
-    draw_text(half, {8.0, 8.0}, std::string{title} + ": after 40 m (blue) and 80 m (red)", colors::kInk);
-    image.paste(half, left, 0);
-    left += view.width() + kMargin;
+    draw_points(axes, ends_of(*params, 40.0, rng.stream("40")), kDot, kAfter40);
+    draw_points(axes, ends_of(*params, 80.0, rng.stream("80")), kDot, kAfter80);
   }
-  return image;
+  figure.add_legend(legend_line("way as odometry has it", kLine, colors::kGrey));
+  figure.add_legend(legend_disc("after 40 m", 4.0, kAfter40));
+  figure.add_legend(legend_disc("after 80 m", 4.0, kAfter80));
+  return figure;
 }
 
 }  // namespace docent

@@ -42,6 +42,7 @@ struct Options {
   std::string poses;
   std::string report;
   std::string picture;
+  std::string picture_format = "png";
   std::string wall_depth = "auto";
   std::vector<std::string> settings;
   std::uint64_t seed = 1;
@@ -66,13 +67,11 @@ LogRun run_once(const Options& options, const ReferencedLog& referenced, const O
     run_options.start = parse_pose("--start", options.start);
   }
   std::optional<BeliefMovie> movie;
-  if (!pictures.empty()) movie.emplace(value_or_fail(BeliefMovie::create(map)));
+  if (!pictures.empty()) movie.emplace(map, log);
   std::size_t seen = 0;
-  const bool has_two = has_two_lasers(log);
   run_options.watch = [&](const Localizer& at, std::size_t scan, const Localizer::Step& step) {
     if (++seen % 500 == 0) std::fprintf(stderr, "%zu of %zu scans\n", seen, log.scans.size());
-    if (movie && step.updated && !movie->is_full())
-      value_or_fail(movie->add(at, log.scans[scan], log.max_range, has_two));
+    if (movie && step.updated && !movie->is_full()) value_or_fail(movie->add(at, scan));
   };
   LogRun run = localize_log(log, localizer, run_options);
   if (!pictures.empty()) {
@@ -80,14 +79,14 @@ LogRun run_once(const Options& options, const ReferencedLog& referenced, const O
     const std::string suffix = reverse ? "-reversed" : "";
     if (run.updates > 0) value_or_fail(movie->save(pictures / ("belief" + suffix + ".webp")));
     const std::size_t stride = std::max<std::size_t>(1, log.scans.size() / 25);
-    value_or_fail(
-        save_png(draw_run(map, log, run, stride, referenced.reference), pictures / ("scans" + suffix + ".png")));
+    const std::string extension = suffix + "." + options.picture_format;
+    value_or_fail(draw_run(map, log, run, stride, referenced.reference).save(pictures / ("scans" + extension)));
     for (std::size_t n = 1; n <= 12; ++n) {
       const std::size_t i = n * log.scans.size() / 13;
       if (!run.poses[i].has_pose) continue;
       char name[40];
-      std::snprintf(name, sizeof name, "scan-%05zu%s.png", i, suffix.c_str());
-      value_or_fail(save_png(draw_scan(map, log.scans[i], log.max_range, run.poses[i]), pictures / name));
+      std::snprintf(name, sizeof name, "scan-%05zu%s", i, extension.c_str());
+      value_or_fail(draw_scan(map, log, run.poses[i]).save(pictures / name));
     }
   }
   return run;
@@ -315,6 +314,7 @@ void add_localize_command(CLI::App& app) {
   command->add_option("--report", options->report, "JSON file to write")->check(output_file());
   command->add_option("--picture", options->picture, "folder for pictures: the belief, the scans in the map")
       ->check(output_folder());
+  add_picture_format(*command, options->picture_format);
   command
       ->add_option("--wall-depth", options->wall_depth,
                    "[m] how deep inside the map's walls their surface lies, or auto: what explains the log best")

@@ -1,14 +1,19 @@
 #include "docent/apps/localize_picture.h"
 
-#include <cmath>
-
-#include "docent/pictures/colors.h"
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <utility>
 
 namespace docent {
 
 namespace {
 
 constexpr double kRobotRadius = 0.3;  // [m] in pictures
+constexpr double kDot = 1.5;          // [points] diameter of an endpoint
+constexpr double kWay = 1.0;          // [points]
+constexpr double kReferenceWay = 3.0;
+constexpr Color kReference = with_alpha(colors::kGrey, 150);
 
 std::vector<Point2> endpoints_at(const LoggedScan& scan, double max_range, const Pose2& map_from_laser) {
   std::vector<Point2> ends;
@@ -17,79 +22,117 @@ std::vector<Point2> endpoints_at(const LoggedScan& scan, double max_range, const
   return ends;
 }
 
-}  // namespace
+Color color_when(bool localized) { return localized ? colors::kGreen : colors::kGrey; }
 
-Image draw_belief(const Image& map_picture, const MapView& view, const Localizer& localizer, const LoggedScan& scan,
-                  double max_range, bool two_lasers) {
-  Image image = map_picture;
-  const PositionDensity density = localizer.density();
-  draw_density(image, view, density.frame, density.mass);
-  const Pose2 tracked = base_from_tracked(two_lasers, scan);
-  if (const auto best = localizer.map_from_robot(scan.odom_from_base * tracked)) {
-    const Pose2 map_from_base = *best * inverse(tracked);
-    const Color color = localizer.verdict().localized() ? colors::kGreen : colors::kGrey;
-    draw_points(image, view, endpoints_at(scan, max_range, map_from_base * scan.base_from_laser), 3.0,
-                with_alpha(color, 180));
-    draw_robot(image, view, map_from_base, kRobotRadius, color);
-  }
-  return image;
+/// Seconds since the first scan of the log, in whichever way it is run.
+double seconds_into(const LaserLog& log, std::size_t scan) {
+  return to_seconds(log.scans[scan].time) - to_seconds(log.scans.front().time);
 }
 
-BeliefMovie::BeliefMovie(const OccupancyGrid& map, Animation animation)
-    : view_{MapView::whole(map.frame)}, map_picture_{draw_map(map, view_)}, animation_{std::move(animation)} {}
+/// "scan 12, 3.4 s"
+std::string moment_of(const LaserLog& log, std::size_t scan) {
+  std::array<char, 60> text{};
+  std::snprintf(text.data(), text.size(), "scan %zu, %.1f s", scan, seconds_into(log, scan));
+  return text.data();
+}
 
-Result<BeliefMovie> BeliefMovie::create(const OccupancyGrid& map) {
-  const MapView view = MapView::whole(map.frame);
-  auto animation = Animation::create(view.width(), view.height());
-  if (!animation) return tl::unexpected<Error>(animation.error());
-  return BeliefMovie{map, std::move(*animation)};
+void add_robot_legend(Figure& figure) {
+  figure.add_legend(legend_disc("robot and scan, localized", 6.0, color_when(true)));
+  figure.add_legend(legend_disc("robot and scan at the best hypothesis, not localized", 6.0, color_when(false)));
+}
+
+}  // namespace
+
+Figure draw_belief(const OccupancyGrid& map, const Localizer& localizer, const LaserLog& log, std::size_t scan) {
+  // The moment stands over the frame, where it takes the same room whatever it says: frames of a film have one size.
+  Figure figure{""};
+  Axes& axes = figure.add(Axes::metres(map.frame, 400.0));
+  axes.set_title(moment_of(log, scan));
+  draw_map(axes, map);
+  const PositionDensity density = localizer.density();
+  draw_density(axes, density.frame, density.mass);
+  const LoggedScan& seen = log.scans[scan];
+  const Pose2 tracked = base_from_tracked(has_two_lasers(log), seen);
+  if (const auto best = localizer.map_from_robot(seen.odom_from_base * tracked)) {
+    const Pose2 map_from_base = *best * inverse(tracked);
+    const Color color = color_when(localizer.verdict().localized());
+    draw_points(axes, endpoints_at(seen, log.max_range, map_from_base * seen.base_from_laser), kDot,
+                with_alpha(color, 180));
+    draw_robot(axes, map_from_base, kRobotRadius, color);
+  }
+  add_map_legend(figure);
+  add_robot_legend(figure);
+  return figure;
 }
 
 bool BeliefMovie::is_full() const { return frames_localized_ >= 12 || frames_ >= 150; }
 
-Result<void> BeliefMovie::add(const Localizer& localizer, const LoggedScan& scan, double max_range, bool two_lasers) {
+Result<void> BeliefMovie::add(const Localizer& localizer, std::size_t scan) {
   ++frames_;
   if (localizer.verdict().localized()) ++frames_localized_;
   const Duration shown = std::chrono::milliseconds(is_full() ? 3000 : 300);
-  return animation_.add(draw_belief(map_picture_, view_, localizer, scan, max_range, two_lasers), shown);
+  const Image frame = draw_belief(map_, localizer, log_, scan).raster();
+  if (!animation_) {
+    auto animation = Animation::create(frame.width(), frame.height());
+    if (!animation) return tl::unexpected<Error>(animation.error());
+    animation_.emplace(std::move(*animation));
+  }
+  return animation_->add(frame, shown);
 }
 
-Result<void> BeliefMovie::save(const std::filesystem::path& path) { return animation_.save(path); }
+Result<void> BeliefMovie::save(const std::filesystem::path& path) {
+  if (!animation_) return fail(path.string() + ": a movie needs a frame");
+  return animation_->save(path);
+}
 
-Image draw_scan(const OccupancyGrid& map, const LoggedScan& scan, double max_range, const LoggedPose& pose) {
+Figure draw_scan(const OccupancyGrid& map, const LaserLog& log, const LoggedPose& pose) {
   constexpr double kAround = 12.0;  // [m]
   const Point2 centre = pose.map_from_base.position();
-  const MapView view{centre - Point2{kAround, kAround}, centre + Point2{kAround, kAround}, 30.0};
-  Image image = draw_map(map, view);
-  const Color color = pose.localized ? colors::kGreen : colors::kGrey;
-  draw_points(image, view, endpoints_at(scan, max_range, pose.map_from_base * scan.base_from_laser), 5.0, color);
-  draw_robot(image, view, pose.map_from_base, kRobotRadius, color);
-  return image;
+  Figure figure{moment_of(log, pose.scan)};
+  Axes& axes = figure.add(Axes::metres(centre - Point2{kAround, kAround}, centre + Point2{kAround, kAround}, 360.0));
+  draw_map(axes, map);
+  const LoggedScan& scan = log.scans[pose.scan];
+  const Color color = color_when(pose.localized);
+  draw_points(axes, endpoints_at(scan, log.max_range, pose.map_from_base * scan.base_from_laser), 2.5, color);
+  draw_robot(axes, pose.map_from_base, kRobotRadius, color);
+  add_map_legend(figure);
+  add_robot_legend(figure);
+  return figure;
 }
 
-Image draw_run(const OccupancyGrid& map, const LaserLog& log, const LogRun& run, std::size_t stride,
-               const std::vector<std::optional<Pose2>>& reference) {
-  const MapView view = MapView::whole(map.frame, 1600);
-  Image image = draw_map(map, view);
+Figure draw_run(const OccupancyGrid& map, const LaserLog& log, const LogRun& run, std::size_t stride,
+                const std::vector<std::optional<Pose2>>& reference) {
+  const double end = seconds_into(log, log.scans.size() - 1);
+  std::array<char, 60> title{};
+  std::snprintf(title.data(), title.size(), "Scans 0 to %zu, 0 to %.0f s", log.scans.size() - 1, end);
+  Figure figure{title.data()};
+  Axes& axes = figure.add(Axes::metres(map.frame));
+  draw_map(axes, map);
+  add_map_legend(figure);
   std::vector<Point2> true_way;
   for (const auto& pose : reference)
     if (pose) true_way.push_back(pose->position());
-  if (true_way.size() > 1) draw_path(image, view, true_way, 6.0, with_alpha(colors::kGrey, 150));
+  if (true_way.size() > 1) {
+    draw_path(axes, true_way, kReferenceWay, kReference);
+    figure.add_legend(legend_line("reference trajectory", kReferenceWay, kReference));
+  }
+  const auto color_at = [end](double seconds) { return rainbow(end > 0.0 ? seconds / end : 0.0); };
   std::vector<Point2> way;
   for (std::size_t i = 0; i < run.poses.size(); ++i) {
     const LoggedPose& pose = run.poses[i];
     if (!pose.localized) continue;
     way.push_back(pose.map_from_base.position());
     if (i % stride != 0) continue;
-    const double along = static_cast<double>(i) / static_cast<double>(run.poses.size());
-    const Color color = rainbow(along);
-    draw_points(image, view,
-                endpoints_at(log.scans[i], log.max_range, pose.map_from_base * log.scans[i].base_from_laser), 2.5,
-                color);
-    draw_robot(image, view, pose.map_from_base, kRobotRadius, color);
+    const Color color = color_at(seconds_into(log, i));
+    draw_points(axes, endpoints_at(log.scans[i], log.max_range, pose.map_from_base * log.scans[i].base_from_laser),
+                kDot, color);
+    draw_robot(axes, pose.map_from_base, kRobotRadius, color);
   }
-  if (way.size() > 1) draw_path(image, view, way, 2.0, colors::kInk);
-  return image;
+  draw_path(axes, way, kWay, colors::kInk);
+  figure.add_legend(legend_line("trajectory while localized", kWay, colors::kInk));
+  figure.add_legend(legend_disc("robot and scan, some of them, at the time of their colour", 6.0, color_at(0.5 * end)));
+  if (end > 0.0) axes.set_color_bar({"time [s]", color_at, 0.0, end, false});
+  return figure;
 }
 
 }  // namespace docent

@@ -14,7 +14,6 @@
 #include "docent/base/files.h"
 #include "docent/base/yaml.h"
 #include "docent/mapping/occupancy/scan_mapper.h"
-#include "docent/pictures/colors.h"
 #include "docent/pictures/map_picture.h"
 
 namespace docent {
@@ -25,6 +24,7 @@ struct MapOptions {
   std::string method = "known-poses";
   std::string out;
   std::string report;
+  std::string picture_format = "png";
   std::vector<std::string> settings;
 };
 
@@ -54,13 +54,17 @@ std::vector<PlacedSweep> placed_sweeps(const ReferencedLog& referenced) {
   return placed;
 }
 
-Image draw(const OccupancyGrid& map, const std::vector<PlacedSweep>& placed) {
-  const MapView view = MapView::whole(map.frame, 1600);
-  Image image = draw_map(map, view);
+Figure draw(const OccupancyGrid& map, const std::vector<PlacedSweep>& placed) {
+  constexpr double kDot = 2.0;  // [points]
+  Figure figure{"Map of " + std::to_string(placed.size()) + " scans"};
+  Axes& axes = figure.add(Axes::metres(map.frame));
+  draw_map(axes, map);
   std::vector<Point2> way;
   for (const PlacedSweep& sweep : placed) way.push_back(sweep.map_from_sensor.position());
-  draw_points(image, view, way, 4.0, distinct(0));
-  return image;
+  draw_points(axes, way, kDot, distinct(0));
+  add_map_legend(figure);
+  figure.add_legend(legend_disc("laser at a scan", kDot, distinct(0)));
+  return figure;
 }
 
 void make_map(const MapOptions& options) {
@@ -83,7 +87,7 @@ void make_map(const MapOptions& options) {
   std::filesystem::create_directories(out, code);
   if (code) throw CommandFailed{options.out + ": cannot be made: " + code.message()};
   value_or_fail(save_map(map, out / "map"));
-  value_or_fail(save_png(draw(map, placed), out / "map.png"));
+  value_or_fail(draw(map, placed).save(out / ("map." + options.picture_format)));
   const auto share = [&](std::int8_t kind) {
     return static_cast<double>(std::count(map.cells.begin(), map.cells.end(), kind)) * params.resolution *
            params.resolution;
@@ -108,12 +112,13 @@ void add_map_command(CLI::App& app) {
   auto options = std::make_shared<MapOptions>();
   CLI::App* command = app.add_subcommand("map", "Make a map from a recorded log");
   add_log_options(*command, options->choice);
-  command->add_option("--out", options->out, "folder for map.yaml, map.pgm and map.png")
+  command->add_option("--out", options->out, "folder for map.yaml, map.pgm and a picture, map.png")
       ->check(output_folder())
       ->required();
   command->add_option("--method", options->method, "known-poses: scans are placed where --reference says")
       ->check(CLI::IsMember({"known-poses"}))
       ->capture_default_str();
+  add_picture_format(*command, options->picture_format);
   command->add_option("--report", options->report, "JSON file to write")->check(output_file());
   command->add_option("--set", options->settings, "key=value of the mapper's parameters, e.g. resolution=0.1");
   command->callback([options] { make_map(*options); });

@@ -10,8 +10,6 @@
 #include "docent/apps/command.h"
 #include "docent/apps/map_note.h"
 #include "docent/museum/museum.h"
-#include "docent/pictures/drawing.h"
-#include "docent/pictures/image.h"
 #include "docent/pictures/map_picture.h"
 #include "docent/simulator/pedestrians/recording.h"
 #include "docent/simulator/traced/traced_museum.h"
@@ -57,22 +55,23 @@ void print_fit(const simulator::PedestrianFit& fit) {
 }
 
 /// The true world with the ways of the recorded people, and beside it what the robot is told.
-Image draw(const simulator::World& world, const simulator::Survey& survey) {
-  constexpr int kSide = 1000;  // [pixels]
-  const MapView view = MapView::whole(survey.map.frame, kSide);
-  Image truth = simulator::draw_world(world, view);
-  for (const auto& recording : world.pedestrians) {
-    for (const auto& track : recording.tracks) {
-      draw_path(truth, view, track.points, 1.0, with_alpha(colors::kViolet, 60));
-    }
-  }
-  Image told = draw_map(survey.map, view);
-  for (const auto& hazard : survey.hazards) draw_area(told, view, hazard.polygon, {206, 48, 44, 90});
-  draw_polygon(told, view.pixels(world.operating_area), 1.5, with_alpha(colors::kGreen, 170));
-  Image both{truth.width() + told.width() + 10, truth.height()};
-  both.paste(truth, 0, 0);
-  both.paste(told, truth.width() + 10, 0);
-  return both;
+Figure draw(const simulator::World& world, const simulator::Survey& survey, const std::string& title) {
+  constexpr double kSide = 420.0;  // [points]
+  constexpr Color kTrack = with_alpha(colors::kViolet, 60);
+  Figure figure{title};
+  Axes& truth = figure.add(Axes::metres(survey.map.frame, kSide));
+  truth.set_title("true world");
+  simulator::draw_world(truth, world);
+  for (const auto& recording : world.pedestrians)
+    for (const auto& track : recording.tracks) draw_path(truth, track.points, 0.5, kTrack);
+  Axes& told = figure.add(Axes::metres(survey.map.frame, kSide));
+  told.set_title("map and hazards, as surveyed");
+  simulator::draw_survey(told, survey);
+  simulator::draw_operating_area(told, world);
+  simulator::add_world_legend(figure, world);
+  if (!world.pedestrians.empty()) figure.add_legend(legend_line("recorded person's way", 0.5, colors::kViolet));
+  simulator::add_survey_legend(figure, survey);
+  return figure;
 }
 
 void run(const MuseumOptions& options) {
@@ -97,7 +96,7 @@ void run(const MuseumOptions& options) {
       "%s: %zu exhibits, %zu solids, %zu hazards, %zu pieces drawn where they no longer stand, %zu not on the map\n",
       (out / "museum.yaml").c_str(), plan.stops.size(), plan.world.solids.size(), survey.hazards.size(),
       survey.moved.size(), survey.missing.size());
-  if (!options.picture.empty()) value_or_fail(save_png(draw(plan.world, survey), options.picture));
+  if (!options.picture.empty()) value_or_fail(draw(plan.world, survey, title).save(options.picture));
   const std::vector<Error> faults = check_museum(out);
   for (const Error& fault : faults) std::fprintf(stderr, "%s\n", fault.message.c_str());
   if (!faults.empty())
@@ -128,8 +127,8 @@ void add_museum_command(CLI::App& app) {
   command->add_option("--seed", options->seed, "Seed of what a map does not show and of the survey's errors")
       ->capture_default_str();
   command->add_option("--title", options->title, "Name of the museum; without it the map's file name");
-  command->add_option("--picture", options->picture, "Also draw the true world and the robot's map, as a PNG")
-      ->check(output_file());
+  command->add_option("--picture", options->picture, "Also draw the true world and the robot's map")
+      ->check(output_picture());
   command->callback([options] { run(*options); });
 }
 

@@ -6,8 +6,6 @@
 
 #include "docent/apps/arguments.h"
 #include "docent/apps/command.h"
-#include "docent/pictures/image.h"
-#include "docent/pictures/map_picture.h"
 #include "docent/simulator/office/office.h"
 #include "docent/simulator/world/world_picture.h"
 
@@ -18,6 +16,7 @@ struct OfficeOptions {
   std::string out;
   std::uint64_t seed = 1;
   bool pictures = false;
+  std::string picture_format = "png";
 };
 
 void run(const OfficeOptions& options) {
@@ -29,8 +28,8 @@ void run(const OfficeOptions& options) {
               (out / "museum.yaml").c_str(), office.world.solids.size(), survey.hazards.size(), survey.moved.size(),
               survey.missing.size());
   if (!options.pictures) return;
-  value_or_fail(save_png(simulator::draw_world(office.world), out / "world.png"));
-  value_or_fail(save_png(draw_map(survey.map, MapView::whole(survey.map.frame, 1200)), out / "survey.png"));
+  value_or_fail(simulator::draw_world(office.world).save(out / ("world." + options.picture_format)));
+  value_or_fail(simulator::draw_survey(survey).save(out / ("survey." + options.picture_format)));
 }
 
 }  // namespace
@@ -45,6 +44,7 @@ void add_office_command(CLI::App& app) {
   command->add_option("--seed", options->seed, "Seed of the building and of the survey's errors")
       ->capture_default_str();
   command->add_flag("--pictures", options->pictures, "Also draw world.png and survey.png");
+  add_picture_format(*command, options->picture_format);
   command->callback([options] { run(*options); });
 }
 

@@ -125,10 +125,11 @@ void plan(Options& options) {
   if (!options.ways.empty()) value_or_fail(save_ways(ways, options.ways));
   if (options.picture.empty()) return;
   std::vector<DrawnWay> drawn;
-  for (const Way& way : ways) drawn.push_back({way.name, way.points, drawn.empty() ? colors::kBlue : colors::kRed});
+  for (const Way& way : ways)
+    drawn.push_back({way.name, way.points, way.length, drawn.empty() ? colors::kBlue : colors::kRed});
   const PlanGround ground{&planner.values(), coastal ? &coastal->information() : nullptr,
                           options.coastal.uncertainty.heading_scale};
-  value_or_fail(save_png(draw_plan(map, drawn, goals, options.radius, ground), options.picture));
+  value_or_fail(draw_plan(map, drawn, goals, options.radius, ground).save(options.picture));
   std::printf("picture %s\n", options.picture.c_str());
 }
 
@@ -159,9 +160,9 @@ void add_plan_command(CLI::App& app) {
   command->add_option("--ways", options->ways, "JSON file to write: the ways and what was said of them");
   command
       ->add_option("--picture", options->picture,
-                   "PNG file to write: the ways over the value function, pale near the goals and dark far from\n"
+                   "to write: the ways over the value function, pale near the goals and dark far from\n"
                    "them; with --coastal over the information of places, dark where a scan tells most")
-      ->check(output_file());
+      ->check(output_picture());
   command->callback([options] { plan(*options); });
 }
 

@@ -1,16 +1,19 @@
 #include "docent/apps/plan_picture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <limits>
 
-#include "docent/pictures/drawing.h"
 #include "docent/pictures/map_picture.h"
-#include "docent/pictures/text.h"
 
 namespace docent {
 namespace {
 
 constexpr double kKnown = 0.25;  // [m]
+constexpr double kGoal = 6.0;    // [points] diameter
+constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 
 /// Entropy [nat] that one scan takes from a robot which knows its place to kKnown.
 double told(const PoseInformation& place, double heading_scale) {
@@ -20,69 +23,68 @@ double told(const PoseInformation& place, double heading_scale) {
   return nats;
 }
 
-void draw_information(Image& image, const MapView& view, const InformationMap& information, double heading_scale) {
-  const GridFrame& frame = information.frame;
-  std::vector<double> nats(frame.size(), 0.0);
-  for (std::size_t i = 0; i < nats.size(); ++i) nats[i] = told(information.places[i], heading_scale);
-  const double most = *std::max_element(nats.begin(), nats.end());
-  if (most <= 0.0) return;
-  for (int row = 0; row < frame.rows; ++row) {
-    for (int column = 0; column < frame.columns; ++column) {
-      const double share = nats[frame.index({column, row})] / most;
-      if (share <= 0.0) continue;
-      const Point2 centre = frame.centre({column, row});
-      const double half = 0.5 * frame.resolution;
-      fill_rectangle(image, view.pixel({centre.x - half, centre.y + half}),
-                     view.pixel({centre.x + half, centre.y - half}), with_alpha(heat(0.75 * share), 170));
-    }
+/// Pale for nothing, dark for the most.
+Color shade(double share) { return with_alpha(heat(share), 170); }
+
+void draw_information(Axes& axes, const InformationMap& information, double heading_scale) {
+  std::vector<float> nats;
+  for (const PoseInformation& place : information.places) {
+    const double here = told(place, heading_scale);
+    nats.push_back(here > 0.0 ? static_cast<float>(here) : kNothing);
   }
+  double most = 0.0;
+  for (const float value : nats) most = value > most ? static_cast<double>(value) : most;
+  if (most <= 0.0) return;
+  const auto color = [most](double value) { return shade(0.75 * value / most); };
+  draw_cells(axes, information.frame, nats, [color](float value) { return color(static_cast<double>(value)); });
+  axes.set_color_bar({"information of a scan at the place [nat]", color, 0.0, most, false});
 }
 
-void draw_values(Image& image, const MapView& view, const ValueIteration& values) {
+void draw_values(Axes& axes, const ValueIteration& values) {
   const GridFrame& frame = values.frame();
-  const auto for_cells = [&](const auto& work) {
-    for (int row = 0; row < frame.rows; ++row) {
-      for (int column = 0; column < frame.columns; ++column) {
-        const CellIndex cell{column, row};
-        if (values.value(cell) < ValueIteration::kClosed && values.cost(cell) < ValueIteration::kClosed) work(cell);
-      }
+  std::vector<float> costs(frame.size(), kNothing);
+  double most = 1e-6;
+  for (int row = 0; row < frame.rows; ++row) {
+    for (int column = 0; column < frame.columns; ++column) {
+      const CellIndex cell{column, row};
+      if (values.value(cell) >= ValueIteration::kClosed || values.cost(cell) >= ValueIteration::kClosed) continue;
+      costs[frame.index(cell)] = values.value(cell);
+      most = std::max(most, static_cast<double>(values.value(cell)));
     }
-  };
-  float most = 1e-6F;
-  for_cells([&](CellIndex cell) { most = std::max(most, values.value(cell)); });
-  const double half = 0.5 * frame.resolution;
-  for_cells([&](CellIndex cell) {
-    const Point2 centre = frame.centre(cell);
-    const Color color = heat(static_cast<double>(values.value(cell) / most));
-    fill_rectangle(image, view.pixel({centre.x - half, centre.y + half}),
-                   view.pixel({centre.x + half, centre.y - half}), with_alpha(color, 170));
-  });
+  }
+  const auto color = [most](double value) { return shade(value / most); };
+  draw_cells(axes, frame, costs, [color](float value) { return color(static_cast<double>(value)); });
+  axes.set_color_bar({"cost to the goal [m of free floor]", color, 0.0, most, false});
 }
 
 }  // namespace
 
-Image draw_plan(const OccupancyGrid& map, const std::vector<DrawnWay>& ways, const std::vector<Point2>& goals,
-                double radius, const PlanGround& ground) {
-  const MapView view = MapView::whole(map.frame);
-  Image image = draw_map(map, view);
+Figure draw_plan(const OccupancyGrid& map, const std::vector<DrawnWay>& ways, const std::vector<Point2>& goals,
+                 double radius, const PlanGround& ground) {
+  Figure figure{""};
+  Axes& axes = figure.add(Axes::metres(map.frame));
+  draw_map(axes, map);
   if (ground.information != nullptr) {
-    draw_information(image, view, *ground.information, ground.heading_scale);
+    draw_information(axes, *ground.information, ground.heading_scale);
   } else if (ground.values != nullptr) {
-    draw_values(image, view, *ground.values);
+    draw_values(axes, *ground.values);
   }
-  double line = 8.0;
+  add_map_legend(figure);
   for (const DrawnWay& way : ways) {
     if (way.points.size() < 2) continue;
-    draw_path(image, view, way.points, 5.0, colors::kWhite);
-    draw_path(image, view, way.points, 3.0, way.color);
-    if (ways.size() > 1) draw_label(image, {8.0, line}, way.name, way.color, colors::kWhite, 2);
-    line += text_height(2) + 6;
+    draw_path(axes, way.points, 3.0, colors::kWhite);
+    draw_path(axes, way.points, 1.8, way.color);
+    std::array<char, 32> length{};
+    std::snprintf(length.data(), length.size(), " way, %.1f m", way.length);
+    figure.add_legend(legend_line(way.name + length.data(), 1.8, way.color));
   }
-  if (ways.empty() || ways.front().points.size() < 2) return image;
+  if (ways.empty() || ways.front().points.size() < 2) return figure;
   const Point2 from = ways.front().points[0];
-  draw_robot(image, view, {from.x, from.y, direction(from, ways.front().points[1])}, radius, distinct(1));
-  for (const Point2& goal : goals) fill_disc(image, view.pixel(goal), 5.0, distinct(2));
-  return image;
+  draw_robot(axes, {from.x, from.y, direction(from, ways.front().points[1])}, radius, distinct(1));
+  draw_points(axes, goals, kGoal, distinct(2));
+  figure.add_legend(legend_disc("start", kGoal, distinct(1)));
+  figure.add_legend(legend_disc("goal", kGoal, distinct(2)));
+  return figure;
 }
 
 }  // namespace docent

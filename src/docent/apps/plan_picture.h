@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "docent/pictures/image.h"
+#include "docent/pictures/figure.h"
 #include "docent/planning/coastal/coastal_planner.h"
 #include "docent/planning/value_iteration/value_iteration.h"
 
@@ -13,6 +13,7 @@ namespace docent {
 struct DrawnWay {
   std::string name;
   std::vector<Point2> points;  ///< [m], map, with its start
+  double length = 0.0;         ///< [m]
   Color color;
 };
 
@@ -26,7 +27,7 @@ struct PlanGround {
 };
 
 /// Ways over the map, with a robot of `radius` [m] at their start and a disc at each goal.
-[[nodiscard]] Image draw_plan(const OccupancyGrid& map, const std::vector<DrawnWay>& ways,
-                              const std::vector<Point2>& goals, double radius, const PlanGround& ground);
+[[nodiscard]] Figure draw_plan(const OccupancyGrid& map, const std::vector<DrawnWay>& ways,
+                               const std::vector<Point2>& goals, double radius, const PlanGround& ground);
 
 }  // namespace docent

@@ -138,7 +138,7 @@ void add_simulate_command(CLI::App& app) {
       ->check(output_file());
   command->add_option("--record", options->run.recording, "MCAP file of all messages and the truth")
       ->check(output_file());
-  command->add_option("--picture", options->picture, "PNG file: the way driven over the map")->check(output_file());
+  command->add_option("--picture", options->picture, "the way driven over the map")->check(output_picture());
   command->add_option("--pace", options->pace, "virtual seconds a second; 0: as fast as possible")
       ->capture_default_str();
   command->add_option("--port", options->port, "also serve the page at this port (pace 1 unless given)");

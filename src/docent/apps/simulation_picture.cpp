@@ -1,21 +1,23 @@
 #include "docent/apps/simulation_picture.h"
 
+#include <cmath>
 #include <string_view>
 
-#include "docent/pictures/colors.h"
-#include "docent/pictures/drawing.h"
-#include "docent/pictures/map_picture.h"
-#include "docent/pictures/text.h"
+#include "docent/messages/conversions.h"
 
 namespace docent {
 namespace {
 
 constexpr Color kHazard{214, 90, 70, 90};
-constexpr Color kArea{70, 150, 90, 30};
-constexpr Color kWay{40, 90, 200, 150};
+constexpr Color kArea = with_alpha(colors::kGreen, 170);
 constexpr Color kTouch{220, 20, 20, 255};
 constexpr Color kExhibit{150, 90, 30, 255};
-constexpr Color kInk{30, 30, 30, 255};
+
+// [points]
+constexpr double kWay = 1.2;
+constexpr double kOutline = 0.8;
+constexpr double kDot = 4.0;
+constexpr double kRing = 6.0;
 
 }  // namespace
 
@@ -23,25 +25,46 @@ void SimulationPicture::add(const TopicInfo& topic, const std::shared_ptr<const 
   const std::string_view name = topic.name;
   if (name == topics::kTrueState.name) {
     const auto& state = *static_cast<const docent_msgs::TrueState*>(message.get());
-    if (way_.empty() || distance(way_.back(), {state.x, state.y}) > 0.1) way_.push_back({state.x, state.y});
+    last_ = {to_seconds(from_message(state.header.stamp)), {state.x, state.y}};
+    if (way_.empty() || distance(way_.back().place, last_.place) > 0.1) way_.push_back(last_);
   } else if (name == topics::kTrueContact.name) {
     const auto& contact = *static_cast<const docent_msgs::TrueContact*>(message.get());
     contacts_.push_back({contact.x, contact.y});
   }
 }
 
-Result<void> SimulationPicture::save(const Museum& museum, const std::string& png) const {
-  const MapView view = MapView::whole(museum.map.frame, 1400);
-  Image image = draw_map(museum.map, view);
-  for (const auto& hazard : museum.hazards) fill_polygon(image, view.pixels(hazard.polygon), kHazard);
-  draw_area(image, view, museum.area, kArea);
-  draw_path(image, view, way_, 2.0, kWay);
-  for (const auto& exhibit : museum.exhibits) {
-    fill_disc(image, view.pixel(exhibit.pose.position()), 4.0, kExhibit);
-    draw_text(image, view.pixel(exhibit.pose.position()) + Point2{6, -6}, exhibit.id, kInk);
+Result<void> SimulationPicture::save(const Museum& museum, const std::string& path) const {
+  std::vector<TimedPoint> way = way_;
+  if (!way.empty()) way.push_back(last_);
+  const double begin = way.empty() ? 0.0 : way.front().time;
+  Figure figure{museum.folder.filename().string() + ", " + std::to_string(std::lround(begin)) + " to " +
+                std::to_string(std::lround(last_.time)) + " s"};
+  Axes& axes = figure.add(Axes::metres(museum.map.frame));
+  draw_map(axes, museum.map);
+  for (const auto& hazard : museum.hazards) draw_area(axes, hazard.polygon, kHazard);
+  axes.add([corners = axes.page(museum.area)](Canvas& canvas) { canvas.draw_polygon(corners, kOutline, kArea); });
+  draw_timed_path(axes, way, kWay);
+  if (!way.empty()) {
+    const Point2 ends[] = {way.front().place, way.back().place};
+    draw_points(axes, std::span{ends, 1}, kDot, colors::kBlue);
+    draw_points(axes, std::span{ends}.subspan(1), kDot, colors::kRed);
   }
-  for (const auto& contact : contacts_) draw_circle(image, view.pixel(contact), 6.0, 2.0, kTouch);
-  return save_png(image, png);
+  std::vector<Point2> exhibits;
+  for (const auto& exhibit : museum.exhibits) exhibits.push_back(exhibit.pose.position());
+  draw_points(axes, exhibits, kDot, kExhibit);
+  for (const auto& exhibit : museum.exhibits) draw_note(axes, exhibit.pose.position(), exhibit.id);
+  axes.add([places = axes.page(contacts_)](Canvas& canvas) {
+    for (const Point2 place : places) canvas.draw_circle(place, 0.5 * kRing, 1.0, kTouch);
+  });
+  add_map_legend(figure);
+  figure.add_legend(legend_line("true trajectory, coloured by time", kWay, rainbow(0.4)));
+  figure.add_legend(legend_disc("start", kDot, colors::kBlue));
+  figure.add_legend(legend_disc("end", kDot, colors::kRed));
+  if (!exhibits.empty()) figure.add_legend(legend_disc("exhibit", kDot, kExhibit));
+  if (!museum.hazards.empty()) figure.add_legend(legend_of_area("hazard", kHazard));
+  if (!museum.area.empty()) figure.add_legend(legend_line("operating area", kOutline, kArea));
+  if (!contacts_.empty()) figure.add_legend(legend_ring("contact, whoever caused it", kRing, 1.0, kTouch));
+  return figure.save(path);
 }
 
 }  // namespace docent

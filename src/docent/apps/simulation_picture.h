@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "docent/base/result.h"
-#include "docent/geometry/pose2.h"
 #include "docent/museum/museum.h"
+#include "docent/pictures/map_picture.h"
 #include "docent/transport/bus.h"
 
 namespace docent {
@@ -15,10 +15,12 @@ namespace docent {
 class SimulationPicture {
  public:
   void add(const TopicInfo& topic, const std::shared_ptr<const void>& message);
-  [[nodiscard]] Result<void> save(const Museum& museum, const std::string& png) const;
+  /// As SVG, PDF or PNG, by the path's extension.
+  [[nodiscard]] Result<void> save(const Museum& museum, const std::string& path) const;
 
  private:
-  std::vector<Point2> way_;       ///< [m], world; a point every 10 cm
+  std::vector<TimedPoint> way_;   ///< [m], world; a point every 10 cm
+  TimedPoint last_;               ///< the last state
   std::vector<Point2> contacts_;  ///< [m], world
 };
 

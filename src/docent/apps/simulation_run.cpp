@@ -286,8 +286,8 @@ Result<void> SimulationRun::finish() {
   return parts_->recorder_->close();
 }
 
-Result<void> SimulationRun::save_picture(const std::string& png) const {
-  return parts_->picture_.save(parts_->museum_, png);
+Result<void> SimulationRun::save_picture(const std::string& path) const {
+  return parts_->picture_.save(parts_->museum_, path);
 }
 
 }  // namespace docent

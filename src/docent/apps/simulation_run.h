@@ -66,7 +66,7 @@ class SimulationRun {
   /// Closes the recording.
   [[nodiscard]] Result<void> finish();
   /// The way driven over the map, with hazards, exhibits, home and touches.
-  [[nodiscard]] Result<void> save_picture(const std::string& png) const;
+  [[nodiscard]] Result<void> save_picture(const std::string& path) const;
 
  private:
   class Parts;

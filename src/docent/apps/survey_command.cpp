@@ -7,8 +7,6 @@
 #include "docent/apps/arguments.h"
 #include "docent/apps/command.h"
 #include "docent/base/files.h"
-#include "docent/pictures/image.h"
-#include "docent/pictures/map_picture.h"
 #include "docent/simulator/world/survey.h"
 #include "docent/simulator/world/world_picture.h"
 
@@ -20,6 +18,7 @@ struct SurveyOptions {
   std::string out;
   std::uint64_t seed = 1;
   bool pictures = false;
+  std::string picture_format = "png";
 };
 
 void print_names(const char* what, const std::vector<std::string>& names) {
@@ -42,11 +41,8 @@ void run(const SurveyOptions& options) {
   print_names("drawn where they no longer stand", survey.moved);
   print_names("not on the map", survey.missing);
   if (!options.pictures) return;
-  value_or_fail(save_png(simulator::draw_world(world), out / "world.png"));
-  const MapView view = MapView::whole(survey.map.frame, 1200);
-  Image picture = draw_map(survey.map, view);
-  for (const auto& hazard : survey.hazards) draw_area(picture, view, hazard.polygon, {206, 48, 44, 90});
-  value_or_fail(save_png(picture, out / "survey.png"));
+  value_or_fail(simulator::draw_world(world).save(out / ("world." + options.picture_format)));
+  value_or_fail(simulator::draw_survey(survey).save(out / ("survey." + options.picture_format)));
 }
 
 }  // namespace
@@ -61,6 +57,7 @@ void add_survey_command(CLI::App& app) {
       ->required();
   command->add_option("--seed", options->seed, "Seed of the errors")->capture_default_str();
   command->add_flag("--pictures", options->pictures, "Also draw world.png and survey.png");
+  add_picture_format(*command, options->picture_format);
   command->callback([options] { run(*options); });
 }
 

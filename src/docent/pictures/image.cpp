@@ -1,13 +1,9 @@
 #include "docent/pictures/image.h"
 
-#include <png.h>
-
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "docent/base/check.h"
-#include "docent/base/files.h"
 
 namespace docent {
 namespace {
@@ -54,25 +50,6 @@ void Image::blend(int x, int y, Color color, double coverage) {
   set(x, y,
       {channel(color.red, under.red), channel(color.green, under.green), channel(color.blue, under.blue),
        static_cast<std::uint8_t>(std::lround(alpha * 255.0))});
-}
-
-void Image::paste(const Image& other, int x, int y) {
-  for (int row = 0; row < other.height(); ++row)
-    for (int column = 0; column < other.width(); ++column) set(x + column, y + row, other.at(column, row));
-}
-
-Result<void> save_png(const Image& image, const std::filesystem::path& path) {
-  png_image header{};
-  header.version = PNG_IMAGE_VERSION;
-  header.width = static_cast<png_uint_32>(image.width());
-  header.height = static_cast<png_uint_32>(image.height());
-  header.format = PNG_FORMAT_RGBA;
-  std::string encoded(PNG_IMAGE_PNG_SIZE_MAX(header), '\0');
-  png_alloc_size_t size = encoded.size();
-  if (png_image_write_to_memory(&header, encoded.data(), &size, 0, image.bytes().data(), 0, nullptr) == 0)
-    return fail(path.string() + ": cannot be encoded as PNG: " + header.message);
-  encoded.resize(size);
-  return write_file_atomically(path, encoded);
 }
 
 }  // namespace docent

@@ -1,16 +1,14 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <span>
 #include <vector>
 
-#include "docent/base/result.h"
 #include "docent/pictures/colors.h"
 
 namespace docent {
 
-/// A canvas of RGBA pixels. Pixel (0, 0) is at the top left, x to the right, y down; its centre lies at (0.5, 0.5).
+/// RGBA pixels. Pixel (0, 0) is at the top left, x to the right, y down; its centre lies at (0.5, 0.5).
 class Image {
  public:
   /// @pre 0 < width, height <= 16384
@@ -25,16 +23,11 @@ class Image {
   void set(int x, int y, Color color);         ///< outside: nothing
   /// Lays `color` over the pixel; `coverage` 0..1 is the part of the pixel that the shape covers. Outside: nothing.
   void blend(int x, int y, Color color, double coverage = 1.0);
-  /// Copies `other` with its top left corner at (x, y), cut at the border.
-  void paste(const Image& other, int x, int y);
 
  private:
   int width_;
   int height_;
   std::vector<std::uint8_t> bytes_;
 };
-
-/// Writes a PNG atomically.
-[[nodiscard]] Result<void> save_png(const Image& image, const std::filesystem::path& path);
 
 }  // namespace docent

@@ -1,10 +1,6 @@
 #include "docent/pictures/image.h"
 
 #include <gtest/gtest.h>
-#include <png.h>
-#include <unistd.h>
-
-#include "docent/base/files.h"
 
 namespace docent {
 namespace {
@@ -24,29 +20,6 @@ TEST(Image, BlendsOntoClearPixelsWithoutADarkRim) {
   Image image{1, 1, Color{0, 0, 0, 0}};
   image.blend(0, 0, colors::kRed, 0.25);
   EXPECT_EQ(image.at(0, 0), with_alpha(colors::kRed, 64));
-}
-
-TEST(Image, PngKeepsEveryPixel) {
-  Image image{17, 5, colors::kFloor};
-  image.set(16, 4, Color{1, 2, 3, 77});
-  const auto path = std::filesystem::temp_directory_path() / ("docent_image_" + std::to_string(getpid()) + ".png");
-  ASSERT_TRUE(save_png(image, path));
-  const auto bytes = read_file(path);
-  ASSERT_TRUE(bytes);
-  png_image header{};
-  header.version = PNG_IMAGE_VERSION;
-  ASSERT_NE(png_image_begin_read_from_memory(&header, bytes->data(), bytes->size()), 0);
-  header.format = PNG_FORMAT_RGBA;
-  std::vector<std::uint8_t> read(PNG_IMAGE_SIZE(header));
-  ASSERT_NE(png_image_finish_read(&header, nullptr, read.data(), 0, nullptr), 0);
-  EXPECT_EQ(read, std::vector<std::uint8_t>(image.bytes().begin(), image.bytes().end()));
-  std::filesystem::remove(path);
-}
-
-TEST(Image, RefusesAFolderThatIsNotThere) {
-  const auto saved = save_png(Image{1, 1}, "/nowhere/at/all.png");
-  ASSERT_FALSE(saved);
-  EXPECT_NE(saved.error().message.find("/nowhere/at/all.png"), std::string::npos);
 }
 
 TEST(Colors, MapsAreMonotoneInDarkness) {

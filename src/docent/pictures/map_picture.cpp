@@ -1,133 +1,176 @@
 #include "docent/pictures/map_picture.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <string>
 
 #include "docent/base/check.h"
-#include "docent/pictures/drawing.h"
-#include "docent/pictures/text.h"
 
 namespace docent {
 namespace {
 
-Color color_of(std::int8_t percent) {
-  if (percent < 0) return colors::kUnknown;
-  return mixed(colors::kFloor, colors::kInk, percent / 100.0);
+constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
+constexpr double kDecades = 3.0;
+
+Color color_of(float percent) {
+  if (percent < 0.0F) return colors::kUnknown;
+  return mixed(colors::kFloor, colors::kInk, static_cast<double>(percent) / 100.0);
 }
 
-/// The most occupied cell of the rectangle; unknown only where nothing else is.
-std::int8_t darkest(const OccupancyGrid& map, CellIndex low, CellIndex high) {
-  std::int8_t found = OccupancyGrid::kUnknown;
-  for (int row = low.row; row <= high.row; ++row)
-    for (int column = low.column; column <= high.column; ++column) found = std::max(found, map.at({column, row}));
+/// A part of a grid, both ends within.
+struct Cells {
+  CellIndex low;
+  CellIndex high;
+};
+
+CellIndex nearest_cell(const GridFrame& frame, Point2 place) {
+  const CellIndex cell = frame.cell_at(place);
+  return {std::clamp(cell.column, 0, frame.columns - 1), std::clamp(cell.row, 0, frame.rows - 1)};
+}
+
+float greatest(const GridFrame& frame, std::span<const float> values, Cells cells) {
+  float found = kNothing;
+  for (int row = cells.low.row; row <= cells.high.row; ++row)
+    for (int column = cells.low.column; column <= cells.high.column; ++column)
+      if (const float value = values[frame.index({column, row})]; !(value <= found) && !std::isnan(value))
+        found = value;
   return found;
-}
-
-/// The longest round length that takes no more than a quarter of the width.
-void draw_scale_bar(Image& image, const MapView& view) {
-  constexpr std::array<double, 9> kLengths{0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0};
-  const auto longest = std::find_if(kLengths.rbegin(), kLengths.rend(),
-                                    [&](double length) { return length * view.scale() <= 0.25 * view.width(); });
-  if (longest == kLengths.rend() || view.height() < 40) return;
-  const double y = view.height() - 10.0;
-  const Point2 left{10.0, y};
-  const Point2 right{10.0 + *longest * view.scale(), y};
-  draw_line(image, left, right, 2.0, colors::kInk);
-  for (const Point2& end : {left, right}) draw_line(image, end - Point2{0, 4}, end + Point2{0, 4}, 2.0, colors::kInk);
-  std::string text = *longest < 1.0 ? std::to_string(std::lround(*longest * 100.0)) + " cm"
-                                    : std::to_string(std::lround(*longest)) + " m";
-  draw_label(image, {left.x + 6.0, y - 15.0}, text, colors::kInk, with_alpha(colors::kWhite, 170));
 }
 
 }  // namespace
 
-MapView::MapView(Point2 low, Point2 high, double pixels_per_metre) : low_{low}, high_{high}, scale_{pixels_per_metre} {
-  DOCENT_CHECK(high.x > low.x && high.y > low.y && pixels_per_metre > 0.0);
-  width_ = static_cast<int>(std::clamp(std::ceil(scale_ * (high.x - low.x) - 1e-6), 1.0, 16384.0));
-  height_ = static_cast<int>(std::clamp(std::ceil(scale_ * (high.y - low.y) - 1e-6), 1.0, 16384.0));
-}
-
-MapView MapView::whole(const GridFrame& frame, int longest_side) {
-  const Point2 size{frame.columns * frame.resolution, frame.rows * frame.resolution};
-  return {frame.origin, frame.origin + size, longest_side / std::max(size.x, size.y)};
-}
-
-std::vector<Point2> MapView::pixels(std::span<const Point2> in_map) const {
-  std::vector<Point2> result;
-  result.reserve(in_map.size());
-  for (const Point2& point : in_map) result.push_back(pixel(point));
-  return result;
-}
-
-Image draw_map(const OccupancyGrid& map, const MapView& view) {
-  Image image{view.width(), view.height(), colors::kUnknown};
-  // Just inside the pixel's border, so that a pixel as large as a cell does not see the next one.
-  constexpr double kInset = 0.01;
-  for (int y = 0; y < view.height(); ++y) {
-    for (int x = 0; x < view.width(); ++x) {
-      const CellIndex low = map.frame.cell_at(view.map({x + kInset, y + 1 - kInset}));
-      const CellIndex high = map.frame.cell_at(view.map({x + 1 - kInset, y + kInset}));
-      image.set(x, y, color_of(darkest(map, low, high)));
+void draw_cells(Axes& axes, const GridFrame& frame, std::span<const float> values,
+                const std::function<Color(float)>& color) {
+  DOCENT_CHECK(values.size() == frame.size());
+  if (values.empty()) return;
+  // The part of the grid that is seen, and its bitmap: cells, or pixels where these are larger.
+  const Cells seen{nearest_cell(frame, axes.low()), nearest_cell(frame, axes.high())};
+  const double half = 0.5 * frame.resolution;
+  const Point2 low = frame.centre(seen.low) - Point2{half, half};
+  const Point2 high = frame.centre(seen.high) + Point2{half, half};
+  const int columns = seen.high.column - seen.low.column + 1;
+  const int rows = seen.high.row - seen.low.row + 1;
+  const double pixel = std::max(frame.resolution, 1.0 / (kPixelsPerPoint * axes.scale()));  // [m]
+  const auto count = [pixel](double length, int cells) {
+    return std::clamp(static_cast<int>(std::ceil(length / pixel - 1e-6)), 1, cells);
+  };
+  const int width = count(high.x - low.x, columns);
+  const int height = count(high.y - low.y, rows);
+  const auto image = std::make_shared<Image>(width, height, Color{0, 0, 0, 0});
+  for (int y = 0; y < height; ++y) {
+    const int first_row = seen.low.row + (height - 1 - y) * rows / height;
+    const int last_row = seen.low.row + ((height - y) * rows - 1) / height;
+    for (int x = 0; x < width; ++x) {
+      const Cells under{{seen.low.column + x * columns / width, first_row},
+                        {seen.low.column + ((x + 1) * columns - 1) / width, last_row}};
+      const float value = greatest(frame, values, under);
+      if (!std::isnan(value)) image->set(x, y, color(value));
     }
   }
-  draw_scale_bar(image, view);
-  return image;
+  axes.add([image, top_left = axes.page({low.x, high.y}), bottom_right = axes.page({high.x, low.y})](Canvas& canvas) {
+    canvas.draw_image(*image, top_left, bottom_right);
+  });
 }
 
-Image draw_map(const OccupancyGrid& map, int longest_side) {
-  return draw_map(map, MapView::whole(map.frame, longest_side));
+void draw_map(Axes& axes, const OccupancyGrid& map) {
+  axes.add([corner = Point2{axes.width(), axes.height()}](Canvas& canvas) {
+    canvas.fill_rectangle({0.0, 0.0}, corner, colors::kUnknown);
+  });
+  const std::vector<float> percent{map.cells.begin(), map.cells.end()};
+  draw_cells(axes, map.frame, percent, color_of);
 }
 
-void draw_density(Image& image, const MapView& view, const GridFrame& frame, std::span<const float> mass) {
-  DOCENT_CHECK(mass.size() == frame.size());
-  const float greatest = mass.empty() ? 0.0F : *std::max_element(mass.begin(), mass.end());
-  if (!(greatest > 0.0F)) return;
-  constexpr double kDecades = 3.0;
-  // A cell smaller than a pixel must not vanish: every cell draws at least one pixel.
-  for (int row = 0; row < frame.rows; ++row) {
-    for (int column = 0; column < frame.columns; ++column) {
-      const float value = mass[frame.index({column, row})];
-      if (!(value > 0.0F)) continue;
-      const double share = 1.0 + std::log10(value / greatest) / kDecades;
-      if (share <= 0.0) continue;
-      const Point2 low{frame.origin.x + column * frame.resolution, frame.origin.y + row * frame.resolution};
-      const Point2 top_left = view.pixel({low.x, low.y + frame.resolution});
-      const Point2 bottom_right = view.pixel({low.x + frame.resolution, low.y});
-      const Color color = with_alpha(heat(share), static_cast<std::uint8_t>(110 + 120 * share));
-      const int left = static_cast<int>(std::floor(top_left.x + 0.5));
-      const int top = static_cast<int>(std::floor(top_left.y + 0.5));
-      const int right = std::max(left + 1, static_cast<int>(std::floor(bottom_right.x + 0.5)));
-      const int bottom = std::max(top + 1, static_cast<int>(std::floor(bottom_right.y + 0.5)));
-      for (int y = top; y < bottom; ++y)
-        for (int x = left; x < right; ++x) image.blend(x, y, color);
-    }
+void add_map_legend(Figure& figure) {
+  figure.add_legend(legend_area("free", colors::kFloor, colors::kGrey));
+  figure.add_legend(legend_area("occupied", colors::kInk));
+  figure.add_legend(legend_area("unknown", colors::kUnknown, colors::kGrey));
+}
+
+void draw_density(Axes& axes, const GridFrame& frame, std::span<const float> mass) {
+  const double area = frame.resolution * frame.resolution;
+  std::vector<float> density{mass.begin(), mass.end()};
+  double most = 0.0;
+  for (float& value : density) {
+    value = static_cast<float>(static_cast<double>(value) / area);
+    most = std::max(most, static_cast<double>(value));
   }
+  if (!(most > 0.0)) most = 1.0;  // nothing is drawn, but the bar is there: frames of a film have one size
+  const auto color = [most](double value) {
+    const double share = std::clamp(1.0 + std::log10(value / most) / kDecades, 0.0, 1.0);
+    return with_alpha(heat(share), static_cast<std::uint8_t>(110 + 120 * share));
+  };
+  const double least = most / std::pow(10.0, kDecades);
+  for (float& value : density)
+    if (!(static_cast<double>(value) > least)) value = kNothing;
+  draw_cells(axes, frame, density, [color](float value) { return color(static_cast<double>(value)); });
+  axes.set_color_bar({"probability density [1/m²]", color, least, most, true});
 }
 
-void draw_robot(Image& image, const MapView& view, const Pose2& map_from_robot, double radius, Color color) {
-  const double pixels = std::max(3.0, radius * view.scale());
-  const Point2 centre = view.pixel(map_from_robot.position());
+void draw_robot(Axes& axes, const Pose2& map_from_robot, double radius, Color color) {
+  const double size = std::max(2.0, radius * axes.scale());
+  const Point2 centre = axes.page(map_from_robot.position());
   const Point2 heading = unit(map_from_robot.theta);
-  const Point2 front = centre + pixels * Point2{heading.x, -heading.y};
-  fill_disc(image, centre, pixels, with_alpha(color, 190));
-  draw_circle(image, centre, pixels, 1.5, mixed(color, colors::kBlack, 0.4));
-  draw_line(image, centre, front, std::max(1.5, pixels / 5.0), colors::kWhite);
+  const Point2 front = centre + size * Point2{heading.x, -heading.y};
+  axes.add([=](Canvas& canvas) {
+    const Point2 centres[] = {centre};
+    canvas.fill_discs(centres, 2.0 * size, with_alpha(color, 190));
+    canvas.draw_circle(centre, size, 0.8, mixed(color, colors::kBlack, 0.4));
+    canvas.draw_line(centre, front, std::max(0.8, size / 5.0), colors::kWhite);
+  });
 }
 
-void draw_points(Image& image, const MapView& view, std::span<const Point2> in_map, double diameter, Color color) {
-  for (const Point2& point : in_map) fill_disc(image, view.pixel(point), diameter / 2.0, color);
+void draw_points(Axes& axes, std::span<const Point2> in_map, double diameter, Color color) {
+  axes.add([=, places = axes.page(in_map)](Canvas& canvas) { canvas.fill_discs(places, diameter, color); });
 }
 
-void draw_path(Image& image, const MapView& view, std::span<const Point2> in_map, double width, Color color) {
-  draw_polyline(image, view.pixels(in_map), width, color);
+void draw_path(Axes& axes, std::span<const Point2> in_map, double width, Color color) {
+  axes.add([=, places = axes.page(in_map)](Canvas& canvas) { canvas.draw_polyline(places, width, color); });
 }
 
-void draw_area(Image& image, const MapView& view, std::span<const Point2> corners_in_map, Color color) {
-  const std::vector<Point2> corners = view.pixels(corners_in_map);
-  fill_polygon(image, corners, color);
-  draw_polygon(image, corners, 1.5, with_alpha(mixed(color, colors::kBlack, 0.3), 255));
+namespace {
+
+Color outline_of(Color color) { return with_alpha(mixed(color, colors::kBlack, 0.3), 255); }
+
+}  // namespace
+
+void draw_area(Axes& axes, std::span<const Point2> corners_in_map, Color color) {
+  axes.add([=, corners = axes.page(corners_in_map)](Canvas& canvas) {
+    canvas.fill_polygon(corners, color);
+    canvas.draw_polygon(corners, 0.8, outline_of(color));
+  });
+}
+
+LegendEntry legend_of_area(std::string text, Color color) {
+  return legend_area(std::move(text), color, outline_of(color));
+}
+
+void draw_note(Axes& axes, Point2 in_map, const std::string& text, Point2 anchor) {
+  const TextStyle style{.size = 6.5, .anchor = anchor};
+  const Point2 size = text_size(text, style);
+  Point2 at = axes.page(in_map);
+  const auto pushed_inside = [](double place, double length, double part, double room) {
+    return std::clamp(place, part * length, std::max(part * length, room - (1.0 - part) * length));
+  };
+  at.x = pushed_inside(at.x, size.x, anchor.x, axes.width());
+  at.y = pushed_inside(at.y, size.y, anchor.y, axes.height());
+  axes.add([=](Canvas& canvas) { canvas.draw_label(at, text, style, with_alpha(colors::kWhite, 150)); });
+}
+
+void draw_timed_path(Axes& axes, std::span<const TimedPoint> way, double width) {
+  if (way.empty()) return;
+  constexpr std::size_t kPieces = 64;  // steps of colour
+  const double begin = way.front().time;
+  const double end = way.back().time;
+  const auto color = [=](double time) { return rainbow(end > begin ? (time - begin) / (end - begin) : 0.0); };
+  const std::size_t piece = std::max<std::size_t>(1, way.size() / kPieces);
+  for (std::size_t first = 0; first < way.size(); first += piece) {
+    std::vector<Point2> points;
+    for (std::size_t i = first; i <= std::min(first + piece, way.size() - 1); ++i) points.push_back(way[i].place);
+    draw_path(axes, points, width, color(way[first].time));
+  }
+  if (end > begin) axes.set_color_bar({"time [s]", color, begin, end, false});
 }
 
 }  // namespace docent

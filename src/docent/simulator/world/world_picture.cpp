@@ -4,9 +4,6 @@
 #include <cmath>
 #include <string>
 
-#include "docent/pictures/drawing.h"
-#include "docent/pictures/text.h"
-
 namespace docent::simulator {
 namespace {
 
@@ -17,6 +14,17 @@ constexpr Color kLowWood{214, 190, 160};
 constexpr Color kGlass{120, 190, 220, 130};
 constexpr Color kPlate{168, 176, 184};
 constexpr Color kStairs{200, 90, 70};
+constexpr Color kGlassEdge{40, 120, 170};
+constexpr Color kEdge{90, 80, 70};
+constexpr Color kHighCeiling{255, 236, 190, 90};
+constexpr Color kArea = with_alpha(colors::kGreen, 170);
+constexpr Color kAttraction = with_alpha(colors::kViolet, 70);
+constexpr Color kHazard{206, 48, 44, 90};
+
+// [points]
+constexpr double kDot = 6.0;
+constexpr double kLine = 0.6;
+constexpr double kThickLine = 1.3;  // of what someone may have moved
 
 Color color_of(const Solid& solid) {
   switch (solid.kind) {
@@ -34,6 +42,8 @@ Color color_of(const Solid& solid) {
   return kWall;
 }
 
+bool is_low(const Solid& solid) { return solid.kind == SolidKind::furniture && !is_seen_by_laser(solid); }
+
 Point2 middle(const Polygon& polygon) {
   Point2 sum{};
   for (const Point2 corner : polygon) sum = sum + corner;
@@ -42,10 +52,13 @@ Point2 middle(const Polygon& polygon) {
 
 }  // namespace
 
-Image draw_world(const World& world, const MapView& view) {
-  Image image{view.width(), view.height(), kOutside};
-  fill_polygon(image, view.pixels(world.floor), colors::kFloor);
-  for (const auto& part : world.ceiling) fill_polygon(image, view.pixels(part.polygon), Color{255, 236, 190, 90});
+void draw_world(Axes& axes, const World& world) {
+  axes.add([corner = Point2{axes.width(), axes.height()}, floor = axes.page(world.floor)](Canvas& canvas) {
+    canvas.fill_rectangle({0.0, 0.0}, corner, kOutside);
+    canvas.fill_polygon(floor, colors::kFloor);
+  });
+  for (const auto& part : world.ceiling)
+    axes.add([corners = axes.page(part.polygon)](Canvas& canvas) { canvas.fill_polygon(corners, kHighCeiling); });
   // Low things first: what stands on a podium is drawn over it, glass over what it covers.
   std::vector<const Solid*> solids;
   for (const Solid& solid : world.solids) solids.push_back(&solid);
@@ -54,39 +67,65 @@ Image draw_world(const World& world, const MapView& view) {
     return order(*a) < order(*b);
   });
   for (const Solid* solid : solids) {
-    const auto corners = view.pixels(solid->polygon);
-    fill_polygon(image, corners, color_of(*solid));
-    if (solid->kind != SolidKind::wall) {
-      const Color edge = solid->kind == SolidKind::glass ? Color{40, 120, 170} : Color{90, 80, 70};
-      draw_polygon(image, corners, solid->movable ? 2.5 : 1.2, edge);
-    }
+    axes.add([corners = axes.page(solid->polygon), color = color_of(*solid), kind = solid->kind,
+              width = solid->movable ? kThickLine : kLine](Canvas& canvas) {
+      canvas.fill_polygon(corners, color);
+      if (kind != SolidKind::wall) canvas.draw_polygon(corners, width, kind == SolidKind::glass ? kGlassEdge : kEdge);
+    });
   }
-  draw_polygon(image, view.pixels(world.operating_area), 1.5, with_alpha(colors::kGreen, 170));
+  draw_operating_area(axes, world);
   for (const auto& attraction : world.attractions) {
-    draw_circle(image, view.pixel(attraction.centre), attraction.radius * view.scale(), 1.0,
-                with_alpha(colors::kViolet, 70));
+    axes.add([centre = axes.page(attraction.centre), radius = attraction.radius * axes.scale()](Canvas& canvas) {
+      canvas.draw_circle(centre, radius, kLine, kAttraction);
+    });
   }
-  const auto label = [&](Point2 in_world, const std::string& text) {
-    const Point2 at = view.pixel(in_world);
-    const Point2 top_left{at.x - 0.5 * text_width(text), at.y - 0.5 * text_height()};
-    draw_label(image, top_left, text, colors::kInk, with_alpha(colors::kWhite, 150));
-  };
-  for (const auto& attraction : world.attractions) label(attraction.centre, attraction.id);
+  for (const auto& attraction : world.attractions) draw_note(axes, attraction.centre, attraction.id, {0.5, 0.5});
   for (const Solid& solid : world.solids) {
     const Point2 centre = middle(solid.polygon);
     const bool is_named = std::any_of(world.attractions.begin(), world.attractions.end(),
                                       [&](const Attraction& a) { return distance(a.centre, centre) < a.radius; });
     if ((solid.kind == SolidKind::plate || solid.kind == SolidKind::stairs || solid.kind == SolidKind::furniture) &&
         !is_named && std::abs(signed_area(solid.polygon)) > 0.5) {
-      label(centre, solid.id);
+      draw_note(axes, centre, solid.id, {0.5, 0.5});
     }
   }
-  for (const Point2 entrance : world.entrances) fill_disc(image, view.pixel(entrance), 6.0, colors::kOrange);
-  fill_disc(image, view.pixel(world.home), 6.0, colors::kBlue);
-  return image;
+  draw_points(axes, world.entrances, kDot, colors::kOrange);
+  const Point2 home[] = {world.home};
+  draw_points(axes, home, kDot, colors::kBlue);
 }
 
-Image draw_world(const World& world, int longest_side) {
+void draw_operating_area(Axes& axes, const World& world) {
+  axes.add([corners = axes.page(world.operating_area)](Canvas& canvas) { canvas.draw_polygon(corners, 0.8, kArea); });
+}
+
+void add_world_legend(Figure& figure, const World& world) {
+  const auto holds = [&world](const auto& is_it) {
+    return std::any_of(world.solids.begin(), world.solids.end(), is_it);
+  };
+  const auto holds_kind = [&](SolidKind kind) { return holds([kind](const Solid& s) { return s.kind == kind; }); };
+  figure.add_legend(legend_area("floor", colors::kFloor, colors::kGrey));
+  if (!world.ceiling.empty()) figure.add_legend(legend_area("other ceiling", kHighCeiling, colors::kGrey));
+  figure.add_legend(legend_area("wall", kWall));
+  if (holds([](const Solid& s) { return s.kind == SolidKind::furniture && is_seen_by_laser(s); }))
+    figure.add_legend(legend_area("furniture", kWood, kEdge));
+  if (holds(is_low)) figure.add_legend(legend_area("furniture below the lasers", kLowWood, kEdge));
+  if (holds([](const Solid& s) { return s.movable; })) {
+    figure.add_legend({"may have been moved", [](Canvas& canvas) {
+                         const Point2 corners[] = {{-9.0, -4.5}, {9.0, -4.5}, {9.0, 4.5}, {-9.0, 4.5}};
+                         canvas.draw_polygon(corners, kThickLine, kEdge);
+                       }});
+  }
+  if (holds_kind(SolidKind::glass)) figure.add_legend(legend_area("glass", kGlass, kGlassEdge));
+  if (holds_kind(SolidKind::plate)) figure.add_legend(legend_area("plate", kPlate, kEdge));
+  if (holds_kind(SolidKind::stairs)) figure.add_legend(legend_area("stairs", kStairs, kEdge));
+  figure.add_legend(legend_line("operating area of the robot's centre", 0.8, kArea));
+  if (!world.attractions.empty())
+    figure.add_legend(legend_ring("people like to stand within", 9.0, kLine, colors::kViolet));
+  if (!world.entrances.empty()) figure.add_legend(legend_disc("entrance", kDot, colors::kOrange));
+  figure.add_legend(legend_disc("home", kDot, colors::kBlue));
+}
+
+Figure draw_world(const World& world) {
   Point2 low = world.floor.front();
   Point2 high = low;
   const auto extend = [&](const Polygon& polygon) {
@@ -97,10 +136,27 @@ Image draw_world(const World& world, int longest_side) {
   };
   extend(world.floor);
   for (const Solid& solid : world.solids) extend(solid.polygon);
-  low = low - Point2{0.5, 0.5};
-  high = high + Point2{0.5, 0.5};
-  const double side = std::max(high.x - low.x, high.y - low.y);
-  return draw_world(world, MapView{low, high, longest_side / side});
+  Figure figure{"True world"};
+  draw_world(figure.add(Axes::metres(low - Point2{0.5, 0.5}, high + Point2{0.5, 0.5})), world);
+  add_world_legend(figure, world);
+  return figure;
+}
+
+void draw_survey(Axes& axes, const Survey& survey) {
+  draw_map(axes, survey.map);
+  for (const auto& hazard : survey.hazards) draw_area(axes, hazard.polygon, kHazard);
+}
+
+void add_survey_legend(Figure& figure, const Survey& survey) {
+  add_map_legend(figure);
+  if (!survey.hazards.empty()) figure.add_legend(legend_of_area("hazard", kHazard));
+}
+
+Figure draw_survey(const Survey& survey) {
+  Figure figure{"Survey"};
+  draw_survey(figure.add(Axes::metres(survey.map.frame)), survey);
+  add_survey_legend(figure, survey);
+  return figure;
 }
 
 }  // namespace docent::simulator
