@@ -14,10 +14,9 @@ def want_large_belief(simulations, verdict):
         subprocess.run(["cmake", "--build", "--preset", "dev", "--target", TARGET], cwd=simulations.root, check=True,
                        stdout=subprocess.DEVNULL)
     simulations.cache.mkdir(parents=True, exist_ok=True)
-    table = str(simulations.cache / "large-map.table")
     done = subprocess.run([simulations.root / "build/dev/src/docent/localization/markov" / TARGET, "--benchmark_filter=large_map"],
                           stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=False,
-                          env=dict(os.environ, DOCENT_LARGE_MAP="1", DOCENT_RANGE_TABLE=table))
+                          env=dict(os.environ, DOCENT_LARGE_MAP="1", DOCENT_CACHE=str(simulations.cache)))
     print(done.stdout)
     verdict.want("200 x 200 m", "the table above", done.returncode == 0 and "FAIL" not in done.stdout
                  and "peak memory" in done.stdout)

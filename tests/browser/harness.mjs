@@ -12,6 +12,9 @@ export const build = process.env.DOCENT_BUILD ?? join(root, 'build', 'dev');
 export const pictures = process.env.DOCENT_SCREENSHOTS ?? join(build, 'screenshots');
 mkdirSync(pictures, { recursive: true });
 
+// Not that of whoever runs the tests.
+process.env.DOCENT_CACHE ??= join(build, 'test-cache');
+
 const clean = [];
 export const onEnd = (action) => clean.push(action);
 

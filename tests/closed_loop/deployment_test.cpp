@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -6,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "docent/apps/simulation_run.h"
+#include "docent/apps/temporary_folder.h"
 #include "docent/base/files.h"
 
 // The whole robot in a crowd, in virtual time.
@@ -45,18 +47,38 @@ SimulationRunOptions busy_bonn(std::uint64_t seed) {
   return options;
 }
 
+/// What of a report does not depend on how fast it was made.
+std::string without_costs(nlohmann::ordered_json report) {
+  for (const char* key : {"wall_seconds", "cpu_seconds", "speedup", "wall_speedup", "p99_ms"}) report.erase(key);
+  return report.dump(1);
+}
+
 TEST(Deployment, TheSameSeedGivesTheSameReport) {
-  auto first = report_of(busy_bonn(11), 4.0);
-  auto second = report_of(busy_bonn(11), 4.0);
+  const auto first = report_of(busy_bonn(11), 4.0);
+  const auto second = report_of(busy_bonn(11), 4.0);
   ASSERT_GT(first.at("distance_m").get<double>(), 5.0) << "nothing is the same because it is idle";
   EXPECT_GT(first.at("cpu_seconds").get<double>(), 0.0);
   EXPECT_LT(first.at("cpu_seconds").get<double>(), 1.1 * first.at("wall_seconds").get<double>() + 0.5)
       << "one thread runs all";
-  for (const char* key : {"wall_seconds", "cpu_seconds", "speedup", "wall_speedup", "p99_ms"}) {
-    first.erase(key);
-    second.erase(key);
-  }
-  EXPECT_EQ(first.dump(1), second.dump(1));
+  EXPECT_EQ(without_costs(first), without_costs(second));
+}
+
+TEST(Deployment, TheCacheChangesNothingButTheTimeOfTheStart) {
+  const TemporaryFolder cache;
+  SimulationRunOptions options = busy_bonn(11);
+  const auto without = report_of(options, 2.0);
+  ASSERT_GT(without.at("distance_m").get<double>(), 5.0) << "nothing is the same because it is idle";
+  options.cache = cache.path();
+  EXPECT_EQ(without_costs(report_of(options, 2.0)), without_costs(without)) << "the run that fills it";
+  std::filesystem::directory_iterator files{cache.path()};
+  ASSERT_NE(files, std::filesystem::directory_iterator{}) << "nothing was kept";
+  const auto inode = [path = files->path()] {
+    struct stat status {};
+    return ::stat(path.c_str(), &status) == 0 ? status.st_ino : 0;
+  };
+  const auto kept = inode();
+  EXPECT_EQ(without_costs(report_of(options, 2.0)), without_costs(without)) << "the run that uses it";
+  EXPECT_EQ(inode(), kept) << "the table was made anew";
 }
 
 TEST(Deployment, NeverWaitsForTheDisk) {

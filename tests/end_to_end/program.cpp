@@ -27,6 +27,7 @@ Program::Program(const std::vector<std::string>& arguments) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     dup2(ends[1], STDOUT_FILENO);
     dup2(ends[1], STDERR_FILENO);
+    setenv("DOCENT_CACHE", cache_.path().c_str(), 1);
     execv(pointers[0], pointers.data());
     _exit(127);
   }

@@ -10,7 +10,22 @@
 
 namespace docent {
 
-/// A started `docent`, with all that it prints. Ended (with its children) at the latest with this object.
+/// A folder that is removed with this object.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder();
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  std::string write(const std::string& name, const std::string& content) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// A started `docent`, with all that it prints and a cache of its own. Ended (with its children) at the latest with
+/// this object.
 class Program {
  public:
   explicit Program(const std::vector<std::string>& arguments);
@@ -30,6 +45,7 @@ class Program {
   [[nodiscard]] std::vector<pid_t> children() const;
 
  private:
+  TemporaryFolder cache_;
   pid_t pid_ = 0;
   int output_ = -1;
   std::string text_;
@@ -40,20 +56,6 @@ struct Finished {
   std::string output;
 };
 [[nodiscard]] Finished run_program(const std::vector<std::string>& arguments);
-
-/// A folder that is removed with this object.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder();
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  std::string write(const std::string& name, const std::string& content) const;
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Asks `done` every 10 ms.
 [[nodiscard]] bool eventually(const std::function<bool()>& done, std::chrono::duration<double> patience);

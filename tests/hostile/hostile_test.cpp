@@ -35,7 +35,7 @@ TEST_F(Hostile, RecordingsAreReadAndLocalizedInBoundedTime) {
   write_room_map(folder_);
   const auto map = load_map(folder_ / "room.yaml");
   ASSERT_TRUE(map) << map.error().message;
-  MarkovLocalizer localizer{*map, {}, "", 1};
+  MarkovLocalizer localizer{*map, {}, {}, 1};
   std::size_t refused = 0, noted = 0;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     SCOPED_TRACE(seed);

@@ -48,6 +48,14 @@ void fill(sensor_msgs::LaserScan& scan, Rng& /*rng*/) {
   scan.range_max = 10.0F;
   for (int i = 0; i <= 180; ++i) scan.ranges.push_back(1.5F + 0.5F * static_cast<float>(i % 60) / 60.0F);
 }
+/// As virtual measurements do.
+template <class T>
+void go_round_twice(T& /*message*/) {}
+void go_round_twice(sensor_msgs::LaserScan& scan) {
+  scan.header.frame_id = "base_link";
+  scan.angle_increment = static_cast<float>(std::numbers::pi / 90.0);
+  scan.ranges.resize(360, 2.0F);
+}
 void fill(sensor_msgs::Range& range, Rng& rng) {
   const auto index = static_cast<int>(rng.integer(0, 23));
   range.header.frame_id = rng.chance(0.5) ? RobotBody::sonar_frame(index) : RobotBody::infrared_frame(index);
@@ -150,10 +158,11 @@ ModuleStage::ModuleStage(const std::string& module, std::filesystem::path state)
   world_ = hub_.connect("world");
   for_each_robot_topic([this]<class T>(const Topic<T>& topic) {
     auto publisher = world_->publisher(topic);
-    spoilt_.push_back([this, publisher](Rng& rng, double share) {
+    spoilt_.push_back([this, topic, publisher](Rng& rng, double share) {
       [[maybe_unused]] const Time now = hub_.now();
       T message;
       fill(message, rng);
+      if (topic.name == topics::kVirtualScan.name) go_round_twice(message);
       if constexpr (requires { message.header.stamp; }) message.header.stamp = to_message(now);
       spoil(message, rng, share);
       publisher.publish(std::move(message));
@@ -169,7 +178,7 @@ ModuleStage::ModuleStage(const std::string& module, std::filesystem::path state)
     if (is_ours_) return;
     for_each_robot_topic([&]<class T>(const Topic<T>& topic) {
       if (std::string_view{topic.name} != info.name) return;
-      const MessageFault fault = fault_of(*static_cast<const T*>(message.get()));
+      const MessageFault fault = fault_on(topic, *static_cast<const T*>(message.get()));
       const std::string text = fault ? std::string{topic.name} + ": " + fault.text() : "";
       if (fault && std::find(unfit_.begin(), unfit_.end(), text) == unfit_.end()) unfit_.push_back(text);
     });

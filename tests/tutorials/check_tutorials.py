@@ -77,6 +77,7 @@ class Folder:
         (self.path / "bin").mkdir()
         (self.path / "bin/docent").symlink_to(binary())
         self.env = dict(os.environ, DOCENT_BINARY=str(binary()), XDG_STATE_HOME=str(self.path / "state"),
+                        DOCENT_CACHE=str(self.path / "cache"),
                         PATH=f"{self.path / 'bin'}:{os.environ['PATH']}")
         if data() is not None:
             self.env["DOCENT_DATA"] = str(data())

@@ -6,9 +6,11 @@
 #include <memory>
 
 #include "docent/apps/command.h"
+#include "docent/apps/deployment.h"
 #include "docent/apps/map_note.h"
 #include "docent/base/yaml.h"
 #include "docent/interaction/speech/sentences.h"
+#include "docent/modules/plan_module.h"
 #include "docent/museum/museum.h"
 #include "docent/simulator/world/world.h"
 
@@ -51,8 +53,10 @@ void note_languages(const Museum& museum) {
   }
 }
 
-void check(const std::filesystem::path& folder) {
-  std::vector<Error> faults = check_museum(folder);
+void check(const Deployment& deployment) {
+  const std::filesystem::path folder{deployment.museum};
+  const RobotConfig config = value_or_fail(deployment.load_config(), 2);
+  std::vector<Error> faults = check_museum(folder, value_or_fail(checked_robot_of_plan(config), 2));
   if (faults.empty()) {
     const Museum museum = value_or_fail(load_museum(folder));
     if (museum.simulation_path) check_simulation(museum, faults);
@@ -75,9 +79,12 @@ void check(const std::filesystem::path& folder) {
 
 void add_check_command(CLI::App& app) {
   auto* command = app.add_subcommand("check", "Validate a museum; every fault is named with file and line");
-  auto folder = std::make_shared<std::string>();
-  command->add_option("museum", *folder, "Folder with a museum.yaml")->required();
-  command->callback([folder] { check(*folder); });
+  auto deployment = std::make_shared<Deployment>();
+  command->add_option("museum", deployment->museum, "Folder with a museum.yaml")->required();
+  command->add_option("--robot", deployment->robot, "robot.yaml of the robot that must fit; without it all defaults");
+  command->add_option("--set", deployment->settings, "section.key=value, over robot.yaml; may be repeated")
+      ->allow_extra_args(false);
+  command->callback([deployment] { check(*deployment); });
 }
 
 }  // namespace docent

@@ -52,6 +52,21 @@ class CheckCommand : public ::testing::Test {
 
 TEST_F(CheckCommand, PassesWhatIsFine) { EXPECT_EQ(run("check " + folder_.string()), ""); }
 
+TEST_F(CheckCommand, ChecksForTheRobotInUse) {
+  const auto faults_of = [&](const std::string& arguments) {
+    testing::internal::CaptureStderr();
+    EXPECT_NE(run("check " + folder_.string() + " " + arguments), "") << arguments;
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_NE(faults_of("--set body.radius=0.9").find("the robot needs 1 m"), std::string::npos);
+  EXPECT_NE(faults_of("--set 'plan.route={clearance: {hazards: 1.0}}'").find("the robot needs 1.27 m"),
+            std::string::npos);
+  ASSERT_TRUE(write_file_atomically(folder_ / "wide.yaml", "body: {radius: 0.9}\n"));
+  EXPECT_NE(faults_of("--robot " + (folder_ / "wide.yaml").string()).find("the robot needs 1 m"), std::string::npos);
+  EXPECT_EQ(run("check " + folder_.string() + " --set body.radius=0.25"), "");
+  EXPECT_NE(run("check " + folder_.string() + " --set body.radius=thick").find("body.radius"), std::string::npos);
+}
+
 TEST_F(CheckCommand, SaysInWhichLanguageTheRobotHasNoPhrases) {
   const auto said = [&] {
     testing::internal::CaptureStdout();

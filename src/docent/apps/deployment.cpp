@@ -9,6 +9,7 @@
 #include <system_error>
 #include <thread>
 
+#include "docent/apps/cache_folder.h"
 #include "docent/modules/registry.h"
 #include "docent/transport/dds_bus.h"
 
@@ -19,6 +20,7 @@ void Deployment::add_options(CLI::App& command) {
   state = default_state();
   command.add_option("--museum", museum, "Folder of the museum")->capture_default_str();
   command.add_option("--state", state, "Folder for what must survive: checkpoints, databases")->capture_default_str();
+  add_cache_options(command, cache);
   command.add_option("--robot", robot, "robot.yaml of the robot; without it all defaults");
   command.add_option("--set", settings, "section.key=value, over robot.yaml; may be repeated")->allow_extra_args(false);
   command.add_option("--name", name, "Prefix of the topics, where several robots share a domain");
@@ -28,6 +30,11 @@ void Deployment::add_options(CLI::App& command) {
 
 std::vector<std::string> Deployment::arguments() const {
   std::vector<std::string> all{"--museum", museum, "--state", state};
+  if (cache.empty()) {
+    all.emplace_back("--no-cache");
+  } else {
+    all.insert(all.end(), {"--cache", cache});
+  }
   if (!robot.empty()) all.insert(all.end(), {"--robot", robot});
   for (const auto& setting : settings) all.insert(all.end(), {"--set", setting});
   if (!name.empty()) all.insert(all.end(), {"--name", name});

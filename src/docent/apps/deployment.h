@@ -20,6 +20,7 @@ namespace docent {
 struct Deployment {
   std::string museum;                 ///< folder
   std::string state;                  ///< folder of checkpoints and databases
+  std::string cache;                  ///< folder of what can be made anew; empty: nothing is kept
   std::string robot;                  ///< robot.yaml; empty: all defaults
   std::vector<std::string> settings;  ///< section.key=value, over robot.yaml
   std::string name;                   ///< prefix of the topics

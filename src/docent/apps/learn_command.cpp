@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "docent/apps/arguments.h"
+#include "docent/apps/cache_folder.h"
 #include "docent/apps/command.h"
 #include "docent/apps/learn_picture.h"
 #include "docent/apps/learn_recording.h"
@@ -33,6 +34,7 @@ struct Options {
   std::vector<std::string> settings;
   int iterations = 6;
   std::uint64_t seed = 1;
+  std::string cache;
 };
 
 OccupancyGrid load(const Options& options) {
@@ -114,6 +116,8 @@ void learn(const Options& options) {
   params.wall_depths = wall_depths(options);
   params.expected_at = options.expected == "pose" ? ExpectedAt::pose : ExpectedAt::cell;
   params.seed = options.seed;
+  prepare_cache(options.cache);
+  params.cache.folder = options.cache;
   if (options.sensor == "sonar") {
     params.sonar.emplace();
     params.sonar->max_range = logs.front().sonar_max_range;
@@ -162,6 +166,7 @@ void add_learn_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--set", options->settings, "key=value of the localizer that begins, e.g. beams=90");
   command->add_option("--seed", options->seed, "seed of the localizer's choice of beams")->capture_default_str();
+  add_cache_options(*command, options->cache);
   command->callback([options] { learn(*options); });
 }
 

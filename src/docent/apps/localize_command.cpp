@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "docent/apps/arguments.h"
+#include "docent/apps/cache_folder.h"
 #include "docent/apps/command.h"
 #include "docent/apps/localize_log.h"
 #include "docent/apps/localize_picture.h"
@@ -46,6 +47,7 @@ struct Options {
   std::string wall_depth = "auto";
   std::vector<std::string> settings;
   std::uint64_t seed = 1;
+  std::string cache;
 };
 
 double quantile(std::vector<double> values, double q) {
@@ -162,9 +164,10 @@ struct MethodParams {
 
 std::unique_ptr<Localizer> make_localizer(const Options& options, const OccupancyGrid& map,
                                           const MethodParams& params) {
+  const RangeTableCache cache{options.cache};
   if (options.method == "particles")
-    return std::make_unique<MonteCarloLocalizer>(map, params.grid, params.particles, "", options.seed);
-  return std::make_unique<MarkovLocalizer>(map, params.grid, "", options.seed);
+    return std::make_unique<MonteCarloLocalizer>(map, params.grid, params.particles, cache, options.seed);
+  return std::make_unique<MarkovLocalizer>(map, params.grid, cache, options.seed);
 }
 
 MethodParams params_for(const Options& options, const OccupancyGrid& map, const LaserLog& log) {
@@ -198,7 +201,7 @@ double find_wall_depth(const Options& options, const ReferencedLog& log, const O
   double best_fit = 0.0;
   for (const double depth : {0.0, 0.2, 0.4}) {  // nearer ones differ less than two runs do
     params.grid.states.wall_depth = depth;
-    MarkovLocalizer localizer{map, params.grid, "", options.seed};
+    MarkovLocalizer localizer{map, params.grid, {options.cache}, options.seed};
     double fit = 0.0;
     for (const bool reverse : {false, true}) {
       localizer.start_unknown();
@@ -224,6 +227,7 @@ ReferencedLog load_log(const Options& options) {
 }
 
 void localize(const Options& options) {
+  prepare_cache(options.cache);
   const OccupancyGrid map = value_or_fail(load_map(options.map));
   const ReferencedLog referenced = load_log(options);
   say_classes(options.map, map);
@@ -321,6 +325,7 @@ void add_localize_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--set", options->settings, "key=value of the localizer's parameters, e.g. beams=90");
   command->add_option("--seed", options->seed, "seed of the random choice of beams")->capture_default_str();
+  add_cache_options(*command, options->cache);
   command->callback([options] {
     options->noise.turn_share = options->noise.way_share;
     localize(*options);

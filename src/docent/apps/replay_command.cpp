@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "docent/apps/arguments.h"
+#include "docent/apps/cache_folder.h"
 #include "docent/apps/command.h"
 #include "docent/apps/deployment.h"
 #include "docent/apps/replay_run.h"
@@ -46,6 +47,7 @@ void replay_recording(Options& options) {
   if (shows_progress) options.replay.progress = [](double share) { std::fprintf(stderr, "\r%3.0f %%", 100.0 * share); };
   options.replay.seed = options.deployment.seed;
   if (!options.start.empty()) options.replay.start = parse_pose("--start", options.start);
+  prepare_cache(options.replay.cache);
   const ReplayOutcome outcome = value_or_fail(replay(museum, config, options.replay));
   if (shows_progress) std::fputc('\n', stderr);
 
@@ -93,6 +95,7 @@ void add_replay_command(CLI::App& app) {
       ->allow_extra_args(false);
   command->add_option("--start", options->start, "X,Y,DEG: where localize is told that the robot stands at the start");
   command->add_option("--seed", options->deployment.seed, "Seed of everything random")->capture_default_str();
+  add_cache_options(*command, options->replay.cache);
   command->add_option("--out", options->replay.out, "MCAP file to write: what happened this time")
       ->check(output_file());
   command->add_option("--report", options->report, "JSON file to write: the deployment report of this time")

@@ -216,6 +216,7 @@ Result<ReplayOutcome> replay(const Museum& museum, const RobotConfig& config, co
   for (const ModuleEntry* entry : *chosen) {
     ModuleHost::Options host_options;
     host_options.state = state.path();
+    host_options.cache = options.cache;
     host_options.seed = options.seed;
     host_options.virtual_time = true;
     auto host = ModuleHost::create(*entry, hub.connect(entry->name), museum, config, host_options);

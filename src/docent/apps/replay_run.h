@@ -22,6 +22,7 @@ struct ReplayOptions {
   std::string claims;                ///< CSV file of every belief beside the truth; empty: none
   std::optional<Pose2> start;        ///< map_from_robot, told to localize at the first odometry; empty: unknown
   std::uint64_t seed = 1;
+  std::string cache;                           ///< folder, see ModuleContext; empty: nothing is kept
   std::function<void(double share)> progress;  ///< may be empty
 };
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <thread>
 
+#include "docent/apps/cache_folder.h"
 #include "docent/apps/command.h"
 #include "docent/apps/deployment.h"
 #include "docent/apps/log.h"
@@ -48,13 +49,19 @@ void run(const Options& options) {
   const Museum museum = value_or_fail(deployment.load(), kExitBadConfiguration);
   const RobotConfig config = value_or_fail(deployment.load_whole_config(), kExitBadConfiguration);
   value_or_fail(deployment.prepare_state(), kExitBadConfiguration);
+  if (entry->keeps_cache) prepare_cache(deployment.cache);
 
   block_end_signals();
   auto dds_bus = join(deployment, deployment.domain, options.module);
   DdsBus& bus = *dds_bus;
   const auto truth = entry->sees_truth ? join(deployment, truth_domain(deployment.domain), options.module) : nullptr;
-  const auto host = value_or_fail(ModuleHost::create(*entry, std::move(dds_bus), museum, config,
-                                                     {deployment.state, deployment.seed, false, getpid(), truth.get()}),
+  ModuleHost::Options host_options;
+  host_options.state = deployment.state;
+  host_options.cache = deployment.cache;
+  host_options.seed = deployment.seed;
+  host_options.pid = getpid();
+  host_options.truth = truth.get();
+  const auto host = value_or_fail(ModuleHost::create(*entry, std::move(dds_bus), museum, config, host_options),
                                   kExitBadConfiguration);
   const std::jthread truth_thread{[&truth](const std::stop_token& stop) {
     if (truth) truth->run(stop);

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "docent/apps/arguments.h"
+#include "docent/apps/cache_folder.h"
 #include "docent/apps/command.h"
 #include "docent/apps/deployment.h"
 #include "docent/apps/simulation_run.h"
@@ -60,6 +61,7 @@ void simulate(Options& options) {
     options.run.settings.push_back("web.port=" + std::to_string(options.port));
     if (options.pace == 0.0) options.pace = 1.0;
   }
+  prepare_cache(options.run.cache);
   const auto run = value_or_fail(SimulationRun::create(options.run));
   const Time end = time_from_seconds(options.hours * 3600.0);
   const auto wall_start = std::chrono::steady_clock::now();
@@ -116,6 +118,7 @@ void add_simulate_command(CLI::App& app) {
       ->check(CLI::PositiveNumber);
   command->add_option("--set", options->run.settings, "section.key=value over robot.yaml; may be repeated");
   command->add_option("--state", options->run.state, "folder of checkpoints and databases; without: a temporary one");
+  add_cache_options(*command, options->run.cache);
   command->add_flag("!--world-only", options->run.has_robot,
                     "no module of the robot runs: for recordings of sensors, with a scenario that steers");
   command->add_option("--report", options->report, "JSON file for the deployment report")->check(output_file());

@@ -165,6 +165,7 @@ class SimulationRun::Parts {
   Result<void> start_module(const ModuleEntry& entry) {
     ModuleHost::Options options;
     options.state = state_;
+    options.cache = options_.cache;
     options.seed = options_.seed;
     options.virtual_time = true;
     options.day_begins = options_.day_begins;

@@ -35,6 +35,7 @@ struct SimulationRunOptions {
   std::string drive_log;   ///< CSV file of how it drives beside what avoid says; empty: none
   std::string people_log;  ///< CSV file of tracked people beside the true ones; empty: none
   std::string state;       ///< folder; empty: a temporary one that goes with the run
+  std::string cache;       ///< folder, see ModuleContext; empty: nothing is kept
   bool hosts_web = false;  ///< the page too
   bool profile = false;    ///< costs are counted by the processor's time, which is slower to ask for
   bool has_robot = true;   ///< false: the world and the robot's body alone, no module

@@ -1,5 +1,6 @@
 #include "docent/messages/message_fitness.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <numbers>
 
@@ -21,6 +22,17 @@ MessageFault fault_of(const sensor_msgs::LaserScan& scan) {
   if (!(scan.range_min >= 0.0F)) return {"range_min", "is no distance"};
   if (!(scan.range_max > scan.range_min)) return {"range_max", "is not above range_min"};
   if (!(scan.range_max <= kFarthestReading)) return {"range_max", "is farther than any scanner reaches"};
+  return {};
+}
+
+MessageFault fault_of_virtual_scan(const sensor_msgs::LaserScan& scan) {
+  const auto step = static_cast<double>(scan.angle_increment);
+  const double turns = step * static_cast<double>(scan.ranges.size()) / (2.0 * std::numbers::pi);
+  // Half of the readings are one turn: the second begins where the first began, nearer than to any neighbour.
+  if (scan.ranges.size() % 2 != 0 || !(std::abs(turns - 2.0) * 2.0 * std::numbers::pi < step))
+    return {"ranges", "do not go round twice, for hazards and for the border"};
+  if (std::any_of(scan.ranges.begin(), scan.ranges.end(), [](float range) { return std::isnan(range); }))
+    return {"ranges", "have a direction without a number"};
   return {};
 }
 

@@ -36,6 +36,10 @@ struct MessageFault {
 /// Beams that no scanner has: not in order, more than twice round, or without a reach. The readings themselves may be
 /// anything: what is not between the least and the greatest range is none.
 [[nodiscard]] MessageFault fault_of(const sensor_msgs::LaserScan& scan);
+/// Of virtual measurements, which are one scan of two turns: a distance in each direction to the hazards, which bind
+/// the robot's body, then in each to the area's border, which binds its centre. A scan of one turn would be one without
+/// a border, and one with a gap would be free there.
+[[nodiscard]] MessageFault fault_of_virtual_scan(const sensor_msgs::LaserScan& scan);
 /// Likewise the reading itself may be anything.
 [[nodiscard]] MessageFault fault_of(const sensor_msgs::Range& range);
 /// Only the charge counts: drivers leave what they do not measure at any value.

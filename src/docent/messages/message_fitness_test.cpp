@@ -44,6 +44,30 @@ TEST(MessageFitness, AScanNeedsBeamsThatAScannerHas) {
   EXPECT_EQ(fault_of(scan).text(), "ranges are more than any scanner has");
 }
 
+TEST(MessageFitness, VirtualMeasurementsGoRoundTwice) {
+  const char* const kTurns = "ranges do not go round twice, for hazards and for the border";
+  auto scan = scan_all_round();
+  EXPECT_FALSE(fault_on(topics::kScanFront, scan));
+  EXPECT_EQ(fault_on(topics::kVirtualScan, scan).text(), kTurns);
+  for (const std::size_t beams : {0U, 1U, 2U, 179U, 270U, 358U, 359U, 361U, 362U}) {
+    scan.ranges.assign(beams, 2.0F);
+    EXPECT_TRUE(fault_on(topics::kVirtualScan, scan)) << beams;
+  }
+  scan.ranges.assign(360, 2.0F);
+  EXPECT_FALSE(fault_on(topics::kVirtualScan, scan));
+  scan.ranges[200] = kInfinity;  // nothing there
+  EXPECT_FALSE(fault_on(topics::kVirtualScan, scan));
+  scan.ranges[200] = kNan;
+  EXPECT_EQ(fault_on(topics::kVirtualScan, scan).text(), "ranges have a direction without a number");
+  scan.ranges[200] = 2.0F;
+  scan.angle_min = kNan;
+  EXPECT_EQ(fault_on(topics::kVirtualScan, scan).text(), "angle_min is no bearing") << "and all that a scan must be";
+  scan = scan_all_round();
+  scan.angle_increment = static_cast<float>(2.0 * std::numbers::pi / 7.0);
+  scan.ranges.assign(14, 2.0F);
+  EXPECT_FALSE(fault_on(topics::kVirtualScan, scan)) << "any number of directions does";
+}
+
 TEST(MessageFitness, ReadingsMayBeAnything) {
   auto scan = scan_all_round();
   scan.ranges = {kNan, kInfinity, -kInfinity, 1e30F, -1e30F, 0.0F};

@@ -4,6 +4,7 @@
 
 #include "docent/base/time.h"
 #include "docent/messages/docent_messages.h"
+#include "docent/messages/message_fitness.h"
 #include "docent/messages/standard_messages.h"
 
 // Every topic, declared once: name, type, quality of service. A ROS 2 peer sees /scan_front; on the wire it is
@@ -25,7 +26,15 @@ struct Topic {
   int depth = 0;         ///< samples kept for a reader that is late; 0: what the class says
   double max_age_s = 0;  ///< under DDS, older samples are dropped; 0: any age. For what must not be obeyed late: a
                          ///< process that was stopped and goes on finds all that it missed.
+  MessageFault (*fault)(const T& message) = nullptr;  ///< of what is fit for its type and yet not for this topic
 };
+
+/// What is wrong with a message that came on `topic`.
+template <class T>
+[[nodiscard]] MessageFault fault_on(const Topic<T>& topic, const T& message) {
+  const MessageFault fault = fault_of(message);
+  return fault || topic.fault == nullptr ? fault : topic.fault(message);
+}
 
 namespace topics {
 
@@ -54,7 +63,9 @@ inline constexpr Topic<docent_msgs::PersonBeams> kPersonBeams{"docent/person_bea
 inline constexpr Topic<docent_msgs::People> kPeople{"docent/people", Qos::sensor};
 inline constexpr Topic<docent_msgs::People> kPeopleInOdom{"docent/people_odom", Qos::sensor};
 // Motion.
-inline constexpr Topic<sensor_msgs::LaserScan> kVirtualScan{"docent/virtual_scan", Qos::sensor};
+/// Goes round twice, see fault_of_virtual_scan: rviz shows both turns in one another.
+inline constexpr Topic<sensor_msgs::LaserScan> kVirtualScan{"docent/virtual_scan", Qos::sensor, 0, 0.0,
+                                                            fault_of_virtual_scan};
 inline constexpr Topic<docent_msgs::DriveGoal> kDriveGoal{"docent/drive_goal", Qos::state};
 inline constexpr Topic<docent_msgs::GoalState> kGoalState{"docent/goal_state", Qos::state};
 inline constexpr Topic<docent_msgs::Target> kTarget{"docent/target", Qos::command, 0, 1.0};

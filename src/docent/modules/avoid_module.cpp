@@ -1,8 +1,6 @@
 #include "docent/modules/avoid_module.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "docent/collision_avoidance/avoider.h"
@@ -43,14 +41,6 @@ SensorSweep to_sweep(const sensor_msgs::LaserScan& scan, const Pose2& base_from_
           scan.range_min,
           scan.range_max,
           scan.ranges};
-}
-
-/// Virtual measurements: a number in every direction all round.
-bool is_all_round(const sensor_msgs::LaserScan& scan) {
-  constexpr double kNearlyRound = 0.99 * 2.0 * std::numbers::pi;
-  const double field = static_cast<double>(scan.angle_increment) * static_cast<double>(scan.ranges.size());
-  return field >= kNearlyRound &&
-         std::none_of(scan.ranges.begin(), scan.ranges.end(), [](float range) { return std::isnan(range); });
 }
 
 const char* name_of(AvoiderDecision::State state) {
@@ -132,7 +122,6 @@ class AvoidModule final : public Module {
         topics::kBelief, [this](const docent_msgs::Belief& belief) { on_belief(belief); },
         [this] { avoider_.add_belief({}); });  // it knows nothing
     bus_.subscribe<sensor_msgs::LaserScan>(topics::kVirtualScan, [this](const sensor_msgs::LaserScan& scan) {
-      if (!is_all_round(scan)) return;
       avoider_.add_virtual(bus_.now(), {from_message(scan.header.stamp), scan.angle_min, scan.angle_increment,
                                         scan.range_max, scan.ranges});
       reflex();

@@ -380,6 +380,31 @@ TEST_F(MotionModules, AMessageThatIsNoNumberCountsAsNone) {
       spoil_target, [](auto& target) { target.via_y.back() = kNan; }, "no fresh target");
 }
 
+TEST_F(MotionModules, VirtualMeasurementsWithoutABorderAreNone) {
+  run(3.0);
+  ASSERT_GT(speed, 0.6);
+  kill(hazards, hazards_bus);
+  auto publisher = world->publisher(topics::kVirtualScan);
+  const auto drive_by = [&](std::size_t directions) {
+    for (int i = 0; i < 25; ++i) {
+      sensor_msgs::LaserScan scan = virtual_scan;
+      scan.header.stamp = to_message(world->now());
+      scan.ranges.assign(directions, scan.range_max);
+      publisher.publish(scan);
+      run(0.1);
+    }
+  };
+  drive_by(180);  // hazards, and then?
+  EXPECT_EQ(speed, 0.0);
+  EXPECT_EQ(state.reason, "no fresh virtual measurements");
+  ASSERT_TRUE(avoid_bus->refusals().contains(topics::kVirtualScan.name));
+  EXPECT_EQ(avoid_bus->refusals().at(topics::kVirtualScan.name).count, 25U);
+  EXPECT_EQ(avoid_bus->refusals().at(topics::kVirtualScan.name).last.text(),
+            "ranges do not go round twice, for hazards and for the border");
+  drive_by(360);
+  EXPECT_GT(speed, 0.3);
+}
+
 TEST_F(MotionModules, ALimitThatIsNoNumberIsNone) {
   auto limits_publisher = world->publisher(topics::kLimits);
   docent_msgs::Limits limits;

@@ -89,12 +89,12 @@ Believer with_sonars(auto localizer, const ModuleContext& context, const Localiz
 }
 
 Believer make_believer(const ModuleContext& context, const LocalizeParams& params) {
-  const std::filesystem::path table = context.state / "range_table.bin";
+  const RangeTableCache cache{context.cache};
   if (params.method == "particles")
     return with_sonars(
-        std::make_unique<MonteCarloLocalizer>(context.museum.map, params.markov, params.particles, table, context.seed),
+        std::make_unique<MonteCarloLocalizer>(context.museum.map, params.markov, params.particles, cache, context.seed),
         context, params);
-  return with_sonars(std::make_unique<MarkovLocalizer>(context.museum.map, params.markov, table, context.seed), context,
+  return with_sonars(std::make_unique<MarkovLocalizer>(context.museum.map, params.markov, cache, context.seed), context,
                      params);
 }
 

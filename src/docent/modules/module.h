@@ -19,13 +19,14 @@ struct ModuleContext {
   Bus& bus;
   const Museum& museum;
   const RobotConfig& config;
-  std::filesystem::path state;  ///< --state DIR: checkpoints, databases, caches; exists
+  std::filesystem::path state;  ///< --state DIR: checkpoints, databases; exists
   std::uint64_t seed = 0;
   bool virtual_time = false;
   /// For `record` alone, where a simulator runs: the bus of what is true. Its handlers run on a thread of their own, so
   /// they `bus.post` what they got. Null everywhere else.
   Bus* truth = nullptr;
   Duration day_begins = std::chrono::hours{10};  ///< the time of day at which virtual time begins
+  std::filesystem::path cache{};                 ///< --cache DIR: what can be made anew; empty: nothing is kept
 };
 
 struct ModuleHealth {

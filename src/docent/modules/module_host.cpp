@@ -28,7 +28,7 @@ Result<std::unique_ptr<ModuleHost>> ModuleHost::create(const ModuleEntry& entry,
   host->pid_ = options.pid;
   host->health_ = host->bus_->publisher(topics::kHealth);
   auto module = entry.make({*host->bus_, museum, config, options.state, options.seed, options.virtual_time,
-                            options.truth, options.day_begins});
+                            options.truth, options.day_begins, options.cache});
   if (!module) return tl::unexpected<Error>(module.error());
   host->module_ = std::move(*module);
   host->bus_->every(kHealthPeriod, [raw = host.get()] { raw->publish_health(); });

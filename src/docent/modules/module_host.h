@@ -18,6 +18,7 @@ class ModuleHost {
     int pid = 0;                                   ///< 0 in virtual time
     Bus* truth = nullptr;                          ///< see ModuleContext; outlives the host
     Duration day_begins = std::chrono::hours{10};  ///< see ModuleContext
+    std::filesystem::path cache{};                 ///< likewise
   };
   /// Error: what the module's factory says of the configuration.
   [[nodiscard]] static Result<std::unique_ptr<ModuleHost>> create(const ModuleEntry& entry, std::unique_ptr<Bus> bus,

@@ -407,6 +407,12 @@ Result<std::unique_ptr<Module>> make_plan(const ModuleContext& context) {
   return std::make_unique<PlanModule>(context, *params);
 }
 
+Result<CheckedRobot> checked_robot_of_plan(const RobotConfig& config) {
+  const auto params = config.section<PlanParams>("plan");
+  if (!params) return tl::unexpected<Error>(params.error());
+  return CheckedRobot{config.body().radius, params->route.clearance, params->route.coarsening};
+}
+
 Result<ParameterRows> parameters_of_plan(const RobotConfig& config) {
   return list_parameters<PlanParams>(config, "plan");
 }

@@ -8,4 +8,7 @@ namespace docent {
 [[nodiscard]] Result<std::unique_ptr<Module>> make_plan(const ModuleContext& context);
 [[nodiscard]] Result<ParameterRows> parameters_of_plan(const RobotConfig& config);
 
+/// The robot for which `plan` plans under this configuration. Error: the section is faulty.
+[[nodiscard]] Result<CheckedRobot> checked_robot_of_plan(const RobotConfig& config);
+
 }  // namespace docent

@@ -22,7 +22,7 @@ namespace {
 constexpr std::array kModules{
     ModuleEntry{"avoid", make_avoid, parameters_of_avoid, true},
     ModuleEntry{"hazards", make_hazards, parameters_of_hazards},
-    ModuleEntry{"localize", make_localize, parameters_of_localize},
+    ModuleEntry{"localize", make_localize, parameters_of_localize, false, false, true},
     ModuleEntry{"map", make_map, parameters_of_map},
     ModuleEntry{"people", make_people, parameters_of_people},
     ModuleEntry{"plan", make_plan, parameters_of_plan},

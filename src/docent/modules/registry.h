@@ -11,8 +11,9 @@ struct ModuleEntry {
   const char* name;
   ModuleFactory make;
   ModuleParameters parameters;
-  bool is_urgent = false;   ///< runs at higher priority (architecture 10.15)
-  bool sees_truth = false;  ///< record alone (architecture 10.1)
+  bool is_urgent = false;    ///< runs at higher priority (architecture 10.15)
+  bool sees_truth = false;   ///< record alone (architecture 10.1)
+  bool keeps_cache = false;  ///< uses ModuleContext::cache
 };
 
 /// Every module of the robot, in the order in which they are started.

@@ -10,6 +10,7 @@
 #include "docent/base/result.h"
 #include "docent/geometry/polygon.h"
 #include "docent/geometry/pose2.h"
+#include "docent/grid/clearance.h"
 #include "docent/grid/occupancy_grid.h"
 
 namespace docent {
@@ -100,9 +101,16 @@ struct Museum {
 /// ids, texts, polygons, modes and tours; whether the robot fits where it must stand is check_museum's question.
 [[nodiscard]] Result<Museum> load_museum(const std::filesystem::path& folder);
 
+/// The robot that a museum is checked for, as its planner takes it.
+struct CheckedRobot {
+  double radius = 0.265;  ///< [m] of the disc
+  Clearance clearance;    ///< that a place and a way must leave
+  int coarsening = 3;     ///< map cells to a planning cell
+};
+
 /// Everything that cannot work in the museum: each fault with file, line and reason. Empty: the museum is fine.
-/// The robot is a disc of 0.265 m that wants 0.10 m of room: it must reach each exhibit, viewpoint and the charger from
-/// home on the map's free cells, inside the area, clear of walls and hazards. O(cells).
-[[nodiscard]] std::vector<Error> check_museum(const std::filesystem::path& folder);
+/// The robot must reach each exhibit, viewpoint and the charger from home on the map's free cells, inside the area,
+/// clear of walls and hazards. O(cells).
+[[nodiscard]] std::vector<Error> check_museum(const std::filesystem::path& folder, const CheckedRobot& robot = {});
 
 }  // namespace docent

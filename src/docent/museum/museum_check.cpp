@@ -9,9 +9,7 @@
 namespace docent {
 namespace {
 
-constexpr double kRobotRadius = 0.265;  // [m]
 constexpr double kFarthestLook = 30.0;  // [m] from where an exhibit is explained to what is pointed at: a long hall
-constexpr int kCoarsening = 3;          // map cells to a planning cell
 
 std::string metres(double value) {
   std::array<char, 32> text{};
@@ -22,14 +20,15 @@ std::string metres(double value) {
 /// Where the robot's centre may be, by map, hazards and area: as the planner of ways sees it.
 class Room {
  public:
-  explicit Room(const Museum& museum) : museum_{museum} {
+  Room(const Museum& museum, const CheckedRobot& robot)
+      : museum_{museum}, robot_{robot}, frame_{coarse_frame(museum.map.frame, robot.coarsening)} {
     const GridFrame& frame = museum.map.frame;
     std::vector<bool> blocked(frame.size());
     for (std::size_t i = 0; i < frame.size(); ++i) blocked[i] = !(museum.map.cells[i] >= 0 && museum.map.cells[i] < 20);
     to_walls_ = distance_transform(frame, blocked);
     std::vector<Polygon> hazards;
     for (const Hazard& hazard : museum.hazards) hazards.push_back(hazard.polygon);
-    spare_ = spare_room(museum.map, hazards, museum.area, kRobotRadius, kClearance, kCoarsening);
+    spare_ = spare_room(museum.map, hazards, museum.area, robot.radius, robot.clearance, robot.coarsening);
     flood();
   }
 
@@ -47,16 +46,17 @@ class Room {
     const auto too_near = [](double is, double needs, const std::string& what) {
       return "is only " + metres(is) + " from " + what + ", the robot needs " + metres(needs);
     };
+    const Clearance& clearance = robot_.clearance;
     const double to_walls = to_walls_[frame.index(cell)];
-    if (to_walls < kRobotRadius + kClearance.walls)
-      return too_near(to_walls, kRobotRadius + kClearance.walls, "a wall or furniture of the map");
+    if (to_walls < robot_.radius + clearance.walls)
+      return too_near(to_walls, robot_.radius + clearance.walls, "a wall or furniture of the map");
     for (const Hazard& hazard : museum_.hazards) {
       const double away = distance(hazard.polygon, place);
-      if (away < kRobotRadius + kClearance.hazards)
-        return too_near(away, kRobotRadius + kClearance.hazards, "the hazard '" + hazard.id + "'");
+      if (away < robot_.radius + clearance.hazards)
+        return too_near(away, robot_.radius + clearance.hazards, "the hazard '" + hazard.id + "'");
     }
     const double to_border = outline_distance(museum_.area, place);
-    if (to_border < kClearance.border) return too_near(to_border, kClearance.border, "the area's border");
+    if (to_border < clearance.border) return too_near(to_border, clearance.border, "the area's border");
     if (!is_reached(place)) return "cannot be reached from home";
     return {};
   }
@@ -95,17 +95,18 @@ class Room {
     return false;
   }
 
-  static constexpr Clearance kClearance{};
   const Museum& museum_;
-  GridFrame frame_{coarse_frame(museum_.map.frame, kCoarsening)};
+  CheckedRobot robot_;
+  GridFrame frame_;
   std::vector<float> to_walls_;  ///< [rows * columns of the map] m
   std::vector<double> spare_;    ///< [rows * columns of frame_] m
   std::vector<bool> reached_;    ///< [rows * columns of frame_]
 };
 
-void check_places(const YamlFile& file, const MuseumSource& source, std::vector<Error>& faults) {
+void check_places(const YamlFile& file, const MuseumSource& source, const CheckedRobot& robot,
+                  std::vector<Error>& faults) {
   const Museum& museum = source.museum;
-  const Room room{museum};
+  const Room room{museum, robot};
   const YAML::Node& root = file.root();
   const auto check = [&](const YAML::Node& at, const std::string& who, const Pose2& pose) {
     const std::string why = room.why_not(pose.position());
@@ -132,7 +133,7 @@ void check_places(const YamlFile& file, const MuseumSource& source, std::vector<
 
 }  // namespace
 
-std::vector<Error> check_museum(const std::filesystem::path& folder) {
+std::vector<Error> check_museum(const std::filesystem::path& folder, const CheckedRobot& robot) {
   auto file = YamlFile::load(folder / "museum.yaml");
   if (!file) return {file.error()};
   auto source = read_museum(*file, [&](const std::filesystem::path& relative) { return read_file(folder / relative); });
@@ -155,7 +156,7 @@ std::vector<Error> check_museum(const std::filesystem::path& folder) {
   }
   source.museum.map = std::move(*map);
   // Places mean something only where area and home could be read.
-  if (source.museum.area.size() >= 3 && root["home"].IsDefined()) check_places(*file, source, faults);
+  if (source.museum.area.size() >= 3 && root["home"].IsDefined()) check_places(*file, source, robot, faults);
   return faults;
 }
 

@@ -22,7 +22,7 @@ class ContactLog {
     std::uint32_t id = 0;
     Point2 offset{};  ///< [m] from the robot's centre
     double radius = 0.25;
-    /// A ray from a scanner within its range reaches them; asked for inside the stopping distance only.
+    /// A ray of a scanner, within its field and range, reaches them; asked for inside the stopping distance only.
     bool in_sight = false;
   };
   /// Those near the robot, once every step, before the touches.

@@ -285,22 +285,33 @@ void Instruments::publish_tactile(Time now, const std::vector<std::uint8_t>& seg
   emit(Sensor::tactile, tactile_, {{to_message(now), "base_link"}, segments, ++tactile_scan_}, last_tactile_, now);
 }
 
-bool Instruments::sees(Point2 robot, std::size_t person, std::span<const Disc> people) const {
+bool Instruments::sees(const Pose2& world_from_base, std::size_t person, std::span<const Disc> people) const {
+  return std::any_of(scanners_.begin(), scanners_.end(), [&](const Scanner& scanner) {
+    return shows(scanner.laser, world_from_base * scanner.laser.base_from_scanner(), person, people);
+  });
+}
+
+bool Instruments::shows(const LaserScanner& laser, const Pose2& world_from_scanner, std::size_t person,
+                        std::span<const Disc> people) const {
+  const LaserParams& params = laser.params();
+  const Point2 from = world_from_scanner.position();
   const Disc& target = people[person];
-  const Point2 offset = target.centre - robot;
+  const Point2 offset = target.centre - from;
   const double away = norm(offset);
   if (away < 1e-6) return true;
-  const double reach = scanners_.empty() ? LaserParams{}.max_range : scanners_.front().laser.params().max_range;
-  if (away > reach) return false;
+  if (away > params.max_range) return false;
+  const double first_bearing = params.first_bearing - 0.5 * params.bearing_step;  // of what the first beam stands for
+  const double last_bearing = first_bearing + params.beams * params.bearing_step;
   const Point2 across = (0.8 * target.radius / away) * Point2{-offset.y, offset.x};
   for (const double side : {0.0, 1.0, -1.0}) {
     const Point2 point = target.centre + side * across;
-    const double range = distance(robot, point);
-    const Point2 ray = (1.0 / range) * (point - robot);
-    bool is_free = laser_walls_->sees(robot, point);
+    const double range = distance(from, point);
+    const Point2 ray = (1.0 / range) * (point - from);
+    const double bearing = (Angle::radians(std::atan2(ray.y, ray.x)) - world_from_scanner.theta).radians();
+    bool is_free = bearing >= first_bearing && bearing <= last_bearing && laser_walls_->sees(from, point);
     for (std::size_t other = 0; other < people.size() && is_free; ++other) {
-      if (other == person || distance(people[other].centre, robot) > away) continue;
-      const auto hit = ray_distance(robot, ray, people[other].centre, people[other].radius);
+      if (other == person || distance(people[other].centre, from) > away) continue;
+      const auto hit = ray_distance(from, ray, people[other].centre, people[other].radius);
       if (hit && *hit < range - target.radius) is_free = false;
     }
     if (is_free) return true;

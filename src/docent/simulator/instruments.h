@@ -46,8 +46,8 @@ class Instruments {
   /// Beams of the last sweep of all scanners that met a person.
   [[nodiscard]] int met(std::size_t person) const { return person < met_.size() ? met_[person] : 0; }
   [[nodiscard]] double blocked_share() const { return blocked_share_; }  ///< beams of the last sweep that met people
-  /// True when a ray from the robot's centre within laser range reaches a person, past walls and other people.
-  [[nodiscard]] bool sees(Point2 robot, std::size_t person, std::span<const Disc> people) const;
+  /// True when a ray of some scanner, within its field and its range, reaches a person past walls and other people.
+  [[nodiscard]] bool sees(const Pose2& world_from_base, std::size_t person, std::span<const Disc> people) const;
 
  private:
   struct Scanner {
@@ -66,6 +66,8 @@ class Instruments {
   void emit(Sensor sensor, const Publisher<T>& publisher, T message, std::optional<T>& last, Time now);
   [[nodiscard]] const Fault* fault_of(Sensor sensor, Time now) const;
   void publish_ping(Time now, const Ping& ping);
+  [[nodiscard]] bool shows(const LaserScanner& laser, const Pose2& world_from_scanner, std::size_t person,
+                           std::span<const Disc> people) const;
   void publish_scan(Time now, Scanner& scanner, const Pose2& pose, std::span<const Disc> people);
 
   Bus& bus_;

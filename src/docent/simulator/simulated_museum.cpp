@@ -234,7 +234,7 @@ class SimulatedMuseum::Impl {
       const bool in_the_way = std::abs(cross(ahead, offset)) < body_.params().radius + people_[i].radius + 0.1;
       ContactLog::PersonSample sample{crowd_.people()[i].id, offset, people_[i].radius, false};
       sample.in_sight = in_the_way && std::abs(body_.linear()) > 0.01 && is_inside_stopping_distance(sample, body_) &&
-                        instruments_.sees(centre, i, people_);
+                        instruments_.sees(body_.pose(), i, people_);
       samples_.push_back(sample);
     }
     log_.watch(time_, body_, samples_);

@@ -81,11 +81,11 @@ class Bus {
   /// none: it is refused and counted, and the handler does not see it; `refused` is called instead.
   template <class T>
   void subscribe(const Topic<T>& topic, std::function<void(const T&)> handler, std::function<void()> refused = {}) {
-    add_subscription(topic_info(topic), [this, name = topic.name, handler = std::move(handler),
+    add_subscription(topic_info(topic), [this, topic, handler = std::move(handler),
                                          refused = std::move(refused)](const std::shared_ptr<const void>& message) {
       const T& content = *static_cast<const T*>(message.get());
-      if (const MessageFault fault = fault_of(content)) {
-        refuse(name, fault);
+      if (const MessageFault fault = fault_on(topic, content)) {
+        refuse(topic.name, fault);
         if (refused) refused();
       } else {
         handler(content);

@@ -32,7 +32,7 @@ struct BootstrapParams {
   ProximityFitParams sensor_fit;
   OdometryFitParams motion_fit;
   std::uint64_t seed = 1;
-  std::filesystem::path cache;  ///< of range tables, see MarkovLocalizer
+  RangeTableCache cache;
 };
 
 /// How two models explain readings that neither was fitted to.

@@ -1,7 +1,9 @@
 #include "docent/localization/markov/markov_localizer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <thread>
 #include <utility>
@@ -18,20 +20,27 @@ constexpr double kSurpriseWaits = 0.15;    // [s]
 constexpr std::size_t kMostLikely = 6000;  // more, and the belief is too wide for filters
 constexpr double kRadians = std::numbers::pi / 180.0;
 
+/// All that a table depends on, beside the program: numbers to the last bit.
 std::string table_key(const OccupancyGrid& map, const MarkovLocalizerParams& params) {
-  return map_hash(map) + " " + std::to_string(params.states.cell_size) + " " +
-         std::to_string(params.states.heading_step) + " " + std::to_string(params.states.min_clearance) + " " +
-         std::to_string(params.states.wall_depth) + " " + std::to_string(params.sensor.max_range);
+  const StateSpaceParams& states = params.states;
+  std::array<char, 128> numbers{};
+  std::snprintf(numbers.data(), numbers.size(), " %a %a %a %a %a", states.cell_size, states.heading_step,
+                states.min_clearance, states.wall_depth, params.sensor.max_range);
+  return map_hash(map) + numbers.data();
 }
 
 }  // namespace
 
-RangeTable range_table_of(const OccupancyGrid& map, const MarkovLocalizerParams& params,
-                          const std::filesystem::path& cache, const StateSpace& space, const RayCaster& caster) {
+RangeTable range_table_of(const OccupancyGrid& map, const MarkovLocalizerParams& params, const RangeTableCache& cache,
+                          const StateSpace& space, const RayCaster& caster) {
   const ProximityModel model{params.sensor};
   const RangeTable::Building how{std::max(1U, std::thread::hardware_concurrency()), {}};
-  return cache.empty() ? RangeTable::build(space, caster, model, how)
-                       : RangeTable::load_or_build(cache, table_key(map, params), space, caster, model, how);
+  if (cache.folder.empty()) return RangeTable::build(space, caster, model, how);
+  const std::string key = table_key(map, params);
+  const std::filesystem::path file = cache.file_of(key);
+  RangeTable table = RangeTable::load_or_build(file, key, space, caster, model, how);
+  cache.make_room(file);
+  return table;
 }
 
 Result<void> MarkovLocalizerParams::validate() const {
@@ -105,7 +114,7 @@ BeamChoiceParams MarkovLocalizerParams::beam_choice(std::vector<std::uint8_t> on
 }
 
 MarkovLocalizer::MarkovLocalizer(const OccupancyGrid& map, const MarkovLocalizerParams& params,
-                                 const std::filesystem::path& cache, std::uint64_t seed)
+                                 const RangeTableCache& cache, std::uint64_t seed)
     : params_{params},
       caster_{peeled(map, params.states.wall_depth)},
       space_{map, caster_, params.states},

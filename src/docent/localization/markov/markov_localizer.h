@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -16,6 +15,7 @@
 #include "docent/localization/markov/beam_filter.h"
 #include "docent/localization/markov/position_belief.h"
 #include "docent/localization/markov/position_summary.h"
+#include "docent/localization/markov/range_table_cache.h"
 #include "docent/motion_models/odometry_model.h"
 #include "docent/sensor_models/range_sweep.h"
 
@@ -110,17 +110,16 @@ struct MarkovLocalizerParams {
   [[nodiscard]] BeamChoiceParams beam_choice(std::vector<std::uint8_t> on_persons, bool keeps_its_place) const;
 };
 
-/// The range table of a map, from the file `cache` when it was made for these parameters; empty: none.
+/// The range table of a map, from the cache where it has one for these parameters; else made, and kept there.
 [[nodiscard]] RangeTable range_table_of(const OccupancyGrid& map, const MarkovLocalizerParams& params,
-                                        const std::filesystem::path& cache, const StateSpace& space,
-                                        const RayCaster& caster);
+                                        const RangeTableCache& cache, const StateSpace& space, const RayCaster& caster);
 
 /// Grid-based Markov localization [Markov1998], [Rhino1999] 3.1: a belief over all poses, from sweeps of range readings
 /// and odometry. Deterministic; knows no wall clock.
 class MarkovLocalizer final : public Localizer {
  public:
-  /// `cache`: file of the range table, made when absent or wrong; empty: none. @pre params are valid
-  MarkovLocalizer(const OccupancyGrid& map, const MarkovLocalizerParams& params, const std::filesystem::path& cache,
+  /// `cache`: see range_table_of. @pre params are valid
+  MarkovLocalizer(const OccupancyGrid& map, const MarkovLocalizerParams& params, const RangeTableCache& cache,
                   std::uint64_t seed);
   void start_unknown() override;
   void start_at(std::span<const BeliefMode> modes, const Pose2& odom_from_robot, Time time) override;

@@ -157,8 +157,8 @@ void large_map(benchmark::State& state) {
   for (auto _ : state) {
     const OccupancyGrid map = museum(5);
     const double before = seconds(CLOCK_MONOTONIC);
-    const char* const cache = std::getenv("DOCENT_RANGE_TABLE");
-    MarkovLocalizer localizer{map, params, cache != nullptr ? cache : "", 1};
+    const char* const folder = std::getenv("DOCENT_CACHE");
+    MarkovLocalizer localizer{map, params, {folder != nullptr ? folder : ""}, 1};
     const double states = static_cast<double>(localizer.space().states());
     std::printf("200 x 200 m: %.0f million states, %s; ready after %.1f s, %.2f GB\n", states * 1e-6,
                 std::string{name_of(localizer.belief().instruction_set())}.c_str(), seconds(CLOCK_MONOTONIC) - before,

@@ -105,7 +105,7 @@ TEST(MarkovLocalizer, ASurroundedRobotFindsItselfByWhatItSeesBetweenPeople) {
     return testing::look_round(caster, 6, [&](std::uint64_t seed) {
       MarkovLocalizerParams params = coarse();
       params.person_share = person_share;
-      return std::make_unique<MarkovLocalizer>(map, params, "", seed);
+      return std::make_unique<MarkovLocalizer>(map, params, RangeTableCache{}, seed);
     });
   };
   const testing::LookingRound by_shapes = with_share(0.1);

@@ -12,6 +12,9 @@
 #include <thread>
 #include <vector>
 
+#include "docent/base/random.h"
+#include "docent/localization/markov/range_table_cache.h"
+
 namespace docent {
 
 namespace {
@@ -39,12 +42,6 @@ std::uint64_t checksum_of(const std::uint8_t* data, std::size_t size) {
   return sum;
 }
 
-std::uint64_t key_number(const std::string& key) {
-  std::uint64_t number = 14695981039346656037ULL;
-  for (const char c : key) number = (number ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
-  return number;
-}
-
 std::size_t tiles_of(std::size_t places) { return (places + RangeTable::kTile - 1) / RangeTable::kTile; }
 std::size_t size_of(const StateSpace& space) {
   return tiles_of(space.places()) * static_cast<std::size_t>(space.headings()) * RangeTable::kTile;
@@ -63,7 +60,7 @@ class Builder {
     for (int h = 0; h < space.headings(); ++h) directions_.push_back(unit(Angle::radians(h * space.heading_step())));
   }
 
-  void fill(std::uint8_t* data, const RangeTable::Building& how) {
+  void fill(std::uint8_t* data, const RangeTable::Building& how) const {
     const std::size_t tiles = tiles_of(space_.places());
     std::atomic<std::size_t> next{0};
     const auto work = [&](bool reports) {
@@ -75,6 +72,18 @@ class Builder {
     std::vector<std::jthread> helpers;
     for (unsigned i = 1; i < how.threads; ++i) helpers.emplace_back(work, false);
     work(true);
+  }
+
+  /// Some tiles are cast again: a whole table of this map may be that of a program which casted rays otherwise.
+  [[nodiscard]] bool agrees(const RangeTable& table) const {
+    constexpr std::size_t kAsked = 8;  // less than a second of the largest halls
+    const std::size_t tiles = tiles_of(space_.places());
+    std::vector<std::uint8_t> tile(directions_.size() * RangeTable::kTile);
+    for (std::size_t i = 0; i < tiles; i += (tiles + kAsked - 1) / kAsked) {
+      fill_tile(i, tile.data());
+      if (std::memcmp(tile.data(), table.tile(i), tile.size()) != 0) return false;
+    }
+    return true;
   }
 
  private:
@@ -112,8 +121,8 @@ Mapping map_file(int file, std::size_t size, int protection, int flags) {
 class NewFile {
  public:
   NewFile(const std::filesystem::path& path, std::size_t size)
-      : path_{path}, part_{path.string() + ".part" + std::to_string(::getpid())} {
-    file_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+      : path_{path}, part_{path.string() + RangeTableCache::kPart + "XXXXXX"} {
+    file_ = ::mkostemp(part_.data(), O_CLOEXEC);  // nobody else's, not even another thread's of this process
     // Space is claimed now: a full disk must show here, not as a signal while the mapping is written.
     if (file_ >= 0 && ::posix_fallocate(file_, 0, static_cast<off_t>(size)) == 0)
       memory_ = map_file(file_, size, PROT_READ | PROT_WRITE, MAP_SHARED);
@@ -122,7 +131,7 @@ class NewFile {
   NewFile& operator=(const NewFile&) = delete;
   ~NewFile() {
     if (file_ >= 0) ::close(file_);
-    if (!kept_) ::unlink(part_.c_str());
+    if (file_ >= 0 && !kept_) ::unlink(part_.c_str());
   }
   [[nodiscard]] std::uint8_t* memory() const { return static_cast<std::uint8_t*>(memory_.get()); }
   [[nodiscard]] bool keep() {
@@ -198,12 +207,14 @@ RangeTable RangeTable::cones(const RangeTable& rays, const ProximityModel& rays_
 
 Result<RangeTable> RangeTable::load(const std::filesystem::path& path, const std::string& key,
                                     const StateSpace& space) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // a pipe would let it wait for ever
   if (file < 0) return fail(path.string() + ": cannot be read");
   struct stat status {};
   const std::size_t expected = sizeof(Header) + size_of(space);
-  const bool whole = ::fstat(file, &status) == 0 && static_cast<std::size_t>(status.st_size) == expected;
+  const bool whole =
+      ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && static_cast<std::size_t>(status.st_size) == expected;
   const Mapping memory = whole ? map_file(file, expected, PROT_READ, MAP_PRIVATE) : nullptr;
+  if (memory) static_cast<void>(::futimens(file, nullptr));  // its age tells the cache how long nobody has wanted it
   ::close(file);
   if (!memory) return fail(path.string() + ": not a whole range table of this map");
   RangeTable table;
@@ -212,7 +223,7 @@ Result<RangeTable> RangeTable::load(const std::filesystem::path& path, const std
   table.directions_ = static_cast<std::size_t>(space.headings());
   Header header{};
   std::memcpy(&header, memory.get(), sizeof header);
-  const bool right = std::memcmp(header.magic, kMagic, 8) == 0 && header.key == key_number(key) &&
+  const bool right = std::memcmp(header.magic, kMagic, 8) == 0 && header.key == hash_of(key) &&
                      header.places == space.places() && header.directions == table.directions_ &&
                      header.checksum == checksum_of(table.data_, expected - sizeof(Header));
   if (!right) return fail(path.string() + ": damaged, or of another map");
@@ -222,14 +233,15 @@ Result<RangeTable> RangeTable::load(const std::filesystem::path& path, const std
 
 RangeTable RangeTable::load_or_build(const std::filesystem::path& path, const std::string& key, const StateSpace& space,
                                      const RayCaster& caster, const ProximityModel& model, const Building& how) {
-  if (auto loaded = load(path, key, space)) return std::move(*loaded);
+  const Builder builder{space, caster, model};
+  if (auto loaded = load(path, key, space); loaded && builder.agrees(*loaded)) return std::move(*loaded);
   {
     NewFile file{path, sizeof(Header) + size_of(space)};
     if (std::uint8_t* const data = file.memory()) {
-      Builder{space, caster, model}.fill(data + sizeof(Header), how);
+      builder.fill(data + sizeof(Header), how);
       Header header{};
       std::memcpy(header.magic, kMagic, 8);
-      header.key = key_number(key);
+      header.key = hash_of(key);
       header.places = space.places();
       header.directions = static_cast<std::uint64_t>(space.headings());
       header.checksum = checksum_of(data + sizeof(Header), size_of(space));

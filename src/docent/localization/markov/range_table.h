@@ -53,8 +53,9 @@ class RangeTable {
   /// were by `rays_model`. O(places * directions * directions in the cone).
   [[nodiscard]] static RangeTable cones(const RangeTable& rays, const ProximityModel& rays_model,
                                         const StateSpace& space, const ProximityModel& model, double opening);
-  /// Maps PATH into memory when it is whole and was made for `key`; else builds the table there, beside the old one,
-  /// and renames it. A file that cannot be written is not an error: the table is then kept in memory.
+  /// Maps PATH into memory when it is whole, was made for `key` and holds what rays cast now say (a few places are
+  /// asked); else builds the table there, beside the old one, and renames it. Processes and threads may do so at once.
+  /// A file that cannot be written is not an error: the table is then kept in memory.
   [[nodiscard]] static RangeTable load_or_build(const std::filesystem::path& path, const std::string& key,
                                                 const StateSpace& space, const RayCaster& caster,
                                                 const ProximityModel& model, const Building& how);

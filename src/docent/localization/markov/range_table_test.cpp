@@ -1,10 +1,16 @@
 #include "docent/localization/markov/range_table.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
+#include <thread>
+#include <vector>
 
+#include "docent/base/files.h"
+#include "docent/base/random.h"
 #include "docent/localization/markov/testing.h"
 
 namespace docent {
@@ -106,6 +112,60 @@ TEST_F(CachedTable, ADamagedFileIsBuiltAnew) {
   EXPECT_TRUE(equal(get("a", told), room_.table, room_.space));
   EXPECT_GT(told, 0);
   std::filesystem::resize_file(folder_ / "table", 500);
+  EXPECT_TRUE(equal(get("a", told), room_.table, room_.space));
+}
+
+TEST_F(CachedTable, AWholeTableOfAnotherProgramIsBuiltAnew) {
+  int told = 0;
+  OccupancyGrid map = room_.map;
+  map.cells[map.frame.index({50, 40})] = OccupancyGrid::kOccupied;
+  const RayCaster other{map};  // for the same key
+  static_cast<void>(RangeTable::load_or_build(folder_ / "table", "a", room_.space, other, ProximityModel{{}}, {1, {}}));
+  EXPECT_TRUE(equal(get("a", told), room_.table, room_.space));
+  EXPECT_GT(told, 0);
+}
+
+TEST_F(CachedTable, ManyMayBuildItAtOnce) {
+  std::vector<int> told(6, 0);
+  std::vector<std::optional<RangeTable>> tables(told.size());
+  {
+    std::vector<std::jthread> threads;
+    for (std::size_t i = 0; i < told.size(); ++i) threads.emplace_back([&, i] { tables[i] = get("a", told[i]); });
+  }
+  for (const auto& table : tables) EXPECT_TRUE(equal(*table, room_.table, room_.space));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator{folder_}, {}), 1);
+  int more = 0;
+  EXPECT_TRUE(equal(get("a", more), room_.table, room_.space));
+  EXPECT_EQ(more, 0) << "what they left is whole";
+}
+
+TEST_F(CachedTable, EveryCutAndEveryFlippedBitIsFound) {
+  int told = 0;
+  static_cast<void>(get("a", told));
+  const std::string whole = read_file(folder_ / "table").value();
+  Rng rng{1};
+  for (int i = 0; i < 200; ++i) {
+    std::string spoilt = whole;
+    if (rng.chance(0.3)) {
+      spoilt.resize(static_cast<std::size_t>(rng.integer(0, static_cast<std::int64_t>(whole.size()) - 1)));
+    } else {  // the header's last bytes say nothing
+      auto at = static_cast<std::size_t>(rng.integer(0, static_cast<std::int64_t>(whole.size()) - 1));
+      if (at >= 40 && at < 64) at = 0;
+      spoilt[at] = static_cast<char>(spoilt[at] ^ (1 << rng.integer(0, 7)));
+    }
+    ASSERT_TRUE(write_file_atomically(folder_ / "table", spoilt, Survives::process_death));
+    told = 0;
+    ASSERT_TRUE(equal(get("a", told), room_.table, room_.space)) << i;
+    ASSERT_GT(told, 0) << i;
+  }
+}
+
+TEST_F(CachedTable, WhatIsNoFileIsNotWaitedFor) {
+  int told = 0;
+  ASSERT_EQ(::mkfifo((folder_ / "table").c_str(), 0600), 0);
+  EXPECT_TRUE(equal(get("a", told), room_.table, room_.space));
+  std::filesystem::remove_all(folder_ / "table");
+  std::filesystem::create_directories(folder_ / "table/full");
   EXPECT_TRUE(equal(get("a", told), room_.table, room_.space));
 }
 

@@ -42,7 +42,7 @@ Result<void> MonteCarloParams::validate() const {
 }
 
 MonteCarloLocalizer::MonteCarloLocalizer(const OccupancyGrid& map, const MarkovLocalizerParams& shared,
-                                         const MonteCarloParams& params, const std::filesystem::path& cache,
+                                         const MonteCarloParams& params, const RangeTableCache& cache,
                                          std::uint64_t seed)
     : shared_{shared},
       params_{params},

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -67,9 +66,9 @@ struct MonteCarloParams {
 /// Shared with the grid are the sensor and motion models, filters, tempering (decision 0006), cadence and verdict.
 class MonteCarloLocalizer final : public Localizer {
  public:
-  /// `cache`: as for MarkovLocalizer, the same file. @pre params are valid
+  /// `cache`: as for MarkovLocalizer, the same tables. @pre params are valid
   MonteCarloLocalizer(const OccupancyGrid& map, const MarkovLocalizerParams& shared, const MonteCarloParams& params,
-                      const std::filesystem::path& cache, std::uint64_t seed);
+                      const RangeTableCache& cache, std::uint64_t seed);
   void start_unknown() override;
   void start_at(std::span<const BeliefMode> modes, const Pose2& odom_from_robot, Time time) override;
   /// O(particles * beams), and when it does not know its place O(grid states * beams).

@@ -24,7 +24,7 @@ class MonteCarlo : public ::testing::TestWithParam<const char*> {
   [[nodiscard]] std::unique_ptr<MonteCarloLocalizer> localizer(std::uint64_t seed) const {
     MonteCarloParams params;
     params.model = GetParam();
-    return std::make_unique<MonteCarloLocalizer>(testing::room_map(), shared_params(), params, "", seed);
+    return std::make_unique<MonteCarloLocalizer>(testing::room_map(), shared_params(), params, RangeTableCache{}, seed);
   }
 };
 INSTANTIATE_TEST_SUITE_P(Models, MonteCarlo, ::testing::Values("beam", "field"),
@@ -154,7 +154,7 @@ TEST(MonteCarloParams, NamesWhatIsWrong) {
 TEST(MonteCarloLocalizer, ASmallComputerGetsFewerParticlesAndWaits) {
   MarkovLocalizerParams shared = shared_params();
   shared.work_per_second = 2e5;
-  MonteCarloLocalizer at{testing::room_map(), shared, {}, "", 1};
+  MonteCarloLocalizer at{testing::room_map(), shared, {}, {}, 1};
   Drive drive{at.caster(), 2, 0.0};
   int updates = 0;
   std::size_t most = 0;
@@ -173,7 +173,7 @@ TEST(MonteCarloLocalizer, ASurroundedRobotFindsItselfByWhatItSeesBetweenPeople) 
   const testing::LookingRound seen = testing::look_round(caster, 6, [&](std::uint64_t seed) {
     MarkovLocalizerParams shared;
     shared.states.heading_step = 3.0;
-    return std::make_unique<MonteCarloLocalizer>(map, shared, MonteCarloParams{}, "", seed);
+    return std::make_unique<MonteCarloLocalizer>(map, shared, MonteCarloParams{}, RangeTableCache{}, seed);
   });
   EXPECT_GE(seen.likeliest, 5);
   EXPECT_GE(seen.sure, 3);

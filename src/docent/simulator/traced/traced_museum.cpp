@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "docent/base/random.h"
+#include "docent/grid/clearance.h"
 #include "docent/simulator/crowd/walkable_floor.h"
 #include "docent/simulator/traced/floor_plan.h"
 #include "docent/simulator/traced/outlines.h"
@@ -20,7 +21,9 @@ constexpr double kPodium = 0.3;          // [m] too low for the lasers
 constexpr double kRim = 0.25;            // [m] of the robot's area from walls
 constexpr double kOffStairs = 0.25;      // [m] more, from the edge of stairs
 constexpr double kMayMove = 0.4;         // [m] a movable thing may stand elsewhere on the map
-constexpr double kPassable = 0.5;        // [m] clearance of the robot's ways
+constexpr double kPassable = 0.5;        // [m] clearance of the robot's ways from all that stands
+constexpr double kRobotRadius = 0.265;   // [m]
+constexpr double kSurveyErrs = 0.04;     // [m] by which a survey draws things elsewhere, rounded up
 constexpr double kCell = 0.1;            // [m] of the search for places
 constexpr double kOpen = 1.1;            // [m] clearance of open floor
 constexpr double kToOpen = 1.0;          // [m] from a place where a group can gather to open floor
@@ -214,7 +217,7 @@ class Curator {
     std::vector<bool> open(frame.size());
     for (std::size_t i = 0; i < open.size(); ++i) {
       const Point2 point = centre_of(frame, i);
-      open[i] = floor.clearance(point) >= kPassable && contains(plan_.world.operating_area, point);
+      open[i] = floor.clearance(point) >= kPassable && leaves_room(point);
     }
     const std::vector<int> labels = label_regions(frame, open);
     std::vector<std::size_t> sizes(static_cast<std::size_t>(*std::max_element(labels.begin(), labels.end())) + 1, 0);
@@ -234,6 +237,18 @@ class Curator {
       places.push_back({point, floor.clearance(point), static_cast<double>(to_open[i]) <= kToOpen});
     }
     return places;
+  }
+  /// What the planner asks of the robot's place, beside walls: room to hazards and to the border of its area.
+  [[nodiscard]] bool leaves_room(Point2 point) const {
+    constexpr Clearance kNeeded{};
+    const World& world = plan_.world;
+    if (!contains(world.operating_area, point)) return false;
+    if (outline_distance(world.operating_area, point) < kNeeded.border + kSurveyErrs) return false;
+    return std::all_of(world.solids.begin(), world.solids.end(), [&](const Solid& solid) {
+      const double moved = solid.movable ? kMayMove : 0.0;
+      return is_seen_by_laser(solid) ||
+             distance(solid.polygon, point) >= kRobotRadius + kNeeded.hazards + kSurveyErrs + moved;
+    });
   }
   [[nodiscard]] static Point2 centre_of(const GridFrame& frame, std::size_t index) {
     const auto columns = static_cast<std::size_t>(frame.columns);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "docent/grid/clearance.h"
 #include "docent/simulator/crowd/walkable_floor.h"
 
 namespace docent::simulator {
@@ -110,6 +111,26 @@ TEST(TracedMuseum, ARobotReachesItsPlacesAlsoOnTheSurvey) {
     EXPECT_FALSE(surveyed.moved.empty());
     EXPECT_FALSE(surveyed.missing.empty());
   }
+}
+
+TEST(TracedMuseum, ItsPlacesLeaveTheRoomThatThePlannerAsksFor) {
+  constexpr Clearance kNeeded{};
+  constexpr double kRobotRadius = 0.265;
+  std::size_t hazards = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const MuseumPlan plan = traced(seed).plan;
+    std::vector<Point2> places{plan.home.position()};
+    if (plan.charger) places.push_back(plan.charger->position());
+    for (const Stop& stop : plan.stops) places.push_back(stop.pose.position());
+    const Survey surveyed = survey(plan.world, {}, Rng{seed});
+    hazards += surveyed.hazards.size();
+    for (const Point2 place : places) {
+      EXPECT_GE(outline_distance(plan.world.operating_area, place), kNeeded.border) << seed;
+      for (const SurveyedHazard& hazard : surveyed.hazards)
+        EXPECT_GE(distance(hazard.polygon, place), kRobotRadius + kNeeded.hazards) << seed << ' ' << hazard.id;
+    }
+  }
+  EXPECT_GT(hazards, 40U);
 }
 
 TEST(TracedMuseum, IsTheSameForASeed) {
