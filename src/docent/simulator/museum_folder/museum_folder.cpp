@@ -77,10 +77,10 @@ std::string museum_yaml(const MuseumPlan& plan, const Survey& survey) {
             "\n    pose: " + pose(stop.pose) + "\n    look_at: " + point(stop.look_at) + "\n    short: {" + files +
             "}\n    topics: [" + plan.topic + "]\n";
   }
-  std::vector<std::string> ids;
-  for (const Stop& stop : plan.stops) ids.push_back(stop.id);
-  text += "tours:\n  - {id: round, title: " + in_languages(plan.languages, {}, "Round the floor") +
-          ", exhibits: " + list(ids) + "}\n";
+  text += "tours:\n";
+  for (const Round& round : plan.rounds)
+    text += "  - {id: " + round.id + ", title: " + in_languages(plan.languages, {}, round.title) +
+            ", exhibits: " + list(round.stops) + "}\n";
   return text + "simulation: simulation.yaml\n";
 }
 

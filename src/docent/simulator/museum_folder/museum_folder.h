@@ -11,14 +11,22 @@
 
 namespace docent::simulator {
 
+/// A fixed tour.
+struct Round {
+  std::string id;
+  std::string title;
+  std::vector<std::string> stops;  ///< their ids, in order
+};
+
 /// A museum before it is a folder: the true world, and what its staff would write down of it.
 struct MuseumPlan {
   std::string title;    ///< for people
   std::string made_of;  ///< first line of museum.yaml: where it comes from
   std::string topic;    ///< of every stop
   std::vector<std::string> languages{"en"};
-  World world;              ///< its exhibits are the stops, its tour is "round"
+  World world;              ///< its exhibits are the stops, its tours the rounds
   std::vector<Stop> stops;  ///< at least two
+  std::vector<Round> rounds;
   Pose2 home;               ///< world_from_base
   std::optional<Pose2> charger;
 };

@@ -325,6 +325,7 @@ class Architect {
       if (corridor.width() < corridor.depth()) continue;
       for (const double share : {0.15, 0.5, 0.85}) add_stop(corridor, share);
     }
+    office_.rounds = {{"round", "Round the floor", world.exhibits}};
     const Point2 home = place_in(
         *std::find_if(corridors_.begin(), corridors_.end(), [](const Rect& r) { return r.width() > r.depth(); }), 0.33);
     office_.home = world_from_building_ * Pose2{home.x, home.y, Angle{}};

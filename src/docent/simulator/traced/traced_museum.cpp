@@ -7,6 +7,7 @@
 #include "docent/base/random.h"
 #include "docent/grid/clearance.h"
 #include "docent/simulator/crowd/walkable_floor.h"
+#include "docent/simulator/museum_folder/rounds.h"
 #include "docent/simulator/traced/floor_plan.h"
 #include "docent/simulator/traced/outlines.h"
 #include "docent/simulator/traced/wall_spots.h"
@@ -358,6 +359,21 @@ class Curator {
   int count_ = 0;
 };
 
+/// Tours through the stops, which were chosen as far apart as can be.
+void add_rounds(MuseumPlan& plan) {
+  std::vector<Point2> places;
+  for (const Stop& stop : plan.stops) places.push_back(stop.pose.position());
+  const auto rounds = rounds_of(plan.home.position(), places);
+  for (const auto& round : rounds) {
+    const std::string number = std::to_string(plan.rounds.size() + 1);
+    const std::string of_all = rounds.size() > 1 ? ", part " + number + " of " + std::to_string(rounds.size()) : "";
+    Round tour{rounds.size() > 1 ? "round-" + number : "round", "Round the floor" + of_all, {}};
+    for (const std::size_t stop : round) tour.stops.push_back(plan.stops[stop].id);
+    plan.world.tours.push_back(tour.id);
+    plan.rounds.push_back(std::move(tour));
+  }
+}
+
 }  // namespace
 
 Result<TracedMuseum> trace_museum(const OccupancyGrid& map, std::span<const Recording> recordings,
@@ -370,7 +386,7 @@ Result<TracedMuseum> trace_museum(const OccupancyGrid& map, std::span<const Reco
   plan.title = title;
   plan.made_of = "Traced from a map, furnished and surveyed with seed " + std::to_string(seed);
   plan.topic = "rooms";
-  plan.world.tours = {"round"};
+  add_rounds(plan);
   if (!recordings.empty()) plan.world.pedestrians_file = "pedestrians.txt";
   return museum;
 }

@@ -8,6 +8,7 @@
 
 #include "docent/grid/clearance.h"
 #include "docent/simulator/crowd/walkable_floor.h"
+#include "docent/simulator/museum_folder/rounds.h"
 
 namespace docent::simulator {
 namespace {
@@ -57,6 +58,22 @@ TEST(TracedMuseum, HasTheFloorOfTheMap) {
     const Point2 point = inside + Point2{-12.3, 4.7};
     EXPECT_TRUE(std::any_of(world.solids.begin(), world.solids.end(),
                             [&](const Solid& solid) { return contains(solid.polygon, point); }));
+  }
+}
+
+TEST(TracedMuseum, ItsToursAreShortAndVisitEveryStop) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const MuseumPlan plan = traced(seed).plan;
+    std::set<std::string> visited;
+    std::vector<std::string> ids;
+    for (const Round& round : plan.rounds) {
+      ids.push_back(round.id);
+      visited.insert(round.stops.begin(), round.stops.end());
+      EXPECT_LE(round.stops.size(), kMostStopsOfARound) << seed;
+    }
+    EXPECT_GE(plan.rounds.size(), 2U) << seed << ": " << plan.stops.size() << " stops are more than one tour";
+    EXPECT_EQ(ids, plan.world.tours) << seed;
+    EXPECT_EQ(visited, std::set<std::string>(plan.world.exhibits.begin(), plan.world.exhibits.end())) << seed;
   }
 }
 
