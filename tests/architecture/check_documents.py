@@ -130,6 +130,26 @@ def check_readmes():
                 check(names_something(name, folder), f"{where}/README.md: `{name}` is nothing in this project")
 
 
+def check_agreements():
+    """Comments cite the architecture by number: "architecture 10.7" is item 7 of section 10."""
+    numbers = set()
+    section = ""
+    for line in (ROOT / "docs/architecture.md").read_text().splitlines():
+        if heading := re.match(r"## (\d+) ", line):
+            section = heading[1]
+            numbers.add(section)
+        elif item := re.match(r"(\d+)\. ", line):
+            numbers.add(f"{section}.{item[1]}")
+    check([str(i) for i in range(1, 11)] == sorted((n for n in numbers if "." not in n), key=int),
+          "docs/architecture.md: its sections are not numbered from 1 to 10")
+    for path in git_files("src", "tests", "scripts", "docs", "web"):
+        if path.suffix not in CODE | {".md", ".py", ".ts", ".svelte", ""}:
+            continue
+        for number, line in enumerate(path.read_text(errors="ignore").splitlines(), 1):
+            for cited in re.findall(r"\barchitecture (\d+(?:\.\d+)?)", line):
+                check(cited in numbers, f"{path.relative_to(ROOT)}:{number}: there is no architecture {cited}")
+
+
 def check_links():
     for path in git_files("*.md"):
         text = re.sub(r"```.*?```", "", path.read_text(), flags=re.S)
@@ -141,6 +161,7 @@ def check_links():
 
 check_papers()
 check_readmes()
+check_agreements()
 check_links()
 for fault in faults:
     print(fault)
