@@ -1,4 +1,4 @@
-"""Coastal against shortest ways [Minerva2000, 5.2 and Fig. 12]: the same start and goal, the same crowd, the real localizer.
+"""Coastal against shortest ways [Minerva2000] 5.2 and Fig. 12: the same start and goal, the same crowd, the real localizer.
 
 For each pair of places, drawn evenly over the Smithsonian's floor, and each reach of the lasers, `docent plan` makes both
 ways. The robot is walked along each of them amid an escort that hides about 60 % of the beams; what its sensors measured

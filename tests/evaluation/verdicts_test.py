@@ -138,6 +138,34 @@ class Ledger(unittest.TestCase):
             (folder / "verdicts" / "tour.json").unlink()
             self.assertFalse(ledger.protocol(folder).good)
 
+    def test_the_report_names_every_protocol_and_what_fails(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            self.write(folder, {"speed": ["d"]}, failed=["contacts | people"])
+            (folder / "verdicts" / "crowd.json").unlink()
+            self.assertFalse(ledger.protocol(folder, folder / "reports").good)
+            (report,) = (folder / "reports").iterdir()
+            self.assertRegex(report.name, r"^verdicts-\d{4}-\d{2}-\d{2}\.md$")
+            rows = {line.split(" | ")[0][2:]: line for line in report.read_text().splitlines() if line.startswith("| ")}
+            self.assertEqual(sorted(rows), sorted(["protocol", *ledger.ROWS]))
+            self.assertIn("| speed | FAILS | contacts \\| people | `scripts/evaluate speed` | d | a |  | today |", rows["speed"])
+            self.assertIn("no whole run yet", rows["crowd"])
+            self.write(folder, {})
+            self.assertTrue(ledger.protocol(folder, folder / "reports").good)
+            self.assertNotIn("FAILS", report.read_text(), "the later report of a day replaces the first")
+
+    def test_a_verdict_keeps_the_commit_that_the_report_shows(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            verdict = Verdict()
+            verdict.want("something", "seen", True)
+            ledger.write(folder, "tour", Path(__file__), verdict, "abc1234")
+            ledger.protocol(folder, folder / "reports")
+            (report,) = (folder / "reports").iterdir()
+            self.assertIn(" | abc1234 | ", report.read_text())
+            self.assertEqual(ledger.commit_of(folder), "", "no work tree, no commit")
+            self.assertRegex(ledger.commit_of(ROOT), r"^([0-9a-f]{7,}(-dirty)?)?$")
+
     def test_two_configurations_in_one_protocol_fail(self):
         verdict = Verdict()
         verdict.want_one_configuration(name for name in ["c", "c"])

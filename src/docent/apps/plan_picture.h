@@ -21,7 +21,7 @@ struct DrawnWay {
 struct PlanGround {
   const ValueIteration* values = nullptr;  ///< pale near the goals, dark far from them, clear where no way leads
   /// Instead, where given: what one scan tells a robot that knows its place to 25 cm, pale for nothing, dark for the
-  /// most that there is, as in [Minerva2000, Fig. 12].
+  /// most that there is, as in [Minerva2000] Fig. 12.
   const InformationMap* information = nullptr;
   double heading_scale = 1.0;
 };

@@ -94,7 +94,7 @@ struct AvoiderDecision {
   std::vector<EvaluatedVelocity> window;
 };
 
-/// Collision avoidance of the tour guide, µDWA [BurgardEtAl1999 4.1; ThrunEtAl2000 5.1]: keeps the obstacle field,
+/// Collision avoidance of the tour guide, µDWA [Rhino1999] 4.1, [Minerva2000] 5.1: keeps the obstacle field,
 /// knows how old everything is, steers along via-points with the dynamic window, and brakes on any scan that says so.
 /// Safe without planner, localization or radio (architecture 8).
 ///

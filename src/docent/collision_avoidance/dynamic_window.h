@@ -48,7 +48,7 @@ struct DynamicWindowParams {
   [[nodiscard]] Result<void> validate() const;
 
   /// The speed [m/s] whose security distance is `slack` [m] more than the margin; infinite where more is never asked
-  /// for. The security distance of [BuhmannEtAl1995], 10 to 30 cm there: the margin, and security_time for every m/s
+  /// for. The security distance of [Buhmann1995], 10 to 30 cm there: the margin, and security_time for every m/s
   /// above creep_speed, at most security_most.
   [[nodiscard]] double speed_with(double slack) const;
 };
@@ -104,8 +104,8 @@ struct WindowChoice {
 [[nodiscard]] bool can_brake_in_time(const Velocity& velocity, const Velocity& command, double hold,
                                      std::span<const Obstacle> obstacles, const BaseLimits& limits, double slack);
 
-/// The dynamic window [BurgardEtAl1999 4.1.1]: all velocities that the base can reach in `cycle`. Hard constraint:
-/// full braking before contact, whatever fails; as an option the two-second rule of [BuhmannEtAl1995] as well. Soft
+/// The dynamic window [Rhino1999] 4.1.1: all velocities that the base can reach in `cycle`. Hard constraint:
+/// full braking before contact, whatever fails; as an option the two-second rule of [Buhmann1995] as well. Soft
 /// ones: speed, heading at the predicted pose, clearance; smoothed.
 class DynamicWindow {
  public:

@@ -145,7 +145,7 @@ TEST(DynamicWindow, TheSpeedGrowsWithTheGapBeyondTheMargin) {
   const DynamicWindowParams params;
   EXPECT_EQ(params.speed_with(-0.1), params.creep_speed);
   EXPECT_EQ(params.speed_with(0.0), params.creep_speed);
-  // [BuhmannEtAl1995]: 10 cm from slow speeds on, 30 cm from fast ones.
+  // [Buhmann1995]: 10 cm from slow speeds on, 30 cm from fast ones.
   EXPECT_NEAR(params.speed_with(0.10 - params.real_margin), 0.25, 0.01);
   EXPECT_NEAR(params.speed_with(0.2999 - params.real_margin), 1.58, 0.01);
   EXPECT_TRUE(std::isinf(params.speed_with(0.30 - params.real_margin + 1e-9)));

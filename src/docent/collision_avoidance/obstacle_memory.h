@@ -46,8 +46,8 @@ struct ObstaclePoint {
   bool low = false;       ///< met by a sonar, an infrared sensor or touch, and by no laser: a thing, that stays
 };
 
-/// The obstacle field [BuhmannEtAl1995, obstacle line field]: what lasers, sonars, infrared sensors, touch and cameras
-/// met in the last moments, kept in the odometry's frame so that a jump of the localization never moves it
+/// The obstacle field, after the obstacle line field of [Buhmann1995]: what lasers, sonars, infrared sensors, touch and
+/// cameras met in the last moments, kept in the odometry's frame so that a jump of the localization never moves it
 /// (architecture 10.6). Lines are kept as points, a few centimetres apart.
 ///
 /// What the newest sweep of a sensor looks through still counts while it is one of the last three: a beam may pass a

@@ -14,8 +14,8 @@ namespace docent {
 /// hide and touch each other, and nothing slim stands free that could be followed.
 ///
 /// A place through which the sensor looked kLookBack ago and where it now meets something has been reached by whatever
-/// was nearest to it then: that is the motion along the surface's normal [SpiesJaehneBarron2002, range flow]. The
-/// normals of one piece together say how it moves. What was hidden then may always have been there, and of who goes
+/// was nearest to it then: that is the motion along the surface's normal, the range flow of [SpiesJaehneBarron2002].
+/// The normals of one piece together say how it moves. What was hidden then may always have been there, and of who goes
 /// away nothing is said.
 class RangeFlow {
  public:

@@ -43,10 +43,10 @@ struct WeightedSquare {
 };
 
 /// Virtual range measurements of hazards and of the border of the operating area, from the whole belief
-/// [BurgardEtAl1999 eq. 21-24, FoxBurgardThrun1999 eq. 9-11].
+/// [Rhino1999] eq. 21-24, [Markov1998] eq. 9-11.
 ///
 /// Departure: the rays end on hazards and on the area's border, not on walls that sensors see (as in
-/// [ThrunEtAl2000 eq. 14-15]); docs/decisions/0002 says why.
+/// [Minerva2000] eq. 14-15); docs/decisions/0002 says why.
 class VirtualMeasurements {
  public:
   static constexpr int kDirections = 180;  ///< direction i points 2 i degrees - 180 degrees from the robot's heading

@@ -39,8 +39,8 @@ struct KldParams {
   [[nodiscard]] Result<void> validate() const;
 };
 
-/// Number of samples for a distribution over `bins` bins (D. Fox, KLD-sampling, 2001, eq. 7; the Wilson-Hilferty
-/// approximation of the chi-square quantile). 1 for one bin.
+/// Number of samples for a distribution over `bins` bins ([Fox2001] eq. 7; the Wilson-Hilferty approximation of the
+/// chi-square quantile). 1 for one bin.
 [[nodiscard]] std::size_t kld_sample_size(std::size_t bins, const KldParams& params);
 
 /// Bins of which the particles first … last - 1 hold enough that a draw of as many particles would likely hit them.

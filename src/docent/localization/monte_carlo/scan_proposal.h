@@ -13,9 +13,8 @@
 
 namespace docent {
 
-/// Poses drawn from what the sensors see, q(x) ~ p(z | x) (mixture MCL's dual; S. Thrun, D. Fox, W. Burgard, Monte
-/// Carlo localization with mixture proposal distribution, 2000). There a tree over features stands for p(x | z); here
-/// all states of the grid are weighed, which takes some tens of milliseconds.
+/// Poses drawn from what the sensors see, q(x) ~ p(z | x) (the dual of [ThrunFoxBurgard2000]). There a tree
+/// over features stands for p(x | z); here all states of the grid are weighed, which takes some tens of milliseconds.
 struct ScanProposal {
   ParticleSet poses;              ///< spread evenly over their cells, weights all 1
   std::vector<float> likelihood;  ///< of each pose: p(z | x) relative to a perfect fit, exp(-cost)

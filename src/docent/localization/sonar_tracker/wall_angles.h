@@ -35,9 +35,9 @@ struct WallAngle {
   double deviation = 0.0;  ///< [rad]
 };
 
-/// Finds walls in the consecutive echoes of single sonars while the robot drives along them [Buhmann1995, global
-/// navigation]. A smooth wall answers from the foot of the perpendicular wherever it lies in the cone, so an echo says
-/// "the wall touches this circle": the line is fitted to circles, not to points on the axis.
+/// Finds walls in the consecutive echoes of single sonars while the robot drives along them ([Buhmann1995],
+/// "global navigation"). A smooth wall answers from the foot of the perpendicular wherever it lies in the cone, so an
+/// echo says "the wall touches this circle": the line is fitted to circles, not to points on the axis.
 class WallAngles {
  public:
   WallAngles(const WallAngleParams& params, int sonars);

@@ -63,8 +63,8 @@ enum class LaserWord {
 };
 
 /// What one kind of cone sensor, the sonars or the infrared sensors, finds below the lasers. A layer of its own, for it
-/// looks at another height: within it readings are fused by Bayes' rule [Rhino1999, eq. (18)], with other layers they
-/// are joined by the max rule alone [Rhino1999, eq. (19)]. An echo may come from anywhere on its arc, and what lies
+/// looks at another height: within it readings are fused by Bayes' rule [Rhino1999] eq. (18), with other layers they
+/// are joined by the max rule alone [Rhino1999] eq. (19). An echo may come from anywhere on its arc, and what lies
 /// before the arc is free; so readings from several places leave of each arc what all of them allow.
 class ConeLayer {
  public:

@@ -46,7 +46,7 @@ struct LiveMapParams {
 };
 
 /// What stands in the hall now and not in the static map: layers over it with decay, one a kind of sensor, joined by
-/// the max rule [Rhino1999, eq. (19)], for each kind meets things at a height of its own: what one looks over the other
+/// the max rule [Rhino1999] eq. (19), for each kind meets things at a height of its own: what one looks over the other
 /// does not free.
 ///
 /// The lasers' layer: a person who walks by leaves no trace; who stands for three looks of four, does. What was

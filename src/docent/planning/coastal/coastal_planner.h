@@ -43,7 +43,7 @@ struct CoastalFloor {
   [[nodiscard]] static CoastalFloor of(const GridFrame& fine, std::span<const float> costs, int factor);
 };
 
-/// Coastal navigation [Minerva2000, 5.2]: value iteration over (cell, entropy), the belief reduced to its maximum and
+/// Coastal navigation [Minerva2000] 5.2: value iteration over (cell, entropy), the belief reduced to its maximum and
 /// its entropy (eq. 22). The robot seeks places whose sight tells it where it is, as boats seek the coast.
 ///
 ///   V(x, h) <- min over neighbours x' of  C(x') d + weight u(h') d + V(x', h')      (eq. 18)

@@ -22,7 +22,7 @@ struct UncertaintyParams {
 };
 
 /// The degree of uncertainty of a pose, and all that coastal navigation knows of a belief besides its maximum: its
-/// entropy [Minerva2000, eq. 22], kept as the variance s [m2] of the Gaussian diag(s, s, k^2 s) over (x, y, heading)
+/// entropy [Minerva2000] eq. 22, kept as the variance s [m2] of the Gaussian diag(s, s, k^2 s) over (x, y, heading)
 /// that has it; k is `heading_scale`. H = ln((2 pi e)^(3/2) k s^(3/2)).
 class Uncertainty {
  public:

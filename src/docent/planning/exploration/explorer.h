@@ -35,7 +35,7 @@ struct Exploration {
   std::size_t frontier = 0;  ///< unknown cells that border on free floor, as far as the robot could stand there
 };
 
-/// Exploration [Buhmann1995, "Planning and Exploration"]: value iteration whose goals are the unknown places, all at
+/// Exploration ([Buhmann1995], "Planning and Exploration"): value iteration whose goals are the unknown places, all at
 /// once, so the robot moves straight to the unexplored. Goals are those unknown cells that border on free floor and are
 /// wide enough for the robot, by what is known to be occupied: a crack between a case and the wall is none. A cell that
 /// is still unknown when the robot stands right before it cannot be seen, and is not gone to again.

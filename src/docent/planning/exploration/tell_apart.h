@@ -41,7 +41,7 @@ struct PossiblePose {
 /// would read there under each hypothesis (ray casting in the map), how well that separates each pair of them
 /// (log-likelihood ratio of the readings, which are noisy, correlated and partly hidden by people), and the entropy
 /// that would be left on average, sum_i m_i H(p | i is true). The place with the largest expected fall of the entropy,
-/// less the cost of the way, wins: the utility of active Markov localization.
+/// less the cost of the way, wins: the utility of [FoxBurgardThrun1998].
 class TellApart {
  public:
   static constexpr int kBearings = 24;  ///< directions that are driven to

@@ -16,7 +16,7 @@
 
 namespace docent {
 
-/// Value iteration on a grid [Burgard1999, section 4.2, steps (1) to (5)]: V of a cell is the least cost of a way to
+/// Value iteration on a grid [Rhino1999] 4.2, steps (1) to (5): V of a cell is the least cost of a way to
 /// the nearest goal, where entering a neighbour costs that neighbour's cost times the step's length in cells.
 ///
 /// The bounding box of step (5) is a set of tiles here (decision 0019): each is swept until nothing changes in it, the

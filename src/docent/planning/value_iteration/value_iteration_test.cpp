@@ -149,7 +149,7 @@ TEST(ValueIteration, ASelectiveResetEndsWhereAFreshStartWould) {
   }
 }
 
-/// [Burgard1999, 4.2]: whatever changes, and in whatever order, the robot's value is that of a start from nothing; so
+/// [Rhino1999] 4.2: whatever changes, and in whatever order, the robot's value is that of a start from nothing; so
 /// is every other one after `iterate`; and the way found leads to a goal at that cost.
 void replans_exactly(std::uint64_t seed) {
   Rng rng{seed};
