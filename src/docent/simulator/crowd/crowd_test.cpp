@@ -80,6 +80,12 @@ TEST(WalkableFloor, FindsTheWayThroughTheDoor) {
   }
   EXPECT_LT(distance(point, {15.0, 2.0}), 0.5);
   EXPECT_LT(walked, 17.0);
+  // What it says of the length, somewhat more where it is narrow.
+  const auto told = floor.way(field, {2.0, 2.0});
+  ASSERT_TRUE(told);
+  EXPECT_GT(*told, walked - 1.0);
+  EXPECT_LT(*told, 1.5 * walked);
+  EXPECT_FALSE(floor.way(field, {-30.0, 2.0})) << "outside the building";
 }
 
 TEST(Crowd, LevelsAreThoseOfTheArchitecture) {

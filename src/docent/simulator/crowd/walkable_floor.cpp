@@ -308,6 +308,15 @@ void WalkableFloor::for_coarse_cells_within(Point2 point, double reach, const Ac
   }
 }
 
+std::optional<double> WalkableFloor::way(FlowField& field, Point2 point) const {
+  constexpr double kAside = 1.0;  // [m] from the nearest cell where somebody walks
+  const auto cell = field.is_empty() ? std::nullopt : nearest_walkable(point, kAside);
+  if (!cell) return std::nullopt;
+  grow(field, *cell);
+  const float cost = field.cost_[*cell];
+  return cost < kUnreachable ? std::optional{static_cast<double>(cost)} : std::nullopt;
+}
+
 std::optional<Point2> WalkableFloor::direction(FlowField& field, Point2 point, double radius) const {
   if (field.is_empty()) return std::nullopt;
   std::size_t cell = coarse_cell(point);

@@ -56,6 +56,8 @@ class WalkableFloor {
 
   /// Ways to all points within `reach` of `goal`, or to the nearest reachable point. O(cells), when it has grown.
   [[nodiscard]] FlowField field_to(Point2 goal, double reach) const;
+  /// How far it is to walk from `point` [m, more where it is narrow]; nullopt: no way.
+  [[nodiscard]] std::optional<double> way(FlowField& field, Point2 point) const;
   /// Which way to walk from `point`: looks a few cells ahead. nullopt: no way.
   [[nodiscard]] std::optional<Point2> direction(FlowField& field, Point2 point, double radius) const;
 

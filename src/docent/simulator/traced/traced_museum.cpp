@@ -359,11 +359,23 @@ class Curator {
   int count_ = 0;
 };
 
+/// How far it is to walk from home and each stop to the others; straight on where nobody can walk.
+std::vector<std::vector<double>> ways_between(const MuseumPlan& plan) {
+  const WalkableFloor floor{plan.world};
+  std::vector<Point2> places{plan.home.position()};
+  for (const Stop& stop : plan.stops) places.push_back(stop.pose.position());
+  std::vector<std::vector<double>> ways(places.size(), std::vector<double>(places.size(), 0.0));
+  for (std::size_t from = 0; from < places.size(); ++from) {
+    FlowField field = floor.field_to(places[from], 0.3);
+    for (std::size_t to = 0; to < from; ++to)
+      ways[from][to] = ways[to][from] = floor.way(field, places[to]).value_or(distance(places[from], places[to]));
+  }
+  return ways;
+}
+
 /// Tours through the stops, which were chosen as far apart as can be.
 void add_rounds(MuseumPlan& plan) {
-  std::vector<Point2> places;
-  for (const Stop& stop : plan.stops) places.push_back(stop.pose.position());
-  const auto rounds = rounds_of(plan.home.position(), places);
+  const auto rounds = rounds_of(ways_between(plan));
   for (const auto& round : rounds) {
     const std::string number = std::to_string(plan.rounds.size() + 1);
     const std::string of_all = rounds.size() > 1 ? ", part " + number + " of " + std::to_string(rounds.size()) : "";
