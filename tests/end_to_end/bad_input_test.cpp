@@ -73,7 +73,7 @@ TEST(BadInput, UpSaysSoBeforeAnythingStarts) {
            {"broken museum", with({"--museum", folder.path()}), broken + ":"},
            {"no robot.yaml", with({"--robot", "/nowhere.yaml"}), "/nowhere.yaml"},
            {"unknown key", with({"--robot", key}), "key.yaml:4: "},
-           {"unknown section", with({"--robot", section}), "section.yaml:2: unknown section 'flying'"},
+           {"unknown section", with({"--robot", section}), "section.yaml:2: unknown section 'flying' (known: body, "},
            {"wrong type", with({"--robot", type}), "type.yaml:2: "},
            {"bad syntax", with({"--robot", syntax}), "syntax.yaml:"},
            {"no sections", with({"--robot", list}), "list.yaml:1: "},
@@ -135,6 +135,7 @@ TEST(BadInput, MapsAndLogs) {
   const std::string no_size = folder.write("no_size.yaml", "image: good.pgm\nresolution: 0\norigin: [0, 0, 0]\n");
   const std::string no_origin = folder.write("no_origin.yaml", "image: good.pgm\nresolution: 0.05\norigin: [0]\n");
   const std::string no_yaml = folder.write("no_yaml.yaml", "image: [good.pgm\n");
+  const std::string no_text = folder.write("no_text.yaml", std::string{"\x89PNG\0\0", 6});
   const std::string text = folder.write("text.log", "hello\n");
   const std::string cut_line = folder.write("cut.log", "# a comment\nFLASER 3 1.0 2.0\n");
   const std::string standing = folder.write("standing.log", "FLASER 3 1.0 2.0 3.0 0 0 0 0 0 0 1 host 1\n");
@@ -182,6 +183,10 @@ TEST(BadInput, MapsAndLogs) {
            {"start without a reference",
             {"localize", "--map", kMap, "--log", standing, "--start", "reference"},
             "--reference"},
+           {"a picture for a map", {"localize", "--map", no_text, "--log", standing}, "is no text file"},
+           {"walls of no depth",
+            {"learn-sensor-model", "--map", kMap, "--log", standing, "--wall-depth", "deep"},
+            "--wall-depth deep: expected auto or a number"},
            {"unknown method", {"localize", "--map", kMap, "--log", text, "--method", "magic"}, "--method"},
            {"learn from no log", {"learn-sensor-model", "--map", kMap, "--log", "/nowhere.log"}, "/nowhere.log: "},
            {"learn without log", {"learn-sensor-model", "--map", kMap}, "--log is required"},
@@ -239,6 +244,7 @@ TEST(BadInput, Simulations) {
            {"event without time", with({"--scenario", no_time}), "no_time.yaml:2: "},
            {"unknown sensor", with({"--scenario", no_sensor}), "no_sensor.yaml:2: "},
            {"unknown crowd", with({"--crowd", "many"}), "--crowd"},
+           {"fewer people than none", with({"--people", "-3"}), "--people"},
            {"start that is no pose", with({"--start", "wall"}), "--start wall: "},
            {"report into nothing", with({"--report", "/nowhere/report.json"}), "/nowhere/report.json"},
            {"recording into nothing", with({"--record", "/nowhere/run.mcap"}), "/nowhere/run.mcap"},

@@ -7,13 +7,17 @@
 #include <cstdlib>
 #include <filesystem>
 #include <system_error>
+#include <vector>
 
 #include "docent/apps/command.h"
 #include "docent/pictures/figure.h"
 
 namespace docent {
 
-std::vector<double> parse_numbers(const std::string& option, const std::string& text, std::size_t count) {
+namespace {
+
+std::vector<double> parse_numbers(const std::string& option, const std::string& text, std::size_t count,
+                                  const std::string& form) {
   std::vector<double> numbers;
   const char* at = text.c_str();
   bool good = true;
@@ -27,19 +31,24 @@ std::vector<double> parse_numbers(const std::string& option, const std::string& 
     ++at;
   }
   if (!good || *at != '\0' || numbers.size() != count) {
-    throw CommandFailed{option + " " + text + ": expected " + std::to_string(count) + " numbers with commas between",
-                        2};
+    throw CommandFailed{option + " " + text + ": expected " + form, 2};
   }
   return numbers;
 }
 
+}  // namespace
+
+double parse_number(const std::string& option, const std::string& text, const std::string& form) {
+  return parse_numbers(option, text, 1, form).front();
+}
+
 Point2 parse_point(const std::string& option, const std::string& text) {
-  const auto numbers = parse_numbers(option, text, 2);
+  const auto numbers = parse_numbers(option, text, 2, "two numbers X,Y [m]");
   return {numbers[0], numbers[1]};
 }
 
 Pose2 parse_pose(const std::string& option, const std::string& text) {
-  const auto numbers = parse_numbers(option, text, 3);
+  const auto numbers = parse_numbers(option, text, 3, "three numbers X,Y,DEG [m, m, degrees]");
   return {numbers[0], numbers[1], Angle::degrees(numbers[2])};
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "docent/geometry/pose2.h"
 
@@ -12,8 +11,8 @@ class Validator;
 
 namespace docent {
 
-/// "1.5,-2" and the like, exactly `count` numbers; CommandFailed naming the option otherwise.
-[[nodiscard]] std::vector<double> parse_numbers(const std::string& option, const std::string& text, std::size_t count);
+/// What an option's text says; otherwise CommandFailed, which names the option and what was expected (`form`).
+[[nodiscard]] double parse_number(const std::string& option, const std::string& text, const std::string& form);
 [[nodiscard]] Point2 parse_point(const std::string& option, const std::string& text);  ///< X,Y [m]
 [[nodiscard]] Pose2 parse_pose(const std::string& option, const std::string& text);    ///< X,Y,DEG
 

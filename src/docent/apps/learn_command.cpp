@@ -56,7 +56,7 @@ MarkovLocalizerParams start_params(const Options& options, const OccupancyGrid& 
 }
 
 std::vector<double> wall_depths(const Options& options) {
-  if (options.wall_depth != "auto") return parse_numbers("--wall-depth", options.wall_depth, 1);
+  if (options.wall_depth != "auto") return {parse_number("--wall-depth", options.wall_depth, "auto or a number [m]")};
   if (options.map.empty()) return {0.0};
   return {0.0, 0.2, 0.4};
 }

@@ -239,7 +239,7 @@ void localize(const Options& options) {
   if (options.wall_depth == "auto") {
     params.grid.states.wall_depth = find_wall_depth(options, referenced, map, params);
   } else {
-    params.grid.states.wall_depth = parse_numbers("--wall-depth", options.wall_depth, 1).front();
+    params.grid.states.wall_depth = parse_number("--wall-depth", options.wall_depth, "auto or a number [m]");
     value_or_fail(params.validate(), 2);
   }
   const auto localizer = make_localizer(options, map, params);

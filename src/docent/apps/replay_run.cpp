@@ -128,10 +128,19 @@ Result<RecordedLines> lines_of(McapReader& reader) {
   return lines;
 }
 
+std::string replayable() {
+  std::string names;
+  for (const ModuleEntry& entry : all_modules()) {
+    const std::string name = entry.name;
+    if (name != "record" && name != "web") names += (names.empty() ? "" : ", ") + name;
+  }
+  return names;
+}
+
 Result<std::vector<const ModuleEntry*>> chosen_modules(const std::vector<std::string>& names) {
   std::vector<const ModuleEntry*> chosen;
   for (const std::string& name : names) {
-    if (find_module(name) == nullptr) return fail("--modules: no module '" + name + "'");
+    if (find_module(name) == nullptr) return fail("--modules: no module '" + name + "'; there are " + replayable());
     if (name == "record" || name == "web") return fail("--modules: " + name + " cannot be replayed");
   }
   for (const ModuleEntry& entry : all_modules()) {

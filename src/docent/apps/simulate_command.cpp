@@ -107,7 +107,8 @@ void add_simulate_command(CLI::App& app) {
   command->add_option("--crowd", options->run.crowd, "persons: empty, quiet, busy, packed")
       ->check(CLI::IsMember({"empty", "quiet", "busy", "packed"}))
       ->capture_default_str();
-  command->add_option("--people", options->run.people, "so many persons instead of the crowd's density");
+  command->add_option("--people", options->run.people, "so many persons instead of the crowd's density")
+      ->check(CLI::Range(0, 10000));
   command->add_option("--requests-per-hour", options->run.requests_per_hour, "wishes of simulated visitors");
   command->add_option("--scenario", options->run.scenario, "YAML file of timed events");
   command->add_option("--start", options->start, "X,Y,DEG in the map; without: anywhere, and the robot is not told");

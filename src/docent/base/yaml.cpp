@@ -35,6 +35,7 @@ Result<YamlFile> YamlFile::load(const std::filesystem::path& path) {
 }
 
 Result<YamlFile> YamlFile::parse(const std::string& text, std::string name) {
+  if (text.find('\0') != std::string::npos) return fail(name + ": is no text file, and so no YAML file");
   // Deep nesting overflows the parser's stack: refuse what no file of ours needs.
   int depth = 0;
   for (const char c : text) {

@@ -118,7 +118,9 @@ class Collector {
     }
   }
   [[nodiscard]] Result<LaserLog> finish() {
-    if (log_.scans.empty()) return fail(name_ + ": holds no FLASER, RLASER or ROBOTLASER1 line");
+    if (log_.scans.empty())
+      return fail(name_ +
+                  ": holds no FLASER, RLASER or ROBOTLASER1 line, and is no MCAP recording or rosbag2 database");
     settle_times();
     settle_bearings();
     settle_no_return();

@@ -165,7 +165,9 @@ Result<void> RobotConfig::check_sections(const std::vector<std::string>& names) 
       const auto name = entry.first.as<std::string>();
       if (name == "body" || name == "evaluation" || std::find(names.begin(), names.end(), name) != names.end())
         continue;
-      return tl::unexpected<Error>(file.fault(entry.first, "unknown section '" + name + "'"));
+      std::string known = "body";
+      for (const std::string& one : names) known += ", " + one;
+      return tl::unexpected<Error>(file.fault(entry.first, "unknown section '" + name + "' (known: " + known + ")"));
     }
     return {};
   };
