@@ -27,7 +27,7 @@ struct MuseumPlan {
   World world;              ///< its exhibits are the stops, its tours the rounds
   std::vector<Stop> stops;  ///< at least two
   std::vector<Round> rounds;
-  Pose2 home;               ///< world_from_base
+  Pose2 home;  ///< world_from_base
   std::optional<Pose2> charger;
 };
 
