@@ -101,4 +101,15 @@ void add_picture_format(CLI::App& command, std::string& format) {
       ->capture_default_str();
 }
 
+void add_seed(CLI::App& command, const std::string& name, std::uint64_t& seed, const std::string& meaning) {
+  // Left alone, -3 becomes the seed 18446744073709551613.
+  const CLI::Validator is_seed{[](std::string& text) {
+                                 const bool is_whole =
+                                     !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+                                 return is_whole ? std::string{} : "'" + text + "' is no whole number from 0 on";
+                               },
+                               "SEED"};
+  command.add_option(name, seed, meaning)->check(is_seed)->capture_default_str();
+}
+
 }  // namespace docent

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "docent/geometry/pose2.h"
@@ -22,6 +23,8 @@ namespace docent {
 [[nodiscard]] CLI::Validator output_folder();
 /// A file whose extension is one that a figure can have.
 [[nodiscard]] CLI::Validator output_picture();
+/// A seed: a whole number from 0 on.
+void add_seed(CLI::App& command, const std::string& name, std::uint64_t& seed, const std::string& meaning);
 /// "as FILE.svg, .pdf or .png" for commands that write pictures under names of their own: the option --picture-format.
 void add_picture_format(CLI::App& command, std::string& format);
 

@@ -94,8 +94,7 @@ void add_crowd_command(CLI::App& app) {
   options->method = "cautious_window";
   CLI::App* command =
       app.add_subcommand("crowd", "Cross a crowded hall once in virtual time, scored after HuNavSim's definitions");
-  command->add_option("--seed", options->trial.seed, "of the hall, its crowd and the noise; same seed, same run")
-      ->capture_default_str();
+  add_seed(*command, "--seed", options->trial.seed, "of the hall, its crowd and the noise; same seed, same run");
   command->add_option("--density", options->trial.density, "persons a square metre of free floor")
       ->capture_default_str();
   command->add_option("--ignoring", options->trial.ignoring, "share of them who take no notice of the robot")

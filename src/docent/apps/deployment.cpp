@@ -9,6 +9,7 @@
 #include <system_error>
 #include <thread>
 
+#include "docent/apps/arguments.h"
 #include "docent/apps/cache_folder.h"
 #include "docent/modules/registry.h"
 #include "docent/transport/dds_bus.h"
@@ -25,7 +26,7 @@ void Deployment::add_options(CLI::App& command) {
   command.add_option("--set", settings, "section.key=value, over robot.yaml; may be repeated")->allow_extra_args(false);
   command.add_option("--name", name, "Prefix of the topics, where several robots share a domain");
   command.add_option("--domain", domain, "DDS domain")->check(CLI::Range(0, kMaxDdsDomain))->capture_default_str();
-  command.add_option("--seed", seed, "Seed of everything random")->capture_default_str();
+  add_seed(command, "--seed", seed, "Seed of everything random");
 }
 
 std::vector<std::string> Deployment::arguments() const {

@@ -165,7 +165,7 @@ void add_learn_command(CLI::App& app) {
       ->check(CLI::Range(1, 50))
       ->capture_default_str();
   command->add_option("--set", options->settings, "key=value of the localizer that begins, e.g. beams=90");
-  command->add_option("--seed", options->seed, "seed of the localizer's choice of beams")->capture_default_str();
+  add_seed(*command, "--seed", options->seed, "seed of the localizer's choice of beams");
   add_cache_options(*command, options->cache);
   command->callback([options] { learn(*options); });
 }

@@ -19,6 +19,7 @@ namespace {
 constexpr double kPanel = 190.0;
 constexpr double kCutWidth = 500.0;
 constexpr double kCutHeight = 100.0;
+constexpr double kHeadroom = 1.05;  // of the axes above the highest bar
 constexpr double kLine = 1.0;
 constexpr double kDot = 1.0;
 
@@ -90,8 +91,9 @@ Axes cut_axes(const ReadingCounts& readings, double range, const ProximityModel&
     if (all > 0.0) most = std::max(most, counted[static_cast<std::size_t>(measured)] / all / width(bins, measured));
     most = std::max(most, model_density(learned, measured));
   }
-  Axes axes{{0.0, 0.0},     {bins.max_range(), std::sqrt(most)}, kCutWidth, kCutHeight, "measured range [m]",
-            "density [1/m]"};
+  Axes axes{
+      {0.0, 0.0},     {bins.max_range(), kHeadroom * std::sqrt(most)}, kCutWidth, kCutHeight, "measured range [m]",
+      "density [1/m]"};
   std::vector<Tick> ticks;
   for (const Tick& tick : round_ticks(0.0, most, 5)) ticks.push_back({std::sqrt(tick.at), tick.label});
   axes.set_y_ticks(std::move(ticks));

@@ -303,7 +303,7 @@ void add_localize_command(CLI::App& app) {
                    "logged, or perturbed: the reference's own way with errors drawn from --odometry-seed")
       ->check(CLI::IsMember({"logged", "perturbed"}))
       ->capture_default_str();
-  command->add_option("--odometry-seed", options->noise_seed, "seed of perturbed odometry")->capture_default_str();
+  add_seed(*command, "--odometry-seed", options->noise_seed, "seed of perturbed odometry");
   command
       ->add_option(
           "--odometry-noise", options->noise.way_share,
@@ -324,7 +324,7 @@ void add_localize_command(CLI::App& app) {
                    "[m] how deep inside the map's walls their surface lies, or auto: what explains the log best")
       ->capture_default_str();
   command->add_option("--set", options->settings, "key=value of the localizer's parameters, e.g. beams=90");
-  command->add_option("--seed", options->seed, "seed of the random choice of beams")->capture_default_str();
+  add_seed(*command, "--seed", options->seed, "seed of the random choice of beams");
   add_cache_options(*command, options->cache);
   command->callback([options] {
     options->noise.turn_share = options->noise.way_share;

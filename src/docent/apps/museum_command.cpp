@@ -124,8 +124,7 @@ void add_museum_command(CLI::App& app) {
   command->add_option("--places", options->places,
                       "YAML file that says where to stop and what no sensor sees, instead of drawing that: exhibits, "
                       "hazards, home, charger (docs/museums.md)");
-  command->add_option("--seed", options->seed, "Seed of what a map does not show and of the survey's errors")
-      ->capture_default_str();
+  add_seed(*command, "--seed", options->seed, "Seed of what a map does not show and of the survey's errors");
   command->add_option("--title", options->title, "Name of the museum; without it the map's file name");
   command->add_option("--picture", options->picture, "Also draw the true world and the robot's map")
       ->check(output_picture());

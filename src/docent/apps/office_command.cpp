@@ -41,8 +41,7 @@ void add_office_command(CLI::App& app) {
   command->add_option("--out", options->out, "Folder for museum.yaml, simulation.yaml, the map and texts")
       ->check(output_folder())
       ->required();
-  command->add_option("--seed", options->seed, "Seed of the building and of the survey's errors")
-      ->capture_default_str();
+  add_seed(*command, "--seed", options->seed, "Seed of the building and of the survey's errors");
   command->add_flag("--pictures", options->pictures, "Also draw world.png and survey.png");
   add_picture_format(*command, options->picture_format);
   command->callback([options] { run(*options); });

@@ -94,7 +94,7 @@ void add_replay_command(CLI::App& app) {
   command->add_option("--set", options->deployment.settings, "section.key=value, over robot.yaml; may be repeated")
       ->allow_extra_args(false);
   command->add_option("--start", options->start, "X,Y,DEG: where localize is told that the robot stands at the start");
-  command->add_option("--seed", options->deployment.seed, "Seed of everything random")->capture_default_str();
+  add_seed(*command, "--seed", options->deployment.seed, "Seed of everything random");
   add_cache_options(*command, options->replay.cache);
   command->add_option("--out", options->replay.out, "MCAP file to write: what happened this time")
       ->check(output_file());

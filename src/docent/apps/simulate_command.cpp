@@ -103,7 +103,7 @@ void add_simulate_command(CLI::App& app) {
   command->add_option("--museum", options->run.museum, "museum folder")->capture_default_str();
   command->add_option("--robot", options->run.robot, "robot.yaml; without: all defaults");
   command->add_option("--hours", options->hours, "virtual hours")->capture_default_str();
-  command->add_option("--seed", options->run.seed, "same seed, same run")->capture_default_str();
+  add_seed(*command, "--seed", options->run.seed, "same seed, same run");
   command->add_option("--crowd", options->run.crowd, "persons: empty, quiet, busy, packed")
       ->check(CLI::IsMember({"empty", "quiet", "busy", "packed"}))
       ->capture_default_str();

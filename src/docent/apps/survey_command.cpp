@@ -55,7 +55,7 @@ void add_survey_command(CLI::App& app) {
   command->add_option("--out", options->out, "Folder for map.yaml, map.pgm and hazards.yaml")
       ->check(output_folder())
       ->required();
-  command->add_option("--seed", options->seed, "Seed of the errors")->capture_default_str();
+  add_seed(*command, "--seed", options->seed, "Seed of the errors");
   command->add_flag("--pictures", options->pictures, "Also draw world.png and survey.png");
   add_picture_format(*command, options->picture_format);
   command->callback([options] { run(*options); });

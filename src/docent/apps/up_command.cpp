@@ -203,6 +203,9 @@ void add_up_command(CLI::App& app) {
       ->check(output_file());
   options->simulator.add_options(*command->add_option_group("With --sim"));
   command->callback([options, command] {
+    for (const std::string option : {"--crowd", "--start", "--scenario", "--requests-per-hour"})
+      if (!options->simulate && command->count(option) > 0)
+        throw CommandFailed{option + " is of a simulated museum: it needs --sim", 2};
     // A real museum keeps its hours; a simulated one is open whenever somebody looks.
     if (!options->simulate && command->count("--mode") == 0) options->simulator.mode = "hours";
     up(*options);

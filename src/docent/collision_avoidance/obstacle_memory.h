@@ -81,7 +81,7 @@ class ObstacleMemory {
   /// The body stands here, odometry's frame: nothing that touched it is within `radius` [m]. Wheels that slip against a
   /// thing carry the odometry through it.
   void stand(Point2 in_odom, double radius);
-  /// Where something that no laser sees has touched the body within kTouchMemory [m], odometry's frame.
+  /// Where something that no laser sees touched the body in the last kTouchMemory [s]: places [m] in odometry's frame.
   [[nodiscard]] std::vector<Point2> touched_things(Time now) const;
 
   /// Everything that counts at `now`, moving things where they are by now.

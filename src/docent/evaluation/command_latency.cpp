@@ -12,11 +12,17 @@ namespace {
 
 constexpr Duration kPatience = std::chrono::seconds{2};
 
+bool is_scan(std::string_view topic) {
+  for (const char* const scanner : {"front", "rear", "left", "right"})
+    if (topic == topics::scan_topic(scanner).name) return true;
+  return false;
+}
+
 }  // namespace
 
 void CommandLatency::add(const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
   const std::string_view name = topic.name;
-  if (name == topics::kScanFront.name || name == topics::kScanRear.name) {
+  if (is_scan(name)) {
     sweeps_.push_back(from_message(static_cast<const sensor_msgs::LaserScan*>(message.get())->header.stamp));
     settle(time - kPatience);
   } else if (name == topics::kAvoidState.name) {

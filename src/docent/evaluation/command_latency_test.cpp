@@ -9,10 +9,10 @@ namespace {
 
 class Recorded {
  public:
-  void sweep(double stamp, double heard) {
+  void sweep(double stamp, double heard, const char* scanner = "front") {
     auto scan = std::make_shared<sensor_msgs::LaserScan>();
     scan->header.stamp = to_message(time_from_seconds(stamp));
-    latency.add(topic_info(topics::kScanFront), time_from_seconds(heard), scan);
+    latency.add(topic_info(topics::scan_topic(scanner)), time_from_seconds(heard), scan);
   }
   void choice(double stamp, double heard, double linear) {
     auto state = std::make_shared<docent_msgs::AvoidState>();
@@ -40,6 +40,17 @@ TEST(CommandLatency, IsFromTheStampToTheFirstCommandThatKnowsTheSweep) {
   EXPECT_EQ(recorded.latency.latencies().count(), 1U);
   EXPECT_NEAR(recorded.latency.latencies().at(0.5), 0.03, 0.0004);
   EXPECT_EQ(recorded.latency.unanswered(), 0U);
+}
+
+TEST(CommandLatency, KnowsEveryScannerOfTheBody) {
+  for (const char* const scanner : {"front", "rear", "left", "right"}) {
+    Recorded recorded;
+    recorded.sweep(10.0, 10.0, scanner);
+    recorded.choice(10.01, 10.01, 0.5);
+    recorded.told(10.02, 0.5);
+    recorded.sweep(13.0, 13.0, scanner);
+    EXPECT_EQ(recorded.latency.latencies().count(), 1U) << scanner;
+  }
 }
 
 TEST(CommandLatency, CountsSweepsThatNobodyAnswers) {

@@ -105,6 +105,11 @@ TEST(MessageFitness, OneNumberThatIsNoneSpoilsTheMessage) {
 
   docent_msgs::Limits limits;
   EXPECT_FALSE(fault_of(limits));
+  limits.volume = 1.5;
+  EXPECT_FALSE(fault_of(limits)) << "whoever says that the robot shall stand must be heard";
+  limits.volume = static_cast<double>(kNan);
+  EXPECT_TRUE(fault_of(limits));
+  limits.volume = 1.0;
   limits.max_speed = -0.1;
   EXPECT_TRUE(fault_of(limits));
 }

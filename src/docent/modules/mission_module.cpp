@@ -50,13 +50,18 @@ TravelDistance travel_in(const ModuleContext& context) {
   return travel_on_map(RoutePlanner{museum.map, hazards, museum.area, params});
 }
 
+/// Its charger holds it there.
+bool is_full(const sensor_msgs::BatteryState& battery) {
+  constexpr std::uint8_t kFull = 4;
+  return battery.power_supply_status == kFull;
+}
+
 /// What the battery says of itself; nullopt: nothing.
 std::optional<bool> is_charging(const sensor_msgs::BatteryState& battery) {
   constexpr std::uint8_t kUnknown = 0;
   constexpr std::uint8_t kCharging = 1;
-  constexpr std::uint8_t kFull = 4;  // and its charger holds it there
   if (battery.power_supply_status == kUnknown) return std::nullopt;
-  return battery.power_supply_status == kCharging || battery.power_supply_status == kFull;
+  return battery.power_supply_status == kCharging || is_full(battery);
 }
 
 std::string deployment_name(std::uint64_t seed, Time now) {
@@ -96,7 +101,9 @@ class MissionModule final : public Module {
     bus_.subscribe<docent_msgs::Limits>(topics::kLimits, [this](const auto& message) { mode_.limits(message); });
     bus_.subscribe<sensor_msgs::BatteryState>(topics::kBattery, [this](const auto& message) {
       if (message.present && std::isfinite(message.percentage)) {
-        mission_.battery(static_cast<double>(message.percentage), is_charging(message), bus_.now());
+        // Many a gauge never shows a whole charge: full is what the battery calls so.
+        const double charge = is_full(message) ? 1.0 : static_cast<double>(message.percentage);
+        mission_.battery(charge, is_charging(message), bus_.now());
       }
     });
     bus_.every(kPeriod, [this] {

@@ -1,5 +1,6 @@
 #include "docent/modules/sound_module.h"
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
@@ -113,7 +114,8 @@ class SoundModule final : public Module {
                                                });
     }
     if (!speaker_.present().id.empty()) publish();
-    bus_.subscribe<docent_msgs::Limits>(topics::kLimits, [this](const auto& limits) { volume_ = limits.volume; });
+    bus_.subscribe<docent_msgs::Limits>(topics::kLimits,
+                                        [this](const auto& limits) { volume_ = std::clamp(limits.volume, 0.0, 1.0); });
     bus_.subscribe<docent_msgs::Say>(topics::kSay, [this](const auto& say) { on_say(say); });
     bus_.subscribe<docent_msgs::Horn>(topics::kHorn, [this](const auto&) { honk(); });
     bus_.every(kPeriod, [this] {
@@ -179,8 +181,11 @@ class SoundModule final : public Module {
 
   /// The horn's sound lies ready in the volume of the hour before it is needed: whoever hears of the horn may fetch it.
   void prepare_horn() {
-    if (!makes_sound_ || volume_ <= 0.0 || volume_ == horn_volume_) return;
+    constexpr Duration kRetry = std::chrono::seconds{5};  // after a file that could not be written
+    if (!makes_sound_ || volume_ <= 0.0 || (volume_ == horn_volume_ && horn_fault_.empty())) return;
+    if (volume_ == horn_volume_ && bus_.now() - horn_tried_ < kRetry) return;
     horn_volume_ = volume_;
+    horn_tried_ = bus_.now();
     const HornSound horn = horn_sound(volume_);
     horn_file_ = horn.file;
     const auto written = write_horn_sound(horn, audio_);
@@ -232,6 +237,7 @@ class SoundModule final : public Module {
   Publisher<docent_msgs::SpeechState> state_;
   Loudspeaker loudspeaker_;
   double volume_ = 1.0;
+  Time horn_tried_;
   double horn_volume_ = 0.0;  ///< of `horn_file_`; 0: there is none yet
   std::string horn_file_;
   std::string speech_fault_;

@@ -163,7 +163,7 @@ class WebModule final : public Module {
                                              [this](const auto& m) { server_->broadcast(kSpeech, encode_speech(m)); });
     bus_.subscribe<docent_msgs::Limits>(topics::kLimits, [this](const auto& m) {
       if (m.volume != volume_) horn_.reset();
-      volume_ = m.volume;
+      volume_ = std::clamp(m.volume, 0.0, 1.0);
     });
     bus_.subscribe<docent_msgs::Horn>(topics::kHorn, [this](const auto&) { show_horn(); });
     bus_.subscribe<docent_msgs::RequestBoard>(topics::kRequestBoard, [this](const auto& m) { see_board(m); });

@@ -339,7 +339,9 @@ class MuseumYamlReader {
     if (!(mode.max_speed > 0.0 && mode.max_speed <= 3.0)) {
       throw fault(node, "mode '" + name + "': max_speed must be > 0 and at most 3 m/s");
     }
-    if (!(mode.wait_s >= 0.0)) throw fault(node, "mode '" + name + "': wait_s must be >= 0");
+    constexpr double kLongestWait = 600.0;  // [s] nothing else is done meanwhile
+    if (!(mode.wait_s >= 0.0 && mode.wait_s <= kLongestWait))
+      throw fault(node, "mode '" + name + "': wait_s must be 0..600 s");
     for (const auto& hours : mode.hours) {
       if (auto parsed = parse_hours(hours); !parsed) {
         throw fault(reader_child(node, "hours"), "mode '" + name + "': " + parsed.error().message);

@@ -189,7 +189,7 @@ std::string encode_horn(Time t, const std::string& file, double duration_s) {
 }
 
 std::string encode_board(const docent_msgs::RequestBoard& board) {
-  constexpr std::size_t kMaxOpen = 200;
+  constexpr std::size_t kMaxOpen = 500;  // as many as the board takes, mission.max_open
   constexpr std::size_t kMaxClosed = 30;
   Json open = Json::array();
   std::vector<const docent_msgs::RequestState*> closed;

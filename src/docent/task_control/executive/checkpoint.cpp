@@ -52,7 +52,7 @@ Result<ExecutiveMemory> load_checkpoint(const std::filesystem::path& path, const
     memory.task.title = json.at("title").get<std::string>();
     memory.task.short_text = json.at("short").get<std::string>();
     memory.task.long_text = json.at("long").get<std::string>();
-    memory.task.wait_s = json.at("wait_s").get<double>();
+    memory.task.wait_s = json.value("wait_s", 0.0);
     const Json& order = json.at("order");
     const Json& pose = order.at("pose");
     memory.task.order = {order.at("id").get<std::string>(),

@@ -209,8 +209,11 @@ void Executive::arrive(Time now) {
     enter(Step::explaining, now);
     return;
   }
+  // At a charger that gives no current it tries again and again without going anywhere: it greets once.
+  constexpr double kNoDrive = 5.0;  // [s]
+  const bool stood_there = order.kind == "charge" && now - memory_.drive_began < seconds(kNoDrive);
   const Sentence greeting = order.kind == "charge" ? Sentence::at_charger : Sentence::home_again;
-  say(order.kind, sentence(greeting, order.language), "happy");
+  if (!stood_there) say(order.kind, sentence(greeting, order.language), "happy");
   finish(true, "", now);
 }
 

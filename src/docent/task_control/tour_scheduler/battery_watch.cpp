@@ -12,7 +12,7 @@ void BatteryWatch::report(double charge, std::optional<bool> is_charging, Time n
   }
   charge_ = charge;
   is_charging_ = is_charging;
-  heard_ = now;
+  heard_ = extrapolated_from_ = now;
   const double change = charge - step_charge_;
   if (std::abs(change) < kStep) return;
   const double rate = change / to_seconds(now - step_began_);
@@ -27,8 +27,14 @@ void BatteryWatch::report(double charge, std::optional<bool> is_charging, Time n
 
 std::optional<double> BatteryWatch::charge(Time now) const {
   if (!is_silent(now)) return charge_;
-  const double rate = is_charging_.value_or(false) ? rise_ : -drain_;
-  return std::clamp(*charge_ + rate * to_seconds(now - heard_), 0.0, 1.0);
+  const double rate = is_charging_.value_or(false) ? 0.0 : -drain_;
+  return std::clamp(*charge_ + rate * to_seconds(now - extrapolated_from_), 0.0, 1.0);
+}
+
+void BatteryWatch::is_away_from_charger(Time now) {
+  if (!is_silent(now) || !is_charging_.value_or(false)) return;
+  is_charging_.reset();
+  extrapolated_from_ = now;
 }
 
 }  // namespace docent

@@ -8,7 +8,8 @@ namespace docent {
 
 /// What the battery says of itself, and at what rates its charge falls and rises. Charge: share of a full battery,
 /// 0..1. Both rates are measured over steps of kStep; the discharge is never taken for slower than expected, for a
-/// robot that stands still now will drive. While the battery is silent, its charge is extrapolated. Deterministic.
+/// robot that stands still now will drive. While the battery is silent, its charge is extrapolated: it falls, and where
+/// it charged before, it stays, for nobody knows whether it still does. Deterministic.
 class BatteryWatch {
  public:
   static constexpr double kStep = 0.02;
@@ -23,7 +24,12 @@ class BatteryWatch {
 
   /// nullopt: nothing was ever heard of it.
   [[nodiscard]] std::optional<double> charge(Time now) const;
-  [[nodiscard]] std::optional<bool> is_charging() const { return is_charging_; }
+  /// nullopt: it does not say, or it said that it charges and is silent now.
+  [[nodiscard]] std::optional<bool> is_charging(Time now) const {
+    return is_silent(now) && is_charging_.value_or(false) ? std::nullopt : is_charging_;
+  }
+  /// The robot is not at its charger: a silent battery that charged before no longer does.
+  void is_away_from_charger(Time now);
   [[nodiscard]] double drain_per_s() const { return drain_; }
   [[nodiscard]] double charge_per_s() const { return rise_; }
   /// Nothing was heard for longer than kSilent, though it spoke before.
@@ -39,6 +45,7 @@ class BatteryWatch {
   std::optional<double> charge_;
   std::optional<bool> is_charging_;
   Time heard_;
+  Time extrapolated_from_;
   double step_charge_ = 0.0;  ///< where the present step began
   Time step_began_;
 };

@@ -48,8 +48,22 @@ TEST_F(BatteryWatchTest, GoesOnWhileTheBatteryIsSilent) {
   EXPECT_EQ(thought(5.0), charge);
   EXPECT_NEAR(thought(1000.0), charge - 0.1, 1e-9);
   EXPECT_EQ(thought(1e6), 0.0);
+}
+
+TEST_F(BatteryWatchTest, ASilentBatteryIsNotThoughtToBecomeFull) {
   pass(10, 0.0, true);
-  EXPECT_NEAR(thought(100.0), charge + 0.02, 1e-9);
+  EXPECT_EQ(watch.is_charging(time_from_seconds(now_s)), true);
+  EXPECT_EQ(thought(5000.0), charge);
+  EXPECT_EQ(watch.is_charging(time_from_seconds(now_s + 5000.0)), std::nullopt);
+  // The robot drives away, and the battery is still silent.
+  watch.is_away_from_charger(time_from_seconds(now_s + 5000.0));
+  EXPECT_NEAR(thought(6000.0), charge - 0.1, 1e-9);
+}
+
+TEST_F(BatteryWatchTest, WhatABatterySaysAwayFromTheChargerCounts) {
+  pass(10, 0.0, true);
+  watch.is_away_from_charger(time_from_seconds(now_s));
+  EXPECT_EQ(watch.is_charging(time_from_seconds(now_s)), true);
 }
 
 }  // namespace

@@ -142,12 +142,15 @@ double Mission::budget_s(Time now) const {
   return is_at_its_best ? std::numeric_limits<double>::infinity() : spare(now) / battery_.drain_per_s();
 }
 
-bool Mission::has_contact() const {
+bool Mission::is_at_charger() const {
   const auto& charger = scheduler_.programme().charger;
-  return battery_.is_charging().value_or(charger && distance(position(), charger->position()) <= params_.at_charger_m);
+  return charger && distance(position(), charger->position()) <= params_.at_charger_m;
 }
 
+bool Mission::has_contact(Time now) const { return battery_.is_charging(now).value_or(is_at_charger()); }
+
 void Mission::watch_battery(Time now) {
+  if (!is_at_charger()) battery_.is_away_from_charger(now);
   const auto charge = battery_.charge(now);
   if (!charge) return;
   if (*charge >= params_.battery_full) {
@@ -219,7 +222,7 @@ void Mission::rest(Time now) {
 
 void Mission::charge(Time now) {
   is_resting_ = false;
-  if (activity_ == Activity::charge || has_contact() || now < home_not_before_) return;
+  if (activity_ == Activity::charge || has_contact(now) || now < home_not_before_) return;
   start_task(Activity::charge, {"", "charge", std::exchange(broken_exhibit_, ""), resting_place(),
                                 scheduler_.programme().languages.front(), false, std::exchange(broken_tour_, "")});
 }
@@ -290,10 +293,10 @@ MissionSummary Mission::summary(Time now) {
       summary.phase = was_ever_localized_ ? "relocalizing" : "waking";
       break;
     case Activity::none:
-      summary.phase = !was_ever_localized_         ? "waking"
-                      : charges() && has_contact() ? "charging"
-                      : is_resting_                ? "idle"
-                                                   : "waiting";
+      summary.phase = !was_ever_localized_            ? "waking"
+                      : charges() && has_contact(now) ? "charging"
+                      : is_resting_                   ? "idle"
+                                                      : "waiting";
       break;
   }
   return summary;

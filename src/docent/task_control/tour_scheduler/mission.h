@@ -131,7 +131,8 @@ class Mission {
   [[nodiscard]] const std::vector<std::string>& agenda(Time now);
   void rest(Time now);
   void charge(Time now);
-  [[nodiscard]] bool has_contact() const;
+  [[nodiscard]] bool is_at_charger() const;
+  [[nodiscard]] bool has_contact(Time now) const;
   [[nodiscard]] Point2 position() const;
 
   MissionParams params_;

@@ -76,7 +76,7 @@ Json plan_of(const MissionMemory& memory) {
 /// Throws nlohmann::json::exception when something is missing.
 void read_plan(const Json& plan, MissionMemory& memory, std::uint64_t& revision) {
   memory.next_task = plan.at("next_task").get<std::uint64_t>();
-  memory.must_charge = plan.at("must_charge").get<bool>();
+  memory.must_charge = plan.value("must_charge", false);
   revision = plan.at("revision").get<std::uint64_t>();
   const Json& counters = plan.at("counters");
   memory.schedule.counters = {counters.at(0).get<std::uint32_t>(), counters.at(1).get<std::uint32_t>(),
@@ -89,7 +89,7 @@ void read_plan(const Json& plan, MissionMemory& memory, std::uint64_t& revision)
   if (plan.contains("visit")) {
     const Json& visit = plan.at("visit");
     memory.schedule.visit = Visit{visit.at("exhibit").get<std::string>(),
-                                  visit.at("viewpoint").get<int>(),
+                                  visit.value("viewpoint", -1),
                                   pose_from(visit.at("pose")),
                                   visit.at("language").get<std::string>(),
                                   visit.at("tour").get<std::string>(),

@@ -103,6 +103,7 @@ void TourScheduler::drop_what_is_gone(Time now) {
     std::erase_if(state_.tour->stops,
                   [&](const TourStop& stop) { return programme_.find_exhibit(stop.exhibit_id) == nullptr; });
     std::erase_if(state_.tour->members, [&](const TourMember& member) { return !holds(members, member.request_id); });
+    cancel_tour_without_members();
     end_tour_if_over(now);
   }
   // What is called active but belongs to nothing under way waits again.
@@ -226,11 +227,14 @@ void TourScheduler::cancel(const VisitorRequest& request, Time now) {
   state_.board.change(request.id, RequestStatus::fulfilled, "", now);
   if (!state_.tour || !is_member(*state_.tour, request.target)) return;
   std::erase_if(state_.tour->members, [&](const TourMember& member) { return member.request_id == request.target; });
-  if (state_.tour->members.empty()) {
-    happenings_.push_back({"tour_cancelled", state_.tour->tour_id, joined(state_.tour->stops)});
-    state_.tour.reset();
-    if (state_.visit) state_.visit->tour_id.clear();
-  }
+  cancel_tour_without_members();
+}
+
+void TourScheduler::cancel_tour_without_members() {
+  if (!state_.tour->members.empty()) return;
+  happenings_.push_back({"tour_cancelled", state_.tour->tour_id, joined(state_.tour->stops)});
+  state_.tour.reset();
+  if (state_.visit) state_.visit->tour_id.clear();
 }
 
 void TourScheduler::close_request(const std::string& id, RequestStatus status, const std::string& reason, Time now) {

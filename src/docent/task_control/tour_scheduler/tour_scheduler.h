@@ -135,8 +135,10 @@ class TourScheduler {
   void close_request(const std::string& id, RequestStatus status, const std::string& reason, Time now);
   [[nodiscard]] std::vector<std::string> ids(const std::string& kind, RequestStatus status,
                                              const std::string& target) const;
+  /// @pre there is a tour
+  void cancel_tour_without_members();
   /// The stop at which the exhibit is shown to the most patient of those who wish for it singly.
-  [[nodiscard]] WishedStop stop_at(const std::string& exhibit_id) const;
+  [[nodiscard]] WishedStop stop_at(const std::string& exhibit_id, Time now) const;
   [[nodiscard]] Point2 place_of(const WishedStop& stop) const;
   /// Stops wished for singly and due, in the order to visit them.
   [[nodiscard]] std::vector<WishedStop> single_order(Point2 robot, Time now) const;

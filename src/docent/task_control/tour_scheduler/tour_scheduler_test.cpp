@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 
 #include "docent/base/random.h"
@@ -244,6 +245,19 @@ TEST_F(Scheduling, ViewpointsOfOneExhibitAreStopsOfTheirOwn) {
   EXPECT_EQ(scheduler.state().counters.exhibits_explained, 2U);
 }
 
+TEST_F(Scheduling, AViewpointThatCannotBeReachedSpoilsTheExhibitForNobodyElse) {
+  wish("blocked", "exhibit", "e2", 0, "en", 0);
+  EXPECT_EQ(next(1), "e2");
+  finish(false, 20);  // furniture stands at that viewpoint; the wish is tried again later
+  ASSERT_EQ(state_of("blocked"), "queued");
+  wish("any", "exhibit", "e2", 21);
+  EXPECT_EQ(next(22), "e2");
+  EXPECT_EQ(scheduler.state().visit->viewpoint, -1) << "the exhibit's own place is free";
+  EXPECT_EQ(state_of("blocked"), "queued");
+  finish(true, 60);
+  EXPECT_EQ(state_of("any"), "fulfilled");
+}
+
 // 120 wishes in 24 s for Bonn's 49 places: RHINO's queue held over 100 ([Rhino1999] 6).
 TEST_F(Scheduling, TheBoardIsLimitedInStopsNotInWishes) {
   Programme programme = programme_on_a_line();
@@ -272,6 +286,17 @@ TEST_F(Scheduling, BeginsNothingThatTakesLongerThanItMay) {
   EXPECT_EQ(state_of("tour"), "queued");
   EXPECT_TRUE(scheduler.is_anything_due({}));
   EXPECT_TRUE(scheduler.begin_visit({0, 0}, {}, tour_s + 1.0));
+}
+
+TEST_F(Scheduling, TriesWhatNoWayIsKnownToInsteadOfChargingForIt) {
+  const auto no_way_to_e5 = [](Point2 from, Point2 to) {
+    return from.x == 20.0 || to.x == 20.0 ? std::numeric_limits<double>::infinity() : distance(from, to);
+  };
+  for (const bool is_tour : {false, true}) {
+    TourScheduler walled{params, programme_on_a_line(), no_way_to_e5, {}, {}};
+    walled.submit({"w", {}, "web", "", is_tour ? "tour" : "exhibit", is_tour ? "t" : "e5", -1, "en"}, conditions, {});
+    EXPECT_TRUE(walled.begin_visit({0, 0}, {}, 600.0)) << is_tour;
+  }
 }
 
 TEST_F(Scheduling, ATourThatIsBrokenOffIsGivenAnewAndFailsInTheEnd) {
@@ -358,6 +383,18 @@ TEST_F(Scheduling, FailsWhatTheMuseumNoLongerHas) {
   EXPECT_EQ(later.state().board.find("b")->status, RequestStatus::failed);
   EXPECT_FALSE(later.state().visit);
   EXPECT_EQ(later.begin_visit({0, 0}, time_from_seconds(10))->exhibit_id, "e2");
+}
+
+TEST_F(Scheduling, ATourThatTheMuseumNoLongerHasIsNotACompletedOne) {
+  wish("a", "tour", "t", 0);
+  EXPECT_EQ(next(1), "e1");
+  finish(true, 30);
+  Programme smaller = programme_on_a_line();
+  smaller.tours.clear();
+  const TourScheduler later{params, smaller, straight_distance(), scheduler.state(), time_from_seconds(40)};
+  EXPECT_EQ(later.state().board.find("a")->status, RequestStatus::failed);
+  EXPECT_FALSE(later.state().tour);
+  EXPECT_EQ(later.state().counters.tours_completed, 0U);
 }
 
 TEST(Composition, FillsTheTimeWithWhatIsNear) {

@@ -1,5 +1,6 @@
 // The half of TourScheduler that chooses what comes next.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -29,6 +30,9 @@ std::vector<int> numbers_of(const TourRun& tour) {
   return numbers;
 }
 
+/// Foreseen to take longer than it may. Where no way is known, trying tells.
+bool exceeds(double duration_s, double budget_s) { return std::isfinite(duration_s) && duration_s > budget_s; }
+
 }  // namespace
 
 bool TourScheduler::is_overdue(const BoardEntry& entry, Time now) const {
@@ -51,11 +55,11 @@ std::optional<std::string> TourScheduler::waiting_tour_to(const std::string& exh
   return std::nullopt;
 }
 
-WishedStop TourScheduler::stop_at(const std::string& exhibit_id) const {
+WishedStop TourScheduler::stop_at(const std::string& exhibit_id, Time now) const {
   for (const BoardEntry& entry : state_.board.entries()) {
     const VisitorRequest& request = entry.request;
     if (entry.status == RequestStatus::queued && request.kind == "exhibit" && request.target == exhibit_id &&
-        request.viewpoint >= 0)
+        request.viewpoint >= 0 && entry.not_before <= now)
       return {exhibit_id, request.viewpoint};
   }
   return {exhibit_id};
@@ -74,7 +78,7 @@ std::vector<WishedStop> TourScheduler::single_order(Point2 robot, Time now) cons
     if (programme_.find_exhibit(request.target) == nullptr) continue;
     // Who does not mind the viewpoint takes part in the first stop that is made there.
     const WishedStop stop =
-        request.viewpoint < 0 ? stop_at(request.target) : WishedStop{request.target, request.viewpoint};
+        request.viewpoint < 0 ? stop_at(request.target, now) : WishedStop{request.target, request.viewpoint};
     if (holds(order, stop)) continue;
     if (is_overdue(entry, now)) {
       order.push_back(stop);
@@ -106,7 +110,7 @@ std::optional<WishedStop> TourScheduler::stop_to_insert(Point2 robot, Time now) 
     });
     if (is_a_stop) continue;  // the tour comes by anyway
     const WishedStop stop =
-        entry.request.viewpoint < 0 ? stop_at(exhibit->id) : WishedStop{exhibit->id, entry.request.viewpoint};
+        entry.request.viewpoint < 0 ? stop_at(exhibit->id, now) : WishedStop{exhibit->id, entry.request.viewpoint};
     const Point2 place = place_of(stop);
     if (is_overdue(entry, now) || travel_(robot, place) + travel_(place, goal) - direct <= params_.max_detour_m)
       return stop;
@@ -134,7 +138,7 @@ const std::optional<Visit>& TourScheduler::begin_visit(Point2 robot, Time now, d
       continue;
     }
     const double way_m = travel_(robot, place_of(next));
-    if (stop_duration(*programme_.find_exhibit(next.exhibit_id), way_m, params_) > budget_s) break;
+    if (exceeds(stop_duration(*programme_.find_exhibit(next.exhibit_id), way_m, params_), budget_s)) break;
     begin_visit_of(next, false, now);
   }
   return state_.visit;
@@ -153,7 +157,7 @@ void TourScheduler::begin_stop(Point2 robot, Time now) {
   state_.tour->just_inserted = false;
   const auto next = std::find_if(state_.tour->stops.begin(), state_.tour->stops.end(),
                                  [](const TourStop& stop) { return stop.status == StopStatus::pending; });
-  begin_visit_of(stop_at(next->exhibit_id), true, now);
+  begin_visit_of(stop_at(next->exhibit_id, now), true, now);
 }
 
 void TourScheduler::recompose(Point2 robot, Time now) {
@@ -237,7 +241,7 @@ bool TourScheduler::begin_tour(const std::string& tour_id, Point2 robot, Time no
     for (const std::string& id : members) close_request(id, RequestStatus::failed, "This tour no longer exists.", now);
     return true;
   }
-  if (duration_of(run, robot) > budget_s) return false;
+  if (exceeds(duration_of(run, robot), budget_s)) return false;
   for (const std::string& id : members) {
     run.members.push_back({id, numbers_of(run)});
     state_.board.change(id, RequestStatus::active, "The tour has begun.", now);
