@@ -28,7 +28,7 @@ struct Room {
     docent::MarkovLocalizerParams params;
     params.states.cell_size = 0.5;
     params.states.heading_step = 10.0;
-    localizer.emplace(*map, params, RangeTableCache{}, 1);
+    localizer.emplace(*map, params, docent::RangeTableCache{}, 1);
   }
   ~Room() { std::filesystem::remove_all(path); }
   std::filesystem::path path;
