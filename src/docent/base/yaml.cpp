@@ -1,5 +1,6 @@
 #include "docent/base/yaml.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "docent/base/files.h"
@@ -35,7 +36,10 @@ Result<YamlFile> YamlFile::load(const std::filesystem::path& path) {
 }
 
 Result<YamlFile> YamlFile::parse(const std::string& text, std::string name) {
-  if (text.find('\0') != std::string::npos) return fail(name + ": is no text file, and so no YAML file");
+  if (const std::size_t at = text.find('\0'); at != std::string::npos) {
+    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+    return fail(name + ":" + std::to_string(line) + ": is no text file, and so no YAML file");
+  }
   // Deep nesting overflows the parser's stack: refuse what no file of ours needs.
   int depth = 0;
   for (const char c : text) {

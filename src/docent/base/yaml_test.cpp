@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 namespace docent {
 namespace {
 
@@ -51,6 +53,13 @@ TEST(Yaml, FaultsNameFileAndLine) {
   EXPECT_EQ(fault_of("count: 1\ncount: 2\n"), "f.yaml:2: key 'count' stands twice");
   EXPECT_TRUE(fault_of("name: [\n").starts_with("f.yaml:2: not valid YAML"));
   EXPECT_EQ(fault_of("- 1\n"), "f.yaml:1: expected a mapping (key: value)");
+}
+
+TEST(Yaml, WhatIsNoTextIsRefusedWithItsLine) {
+  using std::string_literals::operator""s;
+  const auto file = YamlFile::parse("leaf: 1\n\0\x1a"s, "picture.png");
+  ASSERT_FALSE(file);
+  EXPECT_EQ(file.error().message, "picture.png:2: is no text file, and so no YAML file");
 }
 
 TEST(Yaml, FaultsStayOnOneLineWhateverTheFileSays) {
