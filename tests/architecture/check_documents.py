@@ -6,21 +6,14 @@ import sys
 from functools import cache
 from pathlib import Path
 
+sys.dont_write_bytecode = True  # the work tree stays as it was
+from findings import check, report  # noqa: E402
+
 ROOT = Path(__file__).resolve().parents[2]
 SOURCE = ROOT / "src" / "docent"
 PAPERS = ROOT / "docs" / "papers.md"
 KEY = r"[A-Z][A-Za-z]+(?:19|20)\d\d"
 CODE = {".h", ".cpp", ".inc"}
-
-checks = 0
-faults = []
-
-
-def check(condition, fault):
-    global checks
-    checks += 1
-    if not condition:
-        faults.append(fault)
 
 
 def git_files(*paths):
@@ -163,7 +156,4 @@ check_papers()
 check_readmes()
 check_agreements()
 check_links()
-for fault in faults:
-    print(fault)
-print(f"{checks - len(faults)} passed, {len(faults)} failed")
-sys.exit(1 if faults else 0)
+sys.exit(report())

@@ -9,6 +9,9 @@ import subprocess
 import sys
 from pathlib import Path
 
+sys.dont_write_bytecode = True  # the work tree stays as it was
+from findings import check, report  # noqa: E402
+
 ROOT = Path(__file__).resolve().parents[2]
 SOURCE = ROOT / "src" / "docent"
 
@@ -38,16 +41,6 @@ EDGE_MAY_SEE = {
 }
 TRUTH = re.compile(r"kTrueState|kTrueContact|kTrueOffer|kRunInfo|for_each_truth_topic|\"truth/")
 TRUTH_MAY = {"messages", "simulator", "evaluation", "recording", "apps", "transport"}
-
-checks = 0
-faults = []
-
-
-def check(condition, fault):
-    global checks
-    checks += 1
-    if not condition:
-        faults.append(fault)
 
 
 def top(folder):
@@ -112,10 +105,7 @@ def main():
     for line in grep.stdout.splitlines():
         if "check_includes.py" not in line:
             check(False, f"a path or host of a machine: {line[:160]}")
-    for fault in faults:
-        print(fault)
-    print(f"{checks - len(faults)} passed, {len(faults)} failed")
-    return 1 if faults else 0
+    return report()
 
 
 sys.exit(main())
