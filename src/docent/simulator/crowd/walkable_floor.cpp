@@ -237,15 +237,15 @@ std::optional<Point2> WalkableFloor::random_point(Rng& rng, double wanted) const
 std::optional<std::size_t> WalkableFloor::nearest_walkable(Point2 point, double limit) const {
   std::optional<std::size_t> best;
   double best_distance = limit;
-  for (std::size_t cell = 0; cell < coarse_clearance_.size(); ++cell) {
-    if (step_weight_[cell] <= 0.0F) continue;
+  for_coarse_cells_within(point, limit, [&](std::size_t cell) {
+    if (step_weight_[cell] <= 0.0F) return;
     const Point2 centre = coarse_centre(cell);
     const double away = distance(centre, point);
     if (away < best_distance && is_reachable(centre)) {
       best_distance = away;
       best = cell;
     }
-  }
+  });
   return best;
 }
 

@@ -1,6 +1,7 @@
 #include "docent/simulator/museum_folder/rounds.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace docent::simulator {
@@ -47,7 +48,11 @@ std::vector<std::vector<std::size_t>> rounds_of(Ways ways) {
   std::vector<std::size_t> order = nearest_first(ways);
   untangle(ways, order);
   const std::size_t stops = order.size() - 1;
-  const std::size_t count = (stops + kMostStopsOfARound - 1) / kMostStopsOfARound;
+  double length = 0.0;
+  for (std::size_t i = 0; i < order.size(); ++i) length += ways[order[i]][order[(i + 1) % order.size()]];
+  const auto by_length = static_cast<std::size_t>(std::ceil(length / kLongestRound));
+  const std::size_t by_stops = (stops + kMostStopsOfARound - 1) / kMostStopsOfARound;
+  const std::size_t count = std::max(by_stops, std::min(by_length, std::max<std::size_t>(stops / 2, 1)));
   std::vector<std::vector<std::size_t>> rounds(count);
   for (std::size_t i = 0; i < stops; ++i) rounds[i * count / stops].push_back(order[i + 1] - 1);
   return rounds;

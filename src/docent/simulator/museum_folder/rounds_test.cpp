@@ -66,6 +66,15 @@ TEST(Rounds, GoByTheWayAndNotThroughWalls) {
   EXPECT_EQ(rounds_of(ways), (std::vector<std::vector<std::size_t>>{{0, 2, 1}}));
 }
 
+TEST(Rounds, AreMoreOfThemWhereTheFloorIsLong) {
+  std::vector<Point2> points{{0.0, 0.0}};
+  for (const double x : {-50.0, -45.0, 45.0, 50.0}) points.push_back({x, 0.0});
+  EXPECT_EQ(rounds_of(straight(points)).size(), 2U) << "200 m";
+  for (Point2& point : points) point = 0.5 * point;
+  EXPECT_EQ(rounds_of(straight(points)).size(), 1U) << "100 m";
+  EXPECT_EQ(rounds_of(straight({{0.0, 0.0}, {500.0, 0.0}})).size(), 1U) << "one stop is one round, however far";
+}
+
 TEST(Rounds, OfNothingAreNone) {
   EXPECT_TRUE(rounds_of({}).empty());
   EXPECT_TRUE(rounds_of(straight({{0.0, 0.0}})).empty());

@@ -28,6 +28,8 @@ constexpr double kSurveyErrs = 0.04;     // [m] by which a survey draws things e
 constexpr double kCell = 0.1;            // [m] of the search for places
 constexpr double kOpen = 1.1;            // [m] clearance of open floor
 constexpr double kToOpen = 1.0;          // [m] from a place where a group can gather to open floor
+constexpr double kFarthestStop = 40.0;   // [m] to walk from home: a robot among people takes a minute and a half
+constexpr double kNearness = 0.05;       // [1/m] what a home loses with the way to the farther end of the building
 
 /// A convex outline round the polygon that keeps `by` [m] from it: its bounding box, grown.
 Polygon grown_box(const Polygon& polygon, double by) {
@@ -77,6 +79,18 @@ std::vector<Polygon> walls_round(const Polygon& outline) {
   }
   return walls;
 }
+
+/// How far it is to walk from a point to the goal [m]; straight on where nobody can walk.
+class WayTo {
+ public:
+  WayTo(const WalkableFloor& floor, Point2 goal) : floor_{&floor}, goal_{goal}, field_{floor.field_to(goal, 0.3)} {}
+  double operator()(Point2 point) { return floor_->way(field_, point).value_or(distance(goal_, point)); }
+
+ private:
+  const WalkableFloor* floor_;
+  Point2 goal_;
+  FlowField field_;
+};
 
 /// Chooses what stands where.
 class Curator {
@@ -274,19 +288,22 @@ class Curator {
     World& world = plan_.world;
     const std::vector<Place> places = reachable_places();
     if (places.empty()) return false;
-    // The ends of the building: as far apart as can be.
+    // People enter at the ends of the building, which are as far apart as can be; the robot waits midway between them.
+    const WalkableFloor floor{world};
     const auto far_from = [&](Point2 point) {
-      return best_place(
-          places, [&](const Place& p) { return p.clearance >= 0.8 && p.has_room ? distance(p.point, point) : 0.0; });
+      return best_place(places, [way = WayTo{floor, point}](const Place& p) mutable {
+        return p.clearance >= 0.8 && p.has_room ? way(p.point) : 0.0;
+      });
     };
     const auto first = far_from(places.front().point);
     const auto second = first ? far_from(*first) : std::nullopt;
     if (!second) return false;
     world.entrances = {*second, *first};
-    const auto home = best_place(places, [&](const Place& p) {
-      const double away = distance(p.point, *second);
-      return p.has_room && away > 2.0 ? std::min(p.clearance, 1.4) / (1.0 + 0.05 * away) : 0.0;
-    });
+    const auto home =
+        best_place(places, [one = WayTo{floor, *first}, other = WayTo{floor, *second}](const Place& p) mutable {
+          const double farther = std::max(one(p.point), other(p.point));
+          return p.has_room ? std::min(p.clearance, 1.4) / (1.0 + kNearness * farther) : 0.0;
+        });
     if (!home && !(places_ && places_->home)) return false;
     plan_.home = places_ && places_->home ? *places_->home : Pose2{home->x, home->y, direction(*home, *first)};
     world.home = plan_.home.position();
@@ -300,7 +317,7 @@ class Curator {
       plan_.languages = places_->languages;
       for (const Stop& stop : places_->stops) show(stop);
     } else {
-      choose_stops(places);
+      choose_stops(places, floor);
     }
     return plan_.stops.size() >= 2;
   }
@@ -324,8 +341,12 @@ class Curator {
     return best;
   }
 
-  /// One after the other, each as far as can be from home and from those before.
-  void choose_stops(const std::vector<Place>& places) {
+  /// One after the other, each as far as can be from home and from those before, but none so far that those who ask for
+  /// it wait for long.
+  void choose_stops(std::vector<Place> places, const WalkableFloor& floor) {
+    std::erase_if(places, [home = WayTo{floor, plan_.home.position()}](const Place& p) mutable {
+      return home(p.point) > kFarthestStop;
+    });
     const double square_metres = static_cast<double>(places.size()) * kCell * kCell;
     const auto wanted = static_cast<std::size_t>(std::clamp(square_metres / 40.0, 3.0, 16.0));
     std::vector<Point2> chosen{plan_.home.position()};
@@ -359,16 +380,15 @@ class Curator {
   int count_ = 0;
 };
 
-/// How far it is to walk from home and each stop to the others; straight on where nobody can walk.
+/// How far it is to walk from home and each stop to the others [m].
 std::vector<std::vector<double>> ways_between(const MuseumPlan& plan) {
   const WalkableFloor floor{plan.world};
   std::vector<Point2> places{plan.home.position()};
   for (const Stop& stop : plan.stops) places.push_back(stop.pose.position());
   std::vector<std::vector<double>> ways(places.size(), std::vector<double>(places.size(), 0.0));
   for (std::size_t from = 0; from < places.size(); ++from) {
-    FlowField field = floor.field_to(places[from], 0.3);
-    for (std::size_t to = 0; to < from; ++to)
-      ways[from][to] = ways[to][from] = floor.way(field, places[to]).value_or(distance(places[from], places[to]));
+    WayTo way{floor, places[from]};
+    for (std::size_t to = 0; to < from; ++to) ways[from][to] = ways[to][from] = way(places[to]);
   }
   return ways;
 }

@@ -13,6 +13,28 @@
 namespace docent::simulator {
 namespace {
 
+/// Two halls of 12 x 12 m at the ends of a corridor 120 m long.
+OccupancyGrid long_map() {
+  OccupancyGrid map;
+  map.frame.resolution = 0.05;
+  map.frame.columns = 2920;
+  map.frame.rows = 280;
+  map.cells.assign(map.frame.size(), OccupancyGrid::kUnknown);
+  for (int row = 0; row < map.frame.rows; ++row) {
+    for (int column = 0; column < map.frame.columns; ++column) {
+      const Point2 p = map.frame.centre({column, row});
+      const auto is_in = [&](double rim) {
+        const bool in_hall = p.y > 1.0 - rim && p.y < 13.0 + rim &&
+                             ((p.x > 1.0 - rim && p.x < 13.0 + rim) || (p.x > 133.0 - rim && p.x < 145.0 + rim));
+        return in_hall || (p.x > 1.0 - rim && p.x < 145.0 + rim && p.y > 5.0 - rim && p.y < 9.0 + rim);
+      };
+      if (is_in(0.1))
+        map.cells[map.frame.index({column, row})] = is_in(0.0) ? OccupancyGrid::kFree : OccupancyGrid::kOccupied;
+    }
+  }
+  return map;
+}
+
 /// A hall of 24 x 16 m with two large cases, some small ones and a side room behind a door.
 OccupancyGrid hall_map() {
   OccupancyGrid map;
@@ -74,6 +96,18 @@ TEST(TracedMuseum, ItsToursAreShortAndVisitEveryStop) {
     EXPECT_GE(plan.rounds.size(), 2U) << seed << ": " << plan.stops.size() << " stops are more than one tour";
     EXPECT_EQ(ids, plan.world.tours) << seed;
     EXPECT_EQ(visited, std::set<std::string>(plan.world.exhibits.begin(), plan.world.exhibits.end())) << seed;
+  }
+}
+
+TEST(TracedMuseum, ALongBuildingHasItsHomeMidwayAndItsStopsNotFarFromIt) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const auto museum = trace_museum(long_map(), {}, "long", seed);
+    ASSERT_TRUE(museum) << museum.error().message;
+    const MuseumPlan& plan = museum->plan;
+    EXPECT_NEAR(plan.home.x, 73.0, 12.0) << seed;
+    EXPECT_GE(plan.stops.size(), 3U) << seed;
+    EXPECT_GT(distance(plan.world.entrances.at(0), plan.world.entrances.at(1)), 120.0) << seed;
+    for (const Stop& stop : plan.stops) EXPECT_LE(distance(stop.pose.position(), plan.home.position()), 41.0) << seed;
   }
 }
 
