@@ -25,7 +25,7 @@ struct Room {
     docent::write_room_map(path);
     auto map = docent::load_map(path / "room.yaml");
     if (!map) std::abort();
-    docent::MarkovLocalizerParams params;
+    docent::LocalizerParams params;
     params.states.cell_size = 0.5;
     params.states.heading_step = 10.0;
     localizer.emplace(*map, params, docent::RangeTableCache{}, 1);

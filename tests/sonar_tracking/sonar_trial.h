@@ -3,7 +3,7 @@
 #include <optional>
 #include <ostream>
 
-#include "docent/localization/sonar_tracker/sonar_tracker.h"
+#include "docent/localization/sonar/tracker/sonar_tracker.h"
 #include "office_drive.h"
 
 namespace docent {

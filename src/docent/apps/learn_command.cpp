@@ -43,7 +43,7 @@ OccupancyGrid load(const Options& options) {
   return value_or_fail(load_museum(options.museum)).map;
 }
 
-MarkovLocalizerParams start_params(const Options& options, const OccupancyGrid& map, double max_range) {
+LocalizerParams start_params(const Options& options, const OccupancyGrid& map, double max_range) {
   RobotConfig config;
   if (options.map.empty()) {  // a robot of ours, in a map that was surveyed
     const double reach = reach_of_log(max_range);
@@ -52,7 +52,7 @@ MarkovLocalizerParams start_params(const Options& options, const OccupancyGrid& 
     value_or_fail(set_log_defaults(config, map, max_range));
   }
   for (const std::string& setting : options.settings) value_or_fail(config.set("localize." + setting), 2);
-  return value_or_fail(config.section<MarkovLocalizerParams>("localize"), 2);
+  return value_or_fail(config.section<LocalizerParams>("localize"), 2);
 }
 
 std::vector<double> wall_depths(const Options& options) {
@@ -104,7 +104,7 @@ void learn(const Options& options) {
   const std::vector<LaserLog> logs = read_logs(options);
   double max_range = 0.0;
   for (const LaserLog& log : logs) max_range = std::max(max_range, log.max_range);
-  const MarkovLocalizerParams start = start_params(options, map, max_range);
+  const LocalizerParams start = start_params(options, map, max_range);
   if (StateSpace{map, RayCaster{map}, start.states}.places() == 0)
     throw CommandFailed{options.map + options.museum + ": no free place in this map"};
   std::vector<LearningRecording> recordings;
@@ -123,7 +123,7 @@ void learn(const Options& options) {
     params.sonar->max_range = logs.front().sonar_max_range;
   }
   for (const double depth : params.wall_depths) {
-    MarkovLocalizerParams with = start;
+    LocalizerParams with = start;
     with.states.wall_depth = depth;
     value_or_fail(with.validate(), 2);
   }

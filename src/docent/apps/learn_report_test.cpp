@@ -30,13 +30,13 @@ LearningOutcome outcome(double wall_depth, bool with_motion) {
 }
 
 /// What a robot reads of it.
-Result<MarkovLocalizerParams> read_back(const LearningOutcome& outcome) {
+Result<LocalizerParams> read_back(const LearningOutcome& outcome) {
   const auto path = std::filesystem::temp_directory_path() / ("docent-learned-" + std::to_string(::getpid()) + ".yaml");
   EXPECT_TRUE(write_file_atomically(path, learned_yaml(outcome)));
   const auto config = RobotConfig::load(path);
   std::filesystem::remove(path);
   if (!config) return tl::unexpected<Error>(config.error());
-  return config->section<MarkovLocalizerParams>("localize");
+  return config->section<LocalizerParams>("localize");
 }
 
 TEST(LearnReport, RobotYamlIsReadAsItIs) {
@@ -69,7 +69,7 @@ TEST(LearnReport, SettingsAreThoseOfLocalize) {
   const std::string settings = learned_settings(outcome(0.0, true));
   const std::size_t begin = settings.find('\'') + 1;
   ASSERT_TRUE(config.set("localize." + settings.substr(begin, settings.find('\'', begin) - begin)));
-  const auto params = config.section<MarkovLocalizerParams>("localize");
+  const auto params = config.section<LocalizerParams>("localize");
   ASSERT_TRUE(params) << params.error().message;
   EXPECT_DOUBLE_EQ(params->sensor.weight_hit, 0.6);
 }

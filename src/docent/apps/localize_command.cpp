@@ -149,7 +149,7 @@ nlohmann::json to_json(const RunAgreement& agreement) {
 
 /// What both methods need, and the particles' own.
 struct MethodParams {
-  MarkovLocalizerParams grid;
+  LocalizerParams grid;
   MonteCarloParams particles;
   template <class V>
   void visit(V& v) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "docent/grid/occupancy_grid.h"
-#include "docent/localization/belief/localizer.h"
+#include "docent/localization/localizer/localizer.h"
 #include "docent/recording/laser_log.h"
 
 namespace docent {

@@ -10,7 +10,7 @@
 #include "docent/localization/belief/checkpoint.h"
 #include "docent/localization/markov/markov_localizer.h"
 #include "docent/localization/monte_carlo/monte_carlo_localizer.h"
-#include "docent/localization/sonar_evidence/sonar_evidence.h"
+#include "docent/localization/sonar/evidence/sonar_evidence.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/scanners.h"
 #include "docent/modules/sonar_localize.h"
@@ -47,7 +47,7 @@ struct SonarParams {
 struct LocalizeParams {
   /// grid; particles, which share all of the grid's parameters that concern them; sonar: a tracker without laser
   std::string method = "grid";
-  MarkovLocalizerParams markov;
+  LocalizerParams markov;
   MonteCarloParams particles;
   SonarParams sonar;
   PersonFilterParams people;  ///< the inverse filter

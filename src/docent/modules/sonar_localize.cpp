@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "docent/localization/belief/checkpoint.h"
-#include "docent/localization/sonar_tracker/gaussian_belief.h"
+#include "docent/localization/sonar/tracker/gaussian_belief.h"
 #include "docent/messages/conversions.h"
 #include "docent/motion_models/odometry_history.h"
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "docent/localization/sonar_tracker/sonar_tracker.h"
+#include "docent/localization/sonar/tracker/sonar_tracker.h"
 #include "docent/modules/module.h"
 
 namespace docent {

@@ -40,7 +40,7 @@ class ObservationModel {
   [[nodiscard]] virtual double mean_cost() const = 0;
 };
 
-/// What asking them costs a pose, in units of MarkovLocalizerParams::work_per_second: tens of nanoseconds.
+/// What asking them costs a pose, in units of LocalizerParams::work_per_second: tens of nanoseconds.
 inline constexpr double kWorkOfOthers = 40.0;
 
 /// All sensors beside the lasers. The localizers see this, and no sensor.

@@ -87,7 +87,7 @@ Halves drive(Localizer& localizer, const std::shared_ptr<CeilingCamera>& camera,
 }
 
 std::unique_ptr<Localizer> localizer_of(const std::string& method) {
-  MarkovLocalizerParams params;
+  LocalizerParams params;
   params.states.heading_step = 3.0;
   if (method == "grid") return std::make_unique<MarkovLocalizer>(symmetric_hall(), params, RangeTableCache{}, 1);
   return std::make_unique<MonteCarloLocalizer>(symmetric_hall(), params, MonteCarloParams{}, RangeTableCache{}, 1);

@@ -49,9 +49,8 @@ ProximityModelParams between(const ProximityModelParams& from, const ProximityMo
 
 class Bootstrap {
  public:
-  Bootstrap(const std::vector<LearningRecording>& recordings, const OccupancyGrid& map,
-            const MarkovLocalizerParams& start, const BootstrapParams& params,
-            const std::function<void(const std::string&)>& progress)
+  Bootstrap(const std::vector<LearningRecording>& recordings, const OccupancyGrid& map, const LocalizerParams& start,
+            const BootstrapParams& params, const std::function<void(const std::string&)>& progress)
       : recordings_{recordings}, map_{map}, params_{params}, progress_{progress}, localizer_params_{start} {
     for (const LearningRecording& recording : recordings_) pieces_.push_back(pieces_of(recording.lasers));
     // Cells blur at least as much as their middle is off.
@@ -236,7 +235,7 @@ class Bootstrap {
   const OccupancyGrid& map_;
   BootstrapParams params_;
   const std::function<void(const std::string&)>& progress_;
-  MarkovLocalizerParams localizer_params_;
+  LocalizerParams localizer_params_;
   std::vector<Pieces> pieces_;
   std::unique_ptr<MarkovLocalizer> localizer_;
   std::unique_ptr<RangeTable> sonar_table_;
@@ -275,7 +274,7 @@ HeldOut compare(const std::vector<ReadingCounts>& pieces, const ProximityModelPa
 }
 
 Result<LearnedModels> bootstrap(const std::vector<LearningRecording>& recordings, const OccupancyGrid& map,
-                                const MarkovLocalizerParams& start, const BootstrapParams& params,
+                                const LocalizerParams& start, const BootstrapParams& params,
                                 const std::function<void(const std::string&)>& progress) {
   return Bootstrap{recordings, map, start, params, progress}.learn();
 }

@@ -81,7 +81,7 @@ struct LearnedModels {
 ///
 /// Error: no sure place, or too few readings. @pre start is valid; every recording has lasers
 [[nodiscard]] Result<LearnedModels> bootstrap(const std::vector<LearningRecording>& recordings,
-                                              const OccupancyGrid& map, const MarkovLocalizerParams& start,
+                                              const OccupancyGrid& map, const LocalizerParams& start,
                                               const BootstrapParams& params,
                                               const std::function<void(const std::string&)>& progress);
 

@@ -95,8 +95,8 @@ std::vector<RecordedSweep> drive(std::uint64_t seed, const OccupancyGrid& map, i
   return sweeps;
 }
 
-MarkovLocalizerParams start_params() {
-  MarkovLocalizerParams params;
+LocalizerParams start_params() {
+  LocalizerParams params;
   params.sensor.max_range = 8.0;
   return params;
 }
@@ -151,7 +151,7 @@ TEST(Pieces, EveryFourthIsHeldOutAndNeighboursStayTogether) {
 
 TEST(Readings, CountOnlyWhereTheRobotIsSureAndMoved) {
   const OccupancyGrid map = hall();
-  const MarkovLocalizerParams params = start_params();
+  const LocalizerParams params = start_params();
   const RayCaster caster{map};
   const StateSpace space{map, caster, params.states};
   const RangeTable table = RangeTable::build(space, caster, ProximityModel{params.sensor});

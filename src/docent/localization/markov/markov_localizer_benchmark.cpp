@@ -150,7 +150,7 @@ bool print_bound(const char* what, double value, double bound) {
 
 void large_map(benchmark::State& state) {
   const char* const simd = std::getenv("DOCENT_SIMD");
-  MarkovLocalizerParams params;
+  LocalizerParams params;
   params.simd = simd != nullptr ? simd : "auto";
   params.work_per_second = 1e10;
   if (auto valid = params.validate(); !valid) return state.SkipWithError(valid.error().message.c_str());

@@ -7,8 +7,8 @@
 namespace docent {
 namespace {
 
-MarkovLocalizerParams coarse() {
-  MarkovLocalizerParams params;
+LocalizerParams coarse() {
+  LocalizerParams params;
   params.states.heading_step = 3.0;
   return params;
 }
@@ -85,7 +85,7 @@ TEST(MarkovLocalizer, NoticesThatItWasCarriedOffAndFindsItselfAgain) {
 TEST(MarkovLocalizer, EveryFilterTracksThroughPeople) {
   for (const char* filter : {"none", "entropy", "distance", "novelty"}) {
     Drive drive;
-    MarkovLocalizerParams params = coarse();
+    LocalizerParams params = coarse();
     params.filter = filter;
     MarkovLocalizer localizer{drive.map, params, {}, 1};
     const BeliefMode here{drive.truth, {0.01, 0, 0, 0, 0.01, 0, 0, 0, 0.01}, 1.0};
@@ -103,7 +103,7 @@ TEST(MarkovLocalizer, ASurroundedRobotFindsItselfByWhatItSeesBetweenPeople) {
   const RayCaster caster{map};
   const auto with_share = [&](double person_share) {
     return testing::look_round(caster, 6, [&](std::uint64_t seed) {
-      MarkovLocalizerParams params = coarse();
+      LocalizerParams params = coarse();
       params.person_share = person_share;
       return std::make_unique<MarkovLocalizer>(map, params, RangeTableCache{}, seed);
     });
@@ -136,7 +136,7 @@ TEST(MarkovLocalizer, ARobotThatTurnsRoundAndRoundSeesNothingNewButInTime) {
 }
 
 TEST(MarkovLocalizer, ASectorCountsMoreWhereShapesLeaveEnoughBeams) {
-  const MarkovLocalizerParams params;
+  const LocalizerParams params;
   const auto with_people = [](std::size_t people) {
     std::vector<std::uint8_t> marks(100, 0);
     std::fill_n(marks.begin(), people, std::uint8_t{1});
@@ -145,13 +145,13 @@ TEST(MarkovLocalizer, ASectorCountsMoreWhereShapesLeaveEnoughBeams) {
   EXPECT_EQ(params.sector_nats({}), params.most_sector_nats) << "it has a place to keep";
   EXPECT_EQ(params.sector_nats(with_people(40)), params.most_sector_nats_lost);
   EXPECT_EQ(params.sector_nats(with_people(85)), params.most_sector_nats);
-  MarkovLocalizerParams recorded;  // walls are not where the map says
+  LocalizerParams recorded;  // walls are not where the map says
   recorded.rivals = false;
   EXPECT_EQ(recorded.sector_nats(with_people(40)), recorded.most_sector_nats);
 }
 
 TEST(MarkovLocalizer, AnUnknownFilterIsAFault) {
-  MarkovLocalizerParams params;
+  LocalizerParams params;
   params.filter = "magic";
   EXPECT_FALSE(params.validate());
 }

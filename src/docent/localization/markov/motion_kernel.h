@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "docent/geometry/pose2.h"
+#include "docent/localization/expected_ranges/state_space.h"
 #include "docent/localization/markov/row_kernel.h"
-#include "docent/localization/markov/state_space.h"
 #include "docent/motion_models/odometry_model.h"
 
 namespace docent {

@@ -10,11 +10,11 @@
 #include "docent/base/aligned_vector.h"
 #include "docent/localization/belief/belief_summary.h"
 #include "docent/localization/belief/neighbourhood.h"
+#include "docent/localization/expected_ranges/range_table.h"
+#include "docent/localization/expected_ranges/state_space.h"
 #include "docent/localization/markov/motion_kernel.h"
-#include "docent/localization/markov/range_table.h"
 #include "docent/localization/markov/row_kernel.h"
 #include "docent/localization/markov/score_kernel.h"
-#include "docent/localization/markov/state_space.h"
 
 namespace docent {
 

@@ -131,4 +131,22 @@ BeliefSummary summarise(const PositionBelief& belief, const CoarseCells& coarse,
   return summary;
 }
 
+std::vector<LikelyState> likely_states(const PositionBelief& belief, double fraction, std::size_t limit) {
+  std::vector<LikelyState> states;
+  const auto least = static_cast<float>(fraction * static_cast<double>(belief.peak()));
+  double total = 0.0;
+  for (std::size_t i = 0; i < belief.kept_places().size(); ++i) {
+    if (belief.row_peak(i) < least) continue;
+    const auto row = belief.row(i);
+    for (std::size_t h = 0; h < row.size(); ++h) {
+      if (row[h] < least) continue;
+      if (states.size() == limit) return {};
+      states.push_back({belief.kept_places()[i], static_cast<std::int32_t>(h), row[h]});
+      total += static_cast<double>(row[h]);
+    }
+  }
+  for (LikelyState& state : states) state.mass = static_cast<float>(static_cast<double>(state.mass) / total);
+  return states;
+}
+
 }  // namespace docent

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "docent/localization/belief/belief_summary.h"
+#include "docent/localization/expected_ranges/expected_ranges.h"
 #include "docent/localization/markov/position_belief.h"
 
 namespace docent {
@@ -23,5 +24,9 @@ struct CoarseCells {
 /// @pre `coarse` is of the belief's space and `params.rest_cell_size`
 [[nodiscard]] BeliefSummary summarise(const PositionBelief& belief, const CoarseCells& coarse,
                                       const Pose2& frame_from_robot, const SummaryParams& params);
+
+/// States with at least `fraction` of the peak's probability.
+/// Empty when there are more than `limit`: the belief is not concentrated.
+[[nodiscard]] std::vector<LikelyState> likely_states(const PositionBelief& belief, double fraction, std::size_t limit);
 
 }  // namespace docent

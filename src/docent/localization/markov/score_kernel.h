@@ -8,7 +8,7 @@
 
 #include "docent/base/aligned_vector.h"
 #include "docent/base/instruction_set.h"
-#include "docent/localization/markov/range_table.h"
+#include "docent/localization/expected_ranges/range_table.h"
 #include "docent/sensor_models/proximity_model.h"
 
 namespace docent {

@@ -11,8 +11,8 @@
 #include "docent/base/random.h"
 #include "docent/base/time.h"
 #include "docent/geometry/polygon.h"
+#include "docent/localization/expected_ranges/range_table.h"
 #include "docent/localization/markov/position_belief.h"
-#include "docent/localization/markov/range_table.h"
 #include "docent/sensor_models/range_sweep.h"
 
 /// Worlds and readings for the tests of this folder.

@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "docent/localization/markov/range_table.h"
-#include "docent/localization/markov/state_space.h"
+#include "docent/localization/expected_ranges/range_table.h"
+#include "docent/localization/expected_ranges/state_space.h"
 #include "docent/localization/monte_carlo/likelihood_field.h"
-#include "docent/localization/monte_carlo/particle_set.h"
+#include "docent/localization/particles/particle_set.h"
 #include "docent/sensor_models/proximity_model.h"
 #include "docent/sensor_models/range_sweep.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "docent/localization/monte_carlo/likelihood_field.h"
-#include "docent/localization/monte_carlo/particle_set.h"
+#include "docent/localization/particles/particle_set.h"
 
 namespace docent {
 

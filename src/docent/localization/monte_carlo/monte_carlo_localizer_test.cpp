@@ -13,8 +13,8 @@ namespace {
 using testing::Drive;
 using testing::is_right;
 
-MarkovLocalizerParams shared_params() {
-  MarkovLocalizerParams params;
+LocalizerParams shared_params() {
+  LocalizerParams params;
   params.states.heading_step = 4.0;
   return params;
 }
@@ -152,7 +152,7 @@ TEST(MonteCarloParams, NamesWhatIsWrong) {
 }
 
 TEST(MonteCarloLocalizer, ASmallComputerGetsFewerParticlesAndWaits) {
-  MarkovLocalizerParams shared = shared_params();
+  LocalizerParams shared = shared_params();
   shared.work_per_second = 2e5;
   MonteCarloLocalizer at{testing::room_map(), shared, {}, {}, 1};
   Drive drive{at.caster(), 2, 0.0};
@@ -171,7 +171,7 @@ TEST(MonteCarloLocalizer, ASurroundedRobotFindsItselfByWhatItSeesBetweenPeople) 
   const OccupancyGrid map = testing::room_map();
   const RayCaster caster{map};
   const testing::LookingRound seen = testing::look_round(caster, 6, [&](std::uint64_t seed) {
-    MarkovLocalizerParams shared;
+    LocalizerParams shared;
     shared.states.heading_step = 3.0;
     return std::make_unique<MonteCarloLocalizer>(map, shared, MonteCarloParams{}, RangeTableCache{}, seed);
   });

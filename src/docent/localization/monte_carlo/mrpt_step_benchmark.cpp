@@ -12,9 +12,9 @@
 #include <numbers>
 
 #include "docent/localization/monte_carlo/benchmark_hall.h"
-#include "docent/localization/monte_carlo/particle_motion.h"
-#include "docent/localization/monte_carlo/particle_weights.h"
-#include "docent/localization/monte_carlo/resampling.h"
+#include "docent/localization/particles/particle_motion.h"
+#include "docent/localization/particles/particle_weights.h"
+#include "docent/localization/particles/resampling.h"
 
 /// One step of a particle filter, motion, weights and resampling, of 10,000 particles x 180 beams: MRPT's, as Debian
 /// ships it, and ours with every instruction set, on the same map and scan and from the same cloud. Both use a

@@ -2,10 +2,10 @@
 
 #include <vector>
 
+#include "docent/localization/beam_choice/beam_filter.h"
 #include "docent/localization/belief/belief_summary.h"
-#include "docent/localization/markov/beam_filter.h"
-#include "docent/localization/markov/state_space.h"
-#include "docent/localization/monte_carlo/particle_set.h"
+#include "docent/localization/expected_ranges/state_space.h"
+#include "docent/localization/particles/particle_set.h"
 
 namespace docent {
 

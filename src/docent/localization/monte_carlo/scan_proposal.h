@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "docent/base/random.h"
-#include "docent/localization/markov/range_table.h"
+#include "docent/localization/expected_ranges/range_table.h"
+#include "docent/localization/expected_ranges/state_space.h"
 #include "docent/localization/markov/score_kernel.h"
-#include "docent/localization/markov/state_space.h"
-#include "docent/localization/monte_carlo/particle_set.h"
+#include "docent/localization/particles/particle_set.h"
 
 namespace docent {
 

@@ -10,7 +10,7 @@
 #include "docent/base/random.h"
 #include "docent/base/time.h"
 #include "docent/localization/markov/testing.h"
-#include "docent/localization/monte_carlo/particle_set.h"
+#include "docent/localization/particles/particle_set.h"
 
 /// Particles and drives for the tests of this folder.
 namespace docent::testing {

@@ -1,0 +1,159 @@
+#include "docent/localization/judgement/verdict.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace docent {
+
+namespace {
+
+/// Weights of the logistic function behind P(lost), one set for a robot that has said "here" and one for a robot that
+/// has not; >= 0 but for the bias. Learned from recordings by `scripts/evaluate localization --part calibrate`.
+struct DoubtWeights {
+  double bias;
+  double mass;  ///< of ln(m / (1 - m)), m: the mass outside the best mode
+  double youth;
+  double contradiction;
+  double surprise;
+  double hidden;
+  double unmapped;  ///< of the walls that the map lacks, the less the more it explains besides
+  double spread;
+};
+constexpr DoubtWeights kWhenSure{-2.305, 0.775, 0.000, 7.979, 7.725, 8.585, 28.282, 0.266};
+constexpr DoubtWeights kWhenNot{-6.594, 0.200, 0.000, 0.000, 10.029, 14.982, 9.282, 22.097};
+
+}  // namespace
+
+Evidence with_best_mode(Evidence evidence, const BeliefSummary& summary, const std::optional<Pose2>& predicted) {
+  if (summary.modes.empty()) return evidence;
+  const BeliefMode& best = summary.modes.front();
+  evidence.mass = best.mass;
+  evidence.rival = summary.modes.size() > 1 ? summary.modes[1].mass : 0.0;
+  evidence.spread = std::sqrt(std::max(0.0, best.covariance[0] + best.covariance[4]));
+  if (predicted) {
+    const double off = distance(predicted->position(), best.map_from_robot.position());
+    const double turned = std::abs((predicted->theta - best.map_from_robot.theta).degrees());
+    // Odometry errs in proportion: after a long way the mode may come out farther from where it was foreseen.
+    const double turn = evidence.turn * 180.0 / std::numbers::pi;
+    evidence.is_same_mode = off < std::max(0.5, 0.3 * evidence.way) && turned < std::max(15.0, 0.3 * turn);
+  }
+  return evidence;
+}
+
+Result<void> VerdictParams::validate() const {
+  if (!(enough_mass > 0.5 && enough_mass < 1.0)) return fail("verdict.enough_mass must be 0.5..1");
+  if (!(too_little_mass >= 0.0 && too_little_mass < enough_mass))
+    return fail("verdict.too_little_mass must be below enough_mass");
+  if (!(most_doubt > 0.0 && most_doubt <= 1.0)) return fail("verdict.most_doubt must be 0..1");
+  if (!(widest_spread > 0.0)) return fail("verdict.widest_spread must be > 0");
+  if (!(confirmations >= 0.0 && travelled >= 0.0 && turned >= 0.0))
+    return fail("verdict.confirmations, travelled and turned must be >= 0");
+  if (!(blind_way > 0.0)) return fail("verdict.blind_way must be > 0");
+  if (!(least_agreement >= 0.0 && least_agreement < 1.0)) return fail("verdict.least_agreement must be 0..1");
+  if (!(most_contradiction > 0.0 && most_contradiction <= 1.0)) return fail("verdict.most_contradiction must be 0..1");
+  if (!(startled_through > 0.0 && startled_hidden > 0.0))
+    return fail("verdict.startled_through and startled_hidden must be > 0");
+  return {};
+}
+
+void Verdict::reset() { *this = Verdict{params_}; }
+
+void Verdict::assume_localized() {
+  reset();
+  confirmed_ = params_.confirmations;
+  way_ = params_.travelled;
+  keeps_its_place_ = true;
+}
+
+void Verdict::add(const Evidence& evidence) {
+  const Agreement& readings = evidence.readings;
+  constexpr double kMemory = 0.25;        // an update's share in the running means
+  constexpr double kFewReadings = 8.0;    // fewer tell nothing
+  constexpr double kMostOfOneScan = 1.0;  // [m]: three scans, however far apart, are no reason to give up a place
+  const double share = kMemory * evidence.weight;
+  const double all = readings.agrees + readings.shorter + readings.longer;
+  const double through = readings.agrees + readings.longer;
+  if (all >= kFewReadings) agreement_ += share * (readings.agrees / all - agreement_);
+  if (through >= kFewReadings) {
+    contradiction_ += share * (readings.longer / through - contradiction_);
+  }
+
+  const bool is_good = evidence.mass >= params_.enough_mass && evidence.spread <= params_.widest_spread;
+  if (!evidence.is_same_mode || (!is_good && !localized_)) {
+    confirmed_ = way_ = turn_ = 0.0;
+  } else {
+    confirmed_ += evidence.weight * evidence.views;
+    way_ += evidence.way;
+    turn_ += evidence.turn;
+  }
+  const bool borne_out = agreement_ >= params_.least_agreement && contradiction_ <= params_.most_contradiction;
+  // Readings that are too short are people; those that pass through walls mean that the place is wrong.
+  const bool sees_nothing = agreement_ < 0.4 * params_.least_agreement;
+  blind_ = sees_nothing ? blind_ + evidence.way : 0.0;
+  const bool contradicted = this->contradicted();
+  if (!contradicted) bad_ = 0.0;
+  if (contradicted && (through >= kFewReadings || hopelessly_blind()))
+    bad_ += std::min(evidence.way + 0.5 * evidence.turn, kMostOfOneScan);
+
+  mass_ = evidence.mass;
+  rival_ = evidence.rival;
+  spread_ = evidence.spread;
+
+  if (localized_) {
+    if (!evidence.is_same_mode || evidence.mass < params_.too_little_mass || contradicted || blind_ > params_.blind_way)
+      localized_ = false;
+  } else {
+    localized_ = is_good && borne_out && moved() >= 1.0 && seen() >= 1.0 && p_lost(true) <= params_.most_doubt;
+  }
+  if (!localized_ && contradicted) confirmed_ = way_ = turn_ = 0.0;
+  keeps_its_place_ = localized_ || (keeps_its_place_ && evidence.is_same_mode && !contradicted);
+}
+
+void Verdict::look(const Glance& glance) {
+  constexpr double kMemory = 0.1;
+  glance_ = glance;
+  hidden_ = std::max(0.0, glance.shorter - shorter_);
+  shorter_ += kMemory * (glance.shorter - shorter_);
+  unmapped_ += kMemory * (glance.unmapped - unmapped_);
+
+  constexpr int kPatience = 8;          // glances: somebody who steps before the robot is a doubt for less
+  const bool was_judged = mass_ > 0.0;  // not yet where the place was given
+  doubtful_ = keeps_its_place_ && was_judged && p_lost(true) > params_.most_doubt ? doubtful_ + 1 : 0;
+  if (doubtful_ < kPatience) return;
+  localized_ = keeps_its_place_ = false;
+  doubtful_ = 0;
+  confirmed_ = way_ = turn_ = 0.0;
+}
+
+double Verdict::p_lost(bool has_said) const {
+  if (mass_ <= 0.0) return 1.0;
+  const double left = std::clamp(1.0 - mass_, 1e-4, 1.0 - 1e-4);
+  const DoubtWeights& w = has_said ? kWhenSure : kWhenNot;
+  const double strangeness = 1.0 - agreement_;
+  const double z = w.bias + w.mass * std::log(left / (1.0 - left)) + w.youth * (1.0 - confirmation()) +
+                   w.contradiction * contradiction_ + w.surprise * glance_.through + w.hidden * hidden_ +
+                   w.unmapped * unmapped_ * strangeness * strangeness + w.spread * std::min(spread_, 1.0);
+  const double right = 1.0 / (1.0 + std::exp(z));
+  return 1.0 - right * mass_ / (mass_ + rival_);
+}
+
+double Verdict::moved() const {
+  return std::min(1.0, std::max(way_ / std::max(params_.travelled, 1e-9),
+                                turn_ * 180.0 / std::numbers::pi / std::max(params_.turned, 1e-9)));
+}
+
+double Verdict::seen() const { return std::min(1.0, confirmed_ / std::max(params_.confirmations, 1e-9)); }
+
+double Verdict::confirmation() const { return 0.5 * (moved() + seen()); }
+
+bool Verdict::contradicted() const { return contradiction_ > 2.0 * params_.most_contradiction || hopelessly_blind(); }
+
+bool Verdict::hopelessly_blind() const { return blind_ > 3.0 * params_.blind_way; }
+
+bool Verdict::collapsed() const {
+  constexpr double kPatience = 6.0;  // [m]: furniture that has moved contradicts the map too, over some metres
+  return bad_ >= kPatience;
+}
+
+}  // namespace docent

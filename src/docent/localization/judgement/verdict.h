@@ -1,0 +1,132 @@
+#pragma once
+
+#include <optional>
+
+#include "docent/base/result.h"
+#include "docent/localization/belief/belief_summary.h"
+#include "docent/localization/expected_ranges/agreement.h"
+#include "docent/localization/judgement/glance.h"
+
+namespace docent {
+
+/// When the robot says "here", and how likely it is lost.
+struct VerdictParams {
+  double enough_mass = 0.995;       ///< of the best mode, to say "here"
+  double too_little_mass = 0.6;     ///< to take it back, or
+  double most_doubt = 0.9;          ///< P(lost), for eight glances in a row
+  double widest_spread = 0.35;      ///< [m] standard deviation of the best mode
+  double confirmations = 6.0;       ///< full updates of one view in a row that kept to one mode
+  double travelled = 1.0;           ///< [m] driven since, or
+  double turned = 120.0;            ///< [deg] turned since
+  double least_agreement = 0.2;     ///< share of the readings that the map explains
+  double blind_way = 20.0;          ///< [m] to say "here" by odometry while people hide all that the map holds; after
+                                    ///< three times as many the place is given up
+  double most_contradiction = 0.2;  ///< share of the readings that pass through walls of the map
+  double startled_through = 0.45;   ///< share of one sweep that does so, or
+  double startled_hidden = 0.35;    ///< that is suddenly too short: nobody steps before so many beams at once
+  template <class V>
+  void visit(V& v) {
+    v("enough_mass", enough_mass);
+    v("too_little_mass", too_little_mass);
+    v("most_doubt", most_doubt);
+    v("widest_spread", widest_spread);
+    v("confirmations", confirmations);
+    v("travelled", travelled);
+    v("turned", turned);
+    v("least_agreement", least_agreement);
+    v("blind_way", blind_way);
+    v("most_contradiction", most_contradiction);
+    v("startled_through", startled_through);
+    v("startled_hidden", startled_hidden);
+  }
+  [[nodiscard]] Result<void> validate() const;
+};
+
+/// What one update says about the best mode.
+struct Evidence {
+  double weight = 1.0;        ///< of the update, 0..1
+  double views = 1.0;         ///< >= 1: how many scans the scan counts for, LocalizerParams::views
+  double mass = 0.0;          ///< of the best mode
+  double rival = 0.0;         ///< mass of the second best mode
+  double spread = 0.0;        ///< [m]
+  bool is_same_mode = false;  ///< the mode of the last update, moved by odometry
+  double way = 0.0;           ///< [m] since the last update
+  double turn = 0.0;          ///< [rad], >= 0
+  Agreement readings;         ///< of one sweep
+};
+
+/// `evidence` with what a summary says of its best mode. `predicted`: the best pose of the last update, moved by
+/// odometry.
+[[nodiscard]] Evidence with_best_mode(Evidence evidence, const BeliefSummary& summary,
+                                      const std::optional<Pose2>& predicted);
+
+/// Decides whether the robot may say where it is. It says "I do not know" until one mode has held nearly all the mass
+/// over several updates and some motion, and the readings bear it out; and takes it back when they stop doing so.
+class Verdict {
+ public:
+  explicit Verdict(const VerdictParams& params) : params_{params} {}
+
+  void add(const Evidence& evidence);
+  /// A sweep between updates, or the one that led to the last, against the best pose. Eight that leave more than the
+  /// most doubt take "here" back.
+  void look(const Glance& glance);
+  /// After a restart or a given start: the mode was known already, and needs one confirmation only.
+  void assume_localized();
+  void reset();
+
+  [[nodiscard]] bool localized() const { return localized_; }
+  /// The robot may be too unsure to say "here" – people have hidden the map for long, two places share the mass – but
+  /// since it last did nothing speaks against that place: what it sees is evidence about its neighbourhood, not about
+  /// others.
+  [[nodiscard]] bool keeps_its_place() const { return keeps_its_place_; }
+  /// Probability that the best hypothesis is wrong: a logistic function of what its mass leaves, of how far it has been
+  /// confirmed, of how wide it is and of how the readings contradict it. Its weights are learned, see
+  /// scripts/evaluation/calibration.py. Besides, the second best mode may be the right one, as probably as the two
+  /// share their mass: a building in which two places look the same need not have been among those that were learned
+  /// from.
+  [[nodiscard]] double p_lost() const { return p_lost(localized_); }
+  /// Readings pass through walls of the map, so many that the place must be wrong, or for so long nothing of the map
+  /// was seen that odometry tells nothing any more.
+  [[nodiscard]] bool contradicted() const;
+  /// The last sweep is of another place, as it seems: someone may have carried the robot.
+  [[nodiscard]] bool startled() const {
+    return glance_.through > params_.startled_through || hidden_ > params_.startled_hidden;
+  }
+  [[nodiscard]] double agreement() const { return agreement_; }          ///< share of the readings, running mean
+  [[nodiscard]] double contradiction() const { return contradiction_; }  ///< likewise
+  [[nodiscard]] double surprise() const { return glance_.through; }      ///< of the last sweep, see Glance
+  [[nodiscard]] double hidden() const { return hidden_; }      ///< share of the last sweep that is newly too short
+  [[nodiscard]] double confirmation() const;                   ///< 0..1 of what it takes to say "here"
+  [[nodiscard]] double unmapped() const { return unmapped_; }  ///< walls that the map lacks, running mean, see Glance
+  [[nodiscard]] double blind_way() const { return blind_; }    ///< [m] driven since readings last agreed with the map
+  /// The readings have contradicted the belief for a while: better to start over.
+  [[nodiscard]] bool collapsed() const;
+
+ private:
+  /// By the weights of a robot that has said "here", or of one that has not.
+  [[nodiscard]] double p_lost(bool has_said) const;
+  [[nodiscard]] bool hopelessly_blind() const;
+  [[nodiscard]] double moved() const;
+  [[nodiscard]] double seen() const;
+
+  VerdictParams params_;
+  bool localized_ = false;
+  bool keeps_its_place_ = false;
+  double mass_ = 0.0;    ///< of the best mode
+  double rival_ = 0.0;   ///< of the second best
+  double spread_ = 0.0;  ///< [m] of the best mode
+  Glance glance_;
+  double shorter_ = 0.0;  ///< Glance::shorter, running mean
+  double hidden_ = 0.0;
+  int doubtful_ = 0;       ///< sweeps in a row with more than the most doubt
+  double unmapped_ = 0.0;  ///< Glance::unmapped, running mean
+  double confirmed_ = 0.0;
+  double way_ = 0.0;
+  double turn_ = 0.0;
+  double agreement_ = 0.5;
+  double contradiction_ = 0.0;
+  double bad_ = 0.0;    ///< [m] with bad readings; a radian turned counts half a metre
+  double blind_ = 0.0;  ///< [m] driven since readings last agreed with the map
+};
+
+}  // namespace docent

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "docent/grid/occupancy_grid.h"
+#include "docent/localization/expected_ranges/range_table.h"
+#include "docent/localization/expected_ranges/range_table_cache.h"
+#include "docent/localization/expected_ranges/state_space.h"
+#include "docent/localization/localizer/localizer_params.h"
+#include "docent/sensor_models/proximity_model.h"
+#include "docent/sensor_models/ray_caster.h"
+
+namespace docent {
+
+/// The range table of a map, from the cache where it has one for these parameters; else made, and kept there.
+[[nodiscard]] RangeTable range_table_of(const OccupancyGrid& map, const LocalizerParams& params,
+                                        const RangeTableCache& cache, const StateSpace& space, const RayCaster& caster);
+
+/// A map as a belief uses it: the poses in it, what the lasers expect at each, and how probable other readings are.
+struct KnownMap {
+  /// `cache`: see range_table_of. @pre params are valid
+  KnownMap(const OccupancyGrid& map, const LocalizerParams& params, const RangeTableCache& cache);
+
+  RayCaster caster;
+  StateSpace space;
+  RangeTable table;
+  ProximityModel model;  ///< p(s | l), [Markov1998] 3.2
+  double widest;         ///< [m] from corner to corner
+};
+
+}  // namespace docent

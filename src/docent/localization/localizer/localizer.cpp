@@ -1,0 +1,222 @@
+#include "docent/localization/localizer/localizer.h"
+
+#include <cmath>
+#include <utility>
+
+#include "docent/localization/beam_choice/person_shapes.h"
+#include "docent/localization/expected_ranges/agreement.h"
+
+namespace docent {
+namespace {
+
+constexpr double kSurpriseWaits = 0.15;  // [s] between updates for a surprise
+constexpr double kElsewhere = 1e-4;      // of the mass, when somebody has told where the robot is
+
+}  // namespace
+
+Localizer::Localizer(std::shared_ptr<const KnownMap> map, const LocalizerParams& params,
+                     std::unique_ptr<PoseBelief> belief, bool rounds_repeat, std::uint64_t seed)
+    : map_{std::move(map)},
+      params_{params},
+      belief_{std::move(belief)},
+      cadence_{params, rounds_repeat},
+      verdict_{params.verdict},
+      refiner_{params.refiner},
+      rng_{Rng{seed}.stream("localize")} {
+  start_unknown();
+}
+
+void Localizer::start_unknown() {
+  belief_->start_unknown();
+  cadence_.restart();
+  started_ = false;
+  phase_ = 0;
+  verdict_.reset();
+  forget_judgement();
+  summarise_now();
+}
+
+void Localizer::start_at(std::span<const BeliefMode> modes, const Pose2& odom_from_robot, Time time) {
+  odom_from_robot_ = odom_from_robot;
+  belief_->set_out(odom_from_robot);
+  belief_->believe(modes, kElsewhere, rng_);
+  cadence_.restart_at(time);
+  started_ = true;
+  verdict_.assume_localized();
+  forget_judgement();
+  summarise_now();
+}
+
+void Localizer::forget_judgement() {
+  refiner_.reset();
+  rivals_.forget();
+}
+
+Localizer::Step Localizer::observe(const RangeSweep& sweep, const Pose2& odom_from_robot, Time time) {
+  if (is_torn(odom_from_robot)) start_unknown();
+  if (sweep.beams.empty()) return {};
+  Update update = due(sweep, odom_from_robot, time);
+  if (update.weight <= 0.0) return {};
+  predict(update, odom_from_robot, time);
+  choose_beams(update);
+  reweigh(update);
+  summarise(update);
+  const auto fits = fit(update);
+  judge(update);
+  return {true, update.choice.used.size(), update.choice.filtered, update.weight, fits};
+}
+
+bool Localizer::is_torn(const Pose2& odom_from_robot) const {
+  // Farther than the map reaches nobody has driven: such odometry says nothing of where the robot is now.
+  return started_ && !(distance(odom_from_robot_.position(), odom_from_robot.position()) <= map_->widest);
+}
+
+Localizer::Update Localizer::due(const RangeSweep& sweep, const Pose2& odom_from_robot, Time time) {
+  const Motion motion = started_ ? Motion{inverse(odom_from_robot_) * odom_from_robot} : Motion{};
+  Update update{.sweep = sweep,
+                .motion = motion,
+                .predicted = started_ ? map_from_robot(odom_from_robot) : std::nullopt,
+                .weight = started_ ? cadence_.weight(motion, time) : 1.0,
+                .views = cadence_.views(motion)};
+  if (update.predicted && update.views <= 1.0) glance_at(sweep, *update.predicted);
+  // Someone may have carried the robot: then this is not the same view again, and nothing to wait for.
+  if (update.weight < 1.0 && verdict_.keeps_its_place() && cadence_.waited(time) >= kSurpriseWaits &&
+      verdict_.startled())
+    update.weight = 1.0;
+  return update;
+}
+
+void Localizer::predict(const Update& update, const Pose2& odom_from_robot, Time time) {
+  if (!started_) belief_->set_out(odom_from_robot);
+  started_ = true;
+  odom_from_robot_ = odom_from_robot;
+  belief_->predict(update.motion, odom_from_robot, verdict_.keeps_its_place());
+  cadence_.begin(update.motion, odom_from_robot.position(), time);
+}
+
+void Localizer::choose_beams(Update& update) {
+  update.seen = belief_->in_frame(update.sweep);
+  update.on_persons = params_.on_persons(update.sweep, verdict_.keeps_its_place());
+  likely_ = belief_->likely();
+  update.choice = chosen_beams(likely_, map_->table, map_->space.headings(), map_->model, update.seen,
+                               params_.beam_choice(update.on_persons, verdict_.keeps_its_place()), ++phase_, rng_);
+}
+
+void Localizer::reweigh(Update& update) {
+  if (verdict_.keeps_its_place() && update.predicted)
+    update.focus = params_.focus(*update.predicted, update.motion.before_from_after);
+  const SensorEvidence evidence{.seen = update.seen,
+                                .beams = update.choice.used,
+                                .likely = likely_,
+                                .others = sensors_,
+                                .time = cadence_.last_update(),
+                                .odom_from_robot = odom_from_robot_,
+                                .weight = update.weight,
+                                .views = update.views,
+                                .sector_nats = params_.sector_nats(update.on_persons),
+                                .keeps_its_place = verdict_.keeps_its_place(),
+                                .in_doubt = verdict_.contradicted() || verdict_.startled(),
+                                .focus = update.focus};
+  const auto [weight, work] = belief_->reweigh(evidence, rng_);
+  update.weight = weight;
+  cadence_.pay(work);
+}
+
+void Localizer::summarise(const Update& update) {
+  summarise_now();
+  keep_rivals(update);
+  if (!summary_.modes.empty()) refine(update);
+}
+
+void Localizer::summarise_now() {
+  likely_ = belief_->likely();
+  summary_ = belief_->summarise();
+}
+
+void Localizer::keep_rivals(const Update& update) {
+  if (!params_.rivals || verdict_.keeps_its_place()) return rivals_.forget();
+  const RangeSweep sweep = update.on_persons.empty() ? update.sweep : without(update.sweep, update.on_persons);
+  const auto modes =
+      rivals_.update(summary_, sweep, update.motion.before_from_after, map_->caster, params_.sensor.max_range);
+  rivals_.hear(summary_, sensors_, update.weight);
+  if (!modes) return;
+  belief_->believe(*modes, params_.teleport_probability, rng_);
+  summarise_now();
+}
+
+void Localizer::refine(const Update& update) {
+  belief_->resample(summary_.modes.front().map_from_robot, rng_);
+  const MotionNoise noise = motion_noise(params_.motion, update.motion.before_from_after);
+  const Pose2 refined =
+      refiner_.refine(summary_.modes.front(), update.sweep, update.motion.before_from_after, noise.position_variance,
+                      noise.heading_variance, map_->caster, params_.sensor.max_range);
+  summary_.modes.front().map_from_robot = refined;
+  const auto share = refiner_.found_share();
+  if (!update.focus || !share) return;
+  belief_->gather(refined, *update.focus, *share);
+  summarise_now();
+  if (!summary_.modes.empty()) summary_.modes.front().map_from_robot = refined;
+}
+
+std::optional<double> Localizer::fit(const Update& update) const {
+  if (summary_.modes.empty() || update.choice.used.empty()) return std::nullopt;
+  const StateSpace& space = map_->space;
+  const Pose2 map_from_frame = belief_->map_from_frame(summary_.modes.front().map_from_robot);
+  const std::int32_t place = space.place_at(space.frame().cell_at(map_from_frame.position()));
+  if (place == StateSpace::kNoPlace) return std::nullopt;
+  const double turns = map_from_frame.theta.radians() / space.heading_step() + space.headings();
+  const auto heading = static_cast<std::size_t>(std::lround(turns)) % static_cast<std::size_t>(space.headings());
+  const RangeTable::Row row = map_->table.row(static_cast<std::size_t>(place));
+  double sum = 0.0;
+  for (const BinnedBeam& beam : update.choice.used) {
+    const int bin = bin_of(update.seen.beams[beam.beam], map_->model);
+    sum += static_cast<double>(map_->model.log_probabilities(bin)[row[heading + beam.direction]]);
+  }
+  return sum / static_cast<double>(update.choice.used.size());
+}
+
+void Localizer::judge(Update& update) {
+  // After a long way odometry foretells too little: the belief of after the update is held against the readings.
+  if (update.views > 1.0 && !likely_.empty()) {
+    const ExpectedRanges expected{likely_, map_->table, map_->space.headings(), false};
+    update.choice.readings =
+        agreement_of_all(expected, map_->model, update.seen, params_.filter_sureness, map_->space.headings());
+  }
+  const Evidence evidence{.weight = update.weight,
+                          .views = update.views,
+                          .way = update.motion.way,
+                          .turn = update.motion.turn,
+                          .readings = update.choice.readings};
+  verdict_.add(with_best_mode(evidence, summary_, update.predicted));
+  if (verdict_.collapsed()) {
+    const bool has_changed = belief_->flood();
+    verdict_.reset();
+    forget_judgement();
+    if (has_changed) summarise_now();
+  }
+  if (const auto now = map_from_robot(odom_from_robot_)) glance_at(update.sweep, *now);
+}
+
+void Localizer::glance_at(const RangeSweep& sweep, const Pose2& map_from_robot) {
+  verdict_.look(glance(map_->caster, sweep, map_from_robot, params_.sensor.max_range));
+}
+
+std::vector<BeamOrigin> Localizer::origins(const RangeSweep& sweep, const Pose2& odom_now, double max_range,
+                                           const PersonFilterParams& params) const {
+  if (!verdict_.localized()) return beam_origins(caster(), {}, sweep, {}, max_range, params);
+  std::vector<BeliefMode> modes = summary_.modes;
+  const Pose2 before_from_now = inverse(odom_from_robot_) * odom_now;
+  for (BeliefMode& mode : modes) mode.map_from_robot = mode.map_from_robot * before_from_now;
+  std::vector<float> gains;
+  if (params.filter == "entropy") gains = entropy_gains(sweep, odom_now);
+  return beam_origins(caster(), modes, sweep, gains, max_range, params);
+}
+
+std::vector<float> Localizer::entropy_gains(const RangeSweep& sweep, const Pose2& odom_now) const {
+  if (likely_.empty()) return {};
+  const ExpectedRanges expected{likely_, map_->table, map_->space.headings(), true};
+  return docent::entropy_gains(expected, map_->model, seen_from(sweep, inverse(belief_->odom_from_frame()) * odom_now),
+                               map_->space.headings());
+}
+
+}  // namespace docent
