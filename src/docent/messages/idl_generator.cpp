@@ -4,9 +4,9 @@
 #include "docent/messages/schema.h"
 #include "docent/messages/topics.h"
 
-// Writes what every message on the bus is, for programs of others: `docent_idl_generator FILE.idl FILE.c FOLDER`. The first
-// file gets the IDL, the second a table of what idlc makes of it: topic_descriptor("sensor_msgs/msg/LaserScan"). The
-// folder gets the messages of package docent_msgs as ROS 2 wants them, NAME.msg.
+// Writes what every message on the bus is, for programs of others: `docent_idl_generator FILE.idl FILE.c FOLDER`. The
+// first file gets the IDL, the second a table of what idlc makes of it: topic_descriptor("sensor_msgs/msg/LaserScan").
+// The folder gets the messages of package docent_msgs as ROS 2 wants them, NAME.msg.
 
 namespace docent {
 namespace {
