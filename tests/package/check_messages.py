@@ -48,9 +48,11 @@ def main(folder):
         faults.append(f"docent.idl is not read as it was written: {len(expected)} types")
     found = {}
     others = set()
+    explained = 0
     for path in (folder / PACKAGE / "msg").glob("*.msg"):
         message = parse_message_file(PACKAGE, str(path))
         found[path.stem] = [(field.name, str(field.type)) for field in message.fields]
+        explained += sum(bool(field.annotations.get("comment")) for field in message.fields)
         others |= {field.type.pkg_name for field in message.fields if field.type.pkg_name} - {PACKAGE}
     for name in sorted(expected.keys() | found.keys()):
         if expected.get(name) != found.get(name):
@@ -61,9 +63,11 @@ def main(folder):
     packages = set(re.search(r"set\(packages (.+)\)", script)[1].split())
     if not others == declared == packages:
         faults.append(f"packages: {others} are used, package.xml has {declared}, CMakeLists.txt {packages}")
+    if explained < 100:
+        faults.append(f"only {explained} fields have their comment")
     for fault in faults:
         print(fault)
-    print(f"{len(found)} messages, {sum(map(len, found.values()))} fields, packages {', '.join(sorted(others))}")
+    print(f"{len(found)} messages, {sum(map(len, found.values()))} fields, {explained} explained, packages {', '.join(sorted(others))}")
     return 1 if faults else 0
 
 
