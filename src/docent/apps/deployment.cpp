@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <system_error>
 #include <thread>
 
 #include "docent/apps/arguments.h"
 #include "docent/apps/cache_folder.h"
+#include "docent/base/shipped_files.h"
 #include "docent/modules/registry.h"
 #include "docent/transport/dds_bus.h"
 
@@ -78,15 +80,7 @@ Result<void> Deployment::prepare_state() const {
   return {};
 }
 
-std::filesystem::path program_path() {
-  std::error_code error;
-  return std::filesystem::read_symlink("/proc/self/exe", error);
-}
-
-std::string default_museum() {
-  const auto installed = program_path().parent_path().parent_path() / "share/docent/museums/bonn";
-  return std::filesystem::exists(installed) ? installed.string() : std::string{DOCENT_SOURCES} + "/museums/bonn";
-}
+std::string default_museum() { return shipped_path("museums/bonn").string(); }
 
 std::string default_state() {
   const char* state = std::getenv("XDG_STATE_HOME");

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -38,9 +37,7 @@ struct Deployment {
   [[nodiscard]] Result<void> prepare_state() const;
 };
 
-/// The program that is running.
-[[nodiscard]] std::filesystem::path program_path();
-/// museums/bonn beside the installed program (share/docent), else beside the sources.
+/// The museum of Bonn that comes with the program.
 [[nodiscard]] std::string default_museum();
 /// $XDG_STATE_HOME/docent, else ~/.local/state/docent.
 [[nodiscard]] std::string default_state();

@@ -22,7 +22,7 @@
 int main(int argc, char** argv) {
   CLI::App app{"Docent: an autonomous museum tour guide.", "docent"};
   app.require_subcommand(1);
-  app.set_version_flag("--version", "docent 0.1.0");
+  app.set_version_flag("--version", "docent " DOCENT_VERSION);
   docent::add_check_command(app);
   docent::add_config_command(app);
   docent::add_crowd_command(app);

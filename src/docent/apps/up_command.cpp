@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 
 #include "docent/apps/arguments.h"
@@ -21,6 +22,7 @@
 #include "docent/apps/simulator_process.h"
 #include "docent/apps/status_display.h"
 #include "docent/apps/supervisor.h"
+#include "docent/base/shipped_files.h"
 #include "docent/modules/registry.h"
 #include "docent/recording/join_recordings.h"
 #include "docent/transport/dds_bus.h"

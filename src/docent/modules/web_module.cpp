@@ -8,8 +8,8 @@
 #include <mutex>
 #include <optional>
 #include <set>
-#include <system_error>
 
+#include "docent/base/shipped_files.h"
 #include "docent/interaction/speech/horn.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/scanners.h"
@@ -60,14 +60,7 @@ struct WebParams : WebServerParams {
 enum Slot : int { kLive, kBelief, kPath, kMission, kSpeech, kBoard, kHealth, kWindow, kHorn };
 
 std::filesystem::path page_folder(const std::string& root) {
-  if (!root.empty()) return root;
-  std::error_code error;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (!error) {
-    auto installed = program.parent_path().parent_path() / "share/docent/web";
-    if (std::filesystem::exists(installed / "index.html", error)) return installed;
-  }
-  return DOCENT_WEB_ROOT;
+  return root.empty() ? shipped_path("web/dist") : std::filesystem::path{root};
 }
 
 constexpr const char* kNoPage =

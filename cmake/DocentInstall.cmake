@@ -1,0 +1,88 @@
+# What is installed, in two components. `program` can be moved as a whole: the program looks for share/docent beside
+# itself (src/docent/base/shipped_files.h), where names are those of the source tree. `cmake --install build/release
+# --prefix DIR` installs it. `system` belongs to the Debian package alone: unit, /etc, manual.
+include(GNUInstallDirs)
+set(DOCENT_MAINTAINER "The Docent maintainers")
+set(DOCENT_MAINTAINER_EMAIL "maintainers@docent.example")
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # the tests are not shipped
+set(CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS  # whatever the umask
+  OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(share ${CMAKE_INSTALL_DATADIR}/docent)
+set(packaging ${CMAKE_SOURCE_DIR}/packaging)
+set(generated ${CMAKE_BINARY_DIR}/packaging)
+file(MAKE_DIRECTORY ${generated})
+
+install(TARGETS docent RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+install(DIRECTORY web/dist DESTINATION ${share}/web COMPONENT program)
+install(DIRECTORY museums robots DESTINATION ${share} COMPONENT program)
+file(GLOB documents docs/*.md docs/robot.yaml)
+install(FILES ${documents} DESTINATION ${share}/docs COMPONENT program)
+install(FILES README.md LICENSE CHANGELOG.md DESTINATION ${share} COMPONENT program)
+
+# For programs of others.
+configure_file(${packaging}/docent_msgs/package.xml.in ${generated}/package.xml @ONLY)
+install(FILES ${CMAKE_BINARY_DIR}/idl/docent.idl DESTINATION ${share} COMPONENT program)
+install(DIRECTORY ${CMAKE_BINARY_DIR}/idl/docent_msgs DESTINATION ${share} COMPONENT program)
+install(FILES ${packaging}/docent_msgs/CMakeLists.txt ${generated}/package.xml DESTINATION ${share}/docent_msgs
+  COMPONENT program)
+
+# Of what `system` needs, the build makes the manual, of what the program says of itself, and a robot.yaml in which all
+# defaults stand as comments. scripts/package builds docent_package_files; others need no help2man.
+add_custom_command(
+  OUTPUT ${generated}/docent.1.gz
+  COMMAND help2man --no-info --name "autonomous museum tour guide" --output ${generated}/docent.1 $<TARGET_FILE:docent>
+  COMMAND gzip -9nf ${generated}/docent.1
+  DEPENDS docent)
+add_custom_command(
+  OUTPUT ${generated}/robot.yaml
+  COMMAND sed "s/^[^#]/#&/" ${CMAKE_SOURCE_DIR}/docs/robot.yaml > ${generated}/defaults
+  COMMAND cat ${packaging}/debian/robot.yaml.head ${generated}/defaults > ${generated}/robot.yaml
+  DEPENDS docs/robot.yaml ${packaging}/debian/robot.yaml.head
+  VERBATIM)
+string(TIMESTAMP DOCENT_DATE "%a, %d %b %Y %H:%M:%S +0000" UTC)
+configure_file(${packaging}/debian/changelog.in ${generated}/changelog @ONLY)
+add_custom_command(
+  OUTPUT ${generated}/changelog.gz
+  COMMAND gzip -9nc ${generated}/changelog > ${generated}/changelog.gz
+  DEPENDS ${generated}/changelog)
+add_custom_target(docent_package_files
+  DEPENDS docent docent_idl ${generated}/docent.1.gz ${generated}/robot.yaml ${generated}/changelog.gz)
+
+set(system COMPONENT system EXCLUDE_FROM_ALL)
+install(FILES ${packaging}/debian/docent.service DESTINATION lib/systemd/system ${system})
+install(FILES ${generated}/robot.yaml DESTINATION /etc/docent ${system})
+install(FILES ${packaging}/debian/default DESTINATION /etc/default RENAME docent ${system})
+install(FILES ${generated}/docent.1.gz DESTINATION share/man/man1 ${system})
+install(FILES ${packaging}/debian/copyright ${generated}/changelog.gz DESTINATION share/doc/docent ${system})
+install(FILES ${packaging}/debian/lintian-overrides DESTINATION share/lintian/overrides RENAME docent ${system})
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME docent)
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGE_CONTACT "${DOCENT_MAINTAINER} <${DOCENT_MAINTAINER_EMAIL}>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "autonomous museum tour guide")
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
+"Docent is the software of a robot that guides visitors through a museum. The
+robot finds out where it is in a hall full of people, drives at walking speed
+without touching anything, gives tours, and lets visitors on the Web take part.
+.
+The package holds the program, its page, two museums with a simulated world
+each, a systemd unit, and the messages for DDS and ROS 2.")
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+# Without espeak-ng it has no voice, without the fonts pictures have no letters; alsa-utils plays the voice on the robot.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "espeak-ng, fonts-dejavu-core")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "alsa-utils")
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA
+  ${packaging}/debian/postinst ${packaging}/debian/prerm ${packaging}/debian/postrm ${packaging}/debian/conffiles)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+# Both components in one package: only so cpack takes what is left out of a plain `cmake --install`.
+set(CPACK_COMPONENTS_ALL program system)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
+include(CPack)
