@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "docent/apps/replay_run.h"
-#include "docent/apps/simulation_run.h"
+#include "docent/apps/replay/replay_run.h"
+#include "docent/apps/simulate/simulation_run.h"
 #include "docent/base/files.h"
 #include "docent/evaluation/deployment_evaluator.h"
 #include "docent/recording/recorder.h"
