@@ -109,6 +109,7 @@ TEST_F(Replay, AChangedModuleIsSeenInItsRecording) {
   const auto crippled = replay_with({"localize"}, "evaluation.dead_reckoning=true");
   ASSERT_TRUE(crippled) << crippled.error().message;
   ASSERT_TRUE(crippled->report);
+  EXPECT_EQ(crippled->report->crippled, "dead_reckoning");
   EXPECT_GT(crippled->report->localization.error_m.mean(), 2.0 * repeated->localization.error_m.mean());
 }
 

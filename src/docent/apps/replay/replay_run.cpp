@@ -1,7 +1,5 @@
 #include "docent/apps/replay/replay_run.h"
 
-#include <stdlib.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -9,6 +7,7 @@
 #include <set>
 
 #include "docent/apps/replay/recorded_voice.h"
+#include "docent/apps/shared/temporary_folder.h"
 #include "docent/evaluation/claim_log.h"
 #include "docent/evaluation/deployment_evaluator.h"
 #include "docent/localization/belief/checkpoint.h"
@@ -24,25 +23,6 @@ constexpr Duration kAnswerWaits = std::chrono::seconds{20};
 constexpr double kCutAtTheEnd = 5.0;  ///< [s]
 /// The executive's events: how it goes under way, which is not the same twice.
 constexpr std::array<const char*, 5> kUnderWay{"arrived", "drive_blocked", "asked_for_way", "prompt_shown", "choice"};
-
-/// A folder of its own that goes when the run goes.
-class TemporaryState {
- public:
-  TemporaryState() {
-    std::string name = (std::filesystem::temp_directory_path() / "docent-replay-XXXXXX").string();
-    if (::mkdtemp(name.data()) != nullptr) path_ = name;
-  }
-  ~TemporaryState() {
-    std::error_code code;
-    if (!path_.empty()) std::filesystem::remove_all(path_, code);
-  }
-  TemporaryState(const TemporaryState&) = delete;
-  TemporaryState& operator=(const TemporaryState&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Publishes decoded messages of any topic.
 class Feeder {
@@ -171,123 +151,166 @@ Result<void> tell_start(McapReader& reader, const Museum& museum, const Pose2& s
   return save_localizer_checkpoint({map_hash(museum.map), first, *odom_from_robot, {mode}}, state / "localize.yaml");
 }
 
+/// One replay. Its steps are called in their order, each once; the first error ends it.
+class Replay {
+ public:
+  Replay(const Museum& museum, const RobotConfig& config, const ReplayOptions& options)
+      : museum_{museum}, config_{config}, options_{options} {}
+  Replay(const Replay&) = delete;
+  Replay& operator=(const Replay&) = delete;
+
+  Result<void> open() {
+    auto reader = McapReader::open(options_.recording);
+    if (!reader) return tl::unexpected<Error>(reader.error());
+    reader_.emplace(std::move(*reader));
+    const auto extent = extent_of(*reader_);
+    if (!extent) return tl::unexpected<Error>(extent.error());
+    if (extent->messages == 0) return fail(options_.recording + ": holds no message");
+    extent_ = *extent;
+    outcome_.seconds = to_seconds(extent_.last - extent_.first);
+    auto lines = lines_of(*reader_);
+    if (!lines) return fail(options_.recording + ": " + lines.error().message);
+    lines_ = std::move(*lines);
+    if (options_.out.empty()) return {};
+    auto recorder = Recorder::create(options_.out);
+    if (!recorder) return tl::unexpected<Error>(recorder.error());
+    recorder_.emplace(std::move(*recorder));
+    return {};
+  }
+
+  Result<void> start(const std::vector<const ModuleEntry*>& modules) {
+    if (options_.start) {
+      if (auto told = tell_start(*reader_, museum_, *options_.start, extent_.first, state_.path()); !told) return told;
+    }
+    hub_.run_until(extent_.first);
+    hub_.tap([this](const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
+      on_published(topic, time, message);
+    });
+    // Known only when the modules are made; what those publish at their start is theirs in any case.
+    theirs_.insert(topics::kEvent.name);
+    ModuleHost::Options host_options;
+    host_options.state = state_.path();
+    host_options.cache = options_.cache;
+    host_options.seed = options_.seed;
+    host_options.virtual_time = true;
+    for (const ModuleEntry* entry : modules) {
+      auto host = ModuleHost::create(*entry, hub_.connect(entry->name), museum_, config_, host_options);
+      if (!host) return tl::unexpected<Error>(host.error());
+      hosts_.push_back(std::move(*host));
+      chosen_.insert(entry->name);
+      outcome_.modules.emplace_back(entry->name);
+    }
+    theirs_.clear();
+    for (const std::string& name : chosen_) theirs_.merge(hub_.topics_published_by(name));
+    if (theirs_.contains(topics::kSay.name) && theirs_.insert(topics::kSpeechState.name).second) {
+      voice_bus_ = hub_.connect("voice");
+      voice_.emplace(*voice_bus_, std::move(lines_));
+    }
+    if (!theirs_.contains(topics::kEvent.name)) outcome_.repeated.clear();
+    return {};
+  }
+
+  /// Everything that was recorded, at its time.
+  Result<void> feed() {
+    const auto bus = hub_.connect("recording");
+    const Feeder feeder{*bus};
+    const auto choices = bus->publisher(topics::kChoice);
+    double shown = 0.0;
+    const auto read = read_recording(*reader_, {}, [&](const RecordedMessage& message) {
+      hub_.run_until(message.time);
+      if (!written_) return false;
+      on_recorded(message, feeder);
+      for (auto& answer : answers_.take(message.time)) choices.publish(std::move(answer));
+      const double share = outcome_.seconds > 0.0 ? since_start(message.time) / outcome_.seconds : 1.0;
+      if (options_.progress && share >= shown + 0.01) options_.progress(shown = share);
+      return true;
+    });
+    if (!read) return fail(options_.recording + ": " + read.error().message);
+    hub_.run_until(extent_.last);
+    hosts_.clear();
+    if (recorder_ && written_) written_ = recorder_->close();
+    return written_;
+  }
+
+  Result<ReplayOutcome> outcome() {
+    if (!options_.claims.empty()) {
+      if (claims_.claims() == 0) return fail(options_.recording + ": no belief beside a ground truth (/truth/state)");
+      if (auto saved = claims_.save(options_.claims); !saved) return tl::unexpected<Error>(saved.error());
+    }
+    outcome_.replayed_topics.assign(fed_.begin(), fed_.end());
+    if (evaluator_.has_truth()) {
+      outcome_.report = evaluator_.report();
+      outcome_.report->crippled = names_of_both(outcome_.report->crippled, config_.evaluation().crippled());
+    }
+    return std::move(outcome_);
+  }
+
+ private:
+  [[nodiscard]] double since_start(Time time) const { return to_seconds(time - extent_.first); }
+
+  /// Any message of this run, also one that was fed.
+  void on_published(const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
+    evaluator_.add(topic, time, message);
+    if (!options_.claims.empty()) claims_.add(topic, time, message);
+    const std::string_view name = topic.name;
+    if (name == topics::kMissionState.name)
+      answers_.present_state(*static_cast<const docent_msgs::MissionState*>(message.get()));
+    if (name == topics::kEvent.name && theirs_.contains(topics::kEvent.name)) {
+      const auto& event = *static_cast<const docent_msgs::Event*>(message.get());
+      outcome_.repeated.push_back({since_start(time), event.kind, event.subject});
+    }
+    if (recorder_ && written_) written_ = recorder_->write(topic, time, message);
+  }
+
+  void on_recorded(const RecordedMessage& message, const Feeder& feeder) {
+    if (const auto* mission = message.as(topics::kMissionState)) answers_.recorded_state(*mission);
+    const auto* event = message.as(topics::kEvent);
+    if (event != nullptr && theirs_.contains(topics::kEvent.name))
+      outcome_.recorded.push_back({since_start(message.time), event->kind, event->subject});
+    const auto* choice = message.as(topics::kChoice);
+    const auto* health = message.as(topics::kHealth);
+    if (choice != nullptr && theirs_.contains(topics::kMissionState.name)) {
+      answers_.recorded_choice(*choice, message.time);
+    } else if (health != nullptr) {
+      if (!chosen_.contains(health->module)) feeder.publish(message);
+    } else if (!theirs_.contains(message.topic.name)) {
+      feeder.publish(message);
+      fed_.insert(message.topic.name);
+    }
+  }
+
+  const Museum& museum_;
+  const RobotConfig& config_;
+  const ReplayOptions& options_;
+  std::optional<McapReader> reader_;
+  Extent extent_;
+  RecordedLines lines_;
+  std::optional<Recorder> recorder_;
+  Result<void> written_;  ///< by the recorder; after an error it writes no more
+  ReplayOutcome outcome_;
+  const TemporaryFolder state_;
+  VirtualTimeHub hub_;
+  DeploymentEvaluator evaluator_;
+  ClaimLog claims_;
+  std::set<std::string> chosen_;  ///< modules
+  std::set<std::string> theirs_;  ///< topics of the chosen modules
+  std::set<std::string> fed_;     ///< topics of the recording
+  Answers answers_;
+  std::vector<std::unique_ptr<ModuleHost>> hosts_;
+  std::unique_ptr<Bus> voice_bus_;
+  std::optional<RecordedVoice> voice_;
+};
+
 }  // namespace
 
 Result<ReplayOutcome> replay(const Museum& museum, const RobotConfig& config, const ReplayOptions& options) {
-  const auto chosen = chosen_modules(options.modules);
-  if (!chosen) return tl::unexpected<Error>(chosen.error());
-  auto reader = McapReader::open(options.recording);
-  if (!reader) return tl::unexpected<Error>(reader.error());
-  const auto extent = extent_of(*reader);
-  if (!extent) return tl::unexpected<Error>(extent.error());
-  if (extent->messages == 0) return fail(options.recording + ": holds no message");
-  auto lines = lines_of(*reader);
-  if (!lines) return fail(options.recording + ": " + lines.error().message);
-  std::optional<Recorder> recorder;
-  if (!options.out.empty()) {
-    auto made = Recorder::create(options.out);
-    if (!made) return tl::unexpected<Error>(made.error());
-    recorder.emplace(std::move(*made));
-  }
-
-  ReplayOutcome outcome;
-  outcome.seconds = to_seconds(extent->last - extent->first);
-  const TemporaryState state;
-  if (options.start) {
-    if (auto told = tell_start(*reader, museum, *options.start, extent->first, state.path()); !told)
-      return tl::unexpected<Error>(told.error());
-  }
-  VirtualTimeHub hub;
-  hub.run_until(extent->first);
-  DeploymentEvaluator evaluator;
-  ClaimLog claims;
-  Result<void> failure;
-  std::set<std::string> theirs;  ///< topics of the chosen modules
-  std::set<std::string> chosen_names;
-  Answers answers;
-  const auto since_start = [&](Time time) { return to_seconds(time - extent->first); };
-  hub.tap([&](const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
-    evaluator.add(topic, time, message);
-    if (!options.claims.empty()) claims.add(topic, time, message);
-    const std::string_view name = topic.name;
-    if (name == topics::kMissionState.name)
-      answers.present_state(*static_cast<const docent_msgs::MissionState*>(message.get()));
-    if (name == topics::kEvent.name && theirs.contains(topics::kEvent.name)) {
-      const auto& event = *static_cast<const docent_msgs::Event*>(message.get());
-      outcome.repeated.push_back({since_start(time), event.kind, event.subject});
-    }
-    if (recorder && failure) failure = recorder->write(topic, time, message);
-  });
-
-  std::vector<std::unique_ptr<ModuleHost>> hosts;
-  // Known only when the modules are made; what those publish at their start is theirs in any case.
-  theirs.insert(topics::kEvent.name);
-  for (const ModuleEntry* entry : *chosen) {
-    ModuleHost::Options host_options;
-    host_options.state = state.path();
-    host_options.cache = options.cache;
-    host_options.seed = options.seed;
-    host_options.virtual_time = true;
-    auto host = ModuleHost::create(*entry, hub.connect(entry->name), museum, config, host_options);
-    if (!host) return tl::unexpected<Error>(host.error());
-    hosts.push_back(std::move(*host));
-    chosen_names.insert(entry->name);
-    outcome.modules.emplace_back(entry->name);
-  }
-  theirs.clear();
-  for (const std::string& name : chosen_names) theirs.merge(hub.topics_published_by(name));
-  std::unique_ptr<Bus> voice_bus;
-  std::optional<RecordedVoice> voice;
-  if (theirs.contains(topics::kSay.name) && theirs.insert(topics::kSpeechState.name).second) {
-    voice_bus = hub.connect("voice");
-    voice.emplace(*voice_bus, std::move(*lines));
-  }
-  if (!theirs.contains(topics::kEvent.name)) outcome.repeated.clear();
-
-  const auto feeder_bus = hub.connect("recording");
-  const Feeder feeder{*feeder_bus};
-  const auto choices = feeder_bus->publisher(topics::kChoice);
-  const bool translates = theirs.contains(topics::kMissionState.name);
-  std::set<std::string> fed;
-  double shown = 0.0;
-  const auto read = read_recording(*reader, {}, [&](const RecordedMessage& message) {
-    hub.run_until(message.time);
-    if (!failure) return false;
-    if (const auto* mission = message.as(topics::kMissionState)) answers.recorded_state(*mission);
-    const auto* event = message.as(topics::kEvent);
-    if (event != nullptr && theirs.contains(topics::kEvent.name))
-      outcome.recorded.push_back({since_start(message.time), event->kind, event->subject});
-    const auto* choice = message.as(topics::kChoice);
-    const auto* health = message.as(topics::kHealth);
-    if (choice != nullptr && translates) {
-      answers.recorded_choice(*choice, message.time);
-    } else if (health != nullptr) {
-      if (!chosen_names.contains(health->module)) feeder.publish(message);
-    } else if (!theirs.contains(message.topic.name)) {
-      feeder.publish(message);
-      fed.insert(message.topic.name);
-    }
-    for (auto& answer : answers.take(message.time)) choices.publish(std::move(answer));
-    const double share = outcome.seconds > 0.0 ? since_start(message.time) / outcome.seconds : 1.0;
-    if (options.progress && share >= shown + 0.01) options.progress(shown = share);
-    return true;
-  });
-  if (!read) return tl::unexpected<Error>(Error{options.recording + ": " + read.error().message});
-  hub.run_until(extent->last);
-  hosts.clear();
-  if (recorder && failure) failure = recorder->close();
-  if (!failure) return tl::unexpected<Error>(failure.error());
-  if (!options.claims.empty()) {
-    if (claims.claims() == 0) return fail(options.recording + ": no belief beside a ground truth (/truth/state)");
-    if (auto saved = claims.save(options.claims); !saved) return tl::unexpected<Error>(saved.error());
-  }
-  outcome.replayed_topics.assign(fed.begin(), fed.end());
-  if (evaluator.has_truth()) outcome.report = evaluator.report();
-  if (const auto names = config.evaluation().crippled(); outcome.report && !names.empty()) {
-    std::string& crippled = outcome.report->crippled;
-    crippled += (crippled.empty() || crippled == names ? "" : ", ") + (crippled == names ? "" : names);
-  }
-  return outcome;
+  const auto modules = chosen_modules(options.modules);
+  if (!modules) return tl::unexpected<Error>(modules.error());
+  Replay replay{museum, config, options};
+  if (auto opened = replay.open(); !opened) return tl::unexpected<Error>(opened.error());
+  if (auto started = replay.start(*modules); !started) return tl::unexpected<Error>(started.error());
+  if (auto fed = replay.feed(); !fed) return tl::unexpected<Error>(fed.error());
+  return replay.outcome();
 }
 
 Result<std::string> museum_of_recording(const std::string& recording) {
@@ -302,6 +325,22 @@ Result<std::string> museum_of_recording(const std::string& recording) {
   });
   if (!read) return tl::unexpected<Error>(read.error());
   return museum;
+}
+
+std::string names_of_both(const std::string& recorded, const std::string& now) {
+  std::vector<std::string_view> known;
+  std::string both;
+  for (std::string_view names : {std::string_view{recorded}, std::string_view{now}}) {
+    while (!names.empty()) {
+      const auto end = std::min(names.find(", "), names.size());
+      const std::string_view name = names.substr(0, end);
+      names.remove_prefix(std::min(end + 2, names.size()));
+      if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+      known.push_back(name);
+      both.append(both.empty() ? "" : ", ").append(name);
+    }
+  }
+  return both;
 }
 
 bool ReplayEvent::is_of_mission() const {

@@ -69,4 +69,8 @@ struct ReplayOutcome {
 [[nodiscard]] std::string first_difference(const std::vector<ReplayEvent>& recorded,
                                            const std::vector<ReplayEvent>& repeated, double duration_s);
 
+/// How a replayed robot was crippled: as the recorded one, and as it is now. Both have ", " between their names, and so
+/// has the result, which holds each name once.
+[[nodiscard]] std::string names_of_both(const std::string& recorded, const std::string& now);
+
 }  // namespace docent

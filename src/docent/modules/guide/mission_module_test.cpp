@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "docent/modules/guide/tour_rehearsal_for_test.h"
 
 namespace docent {
@@ -177,81 +179,112 @@ TEST(Tour, AWishCanBeTakenBack) {
   EXPECT_EQ(rehearsal.mission.exhibits_explained, 1U);
 }
 
-/// Modules die at random times and in the middle of publishing; nothing is lost, nothing is told twice.
+/// Wishes come at random times, and modules die at random times and in the middle of publishing.
+class TourOfDeaths {
+ public:
+  explicit TourOfDeaths(std::uint64_t seed) : rehearsal{seed, "deaths"}, rng_{seed} {}
+  void run() {
+    for (double t = 0.0; t < 1500.0; t += kStep) {
+      if (t < 600.0 && rng_.chance(kStep / 60.0)) wish();
+      if (t < 1100.0 && rng_.chance(kStep / 15.0)) wound(t);
+      start_again(t);
+      for (const std::string& module : rehearsal.run_for(kStep)) schedule_start(t, module);
+    }
+  }
+
+  Rehearsal rehearsal;
+  std::vector<std::string> offered;  ///< ids of the wishes
+  int deaths = 0;
+
+ private:
+  static constexpr double kStep = 0.5;  // [s]
+
+  void wish() {
+    const std::string id = "r" + std::to_string(offered.size());
+    const bool is_tour = rng_.chance(0.15);
+    const auto& exhibits = rehearsal.museum.exhibits;
+    rehearsal.client.wish_for(
+        id, is_tour ? "tour" : "exhibit",
+        is_tour
+            ? rng_.chance(0.5) ? "all" : "short"
+            : exhibits[static_cast<std::size_t>(rng_.integer(0, static_cast<std::int64_t>(exhibits.size()) - 1))].id);
+    offered.push_back(id);
+  }
+  void wound(double t) {
+    static constexpr std::array<std::pair<const char*, const char*>, 7> kWounds{{{"docent/request_board", "mission"},
+                                                                                 {"docent/task", "mission"},
+                                                                                 {"docent/mission_state", "mission"},
+                                                                                 {"docent/task_state", "executive"},
+                                                                                 {"docent/say", "executive"},
+                                                                                 {"docent/drive_goal", "executive"},
+                                                                                 {"docent/speech_state", "sound"}}};
+    const auto& [topic, module] = kWounds[static_cast<std::size_t>(rng_.integer(0, 6))];
+    if (rng_.chance(0.6)) {
+      rehearsal.kill_at(topic, module);
+    } else if (rehearsal.is_up(module)) {
+      rehearsal.kill(module);
+      schedule_start(t, module);
+    }
+  }
+  void schedule_start(double t, const std::string& module) {
+    ++deaths;
+    starts_.emplace_back(t + rng_.uniform(0.0, 6.0), module);
+  }
+  void start_again(double t) {
+    for (std::size_t i = 0; i < starts_.size();) {
+      if (starts_[i].first > t) {
+        ++i;
+        continue;
+      }
+      const std::string module = starts_[i].second;
+      starts_.erase(starts_.begin() + static_cast<std::ptrdiff_t>(i));
+      try {
+        rehearsal.start(module);
+      } catch (const Killed& death) {
+        schedule_start(t, module);  // it died at its birth
+      }
+    }
+  }
+
+  Rng rng_;
+  std::vector<std::pair<double, std::string>> starts_;  ///< time, module
+};
+
+void expect_all_told(Rehearsal& rehearsal, const std::vector<std::string>& offered) {
+  for (const std::string& id : offered) {
+    EXPECT_EQ(rehearsal.client.state_of(id), "fulfilled") << id;
+    const auto& entry = rehearsal.client.states[id];
+    const std::size_t times = entry.request.target == "all" ? 5U : 1U;
+    if (entry.request.kind == "exhibit" || times == 5U) {
+      EXPECT_EQ(rehearsal.told[id].size(), times) << id;
+    }
+  }
+  for (const auto& [request, tasks] : rehearsal.told) {
+    for (const std::string& task : tasks) EXPECT_TRUE(rehearsal.heard.contains(task + "/short")) << task;
+  }
+}
+
+void expect_nothing_twice(const Rehearsal& rehearsal) {
+  std::map<std::string, int> begun;
+  for (const auto& speech : rehearsal.speeches) ++begun[speech.id];
+  for (const auto& [id, times] : begun) EXPECT_EQ(times, 1) << "said again: " << id;
+  std::map<std::string, int> once;
+  for (const auto& event : rehearsal.events) {
+    if (event.kind == "arrived" || event.kind == "prompt_shown") ++once[event.kind + " " + event.detail];
+  }
+  for (const auto& [what, times] : once) EXPECT_EQ(times, 1) << what;
+}
+
 TEST(Tour, RequestsSurviveDeathsInAnyOrder) {
-  const std::vector<std::pair<const char*, const char*>> kWounds{
-      {"docent/request_board", "mission"}, {"docent/task", "mission"},  {"docent/mission_state", "mission"},
-      {"docent/task_state", "executive"},  {"docent/say", "executive"}, {"docent/drive_goal", "executive"},
-      {"docent/speech_state", "sound"}};
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
-    Rng rng{seed};
-    Rehearsal rehearsal{seed, "deaths"};
-    std::vector<std::pair<double, std::string>> starts;  // time, module
-    std::vector<std::string> offered;
-    int deaths = 0;
-    for (double t = 0.0; t < 1500.0; t += 0.5) {
-      if (t < 600.0 && rng.chance(0.5 / 60.0)) {
-        const std::string id = "r" + std::to_string(offered.size());
-        const bool is_tour = rng.chance(0.15);
-        const auto& exhibits = rehearsal.museum.exhibits;
-        rehearsal.client.wish_for(
-            id, is_tour ? "tour" : "exhibit",
-            is_tour ? rng.chance(0.5) ? "all" : "short"
-                    : exhibits[static_cast<std::size_t>(rng.integer(0, static_cast<std::int64_t>(exhibits.size()) - 1))]
-                          .id);
-        offered.push_back(id);
-      }
-      const auto schedule_start = [&](const std::string& module) {
-        ++deaths;
-        starts.emplace_back(t + rng.uniform(0.0, 6.0), module);
-      };
-      if (t < 1100.0 && rng.chance(0.5 / 15.0)) {
-        const auto& [topic, module] = kWounds[static_cast<std::size_t>(rng.integer(0, 6))];
-        if (rng.chance(0.6)) {
-          rehearsal.kill_at(topic, module);
-        } else if (rehearsal.is_up(module)) {
-          rehearsal.kill(module);
-          schedule_start(module);
-        }
-      }
-      for (std::size_t i = 0; i < starts.size();) {
-        if (starts[i].first > t) {
-          ++i;
-          continue;
-        }
-        const std::string module = starts[i].second;
-        starts.erase(starts.begin() + static_cast<std::ptrdiff_t>(i));
-        try {
-          rehearsal.start(module);
-        } catch (const Killed& death) {
-          schedule_start(module);  // it died at its birth
-        }
-      }
-      for (const std::string& module : rehearsal.run_for(0.5)) schedule_start(module);
-    }
-    EXPECT_GT(deaths, 20) << "seed " << seed;
-    ASSERT_GT(offered.size(), 2U) << "seed " << seed;
-    for (const std::string& id : offered) {
-      EXPECT_EQ(rehearsal.client.state_of(id), "fulfilled") << "seed " << seed << ' ' << id;
-      const auto& entry = rehearsal.client.states[id];
-      const std::size_t times = entry.request.target == "all" ? 5U : 1U;
-      if (entry.request.kind == "exhibit" || times == 5U) {
-        EXPECT_EQ(rehearsal.told[id].size(), times) << "seed " << seed << ' ' << id;
-      }
-    }
-    std::map<std::string, int> begun;
-    for (const auto& speech : rehearsal.speeches) ++begun[speech.id];
-    for (const auto& [id, times] : begun) EXPECT_EQ(times, 1) << "seed " << seed << " said again: " << id;
-    for (const auto& [request, tasks] : rehearsal.told) {
-      for (const std::string& task : tasks)
-        EXPECT_TRUE(rehearsal.heard.contains(task + "/short")) << "seed " << seed << ' ' << task;
-    }
-    std::map<std::string, int> once;
-    for (const auto& event : rehearsal.events) {
-      if (event.kind == "arrived" || event.kind == "prompt_shown") ++once[event.kind + " " + event.detail];
-    }
-    for (const auto& [what, times] : once) EXPECT_EQ(times, 1) << "seed " << seed << ' ' << what;
-    EXPECT_EQ(rehearsal.mission.phase, "idle") << "seed " << seed;
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    TourOfDeaths tour{seed};
+    tour.run();
+    EXPECT_GT(tour.deaths, 20);
+    ASSERT_GT(tour.offered.size(), 2U);
+    expect_all_told(tour.rehearsal, tour.offered);
+    expect_nothing_twice(tour.rehearsal);
+    EXPECT_EQ(tour.rehearsal.mission.phase, "idle");
   }
 }
 
