@@ -244,7 +244,7 @@ class Rehearsal {
   }
   void note_explanation() {
     for (const auto& entry : board.requests) {
-      const bool wants = entry.request.kind == "tour" ? entry.request.target == task.tour_id && task.tour_id != ""
+      const bool wants = entry.request.kind == "tour" ? entry.request.target == task.tour_id && !task.tour_id.empty()
                                                       : entry.request.target == task.exhibit_id;
       if (entry.state != "active" || !wants) continue;
       auto& tasks = told[entry.request.id];
