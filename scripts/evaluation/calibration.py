@@ -1,4 +1,4 @@
-"""Learns the weights of P(lost) (src/docent/localization/belief/verdict.cpp) from recordings in which the robot is carried off
+"""Learns the weights of P(lost) (src/docent/localization/judgement/verdict.cpp) from recordings in which the robot is carried off
 again and again, and from tours on which it stands amid people: a logistic regression of "was it lost?" on what the robot itself knew, by Newton's method.
 
 Seeds differ from those of `scripts/evaluate localization`, which holds the result against other recordings."""

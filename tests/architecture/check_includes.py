@@ -39,6 +39,8 @@ EDGE_MAY_SEE = {
     # The world and the robot share no model: the simulator sees no capability, no museum, no robot configuration.
     "simulator": {"base", "geometry", "messages", "transport", "simulator", "pictures", "grid"},
 }
+# The folders of these see no other one of their own, but `shared`; what starts them all sees all.
+APART = {"modules": "modules/host", "apps": "apps"}
 TRUTH = re.compile(r"kTrueState|kTrueContact|kTrueOffer|kRunInfo|for_each_truth_topic|\"truth/")
 TRUTH_MAY = {"messages", "simulator", "evaluation", "recording", "apps", "transport"}
 
@@ -66,6 +68,11 @@ def check_arrow(source, target, where):
         check(a == "apps", f"{where}: only apps may see the simulator, not {source}")
 
 
+def check_apart(source, target, where):
+    if top(source) == top(target) and top(source) in APART and source not in {target, APART[top(source)]}:
+        check(target == f"{top(source)}/shared", f"{where}: {source} may not see {target}, only {top(source)}/shared")
+
+
 def main():
     for path in sorted(SOURCE.rglob("*")):
         if path.suffix not in {".h", ".cpp"}:
@@ -76,6 +83,8 @@ def main():
             match = re.match(r'\s*#include "docent/(.+)/[^/]+"', line)
             if match:
                 check_arrow(folder, match.group(1), where)
+                if not path.stem.endswith("_test"):
+                    check_apart(folder, match.group(1), where)
             if TRUTH.search(line) and not path.stem.endswith("_test"):
                 check(top(folder) in TRUTH_MAY, f"{where}: {folder} names the truth")
     for cmake in sorted(SOURCE.rglob("CMakeLists.txt")):
@@ -91,12 +100,13 @@ def main():
                     section = word
                 elif section == "DEPENDS":
                     check_arrow(folder, word, f"{cmake.relative_to(ROOT)}")
+                    check_apart(folder, word, f"{cmake.relative_to(ROOT)}")
     # A module never talks to another but by the bus.
     modules = SOURCE / "modules"
     if modules.is_dir():
-        for path in modules.glob("*_module.cpp"):
+        for path in modules.rglob("*_module.cpp"):
             own = path.stem
-            for other in re.findall(r'#include "docent/modules/(\w+_module)\.h"', path.read_text()):
+            for other in re.findall(r'#include "docent/modules/\w+/(\w+_module)\.h"', path.read_text()):
                 check(other == own, f"{path.relative_to(ROOT)}: includes another module, {other}")
     # Machine paths and registry hosts do not belong in the project.
     grep = subprocess.run(

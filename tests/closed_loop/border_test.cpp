@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "docent/apps/simulation_run.h"
-#include "docent/apps/temporary_folder.h"
+#include "docent/apps/shared/temporary_folder.h"
+#include "docent/apps/simulate/simulation_run.h"
 #include "docent/base/files.h"
 
 // A robot on the border of its area, or up to 10 cm beyond, with people shoulder to shoulder in its way inside: it

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "docent/apps/simulation_run.h"
+#include "docent/apps/simulate/simulation_run.h"
 
 // The whole robot drives coastal ways: with the weight that it takes, it goes round the open centre of the Smithsonian,
 // without it straight through.

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "docent/apps/simulation_run.h"
-#include "docent/apps/temporary_folder.h"
+#include "docent/apps/shared/temporary_folder.h"
+#include "docent/apps/simulate/simulation_run.h"
 #include "docent/base/files.h"
 
 // The whole robot in a crowd, in virtual time.

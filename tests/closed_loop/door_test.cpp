@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "docent/apps/simulation_run.h"
-#include "docent/apps/temporary_folder.h"
+#include "docent/apps/shared/temporary_folder.h"
+#include "docent/apps/simulate/simulation_run.h"
 #include "docent/museum/museum.h"
 #include "docent/simulator/museum_folder/museum_folder.h"
 

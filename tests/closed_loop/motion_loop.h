@@ -7,7 +7,7 @@
 
 #include "docent/base/random.h"
 #include "docent/messages/conversions.h"
-#include "docent/modules/module_host.h"
+#include "docent/modules/host/module_host.h"
 #include "docent/simulator/simulated_museum.h"
 #include "docent/transport/virtual_time_bus.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "docent/apps/simulation_run.h"
+#include "docent/apps/simulate/simulation_run.h"
 
 // The sonars die while the robot is on its way through a crowd, which preceded RHINO's error of 30 cm. It must not be
 // lost, touch nothing, and say which sensor it is where that can be known.

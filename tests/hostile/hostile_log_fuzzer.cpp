@@ -7,7 +7,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "docent/apps/localize_log.h"
+#include "docent/apps/localize/localize_log.h"
 #include "docent/localization/markov/markov_localizer.h"
 #include "docent/recording/laser_log.h"
 #include "hostile_recording.h"

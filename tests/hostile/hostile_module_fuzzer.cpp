@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <span>
 
-#include "docent/modules/registry.h"
+#include "docent/modules/host/registry.h"
 #include "module_stage.h"
 
 // The input: which module, then one message after the other: its topic, how many hundredths of a second go by before

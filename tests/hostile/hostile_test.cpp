@@ -5,9 +5,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "docent/apps/localize_log.h"
+#include "docent/apps/localize/localize_log.h"
 #include "docent/localization/markov/markov_localizer.h"
-#include "docent/modules/registry.h"
+#include "docent/modules/host/registry.h"
 #include "docent/recording/laser_log.h"
 #include "hostile_recording.h"
 #include "module_stage.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "docent/base/random.h"
-#include "docent/modules/module_host.h"
+#include "docent/modules/host/module_host.h"
 #include "docent/transport/virtual_time_bus.h"
 
 namespace docent {

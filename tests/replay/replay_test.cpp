@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "docent/apps/replay_run.h"
-#include "docent/apps/simulation_run.h"
+#include "docent/apps/replay/replay_run.h"
+#include "docent/apps/simulate/simulation_run.h"
 #include "docent/base/files.h"
 #include "docent/evaluation/deployment_evaluator.h"
 #include "docent/recording/recorder.h"
@@ -109,6 +109,7 @@ TEST_F(Replay, AChangedModuleIsSeenInItsRecording) {
   const auto crippled = replay_with({"localize"}, "evaluation.dead_reckoning=true");
   ASSERT_TRUE(crippled) << crippled.error().message;
   ASSERT_TRUE(crippled->report);
+  EXPECT_EQ(crippled->report->crippled, "dead_reckoning");
   EXPECT_GT(crippled->report->localization.error_m.mean(), 2.0 * repeated->localization.error_m.mean());
 }
 

@@ -10,7 +10,7 @@
 #include "actor.h"
 #include "docent/base/files.h"
 #include "docent/interaction/speech/horn.h"
-#include "docent/modules/web_module.h"
+#include "docent/modules/edge/web_module.h"
 #include "docent/transport/virtual_time_bus.h"
 
 // docent_web_stage MUSEUM_DIR STATE_DIR PORT [lost=S] [people=N] [busy] [speed=V] [talk=F] [horn=S] [seconds=S]

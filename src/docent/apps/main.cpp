@@ -2,22 +2,22 @@
 #include <cstdio>
 #include <exception>
 
-#include "docent/apps/check_command.h"
-#include "docent/apps/command.h"
-#include "docent/apps/config_command.h"
-#include "docent/apps/crowd_command.h"
-#include "docent/apps/evaluate_command.h"
-#include "docent/apps/learn_command.h"
-#include "docent/apps/localize_command.h"
-#include "docent/apps/map_command.h"
-#include "docent/apps/museum_command.h"
-#include "docent/apps/office_command.h"
-#include "docent/apps/plan_command.h"
-#include "docent/apps/replay_command.h"
-#include "docent/apps/run_command.h"
-#include "docent/apps/simulate_command.h"
-#include "docent/apps/survey_command.h"
-#include "docent/apps/up_command.h"
+#include "docent/apps/config/config_command.h"
+#include "docent/apps/crowd/crowd_command.h"
+#include "docent/apps/learn/learn_command.h"
+#include "docent/apps/localize/localize_command.h"
+#include "docent/apps/localize/map_command.h"
+#include "docent/apps/museum/check_command.h"
+#include "docent/apps/museum/museum_command.h"
+#include "docent/apps/museum/office_command.h"
+#include "docent/apps/museum/survey_command.h"
+#include "docent/apps/plan/plan_command.h"
+#include "docent/apps/replay/evaluate_command.h"
+#include "docent/apps/replay/replay_command.h"
+#include "docent/apps/shared/command.h"
+#include "docent/apps/simulate/simulate_command.h"
+#include "docent/apps/up/run_command.h"
+#include "docent/apps/up/up_command.h"
 
 int main(int argc, char** argv) {
   CLI::App app{"Docent: an autonomous museum tour guide.", "docent"};

@@ -1,0 +1,219 @@
+#include "docent/apps/localize/localize_log.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "docent/base/files.h"
+
+namespace docent {
+
+namespace {
+
+using WallClock = std::chrono::steady_clock;
+
+constexpr const char* kHeader = "scan,time,x,y,heading_deg,has_pose,localized,p_lost";
+
+double quantile(std::vector<double> values, double q) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  return values[std::min(values.size() - 1, static_cast<std::size_t>(q * static_cast<double>(values.size())))];
+}
+
+/// First and last scan, in the order of the log, from which on (until which) a run knew where it was.
+std::pair<std::size_t, std::size_t> known_span(const std::vector<LoggedPose>& poses) {
+  std::size_t first = 0;
+  while (first < poses.size() && !poses[first].localized) ++first;
+  std::size_t last = poses.size();
+  while (last > first && !poses[last - 1].localized) --last;
+  return {first, last};
+}
+
+}  // namespace
+
+RangeSweep sweep_of(const LoggedScan& scan, double max_range) {
+  RangeSweep sweep;
+  append(sweep, {scan.ranges, scan.first_bearing, scan.bearing_step, 0.02, max_range}, {});
+  return sweep;
+}
+
+bool has_two_lasers(const LaserLog& log) {
+  return std::any_of(log.scans.begin(), log.scans.end(),
+                     [&](const LoggedScan& scan) { return scan.rear != log.scans.front().rear; });
+}
+
+Pose2 base_from_tracked(bool has_two_lasers, const LoggedScan& scan) {
+  return has_two_lasers ? Pose2{} : scan.base_from_laser;
+}
+
+namespace {
+
+/// Odometry alone from a known pose on.
+LoggedPose reckoned(const LoggedPose& from, const LoggedScan& at_from, std::size_t scan, const LoggedScan& now) {
+  LoggedPose pose = from;
+  pose.scan = scan;
+  pose.time = to_seconds(now.time);
+  pose.map_from_base = from.map_from_base * (inverse(at_from.odom_from_base) * now.odom_from_base);
+  return pose;
+}
+
+/// The mode that a robot became sure of is the one it had followed until then: back along odometry, as far as the best
+/// pose kept to it.
+void know_in_hindsight(const LaserLog& log, bool reverse, std::vector<LoggedPose>& poses) {
+  const std::size_t count = poses.size();
+  const auto at = [&](std::size_t n) { return reverse ? count - 1 - n : n; };  // by the order of the run
+  for (std::size_t n = count; n-- > 1;) {
+    const LoggedPose& later = poses[at(n)];
+    LoggedPose& before = poses[at(n - 1)];
+    if (!later.localized || before.localized || !before.has_pose) continue;
+    const Pose2 moved = inverse(log.scans[at(n - 1)].odom_from_base) * log.scans[at(n)].odom_from_base;
+    const Pose2 expected = before.map_from_base * moved;
+    before.localized = distance(expected.position(), later.map_from_base.position()) < 0.5 &&
+                       std::abs((expected.theta - later.map_from_base.theta).degrees()) < 15.0;
+  }
+}
+
+}  // namespace
+
+LogRun localize_log(const LaserLog& log, Localizer& localizer, const LogRunOptions& options) {
+  LogRun run;
+  run.poses.resize(log.scans.size());
+  const bool has_two = has_two_lasers(log);
+  std::size_t fitted = 0;
+  std::optional<std::size_t> known;  // the first scan at which the robot said where it is
+  const double end = log.scans.empty() ? 0.0 : to_seconds(log.scans.back().time);
+  for (std::size_t n = 0; n < log.scans.size(); ++n) {
+    const std::size_t i = options.reverse ? log.scans.size() - 1 - n : n;
+    const LoggedScan& scan = log.scans[i];
+    if (options.dead_reckoning && known) {
+      run.poses[i] = reckoned(run.poses[*known], log.scans[*known], i, scan);
+      continue;
+    }
+    const double logged = to_seconds(scan.time);
+    const Time time = time_from_seconds(options.reverse ? end - logged : logged);
+    const Pose2 tracked = base_from_tracked(has_two, scan);
+    const Pose2 odom_from_tracked = scan.odom_from_base * tracked;
+    if (n == 0 && options.start) {
+      const BeliefMode mode{*options.start * tracked, {0.04, 0, 0, 0, 0.04, 0, 0, 0, 0.01}, 1.0};
+      localizer.start_at(std::span{&mode, 1}, odom_from_tracked, time);
+    }
+    const auto begin = WallClock::now();
+    const RangeSweep of_laser = sweep_of(scan, log.max_range);
+    const auto step =
+        localizer.observe(has_two ? seen_from(of_laser, scan.base_from_laser) : of_laser, odom_from_tracked, time);
+    const double seconds = std::chrono::duration<double>(WallClock::now() - begin).count();
+    if (n == 0) run.seconds_first = seconds;
+    if (step.updated) {
+      run.seconds.push_back(seconds);
+      run.beams_used += step.beams_used;
+      run.beams_filtered += step.beams_filtered;
+      ++run.updates;
+      if (step.fit) {
+        run.fit += *step.fit;
+        ++fitted;
+      }
+    }
+    LoggedPose& pose = run.poses[i];
+    pose = {i, logged, {}, false, localizer.verdict().localized(), localizer.verdict().p_lost()};
+    if (const auto best = localizer.map_from_robot(odom_from_tracked)) {
+      pose.map_from_base = *best * inverse(tracked);
+      pose.has_pose = true;
+    }
+    if (!known && (pose.localized || options.start)) known = i;
+    if (pose.localized && !run.localized_after) run.localized_after = n + 1;
+    if (options.watch) options.watch(localizer, i, step);
+  }
+  if (!options.dead_reckoning) know_in_hindsight(log, options.reverse, run.poses);
+  run.fit = fitted > 0 ? run.fit / static_cast<double>(fitted) : -std::numeric_limits<double>::infinity();
+  return run;
+}
+
+double endpoints_near_walls(const LaserLog& log, const LogRun& run, const RayCaster& caster, double distance) {
+  std::size_t near = 0;
+  std::size_t all = 0;
+  const auto [first, last] = known_span(run.poses);
+  for (std::size_t i = first; i < last; ++i) {
+    if (!run.poses[i].has_pose) continue;
+    const Pose2 map_from_laser = run.poses[i].map_from_base * log.scans[i].base_from_laser;
+    for (const SweepBeam& beam : sweep_of(log.scans[i], log.max_range).beams) {
+      if (beam.no_return) continue;
+      ++all;
+      const float clearance = caster.clearance(map_from_laser * endpoint(beam));
+      near += static_cast<double>(clearance) <= distance ? 1 : 0;
+    }
+  }
+  return all == 0 ? 0.0 : static_cast<double>(near) / static_cast<double>(all);
+}
+
+RunAgreement agreement_of(const std::vector<LoggedPose>& first, const std::vector<LoggedPose>& second) {
+  RunAgreement result;
+  if (first.size() != second.size()) return result;
+  const auto [first_from, first_to] = known_span(first);
+  const auto [second_from, second_to] = known_span(second);
+  std::vector<double> off;
+  std::size_t agreed = 0;
+  for (std::size_t i = std::max(first_from, second_from); i < std::min(first_to, second_to); ++i) {
+    ++result.scans;
+    if (!first[i].localized || !second[i].localized) continue;
+    const Pose2& a = first[i].map_from_base;
+    const Pose2& b = second[i].map_from_base;
+    off.push_back(distance(a.position(), b.position()));
+    const bool near = off.back() <= 0.5 && std::abs((a.theta - b.theta).degrees()) <= 10.0;
+    agreed += near ? 1 : 0;
+  }
+  result.both_know = off.size();
+  if (off.empty()) return result;
+  result.share = static_cast<double>(agreed) / static_cast<double>(off.size());
+  result.median_m = quantile(off, 0.5);
+  result.p95_m = quantile(off, 0.95);
+  result.max_m = *std::max_element(off.begin(), off.end());
+  return result;
+}
+
+Result<void> save_poses(const std::vector<LoggedPose>& poses, const std::string& path) {
+  std::string text = std::string{kHeader} + "\n";
+  for (const LoggedPose& pose : poses) {
+    char line[200];
+    std::snprintf(line, sizeof line, "%zu,%.6f,%.4f,%.4f,%.3f,%d,%d,%.4f\n", pose.scan, pose.time, pose.map_from_base.x,
+                  pose.map_from_base.y, pose.map_from_base.theta.degrees(), pose.has_pose ? 1 : 0,
+                  pose.localized ? 1 : 0, pose.p_lost);
+    text += line;
+  }
+  return write_file_atomically(path, text);
+}
+
+Result<std::vector<LoggedPose>> load_poses(const std::string& path) {
+  const auto text = read_file(path);
+  if (!text) return tl::unexpected<Error>(text.error());
+  std::vector<LoggedPose> poses;
+  std::size_t begin = 0;
+  for (int line = 1; begin < text->size(); ++line) {
+    std::size_t end = text->find('\n', begin);
+    if (end == std::string::npos) end = text->size();
+    const std::string content = text->substr(begin, end - begin);
+    begin = end + 1;
+    if (line == 1) {
+      if (content != kHeader) return fail(path + ":1: expected the columns " + kHeader);
+      continue;
+    }
+    LoggedPose pose;
+    double degrees = 0.0;
+    int has_pose = 0;
+    int localized = 0;
+    int used = 0;
+    const int fields =
+        std::sscanf(content.c_str(), "%zu,%lf,%lf,%lf,%lf,%d,%d,%lf%n", &pose.scan, &pose.time, &pose.map_from_base.x,
+                    &pose.map_from_base.y, &degrees, &has_pose, &localized, &pose.p_lost, &used);
+    if (fields != 8 || static_cast<std::size_t>(used) != content.size() || pose.scan != poses.size())
+      return fail(path + ":" + std::to_string(line) + ": expected the next scan as " + kHeader);
+    pose.map_from_base.theta = Angle::degrees(degrees);
+    pose.has_pose = has_pose != 0;
+    pose.localized = localized != 0;
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+}  // namespace docent

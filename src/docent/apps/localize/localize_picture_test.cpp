@@ -1,0 +1,63 @@
+#include "docent/apps/localize/localize_picture.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "docent/base/files.h"
+
+namespace docent {
+namespace {
+
+std::string svg_of(const Figure& figure) {
+  const auto path = std::filesystem::temp_directory_path() / ("docent_run_" + std::to_string(getpid()) + ".svg");
+  EXPECT_TRUE(figure.save(path));
+  const auto svg = read_file(path);
+  std::filesystem::remove(path);
+  return svg ? *svg : "";
+}
+
+/// A robot that drives along a hall for 40 s.
+class LocalizePicture : public testing::Test {
+ protected:
+  LocalizePicture() {
+    map_.frame = {100, 40, 0.1, {0.0, 0.0}};
+    map_.cells.assign(map_.frame.size(), OccupancyGrid::kFree);
+    log_.max_range = 10.0;
+    for (std::size_t i = 0; i <= 20; ++i) {
+      LoggedScan scan;
+      scan.time = time_from_seconds(1000.0 + 2.0 * static_cast<double>(i));
+      scan.bearing_step = 0.1;
+      scan.ranges = {1.0F, 1.5F};
+      log_.scans.push_back(scan);
+      LoggedPose pose;
+      pose.scan = i;
+      pose.map_from_base = {1.0 + 0.4 * static_cast<double>(i), 2.0, {}};
+      pose.has_pose = pose.localized = true;
+      run_.poses.push_back(pose);
+    }
+  }
+  OccupancyGrid map_;
+  LaserLog log_;
+  LogRun run_;
+};
+
+TEST_F(LocalizePicture, TheRunHasItsTimesAndTheReferenceWhereThereIsOne) {
+  const std::vector<std::optional<Pose2>> none(log_.scans.size());
+  const std::string svg = svg_of(draw_run(map_, log_, run_, 5, none));
+  for (const char* word : {"<title>Scans 0 to 20, 0 to 40 s</title>", "x [m], y [m], time [s]",
+                           "trajectory while localized", "robot and scan"})
+    EXPECT_NE(svg.find(word), std::string::npos) << word;
+  EXPECT_EQ(svg.find("reference"), std::string::npos);
+  std::vector<std::optional<Pose2>> reference;
+  for (const LoggedPose& pose : run_.poses) reference.emplace_back(pose.map_from_base);
+  EXPECT_NE(svg_of(draw_run(map_, log_, run_, 5, reference)).find("reference trajectory"), std::string::npos);
+}
+
+TEST_F(LocalizePicture, AScanHasItsMoment) {
+  const std::string svg = svg_of(draw_scan(map_, log_, run_.poses[7]));
+  EXPECT_NE(svg.find("<title>scan 7, 14.0 s</title>"), std::string::npos);
+  EXPECT_NE(svg.find("robot and scan, localized"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace docent

@@ -1,0 +1,67 @@
+#include "docent/apps/localize/localize_summary.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+namespace docent {
+
+namespace {
+
+double number(const nlohmann::json& report, const char* key) {
+  const auto found = report.find(key);
+  return found != report.end() && found->is_number() ? found->get<double>() : 0.0;
+}
+
+/// Lengths as people say them.
+std::string length(double metres) {
+  return metres < 1.0 ? fmt::format("{:.1f} cm", 100.0 * metres) : fmt::format("{:.2f} m", metres);
+}
+
+std::string against_reference(const nlohmann::json& report) {
+  if (!report.contains("reference_scans")) return "";
+  const auto scans = report["reference_scans"].get<std::size_t>();
+  if (scans == 0) return "  against the reference: no scan could be compared\n";
+  return fmt::format(
+      "  against the reference, {} scans: mean error {}, 19 of 20 within {}, at most {}; heading {:.1f} degrees in the "
+      "mean\n  lost in {:.0f} scans ({:.1f} %), sure and wrong in {:.0f}, unsure in {:.0f}\n",
+      scans, length(number(report, "mean_error_m")), length(number(report, "p95_error_m")),
+      length(number(report, "max_error_m")), number(report, "mean_heading_error_deg"), number(report, "lost_scans"),
+      100.0 * number(report, "lost_fraction"), number(report, "sure_and_wrong_scans"), number(report, "unsure_scans"));
+}
+
+}  // namespace
+
+std::string summary_of_run(const nlohmann::json& report) {
+  const auto scans = report.value("scans", std::size_t{0});
+  const auto updates = report.value("updates", std::size_t{0});
+  std::string text = fmt::format("  {} scans, {} of them an update of the belief with {:.0f} beams ({:.0f} filtered)\n",
+                                 scans, updates, number(report, "beams_used"), number(report, "beams_filtered"));
+  if (report.contains("seconds_per_scan")) {
+    const auto& seconds = report["seconds_per_scan"];
+    text += fmt::format("  {:.1f} ms a scan in the median, 99 of 100 within {:.1f} ms, the first {:.0f} ms\n",
+                        1e3 * number(seconds, "median"), 1e3 * number(seconds, "p99"), 1e3 * number(seconds, "first"));
+  }
+  const auto after = report.find("localized_after_scans");
+  if (after == report.end() || after->is_null()) {
+    text += "  it never said that it knows where it is\n";
+  } else {
+    text += fmt::format(
+        "  it first said that it knows where it is after {} scans; it knew, in hindsight too, in {:.1f} % of all\n",
+        after->get<std::size_t>(), 100.0 * number(report, "localized_fraction"));
+    text += fmt::format("  {:.1f} % of the readings since then end within 0.2 m of a wall of the map\n",
+                        100.0 * number(report, "endpoints_near_walls"));
+  }
+  return text + against_reference(report);
+}
+
+std::string summary_of_agreement(const nlohmann::json& agreement) {
+  const auto scans = agreement.value("scans", std::size_t{0});
+  if (scans == 0) return "  there is no scan in which both say that they know: nothing to compare\n";
+  return fmt::format(
+      "  within 0.5 m and 10 degrees in {:.1f} % of {} scans; {} in the median, 19 of 20 within {}, at most {}\n",
+      100.0 * number(agreement, "within_half_a_metre_and_10_degrees"), scans, length(number(agreement, "median_m")),
+      length(number(agreement, "p95_m")), length(number(agreement, "max_m")));
+}
+
+}  // namespace docent

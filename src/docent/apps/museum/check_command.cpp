@@ -1,0 +1,90 @@
+#include "docent/apps/museum/check_command.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "docent/apps/shared/command.h"
+#include "docent/apps/shared/deployment.h"
+#include "docent/apps/shared/map_note.h"
+#include "docent/base/yaml.h"
+#include "docent/interaction/speech/sentences.h"
+#include "docent/modules/drive/plan_module.h"
+#include "docent/museum/museum.h"
+#include "docent/simulator/world/world.h"
+
+namespace docent {
+namespace {
+
+/// What the museum and its simulation must agree on: ids. Nothing else is shared.
+void check_simulation(const Museum& museum, std::vector<Error>& faults) {
+  auto world = simulator::load_world(*museum.simulation_path);
+  if (!world) {
+    faults.push_back(world.error());
+    return;
+  }
+  const YamlFile file = value_or_fail(YamlFile::load(*museum.simulation_path));
+  const YAML::Node& root = file.root();
+  for (std::size_t i = 0; i < world->exhibits.size(); ++i) {
+    const Exhibit* exhibit = museum.find_exhibit(world->exhibits[i]);
+    const YAML::Node at = root["exhibits"][i];
+    if (exhibit == nullptr) faults.push_back(file.fault(at, "museum.yaml has no exhibit '" + world->exhibits[i] + "'"));
+    if (exhibit != nullptr && exhibit->web_only) {
+      faults.push_back(file.fault(at, "exhibit '" + exhibit->id + "' is for the Web only"));
+    }
+  }
+  for (std::size_t i = 0; i < world->tours.size(); ++i) {
+    if (museum.find_tour(world->tours[i]) != nullptr) continue;
+    faults.push_back(file.fault(root["tours"][i], "museum.yaml has no tour '" + world->tours[i] + "'"));
+  }
+}
+
+/// The museum's texts exist in each of its languages; the robot's own phrases may not.
+void note_languages(const Museum& museum) {
+  const auto spoken = sentence_languages();
+  for (const std::string& language : museum.languages) {
+    if (std::find(spoken.begin(), spoken.end(), language) != spoken.end()) continue;
+    const YamlFile file = value_or_fail(YamlFile::load(museum.folder / "museum.yaml"));
+    const YAML::Node& root = file.root();
+    const std::string what =
+        "note: the robot's own phrases do not exist in '" + language + "': it says them in English";
+    std::printf("%s\n", file.fault(root["languages"], what).message.c_str());
+  }
+}
+
+void check(const Deployment& deployment) {
+  const std::filesystem::path folder{deployment.museum};
+  const RobotConfig config = value_or_fail(deployment.load_config(), 2);
+  std::vector<Error> faults = check_museum(folder, value_or_fail(checked_robot_of_plan(config), 2));
+  if (faults.empty()) {
+    const Museum museum = value_or_fail(load_museum(folder));
+    if (museum.simulation_path) check_simulation(museum, faults);
+    if (faults.empty()) {
+      note_languages(museum);
+      const GridFrame& frame = museum.map.frame;
+      std::printf("%s: fine. %zu exhibits (%zu sensible pairs), %zu hazards, %zu tours, map %.1f x %.1f m\n",
+                  folder.string().c_str(), museum.exhibits.size(), sensible_pairs(museum), museum.hazards.size(),
+                  museum.tours.size(), frame.columns * frame.resolution, frame.rows * frame.resolution);
+      say_classes(museum.map_path.string(), museum.map);
+      return;
+    }
+  }
+  for (const Error& fault : faults) std::fprintf(stderr, "%s\n", fault.message.c_str());
+  throw CommandFailed{folder.string() + ": " + std::to_string(faults.size()) +
+                      (faults.size() == 1 ? " fault" : " faults")};
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app) {
+  auto* command = app.add_subcommand("check", "Validate a museum; every fault is named with file and line");
+  auto deployment = std::make_shared<Deployment>();
+  command->add_option("museum", deployment->museum, "Folder with a museum.yaml")->required();
+  command->add_option("--robot", deployment->robot, "robot.yaml of the robot that must fit; without it all defaults");
+  command->add_option("--set", deployment->settings, "section.key=value, over robot.yaml; may be repeated")
+      ->allow_extra_args(false);
+  command->callback([deployment] { check(*deployment); });
+}
+
+}  // namespace docent

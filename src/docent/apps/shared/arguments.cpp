@@ -1,0 +1,115 @@
+#include "docent/apps/shared/arguments.h"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <system_error>
+#include <vector>
+
+#include "docent/apps/shared/command.h"
+#include "docent/pictures/figure.h"
+
+namespace docent {
+
+namespace {
+
+std::vector<double> parse_numbers(const std::string& option, const std::string& text, std::size_t count,
+                                  const std::string& form) {
+  std::vector<double> numbers;
+  const char* at = text.c_str();
+  bool good = true;
+  while (good) {
+    char* end = nullptr;
+    const double number = std::strtod(at, &end);
+    good = end != at && std::isfinite(number);
+    numbers.push_back(number);
+    at = end;
+    if (*at != ',') break;
+    ++at;
+  }
+  if (!good || *at != '\0' || numbers.size() != count) {
+    throw CommandFailed{option + " " + text + ": expected " + form, 2};
+  }
+  return numbers;
+}
+
+}  // namespace
+
+double parse_number(const std::string& option, const std::string& text, const std::string& form) {
+  return parse_numbers(option, text, 1, form).front();
+}
+
+Point2 parse_point(const std::string& option, const std::string& text) {
+  const auto numbers = parse_numbers(option, text, 2, "two numbers X,Y [m]");
+  return {numbers[0], numbers[1]};
+}
+
+Pose2 parse_pose(const std::string& option, const std::string& text) {
+  const auto numbers = parse_numbers(option, text, 3, "three numbers X,Y,DEG [m, m, degrees]");
+  return {numbers[0], numbers[1], Angle::degrees(numbers[2])};
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string cannot(const std::string& text, const std::string& why) { return "cannot write " + text + ": " + why; }
+
+/// "" when something can be made in `folder`.
+std::string fault_of_folder(const std::string& text, const fs::path& folder) {
+  std::error_code code;
+  if (!fs::exists(folder, code)) return cannot(text, "there is no folder " + folder.string());
+  if (!fs::is_directory(folder, code)) return cannot(text, folder.string() + " is not a folder");
+  if (access(folder.c_str(), W_OK | X_OK) != 0) return cannot(text, "no permission to write in " + folder.string());
+  return "";
+}
+
+std::string fault_of_output_file(std::string& text) {
+  std::error_code code;
+  const fs::path path = fs::absolute(text, code);
+  if (text.empty() || code) return "expected a file to write";
+  if (fs::is_directory(path, code)) return cannot(text, "it is a folder");
+  if (fs::exists(path, code) && access(path.c_str(), W_OK) != 0) return cannot(text, "no permission to replace it");
+  return fault_of_folder(text, path.parent_path());
+}
+
+std::string fault_of_output_picture(std::string& text) {
+  if (const auto format = figure_format(text); !format) return format.error().message;
+  return fault_of_output_file(text);
+}
+
+std::string fault_of_output_folder(std::string& text) {
+  std::error_code code;
+  fs::path existing = fs::absolute(text, code);
+  if (text.empty() || code) return "expected a folder to write to";
+  while (!fs::exists(existing, code) && existing.has_relative_path()) existing = existing.parent_path();
+  return fault_of_folder(text, existing);
+}
+
+}  // namespace
+
+CLI::Validator output_file() { return CLI::Validator{fault_of_output_file, "FILE"}; }
+CLI::Validator output_folder() { return CLI::Validator{fault_of_output_folder, "FOLDER"}; }
+CLI::Validator output_picture() { return CLI::Validator{fault_of_output_picture, "FILE.svg, .pdf or .png"}; }
+
+void add_picture_format(CLI::App& command, std::string& format) {
+  command.add_option("--picture-format", format, "of the pictures: svg, pdf (both vectors) or png")
+      ->check(CLI::IsMember({"svg", "pdf", "png"}))
+      ->capture_default_str();
+}
+
+void add_seed(CLI::App& command, const std::string& name, std::uint64_t& seed, const std::string& meaning) {
+  // Left alone, -3 becomes the seed 18446744073709551613.
+  const CLI::Validator is_seed{[](std::string& text) {
+                                 const bool is_whole =
+                                     !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+                                 return is_whole ? std::string{} : "'" + text + "' is no whole number from 0 on";
+                               },
+                               "SEED"};
+  command.add_option(name, seed, meaning)->check(is_seed)->capture_default_str();
+}
+
+}  // namespace docent

@@ -1,0 +1,130 @@
+#include "docent/apps/shared/deployment.h"
+
+#include <signal.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <system_error>
+#include <thread>
+
+#include "docent/apps/shared/arguments.h"
+#include "docent/apps/shared/cache_folder.h"
+#include "docent/base/shipped_files.h"
+#include "docent/modules/host/registry.h"
+#include "docent/transport/dds_bus.h"
+
+namespace docent {
+
+void Deployment::add_options(CLI::App& command) {
+  museum = default_museum();
+  state = default_state();
+  command.add_option("--museum", museum, "Folder of the museum")->capture_default_str();
+  command.add_option("--state", state, "Folder for what must survive: checkpoints, databases")->capture_default_str();
+  add_cache_options(command, cache);
+  command.add_option("--robot", robot, "robot.yaml of the robot; without it all defaults");
+  command.add_option("--set", settings, "section.key=value, over robot.yaml; may be repeated")->allow_extra_args(false);
+  command.add_option("--name", name, "Prefix of the topics, where several robots share a domain");
+  command.add_option("--domain", domain, "DDS domain")->check(CLI::Range(0, kMaxDdsDomain))->capture_default_str();
+  add_seed(command, "--seed", seed, "Seed of everything random");
+}
+
+std::vector<std::string> Deployment::arguments() const {
+  std::vector<std::string> all{"--museum", museum, "--state", state};
+  if (cache.empty()) {
+    all.emplace_back("--no-cache");
+  } else {
+    all.insert(all.end(), {"--cache", cache});
+  }
+  if (!robot.empty()) all.insert(all.end(), {"--robot", robot});
+  for (const auto& setting : settings) all.insert(all.end(), {"--set", setting});
+  if (!name.empty()) all.insert(all.end(), {"--name", name});
+  all.insert(all.end(), {"--domain", std::to_string(domain), "--seed", std::to_string(seed)});
+  return all;
+}
+
+Result<Museum> Deployment::load() const { return load_museum(museum); }
+
+Result<RobotConfig> Deployment::load_config() const {
+  RobotConfig config;
+  if (!robot.empty()) {
+    auto loaded = RobotConfig::load(robot);
+    if (!loaded) return loaded;
+    config = std::move(*loaded);
+  }
+  for (const auto& setting : settings) {
+    auto set = config.set(setting);
+    if (!set) return tl::unexpected<Error>(set.error());
+  }
+  std::vector<std::string> sections;
+  for (const ModuleEntry& entry : all_modules()) sections.emplace_back(entry.name);
+  if (auto known = config.check_sections(sections); !known) return tl::unexpected<Error>(known.error());
+  return config;
+}
+
+Result<RobotConfig> Deployment::load_whole_config() const {
+  auto config = load_config();
+  if (!config) return config;
+  if (auto whole = config->check_not_crippled(); !whole) return tl::unexpected<Error>(whole.error());
+  return config;
+}
+
+Result<void> Deployment::prepare_state() const {
+  std::error_code error;
+  std::filesystem::create_directories(state, error);
+  if (error || !std::filesystem::is_directory(state)) {
+    return fail("--state " + state + ": " + (error ? error.message() : "is not a folder"));
+  }
+  return {};
+}
+
+std::string default_museum() { return shipped_path("museums/bonn").string(); }
+
+std::string default_state() {
+  const char* state = std::getenv("XDG_STATE_HOME");
+  if (state != nullptr && *state != '\0') return std::string{state} + "/docent";
+  const char* home = std::getenv("HOME");
+  return std::string{home != nullptr && *home != '\0' ? home : "/tmp"} + "/.local/state/docent";
+}
+
+namespace {
+sigset_t end_signals() {
+  sigset_t set;
+  sigemptyset(&set);
+  for (const int number : {SIGTERM, SIGINT, SIGHUP}) sigaddset(&set, number);
+  return set;
+}
+}  // namespace
+
+void block_end_signals() {
+  const sigset_t set = end_signals();
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);
+  signal(SIGPIPE, SIG_IGN);
+}
+
+int wait_for_end_signal(double timeout_s) {
+  const sigset_t set = end_signals();
+  int number = 0;
+  if (timeout_s < 0) {
+    sigwait(&set, &number);
+  } else {
+    const double whole = std::floor(timeout_s);
+    const timespec timeout{static_cast<time_t>(whole), static_cast<long>((timeout_s - whole) * 1e9)};
+    number = std::max(0, sigtimedwait(&set, nullptr, &timeout));
+  }
+  return number;
+}
+
+std::stop_token end_signal() {
+  std::stop_source stop;
+  // Detached, because it waits for what may never come; it owns what it touches.
+  std::thread{[stop]() mutable {
+    static_cast<void>(wait_for_end_signal(-1.0));
+    stop.request_stop();
+  }}.detach();
+  return stop.get_token();
+}
+
+}  // namespace docent

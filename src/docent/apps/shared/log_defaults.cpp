@@ -1,0 +1,39 @@
+#include "docent/apps/shared/log_defaults.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace docent {
+
+double reach_of_log(double max_range) {
+  // Far readings tell one corridor from another; beyond some length the map's headings are too coarse for them.
+  constexpr double kMost = 30.0;
+  return std::min(max_range > 0.0 ? max_range : kMost, kMost);
+}
+
+Result<void> set_log_defaults(RobotConfig& config, const OccupancyGrid& map, double max_range,
+                              bool times_are_invented) {
+  // A map's cells are as coarse as its walls are uncertain.
+  const double sigma = std::hypot(0.13, 1.5 * map.frame.resolution);
+  for (const std::string& setting : {
+           "sensor={max_range: " + std::to_string(reach_of_log(max_range)) + ", sigma: " + std::to_string(sigma) + "}",
+           // Whose wheels these were is not known.
+           std::string{"motion={rotation_per_metre: 0.0015}"},
+           // Corridors repeat: a place must bear out over some metres, turning tells nothing. Hindsight knows the way
+           // there.
+           std::string{"verdict={travelled: 4, turned: 100000}"},
+           // How far such a map's walls are off nobody has measured.
+           std::string{"rivals=false"},
+           // Shapes of people were learned in simulated halls: many a building has slim parts that look alike.
+           std::string{"person_share=1"},
+           // Nobody waits for the next scan: states sink later than in a robot.
+           std::string{"sea_threshold=0.00001"},
+       }) {
+    if (auto set = config.set("localize." + setting); !set) return set;
+  }
+  // Steps of time that nobody measured say nothing of the time there was for an update.
+  return times_are_invented ? config.set("localize.work_per_second=1e15") : Result<void>{};
+}
+
+}  // namespace docent

@@ -1,0 +1,154 @@
+#include "docent/apps/simulate/simulate_command.h"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+#include "docent/apps/shared/arguments.h"
+#include "docent/apps/shared/cache_folder.h"
+#include "docent/apps/shared/command.h"
+#include "docent/apps/shared/deployment.h"
+#include "docent/apps/simulate/simulation_run.h"
+#include "docent/base/files.h"
+#include "docent/museum/museum.h"
+
+namespace docent {
+namespace {
+
+struct Options {
+  SimulationRunOptions run;
+  double hours = 0.5;
+  std::string start;
+  std::string time_of_day = "10:00";
+  std::string report;
+  std::string picture;
+  double pace = 0.0;
+  int port = 0;
+  bool quiet = false;
+};
+
+void print_profile(const SimulationRun& run) {
+  std::vector<std::pair<std::string, double>> rows;
+  for (const auto& [name, cost] : run.seconds_by_module()) {
+    rows.emplace_back(name, cost);
+  }
+  const RunCost whole = run.cost();
+  std::sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  const double virtual_s = to_seconds(run.now());
+  std::printf("%-26s %10s %8s\n", "module", "ms a v.s.", "share");
+  for (const auto& [name, cost] : rows) {
+    std::printf("%-26s %10.3f %7.1f%%\n", name.c_str(), 1e3 * cost / virtual_s, 100.0 * cost / whole.cpu_seconds);
+  }
+  std::printf("%-26s %10.3f\n", "everything", 1e3 * whole.cpu_seconds / virtual_s);
+  std::printf("virtual time runs %.1f times faster than real time by the processor's time, %.1f times by the wall's\n",
+              virtual_s / whole.cpu_seconds, virtual_s / whole.wall_seconds);
+}
+
+void simulate(Options& options) {
+  if (!(options.hours > 0.0 && options.hours <= 10000.0)) throw CommandFailed{"--hours must be in (0, 10000]", 2};
+  if (!options.start.empty()) options.run.start = parse_pose("--start", options.start);
+  const auto rest_of_day = parse_hours(options.time_of_day + "-24:00");
+  if (!rest_of_day) throw CommandFailed{"--time-of-day " + options.time_of_day + ": expected HH:MM", 2};
+  options.run.day_begins = std::chrono::minutes{rest_of_day->from_minute};
+  if (options.pace < 0.0) throw CommandFailed{"--pace must be >= 0", 2};
+  options.run.hosts_web = options.port != 0;
+  if (options.run.hosts_web) {
+    options.run.settings.push_back("web.port=" + std::to_string(options.port));
+    if (options.pace == 0.0) options.pace = 1.0;
+  }
+  prepare_cache(options.run.cache);
+  const auto run = value_or_fail(SimulationRun::create(options.run));
+  const Time end = time_from_seconds(options.hours * 3600.0);
+  const auto wall_start = std::chrono::steady_clock::now();
+  const auto wall_s = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count();
+  };
+  const bool shows_progress = !options.quiet && ::isatty(STDERR_FILENO) != 0;
+  // Steps of a tenth of a second when paced, so that the page is smooth.
+  const Duration step = options.pace > 0.0 ? seconds(0.1) : seconds(10.0);
+  double next_progress = 0.0;
+  while (run->now() < end) {
+    value_or_fail(run->run_until(std::min(run->now() + step, end)));
+    if (options.pace > 0.0) {
+      const double ahead = to_seconds(run->now()) / options.pace - wall_s();
+      if (ahead > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(ahead));
+    }
+    if (shows_progress && wall_s() > next_progress) {
+      next_progress = wall_s() + 0.5;
+      const double done = to_seconds(run->now()) / to_seconds(end);
+      std::fprintf(stderr, "\r%3.0f %% of %.2f h, %.1f x real time. %s\033[K", 100.0 * done, options.hours,
+                   to_seconds(run->now()) / wall_s(), run->status().c_str());
+    }
+  }
+  if (shows_progress) std::fprintf(stderr, "\r\033[K");
+  value_or_fail(run->finish());
+  if (!options.report.empty()) value_or_fail(write_file_atomically(options.report, run->report_json() + "\n"));
+  if (!options.picture.empty()) value_or_fail(run->save_picture(options.picture));
+  if (!options.quiet) std::printf("%s", run->summary().c_str());
+  if (options.run.profile) print_profile(*run);
+}
+
+}  // namespace
+
+void add_simulate_command(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  options->run.museum = default_museum();
+  CLI::App* command = app.add_subcommand(
+      "simulate", "The whole robot in a simulated museum in virtual time, as fast as the machine allows");
+  command->add_option("--museum", options->run.museum, "museum folder")->capture_default_str();
+  command->add_option("--robot", options->run.robot, "robot.yaml; without: all defaults");
+  command->add_option("--hours", options->hours, "virtual hours")->capture_default_str();
+  add_seed(*command, "--seed", options->run.seed, "same seed, same run");
+  command->add_option("--crowd", options->run.crowd, "persons: empty, quiet, busy, packed")
+      ->check(CLI::IsMember({"empty", "quiet", "busy", "packed"}))
+      ->capture_default_str();
+  command->add_option("--people", options->run.people, "so many persons instead of the crowd's density")
+      ->check(CLI::Range(0, 10000));
+  command->add_option("--requests-per-hour", options->run.requests_per_hour, "wishes of simulated visitors");
+  command->add_option("--scenario", options->run.scenario, "YAML file of timed events");
+  command->add_option("--start", options->start, "X,Y,DEG in the map; without: anywhere, and the robot is not told");
+  command->add_option("--mode", options->run.mode, "open, web, closed, or hours: what the museum's hours say")
+      ->capture_default_str();
+  command->add_option("--time-of-day", options->time_of_day, "HH:MM at which the run begins")->capture_default_str();
+  command->add_option("--max-speed", options->run.max_speed, "[m/s] instead of the mode's speed limit")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--set", options->run.settings, "section.key=value over robot.yaml; may be repeated");
+  command->add_option("--state", options->run.state, "folder of checkpoints and databases; without: a temporary one");
+  add_cache_options(*command, options->run.cache);
+  command->add_flag("!--world-only", options->run.has_robot,
+                    "no module of the robot runs: for recordings of sensors, with a scenario that steers");
+  command->add_option("--report", options->report, "JSON file for the deployment report")->check(output_file());
+  command->add_option("--claims", options->run.claims, "CSV file to write: every belief beside the truth")
+      ->check(output_file());
+  command
+      ->add_option("--health-log", options->run.health_log,
+                   "CSV file to write: what the modules said of themselves, a row a change")
+      ->check(output_file());
+  command
+      ->add_option("--drive-log", options->run.drive_log,
+                   "CSV file to write: how the robot drives beside what collision avoidance says")
+      ->check(output_file());
+  command
+      ->add_option(
+          "--event-log", options->run.event_log,
+          "CSV file to write: events, reactions to blocked ways, lines said and touches, with times and places")
+      ->check(output_file());
+  command->add_option("--people-log", options->run.people_log, "CSV file to write: tracked people beside the true ones")
+      ->check(output_file());
+  command->add_option("--record", options->run.recording, "MCAP file of all messages and the truth")
+      ->check(output_file());
+  command->add_option("--picture", options->picture, "the way driven over the map")->check(output_picture());
+  command->add_option("--pace", options->pace, "virtual seconds a second; 0: as fast as possible")
+      ->capture_default_str();
+  command->add_option("--port", options->port, "also serve the page at this port (pace 1 unless given)");
+  command->add_flag("--profile", options->run.profile, "print where the processor's time went");
+  command->add_flag("--quiet", options->quiet, "no progress and no summary");
+  command->callback([options] { simulate(*options); });
+}
+
+}  // namespace docent

@@ -1,0 +1,70 @@
+#include "docent/apps/simulate/simulation_picture.h"
+
+#include <cmath>
+#include <string_view>
+
+#include "docent/messages/conversions.h"
+
+namespace docent {
+namespace {
+
+constexpr Color kHazard{214, 90, 70, 90};
+constexpr Color kArea = with_alpha(colors::kGreen, 170);
+constexpr Color kTouch{220, 20, 20, 255};
+constexpr Color kExhibit{150, 90, 30, 255};
+
+// [points]
+constexpr double kWay = 1.2;
+constexpr double kOutline = 0.8;
+constexpr double kDot = 4.0;
+constexpr double kRing = 6.0;
+
+}  // namespace
+
+void SimulationPicture::add(const TopicInfo& topic, const std::shared_ptr<const void>& message) {
+  const std::string_view name = topic.name;
+  if (name == topics::kTrueState.name) {
+    const auto& state = *static_cast<const docent_msgs::TrueState*>(message.get());
+    last_ = {to_seconds(from_message(state.header.stamp)), {state.x, state.y}};
+    if (way_.empty() || distance(way_.back().place, last_.place) > 0.1) way_.push_back(last_);
+  } else if (name == topics::kTrueContact.name) {
+    const auto& contact = *static_cast<const docent_msgs::TrueContact*>(message.get());
+    contacts_.push_back({contact.x, contact.y});
+  }
+}
+
+Result<void> SimulationPicture::save(const Museum& museum, const std::string& path) const {
+  std::vector<TimedPoint> way = way_;
+  if (!way.empty()) way.push_back(last_);
+  const double begin = way.empty() ? 0.0 : way.front().time;
+  Figure figure{museum.folder.filename().string() + ", " + std::to_string(std::lround(begin)) + " to " +
+                std::to_string(std::lround(last_.time)) + " s"};
+  Axes& axes = figure.add(Axes::metres(museum.map.frame));
+  draw_map(axes, museum.map);
+  for (const auto& hazard : museum.hazards) draw_area(axes, hazard.polygon, kHazard);
+  axes.add([corners = axes.page(museum.area)](Canvas& canvas) { canvas.draw_polygon(corners, kOutline, kArea); });
+  draw_timed_path(axes, way, kWay);
+  if (!way.empty()) {
+    const Point2 ends[] = {way.front().place, way.back().place};
+    draw_points(axes, std::span{ends, 1}, kDot, colors::kBlue);
+    draw_points(axes, std::span{ends}.subspan(1), kDot, colors::kRed);
+  }
+  std::vector<Point2> exhibits;
+  for (const auto& exhibit : museum.exhibits) exhibits.push_back(exhibit.pose.position());
+  draw_points(axes, exhibits, kDot, kExhibit);
+  for (const auto& exhibit : museum.exhibits) draw_note(axes, exhibit.pose.position(), exhibit.id);
+  axes.add([places = axes.page(contacts_)](Canvas& canvas) {
+    for (const Point2 place : places) canvas.draw_circle(place, 0.5 * kRing, 1.0, kTouch);
+  });
+  add_map_legend(figure);
+  figure.add_legend(legend_line("true trajectory, coloured by time", kWay, rainbow(0.4)));
+  figure.add_legend(legend_disc("start", kDot, colors::kBlue));
+  figure.add_legend(legend_disc("end", kDot, colors::kRed));
+  if (!exhibits.empty()) figure.add_legend(legend_disc("exhibit", kDot, kExhibit));
+  if (!museum.hazards.empty()) figure.add_legend(legend_of_area("hazard", kHazard));
+  if (!museum.area.empty()) figure.add_legend(legend_line("operating area", kOutline, kArea));
+  if (!contacts_.empty()) figure.add_legend(legend_ring("contact, whoever caused it", kRing, 1.0, kTouch));
+  return figure.save(path);
+}
+
+}  // namespace docent

@@ -1,0 +1,96 @@
+#include "docent/apps/up/simulator_process.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <thread>
+
+#include "docent/apps/shared/arguments.h"
+#include "docent/apps/shared/log.h"
+#include "docent/apps/shared/simulated_hardware.h"
+#include "docent/modules/perception/localize_module.h"
+#include "docent/simulator/simulated_museum.h"
+#include "docent/transport/dds_bus.h"
+
+namespace docent {
+namespace {
+
+Result<simulator::SimulationOptions> simulation_of(const Deployment& deployment, const SimulatorOptions& options) {
+  auto museum = deployment.load();
+  if (!museum) return tl::unexpected<Error>(museum.error());
+  auto config = deployment.load_whole_config();
+  if (!config) return tl::unexpected<Error>(config.error());
+  if (!museum->simulation_path) return fail(deployment.museum + ": the museum has no simulation");
+  auto world = simulator::load_world(*museum->simulation_path);
+  if (!world) return tl::unexpected<Error>(world.error());
+  simulator::SimulationOptions simulation;
+  simulation.world = std::move(*world);
+  simulation.hardware = simulated_hardware(config->body());
+  simulation.seed = deployment.seed;
+  simulation.crowd = options.crowd;
+  if (!options.start.empty()) {
+    simulation.start = parse_pose("--start", options.start);
+    if (!contains(simulation.world.operating_area, simulation.start->position())) {
+      return fail("--start " + options.start + ": outside the robot's area");
+    }
+  }
+  if (museum->charger) simulation.charger = museum->charger->position();
+  if (options.requests_per_hour >= 0.0) simulation.requests_per_hour = options.requests_per_hour;
+  if (!options.scenario.empty()) {
+    auto scenario = simulator::load_scenario(options.scenario);
+    if (!scenario) return tl::unexpected<Error>(scenario.error());
+    simulation.scenario = std::move(*scenario);
+  }
+  simulation.run_info.museum = museum->folder.filename().string();
+  simulation.run_info.mode = options.mode;
+  simulation.run_info.config_hash = config->hash();
+  auto simd = simd_of_localize(*config);
+  if (!simd) return tl::unexpected<Error>(simd.error());
+  simulation.run_info.simd = *simd;
+  if (auto valid = validate(simulation); !valid) return tl::unexpected<Error>(valid.error());
+  return simulation;
+}
+
+}  // namespace
+
+void SimulatorOptions::add_options(CLI::App& command) {
+  command.add_option("--crowd", crowd, "Simulated visitors")
+      ->check(CLI::IsMember({"empty", "quiet", "busy", "packed"}))
+      ->capture_default_str();
+  command.add_option("--start", start, "Where the simulated robot wakes up: X,Y,DEG; without it somewhere");
+  command.add_option("--scenario", scenario, "Scenario file for the simulator");
+  command.add_option("--mode", mode, "One of the museum's modes, or hours: what the museum's hours say")
+      ->capture_default_str();
+  command.add_option("--requests-per-hour", requests_per_hour, "Of simulated visitors; without it as the museum says")
+      ->check(CLI::Range(0.0, 10000.0));
+}
+
+std::vector<std::string> SimulatorOptions::arguments() const {
+  std::vector<std::string> all{"--crowd", crowd, "--mode", mode};
+  if (!start.empty()) all.insert(all.end(), {"--start=" + start});  // it may begin with a minus
+  if (!scenario.empty()) all.insert(all.end(), {"--scenario", scenario});
+  if (requests_per_hour >= 0.0) all.insert(all.end(), {"--requests-per-hour", std::to_string(requests_per_hour)});
+  return all;
+}
+
+Result<void> check_simulator(const Deployment& deployment, const SimulatorOptions& options) {
+  auto simulation = simulation_of(deployment, options);
+  if (!simulation) return tl::unexpected<Error>(simulation.error());
+  return {};
+}
+
+Result<void> run_simulator(const Deployment& deployment, const SimulatorOptions& options) {
+  auto simulation = simulation_of(deployment, options);
+  if (!simulation) return tl::unexpected<Error>(simulation.error());
+  const auto warn = [](const std::string& text) { log_to_stderr(LogLevel::warning, kSimulatorProcess, text); };
+  block_end_signals();
+  auto robot_bus = DdsBus::create({deployment.domain, deployment.name, warn});
+  if (!robot_bus) return tl::unexpected<Error>(robot_bus.error());
+  auto truth_bus = DdsBus::create({truth_domain(deployment.domain), deployment.name, warn});
+  if (!truth_bus) return tl::unexpected<Error>(truth_bus.error());
+  const simulator::SimulatedMuseum museum{**robot_bus, **truth_bus, std::move(*simulation)};
+  const std::jthread truth_thread{[&truth_bus](const std::stop_token& stop) { (*truth_bus)->run(stop); }};
+  (*robot_bus)->run(end_signal());
+  return {};
+}
+
+}  // namespace docent

@@ -1,0 +1,278 @@
+#include "docent/modules/drive/avoid_module.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "docent/collision_avoidance/avoider.h"
+#include "docent/messages/conversions.h"
+#include "docent/modules/shared/museum_mode.h"
+#include "docent/modules/shared/scanners.h"
+
+namespace docent {
+
+namespace {
+
+constexpr double kTick = 0.05;  // [s]
+constexpr double kHeartbeat = 0.1;
+constexpr double kLeastPause =
+    0.06;                           // [s] from a choice to the next but one: faster lasers are only checked in between
+constexpr double kTogether = 0.02;  // [s] a choice waits so long for another laser's sweep
+constexpr double kWindowPeriod = 0.5;
+constexpr Duration kModePeriod = std::chrono::seconds{1};
+
+Result<BaseLimits> limits_of(const RobotBody& body) {
+  BaseLimits limits{body.radius,       body.max_speed,    body.max_turn_rate,
+                    body.acceleration, body.deceleration, body.turn_acceleration,
+                    body.latency,      body.watchdog,     {}};
+  if (body.outline.empty()) return limits;
+  Polygon corners;
+  for (const auto& corner : body.outline) corners.push_back({corner[0], corner[1]});
+  auto outline = Outline::make(std::move(corners));
+  if (!outline) return tl::unexpected<Error>(outline.error());
+  limits.outline = std::move(*outline);
+  return limits;
+}
+
+SensorSweep to_sweep(const sensor_msgs::LaserScan& scan, const Pose2& base_from_sensor) {
+  return {from_message(scan.header.stamp),
+          base_from_sensor,
+          scan.angle_min,
+          scan.angle_increment,
+          scan.range_min,
+          scan.range_max,
+          scan.ranges};
+}
+
+const char* name_of(AvoiderDecision::State state) {
+  switch (state) {
+    case AvoiderDecision::State::driving:
+      return "driving";
+    case AvoiderDecision::State::turning:
+      return "turning";
+    case AvoiderDecision::State::blocked:
+      return "blocked";
+    case AvoiderDecision::State::stopped:
+      break;
+  }
+  return "stopped";
+}
+
+std::vector<std::string> laser_names(const RobotBody& body) {
+  std::vector<std::string> names;
+  for (const Scanner& scanner : body.scanners) names.push_back(scanner.name + " laser");
+  return names;
+}
+
+class AvoidModule final : public Module {
+ public:
+  AvoidModule(const ModuleContext& context, const BaseLimits& limits, const AvoiderParams& params)
+      : bus_{context.bus},
+        mode_{context},
+        body_{context.config.body()},
+        cycle_{params.window.cycle},
+        widest_field_(body_.scanners.size()),
+        avoider_{limits, params, laser_names(body_)},
+        drive_{bus_.publisher(topics::kDrive)},
+        state_{bus_.publisher(topics::kAvoidState)} {
+    subscribe_sensors();
+    subscribe_wishes();
+    bus_.every(seconds(kTick), [this] { tick(); });
+  }
+
+  [[nodiscard]] ModuleHealth health() const override {
+    if (auto complaint = avoider_.complaint_of_inputs(bus_.now())) return {"degraded", std::move(complaint->reason)};
+    return {};
+  }
+
+ private:
+  void subscribe_sensors() {
+    bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const nav_msgs::Odometry& odometry) {
+      const BaseState state{from_message(odometry.pose.pose),
+                            {odometry.twist.twist.linear.x, odometry.twist.twist.angular.z}};
+      avoider_.add_odometry(bus_.now(), from_message(odometry.header.stamp), state);
+    });
+    subscribe_scanners(bus_, body_, [this](std::size_t i, const sensor_msgs::LaserScan& scan) {
+      see(i, scan, body_.scanners[i].base_from_sensor());
+    });
+    bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const sensor_msgs::Range& range) {
+      const auto index = body_.sonar_of(range.header.frame_id);
+      if (!index) return;
+      avoider_.add_sonar(bus_.now(), static_cast<std::size_t>(*index),
+                         {from_message(range.header.stamp), body_.base_from_sonar(*index), range.field_of_view,
+                          range.max_range, range.range});
+    });
+    bus_.subscribe<sensor_msgs::Range>(topics::kInfrared, [this](const sensor_msgs::Range& range) {
+      const auto index = body_.infrared_of(range.header.frame_id);
+      if (!index) return;
+      avoider_.add_infrared(bus_.now(), static_cast<std::size_t>(*index),
+                            {from_message(range.header.stamp), body_.base_from_infrared(*index), range.field_of_view,
+                             range.max_range, range.range});
+    });
+    bus_.subscribe<docent_msgs::ObstacleLines>(topics::kObstacleLines, [this](const docent_msgs::ObstacleLines& seen) {
+      std::vector<Segment> lines;
+      for (const auto& line : seen.lines) lines.push_back({{line.x1, line.y1}, {line.x2, line.y2}});
+      avoider_.add_lines(bus_.now(), from_message(seen.header.stamp), seen.source, seen.lifetime_s, lines);
+      reflex();
+    });
+    bus_.subscribe<docent_msgs::Tactile>(topics::kTactile, [this](const docent_msgs::Tactile& tactile) {
+      avoider_.add_tactile(bus_.now(), from_message(tactile.header.stamp), tactile.segments, tactile.scan);
+      reflex();
+    });
+    bus_.subscribe<docent_msgs::Belief>(
+        topics::kBelief, [this](const docent_msgs::Belief& belief) { on_belief(belief); },
+        [this] { avoider_.add_belief({}); });  // it knows nothing
+    bus_.subscribe<sensor_msgs::LaserScan>(topics::kVirtualScan, [this](const sensor_msgs::LaserScan& scan) {
+      avoider_.add_virtual(bus_.now(), {from_message(scan.header.stamp), scan.angle_min, scan.angle_increment,
+                                        scan.range_max, scan.ranges});
+      reflex();
+    });
+    bus_.subscribe<docent_msgs::PersonBeams>(topics::kPersonBeams, [this](const docent_msgs::PersonBeams& beams) {
+      std::vector<Point2> points;
+      for (std::size_t i = 0; i < std::min(beams.x.size(), beams.y.size()); ++i)
+        points.push_back({beams.x[i], beams.y[i]});
+      avoider_.add_person_beams(bus_.now(), from_message(beams.header.stamp), points, beams.localized);
+    });
+  }
+
+  void limit_speed() {
+    if (const auto speed = mode_.max_speed(bus_.now())) avoider_.set_max_speed(*speed);
+  }
+
+  void subscribe_wishes() {
+    bus_.subscribe<docent_msgs::Limits>(topics::kLimits, [this](const docent_msgs::Limits& limits) {
+      mode_.limits(limits);
+      limit_speed();
+    });
+    bus_.every(kModePeriod, [this] { limit_speed(); });
+    bus_.subscribe<docent_msgs::Target>(topics::kTarget, [this](const docent_msgs::Target& target) {
+      AvoiderTarget wish;
+      wish.mode = target.mode == "drive"  ? AvoiderTarget::Mode::drive
+                  : target.mode == "turn" ? AvoiderTarget::Mode::turn
+                                          : AvoiderTarget::Mode::stop;
+      for (std::size_t i = 0; i < std::min(target.via_x.size(), target.via_y.size()); ++i) {
+        wish.via.push_back({target.via_x[i], target.via_y[i]});
+      }
+      wish.is_final = target.is_final;
+      wish.heading = Angle::radians(target.heading);
+      wish.position_tolerance = target.position_tolerance;
+      wish.heading_tolerance = target.heading_tolerance;
+      const bool is_other = std::exchange(target_mode_, wish.mode) != wish.mode;
+      avoider_.set_target(bus_.now(), from_message(target.header.stamp), std::move(wish));
+      if (is_other) decide();  // above all: a stop
+    });
+  }
+
+  void on_belief(const docent_msgs::Belief& belief) {
+    cells_.clear();
+    for (const auto& cell : belief.cells)
+      cells_.push_back({{cell.x, cell.y, Angle::radians(cell.theta)}, static_cast<double>(cell.mass)});
+    hypotheses_.clear();
+    for (const auto& mode : belief.hypotheses)
+      hypotheses_.push_back({{mode.x, mode.y, Angle::radians(mode.theta)}, mode.mass});
+    avoider_.add_belief({cells_, hypotheses_, belief.p_lost, belief.localized});
+  }
+
+  void see(std::size_t sensor, const sensor_msgs::LaserScan& scan, const Pose2& base_from_sensor) {
+    // A scan of a part of the field would leave the rest as if nothing were there.
+    constexpr double kFieldShare = 0.9;
+    const double field = static_cast<double>(scan.angle_increment) * static_cast<double>(scan.ranges.size());
+    widest_field_[sensor] = std::max(widest_field_[sensor], field);
+    if (field < kFieldShare * widest_field_[sensor]) return;
+    const Time now = bus_.now();
+    avoider_.add_sweep(now, sensor, to_sweep(scan, base_from_sensor));
+    if (now - decided_before_ < seconds(kLeastPause)) return reflex();
+    if (!avoider_.awaits_sweep(now, kTogether)) return decide();
+    reflex();
+    bus_.after(seconds(kTogether), [this, now] {
+      if (decided_ < now) decide();  // it has not come
+    });
+  }
+
+  void decide() {
+    decided_before_ = std::exchange(decided_, bus_.now());
+    const AvoiderDecision choice = avoider_.decide(decided_);
+    const auto check = avoider_.reflex(decided_);
+    publish(check ? *check : choice);
+  }
+
+  void reflex() {
+    if (auto decision = avoider_.reflex(bus_.now())) publish(*decision);
+  }
+
+  void tick() {
+    const Time now = bus_.now();
+    if (now - decided_ >= seconds(cycle_ - 0.5 * kTick)) {
+      decide();  // the lasers are slow, or silent
+    } else if (now - driven_ >= seconds(kHeartbeat - 0.5 * kTick)) {
+      if (auto decision = avoider_.reflex(now)) return publish(*decision);  // something may have fallen silent
+      publish_drive(avoider_.command());
+    }
+  }
+
+  void publish_drive(const Velocity& command) {
+    driven_ = bus_.now();
+    drive_.publish({{to_message(driven_), "base_link"}, command.linear, command.angular});
+  }
+
+  void publish(const AvoiderDecision& decision) {
+    publish_drive(decision.command);
+    docent_msgs::AvoidState state;
+    state.header = {to_message(driven_), "base_link"};
+    state.state = name_of(decision.state);
+    state.reason = decision.reason;
+    state.speed_cap = decision.speed_cap;
+    state.linear = decision.command.linear;
+    state.angular = decision.command.angular;
+    state.path_blocked = decision.path_blocked;
+    state.unmapped_obstacle = decision.unmapped_obstacle;
+    state.low_obstacle = decision.low_obstacle;
+    state.nearest_real_m = decision.nearest_real;
+    state.nearest_virtual_m = decision.nearest_virtual;
+    if (!decision.window.empty() && driven_ - window_shown_ >= seconds(kWindowPeriod - 0.5 * kTick)) {
+      window_shown_ = driven_;
+      for (const auto& candidate : decision.window) {
+        state.window.push_back({static_cast<float>(candidate.velocity.linear),
+                                static_cast<float>(candidate.velocity.angular), static_cast<float>(candidate.value)});
+      }
+    }
+    state_.publish(std::move(state));
+  }
+
+  Bus& bus_;
+  MuseumMode mode_;
+  RobotBody body_;
+  double cycle_;
+  std::vector<double> widest_field_;  ///< [scanners] [rad] that each has shown
+  Avoider avoider_;
+  std::vector<BelievedPose> cells_;       ///< of the newest belief
+  std::vector<BelievedPose> hypotheses_;  ///< likewise
+  Publisher<docent_msgs::Drive> drive_;
+  Publisher<docent_msgs::AvoidState> state_;
+  AvoiderTarget::Mode target_mode_ = AvoiderTarget::Mode::stop;
+  Time decided_{};
+  Time decided_before_{};  ///< likewise, once more
+  Time driven_{};
+  Time window_shown_{};
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Module>> make_avoid(const ModuleContext& context) {
+  auto params = context.config.section<AvoiderParams>("avoid");
+  if (!params) return tl::unexpected<Error>(params.error());
+  const RobotBody& body = context.config.body();
+  params->needs_sonar = params->needs_sonar && body.sonars > 0;
+  params->has_infrared = body.infrareds > 0;
+  params->has_tactile = body.tactile;
+  params->blind_to_people = context.config.evaluation().blind_to_people;
+  params->watches = !context.config.evaluation().without_watches;
+  auto limits = limits_of(body);
+  if (!limits) return tl::unexpected<Error>(limits.error());
+  return std::make_unique<AvoidModule>(context, *limits, *params);
+}
+
+Result<ParameterRows> parameters_of_avoid(const RobotConfig& config) {
+  return list_parameters<AvoiderParams>(config, "avoid");
+}
+
+}  // namespace docent

@@ -1,0 +1,114 @@
+#include "docent/modules/drive/hazards_module.h"
+
+#include <numbers>
+
+#include "docent/collision_avoidance/virtual_measurements.h"
+#include "docent/messages/conversions.h"
+
+namespace docent {
+
+namespace {
+
+class HazardsModule final : public Module {
+ public:
+  HazardsModule(const ModuleContext& context, const VirtualMeasurementParams& params)
+      : bus_{context.bus},
+        hazards_{context.museum.area, outlines(context.museum), params, VirtualMeasurements::Ends::hazards},
+        border_{context.museum.area, outlines(context.museum), params, VirtualMeasurements::Ends::border},
+        best_pose_only_{params.best_pose_only},
+        ignored_{context.config.evaluation().ignores_hazards},
+        scan_{bus_.publisher(topics::kVirtualScan)} {
+    bus_.subscribe<docent_msgs::Belief>(topics::kBelief,
+                                        [this](const docent_msgs::Belief& belief) { measure(belief); });
+    // Says that it lives while the belief rests; the stamp stays that of the belief, so nobody takes it for newer.
+    bus_.every(seconds(0.25), [this] {
+      if (last_ && bus_.now() - published_ > seconds(0.2) && bus_.now() - received_ < seconds(kBeliefLife)) publish();
+    });
+  }
+
+  [[nodiscard]] ModuleHealth health() const override {
+    if (!last_) return {"starting", "no belief yet"};
+    if (bus_.now() - received_ > seconds(kBeliefLife)) return {"degraded", "no fresh belief"};
+    if (possible_mass_ < 0.5) return {"degraded", "the belief lies where the robot cannot be"};
+    return {};
+  }
+
+ private:
+  static constexpr double kBeliefLife = 3.0;
+
+  static std::vector<Polygon> outlines(const Museum& museum) {
+    std::vector<Polygon> result;
+    for (const auto& hazard : museum.hazards) result.push_back(hazard.polygon);
+    return result;
+  }
+
+  void measure(const docent_msgs::Belief& belief) {
+    poses_.clear();
+    for (const auto& cell : belief.cells) poses_.push_back({{cell.x, cell.y}, cell.theta, cell.mass});
+    squares_.clear();
+    const auto& rest = belief.rest;
+    for (std::size_t i = 0; i < rest.mass.size() && rest.columns > 0; ++i) {
+      const auto column = static_cast<double>(i % rest.columns);
+      const auto row = static_cast<double>(i / rest.columns);
+      const double side = rest.cell_size;
+      squares_.push_back(
+          {{rest.origin_x + (column + 0.5) * side, rest.origin_y + (row + 0.5) * side}, side, rest.mass[i]});
+    }
+    if (best_pose_only_ && !belief.hypotheses.empty()) {
+      const auto& best = belief.hypotheses.front();
+      poses_.assign(1, {{best.x, best.y}, best.theta, 1.0});
+      squares_.clear();
+    }
+    const auto of_hazards = hazards_.measure(poses_, squares_);
+    const auto of_border = border_.measure(poses_, squares_);
+    possible_mass_ = of_hazards.possible_mass;
+
+    sensor_msgs::LaserScan scan;
+    scan.header = {belief.header.stamp, "base_link"};
+    scan.angle_increment = static_cast<float>(2.0 * std::numbers::pi / VirtualMeasurements::kDirections);
+    scan.angle_min = static_cast<float>(-std::numbers::pi);
+    scan.angle_max = scan.angle_min + scan.angle_increment * (2 * VirtualMeasurements::kDirections - 1);
+    scan.range_max = static_cast<float>(VirtualMeasurements::kMaxRange);
+    // Two turns: the body keeps off the hazards of the first, the centre off the border in the second.
+    for (const auto* measured : {&of_hazards, &of_border}) {
+      for (const double range : measured->ranges)
+        scan.ranges.push_back(ignored_ ? scan.range_max : static_cast<float>(range));
+    }
+    last_ = std::move(scan);
+    received_ = bus_.now();
+    publish();
+  }
+
+  void publish() {
+    published_ = bus_.now();
+    scan_.publish(*last_);
+  }
+
+  Bus& bus_;
+  VirtualMeasurements hazards_;
+  VirtualMeasurements border_;
+  bool best_pose_only_;  ///< crippled, for evaluation
+  bool ignored_;         ///< likewise
+  Publisher<sensor_msgs::LaserScan> scan_;
+  std::vector<WeightedPose> poses_;
+  std::vector<WeightedSquare> squares_;
+  std::optional<sensor_msgs::LaserScan> last_;
+  Time received_{};
+  Time published_{};
+  double possible_mass_ = 1.0;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Module>> make_hazards(const ModuleContext& context) {
+  auto params = context.config.section<VirtualMeasurementParams>("hazards");
+  if (!params) return tl::unexpected<Error>(params.error());
+  params->best_pose_only = context.config.evaluation().best_pose_only;
+  return std::make_unique<HazardsModule>(context, *params);
+}
+
+Result<ParameterRows> parameters_of_hazards(const RobotConfig& config) {
+  return list_parameters<VirtualMeasurementParams>(config, "hazards");
+}
+
+}  // namespace docent

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "docent/modules/shared/module.h"
+
+namespace docent {
+
+/// Virtual range measurements of what no sensor sees, from every belief (architecture 8.3).
+[[nodiscard]] Result<std::unique_ptr<Module>> make_hazards(const ModuleContext& context);
+[[nodiscard]] Result<ParameterRows> parameters_of_hazards(const RobotConfig& config);
+
+}  // namespace docent

@@ -1,0 +1,101 @@
+#include "docent/modules/drive/robot_module.h"
+
+#include "docent/messages/conversions.h"
+#include "docent/robot/watchdog.h"
+
+namespace docent {
+
+namespace {
+
+/// Section `robot`: the base.
+struct RobotParams {
+  double rate = 20.0;         ///< [Hz] of cmd_vel while no command comes; one that comes goes out at once
+  double battery_low = 0.15;  ///< share of the charge below which the module calls itself degraded
+  template <class V>
+  void visit(V& v) {
+    v("rate", rate);
+    v("battery_low", battery_low);
+  }
+  [[nodiscard]] Result<void> validate() const {
+    if (!(rate >= 5.0 && rate <= 200.0)) return fail("robot.rate must lie between 5 and 200 Hz");
+    if (!(battery_low >= 0.0 && battery_low < 1.0)) return fail("robot.battery_low must lie in [0, 1)");
+    return {};
+  }
+};
+
+class RobotModule final : public Module {
+ public:
+  RobotModule(const ModuleContext& context, const RobotParams& params)
+      : bus_{context.bus},
+        params_{params},
+        watchdog_{context.config.body().watchdog, context.config.body().max_speed, context.config.body().max_turn_rate},
+        velocity_{bus_.publisher(topics::kCommandVelocity)},
+        transforms_{bus_.publisher(topics::kTransforms)} {
+    publish_mounts(context.config.body());
+    bus_.subscribe<docent_msgs::Drive>(topics::kDrive, [this](const docent_msgs::Drive& drive) {
+      watchdog_.receive(bus_.now(), {drive.linear, drive.angular});
+      command_base();  // no command waits for a tick: people do not either
+    });
+    bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const nav_msgs::Odometry& odometry) {
+      odometry_received_ = bus_.now();
+      transforms_.publish(
+          {{{odometry.header,
+             "base_link",
+             {{odometry.pose.pose.position.x, odometry.pose.pose.position.y, 0.0}, odometry.pose.pose.orientation}}}});
+    });
+    bus_.subscribe<sensor_msgs::BatteryState>(
+        topics::kBattery, [this](const sensor_msgs::BatteryState& battery) { battery_ = battery.percentage; });
+    bus_.every(seconds(1.0 / params_.rate), [this] { command_base(); });
+  }
+
+  [[nodiscard]] ModuleHealth health() const override {
+    if (!odometry_received_) return {"starting", "no odometry yet"};
+    if (bus_.now() - *odometry_received_ > seconds(1.0)) return {"degraded", "no fresh odometry from the base"};
+    if (battery_ < params_.battery_low) return {"degraded", "the battery is low"};
+    return {};
+  }
+
+ private:
+  void command_base() {
+    const auto command = watchdog_.output(bus_.now());
+    velocity_.publish({{command.linear, 0.0, 0.0}, {0.0, 0.0, command.angular}});
+  }
+
+  void publish_mounts(const RobotBody& body) {
+    tf2_msgs::TFMessage mounts;
+    const auto add = [&](const std::string& frame, const Pose2& base_from_sensor) {
+      mounts.transforms.push_back(
+          {{to_message(bus_.now()), "base_link"},
+           frame,
+           {{base_from_sensor.x, base_from_sensor.y, 0.0}, to_quaternion(base_from_sensor.theta)}});
+    };
+    for (const Scanner& scanner : body.scanners) add(scanner.frame, scanner.base_from_sensor());
+    for (int i = 0; i < body.sonars; ++i) {
+      add(RobotBody::sonar_frame(i), body.base_from_sonar(i));
+    }
+    for (int i = 0; i < body.infrareds; ++i) add(RobotBody::infrared_frame(i), body.base_from_infrared(i));
+    bus_.publisher(topics::kStaticTransforms).publish(std::move(mounts));
+  }
+
+  Bus& bus_;
+  RobotParams params_;
+  CommandWatchdog watchdog_;
+  Publisher<geometry_msgs::Twist> velocity_;
+  Publisher<tf2_msgs::TFMessage> transforms_;
+  std::optional<Time> odometry_received_;
+  float battery_ = 1.0F;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Module>> make_robot(const ModuleContext& context) {
+  auto params = context.config.section<RobotParams>("robot");
+  if (!params) return tl::unexpected<Error>(params.error());
+  return std::make_unique<RobotModule>(context, *params);
+}
+
+Result<ParameterRows> parameters_of_robot(const RobotConfig& config) {
+  return list_parameters<RobotParams>(config, "robot");
+}
+
+}  // namespace docent

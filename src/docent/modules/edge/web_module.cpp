@@ -1,0 +1,373 @@
+#include "docent/modules/edge/web_module.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <set>
+
+#include "docent/base/shipped_files.h"
+#include "docent/interaction/speech/horn.h"
+#include "docent/messages/conversions.h"
+#include "docent/modules/shared/scanners.h"
+#include "docent/telepresence/belief_carrier.h"
+#include "docent/telepresence/live_encoding.h"
+#include "docent/telepresence/museum_document.h"
+#include "docent/telepresence/outbox.h"
+#include "docent/telepresence/site.h"
+#include "docent/telepresence/web_server.h"
+
+namespace docent {
+namespace {
+
+/// Section `web`: the page and its server.
+struct WebParams : WebServerParams {
+  std::string root;             ///< folder of the built page; empty: beside the program, else beside the sources
+  double live_hz = 10.0;        ///< of what moves
+  double belief_hz = 2.0;       ///< at most
+  double resend_s = 1.0;        ///< requests that are not on the board yet
+  double forget_hours = 24.0;   ///< after that a request is given up and forgotten
+  int scan_step = 3;            ///< every n-th reading is shown
+  int max_open_requests = 500;  ///< of everybody together; more are refused
+  template <class V>
+  void visit(V& v) {
+    WebServerParams::visit(v);
+    v("root", root);
+    v("live_hz", live_hz);
+    v("belief_hz", belief_hz);
+    v("resend_s", resend_s);
+    v("forget_hours", forget_hours);
+    v("scan_step", scan_step);
+    v("max_open_requests", max_open_requests);
+  }
+  [[nodiscard]] Result<void> validate() const {
+    auto server = WebServerParams::validate();
+    if (!server) return server;
+    if (!(live_hz >= 1.0 && live_hz <= 60.0)) return fail("web.live_hz must be 1 to 60");
+    if (!(belief_hz >= 0.1 && belief_hz <= 20.0)) return fail("web.belief_hz must be 0.1 to 20");
+    if (!(resend_s >= 0.05)) return fail("web.resend_s must be at least 0.05");
+    if (!(forget_hours > 0.0)) return fail("web.forget_hours must be > 0");
+    if (scan_step < 1 || scan_step > 90) return fail("web.scan_step must be 1 to 90");
+    if (max_open_requests < 1) return fail("web.max_open_requests must be at least 1");
+    return {};
+  }
+};
+
+/// The slots of the live channel.
+enum Slot : int { kLive, kBelief, kPath, kMission, kSpeech, kBoard, kHealth, kWindow, kHorn };
+
+std::filesystem::path page_folder(const std::string& root) {
+  return root.empty() ? shipped_path("web/dist") : std::filesystem::path{root};
+}
+
+constexpr const char* kNoPage =
+    "<!doctype html><meta charset=utf-8><title>Docent</title><p>The page has not been built yet: "
+    "<code>cd web &amp;&amp; npm ci &amp;&amp; npm run build</code>, then start again.</p>";
+
+class WebModule final : public Module {
+ public:
+  static Result<std::unique_ptr<Module>> make(const ModuleContext& context) {
+    auto params = context.config.section<WebParams>("web");
+    if (!params) return tl::unexpected<Error>(params.error());
+    auto outbox = Outbox::open(context.state / "web.sqlite");
+    if (!outbox) return tl::unexpected<Error>(outbox.error());
+    auto map = encode_map_png(context.museum.map);
+    if (!map) return tl::unexpected<Error>(map.error());
+
+    std::unique_ptr<WebModule> module{new WebModule{context, *params, std::move(*outbox)}};
+    Site& site = *module->site_;
+    auto page = site.load_page(page_folder(params->root));
+    if (!page) {
+      if (!params->root.empty()) return tl::unexpected<Error>(page.error());
+      module->reason_ = page.error().message;
+      site.set_document("/", "text/html; charset=utf-8", kNoPage);
+    }
+    site.set_audio_folder(context.state / "audio");
+    site.set_document("/api/museum.json", "application/json",
+                      encode_museum(context.museum, context.config.body().radius));
+    site.set_document("/api/map.png", "image/png", std::move(*map));
+    site.set_live_document("/api/health", "application/json", [raw = module.get()] { return raw->health_document(); });
+    site.set_live_document("/metrics", "text/plain; version=0.0.4", [raw = module.get()] { return raw->metrics(); });
+
+    auto server =
+        WebServer::start(*params, module->site_, [raw = module.get()](ViewerId viewer, const ClientMessage& m) {
+          raw->bus_.post([raw, viewer, m] { raw->take(viewer, m); });
+        });
+    if (!server) return fail("web: " + server.error().message);
+    module->set_server(std::move(*server));
+    module->subscribe();
+    return module;
+  }
+
+  [[nodiscard]] ModuleHealth health() const override {
+    if (!reason_.empty()) return {"degraded", reason_};
+    return {};
+  }
+
+ private:
+  WebModule(const ModuleContext& context, WebParams params, std::unique_ptr<Outbox> outbox)
+      : bus_{context.bus},
+        museum_{context.museum},
+        body_{context.config.body()},
+        params_{std::move(params)},
+        outbox_{std::move(outbox)},
+        requests_{bus_.publisher(topics::kRequest)},
+        choices_{bus_.publisher(topics::kChoice)},
+        scans_(body_.scanners.size()) {
+    if (outbox_->was_damaged()) reason_ = "web.sqlite was damaged and has been set aside; a new one was begun";
+  }
+
+  void set_server(std::unique_ptr<WebServer> server) {
+    server_ = std::move(server);
+    server_->restrict_to_details(kWindow);
+    const std::scoped_lock lock{shared_mutex_};
+    figures_from_ = server_.get();
+  }
+
+  void subscribe() {
+    bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const auto& m) { carrier_.add_odometry(m); });
+    subscribe_scanners(bus_, body_, [this](std::size_t i, const auto& m) { scans_[i] = m; });
+    bus_.subscribe<sensor_msgs::BatteryState>(topics::kBattery, [this](const auto& m) { battery_ = m.percentage; });
+    bus_.subscribe<docent_msgs::People>(topics::kPeople, [this](const auto& m) { people_ = m; });
+    bus_.subscribe<docent_msgs::Belief>(topics::kBelief, [this](const auto& m) {
+      carrier_.set_belief(m);
+      belief_ = m;
+    });
+    bus_.subscribe<docent_msgs::AvoidState>(topics::kAvoidState, [this](const auto& m) {
+      avoid_ = m;
+      if (!m.window.empty()) server_->broadcast(kWindow, encode_window(m));
+    });
+    bus_.subscribe<nav_msgs::Path>(topics::kPath, [this](const auto& m) {
+      path_ = m;
+      is_path_new_ = true;
+    });
+    bus_.subscribe<docent_msgs::GoalState>(topics::kGoalState, [this](const auto& m) {
+      goal_ = m;
+      is_path_new_ = true;
+    });
+    bus_.subscribe<docent_msgs::MissionState>(topics::kMissionState, [this](const auto& m) {
+      mission_ = m;
+      server_->broadcast(kMission, encode_mission(m));
+    });
+    bus_.subscribe<docent_msgs::SpeechState>(topics::kSpeechState,
+                                             [this](const auto& m) { server_->broadcast(kSpeech, encode_speech(m)); });
+    bus_.subscribe<docent_msgs::Limits>(topics::kLimits, [this](const auto& m) {
+      if (m.volume != volume_) horn_.reset();
+      volume_ = std::clamp(m.volume, 0.0, 1.0);
+    });
+    bus_.subscribe<docent_msgs::Horn>(topics::kHorn, [this](const auto&) { show_horn(); });
+    bus_.subscribe<docent_msgs::RequestBoard>(topics::kRequestBoard, [this](const auto& m) { see_board(m); });
+    bus_.subscribe<docent_msgs::Health>(topics::kHealth, [this](const auto& m) {
+      constexpr std::size_t kMostModules = 64;  // whoever invents names shall not fill the memory
+      if (modules_.size() < kMostModules || modules_.contains(m.module)) modules_[m.module] = {m, bus_.now()};
+    });
+    bus_.every(seconds(1.0 / params_.live_hz), [this] { show_live(); });
+    bus_.every(seconds(1.0 / params_.belief_hz), [this] { show_slow(); });
+    bus_.every(seconds(1.0), [this] { show_health(); });
+    bus_.every(seconds(params_.resend_s), [this] { resend(); });
+    bus_.every(std::chrono::minutes{10},
+               [this] { outbox_->forget_before(bus_.now() - hours_of(params_.forget_hours)); });
+    resend();
+  }
+  static Duration hours_of(double hours) { return seconds(hours * 3600.0); }
+
+  void show_live() {
+    constexpr Duration kFresh = std::chrono::seconds{1};
+    LiveFrame frame;
+    frame.now = bus_.now();
+    frame.map_from_base = carrier_.map_from_base(frame.now);
+    frame.linear = carrier_.linear();
+    frame.angular = carrier_.angular();
+    frame.p_lost = carrier_.p_lost();
+    if (!frame.map_from_base) frame.hypotheses = carrier_.hypotheses(frame.now, 0.03);
+    frame.is_scan_in_map = frame.map_from_base.has_value();
+    for (std::size_t i = 0; i < scans_.size(); ++i) {
+      const sensor_msgs::LaserScan& scan = scans_[i];
+      const Time taken = from_message(scan.header.stamp);
+      if (scan.ranges.empty() || frame.now - taken > kFresh) continue;
+      const Pose2 from_base = frame.is_scan_in_map ? *carrier_.map_from_base(taken) : Pose2{};
+      frame.scan_origin = from_base.position();
+      for (const Point2 point :
+           scan_points(scan, body_.scanners[i].base_from_sensor(), static_cast<std::size_t>(params_.scan_step)))
+        frame.scan.push_back(from_base * point);
+    }
+    if (frame.now - from_message(people_.header.stamp) <= kFresh) frame.people = people_;
+    if (avoid_ && frame.now - from_message(avoid_->header.stamp) <= kFresh) frame.avoid = avoid_;
+    frame.battery = battery_;
+    server_->broadcast(kLive, encode_live(frame));
+  }
+
+  void show_slow() {
+    if (belief_) server_->broadcast(kBelief, encode_belief(*std::exchange(belief_, std::nullopt)));
+    if (std::exchange(is_path_new_, false)) server_->broadcast(kPath, encode_path(path_, goal_));
+  }
+
+  void show_health() {
+    std::string text = encode_health(modules_, server_->figures().viewers, bus_.now());
+    {
+      const std::scoped_lock lock{shared_mutex_};
+      health_text_ = text;
+    }
+    server_->broadcast(kHealth, std::move(text));
+  }
+
+  /// The `sound` module has written the file of this name.
+  void show_horn() {
+    if (!horn_) horn_ = horn_sound(volume_);
+    server_->broadcast(kHorn, encode_horn(bus_.now(), volume_ > 0.0 ? horn_->file : "", horn_->duration_s));
+  }
+
+  void see_board(const docent_msgs::RequestBoard& board) {
+    open_requests_ = 0;
+    std::set<std::string> closed;
+    for (const auto& entry : board.requests) {
+      const bool is_open = entry.state == "queued" || entry.state == "active";
+      if (is_open) ++open_requests_;
+      if (!is_open) closed.insert(entry.request.id);
+      outbox_->delivered(entry.request.id);
+    }
+    // A cancellation is seen in the state of what it cancels.
+    std::vector<std::string> done;
+    for (const auto& request : outbox_->pending()) {
+      if (request.kind == "cancel" && closed.contains(request.target)) done.push_back(request.id);
+    }
+    for (const auto& id : done) outbox_->delivered(id);
+    server_->broadcast(kBoard, encode_board(board));
+  }
+
+  void resend() {
+    // A cancellation whose request nobody knows any more would otherwise be repeated for hours.
+    std::vector<std::string> given_up;
+    for (const auto& request : outbox_->pending()) {
+      const bool is_old = bus_.now() - from_message(request.stamp) > std::chrono::minutes{1};
+      if (request.kind == "cancel" && is_old) given_up.push_back(request.id);
+    }
+    for (const auto& id : given_up) outbox_->delivered(id);
+    for (const auto& request : outbox_->pending()) requests_.publish(request);
+    if (choice_ && (!mission_ || choice_->prompt_id != mission_->prompt.id)) choice_.reset();
+    if (choice_) choices_.publish(*choice_);
+  }
+
+  void take(ViewerId viewer, const ClientMessage& message) {
+    if (const auto* request = std::get_if<RequestMessage>(&message)) return take_request(viewer, *request);
+    if (const auto* cancel = std::get_if<CancelMessage>(&message)) {
+      docent_msgs::Request wish;
+      wish.id = cancel->id;
+      wish.kind = "cancel";
+      wish.target = cancel->request;
+      return store(viewer, std::move(wish));
+    }
+    if (const auto* choice = std::get_if<ChoiceMessage>(&message)) return take_choice(viewer, *choice);
+  }
+
+  void take_request(ViewerId viewer, const RequestMessage& message) {
+    const std::string why = refusal(message);
+    if (!why.empty()) return server_->send(viewer, encode_refusal(message.id, why));
+    docent_msgs::Request wish;
+    wish.id = message.id;
+    wish.visitor = message.name;
+    wish.kind = message.kind;
+    wish.target = message.target;
+    wish.viewpoint = message.viewpoint;
+    wish.language =
+        message.language.empty() && !museum_.languages.empty() ? museum_.languages.front() : message.language;
+    store(viewer, std::move(wish));
+  }
+
+  [[nodiscard]] std::string refusal(const RequestMessage& message) const {
+    if (open_requests_ + outbox_->pending().size() >= static_cast<std::size_t>(params_.max_open_requests)) {
+      return "too many requests are waiting";
+    }
+    if (message.kind == "tour") return museum_.find_tour(message.target) == nullptr ? "no such tour" : "";
+    const Exhibit* exhibit = museum_.find_exhibit(message.target);
+    if (exhibit == nullptr) return "no such exhibit";
+    if (message.viewpoint >= static_cast<int>(exhibit->viewpoints.size())) return "no such viewpoint";
+    return "";
+  }
+
+  /// Commits, then acknowledges, then tells the robot (architecture 10.8, 10.9).
+  void store(ViewerId viewer, docent_msgs::Request wish) {
+    wish.stamp = to_message(bus_.now());
+    wish.source = "web";
+    auto stored = outbox_->put(wish);
+    if (!stored) return server_->send(viewer, encode_refusal(wish.id, stored.error().message));
+    server_->send(viewer, encode_acknowledgement(wish.id));
+    requests_.publish(std::move(wish));
+  }
+
+  void take_choice(ViewerId viewer, const ChoiceMessage& message) {
+    const auto* prompt = mission_ ? &mission_->prompt : nullptr;
+    if (prompt == nullptr || prompt->id != message.prompt) {
+      return server_->send(viewer, encode_refusal(message.id, "the question is no longer open"));
+    }
+    if (std::find(prompt->options.begin(), prompt->options.end(), message.choice) == prompt->options.end()) {
+      return server_->send(viewer, encode_refusal(message.id, "no such answer"));
+    }
+    if (!choice_ || choice_->prompt_id != message.prompt) {  // the first answer counts
+      choice_ = docent_msgs::Choice{message.id, message.prompt, message.choice, "web"};
+      choices_.publish(*choice_);
+    }
+    server_->send(viewer, encode_acknowledgement(message.id));
+  }
+
+  // The server's thread calls these two.
+  [[nodiscard]] std::string health_document() {
+    const std::scoped_lock lock{shared_mutex_};
+    return health_text_;
+  }
+  [[nodiscard]] std::string metrics() {
+    const std::scoped_lock lock{shared_mutex_};
+    if (figures_from_ == nullptr) return "";
+    const WebServerFigures f = figures_from_->figures();
+    const auto line = [](const char* name, auto value) {
+      return "docent_web_" + (name + (" " + std::to_string(value))) + "\n";
+    };
+    return line("connections", f.connections) + line("viewers", f.viewers) + line("viewers_total", f.viewers_ever) +
+           line("http_requests_total", f.http_requests) + line("messages_received_total", f.messages_in) +
+           line("messages_refused_total", f.messages_refused) + line("messages_sent_total", f.messages_out) +
+           line("values_skipped_total", f.values_skipped);
+  }
+
+  Bus& bus_;
+  const Museum& museum_;
+  const RobotBody body_;
+  const WebParams params_;
+  std::string reason_;
+  std::unique_ptr<Outbox> outbox_;
+  Publisher<docent_msgs::Request> requests_;
+  Publisher<docent_msgs::Choice> choices_;
+  std::shared_ptr<Site> site_ = std::make_shared<Site>();
+
+  BeliefCarrier carrier_;
+  std::vector<sensor_msgs::LaserScan> scans_;  ///< [scanners] newest sweeps
+  docent_msgs::People people_;
+  std::optional<docent_msgs::Belief> belief_;  ///< not yet shown
+  std::optional<docent_msgs::AvoidState> avoid_;
+  std::optional<docent_msgs::MissionState> mission_;
+  std::optional<docent_msgs::Choice> choice_;  ///< resent until its question is closed
+  std::optional<double> battery_;
+  double volume_ = 1.0;
+  std::optional<HornSound> horn_;  ///< in this volume
+  nav_msgs::Path path_;
+  docent_msgs::GoalState goal_;
+  bool is_path_new_ = false;
+  std::size_t open_requests_ = 0;
+  std::map<std::string, HealthEntry> modules_;
+
+  std::mutex shared_mutex_;  ///< of the two below
+  std::string health_text_ = R"({"type":"health","modules":[]})";
+  const WebServer* figures_from_ = nullptr;
+
+  std::unique_ptr<WebServer> server_;  ///< last: its thread ends before the rest goes
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Module>> make_web(const ModuleContext& context) { return WebModule::make(context); }
+
+Result<ParameterRows> parameters_of_web(const RobotConfig& config) { return list_parameters<WebParams>(config, "web"); }
+
+}  // namespace docent

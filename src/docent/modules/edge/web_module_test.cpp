@@ -1,0 +1,325 @@
+#include "docent/modules/edge/web_module.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "docent/interaction/speech/horn.h"
+#include "docent/messages/conversions.h"
+#include "docent/telepresence/test_client.h"
+#include "docent/transport/virtual_time_bus.h"
+
+namespace docent {
+namespace {
+
+using Json = nlohmann::json;
+
+const std::string kId = "018f3a6c-5b2e-7c3d-9a4b-0123456789ab";
+const std::string kOtherId = "018f3a6c-5b2e-7c3d-9a4b-ba9876543210";
+
+Museum small_museum() {
+  Museum museum;
+  museum.name = {{"en", "A hall"}};
+  museum.languages = {"en"};
+  museum.map.frame = {40, 30, 0.25, {0, 0}};
+  museum.map.cells.assign(museum.map.frame.size(), OccupancyGrid::kFree);
+  Exhibit exhibit;
+  exhibit.id = "sputnik";
+  exhibit.title = {{"en", "Sputnik \"1\""}};
+  exhibit.viewpoints = {{1, 1, Angle{}}, {2, 1, Angle{}}};
+  museum.exhibits.push_back(exhibit);
+  Tour tour;
+  tour.id = "space";
+  tour.exhibits = {"sputnik"};
+  museum.tours.push_back(tour);
+  return museum;
+}
+
+/// The module on a bus of virtual time, with a browser at the other end of a real socket.
+class WebModuleTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    state_ = std::filesystem::temp_directory_path() / ("docent-web-" + std::to_string(::getpid()) + "-" +
+                                                       testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::create_directories(state_);
+    port_ = free_port();
+    ASSERT_TRUE(config_.set("web.port=" + std::to_string(port_)));
+    robot_bus_ = hub_.connect("robot");
+    robot_bus_->subscribe<docent_msgs::Request>(topics::kRequest, [this](const auto& m) { requests_.push_back(m); });
+    robot_bus_->subscribe<docent_msgs::Choice>(topics::kChoice, [this](const auto& m) { choices_.push_back(m); });
+    start();
+  }
+  void TearDown() override {
+    module_.reset();
+    web_bus_.reset();
+    std::filesystem::remove_all(state_);
+  }
+  static int free_port() {
+    const int end = ::socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    EXPECT_EQ(::bind(end, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    EXPECT_EQ(::getsockname(end, reinterpret_cast<sockaddr*>(&address), &size), 0);
+    ::close(end);
+    return ntohs(address.sin_port);
+  }
+  void start() {
+    web_bus_ = hub_.connect("web");
+    auto module = make_web(context(*web_bus_));
+    ASSERT_TRUE(module) << module.error().message;
+    module_ = std::move(*module);
+  }
+  /// As a kill would do it, but for the process.
+  void stop() {
+    module_.reset();
+    web_bus_.reset();
+  }
+  ModuleContext context(Bus& bus) { return {bus, museum_, config_, state_, 1, true}; }
+
+  void run(double seconds_of_bus) {
+    const Time end = hub_.now() + seconds(seconds_of_bus);
+    while (hub_.now() < end) hub_.run_until(std::min(end, hub_.now() + seconds(0.05)));
+  }
+  /// Lets the bus run until the viewer gets a message of this type.
+  Json next(TestClient& viewer, const std::string& type) {
+    for (int i = 0; i < 2000; ++i) {
+      hub_.run_until(hub_.now() + seconds(0.01));
+      const auto frame = viewer.receive_frame(std::chrono::milliseconds{2});
+      if (frame.opcode != 1) continue;
+      Json json = Json::parse(frame.payload);
+      if (json["type"] == type) return json;
+    }
+    ADD_FAILURE() << "no message of type " << type;
+    return {};
+  }
+  static std::string request(const std::string& id, const std::string& target, int viewpoint = -1) {
+    return Json{{"type", "request"},      {"id", id},       {"kind", "exhibit"}, {"target", target},
+                {"viewpoint", viewpoint}, {"name", "Lise"}, {"language", "en"}}
+        .dump();
+  }
+  void publish_board(const std::string& state) {
+    docent_msgs::RequestBoard board;
+    for (const auto& request : requests_) {
+      if (request.kind == "cancel") continue;
+      docent_msgs::RequestState entry;
+      entry.request = request;
+      entry.state = state;
+      board.requests = {entry};
+    }
+    robot_bus_->publisher(topics::kRequestBoard).publish(board);
+  }
+
+  std::filesystem::path state_;
+  int port_ = 0;
+  VirtualTimeHub hub_;
+  Museum museum_ = small_museum();
+  RobotConfig config_;
+  std::vector<docent_msgs::Request> requests_;
+  std::vector<docent_msgs::Choice> choices_;
+  std::unique_ptr<Bus> robot_bus_;
+  std::unique_ptr<Bus> web_bus_;
+  std::unique_ptr<Module> module_;
+};
+
+TEST_F(WebModuleTest, ARequestIsResentUntilItIsOnTheBoard) {
+  TestClient viewer{port_};
+  ASSERT_TRUE(viewer.upgrade());
+  viewer.send_frame(request(kId, "sputnik", 1));
+  EXPECT_EQ(next(viewer, "ack")["id"], kId);
+  run(5.0);
+  ASSERT_GE(requests_.size(), 4U);
+  for (const auto& sent : requests_) {
+    EXPECT_EQ(sent.id, kId);
+    EXPECT_EQ(sent.source, "web");
+    EXPECT_EQ(sent.visitor, "Lise");
+    EXPECT_EQ(sent.target, "sputnik");
+    EXPECT_EQ(sent.viewpoint, 1);
+  }
+  publish_board("queued");
+  run(0.1);
+  const std::size_t before = requests_.size();
+  run(5.0);
+  EXPECT_EQ(requests_.size(), before);
+  // Said again after a reconnect: known, acknowledged, not sent for a second visit.
+  viewer.send_frame(request(kId, "sputnik", 1));
+  EXPECT_EQ(next(viewer, "ack")["id"], kId);
+  run(5.0);
+  EXPECT_EQ(requests_.size(), before + 1);  // once, in case the mission lost it
+}
+
+TEST_F(WebModuleTest, AnAcknowledgedRequestOutlivesTheModule) {
+  {
+    TestClient viewer{port_};
+    ASSERT_TRUE(viewer.upgrade());
+    viewer.send_frame(request(kId, "sputnik"));
+    next(viewer, "ack");
+  }
+  stop();
+  requests_.clear();
+  run(3.0);
+  EXPECT_TRUE(requests_.empty());
+  start();
+  run(3.0);
+  ASSERT_GE(requests_.size(), 2U);
+  EXPECT_EQ(requests_.front().id, kId);
+}
+
+TEST_F(WebModuleTest, WhatTheMuseumDoesNotHaveIsRefused) {
+  TestClient viewer{port_};
+  ASSERT_TRUE(viewer.upgrade());
+  viewer.send_frame(request(kId, "mona-lisa"));
+  EXPECT_EQ(next(viewer, "refused")["reason"], "no such exhibit");
+  viewer.send_frame(request(kId, "sputnik", 2));
+  EXPECT_EQ(next(viewer, "refused")["reason"], "no such viewpoint");
+  run(3.0);
+  EXPECT_TRUE(requests_.empty());
+}
+
+TEST_F(WebModuleTest, ACancellationIsResentUntilItShows) {
+  TestClient viewer{port_};
+  ASSERT_TRUE(viewer.upgrade());
+  viewer.send_frame(request(kId, "sputnik"));
+  next(viewer, "ack");
+  run(0.1);
+  publish_board("queued");
+  run(0.1);
+  viewer.send_frame(Json{{"type", "cancel"}, {"id", kOtherId}, {"request", kId}}.dump());
+  EXPECT_EQ(next(viewer, "ack")["id"], kOtherId);
+  run(3.0);
+  ASSERT_GE(requests_.size(), 3U);
+  EXPECT_EQ(requests_.back().kind, "cancel");
+  EXPECT_EQ(requests_.back().target, kId);
+  publish_board("cancelled");
+  run(0.1);
+  const std::size_t before = requests_.size();
+  run(3.0);
+  EXPECT_EQ(requests_.size(), before);
+}
+
+TEST_F(WebModuleTest, OnlyAnOpenQuestionCanBeAnswered) {
+  TestClient viewer{port_};
+  ASSERT_TRUE(viewer.upgrade());
+  const auto answer = [&](const std::string& prompt, const std::string& choice) {
+    viewer.send_frame(Json{{"type", "choice"}, {"id", kId}, {"prompt", prompt}, {"choice", choice}}.dump());
+  };
+  answer("p1", "more");
+  EXPECT_EQ(next(viewer, "refused")["reason"], "the question is no longer open");
+  docent_msgs::MissionState mission;
+  mission.prompt.id = "p1";
+  mission.prompt.options = {"more", "next"};
+  const auto missions = robot_bus_->publisher(topics::kMissionState);
+  missions.publish(mission);
+  EXPECT_EQ(next(viewer, "mission")["prompt"]["id"], "p1");
+  answer("p1", "drive-faster");
+  EXPECT_EQ(next(viewer, "refused")["reason"], "no such answer");
+  answer("p1", "more");
+  next(viewer, "ack");
+  answer("p1", "next");  // too late: the first answer counts
+  next(viewer, "ack");
+  run(3.0);
+  ASSERT_GE(choices_.size(), 2U);  // resent while the question is open
+  for (const auto& choice : choices_) EXPECT_EQ(choice.choice, "more");
+  mission.prompt = {};
+  missions.publish(mission);
+  run(1.1);
+  const std::size_t before = choices_.size();
+  run(3.0);
+  EXPECT_EQ(choices_.size(), before);
+}
+
+TEST_F(WebModuleTest, ShowsThePoseOnceItIsKnown) {
+  TestClient viewer{port_};
+  ASSERT_TRUE(viewer.upgrade());
+  EXPECT_TRUE(next(viewer, "live")["pose"].is_null());
+  nav_msgs::Odometry odometry;
+  odometry.header.stamp = to_message(hub_.now());
+  odometry.pose.pose = to_message(Pose2{1, 0, Angle{}});
+  robot_bus_->publisher(topics::kOdometry).publish(odometry);
+  docent_msgs::Belief belief;
+  belief.header.stamp = odometry.header.stamp;
+  belief.localized = true;
+  belief.hypotheses.resize(1);
+  belief.hypotheses[0].x = 5.0;
+  belief.hypotheses[0].y = 4.0;
+  belief.hypotheses[0].mass = 1.0;
+  belief.cells = {{5.0F, 4.0F, 0.0F, 1.0F}};
+  belief.odom_pose = to_message(Pose2{});
+  robot_bus_->publisher(topics::kBelief).publish(belief);
+  EXPECT_EQ(next(viewer, "belief")["raster"]["cell"], 0.3);
+  EXPECT_EQ(next(viewer, "live")["pose"], Json({6.0, 4.0, 0.0}));  // a metre further since the belief
+}
+
+TEST_F(WebModuleTest, ServesTheMuseum) {
+  TestClient client{port_};
+  client.send("GET /api/museum.json HTTP/1.1\r\nHost: a\r\n\r\n");
+  const auto [head, body] = client.receive_reply();
+  EXPECT_TRUE(head.starts_with("HTTP/1.1 200")) << head;
+  const Json museum = Json::parse(body);
+  EXPECT_EQ(museum["exhibits"][0]["title"]["en"], "Sputnik \"1\"");
+  EXPECT_EQ(museum["exhibits"][0]["viewpoints"].size(), 2U);
+  EXPECT_EQ(museum["map"]["columns"], 40);
+  client.send("GET /api/map.png HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n");
+  EXPECT_EQ(client.receive_reply().second.substr(1, 3), "PNG");
+}
+
+TEST_F(WebModuleTest, APortInUseIsOneClearLine) {
+  const auto bus = hub_.connect("second");
+  const auto second = make_web(context(*bus));
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().message,
+            "web: 127.0.0.1:" + std::to_string(port_) + ": the port is in use by another program");
+}
+
+TEST_F(WebModuleTest, NonsenseInTheConfigurationIsNamed) {
+  RobotConfig config;
+  ASSERT_TRUE(config.set("web.live_hz=0"));
+  const auto bus = hub_.connect("second");
+  const auto module = make_web({*bus, museum_, config, state_, 1, true});
+  ASSERT_FALSE(module);
+  EXPECT_NE(module.error().message.find("web.live_hz"), std::string::npos) << module.error().message;
+}
+
+TEST_F(WebModuleTest, TheHornIsToldWithTheNameOfItsSound) {
+  TestClient viewer{port_};
+  ASSERT_TRUE(viewer.upgrade());
+  const auto horn = robot_bus_->publisher(topics::kHorn);
+  horn.publish({});
+  const Json loud = next(viewer, "horn");
+  EXPECT_EQ(loud["audio"], "/audio/" + horn_sound(1.0).file);
+  EXPECT_NEAR(loud["t"].get<double>(), to_seconds(hub_.now()), 0.5);
+  EXPECT_NEAR(loud["duration"].get<double>(), horn_sound(1.0).duration_s, 0.01);
+  ASSERT_TRUE(write_horn_sound(horn_sound(1.0), state_ / "audio"));  // as `sound` does
+  TestClient listener{port_};
+  listener.send("GET " + loud["audio"].get<std::string>() + " HTTP/1.1\r\nHost: a\r\n\r\n");
+  EXPECT_EQ(listener.receive_reply().second, horn_sound(1.0).content);
+
+  const auto limits = robot_bus_->publisher(topics::kLimits);
+  limits.publish({0.7, 0.4, "open", true});
+  horn.publish({});
+  EXPECT_EQ(next(viewer, "horn")["audio"], "/audio/" + horn_sound(0.4).file);
+  limits.publish({0.7, 0.0, "open", true});
+  horn.publish({});
+  EXPECT_EQ(next(viewer, "horn")["audio"], "") << "muted";
+}
+
+TEST_F(WebModuleTest, AViewerHearsSomethingAtLeastEverySecond) {
+  TestClient viewer{port_};
+  ASSERT_TRUE(viewer.upgrade());
+  run(0.5);
+  while (viewer.receive_frame(std::chrono::milliseconds{20}).opcode == 1) {
+  }
+  for (int second = 0; second < 3; ++second) {  // of a robot from which nothing comes at all
+    run(1.0);
+    EXPECT_EQ(viewer.receive_frame(std::chrono::milliseconds{500}).opcode, 1);
+    while (viewer.receive_frame(std::chrono::milliseconds{20}).opcode == 1) {
+    }
+  }
+}
+
+}  // namespace
+}  // namespace docent

@@ -1,0 +1,158 @@
+#include "docent/modules/guide/executive_module.h"
+
+#include "docent/interaction/speech/spoken_text.h"
+#include "docent/messages/conversions.h"
+#include "docent/modules/shared/museum_mode.h"
+#include "docent/task_control/executive/checkpoint.h"
+#include "docent/task_control/executive/executive.h"
+
+namespace docent {
+namespace {
+
+constexpr Duration kPeriod = std::chrono::milliseconds{250};
+
+class ExecutiveModule final : public Module {
+ public:
+  ExecutiveModule(const ModuleContext& context, const ExecutiveParams& params, ExecutiveMemory memory,
+                  std::string fault)
+      : bus_{context.bus},
+        museum_{context.museum},
+        mode_{context},
+        checkpoint_{context.state / "executive.json"},
+        map_{map_hash(context.museum.map)},
+        survives_{context.virtual_time ? Survives::process_death : Survives::power_failure},
+        executive_{params, std::move(memory), bus_.now()},
+        fault_{std::move(fault)},
+        goal_{bus_.publisher(topics::kDriveGoal)},
+        say_{bus_.publisher(topics::kSay)},
+        state_{bus_.publisher(topics::kTaskState)},
+        event_{bus_.publisher(topics::kEvent)},
+        reaction_{bus_.publisher(topics::kReaction)},
+        horn_{bus_.publisher(topics::kHorn)} {
+    flush();
+    bus_.subscribe<docent_msgs::Limits>(topics::kLimits, [this](const auto& limits) { mode_.limits(limits); });
+    bus_.subscribe<docent_msgs::Task>(topics::kTask, [this](const auto& task) {
+      executive_.set_task(to_task(task), bus_.now());
+      flush();
+    });
+    bus_.subscribe<docent_msgs::GoalState>(topics::kGoalState, [this](const auto& state) {
+      executive_.goal_report({state.id, state.state, state.remaining_m, state.blocked_s, state.reason, state.detour},
+                             bus_.now());
+      flush();
+    });
+    bus_.subscribe<docent_msgs::SpeechState>(topics::kSpeechState, [this](const auto& state) {
+      executive_.speech_report({state.id, state.state, from_message(state.start), state.duration}, bus_.now());
+      flush();
+    });
+    bus_.subscribe<docent_msgs::Choice>(topics::kChoice, [this](const auto& choice) {
+      executive_.choose(choice.prompt_id, choice.choice, bus_.now());
+      flush();
+    });
+    bus_.subscribe<docent_msgs::AvoidState>(topics::kAvoidState, [this](const auto& state) {
+      executive_.obstacle_report({state.path_blocked, state.unmapped_obstacle,
+                                  state.path_blocked ? state.reason : std::string{}, state.low_obstacle},
+                                 bus_.now());
+    });
+    bus_.every(kPeriod, [this] {
+      executive_.tick(bus_.now());
+      flush();
+    });
+  }
+
+  [[nodiscard]] ModuleHealth health() const override {
+    return fault_.empty() ? ModuleHealth{} : ModuleHealth{"degraded", fault_};
+  }
+
+ private:
+  [[nodiscard]] ExecutiveTask to_task(const docent_msgs::Task& task) const {
+    ExecutiveTask result;
+    result.order = {task.id,       task.kind,       task.exhibit_id, {task.x, task.y, Angle::radians(task.theta)},
+                    task.language, task.offer_more, task.tour_id};
+    if (const Exhibit* exhibit = museum_.find_exhibit(task.exhibit_id)) {
+      result.title = translated(exhibit->title, task.language);
+      result.short_text = spoken_text(translated(exhibit->short_text, task.language));
+      result.long_text = spoken_text(translated(exhibit->long_text, task.language));
+      result.wait_s = mode_.wait_s(bus_.now());
+    }
+    return result;
+  }
+
+  void flush() {
+    Executive::Actions actions = executive_.take_actions();
+    if (actions.must_save) {
+      // A robot whose disk is full goes on guiding; only a restart would forget the step.
+      auto saved = save_checkpoint(checkpoint_, executive_.memory(), map_, survives_);
+      fault_ = saved ? "" : saved.error().message;
+    }
+    if (actions.drive) {
+      docent_msgs::DriveGoal goal;
+      goal.id = actions.drive->id;
+      goal.x = actions.drive->map_from_base.x;
+      goal.y = actions.drive->map_from_base.y;
+      goal.theta = actions.drive->map_from_base.theta.radians();
+      goal.relocalize = actions.drive->relocalize;
+      goal.position_tolerance = actions.drive->position_tolerance;
+      goal_.publish(std::move(goal));
+    }
+    for (Utterance& line : actions.utterances) {
+      say_.publish({std::move(line.id), std::move(line.text), std::move(line.language), std::move(line.mood)});
+    }
+    const auto stamp = to_message(bus_.now());
+    if (actions.report) {
+      TaskReport& report = *actions.report;
+      Question& question = report.question;
+      state_.publish({{stamp, "map"},
+                      std::move(report.id),
+                      std::move(report.state),
+                      std::move(report.reason),
+                      {std::move(question.id), std::move(question.text), std::move(question.options),
+                       std::move(question.default_option), to_message(question.deadline)},
+                      report.took_long});
+    }
+    for (LadderStep& step : actions.reactions) {
+      if (step.rung == Rung::horn) horn_.publish({{stamp, "base_link"}, step.cause});
+      reaction_.publish(
+          {{stamp, "map"}, actions.reactions_of, to_text(step.rung), std::move(step.cause), step.after_s, step.count});
+    }
+    for (Happening& happening : actions.happenings) {
+      event_.publish({{stamp, "map"},
+                      std::move(happening.kind),
+                      std::move(happening.subject),
+                      std::move(happening.detail),
+                      happening.value});
+    }
+  }
+
+  Bus& bus_;
+  const Museum& museum_;
+  MuseumMode mode_;
+  std::filesystem::path checkpoint_;
+  std::string map_;
+  Survives survives_;
+  Executive executive_;
+  std::string fault_;
+  Publisher<docent_msgs::DriveGoal> goal_;
+  Publisher<docent_msgs::Say> say_;
+  Publisher<docent_msgs::TaskState> state_;
+  Publisher<docent_msgs::Event> event_;
+  Publisher<docent_msgs::Reaction> reaction_;
+  Publisher<docent_msgs::Horn> horn_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Module>> make_executive(const ModuleContext& context) {
+  auto params = context.config.section<ExecutiveParams>("executive");
+  if (!params) return tl::unexpected<Error>(params.error());
+  params->ladder.active = !context.config.evaluation().without_ladder;
+  auto memory = load_checkpoint(context.state / "executive.json", map_hash(context.museum.map));
+  // A damaged checkpoint costs the running step, not the robot: the mission's task begins again.
+  return std::make_unique<ExecutiveModule>(context, *params, memory.value_or(ExecutiveMemory{}),
+                                           memory ? "" : memory.error().message);
+}
+
+Result<ParameterRows> parameters_of_executive(const RobotConfig& config) {
+  return list_parameters<ExecutiveParams>(config, "executive");
+}
+
+}  // namespace docent

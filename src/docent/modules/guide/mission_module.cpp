@@ -1,0 +1,279 @@
+#include "docent/modules/guide/mission_module.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <vector>
+
+#include "docent/base/random.h"
+#include "docent/interaction/speech/sentences.h"
+#include "docent/interaction/speech/spoken_text.h"
+#include "docent/messages/conversions.h"
+#include "docent/modules/shared/museum_mode.h"
+#include "docent/task_control/tour_scheduler/mission.h"
+#include "docent/task_control/tour_scheduler/mission_store.h"
+#include "docent/task_control/tour_scheduler/travel.h"
+
+namespace docent {
+namespace {
+
+constexpr Duration kPeriod = std::chrono::milliseconds{500};
+constexpr std::size_t kMostText = 200;  ///< [bytes] of any field of a request: it comes from anybody
+
+Programme programme_of(const Museum& museum) {
+  Programme programme;
+  if (!museum.languages.empty()) programme.languages = museum.languages;
+  programme.home = museum.home;
+  programme.charger = museum.charger;
+  const std::string& language = programme.languages.front();
+  for (const Exhibit& exhibit : museum.exhibits) {
+    const std::string text = translated(exhibit.title, language) + ". " + translated(exhibit.short_text, language);
+    ProgrammeExhibit& shown = programme.exhibits.emplace_back();
+    shown = {exhibit.id, exhibit.pose, exhibit.viewpoints, speech_duration(spoken_text(text), language, "neutral"),
+             exhibit.web_only};
+    for (const Exhibit* next : sensible_next(museum, exhibit)) shown.next.push_back(next->id);
+  }
+  for (const Tour& tour : museum.tours) {
+    programme.tours.push_back({tour.id, tour.exhibits, 60.0 * tour.minutes.value_or(0.0)});
+  }
+  return programme;
+}
+
+TravelDistance travel_in(const ModuleContext& context) {
+  const Museum& museum = context.museum;
+  if (museum.map.cells.empty()) return straight_distance();
+  std::vector<Polygon> hazards;
+  for (const Hazard& hazard : museum.hazards) hazards.push_back(hazard.polygon);
+  RouteParams params;
+  params.robot_radius = context.config.body().radius;
+  return travel_on_map(RoutePlanner{museum.map, hazards, museum.area, params});
+}
+
+/// Its charger holds it there.
+bool is_full(const sensor_msgs::BatteryState& battery) {
+  constexpr std::uint8_t kFull = 4;
+  return battery.power_supply_status == kFull;
+}
+
+/// What the battery says of itself; nullopt: nothing.
+std::optional<bool> is_charging(const sensor_msgs::BatteryState& battery) {
+  constexpr std::uint8_t kUnknown = 0;
+  constexpr std::uint8_t kCharging = 1;
+  if (battery.power_supply_status == kUnknown) return std::nullopt;
+  return battery.power_supply_status == kCharging || is_full(battery);
+}
+
+std::string deployment_name(std::uint64_t seed, Time now) {
+  char name[20];
+  const auto hash = hash_of(std::to_string(seed) + "/" + std::to_string(now.nanoseconds));
+  std::snprintf(name, sizeof name, "%08llx", static_cast<unsigned long long>(hash & 0xffffffffU));
+  return name;
+}
+
+docent_msgs::RequestState to_message(const BoardEntry& entry) {
+  const VisitorRequest& request = entry.request;
+  return {{request.id, docent::to_message(request.stamp), request.source, request.visitor, request.kind, request.target,
+           request.viewpoint, request.language},
+          to_text(entry.status),
+          entry.reason,
+          docent::to_message(entry.created),
+          docent::to_message(entry.changed)};
+}
+
+class MissionModule final : public Module {
+ public:
+  MissionModule(const ModuleContext& context, const MissionParams& params, MissionStore store, MissionMemory memory)
+      : bus_{context.bus},
+        museum_{context.museum},
+        mode_{context},
+        store_{std::move(store)},
+        set_aside_{store_.set_aside()},
+        mission_{params, programme_of(context.museum), travel_in(context), std::move(memory), bus_.now()},
+        board_{bus_.publisher(topics::kRequestBoard)},
+        task_{bus_.publisher(topics::kTask)},
+        state_{bus_.publisher(topics::kMissionState)},
+        event_{bus_.publisher(topics::kEvent)} {
+    flush();
+    bus_.subscribe<docent_msgs::Request>(topics::kRequest, [this](const auto& message) { on_request(message); });
+    bus_.subscribe<docent_msgs::TaskState>(topics::kTaskState, [this](const auto& message) { on_task(message); });
+    bus_.subscribe<docent_msgs::Belief>(topics::kBelief, [this](const auto& message) { on_belief(message); });
+    bus_.subscribe<docent_msgs::Limits>(topics::kLimits, [this](const auto& message) { mode_.limits(message); });
+    bus_.subscribe<sensor_msgs::BatteryState>(topics::kBattery, [this](const auto& message) {
+      if (message.present && std::isfinite(message.percentage)) {
+        // Many a gauge never shows a whole charge: full is what the battery calls so.
+        const double charge = is_full(message) ? 1.0 : static_cast<double>(message.percentage);
+        mission_.battery(charge, is_charging(message), bus_.now());
+      }
+    });
+    bus_.every(kPeriod, [this] {
+      mission_.tick(bus_.now());
+      flush();
+    });
+  }
+
+  [[nodiscard]] ModuleHealth health() const override {
+    if (!fault_.empty()) return {"degraded", fault_};
+    if (mission_.is_battery_silent(bus_.now())) return {"degraded", "the battery says nothing"};
+    if (!set_aside_.empty()) return {"degraded", "a damaged database was set aside: " + set_aside_};
+    return {};
+  }
+
+ private:
+  void on_request(const docent_msgs::Request& message) {
+    mission_.limits(mode_.takes_requests(), mode_.name(bus_.now()));
+    for (const std::string* text :
+         {&message.id, &message.source, &message.visitor, &message.kind, &message.target, &message.language}) {
+      if (text->size() > kMostText) return;
+    }
+    if (message.id.empty()) return;
+    if (mission_.scheduler().board().find(message.id) == nullptr) {
+      const auto old = store_.find(message.id);
+      if (!old) {  // unknown whether it is new: the client will ask again
+        fault_ = old.error().message;
+        return;
+      }
+      if (*old) {
+        mission_.scheduler().board().show_again(**old);
+        flush();
+        return;
+      }
+    }
+    mission_.submit({message.id, from_message(message.stamp), message.source, message.visitor, message.kind,
+                     message.target, message.viewpoint, message.language},
+                    bus_.now());
+    flush();
+  }
+
+  void on_task(const docent_msgs::TaskState& message) {
+    if (message.id == mission_.task().id) prompt_ = message.prompt;
+    mission_.report(message.id, message.state, message.reason, bus_.now());
+    flush();
+  }
+
+  void on_belief(const docent_msgs::Belief& belief) {
+    Point2 position;
+    if (!belief.hypotheses.empty()) position = {belief.hypotheses.front().x, belief.hypotheses.front().y};
+    const bool was_localized = is_localized_;
+    is_localized_ = belief.localized && !belief.hypotheses.empty();
+    mission_.localization(is_localized_, position, bus_.now());
+    if (is_localized_ != was_localized) flush();
+  }
+
+  /// Commits what changed, then publishes it; what cannot be committed is not published and tried again.
+  void flush() {
+    const MissionMemory memory = mission_.memory();
+    if (auto saved = store_.save(memory); !saved) {
+      fault_ = saved.error().message;
+      return;
+    }
+    fault_.clear();
+    mission_.scheduler().board().mark_stored();
+    const Time now = bus_.now();
+    for (Happening& happening : mission_.take_happenings()) {
+      event_.publish({{docent::to_message(now), "map"},
+                      std::move(happening.kind),
+                      std::move(happening.subject),
+                      std::move(happening.detail),
+                      happening.value});
+    }
+    const std::uint64_t revision = memory.schedule.board.revision();
+    if (!is_published_ || revision != published_revision_) publish_board(memory.schedule.board, now);
+    if (!is_published_ || memory.task.id != published_task_) publish_task(memory.task);
+    publish_state(now);
+    is_published_ = true;
+  }
+
+  void publish_board(const RequestBoard& board, Time now) {
+    docent_msgs::RequestBoard message;
+    message.header.stamp = docent::to_message(now);
+    message.revision = board.revision();
+    for (const BoardEntry& entry : board.entries()) message.requests.push_back(to_message(entry));
+    published_revision_ = board.revision();
+    board_.publish(std::move(message));
+  }
+
+  void publish_task(const TaskOrder& task) {
+    const Pose2& pose = task.map_from_base;
+    published_task_ = task.id;
+    prompt_ = {};
+    task_.publish({task.id, task.kind, task.exhibit_id, pose.x, pose.y, pose.theta.radians(), task.language,
+                   task.offer_more, task.tour_id});
+  }
+
+  void publish_state(Time now) {
+    const MissionSummary summary = mission_.summary(now);
+    docent_msgs::MissionState message;
+    message.phase = summary.phase;
+    message.tour_id = summary.tour_id;
+    message.exhibit_id = summary.exhibit_id;
+    const Exhibit* exhibit = museum_.find_exhibit(summary.exhibit_id);
+    const Translations title = exhibit != nullptr ? exhibit->title : Translations{};
+    const auto text = [&](const std::string& language) {
+      const std::string minutes = std::to_string(std::max(5, summary.charging_min));
+      return sentence(sentence_of(summary), language,
+                      summary.phase == "charging" ? minutes : translated(title, language));
+    };
+    message.text_en = text("en");
+    message.text_de = text("de");
+    if (summary.phase == "asking") message.prompt = prompt_;
+    message.exhibits_explained = summary.counters.exhibits_explained;
+    message.tours_completed = summary.counters.tours_completed;
+    message.requests_served = summary.counters.requests_served;
+    message.agenda = summary.agenda;
+    auto bytes = encode_cdr(message);  // without a stamp: equal states are equal bytes
+    if (bytes == published_state_) return;
+    published_state_ = std::move(bytes);
+    message.header = {docent::to_message(now), "map"};
+    state_.publish(std::move(message));
+  }
+
+  [[nodiscard]] static Sentence sentence_of(const MissionSummary& summary) {
+    if (summary.phase == "waking") return Sentence::waking;
+    if (summary.phase == "relocalizing") return Sentence::relocalizing;
+    if (summary.phase == "driving") return summary.is_blocked ? Sentence::blocked : Sentence::driving;
+    if (summary.phase == "explaining") return Sentence::explaining;
+    if (summary.phase == "asking") return Sentence::asking;
+    if (summary.phase == "charging") return Sentence::charging;
+    if (summary.needs_charge) return Sentence::battery_low;
+    if (summary.phase == "going_home") return Sentence::going_home;
+    return summary.phase == "idle" ? Sentence::idle : Sentence::waiting;
+  }
+
+  Bus& bus_;
+  const Museum& museum_;
+  MuseumMode mode_;
+  MissionStore store_;
+  std::string set_aside_;
+  Mission mission_;
+  Publisher<docent_msgs::RequestBoard> board_;
+  Publisher<docent_msgs::Task> task_;
+  Publisher<docent_msgs::MissionState> state_;
+  Publisher<docent_msgs::Event> event_;
+  docent_msgs::Prompt prompt_;
+  bool is_localized_ = false;
+  bool is_published_ = false;
+  std::uint64_t published_revision_ = 0;
+  std::string published_task_;
+  std::vector<std::uint8_t> published_state_;
+  std::string fault_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Module>> make_mission(const ModuleContext& context) {
+  auto params = context.config.section<MissionParams>("mission");
+  if (!params) return tl::unexpected<Error>(params.error());
+  auto store = MissionStore::open(context.state / "mission.sqlite", deployment_name(context.seed, context.bus.now()),
+                                  !context.virtual_time);
+  if (!store) return tl::unexpected<Error>(store.error());
+  auto memory = store->load();
+  if (!memory) return tl::unexpected<Error>(memory.error());
+  return std::make_unique<MissionModule>(context, *params, std::move(*store), std::move(*memory));
+}
+
+Result<ParameterRows> parameters_of_mission(const RobotConfig& config) {
+  return list_parameters<MissionParams>(config, "mission");
+}
+
+}  // namespace docent

@@ -1,0 +1,55 @@
+#include "docent/modules/host/module_host.h"
+
+#include "docent/messages/conversions.h"
+
+namespace docent {
+
+namespace {
+constexpr Duration kHealthPeriod = std::chrono::milliseconds{500};
+constexpr Duration kRefusalsShown = std::chrono::seconds{5};  // after the last one
+
+/// What has come lately that could not be used; empty: all was well.
+std::string lately_refused(const Bus& bus) {
+  std::string text;
+  for (const auto& [topic, refusals] : bus.refusals()) {
+    if (bus.now() - refusals.last_at > kRefusalsShown) continue;
+    text += (text.empty() ? "" : "; ") + std::to_string(refusals.count) + " messages of " + topic +
+            " refused: " + refusals.last.text();
+  }
+  return text;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<ModuleHost>> ModuleHost::create(const ModuleEntry& entry, std::unique_ptr<Bus> bus,
+                                                       const Museum& museum, const RobotConfig& config,
+                                                       const Options& options) {
+  std::unique_ptr<ModuleHost> host{new ModuleHost{entry.name, std::move(bus)}};
+  host->pid_ = options.pid;
+  host->health_ = host->bus_->publisher(topics::kHealth);
+  auto module = entry.make({*host->bus_, museum, config, options.state, options.seed, options.virtual_time,
+                            options.truth, options.day_begins, options.cache});
+  if (!module) return tl::unexpected<Error>(module.error());
+  host->module_ = std::move(*module);
+  host->bus_->every(kHealthPeriod, [raw = host.get()] { raw->publish_health(); });
+  host->publish_health();
+  return host;
+}
+
+void ModuleHost::publish_health() {
+  ModuleHealth health = module_->health();
+  if (const std::string refused = lately_refused(*bus_); !refused.empty()) {
+    if (health.state == "ready") health.state = "degraded";
+    health.reason += (health.reason.empty() ? "" : "; ") + refused;
+  }
+  docent_msgs::Health message;
+  message.header.stamp = to_message(bus_->now());
+  message.module = name_;
+  message.state = health.state;
+  message.reason = health.reason;
+  message.pid = pid_;
+  message.step_p99_ms = bus_->step_p99_ms();
+  health_.publish(std::move(message));
+}
+
+}  // namespace docent

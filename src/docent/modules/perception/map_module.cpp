@@ -1,0 +1,224 @@
+#include "docent/modules/perception/map_module.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "docent/collision_avoidance/outline_distance.h"
+#include "docent/collision_avoidance/tactile_watch.h"
+#include "docent/mapping/occupancy/live_map.h"
+#include "docent/modules/shared/pose_tracker.h"
+#include "docent/modules/shared/scanners.h"
+
+namespace docent {
+namespace {
+
+constexpr Duration kFullMapPeriod = std::chrono::seconds{10};
+constexpr Duration kStaleAfter = std::chrono::seconds{1};
+
+nav_msgs::MapMetaData to_message(const GridFrame& frame, Time now) {
+  nav_msgs::MapMetaData info;
+  info.map_load_time = docent::to_message(now);
+  info.resolution = static_cast<float>(frame.resolution);
+  info.width = static_cast<std::uint32_t>(frame.columns);
+  info.height = static_cast<std::uint32_t>(frame.rows);
+  info.origin = docent::to_message(Pose2{frame.origin.x, frame.origin.y, {}});
+  return info;
+}
+
+std::vector<Polygon> polygons_of(const std::vector<Hazard>& hazards) {
+  std::vector<Polygon> polygons;
+  for (const auto& hazard : hazards) polygons.push_back(hazard.polygon);
+  return polygons;
+}
+
+class MapModule final : public Module {
+ public:
+  MapModule(const ModuleContext& context, const LiveMapParams& params, Outline outline)
+      : bus_{context.bus},
+        body_{context.config.body()},
+        outline_{std::move(outline)},
+        live_{context.museum.map, params, polygons_of(context.museum.hazards)},
+        base_from_laser_{mounts_of(body_.scanners)},
+        sights_(base_from_laser_.size()),
+        live_map_{bus_.publisher(topics::kLiveMap)},
+        updates_{bus_.publisher(topics::kLiveMapUpdate)} {
+    nav_msgs::OccupancyGrid map;
+    map.header = {docent::to_message(bus_.now()), "map"};
+    map.info = to_message(context.museum.map.frame, bus_.now());
+    map.data = context.museum.map.cells;
+    bus_.publisher(topics::kStaticMap).publish(std::move(map));
+    publish_full();
+
+    bus_.subscribe<docent_msgs::Belief>(topics::kBelief, [this](const auto& belief) { pose_.on_belief(belief); });
+    bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry,
+                                       [this](const auto& odometry) { pose_.on_odometry(odometry); });
+    subscribe_scanners(bus_, context.config.body(), [this](std::size_t i, const auto& scan) { take(i, scan); });
+    bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const auto& range) {
+      if (const auto index = body_.sonar_of(range.header.frame_id))
+        take(range, body_.base_from_sonar(*index),
+             [this](const ConeReading& reading) { live_.add_sonar(reading, laser_looks(), bus_.now()); });
+    });
+    bus_.subscribe<sensor_msgs::Range>(topics::kInfrared, [this](const auto& range) {
+      if (const auto index = body_.infrared_of(range.header.frame_id))
+        take(range, body_.base_from_infrared(*index),
+             [this](const ConeReading& reading) { live_.add_infrared(reading, laser_looks(), bus_.now()); });
+    });
+    bus_.subscribe<docent_msgs::Tactile>(topics::kTactile, [this](const auto& tactile) { feel(tactile); });
+    bus_.every(seconds(params.period), [this] { look(); });
+    bus_.every(kFullMapPeriod, [this] {
+      live_.forget(bus_.now());
+      if (changed_since_full_) publish_full();
+    });
+  }
+
+  [[nodiscard]] ModuleHealth health() const override {
+    if (!pose_.localized()) return {"degraded", "the live map waits for a position"};
+    return {};
+  }
+
+ private:
+  struct Sight {
+    sensor_msgs::LaserScan scan;
+    Time received{};
+    Pose2 map_from_laser;           ///< when it was taken
+    std::vector<Point2> endpoints;  ///< [m], map
+    bool is_placed = false;         ///< the two above are of this scan
+  };
+
+  void take(std::size_t laser, const sensor_msgs::LaserScan& scan) {
+    sights_[laser].scan = scan;
+    sights_[laser].received = bus_.now();
+    sights_[laser].is_placed = false;
+  }
+
+  /// @returns false where its pose is not known, or nothing was seen lately
+  bool place(std::size_t laser) {
+    Sight& sight = sights_[laser];
+    const auto& scan = sight.scan;
+    if (scan.ranges.empty() || bus_.now() - sight.received > kStaleAfter) return false;
+    if (sight.is_placed) return true;
+    const auto map_from_base = pose_.map_from_base_at(from_message(scan.header.stamp));
+    if (!map_from_base) return false;
+    sight.map_from_laser = *map_from_base * base_from_laser_[laser];
+    sight.endpoints.clear();
+    for (std::size_t k = 0; k < scan.ranges.size(); ++k) {
+      const float range = scan.ranges[k];
+      if (!std::isfinite(range) || range < scan.range_min) continue;
+      const Angle bearing = Angle::radians(static_cast<double>(scan.angle_min) +
+                                           static_cast<double>(k) * static_cast<double>(scan.angle_increment));
+      sight.endpoints.push_back(sight.map_from_laser * (static_cast<double>(range) * unit(bearing)));
+    }
+    return sight.is_placed = true;
+  }
+
+  void look() {
+    if (!pose_.localized()) return;
+    for (std::size_t i = 0; i < sights_.size(); ++i) {
+      if (place(i)) live_.look(sights_[i].map_from_laser.position(), sights_[i].endpoints, bus_.now());
+    }
+    publish_changes();
+  }
+
+  /// What the lasers see at present.
+  std::span<const LaserLook> laser_looks() {
+    looks_.clear();
+    for (std::size_t i = 0; i < sights_.size(); ++i) {
+      if (!place(i)) continue;
+      const auto& scan = sights_[i].scan;
+      const double field = static_cast<double>(scan.angle_increment) * static_cast<double>(scan.ranges.size());
+      looks_.push_back({sights_[i].map_from_laser, scan.angle_min, field, sights_[i].endpoints});
+    }
+    return looks_;
+  }
+
+  template <class Add>
+  void take(const sensor_msgs::Range& range, const Pose2& base_from_sensor, const Add& add) {
+    const auto map_from_base = pose_.map_from_base_at(from_message(range.header.stamp));
+    if (!pose_.localized() || !map_from_base) return;
+    add(ConeReading{*map_from_base * base_from_sensor, range.field_of_view, range.max_range, range.range});
+  }
+
+  void feel(const docent_msgs::Tactile& tactile) {
+    const auto map_from_base = pose_.map_from_base_at(from_message(tactile.header.stamp));
+    if (!pose_.localized() || !map_from_base || tactile.segments.empty()) return;
+    const double step = 2.0 * std::numbers::pi / static_cast<double>(tactile.segments.size());
+    for (std::size_t i = 0; i < tactile.segments.size(); ++i) {
+      const Angle bearing = Angle::radians(step * static_cast<double>(i));
+      const double reach = outline_.empty() ? body_.radius : outline_.radius_at(bearing);
+      if (tactile.segments[i] == 0 || tactile.segments[i] == TactileWatch::kNoReading) continue;
+      live_.add_touch(*map_from_base * (reach * unit(bearing)), unit(map_from_base->theta + bearing), laser_looks(),
+                      bus_.now());
+    }
+    live_.stand(map_from_base->position(), outline_.empty() ? body_.radius : norm(outline_.nearest({})));
+  }
+
+  void publish_changes() {
+    const auto changes = live_.take_changes();
+    if (!changes) return;
+    changed_since_full_ = true;
+    docent_msgs::LiveMapUpdate update;
+    update.header = {docent::to_message(bus_.now()), "map"};
+    update.base = docent::to_message(full_stamp_);
+    update.number = ++number_;
+    update.x = changes->low.column;
+    update.y = changes->low.row;
+    update.width = static_cast<std::uint32_t>(changes->high.column - changes->low.column + 1);
+    update.height = static_cast<std::uint32_t>(changes->high.row - changes->low.row + 1);
+    for (int row = changes->low.row; row <= changes->high.row; ++row) {
+      for (int column = changes->low.column; column <= changes->high.column; ++column) {
+        update.data.push_back(live_.cell(live_.frame().index({column, row})));
+      }
+    }
+    updates_.publish(std::move(update));
+  }
+
+  void publish_full() {
+    full_stamp_ = bus_.now();
+    number_ = 0;
+    changed_since_full_ = false;
+    (void)live_.take_changes();
+    nav_msgs::OccupancyGrid map;
+    map.header = {docent::to_message(full_stamp_), "map"};
+    map.info = to_message(live_.frame(), full_stamp_);
+    map.data.resize(live_.frame().size());
+    for (std::size_t i = 0; i < map.data.size(); ++i) map.data[i] = live_.cell(i);
+    live_map_.publish(std::move(map));
+  }
+
+  Bus& bus_;
+  RobotBody body_;
+  Outline outline_;  ///< empty: a disc
+  LiveMap live_;
+  std::vector<Pose2> base_from_laser_;  ///< [scanners]
+  std::vector<Sight> sights_;           ///< [scanners] newest sweeps
+  Publisher<nav_msgs::OccupancyGrid> live_map_;
+  Publisher<docent_msgs::LiveMapUpdate> updates_;
+  PoseTracker pose_;
+  std::vector<LaserLook> looks_;
+  Time full_stamp_{};
+  std::uint32_t number_ = 0;
+  bool changed_since_full_ = false;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Module>> make_map(const ModuleContext& context) {
+  auto params = context.config.section<LiveMapParams>("map");
+  if (!params) return tl::unexpected<Error>(params.error());
+  Outline outline;
+  if (!context.config.body().outline.empty()) {
+    Polygon corners;
+    for (const auto& corner : context.config.body().outline) corners.push_back({corner[0], corner[1]});
+    auto made = Outline::make(std::move(corners));
+    if (!made) return tl::unexpected<Error>(made.error());
+    outline = std::move(*made);
+  }
+  return std::make_unique<MapModule>(context, *params, std::move(outline));
+}
+
+Result<ParameterRows> parameters_of_map(const RobotConfig& config) {
+  return list_parameters<LiveMapParams>(config, "map");
+}
+
+}  // namespace docent

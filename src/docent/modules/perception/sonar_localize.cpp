@@ -1,0 +1,201 @@
+#include "docent/modules/perception/sonar_localize.h"
+
+#include <array>
+#include <numbers>
+
+#include "docent/localization/belief/checkpoint.h"
+#include "docent/localization/sonar/tracker/gaussian_belief.h"
+#include "docent/messages/conversions.h"
+#include "docent/motion_models/odometry_history.h"
+
+namespace docent {
+namespace {
+
+constexpr Duration kPeriod = std::chrono::milliseconds{125};
+constexpr Duration kSilent = std::chrono::milliseconds{1500};  // a topic that should have spoken
+constexpr Duration kCheckpointEvery = std::chrono::seconds{1};
+constexpr Duration kCheckpointAge = std::chrono::seconds{60};
+constexpr double kCheckpointWay = 5.0;  // [m] that odometry may have gone on meanwhile
+constexpr double kMostDoubt = 0.5;      // of being lost, to say "here"
+constexpr double kWidest = 0.5;         // [m] standard deviation, to say "here"
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+class SonarLocalizeModule final : public Module {
+ public:
+  SonarLocalizeModule(const ModuleContext& context, const SonarLocalizeParams& params)
+      : bus_{context.bus},
+        map_{context.museum.map},
+        body_{context.config.body()},
+        map_hash_{map_hash(map_)},
+        checkpoint_path_{context.state / "localize.yaml"},
+        tracker_{map_, params.tracker, body_.sonars},
+        belief_{bus_.publisher(topics::kBelief)},
+        pose_{bus_.publisher(topics::kPose)},
+        transforms_{bus_.publisher(topics::kTransforms)},
+        person_beams_{bus_.publisher(topics::kPersonBeams)} {
+    const Pose2& home = context.museum.home;
+    const Angle heading = params.start_heading ? Angle::degrees(*params.start_heading) : home.theta;
+    tracker_.start_at({params.start_x.value_or(home.x), params.start_y.value_or(home.y), heading},
+                      params.start_position_error, params.start_heading_error * kDegree);
+    restore(params);
+    publish_belief(bus_.now(), Pose2{});
+    bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const auto& odometry) { on_odometry(odometry); });
+    bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const auto& range) { on_sonar(range); });
+    bus_.every(kPeriod, [this] { tell(); });
+  }
+
+  [[nodiscard]] ModuleHealth health() const override {
+    const Time now = bus_.now();
+    if (now - odometry_received_ > kSilent) return {"degraded", "no odom"};
+    if (now - sonar_received_ > kSilent) return {"degraded", "no sonar"};
+    if (!localized()) return {"degraded", "I do not know where I am"};
+    return {};
+  }
+
+ private:
+  [[nodiscard]] bool localized() const {
+    const PoseMatrix covariance = tracker_.covariance();
+    return tracker_.p_lost() < kMostDoubt && std::max(covariance[0], covariance[4]) < kWidest * kWidest;
+  }
+
+  void on_odometry(const nav_msgs::Odometry& odometry) {
+    odometry_received_ = bus_.now();
+    const Time stamp = from_message(odometry.header.stamp);
+    if (!odometry_.empty() && stamp <= odometry_.latest_time()) return;  // late
+    const Pose2 odom_from_robot = from_message(odometry.pose.pose);
+    odometry_.add(stamp, odom_from_robot);
+    if (restored_) {
+      // What odometry did while nobody listened, unless it began anew.
+      if (distance(restored_->position(), odom_from_robot.position()) < kCheckpointWay) tracker_.move(*restored_);
+      restored_.reset();
+    }
+    tracker_.move(odom_from_robot);
+  }
+
+  void on_sonar(const sensor_msgs::Range& range) {
+    const auto index = body_.sonar_of(range.header.frame_id);
+    if (!index) return;
+    sonar_received_ = bus_.now();
+    const auto odom_from_robot = odometry_.at(from_message(range.header.stamp));
+    if (!odom_from_robot) return;
+    tracker_.hear(
+        {*index, body_.base_from_sonar(*index), static_cast<double>(range.range), static_cast<double>(range.max_range)},
+        *odom_from_robot);
+  }
+
+  void tell() {
+    if (odometry_.empty()) return;
+    const Time stamp = odometry_.latest_time();
+    publish_belief(stamp, odometry_.latest());
+    publish_person_beams(stamp);
+    if (!localized()) return;
+    publish_transform(stamp);
+    publish_pose(stamp);
+    save(stamp);
+  }
+
+  void publish_belief(Time stamp, const Pose2& odom_from_robot) {
+    const BeliefSummary summary =
+        gaussian_belief(tracker_.map_from_robot(), tracker_.covariance(), tracker_.p_lost(), map_);
+    docent_msgs::Belief message;
+    message.header = {docent::to_message(stamp), "map"};
+    message.map_hash = map_hash_;
+    message.cell_size = static_cast<float>(map_.frame.resolution);
+    message.heading_step = static_cast<float>(kDegree);
+    for (const auto& cell : summary.cells) message.cells.push_back({cell.x, cell.y, cell.theta, cell.mass});
+    message.rest = {static_cast<float>(summary.rest_origin.x),     static_cast<float>(summary.rest_origin.y),
+                    static_cast<float>(summary.rest_cell_size),    static_cast<std::uint32_t>(summary.rest_columns),
+                    static_cast<std::uint32_t>(summary.rest_rows), summary.rest};
+    const BeliefMode& mode = summary.modes.front();
+    message.hypotheses.push_back({mode.map_from_robot.x, mode.map_from_robot.y, mode.map_from_robot.theta.radians(),
+                                  mode.covariance, mode.mass});
+    message.entropy = summary.entropy;
+    message.p_lost = tracker_.p_lost();
+    message.localized = localized();
+    message.active_mass = summary.active_mass;
+    message.active_cells = static_cast<std::uint32_t>(summary.active_states);
+    message.odom_pose = docent::to_message(odom_from_robot);
+    belief_.publish(std::move(message));
+  }
+
+  /// Sonars do not tell people from cabinets: an empty message says that nobody was looked for in vain.
+  void publish_person_beams(Time stamp) {
+    docent_msgs::PersonBeams message;
+    message.header = {docent::to_message(stamp), "base_link"};
+    message.localized = localized();
+    const Pose2& pose = tracker_.map_from_robot();
+    message.map_from_base = {pose.x, pose.y, pose.theta.radians()};
+    person_beams_.publish(std::move(message));
+  }
+
+  void publish_transform(Time stamp) {
+    const Pose2 map_from_odom = tracker_.map_from_robot() * inverse(odometry_.latest());
+    geometry_msgs::TransformStamped transform;
+    transform.header = {docent::to_message(stamp), "map"};
+    transform.child_frame_id = "odom";
+    transform.transform = {{map_from_odom.x, map_from_odom.y, 0.0}, to_quaternion(map_from_odom.theta)};
+    tf2_msgs::TFMessage message;
+    message.transforms.push_back(std::move(transform));
+    transforms_.publish(std::move(message));
+  }
+
+  void publish_pose(Time stamp) {
+    geometry_msgs::PoseWithCovarianceStamped message;
+    message.header = {docent::to_message(stamp), "map"};
+    message.pose.pose = docent::to_message(tracker_.map_from_robot());
+    constexpr std::array<std::size_t, 3> kAxes{0, 1, 5};  // x, y, yaw of six
+    const PoseMatrix covariance = tracker_.covariance();
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) message.pose.covariance[kAxes[i] * 6 + kAxes[j]] = covariance[3 * i + j];
+    pose_.publish(std::move(message));
+  }
+
+  void save(Time stamp) {
+    if (bus_.now() - saved_ < kCheckpointEvery) return;
+    saved_ = bus_.now();
+    // A checkpoint that cannot be written costs a restarted robot its place, which it then must be told.
+    (void)save_localizer_checkpoint(
+        {map_hash_, stamp, odometry_.latest(), {{tracker_.map_from_robot(), tracker_.covariance(), 1.0}}},
+        checkpoint_path_);
+  }
+
+  void restore(const SonarLocalizeParams& params) {
+    auto checkpoint = load_localizer_checkpoint(checkpoint_path_);
+    if (!checkpoint || checkpoint->map_hash != map_hash_ || checkpoint->modes.empty()) return;
+    const Duration age = bus_.now() - checkpoint->time;
+    if (age < -kPeriod || age > kCheckpointAge) return;
+    tracker_.start_at(checkpoint->modes.front().map_from_robot, params.start_position_error,
+                      params.start_heading_error * kDegree);
+    restored_ = checkpoint->odom_from_robot;
+  }
+
+  Bus& bus_;
+  const OccupancyGrid& map_;
+  RobotBody body_;
+  std::string map_hash_;
+  std::filesystem::path checkpoint_path_;
+  SonarTracker tracker_;
+  Publisher<docent_msgs::Belief> belief_;
+  Publisher<geometry_msgs::PoseWithCovarianceStamped> pose_;
+  Publisher<tf2_msgs::TFMessage> transforms_;
+  Publisher<docent_msgs::PersonBeams> person_beams_;
+  OdometryHistory odometry_;
+  std::optional<Pose2> restored_;  ///< odometry of the checkpoint, until odometry speaks
+  Time odometry_received_{};
+  Time sonar_received_{};
+  Time saved_{};
+};
+
+}  // namespace
+
+Result<void> SonarLocalizeParams::validate() const {
+  if (!(start_position_error > 0.0)) return fail("sonar.start_position_error must be > 0");
+  if (!(start_heading_error > 0.0)) return fail("sonar.start_heading_error must be > 0");
+  return tracker.validate();
+}
+
+std::unique_ptr<Module> make_sonar_localize(const ModuleContext& context, const SonarLocalizeParams& params) {
+  return std::make_unique<SonarLocalizeModule>(context, params);
+}
+
+}  // namespace docent

@@ -1,0 +1,42 @@
+#include "docent/modules/shared/museum_mode.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <ctime>
+
+namespace docent {
+
+int MuseumMode::minute_of_day(Time now) const {
+  if (is_virtual_) {
+    const auto minutes = std::chrono::floor<std::chrono::minutes>(day_begins_ + Duration{now.nanoseconds});
+    return static_cast<int>(minutes.count() % (std::int64_t{24} * 60));
+  }
+  const std::time_t seconds = now.nanoseconds / 1'000'000'000;
+  std::tm local{};
+  localtime_r(&seconds, &local);
+  return local.tm_hour * 60 + local.tm_min;
+}
+
+std::string MuseumMode::name(Time now) const {
+  return is_by_hours() ? mode_at(museum_, minute_of_day(now)) : limits_->mode;
+}
+
+const Mode* MuseumMode::mode(Time now) const {
+  const auto place = museum_.modes.find(name(now));
+  return place == museum_.modes.end() ? nullptr : &place->second;
+}
+
+std::optional<double> MuseumMode::max_speed(Time now) const {
+  if (!is_by_hours()) return limits_->max_speed;
+  const Mode* present = mode(now);
+  if (present == nullptr) return limits_ ? std::optional{limits_->max_speed} : std::nullopt;
+  return limits_ ? std::min(present->max_speed, limits_->max_speed) : present->max_speed;
+}
+
+double MuseumMode::wait_s(Time now) const {
+  const Mode* present = mode(now);
+  return present == nullptr ? 0.0 : present->wait_s;
+}
+
+}  // namespace docent

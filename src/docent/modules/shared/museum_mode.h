@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "docent/messages/docent_messages.h"
+#include "docent/modules/shared/module.h"
+
+namespace docent {
+
+/// Which mode of the museum holds, and what follows from it. What the operator says on docent/limits counts; where they
+/// say the mode `hours`, and as long as they say nothing, the museum's hours decide by the time of day. That is the
+/// computer's local time, in virtual time `day_begins` and what has passed since.
+class MuseumMode {
+ public:
+  /// The museum outlives it.
+  explicit MuseumMode(const ModuleContext& context)
+      : museum_{context.museum}, is_virtual_{context.virtual_time}, day_begins_{context.day_begins} {}
+
+  void limits(const docent_msgs::Limits& limits) { limits_ = limits; }
+
+  [[nodiscard]] bool is_by_hours() const { return !limits_ || limits_->mode == "hours"; }
+  [[nodiscard]] std::string name(Time now) const;  ///< open, web, closed
+  [[nodiscard]] bool takes_requests() const { return !limits_ || limits_->is_open; }
+  /// [m/s]; nullopt: neither operator nor museum say one.
+  [[nodiscard]] std::optional<double> max_speed(Time now) const;
+  [[nodiscard]] double wait_s(Time now) const;  ///< [s] at each exhibit
+
+ private:
+  [[nodiscard]] int minute_of_day(Time now) const;
+  [[nodiscard]] const Mode* mode(Time now) const;
+
+  const Museum& museum_;
+  bool is_virtual_;
+  Duration day_begins_;
+  std::optional<docent_msgs::Limits> limits_;
+};
+
+}  // namespace docent
