@@ -9,8 +9,8 @@
 #include <set>
 
 #include "docent/apps/recorded_voice.h"
-#include "docent/evaluation/claim_log.h"
 #include "docent/evaluation/deployment_evaluator.h"
+#include "docent/evaluation/run_logs/claim_log.h"
 #include "docent/localization/belief/checkpoint.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/module_host.h"
