@@ -82,10 +82,11 @@ TEST_F(ExecutiveModule, DrivesToTheTasksPlaceAndTellsTheExhibitsTextInTheTasksLa
   EXPECT_EQ(progress.state, "driving");
   order_visit("t1");
   EXPECT_EQ(goals, 2) << "the same task again is no other task";
+  const int on_the_way = lines;
   plan_says("an older goal", "arrived");
-  EXPECT_EQ(lines, 0) << "what was said of another goal does not matter";
+  EXPECT_EQ(lines, on_the_way) << "what was said of another goal does not matter";
   plan_says(goal.id, "arrived");
-  ASSERT_GE(lines, 1);
+  ASSERT_GT(lines, on_the_way);
   EXPECT_NE(line.text.find("Sie ist alt."), std::string::npos) << line.text;
   EXPECT_EQ(line.language, "de");
   EXPECT_EQ(progress.state, "explaining");
@@ -104,8 +105,7 @@ TEST_F(ExecutiveModule, ANewProcessGoesOnInTheMiddleOfAnExplanation) {
   sound_says("speaking");
   const std::string told = line.id;
   kill();
-  run(1.0);
-  goals = lines = 0;
+  plan_says("", "idle");
   start();
   run(1.5);
   EXPECT_EQ(progress.id, "t1");

@@ -157,7 +157,9 @@ TEST_F(PlanModule, TakesTheLiveMapInItsOrderAndOnlyIfItIsOfThisBuilding) {
     run(2.0);
     EXPECT_NEAR(state_of_goal.remaining_m, straight, 0.3) << why;
   };
-  live_maps.publish(live_map(true, kLive / 2));
+  auto other = live_map(true, kLive - 1);
+  std::fill(other.data.begin(), other.data.end(), std::int8_t{100});
+  live_maps.publish(other);
   stays("a map of another building");
   updates.publish(closed_door(2));
   stays("the first rectangle was lost");
