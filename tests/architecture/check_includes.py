@@ -43,6 +43,9 @@ EDGE_MAY_SEE = {
 APART = {"modules": "modules/host", "apps": "apps"}
 TRUTH = re.compile(r"kTrueState|kTrueContact|kTrueOffer|kRunInfo|for_each_truth_topic|\"truth/")
 TRUTH_MAY = {"messages", "simulator", "evaluation", "recording", "apps", "transport"}
+CODE = {".h", ".cpp", ".inc"}
+# Who may publish a topic that must have one publisher (architecture 10.7); its name as topics.h has it.
+ONE_PUBLISHER = {"docent/drive": "avoid_module.cpp"}
 
 
 def top(folder):
@@ -73,9 +76,15 @@ def check_apart(source, target, where):
         check(target == f"{top(source)}/shared", f"{where}: {source} may not see {target}, only {top(source)}/shared")
 
 
-def main():
+def sources(root):
+    """(path, text) of all code that is no test."""
+    return [(path, path.read_text()) for path in sorted(root.rglob("*"))
+            if path.suffix in CODE and not path.stem.endswith(("_test", "_benchmark", "_fuzzer"))]
+
+
+def check_sources():
     for path in sorted(SOURCE.rglob("*")):
-        if path.suffix not in {".h", ".cpp"}:
+        if path.suffix not in CODE:
             continue
         folder = folder_of(path)
         for number, line in enumerate(path.read_text().splitlines(), 1):
@@ -87,6 +96,9 @@ def main():
                     check_apart(folder, match.group(1), where)
             if TRUTH.search(line) and not path.stem.endswith("_test"):
                 check(top(folder) in TRUTH_MAY, f"{where}: {folder} names the truth")
+
+
+def check_dependencies():
     for cmake in sorted(SOURCE.rglob("CMakeLists.txt")):
         if cmake.parent == SOURCE:
             continue
@@ -101,21 +113,45 @@ def main():
                 elif section == "DEPENDS":
                     check_arrow(folder, word, f"{cmake.relative_to(ROOT)}")
                     check_apart(folder, word, f"{cmake.relative_to(ROOT)}")
-    # A module never talks to another but by the bus.
-    modules = SOURCE / "modules"
-    if modules.is_dir():
-        for path in modules.rglob("*_module.cpp"):
-            own = path.stem
-            for other in re.findall(r'#include "docent/modules/\w+/(\w+_module)\.h"', path.read_text()):
-                check(other == own, f"{path.relative_to(ROOT)}: includes another module, {other}")
-    # Machine paths and registry hosts do not belong in the project.
+
+
+def check_modules():
+    """A module never talks to another but by the bus."""
+    for path in sorted((SOURCE / "modules").rglob("*_module.cpp")):
+        for other in re.findall(r'#include "docent/modules/(?:\w+/)*(\w+_module)\.h"', path.read_text()):
+            check(other == path.stem, f"{path.relative_to(ROOT)}: includes another module, {other}")
+
+
+def check_publishers(root, topics_header, one_publisher):
+    """A topic on which robots depend has one publisher, and only its own header spells its name."""
+    topics = topics_header.read_text()
+    for topic, owner in one_publisher.items():
+        constant = re.search(rf'\b(k\w+)\{{"{topic}"', topics)
+        check(constant, f"{topics_header.name}: there is no {topic}")
+        if not constant:
+            continue
+        publisher = re.compile(rf"\bpublisher(?:<[^()]*>)?\(\s*(?:\w+::)*{constant[1]}\b")
+        publishers = [path for path, text in sources(root) for _ in publisher.findall(text)]
+        names = ", ".join(path.relative_to(root).as_posix() for path in publishers)
+        check([path.name for path in publishers] == [owner], f"{topic}: published by {names or 'nobody'}, not by {owner} alone")
+        for path, text in sources(root):
+            check(path == topics_header or f'"{topic}"' not in text, f"{path.relative_to(root)}: spells {topic} itself")
+
+
+def check_machines():
+    """Machine paths and registry hosts do not belong in the project."""
     grep = subprocess.run(
         ["git", "grep", "-nIE", r"(^|[^A-Za-z0-9_.])/(work|farm)/|\"resolved\": \"http", "--", "."],
         cwd=ROOT, capture_output=True, text=True, check=False)
     for line in grep.stdout.splitlines():
         if "check_includes.py" not in line:
             check(False, f"a path or host of a machine: {line[:160]}")
-    return report()
 
 
-sys.exit(main())
+if __name__ == "__main__":
+    check_sources()
+    check_dependencies()
+    check_modules()
+    check_publishers(SOURCE, SOURCE / "messages" / "topics.h", ONE_PUBLISHER)
+    check_machines()
+    sys.exit(report())

@@ -65,6 +65,47 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
+void read_events(const std::filesystem::path& log, Outcome& outcome) {
+  std::ifstream events{log};
+  for (std::string line; std::getline(events, line);) {
+    const auto cells = cells_of(line);
+    if (cells.front() == "time" || std::stod(cells.front()) > kLeave) continue;
+    outcome.horns += cells[1] == "reaction" && cells[2] == "horn" ? 1 : 0;
+    outcome.asked += cells[2] == "asked_for_way" ? 1 : 0;
+  }
+}
+
+/// @param border  [m] along y
+void read_drive(const std::filesystem::path& log, double border, Outcome& outcome) {
+  std::ifstream drive{log};
+  std::string line;
+  std::getline(drive, line);
+  const auto names = cells_of(line);
+  const auto column = [&](const char* name) {
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  };
+  const std::size_t at_y = column("y"), at_speed = column("speed"), at_way = column("distance"),
+                    at_person = column("nearest_person");
+  double before = 0.0, last_time = kCome;
+  while (std::getline(drive, line)) {
+    const auto cells = cells_of(line);
+    const double time = std::stod(cells.front());
+    if (time < kCome + 0.5) continue;
+    const double inside = std::stod(cells[at_y]) - border;
+    const double speed = std::abs(std::stod(cells[at_speed]));
+    outcome.least_inside = std::min(outcome.least_inside, inside);
+    outcome.nearest = std::min(outcome.nearest, std::stod(cells[at_person]));
+    if (inside < 0.0) outcome.most_outside = std::max(outcome.most_outside, speed);
+    if (time < kLeave) {
+      outcome.stood += speed < 0.02 ? time - last_time : 0.0;
+      before = std::stod(cells[at_way]);
+    }
+    last_time = time;
+    outcome.inside_at_end = inside;
+    outcome.driven_after = std::stod(cells[at_way]) - before;
+  }
+}
+
 Outcome run(const Case& how, std::uint64_t seed, const std::vector<std::string>& settings = {}) {
   const TemporaryFolder folder;
   const double y = how.border + how.inside;
@@ -92,40 +133,8 @@ Outcome run(const Case& how, std::uint64_t seed, const std::vector<std::string>&
 
   Outcome outcome;
   outcome.report = nlohmann::json::parse((*simulation)->report_json());
-  std::ifstream events{options.event_log};
-  for (std::string line; std::getline(events, line);) {
-    const auto cells = cells_of(line);
-    if (cells.front() == "time" || std::stod(cells.front()) > kLeave) continue;
-    outcome.horns += cells[1] == "reaction" && cells[2] == "horn" ? 1 : 0;
-    outcome.asked += cells[2] == "asked_for_way" ? 1 : 0;
-  }
-  std::ifstream drive{options.drive_log};
-  std::string line;
-  std::getline(drive, line);
-  const auto names = cells_of(line);
-  const auto column = [&](const char* name) {
-    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-  };
-  const std::size_t at_y = column("y"), at_speed = column("speed"), at_way = column("distance"),
-                    at_person = column("nearest_person");
-  double before = 0.0, last_time = kCome;
-  while (std::getline(drive, line)) {
-    const auto cells = cells_of(line);
-    const double time = std::stod(cells.front());
-    if (time < kCome + 0.5) continue;
-    const double inside = std::stod(cells[at_y]) - how.border;
-    const double speed = std::abs(std::stod(cells[at_speed]));
-    outcome.least_inside = std::min(outcome.least_inside, inside);
-    outcome.nearest = std::min(outcome.nearest, std::stod(cells[at_person]));
-    if (inside < 0.0) outcome.most_outside = std::max(outcome.most_outside, speed);
-    if (time < kLeave) {
-      outcome.stood += speed < 0.02 ? time - last_time : 0.0;
-      before = std::stod(cells[at_way]);
-    }
-    last_time = time;
-    outcome.inside_at_end = inside;
-    outcome.driven_after = std::stod(cells[at_way]) - before;
-  }
+  read_events(options.event_log, outcome);
+  read_drive(options.drive_log, how.border, outcome);
   return outcome;
 }
 

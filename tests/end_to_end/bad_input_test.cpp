@@ -38,27 +38,74 @@ void expect_refused(const BadInput& bad) {
   EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << result.output;
 }
 
-TEST(BadInput, UpSaysSoBeforeAnythingStarts) {
-  const TemporaryFolder folder;
-  const std::string state = folder.path() / "state";
-  const auto with = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), {"up", "--domain", std::to_string(kDomain)});
-    const auto has = [&](const char* option) { return std::find(more.begin(), more.end(), option) != more.end(); };
-    if (!has("--museum")) more.insert(more.end(), {"--museum", kMuseum});
-    if (!has("--state")) more.insert(more.end(), {"--state", state});
-    if (!has("--port")) more.insert(more.end(), {"--port", kPort});
-    return more;
-  };
-  const int taken = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof address;
-  ASSERT_EQ(bind(taken, reinterpret_cast<sockaddr*>(&address), size), 0);
-  ASSERT_EQ(listen(taken, 1), 0);
-  ASSERT_EQ(getsockname(taken, reinterpret_cast<sockaddr*>(&address), &size), 0);
-  const std::string port = std::to_string(ntohs(address.sin_port));
+/// `docent up` with these options, and those that are needed where they are missing.
+std::vector<std::string> up_with(std::vector<std::string> more, const std::filesystem::path& state) {
+  more.insert(more.begin(), {"up", "--domain", std::to_string(kDomain)});
+  const auto has = [&](const char* option) { return std::find(more.begin(), more.end(), option) != more.end(); };
+  if (!has("--museum")) more.insert(more.end(), {"--museum", kMuseum});
+  if (!has("--state")) more.insert(more.end(), {"--state", state});
+  if (!has("--port")) more.insert(more.end(), {"--port", kPort});
+  return more;
+}
 
+/// Another program's port.
+class TakenPort {
+ public:
+  TakenPort() {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    EXPECT_EQ(bind(socket_, reinterpret_cast<sockaddr*>(&address), size), 0);
+    EXPECT_EQ(listen(socket_, 1), 0);
+    EXPECT_EQ(getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &size), 0);
+    number_ = ntohs(address.sin_port);
+  }
+  TakenPort(const TakenPort&) = delete;
+  TakenPort& operator=(const TakenPort&) = delete;
+  ~TakenPort() { close(socket_); }
+  [[nodiscard]] std::string number() const { return std::to_string(number_); }
+
+ private:
+  int socket_ = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  int number_ = 0;
+};
+
+TEST(BadInput, UpSaysWhichOptionIsWrongBeforeAnythingStarts) {
+  const TemporaryFolder folder;
+  const auto with = [&](std::vector<std::string> more) { return up_with(std::move(more), folder.path() / "state"); };
+  const TakenPort port;
+  for (const auto& bad : std::vector<BadInput>{
+           {"port in use", with({"--port", port.number()}), "Address already in use"},
+           {"no museum", with({"--museum", "/nowhere"}), "/nowhere/museum.yaml"},
+           {"no robot.yaml", with({"--robot", "/nowhere.yaml"}), "/nowhere.yaml"},
+           {"crowd of a real museum", with({"--crowd", "busy"}), "--crowd is of a simulated museum: it needs --sim"},
+           {"crippled by --set", with({"--set", "evaluation.blind_to_people=yes"}),
+            "section evaluation cripples the robot (blind_to_people)"},
+           {"a simulated robot crippled", with({"--sim", "--set", "evaluation.without_watches=on"}), "without_watches"},
+           {"--set without value", with({"--set", "plan"}), "--set plan: expected section.key=value"},
+           {"--set of a body that cannot be", with({"--set", "body.colour=red"}), "colour"},
+           {"--set of an unknown section", with({"--set", "flying.height=3"}), "unknown section 'flying'"},
+           {"port out of range", with({"--port", "70000"}), "--port"},
+           {"port of no number", with({"--port", "web"}), "--port"},
+           {"domain out of range", with({"--domain", "231"}), "--domain"},
+           {"state cannot be made", with({"--state", "/proc/docent"}), "--state /proc/docent: "},
+           {"recording into nothing", with({"--record", "/nowhere/a.mcap"}),
+            "--record: cannot write /nowhere/a.mcap: there is no folder /nowhere"},
+           {"start that is no pose", with({"--sim", "--start", "1,2"}), "--start"},
+           {"start in the street", with({"--sim", "--start", "1000,1000,0"}), "outside the robot's area"},
+           {"no scenario", with({"--sim", "--scenario", "/nowhere.yaml"}), "/nowhere.yaml"},
+           {"unknown mode", with({"--mode", "upside-down"}), "--mode upside-down"},
+           {"unknown crowd", with({"--crowd", "enormous"}), "--crowd"},
+           {"unknown option", with({"--fly"}), "--fly"},
+       }) {
+    expect_refused(bad);
+  }
+}
+
+TEST(BadInput, UpSaysWhichLineOfAFileIsWrongBeforeAnythingStarts) {
+  const TemporaryFolder folder;
+  const auto with = [&](std::vector<std::string> more) { return up_with(std::move(more), folder.path() / "state"); };
   const std::string key = folder.write("key.yaml", "plan: {}\nbody:\n  radius: 0.3\n  colour: red\n");
   const std::string section = folder.write("section.yaml", "plan: {}\nflying: {height: 3}\n");
   const std::string crippled = folder.write("crippled.yaml", "plan: {}\nevaluation:\n  dead_reckoning: y\n");
@@ -69,10 +116,7 @@ TEST(BadInput, UpSaysSoBeforeAnythingStarts) {
   const std::string file = folder.write("file", "");
   const std::string broken = folder.write("museum.yaml", "name: {en: \"Broken\"\nmap: 3\n");
   for (const auto& bad : std::vector<BadInput>{
-           {"no museum", with({"--museum", "/nowhere"}), "/nowhere/museum.yaml"},
            {"broken museum", with({"--museum", folder.path()}), broken + ":"},
-           {"no robot.yaml", with({"--robot", "/nowhere.yaml"}), "/nowhere.yaml"},
-           {"crowd of a real museum", with({"--crowd", "busy"}), "--crowd is of a simulated museum: it needs --sim"},
            {"unknown key", with({"--robot", key}), "key.yaml:4: "},
            {"unknown section", with({"--robot", section}), "section.yaml:2: unknown section 'flying' (known: body, "},
            {"wrong type", with({"--robot", type}), "type.yaml:2: "},
@@ -80,31 +124,11 @@ TEST(BadInput, UpSaysSoBeforeAnythingStarts) {
            {"no sections", with({"--robot", list}), "list.yaml:1: "},
            {"crippled by robot.yaml", with({"--robot", crippled}),
             "crippled.yaml:3: section evaluation cripples the robot"},
-           {"crippled by --set", with({"--set", "evaluation.blind_to_people=yes"}),
-            "section evaluation cripples the robot (blind_to_people)"},
-           {"a simulated robot crippled", with({"--sim", "--set", "evaluation.without_watches=on"}), "without_watches"},
-           {"--set without value", with({"--set", "plan"}), "--set plan: expected section.key=value"},
-           {"--set of a body that cannot be", with({"--set", "body.colour=red"}), "colour"},
-           {"--set of an unknown section", with({"--set", "flying.height=3"}), "unknown section 'flying'"},
-           {"port in use", with({"--port", port}), "Address already in use"},
-           {"port out of range", with({"--port", "70000"}), "--port"},
-           {"port of no number", with({"--port", "web"}), "--port"},
-           {"domain out of range", with({"--domain", "231"}), "--domain"},
            {"state is a file", with({"--state", file}), "--state"},
-           {"state cannot be made", with({"--state", "/proc/docent"}), "--state /proc/docent: "},
-           {"recording into nothing", with({"--record", "/nowhere/a.mcap"}),
-            "--record: cannot write /nowhere/a.mcap: there is no folder /nowhere"},
-           {"start that is no pose", with({"--sim", "--start", "1,2"}), "--start"},
-           {"start in the street", with({"--sim", "--start", "1000,1000,0"}), "outside the robot's area"},
-           {"no scenario", with({"--sim", "--scenario", "/nowhere.yaml"}), "/nowhere.yaml"},
            {"unknown event", with({"--sim", "--scenario", scenario}), "scenario.yaml:3: "},
-           {"unknown mode", with({"--mode", "upside-down"}), "--mode upside-down"},
-           {"unknown crowd", with({"--crowd", "enormous"}), "--crowd"},
-           {"unknown option", with({"--fly"}), "--fly"},
        }) {
     expect_refused(bad);
   }
-  close(taken);
 }
 
 TEST(BadInput, NoModuleRunsCrippled) {
@@ -121,29 +145,26 @@ TEST(BadInput, NoModuleRunsCrippled) {
   }
 }
 
-TEST(BadInput, MapsAndLogs) {
-  const TemporaryFolder folder;
-  const auto map = [&](const std::string& name, const std::string& image, const std::string& more) {
+/// Maps and logs.
+class BadFiles : public testing::Test {
+ protected:
+  std::string map(const std::string& name, const std::string& image, const std::string& more = "") {
     return folder.write(name, "image: " + image + "\nresolution: 0.05\norigin: [0, 0, 0]\n" + more);
-  };
-  const std::string image = folder.write("good.pgm", "P5\n2 2\n255\nabcd");
-  const std::string no_image = map("no_image.yaml", "none.pgm", "");
+  }
+  TemporaryFolder folder;
+};
+
+TEST_F(BadFiles, PlansInMaps) {
+  const std::string no_image = map("no_image.yaml", "none.pgm");
   folder.write("short.pgm", "P5\n3 3\n255\nabc");
-  const std::string cut_image = map("cut_image.yaml", "short.pgm", "");
+  const std::string cut_image = map("cut_image.yaml", "short.pgm");
   folder.write("text.pgm", "a picture");
-  const std::string no_picture = map("no_picture.yaml", "text.pgm", "");
+  const std::string no_picture = map("no_picture.yaml", "text.pgm");
+  folder.write("good.pgm", "P5\n2 2\n255\nabcd");
   const std::string bad_key = map("bad_key.yaml", "good.pgm", "colour: 3\n");
   const std::string no_size = folder.write("no_size.yaml", "image: good.pgm\nresolution: 0\norigin: [0, 0, 0]\n");
   const std::string no_origin = folder.write("no_origin.yaml", "image: good.pgm\nresolution: 0.05\norigin: [0]\n");
   const std::string no_yaml = folder.write("no_yaml.yaml", "image: [good.pgm\n");
-  const std::string no_text = folder.write("no_text.yaml", std::string{"\x89PNG\0\0", 6});
-  const std::string text = folder.write("text.log", "hello\n");
-  const std::string cut_line = folder.write("cut.log", "# a comment\nFLASER 3 1.0 2.0\n");
-  const std::string standing = folder.write("standing.log", "FLASER 3 1.0 2.0 3.0 0 0 0 0 0 0 1 host 1\n");
-  const std::string no_number = folder.write("letters.log", "FLASER 2 1.0 x 0 0 0 0 0 0 1 host 1\n");
-  const std::string no_gzip = folder.write("no.gz", "\x1f\x8b nonsense");
-  const std::string no_mcap = folder.write("no.mcap", "\x89MCAP");
-  const std::string empty = folder.write("empty.mcap", "");
   for (const auto& bad : std::vector<BadInput>{
            {"map without image", {"plan", "--map", no_image, "--from", "0,0", "--to", "1,1"}, "no_image.yaml:1: "},
            {"image cut", {"plan", "--map", cut_image, "--from", "0,0", "--to", "1,1"}, "short.pgm:"},
@@ -157,6 +178,13 @@ TEST(BadInput, MapsAndLogs) {
            {"plan to nowhere", {"plan", "--map", kMap, "--from", "9,3.6", "--to", "900,3"}, "--to 900,3: "},
            {"point of one number", {"plan", "--map", kMap, "--from", "9", "--to", "1,1"}, "--from 9: "},
            {"plan without map", {"plan", "--from", "9,3", "--to", "1,1"}, "either --map or --museum is needed"},
+       }) {
+    expect_refused(bad);
+  }
+}
+
+TEST_F(BadFiles, Pictures) {
+  for (const auto& bad : std::vector<BadInput>{
            {"picture of another kind",
             {"plan", "--map", kMap, "--from", "9,3.6", "--to", "9,3.6", "--picture", "way.jpg"},
             "--picture: way.jpg: the name of a picture must end in .svg, .pdf or .png"},
@@ -167,6 +195,20 @@ TEST(BadInput, MapsAndLogs) {
            {"format of pictures",
             {"office", "--out", folder.path() / "o", "--picture-format", "jpg"},
             "--picture-format"},
+       }) {
+    expect_refused(bad);
+  }
+}
+
+TEST_F(BadFiles, LogsToLocalizeAndMap) {
+  const std::string no_image = map("no_image.yaml", "none.pgm");
+  const std::string no_text = folder.write("no_text.yaml", std::string{"\x89PNG\0\0", 6});
+  const std::string text = folder.write("text.log", "hello\n");
+  const std::string cut_line = folder.write("cut.log", "# a comment\nFLASER 3 1.0 2.0\n");
+  const std::string standing = folder.write("standing.log", "FLASER 3 1.0 2.0 3.0 0 0 0 0 0 0 1 host 1\n");
+  const std::string no_number = folder.write("letters.log", "FLASER 2 1.0 x 0 0 0 0 0 0 1 host 1\n");
+  const std::string no_gzip = folder.write("no.gz", "\x1f\x8b nonsense");
+  for (const auto& bad : std::vector<BadInput>{
            {"no log", {"localize", "--map", kMap, "--log", "/nowhere.log"}, "/nowhere.log: "},
            {"log without scans", {"localize", "--map", kMap, "--log", text}, "text.log: "},
            {"line cut", {"localize", "--map", kMap, "--log", cut_line}, "cut.log:2: "},
@@ -185,10 +227,20 @@ TEST(BadInput, MapsAndLogs) {
             {"localize", "--map", kMap, "--log", standing, "--start", "reference"},
             "--reference"},
            {"a picture for a map", {"localize", "--map", no_text, "--log", standing}, "is no text file"},
+           {"unknown method", {"localize", "--map", kMap, "--log", text, "--method", "magic"}, "--method"},
+       }) {
+    expect_refused(bad);
+  }
+}
+
+TEST_F(BadFiles, Learning) {
+  const std::string no_image = map("no_image.yaml", "none.pgm");
+  const std::string cut_line = folder.write("cut.log", "# a comment\nFLASER 3 1.0 2.0\n");
+  const std::string standing = folder.write("standing.log", "FLASER 3 1.0 2.0 3.0 0 0 0 0 0 0 1 host 1\n");
+  for (const auto& bad : std::vector<BadInput>{
            {"walls of no depth",
             {"learn-sensor-model", "--map", kMap, "--log", standing, "--wall-depth", "deep"},
             "--wall-depth deep: expected auto or a number"},
-           {"unknown method", {"localize", "--map", kMap, "--log", text, "--method", "magic"}, "--method"},
            {"learn from no log", {"learn-sensor-model", "--map", kMap, "--log", "/nowhere.log"}, "/nowhere.log: "},
            {"learn without log", {"learn-sensor-model", "--map", kMap}, "--log is required"},
            {"learn from a line cut", {"learn-sensor-model", "--map", kMap, "--log", cut_line}, "cut.log:2: "},
@@ -215,6 +267,16 @@ TEST(BadInput, MapsAndLogs) {
            {"learn with walls of letters",
             {"learn-sensor-model", "--map", kMap, "--log", standing, "--wall-depth", "deep"},
             "--wall-depth deep: "},
+       }) {
+    expect_refused(bad);
+  }
+}
+
+TEST_F(BadFiles, Recordings) {
+  const std::string text = folder.write("text.log", "hello\n");
+  const std::string no_mcap = folder.write("no.mcap", "\x89MCAP");
+  const std::string empty = folder.write("empty.mcap", "");
+  for (const auto& bad : std::vector<BadInput>{
            {"recording cut in its magic", {"evaluate", no_mcap}, "no.mcap: "},
            {"empty recording", {"evaluate", empty}, "empty.mcap: "},
            {"no recording", {"evaluate", "/nowhere.mcap"}, "/nowhere.mcap: "},

@@ -137,6 +137,35 @@ bool KillTrials::is_back(const std::string& module, int old_pid, bool was_killed
   return true;
 }
 
+/// Stops a process for longer than its bus waits for it, and sees what the robot does meanwhile.
+void KillTrials::hold_up(int pid, KillTrial& trial) {
+  kill(pid, SIGSTOP);
+  const auto hit = Clock::now();
+  static_cast<void>(wait_for(
+      [&] {
+        const double speed = std::abs(watch_.look().truth.linear);
+        const double at = Seconds{Clock::now() - hit}.count();
+        if (must_stand_without(trial.module)) {
+          if (!trial.stood_s && speed < 0.01) trial.stood_s = at;
+          // Once every sensor, pose and command has grown old, nothing may move again.
+          if (at > 4.0 && speed > 0.02) trial.stood_still = false;
+        }
+        return at >= kStop.count();
+      },
+      kStop + 1s));
+}
+
+/// Whether the robot goes on: another exhibit is explained, or at least three metres are driven.
+bool KillTrials::goes_on(const RobotWatch::Snapshot& before) {
+  return wait_for(
+      [&] {
+        const auto now = watch_.look();
+        return now.truth.distance_m > before.truth.distance_m + 3.0 ||
+               now.mission.exhibits_explained > before.mission.exhibits_explained;
+      },
+      180s);
+}
+
 KillTrial KillTrials::run(const std::string& module, const std::string& signal, const std::string& situation) {
   KillTrial trial;
   trial.module = module;
@@ -159,38 +188,17 @@ KillTrial KillTrials::run(const std::string& module, const std::string& signal, 
   const int contacts = watch_.report().contacts.all();
   const int pid = before.health[module].health.pid;
   trial.speed = std::abs(before.truth.linear);
-  kill(pid, was_killed ? SIGKILL : SIGSTOP);
-  const auto hit = Clock::now();
-  auto since = hit;
-  if (!was_killed) {
-    static_cast<void>(wait_for(
-        [&] {
-          const double speed = std::abs(watch_.look().truth.linear);
-          const double at = Seconds{Clock::now() - hit}.count();
-          if (must_stand_without(module)) {
-            if (!trial.stood_s && speed < 0.01) trial.stood_s = at;
-            // Once every sensor, pose and command has grown old, nothing may move again.
-            if (at > 4.0 && speed > 0.02) trial.stood_still = false;
-          }
-          return at >= kStop.count();
-        },
-        kStop + 1s));
-    since = Clock::now();
-    kill(pid, SIGCONT);
+  if (was_killed) {
+    kill(pid, SIGKILL);
+  } else {
+    hold_up(pid, trial);
   }
+  const auto since = Clock::now();
+  if (!was_killed) kill(pid, SIGCONT);
   if (wait_for([&] { return is_back(module, pid, was_killed, since, before); }, 20s)) {
     trial.back_s = Seconds{Clock::now() - since}.count();
   }
-  // On it goes: another exhibit is explained, or at least three metres are driven.
-  if (wait_for(
-          [&] {
-            const auto now = watch_.look();
-            return now.truth.distance_m > before.truth.distance_m + 3.0 ||
-                   now.mission.exhibits_explained > before.mission.exhibits_explained;
-          },
-          180s)) {
-    trial.went_on_s = Seconds{Clock::now() - since}.count();
-  }
+  if (goes_on(before)) trial.went_on_s = Seconds{Clock::now() - since}.count();
   trial.contacts = watch_.report().contacts.all() - contacts;
   if (trial.contacts > 0) trial.fault = "touched something";
   if (!was_killed && must_stand_without(module) && (!trial.stood_s || !trial.stood_still))

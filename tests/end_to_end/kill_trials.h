@@ -61,6 +61,8 @@ class KillTrials {
   [[nodiscard]] bool is_back(const std::string& module, int old_pid, bool was_killed,
                              RobotWatch::Clock::time_point since, const RobotWatch::Snapshot& before) const;
   void show();
+  void hold_up(int pid, KillTrial& trial);
+  [[nodiscard]] bool goes_on(const RobotWatch::Snapshot& before);
   [[nodiscard]] bool wait_for(const std::function<bool()>& done, std::chrono::duration<double> patience);
 
   KillTrialOptions options_;

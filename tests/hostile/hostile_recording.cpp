@@ -11,7 +11,7 @@
 #include "docent/grid/occupancy_grid.h"
 #include "docent/messages/conversions.h"
 #include "docent/messages/hostile_message.h"
-#include "docent/recording/mcap_writer.h"
+#include "docent/recording/mcap/writer.h"
 
 namespace docent {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "docent/simulator/body.h"
+#include "docent/simulator/body/body.h"
 #include "docent/simulator/crowd/walkable_floor.h"
 
 namespace docent {

@@ -228,28 +228,6 @@ TEST(DeploymentEvaluator, LocalizationIsHeldAgainstTheTruthOfTheMoment) {
   EXPECT_EQ(report.localization.lost_s, 0.0);
 }
 
-TEST(TruthHistory, InterpolatesBetweenStatesAlsoOverTheHalfTurn) {
-  TruthHistory history;
-  for (int i = 0; i <= 300; ++i) {
-    docent_msgs::TrueState state;
-    state.header.stamp = to_message(time_from_seconds(0.1 * i));
-    state.x = 0.1 * i;
-    state.theta = Angle::radians(0.1 * i).radians();
-    history.add(std::make_shared<const docent_msgs::TrueState>(state));
-  }
-  for (const double time : {12.0, 15.75, 29.93, 30.0}) {
-    const auto pose = history.pose_at(time_from_seconds(time));
-    ASSERT_TRUE(pose);
-    EXPECT_NEAR(pose->x, time, 1e-9);
-    EXPECT_NEAR((pose->theta - Angle::radians(time)).radians(), 0.0, 1e-9);
-  }
-  EXPECT_FALSE(history.pose_at(time_from_seconds(30.01)));
-  EXPECT_FALSE(history.pose_at(time_from_seconds(5.0)));  // forgotten
-  ASSERT_NE(history.state_at(time_from_seconds(20.04)), nullptr);
-  EXPECT_NEAR(history.state_at(time_from_seconds(20.04))->x, 20.0, 1e-9);
-  EXPECT_EQ(history.state_at(time_from_seconds(31.0)), nullptr);
-}
-
 TEST(DeploymentEvaluator, SureAndWrongIsLost) {
   Story story;
   const auto believe_off_by = [&](double error, double duration) {
@@ -405,61 +383,6 @@ TEST(DeploymentEvaluator, BatteryAndRestarts) {
   EXPECT_EQ(report.battery.charges, 2);
   EXPECT_EQ(report.battery.depleted, 1);
   EXPECT_EQ(report.module_restarts, 2);
-}
-
-TEST(DeploymentReport, JsonHasTheKeysOfTheArchitectureInTheirOrder) {
-  DeploymentReport report;
-  report.museum = "bonn";
-  report.requests.refused = {{"closed", 2}};
-  report.virtual_seconds = 3.5;
-  const auto json = nlohmann::ordered_json::parse(to_json(report, RunCost{2.0, 1.75, {{"plan", 1.5}}}));
-  std::vector<std::string> keys;
-  for (const auto& [key, value] : json.items()) keys.push_back(key);
-  EXPECT_EQ(keys, (std::vector<std::string>{"museum",
-                                            "mode",
-                                            "seed",
-                                            "crowd",
-                                            "config_hash",
-                                            "simd",
-                                            "crippled",
-                                            "virtual_seconds",
-                                            "wall_seconds",
-                                            "cpu_seconds",
-                                            "speedup",
-                                            "wall_speedup",
-                                            "travel_seconds",
-                                            "distance_m",
-                                            "mean_speed_mps",
-                                            "max_speed_mps",
-                                            "requests",
-                                            "success_rate",
-                                            "tours",
-                                            "exhibits_explained",
-                                            "explained_in_wrong_place",
-                                            "plan_revisions",
-                                            "attraction_trials",
-                                            "visitors",
-                                            "web_visitors",
-                                            "contacts",
-                                            "bumped_by_people",
-                                            "contact_seconds_wheels_turning",
-                                            "area_violations",
-                                            "passes_within_1m",
-                                            "localization",
-                                            "people",
-                                            "blocked",
-                                            "battery",
-                                            "module_restarts",
-                                            "trips",
-                                            "p99_ms"}));
-  EXPECT_EQ(json["requests"]["refused"]["closed"], 2);
-  EXPECT_TRUE(json["success_rate"].is_null());
-  EXPECT_TRUE(json["localization"]["localized_after_s"].is_null());
-  EXPECT_EQ(json["p99_ms"]["plan"], 1.5);
-  EXPECT_EQ(json["cpu_seconds"], 1.75);
-  EXPECT_EQ(json["speedup"], 2.0) << "by what one core had to do, whatever else the machine did";
-  EXPECT_EQ(json["wall_speedup"], 1.75);
-  EXPECT_FALSE(nlohmann::json::parse(to_json(report, std::nullopt)).contains("wall_seconds"));
 }
 
 }  // namespace

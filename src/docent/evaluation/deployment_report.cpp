@@ -45,6 +45,58 @@ int refused(const DeploymentReport& report) {
   return sum;
 }
 
+Json requests_of(const DeploymentReport::Requests& requests) {
+  return {{"offered", requests.offered},
+          {"fulfilled", requests.fulfilled},
+          {"refused", requests.refused.empty() ? Json::object() : Json(requests.refused)},
+          {"failed", requests.failed},
+          {"cancelled", requests.cancelled},
+          {"open", requests.open},
+          {"counted", requests.counted},
+          {"counted_served", requests.counted_served},
+          {"never_seen", requests.never_seen},
+          {"in_wrong_place", requests.in_wrong_place}};
+}
+
+Json tours_of(const DeploymentReport::Tours& tours) {
+  const bool has_tours = tours.seconds.count() > 0;
+  return {{"given", tours.given},
+          {"completed", tours.completed},
+          {"target_s", or_null(tours.target_s.count() > 0, tours.target_s.mean())},
+          {"mean_s", or_null(has_tours, tours.seconds.mean())},
+          {"sd_s", or_null(has_tours, tours.seconds.deviation())},
+          {"min_s", or_null(has_tours, tours.seconds.min())},
+          {"max_s", or_null(has_tours, tours.seconds.max())}};
+}
+
+Json localization_of(const DeploymentReport::Localization& l) {
+  const bool has_poses = l.error_m.count() > 0;
+  return {{"mean_error_m", or_null(has_poses, l.error_m.mean())},
+          {"p95_error_m", or_null(has_poses, l.p95_error_m)},
+          {"max_error_m", or_null(has_poses, l.error_m.max())},
+          {"mean_heading_error_deg", or_null(has_poses, l.heading_error_deg.mean())},
+          {"localized_after_s", or_null(l.localized_after_s.has_value(), l.localized_after_s.value_or(0.0))},
+          {"lost_events", l.lost_events},
+          {"lost_s", rounded(l.lost_s)},
+          {"wrong_but_sure_s", rounded(l.wrong_but_sure_s)},
+          {"blocked_beam_fraction", rounded(l.blocked_beam_fraction.mean())}};
+}
+
+Json latency_of(const DeploymentReport::Latency& latency) {
+  return {{"p50_ms", rounded(1e3 * latency.p50_s)},
+          {"p99_ms", rounded(1e3 * latency.p99_s)},
+          {"sweeps", latency.sweeps},
+          {"unanswered", latency.unanswered}};
+}
+
+Json trips_of(const DeploymentReport& report) {
+  Json trips = Json::array();
+  for (const auto& trip : report.trips) {
+    trips.push_back({{"seconds", rounded(trip.seconds)}, {"distance_m", rounded(trip.distance_m)}});
+  }
+  return trips;
+}
+
 }  // namespace
 
 void Spread::add(double value) {
@@ -78,25 +130,9 @@ std::string to_json(const DeploymentReport& r, const std::optional<RunCost>& cos
   json["distance_m"] = rounded(r.distance_m);
   json["mean_speed_mps"] = rounded(mean_speed(r));
   json["max_speed_mps"] = rounded(r.max_speed_mps);
-  json["requests"] = {{"offered", r.requests.offered},
-                      {"fulfilled", r.requests.fulfilled},
-                      {"refused", r.requests.refused.empty() ? Json::object() : Json(r.requests.refused)},
-                      {"failed", r.requests.failed},
-                      {"cancelled", r.requests.cancelled},
-                      {"open", r.requests.open},
-                      {"counted", r.requests.counted},
-                      {"counted_served", r.requests.counted_served},
-                      {"never_seen", r.requests.never_seen},
-                      {"in_wrong_place", r.requests.in_wrong_place}};
+  json["requests"] = requests_of(r.requests);
   json["success_rate"] = or_null(r.success_rate.has_value(), r.success_rate.value_or(0.0));
-  const bool has_tours = r.tours.seconds.count() > 0;
-  json["tours"] = {{"given", r.tours.given},
-                   {"completed", r.tours.completed},
-                   {"target_s", or_null(r.tours.target_s.count() > 0, r.tours.target_s.mean())},
-                   {"mean_s", or_null(has_tours, r.tours.seconds.mean())},
-                   {"sd_s", or_null(has_tours, r.tours.seconds.deviation())},
-                   {"min_s", or_null(has_tours, r.tours.seconds.min())},
-                   {"max_s", or_null(has_tours, r.tours.seconds.max())}};
+  json["tours"] = tours_of(r.tours);
   json["exhibits_explained"] = r.exhibits_explained;
   json["explained_in_wrong_place"] = r.explained_in_wrong_place;
   json["plan_revisions"] = {{"inserted", r.plan_revisions.inserted},
@@ -113,18 +149,7 @@ std::string to_json(const DeploymentReport& r, const std::optional<RunCost>& cos
   json["contact_seconds_wheels_turning"] = rounded(r.contact_seconds_wheels_turning);
   json["area_violations"] = r.area_violations;
   json["passes_within_1m"] = r.passes_within_1m;
-  const DeploymentReport::Localization& l = r.localization;
-  const bool has_poses = l.error_m.count() > 0;
-  json["localization"] = {
-      {"mean_error_m", or_null(has_poses, l.error_m.mean())},
-      {"p95_error_m", or_null(has_poses, l.p95_error_m)},
-      {"max_error_m", or_null(has_poses, l.error_m.max())},
-      {"mean_heading_error_deg", or_null(has_poses, l.heading_error_deg.mean())},
-      {"localized_after_s", or_null(l.localized_after_s.has_value(), l.localized_after_s.value_or(0.0))},
-      {"lost_events", l.lost_events},
-      {"lost_s", rounded(l.lost_s)},
-      {"wrong_but_sure_s", rounded(l.wrong_but_sure_s)},
-      {"blocked_beam_fraction", rounded(l.blocked_beam_fraction.mean())}};
+  json["localization"] = localization_of(r.localization);
   json["people"] = {{"recall", ratio(r.people.found, r.people.present)},
                     {"precision", ratio(r.people.right, r.people.claimed)}};
   json["blocked"] = {{"events", r.blocked.events},
@@ -134,15 +159,8 @@ std::string to_json(const DeploymentReport& r, const std::optional<RunCost>& cos
                      {"global_detours", r.blocked.global_detours}};
   json["battery"] = {{"charges", r.battery.charges}, {"depleted", r.battery.depleted}};
   json["module_restarts"] = r.module_restarts;
-  if (r.latency)
-    json["scan_to_command"] = {{"p50_ms", rounded(1e3 * r.latency->p50_s)},
-                               {"p99_ms", rounded(1e3 * r.latency->p99_s)},
-                               {"sweeps", r.latency->sweeps},
-                               {"unanswered", r.latency->unanswered}};
-  json["trips"] = Json::array();
-  for (const auto& trip : r.trips) {
-    json["trips"].push_back({{"seconds", rounded(trip.seconds)}, {"distance_m", rounded(trip.distance_m)}});
-  }
+  if (r.latency) json["scan_to_command"] = latency_of(*r.latency);
+  json["trips"] = trips_of(r);
   if (cost) {
     Json p99 = Json::object();
     for (const auto& [module, ms] : cost->p99_ms) p99[module] = rounded(ms);

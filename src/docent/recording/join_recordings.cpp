@@ -4,8 +4,8 @@
 #include <optional>
 #include <system_error>
 
-#include "docent/recording/mcap_reader.h"
-#include "docent/recording/mcap_writer.h"
+#include "docent/recording/mcap/reader.h"
+#include "docent/recording/mcap/writer.h"
 
 namespace docent {
 

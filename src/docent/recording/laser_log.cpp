@@ -5,8 +5,8 @@
 #include <string>
 
 #include "docent/recording/carmen_log.h"
-#include "docent/recording/mcap_format.h"
-#include "docent/recording/mcap_reader.h"
+#include "docent/recording/mcap/format.h"
+#include "docent/recording/mcap/reader.h"
 #include "docent/recording/ros_laser_log.h"
 
 namespace docent {

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "docent/recording/mcap_reader.h"
-#include "docent/recording/mcap_writer.h"
+#include "docent/recording/mcap/reader.h"
+#include "docent/recording/mcap/writer.h"
 #include "docent/transport/bus.h"
 
 namespace docent {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "docent/simulator/battery.h"
-#include "docent/simulator/body.h"
+#include "docent/simulator/body/battery.h"
+#include "docent/simulator/body/body.h"
 #include "docent/simulator/hardware.h"
 #include "docent/simulator/scenario.h"
 #include "docent/simulator/sensing/infrared.h"

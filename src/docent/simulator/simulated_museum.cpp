@@ -1,29 +1,20 @@
 #include "docent/simulator/simulated_museum.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "docent/base/check.h"
 #include "docent/messages/conversions.h"
-#include "docent/simulator/battery.h"
-#include "docent/simulator/body.h"
-#include "docent/simulator/contact_log.h"
-#include "docent/simulator/crowd/crowd.h"
-#include "docent/simulator/instruments.h"
-#include "docent/simulator/obstacles.h"
+#include "docent/simulator/simulated_museum_impl.h"
 #include "docent/simulator/start_pose.h"
-#include "docent/simulator/steersman.h"
-#include "docent/simulator/visitors.h"
 
 namespace docent::simulator {
 namespace {
 
-constexpr double kStep = 0.01;        // [s]
-constexpr double kPeopleStep = 0.02;  // [s]
-constexpr int kTactileSegments = 24;
+constexpr double kStep = 0.01;         // [s]
+constexpr double kPeopleStep = 0.02;   // [s]
 constexpr double kChargerReach = 0.4;  // [m]
 
 CrowdParams params_for(const SimulationOptions& options) {
@@ -46,435 +37,236 @@ Result<void> validate(const SimulationOptions& options) {
   return {};
 }
 
-class SimulatedMuseum::Impl {
- public:
-  Impl(Bus& robot_bus, Bus& truth_bus, SimulationOptions options)
-      : bus_{robot_bus},
-        truth_bus_{truth_bus},
-        options_{std::move(options)},
-        world_{options_.world},
-        rng_{Rng{options_.seed}.stream("simulator")},
-        place_rng_{rng_.stream("places")},
-        start_{bus_.now()},
-        time_{start_},
-        obstacles_{world_},
-        body_{BodyParams{}, first_pose(), rng_.stream("body")},
-        crowd_{make_crowd()},
-        instruments_{robot_bus, world_, options_.hardware, rng_},
-        visitors_{wish_params(), world_.exhibits, world_.tours, rng_.stream("visitors")},
-        tactile_(kTactileSegments, 0),
-        requests_{robot_bus.publisher(topics::kRequest)},
-        choices_{robot_bus.publisher(topics::kChoice)},
-        run_infos_{truth_bus.publisher(topics::kRunInfo)},
-        states_{truth_bus.publisher(topics::kTrueState)},
-        contacts_{truth_bus.publisher(topics::kTrueContact)},
-        offers_{truth_bus.publisher(topics::kTrueOffer)} {
-    battery_.set_charge(options_.battery);
-    docent_msgs::RunInfo info = options_.run_info;
-    info.seed = options_.seed;
-    info.crowd = options_.crowd;
-    tell(run_infos_, std::move(info));
-  }
+SimulatedMuseum::Impl::Impl(Bus& robot_bus, Bus& truth_bus, SimulationOptions options)
+    : bus_{robot_bus},
+      truth_bus_{truth_bus},
+      options_{std::move(options)},
+      world_{options_.world},
+      rng_{Rng{options_.seed}.stream("simulator")},
+      place_rng_{rng_.stream("places")},
+      start_{bus_.now()},
+      time_{start_},
+      obstacles_{world_},
+      body_{BodyParams{}, first_pose(), rng_.stream("body")},
+      crowd_{make_crowd()},
+      instruments_{robot_bus, world_, options_.hardware, rng_},
+      visitors_{wish_params(), world_.exhibits, world_.tours, rng_.stream("visitors")},
+      tactile_(kTactileSegments, 0),
+      requests_{robot_bus.publisher(topics::kRequest)},
+      choices_{robot_bus.publisher(topics::kChoice)},
+      run_infos_{truth_bus.publisher(topics::kRunInfo)},
+      states_{truth_bus.publisher(topics::kTrueState)},
+      contacts_{truth_bus.publisher(topics::kTrueContact)},
+      offers_{truth_bus.publisher(topics::kTrueOffer)} {
+  battery_.set_charge(options_.battery);
+  docent_msgs::RunInfo info = options_.run_info;
+  info.seed = options_.seed;
+  info.crowd = options_.crowd;
+  tell(run_infos_, std::move(info));
+}
 
-  void command(const geometry_msgs::Twist& twist) {
-    if (!steersman_) body_.command(bus_.now(), twist.linear.x, twist.angular.z);
-  }
-  void hear_horn() { crowd_.hear_horn(run_seconds()); }
-  void hear_speech(const docent_msgs::SpeechState& speech) {
-    if (speech.state != "speaking") return crowd_.hear_speech(-1.0);
-    const Time end = from_message(speech.start) + seconds(speech.duration);
-    crowd_.hear_speech(to_seconds(end - start_));
-  }
-  void see_board(const docent_msgs::RequestBoard& board) { visitors_.see_board(board); }
-  void see_mission(const docent_msgs::MissionState& mission) { visitors_.see_mission(bus_.now(), mission); }
+void SimulatedMuseum::Impl::command(const geometry_msgs::Twist& twist) {
+  if (!steersman_) body_.command(bus_.now(), twist.linear.x, twist.angular.z);
+}
 
-  /// Steps when the next step is due, for as long as it lives. A beat of its own would, in wall time, have every sensor
-  /// read up to a step late.
-  static void keep_stepping(const std::weak_ptr<Impl>& weak) {
-    const auto impl = weak.lock();
-    if (!impl) return;
-    const Duration behind = impl->bus_.now() - impl->time_;
-    impl->bus_.after((behind / seconds(kStep) + 1) * seconds(kStep) - behind, [weak] {
-      keep_stepping(weak);
-      if (const auto living = weak.lock()) living->tick();
-    });
-  }
-  /// Catches up with the bus's clock.
-  void tick() {
-    const Time now = bus_.now();
-    if (now - time_ > seconds(0.5)) time_ = now - seconds(kStep);  // too late to catch up: skip
-    while (time_ + seconds(kStep) <= now) {
-      time_ = time_ + seconds(kStep);
-      step();
-      ++steps_;
-    }
-  }
+void SimulatedMuseum::Impl::hear_speech(const docent_msgs::SpeechState& speech) {
+  if (speech.state != "speaking") return crowd_.hear_speech(-1.0);
+  const Time end = from_message(speech.start) + seconds(speech.duration);
+  crowd_.hear_speech(to_seconds(end - start_));
+}
 
-  [[nodiscard]] const Body& body() const { return body_; }
-  [[nodiscard]] const Crowd& crowd() const { return crowd_; }
+void SimulatedMuseum::Impl::keep_stepping(const std::weak_ptr<Impl>& weak) {
+  const auto impl = weak.lock();
+  if (!impl) return;
+  const Duration behind = impl->bus_.now() - impl->time_;
+  impl->bus_.after((behind / seconds(kStep) + 1) * seconds(kStep) - behind, [weak] {
+    keep_stepping(weak);
+    if (const auto living = weak.lock()) living->tick();
+  });
+}
 
- private:
-  [[nodiscard]] double run_seconds() const { return to_seconds(time_ - start_); }
-  [[nodiscard]] bool every(std::uint64_t steps) const { return steps_ % steps == 0; }
+void SimulatedMuseum::Impl::tick() {
+  const Time now = bus_.now();
+  if (now - time_ > seconds(0.5)) time_ = now - seconds(kStep);  // too late to catch up: skip
+  while (time_ + seconds(kStep) <= now) {
+    time_ = time_ + seconds(kStep);
+    step();
+    ++steps_;
+  }
+}
 
-  template <class T>
-  void tell(const Publisher<T>& publisher, T message) {
-    // The truth has a bus of its own, perhaps a thread of its own.
-    truth_bus_.post([publisher, message = std::move(message)] { publisher.publish(message); });
-  }
+Pose2 SimulatedMuseum::Impl::first_pose() {
+  floor_.emplace(world_);
+  if (options_.start) return *options_.start;
+  Rng rng = rng_.stream("start");
+  if (const auto start = random_start(world_, *floor_, rng)) return *start;
+  return {world_.home.x, world_.home.y, Angle{}};
+}
 
-  Pose2 first_pose() {
-    floor_.emplace(world_);
-    if (options_.start) return *options_.start;
-    Rng rng = rng_.stream("start");
-    if (const auto start = random_start(world_, *floor_, rng)) return *start;
-    return {world_.home.x, world_.home.y, Angle{}};
-  }
-  Crowd make_crowd() {
-    const double density = crowd_density(options_.crowd).value_or(0.0);
-    const auto count =
-        options_.crowd_count.value_or(static_cast<std::size_t>(std::llround(density * floor_->free_area())));
-    Crowd crowd{world_, std::move(*floor_), params_for(options_), count, rng_.stream("crowd"), view()};
-    floor_.reset();
-    return crowd;
-  }
-  WishParams wish_params() const {
-    WishParams params;
-    params.requests_per_hour = options_.requests_per_hour.value_or(world_.visitors_per_hour);
-    const std::string& mode = options_.run_info.mode;
-    if (mode == "closed") params.source = "staff";
-    if (mode == "web") params.source = "web";
-    return params;
-  }
-  [[nodiscard]] RobotView view() const {
-    const Pose2& pose = body_.pose();
-    return {pose.position(), pose.theta.radians(), body_.linear() * unit(pose.theta), body_.angular(),
-            body_.params().radius};
-  }
+Crowd SimulatedMuseum::Impl::make_crowd() {
+  const double density = crowd_density(options_.crowd).value_or(0.0);
+  const auto count =
+      options_.crowd_count.value_or(static_cast<std::size_t>(std::llround(density * floor_->free_area())));
+  Crowd crowd{world_, std::move(*floor_), params_for(options_), count, rng_.stream("crowd"), view()};
+  floor_.reset();
+  return crowd;
+}
 
-  void step() {
-    play_scenario();
-    if (steersman_ && every(10)) steer();
-    const Pose2 before = body_.pose();
-    body_.step(time_, kStep, !battery_.is_empty());
-    if (has_fallen_) body_.carry_to(before);
-    if (steps_ % 2 == 0) crowd_.step(run_seconds(), kPeopleStep, view());
-    people_.clear();
-    beside_.clear();
-    const Point2 centre = body_.pose().position();
-    for (const Person& person : crowd_.people()) {
-      constexpr double kBeside = 3.0;  // [m] more than any stopping distance
-      const Point2 offset = person.position - centre;
-      if (std::max(std::abs(offset.x), std::abs(offset.y)) <= kBeside) beside_.push_back(people_.size());
-      people_.push_back({person.position, person.radius});
-    }
-    touch();
-    distance_ += distance(before.position(), body_.pose().position());
-    const bool at_charger = options_.charger && distance(*options_.charger, body_.pose().position()) < kChargerReach &&
-                            std::abs(body_.linear()) < 0.01;
-    battery_.step(kStep, body_.linear(), at_charger);
-    publish();
-  }
+WishParams SimulatedMuseum::Impl::wish_params() const {
+  WishParams params;
+  params.requests_per_hour = options_.requests_per_hour.value_or(world_.visitors_per_hour);
+  const std::string& mode = options_.run_info.mode;
+  if (mode == "closed") params.source = "staff";
+  if (mode == "web") params.source = "web";
+  return params;
+}
 
-  void steer() {
-    if (steered_until_ > 0.0 && run_seconds() >= steered_until_) return steersman_.reset();
-    const auto command = steersman_->steer(run_seconds(), body_.pose(), body_.params().radius, people_, crowd_.floor());
-    body_.command(time_, command.linear, command.angular);
-  }
+RobotView SimulatedMuseum::Impl::view() const {
+  const Pose2& pose = body_.pose();
+  return {pose.position(), pose.theta.radians(), body_.linear() * unit(pose.theta), body_.angular(),
+          body_.params().radius};
+}
 
-  /// Contacts of the disc with solids and people; pushes both apart.
-  void touch() {
-    watch_people();
-    const double radius = body_.params().radius;
-    Point2 centre = body_.pose().position();
-    std::fill(tactile_now_.begin(), tactile_now_.end(), 0);
-    obstacles_.resolve(centre, radius, touches_);
-    for (const Touch& touch : touches_) {
-      const Solid& solid = world_.solids[touch.solid];
-      log_.touch(time_, body_, {contact_kind(solid.kind), solid.id, touch.point, touch.towards, 0.0, std::nullopt});
-      press(touch.towards);
-    }
-    for (const std::size_t i : beside_) {
-      const double reach = radius + people_[i].radius;
-      const Point2 offset = people_[i].centre - centre;
-      if (dot(offset, offset) > 1.1 * reach * reach) continue;  // no root for most
-      const double away = norm(offset);
-      if (away > reach + 0.001) continue;
-      const Point2 towards = away > 1e-6 ? (1.0 / away) * offset : Point2{1.0, 0.0};
-      const Person& person = crowd_.people()[i];
-      log_.touch(time_, body_,
-                 {"people", "person-" + std::to_string(person.id), centre + radius * towards, towards,
-                  -dot(person.velocity, towards), person.id});
-      press(towards);
-      const double rest = crowd_.give_way(i, centre, reach);
-      if (rest > 0.0) centre = centre - rest * towards;  // wedged in: it is the robot that stops
-      people_[i].centre = crowd_.people()[i].position;
-    }
-    if (!touches_.empty()) obstacles_.resolve(centre, radius, touches_);
-    body_.correct(centre);
-    if (!has_fallen_ && obstacles_.has_fallen(centre)) {
-      has_fallen_ = true;
-      offer("fall", "stairs");
-    }
-    for (auto& contact : log_.finish_step(time_, kStep, body_)) tell(contacts_, std::move(contact));
+void SimulatedMuseum::Impl::step() {
+  play_scenario();
+  if (steersman_ && every(10)) steer();
+  const Pose2 before = body_.pose();
+  body_.step(time_, kStep, !battery_.is_empty());
+  if (has_fallen_) body_.carry_to(before);
+  if (steps_ % 2 == 0) crowd_.step(run_seconds(), kPeopleStep, view());
+  people_.clear();
+  beside_.clear();
+  const Point2 centre = body_.pose().position();
+  for (const Person& person : crowd_.people()) {
+    constexpr double kBeside = 3.0;  // [m] more than any stopping distance
+    const Point2 offset = person.position - centre;
+    if (std::max(std::abs(offset.x), std::abs(offset.y)) <= kBeside) beside_.push_back(people_.size());
+    people_.push_back({person.position, person.radius});
   }
+  touch();
+  distance_ += distance(before.position(), body_.pose().position());
+  const bool at_charger = options_.charger && distance(*options_.charger, body_.pose().position()) < kChargerReach &&
+                          std::abs(body_.linear()) < 0.01;
+  battery_.step(kStep, body_.linear(), at_charger);
+  publish();
+}
 
-  void press(Point2 towards) {
-    const double bearing = (Angle::radians(std::atan2(towards.y, towards.x)) - body_.pose().theta).radians();
-    const int segment = static_cast<int>(std::lround(bearing / (2.0 * std::numbers::pi) * kTactileSegments));
-    tactile_now_[static_cast<std::size_t>((segment + kTactileSegments) % kTactileSegments)] = 1;
-  }
+void SimulatedMuseum::Impl::steer() {
+  if (steered_until_ > 0.0 && run_seconds() >= steered_until_) return steersman_.reset();
+  const auto command = steersman_->steer(run_seconds(), body_.pose(), body_.params().radius, people_, crowd_.floor());
+  body_.command(time_, command.linear, command.angular);
+}
 
-  void watch_people() {
-    samples_.clear();
-    const Point2 centre = body_.pose().position();
-    const Point2 ahead = unit(body_.pose().theta);
-    for (const std::size_t i : beside_) {
-      const Point2 offset = people_[i].centre - centre;
-      const bool in_the_way = std::abs(cross(ahead, offset)) < body_.params().radius + people_[i].radius + 0.1;
-      ContactLog::PersonSample sample{crowd_.people()[i].id, offset, people_[i].radius, false};
-      sample.in_sight = in_the_way && std::abs(body_.linear()) > 0.01 && is_inside_stopping_distance(sample, body_) &&
-                        instruments_.sees(body_.pose(), i, people_);
-      samples_.push_back(sample);
-    }
-    log_.watch(time_, body_, samples_);
+void SimulatedMuseum::Impl::touch() {
+  watch_people();
+  const double radius = body_.params().radius;
+  Point2 centre = body_.pose().position();
+  std::fill(tactile_now_.begin(), tactile_now_.end(), 0);
+  obstacles_.resolve(centre, radius, touches_);
+  for (const Touch& touch : touches_) {
+    const Solid& solid = world_.solids[touch.solid];
+    log_.touch(time_, body_, {contact_kind(solid.kind), solid.id, touch.point, touch.towards, 0.0, std::nullopt});
+    press(touch.towards);
   }
+  for (const std::size_t i : beside_) {
+    const double reach = radius + people_[i].radius;
+    const Point2 offset = people_[i].centre - centre;
+    if (dot(offset, offset) > 1.1 * reach * reach) continue;  // no root for most
+    const double away = norm(offset);
+    if (away > reach + 0.001) continue;
+    const Point2 towards = away > 1e-6 ? (1.0 / away) * offset : Point2{1.0, 0.0};
+    const Person& person = crowd_.people()[i];
+    log_.touch(time_, body_,
+               {"people", "person-" + std::to_string(person.id), centre + radius * towards, towards,
+                -dot(person.velocity, towards), person.id});
+    press(towards);
+    const double rest = crowd_.give_way(i, centre, reach);
+    if (rest > 0.0) centre = centre - rest * towards;  // wedged in: it is the robot that stops
+    people_[i].centre = crowd_.people()[i].position;
+  }
+  if (!touches_.empty()) obstacles_.resolve(centre, radius, touches_);
+  body_.correct(centre);
+  if (!has_fallen_ && obstacles_.has_fallen(centre)) {
+    has_fallen_ = true;
+    offer("fall", "stairs");
+  }
+  for (auto& contact : log_.finish_step(time_, kStep, body_)) tell(contacts_, std::move(contact));
+}
 
-  void publish() {
-    if (every(5)) instruments_.publish_odometry(time_, body_);
-    if (every(10)) instruments_.publish_scans(time_, body_.pose(), people_);
-    instruments_.publish_sonar(time_, steps_, body_.pose(), people_);
-    instruments_.publish_infrared(time_, steps_, body_.pose(), people_);
-    if (tactile_now_ != tactile_ || every(20)) {
-      tactile_ = tactile_now_;
-      instruments_.publish_tactile(time_, tactile_);
-    }
-    if (every(100)) instruments_.publish_battery(time_, battery_);
-    if (every(10)) {
-      publish_truth();
-      auto wishes = visitors_.step(time_, time_ - start_);
-      for (const std::string& id : wishes.offered) offer("request", id);
-      for (auto& request : wishes.requests) requests_.publish(std::move(request));
-      for (auto& choice : wishes.choices) choices_.publish(std::move(choice));
-    }
-  }
+void SimulatedMuseum::Impl::press(Point2 towards) {
+  const double bearing = (Angle::radians(std::atan2(towards.y, towards.x)) - body_.pose().theta).radians();
+  const int segment = static_cast<int>(std::lround(bearing / (2.0 * std::numbers::pi) * kTactileSegments));
+  tactile_now_[static_cast<std::size_t>((segment + kTactileSegments) % kTactileSegments)] = 1;
+}
 
-  void publish_truth() {
-    docent_msgs::TrueState state;
-    state.header = {to_message(time_), "world"};
-    const Pose2& pose = body_.pose();
-    state.x = pose.x;
-    state.y = pose.y;
-    state.theta = pose.theta.radians();
-    state.linear = body_.linear();
-    state.angular = body_.angular();
-    state.distance_m = distance_;
-    state.inside_area = world_.operating_area.size() < 3 || contains(world_.operating_area, pose.position());
-    state.battery = battery_.charge();
-    state.blocked_beams = instruments_.blocked_share();
-    state.contact_seconds = log_.seconds_wheels_turning();
-    state.visitors = crowd_.visitors();
-    state.nearest_solid_m = obstacles_.clearance(pose.position()) - body_.params().radius;
-    state.nearest_person_m = 1e3;
-    const auto people = crowd_.people();
-    state.people.reserve(people.size());
-    for (std::size_t i = 0; i < people.size(); ++i) {
-      const Person& person = people[i];
-      state.nearest_person_m = std::min(
-          state.nearest_person_m, distance(person.position, pose.position()) - person.radius - body_.params().radius);
-      state.people.push_back({person.id, static_cast<float>(person.position.x), static_cast<float>(person.position.y),
-                              static_cast<float>(person.velocity.x), static_cast<float>(person.velocity.y),
-                              static_cast<float>(person.radius), instruments_.met(i) > 0});
-      state.person_beams.push_back(static_cast<std::uint8_t>(std::min(instruments_.met(i), 255)));
-    }
-    tell(states_, std::move(state));
+void SimulatedMuseum::Impl::watch_people() {
+  samples_.clear();
+  const Point2 centre = body_.pose().position();
+  const Point2 ahead = unit(body_.pose().theta);
+  for (const std::size_t i : beside_) {
+    const Point2 offset = people_[i].centre - centre;
+    const bool in_the_way = std::abs(cross(ahead, offset)) < body_.params().radius + people_[i].radius + 0.1;
+    ContactLog::PersonSample sample{crowd_.people()[i].id, offset, people_[i].radius, false};
+    sample.in_sight = in_the_way && std::abs(body_.linear()) > 0.01 && is_inside_stopping_distance(sample, body_) &&
+                      instruments_.sees(body_.pose(), i, people_);
+    samples_.push_back(sample);
   }
+  log_.watch(time_, body_, samples_);
+}
 
-  void offer(std::string kind, std::string subject) {
-    tell(offers_, docent_msgs::TrueOffer{{to_message(time_), "world"}, std::move(kind), std::move(subject)});
+void SimulatedMuseum::Impl::publish() {
+  if (every(5)) instruments_.publish_odometry(time_, body_);
+  if (every(10)) instruments_.publish_scans(time_, body_.pose(), people_);
+  instruments_.publish_sonar(time_, steps_, body_.pose(), people_);
+  instruments_.publish_infrared(time_, steps_, body_.pose(), people_);
+  if (tactile_now_ != tactile_ || every(20)) {
+    tactile_ = tactile_now_;
+    instruments_.publish_tactile(time_, tactile_);
   }
+  if (every(100)) instruments_.publish_battery(time_, battery_);
+  if (every(10)) {
+    publish_truth();
+    auto wishes = visitors_.step(time_, time_ - start_);
+    for (const std::string& id : wishes.offered) offer("request", id);
+    for (auto& request : wishes.requests) requests_.publish(std::move(request));
+    for (auto& choice : wishes.choices) choices_.publish(std::move(choice));
+  }
+}
 
-  // What a scenario does.
-  void play_scenario() {
-    const double now = run_seconds();
-    while (next_event_ < options_.scenario.events.size() && options_.scenario.events[next_event_].at <= now) {
-      std::visit([this](const auto& event) { play(event); }, options_.scenario.events[next_event_].what);
-      ++next_event_;
-    }
-    if (!every(10) || temporary_.empty()) return;
-    bool changed = false;
-    for (Temporary& item : temporary_) {
-      if (!item.stands && !item.is_over &&
-          distance(item.solid.polygon, body_.pose().position()) > body_.params().radius + 0.05) {
-        // Nobody sets it down on top of the robot: it waits until there is room.
-        item.stands = changed = true;
-        world_.solids.push_back(item.solid);
-      }
-      if (item.until > 0.0 && now >= item.until && !item.is_over) {
-        item.is_over = true;
-        changed = changed || item.stands;
-        std::erase_if(world_.solids, [&](const Solid& solid) { return solid.id == item.solid.id; });
-      }
-    }
-    std::erase_if(temporary_, [](const Temporary& item) { return item.is_over; });
-    if (!changed) return;
-    obstacles_ = Obstacles{world_};
-    instruments_.change_world(world_);
-    crowd_.change_world(world_);
+void SimulatedMuseum::Impl::publish_truth() {
+  docent_msgs::TrueState state;
+  state.header = {to_message(time_), "world"};
+  const Pose2& pose = body_.pose();
+  state.x = pose.x;
+  state.y = pose.y;
+  state.theta = pose.theta.radians();
+  state.linear = body_.linear();
+  state.angular = body_.angular();
+  state.distance_m = distance_;
+  state.inside_area = world_.operating_area.size() < 3 || contains(world_.operating_area, pose.position());
+  state.battery = battery_.charge();
+  state.blocked_beams = instruments_.blocked_share();
+  state.contact_seconds = log_.seconds_wheels_turning();
+  state.visitors = crowd_.visitors();
+  state.nearest_solid_m = obstacles_.clearance(pose.position()) - body_.params().radius;
+  state.nearest_person_m = 1e3;
+  const auto people = crowd_.people();
+  state.people.reserve(people.size());
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    const Person& person = people[i];
+    state.nearest_person_m = std::min(
+        state.nearest_person_m, distance(person.position, pose.position()) - person.radius - body_.params().radius);
+    state.people.push_back({person.id, static_cast<float>(person.position.x), static_cast<float>(person.position.y),
+                            static_cast<float>(person.velocity.x), static_cast<float>(person.velocity.y),
+                            static_cast<float>(person.radius), instruments_.met(i) > 0});
+    state.person_beams.push_back(static_cast<std::uint8_t>(std::min(instruments_.met(i), 255)));
   }
-  void play(const Kidnap& event) {
-    std::optional<Pose2> to = event.to;
-    const Point2 here = body_.pose().position();
-    const bool is_near = event.shift > 0.0;
-    const int tries = is_near ? 20000 : 200;
-    for (int i = 0; !to && i < tries; ++i) {
-      to = random_start(world_, crowd_.floor(), place_rng_, 0.6, here, is_near ? 0.0 : 3.0);
-      if (to && hazard_distance(to->position()) < event.from_hazards) to.reset();
-      if (to && is_near && distance(to->position(), here) > event.shift) to.reset();
-    }
-    if (is_near) {
-      const Point2 place = to ? to->position() : here;  // no room: it is turned where it is
-      to = Pose2{place.x, place.y, body_.pose().theta + Angle::degrees(event.turn)};
-    }
-    if (!to) {
-      offer("kidnap_failed", "no free place");
-      return;
-    }
-    body_.carry_to(*to);
-    // Who carries it asks for room.
-    for (std::size_t i = 0; i < crowd_.people().size(); ++i) {
-      (void)crowd_.give_way(i, to->position(), body_.params().radius + crowd_.people()[i].radius + 0.4);
-    }
-    has_fallen_ = false;
-    log_.forget();
-    offer("kidnap", "");
-  }
-  [[nodiscard]] double hazard_distance(Point2 point) const {
-    double least = 1e9;
-    for (const Solid& solid : world_.solids)
-      if (solid.kind == SolidKind::glass || solid.kind == SolidKind::plate || solid.kind == SolidKind::stairs)
-        least = std::min(least, distance(solid.polygon, point));
-    return least;
-  }
-  void play(const SensorFault& event) {
-    instruments_.set_fault(event, time_);
-    constexpr std::array<const char*, kSensors> kNames{"laser_front", "laser_rear", "laser_left", "laser_right",
-                                                       "sonar",       "odom",       "tactile",    "infrared"};
-    offer("fault", kNames[static_cast<std::size_t>(event.sensor)]);
-  }
-  void play(const Stool& event) {
-    Polygon outline;
-    for (int i = 0; i < 8; ++i) outline.push_back(event.at + event.radius * unit(Angle::degrees(45.0 * i)));
-    put_up("stool", SolidKind::furniture, std::move(outline), event.height, event.duration);
-  }
-  void play(const ClosedPassage& event) {
-    const Point2 way = event.to - event.from;
-    const Point2 across = (0.05 / norm(way)) * Point2{-way.y, way.x};
-    put_up("closed", SolidKind::wall, {event.from - across, event.to - across, event.to + across, event.from + across},
-           1.2, event.duration);
-  }
-  void put_up(const std::string& kind, SolidKind solid, Polygon outline, double height, double duration) {
-    const std::string id = kind + "-" + std::to_string(next_event_);
-    temporary_.push_back(
-        {{id, solid, std::move(outline), 0.0, height, true}, duration > 0.0 ? run_seconds() + duration : 0.0});
-    offer(kind, id);
-  }
-  void play(const Visitors& event) {
-    const Pose2& robot = body_.pose();
-    const bool round_robot = !event.at && event.formation == Formation::ushape;
-    const Point2 centre = event.at.value_or(round_robot ? robot.position() : robot * Point2{1.6, 0.0});
-    const Angle facing = event.has_heading ? Angle::radians(event.heading) : robot.theta + Angle::degrees(180.0);
-    std::vector<Point2> places;
-    for (int i = 0; i < event.count; ++i) {
-      const double slot = i - (event.count - 1) / 2.0;
-      if (event.formation == Formation::wall) {
-        places.push_back(centre + (0.55 * slot) * unit(facing + Angle::degrees(90.0)));
-      } else if (event.formation == Formation::ushape) {
-        // Three quarters of a ring; the open side faces `facing`.
-        const double share = event.count > 1 ? slot / (event.count - 1) : 0.0;
-        places.push_back(centre + 1.3 * unit(facing + Angle::degrees(180.0 + 270.0 * share)));
-      } else {
-        const double ring = 0.7 + 0.25 * (i % 3);
-        places.push_back(centre + ring * unit(Angle::degrees(137.5 * i)));
-      }
-    }
-    crowd_.add_standing(places, run_seconds() + event.duration, event.heeds);
-    offer("visitors", std::to_string(event.count));
-  }
-  [[nodiscard]] double end_of(double duration) const { return duration > 0.0 ? run_seconds() + duration : 1e9; }
-  void play(const Pushers& event) {
-    crowd_.add_pushers(event.count, event.at, event.heading, end_of(event.duration));
-    offer("pushers", std::to_string(event.count));
-  }
-  void play(const Runners& event) {
-    crowd_.add_runners(event.count, event.at, event.within, end_of(event.duration));
-    offer("runners", std::to_string(event.count));
-  }
-  void play(const Escort& event) {
-    crowd_.add_escort(event.count, event.near, event.far, run_seconds(), end_of(event.duration));
-    offer("escort", std::to_string(event.count));
-  }
-  void play(const Steering& event) {
-    steersman_.emplace(world_, event.speed, rng_.stream("steersman"), event.way);
-    steered_until_ = event.duration > 0.0 ? run_seconds() + event.duration : 0.0;
-    offer("steering", "");
-  }
-  void play(const LaserReach& event) {
-    instruments_.limit_reach(event.range);
-    offer("lasers", "");
-  }
-  void play(const Wish& event) { visitors_.ask(time_, event); }
-  void play(const OdometryJump& event) {
-    instruments_.jump(event.by, event.over);
-    offer("odometry_jump", "");
-  }
-  void play(const PoseError&) { offer("pose_error", ""); }       // the application applies it
-  void play(const SecondMode&) { offer("second_mode", ""); }     // likewise
-  void play(const Kill& event) { offer("kill", event.module); }  // likewise
+  tell(states_, std::move(state));
+}
 
-  struct Temporary {
-    Solid solid;
-    double until = 0.0;  ///< [s] run time; 0: for good
-    bool stands = false;
-    bool is_over = false;
-  };
-
-  Bus& bus_;
-  Bus& truth_bus_;
-  SimulationOptions options_;
-  World world_;
-  Rng rng_;
-  Rng place_rng_;
-  Time start_;
-  Time time_;
-  std::optional<WalkableFloor> floor_;  ///< until the crowd takes it
-  Obstacles obstacles_;
-  Body body_;
-  Crowd crowd_;
-  Instruments instruments_;
-  WishingVisitors visitors_;
-  Battery battery_;
-  ContactLog log_;
-  std::uint64_t steps_ = 0;
-  double distance_ = 0.0;
-  bool has_fallen_ = false;
-  std::optional<Steersman> steersman_;
-  double steered_until_ = 0.0;  ///< [s] run time; 0: to the end
-  std::size_t next_event_ = 0;
-  std::vector<Temporary> temporary_;
-  std::vector<Disc> people_;
-  std::vector<std::size_t> beside_;  ///< indices of the people who are near the robot
-  std::vector<Touch> touches_;
-  std::vector<ContactLog::PersonSample> samples_;
-  std::vector<std::uint8_t> tactile_;
-  std::vector<std::uint8_t> tactile_now_ = std::vector<std::uint8_t>(kTactileSegments, 0);
-  Publisher<docent_msgs::Request> requests_;
-  Publisher<docent_msgs::Choice> choices_;
-  Publisher<docent_msgs::RunInfo> run_infos_;
-  Publisher<docent_msgs::TrueState> states_;
-  Publisher<docent_msgs::TrueContact> contacts_;
-  Publisher<docent_msgs::TrueOffer> offers_;
-};
+void SimulatedMuseum::Impl::offer(std::string kind, std::string subject) {
+  tell(offers_, docent_msgs::TrueOffer{{to_message(time_), "world"}, std::move(kind), std::move(subject)});
+}
 
 SimulatedMuseum::SimulatedMuseum(Bus& robot_bus, Bus& truth_bus, SimulationOptions options) {
   DOCENT_CHECK(validate(options));

@@ -18,7 +18,7 @@
 #include "docent/apps/shared/log_defaults.h"
 #include "docent/apps/shared/map_note.h"
 #include "docent/base/files.h"
-#include "docent/evaluation/reference_score.h"
+#include "docent/evaluation/reference/reference_score.h"
 #include "docent/localization/markov/markov_localizer.h"
 #include "docent/localization/monte_carlo/monte_carlo_localizer.h"
 #include "docent/recording/laser_log.h"

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string>
 
-#include "docent/evaluation/odometry_noise.h"
-#include "docent/evaluation/reference_poses.h"
+#include "docent/evaluation/reference/odometry_noise.h"
+#include "docent/evaluation/reference/reference_poses.h"
 #include "docent/recording/laser_log.h"
 
 namespace CLI {

@@ -8,8 +8,8 @@
 
 #include "docent/apps/replay/recorded_voice.h"
 #include "docent/apps/shared/temporary_folder.h"
-#include "docent/evaluation/claim_log.h"
 #include "docent/evaluation/deployment_evaluator.h"
+#include "docent/evaluation/run_logs/claim_log.h"
 #include "docent/localization/belief/checkpoint.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/host/module_host.h"

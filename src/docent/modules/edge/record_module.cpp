@@ -2,7 +2,7 @@
 
 #include <thread>
 
-#include "docent/recording/mcap_recovery.h"
+#include "docent/recording/mcap/recovery.h"
 #include "docent/recording/rolling_recorder.h"
 
 namespace docent {

@@ -36,25 +36,8 @@ Pursuit GoalPursuit::step(const std::optional<Pose2>& map_from_base, const Route
     return pursuit;
   }
   const Point2 here = map_from_base->position();
-  const double off = distance(here, goal_.map_from_goal.position());
   const double turn = std::abs((goal_.map_from_goal.theta - map_from_base->theta).radians());
-  const auto stuck_for = [&] { return to_seconds(now - last_progress_); };
-
-  // Once there, small jumps of the pose do not send the robot off again; a push does.
-  if (phase_ != Phase::driving && off > params_.settle_for + 0.3) {
-    phase_ = Phase::driving;
-    best_remaining_ = std::numeric_limits<double>::infinity();
-    last_progress_ = now;
-  }
-  if (phase_ == Phase::driving &&
-      (off <= goal_.position_tolerance || (off <= params_.settle_for && stuck_for() > params_.settle_after))) {
-    phase_ = Phase::turning;
-    last_progress_ = now;
-  }
-  if (phase_ == Phase::turning && (turn <= goal_.heading_tolerance || stuck_for() > 2.0 * params_.settle_after)) {
-    phase_ = Phase::arrived;
-  }
-
+  change_phase(distance(here, goal_.map_from_goal.position()), turn, now);
   if (phase_ == Phase::arrived) {
     pursuit.state = "arrived";
     return pursuit;
@@ -67,7 +50,7 @@ Pursuit GoalPursuit::step(const std::optional<Pose2>& map_from_base, const Route
   }
 
   const auto way = planner.way(here);
-  if (way.empty() && !planner.is_settled() && stuck_for() < params_.find_way_for) {
+  if (way.empty() && !planner.is_settled() && stuck_for(now) < params_.find_way_for) {
     pursuit.state = "waiting";
     pursuit.reason = "looking for the way";
     return pursuit;
@@ -77,6 +60,34 @@ Pursuit GoalPursuit::step(const std::optional<Pose2>& map_from_base, const Route
     pursuit.reason = planner.is_closed(here) ? "no way out of this place" : "no way to the goal";
     return pursuit;
   }
+  if (planner.is_settled()) detour_.update(way, now);
+  return follow(way, here, now);
+}
+
+double GoalPursuit::stuck_for(Time now) const { return to_seconds(now - last_progress_); }
+
+/// @param off  [m] from the goal's place
+/// @param turn  [rad] from its heading
+void GoalPursuit::change_phase(double off, double turn, Time now) {
+  // Once there, small jumps of the pose do not send the robot off again; a push does.
+  if (phase_ != Phase::driving && off > params_.settle_for + 0.3) {
+    phase_ = Phase::driving;
+    best_remaining_ = std::numeric_limits<double>::infinity();
+    last_progress_ = now;
+  }
+  if (phase_ == Phase::driving &&
+      (off <= goal_.position_tolerance || (off <= params_.settle_for && stuck_for(now) > params_.settle_after))) {
+    phase_ = Phase::turning;
+    last_progress_ = now;
+  }
+  if (phase_ == Phase::turning && (turn <= goal_.heading_tolerance || stuck_for(now) > 2.0 * params_.settle_after)) {
+    phase_ = Phase::arrived;
+  }
+}
+
+/// @param way  from `here` to the goal; not empty
+Pursuit GoalPursuit::follow(const std::vector<Point2>& way, Point2 here, Time now) {
+  Pursuit pursuit;
   double length = distance(here, way.front());
   pursuit.is_final = true;
   pursuit.via.push_back(way.front());
@@ -89,7 +100,6 @@ Pursuit GoalPursuit::step(const std::optional<Pose2>& map_from_base, const Route
     }
   }
   pursuit.remaining_m = length;
-  if (planner.is_settled()) detour_.update(way, now);
   pursuit.detour = detour_.change();
   pursuit.detour_extra = detour_.extra();
   pursuit.mode = Pursuit::Mode::drive;
@@ -100,7 +110,7 @@ Pursuit GoalPursuit::step(const std::optional<Pose2>& map_from_base, const Route
   } else if (length > best_remaining_ + 2.0) {
     best_remaining_ = length;  // a detour: measure progress along it, but the time without progress goes on
   }
-  pursuit.blocked_s = stuck_for();
+  pursuit.blocked_s = stuck_for(now);
   pursuit.state = pursuit.blocked_s > params_.blocked_after ? "blocked" : "driving";
   if (pursuit.state == "blocked") pursuit.reason = "no progress";
   return pursuit;

@@ -70,6 +70,10 @@ class GoalPursuit {
   [[nodiscard]] Pursuit step(const std::optional<Pose2>& map_from_base, const RoutePlanner& planner, Time now);
 
  private:
+  [[nodiscard]] double stuck_for(Time now) const;  ///< [s]
+  void change_phase(double off, double turn, Time now);
+  [[nodiscard]] Pursuit follow(const std::vector<Point2>& way, Point2 here, Time now);
+
   PursuitParams params_;
   PursuitGoal goal_;
   enum class Phase { driving, turning, arrived } phase_ = Phase::driving;

@@ -83,6 +83,13 @@ class ValueIteration {
     std::uint64_t rows = 0;
     std::uint64_t columns = 0;
   };
+  /// The bounding box of step (5), for each direction of its own: lines that what fell before them may lower.
+  struct Pending {
+    std::uint64_t forwards = 0;
+    std::uint64_t backwards = 0;
+    void after(std::uint64_t fallen);
+    [[nodiscard]] bool any() const { return (forwards | backwards) != 0; }
+  };
   struct Tile {
     float falls_from = kClosed;   ///< the least offer that was not taken yet
     float lost_from = kClosed;    ///< the least value that may have lost its ground
@@ -121,30 +128,33 @@ class ValueIteration {
   [[nodiscard]] std::size_t index(CellIndex cell) const;
   [[nodiscard]] std::ptrdiff_t neighbour(std::size_t tile, int columns, int rows) const;
   [[nodiscard]] const float* goals_of(std::size_t tile) const;
-
-  void unblank(std::size_t tile);
-  void blank(std::size_t tile);
-  [[nodiscard]] bool is_held_up(std::size_t tile) const;
   void aim_at(std::optional<CellIndex> cell);
   [[nodiscard]] float least_cost_to(CellIndex cell, std::size_t tile) const;
   /// Sums of costs that are greater may round away more of a step than least_cost_to allows for.
   [[nodiscard]] float farthest() const { return least_cost_ * 0x1p17F; }
-  void copy_edges(std::size_t tile);
   void queue_fall(std::size_t tile, float from);
   void queue_loss(std::size_t tile, float from, std::uint64_t rows);
   void settle_next();
-  void reset_and_tell(std::size_t tile);
+
+  // tile_work.cpp
+  void unblank(std::size_t tile);
+  void blank(std::size_t tile);
+  [[nodiscard]] bool is_held_up(std::size_t tile) const;
+  void copy_edges(std::size_t tile);
   template <class Take>
   void for_offers_into(std::size_t tile, bool firm, Take take);
-
   void settle_tile(std::size_t tile);
+  bool sweep_both_ways(float* values, const float* costs, bool backwards_first, Pending& along, Pending& beside);
   void offer_to_neighbours(std::size_t tile);
+  void reset_and_tell(std::size_t tile);
   bool reset_tile(std::size_t tile);
+  void pass_on_losses(std::size_t tile, const std::array<Edge, 4>& before);
+
+  // value_repair.cpp
   void widen(Repair& repair, std::span<const CellIndex> chain) const;
   int reset_all(const Repair& repair);
   [[nodiscard]] bool is_worth_it(const Repair& repair) const;
   void start_over(const Repair& repair);
-  void pass_on_losses(std::size_t tile, const std::array<Edge, 4>& before);
   [[nodiscard]] std::optional<CellIndex> support_of(CellIndex cell) const;
   [[nodiscard]] bool knows_the_way(CellIndex cell) const;
   [[nodiscard]] std::uint64_t worth_repairing(const Repair& repair) const;
@@ -171,5 +181,19 @@ class ValueIteration {
   std::optional<std::uint64_t> started_at_;  ///< relaxations at set_goals, until its values have settled
   std::uint64_t work_a_tile_ = std::uint64_t{9} * kTileCells;  ///< relaxations that a start from nothing took
 };
+
+inline std::size_t ValueIteration::tile_of(CellIndex cell) const {
+  return static_cast<std::size_t>(cell.row / kTileSide) * static_cast<std::size_t>(tile_columns_) +
+         static_cast<std::size_t>(cell.column / kTileSide);
+}
+
+inline std::size_t ValueIteration::index(CellIndex cell) const {
+  return tile_of(cell) * kTileCells + static_cast<std::size_t>(cell.row % kTileSide) * kTileSide +
+         static_cast<std::size_t>(cell.column % kTileSide);
+}
+
+inline float ValueIteration::value(CellIndex cell) const {
+  return tiles_[tile_of(cell)].is_blank ? kClosed : values_[index(cell)];
+}
 
 }  // namespace docent

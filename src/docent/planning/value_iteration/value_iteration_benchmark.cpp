@@ -5,275 +5,22 @@
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
-#include <functional>
-#include <numeric>
-#include <queue>
 #include <string>
 
 #include "docent/base/random.h"
 #include "docent/grid/occupancy_grid.h"
+#include "docent/planning/value_iteration/benchmark_buildings.h"
+#include "docent/planning/value_iteration/benchmark_rivals.h"
 
 /// Value iteration against Dijkstra's algorithm with a std::priority_queue, over random buildings of 5 cm a cell, on
 /// one core: the full value function, and after an obstacle of 1 x 1 m has appeared on the way of a robot. Ratios
 /// within one run mean something.
-///
-/// Dijkstra is meant to be fair: flat arrays with a closed border, so that nothing tests bounds, entries of eight
-/// bytes, nothing allocated while it runs.
 namespace docent {
 namespace {
 
+using namespace benchmarks;
 using Goal = ValueIteration::Goal;
 constexpr float kClosed = ValueIteration::kClosed;
-constexpr double kResolution = 0.05;
-
-void fill(OccupancyGrid& map, int left, int bottom, int right, int top, std::int8_t as) {
-  for (int row = std::max(0, bottom); row < std::min(top, map.frame.rows); ++row)
-    for (int column = std::max(0, left); column < std::min(right, map.frame.columns); ++column)
-      map.cells[map.frame.index({column, row})] = as;
-}
-
-OccupancyGrid floor_of(int side) {
-  OccupancyGrid map;
-  map.frame = {side, side, kResolution, {}};
-  map.cells.assign(map.frame.size(), OccupancyGrid::kFree);
-  return map;
-}
-
-/// One hall with cases of 0.3 to 3 m.
-OccupancyGrid hall(int side, Rng& rng) {
-  OccupancyGrid map = floor_of(side);
-  for (int i = 0; i < side * side / 8000; ++i) {
-    const int left = static_cast<int>(rng.integer(0, side));
-    const int bottom = static_cast<int>(rng.integer(0, side));
-    fill(map, left, bottom, left + static_cast<int>(rng.integer(6, 60)), bottom + static_cast<int>(rng.integer(6, 60)),
-         OccupancyGrid::kOccupied);
-  }
-  return map;
-}
-
-/// Rooms of 5 to 12 m, most with a door of 1.2 m or two to their neighbours, and some furniture.
-OccupancyGrid rooms(int side, Rng& rng) {
-  OccupancyGrid map = floor_of(side);
-  std::vector<int> walls{0};
-  while (walls.back() < side) walls.push_back(walls.back() + static_cast<int>(rng.integer(100, 240)));
-  const auto door = [&](int from, int to) {
-    return static_cast<int>(rng.integer(from + 10, std::max(from + 11, to - 34)));
-  };
-  for (const int wall : walls) {
-    fill(map, wall, 0, wall + 4, side, OccupancyGrid::kOccupied);
-    fill(map, 0, wall, side, wall + 4, OccupancyGrid::kOccupied);
-  }
-  for (std::size_t i = 0; i + 1 < walls.size(); ++i) {
-    for (const int wall : walls) {
-      for (int doors = rng.chance(0.25) ? 2 : rng.chance(0.85) ? 1 : 0; doors > 0; --doors) {
-        const int at = door(walls[i], walls[i + 1]);
-        fill(map, wall, at, wall + 4, at + 24, OccupancyGrid::kFree);
-        const int across = door(walls[i], walls[i + 1]);
-        fill(map, across, wall, across + 24, wall + 4, OccupancyGrid::kFree);
-      }
-    }
-  }
-  for (int i = 0; i < side * side / 20000; ++i) {
-    const int left = static_cast<int>(rng.integer(0, side));
-    const int bottom = static_cast<int>(rng.integer(0, side));
-    fill(map, left, bottom, left + static_cast<int>(rng.integer(6, 30)), bottom + static_cast<int>(rng.integer(6, 30)),
-         OccupancyGrid::kOccupied);
-  }
-  return map;
-}
-
-/// Corridors of 2.6 m between walls of 0.2 m: a tree, with a tenth of the other walls taken out.
-OccupancyGrid maze(int side, Rng& rng) {
-  constexpr int kPitch = 56;
-  OccupancyGrid map = floor_of(side);
-  const int count = (side - 4) / kPitch;
-  fill(map, 0, 0, side, side, OccupancyGrid::kOccupied);
-  std::vector<int> group(static_cast<std::size_t>(count * count));
-  std::iota(group.begin(), group.end(), 0);
-  const std::function<int(int)> root = [&](int i) {
-    while (group[static_cast<std::size_t>(i)] != i) i = group[static_cast<std::size_t>(i)];
-    return i;
-  };
-  std::vector<std::pair<int, bool>> doors;  // of a place, to the right or up
-  for (int i = 0; i < count * count; ++i) {
-    const int left = 4 + i % count * kPitch;
-    const int bottom = 4 + i / count * kPitch;
-    fill(map, left, bottom, left + kPitch - 4, bottom + kPitch - 4, OccupancyGrid::kFree);
-    if (i % count + 1 < count) doors.emplace_back(i, true);
-    if (i / count + 1 < count) doors.emplace_back(i, false);
-  }
-  for (std::size_t i = doors.size(); i > 1; --i)
-    std::swap(doors[i - 1], doors[static_cast<std::size_t>(rng.integer(0, static_cast<std::int64_t>(i) - 1))]);
-  for (const auto& [place, right] : doors) {
-    const int here = root(place);
-    const int there = root(place + (right ? 1 : count));
-    if (here == there && !rng.chance(0.1)) continue;
-    group[static_cast<std::size_t>(here)] = there;
-    const int left = 4 + place % count * kPitch;
-    const int bottom = 4 + place / count * kPitch;
-    if (right) {
-      fill(map, left + kPitch - 4, bottom, left + kPitch, bottom + kPitch - 4, OccupancyGrid::kFree);
-    } else {
-      fill(map, left, bottom + kPitch - 4, left + kPitch - 4, bottom + kPitch, OccupancyGrid::kFree);
-    }
-  }
-  return map;
-}
-
-/// As RoutePlanner gives them: closed within the robot's radius and a margin, dearer near to walls.
-std::vector<float> costs_of(const OccupancyGrid& map) {
-  std::vector<bool> solid(map.frame.size());
-  for (std::size_t i = 0; i < solid.size(); ++i) solid[i] = map.cells[i] != OccupancyGrid::kFree;
-  const auto clearances = distance_transform(map.frame, solid);
-  std::vector<float> costs(map.frame.size(), kClosed);
-  for (std::size_t i = 0; i < costs.size(); ++i) {
-    const double spare = static_cast<double>(clearances[i]) - 0.365;
-    if (spare < 0.0) continue;
-    const double discomfort = std::max(0.0, 1.0 - spare / 0.8);
-    costs[i] = static_cast<float>(kResolution * (1.0 + 2.0 * discomfort * discomfort));
-  }
-  return costs;
-}
-
-/// Backwards from the goal, over a grid with a closed border.
-class Dijkstra {
- public:
-  Dijkstra(const GridFrame& frame, const std::vector<float>& costs)
-      : frame_{frame}, stride_{static_cast<std::size_t>(frame.columns) + 2} {
-    costs_.assign(stride_ * (static_cast<std::size_t>(frame.rows) + 2), kClosed);
-    for (int row = 0; row < frame.rows; ++row)
-      for (int column = 0; column < frame.columns; ++column)
-        costs_[index({column, row})] = costs[frame.index({column, row})];
-    values_.resize(costs_.size());
-    std::vector<Entry> room;
-    room.reserve(costs_.size());
-    queue_ = Queue{std::greater<>{}, std::move(room)};
-  }
-  void solve(CellIndex goal) {
-    std::fill(values_.begin(), values_.end(), kClosed);
-    const auto s = static_cast<std::ptrdiff_t>(stride_);
-    const std::array<std::ptrdiff_t, 8> steps{1, -1, s, -s, s + 1, s - 1, 1 - s, -s - 1};
-    values_[index(goal)] = 0.0F;
-    queue_.push({0.0F, static_cast<std::uint32_t>(index(goal))});
-    while (!queue_.empty()) {
-      const auto [value, at] = queue_.top();
-      queue_.pop();
-      if (value > values_[at]) continue;
-      const float cost = costs_[at];
-      if (cost == kClosed) continue;  // nobody goes through here
-      const float straight = value + cost;
-      const float aslant = value + cost * std::numbers::sqrt2_v<float>;
-      relaxations_ += 8;
-      for (std::size_t i = 0; i < steps.size(); ++i) {
-        const std::size_t beside = at + static_cast<std::size_t>(steps[i]);
-        const float through = i < 4 ? straight : aslant;
-        if (through < values_[beside]) {
-          values_[beside] = through;
-          queue_.push({through, static_cast<std::uint32_t>(beside)});
-        }
-      }
-    }
-  }
-  [[nodiscard]] float value(CellIndex cell) const { return values_[index(cell)]; }
-  [[nodiscard]] std::uint64_t relaxations() const { return relaxations_; }
-
- private:
-  using Entry = std::pair<float, std::uint32_t>;
-  using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
-  [[nodiscard]] std::size_t index(CellIndex cell) const {
-    return static_cast<std::size_t>(cell.row + 1) * stride_ + static_cast<std::size_t>(cell.column + 1);
-  }
-  GridFrame frame_;
-  std::size_t stride_;
-  std::vector<float> costs_, values_;
-  Queue queue_;
-  std::uint64_t relaxations_ = 0;
-};
-
-/// What ROS has planned with since 2009, potentials spread in waves: each cell's is interpolated from its lower
-/// neighbours in both directions, and cells wait in three blocks, for this wave, the next one, and beyond the present
-/// threshold. Costs are whole numbers. Its potentials are not the shortest ways over eight neighbours that the others
-/// find, and nearly Euclidean; so only its time is compared.
-class WavePropagation {
- public:
-  WavePropagation(const GridFrame& frame, const std::vector<float>& costs)
-      : stride_{static_cast<std::size_t>(frame.columns) + 2} {
-    const std::size_t size = stride_ * (static_cast<std::size_t>(frame.rows) + 2);
-    costs_.assign(size, kObstacle);
-    for (int row = 0; row < frame.rows; ++row) {
-      for (int column = 0; column < frame.columns; ++column) {
-        const float cost = costs[frame.index({column, row})];
-        if (cost < kClosed) costs_[index({column, row})] = kNeutral * cost / static_cast<float>(kResolution);
-      }
-    }
-    potentials_.resize(size);
-    is_waiting_.resize(size);
-    for (auto* const block : {&now_, &next_, &beyond_}) block->reserve(size);
-  }
-  void solve(CellIndex goal) {
-    std::fill(potentials_.begin(), potentials_.end(), kFar);
-    std::fill(is_waiting_.begin(), is_waiting_.end(), std::uint8_t{0});
-    for (auto* const block : {&now_, &next_, &beyond_}) block->clear();
-    threshold_ = kObstacle;
-    const std::size_t at = index(goal);
-    potentials_[at] = 0.0F;
-    for (const std::size_t beside : {at + 1, at - 1, at + stride_, at - stride_}) wait(beside, now_);
-    while (!now_.empty()) {
-      for (const std::uint32_t cell : now_) is_waiting_[cell] = 0;
-      for (const std::uint32_t cell : now_) update(cell);
-      now_.swap(next_);
-      next_.clear();
-      if (!now_.empty()) continue;
-      threshold_ += 2.0F * kNeutral;
-      now_.swap(beyond_);
-      beyond_.clear();
-    }
-  }
-  [[nodiscard]] bool is_reached(CellIndex cell) const { return potentials_[index(cell)] < kFar; }
-
- private:
-  static constexpr float kNeutral = 50.0F;
-  static constexpr float kObstacle = 254.0F;
-  static constexpr float kFar = 1e10F;
-
-  [[nodiscard]] std::size_t index(CellIndex cell) const {
-    return static_cast<std::size_t>(cell.row + 1) * stride_ + static_cast<std::size_t>(cell.column + 1);
-  }
-  void wait(std::size_t cell, std::vector<std::uint32_t>& block) {
-    if (is_waiting_[cell] != 0 || costs_[cell] >= kObstacle) return;
-    is_waiting_[cell] = 1;
-    block.push_back(static_cast<std::uint32_t>(cell));
-  }
-  void update(std::size_t cell) {
-    const float left = potentials_[cell - 1];
-    const float right = potentials_[cell + 1];
-    const float below = potentials_[cell - stride_];
-    const float above = potentials_[cell + stride_];
-    const float across = std::min(left, right);
-    const float along = std::min(below, above);
-    const float cost = costs_[cell];
-    const float apart = std::abs(across - along);
-    float potential = std::min(across, along) + cost;
-    if (apart < cost) {  // a plane wave through both neighbours, by a parabola
-      const float share = apart / cost;
-      potential = std::min(across, along) + cost * (-0.2301F * share * share + 0.5307F * share + 0.7040F);
-    }
-    if (potential >= potentials_[cell]) return;
-    potentials_[cell] = potential;
-    auto& block = potential < threshold_ ? next_ : beyond_;
-    const float step = std::numbers::sqrt2_v<float> / 2.0F;
-    if (left > potential + step * costs_[cell - 1]) wait(cell - 1, block);
-    if (right > potential + step * costs_[cell + 1]) wait(cell + 1, block);
-    if (below > potential + step * costs_[cell - stride_]) wait(cell - stride_, block);
-    if (above > potential + step * costs_[cell + stride_]) wait(cell + stride_, block);
-  }
-
-  std::size_t stride_;
-  std::vector<float> costs_, potentials_;
-  std::vector<std::uint8_t> is_waiting_;
-  std::vector<std::uint32_t> now_, next_, beyond_;
-  float threshold_ = 0.0F;
-};
 
 /// Of the processor, not of the wall: others may be at work on this machine.
 double milliseconds(const auto& work) {
@@ -442,51 +189,49 @@ double full_solve_with(InstructionSet set, const GridFrame& frame, const std::ve
   return quantile(rounds, 0.5);
 }
 
-void full_solve_and_replanning(benchmark::State& state) {
-  const int side = static_cast<int>(state.range(0));
-  const int maps = static_cast<int>(state.range(1));
-  const int obstacles = static_cast<int>(state.range(2));
+/// What was measured in buildings of one size.
+struct Measurements {
   std::array<FullSolves, kBuildings.size()> full;
   std::array<Replanning, kBuildings.size()> replanning;
   Replanning all;
-  std::vector<std::vector<double>> ratios_of_sets(instruction_sets().size());
-  for (auto _ : state) {
-    for (std::size_t kind = 0; kind < kBuildings.size(); ++kind) {
-      for (int i = 0; i < maps; ++i) {
-        Rng rng = Rng{static_cast<std::uint64_t>(i)}.stream(kBuildings[kind].name);
-        const OccupancyGrid map = kBuildings[kind].build(side, rng);
-        const std::vector<float> costs = costs_of(map);
-        const CellIndex goal = any_open(
-            map.frame, [&](CellIndex c) { return costs[map.frame.index(c)] < kClosed; }, rng);
-        ValueIteration planner{map.frame};
-        planner.set_costs(costs);
-        if (!solve_fully(costs, goal, planner, full[kind])) {
-          state.SkipWithError("values differ from Dijkstra's");
-          return;
-        }
-        for (std::size_t set = 0; set < ratios_of_sets.size(); ++set)
-          ratios_of_sets[set].push_back(full[kind].slow.back() /
-                                        full_solve_with(instruction_sets()[set], map.frame, costs, goal));
-        replan(planner, costs, goal, obstacles, full[kind].fast.back(), full[kind].fast_work.back(), rng,
-               replanning[kind]);
-      }
-      all.add(replanning[kind]);
-    }
-  }
-  const auto cells = static_cast<double>(side) * side;
-  std::printf("%d x %d cells of 5 cm, one core, %s, times of the processor; medians over %d random maps of each kind\n",
-              side, side, std::string{name_of(instruction_sets().back())}.c_str(), maps);
+  std::vector<std::vector<double>> ratios_of_sets =
+      std::vector<std::vector<double>>(instruction_sets().size());  ///< [sets][maps] Dijkstra / ours
+};
+
+/// One map. @returns whether all values are equal to Dijkstra's
+bool measure(std::size_t kind, int side, int number, int obstacles, Measurements& result) {
+  Rng rng = Rng{static_cast<std::uint64_t>(number)}.stream(kBuildings[kind].name);
+  const OccupancyGrid map = kBuildings[kind].build(side, rng);
+  const std::vector<float> costs = costs_of(map);
+  const CellIndex goal = any_open(
+      map.frame, [&](CellIndex c) { return costs[map.frame.index(c)] < kClosed; }, rng);
+  ValueIteration planner{map.frame};
+  planner.set_costs(costs);
+  FullSolves& full = result.full[kind];
+  if (!solve_fully(costs, goal, planner, full)) return false;
+  for (std::size_t set = 0; set < result.ratios_of_sets.size(); ++set)
+    result.ratios_of_sets[set].push_back(full.slow.back() /
+                                         full_solve_with(instruction_sets()[set], map.frame, costs, goal));
+  replan(planner, costs, goal, obstacles, full.fast.back(), full.fast_work.back(), rng, result.replanning[kind]);
+  return true;
+}
+
+void print_full_solves(const Measurements& of, double cells) {
   std::printf(
       " Full value function, all values equal bit for bit: Dijkstra's algorithm with std::priority_queue, ours\n");
   std::printf("  %-8s %10s %10s %8s  %12s %12s  %12s %12s\n", "map", "Dijkstra", "ours", "faster", "Dijkstra", "ours",
               "Dijkstra", "ours");
   std::printf("  %-8s %10s %10s %8s  %12s %12s  %12s %12s\n", "", "ms", "ms", "", "values/s", "values/s", "offers",
               "offers");
-  for (std::size_t kind = 0; kind < kBuildings.size(); ++kind) print_full(kBuildings[kind].name, full[kind], cells);
+  for (std::size_t kind = 0; kind < kBuildings.size(); ++kind) print_full(kBuildings[kind].name, of.full[kind], cells);
   std::printf("  faster than Dijkstra, median over all maps:");
-  for (std::size_t set = 0; set < ratios_of_sets.size(); ++set)
-    std::printf(" %s %.1f", std::string{name_of(instruction_sets()[set])}.c_str(), quantile(ratios_of_sets[set], 0.5));
+  for (std::size_t set = 0; set < of.ratios_of_sets.size(); ++set)
+    std::printf(" %s %.1f", std::string{name_of(instruction_sets()[set])}.c_str(),
+                quantile(of.ratios_of_sets[set], 0.5));
   std::printf("\n");
+}
+
+void print_replannings(const Measurements& of, int obstacles) {
   std::printf(
       " Replanning until the robot's value is exact, as shares of our own full solve of the same map. Cases: on\n");
   std::printf(" each map %d random places of the robot with a way of 60 cells and more, and for each an obstacle of\n",
@@ -495,21 +240,47 @@ void full_solve_and_replanning(benchmark::State& state) {
   std::printf("  %-8s %6s %9s %9s  %29s  %29s\n", "map", "cases", "ms", "plans/s", "time: median, p99, most",
               "offers: median, p99, most");
   for (std::size_t kind = 0; kind < kBuildings.size(); ++kind)
-    print_replanning(kBuildings[kind].name, replanning[kind]);
-  print_replanning("all", all);
-  double least = full[0].ratio();
-  for (const FullSolves& of : full) least = std::min(least, of.ratio());
+    print_replanning(kBuildings[kind].name, of.replanning[kind]);
+  print_replanning("all", of.all);
+}
+
+void print_bounds(const Measurements& of) {
+  double least = of.full[0].ratio();
+  for (const FullSolves& kind : of.full) least = std::min(least, kind.ratio());
   print_bound("full value function: Dijkstra / ours, worst kind", least, 10.0, true);
-  double least_to_wave = full[0].ratio_to_wave();
-  for (const FullSolves& of : full) least_to_wave = std::min(least_to_wave, of.ratio_to_wave());
+  double least_to_wave = of.full[0].ratio_to_wave();
+  for (const FullSolves& kind : of.full) least_to_wave = std::min(least_to_wave, kind.ratio_to_wave());
   std::printf("  faster than wave propagation as in NavFn:");
   for (std::size_t kind = 0; kind < kBuildings.size(); ++kind)
-    std::printf(" %s %.1f (%.1f ms)", kBuildings[kind].name, full[kind].ratio_to_wave(),
-                quantile(full[kind].wave, 0.5));
+    std::printf(" %s %.1f (%.1f ms)", kBuildings[kind].name, of.full[kind].ratio_to_wave(),
+                quantile(of.full[kind].wave, 0.5));
   std::printf("\n");
   print_bound("full value function: NavFn's wave propagation / ours", least_to_wave, 4.0, true);
-  print_bound("replanning / full solve, median time", quantile(all.time, 0.5), 0.125, false);
-  print_bound("replanning / full solve, most relaxations", quantile(all.work, 1.0), 1.0, false);
+  print_bound("replanning / full solve, median time", quantile(of.all.time, 0.5), 0.125, false);
+  print_bound("replanning / full solve, most relaxations", quantile(of.all.work, 1.0), 1.0, false);
+}
+
+void full_solve_and_replanning(benchmark::State& state) {
+  const int side = static_cast<int>(state.range(0));
+  const int maps = static_cast<int>(state.range(1));
+  const int obstacles = static_cast<int>(state.range(2));
+  Measurements measured;
+  for (auto _ : state) {
+    for (std::size_t kind = 0; kind < kBuildings.size(); ++kind) {
+      for (int i = 0; i < maps; ++i) {
+        if (!measure(kind, side, i, obstacles, measured)) {
+          state.SkipWithError("values differ from Dijkstra's");
+          return;
+        }
+      }
+      measured.all.add(measured.replanning[kind]);
+    }
+  }
+  std::printf("%d x %d cells of 5 cm, one core, %s, times of the processor; medians over %d random maps of each kind\n",
+              side, side, std::string{name_of(instruction_sets().back())}.c_str(), maps);
+  print_full_solves(measured, static_cast<double>(side) * side);
+  print_replannings(measured, obstacles);
+  print_bounds(measured);
 }
 BENCHMARK(full_solve_and_replanning)->Args({1000, 4, 40})->Args({4000, 2, 40})->Iterations(1)->Unit(benchmark::kSecond);
 

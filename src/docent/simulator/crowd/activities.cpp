@@ -26,38 +26,9 @@ Point2 Crowd::desired_velocity(Person& person, const Sight& sight, double now) {
     case Activity::leave:
       return leaving(person, now);
     case Activity::look:
-      if (now >= person.until) {
-        if (now >= person.leaves_at && !world_.entrances.empty()) {
-          person.activity = Activity::leave;
-          person.has_arrived = false;
-          return {};
-        }
-        next_attraction(person, now);
-        return {};
-      }
-      // Back to the spot once nothing drives them off it.
-      return distance(person.position, person.goal) > 0.5 && (sight.gap > 1.0 || person.ignores_robot)
-                 ? along(person.position, person.goal, 0.5)
-                 : Point2{};
-    case Activity::run: {
-      if (now >= person.until) {
-        return_to_strolling(person, now, false);
-        return {};
-      }
-      if (!person.has_goal || distance(person.position, person.goal) < 0.4) {
-        person.has_goal = false;
-        for (int attempt = 0; attempt < 8 && !person.has_goal; ++attempt) {
-          const bool round_robot = sight.in_sight && sight.away < 6.0 && rng_.chance(0.3);
-          const Point2 centre = round_robot ? robot_.position : person.position;
-          const Point2 goal = centre + rng_.uniform(1.2, 6.0) * unit(Angle::radians(rng_.uniform(-3.14, 3.14)));
-          if (floor_.clearance(goal) < 0.35 || !floor_.is_clear(person.position, goal, 0.2)) continue;
-          person.goal = goal;
-          person.has_goal = true;
-        }
-      }
-      return person.has_goal ? along(person.position, person.goal, 1.5 + 0.5 * (1.3 - person.preferred_speed))
-                             : Point2{};
-    }
+      return looking(person, sight, now);
+    case Activity::run:
+      return running(person, sight, now);
     case Activity::follow:
     case Activity::listen:
       return keeping_company(person, sight, now);
@@ -95,6 +66,41 @@ Point2 Crowd::desired_velocity(Person& person, const Sight& sight, double now) {
 std::optional<Point2> Crowd::walk_to(const Person& person, Point2 goal, double speed) const {
   if (!floor_.is_clear(person.position, goal, std::min(person.radius, 0.22))) return std::nullopt;
   return along(person.position, goal, speed);
+}
+
+Point2 Crowd::looking(Person& person, const Sight& sight, double now) {
+  if (now >= person.until) {
+    if (now >= person.leaves_at && !world_.entrances.empty()) {
+      person.activity = Activity::leave;
+      person.has_arrived = false;
+      return {};
+    }
+    next_attraction(person, now);
+    return {};
+  }
+  // Back to the spot once nothing drives them off it.
+  return distance(person.position, person.goal) > 0.5 && (sight.gap > 1.0 || person.ignores_robot)
+             ? along(person.position, person.goal, 0.5)
+             : Point2{};
+}
+
+Point2 Crowd::running(Person& person, const Sight& sight, double now) {
+  if (now >= person.until) {
+    return_to_strolling(person, now, false);
+    return {};
+  }
+  if (!person.has_goal || distance(person.position, person.goal) < 0.4) {
+    person.has_goal = false;
+    for (int attempt = 0; attempt < 8 && !person.has_goal; ++attempt) {
+      const bool round_robot = sight.in_sight && sight.away < 6.0 && rng_.chance(0.3);
+      const Point2 centre = round_robot ? robot_.position : person.position;
+      const Point2 goal = centre + rng_.uniform(1.2, 6.0) * unit(Angle::radians(rng_.uniform(-3.14, 3.14)));
+      if (floor_.clearance(goal) < 0.35 || !floor_.is_clear(person.position, goal, 0.2)) continue;
+      person.goal = goal;
+      person.has_goal = true;
+    }
+  }
+  return person.has_goal ? along(person.position, person.goal, 1.5 + 0.5 * (1.3 - person.preferred_speed)) : Point2{};
 }
 
 Point2 Crowd::strolling(Person& person, double now) {

@@ -81,6 +81,8 @@ class Crowd {
 
   // decisions.cpp
   void decide(std::size_t index, double now);
+  [[nodiscard]] bool gets_nowhere(Person& person, Point2 desired, double now);
+  [[nodiscard]] bool minds_robot(const Person& person, const Sight& sight) const;
   void take_interest(std::size_t index, const Sight& sight, double now);
   void form_wall(std::size_t leader, double now);
   void step_aside(Person& person, const Sight& sight, double now);
@@ -89,6 +91,8 @@ class Crowd {
 
   // activities.cpp
   [[nodiscard]] Point2 desired_velocity(Person& person, const Sight& sight, double now);
+  [[nodiscard]] Point2 looking(Person& person, const Sight& sight, double now);
+  [[nodiscard]] Point2 running(Person& person, const Sight& sight, double now);
   [[nodiscard]] Point2 strolling(Person& person, double now);
   [[nodiscard]] Point2 leaving(Person& person, double now);
   [[nodiscard]] Point2 keeping_company(Person& person, const Sight& sight, double now);

@@ -76,21 +76,8 @@ void Crowd::decide(std::size_t index, double now) {
   take_interest(index, sight, now);
   Point2 desired = desired_velocity(person, sight, now);
 
-  // Whoever gets nowhere for a while wants something else.
-  if (norm(desired) < 0.3 || distance(person.position, person.progress_from) > 0.4) {
-    person.progress_from = person.position;
-    person.progress_at = now;
-  } else if (now - person.progress_at > 6.0) {
-    person.progress_at = now;
-    if (person.activity == Activity::stroll)
-      next_attraction(person, now);
-    else if (person.activity == Activity::romp)
-      person.has_goal = false;
-    else if (person.activity != Activity::leave && person.activity != Activity::escort &&
-             person.activity != Activity::press)
-      return_to_strolling(person, now, false);
+  if (gets_nowhere(person, desired, now))
     desired = rng_.uniform(0.3, 0.8) * unit(Angle::radians(rng_.uniform(-3.14, 3.14)));
-  }
 
   std::array<Neighbour, kMostNeighbours> neighbours;
   std::size_t count = 0;
@@ -106,18 +93,7 @@ void Crowd::decide(std::size_t index, double now) {
       neighbours[count++] = {offset, other.velocity, person.radius + other.radius + 0.06, 1.0};
     }
   }
-  const bool stands_firm =
-      person.has_arrived &&
-      (person.activity == Activity::curious || person.activity == Activity::block || person.activity == Activity::wall);
-  bool minds_robot = !ignores_robot(person) && person.activity != Activity::push &&
-                     person.activity != Activity::stand && person.activity != Activity::press &&
-                     person.activity != Activity::romp && !stands_firm &&
-                     !(person.activity == Activity::look && person.back_turned) && sight.away < 6.0;
-  if (minds_robot && person.is_inattentive) {
-    const auto time = time_to_touch(sight.offset, person.velocity - robot_.velocity, robot_.radius + person.radius);
-    minds_robot = time && *time < params_.inattentive_notices;
-  }
-  if (minds_robot) {
+  if (minds_robot(person, sight)) {
     const bool keeps_close = person.activity == Activity::follow || person.activity == Activity::listen ||
                              person.activity == Activity::escort;
     const double space = person.activity == Activity::run ? 0.15 : keeps_close ? 0.25 : 0.35;
@@ -125,6 +101,39 @@ void Crowd::decide(std::size_t index, double now) {
   }
   person.wanted =
       choose_velocity(person, desired, std::span{neighbours}.first(count), floor_, now - person.progress_at);
+}
+
+/// Whoever gets nowhere for a while wants something else, and first goes anywhere. @returns whether this is so now
+bool Crowd::gets_nowhere(Person& person, Point2 desired, double now) {
+  if (norm(desired) < 0.3 || distance(person.position, person.progress_from) > 0.4) {
+    person.progress_from = person.position;
+    person.progress_at = now;
+    return false;
+  }
+  if (now - person.progress_at <= 6.0) return false;
+  person.progress_at = now;
+  if (person.activity == Activity::stroll)
+    next_attraction(person, now);
+  else if (person.activity == Activity::romp)
+    person.has_goal = false;
+  else if (person.activity != Activity::leave && person.activity != Activity::escort &&
+           person.activity != Activity::press)
+    return_to_strolling(person, now, false);
+  return true;
+}
+
+/// Whether a person keeps out of the robot's way.
+bool Crowd::minds_robot(const Person& person, const Sight& sight) const {
+  const bool stands_firm =
+      person.has_arrived &&
+      (person.activity == Activity::curious || person.activity == Activity::block || person.activity == Activity::wall);
+  const bool minds = !ignores_robot(person) && person.activity != Activity::push &&
+                     person.activity != Activity::stand && person.activity != Activity::press &&
+                     person.activity != Activity::romp && !stands_firm &&
+                     !(person.activity == Activity::look && person.back_turned) && sight.away < 6.0;
+  if (!minds || !person.is_inattentive) return minds;
+  const auto time = time_to_touch(sight.offset, person.velocity - robot_.velocity, robot_.radius + person.radius);
+  return time && *time < params_.inattentive_notices;
 }
 
 void Crowd::return_to_strolling(Person& person, double now, bool bored) {

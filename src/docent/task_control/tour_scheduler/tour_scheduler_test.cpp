@@ -7,62 +7,10 @@
 #include <memory>
 
 #include "docent/base/random.h"
+#include "docent/task_control/tour_scheduler/scheduling_fixture.h"
 
 namespace docent {
 namespace {
-
-Programme programme_on_a_line() {
-  Programme programme;
-  programme.languages = {"en", "de"};
-  for (int i = 1; i <= 6; ++i) {
-    programme.exhibits.push_back({"e" + std::to_string(i), {4.0 * i, 0, {}}, {}, 20.0, i == 6});
-  }
-  programme.exhibits[1].viewpoints = {{8, 1, {}}, {8, -1, {}}};
-  programme.tours = {{"t", {"e1", "e3", "e5"}, 0.0}, {"two", {"e2", "e4"}, 0.0}, {"quick", {}, 120.0}};
-  return programme;
-}
-
-class Scheduling : public testing::Test {
- protected:
-  void wish(const std::string& id, const std::string& kind, const std::string& target, double at,
-            const std::string& language = "en", int viewpoint = -1) {
-    scheduler.submit({id, {}, "web", "", kind, target, viewpoint, language}, conditions, time_from_seconds(at));
-  }
-  std::string next(double at, Point2 robot = {0, 0}) {
-    const auto& visit = scheduler.begin_visit(robot, time_from_seconds(at));
-    return visit ? visit->exhibit_id : "";
-  }
-  void finish(bool is_success, double at) { scheduler.finish_visit(is_success, "why", time_from_seconds(at)); }
-  [[nodiscard]] std::string state_of(const std::string& id) const {
-    const BoardEntry* entry = scheduler.state().board.find(id);
-    return entry == nullptr ? "" : to_text(entry->status);
-  }
-  /// Serves everything, each visit a minute; returns the exhibits in order.
-  std::vector<std::string> serve_all(double at) {
-    std::vector<std::string> order;
-    Point2 robot{0, 0};
-    for (int i = 0; i < 100; ++i) {
-      const std::string exhibit = next(at, robot);
-      if (exhibit.empty()) break;
-      order.push_back(exhibit);
-      robot = scheduler.programme().find_exhibit(exhibit)->pose.position();
-      at += 60.0;
-      finish(true, at);
-    }
-    return order;
-  }
-
-  std::vector<std::string> serve_all_from_here(double at) {
-    std::vector<std::string> order{scheduler.state().visit->exhibit_id};
-    finish(true, at);
-    for (const std::string& exhibit : serve_all(at)) order.push_back(exhibit);
-    return order;
-  }
-
-  Conditions conditions;
-  SchedulerParams params;
-  TourScheduler scheduler{params, programme_on_a_line(), straight_distance(), {}, {}};
-};
 
 TEST_F(Scheduling, TakesTheShortestWayThroughTheQueue) {
   for (const char* exhibit : {"e5", "e1", "e3"}) wish(exhibit, "exhibit", exhibit, 0);
@@ -397,76 +345,6 @@ TEST_F(Scheduling, ATourThatTheMuseumNoLongerHasIsNotACompletedOne) {
   EXPECT_EQ(later.state().counters.tours_completed, 0U);
 }
 
-TEST(Composition, FillsTheTimeWithWhatIsNear) {
-  const Programme programme = programme_on_a_line();
-  SchedulerParams params;
-  params.cruise_speed = 0.4;
-  params.stop_overhead_s = 10.0;  // each stop: 10 s drive + 20 s speech + 10 s
-  const auto compose = [&](double left_s, const std::vector<std::string>& done) {
-    return compose_tour(programme, {0, 0}, left_s, {done, {}}, straight_distance(), params);
-  };
-  EXPECT_EQ(compose(120.0, {}), (std::vector<std::string>{"e1", "e2", "e3"}));
-  EXPECT_EQ(compose(139.0, {}).size(), 3U);
-  EXPECT_EQ(compose(141.0, {}).size(), 4U) << "more than half of it still fits";
-  EXPECT_EQ(compose(60.0, {"e1"}), std::vector<std::string>{"e2"});
-  EXPECT_TRUE(compose(-5.0, {}).empty());
-  EXPECT_EQ(compose(1e6, {}).size(), 5U) << "all but the Web's own";
-}
-
-TEST(Composition, PrefersWhatMakesSenseAfterTheExhibitBefore) {
-  Programme programme = programme_on_a_line();
-  const auto first = [&](const std::string& after) {
-    return compose_tour(programme, {8, 0}, 1e6, {{"e2"}, {}, after}, straight_distance(), {}).front();
-  };
-  EXPECT_EQ(first("e2"), "e1") << "as near as e3, and listed first";
-  programme.exhibits[1].next = {"e4"};
-  EXPECT_EQ(first(""), "e1");
-  programme.exhibits[1].next = {"e3", "e5"};
-  EXPECT_EQ(first("e2"), "e3");
-  EXPECT_EQ(first(""), "e1") << "nothing was shown before";
-}
-
-TEST_F(Scheduling, AComposedTourIsFittedToTheTimeOnTheWay) {
-  for (const double delay_s : {0.0, 40.0, 100.0}) {  // on top of what was foreseen, at the first stop
-    TourScheduler tour{params, programme_on_a_line(), straight_distance(), {}, {}};
-    tour.submit({"a", {}, "web", "", "tour", "quick", -1, "en"}, conditions, {});
-    double at = 0.0;
-    Point2 robot{0, 0};
-    int stops = 0;
-    while (const auto visit = tour.begin_visit(robot, time_from_seconds(at))) {
-      const auto& exhibit = *tour.programme().find_exhibit(visit->exhibit_id);
-      at += stop_duration(exhibit, distance(robot, exhibit.pose.position()), params) + (stops == 0 ? delay_s : 0.0);
-      robot = exhibit.pose.position();
-      tour.finish_visit(true, "", time_from_seconds(at));
-      ++stops;
-    }
-    EXPECT_EQ(tour.state().board.find("a")->status, RequestStatus::fulfilled);
-    EXPECT_NEAR(at, std::max(120.0, 46.0 + delay_s), 24.0) << delay_s;
-    EXPECT_EQ(stops, delay_s == 0.0 ? 3 : delay_s == 40.0 ? 2 : 1);
-  }
-}
-
-TEST_F(Scheduling, AComposedTourShowsWhatOthersWishFor) {
-  wish("a", "tour", "quick", 0);
-  wish("b", "exhibit", "e3", 0);
-  EXPECT_EQ(next(0), "e3");
-  finish(true, 70);
-  EXPECT_EQ(state_of("b"), "fulfilled");
-  EXPECT_EQ(next(71, {12, 0}), "e2");
-}
-
-TEST_F(Scheduling, AComposedTourShowsSomethingElseInstead) {
-  wish("a", "tour", "quick", 0);
-  EXPECT_EQ(next(0), "e1");
-  finish(false, 10);
-  EXPECT_EQ(next(10), "e2");
-  finish(true, 50);
-  EXPECT_EQ(next(50, {8, 0}), "e3");
-  finish(true, 115);
-  EXPECT_EQ(next(116, {12, 0}), "");
-  EXPECT_EQ(state_of("a"), "fulfilled");
-}
-
 TEST_F(Scheduling, WhoAsksForATourBeforeItsFirstWordJoins) {
   wish("a", "tour", "t", 0);
   EXPECT_EQ(next(1), "e1");
@@ -474,17 +352,6 @@ TEST_F(Scheduling, WhoAsksForATourBeforeItsFirstWordJoins) {
   EXPECT_EQ(state_of("b"), "active");
   EXPECT_EQ(serve_all_from_here(3), (std::vector<std::string>{"e1", "e3", "e5"}));
   EXPECT_EQ(state_of("b"), "fulfilled");
-}
-
-TEST_F(Scheduling, AComposedTourIsJoinedBeforeItsFirstWordOnly) {
-  wish("a", "tour", "quick", 0);
-  wish("near", "exhibit", "e1", 0);
-  EXPECT_EQ(next(1), "e1");
-  wish("b", "tour", "quick", 2);
-  EXPECT_EQ(state_of("b"), "active");
-  scheduler.close_visit();
-  wish("c", "tour", "quick", 3);
-  EXPECT_EQ(state_of("c"), "queued");
 }
 
 /// Whatever comes in, in whatever order: every request ends, counted once, and the board never breaks its rules.

@@ -1,0 +1,113 @@
+#include "docent/modules/drive/hazards_module.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "docent/modules/shared/module_bench.h"
+
+namespace docent {
+namespace {
+
+constexpr std::size_t kDirections = 180;         // of a turn
+constexpr std::size_t kAhead = kDirections / 2;  // the first one looks back
+
+/// A hall of 20 x 20 m with a plate in it, 1 x 2 m.
+class HazardsModule : public ModuleBench {
+ protected:
+  HazardsModule() : ModuleBench{"hazards", make_hazards} {
+    museum.area = {{0, 0}, {20, 0}, {20, 20}, {0, 20}};
+    museum.hazards.push_back({"plate", HazardKind::plate, {{10, 9}, {11, 9}, {11, 11}, {10, 11}}});
+    world->subscribe<sensor_msgs::LaserScan>(topics::kVirtualScan, [this](const auto& scan) { scans.push_back(scan); });
+  }
+  /// Cells of equal mass, all looking to the east.
+  static docent_msgs::Belief belief_at(const std::vector<Point2>& places, double stamp) {
+    docent_msgs::Belief belief;
+    belief.header = {to_message(time_from_seconds(stamp)), "map"};
+    for (const Point2 place : places)
+      belief.cells.push_back(
+          {static_cast<float>(place.x), static_cast<float>(place.y), 0.0F, 1.0F / static_cast<float>(places.size())});
+    belief.hypotheses.push_back({places.front().x, places.front().y, 0.0, {}, 1.0});
+    return belief;
+  }
+  [[nodiscard]] float ahead() const { return scans.back().ranges[kAhead]; }
+  Publisher<docent_msgs::Belief> beliefs = world->publisher(topics::kBelief);
+  std::vector<sensor_msgs::LaserScan> scans;
+};
+
+TEST_F(HazardsModule, MeasuresFromTheWholeBeliefHazardsFirstAndThenTheBorder) {
+  start();
+  run(1.0);
+  EXPECT_TRUE(scans.empty()) << "without a belief it knows nothing";
+  EXPECT_EQ(module->health().state, "starting");
+  beliefs.publish(belief_at({{6, 10}, {8, 10}}, 0.7));
+  run(0.01);
+  ASSERT_EQ(scans.size(), 1U);
+  const auto& scan = scans[0];
+  EXPECT_EQ(scan.header.frame_id, "base_link");
+  EXPECT_EQ(from_message(scan.header.stamp), time_from_seconds(0.7)) << "of the belief";
+  ASSERT_EQ(scan.ranges.size(), 2 * kDirections);
+  EXPECT_NEAR(static_cast<double>(ahead()), 2.0, 0.11) << "as from the nearer cell";
+  EXPECT_EQ(scan.ranges[0], scan.range_max) << "nothing behind it";
+  EXPECT_EQ(scan.ranges[kDirections + kAhead], scan.range_max) << "the border is 12 m away";
+  beliefs.publish(belief_at({{3, 10}}, 1.0));
+  run(0.01);
+  EXPECT_NEAR(static_cast<double>(scans.back().ranges[kDirections]), 3.0, 0.11) << "the border behind it";
+  EXPECT_EQ(module->health().state, "ready");
+}
+
+TEST_F(HazardsModule, AHundredthOfMassOnTheCoarseGridCounts) {
+  start();
+  auto belief = belief_at({{3, 10}}, 0.0);
+  belief.cells[0].mass = 0.97F;
+  belief.rest = {8.0F, 9.5F, 1.0F, 1, 1, {0.03F}};  // a metre before the plate
+  beliefs.publish(belief);
+  run(0.01);
+  EXPECT_LT(ahead(), 1.6F);
+  EXPECT_NEAR(static_cast<double>(scans.back().ranges[0]), static_cast<double>(ahead()), 0.8)
+      << "whatever the heading there";
+  belief.cells[0].mass = 0.999F;
+  belief.rest.mass = {0.001F};
+  beliefs.publish(belief);
+  run(0.01);
+  EXPECT_EQ(ahead(), scans.back().range_max);
+}
+
+TEST_F(HazardsModule, RepeatsALastMeasurementWithItsStampUntilItIsTooOld) {
+  start();
+  beliefs.publish(belief_at({{8, 10}}, 0.0));
+  run(2.9);
+  EXPECT_GE(scans.size(), 11U) << "four times a second";
+  for (const auto& scan : scans) EXPECT_EQ(from_message(scan.header.stamp), Time{});
+  EXPECT_EQ(module->health().state, "ready");
+  run(0.3);
+  EXPECT_EQ(module->health().reason, "no fresh belief");
+  scans.clear();
+  run(5.0);
+  EXPECT_TRUE(scans.empty()) << "who needs it shall stand";
+  beliefs.publish(belief_at({{8, 10}}, 8.2));
+  run(0.01);
+  EXPECT_EQ(scans.size(), 1U);
+  EXPECT_EQ(module->health().state, "ready");
+}
+
+TEST_F(HazardsModule, ANewProcessMeasuresAtOnceFromTheBeliefThatHolds) {
+  beliefs.publish(belief_at({{8, 10}}, 0.0));
+  run(1.0);
+  start();
+  run(0.01);
+  ASSERT_EQ(scans.size(), 1U);
+  EXPECT_EQ(from_message(scans[0].header.stamp), Time{}) << "and does not make it younger";
+}
+
+TEST_F(HazardsModule, SaysSoWhenTheRobotCannotBeWhereItIsBelieved) {
+  start();
+  beliefs.publish(belief_at({{10.5, 10}, {10.5, 10.5}, {8, 10}}, 0.0));
+  run(0.01);
+  EXPECT_EQ(module->health().reason, "the belief lies where the robot cannot be");
+}
+
+}  // namespace
+}  // namespace docent

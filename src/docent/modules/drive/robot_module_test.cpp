@@ -1,0 +1,129 @@
+#include "docent/modules/drive/robot_module.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+#include <set>
+#include <vector>
+
+#include "docent/modules/shared/module_bench.h"
+
+namespace docent {
+namespace {
+
+class RobotModule : public ModuleBench {
+ protected:
+  RobotModule() : ModuleBench{"robot", make_robot} {
+    world->subscribe<geometry_msgs::Twist>(topics::kCommandVelocity, [this](const auto& twist) {
+      commands.push_back({now_s(), twist.linear.x, twist.angular.z});
+    });
+  }
+  struct Command {
+    double at, linear, angular;
+  };
+  std::vector<Command> commands;
+  Publisher<docent_msgs::Drive> drive = world->publisher(topics::kDrive);
+  Publisher<nav_msgs::Odometry> odometry = world->publisher(topics::kOdometry);
+  Publisher<sensor_msgs::BatteryState> battery = world->publisher(topics::kBattery);
+};
+
+TEST_F(RobotModule, PassesACommandOnAtOnceThenRepeatsItWhileItIsFresh) {
+  start();
+  run(1.0);
+  EXPECT_EQ(commands.size(), 20U) << "at 20 Hz, with or without a command";
+  EXPECT_TRUE(std::all_of(commands.begin(), commands.end(),
+                          [](const Command& command) { return command.linear == 0.0 && command.angular == 0.0; }));
+  run(0.013);
+  commands.clear();
+  drive.publish({{}, 0.4, -0.2});
+  run(0.001);
+  ASSERT_EQ(commands.size(), 1U);
+  EXPECT_NEAR(commands[0].at, 1.013, 1e-9);
+  EXPECT_EQ(commands[0].linear, 0.4);
+  EXPECT_EQ(commands[0].angular, -0.2);
+  run(1.0);
+  for (const Command& command : commands)
+    EXPECT_EQ(command.linear, command.at <= 1.013 + 0.3 + 1e-9 ? 0.4 : 0.0) << command.at;
+}
+
+TEST_F(RobotModule, TheBodysLimitsHoldWhateverIsWanted) {
+  ASSERT_TRUE(config.set("body.max_speed=0.5"));
+  ASSERT_TRUE(config.set("body.max_turn_rate=0.7"));
+  ASSERT_TRUE(config.set("robot.rate=5"));
+  start();
+  drive.publish({{}, 3.0, -3.0});
+  run(0.01);
+  ASSERT_EQ(commands.size(), 1U);
+  EXPECT_EQ(commands[0].linear, 0.5);
+  EXPECT_EQ(commands[0].angular, -0.7);
+  run(1.0);
+  EXPECT_EQ(commands.size(), 1U + 5U) << "5 Hz are asked for";
+}
+
+TEST_F(RobotModule, ANewProcessObeysNoCommandOfTheOldOnesTime) {
+  start();
+  drive.publish({{}, 0.4, 0.0});
+  run(0.06);
+  ASSERT_EQ(commands.back().linear, 0.4);
+  start();
+  commands.clear();
+  run(0.2);  // the command would still be fresh
+  ASSERT_FALSE(commands.empty());
+  for (const Command& command : commands) EXPECT_EQ(command.linear, 0.0);
+}
+
+TEST_F(RobotModule, PublishesEveryMountForThoseWhoComeLateAndTheBaseAsOdometryHasIt) {
+  ASSERT_TRUE(config.set("body.infrareds=2"));
+  start();
+  run(5.0);
+  std::set<std::string> frames;
+  double second_sonar = 0.0;
+  const auto late = hub.connect("late");
+  late->subscribe<tf2_msgs::TFMessage>(topics::kStaticTransforms, [&](const auto& mounts) {
+    for (const auto& mount : mounts.transforms) {
+      EXPECT_EQ(mount.header.frame_id, "base_link");
+      frames.insert(mount.child_frame_id);
+      if (mount.child_frame_id == RobotBody::sonar_frame(1)) second_sonar = yaw_of(mount.transform.rotation).degrees();
+    }
+  });
+  geometry_msgs::TransformStamped base;
+  world->subscribe<tf2_msgs::TFMessage>(topics::kTransforms,
+                                        [&](const auto& message) { base = message.transforms.front(); });
+  nav_msgs::Odometry moved;
+  moved.header = {to_message(time_from_seconds(4.25)), "odom"};
+  moved.pose.pose = to_message(Pose2{1.0, -2.0, Angle::degrees(90.0)});
+  odometry.publish(moved);
+  run(0.1);
+  EXPECT_EQ(frames.size(), 2U + 24U + 2U);
+  EXPECT_TRUE(frames.contains("laser_front") && frames.contains("laser_rear"));
+  EXPECT_TRUE(frames.contains(RobotBody::infrared_frame(1)));
+  EXPECT_NEAR(second_sonar, 15.0, 1e-6);
+  EXPECT_EQ(base.header.frame_id, "odom");
+  EXPECT_EQ(base.child_frame_id, "base_link");
+  EXPECT_EQ(from_message(base.header.stamp), time_from_seconds(4.25)) << "of the reading, not of its arrival";
+  EXPECT_EQ(base.transform.translation.y, -2.0);
+}
+
+TEST_F(RobotModule, SaysWhenTheBaseIsSilentOrItsBatteryLow) {
+  start();
+  EXPECT_EQ(module->health().state, "starting");
+  run(5.0);
+  EXPECT_EQ(module->health().state, "starting") << "no base has spoken yet";
+  odometry.publish({});
+  run(0.9);
+  EXPECT_EQ(module->health().state, "ready");
+  run(0.2);
+  EXPECT_EQ(module->health().reason, "no fresh odometry from the base");
+  sensor_msgs::BatteryState charge;
+  for (const float share : {0.14F, 0.16F}) {
+    charge.percentage = share;
+    battery.publish(charge);
+    odometry.publish({});
+    run(0.1);
+    EXPECT_EQ(module->health().reason, share < 0.15F ? "the battery is low" : "");
+  }
+}
+
+}  // namespace
+}  // namespace docent

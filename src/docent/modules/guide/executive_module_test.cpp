@@ -1,0 +1,171 @@
+#include "docent/modules/guide/executive_module.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "docent/modules/shared/module_bench.h"
+
+namespace docent {
+namespace {
+
+/// The executive with a museum of one exhibit. The test is mission, plan and sound.
+class ExecutiveModule : public ModuleBench {
+ protected:
+  ExecutiveModule() : ModuleBench{"executive", make_executive} {
+    Exhibit vase;
+    vase.id = "vase";
+    vase.title = {{"en", "The Vase"}, {"de", "Die Vase"}};
+    vase.short_text = {{"en", "It is old."}, {"de", "Sie ist alt."}};
+    museum.exhibits.push_back(vase);
+    museum.languages = {"en", "de"};
+    museum.map.frame = {2, 2, 0.05, {}};
+    museum.map.cells.assign(4, 0);
+    keep(topics::kDriveGoal, goal, goals);
+    keep(topics::kSay, line, lines);
+    keep(topics::kTaskState, progress, reports);
+    keep(topics::kHorn, horn, horns);
+    world->subscribe<docent_msgs::Reaction>(topics::kReaction, [this](const auto& step) { steps.push_back(step); });
+  }
+  void order_visit(const std::string& id, const std::string& language = "de") {
+    docent_msgs::Task task;
+    task.id = id;
+    task.kind = "visit";
+    task.exhibit_id = "vase";
+    task.x = 3.0;
+    task.y = 4.0;
+    task.theta = 1.5;
+    task.language = language;
+    tasks.publish(task);
+    run(0.01);
+  }
+  void plan_says(const std::string& id, const std::string& what, double blocked_s = 0.0) {
+    docent_msgs::GoalState state_of_goal;
+    state_of_goal.id = id;
+    state_of_goal.state = what;
+    state_of_goal.blocked_s = blocked_s;
+    state_of_goal.detour = "none";
+    plan.publish(state_of_goal);
+    run(0.01);
+  }
+  void sound_says(const std::string& what) {
+    speech.publish({{}, line.id, what, line.text, line.language, to_message(hub.now()), 2.0, ""});
+    run(0.01);
+  }
+
+  Publisher<docent_msgs::Task> tasks = world->publisher(topics::kTask);
+  Publisher<docent_msgs::GoalState> plan = world->publisher(topics::kGoalState);
+  Publisher<docent_msgs::SpeechState> speech = world->publisher(topics::kSpeechState);
+  Publisher<docent_msgs::AvoidState> avoid = world->publisher(topics::kAvoidState);
+  docent_msgs::DriveGoal goal;
+  docent_msgs::Say line;
+  docent_msgs::TaskState progress;
+  docent_msgs::Horn horn;
+  std::vector<docent_msgs::Reaction> steps;
+  int goals = 0, lines = 0, reports = 0, horns = 0;
+};
+
+TEST_F(ExecutiveModule, DrivesToTheTasksPlaceAndTellsTheExhibitsTextInTheTasksLanguage) {
+  start();
+  run(0.01);
+  ASSERT_EQ(goals, 1);
+  EXPECT_EQ(goal.id, "") << "it stays until it is told";
+  order_visit("t1");
+  ASSERT_EQ(goals, 2);
+  EXPECT_EQ(goal.x, 3.0);
+  EXPECT_EQ(goal.y, 4.0);
+  EXPECT_NEAR(goal.theta, 1.5, 1e-9);
+  EXPECT_FALSE(goal.relocalize);
+  EXPECT_EQ(progress.state, "driving");
+  order_visit("t1");
+  EXPECT_EQ(goals, 2) << "the same task again is no other task";
+  const int on_the_way = lines;
+  plan_says("an older goal", "arrived");
+  EXPECT_EQ(lines, on_the_way) << "what was said of another goal does not matter";
+  plan_says(goal.id, "arrived");
+  ASSERT_GT(lines, on_the_way);
+  EXPECT_NE(line.text.find("Sie ist alt."), std::string::npos) << line.text;
+  EXPECT_EQ(line.language, "de");
+  EXPECT_EQ(progress.state, "explaining");
+  sound_says("speaking");
+  EXPECT_EQ(progress.state, "explaining");
+  sound_says("done");
+  run(1.0);
+  EXPECT_EQ(progress.id, "t1");
+  EXPECT_EQ(progress.state, "done") << "there is no more to tell";
+}
+
+TEST_F(ExecutiveModule, ANewProcessGoesOnInTheMiddleOfAnExplanation) {
+  start();
+  order_visit("t1", "en");
+  plan_says(goal.id, "arrived");
+  sound_says("speaking");
+  const std::string told = line.id;
+  kill();
+  plan_says("", "idle");
+  start();
+  run(1.5);
+  EXPECT_EQ(progress.id, "t1");
+  EXPECT_EQ(progress.state, "explaining");
+  EXPECT_EQ(line.id, told) << "the same line: who has begun it says it once";
+  sound_says("done");
+  run(1.0);
+  EXPECT_EQ(progress.state, "done");
+}
+
+TEST_F(ExecutiveModule, AStepInAnotherMapIsForgotten) {
+  start();
+  order_visit("t1", "en");
+  plan_says(goal.id, "arrived");
+  ASSERT_EQ(progress.state, "explaining");
+  kill();
+  plan_says("", "idle");
+  museum.map.cells[0] = 100;
+  start();
+  run(0.01);
+  EXPECT_EQ(progress.state, "driving") << "the task begins again";
+  EXPECT_EQ(module->health().state, "ready");
+}
+
+TEST_F(ExecutiveModule, ADamagedCheckpointIsNamedAndOutlivedByTheNext) {
+  std::ofstream{state / "executive.json"} << "{\"map\": ";
+  start();
+  EXPECT_EQ(module->health().state, "degraded");
+  EXPECT_NE(module->health().reason.find("executive.json"), std::string::npos);
+  order_visit("t1");
+  EXPECT_EQ(progress.state, "driving");
+  EXPECT_EQ(module->health().state, "ready") << "a new one was written";
+}
+
+TEST_F(ExecutiveModule, SoundsTheHornBeforePeopleAndNotBeforeWhatTheMapHolds) {
+  start();
+  order_visit("t1");
+  docent_msgs::AvoidState before;
+  before.path_blocked = true;
+  before.reason = "someone stands there";
+  const auto stand_before = [&](bool unmapped, double duration) {
+    before.unmapped_obstacle = unmapped;
+    for (double stood = 0.0; stood < duration; stood += 0.2) {
+      avoid.publish(before);
+      plan_says(goal.id, "driving", stood);
+      run(0.19);
+    }
+  };
+  stand_before(false, 3.5);
+  EXPECT_EQ(horns, 0);
+  plan_says(goal.id, "driving");
+  steps.clear();
+  stand_before(true, 3.5);
+  EXPECT_EQ(horns, 1);
+  EXPECT_EQ(horn.reason, "someone stands there");
+  const auto step = std::find_if(steps.begin(), steps.end(), [](const auto& taken) { return taken.step == "horn"; });
+  ASSERT_NE(step, steps.end()) << "the page and the report hear of it";
+  EXPECT_EQ(step->goal_id, goal.id);
+  EXPECT_EQ(step->count, 1);
+}
+
+}  // namespace
+}  // namespace docent

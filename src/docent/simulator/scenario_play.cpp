@@ -1,0 +1,159 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <variant>
+
+#include "docent/simulator/simulated_museum_impl.h"
+#include "docent/simulator/start_pose.h"
+
+// What the events of a scenario do to the robot, the crowd and the museum.
+
+namespace docent::simulator {
+
+void SimulatedMuseum::Impl::play_scenario() {
+  const double now = run_seconds();
+  while (next_event_ < options_.scenario.events.size() && options_.scenario.events[next_event_].at <= now) {
+    std::visit([this](const auto& event) { play(event); }, options_.scenario.events[next_event_].what);
+    ++next_event_;
+  }
+  if (!every(10) || temporary_.empty()) return;
+  bool changed = false;
+  for (Temporary& item : temporary_) {
+    if (!item.stands && !item.is_over &&
+        distance(item.solid.polygon, body_.pose().position()) > body_.params().radius + 0.05) {
+      // Nobody sets it down on top of the robot: it waits until there is room.
+      item.stands = changed = true;
+      world_.solids.push_back(item.solid);
+    }
+    if (item.until > 0.0 && now >= item.until && !item.is_over) {
+      item.is_over = true;
+      changed = changed || item.stands;
+      std::erase_if(world_.solids, [&](const Solid& solid) { return solid.id == item.solid.id; });
+    }
+  }
+  std::erase_if(temporary_, [](const Temporary& item) { return item.is_over; });
+  if (!changed) return;
+  obstacles_ = Obstacles{world_};
+  instruments_.change_world(world_);
+  crowd_.change_world(world_);
+}
+
+void SimulatedMuseum::Impl::play(const Kidnap& event) {
+  std::optional<Pose2> to = event.to;
+  const Point2 here = body_.pose().position();
+  const bool is_near = event.shift > 0.0;
+  const int tries = is_near ? 20000 : 200;
+  for (int i = 0; !to && i < tries; ++i) {
+    to = random_start(world_, crowd_.floor(), place_rng_, 0.6, here, is_near ? 0.0 : 3.0);
+    if (to && hazard_distance(to->position()) < event.from_hazards) to.reset();
+    if (to && is_near && distance(to->position(), here) > event.shift) to.reset();
+  }
+  if (is_near) {
+    const Point2 place = to ? to->position() : here;  // no room: it is turned where it is
+    to = Pose2{place.x, place.y, body_.pose().theta + Angle::degrees(event.turn)};
+  }
+  if (!to) {
+    offer("kidnap_failed", "no free place");
+    return;
+  }
+  body_.carry_to(*to);
+  // Who carries it asks for room.
+  for (std::size_t i = 0; i < crowd_.people().size(); ++i) {
+    (void)crowd_.give_way(i, to->position(), body_.params().radius + crowd_.people()[i].radius + 0.4);
+  }
+  has_fallen_ = false;
+  log_.forget();
+  offer("kidnap", "");
+}
+
+double SimulatedMuseum::Impl::hazard_distance(Point2 point) const {
+  double least = 1e9;
+  for (const Solid& solid : world_.solids)
+    if (solid.kind == SolidKind::glass || solid.kind == SolidKind::plate || solid.kind == SolidKind::stairs)
+      least = std::min(least, distance(solid.polygon, point));
+  return least;
+}
+
+void SimulatedMuseum::Impl::play(const SensorFault& event) {
+  instruments_.set_fault(event, time_);
+  constexpr std::array<const char*, kSensors> kNames{"laser_front", "laser_rear", "laser_left", "laser_right",
+                                                     "sonar",       "odom",       "tactile",    "infrared"};
+  offer("fault", kNames[static_cast<std::size_t>(event.sensor)]);
+}
+
+void SimulatedMuseum::Impl::play(const Stool& event) {
+  Polygon outline;
+  for (int i = 0; i < 8; ++i) outline.push_back(event.at + event.radius * unit(Angle::degrees(45.0 * i)));
+  put_up("stool", SolidKind::furniture, std::move(outline), event.height, event.duration);
+}
+
+void SimulatedMuseum::Impl::play(const ClosedPassage& event) {
+  const Point2 way = event.to - event.from;
+  const Point2 across = (0.05 / norm(way)) * Point2{-way.y, way.x};
+  put_up("closed", SolidKind::wall, {event.from - across, event.to - across, event.to + across, event.from + across},
+         1.2, event.duration);
+}
+
+void SimulatedMuseum::Impl::put_up(const std::string& kind, SolidKind solid, Polygon outline, double height,
+                                   double duration) {
+  const std::string id = kind + "-" + std::to_string(next_event_);
+  temporary_.push_back(
+      {{id, solid, std::move(outline), 0.0, height, true}, duration > 0.0 ? run_seconds() + duration : 0.0});
+  offer(kind, id);
+}
+
+void SimulatedMuseum::Impl::play(const Visitors& event) {
+  const Pose2& robot = body_.pose();
+  const bool round_robot = !event.at && event.formation == Formation::ushape;
+  const Point2 centre = event.at.value_or(round_robot ? robot.position() : robot * Point2{1.6, 0.0});
+  const Angle facing = event.has_heading ? Angle::radians(event.heading) : robot.theta + Angle::degrees(180.0);
+  std::vector<Point2> places;
+  for (int i = 0; i < event.count; ++i) {
+    const double slot = i - (event.count - 1) / 2.0;
+    if (event.formation == Formation::wall) {
+      places.push_back(centre + (0.55 * slot) * unit(facing + Angle::degrees(90.0)));
+    } else if (event.formation == Formation::ushape) {
+      // Three quarters of a ring; the open side faces `facing`.
+      const double share = event.count > 1 ? slot / (event.count - 1) : 0.0;
+      places.push_back(centre + 1.3 * unit(facing + Angle::degrees(180.0 + 270.0 * share)));
+    } else {
+      const double ring = 0.7 + 0.25 * (i % 3);
+      places.push_back(centre + ring * unit(Angle::degrees(137.5 * i)));
+    }
+  }
+  crowd_.add_standing(places, run_seconds() + event.duration, event.heeds);
+  offer("visitors", std::to_string(event.count));
+}
+
+void SimulatedMuseum::Impl::play(const Pushers& event) {
+  crowd_.add_pushers(event.count, event.at, event.heading, end_of(event.duration));
+  offer("pushers", std::to_string(event.count));
+}
+
+void SimulatedMuseum::Impl::play(const Runners& event) {
+  crowd_.add_runners(event.count, event.at, event.within, end_of(event.duration));
+  offer("runners", std::to_string(event.count));
+}
+
+void SimulatedMuseum::Impl::play(const Escort& event) {
+  crowd_.add_escort(event.count, event.near, event.far, run_seconds(), end_of(event.duration));
+  offer("escort", std::to_string(event.count));
+}
+
+void SimulatedMuseum::Impl::play(const Steering& event) {
+  steersman_.emplace(world_, event.speed, rng_.stream("steersman"), event.way);
+  steered_until_ = event.duration > 0.0 ? run_seconds() + event.duration : 0.0;
+  offer("steering", "");
+}
+
+void SimulatedMuseum::Impl::play(const LaserReach& event) {
+  instruments_.limit_reach(event.range);
+  offer("lasers", "");
+}
+
+void SimulatedMuseum::Impl::play(const OdometryJump& event) {
+  instruments_.jump(event.by, event.over);
+  offer("odometry_jump", "");
+}
+
+}  // namespace docent::simulator

@@ -1,0 +1,133 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "docent/simulator/body/battery.h"
+#include "docent/simulator/body/body.h"
+#include "docent/simulator/body/contact_log.h"
+#include "docent/simulator/body/obstacles.h"
+#include "docent/simulator/crowd/crowd.h"
+#include "docent/simulator/instruments.h"
+#include "docent/simulator/simulated_museum.h"
+#include "docent/simulator/steersman.h"
+#include "docent/simulator/visitors.h"
+
+namespace docent::simulator {
+
+/// All that goes on in a simulated museum. Only simulated_museum.cpp and scenario_play.cpp know it.
+class SimulatedMuseum::Impl {
+ public:
+  Impl(Bus& robot_bus, Bus& truth_bus, SimulationOptions options);
+
+  void command(const geometry_msgs::Twist& twist);
+  void hear_horn() { crowd_.hear_horn(run_seconds()); }
+  void hear_speech(const docent_msgs::SpeechState& speech);
+  void see_board(const docent_msgs::RequestBoard& board) { visitors_.see_board(board); }
+  void see_mission(const docent_msgs::MissionState& mission) { visitors_.see_mission(bus_.now(), mission); }
+
+  /// Steps when the next step is due, for as long as it lives. A beat of its own would, in wall time, have every sensor
+  /// read up to a step late.
+  static void keep_stepping(const std::weak_ptr<Impl>& weak);
+  /// Catches up with the bus's clock.
+  void tick();
+
+  [[nodiscard]] const Body& body() const { return body_; }
+  [[nodiscard]] const Crowd& crowd() const { return crowd_; }
+
+ private:
+  static constexpr int kTactileSegments = 24;
+  [[nodiscard]] double run_seconds() const { return to_seconds(time_ - start_); }
+  [[nodiscard]] bool every(std::uint64_t steps) const { return steps_ % steps == 0; }
+
+  template <class T>
+  void tell(const Publisher<T>& publisher, T message) {
+    // The truth has a bus of its own, perhaps a thread of its own.
+    truth_bus_.post([publisher, message = std::move(message)] { publisher.publish(message); });
+  }
+
+  Pose2 first_pose();
+  Crowd make_crowd();
+  WishParams wish_params() const;
+  [[nodiscard]] RobotView view() const;
+
+  void step();
+  void steer();
+  /// Contacts of the disc with solids and people; pushes both apart.
+  void touch();
+  void press(Point2 towards);
+  void watch_people();
+  void publish();
+  void publish_truth();
+  void offer(std::string kind, std::string subject);
+
+  // scenario_play.cpp: what a scenario does.
+  void play_scenario();
+  void play(const Kidnap& event);
+  [[nodiscard]] double hazard_distance(Point2 point) const;
+  void play(const SensorFault& event);
+  void play(const Stool& event);
+  void play(const ClosedPassage& event);
+  void put_up(const std::string& kind, SolidKind solid, Polygon outline, double height, double duration);
+  void play(const Visitors& event);
+  [[nodiscard]] double end_of(double duration) const { return duration > 0.0 ? run_seconds() + duration : 1e9; }
+  void play(const Pushers& event);
+  void play(const Runners& event);
+  void play(const Escort& event);
+  void play(const Steering& event);
+  void play(const LaserReach& event);
+  void play(const Wish& event) { visitors_.ask(time_, event); }
+  void play(const OdometryJump& event);
+  void play(const PoseError&) { offer("pose_error", ""); }       // the application applies it
+  void play(const SecondMode&) { offer("second_mode", ""); }     // likewise
+  void play(const Kill& event) { offer("kill", event.module); }  // likewise
+
+  struct Temporary {
+    Solid solid;
+    double until = 0.0;  ///< [s] run time; 0: for good
+    bool stands = false;
+    bool is_over = false;
+  };
+
+  Bus& bus_;
+  Bus& truth_bus_;
+  SimulationOptions options_;
+  World world_;
+  Rng rng_;
+  Rng place_rng_;
+  Time start_;
+  Time time_;
+  std::optional<WalkableFloor> floor_;  ///< until the crowd takes it
+  Obstacles obstacles_;
+  Body body_;
+  Crowd crowd_;
+  Instruments instruments_;
+  WishingVisitors visitors_;
+  Battery battery_;
+  ContactLog log_;
+  std::uint64_t steps_ = 0;
+  double distance_ = 0.0;
+  bool has_fallen_ = false;
+  std::optional<Steersman> steersman_;
+  double steered_until_ = 0.0;  ///< [s] run time; 0: to the end
+  std::size_t next_event_ = 0;
+  std::vector<Temporary> temporary_;
+  std::vector<Disc> people_;
+  std::vector<std::size_t> beside_;  ///< indices of the people who are near the robot
+  std::vector<Touch> touches_;
+  std::vector<ContactLog::PersonSample> samples_;
+  std::vector<std::uint8_t> tactile_;
+  std::vector<std::uint8_t> tactile_now_ = std::vector<std::uint8_t>(kTactileSegments, 0);
+  Publisher<docent_msgs::Request> requests_;
+  Publisher<docent_msgs::Choice> choices_;
+  Publisher<docent_msgs::RunInfo> run_infos_;
+  Publisher<docent_msgs::TrueState> states_;
+  Publisher<docent_msgs::TrueContact> contacts_;
+  Publisher<docent_msgs::TrueOffer> offers_;
+};
+
+}  // namespace docent::simulator

@@ -1,0 +1,160 @@
+#!/usr/bin/env python3
+"""What the checks of this folder must find: each rule is broken once, in a tiny project."""
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.dont_write_bytecode = True  # the work tree stays as it was
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+import check_includes  # noqa: E402
+import check_sizes  # noqa: E402
+import findings  # noqa: E402
+
+
+class Project(unittest.TestCase):
+    """A folder for files that a test writes; it counts what the checks find there."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name)
+        (self.root / "src/docent").mkdir(parents=True)
+        findings.faults.clear()
+
+    def write(self, name, text):
+        path = self.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+
+def body(lines, indent="  "):
+    return f"{indent}work();\n" * lines
+
+
+class Sizes(Project):
+    def large(self):
+        return [(what, size) for what, size, _ in check_sizes.too_large(self.root)]
+
+    def faults(self, exceptions):
+        findings.faults.clear()
+        check_sizes.check_sizes(self.root, exceptions)
+        return list(findings.faults)
+
+    def test_a_folder_may_hold_thirty_files(self):
+        for i in range(30):
+            self.write(f"src/docent/grid/{i}.h", "")
+        self.write("src/docent/grid/deeper/one.h", "")
+        self.assertEqual(self.large(), [])
+        self.write("src/docent/grid/README.md", "")
+        self.assertEqual(self.large(), [("src/docent/grid", "31 files")])
+
+    def test_a_file_may_have_450_lines(self):
+        names = ["src/docent/a.h", "src/a.cpp", "tests/x/a.inc", "tests/a.py", "scripts/x/a.py", "web/src/a.ts", "web/src/x/a.svelte"]
+        for name in names:
+            self.write(name, "\n" * 450)
+        self.write("docs/a.py", "\n" * 1000)
+        self.write("web/src/node_modules/a.ts", "\n" * 1000)
+        self.assertEqual(self.large(), [])
+        for name in names:
+            self.write(name, "\n" * 451)
+        self.assertEqual(sorted(self.large()), sorted((name, "451 lines") for name in names))
+
+    def test_functions_of_each_kind_are_found(self):
+        heads = {
+            "f": "int f(int a) {",
+            "Type::g": "template <class T>\nauto Type::g(std::array<int, 2> a = {1, 2},\n    int b) const -> int {",
+            "Type::Type": "Type::Type(int a)\n    : a_{a}, b_{[] { return Pair{1, 2}; }()} {",
+            "TEST(Grid, Is Full)": "TEST(Grid, Is Full) {",
+            "TEST_F(Stage, Runs)": "TEST_F(Stage, Runs) {",
+            "kTable": "constexpr auto kTable = [] {",
+            "operator()": "bool Order::operator()(int a) const {",
+        }
+        for name, head in heads.items():
+            lines = 60 - head.count("\n") - 2
+            self.write("src/a.cpp", f"namespace a {{\n{head}\n{body(lines)}}}\n}}\n")
+            self.assertEqual(self.large(), [], name)
+            self.write("src/a.cpp", f"namespace a {{\n{head}\n{body(lines + 1)}}}\n}}\n")
+            self.assertEqual(self.large(), [(f"src/a.cpp: {name}", "61 lines")])
+
+    def test_a_member_in_its_class_is_found_and_the_class_is_no_function(self):
+        members = "".join(f"  int f{i}() {{ return a_[{i}]; }}\n" for i in range(70))
+        self.write("src/a.h", f"class alignas(64) A : public B<int> {{\n public:\n{members}\n private:\n  int a_[70] = {{}};\n}};\n")
+        self.assertEqual(self.large(), [])
+        self.write("src/a.h", f"class A {{\n{members}\n  void g() override {{\n{body(59)}  }}\n}};\n")
+        self.assertEqual(self.large(), [("src/a.h: g", "61 lines")])
+
+    def test_a_lambda_counts_with_the_function_around_it(self):
+        self.write("src/a.cpp", f"void f() {{\n  const auto g = [&](int a) {{\n{body(57, '    ')}  }};\n}}\n")
+        self.assertEqual(self.large(), [("src/a.cpp: f", "61 lines")])
+
+    def test_a_long_value_is_no_function(self):
+        rows = '    {1, f(2), "}"},\n' * 80
+        self.write("src/a.cpp", f"const Row kRows[] = {{\n{rows}}};\nstd::vector<Row> kMore{{\n{rows}}};\nvoid f() {{}}\n")
+        self.assertEqual(self.large(), [])
+
+    def test_braces_in_text_and_comments_are_no_braces(self):
+        text = "void f() {\n  // {\n  /* { */\n  use(\"{\", '{', '\\'', 1'000, R\"(\n{\")\");\n}\n#define BODY {\n"
+        self.write("src/a.cpp", text + "void g() {\n" + body(30) + "}\n")
+        self.assertEqual(self.large(), [])
+        self.write("src/a.cpp", "void f() {\n")
+        self.assertEqual([what for what, _ in self.large()], ["src/a.cpp"])
+
+    def test_functions_of_scripts_and_of_the_page_are_found(self):
+        self.write("scripts/a.py", "@cache\ndef f():\n" + body(59, "    "))
+        self.write("web/src/a.ts", "export function g(\n  a: number,\n): void {\n" + body(57) + "}\n")
+        self.write("web/src/b.svelte", "<script>\n  const h = async (a) => {\n" + body(59, "    ") + "  };\n</script>\n")
+        self.write("web/src/c.ts", "class A {\n  private m(a: number) {\n" + body(59, "    ") + "  }\n}\n")
+        self.assertEqual(self.large(), [("web/src/a.ts: g", "61 lines"), ("web/src/b.svelte: h", "61 lines"),
+                                        ("web/src/c.ts: m", "61 lines"), ("scripts/a.py: f", "61 lines")])
+
+    def test_an_exception_has_a_reason_and_is_needed(self):
+        self.write("src/a.cpp", f"void f() {{\n{body(80)}}}\n")
+        self.assertEqual(len(self.faults({})), 1)
+        self.assertEqual(self.faults({"src/a.cpp: f": "a table in code"}), [])
+        self.assertEqual(len(self.faults({"src/a.cpp: f": " "})), 1)
+        self.write("src/a.cpp", "void f() {}\n")
+        self.assertEqual(self.faults({}), [])
+        self.assertEqual(len(self.faults({"src/a.cpp: f": "a table in code"})), 1)
+
+
+class Publishers(Project):
+    def faults(self):
+        findings.faults.clear()
+        check_includes.check_publishers(self.root, self.root / "messages/topics.h", {"docent/drive": "avoid_module.cpp"})
+        return list(findings.faults)
+
+    def setUp(self):
+        super().setUp()
+        self.write("messages/topics.h", 'inline constexpr Topic<Drive> kDrive{"docent/drive", Qos::command};\n')
+        self.write("modules/avoid_module.cpp", "drive_{bus_.publisher(topics::kDrive)},\n")
+        self.write("modules/robot_module.cpp", "bus_.subscribe<Drive>(topics::kDrive, f);\n")
+        self.write("modules/robot_module_test.cpp", "auto drive = bus.publisher(topics::kDrive);\n")
+
+    def test_the_owner_alone_is_fine(self):
+        self.assertEqual(self.faults(), [])
+
+    def test_a_second_publisher_is_found(self):
+        for name in ("modules/plan_module.cpp", "modules/plan/parts.inc", "modules/plan.h", "apps/steer/steer.cpp"):
+            self.write(name, "auto p = bus->publisher<Drive>(\n    docent::topics::kDrive);\n")
+            self.assertEqual(len(self.faults()), 1, name)
+            self.write(name, "auto p = bus->publisher(topics::kDriveGoal);\n")
+            self.assertEqual(self.faults(), [], name)
+
+    def test_a_second_publisher_in_the_owners_file_is_found(self):
+        self.write("modules/avoid_module.cpp", "a_{bus_.publisher(topics::kDrive)},\nb_{bus_.publisher(topics::kDrive)},\n")
+        self.assertEqual(len(self.faults()), 1)
+
+    def test_no_publisher_and_no_topic_are_found(self):
+        self.write("modules/avoid_module.cpp", "")
+        self.assertEqual(len(self.faults()), 1)
+        self.write("messages/topics.h", "")
+        self.assertEqual(len(self.faults()), 1)
+
+    def test_a_topic_of_the_same_name_is_found(self):
+        self.write("apps/steer.cpp", 'const Topic<Drive> mine{"docent/drive", Qos::command};\n')
+        self.assertEqual(len(self.faults()), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
