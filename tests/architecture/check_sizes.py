@@ -28,8 +28,6 @@ EXCEPTIONS = {
     "src/docent/collision_avoidance/avoider.cpp: Avoider::obstacles_from": "being split",
     "src/docent/collision_avoidance/avoider_test.cpp": "being split",
     "src/docent/collision_avoidance/obstacle_memory.cpp: ObstacleMemory::add_sweep": "being split",
-    "src/docent/localization/belief/pose_refiner.cpp: PoseRefiner::refine": "being split",
-    "src/docent/localization/markov/position_belief_benchmark.cpp: full_cycle": "being split",
     "src/docent/messages/docent_messages.h": "being split",
     "src/docent/telepresence/belief_raster.cpp: belief_raster": "being split",
     "src/docent/telepresence/web_server.cpp": "being split",

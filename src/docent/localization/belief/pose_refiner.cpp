@@ -112,6 +112,35 @@ bool PoseRefiner::is_in(const BeliefMode& mode, const Pose2& pose, double times,
          std::abs((pose.theta - mode.map_from_robot.theta).degrees()) <= times * params_.farthest_turn;
 }
 
+void PoseRefiner::carry_on(const Pose2& before_from_after, double position_variance, double heading_variance) {
+  if (!estimate_) return;
+  const Pose2 before = estimate_->map_from_robot;
+  const Pose2 after = before * before_from_after;
+  Eigen::Matrix3d moved = Eigen::Matrix3d::Identity();
+  moved(0, 2) = -(after.y - before.y);
+  moved(1, 2) = after.x - before.x;
+  Eigen::Matrix3d covariance = moved * matrix(estimate_->covariance) * moved.transpose();
+  covariance.diagonal() += Eigen::Vector3d{position_variance, position_variance, heading_variance};
+  covariance.diagonal().array() += 1e-8;
+  estimate_ = Estimate{after, values(covariance)};
+}
+
+Pose2 PoseRefiner::searched(const BeliefMode& mode, const RangeSweep& sweep, double position_variance,
+                            double heading_variance, const RayCaster& caster, double max_range) {
+  // After a long way odometry knows the pose less well than the belief does: then the belief's is the better beginning,
+  // and the readings are asked which pose in it, or where odometry expected it, they fit best. Walls of a corridor look
+  // alike every few decimetres: from a wrong beginning no gradient leads to the right place.
+  std::vector<PoseGuess> guesses{guess_of(mode)};
+  if (estimate_ && distance(estimate_->map_from_robot.position(), mode.map_from_robot.position()) < kSearchedWithin)
+    guesses.push_back({estimate_->map_from_robot, std::sqrt(position_variance + kSearchedPosition),
+                       std::sqrt(heading_variance + kSearchedTurn)});
+  const FoundPose found = best_pose_near(guesses, sweep, caster, max_range, kSearchedViews * params_.independent_beams);
+  found_share_ = found.share;
+  estimate_ = corrected({found.map_from_robot, values(Eigen::Vector3d{0.01, 0.01, 0.001}.asDiagonal())}, sweep, caster,
+                        max_range, false);
+  return estimate_->map_from_robot;
+}
+
 Pose2 PoseRefiner::refine(const BeliefMode& mode, const RangeSweep& sweep, const Pose2& before_from_after,
                           double position_variance, double heading_variance, const RayCaster& caster,
                           double max_range) {
@@ -120,36 +149,13 @@ Pose2 PoseRefiner::refine(const BeliefMode& mode, const RangeSweep& sweep, const
     estimate_.reset();
     return mode.map_from_robot;
   }
-  if (estimate_) {
-    const Pose2 before = estimate_->map_from_robot;
-    const Pose2 after = before * before_from_after;
-    Eigen::Matrix3d moved = Eigen::Matrix3d::Identity();
-    moved(0, 2) = -(after.y - before.y);
-    moved(1, 2) = after.x - before.x;
-    Eigen::Matrix3d covariance = moved * matrix(estimate_->covariance) * moved.transpose();
-    covariance.diagonal() += Eigen::Vector3d{position_variance, position_variance, heading_variance};
-    covariance.diagonal().array() += 1e-8;
-    estimate_ = Estimate{after, values(covariance)};
-  }
+  carry_on(before_from_after, position_variance, heading_variance);
   Eigen::Matrix3d wide = matrix(mode.covariance);
   wide.diagonal() += Eigen::Vector3d{0.003, 0.003, 0.0005};
   const Estimate of_mode{mode.map_from_robot, values(wide)};
 
-  // After a long way odometry knows the pose less well than the belief does: then the belief's is the better beginning,
-  // and the readings are asked which pose in it, or where odometry expected it, they fit best. Walls of a corridor look
-  // alike every few decimetres: from a wrong beginning no gradient leads to the right place.
-  if (position_variance > kFar * kFar || heading_variance > kFarTurn * kFarTurn) {
-    std::vector<PoseGuess> guesses{guess_of(mode)};
-    if (estimate_ && distance(estimate_->map_from_robot.position(), mode.map_from_robot.position()) < kSearchedWithin)
-      guesses.push_back({estimate_->map_from_robot, std::sqrt(position_variance + kSearchedPosition),
-                         std::sqrt(heading_variance + kSearchedTurn)});
-    const FoundPose found =
-        best_pose_near(guesses, sweep, caster, max_range, kSearchedViews * params_.independent_beams);
-    found_share_ = found.share;
-    estimate_ = corrected({found.map_from_robot, values(Eigen::Vector3d{0.01, 0.01, 0.001}.asDiagonal())}, sweep,
-                          caster, max_range, false);
-    return estimate_->map_from_robot;
-  }
+  if (position_variance > kFar * kFar || heading_variance > kFarTurn * kFarTurn)
+    return searched(mode, sweep, position_variance, heading_variance, caster, max_range);
   const bool is_vague = heading_variance > kVagueTurn * kVagueTurn;
   if (estimate_ && !is_vague) {
     const Estimate kept = intersection(corrected(*estimate_, sweep, caster, max_range, false), of_mode);

@@ -59,6 +59,11 @@ class PoseRefiner {
     Pose2 map_from_robot;
     std::array<double, 9> covariance{};
   };
+  /// The estimate as odometry moves it.
+  void carry_on(const Pose2& before_from_after, double position_variance, double heading_variance);
+  /// The pose in the mode, or where odometry expected it, that the readings fit best.
+  [[nodiscard]] Pose2 searched(const BeliefMode& mode, const RangeSweep& sweep, double position_variance,
+                               double heading_variance, const RayCaster& caster, double max_range);
   /// Within `times` the farthest that the refined pose may be from the mode's mean, or `spread` [m] if that is more.
   [[nodiscard]] bool is_in(const BeliefMode& mode, const Pose2& pose, double times, double spread) const;
   [[nodiscard]] static Estimate intersection(const Estimate& a, const Estimate& b);

@@ -276,75 +276,95 @@ bool print_bound(const char* what, double value, double bound, bool at_least) {
   return good;
 }
 
+/// The cycle by plain loops and by the belief with each instruction set.
+class CycleTimes {
+ public:
+  CycleTimes() {
+    for (const BeamCosts& beam : hall().beams) {
+      float_tables_.insert(float_tables_.end(), beam.costs.begin(), beam.costs.end());
+      cost_tables_.insert(cost_tables_.end(), beam.costs.begin(), beam.costs.end());
+    }
+    for (const InstructionSet set : instruction_sets()) {
+      beliefs_.emplace(set, PositionBelief{hall().space, 0.0});
+      beliefs_.at(set).use(set);
+    }
+  }
+
+  void measure_round() {
+    for (Times* const times_of : {&by_state_, &abreast_}) {
+      float best = 0.0F;
+      times_of->motion.push_back(milliseconds([&] { scalar_.move(); }));
+      times_of->scoring.push_back(milliseconds(
+          [&] { best = times_of == &by_state_ ? scalar_.score_state_by_state() : scalar_.score_abreast(); }));
+      times_of->reweighing.push_back(times_of->scoring.back() + milliseconds([&] { scalar_.reweigh(best); }));
+      times_of->cycle.push_back(times_of->motion.back() + times_of->reweighing.back());
+    }
+    bare_floats_.push_back(milliseconds([&] { bare_gather_and_add(scalar_.ranges(), float_tables_); }));
+    bare_costs_.push_back(milliseconds([&] { bare_gather_and_add(scalar_.ranges(), cost_tables_); }));
+    for (const InstructionSet set : instruction_sets()) {
+      Times& of_set = times_[set];
+      PositionBelief& belief = beliefs_.at(set);
+      of_set.scoring.push_back(milliseconds([&] { score_all(set); }));
+      of_set.motion.push_back(milliseconds([&] { belief.move(hall().moved); }));
+      of_set.reweighing.push_back(
+          milliseconds([&] { belief.reweigh(hall().table, hall().beams, 1.0, evidence(), 1e-7); }));
+      of_set.cycle.push_back(of_set.motion.back() + of_set.reweighing.back());
+    }
+  }
+
+  void print() const {
+    const double cycle = median(abreast_.cycle);
+    const double state_beams = static_cast<double>(hall().space.states()) * kBeams;
+    const auto per_state_beam = [state_beams](const std::vector<double>& ms) { return median(ms) * 1e6 / state_beams; };
+    std::printf("full cycle: %.2f million states, %d beams; medians [ms of the processor]\n",
+                state_beams / kBeams * 1e-6, kBeams);
+    std::printf("  %-22s %9s %9s %12s %9s %12s %9s\n", "", "motion", "scoring", "with scoring", "cycle", "ns/st-beam",
+                "faster");
+    print_row("scalar, state by state", by_state_, cycle);
+    print_row("scalar, abreast", abreast_, cycle);
+    for (const auto& [set, of_set] : times_) print_row(std::string{name_of(set)}, of_set, cycle);
+    std::printf(
+        "  ns a state-beam: bare gather and add %.3f (floats), %.3f (whole numbers); scalar scoring %.3f, %.3f\n",
+        per_state_beam(bare_floats_), per_state_beam(bare_costs_), per_state_beam(by_state_.scoring),
+        per_state_beam(abreast_.scoring));
+  }
+
+  void print_bounds() const {
+    const double bare = std::min(median(bare_floats_), median(bare_costs_));
+    print_bound("scalar scoring, abreast / bare gather and add", median(abreast_.scoring) / bare, 2.0, false);
+    std::printf("  %-66s %6.2f\n", "  the same, state by state", median(by_state_.scoring) / bare);
+    for (const auto& [set, bound] : {std::pair{InstructionSet::avx2, 8.0}, std::pair{InstructionSet::avx512, 30.0}}) {
+      const std::string name{name_of(set)};
+      if (!times_.contains(set)) {
+        std::printf("  %-66s not run: this processor has none\n", name.c_str());
+        continue;
+      }
+      const double ours = median(times_.at(set).cycle);
+      print_bound(("scalar cycle, abreast / " + name + " cycle").c_str(), median(abreast_.cycle) / ours, bound, true);
+      std::printf("  %-66s %6.2f\n", ("  scalar cycle, state by state / " + name + " cycle").c_str(),
+                  median(by_state_.cycle) / ours);
+    }
+  }
+
+ private:
+  ScalarCycle scalar_;
+  Times by_state_;
+  Times abreast_;
+  std::vector<double> bare_floats_, bare_costs_;
+  std::map<InstructionSet, Times> times_;
+  std::vector<float> float_tables_;
+  std::vector<std::uint32_t> cost_tables_;
+  std::map<InstructionSet, PositionBelief> beliefs_;
+};
+
 /// Rounds in turn, so that what else the machine does meets all of them alike; medians.
 void full_cycle(benchmark::State& state) {
   constexpr int kRounds = 7;
-  ScalarCycle scalar;
-  Times by_state;
-  Times abreast;
-  std::vector<double> bare_floats, bare_costs;
-  std::map<InstructionSet, Times> times;
-  std::vector<float> float_tables;
-  std::vector<std::uint32_t> cost_tables;
-  for (const BeamCosts& beam : hall().beams) {
-    float_tables.insert(float_tables.end(), beam.costs.begin(), beam.costs.end());
-    cost_tables.insert(cost_tables.end(), beam.costs.begin(), beam.costs.end());
-  }
-  std::map<InstructionSet, PositionBelief> beliefs;
-  for (const InstructionSet set : instruction_sets()) {
-    beliefs.emplace(set, PositionBelief{hall().space, 0.0});
-    beliefs.at(set).use(set);
-  }
-  for (auto _ : state) {
-    for (int round = 0; round < kRounds; ++round) {
-      for (Times* const times_of : {&by_state, &abreast}) {
-        float best = 0.0F;
-        times_of->motion.push_back(milliseconds([&] { scalar.move(); }));
-        times_of->scoring.push_back(milliseconds(
-            [&] { best = times_of == &by_state ? scalar.score_state_by_state() : scalar.score_abreast(); }));
-        times_of->reweighing.push_back(times_of->scoring.back() + milliseconds([&] { scalar.reweigh(best); }));
-        times_of->cycle.push_back(times_of->motion.back() + times_of->reweighing.back());
-      }
-      bare_floats.push_back(milliseconds([&] { bare_gather_and_add(scalar.ranges(), float_tables); }));
-      bare_costs.push_back(milliseconds([&] { bare_gather_and_add(scalar.ranges(), cost_tables); }));
-      for (const InstructionSet set : instruction_sets()) {
-        Times& of_set = times[set];
-        PositionBelief& belief = beliefs.at(set);
-        of_set.scoring.push_back(milliseconds([&] { score_all(set); }));
-        of_set.motion.push_back(milliseconds([&] { belief.move(hall().moved); }));
-        of_set.reweighing.push_back(
-            milliseconds([&] { belief.reweigh(hall().table, hall().beams, 1.0, evidence(), 1e-7); }));
-        of_set.cycle.push_back(of_set.motion.back() + of_set.reweighing.back());
-      }
-    }
-  }
-  const double cycle = median(abreast.cycle);
-  const double state_beams = static_cast<double>(hall().space.states()) * kBeams;
-  const auto per_state_beam = [state_beams](const std::vector<double>& ms) { return median(ms) * 1e6 / state_beams; };
-  std::printf("full cycle: %.2f million states, %d beams; medians [ms of the processor]\n", state_beams / kBeams * 1e-6,
-              kBeams);
-  std::printf("  %-22s %9s %9s %12s %9s %12s %9s\n", "", "motion", "scoring", "with scoring", "cycle", "ns/st-beam",
-              "faster");
-  print_row("scalar, state by state", by_state, cycle);
-  print_row("scalar, abreast", abreast, cycle);
-  for (const auto& [set, of_set] : times) print_row(std::string{name_of(set)}, of_set, cycle);
-  std::printf("  ns a state-beam: bare gather and add %.3f (floats), %.3f (whole numbers); scalar scoring %.3f, %.3f\n",
-              per_state_beam(bare_floats), per_state_beam(bare_costs), per_state_beam(by_state.scoring),
-              per_state_beam(abreast.scoring));
-  const double bare = std::min(median(bare_floats), median(bare_costs));
-  print_bound("scalar scoring, abreast / bare gather and add", median(abreast.scoring) / bare, 2.0, false);
-  std::printf("  %-66s %6.2f\n", "  the same, state by state", median(by_state.scoring) / bare);
-  for (const auto& [set, bound] : {std::pair{InstructionSet::avx2, 8.0}, std::pair{InstructionSet::avx512, 30.0}}) {
-    const std::string name{name_of(set)};
-    if (!times.contains(set)) {
-      std::printf("  %-66s not run: this processor has none\n", name.c_str());
-      continue;
-    }
-    const double ours = median(times.at(set).cycle);
-    print_bound(("scalar cycle, abreast / " + name + " cycle").c_str(), cycle / ours, bound, true);
-    std::printf("  %-66s %6.2f\n", ("  scalar cycle, state by state / " + name + " cycle").c_str(),
-                median(by_state.cycle) / ours);
-  }
+  CycleTimes times;
+  for (auto _ : state)
+    for (int round = 0; round < kRounds; ++round) times.measure_round();
+  times.print();
+  times.print_bounds();
   state.counters["states"] = static_cast<double>(hall().space.states());
 }
 void motion(benchmark::State& state) {
