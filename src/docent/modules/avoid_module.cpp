@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "docent/collision_avoidance/avoider.h"
+#include "docent/collision_avoidance/avoider/avoider.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/museum_mode.h"
 #include "docent/modules/scanners.h"

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "docent/collision_avoidance/virtual_measurements.h"
+#include "docent/collision_avoidance/virtual_measurements/virtual_measurements.h"
 #include "docent/messages/conversions.h"
 
 namespace docent {

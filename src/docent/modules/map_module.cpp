@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "docent/collision_avoidance/outline_distance.h"
-#include "docent/collision_avoidance/tactile_watch.h"
+#include "docent/collision_avoidance/body/outline_distance.h"
+#include "docent/collision_avoidance/watches/tactile_watch.h"
 #include "docent/mapping/occupancy/live_map.h"
 #include "docent/modules/pose_tracker.h"
 #include "docent/modules/scanners.h"

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "docent/collision_avoidance/watches/complaint.h"
+
+namespace docent {
+
+/// Watches the tactile ring. A ring that nobody touches says the same for hours, so its electronics count their scans:
+/// who repeats the count is frozen. What has sent must go on.
+class TactileWatch {
+ public:
+  static constexpr std::uint8_t kNoReading = 255;  ///< of a segment
+
+  /// @param scan  count of the ring's own scans; 0: it keeps none
+  void feel(Time now, Time stamp, std::span<const std::uint8_t> segments, std::uint32_t scan);
+
+  /// @param required  complain about a ring that never spoke, too
+  [[nodiscard]] std::optional<Complaint> complaint(Time now, bool required) const;
+
+ private:
+  Freshness freshness_;
+  std::uint32_t scan_ = 0;
+  int repeats_ = 0;
+  double missing_ = 0.0;  ///< share of the segments, lately
+};
+
+}  // namespace docent
