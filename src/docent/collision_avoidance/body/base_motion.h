@@ -27,8 +27,11 @@ struct BaseLimits {
   double turn_acceleration = 1.5;  ///< [rad/s2], up and down
   double latency = 0.15;           ///< [s] from a command to the wheels
   double watchdog = 0.3;           ///< [s] without a command, then the base stops
-  Outline outline{};  ///< of a body that is no disc; the window and the braking keep to it, not to `radius`
+  Outline outline{};         ///< of a body that is no disc; the window and the braking keep to it, not to `radius`
+  double base_cycle = 0.05;  ///< [s] between two looks of the base at its watchdog: it is driven at 20 Hz
 
+  /// How long [s] a command can last when we die right after giving it.
+  [[nodiscard]] double hold() const { return watchdog + base_cycle; }
   /// The point on a ray from the centre that lies `beyond` [m] outside the body, base frame.
   [[nodiscard]] Point2 edge(Angle bearing, double beyond = 0.0) const {
     return ((outline.empty() ? radius : outline.radius_at(bearing)) + beyond) * unit(bearing);

@@ -1,51 +1,17 @@
 #include "docent/collision_avoidance/dynamic_window/dynamic_window.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "docent/collision_avoidance/body/braking.h"
 
 namespace docent {
 
 namespace {
 
-constexpr double kStep = 0.05;         // [s] of the simulated braking
-constexpr double kStandsStill = 0.08;  // [m/s] towards a person: less is no push
-constexpr double kNearestReal = 0.02;  // [m] the last bit of margin is never given up
-constexpr double kOnTheSpot = 1e-6;    // [m/s]
-
-struct Sample {
-  Pose2 start_from_base;
-  double time = 0.0;
-  Velocity velocity;
-};
-
-/// The manoeuvre "obey, then brake": at most 64 samples; `reach` is how far the base gets from its start.
-struct Manoeuvre {
-  std::array<Sample, 64> samples;
-  std::size_t count = 0;
-  double way = 0.0;
-};
-
-Manoeuvre simulate(const Velocity& velocity, const Velocity& command, double hold, const BaseLimits& limits) {
-  Manoeuvre result;
-  BaseState state{{}, velocity};
-  double time = 0.0;
-  while (result.count < result.samples.size()) {
-    const bool obeys = time < hold - 1e-9;
-    const double dt = obeys ? std::min(kStep, hold - time) : kStep;
-    state = advance(state, obeys ? command : Velocity{}, limits, dt);
-    time += dt;
-    result.way += std::abs(state.velocity.linear) * dt;
-    result.samples[result.count++] = {state.odom_from_base, time, state.velocity};
-    // What is left of a turn moves no disc, but it moves every other body.
-    const bool stands = state.velocity.linear == 0.0 && (limits.outline.empty() || state.velocity.angular == 0.0);
-    if (!obeys && stands) break;
-  }
-  result.way += std::abs(velocity.linear) * kStep;
-  return result;
-}
+constexpr double kOnTheSpot = 1e-6;  // [m/s]
 
 }  // namespace
 
@@ -68,82 +34,6 @@ Result<void> DynamicWindowParams::validate() const {
 double DynamicWindowParams::speed_with(double slack) const {
   if (slack >= security_most || security_time == 0.0) return std::numeric_limits<double>::infinity();
   return creep_speed + std::max(0.0, slack) / security_time;
-}
-
-namespace {
-
-/// The same for a body with an outline, which may also touch something by turning.
-bool can_outline_brake(const Manoeuvre& manoeuvre, std::span<const Obstacle> obstacles, const Outline& outline,
-                       double slack) {
-  const double duration = manoeuvre.samples[manoeuvre.count - 1].time;
-  for (const auto& obstacle : obstacles) {
-    if (obstacle.is_border) continue;
-    double required = obstacle.margin - slack;
-    const double speed = norm(obstacle.velocity);
-    if (norm(obstacle.at) - speed * duration - manoeuvre.way > outline.circumradius() + required) continue;
-    const double now = outline.distance_to(obstacle.at);
-    if (speed == 0.0 && now - 0.01 < required) {
-      required = now > kNearestReal + 0.01 ? std::max(now - 0.01, kNearestReal) : now - 0.001;
-    }
-    for (std::size_t i = 0; i < manoeuvre.count; ++i) {
-      const Sample& sample = manoeuvre.samples[i];
-      const Point2 at = inverse(sample.start_from_base) * (obstacle.at + sample.time * obstacle.velocity);
-      if (outline.distance_to(at) >= required) continue;
-      const Velocity& moves = sample.velocity;
-      if (speed == 0.0 || outline.closing_speed(moves.linear, moves.angular, at) > kStandsStill) return false;
-    }
-  }
-  return true;
-}
-
-}  // namespace
-
-bool can_brake_in_time(const Velocity& velocity, const Velocity& command, double hold,
-                       std::span<const Obstacle> obstacles, const BaseLimits& limits, double slack) {
-  const Manoeuvre manoeuvre = simulate(velocity, command, hold, limits);
-  if (!limits.outline.empty() && !can_outline_brake(manoeuvre, obstacles, limits.outline, slack)) return false;
-  const double duration = manoeuvre.samples[manoeuvre.count - 1].time;
-  for (const auto& obstacle : obstacles) {
-    if (!limits.outline.empty() && !obstacle.is_border) continue;
-    const double now = norm(obstacle.at);
-    const double speed = norm(obstacle.velocity);
-    double required = reach_of(obstacle, limits.radius) - slack;
-    if (now - speed * duration - manoeuvre.way > required) continue;
-    if (speed > 0.0) {
-      double walks = duration;  // who has come up to the robot stands there
-      for (std::size_t i = 0; i < manoeuvre.count; ++i) {
-        const Sample& sample = manoeuvre.samples[i];
-        const double walked = std::min(walks, sample.time);
-        const Point2 offset = obstacle.at + walked * obstacle.velocity - sample.start_from_base.position();
-        const double away = norm(offset);
-        if (away < limits.radius) walks = walked;
-        if (away >= required) continue;
-        const double towards = sample.velocity.linear * dot(unit(sample.start_from_base.theta), offset);
-        if (towards > kStandsStill * away) return false;
-      }
-      continue;
-    }
-    // Too near already: not nearer still, but for a centimetre of noise where there is one to give.
-    if (now - 0.01 < required) {
-      const double least = limits.radius + kNearestReal;
-      required = !obstacle.is_border && now > least + 0.01 ? std::max(now - 0.01, least) : now - 0.001;
-    }
-    for (std::size_t i = 0; i < manoeuvre.count; ++i) {
-      if (distance(obstacle.at, manoeuvre.samples[i].start_from_base.position()) < required) return false;
-    }
-  }
-  return true;
-}
-
-double straight_free_way(double bearing, std::span<const Obstacle> obstacles, double body_radius, double horizon) {
-  const Point2 ahead = unit(Angle::radians(bearing));
-  double least = horizon;
-  for (const auto& obstacle : obstacles) {
-    const ReachPoint turned{{dot(ahead, obstacle.at), cross(ahead, obstacle.at)}, reach_of(obstacle, body_radius)};
-    if (turned.at.x > least + turned.reach || turned.at.x < -turned.reach) continue;
-    least = std::min(least, arc_distance(0.0, turned));
-  }
-  return least;
 }
 
 DynamicWindow::DynamicWindow(const BaseLimits& limits, const DynamicWindowParams& params, InstructionSet set)
@@ -173,7 +63,7 @@ DynamicWindow::Reachable DynamicWindow::reachable(const Velocity& velocity, cons
 /// The way [m] that must be free at a speed.
 double DynamicWindow::least_way(double linear) const {
   constexpr double kTwoSeconds = 2.0;
-  const double stopping = std::abs(linear) * hold() + linear * linear / (2.0 * limits_.deceleration);
+  const double stopping = std::abs(linear) * limits_.hold() + linear * linear / (2.0 * limits_.deceleration);
   return params_.two_second_rule ? std::max(stopping, kTwoSeconds * std::abs(linear)) : stopping;
 }
 
@@ -340,7 +230,7 @@ WindowChoice DynamicWindow::choose(const Velocity& velocity, const Velocity& las
   // Of many refused ones only every so many is tried, so that the slow end of the window has its turn.
   for (std::size_t tried = 0; !order.empty() && tried < kTries; ++tried) {
     EvaluatedVelocity& candidate = choice.window[order.front()];
-    if (can_brake_in_time(velocity, candidate.velocity, hold(), obstacles, limits_, 0.0) &&
+    if (can_brake_in_time(velocity, candidate.velocity, limits_.hold(), obstacles, limits_, 0.0) &&
         can_brake_in_time(velocity, candidate.velocity, 0.1, obstacles, limits_, 0.0)) {
       choice.command = candidate.velocity;
       return choice;
@@ -358,7 +248,7 @@ WindowChoice DynamicWindow::choose(const Velocity& velocity, const Velocity& las
     choice.is_braking = false;
     // A disc turns in its own place; another body may not.
     const bool may_turn =
-        limits_.outline.empty() || can_brake_in_time(velocity, {0.0, wanted}, hold(), obstacles, limits_, 0.0);
+        limits_.outline.empty() || can_brake_in_time(velocity, {0.0, wanted}, limits_.hold(), obstacles, limits_, 0.0);
     choice.command = {0.0, may_turn ? wanted : 0.0};
   }
   return choice;

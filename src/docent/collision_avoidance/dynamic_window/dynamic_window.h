@@ -6,6 +6,7 @@
 
 #include "docent/base/result.h"
 #include "docent/collision_avoidance/body/base_motion.h"
+#include "docent/collision_avoidance/body/obstacle.h"
 #include "docent/collision_avoidance/dynamic_window/free_ways.h"
 
 namespace docent {
@@ -53,28 +54,6 @@ struct DynamicWindowParams {
   [[nodiscard]] double speed_with(double slack) const;
 };
 
-/// A thing not to touch, in the frame of the base at the moment from which motion is planned.
-struct Obstacle {
-  Point2 at;            ///< [m]
-  Point2 velocity{};    ///< [m/s]
-  double margin = 0.0;  ///< [m] between its point and the robot's outline; of the border: its centre
-  bool person = false;  ///< slim and free-standing
-  bool is_virtual = false;
-  bool is_border = false;   ///< of the area: the robot's body may reach over it, its centre may not
-  bool is_unknown = false;  ///< nothing has seen what is there
-  bool is_low = false;      ///< met below the lasers, which see nobody there: a thing
-  bool may_step = false;  ///< may be somebody, also half hidden in a throng, who steps nearer; the window does not ask
-};
-
-/// Distance [m] from the robot's centre to an obstacle at which a disc of this radius just keeps its margin.
-[[nodiscard]] inline double reach_of(const Obstacle& obstacle, double body_radius) {
-  return obstacle.is_border ? obstacle.margin : body_radius + obstacle.margin;
-}
-/// How much farther away [m] an obstacle is than its margin asks.
-[[nodiscard]] inline double slack_to(const Obstacle& obstacle, const BaseLimits& limits) {
-  return (obstacle.is_border ? norm(obstacle.at) : limits.gap_to(obstacle.at)) - obstacle.margin;
-}
-
 /// What the window shall steer for.
 struct Steering {
   double bearing = 0.0;    ///< [rad] base frame
@@ -94,16 +73,6 @@ struct WindowChoice {
   std::vector<EvaluatedVelocity> window;
 };
 
-/// True when the base, moving with `velocity` now, may obey `command` for `hold` [s] and then brake fully (the watchdog
-/// does that when we die) without coming nearer to an obstacle than its margin, less `slack` [m].
-///
-/// The motion is simulated with the base's real accelerations. Inside a margin the base may not get nearer. Things that
-/// move are followed at constant velocity until they touch the base, where they stand; they count as long as the base
-/// moves towards them.
-/// O((hold + braking time) / 50 ms * obstacles).
-[[nodiscard]] bool can_brake_in_time(const Velocity& velocity, const Velocity& command, double hold,
-                                     std::span<const Obstacle> obstacles, const BaseLimits& limits, double slack);
-
 /// The dynamic window [Rhino1999] 4.1.1: all velocities that the base can reach in `cycle`. Hard constraint:
 /// full braking before contact, whatever fails; as an option the two-second rule of [Buhmann1995] as well. Soft
 /// ones: speed, heading at the predicted pose, clearance; smoothed.
@@ -119,9 +88,6 @@ class DynamicWindow {
   /// O(velocities * obstacles that lie in their way), some hundred times less than velocities * obstacles.
   [[nodiscard]] WindowChoice choose(const Velocity& velocity, const Velocity& last, std::span<const Obstacle> obstacles,
                                     const Steering& steering);
-
-  /// How long [s] a command can last when we die right after giving it.
-  [[nodiscard]] double hold() const { return limits_.watchdog + 0.05; }
 
  private:
   /// The range of velocities that can be reached in one cycle.
@@ -154,10 +120,5 @@ class DynamicWindow {
   std::vector<double> half_cosine_, half_sine_, cosine_, sine_, change_;  ///< [stride], see VelocityColumns
   std::vector<double> curvatures_, ways_, clearances_, values_;           ///< [linear_steps][stride]
 };
-
-/// Free way [m] of a disc of radius `reach` straight along `bearing`, at most `horizon`; points within reach block only
-/// when they lie ahead.
-[[nodiscard]] double straight_free_way(double bearing, std::span<const Obstacle> obstacles, double body_radius,
-                                       double horizon);
 
 }  // namespace docent

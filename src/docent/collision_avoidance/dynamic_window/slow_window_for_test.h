@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "docent/collision_avoidance/body/braking.h"
 #include "docent/collision_avoidance/dynamic_window/dynamic_window.h"
 
 namespace docent {
