@@ -55,7 +55,7 @@ void Avoider::add_lines(Time now, Time stamp, const std::string& source, double 
                         std::span<const Segment> in_base) {
   if (odometry_.empty()) return;
   inputs_.hear_lines(now, stamp, source);
-  const Time taken = local_time_.receive("camera " + source, now, stamp, LocalTime::kWayOfAPicture);
+  const Time taken = local_time_.receive_from_picture("camera " + source, now, stamp);
   surroundings_.memory().add_lines(source, taken, lifetime, in_base, odometry_.pose_at(taken));
 }
 

@@ -88,7 +88,7 @@ TEST(Avoider, AJumpOfTheOdometrySlowsItAndMovesNothingThatItKnows) {
   world.raw_from_map = {1.0, -0.4, Angle::degrees(40)};
   world.run(1.0);
   EXPECT_EQ(world.decision.reason, "the odometry jumped");
-  EXPECT_LT(world.velocity.linear, kCrippledSpeed + 0.01);
+  EXPECT_LT(world.velocity.linear, ComplaintParams{}.crippled_speed + 0.01);
   EXPECT_NEAR(static_cast<double>(world.avoider.memory().points(world.now).size()), static_cast<double>(known),
               0.25 * static_cast<double>(known));
   world.run(5.0);

@@ -13,7 +13,7 @@ std::optional<Complaint> InputWatches::complaint_of_laser(Time now, std::size_t 
   const double missing = memory.invalid_share(index);
   if (!found && missing > params_.nearly_all) return Complaint{0.0, "the " + name + " gives no readings"};
   if (missing > params_.many_missing)
-    found = worse(found, Complaint{kCrippledSpeed, "the " + name + " gives too few readings"});
+    found = worse(found, Complaint{params_.crippled_speed, "the " + name + " gives too few readings"});
   return found;
 }
 

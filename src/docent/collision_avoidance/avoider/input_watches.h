@@ -24,6 +24,7 @@ struct InputWatchesParams {
   double virtual_timeout = 1.5;  ///< [s] without new virtual measurements, then the robot stands
   double nearly_all = 0.9;       ///< of a sweep's readings are none: the laser is covered or has failed
   double many_missing = 0.35;    ///< of a sweep's readings are none: more than black clothes and glass ever take
+  double crippled_speed = 0.25;  ///< [m/s] as ComplaintParams::crippled_speed, with such a laser
   double camera_patience = 1.5;  ///< [s] a camera sees a few pictures a second, and may look away from one
   double fresh = 0.2;            ///< [s] what is so old costs no speed: lasers and odometry come ten times a second
   double fading = 0.3;           ///< [s] in which, from then on, all speed goes

@@ -70,7 +70,7 @@ TEST(InputWatches, CreepsAndSaysWhyWhenHalfOfALasersReadingsAreGone) {
   world.run(1.5);
   for (int i = 0; i < 40; ++i) {
     world.run(0.25);
-    EXPECT_LT(world.velocity.linear, kCrippledSpeed + 0.01);
+    EXPECT_LT(world.velocity.linear, ComplaintParams{}.crippled_speed + 0.01);
     EXPECT_EQ(world.decision.reason, "the front laser gives too few readings");
   }
 }
@@ -83,7 +83,7 @@ TEST(InputWatches, ADoubtfulPositionSlowsIt) {
   const std::vector<BelievedPose> modes{{{}, 0.5}, {{9, 9, {}}, 0.5}};
   for (int i = 0; i < 2; ++i) world.avoider.add_belief({modes, modes, 0.02, true});
   world.run(1.5);
-  EXPECT_LT(world.velocity.linear, kCrippledSpeed + 0.01);
+  EXPECT_LT(world.velocity.linear, ComplaintParams{}.crippled_speed + 0.01);
   EXPECT_EQ(world.decision.reason, "it may be in two places");
   EXPECT_FALSE(world.avoider.complaint_of_inputs(world.now)) << "no sensor is to blame";
 }

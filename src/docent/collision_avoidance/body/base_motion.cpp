@@ -38,7 +38,7 @@ BaseState advance(const BaseState& state, const Velocity& command, const BaseLim
 
 void CommandHistory::add(Time time, const Velocity& command) {
   commands_.emplace_back(time, command);
-  while (commands_.size() > 2 && time - commands_[1].first > seconds(1.0)) commands_.pop_front();
+  while (commands_.size() > 2 && time - commands_[1].first > seconds(params_.memory)) commands_.pop_front();
 }
 
 Velocity CommandHistory::at(Time time) const {
@@ -50,12 +50,11 @@ Velocity CommandHistory::at(Time time) const {
   return result;
 }
 
-BaseState predict(BaseState state, Time from, Time to, const CommandHistory& commands, const BaseLimits& limits) {
-  constexpr double kStep = 0.025;
-  constexpr double kLongest = 5.0;  // [s] from an older state nothing follows; commands are forgotten sooner
-  Time time = std::max(from, to - seconds(kLongest));
+BaseState predict(BaseState state, Time from, Time to, const CommandHistory& commands, const BaseLimits& limits,
+                  const PredictionParams& params) {
+  Time time = std::max(from, to - seconds(params.longest));
   while (time < to) {
-    const double dt = std::min(kStep, to_seconds(to - time));
+    const double dt = std::min(params.step, to_seconds(to - time));
     const Time middle = time + seconds(0.5 * dt);
     state = advance(state, commands.at(middle - seconds(limits.latency)), limits, dt);
     time = time + seconds(dt);
@@ -65,11 +64,11 @@ BaseState predict(BaseState state, Time from, Time to, const CommandHistory& com
 
 void BaseHistory::add(Time stamp, const BaseState& state) {
   if (!states_.empty() && stamp <= states_.back().first) {
-    if (states_.back().first - stamp < seconds(1.0)) return;  // late or doubled
-    states_.clear();                                          // the clock or the base began anew
+    if (states_.back().first - stamp < seconds(params_.begins_anew)) return;  // late or doubled
+    states_.clear();                                                          // the clock or the base began anew
   }
   states_.emplace_back(stamp, state);
-  while (states_.size() > 2 && stamp - states_.front().first > seconds(6.0)) states_.pop_front();
+  while (states_.size() > 2 && stamp - states_.front().first > seconds(params_.memory)) states_.pop_front();
 }
 
 Pose2 BaseHistory::pose_at(Time time) const {
@@ -78,7 +77,7 @@ Pose2 BaseHistory::pose_at(Time time) const {
   if (later == states_.begin()) return states_.front().second.odom_from_base;
   const auto& [before_time, before] = *std::prev(later);
   if (later == states_.end()) {
-    const double dt = std::clamp(to_seconds(time - before_time), 0.0, 0.3);
+    const double dt = std::clamp(to_seconds(time - before_time), 0.0, params_.carried_on);
     return moved(before.odom_from_base, before.velocity.linear, before.velocity.angular, dt);
   }
   const Pose2& a = before.odom_from_base;

@@ -53,35 +53,54 @@ struct BaseState {
 /// The base `dt` [s] later when its wheels are given `command` all the while.
 [[nodiscard]] BaseState advance(const BaseState& state, const Velocity& command, const BaseLimits& limits, double dt);
 
+struct CommandHistoryParams {
+  double memory = 1.0;  ///< [s] longer than any latency: what is older moves the wheels no more
+};
+
 /// What was commanded lately: the wheels feel it one latency later.
 class CommandHistory {
  public:
+  explicit CommandHistory(const CommandHistoryParams& params = {}) : params_{params} {}
   void add(Time time, const Velocity& command);
   /// The last command given at or before `time`; zero before the first.
   [[nodiscard]] Velocity at(Time time) const;
 
  private:
+  CommandHistoryParams params_;
   std::deque<std::pair<Time, Velocity>> commands_;
 };
 
-/// Carries `state` from time `from` to `to` under the commands given one latency before. O((to - from) / 25 ms).
+struct PredictionParams {
+  double step = 0.025;   ///< [s] of the simulated motion, in which the velocity changes little
+  double longest = 5.0;  ///< [s] from an older state nothing follows; commands are forgotten sooner
+};
+
+/// Carries `state` from time `from` to `to` under the commands given one latency before. O((to - from) / step).
 [[nodiscard]] BaseState predict(BaseState state, Time from, Time to, const CommandHistory& commands,
-                                const BaseLimits& limits);
+                                const BaseLimits& limits, const PredictionParams& params = {});
+
+struct BaseHistoryParams {
+  double begins_anew = 1.0;  ///< [s] a stamp so much older than the newest: the clock or the base began anew
+  double memory = 6.0;       ///< [s] longer than any message carries its stamp on
+  double carried_on = 0.3;   ///< [s] beyond the newest state that its velocity tells of
+};
 
 /// Where the base was, by odometry, over the last seconds.
 class BaseHistory {
  public:
+  explicit BaseHistory(const BaseHistoryParams& params = {}) : params_{params} {}
   void add(Time stamp, const BaseState& state);
   [[nodiscard]] bool empty() const { return states_.empty(); }
   [[nodiscard]] const BaseState& newest() const { return states_.back().second; }
   [[nodiscard]] Time newest_stamp() const { return states_.back().first; }
-  /// odom_from_base at `time`: interpolated inside the history, carried on with the last velocity for at most 0.3 s
+  /// odom_from_base at `time`: interpolated inside the history, carried on with the last velocity for a moment
   /// after it, the oldest one before it. @pre not empty()
   [[nodiscard]] Pose2 pose_at(Time time) const;
   /// Path length [m] driven since `time`, as far as the history reaches.
   [[nodiscard]] double driven_since(Time time) const;
 
  private:
+  BaseHistoryParams params_;
   std::deque<std::pair<Time, BaseState>> states_;
 };
 

@@ -30,6 +30,16 @@ Result<Outline> Outline::make(Polygon corners) {
   return outline;
 }
 
+Result<Outline> Outline::of_body(std::span<const std::vector<double>> corners) {
+  if (corners.empty()) return Outline{};
+  Polygon polygon;
+  for (const auto& corner : corners) {
+    if (corner.size() != 2) return fail("body.outline must be a list of corners [x, y]");
+    polygon.push_back({corner[0], corner[1]});
+  }
+  return make(std::move(polygon));
+}
+
 double Outline::radius_at(Angle bearing) const {
   double least = kNever;
   for (const auto& side : sides(corners_))

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "docent/base/result.h"
 #include "docent/geometry/polygon.h"
@@ -18,6 +19,10 @@ class Outline {
   Outline() = default;  ///< none
   /// Error: fewer than three corners, not convex, or the centre is not inside.
   [[nodiscard]] static Result<Outline> make(Polygon corners);
+
+  /// The outline as robot.yaml writes it in `body.outline`, a list of [x, y] [m]; none for an empty list. Error: as
+  /// make.
+  [[nodiscard]] static Result<Outline> of_body(std::span<const std::vector<double>> corners);
 
   [[nodiscard]] bool empty() const { return corners_.empty(); }
   [[nodiscard]] const Polygon& corners() const { return corners_; }

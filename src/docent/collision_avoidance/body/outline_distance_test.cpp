@@ -35,6 +35,16 @@ TEST(Outline, KnownByHand) {
   EXPECT_NEAR(body.circumradius(), std::hypot(0.5, 0.2), 1e-12);
 }
 
+TEST(Outline, OfABodyIsWhatItsConfigurationSays) {
+  using Corners = std::vector<std::vector<double>>;
+  EXPECT_TRUE(Outline::of_body(Corners{}).value().empty()) << "a disc";
+  const auto body = Outline::of_body(Corners{{0.4, 0.2}, {-0.4, 0.2}, {-0.4, -0.2}, {0.4, -0.2}});
+  ASSERT_TRUE(body);
+  EXPECT_NEAR(body->radius_at({}), 0.4, 1e-12);
+  EXPECT_FALSE(Outline::of_body(Corners{{0.4, 0.2, 0.0}, {-0.4, 0.2}, {0.0, -0.2}})) << "a corner of three numbers";
+  EXPECT_FALSE(Outline::of_body(Corners{{0.4, 0.2}, {-0.4, 0.2}})) << "two corners";
+}
+
 TEST(Outline, ReachesAsFarAsItsSides) {
   const Outline body = box(0.5, 0.3, 0.2);
   EXPECT_NEAR(body.radius_at({}), 0.5, 1e-12);

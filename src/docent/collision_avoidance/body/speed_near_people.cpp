@@ -7,8 +7,6 @@ namespace docent {
 
 namespace {
 
-constexpr double kTimeStep = 0.05;  // [s]
-
 /// How much nearer [m] a surprise may have brought somebody after `time`.
 double surprise_after(double time, const PeopleCautionParams& params) {
   const double gathering = params.surprise / params.spurt;
@@ -31,8 +29,8 @@ BrakingWay::BrakingWay(double speed, double curvature, const BaseLimits& limits,
   const auto along = [&](double way) {
     return curvature == 0.0 ? Point2{1.0, 0.0} : unit(Angle::radians(curvature * way));
   };
-  steps_.reserve(static_cast<std::size_t>(end_ / kTimeStep) + 2);
-  for (double time = 0.0; time < end_; time += kTimeStep) {
+  steps_.reserve(static_cast<std::size_t>(end_ / params.step) + 2);
+  for (double time = 0.0; time < end_; time += params.step) {
     const double braking = std::max(0.0, time - params.reaction);
     const double way = speed * time - 0.5 * limits.deceleration * braking * braking;
     // The middle of a short arc lies along half its turn.

@@ -14,6 +14,7 @@ struct PeopleCautionParams {
   double spurt = 2.5;     ///< [m/s2] with which they begin to
   double reaction = 0.3;  ///< [s] from a surprise to full braking: a sweep, a choice, the base
   double harmless = 0.1;  ///< [m/s] towards somebody: nobody minds
+  double step = 0.05;     ///< [s] between the moments of a way that are looked at; no key of robot.yaml
   template <class V>
   void visit(V& v) {
     v("surprise", surprise);
@@ -32,7 +33,7 @@ struct PersonPoint {
 };
 
 /// The way of a robot that drives with `speed` [m/s] along an arc of `curvature` [1/m] and brakes fully one reaction
-/// after somebody begins to come nearer than foreseen. Steps of 0.05 s, found once for all people.
+/// after somebody begins to come nearer than foreseen. Found once for all people.
 class BrakingWay {
  public:
   BrakingWay(double speed, double curvature, const BaseLimits& limits, const PeopleCautionParams& params);

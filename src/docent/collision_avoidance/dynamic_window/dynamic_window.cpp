@@ -62,9 +62,8 @@ DynamicWindow::Reachable DynamicWindow::reachable(const Velocity& velocity, cons
 
 /// The way [m] that must be free at a speed.
 double DynamicWindow::least_way(double linear) const {
-  constexpr double kTwoSeconds = 2.0;
   const double stopping = std::abs(linear) * limits_.hold() + linear * linear / (2.0 * limits_.deceleration);
-  return params_.two_second_rule ? std::max(stopping, kTwoSeconds * std::abs(linear)) : stopping;
+  return params_.two_second_rule ? std::max(stopping, params_.rule_time * std::abs(linear)) : stopping;
 }
 
 void DynamicWindow::lay_out(const Reachable& range) {
@@ -144,10 +143,9 @@ void DynamicWindow::measure_ways_of_outline() {
 
 void DynamicWindow::judge_rows(const Velocity& last, std::span<const Obstacle> obstacles, const Steering& steering) {
   // On the spot every way is free: what counts is the way that is turned to.
-  constexpr double kSlow = 0.03;
-  const double steered_way = straight_free_way(steering.bearing, obstacles, limits_.radius, VelocityRow::kEnough);
+  const double steered_way = straight_free_way(steering.bearing, obstacles, limits_.radius, params_.enough_way);
   const VelocityColumns columns{half_cosine_.data(), half_sine_.data(), cosine_.data(), sine_.data(), change_.data()};
-  const double speed = std::max(steering.speed_cap, 0.1);
+  const double speed = std::max(steering.speed_cap, params_.least_scale);
   const Point2 ahead = unit(Angle::radians(steering.bearing));
   for (std::size_t row = 0; row < linear_.size(); ++row) {
     const double linear = linear_[row];
@@ -158,7 +156,7 @@ void DynamicWindow::judge_rows(const Velocity& last, std::span<const Obstacle> o
     const std::size_t first = row * stride_;
     const auto ways = std::span{ways_}.subspan(first, stride_);
     std::copy(ways.begin(), ways.end(), clearances_.begin() + static_cast<std::ptrdiff_t>(first));
-    if (std::abs(linear) < kSlow)
+    if (std::abs(linear) < params_.turning_speed)
       std::fill_n(clearances_.begin() + static_cast<std::ptrdiff_t>(first), stride_, steered_way);
     // Where the steered-for point is nearly reached its bearing tells little: look at most from half way.
     const double far = std::max(steering.distance, 2.0 * std::abs(linear) * params_.heading_time);
@@ -169,6 +167,7 @@ void DynamicWindow::judge_rows(const Velocity& last, std::span<const Obstacle> o
                              params_.heading_weight,
                              params_.speed_weight / speed,
                              params_.clearance_weight,
+                             params_.enough_way,
                              least_way(linear)};
     kernels_.values(judged, columns, ways.data(), clearances_.data() + first, stride_, values_.data() + first);
   }
@@ -226,24 +225,24 @@ WindowChoice DynamicWindow::choose(const Velocity& velocity, const Velocity& las
     return of_a < of_b || (of_a == of_b && a > b);
   };
   std::make_heap(order.begin(), order.end(), is_worse);
-  constexpr std::size_t kTries = 60;
   // Of many refused ones only every so many is tried, so that the slow end of the window has its turn.
-  for (std::size_t tried = 0; !order.empty() && tried < kTries; ++tried) {
+  for (std::size_t tried = 0; !order.empty() && tried < static_cast<std::size_t>(params_.tries); ++tried) {
     EvaluatedVelocity& candidate = choice.window[order.front()];
     if (can_brake_in_time(velocity, candidate.velocity, limits_.hold(), obstacles, limits_, 0.0) &&
-        can_brake_in_time(velocity, candidate.velocity, 0.1, obstacles, limits_, 0.0)) {
+        can_brake_in_time(velocity, candidate.velocity, params_.next_check, obstacles, limits_, 0.0)) {
       choice.command = candidate.velocity;
       return choice;
     }
     candidate.value = -1.0;
-    for (std::size_t skip = 0; skip < 1 + tried / 8 && !order.empty(); ++skip) {
+    for (std::size_t skip = 0;
+         skip < 1 + tried / static_cast<std::size_t>(params_.tries_to_skip_more) && !order.empty(); ++skip) {
       std::pop_heap(order.begin(), order.end(), is_worse);
       order.pop_back();
     }
   }
   // Standing still or turning on the spot is always right where it can be reached.
   choice.is_braking = true;
-  if (std::abs(velocity.linear) < 0.02) {
+  if (std::abs(velocity.linear) < params_.standing_speed) {
     const double wanted = std::clamp(steering.bearing / params_.heading_time, range.right, range.left);
     choice.is_braking = false;
     // A disc turns in its own place; another body may not.

@@ -28,6 +28,18 @@ struct DynamicWindowParams {
   double security_most = 0.22;     ///< [m] no more margin than that is added
   double creep_speed = 0.12;       ///< [m/s] inside a margin, and backwards
   bool two_second_rule = false;    ///< refuses what would meet an obstacle within two seconds
+
+  // What no robot.yaml needs to change.
+  double rule_time = 2.0;        ///< [s] of the two-second rule [Buhmann1995]
+  double turning_speed = 0.03;   ///< [m/s] a slower robot turns on the spot: what counts is the way that it turns to
+  double enough_way = 2.0;       ///< [m] of free way that are worth as much as any more
+  double least_scale = 0.1;      ///< [m/s] the speed counts against the cap, or against so much when that is less
+  double next_check = 0.1;       ///< [s] until the next scan, when a command may be braked again
+  double standing_speed = 0.02;  ///< [m/s] a slower robot may turn at once when nothing else is safe
+  int tries = 60;                ///< velocities whose braking is checked, the best first: no more are affordable
+  int tries_to_skip_more = 8;    ///< after so many refused ones one more is skipped each time, or the slow end of the
+                                 ///< window would never have its turn
+
   template <class V>
   void visit(V& v) {
     v("cycle", cycle);

@@ -26,10 +26,10 @@ struct VelocityRow {
   double goal_x = 0.0;  ///< [m] what is steered for, robot frame
   double goal_y = 0.0;  ///< [m]
   double heading_weight = 0.0;
-  double progress_weight = 0.0;           ///< by the speed towards the goal [s/m]
-  double clearance_weight = 0.0;          ///< by the free way, of which kEnough counts as all
-  double stopping = 0.0;                  ///< [m] a free way shorter than this is refused
-  static constexpr double kEnough = 2.0;  ///< [m]
+  double progress_weight = 0.0;   ///< by the speed towards the goal [s/m]
+  double clearance_weight = 0.0;  ///< by the free way, of which `enough_way` counts as all
+  double enough_way = 0.0;        ///< [m] > 0
+  double stopping = 0.0;          ///< [m] a free way shorter than this is refused
 };
 /// What the columns of the dynamic window share: one entry an angular speed, padded to a multiple of kLanes.
 struct VelocityColumns {

@@ -5,33 +5,22 @@
 
 namespace docent {
 
-namespace {
-
-constexpr double kMaxWidth = 0.9;     // [m]
-constexpr double kGate = 0.45;        // [m] between prediction and sighting
-constexpr double kForget = 0.7;       // [s]
-constexpr double kLeastSpeed = 0.2;   // [m/s] below: stands
-constexpr double kMaxSpeed = 2.2;     // [m/s]
-constexpr double kForeground = 0.25;  // [m] the background lies so much farther
-
-}  // namespace
-
 std::vector<MovingObjects::Cluster> MovingObjects::find(std::span<const Point2> points, std::span<const double> ranges,
-                                                        std::span<const int> beams, double bearing_step) {
+                                                        std::span<const int> beams, double bearing_step) const {
   std::vector<Cluster> clusters;
   std::size_t first = 0;
   for (std::size_t i = 1; i <= points.size(); ++i) {
     if (i < points.size() && beams[i] - beams[i - 1] <= 2) {
-      const double spacing = 0.15 + 2.5 * bearing_step * std::min(ranges[i], ranges[i - 1]);
+      const double spacing = spacing_of(ranges[i], ranges[i - 1], bearing_step, params_.piece);
       if (distance(points[i], points[i - 1]) < spacing) continue;
     }
     // [first, i) is one piece. It stands free when its neighbours lie farther away or nothing is there.
     const bool free_before =
-        first == 0 || beams[first] - beams[first - 1] > 2 || ranges[first - 1] > ranges[first] + kForeground;
+        first == 0 || beams[first] - beams[first - 1] > 2 || ranges[first - 1] > ranges[first] + params_.foreground;
     const bool free_after =
-        i == points.size() || beams[i] - beams[i - 1] > 2 || ranges[i] > ranges[i - 1] + kForeground;
+        i == points.size() || beams[i] - beams[i - 1] > 2 || ranges[i] > ranges[i - 1] + params_.foreground;
     const double width = distance(points[first], points[i - 1]);
-    if (i - first >= 2 && width < kMaxWidth && free_before && free_after) {
+    if (i - first >= 2 && width < params_.most_width && free_before && free_after) {
       Point2 sum{};
       for (std::size_t k = first; k < i; ++k) sum = sum + points[k];
       clusters.push_back({first, i - first, 1.0 / static_cast<double>(i - first) * sum, width, {}});
@@ -42,11 +31,11 @@ std::vector<MovingObjects::Cluster> MovingObjects::find(std::span<const Point2> 
 }
 
 void MovingObjects::follow(Time stamp, std::vector<Cluster>& clusters) {
-  std::erase_if(followed_, [&](const Followed& object) { return stamp - object.seen > seconds(kForget); });
+  std::erase_if(followed_, [&](const Followed& object) { return stamp - object.seen > seconds(params_.forget); });
   std::vector<bool> taken(followed_.size(), false);
   for (auto& cluster : clusters) {
     std::size_t best = followed_.size();
-    double least = kGate;
+    double least = params_.gate;
     for (std::size_t i = 0; i < taken.size(); ++i) {
       if (taken[i]) continue;
       const double dt = to_seconds(stamp - followed_[i].seen);
@@ -63,22 +52,23 @@ void MovingObjects::follow(Time stamp, std::vector<Cluster>& clusters) {
     taken[best] = true;
     Followed& object = followed_[best];
     const double dt = to_seconds(stamp - object.seen);
-    if (dt < 0.01) {  // the other half of it, in the other laser's sweep
-      if (object.sightings >= 3) cluster.velocity = object.velocity;
+    if (dt < params_.same_moment) {  // the other half of it, in the other laser's sweep
+      if (object.sightings >= params_.sightings) cluster.velocity = object.velocity;
       continue;
     }
     ++object.sightings;
     // An alpha-beta filter whose gains fall to their steady values over the first sightings.
-    const double alpha = std::max(0.5, 1.0 / object.sightings);
-    const double beta = std::max(0.25, 1.0 / object.sightings);
+    const double alpha = std::max(params_.place_gain, 1.0 / object.sightings);
+    const double beta = std::max(params_.velocity_gain, 1.0 / object.sightings);
     const Point2 predicted = object.place + dt * object.velocity;
     const Point2 surprise = cluster.centre - predicted;
     object.place = predicted + alpha * surprise;
     object.velocity = object.velocity + (beta / dt) * surprise;
     const double speed = norm(object.velocity);
-    if (speed > kMaxSpeed) object.velocity = (kMaxSpeed / speed) * object.velocity;
+    if (speed > params_.most_speed) object.velocity = (params_.most_speed / speed) * object.velocity;
     object.seen = stamp;
-    if (object.sightings >= 3 && speed > kLeastSpeed && distance(object.place, object.first_place) > 0.08) {
+    if (object.sightings >= params_.sightings && speed > params_.least_speed &&
+        distance(object.place, object.first_place) > params_.least_way) {
       cluster.velocity = object.velocity;
     }
   }

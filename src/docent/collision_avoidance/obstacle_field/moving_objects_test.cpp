@@ -22,7 +22,7 @@ std::vector<MovingObjects::Cluster> clusters_of(const std::vector<double>& sweep
     ranges.push_back(sweep[i]);
     beams.push_back(beam);
   }
-  return MovingObjects::find(points, ranges, beams, kBeam);
+  return MovingObjects{}.find(points, ranges, beams, kBeam);
 }
 
 TEST(MovingObjects, WhatIsSlimAndStandsFreeIsFound) {

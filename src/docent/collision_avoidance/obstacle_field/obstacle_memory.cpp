@@ -5,20 +5,11 @@
 #include <iterator>
 #include <utility>
 
-#include "docent/collision_avoidance/obstacle_field/straight_pieces.h"
+#include "docent/collision_avoidance/obstacle_field/sweep_geometry.h"
 
 namespace docent {
 
 namespace {
-
-constexpr double kBlindGap = 0.105;  // [rad] 6 degrees
-constexpr int kFrozenSweeps = 2;     // repeats: noise alone makes even one unlikely
-constexpr int kFrozenHits = 3;       // beams that met something: fewer prove nothing
-constexpr int kFrozenReadings = 9;   // noisy readings that were all repeated
-constexpr double kTouched = 0.15;    // [m] a laser's point so near to a touch is what touches
-constexpr double kSeenTouch = 0.3;   // [s] a touch of what a laser sees counts: from then on the laser knows better
-constexpr double kBySomebody =
-    0.4;  // [m] from a touch: who stood here in the last sweep may have walked into the robot
 
 bool is_valid(double range) { return !std::isnan(range) && range >= 0.0; }
 
@@ -31,7 +22,7 @@ void ObstacleMemory::watch_for_freeze(Sensor& sensor, const SensorSweep& sweep, 
       last.size() == sweep.ranges.size() && std::equal(last.begin(), last.end(), sweep.ranges.begin(), equal);
   const auto hits = std::count_if(sweep.ranges.begin(), sweep.ranges.end(),
                                   [&](float range) { return is_valid(range) && range < sweep.max_range; });
-  if (!same || hits < kFrozenHits) {
+  if (!same || hits < params_.frozen_hits) {
     sensor.repeats = 0;
     sensor.frozen = false;
     sensor.odom_from_base_at_change = odom_from_base;
@@ -39,67 +30,52 @@ void ObstacleMemory::watch_for_freeze(Sensor& sensor, const SensorSweep& sweep, 
   }
   ++sensor.repeats;
   const Pose2 moved = inverse(sensor.odom_from_base_at_change) * odom_from_base;
-  const bool has_moved = norm(moved.position()) > 0.015 || std::abs(moved.theta.radians()) > 0.02;
-  if (sensor.repeats >= kFrozenSweeps && hits * sensor.repeats >= kFrozenReadings && has_moved) sensor.frozen = true;
+  const bool has_moved =
+      norm(moved.position()) > params_.frozen_way || std::abs(moved.theta.radians()) > params_.frozen_turn;
+  if (sensor.repeats >= params_.frozen_sweeps && hits * sensor.repeats >= params_.frozen_readings && has_moved)
+    sensor.frozen = true;
 }
 
 std::vector<bool> ObstacleMemory::confirm(std::span<const Point2> points, std::span<const int> beams,
-                                          std::span<const ObstaclePoint> before) {
-  constexpr double kNeighbour = 0.2;  // [m]
-  constexpr double kAgain = 0.25;     // [m]
+                                          std::span<const ObstaclePoint> before) const {
   std::vector<bool> confirmed(points.size(), false);
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (std::size_t k = i + 1; k < points.size() && beams[k] - beams[i] <= 2; ++k) {
-      if (distance(points[i], points[k]) < kNeighbour) confirmed[i] = confirmed[k] = true;
+      if (distance(points[i], points[k]) < params_.neighbour) confirmed[i] = confirmed[k] = true;
     }
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     confirmed[i] = confirmed[i] || std::any_of(before.begin(), before.end(), [&](const ObstaclePoint& point) {
-                     return distance(point.in_odom, points[i]) < kAgain;
+                     return distance(point.in_odom, points[i]) < params_.again;
                    });
   }
   return confirmed;
 }
 
 ObstacleMemory::View ObstacleMemory::view_of(const Sensor& sensor, const PointTransform& sensor_from_odom,
-                                             Point2 in_odom) {
+                                             Point2 in_odom) const {
   const Point2 in_sensor = sensor_from_odom * in_odom;
   const auto& sweep = sensor.sweep;
-  const double bearing = std::atan2(in_sensor.y, in_sensor.x);
-  const double place = Angle::radians(bearing - sweep.first_bearing).radians();
-  const double unwrapped = place < -0.5 * sweep.bearing_step ? place + 6.283185307179586 : place;
-  const auto beam = std::lround(unwrapped / sweep.bearing_step);
+  const long beam = beam_to(in_sensor, sweep.first_bearing, sweep.bearing_step);
   if (beam < 0 || beam >= static_cast<long>(sweep.ranges.size())) return View::hidden;
   const double range = sweep.ranges[static_cast<std::size_t>(beam)];
-  constexpr double kSame = 0.15;  // [m]
   const double beyond = range - norm(in_sensor);
-  if (!is_valid(range) || beyond <= -kSame) return View::hidden;
-  return beyond < kSame ? View::met_again : View::looked_through;
+  if (!is_valid(range) || beyond <= -params_.same) return View::hidden;
+  return beyond < params_.same ? View::met_again : View::looked_through;
 }
 
-void ObstacleMemory::add_sweep(std::size_t index, const SensorSweep& sweep, const Pose2& odom_from_base) {
-  if (sensors_.size() <= index) sensors_.resize(index + 1);
-  Sensor& sensor = sensors_[index];
-  watch_for_freeze(sensor, sweep, odom_from_base);
-
-  const std::vector<ObstaclePoint> before = std::exchange(sensor.points, {});
-  std::copy_if(before.begin(), before.end(), std::back_inserter(sensor.remembered),
-               [](const ObstaclePoint& point) { return point.confirmed; });
-  sensor.blind.clear();
-  sensor.sweep = sweep;
-  sensor.odom_from_sensor = odom_from_base * sweep.base_from_sensor;
-
+ObstacleMemory::Readings ObstacleMemory::read(Sensor& sensor) const {
+  const SensorSweep& sweep = sensor.sweep;
   const PointTransform odom_from_sensor{sensor.odom_from_sensor};
-  std::vector<Point2> places;
-  std::vector<double> ranges;
-  std::vector<int> beams;
-  places.reserve(sweep.ranges.size());
-  ranges.reserve(sweep.ranges.size());
-  beams.reserve(sweep.ranges.size());
+  Readings met;
+  met.places.reserve(sweep.ranges.size());
+  met.ranges.reserve(sweep.ranges.size());
+  met.beams.reserve(sweep.ranges.size());
   std::size_t invalid = 0;
   std::size_t run = 0;  // beams without a reading in a row
+  sensor.blind.clear();
   const auto end_run = [&](std::size_t end) {
-    if (static_cast<double>(run) * sweep.bearing_step > kBlindGap) {
+    if (static_cast<double>(run) * sweep.bearing_step > params_.blind_gap) {
       for (std::size_t k = end - run; k < end; ++k) {
         const double bearing = sweep.first_bearing + static_cast<double>(k) * sweep.bearing_step;
         sensor.blind.push_back((sweep.base_from_sensor.theta + Angle::radians(bearing)).radians());
@@ -115,26 +91,32 @@ void ObstacleMemory::add_sweep(std::size_t index, const SensorSweep& sweep, cons
       continue;
     }
     end_run(i);
-    if (range >= sweep.max_range || range > kReach) continue;
+    if (range >= sweep.max_range || range > params_.reach) continue;
     const Angle bearing = Angle::radians(sweep.first_bearing + static_cast<double>(i) * sweep.bearing_step);
-    places.push_back(odom_from_sensor * (range * unit(bearing)));
-    ranges.push_back(range);
-    beams.push_back(static_cast<int>(i));
+    met.places.push_back(odom_from_sensor * (range * unit(bearing)));
+    met.ranges.push_back(range);
+    met.beams.push_back(static_cast<int>(i));
   }
   end_run(sweep.ranges.size());
   sensor.invalid_share =
       sweep.ranges.empty() ? 1.0 : static_cast<double>(invalid) / static_cast<double>(sweep.ranges.size());
+  return met;
+}
 
+std::vector<ObstaclePoint> ObstacleMemory::keep_confirmed(Sensor& sensor, Readings& readings,
+                                                          std::span<const ObstaclePoint> before) const {
+  auto& [places, ranges, beams] = readings;
+  const Time stamp = sensor.sweep.stamp;
   const std::vector<bool> confirmed = confirm(places, beams, before);
   std::vector<ObstaclePoint> lone;
   sensor.points.reserve(places.size());
   std::size_t kept = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (!confirmed[i]) {
-      lone.push_back({.in_odom = places[i], .seen = sweep.stamp, .confirmed = false});
+      lone.push_back({.in_odom = places[i], .seen = stamp, .confirmed = false});
       continue;
     }
-    sensor.points.push_back({places[i], {}, sweep.stamp, false});
+    sensor.points.push_back({places[i], {}, stamp, false});
     places[kept] = places[i];
     ranges[kept] = ranges[i];
     beams[kept++] = beams[i];
@@ -142,7 +124,12 @@ void ObstacleMemory::add_sweep(std::size_t index, const SensorSweep& sweep, cons
   places.resize(kept);
   ranges.resize(kept);
   beams.resize(kept);
-  auto clusters = MovingObjects::find(places, ranges, beams, sweep.bearing_step);
+  return lone;
+}
+
+void ObstacleMemory::mark_what_moves(Sensor& sensor, const Readings& readings) {
+  const SensorSweep& sweep = sensor.sweep;
+  auto clusters = moving_.find(readings.places, readings.ranges, readings.beams, sweep.bearing_step);
   moving_.follow(sweep.stamp, clusters);
   for (const auto& cluster : clusters) {
     for (std::size_t k = cluster.first; k < cluster.first + cluster.count; ++k) {
@@ -150,42 +137,61 @@ void ObstacleMemory::add_sweep(std::size_t index, const SensorSweep& sweep, cons
       sensor.points[k].velocity = cluster.velocity;
     }
   }
-  const std::vector<bool> straight = on_straight_pieces(places, ranges, sweep.bearing_step);
-  for (std::size_t i = 0; i < places.size(); ++i) sensor.points[i].straight = straight[i];
-  let_come_nearer(sensor, places, beams);
-  sensor.points.insert(sensor.points.end(), lone.begin(), lone.end());
+  const std::vector<bool> straight =
+      on_straight_pieces(readings.places, readings.ranges, sweep.bearing_step, params_.straight);
+  for (std::size_t i = 0; i < readings.places.size(); ++i) sensor.points[i].straight = straight[i];
+  let_come_nearer(sensor, readings);
+}
+
+void ObstacleMemory::revise_remembered(Sensor& sensor) const {
   const PointTransform sensor_from_odom{inverse(sensor.odom_from_sensor)};
   std::erase_if(sensor.remembered, [&](ObstaclePoint& point) {
-    if (sweep.stamp - point.seen > seconds(kMemory)) return true;
+    if (sensor.sweep.stamp - point.seen > seconds(params_.memory)) return true;
     const View view = view_of(sensor, sensor_from_odom, point.in_odom);
     if (view == View::met_again) return true;  // the new point stands for it
     if (view == View::hidden) return false;
-    return point.velocity != Point2{} || ++point.missed >= kSweeps;
+    return point.velocity != Point2{} || ++point.missed >= params_.sweeps;
   });
 }
 
-void ObstacleMemory::let_come_nearer(Sensor& sensor, std::span<const Point2> places, std::span<const int> beams) {
-  constexpr double kMore = 0.5;  // [m/s] than is known of who is followed: two were taken for one
+void ObstacleMemory::add_sweep(std::size_t index, const SensorSweep& sweep, const Pose2& odom_from_base) {
+  while (sensors_.size() <= index) sensors_.emplace_back().flow = RangeFlow{params_.flow};
+  Sensor& sensor = sensors_[index];
+  watch_for_freeze(sensor, sweep, odom_from_base);
+  const std::vector<ObstaclePoint> before = std::exchange(sensor.points, {});
+  std::copy_if(before.begin(), before.end(), std::back_inserter(sensor.remembered),
+               [](const ObstaclePoint& point) { return point.confirmed; });
+  sensor.sweep = sweep;
+  sensor.odom_from_sensor = odom_from_base * sweep.base_from_sensor;
+  Readings readings = read(sensor);
+  const std::vector<ObstaclePoint> lone = keep_confirmed(sensor, readings, before);
+  mark_what_moves(sensor, readings);
+  sensor.points.insert(sensor.points.end(), lone.begin(), lone.end());
+  revise_remembered(sensor);
+}
+
+void ObstacleMemory::let_come_nearer(Sensor& sensor, const Readings& readings) const {
+  const std::vector<Point2>& places = readings.places;
   const SensorSweep& sweep = sensor.sweep;
   sensor.flow.add(sweep.stamp, sensor.odom_from_sensor, sweep.first_bearing, sweep.bearing_step, sweep.ranges, places,
-                  beams);
+                  readings.beams);
   const std::vector<Point2> nearer = sensor.flow.velocities();
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (nearer[i] == Point2{}) continue;
     const Point2 to_sensor = sensor.odom_from_sensor.position() - places[i];
     const Point2 known = sensor.points[i].velocity;
-    if (known != Point2{} && dot(nearer[i] - known, to_sensor) < kMore * norm(to_sensor)) continue;
+    if (known != Point2{} && dot(nearer[i] - known, to_sensor) < params_.more_than_known * norm(to_sensor)) continue;
     sensor.points[i].velocity = nearer[i];
     sensor.points[i].person = true;
   }
 }
 
 void ObstacleMemory::add_sonar(std::size_t index, const SonarReading& reading, const Pose2& odom_from_base) {
-  add_echo(sonars_, kSonarReach, index, reading, odom_from_base);
+  add_echo(sonars_, params_.sonar_reach, index, reading, odom_from_base);
 }
 
 void ObstacleMemory::add_infrared(std::size_t index, const SonarReading& reading, const Pose2& odom_from_base) {
-  add_echo(infrareds_, kInfraredReach, index, reading, odom_from_base);
+  add_echo(infrareds_, params_.infrared_reach, index, reading, odom_from_base);
 }
 
 void ObstacleMemory::add_echo(Ring& ring, double reach, std::size_t index, const SonarReading& reading,
@@ -195,21 +201,23 @@ void ObstacleMemory::add_echo(Ring& ring, double reach, std::size_t index, const
   const Pose2 odom_from_sensor = odom_from_base * reading.base_from_sensor;
   Echo echo{odom_from_sensor * Point2{reading.range, 0.0}, reading.stamp, false};
   echo.valid = is_valid(reading.range) && reading.range < std::min(reading.max_range, reach);
-  const bool confirmed = echo.valid && last.valid && reading.stamp - last.stamp < seconds(1.0) &&
-                         distance(echo.in_odom, last.in_odom) < 0.2;
+  const bool confirmed = echo.valid && last.valid && reading.stamp - last.stamp < seconds(params_.echo_time) &&
+                         distance(echo.in_odom, last.in_odom) < params_.echo_again;
   last = echo;
-  while (!ring.points.empty() && reading.stamp - ring.points.front().seen > seconds(kMemory)) ring.points.pop_front();
+  while (!ring.points.empty() && reading.stamp - ring.points.front().seen > seconds(params_.memory))
+    ring.points.pop_front();
   if (!confirmed) return;
   const double half = 0.5 * reading.field_of_view;
-  constexpr double kLeastCone = 0.13;  // [rad] a ring's places and axes are known no better
-  const double cone = std::max(half, kLeastCone);
+  const double cone = std::max(half, params_.least_cone);
   const PointTransform sonar_from_odom{inverse(odom_from_sensor)};
   for (const auto& sensor : sensors_) {
     for (const auto& point : sensor.points) {
       const Point2 in_sonar = sonar_from_odom * point.in_odom;
       if (in_sonar.x <= 0.0) continue;
       // Half a cone more to each side, and nearer than the echo: it is what the sonar heard.
-      if (norm(in_sonar) < reading.range + 0.25 && std::abs(std::atan2(in_sonar.y, in_sonar.x)) < 2.0 * cone) return;
+      if (norm(in_sonar) < reading.range + params_.explained &&
+          std::abs(std::atan2(in_sonar.y, in_sonar.x)) < params_.explained_cones * cone)
+        return;
     }
   }
   for (const double share : {-0.5, 0.0, 0.5}) {
@@ -221,13 +229,12 @@ void ObstacleMemory::add_echo(Ring& ring, double reach, std::size_t index, const
 
 void ObstacleMemory::add_lines(const std::string& source, Time stamp, double lifetime, std::span<const Segment> in_base,
                                const Pose2& odom_from_base) {
-  constexpr double kLongest = 20.0;  // [m]
   CameraView& view = cameras_[source];
   view.points.clear();
-  view.until = stamp + seconds(std::clamp(lifetime, 0.0, kLongestLife));
+  view.until = stamp + seconds(std::clamp(lifetime, 0.0, params_.longest_life));
   for (const Segment& line : in_base) {
-    const double length = std::min(distance(line.a, line.b), kLongest);
-    const int steps = 1 + static_cast<int>(length / kLineStep);
+    const double length = std::min(distance(line.a, line.b), params_.longest_line);
+    const int steps = 1 + static_cast<int>(length / params_.line_step);
     for (int i = 0; i <= steps; ++i) {
       const Point2 at = line.a + (static_cast<double>(i) / steps) * (line.b - line.a);
       view.points.push_back({odom_from_base * at, {}, stamp, false});
@@ -242,15 +249,16 @@ void ObstacleMemory::add_touch(Time stamp, Point2 in_base, const Pose2& odom_fro
   for (const Sensor& sensor : sensors_) {
     for (const ObstaclePoint& point : sensor.points) {
       const double away = distance(point.in_odom, in_odom);
-      is_seen = is_seen || away < kTouched;
-      is_somebody = is_somebody || (away < kBySomebody && !point.straight);
+      is_seen = is_seen || away < params_.touched;
+      is_somebody = is_somebody || (away < params_.by_somebody && !point.straight);
     }
   }
-  const double memory = is_seen ? kSeenTouch : is_somebody ? kMemory : kTouchMemory;
+  const double memory = is_seen ? params_.seen_touch : is_somebody ? params_.memory : params_.touch_memory;
   const bool low = !is_seen && !is_somebody;
   // Who goes on touching says the same again.
   std::erase_if(touches_, [&](const Touch& touch) {
-    return stamp > touch.until || (touch.point.low == low && distance(touch.point.in_odom, in_odom) < 0.01);
+    return stamp > touch.until ||
+           (touch.point.low == low && distance(touch.point.in_odom, in_odom) < params_.same_touch);
   });
   touches_.push_back({{.in_odom = in_odom, .seen = stamp, .low = low}, stamp + seconds(memory)});
 }
@@ -274,9 +282,9 @@ std::vector<ObstaclePoint> ObstacleMemory::points(Time now) const {
   const auto add = [&](const auto& points) {
     for (ObstaclePoint point : points) {
       const double age = to_seconds(now - point.seen);
-      if (age > kMemory || !point.confirmed) continue;
+      if (age > params_.memory || !point.confirmed) continue;
       if (point.velocity.x != 0.0 || point.velocity.y != 0.0) {
-        point.in_odom = point.in_odom + std::min(age, 0.5) * point.velocity;
+        point.in_odom = point.in_odom + std::min(age, params_.foreseen) * point.velocity;
       }
       result.push_back(point);
     }

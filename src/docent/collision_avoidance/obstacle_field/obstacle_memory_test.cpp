@@ -90,7 +90,7 @@ TEST(ObstacleMemory, ACamerasLinesCountForTheirLifetimeAndUntilItsNextPicture) {
   ASSERT_GE(points.size(), 2U * 21U);
   for (std::size_t i = 0; i < points.size() / 2; ++i) {
     EXPECT_NEAR(points[i].in_odom.y, 1.0, 1e-9);
-    EXPECT_NEAR(points[i].in_odom.x, 2.5 - ObstacleMemory::kLineStep * static_cast<double>(i), 0.06);
+    EXPECT_NEAR(points[i].in_odom.x, 2.5 - ObstacleMemoryParams{}.line_step * static_cast<double>(i), 0.06);
   }
   EXPECT_EQ(memory.points(time_from_seconds(2.5)).size(), points.size() / 2);
   EXPECT_TRUE(memory.points(time_from_seconds(3.1)).empty());

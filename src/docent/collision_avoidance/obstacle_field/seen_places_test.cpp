@@ -30,11 +30,11 @@ bool has_within(const std::vector<Point2>& places, Point2 at, double reach) {
 
 TEST(SeenPlaces, LasersThatLookAllRoundLeaveNothingUnknown) {
   const auto now = time_from_seconds(1.0);
-  SeenPlaces one{3.0};
+  SeenPlaces one;
   EXPECT_FALSE(one.unknown({}, kDisc, kMargin, now).empty()) << "nothing was seen yet";
   one.add(0, sweep(1.0, 360.0, 0.3F), {});
   EXPECT_TRUE(one.unknown({}, kDisc, kMargin, now).empty());
-  SeenPlaces two{3.0};
+  SeenPlaces two;
   two.add(0, sweep(1.0, 180.0, 5.0F), {});
   two.add(1, sweep(1.0, 180.0, 5.0F, {0.0, 0.0, Angle::degrees(180.0)}), {});
   EXPECT_TRUE(two.unknown({}, kDisc, kMargin, now).empty());
@@ -42,7 +42,7 @@ TEST(SeenPlaces, LasersThatLookAllRoundLeaveNothingUnknown) {
 }
 
 TEST(SeenPlaces, WhatLiesOutOfViewIsUnknownAndTheBodyCannotPassBetween) {
-  SeenPlaces seen{3.0};
+  SeenPlaces seen;
   seen.add(0, sweep(1.0, 180.0, 2.0F), {});
   const auto places = seen.unknown({}, kDisc, kMargin, time_from_seconds(1.1));
   ASSERT_FALSE(places.empty());
@@ -59,7 +59,7 @@ TEST(SeenPlaces, WhatLiesOutOfViewIsUnknownAndTheBodyCannotPassBetween) {
 TEST(SeenPlaces, AFreePlaceIsRememberedForAWhileUnlessSomethingWasMetThere) {
   const Pose2 turned{0.0, 0.0, Angle::degrees(180.0)};
   for (const float range : {2.0F, 0.3F}) {
-    SeenPlaces seen{3.0};
+    SeenPlaces seen;
     for (int i = 0; i <= 10; ++i) seen.add(0, sweep(1.0 + 0.1 * i, 180.0, range), {});
     for (int i = 1; i <= 30; ++i) seen.add(0, sweep(2.0 + 0.1 * i, 180.0, range), turned);
     const Point2 behind{-0.4, 0.0};
@@ -71,7 +71,7 @@ TEST(SeenPlaces, AFreePlaceIsRememberedForAWhileUnlessSomethingWasMetThere) {
 
 TEST(SeenPlaces, TheLastLookAtAPlaceTells) {
   const Pose2 turned{0.0, 0.0, Angle::degrees(180.0)};
-  SeenPlaces seen{3.0};
+  SeenPlaces seen;
   seen.add(0, sweep(1.0, 180.0, 2.0F), {});
   seen.add(0, sweep(1.3, 180.0, 0.3F), {});  // somebody came
   seen.add(0, sweep(1.6, 180.0, 2.0F), turned);
@@ -79,7 +79,7 @@ TEST(SeenPlaces, TheLastLookAtAPlaceTells) {
 }
 
 TEST(SeenPlaces, WhoDrivesAheadKnowsWhatItHasPassed) {
-  SeenPlaces seen{3.0};
+  SeenPlaces seen;
   for (int i = 0; i <= 20; ++i) seen.add(0, sweep(0.1 * i, 180.0, 5.0F), {0.05 * i, 0.0, {}});
   const auto places = seen.unknown({1.0, 0.0, {}}, kDisc, kMargin, time_from_seconds(2.0));
   EXPECT_FALSE(has_within(places, {-0.35, 0.0}, 0.1));
@@ -87,7 +87,7 @@ TEST(SeenPlaces, WhoDrivesAheadKnowsWhatItHasPassed) {
 }
 
 TEST(SeenPlaces, NobodyCreepsIntoTheUnknown) {
-  SeenPlaces seen{3.0};
+  SeenPlaces seen;
   for (int i = 0; i <= 20; ++i) {  // it looks astern and creeps ahead
     const Pose2 odom_from_base{0.002 * i, 0.0, {}};
     seen.add(0, sweep(0.1 * i, 180.0, 5.0F, {0.0, 0.0, Angle::degrees(180.0)}), odom_from_base);

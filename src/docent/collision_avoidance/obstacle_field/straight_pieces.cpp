@@ -7,14 +7,11 @@ namespace docent {
 
 namespace {
 
-constexpr double kOff = 0.07;          // [m] from the line: noise and half a brick
-constexpr double kLeastLength = 0.75;  // [m] wider than a person
-constexpr std::size_t kLeastPoints = 5;
-
-void fit(std::span<const Point2> points, std::size_t first, std::size_t last, std::vector<bool>& straight) {
+void fit(std::span<const Point2> points, std::size_t first, std::size_t last, std::vector<bool>& straight,
+         const StraightPiecesParams& params) {
   const Point2 way = points[last] - points[first];
   const double length = norm(way);
-  if (last - first + 1 < kLeastPoints || length < 1e-6) return;
+  if (last - first + 1 < params.least_points || length < 1e-6) return;
   std::size_t farthest = first;
   double most = 0.0;
   for (std::size_t i = first + 1; i < last; ++i) {
@@ -23,27 +20,27 @@ void fit(std::span<const Point2> points, std::size_t first, std::size_t last, st
     most = off;
     farthest = i;
   }
-  if (most > kOff) {
-    fit(points, first, farthest, straight);
-    fit(points, farthest, last, straight);
+  if (most > params.off) {
+    fit(points, first, farthest, straight, params);
+    fit(points, farthest, last, straight, params);
     return;
   }
-  if (length < kLeastLength) return;
+  if (length < params.least_length) return;
   for (std::size_t i = first; i <= last; ++i) straight[i] = true;
 }
 
 }  // namespace
 
 std::vector<bool> on_straight_pieces(std::span<const Point2> points, std::span<const double> ranges,
-                                     double bearing_step) {
+                                     double bearing_step, const StraightPiecesParams& params) {
   std::vector<bool> straight(points.size(), false);
   std::size_t first = 0;
   for (std::size_t i = 1; i <= points.size(); ++i) {
     if (i < points.size()) {
-      const double spacing = 0.15 + 2.5 * bearing_step * std::min(ranges[i], ranges[i - 1]);
+      const double spacing = spacing_of(ranges[i], ranges[i - 1], bearing_step, params.piece);
       if (distance(points[i], points[i - 1]) < spacing) continue;
     }
-    fit(points, first, i - 1, straight);
+    fit(points, first, i - 1, straight, params);
     first = i;
   }
   return straight;

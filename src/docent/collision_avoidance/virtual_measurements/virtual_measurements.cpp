@@ -18,15 +18,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kStep = 2.0 * kPi / VirtualMeasurements::kDirections;
-constexpr double kLattice = 0.025;       // [m] positions closer than this share their distances
-constexpr std::size_t kMaxRows = 16000;  // 3 MB, reached within the first hour: a day takes no more memory than that
-constexpr double kBlock = 0.5;           // [m] positions in one block have the same borders within range
-constexpr double kReentry = 0.5;         // [m]
-constexpr std::size_t kSample = 256;     // poses from which the limits are guessed
-constexpr std::size_t kFewPoses = 1024;  // not worth a guess
-constexpr double kAmple = 4.0;           // times the mass that is wanted: so much may the sample be off
-constexpr int kTurned = 6;               // directions, between one belief and the next
-constexpr int kDriven = 8;               // bins
 
 std::uint8_t bin_of(double range) {
   return static_cast<std::uint8_t>(
@@ -117,17 +108,17 @@ double VirtualMeasurements::square_range(Point2 centre, double half_diagonal) co
 }
 
 const VirtualMeasurements::Surroundings& VirtualMeasurements::surroundings_of(Point2 position) {
-  const Point2 index{std::floor(position.x / kBlock), std::floor(position.y / kBlock)};
+  const Point2 index{std::floor(position.x / params_.block), std::floor(position.y / params_.block)};
   const auto [entry, is_new] = surroundings_.try_emplace(key_of(index, 1.0));
   Surroundings& result = entry->second;
   if (!is_new) return result;
-  const Point2 middle{(index.x + 0.5) * kBlock, (index.y + 0.5) * kBlock};
-  constexpr double kReach = 0.5 * std::numbers::sqrt2 * kBlock + 1e-6;
+  const Point2 middle{(index.x + 0.5) * params_.block, (index.y + 0.5) * params_.block};
+  const double reach = 0.5 * std::numbers::sqrt2 * params_.block + 1e-6;
   for (const auto& border : borders_) {
-    if (distance(border, middle) - kReach < kMaxRange + params_.cell_padding) result.borders.push_back(border);
+    if (distance(border, middle) - reach < kMaxRange + params_.cell_padding) result.borders.push_back(border);
   }
   const auto parts = [&](const Polygon& polygon) {
-    return polygon.size() >= 3 && outline_distance(polygon, middle) <= kReach;
+    return polygon.size() >= 3 && outline_distance(polygon, middle) <= reach;
   };
   const bool is_parted = parts(area_) || std::any_of(hazards_.begin(), hazards_.end(), parts);
   if (!is_parted) result.possible = is_possible(middle);
@@ -180,15 +171,18 @@ void VirtualMeasurements::fill_from_outside(Row& row, Point2 position) const {
   for (int i = 0; i < kDirections; ++i) {
     const Point2 direction = unit(Angle::radians(i * kStep));
     bool returns = false;
-    for (double way = kBin; way <= kReentry && !returns; way += kBin) returns = is_possible(position + way * direction);
+    for (double way = kBin; way <= params_.reentry && !returns; way += kBin)
+      returns = is_possible(position + way * direction);
     row.bins[static_cast<std::size_t>(i)] = returns ? static_cast<std::uint8_t>(kBins - 1) : std::uint8_t{1};
   }
 }
 
 std::uint32_t VirtualMeasurements::row_of(Point2 position) {
-  const auto [entry, is_new] = index_.try_emplace(key_of(position, kLattice), static_cast<std::uint32_t>(rows_.size()));
+  const auto [entry, is_new] =
+      index_.try_emplace(key_of(position, params_.lattice), static_cast<std::uint32_t>(rows_.size()));
   if (is_new) {
-    const Point2 centre{kLattice * std::round(position.x / kLattice), kLattice * std::round(position.y / kLattice)};
+    const Point2 centre{params_.lattice * std::round(position.x / params_.lattice),
+                        params_.lattice * std::round(position.y / params_.lattice)};
     Row& row = rows_.emplace_back();
     const Surroundings& around = surroundings_of(centre);
     row.possible = around.possible ? *around.possible : is_possible(centre);
@@ -201,7 +195,7 @@ std::uint32_t VirtualMeasurements::row_of(Point2 position) {
 }
 
 void VirtualMeasurements::sight(std::span<const WeightedPose> poses) {
-  if (rows_.size() + poses.size() > kMaxRows) {  // not in the middle of a belief
+  if (rows_.size() + poses.size() > params_.most_rows) {  // not in the middle of a belief
     rows_.clear();
     index_.clear();
   }
@@ -349,25 +343,25 @@ void VirtualMeasurements::remember_limits() { std::copy_n(limits_.begin(), kDire
 void VirtualMeasurements::recall_limits() {
   for (int i = 0; i < kDirections; ++i) {
     int farthest = 0;
-    for (int near = i - kTurned; near <= i + kTurned; ++near)
+    for (int near = i - params_.turned; near <= i + params_.turned; ++near)
       farthest = std::max<int>(farthest, last_limits_[static_cast<std::size_t>(wrapped(near))]);
     const auto direction = static_cast<std::size_t>(i);
     limits_[direction] = limits_[direction + kDirections] =
-        static_cast<std::uint8_t>(std::min(farthest + kDriven, kBins - 1));
+        static_cast<std::uint8_t>(std::min(farthest + params_.driven, kBins - 1));
   }
 }
 
 void VirtualMeasurements::sample_limits() {
   limits_.fill(kBins - 1);
-  if (sightings_.size() < kFewPoses) return;
+  if (sightings_.size() < params_.few_poses) return;
   clear_histogram();
   double total = 0.0;
-  const std::size_t step = sightings_.size() / kSample;
+  const std::size_t step = sightings_.size() / params_.sample;
   for (std::size_t i = step / 2; i < sightings_.size(); i += step) {
     count_within_limits(sightings_[i]);
     total += sightings_[i].mass;
   }
-  lower_limits(kAmple * (1.0 - params_.confidence) * total);
+  lower_limits(params_.ample * (1.0 - params_.confidence) * total);
 }
 
 VirtualMeasurements::Scan VirtualMeasurements::measure(std::span<const WeightedPose> poses,

@@ -19,6 +19,18 @@ struct VirtualMeasurementParams {
   double cell_padding = 0.05;   ///< [m] the robot may be so far from the centre of its belief cell
   double max_impossible = 0.5;  ///< when more mass than this lies where the robot cannot be, that is believed
   bool best_pose_only = false;  ///< crippled, for evaluation: trusts the likeliest pose
+
+  // What no robot.yaml needs to change.
+  double lattice = 0.025;         ///< [m] positions closer than this share their distances
+  std::size_t most_rows = 16000;  ///< 3 MB, reached within the first hour: a day takes no more memory than that
+  double block = 0.5;             ///< [m] positions in one block have the same borders within range
+  double reentry = 0.5;           ///< [m] from outside the area: within that, a way leads back in
+  std::size_t sample = 256;       ///< poses from which the limits are guessed
+  std::size_t few_poses = 1024;   ///< not worth a guess
+  double ample = 4.0;             ///< times the mass that is wanted: so much may the sample be off
+  int turned = 6;                 ///< directions, between one belief and the next
+  int driven = 8;                 ///< bins likewise
+
   template <class V>
   void visit(V& v) {
     v("confidence", confidence);

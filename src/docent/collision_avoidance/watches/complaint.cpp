@@ -11,10 +11,12 @@ std::optional<Complaint> worse(std::optional<Complaint> a, std::optional<Complai
   return b->max_speed < a->max_speed ? std::move(b) : std::move(a);
 }
 
-std::optional<Complaint> complaint_of(const Freshness& freshness, Time now, const std::string& name, double patience) {
-  if (freshness.lateness() > kLate)
-    return Complaint{freshness.is_stale(now, patience) ? 0.0 : kCrippledSpeed, "the " + name + " comes late"};
-  if (freshness.is_stale(now, patience)) return Complaint{0.0, "no fresh " + name};
+std::optional<Complaint> complaint_of(const Freshness& freshness, Time now, const std::string& name,
+                                      const ComplaintParams& params) {
+  if (freshness.lateness() > params.late)
+    return Complaint{freshness.is_stale(now, params.patience) ? 0.0 : params.crippled_speed,
+                     "the " + name + " comes late"};
+  if (freshness.is_stale(now, params.patience)) return Complaint{0.0, "no fresh " + name};
   return std::nullopt;
 }
 

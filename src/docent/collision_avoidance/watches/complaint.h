@@ -13,17 +13,20 @@ struct Complaint {
   std::string reason;      ///< for a person
 };
 
-/// [m/s] with a sensor that tells only half of what it should.
-inline constexpr double kCrippledSpeed = 0.25;
+/// What all watches judge by.
+struct ComplaintParams {
+  double crippled_speed = 0.25;  ///< [m/s] with a sensor that tells only half of what it should
+  double patience = 0.5;         ///< [s] without news, at least, before the robot stands (safety rule 1)
+  double late = 0.2;             ///< [s] by which what comes may be late
+};
 
 /// The more cautious of two.
 [[nodiscard]] std::optional<Complaint> worse(std::optional<Complaint> a, std::optional<Complaint> b);
 
-/// Stands when nothing came for max(`patience`, 2.5 periods) [s] (safety rule 1) or what comes is older than that by
-/// its stamp; creeps when it is late by more than kLate.
+/// Stands when nothing came for the patience or some periods, whichever is longer, or what comes is older than that by
+/// its stamp; creeps when it is late.
 /// @param name  of what it gives, e.g. "sweep of the front laser"
 [[nodiscard]] std::optional<Complaint> complaint_of(const Freshness& freshness, Time now, const std::string& name,
-                                                    double patience = 0.5);
-inline constexpr double kLate = 0.2;  ///< [s]
+                                                    const ComplaintParams& params = {});
 
 }  // namespace docent

@@ -34,14 +34,14 @@ TEST(Complaint, NothingFreshStands) {
   ASSERT_TRUE(silent);
   EXPECT_EQ(silent->max_speed, 0.0);
   EXPECT_EQ(silent->reason, "no fresh sweep");
-  EXPECT_FALSE(complaint_of(freshness, time_from_seconds(102.6), "sweep", 0.8)) << "with more patience";
+  EXPECT_FALSE(complaint_of(freshness, time_from_seconds(102.6), "sweep", {.patience = 0.8})) << "with more patience";
 }
 
 TEST(Complaint, LateIsSlowAndTooLateStands) {
   EXPECT_FALSE(complaint_of(until_102(0.15), time_from_seconds(102.0), "sweep"));
   const auto late = complaint_of(until_102(0.3), time_from_seconds(102.0), "sweep");
   ASSERT_TRUE(late);
-  EXPECT_EQ(late->max_speed, kCrippledSpeed);
+  EXPECT_EQ(late->max_speed, ComplaintParams{}.crippled_speed);
   EXPECT_EQ(late->reason, "the sweep comes late");
   const auto too_late = complaint_of(until_102(0.6), time_from_seconds(102.0), "sweep");
   ASSERT_TRUE(too_late);

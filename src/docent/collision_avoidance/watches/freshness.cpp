@@ -8,9 +8,9 @@ void Freshness::receive(Time now, Time stamp) {
   if (!clock_.receive(now, stamp)) return;
   if (received_) {
     const double since = std::max(0.0, to_seconds(now - *received_));
-    // A pause must not teach us that pauses are normal.
-    const double interval = period_ > 0.0 ? std::min(since, 2.0 * period_) : std::min(since, 1.0);
-    period_ = period_ > 0.0 ? period_ + 0.1 * (interval - period_) : interval;
+    const double longest = period_ > 0.0 ? params_.longest_pause * period_ : params_.first_period;
+    const double interval = std::min(since, longest);
+    period_ = period_ > 0.0 ? period_ + params_.learning * (interval - period_) : interval;
   }
   received_ = now;
 }
@@ -21,6 +21,6 @@ double Freshness::silence(Time now) const {
 
 double Freshness::age(Time now) const { return silence(now) + clock_.lateness(); }
 
-bool Freshness::is_stale(Time now, double least) const { return age(now) > std::max(least, 2.5 * period_); }
+double Freshness::patience(double least) const { return std::max(least, params_.stale_periods * period_); }
 
 }  // namespace docent

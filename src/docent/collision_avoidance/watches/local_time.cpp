@@ -5,12 +5,6 @@
 
 namespace docent {
 
-namespace {
-
-constexpr double kDisagreement = 0.02;  // [s] between clocks that are kept together
-
-}  // namespace
-
 Time LocalTime::receive(const std::string& source, Time now, Time stamp, double honest_way) {
   Source& known = sources_[source];
   known.honest_way = honest_way;
@@ -24,7 +18,8 @@ Time LocalTime::receive_handed_on(const std::string& topic, Time now, Time stamp
   std::optional<double> offset;
   for (const auto& [name, source] : sources_) {
     const double candidate = offset_of(source);
-    if (candidate <= clock.least_delay() + kDisagreement) offset = std::max(offset.value_or(candidate), candidate);
+    if (candidate <= clock.least_delay() + params_.disagreement)
+      offset = std::max(offset.value_or(candidate), candidate);
   }
   return std::min(now, stamp + seconds(offset.value_or(0.0)));
 }
@@ -35,7 +30,7 @@ double LocalTime::offset_of(const Source& source) const {
     const double delay = other.clock.least_delay();
     if (delay >= source.clock.least_delay() - source.honest_way) least = std::min(least, delay);
   }
-  return least >= -kDisagreement && least <= source.honest_way ? 0.0 : least;
+  return least >= -params_.disagreement && least <= source.honest_way ? 0.0 : least;
 }
 
 }  // namespace docent

@@ -7,13 +7,6 @@ namespace docent {
 
 namespace {
 
-constexpr double kExpected = 0.1;   // [m] of driving, or of the rim in turning
-constexpr double kRest = 8.0;       // [s] that a robot with a frozen odometry stands before it tries again
-constexpr double kTrySpeed = 0.06;  // [m/s]
-constexpr double kMemory = 0.08;    // a message's share in the running means
-constexpr double kMany = 0.2;
-constexpr double kAfterJump = 3.0;  // [s] in which the localizer looks several times
-
 bool is_same(const Pose2& a, const Pose2& b) {
   return a.x == b.x && a.y == b.y && a.theta.radians() == b.theta.radians();
 }
@@ -27,7 +20,7 @@ void OdometryWatch::receive(Time now, Time stamp, const BaseState& state, bool j
     watch_for_gaps(to_seconds(stamp - *stamp_));
     if (!jumped) watch_for_freeze(now, stamp, state, commands);  // the velocity of a jump is none
   }
-  if (!stamp_ || stamp > *stamp_ || *stamp_ - stamp > seconds(1.0)) {
+  if (!stamp_ || stamp > *stamp_ || *stamp_ - stamp > seconds(params_.begins_anew)) {
     stamp_ = stamp;
     state_ = state;
   }
@@ -40,11 +33,11 @@ void OdometryWatch::watch_for_freeze(Time now, Time stamp, const BaseState& stat
     frozen_.reset();
     return;
   }
-  const double dt = std::min(0.5, to_seconds(stamp - *stamp_));
+  const double dt = std::min(params_.longest_step, to_seconds(stamp - *stamp_));
   // Commands carry the local time: `now`, not the stamp.
   expected_ = advance({{}, expected_}, commands.at(now - seconds(limits_.latency)), limits_, dt).velocity;
   expected_way_ += (std::abs(expected_.linear) + limits_.radius * std::abs(expected_.angular)) * dt;
-  if (expected_way_ < kExpected) return;
+  if (expected_way_ < params_.expected) return;
   frozen_ = now;
   expected_way_ = 0.0;
 }
@@ -52,18 +45,20 @@ void OdometryWatch::watch_for_freeze(Time now, Time stamp, const BaseState& stat
 void OdometryWatch::watch_for_gaps(double gap) {
   if (usual_gap_ == 0.0) usual_gap_ = gap;
   // Only what is no gap teaches what is usual.
-  if (gap < 1.5 * usual_gap_) usual_gap_ += kMemory * (gap - usual_gap_);
+  if (gap < params_.gap * usual_gap_) usual_gap_ += params_.memory * (gap - usual_gap_);
   const double foretold = std::max(1.0, std::round(gap / usual_gap_));
-  missing_ += kMemory * (1.0 - 1.0 / foretold - missing_);
+  missing_ += params_.memory * (1.0 - 1.0 / foretold - missing_);
 }
 
 std::optional<Complaint> OdometryWatch::complaint(Time now) const {
-  auto found = complaint_of(freshness_, now, "odometry");
+  auto found = complaint_of(freshness_, now, "odometry", params_.complaints);
   if (frozen_)
-    found = worse(found, Complaint{now - *frozen_ < seconds(kRest) ? 0.0 : kTrySpeed, "the odometry is frozen"});
-  if (missing_ > kMany) found = worse(found, Complaint{kCrippledSpeed, "odometry messages are missing"});
-  if (jumped_ && now - *jumped_ < seconds(kAfterJump))
-    found = worse(found, Complaint{kCrippledSpeed, "the odometry jumped"});
+    found = worse(
+        found, Complaint{now - *frozen_ < seconds(params_.rest) ? 0.0 : params_.try_speed, "the odometry is frozen"});
+  if (missing_ > params_.many_missing)
+    found = worse(found, Complaint{params_.complaints.crippled_speed, "odometry messages are missing"});
+  if (jumped_ && now - *jumped_ < seconds(params_.after_jump))
+    found = worse(found, Complaint{params_.complaints.crippled_speed, "the odometry jumped"});
   return found;
 }
 

@@ -7,13 +7,27 @@
 
 namespace docent {
 
-/// Watches the odometry. Frozen: it says the very same although the commands must have moved the base by kExpected;
+struct OdometryWatchParams {
+  ComplaintParams complaints{};
+  double expected = 0.1;      ///< [m] of driving, or of the rim in turning, by commands, that no odometry can miss
+  double rest = 8.0;          ///< [s] that a robot with a frozen odometry stands before it tries again
+  double try_speed = 0.06;    ///< [m/s] with which it tries
+  double memory = 0.08;       ///< a message's share in the running means
+  double many_missing = 0.2;  ///< of the messages that its rhythm foretells
+  double gap = 1.5;           ///< usual gaps; only what is no gap teaches what is usual
+  double after_jump = 3.0;    ///< [s] in which the localizer looks several times
+  double longest_step = 0.5;  ///< [s] between messages, for which the commands are still followed
+  double begins_anew = 1.0;   ///< [s] a stamp so much older than the newest: the clock or the base began anew
+};
+
+/// Watches the odometry. Frozen: it says the very same although the commands must have moved the base;
 /// the robot then stands, and tries again slowly after a while, for wheels that were held say the same. Missing
-/// messages: more than a fifth of those that its own rhythm foretells. Jumps are found by UnbrokenOdometry and slow
+/// messages: too many of those that its own rhythm foretells. Jumps are found by UnbrokenOdometry and slow
 /// the robot down until the localizer has had time to look.
 class OdometryWatch {
  public:
-  explicit OdometryWatch(const BaseLimits& limits) : limits_{limits} {}
+  explicit OdometryWatch(const BaseLimits& limits, const OdometryWatchParams& params = {})
+      : limits_{limits}, params_{params} {}
 
   /// @param state  as the base says it @param commands  given so far
   void receive(Time now, Time stamp, const BaseState& state, bool jumped, const CommandHistory& commands);
@@ -26,6 +40,7 @@ class OdometryWatch {
   void watch_for_gaps(double gap);
 
   BaseLimits limits_;
+  OdometryWatchParams params_;
   Freshness freshness_;
   std::optional<Time> stamp_;
   BaseState state_;            ///< newest

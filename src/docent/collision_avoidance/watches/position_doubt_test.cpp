@@ -68,7 +68,7 @@ TEST(PositionDoubt, IsOverWhenTheBeliefIsWellAgain) {
   PositionDoubt doubt;
   for (int i = 0; i < 3; ++i) doubt.believe({cells, off, 0.01, true});
   ASSERT_TRUE(doubt.complaint());
-  EXPECT_EQ(doubt.complaint()->max_speed, kCrippledSpeed);
+  EXPECT_EQ(doubt.complaint()->max_speed, ComplaintParams{}.crippled_speed);
   doubt.believe({cells, well, 0.01, true});
   EXPECT_FALSE(doubt.complaint());
 }

@@ -4,23 +4,11 @@
 
 namespace docent {
 
-namespace {
-
-constexpr int kRepeats = 14;
-constexpr double kMoved = 0.03;    // [m]
-constexpr double kTurned = 0.1;    // [rad]
-constexpr double kPatience = 1.5;  // [s] for two of many
-constexpr double kMemory = 0.05;   // a reading's share in the running mean
-constexpr double kManyMissing = 0.25;
-constexpr double kNearlyAll = 0.9;
-
-}  // namespace
-
 void RingWatch::hear(Time now, Time stamp, std::size_t index, double range, bool is_echo, const Pose2& odom_from_base) {
   if (ring_.size() <= index) ring_.resize(index + 1);
   any_.receive(now, stamp);
   ring_[index].freshness.receive(now, stamp);
-  missing_ += kMemory * ((std::isnan(range) ? 1.0 : 0.0) - missing_);
+  missing_ += params_.memory * ((std::isnan(range) ? 1.0 : 0.0) - missing_);
   if (!std::isnan(range)) watch_for_freeze(ring_[index], range, is_echo, odom_from_base);
 }
 
@@ -33,13 +21,14 @@ void RingWatch::watch_for_freeze(Sensor& sensor, double range, bool is_echo, con
     return;
   }
   const Pose2 moved = inverse(sensor.odom_from_base) * odom_from_base;
-  if (is_echo && (norm(moved.position()) > kMoved || std::abs(moved.theta.radians()) > kTurned)) ++repeats_;
+  if (is_echo && (norm(moved.position()) > params_.moved || std::abs(moved.theta.radians()) > params_.turned))
+    ++repeats_;
 }
 
 std::optional<std::size_t> RingWatch::silent_pair(Time now) const {
   const auto is_silent = [&](std::size_t index) {
     const Freshness& sensor = ring_[index % ring_.size()].freshness;
-    return sensor.period() > 0.0 && sensor.silence(now) > std::max(kPatience, 2.5 * sensor.period());
+    return sensor.period() > 0.0 && sensor.is_silent(now, params_.patience);
   };
   for (std::size_t i = 0; i < ring_.size(); ++i)
     if (is_silent(i) && is_silent(i + 1)) return i;
@@ -48,13 +37,13 @@ std::optional<std::size_t> RingWatch::silent_pair(Time now) const {
 
 std::optional<Complaint> RingWatch::complaint(Time now, bool required) const {
   if (ring_.empty() && !required) return std::nullopt;
-  auto found = complaint_of(any_, now, one_);
+  auto found = complaint_of(any_, now, one_, params_.complaints);
   if (const auto pair = silent_pair(now); pair && !found)
     found = {0.0, "no fresh " + one_ + " of number " + std::to_string(*pair) + " and the next"};
-  if (repeats_ >= kRepeats) found = worse(found, Complaint{0.0, "the " + all_ + " are frozen"});
-  if (missing_ > kManyMissing)
-    found =
-        worse(found, Complaint{missing_ > kNearlyAll ? 0.0 : kCrippledSpeed, "the " + all_ + " give too few readings"});
+  if (repeats_ >= params_.repeats) found = worse(found, Complaint{0.0, "the " + all_ + " are frozen"});
+  if (missing_ > params_.many_missing)
+    found = worse(found, Complaint{missing_ > params_.nearly_all ? 0.0 : params_.complaints.crippled_speed,
+                                   "the " + all_ + " give too few readings"});
   return found;
 }
 

@@ -9,16 +9,28 @@
 
 namespace docent {
 
+struct RingWatchParams {
+  ComplaintParams complaints{};
+  int repeats = 14;            ///< echoes in succession that are the very same though the base has moved
+  double moved = 0.03;         ///< [m] the base has moved
+  double turned = 0.1;         ///< [rad] likewise
+  double patience = 1.5;       ///< [s] for two of many: a ring speaks one after the other
+  double memory = 0.05;        ///< a reading's share in the running mean
+  double many_missing = 0.25;  ///< share of the readings that are none
+  double nearly_all = 0.9;     ///< likewise: the ring tells nothing at all
+};
+
 /// Watches a ring of range sensors, sonars or infrared, of which neighbours see nearly the same.
 ///
-/// Silent: the whole ring, or two neighbours; one alone is made up for by those beside it. Frozen: kRepeats echoes in
+/// Silent: the whole ring, or two neighbours; one alone is made up for by those beside it. Frozen: many echoes in
 /// succession, over all sensors, are the very same as that sensor gave before although the base has moved meanwhile; a
-/// lone one may repeat itself along a wall. Half gone: more than a quarter of the readings are none. Late: by stamp.
+/// lone one may repeat itself along a wall. Half gone: too many readings are none. Late: by stamp.
 /// A ring that froze with nothing in reach looks like one with nothing in reach, and misses nothing until then.
 class RingWatch {
  public:
   /// @param one, all  names: "sonar reading", "sonars"
-  RingWatch(std::string one, std::string all) : one_{std::move(one)}, all_{std::move(all)} {}
+  RingWatch(std::string one, std::string all, const RingWatchParams& params = {})
+      : one_{std::move(one)}, all_{std::move(all)}, params_{params} {}
 
   /// @param range  [m]; NaN: no reading @param is_echo  something answered
   void hear(Time now, Time stamp, std::size_t index, double range, bool is_echo, const Pose2& odom_from_base);
@@ -36,6 +48,7 @@ class RingWatch {
   [[nodiscard]] std::optional<std::size_t> silent_pair(Time now) const;
 
   std::string one_, all_;
+  RingWatchParams params_;
   std::vector<Sensor> ring_;
   Freshness any_;
   double missing_ = 0.0;  ///< share of readings that are none, lately

@@ -87,7 +87,7 @@ TEST(RingWatch, SlowsForHalfTheReadingsAndStandsForNearlyNone) {
   corridor.missing = 0.5;
   corridor.run(1.0);
   EXPECT_EQ(corridor.reason(), "the sonars give too few readings");
-  EXPECT_EQ(corridor.max_speed(), kCrippledSpeed);
+  EXPECT_EQ(corridor.max_speed(), ComplaintParams{}.crippled_speed);
   corridor.missing = 1.0;
   corridor.run(1.5);
   EXPECT_EQ(corridor.max_speed(), 0.0);
@@ -112,7 +112,7 @@ TEST(RingWatch, SaysThatReadingsComeLate) {
   corridor.late = 0.3;
   corridor.run(0.5);
   EXPECT_EQ(corridor.reason(), "the sonar reading comes late");
-  EXPECT_EQ(corridor.max_speed(), kCrippledSpeed);
+  EXPECT_EQ(corridor.max_speed(), ComplaintParams{}.crippled_speed);
   corridor.late = 0.7;
   corridor.run(0.5);
   EXPECT_EQ(corridor.max_speed(), 0.0);
