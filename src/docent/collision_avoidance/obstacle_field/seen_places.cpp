@@ -105,11 +105,10 @@ std::vector<Point2> SeenPlaces::unknown(const Pose2& odom_from_base, const BaseL
   std::vector<Point2> places;
   if (all_round_) return places;
   add_beside(places, odom_from_base, limits, margin, now);
-  constexpr int kPlaces = 48;  // of a line round the body
   const PointTransform odom_from_place{odom_from_base};
   for (const double beyond : params_.lines) {
-    for (int i = 0; i < kPlaces; ++i) {
-      const Point2 in_base = limits.edge(Angle::radians(i * kFullTurn / kPlaces), beyond);
+    for (int i = 0; i < params_.places; ++i) {
+      const Point2 in_base = limits.edge(Angle::radians(i * kFullTurn / params_.places), beyond);
       if (!is_known(odom_from_place * in_base, now)) places.push_back(in_base);
     }
   }

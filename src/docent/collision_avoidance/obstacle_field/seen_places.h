@@ -19,6 +19,7 @@ struct SeenPlacesParams {
   double lattice = 0.05;       ///< [m] between places beside the body
   double past_margin = 0.08;   ///< [m] to which there are places beyond the margin
   double uncovered = 0.02;     ///< [m] more at the sides of a disc, where a turn uncovers places between two sweeps
+  int places = 48;             ///< of a closed line round the body
   /// [m] outside the body, of the closed lines of places: so close that it passes between none of them.
   std::array<double, 5> lines{0.25, 0.6, 1.0, 1.6, 2.4};
 };
