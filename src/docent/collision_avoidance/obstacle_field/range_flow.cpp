@@ -75,13 +75,13 @@ Point2 RangeFlow::motion(std::span<const Point2> along_normals) const {
   double yy = stiff;
   Point2 sum{};
   for (const Point2 flow : along_normals) {
-      const double speed = norm(flow);
-      const Point2 normal = (1.0 / speed) * flow;
-      xx += normal.x * normal.x;
-      xy += normal.x * normal.y;
-      yy += normal.y * normal.y;
-      sum = sum + flow;
-    }
+    const double speed = norm(flow);
+    const Point2 normal = (1.0 / speed) * flow;
+    xx += normal.x * normal.x;
+    xy += normal.x * normal.y;
+    yy += normal.y * normal.y;
+    sum = sum + flow;
+  }
   const double determinant = xx * yy - xy * xy;
   const Point2 velocity{(yy * sum.x - xy * sum.y) / determinant, (xx * sum.y - xy * sum.x) / determinant};
   const double speed = norm(velocity);
