@@ -15,8 +15,10 @@ from evaluation.tables import Verdict  # noqa: E402
 # Of a program: benchmarks of these names, the counter, the least that the best of them must reach; best because the robot
 # takes the best instruction set that the processor has.
 BOUNDS = {
-    "collision_avoidance": [
+    "collision_avoidance_dynamic_window": [
         ("velocity selection / closed form", r"velocity_selection/\d+", "times_faster", 100.0),
+    ],
+    "collision_avoidance_virtual_measurements": [
         ("virtual measurements, jointly as the robot takes them / plain histogram, one cloud", r"virtual_measurements/5000/0",
          "jointly_times_faster", 3.0),
         ("virtual measurements, jointly as the robot takes them / plain histogram, all over the museum",

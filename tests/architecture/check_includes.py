@@ -26,6 +26,22 @@ LAYERS = [
     {"modules"},
     {"apps"},
 ]
+# Rooms of one layer's folder that stand on floors, the lower ones first. A room may see rooms of lower floors, and no other.
+FLOORS = {
+    "collision_avoidance": [
+        {"body"},
+        {"obstacle_field", "dynamic_window", "watches", "virtual_measurements"},
+        {"avoider"},
+    ],
+    "localization": [
+        {"belief", "expected_ranges"},
+        {"beam_choice", "particles", "sonar/tracker"},
+        {"judgement"},
+        {"localizer"},
+        {"markov"},
+        {"monte_carlo", "learning", "sonar/evidence"},
+    ],
+}
 LAYER_OF = {name: i for i, names in enumerate(LAYERS) for name in names}
 # Seen by modules and apps only (and among themselves where listed).
 EDGE = {"transport", "recording", "simulator", "telepresence", "evaluation", "messages", "robot"}
@@ -56,8 +72,22 @@ def folder_of(path):
     return path.parent.relative_to(SOURCE).as_posix()
 
 
+def check_floors(source, target, where):
+    """Whether a folder may see another one inside the same top folder."""
+    floors = FLOORS.get(top(source))
+    if floors is None or source == target:
+        return
+    floor_of = {f"{top(source)}/{room}": i for i, rooms in enumerate(floors) for room in rooms}
+    for folder in (source, target):
+        check(folder in floor_of, f"{where}: room {folder} stands on no floor")
+    if source in floor_of and target in floor_of:
+        check(floor_of[target] < floor_of[source], f"{where}: {source} may not see {target} (no lower floor)")
+
+
 def check_arrow(source, target, where):
     a, b = top(source), top(target)
+    if a == b and not re.search(r"(_test|_benchmark)\.cpp:|/testing\.h:", where):
+        check_floors(source, target, where)
     check(a in LAYER_OF, f"{where}: folder {a} stands in no layer")
     check(b in LAYER_OF, f"{where}: folder {b} stands in no layer")
     if a not in LAYER_OF or b not in LAYER_OF or a == b:

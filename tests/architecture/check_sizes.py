@@ -23,11 +23,6 @@ READ = {"src": CPP, "tests": CPP | {".py"}, "web/src": PAGE, "scripts": {".py"}}
 
 # What may be larger, and why: a folder, a file, or "file: function".
 EXCEPTIONS = {
-    "src/docent/collision_avoidance": "being split",
-    "src/docent/collision_avoidance/avoider.cpp": "being split",
-    "src/docent/collision_avoidance/avoider.cpp: Avoider::obstacles_from": "being split",
-    "src/docent/collision_avoidance/avoider_test.cpp": "being split",
-    "src/docent/collision_avoidance/obstacle_memory.cpp: ObstacleMemory::add_sweep": "being split",
     "src/docent/messages/docent_messages.h": "being split",
     "src/docent/telepresence/belief_raster.cpp: belief_raster": "being split",
     "src/docent/telepresence/web_server.cpp": "being split",

@@ -178,20 +178,25 @@ class Ledger(unittest.TestCase):
 
 class Benchmarks(unittest.TestCase):
     ROWS = [{"name": "velocity_selection/0", "times_faster": 30.0}, {"name": "velocity_selection/1", "times_faster": 120.0},
-            {"name": "velocity_selection/2", "error_occurred": True, "error_message": benchmarks.NO_MATTER},
-            {"name": "virtual_measurements/5000/0", "jointly_times_faster": 3.5},
-            {"name": "virtual_measurements/5000/1", "jointly_times_faster": 4.0}]
+            {"name": "velocity_selection/2", "error_occurred": True, "error_message": benchmarks.NO_MATTER}]
+    JOINT_ROWS = [{"name": "virtual_measurements/5000/0", "jointly_times_faster": 3.5},
+                  {"name": "virtual_measurements/5000/1", "jointly_times_faster": 4.0}]
 
-    def good(self, rows, code=0, printed="", name="collision_avoidance"):
+    def good(self, rows, code=0, printed="", name="collision_avoidance_dynamic_window"):
         return benchmarks.judge(name, code, {"benchmarks": rows}, printed).good
+
+    def good_jointly(self, rows):
+        return self.good(rows, name="collision_avoidance_virtual_measurements")
 
     def test_ratios_errors_and_the_exit_code_count(self):
         self.assertTrue(self.good(self.ROWS))
+        self.assertTrue(self.good_jointly(self.JOINT_ROWS))
         self.assertFalse(self.good(self.ROWS, code=1))
         self.assertFalse(self.good([]))
-        self.assertFalse(self.good(self.ROWS[:-1]), "a row is missing")
+        self.assertFalse(self.good(self.JOINT_ROWS), "rows of another program")
+        self.assertFalse(self.good_jointly(self.JOINT_ROWS[:-1]), "a row is missing")
         self.assertFalse(self.good([dict(row, times_faster=2.0) for row in self.ROWS]))
-        self.assertFalse(self.good([dict(row, jointly_times_faster=2.0) for row in self.ROWS]))
+        self.assertFalse(self.good_jointly([dict(row, jointly_times_faster=2.0) for row in self.JOINT_ROWS]))
         self.assertFalse(self.good([*self.ROWS, {"name": "more", "error_occurred": True, "error_message": "not the same decision"}]))
 
     def test_a_peer_in_the_same_run_is_the_measure(self):

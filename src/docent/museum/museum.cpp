@@ -74,6 +74,12 @@ const Exhibit* Museum::find_exhibit(const std::string& id) const {
   return found == exhibits.end() ? nullptr : &*found;
 }
 
+std::vector<Polygon> Museum::hazard_polygons() const {
+  std::vector<Polygon> polygons;
+  for (const Hazard& hazard : hazards) polygons.push_back(hazard.polygon);
+  return polygons;
+}
+
 const Tour* Museum::find_tour(const std::string& id) const {
   const auto found = std::find_if(tours.begin(), tours.end(), [&](const Tour& t) { return t.id == id; });
   return found == tours.end() ? nullptr : &*found;

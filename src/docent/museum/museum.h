@@ -84,6 +84,7 @@ struct Museum {
   std::optional<std::filesystem::path> simulation_path;
 
   [[nodiscard]] const Exhibit* find_exhibit(const std::string& id) const;
+  [[nodiscard]] std::vector<Polygon> hazard_polygons() const;  ///< [hazards] [m], map
   [[nodiscard]] const Tour* find_tour(const std::string& id) const;
 };
 

@@ -26,9 +26,8 @@ class Room {
     std::vector<bool> blocked(frame.size());
     for (std::size_t i = 0; i < frame.size(); ++i) blocked[i] = !(museum.map.cells[i] >= 0 && museum.map.cells[i] < 20);
     to_walls_ = distance_transform(frame, blocked);
-    std::vector<Polygon> hazards;
-    for (const Hazard& hazard : museum.hazards) hazards.push_back(hazard.polygon);
-    spare_ = spare_room(museum.map, hazards, museum.area, robot.radius, robot.clearance, robot.coarsening);
+    spare_ =
+        spare_room(museum.map, museum.hazard_polygons(), museum.area, robot.radius, robot.clearance, robot.coarsening);
     flood();
   }
 

@@ -256,6 +256,8 @@ TEST(Museum, SmallOneIsFine) {
   EXPECT_DOUBLE_EQ(museum->modes.at("open").max_speed, 0.6);
   EXPECT_DOUBLE_EQ(museum->modes.at("closed").max_speed, 1.63) << "what the file leaves out keeps its default";
   EXPECT_EQ(museum->hazards[1].kind, HazardKind::stairs);
+  ASSERT_EQ(museum->hazard_polygons().size(), museum->hazards.size());
+  EXPECT_EQ(museum->hazard_polygons()[1], museum->hazards[1].polygon);
   EXPECT_EQ(museum->tours[1].minutes, 6.0);
   EXPECT_EQ(museum->find_exhibit("coin")->title.at("de"), "Die Münze");
   EXPECT_EQ(museum->find_exhibit("sword"), nullptr);

@@ -77,10 +77,8 @@ RoutePlanner planner_of(const OccupancyGrid& map, const std::optional<Museum>& m
   // About 15 cm a cell, whatever the map's resolution.
   params.coarsening = std::max(1, static_cast<int>(std::lround(0.15 / map.frame.resolution)));
   value_or_fail(params.validate());
-  std::vector<Polygon> hazards;
-  if (museum)
-    for (const Hazard& hazard : museum->hazards) hazards.push_back(hazard.polygon);
-  return {map, hazards, museum ? museum->area : Polygon{}, params};
+  if (!museum) return {map, {}, {}, params};
+  return {map, museum->hazard_polygons(), museum->area, params};
 }
 
 void plan(Options& options) {

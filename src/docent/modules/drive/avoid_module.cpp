@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "docent/collision_avoidance/avoider.h"
+#include "docent/collision_avoidance/avoider/avoider.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/shared/museum_mode.h"
 #include "docent/modules/shared/scanners.h"
@@ -24,10 +24,7 @@ Result<BaseLimits> limits_of(const RobotBody& body) {
   BaseLimits limits{body.radius,       body.max_speed,    body.max_turn_rate,
                     body.acceleration, body.deceleration, body.turn_acceleration,
                     body.latency,      body.watchdog,     {}};
-  if (body.outline.empty()) return limits;
-  Polygon corners;
-  for (const auto& corner : body.outline) corners.push_back({corner[0], corner[1]});
-  auto outline = Outline::make(std::move(corners));
+  auto outline = Outline::of_body(body.outline);
   if (!outline) return tl::unexpected<Error>(outline.error());
   limits.outline = std::move(*outline);
   return limits;

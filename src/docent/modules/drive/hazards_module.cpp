@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "docent/collision_avoidance/virtual_measurements.h"
+#include "docent/collision_avoidance/virtual_measurements/virtual_measurements.h"
 #include "docent/messages/conversions.h"
 
 namespace docent {
@@ -13,8 +13,8 @@ class HazardsModule final : public Module {
  public:
   HazardsModule(const ModuleContext& context, const VirtualMeasurementParams& params)
       : bus_{context.bus},
-        hazards_{context.museum.area, outlines(context.museum), params, VirtualMeasurements::Ends::hazards},
-        border_{context.museum.area, outlines(context.museum), params, VirtualMeasurements::Ends::border},
+        hazards_{context.museum.area, context.museum.hazard_polygons(), params, VirtualMeasurements::Ends::hazards},
+        border_{context.museum.area, context.museum.hazard_polygons(), params, VirtualMeasurements::Ends::border},
         best_pose_only_{params.best_pose_only},
         ignored_{context.config.evaluation().ignores_hazards},
         scan_{bus_.publisher(topics::kVirtualScan)} {
@@ -35,12 +35,6 @@ class HazardsModule final : public Module {
 
  private:
   static constexpr double kBeliefLife = 3.0;
-
-  static std::vector<Polygon> outlines(const Museum& museum) {
-    std::vector<Polygon> result;
-    for (const auto& hazard : museum.hazards) result.push_back(hazard.polygon);
-    return result;
-  }
 
   void measure(const docent_msgs::Belief& belief) {
     poses_.clear();

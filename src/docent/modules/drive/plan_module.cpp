@@ -52,22 +52,15 @@ struct PlanParams {
   }
 };
 
-std::vector<Polygon> polygons_of(const std::vector<Hazard>& hazards) {
-  std::vector<Polygon> polygons;
-  for (const auto& hazard : hazards) polygons.push_back(hazard.polygon);
-  return polygons;
-}
-
 class PlanModule final : public Module {
  public:
   PlanModule(const ModuleContext& context, const PlanParams& params)
       : bus_{context.bus},
         params_{params},
         ignores_live_map_{context.config.evaluation().ignores_live_map},
-        route_{
-            context.museum.map,
-            context.config.evaluation().ignores_hazards ? std::vector<Polygon>{} : polygons_of(context.museum.hazards),
-            context.config.evaluation().ignores_hazards ? Polygon{} : context.museum.area, params.route},
+        route_{context.museum.map,
+               context.config.evaluation().ignores_hazards ? std::vector<Polygon>{} : context.museum.hazard_polygons(),
+               context.config.evaluation().ignores_hazards ? Polygon{} : context.museum.area, params.route},
         pursuit_{params.pursuit},
         tell_apart_{context.museum.map, context.config.body().radius, params.tell_apart},
         base_from_laser_{mounts_of(context.config.body().scanners)},

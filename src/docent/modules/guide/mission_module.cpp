@@ -43,11 +43,9 @@ Programme programme_of(const Museum& museum) {
 TravelDistance travel_in(const ModuleContext& context) {
   const Museum& museum = context.museum;
   if (museum.map.cells.empty()) return straight_distance();
-  std::vector<Polygon> hazards;
-  for (const Hazard& hazard : museum.hazards) hazards.push_back(hazard.polygon);
   RouteParams params;
   params.robot_radius = context.config.body().radius;
-  return travel_on_map(RoutePlanner{museum.map, hazards, museum.area, params});
+  return travel_on_map(RoutePlanner{museum.map, museum.hazard_polygons(), museum.area, params});
 }
 
 /// Its charger holds it there.

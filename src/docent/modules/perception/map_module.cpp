@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "docent/collision_avoidance/outline_distance.h"
-#include "docent/collision_avoidance/tactile_watch.h"
+#include "docent/collision_avoidance/body/outline_distance.h"
+#include "docent/collision_avoidance/watches/tactile_watch.h"
 #include "docent/mapping/occupancy/live_map.h"
 #include "docent/modules/shared/pose_tracker.h"
 #include "docent/modules/shared/scanners.h"
@@ -26,19 +26,13 @@ nav_msgs::MapMetaData to_message(const GridFrame& frame, Time now) {
   return info;
 }
 
-std::vector<Polygon> polygons_of(const std::vector<Hazard>& hazards) {
-  std::vector<Polygon> polygons;
-  for (const auto& hazard : hazards) polygons.push_back(hazard.polygon);
-  return polygons;
-}
-
 class MapModule final : public Module {
  public:
   MapModule(const ModuleContext& context, const LiveMapParams& params, Outline outline)
       : bus_{context.bus},
         body_{context.config.body()},
         outline_{std::move(outline)},
-        live_{context.museum.map, params, polygons_of(context.museum.hazards)},
+        live_{context.museum.map, params, context.museum.hazard_polygons()},
         base_from_laser_{mounts_of(body_.scanners)},
         sights_(base_from_laser_.size()),
         live_map_{bus_.publisher(topics::kLiveMap)},
@@ -206,15 +200,9 @@ class MapModule final : public Module {
 Result<std::unique_ptr<Module>> make_map(const ModuleContext& context) {
   auto params = context.config.section<LiveMapParams>("map");
   if (!params) return tl::unexpected<Error>(params.error());
-  Outline outline;
-  if (!context.config.body().outline.empty()) {
-    Polygon corners;
-    for (const auto& corner : context.config.body().outline) corners.push_back({corner[0], corner[1]});
-    auto made = Outline::make(std::move(corners));
-    if (!made) return tl::unexpected<Error>(made.error());
-    outline = std::move(*made);
-  }
-  return std::make_unique<MapModule>(context, *params, std::move(outline));
+  auto outline = Outline::of_body(context.config.body().outline);
+  if (!outline) return tl::unexpected<Error>(outline.error());
+  return std::make_unique<MapModule>(context, *params, std::move(*outline));
 }
 
 Result<ParameterRows> parameters_of_map(const RobotConfig& config) {

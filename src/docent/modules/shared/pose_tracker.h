@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "docent/collision_avoidance/base_motion.h"
+#include "docent/collision_avoidance/body/base_motion.h"
 #include "docent/geometry/pose2.h"
 #include "docent/messages/conversions.h"
 #include "docent/messages/topics.h"

@@ -1,0 +1,299 @@
+#include "docent/collision_avoidance/avoider/avoider.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "docent/collision_avoidance/body/braking.h"
+
+namespace docent {
+
+Avoider::Avoider(const BaseLimits& limits, const AvoiderParams& params, std::vector<std::string> lasers)
+    : limits_{limits},
+      params_{params},
+      method_{params.make_method(limits)},
+      window_{limits, params.window},
+      surroundings_{limits, params.surroundings(), params.virtual_obstacles()},
+      inputs_{limits, params.inputs(), std::move(lasers)},
+      max_speed_{std::min(params.first_max_speed, limits.max_speed)} {}
+
+void Avoider::add_odometry(Time now, Time stamp, const BaseState& state) {
+  const Time taken = local_time_.receive("odometry", now, stamp);
+  const auto unbroken = unbroken_.add(taken, state.odom_from_base);
+  inputs_.hear_odometry(now, stamp, state, unbroken.jumped, commands_);
+  // A base that derives its velocity from its pose says nonsense in a jump.
+  const bool keeps = unbroken.jumped && !odometry_.empty();
+  odometry_.add(taken, {unbroken.odom_from_base, keeps ? odometry_.newest().velocity : state.velocity});
+}
+
+void Avoider::add_sweep(Time now, std::size_t sensor, SensorSweep sweep) {
+  if (sensor >= inputs_.lasers() || odometry_.empty()) return;
+  inputs_.hear_sweep(now, sweep.stamp, sensor);
+  sweep.stamp = local_time_.receive("laser " + std::to_string(sensor), now, sweep.stamp);
+  const Pose2 odom_from_base = odometry_.pose_at(sweep.stamp);
+  surroundings_.add_sweep(sensor, std::move(sweep), odom_from_base);
+}
+
+void Avoider::add_sonar(Time now, std::size_t index, SonarReading reading) {
+  if (odometry_.empty()) return;
+  const Time stamp = std::exchange(reading.stamp, local_time_.receive("sonars", now, reading.stamp));
+  const Pose2 odom_from_base = odometry_.pose_at(reading.stamp);
+  inputs_.hear_sonar(now, stamp, index, reading, odom_from_base);
+  surroundings_.memory().add_sonar(index, reading, odom_from_base);
+}
+
+void Avoider::add_infrared(Time now, std::size_t index, SonarReading reading) {
+  if (odometry_.empty()) return;
+  const Time stamp = std::exchange(reading.stamp, local_time_.receive("infrared", now, reading.stamp));
+  const Pose2 odom_from_base = odometry_.pose_at(reading.stamp);
+  inputs_.hear_infrared(now, stamp, index, reading, odom_from_base);
+  surroundings_.memory().add_infrared(index, reading, odom_from_base);
+}
+
+void Avoider::add_lines(Time now, Time stamp, const std::string& source, double lifetime,
+                        std::span<const Segment> in_base) {
+  if (odometry_.empty()) return;
+  inputs_.hear_lines(now, stamp, source);
+  const Time taken = local_time_.receive_from_picture("camera " + source, now, stamp);
+  surroundings_.memory().add_lines(source, taken, lifetime, in_base, odometry_.pose_at(taken));
+}
+
+void Avoider::add_tactile(Time now, Time stamp, std::span<const std::uint8_t> segments, std::uint32_t scan) {
+  inputs_.feel(now, stamp, segments, scan);
+  if (odometry_.empty()) return;
+  const Time taken = local_time_.receive("tactile", now, stamp);
+  ObstacleMemory& memory = surroundings_.memory();
+  memory.stand(odometry_.pose_at(taken).position(), limits_.inradius() - params_.touch.dent);
+  const double step = 2.0 * std::numbers::pi / static_cast<double>(segments.size());
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    if (segments[i] == 0 || segments[i] == TactileWatch::kNoReading) continue;
+    const Angle bearing = Angle::radians(step * static_cast<double>(i));
+    contact_.feel(now, odometry_.newest().odom_from_base.theta + bearing);
+    memory.add_touch(taken, limits_.edge(bearing), odometry_.pose_at(taken));
+  }
+}
+
+void Avoider::add_virtual(Time now, VirtualSweep sweep) {
+  const auto is_unfit = [](float range) { return std::isnan(range); };
+  if (odometry_.empty() || std::any_of(sweep.ranges.begin(), sweep.ranges.end(), is_unfit)) return;
+  inputs_.hear_virtual(now, sweep.stamp);
+  sweep.stamp = local_time_.receive_handed_on("virtual", now, sweep.stamp);
+  const Pose2 odom_from_base = odometry_.pose_at(sweep.stamp);
+  surroundings_.virtual_obstacles().take(std::move(sweep), odom_from_base);
+}
+
+void Avoider::add_person_beams(Time now, Time stamp, std::span<const Point2> in_base, bool localized) {
+  if (odometry_.empty()) return;
+  const Time taken = local_time_.receive_handed_on("person beams", now, stamp);
+  surroundings_.unmapped().add(now, taken, odometry_.pose_at(taken), in_base, localized);
+}
+
+void Avoider::set_target(Time now, Time stamp, AvoiderTarget target) {
+  target_freshness_.receive(now, stamp);
+  const Pose2& odom_from_raw = unbroken_.odom_from_raw(local_time_.receive("target", now, stamp));
+  for (Point2& via : target.via) via = odom_from_raw * via;
+  target.heading = odom_from_raw.theta + target.heading;
+  target_ = std::move(target);
+}
+
+std::optional<Complaint> Avoider::complaint_of_inputs(Time now) const {
+  if (!params_.watches) return std::nullopt;
+  return inputs_.complaint(now, surroundings_.memory());
+}
+
+std::optional<Complaint> Avoider::complaint(Time now) const {
+  return params_.watches ? worse(complaint_of_inputs(now), doubt_.complaint()) : std::nullopt;
+}
+
+std::string Avoider::fault(Time now) const {
+  const auto found = complaint(now);
+  return found && found->max_speed <= 0.0 ? found->reason : "";
+}
+
+bool Avoider::is_touched(Time now, double within) const {
+  const bool leaves = std::visit([](const auto& method) { return method.leaves_who_touches(); }, method_);
+  return contact_.is_touched(now, within) && !(leaves && contact_.may_leave(now));
+}
+
+BaseState Avoider::state_when_effective(Time now) const {
+  return predict(odometry_.newest(), odometry_.newest_stamp(), now + seconds(limits_.latency), commands_, limits_);
+}
+
+void Avoider::tell_nearest(std::span<const Obstacle> obstacles, AvoiderDecision& decision) const {
+  for (const auto& obstacle : obstacles) {
+    if (obstacle.is_unknown) continue;
+    double& nearest = obstacle.is_virtual ? decision.nearest_virtual : decision.nearest_real;
+    nearest = std::min(nearest, obstacle.is_border ? norm(obstacle.at) : limits_.gap_to(obstacle.at));
+  }
+}
+
+Carrot Avoider::carrot(const BaseState& start, std::span<const Obstacle> obstacles) const {
+  const double lookahead = std::max(params_.lookahead, params_.lookahead_time * start.velocity.linear);
+  const Pose2 base_from_odom = inverse(start.odom_from_base);
+  std::vector<Point2> path;
+  for (const auto& via : target_->via) path.push_back(base_from_odom * via);
+  return carrot_on(path, lookahead, obstacles, limits_.radius, params_.carrot);
+}
+
+void Avoider::cap_by_knowledge(Time now, SpeedCap& cap) const {
+  if (!params_.watches) return;
+  if (const auto found = complaint(now)) cap.lower(found->max_speed, found->reason);
+  inputs_.cap_by_age(now, max_speed_, cap);
+  if (const auto measured = surroundings_.virtual_obstacles().stamp())
+    inputs_.cap_by_position(now, odometry_.driven_since(*measured), max_speed_, cap);
+}
+
+bool Avoider::cap_by_touched_things(Time now, const Pose2& odom_from_base, SpeedCap& cap) const {
+  bool is_near = false;
+  for (const Point2& thing : surroundings_.memory().touched_things(now)) {
+    if (limits_.gap_to(inverse(odom_from_base) * thing) >= params_.touch.near) continue;
+    cap.lower(params_.touch.feels_its_way, "something that only touch finds is near");
+    is_near = true;
+  }
+  return is_near;
+}
+
+void Avoider::judge_blocking(Time now, Point2 carrot, const Pose2& odom_from_base, std::span<const Obstacle> obstacles,
+                             AvoiderDecision& decision) const {
+  const double bearing = std::atan2(carrot.y, carrot.x);
+  const Obstacle* blocker = nullptr;
+  double least = std::min(params_.blocking.least_way, norm(carrot));
+  for (const auto& obstacle : obstacles) {
+    if (obstacle.is_unknown) continue;  // nobody stands there who could be asked: the robot turns and looks
+    const double way = straight_free_way(bearing, {&obstacle, 1}, limits_.radius, params_.blocking.horizon);
+    if (way < least) {
+      least = way;
+      blocker = &obstacle;
+    }
+  }
+  if (blocker == nullptr || std::abs(decision.command.linear) > params_.blocking.least_speed) return;
+  decision.path_blocked = true;
+  decision.state = AvoiderDecision::State::blocked;
+  decision.reason = blocker->is_border    ? "the border of its area is in the way"
+                    : blocker->is_virtual ? "a hazard is in the way"
+                                          : "something is in the way";
+  if (blocker->is_virtual) return;
+  const UnmappedPlaces& unmapped = surroundings_.unmapped();
+  const Point2 in_odom = odom_from_base * blocker->at;
+  decision.unmapped_obstacle = unmapped.judge(now) ? unmapped.is_near(in_odom) : blocker->person;
+  if (decision.unmapped_obstacle) decision.reason = "somebody is in the way";
+  decision.low_obstacle = blocker->is_low && !decision.unmapped_obstacle;
+}
+
+AvoiderDecision Avoider::finish(Time now, AvoiderDecision decision) {
+  // Whatever else hinders it: what is broken must be known.
+  if (auto found = complaint(now)) decision.reason = std::move(found->reason);
+  command_ = decision.command;
+  commands_.add(now, command_);
+  return decision;
+}
+
+AvoiderDecision Avoider::stand(Time now, AvoiderDecision decision, std::string reason) {
+  decision.command = {};
+  decision.state = AvoiderDecision::State::stopped;
+  decision.reason = std::move(reason);
+  std::visit([](auto& method) { method.forget(); }, method_);
+  return finish(now, std::move(decision));
+}
+
+bool Avoider::awaits_sweep(Time now, double soon) const { return inputs_.await_sweep(now, soon); }
+
+std::optional<std::string> Avoider::reason_to_stand(Time now) const {
+  if (auto why = fault(now); !why.empty()) return why;
+  if (!target_ || target_->mode == AvoiderTarget::Mode::stop) return "";
+  if (target_freshness_.age(now) > params_.target_timeout) return "no fresh target";
+  if (is_touched(now, contact_.stands_for())) return "the robot was touched";
+  return std::nullopt;
+}
+
+std::optional<Avoider::Course> Avoider::course_of_turn(const BaseState& start, AvoiderDecision& decision) const {
+  const double error = (target_->heading - start.odom_from_base.theta).radians();
+  if (std::abs(error) < params_.approach.turned * target_->heading_tolerance) return std::nullopt;
+  decision.speed_cap = 0.0;
+  decision.state = AvoiderDecision::State::turning;
+  return Course{{error, params_.approach.far, 0.0, false}};
+}
+
+std::optional<Avoider::Course> Avoider::course_along_path(Time now, const BaseState& start,
+                                                          std::span<const Obstacle> obstacles,
+                                                          AvoiderDecision& decision) {
+  if (target_->via.empty()) return std::nullopt;
+  const ApproachParams& approach = params_.approach;
+  const Carrot ahead = carrot(start, obstacles);
+  SpeedCap cap{decision.speed_cap, {}};
+  if (target_->is_final) {
+    const double to_goal = norm(inverse(start.odom_from_base) * target_->via.back());
+    if (to_goal < approach.arrived * target_->position_tolerance) return std::nullopt;
+    const double rest = std::max(0.0, ahead.remaining - approach.aims_short * target_->position_tolerance);
+    cap.lower(std::max(approach.least_speed, std::sqrt(2.0 * params_.arrival_deceleration * rest)), "");
+  }
+  cap_by_knowledge(now, cap);
+  decision.low_obstacle = cap_by_touched_things(now, start.odom_from_base, cap);
+  const auto steer = [&](auto& method) { return method.steer(ahead.in_base, start.odom_from_base, obstacles, cap); };
+  Steering steering = std::visit(steer, method_);
+  // Sharp turns slowly, and on the spot when the way lies behind.
+  const double turn = std::abs(steering.bearing);
+  cap.lower(max_speed_ * std::clamp(approach.full_turn_cap - turn / approach.turn_scale, 0.0, 1.0), "");
+  steering.speed_cap = decision.speed_cap = cap.speed;
+  decision.reason = std::move(cap.reason);
+  decision.state = AvoiderDecision::State::driving;
+  return Course{steering, ahead.in_base};
+}
+
+AvoiderDecision Avoider::decide(Time now) {
+  AvoiderDecision decision;
+  decision.nearest_real = decision.nearest_virtual = surroundings_.reach(top_speed());
+  if (odometry_.empty()) return stand(now, std::move(decision), "no fresh odometry");
+  const BaseState start = state_when_effective(now);
+  auto obstacles = obstacles_from(start.odom_from_base, now + seconds(limits_.latency));
+  // Where to go among people is chosen as they stand: who walks is elsewhere soon. How fast is for the reflex to say,
+  // which foresees them at every scan.
+  for (Obstacle& obstacle : obstacles) obstacle.velocity = {};
+  tell_nearest(obstacles, decision);
+  if (auto why = reason_to_stand(now)) return stand(now, std::move(decision), std::move(*why));
+
+  decision.speed_cap = top_speed();
+  const bool turns = target_->mode == AvoiderTarget::Mode::turn;
+  const auto course = turns ? course_of_turn(start, decision) : course_along_path(now, start, obstacles, decision);
+  if (!course) return stand(now, std::move(decision), "");
+  auto choice = window_.choose(start.velocity, command_, obstacles, course->steering);
+  decision.command = choice.command;
+  decision.window = std::move(choice.window);
+  if (choice.is_braking) decision.reason = "braking";
+  if (!turns) judge_blocking(now, course->wanted, start.odom_from_base, obstacles, decision);
+  return finish(now, std::move(decision));
+}
+
+std::optional<AvoiderDecision> Avoider::reflex(Time now) {
+  if (odometry_.empty() || (std::abs(command_.linear) < 1e-9 && std::abs(command_.angular) < 1e-9)) return std::nullopt;
+  AvoiderDecision decision;
+  decision.nearest_real = decision.nearest_virtual = surroundings_.reach(top_speed());
+  if (auto why = fault(now); !why.empty()) return stand(now, std::move(decision), std::move(why));
+  if (is_touched(now, params_.touch.brakes_for)) return stand(now, std::move(decision), "the robot was touched");
+  const BaseState start = state_when_effective(now);
+  // A disc turns in its own place; another body sweeps more.
+  const ReflexParams& reflex = params_.reflex;
+  const bool stays = std::abs(start.velocity.linear) < reflex.still && std::abs(command_.linear) < reflex.still;
+  if (stays && limits_.outline.empty()) return std::nullopt;
+  const auto obstacles = obstacles_from(start.odom_from_base, now + seconds(limits_.latency));
+  tell_nearest(obstacles, decision);
+  const auto is_safe = [&](const Velocity& command) {
+    return can_brake_in_time(start.velocity, command, reflex.until_next_sweep, obstacles, limits_, reflex.slack);
+  };
+  if (is_safe(command_)) {
+    const auto slow = [&](const auto& method) { return method.slowed_for_people(command_, obstacles); };
+    const auto slowed = std::visit(slow, method_);
+    if (!slowed) return std::nullopt;
+    if (is_safe(*slowed)) {
+      decision.command = *slowed;
+      decision.state = AvoiderDecision::State::driving;
+      decision.speed_cap = slowed->linear;
+      decision.reason = "people are near";
+      return finish(now, std::move(decision));
+    }
+  }
+  return stand(now, std::move(decision), "braking");
+}
+
+}  // namespace docent

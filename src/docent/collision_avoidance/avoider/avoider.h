@@ -1,0 +1,153 @@
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "docent/collision_avoidance/avoider/avoidance_method.h"
+#include "docent/collision_avoidance/avoider/avoider_params.h"
+#include "docent/collision_avoidance/avoider/carrot.h"
+#include "docent/collision_avoidance/avoider/input_watches.h"
+#include "docent/collision_avoidance/avoider/speed_cap.h"
+#include "docent/collision_avoidance/avoider/surroundings.h"
+#include "docent/collision_avoidance/body/base_motion.h"
+#include "docent/collision_avoidance/dynamic_window/dynamic_window.h"
+#include "docent/collision_avoidance/watches/complaint.h"
+#include "docent/collision_avoidance/watches/contact_watch.h"
+#include "docent/collision_avoidance/watches/freshness.h"
+#include "docent/collision_avoidance/watches/local_time.h"
+#include "docent/collision_avoidance/watches/position_doubt.h"
+#include "docent/motion_models/unbroken_odometry.h"
+
+namespace docent {
+
+/// Where to go, odometry's frame.
+struct AvoiderTarget {
+  enum class Mode { stop, drive, turn };
+  Mode mode = Mode::stop;
+  std::vector<Point2> via;  ///< [m], nearest first
+  bool is_final = false;    ///< the last via-point is the goal
+  Angle heading{};          ///< for turn
+  double position_tolerance = 0.25;
+  double heading_tolerance = 0.1;
+};
+
+struct AvoiderDecision {
+  enum class State { driving, turning, stopped, blocked };
+  Velocity command;
+  State state = State::stopped;
+  std::string reason;      ///< why it stands or is slow; empty when nothing hinders
+  double speed_cap = 0.0;  ///< [m/s]
+  bool path_blocked = false;
+  bool unmapped_obstacle = false;
+  bool low_obstacle = false;     ///< what blocks the path, or has touched it here, is a thing below the lasers
+  double nearest_real = 0.0;     ///< [m] from the outline
+  double nearest_virtual = 0.0;  ///< [m] likewise of hazards; from the centre of the area's border
+  std::vector<EvaluatedVelocity> window;
+};
+
+/// Collision avoidance of the tour guide, µDWA [Rhino1999] 4.1, [Minerva2000] 5.1: keeps the obstacle field,
+/// knows how old everything is, steers along via-points with the dynamic window, and brakes on any scan that says so.
+/// Safe without planner, localization or radio (architecture 8).
+///
+/// Its parts keep what they need to know by themselves: the surroundings what must not be touched, the watches what is
+/// silent or broken, the method how to steer among people. This class takes their inputs into local time and odometry's
+/// frame, and decides.
+///
+/// Sensor inputs take the local time of receipt and the stamp of their message, by whatever clock; all that is kept and
+/// compared is in local time.
+class Avoider {
+ public:
+  /// @param lasers  their names for a person: "front laser". Sweeps are numbered so
+  Avoider(const BaseLimits& limits, const AvoiderParams& params, std::vector<std::string> lasers);
+
+  /// @param state  as the base says it: jumps are taken out here, and targets are carried over them
+  void add_odometry(Time now, Time stamp, const BaseState& state);
+  void add_sweep(Time now, std::size_t sensor, SensorSweep sweep);
+  void add_sonar(Time now, std::size_t index, SonarReading reading);
+  void add_infrared(Time now, std::size_t index, SonarReading reading);
+  /// What a camera saw on the floor, base frame at `stamp`.
+  void add_lines(Time now, Time stamp, const std::string& source, double lifetime, std::span<const Segment> in_base);
+  /// @param segments  evenly round the body, the first at the front: 1 pressed, TactileWatch::kNoReading
+  /// @param scan  count of the ring's own scans; 0: it keeps none
+  void add_tactile(Time now, Time stamp, std::span<const std::uint8_t> segments, std::uint32_t scan = 0);
+  void add_virtual(Time now, VirtualSweep sweep);
+  /// Endpoints that localization found unmapped, base frame at `stamp`.
+  void add_person_beams(Time now, Time stamp, std::span<const Point2> in_base, bool localized);
+  /// What localization believes: it slows the robot where that is little (safety rule 4).
+  void add_belief(const BeliefOutline& belief) { doubt_.believe(belief); }
+  void set_target(Time now, Time stamp, AvoiderTarget target);
+  void set_max_speed(double max_speed) { max_speed_ = max_speed; }
+
+  /// True when another laser's sweep is due by its period within `soon` [s]: a choice had better wait for it.
+  [[nodiscard]] bool awaits_sweep(Time now, double soon) const;
+
+  /// One selection, with people where they are now; what was chosen is checked as by `reflex` before it is given. To be
+  /// called when the lasers have seen anew, and every `window.cycle` when they have not. The command counts as given at
+  /// `now`.
+  [[nodiscard]] AvoiderDecision decide(Time now);
+  /// To be called on every scan that is not decided upon, and when hazards are measured: full braking when the present
+  /// command is no longer safe against what was just seen and where it will be, and the same arc more slowly where
+  /// people may come nearer than is forgivable.
+  [[nodiscard]] std::optional<AvoiderDecision> reflex(Time now);
+
+  [[nodiscard]] const ObstacleMemory& memory() const { return surroundings_.memory(); }
+  [[nodiscard]] const Velocity& command() const { return command_; }
+  /// What is stale or broken, the worst of it; nullopt when all is well.
+  [[nodiscard]] std::optional<Complaint> complaint_of_inputs(Time now) const;
+  /// The same, or what is doubtful of the position.
+  [[nodiscard]] std::optional<Complaint> complaint(Time now) const;
+  /// Why it must stand, "" when it need not.
+  [[nodiscard]] std::string fault(Time now) const;
+
+ private:
+  /// What to steer for, and the point that it comes from, base frame.
+  struct Course {
+    Steering steering;
+    Point2 wanted{};
+  };
+  [[nodiscard]] bool is_touched(Time now, double within) const;
+  [[nodiscard]] BaseState state_when_effective(Time now) const;
+  /// [m/s] that the robot may drive at most.
+  [[nodiscard]] double top_speed() const { return std::min(max_speed_, limits_.max_speed); }
+  void tell_nearest(std::span<const Obstacle> obstacles, AvoiderDecision& decision) const;
+  [[nodiscard]] std::vector<Obstacle> obstacles_from(const Pose2& odom_from_base, Time when) const {
+    return surroundings_.obstacles(odom_from_base, when, top_speed(), method_);
+  }
+  /// Why the robot must stand whatever it is to do; nullopt when it may move.
+  [[nodiscard]] std::optional<std::string> reason_to_stand(Time now) const;
+  /// The course to a heading or along via-points; nullopt when it is there.
+  [[nodiscard]] std::optional<Course> course_of_turn(const BaseState& start, AvoiderDecision& decision) const;
+  [[nodiscard]] std::optional<Course> course_along_path(Time now, const BaseState& start,
+                                                        std::span<const Obstacle> obstacles, AvoiderDecision& decision);
+  [[nodiscard]] Carrot carrot(const BaseState& start, std::span<const Obstacle> obstacles) const;
+  void cap_by_knowledge(Time now, SpeedCap& cap) const;
+  /// @returns whether a thing that only touch finds is near
+  bool cap_by_touched_things(Time now, const Pose2& odom_from_base, SpeedCap& cap) const;
+  void judge_blocking(Time now, Point2 carrot, const Pose2& odom_from_base, std::span<const Obstacle> obstacles,
+                      AvoiderDecision& decision) const;
+  AvoiderDecision finish(Time now, AvoiderDecision decision);
+  AvoiderDecision stand(Time now, AvoiderDecision decision, std::string reason);
+
+  BaseLimits limits_;
+  AvoiderParams params_;
+  AvoidanceMethod method_;
+  DynamicWindow window_;
+  Surroundings surroundings_;
+  InputWatches inputs_;
+  ContactWatch contact_;
+  PositionDoubt doubt_;
+  LocalTime local_time_;
+  UnbrokenOdometry unbroken_;
+  BaseHistory odometry_;
+  CommandHistory commands_;
+  Velocity command_;
+  double max_speed_;
+  Freshness target_freshness_;
+  std::optional<AvoiderTarget> target_;
+};
+
+}  // namespace docent

@@ -1,0 +1,41 @@
+#include "docent/collision_avoidance/avoider/avoider_params.h"
+
+namespace docent {
+
+Result<void> AvoiderParams::validate() const {
+  if (auto valid = window.validate(); !valid) return valid;
+  if (!(lookahead >= 0.3 && lookahead <= 5.0)) return fail("avoid.lookahead must lie between 0.3 and 5 m");
+  if (!(lookahead_time >= 0.0 && lookahead_time <= 5.0)) return fail("avoid.lookahead_time must lie in 0..5 s");
+  if (auto valid = people.validate(); !valid) return valid;
+  if (method != "cautious_window" && method != "dynamic_window")
+    return fail("avoid.method must be cautious_window or dynamic_window");
+  if (!(seen_for >= 0.0 && seen_for <= 60.0)) return fail("avoid.seen_for must lie in 0..60 s");
+  if (!(arrival_deceleration > 0.0)) return fail("avoid.arrival_deceleration must be > 0 m/s2");
+  if (!(target_timeout > 0.0 && virtual_timeout > 0.0)) return fail("avoid: timeouts must be > 0 s");
+  return {};
+}
+
+AvoidanceMethod AvoiderParams::make_method(const BaseLimits& limits) const {
+  if (method == "dynamic_window") return PlainWindow{window};
+  return CautiousWindow{limits, window, people};
+}
+
+SurroundingsParams AvoiderParams::surroundings() const {
+  return {.real_margin = window.real_margin,
+          .surprise = people.surprise,
+          .seen_for = seen_for,
+          .blind_to_people = blind_to_people};
+}
+
+VirtualObstaclesParams AvoiderParams::virtual_obstacles() const {
+  return {.hazard_margin = window.virtual_margin, .border_margin = window.border_margin};
+}
+
+InputWatchesParams AvoiderParams::inputs() const {
+  return {.needs_sonar = needs_sonar,
+          .has_infrared = has_infrared,
+          .has_tactile = has_tactile,
+          .virtual_timeout = virtual_timeout};
+}
+
+}  // namespace docent

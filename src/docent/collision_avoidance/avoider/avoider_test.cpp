@@ -1,0 +1,160 @@
+#include "docent/collision_avoidance/avoider/avoider.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "docent/collision_avoidance/avoider/rehearsal_for_test.h"
+
+namespace docent {
+namespace {
+
+TEST(Avoider, ReachesWalkingSpeedInTheOpenAndStopsAtTheGoal) {
+  Rehearsal world;
+  world.box(-3, -5, 15, 5);
+  world.drive_to({{1, 0}, {2, 0}, {4, 0}, {8, 0}, {12, 0}});
+  ASSERT_TRUE(world.run_until_arrived(30));
+  EXPECT_GT(world.top_speed, 0.69);
+  EXPECT_LT(world.top_speed, 0.71);  // until told otherwise
+  EXPECT_LT(to_seconds(world.now), 22.0);
+  EXPECT_LT(world.driven, 12.3);
+}
+
+TEST(Avoider, DrivesThroughADoorOfNinetyCentimetres) {
+  for (const double offset : {0.0, 0.3, -0.3}) {
+    Rehearsal world{7};
+    world.box(-3, -3, 8, 3);
+    world.walls.push_back({{3, -3}, {3, -0.45}});
+    world.walls.push_back({{3, 0.45}, {3, 3}});
+    world.walls.push_back({{3.2, -3}, {3.2, -0.45}});
+    world.walls.push_back({{3.2, 0.45}, {3.2, 3}});
+    world.map_from_base = {0.0, offset, {}};
+    world.drive_to({{1, 0}, {2, 0}, {3.1, 0}, {4.5, 0}, {6, 0}});
+    EXPECT_TRUE(world.run_until_arrived(30)) << "from y = " << offset << ", at " << world.map_from_base.x;
+    EXPECT_GT(world.least_wall, 0.05);
+    EXPECT_LT(to_seconds(world.now), 20.0);
+  }
+}
+
+TEST(Avoider, TurnsOnTheSpotAndFindsBack) {
+  Rehearsal world;
+  world.box(-3, -3, 6, 3);
+  world.drive_to({{-2, 0}});
+  ASSERT_TRUE(world.run_until_arrived(30));
+  EXPECT_LT(world.driven, 2.6);
+  world.target.mode = AvoiderTarget::Mode::turn;
+  world.target.heading = Angle::degrees(-30);
+  world.run(8);
+  EXPECT_NEAR(world.map_from_base.theta.degrees(), -30.0, 6.0);
+  EXPECT_LT(std::abs(world.velocity.angular), 0.01);
+}
+
+TEST(Avoider, KeepsClearOfAHazardThatNoSensorSees) {
+  Rehearsal world;
+  world.box(-3, -5, 12, 5);
+  world.hazards = sides({{3, -1}, {5, -1}, {5, 1}, {3, 1}});
+  world.drive_to({{8, 0}});  // straight through
+  world.run(40);
+  EXPECT_GT(world.least_wall, 0.12);
+}
+
+TEST(Avoider, PassesBesideAHazardAlongViaPoints) {
+  Rehearsal world;
+  world.box(-3, -1.7, 12, 5);
+  world.hazards = sides({{3, -0.4}, {5, -0.4}, {5, 1}, {3, 1}});  // leaves 1.3 m to the wall
+  world.drive_to({{1, -0.5}, {2, -1.05}, {3, -1.05}, {4, -1.05}, {5, -1.05}, {6, -0.7}, {8, 0}});
+  EXPECT_TRUE(world.run_until_arrived(60));
+  EXPECT_GT(world.least_wall, 0.06);
+}
+
+TEST(Avoider, SaysThatTheWayIsBlocked) {
+  Rehearsal world;
+  world.box(-3, -1, 12, 1);
+  for (const double y : {-0.8, -0.4, 0.0, 0.4, 0.8}) world.people.push_back({{4, y}});
+  world.drive_to({{1, 0}, {2, 0}, {4, 0}, {6, 0}, {8, 0}});
+  world.run(20);
+  EXPECT_TRUE(world.decision.path_blocked) << world.decision.reason;
+  EXPECT_LT(std::abs(world.velocity.linear), 0.06);
+  EXPECT_EQ(world.worst_push, 0.0);
+}
+
+TEST(Avoider, AJumpOfTheOdometrySlowsItAndMovesNothingThatItKnows) {
+  Rehearsal world;
+  world.box(-3, -5, 40, 5);
+  world.drive_to({{2, 0}, {4, 0}, {8, 0}, {30, 0}});
+  world.run(5);
+  ASSERT_GT(world.velocity.linear, 0.5);
+  const std::size_t known = world.avoider.memory().points(world.now).size();
+  world.raw_from_map = {1.0, -0.4, Angle::degrees(40)};
+  world.run(1.0);
+  EXPECT_EQ(world.decision.reason, "the odometry jumped");
+  EXPECT_LT(world.velocity.linear, ComplaintParams{}.crippled_speed + 0.01);
+  EXPECT_NEAR(static_cast<double>(world.avoider.memory().points(world.now).size()), static_cast<double>(known),
+              0.25 * static_cast<double>(known));
+  world.run(5.0);
+  EXPECT_GT(world.velocity.linear, 0.5);
+  EXPECT_NEAR(world.map_from_base.y, 0.0, 0.1) << "targets are carried over the jump";
+}
+
+TEST(Avoider, TheClocksOfOtherComputersDoNotBlindIt) {
+  for (const double sensor : {0.0, 5.0, -5.0, 0.6, -0.6}) {
+    for (const double odometry : {0.0, sensor, -sensor}) {
+      SCOPED_TRACE("sensors " + std::to_string(sensor) + " s, odometry " + std::to_string(odometry) + " s ahead");
+      Rehearsal world;
+      world.sensor_clock = sensor;
+      world.odometry_clock = odometry;
+      world.box(-3, -2, 6, 2);
+      world.hazards = sides({{2.0, 0.7}, {4.0, 0.7}, {4.0, 1.5}, {2.0, 1.5}});
+      world.now = time_from_seconds(20.0);
+      world.drive_to({{1, 0.4}, {2, 0}, {4, 0}, {4.5, 1}, {9, 1}});  // the end lies behind the wall
+      world.run(3.0);
+      EXPECT_GT(world.velocity.linear, 0.4) << world.decision.reason;
+      EXPECT_GT(world.avoider.memory().points(world.now).size(), 200U);
+      world.run(17.0);
+      EXPECT_GT(world.least_wall, 0.03);
+      EXPECT_GT(world.driven, 4.0);
+    }
+  }
+}
+
+TEST(Avoider, GetsFreeFromInsideAMargin) {
+  Rehearsal world;
+  world.box(-3, -3, 6, 3);
+  world.map_from_base = {0.0, -3.0 + world.limits.radius + 0.04, Angle::degrees(-20)};  // nose to the wall
+  world.drive_to({{3, 0}});
+  EXPECT_TRUE(world.run_until_arrived(40)) << world.map_from_base.x << "," << world.map_from_base.y;
+  EXPECT_GT(world.least_wall, 0.015);
+}
+
+TEST(Avoider, GetsFreeWhenTheHazardsJumpNearer) {
+  Rehearsal world;
+  world.box(-3, -3, 6, 3);
+  world.drive_to({{3, 1}});
+  world.hazards = sides({{-1.0, -2}, {2.0, -2}, {2.0, -0.3}, {-1.0, -0.3}});  // 3.5 cm from the outline
+  EXPECT_TRUE(world.run_until_arrived(40)) << world.map_from_base.x << "," << world.map_from_base.y;
+  EXPECT_GT(world.least_wall, 0.01);
+}
+
+TEST(Avoider, NeverTouchesAnythingInRandomClutter) {
+  double driven = 0.0;
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    SCOPED_TRACE(seed);
+    Rng rng{seed};
+    Rehearsal world{seed};
+    world.noise = 0.03;
+    world.box(-4, -4, 12, 4);
+    for (int i = 0; i < 14; ++i) {
+      const Point2 corner{rng.uniform(1.0, 11.0), rng.uniform(-4.0, 4.0)};
+      const double size = rng.uniform(0.1, 0.8);
+      world.box(corner.x, corner.y, corner.x + size, corner.y + size);
+    }
+    world.drive_to({{3, rng.uniform(-2, 2)}, {6, rng.uniform(-2, 2)}, {10, rng.uniform(-2, 2)}});
+    world.run_until_arrived(30);
+    EXPECT_GT(world.least_wall, 0.0);
+    driven += world.driven;
+  }
+  EXPECT_GT(driven, 150.0);
+}
+
+}  // namespace
+}  // namespace docent

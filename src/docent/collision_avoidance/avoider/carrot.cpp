@@ -1,0 +1,63 @@
+#include "docent/collision_avoidance/avoider/carrot.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "docent/geometry/polygon.h"
+
+namespace docent {
+
+namespace {
+
+/// Where the robot is on the path: the nearest place of it, and the via-point that follows.
+struct PathPlace {
+  Point2 at;
+  std::size_t next = 0;
+};
+
+PathPlace nearest_on(std::span<const Point2> path) {
+  std::size_t leg = 0;
+  Point2 here = path.front();
+  double least = norm(path.front());
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const Point2 near = nearest_point({path[i], path[i + 1]}, {});
+    if (norm(near) < least) {
+      least = norm(near);
+      here = near;
+      leg = i;
+    }
+  }
+  return {here, here == path.front() ? 0 : leg + 1};
+}
+
+}  // namespace
+
+Carrot carrot_on(std::span<const Point2> path, double lookahead, std::span<const Obstacle> obstacles, double radius,
+                 const CarrotParams& params) {
+  const PathPlace here = nearest_on(path);
+  Carrot result{here.at, norm(here.at)};
+  Point2 at = here.at;
+  Point2 end = here.at;
+  bool is_inside = true;
+  double along = 0.0;
+  for (std::size_t next = here.next; next < path.size(); ++next) {
+    double rest = distance(at, path[next]);
+    while (rest > 1e-9) {
+      const double step = std::min(params.step, rest);
+      at = at + (step / rest) * (path[next] - at);
+      rest -= step;
+      along += step;
+      const double way = norm(at);
+      is_inside = is_inside && way <= lookahead;
+      if (!is_inside) continue;
+      end = at;
+      const double free = straight_free_way(std::atan2(at.y, at.x), obstacles, radius, way);
+      if (free >= way - params.nearly_free) result.in_base = at;
+    }
+  }
+  if (norm(result.in_base) < params.open_enough) result.in_base = end;
+  result.remaining += along;
+  return result;
+}
+
+}  // namespace docent

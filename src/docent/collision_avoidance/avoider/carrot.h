@@ -1,0 +1,29 @@
+#pragma once
+
+#include <span>
+
+#include "docent/collision_avoidance/body/obstacle.h"
+#include "docent/geometry/pose2.h"
+
+namespace docent {
+
+struct CarrotParams {
+  double step = 0.1;          ///< [m] between the places of the path that are looked at
+  double open_enough = 0.7;   ///< [m] when no more of the path can be reached straight, somebody stands on it
+  double nearly_free = 0.05;  ///< [m] a straight way may end so much before a place and still reach it
+};
+
+/// What the robot steers for: a point that runs ahead of it along its path.
+struct Carrot {
+  Point2 in_base;          ///< [m]
+  double remaining = 0.0;  ///< [m] along the path to its end
+};
+
+/// The farthest point of the path within the lookahead that can be reached straight, so that corners are not cut; the
+/// lookahead's end when the path is blocked at once, for then the robot must go round. O(path / step * obstacles).
+/// @param path  via-points, base frame @param lookahead  [m] @param radius  [m] of the robot
+/// @pre the path is not empty
+[[nodiscard]] Carrot carrot_on(std::span<const Point2> path, double lookahead, std::span<const Obstacle> obstacles,
+                               double radius, const CarrotParams& params = {});
+
+}  // namespace docent

@@ -1,0 +1,34 @@
+#include "docent/collision_avoidance/avoider/carrot.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace docent {
+namespace {
+
+constexpr double kRadius = 0.25;
+
+TEST(Carrot, LiesOnThePathAtTheEndOfTheLookahead) {
+  const std::vector<Point2> path{{-1.0, 0.0}, {1.0, 0.0}, {1.0, 4.0}};
+  const Carrot carrot = carrot_on(path, 0.9, {}, kRadius);
+  EXPECT_NEAR(carrot.in_base.x, 0.9, 1e-9);
+  EXPECT_NEAR(carrot.in_base.y, 0.0, 1e-9);
+  EXPECT_NEAR(carrot.remaining, 5.0, 1e-9) << "from the place beside the robot, not from the path's begin";
+}
+
+TEST(Carrot, DoesNotCutACornerThatIsInTheWay) {
+  const std::vector<Point2> path{{0.0, 0.0}, {1.2, 0.0}, {1.2, 1.2}};
+  const std::vector<Obstacle> corner{{.at = {0.8, 0.45}, .margin = 0.05}};
+  EXPECT_GT(carrot_on(path, 1.5, {}, kRadius).in_base.y, 0.8);
+  EXPECT_LT(carrot_on(path, 1.5, corner, kRadius).in_base.y, 0.3);
+}
+
+TEST(Carrot, WhereThePathIsBlockedAtOnceItIsTheEndOfTheLookahead) {
+  const std::vector<Point2> path{{0.0, 0.0}, {3.0, 0.0}};
+  const std::vector<Obstacle> somebody{{.at = {0.6, 0.0}, .margin = 0.08}};
+  EXPECT_NEAR(carrot_on(path, 1.2, somebody, kRadius).in_base.x, 1.2, CarrotParams{}.step + 1e-9);
+}
+
+}  // namespace
+}  // namespace docent

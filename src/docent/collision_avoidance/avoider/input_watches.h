@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "docent/collision_avoidance/avoider/speed_cap.h"
+#include "docent/collision_avoidance/obstacle_field/obstacle_memory.h"
+#include "docent/collision_avoidance/watches/complaint.h"
+#include "docent/collision_avoidance/watches/freshness.h"
+#include "docent/collision_avoidance/watches/odometry_watch.h"
+#include "docent/collision_avoidance/watches/ring_watch.h"
+#include "docent/collision_avoidance/watches/tactile_watch.h"
+
+namespace docent {
+
+struct InputWatchesParams {
+  bool needs_sonar = true;    ///< complains about sonars that never spoke
+  bool has_infrared = false;  ///< likewise about these rings
+  bool has_tactile = false;
+  double virtual_timeout = 1.5;  ///< [s] without new virtual measurements, then the robot stands
+  double nearly_all = 0.9;       ///< of a sweep's readings are none: the laser is covered or has failed
+  double many_missing = 0.35;    ///< of a sweep's readings are none: more than black clothes and glass ever take
+  double crippled_speed = 0.25;  ///< [m/s] as ComplaintParams::crippled_speed, with such a laser
+  double camera_patience = 1.5;  ///< [s] a camera sees a few pictures a second, and may look away from one
+  double fresh = 0.2;            ///< [s] what is so old costs no speed: lasers and odometry come ten times a second
+  double fading = 0.3;           ///< [s] in which, from then on, all speed goes
+  double position_fresh = 0.6;   ///< [s] likewise, of virtual measurements: beliefs come less often
+  double position_worn = 0.3;    ///< [m] of driving after which the measurements of before are worth nothing
+  double nearly_due = 0.25;      ///< of a period: a fast laser is not for ever about to come
+};
+
+/// Watches all that the robot hears: what is stale, silent, frozen or half gone, and how fast it may still drive.
+class InputWatches {
+ public:
+  /// @param lasers  their names for a person
+  InputWatches(const BaseLimits& limits, const InputWatchesParams& params, std::vector<std::string> lasers)
+      : params_{params}, lasers_{std::move(lasers)}, sweeps_(lasers_.size()), odometry_{limits} {}
+
+  [[nodiscard]] std::size_t lasers() const { return lasers_.size(); }
+
+  // Each takes the local time of receipt, and the stamp by whatever clock.
+  void hear_odometry(Time now, Time stamp, const BaseState& state, bool jumped, const CommandHistory& commands) {
+    odometry_.receive(now, stamp, state, jumped, commands);
+  }
+  void hear_sweep(Time now, Time stamp, std::size_t laser) { sweeps_[laser].receive(now, stamp); }
+  void hear_sonar(Time now, Time stamp, std::size_t index, const SonarReading& reading, const Pose2& odom_from_base) {
+    sonars_.hear(now, stamp, index, reading.range, reading.range < reading.max_range, odom_from_base);
+  }
+  void hear_infrared(Time now, Time stamp, std::size_t index, const SonarReading& reading,
+                     const Pose2& odom_from_base) {
+    infrareds_.hear(now, stamp, index, reading.range, reading.range < reading.max_range, odom_from_base);
+  }
+  void hear_lines(Time now, Time stamp, const std::string& camera) { cameras_[camera].receive(now, stamp); }
+  void feel(Time now, Time stamp, std::span<const std::uint8_t> segments, std::uint32_t scan) {
+    tactile_.feel(now, stamp, segments, scan);
+  }
+  void hear_virtual(Time now, Time stamp) { virtual_.receive(now, stamp); }
+
+  /// The worst of all; nullopt when all is well. @param memory  of what the lasers met
+  [[nodiscard]] std::optional<Complaint> complaint(Time now, const ObstacleMemory& memory) const;
+  /// Slower the older the odometry and the sweeps are.
+  void cap_by_age(Time now, double max_speed, SpeedCap& cap) const;
+  /// Slower the older the virtual measurements are: what was computed for where the robot was still holds while it
+  /// stands; driving wears it out.
+  /// @param driven  [m] since they were taken
+  void cap_by_position(Time now, double driven, double max_speed, SpeedCap& cap) const;
+  /// True when another laser's sweep is due by its period within `soon` [s].
+  [[nodiscard]] bool await_sweep(Time now, double soon) const;
+
+ private:
+  [[nodiscard]] std::optional<Complaint> complaint_of_laser(Time now, std::size_t index,
+                                                            const ObstacleMemory& memory) const;
+
+  InputWatchesParams params_;
+  std::vector<std::string> lasers_;
+  std::vector<Freshness> sweeps_;  ///< [lasers]
+  OdometryWatch odometry_;
+  RingWatch sonars_{"sonar reading", "sonars"};
+  RingWatch infrareds_{"infrared reading", "infrared sensors"};
+  TactileWatch tactile_;
+  std::map<std::string, Freshness> cameras_;  ///< by their lines; one that has sent must go on
+  Freshness virtual_;
+};
+
+}  // namespace docent
