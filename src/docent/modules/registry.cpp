@@ -13,6 +13,7 @@
 #include "docent/modules/record_module.h"
 #include "docent/modules/robot_module.h"
 #include "docent/modules/sound_module.h"
+#include "docent/modules/visualize_module.h"
 #include "docent/modules/web_module.h"
 
 namespace docent {
@@ -32,6 +33,7 @@ constexpr std::array kModules{
     ModuleEntry{"mission", make_mission, parameters_of_mission},
     ModuleEntry{"executive", make_executive, parameters_of_executive},
     ModuleEntry{"web", make_web, parameters_of_web},
+    ModuleEntry{"visualize", make_visualize, parameters_of_visualize},
 };
 // clang-format on
 
