@@ -95,7 +95,7 @@ TEST(Viewer, SeesBeliefAndPeopleAndTellsTheRobotWhereItStands) {
   Person person;
   const Viewer<geometry_msgs_msg_dds__PoseArray_> cloud{"rt/particle_cloud", "geometry_msgs/msg/PoseArray", true};
   const Viewer<visualization_msgs_msg_dds__MarkerArray_> people{"rt/docent/people_markers",
-                                                               "visualization_msgs/msg/MarkerArray", false};
+                                                                "visualization_msgs/msg/MarkerArray", false};
   ASSERT_TRUE(cloud.is_good() && people.is_good());
   Program up{{"up", "--sim", "--museum", std::string{DOCENT_SOURCES} + "/museums/bonn", "--state",
               (folder.path() / "state").string(), "--domain", std::to_string(kDomain), "--port", "18048", "--crowd",

@@ -85,7 +85,7 @@ TEST(LichtblickLayout, DrawsTopicsThatExistWithTheirTypes) {
   }
   EXPECT_EQ(drawn.size(), kDrawn.size());
   EXPECT_EQ(view.at("followTf"), "map");
-  const Json publish = view.at("publish");
+  const Json& publish = view.at("publish");
   EXPECT_EQ(publish.at("type"), "pose_estimate");
   const std::string told = publish.at("poseEstimateTopic");
   ASSERT_TRUE(all.contains(told));

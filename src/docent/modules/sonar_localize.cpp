@@ -44,9 +44,8 @@ class SonarLocalizeModule final : public Module {
     publish_belief(bus_.now(), Pose2{});
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const auto& odometry) { on_odometry(odometry); });
     bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const auto& range) { on_sonar(range); });
-    subscribe_initial_pose(bus_, map_, [this](const BeliefMode& mode, Time stamp) {
-      return start_where_told(mode, stamp);
-    });
+    subscribe_initial_pose(bus_, map_,
+                           [this](const BeliefMode& mode, Time stamp) { return start_where_told(mode, stamp); });
     bus_.every(kPeriod, [this] { tell(); });
   }
 
@@ -94,8 +93,8 @@ class SonarLocalizeModule final : public Module {
     if (odometry_.empty()) return {"pose", "came before any odometry"};
     restored_.reset();
     const Pose2 then_from_now = inverse(odometry_.at(stamp).value_or(odometry_.latest())) * odometry_.latest();
-    tracker_.start_at(mode.map_from_robot * then_from_now,
-                      std::sqrt(std::max(mode.covariance[0], mode.covariance[4])), std::sqrt(mode.covariance[8]));
+    tracker_.start_at(mode.map_from_robot * then_from_now, std::sqrt(std::max(mode.covariance[0], mode.covariance[4])),
+                      std::sqrt(mode.covariance[8]));
     return {};
   }
 

@@ -13,9 +13,9 @@ namespace {
 
 /// Section `visualize`: what rviz2, Foxglove and Lichtblick are shown.
 struct VisualizeParams {
-  bool enabled = true;          ///< false: nothing is read and nothing is published
-  int belief_poses = 300;       ///< 1..5000: of the sample of the belief; more than some hundred arrows hide one another
-  double belief_period = 0.5;   ///< [s], > 0: from one sample to the next at least; eyes need no more
+  bool enabled = true;         ///< false: nothing is read and nothing is published
+  int belief_poses = 300;      ///< 1..5000: of the sample of the belief; more than some hundred arrows hide one another
+  double belief_period = 0.5;  ///< [s], > 0: from one sample to the next at least; eyes need no more
   double people_period = 0.15;  ///< [s], > 0, <= 0.5: from one set of markers to the next, which live for 1 s
   template <class V>
   void visit(V& v) {

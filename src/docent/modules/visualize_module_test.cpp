@@ -14,7 +14,8 @@ class Visualize : public testing::Test {
     auto made = make_visualize({*bus_, museum_, config_, "", 1, true});
     ASSERT_TRUE(made) << made.error().message;
     module_ = std::move(*made);
-    viewer_->subscribe<geometry_msgs::PoseArray>(topics::kParticleCloud, [this](const auto& m) { clouds_.push_back(m); });
+    viewer_->subscribe<geometry_msgs::PoseArray>(topics::kParticleCloud,
+                                                 [this](const auto& m) { clouds_.push_back(m); });
     viewer_->subscribe<visualization_msgs::MarkerArray>(topics::kPeopleMarkers,
                                                         [this](const auto& m) { people_.push_back(m); });
     viewer_->subscribe<visualization_msgs::MarkerArray>(topics::kMuseumMarkers,

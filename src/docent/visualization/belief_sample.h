@@ -7,9 +7,9 @@
 
 namespace docent {
 
-/// `count` poses that lie as the belief does: each stands for the same mass. Within its cell, a sample's place comes from
-/// a sequence that fills the cell evenly and is the same each time. Empty when the belief holds no mass.
-/// O(cells + count). @pre count >= 0
+/// `count` poses that lie as the belief does: each stands for the same mass. Within its cell, a sample's place comes
+/// from a sequence that fills the cell evenly and is the same each time. Empty when the belief holds no mass. O(cells +
+/// count). @pre count >= 0
 [[nodiscard]] std::vector<Pose2> belief_sample(const docent_msgs::Belief& belief, int count);
 
 }  // namespace docent
