@@ -14,6 +14,7 @@ file(MAKE_DIRECTORY ${generated})
 
 install(TARGETS docent RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 install(DIRECTORY web/dist DESTINATION ${share}/web COMPONENT program)
+install(DIRECTORY share/lichtblick DESTINATION ${share} COMPONENT program)
 install(DIRECTORY museums robots DESTINATION ${share} COMPONENT program)
 file(GLOB documents docs/*.md docs/robot.yaml)
 install(FILES ${documents} DESTINATION ${share}/docs COMPONENT program)

@@ -22,7 +22,7 @@ LAYERS = [
     {"grid"},
     {"pictures", "motion_models", "sensor_models", "messages", "museum", "robot"},
     {"localization", "mapping", "planning", "collision_avoidance", "people", "vision", "task_control", "interaction"},
-    {"transport", "recording", "simulator", "telepresence", "evaluation"},
+    {"transport", "recording", "simulator", "telepresence", "visualization", "evaluation"},
     {"modules"},
     {"apps"},
 ]
@@ -44,13 +44,14 @@ FLOORS = {
 }
 LAYER_OF = {name: i for i, names in enumerate(LAYERS) for name in names}
 # Seen by modules and apps only (and among themselves where listed).
-EDGE = {"transport", "recording", "simulator", "telepresence", "evaluation", "messages", "robot"}
+EDGE = {"transport", "recording", "simulator", "telepresence", "visualization", "evaluation", "messages", "robot"}
 EDGE_MAY_SEE = {
     "messages": {"base", "geometry"},
     "robot": {"base", "geometry"},
     "transport": {"base", "messages"},
     "recording": {"base", "geometry", "messages", "transport"},
     "telepresence": {"base", "geometry", "grid", "messages", "museum", "pictures"},
+    "visualization": {"base", "geometry", "grid", "messages", "museum"},
     "evaluation": {"base", "geometry", "messages", "recording", "transport"},
     # The world and the robot share no model: the simulator sees no capability, no museum, no robot configuration.
     "simulator": {"base", "geometry", "messages", "transport", "simulator", "pictures", "grid"},

@@ -56,6 +56,12 @@ void go_round_twice(sensor_msgs::LaserScan& scan) {
   scan.angle_increment = static_cast<float>(std::numbers::pi / 90.0);
   scan.ranges.resize(360, 2.0F);
 }
+void fill(geometry_msgs::PoseWithCovarianceStamped& pose, Rng& /*rng*/) {
+  pose.header.frame_id = "map";
+  pose.pose.pose = to_message(here());
+  pose.pose.covariance[0] = pose.pose.covariance[7] = 0.25;
+  pose.pose.covariance[35] = 0.07;
+}
 void fill(sensor_msgs::Range& range, Rng& rng) {
   const auto index = static_cast<int>(rng.integer(0, 23));
   range.header.frame_id = rng.chance(0.5) ? RobotBody::sonar_frame(index) : RobotBody::infrared_frame(index);

@@ -36,6 +36,17 @@ MessageFault fault_of_virtual_scan(const sensor_msgs::LaserScan& scan) {
   return {};
 }
 
+MessageFault fault_of_initial_pose(const geometry_msgs::PoseWithCovarianceStamped& pose) {
+  if (pose.header.frame_id != "map") return {"frame_id", "is not map"};
+  const auto& covariance = pose.pose.covariance;
+  constexpr std::array<std::size_t, 3> kVariances{0, 7, 35};  // x, y, yaw of six
+  for (const std::size_t i : kVariances)
+    if (!(covariance[i] >= 0.0)) return {"covariance", "has a variance below 0"};
+  if (!(std::max(covariance[0], covariance[7]) <= kWidestPose * kWidestPose))
+    return {"covariance", "is wider than 10 m: it names no place"};
+  return {};
+}
+
 MessageFault fault_of(const sensor_msgs::Range& range) {
   constexpr float kRound = 2.0F * std::numbers::pi_v<float>;
   if (const MessageFault fault = fault_of(range.header)) return fault;

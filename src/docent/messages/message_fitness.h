@@ -19,6 +19,7 @@ namespace docent {
 inline constexpr double kMostAnything = 1e7;             ///< any number; in [m] a quarter of the way round the Earth
 inline constexpr double kFarthestReading = 1000.0;       ///< [m] of any sensor's reach
 inline constexpr double kFastest = 100.0;                ///< [m/s], [rad/s] of any base
+inline constexpr double kWidestPose = 10.0;              ///< [m] standard deviation; wider names no place
 inline constexpr std::size_t kMostBeams = 10000;         ///< of one scan
 inline constexpr std::size_t kMostBelievedCells = 8192;  ///< architecture 10.5
 inline constexpr std::size_t kMostItems = 1000000;       ///< of any list
@@ -40,6 +41,9 @@ struct MessageFault {
 /// the robot's body, then in each to the area's border, which binds its centre. A scan of one turn would be one without
 /// a border, and one with a gap would be free there.
 [[nodiscard]] MessageFault fault_of_virtual_scan(const sensor_msgs::LaserScan& scan);
+/// Of a place that the robot is told: in the map's frame, and so sure of it that it names a place. Of the covariance x,
+/// y and yaw count.
+[[nodiscard]] MessageFault fault_of_initial_pose(const geometry_msgs::PoseWithCovarianceStamped& pose);
 /// Likewise the reading itself may be anything.
 [[nodiscard]] MessageFault fault_of(const sensor_msgs::Range& range);
 /// Only the charge counts: drivers leave what they do not measure at any value.

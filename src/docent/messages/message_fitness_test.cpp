@@ -68,6 +68,36 @@ TEST(MessageFitness, VirtualMeasurementsGoRoundTwice) {
   EXPECT_FALSE(fault_on(topics::kVirtualScan, scan)) << "any number of directions does";
 }
 
+TEST(MessageFitness, ThePoseThatTheRobotIsToldNamesAPlaceOfTheMap) {
+  geometry_msgs::PoseWithCovarianceStamped pose;
+  const auto fault = [&] { return fault_on(topics::kInitialPose, pose).text(); };
+  for (const char* frame : {"", "odom", "/map", "base_link"}) {
+    pose.header.frame_id = frame;
+    EXPECT_EQ(fault(), "frame_id is not map") << frame;
+  }
+  pose.header.frame_id = "map";
+  EXPECT_FALSE(fault_on(topics::kInitialPose, pose)) << "a covariance of zeros is what many tools send";
+  pose.pose.covariance[0] = pose.pose.covariance[7] = 0.25;
+  pose.pose.covariance[35] = 0.07;
+  EXPECT_FALSE(fault_on(topics::kInitialPose, pose));
+  for (const std::size_t variance : {0U, 7U, 35U}) {
+    auto wrong = pose;
+    wrong.pose.covariance[variance] = -0.1;
+    EXPECT_EQ(fault_on(topics::kInitialPose, wrong).text(), "covariance has a variance below 0");
+    wrong.pose.covariance[variance] = static_cast<double>(kNan);
+    EXPECT_EQ(fault_on(topics::kInitialPose, wrong).text(), "covariance is no number of this world");
+  }
+  pose.pose.covariance[7] = 101.0;
+  EXPECT_EQ(fault(), "covariance is wider than 10 m: it names no place");
+  pose.pose.covariance[7] = 0.25;
+  pose.pose.pose.position.x = static_cast<double>(kInfinity);
+  EXPECT_EQ(fault(), "x is no number of this world");
+  pose.pose.pose.position.x = 0.0;
+  pose.pose.pose.orientation = {0.0, 0.0, 0.0, 0.0};
+  EXPECT_EQ(fault(), "rotation is none: its length is not 1");
+  EXPECT_FALSE(fault_on(topics::kPose, geometry_msgs::PoseWithCovarianceStamped{})) << "of this topic alone";
+}
+
 TEST(MessageFitness, ReadingsMayBeAnything) {
   auto scan = scan_all_round();
   scan.ranges = {kNan, kInfinity, -kInfinity, 1e30F, -1e30F, 0.0F};

@@ -6,6 +6,7 @@
 #include "docent/messages/docent_messages.h"
 #include "docent/messages/message_fitness.h"
 #include "docent/messages/standard_messages.h"
+#include "docent/messages/visualization_messages.h"
 
 // Every topic, declared once: name, type, quality of service. A ROS 2 peer sees /scan_front; on the wire it is
 // rt/scan_front (ROS 2's prefix for topics).
@@ -59,6 +60,9 @@ inline constexpr Topic<nav_msgs::OccupancyGrid> kLiveMap{"docent/live_map", Qos:
 inline constexpr Topic<docent_msgs::LiveMapUpdate> kLiveMapUpdate{"docent/live_map_updates", Qos::command};
 inline constexpr Topic<docent_msgs::Belief> kBelief{"docent/belief", Qos::state};
 inline constexpr Topic<geometry_msgs::PoseWithCovarianceStamped> kPose{"amcl_pose", Qos::state};
+/// From a person with rviz2 or Lichtblick: here stands the robot.
+inline constexpr Topic<geometry_msgs::PoseWithCovarianceStamped> kInitialPose{"initialpose", Qos::command, 0, 2.0,
+                                                                              fault_of_initial_pose};
 inline constexpr Topic<docent_msgs::PersonBeams> kPersonBeams{"docent/person_beams", Qos::sensor};
 inline constexpr Topic<docent_msgs::People> kPeople{"docent/people", Qos::sensor};
 inline constexpr Topic<docent_msgs::People> kPeopleInOdom{"docent/people_odom", Qos::sensor};
@@ -87,6 +91,10 @@ inline constexpr Topic<docent_msgs::SpeechState> kSpeechState{"docent/speech_sta
 inline constexpr Topic<docent_msgs::Horn> kHorn{"docent/horn", Qos::command};
 inline constexpr Topic<docent_msgs::Limits> kLimits{"docent/limits", Qos::state};
 inline constexpr Topic<docent_msgs::Health> kHealth{"docent/health", Qos::command};
+// For viewers of ROS 2. No module of the robot reads them.
+inline constexpr Topic<geometry_msgs::PoseArray> kParticleCloud{"particle_cloud", Qos::state};
+inline constexpr Topic<visualization_msgs::MarkerArray> kPeopleMarkers{"docent/people_markers", Qos::sensor};
+inline constexpr Topic<visualization_msgs::MarkerArray> kMuseumMarkers{"docent/museum_markers", Qos::state};
 // Ground truth: another DDS domain, one channel of a recording. No module of the robot may name these.
 inline constexpr Topic<docent_msgs::RunInfo> kRunInfo{"truth/run_info", Qos::state};
 inline constexpr Topic<docent_msgs::TrueState> kTrueState{"truth/state", Qos::command};
@@ -113,6 +121,7 @@ void for_each_robot_topic(F&& f) {
   f(kDrive), f(kAvoidState), f(kRequest), f(kChoice), f(kRequestBoard), f(kMissionState), f(kTask), f(kTaskState),
       f(kEvent);
   f(kReaction), f(kGaze), f(kSay), f(kSpeechState), f(kHorn), f(kLimits), f(kHealth);
+  f(kInitialPose), f(kParticleCloud), f(kPeopleMarkers), f(kMuseumMarkers);
 }
 template <class F>
 void for_each_truth_topic(F&& f) {

@@ -111,6 +111,14 @@ class Bus {
   /// By topic; empty as long as all was well.
   [[nodiscard]] const std::map<std::string, Refusals>& refusals() const { return refusals_; }
 
+  /// For what only the module can find wrong: counted as what `subscribe` refuses, and told in the module's health.
+  void refuse(const std::string& topic, const MessageFault& fault) {
+    Refusals& refusals = refusals_[topic];
+    ++refusals.count;
+    refusals.last = fault;
+    refusals.last_at = now();
+  }
+
   /// For recorders and gateways that do not care about the type: they get all that decodes.
   virtual void add_subscription(const TopicInfo& topic, Handler handler) = 0;
 
@@ -119,12 +127,6 @@ class Bus {
   friend class Publisher;
   virtual int add_publisher(const TopicInfo& topic) = 0;
   virtual void publish(int publisher, std::shared_ptr<const void> message) = 0;
-  void refuse(const std::string& topic, const MessageFault& fault) {
-    Refusals& refusals = refusals_[topic];
-    ++refusals.count;
-    refusals.last = fault;
-    refusals.last_at = now();
-  }
 
  private:
   std::map<std::string, Refusals> refusals_;

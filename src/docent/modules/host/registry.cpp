@@ -7,6 +7,7 @@
 #include "docent/modules/drive/plan_module.h"
 #include "docent/modules/drive/robot_module.h"
 #include "docent/modules/edge/record_module.h"
+#include "docent/modules/edge/visualize_module.h"
 #include "docent/modules/edge/web_module.h"
 #include "docent/modules/guide/executive_module.h"
 #include "docent/modules/guide/mission_module.h"
@@ -32,6 +33,7 @@ constexpr std::array kModules{
     ModuleEntry{"mission", make_mission, parameters_of_mission},
     ModuleEntry{"executive", make_executive, parameters_of_executive},
     ModuleEntry{"web", make_web, parameters_of_web},
+    ModuleEntry{"visualize", make_visualize, parameters_of_visualize},
 };
 // clang-format on
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <span>
 
 #include "docent/grid/occupancy_grid.h"
 #include "docent/localization/belief/checkpoint.h"
@@ -13,6 +14,7 @@
 #include "docent/localization/sonar/evidence/sonar_evidence.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/perception/sonar_localize.h"
+#include "docent/modules/shared/initial_pose.h"
 #include "docent/modules/shared/scanners.h"
 #include "docent/motion_models/odometry_history.h"
 #include "docent/motion_models/unbroken_odometry.h"
@@ -128,6 +130,8 @@ class LocalizeModule final : public Module {
     subscribe_scanners(bus_, body_, [this](std::size_t i, const auto& scan) { on_scan(i, scan); });
     if (believer_.sonars)
       bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const auto& range) { on_sonar(range); });
+    subscribe_initial_pose(bus_, context.museum.map,
+                           [this](const BeliefMode& mode, Time stamp) { return start_where_told(mode, stamp); });
     bus_.every(kPeriod, [this] { look(); });
   }
 
@@ -334,6 +338,20 @@ class LocalizeModule final : public Module {
     if (age < Duration{0} - kTogether || age > kCheckpointAge) return;
     localizer_->start_at(checkpoint->modes, checkpoint->odom_from_robot, checkpoint->time);
     restored_ = checkpoint->odom_from_robot;
+  }
+
+  /// Somebody says where the robot stood at `stamp`; where nobody knows odometry of then, it stands there now.
+  MessageFault start_where_told(const BeliefMode& mode, Time stamp) {
+    if (odometry_.empty()) return {"pose", "came before any odometry"};
+    restored_.reset();
+    auto odom_from_base = odometry_.at(stamp);
+    if (!odom_from_base) {
+      stamp = odometry_.latest_time();
+      odom_from_base = odometry_.latest();
+    }
+    localizer_->start_at(std::span{&mode, 1}, *odom_from_base, stamp);
+    publish_belief(stamp, *odom_from_base);
+    return {};
   }
 
   /// The first odometry after a restart: has the robot been moved, or its odometry been reset?

@@ -1,11 +1,14 @@
 #include "docent/modules/perception/sonar_localize.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 
 #include "docent/localization/belief/checkpoint.h"
 #include "docent/localization/sonar/tracker/gaussian_belief.h"
 #include "docent/messages/conversions.h"
+#include "docent/modules/shared/initial_pose.h"
 #include "docent/motion_models/odometry_history.h"
 
 namespace docent {
@@ -41,6 +44,8 @@ class SonarLocalizeModule final : public Module {
     publish_belief(bus_.now(), Pose2{});
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const auto& odometry) { on_odometry(odometry); });
     bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const auto& range) { on_sonar(range); });
+    subscribe_initial_pose(bus_, map_,
+                           [this](const BeliefMode& mode, Time stamp) { return start_where_told(mode, stamp); });
     bus_.every(kPeriod, [this] { tell(); });
   }
 
@@ -81,6 +86,16 @@ class SonarLocalizeModule final : public Module {
     tracker_.hear(
         {*index, body_.base_from_sonar(*index), static_cast<double>(range.range), static_cast<double>(range.max_range)},
         *odom_from_robot);
+  }
+
+  /// As in the other localizers. What the robot has driven since `stamp` is added to the pose that it had then.
+  MessageFault start_where_told(const BeliefMode& mode, Time stamp) {
+    if (odometry_.empty()) return {"pose", "came before any odometry"};
+    restored_.reset();
+    const Pose2 then_from_now = inverse(odometry_.at(stamp).value_or(odometry_.latest())) * odometry_.latest();
+    tracker_.start_at(mode.map_from_robot * then_from_now, std::sqrt(std::max(mode.covariance[0], mode.covariance[4])),
+                      std::sqrt(mode.covariance[8]));
+    return {};
   }
 
   void tell() {
