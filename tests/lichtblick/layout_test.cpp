@@ -9,7 +9,7 @@
 #include "docent/apps/simulate/simulation_run.h"
 #include "docent/messages/schema.h"
 #include "docent/modules/host/registry.h"
-#include "docent/recording/mcap_reader.h"
+#include "docent/recording/mcap/reader.h"
 
 namespace docent {
 namespace {

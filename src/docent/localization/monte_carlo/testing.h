@@ -10,23 +10,10 @@
 #include "docent/base/random.h"
 #include "docent/base/time.h"
 #include "docent/localization/markov/testing.h"
-#include "docent/localization/particles/particle_set.h"
+#include "docent/localization/particles/testing.h"
 
-/// Particles and drives for the tests of this folder.
+/// Drives for the tests of this folder.
 namespace docent::testing {
-
-/// `count` particles anywhere in the box 0..width x 0..height, with weights between 0 and 1 that do not sum to 1.
-inline ParticleSet any_particles(Rng& rng, std::size_t count, double width, double height) {
-  ParticleSet particles;
-  particles.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const double x = rng.uniform(0.0, width);
-    const double y = rng.uniform(0.0, height);
-    const Angle heading = Angle::degrees(rng.uniform(-180.0, 180.0));
-    particles.set(i, {x, y, heading}, static_cast<float>(rng.uniform()));
-  }
-  return particles;
-}
 
 /// A robot that drives round the drawn room, with odometry that drifts and people about it.
 class Drive {

@@ -2,7 +2,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "docent/localization/monte_carlo/testing.h"
+#include "docent/localization/particles/testing.h"
 
 /// Linear: the time a particle stays the same from a thousand to a million, but for the caches.
 namespace docent {
