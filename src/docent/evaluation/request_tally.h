@@ -8,7 +8,9 @@
 #include "docent/base/time.h"
 #include "docent/evaluation/deployment_report.h"
 #include "docent/geometry/pose2.h"
-#include "docent/messages/docent_messages.h"
+#include "docent/messages/mission_messages.h"
+#include "docent/messages/request_messages.h"
+#include "docent/messages/truth_messages.h"
 
 namespace docent {
 

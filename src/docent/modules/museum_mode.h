@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "docent/messages/docent_messages.h"
+#include "docent/messages/operation_messages.h"
 #include "docent/modules/module.h"
 
 namespace docent {

@@ -7,7 +7,8 @@
 
 #include "docent/base/random.h"
 #include "docent/base/time.h"
-#include "docent/messages/docent_messages.h"
+#include "docent/messages/mission_messages.h"
+#include "docent/messages/request_messages.h"
 #include "docent/simulator/scenario.h"
 
 namespace docent::simulator {

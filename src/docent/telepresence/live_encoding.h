@@ -6,7 +6,13 @@
 #include <vector>
 
 #include "docent/base/time.h"
-#include "docent/messages/docent_messages.h"
+#include "docent/messages/driving_messages.h"
+#include "docent/messages/interaction_messages.h"
+#include "docent/messages/localization_messages.h"
+#include "docent/messages/mission_messages.h"
+#include "docent/messages/operation_messages.h"
+#include "docent/messages/people_messages.h"
+#include "docent/messages/request_messages.h"
 #include "docent/telepresence/belief_carrier.h"
 
 // What viewers get, as JSON text; docs/web-protocol.md describes it. Times are seconds of the bus's clock, lengths
