@@ -18,7 +18,7 @@ SOURCE = ROOT / "src" / "docent"
 # Lower layers first. A folder may depend on folders of its own layer or below.
 LAYERS = [
     {"base"},
-    {"geometry"},
+    {"geometry", "vocabulary"},
     {"grid"},
     {"pictures", "motion_models", "sensor_models", "messages", "museum", "robot"},
     {"localization", "mapping", "planning", "collision_avoidance", "people", "vision", "task_control", "interaction"},
@@ -34,10 +34,10 @@ EDGE_MAY_SEE = {
     "robot": {"base", "geometry"},
     "transport": {"base", "messages"},
     "recording": {"base", "geometry", "messages", "transport"},
-    "telepresence": {"base", "geometry", "grid", "messages", "museum", "pictures"},
-    "evaluation": {"base", "geometry", "messages", "recording", "transport"},
+    "telepresence": {"base", "geometry", "grid", "messages", "museum", "pictures", "vocabulary"},
+    "evaluation": {"base", "geometry", "messages", "recording", "transport", "vocabulary"},
     # The world and the robot share no model: the simulator sees no capability, no museum, no robot configuration.
-    "simulator": {"base", "geometry", "messages", "transport", "simulator", "pictures", "grid"},
+    "simulator": {"base", "geometry", "messages", "transport", "simulator", "pictures", "grid", "vocabulary"},
 }
 TRUTH = re.compile(r"kTrueState|kTrueContact|kTrueOffer|kRunInfo|for_each_truth_topic|\"truth/")
 TRUTH_MAY = {"messages", "simulator", "evaluation", "recording", "apps", "transport"}

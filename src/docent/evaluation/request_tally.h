@@ -11,6 +11,7 @@
 #include "docent/messages/mission_messages.h"
 #include "docent/messages/request_messages.h"
 #include "docent/messages/truth_messages.h"
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent {
 
@@ -31,9 +32,9 @@ class RequestTally {
   struct Wish {
     Time offered{};
     bool on_board = false;
-    std::string state;
+    std::optional<RequestStatus> state;
     std::string reason;
-    std::string source;
+    std::optional<RequestSource> source;
     std::string visitor;
     bool in_wrong_place = false;
   };

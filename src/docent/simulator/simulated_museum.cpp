@@ -17,6 +17,7 @@
 #include "docent/simulator/start_pose.h"
 #include "docent/simulator/steersman.h"
 #include "docent/simulator/visitors.h"
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent::simulator {
 namespace {
@@ -81,7 +82,7 @@ class SimulatedMuseum::Impl {
   }
   void hear_horn() { crowd_.hear_horn(run_seconds()); }
   void hear_speech(const docent_msgs::SpeechState& speech) {
-    if (speech.state != "speaking") return crowd_.hear_speech(-1.0);
+    if (parse<SpeechStatus>(speech.state) != SpeechStatus::speaking) return crowd_.hear_speech(-1.0);
     const Time end = from_message(speech.start) + seconds(speech.duration);
     crowd_.hear_speech(to_seconds(end - start_));
   }

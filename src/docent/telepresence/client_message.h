@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "docent/base/result.h"
+#include "docent/vocabulary/vocabulary.h"
 
 // What a browser may say to the robot, as JSON text of at most a few kilobytes. Everything is checked here, so that
 // nothing behind this line has to doubt it.
@@ -14,7 +15,7 @@ namespace docent {
 /// {"type":"request","id":UUIDv7,"kind":"exhibit"|"tour","target":…,"viewpoint"?:n,"name"?:…,"language"?:…}
 struct RequestMessage {
   std::string id;
-  std::string kind;
+  RequestKind kind = RequestKind::exhibit;  ///< or tour
   std::string target;
   int viewpoint = -1;
   std::string name;  ///< at most 40 characters on one line, nothing that is not printed

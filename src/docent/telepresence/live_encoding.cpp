@@ -7,6 +7,7 @@
 #include "docent/messages/conversions.h"
 #include "docent/telepresence/belief_raster.h"
 #include "docent/telepresence/site.h"
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent {
 namespace {
@@ -44,7 +45,8 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
 }
 
 bool is_open(const docent_msgs::RequestState& request) {
-  return request.state == "queued" || request.state == "active";
+  const auto status = parse<RequestStatus>(request.state);
+  return status && docent::is_open(*status);
 }
 
 Json request_of(const docent_msgs::RequestState& entry) {
