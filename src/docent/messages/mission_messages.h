@@ -18,13 +18,15 @@ struct MissionState {
   std::string phase;  ///< waking, relocalizing, idle, driving, explaining, asking, going_home, charging, waiting
   std::string tour_id;
   std::string exhibit_id;  ///< the present or next exhibit
-  std::string text_en;     ///< one sentence for people: what it is doing
+  std::string text_en;     ///< one sentence for people: what it is doing; `texts` has it in each language
   std::string text_de;
   Prompt prompt;
   std::uint32_t exhibits_explained = 0;  ///< since the start of the deployment
   std::uint32_t tours_completed = 0;
   std::uint32_t requests_served = 0;
-  std::vector<std::string> agenda;  ///< exhibit ids still to come, in order
+  std::vector<std::string> agenda;     ///< exhibit ids still to come, in order
+  std::vector<std::string> languages;  ///< codes of the museum's languages, its own first
+  std::vector<std::string> texts;      ///< [languages] what it is doing
   template <class Self, class V>
   static void visit(Self& m, V& v) {
     v("header", m.header);
@@ -38,6 +40,8 @@ struct MissionState {
     v("tours_completed", m.tours_completed);
     v("requests_served", m.requests_served);
     v("agenda", m.agenda);
+    v("languages", m.languages);
+    v("texts", m.texts);
   }
 };
 

@@ -215,7 +215,9 @@ class MissionModule final : public Module {
       return sentence(sentence_of(summary), language,
                       summary.phase == MissionPhase::charging ? minutes : translated(title, language));
     };
-    message.text_en = text("en");
+    message.languages = mission_.scheduler().programme().languages;
+    for (const std::string& language : message.languages) message.texts.push_back(text(language));
+    message.text_en = text("en");  // for whoever reads the messages of before
     message.text_de = text("de");
     if (summary.phase == MissionPhase::asking) message.prompt = prompt_;
     message.exhibits_explained = summary.counters.exhibits_explained;

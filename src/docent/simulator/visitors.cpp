@@ -63,6 +63,12 @@ void WishingVisitors::ask(Time now, const std::string& kind, const std::string& 
   open_.push_back({std::move(request), now, false});
 }
 
+std::string WishingVisitors::language() {
+  const std::size_t count = params_.languages.size();
+  const auto pick = static_cast<std::size_t>(wish_rng_.uniform() * static_cast<double>(count));
+  return params_.languages.at(std::min(pick, count - 1));
+}
+
 void WishingVisitors::ask(Time now, const Wish& wish) { ask(now, wish.kind, wish.target, wish.language); }
 
 WishingVisitors::Output WishingVisitors::step(Time now, Duration since_start) {
@@ -72,8 +78,7 @@ WishingVisitors::Output WishingVisitors::step(Time now, Duration since_start) {
     const bool wants_exhibit = tours_.empty() || (!exhibits_.empty() && wish_rng_.chance(params_.exhibit_share));
     const auto& list = wants_exhibit ? exhibits_ : tours_;
     const auto pick = static_cast<std::size_t>(wish_rng_.integer(0, static_cast<std::int64_t>(list.size()) - 1));
-    ask(now, to_text(wants_exhibit ? RequestKind::exhibit : RequestKind::tour), list[pick],
-        wish_rng_.chance(params_.german_share) ? "de" : "en");
+    ask(now, to_text(wants_exhibit ? RequestKind::exhibit : RequestKind::tour), list[pick], language());
   }
   for (Open& open : open_) {
     if (now < open.next_send) continue;

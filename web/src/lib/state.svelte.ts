@@ -17,7 +17,7 @@ import type {
   WindowMessage,
 } from './protocol';
 import { uuid7 } from './uuid';
-import { pageLanguages, word } from './words';
+import { pageLanguage, word } from './words';
 
 /** What this browser asked for, and has to see through. */
 export interface Wish {
@@ -49,10 +49,8 @@ const store = {
   },
 };
 
-function firstLanguage(): string {
-  const wanted = store.read('language', '') || navigator.language.slice(0, 2);
-  return pageLanguages.includes(wanted) ? wanted : 'en';
-}
+/** What the reader wants: what they chose here once, else what their browser says. */
+const wantedLanguage = () => store.read('language', '') || navigator.language.slice(0, 2);
 
 /** The pose comes ten times a second: so long a silence [ms] is a dead line, which nobody else may ever report. */
 const SILENCE = 3000;
@@ -81,7 +79,7 @@ class App {
   speed = $state(0);
   turn = $state(0);
 
-  language = $state(firstLanguage());
+  language = $state(pageLanguage(wantedLanguage(), []));
   name = $state(store.read('name', ''));
   dark = $state(store.read<boolean | null>('dark', null) ?? matchMedia('(prefers-color-scheme: dark)').matches);
   calm = matchMedia('(prefers-reduced-motion: reduce)').matches;
@@ -113,7 +111,9 @@ class App {
       try {
         const reply = await fetch('/api/museum.json', { signal: AbortSignal.timeout(20000) });
         if (!reply.ok) throw new Error(String(reply.status));
-        this.museum = await reply.json();
+        const museum: Museum = await reply.json();
+        this.museum = museum;
+        this.language = pageLanguage(wantedLanguage(), museum.languages);
         return;
       } catch {
         await new Promise((resolve) => setTimeout(resolve, pause));
@@ -126,7 +126,7 @@ class App {
   }
   say(texts: Record<string, string> | undefined): string {
     if (!texts) return '';
-    return texts[this.language] || texts[this.museum?.languages[0] ?? 'en'] || Object.values(texts)[0] || '';
+    return texts[this.language] || texts[this.museum?.languages[0] ?? ''] || Object.values(texts)[0] || '';
   }
   exhibit(id: string): Exhibit | undefined {
     return this.museum?.exhibits.find((exhibit) => exhibit.id === id);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "docent/interaction/speech/dictionary.h"
+
 namespace docent {
 namespace {
 
@@ -114,14 +116,11 @@ Voice voice_of(Mood mood) {
 
 double speech_duration(std::string_view text, std::string_view language, Mood mood) {
   if (text.empty()) return 0.0;
-  // Least squares over short and long texts at 175 words a minute.
-  const bool is_german = language == "de";
-  const double per_character = is_german ? 0.0540 : 0.0528;
-  const double per_sentence = is_german ? 0.16 : 0.25;
+  const Dictionary& dictionary = dictionary_of(language);
   const auto sentences =
       std::count_if(text.begin(), text.end(), [](char c) { return c == '.' || c == '!' || c == '?'; });
-  const double at_175 = per_character * static_cast<double>(count_code_points(text)) +
-                        per_sentence * static_cast<double>(std::max<std::ptrdiff_t>(sentences, 1));
+  const double at_175 = dictionary.per_character * static_cast<double>(count_code_points(text)) +
+                        dictionary.per_sentence * static_cast<double>(std::max<std::ptrdiff_t>(sentences, 1));
   return at_175 * 175.0 / static_cast<double>(voice_of(mood).words_per_minute);
 }
 
