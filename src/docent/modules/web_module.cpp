@@ -17,8 +17,8 @@
 #include "docent/telepresence/live_encoding.h"
 #include "docent/telepresence/museum_document.h"
 #include "docent/telepresence/outbox.h"
+#include "docent/telepresence/server/web_server.h"
 #include "docent/telepresence/site.h"
-#include "docent/telepresence/web_server.h"
 #include "docent/vocabulary/vocabulary.h"
 
 namespace docent {

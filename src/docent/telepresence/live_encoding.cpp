@@ -63,6 +63,15 @@ Json request_of(const docent_msgs::RequestState& entry) {
           {"changed", rounded(seconds_of(entry.changed))}};
 }
 
+/// What the robot is doing, by language. A recording of before has two.
+Json texts_of(const docent_msgs::MissionState& mission) {
+  if (mission.languages.empty()) return {{"en", mission.text_en}, {"de", mission.text_de}};
+  Json texts = Json::object();
+  for (std::size_t i = 0; i < std::min(mission.languages.size(), mission.texts.size()); ++i)
+    texts[mission.languages[i]] = mission.texts[i];
+  return texts;
+}
+
 }  // namespace
 
 std::string encode_live(const LiveFrame& frame) {
@@ -156,7 +165,7 @@ std::string encode_mission(const docent_msgs::MissionState& mission) {
             {"phase", mission.phase},
             {"tour", mission.tour_id},
             {"exhibit", mission.exhibit_id},
-            {"text", {{"en", mission.text_en}, {"de", mission.text_de}}},
+            {"text", texts_of(mission)},
             {"agenda", mission.agenda},
             {"explained", mission.exhibits_explained},
             {"tours", mission.tours_completed},
@@ -246,6 +255,8 @@ std::string encode_acknowledgement(const std::string& id) { return text_of({{"ty
 std::string encode_refusal(const std::string& id, const std::string& reason) {
   return text_of({{"type", "refused"}, {"id", id}, {"reason", reason}});
 }
+
+std::string encode_error(const std::string& reason) { return text_of({{"type", "error"}, {"reason", reason}}); }
 
 std::vector<Point2> scan_points(const sensor_msgs::LaserScan& scan, const Pose2& base_from_sensor, std::size_t every) {
   std::vector<Point2> points;

@@ -60,6 +60,7 @@ struct HealthEntry {
 
 [[nodiscard]] std::string encode_acknowledgement(const std::string& id);
 [[nodiscard]] std::string encode_refusal(const std::string& id, const std::string& reason);
+[[nodiscard]] std::string encode_error(const std::string& reason);
 
 /// Every n-th reading of a scan as points in the robot's frame; invalid readings are left out, those without a return
 /// end at the largest range.
