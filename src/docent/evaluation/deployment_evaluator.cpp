@@ -55,9 +55,9 @@ void DeploymentEvaluator::add(const TopicInfo& topic, Time time, const std::shar
   } else if (is(topics::kEvent)) {
     requests_.add_event(time, as(topics::kEvent), true_place());
   } else if (is(topics::kReaction)) {
-    const docent_msgs::Reaction& reaction = as(topics::kReaction);
-    report_.blocked.local_detours += reaction.step == "local_detour" ? 1 : 0;
-    report_.blocked.global_detours += reaction.step == "global_detour" ? 1 : 0;
+    const auto step = parse<Rung>(as(topics::kReaction).step);
+    report_.blocked.local_detours += step == Rung::local_detour ? 1 : 0;
+    report_.blocked.global_detours += step == Rung::global_detour ? 1 : 0;
   } else if (is(topics::kHorn)) {
     ++report_.blocked.horn;
   } else if (is(topics::kHealth)) {

@@ -64,6 +64,12 @@ constexpr auto words_of(DriveMode) { return std::array{"stop", "drive", "turn"};
 enum class GazeAt { way, goal, none };
 constexpr auto words_of(GazeAt) { return std::array{"way", "goal", "none"}; }
 
+/// A step of the reaction to a blocked way.
+enum class Rung { slow, horn, local_detour, global_detour, wait, ask, give_up, free };
+constexpr auto words_of(Rung) {
+  return std::array{"slow", "horn", "local_detour", "global_detour", "wait", "ask", "give_up", "free"};
+}
+
 /// How an utterance goes.
 enum class SpeechStatus { speaking, done, failed };
 constexpr auto words_of(SpeechStatus) { return std::array{"speaking", "done", "failed"}; }

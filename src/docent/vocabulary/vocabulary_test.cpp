@@ -32,6 +32,7 @@ TEST(Vocabulary, EachValueHasItsWord) {
   expect_each_has_its_word(GoalStatus::unreachable);
   expect_each_has_its_word(DriveMode::turn);
   expect_each_has_its_word(GazeAt::none);
+  expect_each_has_its_word(Rung::free);
   expect_each_has_its_word(SpeechStatus::failed);
   expect_each_has_its_word(Mood::angry);
   expect_each_has_its_word(Answer::no);
@@ -49,6 +50,7 @@ TEST(Vocabulary, ValuesHaveTheirOwnWords) {
   EXPECT_STREQ(to_text(EventKind::attraction_trial), "attraction_trial");
   EXPECT_STREQ(to_text(EventKind::charger_failed), "charger_failed");
   EXPECT_STREQ(to_text(EventKind::asked_for_way), "asked_for_way");
+  EXPECT_STREQ(to_text(Rung::global_detour), "global_detour");
   EXPECT_STREQ(to_text(std::optional<TaskStatus>{}), "");
   EXPECT_STREQ(to_text(std::optional{TaskStatus::done}), "done");
 }
