@@ -1,7 +1,6 @@
 #include "docent/evaluation/deployment_evaluator.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <string_view>

@@ -1,7 +1,5 @@
 #include "docent/task_control/reaction_ladder/reaction_ladder.h"
 
-#include <array>
-
 namespace docent {
 namespace {
 
