@@ -18,7 +18,7 @@ SOURCE = ROOT / "src" / "docent"
 # Lower layers first. A folder may depend on folders of its own layer or below.
 LAYERS = [
     {"base"},
-    {"geometry"},
+    {"geometry", "vocabulary"},
     {"grid"},
     {"pictures", "motion_models", "sensor_models", "messages", "museum", "robot"},
     {"localization", "mapping", "planning", "collision_avoidance", "people", "vision", "task_control", "interaction"},
@@ -50,11 +50,11 @@ EDGE_MAY_SEE = {
     "robot": {"base", "geometry"},
     "transport": {"base", "messages"},
     "recording": {"base", "geometry", "messages", "transport"},
-    "telepresence": {"base", "geometry", "grid", "messages", "museum", "pictures"},
+    "telepresence": {"base", "geometry", "grid", "messages", "museum", "pictures", "vocabulary"},
     "visualization": {"base", "geometry", "grid", "messages", "museum"},
-    "evaluation": {"base", "geometry", "messages", "recording", "transport"},
+    "evaluation": {"base", "geometry", "messages", "recording", "transport", "vocabulary"},
     # The world and the robot share no model: the simulator sees no capability, no museum, no robot configuration.
-    "simulator": {"base", "geometry", "messages", "transport", "simulator", "pictures", "grid"},
+    "simulator": {"base", "geometry", "messages", "transport", "simulator", "pictures", "grid", "vocabulary"},
 }
 # The folders of these see no other one of their own, but `shared`; what starts them all sees all.
 APART = {"modules": "modules/host", "apps": "apps"}

@@ -4,7 +4,7 @@
 
 #include "docent/base/random.h"
 #include "docent/base/time.h"
-#include "docent/messages/docent_messages.h"
+#include "docent/messages/standard_messages.h"
 #include "docent/museum/museum.h"
 #include "docent/planning/value_iteration/route.h"
 

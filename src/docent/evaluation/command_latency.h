@@ -5,7 +5,6 @@
 
 #include "docent/base/quantiles.h"
 #include "docent/base/time.h"
-#include "docent/messages/docent_messages.h"
 #include "docent/messages/standard_messages.h"
 #include "docent/transport/bus.h"
 

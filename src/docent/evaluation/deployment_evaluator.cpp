@@ -1,12 +1,12 @@
 #include "docent/evaluation/deployment_evaluator.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <string_view>
 
 #include "docent/messages/conversions.h"
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent {
 namespace {
@@ -19,9 +19,9 @@ constexpr double kCharge = 0.05;       ///< of the battery: a rise that is a cha
 constexpr double kDepleted = 0.01;
 
 /// A goal in one of these states is being driven to.
-bool is_active(std::string_view state) {
-  constexpr std::array<std::string_view, 4> kActive{"driving", "turning", "blocked", "waiting"};
-  return std::find(kActive.begin(), kActive.end(), state) != kActive.end();
+bool is_active(std::optional<GoalStatus> state) {
+  return state == GoalStatus::driving || state == GoalStatus::turning || state == GoalStatus::blocked ||
+         state == GoalStatus::waiting;
 }
 
 }  // namespace
@@ -54,9 +54,9 @@ void DeploymentEvaluator::add(const TopicInfo& topic, Time time, const std::shar
   } else if (is(topics::kEvent)) {
     requests_.add_event(time, as(topics::kEvent), true_place());
   } else if (is(topics::kReaction)) {
-    const docent_msgs::Reaction& reaction = as(topics::kReaction);
-    report_.blocked.local_detours += reaction.step == "local_detour" ? 1 : 0;
-    report_.blocked.global_detours += reaction.step == "global_detour" ? 1 : 0;
+    const auto step = parse<Rung>(as(topics::kReaction).step);
+    report_.blocked.local_detours += step == Rung::local_detour ? 1 : 0;
+    report_.blocked.global_detours += step == Rung::global_detour ? 1 : 0;
   } else if (is(topics::kHorn)) {
     ++report_.blocked.horn;
   } else if (is(topics::kHealth)) {
@@ -106,33 +106,41 @@ void DeploymentEvaluator::add_state(std::shared_ptr<const docent_msgs::TrueState
 
 bool is_contact(const docent_msgs::TrueContact& touch) {
   const bool excused = touch.braked_in_time && touch.other_speed > touch.robot_speed;
-  return touch.kind != "people" || (touch.robot_speed > kContactSpeed && !excused);
+  return parse<ContactKind>(touch.kind) != ContactKind::people || (touch.robot_speed > kContactSpeed && !excused);
 }
 
 void DeploymentEvaluator::add_contact(const docent_msgs::TrueContact& contact) {
   DeploymentReport::Contacts& contacts = report_.contacts;
-  if (contact.kind == "people") {
-    ++(is_contact(contact) ? contacts.people : report_.bumped_by_people);
-  } else if (contact.kind == "walls") {
-    ++contacts.walls;
-  } else if (contact.kind == "hazards") {
-    ++contacts.hazards;
-  } else {
-    ++contacts.furniture;
+  // What is no word of ours was something that stood there.
+  switch (parse<ContactKind>(contact.kind).value_or(ContactKind::furniture)) {
+    case ContactKind::people:
+      ++(is_contact(contact) ? contacts.people : report_.bumped_by_people);
+      break;
+    case ContactKind::walls:
+      ++contacts.walls;
+      break;
+    case ContactKind::hazards:
+      ++contacts.hazards;
+      break;
+    case ContactKind::furniture:
+      ++contacts.furniture;
+      break;
   }
 }
 
 void DeploymentEvaluator::add_goal_state(const docent_msgs::GoalState& goal) {
-  goal_is_active_ = !goal.id.empty() && is_active(goal.state);
-  const bool blocked = goal_is_active_ && goal.state == "blocked";
+  const auto state = parse<GoalStatus>(goal.state);
+  goal_is_active_ = !goal.id.empty() && is_active(state);
+  const bool blocked = goal_is_active_ && state == GoalStatus::blocked;
   report_.blocked.events += blocked && !is_blocked_ ? 1 : 0;
   is_blocked_ = blocked;
   if (!truth_.empty()) follow_trip(goal);
 }
 
 void DeploymentEvaluator::follow_trip(const docent_msgs::GoalState& goal) {
-  const bool is_under_way = goal_is_active_ && !is_relocalizing_ && goal.state != "turning";
-  if (trip_ && trip_->goal == goal.id && (goal.state == "turning" || goal.state == "arrived")) {
+  const auto state = parse<GoalStatus>(goal.state);
+  const bool is_under_way = goal_is_active_ && !is_relocalizing_ && state != GoalStatus::turning;
+  if (trip_ && trip_->goal == goal.id && (state == GoalStatus::turning || state == GoalStatus::arrived)) {
     report_.trips.push_back(
         {to_seconds(truth_.latest_time() - trip_->begin), truth_.latest().distance_m - trip_->distance_m});
   }

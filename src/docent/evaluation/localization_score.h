@@ -5,7 +5,7 @@
 #include "docent/base/quantiles.h"
 #include "docent/evaluation/deployment_report.h"
 #include "docent/evaluation/truth_history.h"
-#include "docent/messages/docent_messages.h"
+#include "docent/messages/localization_messages.h"
 
 namespace docent {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "docent/geometry/pose2.h"
-#include "docent/messages/docent_messages.h"
+#include "docent/messages/truth_messages.h"
 
 namespace docent {
 

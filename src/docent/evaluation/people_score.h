@@ -4,7 +4,8 @@
 
 #include "docent/evaluation/deployment_report.h"
 #include "docent/evaluation/truth_history.h"
-#include "docent/messages/docent_messages.h"
+#include "docent/messages/people_messages.h"
+#include "docent/messages/truth_messages.h"
 
 namespace docent {
 

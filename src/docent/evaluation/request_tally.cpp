@@ -18,49 +18,65 @@ void RequestTally::add_offer(Time time, const docent_msgs::TrueOffer& offer) {
 }
 
 void RequestTally::add_task(const docent_msgs::Task& task) {
-  if (task.kind == "visit") places_[task.exhibit_id] = {task.x, task.y};
+  if (parse<TaskKind>(task.kind) == TaskKind::visit) places_[task.exhibit_id] = {task.x, task.y};
 }
 
 void RequestTally::add_board(Time time, const docent_msgs::RequestBoard& board, const std::optional<Point2>& truth) {
   for (const auto& entry : board.requests) {
     const docent_msgs::Request& request = entry.request;
-    if (request.kind == "cancel") continue;
+    const auto kind = parse<RequestKind>(request.kind);
+    if (kind == RequestKind::cancel) continue;
     const auto [place, is_new] = wishes_.try_emplace(request.id);
     Wish& wish = place->second;
     if (is_new) wish.offered = time;
-    const bool is_change = wish.state != entry.state;
+    const auto status = parse<RequestStatus>(entry.state);
+    const bool is_change = wish.state != status;
     wish.on_board = true;
-    wish.state = entry.state;
+    wish.state = status;
     wish.reason = entry.reason;
-    wish.source = request.source;
+    wish.source = parse<RequestSource>(request.source);
     wish.visitor = request.visitor;
-    if (is_change && entry.state == "fulfilled" && request.kind == "exhibit")
+    if (is_change && status == RequestStatus::fulfilled && kind == RequestKind::exhibit)
       wish.in_wrong_place = !is_in_place(request.target, truth);
   }
 }
 
 void RequestTally::add_event(Time time, const docent_msgs::Event& event, const std::optional<Point2>& truth) {
-  if (event.kind == "explained") {
-    ++(is_in_place(event.subject, truth) ? tally_.exhibits_explained : tally_.explained_in_wrong_place);
-  } else if (event.kind == "tour_started") {
-    ++tally_.tours.given;
-    if (event.value > 0.0) tally_.tours.target_s.add(event.value);
-    tours_under_way_[event.subject] = time;
-  } else if (event.kind == "tour_completed") {
-    ++tally_.tours.completed;
-    if (const auto tour = tours_under_way_.find(event.subject); tour != tours_under_way_.end())
-      tally_.tours.seconds.add(to_seconds(time - tour->second));
-    tours_under_way_.erase(event.subject);
-  } else if (event.kind == "tour_failed" || event.kind == "tour_cancelled") {
-    tours_under_way_.erase(event.subject);
-  } else if (event.kind == "plan_inserted") {
-    ++tally_.plan_revisions.inserted;
-  } else if (event.kind == "plan_removed") {
-    ++tally_.plan_revisions.removed;
-  } else if (event.kind == "plan_rescheduled") {
-    ++tally_.plan_revisions.rescheduled;
-  } else if (event.kind == "attraction_trial") {
-    ++tally_.attraction_trials;
+  const auto kind = parse<EventKind>(event.kind);
+  if (!kind) return;
+  switch (*kind) {
+    case EventKind::explained:
+      ++(is_in_place(event.subject, truth) ? tally_.exhibits_explained : tally_.explained_in_wrong_place);
+      break;
+    case EventKind::tour_started:
+      ++tally_.tours.given;
+      if (event.value > 0.0) tally_.tours.target_s.add(event.value);
+      tours_under_way_[event.subject] = time;
+      break;
+    case EventKind::tour_completed:
+      ++tally_.tours.completed;
+      if (const auto tour = tours_under_way_.find(event.subject); tour != tours_under_way_.end())
+        tally_.tours.seconds.add(to_seconds(time - tour->second));
+      tours_under_way_.erase(event.subject);
+      break;
+    case EventKind::tour_failed:
+    case EventKind::tour_cancelled:
+      tours_under_way_.erase(event.subject);
+      break;
+    case EventKind::plan_inserted:
+      ++tally_.plan_revisions.inserted;
+      break;
+    case EventKind::plan_removed:
+      ++tally_.plan_revisions.removed;
+      break;
+    case EventKind::plan_rescheduled:
+      ++tally_.plan_revisions.rescheduled;
+      break;
+    case EventKind::attraction_trial:
+      ++tally_.attraction_trials;
+      break;
+    default:
+      break;
   }
 }
 
@@ -76,26 +92,26 @@ void RequestTally::fill(DeploymentReport& report, Time end) const {
   int hall = 0;
   for (const auto& [id, wish] : wishes_) {
     ++requests.offered;
-    if (wish.source == "web") {
+    if (wish.source == RequestSource::web) {
       web_visitors.insert(wish.visitor);
     } else {
       ++hall;
     }
-    const bool is_served = wish.state == "fulfilled" && !wish.in_wrong_place;
-    if (wish.state != "cancelled" && to_seconds(end - wish.offered) > kStillInTime) {
+    const bool is_served = wish.state == RequestStatus::fulfilled && !wish.in_wrong_place;
+    if (wish.state != RequestStatus::cancelled && to_seconds(end - wish.offered) > kStillInTime) {
       ++requests.counted;
       requests.counted_served += is_served ? 1 : 0;
     }
     if (is_served) {
       ++requests.fulfilled;
-    } else if (wish.state == "fulfilled") {
+    } else if (wish.state == RequestStatus::fulfilled) {
       ++requests.in_wrong_place;
       ++requests.failed;
-    } else if (wish.state == "refused") {
+    } else if (wish.state == RequestStatus::refused) {
       ++requests.refused[wish.reason];
-    } else if (wish.state == "failed") {
+    } else if (wish.state == RequestStatus::failed) {
       ++requests.failed;
-    } else if (wish.state == "cancelled") {
+    } else if (wish.state == RequestStatus::cancelled) {
       ++requests.cancelled;
     } else {
       ++requests.open;

@@ -8,7 +8,10 @@
 #include "docent/base/time.h"
 #include "docent/evaluation/deployment_report.h"
 #include "docent/geometry/pose2.h"
-#include "docent/messages/docent_messages.h"
+#include "docent/messages/mission_messages.h"
+#include "docent/messages/request_messages.h"
+#include "docent/messages/truth_messages.h"
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent {
 
@@ -29,9 +32,9 @@ class RequestTally {
   struct Wish {
     Time offered{};
     bool on_board = false;
-    std::string state;
+    std::optional<RequestStatus> state;
     std::string reason;
-    std::string source;
+    std::optional<RequestSource> source;
     std::string visitor;
     bool in_wrong_place = false;
   };

@@ -6,7 +6,7 @@
 
 #include "docent/base/time.h"
 #include "docent/geometry/pose2.h"
-#include "docent/messages/docent_messages.h"
+#include "docent/messages/truth_messages.h"
 
 namespace docent {
 

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "docent/messages/cdr.h"
-#include "docent/messages/docent_messages.h"
+#include "docent/messages/localization_messages.h"
+#include "docent/messages/operation_messages.h"
+#include "docent/messages/people_messages.h"
 #include "docent/messages/standard_messages.h"
 
 // What comes from outside, by DDS or from a file, decodes and may yet hold what no sensor ever measured: numbers that

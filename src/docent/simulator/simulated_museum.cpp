@@ -9,6 +9,7 @@
 #include "docent/messages/conversions.h"
 #include "docent/simulator/simulated_museum_impl.h"
 #include "docent/simulator/start_pose.h"
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent::simulator {
 namespace {
@@ -70,7 +71,7 @@ void SimulatedMuseum::Impl::command(const geometry_msgs::Twist& twist) {
 }
 
 void SimulatedMuseum::Impl::hear_speech(const docent_msgs::SpeechState& speech) {
-  if (speech.state != "speaking") return crowd_.hear_speech(-1.0);
+  if (parse<SpeechStatus>(speech.state) != SpeechStatus::speaking) return crowd_.hear_speech(-1.0);
   const Time end = from_message(speech.start) + seconds(speech.duration);
   crowd_.hear_speech(to_seconds(end - start_));
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "docent/messages/conversions.h"
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent::simulator {
 namespace {
@@ -62,6 +63,12 @@ void WishingVisitors::ask(Time now, const std::string& kind, const std::string& 
   open_.push_back({std::move(request), now, false});
 }
 
+std::string WishingVisitors::language() {
+  const std::size_t count = params_.languages.size();
+  const auto pick = static_cast<std::size_t>(wish_rng_.uniform() * static_cast<double>(count));
+  return params_.languages.at(std::min(pick, count - 1));
+}
+
 void WishingVisitors::ask(Time now, const Wish& wish) { ask(now, wish.kind, wish.target, wish.language); }
 
 WishingVisitors::Output WishingVisitors::step(Time now, Duration since_start) {
@@ -71,7 +78,7 @@ WishingVisitors::Output WishingVisitors::step(Time now, Duration since_start) {
     const bool wants_exhibit = tours_.empty() || (!exhibits_.empty() && wish_rng_.chance(params_.exhibit_share));
     const auto& list = wants_exhibit ? exhibits_ : tours_;
     const auto pick = static_cast<std::size_t>(wish_rng_.integer(0, static_cast<std::int64_t>(list.size()) - 1));
-    ask(now, wants_exhibit ? "exhibit" : "tour", list[pick], wish_rng_.chance(params_.german_share) ? "de" : "en");
+    ask(now, to_text(wants_exhibit ? RequestKind::exhibit : RequestKind::tour), list[pick], language());
   }
   for (Open& open : open_) {
     if (now < open.next_send) continue;
@@ -100,17 +107,17 @@ void WishingVisitors::see_mission(Time now, const docent_msgs::MissionState& mis
   if (seen_prompts_.size() > 1000) seen_prompts_ = {prompt.id};
   const double luck = answer_rng_.uniform();
   const double delay = answer_rng_.uniform(1.0, 4.0);
-  const auto option = [&](const char* a, const char* b) -> std::string {
+  const auto option = [&](docent::Answer a, docent::Answer b) -> std::string {
     for (const std::string& name : prompt.options) {
-      if (name == a || name == b) return name;
+      if (const auto known = parse<docent::Answer>(name); known == a || known == b) return name;
     }
     return {};
   };
   std::string answer;
   if (luck < params_.answers_more)
-    answer = option("more", "yes");
+    answer = option(docent::Answer::more, docent::Answer::yes);
   else if (luck < params_.answers_more + params_.answers_next)
-    answer = option("next", "no");
+    answer = option(docent::Answer::next, docent::Answer::no);
   if (answer.empty()) return;
   docent_msgs::Choice choice;
   choice.id = new_id(now);

@@ -7,16 +7,17 @@
 
 #include "docent/base/random.h"
 #include "docent/base/time.h"
-#include "docent/messages/docent_messages.h"
+#include "docent/messages/mission_messages.h"
+#include "docent/messages/request_messages.h"
 #include "docent/simulator/scenario.h"
 
 namespace docent::simulator {
 
 struct WishParams {
-  std::string source = "visitor";   ///< who asks: visitor, web, staff
-  double requests_per_hour = 24.0;  ///< mean; no gap is longer than 1.8 times the mean
-  double exhibit_share = 0.6;       ///< the rest asks for a tour
-  double german_share = 0.5;
+  std::string source = "visitor";                  ///< who asks: visitor, web, staff
+  double requests_per_hour = 24.0;                 ///< mean; no gap is longer than 1.8 times the mean
+  double exhibit_share = 0.6;                      ///< the rest asks for a tour
+  std::vector<std::string> languages{"de", "en"};  ///< each wish is made in one of them, all equally likely
   double answers_more = 0.3;   ///< chance to answer a question with the first option, "more" or "yes"
   double answers_next = 0.2;   ///< with the second; else nobody answers and the default comes
   double resend_period = 2.0;  ///< [s] until the wish stands on the request board
@@ -46,6 +47,7 @@ class WishingVisitors {
     bool was_sent = false;
   };
   [[nodiscard]] std::string new_id(Time now);
+  [[nodiscard]] std::string language();
   [[nodiscard]] double next_gap();
   void ask(Time now, const std::string& kind, const std::string& target, const std::string& language);
 

@@ -29,69 +29,90 @@ bool is_sane(const docent_msgs::CoarseBelief& rest) {
          rest.mass.size() == static_cast<std::size_t>(rest.columns) * rest.rows;
 }
 
-}  // namespace
-
-BeliefRaster belief_raster(const docent_msgs::Belief& belief, double cell, int max_cells) {
+/// Where the belief has mass; empty while `low` lies beyond `high`.
+struct Box {
   Point2 low{INFINITY, INFINITY};
   Point2 high{-INFINITY, -INFINITY};
-  const auto include = [&](double x, double y) {
+
+  void include(double x, double y) {
     if (!std::isfinite(x) || !std::isfinite(y)) return;
     low = {std::min(low.x, x), std::min(low.y, y)};
     high = {std::max(high.x, x), std::max(high.y, y)};
-  };
-  for (const auto& entry : belief.cells) {
-    if (entry.mass > 0) include(entry.x, entry.y);
   }
-  const auto& rest = belief.rest;
-  const bool has_rest = is_sane(rest);
-  const auto corner = [&rest](std::size_t column, std::size_t row) {
-    return Point2{rest.origin_x + static_cast<double>(column) * rest.cell_size,
-                  rest.origin_y + static_cast<double>(row) * rest.cell_size};
-  };
-  double rest_total = 0.0;
-  for (std::size_t i = 0; has_rest && i < rest.mass.size(); ++i) {
-    if (!(rest.mass[i] > 0)) continue;
-    rest_total += rest.mass[i];
-  }
-  const bool shows_rest = rest_total > 0.02;  // a localized robot's last half per cent would only blow up the box
-  for (std::size_t i = 0; shows_rest && i < rest.mass.size(); ++i) {
-    if (!(rest.mass[i] > 0)) continue;
-    const Point2 a = corner(i % rest.columns, i / rest.columns);
-    include(a.x, a.y);
-    include(a.x + rest.cell_size * 0.999, a.y + rest.cell_size * 0.999);
-  }
-  BeliefRaster raster;
-  if (!(low.x <= high.x) || high.x - low.x > 10000 || high.y - low.y > 10000) return raster;
+};
 
-  // Aligned with multiples of the cell, so that the picture does not crawl from one belief to the next.
+/// Calls f(corner, mass) for each coarse cell that has some.
+template <class F>
+void for_each_coarse(const docent_msgs::CoarseBelief& rest, F&& f) {
+  for (std::size_t i = 0; i < rest.mass.size(); ++i) {
+    if (!(rest.mass[i] > 0)) continue;
+    f(Point2{rest.origin_x + static_cast<double>(i % rest.columns) * rest.cell_size,
+             rest.origin_y + static_cast<double>(i / rest.columns) * rest.cell_size},
+      rest.mass[i]);
+  }
+}
+
+/// A localized robot's last half per cent would only blow up the box.
+bool shows(const docent_msgs::CoarseBelief& rest) {
+  if (!is_sane(rest)) return false;
+  double total = 0.0;
+  for (const float mass : rest.mass) total += mass > 0 ? mass : 0.0F;
+  return total > 0.02;
+}
+
+/// Aligned with multiples of the cell, so that the picture does not crawl from one belief to the next; the cell is
+/// doubled until there are few enough.
+Field field_over(const Box& box, double cell, int max_cells) {
   Field field{};
   for (;; cell *= 2.0) {
-    const double left = std::floor(low.x / cell - 1.0);
-    const double bottom = std::floor(low.y / cell - 1.0);
-    field.columns = static_cast<int>(std::floor(high.x / cell) - left) + 2;
-    field.rows = static_cast<int>(std::floor(high.y / cell) - bottom) + 2;
+    const double left = std::floor(box.low.x / cell - 1.0);
+    const double bottom = std::floor(box.low.y / cell - 1.0);
+    field.columns = static_cast<int>(std::floor(box.high.x / cell) - left) + 2;
+    field.rows = static_cast<int>(std::floor(box.high.y / cell) - bottom) + 2;
     field.origin = {left * cell, bottom * cell};
     field.cell = cell;
     if (static_cast<double>(field.columns) * field.rows <= max_cells) break;
   }
   field.mass.assign(static_cast<std::size_t>(field.columns) * static_cast<std::size_t>(field.rows), 0.0);
+  return field;
+}
+
+}  // namespace
+
+BeliefRaster belief_raster(const docent_msgs::Belief& belief, double cell, int max_cells) {
+  const auto& rest = belief.rest;
+  const bool shows_rest = shows(rest);
+  Box box;
+  for (const auto& entry : belief.cells) {
+    if (entry.mass > 0) box.include(entry.x, entry.y);
+  }
+  if (shows_rest) {
+    for_each_coarse(rest, [&](Point2 corner, float /*mass*/) {
+      box.include(corner.x, corner.y);
+      box.include(corner.x + rest.cell_size * 0.999, corner.y + rest.cell_size * 0.999);
+    });
+  }
+  BeliefRaster raster;
+  if (!(box.low.x <= box.high.x) || box.high.x - box.low.x > 10000 || box.high.y - box.low.y > 10000) return raster;
+
+  Field field = field_over(box, cell, max_cells);
   for (const auto& entry : belief.cells) {
     if (entry.mass > 0) field.add({entry.x, entry.y}, entry.mass);
   }
-  for (std::size_t i = 0; shows_rest && i < rest.mass.size(); ++i) {
-    if (!(rest.mass[i] > 0)) continue;
-    const Point2 a = corner(i % rest.columns, i / rest.columns);
-    const int parts = std::max(1, static_cast<int>(std::lround(static_cast<double>(rest.cell_size) / cell)));
+  if (shows_rest) {
+    const int parts = std::max(1, static_cast<int>(std::lround(static_cast<double>(rest.cell_size) / field.cell)));
     const double step = static_cast<double>(rest.cell_size) / parts;
-    for (int k = 0; k < parts * parts; ++k) {
-      field.add({a.x + (k % parts + 0.5) * step, a.y + (k / parts + 0.5) * step},
-                static_cast<double>(rest.mass[i]) / (parts * parts));
-    }
+    for_each_coarse(rest, [&](Point2 corner, float mass) {
+      for (int k = 0; k < parts * parts; ++k) {
+        field.add({corner.x + (k % parts + 0.5) * step, corner.y + (k / parts + 0.5) * step},
+                  static_cast<double>(mass) / (parts * parts));
+      }
+    });
   }
   const double largest = *std::max_element(field.mass.begin(), field.mass.end());
   if (!(largest > 0.0)) return raster;
   raster.origin = field.origin;
-  raster.cell = cell;
+  raster.cell = field.cell;
   raster.columns = field.columns;
   raster.rows = field.rows;
   raster.levels.reserve(field.mass.size());

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "docent/geometry/pose2.h"
-#include "docent/messages/docent_messages.h"
+#include "docent/messages/localization_messages.h"
 
 namespace docent {
 

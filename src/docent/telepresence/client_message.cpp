@@ -41,8 +41,9 @@ bool is_printed(std::uint32_t c) {
 Result<ClientMessage> parse_request(const Json& object, std::string id) {
   RequestMessage message;
   message.id = std::move(id);
-  message.kind = text_of(object, "kind");
-  if (message.kind != "exhibit" && message.kind != "tour") return fail("request: kind must be exhibit or tour");
+  const auto kind = parse<RequestKind>(text_of(object, "kind"));
+  if (kind != RequestKind::exhibit && kind != RequestKind::tour) return fail("request: kind must be exhibit or tour");
+  message.kind = *kind;
   message.target = text_of(object, "target");
   if (!is_identifier(message.target)) return fail("request: target is not an id");
   if (const auto place = object.find("viewpoint"); place != object.end() && !place->is_null()) {

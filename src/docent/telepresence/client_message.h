@@ -5,35 +5,61 @@
 #include <variant>
 
 #include "docent/base/result.h"
+#include "docent/vocabulary/vocabulary.h"
 
 // What a browser may say to the robot, as JSON text of at most a few kilobytes. Everything is checked here, so that
-// nothing behind this line has to doubt it.
+// nothing behind this line has to doubt it. From each `visit` come the page's types (contract/).
 
 namespace docent {
 
 /// {"type":"request","id":UUIDv7,"kind":"exhibit"|"tour","target":…,"viewpoint"?:n,"name"?:…,"language"?:…}
 struct RequestMessage {
+  static constexpr const char* kName = "RequestMessage";
+  static constexpr const char* kType = "request";
   std::string id;
-  std::string kind;
+  RequestKind kind = RequestKind::exhibit;  ///< or tour
   std::string target;
   int viewpoint = -1;
   std::string name;  ///< at most 40 characters on one line, nothing that is not printed
   std::string language;
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("id", m.id), v("kind", m.kind), v("target", m.target), v("viewpoint", m.viewpoint), v("name", m.name),
+        v("language", m.language);
+  }
 };
 /// {"type":"cancel","id":UUIDv7,"request":UUIDv7}
 struct CancelMessage {
+  static constexpr const char* kName = "CancelMessage";
+  static constexpr const char* kType = "cancel";
   std::string id;
   std::string request;
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("id", m.id), v("request", m.request);
+  }
 };
 /// {"type":"choice","id":UUIDv7,"prompt":…,"choice":…}
 struct ChoiceMessage {
+  static constexpr const char* kName = "ChoiceMessage";
+  static constexpr const char* kType = "choice";
   std::string id;
   std::string prompt;
   std::string choice;
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("id", m.id), v("prompt", m.prompt), v("choice", m.choice);
+  }
 };
 /// {"type":"watch","details":true|false}: also send what only specialists look at.
 struct WatchMessage {
+  static constexpr const char* kName = "WatchMessage";
+  static constexpr const char* kType = "watch";
   bool details = false;
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("details", m.details);
+  }
 };
 using ClientMessage = std::variant<RequestMessage, CancelMessage, ChoiceMessage, WatchMessage>;
 

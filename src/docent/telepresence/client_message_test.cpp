@@ -14,7 +14,7 @@ TEST(ClientMessage, ReadsARequest) {
   ASSERT_TRUE(message) << message.error().message;
   const auto& request = std::get<RequestMessage>(*message);
   EXPECT_EQ(request.id, kId);
-  EXPECT_EQ(request.kind, "exhibit");
+  EXPECT_EQ(request.kind, RequestKind::exhibit);
   EXPECT_EQ(request.target, "sputnik");
   EXPECT_EQ(request.viewpoint, 2);
   EXPECT_EQ(request.name, "Ada");

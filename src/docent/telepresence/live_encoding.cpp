@@ -2,29 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "docent/messages/conversions.h"
 #include "docent/telepresence/belief_raster.h"
+#include "docent/telepresence/document_json.h"
+#include "docent/telepresence/documents.h"
 #include "docent/telepresence/site.h"
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent {
 namespace {
 
-using Json = nlohmann::json;
+/// Rounded, so that the text stays short.
+double rounded(double value, double scale = 1000.0) { return std::round(value * scale) / scale; }
 
-/// Rounded, so that the text stays short; what is not finite becomes null.
-Json rounded(double value, double scale = 1000.0) {
-  if (!std::isfinite(value)) return nullptr;
-  return std::round(value * scale) / scale;
-}
+/// nullopt: it is not finite.
+std::optional<double> finite(double value) { return std::isfinite(value) ? std::optional{value} : std::nullopt; }
 
 double seconds_of(const builtin_interfaces::Time& time) { return to_seconds(from_message(time)); }
 
-/// Whatever bytes a message carries, the text is valid UTF-8.
-std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
-
-Json pose_of(const Pose2& pose) { return {rounded(pose.x), rounded(pose.y), rounded(pose.theta.radians())}; }
+documents::Pose pose_of(const Pose2& pose) { return {rounded(pose.x), rounded(pose.y), rounded(pose.theta.radians())}; }
 
 std::string base64(const std::vector<std::uint8_t>& bytes) {
   constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -44,206 +42,183 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
 }
 
 bool is_open(const docent_msgs::RequestState& request) {
-  return request.state == "queued" || request.state == "active";
+  const auto status = parse<RequestStatus>(request.state);
+  return status && docent::is_open(*status);
 }
 
-Json request_of(const docent_msgs::RequestState& entry) {
-  const auto& id = entry.request.id;
-  return {{"key", id.size() > 8 ? id.substr(id.size() - 8) : id},
-          {"source", entry.request.source},
-          {"visitor", entry.request.visitor},
-          {"kind", entry.request.kind},
-          {"target", entry.request.target},
-          {"viewpoint", entry.request.viewpoint},
-          {"state", entry.state},
-          {"reason", entry.reason},
-          {"created", rounded(seconds_of(entry.created))},
-          {"changed", rounded(seconds_of(entry.changed))}};
+documents::BoardEntry entry_of(const docent_msgs::RequestState& entry) {
+  const auto& request = entry.request;
+  return {request.id.size() > 8 ? request.id.substr(request.id.size() - 8) : request.id,
+          request.source,
+          request.visitor,
+          request.kind,
+          request.target,
+          request.viewpoint,
+          entry.state,
+          entry.reason,
+          rounded(seconds_of(entry.created)),
+          rounded(seconds_of(entry.changed))};
 }
+
+/// What the robot is doing, by language. A recording of before has two.
+documents::Texts texts_of(const docent_msgs::MissionState& mission) {
+  if (mission.languages.empty()) return {{"en", mission.text_en}, {"de", mission.text_de}};
+  documents::Texts texts;
+  for (std::size_t i = 0; i < std::min(mission.languages.size(), mission.texts.size()); ++i)
+    texts[mission.languages[i]] = mission.texts[i];
+  return texts;
+}
+
+std::string address_of(const std::string& audio) { return is_audio_name(audio) ? "/audio/" + audio : ""; }
 
 }  // namespace
 
 std::string encode_live(const LiveFrame& frame) {
-  Json json{{"type", "live"}, {"t", rounded(to_seconds(frame.now))}};
-  json["pose"] = frame.map_from_base ? pose_of(*frame.map_from_base) : Json{};
-  json["v"] = rounded(frame.linear);
-  json["w"] = rounded(frame.angular);
-  json["p_lost"] = rounded(frame.p_lost);
-  Json& hypotheses = json["hypotheses"] = Json::array();
+  documents::LiveMessage live;
+  live.t = rounded(to_seconds(frame.now));
+  if (frame.map_from_base) live.pose = pose_of(*frame.map_from_base);
+  live.v = rounded(frame.linear);
+  live.w = rounded(frame.angular);
+  live.p_lost = rounded(frame.p_lost);
   for (const auto& hypothesis : frame.hypotheses) {
-    Json entry = pose_of(hypothesis.map_from_base);
-    entry.push_back(rounded(hypothesis.mass));
-    hypotheses.push_back(std::move(entry));
+    const auto [x, y, heading] = pose_of(hypothesis.map_from_base);
+    live.hypotheses.push_back({x, y, heading, rounded(hypothesis.mass)});
   }
-  Json points = Json::array();
+  live.scan.frame = frame.is_scan_in_map ? ScanFrame::map : ScanFrame::base;
+  live.scan.from = {rounded(frame.scan_origin.x), rounded(frame.scan_origin.y)};
   for (const Point2 point : frame.scan) {
-    points.push_back(std::lround(point.x * 100.0));
-    points.push_back(std::lround(point.y * 100.0));
+    live.scan.points.push_back(std::lround(point.x * 100.0));
+    live.scan.points.push_back(std::lround(point.y * 100.0));
   }
-  json["scan"] = {{"frame", frame.is_scan_in_map ? "map" : "base"},
-                  {"from", {rounded(frame.scan_origin.x), rounded(frame.scan_origin.y)}},
-                  {"points", std::move(points)}};
-  Json& people = json["people"] = Json::array();
   for (const auto& person : frame.people.people) {
-    people.push_back(
-        {person.id, rounded(person.x, 100), rounded(person.y, 100), rounded(person.vx, 100), rounded(person.vy, 100)});
+    live.people.emplace_back(person.id, rounded(person.x, 100), rounded(person.y, 100), rounded(person.vx, 100),
+                             rounded(person.vy, 100));
   }
   if (frame.avoid) {
-    json["avoid"] = {{"state", frame.avoid->state},
-                     {"reason", frame.avoid->reason},
-                     {"cap", rounded(frame.avoid->speed_cap)},
-                     {"blocked", frame.avoid->path_blocked},
-                     {"person", frame.avoid->unmapped_obstacle},
-                     {"real", rounded(frame.avoid->nearest_real_m, 100)},
-                     {"virtual", rounded(frame.avoid->nearest_virtual_m, 100)}};
+    live.avoid = {frame.avoid->state,
+                  frame.avoid->reason,
+                  rounded(frame.avoid->speed_cap),
+                  frame.avoid->path_blocked,
+                  frame.avoid->unmapped_obstacle,
+                  finite(rounded(frame.avoid->nearest_real_m, 100)),
+                  finite(rounded(frame.avoid->nearest_virtual_m, 100))};
   }
-  if (frame.battery) json["battery"] = rounded(*frame.battery, 100);
-  return text_of(json);
+  if (frame.battery) live.battery = rounded(*frame.battery, 100);
+  return json_text(live);
 }
 
 std::string encode_belief(const docent_msgs::Belief& belief) {
   const BeliefRaster raster = belief_raster(belief);
-  Json hypotheses = Json::array();
+  documents::BeliefMessage message;
+  message.t = rounded(seconds_of(belief.header.stamp));
+  message.localized = belief.localized;
+  message.p_lost = rounded(belief.p_lost);
+  message.entropy = rounded(belief.entropy);
+  message.active = belief.active_cells;
+  message.beams = {belief.beams_used, belief.beams_filtered};
   for (std::size_t i = 0; i < std::min<std::size_t>(belief.hypotheses.size(), 12); ++i) {
     const auto& h = belief.hypotheses[i];
-    hypotheses.push_back({{"pose", {rounded(h.x), rounded(h.y), rounded(h.theta)}},
-                          {"mass", rounded(h.mass)},
-                          {"xx", rounded(h.covariance[0], 1e5)},
-                          {"xy", rounded(h.covariance[1], 1e5)},
-                          {"yy", rounded(h.covariance[4], 1e5)}});
+    message.hypotheses.push_back({{rounded(h.x), rounded(h.y), rounded(h.theta)},
+                                  rounded(h.mass),
+                                  rounded(h.covariance[0], 1e5),
+                                  rounded(h.covariance[1], 1e5),
+                                  rounded(h.covariance[4], 1e5)});
   }
-  return text_of({{"type", "belief"},
-                  {"t", rounded(seconds_of(belief.header.stamp))},
-                  {"localized", belief.localized},
-                  {"p_lost", rounded(belief.p_lost)},
-                  {"entropy", rounded(belief.entropy)},
-                  {"active", belief.active_cells},
-                  {"beams", {belief.beams_used, belief.beams_filtered}},
-                  {"hypotheses", std::move(hypotheses)},
-                  {"raster",
-                   {{"x", rounded(raster.origin.x)},
-                    {"y", rounded(raster.origin.y)},
-                    {"cell", rounded(raster.cell)},
-                    {"columns", raster.columns},
-                    {"rows", raster.rows},
-                    {"levels", base64(raster.levels)}}}});
+  message.raster = {
+      rounded(raster.origin.x), rounded(raster.origin.y), rounded(raster.cell), raster.columns, raster.rows,
+      base64(raster.levels)};
+  return json_text(message);
 }
 
 std::string encode_path(const nav_msgs::Path& path, const docent_msgs::GoalState& state) {
   // A path has a point a cell; a line on a screen needs fewer.
   constexpr std::size_t kMaxPoints = 400;
   const std::size_t step = path.poses.size() / kMaxPoints + 1;
-  Json points = Json::array();
+  documents::PathMessage message;
   for (std::size_t i = 0; i < path.poses.size(); ++i) {
     if (i % step != 0 && i + 1 != path.poses.size()) continue;
-    points.push_back(rounded(path.poses[i].pose.position.x, 100));
-    points.push_back(rounded(path.poses[i].pose.position.y, 100));
+    message.points.push_back(rounded(path.poses[i].pose.position.x, 100));
+    message.points.push_back(rounded(path.poses[i].pose.position.y, 100));
   }
-  return text_of({{"type", "path"},
-                  {"points", std::move(points)},
-                  {"goal", state.id},
-                  {"state", state.state},
-                  {"remaining", rounded(state.remaining_m, 10)},
-                  {"blocked", rounded(state.blocked_s, 10)},
-                  {"reason", state.reason}});
+  message.goal = state.id;
+  message.state = state.state;
+  message.remaining = rounded(state.remaining_m, 10);
+  message.blocked = rounded(state.blocked_s, 10);
+  message.reason = state.reason;
+  return json_text(message);
 }
 
 std::string encode_mission(const docent_msgs::MissionState& mission) {
-  const auto& prompt = mission.prompt;
-  Json json{{"type", "mission"},
-            {"phase", mission.phase},
-            {"tour", mission.tour_id},
-            {"exhibit", mission.exhibit_id},
-            {"text", {{"en", mission.text_en}, {"de", mission.text_de}}},
-            {"agenda", mission.agenda},
-            {"explained", mission.exhibits_explained},
-            {"tours", mission.tours_completed},
-            {"served", mission.requests_served}};
-  json["prompt"] = prompt.id.empty() ? Json{}
-                                     : Json{{"id", prompt.id},
-                                            {"text", prompt.text},
-                                            {"options", prompt.options},
-                                            {"default", prompt.default_option},
-                                            {"deadline", rounded(seconds_of(prompt.deadline))}};
-  return text_of(json);
+  documents::MissionMessage message{mission.phase,           mission.tour_id,         mission.exhibit_id,
+                                    texts_of(mission),       mission.agenda,          mission.exhibits_explained,
+                                    mission.tours_completed, mission.requests_served, std::nullopt};
+  if (const auto& prompt = mission.prompt; !prompt.id.empty()) {
+    message.prompt = {prompt.id, prompt.text, prompt.options, prompt.default_option,
+                      rounded(seconds_of(prompt.deadline))};
+  }
+  return json_text(message);
 }
 
 std::string encode_speech(const docent_msgs::SpeechState& speech) {
   std::string audio = speech.audio;
   if (!audio.empty() && !audio.ends_with(".wav")) audio += ".wav";
-  return text_of({{"type", "speech"},
-                  {"id", speech.id},
-                  {"state", speech.state},
-                  {"text", speech.text},
-                  {"language", speech.language},
-                  {"start", rounded(seconds_of(speech.start))},
-                  {"duration", rounded(speech.duration)},
-                  {"audio", is_audio_name(audio) ? "/audio/" + audio : ""}});
+  return json_text(documents::SpeechMessage{speech.id, speech.state, speech.text, speech.language,
+                                            rounded(seconds_of(speech.start)), rounded(speech.duration),
+                                            address_of(audio)});
 }
 
 std::string encode_horn(Time t, const std::string& file, double duration_s) {
-  return text_of({{"type", "horn"},
-                  {"t", rounded(to_seconds(t))},
-                  {"duration", rounded(duration_s)},
-                  {"audio", is_audio_name(file) ? "/audio/" + file : ""}});
+  return json_text(documents::HornMessage{rounded(to_seconds(t)), rounded(duration_s), address_of(file)});
 }
 
 std::string encode_board(const docent_msgs::RequestBoard& board) {
   constexpr std::size_t kMaxOpen = 500;  // as many as the board takes, mission.max_open
   constexpr std::size_t kMaxClosed = 30;
-  Json open = Json::array();
+  documents::BoardMessage message;
+  message.revision = board.revision;
   std::vector<const docent_msgs::RequestState*> closed;
-  std::size_t open_count = 0;
   for (const auto& entry : board.requests) {
     if (!is_open(entry)) {
       closed.push_back(&entry);
-    } else if (++open_count <= kMaxOpen) {
-      open.push_back(request_of(entry));
+    } else if (++message.open_count <= kMaxOpen) {
+      message.open.push_back(entry_of(entry));
     }
   }
   std::stable_sort(closed.begin(), closed.end(),
                    [](const auto* a, const auto* b) { return from_message(a->changed) > from_message(b->changed); });
   if (closed.size() > kMaxClosed) closed.resize(kMaxClosed);
-  Json done = Json::array();
-  for (const auto* entry : closed) done.push_back(request_of(*entry));
-  return text_of({{"type", "board"},
-                  {"revision", board.revision},
-                  {"open", std::move(open)},
-                  {"open_count", open_count},
-                  {"closed", std::move(done)}});
+  for (const auto* entry : closed) message.closed.push_back(entry_of(*entry));
+  return json_text(message);
 }
 
 std::string encode_health(const std::map<std::string, HealthEntry>& modules, std::size_t viewers, Time now) {
   constexpr Duration kSilent = std::chrono::seconds{2};
-  Json list = Json::array();
+  documents::HealthMessage message{viewers, {}};
   for (const auto& [name, entry] : modules) {
     const bool is_silent = now - entry.heard > kSilent;
-    list.push_back({{"name", name},
-                    {"state", is_silent ? "silent" : entry.health.state},
-                    {"reason", entry.health.reason},
-                    {"p99_ms", rounded(entry.health.step_p99_ms, 10)}});
+    message.modules.push_back({name, is_silent ? "silent" : entry.health.state, entry.health.reason,
+                               finite(rounded(entry.health.step_p99_ms, 10))});
   }
-  return text_of({{"type", "health"}, {"viewers", viewers}, {"modules", std::move(list)}});
+  return json_text(message);
 }
 
 std::string encode_window(const docent_msgs::AvoidState& avoid) {
-  Json points = Json::array();
+  documents::WindowMessage message{rounded(avoid.linear), rounded(avoid.angular), {}};
   for (const auto& candidate : avoid.window) {
-    points.push_back(rounded(candidate.linear));
-    points.push_back(rounded(candidate.angular));
-    points.push_back(rounded(candidate.value));
+    message.candidates.push_back(rounded(candidate.linear));
+    message.candidates.push_back(rounded(candidate.angular));
+    message.candidates.push_back(rounded(candidate.value));
   }
-  return text_of({{"type", "window"},
-                  {"v", rounded(avoid.linear)},
-                  {"w", rounded(avoid.angular)},
-                  {"candidates", std::move(points)}});
+  return json_text(message);
 }
 
-std::string encode_acknowledgement(const std::string& id) { return text_of({{"type", "ack"}, {"id", id}}); }
+std::string encode_acknowledgement(const std::string& id) { return json_text(documents::Acknowledgement{id}); }
 
 std::string encode_refusal(const std::string& id, const std::string& reason) {
-  return text_of({{"type", "refused"}, {"id", id}, {"reason", reason}});
+  return json_text(documents::Refusal{id, reason});
 }
+
+std::string encode_error(const std::string& reason) { return json_text(documents::ErrorMessage{reason}); }
 
 std::vector<Point2> scan_points(const sensor_msgs::LaserScan& scan, const Pose2& base_from_sensor, std::size_t every) {
   std::vector<Point2> points;

@@ -6,7 +6,13 @@
 #include <vector>
 
 #include "docent/base/time.h"
-#include "docent/messages/docent_messages.h"
+#include "docent/messages/driving_messages.h"
+#include "docent/messages/interaction_messages.h"
+#include "docent/messages/localization_messages.h"
+#include "docent/messages/mission_messages.h"
+#include "docent/messages/operation_messages.h"
+#include "docent/messages/people_messages.h"
+#include "docent/messages/request_messages.h"
 #include "docent/telepresence/belief_carrier.h"
 
 // What viewers get, as JSON text; docs/web-protocol.md describes it. Times are seconds of the bus's clock, lengths
@@ -54,6 +60,7 @@ struct HealthEntry {
 
 [[nodiscard]] std::string encode_acknowledgement(const std::string& id);
 [[nodiscard]] std::string encode_refusal(const std::string& id, const std::string& reason);
+[[nodiscard]] std::string encode_error(const std::string& reason);
 
 /// Every n-th reading of a scan as points in the robot's frame; invalid readings are left out, those without a return
 /// end at the largest range.

@@ -2,83 +2,53 @@
 
 #include <png.h>
 
-#include <nlohmann/json.hpp>
 #include <vector>
+
+#include "docent/telepresence/document_json.h"
+#include "docent/telepresence/documents.h"
 
 namespace docent {
 namespace {
 
-using Json = nlohmann::json;
+documents::Pose pose_of(const Pose2& pose) { return {pose.x, pose.y, pose.theta.radians()}; }
 
-Json translations_of(const Translations& texts) {
-  Json json = Json::object();
-  for (const auto& [language, text] : texts) json[language] = text;
-  return json;
+std::vector<documents::Point> polygon_of(const Polygon& polygon) {
+  std::vector<documents::Point> corners;
+  for (const Point2 corner : polygon) corners.push_back({corner.x, corner.y});
+  return corners;
 }
 
-Json pose_of(const Pose2& pose) { return {pose.x, pose.y, pose.theta.radians()}; }
-
-Json polygon_of(const Polygon& polygon) {
-  Json json = Json::array();
-  for (const Point2 corner : polygon) json.push_back({corner.x, corner.y});
-  return json;
-}
-
-const char* name_of(HazardKind kind) {
-  switch (kind) {
-    case HazardKind::glass:
-      return "glass";
-    case HazardKind::plate:
-      return "plate";
-    case HazardKind::stairs:
-      return "stairs";
-    case HazardKind::other:
-      break;
-  }
-  return "other";
+documents::Exhibit exhibit_of(const Exhibit& exhibit) {
+  documents::Exhibit document{exhibit.id,
+                              exhibit.title,
+                              pose_of(exhibit.pose),
+                              {exhibit.look_at.x, exhibit.look_at.y},
+                              {},
+                              exhibit.short_text,
+                              exhibit.long_text,
+                              exhibit.topics,
+                              exhibit.web_only};
+  for (const auto& viewpoint : exhibit.viewpoints) document.viewpoints.push_back(pose_of(viewpoint));
+  return document;
 }
 
 }  // namespace
 
 std::string encode_museum(const Museum& museum, double robot_radius) {
-  Json json{{"name", translations_of(museum.name)},
-            {"languages", museum.languages},
-            {"area", polygon_of(museum.area)},
-            {"home", pose_of(museum.home)},
-            {"charger", museum.charger ? pose_of(*museum.charger) : Json{}},
-            {"robot_radius", robot_radius},
-            {"map",
-             {{"url", "/api/map.png"},
-              {"columns", museum.map.frame.columns},
-              {"rows", museum.map.frame.rows},
-              {"resolution", museum.map.frame.resolution},
-              {"origin", {museum.map.frame.origin.x, museum.map.frame.origin.y}}}}};
-  Json& hazards = json["hazards"] = Json::array();
-  for (const auto& hazard : museum.hazards) {
-    hazards.push_back({{"id", hazard.id}, {"kind", name_of(hazard.kind)}, {"polygon", polygon_of(hazard.polygon)}});
-  }
-  Json& exhibits = json["exhibits"] = Json::array();
-  for (const auto& exhibit : museum.exhibits) {
-    Json viewpoints = Json::array();
-    for (const auto& viewpoint : exhibit.viewpoints) viewpoints.push_back(pose_of(viewpoint));
-    exhibits.push_back({{"id", exhibit.id},
-                        {"title", translations_of(exhibit.title)},
-                        {"pose", pose_of(exhibit.pose)},
-                        {"look_at", {exhibit.look_at.x, exhibit.look_at.y}},
-                        {"viewpoints", std::move(viewpoints)},
-                        {"short", translations_of(exhibit.short_text)},
-                        {"long", translations_of(exhibit.long_text)},
-                        {"topics", exhibit.topics},
-                        {"web_only", exhibit.web_only}});
-  }
-  Json& tours = json["tours"] = Json::array();
-  for (const auto& tour : museum.tours) {
-    tours.push_back({{"id", tour.id},
-                     {"title", translations_of(tour.title)},
-                     {"exhibits", tour.exhibits},
-                     {"minutes", tour.minutes ? Json(*tour.minutes) : Json{}}});
-  }
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const GridFrame& frame = museum.map.frame;
+  documents::Museum document;
+  document.name = museum.name;
+  document.languages = museum.languages;
+  document.area = polygon_of(museum.area);
+  document.home = pose_of(museum.home);
+  if (museum.charger) document.charger = pose_of(*museum.charger);
+  document.robot_radius = robot_radius;
+  document.map = {"/api/map.png", frame.columns, frame.rows, frame.resolution, {frame.origin.x, frame.origin.y}};
+  for (const auto& hazard : museum.hazards)
+    document.hazards.push_back({hazard.id, hazard.kind, polygon_of(hazard.polygon)});
+  for (const auto& exhibit : museum.exhibits) document.exhibits.push_back(exhibit_of(exhibit));
+  for (const auto& tour : museum.tours) document.tours.push_back({tour.id, tour.title, tour.exhibits, tour.minutes});
+  return json_text(document);
 }
 
 Result<std::string> encode_map_png(const OccupancyGrid& map) {

@@ -7,7 +7,7 @@
 
 #include "docent/base/result.h"
 #include "docent/base/time.h"
-#include "docent/messages/docent_messages.h"
+#include "docent/messages/request_messages.h"
 
 namespace docent {
 

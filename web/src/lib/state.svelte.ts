@@ -5,6 +5,7 @@ import type {
   BeliefMessage,
   BoardEntry,
   BoardMessage,
+  ClientMessage,
   Exhibit,
   HealthMessage,
   HornMessage,
@@ -16,15 +17,13 @@ import type {
   SpeechMessage,
   WindowMessage,
 } from './protocol';
+import { decode } from './protocol';
+import { type Asked, cancelOf, choiceOf, requestOf, watchOf } from './orders';
 import { uuid7 } from './uuid';
-import { pageLanguages, word } from './words';
+import { pageLanguage, word } from './words';
 
 /** What this browser asked for, and has to see through. */
-export interface Wish {
-  id: string;
-  kind: 'exhibit' | 'tour';
-  target: string;
-  viewpoint: number;
+export interface Wish extends Asked {
   made: number;
   /** sending until the server has it on disk, then sent; from the board on, the board's word. */
   state: string;
@@ -49,10 +48,8 @@ const store = {
   },
 };
 
-function firstLanguage(): string {
-  const wanted = store.read('language', '') || navigator.language.slice(0, 2);
-  return pageLanguages.includes(wanted) ? wanted : 'en';
-}
+/** What the reader wants: what they chose here once, else what their browser says. */
+const wantedLanguage = () => store.read('language', '') || navigator.language.slice(0, 2);
 
 /** The pose comes ten times a second: so long a silence [ms] is a dead line, which nobody else may ever report. */
 const SILENCE = 3000;
@@ -81,7 +78,7 @@ class App {
   speed = $state(0);
   turn = $state(0);
 
-  language = $state(firstLanguage());
+  language = $state(pageLanguage(wantedLanguage(), []));
   name = $state(store.read('name', ''));
   dark = $state(store.read<boolean | null>('dark', null) ?? matchMedia('(prefers-color-scheme: dark)').matches);
   calm = matchMedia('(prefers-reduced-motion: reduce)').matches;
@@ -104,7 +101,7 @@ class App {
   private lastHeard = 0;
   private toastTimer = 0;
   /** Orders without an answer. They outlive a dead line: said again with the same id, they count once. */
-  private unanswered = new Map<string, { order: object; sent: number }>();
+  private unanswered = new Map<string, { order: ClientMessage; sent: number }>();
 
   async start(): Promise<void> {
     this.connect();
@@ -113,7 +110,9 @@ class App {
       try {
         const reply = await fetch('/api/museum.json', { signal: AbortSignal.timeout(20000) });
         if (!reply.ok) throw new Error(String(reply.status));
-        this.museum = await reply.json();
+        const museum: Museum = await reply.json();
+        this.museum = museum;
+        this.language = pageLanguage(wantedLanguage(), museum.languages);
         return;
       } catch {
         await new Promise((resolve) => setTimeout(resolve, pause));
@@ -126,7 +125,7 @@ class App {
   }
   say(texts: Record<string, string> | undefined): string {
     if (!texts) return '';
-    return texts[this.language] || texts[this.museum?.languages[0] ?? 'en'] || Object.values(texts)[0] || '';
+    return texts[this.language] || texts[this.museum?.languages[0] ?? ''] || Object.values(texts)[0] || '';
   }
   exhibit(id: string): Exhibit | undefined {
     return this.museum?.exhibits.find((exhibit) => exhibit.id === id);
@@ -146,7 +145,7 @@ class App {
   }
   setExpert(expert: boolean): void {
     this.expert = expert;
-    this.send({ type: 'watch', details: expert });
+    this.send(watchOf(expert));
   }
   notice(text: string): void {
     this.toast = text;
@@ -176,13 +175,13 @@ class App {
       this.keepWishes();
     }
     this.unanswered.delete(wish.id);
-    this.order({ type: 'cancel', id: uuid7(), request: wish.id });
+    this.order(cancelOf(uuid7(), wish.id));
   }
   answer(choice: string): void {
     const prompt = this.mission?.prompt;
     if (!prompt) return;
     this.answered = prompt.id;
-    this.order({ type: 'choice', id: uuid7(), prompt: prompt.id, choice });
+    this.order(choiceOf(uuid7(), prompt.id, choice));
     if (this.connection !== 'open') this.notice(this.t('kept'));
   }
   isMine(entry: BoardEntry): boolean {
@@ -193,15 +192,7 @@ class App {
     store.write('wishes', this.wishes);
   }
   private sendWish(wish: Wish): void {
-    this.order({
-      type: 'request',
-      id: wish.id,
-      kind: wish.kind,
-      target: wish.target,
-      viewpoint: wish.viewpoint,
-      name: this.name,
-      language: this.language,
-    });
+    this.order(requestOf(wish, this.name, this.language));
   }
   private changeWish(id: string, change: Partial<Wish>): void {
     this.wishes = this.wishes.map((wish) => (wish.id === id ? { ...wish, ...change } : wish));
@@ -241,7 +232,7 @@ class App {
     socket.onopen = () => {
       this.lastHeard = performance.now();
       this.connection = 'open';
-      if (this.expert) this.send({ type: 'watch', details: true });
+      if (this.expert) this.send(watchOf(true));
       // Whatever was not yet on the board is said again, with the same id: the server knows it if it had it.
       for (const wish of this.wishes) {
         if (!wish.seen && !closedStates.includes(wish.state)) this.sendWish(wish);
@@ -251,7 +242,7 @@ class App {
     socket.onmessage = (event) => {
       this.lastHeard = performance.now();
       this.tries = 0;
-      this.take(JSON.parse(event.data) as ServerMessage);
+      this.take(decode(event.data));
     };
     socket.onclose = () => this.drop();
   }
@@ -276,7 +267,7 @@ class App {
     if (this.socket && performance.now() - this.lastHeard > patience) this.drop();
     this.repeatOrders(ANSWER);
   }
-  private order(order: { id: string; [field: string]: unknown }): void {
+  private order(order: Exclude<ClientMessage, { type: 'watch' }>): void {
     this.unanswered.set(order.id, { order, sent: performance.now() });
     this.send(order);
   }
@@ -290,7 +281,7 @@ class App {
       this.send(entry.order);
     }
   }
-  private send(message: object): void {
+  private send(message: ClientMessage): void {
     if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
   }
   private take(message: ServerMessage): void {

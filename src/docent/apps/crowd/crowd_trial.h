@@ -6,6 +6,8 @@
 #include "docent/base/result.h"
 #include "docent/evaluation/social_score.h"
 #include "docent/geometry/pose2.h"
+#include "docent/messages/driving_messages.h"
+#include "docent/messages/truth_messages.h"
 #include "docent/pictures/figure.h"
 #include "docent/simulator/hall/hall.h"
 

@@ -9,7 +9,7 @@
 #include "docent/apps/shared/deployment.h"
 #include "docent/apps/shared/map_note.h"
 #include "docent/base/yaml.h"
-#include "docent/interaction/speech/sentences.h"
+#include "docent/interaction/speech/dictionary.h"
 #include "docent/modules/drive/plan_module.h"
 #include "docent/museum/museum.h"
 #include "docent/simulator/world/world.h"
@@ -42,9 +42,8 @@ void check_simulation(const Museum& museum, std::vector<Error>& faults) {
 
 /// The museum's texts exist in each of its languages; the robot's own phrases may not.
 void note_languages(const Museum& museum) {
-  const auto spoken = sentence_languages();
   for (const std::string& language : museum.languages) {
-    if (std::find(spoken.begin(), spoken.end(), language) != spoken.end()) continue;
+    if (dictionaries().contains(language)) continue;
     const YamlFile file = value_or_fail(YamlFile::load(museum.folder / "museum.yaml"));
     const YAML::Node& root = file.root();
     const std::string what =

@@ -4,6 +4,7 @@
 
 #include "docent/interaction/speech/spoken_text.h"
 #include "docent/messages/conversions.h"
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent {
 
@@ -15,8 +16,9 @@ void RecordedLines::add(const RecordedMessage& message) {
     const auto found = open_.find(state->id);
     if (found == open_.end()) return;
     Open& open = found->second;
-    if (state->state == "speaking" && !open.begun) open.begun = message.time;
-    if (state->state == "speaking" || !open.begun) return;
+    const bool is_speaking = parse<SpeechStatus>(state->state) == SpeechStatus::speaking;
+    if (is_speaking && !open.begun) open.begun = message.time;
+    if (is_speaking || !open.begun) return;
     timings_[open.line].push_back({*open.begun - open.ordered, message.time - *open.begun});
     // Said once: later states of the same line are repetitions.
     open.begun.reset();
@@ -28,7 +30,8 @@ RecordedLines::Timing RecordedLines::timing_of(const docent_msgs::Say& say) {
   const Line line{say.language, say.text};
   const auto found = timings_.find(line);
   if (found == timings_.end())
-    return {Duration{}, seconds(speech_duration(spoken_text(say.text), say.language, say.mood))};
+    return {Duration{}, seconds(speech_duration(spoken_text(say.text), say.language,
+                                                parse<Mood>(say.mood).value_or(Mood::neutral)))};
   const std::size_t time = std::min(said_[line]++, found->second.size() - 1);
   return found->second[time];
 }
@@ -39,7 +42,8 @@ RecordedVoice::RecordedVoice(Bus& bus, RecordedLines lines)
 }
 
 void RecordedVoice::on_say(const docent_msgs::Say& message) {
-  const Say say{message.id, spoken_text(message.text), message.language, message.mood};
+  const Say say{message.id, spoken_text(message.text), message.language,
+                parse<Mood>(message.mood).value_or(Mood::neutral)};
   switch (speaker_.judge(say)) {
     case Speaker::Verdict::under_way:
       if (speaker_.present().id == say.id) publish(speaker_.present());
@@ -66,7 +70,7 @@ void RecordedVoice::on_say(const docent_msgs::Say& message) {
 void RecordedVoice::publish(const Speech& speech) {
   state_.publish({{to_message(bus_.now()), ""},
                   speech.id,
-                  speech.is_speaking ? "speaking" : "done",
+                  to_text(speech.is_speaking ? SpeechStatus::speaking : SpeechStatus::done),
                   speech.text,
                   speech.language,
                   to_message(speech.start),

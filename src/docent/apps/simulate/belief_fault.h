@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "docent/base/time.h"
-#include "docent/messages/docent_messages.h"
+#include "docent/messages/localization_messages.h"
 #include "docent/simulator/scenario.h"
 
 namespace docent {

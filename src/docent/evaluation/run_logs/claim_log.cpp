@@ -7,6 +7,7 @@
 #include "docent/base/files.h"
 #include "docent/evaluation/deployment_evaluator.h"
 #include "docent/messages/conversions.h"
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent {
 namespace {
@@ -28,7 +29,8 @@ void ClaimLog::add(const TopicInfo& topic, Time time, const std::shared_ptr<cons
   } else if (name == topics::kTrueOffer.name) {
     if (static_cast<const docent_msgs::TrueOffer*>(message.get())->kind == "kidnap") ++kidnaps_;
   } else if (name == topics::kEvent.name) {
-    if (static_cast<const docent_msgs::Event*>(message.get())->kind == "explained") ++explained_;
+    const std::string& kind = static_cast<const docent_msgs::Event*>(message.get())->kind;
+    if (parse<EventKind>(kind) == EventKind::explained) ++explained_;
   } else if (name == topics::kTrueContact.name) {
     contacts_ += is_contact(*static_cast<const docent_msgs::TrueContact*>(message.get())) ? 1 : 0;
   } else if (name == topics::kTrueState.name) {

@@ -5,7 +5,8 @@
 
 #include "docent/base/result.h"
 #include "docent/base/time.h"
-#include "docent/messages/docent_messages.h"
+#include "docent/messages/driving_messages.h"
+#include "docent/messages/truth_messages.h"
 #include "docent/transport/bus.h"
 
 namespace docent {

@@ -75,7 +75,7 @@ std::uint32_t little_endian(const char* bytes, int count) {
 
 std::string audio_file_name(const SpokenLine& line) {
   std::uint64_t hash = hash_of(line.language);
-  hash = hash_of("\n" + line.mood + "\n", hash);
+  hash = hash_of(std::string{"\n"} + to_text(line.mood) + "\n", hash);
   hash = hash_of(std::to_string(volume_step(line.volume)) + "\n", hash);
   hash = hash_of(line.text, hash);
   char name[32];

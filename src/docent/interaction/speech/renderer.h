@@ -5,13 +5,14 @@
 #include <string>
 
 #include "docent/base/result.h"
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent {
 
 struct SpokenLine {
   std::string text;  ///< plain, UTF-8
   std::string language;
-  std::string mood = "neutral";
+  Mood mood = Mood::neutral;
   double volume = 1.0;  ///< 0..1; in steps of a tenth
 };
 

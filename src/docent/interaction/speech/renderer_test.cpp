@@ -42,10 +42,11 @@ const std::string kGerman =
 
 TEST_F(Renderer, SpeaksAndTheModelForetellsTheDuration) {
   for (const auto& [language, text] : {std::pair{"en", kEnglish}, std::pair{"de", kGerman}}) {
-    for (const std::string mood : {"neutral", "happy", "sad", "angry"}) {
+    for (const Mood mood : {Mood::neutral, Mood::happy, Mood::sad, Mood::angry}) {
       const auto line = render_speech({text, language, mood, 1.0}, folder_, "espeak-ng", 20.0, stop_);
       ASSERT_TRUE(line) << line.error().message;
-      EXPECT_NEAR(line->duration_s / speech_duration(text, language, mood), 1.0, 0.15) << language << ' ' << mood;
+      EXPECT_NEAR(line->duration_s / speech_duration(text, language, mood), 1.0, 0.15)
+          << language << ' ' << to_text(mood);
       EXPECT_EQ(*wav_duration(folder_ / line->file), line->duration_s);
     }
   }
@@ -53,25 +54,25 @@ TEST_F(Renderer, SpeaksAndTheModelForetellsTheDuration) {
 }
 
 TEST_F(Renderer, DoesNotSpeakTheSameTwice) {
-  const SpokenLine line{kEnglish, "en", "neutral", 1.0};
+  const SpokenLine line{kEnglish, "en", Mood::neutral, 1.0};
   ASSERT_TRUE(render_speech(line, folder_, "espeak-ng", 20.0, stop_));
   EXPECT_TRUE(render_speech(line, folder_, "/nonexistent/espeak", 20.0, stop_)) << "it lies there already";
 }
 
 TEST_F(Renderer, NamesDependOnAllThatIsHeard) {
-  const SpokenLine line{kEnglish, "en", "neutral", 1.0};
+  const SpokenLine line{kEnglish, "en", Mood::neutral, 1.0};
   const std::string name = audio_file_name(line);
   EXPECT_EQ(audio_file_name(line), name);
-  EXPECT_NE(audio_file_name({kGerman, "en", "neutral", 1.0}), name);
-  EXPECT_NE(audio_file_name({kEnglish, "de", "neutral", 1.0}), name);
-  EXPECT_NE(audio_file_name({kEnglish, "en", "sad", 1.0}), name);
-  EXPECT_NE(audio_file_name({kEnglish, "en", "neutral", 0.5}), name);
+  EXPECT_NE(audio_file_name({kGerman, "en", Mood::neutral, 1.0}), name);
+  EXPECT_NE(audio_file_name({kEnglish, "de", Mood::neutral, 1.0}), name);
+  EXPECT_NE(audio_file_name({kEnglish, "en", Mood::sad, 1.0}), name);
+  EXPECT_NE(audio_file_name({kEnglish, "en", Mood::neutral, 0.5}), name);
 }
 
 TEST_F(Renderer, SaysWhatIsWrong) {
-  const SpokenLine line{"Hello.", "en", "neutral", 1.0};
+  const SpokenLine line{"Hello.", "en", Mood::neutral, 1.0};
   EXPECT_FALSE(render_speech(line, folder_, "/nonexistent/espeak", 5.0, stop_));
-  EXPECT_FALSE(render_speech({"Hello.", "-w/tmp/x", "neutral", 1.0}, folder_, "espeak-ng", 5.0, stop_));
+  EXPECT_FALSE(render_speech({"Hello.", "-w/tmp/x", Mood::neutral, 1.0}, folder_, "espeak-ng", 5.0, stop_));
   const auto silent = render_speech(line, folder_, script("silent", "exit 0"), 5.0, stop_);
   EXPECT_FALSE(silent) << "an exit status of 0 without a file is a failure";
   const auto failing = render_speech(line, folder_, script("failing", "exit 3"), 5.0, stop_);
@@ -83,11 +84,12 @@ TEST_F(Renderer, SaysWhatIsWrong) {
 TEST_F(Renderer, DoesNotWaitForEver) {
   const auto begin = std::chrono::steady_clock::now();
   const auto slow =
-      render_speech({"Hello.", "en", "neutral", 1.0}, folder_, script("slow", "exec sleep 30"), 0.2, stop_);
+      render_speech({"Hello.", "en", Mood::neutral, 1.0}, folder_, script("slow", "exec sleep 30"), 0.2, stop_);
   ASSERT_FALSE(slow);
   EXPECT_NE(slow.error().message.find("too long"), std::string::npos);
   stop_ = true;
-  EXPECT_FALSE(render_speech({"Hello.", "en", "neutral", 1.0}, folder_, script("slow", "exec sleep 30"), 30.0, stop_));
+  EXPECT_FALSE(
+      render_speech({"Hello.", "en", Mood::neutral, 1.0}, folder_, script("slow", "exec sleep 30"), 30.0, stop_));
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
 }
 
@@ -95,7 +97,7 @@ TEST_F(Renderer, RefusesDamagedFiles) {
   EXPECT_FALSE(wav_duration(folder_ / "absent.wav"));
   ASSERT_TRUE(write_file_atomically(folder_ / "text.wav", "this is no sound at all"));
   EXPECT_FALSE(wav_duration(folder_ / "text.wav"));
-  const auto line = render_speech({"Hello.", "en", "neutral", 1.0}, folder_, "espeak-ng", 20.0, stop_);
+  const auto line = render_speech({"Hello.", "en", Mood::neutral, 1.0}, folder_, "espeak-ng", 20.0, stop_);
   ASSERT_TRUE(line);
   const std::string whole = *read_file(folder_ / line->file);
   for (std::size_t size = 0; size < 44; ++size) {

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <span>
 #include <string>
 #include <string_view>
 
 namespace docent {
 
-/// What the robot says and shows of itself, in the languages of `sentence_languages`; other languages get English.
+/// What the robot says and shows of itself, in the languages that have a dictionary; other languages get English.
 enum class Sentence {
   waking,        ///< does not know yet where it is
   relocalizing,  ///< lost its place
@@ -27,9 +26,6 @@ enum class Sentence {
   at_charger,      ///< spoken on arrival at the charger
 };
 inline constexpr int kSentences = static_cast<int>(Sentence::at_charger) + 1;
-
-/// The languages in which all sentences exist.
-[[nodiscard]] std::span<const std::string_view> sentence_languages();
 
 /// The sentence with `title` put in. Never empty.
 [[nodiscard]] std::string sentence(Sentence which, std::string_view language, std::string_view title = {});

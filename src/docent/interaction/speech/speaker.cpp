@@ -50,7 +50,7 @@ Result<void> save_checkpoint(const std::filesystem::path& path, const SpeakerMem
   const Json json{{"id", present.id},
                   {"text", present.text},
                   {"language", present.language},
-                  {"mood", present.mood},
+                  {"mood", to_text(present.mood)},
                   {"is_speaking", present.is_speaking},
                   {"start", present.start.nanoseconds},
                   {"duration_s", present.duration_s},
@@ -66,10 +66,11 @@ Result<SpeakerMemory> load_speaker_checkpoint(const std::filesystem::path& path)
   try {
     const Json json = Json::parse(*text);
     SpeakerMemory memory;
-    memory.present = {json.at("id").get<std::string>(),       json.at("text").get<std::string>(),
-                      json.at("language").get<std::string>(), json.at("mood").get<std::string>(),
-                      json.at("is_speaking").get<bool>(),     {json.at("start").get<std::int64_t>()},
-                      json.at("duration_s").get<double>(),    json.at("audio").get<std::string>()};
+    memory.present = {
+        json.at("id").get<std::string>(),       json.at("text").get<std::string>(),
+        json.at("language").get<std::string>(), parse<Mood>(json.at("mood").get<std::string>()).value_or(Mood::neutral),
+        json.at("is_speaking").get<bool>(),     {json.at("start").get<std::int64_t>()},
+        json.at("duration_s").get<double>(),    json.at("audio").get<std::string>()};
     memory.finished = json.at("finished").get<std::deque<std::string>>();
     return memory;
   } catch (const Json::exception& why) {

@@ -8,6 +8,7 @@
 #include "docent/base/files.h"
 #include "docent/base/result.h"
 #include "docent/base/time.h"
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent {
 
@@ -16,7 +17,7 @@ struct Say {
   std::string id;
   std::string text;
   std::string language;
-  std::string mood;
+  Mood mood = Mood::neutral;
 };
 
 /// The line that is being said, or was said last.
@@ -24,7 +25,7 @@ struct Speech {
   std::string id;  ///< empty: nothing was ever said
   std::string text;
   std::string language;
-  std::string mood;
+  Mood mood = Mood::neutral;
   bool is_speaking = false;
   Time start;
   double duration_s = 0.0;

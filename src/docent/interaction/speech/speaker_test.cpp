@@ -8,8 +8,8 @@
 namespace docent {
 namespace {
 
-const Say kHello{"t1/short", "Hello.", "en", "neutral"};
-const Say kMore{"t1/long", "More.", "en", "neutral"};
+const Say kHello{"t1/short", "Hello.", "en", Mood::neutral};
+const Say kMore{"t1/long", "More.", "en", Mood::neutral};
 
 void say(Speaker& speaker, const Say& line, double duration_s, Time now) {
   ASSERT_EQ(speaker.judge(line), Speaker::Verdict::fresh);

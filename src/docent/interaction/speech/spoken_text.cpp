@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "docent/interaction/speech/dictionary.h"
+
 namespace docent {
 namespace {
 
@@ -98,23 +100,27 @@ std::size_t count_code_points(std::string_view utf8) {
       std::count_if(utf8.begin(), utf8.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; }));
 }
 
-Voice voice_of(std::string_view mood) {
-  if (mood == "happy") return {170, 60};
-  if (mood == "sad") return {140, 35};
-  if (mood == "angry") return {175, 40};
+Voice voice_of(Mood mood) {
+  switch (mood) {
+    case Mood::happy:
+      return {170, 60};
+    case Mood::sad:
+      return {140, 35};
+    case Mood::angry:
+      return {175, 40};
+    case Mood::neutral:
+      break;
+  }
   return {};
 }
 
-double speech_duration(std::string_view text, std::string_view language, std::string_view mood) {
+double speech_duration(std::string_view text, std::string_view language, Mood mood) {
   if (text.empty()) return 0.0;
-  // Least squares over short and long texts at 175 words a minute.
-  const bool is_german = language == "de";
-  const double per_character = is_german ? 0.0540 : 0.0528;
-  const double per_sentence = is_german ? 0.16 : 0.25;
+  const Dictionary& dictionary = dictionary_of(language);
   const auto sentences =
       std::count_if(text.begin(), text.end(), [](char c) { return c == '.' || c == '!' || c == '?'; });
-  const double at_175 = per_character * static_cast<double>(count_code_points(text)) +
-                        per_sentence * static_cast<double>(std::max<std::ptrdiff_t>(sentences, 1));
+  const double at_175 = dictionary.per_character * static_cast<double>(count_code_points(text)) +
+                        dictionary.per_sentence * static_cast<double>(std::max<std::ptrdiff_t>(sentences, 1));
   return at_175 * 175.0 / static_cast<double>(voice_of(mood).words_per_minute);
 }
 

@@ -3,6 +3,8 @@
 #include <string>
 #include <string_view>
 
+#include "docent/vocabulary/vocabulary.h"
+
 namespace docent {
 
 /// Markdown as it is read aloud: headings, emphasis, links, images, list marks, code marks and rules removed; every
@@ -13,15 +15,15 @@ namespace docent {
 /// Letters, digits, signs and blanks as a reader counts them: UTF-8 code points.
 [[nodiscard]] std::size_t count_code_points(std::string_view utf8);
 
-/// How a voice speaks in a mood (neutral, happy, sad, angry; anything else is neutral).
+/// How a voice speaks in a mood.
 struct Voice {
   int words_per_minute = 160;
   int pitch = 50;  ///< 0..99
 };
-[[nodiscard]] Voice voice_of(std::string_view mood);
+[[nodiscard]] Voice voice_of(Mood mood);
 
 /// How long it takes to say `text` [s], from its length, its sentences and its clauses. Fitted to espeak-ng 1.51 and
 /// within 15 % of it for a text of several sentences (renderer_test).
-[[nodiscard]] double speech_duration(std::string_view text, std::string_view language, std::string_view mood);
+[[nodiscard]] double speech_duration(std::string_view text, std::string_view language, Mood mood);
 
 }  // namespace docent

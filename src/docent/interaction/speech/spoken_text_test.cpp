@@ -23,18 +23,18 @@ TEST(SpokenText, CountsWhatAReaderCounts) {
 }
 
 TEST(SpokenText, LongerTextsTakeLonger) {
-  EXPECT_EQ(speech_duration("", "en", "neutral"), 0.0);
+  EXPECT_EQ(speech_duration("", "en", Mood::neutral), 0.0);
   const std::string sentence = "This is a sentence of some length. ";
   std::string text;
   double before = 0.0;
   for (int i = 0; i < 20; ++i) {
     text += sentence;
-    const double now = speech_duration(text, "de", "neutral");
+    const double now = speech_duration(text, "de", Mood::neutral);
     EXPECT_GT(now, before);
     before = now;
   }
-  EXPECT_GT(speech_duration(text, "de", "sad"), before);
-  EXPECT_LT(speech_duration(text, "de", "happy"), before);
+  EXPECT_GT(speech_duration(text, "de", Mood::sad), before);
+  EXPECT_LT(speech_duration(text, "de", Mood::happy), before);
 }
 
 }  // namespace

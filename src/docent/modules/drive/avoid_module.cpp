@@ -7,6 +7,7 @@
 #include "docent/messages/conversions.h"
 #include "docent/modules/shared/museum_mode.h"
 #include "docent/modules/shared/scanners.h"
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent {
 
@@ -143,9 +144,10 @@ class AvoidModule final : public Module {
     bus_.every(kModePeriod, [this] { limit_speed(); });
     bus_.subscribe<docent_msgs::Target>(topics::kTarget, [this](const docent_msgs::Target& target) {
       AvoiderTarget wish;
-      wish.mode = target.mode == "drive"  ? AvoiderTarget::Mode::drive
-                  : target.mode == "turn" ? AvoiderTarget::Mode::turn
-                                          : AvoiderTarget::Mode::stop;
+      const auto mode = parse<DriveMode>(target.mode);
+      wish.mode = mode == DriveMode::drive  ? AvoiderTarget::Mode::drive
+                  : mode == DriveMode::turn ? AvoiderTarget::Mode::turn
+                                            : AvoiderTarget::Mode::stop;
       for (std::size_t i = 0; i < std::min(target.via_x.size(), target.via_y.size()); ++i) {
         wish.via.push_back({target.via_x[i], target.via_y[i]});
       }

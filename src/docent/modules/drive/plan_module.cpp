@@ -13,6 +13,7 @@
 #include "docent/planning/exploration/tell_apart.h"
 #include "docent/planning/pursuit/pursuit.h"
 #include "docent/planning/value_iteration/route.h"
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent {
 namespace {
@@ -207,13 +208,13 @@ class PlanModule final : public Module {
     docent_msgs::Target target;
     target.header = {to_message(now), "odom"};
     target.goal_id = goal_.id;
-    target.mode = "stop";
+    target.mode = to_text(DriveMode::stop);
     Pursuit pursuit;
-    pursuit.state = pose_.localized() ? "arrived" : "waiting";
+    pursuit.state = pose_.localized() ? GoalStatus::arrived : GoalStatus::waiting;
     pursuit.reason = pose_.localized() ? "" : "looking around to find the position";
     if (!pose_.localized() && pose_.odom_from_base()) {
       const auto step = look_around(now);
-      target.mode = step.drive ? "drive" : "turn";
+      target.mode = to_text(step.drive ? DriveMode::drive : DriveMode::turn);
       target.heading = step.heading.radians();
       if (step.drive) {
         target.via_x = {step.via.x};
@@ -293,13 +294,12 @@ class PlanModule final : public Module {
     docent_msgs::Target target;
     target.header = {to_message(now), "odom"};
     target.goal_id = goal_.id;
-    target.mode = "stop";
+    target.mode = to_text(pursuit.mode);
     target.is_final = pursuit.is_final;
     target.position_tolerance = goal_.position_tolerance;
     target.heading_tolerance = goal_.heading_tolerance;
-    if (pursuit.mode != Pursuit::Mode::stop) {
+    if (pursuit.mode != DriveMode::stop) {
       const Pose2 odom_from_map = inverse(pose_.map_from_odom().value_or(Pose2{}));
-      target.mode = pursuit.mode == Pursuit::Mode::drive ? "drive" : "turn";
       target.heading = (odom_from_map.theta + pursuit.heading).radians();
       for (const Point2& via : pursuit.via) {
         const Point2 in_odom = odom_from_map * via;
@@ -307,19 +307,20 @@ class PlanModule final : public Module {
         target.via_y.push_back(in_odom.y);
       }
     }
-    publish_gaze(target, now);
+    publish_gaze(pursuit.mode, target, now);
     target_.publish(std::move(target));
   }
 
   /// The head looks where the robot wants to go, above all while it cannot.
-  void publish_gaze(const docent_msgs::Target& target, Time now) {
+  void publish_gaze(DriveMode mode, const docent_msgs::Target& target, Time now) {
     if (!pose_.odom_from_base()) return;
     docent_msgs::Gaze gaze;
     gaze.header = {to_message(now), "odom"};
-    gaze.at = target.mode == "drive" ? "way" : target.mode == "turn" ? "goal" : "none";
+    const GazeAt at = mode == DriveMode::drive ? GazeAt::way : mode == DriveMode::turn ? GazeAt::goal : GazeAt::none;
+    gaze.at = to_text(at);
     const Pose2 odom_from_base = *pose_.odom_from_base();
-    gaze.heading = gaze.at == "none" ? odom_from_base.theta.radians() : target.heading;
-    for (std::size_t i = 0; gaze.at == "way" && i < target.via_x.size(); ++i) {
+    gaze.heading = at == GazeAt::none ? odom_from_base.theta.radians() : target.heading;
+    for (std::size_t i = 0; at == GazeAt::way && i < target.via_x.size(); ++i) {
       const Point2 via{target.via_x[i], target.via_y[i]};
       gaze.heading = direction(odom_from_base.position(), via).radians();
       if (distance(odom_from_base.position(), via) > kLookAhead) break;
@@ -331,7 +332,7 @@ class PlanModule final : public Module {
   void publish_state(const Pursuit& pursuit) {
     docent_msgs::GoalState state;
     state.id = goal_.id;
-    state.state = pursuit.state;
+    state.state = to_text(pursuit.state);
     state.remaining_m = pursuit.remaining_m;
     state.blocked_s = pursuit.blocked_s;
     state.reason = pursuit.reason;
@@ -345,7 +346,7 @@ class PlanModule final : public Module {
     nav_msgs::Path path;
     path.header = {to_message(now), "map"};
     const auto here = pose_.map_from_base();
-    if (pursuit.mode == Pursuit::Mode::drive && here) {
+    if (pursuit.mode == DriveMode::drive && here) {
       for (const Point2& point : route_.way(here->position())) {
         path.poses.push_back({path.header, to_message(Pose2{point.x, point.y, {}})});
       }

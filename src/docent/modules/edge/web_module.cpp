@@ -17,8 +17,9 @@
 #include "docent/telepresence/live_encoding.h"
 #include "docent/telepresence/museum_document.h"
 #include "docent/telepresence/outbox.h"
+#include "docent/telepresence/server/web_server.h"
 #include "docent/telepresence/site.h"
-#include "docent/telepresence/web_server.h"
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent {
 namespace {
@@ -66,6 +67,10 @@ std::filesystem::path page_folder(const std::string& root) {
 constexpr const char* kNoPage =
     "<!doctype html><meta charset=utf-8><title>Docent</title><p>The page has not been built yet: "
     "<code>cd web &amp;&amp; npm ci &amp;&amp; npm run build</code>, then start again.</p>";
+
+bool is_cancellation(const docent_msgs::Request& request) {
+  return parse<RequestKind>(request.kind) == RequestKind::cancel;
+}
 
 class WebModule final : public Module {
  public:
@@ -224,15 +229,16 @@ class WebModule final : public Module {
     open_requests_ = 0;
     std::set<std::string> closed;
     for (const auto& entry : board.requests) {
-      const bool is_open = entry.state == "queued" || entry.state == "active";
-      if (is_open) ++open_requests_;
-      if (!is_open) closed.insert(entry.request.id);
+      const auto status = parse<RequestStatus>(entry.state);
+      const bool is_waiting = status && is_open(*status);
+      if (is_waiting) ++open_requests_;
+      if (!is_waiting) closed.insert(entry.request.id);
       outbox_->delivered(entry.request.id);
     }
     // A cancellation is seen in the state of what it cancels.
     std::vector<std::string> done;
     for (const auto& request : outbox_->pending()) {
-      if (request.kind == "cancel" && closed.contains(request.target)) done.push_back(request.id);
+      if (is_cancellation(request) && closed.contains(request.target)) done.push_back(request.id);
     }
     for (const auto& id : done) outbox_->delivered(id);
     server_->broadcast(kBoard, encode_board(board));
@@ -243,7 +249,7 @@ class WebModule final : public Module {
     std::vector<std::string> given_up;
     for (const auto& request : outbox_->pending()) {
       const bool is_old = bus_.now() - from_message(request.stamp) > std::chrono::minutes{1};
-      if (request.kind == "cancel" && is_old) given_up.push_back(request.id);
+      if (is_cancellation(request) && is_old) given_up.push_back(request.id);
     }
     for (const auto& id : given_up) outbox_->delivered(id);
     for (const auto& request : outbox_->pending()) requests_.publish(request);
@@ -256,7 +262,7 @@ class WebModule final : public Module {
     if (const auto* cancel = std::get_if<CancelMessage>(&message)) {
       docent_msgs::Request wish;
       wish.id = cancel->id;
-      wish.kind = "cancel";
+      wish.kind = to_text(RequestKind::cancel);
       wish.target = cancel->request;
       return store(viewer, std::move(wish));
     }
@@ -269,7 +275,7 @@ class WebModule final : public Module {
     docent_msgs::Request wish;
     wish.id = message.id;
     wish.visitor = message.name;
-    wish.kind = message.kind;
+    wish.kind = to_text(message.kind);
     wish.target = message.target;
     wish.viewpoint = message.viewpoint;
     wish.language =
@@ -281,7 +287,7 @@ class WebModule final : public Module {
     if (open_requests_ + outbox_->pending().size() >= static_cast<std::size_t>(params_.max_open_requests)) {
       return "too many requests are waiting";
     }
-    if (message.kind == "tour") return museum_.find_tour(message.target) == nullptr ? "no such tour" : "";
+    if (message.kind == RequestKind::tour) return museum_.find_tour(message.target) == nullptr ? "no such tour" : "";
     const Exhibit* exhibit = museum_.find_exhibit(message.target);
     if (exhibit == nullptr) return "no such exhibit";
     if (message.viewpoint >= static_cast<int>(exhibit->viewpoints.size())) return "no such viewpoint";
@@ -291,7 +297,7 @@ class WebModule final : public Module {
   /// Commits, then acknowledges, then tells the robot (architecture 10.8, 10.9).
   void store(ViewerId viewer, docent_msgs::Request wish) {
     wish.stamp = to_message(bus_.now());
-    wish.source = "web";
+    wish.source = to_text(RequestSource::web);
     auto stored = outbox_->put(wish);
     if (!stored) return server_->send(viewer, encode_refusal(wish.id, stored.error().message));
     server_->send(viewer, encode_acknowledgement(wish.id));
@@ -307,7 +313,7 @@ class WebModule final : public Module {
       return server_->send(viewer, encode_refusal(message.id, "no such answer"));
     }
     if (!choice_ || choice_->prompt_id != message.prompt) {  // the first answer counts
-      choice_ = docent_msgs::Choice{message.id, message.prompt, message.choice, "web"};
+      choice_ = docent_msgs::Choice{message.id, message.prompt, message.choice, to_text(RequestSource::web)};
       choices_.publish(*choice_);
     }
     server_->send(viewer, encode_acknowledgement(message.id));

@@ -9,7 +9,7 @@
 
 #include "docent/interaction/speech/horn.h"
 #include "docent/messages/conversions.h"
-#include "docent/telepresence/test_client.h"
+#include "docent/telepresence/server/test_client.h"
 #include "docent/transport/virtual_time_bus.h"
 
 namespace docent {

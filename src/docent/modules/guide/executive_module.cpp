@@ -5,11 +5,18 @@
 #include "docent/modules/shared/museum_mode.h"
 #include "docent/task_control/executive/checkpoint.h"
 #include "docent/task_control/executive/executive.h"
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent {
 namespace {
 
 constexpr Duration kPeriod = std::chrono::milliseconds{250};
+
+std::vector<std::string> texts_of(const std::vector<Answer>& answers) {
+  std::vector<std::string> texts;
+  for (const Answer answer : answers) texts.emplace_back(to_text(answer));
+  return texts;
+}
 
 class ExecutiveModule final : public Module {
  public:
@@ -36,16 +43,18 @@ class ExecutiveModule final : public Module {
       flush();
     });
     bus_.subscribe<docent_msgs::GoalState>(topics::kGoalState, [this](const auto& state) {
-      executive_.goal_report({state.id, state.state, state.remaining_m, state.blocked_s, state.reason, state.detour},
-                             bus_.now());
+      executive_.goal_report(
+          {state.id, parse<GoalStatus>(state.state), state.remaining_m, state.blocked_s, state.reason, state.detour},
+          bus_.now());
       flush();
     });
     bus_.subscribe<docent_msgs::SpeechState>(topics::kSpeechState, [this](const auto& state) {
-      executive_.speech_report({state.id, state.state, from_message(state.start), state.duration}, bus_.now());
+      executive_.speech_report({state.id, parse<SpeechStatus>(state.state), from_message(state.start), state.duration},
+                               bus_.now());
       flush();
     });
     bus_.subscribe<docent_msgs::Choice>(topics::kChoice, [this](const auto& choice) {
-      executive_.choose(choice.prompt_id, choice.choice, bus_.now());
+      executive_.choose(choice.prompt_id, parse<Answer>(choice.choice), bus_.now());
       flush();
     });
     bus_.subscribe<docent_msgs::AvoidState>(topics::kAvoidState, [this](const auto& state) {
@@ -66,8 +75,9 @@ class ExecutiveModule final : public Module {
  private:
   [[nodiscard]] ExecutiveTask to_task(const docent_msgs::Task& task) const {
     ExecutiveTask result;
-    result.order = {task.id,       task.kind,       task.exhibit_id, {task.x, task.y, Angle::radians(task.theta)},
-                    task.language, task.offer_more, task.tour_id};
+    result.order = {
+        task.id,       Word<TaskKind>{task.kind}, task.exhibit_id, {task.x, task.y, Angle::radians(task.theta)},
+        task.language, task.offer_more,           task.tour_id};
     if (const Exhibit* exhibit = museum_.find_exhibit(task.exhibit_id)) {
       result.title = translated(exhibit->title, task.language);
       result.short_text = spoken_text(translated(exhibit->short_text, task.language));
@@ -95,7 +105,7 @@ class ExecutiveModule final : public Module {
       goal_.publish(std::move(goal));
     }
     for (Utterance& line : actions.utterances) {
-      say_.publish({std::move(line.id), std::move(line.text), std::move(line.language), std::move(line.mood)});
+      say_.publish({std::move(line.id), std::move(line.text), std::move(line.language), to_text(line.mood)});
     }
     const auto stamp = to_message(bus_.now());
     if (actions.report) {
@@ -103,10 +113,10 @@ class ExecutiveModule final : public Module {
       Question& question = report.question;
       state_.publish({{stamp, "map"},
                       std::move(report.id),
-                      std::move(report.state),
+                      to_text(report.state),
                       std::move(report.reason),
-                      {std::move(question.id), std::move(question.text), std::move(question.options),
-                       std::move(question.default_option), to_message(question.deadline)},
+                      {std::move(question.id), std::move(question.text), texts_of(question.options),
+                       to_text(question.default_option), to_message(question.deadline)},
                       report.took_long});
     }
     for (LadderStep& step : actions.reactions) {
@@ -116,7 +126,7 @@ class ExecutiveModule final : public Module {
     }
     for (Happening& happening : actions.happenings) {
       event_.publish({{stamp, "map"},
-                      std::move(happening.kind),
+                      to_text(happening.kind),
                       std::move(happening.subject),
                       std::move(happening.detail),
                       happening.value});

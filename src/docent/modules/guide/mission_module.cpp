@@ -14,6 +14,7 @@
 #include "docent/task_control/tour_scheduler/mission.h"
 #include "docent/task_control/tour_scheduler/mission_store.h"
 #include "docent/task_control/tour_scheduler/travel.h"
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent {
 namespace {
@@ -30,7 +31,7 @@ Programme programme_of(const Museum& museum) {
   for (const Exhibit& exhibit : museum.exhibits) {
     const std::string text = translated(exhibit.title, language) + ". " + translated(exhibit.short_text, language);
     ProgrammeExhibit& shown = programme.exhibits.emplace_back();
-    shown = {exhibit.id, exhibit.pose, exhibit.viewpoints, speech_duration(spoken_text(text), language, "neutral"),
+    shown = {exhibit.id, exhibit.pose, exhibit.viewpoints, speech_duration(spoken_text(text), language, Mood::neutral),
              exhibit.web_only};
     for (const Exhibit* next : sensible_next(museum, exhibit)) shown.next.push_back(next->id);
   }
@@ -71,8 +72,8 @@ std::string deployment_name(std::uint64_t seed, Time now) {
 
 docent_msgs::RequestState to_message(const BoardEntry& entry) {
   const VisitorRequest& request = entry.request;
-  return {{request.id, docent::to_message(request.stamp), request.source, request.visitor, request.kind, request.target,
-           request.viewpoint, request.language},
+  return {{request.id, docent::to_message(request.stamp), request.source.text(), request.visitor, request.kind.text(),
+           request.target, request.viewpoint, request.language},
           to_text(entry.status),
           entry.reason,
           docent::to_message(entry.created),
@@ -119,7 +120,7 @@ class MissionModule final : public Module {
 
  private:
   void on_request(const docent_msgs::Request& message) {
-    mission_.limits(mode_.takes_requests(), mode_.name(bus_.now()));
+    mission_.limits(mode_.takes_requests(), parse<OperatingMode>(mode_.name(bus_.now())));
     for (const std::string* text :
          {&message.id, &message.source, &message.visitor, &message.kind, &message.target, &message.language}) {
       if (text->size() > kMostText) return;
@@ -137,15 +138,15 @@ class MissionModule final : public Module {
         return;
       }
     }
-    mission_.submit({message.id, from_message(message.stamp), message.source, message.visitor, message.kind,
-                     message.target, message.viewpoint, message.language},
+    mission_.submit({message.id, from_message(message.stamp), Word<RequestSource>{message.source}, message.visitor,
+                     Word<RequestKind>{message.kind}, message.target, message.viewpoint, message.language},
                     bus_.now());
     flush();
   }
 
   void on_task(const docent_msgs::TaskState& message) {
     if (message.id == mission_.task().id) prompt_ = message.prompt;
-    mission_.report(message.id, message.state, message.reason, bus_.now());
+    mission_.report(message.id, parse<TaskStatus>(message.state), message.reason, bus_.now());
     flush();
   }
 
@@ -170,7 +171,7 @@ class MissionModule final : public Module {
     const Time now = bus_.now();
     for (Happening& happening : mission_.take_happenings()) {
       event_.publish({{docent::to_message(now), "map"},
-                      std::move(happening.kind),
+                      to_text(happening.kind),
                       std::move(happening.subject),
                       std::move(happening.detail),
                       happening.value});
@@ -195,14 +196,14 @@ class MissionModule final : public Module {
     const Pose2& pose = task.map_from_base;
     published_task_ = task.id;
     prompt_ = {};
-    task_.publish({task.id, task.kind, task.exhibit_id, pose.x, pose.y, pose.theta.radians(), task.language,
+    task_.publish({task.id, task.kind.text(), task.exhibit_id, pose.x, pose.y, pose.theta.radians(), task.language,
                    task.offer_more, task.tour_id});
   }
 
   void publish_state(Time now) {
     const MissionSummary summary = mission_.summary(now);
     docent_msgs::MissionState message;
-    message.phase = summary.phase;
+    message.phase = to_text(summary.phase);
     message.tour_id = summary.tour_id;
     message.exhibit_id = summary.exhibit_id;
     const Exhibit* exhibit = museum_.find_exhibit(summary.exhibit_id);
@@ -210,11 +211,13 @@ class MissionModule final : public Module {
     const auto text = [&](const std::string& language) {
       const std::string minutes = std::to_string(std::max(5, summary.charging_min));
       return sentence(sentence_of(summary), language,
-                      summary.phase == "charging" ? minutes : translated(title, language));
+                      summary.phase == MissionPhase::charging ? minutes : translated(title, language));
     };
-    message.text_en = text("en");
+    message.languages = mission_.scheduler().programme().languages;
+    for (const std::string& language : message.languages) message.texts.push_back(text(language));
+    message.text_en = text("en");  // for whoever reads the messages of before
     message.text_de = text("de");
-    if (summary.phase == "asking") message.prompt = prompt_;
+    if (summary.phase == MissionPhase::asking) message.prompt = prompt_;
     message.exhibits_explained = summary.counters.exhibits_explained;
     message.tours_completed = summary.counters.tours_completed;
     message.requests_served = summary.counters.requests_served;
@@ -227,15 +230,15 @@ class MissionModule final : public Module {
   }
 
   [[nodiscard]] static Sentence sentence_of(const MissionSummary& summary) {
-    if (summary.phase == "waking") return Sentence::waking;
-    if (summary.phase == "relocalizing") return Sentence::relocalizing;
-    if (summary.phase == "driving") return summary.is_blocked ? Sentence::blocked : Sentence::driving;
-    if (summary.phase == "explaining") return Sentence::explaining;
-    if (summary.phase == "asking") return Sentence::asking;
-    if (summary.phase == "charging") return Sentence::charging;
+    if (summary.phase == MissionPhase::waking) return Sentence::waking;
+    if (summary.phase == MissionPhase::relocalizing) return Sentence::relocalizing;
+    if (summary.phase == MissionPhase::driving) return summary.is_blocked ? Sentence::blocked : Sentence::driving;
+    if (summary.phase == MissionPhase::explaining) return Sentence::explaining;
+    if (summary.phase == MissionPhase::asking) return Sentence::asking;
+    if (summary.phase == MissionPhase::charging) return Sentence::charging;
     if (summary.needs_charge) return Sentence::battery_low;
-    if (summary.phase == "going_home") return Sentence::going_home;
-    return summary.phase == "idle" ? Sentence::idle : Sentence::waiting;
+    if (summary.phase == MissionPhase::going_home) return Sentence::going_home;
+    return summary.phase == MissionPhase::idle ? Sentence::idle : Sentence::waiting;
   }
 
   Bus& bus_;

@@ -12,6 +12,7 @@
 #include "docent/interaction/speech/speaker.h"
 #include "docent/interaction/speech/spoken_text.h"
 #include "docent/messages/conversions.h"
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent {
 namespace {
@@ -137,7 +138,8 @@ class SoundModule final : public Module {
  private:
   void on_say(const docent_msgs::Say& message) {
     if (message.id.empty() || message.text.size() > kMostText) return;
-    const Say say{message.id, spoken_text(message.text), message.language, message.mood};
+    const Say say{message.id, spoken_text(message.text), message.language,
+                  parse<Mood>(message.mood).value_or(Mood::neutral)};
     switch (speaker_.judge(say)) {
       case Speaker::Verdict::under_way:
         if (speaker_.present().id == say.id) publish();
@@ -209,7 +211,7 @@ class SoundModule final : public Module {
     const Speech& speech = speaker_.present();
     state_.publish({{to_message(bus_.now()), ""},
                     speech.id,
-                    speech.is_speaking ? "speaking" : "done",
+                    to_text(speech.is_speaking ? SpeechStatus::speaking : SpeechStatus::done),
                     speech.text,
                     speech.language,
                     to_message(speech.start),
@@ -224,7 +226,7 @@ class SoundModule final : public Module {
       return;
     }
     const auto now = to_message(bus_.now());
-    state_.publish({{now, ""}, say.id, "done", say.text, say.language, now, 0.0, ""});
+    state_.publish({{now, ""}, say.id, to_text(SpeechStatus::done), say.text, say.language, now, 0.0, ""});
     publish();
   }
 

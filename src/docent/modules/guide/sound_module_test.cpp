@@ -74,7 +74,7 @@ TEST_F(Sound, InVirtualTimeTheTextForetellsTheDuration) {
   ASSERT_EQ(heard_.size(), 1U);
   EXPECT_EQ(heard_[0].state, "speaking");
   EXPECT_EQ(heard_[0].audio, "");
-  EXPECT_DOUBLE_EQ(heard_[0].duration, speech_duration(kText, "en", "neutral"));
+  EXPECT_DOUBLE_EQ(heard_[0].duration, speech_duration(kText, "en", Mood::neutral));
   run_for(heard_[0].duration);
   ASSERT_EQ(heard_.size(), 2U);
   EXPECT_EQ(heard_[1].state, "done");
@@ -138,7 +138,7 @@ TEST_F(Sound, UnderWallTimeItRendersAWavFile) {
   say("t1/short", kText);
   wait_for_news();
   EXPECT_EQ(heard_[0].state, "speaking");
-  EXPECT_EQ(heard_[0].audio, audio_file_name({kText, "en", "neutral", 1.0}));
+  EXPECT_EQ(heard_[0].audio, audio_file_name({kText, "en", Mood::neutral, 1.0}));
   EXPECT_DOUBLE_EQ(heard_[0].duration, *wav_duration(folder_ / "audio" / heard_[0].audio));
   EXPECT_EQ(module_->health().state, "ready");
 }
@@ -150,7 +150,7 @@ TEST_F(Sound, WithoutAVoiceTheWordsRemain) {
   wait_for_news();
   EXPECT_EQ(heard_[0].state, "speaking");
   EXPECT_EQ(heard_[0].audio, "");
-  EXPECT_DOUBLE_EQ(heard_[0].duration, speech_duration(kText, "en", "neutral"));
+  EXPECT_DOUBLE_EQ(heard_[0].duration, speech_duration(kText, "en", Mood::neutral));
   EXPECT_EQ(module_->health().state, "degraded");
   EXPECT_NE(module_->health().reason.find("/nonexistent/voice"), std::string::npos);
 }

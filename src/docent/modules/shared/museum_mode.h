@@ -3,8 +3,9 @@
 #include <optional>
 #include <string>
 
-#include "docent/messages/docent_messages.h"
+#include "docent/messages/operation_messages.h"
 #include "docent/modules/shared/module.h"
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent {
 
@@ -19,7 +20,9 @@ class MuseumMode {
 
   void limits(const docent_msgs::Limits& limits) { limits_ = limits; }
 
-  [[nodiscard]] bool is_by_hours() const { return !limits_ || limits_->mode == "hours"; }
+  [[nodiscard]] bool is_by_hours() const {
+    return !limits_ || parse<OperatingMode>(limits_->mode) == OperatingMode::hours;
+  }
   [[nodiscard]] std::string name(Time now) const;  ///< open, web, closed
   [[nodiscard]] bool takes_requests() const { return !limits_ || limits_->is_open; }
   /// [m/s]; nullopt: neither operator nor museum say one.

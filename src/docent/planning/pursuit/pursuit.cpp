@@ -29,7 +29,7 @@ Pursuit GoalPursuit::step(const std::optional<Pose2>& map_from_base, const Route
   Pursuit pursuit;
   if (goal_.id.empty()) return pursuit;
   if (!map_from_base) {
-    pursuit.state = phase_ == Phase::arrived ? "arrived" : "waiting";
+    pursuit.state = phase_ == Phase::arrived ? GoalStatus::arrived : GoalStatus::waiting;
     pursuit.reason = "the position is not known";
     last_progress_ = now;
     best_remaining_ = std::numeric_limits<double>::infinity();
@@ -39,24 +39,24 @@ Pursuit GoalPursuit::step(const std::optional<Pose2>& map_from_base, const Route
   const double turn = std::abs((goal_.map_from_goal.theta - map_from_base->theta).radians());
   change_phase(distance(here, goal_.map_from_goal.position()), turn, now);
   if (phase_ == Phase::arrived) {
-    pursuit.state = "arrived";
+    pursuit.state = GoalStatus::arrived;
     return pursuit;
   }
   if (phase_ == Phase::turning) {
-    pursuit.mode = Pursuit::Mode::turn;
+    pursuit.mode = DriveMode::turn;
     pursuit.heading = goal_.map_from_goal.theta;
-    pursuit.state = "turning";
+    pursuit.state = GoalStatus::turning;
     return pursuit;
   }
 
   const auto way = planner.way(here);
   if (way.empty() && !planner.is_settled() && stuck_for(now) < params_.find_way_for) {
-    pursuit.state = "waiting";
+    pursuit.state = GoalStatus::waiting;
     pursuit.reason = "looking for the way";
     return pursuit;
   }
   if (way.empty()) {
-    pursuit.state = "unreachable";
+    pursuit.state = GoalStatus::unreachable;
     pursuit.reason = planner.is_closed(here) ? "no way out of this place" : "no way to the goal";
     return pursuit;
   }
@@ -102,7 +102,7 @@ Pursuit GoalPursuit::follow(const std::vector<Point2>& way, Point2 here, Time no
   pursuit.remaining_m = length;
   pursuit.detour = detour_.change();
   pursuit.detour_extra = detour_.extra();
-  pursuit.mode = Pursuit::Mode::drive;
+  pursuit.mode = DriveMode::drive;
   pursuit.heading = goal_.map_from_goal.theta;
   if (length < best_remaining_ - params_.progress) {
     best_remaining_ = length;
@@ -111,8 +111,8 @@ Pursuit GoalPursuit::follow(const std::vector<Point2>& way, Point2 here, Time no
     best_remaining_ = length;  // a detour: measure progress along it, but the time without progress goes on
   }
   pursuit.blocked_s = stuck_for(now);
-  pursuit.state = pursuit.blocked_s > params_.blocked_after ? "blocked" : "driving";
-  if (pursuit.state == "blocked") pursuit.reason = "no progress";
+  pursuit.state = pursuit.blocked_s > params_.blocked_after ? GoalStatus::blocked : GoalStatus::driving;
+  if (pursuit.state == GoalStatus::blocked) pursuit.reason = "no progress";
   return pursuit;
 }
 

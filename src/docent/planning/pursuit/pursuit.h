@@ -9,6 +9,7 @@
 #include "docent/geometry/pose2.h"
 #include "docent/planning/pursuit/detour_watch.h"
 #include "docent/planning/value_iteration/route.h"
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent {
 
@@ -43,12 +44,11 @@ struct PursuitGoal {
 
 /// What the robot should do now: via-points or a heading, never a velocity; and how it goes, for the executive.
 struct Pursuit {
-  enum class Mode { stop, drive, turn };
-  Mode mode = Mode::stop;
-  std::vector<Point2> via;     ///< [m], map, nearest first
-  bool is_final = false;       ///< the last via-point is the goal
-  Angle heading{};             ///< map
-  std::string state = "idle";  ///< idle, waiting, driving, turning, arrived, blocked, unreachable
+  DriveMode mode = DriveMode::stop;
+  std::vector<Point2> via;  ///< [m], map, nearest first
+  bool is_final = false;    ///< the last via-point is the goal
+  Angle heading{};          ///< map
+  GoalStatus state = GoalStatus::idle;
   std::string reason;
   double remaining_m = 0.0;
   double blocked_s = 0.0;

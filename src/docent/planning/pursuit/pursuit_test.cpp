@@ -27,54 +27,55 @@ class PursuitTest : public ::testing::Test {
 
 TEST_F(PursuitTest, DrivesThenTurnsThenStays) {
   auto now = step({0.6, 4, {}}, 0.0);
-  EXPECT_EQ(now.state, "driving");
+  EXPECT_EQ(now.state, GoalStatus::driving);
   EXPECT_NEAR(now.remaining_m, 5.4, 0.4);
   EXPECT_FALSE(now.is_final) << "farther than the horizon";
   now = step({4, 4, {}}, 3.0);
   EXPECT_TRUE(now.is_final);
   now = step({5.9, 4, {}}, 6.0);
-  EXPECT_EQ(now.state, "turning");
+  EXPECT_EQ(now.state, GoalStatus::turning);
   EXPECT_NEAR(now.heading.degrees(), 90.0, 1e-9);
   now = step({5.9, 4, Angle::degrees(88)}, 7.0);
-  EXPECT_EQ(now.state, "arrived");
+  EXPECT_EQ(now.state, GoalStatus::arrived);
   now = step({5.7, 4.2, Angle::degrees(70)}, 8.0);
-  EXPECT_EQ(now.state, "arrived") << "a small jump of the pose does not undo it";
+  EXPECT_EQ(now.state, GoalStatus::arrived) << "a small jump of the pose does not undo it";
   now = step({4.5, 4, {}}, 9.0);
-  EXPECT_EQ(now.state, "driving") << "pushed away, it drives again";
+  EXPECT_EQ(now.state, GoalStatus::driving) << "pushed away, it drives again";
 }
 
 TEST_F(PursuitTest, SaysThatItIsBlocked) {
-  EXPECT_EQ(step({2, 4, {}}, 0.0).state, "driving");
-  EXPECT_EQ(step({2, 4, {}}, 3.0).state, "driving");
+  EXPECT_EQ(step({2, 4, {}}, 0.0).state, GoalStatus::driving);
+  EXPECT_EQ(step({2, 4, {}}, 3.0).state, GoalStatus::driving);
   const auto now = step({2.1, 4, {}}, 5.0);
-  EXPECT_EQ(now.state, "blocked");
+  EXPECT_EQ(now.state, GoalStatus::blocked);
   EXPECT_NEAR(now.blocked_s, 5.0, 1e-9);
-  EXPECT_EQ(now.mode, Pursuit::Mode::drive) << "it goes on trying";
-  EXPECT_EQ(step({3, 4, {}}, 6.0).state, "driving");
+  EXPECT_EQ(now.mode, DriveMode::drive) << "it goes on trying";
+  EXPECT_EQ(step({3, 4, {}}, 6.0).state, GoalStatus::driving);
 }
 
 TEST_F(PursuitTest, SettlesBesideAGoalThatPeopleStandOn) {
-  EXPECT_EQ(step({5.55, 4, {}}, 0.0).state, "driving");
-  EXPECT_EQ(step({5.55, 4, {}}, 7.0).state, "turning");
+  EXPECT_EQ(step({5.55, 4, {}}, 0.0).state, GoalStatus::driving);
+  EXPECT_EQ(step({5.55, 4, {}}, 7.0).state, GoalStatus::turning);
 }
 
 TEST_F(PursuitTest, AGoalIsUnreachableOnlyWhenPlanningHasEnded) {
   RoutePlanner busy{hall(), {}, {}, {}};
   busy.set_goal(goal_.map_from_goal.position(), 0.2);
-  EXPECT_EQ(pursuit_.step(Pose2{2, 4, {}}, busy, Time{}).state, "waiting");
-  EXPECT_EQ(pursuit_.step(Pose2{2, 4, {}}, busy, time_from_seconds(4.0)).state, "unreachable") << "not for ever";
+  EXPECT_EQ(pursuit_.step(Pose2{2, 4, {}}, busy, Time{}).state, GoalStatus::waiting);
+  EXPECT_EQ(pursuit_.step(Pose2{2, 4, {}}, busy, time_from_seconds(4.0)).state, GoalStatus::unreachable)
+      << "not for ever";
   auto walled = hall();
   for (int row = 0; row < walled.frame.rows; ++row) walled.cells[walled.frame.index({80, row})] = 100;
   RoutePlanner settled{walled, {}, {}, {}};
   settled.set_goal(goal_.map_from_goal.position(), 0.2);
   settled.iterate(1000);
-  EXPECT_EQ(pursuit_.step(Pose2{2, 4, {}}, settled, Time{}).state, "unreachable");
+  EXPECT_EQ(pursuit_.step(Pose2{2, 4, {}}, settled, Time{}).state, GoalStatus::unreachable);
 }
 
 TEST_F(PursuitTest, WaitsWhileItDoesNotKnowWhereItIs) {
   const auto now = pursuit_.step(std::nullopt, planner_, Time{});
-  EXPECT_EQ(now.state, "waiting");
-  EXPECT_EQ(now.mode, Pursuit::Mode::stop);
+  EXPECT_EQ(now.state, GoalStatus::waiting);
+  EXPECT_EQ(now.mode, DriveMode::stop);
 }
 
 }  // namespace

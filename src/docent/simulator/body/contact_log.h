@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "docent/messages/docent_messages.h"
+#include "docent/messages/truth_messages.h"
 #include "docent/simulator/body/body.h"
 
 namespace docent::simulator {

@@ -24,7 +24,7 @@ Result<void> save_checkpoint(const std::filesystem::path& path, const ExecutiveM
                   {"wait_s", memory.task.wait_s},
                   {"order",
                    {{"id", order.id},
-                    {"kind", order.kind},
+                    {"kind", order.kind.text()},
                     {"exhibit", order.exhibit_id},
                     {"pose", {pose.x, pose.y, pose.theta.radians()}},
                     {"language", order.language},
@@ -56,7 +56,7 @@ Result<ExecutiveMemory> load_checkpoint(const std::filesystem::path& path, const
     const Json& order = json.at("order");
     const Json& pose = order.at("pose");
     memory.task.order = {order.at("id").get<std::string>(),
-                         order.at("kind").get<std::string>(),
+                         Word<TaskKind>{order.at("kind").get<std::string>()},
                          order.at("exhibit").get<std::string>(),
                          {pose.at(0).get<double>(), pose.at(1).get<double>(), Angle::radians(pose.at(2).get<double>())},
                          order.at("language").get<std::string>(),

@@ -17,6 +17,28 @@ constexpr Duration kObstacleLife = std::chrono::seconds{1};  // the collision av
 
 bool is_positive(double value) { return value > 0.0; }
 
+/// As which state of the task a step is told; nullopt: there is no task.
+std::optional<TaskStatus> status_of(Step step) {
+  switch (step) {
+    case Step::idle:
+      return std::nullopt;
+    case Step::driving:
+    case Step::relocalizing:
+      return TaskStatus::driving;
+    case Step::explaining:
+    case Step::explaining_more:
+    case Step::waiting:
+      return TaskStatus::explaining;
+    case Step::asking:
+      return TaskStatus::asking;
+    case Step::done:
+      return TaskStatus::done;
+    case Step::failed:
+      return TaskStatus::failed;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 const char* to_text(Step step) { return kSteps[static_cast<std::size_t>(step)]; }
@@ -64,19 +86,19 @@ void Executive::set_task(ExecutiveTask task, Time now) {
   const TaskOrder& order = memory_.task.order;
   if (order.id.empty()) {
     enter(Step::idle, now);
-  } else if (order.kind == "visit" || order.kind == "home" || order.kind == "charge") {
-    if (order.kind == "visit") {
-      say("announcement", sentence(Sentence::announcement, order.language, memory_.task.title), "happy");
+  } else if (order.kind == TaskKind::visit || order.kind == TaskKind::home || order.kind == TaskKind::charge) {
+    if (order.kind == TaskKind::visit) {
+      say("announcement", sentence(Sentence::announcement, order.language, memory_.task.title), Mood::happy);
     }
-    if (order.kind == "charge" && !(order.exhibit_id.empty() && order.tour_id.empty())) {
-      say("announcement", sentence(Sentence::must_charge, order.language), "sad");
+    if (order.kind == TaskKind::charge && !(order.exhibit_id.empty() && order.tour_id.empty())) {
+      say("announcement", sentence(Sentence::must_charge, order.language), Mood::sad);
     }
     memory_.drive_began = now;
     enter(Step::driving, now);
-  } else if (order.kind == "relocalize") {
+  } else if (order.kind == TaskKind::relocalize) {
     enter(Step::relocalizing, now);
   } else {
-    finish(false, "I do not know the task '" + order.kind + "'.", now);
+    finish(false, "I do not know the task '" + order.kind.text() + "'.", now);
   }
 }
 
@@ -97,8 +119,9 @@ void Executive::enter(Step step, Time now) {
   if (step == Step::idle || step == Step::driving || step == Step::relocalizing || step == Step::failed) send_drive();
   if (is_speaking()) send_speech(now);
   if (step == Step::asking) {
-    say("question", question().text, "neutral");
-    actions_.happenings.push_back({"prompt_shown", memory_.task.order.exhibit_id, question().id, params_.offer_s});
+    say("question", question().text, Mood::neutral);
+    actions_.happenings.push_back(
+        {EventKind::prompt_shown, memory_.task.order.exhibit_id, question().id, params_.offer_s});
   }
   report();
 }
@@ -119,17 +142,17 @@ void Executive::send_drive() {
       actions_.drive = DriveOrder{own_id("relocalize"), {}, true};
       break;
     default:  // the heading of the place is the one that faces the exhibit
-      if (order.kind == "relocalize") {
+      if (order.kind == TaskKind::relocalize) {
         actions_.drive = DriveOrder{};
       } else {
         actions_.drive = DriveOrder{own_id("drive"), order.map_from_base};
-        if (order.kind == "charge") actions_.drive->position_tolerance = kChargerTolerance;
+        if (order.kind == TaskKind::charge) actions_.drive->position_tolerance = kChargerTolerance;
       }
       break;
   }
 }
 
-void Executive::say(const std::string& name, const std::string& text, const std::string& mood) {
+void Executive::say(const std::string& name, const std::string& text, Mood mood) {
   actions_.utterances.push_back({own_id(name), text, memory_.task.order.language, mood});
 }
 
@@ -137,7 +160,7 @@ Utterance Executive::speech() const {
   const bool is_long = memory_.step == Step::explaining_more;
   const std::string text =
       is_long ? memory_.task.long_text : spoken_text(memory_.task.title) + " " + memory_.task.short_text;
-  return {own_id(is_long ? "long" : "short"), text, memory_.task.order.language, "neutral"};
+  return {own_id(is_long ? "long" : "short"), text, memory_.task.order.language, Mood::neutral};
 }
 
 void Executive::send_speech(Time now) {
@@ -151,8 +174,8 @@ Question Executive::question() const {
   if (memory_.step != Step::asking) return {};
   return {own_id("more"),
           sentence(Sentence::offer_more, memory_.task.order.language, memory_.task.title),
-          {"more", "next"},
-          "next",
+          {Answer::more, Answer::next},
+          Answer::next,
           question_deadline()};
 }
 
@@ -161,9 +184,7 @@ void Executive::report() {
     actions_.report = TaskReport{};
     return;
   }
-  TaskReport report{task_id(), to_text(memory_.step), memory_.reason, question(), memory_.took_long};
-  if (memory_.step == Step::relocalizing) report.state = "driving";
-  if (memory_.step == Step::explaining_more || memory_.step == Step::waiting) report.state = "explaining";
+  TaskReport report{task_id(), status_of(memory_.step), memory_.reason, question(), memory_.took_long};
   if (!note_.empty()) report.reason = note_;
   actions_.report = std::move(report);
 }
@@ -178,7 +199,7 @@ void Executive::goal_report(const GoalReport& goal, Time now) {
   goal_ = goal;
   if (memory_.step == Step::relocalizing) {
     if (goal.id != own_id("relocalize")) return;
-    if (goal.state == "arrived") {
+    if (goal.state == GoalStatus::arrived) {
       finish(true, "", now);
     } else {
       climb_ladder(now);
@@ -186,34 +207,35 @@ void Executive::goal_report(const GoalReport& goal, Time now) {
     return;
   }
   if (memory_.step != Step::driving || goal.id != own_id("drive")) return;
-  if (goal.state == "arrived") {
+  if (goal.state == GoalStatus::arrived) {
     arrive(now);
     return;
   }
-  const bool is_stuck = goal.state == "blocked" || goal.state == "unreachable";
-  if (goal.state == "driving" || goal.state == "turning") {
+  const bool is_stuck = goal.state == GoalStatus::blocked || goal.state == GoalStatus::unreachable;
+  if (goal.state == GoalStatus::driving || goal.state == GoalStatus::turning) {
     set_note("");
   } else if (is_stuck && note_.empty()) {
-    set_note(goal.state == "unreachable" ? "I see no way there." : "Someone is in my way.");
-    actions_.happenings.push_back(
-        {"drive_blocked", memory_.task.order.exhibit_id, goal.state + " " + goal.reason, goal.remaining_m});
+    set_note(goal.state == GoalStatus::unreachable ? "I see no way there." : "Someone is in my way.");
+    actions_.happenings.push_back({EventKind::drive_blocked, memory_.task.order.exhibit_id,
+                                   std::string{to_text(goal.state)} + " " + goal.reason, goal.remaining_m});
   }
   watch_drive(now);
 }
 
 void Executive::arrive(Time now) {
   const TaskOrder& order = memory_.task.order;
-  actions_.happenings.push_back({"arrived", order.kind == "visit" ? order.exhibit_id : order.kind, order.id,
+  actions_.happenings.push_back({EventKind::arrived,
+                                 order.kind == TaskKind::visit ? order.exhibit_id : order.kind.text(), order.id,
                                  to_seconds(now - memory_.drive_began)});
-  if (order.kind == "visit") {
+  if (order.kind == TaskKind::visit) {
     enter(Step::explaining, now);
     return;
   }
   // At a charger that gives no current it tries again and again without going anywhere: it greets once.
   constexpr double kNoDrive = 5.0;  // [s]
-  const bool stood_there = order.kind == "charge" && now - memory_.drive_began < seconds(kNoDrive);
-  const Sentence greeting = order.kind == "charge" ? Sentence::at_charger : Sentence::home_again;
-  if (!stood_there) say(order.kind, sentence(greeting, order.language), "happy");
+  const bool stood_there = order.kind == TaskKind::charge && now - memory_.drive_began < seconds(kNoDrive);
+  const Sentence greeting = order.kind == TaskKind::charge ? Sentence::at_charger : Sentence::home_again;
+  if (!stood_there) say(order.kind.text(), sentence(greeting, order.language), Mood::happy);
   finish(true, "", now);
 }
 
@@ -232,7 +254,7 @@ void Executive::obstacle_report(const ObstacleReport& report, Time now) {
 
 void Executive::climb_ladder(Time now) {
   if (now - obstacle_time_ > kObstacleLife) obstacle_ = {};
-  const bool is_unreachable = goal_.state == "unreachable";
+  const bool is_unreachable = goal_.state == GoalStatus::unreachable;
   const LadderView view{obstacle_.is_hindered,   obstacle_.is_unmapped,
                         is_unreachable,          goal_.blocked_s,
                         detour_of(goal_.detour), obstacle_.reason.empty() ? goal_.reason : obstacle_.reason,
@@ -253,8 +275,9 @@ void Executive::climb_ladder(Time now) {
 void Executive::ask_for_way(Time now, int count) {
   // The name carries the time, so that a restarted executive does not repeat an id that was spoken already.
   say("please-" + std::to_string(std::max<std::int64_t>(0, (now - memory_.step_began).count() / 1000000)),
-      sentence(Sentence::let_me_through, memory_.task.order.language), count == 1 ? "neutral" : "sad");
-  actions_.happenings.push_back({"asked_for_way", memory_.task.order.exhibit_id, "", static_cast<double>(count)});
+      sentence(Sentence::let_me_through, memory_.task.order.language), count == 1 ? Mood::neutral : Mood::sad);
+  actions_.happenings.push_back(
+      {EventKind::asked_for_way, memory_.task.order.exhibit_id, "", static_cast<double>(count)});
 }
 
 void Executive::speech_report(const SpeechReport& report, Time now) {
@@ -267,7 +290,7 @@ void Executive::watch_speech(Time now) {
   const Utterance present = speech();
   bool is_over = false;
   if (heard_) {
-    is_over = heard_->state != "speaking" || now > heard_->start + seconds(heard_->duration_s + 5.0);
+    is_over = heard_->state != SpeechStatus::speaking || now > heard_->start + seconds(heard_->duration_s + 5.0);
   } else {
     const double foreseen_s = speech_duration(present.text, present.language, present.mood);
     is_over = now > memory_.step_began + seconds(1.5 * foreseen_s + 5.0);
@@ -290,11 +313,11 @@ void Executive::end_visit(Time now) {
   }
 }
 
-void Executive::choose(const std::string& question_id, const std::string& option, Time now) {
+void Executive::choose(const std::string& question_id, std::optional<Answer> option, Time now) {
   if (memory_.step != Step::asking || question_id != own_id("more")) return;
-  if (option != "more" && option != "next") return;
-  actions_.happenings.push_back({"choice", memory_.task.order.exhibit_id, option});
-  if (option == "more") {
+  if (option != Answer::more && option != Answer::next) return;
+  actions_.happenings.push_back({EventKind::choice, memory_.task.order.exhibit_id, to_text(option)});
+  if (option == Answer::more) {
     memory_.took_long = true;
     enter(Step::explaining_more, now);
   } else {
@@ -308,7 +331,7 @@ void Executive::tick(Time now) {
   } else if (is_speaking()) {
     watch_speech(now);
   } else if (memory_.step == Step::asking && now >= question_deadline()) {
-    actions_.happenings.push_back({"choice", memory_.task.order.exhibit_id, "next (default)"});
+    actions_.happenings.push_back({EventKind::choice, memory_.task.order.exhibit_id, "next (default)"});
     end_visit(now);
   } else if (memory_.step == Step::waiting && now - memory_.step_began >= seconds(memory_.task.wait_s)) {
     finish(true, "", now);

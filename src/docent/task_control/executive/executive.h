@@ -61,7 +61,7 @@ struct DriveOrder {
 };
 struct GoalReport {
   std::string id;
-  std::string state;  ///< as docent_msgs/GoalState
+  std::optional<GoalStatus> state;  ///< nullopt: one that is not known
   double remaining_m = 0.0;
   double blocked_s = 0.0;  ///< without progress
   std::string reason;
@@ -78,24 +78,24 @@ struct Utterance {
   std::string id;
   std::string text;
   std::string language;
-  std::string mood;
+  Mood mood = Mood::neutral;
 };
 struct SpeechReport {
   std::string id;
-  std::string state;  ///< speaking, done, failed
+  std::optional<SpeechStatus> state;  ///< nullopt: one that is not known, and so not speaking
   Time start;
   double duration_s = 0.0;
 };
 struct Question {
   std::string id;  ///< empty: nothing is asked
   std::string text;
-  std::vector<std::string> options;
-  std::string default_option;
+  std::vector<Answer> options;
+  std::optional<Answer> default_option;
   Time deadline;
 };
 struct TaskReport {
   std::string id;
-  std::string state;  ///< driving, explaining, asking, done, failed
+  std::optional<TaskStatus> state;  ///< nullopt: there is no task
   std::string reason;
   Question question;
   bool took_long = false;
@@ -120,7 +120,7 @@ class Executive {
   void goal_report(const GoalReport& report, Time now);
   void obstacle_report(const ObstacleReport& report, Time now);
   void speech_report(const SpeechReport& report, Time now);
-  void choose(const std::string& question_id, const std::string& option, Time now);
+  void choose(const std::string& question_id, std::optional<Answer> option, Time now);
   /// Several times a second.
   void tick(Time now);
 
@@ -143,7 +143,7 @@ class Executive {
   void finish(bool is_success, const std::string& reason, Time now);
   void resume(Time now);
   void send_drive();
-  void say(const std::string& name, const std::string& text, const std::string& mood);
+  void say(const std::string& name, const std::string& text, Mood mood);
   void send_speech(Time now);
   void report();
   void watch_drive(Time now);

@@ -12,7 +12,7 @@ namespace docent {
 namespace {
 
 ExecutiveTask visit(const std::string& id, bool has_more = true) {
-  return {{id, "visit", "sputnik", {3, 4, Angle::degrees(90)}, "en", true, ""},
+  return {{id, TaskKind::visit, "sputnik", {3, 4, Angle::degrees(90)}, "en", true, ""},
           "Sputnik",
           "It was the first satellite.",
           has_more ? "It weighed 83 kilograms." : ""};
@@ -35,12 +35,12 @@ class ExecutiveTest : public testing::Test {
     collect();
   }
   /// What the planner says; a drive that goes on makes progress.
-  void goal(const std::string& what) {
-    if (what != "blocked") progress_s = now_s;
+  void goal(GoalStatus what) {
+    if (what != GoalStatus::blocked) progress_s = now_s;
     executive.goal_report({drive->id, what, 1.0, now_s - progress_s, "", "none"}, time());
     collect();
   }
-  void speech(const std::string& id, const std::string& what, double duration_s = 3.0) {
+  void speech(const std::string& id, SpeechStatus what, double duration_s = 3.0) {
     executive.speech_report({id, what, time(), duration_s}, time());
     collect();
   }
@@ -77,59 +77,59 @@ class ExecutiveTest : public testing::Test {
 TEST_F(ExecutiveTest, AVisitStepByStep) {
   EXPECT_EQ(drive->id, "") << "without a task it stays";
   start(visit("t1"));
-  EXPECT_EQ(state.state, "driving");
+  EXPECT_EQ(state.state, TaskStatus::driving);
   EXPECT_EQ(drive->map_from_base.theta.degrees(), 90.0);
   EXPECT_EQ(said.back().text, "Please follow me to Sputnik.");
-  goal("driving");
-  goal("turning");
-  EXPECT_EQ(state.state, "driving");
-  goal("arrived");
-  EXPECT_EQ(state.state, "explaining");
+  goal(GoalStatus::driving);
+  goal(GoalStatus::turning);
+  EXPECT_EQ(state.state, TaskStatus::driving);
+  goal(GoalStatus::arrived);
+  EXPECT_EQ(state.state, TaskStatus::explaining);
   EXPECT_EQ(said.back().id, "t1/short");
   EXPECT_EQ(said.back().text, "Sputnik. It was the first satellite.");
-  speech("t1/short", "speaking");
-  speech("another", "done");
-  EXPECT_EQ(state.state, "explaining");
-  speech("t1/short", "done");
-  EXPECT_EQ(state.state, "asking");
-  EXPECT_EQ(state.question.default_option, "next");
-  executive.choose("t0/more", "more", time());
-  executive.choose(state.question.id, "dance", time());
+  speech("t1/short", SpeechStatus::speaking);
+  speech("another", SpeechStatus::done);
+  EXPECT_EQ(state.state, TaskStatus::explaining);
+  speech("t1/short", SpeechStatus::done);
+  EXPECT_EQ(state.state, TaskStatus::asking);
+  EXPECT_EQ(state.question.default_option, Answer::next);
+  executive.choose("t0/more", Answer::more, time());
+  executive.choose(state.question.id, parse<Answer>("dance"), time());
   collect();
-  EXPECT_EQ(state.state, "asking");
-  executive.choose(state.question.id, "more", time());
+  EXPECT_EQ(state.state, TaskStatus::asking);
+  executive.choose(state.question.id, Answer::more, time());
   collect();
-  EXPECT_EQ(state.state, "explaining");
+  EXPECT_EQ(state.state, TaskStatus::explaining);
   EXPECT_EQ(said.back().text, "It weighed 83 kilograms.");
   EXPECT_TRUE(state.question.id.empty());
-  speech("t1/long", "done");
-  EXPECT_EQ(state.state, "done");
+  speech("t1/long", SpeechStatus::done);
+  EXPECT_EQ(state.state, TaskStatus::done);
   EXPECT_TRUE(state.took_long);
 }
 
 TEST_F(ExecutiveTest, TheFastVersionIsTheDefaultAfterFiveSeconds) {
   start(visit("t1"));
-  goal("arrived");
-  speech("t1/short", "done");
+  goal(GoalStatus::arrived);
+  speech("t1/short", SpeechStatus::done);
   const double asked = now_s;
-  while (state.state == "asking") pass(0.25);
+  while (state.state == TaskStatus::asking) pass(0.25);
   EXPECT_NEAR(now_s - asked, 5.0, 0.3);
-  EXPECT_EQ(state.state, "done");
-  EXPECT_EQ(happenings.back().kind, "choice");
+  EXPECT_EQ(state.state, TaskStatus::done);
+  EXPECT_EQ(happenings.back().kind, EventKind::choice);
 }
 
 TEST_F(ExecutiveTest, NothingMoreToTellMeansNoQuestion) {
   start(visit("t1", false));
-  goal("arrived");
-  speech("t1/short", "done");
-  EXPECT_EQ(state.state, "done");
+  goal(GoalStatus::arrived);
+  speech("t1/short", SpeechStatus::done);
+  EXPECT_EQ(state.state, TaskStatus::done);
 }
 
 TEST_F(ExecutiveTest, ADeadSoundModuleHoldsNothingUp) {
   start(visit("t1"));
-  goal("arrived");
+  goal(GoalStatus::arrived);
   const double began = now_s;
-  while (state.state == "explaining") pass(0.25);
+  while (state.state == TaskStatus::explaining) pass(0.25);
   EXPECT_GT(now_s - began, 5.0);
   EXPECT_LT(now_s - began, 12.0);
   EXPECT_GE(count("t1/short"), 5) << "it repeats the order until it is heard";
@@ -137,36 +137,36 @@ TEST_F(ExecutiveTest, ADeadSoundModuleHoldsNothingUp) {
 
 TEST_F(ExecutiveTest, AVoiceThatDiesInTheMiddleHoldsNothingUp) {
   start(visit("t1"));
-  goal("arrived");
-  speech("t1/short", "speaking", 20.0);
+  goal(GoalStatus::arrived);
+  speech("t1/short", SpeechStatus::speaking, 20.0);
   pass(24.0);
-  EXPECT_EQ(state.state, "explaining");
+  EXPECT_EQ(state.state, TaskStatus::explaining);
   pass(2.0);
-  EXPECT_EQ(state.state, "asking");
+  EXPECT_EQ(state.state, TaskStatus::asking);
 }
 
 TEST_F(ExecutiveTest, ABlockedWayIsAskedForAndThenGivenUp) {
   start(visit("t1"));
   said.clear();
-  goal("driving");
+  goal(GoalStatus::driving);
   for (int i = 0; i < 85; ++i) {
     pass(1.0);
-    goal("blocked");
+    goal(GoalStatus::blocked);
   }
-  EXPECT_EQ(state.state, "driving");
+  EXPECT_EQ(state.state, TaskStatus::driving);
   EXPECT_EQ(state.reason, "Someone is in my way.");
   EXPECT_GE(said.size(), 5U);
   EXPECT_LE(said.size(), 6U) << "at most every fifteen seconds";
   for (std::size_t i = 1; i < said.size(); ++i) EXPECT_NE(said[i].id, said[i - 1].id);
-  goal("driving");
+  goal(GoalStatus::driving);
   pass(4.0);
   EXPECT_EQ(state.reason, "");
   EXPECT_EQ(rungs.back(), Rung::free);
   for (int i = 0; i < 92; ++i) {
-    if (state.state == "driving") goal("blocked");
+    if (state.state == TaskStatus::driving) goal(GoalStatus::blocked);
     pass(1.0);
   }
-  EXPECT_EQ(state.state, "failed");
+  EXPECT_EQ(state.state, TaskStatus::failed);
   EXPECT_FALSE(state.reason.empty());
   EXPECT_EQ(rungs.back(), Rung::give_up);
   EXPECT_EQ(drive->id, "") << "it stays where it is";
@@ -175,37 +175,37 @@ TEST_F(ExecutiveTest, ABlockedWayIsAskedForAndThenGivenUp) {
 TEST_F(ExecutiveTest, APersonInTheWayIsBlownAtAndAsked) {
   start(visit("t1"));
   said.clear();
-  goal("driving");
+  goal(GoalStatus::driving);
   executive.obstacle_report({true, true, "somebody is in the way"}, time());
   pass(1.0);
   EXPECT_EQ(rungs, std::vector<Rung>{Rung::slow});
   for (int i = 0; i < 8; ++i) {
     executive.obstacle_report({true, true, "somebody is in the way"}, time());
     pass(1.0);
-    goal("blocked");
+    goal(GoalStatus::blocked);
   }
   EXPECT_EQ(std::count(rungs.begin(), rungs.end(), Rung::horn), 2);
   ASSERT_EQ(said.size(), 1U);
   EXPECT_EQ(said[0].text, "Please let me through.");
   executive.obstacle_report({}, time());
-  goal("driving");
+  goal(GoalStatus::driving);
   pass(30.0);
   EXPECT_EQ(said.size(), 1U);
 }
 
 TEST_F(ExecutiveTest, ADeadCollisionAvoidanceBlowsAtNobody) {
   start(visit("t1"));
-  goal("driving");
+  goal(GoalStatus::driving);
   for (int i = 0; i < 4; ++i) {
     executive.obstacle_report({true, true, "somebody is in the way"}, time());
     pass(1.0);
-    goal("blocked");
+    goal(GoalStatus::blocked);
   }
   const auto horns = std::count(rungs.begin(), rungs.end(), Rung::horn);
   ASSERT_GE(horns, 1);
   for (int i = 0; i < 30; ++i) {  // its last word was that somebody stands there
     pass(1.0);
-    goal("blocked");
+    goal(GoalStatus::blocked);
   }
   EXPECT_EQ(std::count(rungs.begin(), rungs.end(), Rung::horn), horns);
 }
@@ -213,85 +213,85 @@ TEST_F(ExecutiveTest, ADeadCollisionAvoidanceBlowsAtNobody) {
 TEST_F(ExecutiveTest, AnUnreachablePlaceFailsAfterAShortPatience) {
   start(visit("t1"));
   for (int i = 0; i < 15; ++i) {
-    goal("unreachable");
+    goal(GoalStatus::unreachable);
     pass(1.0);
   }
-  EXPECT_EQ(state.state, "driving");
-  goal("driving");
-  for (int i = 0; i < 24 && state.state == "driving"; ++i) {
+  EXPECT_EQ(state.state, TaskStatus::driving);
+  goal(GoalStatus::driving);
+  for (int i = 0; i < 24 && state.state == TaskStatus::driving; ++i) {
     pass(1.0);
-    goal("unreachable");
+    goal(GoalStatus::unreachable);
   }
-  EXPECT_EQ(state.state, "failed");
+  EXPECT_EQ(state.state, TaskStatus::failed);
 }
 
 TEST_F(ExecutiveTest, ReportsOfOtherGoalsDoNotCount) {
   start(visit("t1"));
-  executive.goal_report({"t0/drive", "arrived", 0.0, 0.0, "", ""}, time());
+  executive.goal_report({"t0/drive", GoalStatus::arrived, 0.0, 0.0, "", ""}, time());
   collect();
-  EXPECT_EQ(state.state, "driving");
+  EXPECT_EQ(state.state, TaskStatus::driving);
 }
 
 TEST_F(ExecutiveTest, HomeAndRelocalizing) {
-  start({{"h", "home", "", {0, 0, {}}, "de", false, ""}, "", "", ""});
-  goal("arrived");
-  EXPECT_EQ(state.state, "done");
+  start({{"h", TaskKind::home, "", {0, 0, {}}, "de", false, ""}, "", "", ""});
+  goal(GoalStatus::arrived);
+  EXPECT_EQ(state.state, TaskStatus::done);
   EXPECT_EQ(said.back().id, "h/home");
-  start({{"l", "relocalize", "", {}, "en", false, ""}, "", "", ""});
+  start({{"l", TaskKind::relocalize, "", {}, "en", false, ""}, "", "", ""});
   EXPECT_TRUE(drive->relocalize);
-  goal("arrived");
-  EXPECT_EQ(state.state, "done");
-  start({{"x", "dance", "", {}, "en", false, ""}, "", "", ""});
-  EXPECT_EQ(state.state, "failed");
+  goal(GoalStatus::arrived);
+  EXPECT_EQ(state.state, TaskStatus::done);
+  start({{"x", Word<TaskKind>{std::string{"dance"}}, "", {}, "en", false, ""}, "", "", ""});
+  EXPECT_EQ(state.state, TaskStatus::failed);
   start({});
   EXPECT_EQ(drive->id, "");
   EXPECT_EQ(state.id, "");
 }
 
 TEST_F(ExecutiveTest, WhoIsLostAmidPeopleAsksForTheWayAndDoesNotGiveUp) {
-  start({{"l", "relocalize", "", {}, "en", false, ""}, "", "", ""});
+  start({{"l", TaskKind::relocalize, "", {}, "en", false, ""}, "", "", ""});
   for (int i = 0; i < 120; ++i) {
     executive.obstacle_report({true, true, "somebody is in the way"}, time());
     pass(1.0);
-    goal("blocked");
+    goal(GoalStatus::blocked);
   }
   EXPECT_GE(std::count(rungs.begin(), rungs.end(), Rung::horn), 10);
   ASSERT_FALSE(said.empty());
   EXPECT_EQ(said[0].text, "Please let me through.");
-  EXPECT_NE(state.state, "failed") << "there is nothing else that it could do";
-  goal("arrived");
-  EXPECT_EQ(state.state, "done");
+  EXPECT_NE(state.state, TaskStatus::failed) << "there is nothing else that it could do";
+  goal(GoalStatus::arrived);
+  EXPECT_EQ(state.state, TaskStatus::done);
 }
 
 TEST_F(ExecutiveTest, ARestartContinuesTheStep) {
   start(visit("t1"));
   restart();
   EXPECT_EQ(drive->id, "t1/drive");
-  EXPECT_EQ(state.state, "driving");
+  EXPECT_EQ(state.state, TaskStatus::driving);
   EXPECT_EQ(count("t1/announcement"), 0);
-  goal("arrived");
+  goal(GoalStatus::arrived);
   restart();
-  EXPECT_EQ(state.state, "explaining");
-  speech("t1/short", "speaking");
+  EXPECT_EQ(state.state, TaskStatus::explaining);
+  speech("t1/short", SpeechStatus::speaking);
   pass(2.0);
   EXPECT_EQ(count("t1/short"), 0) << "it is being said already";
-  speech("t1/short", "done");
+  speech("t1/short", SpeechStatus::done);
   restart();
-  EXPECT_EQ(state.state, "asking");
+  EXPECT_EQ(state.state, TaskStatus::asking);
   pass(5.5);
-  EXPECT_EQ(state.state, "done");
+  EXPECT_EQ(state.state, TaskStatus::done);
   restart();
-  EXPECT_EQ(state.state, "done");
+  EXPECT_EQ(state.state, TaskStatus::done);
   start(visit("t1"));
-  EXPECT_EQ(state.state, "done") << "what was done is not done again";
+  EXPECT_EQ(state.state, TaskStatus::done) << "what was done is not done again";
 }
 
 TEST_F(ExecutiveTest, ALongDeathMeansDrivingThereAgain) {
   start(visit("t1"));
-  goal("arrived");
+  goal(GoalStatus::arrived);
   now_s += 3600.0;
   restart();
-  EXPECT_EQ(state.state, "driving");
+  EXPECT_EQ(state.state, TaskStatus::driving);
 }
 
 TEST_F(ExecutiveTest, TheCheckpointHoldsEverything) {
@@ -301,8 +301,8 @@ TEST_F(ExecutiveTest, TheCheckpointHoldsEverything) {
   ASSERT_TRUE(none);
   EXPECT_EQ(none->step, Step::idle);
   start(visit("t1"));
-  goal("arrived");
-  speech("t1/short", "done");
+  goal(GoalStatus::arrived);
+  speech("t1/short", SpeechStatus::done);
   ASSERT_TRUE(save_checkpoint(path, saved, "hall"));
   const auto loaded = load_checkpoint(path, "hall");
   ASSERT_TRUE(loaded);
@@ -330,14 +330,14 @@ TEST(ExecutiveSteps, TextsRoundTrip) {
 }
 
 TEST_F(ExecutiveTest, ChargesNearerToThePlaceAndInvitesNobody) {
-  start({{"c1", "charge", "", {3, 4, {}}, "en", false, "space"}, "", "", ""});
+  start({{"c1", TaskKind::charge, "", {3, 4, {}}, "en", false, "space"}, "", "", ""});
   ASSERT_EQ(said.size(), 1U);
   EXPECT_NE(said.back().text.find("battery"), std::string::npos) << "the tour ends with a word";
   EXPECT_LT(drive->position_tolerance, 0.25);
-  goal("arrived");
-  EXPECT_EQ(state.state, "done");
+  goal(GoalStatus::arrived);
+  EXPECT_EQ(state.state, TaskStatus::done);
   EXPECT_EQ(said.back().text.find("Who would like"), std::string::npos);
-  start({{"c2", "charge", "", {3, 4, {}}, "en", false, ""}, "", "", ""});
+  start({{"c2", TaskKind::charge, "", {3, 4, {}}, "en", false, ""}, "", "", ""});
   EXPECT_EQ(count("c2/announcement"), 0) << "nobody was with it";
 }
 
@@ -345,16 +345,16 @@ TEST_F(ExecutiveTest, StaysAtTheExhibitAsLongAsTheModeSays) {
   ExecutiveTask task = visit("t1", false);
   task.wait_s = 30.0;
   start(task);
-  goal("arrived");
-  speech("t1/short", "speaking");
-  speech("t1/short", "done");
-  EXPECT_EQ(state.state, "explaining");
+  goal(GoalStatus::arrived);
+  speech("t1/short", SpeechStatus::speaking);
+  speech("t1/short", SpeechStatus::done);
+  EXPECT_EQ(state.state, TaskStatus::explaining);
   pass(20.0);
   restart();
   pass(9.0);
-  EXPECT_EQ(state.state, "explaining");
+  EXPECT_EQ(state.state, TaskStatus::explaining);
   pass(2.0);
-  EXPECT_EQ(state.state, "done");
+  EXPECT_EQ(state.state, TaskStatus::done);
 }
 
 }  // namespace

@@ -1,19 +1,12 @@
 #include "docent/task_control/reaction_ladder/reaction_ladder.h"
 
-#include <array>
-
 namespace docent {
 namespace {
 
 constexpr double kFlicker = 0.6;   // [s] out of sight is no way out
 constexpr double kProgress = 1.5;  // [s] since the last progress is still driving
 
-constexpr std::array<const char*, 8> kRungs{"slow", "horn", "local_detour", "global_detour",
-                                            "wait", "ask",  "give_up",      "free"};
-
 }  // namespace
-
-const char* to_text(Rung rung) { return kRungs[static_cast<std::size_t>(rung)]; }
 
 Result<void> LadderParams::validate() const {
   if (!(horn_after_s >= 0.0)) return fail("ladder.horn_after_s must be >= 0");

@@ -8,6 +8,7 @@
 #include "docent/base/result.h"
 #include "docent/base/time.h"
 #include "docent/planning/detour/detour.h"
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent {
 
@@ -48,9 +49,6 @@ struct LadderView {
   std::string cause;      ///< what is in the way, for a person
   bool is_thing = false;  ///< the obstacle, or what has touched the robot here, is a thing: it hears nothing
 };
-
-enum class Rung { slow, horn, local_detour, global_detour, wait, ask, give_up, free };
-[[nodiscard]] const char* to_text(Rung rung);
 
 /// A step that is taken now.
 struct LadderStep {

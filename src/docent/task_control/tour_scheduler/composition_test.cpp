@@ -45,7 +45,7 @@ using ComposedTour = Scheduling;
 TEST_F(ComposedTour, AComposedTourIsFittedToTheTimeOnTheWay) {
   for (const double delay_s : {0.0, 40.0, 100.0}) {  // on top of what was foreseen, at the first stop
     TourScheduler tour{params, programme_on_a_line(), straight_distance(), {}, {}};
-    tour.submit({"a", {}, "web", "", "tour", "quick", -1, "en"}, conditions, {});
+    tour.submit({"a", {}, RequestSource::web, "", RequestKind::tour, "quick", -1, "en"}, conditions, {});
     double at = 0.0;
     Point2 robot{0, 0};
     int stops = 0;
@@ -63,8 +63,8 @@ TEST_F(ComposedTour, AComposedTourIsFittedToTheTimeOnTheWay) {
 }
 
 TEST_F(ComposedTour, AComposedTourShowsWhatOthersWishFor) {
-  wish("a", "tour", "quick", 0);
-  wish("b", "exhibit", "e3", 0);
+  wish("a", RequestKind::tour, "quick", 0);
+  wish("b", RequestKind::exhibit, "e3", 0);
   EXPECT_EQ(next(0), "e3");
   finish(true, 70);
   EXPECT_EQ(state_of("b"), "fulfilled");
@@ -72,7 +72,7 @@ TEST_F(ComposedTour, AComposedTourShowsWhatOthersWishFor) {
 }
 
 TEST_F(ComposedTour, AComposedTourShowsSomethingElseInstead) {
-  wish("a", "tour", "quick", 0);
+  wish("a", RequestKind::tour, "quick", 0);
   EXPECT_EQ(next(0), "e1");
   finish(false, 10);
   EXPECT_EQ(next(10), "e2");
@@ -84,13 +84,13 @@ TEST_F(ComposedTour, AComposedTourShowsSomethingElseInstead) {
 }
 
 TEST_F(ComposedTour, AComposedTourIsJoinedBeforeItsFirstWordOnly) {
-  wish("a", "tour", "quick", 0);
-  wish("near", "exhibit", "e1", 0);
+  wish("a", RequestKind::tour, "quick", 0);
+  wish("near", RequestKind::exhibit, "e1", 0);
   EXPECT_EQ(next(1), "e1");
-  wish("b", "tour", "quick", 2);
+  wish("b", RequestKind::tour, "quick", 2);
   EXPECT_EQ(state_of("b"), "active");
   scheduler.close_visit();
-  wish("c", "tour", "quick", 3);
+  wish("c", RequestKind::tour, "quick", 3);
   EXPECT_EQ(state_of("c"), "queued");
 }
 

@@ -44,10 +44,10 @@ Mission::Mission(const MissionParams& params, Programme programme, TravelDistanc
   // The running visit goes on under its old task id, so that an executive that works on it is not disturbed.
   if (const auto& visit = scheduler_.state().visit) {
     activity_ = Activity::visit;
-    if (task_.kind != "visit" || !is_same(task_.map_from_base, visit->map_from_base)) start_visit(now);
-  } else if (task_.kind == "home" && is_same(task_.map_from_base, scheduler_.programme().home)) {
+    if (task_.kind != TaskKind::visit || !is_same(task_.map_from_base, visit->map_from_base)) start_visit(now);
+  } else if (task_.kind == TaskKind::home && is_same(task_.map_from_base, scheduler_.programme().home)) {
     activity_ = Activity::home;
-  } else if (task_.kind == "charge" && is_same(task_.map_from_base, resting_place())) {
+  } else if (task_.kind == TaskKind::charge && is_same(task_.map_from_base, resting_place())) {
     activity_ = Activity::charge;
   } else {
     task_ = {};
@@ -64,26 +64,28 @@ void Mission::submit(VisitorRequest request, Time now) {
   decide(now);
 }
 
-void Mission::report(const std::string& task_id, const std::string& state, const std::string& reason, Time now) {
+void Mission::report(const std::string& task_id, std::optional<TaskStatus> state, const std::string& reason, Time now) {
   if (task_id.empty() || task_id != task_.id) return;
   task_state_ = state;
   task_reason_ = reason;
-  const bool is_over = state == "done" || state == "failed";
+  const bool is_over = state == TaskStatus::done || state == TaskStatus::failed;
   if (activity_ == Activity::visit) {
-    if (state == "explaining" || state == "asking") scheduler_.close_visit();
+    if (state == TaskStatus::explaining || state == TaskStatus::asking) scheduler_.close_visit();
     if (is_over) {
-      scheduler_.finish_visit(state == "done", reason, now);
+      scheduler_.finish_visit(state == TaskStatus::done, reason, now);
       start_task(Activity::none, {});
     }
   } else if ((activity_ == Activity::home || activity_ == Activity::charge) && is_over) {
-    const bool is_done = state == "done";
-    const std::string place = activity_ == Activity::home ? "home" : "charger";
-    is_resting_ = is_done && activity_ == Activity::home;
+    const bool is_done = state == TaskStatus::done;
+    const bool is_home = activity_ == Activity::home;
+    is_resting_ = is_done && is_home;
     // At the charger the battery has a moment to say that it charges.
     const double pause_s = is_done ? params_.contact_s : params_.home_retry_s;
     if (!is_resting_) home_not_before_ = now + seconds(pause_s);
     start_task(Activity::none, {});
-    scheduler_.note({is_done ? place : place + "_failed", "", reason});
+    const EventKind arrival = is_home ? EventKind::home : EventKind::charger;
+    const EventKind failure = is_home ? EventKind::home_failed : EventKind::charger_failed;
+    scheduler_.note({is_done ? arrival : failure, "", reason});
   }
   decide(now);
 }
@@ -97,7 +99,7 @@ void Mission::localization(bool is_localized, Point2 position, Time now) {
   decide(now);
 }
 
-void Mission::limits(bool is_open, const std::string& mode) {
+void Mission::limits(bool is_open, std::optional<OperatingMode> mode) {
   conditions_.is_open = is_open;
   conditions_.mode = mode;
 }
@@ -113,7 +115,9 @@ bool Mission::is_lost(Time now) const {
   return !is_localized_ && now - localization_changed_ >= seconds(params_.lost_after_s);
 }
 
-bool Mission::may_interrupt() const { return task_state_ != "explaining" && task_state_ != "asking"; }
+bool Mission::may_interrupt() const {
+  return task_state_ != TaskStatus::explaining && task_state_ != TaskStatus::asking;
+}
 
 Pose2 Mission::resting_place() const {
   const Programme& programme = scheduler_.programme();
@@ -154,13 +158,13 @@ void Mission::watch_battery(Time now) {
   const auto charge = battery_.charge(now);
   if (!charge) return;
   if (*charge >= params_.battery_full) {
-    if (must_charge_ || tops_up_) scheduler_.note({"battery_full", "", "", *charge});
+    if (must_charge_ || tops_up_) scheduler_.note({EventKind::battery_full, "", "", *charge});
     must_charge_ = false;
     tops_up_ = false;
   } else if (!must_charge_ && spare(now) < 0.0) {
     must_charge_ = true;
     is_resting_ = false;
-    scheduler_.note({"battery_low", "", "", *charge});
+    scheduler_.note({EventKind::battery_low, "", "", *charge});
   }
   if (scheduler_.programme().charger && *charge < params_.battery_full - params_.battery_gain) tops_up_ = true;
 }
@@ -175,8 +179,8 @@ void Mission::decide(Time now) {
   }
   if (activity_ == Activity::relocalize || !was_ever_localized_) {
     if (now - localization_changed_ < seconds(params_.localized_after_s)) return;
-    scheduler_.note(
-        {"localized", "", was_ever_localized_ ? "found itself again" : "woke up", to_seconds(now - lost_since_)});
+    scheduler_.note({EventKind::localized, "", was_ever_localized_ ? "found itself again" : "woke up",
+                     to_seconds(now - lost_since_)});
     was_ever_localized_ = true;
     if (activity_ == Activity::relocalize) {
       start_task(Activity::none, {});
@@ -192,7 +196,7 @@ void Mission::decide(Time now) {
   }
   if (!must_charge_ && scheduler_.is_anything_due(now)) {  // what comes next would take more than there is
     must_charge_ = true;
-    scheduler_.note({"battery_low", "", "for what comes next", battery_.charge(now).value_or(1.0)});
+    scheduler_.note({EventKind::battery_low, "", "for what comes next", battery_.charge(now).value_or(1.0)});
   }
   rest(now);
 }
@@ -217,23 +221,24 @@ void Mission::rest(Time now) {
     is_resting_ = true;
     return;
   }
-  start_task(Activity::home, {"", "home", "", place, scheduler_.programme().languages.front(), false, ""});
+  start_task(Activity::home, {"", TaskKind::home, "", place, scheduler_.programme().languages.front(), false, ""});
 }
 
 void Mission::charge(Time now) {
   is_resting_ = false;
   if (activity_ == Activity::charge || has_contact(now) || now < home_not_before_) return;
-  start_task(Activity::charge, {"", "charge", std::exchange(broken_exhibit_, ""), resting_place(),
+  start_task(Activity::charge, {"", TaskKind::charge, std::exchange(broken_exhibit_, ""), resting_place(),
                                 scheduler_.programme().languages.front(), false, std::exchange(broken_tour_, "")});
 }
 
 void Mission::decide_when_lost(Time now) {
   if (activity_ == Activity::relocalize || !is_lost(now)) return;
   if (activity_ == Activity::visit && !may_interrupt()) return;  // it stands and talks: first things first
-  start_task(Activity::relocalize, {"", "relocalize", "", {}, scheduler_.programme().languages.front(), false, ""});
+  start_task(Activity::relocalize,
+             {"", TaskKind::relocalize, "", {}, scheduler_.programme().languages.front(), false, ""});
   is_resting_ = false;
   lost_since_ = localization_changed_;
-  scheduler_.note({"relocalizing", scheduler_.state().visit ? scheduler_.state().visit->exhibit_id : "",
+  scheduler_.note({EventKind::relocalizing, scheduler_.state().visit ? scheduler_.state().visit->exhibit_id : "",
                    was_ever_localized_ ? "lost" : "waking up"});
 }
 
@@ -241,7 +246,7 @@ void Mission::start_visit(Time now) {
   const Visit& visit = *scheduler_.state().visit;
   const bool offer_more = params_.offer_more && !scheduler_.is_in_a_hurry(now);
   start_task(Activity::visit,
-             {"", "visit", visit.exhibit_id, visit.map_from_base, visit.language, offer_more, visit.tour_id});
+             {"", TaskKind::visit, visit.exhibit_id, visit.map_from_base, visit.language, offer_more, visit.tour_id});
   is_resting_ = false;
   home_not_before_ = {};
 }
@@ -250,7 +255,7 @@ void Mission::start_task(Activity activity, TaskOrder order) {
   activity_ = activity;
   task_ = std::move(order);
   if (activity != Activity::none) task_.id = deployment_ + "-" + std::to_string(next_task_++);
-  task_state_.clear();
+  task_state_.reset();
   task_reason_.clear();
 }
 
@@ -280,23 +285,25 @@ MissionSummary Mission::summary(Time now) {
     const double missing = (is_awaited ? enough_to_serve() : params_.battery_full) - *charge;
     summary.charging_min = 5 * static_cast<int>(std::ceil(std::max(0.0, missing) / battery_.charge_per_s() / 300.0));
   }
-  summary.is_blocked = task_state_ == "driving" && !task_reason_.empty();
+  summary.is_blocked = task_state_ == TaskStatus::driving && !task_reason_.empty();
   switch (activity_) {
     case Activity::visit:
-      summary.phase = task_state_ == "explaining" || task_state_ == "asking" ? task_state_ : "driving";
+      summary.phase = task_state_ == TaskStatus::explaining ? MissionPhase::explaining
+                      : task_state_ == TaskStatus::asking   ? MissionPhase::asking
+                                                            : MissionPhase::driving;
       break;
     case Activity::home:
     case Activity::charge:
-      summary.phase = "going_home";
+      summary.phase = MissionPhase::going_home;
       break;
     case Activity::relocalize:
-      summary.phase = was_ever_localized_ ? "relocalizing" : "waking";
+      summary.phase = was_ever_localized_ ? MissionPhase::relocalizing : MissionPhase::waking;
       break;
     case Activity::none:
-      summary.phase = !was_ever_localized_            ? "waking"
-                      : charges() && has_contact(now) ? "charging"
-                      : is_resting_                   ? "idle"
-                                                      : "waiting";
+      summary.phase = !was_ever_localized_            ? MissionPhase::waking
+                      : charges() && has_contact(now) ? MissionPhase::charging
+                      : is_resting_                   ? MissionPhase::idle
+                                                      : MissionPhase::waiting;
       break;
   }
   return summary;

@@ -12,8 +12,8 @@ namespace docent {
 
 /// One thing to do, for the executive.
 struct TaskOrder {
-  std::string id;          ///< empty: nothing to do
-  std::string kind;        ///< visit, home, charge, relocalize
+  std::string id;  ///< empty: nothing to do
+  Word<TaskKind> kind;
   std::string exhibit_id;  ///< for charge: the visit that is broken off for it
   Pose2 map_from_base;     ///< where to stand
   std::string language;
@@ -66,9 +66,9 @@ struct MissionMemory {
   bool must_charge = false;     ///< the battery is too low to go on
 };
 
-/// What the robot is about. Phases as in docent_msgs/MissionState.
+/// What the robot is about.
 struct MissionSummary {
-  std::string phase;
+  MissionPhase phase = MissionPhase::waking;
   std::string tour_id;
   std::string exhibit_id;
   bool is_blocked = false;    ///< people are in the way
@@ -92,11 +92,11 @@ class Mission {
   Mission(const MissionParams& params, Programme programme, TravelDistance travel, MissionMemory memory, Time now);
 
   void submit(VisitorRequest request, Time now);
-  /// How a task goes: driving, explaining, asking, done, failed. Reports of other tasks than the present are ignored.
-  void report(const std::string& task_id, const std::string& state, const std::string& reason, Time now);
+  /// How a task goes; nullopt: as nobody here understands. Reports of other tasks than the present are ignored.
+  void report(const std::string& task_id, std::optional<TaskStatus> state, const std::string& reason, Time now);
   /// @param position  best guess [m], map
   void localization(bool is_localized, Point2 position, Time now);
-  void limits(bool is_open, const std::string& mode);
+  void limits(bool is_open, std::optional<OperatingMode> mode);
   /// @param charge  0..1. @param is_charging  nullopt: the battery does not say
   void battery(double charge, std::optional<bool> is_charging, Time now);
   [[nodiscard]] bool is_battery_silent(Time now) const { return battery_.is_silent(now); }
@@ -141,7 +141,7 @@ class Mission {
   std::uint64_t next_task_;
   TaskOrder task_;
   Activity activity_ = Activity::none;
-  std::string task_state_;
+  std::optional<TaskStatus> task_state_;
   std::string task_reason_;
 
   bool is_localized_ = false;

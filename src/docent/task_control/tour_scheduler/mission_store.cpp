@@ -40,7 +40,7 @@ Json plan_of(const MissionMemory& memory) {
   plan["counters"] = {counters.exhibits_explained, counters.tours_completed, counters.requests_served};
   const TaskOrder& task = memory.task;
   plan["task"] = {{"id", task.id},
-                  {"kind", task.kind},
+                  {"kind", task.kind.text()},
                   {"exhibit", task.exhibit_id},
                   {"pose", to_json(task.map_from_base)},
                   {"language", task.language},
@@ -82,7 +82,7 @@ void read_plan(const Json& plan, MissionMemory& memory, std::uint64_t& revision)
   memory.schedule.counters = {counters.at(0).get<std::uint32_t>(), counters.at(1).get<std::uint32_t>(),
                               counters.at(2).get<std::uint32_t>()};
   const Json& task = plan.at("task");
-  memory.task = {task.at("id").get<std::string>(),       task.at("kind").get<std::string>(),
+  memory.task = {task.at("id").get<std::string>(),       Word<TaskKind>{task.at("kind").get<std::string>()},
                  task.at("exhibit").get<std::string>(),  pose_from(task.at("pose")),
                  task.at("language").get<std::string>(), task.at("offer_more").get<bool>(),
                  task.at("tour").get<std::string>()};
@@ -120,13 +120,13 @@ BoardEntry entry_from(SQLite::Statement& row) {
   VisitorRequest& request = entry.request;
   request.id = row.getColumn(0).getString();
   request.stamp = {row.getColumn(1).getInt64()};
-  request.source = row.getColumn(2).getString();
+  request.source = Word<RequestSource>{row.getColumn(2).getString()};
   request.visitor = row.getColumn(3).getString();
-  request.kind = row.getColumn(4).getString();
+  request.kind = Word<RequestKind>{row.getColumn(4).getString()};
   request.target = row.getColumn(5).getString();
   request.viewpoint = row.getColumn(6).getInt();
   request.language = row.getColumn(7).getString();
-  entry.status = request_status_of(row.getColumn(8).getString()).value_or(RequestStatus::failed);
+  entry.status = parse<RequestStatus>(row.getColumn(8).getString()).value_or(RequestStatus::failed);
   entry.reason = row.getColumn(9).getString();
   entry.created = {row.getColumn(10).getInt64()};
   entry.changed = {row.getColumn(11).getInt64()};
@@ -167,9 +167,9 @@ struct MissionStore::Connection {
     const VisitorRequest& request = entry.request;
     insert.bind(1, request.id);
     insert.bind(2, request.stamp.nanoseconds);
-    insert.bind(3, request.source);
+    insert.bind(3, request.source.text());
     insert.bind(4, request.visitor);
-    insert.bind(5, request.kind);
+    insert.bind(5, request.kind.text());
     insert.bind(6, request.target);
     insert.bind(7, request.viewpoint);
     insert.bind(8, request.language);

@@ -27,13 +27,13 @@ class Store : public testing::Test {
 };
 
 VisitorRequest request(const std::string& id) {
-  return {id, {12345}, "web", "Ada \"'; DROP TABLE requests", "exhibit", "sputnik", 3, "de"};
+  return {id, {12345}, RequestSource::web, "Ada \"'; DROP TABLE requests", RequestKind::exhibit, "sputnik", 3, "de"};
 }
 
 MissionMemory full_memory() {
   MissionMemory memory;
   memory.next_task = 17;
-  memory.task = {"abc-16", "visit", "sputnik", {1.5, -2.5, Angle::radians(0.7)}, "de", false, "space"};
+  memory.task = {"abc-16", TaskKind::visit, "sputnik", {1.5, -2.5, Angle::radians(0.7)}, "de", false, "space"};
   memory.schedule.visit = Visit{"sputnik", 2, {1.5, -2.5, Angle::radians(0.7)}, "de", "space", false, {99}};
   memory.schedule.tour = TourRun{"space", "de", {}, true, 360.0, {77}, {{"c", {0, 5}}}};
   memory.schedule.tour->stops = {{"a", StopStatus::explained, 1, 0}, {"b", StopStatus::pending, 2, 5}};

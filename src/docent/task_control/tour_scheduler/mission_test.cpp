@@ -32,8 +32,8 @@ class MissionTest : public testing::Test {
       mission->tick(time());
     }
   }
-  void wish(const std::string& id, const std::string& kind, const std::string& target) {
-    mission->submit({id, {}, "web", "", kind, target, -1, "en"}, time());
+  void wish(const std::string& id, RequestKind kind, const std::string& target) {
+    mission->submit({id, {}, RequestSource::web, "", kind, target, -1, "en"}, time());
   }
   void battery(double charge, std::optional<bool> is_charging = false) {
     mission->battery(charge, is_charging, time());
@@ -41,9 +41,9 @@ class MissionTest : public testing::Test {
   [[nodiscard]] RequestStatus status_of(const std::string& id) const {
     return mission->memory().schedule.board.find(id)->status;
   }
-  void report(const std::string& state) { mission->report(mission->task().id, state, "", time()); }
-  [[nodiscard]] std::string phase() const { return mission->summary(time()).phase; }
-  bool happened(const std::string& kind) {
+  void report(TaskStatus state) { mission->report(mission->task().id, state, "", time()); }
+  [[nodiscard]] MissionPhase phase() const { return mission->summary(time()).phase; }
+  bool happened(EventKind kind) {
     for (auto& happening : mission->take_happenings()) seen.push_back(happening.kind);
     return std::find(seen.begin(), seen.end(), kind) != seen.end();
   }
@@ -52,80 +52,80 @@ class MissionTest : public testing::Test {
   double now_s = 0.0;
   Point2 robot{0, 0};
   std::unique_ptr<Mission> mission;
-  std::vector<std::string> seen;
+  std::vector<EventKind> seen;
 };
 
 TEST_F(MissionTest, WakesUpFindsItselfAndStaysAtHome) {
   pass(1.0, false);
-  EXPECT_EQ(phase(), "waking");
-  EXPECT_EQ(mission->task().kind, "") << "the belief may come in any moment";
+  EXPECT_EQ(phase(), MissionPhase::waking);
+  EXPECT_EQ(mission->task().kind, Word<TaskKind>{}) << "the belief may come in any moment";
   pass(5.0, false);
-  EXPECT_EQ(mission->task().kind, "relocalize");
+  EXPECT_EQ(mission->task().kind, TaskKind::relocalize);
   pass(3.0);
-  EXPECT_EQ(phase(), "idle");
+  EXPECT_EQ(phase(), MissionPhase::idle);
   EXPECT_EQ(mission->task().id, "");
-  EXPECT_TRUE(happened("relocalizing") && happened("localized"));
+  EXPECT_TRUE(happened(EventKind::relocalizing) && happened(EventKind::localized));
 }
 
 TEST_F(MissionTest, GoesHomeFromWhereItWokeUp) {
   robot = {4, 4};
   pass(5.0);
-  EXPECT_EQ(phase(), "going_home");
-  report("failed");
-  EXPECT_EQ(phase(), "waiting");
+  EXPECT_EQ(phase(), MissionPhase::going_home);
+  report(TaskStatus::failed);
+  EXPECT_EQ(phase(), MissionPhase::waiting);
   pass(20.0);
-  EXPECT_EQ(phase(), "waiting");
+  EXPECT_EQ(phase(), MissionPhase::waiting);
   pass(15.0);
-  EXPECT_EQ(phase(), "going_home") << "it tries again";
-  report("done");
-  EXPECT_EQ(phase(), "idle");
+  EXPECT_EQ(phase(), MissionPhase::going_home) << "it tries again";
+  report(TaskStatus::done);
+  EXPECT_EQ(phase(), MissionPhase::idle);
   pass(60.0);
-  EXPECT_EQ(phase(), "idle") << "home is where it was told to be home";
+  EXPECT_EQ(phase(), MissionPhase::idle) << "home is where it was told to be home";
 }
 
 TEST_F(MissionTest, AWishInterruptsTheWayHome) {
   robot = {4, 4};
   pass(5.0);
   const std::string home = mission->task().id;
-  wish("1", "exhibit", "a");
-  EXPECT_EQ(mission->task().kind, "visit");
+  wish("1", RequestKind::exhibit, "a");
+  EXPECT_EQ(mission->task().kind, TaskKind::visit);
   EXPECT_NE(mission->task().id, home);
-  mission->report(home, "done", "", time());
-  EXPECT_EQ(phase(), "driving") << "the old task no longer counts";
+  mission->report(home, TaskStatus::done, "", time());
+  EXPECT_EQ(phase(), MissionPhase::driving) << "the old task no longer counts";
 }
 
 TEST_F(MissionTest, AsksNobodyForMoreWhileOthersHaveWaitedLong) {
   pass(5.0);
-  wish("1", "tour", "both");
+  wish("1", RequestKind::tour, "both");
   EXPECT_TRUE(mission->task().offer_more);
-  report("explaining");
-  wish("2", "exhibit", "a");  // too late to join
+  report(TaskStatus::explaining);
+  wish("2", RequestKind::exhibit, "a");  // too late to join
   pass(60.0);
-  report("done");
+  report(TaskStatus::done);
   ASSERT_EQ(mission->task().exhibit_id, "a");
   EXPECT_TRUE(mission->task().offer_more) << "a minute is not long";
-  report("explaining");
-  wish("3", "exhibit", "a");
+  report(TaskStatus::explaining);
+  wish("3", RequestKind::exhibit, "a");
   pass(200.0);
-  report("done");
+  report(TaskStatus::done);
   ASSERT_EQ(mission->task().exhibit_id, "b");
   EXPECT_FALSE(mission->task().offer_more);
 }
 
 TEST_F(MissionTest, TalksToTheEndWhenItLosesItsPlace) {
   pass(5.0);
-  wish("1", "exhibit", "a");
-  report("explaining");
+  wish("1", RequestKind::exhibit, "a");
+  report(TaskStatus::explaining);
   pass(20.0, false);
-  EXPECT_EQ(mission->task().kind, "visit");
-  report("done");
+  EXPECT_EQ(mission->task().kind, TaskKind::visit);
+  report(TaskStatus::done);
   pass(4.0, false);
-  EXPECT_EQ(phase(), "relocalizing");
+  EXPECT_EQ(phase(), MissionPhase::relocalizing);
 }
 
 TEST_F(MissionTest, AShortDoubtChangesNothing) {
   pass(5.0);
-  wish("1", "exhibit", "a");
+  wish("1", RequestKind::exhibit, "a");
   const std::string task = mission->task().id;
   pass(2.0, false);
   pass(5.0);
@@ -134,12 +134,12 @@ TEST_F(MissionTest, AShortDoubtChangesNothing) {
 
 TEST_F(MissionTest, ALongOneSuspendsTheTourAndResumesItWithANewTask) {
   pass(5.0);
-  wish("t", "tour", "both");
+  wish("t", RequestKind::tour, "both");
   const std::string task = mission->task().id;
-  report("driving");
+  report(TaskStatus::driving);
   pass(6.0, false);
-  EXPECT_EQ(phase(), "relocalizing");
-  mission->report(task, "failed", "stopped", time());
+  EXPECT_EQ(phase(), MissionPhase::relocalizing);
+  mission->report(task, TaskStatus::failed, "stopped", time());
   EXPECT_TRUE(mission->memory().schedule.visit) << "the suspended visit is not over";
   pass(3.0);
   EXPECT_EQ(mission->task().exhibit_id, "a");
@@ -149,23 +149,23 @@ TEST_F(MissionTest, ALongOneSuspendsTheTourAndResumesItWithANewTask) {
 
 TEST_F(MissionTest, ARestartTakesUpTheRunningTaskUnderItsId) {
   pass(5.0);
-  wish("1", "exhibit", "a");
-  report("explaining");
+  wish("1", RequestKind::exhibit, "a");
+  report(TaskStatus::explaining);
   const MissionMemory memory = mission->memory();
   const std::string task = mission->task().id;
   make(memory);
   EXPECT_EQ(mission->task().id, task);
   pass(2.0);
   EXPECT_EQ(mission->task().id, task);
-  mission->report(task, "done", "", time());
+  mission->report(task, TaskStatus::done, "", time());
   EXPECT_EQ(mission->memory().schedule.counters.requests_served, 1U);
-  wish("2", "exhibit", "b");
+  wish("2", RequestKind::exhibit, "b");
   EXPECT_NE(mission->task().id, task);
 }
 
 TEST_F(MissionTest, ARestartInARearrangedMuseumDrivesToWhereTheExhibitIsNow) {
   pass(5.0);
-  wish("1", "exhibit", "a");
+  wish("1", RequestKind::exhibit, "a");
   MissionMemory memory = mission->memory();
   const std::string task = mission->task().id;
   memory.schedule.visit->map_from_base.x = 7.0;
@@ -177,62 +177,62 @@ TEST_F(MissionTest, ARestartInARearrangedMuseumDrivesToWhereTheExhibitIsNow) {
 
 TEST_F(MissionTest, ARestartInTheMiddleOfRelocalizingResumesTheVisit) {
   pass(5.0);
-  wish("1", "exhibit", "a");
+  wish("1", RequestKind::exhibit, "a");
   pass(6.0, false);
-  EXPECT_EQ(mission->task().kind, "relocalize");
+  EXPECT_EQ(mission->task().kind, TaskKind::relocalize);
   const MissionMemory memory = mission->memory();
   make(memory);
-  EXPECT_EQ(mission->task().kind, "visit");
+  EXPECT_EQ(mission->task().kind, TaskKind::visit);
   EXPECT_NE(mission->task().id, memory.task.id);
 }
 
 TEST_F(MissionTest, ChargesWhenTheBatteryIsLowAndServesAfterwardsWhoCameMeanwhile) {
   pass(5.0);
-  wish("1", "exhibit", "a");
+  wish("1", RequestKind::exhibit, "a");
   battery(0.12);
-  EXPECT_EQ(phase(), "driving") << "what has begun is brought to its end";
-  wish("2", "exhibit", "b");
-  report("done");
+  EXPECT_EQ(phase(), MissionPhase::driving) << "what has begun is brought to its end";
+  wish("2", RequestKind::exhibit, "b");
+  report(TaskStatus::done);
   robot = {5, 0};
   pass(2.0);
-  EXPECT_EQ(mission->task().kind, "charge");
+  EXPECT_EQ(mission->task().kind, TaskKind::charge);
   EXPECT_EQ(mission->task().map_from_base.y, 3.0) << "the charger";
   EXPECT_EQ(mission->task().exhibit_id, "") << "nothing was broken off";
-  report("done");
+  report(TaskStatus::done);
   robot = {0, 3};
   battery(0.3, true);
-  EXPECT_EQ(phase(), "charging");
+  EXPECT_EQ(phase(), MissionPhase::charging);
   EXPECT_EQ(mission->summary(time()).charging_min, 10) << "0.1 more at 2.2e-4 1/s";
-  wish("3", "exhibit", "a");
+  wish("3", RequestKind::exhibit, "a");
   pass(60.0);
   for (const char* id : {"2", "3"}) EXPECT_EQ(status_of(id), RequestStatus::queued) << id;
   EXPECT_NE(mission->memory().schedule.board.find("3")->reason, "");
   battery(0.41, true);
-  EXPECT_EQ(phase(), "driving") << "somebody waits: enough is enough";
-  report("done");
-  report("done");
+  EXPECT_EQ(phase(), MissionPhase::driving) << "somebody waits: enough is enough";
+  report(TaskStatus::done);
+  report(TaskStatus::done);
   for (const char* id : {"2", "3"}) EXPECT_EQ(status_of(id), RequestStatus::fulfilled) << id;
 }
 
 TEST_F(MissionTest, DoesNotStayAtHomeWhenTheBatteryGotLowOnTheWayThere) {
   robot = {4, 4};
   pass(5.0);
-  EXPECT_EQ(phase(), "going_home");
+  EXPECT_EQ(phase(), MissionPhase::going_home);
   const std::string home = mission->task().id;
   battery(0.14);
-  mission->report(home, "done", "", time());
+  mission->report(home, TaskStatus::done, "", time());
   robot = {0, 0.5};
   pass(60.0);
   EXPECT_EQ(mission->task().map_from_base.y, 3.0) << "the charger";
-  EXPECT_EQ(mission->task().kind, "charge");
+  EXPECT_EQ(mission->task().kind, TaskKind::charge);
 }
 
 TEST_F(MissionTest, LeavesHomeWhenTheBatteryGetsLowThere) {
   pass(5.0);
-  EXPECT_EQ(phase(), "idle");
+  EXPECT_EQ(phase(), MissionPhase::idle);
   battery(0.14);
   pass(2.0);
-  EXPECT_EQ(mission->task().kind, "charge");
+  EXPECT_EQ(mission->task().kind, TaskKind::charge);
 }
 
 TEST_F(MissionTest, LeavesInTimeForTheWay) {
@@ -257,20 +257,20 @@ TEST_F(MissionTest, ABatteryThatDrainsFasterThanForeseenCallsItEarlier) {
 
 TEST_F(MissionTest, BreaksOffATourBetweenTwoExplanationsWithAWord) {
   pass(5.0);
-  wish("t", "tour", "both");
-  report("explaining");
+  wish("t", RequestKind::tour, "both");
+  report(TaskStatus::explaining);
   battery(0.05);
-  EXPECT_EQ(phase(), "explaining") << "the sentence is finished";
-  report("done");
-  EXPECT_EQ(mission->task().kind, "charge");
+  EXPECT_EQ(phase(), MissionPhase::explaining) << "the sentence is finished";
+  report(TaskStatus::done);
+  EXPECT_EQ(mission->task().kind, TaskKind::charge);
   EXPECT_EQ(mission->task().tour_id, "both") << "this is said";
   EXPECT_EQ(status_of("t"), RequestStatus::queued);
-  EXPECT_TRUE(happened("tour_broken_off"));
+  EXPECT_TRUE(happened(EventKind::tour_broken_off));
   battery(0.45, true);
   EXPECT_EQ(mission->task().tour_id, "both") << "it begins anew";
   EXPECT_EQ(mission->task().exhibit_id, "a");
   battery(0.05);
-  EXPECT_EQ(mission->task().kind, "charge") << "under way to an exhibit it turns round at once";
+  EXPECT_EQ(mission->task().kind, TaskKind::charge) << "under way to an exhibit it turns round at once";
   EXPECT_EQ(mission->task().exhibit_id, "a");
   EXPECT_EQ(mission->memory().schedule.counters.tours_completed, 0U);
 }
@@ -279,8 +279,8 @@ TEST_F(MissionTest, BeginsNoTourThatWouldTakeMoreThanThereIs) {
   pass(5.0);
   battery(0.16);
   EXPECT_FALSE(mission->memory().must_charge);
-  wish("t", "tour", "both");
-  EXPECT_EQ(mission->task().kind, "charge");
+  wish("t", RequestKind::tour, "both");
+  EXPECT_EQ(mission->task().kind, TaskKind::charge);
   EXPECT_EQ(status_of("t"), RequestStatus::queued);
   battery(0.41, true);
   EXPECT_EQ(mission->task().tour_id, "both");
@@ -290,59 +290,59 @@ TEST_F(MissionTest, ChargesBeforeItMustWhenNobodyWantsAnything) {
   pass(5.0);
   battery(0.75);
   pass(1.0);
-  EXPECT_EQ(phase(), "idle");
+  EXPECT_EQ(phase(), MissionPhase::idle);
   battery(0.65);
-  EXPECT_EQ(mission->task().kind, "charge");
-  report("done");
+  EXPECT_EQ(mission->task().kind, TaskKind::charge);
+  report(TaskStatus::done);
   robot = {0, 3};
   battery(0.66, true);
-  EXPECT_EQ(phase(), "charging");
-  wish("1", "exhibit", "a");
-  EXPECT_EQ(phase(), "driving") << "it leaves at once";
+  EXPECT_EQ(phase(), MissionPhase::charging);
+  wish("1", RequestKind::exhibit, "a");
+  EXPECT_EQ(phase(), MissionPhase::driving) << "it leaves at once";
   battery(0.66);
-  report("done");
-  EXPECT_EQ(mission->task().kind, "charge") << "and comes back";
-  report("done");
+  report(TaskStatus::done);
+  EXPECT_EQ(mission->task().kind, TaskKind::charge) << "and comes back";
+  report(TaskStatus::done);
   battery(0.96, true);
   pass(15.0);
-  EXPECT_EQ(mission->task().kind, "home");
+  EXPECT_EQ(mission->task().kind, TaskKind::home);
 }
 
 TEST_F(MissionTest, TriesAgainWhenTheChargerDoesNotCharge) {
   pass(5.0);
   battery(0.1);
   const std::string first = mission->task().id;
-  EXPECT_EQ(mission->task().kind, "charge");
-  report("done");
+  EXPECT_EQ(mission->task().kind, TaskKind::charge);
+  report(TaskStatus::done);
   robot = {0, 3};
   battery(0.1, false);
   pass(5.0);
   EXPECT_EQ(mission->task().id, "") << "contacts take a moment";
   pass(6.0);
-  EXPECT_EQ(mission->task().kind, "charge");
+  EXPECT_EQ(mission->task().kind, TaskKind::charge);
   EXPECT_NE(mission->task().id, first);
-  report("failed");
+  report(TaskStatus::failed);
   pass(20.0);
   EXPECT_EQ(mission->task().id, "") << "people stand on it";
   pass(15.0);
-  EXPECT_EQ(mission->task().kind, "charge");
-  report("done");
+  EXPECT_EQ(mission->task().kind, TaskKind::charge);
+  report(TaskStatus::done);
   battery(0.1, std::nullopt);
   pass(60.0);
-  EXPECT_EQ(phase(), "charging") << "the battery does not say: the place counts";
+  EXPECT_EQ(phase(), MissionPhase::charging) << "the battery does not say: the place counts";
 }
 
 TEST_F(MissionTest, AMuseumWithoutAChargerLetsItRestAtHome) {
   programme.charger.reset();
   make({});
   pass(5.0);
-  wish("1", "exhibit", "a");
+  wish("1", RequestKind::exhibit, "a");
   battery(0.05);
-  EXPECT_EQ(mission->task().kind, "") << "home is where it stands";
+  EXPECT_EQ(mission->task().kind, Word<TaskKind>{}) << "home is where it stands";
   EXPECT_EQ(status_of("1"), RequestStatus::queued);
   pass(60.0);
   battery(1.0);  // somebody changed the battery
-  EXPECT_EQ(mission->task().kind, "visit");
+  EXPECT_EQ(mission->task().kind, TaskKind::visit);
 }
 
 TEST_F(MissionTest, ARestartGoesOnCharging) {
@@ -352,15 +352,15 @@ TEST_F(MissionTest, ARestartGoesOnCharging) {
   MissionMemory memory = mission->memory();
   make(memory);
   EXPECT_EQ(mission->task().id, task) << "the way to the charger goes on";
-  report("done");
+  report(TaskStatus::done);
   robot = {0, 3};
   battery(0.3, true);
   memory = mission->memory();
   make(memory);
-  wish("1", "exhibit", "a");
+  wish("1", RequestKind::exhibit, "a");
   battery(0.3, true);
   pass(5.0);
-  EXPECT_EQ(phase(), "charging");
+  EXPECT_EQ(phase(), MissionPhase::charging);
   EXPECT_EQ(status_of("1"), RequestStatus::queued);
 }
 
@@ -376,13 +376,13 @@ TEST_F(MissionTest, ASilentBatteryIsThoughtToGoOnAsItDid) {
 
 TEST_F(MissionTest, AClosedMuseumServesWhatItTookAndTakesNoMore) {
   pass(5.0);
-  wish("1", "exhibit", "a");
-  wish("2", "exhibit", "b");
-  mission->limits(false, "open");
-  wish("3", "exhibit", "a");
-  report("done");
+  wish("1", RequestKind::exhibit, "a");
+  wish("2", RequestKind::exhibit, "b");
+  mission->limits(false, OperatingMode::open);
+  wish("3", RequestKind::exhibit, "a");
+  report(TaskStatus::done);
   EXPECT_EQ(mission->task().exhibit_id, "b");
-  report("done");
+  report(TaskStatus::done);
   pass(1.0);
   EXPECT_EQ(mission->memory().schedule.board.find("3")->status, RequestStatus::refused);
   EXPECT_EQ(mission->memory().schedule.counters.requests_served, 2U);

@@ -7,6 +7,7 @@
 
 #include "docent/base/time.h"
 #include "docent/geometry/pose2.h"
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent {
 
@@ -62,7 +63,7 @@ using TravelDistance = std::function<double(Point2 from, Point2 to)>;
 
 /// Something that happened, for the history (docs/terminology.md, Events).
 struct Happening {
-  std::string kind;
+  EventKind kind{};
   std::string subject;
   std::string detail;
   double value = 0.0;

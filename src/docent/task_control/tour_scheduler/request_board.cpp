@@ -1,28 +1,12 @@
 #include "docent/task_control/tour_scheduler/request_board.h"
 
 #include <algorithm>
-#include <array>
 #include <tuple>
 #include <utility>
 
 #include "docent/base/check.h"
 
 namespace docent {
-namespace {
-
-constexpr std::array<const char*, 6> kTexts{"queued", "active", "fulfilled", "failed", "refused", "cancelled"};
-
-}  // namespace
-
-const char* to_text(RequestStatus status) { return kTexts[static_cast<std::size_t>(status)]; }
-
-std::optional<RequestStatus> request_status_of(const std::string& text) {
-  for (std::size_t i = 0; i < kTexts.size(); ++i) {
-    if (text == kTexts[i]) return static_cast<RequestStatus>(i);
-  }
-  return std::nullopt;
-}
-
 bool is_step(RequestStatus from, RequestStatus to) {
   switch (from) {
     case RequestStatus::queued:
@@ -97,7 +81,7 @@ std::size_t RequestBoard::open_count() const {
 }
 
 std::size_t RequestBoard::stops_with(const VisitorRequest& request) const {
-  std::set<std::tuple<std::string, std::string, int>> stops{{request.kind, request.target, request.viewpoint}};
+  std::set<std::tuple<Word<RequestKind>, std::string, int>> stops{{request.kind, request.target, request.viewpoint}};
   for (const BoardEntry& entry : entries_) {
     const VisitorRequest& other = entry.request;
     if (is_open(entry.status)) stops.emplace(other.kind, other.target, other.viewpoint);

@@ -8,17 +8,10 @@
 
 #include "docent/base/result.h"
 #include "docent/base/time.h"
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent {
 
-/// The life of a request: queued -> active -> fulfilled, with ways back to queued (a visit that failed and is tried
-/// again, or was suspended) and out to failed and cancelled. refused is a first and last state.
-enum class RequestStatus { queued, active, fulfilled, failed, refused, cancelled };
-[[nodiscard]] const char* to_text(RequestStatus status);
-[[nodiscard]] std::optional<RequestStatus> request_status_of(const std::string& text);
-[[nodiscard]] inline bool is_open(RequestStatus status) {
-  return status == RequestStatus::queued || status == RequestStatus::active;
-}
 /// Whether a request may go from one status to the other.
 [[nodiscard]] bool is_step(RequestStatus from, RequestStatus to);
 
@@ -26,10 +19,10 @@ enum class RequestStatus { queued, active, fulfilled, failed, refused, cancelled
 struct VisitorRequest {
   std::string id;  ///< UUIDv7, made at the edge
   Time stamp;
-  std::string source;   ///< web, kiosk, visitor
+  Word<RequestSource> source;
   std::string visitor;  ///< a name to show
-  std::string kind;     ///< exhibit, tour, cancel
-  std::string target;   ///< exhibit or tour id; for cancel: the request's id
+  Word<RequestKind> kind;
+  std::string target;  ///< exhibit or tour id; for cancel: the request's id
   int viewpoint = -1;
   std::string language;
 };

@@ -5,14 +5,16 @@
 namespace docent {
 namespace {
 
-VisitorRequest request(const std::string& id) { return {id, {}, "web", "Ada", "exhibit", "sputnik", -1, "en"}; }
+VisitorRequest request(const std::string& id) {
+  return {id, {}, RequestSource::web, "Ada", RequestKind::exhibit, "sputnik", -1, "en"};
+}
 
 TEST(RequestBoard, StatusTextsRoundTrip) {
   for (int i = 0; i < 6; ++i) {
     const auto status = static_cast<RequestStatus>(i);
-    EXPECT_EQ(request_status_of(to_text(status)), status);
+    EXPECT_EQ(parse<RequestStatus>(to_text(status)), status);
   }
-  EXPECT_EQ(request_status_of("lost"), std::nullopt);
+  EXPECT_EQ(parse<RequestStatus>("lost"), std::nullopt);
 }
 
 TEST(RequestBoard, ClosedRequestsNeverOpenAgain) {

@@ -25,9 +25,10 @@ inline Programme programme_on_a_line() {
 
 class Scheduling : public testing::Test {
  protected:
-  void wish(const std::string& id, const std::string& kind, const std::string& target, double at,
+  void wish(const std::string& id, RequestKind kind, const std::string& target, double at,
             const std::string& language = "en", int viewpoint = -1) {
-    scheduler.submit({id, {}, "web", "", kind, target, viewpoint, language}, conditions, time_from_seconds(at));
+    scheduler.submit({id, {}, RequestSource::web, "", kind, target, viewpoint, language}, conditions,
+                     time_from_seconds(at));
   }
   std::string next(double at, Point2 robot = {0, 0}) {
     const auto& visit = scheduler.begin_visit(robot, time_from_seconds(at));

@@ -70,6 +70,18 @@ Outcome outcome_of(const TourRun& tour, const TourMember* member) {
   return outcome;
 }
 
+/// What is told of a request that has come to this end.
+EventKind event_of(RequestStatus end) {
+  switch (end) {
+    case RequestStatus::fulfilled:
+      return EventKind::request_fulfilled;
+    case RequestStatus::cancelled:
+      return EventKind::request_cancelled;
+    default:
+      return EventKind::request_failed;
+  }
+}
+
 }  // namespace
 
 TourScheduler::TourScheduler(const SchedulerParams& params, Programme programme, TravelDistance travel,
@@ -84,8 +96,9 @@ void TourScheduler::drop_what_is_gone(Time now) {
   for (const BoardEntry& entry : state_.board.entries()) {
     const VisitorRequest& request = entry.request;
     const ProgrammeExhibit* exhibit = programme_.find_exhibit(request.target);
-    const bool is_known = request.kind == "tour" ? programme_.find_tour(request.target) != nullptr
-                                                 : exhibit != nullptr && has_viewpoint(*exhibit, request.viewpoint);
+    const bool is_known = request.kind == RequestKind::tour
+                              ? programme_.find_tour(request.target) != nullptr
+                              : exhibit != nullptr && has_viewpoint(*exhibit, request.viewpoint);
     if (docent::is_open(entry.status) && !is_known) gone.push_back(request.id);
   }
   for (const std::string& id : gone) close_request(id, RequestStatus::failed, "The museum no longer has this.", now);
@@ -99,7 +112,7 @@ void TourScheduler::drop_what_is_gone(Time now) {
     }
   }
   if (state_.tour) {
-    const auto members = ids("tour", RequestStatus::active, state_.tour->tour_id);
+    const auto members = ids(RequestKind::tour, RequestStatus::active, state_.tour->tour_id);
     std::erase_if(state_.tour->stops,
                   [&](const TourStop& stop) { return programme_.find_exhibit(stop.exhibit_id) == nullptr; });
     std::erase_if(state_.tour->members, [&](const TourMember& member) { return !holds(members, member.request_id); });
@@ -110,27 +123,29 @@ void TourScheduler::drop_what_is_gone(Time now) {
   std::vector<std::string> orphans;
   for (const BoardEntry& entry : state_.board.entries()) {
     const VisitorRequest& request = entry.request;
-    const bool is_served = request.kind == "tour" ? state_.tour && is_member(*state_.tour, request.id)
-                                                  : state_.visit && state_.visit->exhibit_id == request.target;
+    const bool is_served = request.kind == RequestKind::tour
+                               ? state_.tour && is_member(*state_.tour, request.id)
+                               : state_.visit && state_.visit->exhibit_id == request.target;
     if (entry.status == RequestStatus::active && !is_served) orphans.push_back(request.id);
   }
   for (const std::string& id : orphans) state_.board.change(id, RequestStatus::queued, "", now);
 }
 
 std::string TourScheduler::refusal(const VisitorRequest& request, const Conditions& conditions) const {
-  if (request.kind == "exhibit") {
+  if (request.kind == RequestKind::exhibit) {
     const ProgrammeExhibit* exhibit = programme_.find_exhibit(request.target);
     if (exhibit == nullptr) return "There is no exhibit '" + request.target + "' here.";
-    if (exhibit->web_only && request.source != "web") return "This one is shown to Web visitors only.";
+    if (exhibit->web_only && request.source != RequestSource::web) return "This one is shown to Web visitors only.";
     if (!has_viewpoint(*exhibit, request.viewpoint)) return "There is no such viewpoint.";
-  } else if (request.kind == "tour") {
+  } else if (request.kind == RequestKind::tour) {
     if (programme_.find_tour(request.target) == nullptr) return "There is no tour '" + request.target + "' here.";
   } else {
-    return "I do not understand the wish '" + request.kind + "'.";
+    return "I do not understand the wish '" + request.kind.text() + "'.";
   }
-  const bool is_staff = request.source == "staff";
-  if ((!conditions.is_open || conditions.mode == "closed") && !is_staff) return "The museum is closed.";
-  if (conditions.mode == "web" && request.source != "web" && !is_staff) return "Just now only Web visitors guide me.";
+  const bool is_staff = request.source == RequestSource::staff;
+  if ((!conditions.is_open || conditions.mode == OperatingMode::closed) && !is_staff) return "The museum is closed.";
+  if (conditions.mode == OperatingMode::web && request.source != RequestSource::web && !is_staff)
+    return "Just now only Web visitors guide me.";
   if (state_.board.open_count() >= static_cast<std::size_t>(params_.max_open) ||
       state_.board.stops_with(request) > static_cast<std::size_t>(params_.max_stops))
     return "Too many people are waiting already. Please try again later.";
@@ -141,7 +156,7 @@ void TourScheduler::submit(VisitorRequest request, const Conditions& conditions,
   if (request.id.empty() || state_.board.find(request.id) != nullptr) return;
   if (!holds(programme_.languages, request.language)) request.language = programme_.languages.front();
   request.viewpoint = std::max(request.viewpoint, -1);
-  if (request.kind == "cancel") {
+  if (request.kind == RequestKind::cancel) {
     cancel(request, now);
     return;
   }
@@ -149,23 +164,24 @@ void TourScheduler::submit(VisitorRequest request, const Conditions& conditions,
   const std::string id = request.id;
   if (!why_not.empty()) {
     state_.board.add(std::move(request), RequestStatus::refused, why_not, now);
-    happenings_.push_back({"request_refused", id, why_not});
+    happenings_.push_back({EventKind::request_refused, id, why_not});
     return;
   }
   const bool joins = join(request);
-  happenings_.push_back({"request_queued", id, request.target, static_cast<double>(state_.board.open_count() + 1)});
-  const bool is_late = joins && request.kind == "tour" && !is_at_its_beginning();
+  happenings_.push_back(
+      {EventKind::request_queued, id, request.target, static_cast<double>(state_.board.open_count() + 1)});
+  const bool is_late = joins && request.kind == RequestKind::tour && !is_at_its_beginning();
   state_.board.add(std::move(request), RequestStatus::queued, joins ? "" : conditions.delay, now);
   if (joins) {
     state_.board.change(
         id, RequestStatus::active,
         is_late ? "The tour is under way. What you missed comes at its end." : "I am on my way there already.", now);
-    happenings_.push_back({"request_active", id, state_.board.find(id)->request.target});
+    happenings_.push_back({EventKind::request_active, id, state_.board.find(id)->request.target});
   }
 }
 
 bool TourScheduler::join(const VisitorRequest& request) {
-  if (request.kind == "tour") return join_tour(request);
+  if (request.kind == RequestKind::tour) return join_tour(request);
   return state_.visit && state_.visit->is_joinable && state_.visit->exhibit_id == request.target &&
          (request.viewpoint < 0 || request.viewpoint == state_.visit->viewpoint);
 }
@@ -207,7 +223,7 @@ bool TourScheduler::join_tour(const VisitorRequest& request) {
     number = std::max(number, static_cast<int>(exhibits.size()));
     tour.stops.push_back({exhibit, StopStatus::pending, 0, number});
     member.stops.push_back(number);
-    happenings_.push_back({"plan_inserted", exhibit, tour.tour_id});
+    happenings_.push_back({EventKind::plan_inserted, exhibit, tour.tour_id});
   }
   tour.members.push_back(std::move(member));
   return true;
@@ -218,7 +234,7 @@ void TourScheduler::cancel(const VisitorRequest& request, Time now) {
   if (target == nullptr || !docent::is_open(target->status)) {
     const std::string why_not = "There is no such open request.";
     state_.board.add(request, RequestStatus::refused, why_not, now);
-    happenings_.push_back({"request_refused", request.id, why_not});
+    happenings_.push_back({EventKind::request_refused, request.id, why_not});
     return;
   }
   close_request(request.target, RequestStatus::cancelled, "Cancelled.", now);
@@ -232,7 +248,7 @@ void TourScheduler::cancel(const VisitorRequest& request, Time now) {
 
 void TourScheduler::cancel_tour_without_members() {
   if (!state_.tour->members.empty()) return;
-  happenings_.push_back({"tour_cancelled", state_.tour->tour_id, joined(state_.tour->stops)});
+  happenings_.push_back({EventKind::tour_cancelled, state_.tour->tour_id, joined(state_.tour->stops)});
   state_.tour.reset();
   if (state_.visit) state_.visit->tour_id.clear();
 }
@@ -241,11 +257,10 @@ void TourScheduler::close_request(const std::string& id, RequestStatus status, c
   const Time created = state_.board.find(id)->created;
   state_.board.change(id, status, reason, now);
   if (status == RequestStatus::fulfilled) ++state_.counters.requests_served;
-  happenings_.push_back({std::string{"request_"} + to_text(status), id, reason, to_seconds(now - created)});
+  happenings_.push_back({event_of(status), id, reason, to_seconds(now - created)});
 }
 
-std::vector<std::string> TourScheduler::ids(const std::string& kind, RequestStatus status,
-                                            const std::string& target) const {
+std::vector<std::string> TourScheduler::ids(RequestKind kind, RequestStatus status, const std::string& target) const {
   std::vector<std::string> found;
   for (const BoardEntry& entry : state_.board.entries()) {
     if (entry.status == status && entry.request.kind == kind && entry.request.target == target)
@@ -264,11 +279,11 @@ void TourScheduler::finish_visit(bool is_success, const std::string& reason, Tim
   state_.visit.reset();
   if (is_success) {
     ++state_.counters.exhibits_explained;
-    happenings_.push_back({"explained", visit.exhibit_id, visit.tour_id, to_seconds(now - visit.started)});
+    happenings_.push_back({EventKind::explained, visit.exhibit_id, visit.tour_id, to_seconds(now - visit.started)});
   } else {
-    happenings_.push_back({"visit_failed", visit.exhibit_id, reason, to_seconds(now - visit.started)});
+    happenings_.push_back({EventKind::visit_failed, visit.exhibit_id, reason, to_seconds(now - visit.started)});
   }
-  for (const std::string& id : ids("exhibit", RequestStatus::active, visit.exhibit_id)) {
+  for (const std::string& id : ids(RequestKind::exhibit, RequestStatus::active, visit.exhibit_id)) {
     if (is_success) {
       close_request(id, RequestStatus::fulfilled, "", now);
       continue;
@@ -286,19 +301,21 @@ void TourScheduler::try_again(const std::string& id, const std::string& reason, 
     return;
   }
   state_.board.change(id, RequestStatus::queued, reason + " I will try again.", now);
-  happenings_.push_back({"plan_rescheduled", state_.board.find(id)->request.target, reason});
+  happenings_.push_back({EventKind::plan_rescheduled, state_.board.find(id)->request.target, reason});
 }
 
 void TourScheduler::break_off(const std::string& reason, Time now) {
   if (state_.visit) {
-    for (const std::string& id : ids("exhibit", RequestStatus::active, state_.visit->exhibit_id))
+    for (const std::string& id : ids(RequestKind::exhibit, RequestStatus::active, state_.visit->exhibit_id))
       try_again(id, reason, now, now);
-    happenings_.push_back({"visit_failed", state_.visit->exhibit_id, reason, to_seconds(now - state_.visit->started)});
+    happenings_.push_back(
+        {EventKind::visit_failed, state_.visit->exhibit_id, reason, to_seconds(now - state_.visit->started)});
     state_.visit.reset();
   }
   if (state_.tour) {
     for (const TourMember& member : state_.tour->members) try_again(member.request_id, reason, now, now);
-    happenings_.push_back({"tour_broken_off", state_.tour->tour_id, reason, to_seconds(now - state_.tour->started)});
+    happenings_.push_back(
+        {EventKind::tour_broken_off, state_.tour->tour_id, reason, to_seconds(now - state_.tour->started)});
     state_.tour.reset();
   }
 }
@@ -314,9 +331,9 @@ void TourScheduler::finish_stop(const std::string& exhibit_id, bool is_success) 
   ++stop->attempts;
   if (stop->attempts >= params_.max_stop_attempts) {
     stop->status = StopStatus::skipped;
-    happenings_.push_back({"plan_removed", exhibit_id, state_.tour->tour_id});
+    happenings_.push_back({EventKind::plan_removed, exhibit_id, state_.tour->tour_id});
   } else {
-    happenings_.push_back({"plan_rescheduled", exhibit_id, state_.tour->tour_id});
+    happenings_.push_back({EventKind::plan_rescheduled, exhibit_id, state_.tour->tour_id});
     std::rotate(stop, stop + 1, stops.end());
   }
 }
@@ -343,8 +360,8 @@ void TourScheduler::end_tour_if_over(Time now) {
   if (!tour.members.empty()) return;
   const Outcome outcome = outcome_of(tour, nullptr);
   if (is_good(outcome)) ++state_.counters.tours_completed;
-  happenings_.push_back({is_good(outcome) ? "tour_completed" : "tour_failed", tour.tour_id, outcome.reason(),
-                         to_seconds(now - tour.started)});
+  happenings_.push_back({is_good(outcome) ? EventKind::tour_completed : EventKind::tour_failed, tour.tour_id,
+                         outcome.reason(), to_seconds(now - tour.started)});
   if (state_.visit) state_.visit->tour_id.clear();
   state_.tour.reset();
 }
@@ -358,13 +375,13 @@ bool TourScheduler::is_in_a_hurry(Time now) const {
 
 bool TourScheduler::is_visit_unwanted() const {
   return state_.visit && state_.visit->tour_id.empty() &&
-         ids("exhibit", RequestStatus::active, state_.visit->exhibit_id).empty();
+         ids(RequestKind::exhibit, RequestStatus::active, state_.visit->exhibit_id).empty();
 }
 
 void TourScheduler::drop_visit(Time now) {
   DOCENT_CHECK(is_visit_unwanted());
-  happenings_.push_back(
-      {"visit_dropped", state_.visit->exhibit_id, "nobody waits for it", to_seconds(now - state_.visit->started)});
+  happenings_.push_back({EventKind::visit_dropped, state_.visit->exhibit_id, "nobody waits for it",
+                         to_seconds(now - state_.visit->started)});
   state_.visit.reset();
 }
 
@@ -382,7 +399,7 @@ std::vector<std::string> TourScheduler::agenda(Point2 robot, Time now) const {
   }
   std::vector<std::string> tours;
   for (const BoardEntry& entry : state_.board.entries()) {
-    if (entry.status != RequestStatus::queued || entry.request.kind != "tour") continue;
+    if (entry.status != RequestStatus::queued || entry.request.kind != RequestKind::tour) continue;
     if (holds(tours, entry.request.target)) continue;
     tours.push_back(entry.request.target);
     const ProgrammeTour* tour = programme_.find_tour(entry.request.target);

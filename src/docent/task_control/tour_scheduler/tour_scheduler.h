@@ -16,8 +16,8 @@ namespace docent {
 /// What decides whether a request is taken.
 struct Conditions {
   bool is_open = true;
-  std::string mode = "open";  ///< open: everybody; web: Web visitors only
-  std::string delay = {};     ///< why all who come now wait a while, in words; empty: they do not
+  std::optional<OperatingMode> mode = OperatingMode::open;  ///< nullopt: one that is not known, taken as open
+  std::string delay = {};  ///< why all who come now wait a while, in words; empty: they do not
 };
 
 /// One exhibit to show, for one request or many.
@@ -133,8 +133,7 @@ class TourScheduler {
   [[nodiscard]] bool join_tour(const VisitorRequest& request);
   void cancel(const VisitorRequest& request, Time now);
   void close_request(const std::string& id, RequestStatus status, const std::string& reason, Time now);
-  [[nodiscard]] std::vector<std::string> ids(const std::string& kind, RequestStatus status,
-                                             const std::string& target) const;
+  [[nodiscard]] std::vector<std::string> ids(RequestKind kind, RequestStatus status, const std::string& target) const;
   /// @pre there is a tour
   void cancel_tour_without_members();
   /// The stop at which the exhibit is shown to the most patient of those who wish for it singly.

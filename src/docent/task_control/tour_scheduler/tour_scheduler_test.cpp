@@ -13,27 +13,27 @@ namespace docent {
 namespace {
 
 TEST_F(Scheduling, TakesTheShortestWayThroughTheQueue) {
-  for (const char* exhibit : {"e5", "e1", "e3"}) wish(exhibit, "exhibit", exhibit, 0);
+  for (const char* exhibit : {"e5", "e1", "e3"}) wish(exhibit, RequestKind::exhibit, exhibit, 0);
   EXPECT_EQ(scheduler.agenda({0, 0}, {}), (std::vector<std::string>{"e1", "e3", "e5"}));
   EXPECT_EQ(serve_all(1), (std::vector<std::string>{"e1", "e3", "e5"}));
 }
 
 // [Rhino1999] Figs. 21 and 22: 1 and 12 are ordered, 5 comes in while 1 is explained, and is visited before 12.
 TEST_F(Scheduling, PlansAnewWhenARequestComesIn) {
-  wish("a", "exhibit", "e1", 0);
-  wish("b", "exhibit", "e5", 0);
+  wish("a", RequestKind::exhibit, "e1", 0);
+  wish("b", RequestKind::exhibit, "e5", 0);
   EXPECT_EQ(next(1), "e1");
-  wish("c", "exhibit", "e3", 10);
+  wish("c", RequestKind::exhibit, "e3", 10);
   finish(true, 30);
   EXPECT_EQ(next(30, {4, 0}), "e3");
 }
 
 TEST_F(Scheduling, NobodyStarves) {
-  wish("far", "exhibit", "e5", 0);
+  wish("far", RequestKind::exhibit, "e5", 0);
   double at = 0.0;
   int visits = 0;
   while (state_of("far") != "fulfilled" && visits < 100) {  // someone always wishes for what is near
-    wish("near" + std::to_string(visits), "exhibit", visits % 2 == 0 ? "e1" : "e2", at);
+    wish("near" + std::to_string(visits), RequestKind::exhibit, visits % 2 == 0 ? "e1" : "e2", at);
     ASSERT_NE(next(at), "");
     at += 60.0;
     finish(true, at);
@@ -44,17 +44,17 @@ TEST_F(Scheduling, NobodyStarves) {
 }
 
 TEST_F(Scheduling, MergesRequestsForOneExhibitAndKeepsTheirStates) {
-  wish("a", "exhibit", "e2", 0, "de", 1);
-  wish("b", "exhibit", "e2", 1, "en");
+  wish("a", RequestKind::exhibit, "e2", 0, "de", 1);
+  wish("b", RequestKind::exhibit, "e2", 1, "en");
   EXPECT_EQ(next(2), "e2");
   EXPECT_EQ(scheduler.state().visit->language, "de");
   EXPECT_EQ(scheduler.state().visit->map_from_base.y, -1.0);
-  wish("c", "exhibit", "e2", 3);
+  wish("c", RequestKind::exhibit, "e2", 3);
   EXPECT_EQ(state_of("c"), "active");
   scheduler.close_visit();
-  wish("d", "exhibit", "e2", 4);
+  wish("d", RequestKind::exhibit, "e2", 4);
   EXPECT_EQ(state_of("d"), "queued") << "it would miss the beginning";
-  wish("x", "cancel", "b", 5);
+  wish("x", RequestKind::cancel, "b", 5);
   finish(true, 30);
   EXPECT_EQ(state_of("a"), "fulfilled");
   EXPECT_EQ(state_of("b"), "cancelled");
@@ -65,17 +65,17 @@ TEST_F(Scheduling, MergesRequestsForOneExhibitAndKeepsTheirStates) {
 }
 
 TEST_F(Scheduling, AKnownIdChangesNothing) {
-  wish("a", "exhibit", "e1", 0);
+  wish("a", RequestKind::exhibit, "e1", 0);
   const auto revision = scheduler.state().board.revision();
-  wish("a", "exhibit", "e1", 1);
-  wish("a", "tour", "t", 2);
+  wish("a", RequestKind::exhibit, "e1", 1);
+  wish("a", RequestKind::tour, "t", 2);
   EXPECT_EQ(scheduler.state().board.revision(), revision);
   EXPECT_EQ(scheduler.state().board.entries().size(), 1U);
 }
 
 TEST_F(Scheduling, AFailedVisitIsTriedAgainBehindTheOthers) {
-  wish("a", "exhibit", "e1", 0);
-  wish("b", "exhibit", "e5", 0);
+  wish("a", RequestKind::exhibit, "e1", 0);
+  wish("b", RequestKind::exhibit, "e5", 0);
   EXPECT_EQ(next(1), "e1");
   finish(false, 60);
   EXPECT_EQ(state_of("a"), "queued");
@@ -105,21 +105,21 @@ TEST_F(Scheduling, APassageThatIsClosedForTenMinutesOutlastsNoRequest) {
 }
 
 TEST_F(Scheduling, ATourKeepsItsOrderAndServesSinglesOnTheWay) {
-  wish("tour", "tour", "t", 0);
-  wish("same", "exhibit", "e3", 1);   // a stop of the tour
-  wish("close", "exhibit", "e2", 2);  // no detour between e1 and e3
+  wish("tour", RequestKind::tour, "t", 0);
+  wish("same", RequestKind::exhibit, "e3", 1);   // a stop of the tour
+  wish("close", RequestKind::exhibit, "e2", 2);  // no detour between e1 and e3
   EXPECT_EQ(serve_all(3), (std::vector<std::string>{"e1", "e2", "e3", "e5"}));
   for (const char* id : {"tour", "same", "close"}) EXPECT_EQ(state_of(id), "fulfilled") << id;
   EXPECT_EQ(scheduler.state().counters.tours_completed, 1U);
 }
 
 TEST_F(Scheduling, AVisitThatAWaitingTourWouldMakeAsWellBeginsTheTour) {
-  wish("now", "exhibit", "e2", 0);
+  wish("now", RequestKind::exhibit, "e2", 0);
   EXPECT_EQ(next(1), "e2");
   scheduler.close_visit();
-  wish("single", "exhibit", "e3", 2);
-  wish("tour", "tour", "t", 3);
-  wish("other", "exhibit", "e4", 4);
+  wish("single", RequestKind::exhibit, "e3", 2);
+  wish("tour", RequestKind::tour, "t", 3);
+  wish("other", RequestKind::exhibit, "e4", 4);
   finish(true, 30);
   EXPECT_EQ(serve_all(31), (std::vector<std::string>{"e1", "e3", "e4", "e5"})) << "e3 once for both";
   for (const char* id : {"single", "tour", "other"}) EXPECT_EQ(state_of(id), "fulfilled") << id;
@@ -128,17 +128,17 @@ TEST_F(Scheduling, AVisitThatAWaitingTourWouldMakeAsWellBeginsTheTour) {
 TEST_F(Scheduling, ATourMakesNoLongDetours) {
   params.max_detour_m = 1.0;
   TourScheduler strict{params, programme_on_a_line(), straight_distance(), {}, {}};
-  strict.submit({"tour", {}, "web", "", "tour", "two", -1, "en"}, conditions, {});
-  strict.submit({"far", {}, "web", "", "exhibit", "e5", -1, "en"}, conditions, {});
+  strict.submit({"tour", {}, RequestSource::web, "", RequestKind::tour, "two", -1, "en"}, conditions, {});
+  strict.submit({"far", {}, RequestSource::web, "", RequestKind::exhibit, "e5", -1, "en"}, conditions, {});
   EXPECT_EQ(strict.begin_visit({6, 0}, {})->exhibit_id, "e2");
 }
 
 TEST_F(Scheduling, TheSameTourIsGivenOnceToAllWhoWait) {
-  wish("a", "tour", "t", 0);
-  wish("b", "tour", "t", 0);
+  wish("a", RequestKind::tour, "t", 0);
+  wish("b", RequestKind::tour, "t", 0);
   EXPECT_EQ(next(1), "e1");
   scheduler.close_visit();
-  wish("late", "tour", "t", 2);
+  wish("late", RequestKind::tour, "t", 2);
   finish(true, 60);
   EXPECT_EQ(state_of("late"), "active") << "it joins where the tour is";
   EXPECT_EQ(next(61), "e3");
@@ -147,7 +147,7 @@ TEST_F(Scheduling, TheSameTourIsGivenOnceToAllWhoWait) {
   finish(true, 180);
   EXPECT_EQ(state_of("a"), "fulfilled") << "the first round is over";
   EXPECT_EQ(state_of("late"), "active") << "it has not seen the first exhibit";
-  wish("later", "tour", "t", 181);
+  wish("later", RequestKind::tour, "t", 181);
   EXPECT_EQ(state_of("later"), "queued") << "one tour does not go on for ever";
   EXPECT_EQ(next(182), "e1") << "what was missed comes at the end";
   finish(true, 240);
@@ -159,28 +159,28 @@ TEST_F(Scheduling, TheSameTourIsGivenOnceToAllWhoWait) {
 }
 
 TEST_F(Scheduling, WhoJoinsATourWhileItExplainsIsShownThatExhibitAtTheEnd) {
-  wish("a", "tour", "t", 0);
+  wish("a", RequestKind::tour, "t", 0);
   EXPECT_EQ(next(1), "e1");
   finish(false, 30);  // e1 comes again, behind e5
   EXPECT_EQ(next(31), "e3");
   scheduler.close_visit();
-  wish("late", "tour", "t", 32);
+  wish("late", RequestKind::tour, "t", 32);
   finish(true, 60);
-  wish("x", "cancel", "a", 61);
+  wish("x", RequestKind::cancel, "a", 61);
   EXPECT_EQ(serve_all(62), (std::vector<std::string>{"e5", "e1", "e3"}));
   EXPECT_EQ(state_of("late"), "fulfilled");
   EXPECT_EQ(state_of("a"), "cancelled");
 }
 
 TEST_F(Scheduling, ViewpointsOfOneExhibitAreStopsOfTheirOwn) {
-  wish("left", "exhibit", "e2", 0, "en", 0);
-  wish("any", "exhibit", "e2", 1);
-  wish("right", "exhibit", "e2", 2, "en", 1);
+  wish("left", RequestKind::exhibit, "e2", 0, "en", 0);
+  wish("any", RequestKind::exhibit, "e2", 1);
+  wish("right", RequestKind::exhibit, "e2", 2, "en", 1);
   EXPECT_EQ(next(3, {8, 5}), "e2");
   EXPECT_EQ(scheduler.state().visit->map_from_base.y, 1.0);
   EXPECT_EQ(state_of("any"), "active") << "whoever does not mind takes part";
   EXPECT_EQ(state_of("right"), "queued");
-  wish("right too", "exhibit", "e2", 4, "en", 1);
+  wish("right too", RequestKind::exhibit, "e2", 4, "en", 1);
   EXPECT_EQ(state_of("right too"), "queued") << "the visit under way is another";
   finish(true, 60);
   EXPECT_EQ(state_of("left"), "fulfilled");
@@ -194,11 +194,11 @@ TEST_F(Scheduling, ViewpointsOfOneExhibitAreStopsOfTheirOwn) {
 }
 
 TEST_F(Scheduling, AViewpointThatCannotBeReachedSpoilsTheExhibitForNobodyElse) {
-  wish("blocked", "exhibit", "e2", 0, "en", 0);
+  wish("blocked", RequestKind::exhibit, "e2", 0, "en", 0);
   EXPECT_EQ(next(1), "e2");
   finish(false, 20);  // furniture stands at that viewpoint; the wish is tried again later
   ASSERT_EQ(state_of("blocked"), "queued");
-  wish("any", "exhibit", "e2", 21);
+  wish("any", RequestKind::exhibit, "e2", 21);
   EXPECT_EQ(next(22), "e2");
   EXPECT_EQ(scheduler.state().visit->viewpoint, -1) << "the exhibit's own place is free";
   EXPECT_EQ(state_of("blocked"), "queued");
@@ -214,21 +214,35 @@ TEST_F(Scheduling, TheBoardIsLimitedInStopsNotInWishes) {
   for (int i = 0; i < 120; ++i) {
     const int place = i % 49;
     const std::string exhibit = place < 5 ? "e" + std::to_string(place + 1) : "e2";
-    busy.submit({"w" + std::to_string(i), {}, "web", "", "exhibit", exhibit, place < 5 ? -1 : place - 5, "en"},
+    busy.submit({"w" + std::to_string(i),
+                 {},
+                 RequestSource::web,
+                 "",
+                 RequestKind::exhibit,
+                 exhibit,
+                 place < 5 ? -1 : place - 5,
+                 "en"},
                 conditions, time_from_seconds(0.2 * i));
   }
   EXPECT_EQ(busy.board().open_count(), 120U);
   params.max_stops = 3;
   TourScheduler strict{params, programme, straight_distance(), {}, {}};
   for (int i = 0; i < 8; ++i) {
-    strict.submit({"w" + std::to_string(i), {}, "web", "", "exhibit", "e" + std::to_string(1 + i % 4), -1, "en"},
+    strict.submit({"w" + std::to_string(i),
+                   {},
+                   RequestSource::web,
+                   "",
+                   RequestKind::exhibit,
+                   "e" + std::to_string(1 + i % 4),
+                   -1,
+                   "en"},
                   conditions, {});
   }
   EXPECT_EQ(strict.board().open_count(), 6U) << "e4 is one too many, both times";
 }
 
 TEST_F(Scheduling, BeginsNothingThatTakesLongerThanItMay) {
-  wish("tour", "tour", "t", 0);
+  wish("tour", RequestKind::tour, "t", 0);
   const double tour_s = 3 * (20.0 + params.stop_overhead_s) + 20.0 / params.cruise_speed;
   EXPECT_FALSE(scheduler.begin_visit({0, 0}, {}, tour_s - 1.0));
   EXPECT_EQ(state_of("tour"), "queued");
@@ -242,14 +256,22 @@ TEST_F(Scheduling, TriesWhatNoWayIsKnownToInsteadOfChargingForIt) {
   };
   for (const bool is_tour : {false, true}) {
     TourScheduler walled{params, programme_on_a_line(), no_way_to_e5, {}, {}};
-    walled.submit({"w", {}, "web", "", is_tour ? "tour" : "exhibit", is_tour ? "t" : "e5", -1, "en"}, conditions, {});
+    walled.submit({"w",
+                   {},
+                   RequestSource::web,
+                   "",
+                   is_tour ? RequestKind::tour : RequestKind::exhibit,
+                   is_tour ? "t" : "e5",
+                   -1,
+                   "en"},
+                  conditions, {});
     EXPECT_TRUE(walled.begin_visit({0, 0}, {}, 600.0)) << is_tour;
   }
 }
 
 TEST_F(Scheduling, ATourThatIsBrokenOffIsGivenAnewAndFailsInTheEnd) {
-  wish("tour", "tour", "t", 0);
-  wish("single", "exhibit", "e1", 0);
+  wish("tour", RequestKind::tour, "t", 0);
+  wish("single", RequestKind::exhibit, "e1", 0);
   EXPECT_EQ(next(1), "e1");
   scheduler.break_off("No power.", time_from_seconds(20));
   EXPECT_EQ(state_of("tour"), "queued");
@@ -267,7 +289,7 @@ TEST_F(Scheduling, ATourThatIsBrokenOffIsGivenAnewAndFailsInTheEnd) {
 TEST_F(Scheduling, ATourMaySkipOneStopButNotTwo) {
   for (const int bad_stops : {1, 2}) {
     TourScheduler tour{params, programme_on_a_line(), straight_distance(), {}, {}};
-    tour.submit({"a", {}, "web", "", "tour", "t", -1, "en"}, conditions, {});
+    tour.submit({"a", {}, RequestSource::web, "", RequestKind::tour, "t", -1, "en"}, conditions, {});
     std::vector<std::string> told;
     double at = 0.0;
     while (const auto visit = tour.begin_visit({0, 0}, time_from_seconds(at))) {
@@ -284,9 +306,9 @@ TEST_F(Scheduling, ATourMaySkipOneStopButNotTwo) {
 }
 
 TEST_F(Scheduling, ACancelledTourEndsAfterThePresentStop) {
-  wish("a", "tour", "t", 0);
+  wish("a", RequestKind::tour, "t", 0);
   EXPECT_EQ(next(1), "e1");
-  wish("x", "cancel", "a", 2);
+  wish("x", RequestKind::cancel, "a", 2);
   EXPECT_EQ(state_of("a"), "cancelled");
   EXPECT_TRUE(scheduler.is_visit_unwanted());
   scheduler.drop_visit(time_from_seconds(3));
@@ -299,29 +321,42 @@ TEST_F(Scheduling, RefusesWithReasons) {
     EXPECT_EQ(state_of(request.id), "refused") << request.id;
     return scheduler.state().board.find(request.id)->reason;
   };
-  EXPECT_NE(reason({"1", {}, "web", "", "exhibit", "e9", -1, ""}, {}).find("e9"), std::string::npos);
-  EXPECT_NE(reason({"2", {}, "kiosk", "", "exhibit", "e6", -1, ""}, {}).find("Web"), std::string::npos);
-  EXPECT_NE(reason({"3", {}, "web", "", "exhibit", "e1", -1, ""}, {false, "open"}).find("closed"), std::string::npos);
-  EXPECT_NE(reason({"4", {}, "kiosk", "", "exhibit", "e1", -1, ""}, {true, "web"}).find("Web"), std::string::npos);
-  EXPECT_NE(reason({"6", {}, "web", "", "exhibit", "e2", 7, ""}, {}).find("viewpoint"), std::string::npos);
-  for (int i = 0; i < params.max_open; ++i) wish("q" + std::to_string(i), "exhibit", "e1", 0);
+  EXPECT_NE(reason({"1", {}, RequestSource::web, "", RequestKind::exhibit, "e9", -1, ""}, {}).find("e9"),
+            std::string::npos);
+  EXPECT_NE(reason({"2", {}, RequestSource::kiosk, "", RequestKind::exhibit, "e6", -1, ""}, {}).find("Web"),
+            std::string::npos);
+  EXPECT_NE(reason({"3", {}, RequestSource::web, "", RequestKind::exhibit, "e1", -1, ""}, {false, OperatingMode::open})
+                .find("closed"),
+            std::string::npos);
+  EXPECT_NE(reason({"4", {}, RequestSource::kiosk, "", RequestKind::exhibit, "e1", -1, ""}, {true, OperatingMode::web})
+                .find("Web"),
+            std::string::npos);
+  const Word<RequestKind> dance{std::string{"dance"}};
+  EXPECT_EQ(reason({"5", {}, RequestSource::web, "", dance, "e1", -1, ""}, {}),
+            "I do not understand the wish 'dance'.");
+  EXPECT_EQ(scheduler.state().board.find("5")->request.kind.text(), "dance") << "it stands on the board as it came";
+  EXPECT_NE(reason({"6", {}, RequestSource::web, "", RequestKind::exhibit, "e2", 7, ""}, {}).find("viewpoint"),
+            std::string::npos);
+  for (int i = 0; i < params.max_open; ++i) wish("q" + std::to_string(i), RequestKind::exhibit, "e1", 0);
   EXPECT_EQ(state_of("q" + std::to_string(params.max_open - 1)), "queued");
-  EXPECT_NE(reason({"7", {}, "web", "", "exhibit", "e1", -1, ""}, {}).find("waiting"), std::string::npos);
+  EXPECT_NE(reason({"7", {}, RequestSource::web, "", RequestKind::exhibit, "e1", -1, ""}, {}).find("waiting"),
+            std::string::npos);
 }
 
 TEST_F(Scheduling, ServesTheStaffInEveryMode) {
   int number = 0;
-  for (const Conditions& now : {Conditions{true, "closed"}, {false, "open"}, {true, "web"}}) {
+  for (const Conditions& now :
+       {Conditions{true, OperatingMode::closed}, {false, OperatingMode::open}, {true, OperatingMode::web}}) {
     const std::string id = "staff-" + std::to_string(++number);
-    scheduler.submit({id, {}, "staff", "", "exhibit", "e1", -1, "en"}, now, {});
-    EXPECT_NE(state_of(id), "refused") << now.mode;
+    scheduler.submit({id, {}, RequestSource::staff, "", RequestKind::exhibit, "e1", -1, "en"}, now, {});
+    EXPECT_NE(state_of(id), "refused") << to_text(now.mode);
   }
 }
 
 TEST_F(Scheduling, FailsWhatTheMuseumNoLongerHas) {
-  wish("a", "exhibit", "e1", 0);
-  wish("b", "tour", "t", 0);
-  wish("c", "exhibit", "e2", 0);
+  wish("a", RequestKind::exhibit, "e1", 0);
+  wish("b", RequestKind::tour, "t", 0);
+  wish("c", RequestKind::exhibit, "e2", 0);
   EXPECT_EQ(next(1), "e1");
   Programme smaller = programme_on_a_line();
   smaller.exhibits.erase(smaller.exhibits.begin());
@@ -334,7 +369,7 @@ TEST_F(Scheduling, FailsWhatTheMuseumNoLongerHas) {
 }
 
 TEST_F(Scheduling, ATourThatTheMuseumNoLongerHasIsNotACompletedOne) {
-  wish("a", "tour", "t", 0);
+  wish("a", RequestKind::tour, "t", 0);
   EXPECT_EQ(next(1), "e1");
   finish(true, 30);
   Programme smaller = programme_on_a_line();
@@ -346,9 +381,9 @@ TEST_F(Scheduling, ATourThatTheMuseumNoLongerHasIsNotACompletedOne) {
 }
 
 TEST_F(Scheduling, WhoAsksForATourBeforeItsFirstWordJoins) {
-  wish("a", "tour", "t", 0);
+  wish("a", RequestKind::tour, "t", 0);
   EXPECT_EQ(next(1), "e1");
-  wish("b", "tour", "t", 2);
+  wish("b", RequestKind::tour, "t", 2);
   EXPECT_EQ(state_of("b"), "active");
   EXPECT_EQ(serve_all_from_here(3), (std::vector<std::string>{"e1", "e3", "e5"}));
   EXPECT_EQ(state_of("b"), "fulfilled");
@@ -371,17 +406,17 @@ TEST(SchedulerLaws, EveryRequestEnds) {
         const double kind = rng.uniform();
         VisitorRequest request{"r" + std::to_string(made++),
                                now,
-                               rng.chance(0.5) ? "web" : "visitor",
+                               rng.chance(0.5) ? RequestSource::web : RequestSource::visitor,
                                "",
-                               "exhibit",
+                               RequestKind::exhibit,
                                "e" + std::to_string(rng.integer(1, 7)),
                                -1,
                                "en"};
         if (kind < 0.2) {
-          request.kind = "tour";
+          request.kind = RequestKind::tour;
           request.target = rng.chance(0.5) ? "t" : "quick";
         } else if (kind < 0.3) {
-          request.kind = "cancel";
+          request.kind = RequestKind::cancel;
           request.target = "r" + std::to_string(rng.integer(0, made));
         }
         scheduler->submit(request, conditions, now);
@@ -401,7 +436,7 @@ TEST(SchedulerLaws, EveryRequestEnds) {
     std::uint32_t served = 0;
     for (const BoardEntry& entry : scheduler->state().board.entries()) {
       EXPECT_FALSE(is_open(entry.status)) << "seed " << seed << ' ' << entry.request.id;
-      if (entry.status == RequestStatus::fulfilled && entry.request.kind != "cancel") ++served;
+      if (entry.status == RequestStatus::fulfilled && entry.request.kind != RequestKind::cancel) ++served;
       if (entry.status == RequestStatus::failed || entry.status == RequestStatus::refused) {
         EXPECT_FALSE(entry.reason.empty());
       }

@@ -48,7 +48,8 @@ const BoardEntry* TourScheduler::oldest_due(Time now) const {
 
 std::optional<std::string> TourScheduler::waiting_tour_to(const std::string& exhibit_id, Time now) const {
   for (const BoardEntry& entry : state_.board.entries()) {
-    if (entry.status != RequestStatus::queued || entry.request.kind != "tour" || entry.not_before > now) continue;
+    if (entry.status != RequestStatus::queued || entry.request.kind != RequestKind::tour || entry.not_before > now)
+      continue;
     const ProgrammeTour* tour = programme_.find_tour(entry.request.target);
     if (tour != nullptr && holds(tour->exhibits, exhibit_id)) return tour->id;
   }
@@ -58,7 +59,7 @@ std::optional<std::string> TourScheduler::waiting_tour_to(const std::string& exh
 WishedStop TourScheduler::stop_at(const std::string& exhibit_id, Time now) const {
   for (const BoardEntry& entry : state_.board.entries()) {
     const VisitorRequest& request = entry.request;
-    if (entry.status == RequestStatus::queued && request.kind == "exhibit" && request.target == exhibit_id &&
+    if (entry.status == RequestStatus::queued && request.kind == RequestKind::exhibit && request.target == exhibit_id &&
         request.viewpoint >= 0 && entry.not_before <= now)
       return {exhibit_id, request.viewpoint};
   }
@@ -74,7 +75,8 @@ std::vector<WishedStop> TourScheduler::single_order(Point2 robot, Time now) cons
   std::vector<WishedStop> others;
   for (const BoardEntry& entry : state_.board.entries()) {
     const VisitorRequest& request = entry.request;
-    if (entry.status != RequestStatus::queued || request.kind != "exhibit" || entry.not_before > now) continue;
+    if (entry.status != RequestStatus::queued || request.kind != RequestKind::exhibit || entry.not_before > now)
+      continue;
     if (programme_.find_exhibit(request.target) == nullptr) continue;
     // Who does not mind the viewpoint takes part in the first stop that is made there.
     const WishedStop stop =
@@ -102,7 +104,8 @@ std::optional<WishedStop> TourScheduler::stop_to_insert(Point2 robot, Time now) 
   const Point2 goal = programme_.find_exhibit(next->exhibit_id)->pose.position();
   const double direct = travel_(robot, goal);
   for (const BoardEntry& entry : state_.board.entries()) {
-    if (entry.status != RequestStatus::queued || entry.request.kind != "exhibit" || entry.not_before > now) continue;
+    if (entry.status != RequestStatus::queued || entry.request.kind != RequestKind::exhibit || entry.not_before > now)
+      continue;
     const ProgrammeExhibit* exhibit = programme_.find_exhibit(entry.request.target);
     if (exhibit == nullptr) continue;
     const bool is_a_stop = std::any_of(tour.stops.begin(), tour.stops.end(), [&](const TourStop& stop) {
@@ -128,7 +131,7 @@ const std::optional<Visit>& TourScheduler::begin_visit(Point2 robot, Time now, d
     }
     const BoardEntry* oldest = oldest_due(now);
     if (oldest == nullptr) break;
-    if (oldest->request.kind == "tour") {
+    if (oldest->request.kind == RequestKind::tour) {
       if (!begin_tour(std::string{oldest->request.target}, robot, now, budget_s)) break;
       continue;
     }
@@ -149,7 +152,7 @@ void TourScheduler::begin_stop(Point2 robot, Time now) {
   end_tour_if_over(now);
   if (!state_.tour) return;
   if (const auto extra = stop_to_insert(robot, now)) {
-    happenings_.push_back({"plan_inserted", extra->exhibit_id, state_.tour->tour_id});
+    happenings_.push_back({EventKind::plan_inserted, extra->exhibit_id, state_.tour->tour_id});
     state_.tour->just_inserted = true;
     begin_visit_of(*extra, false, now);
     return;
@@ -177,7 +180,7 @@ void TourScheduler::recompose(Point2 robot, Time now) {
   for (TourStop& stop : stops) {
     if (stop.status != StopStatus::pending) continue;
     stop.status = StopStatus::skipped;
-    happenings_.push_back({"plan_removed", stop.exhibit_id, tour.tour_id});
+    happenings_.push_back({EventKind::plan_removed, stop.exhibit_id, tour.tour_id});
   }
   const auto last = std::find_if(stops.rbegin(), stops.rend(),
                                  [](const TourStop& stop) { return stop.status == StopStatus::explained; });
@@ -187,10 +190,11 @@ void TourScheduler::recompose(Point2 robot, Time now) {
     return std::any_of(list.begin(), list.end(), [&](const TourStop& stop) { return stop.exhibit_id == id; });
   };
   for (const TourStop& stop : pending) {
-    if (!holds(chosen, stop.exhibit_id)) happenings_.push_back({"plan_removed", stop.exhibit_id, tour.tour_id});
+    if (!holds(chosen, stop.exhibit_id))
+      happenings_.push_back({EventKind::plan_removed, stop.exhibit_id, tour.tour_id});
   }
   for (const std::string& exhibit : chosen) {
-    if (!plans(pending, exhibit)) happenings_.push_back({"plan_inserted", exhibit, tour.tour_id});
+    if (!plans(pending, exhibit)) happenings_.push_back({EventKind::plan_inserted, exhibit, tour.tour_id});
     stops.push_back({exhibit});
   }
   tour.stops = std::move(stops);
@@ -199,7 +203,7 @@ void TourScheduler::recompose(Point2 robot, Time now) {
 std::vector<std::string> TourScheduler::wished_exhibits() const {
   std::vector<std::string> wished;
   for (const BoardEntry& entry : state_.board.entries()) {
-    if (entry.status == RequestStatus::queued && entry.request.kind == "exhibit")
+    if (entry.status == RequestStatus::queued && entry.request.kind == RequestKind::exhibit)
       wished.push_back(entry.request.target);
   }
   return wished;
@@ -226,7 +230,7 @@ double TourScheduler::duration_of(const TourRun& tour, Point2 robot) const {
 }
 
 bool TourScheduler::begin_tour(const std::string& tour_id, Point2 robot, Time now, double budget_s) {
-  const auto members = ids("tour", RequestStatus::queued, tour_id);
+  const auto members = ids(RequestKind::tour, RequestStatus::queued, tour_id);
   const ProgrammeTour* tour = programme_.find_tour(tour_id);
   TourRun run{tour_id, state_.board.find(members.front())->request.language, {}, false, 0.0, now};
   if (tour != nullptr) {
@@ -245,9 +249,9 @@ bool TourScheduler::begin_tour(const std::string& tour_id, Point2 robot, Time no
   for (const std::string& id : members) {
     run.members.push_back({id, numbers_of(run)});
     state_.board.change(id, RequestStatus::active, "The tour has begun.", now);
-    happenings_.push_back({"request_active", id, tour_id});
+    happenings_.push_back({EventKind::request_active, id, tour_id});
   }
-  happenings_.push_back({"tour_started", tour_id, joined(run.stops), run.target_s});
+  happenings_.push_back({EventKind::tour_started, tour_id, joined(run.stops), run.target_s});
   state_.tour = std::move(run);
   return true;
 }
@@ -257,7 +261,7 @@ void TourScheduler::begin_visit_of(const WishedStop& stop, bool is_stop, Time no
   const ProgrammeExhibit& exhibit = *programme_.find_exhibit(exhibit_id);
   Visit visit{exhibit_id, stop.viewpoint, exhibit.place(stop.viewpoint), "", is_stop ? state_.tour->tour_id : "", true,
               now};
-  auto members = ids("exhibit", RequestStatus::queued, exhibit_id);
+  auto members = ids(RequestKind::exhibit, RequestStatus::queued, exhibit_id);
   std::erase_if(members, [&](const std::string& id) {
     const int wished = state_.board.find(id)->request.viewpoint;
     return wished >= 0 && wished != stop.viewpoint;
@@ -265,11 +269,11 @@ void TourScheduler::begin_visit_of(const WishedStop& stop, bool is_stop, Time no
   for (const std::string& id : members) {
     if (visit.language.empty()) visit.language = state_.board.find(id)->request.language;
     state_.board.change(id, RequestStatus::active, "", now);
-    happenings_.push_back({"request_active", id, exhibit_id});
+    happenings_.push_back({EventKind::request_active, id, exhibit_id});
   }
   if (is_stop) visit.language = state_.tour->language;
   if (visit.language.empty()) visit.language = programme_.languages.front();
-  happenings_.push_back({"visit_started", exhibit_id, visit.tour_id, static_cast<double>(members.size())});
+  happenings_.push_back({EventKind::visit_started, exhibit_id, visit.tour_id, static_cast<double>(members.size())});
   state_.visit = std::move(visit);
 }
 

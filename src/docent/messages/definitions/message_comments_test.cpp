@@ -1,4 +1,4 @@
-#include "docent/messages/message_comments.h"
+#include "docent/messages/definitions/message_comments.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include <iostream>
 
 #include "docent/base/files.h"
-#include "docent/messages/message_comments.h"
+#include "docent/messages/definitions/message_comments.h"
 #include "docent/messages/schema.h"
 #include "docent/messages/topics.h"
 

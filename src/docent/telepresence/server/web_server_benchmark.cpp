@@ -1,4 +1,4 @@
-#include "docent/telepresence/web_server.h"
+#include "docent/telepresence/server/web_server.h"
 
 #include <arpa/inet.h>
 #include <benchmark/benchmark.h>

@@ -1,4 +1,4 @@
-#include "docent/telepresence/web_server.h"
+#include "docent/telepresence/server/web_server.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <set>
 #include <thread>
 
-#include "docent/telepresence/test_client.h"
+#include "docent/telepresence/server/test_client.h"
 
 namespace docent {
 namespace {

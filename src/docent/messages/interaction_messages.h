@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "docent/messages/standard_messages.h"
+
+// What the robot says and how it asks for way.
+
+namespace docent::docent_msgs {
+
+/// A step of the reaction ladder ([Rhino1999] 5.3): for the interaction, the mission and the report.
+struct Reaction {
+  static constexpr const char* kType = "docent_msgs/msg/Reaction";
+  std_msgs::Header header;
+  std::string goal_id;
+  std::string step;        ///< slow, horn, local_detour, global_detour, wait, ask, give_up, free
+  std::string cause;       ///< what is in the way, for a person
+  double after = 0;        ///< [s] since the way was blocked
+  std::int32_t count = 0;  ///< how often this step was taken since then, from 1
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("header", m.header);
+    v("goal_id", m.goal_id);
+    v("step", m.step);
+    v("cause", m.cause);
+    v("after", m.after);
+    v("count", m.count);
+  }
+};
+
+/// Speak.
+struct Say {
+  static constexpr const char* kType = "docent_msgs/msg/Say";
+  std::string id;
+  std::string text;
+  std::string language;
+  std::string mood;  ///< neutral, happy, sad, angry
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("id", m.id);
+    v("text", m.text);
+    v("language", m.language);
+    v("mood", m.mood);
+  }
+};
+
+/// What is being said; latched.
+struct SpeechState {
+  static constexpr const char* kType = "docent_msgs/msg/SpeechState";
+  std_msgs::Header header;
+  std::string id;
+  std::string state;  ///< speaking, done, failed
+  std::string text;
+  std::string language;
+  builtin_interfaces::Time start;
+  double duration = 0;  ///< [s]
+  std::string audio;    ///< file name of the audio, its hash; empty where there is none
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("header", m.header);
+    v("id", m.id);
+    v("state", m.state);
+    v("text", m.text);
+    v("language", m.language);
+    v("start", m.start);
+    v("duration", m.duration);
+    v("audio", m.audio);
+  }
+};
+
+/// The horn sounds once.
+struct Horn {
+  static constexpr const char* kType = "docent_msgs/msg/Horn";
+  std_msgs::Header header;
+  std::string reason;
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("header", m.header);
+    v("reason", m.reason);
+  }
+};
+
+}  // namespace docent::docent_msgs

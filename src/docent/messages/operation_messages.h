@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "docent/messages/standard_messages.h"
+
+// How the modules are and what staff allow.
+
+namespace docent::docent_msgs {
+
+/// What may change while running; latched.
+struct Limits {
+  static constexpr const char* kType = "docent_msgs/msg/Limits";
+  double max_speed = 0.7;     ///< [m/s]
+  double volume = 1;          ///< 0..1
+  std::string mode = "open";  ///< open, web, closed; hours: what the museum's hours say
+  bool is_open = true;        ///< takes requests
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("max_speed", m.max_speed);
+    v("volume", m.volume);
+    v("mode", m.mode);
+    v("is_open", m.is_open);
+  }
+};
+
+/// Life of a module, 2 Hz (architecture 10.10).
+struct Health {
+  static constexpr const char* kType = "docent_msgs/msg/Health";
+  std_msgs::Header header;
+  std::string module;
+  std::string state;  ///< starting, ready, degraded, faulted
+  std::string reason;
+  std::int32_t pid = 0;
+  double step_p99_ms = 0;
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("header", m.header);
+    v("module", m.module);
+    v("state", m.state);
+    v("reason", m.reason);
+    v("pid", m.pid);
+    v("step_p99_ms", m.step_p99_ms);
+  }
+};
+
+}  // namespace docent::docent_msgs

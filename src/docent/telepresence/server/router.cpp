@@ -1,0 +1,33 @@
+#include "docent/telepresence/server/router.h"
+
+#include <utility>
+
+namespace docent {
+namespace {
+
+constexpr std::string_view kLive = "/live";
+
+}  // namespace
+
+HttpAnswer refusal(int status, std::string text) {
+  HttpAnswer answer;
+  answer.reply.status = status;
+  answer.reply.body = std::make_shared<const std::string>(std::move(text));
+  answer.is_last = true;
+  return answer;
+}
+
+Route Router::route(const RouteRequest& request, bool is_full) const {
+  if (request.is_upgrade) {
+    if (request.target != kLive) return refusal(404, "not found\n");
+    const auto role = role_of(request.opening, origins_);
+    if (!role) return refusal(403, "pages of another site may not steer the robot\n");
+    if (is_full) return refusal(503, "too many viewers\n");
+    return OpenLive{*role};
+  }
+  const bool is_head = request.method == "HEAD";
+  if (!is_head && request.method != "GET") return refusal(405, "GET only\n");
+  return HttpAnswer{site_->get(request.target), is_head, false};
+}
+
+}  // namespace docent

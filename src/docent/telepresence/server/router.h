@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "docent/telepresence/server/roles.h"
+#include "docent/telepresence/site.h"
+
+namespace docent {
+
+/// What decides where a request goes.
+struct RouteRequest {
+  std::string_view method;  ///< GET, HEAD, …
+  std::string_view target;
+  bool is_upgrade = false;  ///< wants a WebSocket
+  Opening opening;
+};
+
+/// The request is answered.
+struct HttpAnswer {
+  SiteReply reply;
+  bool is_head = false;  ///< without the body
+  bool is_last = false;  ///< and the connection is closed: it was refused
+};
+/// The connection becomes a session on the live channel.
+struct OpenLive {
+  Role role = Role::observer;
+};
+using Route = std::variant<HttpAnswer, OpenLive>;
+
+/// Paths to handlers: everything that can be fetched is the site's; /live is the channel.
+class Router {
+ public:
+  /// @param origins  hosts besides the server's own whose pages may open the live channel
+  Router(std::shared_ptr<const Site> site, std::vector<std::string> origins)
+      : site_{std::move(site)}, origins_{std::move(origins)} {}
+
+  /// @param is_full  the live channel takes nobody more
+  [[nodiscard]] Route route(const RouteRequest& request, bool is_full) const;
+
+ private:
+  std::shared_ptr<const Site> site_;
+  std::vector<std::string> origins_;
+};
+
+/// A few words of text, after which the connection is closed.
+[[nodiscard]] HttpAnswer refusal(int status, std::string text);
+
+}  // namespace docent

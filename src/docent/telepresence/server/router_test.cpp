@@ -1,0 +1,49 @@
+#include "docent/telepresence/server/router.h"
+
+#include <gtest/gtest.h>
+
+namespace docent {
+namespace {
+
+class RouterTest : public testing::Test {
+ protected:
+  RouterTest() { site_->set_document("/", "text/html; charset=utf-8", "<p>hello"); }
+  [[nodiscard]] Route route(const RouteRequest& request, bool is_full = false) const {
+    return Router{site_, {"museum.test"}}.route(request, is_full);
+  }
+  [[nodiscard]] int status(const RouteRequest& request, bool is_full = false) const {
+    const Route found = route(request, is_full);
+    const auto* answer = std::get_if<HttpAnswer>(&found);
+    return answer == nullptr ? 101 : answer->reply.status;
+  }
+  std::shared_ptr<Site> site_ = std::make_shared<Site>();
+};
+
+TEST_F(RouterTest, TheSiteAnswersGetAndHead) {
+  for (const char* method : {"GET", "HEAD"}) {
+    const HttpAnswer answer = std::get<HttpAnswer>(route({method, "/", false, {}}));
+    EXPECT_EQ(answer.reply.status, 200);
+    EXPECT_EQ(*answer.reply.body, "<p>hello");
+    EXPECT_EQ(answer.is_head, std::string_view{method} == "HEAD");
+    EXPECT_FALSE(answer.is_last);
+    EXPECT_EQ(status({method, "/nothing", false, {}}), 404);
+  }
+  for (const char* method : {"POST", "PUT", "DELETE", "OPTIONS", ""}) {
+    const HttpAnswer answer = std::get<HttpAnswer>(route({method, "/", false, {}}));
+    EXPECT_EQ(answer.reply.status, 405) << method;
+    EXPECT_TRUE(answer.is_last) << method;
+  }
+}
+
+TEST_F(RouterTest, TheChannelIsOpenedOnItsPathAlone) {
+  const Opening own{"http://robot.test", "robot.test"};
+  EXPECT_EQ(std::get<OpenLive>(route({"GET", "/live", true, own})).role, Role::visitor);
+  EXPECT_EQ(status({"GET", "/other", true, own}), 404);
+  EXPECT_EQ(status({"GET", "/live", true, {"http://evil.test", "robot.test"}}), 403);
+  EXPECT_EQ(status({"GET", "/live", true, {"http://museum.test", "robot.test"}}), 101);
+  EXPECT_EQ(status({"GET", "/live", true, own}, true), 503);
+  EXPECT_EQ(status({"GET", "/live", false, own}), 404) << "no document lies there";
+}
+
+}  // namespace
+}  // namespace docent

@@ -1,0 +1,118 @@
+#include "docent/telepresence/server/session.h"
+
+#include <chrono>
+
+#include "docent/telepresence/live_encoding.h"
+
+namespace docent {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using asio::ip::tcp;
+
+Session::Session(SessionOwner& owner, const WebServerParams& params, tcp::socket socket, ViewerId id, Role role)
+    : owner_{owner},
+      id_{id},
+      role_{role},
+      bucket_{params.messages_per_second, params.message_burst},
+      stream_{std::move(socket)} {
+  ++owner_.connections;
+  websocket::stream_base::timeout timeout{};
+  timeout.handshake_timeout = std::chrono::seconds{10};
+  timeout.idle_timeout = std::chrono::milliseconds{static_cast<int>(params.idle_timeout_s * 1e3)};
+  timeout.keep_alive_pings = true;
+  stream_.set_option(timeout);
+  stream_.read_message_max(static_cast<std::size_t>(params.max_message_bytes));
+  stream_.auto_fragment(false);
+}
+
+void Session::run(http::request<http::string_body> request, std::uint32_t slots) {
+  queue_ = ViewerQueue{slots};
+  request_ = std::move(request);
+  stream_.async_accept(request_, [self = shared_from_this()](beast::error_code error) {
+    if (error) return self->leave();
+    self->is_open_ = true;
+    self->stream_.text(true);
+    self->flush();
+    self->read();
+  });
+}
+
+void Session::mark(std::size_t slot) {
+  const std::uint32_t bit = 1U << slot;
+  if ((owner_.detail_slots & bit) != 0 && !wants_details_) return;
+  if (queue_.mark(bit)) ++owner_.values_skipped;
+}
+
+void Session::answer(SharedText text) {
+  if (!queue_.answer(std::move(text))) return close(websocket::close_code::policy_error, "too many unread answers");
+  flush();
+}
+
+void Session::flush() {
+  if (!is_open_ || is_writing_ || is_closing_) return;
+  sending_ = queue_.next(owner_.latest);
+  if (!sending_) return;
+  is_writing_ = true;
+  stream_.async_write(asio::buffer(*sending_), [self = shared_from_this()](beast::error_code error, std::size_t) {
+    self->is_writing_ = false;
+    if (error) return self->leave();
+    ++self->owner_.messages_out;
+    self->flush();
+  });
+}
+
+void Session::read() {
+  stream_.async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+    if (error) {
+      if (error == websocket::error::message_too_big) ++self->owner_.messages_refused;
+      return self->leave();
+    }
+    self->take();
+  });
+}
+
+void Session::take() {
+  ++owner_.messages_in;
+  const std::string text = beast::buffers_to_string(buffer_.data());
+  buffer_.consume(buffer_.size());
+  if (stream_.got_binary()) return refuse(websocket::close_code::unknown_data, "text messages only");
+  if (!bucket_.take(TokenBucket::Clock::now())) {
+    ++owner_.messages_refused;
+    if (++too_many_ > 100) return close(websocket::close_code::policy_error, "too many messages");
+    answer(std::make_shared<const std::string>(encode_error("too many messages, wait a moment")));
+    return read();
+  }
+  auto message = parse_client_message(text);
+  if (!message) return refuse(websocket::close_code::policy_error, message.error().message);
+  if (!may_ask(role_, *message)) return refuse(websocket::close_code::policy_error, "you may only watch");
+  if (const auto* watch = std::get_if<WatchMessage>(&*message)) {
+    if (watch->details && !wants_details_) queue_.mark(owner_.detail_slots);
+    wants_details_ = watch->details;
+    flush();
+  } else {
+    owner_.message(id_, *message);
+  }
+  read();
+}
+
+void Session::refuse(websocket::close_code code, const std::string& reason) {
+  ++owner_.messages_refused;
+  close(code, reason);
+}
+
+void Session::close(websocket::close_code code, const std::string& reason) {
+  if (is_closing_) return;
+  is_closing_ = true;
+  stream_.async_close(websocket::close_reason{code, reason.substr(0, 120)},
+                      [self = shared_from_this()](beast::error_code) { self->leave(); });
+}
+
+void Session::leave() {
+  is_open_ = false;
+  owner_.left(id_);
+}
+
+}  // namespace docent

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <utility>  // first: Beast 1.74 forgets it in C++20
+//
+#include <atomic>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "docent/telepresence/server/roles.h"
+#include "docent/telepresence/server/viewer_queue.h"
+#include "docent/telepresence/server/web_server.h"
+
+namespace docent {
+
+/// What all sessions share with their server, which outlives them.
+struct SessionOwner {
+  std::function<void(ViewerId, const ClientMessage&)> message;
+  std::function<void(ViewerId)> left;
+  std::function<SharedText(std::size_t slot)> latest;  ///< null: it has no value yet
+  std::uint32_t detail_slots = 0;                      ///< a bit for each slot that only specialists look at
+  std::atomic<std::size_t> connections{0};
+  std::atomic<std::uint64_t> messages_in{0}, messages_refused{0}, messages_out{0}, values_skipped{0};
+};
+
+/// One viewer: their WebSocket, what they have still to get, and what they may send. Lives as long as an operation of
+/// its is under way.
+class Session : public std::enable_shared_from_this<Session> {
+ public:
+  Session(SessionOwner& owner, const WebServerParams& params, boost::asio::ip::tcp::socket socket, ViewerId id,
+          Role role);
+  ~Session() { --owner_.connections; }
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  /// Accepts the upgrade and sends the `slots` (a bit each) that have a value.
+  void run(boost::beast::http::request<boost::beast::http::string_body> request, std::uint32_t slots);
+  /// The slot has a new value.
+  void mark(std::size_t slot);
+  void answer(SharedText text);
+  /// Sends the next thing unless one is being sent.
+  void flush();
+  void drop() { boost::beast::get_lowest_layer(stream_).close(); }
+
+ private:
+  void read();
+  void take();
+  void refuse(boost::beast::websocket::close_code code, const std::string& reason);
+  void close(boost::beast::websocket::close_code code, const std::string& reason);
+  void leave();
+
+  SessionOwner& owner_;
+  const ViewerId id_;
+  const Role role_;
+  TokenBucket bucket_;
+  boost::beast::websocket::stream<boost::beast::tcp_stream> stream_;
+  boost::beast::http::request<boost::beast::http::string_body> request_;
+  boost::beast::flat_buffer buffer_;
+  ViewerQueue queue_;
+  SharedText sending_;
+  int too_many_ = 0;
+  bool is_open_ = false;
+  bool is_writing_ = false;
+  bool is_closing_ = false;
+  bool wants_details_ = false;
+};
+
+}  // namespace docent

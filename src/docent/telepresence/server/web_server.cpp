@@ -1,0 +1,198 @@
+#include <utility>  // first: Beast 1.74 forgets it in C++20
+//
+#include <array>
+#include <atomic>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <map>
+#include <thread>
+
+#include "docent/telepresence/server/http_connection.h"
+#include "docent/telepresence/server/session.h"
+#include "docent/telepresence/server/web_server.h"
+
+namespace docent {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+using asio::ip::tcp;
+
+constexpr std::size_t kGroups = 10;
+constexpr auto kGroupPeriod = std::chrono::milliseconds{10};
+constexpr std::size_t kManyViewers = 100;  // from here on sends are spread over the groups
+
+}  // namespace
+
+struct WebServer::Core {
+  Core(const WebServerParams& given, std::shared_ptr<const Site> site, MessageHandler handler)
+      : params{given}, router{std::move(site), given.origins}, acceptor{io}, timer{io}, accept_timer{io} {
+    sessions.message = std::move(handler);
+    sessions.left = [this](ViewerId viewer) {
+      if (groups[viewer % kGroups].erase(viewer) > 0) --viewers;
+    };
+    sessions.latest = [this](std::size_t slot) { return latest.at(slot); };
+    http.connections = &sessions.connections;
+    http.route = [this](const RouteRequest& request) {
+      return router.route(request, viewers >= static_cast<std::size_t>(params.max_viewers));
+    };
+    http.open_live = [this](tcp::socket socket, HttpRequest request, Role role) {
+      open_live(std::move(socket), std::move(request), role);
+    };
+  }
+
+  void accept();
+  void open_live(tcp::socket socket, HttpRequest request, Role role);
+  void tick();
+  void flush_all();
+
+  const WebServerParams params;
+  const Router router;
+  std::atomic<std::size_t> viewers{0};
+  std::atomic<std::uint64_t> viewers_ever{0};
+  SessionOwner sessions;
+  HttpOwner http;
+  asio::io_context io{1};  // after the counters: its last handlers still count down
+  tcp::acceptor acceptor;
+  asio::steady_timer timer;
+  asio::steady_timer accept_timer;
+  // Only the server's thread touches these.
+  std::array<SharedText, kSlots> latest;
+  std::array<std::map<ViewerId, std::shared_ptr<Session>>, kGroups> groups;
+  ViewerId next_viewer = 1;
+  std::size_t next_group = 0;
+  bool is_ticking = false;
+  std::thread thread;
+};
+
+Result<void> WebServerParams::validate() const {
+  if (port < 0 || port > 65535) return fail("web.port must be 0 to 65535");
+  if (max_connections < 1) return fail("web.max_connections must be at least 1");
+  if (max_viewers < 1) return fail("web.max_viewers must be at least 1");
+  if (!(messages_per_second > 0.0)) return fail("web.messages_per_second must be > 0");
+  if (!(message_burst >= 1.0)) return fail("web.message_burst must be at least 1");
+  if (max_message_bytes < 256 || max_message_bytes > 1 << 20)
+    return fail("web.max_message_bytes must be 256 to 1048576");
+  if (send_buffer_bytes < 4096) return fail("web.send_buffer_bytes must be at least 4096");
+  if (!(idle_timeout_s >= 1.0)) return fail("web.idle_timeout_s must be at least 1");
+  return {};
+}
+
+void WebServer::Core::accept() {
+  acceptor.async_accept([this](beast::error_code error, tcp::socket socket) {
+    if (error == asio::error::operation_aborted) return;
+    if (error) {  // out of descriptors: wait for some to come free
+      accept_timer.expires_after(std::chrono::milliseconds{100});
+      accept_timer.async_wait([this](beast::error_code) { accept(); });
+      return;
+    }
+    if (sessions.connections < static_cast<std::size_t>(params.max_connections)) {
+      std::make_shared<HttpConnection>(http, std::move(socket))->read();
+    }
+    accept();
+  });
+}
+
+void WebServer::Core::open_live(tcp::socket socket, HttpRequest request, Role role) {
+  beast::error_code ignored;
+  socket.set_option(tcp::no_delay{true}, ignored);
+  socket.set_option(asio::socket_base::send_buffer_size{params.send_buffer_bytes}, ignored);
+  const ViewerId id = next_viewer++;
+  const auto session = std::make_shared<Session>(sessions, params, std::move(socket), id, role);
+  groups[id % kGroups].emplace(id, session);
+  ++viewers;
+  ++viewers_ever;
+  std::uint32_t slots = 0;
+  for (std::size_t slot = 0; slot < latest.size(); ++slot) {
+    if (latest.at(slot)) slots |= 1U << slot;
+  }
+  session->run(std::move(request), slots & ~sessions.detail_slots);
+}
+
+void WebServer::Core::tick() {
+  for (auto& [id, viewer] : groups[next_group]) viewer->flush();
+  next_group = (next_group + 1) % kGroups;
+  is_ticking = viewers > kManyViewers;
+  if (!is_ticking) return flush_all();
+  timer.expires_after(kGroupPeriod);  // from now: a late tick is skipped, not caught up
+  timer.async_wait([this](beast::error_code error) {
+    if (!error) tick();
+  });
+}
+
+void WebServer::Core::flush_all() {
+  for (auto& group : groups) {
+    for (auto& [id, viewer] : group) viewer->flush();
+  }
+}
+
+WebServer::WebServer(std::unique_ptr<Core> core) : core_{std::move(core)} {}
+
+Result<std::unique_ptr<WebServer>> WebServer::start(const WebServerParams& params, std::shared_ptr<const Site> site,
+                                                    MessageHandler handler) {
+  const std::string name = params.address + ":" + std::to_string(params.port);
+  beast::error_code error;
+  const auto address = asio::ip::make_address(params.address, error);
+  if (error) return fail(name + ": not an address");
+  auto core = std::make_unique<Core>(params, std::move(site), std::move(handler));
+  const tcp::endpoint endpoint{address, static_cast<std::uint16_t>(params.port)};
+  core->acceptor.open(endpoint.protocol(), error);
+  if (!error) core->acceptor.set_option(asio::socket_base::reuse_address{true}, error);
+  if (!error) core->acceptor.bind(endpoint, error);
+  if (!error) core->acceptor.listen(asio::socket_base::max_listen_connections, error);
+  if (error == asio::error::address_in_use) return fail(name + ": the port is in use by another program");
+  if (error) return fail(name + ": cannot listen: " + error.message());
+  core->accept();
+  core->thread = std::thread{[raw = core.get()] { raw->io.run(); }};
+  return std::unique_ptr<WebServer>{new WebServer{std::move(core)}};
+}
+
+WebServer::~WebServer() {
+  core_->io.stop();
+  core_->thread.join();
+  for (auto& group : core_->groups) {
+    for (auto& [id, viewer] : group) viewer->drop();
+    group.clear();
+  }
+}
+
+int WebServer::port() const { return core_->acceptor.local_endpoint().port(); }
+
+void WebServer::broadcast(int slot, std::string text) {
+  auto shared = std::make_shared<const std::string>(std::move(text));
+  asio::post(core_->io, [core = core_.get(), slot = static_cast<std::size_t>(slot), shared = std::move(shared)] {
+    core->latest[slot] = shared;
+    for (auto& group : core->groups) {
+      for (auto& [id, viewer] : group) viewer->mark(slot);
+    }
+    if (core->is_ticking) return;
+    if (core->viewers > kManyViewers) return core->tick();
+    core->flush_all();
+  });
+}
+
+void WebServer::restrict_to_details(int slot) {
+  asio::post(core_->io,
+             [core = core_.get(), slot] { core->sessions.detail_slots |= 1U << static_cast<unsigned>(slot); });
+}
+
+void WebServer::send(ViewerId viewer, std::string text) {
+  asio::post(core_->io, [core = core_.get(), viewer, shared = std::make_shared<const std::string>(std::move(text))] {
+    auto& group = core->groups[viewer % kGroups];
+    if (const auto place = group.find(viewer); place != group.end()) {
+      const auto held = place->second;  // closing it may take it out of the group
+      held->answer(shared);
+    }
+  });
+}
+
+WebServerFigures WebServer::figures() const {
+  const SessionOwner& sessions = core_->sessions;
+  return {sessions.connections,  core_->viewers,         core_->viewers_ever,
+          core_->http.requests,  sessions.messages_in,   sessions.messages_refused,
+          sessions.messages_out, sessions.values_skipped};
+}
+
+}  // namespace docent

@@ -1,0 +1,190 @@
+#pragma once
+
+#include <array>
+#include <compare>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+// Kinds, states and phases that are words in messages, files and on the page, and enumerations inside the program.
+// Whoever takes such a word from outside or gives one out converts it at that place.
+
+namespace docent {
+
+/// What a visitor wishes for.
+enum class RequestKind { exhibit, tour, cancel };
+constexpr auto words_of(RequestKind) { return std::array{"exhibit", "tour", "cancel"}; }
+
+/// Where a request was made.
+enum class RequestSource { web, kiosk, visitor, staff };
+constexpr auto words_of(RequestSource) { return std::array{"web", "kiosk", "visitor", "staff"}; }
+
+/// The life of a request: queued -> active -> fulfilled, with ways back to queued (a visit that failed and is tried
+/// again, or was suspended) and out to failed and cancelled. refused is a first and last state.
+enum class RequestStatus { queued, active, fulfilled, failed, refused, cancelled };
+constexpr auto words_of(RequestStatus) {
+  return std::array{"queued", "active", "fulfilled", "failed", "refused", "cancelled"};
+}
+[[nodiscard]] constexpr bool is_open(RequestStatus status) {
+  return status == RequestStatus::queued || status == RequestStatus::active;
+}
+
+/// Whose requests are taken: everybody's, those from the Web alone, those of the staff alone; hours: as the museum's
+/// hours say.
+enum class OperatingMode { open, web, closed, hours };
+constexpr auto words_of(OperatingMode) { return std::array{"open", "web", "closed", "hours"}; }
+
+/// What the mission is about.
+enum class MissionPhase { waking, relocalizing, idle, driving, explaining, asking, going_home, charging, waiting };
+constexpr auto words_of(MissionPhase) {
+  return std::array{"waking", "relocalizing", "idle",     "driving", "explaining",
+                    "asking", "going_home",   "charging", "waiting"};
+}
+
+/// What the executive is to do.
+enum class TaskKind { visit, home, charge, relocalize };
+constexpr auto words_of(TaskKind) { return std::array{"visit", "home", "charge", "relocalize"}; }
+
+/// How a task goes.
+enum class TaskStatus { driving, explaining, asking, done, failed };
+constexpr auto words_of(TaskStatus) { return std::array{"driving", "explaining", "asking", "done", "failed"}; }
+
+/// How the drive to a goal goes; waiting: no pose or no plan yet.
+enum class GoalStatus { idle, waiting, driving, turning, arrived, blocked, unreachable };
+constexpr auto words_of(GoalStatus) {
+  return std::array{"idle", "waiting", "driving", "turning", "arrived", "blocked", "unreachable"};
+}
+
+/// What the collision avoidance steers for: nothing, via-points, a heading.
+enum class DriveMode { stop, drive, turn };
+constexpr auto words_of(DriveMode) { return std::array{"stop", "drive", "turn"}; }
+
+/// Where the head looks: along the way, to the heading that the robot turns to, nowhere.
+enum class GazeAt { way, goal, none };
+constexpr auto words_of(GazeAt) { return std::array{"way", "goal", "none"}; }
+
+/// A step of the reaction to a blocked way.
+enum class Rung { slow, horn, local_detour, global_detour, wait, ask, give_up, free };
+constexpr auto words_of(Rung) {
+  return std::array{"slow", "horn", "local_detour", "global_detour", "wait", "ask", "give_up", "free"};
+}
+
+/// How an utterance goes.
+enum class SpeechStatus { speaking, done, failed };
+constexpr auto words_of(SpeechStatus) { return std::array{"speaking", "done", "failed"}; }
+
+/// How the voice sounds.
+enum class Mood { neutral, happy, sad, angry };
+constexpr auto words_of(Mood) { return std::array{"neutral", "happy", "sad", "angry"}; }
+
+/// What visitors may answer to a question.
+enum class Answer { more, next, yes, no };
+constexpr auto words_of(Answer) { return std::array{"more", "next", "yes", "no"}; }
+
+/// What the robot touched.
+enum class ContactKind { people, furniture, walls, hazards };
+constexpr auto words_of(ContactKind) { return std::array{"people", "furniture", "walls", "hazards"}; }
+
+/// What is worth a line in the history (docs/terminology.md, Events).
+enum class EventKind {
+  request_queued,
+  request_refused,
+  request_active,
+  request_fulfilled,
+  request_failed,
+  request_cancelled,
+  visit_started,
+  explained,
+  visit_failed,
+  visit_dropped,
+  tour_started,
+  tour_completed,
+  tour_failed,
+  tour_broken_off,
+  tour_cancelled,
+  plan_inserted,
+  plan_removed,
+  plan_rescheduled,
+  attraction_trial,
+  relocalizing,
+  localized,
+  home,
+  home_failed,
+  charger,
+  charger_failed,
+  battery_low,
+  battery_full,
+  arrived,
+  drive_blocked,
+  asked_for_way,
+  prompt_shown,
+  choice,
+};
+constexpr auto words_of(EventKind) {
+  return std::array{"request_queued",   "request_refused",
+                    "request_active",   "request_fulfilled",
+                    "request_failed",   "request_cancelled",
+                    "visit_started",    "explained",
+                    "visit_failed",     "visit_dropped",
+                    "tour_started",     "tour_completed",
+                    "tour_failed",      "tour_broken_off",
+                    "tour_cancelled",   "plan_inserted",
+                    "plan_removed",     "plan_rescheduled",
+                    "attraction_trial", "relocalizing",
+                    "localized",        "home",
+                    "home_failed",      "charger",
+                    "charger_failed",   "battery_low",
+                    "battery_full",     "arrived",
+                    "drive_blocked",    "asked_for_way",
+                    "prompt_shown",     "choice"};
+}
+
+/// An enumeration of the above.
+template <class E>
+concept Worded = requires {
+  words_of(E{});
+};
+
+template <Worded E>
+[[nodiscard]] constexpr const char* to_text(E value) {
+  constexpr auto kWords = words_of(E{});
+  return kWords.at(static_cast<std::size_t>(value));
+}
+/// The empty text for nothing.
+template <Worded E>
+[[nodiscard]] constexpr const char* to_text(const std::optional<E>& value) {
+  return value ? to_text(*value) : "";
+}
+
+/// nullopt: the text is no word of this enumeration.
+template <Worded E>
+[[nodiscard]] constexpr std::optional<E> parse(std::string_view text) {
+  constexpr auto kWords = words_of(E{});
+  for (std::size_t i = 0; i < kWords.size(); ++i) {
+    if (text == kWords.at(i)) return static_cast<E>(i);
+  }
+  return std::nullopt;
+}
+
+/// A word from outside: one of the enumeration, or another, which equals none of them and is kept as it came, so that
+/// it can be refused by its name and given back.
+template <Worded E>
+class Word {
+ public:
+  Word() = default;                 ///< the empty text
+  Word(E value) : value_{value} {}  // NOLINT(google-explicit-constructor): each value is a word
+  explicit Word(std::string text) : value_{parse<E>(text)} {
+    if (!value_) unknown_ = std::move(text);
+  }
+  [[nodiscard]] std::optional<E> value() const { return value_; }
+  [[nodiscard]] std::string text() const { return value_ ? to_text(*value_) : unknown_; }
+  friend bool operator==(const Word&, const Word&) = default;
+  friend auto operator<=>(const Word&, const Word&) = default;
+
+ private:
+  std::optional<E> value_;
+  std::string unknown_;
+};
+
+}  // namespace docent

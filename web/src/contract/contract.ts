@@ -1,0 +1,703 @@
+// What the server sends and takes. docent_web_contract writes this file from documents.h and client_message.h in
+// src/docent/telepresence: change those, and run it.
+
+export interface MapPicture {
+  url: string;
+  columns: number;
+  rows: number;
+  resolution: number;
+  origin: [number, number];
+}
+export interface Hazard {
+  id: string;
+  kind: 'glass' | 'plate' | 'stairs' | 'other';
+  polygon: [number, number][];
+}
+export interface Exhibit {
+  id: string;
+  title: Record<string, string>;
+  pose: [number, number, number];
+  look_at: [number, number];
+  viewpoints: [number, number, number][];
+  short: Record<string, string>;
+  long: Record<string, string>;
+  topics: string[];
+  web_only: boolean;
+}
+export interface Tour {
+  id: string;
+  title: Record<string, string>;
+  exhibits: string[];
+  minutes: number | null;
+}
+export interface Museum {
+  name: Record<string, string>;
+  languages: string[];
+  area: [number, number][];
+  home: [number, number, number];
+  charger: [number, number, number] | null;
+  robot_radius: number;
+  map: MapPicture;
+  hazards: Hazard[];
+  exhibits: Exhibit[];
+  tours: Tour[];
+}
+export interface Scan {
+  frame: 'map' | 'base';
+  from: [number, number];
+  points: number[];
+}
+export interface Avoid {
+  state: string;
+  reason: string;
+  cap: number;
+  blocked: boolean;
+  person: boolean;
+  real: number | null;
+  virtual: number | null;
+}
+export interface LiveMessage {
+  type: 'live';
+  t: number;
+  pose: [number, number, number] | null;
+  v: number;
+  w: number;
+  p_lost: number;
+  hypotheses: [number, number, number, number][];
+  scan: Scan;
+  people: [number, number, number, number, number][];
+  avoid?: Avoid;
+  battery?: number;
+}
+export interface BeliefHypothesis {
+  pose: [number, number, number];
+  mass: number;
+  xx: number;
+  xy: number;
+  yy: number;
+}
+export interface Raster {
+  x: number;
+  y: number;
+  cell: number;
+  columns: number;
+  rows: number;
+  levels: string;
+}
+export interface BeliefMessage {
+  type: 'belief';
+  t: number;
+  localized: boolean;
+  p_lost: number;
+  entropy: number;
+  active: number;
+  beams: [number, number];
+  hypotheses: BeliefHypothesis[];
+  raster: Raster;
+}
+export interface PathMessage {
+  type: 'path';
+  points: number[];
+  goal: string;
+  state: string;
+  remaining: number;
+  blocked: number;
+  reason: string;
+}
+export interface Prompt {
+  id: string;
+  text: string;
+  options: string[];
+  default: string;
+  deadline: number;
+}
+export interface MissionMessage {
+  type: 'mission';
+  phase: string;
+  tour: string;
+  exhibit: string;
+  text: Record<string, string>;
+  agenda: string[];
+  explained: number;
+  tours: number;
+  served: number;
+  prompt: Prompt | null;
+}
+export interface SpeechMessage {
+  type: 'speech';
+  id: string;
+  state: string;
+  text: string;
+  language: string;
+  start: number;
+  duration: number;
+  audio: string;
+}
+export interface HornMessage {
+  type: 'horn';
+  t: number;
+  duration: number;
+  audio: string;
+}
+export interface BoardEntry {
+  key: string;
+  source: string;
+  visitor: string;
+  kind: string;
+  target: string;
+  viewpoint: number;
+  state: string;
+  reason: string;
+  created: number;
+  changed: number;
+}
+export interface BoardMessage {
+  type: 'board';
+  revision: number;
+  open: BoardEntry[];
+  open_count: number;
+  closed: BoardEntry[];
+}
+export interface ModuleState {
+  name: string;
+  state: string;
+  reason: string;
+  p99_ms: number | null;
+}
+export interface HealthMessage {
+  type: 'health';
+  viewers: number;
+  modules: ModuleState[];
+}
+export interface WindowMessage {
+  type: 'window';
+  v: number;
+  w: number;
+  candidates: number[];
+}
+export interface Acknowledgement {
+  type: 'ack';
+  id: string;
+}
+export interface Refusal {
+  type: 'refused';
+  id: string;
+  reason: string;
+}
+export interface ErrorMessage {
+  type: 'error';
+  reason: string;
+}
+export interface RequestMessage {
+  type: 'request';
+  id: string;
+  kind: 'exhibit' | 'tour' | 'cancel';
+  target: string;
+  viewpoint: number;
+  name: string;
+  language: string;
+}
+export interface CancelMessage {
+  type: 'cancel';
+  id: string;
+  request: string;
+}
+export interface ChoiceMessage {
+  type: 'choice';
+  id: string;
+  prompt: string;
+  choice: string;
+}
+export interface WatchMessage {
+  type: 'watch';
+  details: boolean;
+}
+export type ServerMessage = LiveMessage | BeliefMessage | PathMessage | MissionMessage | SpeechMessage | HornMessage | BoardMessage | HealthMessage | WindowMessage | Acknowledgement | Refusal | ErrorMessage;
+export type ClientMessage = RequestMessage | CancelMessage | ChoiceMessage | WatchMessage;
+export const documents = {
+  "Acknowledgement": {
+    "fields": {
+      "id": "string"
+    },
+    "maybe": {},
+    "type": "ack"
+  },
+  "Avoid": {
+    "fields": {
+      "blocked": "boolean",
+      "cap": "number",
+      "person": "boolean",
+      "real": {
+        "nullable": "number"
+      },
+      "reason": "string",
+      "state": "string",
+      "virtual": {
+        "nullable": "number"
+      }
+    },
+    "maybe": {}
+  },
+  "BeliefHypothesis": {
+    "fields": {
+      "mass": "number",
+      "pose": {
+        "tuple": [
+          "number",
+          "number",
+          "number"
+        ]
+      },
+      "xx": "number",
+      "xy": "number",
+      "yy": "number"
+    },
+    "maybe": {}
+  },
+  "BeliefMessage": {
+    "fields": {
+      "active": "number",
+      "beams": {
+        "tuple": [
+          "number",
+          "number"
+        ]
+      },
+      "entropy": "number",
+      "hypotheses": {
+        "list": {
+          "document": "BeliefHypothesis"
+        }
+      },
+      "localized": "boolean",
+      "p_lost": "number",
+      "raster": {
+        "document": "Raster"
+      },
+      "t": "number"
+    },
+    "maybe": {},
+    "type": "belief"
+  },
+  "BoardEntry": {
+    "fields": {
+      "changed": "number",
+      "created": "number",
+      "key": "string",
+      "kind": "string",
+      "reason": "string",
+      "source": "string",
+      "state": "string",
+      "target": "string",
+      "viewpoint": "number",
+      "visitor": "string"
+    },
+    "maybe": {}
+  },
+  "BoardMessage": {
+    "fields": {
+      "closed": {
+        "list": {
+          "document": "BoardEntry"
+        }
+      },
+      "open": {
+        "list": {
+          "document": "BoardEntry"
+        }
+      },
+      "open_count": "number",
+      "revision": "number"
+    },
+    "maybe": {},
+    "type": "board"
+  },
+  "CancelMessage": {
+    "fields": {
+      "id": "string",
+      "request": "string"
+    },
+    "maybe": {},
+    "type": "cancel"
+  },
+  "ChoiceMessage": {
+    "fields": {
+      "choice": "string",
+      "id": "string",
+      "prompt": "string"
+    },
+    "maybe": {},
+    "type": "choice"
+  },
+  "ErrorMessage": {
+    "fields": {
+      "reason": "string"
+    },
+    "maybe": {},
+    "type": "error"
+  },
+  "Exhibit": {
+    "fields": {
+      "id": "string",
+      "long": {
+        "map": "string"
+      },
+      "look_at": {
+        "tuple": [
+          "number",
+          "number"
+        ]
+      },
+      "pose": {
+        "tuple": [
+          "number",
+          "number",
+          "number"
+        ]
+      },
+      "short": {
+        "map": "string"
+      },
+      "title": {
+        "map": "string"
+      },
+      "topics": {
+        "list": "string"
+      },
+      "viewpoints": {
+        "list": {
+          "tuple": [
+            "number",
+            "number",
+            "number"
+          ]
+        }
+      },
+      "web_only": "boolean"
+    },
+    "maybe": {}
+  },
+  "Hazard": {
+    "fields": {
+      "id": "string",
+      "kind": {
+        "words": [
+          "glass",
+          "plate",
+          "stairs",
+          "other"
+        ]
+      },
+      "polygon": {
+        "list": {
+          "tuple": [
+            "number",
+            "number"
+          ]
+        }
+      }
+    },
+    "maybe": {}
+  },
+  "HealthMessage": {
+    "fields": {
+      "modules": {
+        "list": {
+          "document": "ModuleState"
+        }
+      },
+      "viewers": "number"
+    },
+    "maybe": {},
+    "type": "health"
+  },
+  "HornMessage": {
+    "fields": {
+      "audio": "string",
+      "duration": "number",
+      "t": "number"
+    },
+    "maybe": {},
+    "type": "horn"
+  },
+  "LiveMessage": {
+    "fields": {
+      "hypotheses": {
+        "list": {
+          "tuple": [
+            "number",
+            "number",
+            "number",
+            "number"
+          ]
+        }
+      },
+      "p_lost": "number",
+      "people": {
+        "list": {
+          "tuple": [
+            "number",
+            "number",
+            "number",
+            "number",
+            "number"
+          ]
+        }
+      },
+      "pose": {
+        "nullable": {
+          "tuple": [
+            "number",
+            "number",
+            "number"
+          ]
+        }
+      },
+      "scan": {
+        "document": "Scan"
+      },
+      "t": "number",
+      "v": "number",
+      "w": "number"
+    },
+    "maybe": {
+      "avoid": {
+        "document": "Avoid"
+      },
+      "battery": "number"
+    },
+    "type": "live"
+  },
+  "MapPicture": {
+    "fields": {
+      "columns": "number",
+      "origin": {
+        "tuple": [
+          "number",
+          "number"
+        ]
+      },
+      "resolution": "number",
+      "rows": "number",
+      "url": "string"
+    },
+    "maybe": {}
+  },
+  "MissionMessage": {
+    "fields": {
+      "agenda": {
+        "list": "string"
+      },
+      "exhibit": "string",
+      "explained": "number",
+      "phase": "string",
+      "prompt": {
+        "nullable": {
+          "document": "Prompt"
+        }
+      },
+      "served": "number",
+      "text": {
+        "map": "string"
+      },
+      "tour": "string",
+      "tours": "number"
+    },
+    "maybe": {},
+    "type": "mission"
+  },
+  "ModuleState": {
+    "fields": {
+      "name": "string",
+      "p99_ms": {
+        "nullable": "number"
+      },
+      "reason": "string",
+      "state": "string"
+    },
+    "maybe": {}
+  },
+  "Museum": {
+    "fields": {
+      "area": {
+        "list": {
+          "tuple": [
+            "number",
+            "number"
+          ]
+        }
+      },
+      "charger": {
+        "nullable": {
+          "tuple": [
+            "number",
+            "number",
+            "number"
+          ]
+        }
+      },
+      "exhibits": {
+        "list": {
+          "document": "Exhibit"
+        }
+      },
+      "hazards": {
+        "list": {
+          "document": "Hazard"
+        }
+      },
+      "home": {
+        "tuple": [
+          "number",
+          "number",
+          "number"
+        ]
+      },
+      "languages": {
+        "list": "string"
+      },
+      "map": {
+        "document": "MapPicture"
+      },
+      "name": {
+        "map": "string"
+      },
+      "robot_radius": "number",
+      "tours": {
+        "list": {
+          "document": "Tour"
+        }
+      }
+    },
+    "maybe": {}
+  },
+  "PathMessage": {
+    "fields": {
+      "blocked": "number",
+      "goal": "string",
+      "points": {
+        "list": "number"
+      },
+      "reason": "string",
+      "remaining": "number",
+      "state": "string"
+    },
+    "maybe": {},
+    "type": "path"
+  },
+  "Prompt": {
+    "fields": {
+      "deadline": "number",
+      "default": "string",
+      "id": "string",
+      "options": {
+        "list": "string"
+      },
+      "text": "string"
+    },
+    "maybe": {}
+  },
+  "Raster": {
+    "fields": {
+      "cell": "number",
+      "columns": "number",
+      "levels": "string",
+      "rows": "number",
+      "x": "number",
+      "y": "number"
+    },
+    "maybe": {}
+  },
+  "Refusal": {
+    "fields": {
+      "id": "string",
+      "reason": "string"
+    },
+    "maybe": {},
+    "type": "refused"
+  },
+  "RequestMessage": {
+    "fields": {
+      "id": "string",
+      "kind": {
+        "words": [
+          "exhibit",
+          "tour",
+          "cancel"
+        ]
+      },
+      "language": "string",
+      "name": "string",
+      "target": "string",
+      "viewpoint": "number"
+    },
+    "maybe": {},
+    "type": "request"
+  },
+  "Scan": {
+    "fields": {
+      "frame": {
+        "words": [
+          "map",
+          "base"
+        ]
+      },
+      "from": {
+        "tuple": [
+          "number",
+          "number"
+        ]
+      },
+      "points": {
+        "list": "number"
+      }
+    },
+    "maybe": {}
+  },
+  "SpeechMessage": {
+    "fields": {
+      "audio": "string",
+      "duration": "number",
+      "id": "string",
+      "language": "string",
+      "start": "number",
+      "state": "string",
+      "text": "string"
+    },
+    "maybe": {},
+    "type": "speech"
+  },
+  "Tour": {
+    "fields": {
+      "exhibits": {
+        "list": "string"
+      },
+      "id": "string",
+      "minutes": {
+        "nullable": "number"
+      },
+      "title": {
+        "map": "string"
+      }
+    },
+    "maybe": {}
+  },
+  "WatchMessage": {
+    "fields": {
+      "details": "boolean"
+    },
+    "maybe": {},
+    "type": "watch"
+  },
+  "WindowMessage": {
+    "fields": {
+      "candidates": {
+        "list": "number"
+      },
+      "v": "number",
+      "w": "number"
+    },
+    "maybe": {},
+    "type": "window"
+  }
+} as const;

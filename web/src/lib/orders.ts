@@ -1,0 +1,23 @@
+// What the page says to the server.
+import type { CancelMessage, ChoiceMessage, RequestMessage, WatchMessage } from './protocol';
+
+/** What is asked for. */
+export interface Asked {
+  id: string;
+  kind: 'exhibit' | 'tour';
+  target: string;
+  viewpoint: number;
+}
+
+export const requestOf = (asked: Asked, name: string, language: string): RequestMessage => ({
+  type: 'request',
+  id: asked.id,
+  kind: asked.kind,
+  target: asked.target,
+  viewpoint: asked.viewpoint,
+  name,
+  language,
+});
+export const cancelOf = (id: string, request: string): CancelMessage => ({ type: 'cancel', id, request });
+export const choiceOf = (id: string, prompt: string, choice: string): ChoiceMessage => ({ type: 'choice', id, prompt, choice });
+export const watchOf = (details: boolean): WatchMessage => ({ type: 'watch', details });
