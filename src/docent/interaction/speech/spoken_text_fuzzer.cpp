@@ -15,6 +15,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') std::abort();
   }
   if (!text.empty() && (text.front() == ' ' || text.back() == ' ')) std::abort();
-  if (!(docent::speech_duration(text, "de", Mood::happy) >= 0.0)) std::abort();
+  if (!(docent::speech_duration(text, "de", docent::Mood::happy) >= 0.0)) std::abort();
   return 0;
 }
