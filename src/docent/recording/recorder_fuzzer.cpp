@@ -4,6 +4,7 @@
 
 #include "docent/recording/recorder.h"
 
+/// A recording from anywhere: its MCAP structure, and the messages in it.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   auto reader = docent::McapReader::from_bytes({data, data + size}, "fuzz");
   if (!reader) return 0;
