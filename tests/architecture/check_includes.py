@@ -56,6 +56,8 @@ EDGE_MAY_SEE = {
     # The world and the robot share no model: the simulator sees no capability, no museum, no robot configuration.
     "simulator": {"base", "geometry", "messages", "transport", "simulator", "pictures", "grid", "vocabulary"},
 }
+# What every folder speaks stands in `docent` itself; the names of each other folder in a namespace that is called like it.
+COMMON = {"base", "geometry", "vocabulary", "grid", "messages"}
 # The folders of these see no other one of their own, but `shared`; what starts them all sees all.
 APART = {"modules": "modules/host", "apps": "apps"}
 TRUTH = re.compile(r"kTrueState|kTrueContact|kTrueOffer|kRunInfo|for_each_truth_topic|\"truth/")
@@ -105,6 +107,18 @@ def check_arrow(source, target, where):
 def check_apart(source, target, where):
     if top(source) == top(target) and top(source) in APART and source not in {target, APART[top(source)]}:
         check(target == f"{top(source)}/shared", f"{where}: {source} may not see {target}, only {top(source)}/shared")
+
+
+def check_namespaces(root, common):
+    for path in sorted(root.rglob("*")):
+        if path.suffix not in CODE or path.parent == root:
+            continue
+        folder = path.relative_to(root).parts[0]
+        for name in re.findall(r"^namespace (docent\b[\w:]*) \{$", path.read_text(), re.M):
+            parts = name.split("::")
+            wanted = [] if folder in common else [folder]
+            right = parts[1:2] == wanted or folder in common and parts[1:] == ["docent_msgs"]
+            check(right, f"{path.relative_to(root)}: namespace {name} in folder {folder}")
 
 
 def sources(root):
@@ -183,6 +197,7 @@ if __name__ == "__main__":
     check_sources()
     check_dependencies()
     check_modules()
+    check_namespaces(SOURCE, COMMON)
     check_publishers(SOURCE, SOURCE / "messages" / "topics.h", ONE_PUBLISHER)
     check_machines()
     sys.exit(report())

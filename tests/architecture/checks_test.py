@@ -156,5 +156,25 @@ class Publishers(Project):
         self.assertEqual(len(self.faults()), 1)
 
 
+class Namespaces(Project):
+    def faults(self, text, path="planning/pursuit/a.h"):
+        findings.faults.clear()
+        self.write(path, text)
+        check_includes.check_namespaces(self.root, {"messages"})
+        self.write(path, "")
+        return len(findings.faults)
+
+    def test_a_folder_has_a_namespace_of_its_name(self):
+        self.assertEqual(self.faults("namespace docent::planning {\n"), 0)
+        self.assertEqual(self.faults("namespace docent::planning::testing {\n"), 0)
+        self.assertEqual(self.faults("namespace docent {\n"), 1)
+        self.assertEqual(self.faults("namespace docent::localization {\n"), 1)
+
+    def test_a_common_folder_has_none(self):
+        self.assertEqual(self.faults("namespace docent {\n", "messages/a.h"), 0)
+        self.assertEqual(self.faults("namespace docent::docent_msgs {\n", "messages/a.h"), 0)
+        self.assertEqual(self.faults("namespace docent::messages {\n", "messages/a.h"), 1)
+
+
 if __name__ == "__main__":
     unittest.main()

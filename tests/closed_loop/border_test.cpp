@@ -107,7 +107,7 @@ void read_drive(const std::filesystem::path& log, double border, Outcome& outcom
 }
 
 Outcome run(const Case& how, std::uint64_t seed, const std::vector<std::string>& settings = {}) {
-  const TemporaryFolder folder;
+  const apps::TemporaryFolder folder;
   const double y = how.border + how.inside;
   std::ofstream{folder.path() / "scenario.yaml"}
       << "events:\n"
@@ -115,7 +115,7 @@ Outcome run(const Case& how, std::uint64_t seed, const std::vector<std::string>&
       << "  - {at: " << kCome << ", visitors: {count: 9, at: [" << kAlong << ", " << y + 0.75
       << "], formation: wall, heading: 270, heeds: 0.0, for: " << kLeave - kCome << "}}\n"
       << "  - {at: 3, request: {kind: exhibit, target: cyclotron, language: en}}\n";
-  SimulationRunOptions options;
+  apps::SimulationRunOptions options;
   options.museum = bonn_with_border(folder.path(), how.border);
   options.seed = seed;
   options.crowd = "empty";
@@ -125,7 +125,7 @@ Outcome run(const Case& how, std::uint64_t seed, const std::vector<std::string>&
   options.scenario = folder.path() / "scenario.yaml";
   options.event_log = folder.path() / "events.csv";
   options.drive_log = folder.path() / "drive.csv";
-  const auto simulation = SimulationRun::create(options);
+  const auto simulation = apps::SimulationRun::create(options);
   EXPECT_TRUE(simulation.has_value()) << (simulation ? "" : simulation.error().message);
   if (!simulation) return {};
   EXPECT_TRUE((*simulation)->run_until(time_from_seconds(kEnd)));

@@ -114,19 +114,19 @@ void read_drive(const std::filesystem::path& log, const Door& door, Drive& drive
 
 /// To the other side and, as nobody wants anything more, home again: the whole robot, which finds its place by itself.
 Drive drive(const Door& door, std::uint64_t seed) {
-  const TemporaryFolder folder;
+  const apps::TemporaryFolder folder;
   const auto plan = hall_with(door);
   const auto written = write_museum(plan, survey(plan.world, {}, Rng{seed}.stream("survey")), folder.path() / "hall");
   EXPECT_TRUE(written) << written.error().message;
   Drive drive;
-  const auto faults = check_museum(folder.path() / "hall");
+  const auto faults = museum::check_museum(folder.path() / "hall");
   for (const Error& fault : faults)
     EXPECT_NE(fault.message.find("cannot be reached from home"), std::string::npos) << fault.message;
   drive.is_passable = faults.empty();
   if (!drive.is_passable) return drive;
   std::ofstream{folder.path() / "scenario.yaml"}
       << "events:\n  - {at: 5, request: {kind: exhibit, target: there, language: en}}\n";
-  SimulationRunOptions options;
+  apps::SimulationRunOptions options;
   options.museum = folder.path() / "hall";
   options.seed = seed;
   options.crowd = "empty";
@@ -134,7 +134,7 @@ Drive drive(const Door& door, std::uint64_t seed) {
   options.start = plan.home;
   options.scenario = folder.path() / "scenario.yaml";
   options.drive_log = folder.path() / "drive.csv";
-  const auto run = SimulationRun::create(options);
+  const auto run = apps::SimulationRun::create(options);
   EXPECT_TRUE(run.has_value()) << (run ? "" : run.error().message);
   if (!run) return drive;
   EXPECT_TRUE((*run)->run_until(time_from_seconds(120.0)));

@@ -39,7 +39,7 @@ class WanderingError {
 class MotionLoop::Impl {
  public:
   explicit Impl(const Options& options)
-      : museum_{must(load_museum(options.museum))},
+      : museum_{must(museum::load_museum(options.museum))},
         rng_{Rng{options.seed}.stream("motion loop")},
         x_error_{options.position_error, rng_.stream("x")},
         y_error_{options.position_error, rng_.stream("y")},
@@ -53,11 +53,12 @@ class MotionLoop::Impl {
     simulation.requests_per_hour = 0.0;
     simulation_ = std::make_unique<simulator::SimulatedMuseum>(*world_, *truth_, simulation);
     for (const char* name : {"avoid", "hazards", "robot", "map", "plan"}) {
-      ModuleHost::Options host;
+      modules::ModuleHost::Options host;
       host.virtual_time = true;
       host.seed = options.seed;
       host.state = std::filesystem::temp_directory_path();
-      modules_.push_back(must(ModuleHost::create(*find_module(name), hub_.connect(name), museum_, config_, host)));
+      modules_.push_back(
+          must(modules::ModuleHost::create(*modules::find_module(name), hub_.connect(name), museum_, config_, host)));
     }
     listen();
     self_->every(seconds(0.1), [this] { localize(); });
@@ -202,18 +203,18 @@ class MotionLoop::Impl {
     }
   }
 
-  VirtualTimeHub hub_;
-  Museum museum_;
-  RobotConfig config_;
+  transport::VirtualTimeHub hub_;
+  museum::Museum museum_;
+  robot::RobotConfig config_;
   Rng rng_;
   WanderingError x_error_, y_error_, heading_error_;
-  std::unique_ptr<Bus> world_ = hub_.connect("world");
-  std::unique_ptr<Bus> truth_ = hub_.connect("truth");
-  std::unique_ptr<Bus> self_ = hub_.connect("loop");
+  std::unique_ptr<transport::Bus> world_ = hub_.connect("world");
+  std::unique_ptr<transport::Bus> truth_ = hub_.connect("truth");
+  std::unique_ptr<transport::Bus> self_ = hub_.connect("loop");
   std::unique_ptr<simulator::SimulatedMuseum> simulation_;
-  std::vector<std::unique_ptr<ModuleHost>> modules_;
-  Publisher<docent_msgs::Belief> belief_ = self_->publisher(topics::kBelief);
-  Publisher<docent_msgs::DriveGoal> goals_ = self_->publisher(topics::kDriveGoal);
+  std::vector<std::unique_ptr<modules::ModuleHost>> modules_;
+  transport::Publisher<docent_msgs::Belief> belief_ = self_->publisher(topics::kBelief);
+  transport::Publisher<docent_msgs::DriveGoal> goals_ = self_->publisher(topics::kDriveGoal);
   nav_msgs::Odometry odometry_;
   docent_msgs::AvoidState avoid_;
   docent_msgs::GoalState goal_state_;

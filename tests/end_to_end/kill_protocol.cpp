@@ -46,8 +46,8 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-void write_report(const std::string& path, const std::vector<KillTrial>& trials, const DeploymentReport& report,
-                  bool good) {
+void write_report(const std::string& path, const std::vector<KillTrial>& trials,
+                  const evaluation::DeploymentReport& report, bool good) {
   std::ofstream file{path + ".part"};
   file << "{\"good\": " << (good ? "true" : "false") << ",\n \"trials\": [";
   for (std::size_t i = 0; i < trials.size(); ++i) {
@@ -59,13 +59,13 @@ void write_report(const std::string& path, const std::vector<KillTrial>& trials,
          << ", \"contacts\": " << t.contacts << ", \"went_on_s\": " << number(t.went_on_s) << ", \"fault\": \""
          << t.fault << "\"}";
   }
-  file << "],\n \"report\": " << to_json(report, std::nullopt) << "}\n";
+  file << "],\n \"report\": " << evaluation::to_json(report, std::nullopt) << "}\n";
   file.close();
   std::filesystem::rename(path + ".part", path);
 }
 
 int run(const Options& options) {
-  auto museum = load_museum(options.museum);
+  auto museum = museum::load_museum(options.museum);
   if (!museum) {
     std::fprintf(stderr, "%s\n", museum.error().message.c_str());
     return 2;
@@ -101,7 +101,7 @@ int run(const Options& options) {
       }
     }
   }
-  const DeploymentReport report = robot.report();
+  const evaluation::DeploymentReport report = robot.report();
   std::printf("\n");
   for (const auto& [module, all] : backs) {
     const bool is_quick = median(all) <= kMedianBack;

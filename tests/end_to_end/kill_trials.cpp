@@ -40,7 +40,7 @@ bool must_stand_without(const std::string& module) {
 
 }  // namespace
 
-KillTrials::KillTrials(KillTrialOptions options, Museum museum)
+KillTrials::KillTrials(KillTrialOptions options, museum::Museum museum)
     : options_{std::move(options)},
       museum_{std::move(museum)},
       watch_{options_.domain},
@@ -112,7 +112,7 @@ bool KillTrials::is_in(const std::string& situation, const RobotWatch::Snapshot&
   if (situation == "explaining") return now.task.state == "explaining" && now.speech.state == "speaking";
   constexpr double kRadius = 0.265;  // [m], the body's
   constexpr double kBeside = 0.6;    // [m] from its outline
-  return speed >= 0.2 && std::any_of(museum_.hazards.begin(), museum_.hazards.end(), [&](const Hazard& hazard) {
+  return speed >= 0.2 && std::any_of(museum_.hazards.begin(), museum_.hazards.end(), [&](const museum::Hazard& hazard) {
            return distance(hazard.polygon, {now.truth.x, now.truth.y}) < kRadius + kBeside;
          });
 }

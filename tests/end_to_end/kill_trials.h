@@ -41,13 +41,13 @@ struct KillTrial {
 /// A robot of processes in the simulated museum that always has something to do, and whose modules are hit.
 class KillTrials {
  public:
-  KillTrials(KillTrialOptions options, Museum museum);
+  KillTrials(KillTrialOptions options, museum::Museum museum);
 
   /// Localized, with something to do.
   [[nodiscard]] bool begin();
 
   KillTrial run(const std::string& module, const std::string& signal, const std::string& situation);
-  [[nodiscard]] DeploymentReport report() const { return watch_.report(); }
+  [[nodiscard]] evaluation::DeploymentReport report() const { return watch_.report(); }
   [[nodiscard]] std::string log() { return up_.output(); }
   /// A module that this robot runs.
   [[nodiscard]] bool has(const std::string& module) { return watch_.look().health.contains(module); }
@@ -66,7 +66,7 @@ class KillTrials {
   [[nodiscard]] bool wait_for(const std::function<bool()>& done, std::chrono::duration<double> patience);
 
   KillTrialOptions options_;
-  Museum museum_;
+  museum::Museum museum_;
   TemporaryFolder state_;
   RobotWatch watch_;
   Program up_;

@@ -10,8 +10,8 @@
 namespace docent {
 namespace {
 
-std::unique_ptr<DdsBus> join(int domain) {
-  auto bus = DdsBus::create({domain, "", {}});
+std::unique_ptr<transport::DdsBus> join(int domain) {
+  auto bus = transport::DdsBus::create({domain, "", {}});
   if (!bus) {
     std::fprintf(stderr, "%s\n", bus.error().message.c_str());
     std::exit(2);
@@ -49,15 +49,15 @@ void RobotWatch::note(const Topic<T>& topic, const T& message, Clock::time_point
 }
 
 template <class T>
-void RobotWatch::follow(DdsBus& bus, const Topic<T>& topic) {
-  bus.add_subscription(topic_info(topic), [this, &bus, topic](const std::shared_ptr<const void>& message) {
+void RobotWatch::follow(transport::DdsBus& bus, const Topic<T>& topic) {
+  bus.add_subscription(transport::topic_info(topic), [this, &bus, topic](const std::shared_ptr<const void>& message) {
     const std::scoped_lock lock{mutex_};
     note(topic, *static_cast<const T*>(message.get()), Clock::now());
-    evaluator_.add(topic_info(topic), bus.now(), message);
+    evaluator_.add(transport::topic_info(topic), bus.now(), message);
   });
 }
 
-RobotWatch::RobotWatch(int domain) : robot_{join(domain)}, truth_{join(truth_domain(domain))} {
+RobotWatch::RobotWatch(int domain) : robot_{join(domain)}, truth_{join(transport::truth_domain(domain))} {
   for_each_robot_topic([&](const auto& topic) { follow(*robot_, topic); });
   for_each_truth_topic([&](const auto& topic) { follow(*truth_, topic); });
   requests_ = robot_->publisher(topics::kRequest);
@@ -75,7 +75,7 @@ RobotWatch::Snapshot RobotWatch::look() const {
   return now_;
 }
 
-DeploymentReport RobotWatch::report() const {
+evaluation::DeploymentReport RobotWatch::report() const {
   const std::scoped_lock lock{mutex_};
   return evaluator_.report();
 }

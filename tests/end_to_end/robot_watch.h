@@ -45,23 +45,23 @@ class RobotWatch {
 
   [[nodiscard]] Snapshot look() const;
   /// Since the beginning; contacts are judged as in every other evaluation.
-  [[nodiscard]] DeploymentReport report() const;
+  [[nodiscard]] evaluation::DeploymentReport report() const;
   /// As a visitor on the Web would.
   void ask_for(const std::string& kind, const std::string& target);
 
  private:
   template <class T>
-  void follow(DdsBus& bus, const Topic<T>& topic);
+  void follow(transport::DdsBus& bus, const Topic<T>& topic);
   template <class T>
   void note(const Topic<T>& topic, const T& message, Clock::time_point at);
 
-  std::unique_ptr<DdsBus> robot_;
-  std::unique_ptr<DdsBus> truth_;
-  Publisher<docent_msgs::Request> requests_;
+  std::unique_ptr<transport::DdsBus> robot_;
+  std::unique_ptr<transport::DdsBus> truth_;
+  transport::Publisher<docent_msgs::Request> requests_;
   int asked_ = 0;
   mutable std::mutex mutex_;
   Snapshot now_;
-  DeploymentEvaluator evaluator_;
+  evaluation::DeploymentEvaluator evaluator_;
   std::jthread robot_thread_;
   std::jthread truth_thread_;
 };

@@ -28,7 +28,7 @@ std::vector<std::string> up_arguments(const std::string& state) {
 class Listener {
  public:
   Listener() {
-    auto bus = DdsBus::create({kDomain, "", {}});
+    auto bus = transport::DdsBus::create({kDomain, "", {}});
     if (!bus) std::abort();
     bus_ = std::move(*bus);
     bus_->subscribe<docent_msgs::Health>(topics::kHealth, [this](const docent_msgs::Health& health) {
@@ -48,7 +48,7 @@ class Listener {
   }
 
  private:
-  std::unique_ptr<DdsBus> bus_;
+  std::unique_ptr<transport::DdsBus> bus_;
   std::mutex mutex_;
   std::map<std::string, docent_msgs::Health> last_;
   std::map<std::string, int> count_;

@@ -57,7 +57,8 @@ class Viewer {
 /// The person with the viewer: hears the belief, and says where the robot stands.
 class Person {
  public:
-  Person() : bus_{std::move(*DdsBus::create({kDomain, "", {}}))}, poses_{bus_->publisher(topics::kInitialPose)} {
+  Person()
+      : bus_{std::move(*transport::DdsBus::create({kDomain, "", {}}))}, poses_{bus_->publisher(topics::kInitialPose)} {
     bus_->subscribe<docent_msgs::Belief>(topics::kBelief, [this](const auto& belief) {
       const std::scoped_lock lock{mutex_};
       belief_ = belief;
@@ -82,8 +83,8 @@ class Person {
   }
 
  private:
-  std::unique_ptr<DdsBus> bus_;
-  Publisher<geometry_msgs::PoseWithCovarianceStamped> poses_;
+  std::unique_ptr<transport::DdsBus> bus_;
+  transport::Publisher<geometry_msgs::PoseWithCovarianceStamped> poses_;
   std::mutex mutex_;
   docent_msgs::Belief belief_;
   std::jthread thread_;

@@ -137,9 +137,9 @@ std::vector<RawMessage> hostile_drive(std::uint64_t seed) {
 }
 
 void write_mcap(const std::filesystem::path& path, const std::vector<RawMessage>& messages) {
-  auto writer = McapWriter::create(path);
+  auto writer = recording::McapWriter::create(path);
   DOCENT_CHECK(writer.has_value());
-  std::map<std::string, McapWriter::Channel> channels;
+  std::map<std::string, recording::McapWriter::Channel> channels;
   for (const RawMessage& message : messages) {
     if (!channels.contains(message.topic))
       channels[message.topic] = *writer->add_channel({message.topic, message.type, "ros2msg", "x", "cdr", {}});

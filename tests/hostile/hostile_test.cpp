@@ -35,13 +35,13 @@ TEST_F(Hostile, RecordingsAreReadAndLocalizedInBoundedTime) {
   write_room_map(folder_);
   const auto map = load_map(folder_ / "room.yaml");
   ASSERT_TRUE(map) << map.error().message;
-  MarkovLocalizer localizer{*map, {}, {}, 1};
+  localization::MarkovLocalizer localizer{*map, {}, {}, 1};
   std::size_t refused = 0, noted = 0;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     SCOPED_TRACE(seed);
     const auto path = folder_ / (seed % 2 == 0 ? "drive.mcap" : "drive.db3");
     (seed % 2 == 0 ? write_mcap : write_rosbag2)(path, hostile_drive(seed));
-    const auto log = read_laser_log(path, true);
+    const auto log = recording::read_laser_log(path, true);
     if (!log) {
       ++refused;
       EXPECT_EQ(log.error().message.rfind(path.string() + ": holds no laser scan that is fit", 0), 0U)
@@ -54,18 +54,18 @@ TEST_F(Hostile, RecordingsAreReadAndLocalizedInBoundedTime) {
       EXPECT_EQ(log->pings.size(), 240U);
     }
     for (const std::string& note : log->notes) noted += note.find("were left out") != std::string::npos ? 1 : 0;
-    for (const LoggedScan& scan : log->scans) {
+    for (const recording::LoggedScan& scan : log->scans) {
       ASSERT_LE(std::abs(scan.odom_from_base.x), 2e7);
       ASSERT_LE(norm(scan.base_from_laser.position()), 20.0);
     }
     for (const bool reverse : {false, true}) {
       localizer.start_unknown();
-      LogRunOptions options;
+      apps::LogRunOptions options;
       options.reverse = reverse;
       const auto begin = std::chrono::steady_clock::now();
-      const LogRun run = localize_log(*log, localizer, options);
+      const apps::LogRun run = apps::localize_log(*log, localizer, options);
       EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds{20});
-      for (const LoggedPose& pose : run.poses) {
+      for (const apps::LoggedPose& pose : run.poses) {
         if (!pose.has_pose) continue;
         ASSERT_TRUE(std::isfinite(pose.map_from_base.x) && std::isfinite(pose.map_from_base.theta.radians()));
       }
@@ -108,7 +108,7 @@ TEST_P(HostileModule, OutlivesWhateverComesAndSaysOnlyWhatCanBe) {
 
 std::vector<const char*> module_names() {
   std::vector<const char*> names;
-  for (const ModuleEntry& entry : all_modules()) names.push_back(entry.name);
+  for (const modules::ModuleEntry& entry : modules::all_modules()) names.push_back(entry.name);
   return names;
 }
 INSTANTIATE_TEST_SUITE_P(Modules, HostileModule, ::testing::ValuesIn(module_names()),

@@ -12,8 +12,8 @@ namespace {
 
 Pose2 here() { return {2.5, 2.0, Angle{}}; }
 
-Museum room() {
-  Museum museum;
+museum::Museum room() {
+  museum::Museum museum;
   museum.name["en"] = "A room";
   museum.languages = {"en"};
   museum.map.frame = {50, 40, 0.1, {0.0, 0.0}};
@@ -23,9 +23,9 @@ Museum room() {
       if (row < 2 || column < 2 || row > 37 || column > 47 || (column > 35 && row < 12))
         museum.map.cells[museum.map.frame.index({column, row})] = OccupancyGrid::kOccupied;
   museum.area = {{0.2, 0.2}, {4.8, 0.2}, {4.8, 3.8}, {0.2, 3.8}};
-  museum.hazards.push_back({"plate", HazardKind::plate, {{0.5, 3.0}, {1.0, 3.0}, {1.0, 3.5}, {0.5, 3.5}}});
+  museum.hazards.push_back({"plate", museum::HazardKind::plate, {{0.5, 3.0}, {1.0, 3.0}, {1.0, 3.5}, {0.5, 3.5}}});
   museum.home = here();
-  Exhibit exhibit;
+  museum::Exhibit exhibit;
   exhibit.id = "clock";
   exhibit.title["en"] = "The clock";
   exhibit.short_text["en"] = "A clock.";
@@ -64,7 +64,8 @@ void fill(geometry_msgs::PoseWithCovarianceStamped& pose, Rng& /*rng*/) {
 }
 void fill(sensor_msgs::Range& range, Rng& rng) {
   const auto index = static_cast<int>(rng.integer(0, 23));
-  range.header.frame_id = rng.chance(0.5) ? RobotBody::sonar_frame(index) : RobotBody::infrared_frame(index);
+  range.header.frame_id =
+      rng.chance(0.5) ? robot::RobotBody::sonar_frame(index) : robot::RobotBody::infrared_frame(index);
   range.field_of_view = 0.3F;
   range.max_range = 3.0F;
   range.range = 1.5F;
@@ -180,7 +181,7 @@ ModuleStage::ModuleStage(const std::string& module, std::filesystem::path state)
   });
   world_->subscribe<docent_msgs::Health>(topics::kHealth, [this](const auto& message) { health_ = message; });
   // What the module says must be fit for others.
-  hub_.tap([this](const TopicInfo& info, Time, const std::shared_ptr<const void>& message) {
+  hub_.tap([this](const transport::TopicInfo& info, Time, const std::shared_ptr<const void>& message) {
     if (is_ours_) return;
     for_each_robot_topic([&]<class T>(const Topic<T>& topic) {
       if (std::string_view{topic.name} != info.name) return;
@@ -189,13 +190,13 @@ ModuleStage::ModuleStage(const std::string& module, std::filesystem::path state)
       if (fault && std::find(unfit_.begin(), unfit_.end(), text) == unfit_.end()) unfit_.push_back(text);
     });
   });
-  const ModuleEntry* entry = find_module(module);
+  const modules::ModuleEntry* entry = modules::find_module(module);
   DOCENT_CHECK(entry != nullptr);
-  ModuleHost::Options options;
+  modules::ModuleHost::Options options;
   options.state = std::move(state);
   options.seed = 1;
   options.virtual_time = true;
-  auto host = ModuleHost::create(*entry, hub_.connect(module), museum_, config_, options);
+  auto host = modules::ModuleHost::create(*entry, hub_.connect(module), museum_, config_, options);
   DOCENT_CHECK(host.has_value());
   host_ = std::move(*host);
 }

@@ -36,16 +36,16 @@ class ModuleStage {
   [[nodiscard]] std::uint64_t refused() const;
 
  private:
-  Museum museum_;
-  RobotConfig config_;
-  VirtualTimeHub hub_;
-  std::unique_ptr<Bus> world_;
+  museum::Museum museum_;
+  robot::RobotConfig config_;
+  transport::VirtualTimeHub hub_;
+  std::unique_ptr<transport::Bus> world_;
   std::vector<std::function<void(Rng&, double)>> spoilt_;                    ///< by topic
   std::vector<std::function<void(std::span<const std::uint8_t>)>> decoded_;  ///< by topic
   bool is_ours_ = false;  ///< what is published now comes from the stage
   std::vector<std::string> unfit_;
   docent_msgs::Health health_;
-  std::unique_ptr<ModuleHost> host_;
+  std::unique_ptr<modules::ModuleHost> host_;
 };
 
 }  // namespace docent

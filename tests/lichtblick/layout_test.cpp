@@ -119,7 +119,7 @@ TEST(LichtblickLayout, HasARowForTheHealthOfEachModule) {
     shown.insert(path.value);
   }
   std::set<std::string> modules;
-  for (const ModuleEntry& entry : all_modules()) modules.insert(entry.name);
+  for (const modules::ModuleEntry& entry : modules::all_modules()) modules.insert(entry.name);
   EXPECT_EQ(shown, modules);
 }
 
@@ -140,20 +140,20 @@ TEST(LichtblickLayout, ShowsEveryPanelOnce) {
 TEST(LichtblickLayout, FindsItsTopicsInARecording) {
   const auto file = std::filesystem::temp_directory_path() / ("docent_layout_" + std::to_string(getpid()) + ".mcap");
   {
-    SimulationRunOptions options;
+    apps::SimulationRunOptions options;
     options.museum = std::string{DOCENT_SOURCES} + "/museums/bonn";
     options.start = Pose2{9.0, 3.6, Angle::degrees(90.0)};
     options.requests_per_hour = 240.0;
     options.recording = file.string();
-    auto run = SimulationRun::create(options);
+    auto run = apps::SimulationRun::create(options);
     ASSERT_TRUE(run) << run.error().message;
     ASSERT_TRUE((*run)->run_until(time_from_seconds(60.0)));
     ASSERT_TRUE((*run)->finish());
   }
-  auto reader = McapReader::open(file);
+  auto reader = recording::McapReader::open(file);
   ASSERT_TRUE(reader) << reader.error().message;
   std::map<std::string, std::string> recorded;  // topic, type
-  ASSERT_TRUE(reader->read([&](const McapMessage& message) {
+  ASSERT_TRUE(reader->read([&](const recording::McapMessage& message) {
     recorded[message.channel.topic] = message.channel.type;
     return true;
   }));

@@ -8,6 +8,7 @@
 #include "docent/museum/museum.h"
 #include "docent/simulator/world/survey.h"
 #include "docent/simulator/world/world.h"
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent {
 namespace {
@@ -33,7 +34,7 @@ class Museums : public ::testing::TestWithParam<Shipped> {
  protected:
   void SetUp() override {
     const std::string folder = std::string{"museums/"} + GetParam().name;
-    auto museum = load_museum(folder);
+    auto museum = museum::load_museum(folder);
     ASSERT_TRUE(museum) << museum.error().message;
     museum_ = std::move(*museum);
     auto world = simulator::load_world(*museum_.simulation_path);
@@ -127,7 +128,7 @@ class Museums : public ::testing::TestWithParam<Shipped> {
     }
   }
 
-  Museum museum_;
+  museum::Museum museum_;
   World world_;
 };
 
@@ -139,7 +140,7 @@ TEST_P(Museums, MapAndHazardsAreTheSurveyOfTheWorld) {
   ASSERT_EQ(survey.hazards.size(), museum_.hazards.size());
   for (std::size_t i = 0; i < survey.hazards.size(); ++i) {
     EXPECT_EQ(survey.hazards[i].id, museum_.hazards[i].id);
-    EXPECT_EQ(survey.hazards[i].kind, to_string(museum_.hazards[i].kind));
+    EXPECT_EQ(survey.hazards[i].kind, to_text(museum_.hazards[i].kind));
     EXPECT_EQ(survey.hazards[i].polygon, museum_.hazards[i].polygon);
   }
   EXPECT_FALSE(survey.moved.empty());
@@ -150,11 +151,11 @@ TEST_P(Museums, SurveyIsWrongButNotMuch) {
   for (const Solid& solid : world_.solids) {
     if (is_seen_by_laser(solid)) continue;
     const auto hazard = std::find_if(museum_.hazards.begin(), museum_.hazards.end(),
-                                     [&](const Hazard& candidate) { return candidate.id == solid.id; });
+                                     [&](const museum::Hazard& candidate) { return candidate.id == solid.id; });
     if (hazard == museum_.hazards.end()) {
-      const bool covered = std::any_of(museum_.hazards.begin(), museum_.hazards.end(), [&](const Hazard& candidate) {
-        return distance(candidate.polygon, solid.polygon[0]) < 0.06;
-      });
+      const bool covered = std::any_of(
+          museum_.hazards.begin(), museum_.hazards.end(),
+          [&](const museum::Hazard& candidate) { return distance(candidate.polygon, solid.polygon[0]) < 0.06; });
       EXPECT_TRUE(solid.kind == SolidKind::furniture && covered) << solid.id << " is no hazard";
       continue;
     }

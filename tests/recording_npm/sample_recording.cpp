@@ -50,9 +50,9 @@ struct JsonVisitor {
 };
 
 int write_sample(const std::string& file, const std::string& expected_file) {
-  McapWriterOptions options;
+  recording::McapWriterOptions options;
   options.chunk_bytes = 50000;
-  auto recorder = Recorder::create(file, options);
+  auto recorder = recording::Recorder::create(file, options);
   if (!recorder) return std::fprintf(stderr, "%s\n", recorder.error().message.c_str()), 1;
   nlohmann::ordered_json expected = nlohmann::ordered_json::array();
   std::int64_t time = 1'700'000'000'000'000'000;
@@ -74,7 +74,8 @@ int write_sample(const std::string& file, const std::string& expected_file) {
                           {"type", T::kType},
                           {"log_time", std::to_string(time)},
                           {"message", std::move(json)}});
-      is_good = is_good && recorder->write(topic_info(topic), Time{time}, std::make_shared<const T>(message));
+      is_good =
+          is_good && recorder->write(transport::topic_info(topic), Time{time}, std::make_shared<const T>(message));
     };
     for_each_robot_topic(write);
     for_each_truth_topic(write);

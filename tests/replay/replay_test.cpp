@@ -20,13 +20,13 @@ class Replay : public testing::Test {
   static void SetUpTestSuite() {
     folder_ = std::filesystem::temp_directory_path() / ("docent_replay_" + std::to_string(getpid()));
     std::filesystem::create_directories(folder_);
-    SimulationRunOptions options;
+    apps::SimulationRunOptions options;
     options.museum = museum_folder();
     options.crowd = "quiet";
     options.requests_per_hour = 120.0;
     options.seed = 3;
     options.recording = recording();
-    auto run = SimulationRun::create(options);
+    auto run = apps::SimulationRun::create(options);
     ASSERT_TRUE(run) << run.error().message;
     ASSERT_TRUE((*run)->run_until(time_from_seconds(kSeconds)));
     ASSERT_TRUE((*run)->finish());
@@ -36,25 +36,26 @@ class Replay : public testing::Test {
   static std::string museum_folder() { return std::string{DOCENT_SOURCES} + "/museums/bonn"; }
   static std::string recording() { return (folder_ / "run.mcap").string(); }
 
-  [[nodiscard]] static Result<ReplayOutcome> replay_with(const std::vector<std::string>& modules,
-                                                         const std::string& setting = "", const std::string& out = "") {
-    const auto museum = load_museum(museum_folder());
+  [[nodiscard]] static Result<apps::ReplayOutcome> replay_with(const std::vector<std::string>& modules,
+                                                               const std::string& setting = "",
+                                                               const std::string& out = "") {
+    const auto museum = museum::load_museum(museum_folder());
     if (!museum) return tl::unexpected<Error>(museum.error());
-    RobotConfig config;
+    robot::RobotConfig config;
     if (!setting.empty()) {
       if (auto set = config.set(setting); !set) return tl::unexpected<Error>(set.error());
     }
-    ReplayOptions options;
+    apps::ReplayOptions options;
     options.recording = recording();
     options.modules = modules;
     options.out = out;
-    return replay(*museum, config, options);
+    return apps::replay(*museum, config, options);
   }
-  static Result<DeploymentReport> evaluate(const std::string& file) {
-    auto reader = McapReader::open(file);
+  static Result<evaluation::DeploymentReport> evaluate(const std::string& file) {
+    auto reader = recording::McapReader::open(file);
     if (!reader) return tl::unexpected<Error>(reader.error());
-    DeploymentEvaluator evaluator;
-    auto read = read_recording(*reader, {}, [&](const RecordedMessage& message) {
+    evaluation::DeploymentEvaluator evaluator;
+    auto read = recording::read_recording(*reader, {}, [&](const recording::RecordedMessage& message) {
       evaluator.add(message.topic, message.time, message.message);
       return true;
     });
@@ -73,7 +74,7 @@ TEST_F(Replay, EvaluatingTheRecordingGivesTheReportOfTheRun) {
   ASSERT_TRUE(report) << report.error().message;
   auto live = nlohmann::ordered_json::parse(live_report_);
   for (const char* key : {"wall_seconds", "cpu_seconds", "speedup", "wall_speedup", "p99_ms"}) live.erase(key);
-  EXPECT_EQ(nlohmann::ordered_json::parse(to_json(*report, std::nullopt)).dump(2), live.dump(2));
+  EXPECT_EQ(nlohmann::ordered_json::parse(evaluation::to_json(*report, std::nullopt)).dump(2), live.dump(2));
   EXPECT_GT(report->distance_m, 5.0);  // something happened
   EXPECT_TRUE(report->localization.localized_after_s);
 }
@@ -82,7 +83,7 @@ TEST_F(Replay, TheSensorsGiveTheSameMissionEventsInTheSameOrder) {
   const auto outcome = replay_with({});
   ASSERT_TRUE(outcome) << outcome.error().message;
   EXPECT_GE(outcome->recorded.size(), 8U);
-  EXPECT_EQ(first_difference(outcome->recorded, outcome->repeated, outcome->seconds), "");
+  EXPECT_EQ(apps::first_difference(outcome->recorded, outcome->repeated, outcome->seconds), "");
   for (const char* topic : {"scan_front", "odom", "docent/request"})
     EXPECT_NE(std::find(outcome->replayed_topics.begin(), outcome->replayed_topics.end(), topic),
               outcome->replayed_topics.end())
@@ -104,7 +105,7 @@ TEST_F(Replay, AChangedModuleIsSeenInItsRecording) {
   const auto repeated = evaluate(out);
   ASSERT_TRUE(original && repeated);
   EXPECT_NEAR(repeated->localization.error_m.mean(), original->localization.error_m.mean(), 0.03);
-  EXPECT_EQ(to_json(*repeated, std::nullopt), to_json(*again->report, std::nullopt));
+  EXPECT_EQ(evaluation::to_json(*repeated, std::nullopt), evaluation::to_json(*again->report, std::nullopt));
   // A robot that only adds up its odometry once it has found itself drifts away in the same recording.
   const auto crippled = replay_with({"localize"}, "evaluation.dead_reckoning=true");
   ASSERT_TRUE(crippled) << crippled.error().message;
@@ -119,21 +120,21 @@ TEST_F(Replay, WhatCannotBeReplayedIsSaidSo) {
   EXPECT_NE(unknown.error().message.find("localise"), std::string::npos);
   EXPECT_FALSE(replay_with({"record"}));
   EXPECT_FALSE(replay_with({}, "", "/nowhere/out.mcap"));
-  const auto name = museum_of_recording(recording());
+  const auto name = apps::museum_of_recording(recording());
   ASSERT_TRUE(name);
   EXPECT_EQ(*name, "bonn");
 }
 
 TEST(FirstDifference, NamesThePlaceAmongTheMissionsEvents) {
-  const std::vector<ReplayEvent> recorded{{1.0, "localized", ""}, {5.0, "explained", "vase"}};
-  EXPECT_EQ(first_difference(recorded, {{2.0, "localized", ""}, {9.0, "explained", "vase"}}, 100.0), "");
-  EXPECT_EQ(first_difference(recorded, {{2.0, "localized", ""}, {3.0, "drive_blocked", ""}, {9.0, "explained", "vase"}},
-                             100.0),
+  const std::vector<apps::ReplayEvent> recorded{{1.0, "localized", ""}, {5.0, "explained", "vase"}};
+  EXPECT_EQ(apps::first_difference(recorded, {{2.0, "localized", ""}, {9.0, "explained", "vase"}}, 100.0), "");
+  EXPECT_EQ(apps::first_difference(
+                recorded, {{2.0, "localized", ""}, {3.0, "drive_blocked", ""}, {9.0, "explained", "vase"}}, 100.0),
             "");
-  EXPECT_EQ(first_difference(recorded, {{2.0, "localized", ""}}, 100.0),
+  EXPECT_EQ(apps::first_difference(recorded, {{2.0, "localized", ""}}, 100.0),
             "event 2: recorded explained vase at 5.0 s, now nothing more");
-  EXPECT_EQ(first_difference(recorded, {{2.0, "localized", ""}}, 7.0), "");  // cut at the end
-  EXPECT_EQ(first_difference(recorded, {{1.5, "relocalizing", ""}, {5.0, "explained", "vase"}}, 7.0),
+  EXPECT_EQ(apps::first_difference(recorded, {{2.0, "localized", ""}}, 7.0), "");  // cut at the end
+  EXPECT_EQ(apps::first_difference(recorded, {{1.5, "relocalizing", ""}, {5.0, "explained", "vase"}}, 7.0),
             "event 1: recorded localized at 1.0 s, now relocalizing at 1.5 s");
 }
 

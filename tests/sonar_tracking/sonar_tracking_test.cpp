@@ -28,7 +28,7 @@ TEST(SonarTracking, TheMapOfABuildingSaysHowItIsTurned) {
   double sum = 0.0;
   for (std::uint64_t seed = 101; seed <= 130; ++seed) {
     const simulator::Office office = simulator::draw_office(seed);
-    const EchoMap map{simulator::survey(office.world, {}, Rng{seed}).map};
+    const localization::EchoMap map{simulator::survey(office.world, {}, Rng{seed}).map};
     const double turn = direction(office.world.floor[0], office.world.floor[1]).degrees();
     ASSERT_TRUE(map.main_direction());
     const double off = std::remainder(map.main_direction()->heading.degrees() - turn, 90.0);

@@ -35,7 +35,7 @@ SonarTrialResult run_trial(const SonarTrialOptions& options, std::ostream* trace
   result.drive = drive_through(office, options.minutes, options.max_speed, options.seed);
   const OfficeDrive& drive = result.drive;
 
-  SonarTracker tracker{survey.map, options.tracker, drive.sonars.count};
+  localization::SonarTracker tracker{survey.map, options.tracker, drive.sonars.count};
   tracker.start_at(office.home, kStartPosition, kStartHeading);
   std::vector<double> errors;
   std::vector<double> turns;
@@ -53,10 +53,10 @@ SonarTrialResult run_trial(const SonarTrialOptions& options, std::ostream* trace
     }
     if (event.time < next_sample) continue;
     next_sample += kSampleEvery;
-    const auto off = difference(tracker.map_from_robot(), drive.truth[i]);
+    const auto off = localization::difference(tracker.map_from_robot(), drive.truth[i]);
     errors.push_back(std::hypot(off[0], off[1]));
     turns.push_back(std::abs(off[2]));
-    const PoseMatrix covariance = tracker.covariance();
+    const localization::PoseMatrix covariance = tracker.covariance();
     const double determinant = covariance[0] * covariance[4] - covariance[1] * covariance[3];
     const double squared =
         (covariance[4] * off[0] * off[0] - 2.0 * covariance[1] * off[0] * off[1] + covariance[0] * off[1] * off[1]) /

@@ -12,7 +12,7 @@ struct SonarTrialOptions {
   std::uint64_t seed = 1;  ///< of the building, its survey, the drive
   double minutes = 30.0;
   double max_speed = 0.9;  ///< [m/s]
-  SonarTrackerParams tracker;
+  localization::SonarTrackerParams tracker;
 };
 
 struct SonarTrialResult {
@@ -20,7 +20,7 @@ struct SonarTrialResult {
   double mean_error = 0.0, p95_error = 0.0, max_error = 0.0;  ///< [m], five times a second
   double mean_turn = 0.0, p95_turn = 0.0;                     ///< [rad] of heading
   double within_three = 0.0;  ///< share of position errors within three deviations of the tracker's own covariance
-  SonarTracker::Tally tally;
+  localization::SonarTracker::Tally tally;
   double floor_area = 0.0;  ///< [m2] of the building
 };
 

@@ -14,7 +14,7 @@ constexpr double kExplainPerCharacter = 0.065;
 bool is_open(const docent_msgs::RequestState& entry) { return entry.state == "queued" || entry.state == "active"; }
 }  // namespace
 
-Actor::Actor(Bus& bus, const Museum& museum, Scenery& scenery, Rng rng, Options options)
+Actor::Actor(transport::Bus& bus, const museum::Museum& museum, Scenery& scenery, Rng rng, Options options)
     : bus_{bus},
       museum_{museum},
       scenery_{scenery},
@@ -50,7 +50,7 @@ Actor::Actor(Bus& bus, const Museum& museum, Scenery& scenery, Rng rng, Options 
     if (choice.choice != "more" || exhibit == nullptr) return close_active("fulfilled"), next_target();
     took_long_ = true;
     set_phase(Phase::explaining);
-    speak(translated(exhibit->long_text.empty() ? exhibit->short_text : exhibit->long_text, language_));
+    speak(museum::translated(exhibit->long_text.empty() ? exhibit->short_text : exhibit->long_text, language_));
   });
   bus_.every(seconds(kStep), [this] { step(); });
   bus_.every(seconds(0.2), [this] { think(); });
@@ -182,7 +182,7 @@ void Actor::think() {
       }
       set_phase(Phase::explaining);
       ++explained_;
-      speak(translated(museum_.find_exhibit(exhibit_)->short_text, language_));
+      speak(museum::translated(museum_.find_exhibit(exhibit_)->short_text, language_));
       break;
     case Phase::explaining:
       if (since < speech_s_) break;
@@ -365,8 +365,8 @@ void Actor::publish_mission() {
   docent_msgs::MissionState mission;
   mission.header.stamp = to_message(bus_.now());
   const auto* exhibit = museum_.find_exhibit(exhibit_);
-  const std::string en = exhibit != nullptr ? translated(exhibit->title, "en") : "";
-  const std::string de = exhibit != nullptr ? translated(exhibit->title, "de") : "";
+  const std::string en = exhibit != nullptr ? museum::translated(exhibit->title, "en") : "";
+  const std::string de = exhibit != nullptr ? museum::translated(exhibit->title, "de") : "";
   mission.exhibit_id = exhibit_;
   mission.agenda = agenda_;
   mission.exhibits_explained = explained_;

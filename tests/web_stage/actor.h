@@ -20,7 +20,7 @@ class Actor {
     double horn_s = 0.0;   ///< it sounds its horn every so many seconds; 0: never
     bool is_busy = false;  ///< other visitors have wishes too
   };
-  Actor(Bus& bus, const Museum& museum, Scenery& scenery, Rng rng, Options options);
+  Actor(transport::Bus& bus, const museum::Museum& museum, Scenery& scenery, Rng rng, Options options);
 
  private:
   enum class Phase { lost, idle, driving, explaining, asking, going_home };
@@ -39,8 +39,8 @@ class Actor {
   void publish_belief();
   void publish_health();
 
-  Bus& bus_;
-  const Museum& museum_;
+  transport::Bus& bus_;
+  const museum::Museum& museum_;
   Scenery& scenery_;
   Rng rng_;
   Options options_;
@@ -62,19 +62,19 @@ class Actor {
   std::uint32_t explained_ = 0, tours_ = 0, served_ = 0;
   int count_ = 0;
 
-  Publisher<nav_msgs::Odometry> odometry_;
-  Publisher<sensor_msgs::LaserScan> front_, rear_;
-  Publisher<sensor_msgs::BatteryState> battery_;
-  Publisher<docent_msgs::Belief> belief_;
-  Publisher<docent_msgs::People> people_;
-  Publisher<docent_msgs::AvoidState> avoid_;
-  Publisher<nav_msgs::Path> path_;
-  Publisher<docent_msgs::GoalState> goal_;
-  Publisher<docent_msgs::MissionState> mission_;
-  Publisher<docent_msgs::RequestBoard> board_publisher_;
-  Publisher<docent_msgs::SpeechState> speech_;
-  Publisher<docent_msgs::Health> health_;
-  Publisher<docent_msgs::Horn> horn_;
+  transport::Publisher<nav_msgs::Odometry> odometry_;
+  transport::Publisher<sensor_msgs::LaserScan> front_, rear_;
+  transport::Publisher<sensor_msgs::BatteryState> battery_;
+  transport::Publisher<docent_msgs::Belief> belief_;
+  transport::Publisher<docent_msgs::People> people_;
+  transport::Publisher<docent_msgs::AvoidState> avoid_;
+  transport::Publisher<nav_msgs::Path> path_;
+  transport::Publisher<docent_msgs::GoalState> goal_;
+  transport::Publisher<docent_msgs::MissionState> mission_;
+  transport::Publisher<docent_msgs::RequestBoard> board_publisher_;
+  transport::Publisher<docent_msgs::SpeechState> speech_;
+  transport::Publisher<docent_msgs::Health> health_;
+  transport::Publisher<docent_msgs::Horn> horn_;
 };
 
 }  // namespace docent::stage

@@ -7,14 +7,14 @@
 
 namespace docent::stage {
 namespace {
-std::vector<Polygon> hazards_of(const Museum& museum) {
+std::vector<Polygon> hazards_of(const museum::Museum& museum) {
   std::vector<Polygon> polygons;
   for (const auto& hazard : museum.hazards) polygons.push_back(hazard.polygon);
   return polygons;
 }
 }  // namespace
 
-Scenery::Scenery(const Museum& museum, int people, Rng rng)
+Scenery::Scenery(const museum::Museum& museum, int people, Rng rng)
     : museum_{museum}, rng_{rng}, planner_{museum.map, hazards_of(museum), museum.area, {}} {
   for (int i = 0; i < people; ++i) {
     Walker walker;

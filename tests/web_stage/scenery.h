@@ -22,7 +22,7 @@ struct Walker {
 /// The invented building: people who stroll, beams that end on walls and people.
 class Scenery {
  public:
-  Scenery(const Museum& museum, int people, Rng rng);
+  Scenery(const museum::Museum& museum, int people, Rng rng);
 
   void step(double dt, Point2 robot);
   [[nodiscard]] const std::vector<Walker>& walkers() const { return walkers_; }
@@ -35,9 +35,9 @@ class Scenery {
  private:
   [[nodiscard]] double range(Point2 from, Angle bearing) const;
 
-  const Museum& museum_;
+  const museum::Museum& museum_;
   Rng rng_;
-  RoutePlanner planner_;
+  planning::RoutePlanner planner_;
   std::vector<Walker> walkers_;
 };
 

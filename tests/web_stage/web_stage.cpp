@@ -63,23 +63,23 @@ int main(int argc, char** argv) {
     if (const auto text = value("horn="); !text.empty()) options.horn_s = std::stod(text);
     if (word == "busy") options.is_busy = true;
   }
-  const auto museum = load_museum(argv[1]);
+  const auto museum = museum::load_museum(argv[1]);
   if (!museum) return std::fprintf(stderr, "%s\n", museum.error().message.c_str()), 2;
   const std::filesystem::path state = argv[2];
   std::filesystem::create_directories(state / "audio");
   if (!write_file_atomically(state / "audio/5a5a5a5a.wav", tone())) return 2;
-  if (!write_horn_sound(horn_sound(1.0), state / "audio")) return 2;
-  RobotConfig config;
+  if (!interaction::write_horn_sound(interaction::horn_sound(1.0), state / "audio")) return 2;
+  robot::RobotConfig config;
   if (const auto set = config.set(std::string{"web.port="} + argv[3]); !set) return 2;
 
-  VirtualTimeHub hub;
+  transport::VirtualTimeHub hub;
   Rng rng{4};
   stage::Scenery scenery{*museum, people, rng.stream("scenery")};
   const auto actor_bus = hub.connect("actor");
   const stage::Actor actor{*actor_bus, *museum, scenery, rng.stream("actor"), options};
   const auto web_bus = hub.connect("web");
-  const ModuleContext context{*web_bus, *museum, config, state, 1, true};
-  auto web = make_web(context);
+  const modules::ModuleContext context{*web_bus, *museum, config, state, 1, true};
+  auto web = modules::make_web(context);
   if (!web) return std::fprintf(stderr, "%s\n", web.error().message.c_str()), 2;
   std::signal(SIGTERM, [](int) { is_ended = 1; });
   std::signal(SIGINT, [](int) { is_ended = 1; });

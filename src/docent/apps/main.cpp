@@ -23,21 +23,21 @@ int main(int argc, char** argv) {
   CLI::App app{"Docent: an autonomous museum tour guide.", "docent"};
   app.require_subcommand(1);
   app.set_version_flag("--version", "docent " DOCENT_VERSION);
-  docent::add_check_command(app);
-  docent::add_config_command(app);
-  docent::add_crowd_command(app);
-  docent::add_evaluate_command(app);
-  docent::add_learn_command(app);
-  docent::add_localize_command(app);
-  docent::add_map_command(app);
-  docent::add_museum_command(app);
-  docent::add_office_command(app);
-  docent::add_plan_command(app);
-  docent::add_replay_command(app);
-  docent::add_run_command(app);
-  docent::add_simulate_command(app);
-  docent::add_survey_command(app);
-  docent::add_up_command(app);
+  docent::apps::add_check_command(app);
+  docent::apps::add_config_command(app);
+  docent::apps::add_crowd_command(app);
+  docent::apps::add_evaluate_command(app);
+  docent::apps::add_learn_command(app);
+  docent::apps::add_localize_command(app);
+  docent::apps::add_map_command(app);
+  docent::apps::add_museum_command(app);
+  docent::apps::add_office_command(app);
+  docent::apps::add_plan_command(app);
+  docent::apps::add_replay_command(app);
+  docent::apps::add_run_command(app);
+  docent::apps::add_simulate_command(app);
+  docent::apps::add_survey_command(app);
+  docent::apps::add_up_command(app);
   try {
     app.parse(argc, argv);
     return 0;
@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
     }
     std::fprintf(stderr, "docent: %s (try --help)\n", error.what());
     return 2;
-  } catch (const docent::CommandFailed& failure) {
+  } catch (const docent::apps::CommandFailed& failure) {
     if (!failure.message.empty()) std::fprintf(stderr, "docent: %s\n", failure.message.c_str());
     return failure.exit_code;
   } catch (const std::exception& exception) {

@@ -6,7 +6,7 @@
 
 #include "docent/messages/conversions.h"
 
-namespace docent {
+namespace docent::evaluation {
 
 namespace {
 
@@ -20,7 +20,7 @@ bool is_scan(std::string_view topic) {
 
 }  // namespace
 
-void CommandLatency::add(const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
+void CommandLatency::add(const transport::TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
   const std::string_view name = topic.name;
   if (is_scan(name)) {
     sweeps_.push_back(from_message(static_cast<const sensor_msgs::LaserScan*>(message.get())->header.stamp));
@@ -63,4 +63,4 @@ void CommandLatency::settle(Time time) {
   std::erase_if(told_, is_over);
 }
 
-}  // namespace docent
+}  // namespace docent::evaluation

@@ -8,7 +8,7 @@
 #include "docent/messages/standard_messages.h"
 #include "docent/transport/bus.h"
 
-namespace docent {
+namespace docent::evaluation {
 
 /// How long what the lasers see takes to reach the wheels: from a sweep's stamp until the base is told what `avoid`
 /// chose knowing it. That choice is the first whose stamp is not before the sweep's; the base is told of it by the
@@ -18,7 +18,7 @@ namespace docent {
 class CommandLatency {
  public:
   /// Topics that do not matter are passed over.
-  void add(const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message);
+  void add(const transport::TopicInfo& topic, Time time, const std::shared_ptr<const void>& message);
   /// [s], of all sweeps but those of the last two seconds.
   [[nodiscard]] const Quantiles& latencies() const { return latencies_; }
   /// Sweeps upon which nothing was commanded within two seconds.
@@ -39,4 +39,4 @@ class CommandLatency {
   std::uint64_t unanswered_ = 0;
 };
 
-}  // namespace docent
+}  // namespace docent::evaluation

@@ -4,7 +4,7 @@
 
 #include "docent/messages/conversions.h"
 
-namespace docent {
+namespace docent::evaluation {
 namespace {
 
 class Recorded {
@@ -12,18 +12,18 @@ class Recorded {
   void sweep(double stamp, double heard, const char* scanner = "front") {
     auto scan = std::make_shared<sensor_msgs::LaserScan>();
     scan->header.stamp = to_message(time_from_seconds(stamp));
-    latency.add(topic_info(topics::scan_topic(scanner)), time_from_seconds(heard), scan);
+    latency.add(transport::topic_info(topics::scan_topic(scanner)), time_from_seconds(heard), scan);
   }
   void choice(double stamp, double heard, double linear) {
     auto state = std::make_shared<docent_msgs::AvoidState>();
     state->header.stamp = to_message(time_from_seconds(stamp));
     state->linear = linear;
-    latency.add(topic_info(topics::kAvoidState), time_from_seconds(heard), state);
+    latency.add(transport::topic_info(topics::kAvoidState), time_from_seconds(heard), state);
   }
   void told(double heard, double linear) {
     auto twist = std::make_shared<geometry_msgs::Twist>();
     twist->linear.x = linear;
-    latency.add(topic_info(topics::kCommandVelocity), time_from_seconds(heard), twist);
+    latency.add(transport::topic_info(topics::kCommandVelocity), time_from_seconds(heard), twist);
   }
   CommandLatency latency;
 };
@@ -80,4 +80,4 @@ TEST(CommandLatency, IsNothingWhereTimeStandsStill) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::evaluation

@@ -8,7 +8,7 @@
 #include "docent/messages/conversions.h"
 #include "docent/vocabulary/vocabulary.h"
 
-namespace docent {
+namespace docent::evaluation {
 namespace {
 
 constexpr double kContactSpeed = 0.1;  ///< [m/s] towards a person; slower, they walked into the robot
@@ -31,7 +31,8 @@ std::optional<Point2> DeploymentEvaluator::true_place() const {
   return Point2{truth_.latest().x, truth_.latest().y};
 }
 
-void DeploymentEvaluator::add(const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
+void DeploymentEvaluator::add(const transport::TopicInfo& topic, Time time,
+                              const std::shared_ptr<const void>& message) {
   const auto is = [name = std::string_view{topic.name}](const auto& wanted) { return name == wanted.name; };
   const auto as = [&message]<class T>(const Topic<T>& /*wanted*/) -> const T& {
     return *static_cast<const T*>(message.get());
@@ -217,4 +218,4 @@ DeploymentReport DeploymentEvaluator::report() const {
   return report;
 }
 
-}  // namespace docent
+}  // namespace docent::evaluation

@@ -13,7 +13,7 @@
 #include "docent/evaluation/truth_history.h"
 #include "docent/transport/bus.h"
 
-namespace docent {
+namespace docent::evaluation {
 
 /// Whether a touch is a contact (architecture 9): walls, furniture and hazards always; a person if the robot's own
 /// speed towards them exceeds 0.1 m/s, unless it had begun to brake fully in time and they were the faster of the two.
@@ -24,7 +24,7 @@ namespace docent {
 class DeploymentEvaluator {
  public:
   /// Topics that do not matter are passed over.
-  void add(const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message);
+  void add(const transport::TopicInfo& topic, Time time, const std::shared_ptr<const void>& message);
 
   /// So far. O(beliefs) for the percentile.
   [[nodiscard]] DeploymentReport report() const;
@@ -72,4 +72,4 @@ class DeploymentEvaluator {
   int restarts_ordered_ = 0;
 };
 
-}  // namespace docent
+}  // namespace docent::evaluation

@@ -7,7 +7,7 @@
 
 #include "docent/messages/conversions.h"
 
-namespace docent {
+namespace docent::evaluation {
 namespace {
 
 /// A run written by hand: true states ten times a second, other messages in between.
@@ -15,7 +15,7 @@ class Story {
  public:
   template <class T>
   void say(const Topic<T>& topic, T message) {
-    evaluator_.add(topic_info(topic), time_, std::make_shared<const T>(std::move(message)));
+    evaluator_.add(transport::topic_info(topic), time_, std::make_shared<const T>(std::move(message)));
   }
   /// Ten states a second for `duration` seconds; `change` is called before each.
   template <class F>
@@ -386,4 +386,4 @@ TEST(DeploymentEvaluator, BatteryAndRestarts) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::evaluation

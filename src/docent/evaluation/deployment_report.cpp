@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace docent {
+namespace docent::evaluation {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -222,4 +222,4 @@ std::string summary_table(const DeploymentReport& r, const std::optional<RunCost
   return text;
 }
 
-}  // namespace docent
+}  // namespace docent::evaluation

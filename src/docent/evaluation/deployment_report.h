@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace docent {
+namespace docent::evaluation {
 
 /// Mean, spread and extremes of a few numbers, taken one at a time.
 class Spread {
@@ -132,4 +132,4 @@ struct DeploymentReport {
 /// A table for a terminal, every rate with its exposure.
 [[nodiscard]] std::string summary_table(const DeploymentReport& report, const std::optional<RunCost>& cost);
 
-}  // namespace docent
+}  // namespace docent::evaluation

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace docent {
+namespace docent::evaluation {
 namespace {
 
 TEST(DeploymentReport, JsonHasTheKeysOfTheArchitectureInTheirOrder) {
@@ -63,4 +63,4 @@ TEST(DeploymentReport, JsonHasTheKeysOfTheArchitectureInTheirOrder) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::evaluation

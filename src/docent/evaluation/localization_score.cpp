@@ -5,7 +5,7 @@
 
 #include "docent/messages/conversions.h"
 
-namespace docent {
+namespace docent::evaluation {
 namespace {
 
 constexpr double kRightDistance = 0.5;  ///< [m]
@@ -95,4 +95,4 @@ DeploymentReport::Localization LocalizationScore::result() const {
   return result;
 }
 
-}  // namespace docent
+}  // namespace docent::evaluation

@@ -7,7 +7,7 @@
 #include "docent/evaluation/truth_history.h"
 #include "docent/messages/localization_messages.h"
 
-namespace docent {
+namespace docent::evaluation {
 
 /// Holds beliefs against the truth. "Right" means: localized by its own word, and truly within 0.5 m and 20 degrees.
 class LocalizationScore {
@@ -44,4 +44,4 @@ class LocalizationScore {
   bool in_lost_event_ = false;
 };
 
-}  // namespace docent
+}  // namespace docent::evaluation

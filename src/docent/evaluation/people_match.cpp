@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-namespace docent {
+namespace docent::evaluation {
 
 PeopleMatch match_people(const docent_msgs::TrueState& truth, std::span<const Point2> tracks) {
   PeopleMatch match;
@@ -35,4 +35,4 @@ int beams_on(const docent_msgs::TrueState& truth, std::size_t person) {
   return truth.people[person].visible ? kVisibleBeams : 0;
 }
 
-}  // namespace docent
+}  // namespace docent::evaluation

@@ -8,7 +8,7 @@
 #include "docent/geometry/pose2.h"
 #include "docent/messages/truth_messages.h"
 
-namespace docent {
+namespace docent::evaluation {
 
 /// Tracks are judged and persons counted within this distance of the robot's true place [m].
 inline constexpr double kJudgedRange = 5.0;
@@ -29,4 +29,4 @@ struct PeopleMatch {
 /// Beams that ended on a person; where a recording does not tell, enough when the person was met at all.
 [[nodiscard]] int beams_on(const docent_msgs::TrueState& truth, std::size_t person);
 
-}  // namespace docent
+}  // namespace docent::evaluation

@@ -5,7 +5,7 @@
 #include "docent/evaluation/people_match.h"
 #include "docent/messages/conversions.h"
 
-namespace docent {
+namespace docent::evaluation {
 namespace {
 
 constexpr std::size_t kMostWaiting = 100;
@@ -44,4 +44,4 @@ void PeopleScore::judge(const docent_msgs::People& people, const docent_msgs::Tr
   }
 }
 
-}  // namespace docent
+}  // namespace docent::evaluation

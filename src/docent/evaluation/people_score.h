@@ -7,7 +7,7 @@
 #include "docent/messages/people_messages.h"
 #include "docent/messages/truth_messages.h"
 
-namespace docent {
+namespace docent::evaluation {
 
 /// Holds tracked people against the true ones, within 5 m of the robot, by the rules of people_match.h.
 class PeopleScore {
@@ -24,4 +24,4 @@ class PeopleScore {
   DeploymentReport::People result_;
 };
 
-}  // namespace docent
+}  // namespace docent::evaluation

@@ -1,6 +1,6 @@
 #include "docent/evaluation/request_tally.h"
 
-namespace docent {
+namespace docent::evaluation {
 namespace {
 
 constexpr double kInPlace = 1.0;        ///< [m] from the place where the robot should stand
@@ -124,4 +124,4 @@ void RequestTally::fill(DeploymentReport& report, Time end) const {
   if (requests.counted > 0) report.success_rate = static_cast<double>(requests.counted_served) / requests.counted;
 }
 
-}  // namespace docent
+}  // namespace docent::evaluation

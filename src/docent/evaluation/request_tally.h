@@ -13,7 +13,7 @@
 #include "docent/messages/truth_messages.h"
 #include "docent/vocabulary/vocabulary.h"
 
-namespace docent {
+namespace docent::evaluation {
 
 /// Counts wishes, tours and explanations. Wishes come from the truth (who truly asked) and from the board (the Web);
 /// what became of them is the board's word, checked against where the robot truly stood.
@@ -46,4 +46,4 @@ class RequestTally {
   DeploymentReport tally_;
 };
 
-}  // namespace docent
+}  // namespace docent::evaluation

@@ -8,7 +8,7 @@
 #include "docent/evaluation/deployment_evaluator.h"
 #include "docent/messages/conversions.h"
 
-namespace docent {
+namespace docent::evaluation {
 namespace {
 
 constexpr double kIntimate = 0.45;  // [m]
@@ -116,4 +116,4 @@ std::string to_json(const SocialReport& report) {
   return json.dump(2);
 }
 
-}  // namespace docent
+}  // namespace docent::evaluation

@@ -8,7 +8,7 @@
 #include "docent/geometry/pose2.h"
 #include "docent/messages/truth_messages.h"
 
-namespace docent {
+namespace docent::evaluation {
 
 /// How a robot crossed a crowd, by the truth, after the definitions of HuNavSim's evaluator (hunav_metrics.py) where it
 /// has one. The distance to a person is there the one from the robot's outline to the person's middle: intimate below
@@ -67,4 +67,4 @@ class SocialScore {
 
 [[nodiscard]] std::string to_json(const SocialReport& report);
 
-}  // namespace docent
+}  // namespace docent::evaluation

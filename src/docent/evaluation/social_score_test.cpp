@@ -6,7 +6,7 @@
 
 #include "docent/messages/conversions.h"
 
-namespace docent {
+namespace docent::evaluation {
 namespace {
 
 constexpr double kRadius = 0.25;
@@ -98,4 +98,4 @@ TEST(SocialScore, TellsAPushFromABump) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::evaluation

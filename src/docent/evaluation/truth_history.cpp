@@ -4,7 +4,7 @@
 
 #include "docent/messages/conversions.h"
 
-namespace docent {
+namespace docent::evaluation {
 namespace {
 
 constexpr Duration kKept = std::chrono::seconds{20};
@@ -50,4 +50,4 @@ const docent_msgs::TrueState* TruthHistory::state_at(Time time) const {
   return nearest;
 }
 
-}  // namespace docent
+}  // namespace docent::evaluation

@@ -8,7 +8,7 @@
 #include "docent/geometry/pose2.h"
 #include "docent/messages/truth_messages.h"
 
-namespace docent {
+namespace docent::evaluation {
 
 /// The last seconds of ground truth, so that what the robot said of a moment can be held against that moment.
 class TruthHistory {
@@ -33,4 +33,4 @@ class TruthHistory {
 
 [[nodiscard]] Pose2 true_pose(const docent_msgs::TrueState& state);
 
-}  // namespace docent
+}  // namespace docent::evaluation

@@ -4,7 +4,7 @@
 
 #include "docent/messages/conversions.h"
 
-namespace docent {
+namespace docent::evaluation {
 namespace {
 
 TEST(TruthHistory, InterpolatesBetweenStatesAlsoOverTheHalfTurn) {
@@ -30,4 +30,4 @@ TEST(TruthHistory, InterpolatesBetweenStatesAlsoOverTheHalfTurn) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::evaluation

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace docent {
+namespace docent::motion_models {
 
 namespace {
 
@@ -293,4 +293,4 @@ Result<OdometryFit> fit_odometry_model(std::span<const MotionWindow> windows, co
   return fit;
 }
 
-}  // namespace docent
+}  // namespace docent::motion_models

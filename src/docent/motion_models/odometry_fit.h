@@ -7,7 +7,7 @@
 #include "docent/motion_models/odometry_model.h"
 #include "docent/motion_models/odometry_windows.h"
 
-namespace docent {
+namespace docent::motion_models {
 
 /// The motion model together with what the labels themselves err.
 struct LabelledMotionNoise {
@@ -64,4 +64,4 @@ struct OdometryFit {
                                                      const LabelledMotionNoise& start,
                                                      const OdometryFitParams& options = {});
 
-}  // namespace docent
+}  // namespace docent::motion_models

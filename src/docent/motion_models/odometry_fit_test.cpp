@@ -7,7 +7,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent {
+namespace docent::motion_models {
 namespace {
 
 /// A drive through rooms and corridors: `steps` of a quarter of a metre or a turn, with wheels that err as `truth` says
@@ -178,4 +178,4 @@ TEST(OdometryFit, KeepsWhatTheDriveDoesNotShow) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::motion_models

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace docent {
+namespace docent::motion_models {
 
 void OdometryHistory::add(Time time, const Pose2& odom_from_robot) {
   if (!readings_.empty() && time <= readings_.back().time) {
@@ -27,4 +27,4 @@ std::optional<Pose2> OdometryHistory::at(Time time, Duration ahead) const {
   return Pose2{a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.theta + Angle::radians(share * turn)};
 }
 
-}  // namespace docent
+}  // namespace docent::motion_models

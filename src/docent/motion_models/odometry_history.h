@@ -6,7 +6,7 @@
 #include "docent/base/time.h"
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::motion_models {
 
 /// The odometry of the last moments, so that a scan can be asked where the robot was when it was taken.
 class OdometryHistory {
@@ -30,4 +30,4 @@ class OdometryHistory {
   std::deque<Reading> readings_;
 };
 
-}  // namespace docent
+}  // namespace docent::motion_models

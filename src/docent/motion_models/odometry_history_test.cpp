@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::motion_models {
 namespace {
 
 TEST(OdometryHistory, InterpolatesAlsoAcrossTheTurnOfAngles) {
@@ -38,4 +38,4 @@ TEST(OdometryHistory, OneStampFromTheFutureDoesNotEndIt) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::motion_models

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace docent {
+namespace docent::motion_models {
 
 Result<void> OdometryModelParams::validate() const {
   if (!(translation_per_metre > 0.0)) return fail("motion.translation_per_metre must be > 0");
@@ -20,4 +20,4 @@ MotionNoise motion_noise(const OdometryModelParams& params, const Pose2& before_
           params.rotation_per_metre * way + params.rotation_per_radian * turn};
 }
 
-}  // namespace docent
+}  // namespace docent::motion_models

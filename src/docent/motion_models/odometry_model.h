@@ -3,7 +3,7 @@
 #include "docent/base/result.h"
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::motion_models {
 
 /// How much wheel odometry errs. Variances grow with the way, so that it does not matter into how many steps a motion
 /// is cut. Departure from [Rhino1999] 3.1.3, where widths are proportional to the length of one command.
@@ -33,4 +33,4 @@ struct MotionNoise {
 /// The error of the increment `from_base_to_base` (where the robot is now, seen from where it was). O(1).
 [[nodiscard]] MotionNoise motion_noise(const OdometryModelParams& params, const Pose2& before_from_after);
 
-}  // namespace docent
+}  // namespace docent::motion_models

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::motion_models {
 namespace {
 
 TEST(OdometryModel, ErrorDoesNotDependOnHowAMotionIsCut) {
@@ -35,4 +35,4 @@ TEST(OdometryModel, RefusesWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::motion_models

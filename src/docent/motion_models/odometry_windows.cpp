@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace docent {
+namespace docent::motion_models {
 
 namespace {
 
@@ -100,4 +100,4 @@ std::vector<PlacedWindow> motion_windows(std::span<const LabelledOdometry> momen
   return windows;
 }
 
-}  // namespace docent
+}  // namespace docent::motion_models

@@ -7,7 +7,7 @@
 
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::motion_models {
 
 /// Symmetric 3 x 3 matrix over (x [m], y [m], heading [rad]).
 struct Symmetric3 {
@@ -63,4 +63,4 @@ struct PlacedWindow {
 [[nodiscard]] std::vector<PlacedWindow> motion_windows(std::span<const LabelledOdometry> moments,
                                                        const MotionWindowParams& params = {});
 
-}  // namespace docent
+}  // namespace docent::motion_models

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace docent {
+namespace docent::motion_models {
 
 namespace {
 
@@ -67,4 +67,4 @@ const Pose2& UnbrokenOdometry::odom_from_raw(Time stamp) const {
   return stamp < jumped_ ? odom_from_raw_before_ : odom_from_raw_;
 }
 
-}  // namespace docent
+}  // namespace docent::motion_models

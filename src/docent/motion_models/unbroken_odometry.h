@@ -5,7 +5,7 @@
 #include "docent/base/time.h"
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::motion_models {
 
 /// Odometry whose jumps are taken out: an encoder that skips, a driver that begins anew at zero. No base makes such a
 /// step, so the robot has not moved by it; what is kept in the odometry's frame would be torn by it.
@@ -43,4 +43,4 @@ class UnbrokenOdometry {
   Time jumped_{};
 };
 
-}  // namespace docent
+}  // namespace docent::motion_models

@@ -4,7 +4,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent {
+namespace docent::motion_models {
 namespace {
 
 constexpr double kStep = 0.05;  // [s]
@@ -96,4 +96,4 @@ TEST(UnbrokenOdometry, MissingMessagesAreNoJump) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::motion_models

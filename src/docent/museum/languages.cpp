@@ -1,6 +1,6 @@
 #include "docent/museum/languages.h"
 
-namespace docent {
+namespace docent::museum {
 namespace {
 
 // ISO 639-1.
@@ -35,4 +35,4 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
-}  // namespace docent
+}  // namespace docent::museum

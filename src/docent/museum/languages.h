@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace docent {
+namespace docent::museum {
 
 /// True for a two-letter code of ISO 639-1, such as "en".
 [[nodiscard]] bool is_language(std::string_view code);
@@ -11,4 +11,4 @@ namespace docent {
 /// True when the bytes are well-formed UTF-8 (overlong forms and surrogates are not looked for).
 [[nodiscard]] bool is_utf8(std::string_view text);
 
-}  // namespace docent
+}  // namespace docent::museum

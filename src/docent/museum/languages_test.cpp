@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::museum {
 namespace {
 
 TEST(Languages, AreThoseOfIso639) {
@@ -16,4 +16,4 @@ TEST(Languages, Utf8IsChecked) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::museum

@@ -6,25 +6,11 @@
 #include "docent/base/files.h"
 #include "docent/museum/museum_reader.h"
 
-namespace docent {
+namespace docent::museum {
 
 std::string translated(const Translations& texts, const std::string& language) {
   if (const auto found = texts.find(language); found != texts.end()) return found->second;
   return texts.empty() ? std::string{} : texts.begin()->second;
-}
-
-const char* to_string(HazardKind kind) {
-  switch (kind) {
-    case HazardKind::glass:
-      return "glass";
-    case HazardKind::plate:
-      return "plate";
-    case HazardKind::stairs:
-      return "stairs";
-    case HazardKind::other:
-      break;
-  }
-  return "other";
 }
 
 bool Hours::holds(int minute_of_day) const {
@@ -127,4 +113,4 @@ Result<Museum> load_museum(const std::filesystem::path& folder) {
   return museum;
 }
 
-}  // namespace docent
+}  // namespace docent::museum

@@ -13,7 +13,7 @@
 #include "docent/grid/clearance.h"
 #include "docent/grid/occupancy_grid.h"
 
-namespace docent {
+namespace docent::museum {
 
 /// A text in several languages: language code to text.
 using Translations = std::map<std::string, std::string>;
@@ -21,7 +21,7 @@ using Translations = std::map<std::string, std::string>;
 [[nodiscard]] std::string translated(const Translations& texts, const std::string& language);
 
 enum class HazardKind { glass, plate, stairs, other };
-[[nodiscard]] const char* to_string(HazardKind kind);
+[[nodiscard]] constexpr auto words_of(HazardKind) { return std::array{"glass", "plate", "stairs", "other"}; }
 /// What sensors cannot see (architecture 5), as surveyed.
 struct Hazard {
   std::string id;
@@ -114,4 +114,4 @@ struct CheckedRobot {
 /// clear of walls and hazards. O(cells).
 [[nodiscard]] std::vector<Error> check_museum(const std::filesystem::path& folder, const CheckedRobot& robot = {});
 
-}  // namespace docent
+}  // namespace docent::museum

@@ -6,7 +6,7 @@
 #include "docent/museum/museum.h"
 #include "docent/museum/museum_reader.h"
 
-namespace docent {
+namespace docent::museum {
 namespace {
 
 constexpr double kFarthestLook = 30.0;  // [m] from where an exhibit is explained to what is pointed at: a long hall
@@ -159,4 +159,4 @@ std::vector<Error> check_museum(const std::filesystem::path& folder, const Check
   return faults;
 }
 
-}  // namespace docent
+}  // namespace docent::museum

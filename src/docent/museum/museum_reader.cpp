@@ -7,14 +7,14 @@
 #include <set>
 
 #include "docent/museum/languages.h"
+#include "docent/vocabulary/vocabulary.h"
 
-namespace docent {
+namespace docent::museum {
 namespace {
 
 constexpr double kFarthest = 10'000.0;                        // [m]; coordinates beyond it are a slip of the pen
 constexpr std::size_t kLongestText = std::size_t{16} * 1024;  // [bytes]; about 20 minutes of speech
 constexpr std::size_t kLongestId = 40;
-constexpr std::array kHazards{HazardKind::glass, HazardKind::plate, HazardKind::stairs, HazardKind::other};
 
 struct PointYaml {
   double x = 0.0;
@@ -248,9 +248,8 @@ class MuseumYamlReader {
           reader.required("kind", kind);
           hazard.polygon = polygon(required(entry, reader.node("polygon"), "polygon"));
           reader.finish();
-          const auto* named =
-              std::find_if(kHazards.begin(), kHazards.end(), [&](HazardKind k) { return kind == to_string(k); });
-          if (named == kHazards.end()) {
+          const auto named = parse<HazardKind>(kind);
+          if (!named) {
             throw fault(reader.node("kind"),
                         "hazard '" + hazard.id + "': unknown kind '" + kind + "' (glass, plate, stairs, other)");
           }
@@ -416,4 +415,4 @@ MuseumSource read_museum(const YamlFile& file, const ReadText& read_text) {
   return source;
 }
 
-}  // namespace docent
+}  // namespace docent::museum

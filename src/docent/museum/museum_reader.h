@@ -9,7 +9,7 @@
 #include "docent/base/yaml.h"
 #include "docent/museum/museum.h"
 
-namespace docent {
+namespace docent::museum {
 
 /// The content of a file of the museum's folder, named relative to it.
 using ReadText = std::function<Result<std::string>(const std::filesystem::path& relative)>;
@@ -27,4 +27,4 @@ struct MuseumSource {
 /// Reads the parsed museum.yaml; texts come through `read_text`. Never throws, whatever the file holds.
 [[nodiscard]] MuseumSource read_museum(const YamlFile& file, const ReadText& read_text);
 
-}  // namespace docent
+}  // namespace docent::museum

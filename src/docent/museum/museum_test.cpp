@@ -8,7 +8,7 @@
 
 #include "docent/base/files.h"
 
-namespace docent {
+namespace docent::museum {
 namespace {
 
 // A hall of 10 x 8 m with a wall inside that leaves a door, a closet that no disc can enter, and a glass case.
@@ -360,4 +360,4 @@ TEST(Smithsonian, IsFine) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::museum

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace docent {
+namespace docent::people {
 namespace {
 
 constexpr std::array<double, 3> kPeople{0.165, 0.22, 0.27};  // [m] radii
@@ -249,4 +249,4 @@ BodyFit fit_bodies(std::span<const Point2> points, Point2 sensor, std::span<cons
   return best;
 }
 
-}  // namespace docent
+}  // namespace docent::people

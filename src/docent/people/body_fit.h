@@ -5,7 +5,7 @@
 
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::people {
 
 /// A disc as wide as a person, seen from one side.
 struct Body {
@@ -33,4 +33,4 @@ struct BodyFit {
 /// O(points * bodies * iterations).
 [[nodiscard]] BodyFit fit_bodies(std::span<const Point2> points, Point2 sensor, std::span<const Point2> known);
 
-}  // namespace docent
+}  // namespace docent::people

@@ -7,7 +7,7 @@
 #include "docent/base/random.h"
 #include "docent/people/testing.h"
 
-namespace docent {
+namespace docent::people {
 namespace {
 
 TEST(BodyFit, FindsOneBodyOfAnySize) {
@@ -62,4 +62,4 @@ TEST(BodyFit, KnowsABenchAndAColumnFromPeople) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::people

@@ -6,7 +6,7 @@
 
 #include "docent/geometry/point_transform.h"
 
-namespace docent {
+namespace docent::people {
 namespace {
 
 constexpr std::int32_t kSide = 128;  // cells
@@ -50,12 +50,12 @@ inline FreeMemory::Cell& FreeMemory::touch(std::int32_t column, std::int32_t row
   return cell;
 }
 
-void FreeMemory::add(const RangeSweep& sweep, const Pose2& odom_from_base, Time time) {
+void FreeMemory::add(const sensor_models::RangeSweep& sweep, const Pose2& odom_from_base, Time time) {
   const auto now = static_cast<std::int32_t>(time.nanoseconds / 100'000'000);
   if (now >= now_ && now - now_ < kEvery) return;  // every other sweep tells enough
   now_ = now;
   const Point2 from = odom_from_base.position();
-  for (const SweepBeam& beam : sweep.beams) {
+  for (const sensor_models::SweepBeam& beam : sweep.beams) {
     const Point2 ray = unit(odom_from_base.theta + Angle::radians(beam.bearing));
     const int steps = static_cast<int>((std::min(kReach, beam.range - kBeforeEnd) - kBody) / kCell) + 1;
     Point2 at = (1.0 / kCell) * (from + kBody * ray);  // in cells
@@ -66,9 +66,9 @@ void FreeMemory::add(const RangeSweep& sweep, const Pose2& odom_from_base, Time 
   }
   const PointTransform of_points{odom_from_base};
   // Ends after ways: where one beam ends, another may have passed a hand's breadth away.
-  for (const SweepBeam& beam : sweep.beams) {
+  for (const sensor_models::SweepBeam& beam : sweep.beams) {
     if (beam.no_return || beam.range > kReach) continue;
-    const Point2 end = of_points * endpoint(beam);
+    const Point2 end = of_points * sensor_models::endpoint(beam);
     Cell& cell = touch(index_of(end.x), index_of(end.y));
     cell.end = now_;
     if (cell.kind == Kind::free) cell.kind = Kind::come;
@@ -98,4 +98,4 @@ bool FreeMemory::has_come(Point2 in_odom) const {
   return known >= kMost;
 }
 
-}  // namespace docent
+}  // namespace docent::people

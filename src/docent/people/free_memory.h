@@ -7,7 +7,7 @@
 #include "docent/geometry/pose2.h"
 #include "docent/sensor_models/range_sweep.h"
 
-namespace docent {
+namespace docent::people {
 
 /// What the last minute of sweeps saw free round the robot, in odometry's frame: something that stands where the floor
 /// was free has come there by itself. It needs no map and no place in one.
@@ -16,7 +16,7 @@ class FreeMemory {
   FreeMemory();
 
   /// O(beams * cells a beam).
-  void add(const RangeSweep& sweep, const Pose2& odom_from_base, Time time);
+  void add(const sensor_models::RangeSweep& sweep, const Pose2& odom_from_base, Time time);
   /// True when all that surrounds the point was seen free before something came to be seen there.
   [[nodiscard]] bool has_come(Point2 in_odom) const;
 
@@ -35,4 +35,4 @@ class FreeMemory {
   std::int32_t now_ = -1000000;  ///< [0.1 s]
 };
 
-}  // namespace docent
+}  // namespace docent::people

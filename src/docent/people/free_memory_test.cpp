@@ -4,7 +4,7 @@
 
 #include "docent/people/testing.h"
 
-namespace docent {
+namespace docent::people {
 namespace {
 
 void watch(FreeMemory& memory, const Scene& scene, double from, double to) {
@@ -41,4 +41,4 @@ TEST(FreeMemory, ForgetsAfterAWhile) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::people

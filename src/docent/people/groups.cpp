@@ -4,7 +4,7 @@
 #include <iterator>
 #include <numeric>
 
-namespace docent {
+namespace docent::people {
 
 Result<void> GroupParams::validate() const {
   if (!(distance > 0.0)) return fail("groups.distance must be > 0");
@@ -50,4 +50,4 @@ std::vector<std::uint32_t> Groups::update(std::span<const TrackedPerson> people,
   return result;
 }
 
-}  // namespace docent
+}  // namespace docent::people

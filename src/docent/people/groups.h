@@ -9,7 +9,7 @@
 #include "docent/base/time.h"
 #include "docent/people/people_tracker.h"
 
-namespace docent {
+namespace docent::people {
 
 /// Who stands together.
 struct GroupParams {
@@ -42,4 +42,4 @@ class Groups {
   Time time_{};
 };
 
-}  // namespace docent
+}  // namespace docent::people

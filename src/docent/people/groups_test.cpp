@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::people {
 namespace {
 
 using Ids = std::vector<std::uint32_t>;
@@ -38,4 +38,4 @@ TEST(Groups, WhoLeavesIsAloneSoon) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::people

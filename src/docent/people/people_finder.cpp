@@ -1,6 +1,6 @@
 #include "docent/people/people_finder.h"
 
-namespace docent {
+namespace docent::people {
 namespace {
 
 constexpr double kOdometryReset = 2.0;  // [m] between two sweeps: odometry has begun anew
@@ -70,4 +70,4 @@ bool PeopleFinder::is_person(const PersonTrack& track, const std::optional<Pose2
   return track.is_alive() || track.by_map > kHalf;
 }
 
-}  // namespace docent
+}  // namespace docent::people

@@ -12,7 +12,7 @@
 #include "docent/people/sightlines.h"
 #include "docent/people/standing_things.h"
 
-namespace docent {
+namespace docent::people {
 
 /// Section `people`: who stands and walks round the robot.
 struct PeopleFinderParams {
@@ -57,4 +57,4 @@ class PeopleFinder {
   std::vector<std::uint32_t> groups_;
 };
 
-}  // namespace docent
+}  // namespace docent::people

@@ -6,7 +6,7 @@
 
 #include "docent/people/testing.h"
 
-namespace docent {
+namespace docent::people {
 namespace {
 
 constexpr Pose2 kMapFromOdom{};
@@ -124,4 +124,4 @@ TEST(PeopleFinder, OdometryThatBeginsAnewLeavesNoGhosts) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::people

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <tuple>
 
-namespace docent {
+namespace docent::people {
 namespace {
 
 constexpr double kLongest = 2.0;    // [s] that a prediction reaches
@@ -154,4 +154,4 @@ std::vector<Point2> PeopleTracker::places() const {
   return result;
 }
 
-}  // namespace docent
+}  // namespace docent::people

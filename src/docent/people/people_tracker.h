@@ -9,7 +9,7 @@
 #include "docent/people/sightings.h"
 #include "docent/people/sightlines.h"
 
-namespace docent {
+namespace docent::people {
 
 /// How somebody is followed from scan to scan.
 struct PeopleTrackerParams {
@@ -91,4 +91,4 @@ class PeopleTracker {
   double seconds_ = 0.0;  ///< of the last prediction
 };
 
-}  // namespace docent
+}  // namespace docent::people

@@ -5,11 +5,11 @@
 #include "docent/base/random.h"
 #include "docent/people/testing.h"
 
-namespace docent {
+namespace docent::people {
 namespace {
 
 /// Beams that tell nothing of anybody.
-Sightlines blind() { return {RangeSweep{}, Pose2{}}; }
+Sightlines blind() { return {sensor_models::RangeSweep{}, Pose2{}}; }
 
 void step(PeopleTracker& tracker, double t, const std::vector<Point2>& seen, const Sightlines& lines = blind()) {
   std::vector<PersonSighting> sightings;
@@ -91,4 +91,4 @@ TEST(PeopleTracker, KeepsWhoIsHiddenForAMoment) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::people

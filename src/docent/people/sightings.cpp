@@ -7,7 +7,7 @@
 #include "docent/geometry/point_transform.h"
 #include "docent/people/body_fit.h"
 
-namespace docent {
+namespace docent::people {
 namespace {
 
 struct Point {
@@ -27,7 +27,7 @@ double neighbour_gap(double range) { return 0.10 + 0.05 * range; }
 
 double width_of(const Run& run) { return distance(run.front().at, run.back().at); }
 
-std::vector<std::size_t> by_bearing(const RangeSweep& sweep) {
+std::vector<std::size_t> by_bearing(const sensor_models::RangeSweep& sweep) {
   std::vector<std::size_t> order(sweep.beams.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::stable_sort(order.begin(), order.end(),
@@ -77,7 +77,8 @@ void join_legs(std::vector<Run>& runs, const SightingParams& params) {
 /// A run of returns that stands by itself: both neighbours end clearly behind it.
 class Isolation {
  public:
-  Isolation(const RangeSweep& sweep, const std::vector<std::size_t>& order) : sweep_{sweep}, order_{order} {}
+  Isolation(const sensor_models::RangeSweep& sweep, const std::vector<std::size_t>& order)
+      : sweep_{sweep}, order_{order} {}
   /// `first`, `last`: in the order of bearings.
   [[nodiscard]] bool holds(std::size_t first, std::size_t last) const {
     return is_behind(first, first + order_.size() - 1) && is_behind(last, last + 1);
@@ -86,11 +87,11 @@ class Isolation {
  private:
   [[nodiscard]] bool is_behind(std::size_t edge, std::size_t neighbour) const {
     constexpr double kBehind = 0.4;  // [m]
-    const SweepBeam& here = sweep_.beams[order_[edge % order_.size()]];
-    const SweepBeam& next = sweep_.beams[order_[neighbour % order_.size()]];
+    const sensor_models::SweepBeam& here = sweep_.beams[order_[edge % order_.size()]];
+    const sensor_models::SweepBeam& next = sweep_.beams[order_[neighbour % order_.size()]];
     return next.no_return || next.range > here.range + kBehind;
   }
-  const RangeSweep& sweep_;
+  const sensor_models::RangeSweep& sweep_;
   const std::vector<std::size_t>& order_;
 };
 
@@ -158,13 +159,17 @@ std::vector<PersonSighting> find_people(const PeopleSweep& seen, const FreeMemor
   std::vector<Point> unknown;
   const PointTransform odom_from_base{seen.odom_from_base};
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const SweepBeam& beam = seen.sweep.beams[order[i]];
-    const BeamOrigin origin = seen.origins[order[i]];
-    if (beam.no_return || beam.range > params.range || origin == BeamOrigin::map) continue;
-    const Point2 at = odom_from_base * endpoint(beam);
-    const Point point{
-        at, beam.range, i, origin == BeamOrigin::not_map, origin != BeamOrigin::unknown, memory.has_come(at)};
-    (origin == BeamOrigin::unknown ? unknown : unmapped).push_back(point);
+    const sensor_models::SweepBeam& beam = seen.sweep.beams[order[i]];
+    const sensor_models::BeamOrigin origin = seen.origins[order[i]];
+    if (beam.no_return || beam.range > params.range || origin == sensor_models::BeamOrigin::map) continue;
+    const Point2 at = odom_from_base * sensor_models::endpoint(beam);
+    const Point point{at,
+                      beam.range,
+                      i,
+                      origin == sensor_models::BeamOrigin::not_map,
+                      origin != sensor_models::BeamOrigin::unknown,
+                      memory.has_come(at)};
+    (origin == sensor_models::BeamOrigin::unknown ? unknown : unmapped).push_back(point);
   }
   std::vector<Run> runs = runs_of(unmapped, order.size());
   std::erase_if(runs, [](const Run& run) {  // what only may be the map is no person by itself
@@ -192,4 +197,4 @@ std::vector<PersonSighting> find_people(const PeopleSweep& seen, const FreeMemor
   return people;
 }
 
-}  // namespace docent
+}  // namespace docent::people

@@ -8,7 +8,7 @@
 #include "docent/people/free_memory.h"
 #include "docent/sensor_models/range_sweep.h"
 
-namespace docent {
+namespace docent::people {
 
 /// What in a scan is taken for somebody.
 struct SightingParams {
@@ -30,8 +30,8 @@ struct SightingParams {
 /// One sweep, and what the map says of its beams.
 struct PeopleSweep {
   Pose2 odom_from_base;
-  RangeSweep sweep;
-  std::vector<BeamOrigin> origins;  ///< [beams]
+  sensor_models::RangeSweep sweep;
+  std::vector<sensor_models::BeamOrigin> origins;  ///< [beams]
 };
 
 /// Something person-sized that the map does not hold, or that came to where the floor was free.
@@ -52,4 +52,4 @@ struct PersonSighting {
 [[nodiscard]] std::vector<PersonSighting> find_people(const PeopleSweep& seen, const FreeMemory& memory,
                                                       std::span<const Point2> known, const SightingParams& params);
 
-}  // namespace docent
+}  // namespace docent::people

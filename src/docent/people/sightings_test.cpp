@@ -4,7 +4,7 @@
 
 #include "docent/people/testing.h"
 
-namespace docent {
+namespace docent::people {
 namespace {
 
 TEST(FindPeople, TwoLegsAreOnePerson) {
@@ -53,4 +53,4 @@ TEST(FindPeople, WithoutAMapOnlyWhatStandsByItself) {
 TEST(FindPeople, NobodyWhereNothingIs) { EXPECT_TRUE(find_people(Scene{}.sweep(), {}, {}, {}).empty()); }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::people

@@ -4,17 +4,18 @@
 #include <cmath>
 #include <numbers>
 
-namespace docent {
+namespace docent::people {
 namespace {
 
 constexpr double kBefore = 0.15;  // [m] before the near side
 
 }  // namespace
 
-Sightlines::Sightlines(const RangeSweep& sweep, const Pose2& odom_from_base)
+Sightlines::Sightlines(const sensor_models::RangeSweep& sweep, const Pose2& odom_from_base)
     : base_from_odom_{inverse(odom_from_base)}, beams_{sweep.beams} {
-  std::stable_sort(beams_.begin(), beams_.end(),
-                   [](const SweepBeam& a, const SweepBeam& b) { return a.bearing < b.bearing; });
+  std::stable_sort(
+      beams_.begin(), beams_.end(),
+      [](const sensor_models::SweepBeam& a, const sensor_models::SweepBeam& b) { return a.bearing < b.bearing; });
 }
 
 template <class F>
@@ -30,7 +31,7 @@ bool Sightlines::for_each_towards(Point2 in_odom, double radius, F&& f) const {
     const double last = middle + turn + half;
     if (beams_.empty() || last < beams_.front().bearing || first > beams_.back().bearing) continue;
     auto beam = std::lower_bound(beams_.begin(), beams_.end(), first,
-                                 [](const SweepBeam& b, double bearing) { return b.bearing < bearing; });
+                                 [](const sensor_models::SweepBeam& b, double bearing) { return b.bearing < bearing; });
     for (; beam != beams_.end() && beam->bearing <= last; ++beam) f(*beam, away);
   }
   return true;
@@ -41,7 +42,7 @@ Look Sightlines::look(Point2 in_odom, double radius) const {
   int passing = 0;
   int before = 0;
   int all = 0;
-  const bool is_outside = for_each_towards(in_odom, radius, [&](const SweepBeam& beam, double away) {
+  const bool is_outside = for_each_towards(in_odom, radius, [&](const sensor_models::SweepBeam& beam, double away) {
     ++all;
     passing += beam.no_return || beam.range > away + kBehind ? 1 : 0;
     before += !beam.no_return && beam.range < away - radius - kBefore ? 1 : 0;
@@ -57,12 +58,15 @@ double Sightlines::share_on(Point2 in_odom, double radius) const {
   const Point2 place = base_from_odom_ * in_odom;
   int on = 0;
   int open = 0;
-  const bool is_outside = for_each_towards(in_odom, radius, [&](const SweepBeam& beam, double away) {
+  const bool is_outside = for_each_towards(in_odom, radius, [&](const sensor_models::SweepBeam& beam, double away) {
     if (!beam.no_return && beam.range < away - radius - kBefore) return;
     ++open;
-    on += !beam.no_return && std::abs(distance(endpoint(beam), place) - radius) < kRim && beam.range < away ? 1 : 0;
+    on +=
+        !beam.no_return && std::abs(distance(sensor_models::endpoint(beam), place) - radius) < kRim && beam.range < away
+            ? 1
+            : 0;
   });
   return is_outside && open > 0 ? static_cast<double>(on) / open : 1.0;
 }
 
-}  // namespace docent
+}  // namespace docent::people

@@ -6,7 +6,7 @@
 #include "docent/geometry/point_transform.h"
 #include "docent/sensor_models/range_sweep.h"
 
-namespace docent {
+namespace docent::people {
 
 /// What a sweep says of a place where nobody was seen.
 enum class Look {
@@ -18,7 +18,7 @@ enum class Look {
 /// Asks one sweep about places. Sorting once, then O(log beams + beams on the place) a look.
 class Sightlines {
  public:
-  Sightlines(const RangeSweep& sweep, const Pose2& odom_from_base);
+  Sightlines(const sensor_models::RangeSweep& sweep, const Pose2& odom_from_base);
   /// What the beams towards a disc say.
   [[nodiscard]] Look look(Point2 in_odom, double radius) const;
   /// Of the beams towards a disc that nothing stops before it, the share that ends on its near side: little where
@@ -30,7 +30,7 @@ class Sightlines {
   template <class F>
   bool for_each_towards(Point2 in_odom, double radius, F&& f) const;
   PointTransform base_from_odom_;
-  std::vector<SweepBeam> beams_;  ///< by bearing
+  std::vector<sensor_models::SweepBeam> beams_;  ///< by bearing
 };
 
-}  // namespace docent
+}  // namespace docent::people

@@ -4,7 +4,7 @@
 
 #include "docent/people/testing.h"
 
-namespace docent {
+namespace docent::people {
 namespace {
 
 TEST(Sightlines, FreeHiddenAndUnclear) {
@@ -23,4 +23,4 @@ TEST(Sightlines, FreeHiddenAndUnclear) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::people

@@ -5,7 +5,7 @@
 
 #include "docent/geometry/point_transform.h"
 
-namespace docent {
+namespace docent::people {
 namespace {
 
 constexpr int kSurelyFree = 5;                              // sweeps in a row
@@ -74,4 +74,4 @@ bool StandingThings::is_thing(Point2 in_map) const {
   return place != nullptr && !place->came && place->stood > params_.patience();
 }
 
-}  // namespace docent
+}  // namespace docent::people

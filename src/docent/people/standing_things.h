@@ -7,7 +7,7 @@
 #include "docent/geometry/pose2.h"
 #include "docent/people/sightlines.h"
 
-namespace docent {
+namespace docent::people {
 
 /// What stands and is nobody.
 struct StandingThingParams {
@@ -55,4 +55,4 @@ class StandingThings {
   std::vector<Place> places_;
 };
 
-}  // namespace docent
+}  // namespace docent::people

@@ -4,7 +4,7 @@
 
 #include "docent/people/testing.h"
 
-namespace docent {
+namespace docent::people {
 namespace {
 
 constexpr Point2 kPlant{2.0, 0.0};
@@ -59,4 +59,4 @@ TEST(StandingThings, ATimeOutOfSightCountsLittle) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::people

@@ -8,7 +8,7 @@
 #include "docent/base/random.h"
 #include "docent/people/sightings.h"
 
-namespace docent {
+namespace docent::people {
 
 /// For tests: what 360 beams from a robot in an empty world see of discs and straight walls, with noise where there is
 /// a generator. What is added as known is the map's, all else is not.
@@ -29,7 +29,9 @@ class Scene {
       const bool none = range >= kMaxRange;
       const double noise = rng_ != nullptr && !none ? rng_->normal(0.0, 0.02) : 0.0;
       seen.sweep.beams.push_back({bearing, range + noise, none});
-      seen.origins.push_back(none || !knows ? BeamOrigin::unknown : in_map ? BeamOrigin::map : BeamOrigin::not_map);
+      seen.origins.push_back(none || !knows ? sensor_models::BeamOrigin::unknown
+                             : in_map       ? sensor_models::BeamOrigin::map
+                                            : sensor_models::BeamOrigin::not_map);
     }
     return seen;
   }
@@ -37,8 +39,8 @@ class Scene {
   [[nodiscard]] std::vector<Point2> ends_on_things() const {
     const PeopleSweep seen = sweep();
     std::vector<Point2> ends;
-    for (const SweepBeam& beam : seen.sweep.beams)
-      if (!beam.no_return) ends.push_back(seen.odom_from_base * endpoint(beam));
+    for (const sensor_models::SweepBeam& beam : seen.sweep.beams)
+      if (!beam.no_return) ends.push_back(seen.odom_from_base * sensor_models::endpoint(beam));
     return ends;
   }
 
@@ -81,4 +83,4 @@ class Scene {
   std::vector<Wall> walls_;
 };
 
-}  // namespace docent
+}  // namespace docent::people

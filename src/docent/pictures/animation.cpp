@@ -8,7 +8,7 @@
 
 #include "docent/base/files.h"
 
-namespace docent {
+namespace docent::pictures {
 
 struct Animation::Encoder {
   WebPAnimEncoder* webp = nullptr;
@@ -78,4 +78,4 @@ Result<void> Animation::save(const std::filesystem::path& path) {
   return write_file_atomically(path, bytes);
 }
 
-}  // namespace docent
+}  // namespace docent::pictures

@@ -7,7 +7,7 @@
 #include "docent/base/time.h"
 #include "docent/pictures/image.h"
 
-namespace docent {
+namespace docent::pictures {
 
 /// An animated WebP, lossless, that repeats for ever. Frames are compressed as they come, so memory stays small.
 class Animation {
@@ -30,4 +30,4 @@ class Animation {
   std::unique_ptr<Encoder> encoder_;
 };
 
-}  // namespace docent
+}  // namespace docent::pictures

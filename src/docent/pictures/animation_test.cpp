@@ -6,7 +6,7 @@
 
 #include "docent/base/files.h"
 
-namespace docent {
+namespace docent::pictures {
 namespace {
 
 TEST(Animation, FramesComeBackPixelForPixel) {
@@ -49,4 +49,4 @@ TEST(Animation, RefusesWhatItCannotDo) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::pictures

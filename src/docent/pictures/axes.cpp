@@ -5,7 +5,7 @@
 
 #include "docent/base/check.h"
 
-namespace docent {
+namespace docent::pictures {
 namespace {
 
 // All in points.
@@ -157,4 +157,4 @@ std::string Axes::description() const {
   return text;
 }
 
-}  // namespace docent
+}  // namespace docent::pictures

@@ -10,7 +10,7 @@
 #include "docent/pictures/canvas.h"
 #include "docent/pictures/ticks.h"
 
-namespace docent {
+namespace docent::pictures {
 
 /// What the colours of a layer mean, from `low` to `high`.
 struct ColorBar {
@@ -76,4 +76,4 @@ class Axes {
   std::vector<std::function<void(Canvas&)>> layers_;
 };
 
-}  // namespace docent
+}  // namespace docent::pictures

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::pictures {
 namespace {
 
 TEST(Axes, MapMetresToThePage) {
@@ -43,4 +43,4 @@ TEST(Axes, LeaveRoomForWhatStandsAround) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::pictures

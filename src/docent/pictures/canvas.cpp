@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-namespace docent {
+namespace docent::pictures {
 namespace {
 
 constexpr double kFarthest = 1e5;      // [points]; Cairo's own numbers end at 8e6
@@ -227,4 +227,4 @@ Point2 text_size(std::string_view utf8, const TextStyle& style) {
   return {line.width, line.ascent + line.descent};
 }
 
-}  // namespace docent
+}  // namespace docent::pictures

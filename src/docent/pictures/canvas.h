@@ -9,7 +9,7 @@
 #include "docent/geometry/pose2.h"
 #include "docent/pictures/image.h"
 
-namespace docent {
+namespace docent::pictures {
 
 struct TextStyle {
   double size = 9.0;  ///< [points]
@@ -82,4 +82,4 @@ struct CairoDeleter {
 /// The four bytes of a pixel of an image surface. @pre (x, y) lies in it
 [[nodiscard]] unsigned char* pixel_of(cairo_surface_t* surface, int x, int y);
 
-}  // namespace docent
+}  // namespace docent::pictures

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-namespace docent {
+namespace docent::pictures {
 namespace {
 
 /// A white page of pixels, one a point.
@@ -175,4 +175,4 @@ TEST(Text, WhatIsNoUtf8ShowsAsAMark) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::pictures

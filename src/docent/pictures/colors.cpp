@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <span>
 
-namespace docent {
+namespace docent::pictures {
 namespace {
 
 Color along(std::span<const Color> stops, double at) {
@@ -49,4 +49,4 @@ Color distinct(int n) {
   return kColors[static_cast<std::size_t>(((n % 8) + 8) % 8)];
 }
 
-}  // namespace docent
+}  // namespace docent::pictures

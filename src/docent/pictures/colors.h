@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace docent {
+namespace docent::pictures {
 
 /// Eight bits a channel, not premultiplied.
 struct Color {
@@ -41,4 +41,4 @@ inline constexpr Color kBlue{38, 98, 180};
 inline constexpr Color kViolet{122, 62, 157};
 }  // namespace colors
 
-}  // namespace docent
+}  // namespace docent::pictures

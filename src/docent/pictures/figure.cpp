@@ -11,7 +11,7 @@
 #include "docent/base/check.h"
 #include "docent/base/files.h"
 
-namespace docent {
+namespace docent::pictures {
 namespace {
 
 // All in points.
@@ -269,4 +269,4 @@ Image raster_inside(const Axes& axes) {
   });
 }
 
-}  // namespace docent
+}  // namespace docent::pictures

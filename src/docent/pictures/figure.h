@@ -9,7 +9,7 @@
 #include "docent/base/result.h"
 #include "docent/pictures/axes.h"
 
-namespace docent {
+namespace docent::pictures {
 
 /// Pixels a point of a figure that is written as a raster.
 inline constexpr double kPixelsPerPoint = 2.0;
@@ -61,4 +61,4 @@ class Figure {
 /// The inside of axes alone, without a frame.
 [[nodiscard]] Image raster_inside(const Axes& axes);
 
-}  // namespace docent
+}  // namespace docent::pictures

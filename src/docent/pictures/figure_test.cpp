@@ -11,7 +11,7 @@
 #include "docent/base/files.h"
 #include "docent/pictures/map_picture.h"
 
-namespace docent {
+namespace docent::pictures {
 namespace {
 
 namespace fs = std::filesystem;
@@ -169,4 +169,4 @@ TEST_F(FigureTest, RowsLegendAndTitleTakeTheirRoom) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::pictures

@@ -5,7 +5,7 @@
 
 #include "docent/base/check.h"
 
-namespace docent {
+namespace docent::pictures {
 namespace {
 
 constexpr int kMaxSide = 16384;
@@ -52,4 +52,4 @@ void Image::blend(int x, int y, Color color, double coverage) {
        static_cast<std::uint8_t>(std::lround(alpha * 255.0))});
 }
 
-}  // namespace docent
+}  // namespace docent::pictures

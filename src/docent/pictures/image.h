@@ -6,7 +6,7 @@
 
 #include "docent/pictures/colors.h"
 
-namespace docent {
+namespace docent::pictures {
 
 /// RGBA pixels. Pixel (0, 0) is at the top left, x to the right, y down; its centre lies at (0.5, 0.5).
 class Image {
@@ -30,4 +30,4 @@ class Image {
   std::vector<std::uint8_t> bytes_;
 };
 
-}  // namespace docent
+}  // namespace docent::pictures

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::pictures {
 namespace {
 
 TEST(Image, BlendsByAlphaAndCoverage) {
@@ -31,4 +31,4 @@ TEST(Colors, MapsAreMonotoneInDarkness) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::pictures

@@ -8,7 +8,7 @@
 
 #include "docent/base/check.h"
 
-namespace docent {
+namespace docent::pictures {
 namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
@@ -173,4 +173,4 @@ void draw_timed_path(Axes& axes, std::span<const TimedPoint> way, double width) 
   if (end > begin) axes.set_color_bar({"time [s]", color, begin, end, false});
 }
 
-}  // namespace docent
+}  // namespace docent::pictures

@@ -10,7 +10,7 @@
 
 // Layers of axes in metres: maps, what is believed, ways and robots.
 
-namespace docent {
+namespace docent::pictures {
 
 /// The room that a grid takes, with `values` one a cell (row-major) coloured by `color`; NaN stays clear. A pixel of a
 /// raster that is larger than a cell shows the greatest value under it, so that a single cell does not vanish.
@@ -46,4 +46,4 @@ struct TimedPoint {
 /// A way coloured by `rainbow` from the first to the last time, with a colour bar where these differ.
 void draw_timed_path(Axes& axes, std::span<const TimedPoint> way, double width);
 
-}  // namespace docent
+}  // namespace docent::pictures

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace docent {
+namespace docent::pictures {
 namespace {
 
 OccupancyGrid room() {
@@ -127,4 +127,4 @@ TEST(DrawTimedPath, IsColouredFromItsBeginningToItsEnd) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::pictures

@@ -7,7 +7,7 @@
 
 #include "docent/base/check.h"
 
-namespace docent {
+namespace docent::pictures {
 namespace {
 
 constexpr double kRounding = 1e-6;  // of a step: 0.3 is a multiple of 0.1, whatever its last bit says
@@ -51,4 +51,4 @@ std::vector<Tick> power_ticks(double low, double high) {
   return ticks;
 }
 
-}  // namespace docent
+}  // namespace docent::pictures

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace docent {
+namespace docent::pictures {
 
 /// A mark on an axis or a colour bar, and what stands beside it.
 struct Tick {
@@ -18,4 +18,4 @@ struct Tick {
 /// The powers of ten in [low, high], written as 10⁻³. @pre 0 < low < high
 [[nodiscard]] std::vector<Tick> power_ticks(double low, double high);
 
-}  // namespace docent
+}  // namespace docent::pictures

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace docent {
+namespace docent::pictures {
 namespace {
 
 std::vector<std::string> labels(const std::vector<Tick>& ticks) {
@@ -52,4 +52,4 @@ TEST(PowerTicks, AreThePowersWithin) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::pictures

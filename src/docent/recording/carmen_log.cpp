@@ -11,7 +11,7 @@
 #include "docent/base/files.h"
 #include "docent/messages/message_fitness.h"
 
-namespace docent {
+namespace docent::recording {
 namespace {
 
 constexpr double kMostField = 2.0 * std::numbers::pi + 0.1;  ///< [rad] of one scan, as fault_of has it
@@ -364,4 +364,4 @@ Result<LaserLog> read_carmen_log(const std::filesystem::path& path) {
   return parse_carmen_log(*text, path.string());
 }
 
-}  // namespace docent
+}  // namespace docent::recording

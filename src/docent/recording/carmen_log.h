@@ -6,7 +6,7 @@
 
 #include "docent/recording/laser_log.h"
 
-namespace docent {
+namespace docent::recording {
 
 /// Reads a CARMEN text log, plain or gzip: FLASER, RLASER, ROBOTLASER1, ODOM and PARAM lines; others are passed over.
 ///
@@ -30,4 +30,4 @@ namespace docent {
 /// The same from memory; `name` stands where the file's name would.
 [[nodiscard]] Result<LaserLog> parse_carmen_log(std::string_view text, const std::string& name);
 
-}  // namespace docent
+}  // namespace docent::recording

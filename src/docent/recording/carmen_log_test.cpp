@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <numbers>
 
-namespace docent {
+namespace docent::recording {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -219,4 +219,4 @@ TEST(CarmenLog, ReadsRealLogs) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::recording

@@ -7,7 +7,7 @@
 #include "docent/recording/mcap/reader.h"
 #include "docent/recording/mcap/writer.h"
 
-namespace docent {
+namespace docent::recording {
 
 std::set<std::filesystem::path> recordings_in(const std::filesystem::path& folder) {
   std::set<std::filesystem::path> found;
@@ -55,4 +55,4 @@ Result<void> join_recordings(const std::vector<std::filesystem::path>& files, co
   return writer->close();
 }
 
-}  // namespace docent
+}  // namespace docent::recording

@@ -6,7 +6,7 @@
 
 #include "docent/base/result.h"
 
-namespace docent {
+namespace docent::recording {
 
 /// The recordings in a folder, finished or not, by the name that they have when they are finished. Empty: no folder.
 [[nodiscard]] std::set<std::filesystem::path> recordings_in(const std::filesystem::path& folder);
@@ -16,4 +16,4 @@ namespace docent {
 [[nodiscard]] Result<void> join_recordings(const std::vector<std::filesystem::path>& files,
                                            const std::filesystem::path& out);
 
-}  // namespace docent
+}  // namespace docent::recording

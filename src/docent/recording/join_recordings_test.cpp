@@ -6,7 +6,7 @@
 #include "docent/base/files.h"
 #include "docent/recording/recorder.h"
 
-namespace docent {
+namespace docent::recording {
 namespace {
 
 class JoinRecordings : public testing::Test {
@@ -24,7 +24,7 @@ class JoinRecordings : public testing::Test {
     for (int i = first; i <= last; ++i) {
       docent_msgs::Horn horn;
       horn.reason = std::to_string(i);
-      EXPECT_TRUE(recorder->write(topic_info(topics::kHorn), time_from_seconds(i),
+      EXPECT_TRUE(recorder->write(transport::topic_info(topics::kHorn), time_from_seconds(i),
                                   std::make_shared<const docent_msgs::Horn>(horn)));
     }
     EXPECT_TRUE(recorder->close().has_value());
@@ -72,4 +72,4 @@ TEST_F(JoinRecordings, NothingIsAFault) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::recording

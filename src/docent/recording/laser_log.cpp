@@ -9,7 +9,7 @@
 #include "docent/recording/mcap/reader.h"
 #include "docent/recording/ros_laser_log.h"
 
-namespace docent {
+namespace docent::recording {
 namespace {
 
 namespace fs = std::filesystem;
@@ -80,4 +80,4 @@ Result<LaserLog> read_laser_log(const fs::path& path, bool with_sonars) {
   return read_carmen_log(path);
 }
 
-}  // namespace docent
+}  // namespace docent::recording

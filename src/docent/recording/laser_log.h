@@ -9,7 +9,7 @@
 #include "docent/base/time.h"
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::recording {
 
 inline constexpr double kLastSecond = 4294967295;  ///< [s] in the year 2106; no time of a log lies beyond it
 
@@ -70,4 +70,4 @@ struct LaserLog {
 /// Error: "FILE: …" or "FILE:LINE: …": unreadable, damaged, or without a scan.
 [[nodiscard]] Result<LaserLog> read_laser_log(const std::filesystem::path& path, bool with_sonars = false);
 
-}  // namespace docent
+}  // namespace docent::recording

@@ -10,7 +10,7 @@
 #include "docent/messages/conversions.h"
 #include "docent/recording/recorder.h"
 
-namespace docent {
+namespace docent::recording {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -225,4 +225,4 @@ TEST_F(LaserLogFolder, SonarsWhereAskedFor) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::recording

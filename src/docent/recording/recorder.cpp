@@ -3,7 +3,7 @@
 #include "docent/base/check.h"
 #include "docent/messages/schema.h"
 
-namespace docent {
+namespace docent::recording {
 namespace {
 
 /// What ros2 bag wants to know to play a topic as it was offered.
@@ -20,25 +20,25 @@ std::string qos_profile(Qos qos) {
 std::map<std::string, RecordedTopic, std::less<>> all_topics() {
   std::map<std::string, RecordedTopic, std::less<>> topics;
   const auto add = [&topics]<class T>(const Topic<T>& topic) {
-    topics[topic.name] = {topic_info(topic), ros2msg_text(message_schemas<T>())};
+    topics[topic.name] = {transport::topic_info(topic), ros2msg_text(message_schemas<T>())};
   };
   for_each_robot_topic(add);
   for_each_truth_topic(add);
   return topics;
 }
 
-void subscribe(Bus& bus, const TopicInfo& info, const TopicHandler& handler) {
+void subscribe(transport::Bus& bus, const transport::TopicInfo& info, const TopicHandler& handler) {
   bus.add_subscription(info, [info, handler](const std::shared_ptr<const void>& message) { handler(info, message); });
 }
 
 }  // namespace
 
-void subscribe_robot_topics(Bus& bus, const TopicHandler& handler) {
-  for_each_robot_topic([&](const auto& topic) { subscribe(bus, topic_info(topic), handler); });
+void subscribe_robot_topics(transport::Bus& bus, const TopicHandler& handler) {
+  for_each_robot_topic([&](const auto& topic) { subscribe(bus, transport::topic_info(topic), handler); });
 }
 
-void subscribe_truth_topics(Bus& truth, const TopicHandler& handler) {
-  for_each_truth_topic([&](const auto& topic) { subscribe(truth, topic_info(topic), handler); });
+void subscribe_truth_topics(transport::Bus& truth, const TopicHandler& handler) {
+  for_each_truth_topic([&](const auto& topic) { subscribe(truth, transport::topic_info(topic), handler); });
 }
 
 const RecordedTopic* find_recorded_topic(std::string_view name) {
@@ -54,7 +54,7 @@ Result<Recorder> Recorder::create(const std::filesystem::path& path, const McapW
   return Recorder{std::move(*writer)};
 }
 
-Result<void> Recorder::write(const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
+Result<void> Recorder::write(const transport::TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
   auto place = channels_.find(std::string_view{topic.name});
   if (place == channels_.end()) {
     const RecordedTopic* known = find_recorded_topic(topic.name);
@@ -94,4 +94,4 @@ Result<void> read_recording(McapReader& reader, const McapReader::Selection& sel
   return decoded ? read : decoded;
 }
 
-}  // namespace docent
+}  // namespace docent::recording

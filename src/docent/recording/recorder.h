@@ -11,20 +11,20 @@
 #include "docent/recording/mcap/writer.h"
 #include "docent/transport/bus.h"
 
-namespace docent {
+namespace docent::recording {
 
 /// A topic of Docent as a recording knows it.
 struct RecordedTopic {
-  TopicInfo info;
+  transport::TopicInfo info;
   std::string schema;  ///< text of the type, encoding ros2msg
 };
 /// By the bus's name ("scan_front") or the recording's ("/scan_front"); nullptr for a topic that Docent does not have.
 [[nodiscard]] const RecordedTopic* find_recorded_topic(std::string_view name);
 
-using TopicHandler = std::function<void(const TopicInfo& topic, const std::shared_ptr<const void>& message)>;
+using TopicHandler = std::function<void(const transport::TopicInfo& topic, const std::shared_ptr<const void>& message)>;
 /// Subscribes to every topic of the robot, or to those of the truth, which live on a bus of their own.
-void subscribe_robot_topics(Bus& bus, const TopicHandler& handler);
-void subscribe_truth_topics(Bus& truth, const TopicHandler& handler);
+void subscribe_robot_topics(transport::Bus& bus, const TopicHandler& handler);
+void subscribe_truth_topics(transport::Bus& truth, const TopicHandler& handler);
 
 /// Writes messages of the bus to an MCAP file, for `docent simulate --record` and the record module.
 class Recorder {
@@ -33,7 +33,8 @@ class Recorder {
                                                const McapWriterOptions& options = {});
 
   /// @pre the topic is one of Docent's. Error: the disk is full or gone.
-  [[nodiscard]] Result<void> write(const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message);
+  [[nodiscard]] Result<void> write(const transport::TopicInfo& topic, Time time,
+                                   const std::shared_ptr<const void>& message);
   [[nodiscard]] Result<void> flush() { return writer_.flush(); }
   [[nodiscard]] Result<void> close() { return writer_.close(); }
   [[nodiscard]] std::uint64_t messages() const { return writer_.messages(); }
@@ -47,7 +48,7 @@ class Recorder {
 
 /// A message of a recording that is one of Docent's, decoded.
 struct RecordedMessage {
-  const TopicInfo& topic;
+  const transport::TopicInfo& topic;
   Time time;
   std::shared_ptr<const void> message;
   [[nodiscard]] bool is(const char* name) const { return std::string_view{topic.name} == name; }
@@ -63,4 +64,4 @@ struct RecordedMessage {
 [[nodiscard]] Result<void> read_recording(McapReader& reader, const McapReader::Selection& selection,
                                           const std::function<bool(const RecordedMessage&)>& handler);
 
-}  // namespace docent
+}  // namespace docent::recording

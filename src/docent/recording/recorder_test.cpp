@@ -5,7 +5,7 @@
 
 #include "docent/messages/random_message.h"
 
-namespace docent {
+namespace docent::recording {
 namespace {
 
 class RecorderFile : public testing::Test {
@@ -24,7 +24,7 @@ TEST_F(RecorderFile, EveryTopicComesBackAsItWas) {
   std::int64_t time = 0;
   const auto write = [&]<class T>(const Topic<T>& topic) {
     const auto message = std::make_shared<const T>(random_message<T>(static_cast<std::uint64_t>(time) + 1));
-    ASSERT_TRUE(recorder->write(topic_info(topic), Time{time += 1000000}, message));
+    ASSERT_TRUE(recorder->write(transport::topic_info(topic), Time{time += 1000000}, message));
     written.emplace_back(topic.name, encode_cdr(*message));
   };
   for_each_robot_topic(write);
@@ -81,4 +81,4 @@ TEST(RecordedTopics, AreKnownByBothNames) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::recording

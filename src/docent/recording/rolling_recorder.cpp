@@ -4,7 +4,7 @@
 #include <array>
 #include <ctime>
 
-namespace docent {
+namespace docent::recording {
 namespace {
 
 constexpr const char* kPrefix = "recording-";
@@ -65,7 +65,8 @@ Result<void> RollingRecorder::begin(Time time) {
   return {};
 }
 
-Result<void> RollingRecorder::write(const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
+Result<void> RollingRecorder::write(const transport::TopicInfo& topic, Time time,
+                                    const std::shared_ptr<const void>& message) {
   const bool is_full =
       recorder_ && (static_cast<double>(recorder_->bytes_written()) > params_.max_file_megabytes * 1e6 ||
                     to_seconds(time - begun_) > params_.max_hours * 3600.0);
@@ -97,4 +98,4 @@ std::vector<std::filesystem::path> RollingRecorder::unfinished(const std::filesy
   return recordings(folder, ".mcap.part");
 }
 
-}  // namespace docent
+}  // namespace docent::recording

@@ -9,7 +9,7 @@
 
 #include "docent/recording/recorder.h"
 
-namespace docent {
+namespace docent::recording {
 
 struct RollingRecorderParams {
   double max_file_megabytes = 500.0;  ///< > 0; then a new file begins
@@ -35,7 +35,8 @@ class RollingRecorder {
   ~RollingRecorder();
 
   /// Error: the disk is full or gone. Later messages try again.
-  [[nodiscard]] Result<void> write(const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message);
+  [[nodiscard]] Result<void> write(const transport::TopicInfo& topic, Time time,
+                                   const std::shared_ptr<const void>& message);
   [[nodiscard]] Result<void> flush();
 
   /// The file that is being written; empty before the first message.
@@ -46,7 +47,7 @@ class RollingRecorder {
 
  private:
   struct Latched {
-    TopicInfo topic;
+    transport::TopicInfo topic;
     std::shared_ptr<const void> message;
   };
   [[nodiscard]] Result<void> begin(Time time);
@@ -60,4 +61,4 @@ class RollingRecorder {
   std::map<std::string, Latched, std::less<>> latched_;
 };
 
-}  // namespace docent
+}  // namespace docent::recording

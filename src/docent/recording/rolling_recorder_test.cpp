@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-namespace docent {
+namespace docent::recording {
 namespace {
 
 class RollingFolder : public testing::Test {
@@ -28,9 +28,9 @@ TEST_F(RollingFolder, BeginsNewFilesThatStandAloneAndRemovesTheOldest) {
   {
     RollingRecorder recorder{folder_, params};
     const auto limits = std::make_shared<docent_msgs::Limits>();
-    ASSERT_TRUE(recorder.write(topic_info(topics::kLimits), Time{0}, limits));
+    ASSERT_TRUE(recorder.write(transport::topic_info(topics::kLimits), Time{0}, limits));
     for (int minute = 0; minute < 5 * 60; minute += 10)
-      ASSERT_TRUE(recorder.write(topic_info(topics::kHorn), time_from_seconds(60.0 * minute),
+      ASSERT_TRUE(recorder.write(transport::topic_info(topics::kHorn), time_from_seconds(60.0 * minute),
                                  std::make_shared<docent_msgs::Horn>()));
     EXPECT_EQ(recorder.file().filename(), "recording-19700101-044000.mcap");
   }
@@ -45,17 +45,18 @@ TEST_F(RollingFolder, BeginsNewFilesThatStandAloneAndRemovesTheOldest) {
 TEST_F(RollingFolder, TwoRecordersOfOneSecondDoNotOverwriteEachOther) {
   for (int i = 0; i < 2; ++i) {
     RollingRecorder recorder{folder_, {}};
-    ASSERT_TRUE(recorder.write(topic_info(topics::kHorn), Time{5}, std::make_shared<docent_msgs::Horn>()));
+    ASSERT_TRUE(recorder.write(transport::topic_info(topics::kHorn), Time{5}, std::make_shared<docent_msgs::Horn>()));
   }
   EXPECT_EQ(files(), (std::vector<std::string>{"recording-19700101-000000-2.mcap", "recording-19700101-000000.mcap"}));
 }
 
 TEST_F(RollingFolder, AFolderThatCannotBeMadeIsAnError) {
   RollingRecorder recorder{"/proc/nowhere", {}};
-  const auto written = recorder.write(topic_info(topics::kHorn), Time{5}, std::make_shared<docent_msgs::Horn>());
+  const auto written =
+      recorder.write(transport::topic_info(topics::kHorn), Time{5}, std::make_shared<docent_msgs::Horn>());
   ASSERT_FALSE(written);
   EXPECT_NE(written.error().message.find("/proc/nowhere"), std::string::npos);
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::recording

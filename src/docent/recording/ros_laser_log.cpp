@@ -8,7 +8,7 @@
 #include "docent/messages/cdr.h"
 #include "docent/messages/conversions.h"
 
-namespace docent {
+namespace docent::recording {
 namespace {
 
 constexpr int kMostLinks = 32;           ///< of a chain of frames; a longer one is a ring
@@ -243,4 +243,4 @@ Result<LaserLog> RosLaserLogBuilder::finish() {
   return std::move(log_);
 }
 
-}  // namespace docent
+}  // namespace docent::recording

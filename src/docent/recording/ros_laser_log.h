@@ -10,7 +10,7 @@
 #include "docent/recording/laser_log.h"
 #include "docent/recording/rosbag2_database.h"
 
-namespace docent {
+namespace docent::recording {
 
 /// Makes a laser log of the messages of a ROS 2 recording (see read_laser_log).
 class RosLaserLogBuilder {
@@ -64,4 +64,4 @@ class RosLaserLogBuilder {
   LaserLog log_;
 };
 
-}  // namespace docent
+}  // namespace docent::recording

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-namespace docent {
+namespace docent::recording {
 namespace {
 
 struct CloseDatabase {
@@ -46,4 +46,4 @@ Result<void> read_rosbag2_database(const std::filesystem::path& path,
   }
 }
 
-}  // namespace docent
+}  // namespace docent::recording

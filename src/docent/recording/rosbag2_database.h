@@ -9,7 +9,7 @@
 #include "docent/base/result.h"
 #include "docent/base/time.h"
 
-namespace docent {
+namespace docent::recording {
 
 /// A message of a rosbag2 recording. Valid during the call that hands it over.
 struct Rosbag2Message {
@@ -24,4 +24,4 @@ struct Rosbag2Message {
 [[nodiscard]] Result<void> read_rosbag2_database(const std::filesystem::path& path,
                                                  const std::function<bool(const Rosbag2Message&)>& handler);
 
-}  // namespace docent
+}  // namespace docent::recording

@@ -1,6 +1,6 @@
 #include "docent/robot/evaluation_params.h"
 
-namespace docent {
+namespace docent::robot {
 
 std::string EvaluationParams::crippled() const {
   std::string names;
@@ -12,4 +12,4 @@ std::string EvaluationParams::crippled() const {
   return names;
 }
 
-}  // namespace docent
+}  // namespace docent::robot

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace docent {
+namespace docent::robot {
 
 /// Section `evaluation` of robot.yaml: ways to cripple the robot, so that an evaluation shows what the crippled part is
 /// for (architecture 10.17). By default nothing is crippled. `docent up` and `docent run` refuse anything else.
@@ -38,4 +38,4 @@ struct EvaluationParams {
   [[nodiscard]] std::string crippled() const;
 };
 
-}  // namespace docent
+}  // namespace docent::robot

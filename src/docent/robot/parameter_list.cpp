@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <memory>
 
-namespace docent {
+namespace docent::robot {
 
 namespace {
 
@@ -59,4 +59,4 @@ std::string in_one_line(const YAML::Node& node) {
   return out.c_str();
 }
 
-}  // namespace docent
+}  // namespace docent::robot

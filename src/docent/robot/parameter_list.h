@@ -10,7 +10,7 @@
 #include "docent/base/result.h"
 #include "docent/robot/robot_config.h"
 
-namespace docent {
+namespace docent::robot {
 
 /// One key of robot.yaml: a value, or a part that holds the rows after it that are one deeper.
 struct ParameterRow {
@@ -104,4 +104,4 @@ template <class Params>
   return rows;
 }
 
-}  // namespace docent
+}  // namespace docent::robot

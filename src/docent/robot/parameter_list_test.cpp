@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::robot {
 namespace {
 
 struct Grip {
@@ -77,4 +77,4 @@ TEST(ParameterList, NumbersReadBackAsThemselves) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::robot

@@ -8,7 +8,7 @@
 #include "docent/base/random.h"
 #include "docent/geometry/convex.h"
 
-namespace docent {
+namespace docent::robot {
 
 namespace {
 
@@ -184,4 +184,4 @@ std::string RobotConfig::hash() const {
   return text;
 }
 
-}  // namespace docent
+}  // namespace docent::robot

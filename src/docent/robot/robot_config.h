@@ -12,7 +12,7 @@
 #include "docent/geometry/pose2.h"
 #include "docent/robot/evaluation_params.h"
 
-namespace docent {
+namespace docent::robot {
 
 /// A laser scanner and its place.
 struct Scanner {
@@ -132,4 +132,4 @@ class RobotConfig {
   EvaluationParams evaluation_;
 };
 
-}  // namespace docent
+}  // namespace docent::robot

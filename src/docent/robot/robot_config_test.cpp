@@ -8,7 +8,7 @@
 
 #include "docent/base/files.h"
 
-namespace docent {
+namespace docent::robot {
 namespace {
 
 struct Speeds {
@@ -186,4 +186,4 @@ TEST(RobotBody, KnowsItsSonarsByTheirFrames) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::robot

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace docent {
+namespace docent::robot {
 
 void CommandWatchdog::receive(Time now, const Command& command) {
   received_ = now;
@@ -21,4 +21,4 @@ bool CommandWatchdog::is_fresh(Time now) const {
 
 CommandWatchdog::Command CommandWatchdog::output(Time now) const { return is_fresh(now) ? command_ : Command{}; }
 
-}  // namespace docent
+}  // namespace docent::robot

@@ -4,7 +4,7 @@
 
 #include "docent/base/time.h"
 
-namespace docent {
+namespace docent::robot {
 
 /// Lets the last command through while it is fresh, and zero otherwise (architecture 8.1). What is not a number is
 /// zero; what is too fast is cut off.
@@ -32,4 +32,4 @@ class CommandWatchdog {
   std::optional<Time> received_;
 };
 
-}  // namespace docent
+}  // namespace docent::robot

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace docent {
+namespace docent::robot {
 namespace {
 
 TEST(CommandWatchdog, LetsFreshCommandsThrough) {
@@ -32,4 +32,4 @@ TEST(CommandWatchdog, CutsOffAndRefuses) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::robot

@@ -9,7 +9,7 @@
 
 #include "docent/base/check.h"
 
-namespace docent {
+namespace docent::sensor_models {
 
 namespace {
 
@@ -256,4 +256,4 @@ Result<ProximityFit> fit_proximity_model(const ReadingCounts& counts, const Prox
   return *best;
 }
 
-}  // namespace docent
+}  // namespace docent::sensor_models

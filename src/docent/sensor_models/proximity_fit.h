@@ -5,7 +5,7 @@
 
 #include "docent/sensor_models/proximity_parts.h"
 
-namespace docent {
+namespace docent::sensor_models {
 
 /// How often each range was measured where each was expected: all that the likelihood of a proximity model needs of any
 /// number of readings.
@@ -74,4 +74,4 @@ struct ProximityFit {
 [[nodiscard]] Result<ProximityFit> fit_proximity_model(const ReadingCounts& counts, const ProximityModelParams& start,
                                                        const ProximityFitParams& options = {});
 
-}  // namespace docent
+}  // namespace docent::sensor_models

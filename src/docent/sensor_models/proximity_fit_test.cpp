@@ -7,7 +7,7 @@
 #include "docent/base/random.h"
 #include "docent/sensor_models/proximity_model.h"
 
-namespace docent {
+namespace docent::sensor_models {
 namespace {
 
 /// A building with walls at all distances, the near ones more often.
@@ -150,4 +150,4 @@ TEST(ProximityFit, RefusesTooFewReadings) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::sensor_models

@@ -6,7 +6,7 @@
 
 #include "docent/base/check.h"
 
-namespace docent {
+namespace docent::sensor_models {
 
 ProximityModel::ProximityModel(const ProximityModelParams& params, std::span<const double> expected_frequency)
     : params_{params}, bins_{params.max_range} {
@@ -80,4 +80,4 @@ void ProximityModel::fill_unknown(std::span<const double> expected_frequency) {
   }
 }
 
-}  // namespace docent
+}  // namespace docent::sensor_models

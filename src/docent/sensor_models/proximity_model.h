@@ -7,7 +7,7 @@
 
 #include "docent/sensor_models/proximity_parts.h"
 
-namespace docent {
+namespace docent::sensor_models {
 
 /// P(d_i | o): the second of the two look-ups of [Markov1998] 3.2.
 class ProximityModel {
@@ -62,4 +62,4 @@ class ProximityModel {
   std::array<double, kRangeBins> log_mean_{};
 };
 
-}  // namespace docent
+}  // namespace docent::sensor_models

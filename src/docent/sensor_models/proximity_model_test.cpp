@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace docent {
+namespace docent::sensor_models {
 namespace {
 
 TEST(ProximityModel, SumsToOneForEveryExpectedRange) {
@@ -124,4 +124,4 @@ TEST(ProximityModel, RefusesWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::sensor_models

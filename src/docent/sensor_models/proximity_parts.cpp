@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace docent {
+namespace docent::sensor_models {
 
 namespace {
 double normal_below(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
@@ -97,4 +97,4 @@ double random_probability(const RangeBins& bins, int measured) {
   return (1.0 - kNothing) * (bins.lower_edge(measured + 1) - bins.lower_edge(measured)) / bins.max_range();
 }
 
-}  // namespace docent
+}  // namespace docent::sensor_models

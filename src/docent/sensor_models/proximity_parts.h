@@ -5,7 +5,7 @@
 
 #include "docent/base/result.h"
 
-namespace docent {
+namespace docent::sensor_models {
 
 /// How a range finder errs, [Markov1998] 3.2 and [Rhino1999] 3.1.2: a mixture of a Gaussian about the expected range, a
 /// geometric density of unmapped things in front of it, a Dirac where nothing came back, and a uniform rest.
@@ -79,4 +79,4 @@ void fill_short(const ProximityModelParams& params, const RangeBins& bins, int e
 /// The uniform rest, the same for every expected range.
 [[nodiscard]] double random_probability(const RangeBins& bins, int measured);
 
-}  // namespace docent
+}  // namespace docent::sensor_models

@@ -6,7 +6,7 @@
 #include <numbers>
 #include "docent/geometry/point_transform.h"
 
-namespace docent {
+namespace docent::sensor_models {
 
 void append(RangeSweep& sweep, const LaserReading& reading, const Pose2& base_from_sensor) {
   const PointTransform of_points{base_from_sensor};
@@ -78,4 +78,4 @@ std::vector<BinnedBeam> thinned(std::span<const BinnedBeam> beams, std::size_t m
   return chosen;
 }
 
-}  // namespace docent
+}  // namespace docent::sensor_models

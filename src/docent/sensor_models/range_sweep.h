@@ -6,7 +6,7 @@
 
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::sensor_models {
 
 /// What one laser read. A range of `max_range` or more is no return; NaN, infinite negative or shorter than `min_range`
 /// is invalid.
@@ -60,4 +60,4 @@ struct BinnedBeam {
 /// At most `most` of the beams, evenly spread; each `phase` begins elsewhere, so that all beams have their turn.
 [[nodiscard]] std::vector<BinnedBeam> thinned(std::span<const BinnedBeam> beams, std::size_t most, std::size_t phase);
 
-}  // namespace docent
+}  // namespace docent::sensor_models

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-namespace docent {
+namespace docent::sensor_models {
 namespace {
 
 TEST(RangeSweep, BringsAnOffsetLaserToTheCentre) {
@@ -69,4 +69,4 @@ TEST(RangeSweep, SeenFromElsewhereTheEndsStayWhereTheyAre) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::sensor_models

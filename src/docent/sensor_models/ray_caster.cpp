@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace docent {
+namespace docent::sensor_models {
 namespace {
 
 /// Without a call into the library.
@@ -115,4 +115,4 @@ std::optional<double> RayCaster::cast(Point2 from, Point2 direction, double max_
   return max_range;
 }
 
-}  // namespace docent
+}  // namespace docent::sensor_models

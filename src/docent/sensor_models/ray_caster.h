@@ -5,7 +5,7 @@
 
 #include "docent/grid/occupancy_grid.h"
 
-namespace docent {
+namespace docent::sensor_models {
 
 /// The map with its walls peeled: occupied cells whose middle is less than `depth` [m] from free space become free, but
 /// for those in the middle of thin walls. Maps learned with wide sensor models have walls that stand out into the room,
@@ -35,4 +35,4 @@ class RayCaster {
   std::vector<float> clearance_;  ///< [m]
 };
 
-}  // namespace docent
+}  // namespace docent::sensor_models

@@ -7,7 +7,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent {
+namespace docent::sensor_models {
 namespace {
 
 /// First row is the top. '#' occupied, '?' unknown, anything else free; cells of 1 m.
@@ -72,4 +72,4 @@ TEST(RayCaster, AgreesWithWalkingInSmallSteps) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::sensor_models

@@ -81,7 +81,7 @@ InfraredParams infrareds_of(const Hardware& hardware) {
 
 }  // namespace
 
-Instruments::Instruments(Bus& bus, const World& world, const Hardware& hardware, const Rng& rng)
+Instruments::Instruments(transport::Bus& bus, const World& world, const Hardware& hardware, const Rng& rng)
     : bus_{bus},
       ring_{sonars_of(hardware), rng.stream("sonar")},
       infrared_{infrareds_of(hardware), rng.stream("infrared")},
@@ -123,7 +123,8 @@ const Instruments::Fault* Instruments::fault_of(Sensor sensor, Time now) const {
 }
 
 template <class T>
-void Instruments::emit(Sensor sensor, const Publisher<T>& publisher, T message, std::optional<T>& last, Time now) {
+void Instruments::emit(Sensor sensor, const transport::Publisher<T>& publisher, T message, std::optional<T>& last,
+                       Time now) {
   const Fault* fault = fault_of(sensor, now);
   if (fault == nullptr) {
     last = message;

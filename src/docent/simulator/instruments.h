@@ -21,7 +21,7 @@ namespace docent::simulator {
 class Instruments {
  public:
   /// The bus must outlive this, or die with nothing scheduled.
-  Instruments(Bus& bus, const World& world, const Hardware& hardware, const Rng& rng);
+  Instruments(transport::Bus& bus, const World& world, const Hardware& hardware, const Rng& rng);
 
   void change_world(const World& world);
   /// The lasers look no farther than `range` [m] from now on.
@@ -54,7 +54,7 @@ class Instruments {
     Sensor sensor;
     std::string frame;
     LaserScanner laser;
-    Publisher<sensor_msgs::LaserScan> scans;
+    transport::Publisher<sensor_msgs::LaserScan> scans;
     std::optional<sensor_msgs::LaserScan> last;
   };
   struct Fault {
@@ -63,14 +63,14 @@ class Instruments {
     double delay;
   };
   template <class T>
-  void emit(Sensor sensor, const Publisher<T>& publisher, T message, std::optional<T>& last, Time now);
+  void emit(Sensor sensor, const transport::Publisher<T>& publisher, T message, std::optional<T>& last, Time now);
   [[nodiscard]] const Fault* fault_of(Sensor sensor, Time now) const;
   void publish_ping(Time now, const Ping& ping);
   [[nodiscard]] bool shows(const LaserScanner& laser, const Pose2& world_from_scanner, std::size_t person,
                            std::span<const Disc> people) const;
   void publish_scan(Time now, Scanner& scanner, const Pose2& pose, std::span<const Disc> people);
 
-  Bus& bus_;
+  transport::Bus& bus_;
   std::unique_ptr<RayCaster> laser_walls_;
   std::unique_ptr<RayCaster> sonar_walls_;
   std::unique_ptr<RayCaster> infrared_walls_;
@@ -93,11 +93,11 @@ class Instruments {
   bool has_tactile_;
   std::uint32_t tactile_scan_ = 0;
 
-  Publisher<sensor_msgs::Range> pings_;
-  Publisher<sensor_msgs::Range> infrared_readings_;
-  Publisher<nav_msgs::Odometry> odometry_;
-  Publisher<sensor_msgs::BatteryState> battery_;
-  Publisher<docent_msgs::Tactile> tactile_;
+  transport::Publisher<sensor_msgs::Range> pings_;
+  transport::Publisher<sensor_msgs::Range> infrared_readings_;
+  transport::Publisher<nav_msgs::Odometry> odometry_;
+  transport::Publisher<sensor_msgs::BatteryState> battery_;
+  transport::Publisher<docent_msgs::Tactile> tactile_;
   std::vector<std::optional<sensor_msgs::Range>> last_pings_;
   std::vector<std::optional<sensor_msgs::Range>> last_infrared_;
   std::optional<nav_msgs::Odometry> last_odom_;

@@ -29,8 +29,8 @@ class Sight : public ::testing::Test {
     return instruments.sees(kRobot, 0, people);
   }
   static constexpr Pose2 kRobot{5.0, 5.0, Angle{}};
-  VirtualTimeHub hub_;
-  std::unique_ptr<Bus> bus_ = hub_.connect("simulator");
+  transport::VirtualTimeHub hub_;
+  std::unique_ptr<transport::Bus> bus_ = hub_.connect("simulator");
   World world_;
 };
 

@@ -43,10 +43,10 @@ inline World hall() {
 
 /// The simulator on a hub, with everything it says collected.
 struct Bench {
-  VirtualTimeHub hub;
-  std::unique_ptr<Bus> simulator_bus = hub.connect("simulator");
-  std::unique_ptr<Bus> robot_bus = hub.connect("robot");
-  Publisher<geometry_msgs::Twist> commands = robot_bus->publisher(topics::kCommandVelocity);
+  transport::VirtualTimeHub hub;
+  std::unique_ptr<transport::Bus> simulator_bus = hub.connect("simulator");
+  std::unique_ptr<transport::Bus> robot_bus = hub.connect("robot");
+  transport::Publisher<geometry_msgs::Twist> commands = robot_bus->publisher(topics::kCommandVelocity);
   std::unique_ptr<SimulatedMuseum> museum;
   geometry_msgs::Twist wanted;
   bool sends = true;
@@ -58,7 +58,7 @@ struct Bench {
   std::vector<docent_msgs::TrueOffer> offers;
 
   explicit Bench(SimulationOptions options) {
-    hub.tap([this](const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
+    hub.tap([this](const transport::TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
       ++counts[topic.name];
       const auto bytes = topic.type->encode(message.get());
       hash = hash_of({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, hash);

@@ -38,7 +38,7 @@ Result<void> validate(const SimulationOptions& options) {
   return {};
 }
 
-SimulatedMuseum::Impl::Impl(Bus& robot_bus, Bus& truth_bus, SimulationOptions options)
+SimulatedMuseum::Impl::Impl(transport::Bus& robot_bus, transport::Bus& truth_bus, SimulationOptions options)
     : bus_{robot_bus},
       truth_bus_{truth_bus},
       options_{std::move(options)},
@@ -269,7 +269,7 @@ void SimulatedMuseum::Impl::offer(std::string kind, std::string subject) {
   tell(offers_, docent_msgs::TrueOffer{{to_message(time_), "world"}, std::move(kind), std::move(subject)});
 }
 
-SimulatedMuseum::SimulatedMuseum(Bus& robot_bus, Bus& truth_bus, SimulationOptions options) {
+SimulatedMuseum::SimulatedMuseum(transport::Bus& robot_bus, transport::Bus& truth_bus, SimulationOptions options) {
   DOCENT_CHECK(validate(options));
   impl_ = std::make_shared<Impl>(robot_bus, truth_bus, std::move(options));
   const std::weak_ptr<Impl> weak = impl_;

@@ -45,7 +45,7 @@ class SimulatedMuseum {
   /// both buses must be run, each on a thread of its own if need be. Both buses must outlive it or die before the next
   /// event; it may be destroyed at any time.
   /// @pre validate(options)
-  SimulatedMuseum(Bus& robot_bus, Bus& truth_bus, SimulationOptions options);
+  SimulatedMuseum(transport::Bus& robot_bus, transport::Bus& truth_bus, SimulationOptions options);
   SimulatedMuseum(const SimulatedMuseum&) = delete;
   SimulatedMuseum& operator=(const SimulatedMuseum&) = delete;
   ~SimulatedMuseum();

@@ -43,7 +43,7 @@ World museum() {
 
 /// One virtual second of the whole simulator: body, sensors, crowd, truth, in the in-process bus.
 void virtual_second(benchmark::State& state) {
-  VirtualTimeHub hub;
+  transport::VirtualTimeHub hub;
   const auto bus = hub.connect("simulator");
   const auto robot = hub.connect("robot");
   SimulationOptions options;

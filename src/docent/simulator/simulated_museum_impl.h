@@ -22,7 +22,7 @@ namespace docent::simulator {
 /// All that goes on in a simulated museum. Only simulated_museum.cpp and scenario_play.cpp know it.
 class SimulatedMuseum::Impl {
  public:
-  Impl(Bus& robot_bus, Bus& truth_bus, SimulationOptions options);
+  Impl(transport::Bus& robot_bus, transport::Bus& truth_bus, SimulationOptions options);
 
   void command(const geometry_msgs::Twist& twist);
   void hear_horn() { crowd_.hear_horn(run_seconds()); }
@@ -45,7 +45,7 @@ class SimulatedMuseum::Impl {
   [[nodiscard]] bool every(std::uint64_t steps) const { return steps_ % steps == 0; }
 
   template <class T>
-  void tell(const Publisher<T>& publisher, T message) {
+  void tell(const transport::Publisher<T>& publisher, T message) {
     // The truth has a bus of its own, perhaps a thread of its own.
     truth_bus_.post([publisher, message = std::move(message)] { publisher.publish(message); });
   }
@@ -93,8 +93,8 @@ class SimulatedMuseum::Impl {
     bool is_over = false;
   };
 
-  Bus& bus_;
-  Bus& truth_bus_;
+  transport::Bus& bus_;
+  transport::Bus& truth_bus_;
   SimulationOptions options_;
   World world_;
   Rng rng_;
@@ -122,12 +122,12 @@ class SimulatedMuseum::Impl {
   std::vector<ContactLog::PersonSample> samples_;
   std::vector<std::uint8_t> tactile_;
   std::vector<std::uint8_t> tactile_now_ = std::vector<std::uint8_t>(kTactileSegments, 0);
-  Publisher<docent_msgs::Request> requests_;
-  Publisher<docent_msgs::Choice> choices_;
-  Publisher<docent_msgs::RunInfo> run_infos_;
-  Publisher<docent_msgs::TrueState> states_;
-  Publisher<docent_msgs::TrueContact> contacts_;
-  Publisher<docent_msgs::TrueOffer> offers_;
+  transport::Publisher<docent_msgs::Request> requests_;
+  transport::Publisher<docent_msgs::Choice> choices_;
+  transport::Publisher<docent_msgs::RunInfo> run_infos_;
+  transport::Publisher<docent_msgs::TrueState> states_;
+  transport::Publisher<docent_msgs::TrueContact> contacts_;
+  transport::Publisher<docent_msgs::TrueOffer> offers_;
 };
 
 }  // namespace docent::simulator

@@ -255,7 +255,7 @@ TEST(SimulatedMuseum, TheMuseumsCanBeLivedIn) {
 }
 
 /// A clock that the test turns by hand, as irregular as a busy computer.
-class ManualBus : public Bus {
+class ManualBus : public transport::Bus {
  public:
   Time time = time_from_seconds(1.7e9);
   double late = 0.0;  ///< [s] by its stamp, the last odometry
@@ -279,12 +279,14 @@ class ManualBus : public Bus {
     }
   }
   void post(std::function<void()> action) override { action(); }
-  void add_subscription(const TopicInfo& topic, Handler handler) override { handlers[topic.name] = std::move(handler); }
+  void add_subscription(const transport::TopicInfo& topic, Handler handler) override {
+    handlers[topic.name] = std::move(handler);
+  }
   std::map<std::string, Handler> handlers;
   std::map<std::string, int> counts;
 
  protected:
-  int add_publisher(const TopicInfo& topic) override {
+  int add_publisher(const transport::TopicInfo& topic) override {
     time = time + seconds(0.0007);  // a world is not made in no time
     names_.push_back(topic.name);
     return static_cast<int>(names_.size()) - 1;

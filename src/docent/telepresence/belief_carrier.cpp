@@ -4,7 +4,7 @@
 
 #include "docent/messages/conversions.h"
 
-namespace docent {
+namespace docent::telepresence {
 namespace {
 constexpr Duration kKept = std::chrono::seconds{3};
 }
@@ -61,4 +61,4 @@ std::vector<CarriedHypothesis> BeliefCarrier::hypotheses(Time time, double min_m
   return carried;
 }
 
-}  // namespace docent
+}  // namespace docent::telepresence

@@ -8,7 +8,7 @@
 #include "docent/geometry/pose2.h"
 #include "docent/messages/localization_messages.h"
 
-namespace docent {
+namespace docent::telepresence {
 
 /// A place where the robot may be, now.
 struct CarriedHypothesis {
@@ -48,4 +48,4 @@ class BeliefCarrier {
   double angular_ = 0.0;
 };
 
-}  // namespace docent
+}  // namespace docent::telepresence

@@ -6,7 +6,7 @@
 
 #include "docent/messages/conversions.h"
 
-namespace docent {
+namespace docent::telepresence {
 namespace {
 
 nav_msgs::Odometry odometry(double time, const Pose2& odom_from_base) {
@@ -83,4 +83,4 @@ TEST(BeliefCarrier, FollowsADriverThatBeganAnew) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::telepresence

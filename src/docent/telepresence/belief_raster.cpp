@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace docent {
+namespace docent::telepresence {
 namespace {
 
 /// Mass on a grid that covers a box.
@@ -122,4 +122,4 @@ BeliefRaster belief_raster(const docent_msgs::Belief& belief, double cell, int m
   return raster;
 }
 
-}  // namespace docent
+}  // namespace docent::telepresence

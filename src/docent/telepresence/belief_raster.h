@@ -6,7 +6,7 @@
 #include "docent/geometry/pose2.h"
 #include "docent/messages/localization_messages.h"
 
-namespace docent {
+namespace docent::telepresence {
 
 /// The belief over x and y, all headings together, as a picture of one byte a cell.
 struct BeliefRaster {
@@ -21,4 +21,4 @@ struct BeliefRaster {
 /// `max_cells` cells. What the coarse part of the belief holds is spread evenly over each of its cells.
 [[nodiscard]] BeliefRaster belief_raster(const docent_msgs::Belief& belief, double cell = 0.3, int max_cells = 60000);
 
-}  // namespace docent
+}  // namespace docent::telepresence

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace docent {
+namespace docent::telepresence {
 namespace {
 
 int level_at(const BeliefRaster& raster, Point2 at) {
@@ -54,4 +54,4 @@ TEST(BeliefRaster, IsBoundedAndSurvivesNonsense) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::telepresence

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
-namespace docent {
+namespace docent::telepresence {
 namespace {
 
 using Json = nlohmann::json;
@@ -125,4 +125,4 @@ Result<ClientMessage> parse_client_message(std::string_view text) {
   return message;
 }
 
-}  // namespace docent
+}  // namespace docent::telepresence

@@ -10,7 +10,7 @@
 // What a browser may say to the robot, as JSON text of at most a few kilobytes. Everything is checked here, so that
 // nothing behind this line has to doubt it. From each `visit` come the page's types (contract/).
 
-namespace docent {
+namespace docent::telepresence {
 
 /// {"type":"request","id":UUIDv7,"kind":"exhibit"|"tour","target":…,"viewpoint"?:n,"name"?:…,"language"?:…}
 struct RequestMessage {
@@ -74,4 +74,4 @@ using ClientMessage = std::variant<RequestMessage, CancelMessage, ChoiceMessage,
 /// @pre `text` is valid UTF-8
 [[nodiscard]] std::string clean_name(std::string_view text, std::size_t limit = 40);
 
-}  // namespace docent
+}  // namespace docent::telepresence

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::telepresence {
 namespace {
 
 const std::string kId = "018f3a6c-5b2e-7c3d-9a4b-0123456789ab";
@@ -81,4 +81,4 @@ TEST(ClientMessage, NamesAreOneVisibleLine) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::telepresence

@@ -11,7 +11,7 @@
 
 #include "docent/vocabulary/vocabulary.h"
 
-namespace docent {
+namespace docent::telepresence {
 
 template <class T>
 concept Document = requires {
@@ -93,4 +93,4 @@ template <Document T>
   return to_json(document).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-}  // namespace docent
+}  // namespace docent::telepresence

@@ -17,17 +17,15 @@
 //
 // `v(name, field)`: an optional is null where there is nothing. `v.maybe(name, optional)`: it is left out.
 
-namespace docent {
-
-[[nodiscard]] constexpr auto words_of(HazardKind) { return std::array{"glass", "plate", "stairs", "other"}; }
+namespace docent::telepresence {
 
 /// In whose frame the points of a scan are.
 enum class ScanFrame { map, base };
 [[nodiscard]] constexpr auto words_of(ScanFrame) { return std::array{"map", "base"}; }
 
-}  // namespace docent
+}  // namespace docent::telepresence
 
-namespace docent::documents {
+namespace docent::telepresence::documents {
 
 using Point = std::array<double, 2>;
 using Pose = std::array<double, 3>;                ///< x, y, heading, in the map's frame
@@ -63,7 +61,7 @@ struct Tour {
 struct Hazard {
   static constexpr const char* kName = "Hazard";
   std::string id;
-  HazardKind kind = HazardKind::other;
+  museum::HazardKind kind = museum::HazardKind::other;
   std::vector<Point> polygon;
   template <class Self, class V>
   static void visit(Self& d, V& v) {
@@ -328,4 +326,4 @@ struct ErrorMessage {
 using ServerMessage = std::tuple<LiveMessage, BeliefMessage, PathMessage, MissionMessage, SpeechMessage, HornMessage,
                                  BoardMessage, HealthMessage, WindowMessage, Acknowledgement, Refusal, ErrorMessage>;
 
-}  // namespace docent::documents
+}  // namespace docent::telepresence::documents

@@ -11,7 +11,7 @@
 #include "docent/telepresence/site.h"
 #include "docent/vocabulary/vocabulary.h"
 
-namespace docent {
+namespace docent::telepresence {
 namespace {
 
 /// Rounded, so that the text stays short.
@@ -232,4 +232,4 @@ std::vector<Point2> scan_points(const sensor_msgs::LaserScan& scan, const Pose2&
   return points;
 }
 
-}  // namespace docent
+}  // namespace docent::telepresence

@@ -18,7 +18,7 @@
 // What viewers get, as JSON text; docs/web-protocol.md describes it. Times are seconds of the bus's clock, lengths
 // metres, angles radians; points of a scan are whole centimetres.
 
-namespace docent {
+namespace docent::telepresence {
 
 /// What moves, several times a second.
 struct LiveFrame {
@@ -67,4 +67,4 @@ struct HealthEntry {
 [[nodiscard]] std::vector<Point2> scan_points(const sensor_msgs::LaserScan& scan, const Pose2& base_from_sensor,
                                               std::size_t every);
 
-}  // namespace docent
+}  // namespace docent::telepresence

@@ -7,7 +7,7 @@
 
 #include "docent/messages/conversions.h"
 
-namespace docent {
+namespace docent::telepresence {
 namespace {
 
 using Json = nlohmann::json;
@@ -114,4 +114,4 @@ TEST(ScanPoints, AreInTheRobotsFrameAndValid) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::telepresence

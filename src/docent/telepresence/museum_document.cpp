@@ -7,7 +7,7 @@
 #include "docent/telepresence/document_json.h"
 #include "docent/telepresence/documents.h"
 
-namespace docent {
+namespace docent::telepresence {
 namespace {
 
 documents::Pose pose_of(const Pose2& pose) { return {pose.x, pose.y, pose.theta.radians()}; }
@@ -18,7 +18,7 @@ std::vector<documents::Point> polygon_of(const Polygon& polygon) {
   return corners;
 }
 
-documents::Exhibit exhibit_of(const Exhibit& exhibit) {
+documents::Exhibit exhibit_of(const museum::Exhibit& exhibit) {
   documents::Exhibit document{exhibit.id,
                               exhibit.title,
                               pose_of(exhibit.pose),
@@ -34,7 +34,7 @@ documents::Exhibit exhibit_of(const Exhibit& exhibit) {
 
 }  // namespace
 
-std::string encode_museum(const Museum& museum, double robot_radius) {
+std::string encode_museum(const museum::Museum& museum, double robot_radius) {
   const GridFrame& frame = museum.map.frame;
   documents::Museum document;
   document.name = museum.name;
@@ -80,4 +80,4 @@ Result<std::string> encode_map_png(const OccupancyGrid& map) {
   return png;
 }
 
-}  // namespace docent
+}  // namespace docent::telepresence

@@ -6,12 +6,12 @@
 #include "docent/grid/occupancy_grid.h"
 #include "docent/museum/museum.h"
 
-namespace docent {
+namespace docent::telepresence {
 
 /// All that a page must know of the museum and its map, as JSON text. `robot_radius` in metres.
-[[nodiscard]] std::string encode_museum(const Museum& museum, double robot_radius);
+[[nodiscard]] std::string encode_museum(const museum::Museum& museum, double robot_radius);
 
 /// The map as a grey PNG, a pixel a cell, the highest row on top: 255 free, 128 unknown, 0 occupied.
 [[nodiscard]] Result<std::string> encode_map_png(const OccupancyGrid& map);
 
-}  // namespace docent
+}  // namespace docent::telepresence

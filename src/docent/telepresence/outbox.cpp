@@ -7,7 +7,7 @@
 
 #include "docent/messages/conversions.h"
 
-namespace docent {
+namespace docent::telepresence {
 
 struct Outbox::Database {
   explicit Database(const std::filesystem::path& path)
@@ -110,4 +110,4 @@ void Outbox::forget_before(Time time) {
   }
 }
 
-}  // namespace docent
+}  // namespace docent::telepresence

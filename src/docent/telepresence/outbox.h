@@ -9,7 +9,7 @@
 #include "docent/base/time.h"
 #include "docent/messages/request_messages.h"
 
-namespace docent {
+namespace docent::telepresence {
 
 /// Requests that were acknowledged to a browser and are not yet on the request board (architecture 10.8, 10.9).
 /// A file of its own (SQLite, WAL); one writer. One thread.
@@ -41,4 +41,4 @@ class Outbox {
   bool was_damaged_ = false;
 };
 
-}  // namespace docent
+}  // namespace docent::telepresence

@@ -8,7 +8,7 @@
 
 #include "docent/messages/conversions.h"
 
-namespace docent {
+namespace docent::telepresence {
 namespace {
 
 class OutboxTest : public testing::Test {
@@ -113,4 +113,4 @@ TEST_F(OutboxTest, AFolderThatIsMissingIsAnError) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::telepresence

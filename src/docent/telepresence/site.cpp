@@ -8,7 +8,7 @@
 
 #include "docent/base/files.h"
 
-namespace docent {
+namespace docent::telepresence {
 namespace {
 
 constexpr std::uintmax_t kMaxPageBytes = 64U << 20U;
@@ -176,4 +176,4 @@ SiteReply Site::get(std::string_view target) const {
   return reply;
 }
 
-}  // namespace docent
+}  // namespace docent::telepresence

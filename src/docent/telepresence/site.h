@@ -10,7 +10,7 @@
 
 #include "docent/base/result.h"
 
-namespace docent {
+namespace docent::telepresence {
 
 /// What a GET is answered with.
 struct SiteReply {
@@ -56,4 +56,4 @@ class Site {
 /// True for 1 to 64 hexadecimal digits and ".wav": no other name can be a file of ours.
 [[nodiscard]] bool is_audio_name(std::string_view name);
 
-}  // namespace docent
+}  // namespace docent::telepresence

@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-namespace docent {
+namespace docent::telepresence {
 namespace {
 
 class SiteTest : public testing::Test {
@@ -124,4 +124,4 @@ TEST_F(SiteTest, AMissingPageIsNamed) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::telepresence

@@ -12,7 +12,7 @@
 #include "docent/messages/message_fitness.h"
 #include "docent/messages/topics.h"
 
-namespace docent {
+namespace docent::transport {
 
 /// What a body of the bus must know of a message type.
 struct TypeSupport {
@@ -137,4 +137,4 @@ void Publisher<T>::publish(T message) const {
   if (bus_ != nullptr) bus_->publish(handle_, std::make_shared<const T>(std::move(message)));
 }
 
-}  // namespace docent
+}  // namespace docent::transport

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <memory>
 
-namespace docent {
+namespace docent::transport {
 namespace {
 
 struct CdrSertype : ddsi_sertype {};
@@ -174,4 +174,4 @@ std::span<const std::uint8_t> cdr_bytes(const ddsi_serdata* sample) {
   return std::span{cdr.padded}.first(cdr.size);
 }
 
-}  // namespace docent
+}  // namespace docent::transport

@@ -11,7 +11,7 @@ struct ddsi_serdata;
 // Cyclone DDS carries our bytes as they are: a type that is nothing but a name and a sample that is nothing but CDR.
 // So a message has one definition, its `visit`, and damaged bytes come to our own decoder, which counts them.
 
-namespace docent {
+namespace docent::transport {
 
 /// A keyless type for dds_create_topic_sertype, which takes it over. `name` as DDS knows it: "pkg::msg::dds_::Name_".
 [[nodiscard]] ddsi_sertype* make_cdr_sertype(const std::string& name);
@@ -22,4 +22,4 @@ namespace docent {
 /// The bytes of a sample that came from a reader of such a type; they live as long as the sample.
 [[nodiscard]] std::span<const std::uint8_t> cdr_bytes(const ddsi_serdata* sample);
 
-}  // namespace docent
+}  // namespace docent::transport

@@ -10,7 +10,7 @@
 #include "docent/messages/schema.h"
 #include "docent/transport/cdr_sertype.h"
 
-namespace docent {
+namespace docent::transport {
 namespace {
 
 // Loopback only. Twenty modules and their tools need more than the nine participants that the default finds room for;
@@ -368,4 +368,4 @@ void DdsBus::warn_later(std::string text) {
   });
 }
 
-}  // namespace docent
+}  // namespace docent::transport

@@ -19,7 +19,7 @@
 
 struct ddsi_sertype;
 
-namespace docent {
+namespace docent::transport {
 
 /// The highest domain whose ports fit below 65536.
 inline constexpr int kMaxDdsDomain = 230;
@@ -147,4 +147,4 @@ class DdsBus final : public Bus {
   std::vector<std::function<void()>> posts_;
 };
 
-}  // namespace docent
+}  // namespace docent::transport

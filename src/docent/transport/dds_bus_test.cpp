@@ -15,7 +15,7 @@
 
 extern "C" const dds_topic_descriptor_t* docent_topic_descriptor(const char* type);
 
-namespace docent {
+namespace docent::transport {
 namespace {
 
 using namespace std::chrono_literals;
@@ -355,4 +355,4 @@ TEST(DdsBus, EveryMessageIsWhatItsIdlSays) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::transport

@@ -12,12 +12,12 @@ int main(int argc, char** argv) {
   using namespace docent;
   if (argc != 3) return 2;
   const std::string role = argv[1];
-  auto created = DdsBus::create({std::atoi(argv[2]), "", {}});
+  auto created = transport::DdsBus::create({std::atoi(argv[2]), "", {}});
   if (!created) {
     std::cerr << created.error().message << '\n';
     return 1;
   }
-  DdsBus& bus = **created;
+  transport::DdsBus& bus = **created;
   if (role == "scans") {
     sensor_msgs::LaserScan scan;
     scan.angle_increment = 0.01F;

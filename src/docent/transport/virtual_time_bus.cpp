@@ -7,7 +7,7 @@
 
 #include "docent/base/check.h"
 
-namespace docent {
+namespace docent::transport {
 
 class VirtualTimeHub::Node final : public Bus {
  public:
@@ -135,4 +135,4 @@ void VirtualTimeHub::drain_posts() {
   for (auto& [node, action] : posts) schedule(now_, std::move(node), std::move(action));
 }
 
-}  // namespace docent
+}  // namespace docent::transport

@@ -14,7 +14,7 @@
 #include "docent/base/quantiles.h"
 #include "docent/transport/bus.h"
 
-namespace docent {
+namespace docent::transport {
 
 /// The in-process body of the bus: one queue ordered by time, then by the order of posting. One thread; the same inputs
 /// give the same run, bit for bit. Messages are shared, not copied.
@@ -91,4 +91,4 @@ class VirtualTimeHub {
   std::vector<std::pair<std::weak_ptr<Node*>, std::function<void()>>> posts_;
 };
 
-}  // namespace docent
+}  // namespace docent::transport

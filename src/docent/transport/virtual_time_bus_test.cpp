@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::transport {
 namespace {
 
 using topics::kHorn;
@@ -93,4 +93,4 @@ TEST(VirtualTimeHub, KnowsWhoPublishesWhat) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::transport

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <numbers>
 
-namespace docent {
+namespace docent::visualization {
 namespace {
 
 /// The i-th point in the unit cube of a sequence that fills it evenly: the multiples of powers of the root of
@@ -68,4 +68,4 @@ std::vector<Pose2> belief_sample(const docent_msgs::Belief& belief, int count) {
   return sample;
 }
 
-}  // namespace docent
+}  // namespace docent::visualization

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
-namespace docent {
+namespace docent::visualization {
 namespace {
 
 /// Three quarters of the mass in one cell, an eighth in another, an eighth in a square of the rest.
@@ -80,4 +80,4 @@ TEST(BeliefSample, OfNoMassIsEmpty) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::visualization

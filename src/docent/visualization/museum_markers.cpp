@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace docent {
+namespace docent::visualization {
 namespace {
 
 constexpr double kWidth = 0.05;  // [m] of a line: a cell of the map
@@ -25,7 +25,7 @@ visualization_msgs::Marker outline(const Polygon& polygon, const char* group, st
 
 }  // namespace
 
-visualization_msgs::MarkerArray museum_markers(const Museum& museum) {
+visualization_msgs::MarkerArray museum_markers(const museum::Museum& museum) {
   visualization_msgs::MarkerArray array;
   array.markers.push_back(outline(museum.area, "area", 0, kBorder));
   for (std::size_t i = 0; i < museum.hazards.size(); ++i)
@@ -33,4 +33,4 @@ visualization_msgs::MarkerArray museum_markers(const Museum& museum) {
   return array;
 }
 
-}  // namespace docent
+}  // namespace docent::visualization

@@ -2,14 +2,14 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::visualization {
 namespace {
 
 TEST(MuseumMarkers, BorderAndHazardsAreClosedLinesOfTheMap) {
-  Museum museum;
+  museum::Museum museum;
   museum.area = {{0.0, 0.0}, {4.0, 0.0}, {4.0, 3.0}};
-  museum.hazards.push_back({"plate", HazardKind::plate, {{1.0, 1.0}, {2.0, 1.0}, {2.0, 2.0}, {1.0, 2.0}}});
-  museum.hazards.push_back({"glass", HazardKind::glass, {{3.0, 1.0}, {3.5, 1.0}, {3.5, 1.1}}});
+  museum.hazards.push_back({"plate", museum::HazardKind::plate, {{1.0, 1.0}, {2.0, 1.0}, {2.0, 2.0}, {1.0, 2.0}}});
+  museum.hazards.push_back({"glass", museum::HazardKind::glass, {{3.0, 1.0}, {3.5, 1.0}, {3.5, 1.1}}});
   const auto markers = museum_markers(museum).markers;
   ASSERT_EQ(markers.size(), 3U);
   EXPECT_EQ(markers[0].ns, "area");
@@ -28,4 +28,4 @@ TEST(MuseumMarkers, BorderAndHazardsAreClosedLinesOfTheMap) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::visualization

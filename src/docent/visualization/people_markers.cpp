@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace docent {
+namespace docent::visualization {
 namespace {
 
 constexpr std_msgs::ColorRGBA kAlone{1.0F, 0.55F, 0.1F, 0.8F};
@@ -46,4 +46,4 @@ visualization_msgs::MarkerArray people_markers(const docent_msgs::People& people
   return array;
 }
 
-}  // namespace docent
+}  // namespace docent::visualization

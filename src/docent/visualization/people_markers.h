@@ -3,7 +3,7 @@
 #include "docent/messages/docent_messages.h"
 #include "docent/messages/visualization_messages.h"
 
-namespace docent {
+namespace docent::visualization {
 
 /// How a person is drawn. Nothing that the robot does depends on it.
 struct PeopleMarkerParams {
@@ -20,4 +20,4 @@ struct PeopleMarkerParams {
 [[nodiscard]] visualization_msgs::MarkerArray people_markers(const docent_msgs::People& people,
                                                              const PeopleMarkerParams& params = {});
 
-}  // namespace docent
+}  // namespace docent::visualization

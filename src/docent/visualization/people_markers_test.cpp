@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::visualization {
 namespace {
 
 TEST(PeopleMarkers, ACylinderEachAndAnArrowForWhoWalks) {
@@ -57,4 +57,4 @@ TEST(PeopleMarkers, LivesForPartsOfASecondToo) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::visualization

@@ -12,7 +12,7 @@
 #include "docent/robot/evaluation_params.h"
 #include "docent/robot/parameter_list.h"
 
-namespace docent {
+namespace docent::apps {
 
 namespace {
 
@@ -22,30 +22,30 @@ constexpr const char* kEvaluation = "evaluation";
 
 /// Every section: `body` first, then the modules' in the order of their names, `evaluation` last. Error: what is wrong
 /// in `config`.
-Result<std::vector<ParameterRows>> all_sections(const RobotConfig& config) {
-  std::vector<ParameterRows> all;
-  auto body = list_parameters<RobotBody>(config, kBody);
+Result<std::vector<robot::ParameterRows>> all_sections(const robot::RobotConfig& config) {
+  std::vector<robot::ParameterRows> all;
+  auto body = robot::list_parameters<robot::RobotBody>(config, kBody);
   if (!body) return tl::unexpected<Error>(body.error());
   all.push_back(std::move(*body));
-  for (const ModuleEntry& entry : all_modules()) {
+  for (const modules::ModuleEntry& entry : modules::all_modules()) {
     auto rows = entry.parameters(config);
     if (!rows) return tl::unexpected<Error>(rows.error());
     all.push_back(std::move(*rows));
   }
   std::sort(all.begin() + 1, all.end(),
-            [](const ParameterRows& a, const ParameterRows& b) { return a.front().key < b.front().key; });
-  auto evaluation = list_parameters<EvaluationParams>(config, kEvaluation);
+            [](const robot::ParameterRows& a, const robot::ParameterRows& b) { return a.front().key < b.front().key; });
+  auto evaluation = robot::list_parameters<robot::EvaluationParams>(config, kEvaluation);
   if (!evaluation) return tl::unexpected<Error>(evaluation.error());
   all.push_back(std::move(*evaluation));
   return all;
 }
 
-std::string meaning_of_row(const ParameterRow& row) {
+std::string meaning_of_row(const robot::ParameterRow& row) {
   std::string meaning = row.declared_in.empty() ? "" : meaning_of(row.declared_in, row.key);
   return meaning.empty() && !row.holds.empty() ? meaning_of_struct(row.holds) : meaning;
 }
 
-std::string line_of(const ParameterRow& row) {
+std::string line_of(const robot::ParameterRow& row) {
   std::string line(2 * static_cast<std::size_t>(row.depth), ' ');
   line += row.key + ":";
   if (row.holds.empty()) line += " " + row.value;
@@ -57,36 +57,36 @@ std::string line_of(const ParameterRow& row) {
 
 }  // namespace
 
-Result<std::string> commented_config(const RobotConfig& config, const std::vector<std::string>& sections) {
+Result<std::string> commented_config(const robot::RobotConfig& config, const std::vector<std::string>& sections) {
   auto all = all_sections(config);
   if (!all) return tl::unexpected<Error>(all.error());
   const auto is_wanted = [&](const std::string& name) {
     return sections.empty() || std::find(sections.begin(), sections.end(), name) != sections.end();
   };
   for (const std::string& section : sections) {
-    const bool is_known =
-        std::any_of(all->begin(), all->end(), [&](const ParameterRows& rows) { return rows.front().key == section; });
+    const bool is_known = std::any_of(all->begin(), all->end(),
+                                      [&](const robot::ParameterRows& rows) { return rows.front().key == section; });
     if (is_known) continue;
     std::string known;
-    for (const ParameterRows& rows : *all) known += (known.empty() ? "" : ", ") + rows.front().key;
+    for (const robot::ParameterRows& rows : *all) known += (known.empty() ? "" : ", ") + rows.front().key;
     return fail("no section '" + section + "'; there are " + known);
   }
   std::string text = "# robot.yaml: a section a module; what is left out keeps the value that stands here.\n";
-  for (const ParameterRows& rows : *all) {
+  for (const robot::ParameterRows& rows : *all) {
     if (!is_wanted(rows.front().key)) continue;
     text += "\n";
-    for (const ParameterRow& row : rows) text += line_of(row) + "\n";
+    for (const robot::ParameterRow& row : rows) text += line_of(row) + "\n";
   }
   return text;
 }
 
-std::vector<std::string> keys_without_meaning(const RobotConfig& config) {
+std::vector<std::string> keys_without_meaning(const robot::RobotConfig& config) {
   std::vector<std::string> result;
   const auto all = all_sections(config);
   if (!all) return {all.error().message};
-  for (const ParameterRows& rows : *all) {
+  for (const robot::ParameterRows& rows : *all) {
     std::vector<std::string> path;
-    for (const ParameterRow& row : rows) {
+    for (const robot::ParameterRow& row : rows) {
       path.resize(static_cast<std::size_t>(row.depth));
       path.push_back(row.key);
       if (!meaning_of_row(row).empty()) continue;
@@ -112,9 +112,9 @@ void add_config_command(CLI::App& app) {
   command->add_option("--set", options->deployment.settings, "section.key=value, over robot.yaml; may be repeated")
       ->allow_extra_args(false);
   command->callback([options] {
-    const RobotConfig config = value_or_fail(options->deployment.load_config(), 2);
+    const robot::RobotConfig config = value_or_fail(options->deployment.load_config(), 2);
     std::fputs(value_or_fail(commented_config(config, options->sections), 2).c_str(), stdout);
   });
 }
 
-}  // namespace docent
+}  // namespace docent::apps

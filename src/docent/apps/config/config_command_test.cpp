@@ -6,11 +6,11 @@
 #include "docent/base/files.h"
 #include "docent/modules/host/registry.h"
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 TEST(Config, EveryKeyHasAMeaning) {
-  EXPECT_EQ(keys_without_meaning(RobotConfig{}), std::vector<std::string>{})
+  EXPECT_EQ(keys_without_meaning(robot::RobotConfig{}), std::vector<std::string>{})
       << "the doc comment of its struct should say what the key is for, with its unit";
 }
 
@@ -25,13 +25,13 @@ TEST(Config, MeaningsAreTheDocCommentsOfTheStructs) {
 }
 
 TEST(Config, WhatIsPrintedIsARobotYamlThatSetsTheSame) {
-  RobotConfig config;
+  robot::RobotConfig config;
   ASSERT_TRUE(config.set("avoid.window.cycle=0.2").has_value());
   const auto text = commented_config(config, {});
   ASSERT_TRUE(text.has_value()) << text.error().message;
   const auto path = std::filesystem::path{testing::TempDir()} / "printed-robot.yaml";
   ASSERT_TRUE(write_file_atomically(path, *text).has_value());
-  const auto read = RobotConfig::load(path);
+  const auto read = robot::RobotConfig::load(path);
   ASSERT_TRUE(read.has_value()) << read.error().message;
   const auto again = commented_config(*read, {});
   ASSERT_TRUE(again.has_value()) << again.error().message;
@@ -40,11 +40,11 @@ TEST(Config, WhatIsPrintedIsARobotYamlThatSetsTheSame) {
 }
 
 TEST(Config, ASectionAloneAndAnUnknownOne) {
-  const auto text = commented_config(RobotConfig{}, {"map"});
+  const auto text = commented_config(robot::RobotConfig{}, {"map"});
   ASSERT_TRUE(text.has_value()) << text.error().message;
   EXPECT_NE(text->find("\nmap:"), std::string::npos);
   EXPECT_EQ(text->find("\navoid:"), std::string::npos);
-  const auto unknown = commented_config(RobotConfig{}, {"mapp"});
+  const auto unknown = commented_config(robot::RobotConfig{}, {"mapp"});
   ASSERT_FALSE(unknown.has_value());
   EXPECT_NE(unknown.error().message.find("mapp"), std::string::npos);
   EXPECT_NE(unknown.error().message.find("localize"), std::string::npos);
@@ -52,11 +52,11 @@ TEST(Config, ASectionAloneAndAnUnknownOne) {
 
 /// docs/robot.yaml is what the command prints.
 TEST(Config, TheCommentedFileInTheRepositoryIsUpToDate) {
-  const auto text = commented_config(RobotConfig{}, {});
+  const auto text = commented_config(robot::RobotConfig{}, {});
   const auto file = read_file("docs/robot.yaml");
   ASSERT_TRUE(text.has_value() && file.has_value());
   EXPECT_EQ(*file, *text) << "docent config > docs/robot.yaml";
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::apps

@@ -11,7 +11,7 @@
 #include "docent/apps/shared/command.h"
 #include "docent/base/files.h"
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 constexpr std::size_t kStripEvery = 3;  // moments, one a second
@@ -50,7 +50,7 @@ std::string json_of(const Options& options, const CrowdTrialOutcome& outcome, do
   json["empty_s"] = rounded(empty);
   json["limit_s"] = rounded(3.0 * empty + 60.0);
   json["horns"] = outcome.horns;
-  json.update(nlohmann::ordered_json::parse(to_json(outcome.report)));
+  json.update(nlohmann::ordered_json::parse(evaluation::to_json(outcome.report)));
   return json.dump(2) + "\n";
 }
 
@@ -71,7 +71,7 @@ void run(Options& options) {
   const double empty = empty_time(options.trial);
   options.trial.limit_s = 3.0 * empty + 60.0;
   const auto outcome = value_or_fail(run_crowd_trial(options.trial));
-  const SocialReport& report = outcome.report;
+  const evaluation::SocialReport& report = outcome.report;
   if (options.trace) print_trace(outcome);
   if (!options.report.empty()) value_or_fail(write_file_atomically(options.report, json_of(options, outcome, empty)));
   if (!options.picture.empty()) value_or_fail(draw_crowd_trial(outcome).save(options.picture));
@@ -113,4 +113,4 @@ void add_crowd_command(CLI::App& app) {
   command->callback([options] { run(*options); });
 }
 
-}  // namespace docent
+}  // namespace docent::apps

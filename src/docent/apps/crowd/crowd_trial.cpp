@@ -21,7 +21,7 @@
 #include "docent/simulator/world/world_picture.h"
 #include "docent/transport/virtual_time_bus.h"
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 constexpr double kRobotRadius = 0.265;  // [m]
@@ -32,7 +32,7 @@ constexpr std::array kModules{"avoid", "hazards", "map", "plan", "robot", "execu
 /// Stands for mission and operator: one drive to the other end of the hall.
 class Errand {
  public:
-  Errand(Bus& bus, double max_speed) : tasks_{bus.publisher(topics::kTask)} {
+  Errand(transport::Bus& bus, double max_speed) : tasks_{bus.publisher(topics::kTask)} {
     docent_msgs::Limits limit;
     limit.mode = "open";
     limit.max_speed = max_speed;
@@ -49,12 +49,12 @@ class Errand {
   }
 
  private:
-  Publisher<docent_msgs::Task> tasks_;
+  transport::Publisher<docent_msgs::Task> tasks_;
 };
 
 /// The hall as surveyed for the robot.
-Museum museum_of(const simulator::Hall& hall, std::uint64_t seed) {
-  Museum museum;
+museum::Museum museum_of(const simulator::Hall& hall, std::uint64_t seed) {
+  museum::Museum museum;
   museum.map = simulator::survey(hall.world, {}, Rng{seed}.stream("survey")).map;
   museum.area = hall.world.operating_area;
   museum.home = hall.start;
@@ -66,15 +66,15 @@ Museum museum_of(const simulator::Hall& hall, std::uint64_t seed) {
 /// where the map has nothing.
 class Surveyor {
  public:
-  Surveyor(Bus& bus, const Museum& museum, const RobotBody& body)
+  Surveyor(transport::Bus& bus, const museum::Museum& museum, const robot::RobotBody& body)
       : body_{body},
         walls_{museum.map},
         beliefs_{bus.publisher(topics::kBelief)},
         beams_{bus.publisher(topics::kPersonBeams)} {
     bus.subscribe<nav_msgs::Odometry>(
         topics::kOdometry, [this](const auto& odometry) { odom_from_base_ = from_message(odometry.pose.pose); });
-    subscribe_scanners(bus, body_,
-                       [this](std::size_t i, const auto& scan) { see(scan, body_.scanners[i].base_from_sensor()); });
+    modules::subscribe_scanners(
+        bus, body_, [this](std::size_t i, const auto& scan) { see(scan, body_.scanners[i].base_from_sensor()); });
   }
   void know(const docent_msgs::TrueState& truth) {
     map_from_base_ = Pose2{truth.x, truth.y, Angle::radians(truth.theta)};
@@ -111,10 +111,10 @@ class Surveyor {
     beams_.publish(std::move(beams));
   }
 
-  RobotBody body_;
-  RayCaster walls_;
-  Publisher<docent_msgs::Belief> beliefs_;
-  Publisher<docent_msgs::PersonBeams> beams_;
+  robot::RobotBody body_;
+  sensor_models::RayCaster walls_;
+  transport::Publisher<docent_msgs::Belief> beliefs_;
+  transport::Publisher<docent_msgs::PersonBeams> beams_;
   Pose2 odom_from_base_;
   std::optional<Pose2> map_from_base_;
 };
@@ -131,7 +131,7 @@ simulator::CrowdParams visitors(double ignoring) {
 }
 
 simulator::SimulationOptions simulation_of(const CrowdTrialOptions& options, const simulator::Hall& hall,
-                                           const RobotBody& body) {
+                                           const robot::RobotBody& body) {
   simulator::SimulationOptions simulation;
   simulation.hardware = simulated_hardware(body);
   simulation.world = hall.world;
@@ -147,7 +147,7 @@ simulator::SimulationOptions simulation_of(const CrowdTrialOptions& options, con
 
 class Trial {
  public:
-  Trial(const CrowdTrialOptions& options, const simulator::Hall& hall, const RobotBody& body)
+  Trial(const CrowdTrialOptions& options, const simulator::Hall& hall, const robot::RobotBody& body)
       : options_{options},
         museum_{museum_of(hall, options.seed)},
         simulation_{*world_, *truth_, simulation_of(options, hall, body)},
@@ -171,15 +171,15 @@ class Trial {
     self_->subscribe<docent_msgs::Horn>(topics::kHorn, [this](const auto&) { ++outcome_.horns; });
   }
 
-  Result<void> start_modules(const RobotConfig& config) {
+  Result<void> start_modules(const robot::RobotConfig& config) {
     outcome_.config_hash = config.hash();
     outcome_.crippled = config.evaluation().crippled();
     for (const char* name : kModules) {
-      ModuleHost::Options host;
+      modules::ModuleHost::Options host;
       host.state = state_.path();
       host.virtual_time = true;
       host.seed = options_.seed;
-      auto module = ModuleHost::create(*find_module(name), hub_.connect(name), museum_, config, host);
+      auto module = modules::ModuleHost::create(*modules::find_module(name), hub_.connect(name), museum_, config, host);
       if (!module) return tl::unexpected<Error>(module.error());
       modules_.push_back(std::move(*module));
     }
@@ -217,16 +217,16 @@ class Trial {
 
   CrowdTrialOptions options_;
   TemporaryFolder state_;
-  VirtualTimeHub hub_;
-  Museum museum_;
-  std::unique_ptr<Bus> world_ = hub_.connect("world");
-  std::unique_ptr<Bus> truth_ = hub_.connect("truth");
-  std::unique_ptr<Bus> self_ = hub_.connect("errand");
+  transport::VirtualTimeHub hub_;
+  museum::Museum museum_;
+  std::unique_ptr<transport::Bus> world_ = hub_.connect("world");
+  std::unique_ptr<transport::Bus> truth_ = hub_.connect("truth");
+  std::unique_ptr<transport::Bus> self_ = hub_.connect("errand");
   simulator::SimulatedMuseum simulation_;
   Errand errand_;
   Surveyor surveyor_;
-  SocialScore score_;
-  std::vector<std::unique_ptr<ModuleHost>> modules_;
+  evaluation::SocialScore score_;
+  std::vector<std::unique_ptr<modules::ModuleHost>> modules_;
   CrowdTrialOutcome outcome_;
   docent_msgs::AvoidState avoid_;
   std::vector<Point2> way_;
@@ -238,7 +238,7 @@ class Trial {
 }  // namespace
 
 Result<CrowdTrialOutcome> run_crowd_trial(const CrowdTrialOptions& options) {
-  RobotConfig config;
+  robot::RobotConfig config;
   for (const auto& setting : options.settings) {
     if (auto set = config.set(setting); !set) return tl::unexpected<Error>(set.error());
   }
@@ -249,27 +249,27 @@ Result<CrowdTrialOutcome> run_crowd_trial(const CrowdTrialOptions& options) {
 
 namespace {
 
-constexpr Color kSolid{70, 70, 80};
-constexpr Color kNear{200, 200, 210};
-constexpr Color kGoalColor{40, 160, 60};
-constexpr Color kPerson{120, 160, 220};
-constexpr Color kVelocity{40, 80, 160};
-constexpr Color kRobot{220, 120, 40};
-constexpr Color kStands{220, 30, 30};
-constexpr Color kDrives{40, 160, 60};
-constexpr Color kPlanned{150, 60, 170};
+constexpr pictures::Color kSolid{70, 70, 80};
+constexpr pictures::Color kNear{200, 200, 210};
+constexpr pictures::Color kGoalColor{40, 160, 60};
+constexpr pictures::Color kPerson{120, 160, 220};
+constexpr pictures::Color kVelocity{40, 80, 160};
+constexpr pictures::Color kRobot{220, 120, 40};
+constexpr pictures::Color kStands{220, 30, 30};
+constexpr pictures::Color kDrives{40, 160, 60};
+constexpr pictures::Color kPlanned{150, 60, 170};
 constexpr double kDot = 3.5;           // [points]
 constexpr double kGoalRadius = 0.3;    // [m], as drawn
 constexpr double kArrowLength = 0.5;   // [m]
 constexpr double kStandsStill = 0.05;  // [m/s]
 
 /// All of the hall, with 20 cm around it.
-Axes hall_axes(const simulator::Hall& hall, double longest_side) {
-  Axes axes = Axes::metres({-0.2, -0.2}, {14.2, 10.2}, longest_side);
+pictures::Axes hall_axes(const simulator::Hall& hall, double longest_side) {
+  pictures::Axes axes = pictures::Axes::metres({-0.2, -0.2}, {14.2, 10.2}, longest_side);
   for (const auto& solid : hall.world.solids)
-    axes.add([corners = axes.page(solid.polygon)](Canvas& canvas) { canvas.fill_polygon(corners, kSolid); });
-  const auto ring = [&axes](Point2 centre, double radius, double width, Color color) {
-    axes.add([=, at = axes.page(centre), points = radius * axes.scale()](Canvas& canvas) {
+    axes.add([corners = axes.page(solid.polygon)](pictures::Canvas& canvas) { canvas.fill_polygon(corners, kSolid); });
+  const auto ring = [&axes](Point2 centre, double radius, double width, pictures::Color color) {
+    axes.add([=, at = axes.page(centre), points = radius * axes.scale()](pictures::Canvas& canvas) {
       canvas.draw_circle(at, points, width, color);
     });
   };
@@ -278,42 +278,42 @@ Axes hall_axes(const simulator::Hall& hall, double longest_side) {
   return axes;
 }
 
-void draw_people(Axes& axes, const std::vector<docent_msgs::TruePerson>& people) {
+void draw_people(pictures::Axes& axes, const std::vector<docent_msgs::TruePerson>& people) {
   for (const auto& person : people) {
     const Point2 at{person.x, person.y};
     const Point2 places[] = {at};
-    draw_points(axes, places, 2.0 * axes.scale() * static_cast<double>(person.radius), kPerson);
+    pictures::draw_points(axes, places, 2.0 * axes.scale() * static_cast<double>(person.radius), kPerson);
     if (norm({person.vx, person.vy}) < kStandsStill) continue;
     const Point2 velocity[] = {at, at + Point2{person.vx, person.vy}};
-    draw_path(axes, velocity, 1.0, kVelocity);
+    pictures::draw_path(axes, velocity, 1.0, kVelocity);
   }
 }
 
-void draw_true_robot(Axes& axes, const Pose2& robot) {
+void draw_true_robot(pictures::Axes& axes, const Pose2& robot) {
   axes.add([centre = axes.page(robot.position()), front = axes.page(robot * Point2{kArrowLength, 0.0}),
-            radius = kRobotRadius * axes.scale()](Canvas& canvas) {
+            radius = kRobotRadius * axes.scale()](pictures::Canvas& canvas) {
     canvas.draw_circle(centre, radius, 1.5, kRobot);
     canvas.draw_arrow(centre, front, 1.5, kRobot);
   });
 }
 
-void add_hall_legend(Figure& figure) {
-  figure.add_legend(legend_area("solid", kSolid));
-  figure.add_legend(legend_ring("people stand within to look", 9.0, 0.6, kNear));
-  figure.add_legend(legend_ring("goal", 9.0, 1.2, kGoalColor));
-  figure.add_legend(legend_disc("person", 7.0, kPerson));
-  figure.add_legend(legend_line("way of a person in the next second", 1.0, kVelocity));
-  figure.add_legend(legend_ring("robot", 8.0, 1.5, kRobot));
+void add_hall_legend(pictures::Figure& figure) {
+  figure.add_legend(pictures::legend_area("solid", kSolid));
+  figure.add_legend(pictures::legend_ring("people stand within to look", 9.0, 0.6, kNear));
+  figure.add_legend(pictures::legend_ring("goal", 9.0, 1.2, kGoalColor));
+  figure.add_legend(pictures::legend_disc("person", 7.0, kPerson));
+  figure.add_legend(pictures::legend_line("way of a person in the next second", 1.0, kVelocity));
+  figure.add_legend(pictures::legend_ring("robot", 8.0, 1.5, kRobot));
 }
 
 }  // namespace
 
-Figure draw_crowd_trial(const CrowdTrialOutcome& outcome) {
+pictures::Figure draw_crowd_trial(const CrowdTrialOutcome& outcome) {
   std::array<char, 80> title{};
   const double end = outcome.moments.empty() ? 0.0 : outcome.moments.back().time;
   std::snprintf(title.data(), title.size(), "Driven from 0 to %.1f s, people at %.1f s", end, end);
-  Figure figure{title.data()};
-  Axes& axes = figure.add(hall_axes(outcome.hall, 480.0));
+  pictures::Figure figure{title.data()};
+  pictures::Axes& axes = figure.add(hall_axes(outcome.hall, 480.0));
   add_hall_legend(figure);
   if (outcome.moments.empty()) return figure;
   draw_people(axes, outcome.moments.back().people);
@@ -324,31 +324,31 @@ Figure draw_crowd_trial(const CrowdTrialOutcome& outcome) {
     way.push_back(moment.robot.position());
     (std::abs(moment.speed) < 0.02 ? standing : driving).push_back(moment.robot.position());
   }
-  draw_path(axes, way, 1.2, kRobot);
-  draw_points(axes, driving, kDot, kDrives);
-  draw_points(axes, standing, kDot, kStands);
+  pictures::draw_path(axes, way, 1.2, kRobot);
+  pictures::draw_points(axes, driving, kDot, kDrives);
+  pictures::draw_points(axes, standing, kDot, kStands);
   draw_true_robot(axes, outcome.moments.back().robot);
-  figure.add_legend(legend_line("trajectory", 1.2, kRobot));
-  figure.add_legend(legend_disc("driving, once a second", kDot, kDrives));
-  figure.add_legend(legend_disc("standing, once a second", kDot, kStands));
+  figure.add_legend(pictures::legend_line("trajectory", 1.2, kRobot));
+  figure.add_legend(pictures::legend_disc("driving, once a second", kDot, kDrives));
+  figure.add_legend(pictures::legend_disc("standing, once a second", kDot, kStands));
   return figure;
 }
 
-Figure draw_crowd_strip(const CrowdTrialOutcome& outcome, std::size_t every) {
+pictures::Figure draw_crowd_strip(const CrowdTrialOutcome& outcome, std::size_t every) {
   constexpr std::size_t kColumns = 4;
   constexpr double kSide = 216.0;  // [points]
-  Figure figure{""};
+  pictures::Figure figure{""};
   for (std::size_t i = 0, place = 0; i < outcome.moments.size(); i += every, ++place) {
     const auto& moment = outcome.moments[i];
-    Axes& axes = figure.add(hall_axes(outcome.hall, kSide), place % kColumns == 0);
+    pictures::Axes& axes = figure.add(hall_axes(outcome.hall, kSide), place % kColumns == 0);
     axes.set_title(std::to_string(std::lround(moment.time)) + " s " + moment.avoid.reason);
     draw_people(axes, moment.people);
-    draw_path(axes, moment.way, 1.0, kPlanned);
+    pictures::draw_path(axes, moment.way, 1.0, kPlanned);
     draw_true_robot(axes, moment.robot);
   }
   add_hall_legend(figure);
-  figure.add_legend(legend_line("way planned", 1.0, kPlanned));
+  figure.add_legend(pictures::legend_line("way planned", 1.0, kPlanned));
   return figure;
 }
 
-}  // namespace docent
+}  // namespace docent::apps

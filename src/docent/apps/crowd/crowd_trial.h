@@ -11,7 +11,7 @@
 #include "docent/pictures/figure.h"
 #include "docent/simulator/hall/hall.h"
 
-namespace docent {
+namespace docent::apps {
 
 struct CrowdTrialOptions {
   std::uint64_t seed = 1;  ///< of the hall, its crowd and the sensors' noise; never of the method
@@ -25,7 +25,7 @@ struct CrowdTrialOptions {
 };
 
 struct CrowdTrialOutcome {
-  SocialReport report;
+  evaluation::SocialReport report;
   int people = 0;
   double free_area = 0.0;  ///< [m2]
   double walking = 0.0;    ///< share of the people who moved faster than 0.2 m/s, mean over the trial
@@ -51,11 +51,11 @@ struct CrowdTrialOutcome {
 [[nodiscard]] Result<CrowdTrialOutcome> run_crowd_trial(const CrowdTrialOptions& options);
 
 /// The hall at the end of a trial, the way driven (a dot a second, redder where it stood), the people there.
-[[nodiscard]] Figure draw_crowd_trial(const CrowdTrialOutcome& outcome);
+[[nodiscard]] pictures::Figure draw_crowd_trial(const CrowdTrialOutcome& outcome);
 
 /// The hall at every `every`th of the moments, four in a row: where the robot and the people were, and the way it had
 /// planned.
 /// @pre every > 0
-[[nodiscard]] Figure draw_crowd_strip(const CrowdTrialOutcome& outcome, std::size_t every);
+[[nodiscard]] pictures::Figure draw_crowd_strip(const CrowdTrialOutcome& outcome, std::size_t every);
 
-}  // namespace docent
+}  // namespace docent::apps

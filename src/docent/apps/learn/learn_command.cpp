@@ -17,7 +17,7 @@
 #include "docent/recording/laser_log.h"
 #include "docent/robot/robot_config.h"
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 struct Options {
@@ -40,11 +40,11 @@ struct Options {
 OccupancyGrid load(const Options& options) {
   if (options.map.empty() == options.museum.empty()) throw CommandFailed{"either --map or --museum is required", 2};
   if (!options.map.empty()) return value_or_fail(load_map(options.map));
-  return value_or_fail(load_museum(options.museum)).map;
+  return value_or_fail(museum::load_museum(options.museum)).map;
 }
 
-LocalizerParams start_params(const Options& options, const OccupancyGrid& map, double max_range) {
-  RobotConfig config;
+localization::LocalizerParams start_params(const Options& options, const OccupancyGrid& map, double max_range) {
+  robot::RobotConfig config;
   if (options.map.empty()) {  // a robot of ours, in a map that was surveyed
     const double reach = reach_of_log(max_range);
     value_or_fail(config.set("localize.sensor={max_range: " + std::to_string(reach) + "}"));
@@ -52,7 +52,7 @@ LocalizerParams start_params(const Options& options, const OccupancyGrid& map, d
     value_or_fail(set_log_defaults(config, map, max_range));
   }
   for (const std::string& setting : options.settings) value_or_fail(config.set("localize." + setting), 2);
-  return value_or_fail(config.section<LocalizerParams>("localize"), 2);
+  return value_or_fail(config.section<localization::LocalizerParams>("localize"), 2);
 }
 
 std::vector<double> wall_depths(const Options& options) {
@@ -61,11 +61,11 @@ std::vector<double> wall_depths(const Options& options) {
   return {0.0, 0.2, 0.4};
 }
 
-std::vector<LaserLog> read_logs(const Options& options) {
+std::vector<recording::LaserLog> read_logs(const Options& options) {
   const bool sonar = options.sensor == "sonar";
-  std::vector<LaserLog> logs;
+  std::vector<recording::LaserLog> logs;
   for (const std::string& name : options.logs) {
-    logs.push_back(value_or_fail(read_laser_log(name, sonar)));
+    logs.push_back(value_or_fail(recording::read_laser_log(name, sonar)));
     for (const std::string& note : logs.back().notes) std::fprintf(stderr, "%s: %s\n", name.c_str(), note.c_str());
     if (sonar && logs.back().pings.empty()) throw CommandFailed{name + ": holds no readings of sonars with a place"};
     if (sonar && logs.back().sonar_max_range != logs.front().sonar_max_range)
@@ -90,7 +90,7 @@ void write_results(const Options& options, const LearningOutcome& outcome) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw CommandFailed{"--pictures " + options.pictures + ": " + error.message()};
-  const LearnedModels& learned = outcome.learned;
+  const localization::LearnedModels& learned = outcome.learned;
   const std::string extension = "-model." + options.picture_format;
   value_or_fail(draw_sensor_model(learned.readings, outcome.before, learned.sensor, outcome.sensor)
                     .save(folder / (outcome.sensor + extension)));
@@ -101,20 +101,20 @@ void write_results(const Options& options, const LearningOutcome& outcome) {
 
 void learn(const Options& options) {
   const OccupancyGrid map = load(options);
-  const std::vector<LaserLog> logs = read_logs(options);
+  const std::vector<recording::LaserLog> logs = read_logs(options);
   double max_range = 0.0;
-  for (const LaserLog& log : logs) max_range = std::max(max_range, log.max_range);
-  const LocalizerParams start = start_params(options, map, max_range);
-  if (StateSpace{map, RayCaster{map}, start.states}.places() == 0)
+  for (const recording::LaserLog& log : logs) max_range = std::max(max_range, log.max_range);
+  const localization::LocalizerParams start = start_params(options, map, max_range);
+  if (localization::StateSpace{map, sensor_models::RayCaster{map}, start.states}.places() == 0)
     throw CommandFailed{options.map + options.museum + ": no free place in this map"};
-  std::vector<LearningRecording> recordings;
-  for (const LaserLog& log : logs)
+  std::vector<localization::LearningRecording> recordings;
+  for (const recording::LaserLog& log : logs)
     recordings.push_back(learning_recording(log, start.sensor.max_range, options.sensor == "sonar"));
 
-  BootstrapParams params;
+  localization::BootstrapParams params;
   params.most_iterations = options.iterations;
   params.wall_depths = wall_depths(options);
-  params.expected_at = options.expected == "pose" ? ExpectedAt::pose : ExpectedAt::cell;
+  params.expected_at = options.expected == "pose" ? localization::ExpectedAt::pose : localization::ExpectedAt::cell;
   params.seed = options.seed;
   prepare_cache(options.cache);
   params.cache.folder = options.cache;
@@ -123,12 +123,12 @@ void learn(const Options& options) {
     params.sonar->max_range = logs.front().sonar_max_range;
   }
   for (const double depth : params.wall_depths) {
-    LocalizerParams with = start;
+    localization::LocalizerParams with = start;
     with.states.wall_depth = depth;
     value_or_fail(with.validate(), 2);
   }
-  auto learned = value_or_fail(bootstrap(recordings, map, start, params,
-                                         [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }));
+  auto learned = value_or_fail(localization::bootstrap(
+      recordings, map, start, params, [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }));
   write_results(options, {options.sensor, options.logs, options.map + options.museum,
                           params.sonar ? *params.sonar : start.sensor, start.motion, std::move(learned)});
 }
@@ -170,4 +170,4 @@ void add_learn_command(CLI::App& app) {
   command->callback([options] { learn(*options); });
 }
 
-}  // namespace docent
+}  // namespace docent::apps

@@ -4,9 +4,9 @@ namespace CLI {
 class App;
 }
 
-namespace docent {
+namespace docent::apps {
 
 /// `docent learn-sensor-model`: sensor and motion models from recordings.
 void add_learn_command(CLI::App& app);
 
-}  // namespace docent
+}  // namespace docent::apps

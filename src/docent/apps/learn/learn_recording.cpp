@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-namespace docent {
+namespace docent::apps {
 
 namespace {
 
@@ -27,29 +27,29 @@ int sensor_at(std::vector<Pose2>& places, const Pose2& base_from_laser) {
 
 }  // namespace
 
-LearningRecording learning_recording(const LaserLog& log, double reach, bool with_sonars) {
-  LearningRecording recording;
+localization::LearningRecording learning_recording(const recording::LaserLog& log, double reach, bool with_sonars) {
+  localization::LearningRecording recording;
   std::vector<Pose2> lasers;
   std::map<int, std::size_t> last;  // kept sweep by laser
-  for (const LoggedScan& scan : log.scans) {
-    RecordedSweep sweep;
+  for (const recording::LoggedScan& scan : log.scans) {
+    localization::RecordedSweep sweep;
     sweep.time = scan.time;
     sweep.sensor = sensor_at(lasers, scan.base_from_laser);
     sweep.odom_from_base = scan.odom_from_base;
     sweep.base_from_sensor = scan.base_from_laser;
     if (const auto before = last.find(sweep.sensor); before != last.end()) {
-      const RecordedSweep& kept = recording.lasers[before->second];
+      const localization::RecordedSweep& kept = recording.lasers[before->second];
       const Pose2 moved = inverse(kept.odom_from_base) * sweep.odom_from_base;
       if (norm(moved.position()) < kStepWay && std::abs(moved.theta.degrees()) < kStepTurn &&
           to_seconds(sweep.time - kept.time) < kStepTime)
         continue;
     }
     last[sweep.sensor] = recording.lasers.size();
-    append(sweep.sweep, {scan.ranges, scan.first_bearing, scan.bearing_step, kMinRange, reach}, {});
+    sensor_models::append(sweep.sweep, {scan.ranges, scan.first_bearing, scan.bearing_step, kMinRange, reach}, {});
     recording.lasers.push_back(std::move(sweep));
   }
   if (!with_sonars) return recording;
-  for (const LoggedPing& ping : log.pings) {
+  for (const recording::LoggedPing& ping : log.pings) {
     const bool no_return = !(static_cast<double>(ping.range) < log.sonar_max_range);
     const double range = no_return ? log.sonar_max_range : static_cast<double>(ping.range);
     recording.sonars.push_back({ping.time,
@@ -61,4 +61,4 @@ LearningRecording learning_recording(const LaserLog& log, double reach, bool wit
   return recording;
 }
 
-}  // namespace docent
+}  // namespace docent::apps

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-namespace docent {
+namespace docent::apps {
 
 namespace {
 
@@ -33,7 +33,7 @@ std::vector<std::pair<std::string, double>> fields_of(Params params) {
 }
 
 /// Weights that sum to 1, so that two models can be compared.
-ProximityModelParams normalised(ProximityModelParams params) {
+sensor_models::ProximityModelParams normalised(sensor_models::ProximityModelParams params) {
   const double total = params.total_weight();
   for (double* weight :
        {&params.weight_hit, &params.weight_near, &params.weight_short, &params.weight_no_return, &params.weight_random})
@@ -65,16 +65,16 @@ std::string inline_fields(const Params& params) {
   return "{" + text + "}";
 }
 
-std::string held_out_row(const char* what, const HeldOut& held_out) {
+std::string held_out_row(const char* what, const localization::HeldOut& held_out) {
   return format("  %-34s %9.4f %9.4f   %+.4f +- %.4f nat a reading (%llu readings, %zu pieces)\n", what,
                 held_out.before, held_out.after, held_out.after - held_out.before, held_out.uncertainty,
                 static_cast<unsigned long long>(held_out.readings), held_out.pieces);
 }
 
 std::string motion_table(const LearningOutcome& outcome) {
-  const LearnedModels& learned = outcome.learned;
+  const localization::LearnedModels& learned = outcome.learned;
   if (!learned.motion) return "motion model: not learned, " + learned.motion_fault + "\n";
-  const OdometryFit& fit = *learned.motion;
+  const motion_models::OdometryFit& fit = *learned.motion;
   const double degree = std::numbers::pi / 180.0;
   std::string text = format("%-26s %12s %12s\n", "motion model", "before", "learned");
   text += parameter_rows(outcome.motion_before, fit.noise.motion);
@@ -91,10 +91,10 @@ std::string motion_table(const LearningOutcome& outcome) {
 }  // namespace
 
 std::string learning_table(const LearningOutcome& outcome) {
-  const LearnedModels& learned = outcome.learned;
+  const localization::LearnedModels& learned = outcome.learned;
   std::string text = "iteration  sure sweeps  step  readings   ln P before   fitted   held out: start   fitted\n";
   for (std::size_t i = 0; i < learned.iterations.size(); ++i) {
-    const BootstrapIteration& at = learned.iterations[i];
+    const localization::BootstrapIteration& at = learned.iterations[i];
     text += format("%9zu  %5zu/%-6zu %4.2f  %8llu   %11.4f %8.4f   %15.4f %8.4f\n", i + 1, at.sure, at.sweeps, at.step,
                    static_cast<unsigned long long>(at.readings), at.before, at.after, at.held_out.before,
                    at.held_out.after);
@@ -107,12 +107,12 @@ std::string learning_table(const LearningOutcome& outcome) {
 }
 
 std::string learned_yaml(const LearningOutcome& outcome) {
-  const LearnedModels& learned = outcome.learned;
+  const localization::LearnedModels& learned = outcome.learned;
   std::string text = "# Learned by docent learn-sensor-model";
   text +=
       format(", %s, from %zu recordings in %s:\n", outcome.sensor.c_str(), outcome.logs.size(), outcome.map.c_str());
   for (const std::string& log : outcome.logs) text += "#   " + log + "\n";
-  const HeldOut& held_out = learned.on_first_labels;
+  const localization::HeldOut& held_out = learned.on_first_labels;
   text += format("# ln P of a reading held out: %.4f before, %.4f learned.\n", held_out.before, held_out.after);
   text += "localize:\n";
   if (learned.wall_depth > 0.0) text += format("  states:\n    wall_depth: %.5g\n", learned.wall_depth);
@@ -126,7 +126,7 @@ std::string learned_yaml(const LearningOutcome& outcome) {
 }
 
 std::string learned_settings(const LearningOutcome& outcome) {
-  const LearnedModels& learned = outcome.learned;
+  const localization::LearnedModels& learned = outcome.learned;
   std::string text = "--set 'sensor=" + inline_fields(learned.sensor) + "'";
   if (learned.motion) text += " --set 'motion=" + inline_fields(learned.motion->noise.motion) + "'";
   return text;
@@ -138,14 +138,14 @@ std::string learning_json(const LearningOutcome& outcome) {
     for (const auto& [key, value] : fields_of(params)) object[key] = value;
     return object;
   };
-  const auto to_json = [](const HeldOut& held_out) {
+  const auto to_json = [](const localization::HeldOut& held_out) {
     return nlohmann::json{{"readings", held_out.readings},
                           {"pieces", held_out.pieces},
                           {"before", held_out.before},
                           {"after", held_out.after},
                           {"uncertainty", held_out.uncertainty}};
   };
-  const LearnedModels& learned = outcome.learned;
+  const localization::LearnedModels& learned = outcome.learned;
   nlohmann::json report;
   report["sensor"] = outcome.sensor;
   report["map"] = outcome.map;
@@ -155,14 +155,14 @@ std::string learning_json(const LearningOutcome& outcome) {
   report["learned"] = to_object(learned.sensor);
   report["held_out_first_labels"] = to_json(learned.on_first_labels);
   report["held_out_last_labels"] = to_json(learned.on_last_labels);
-  for (const BootstrapIteration& at : learned.iterations)
+  for (const localization::BootstrapIteration& at : learned.iterations)
     report["iterations"].push_back({{"sweeps", at.sweeps},
                                     {"sure", at.sure},
                                     {"readings", at.readings},
                                     {"before", at.before},
                                     {"after", at.after}});
   if (learned.motion) {
-    const OdometryFit& fit = *learned.motion;
+    const motion_models::OdometryFit& fit = *learned.motion;
     report["motion"] = {{"before", to_object(outcome.motion_before)},
                         {"learned", to_object(fit.noise.motion)},
                         {"windows", fit.windows},
@@ -179,4 +179,4 @@ std::string learning_json(const LearningOutcome& outcome) {
   return report.dump(2) + "\n";
 }
 
-}  // namespace docent
+}  // namespace docent::apps

@@ -5,16 +5,16 @@
 
 #include "docent/localization/learning/bootstrap.h"
 
-namespace docent {
+namespace docent::apps {
 
 /// What was learned, beside what it was learned from and instead of.
 struct LearningOutcome {
-  std::string sensor;             ///< laser, sonar
-  std::vector<std::string> logs;  ///< files
-  std::string map;                ///< file or museum folder
-  ProximityModelParams before;    ///< of that sensor
-  OdometryModelParams motion_before;
-  LearnedModels learned;
+  std::string sensor;                          ///< laser, sonar
+  std::vector<std::string> logs;               ///< files
+  std::string map;                             ///< file or museum folder
+  sensor_models::ProximityModelParams before;  ///< of that sensor
+  motion_models::OdometryModelParams motion_before;
+  localization::LearnedModels learned;
 };
 
 /// Tables for the terminal: iterations, parameters before and after, held-out likelihoods.
@@ -25,4 +25,4 @@ struct LearningOutcome {
 [[nodiscard]] std::string learned_settings(const LearningOutcome& outcome);
 [[nodiscard]] std::string learning_json(const LearningOutcome& outcome);
 
-}  // namespace docent
+}  // namespace docent::apps

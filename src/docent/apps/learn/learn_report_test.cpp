@@ -8,21 +8,22 @@
 #include "docent/base/files.h"
 #include "docent/robot/robot_config.h"
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 LearningOutcome outcome(double wall_depth, bool with_motion) {
-  ProximityModelParams sensor;
+  sensor_models::ProximityModelParams sensor;
   sensor.max_range = 30.0;
   sensor.sigma = 0.0714285;
   sensor.weight_hit = 0.6;
   sensor.weight_short = 0.05;
-  LearnedModels learned{sensor, {}, "too little motion", 0.0, 0.0, 0, wall_depth, {}, {}, {}, ReadingCounts{30.0}};
+  localization::LearnedModels learned{
+      sensor, {}, "too little motion", 0.0, 0.0, 0, wall_depth, {}, {}, {}, sensor_models::ReadingCounts{30.0}};
   learned.on_first_labels = {1000, 4, -3.0, -2.5, 0.05};
   learned.on_last_labels = learned.on_first_labels;
   learned.iterations.push_back({100, 90, 0.5, 3000, -3.0, -2.6, learned.on_first_labels});
   if (with_motion) {
-    OdometryFit fit;
+    motion_models::OdometryFit fit;
     fit.noise.motion.rotation_per_metre = 0.000123;
     learned.motion = fit;
   }
@@ -30,13 +31,13 @@ LearningOutcome outcome(double wall_depth, bool with_motion) {
 }
 
 /// What a robot reads of it.
-Result<LocalizerParams> read_back(const LearningOutcome& outcome) {
+Result<localization::LocalizerParams> read_back(const LearningOutcome& outcome) {
   const auto path = std::filesystem::temp_directory_path() / ("docent-learned-" + std::to_string(::getpid()) + ".yaml");
   EXPECT_TRUE(write_file_atomically(path, learned_yaml(outcome)));
-  const auto config = RobotConfig::load(path);
+  const auto config = robot::RobotConfig::load(path);
   std::filesystem::remove(path);
   if (!config) return tl::unexpected<Error>(config.error());
-  return config->section<LocalizerParams>("localize");
+  return config->section<localization::LocalizerParams>("localize");
 }
 
 TEST(LearnReport, RobotYamlIsReadAsItIs) {
@@ -60,16 +61,16 @@ TEST(LearnReport, ASonarsModelIsNotTheLasers) {
 TEST(LearnReport, WhatWasNotLearnedStaysAsItIs) {
   const auto params = read_back(outcome(0.0, false));
   ASSERT_TRUE(params) << params.error().message;
-  EXPECT_EQ(params->motion.rotation_per_metre, OdometryModelParams{}.rotation_per_metre);
+  EXPECT_EQ(params->motion.rotation_per_metre, motion_models::OdometryModelParams{}.rotation_per_metre);
   EXPECT_NE(learning_table(outcome(0.0, false)).find("not learned, too little motion"), std::string::npos);
 }
 
 TEST(LearnReport, SettingsAreThoseOfLocalize) {
-  RobotConfig config;
+  robot::RobotConfig config;
   const std::string settings = learned_settings(outcome(0.0, true));
   const std::size_t begin = settings.find('\'') + 1;
   ASSERT_TRUE(config.set("localize." + settings.substr(begin, settings.find('\'', begin) - begin)));
-  const auto params = config.section<LocalizerParams>("localize");
+  const auto params = config.section<localization::LocalizerParams>("localize");
   ASSERT_TRUE(params) << params.error().message;
   EXPECT_DOUBLE_EQ(params->sensor.weight_hit, 0.6);
 }
@@ -82,4 +83,4 @@ TEST(LearnReport, ShowsEveryParameterBeforeAndAfter) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::apps

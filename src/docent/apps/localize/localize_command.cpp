@@ -24,7 +24,7 @@
 #include "docent/recording/laser_log.h"
 #include "docent/robot/robot_config.h"
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 struct Options {
@@ -34,7 +34,7 @@ struct Options {
   std::string filter = "distance";
   std::string start = "unknown";
   std::string odometry = "logged";
-  OdometryNoiseParams noise;
+  evaluation::OdometryNoiseParams noise;
   std::uint64_t noise_seed = 1;
   bool dead_reckoning = false;
   bool reverse = false;
@@ -57,9 +57,9 @@ double quantile(std::vector<double> values, double q) {
 }
 
 /// Runs the log once; draws into `pictures` when it is not empty.
-LogRun run_once(const Options& options, const ReferencedLog& referenced, const OccupancyGrid& map, Localizer& localizer,
-                bool reverse, const std::filesystem::path& pictures) {
-  const LaserLog& log = referenced.log;
+LogRun run_once(const Options& options, const ReferencedLog& referenced, const OccupancyGrid& map,
+                localization::Localizer& localizer, bool reverse, const std::filesystem::path& pictures) {
+  const recording::LaserLog& log = referenced.log;
   LogRunOptions run_options;
   run_options.reverse = reverse;
   run_options.dead_reckoning = options.dead_reckoning;
@@ -71,7 +71,8 @@ LogRun run_once(const Options& options, const ReferencedLog& referenced, const O
   std::optional<BeliefMovie> movie;
   if (!pictures.empty()) movie.emplace(map, log);
   std::size_t seen = 0;
-  run_options.watch = [&](const Localizer& at, std::size_t scan, const Localizer::Step& step) {
+  run_options.watch = [&](const localization::Localizer& at, std::size_t scan,
+                          const localization::Localizer::Step& step) {
     if (++seen % 500 == 0) std::fprintf(stderr, "%zu of %zu scans\n", seen, log.scans.size());
     if (movie && step.updated && !movie->is_full()) value_or_fail(movie->add(at, scan));
   };
@@ -94,7 +95,7 @@ LogRun run_once(const Options& options, const ReferencedLog& referenced, const O
   return run;
 }
 
-nlohmann::json report_of(const LaserLog& log, const LogRun& run, const RayCaster& caster) {
+nlohmann::json report_of(const recording::LaserLog& log, const LogRun& run, const sensor_models::RayCaster& caster) {
   const double updates = static_cast<double>(std::max<std::size_t>(run.updates, 1));
   nlohmann::json report;
   report["scans"] = log.scans.size();
@@ -113,17 +114,17 @@ nlohmann::json report_of(const LaserLog& log, const LogRun& run, const RayCaster
 }
 
 /// The run against the truth, where there is any.
-void add_score(nlohmann::json& report, const LogRun& run, const ScanReference& reference, bool reverse,
+void add_score(nlohmann::json& report, const LogRun& run, const evaluation::ScanReference& reference, bool reverse,
                bool start_is_known) {
-  std::vector<LocalizedScan> scans;
+  std::vector<evaluation::LocalizedScan> scans;
   for (const LoggedPose& pose : run.poses)
     scans.push_back({pose.has_pose ? std::optional{pose.map_from_base} : std::nullopt, pose.localized});
-  ScanReference truth = reference;
+  evaluation::ScanReference truth = reference;
   if (reverse) {
     std::reverse(scans.begin(), scans.end());
     std::reverse(truth.begin(), truth.end());
   }
-  const ReferenceScore score = score_against(truth, scans, start_is_known);
+  const evaluation::ReferenceScore score = evaluation::score_against(truth, scans, start_is_known);
   report["reference_scans"] = score.scans;
   if (score.scans == 0) return;
   report["mean_error_m"] = score.mean_m;
@@ -149,8 +150,8 @@ nlohmann::json to_json(const RunAgreement& agreement) {
 
 /// What both methods need, and the particles' own.
 struct MethodParams {
-  LocalizerParams grid;
-  MonteCarloParams particles;
+  localization::LocalizerParams grid;
+  localization::MonteCarloParams particles;
   template <class V>
   void visit(V& v) {
     grid.visit(v);
@@ -162,16 +163,16 @@ struct MethodParams {
   }
 };
 
-std::unique_ptr<Localizer> make_localizer(const Options& options, const OccupancyGrid& map,
-                                          const MethodParams& params) {
-  const RangeTableCache cache{options.cache};
+std::unique_ptr<localization::Localizer> make_localizer(const Options& options, const OccupancyGrid& map,
+                                                        const MethodParams& params) {
+  const localization::RangeTableCache cache{options.cache};
   if (options.method == "particles")
-    return std::make_unique<MonteCarloLocalizer>(map, params.grid, params.particles, cache, options.seed);
-  return std::make_unique<MarkovLocalizer>(map, params.grid, cache, options.seed);
+    return std::make_unique<localization::MonteCarloLocalizer>(map, params.grid, params.particles, cache, options.seed);
+  return std::make_unique<localization::MarkovLocalizer>(map, params.grid, cache, options.seed);
 }
 
-MethodParams params_for(const Options& options, const OccupancyGrid& map, const LaserLog& log) {
-  RobotConfig config;
+MethodParams params_for(const Options& options, const OccupancyGrid& map, const recording::LaserLog& log) {
+  robot::RobotConfig config;
   value_or_fail(set_log_defaults(config, map, log.max_range, log.times_are_invented));
   value_or_fail(config.set("localize.particles={most: 300000, reserve: 30000, draw_every: 1}"));  // there is time
   // Of its poses drawn elsewhere some always weigh: a set of particles is hardly ever sure over metres on end.
@@ -201,7 +202,7 @@ double find_wall_depth(const Options& options, const ReferencedLog& log, const O
   double best_fit = 0.0;
   for (const double depth : {0.0, 0.2, 0.4}) {  // nearer ones differ less than two runs do
     params.grid.states.wall_depth = depth;
-    MarkovLocalizer localizer{map, params.grid, {options.cache}, options.seed};
+    localization::MarkovLocalizer localizer{map, params.grid, {options.cache}, options.seed};
     double fit = 0.0;
     for (const bool reverse : {false, true}) {
       localizer.start_unknown();
@@ -231,10 +232,10 @@ void localize(const Options& options) {
   const OccupancyGrid map = value_or_fail(load_map(options.map));
   const ReferencedLog referenced = load_log(options);
   say_classes(options.map, map);
-  const LaserLog& log = referenced.log;
+  const recording::LaserLog& log = referenced.log;
   const bool has_reference = !options.choice.reference.empty();
   MethodParams params = params_for(options, map, log);
-  if (StateSpace{map, RayCaster{map}, params.grid.states}.places() == 0)
+  if (localization::StateSpace{map, sensor_models::RayCaster{map}, params.grid.states}.places() == 0)
     throw CommandFailed{options.map + ": no free place in this map"};
   if (options.wall_depth == "auto") {
     params.grid.states.wall_depth = find_wall_depth(options, referenced, map, params);
@@ -245,7 +246,7 @@ void localize(const Options& options) {
   const auto localizer = make_localizer(options, map, params);
 
   const LogRun run = run_once(options, referenced, map, *localizer, options.reverse, options.picture);
-  const RayCaster caster{map};
+  const sensor_models::RayCaster caster{map};
   nlohmann::json report = report_of(log, run, caster);
   report["map"] = options.map;
   report["log"] = options.choice.log;
@@ -332,4 +333,4 @@ void add_localize_command(CLI::App& app) {
   });
 }
 
-}  // namespace docent
+}  // namespace docent::apps

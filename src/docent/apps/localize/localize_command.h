@@ -4,9 +4,9 @@ namespace CLI {
 class App;
 }
 
-namespace docent {
+namespace docent::apps {
 
 /// `docent localize --map MAP.yaml --log LOG`
 void add_localize_command(CLI::App& app);
 
-}  // namespace docent
+}  // namespace docent::apps

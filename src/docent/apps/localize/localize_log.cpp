@@ -8,7 +8,7 @@
 
 #include "docent/base/files.h"
 
-namespace docent {
+namespace docent::apps {
 
 namespace {
 
@@ -33,25 +33,26 @@ std::pair<std::size_t, std::size_t> known_span(const std::vector<LoggedPose>& po
 
 }  // namespace
 
-RangeSweep sweep_of(const LoggedScan& scan, double max_range) {
-  RangeSweep sweep;
-  append(sweep, {scan.ranges, scan.first_bearing, scan.bearing_step, 0.02, max_range}, {});
+sensor_models::RangeSweep sweep_of(const recording::LoggedScan& scan, double max_range) {
+  sensor_models::RangeSweep sweep;
+  sensor_models::append(sweep, {scan.ranges, scan.first_bearing, scan.bearing_step, 0.02, max_range}, {});
   return sweep;
 }
 
-bool has_two_lasers(const LaserLog& log) {
+bool has_two_lasers(const recording::LaserLog& log) {
   return std::any_of(log.scans.begin(), log.scans.end(),
-                     [&](const LoggedScan& scan) { return scan.rear != log.scans.front().rear; });
+                     [&](const recording::LoggedScan& scan) { return scan.rear != log.scans.front().rear; });
 }
 
-Pose2 base_from_tracked(bool has_two_lasers, const LoggedScan& scan) {
+Pose2 base_from_tracked(bool has_two_lasers, const recording::LoggedScan& scan) {
   return has_two_lasers ? Pose2{} : scan.base_from_laser;
 }
 
 namespace {
 
 /// Odometry alone from a known pose on.
-LoggedPose reckoned(const LoggedPose& from, const LoggedScan& at_from, std::size_t scan, const LoggedScan& now) {
+LoggedPose reckoned(const LoggedPose& from, const recording::LoggedScan& at_from, std::size_t scan,
+                    const recording::LoggedScan& now) {
   LoggedPose pose = from;
   pose.scan = scan;
   pose.time = to_seconds(now.time);
@@ -61,7 +62,7 @@ LoggedPose reckoned(const LoggedPose& from, const LoggedScan& at_from, std::size
 
 /// The mode that a robot became sure of is the one it had followed until then: back along odometry, as far as the best
 /// pose kept to it.
-void know_in_hindsight(const LaserLog& log, bool reverse, std::vector<LoggedPose>& poses) {
+void know_in_hindsight(const recording::LaserLog& log, bool reverse, std::vector<LoggedPose>& poses) {
   const std::size_t count = poses.size();
   const auto at = [&](std::size_t n) { return reverse ? count - 1 - n : n; };  // by the order of the run
   for (std::size_t n = count; n-- > 1;) {
@@ -77,7 +78,7 @@ void know_in_hindsight(const LaserLog& log, bool reverse, std::vector<LoggedPose
 
 }  // namespace
 
-LogRun localize_log(const LaserLog& log, Localizer& localizer, const LogRunOptions& options) {
+LogRun localize_log(const recording::LaserLog& log, localization::Localizer& localizer, const LogRunOptions& options) {
   LogRun run;
   run.poses.resize(log.scans.size());
   const bool has_two = has_two_lasers(log);
@@ -86,7 +87,7 @@ LogRun localize_log(const LaserLog& log, Localizer& localizer, const LogRunOptio
   const double end = log.scans.empty() ? 0.0 : to_seconds(log.scans.back().time);
   for (std::size_t n = 0; n < log.scans.size(); ++n) {
     const std::size_t i = options.reverse ? log.scans.size() - 1 - n : n;
-    const LoggedScan& scan = log.scans[i];
+    const recording::LoggedScan& scan = log.scans[i];
     if (options.dead_reckoning && known) {
       run.poses[i] = reckoned(run.poses[*known], log.scans[*known], i, scan);
       continue;
@@ -96,13 +97,13 @@ LogRun localize_log(const LaserLog& log, Localizer& localizer, const LogRunOptio
     const Pose2 tracked = base_from_tracked(has_two, scan);
     const Pose2 odom_from_tracked = scan.odom_from_base * tracked;
     if (n == 0 && options.start) {
-      const BeliefMode mode{*options.start * tracked, {0.04, 0, 0, 0, 0.04, 0, 0, 0, 0.01}, 1.0};
+      const localization::BeliefMode mode{*options.start * tracked, {0.04, 0, 0, 0, 0.04, 0, 0, 0, 0.01}, 1.0};
       localizer.start_at(std::span{&mode, 1}, odom_from_tracked, time);
     }
     const auto begin = WallClock::now();
-    const RangeSweep of_laser = sweep_of(scan, log.max_range);
-    const auto step =
-        localizer.observe(has_two ? seen_from(of_laser, scan.base_from_laser) : of_laser, odom_from_tracked, time);
+    const sensor_models::RangeSweep of_laser = sweep_of(scan, log.max_range);
+    const auto step = localizer.observe(has_two ? sensor_models::seen_from(of_laser, scan.base_from_laser) : of_laser,
+                                        odom_from_tracked, time);
     const double seconds = std::chrono::duration<double>(WallClock::now() - begin).count();
     if (n == 0) run.seconds_first = seconds;
     if (step.updated) {
@@ -130,17 +131,18 @@ LogRun localize_log(const LaserLog& log, Localizer& localizer, const LogRunOptio
   return run;
 }
 
-double endpoints_near_walls(const LaserLog& log, const LogRun& run, const RayCaster& caster, double distance) {
+double endpoints_near_walls(const recording::LaserLog& log, const LogRun& run, const sensor_models::RayCaster& caster,
+                            double distance) {
   std::size_t near = 0;
   std::size_t all = 0;
   const auto [first, last] = known_span(run.poses);
   for (std::size_t i = first; i < last; ++i) {
     if (!run.poses[i].has_pose) continue;
     const Pose2 map_from_laser = run.poses[i].map_from_base * log.scans[i].base_from_laser;
-    for (const SweepBeam& beam : sweep_of(log.scans[i], log.max_range).beams) {
+    for (const sensor_models::SweepBeam& beam : sweep_of(log.scans[i], log.max_range).beams) {
       if (beam.no_return) continue;
       ++all;
-      const float clearance = caster.clearance(map_from_laser * endpoint(beam));
+      const float clearance = caster.clearance(map_from_laser * sensor_models::endpoint(beam));
       near += static_cast<double>(clearance) <= distance ? 1 : 0;
     }
   }
@@ -216,4 +218,4 @@ Result<std::vector<LoggedPose>> load_poses(const std::string& path) {
   return poses;
 }
 
-}  // namespace docent
+}  // namespace docent::apps

@@ -10,7 +10,7 @@
 #include "docent/localization/localizer/localizer.h"
 #include "docent/recording/laser_log.h"
 
-namespace docent {
+namespace docent::apps {
 
 /// Where the robot was at one scan of a log.
 struct LoggedPose {
@@ -38,24 +38,25 @@ struct LogRunOptions {
   std::optional<Pose2> start;   ///< map_from_base at the first scan; nullopt: unknown
   bool dead_reckoning = false;  ///< crippled: once it knows where it is, odometry alone
   /// After every scan: localizer, index in the log, what the scan did (for pictures).
-  std::function<void(const Localizer&, std::size_t, const Localizer::Step&)> watch;
+  std::function<void(const localization::Localizer&, std::size_t, const localization::Localizer::Step&)> watch;
 };
 
 /// What is localized, seen from the robot. With one laser the *laser*, moved by its own odometry, and the robot's pose
 /// follows from it: seen from the robot's centre, a beam along a wall would pass through the door post. With two lasers
 /// the robot's centre.
-[[nodiscard]] Pose2 base_from_tracked(bool has_two_lasers, const LoggedScan& scan);
-[[nodiscard]] bool has_two_lasers(const LaserLog& log);
+[[nodiscard]] Pose2 base_from_tracked(bool has_two_lasers, const recording::LoggedScan& scan);
+[[nodiscard]] bool has_two_lasers(const recording::LaserLog& log);
 
 /// Localizes every scan of a log.
-[[nodiscard]] LogRun localize_log(const LaserLog& log, Localizer& localizer, const LogRunOptions& options);
+[[nodiscard]] LogRun localize_log(const recording::LaserLog& log, localization::Localizer& localizer,
+                                  const LogRunOptions& options);
 
 /// The scan in the laser's frame.
-[[nodiscard]] RangeSweep sweep_of(const LoggedScan& scan, double max_range);
+[[nodiscard]] sensor_models::RangeSweep sweep_of(const recording::LoggedScan& scan, double max_range);
 
 /// Share of the valid endpoints within `distance` [m] of an occupied cell, over the scans since localization.
-[[nodiscard]] double endpoints_near_walls(const LaserLog& log, const LogRun& run, const RayCaster& caster,
-                                          double distance);
+[[nodiscard]] double endpoints_near_walls(const recording::LaserLog& log, const LogRun& run,
+                                          const sensor_models::RayCaster& caster, double distance);
 
 /// How two runs over one log agree, over the scans after both were localized (in a reversed run: before).
 struct RunAgreement {
@@ -69,4 +70,4 @@ struct RunAgreement {
 [[nodiscard]] Result<void> save_poses(const std::vector<LoggedPose>& poses, const std::string& path);
 [[nodiscard]] Result<std::vector<LoggedPose>> load_poses(const std::string& path);
 
-}  // namespace docent
+}  // namespace docent::apps

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <utility>
 
-namespace docent {
+namespace docent::apps {
 
 namespace {
 
@@ -13,67 +13,69 @@ constexpr double kRobotRadius = 0.3;  // [m] in pictures
 constexpr double kDot = 1.5;          // [points] diameter of an endpoint
 constexpr double kWay = 1.0;          // [points]
 constexpr double kReferenceWay = 3.0;
-constexpr Color kReference = with_alpha(colors::kGrey, 150);
+constexpr pictures::Color kReference = pictures::with_alpha(pictures::colors::kGrey, 150);
 
-std::vector<Point2> endpoints_at(const LoggedScan& scan, double max_range, const Pose2& map_from_laser) {
+std::vector<Point2> endpoints_at(const recording::LoggedScan& scan, double max_range, const Pose2& map_from_laser) {
   std::vector<Point2> ends;
-  for (const SweepBeam& beam : sweep_of(scan, max_range).beams)
-    if (!beam.no_return) ends.push_back(map_from_laser * endpoint(beam));
+  for (const sensor_models::SweepBeam& beam : sweep_of(scan, max_range).beams)
+    if (!beam.no_return) ends.push_back(map_from_laser * sensor_models::endpoint(beam));
   return ends;
 }
 
-Color color_when(bool localized) { return localized ? colors::kGreen : colors::kGrey; }
+pictures::Color color_when(bool localized) { return localized ? pictures::colors::kGreen : pictures::colors::kGrey; }
 
 /// Seconds since the first scan of the log, in whichever way it is run.
-double seconds_into(const LaserLog& log, std::size_t scan) {
+double seconds_into(const recording::LaserLog& log, std::size_t scan) {
   return to_seconds(log.scans[scan].time) - to_seconds(log.scans.front().time);
 }
 
 /// "scan 12, 3.4 s"
-std::string moment_of(const LaserLog& log, std::size_t scan) {
+std::string moment_of(const recording::LaserLog& log, std::size_t scan) {
   std::array<char, 60> text{};
   std::snprintf(text.data(), text.size(), "scan %zu, %.1f s", scan, seconds_into(log, scan));
   return text.data();
 }
 
-void add_robot_legend(Figure& figure) {
-  figure.add_legend(legend_disc("robot and scan, localized", 6.0, color_when(true)));
-  figure.add_legend(legend_disc("robot and scan at the best hypothesis, not localized", 6.0, color_when(false)));
+void add_robot_legend(pictures::Figure& figure) {
+  figure.add_legend(pictures::legend_disc("robot and scan, localized", 6.0, color_when(true)));
+  figure.add_legend(
+      pictures::legend_disc("robot and scan at the best hypothesis, not localized", 6.0, color_when(false)));
 }
 
 }  // namespace
 
-Figure draw_belief(const OccupancyGrid& map, const Localizer& localizer, const LaserLog& log, std::size_t scan) {
+pictures::Figure draw_belief(const OccupancyGrid& map, const localization::Localizer& localizer,
+                             const recording::LaserLog& log, std::size_t scan) {
   // The moment stands over the frame, where it takes the same room whatever it says: frames of a film have one size.
-  Figure figure{""};
-  Axes& axes = figure.add(Axes::metres(map.frame, 400.0));
+  pictures::Figure figure{""};
+  pictures::Axes& axes = figure.add(pictures::Axes::metres(map.frame, 400.0));
   axes.set_title(moment_of(log, scan));
-  draw_map(axes, map);
-  const PositionDensity density = localizer.density();
-  draw_density(axes, density.frame, density.mass);
-  const LoggedScan& seen = log.scans[scan];
+  pictures::draw_map(axes, map);
+  const localization::PositionDensity density = localizer.density();
+  pictures::draw_density(axes, density.frame, density.mass);
+  const recording::LoggedScan& seen = log.scans[scan];
   const Pose2 tracked = base_from_tracked(has_two_lasers(log), seen);
   if (const auto best = localizer.map_from_robot(seen.odom_from_base * tracked)) {
     const Pose2 map_from_base = *best * inverse(tracked);
-    const Color color = color_when(localizer.verdict().localized());
-    draw_points(axes, endpoints_at(seen, log.max_range, map_from_base * seen.base_from_laser), kDot,
-                with_alpha(color, 180));
-    draw_robot(axes, map_from_base, kRobotRadius, color);
+    const pictures::Color color = color_when(localizer.verdict().localized());
+    pictures::draw_points(axes, endpoints_at(seen, log.max_range, map_from_base * seen.base_from_laser), kDot,
+                          pictures::with_alpha(color, 180));
+    pictures::draw_robot(axes, map_from_base, kRobotRadius, color);
   }
-  add_map_legend(figure);
+  pictures::add_map_legend(figure);
   add_robot_legend(figure);
   return figure;
 }
 
 bool BeliefMovie::is_full() const { return frames_localized_ >= 12 || frames_ >= 150; }
 
-Result<void> BeliefMovie::add(const Localizer& localizer, std::size_t scan) {
+Result<void> BeliefMovie::add(const localization::Localizer& localizer, std::size_t scan) {
   ++frames_;
   if (localizer.verdict().localized()) ++frames_localized_;
   const Duration shown = std::chrono::milliseconds(is_full() ? 3000 : 300);
-  const Image frame = draw_belief(map_, localizer, log_, scan).raster();
+  const pictures::Image frame = draw_belief(map_, localizer, log_, scan).raster();
   if (!animation_) {
-    auto animation = Animation::create(frame.width(), frame.height());
+    auto animation = pictures::Animation::create(frame.width(), frame.height());
     if (!animation) return tl::unexpected<Error>(animation.error());
     animation_.emplace(std::move(*animation));
   }
@@ -85,54 +87,57 @@ Result<void> BeliefMovie::save(const std::filesystem::path& path) {
   return animation_->save(path);
 }
 
-Figure draw_scan(const OccupancyGrid& map, const LaserLog& log, const LoggedPose& pose) {
+pictures::Figure draw_scan(const OccupancyGrid& map, const recording::LaserLog& log, const LoggedPose& pose) {
   constexpr double kAround = 12.0;  // [m]
   const Point2 centre = pose.map_from_base.position();
-  Figure figure{moment_of(log, pose.scan)};
-  Axes& axes = figure.add(Axes::metres(centre - Point2{kAround, kAround}, centre + Point2{kAround, kAround}, 360.0));
-  draw_map(axes, map);
-  const LoggedScan& scan = log.scans[pose.scan];
-  const Color color = color_when(pose.localized);
-  draw_points(axes, endpoints_at(scan, log.max_range, pose.map_from_base * scan.base_from_laser), 2.5, color);
-  draw_robot(axes, pose.map_from_base, kRobotRadius, color);
-  add_map_legend(figure);
+  pictures::Figure figure{moment_of(log, pose.scan)};
+  pictures::Axes& axes =
+      figure.add(pictures::Axes::metres(centre - Point2{kAround, kAround}, centre + Point2{kAround, kAround}, 360.0));
+  pictures::draw_map(axes, map);
+  const recording::LoggedScan& scan = log.scans[pose.scan];
+  const pictures::Color color = color_when(pose.localized);
+  pictures::draw_points(axes, endpoints_at(scan, log.max_range, pose.map_from_base * scan.base_from_laser), 2.5, color);
+  pictures::draw_robot(axes, pose.map_from_base, kRobotRadius, color);
+  pictures::add_map_legend(figure);
   add_robot_legend(figure);
   return figure;
 }
 
-Figure draw_run(const OccupancyGrid& map, const LaserLog& log, const LogRun& run, std::size_t stride,
-                const std::vector<std::optional<Pose2>>& reference) {
+pictures::Figure draw_run(const OccupancyGrid& map, const recording::LaserLog& log, const LogRun& run,
+                          std::size_t stride, const std::vector<std::optional<Pose2>>& reference) {
   const double end = seconds_into(log, log.scans.size() - 1);
   std::array<char, 60> title{};
   std::snprintf(title.data(), title.size(), "Scans 0 to %zu, 0 to %.0f s", log.scans.size() - 1, end);
-  Figure figure{title.data()};
-  Axes& axes = figure.add(Axes::metres(map.frame));
-  draw_map(axes, map);
-  add_map_legend(figure);
+  pictures::Figure figure{title.data()};
+  pictures::Axes& axes = figure.add(pictures::Axes::metres(map.frame));
+  pictures::draw_map(axes, map);
+  pictures::add_map_legend(figure);
   std::vector<Point2> true_way;
   for (const auto& pose : reference)
     if (pose) true_way.push_back(pose->position());
   if (true_way.size() > 1) {
-    draw_path(axes, true_way, kReferenceWay, kReference);
-    figure.add_legend(legend_line("reference trajectory", kReferenceWay, kReference));
+    pictures::draw_path(axes, true_way, kReferenceWay, kReference);
+    figure.add_legend(pictures::legend_line("reference trajectory", kReferenceWay, kReference));
   }
-  const auto color_at = [end](double seconds) { return rainbow(end > 0.0 ? seconds / end : 0.0); };
+  const auto color_at = [end](double seconds) { return pictures::rainbow(end > 0.0 ? seconds / end : 0.0); };
   std::vector<Point2> way;
   for (std::size_t i = 0; i < run.poses.size(); ++i) {
     const LoggedPose& pose = run.poses[i];
     if (!pose.localized) continue;
     way.push_back(pose.map_from_base.position());
     if (i % stride != 0) continue;
-    const Color color = color_at(seconds_into(log, i));
-    draw_points(axes, endpoints_at(log.scans[i], log.max_range, pose.map_from_base * log.scans[i].base_from_laser),
-                kDot, color);
-    draw_robot(axes, pose.map_from_base, kRobotRadius, color);
+    const pictures::Color color = color_at(seconds_into(log, i));
+    pictures::draw_points(axes,
+                          endpoints_at(log.scans[i], log.max_range, pose.map_from_base * log.scans[i].base_from_laser),
+                          kDot, color);
+    pictures::draw_robot(axes, pose.map_from_base, kRobotRadius, color);
   }
-  draw_path(axes, way, kWay, colors::kInk);
-  figure.add_legend(legend_line("trajectory while localized", kWay, colors::kInk));
-  figure.add_legend(legend_disc("robot and scan, some of them, at the time of their colour", 6.0, color_at(0.5 * end)));
+  pictures::draw_path(axes, way, kWay, pictures::colors::kInk);
+  figure.add_legend(pictures::legend_line("trajectory while localized", kWay, pictures::colors::kInk));
+  figure.add_legend(
+      pictures::legend_disc("robot and scan, some of them, at the time of their colour", 6.0, color_at(0.5 * end)));
   if (end > 0.0) axes.set_color_bar({"time [s]", color_at, 0.0, end, false});
   return figure;
 }
 
-}  // namespace docent
+}  // namespace docent::apps

@@ -8,35 +8,36 @@
 #include "docent/pictures/animation.h"
 #include "docent/pictures/map_picture.h"
 
-namespace docent {
+namespace docent::apps {
 
 /// The belief finding itself, one frame an update until some time after the robot knows, as an animated WebP.
 class BeliefMovie {
  public:
   /// @pre both outlive the movie
-  BeliefMovie(const OccupancyGrid& map, const LaserLog& log) : map_{map}, log_{log} {}
-  [[nodiscard]] Result<void> add(const Localizer& localizer, std::size_t scan);
+  BeliefMovie(const OccupancyGrid& map, const recording::LaserLog& log) : map_{map}, log_{log} {}
+  [[nodiscard]] Result<void> add(const localization::Localizer& localizer, std::size_t scan);
   [[nodiscard]] Result<void> save(const std::filesystem::path& path);
   [[nodiscard]] bool is_full() const;  ///< enough frames
 
  private:
   const OccupancyGrid& map_;
-  const LaserLog& log_;
-  std::optional<Animation> animation_;  ///< since the first frame, which says how large they are
+  const recording::LaserLog& log_;
+  std::optional<pictures::Animation> animation_;  ///< since the first frame, which says how large they are
   int frames_ = 0;
   int frames_localized_ = 0;
 };
 
 /// Belief summed over headings, the scan at the best pose.
-[[nodiscard]] Figure draw_belief(const OccupancyGrid& map, const Localizer& localizer, const LaserLog& log,
-                                 std::size_t scan);
+[[nodiscard]] pictures::Figure draw_belief(const OccupancyGrid& map, const localization::Localizer& localizer,
+                                           const recording::LaserLog& log, std::size_t scan);
 
 /// One scan at its pose, 24 m of the map around the robot.
-[[nodiscard]] Figure draw_scan(const OccupancyGrid& map, const LaserLog& log, const LoggedPose& pose);
+[[nodiscard]] pictures::Figure draw_scan(const OccupancyGrid& map, const recording::LaserLog& log,
+                                         const LoggedPose& pose);
 
 /// The way through the map, and scans drawn at their poses along it (every `stride`-th). Beneath it the reference's
 /// way, broad, where there is one.
-[[nodiscard]] Figure draw_run(const OccupancyGrid& map, const LaserLog& log, const LogRun& run, std::size_t stride,
-                              const std::vector<std::optional<Pose2>>& reference);
+[[nodiscard]] pictures::Figure draw_run(const OccupancyGrid& map, const recording::LaserLog& log, const LogRun& run,
+                                        std::size_t stride, const std::vector<std::optional<Pose2>>& reference);
 
-}  // namespace docent
+}  // namespace docent::apps

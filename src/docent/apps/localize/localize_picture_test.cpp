@@ -5,10 +5,10 @@
 
 #include "docent/base/files.h"
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
-std::string svg_of(const Figure& figure) {
+std::string svg_of(const pictures::Figure& figure) {
   const auto path = std::filesystem::temp_directory_path() / ("docent_run_" + std::to_string(getpid()) + ".svg");
   EXPECT_TRUE(figure.save(path));
   const auto svg = read_file(path);
@@ -24,7 +24,7 @@ class LocalizePicture : public testing::Test {
     map_.cells.assign(map_.frame.size(), OccupancyGrid::kFree);
     log_.max_range = 10.0;
     for (std::size_t i = 0; i <= 20; ++i) {
-      LoggedScan scan;
+      recording::LoggedScan scan;
       scan.time = time_from_seconds(1000.0 + 2.0 * static_cast<double>(i));
       scan.bearing_step = 0.1;
       scan.ranges = {1.0F, 1.5F};
@@ -37,7 +37,7 @@ class LocalizePicture : public testing::Test {
     }
   }
   OccupancyGrid map_;
-  LaserLog log_;
+  recording::LaserLog log_;
   LogRun run_;
 };
 
@@ -60,4 +60,4 @@ TEST_F(LocalizePicture, AScanHasItsMoment) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::apps

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace docent {
+namespace docent::apps {
 
 namespace {
 
@@ -64,4 +64,4 @@ std::string summary_of_agreement(const nlohmann::json& agreement) {
       length(number(agreement, "p95_m")), length(number(agreement, "max_m")));
 }
 
-}  // namespace docent
+}  // namespace docent::apps

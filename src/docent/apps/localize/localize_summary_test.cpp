@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 using nlohmann::json;
@@ -49,4 +49,4 @@ TEST(LocalizeSummary, AgreementOfNothingIsNoAgreement) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::apps

@@ -6,7 +6,7 @@
 
 #include "docent/apps/shared/command.h"
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 /// Keeps the scans for which `keep` says so, and their reference.
@@ -37,15 +37,16 @@ void add_log_options(CLI::App& command, LogChoice& choice) {
       ->capture_default_str();
 }
 
-ReferencedLog load_referenced_log(const LogChoice& choice, const ReferenceGaps& gaps) {
-  ReferencedLog referenced{value_or_fail(read_laser_log(choice.log)), {}};
-  const LaserLog& log = referenced.log;
+ReferencedLog load_referenced_log(const LogChoice& choice, const evaluation::ReferenceGaps& gaps) {
+  ReferencedLog referenced{value_or_fail(recording::read_laser_log(choice.log)), {}};
+  const recording::LaserLog& log = referenced.log;
   if (choice.reference.empty()) {
     referenced.reference.resize(log.scans.size());
   } else if (choice.reference == "logged") {
-    referenced.reference = logged_reference(log);
+    referenced.reference = evaluation::logged_reference(log);
   } else {
-    referenced.reference = reference_of(log, value_or_fail(load_timed_poses(choice.reference)), gaps);
+    referenced.reference =
+        evaluation::reference_of(log, value_or_fail(evaluation::load_timed_poses(choice.reference)), gaps);
     if (std::none_of(referenced.reference.begin(), referenced.reference.end(), [](const auto& p) { return !!p; }))
       throw CommandFailed{choice.reference + ": no pose at the time of any scan of " + choice.log};
   }
@@ -56,19 +57,19 @@ ReferencedLog load_referenced_log(const LogChoice& choice, const ReferenceGaps& 
   return referenced;
 }
 
-void replace_odometry(ReferencedLog& referenced, const OdometryNoiseParams& noise, std::uint64_t seed) {
-  const ScanReference before = referenced.reference;
+void replace_odometry(ReferencedLog& referenced, const evaluation::OdometryNoiseParams& noise, std::uint64_t seed) {
+  const evaluation::ScanReference before = referenced.reference;
   filter_scans(referenced, [&](std::size_t i) { return before[i].has_value(); });
   if (referenced.log.scans.empty()) throw CommandFailed{"odometry cannot be made: no scan has a reference", 2};
   std::vector<Pose2> way;
   for (const auto& pose : referenced.reference) way.push_back(*pose);
-  const std::vector<Pose2> odometry = noisy_odometry(way, noise, Rng{seed}.stream("odometry"));
+  const std::vector<Pose2> odometry = evaluation::noisy_odometry(way, noise, Rng{seed}.stream("odometry"));
   for (std::size_t i = 0; i < odometry.size(); ++i) referenced.log.scans[i].odom_from_base = odometry[i];
   referenced.log.odometry.clear();
 }
 
 void begin_where_known(ReferencedLog& referenced) {
-  const ScanReference& reference = referenced.reference;
+  const evaluation::ScanReference& reference = referenced.reference;
   const auto known = [](const std::optional<Pose2>& pose) { return pose.has_value(); };
   const auto first = std::find_if(reference.begin(), reference.end(), known) - reference.begin();
   const auto after = reference.rend() - std::find_if(reference.rbegin(), reference.rend(), known);
@@ -78,4 +79,4 @@ void begin_where_known(ReferencedLog& referenced) {
   });
 }
 
-}  // namespace docent
+}  // namespace docent::apps

@@ -11,7 +11,7 @@ namespace CLI {
 class App;
 }
 
-namespace docent {
+namespace docent::apps {
 
 /// What `docent map` and `docent localize` are told about a log beside its name.
 struct LogChoice {
@@ -23,17 +23,17 @@ void add_log_options(CLI::App& command, LogChoice& choice);
 
 /// A log, and where its scans were truly taken if anybody says so.
 struct ReferencedLog {
-  LaserLog log;
-  ScanReference reference;  ///< of every scan of the log; all nullopt without a reference
+  recording::LaserLog log;
+  evaluation::ScanReference reference;  ///< of every scan of the log; all nullopt without a reference
 };
 /// CommandFailed on bad input.
-[[nodiscard]] ReferencedLog load_referenced_log(const LogChoice& choice, const ReferenceGaps& gaps = {});
+[[nodiscard]] ReferencedLog load_referenced_log(const LogChoice& choice, const evaluation::ReferenceGaps& gaps = {});
 
 /// Keeps the scans that have a reference and gives them odometry of our making in place of the log's. CommandFailed
 /// when no scan has one.
-void replace_odometry(ReferencedLog& referenced, const OdometryNoiseParams& noise, std::uint64_t seed);
+void replace_odometry(ReferencedLog& referenced, const evaluation::OdometryNoiseParams& noise, std::uint64_t seed);
 
 /// Leaves out the scans before the first and after the last one that have a reference. CommandFailed when none has.
 void begin_where_known(ReferencedLog& referenced);
 
-}  // namespace docent
+}  // namespace docent::apps

@@ -16,7 +16,7 @@
 #include "docent/mapping/occupancy/scan_mapper.h"
 #include "docent/pictures/map_picture.h"
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 struct MapOptions {
@@ -28,8 +28,8 @@ struct MapOptions {
   std::vector<std::string> settings;
 };
 
-ScanMapperParams params_of(const std::vector<std::string>& settings) {
-  ScanMapperParams params;
+mapping::ScanMapperParams params_of(const std::vector<std::string>& settings) {
+  mapping::ScanMapperParams params;
   std::string yaml;
   for (const std::string& setting : settings) {
     const std::size_t equals = setting.find('=');
@@ -44,39 +44,39 @@ ScanMapperParams params_of(const std::vector<std::string>& settings) {
   return params;
 }
 
-std::vector<PlacedSweep> placed_sweeps(const ReferencedLog& referenced) {
-  std::vector<PlacedSweep> placed;
+std::vector<mapping::PlacedSweep> placed_sweeps(const ReferencedLog& referenced) {
+  std::vector<mapping::PlacedSweep> placed;
   for (std::size_t i = 0; i < referenced.log.scans.size(); ++i) {
-    const LoggedScan& scan = referenced.log.scans[i];
+    const recording::LoggedScan& scan = referenced.log.scans[i];
     if (!referenced.reference[i]) continue;
     placed.push_back({sweep_of(scan, referenced.log.max_range), *referenced.reference[i] * scan.base_from_laser});
   }
   return placed;
 }
 
-Figure draw(const OccupancyGrid& map, const std::vector<PlacedSweep>& placed) {
+pictures::Figure draw(const OccupancyGrid& map, const std::vector<mapping::PlacedSweep>& placed) {
   constexpr double kDot = 2.0;  // [points]
-  Figure figure{"Map of " + std::to_string(placed.size()) + " scans"};
-  Axes& axes = figure.add(Axes::metres(map.frame));
-  draw_map(axes, map);
+  pictures::Figure figure{"Map of " + std::to_string(placed.size()) + " scans"};
+  pictures::Axes& axes = figure.add(pictures::Axes::metres(map.frame));
+  pictures::draw_map(axes, map);
   std::vector<Point2> way;
-  for (const PlacedSweep& sweep : placed) way.push_back(sweep.map_from_sensor.position());
-  draw_points(axes, way, kDot, distinct(0));
-  add_map_legend(figure);
-  figure.add_legend(legend_disc("laser at a scan", kDot, distinct(0)));
+  for (const mapping::PlacedSweep& sweep : placed) way.push_back(sweep.map_from_sensor.position());
+  pictures::draw_points(axes, way, kDot, pictures::distinct(0));
+  pictures::add_map_legend(figure);
+  figure.add_legend(pictures::legend_disc("laser at a scan", kDot, pictures::distinct(0)));
   return figure;
 }
 
 void make_map(const MapOptions& options) {
-  const ScanMapperParams params = params_of(options.settings);
+  const mapping::ScanMapperParams params = params_of(options.settings);
   // What odometry places between known poses would blur the walls: good enough to judge by, not to map.
-  ReferenceGaps gaps;
+  evaluation::ReferenceGaps gaps;
   gaps.between_own_scans = false;
   const ReferencedLog referenced = load_referenced_log(options.choice, gaps);
   for (const std::string& note : referenced.log.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
-  const std::vector<PlacedSweep> placed = placed_sweeps(referenced);
+  const std::vector<mapping::PlacedSweep> placed = placed_sweeps(referenced);
   if (placed.empty()) throw CommandFailed{options.choice.log + ": no scan has a pose (--reference)"};
-  ScanMapper mapper{value_or_fail(ScanMapper::frame_of(placed, params)), params};
+  mapping::ScanMapper mapper{value_or_fail(mapping::ScanMapper::frame_of(placed, params)), params};
   for (std::size_t i = 0; i < placed.size(); ++i) {
     mapper.add(placed[i]);
     if ((i + 1) % 500 == 0) std::fprintf(stderr, "%zu of %zu scans\n", i + 1, placed.size());
@@ -124,4 +124,4 @@ void add_map_command(CLI::App& app) {
   command->callback([options] { make_map(*options); });
 }
 
-}  // namespace docent
+}  // namespace docent::apps

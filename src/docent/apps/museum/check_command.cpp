@@ -14,11 +14,11 @@
 #include "docent/museum/museum.h"
 #include "docent/simulator/world/world.h"
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 /// What the museum and its simulation must agree on: ids. Nothing else is shared.
-void check_simulation(const Museum& museum, std::vector<Error>& faults) {
+void check_simulation(const museum::Museum& museum, std::vector<Error>& faults) {
   auto world = simulator::load_world(*museum.simulation_path);
   if (!world) {
     faults.push_back(world.error());
@@ -27,7 +27,7 @@ void check_simulation(const Museum& museum, std::vector<Error>& faults) {
   const YamlFile file = value_or_fail(YamlFile::load(*museum.simulation_path));
   const YAML::Node& root = file.root();
   for (std::size_t i = 0; i < world->exhibits.size(); ++i) {
-    const Exhibit* exhibit = museum.find_exhibit(world->exhibits[i]);
+    const museum::Exhibit* exhibit = museum.find_exhibit(world->exhibits[i]);
     const YAML::Node at = root["exhibits"][i];
     if (exhibit == nullptr) faults.push_back(file.fault(at, "museum.yaml has no exhibit '" + world->exhibits[i] + "'"));
     if (exhibit != nullptr && exhibit->web_only) {
@@ -41,9 +41,9 @@ void check_simulation(const Museum& museum, std::vector<Error>& faults) {
 }
 
 /// The museum's texts exist in each of its languages; the robot's own phrases may not.
-void note_languages(const Museum& museum) {
+void note_languages(const museum::Museum& museum) {
   for (const std::string& language : museum.languages) {
-    if (dictionaries().contains(language)) continue;
+    if (interaction::dictionaries().contains(language)) continue;
     const YamlFile file = value_or_fail(YamlFile::load(museum.folder / "museum.yaml"));
     const YAML::Node& root = file.root();
     const std::string what =
@@ -54,17 +54,18 @@ void note_languages(const Museum& museum) {
 
 void check(const Deployment& deployment) {
   const std::filesystem::path folder{deployment.museum};
-  const RobotConfig config = value_or_fail(deployment.load_config(), 2);
-  std::vector<Error> faults = check_museum(folder, value_or_fail(checked_robot_of_plan(config), 2));
+  const robot::RobotConfig config = value_or_fail(deployment.load_config(), 2);
+  std::vector<Error> faults = museum::check_museum(folder, value_or_fail(modules::checked_robot_of_plan(config), 2));
   if (faults.empty()) {
-    const Museum museum = value_or_fail(load_museum(folder));
+    const museum::Museum museum = value_or_fail(museum::load_museum(folder));
     if (museum.simulation_path) check_simulation(museum, faults);
     if (faults.empty()) {
       note_languages(museum);
       const GridFrame& frame = museum.map.frame;
       std::printf("%s: fine. %zu exhibits (%zu sensible pairs), %zu hazards, %zu tours, map %.1f x %.1f m\n",
-                  folder.string().c_str(), museum.exhibits.size(), sensible_pairs(museum), museum.hazards.size(),
-                  museum.tours.size(), frame.columns * frame.resolution, frame.rows * frame.resolution);
+                  folder.string().c_str(), museum.exhibits.size(), museum::sensible_pairs(museum),
+                  museum.hazards.size(), museum.tours.size(), frame.columns * frame.resolution,
+                  frame.rows * frame.resolution);
       say_classes(museum.map_path.string(), museum.map);
       return;
     }
@@ -86,4 +87,4 @@ void add_check_command(CLI::App& app) {
   command->callback([deployment] { check(*deployment); });
 }
 
-}  // namespace docent
+}  // namespace docent::apps

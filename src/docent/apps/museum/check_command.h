@@ -4,9 +4,9 @@ namespace CLI {
 class App;
 }
 
-namespace docent {
+namespace docent::apps {
 
 /// `docent check MUSEUM_DIR`
 void add_check_command(CLI::App& app);
 
-}  // namespace docent
+}  // namespace docent::apps

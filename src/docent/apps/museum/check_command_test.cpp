@@ -12,7 +12,7 @@
 #include "docent/base/files.h"
 #include "docent/grid/occupancy_grid.h"
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 /// Runs `docent ARGUMENTS`; the message of CommandFailed, or "".
@@ -134,4 +134,4 @@ TEST_F(CheckCommand, SurveyWritesWhatMuseumYamlNeeds) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::apps

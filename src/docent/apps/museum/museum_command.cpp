@@ -15,7 +15,7 @@
 #include "docent/simulator/traced/traced_museum.h"
 #include "docent/simulator/world/world_picture.h"
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 namespace fs = std::filesystem;
@@ -55,21 +55,22 @@ void print_fit(const simulator::PedestrianFit& fit) {
 }
 
 /// The true world with the ways of the recorded people, and beside it what the robot is told.
-Figure draw(const simulator::World& world, const simulator::Survey& survey, const std::string& title) {
+pictures::Figure draw(const simulator::World& world, const simulator::Survey& survey, const std::string& title) {
   constexpr double kSide = 420.0;  // [points]
-  constexpr Color kTrack = with_alpha(colors::kViolet, 60);
-  Figure figure{title};
-  Axes& truth = figure.add(Axes::metres(survey.map.frame, kSide));
+  constexpr pictures::Color kTrack = pictures::with_alpha(pictures::colors::kViolet, 60);
+  pictures::Figure figure{title};
+  pictures::Axes& truth = figure.add(pictures::Axes::metres(survey.map.frame, kSide));
   truth.set_title("true world");
   simulator::draw_world(truth, world);
   for (const auto& recording : world.pedestrians)
-    for (const auto& track : recording.tracks) draw_path(truth, track.points, 0.5, kTrack);
-  Axes& told = figure.add(Axes::metres(survey.map.frame, kSide));
+    for (const auto& track : recording.tracks) pictures::draw_path(truth, track.points, 0.5, kTrack);
+  pictures::Axes& told = figure.add(pictures::Axes::metres(survey.map.frame, kSide));
   told.set_title("map and hazards, as surveyed");
   simulator::draw_survey(told, survey);
   simulator::draw_operating_area(told, world);
   simulator::add_world_legend(figure, world);
-  if (!world.pedestrians.empty()) figure.add_legend(legend_line("recorded person's way", 0.5, colors::kViolet));
+  if (!world.pedestrians.empty())
+    figure.add_legend(pictures::legend_line("recorded person's way", 0.5, pictures::colors::kViolet));
   simulator::add_survey_legend(figure, survey);
   return figure;
 }
@@ -97,7 +98,7 @@ void run(const MuseumOptions& options) {
       (out / "museum.yaml").c_str(), plan.stops.size(), plan.world.solids.size(), survey.hazards.size(),
       survey.moved.size(), survey.missing.size());
   if (!options.picture.empty()) value_or_fail(draw(plan.world, survey, title).save(options.picture));
-  const std::vector<Error> faults = check_museum(out);
+  const std::vector<Error> faults = museum::check_museum(out);
   for (const Error& fault : faults) std::fprintf(stderr, "%s\n", fault.message.c_str());
   if (!faults.empty())
     throw CommandFailed{out.string() + (places ? ": cannot work; mend " + options.places + " and run this again"
@@ -131,4 +132,4 @@ void add_museum_command(CLI::App& app) {
   command->callback([options] { run(*options); });
 }
 
-}  // namespace docent
+}  // namespace docent::apps

@@ -9,7 +9,7 @@
 #include "docent/simulator/office/office.h"
 #include "docent/simulator/world/world_picture.h"
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 struct OfficeOptions {
@@ -47,4 +47,4 @@ void add_office_command(CLI::App& app) {
   command->callback([options] { run(*options); });
 }
 
-}  // namespace docent
+}  // namespace docent::apps

@@ -10,7 +10,7 @@
 #include "docent/simulator/world/survey.h"
 #include "docent/simulator/world/world_picture.h"
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 struct SurveyOptions {
@@ -61,4 +61,4 @@ void add_survey_command(CLI::App& app) {
   command->callback([options] { run(*options); });
 }
 
-}  // namespace docent
+}  // namespace docent::apps

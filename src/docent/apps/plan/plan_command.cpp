@@ -18,7 +18,7 @@
 #include "docent/planning/coastal/coastal_planner.h"
 #include "docent/planning/value_iteration/route.h"
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 constexpr double kKnownStart = 0.05;  // [m] to which the pose is known at the start of a coastal way
@@ -34,7 +34,7 @@ struct Options {
   std::string picture;
   std::string ways;
   double radius = 0.265;
-  CoastalParams coastal;
+  planning::CoastalParams coastal;
 };
 
 struct Way {
@@ -44,7 +44,7 @@ struct Way {
   double entropy = 0.0;        ///< [nat] to be expected at the goal
 };
 
-Way way_of(const std::string& name, RoutePlanner& planner, Point2 from) {
+Way way_of(const std::string& name, planning::RoutePlanner& planner, Point2 from) {
   while (!planner.iterate(100)) {
   }
   Way way{name, {from}};
@@ -55,7 +55,7 @@ Way way_of(const std::string& name, RoutePlanner& planner, Point2 from) {
   return way;
 }
 
-void expect_entropy(Way& way, const CoastalPlanner& coastal) {
+void expect_entropy(Way& way, const planning::CoastalPlanner& coastal) {
   const auto variances = coastal.variances_along(way.points.front(), way.points, kKnownStart * kKnownStart);
   way.entropy = coastal.uncertainty().entropy(variances.back());
 }
@@ -71,8 +71,9 @@ Result<void> save_ways(const std::vector<Way>& ways, const std::string& path) {
 }
 
 /// The floor that the ways lead over: of a museum, or of a map alone.
-RoutePlanner planner_of(const OccupancyGrid& map, const std::optional<Museum>& museum, const Options& options) {
-  RouteParams params;
+planning::RoutePlanner planner_of(const OccupancyGrid& map, const std::optional<museum::Museum>& museum,
+                                  const Options& options) {
+  planning::RouteParams params;
   params.robot_radius = options.radius;
   // About 15 cm a cell, whatever the map's resolution.
   params.coarsening = std::max(1, static_cast<int>(std::lround(0.15 / map.frame.resolution)));
@@ -89,10 +90,10 @@ void plan(Options& options) {
   if (options.coastal.weight > 0.0 && goals.size() > 1) throw CommandFailed{"--coastal plans to one goal", 2};
   if (options.map.empty() == options.museum.empty()) throw CommandFailed{"either --map or --museum is needed", 2};
   value_or_fail(options.coastal.validate());
-  std::optional<Museum> museum;
-  if (!options.museum.empty()) museum = value_or_fail(load_museum(options.museum));
+  std::optional<museum::Museum> museum;
+  if (!options.museum.empty()) museum = value_or_fail(museum::load_museum(options.museum));
   const OccupancyGrid map = museum ? museum->map : value_or_fail(load_map(options.map));
-  RoutePlanner planner = planner_of(map, museum, options);
+  planning::RoutePlanner planner = planner_of(map, museum, options);
   if (planner.is_closed(from)) throw CommandFailed{"--from " + options.from + ": no room for the robot there"};
   for (std::size_t i = 0; i < goals.size(); ++i)
     if (planner.is_closed(goals[i])) throw CommandFailed{"--to " + options.goals[i] + ": no room for the robot there"};
@@ -108,9 +109,10 @@ void plan(Options& options) {
   std::printf("length %.2f m, cost %.2f m of free floor, %zu points\n", ways[0].length, planner.cost_from(from),
               ways[0].points.size() - 1);
 
-  std::optional<CoastalPlanner> coastal;
+  std::optional<planning::CoastalPlanner> coastal;
   if (options.coastal.weight > 0.0) {
-    coastal.emplace(map, CoastalFloor::of(planner.frame(), planner.static_costs(), kCoarser), options.coastal);
+    coastal.emplace(map, planning::CoastalFloor::of(planner.frame(), planner.static_costs(), kCoarser),
+                    options.coastal);
     coastal->set_goal(goals.front(), 0.1);
     while (!coastal->iterate(100)) {
     }
@@ -124,7 +126,8 @@ void plan(Options& options) {
   if (options.picture.empty()) return;
   std::vector<DrawnWay> drawn;
   for (const Way& way : ways)
-    drawn.push_back({way.name, way.points, way.length, drawn.empty() ? colors::kBlue : colors::kRed});
+    drawn.push_back(
+        {way.name, way.points, way.length, drawn.empty() ? pictures::colors::kBlue : pictures::colors::kRed});
   const PlanGround ground{&planner.values(), coastal ? &coastal->information() : nullptr,
                           options.coastal.uncertainty.heading_scale};
   value_or_fail(draw_plan(map, drawn, goals, options.radius, ground).save(options.picture));
@@ -164,4 +167,4 @@ void add_plan_command(CLI::App& app) {
   command->callback([options] { plan(*options); });
 }
 
-}  // namespace docent
+}  // namespace docent::apps

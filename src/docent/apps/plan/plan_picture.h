@@ -7,27 +7,28 @@
 #include "docent/planning/coastal/coastal_planner.h"
 #include "docent/planning/value_iteration/value_iteration.h"
 
-namespace docent {
+namespace docent::apps {
 
 /// A way as `docent plan` draws it.
 struct DrawnWay {
   std::string name;
   std::vector<Point2> points;  ///< [m], map, with its start
   double length = 0.0;         ///< [m]
-  Color color;
+  pictures::Color color;
 };
 
 /// What lies over the floor under the ways.
 struct PlanGround {
-  const ValueIteration* values = nullptr;  ///< pale near the goals, dark far from them, clear where no way leads
+  const planning::ValueIteration* values =
+      nullptr;  ///< pale near the goals, dark far from them, clear where no way leads
   /// Instead, where given: what one scan tells a robot that knows its place to 25 cm, pale for nothing, dark for the
   /// most that there is, as in [Minerva2000] Fig. 12.
-  const InformationMap* information = nullptr;
+  const planning::InformationMap* information = nullptr;
   double heading_scale = 1.0;
 };
 
 /// Ways over the map, with a robot of `radius` [m] at their start and a disc at each goal.
-[[nodiscard]] Figure draw_plan(const OccupancyGrid& map, const std::vector<DrawnWay>& ways,
-                               const std::vector<Point2>& goals, double radius, const PlanGround& ground);
+[[nodiscard]] pictures::Figure draw_plan(const OccupancyGrid& map, const std::vector<DrawnWay>& ways,
+                                         const std::vector<Point2>& goals, double radius, const PlanGround& ground);
 
-}  // namespace docent
+}  // namespace docent::apps

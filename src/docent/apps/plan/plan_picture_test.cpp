@@ -5,10 +5,10 @@
 
 #include "docent/base/files.h"
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
-std::string svg_of(const Figure& figure) {
+std::string svg_of(const pictures::Figure& figure) {
   const auto path = std::filesystem::temp_directory_path() / ("docent_plan_" + std::to_string(getpid()) + ".svg");
   EXPECT_TRUE(figure.save(path));
   const auto svg = read_file(path);
@@ -25,13 +25,13 @@ OccupancyGrid floor() {
 
 TEST(PlanPicture, SaysWhatItsColoursAndLinesMean) {
   const OccupancyGrid map = floor();
-  ValueIteration values{map.frame};
+  planning::ValueIteration values{map.frame};
   values.set_costs(std::vector<float>(map.frame.size(), 0.1F));
-  const ValueIteration::Goal goals[] = {{{35, 10}, 0.0F}};
+  const planning::ValueIteration::Goal goals[] = {{{35, 10}, 0.0F}};
   values.set_goals(goals);
   while (!values.iterate(100)) {
   }
-  const std::vector<DrawnWay> ways{{"shortest", {{0.5, 1.0}, {3.5, 1.0}}, 3.0, colors::kBlue}};
+  const std::vector<DrawnWay> ways{{"shortest", {{0.5, 1.0}, {3.5, 1.0}}, 3.0, pictures::colors::kBlue}};
   const std::string svg = svg_of(draw_plan(map, ways, {{3.5, 1.0}}, 0.2, {&values}));
   for (const char* word :
        {"x [m], y [m], cost to the goal [m of free floor]", "shortest way, 3.0 m", "start", "goal", "occupied"})
@@ -41,4 +41,4 @@ TEST(PlanPicture, SaysWhatItsColoursAndLinesMean) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::apps

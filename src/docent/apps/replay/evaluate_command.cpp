@@ -10,7 +10,7 @@
 #include "docent/evaluation/deployment_evaluator.h"
 #include "docent/recording/recorder.h"
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 struct Options {
@@ -19,27 +19,27 @@ struct Options {
 };
 
 void evaluate(const Options& options) {
-  McapReader reader = value_or_fail(McapReader::open(options.recording));
+  recording::McapReader reader = value_or_fail(recording::McapReader::open(options.recording));
   if (!reader.is_complete())
     std::fprintf(stderr, "docent: %s: the recorder did not come to an end; its last second may be missing\n",
                  options.recording.c_str());
-  DeploymentEvaluator evaluator;
-  auto read = read_recording(reader, {}, [&](const RecordedMessage& message) {
+  evaluation::DeploymentEvaluator evaluator;
+  auto read = recording::read_recording(reader, {}, [&](const recording::RecordedMessage& message) {
     evaluator.add(message.topic, message.time, message.message);
     return true;
   });
   if (!read && read.error().message.rfind(options.recording, 0) != 0)
     read = fail(options.recording + ": " + read.error().message);
   value_or_fail(std::move(read));
-  const DeploymentReport report = evaluator.report();
+  const evaluation::DeploymentReport report = evaluator.report();
   if (!evaluator.has_truth()) {
-    if (report.latency) std::printf("  scan to drive   %s\n", to_text(*report.latency).c_str());
+    if (report.latency) std::printf("  scan to drive   %s\n", evaluation::to_text(*report.latency).c_str());
     if (report.latency && options.report.empty()) return;
     throw CommandFailed{options.recording + ": holds no ground truth (/truth/state)"};
   }
-  std::fputs(summary_table(report, std::nullopt).c_str(), stdout);
+  std::fputs(evaluation::summary_table(report, std::nullopt).c_str(), stdout);
   if (options.report.empty()) return;
-  value_or_fail(write_file_atomically(options.report, to_json(report, std::nullopt)));
+  value_or_fail(write_file_atomically(options.report, evaluation::to_json(report, std::nullopt)));
   std::printf("report %s\n", options.report.c_str());
 }
 
@@ -54,4 +54,4 @@ void add_evaluate_command(CLI::App& app) {
   command->callback([options] { evaluate(*options); });
 }
 
-}  // namespace docent
+}  // namespace docent::apps

@@ -6,9 +6,9 @@
 #include "docent/messages/conversions.h"
 #include "docent/vocabulary/vocabulary.h"
 
-namespace docent {
+namespace docent::apps {
 
-void RecordedLines::add(const RecordedMessage& message) {
+void RecordedLines::add(const recording::RecordedMessage& message) {
   if (const auto* say = message.as(topics::kSay)) {
     // Orders are repeated until they are seen; the first counts.
     open_.try_emplace(say->id, Open{{say->language, say->text}, message.time, std::nullopt});
@@ -30,29 +30,29 @@ RecordedLines::Timing RecordedLines::timing_of(const docent_msgs::Say& say) {
   const Line line{say.language, say.text};
   const auto found = timings_.find(line);
   if (found == timings_.end())
-    return {Duration{}, seconds(speech_duration(spoken_text(say.text), say.language,
-                                                parse<Mood>(say.mood).value_or(Mood::neutral)))};
+    return {Duration{}, seconds(interaction::speech_duration(interaction::spoken_text(say.text), say.language,
+                                                             parse<Mood>(say.mood).value_or(Mood::neutral)))};
   const std::size_t time = std::min(said_[line]++, found->second.size() - 1);
   return found->second[time];
 }
 
-RecordedVoice::RecordedVoice(Bus& bus, RecordedLines lines)
+RecordedVoice::RecordedVoice(transport::Bus& bus, RecordedLines lines)
     : bus_{bus}, lines_{std::move(lines)}, speaker_{{}, bus.now()}, state_{bus.publisher(topics::kSpeechState)} {
   bus_.subscribe<docent_msgs::Say>(topics::kSay, [this](const auto& say) { on_say(say); });
 }
 
 void RecordedVoice::on_say(const docent_msgs::Say& message) {
-  const Say say{message.id, spoken_text(message.text), message.language,
-                parse<Mood>(message.mood).value_or(Mood::neutral)};
+  const interaction::Say say{message.id, interaction::spoken_text(message.text), message.language,
+                             parse<Mood>(message.mood).value_or(Mood::neutral)};
   switch (speaker_.judge(say)) {
-    case Speaker::Verdict::under_way:
+    case interaction::Speaker::Verdict::under_way:
       if (speaker_.present().id == say.id) publish(speaker_.present());
       return;
-    case Speaker::Verdict::finished:
+    case interaction::Speaker::Verdict::finished:
       publish({say.id, say.text, say.language, say.mood, false, bus_.now(), 0.0, ""});
       if (speaker_.present().id != say.id) publish(speaker_.present());
       return;
-    case Speaker::Verdict::fresh:
+    case interaction::Speaker::Verdict::fresh:
       break;
   }
   speaker_.expect(say);
@@ -67,7 +67,7 @@ void RecordedVoice::on_say(const docent_msgs::Say& message) {
   });
 }
 
-void RecordedVoice::publish(const Speech& speech) {
+void RecordedVoice::publish(const interaction::Speech& speech) {
   state_.publish({{to_message(bus_.now()), ""},
                   speech.id,
                   to_text(speech.is_speaking ? SpeechStatus::speaking : SpeechStatus::done),
@@ -78,4 +78,4 @@ void RecordedVoice::publish(const Speech& speech) {
                   speech.audio});
 }
 
-}  // namespace docent
+}  // namespace docent::apps

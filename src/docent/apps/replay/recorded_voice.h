@@ -8,7 +8,7 @@
 #include "docent/recording/recorder.h"
 #include "docent/transport/bus.h"
 
-namespace docent {
+namespace docent::apps {
 
 /// How long the lines of a recording took to be said: a loudspeaker's time, as much a matter of record as a sensor's.
 class RecordedLines {
@@ -18,7 +18,7 @@ class RecordedLines {
     Duration speaking{};
   };
   /// Every message of the recording, in order; those that do not matter are passed over.
-  void add(const RecordedMessage& message);
+  void add(const recording::RecordedMessage& message);
   [[nodiscard]] bool empty() const { return timings_.empty(); }
   /// As often as a text was said, one after the other, then the last again. A text that was never said: by its length.
   [[nodiscard]] Timing timing_of(const docent_msgs::Say& say);
@@ -38,18 +38,18 @@ class RecordedLines {
 /// Stands for the sound module in a replay.
 class RecordedVoice {
  public:
-  RecordedVoice(Bus& bus, RecordedLines lines);
+  RecordedVoice(transport::Bus& bus, RecordedLines lines);
   RecordedVoice(const RecordedVoice&) = delete;
   RecordedVoice& operator=(const RecordedVoice&) = delete;
 
  private:
   void on_say(const docent_msgs::Say& message);
-  void publish(const Speech& speech);
+  void publish(const interaction::Speech& speech);
 
-  Bus& bus_;
+  transport::Bus& bus_;
   RecordedLines lines_;
-  Speaker speaker_;
-  Publisher<docent_msgs::SpeechState> state_;
+  interaction::Speaker speaker_;
+  transport::Publisher<docent_msgs::SpeechState> state_;
 };
 
-}  // namespace docent
+}  // namespace docent::apps

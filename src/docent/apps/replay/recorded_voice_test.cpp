@@ -4,7 +4,7 @@
 
 #include "docent/transport/virtual_time_bus.h"
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 docent_msgs::Say say(const std::string& id, const std::string& text) { return {id, text, "en", "neutral"}; }
@@ -13,7 +13,7 @@ docent_msgs::Say say(const std::string& id, const std::string& text) { return {i
 RecordedLines recorded_lines() {
   RecordedLines lines;
   const auto add = [&lines]<class T>(const Topic<T>& topic, double at, const T& message) {
-    const TopicInfo info = topic_info(topic);
+    const transport::TopicInfo info = transport::topic_info(topic);
     lines.add({info, time_from_seconds(at), std::make_shared<const T>(message)});
   };
   const auto state = [](const std::string& id, const std::string& is) {
@@ -34,7 +34,7 @@ RecordedLines recorded_lines() {
 }
 
 TEST(RecordedVoice, SpeaksAsLongAsItTook) {
-  VirtualTimeHub hub;
+  transport::VirtualTimeHub hub;
   const auto bus = hub.connect("voice");
   const auto executive = hub.connect("executive");
   std::vector<std::pair<std::string, double>> heard;
@@ -59,7 +59,7 @@ TEST(RecordedVoice, SpeaksAsLongAsItTook) {
 }
 
 TEST(RecordedVoice, ANewLineReplacesThePresentOne) {
-  VirtualTimeHub hub;
+  transport::VirtualTimeHub hub;
   const auto bus = hub.connect("voice");
   const auto executive = hub.connect("executive");
   std::vector<std::string> heard;
@@ -78,4 +78,4 @@ TEST(RecordedVoice, ANewLineReplacesThePresentOne) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::apps

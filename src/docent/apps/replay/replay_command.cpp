@@ -15,7 +15,7 @@
 #include "docent/apps/shared/deployment.h"
 #include "docent/base/files.h"
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 struct Options {
@@ -41,8 +41,8 @@ std::string museum_folder(const Options& options) {
 
 void replay_recording(Options& options) {
   options.deployment.museum = museum_folder(options);
-  const Museum museum = value_or_fail(options.deployment.load());
-  const RobotConfig config = value_or_fail(options.deployment.load_config());
+  const museum::Museum museum = value_or_fail(options.deployment.load());
+  const robot::RobotConfig config = value_or_fail(options.deployment.load_config());
   const bool shows_progress = isatty(STDERR_FILENO) != 0;
   if (shows_progress) options.replay.progress = [](double share) { std::fprintf(stderr, "\r%3.0f %%", 100.0 * share); };
   options.replay.seed = options.deployment.seed;
@@ -72,9 +72,9 @@ void replay_recording(Options& options) {
                 std::ssize(outcome.recorded) - of_mission(outcome.recorded),
                 std::ssize(outcome.repeated) - of_mission(outcome.repeated));
   if (outcome.report) {
-    std::fputs(summary_table(*outcome.report, std::nullopt).c_str(), stdout);
+    std::fputs(evaluation::summary_table(*outcome.report, std::nullopt).c_str(), stdout);
     if (!options.report.empty())
-      value_or_fail(write_file_atomically(options.report, to_json(*outcome.report, std::nullopt)));
+      value_or_fail(write_file_atomically(options.report, evaluation::to_json(*outcome.report, std::nullopt)));
   } else if (!options.report.empty()) {
     throw CommandFailed{options.replay.recording + ": holds no ground truth (/truth/state)"};
   }
@@ -108,4 +108,4 @@ void add_replay_command(CLI::App& app) {
   command->callback([options] { replay_recording(*options); });
 }
 
-}  // namespace docent
+}  // namespace docent::apps

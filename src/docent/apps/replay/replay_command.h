@@ -4,8 +4,8 @@ namespace CLI {
 class App;
 }
 
-namespace docent {
+namespace docent::apps {
 
 void add_replay_command(CLI::App& app);
 
-}  // namespace docent
+}  // namespace docent::apps

@@ -16,7 +16,7 @@
 #include "docent/recording/recorder.h"
 #include "docent/transport/virtual_time_bus.h"
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 constexpr Duration kAnswerWaits = std::chrono::seconds{20};
@@ -27,7 +27,7 @@ constexpr std::array<const char*, 5> kUnderWay{"arrived", "drive_blocked", "aske
 /// Publishes decoded messages of any topic.
 class Feeder {
  public:
-  explicit Feeder(Bus& bus) {
+  explicit Feeder(transport::Bus& bus) {
     const auto add = [this, &bus]<class T>(const Topic<T>& topic) {
       publish_[topic.name] = [publisher = bus.publisher(topic)](const std::shared_ptr<const void>& message) {
         publisher.publish(*static_cast<const T*>(message.get()));
@@ -36,7 +36,7 @@ class Feeder {
     for_each_robot_topic(add);
     for_each_truth_topic(add);
   }
-  void publish(const RecordedMessage& message) const { publish_.at(message.topic.name)(message.message); }
+  void publish(const recording::RecordedMessage& message) const { publish_.at(message.topic.name)(message.message); }
 
  private:
   std::map<std::string, std::function<void(const std::shared_ptr<const void>&)>, std::less<>> publish_;
@@ -84,9 +84,9 @@ struct Extent {
   std::uint64_t messages = 0;
 };
 
-Result<Extent> extent_of(McapReader& reader) {
+Result<Extent> extent_of(recording::McapReader& reader) {
   Extent extent;
-  const auto read = reader.read([&](const McapMessage& message) {
+  const auto read = reader.read([&](const recording::McapMessage& message) {
     if (extent.messages++ == 0) extent.first = message.log_time;
     extent.last = message.log_time;
     return true;
@@ -95,12 +95,12 @@ Result<Extent> extent_of(McapReader& reader) {
   return extent;
 }
 
-Result<RecordedLines> lines_of(McapReader& reader) {
+Result<RecordedLines> lines_of(recording::McapReader& reader) {
   RecordedLines lines;
-  McapReader::Selection speech;
+  recording::McapReader::Selection speech;
   for (const char* topic : {topics::kSay.name, topics::kSpeechState.name})
     speech.topics.insert(std::string{"/"} + topic);
-  const auto read = read_recording(reader, speech, [&](const RecordedMessage& message) {
+  const auto read = recording::read_recording(reader, speech, [&](const recording::RecordedMessage& message) {
     lines.add(message);
     return true;
   });
@@ -110,20 +110,21 @@ Result<RecordedLines> lines_of(McapReader& reader) {
 
 std::string replayable() {
   std::string names;
-  for (const ModuleEntry& entry : all_modules()) {
+  for (const modules::ModuleEntry& entry : modules::all_modules()) {
     const std::string name = entry.name;
     if (name != "record" && name != "web") names += (names.empty() ? "" : ", ") + name;
   }
   return names;
 }
 
-Result<std::vector<const ModuleEntry*>> chosen_modules(const std::vector<std::string>& names) {
-  std::vector<const ModuleEntry*> chosen;
+Result<std::vector<const modules::ModuleEntry*>> chosen_modules(const std::vector<std::string>& names) {
+  std::vector<const modules::ModuleEntry*> chosen;
   for (const std::string& name : names) {
-    if (find_module(name) == nullptr) return fail("--modules: no module '" + name + "'; there are " + replayable());
+    if (modules::find_module(name) == nullptr)
+      return fail("--modules: no module '" + name + "'; there are " + replayable());
     if (name == "record" || name == "web") return fail("--modules: " + name + " cannot be replayed");
   }
-  for (const ModuleEntry& entry : all_modules()) {
+  for (const modules::ModuleEntry& entry : modules::all_modules()) {
     const std::string name = entry.name;
     if (name == "record" || name == "web" || (names.empty() && name == "sound")) continue;
     if (names.empty() || std::find(names.begin(), names.end(), name) != names.end()) chosen.push_back(&entry);
@@ -133,34 +134,35 @@ Result<std::vector<const ModuleEntry*>> chosen_modules(const std::vector<std::st
 
 /// Leaves in the state what a localizer leaves that knew its place: `start`, to a few centimetres and degrees, where
 /// the recording's odometry begins.
-Result<void> tell_start(McapReader& reader, const Museum& museum, const Pose2& start, Time first,
+Result<void> tell_start(recording::McapReader& reader, const museum::Museum& museum, const Pose2& start, Time first,
                         const std::filesystem::path& state) {
   constexpr double kPosition = 0.05;  // [m]
   constexpr double kHeading = 0.03;   // [rad]
   std::optional<Pose2> odom_from_robot;
-  McapReader::Selection odometry;
+  recording::McapReader::Selection odometry;
   odometry.topics = {std::string{"/"} + topics::kOdometry.name};
-  const auto read = read_recording(reader, odometry, [&](const RecordedMessage& message) {
+  const auto read = recording::read_recording(reader, odometry, [&](const recording::RecordedMessage& message) {
     odom_from_robot = from_message(message.as(topics::kOdometry)->pose.pose);
     return false;
   });
   if (!read) return tl::unexpected<Error>(read.error());
   if (!odom_from_robot) return fail("--start: the recording holds no odometry");
-  BeliefMode mode{start, {}, 1.0};
+  localization::BeliefMode mode{start, {}, 1.0};
   mode.covariance = {kPosition * kPosition, 0.0, 0.0, 0.0, kPosition * kPosition, 0.0, 0.0, 0.0, kHeading * kHeading};
-  return save_localizer_checkpoint({map_hash(museum.map), first, *odom_from_robot, {mode}}, state / "localize.yaml");
+  return localization::save_localizer_checkpoint({map_hash(museum.map), first, *odom_from_robot, {mode}},
+                                                 state / "localize.yaml");
 }
 
 /// One replay. Its steps are called in their order, each once; the first error ends it.
 class Replay {
  public:
-  Replay(const Museum& museum, const RobotConfig& config, const ReplayOptions& options)
+  Replay(const museum::Museum& museum, const robot::RobotConfig& config, const ReplayOptions& options)
       : museum_{museum}, config_{config}, options_{options} {}
   Replay(const Replay&) = delete;
   Replay& operator=(const Replay&) = delete;
 
   Result<void> open() {
-    auto reader = McapReader::open(options_.recording);
+    auto reader = recording::McapReader::open(options_.recording);
     if (!reader) return tl::unexpected<Error>(reader.error());
     reader_.emplace(std::move(*reader));
     const auto extent = extent_of(*reader_);
@@ -172,29 +174,29 @@ class Replay {
     if (!lines) return fail(options_.recording + ": " + lines.error().message);
     lines_ = std::move(*lines);
     if (options_.out.empty()) return {};
-    auto recorder = Recorder::create(options_.out);
+    auto recorder = recording::Recorder::create(options_.out);
     if (!recorder) return tl::unexpected<Error>(recorder.error());
     recorder_.emplace(std::move(*recorder));
     return {};
   }
 
-  Result<void> start(const std::vector<const ModuleEntry*>& modules) {
+  Result<void> start(const std::vector<const modules::ModuleEntry*>& modules) {
     if (options_.start) {
       if (auto told = tell_start(*reader_, museum_, *options_.start, extent_.first, state_.path()); !told) return told;
     }
     hub_.run_until(extent_.first);
-    hub_.tap([this](const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
+    hub_.tap([this](const transport::TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
       on_published(topic, time, message);
     });
     // Known only when the modules are made; what those publish at their start is theirs in any case.
     theirs_.insert(topics::kEvent.name);
-    ModuleHost::Options host_options;
+    modules::ModuleHost::Options host_options;
     host_options.state = state_.path();
     host_options.cache = options_.cache;
     host_options.seed = options_.seed;
     host_options.virtual_time = true;
-    for (const ModuleEntry* entry : modules) {
-      auto host = ModuleHost::create(*entry, hub_.connect(entry->name), museum_, config_, host_options);
+    for (const modules::ModuleEntry* entry : modules) {
+      auto host = modules::ModuleHost::create(*entry, hub_.connect(entry->name), museum_, config_, host_options);
       if (!host) return tl::unexpected<Error>(host.error());
       hosts_.push_back(std::move(*host));
       chosen_.insert(entry->name);
@@ -216,7 +218,7 @@ class Replay {
     const Feeder feeder{*bus};
     const auto choices = bus->publisher(topics::kChoice);
     double shown = 0.0;
-    const auto read = read_recording(*reader_, {}, [&](const RecordedMessage& message) {
+    const auto read = recording::read_recording(*reader_, {}, [&](const recording::RecordedMessage& message) {
       hub_.run_until(message.time);
       if (!written_) return false;
       on_recorded(message, feeder);
@@ -249,7 +251,7 @@ class Replay {
   [[nodiscard]] double since_start(Time time) const { return to_seconds(time - extent_.first); }
 
   /// Any message of this run, also one that was fed.
-  void on_published(const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
+  void on_published(const transport::TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
     evaluator_.add(topic, time, message);
     if (!options_.claims.empty()) claims_.add(topic, time, message);
     const std::string_view name = topic.name;
@@ -262,7 +264,7 @@ class Replay {
     if (recorder_ && written_) written_ = recorder_->write(topic, time, message);
   }
 
-  void on_recorded(const RecordedMessage& message, const Feeder& feeder) {
+  void on_recorded(const recording::RecordedMessage& message, const Feeder& feeder) {
     if (const auto* mission = message.as(topics::kMissionState)) answers_.recorded_state(*mission);
     const auto* event = message.as(topics::kEvent);
     if (event != nullptr && theirs_.contains(topics::kEvent.name))
@@ -279,31 +281,32 @@ class Replay {
     }
   }
 
-  const Museum& museum_;
-  const RobotConfig& config_;
+  const museum::Museum& museum_;
+  const robot::RobotConfig& config_;
   const ReplayOptions& options_;
-  std::optional<McapReader> reader_;
+  std::optional<recording::McapReader> reader_;
   Extent extent_;
   RecordedLines lines_;
-  std::optional<Recorder> recorder_;
+  std::optional<recording::Recorder> recorder_;
   Result<void> written_;  ///< by the recorder; after an error it writes no more
   ReplayOutcome outcome_;
   const TemporaryFolder state_;
-  VirtualTimeHub hub_;
-  DeploymentEvaluator evaluator_;
-  ClaimLog claims_;
+  transport::VirtualTimeHub hub_;
+  evaluation::DeploymentEvaluator evaluator_;
+  evaluation::ClaimLog claims_;
   std::set<std::string> chosen_;  ///< modules
   std::set<std::string> theirs_;  ///< topics of the chosen modules
   std::set<std::string> fed_;     ///< topics of the recording
   Answers answers_;
-  std::vector<std::unique_ptr<ModuleHost>> hosts_;
-  std::unique_ptr<Bus> voice_bus_;
+  std::vector<std::unique_ptr<modules::ModuleHost>> hosts_;
+  std::unique_ptr<transport::Bus> voice_bus_;
   std::optional<RecordedVoice> voice_;
 };
 
 }  // namespace
 
-Result<ReplayOutcome> replay(const Museum& museum, const RobotConfig& config, const ReplayOptions& options) {
+Result<ReplayOutcome> replay(const museum::Museum& museum, const robot::RobotConfig& config,
+                             const ReplayOptions& options) {
   const auto modules = chosen_modules(options.modules);
   if (!modules) return tl::unexpected<Error>(modules.error());
   Replay replay{museum, config, options};
@@ -314,12 +317,12 @@ Result<ReplayOutcome> replay(const Museum& museum, const RobotConfig& config, co
 }
 
 Result<std::string> museum_of_recording(const std::string& recording) {
-  auto reader = McapReader::open(recording);
+  auto reader = recording::McapReader::open(recording);
   if (!reader) return tl::unexpected<Error>(reader.error());
-  McapReader::Selection selection;
+  recording::McapReader::Selection selection;
   selection.topics = {std::string{"/"} + topics::kRunInfo.name};
   std::string museum;
-  const auto read = read_recording(*reader, selection, [&](const RecordedMessage& message) {
+  const auto read = recording::read_recording(*reader, selection, [&](const recording::RecordedMessage& message) {
     museum = message.as(topics::kRunInfo)->museum;
     return false;
   });
@@ -372,4 +375,4 @@ std::string first_difference(const std::vector<ReplayEvent>& recorded, const std
   return {};
 }
 
-}  // namespace docent
+}  // namespace docent::apps

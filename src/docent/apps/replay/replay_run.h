@@ -13,7 +13,7 @@
 #include "docent/museum/museum.h"
 #include "docent/robot/robot_config.h"
 
-namespace docent {
+namespace docent::apps {
 
 struct ReplayOptions {
   std::string recording;
@@ -42,9 +42,9 @@ struct ReplayOutcome {
   double seconds = 0.0;  ///< of the recording
   std::vector<std::string> modules;
   std::vector<std::string> replayed_topics;  ///< fed from the recording
-  std::vector<ReplayEvent> recorded;       ///< docent/event of the recording; empty where no chosen module makes events
-  std::vector<ReplayEvent> repeated;       ///< of this run
-  std::optional<DeploymentReport> report;  ///< where the recording holds the truth
+  std::vector<ReplayEvent> recorded;  ///< docent/event of the recording; empty where no chosen module makes events
+  std::vector<ReplayEvent> repeated;  ///< of this run
+  std::optional<evaluation::DeploymentReport> report;  ///< where the recording holds the truth
 };
 
 /// Runs modules again in virtual time on what was recorded. Topics that the chosen modules publish are theirs; all
@@ -57,7 +57,7 @@ struct ReplayOutcome {
 /// Speech takes as long as it took, unless `sound` is among the chosen modules: the loudspeaker is hardware, too.
 ///
 /// Error: the recording is damaged, a module is unknown or refuses its configuration, `out` cannot be written.
-[[nodiscard]] Result<ReplayOutcome> replay(const Museum& museum, const RobotConfig& config,
+[[nodiscard]] Result<ReplayOutcome> replay(const museum::Museum& museum, const robot::RobotConfig& config,
                                            const ReplayOptions& options);
 
 /// Name of the museum in the recording's truth; empty where there is none.
@@ -73,4 +73,4 @@ struct ReplayOutcome {
 /// has the result, which holds each name once.
 [[nodiscard]] std::string names_of_both(const std::string& recorded, const std::string& now);
 
-}  // namespace docent
+}  // namespace docent::apps

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 TEST(NamesOfBoth, HoldsEachNameOnceInTheOrderOfItsFirstUse) {
@@ -15,4 +15,4 @@ TEST(NamesOfBoth, HoldsEachNameOnceInTheOrderOfItsFirstUse) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::apps

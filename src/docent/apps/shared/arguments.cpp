@@ -12,7 +12,7 @@
 #include "docent/apps/shared/command.h"
 #include "docent/pictures/figure.h"
 
-namespace docent {
+namespace docent::apps {
 
 namespace {
 
@@ -77,7 +77,7 @@ std::string fault_of_output_file(std::string& text) {
 }
 
 std::string fault_of_output_picture(std::string& text) {
-  if (const auto format = figure_format(text); !format) return format.error().message;
+  if (const auto format = pictures::figure_format(text); !format) return format.error().message;
   return fault_of_output_file(text);
 }
 
@@ -112,4 +112,4 @@ void add_seed(CLI::App& command, const std::string& name, std::uint64_t& seed, c
   command.add_option(name, seed, meaning)->check(is_seed)->capture_default_str();
 }
 
-}  // namespace docent
+}  // namespace docent::apps

@@ -10,7 +10,7 @@ class App;
 class Validator;
 }  // namespace CLI
 
-namespace docent {
+namespace docent::apps {
 
 /// What an option's text says; otherwise CommandFailed, which names the option and what was expected (`form`).
 [[nodiscard]] double parse_number(const std::string& option, const std::string& text, const std::string& form);
@@ -28,4 +28,4 @@ void add_seed(CLI::App& command, const std::string& name, std::uint64_t& seed, c
 /// "as FILE.svg, .pdf or .png" for commands that write pictures under names of their own: the option --picture-format.
 void add_picture_format(CLI::App& command, std::string& format);
 
-}  // namespace docent
+}  // namespace docent::apps

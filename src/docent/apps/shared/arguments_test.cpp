@@ -6,7 +6,7 @@
 
 #include "docent/apps/shared/command.h"
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 TEST(Arguments, NumbersWithCommas) {
@@ -40,4 +40,4 @@ TEST(Arguments, APictureIsRefusedBeforeTheWorkByItsExtension) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::apps

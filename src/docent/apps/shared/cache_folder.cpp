@@ -11,7 +11,7 @@
 
 #include "docent/apps/shared/log.h"
 
-namespace docent {
+namespace docent::apps {
 
 std::string default_cache() {
   if (const char* own = std::getenv("DOCENT_CACHE"); own != nullptr) return own;
@@ -51,4 +51,4 @@ void prepare_cache(const std::string& folder) {
   if (!why.empty()) log_to_stderr(LogLevel::warning, "docent", "--cache " + folder + ": " + why + "; nothing is kept");
 }
 
-}  // namespace docent
+}  // namespace docent::apps

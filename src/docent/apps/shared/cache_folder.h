@@ -6,7 +6,7 @@ namespace CLI {
 class App;
 }
 
-namespace docent {
+namespace docent::apps {
 
 /// $DOCENT_CACHE, else $XDG_CACHE_HOME/docent, else ~/.cache/docent. Empty: no cache, as when the first is set to
 /// nothing, and without a home: others might write into a folder that all share.
@@ -19,4 +19,4 @@ void add_cache_options(CLI::App& command, std::string& folder);
 /// and what is made anew is not kept.
 void prepare_cache(const std::string& folder);
 
-}  // namespace docent
+}  // namespace docent::apps

@@ -10,7 +10,7 @@
 
 #include "docent/apps/shared/temporary_folder.h"
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 /// Sets or unsets a variable of the environment for as long as it lives.
@@ -90,4 +90,4 @@ TEST(CacheFolder, OneThatCannotBeWrittenCostsALineOfTheLog) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::apps

@@ -8,7 +8,7 @@ namespace CLI {
 class App;
 }
 
-namespace docent {
+namespace docent::apps {
 
 /// Thrown by a command's callback, caught in main: prints "docent: MESSAGE" on one line and exits with the code.
 struct CommandFailed {
@@ -23,4 +23,4 @@ T value_or_fail(Result<T> result, int exit_code = 1) {
   if constexpr (!std::is_void_v<T>) return std::move(*result);
 }
 
-}  // namespace docent
+}  // namespace docent::apps

@@ -16,7 +16,7 @@
 #include "docent/modules/host/registry.h"
 #include "docent/transport/dds_bus.h"
 
-namespace docent {
+namespace docent::apps {
 
 void Deployment::add_options(CLI::App& command) {
   museum = default_museum();
@@ -27,7 +27,9 @@ void Deployment::add_options(CLI::App& command) {
   command.add_option("--robot", robot, "robot.yaml of the robot; without it all defaults");
   command.add_option("--set", settings, "section.key=value, over robot.yaml; may be repeated")->allow_extra_args(false);
   command.add_option("--name", name, "Prefix of the topics, where several robots share a domain");
-  command.add_option("--domain", domain, "DDS domain")->check(CLI::Range(0, kMaxDdsDomain))->capture_default_str();
+  command.add_option("--domain", domain, "DDS domain")
+      ->check(CLI::Range(0, transport::kMaxDdsDomain))
+      ->capture_default_str();
   add_seed(command, "--seed", seed, "Seed of everything random");
 }
 
@@ -45,12 +47,12 @@ std::vector<std::string> Deployment::arguments() const {
   return all;
 }
 
-Result<Museum> Deployment::load() const { return load_museum(museum); }
+Result<museum::Museum> Deployment::load() const { return museum::load_museum(museum); }
 
-Result<RobotConfig> Deployment::load_config() const {
-  RobotConfig config;
+Result<robot::RobotConfig> Deployment::load_config() const {
+  robot::RobotConfig config;
   if (!robot.empty()) {
-    auto loaded = RobotConfig::load(robot);
+    auto loaded = robot::RobotConfig::load(robot);
     if (!loaded) return loaded;
     config = std::move(*loaded);
   }
@@ -59,12 +61,12 @@ Result<RobotConfig> Deployment::load_config() const {
     if (!set) return tl::unexpected<Error>(set.error());
   }
   std::vector<std::string> sections;
-  for (const ModuleEntry& entry : all_modules()) sections.emplace_back(entry.name);
+  for (const modules::ModuleEntry& entry : modules::all_modules()) sections.emplace_back(entry.name);
   if (auto known = config.check_sections(sections); !known) return tl::unexpected<Error>(known.error());
   return config;
 }
 
-Result<RobotConfig> Deployment::load_whole_config() const {
+Result<robot::RobotConfig> Deployment::load_whole_config() const {
   auto config = load_config();
   if (!config) return config;
   if (auto whole = config->check_not_crippled(); !whole) return tl::unexpected<Error>(whole.error());
@@ -127,4 +129,4 @@ std::stop_token end_signal() {
   return stop.get_token();
 }
 
-}  // namespace docent
+}  // namespace docent::apps

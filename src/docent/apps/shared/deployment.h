@@ -13,7 +13,7 @@ namespace CLI {
 class App;
 }
 
-namespace docent {
+namespace docent::apps {
 
 /// What every process of one robot is told: the options that `docent up` and `docent run` share.
 struct Deployment {
@@ -29,10 +29,10 @@ struct Deployment {
   void add_options(CLI::App& command);
   /// As arguments of another process.
   [[nodiscard]] std::vector<std::string> arguments() const;
-  [[nodiscard]] Result<Museum> load() const;
-  [[nodiscard]] Result<RobotConfig> load_config() const;
+  [[nodiscard]] Result<museum::Museum> load() const;
+  [[nodiscard]] Result<robot::RobotConfig> load_config() const;
   /// The same for a robot that may meet people: error when it is crippled for an evaluation.
-  [[nodiscard]] Result<RobotConfig> load_whole_config() const;
+  [[nodiscard]] Result<robot::RobotConfig> load_whole_config() const;
   /// Makes the folder of the state.
   [[nodiscard]] Result<void> prepare_state() const;
 };
@@ -51,4 +51,4 @@ void block_end_signals();
 /// Stops when one of them comes. @pre block_end_signals() was called before any thread was started
 [[nodiscard]] std::stop_token end_signal();
 
-}  // namespace docent
+}  // namespace docent::apps

@@ -6,7 +6,7 @@
 #include <cctype>
 #include <cstdio>
 
-namespace docent {
+namespace docent::apps {
 
 namespace {
 
@@ -49,4 +49,4 @@ void log_to_stderr(LogLevel level, const std::string& module, const std::string&
   std::fputs(line.c_str(), stderr);
 }
 
-}  // namespace docent
+}  // namespace docent::apps

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace docent {
+namespace docent::apps {
 
 enum class LogLevel { info, warning, error };
 
@@ -16,4 +16,4 @@ enum class LogLevel { info, warning, error };
 /// Writes such a line to the standard error output at once.
 void log_to_stderr(LogLevel level, const std::string& module, const std::string& text);
 
-}  // namespace docent
+}  // namespace docent::apps

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-namespace docent {
+namespace docent::apps {
 
 double reach_of_log(double max_range) {
   // Far readings tell one corridor from another; beyond some length the map's headings are too coarse for them.
@@ -12,7 +12,7 @@ double reach_of_log(double max_range) {
   return std::min(max_range > 0.0 ? max_range : kMost, kMost);
 }
 
-Result<void> set_log_defaults(RobotConfig& config, const OccupancyGrid& map, double max_range,
+Result<void> set_log_defaults(robot::RobotConfig& config, const OccupancyGrid& map, double max_range,
                               bool times_are_invented) {
   // A map's cells are as coarse as its walls are uncertain.
   const double sigma = std::hypot(0.13, 1.5 * map.frame.resolution);
@@ -36,4 +36,4 @@ Result<void> set_log_defaults(RobotConfig& config, const OccupancyGrid& map, dou
   return times_are_invented ? config.set("localize.work_per_second=1e15") : Result<void>{};
 }
 
-}  // namespace docent
+}  // namespace docent::apps

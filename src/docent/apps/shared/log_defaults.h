@@ -3,14 +3,14 @@
 #include "docent/grid/occupancy_grid.h"
 #include "docent/robot/robot_config.h"
 
-namespace docent {
+namespace docent::apps {
 
 /// Sets what a recorded log of some robot in some building wants otherwise than a robot of ours in a surveyed museum,
 /// in section `localize`. `max_range` [m] of the log's laser; 0: unknown.
-[[nodiscard]] Result<void> set_log_defaults(RobotConfig& config, const OccupancyGrid& map, double max_range,
+[[nodiscard]] Result<void> set_log_defaults(robot::RobotConfig& config, const OccupancyGrid& map, double max_range,
                                             bool times_are_invented = false);
 
 /// How far [m] a laser's readings are used that reach `max_range` (0: unknown).
 [[nodiscard]] double reach_of_log(double max_range);
 
-}  // namespace docent
+}  // namespace docent::apps

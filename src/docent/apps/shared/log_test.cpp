@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 TEST(Log, ALineCarriesTimeLevelAndModule) {
@@ -21,4 +21,4 @@ TEST(Log, OtherLinesAreToldApart) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::apps

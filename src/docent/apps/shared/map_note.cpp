@@ -4,7 +4,7 @@
 
 #include "docent/grid/map_classes.h"
 
-namespace docent {
+namespace docent::apps {
 
 void say_classes(const std::string& path, const OccupancyGrid& map) {
   const MapClasses classes = classes_of(map);
@@ -13,4 +13,4 @@ void say_classes(const std::string& path, const OccupancyGrid& map) {
     std::fprintf(stderr, "warning: %s: %s\n", path.c_str(), warning.c_str());
 }
 
-}  // namespace docent
+}  // namespace docent::apps

@@ -2,12 +2,12 @@
 
 #include <numbers>
 
-namespace docent {
+namespace docent::apps {
 
-simulator::Hardware simulated_hardware(const RobotBody& body) {
+simulator::Hardware simulated_hardware(const robot::RobotBody& body) {
   simulator::Hardware hardware;
   hardware.scanners.clear();
-  for (const Scanner& scanner : body.scanners) {
+  for (const robot::Scanner& scanner : body.scanners) {
     hardware.scanners.push_back(
         {scanner.name, scanner.frame, scanner.base_from_sensor(), scanner.field * std::numbers::pi / 180.0});
   }
@@ -19,4 +19,4 @@ simulator::Hardware simulated_hardware(const RobotBody& body) {
   return hardware;
 }
 
-}  // namespace docent
+}  // namespace docent::apps

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-namespace docent {
+namespace docent::apps {
 
 /// A folder of its own that goes when the run goes.
 class TemporaryFolder {
@@ -26,4 +26,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace docent
+}  // namespace docent::apps

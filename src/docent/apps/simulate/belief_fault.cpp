@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace docent {
+namespace docent::apps {
 
 namespace {
 
@@ -63,4 +63,4 @@ docent_msgs::Belief BeliefFault::apply(docent_msgs::Belief belief, Time now) {
   return belief;
 }
 
-}  // namespace docent
+}  // namespace docent::apps

@@ -17,7 +17,7 @@
 #include "docent/base/files.h"
 #include "docent/museum/museum.h"
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 struct Options {
@@ -37,7 +37,7 @@ void print_profile(const SimulationRun& run) {
   for (const auto& [name, cost] : run.seconds_by_module()) {
     rows.emplace_back(name, cost);
   }
-  const RunCost whole = run.cost();
+  const evaluation::RunCost whole = run.cost();
   std::sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
   const double virtual_s = to_seconds(run.now());
   std::printf("%-26s %10s %8s\n", "module", "ms a v.s.", "share");
@@ -52,7 +52,7 @@ void print_profile(const SimulationRun& run) {
 void simulate(Options& options) {
   if (!(options.hours > 0.0 && options.hours <= 10000.0)) throw CommandFailed{"--hours must be in (0, 10000]", 2};
   if (!options.start.empty()) options.run.start = parse_pose("--start", options.start);
-  const auto rest_of_day = parse_hours(options.time_of_day + "-24:00");
+  const auto rest_of_day = museum::parse_hours(options.time_of_day + "-24:00");
   if (!rest_of_day) throw CommandFailed{"--time-of-day " + options.time_of_day + ": expected HH:MM", 2};
   options.run.day_begins = std::chrono::minutes{rest_of_day->from_minute};
   if (options.pace < 0.0) throw CommandFailed{"--pace must be >= 0", 2};
@@ -151,4 +151,4 @@ void add_simulate_command(CLI::App& app) {
   command->callback([options] { simulate(*options); });
 }
 
-}  // namespace docent
+}  // namespace docent::apps

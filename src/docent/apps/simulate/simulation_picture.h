@@ -9,19 +9,19 @@
 #include "docent/pictures/map_picture.h"
 #include "docent/transport/bus.h"
 
-namespace docent {
+namespace docent::apps {
 
 /// The way a simulated robot truly drove, over the map that it drove by.
 class SimulationPicture {
  public:
-  void add(const TopicInfo& topic, const std::shared_ptr<const void>& message);
+  void add(const transport::TopicInfo& topic, const std::shared_ptr<const void>& message);
   /// As SVG, PDF or PNG, by the path's extension.
-  [[nodiscard]] Result<void> save(const Museum& museum, const std::string& path) const;
+  [[nodiscard]] Result<void> save(const museum::Museum& museum, const std::string& path) const;
 
  private:
-  std::vector<TimedPoint> way_;   ///< [m], world; a point every 10 cm
-  TimedPoint last_;               ///< the last state
-  std::vector<Point2> contacts_;  ///< [m], world
+  std::vector<pictures::TimedPoint> way_;  ///< [m], world; a point every 10 cm
+  pictures::TimedPoint last_;              ///< the last state
+  std::vector<Point2> contacts_;           ///< [m], world
 };
 
-}  // namespace docent
+}  // namespace docent::apps

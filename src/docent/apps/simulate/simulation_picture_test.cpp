@@ -7,7 +7,7 @@
 #include "docent/base/files.h"
 #include "docent/messages/conversions.h"
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 TEST(SimulationPicture, HasTheSpanOfTimeAndSaysWhatIsDrawn) {
@@ -17,9 +17,9 @@ TEST(SimulationPicture, HasTheSpanOfTimeAndSaysWhatIsDrawn) {
     state->header.stamp = to_message(time_from_seconds(0.9 * i));
     state->x = 5.0 + 0.05 * i;
     state->y = 4.0;
-    picture.add(topic_info(topics::kTrueState), state);
+    picture.add(transport::topic_info(topics::kTrueState), state);
   }
-  const Museum museum = load_museum(default_museum()).value();
+  const museum::Museum museum = museum::load_museum(default_museum()).value();
   const auto path = std::filesystem::temp_directory_path() / ("docent_way_" + std::to_string(getpid()) + ".svg");
   const auto svg_of = [&](const SimulationPicture& drawn) {
     EXPECT_TRUE(drawn.save(museum, path));
@@ -35,10 +35,10 @@ TEST(SimulationPicture, HasTheSpanOfTimeAndSaysWhatIsDrawn) {
   auto contact = std::make_shared<docent_msgs::TrueContact>();
   contact->x = 6.0;
   contact->y = 4.0;
-  picture.add(topic_info(topics::kTrueContact), contact);
+  picture.add(transport::topic_info(topics::kTrueContact), contact);
   EXPECT_NE(svg_of(picture).find("contact"), std::string::npos);
   EXPECT_FALSE(picture.save(museum, "way.jpg"));
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::apps

@@ -23,7 +23,7 @@
 #include "docent/simulator/simulated_museum.h"
 #include "docent/transport/virtual_time_bus.h"
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 /// [s] that this process has had of the processor.
@@ -37,10 +37,10 @@ double computed_seconds() {
 
 class SimulationRun::Parts {
  public:
-  Parts(Museum museum, RobotConfig config, const SimulationRunOptions& options)
+  Parts(museum::Museum museum, robot::RobotConfig config, const SimulationRunOptions& options)
       : museum_{std::move(museum)}, config_{std::move(config)}, options_{options} {
-    if (options.profile) hub_.measure_by(VirtualTimeHub::processor_clock);
-    hub_.tap([this](const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
+    if (options.profile) hub_.measure_by(transport::VirtualTimeHub::processor_clock);
+    hub_.tap([this](const transport::TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
       const double start = hub_.cost_clock();
       evaluator_.add(topic, time, message);
       picture_.add(topic, message);
@@ -67,14 +67,14 @@ class SimulationRun::Parts {
     if (state_.empty() || !std::filesystem::is_directory(state_))
       return fail("no folder for the state: " + options_.state);
     if (!options_.recording.empty()) {
-      auto recorder = Recorder::create(options_.recording);
+      auto recorder = recording::Recorder::create(options_.recording);
       if (!recorder) return tl::unexpected<Error>(recorder.error());
       recorder_.emplace(std::move(*recorder));
     }
     if (auto started = start_operator(); !started) return started;
     if (auto started = start_world(); !started) return started;
     if (!options_.has_robot) return {};
-    for (const ModuleEntry& entry : all_modules()) {
+    for (const modules::ModuleEntry& entry : modules::all_modules()) {
       const std::string name = entry.name;
       if (name == "record" || (name == "web" && !options_.hosts_web)) continue;
       if (auto started = start_module(entry); !started) return started;
@@ -92,8 +92,8 @@ class SimulationRun::Parts {
     return {};
   }
 
-  [[nodiscard]] RunCost cost() const {
-    RunCost result;
+  [[nodiscard]] evaluation::RunCost cost() const {
+    evaluation::RunCost result;
     result.wall_seconds = wall_s_;
     result.cpu_seconds = cpu_s_;
     for (const auto& [name, cost] : hub_.costs()) {
@@ -141,7 +141,7 @@ class SimulationRun::Parts {
     options.run_info.museum = museum_.folder.filename().string();
     options.run_info.mode = options_.mode;
     options.run_info.config_hash = config_.hash();
-    auto simd = simd_of_localize(config_);
+    auto simd = modules::simd_of_localize(config_);
     if (!simd) return tl::unexpected<Error>(simd.error());
     options.run_info.simd = *simd;
     options.run_info.crippled = config_.evaluation().crippled();
@@ -162,14 +162,14 @@ class SimulationRun::Parts {
     return {};
   }
 
-  Result<void> start_module(const ModuleEntry& entry) {
-    ModuleHost::Options options;
+  Result<void> start_module(const modules::ModuleEntry& entry) {
+    modules::ModuleHost::Options options;
     options.state = state_;
     options.cache = options_.cache;
     options.seed = options_.seed;
     options.virtual_time = true;
     options.day_begins = options_.day_begins;
-    auto host = ModuleHost::create(entry, hub_.connect(entry.name), museum_, config_, options);
+    auto host = modules::ModuleHost::create(entry, hub_.connect(entry.name), museum_, config_, options);
     if (!host) return tl::unexpected<Error>(host.error());
     hosts_[entry.name] = std::move(*host);
     return {};
@@ -178,7 +178,7 @@ class SimulationRun::Parts {
   /// Faults of the belief, between `localize` and its readers.
   template <class Event>
   void schedule_strike(double at, const Event& event) {
-    hub_.alter(topic_info(topics::kBelief), [this](Time now, std::shared_ptr<const void> message) {
+    hub_.alter(transport::topic_info(topics::kBelief), [this](Time now, std::shared_ptr<const void> message) {
       const auto& belief = *static_cast<const docent_msgs::Belief*>(message.get());
       return std::make_shared<docent_msgs::Belief>(belief_fault_.apply(belief, now));
     });
@@ -189,7 +189,7 @@ class SimulationRun::Parts {
   /// time of the stop.
   void schedule_kill(double at, const simulator::Kill& kill) {
     operator_bus_->after(seconds(at), [this, kill] {
-      const ModuleEntry* entry = find_module(kill.module);
+      const modules::ModuleEntry* entry = modules::find_module(kill.module);
       const auto host = hosts_.find(kill.module);
       if (entry == nullptr || host == hosts_.end()) {
         failure_ = "scenario: no module '" + kill.module + "' to kill";
@@ -202,30 +202,30 @@ class SimulationRun::Parts {
     });
   }
 
-  Museum museum_;
-  RobotConfig config_;
+  museum::Museum museum_;
+  robot::RobotConfig config_;
   SimulationRunOptions options_;
   TemporaryFolder temporary_;
   std::filesystem::path state_;
-  VirtualTimeHub hub_;
-  DeploymentEvaluator evaluator_;
-  ClaimLog claims_;
-  HealthLog health_;
-  DriveLog drive_;
+  transport::VirtualTimeHub hub_;
+  evaluation::DeploymentEvaluator evaluator_;
+  evaluation::ClaimLog claims_;
+  evaluation::HealthLog health_;
+  evaluation::DriveLog drive_;
   BeliefFault belief_fault_;
-  EventLog events_;
-  PeopleLog people_;
+  evaluation::EventLog events_;
+  evaluation::PeopleLog people_;
   SimulationPicture picture_;
-  std::optional<Recorder> recorder_;
+  std::optional<recording::Recorder> recorder_;
   std::string failure_;
   double wall_s_ = 0.0;
   double cpu_s_ = 0.0;
   double evaluation_s_ = 0.0;
-  std::unique_ptr<Bus> operator_bus_;
-  std::unique_ptr<Bus> world_robot_bus_;
-  std::unique_ptr<Bus> world_truth_bus_;
+  std::unique_ptr<transport::Bus> operator_bus_;
+  std::unique_ptr<transport::Bus> world_robot_bus_;
+  std::unique_ptr<transport::Bus> world_truth_bus_;
   std::unique_ptr<simulator::SimulatedMuseum> world_;
-  std::map<std::string, std::unique_ptr<ModuleHost>, std::less<>> hosts_;
+  std::map<std::string, std::unique_ptr<modules::ModuleHost>, std::less<>> hosts_;
 };
 
 SimulationRun::SimulationRun(std::unique_ptr<Parts> parts) : parts_{std::move(parts)} {}
@@ -247,17 +247,21 @@ Result<std::unique_ptr<SimulationRun>> SimulationRun::create(const SimulationRun
 
 Result<void> SimulationRun::run_until(Time end) { return parts_->run_until(end); }
 Time SimulationRun::now() const { return parts_->hub_.now(); }
-std::string SimulationRun::report_json() const { return to_json(parts_->evaluator_.report(), parts_->cost()); }
-std::string SimulationRun::summary() const { return summary_table(parts_->evaluator_.report(), parts_->cost()); }
+std::string SimulationRun::report_json() const {
+  return evaluation::to_json(parts_->evaluator_.report(), parts_->cost());
+}
+std::string SimulationRun::summary() const {
+  return evaluation::summary_table(parts_->evaluator_.report(), parts_->cost());
+}
 std::string SimulationRun::status() const {
-  const DeploymentReport report = parts_->evaluator_.report();
+  const evaluation::DeploymentReport report = parts_->evaluator_.report();
   char text[160];
   std::snprintf(text, sizeof text, "%.2f km, %d explained, %d of %d requests, %d contacts", report.distance_m / 1000.0,
                 report.exhibits_explained, report.requests.fulfilled, report.requests.offered, report.contacts.all());
   return text;
 }
 
-RunCost SimulationRun::cost() const { return parts_->cost(); }
+evaluation::RunCost SimulationRun::cost() const { return parts_->cost(); }
 
 std::map<std::string, double> SimulationRun::seconds_by_module() const {
   std::map<std::string, double> seconds;
@@ -291,4 +295,4 @@ Result<void> SimulationRun::save_picture(const std::string& path) const {
   return parts_->picture_.save(parts_->museum_, path);
 }
 
-}  // namespace docent
+}  // namespace docent::apps

@@ -12,7 +12,7 @@
 #include "docent/evaluation/deployment_report.h"
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::apps {
 
 /// What `docent simulate` takes.
 struct SimulationRunOptions {
@@ -63,7 +63,7 @@ class SimulationRun {
   /// Seconds of all module steps so far, the simulator's and the evaluation's among them: of the processor where
   /// `profile` was asked for, else by the wall.
   [[nodiscard]] std::map<std::string, double> seconds_by_module() const;
-  [[nodiscard]] RunCost cost() const;
+  [[nodiscard]] evaluation::RunCost cost() const;
   /// Closes the recording.
   [[nodiscard]] Result<void> finish();
   /// The way driven over the map, with hazards, exhibits, home and touches.
@@ -75,4 +75,4 @@ class SimulationRun {
   std::unique_ptr<Parts> parts_;
 };
 
-}  // namespace docent
+}  // namespace docent::apps

@@ -8,7 +8,7 @@
 #include "docent/apps/shared/deployment.h"
 #include "docent/base/files.h"
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 /// What the report of a world without a robot says of how that is crippled.
@@ -37,4 +37,4 @@ TEST(SimulationRun, TheReportNamesWhatCripples) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::apps

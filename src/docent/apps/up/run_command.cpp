@@ -16,7 +16,7 @@
 #include "docent/modules/host/module_host.h"
 #include "docent/transport/dds_bus.h"
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 struct Options {
@@ -27,41 +27,42 @@ struct Options {
 
 std::string module_names() {
   std::string names;
-  for (const auto& entry : all_modules()) names += std::string{entry.name} + ", ";
+  for (const auto& entry : modules::all_modules()) names += std::string{entry.name} + ", ";
   return names + kSimulatorProcess;
 }
 
-std::unique_ptr<DdsBus> join(const Deployment& deployment, int domain, const std::string& module) {
-  return value_or_fail(DdsBus::create({domain, deployment.name, [module](const std::string& text) {
-                                         log_to_stderr(LogLevel::warning, module, text);
-                                       }}));
+std::unique_ptr<transport::DdsBus> join(const Deployment& deployment, int domain, const std::string& module) {
+  return value_or_fail(transport::DdsBus::create({domain, deployment.name, [module](const std::string& text) {
+                                                    log_to_stderr(LogLevel::warning, module, text);
+                                                  }}));
 }
 
 void run(const Options& options) {
   if (options.module == kSimulatorProcess) {
     return value_or_fail(run_simulator(options.deployment, options.simulator), kExitBadConfiguration);
   }
-  const ModuleEntry* entry = find_module(options.module);
+  const modules::ModuleEntry* entry = modules::find_module(options.module);
   if (entry == nullptr) {
     throw CommandFailed{"no module '" + options.module + "'; there are " + module_names(), kExitBadConfiguration};
   }
   const Deployment& deployment = options.deployment;
-  const Museum museum = value_or_fail(deployment.load(), kExitBadConfiguration);
-  const RobotConfig config = value_or_fail(deployment.load_whole_config(), kExitBadConfiguration);
+  const museum::Museum museum = value_or_fail(deployment.load(), kExitBadConfiguration);
+  const robot::RobotConfig config = value_or_fail(deployment.load_whole_config(), kExitBadConfiguration);
   value_or_fail(deployment.prepare_state(), kExitBadConfiguration);
   if (entry->keeps_cache) prepare_cache(deployment.cache);
 
   block_end_signals();
   auto dds_bus = join(deployment, deployment.domain, options.module);
-  DdsBus& bus = *dds_bus;
-  const auto truth = entry->sees_truth ? join(deployment, truth_domain(deployment.domain), options.module) : nullptr;
-  ModuleHost::Options host_options;
+  transport::DdsBus& bus = *dds_bus;
+  const auto truth =
+      entry->sees_truth ? join(deployment, transport::truth_domain(deployment.domain), options.module) : nullptr;
+  modules::ModuleHost::Options host_options;
   host_options.state = deployment.state;
   host_options.cache = deployment.cache;
   host_options.seed = deployment.seed;
   host_options.pid = getpid();
   host_options.truth = truth.get();
-  const auto host = value_or_fail(ModuleHost::create(*entry, std::move(dds_bus), museum, config, host_options),
+  const auto host = value_or_fail(modules::ModuleHost::create(*entry, std::move(dds_bus), museum, config, host_options),
                                   kExitBadConfiguration);
   const std::jthread truth_thread{[&truth](const std::stop_token& stop) {
     if (truth) truth->run(stop);
@@ -80,4 +81,4 @@ void add_run_command(CLI::App& app) {
   command->callback([options] { run(*options); });
 }
 
-}  // namespace docent
+}  // namespace docent::apps

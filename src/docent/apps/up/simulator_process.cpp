@@ -11,7 +11,7 @@
 #include "docent/simulator/simulated_museum.h"
 #include "docent/transport/dds_bus.h"
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 Result<simulator::SimulationOptions> simulation_of(const Deployment& deployment, const SimulatorOptions& options) {
@@ -43,7 +43,7 @@ Result<simulator::SimulationOptions> simulation_of(const Deployment& deployment,
   simulation.run_info.museum = museum->folder.filename().string();
   simulation.run_info.mode = options.mode;
   simulation.run_info.config_hash = config->hash();
-  auto simd = simd_of_localize(*config);
+  auto simd = modules::simd_of_localize(*config);
   if (!simd) return tl::unexpected<Error>(simd.error());
   simulation.run_info.simd = *simd;
   if (auto valid = validate(simulation); !valid) return tl::unexpected<Error>(valid.error());
@@ -83,9 +83,9 @@ Result<void> run_simulator(const Deployment& deployment, const SimulatorOptions&
   if (!simulation) return tl::unexpected<Error>(simulation.error());
   const auto warn = [](const std::string& text) { log_to_stderr(LogLevel::warning, kSimulatorProcess, text); };
   block_end_signals();
-  auto robot_bus = DdsBus::create({deployment.domain, deployment.name, warn});
+  auto robot_bus = transport::DdsBus::create({deployment.domain, deployment.name, warn});
   if (!robot_bus) return tl::unexpected<Error>(robot_bus.error());
-  auto truth_bus = DdsBus::create({truth_domain(deployment.domain), deployment.name, warn});
+  auto truth_bus = transport::DdsBus::create({transport::truth_domain(deployment.domain), deployment.name, warn});
   if (!truth_bus) return tl::unexpected<Error>(truth_bus.error());
   const simulator::SimulatedMuseum museum{**robot_bus, **truth_bus, std::move(*simulation)};
   const std::jthread truth_thread{[&truth_bus](const std::stop_token& stop) { (*truth_bus)->run(stop); }};
@@ -93,4 +93,4 @@ Result<void> run_simulator(const Deployment& deployment, const SimulatorOptions&
   return {};
 }
 
-}  // namespace docent
+}  // namespace docent::apps

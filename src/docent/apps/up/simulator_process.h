@@ -4,7 +4,7 @@
 
 #include "docent/apps/shared/deployment.h"
 
-namespace docent {
+namespace docent::apps {
 
 inline constexpr const char* kSimulatorProcess = "sim";
 
@@ -28,4 +28,4 @@ struct SimulatorOptions {
 /// The same checks, without running.
 [[nodiscard]] Result<void> check_simulator(const Deployment& deployment, const SimulatorOptions& options);
 
-}  // namespace docent
+}  // namespace docent::apps

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 using namespace std::chrono_literals;
@@ -68,4 +68,4 @@ TEST(StatusDisplay, WhatAModuleWritesKeepsItsOwnTimeOrGetsOne) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::apps

@@ -13,7 +13,7 @@
 #include <cstring>
 #include <thread>
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 /// In the child, between fork and exec: only what is safe there.
@@ -185,4 +185,4 @@ std::vector<Supervisor::Status> Supervisor::status() const {
   return all;
 }
 
-}  // namespace docent
+}  // namespace docent::apps

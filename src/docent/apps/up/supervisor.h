@@ -10,7 +10,7 @@
 
 #include "docent/apps/up/lifecycle.h"
 
-namespace docent {
+namespace docent::apps {
 
 /// One process to keep alive.
 struct ChildSpec {
@@ -77,4 +77,4 @@ class Supervisor {
 /// Exit code of a module that cannot work with what it was given.
 inline constexpr int kExitBadConfiguration = 2;
 
-}  // namespace docent
+}  // namespace docent::apps

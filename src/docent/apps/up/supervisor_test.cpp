@@ -8,7 +8,7 @@
 #include <fstream>
 #include <thread>
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 using namespace std::chrono_literals;
@@ -147,4 +147,4 @@ TEST(Supervisor, ItsChildrenDieWithIt) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::apps

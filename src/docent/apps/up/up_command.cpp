@@ -27,7 +27,7 @@
 #include "docent/recording/join_recordings.h"
 #include "docent/transport/dds_bus.h"
 
-namespace docent {
+namespace docent::apps {
 namespace {
 
 constexpr Duration kStep = std::chrono::milliseconds{50};
@@ -79,7 +79,8 @@ bool may_raise_priority() {
 }
 
 /// Mode and speed limit, as the museum's staff would set them in the morning.
-Result<docent_msgs::Limits> limits_of(const Options& options, const Museum& museum, const RobotConfig& config) {
+Result<docent_msgs::Limits> limits_of(const Options& options, const museum::Museum& museum,
+                                      const robot::RobotConfig& config) {
   docent_msgs::Limits limits;
   limits.mode = options.simulator.mode;
   limits.max_speed = config.body().max_speed;
@@ -94,10 +95,10 @@ Result<docent_msgs::Limits> limits_of(const Options& options, const Museum& muse
 
 /// Everything that can be known to be wrong before a process is started.
 docent_msgs::Limits check(const Options& options) {
-  const Museum museum = value_or_fail(options.deployment.load());
-  const RobotConfig config = value_or_fail(options.deployment.load_whole_config());
+  const museum::Museum museum = value_or_fail(options.deployment.load());
+  const robot::RobotConfig config = value_or_fail(options.deployment.load_whole_config());
   std::vector<std::string> sections;
-  for (const auto& entry : all_modules()) sections.emplace_back(entry.name);
+  for (const auto& entry : modules::all_modules()) sections.emplace_back(entry.name);
   value_or_fail(config.check_sections(sections));
   if (options.simulate) value_or_fail(check_simulator(options.deployment, options.simulator));
   docent_msgs::Limits limits = value_or_fail(limits_of(options, museum, config));
@@ -129,7 +130,7 @@ std::vector<ChildSpec> children_of(const Options& options) {
     words.insert(words.end(), more.begin(), more.end());
     children.push_back({kSimulatorProcess, std::move(words), may_raise ? 0 : -kUrgent, false});
   }
-  for (const auto& entry : all_modules()) {
+  for (const auto& entry : modules::all_modules()) {
     const int niceness = entry.is_urgent ? (may_raise ? kUrgent : 0) : (may_raise ? 0 : -kUrgent);
     children.push_back({entry.name, command(entry.name), niceness, true});
   }
@@ -138,15 +139,15 @@ std::vector<ChildSpec> children_of(const Options& options) {
 
 /// What was recorded since `before`, as one file.
 Result<void> keep_recording(const Options& options, const std::set<std::filesystem::path>& before) {
-  const auto all = recordings_in(recordings_folder(options));
+  const auto all = recording::recordings_in(recordings_folder(options));
   std::vector<std::filesystem::path> files;
   std::set_difference(all.begin(), all.end(), before.begin(), before.end(), std::back_inserter(files));
-  return join_recordings(files, options.record);
+  return recording::join_recordings(files, options.record);
 }
 
 void up(const Options& options) {
   const docent_msgs::Limits limits = check(options);
-  const auto recorded_before = recordings_in(recordings_folder(options));
+  const auto recorded_before = recording::recordings_in(recordings_folder(options));
   block_end_signals();
   const auto print = [](const std::string& text) {
     std::fputs(text.c_str(), stdout);
@@ -157,9 +158,9 @@ void up(const Options& options) {
     if (from == Supervisor::From::child) return display.log_output(name, line);
     display.log(LogLevel::error, name, line);
   };
-  const auto bus =
-      value_or_fail(DdsBus::create({options.deployment.domain, options.deployment.name,
-                                    [&](const std::string& text) { display.log(LogLevel::warning, "bus", text); }}));
+  const auto bus = value_or_fail(
+      transport::DdsBus::create({options.deployment.domain, options.deployment.name,
+                                 [&](const std::string& text) { display.log(LogLevel::warning, "bus", text); }}));
   Supervisor supervisor{children_of(options), log};
   bus->publisher(topics::kLimits).publish(limits);
   bool is_announced = false;
@@ -214,4 +215,4 @@ void add_up_command(CLI::App& app) {
   });
 }
 
-}  // namespace docent
+}  // namespace docent::apps

@@ -4,9 +4,9 @@ namespace CLI {
 class App;
 }
 
-namespace docent {
+namespace docent::apps {
 
 /// `docent up`: every module as a process of its own, supervised.
 void add_up_command(CLI::App& app);
 
-}  // namespace docent
+}  // namespace docent::apps

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 namespace {
 
@@ -88,4 +88,4 @@ std::optional<Velocity> CautiousWindow::slowed_for_people(const Velocity& comman
   return Velocity{speed, command.angular * speed / command.linear};
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -13,7 +13,7 @@
 #include "docent/collision_avoidance/obstacle_field/obstacle_memory.h"
 #include "docent/collision_avoidance/obstacle_field/unmapped_places.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 /// A point that a sensor met, as it lies round the robot.
 struct SensedPoint {
@@ -81,4 +81,4 @@ class CautiousWindow {
 
 using AvoidanceMethod = std::variant<CautiousWindow, PlainWindow>;
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

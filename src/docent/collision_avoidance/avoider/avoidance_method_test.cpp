@@ -9,7 +9,7 @@
 #include "docent/collision_avoidance/avoider/avoider.h"
 #include "docent/collision_avoidance/avoider/rehearsal_for_test.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 namespace {
 
 TEST(AvoidanceMethod, DoesNotPushAPersonWhoComesTowardsIt) {
@@ -177,4 +177,4 @@ TEST(AvoidanceMethod, LeavesWhoTouchedItAwayFromThemOnly) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::collision_avoidance

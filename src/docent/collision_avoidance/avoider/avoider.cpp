@@ -7,7 +7,7 @@
 
 #include "docent/collision_avoidance/body/braking.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 Avoider::Avoider(const BaseLimits& limits, const AvoiderParams& params, std::vector<std::string> lasers)
     : limits_{limits},
@@ -296,4 +296,4 @@ std::optional<AvoiderDecision> Avoider::reflex(Time now) {
   return stand(now, std::move(decision), "braking");
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

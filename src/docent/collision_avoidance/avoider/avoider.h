@@ -22,7 +22,7 @@
 #include "docent/collision_avoidance/watches/position_doubt.h"
 #include "docent/motion_models/unbroken_odometry.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 /// Where to go, odometry's frame.
 struct AvoiderTarget {
@@ -141,7 +141,7 @@ class Avoider {
   ContactWatch contact_;
   PositionDoubt doubt_;
   LocalTime local_time_;
-  UnbrokenOdometry unbroken_;
+  motion_models::UnbrokenOdometry unbroken_;
   BaseHistory odometry_;
   CommandHistory commands_;
   Velocity command_;
@@ -150,4 +150,4 @@ class Avoider {
   std::optional<AvoiderTarget> target_;
 };
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -1,6 +1,6 @@
 #include "docent/collision_avoidance/avoider/avoider_params.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 Result<void> AvoiderParams::validate() const {
   if (auto valid = window.validate(); !valid) return valid;
@@ -38,4 +38,4 @@ InputWatchesParams AvoiderParams::inputs() const {
           .virtual_timeout = virtual_timeout};
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

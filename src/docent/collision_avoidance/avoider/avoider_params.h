@@ -10,7 +10,7 @@
 #include "docent/collision_avoidance/body/speed_near_people.h"
 #include "docent/collision_avoidance/dynamic_window/dynamic_window.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 /// How the robot comes to its goal and through its turns.
 struct ApproachParams {
@@ -94,4 +94,4 @@ struct AvoiderParams {
   [[nodiscard]] InputWatchesParams inputs() const;
 };
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

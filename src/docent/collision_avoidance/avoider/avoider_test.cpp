@@ -6,7 +6,7 @@
 
 #include "docent/collision_avoidance/avoider/rehearsal_for_test.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 namespace {
 
 TEST(Avoider, ReachesWalkingSpeedInTheOpenAndStopsAtTheGoal) {
@@ -157,4 +157,4 @@ TEST(Avoider, NeverTouchesAnythingInRandomClutter) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 bool BearingChoice::must_slide_off(double bearing, std::span<const Obstacle> obstacles) const {
   bool is_held = false;
@@ -51,4 +51,4 @@ double BearingChoice::choose(Point2 wanted_in_base, const Pose2& odom_from_base,
   return turning_side_ * params_.behind;
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -7,7 +7,7 @@
 #include "docent/collision_avoidance/body/obstacle.h"
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 struct BearingChoiceParams {
   double least_way = 0.3;                 ///< [m] a way that is nearer to its end than that counts as so long
@@ -47,4 +47,4 @@ class BearingChoice {
   double turning_side_ = 0.0;  ///< +1 left, -1 right, while something behind is turned to; else 0
 };
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

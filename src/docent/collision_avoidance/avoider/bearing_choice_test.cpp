@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace docent {
+namespace docent::collision_avoidance {
 namespace {
 
 constexpr double kRadius = 0.25;
@@ -46,4 +46,4 @@ TEST(BearingChoice, SlidesOutOfAHazardsMarginButWaitsForWhoStandsAhead) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::collision_avoidance

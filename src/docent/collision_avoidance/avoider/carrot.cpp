@@ -5,7 +5,7 @@
 
 #include "docent/geometry/polygon.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 namespace {
 
@@ -60,4 +60,4 @@ Carrot carrot_on(std::span<const Point2> path, double lookahead, std::span<const
   return result;
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -5,7 +5,7 @@
 #include "docent/collision_avoidance/body/obstacle.h"
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 struct CarrotParams {
   double step = 0.1;          ///< [m] between the places of the path that are looked at
@@ -26,4 +26,4 @@ struct Carrot {
 [[nodiscard]] Carrot carrot_on(std::span<const Point2> path, double lookahead, std::span<const Obstacle> obstacles,
                                double radius, const CarrotParams& params = {});
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

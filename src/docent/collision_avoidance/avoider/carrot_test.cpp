@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace docent {
+namespace docent::collision_avoidance {
 namespace {
 
 constexpr double kRadius = 0.25;
@@ -31,4 +31,4 @@ TEST(Carrot, WhereThePathIsBlockedAtOnceItIsTheEndOfTheLookahead) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 std::optional<Complaint> InputWatches::complaint_of_laser(Time now, std::size_t index,
                                                           const ObstacleMemory& memory) const {
@@ -55,4 +55,4 @@ bool InputWatches::await_sweep(Time now, double soon) const {
   });
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -15,7 +15,7 @@
 #include "docent/collision_avoidance/watches/ring_watch.h"
 #include "docent/collision_avoidance/watches/tactile_watch.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 struct InputWatchesParams {
   bool needs_sonar = true;    ///< complains about sonars that never spoke
@@ -86,4 +86,4 @@ class InputWatches {
   Freshness virtual_;
 };
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

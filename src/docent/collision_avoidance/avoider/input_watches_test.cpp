@@ -7,7 +7,7 @@
 #include "docent/collision_avoidance/avoider/avoider.h"
 #include "docent/collision_avoidance/avoider/rehearsal_for_test.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 namespace {
 
 TEST(InputWatches, StandsWhenTheInfraredRingFallsSilent) {
@@ -155,4 +155,4 @@ TEST(InputWatches, VirtualMeasurementsThatAreNoNumbersAreNone) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -10,7 +10,7 @@
 #include "docent/collision_avoidance/avoider/avoider.h"
 #include "docent/geometry/polygon.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 /// A walker in a straight line; stops at the robot's outline instead of walking through it.
 struct RehearsalPerson {
@@ -207,4 +207,4 @@ class Rehearsal {
   long ticks_ = 0;
 };
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

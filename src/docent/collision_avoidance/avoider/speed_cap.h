@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 /// The speed [m/s] that the robot may drive at most, and why it is no more.
 struct SpeedCap {
@@ -18,4 +18,4 @@ struct SpeedCap {
   }
 };
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

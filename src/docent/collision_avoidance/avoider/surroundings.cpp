@@ -5,7 +5,7 @@
 
 #include "docent/geometry/point_transform.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 double Surroundings::reach(double speed) const {
   const double until = until_it_stands(speed);
@@ -72,4 +72,4 @@ std::vector<Obstacle> Surroundings::obstacles(const Pose2& odom_from_base, Time 
   return result;
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

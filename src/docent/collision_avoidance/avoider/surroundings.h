@@ -10,7 +10,7 @@
 #include "docent/collision_avoidance/obstacle_field/seen_places.h"
 #include "docent/collision_avoidance/obstacle_field/unmapped_places.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 struct SurroundingsParams {
   double real_margin = 0.08;     ///< [m] as DynamicWindowParams::real_margin
@@ -68,4 +68,4 @@ class Surroundings {
   VirtualObstacles virtual_;
 };
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -12,7 +12,7 @@
 #include "docent/collision_avoidance/avoider/avoider.h"
 #include "docent/collision_avoidance/avoider/rehearsal_for_test.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 namespace {
 
 TEST(Surroundings, NobodyIsInsideTheRobot) {
@@ -189,4 +189,4 @@ TEST(Surroundings, DoesNotDriveWhereTheLaserIsBlind) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::collision_avoidance

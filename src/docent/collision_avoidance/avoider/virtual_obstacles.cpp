@@ -4,7 +4,7 @@
 #include <numbers>
 #include <utility>
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 void VirtualObstacles::take(VirtualSweep sweep, const Pose2& odom_from_base) {
   stamp_ = sweep.stamp;
@@ -28,4 +28,4 @@ void VirtualObstacles::add_to(std::vector<Obstacle>& obstacles, const Pose2& bas
   }
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -7,7 +7,7 @@
 #include "docent/collision_avoidance/body/obstacle.h"
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 /// Virtual measurements, base frame at their stamp: a turn of those of hazards, from `first_bearing` on, then where
 /// there is more another turn, of those of the area's border.
@@ -44,4 +44,4 @@ class VirtualObstacles {
   Pose2 odom_from_sweep_;
 };
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

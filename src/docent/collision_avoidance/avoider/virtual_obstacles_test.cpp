@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-namespace docent {
+namespace docent::collision_avoidance {
 namespace {
 
 /// Four directions a turn: behind, right, ahead, left.
@@ -39,4 +39,4 @@ TEST(VirtualObstacles, TheSecondTurnIsTheBorder) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 double arc_distance(double curvature, const ReachPoint& point) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -29,4 +29,4 @@ double arc_distance(double curvature, const ReachPoint& point) {
   return radius * angle;
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

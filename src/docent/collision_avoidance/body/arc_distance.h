@@ -2,7 +2,7 @@
 
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 /// A disc about the robot's centre must not come nearer than `reach` to `at`.
 struct ReachPoint {
@@ -18,4 +18,4 @@ struct ReachPoint {
 /// @param curvature  [1/m], positive to the left
 [[nodiscard]] double arc_distance(double curvature, const ReachPoint& point);
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 namespace {
 
@@ -96,4 +96,4 @@ double BaseHistory::driven_since(Time time) const {
   return length;
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -8,7 +8,7 @@
 #include "docent/collision_avoidance/body/outline_distance.h"
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 /// Velocity of a base that cannot move sideways.
 struct Velocity {
@@ -104,4 +104,4 @@ class BaseHistory {
   std::deque<std::pair<Time, BaseState>> states_;
 };
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

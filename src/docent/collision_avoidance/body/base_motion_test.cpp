@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace docent {
+namespace docent::collision_avoidance {
 namespace {
 
 TEST(BaseMotion, BrakesInTheKnownDistance) {
@@ -53,4 +53,4 @@ TEST(Predict, FromAStateOfLongAgoIsDoneAtOnce) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 namespace {
 
@@ -107,4 +107,4 @@ bool can_brake_in_time(const Velocity& velocity, const Velocity& command, double
   return true;
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -5,7 +5,7 @@
 #include "docent/collision_avoidance/body/base_motion.h"
 #include "docent/collision_avoidance/body/obstacle.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 /// How the check of the braking looks at the motion.
 struct BrakingParams {
@@ -27,4 +27,4 @@ struct BrakingParams {
                                      std::span<const Obstacle> obstacles, const BaseLimits& limits, double slack,
                                      const BrakingParams& params = {});
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

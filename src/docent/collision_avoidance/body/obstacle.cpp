@@ -4,7 +4,7 @@
 
 #include "docent/collision_avoidance/body/arc_distance.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 double straight_free_way(double bearing, std::span<const Obstacle> obstacles, double body_radius, double horizon) {
   const Point2 ahead = unit(Angle::radians(bearing));
@@ -17,4 +17,4 @@ double straight_free_way(double bearing, std::span<const Obstacle> obstacles, do
   return least;
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

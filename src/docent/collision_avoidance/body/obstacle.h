@@ -5,7 +5,7 @@
 #include "docent/collision_avoidance/body/base_motion.h"
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 /// A thing not to touch, in the frame of the base at the moment from which motion is planned.
 struct Obstacle {
@@ -34,4 +34,4 @@ struct Obstacle {
 [[nodiscard]] double straight_free_way(double bearing, std::span<const Obstacle> obstacles, double body_radius,
                                        double horizon);
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -8,7 +8,7 @@
 
 #include "docent/geometry/convex.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 namespace {
 
@@ -137,4 +137,4 @@ double Outline::straight_contact(Point2 point, double margin) const {
   return least;
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -6,7 +6,7 @@
 #include "docent/base/result.h"
 #include "docent/geometry/polygon.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 /// The body's outline where it is no disc: a convex polygon round the robot's centre, counter-clockwise, robot frame
 /// [m].
@@ -55,4 +55,4 @@ class Outline {
   double circumradius_ = 0.0;
 };
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 namespace {
 
@@ -50,4 +50,4 @@ bool BrakingWay::is_forgivable(const PersonPoint& person) const {
   });
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

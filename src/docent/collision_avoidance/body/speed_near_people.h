@@ -6,7 +6,7 @@
 #include "docent/collision_avoidance/body/base_motion.h"
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 /// What people may do that nobody foresees, and what a robot may do about it.
 struct PeopleCautionParams {
@@ -55,4 +55,4 @@ class BrakingWay {
   std::vector<Step> steps_;
 };
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

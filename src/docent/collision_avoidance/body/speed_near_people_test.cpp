@@ -8,7 +8,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 namespace {
 
 constexpr double kReach = 0.35;  // [m]
@@ -102,4 +102,4 @@ TEST(PeopleCautionParams, RefusesNonsense) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::collision_avoidance

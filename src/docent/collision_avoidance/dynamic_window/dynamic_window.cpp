@@ -7,7 +7,7 @@
 
 #include "docent/collision_avoidance/body/braking.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 namespace {
 
@@ -253,4 +253,4 @@ WindowChoice DynamicWindow::choose(const Velocity& velocity, const Velocity& las
   return choice;
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -9,7 +9,7 @@
 #include "docent/collision_avoidance/body/obstacle.h"
 #include "docent/collision_avoidance/dynamic_window/free_ways.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 /// The choice of a velocity within the dynamic window, and its margins.
 struct DynamicWindowParams {
@@ -133,4 +133,4 @@ class DynamicWindow {
   std::vector<double> curvatures_, ways_, clearances_, values_;           ///< [linear_steps][stride]
 };
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -9,7 +9,7 @@
 #include "docent/base/random.h"
 #include "docent/collision_avoidance/dynamic_window/slow_window_for_test.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 namespace {
 
 constexpr int kVelocities = 64;  // each way
@@ -106,4 +106,4 @@ BENCHMARK(velocity_selection)
     ->Unit(benchmark::kMicrosecond);
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::collision_avoidance

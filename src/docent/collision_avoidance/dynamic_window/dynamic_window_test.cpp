@@ -8,7 +8,7 @@
 #include "docent/base/random.h"
 #include "docent/collision_avoidance/dynamic_window/slow_window_for_test.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 namespace {
 
 Obstacle real_at(double x, double y) { return {{x, y}, {}, 0.08, false, false}; }
@@ -183,4 +183,4 @@ TEST(DynamicWindow, ParametersAreChecked) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::collision_avoidance

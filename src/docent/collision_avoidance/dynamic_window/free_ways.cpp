@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 namespace {
 
@@ -109,4 +109,4 @@ void FreeWays::along(std::span<const double> curvatures, std::span<double> ways)
   }
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

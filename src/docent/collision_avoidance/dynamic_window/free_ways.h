@@ -8,7 +8,7 @@
 #include "docent/collision_avoidance/body/arc_distance.h"
 #include "docent/collision_avoidance/dynamic_window/velocity_kernel.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 /// The free way along any number of circular arcs against a set of points, exactly, and some hundred times faster than
 /// `arc_distance` for every pair: `build` once a cycle, then ask.
@@ -47,4 +47,4 @@ class FreeWays {
   std::vector<std::uint8_t> lanes_;                   ///< of each arc
 };
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -9,7 +9,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 namespace {
 
 /// The slow twin: every arc against every point, in closed form.
@@ -132,4 +132,4 @@ TEST(FreeWays, WhatIsNoNumberLiesNowhereAndDisturbsNothing) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -8,7 +8,7 @@
 #include "docent/collision_avoidance/body/braking.h"
 #include "docent/collision_avoidance/dynamic_window/dynamic_window.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 /// The dynamic window as one would write it down: for every velocity the closed form of the arc to every point. The
 /// slow, obvious twin of DynamicWindow::choose, for its tests and its benchmark.
@@ -122,4 +122,4 @@ class SlowWindow {
   DynamicWindowParams params_;
 };
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

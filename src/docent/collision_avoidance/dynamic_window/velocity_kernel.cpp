@@ -6,7 +6,7 @@
 
 #include "docent/base/kernel_targets.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 namespace {
 
@@ -53,4 +53,4 @@ const VelocityKernels& velocity_kernels(InstructionSet set) {
   return kernels_for<VelocityKernels>(set, DOCENT_KERNELS);
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -6,7 +6,7 @@
 
 #include "docent/base/instruction_set.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 // The two inner loops of the dynamic window, in vectors of eight: the first contact on circular arcs, and the value of
 // velocities. Run-time dispatch; all instruction sets give the same results, bit for bit.
@@ -55,4 +55,4 @@ struct VelocityKernels {
 /// @pre the processor has `set`
 [[nodiscard]] const VelocityKernels& velocity_kernels(InstructionSet set);
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 std::vector<MovingObjects::Cluster> MovingObjects::find(std::span<const Point2> points, std::span<const double> ranges,
                                                         std::span<const int> beams, double bearing_step) const {
@@ -74,4 +74,4 @@ void MovingObjects::follow(Time stamp, std::vector<Cluster>& clusters) {
   }
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -8,7 +8,7 @@
 #include "docent/collision_avoidance/obstacle_field/sweep_geometry.h"
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 struct MovingObjectsParams {
   PieceParams piece{};
@@ -60,4 +60,4 @@ class MovingObjects {
   std::vector<Followed> followed_;
 };
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

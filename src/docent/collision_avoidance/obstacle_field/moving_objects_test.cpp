@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace docent {
+namespace docent::collision_avoidance {
 namespace {
 
 constexpr double kBeam = std::numbers::pi / 180.0;
@@ -87,4 +87,4 @@ TEST(MovingObjects, TheOtherLasersHalfOfItTellsNoVelocityOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::collision_avoidance

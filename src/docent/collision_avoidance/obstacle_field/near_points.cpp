@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 NearPoints::NearPoints(std::span<const Point2> points, Point2 middle, double near) : middle_{middle}, near_{near} {
   std::vector<std::size_t> buckets(points.size());
@@ -42,4 +42,4 @@ bool NearPoints::is_near(Point2 place) const {
   return false;
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

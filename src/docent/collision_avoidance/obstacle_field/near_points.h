@@ -8,7 +8,7 @@
 
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 /// Tells whether anything of a set of points lies near a place: the points in square buckets as wide as "near", round a
 /// middle. O(points) to make; a question looks at nine buckets, three by three side by side.
@@ -36,4 +36,4 @@ class NearPoints {
   std::vector<Point2> points_;                        ///< by buckets, row by row
 };
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -7,7 +7,7 @@
 
 #include "docent/collision_avoidance/obstacle_field/sweep_geometry.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 namespace {
 
@@ -316,4 +316,4 @@ double ObstacleMemory::invalid_share(std::size_t sensor) const {
   return sensor < sensors_.size() ? sensors_[sensor].invalid_share : 1.0;
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

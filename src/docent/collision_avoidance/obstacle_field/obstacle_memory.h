@@ -13,7 +13,7 @@
 #include "docent/geometry/point_transform.h"
 #include "docent/geometry/polygon.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 /// One sweep of a laser scanner.
 struct SensorSweep {
@@ -195,4 +195,4 @@ class ObstacleMemory {
   MovingObjects moving_;
 };
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

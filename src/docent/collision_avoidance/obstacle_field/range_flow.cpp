@@ -6,7 +6,7 @@
 
 #include "docent/collision_avoidance/obstacle_field/sweep_geometry.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 namespace {
 
@@ -115,4 +115,4 @@ std::vector<Point2> RangeFlow::velocities() const {
   return result;
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -9,7 +9,7 @@
 #include "docent/base/time.h"
 #include "docent/geometry/point_transform.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 struct RangeFlowParams {
   double look_back = 0.25;       ///< [s] at least: in less, noise looks like motion
@@ -64,4 +64,4 @@ class RangeFlow {
   std::deque<Look> looks_;
 };
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -8,7 +8,7 @@
 #include "docent/base/random.h"
 #include "docent/geometry/polygon.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 namespace {
 
 constexpr double kBeam = std::numbers::pi / 180.0;
@@ -95,4 +95,4 @@ TEST(RangeFlow, WhoGoesAwayOrStandsWhereNobodyCouldLookIsNotComing) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::collision_avoidance

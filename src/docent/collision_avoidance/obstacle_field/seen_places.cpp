@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 namespace {
 
@@ -115,4 +115,4 @@ std::vector<Point2> SeenPlaces::unknown(const Pose2& odom_from_base, const BaseL
   return places;
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

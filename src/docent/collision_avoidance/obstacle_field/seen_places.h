@@ -9,7 +9,7 @@
 #include "docent/collision_avoidance/obstacle_field/obstacle_memory.h"
 #include "docent/geometry/point_transform.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 struct SeenPlacesParams {
   double seen_for = 3.0;       ///< [s] a place counts as free that is out of view
@@ -61,4 +61,4 @@ class SeenPlaces {
   bool all_round_ = false;
 };
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 namespace {
 
@@ -46,4 +46,4 @@ std::vector<bool> on_straight_pieces(std::span<const Point2> points, std::span<c
   return straight;
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

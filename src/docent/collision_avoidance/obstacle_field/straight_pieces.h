@@ -7,7 +7,7 @@
 #include "docent/collision_avoidance/obstacle_field/sweep_geometry.h"
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 struct StraightPiecesParams {
   PieceParams piece{};
@@ -25,4 +25,4 @@ struct StraightPiecesParams {
 [[nodiscard]] std::vector<bool> on_straight_pieces(std::span<const Point2> points, std::span<const double> ranges,
                                                    double bearing_step, const StraightPiecesParams& params = {});
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -6,7 +6,7 @@
 
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 /// How far apart neighbours of one sweep may be that belong to one thing.
 struct PieceParams {
@@ -27,4 +27,4 @@ struct PieceParams {
   return std::lround(unwrapped / bearing_step);
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

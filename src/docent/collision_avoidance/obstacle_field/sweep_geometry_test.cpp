@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::collision_avoidance {
 namespace {
 
 TEST(SweepGeometry, FindsTheBeamAlsoBeyondHalfATurn) {
@@ -19,4 +19,4 @@ TEST(SweepGeometry, NeighboursMayBeFartherApartFarAway) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -1,6 +1,6 @@
 #include "docent/collision_avoidance/obstacle_field/unmapped_places.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 void UnmappedPlaces::add(Time now, Time taken, const Pose2& odom_from_base, std::span<const Point2> in_base,
                          bool localized) {
@@ -18,4 +18,4 @@ bool UnmappedPlaces::judge(Time when) const {
   return localized_ && near_ && when - taken_ < seconds(params_.still_judged);
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -8,7 +8,7 @@
 #include "docent/collision_avoidance/obstacle_field/near_points.h"
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 struct UnmappedPlacesParams {
   double by_somebody = 0.4;       ///< [m] from a beam that the map does not explain to the rest of who ended it
@@ -44,4 +44,4 @@ class UnmappedPlaces {
   bool localized_ = false;
 };
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

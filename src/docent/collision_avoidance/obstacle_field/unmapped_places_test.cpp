@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace docent {
+namespace docent::collision_avoidance {
 namespace {
 
 Time at(double time) { return time_from_seconds(100.0 + time); }
@@ -37,4 +37,4 @@ TEST(UnmappedPlaces, WithoutAPlaceInTheMapNothingIsJudged) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::collision_avoidance

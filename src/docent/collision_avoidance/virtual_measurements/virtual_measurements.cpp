@@ -12,7 +12,7 @@
 #include <emmintrin.h>
 #endif
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 namespace {
 
@@ -408,4 +408,4 @@ VirtualMeasurements::Scan VirtualMeasurements::measure(std::span<const WeightedP
   return scan;
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -10,7 +10,7 @@
 #include "docent/base/result.h"
 #include "docent/geometry/polygon.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 /// Section `hazards`: virtual measurements, of what no sensor sees, from the belief.
 struct VirtualMeasurementParams {
@@ -172,4 +172,4 @@ class VirtualMeasurements {
   std::array<std::uint8_t, kDirections> last_limits_{};
 };
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

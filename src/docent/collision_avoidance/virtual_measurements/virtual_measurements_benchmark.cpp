@@ -10,7 +10,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 namespace {
 
 /// @param jointly  false: the same measurements as the plain histogram's
@@ -146,4 +146,4 @@ void first_sight_of_8192_positions(benchmark::State& state) {
 BENCHMARK(first_sight_of_8192_positions)->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -10,7 +10,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -276,4 +276,4 @@ TEST(VirtualMeasurements, ParametersAreChecked) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 bool ClockOffset::receive(Time now, Time stamp) {
   const double delay = to_seconds(now - stamp);
@@ -20,4 +20,4 @@ bool ClockOffset::receive(Time now, Time stamp) {
   return true;
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

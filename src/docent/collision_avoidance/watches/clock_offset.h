@@ -4,7 +4,7 @@
 
 #include "docent/base/time.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 struct ClockOffsetParams {
   double creep = 0.0005;  ///< [s/s] by which the least delay may grow: more than two quartz clocks drift apart
@@ -37,4 +37,4 @@ class ClockOffset {
   int early_count_ = 0;
 };
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 std::optional<Complaint> worse(std::optional<Complaint> a, std::optional<Complaint> b) {
   if (!a) return b;
@@ -20,4 +20,4 @@ std::optional<Complaint> complaint_of(const Freshness& freshness, Time now, cons
   return std::nullopt;
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -5,7 +5,7 @@
 
 #include "docent/collision_avoidance/watches/freshness.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 /// What a watch has to say against going on as if all were well.
 struct Complaint {
@@ -29,4 +29,4 @@ struct ComplaintParams {
 [[nodiscard]] std::optional<Complaint> complaint_of(const Freshness& freshness, Time now, const std::string& name,
                                                     const ComplaintParams& params = {});
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

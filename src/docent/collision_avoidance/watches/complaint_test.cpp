@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::collision_avoidance {
 namespace {
 
 TEST(Complaint, TheMoreCautiousOfTwoWins) {
@@ -50,4 +50,4 @@ TEST(Complaint, LateIsSlowAndTooLateStands) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 void ContactWatch::feel(Time now, Angle from_in_odom) {
   const bool is_new = !last_ || now - *last_ > seconds(params_.stands_for) ||
@@ -14,4 +14,4 @@ void ContactWatch::feel(Time now, Angle from_in_odom) {
   last_ = now;
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

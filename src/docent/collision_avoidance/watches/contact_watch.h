@@ -5,7 +5,7 @@
 #include "docent/base/time.h"
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 struct ContactWatchParams {
   double stands_for = 1.0;    ///< [s] after a touch the robot stands: somebody may be drawing the hand back
@@ -34,4 +34,4 @@ class ContactWatch {
   Angle from_{};  ///< odom
 };
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

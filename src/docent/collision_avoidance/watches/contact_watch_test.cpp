@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::collision_avoidance {
 namespace {
 
 Time at(double time) { return time_from_seconds(100.0 + time); }
@@ -30,4 +30,4 @@ TEST(ContactWatch, ATouchElsewhereOrAfterAPauseIsAnotherOne) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::collision_avoidance

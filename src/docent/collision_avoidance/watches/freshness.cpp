@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 void Freshness::receive(Time now, Time stamp) {
   if (!clock_.receive(now, stamp)) return;
@@ -23,4 +23,4 @@ double Freshness::age(Time now) const { return silence(now) + clock_.lateness();
 
 double Freshness::patience(double least) const { return std::max(least, params_.stale_periods * period_); }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -6,7 +6,7 @@
 #include "docent/base/time.h"
 #include "docent/collision_avoidance/watches/clock_offset.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 struct FreshnessParams {
   double patience = 0.5;       ///< [s] without a message, at least, before what is known is stale
@@ -49,4 +49,4 @@ class Freshness {
   double period_ = 0.0;
 };
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

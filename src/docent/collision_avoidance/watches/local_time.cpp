@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 Time LocalTime::receive(const std::string& source, Time now, Time stamp, double honest_way) {
   Source& known = sources_[source];
@@ -33,4 +33,4 @@ double LocalTime::offset_of(const Source& source) const {
   return least >= -params_.disagreement && least <= source.honest_way ? 0.0 : least;
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -6,7 +6,7 @@
 #include "docent/base/time.h"
 #include "docent/collision_avoidance/watches/clock_offset.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 struct LocalTimeParams {
   double honest_way = 0.15;       ///< [s] from stamp to receipt: a laser that stamps the start of its sweep takes most
@@ -51,4 +51,4 @@ class LocalTime {
   std::map<std::string, ClockOffset> handed_on_;
 };
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 namespace {
 
@@ -62,4 +62,4 @@ std::optional<Complaint> OdometryWatch::complaint(Time now) const {
   return found;
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

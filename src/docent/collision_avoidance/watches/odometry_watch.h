@@ -5,7 +5,7 @@
 #include "docent/collision_avoidance/body/base_motion.h"
 #include "docent/collision_avoidance/watches/complaint.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 struct OdometryWatchParams {
   ComplaintParams complaints{};
@@ -52,4 +52,4 @@ class OdometryWatch {
   double missing_ = 0.0;    ///< share of the messages, lately
 };
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::collision_avoidance {
 namespace {
 
 /// A base that follows its commands, and an odometry that tells of it every 50 ms.
@@ -119,4 +119,4 @@ TEST(OdometryWatch, AJumpOfAStandingBaseDoesNotMakeItSeemFrozen) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::collision_avoidance

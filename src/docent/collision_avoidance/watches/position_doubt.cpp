@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 std::optional<Complaint> PositionDoubt::judge(const BeliefOutline& belief) const {
   if (!belief.localized || belief.hypotheses.empty())
@@ -49,4 +49,4 @@ void PositionDoubt::believe(const BeliefOutline& belief) {
   before_ = now;
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

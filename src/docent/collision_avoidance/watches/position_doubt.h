@@ -7,7 +7,7 @@
 #include "docent/collision_avoidance/watches/complaint.h"
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 struct BelievedPose {
   Pose2 map_from_robot;
@@ -59,4 +59,4 @@ class PositionDoubt {
 [[nodiscard]] std::optional<Pose2> mean_offset(const Pose2& pose, std::span<const BelievedPose> cells,
                                                const PositionDoubtParams& params = {});
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 void RingWatch::hear(Time now, Time stamp, std::size_t index, double range, bool is_echo, const Pose2& odom_from_base) {
   if (ring_.size() <= index) ring_.resize(index + 1);
@@ -47,4 +47,4 @@ std::optional<Complaint> RingWatch::complaint(Time now, bool required) const {
   return found;
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -7,7 +7,7 @@
 #include "docent/collision_avoidance/watches/complaint.h"
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 struct RingWatchParams {
   ComplaintParams complaints{};
@@ -55,4 +55,4 @@ class RingWatch {
   int repeats_ = 0;
 };
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -7,7 +7,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 namespace {
 
 constexpr std::size_t kSensors = 24;
@@ -125,4 +125,4 @@ TEST(RingWatch, ARobotWithoutTheRingIsNotBlamed) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 void TactileWatch::feel(Time now, Time stamp, std::span<const std::uint8_t> segments, std::uint32_t scan) {
   freshness_.receive(now, stamp);
@@ -24,4 +24,4 @@ std::optional<Complaint> TactileWatch::complaint(Time now, bool required) const 
   return found;
 }
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -6,7 +6,7 @@
 
 #include "docent/collision_avoidance/watches/complaint.h"
 
-namespace docent {
+namespace docent::collision_avoidance {
 
 struct TactileWatchParams {
   ComplaintParams complaints{.patience = 0.8};  ///< the ring is felt less often than the lasers look
@@ -38,4 +38,4 @@ class TactileWatch {
   double missing_ = 0.0;  ///< share of the segments, lately
 };
 
-}  // namespace docent
+}  // namespace docent::collision_avoidance

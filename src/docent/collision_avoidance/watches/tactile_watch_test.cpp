@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace docent {
+namespace docent::collision_avoidance {
 namespace {
 
 struct Ring {
@@ -72,4 +72,4 @@ TEST(TactileWatch, SilentLateAndHalfGone) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::collision_avoidance

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace docent {
+namespace docent::evaluation {
 
 Result<void> OdometryNoiseParams::validate() const {
   for (const double value : {way_share, turn_share, turn_per_metre, scale, veer})
@@ -32,4 +32,4 @@ std::vector<Pose2> noisy_odometry(std::span<const Pose2> map_from_base, const Od
   return odom_from_base;
 }
 
-}  // namespace docent
+}  // namespace docent::evaluation

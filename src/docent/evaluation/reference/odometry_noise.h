@@ -7,7 +7,7 @@
 #include "docent/base/result.h"
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::evaluation {
 
 /// How odometry of our making errs. All deviations are of normal distributions. Errors are in proportion to what was
 /// commanded, as in [Rhino1999] Fig. 6, and not as the robot's own OdometryModelParams has them.
@@ -33,4 +33,4 @@ struct OdometryNoiseParams {
 [[nodiscard]] std::vector<Pose2> noisy_odometry(std::span<const Pose2> map_from_base, const OdometryNoiseParams& params,
                                                 Rng rng);
 
-}  // namespace docent
+}  // namespace docent::evaluation

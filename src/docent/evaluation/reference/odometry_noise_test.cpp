@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace docent {
+namespace docent::evaluation {
 namespace {
 
 std::vector<Pose2> straight(std::size_t steps, double step) {
@@ -54,4 +54,4 @@ TEST(OdometryNoise, OneScaleAndOneVeerARunAndASeedIsARun) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::evaluation

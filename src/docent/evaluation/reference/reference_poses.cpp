@@ -6,7 +6,7 @@
 
 #include "docent/base/files.h"
 
-namespace docent {
+namespace docent::evaluation {
 namespace {
 
 constexpr double kSameTime = 1e-5;    // [s]
@@ -21,9 +21,10 @@ Pose2 between(const Pose2& a, const Pose2& b, double share) {
 /// Odometry at any time, between the readings of a log.
 class OdometryTrack {
  public:
-  explicit OdometryTrack(const LaserLog& log) {
-    for (const LoggedScan& scan : log.scans) track_.push_back({scan.time, scan.odom_from_base});
-    for (const LoggedOdometry& reading : log.odometry) track_.push_back({reading.time, reading.odom_from_base});
+  explicit OdometryTrack(const recording::LaserLog& log) {
+    for (const recording::LoggedScan& scan : log.scans) track_.push_back({scan.time, scan.odom_from_base});
+    for (const recording::LoggedOdometry& reading : log.odometry)
+      track_.push_back({reading.time, reading.odom_from_base});
     std::stable_sort(track_.begin(), track_.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
   }
   [[nodiscard]] Pose2 at(Time time) const {
@@ -59,7 +60,7 @@ bool agrees(const Pose2& missed, const ReferenceGaps& gaps) {
 }
 
 /// Fills the scans between `from` and `to`, whose poses are known.
-void follow_odometry(const LaserLog& log, std::size_t from, std::size_t to, const ReferenceGaps& gaps,
+void follow_odometry(const recording::LaserLog& log, std::size_t from, std::size_t to, const ReferenceGaps& gaps,
                      ScanReference& reference) {
   const auto carried = [&](std::size_t i) {
     return *reference[from] * (inverse(log.scans[from].odom_from_base) * log.scans[i].odom_from_base);
@@ -74,7 +75,7 @@ void follow_odometry(const LaserLog& log, std::size_t from, std::size_t to, cons
 }
 
 /// The poses at the very times of scans.
-ScanReference poses_at_scans(const LaserLog& log, std::span<const TimedPose> poses) {
+ScanReference poses_at_scans(const recording::LaserLog& log, std::span<const TimedPose> poses) {
   ScanReference reference(log.scans.size());
   for (std::size_t i = 0; i < log.scans.size(); ++i) {
     const Time time = log.scans[i].time;
@@ -91,7 +92,7 @@ ScanReference poses_at_scans(const LaserLog& log, std::span<const TimedPose> pos
 }
 
 /// Fills the scans between poses that another clock stamped.
-void follow_time(const LaserLog& log, std::span<const TimedPose> poses, const ReferenceGaps& gaps,
+void follow_time(const recording::LaserLog& log, std::span<const TimedPose> poses, const ReferenceGaps& gaps,
                  ScanReference& reference) {
   const OdometryTrack odometry{log};
   for (std::size_t i = 0; i < log.scans.size(); ++i) {
@@ -141,7 +142,8 @@ Result<std::vector<TimedPose>> load_timed_poses(const std::filesystem::path& pat
   return parse_timed_poses(*text, path.string());
 }
 
-ScanReference reference_of(const LaserLog& log, std::span<const TimedPose> poses, const ReferenceGaps& gaps) {
+ScanReference reference_of(const recording::LaserLog& log, std::span<const TimedPose> poses,
+                           const ReferenceGaps& gaps) {
   ScanReference reference(log.scans.size());
   if (poses.empty()) return reference;
   reference = poses_at_scans(log, poses);
@@ -159,10 +161,10 @@ ScanReference reference_of(const LaserLog& log, std::span<const TimedPose> poses
   return reference;
 }
 
-ScanReference logged_reference(const LaserLog& log) {
+ScanReference logged_reference(const recording::LaserLog& log) {
   ScanReference reference;
   reference.reserve(log.scans.size());
-  for (const LoggedScan& scan : log.scans) {
+  for (const recording::LoggedScan& scan : log.scans) {
     // Where both poses of a line agree but for the laser's mount, they are the laser's and the robot's.
     const Pose2 base = scan.logged_pose * inverse(scan.base_from_laser);
     const bool is_laser = distance(base.position(), scan.odom_from_base.position()) < 0.05;
@@ -171,4 +173,4 @@ ScanReference logged_reference(const LaserLog& log) {
   return reference;
 }
 
-}  // namespace docent
+}  // namespace docent::evaluation

@@ -9,7 +9,7 @@
 #include "docent/base/result.h"
 #include "docent/recording/laser_log.h"
 
-namespace docent {
+namespace docent::evaluation {
 
 /// Where a recorded robot was, as somebody found out afterwards with more than the robot had: the truth of a real log.
 struct TimedPose {
@@ -40,10 +40,10 @@ struct ReferenceGaps {
 /// Then the other scans are placed between these by odometry alone, and `gaps` are of what odometry misses only: stamps
 /// are often of a reading's arrival, some late, several at once, so that a pose half a second from a scan says nothing
 /// of where the robot was at that scan. O((scans + poses) log).
-[[nodiscard]] ScanReference reference_of(const LaserLog& log, std::span<const TimedPose> poses,
+[[nodiscard]] ScanReference reference_of(const recording::LaserLog& log, std::span<const TimedPose> poses,
                                          const ReferenceGaps& gaps = {});
 
 /// The poses that a corrected log carries itself, in place of its odometry or beside it.
-[[nodiscard]] ScanReference logged_reference(const LaserLog& log);
+[[nodiscard]] ScanReference logged_reference(const recording::LaserLog& log);
 
-}  // namespace docent
+}  // namespace docent::evaluation

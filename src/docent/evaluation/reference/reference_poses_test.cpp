@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::evaluation {
 namespace {
 
-LoggedScan scan_at(double time, const Pose2& odom_from_base) {
-  LoggedScan scan;
+recording::LoggedScan scan_at(double time, const Pose2& odom_from_base) {
+  recording::LoggedScan scan;
   scan.time = time_from_seconds(time);
   scan.odom_from_base = odom_from_base;
   return scan;
@@ -31,7 +31,8 @@ TEST(TimedPoses, AreReadSortedAndFaultsNameTheLine) {
 const Angle kNorth = Angle::degrees(90);
 
 TEST(ReferenceOf, FollowsOdometryBetweenTwoPosesAndMeetsBoth) {
-  LaserLog log;  // odometry: a detour to the side between the poses; and it is turned against the map by 90 degrees
+  recording::LaserLog
+      log;  // odometry: a detour to the side between the poses; and it is turned against the map by 90 degrees
   log.scans = {scan_at(0.0, {0, 0, Angle{}}), scan_at(1.0, {1, 0.4, Angle{}}), scan_at(2.0, {2, 0, Angle{}}),
                scan_at(9.0, {9, 0, Angle{}})};
   const std::vector<TimedPose> of_scans{{time_from_seconds(0), {5, 5, kNorth}},
@@ -53,7 +54,7 @@ TEST(ReferenceOf, FollowsOdometryBetweenTwoPosesAndMeetsBoth) {
 TEST(ReferenceOf, IsNotMisledByStampsOfArrival) {
   // A robot at 1 m/s, a scan every second. Poses of scans that the log does not hold any more lie between them; their
   // stamps are those of their arrival, three at once.
-  LaserLog log;
+  recording::LaserLog log;
   std::vector<TimedPose> poses;
   for (int i = 0; i < 20; ++i) log.scans.push_back(scan_at(i, {0.97 * i, 0, Angle{}}));
   for (const double x : {0.0, 4.0, 8.0, 12.0, 16.0}) {
@@ -75,7 +76,7 @@ TEST(ReferenceOf, IsNotMisledByStampsOfArrival) {
 }
 
 TEST(ReferenceOf, SaysNothingWhereOdometryDisagreesWithThePoses) {
-  LaserLog log;
+  recording::LaserLog log;
   log.scans = {scan_at(0.0, {}), scan_at(1.0, {}), scan_at(2.0, {}), scan_at(3.0, {}), scan_at(4.0, {})};
   const std::vector<TimedPose> poses{{time_from_seconds(0), {}},
                                      {time_from_seconds(2.000004), {0, 0, Angle::degrees(40)}},
@@ -90,7 +91,7 @@ TEST(ReferenceOf, SaysNothingWhereOdometryDisagreesWithThePoses) {
 }
 
 TEST(ReferenceOf, SaysNothingAcrossGapsAndTurnsOfAnotherClock) {
-  LaserLog log;
+  recording::LaserLog log;
   log.scans = {scan_at(1.0, {}), scan_at(2.0, {0, 0, Angle::degrees(40)}), scan_at(10.0, {0, 0, Angle::degrees(40)}),
                scan_at(19.0, {0, 0, Angle::degrees(40)})};
   const std::vector<TimedPose> poses{{time_from_seconds(0.9), {}},
@@ -104,7 +105,7 @@ TEST(ReferenceOf, SaysNothingAcrossGapsAndTurnsOfAnotherClock) {
 }
 
 TEST(LoggedReference, TakesTheLaserOffItsMountAndACorrectedPoseAsItIs) {
-  LaserLog log;
+  recording::LaserLog log;
   log.scans = {scan_at(0.0, {1, 2, Angle{}}), scan_at(1.0, {1, 2, Angle{}})};
   log.scans[0].base_from_laser = log.scans[1].base_from_laser = {0.25, 0, Angle{}};
   log.scans[0].logged_pose = {1.25, 2, Angle{}};
@@ -115,4 +116,4 @@ TEST(LoggedReference, TakesTheLaserOffItsMountAndACorrectedPoseAsItIs) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::evaluation

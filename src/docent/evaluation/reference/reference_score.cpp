@@ -6,7 +6,7 @@
 
 #include "docent/base/check.h"
 
-namespace docent {
+namespace docent::evaluation {
 namespace {
 
 constexpr double kLostDistance = 0.5;  ///< [m]
@@ -51,4 +51,4 @@ ReferenceScore score_against(const ScanReference& reference, std::span<const Loc
   return score;
 }
 
-}  // namespace docent
+}  // namespace docent::evaluation

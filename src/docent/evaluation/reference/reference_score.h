@@ -6,7 +6,7 @@
 
 #include "docent/evaluation/reference/reference_poses.h"
 
-namespace docent {
+namespace docent::evaluation {
 
 /// What localization said at a scan.
 struct LocalizedScan {
@@ -34,4 +34,4 @@ struct ReferenceScore {
 [[nodiscard]] ReferenceScore score_against(const ScanReference& reference, std::span<const LocalizedScan> scans,
                                            bool start_is_known);
 
-}  // namespace docent
+}  // namespace docent::evaluation

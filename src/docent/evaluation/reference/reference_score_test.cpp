@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::evaluation {
 namespace {
 
 TEST(ReferenceScore, CountsFromTheFirstClaimAndOnlyWhereTheTruthIsKnown) {
@@ -36,4 +36,4 @@ TEST(ReferenceScore, WhoNeverSaysWhereItIsIsLost) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::evaluation

@@ -9,7 +9,7 @@
 #include "docent/messages/conversions.h"
 #include "docent/vocabulary/vocabulary.h"
 
-namespace docent {
+namespace docent::evaluation {
 namespace {
 
 constexpr const char* kColumns =
@@ -21,7 +21,7 @@ constexpr std::size_t kMostWaiting = 1000;
 
 }  // namespace
 
-void ClaimLog::add(const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
+void ClaimLog::add(const transport::TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
   const std::string_view name = topic.name;
   if (name == topics::kBelief.name) {
     waiting_.push_back(std::static_pointer_cast<const docent_msgs::Belief>(message));
@@ -72,4 +72,4 @@ void ClaimLog::judge(const docent_msgs::Belief& belief, const Pose2& truth) {
 
 Result<void> ClaimLog::save(const std::string& path) const { return write_file_atomically(path, kColumns + lines_); }
 
-}  // namespace docent
+}  // namespace docent::evaluation

@@ -9,7 +9,7 @@
 #include "docent/evaluation/truth_history.h"
 #include "docent/transport/bus.h"
 
-namespace docent {
+namespace docent::evaluation {
 
 /// Every belief beside the truth of its moment, as CSV: what the tables and plots of localization are made of. Columns:
 /// time [s] since the first truth; true x, y [m], heading [deg]; whether there was a best hypothesis, its x, y [m],
@@ -20,7 +20,7 @@ namespace docent {
 class ClaimLog {
  public:
   /// Topics that do not matter are passed over.
-  void add(const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message);
+  void add(const transport::TopicInfo& topic, Time time, const std::shared_ptr<const void>& message);
   [[nodiscard]] std::size_t claims() const { return claims_; }
   [[nodiscard]] Result<void> save(const std::string& path) const;
 
@@ -39,4 +39,4 @@ class ClaimLog {
   std::string lines_;
 };
 
-}  // namespace docent
+}  // namespace docent::evaluation

@@ -8,9 +8,9 @@
 #include "docent/evaluation/deployment_evaluator.h"
 #include "docent/geometry/angle.h"
 
-namespace docent {
+namespace docent::evaluation {
 
-void DriveLog::add(const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
+void DriveLog::add(const transport::TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
   const std::string_view name = topic.name;
   if (name == topics::kTrueState.name) {
     add_row(*static_cast<const docent_msgs::TrueState*>(message.get()), time);
@@ -46,4 +46,4 @@ Result<void> DriveLog::save(const std::string& path) const {
                                    rows_);
 }
 
-}  // namespace docent
+}  // namespace docent::evaluation

@@ -9,7 +9,7 @@
 #include "docent/messages/truth_messages.h"
 #include "docent/transport/bus.h"
 
-namespace docent {
+namespace docent::evaluation {
 
 /// How the robot truly drives beside what `avoid` says of it, as CSV with a row for every true state (10 Hz): time [s]
 /// since the first truth; true x, y [m], heading [deg], speed [m/s] and turn rate [rad/s]; distance driven [m];
@@ -18,7 +18,7 @@ namespace docent {
 class DriveLog {
  public:
   /// Topics that do not matter are passed over.
-  void add(const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message);
+  void add(const transport::TopicInfo& topic, Time time, const std::shared_ptr<const void>& message);
   [[nodiscard]] const std::string& rows() const { return rows_; }
   [[nodiscard]] Result<void> save(const std::string& path) const;
 
@@ -36,4 +36,4 @@ class DriveLog {
   std::string rows_;
 };
 
-}  // namespace docent
+}  // namespace docent::evaluation

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::evaluation {
 namespace {
 
 TEST(DriveLog, HasARowForEveryTrueStateWithWhatAvoidSaidLast) {
@@ -17,13 +17,13 @@ TEST(DriveLog, HasARowForEveryTrueStateWithWhatAvoidSaidLast) {
   truth->inside_area = true;
   truth->nearest_person_m = 0.7;
   truth->nearest_solid_m = 0.4;
-  log.add(topic_info(topics::kTrueState), time_from_seconds(50.0), truth);
-  log.add(topic_info(topics::kAvoidState), time_from_seconds(50.05), avoid);
-  log.add(topic_info(topics::kTrueState), time_from_seconds(50.1), truth);
+  log.add(transport::topic_info(topics::kTrueState), time_from_seconds(50.0), truth);
+  log.add(transport::topic_info(topics::kAvoidState), time_from_seconds(50.05), avoid);
+  log.add(transport::topic_info(topics::kTrueState), time_from_seconds(50.1), truth);
   EXPECT_EQ(log.rows(),
             "0.00,0.000,0.000,0.00,0.500,0.000,2.000,0,0,0,0.700,0.400,,0.000,\n"
             "0.10,0.000,0.000,0.00,0.500,0.000,2.000,0,0,0,0.700,0.400,driving,0.250,slow; and late\n");
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::evaluation

@@ -8,7 +8,7 @@
 #include "docent/base/files.h"
 #include "docent/evaluation/deployment_evaluator.h"
 
-namespace docent {
+namespace docent::evaluation {
 
 void EventLog::write(Time time, const char* source, std::string kind, std::string subject, std::string detail,
                      double value) {
@@ -24,7 +24,7 @@ void EventLog::write(Time time, const char* source, std::string kind, std::strin
       std::string{since.data()} + "," + source + "," + kind + "," + subject + "," + detail + "," + rest.data() + "\n";
 }
 
-void EventLog::add(const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
+void EventLog::add(const transport::TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
   const auto is = [name = std::string_view{topic.name}](const auto& wanted) { return name == wanted.name; };
   const auto as = [&message]<class T>(const Topic<T>& /*wanted*/) -> const T& {
     return *static_cast<const T*>(message.get());
@@ -62,4 +62,4 @@ Result<void> EventLog::save(const std::string& path) const {
   return write_file_atomically(path, "time,source,kind,subject,detail,value,x,y,gaze,bearing\n" + rows_);
 }
 
-}  // namespace docent
+}  // namespace docent::evaluation

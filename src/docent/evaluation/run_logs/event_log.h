@@ -7,7 +7,7 @@
 #include "docent/base/time.h"
 #include "docent/transport/bus.h"
 
-namespace docent {
+namespace docent::evaluation {
 
 /// What happened in a run, as CSV with a row for every event: time [s] since the first truth; source (event, reaction,
 /// way, say, scenario or contact; way: local or global when a detour of so many more metres begins, none when it ends);
@@ -16,7 +16,7 @@ namespace docent {
 class EventLog {
  public:
   /// Topics that do not matter are passed over.
-  void add(const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message);
+  void add(const transport::TopicInfo& topic, Time time, const std::shared_ptr<const void>& message);
   [[nodiscard]] const std::string& rows() const { return rows_; }
   [[nodiscard]] Result<void> save(const std::string& path) const;
 
@@ -32,4 +32,4 @@ class EventLog {
   std::string rows_;
 };
 
-}  // namespace docent
+}  // namespace docent::evaluation

@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::evaluation {
 namespace {
 
 template <class T>
 void tell(EventLog& log, const Topic<T>& topic, double time, T message) {
-  log.add(topic_info(topic), time_from_seconds(time), std::make_shared<const T>(std::move(message)));
+  log.add(transport::topic_info(topic), time_from_seconds(time), std::make_shared<const T>(std::move(message)));
 }
 
 TEST(EventLog, HasARowForEveryEventWithPlaceAndGaze) {
@@ -52,4 +52,4 @@ TEST(EventLog, TellsOnceOfEveryDetourAndHowMuchLongerItIs) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::evaluation

@@ -5,9 +5,9 @@
 
 #include "docent/base/files.h"
 
-namespace docent {
+namespace docent::evaluation {
 
-void HealthLog::add(const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
+void HealthLog::add(const transport::TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
   const std::string_view name = topic.name;
   if (name == topics::kTrueState.name && !has_truth_) {
     has_truth_ = true;
@@ -30,4 +30,4 @@ Result<void> HealthLog::save(const std::string& path) const {
   return write_file_atomically(path, "time,module,state,reason\n" + rows_);
 }
 
-}  // namespace docent
+}  // namespace docent::evaluation

@@ -9,14 +9,14 @@
 #include "docent/base/time.h"
 #include "docent/transport/bus.h"
 
-namespace docent {
+namespace docent::evaluation {
 
 /// What the modules said of themselves, as CSV with a row for every change: time [s] since the first truth, module,
 /// state, reason (commas in it become semicolons).
 class HealthLog {
  public:
   /// Topics that do not matter are passed over.
-  void add(const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message);
+  void add(const transport::TopicInfo& topic, Time time, const std::shared_ptr<const void>& message);
   [[nodiscard]] const std::string& rows() const { return rows_; }
   [[nodiscard]] Result<void> save(const std::string& path) const;
 
@@ -27,4 +27,4 @@ class HealthLog {
   std::string rows_;
 };
 
-}  // namespace docent
+}  // namespace docent::evaluation

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::evaluation {
 namespace {
 
 void tell(HealthLog& log, double time, const char* module, const char* state, const char* reason) {
@@ -10,12 +10,13 @@ void tell(HealthLog& log, double time, const char* module, const char* state, co
   health->module = module;
   health->state = state;
   health->reason = reason;
-  log.add(topic_info(topics::kHealth), time_from_seconds(time), health);
+  log.add(transport::topic_info(topics::kHealth), time_from_seconds(time), health);
 }
 
 TEST(HealthLog, HasARowForEveryChange) {
   HealthLog log;
-  log.add(topic_info(topics::kTrueState), time_from_seconds(100.0), std::make_shared<docent_msgs::TrueState>());
+  log.add(transport::topic_info(topics::kTrueState), time_from_seconds(100.0),
+          std::make_shared<docent_msgs::TrueState>());
   tell(log, 100.5, "localize", "ready", "");
   tell(log, 101.0, "localize", "ready", "");
   tell(log, 101.0, "avoid", "ready", "");
@@ -30,4 +31,4 @@ TEST(HealthLog, HasARowForEveryChange) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::evaluation

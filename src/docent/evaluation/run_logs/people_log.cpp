@@ -6,7 +6,7 @@
 #include "docent/evaluation/people_match.h"
 #include "docent/messages/conversions.h"
 
-namespace docent {
+namespace docent::evaluation {
 namespace {
 
 constexpr const char* kColumns =
@@ -20,7 +20,7 @@ double speed_of(const docent_msgs::Person& person) {
 
 }  // namespace
 
-void PeopleLog::add(const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
+void PeopleLog::add(const transport::TopicInfo& topic, Time time, const std::shared_ptr<const void>& message) {
   const std::string_view name = topic.name;
   if (name == topics::kPeople.name || name == topics::kPeopleInOdom.name) {
     waiting_.push_back({name == topics::kPeople.name, std::static_pointer_cast<const docent_msgs::People>(message)});
@@ -98,4 +98,4 @@ void PeopleLog::judge(const Waiting& claim, const docent_msgs::TrueState& truth,
 
 Result<void> PeopleLog::save(const std::string& path) const { return write_file_atomically(path, kColumns + lines_); }
 
-}  // namespace docent
+}  // namespace docent::evaluation

@@ -10,7 +10,7 @@
 #include "docent/evaluation/truth_history.h"
 #include "docent/transport/bus.h"
 
-namespace docent {
+namespace docent::evaluation {
 
 /// Tracked people beside the true ones, as CSV, twice a second: what the tables and the plot of `scripts/evaluate
 /// people` are made of. One row a person within 5 m of the robot, and one a track within 5 m that is nobody's, for the
@@ -24,7 +24,7 @@ namespace docent {
 class PeopleLog {
  public:
   /// Topics that do not matter are passed over.
-  void add(const TopicInfo& topic, Time time, const std::shared_ptr<const void>& message);
+  void add(const transport::TopicInfo& topic, Time time, const std::shared_ptr<const void>& message);
   [[nodiscard]] std::size_t rows() const { return rows_; }
   [[nodiscard]] Result<void> save(const std::string& path) const;
 
@@ -45,4 +45,4 @@ class PeopleLog {
   std::string lines_;
 };
 
-}  // namespace docent
+}  // namespace docent::evaluation

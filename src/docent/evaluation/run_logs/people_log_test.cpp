@@ -11,7 +11,7 @@
 #include "docent/evaluation/people_match.h"
 #include "docent/messages/conversions.h"
 
-namespace docent {
+namespace docent::evaluation {
 namespace {
 
 docent_msgs::TruePerson true_person(std::uint32_t id, float x, float y) {
@@ -73,8 +73,8 @@ std::vector<std::string> logged(bool in_map) {
     } else {  // odometry began where the robot stands: 2 m ahead is x = 2
       people->people = {track(41, 2.0F, -0.1F), track(42, 0.0F, -2.0F)};
     }
-    log.add(topic_info(in_map ? topics::kPeople : topics::kPeopleInOdom), time, people);
-    log.add(topic_info(topics::kTrueState), time, truth);
+    log.add(transport::topic_info(in_map ? topics::kPeople : topics::kPeopleInOdom), time, people);
+    log.add(transport::topic_info(topics::kTrueState), time, truth);
   }
   const auto path = std::filesystem::temp_directory_path() / ("docent-people-" + std::to_string(getpid()) + ".csv");
   EXPECT_TRUE(log.save(path.string()).has_value());
@@ -102,4 +102,4 @@ TEST(PeopleLog, TracksInOdometrysFrameAreSeenFromTheTrueRobot) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::evaluation

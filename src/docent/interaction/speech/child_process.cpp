@@ -6,7 +6,7 @@
 
 #include <cstring>
 
-namespace docent {
+namespace docent::interaction {
 
 Result<pid_t> start_quietly(const std::vector<std::string>& arguments, const std::filesystem::path& input) {
   posix_spawn_file_actions_t files;
@@ -24,4 +24,4 @@ Result<pid_t> start_quietly(const std::vector<std::string>& arguments, const std
   return child;
 }
 
-}  // namespace docent
+}  // namespace docent::interaction

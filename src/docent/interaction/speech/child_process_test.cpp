@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
-namespace docent {
+namespace docent::interaction {
 namespace {
 
 int status_of(pid_t child) {
@@ -28,4 +28,4 @@ TEST(ChildProcess, AMissingProgramIsNamed) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::interaction

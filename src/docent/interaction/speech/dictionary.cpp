@@ -6,7 +6,7 @@
 #include "docent/base/yaml.h"
 #include "docent/interaction/speech/dictionary_files.h"
 
-namespace docent {
+namespace docent::interaction {
 namespace {
 
 /// As the values of Sentence.
@@ -67,4 +67,4 @@ const Dictionary& dictionary_of(std::string_view language) {
   return found != all.end() ? found->second : all.at("en");
 }
 
-}  // namespace docent
+}  // namespace docent::interaction

@@ -10,7 +10,7 @@
 #include "docent/base/result.h"
 #include "docent/interaction/speech/sentences.h"
 
-namespace docent {
+namespace docent::interaction {
 
 /// What the robot must know of a language to speak of itself in it: a file languages/CODE.yaml. The build takes all
 /// files of that folder into the program.
@@ -32,4 +32,4 @@ struct Dictionary {
 /// The dictionary of the language; where there is none, the English one.
 [[nodiscard]] const Dictionary& dictionary_of(std::string_view language);
 
-}  // namespace docent
+}  // namespace docent::interaction

@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
-namespace docent {
+namespace docent::interaction {
 
 /// Code of the language and text of each file languages/CODE.yaml, as they were at the build (see CMakeLists.txt).
 [[nodiscard]] const std::vector<std::pair<std::string_view, std::string_view>>& dictionary_files();
 
-}  // namespace docent
+}  // namespace docent::interaction

@@ -5,7 +5,7 @@
 #include "docent/base/files.h"
 #include "docent/interaction/speech/dictionary_files.h"
 
-namespace docent {
+namespace docent::interaction {
 namespace {
 
 TEST(Dictionary, EachFileIsWhole) {
@@ -61,4 +61,4 @@ TEST(Dictionary, AFaultNamesFileAndKey) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::interaction

@@ -11,7 +11,7 @@
 #include "docent/base/files.h"
 #include "docent/base/random.h"
 
-namespace docent {
+namespace docent::interaction {
 namespace {
 
 constexpr std::uint32_t kRate = 22050;                   ///< [Hz]
@@ -78,4 +78,4 @@ Result<void> write_horn_sound(const HornSound& horn, const std::filesystem::path
   return write_file_atomically(folder / horn.file, horn.content);
 }
 
-}  // namespace docent
+}  // namespace docent::interaction

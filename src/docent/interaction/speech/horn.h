@@ -5,7 +5,7 @@
 
 #include "docent/base/result.h"
 
-namespace docent {
+namespace docent::interaction {
 
 /// The sound of the horn as a WAV file: two short blasts of two tones.
 struct HornSound {
@@ -20,4 +20,4 @@ struct HornSound {
 /// Writes the sound into `folder` unless it lies there already. Error: "FILE: why".
 [[nodiscard]] Result<void> write_horn_sound(const HornSound& horn, const std::filesystem::path& folder);
 
-}  // namespace docent
+}  // namespace docent::interaction

@@ -10,7 +10,7 @@
 #include "docent/base/files.h"
 #include "docent/interaction/speech/renderer.h"
 
-namespace docent {
+namespace docent::interaction {
 namespace {
 
 constexpr std::size_t kHead = 44;  // [bytes] before the samples
@@ -59,4 +59,4 @@ TEST(Horn, NamesAFolderThatCannotBeWritten) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::interaction

@@ -7,7 +7,7 @@
 
 #include "docent/interaction/speech/child_process.h"
 
-namespace docent {
+namespace docent::interaction {
 namespace {
 
 bool is_running(pid_t& child) {
@@ -50,4 +50,4 @@ Result<void> Loudspeaker::play(const std::filesystem::path& file, pid_t& child) 
   return {};
 }
 
-}  // namespace docent
+}  // namespace docent::interaction

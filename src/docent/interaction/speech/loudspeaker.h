@@ -8,7 +8,7 @@
 
 #include "docent/base/result.h"
 
-namespace docent {
+namespace docent::interaction {
 
 /// The loudspeaker of the robot itself: plays WAV files with a program of the system, such as aplay, a process of its
 /// own for each. Without a program it is silent, and whoever fetches the files plays them.
@@ -34,4 +34,4 @@ class Loudspeaker {
   pid_t horn_ = 0;
 };
 
-}  // namespace docent
+}  // namespace docent::interaction

@@ -8,7 +8,7 @@
 
 #include "docent/base/files.h"
 
-namespace docent {
+namespace docent::interaction {
 namespace {
 
 /// A program that notes what it plays, plays for half a minute, and would note that it came to the end.
@@ -60,4 +60,4 @@ TEST_F(LoudspeakerTest, WithoutAProgramItIsSilentAndAMissingOneIsNamed) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::interaction

@@ -20,7 +20,7 @@
 #include "docent/interaction/speech/child_process.h"
 #include "docent/interaction/speech/spoken_text.h"
 
-namespace docent {
+namespace docent::interaction {
 namespace {
 
 int volume_step(double volume) { return static_cast<int>(std::lround(std::clamp(volume, 0.0, 1.0) * 10.0)); }
@@ -140,4 +140,4 @@ Result<RenderedLine> render_speech(const SpokenLine& line, const std::filesystem
   return RenderedLine{name, *duration};
 }
 
-}  // namespace docent
+}  // namespace docent::interaction

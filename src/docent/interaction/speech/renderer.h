@@ -7,7 +7,7 @@
 #include "docent/base/result.h"
 #include "docent/vocabulary/vocabulary.h"
 
-namespace docent {
+namespace docent::interaction {
 
 struct SpokenLine {
   std::string text;  ///< plain, UTF-8
@@ -34,4 +34,4 @@ struct RenderedLine {
                                                  const std::string& program, double timeout_s,
                                                  const std::atomic<bool>& stop);
 
-}  // namespace docent
+}  // namespace docent::interaction

@@ -10,7 +10,7 @@
 #include "docent/base/files.h"
 #include "docent/interaction/speech/spoken_text.h"
 
-namespace docent {
+namespace docent::interaction {
 namespace {
 
 class Renderer : public testing::Test {
@@ -107,4 +107,4 @@ TEST_F(Renderer, RefusesDamagedFiles) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::interaction

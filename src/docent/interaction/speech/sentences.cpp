@@ -5,7 +5,7 @@
 
 #include "docent/interaction/speech/dictionary.h"
 
-namespace docent {
+namespace docent::interaction {
 
 std::string sentence(Sentence which, std::string_view language, std::string_view title) {
   const Dictionary& dictionary = dictionary_of(language);
@@ -19,4 +19,4 @@ std::string sentence(Sentence which, std::string_view language, std::string_view
   return text.replace(place, 2, name);
 }
 
-}  // namespace docent
+}  // namespace docent::interaction

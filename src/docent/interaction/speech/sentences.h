@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace docent {
+namespace docent::interaction {
 
 /// What the robot says and shows of itself, in the languages that have a dictionary; other languages get English.
 enum class Sentence {
@@ -30,4 +30,4 @@ inline constexpr int kSentences = static_cast<int>(Sentence::at_charger) + 1;
 /// The sentence with `title` put in. Never empty.
 [[nodiscard]] std::string sentence(Sentence which, std::string_view language, std::string_view title = {});
 
-}  // namespace docent
+}  // namespace docent::interaction

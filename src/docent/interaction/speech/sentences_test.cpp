@@ -4,7 +4,7 @@
 
 #include "docent/interaction/speech/dictionary.h"
 
-namespace docent {
+namespace docent::interaction {
 namespace {
 
 TEST(Sentences, AreAllThereInEachLanguage) {
@@ -25,4 +25,4 @@ TEST(Sentences, AreAllThereInEachLanguage) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::interaction

@@ -7,7 +7,7 @@
 #include "docent/base/check.h"
 #include "docent/base/files.h"
 
-namespace docent {
+namespace docent::interaction {
 
 using Json = nlohmann::json;
 
@@ -78,4 +78,4 @@ Result<SpeakerMemory> load_speaker_checkpoint(const std::filesystem::path& path)
   }
 }
 
-}  // namespace docent
+}  // namespace docent::interaction

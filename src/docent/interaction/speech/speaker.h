@@ -10,7 +10,7 @@
 #include "docent/base/time.h"
 #include "docent/vocabulary/vocabulary.h"
 
-namespace docent {
+namespace docent::interaction {
 
 /// A line as it is ordered.
 struct Say {
@@ -72,4 +72,4 @@ class Speaker {
 /// No file: nothing was said. Error: "FILE: why".
 [[nodiscard]] Result<SpeakerMemory> load_speaker_checkpoint(const std::filesystem::path& path);
 
-}  // namespace docent
+}  // namespace docent::interaction

@@ -4,7 +4,7 @@
 
 #include "docent/interaction/speech/dictionary.h"
 
-namespace docent {
+namespace docent::interaction {
 namespace {
 
 bool is_blank(char c) { return static_cast<unsigned char>(c) <= ' ' || c == '\x7f'; }
@@ -124,4 +124,4 @@ double speech_duration(std::string_view text, std::string_view language, Mood mo
   return at_175 * 175.0 / static_cast<double>(voice_of(mood).words_per_minute);
 }
 
-}  // namespace docent
+}  // namespace docent::interaction

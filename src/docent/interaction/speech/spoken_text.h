@@ -5,7 +5,7 @@
 
 #include "docent/vocabulary/vocabulary.h"
 
-namespace docent {
+namespace docent::interaction {
 
 /// Markdown as it is read aloud: headings, emphasis, links, images, list marks, code marks and rules removed; every
 /// heading, list item and paragraph ends in a full stop; white space and control characters become single blanks.
@@ -26,4 +26,4 @@ struct Voice {
 /// within 15 % of it for a text of several sentences (renderer_test).
 [[nodiscard]] double speech_duration(std::string_view text, std::string_view language, Mood mood);
 
-}  // namespace docent
+}  // namespace docent::interaction

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::interaction {
 namespace {
 
 TEST(SpokenText, LeavesTheWords) {
@@ -38,4 +38,4 @@ TEST(SpokenText, LongerTextsTakeLonger) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::interaction

@@ -12,7 +12,7 @@
 #include "docent/sensor_models/proximity_model.h"
 #include "docent/sensor_models/range_sweep.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// none; entropy: [Rhino1999] 3.1.6, any sensor; distance: [Markov1998] 3.3, proximity sensors; novelty: the entropy
 /// filter, but only readings that are shorter than expected are rejected (our reading of the filter that [Rhino1999] 9
@@ -24,12 +24,12 @@ enum class BeamFilter { none, entropy, distance, novelty };
   return filter == BeamFilter::entropy || filter == BeamFilter::novelty;
 }
 /// Whether a filter rejects a reading. `sureness` (theta of [Markov1998] 3.3, e.g. 0.99) is the distance filter's.
-[[nodiscard]] bool rejects(BeamFilter filter, const ExpectedRanges& expected, const ProximityModel& model,
-                           int direction, int measured, double sureness);
+[[nodiscard]] bool rejects(BeamFilter filter, const ExpectedRanges& expected,
+                           const sensor_models::ProximityModel& model, int direction, int measured, double sureness);
 
 /// Which beams of a sweep count.
 struct BeamChoice {
-  std::vector<BinnedBeam> used;  ///< by rising direction
+  std::vector<sensor_models::BinnedBeam> used;  ///< by rising direction
   std::size_t filtered = 0;
   Agreement readings;  ///< of all beams, used or not
 };
@@ -49,7 +49,8 @@ struct BeamChoiceParams {
 };
 /// Without likely states no filter can be asked, and all other beams count. `phase`: see `thinned`.
 [[nodiscard]] BeamChoice chosen_beams(std::span<const LikelyState> likely, const RangeTable& table, int directions,
-                                      const ProximityModel& model, const RangeSweep& sweep,
-                                      const BeamChoiceParams& params, std::size_t phase, Rng& rng);
+                                      const sensor_models::ProximityModel& model,
+                                      const sensor_models::RangeSweep& sweep, const BeamChoiceParams& params,
+                                      std::size_t phase, Rng& rng);
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -4,13 +4,13 @@
 
 #include "docent/localization/markov/testing.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 struct Crowd {
   std::unique_ptr<testing::Room> room = testing::drawn_room();
   std::vector<LikelyState> states;
-  RangeSweep sweep;
+  sensor_models::RangeSweep sweep;
 
   /// The robot at the middle of a cell, with people at half a metre in `share` of the directions.
   explicit Crowd(double share) {
@@ -97,4 +97,4 @@ TEST(ChosenBeams, OnPersonShapesAShareCountsWithAndWithoutABelief) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

@@ -4,7 +4,7 @@
 
 #include "docent/geometry/point_transform.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 constexpr double kUnknownAllowed = 0.3;  // [m] of unknown land before the wall
@@ -27,8 +27,9 @@ Result<void> PersonFilterParams::validate() const {
   return {};
 }
 
-std::optional<double> shorter_probability(const RayCaster& caster, std::span<const BeliefMode> modes,
-                                          const SweepBeam& beam, double max_range, const PersonFilterParams& params) {
+std::optional<double> shorter_probability(const sensor_models::RayCaster& caster, std::span<const BeliefMode> modes,
+                                          const sensor_models::SweepBeam& beam, double max_range,
+                                          const PersonFilterParams& params) {
   double known = 0.0;
   double all = 0.0;
   double shorter = 0.0;
@@ -45,17 +46,19 @@ std::optional<double> shorter_probability(const RayCaster& caster, std::span<con
   return shorter / known;
 }
 
-std::vector<BeamOrigin> beam_origins(const RayCaster& caster, std::span<const BeliefMode> modes,
-                                     const RangeSweep& sweep, std::span<const float> entropy_gains, double max_range,
-                                     const PersonFilterParams& params) {
-  std::vector<BeamOrigin> origins(sweep.beams.size(), BeamOrigin::unknown);
+std::vector<sensor_models::BeamOrigin> beam_origins(const sensor_models::RayCaster& caster,
+                                                    std::span<const BeliefMode> modes,
+                                                    const sensor_models::RangeSweep& sweep,
+                                                    std::span<const float> entropy_gains, double max_range,
+                                                    const PersonFilterParams& params) {
+  std::vector<sensor_models::BeamOrigin> origins(sweep.beams.size(), sensor_models::BeamOrigin::unknown);
   if (modes.empty()) return origins;
   const PointTransform best{modes.front().map_from_robot};
   for (std::size_t i = 0; i < sweep.beams.size(); ++i) {
-    const SweepBeam& beam = sweep.beams[i];
+    const sensor_models::SweepBeam& beam = sweep.beams[i];
     if (beam.no_return) continue;
     if (params.filter == "none") {
-      origins[i] = BeamOrigin::map;
+      origins[i] = sensor_models::BeamOrigin::map;
       continue;
     }
     bool is_odd = false;
@@ -66,12 +69,13 @@ std::vector<BeamOrigin> beam_origins(const RayCaster& caster, std::span<const Be
       if (!shorter) continue;
       is_odd = *shorter > params.sureness;
     }
-    origins[i] = BeamOrigin::map;
+    origins[i] = sensor_models::BeamOrigin::map;
     if (!is_odd) continue;
-    const double clearance = static_cast<double>(caster.clearance(best * endpoint(beam)));
-    if (clearance >= params.near) origins[i] = clearance < params.clear ? BeamOrigin::maybe_map : BeamOrigin::not_map;
+    const double clearance = static_cast<double>(caster.clearance(best * sensor_models::endpoint(beam)));
+    if (clearance >= params.near)
+      origins[i] = clearance < params.clear ? sensor_models::BeamOrigin::maybe_map : sensor_models::BeamOrigin::not_map;
   }
   return origins;
 }
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -10,7 +10,7 @@
 #include "docent/sensor_models/range_sweep.h"
 #include "docent/sensor_models/ray_caster.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// The inverse of the beam filters [Rhino1999] 3.1.7, [Minerva2000] 3.3: what they reject tells of people.
 struct PersonFilterParams {
@@ -40,15 +40,18 @@ struct PersonFilterParams {
 /// Gaussian), averaged over the modes of the belief. Departure: over the modes' means, which are finer than the cells
 /// of the belief, with the modes' spread in `sigma`. nullopt where most of the mass does not know what to expect.
 /// O(modes), a ray each.
-[[nodiscard]] std::optional<double> shorter_probability(const RayCaster& caster, std::span<const BeliefMode> modes,
-                                                        const SweepBeam& beam, double max_range,
+[[nodiscard]] std::optional<double> shorter_probability(const sensor_models::RayCaster& caster,
+                                                        std::span<const BeliefMode> modes,
+                                                        const sensor_models::SweepBeam& beam, double max_range,
                                                         const PersonFilterParams& params);
 
 /// Origins of all beams of a sweep by one of the filters, and by how far the endpoint, seen from the best mode, lies
 /// from everything in the map. `modes`: at the time of the sweep, best first; empty: all unknown. `entropy_gains`
 /// [beams]: eq. 10 of [Rhino1999], H after minus H before [nat], for the entropy filter; else empty.
-[[nodiscard]] std::vector<BeamOrigin> beam_origins(const RayCaster& caster, std::span<const BeliefMode> modes,
-                                                   const RangeSweep& sweep, std::span<const float> entropy_gains,
-                                                   double max_range, const PersonFilterParams& params);
+[[nodiscard]] std::vector<sensor_models::BeamOrigin> beam_origins(const sensor_models::RayCaster& caster,
+                                                                  std::span<const BeliefMode> modes,
+                                                                  const sensor_models::RangeSweep& sweep,
+                                                                  std::span<const float> entropy_gains,
+                                                                  double max_range, const PersonFilterParams& params);
 
-}  // namespace docent
+}  // namespace docent::localization

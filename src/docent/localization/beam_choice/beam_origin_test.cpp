@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 constexpr double kMaxRange = 10.0;
@@ -29,50 +29,58 @@ OccupancyGrid room() {
 
 std::vector<BeliefMode> at(double x, double y, double mass = 1.0) { return {{{x, y, Angle{}}, {}, mass}}; }
 
-RangeSweep ahead(double range) { return {{{0.0, range, false}}}; }
+sensor_models::RangeSweep ahead(double range) { return {{{0.0, range, false}}}; }
 
 TEST(BeamOrigin, ToldByRangeAndClearance) {
-  const RayCaster caster{room()};
+  const sensor_models::RayCaster caster{room()};
   const auto origin = [&](double range) {
     return beam_origins(caster, at(4.0, 4.0), ahead(range), {}, kMaxRange, {})[0];
   };
-  EXPECT_EQ(origin(2.0), BeamOrigin::not_map);
-  EXPECT_EQ(origin(3.95), BeamOrigin::map);
-  EXPECT_EQ(origin(3.80), BeamOrigin::map) << "within the noise";
-  EXPECT_EQ(origin(4.5), BeamOrigin::map) << "longer than expected: nobody";
-  EXPECT_EQ(beam_origins(caster, at(4.0, 4.0), {{{0.0, 10.0, true}}}, {}, kMaxRange, {})[0], BeamOrigin::unknown);
-  EXPECT_EQ(beam_origins(caster, {}, ahead(2.0), {}, kMaxRange, {})[0], BeamOrigin::unknown) << "a lost robot";
-  const RangeSweep back{{{std::numbers::pi, 2.0, false}}};
-  EXPECT_EQ(beam_origins(caster, at(4.0, 4.0), back, {}, kMaxRange, {})[0], BeamOrigin::unknown) << "unknown land";
+  EXPECT_EQ(origin(2.0), sensor_models::BeamOrigin::not_map);
+  EXPECT_EQ(origin(3.95), sensor_models::BeamOrigin::map);
+  EXPECT_EQ(origin(3.80), sensor_models::BeamOrigin::map) << "within the noise";
+  EXPECT_EQ(origin(4.5), sensor_models::BeamOrigin::map) << "longer than expected: nobody";
+  EXPECT_EQ(beam_origins(caster, at(4.0, 4.0), {{{0.0, 10.0, true}}}, {}, kMaxRange, {})[0],
+            sensor_models::BeamOrigin::unknown);
+  EXPECT_EQ(beam_origins(caster, {}, ahead(2.0), {}, kMaxRange, {})[0], sensor_models::BeamOrigin::unknown)
+      << "a lost robot";
+  const sensor_models::RangeSweep back{{{std::numbers::pi, 2.0, false}}};
+  EXPECT_EQ(beam_origins(caster, at(4.0, 4.0), back, {}, kMaxRange, {})[0], sensor_models::BeamOrigin::unknown)
+      << "unknown land";
 }
 
 TEST(BeamOrigin, NearAWallItMayBeTheWall) {
-  const RayCaster caster{room()};
+  const sensor_models::RayCaster caster{room()};
   // Along the lower wall: short of the far wall, but beside the near one.
-  EXPECT_EQ(beam_origins(caster, at(4.0, 0.17), ahead(2.0), {}, kMaxRange, {})[0], BeamOrigin::maybe_map);
-  EXPECT_EQ(beam_origins(caster, at(4.0, 0.08), ahead(2.0), {}, kMaxRange, {})[0], BeamOrigin::map);
+  EXPECT_EQ(beam_origins(caster, at(4.0, 0.17), ahead(2.0), {}, kMaxRange, {})[0],
+            sensor_models::BeamOrigin::maybe_map);
+  EXPECT_EQ(beam_origins(caster, at(4.0, 0.08), ahead(2.0), {}, kMaxRange, {})[0], sensor_models::BeamOrigin::map);
 }
 
 TEST(BeamOrigin, ShorterIsAveragedOverTheModes) {
-  const RayCaster caster{room()};
+  const sensor_models::RayCaster caster{room()};
   auto modes = at(4.0, 4.0, 0.8);
   modes.push_back({{6.9, 4.0, Angle{}}, {}, 0.2});  // there, the wall is where the beam ends
   const auto shorter = shorter_probability(caster, modes, {0.0, 1.05, false}, kMaxRange, {});
   ASSERT_TRUE(shorter.has_value());
   EXPECT_NEAR(*shorter, 0.8 + 0.2 * 0.5, 0.1);
-  EXPECT_EQ(beam_origins(caster, modes, ahead(1.05), {}, kMaxRange, {})[0], BeamOrigin::map) << "not sure enough";
+  EXPECT_EQ(beam_origins(caster, modes, ahead(1.05), {}, kMaxRange, {})[0], sensor_models::BeamOrigin::map)
+      << "not sure enough";
 }
 
 TEST(BeamOrigin, EntropyFilterAsksTheGain) {
-  const RayCaster caster{room()};
+  const sensor_models::RayCaster caster{room()};
   PersonFilterParams params;
   params.filter = "entropy";
   const std::vector<float> confuses{0.5F};
   const std::vector<float> helps{-0.5F};
-  EXPECT_EQ(beam_origins(caster, at(4.0, 4.0), ahead(2.0), confuses, kMaxRange, params)[0], BeamOrigin::not_map);
-  EXPECT_EQ(beam_origins(caster, at(4.0, 4.0), ahead(2.0), helps, kMaxRange, params)[0], BeamOrigin::map);
+  EXPECT_EQ(beam_origins(caster, at(4.0, 4.0), ahead(2.0), confuses, kMaxRange, params)[0],
+            sensor_models::BeamOrigin::not_map);
+  EXPECT_EQ(beam_origins(caster, at(4.0, 4.0), ahead(2.0), helps, kMaxRange, params)[0],
+            sensor_models::BeamOrigin::map);
   params.filter = "none";
-  EXPECT_EQ(beam_origins(caster, at(4.0, 4.0), ahead(2.0), confuses, kMaxRange, params)[0], BeamOrigin::map);
+  EXPECT_EQ(beam_origins(caster, at(4.0, 4.0), ahead(2.0), confuses, kMaxRange, params)[0],
+            sensor_models::BeamOrigin::map);
 }
 
 TEST(BeamOrigin, FaultsNameTheField) {
@@ -86,4 +94,4 @@ TEST(BeamOrigin, FaultsNameTheField) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

@@ -6,7 +6,7 @@
 
 #include "docent/localization/beam_choice/straight_walls.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 constexpr double kReach = 9.5;      // [m] farther off too few beams end on a person
@@ -124,19 +124,21 @@ void mark(const Piece& piece) {
 /// The beams of a sweep as a closed round.
 class Round {
  public:
-  explicit Round(const RangeSweep& sweep) : beams_{sweep.beams}, is_wall_{on_straight_walls(sweep, kFace)} {}
+  explicit Round(const sensor_models::RangeSweep& sweep)
+      : beams_{sweep.beams}, is_wall_{on_straight_walls(sweep, kFace)} {}
 
   [[nodiscard]] std::size_t size() const { return beams_.size(); }
-  [[nodiscard]] const SweepBeam& beam(std::size_t i) const { return beams_[i % size()]; }
+  [[nodiscard]] const sensor_models::SweepBeam& beam(std::size_t i) const { return beams_[i % size()]; }
   [[nodiscard]] bool may_be_person(std::size_t i) const {
     return !beam(i).no_return && beam(i).range <= kReach && is_wall_[i % size()] == 0;
   }
   /// Whether a beam and the next one end on one surface.
   [[nodiscard]] bool goes_on(std::size_t i) const {
-    const SweepBeam& here = beam(i);
-    const SweepBeam& next = beam(i + 1);
+    const sensor_models::SweepBeam& here = beam(i);
+    const sensor_models::SweepBeam& next = beam(i + 1);
     return !here.no_return && !next.no_return &&
-           distance(endpoint(here), endpoint(next)) <= neighbour_gap(std::min(here.range, next.range));
+           distance(sensor_models::endpoint(here), sensor_models::endpoint(next)) <=
+               neighbour_gap(std::min(here.range, next.range));
   }
   [[nodiscard]] bool is_one_piece(std::size_t i) const {
     return may_be_person(i) && may_be_person(i + 1) && goes_on(i);
@@ -148,13 +150,13 @@ class Round {
   }
 
  private:
-  std::span<const SweepBeam> beams_;
+  std::span<const sensor_models::SweepBeam> beams_;
   std::vector<std::uint8_t> is_wall_;
 };
 
 }  // namespace
 
-std::vector<std::uint8_t> on_person_shapes(const RangeSweep& sweep) {
+std::vector<std::uint8_t> on_person_shapes(const sensor_models::RangeSweep& sweep) {
   const Round round{sweep};
   const std::size_t size = round.size();
   std::vector<std::uint8_t> is_person(size, 0);
@@ -167,7 +169,7 @@ std::vector<std::uint8_t> on_person_shapes(const RangeSweep& sweep) {
     while (last < start + size && round.is_one_piece(last)) ++last;
     if (round.may_be_person(begin)) {
       points.clear();
-      for (std::size_t i = begin; i <= last; ++i) points.push_back(endpoint(round.beam(i)));
+      for (std::size_t i = begin; i <= last; ++i) points.push_back(sensor_models::endpoint(round.beam(i)));
       marks.assign(points.size(), 0);
       mark({points, marks, round.edge(begin, begin + size - 1), round.edge(last, last + 1)});
       for (std::size_t i = 0; i < marks.size(); ++i) is_person[(begin + i) % size] = marks[i];
@@ -177,11 +179,11 @@ std::vector<std::uint8_t> on_person_shapes(const RangeSweep& sweep) {
   return is_person;
 }
 
-RangeSweep without(const RangeSweep& sweep, std::span<const std::uint8_t> marks) {
-  RangeSweep rest;
+sensor_models::RangeSweep without(const sensor_models::RangeSweep& sweep, std::span<const std::uint8_t> marks) {
+  sensor_models::RangeSweep rest;
   for (std::size_t i = 0; i < sweep.beams.size(); ++i)
     if (marks[i] == 0) rest.beams.push_back(sweep.beams[i]);
   return rest;
 }
 
-}  // namespace docent
+}  // namespace docent::localization

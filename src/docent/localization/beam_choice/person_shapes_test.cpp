@@ -10,7 +10,7 @@
 #include "docent/base/random.h"
 #include "docent/geometry/polygon.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 /// A robot in the middle of discs and straight walls, with two lasers' 360 beams and noise of 2 cm.
@@ -31,7 +31,7 @@ class Scene {
     [[nodiscard]] double share_of_walls() const { return static_cast<double>(of_walls) / std::max(walls, 1); }
   };
   [[nodiscard]] Marked look() {
-    RangeSweep sweep;
+    sensor_models::RangeSweep sweep;
     std::vector<bool> is_person;
     for (int i = -90; i < 270; ++i) {
       const Angle bearing = Angle::degrees(i + 0.5);
@@ -165,9 +165,9 @@ TEST(PersonShapes, TheRoundIsClosed) {
 }
 
 TEST(PersonShapes, WithoutThemTheOthersStayInTheirOrder) {
-  RangeSweep sweep;
+  sensor_models::RangeSweep sweep;
   for (const double range : {1.0, 2.0, 3.0, 4.0}) sweep.beams.push_back({0.0, range, false});
-  const RangeSweep rest = without(sweep, std::vector<std::uint8_t>{0, 1, 1, 0});
+  const sensor_models::RangeSweep rest = without(sweep, std::vector<std::uint8_t>{0, 1, 1, 0});
   ASSERT_EQ(rest.beams.size(), 2U);
   EXPECT_EQ(rest.beams[0].range, 1.0);
   EXPECT_EQ(rest.beams[1].range, 4.0);
@@ -175,11 +175,11 @@ TEST(PersonShapes, WithoutThemTheOthersStayInTheirOrder) {
 
 TEST(PersonShapes, EmptySweepsAreEmpty) {
   EXPECT_TRUE(on_person_shapes({}).empty());
-  RangeSweep none;
+  sensor_models::RangeSweep none;
   none.beams.assign(10, {0.0, 10.0, true});
   const auto marks = on_person_shapes(none);
   EXPECT_EQ(std::count(marks.begin(), marks.end(), 1), 0);
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 constexpr double kDeviation = 0.06;  // [m] from the chord
@@ -36,12 +36,12 @@ void split(std::span<const Point2> run, double least_length, std::span<std::uint
 
 }  // namespace
 
-std::vector<std::uint8_t> on_straight_walls(const RangeSweep& sweep, double length) {
+std::vector<std::uint8_t> on_straight_walls(const sensor_models::RangeSweep& sweep, double length) {
   const std::size_t size = sweep.beams.size();
   std::vector<std::uint8_t> is_wall(size, 0);
   std::vector<Point2> ends;
   ends.reserve(size);
-  for (const SweepBeam& beam : sweep.beams) ends.push_back(endpoint(beam));
+  for (const sensor_models::SweepBeam& beam : sweep.beams) ends.push_back(sensor_models::endpoint(beam));
   const auto breaks_before = [&](std::size_t i) {
     const std::size_t before = (i + size - 1) % size;
     return sweep.beams[i].no_return || sweep.beams[before].no_return || distance(ends[i], ends[before]) > kGap;
@@ -67,4 +67,4 @@ std::vector<std::uint8_t> on_straight_walls(const RangeSweep& sweep, double leng
   return is_wall;
 }
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -8,7 +8,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 std::size_t count(const std::vector<std::uint8_t>& marks) {
@@ -16,8 +16,8 @@ std::size_t count(const std::vector<std::uint8_t>& marks) {
 }
 
 /// What a laser sees of the inside of a square room, half a side [m] long from the middle, with noise of 1.5 cm.
-RangeSweep square(double half, Rng& rng) {
-  RangeSweep sweep;
+sensor_models::RangeSweep square(double half, Rng& rng) {
+  sensor_models::RangeSweep sweep;
   for (int degree = -180; degree < 180; ++degree) {
     const double bearing = degree * M_PI / 180.0;
     const double range = half / std::max(std::abs(std::cos(bearing)), std::abs(std::sin(bearing)));
@@ -39,7 +39,7 @@ TEST(StraightWalls, ShortOnesDoNotCount) {
 TEST(StraightWalls, ACrowdHasNone) {
   Rng rng{4};
   for (int trial = 0; trial < 20; ++trial) {
-    RangeSweep crowd;
+    sensor_models::RangeSweep crowd;
     double range = 2.0;
     for (int degree = -180; degree < 180; ++degree) {
       if (degree % 6 == 0) range = rng.uniform(0.6, 4.0);  // the next person
@@ -51,14 +51,14 @@ TEST(StraightWalls, ACrowdHasNone) {
 
 TEST(StraightWalls, AGapEndsAWall) {
   Rng rng{5};
-  RangeSweep sweep = square(4.0, rng);
+  sensor_models::RangeSweep sweep = square(4.0, rng);
   for (std::size_t i = 0; i < sweep.beams.size(); ++i) sweep.beams[i].no_return = i % 12 == 0;
   EXPECT_EQ(count(on_straight_walls(sweep)), 0U);  // pieces of 0.8 m
 }
 
 TEST(StraightWalls, AWallIsOneAcrossTheEndOfTheSweep) {
   Rng rng{6};
-  RangeSweep behind;
+  sensor_models::RangeSweep behind;
   for (int degree = -180; degree < 180; ++degree) {
     const double bearing = degree * M_PI / 180.0;
     const bool is_wall = std::abs(degree) > 180 - 40;  // 1 m behind, 1.7 m long, the end in its middle
@@ -70,4 +70,4 @@ TEST(StraightWalls, AWallIsOneAcrossTheEndOfTheSweep) {
 TEST(StraightWalls, EmptySweepsAreEmpty) { EXPECT_TRUE(on_straight_walls({}).empty()); }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace docent {
+namespace docent::localization {
 
 namespace {
 
@@ -60,4 +60,4 @@ void find_modes(BeliefSummary& summary, const SummaryParams& params) {
                    [](const BeliefMode& a, const BeliefMode& b) { return a.mass > b.mass; });
 }
 
-}  // namespace docent
+}  // namespace docent::localization

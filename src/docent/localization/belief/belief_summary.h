@@ -6,7 +6,7 @@
 
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// A Gaussian part of a belief.
 struct BeliefMode {
@@ -43,4 +43,4 @@ struct SummaryParams {
 /// O(cells * modes).
 void find_modes(BeliefSummary& summary, const SummaryParams& params);
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -8,7 +8,7 @@
 #include "docent/base/files.h"
 #include "docent/base/yaml.h"
 
-namespace docent {
+namespace docent::localization {
 
 namespace {
 
@@ -86,4 +86,4 @@ Result<LocalizerCheckpoint> load_localizer_checkpoint(const std::filesystem::pat
   return checkpoint;
 }
 
-}  // namespace docent
+}  // namespace docent::localization

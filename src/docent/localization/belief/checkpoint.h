@@ -8,7 +8,7 @@
 #include "docent/base/time.h"
 #include "docent/localization/belief/belief_summary.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// What lets a restarted localizer go on: the belief's modes and where odometry was then.
 struct LocalizerCheckpoint {
@@ -25,4 +25,4 @@ struct LocalizerCheckpoint {
 /// Error: absent or damaged; the caller then starts with an unknown place.
 [[nodiscard]] Result<LocalizerCheckpoint> load_localizer_checkpoint(const std::filesystem::path& path);
 
-}  // namespace docent
+}  // namespace docent::localization

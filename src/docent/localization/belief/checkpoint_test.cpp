@@ -4,7 +4,7 @@
 
 #include "docent/base/files.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 TEST(Checkpoint, ComesBackAsItWas) {
@@ -37,4 +37,4 @@ TEST(Checkpoint, RefusesWhatIsDamaged) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

@@ -5,7 +5,7 @@
 
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// The poses near one: positions within a circle, headings within an angle.
 struct Neighbourhood {
@@ -44,4 +44,4 @@ struct Gathering {
   }
 };
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -1,6 +1,6 @@
 #include "docent/localization/belief/observation_model.h"
 
-namespace docent {
+namespace docent::localization {
 
 bool ObservationModels::observe(const ObservationMoment& moment) {
   speaking_.clear();
@@ -25,4 +25,4 @@ double ObservationModels::cost(const Pose2& map_from_robot) const {
   return static_cast<double>(nats);
 }
 
-}  // namespace docent
+}  // namespace docent::localization

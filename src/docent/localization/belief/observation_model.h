@@ -7,7 +7,7 @@
 #include "docent/base/time.h"
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// A pose that the belief holds likely.
 struct LikelyPose {
@@ -63,4 +63,4 @@ class ObservationModels {
   std::vector<const ObservationModel*> speaking_;
 };
 
-}  // namespace docent
+}  // namespace docent::localization

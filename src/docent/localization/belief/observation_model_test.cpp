@@ -11,7 +11,7 @@
 
 // A third sensor: neither localizer was written for it, and neither knows it.
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 /// Looks the same after half a turn: no range finder can tell its two ends apart.
@@ -62,7 +62,7 @@ struct Halves {
 /// Drives in a circle about the middle, and tells what is believed in the end.
 Halves drive(Localizer& localizer, const std::shared_ptr<CeilingCamera>& camera, std::uint64_t seed) {
   const OccupancyGrid map = symmetric_hall();
-  const RayCaster caster{map};
+  const sensor_models::RayCaster caster{map};
   Rng rng{seed};
   const Pose2 middle{3.5, 2.25, Angle::degrees(rng.uniform(-180.0, 180.0))};
   Pose2 truth = middle * Pose2{1.3, 0.0, Angle::degrees(90.0)};
@@ -71,8 +71,8 @@ Halves drive(Localizer& localizer, const std::shared_ptr<CeilingCamera>& camera,
     const Pose2 step{0.1, 0.0, Angle::degrees(0.1 / 1.3 * 57.2958)};
     truth = truth * step;
     odom = odom * step;
-    RangeSweep sweep = testing::sweep_at(caster, truth, 10.0);
-    for (SweepBeam& beam : sweep.beams) beam.range = std::max(0.05, beam.range + rng.normal(0.0, 0.02));
+    sensor_models::RangeSweep sweep = testing::sweep_at(caster, truth, 10.0);
+    for (sensor_models::SweepBeam& beam : sweep.beams) beam.range = std::max(0.05, beam.range + rng.normal(0.0, 0.02));
     if (camera) camera->see(brightness(truth.position()) + rng.normal(0.0, 0.05));
     localizer.observe(sweep, odom, time_from_seconds(0.2 * (i + 1)));
   }
@@ -125,4 +125,4 @@ INSTANTIATE_TEST_SUITE_P(Methods, ThirdSensor, ::testing::Values("grid", "partic
                          [](const auto& tested) { return std::string{tested.param}; });
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

@@ -8,7 +8,7 @@
 
 #include "docent/localization/belief/pose_search.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 constexpr double kVagueTurn = 0.052;  // [rad] deviation by odometry: the belief is the better beginning
@@ -37,7 +37,7 @@ struct Wall {
 
 /// The wall that a ray from `from` meets. Its direction comes from two rays beside it, some 20 cm apart on the wall;
 /// none where the three do not lie on a line.
-std::optional<Wall> wall_at(const RayCaster& caster, Point2 from, Angle direction, double max_range) {
+std::optional<Wall> wall_at(const sensor_models::RayCaster& caster, Point2 from, Angle direction, double max_range) {
   const double behind = 0.5 * caster.frame().resolution;
   const auto hit = [&](Angle at) -> std::optional<Point2> {
     const auto range = caster.cast(from, unit(at), max_range, kUnknownAllowance);
@@ -125,8 +125,8 @@ void PoseRefiner::carry_on(const Pose2& before_from_after, double position_varia
   estimate_ = Estimate{after, values(covariance)};
 }
 
-Pose2 PoseRefiner::searched(const BeliefMode& mode, const RangeSweep& sweep, double position_variance,
-                            double heading_variance, const RayCaster& caster, double max_range) {
+Pose2 PoseRefiner::searched(const BeliefMode& mode, const sensor_models::RangeSweep& sweep, double position_variance,
+                            double heading_variance, const sensor_models::RayCaster& caster, double max_range) {
   // After a long way odometry knows the pose less well than the belief does: then the belief's is the better beginning,
   // and the readings are asked which pose in it, or where odometry expected it, they fit best. Walls of a corridor look
   // alike every few decimetres: from a wrong beginning no gradient leads to the right place.
@@ -141,9 +141,9 @@ Pose2 PoseRefiner::searched(const BeliefMode& mode, const RangeSweep& sweep, dou
   return estimate_->map_from_robot;
 }
 
-Pose2 PoseRefiner::refine(const BeliefMode& mode, const RangeSweep& sweep, const Pose2& before_from_after,
-                          double position_variance, double heading_variance, const RayCaster& caster,
-                          double max_range) {
+Pose2 PoseRefiner::refine(const BeliefMode& mode, const sensor_models::RangeSweep& sweep,
+                          const Pose2& before_from_after, double position_variance, double heading_variance,
+                          const sensor_models::RayCaster& caster, double max_range) {
   found_share_.reset();
   if (!params_.enabled || mode.covariance[0] + mode.covariance[4] > kWidestMode * kWidestMode) {
     estimate_.reset();
@@ -181,8 +181,9 @@ Pose2 PoseRefiner::refine(const BeliefMode& mode, const RangeSweep& sweep, const
   return mode.map_from_robot;
 }
 
-PoseRefiner::Estimate PoseRefiner::corrected(const Estimate& predicted, const RangeSweep& sweep,
-                                             const RayCaster& caster, double max_range, bool is_vague) const {
+PoseRefiner::Estimate PoseRefiner::corrected(const Estimate& predicted, const sensor_models::RangeSweep& sweep,
+                                             const sensor_models::RayCaster& caster, double max_range,
+                                             bool is_vague) const {
   const Eigen::Matrix3d prior = matrix(predicted.covariance);
   const Eigen::Matrix3d prior_information = prior.inverse();
   const Pose2& begin = predicted.map_from_robot;
@@ -197,11 +198,11 @@ PoseRefiner::Estimate PoseRefiner::corrected(const Estimate& predicted, const Ra
     Eigen::Vector3d pull = Eigen::Vector3d::Zero();
     std::size_t count = 0;
     for (std::size_t i = 0; i < sweep.beams.size(); i += step) {
-      const SweepBeam& beam = sweep.beams[i];
+      const sensor_models::SweepBeam& beam = sweep.beams[i];
       if (beam.no_return || beam.range >= max_range || beam.range < 0.3) continue;
       const auto wall = wall_at(caster, pose.position(), pose.theta + Angle::radians(beam.bearing), max_range);
       if (!wall) continue;
-      const Point2 end = pose * endpoint(beam);
+      const Point2 end = pose * sensor_models::endpoint(beam);
       const Point2 arm = end - pose.position();
       const Eigen::Vector3d gradient{wall->normal.x, wall->normal.y, dot(wall->normal, Point2{-arm.y, arm.x})};
       const double residual = dot(wall->normal, end - wall->at);
@@ -232,4 +233,4 @@ PoseRefiner::Estimate PoseRefiner::corrected(const Estimate& predicted, const Ra
   return {pose, values(information.inverse())};
 }
 
-}  // namespace docent
+}  // namespace docent::localization

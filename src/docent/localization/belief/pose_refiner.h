@@ -9,7 +9,7 @@
 #include "docent/sensor_models/range_sweep.h"
 #include "docent/sensor_models/ray_caster.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// Where inside the best mode the robot is, finer than cells.
 struct PoseRefinerParams {
@@ -47,9 +47,9 @@ class PoseRefiner {
 
   /// `mode`: the belief's best one now. `before_from_after`: odometry since the last call, with the given error.
   /// @returns map_from_robot; of the mode itself where it is too wide to be refined. O(beams).
-  [[nodiscard]] Pose2 refine(const BeliefMode& mode, const RangeSweep& sweep, const Pose2& before_from_after,
-                             double position_variance, double heading_variance, const RayCaster& caster,
-                             double max_range);
+  [[nodiscard]] Pose2 refine(const BeliefMode& mode, const sensor_models::RangeSweep& sweep,
+                             const Pose2& before_from_after, double position_variance, double heading_variance,
+                             const sensor_models::RayCaster& caster, double max_range);
   /// The last call searched for the pose, because odometry had foretold too little: how surely it is the one that was
   /// found, FoundPose::share.
   [[nodiscard]] std::optional<double> found_share() const { return found_share_; }
@@ -62,18 +62,18 @@ class PoseRefiner {
   /// The estimate as odometry moves it.
   void carry_on(const Pose2& before_from_after, double position_variance, double heading_variance);
   /// The pose in the mode, or where odometry expected it, that the readings fit best.
-  [[nodiscard]] Pose2 searched(const BeliefMode& mode, const RangeSweep& sweep, double position_variance,
-                               double heading_variance, const RayCaster& caster, double max_range);
+  [[nodiscard]] Pose2 searched(const BeliefMode& mode, const sensor_models::RangeSweep& sweep, double position_variance,
+                               double heading_variance, const sensor_models::RayCaster& caster, double max_range);
   /// Within `times` the farthest that the refined pose may be from the mode's mean, or `spread` [m] if that is more.
   [[nodiscard]] bool is_in(const BeliefMode& mode, const Pose2& pose, double times, double spread) const;
   [[nodiscard]] static Estimate intersection(const Estimate& a, const Estimate& b);
   /// Gauss-Newton from `predicted`; that itself where too few readings meet walls.
-  [[nodiscard]] Estimate corrected(const Estimate& predicted, const RangeSweep& sweep, const RayCaster& caster,
-                                   double max_range, bool is_vague) const;
+  [[nodiscard]] Estimate corrected(const Estimate& predicted, const sensor_models::RangeSweep& sweep,
+                                   const sensor_models::RayCaster& caster, double max_range, bool is_vague) const;
 
   PoseRefinerParams params_;
   std::optional<Estimate> estimate_;
   std::optional<double> found_share_;
 };
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -6,7 +6,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 /// A room of 8 x 6 m with a slanted wall and a case, 5 cm cells.
@@ -27,7 +27,7 @@ OccupancyGrid room() {
 
 struct Trial {
   OccupancyGrid map = room();
-  RayCaster caster{map};
+  sensor_models::RayCaster caster{map};
   Rng rng{11};
 
   [[nodiscard]] Pose2 any_pose() {
@@ -37,8 +37,8 @@ struct Trial {
     }
   }
   /// `hidden`: share of the beams that people shorten, in blocks.
-  [[nodiscard]] RangeSweep sweep_at(const Pose2& truth, double hidden) {
-    RangeSweep sweep;
+  [[nodiscard]] sensor_models::RangeSweep sweep_at(const Pose2& truth, double hidden) {
+    sensor_models::RangeSweep sweep;
     double shortened = 0.0;
     for (int degree = -180; degree < 180; degree += 2) {
       if (degree % 20 == 0) shortened = rng.chance(hidden) ? rng.uniform(0.4, 1.5) : 0.0;
@@ -142,4 +142,4 @@ TEST(PoseRefiner, LeavesAWideModeAlone) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

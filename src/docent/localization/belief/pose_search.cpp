@@ -8,7 +8,7 @@
 
 #include "docent/localization/belief/neighbourhood.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 constexpr double kStep = 0.1;                           // [m]
@@ -23,10 +23,10 @@ constexpr std::size_t kMostReadings = 80;
 constexpr std::size_t kFewestReadings = 10;
 constexpr std::size_t kEntries = 64;  // of the score's table, 1 cm each
 
-std::vector<Point2> ends(const RangeSweep& sweep, double max_range) {
+std::vector<Point2> ends(const sensor_models::RangeSweep& sweep, double max_range) {
   std::vector<Point2> all;
-  for (const SweepBeam& beam : sweep.beams)
-    if (!beam.no_return && beam.range < max_range && beam.range >= 0.3) all.push_back(endpoint(beam));
+  for (const sensor_models::SweepBeam& beam : sweep.beams)
+    if (!beam.no_return && beam.range < max_range && beam.range >= 0.3) all.push_back(sensor_models::endpoint(beam));
   const std::size_t step = (all.size() + kMostReadings - 1) / kMostReadings;
   std::vector<Point2> some;
   for (std::size_t i = 0; i < all.size(); i += std::max<std::size_t>(step, 1)) some.push_back(all[i]);
@@ -52,7 +52,7 @@ double log_density(const PoseGuess& guess, Point2 position, double heading) {
 
 struct Scoring {
   std::span<const PoseGuess> guesses;
-  const RayCaster& caster;
+  const sensor_models::RayCaster& caster;
   double share;  ///< of a reading's nats that count
   std::array<double, kEntries> by_distance;
 
@@ -97,8 +97,8 @@ void search(const PoseGuess& guess, std::span<const Point2> seen, const Scoring&
 
 }  // namespace
 
-FoundPose best_pose_near(std::span<const PoseGuess> guesses, const RangeSweep& sweep, const RayCaster& caster,
-                         double max_range, double readings) {
+FoundPose best_pose_near(std::span<const PoseGuess> guesses, const sensor_models::RangeSweep& sweep,
+                         const sensor_models::RayCaster& caster, double max_range, double readings) {
   const Pose2& first = guesses.front().map_from_robot;
   const std::vector<Point2> seen = ends(sweep, max_range);
   if (seen.size() < kFewestReadings) return {first, 0.0};
@@ -120,8 +120,8 @@ FoundPose best_pose_near(std::span<const PoseGuess> guesses, const RangeSweep& s
   return {best.pose, in_same / in_all};
 }
 
-std::optional<double> log_fit(const Pose2& map_from_robot, const RangeSweep& sweep, const RayCaster& caster,
-                              double max_range) {
+std::optional<double> log_fit(const Pose2& map_from_robot, const sensor_models::RangeSweep& sweep,
+                              const sensor_models::RayCaster& caster, double max_range) {
   std::vector<Point2> arms = ends(sweep, max_range);
   if (arms.size() < kFewestReadings) return std::nullopt;
   const Pose2 turned{0.0, 0.0, map_from_robot.theta};
@@ -130,4 +130,4 @@ std::optional<double> log_fit(const Pose2& map_from_robot, const RangeSweep& swe
   return scoring(map_from_robot.position(), turned.theta.radians(), arms);
 }
 
-}  // namespace docent
+}  // namespace docent::localization

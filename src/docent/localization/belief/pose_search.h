@@ -7,7 +7,7 @@
 #include "docent/sensor_models/range_sweep.h"
 #include "docent/sensor_models/ray_caster.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// Where a pose may be: a Gaussian, with tails so heavy that it rules nothing out for certain.
 struct PoseGuess {
@@ -32,12 +32,12 @@ struct FoundPose {
 /// left out. The first guess where fewer than ten readings remain. O(poses in the boxes * readings), at most 80
 /// readings.
 /// @pre guesses is not empty
-[[nodiscard]] FoundPose best_pose_near(std::span<const PoseGuess> guesses, const RangeSweep& sweep,
-                                       const RayCaster& caster, double max_range, double readings);
+[[nodiscard]] FoundPose best_pose_near(std::span<const PoseGuess> guesses, const sensor_models::RangeSweep& sweep,
+                                       const sensor_models::RayCaster& caster, double max_range, double readings);
 
 /// How well the readings of a sweep fit a pose: the score of `best_pose_near` without guesses, a reading; higher is
 /// better. None where fewer than ten readings remain. O(beams).
-[[nodiscard]] std::optional<double> log_fit(const Pose2& map_from_robot, const RangeSweep& sweep,
-                                            const RayCaster& caster, double max_range);
+[[nodiscard]] std::optional<double> log_fit(const Pose2& map_from_robot, const sensor_models::RangeSweep& sweep,
+                                            const sensor_models::RayCaster& caster, double max_range);
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -9,7 +9,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180.0;
@@ -29,8 +29,8 @@ OccupancyGrid corridor(bool has_doors = true) {
   return map;
 }
 
-RangeSweep sweep_at(const RayCaster& caster, const Pose2& truth, Rng& rng) {
-  RangeSweep sweep;
+sensor_models::RangeSweep sweep_at(const sensor_models::RayCaster& caster, const Pose2& truth, Rng& rng) {
+  sensor_models::RangeSweep sweep;
   for (int degree = -90; degree <= 90; ++degree) {
     const Angle bearing = Angle::degrees(degree);
     const double range = *caster.cast(truth.position(), unit(truth.theta + bearing), 40.0, 0.3) + 0.025;
@@ -41,7 +41,7 @@ RangeSweep sweep_at(const RayCaster& caster, const Pose2& truth, Rng& rng) {
 
 TEST(BestPoseNear, FindsThePlaceInACorridorThatOdometryMissedByHalfAMetre) {
   const OccupancyGrid map = corridor();
-  const RayCaster caster{map};
+  const sensor_models::RayCaster caster{map};
   Rng rng{3};
   for (int trial = 0; trial < 60; ++trial) {
     const Pose2 truth{rng.uniform(5, 25), rng.uniform(1.2, 1.8), Angle::radians(rng.normal(0.0, 0.1))};
@@ -59,14 +59,14 @@ TEST(BestPoseNear, FindsThePlaceInACorridorThatOdometryMissedByHalfAMetre) {
 
 TEST(BestPoseNear, SearchesAboutEveryGuessAndStaysWhereReadingsTellNothing) {
   const OccupancyGrid map = corridor();
-  const RayCaster caster{map};
+  const sensor_models::RayCaster caster{map};
   Rng rng{4};
   const Pose2 truth{12.3, 1.5, Angle{}};
   const std::vector<PoseGuess> guesses{{{16.0, 1.5, Angle{}}, 0.2, 0.05}, {{12.0, 1.5, Angle{}}, 0.2, 0.05}};
-  const RangeSweep sweep = sweep_at(caster, truth, rng);
+  const sensor_models::RangeSweep sweep = sweep_at(caster, truth, rng);
   EXPECT_LT(distance(best_pose_near(guesses, sweep, caster, 30.0, 30.0).map_from_robot.position(), truth.position()),
             0.15);
-  RangeSweep few;
+  sensor_models::RangeSweep few;
   few.beams.assign(sweep.beams.begin(), sweep.beams.begin() + 9);
   const FoundPose nothing = best_pose_near(guesses, few, caster, 30.0, 30.0);
   EXPECT_EQ(nothing.map_from_robot.x, 16.0);
@@ -75,14 +75,14 @@ TEST(BestPoseNear, SearchesAboutEveryGuessAndStaysWhereReadingsTellNothing) {
 
 TEST(BestPoseNear, IsNotSureOfThePlaceAlongAPlainCorridor) {
   const OccupancyGrid map = corridor(false);
-  const RayCaster caster{map};
+  const sensor_models::RayCaster caster{map};
   Rng rng{5};
   const Pose2 truth{15.0, 1.5, Angle{}};
   const PoseGuess guess{{15.3, 1.5, Angle{}}, 0.7, 0.05};
-  RangeSweep sides = sweep_at(caster, truth, rng);  // the ends of the corridor are out of sight
-  std::erase_if(sides.beams, [](const SweepBeam& beam) { return beam.range > 10.0; });
+  sensor_models::RangeSweep sides = sweep_at(caster, truth, rng);  // the ends of the corridor are out of sight
+  std::erase_if(sides.beams, [](const sensor_models::SweepBeam& beam) { return beam.range > 10.0; });
   EXPECT_LT(best_pose_near(std::span{&guess, 1}, sides, caster, 30.0, 30.0).share, 0.6);
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace docent {
+namespace docent::localization {
 
 Agreement& Agreement::operator+=(const Agreement& other) {
   agrees += other.agrees;
@@ -11,15 +11,15 @@ Agreement& Agreement::operator+=(const Agreement& other) {
   return *this;
 }
 
-Agreement agreement(const ExpectedRanges& expected, const ProximityModel& model, int direction, int measured,
-                    double sureness) {
+Agreement agreement(const ExpectedRanges& expected, const sensor_models::ProximityModel& model, int direction,
+                    int measured, double sureness) {
   Agreement result;
-  if (measured == kNoReturn) return result;
+  if (measured == sensor_models::kNoReturn) return result;
   const auto masses = expected.masses(direction);
   const auto shorter = model.shorter_probabilities(measured);
   // P_m of this range and all behind it is P_short of the range before.
   const auto not_longer = model.shorter_probabilities(std::max(measured - 1, 0));
-  for (std::size_t o = 0; o < kUnknownRange; ++o) {
+  for (std::size_t o = 0; o < sensor_models::kUnknownRange; ++o) {
     const double mass = static_cast<double>(masses[o]);
     if (static_cast<double>(shorter[o]) > sureness) {
       result.shorter += mass;
@@ -32,13 +32,13 @@ Agreement agreement(const ExpectedRanges& expected, const ProximityModel& model,
   return result;
 }
 
-Agreement agreement_of_all(const ExpectedRanges& expected, const ProximityModel& model, const RangeSweep& sweep,
-                           double sureness, int directions) {
+Agreement agreement_of_all(const ExpectedRanges& expected, const sensor_models::ProximityModel& model,
+                           const sensor_models::RangeSweep& sweep, double sureness, int directions) {
   Agreement sum;
-  for (const BinnedBeam& beam : binned(sweep, directions)) {
+  for (const sensor_models::BinnedBeam& beam : sensor_models::binned(sweep, directions)) {
     sum += agreement(expected, model, beam.direction, bin_of(sweep.beams[beam.beam], model), sureness);
   }
   return sum;
 }
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -4,7 +4,7 @@
 #include "docent/sensor_models/proximity_model.h"
 #include "docent/sensor_models/range_sweep.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// How readings compare with what the belief expects: how many (each counted by the mass of the states for which it is
 /// so) are what the map says, surely shorter, or surely longer. All 0 where the map does not say or nothing came back:
@@ -15,10 +15,10 @@ struct Agreement {
 };
 
 /// How a reading compares with what the belief expects; surely: with `sureness`, e.g. 0.99.
-[[nodiscard]] Agreement agreement(const ExpectedRanges& expected, const ProximityModel& model, int direction,
-                                  int measured, double sureness);
+[[nodiscard]] Agreement agreement(const ExpectedRanges& expected, const sensor_models::ProximityModel& model,
+                                  int direction, int measured, double sureness);
 /// Summed over all beams of a sweep: agrees + shorter + longer = beams whose range the map says.
-[[nodiscard]] Agreement agreement_of_all(const ExpectedRanges& expected, const ProximityModel& model,
-                                         const RangeSweep& sweep, double sureness, int directions);
+[[nodiscard]] Agreement agreement_of_all(const ExpectedRanges& expected, const sensor_models::ProximityModel& model,
+                                         const sensor_models::RangeSweep& sweep, double sureness, int directions);
 
-}  // namespace docent
+}  // namespace docent::localization

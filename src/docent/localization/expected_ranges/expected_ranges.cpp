@@ -3,24 +3,25 @@
 #include <cmath>
 #include <numbers>
 
-namespace docent {
+namespace docent::localization {
 
 ExpectedRanges::ExpectedRanges(std::span<const LikelyState> states, const RangeTable& table, int directions,
                                bool for_entropy) {
   const auto count = static_cast<std::size_t>(directions);
-  mass_.assign(count * kExpectedRanges, 0.0F);
-  if (for_entropy) log_mass_.assign(count * kExpectedRanges, 0.0F);
+  mass_.assign(count * sensor_models::kExpectedRanges, 0.0F);
+  if (for_entropy) log_mass_.assign(count * sensor_models::kExpectedRanges, 0.0F);
   for (const LikelyState& state : states) {
     const RangeTable::Row row = table.row(static_cast<std::size_t>(state.place));
     const auto heading = static_cast<std::size_t>(state.heading);
     if (!for_entropy) {
-      for (std::size_t d = 0; d < count; ++d) mass_[d * kExpectedRanges + row[heading + d]] += state.mass;
+      for (std::size_t d = 0; d < count; ++d)
+        mass_[d * sensor_models::kExpectedRanges + row[heading + d]] += state.mass;
       continue;
     }
     const float log_part = state.mass * std::log(state.mass);
     entropy_ -= static_cast<double>(log_part);
     for (std::size_t d = 0; d < count; ++d) {
-      const std::size_t i = d * kExpectedRanges + row[heading + d];
+      const std::size_t i = d * sensor_models::kExpectedRanges + row[heading + d];
       mass_[i] += state.mass;
       log_mass_[i] += log_part;
     }
@@ -30,7 +31,8 @@ ExpectedRanges::ExpectedRanges(std::span<const LikelyState> states, const RangeT
 double ExpectedRanges::shorter(int direction, std::span<const float> shorter_probabilities) const {
   const auto mass = of(mass_, direction);
   double sum = 0.0;
-  for (std::size_t o = 0; o < kExpectedRanges; ++o) sum += static_cast<double>(mass[o] * shorter_probabilities[o]);
+  for (std::size_t o = 0; o < sensor_models::kExpectedRanges; ++o)
+    sum += static_cast<double>(mass[o] * shorter_probabilities[o]);
   return sum;
 }
 
@@ -41,7 +43,7 @@ double ExpectedRanges::entropy_gain(int direction, std::span<const float> log_pr
   const auto log_mass = of(log_mass_, direction);
   double z = 0.0;
   double sum = 0.0;
-  for (std::size_t o = 0; o < kExpectedRanges; ++o) {
+  for (std::size_t o = 0; o < sensor_models::kExpectedRanges; ++o) {
     if (mass[o] <= 0.0F) continue;
     const double log_r = static_cast<double>(log_probabilities[o]);
     const double r = std::exp(log_r);
@@ -51,12 +53,12 @@ double ExpectedRanges::entropy_gain(int direction, std::span<const float> log_pr
   return entropy_ - (std::log(z) - sum / z);
 }
 
-std::vector<float> entropy_gains(const ExpectedRanges& expected, const ProximityModel& model, const RangeSweep& seen,
-                                 int headings) {
+std::vector<float> entropy_gains(const ExpectedRanges& expected, const sensor_models::ProximityModel& model,
+                                 const sensor_models::RangeSweep& seen, int headings) {
   std::vector<float> gains(seen.beams.size(), 0.0F);
   const double step = 2.0 * std::numbers::pi / headings;
   for (std::size_t i = 0; i < gains.size(); ++i) {
-    const SweepBeam& beam = seen.beams[i];
+    const sensor_models::SweepBeam& beam = seen.beams[i];
     if (beam.no_return) continue;
     const int direction = (static_cast<int>(std::lround(beam.bearing / step)) + headings) % headings;
     // ExpectedRanges counts as [Markov1998] does, before minus after.
@@ -65,4 +67,4 @@ std::vector<float> entropy_gains(const ExpectedRanges& expected, const Proximity
   return gains;
 }
 
-}  // namespace docent
+}  // namespace docent::localization

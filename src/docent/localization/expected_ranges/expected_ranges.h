@@ -9,7 +9,7 @@
 #include "docent/sensor_models/proximity_model.h"
 #include "docent/sensor_models/range_sweep.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// The part of the belief that matters: states with at least `fraction` of the peak's probability.
 struct LikelyState {
@@ -35,20 +35,22 @@ class ExpectedRanges {
 
  private:
   [[nodiscard]] std::span<const float> of(const std::vector<float>& all, int direction) const {
-    return std::span{all}.subspan(static_cast<std::size_t>(direction) * kExpectedRanges, kExpectedRanges);
+    return std::span{all}.subspan(static_cast<std::size_t>(direction) * sensor_models::kExpectedRanges,
+                                  sensor_models::kExpectedRanges);
   }
   std::vector<float> mass_;      ///< [directions][kExpectedRanges]: sum of p
   std::vector<float> log_mass_;  ///< [directions][kExpectedRanges]: sum of p ln p; empty unless for_entropy
   double entropy_ = 0.0;         ///< [nat] of the list
 };
 
-[[nodiscard]] inline int bin_of(const SweepBeam& beam, const ProximityModel& model) {
-  return beam.no_return ? kNoReturn : model.bin(beam.range);
+[[nodiscard]] inline int bin_of(const sensor_models::SweepBeam& beam, const sensor_models::ProximityModel& model) {
+  return beam.no_return ? sensor_models::kNoReturn : model.bin(beam.range);
 }
 
 /// H(L | s) - H(L) [nat] of every beam, [Rhino1999] eq. 10: what its inverse filter asks. 0 without a return: dark
 /// things and mirrors are no people. `seen`: in the frame of the belief. O(beams * kExpectedRanges).
-[[nodiscard]] std::vector<float> entropy_gains(const ExpectedRanges& expected, const ProximityModel& model,
-                                               const RangeSweep& seen, int headings);
+[[nodiscard]] std::vector<float> entropy_gains(const ExpectedRanges& expected,
+                                               const sensor_models::ProximityModel& model,
+                                               const sensor_models::RangeSweep& seen, int headings);
 
-}  // namespace docent
+}  // namespace docent::localization

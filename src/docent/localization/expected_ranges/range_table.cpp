@@ -15,7 +15,7 @@
 #include "docent/base/random.h"
 #include "docent/localization/expected_ranges/range_table_cache.h"
 
-namespace docent {
+namespace docent::localization {
 
 namespace {
 
@@ -55,8 +55,8 @@ std::shared_ptr<void> aligned_memory(std::size_t size) {
 /// Fills the tiles of a table. Each byte depends on its place and direction alone, so threads may share the work.
 class Builder {
  public:
-  Builder(const StateSpace& space, const RayCaster& caster, const ProximityModel& model)
-      : space_{space}, caster_{caster}, model_{model}, max_range_{model.centre(kNoReturn)} {
+  Builder(const StateSpace& space, const sensor_models::RayCaster& caster, const sensor_models::ProximityModel& model)
+      : space_{space}, caster_{caster}, model_{model}, max_range_{model.centre(sensor_models::kNoReturn)} {
     for (int h = 0; h < space.headings(); ++h) directions_.push_back(unit(Angle::radians(h * space.heading_step())));
   }
 
@@ -92,20 +92,22 @@ class Builder {
     const double behind = 0.5 * caster_.frame().resolution;
     const std::size_t first = tile * RangeTable::kTile;
     const std::size_t count = std::min(RangeTable::kTile, space_.places() - first);
-    std::memset(out, kUnknownRange, directions_.size() * RangeTable::kTile);
+    std::memset(out, sensor_models::kUnknownRange, directions_.size() * RangeTable::kTile);
     for (std::size_t i = 0; i < count; ++i) {
       const Point2 from = space_.centre(first + i);
       for (std::size_t h = 0; h < directions_.size(); ++h) {
         const auto range = caster_.cast(from, directions_[h], max_range_, kUnknownAllowance);
-        const int bin = !range ? kUnknownRange : *range >= max_range_ ? kNoReturn : model_.bin(*range + behind);
+        const int bin = !range                 ? sensor_models::kUnknownRange
+                        : *range >= max_range_ ? sensor_models::kNoReturn
+                                               : model_.bin(*range + behind);
         out[h * RangeTable::kTile + i] = static_cast<std::uint8_t>(bin);
       }
     }
   }
 
   const StateSpace& space_;
-  const RayCaster& caster_;
-  const ProximityModel& model_;
+  const sensor_models::RayCaster& caster_;
+  const sensor_models::ProximityModel& model_;
   double max_range_;
   std::vector<Point2> directions_;
 };
@@ -149,8 +151,8 @@ class NewFile {
 
 }  // namespace
 
-RangeTable RangeTable::build(const StateSpace& space, const RayCaster& caster, const ProximityModel& model,
-                             const Building& how) {
+RangeTable RangeTable::build(const StateSpace& space, const sensor_models::RayCaster& caster,
+                             const sensor_models::ProximityModel& model, const Building& how) {
   RangeTable table;
   table.directions_ = static_cast<std::size_t>(space.headings());
   const std::size_t size = size_of(space);
@@ -164,7 +166,7 @@ RangeTable RangeTable::build(const StateSpace& space, const RayCaster& caster, c
 }
 
 void RangeTable::count(std::size_t places) {
-  std::array<std::uint64_t, kExpectedRanges> counts{};
+  std::array<std::uint64_t, sensor_models::kExpectedRanges> counts{};
   for (std::size_t i = 0; i < tiles_of(places); ++i) {
     const std::size_t used = std::min(kTile, places - i * kTile);
     const std::uint8_t* line = tile(i);
@@ -174,11 +176,11 @@ void RangeTable::count(std::size_t places) {
   for (std::size_t i = 0; i < counts.size(); ++i) frequency_[i] = static_cast<double>(counts[i]);
 }
 
-RangeTable RangeTable::cones(const RangeTable& rays, const ProximityModel& rays_model, const StateSpace& space,
-                             const ProximityModel& model, double opening) {
+RangeTable RangeTable::cones(const RangeTable& rays, const sensor_models::ProximityModel& rays_model,
+                             const StateSpace& space, const sensor_models::ProximityModel& model, double opening) {
   std::array<std::uint8_t, 256> bin{};
-  bin.fill(kUnknownRange);
-  for (int o = 0; o < kUnknownRange; ++o)
+  bin.fill(sensor_models::kUnknownRange);
+  for (int o = 0; o < sensor_models::kUnknownRange; ++o)
     bin[static_cast<std::size_t>(o)] = static_cast<std::uint8_t>(model.bin(rays_model.centre(o)));
   RangeTable table;
   table.directions_ = rays.directions_;
@@ -232,7 +234,8 @@ Result<RangeTable> RangeTable::load(const std::filesystem::path& path, const std
 }
 
 RangeTable RangeTable::load_or_build(const std::filesystem::path& path, const std::string& key, const StateSpace& space,
-                                     const RayCaster& caster, const ProximityModel& model, const Building& how) {
+                                     const sensor_models::RayCaster& caster, const sensor_models::ProximityModel& model,
+                                     const Building& how) {
   const Builder builder{space, caster, model};
   if (auto loaded = load(path, key, space); loaded && builder.agrees(*loaded)) return std::move(*loaded);
   {
@@ -253,4 +256,4 @@ RangeTable RangeTable::load_or_build(const std::filesystem::path& path, const st
   return build(space, caster, model, how);
 }
 
-}  // namespace docent
+}  // namespace docent::localization

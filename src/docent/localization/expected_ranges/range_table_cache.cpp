@@ -9,7 +9,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent {
+namespace docent::localization {
 
 namespace {
 
@@ -58,4 +58,4 @@ void RangeTableCache::make_room(const std::filesystem::path& in_use) const {
   }
 }
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace docent {
+namespace docent::localization {
 
 /// A folder in which range tables wait for the next run: making one takes from a second for a museum to a minute or two
 /// for a building of 200 x 200 m. Processes may share it; whatever lies in it, only the time of a start depends on it.
@@ -24,4 +24,4 @@ struct RangeTableCache {
   void make_room(const std::filesystem::path& in_use) const;
 };
 
-}  // namespace docent
+}  // namespace docent::localization

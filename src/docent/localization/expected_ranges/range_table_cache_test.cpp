@@ -9,7 +9,7 @@
 #include "docent/localization/markov/markov_localizer.h"
 #include "docent/localization/markov/testing.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 using std::chrono::hours;
@@ -66,7 +66,7 @@ TEST_F(FolderOfTables, EachMapAndEachParameterHasATableOfItsOwn) {
   LocalizerParams params;
   params.states.cell_size = 0.3;
   const auto make = [&] {
-    const RayCaster caster{map};
+    const sensor_models::RayCaster caster{map};
     static_cast<void>(range_table_of(map, params, cache_, StateSpace{map, caster, params.states}, caster));
     return names().size();
   };
@@ -90,7 +90,7 @@ TEST_F(FolderOfTables, EachMapAndEachParameterHasATableOfItsOwn) {
 
 TEST_F(FolderOfTables, AUsedTableIsYoungAgain) {
   const OccupancyGrid map = testing::room_map();
-  const RayCaster caster{map};
+  const sensor_models::RayCaster caster{map};
   LocalizerParams params;
   params.states.cell_size = 0.3;
   const auto use = [&] {
@@ -105,4 +105,4 @@ TEST_F(FolderOfTables, AUsedTableIsYoungAgain) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

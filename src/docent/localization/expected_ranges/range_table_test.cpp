@@ -13,7 +13,7 @@
 #include "docent/base/random.h"
 #include "docent/localization/markov/testing.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 bool equal(const RangeTable& a, const RangeTable& b, const StateSpace& space) {
@@ -38,14 +38,15 @@ class CachedTable : public ::testing::Test {
                                      EXPECT_LE(share, 1.0);
                                      ++told;
                                    }};
-    return RangeTable::load_or_build(folder_ / "table", key, room_.space, room_.caster, ProximityModel{{}}, how);
+    return RangeTable::load_or_build(folder_ / "table", key, room_.space, room_.caster,
+                                     sensor_models::ProximityModel{{}}, how);
   }
   testing::Room room_;
   std::filesystem::path folder_;
 };
 
 TEST_F(CachedTable, RowsAndTilesHoldTheRaysOfEachPlace) {
-  const ProximityModel model{{}};
+  const sensor_models::ProximityModel model{{}};
   for (const std::size_t place : {std::size_t{0}, std::size_t{63}, std::size_t{64}, room_.space.places() - 1}) {
     for (int h = 0; h < room_.space.headings(); ++h) {
       const Point2 direction = unit(Angle::radians(h * room_.space.heading_step()));
@@ -57,14 +58,14 @@ TEST_F(CachedTable, RowsAndTilesHoldTheRaysOfEachPlace) {
     }
   }
   ASSERT_NE(room_.space.places() % 64, 0U);
-  EXPECT_EQ(room_.table.tile(room_.space.places() / 64)[63], kUnknownRange);
+  EXPECT_EQ(room_.table.tile(room_.space.places() / 64)[63], sensor_models::kUnknownRange);
 }
 
 TEST_F(CachedTable, AConeExpectsTheNearestOfItsDirections) {
-  ProximityModelParams sonar;
+  sensor_models::ProximityModelParams sonar;
   sonar.max_range = 3.0;
-  const ProximityModel rays{{}};
-  const ProximityModel model{sonar};
+  const sensor_models::ProximityModel rays{{}};
+  const sensor_models::ProximityModel model{sonar};
   const RangeTable cones = RangeTable::cones(room_.table, rays, room_.space, model, 0.42);  // 24 degrees: 5 directions
   const int headings = room_.space.headings();
   int beyond = 0;
@@ -80,11 +81,11 @@ TEST_F(CachedTable, AConeExpectsTheNearestOfItsDirections) {
     }
   }
   EXPECT_GT(beyond, 0);
-  EXPECT_EQ(cones.tile(room_.space.places() / 64)[63], kUnknownRange);
+  EXPECT_EQ(cones.tile(room_.space.places() / 64)[63], sensor_models::kUnknownRange);
 }
 
 TEST_F(CachedTable, ThreadsMakeTheSameTable) {
-  const RangeTable table = RangeTable::build(room_.space, room_.caster, ProximityModel{{}}, {5, {}});
+  const RangeTable table = RangeTable::build(room_.space, room_.caster, sensor_models::ProximityModel{{}}, {5, {}});
   EXPECT_TRUE(equal(table, room_.table, room_.space));
 }
 
@@ -119,8 +120,9 @@ TEST_F(CachedTable, AWholeTableOfAnotherProgramIsBuiltAnew) {
   int told = 0;
   OccupancyGrid map = room_.map;
   map.cells[map.frame.index({50, 40})] = OccupancyGrid::kOccupied;
-  const RayCaster other{map};  // for the same key
-  static_cast<void>(RangeTable::load_or_build(folder_ / "table", "a", room_.space, other, ProximityModel{{}}, {1, {}}));
+  const sensor_models::RayCaster other{map};  // for the same key
+  static_cast<void>(RangeTable::load_or_build(folder_ / "table", "a", room_.space, other,
+                                              sensor_models::ProximityModel{{}}, {1, {}}));
   EXPECT_TRUE(equal(get("a", told), room_.table, room_.space));
   EXPECT_GT(told, 0);
 }
@@ -176,4 +178,4 @@ TEST_F(CachedTable, WhatCannotBeWrittenStaysInMemory) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace docent {
+namespace docent::localization {
 
 Result<void> StateSpaceParams::validate() const {
   if (!(cell_size >= 0.02 && cell_size <= 2.0)) return fail("states.cell_size must be 0.02..2 m");
@@ -15,7 +15,7 @@ Result<void> StateSpaceParams::validate() const {
   return {};
 }
 
-StateSpace::StateSpace(const OccupancyGrid& map, const RayCaster& caster, const StateSpaceParams& params)
+StateSpace::StateSpace(const OccupancyGrid& map, const sensor_models::RayCaster& caster, const StateSpaceParams& params)
     : headings_{static_cast<int>(std::lround(360.0 / params.heading_step))} {
   frame_.resolution = params.cell_size;
   frame_.origin = map.frame.origin;
@@ -35,4 +35,4 @@ StateSpace::StateSpace(const OccupancyGrid& map, const RayCaster& caster, const 
 
 double StateSpace::heading_step() const { return 2.0 * std::numbers::pi / headings_; }
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -7,7 +7,7 @@
 #include "docent/grid/occupancy_grid.h"
 #include "docent/sensor_models/ray_caster.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// The cells of the belief.
 struct StateSpaceParams {
@@ -34,7 +34,7 @@ class StateSpace {
   static constexpr std::int32_t kNoPlace = -1;
 
   /// @pre params are valid
-  StateSpace(const OccupancyGrid& map, const RayCaster& caster, const StateSpaceParams& params);
+  StateSpace(const OccupancyGrid& map, const sensor_models::RayCaster& caster, const StateSpaceParams& params);
 
   [[nodiscard]] const GridFrame& frame() const { return frame_; }
   [[nodiscard]] int headings() const { return headings_; }
@@ -54,4 +54,4 @@ class StateSpace {
   std::vector<std::int32_t> place_of_cell_;  ///< [rows * columns]
 };
 
-}  // namespace docent
+}  // namespace docent::localization

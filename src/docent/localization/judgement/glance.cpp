@@ -5,7 +5,7 @@
 
 #include "docent/localization/beam_choice/straight_walls.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 constexpr std::size_t kBeams = 40;         // of a sweep, and of its walls, that are looked at
@@ -15,7 +15,8 @@ constexpr double kUnknownAllowance = 0.5;  // [m] of a ray's way
 /// Every so many of `all`, for at most kBeams.
 std::size_t stride_of(std::size_t all) { return std::max<std::size_t>(1, (all + kBeams - 1) / kBeams); }
 
-double unmapped_share(const RayCaster& caster, const RangeSweep& sweep, const Pose2& map_from_robot) {
+double unmapped_share(const sensor_models::RayCaster& caster, const sensor_models::RangeSweep& sweep,
+                      const Pose2& map_from_robot) {
   constexpr int kPrior = 5;  // looks at mapped walls: a single short piece of wall tells little
   const auto is_wall = on_straight_walls(sweep);
   const std::size_t walls = std::accumulate(is_wall.begin(), is_wall.end(), std::size_t{0});
@@ -24,7 +25,7 @@ double unmapped_share(const RayCaster& caster, const RangeSweep& sweep, const Po
   int looks = 0, unmapped = 0;
   for (std::size_t i = 0; i < sweep.beams.size(); ++i) {
     if (is_wall[i] == 0 || wall++ % stride != 0) continue;
-    const SweepBeam& beam = sweep.beams[i];
+    const sensor_models::SweepBeam& beam = sweep.beams[i];
     const Point2 direction = unit(map_from_robot.theta + Angle::radians(beam.bearing));
     const auto expected = caster.cast(map_from_robot.position(), direction, beam.range + 2.0 * kOff, kUnknownAllowance);
     if (!expected) continue;
@@ -36,14 +37,15 @@ double unmapped_share(const RayCaster& caster, const RangeSweep& sweep, const Po
 
 }  // namespace
 
-Glance glance(const RayCaster& caster, const RangeSweep& sweep, const Pose2& map_from_robot, double max_range) {
+Glance glance(const sensor_models::RayCaster& caster, const sensor_models::RangeSweep& sweep,
+              const Pose2& map_from_robot, double max_range) {
   constexpr double kWithinReach = 0.8;
   int through = 0;
   Glance result;
   int shorter = 0;
   const std::size_t stride = stride_of(sweep.beams.size());
   for (std::size_t i = 0; i < sweep.beams.size(); i += stride) {
-    const SweepBeam& beam = sweep.beams[i];
+    const sensor_models::SweepBeam& beam = sweep.beams[i];
     const Point2 direction = unit(map_from_robot.theta + Angle::radians(beam.bearing));
     const auto expected = caster.cast(map_from_robot.position(), direction, max_range, kUnknownAllowance);
     if (!expected) continue;
@@ -64,4 +66,4 @@ Glance glance(const RayCaster& caster, const RangeSweep& sweep, const Pose2& map
   return result;
 }
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -3,7 +3,7 @@
 #include "docent/sensor_models/range_sweep.h"
 #include "docent/sensor_models/ray_caster.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// How one sweep fits a pose at first sight: a few of its beams against the map. Cheap enough for every scan, so that
 /// a robot that was carried off notices at once, not at its next update.
@@ -19,7 +19,7 @@ struct Glance {
 };
 
 /// O(beams), and at most some eighty rays. `max_range` [m].
-[[nodiscard]] Glance glance(const RayCaster& caster, const RangeSweep& sweep, const Pose2& map_from_robot,
-                            double max_range);
+[[nodiscard]] Glance glance(const sensor_models::RayCaster& caster, const sensor_models::RangeSweep& sweep,
+                            const Pose2& map_from_robot, double max_range);
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 /// A hall of 8 x 8 m, 5 cm cells.
-RayCaster hall() {
+sensor_models::RayCaster hall() {
   OccupancyGrid map;
   map.frame = {160, 160, 0.05, {}};
   map.cells.assign(map.frame.size(), OccupancyGrid::kFree);
@@ -16,11 +16,11 @@ RayCaster hall() {
     for (int column = 0; column < 160; ++column)
       if (row < 2 || row >= 158 || column < 2 || column >= 158)
         map.cells[map.frame.index({column, row})] = OccupancyGrid::kOccupied;
-  return RayCaster{map};
+  return sensor_models::RayCaster{map};
 }
 
-RangeSweep seen_at(const RayCaster& caster, const Pose2& pose, double people) {
-  RangeSweep sweep;
+sensor_models::RangeSweep seen_at(const sensor_models::RayCaster& caster, const Pose2& pose, double people) {
+  sensor_models::RangeSweep sweep;
   for (int degree = -180; degree < 180; degree += 2) {
     const Angle bearing = Angle::degrees(degree);
     double range = *caster.cast(pose.position(), unit(pose.theta + bearing), 10.0, 0.3);
@@ -31,7 +31,7 @@ RangeSweep seen_at(const RayCaster& caster, const Pose2& pose, double people) {
 }
 
 TEST(Glance, SeesNothingStrangeWhereTheRobotIs) {
-  const RayCaster caster = hall();
+  const sensor_models::RayCaster caster = hall();
   const Pose2 here{2.0, 3.0, Angle::degrees(40.0)};
   const Glance glanced = glance(caster, seen_at(caster, here, 0.0), here, 10.0);
   EXPECT_GT(glanced.readings, 30);
@@ -40,7 +40,7 @@ TEST(Glance, SeesNothingStrangeWhereTheRobotIs) {
 }
 
 TEST(Glance, PeopleMakeReadingsShorterAndPassThroughNoWall) {
-  const RayCaster caster = hall();
+  const sensor_models::RayCaster caster = hall();
   const Pose2 here{4.0, 4.0, Angle{}};
   const Glance glanced = glance(caster, seen_at(caster, here, 0.5), here, 10.0);
   EXPECT_EQ(glanced.through, 0.0);
@@ -48,17 +48,17 @@ TEST(Glance, PeopleMakeReadingsShorterAndPassThroughNoWall) {
 }
 
 TEST(Glance, AnotherPlacePassesThroughWalls) {
-  const RayCaster caster = hall();
+  const sensor_models::RayCaster caster = hall();
   const Glance glanced = glance(caster, seen_at(caster, {4.0, 4.0, Angle{}}, 0.0), {0.8, 0.8, Angle{}}, 10.0);
   EXPECT_GT(glanced.through, 0.4);
 }
 
 TEST(Glance, WallsThatTheMapLacksAreNoPeople) {
-  const RayCaster caster = hall();
+  const sensor_models::RayCaster caster = hall();
   const Pose2 here{4.0, 4.0, Angle{}};
-  RangeSweep panel = seen_at(caster, here, 0.0);
-  RangeSweep people = panel;
-  for (SweepBeam& beam : panel.beams) {  // 3 m long, 1.5 m ahead
+  sensor_models::RangeSweep panel = seen_at(caster, here, 0.0);
+  sensor_models::RangeSweep people = panel;
+  for (sensor_models::SweepBeam& beam : panel.beams) {  // 3 m long, 1.5 m ahead
     const double ahead = 1.5 / std::cos(beam.bearing);
     if (std::abs(beam.bearing) < 0.78) beam.range = ahead;
   }
@@ -70,8 +70,8 @@ TEST(Glance, WallsThatTheMapLacksAreNoPeople) {
 }
 
 TEST(Glance, TooFewReadingsTellNothing) {
-  const RayCaster caster = hall();
-  RangeSweep few = seen_at(caster, {4.0, 4.0, Angle{}}, 0.0);
+  const sensor_models::RayCaster caster = hall();
+  sensor_models::RangeSweep few = seen_at(caster, {4.0, 4.0, Angle{}}, 0.0);
   few.beams.resize(5);
   const Glance glanced = glance(caster, few, {0.8, 0.8, Angle{}}, 10.0);
   EXPECT_EQ(glanced.through, 0.0);
@@ -79,4 +79,4 @@ TEST(Glance, TooFewReadingsTellNothing) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

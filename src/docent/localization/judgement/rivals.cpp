@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 constexpr double kFar = 3.0;            // [m] nearer is the same place
@@ -29,7 +29,8 @@ bool is_same_place(const BeliefMode& a, const BeliefMode& b) {
 
 enum class Fit { good, gross, unknown };
 
-Fit fit_of(const RayCaster& caster, const SweepBeam& beam, const Pose2& pose, double max_range) {
+Fit fit_of(const sensor_models::RayCaster& caster, const sensor_models::SweepBeam& beam, const Pose2& pose,
+           double max_range) {
   double least = std::numeric_limits<double>::infinity();
   double most = 0.0;
   for (const double off : {-kHeadingError, 0.0, kHeadingError}) {
@@ -45,8 +46,8 @@ Fit fit_of(const RayCaster& caster, const SweepBeam& beam, const Pose2& pose, do
 
 }  // namespace
 
-GrossDifference gross_difference(const RayCaster& caster, const RangeSweep& sweep, const Pose2& first,
-                                 const Pose2& second, double max_range) {
+GrossDifference gross_difference(const sensor_models::RayCaster& caster, const sensor_models::RangeSweep& sweep,
+                                 const Pose2& first, const Pose2& second, double max_range) {
   constexpr std::size_t kBeams = 120;
   GrossDifference result;
   const std::size_t stride = std::max<std::size_t>(1, sweep.beams.size() / kBeams);
@@ -61,15 +62,16 @@ GrossDifference gross_difference(const RayCaster& caster, const RangeSweep& swee
   return result;
 }
 
-std::optional<std::vector<BeliefMode>> Rivals::update(const BeliefSummary& summary, const RangeSweep& sweep,
-                                                      const Pose2& before_from_after, const RayCaster& caster,
-                                                      double max_range) {
+std::optional<std::vector<BeliefMode>> Rivals::update(const BeliefSummary& summary,
+                                                      const sensor_models::RangeSweep& sweep,
+                                                      const Pose2& before_from_after,
+                                                      const sensor_models::RayCaster& caster, double max_range) {
   follow(summary, sweep, before_from_after, caster, max_range);
   return restored(summary);
 }
 
-void Rivals::follow(const BeliefSummary& summary, const RangeSweep& sweep, const Pose2& before_from_after,
-                    const RayCaster& caster, double max_range) {
+void Rivals::follow(const BeliefSummary& summary, const sensor_models::RangeSweep& sweep,
+                    const Pose2& before_from_after, const sensor_models::RayCaster& caster, double max_range) {
   if (summary.modes.empty()) return;
   way_ += norm(before_from_after.position());
   for (Place& place : places_) {
@@ -138,4 +140,4 @@ std::optional<std::vector<BeliefMode>> Rivals::restored(const BeliefSummary& sum
   return modes;
 }
 
-}  // namespace docent
+}  // namespace docent::localization

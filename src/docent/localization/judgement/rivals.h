@@ -9,7 +9,7 @@
 #include "docent/sensor_models/range_sweep.h"
 #include "docent/sensor_models/ray_caster.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// Places that nothing has told from the best one yet.
 ///
@@ -24,9 +24,10 @@ class Rivals {
   /// Returns the belief as it should be when evidence has all but ruled out a rival that nothing was seen to speak
   /// against: the best mode and every rival with a fair share. nullopt: it is so already, or the belief is not
   /// concentrated on modes. O(rivals * beams casts).
-  [[nodiscard]] std::optional<std::vector<BeliefMode>> update(const BeliefSummary& summary, const RangeSweep& sweep,
-                                                              const Pose2& before_from_after, const RayCaster& caster,
-                                                              double max_range);
+  [[nodiscard]] std::optional<std::vector<BeliefMode>> update(const BeliefSummary& summary,
+                                                              const sensor_models::RangeSweep& sweep,
+                                                              const Pose2& before_from_after,
+                                                              const sensor_models::RayCaster& caster, double max_range);
   /// What other sensors say of the places besides, for `weight` of an update; after `update`. Whom they have told from
   /// the best place by enough nats gets no fair share any more, until they take it back. O(rivals).
   void hear(const BeliefSummary& summary, const ObservationModels& others, double weight);
@@ -41,8 +42,8 @@ class Rivals {
     double outweighed_at{};       ///< [m] of way_, the last of them
   };
   /// Takes in, carries on and drops.
-  void follow(const BeliefSummary& summary, const RangeSweep& sweep, const Pose2& before_from_after,
-              const RayCaster& caster, double max_range);
+  void follow(const BeliefSummary& summary, const sensor_models::RangeSweep& sweep, const Pose2& before_from_after,
+              const sensor_models::RayCaster& caster, double max_range);
   /// The belief with a fair share for every rival.
   [[nodiscard]] std::optional<std::vector<BeliefMode>> restored(const BeliefSummary& summary);
   void take_in(const BeliefMode& mode, double least_mass);
@@ -57,7 +58,8 @@ struct GrossDifference {
   int second_only = 0;
   int beams = 0;
 };
-[[nodiscard]] GrossDifference gross_difference(const RayCaster& caster, const RangeSweep& sweep, const Pose2& first,
+[[nodiscard]] GrossDifference gross_difference(const sensor_models::RayCaster& caster,
+                                               const sensor_models::RangeSweep& sweep, const Pose2& first,
                                                const Pose2& second, double max_range);
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 constexpr double kRange = 10.0;  // [m]
@@ -25,10 +25,10 @@ OccupancyGrid room(bool with_case) {
   return map;
 }
 
-RangeSweep sweep_from(const RayCaster& caster, const Pose2& pose) {
-  RangeSweep sweep;
+sensor_models::RangeSweep sweep_from(const sensor_models::RayCaster& caster, const Pose2& pose) {
+  sensor_models::RangeSweep sweep;
   for (int i = 0; i < 180; ++i) {
-    SweepBeam beam;
+    sensor_models::SweepBeam beam;
     beam.bearing = (2.0 * i - 180.0) * std::numbers::pi / 180.0;
     beam.range =
         caster.cast(pose.position(), unit(pose.theta + Angle::radians(beam.bearing)), kRange, kRange).value_or(kRange);
@@ -48,7 +48,7 @@ BeliefSummary summary_of(double best, double twin) {
 }
 
 TEST(Rivals, ATwinThatNothingSpeaksAgainstKeepsItsShare) {
-  const RayCaster caster{room(false)};
+  const sensor_models::RayCaster caster{room(false)};
   Rivals rivals;
   const auto sweep = sweep_from(caster, kHere);
   EXPECT_FALSE(rivals.update(summary_of(0.6, 0.4), sweep, {}, caster, kRange).has_value());
@@ -63,7 +63,7 @@ TEST(Rivals, ATwinThatNothingSpeaksAgainstKeepsItsShare) {
 }
 
 TEST(Rivals, WhatTheReadingsSpeakAgainstIsDroppedAfterTwoSweeps) {
-  const RayCaster caster{room(true)};
+  const sensor_models::RayCaster caster{room(true)};
   Rivals rivals;
   const auto sweep = sweep_from(caster, kHere);
   EXPECT_TRUE(rivals.update(summary_of(0.99, 0.01), sweep, {}, caster, kRange).has_value());
@@ -71,7 +71,7 @@ TEST(Rivals, WhatTheReadingsSpeakAgainstIsDroppedAfterTwoSweeps) {
 }
 
 TEST(Rivals, PlacesAreCarriedOnByOdometry) {
-  const RayCaster caster{room(false)};
+  const sensor_models::RayCaster caster{room(false)};
   Rivals rivals;
   ASSERT_FALSE(rivals.update(summary_of(0.6, 0.4), sweep_from(caster, kHere), {}, caster, kRange).has_value());
   const Pose2 step{0.5, 0.0, {}};
@@ -83,7 +83,7 @@ TEST(Rivals, PlacesAreCarriedOnByOdometry) {
 }
 
 TEST(Rivals, EvidenceOfSeveralSpotsRulesAPlaceOut) {
-  const RayCaster caster{room(false)};
+  const sensor_models::RayCaster caster{room(false)};
   Rivals rivals;
   ASSERT_FALSE(rivals.update(summary_of(0.6, 0.4), sweep_from(caster, kHere), {}, caster, kRange).has_value());
   const Pose2 there{0.8, 0.0, {}};
@@ -101,7 +101,7 @@ TEST(Rivals, EvidenceOfSeveralSpotsRulesAPlaceOut) {
 }
 
 TEST(Rivals, ABeliefThatIsSpreadOutIsLeftAlone) {
-  const RayCaster caster{room(false)};
+  const sensor_models::RayCaster caster{room(false)};
   Rivals rivals;
   const auto sweep = sweep_from(caster, kHere);
   EXPECT_FALSE(rivals.update(summary_of(0.1, 0.08), sweep, {}, caster, kRange).has_value());
@@ -109,7 +109,7 @@ TEST(Rivals, ABeliefThatIsSpreadOutIsLeftAlone) {
 }
 
 TEST(GrossDifference, CountsBeamsThatFitOnePlaceOnly) {
-  const RayCaster caster{room(true)};
+  const sensor_models::RayCaster caster{room(true)};
   const auto sweep = sweep_from(caster, kHere);
   const auto same = gross_difference(caster, sweep, kHere, kHere, kRange);
   EXPECT_EQ(same.first_only, 0);
@@ -120,4 +120,4 @@ TEST(GrossDifference, CountsBeamsThatFitOnePlaceOnly) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace docent {
+namespace docent::localization {
 
 namespace {
 
@@ -156,4 +156,4 @@ bool Verdict::collapsed() const {
   return bad_ >= kPatience;
 }
 
-}  // namespace docent
+}  // namespace docent::localization

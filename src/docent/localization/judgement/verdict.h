@@ -7,7 +7,7 @@
 #include "docent/localization/expected_ranges/agreement.h"
 #include "docent/localization/judgement/glance.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// When the robot says "here", and how likely it is lost.
 struct VerdictParams {
@@ -129,4 +129,4 @@ class Verdict {
   double blind_ = 0.0;  ///< [m] driven since readings last agreed with the map
 };
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 Evidence good() {
@@ -203,4 +203,4 @@ TEST(Verdict, PeopleAllRoundDoNot) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

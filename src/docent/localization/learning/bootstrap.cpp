@@ -7,7 +7,7 @@
 #include <memory>
 #include <numbers>
 
-namespace docent {
+namespace docent::localization {
 
 namespace {
 
@@ -30,10 +30,11 @@ std::size_t contradicted_of(const Labellings& labellings) {
 }
 
 /// `share` of the way from one model to another; scales by their logarithms.
-ProximityModelParams between(const ProximityModelParams& from, const ProximityModelParams& to, double share) {
+sensor_models::ProximityModelParams between(const sensor_models::ProximityModelParams& from,
+                                            const sensor_models::ProximityModelParams& to, double share) {
   const auto linear = [share](double a, double b) { return a + share * (b - a); };
   const auto scaled = [share](double a, double b) { return a * std::pow(b / a, share); };
-  ProximityModelParams result = to;
+  sensor_models::ProximityModelParams result = to;
   result.sigma = scaled(from.sigma, to.sigma);
   result.sigma_per_metre = linear(from.sigma_per_metre, to.sigma_per_metre);
   result.short_per_metre = scaled(from.short_per_metre, to.short_per_metre);
@@ -62,12 +63,12 @@ class Bootstrap {
   Result<LearnedModels> learn() {
     Labellings labels = first_labels();
     if (sure_of(labels) == 0) return fail("the robot is nowhere sure of its place");
-    const ProximityModelParams start = params_.sonar ? *params_.sonar : localizer_params_.sensor;
+    const sensor_models::ProximityModelParams start = params_.sonar ? *params_.sonar : localizer_params_.sensor;
     CountedReadings readings = count(labels);
     const CountedReadings first_readings = readings;
     LearnedModels result{start, {}, {}, 0.0, 0.0, 0, localizer_params_.states.wall_depth, {}, {}, {}, readings.fitted};
     for (int n = 0; n < params_.most_iterations; ++n) {
-      const auto fit = fit_proximity_model(readings.fitted, result.sensor, params_.sensor_fit);
+      const auto fit = sensor_models::fit_proximity_model(readings.fitted, result.sensor, params_.sensor_fit);
       if (!fit) return tl::unexpected<Error>(fit.error());
       char line[160];
       std::snprintf(line, sizeof line, "fit to %llu readings: ln P %.4f -> %.4f nat",
@@ -81,7 +82,7 @@ class Bootstrap {
       }
       result.sensor = between(result.sensor, fit->params, *step);
       result.iterations.push_back({sweeps(), sure_of(labels), *step, fit->readings, fit->before,
-                                   mean_log_likelihood(readings.fitted, result.sensor),
+                                   sensor_models::mean_log_likelihood(readings.fitted, result.sensor),
                                    compare(readings.held_out, start, result.sensor)});
       if (params_.sonar) break;
       readings = count(labels);
@@ -89,7 +90,7 @@ class Bootstrap {
     result.on_first_labels = compare(first_readings.held_out, start, result.sensor);
     result.on_last_labels = compare(readings.held_out, start, result.sensor);
     result.readings = readings.fitted;
-    for (const ReadingCounts& piece : readings.held_out) result.readings.add(piece);
+    for (const sensor_models::ReadingCounts& piece : readings.held_out) result.readings.add(piece);
     learn_motion(labels, result);
     return result;
   }
@@ -118,7 +119,8 @@ class Bootstrap {
 
   /// Labels anew with the model a step from `from` to `to`, shorter ones when they get worse. The step, and `labels`
   /// become the new ones; nullopt when none is good. A sonar makes no labels: the whole step.
-  std::optional<double> go(const ProximityModelParams& from, const ProximityModelParams& to, Labellings& labels) {
+  std::optional<double> go(const sensor_models::ProximityModelParams& from,
+                           const sensor_models::ProximityModelParams& to, Labellings& labels) {
     if (params_.sonar) return 1.0;
     const auto all = static_cast<double>(sweeps());
     const double least_sure = static_cast<double>(sure_of(labels)) - kFewerSure * all;
@@ -176,10 +178,10 @@ class Bootstrap {
   void make_localizer(std::uint64_t proof = 0) {
     localizer_ = std::make_unique<MarkovLocalizer>(map_, localizer_params_, params_.cache, params_.seed + proof);
     if (params_.sonar) {
-      const ProximityModel bins{*params_.sonar};
+      const sensor_models::ProximityModel bins{*params_.sonar};
       sonar_table_ = std::make_unique<RangeTable>(
-          RangeTable::cones(localizer_->table(), ProximityModel{localizer_params_.sensor}, localizer_->space(), bins,
-                            params_.sonar_cone * std::numbers::pi / 180.0));
+          RangeTable::cones(localizer_->table(), sensor_models::ProximityModel{localizer_params_.sensor},
+                            localizer_->space(), bins, params_.sonar_cone * std::numbers::pi / 180.0));
     }
   }
 
@@ -187,7 +189,7 @@ class Bootstrap {
     const double max_range = params_.sonar ? params_.sonar->max_range : localizer_params_.sensor.max_range;
     const RangeTable& table = params_.sonar ? *sonar_table_ : localizer_->table();
     const Expectation expectation{localizer_->space(), table, localizer_->caster(), max_range, params_.expected_at};
-    CountedReadings all{ReadingCounts{max_range}, {}, 0};
+    CountedReadings all{sensor_models::ReadingCounts{max_range}, {}, 0};
     for (std::size_t i = 0; i < recordings_.size(); ++i) {
       const auto& lasers = recordings_[i].lasers;
       CountedReadings some = count_readings(params_.sonar ? recordings_[i].sonars : lasers, lasers, labels[i].labels,
@@ -200,34 +202,34 @@ class Bootstrap {
   }
 
   void learn_motion(const Labellings& labels, LearnedModels& result) const {
-    std::vector<MotionWindow> fitted;
-    std::vector<MotionWindow> held_out;
+    std::vector<motion_models::MotionWindow> fitted;
+    std::vector<motion_models::MotionWindow> held_out;
     for (std::size_t i = 0; i < recordings_.size(); ++i) {
-      std::vector<LabelledOdometry> moments;
+      std::vector<motion_models::LabelledOdometry> moments;
       for (std::size_t j = 0; j < labels[i].labels.size(); ++j) {
         const PoseLabel& at = labels[i].labels[j];
         moments.push_back({recordings_[i].lasers[j].odom_from_base, at.map_from_base, at.sure});
       }
-      for (const PlacedWindow& placed : motion_windows(moments)) {
+      for (const motion_models::PlacedWindow& placed : motion_models::motion_windows(moments)) {
         const bool first = Pieces::is_held_out(pieces_[i].piece[placed.first]);
         const bool last = Pieces::is_held_out(pieces_[i].piece[placed.last]);
         if (first && last) held_out.push_back(placed.window);
         if (!first && !last) fitted.push_back(placed.window);
       }
     }
-    LabelledMotionNoise start;
+    motion_models::LabelledMotionNoise start;
     start.motion = localizer_params_.motion;
-    auto fit = fit_odometry_model(fitted, start, params_.motion_fit);
+    auto fit = motion_models::fit_odometry_model(fitted, start, params_.motion_fit);
     if (!fit) {
       result.motion_fault = fit.error().message;
       return;
     }
-    OdometryFitParams labels_only = params_.motion_fit;
+    motion_models::OdometryFitParams labels_only = params_.motion_fit;
     labels_only.fixed_motion = true;
-    const auto plain = fit_odometry_model(fitted, start, labels_only);
+    const auto plain = motion_models::fit_odometry_model(fitted, start, labels_only);
     result.motion_held_windows = held_out.size();
-    result.motion_held_before = mean_log_likelihood(held_out, plain ? plain->noise : start);
-    result.motion_held_after = mean_log_likelihood(held_out, fit->noise);
+    result.motion_held_before = motion_models::mean_log_likelihood(held_out, plain ? plain->noise : start);
+    result.motion_held_after = motion_models::mean_log_likelihood(held_out, fit->noise);
     result.motion = std::move(*fit);
   }
 
@@ -243,16 +245,16 @@ class Bootstrap {
 
 }  // namespace
 
-HeldOut compare(const std::vector<ReadingCounts>& pieces, const ProximityModelParams& before,
-                const ProximityModelParams& after) {
+HeldOut compare(const std::vector<sensor_models::ReadingCounts>& pieces,
+                const sensor_models::ProximityModelParams& before, const sensor_models::ProximityModelParams& after) {
   HeldOut result;
   result.pieces = pieces.size();
   std::vector<double> gains;
   std::vector<double> sizes;
-  for (const ReadingCounts& piece : pieces) {
+  for (const sensor_models::ReadingCounts& piece : pieces) {
     const auto readings = static_cast<double>(piece.total());
-    const double old_value = mean_log_likelihood(piece, before);
-    const double new_value = mean_log_likelihood(piece, after);
+    const double old_value = sensor_models::mean_log_likelihood(piece, before);
+    const double new_value = sensor_models::mean_log_likelihood(piece, after);
     result.readings += piece.total();
     result.before += readings * old_value;
     result.after += readings * new_value;
@@ -279,4 +281,4 @@ Result<LearnedModels> bootstrap(const std::vector<LearningRecording>& recordings
   return Bootstrap{recordings, map, start, params, progress}.learn();
 }
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -9,7 +9,7 @@
 #include "docent/localization/learning/refinement.h"
 #include "docent/motion_models/odometry_fit.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// One recording: what localizes the robot, and the readings of another kind of sensor to learn about.
 struct LearningRecording {
@@ -24,13 +24,13 @@ struct BootstrapParams {
   int proofs = 3;  ///< labellings, each with other random choices of beams, in which a fit must prove itself
   ExpectedAt expected_at = ExpectedAt::cell;
   /// Of the sonar, as far as it is known before; nullopt: the lasers are learned.
-  std::optional<ProximityModelParams> sonar;
+  std::optional<sensor_models::ProximityModelParams> sonar;
   double sonar_cone = 15.0;  ///< [deg], full opening; see SonarEvidence
   LabelParams labels;
   RefinementParams refinement;
   ReadingParams readings;
-  ProximityFitParams sensor_fit;
-  OdometryFitParams motion_fit;
+  sensor_models::ProximityFitParams sensor_fit;
+  motion_models::OdometryFitParams motion_fit;
   std::uint64_t seed = 1;
   RangeTableCache cache;
 };
@@ -43,8 +43,9 @@ struct HeldOut {
   double after = 0.0;        ///< [nat] a reading, by the learned one
   double uncertainty = 0.0;  ///< [nat] standard error of the difference, from the scatter of the pieces
 };
-[[nodiscard]] HeldOut compare(const std::vector<ReadingCounts>& pieces, const ProximityModelParams& before,
-                              const ProximityModelParams& after);
+[[nodiscard]] HeldOut compare(const std::vector<sensor_models::ReadingCounts>& pieces,
+                              const sensor_models::ProximityModelParams& before,
+                              const sensor_models::ProximityModelParams& after);
 
 struct BootstrapIteration {
   std::size_t sweeps = 0, sure = 0;  ///< of the lasers
@@ -56,8 +57,8 @@ struct BootstrapIteration {
 };
 
 struct LearnedModels {
-  ProximityModelParams sensor;
-  std::optional<OdometryFit> motion;  ///< none where the way was too short; then motion_fault says so
+  sensor_models::ProximityModelParams sensor;
+  std::optional<motion_models::OdometryFit> motion;  ///< none where the way was too short; then motion_fault says so
   std::string motion_fault;
   double motion_held_before = 0.0, motion_held_after = 0.0;  ///< [nat] a window held out
   std::size_t motion_held_windows = 0;
@@ -66,7 +67,7 @@ struct LearnedModels {
   /// On labels made with the model at the start: the fair comparison, which owes the learned model nothing.
   HeldOut on_first_labels;
   HeldOut on_last_labels;
-  ReadingCounts readings;  ///< all of the last iteration, for pictures
+  sensor_models::ReadingCounts readings;  ///< all of the last iteration, for pictures
 };
 
 /// The bootstrap of [Rhino1999] 3.1.2: label the recordings by localizing them with an approximate model, fit the model
@@ -85,4 +86,4 @@ struct LearnedModels {
                                               const BootstrapParams& params,
                                               const std::function<void(const std::string&)>& progress);
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -8,7 +8,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 /// A hall of 9 x 6 m without symmetry, as a grid of 5 cm.
@@ -30,8 +30,8 @@ OccupancyGrid hall() {
   return map;
 }
 
-ProximityModelParams true_sensor() {
-  ProximityModelParams params;
+sensor_models::ProximityModelParams true_sensor() {
+  sensor_models::ProximityModelParams params;
   params.max_range = 8.0;
   params.sigma = 0.03;
   params.sigma_per_metre = 0.0;
@@ -44,8 +44,8 @@ ProximityModelParams true_sensor() {
   return params;
 }
 
-LabelledMotionNoise true_wheels() {
-  LabelledMotionNoise noise;
+motion_models::LabelledMotionNoise true_wheels() {
+  motion_models::LabelledMotionNoise noise;
   noise.motion = {0.0008, 0.0002, 0.0006, 0.002, 0.0};
   return noise;
 }
@@ -54,15 +54,15 @@ LabelledMotionNoise true_wheels() {
 std::vector<RecordedSweep> drive(std::uint64_t seed, const OccupancyGrid& map, int rounds, std::vector<Pose2>& truth) {
   const std::vector<Point2> corners{{2.0, 3.0}, {5.0, 3.6}, {8.3, 3.6}, {8.4, 0.9}, {5.0, 0.9}, {5.0, 3.4}, {1.8, 3.6}};
   Rng rng{seed};
-  const RayCaster caster{map};
-  const ProximityModel sensor{true_sensor()};
-  const OdometryModelParams wheels = true_wheels().motion;
+  const sensor_models::RayCaster caster{map};
+  const sensor_models::ProximityModel sensor{true_sensor()};
+  const motion_models::OdometryModelParams wheels = true_wheels().motion;
   std::vector<RecordedSweep> sweeps;
   Pose2 odometry;
   Pose2 real{2.0, 3.0, Angle::degrees(10)};
   const auto step = [&](const Pose2& motion) {
     real = real * motion;
-    const MotionNoise noise = motion_noise(wheels, motion);
+    const motion_models::MotionNoise noise = motion_models::motion_noise(wheels, motion);
     odometry =
         odometry * motion *
         Pose2{rng.normal(0.0, std::sqrt(noise.position_variance)), rng.normal(0.0, std::sqrt(noise.position_variance)),
@@ -76,9 +76,9 @@ std::vector<RecordedSweep> drive(std::uint64_t seed, const OccupancyGrid& map, i
       const int expected = sensor.bin(wall);
       double left = rng.uniform();
       int measured = 0;
-      while (measured < kNoReturn && (left -= sensor.probability(measured, expected)) >= 0.0) ++measured;
+      while (measured < sensor_models::kNoReturn && (left -= sensor.probability(measured, expected)) >= 0.0) ++measured;
       recorded.sweep.beams.push_back(
-          {bearing.radians(), std::min(8.0, sensor.centre(measured)), measured == kNoReturn});
+          {bearing.radians(), std::min(8.0, sensor.centre(measured)), measured == sensor_models::kNoReturn});
     }
     sweeps.push_back(std::move(recorded));
     truth.push_back(real);
@@ -152,9 +152,9 @@ TEST(Pieces, EveryFourthIsHeldOutAndNeighboursStayTogether) {
 TEST(Readings, CountOnlyWhereTheRobotIsSureAndMoved) {
   const OccupancyGrid map = hall();
   const LocalizerParams params = start_params();
-  const RayCaster caster{map};
+  const sensor_models::RayCaster caster{map};
   const StateSpace space{map, caster, params.states};
-  const RangeTable table = RangeTable::build(space, caster, ProximityModel{params.sensor});
+  const RangeTable table = RangeTable::build(space, caster, sensor_models::ProximityModel{params.sensor});
   const Expectation at_pose{space, table, caster, 8.0, ExpectedAt::pose};
   std::vector<RecordedSweep> sweeps(40);
   std::vector<PoseLabel> labels(40);
@@ -168,7 +168,7 @@ TEST(Readings, CountOnlyWhereTheRobotIsSureAndMoved) {
   const auto counted = count_readings(sweeps, sweeps, labels, pieces_of(sweeps), at_pose, {});
   EXPECT_EQ(counted.sweeps, 11U);
   std::uint64_t all = counted.fitted.total();
-  for (const ReadingCounts& piece : counted.held_out) all += piece.total();
+  for (const sensor_models::ReadingCounts& piece : counted.held_out) all += piece.total();
   EXPECT_EQ(all, 11U);
   // The cupboard's edge stands 1.5 m to the left, the surface half a cell deeper.
   const int measured = at_pose.bins().bin(1.0);
@@ -191,7 +191,7 @@ TEST_P(BootstrapInTheHall, FindsSensorAndWheels) {
   const auto learned = bootstrap(recordings, map, start_params(), params, [&](const std::string&) { ++lines; });
   ASSERT_TRUE(learned) << learned.error().message;
   EXPECT_GT(lines, 0U);
-  const ProximityModelParams real = true_sensor();
+  const sensor_models::ProximityModelParams real = true_sensor();
   // The labels' own error of some centimetres comes on top of the sensor's.
   EXPECT_GT(learned->sensor.sigma, real.sigma);
   EXPECT_LT(learned->sensor.sigma, real.sigma + 0.06);
@@ -206,8 +206,8 @@ TEST_P(BootstrapInTheHall, FindsSensorAndWheels) {
   ASSERT_TRUE(learned->motion) << learned->motion_fault;
   // Three metres and half a turn: deviations within 40 %, from labels that err more than the wheels.
   const Pose2 way{3.0, 0.0, Angle::degrees(180)};
-  const MotionNoise found = motion_noise(learned->motion->noise.motion, way);
-  const MotionNoise wheels = motion_noise(true_wheels().motion, way);
+  const motion_models::MotionNoise found = motion_models::motion_noise(learned->motion->noise.motion, way);
+  const motion_models::MotionNoise wheels = motion_models::motion_noise(true_wheels().motion, way);
   EXPECT_NEAR(std::sqrt(found.heading_variance / wheels.heading_variance), 1.0, 0.4);
   EXPECT_NEAR(std::sqrt(found.position_variance / wheels.position_variance), 1.0, 0.6);
   EXPECT_GT(learned->motion_held_after, learned->motion_held_before);
@@ -226,4 +226,4 @@ TEST(Bootstrap, SaysWhenTheRobotIsNowhereSure) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

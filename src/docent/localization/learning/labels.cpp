@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-namespace docent {
+namespace docent::localization {
 
 namespace {
 
@@ -30,14 +30,15 @@ bool is_one_sensor(std::span<const RecordedSweep> sweeps) {
 /// The sweep in the robot's frame, together with what the other sensors saw at about the same moment.
 class Surroundings {
  public:
-  RangeSweep add(const RecordedSweep& recorded) {
+  sensor_models::RangeSweep add(const RecordedSweep& recorded) {
     constexpr double kTogether = 0.25;  // [s], as a robot's module has it
-    RangeSweep all;
+    sensor_models::RangeSweep all;
     last_[recorded.sensor] = &recorded;
     for (const auto& [sensor, other] : last_) {
       if (std::abs(to_seconds(recorded.time - other->time)) > kTogether) continue;
       const Pose2 now_from_then = inverse(recorded.odom_from_base) * other->odom_from_base;
-      const RangeSweep seen = seen_from(other->sweep, now_from_then * other->base_from_sensor);
+      const sensor_models::RangeSweep seen =
+          sensor_models::seen_from(other->sweep, now_from_then * other->base_from_sensor);
       all.beams.insert(all.beams.end(), seen.beams.begin(), seen.beams.end());
     }
     return all;
@@ -124,4 +125,4 @@ Labelling label(std::span<const RecordedSweep> sweeps, MarkovLocalizer& localize
   return result;
 }
 
-}  // namespace docent
+}  // namespace docent::localization

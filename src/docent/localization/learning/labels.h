@@ -7,7 +7,7 @@
 
 #include "docent/localization/markov/markov_localizer.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// One sensor's readings at one moment of a recording.
 struct RecordedSweep {
@@ -15,7 +15,7 @@ struct RecordedSweep {
   int sensor = 0;  ///< which of several
   Pose2 odom_from_base;
   Pose2 base_from_sensor;
-  RangeSweep sweep;  ///< in the sensor's frame
+  sensor_models::RangeSweep sweep;  ///< in the sensor's frame
 };
 
 /// Where the robot was at a sweep, as localization says.
@@ -47,4 +47,4 @@ struct LabelParams {
                               const LabelParams& params,
                               const std::function<void(std::size_t, std::size_t)>& progress = {});
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -5,7 +5,7 @@
 #include <map>
 #include <numbers>
 
-namespace docent {
+namespace docent::localization {
 
 namespace {
 constexpr double kUnknownAllowance = 0.3;  // [m], as the range table has it
@@ -15,8 +15,9 @@ int Expectation::expected(const Pose2& map_from_sensor, std::size_t place, doubl
   if (at_ == ExpectedAt::pose) {
     const Angle direction = map_from_sensor.theta + Angle::radians(bearing);
     const auto range = caster_.cast(map_from_sensor.position(), unit(direction), bins_.max_range(), kUnknownAllowance);
-    if (!range) return kUnknownRange;
-    return *range >= bins_.max_range() ? kNoReturn : bins_.bin(*range + 0.5 * caster_.frame().resolution);
+    if (!range) return sensor_models::kUnknownRange;
+    return *range >= bins_.max_range() ? sensor_models::kNoReturn
+                                       : bins_.bin(*range + 0.5 * caster_.frame().resolution);
   }
   const int headings = space_.headings();
   const auto steps = [&](double angle) { return static_cast<int>(std::lround(angle / space_.heading_step())); };
@@ -24,12 +25,13 @@ int Expectation::expected(const Pose2& map_from_sensor, std::size_t place, doubl
   return table_.row(place)[static_cast<std::size_t>(heading)];
 }
 
-void Expectation::add(const RangeSweep& sweep, const Pose2& map_from_sensor, ReadingCounts& counts) const {
+void Expectation::add(const sensor_models::RangeSweep& sweep, const Pose2& map_from_sensor,
+                      sensor_models::ReadingCounts& counts) const {
   const std::int32_t place = space_.place_at(space_.frame().cell_at(map_from_sensor.position()));
   if (place == StateSpace::kNoPlace) return;
-  for (const BinnedBeam& chosen : binned(sweep, space_.headings())) {
-    const SweepBeam& beam = sweep.beams[chosen.beam];
-    const int measured = beam.no_return ? kNoReturn : bins_.bin(beam.range);
+  for (const sensor_models::BinnedBeam& chosen : sensor_models::binned(sweep, space_.headings())) {
+    const sensor_models::SweepBeam& beam = sweep.beams[chosen.beam];
+    const int measured = beam.no_return ? sensor_models::kNoReturn : bins_.bin(beam.range);
     counts.add(measured, expected(map_from_sensor, static_cast<std::size_t>(place), beam.bearing));
   }
 }
@@ -52,9 +54,9 @@ Pieces pieces_of(std::span<const RecordedSweep> sweeps) {
 CountedReadings count_readings(std::span<const RecordedSweep> sweeps, std::span<const RecordedSweep> guide,
                                std::span<const PoseLabel> labels, const Pieces& pieces, const Expectation& expectation,
                                const ReadingParams& params) {
-  const ReadingCounts none{expectation.bins().max_range()};
+  const sensor_models::ReadingCounts none{expectation.bins().max_range()};
   CountedReadings result{none, {}, 0};
-  std::map<int, ReadingCounts> held_out;
+  std::map<int, sensor_models::ReadingCounts> held_out;
   std::map<int, Pose2> last_counted;  // odom_from_base by sensor
   std::size_t at = 0;                 // the guide's sweep at or before the reading
   for (const RecordedSweep& recorded : sweeps) {
@@ -71,7 +73,7 @@ CountedReadings count_readings(std::span<const RecordedSweep> sweeps, std::span<
     const Pose2 label_from_base = inverse(guide[at].odom_from_base) * recorded.odom_from_base;
     const Pose2 map_from_sensor = labels[at].map_from_base * label_from_base * recorded.base_from_sensor;
     const int piece = pieces.piece[at];
-    ReadingCounts& counts =
+    sensor_models::ReadingCounts& counts =
         Pieces::is_held_out(piece) ? held_out.try_emplace(piece, none).first->second : result.fitted;
     expectation.add(recorded.sweep, map_from_sensor, counts);
     ++result.sweeps;
@@ -81,4 +83,4 @@ CountedReadings count_readings(std::span<const RecordedSweep> sweeps, std::span<
   return result;
 }
 
-}  // namespace docent
+}  // namespace docent::localization

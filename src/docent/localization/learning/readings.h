@@ -6,7 +6,7 @@
 #include "docent/localization/learning/labels.h"
 #include "docent/sensor_models/proximity_fit.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// Where an expected range is looked up. `cell`: at the middle of the belief's cell and in its nearest heading, as the
 /// grid localizer does; what the cells blur then becomes part of the sensor's noise. `pose`: at the label itself, for
@@ -17,20 +17,21 @@ enum class ExpectedAt { cell, pose };
 class Expectation {
  public:
   /// All must outlive it. `table` was built for bins of `max_range`; with ExpectedAt::pose it is not asked.
-  Expectation(const StateSpace& space, const RangeTable& table, const RayCaster& caster, double max_range,
-              ExpectedAt at)
+  Expectation(const StateSpace& space, const RangeTable& table, const sensor_models::RayCaster& caster,
+              double max_range, ExpectedAt at)
       : space_{space}, table_{table}, caster_{caster}, bins_{max_range}, at_{at} {}
 
   /// Adds all beams of a sweep taken at `map_from_sensor`. Nothing where that is no free place. O(beams).
-  void add(const RangeSweep& sweep, const Pose2& map_from_sensor, ReadingCounts& counts) const;
-  [[nodiscard]] const RangeBins& bins() const { return bins_; }
+  void add(const sensor_models::RangeSweep& sweep, const Pose2& map_from_sensor,
+           sensor_models::ReadingCounts& counts) const;
+  [[nodiscard]] const sensor_models::RangeBins& bins() const { return bins_; }
 
  private:
   [[nodiscard]] int expected(const Pose2& map_from_sensor, std::size_t place, double bearing) const;
   const StateSpace& space_;
   const RangeTable& table_;
-  const RayCaster& caster_;
-  RangeBins bins_;
+  const sensor_models::RayCaster& caster_;
+  sensor_models::RangeBins bins_;
   ExpectedAt at_;
 };
 
@@ -46,9 +47,9 @@ struct Pieces {
 
 /// Readings of one recording, by piece.
 struct CountedReadings {
-  ReadingCounts fitted;
-  std::vector<ReadingCounts> held_out;  ///< a piece each; empty ones are left out
-  std::size_t sweeps = 0;               ///< that were counted
+  sensor_models::ReadingCounts fitted;
+  std::vector<sensor_models::ReadingCounts> held_out;  ///< a piece each; empty ones are left out
+  std::size_t sweeps = 0;                              ///< that were counted
 };
 
 struct ReadingParams {
@@ -64,4 +65,4 @@ struct ReadingParams {
                                              const Pieces& pieces, const Expectation& expectation,
                                              const ReadingParams& params);
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -6,7 +6,7 @@
 #include <map>
 #include <numbers>
 
-namespace docent {
+namespace docent::localization {
 
 namespace {
 
@@ -15,8 +15,8 @@ constexpr double kUnknownAllowance = 0.3;  // [m], as the range table has it
 /// How badly a sweep fits the map at a pose near `label`; less is better.
 class Misfit {
  public:
-  Misfit(const RecordedSweep& recorded, const Pose2& map_from_base, const RayCaster& caster, double max_range,
-         const RefinementParams& params)
+  Misfit(const RecordedSweep& recorded, const Pose2& map_from_base, const sensor_models::RayCaster& caster,
+         double max_range, const RefinementParams& params)
       : caster_{caster}, max_range_{max_range}, params_{params}, label_{map_from_base * recorded.base_from_sensor} {
     const auto& all = recorded.sweep.beams;
     const std::size_t step = std::max<std::size_t>(1, all.size() / static_cast<std::size_t>(params.beams));
@@ -28,7 +28,7 @@ class Misfit {
 
   [[nodiscard]] double at(const Pose2& map_from_sensor) const {
     double sum = 0.0;
-    for (const SweepBeam& beam : beams_) {
+    for (const sensor_models::SweepBeam& beam : beams_) {
       const Angle direction = map_from_sensor.theta + Angle::radians(beam.bearing);
       const auto range = caster_.cast(map_from_sensor.position(), unit(direction), max_range_, kUnknownAllowance);
       if (!range) continue;
@@ -42,11 +42,11 @@ class Misfit {
   }
 
  private:
-  const RayCaster& caster_;
+  const sensor_models::RayCaster& caster_;
   double max_range_;
   RefinementParams params_;
   Pose2 label_;
-  std::vector<SweepBeam> beams_;
+  std::vector<sensor_models::SweepBeam> beams_;
 };
 
 /// Pattern search: steps along each axis as long as they help, then shorter ones.
@@ -81,7 +81,7 @@ Pose2 best_near(const Misfit& misfit) {
 
 }  // namespace
 
-void refine(std::span<const RecordedSweep> sweeps, const RayCaster& caster, double max_range,
+void refine(std::span<const RecordedSweep> sweeps, const sensor_models::RayCaster& caster, double max_range,
             const RefinementParams& params, std::vector<PoseLabel>& labels) {
   struct Refined {
     Pose2 odom_from_base;
@@ -107,4 +107,4 @@ void refine(std::span<const RecordedSweep> sweeps, const RayCaster& caster, doub
   }
 }
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -5,7 +5,7 @@
 
 #include "docent/localization/learning/labels.h"
 
-namespace docent {
+namespace docent::localization {
 
 struct RefinementParams {
   int beams = 60;       ///< of a sweep, evenly
@@ -23,7 +23,7 @@ struct RefinementParams {
 /// robust (Cauchy) fit of ranges, held by a Gaussian about the old label where the sweep does not say, as along a bare
 /// corridor. The labels' people and unmapped things hardly pull. Deterministic.
 /// O(labels * beams * casts), about sixty casts a beam.
-void refine(std::span<const RecordedSweep> sweeps, const RayCaster& caster, double max_range,
+void refine(std::span<const RecordedSweep> sweeps, const sensor_models::RayCaster& caster, double max_range,
             const RefinementParams& params, std::vector<PoseLabel>& labels);
 
-}  // namespace docent
+}  // namespace docent::localization

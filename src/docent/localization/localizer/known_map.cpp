@@ -8,7 +8,7 @@
 #include <string>
 #include <thread>
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 /// All that a table depends on, beside the program: numbers to the last bit.
@@ -23,8 +23,8 @@ std::string table_key(const OccupancyGrid& map, const LocalizerParams& params) {
 }  // namespace
 
 RangeTable range_table_of(const OccupancyGrid& map, const LocalizerParams& params, const RangeTableCache& cache,
-                          const StateSpace& space, const RayCaster& caster) {
-  const ProximityModel model{params.sensor};
+                          const StateSpace& space, const sensor_models::RayCaster& caster) {
+  const sensor_models::ProximityModel model{params.sensor};
   const RangeTable::Building how{std::max(1U, std::thread::hardware_concurrency()), {}};
   if (cache.folder.empty()) return RangeTable::build(space, caster, model, how);
   const std::string key = table_key(map, params);
@@ -35,10 +35,10 @@ RangeTable range_table_of(const OccupancyGrid& map, const LocalizerParams& param
 }
 
 KnownMap::KnownMap(const OccupancyGrid& map, const LocalizerParams& params, const RangeTableCache& cache)
-    : caster{peeled(map, params.states.wall_depth)},
+    : caster{sensor_models::peeled(map, params.states.wall_depth)},
       space{map, caster, params.states},
       table{range_table_of(map, params, cache, space, caster)},
       model{params.sensor, table.frequency()},
       widest{map.frame.resolution * std::hypot(map.frame.columns, map.frame.rows)} {}
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -8,22 +8,23 @@
 #include "docent/sensor_models/proximity_model.h"
 #include "docent/sensor_models/ray_caster.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// The range table of a map, from the cache where it has one for these parameters; else made, and kept there.
 [[nodiscard]] RangeTable range_table_of(const OccupancyGrid& map, const LocalizerParams& params,
-                                        const RangeTableCache& cache, const StateSpace& space, const RayCaster& caster);
+                                        const RangeTableCache& cache, const StateSpace& space,
+                                        const sensor_models::RayCaster& caster);
 
 /// A map as a belief uses it: the poses in it, what the lasers expect at each, and how probable other readings are.
 struct KnownMap {
   /// `cache`: see range_table_of. @pre params are valid
   KnownMap(const OccupancyGrid& map, const LocalizerParams& params, const RangeTableCache& cache);
 
-  RayCaster caster;
+  sensor_models::RayCaster caster;
   StateSpace space;
   RangeTable table;
-  ProximityModel model;  ///< p(s | l), [Markov1998] 3.2
-  double widest;         ///< [m] from corner to corner
+  sensor_models::ProximityModel model;  ///< p(s | l), [Markov1998] 3.2
+  double widest;                        ///< [m] from corner to corner
 };
 
-}  // namespace docent
+}  // namespace docent::localization

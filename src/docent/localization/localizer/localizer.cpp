@@ -6,7 +6,7 @@
 #include "docent/localization/beam_choice/person_shapes.h"
 #include "docent/localization/expected_ranges/agreement.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 constexpr double kSurpriseWaits = 0.15;  // [s] between updates for a surprise
@@ -52,7 +52,7 @@ void Localizer::forget_judgement() {
   rivals_.forget();
 }
 
-Localizer::Step Localizer::observe(const RangeSweep& sweep, const Pose2& odom_from_robot, Time time) {
+Localizer::Step Localizer::observe(const sensor_models::RangeSweep& sweep, const Pose2& odom_from_robot, Time time) {
   if (is_torn(odom_from_robot)) start_unknown();
   if (sweep.beams.empty()) return {};
   Update update = due(sweep, odom_from_robot, time);
@@ -71,7 +71,7 @@ bool Localizer::is_torn(const Pose2& odom_from_robot) const {
   return started_ && !(distance(odom_from_robot_.position(), odom_from_robot.position()) <= map_->widest);
 }
 
-Localizer::Update Localizer::due(const RangeSweep& sweep, const Pose2& odom_from_robot, Time time) {
+Localizer::Update Localizer::due(const sensor_models::RangeSweep& sweep, const Pose2& odom_from_robot, Time time) {
   const Motion motion = started_ ? Motion{inverse(odom_from_robot_) * odom_from_robot} : Motion{};
   Update update{.sweep = sweep,
                 .motion = motion,
@@ -135,7 +135,8 @@ void Localizer::summarise_now() {
 
 void Localizer::keep_rivals(const Update& update) {
   if (!params_.rivals || verdict_.keeps_its_place()) return rivals_.forget();
-  const RangeSweep sweep = update.on_persons.empty() ? update.sweep : without(update.sweep, update.on_persons);
+  const sensor_models::RangeSweep sweep =
+      update.on_persons.empty() ? update.sweep : without(update.sweep, update.on_persons);
   const auto modes =
       rivals_.update(summary_, sweep, update.motion.before_from_after, map_->caster, params_.sensor.max_range);
   rivals_.hear(summary_, sensors_, update.weight);
@@ -146,7 +147,7 @@ void Localizer::keep_rivals(const Update& update) {
 
 void Localizer::refine(const Update& update) {
   belief_->resample(summary_.modes.front().map_from_robot, rng_);
-  const MotionNoise noise = motion_noise(params_.motion, update.motion.before_from_after);
+  const motion_models::MotionNoise noise = motion_models::motion_noise(params_.motion, update.motion.before_from_after);
   const Pose2 refined =
       refiner_.refine(summary_.modes.front(), update.sweep, update.motion.before_from_after, noise.position_variance,
                       noise.heading_variance, map_->caster, params_.sensor.max_range);
@@ -168,7 +169,7 @@ std::optional<double> Localizer::fit(const Update& update) const {
   const auto heading = static_cast<std::size_t>(std::lround(turns)) % static_cast<std::size_t>(space.headings());
   const RangeTable::Row row = map_->table.row(static_cast<std::size_t>(place));
   double sum = 0.0;
-  for (const BinnedBeam& beam : update.choice.used) {
+  for (const sensor_models::BinnedBeam& beam : update.choice.used) {
     const int bin = bin_of(update.seen.beams[beam.beam], map_->model);
     sum += static_cast<double>(map_->model.log_probabilities(bin)[row[heading + beam.direction]]);
   }
@@ -197,12 +198,12 @@ void Localizer::judge(Update& update) {
   if (const auto now = map_from_robot(odom_from_robot_)) glance_at(update.sweep, *now);
 }
 
-void Localizer::glance_at(const RangeSweep& sweep, const Pose2& map_from_robot) {
+void Localizer::glance_at(const sensor_models::RangeSweep& sweep, const Pose2& map_from_robot) {
   verdict_.look(glance(map_->caster, sweep, map_from_robot, params_.sensor.max_range));
 }
 
-std::vector<BeamOrigin> Localizer::origins(const RangeSweep& sweep, const Pose2& odom_now, double max_range,
-                                           const PersonFilterParams& params) const {
+std::vector<sensor_models::BeamOrigin> Localizer::origins(const sensor_models::RangeSweep& sweep, const Pose2& odom_now,
+                                                          double max_range, const PersonFilterParams& params) const {
   if (!verdict_.localized()) return beam_origins(caster(), {}, sweep, {}, max_range, params);
   std::vector<BeliefMode> modes = summary_.modes;
   const Pose2 before_from_now = inverse(odom_from_robot_) * odom_now;
@@ -212,11 +213,12 @@ std::vector<BeamOrigin> Localizer::origins(const RangeSweep& sweep, const Pose2&
   return beam_origins(caster(), modes, sweep, gains, max_range, params);
 }
 
-std::vector<float> Localizer::entropy_gains(const RangeSweep& sweep, const Pose2& odom_now) const {
+std::vector<float> Localizer::entropy_gains(const sensor_models::RangeSweep& sweep, const Pose2& odom_now) const {
   if (likely_.empty()) return {};
   const ExpectedRanges expected{likely_, map_->table, map_->space.headings(), true};
-  return docent::entropy_gains(expected, map_->model, seen_from(sweep, inverse(belief_->odom_from_frame()) * odom_now),
-                               map_->space.headings());
+  return docent::localization::entropy_gains(
+      expected, map_->model, sensor_models::seen_from(sweep, inverse(belief_->odom_from_frame()) * odom_now),
+      map_->space.headings());
 }
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -23,7 +23,7 @@
 #include "docent/sensor_models/range_sweep.h"
 #include "docent/sensor_models/ray_caster.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// Markov localization [Markov1998], [Rhino1999] 3.1: a belief over the robot's pose in a map, kept up by sweeps of
 /// range readings and odometry. One cycle, whatever the belief is made of: see `observe`. Deterministic; knows no wall
@@ -54,16 +54,16 @@ class Localizer {
   };
   /// Offers a sweep. Most are not needed: an update comes after some motion or time. One cycle is: due, predict, choose
   /// beams, reweigh, summarise, judge. O(states of the belief * beams).
-  Step observe(const RangeSweep& sweep, const Pose2& odom_from_robot, Time time);
+  Step observe(const sensor_models::RangeSweep& sweep, const Pose2& odom_from_robot, Time time);
 
   [[nodiscard]] const BeliefSummary& summary() const { return summary_; }  ///< as of the last update
   [[nodiscard]] const Verdict& verdict() const { return verdict_; }
   [[nodiscard]] const Pose2& odom_from_robot() const { return odom_from_robot_; }  ///< at the last update
   /// Entropy gains [nat] of the beams of a sweep, H(L | s) - H(L): above 0 the beam would make the robot less sure
   /// ([Rhino1999] eq. 10). 0 where it would tell nothing; empty while the belief is too wide to ask.
-  [[nodiscard]] std::vector<float> entropy_gains(const RangeSweep& sweep, const Pose2& odom_now) const;
+  [[nodiscard]] std::vector<float> entropy_gains(const sensor_models::RangeSweep& sweep, const Pose2& odom_now) const;
   [[nodiscard]] PositionDensity density() const { return belief_->density(); }  ///< for pictures
-  [[nodiscard]] const RayCaster& caster() const { return map_->caster; }
+  [[nodiscard]] const sensor_models::RayCaster& caster() const { return map_->caster; }
   [[nodiscard]] const StateSpace& space() const { return map_->space; }
   [[nodiscard]] const RangeTable& table() const { return map_->table; }
 
@@ -74,8 +74,9 @@ class Localizer {
   }
   /// What the beams of a sweep ended on, by the inverse filter. All unknown while not localized: then nobody can say
   /// what the map lets expect.
-  [[nodiscard]] std::vector<BeamOrigin> origins(const RangeSweep& sweep, const Pose2& odom_now, double max_range,
-                                                const PersonFilterParams& params) const;
+  [[nodiscard]] std::vector<sensor_models::BeamOrigin> origins(const sensor_models::RangeSweep& sweep,
+                                                               const Pose2& odom_now, double max_range,
+                                                               const PersonFilterParams& params) const;
 
  protected:
   [[nodiscard]] PoseBelief& pose_belief() { return *belief_; }
@@ -84,18 +85,18 @@ class Localizer {
  private:
   /// One update, from step to step.
   struct Update {
-    const RangeSweep& sweep;
+    const sensor_models::RangeSweep& sweep;
     Motion motion;
-    std::optional<Pose2> predicted;  ///< the best pose of the last update, moved by odometry
-    double weight = 0.0;             ///< 0..1 of a full update
-    double views = 1.0;              ///< LocalizerParams::views
-    RangeSweep seen{};               ///< the sweep in the belief's frame
+    std::optional<Pose2> predicted;    ///< the best pose of the last update, moved by odometry
+    double weight = 0.0;               ///< 0..1 of a full update
+    double views = 1.0;                ///< LocalizerParams::views
+    sensor_models::RangeSweep seen{};  ///< the sweep in the belief's frame
     std::vector<std::uint8_t> on_persons{};
     BeamChoice choice{};
     std::optional<Neighbourhood> focus{};
   };
   [[nodiscard]] bool is_torn(const Pose2& odom_from_robot) const;
-  [[nodiscard]] Update due(const RangeSweep& sweep, const Pose2& odom_from_robot, Time time);
+  [[nodiscard]] Update due(const sensor_models::RangeSweep& sweep, const Pose2& odom_from_robot, Time time);
   void predict(const Update& update, const Pose2& odom_from_robot, Time time);
   void choose_beams(Update& update);
   void reweigh(Update& update);
@@ -106,7 +107,7 @@ class Localizer {
   void summarise_now();
   void keep_rivals(const Update& update);
   void refine(const Update& update);
-  void glance_at(const RangeSweep& sweep, const Pose2& map_from_robot);
+  void glance_at(const sensor_models::RangeSweep& sweep, const Pose2& map_from_robot);
   void forget_judgement();
 
   std::shared_ptr<const KnownMap> map_;
@@ -125,4 +126,4 @@ class Localizer {
   std::vector<LikelyState> likely_;
 };
 
-}  // namespace docent
+}  // namespace docent::localization

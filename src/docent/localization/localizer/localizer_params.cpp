@@ -8,7 +8,7 @@
 #include "docent/base/instruction_set.h"
 #include "docent/localization/beam_choice/person_shapes.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180.0;
@@ -54,12 +54,13 @@ double LocalizerParams::views(double way, double turn) const {
 }
 
 Neighbourhood LocalizerParams::focus(const Pose2& predicted, const Pose2& before_from_after) const {
-  const MotionNoise noise = motion_noise(motion, before_from_after);
+  const motion_models::MotionNoise noise = motion_models::motion_noise(motion, before_from_after);
   return {predicted, std::max(focus_radius, focus_deviations * std::sqrt(noise.position_variance)),
           std::max(focus_turn, focus_deviations * std::sqrt(noise.heading_variance))};
 }
 
-std::vector<std::uint8_t> LocalizerParams::on_persons(const RangeSweep& sweep, bool keeps_its_place) const {
+std::vector<std::uint8_t> LocalizerParams::on_persons(const sensor_models::RangeSweep& sweep,
+                                                      bool keeps_its_place) const {
   return keeps_its_place || person_share >= 1.0 ? std::vector<std::uint8_t>{} : on_person_shapes(sweep);
 }
 
@@ -85,4 +86,4 @@ BeamChoiceParams LocalizerParams::beam_choice(std::vector<std::uint8_t> on_perso
   return choice;
 }
 
-}  // namespace docent
+}  // namespace docent::localization

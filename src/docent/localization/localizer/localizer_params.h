@@ -15,13 +15,13 @@
 #include "docent/sensor_models/proximity_model.h"
 #include "docent/sensor_models/range_sweep.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// What grid and particles share, section `localize` of robot.yaml.
 struct LocalizerParams {
   StateSpaceParams states;
-  ProximityModelParams sensor;
-  OdometryModelParams motion;
+  sensor_models::ProximityModelParams sensor;
+  motion_models::OdometryModelParams motion;
   VerdictParams verdict;
   PoseRefinerParams refiner;
   int beams = 60;                      ///< at most, per update
@@ -103,8 +103,9 @@ struct LocalizerParams {
   /// What a sector counts at most. `on_persons`: see below; empty once the robot has a place to keep.
   [[nodiscard]] double sector_nats(std::span<const std::uint8_t> on_persons) const;
   /// The beams on what is shaped like a person, while the robot does not know its place; empty: nobody looks.
-  [[nodiscard]] std::vector<std::uint8_t> on_persons(const RangeSweep& sweep, bool keeps_its_place) const;
+  [[nodiscard]] std::vector<std::uint8_t> on_persons(const sensor_models::RangeSweep& sweep,
+                                                     bool keeps_its_place) const;
   [[nodiscard]] BeamChoiceParams beam_choice(std::vector<std::uint8_t> on_persons, bool keeps_its_place) const;
 };
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -14,7 +14,7 @@
 #include "docent/localization/localizer/update_cadence.h"
 #include "docent/sensor_models/range_sweep.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// The belief over positions, all headings together.
 struct PositionDensity {
@@ -24,10 +24,10 @@ struct PositionDensity {
 
 /// What one update has to say of where the robot is: s of [Markov1998] eq. 1, and how far it may be trusted.
 struct SensorEvidence {
-  const RangeSweep& seen;               ///< in the belief's frame
-  std::span<const BinnedBeam> beams;    ///< those that count, by rising direction
-  std::span<const LikelyState> likely;  ///< before the update; empty: the belief is too wide
-  ObservationModels& others;            ///< sensors beside the lasers
+  const sensor_models::RangeSweep& seen;             ///< in the belief's frame
+  std::span<const sensor_models::BinnedBeam> beams;  ///< those that count, by rising direction
+  std::span<const LikelyState> likely;               ///< before the update; empty: the belief is too wide
+  ObservationModels& others;                         ///< sensors beside the lasers
   Time time;
   Pose2 odom_from_robot;
   double weight = 1.0;       ///< 0..1 of a full update
@@ -81,9 +81,9 @@ class PoseBelief {
   /// At the last update.
   [[nodiscard]] virtual Pose2 odom_from_frame() const = 0;
   /// A sweep of the last update in the belief's frame.
-  [[nodiscard]] virtual RangeSweep in_frame(const RangeSweep& sweep) const = 0;
+  [[nodiscard]] virtual sensor_models::RangeSweep in_frame(const sensor_models::RangeSweep& sweep) const = 0;
   /// Where the frame is when the robot is there.
   [[nodiscard]] virtual Pose2 map_from_frame(const Pose2& map_from_robot) const = 0;
 };
 
-}  // namespace docent
+}  // namespace docent::localization

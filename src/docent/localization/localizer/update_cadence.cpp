@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180.0;
@@ -33,4 +33,4 @@ void UpdateCadence::begin(const Motion& motion, Point2 position, Time now) {
   turned_here_ += motion.turn;
 }
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -6,7 +6,7 @@
 #include "docent/geometry/pose2.h"
 #include "docent/localization/localizer/localizer_params.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// What odometry tells of the way since the last update.
 struct Motion {
@@ -58,4 +58,4 @@ class UpdateCadence {
   double turned_here_ = 0.0;  ///< [rad] since it came there
 };
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 Time at(double s) { return Time{} + seconds(s); }
@@ -54,4 +54,4 @@ TEST(UpdateCadence, ASecondRoundOnTheSpotIsNewsOnceInAWhile) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

@@ -6,7 +6,7 @@
 
 #include "docent/base/instruction_set.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 constexpr double kLikelyFraction = 1e-3;   // of the peak: states that the filters ask
@@ -29,14 +29,14 @@ EvidenceWeights weights_of(const SensorEvidence& evidence, const LocalizerParams
 
 }  // namespace
 
-ScanCosts scan_costs(const RangeSweep& seen, std::span<const BinnedBeam> beams, const ProximityModel& model,
-                     double temper) {
+ScanCosts scan_costs(const sensor_models::RangeSweep& seen, std::span<const sensor_models::BinnedBeam> beams,
+                     const sensor_models::ProximityModel& model, double temper) {
   ScanCosts scan{std::vector<BeamCosts>(beams.size()), 0.0};
   for (std::size_t i = 0; i < beams.size(); ++i) {
     const int bin = bin_of(seen.beams[beams[i].beam], model);
     const auto log_probabilities = model.log_probabilities(bin);
     const float best = *std::max_element(log_probabilities.begin(), log_probabilities.end());
-    for (std::size_t o = 0; o < kExpectedRanges; ++o) {
+    for (std::size_t o = 0; o < sensor_models::kExpectedRanges; ++o) {
       const double nats = temper * static_cast<double>(best - log_probabilities[o]);
       scan.beams[i].costs[o] = static_cast<std::uint8_t>(std::min<long>(kMaxCost, std::lround(nats * kCostPerNat)));
     }
@@ -89,7 +89,8 @@ void GridBelief::predict(const Motion& motion, const Pose2& odom_from_robot, boo
   odom_from_robot_ = odom_from_robot;
   if (!(motion.way > 0.0 || motion.turn > 0.0)) return;
   const Point2 shift = follow(keeps_its_place);
-  const OdometryStep step{motion_noise(params_.motion, motion.before_from_after), motion.way, motion.turn};
+  const OdometryStep step{motion_models::motion_noise(params_.motion, motion.before_from_after), motion.way,
+                          motion.turn};
   belief_.move(motion_kernel(map_->space, params_.motion, shift, step));
 }
 
@@ -151,7 +152,7 @@ bool GridBelief::flood() {
 }
 
 BeliefSummary GridBelief::summarise() {
-  BeliefSummary summary = docent::summarise(belief_, coarse_, frame_from_robot(), {});
+  BeliefSummary summary = docent::localization::summarise(belief_, coarse_, frame_from_robot(), {});
   if (!summary.modes.empty())
     likeliest_heading_ = summary.modes.front().map_from_robot.theta - frame_from_robot().theta;
   return summary;
@@ -170,4 +171,4 @@ PositionDensity GridBelief::density() const {
   return density;
 }
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -10,7 +10,7 @@
 #include "docent/localization/markov/position_belief.h"
 #include "docent/localization/markov/position_summary.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// A probability for every place and heading, [Markov1998] 2, for the cycle of `Localizer`.
 ///
@@ -33,8 +33,8 @@ class GridBelief final : public PoseBelief {
   [[nodiscard]] std::vector<LikelyState> likely() const override;
   [[nodiscard]] PositionDensity density() const override;
   [[nodiscard]] Pose2 odom_from_frame() const override { return odom_from_frame_; }
-  [[nodiscard]] RangeSweep in_frame(const RangeSweep& sweep) const override {
-    return seen_from(sweep, frame_from_robot());
+  [[nodiscard]] sensor_models::RangeSweep in_frame(const sensor_models::RangeSweep& sweep) const override {
+    return sensor_models::seen_from(sweep, frame_from_robot());
   }
   [[nodiscard]] Pose2 map_from_frame(const Pose2& map_from_robot) const override {
     return map_from_robot * inverse(frame_from_robot());
@@ -64,7 +64,8 @@ struct ScanCosts {
   double log_best_over_mean = 0.0;  ///< [nat] by which the best place explains them better than a mean one
 };
 /// `temper`: what each nat of a beam counts. O(beams * kExpectedRanges).
-[[nodiscard]] ScanCosts scan_costs(const RangeSweep& seen, std::span<const BinnedBeam> beams,
-                                   const ProximityModel& model, double temper);
+[[nodiscard]] ScanCosts scan_costs(const sensor_models::RangeSweep& seen,
+                                   std::span<const sensor_models::BinnedBeam> beams,
+                                   const sensor_models::ProximityModel& model, double temper);
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -7,7 +7,7 @@
 #include "docent/localization/localizer/localizer.h"
 #include "docent/localization/markov/grid_belief.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// Grid-based Markov localization [Markov1998]: the cycle of `Localizer` over a `GridBelief`.
 class MarkovLocalizer final : public Localizer {
@@ -24,4 +24,4 @@ class MarkovLocalizer final : public Localizer {
       : Localizer{map, params, std::make_unique<GridBelief>(map, params), true, seed} {}
 };
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -14,7 +14,7 @@
 
 /// A museum of 200 x 200 m: 320 million states. Takes minutes and gigabytes, so it is run only where DOCENT_LARGE_MAP
 /// is set, as `scripts/evaluate large-map` does; DOCENT_SIMD names the instruction set.
-namespace docent {
+namespace docent::localization {
 namespace {
 
 constexpr int kSide = 4000;  // cells of 5 cm
@@ -70,7 +70,7 @@ double peak_gigabytes() {
 /// A robot that drives round in circles where there is room for it.
 class Drive {
  public:
-  Drive(const RayCaster& caster, std::uint64_t seed) : caster_{caster}, rng_{seed} {
+  Drive(const sensor_models::RayCaster& caster, std::uint64_t seed) : caster_{caster}, rng_{seed} {
     do {
       centre_ = {rng_.uniform(20.0, 180.0), rng_.uniform(20.0, 180.0)};
     } while (caster.clearance(centre_) < 2.2F);
@@ -84,9 +84,9 @@ class Drive {
     const double way = 0.505 * time / kRadius;
     return Pose2{0.0, 0.0, Angle::radians(way + 0.005 * time)} * Pose2{kRadius, 0.0, Angle::degrees(90)};
   }
-  [[nodiscard]] RangeSweep sweep(double time) {
-    RangeSweep sweep = testing::sweep_at(caster_, truth(time), 10.0);
-    for (SweepBeam& beam : sweep.beams) {
+  [[nodiscard]] sensor_models::RangeSweep sweep(double time) {
+    sensor_models::RangeSweep sweep = testing::sweep_at(caster_, truth(time), 10.0);
+    for (sensor_models::SweepBeam& beam : sweep.beams) {
       if (rng_.chance(0.2)) {
         beam.range *= rng_.uniform(0.2, 1.0);
         beam.no_return = false;
@@ -98,7 +98,7 @@ class Drive {
 
  private:
   static constexpr double kRadius = 1.5;  // [m]
-  const RayCaster& caster_;
+  const sensor_models::RayCaster& caster_;
   Rng rng_;
   Point2 centre_;
 };
@@ -124,7 +124,7 @@ Phase run(MarkovLocalizer& localizer, Drive& drive, int& scan, int most, const a
   int last = scan;
   for (const int end = scan + most; scan < end; ++scan) {
     const double time = 1e-3 * kScanPeriodMs * scan;
-    const RangeSweep sweep = drive.sweep(time);
+    const sensor_models::RangeSweep sweep = drive.sweep(time);
     const double wall = seconds(CLOCK_MONOTONIC);
     const double processor = seconds(CLOCK_THREAD_CPUTIME_ID);
     const auto step =
@@ -194,4 +194,4 @@ const bool kRegistered = [] {
 }();
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

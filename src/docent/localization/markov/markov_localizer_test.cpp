@@ -4,7 +4,7 @@
 
 #include "docent/localization/markov/testing.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 LocalizerParams coarse() {
@@ -16,15 +16,15 @@ LocalizerParams coarse() {
 /// A robot that is driven round the room by hand, with odometry that knows nothing of being carried.
 struct Drive {
   OccupancyGrid map = testing::room_map();
-  RayCaster caster{map};
+  sensor_models::RayCaster caster{map};
   MarkovLocalizer localizer{map, coarse(), {}, 1};
   Pose2 truth{1.0, 0.8, Angle::degrees(20.0)};
   Pose2 odom{};
   double seconds = 0.0;
   Rng rng{3};
 
-  [[nodiscard]] RangeSweep look(double hidden) {
-    RangeSweep sweep = testing::sweep_at(caster, truth, 10.0);
+  [[nodiscard]] sensor_models::RangeSweep look(double hidden) {
+    sensor_models::RangeSweep sweep = testing::sweep_at(caster, truth, 10.0);
     double nearer = 0.0;
     for (std::size_t i = 0; i < sweep.beams.size(); ++i) {
       if (i % 20 == 0) nearer = rng.chance(hidden) ? rng.uniform(0.4, 1.2) : 0.0;
@@ -100,7 +100,7 @@ TEST(MarkovLocalizer, EveryFilterTracksThroughPeople) {
 
 TEST(MarkovLocalizer, ASurroundedRobotFindsItselfByWhatItSeesBetweenPeople) {
   const OccupancyGrid map = testing::room_map();
-  const RayCaster caster{map};
+  const sensor_models::RayCaster caster{map};
   const auto with_share = [&](double person_share) {
     return testing::look_round(caster, 6, [&](std::uint64_t seed) {
       LocalizerParams params = coarse();
@@ -157,4 +157,4 @@ TEST(MarkovLocalizer, AnUnknownFilterIsAFault) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace docent {
+namespace docent::localization {
 
 namespace {
 
@@ -130,9 +130,9 @@ std::vector<float> MotionKernel::heading_weights() const {
   return weights;
 }
 
-MotionKernel motion_kernel(const StateSpace& space, const OdometryModelParams& params, Point2 shift,
+MotionKernel motion_kernel(const StateSpace& space, const motion_models::OdometryModelParams& params, Point2 shift,
                            const OdometryStep& odometry) {
-  const MotionNoise noise = odometry.noise;
+  const motion_models::MotionNoise noise = odometry.noise;
   const double cell = space.frame().resolution;
   const double step = space.heading_step();
   // A robot that stands does not slip; the tails come with the motion.
@@ -155,4 +155,4 @@ MotionKernel motion_kernel(const StateSpace& space, const OdometryModelParams& p
   return kernel;
 }
 
-}  // namespace docent
+}  // namespace docent::localization

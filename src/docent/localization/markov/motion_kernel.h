@@ -8,7 +8,7 @@
 #include "docent/localization/markov/row_kernel.h"
 #include "docent/motion_models/odometry_model.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// P(l | l', a) of [Markov1998] eq. 2 on the grid: every heading's cells are moved and blurred in x, then in y, then
 /// headings are blurred. Where to a heading moves is a matter of its direction, so each offset in x, and each in y, has
@@ -27,7 +27,7 @@ struct MotionKernel {
 
 /// What odometry saw since the last kernel.
 struct OdometryStep {
-  MotionNoise noise;
+  motion_models::MotionNoise noise;
   double way = 0.0;   ///< [m]
   double turn = 0.0;  ///< [rad], >= 0
 };
@@ -35,7 +35,7 @@ struct OdometryStep {
 /// The kernel that moves states by `shift` [m], given in a frame that has the state's heading. Positions are shared out
 /// bilinearly; that blurs by itself, so the odometry's variance is topped up only where it is larger. A small part of
 /// the mass gets slow tails: wheels slip, and people push.
-[[nodiscard]] MotionKernel motion_kernel(const StateSpace& space, const OdometryModelParams& params, Point2 shift,
-                                         const OdometryStep& step);
+[[nodiscard]] MotionKernel motion_kernel(const StateSpace& space, const motion_models::OdometryModelParams& params,
+                                         Point2 shift, const OdometryStep& step);
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-namespace docent {
+namespace docent::localization {
 
 namespace {
 
@@ -404,4 +404,4 @@ double PositionBelief::entropy_of(double sum_p_log_p, std::size_t active) const 
   return -sum_p_log_p - static_cast<double>(space_->states() - active) * sea_ * std::log(sea_);
 }
 
-}  // namespace docent
+}  // namespace docent::localization

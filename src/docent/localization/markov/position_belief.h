@@ -16,7 +16,7 @@
 #include "docent/localization/markov/row_kernel.h"
 #include "docent/localization/markov/score_kernel.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// How much one scan may count. The beams of a scan err together, where the map is wrong or people stand around, and
 /// the scans of a metre err together too: between places far apart, evidence must gather slowly, or the belief is sure
@@ -214,4 +214,4 @@ class PositionBelief {
   std::vector<const float*> around_;  ///< the lines about a target
 };
 
-}  // namespace docent
+}  // namespace docent::localization

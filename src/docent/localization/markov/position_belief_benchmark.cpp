@@ -24,7 +24,7 @@
 /// with the flags of the other files of this folder (-O3), so the compiler makes SSE2 of its motion and its
 /// normalisation; of a gather it cannot. The bare loop beside it is what its innermost loop is, without anything around
 /// it.
-namespace docent {
+namespace docent::localization {
 namespace {
 
 constexpr int kBeams = 180;
@@ -44,17 +44,18 @@ struct Hall {
     }
     return grid;
   }();
-  RayCaster caster{map};
+  sensor_models::RayCaster caster{map};
   StateSpace space{map, caster, {}};
-  RangeTable table = RangeTable::build(space, caster, ProximityModel{{}}, {2, {}});
-  ProximityModel model{{}, table.frequency()};
+  RangeTable table = RangeTable::build(space, caster, sensor_models::ProximityModel{{}}, {2, {}});
+  sensor_models::ProximityModel model{{}, table.frequency()};
   MotionKernel moved = motion_kernel(space, {}, {0.15, 0.0}, {{0.002, 0.001}, 0.15, 0.02});
   /// What a laser sees in the middle, one beam a heading.
   std::vector<int> bins = [this] {
     std::vector<int> result;
-    const RangeSweep sweep = testing::sweep_at(caster, {14.2, 15.3, Angle{}}, 10.0);
-    for (const BinnedBeam& beam : binned(sweep, space.headings()))
-      result.push_back(sweep.beams[beam.beam].no_return ? kNoReturn : model.bin(sweep.beams[beam.beam].range));
+    const sensor_models::RangeSweep sweep = testing::sweep_at(caster, {14.2, 15.3, Angle{}}, 10.0);
+    for (const sensor_models::BinnedBeam& beam : sensor_models::binned(sweep, space.headings()))
+      result.push_back(sweep.beams[beam.beam].no_return ? sensor_models::kNoReturn
+                                                        : model.bin(sweep.beams[beam.beam].range));
     return result;
   }();
   std::vector<BeamCosts> beams = [this] {
@@ -64,7 +65,7 @@ struct Hall {
       const auto log_p = model.log_probabilities(bins[b]);
       const float best = *std::max_element(log_p.begin(), log_p.end());
       result[b].direction = b;
-      for (std::size_t o = 0; o < kExpectedRanges; ++o)
+      for (std::size_t o = 0; o < sensor_models::kExpectedRanges; ++o)
         result[b].costs[o] = static_cast<std::uint8_t>(
             std::min<long>(kMaxCost, std::lround(temper * static_cast<double>(best - log_p[o]) * kCostPerNat)));
     }
@@ -109,7 +110,8 @@ class ScalarCycle {
       const std::uint8_t* const ranges = ranges_.data() + place * 2 * headings_;
       for (std::size_t h = 0; h < headings_; ++h) {
         float sum = 0.0F;
-        for (std::size_t beam = 0; beam < kBeams; ++beam) sum += log_p[beam * kExpectedRanges + ranges[h + beam]];
+        for (std::size_t beam = 0; beam < kBeams; ++beam)
+          sum += log_p[beam * sensor_models::kExpectedRanges + ranges[h + beam]];
         out[place * headings_ + h] = sum;
         best = std::max(best, sum);
       }
@@ -124,7 +126,7 @@ class ScalarCycle {
       const std::uint8_t* const ranges = ranges_.data() + place * 2 * headings_;
       sums.fill(0.0F);
       for (std::size_t beam = 0; beam < kBeams; ++beam) {
-        const float* const log_p = log_probabilities_.data() + beam * kExpectedRanges;
+        const float* const log_p = log_probabilities_.data() + beam * sensor_models::kExpectedRanges;
         for (std::size_t h = 0; h < sums.size(); ++h) sums[h] += log_p[ranges[h + beam]];
       }
       for (const float sum : sums) best = std::max(best, sum);
@@ -218,7 +220,7 @@ void bare_gather_and_add(const std::vector<std::uint8_t>& ranges, const std::vec
   for (std::size_t place = 0; place < hall().space.places(); ++place) {
     const std::uint8_t* const row = ranges.data() + place * 2 * sums.size();
     for (std::size_t beam = 0; beam < kBeams; ++beam) {
-      const Sum* const values = tables.data() + beam * kExpectedRanges;
+      const Sum* const values = tables.data() + beam * sensor_models::kExpectedRanges;
       for (std::size_t h = 0; h < sums.size(); ++h) sums[h] += values[row[h + beam]];
     }
     benchmark::DoNotOptimize(sums.data());
@@ -380,4 +382,4 @@ BENCHMARK(reweighing)->Unit(benchmark::kMillisecond);
 BENCHMARK(full_cycle)->Unit(benchmark::kMillisecond)->Iterations(1);
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

@@ -3,7 +3,7 @@
 
 #include "docent/localization/markov/position_belief.h"
 
-namespace docent {
+namespace docent::localization {
 
 void PositionBelief::gather(const Gathering& gathering) {
   enum class Part : std::uint8_t { elsewhere, rest, found };
@@ -53,4 +53,4 @@ void PositionBelief::gather(const Gathering& gathering) {
   normalise(totals, 0.0, true);
 }
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -3,7 +3,7 @@
 
 #include "docent/localization/markov/position_belief.h"
 
-namespace docent {
+namespace docent::localization {
 
 namespace {
 
@@ -180,4 +180,4 @@ void PositionBelief::move(const MotionKernel& kernel) {
   normalise(totals, 0.0);
 }
 
-}  // namespace docent
+}  // namespace docent::localization

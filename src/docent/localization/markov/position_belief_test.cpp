@@ -12,7 +12,7 @@
 #include "docent/base/random.h"
 #include "docent/localization/markov/testing.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 using testing::any_beams;
@@ -347,7 +347,7 @@ Spread spread_of(const MotionKernel& kernel, int heading) {
 TEST(MotionKernel, MovesEveryHeadingItsWayWithTheVarianceOfOdometry) {
   const auto room = drawn_room();
   const double cell = room->space.frame().resolution;
-  OdometryModelParams params;
+  motion_models::OdometryModelParams params;
   params.slip_probability = 0.0;
   for (const double variance : {0.006, 0.02, 0.05}) {  // [m2]; the least is more than bilinear shares blur: cell^2 / 4
     for (const Point2 shift : {Point2{0.0, 0.0}, Point2{0.15, 0.0}, Point2{0.4, -0.22}}) {
@@ -367,7 +367,7 @@ TEST(MotionKernel, MovesEveryHeadingItsWayWithTheVarianceOfOdometry) {
 
 TEST(MotionKernel, ARobotThatSlipsMayBeACellFurther) {
   const auto room = drawn_room();
-  OdometryModelParams params;
+  motion_models::OdometryModelParams params;
   params.slip_probability = 0.1;
   const MotionKernel kernel = motion_kernel(room->space, params, {0.15, 0.0}, {{1e-6, 1e-6}, 0.25, 0.0});
   const double twice = static_cast<double>(kernel.weight(2, 0, 0));
@@ -380,4 +380,4 @@ TEST(MotionKernel, ARobotThatSlipsMayBeACellFurther) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace docent {
+namespace docent::localization {
 
 namespace {
 
@@ -149,4 +149,4 @@ std::vector<LikelyState> likely_states(const PositionBelief& belief, double frac
   return states;
 }
 
-}  // namespace docent
+}  // namespace docent::localization

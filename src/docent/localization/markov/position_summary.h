@@ -7,7 +7,7 @@
 #include "docent/localization/expected_ranges/expected_ranges.h"
 #include "docent/localization/markov/position_belief.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// The coarse cells on which a summary adds up what it does not list, and the places in them. Made once for a space.
 struct CoarseCells {
@@ -29,4 +29,4 @@ struct CoarseCells {
 /// Empty when there are more than `limit`: the belief is not concentrated.
 [[nodiscard]] std::vector<LikelyState> likely_states(const PositionBelief& belief, double fraction, std::size_t limit);
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -6,7 +6,7 @@
 
 #include "docent/base/kernel_targets.h"
 
-namespace docent {
+namespace docent::localization {
 
 namespace {
 
@@ -39,4 +39,4 @@ constexpr int kWidth = 16;
 
 const RowKernels& row_kernels(InstructionSet set) { return kernels_for<RowKernels>(set, DOCENT_KERNELS); }
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -8,7 +8,7 @@
 
 #include "docent/base/instruction_set.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// What walks over a belief walks over rows: one place, its headings in blocks of sixteen floats. What lies in the last
 /// block beyond the headings is 0. Sums are made in sixteen lanes and reduced in one order, whatever the instruction
@@ -107,4 +107,4 @@ struct RowKernels {
 
 [[nodiscard]] const RowKernels& row_kernels(InstructionSet set);
 
-}  // namespace docent
+}  // namespace docent::localization

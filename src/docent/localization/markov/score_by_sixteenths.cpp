@@ -4,13 +4,13 @@
 
 #include "docent/base/kernel_targets.h"
 
-namespace docent {
+namespace docent::localization {
 
 namespace {
 
 constexpr std::size_t kTile = RangeTable::kTile;
 constexpr std::size_t kNear = 8;  // directions: beams that take their lines together
-constexpr std::size_t kSixteenths = kExpectedRanges / 16;
+constexpr std::size_t kSixteenths = sensor_models::kExpectedRanges / 16;
 
 }  // namespace
 
@@ -187,4 +187,4 @@ DOCENT_AVX2 void SixteenthScorer::score(std::size_t first, std::size_t count, st
 
 #endif
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -8,7 +8,7 @@
 
 #include "docent/localization/markov/score_kernel.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// How AVX2 looks up costs. A shuffle of bytes knows tables of sixteen entries only, so a table of 128 would take
 /// eight. But neighbouring places see much the same: what half a line of a tile, 32 places, lets expect lies in two
@@ -40,7 +40,7 @@ class SixteenthScorer {
  private:
   /// What the innermost loop wants of a beam, side by side.
   struct alignas(16) Beam {
-    std::array<std::uint8_t, kExpectedRanges> costs;
+    std::array<std::uint8_t, sensor_models::kExpectedRanges> costs;
     std::int32_t back;  ///< vectors of sums from the line that is seen to the heading that sees it, in bytes: < 0
   };
   /// Vectors that are looked up together: all of a line, or four of more. Pieces of one length make a list, so that the
@@ -75,4 +75,4 @@ class SixteenthScorer {
   std::vector<std::uint16_t> wide_;  ///< [headings][32]: a sector, where bytes do not hold it
 };
 
-}  // namespace docent
+}  // namespace docent::localization

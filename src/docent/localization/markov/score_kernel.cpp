@@ -6,7 +6,7 @@
 #include "docent/base/kernel_targets.h"
 #include "docent/localization/markov/score_by_sixteenths.h"
 
-namespace docent {
+namespace docent::localization {
 
 namespace {
 
@@ -243,4 +243,4 @@ void TileScorer::score_by_sixteenths(const std::uint8_t* tile, std::uint64_t blo
 }
 #endif
 
-}  // namespace docent
+}  // namespace docent::localization

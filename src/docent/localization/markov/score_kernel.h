@@ -11,15 +11,15 @@
 #include "docent/localization/expected_ranges/range_table.h"
 #include "docent/sensor_models/proximity_model.h"
 
-namespace docent {
+namespace docent::localization {
 
 class SixteenthScorer;
 
 /// What a beam costs at each expected range: how far ln P(d | o), tempered, stays below its best, in steps of
 /// 1 / kCostPerNat. Whole numbers, so that every instruction set gives the same belief, bit for bit.
 struct BeamCosts {
-  std::array<std::uint8_t, kExpectedRanges> costs{};  ///< each <= kMaxCost, so that two add up in a byte
-  std::size_t direction = 0;                          ///< 0..headings-1
+  std::array<std::uint8_t, sensor_models::kExpectedRanges> costs{};  ///< each <= kMaxCost, so that two add up in a byte
+  std::size_t direction = 0;                                         ///< 0..headings-1
 };
 inline constexpr int kMaxCost = 127;
 inline constexpr double kCostPerNat = 32.0;
@@ -77,4 +77,4 @@ class TileScorer {
   std::unique_ptr<SixteenthScorer> by_sixteenths_;  ///< for AVX2
 };
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -6,7 +6,7 @@
 
 #include "docent/localization/markov/testing.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 constexpr std::size_t kTile = RangeTable::kTile;
@@ -135,4 +135,4 @@ TEST_P(EverySet, AnyBlocksOfAnyBeams) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

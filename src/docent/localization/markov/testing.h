@@ -16,7 +16,7 @@
 #include "docent/sensor_models/range_sweep.h"
 
 /// Worlds and readings for the tests of this folder.
-namespace docent::testing {
+namespace docent::localization::testing {
 
 /// A room of 6 x 4 m without symmetry, as a grid of 5 cm.
 inline OccupancyGrid room_map() {
@@ -39,13 +39,13 @@ inline OccupancyGrid room_map() {
 /// The room with what a belief needs; coarse headings keep tests fast.
 struct Room {
   OccupancyGrid map = room_map();
-  RayCaster caster{map};
+  sensor_models::RayCaster caster{map};
   StateSpace space;
   RangeTable table;
-  ProximityModel model;
+  sensor_models::ProximityModel model;
   explicit Room(double heading_step = 6.0)
       : space{map, caster, {.cell_size = 0.15, .heading_step = heading_step, .min_clearance = 0.1}},
-        table{RangeTable::build(space, caster, ProximityModel{{}})},
+        table{RangeTable::build(space, caster, sensor_models::ProximityModel{{}})},
         model{{}, table.frequency()} {}
 };
 inline std::unique_ptr<Room> drawn_room() { return std::make_unique<Room>(); }
@@ -62,8 +62,9 @@ inline std::vector<BeamCosts> any_beams(Rng& rng, int count, int headings) {
 }
 
 /// What a perfect laser sees at `truth`, one beam a degree.
-inline RangeSweep sweep_at(const RayCaster& caster, const Pose2& truth, double max_range) {
-  RangeSweep sweep;
+inline sensor_models::RangeSweep sweep_at(const sensor_models::RayCaster& caster, const Pose2& truth,
+                                          double max_range) {
+  sensor_models::RangeSweep sweep;
   for (int degree = -180; degree < 180; ++degree) {
     const Angle bearing = Angle::degrees(degree);
     const double range =
@@ -77,7 +78,8 @@ inline RangeSweep sweep_at(const RayCaster& caster, const Pose2& truth, double m
 /// them show.
 class Surrounded {
  public:
-  Surrounded(const RayCaster& caster, std::uint64_t seed) : caster_{caster}, rng_{Rng{seed}.stream("surrounded")} {
+  Surrounded(const sensor_models::RayCaster& caster, std::uint64_t seed)
+      : caster_{caster}, rng_{Rng{seed}.stream("surrounded")} {
     do {
       truth_ = {rng_.uniform(0.5, 5.5), rng_.uniform(0.5, 3.5), Angle::degrees(rng_.uniform(-180.0, 180.0))};
     } while (caster.clearance(truth_.position()) < 0.8F);
@@ -91,10 +93,10 @@ class Surrounded {
     odom_.theta = odom_.theta + Angle::degrees(12.0 + rng_.normal(0.0, 0.2));
     time_ = time_ + seconds(0.4);
   }
-  [[nodiscard]] RangeSweep look() {
+  [[nodiscard]] sensor_models::RangeSweep look() {
     constexpr double kBody = 0.24;  // [m]
-    RangeSweep sweep = sweep_at(caster_, truth_, 10.0);
-    for (SweepBeam& beam : sweep.beams) {
+    sensor_models::RangeSweep sweep = sweep_at(caster_, truth_, 10.0);
+    for (sensor_models::SweepBeam& beam : sweep.beams) {
       const Point2 ray = unit(truth_.theta + Angle::radians(beam.bearing));
       for (const Point2 person : people_) {
         const auto range = ray_distance(truth_.position(), ray, person, kBody);
@@ -112,7 +114,7 @@ class Surrounded {
   [[nodiscard]] Time time() const { return time_; }
 
  private:
-  const RayCaster& caster_;
+  const sensor_models::RayCaster& caster_;
   Rng rng_;
   Pose2 truth_;
   Pose2 odom_{};
@@ -126,7 +128,7 @@ struct LookingRound {
   int sure = 0;       ///< who say so, too
   int wrong = 0;      ///< who ever said that they were elsewhere
 };
-inline LookingRound look_round(const RayCaster& caster, int trials, const auto& localizer_of) {
+inline LookingRound look_round(const sensor_models::RayCaster& caster, int trials, const auto& localizer_of) {
   LookingRound result;
   for (int trial = 0; trial < trials; ++trial) {
     Surrounded robot{caster, static_cast<std::uint64_t>(trial)};
@@ -149,10 +151,10 @@ inline LookingRound look_round(const RayCaster& caster, int trials, const auto& 
 /// The costs of that reading, tempered by `temper`.
 inline std::vector<BeamCosts> beams_at(const Room& room, const Pose2& truth, double temper,
                                        double& log_best_over_mean) {
-  const RangeSweep sweep = sweep_at(room.caster, truth, 10.0);
+  const sensor_models::RangeSweep sweep = sweep_at(room.caster, truth, 10.0);
   std::vector<BeamCosts> beams;
   log_best_over_mean = 0.0;
-  for (const BinnedBeam& binned_beam : binned(sweep, room.space.headings())) {
+  for (const sensor_models::BinnedBeam& binned_beam : sensor_models::binned(sweep, room.space.headings())) {
     const int bin = room.model.bin(sweep.beams[binned_beam.beam].range);
     const auto log_probabilities = room.model.log_probabilities(bin);
     const float best = *std::max_element(log_probabilities.begin(), log_probabilities.end());
@@ -167,4 +169,4 @@ inline std::vector<BeamCosts> beams_at(const Room& room, const Pose2& truth, dou
   return beams;
 }
 
-}  // namespace docent::testing
+}  // namespace docent::localization::testing

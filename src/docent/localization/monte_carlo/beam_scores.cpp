@@ -3,20 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
-namespace docent {
+namespace docent::localization {
 
-BeamScores::BeamScores(const StateSpace& space, const RangeTable& table, const ProximityModel& model, double max_range)
+BeamScores::BeamScores(const StateSpace& space, const RangeTable& table, const sensor_models::ProximityModel& model,
+                       double max_range)
     : space_{&space}, table_{&table} {
   const auto steps = static_cast<std::size_t>(std::ceil(max_range * kBinsPerMetre));
   for (std::size_t i = 0; i < steps; ++i)
-    bins_.push_back(
-        static_cast<std::uint8_t>(std::min(model.bin((static_cast<double>(i) + 0.5) / kBinsPerMetre), kNoReturn - 1)));
-  costs_.resize(static_cast<std::size_t>(kRangeBins) * kExpectedRanges);
-  for (int measured = 0; measured < kRangeBins; ++measured) {
+    bins_.push_back(static_cast<std::uint8_t>(
+        std::min(model.bin((static_cast<double>(i) + 0.5) / kBinsPerMetre), sensor_models::kNoReturn - 1)));
+  costs_.resize(static_cast<std::size_t>(sensor_models::kRangeBins) * sensor_models::kExpectedRanges);
+  for (int measured = 0; measured < sensor_models::kRangeBins; ++measured) {
     const auto log_probabilities = model.log_probabilities(measured);
     const float best = *std::max_element(log_probabilities.begin(), log_probabilities.end());
-    for (std::size_t o = 0; o < kExpectedRanges; ++o)
-      costs_[static_cast<std::size_t>(measured) * kExpectedRanges + o] = static_cast<std::uint8_t>(
+    for (std::size_t o = 0; o < sensor_models::kExpectedRanges; ++o)
+      costs_[static_cast<std::size_t>(measured) * sensor_models::kExpectedRanges + o] = static_cast<std::uint8_t>(
           std::min<long>(255, std::lround(static_cast<double>(best - log_probabilities[o]) * kScorePerNat)));
   }
 }
@@ -33,9 +34,9 @@ std::uint32_t BeamScores::score_one(const Beams& beams, const RangeTable::Row& r
       const float range = beam.range + ahead * beam.x + aside * beam.y;
       const auto step = std::clamp(static_cast<std::int32_t>(range * static_cast<float>(kBinsPerMetre)), 0, last);
       const std::size_t measured =
-          beam.no_return ? static_cast<std::size_t>(kNoReturn) : bins_[static_cast<std::size_t>(step)];
+          beam.no_return ? static_cast<std::size_t>(sensor_models::kNoReturn) : bins_[static_cast<std::size_t>(step)];
       const std::size_t expected = row[static_cast<std::size_t>(heading + beam.direction)] & 127U;
-      sum += costs_[measured * kExpectedRanges + expected];
+      sum += costs_[measured * sensor_models::kExpectedRanges + expected];
     }
     total += std::min(sum, beams.cap);
   }
@@ -64,4 +65,4 @@ void BeamScores::score(const Beams& beams, const ParticleSet& particles, std::ui
   }
 }
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -11,7 +11,7 @@
 #include "docent/sensor_models/proximity_model.h"
 #include "docent/sensor_models/range_sweep.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// Weighs particles by the proximity model, P(d | o) of [Markov1998] 3.2, with the expected ranges of the grid's table.
 ///
@@ -21,7 +21,8 @@ namespace docent {
 class BeamScores {
  public:
   /// Both must outlive the object.
-  BeamScores(const StateSpace& space, const RangeTable& table, const ProximityModel& model, double max_range);
+  BeamScores(const StateSpace& space, const RangeTable& table, const sensor_models::ProximityModel& model,
+             double max_range);
 
   /// As FieldBeams: sector by sector, capped.
   struct Beams {
@@ -51,4 +52,4 @@ class BeamScores {
   std::vector<std::uint8_t> costs_;  ///< [measured][expected]
 };
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -8,7 +8,7 @@
 #include "docent/sensor_models/ray_caster.h"
 
 /// What the benchmarks of this folder have in common.
-namespace docent::testing {
+namespace docent::localization::testing {
 
 inline constexpr int kHallBeams = 180;
 inline constexpr std::size_t kHallParticles = 10000;
@@ -37,7 +37,7 @@ inline OccupancyGrid hall_map() {
 inline const Pose2 kHallPose{25.3, 24.1, Angle::degrees(35.0)};
 
 /// A whole turn in `kHallBeams` ranges [m], with 2 cm of noise.
-inline std::vector<double> hall_scan(const RayCaster& caster) {
+inline std::vector<double> hall_scan(const sensor_models::RayCaster& caster) {
   Rng rng{2};
   std::vector<double> ranges;
   for (int i = 0; i < kHallBeams; ++i) {
@@ -79,4 +79,4 @@ inline ParticleSet hall_cloud(double spread) {
   return particles;
 }
 
-}  // namespace docent::testing
+}  // namespace docent::localization::testing

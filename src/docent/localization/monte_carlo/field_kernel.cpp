@@ -11,7 +11,7 @@
 #endif
 #endif
 
-namespace docent {
+namespace docent::localization {
 
 namespace {
 
@@ -212,4 +212,4 @@ std::vector<NamedFieldKernel> field_kernels() {
   return kernels;
 }
 
-}  // namespace docent
+}  // namespace docent::localization

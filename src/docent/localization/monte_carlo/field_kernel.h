@@ -9,7 +9,7 @@
 #include "docent/localization/monte_carlo/likelihood_field.h"
 #include "docent/localization/particles/particle_set.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// The ends of beams, sector by sector: what stands in one direction hides several, so that the beams of a sector cost
 /// at most `cap` together (decision 0006). Fixed point, so that one instruction turns a beam by a particle's heading.
@@ -46,4 +46,4 @@ struct NamedFieldKernel {
 };
 [[nodiscard]] std::vector<NamedFieldKernel> field_kernels();
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -9,11 +9,11 @@
 /// The likelihood field, 10,000 particles x 180 beams: every instruction set beside a good scalar loop over the same
 /// 8-bit field, which has the same margin and so no check of bounds either. `tracking`: particles within a third of a
 /// metre; `anywhere`: all over the hall. Ratios within one run mean something.
-namespace docent {
+namespace docent::localization {
 namespace {
 
 struct Bench {
-  RayCaster caster{testing::hall_map()};
+  sensor_models::RayCaster caster{testing::hall_map()};
   LikelihoodField field{caster, {}, 30.0};
   std::vector<double> scan = testing::hall_scan(caster);
   ParticleSet tracking = testing::hall_cloud(0.15);
@@ -88,4 +88,4 @@ void with_kernel(benchmark::State& state, FieldKernel kernel, const ParticleSet&
 }();
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

@@ -7,7 +7,7 @@
 
 #include "docent/localization/monte_carlo/testing.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 std::vector<Point2> any_ends(Rng& rng, std::int64_t count, double reach) {
@@ -35,7 +35,7 @@ TEST_P(FieldKernels, IsThePlainOneBitForBit) {
   const auto kernels = field_kernels();
   const auto found = std::find_if(kernels.begin(), kernels.end(), [](const auto& k) { return k.name == GetParam(); });
   if (found == kernels.end()) GTEST_SKIP() << "not run: this processor has no " << GetParam();
-  const RayCaster caster{testing::room_map()};
+  const sensor_models::RayCaster caster{testing::room_map()};
   const LikelihoodField field{caster, {}, 10.0};
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE(seed);
@@ -58,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(Sets, FieldKernels, ::testing::Values("plain", "avx2", 
                          [](const auto& of) { return std::string{of.param}; });
 
 TEST(FieldKernel, ThePlainOneIsTheObviousSum) {
-  const RayCaster caster{testing::room_map()};
+  const sensor_models::RayCaster caster{testing::room_map()};
   const LikelihoodField field{caster, {}, 10.0};
   Rng rng{11};
   const ParticleSet particles = testing::any_particles(rng, 300, 6.0, 4.0);
@@ -91,14 +91,14 @@ TEST(LikelihoodField, AMapWithTooManyCellsGetsCoarserOnes) {
   map.frame = {33000, 4, 0.05, {}};
   map.cells.assign(map.frame.size(), OccupancyGrid::kFree);
   map.cells[map.frame.index({32900, 1})] = OccupancyGrid::kOccupied;
-  const RayCaster caster{map};
+  const sensor_models::RayCaster caster{map};
   const LikelihoodField field{caster, {}, 5.0};
   EXPECT_FLOAT_EQ(field.view().scale, 10.0F);
   EXPECT_LT(field.cost(map.frame.centre({32900, 1})), field.cost(map.frame.centre({32000, 1})));
 }
 
 TEST(LikelihoodField, IsBestAtWallsAndWorstFarFromThem) {
-  const RayCaster caster{testing::room_map()};
+  const sensor_models::RayCaster caster{testing::room_map()};
   const LikelihoodField field{caster, {}, 10.0};
   EXPECT_EQ(field.cost({0.025, 2.0}), 0);  // in the wall
   const int near = field.cost({0.175, 2.0});
@@ -118,4 +118,4 @@ TEST(LikelihoodField, IsBestAtWallsAndWorstFarFromThem) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

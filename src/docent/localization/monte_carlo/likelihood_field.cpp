@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace docent {
+namespace docent::localization {
 
 namespace {
 // What the 16 bits of FieldPoses and FieldBeams hold.
@@ -22,7 +22,8 @@ Result<void> LikelihoodFieldParams::validate() const {
   return {};
 }
 
-LikelihoodField::LikelihoodField(const RayCaster& caster, const LikelihoodFieldParams& params, double reach)
+LikelihoodField::LikelihoodField(const sensor_models::RayCaster& caster, const LikelihoodFieldParams& params,
+                                 double reach)
     : reach_{reach} {
   const GridFrame& map = caster.frame();
   GridFrame inner = map;
@@ -71,4 +72,4 @@ std::uint8_t LikelihoodField::cost(Point2 in_map) const {
   return frame_.holds(cell) ? costs_[frame_.index(cell)] : std::uint8_t{255};
 }
 
-}  // namespace docent
+}  // namespace docent::localization

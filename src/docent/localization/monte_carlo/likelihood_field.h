@@ -7,7 +7,7 @@
 #include "docent/base/result.h"
 #include "docent/sensor_models/ray_caster.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// p(d) of a beam's end that lies d from the nearest obstacle of the map: a Gaussian, a Laplace density for the map's
 /// small faults, and a uniform rest for all that the map does not know.
@@ -38,7 +38,7 @@ inline constexpr double kScorePerNat = 24.0;
 class LikelihoodField {
  public:
   /// `reach` [m]: of the longest beam. O(cells). @pre params are valid, 0 < reach
-  LikelihoodField(const RayCaster& caster, const LikelihoodFieldParams& params, double reach);
+  LikelihoodField(const sensor_models::RayCaster& caster, const LikelihoodFieldParams& params, double reach);
 
   /// What kernels need. A point (x, y) [m, map] has the coordinates x * scale + left, y * scale + bottom, whose whole
   /// parts are column and row; particles are kept within first_column … last_column, first_row … last_row.
@@ -59,4 +59,4 @@ class LikelihoodField {
   std::vector<std::uint8_t> costs_;
 };
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -7,7 +7,7 @@
 #include "docent/localization/localizer/localizer.h"
 #include "docent/localization/monte_carlo/particle_belief.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// Monte Carlo localization [Minerva2000] 3.3: the cycle of `Localizer` over a `ParticleBelief`. Shared with the grid
 /// are the sensor and motion models, filters, tempering (decision 0006), cadence and verdict.
@@ -31,4 +31,4 @@ class MonteCarloLocalizer final : public Localizer {
       : Localizer{map, shared, std::make_unique<ParticleBelief>(map, shared, params, seed), false, seed} {}
 };
 
-}  // namespace docent
+}  // namespace docent::localization

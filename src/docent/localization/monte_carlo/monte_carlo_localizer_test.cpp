@@ -7,7 +7,7 @@
 
 #include "docent/localization/monte_carlo/testing.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 using testing::Drive;
@@ -169,7 +169,7 @@ TEST(MonteCarloLocalizer, ASmallComputerGetsFewerParticlesAndWaits) {
 
 TEST(MonteCarloLocalizer, ASurroundedRobotFindsItselfByWhatItSeesBetweenPeople) {
   const OccupancyGrid map = testing::room_map();
-  const RayCaster caster{map};
+  const sensor_models::RayCaster caster{map};
   const testing::LookingRound seen = testing::look_round(caster, 6, [&](std::uint64_t seed) {
     LocalizerParams shared;
     shared.states.heading_step = 3.0;
@@ -181,4 +181,4 @@ TEST(MonteCarloLocalizer, ASurroundedRobotFindsItselfByWhatItSeesBetweenPeople) 
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

@@ -20,14 +20,14 @@
 /// ships it, and ours with every instruction set, on the same map and scan and from the same cloud. Both use a
 /// likelihood field, ready before the clock starts, and resample at every step; `off_cm` says how far the mean lies
 /// from the truth afterwards.
-namespace docent {
+namespace docent::localization {
 namespace {
 
 const Pose2 kStep{0.05, 0.0, Angle::degrees(1.0)};
 
 struct Bench {
   OccupancyGrid map = testing::hall_map();
-  RayCaster caster{map};
+  sensor_models::RayCaster caster{map};
   LikelihoodField field{caster, {}, 30.0};
   std::vector<double> scan = testing::hall_scan(caster);
   ParticleSet cloud = [] {  // one step behind the scan
@@ -150,4 +150,4 @@ void mrpts(benchmark::State& state) {
 }();
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

@@ -10,7 +10,7 @@
 #include "docent/localization/particles/particle_strata.h"
 #include "docent/localization/particles/particle_weights.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 constexpr double kLikelyFraction = 1e-3;   // of the likeliest state: those that the filters ask
@@ -141,7 +141,7 @@ void ParticleBelief::reweigh_particles(const SensorEvidence& evidence, Scoring& 
     of_particles.far_share = shared_.independent_beams_far / shared_.independent_beams;
     of_particles.far_most_nats = shared_.most_nats_far * std::sqrt(evidence.views);
   }
-  scoring.likelihood = docent::reweigh(particles_, costs, of_particles);
+  scoring.likelihood = docent::localization::reweigh(particles_, costs, of_particles);
 }
 
 void ParticleBelief::resample(const Pose2& likeliest, Rng& rng) {
@@ -151,7 +151,7 @@ void ParticleBelief::resample(const Pose2& likeliest, Rng& rng) {
 }
 
 void ParticleBelief::gather(const Pose2& found, const Neighbourhood& focus, double share) {
-  docent::gather(particles_, {{found, focus.radius, focus.turn}, same_place(found), share});
+  docent::localization::gather(particles_, {{found, focus.radius, focus.turn}, same_place(found), share});
 }
 
 bool ParticleBelief::flood() {
@@ -262,7 +262,7 @@ double ParticleBelief::weigh(ScanProposal& proposal, const SensorEvidence& evide
 
 BeliefSummary ParticleBelief::summarise() {
   if (particles_.size() == 0) return summarise_unknown(map_->space, {});
-  BeliefSummary summary = docent::summarise(bins_of(particles_, map_->space), map_->space, {});
+  BeliefSummary summary = docent::localization::summarise(bins_of(particles_, map_->space), map_->space, {});
   summary.active_states = particles_.size();
   return summary;
 }
@@ -286,4 +286,4 @@ PositionDensity ParticleBelief::density() const {
   return density;
 }
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -18,7 +18,7 @@
 #include "docent/localization/particles/particle_set.h"
 #include "docent/localization/particles/resampling.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// What particles need besides what they share with the grid.
 struct MonteCarloParams {
@@ -82,7 +82,9 @@ class ParticleBelief final : public PoseBelief {
   [[nodiscard]] std::vector<LikelyState> likely() const override;
   [[nodiscard]] PositionDensity density() const override;
   [[nodiscard]] Pose2 odom_from_frame() const override { return odom_from_robot_; }
-  [[nodiscard]] RangeSweep in_frame(const RangeSweep& sweep) const override { return sweep; }
+  [[nodiscard]] sensor_models::RangeSweep in_frame(const sensor_models::RangeSweep& sweep) const override {
+    return sweep;
+  }
   [[nodiscard]] Pose2 map_from_frame(const Pose2& map_from_robot) const override { return map_from_robot; }
 
   [[nodiscard]] const ParticleSet& particles() const { return particles_; }
@@ -130,4 +132,4 @@ class ParticleBelief final : public PoseBelief {
   std::size_t first_tile_ = 0;
 };
 
-}  // namespace docent
+}  // namespace docent::localization

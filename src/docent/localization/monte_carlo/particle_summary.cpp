@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace docent {
+namespace docent::localization {
 
 std::vector<ParticleBin> bins_of(const ParticleSet& particles, const StateSpace& space) {
   struct Entry {
@@ -116,4 +116,4 @@ std::vector<LikelyState> likely_states(const std::vector<ParticleBin>& bins, con
   return states;
 }
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -7,7 +7,7 @@
 #include "docent/localization/expected_ranges/state_space.h"
 #include "docent/localization/particles/particle_set.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// A state of the grid and the particles in it.
 struct ParticleBin {
@@ -31,4 +31,4 @@ struct ParticleBin {
 [[nodiscard]] std::vector<LikelyState> likely_states(const std::vector<ParticleBin>& bins, const StateSpace& space,
                                                      double fraction, std::size_t limit);
 
-}  // namespace docent
+}  // namespace docent::localization

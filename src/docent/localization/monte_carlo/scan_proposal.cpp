@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace docent {
+namespace docent::localization {
 
 namespace {
 
@@ -116,4 +116,4 @@ ScanProposal draw_from_scan(const StateSpace& space, const RangeTable& table, st
   return proposal;
 }
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -11,7 +11,7 @@
 #include "docent/localization/markov/score_kernel.h"
 #include "docent/localization/particles/particle_set.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// Poses drawn from what the sensors see, q(x) ~ p(z | x) (the dual of [ThrunFoxBurgard2000]). There a tree
 /// over features stands for p(x | z); here all states of the grid are weighed, which takes some tens of milliseconds.
@@ -33,4 +33,4 @@ struct TileChoice {
                                           std::span<const BeamCosts> beams, std::size_t sectors, std::uint16_t cap,
                                           std::size_t count, const TileChoice& tiles, InstructionSet set, Rng& rng);
 
-}  // namespace docent
+}  // namespace docent::localization

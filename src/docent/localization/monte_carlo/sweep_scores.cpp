@@ -4,7 +4,7 @@
 #include <numbers>
 #include <utility>
 
-namespace docent {
+namespace docent::localization {
 
 SweepScores::SweepScores(Model model, BeamScores beams, LikelihoodField field, int headings, std::size_t sectors,
                          double most_sector_nats, double max_range)
@@ -17,8 +17,8 @@ SweepScores::SweepScores(Model model, BeamScores beams, LikelihoodField field, i
       cap_{static_cast<std::uint32_t>(std::min(most_sector_nats * kScorePerNat, 1e6))},
       max_range_{max_range} {}
 
-void SweepScores::score(const RangeSweep& sweep, std::span<const BinnedBeam> beams, const ParticleSet& particles,
-                        std::vector<std::uint32_t>& costs) const {
+void SweepScores::score(const sensor_models::RangeSweep& sweep, std::span<const sensor_models::BinnedBeam> beams,
+                        const ParticleSet& particles, std::vector<std::uint32_t>& costs) const {
   costs.resize(particles.padded_size());
   BeamScores::Beams ranges;
   FieldBeams ends;
@@ -26,7 +26,7 @@ void SweepScores::score(const RangeSweep& sweep, std::span<const BinnedBeam> bea
   const double per_radian = static_cast<double>(headings_) / (2.0 * std::numbers::pi);
   const auto sector = [&](std::size_t i) { return beams[i].direction * sectors_ / headings_; };
   for (std::size_t i = 0; i < beams.size(); ++i) {
-    const SweepBeam& beam = sweep.beams[beams[i].beam];
+    const sensor_models::SweepBeam& beam = sweep.beams[beams[i].beam];
     const bool no_return = beam.no_return || beam.range >= max_range_;
     const Point2 along = unit(Angle::radians(beam.bearing));
     double direction = beam.bearing * per_radian;
@@ -47,4 +47,4 @@ void SweepScores::score(const RangeSweep& sweep, std::span<const BinnedBeam> bea
   kernel_(field_.view(), ends, poses, costs.data());
 }
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -8,7 +8,7 @@
 #include "docent/localization/monte_carlo/field_kernel.h"
 #include "docent/sensor_models/range_sweep.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// What the chosen beams of a sweep say of particles, by the beam model or by the likelihood field.
 class SweepScores {
@@ -21,8 +21,8 @@ class SweepScores {
   /// Costs in steps of 1 / kScorePerNat below a perfect fit; the beams of a sector together at most the sector's cap.
   /// `beams`: by rising direction. The field has nothing to say of beams without a return. `costs` is made as long as
   /// the particles with their padding. O(particles * beams).
-  void score(const RangeSweep& sweep, std::span<const BinnedBeam> beams, const ParticleSet& particles,
-             std::vector<std::uint32_t>& costs) const;
+  void score(const sensor_models::RangeSweep& sweep, std::span<const sensor_models::BinnedBeam> beams,
+             const ParticleSet& particles, std::vector<std::uint32_t>& costs) const;
   /// For tests and benchmarks: an instruction set by hand.
   void use_kernel(FieldKernel kernel) { kernel_ = kernel; }
 
@@ -37,4 +37,4 @@ class SweepScores {
   double max_range_;
 };
 
-}  // namespace docent
+}  // namespace docent::localization

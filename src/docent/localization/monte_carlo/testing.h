@@ -13,12 +13,12 @@
 #include "docent/localization/particles/testing.h"
 
 /// Drives for the tests of this folder.
-namespace docent::testing {
+namespace docent::localization::testing {
 
 /// A robot that drives round the drawn room, with odometry that drifts and people about it.
 class Drive {
  public:
-  Drive(const RayCaster& caster, std::uint64_t seed, double blocked)
+  Drive(const sensor_models::RayCaster& caster, std::uint64_t seed, double blocked)
       : caster_{caster}, rng_{Rng{seed}.stream("drive")}, blocked_{blocked} {
     next_ = static_cast<std::size_t>(rng_.integer(0, static_cast<std::int64_t>(way().size()) - 1));
     truth_ = {way()[next_].x, way()[next_].y, Angle::degrees(rng_.uniform(-180.0, 180.0))};
@@ -48,9 +48,9 @@ class Drive {
     truth_ = {way()[next_].x, way()[next_].y, truth_.theta + Angle::degrees(120.0)};
   }
 
-  [[nodiscard]] RangeSweep sweep() {
-    RangeSweep sweep = sweep_at(caster_, truth_, 10.0);
-    for (SweepBeam& beam : sweep.beams) {
+  [[nodiscard]] sensor_models::RangeSweep sweep() {
+    sensor_models::RangeSweep sweep = sweep_at(caster_, truth_, 10.0);
+    for (sensor_models::SweepBeam& beam : sweep.beams) {
       if (!beam.no_return) beam.range = std::max(0.05, beam.range + rng_.normal(0.0, 0.02));
       const auto sector =
           static_cast<std::size_t>((beam.bearing + std::numbers::pi) / (2.0 * std::numbers::pi) * 17.99);
@@ -68,7 +68,7 @@ class Drive {
                                             {5.3, 1.6}, {5.2, 2.7}, {3.7, 2.6}, {2.4, 2.5}, {0.6, 2.3}};
     return points;
   }
-  const RayCaster& caster_;
+  const sensor_models::RayCaster& caster_;
   Rng rng_;
   double blocked_;
   std::array<double, 18> people_{};
@@ -84,4 +84,4 @@ inline bool is_right(const std::optional<Pose2>& found, const Pose2& truth) {
          std::abs((found->theta - truth.theta).degrees()) < 20.0;
 }
 
-}  // namespace docent::testing
+}  // namespace docent::localization::testing

@@ -2,7 +2,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent {
+namespace docent::localization {
 
 NoiseStreams::NoiseStreams(std::uint64_t seed) {
   Rng rng{seed};
@@ -48,4 +48,4 @@ void NoiseStreams::fill_uniform(std::span<float> out) {
   }
 }
 
-}  // namespace docent
+}  // namespace docent::localization

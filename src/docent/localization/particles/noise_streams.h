@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-namespace docent {
+namespace docent::localization {
 
 /// Sixteen xoshiro128+ generators side by side, so that plain loops over them become vectors. Element i of a call comes
 /// from generator i modulo 16: every instruction set draws the same numbers.
@@ -27,4 +27,4 @@ class NoiseStreams {
   std::array<Word, 4> state_{};
 };
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -4,7 +4,7 @@
 #include <array>
 #include <numbers>
 
-namespace docent {
+namespace docent::localization {
 
 namespace {
 
@@ -51,9 +51,9 @@ void move_block(ParticleSet& particles, std::size_t first, std::size_t count, co
 
 }  // namespace
 
-void move_particles(ParticleSet& particles, const OdometryModelParams& params, const Pose2& before_from_after,
-                    const Shake& shake, const MapBox& box, NoiseStreams& noise) {
-  const MotionNoise error = motion_noise(params, before_from_after);
+void move_particles(ParticleSet& particles, const motion_models::OdometryModelParams& params,
+                    const Pose2& before_from_after, const Shake& shake, const MapBox& box, NoiseStreams& noise) {
+  const motion_models::MotionNoise error = motion_models::motion_noise(params, before_from_after);
   const double shake_turn = shake.heading * std::numbers::pi / 180.0;
   const Deviations usual{static_cast<float>(std::sqrt(error.position_variance + shake.position * shake.position)),
                          static_cast<float>(std::sqrt(error.heading_variance + shake_turn * shake_turn))};
@@ -74,4 +74,4 @@ void move_particles(ParticleSet& particles, const OdometryModelParams& params, c
   }
 }
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -4,7 +4,7 @@
 #include "docent/localization/particles/particle_set.h"
 #include "docent/motion_models/odometry_model.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// The least that particles are shaken at every step, so that copies of one particle part again.
 struct Shake {
@@ -18,7 +18,7 @@ struct Shake {
 struct MapBox {
   float left = 0, bottom = 0, right = 0, top = 0;  ///< [m]
 };
-void move_particles(ParticleSet& particles, const OdometryModelParams& params, const Pose2& before_from_after,
-                    const Shake& shake, const MapBox& box, NoiseStreams& noise);
+void move_particles(ParticleSet& particles, const motion_models::OdometryModelParams& params,
+                    const Pose2& before_from_after, const Shake& shake, const MapBox& box, NoiseStreams& noise);
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -6,7 +6,7 @@
 
 #include "docent/localization/monte_carlo/testing.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 constexpr MapBox kEverywhere{-100.0F, -100.0F, 100.0F, 100.0F};
@@ -52,7 +52,7 @@ TEST(ParticleMotion, WithoutErrorsItIsTheIncrement) {
   Rng rng{1};
   ParticleSet particles = testing::any_particles(rng, 100, 6.0, 4.0);
   const ParticleSet before = particles;
-  OdometryModelParams params{1e-12, 0.0, 0.0, 1e-12, 0.0};
+  motion_models::OdometryModelParams params{1e-12, 0.0, 0.0, 1e-12, 0.0};
   const Pose2 step{0.3, -0.1, Angle::degrees(20.0)};
   NoiseStreams noise{1};
   move_particles(particles, params, step, {0.0, 0.0}, kEverywhere, noise);
@@ -68,10 +68,10 @@ TEST(ParticleMotion, SpreadsAsTheModelSays) {
   ParticleSet particles;
   particles.resize(50000);
   for (std::size_t i = 0; i < particles.size(); ++i) particles.set(i, {2.0, 1.0, Angle::degrees(30.0)}, 1.0F);
-  OdometryModelParams params;
+  motion_models::OdometryModelParams params;
   params.slip_probability = 0.0;
   const Pose2 step{0.5, 0.0, Angle::degrees(15.0)};
-  const MotionNoise error = motion_noise(params, step);
+  const motion_models::MotionNoise error = motion_models::motion_noise(params, step);
   NoiseStreams noise{2};
   move_particles(particles, params, step, {0.0, 0.0}, kEverywhere, noise);
   const Pose2 mean = Pose2{2.0, 1.0, Angle::degrees(30.0)} * step;
@@ -93,7 +93,7 @@ TEST(ParticleMotion, SlipsWithTheirProbabilityAndOnlyWhenMoving) {
     ParticleSet particles;
     particles.resize(20000);
     for (std::size_t i = 0; i < particles.size(); ++i) particles.set(i, {}, 1.0F);
-    OdometryModelParams params;
+    motion_models::OdometryModelParams params;
     params.slip_probability = 0.1;
     NoiseStreams noise{3};
     move_particles(particles, params, step, {0.0, 0.0}, kEverywhere, noise);
@@ -122,4 +122,4 @@ TEST(ParticleMotion, StaysInTheBoxAndHeadingsKeepTheirLength) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace docent {
+namespace docent::localization {
 
 void ParticleSet::resize(std::size_t count) {
   const std::size_t padded = (count + kPadding - 1) / kPadding * kPadding;
@@ -40,4 +40,4 @@ double ParticleSet::mass(std::size_t first, std::size_t last) const {
   return sum;
 }
 
-}  // namespace docent
+}  // namespace docent::localization

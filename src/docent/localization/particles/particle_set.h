@@ -6,7 +6,7 @@
 
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// Weighted samples of the robot's pose [Minerva2000] 3.3, as arrays: one entry a particle, and behind them as many
 /// more, of weight 0, as fill a vector of the widest instruction set. Headings are unit vectors, so that moving and
@@ -44,4 +44,4 @@ struct ParticleSet {
   std::size_t size_ = 0;
 };
 
-}  // namespace docent
+}  // namespace docent::localization

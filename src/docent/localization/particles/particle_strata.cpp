@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace docent {
+namespace docent::localization {
 
 namespace {
 
@@ -74,4 +74,4 @@ void resample_strata(ParticleSet& particles, const Pose2& likeliest, const Strat
   std::swap(particles, scratch);
 }
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -4,7 +4,7 @@
 #include "docent/localization/particles/particle_set.h"
 #include "docent/localization/particles/resampling.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// How many particles there may be, and where.
 struct Strata {
@@ -22,4 +22,4 @@ struct Strata {
 void resample_strata(ParticleSet& particles, const Pose2& likeliest, const Strata& strata, Rng& rng,
                      ParticleSet& scratch);
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -4,7 +4,7 @@
 
 #include "docent/localization/monte_carlo/testing.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 constexpr Pose2 kHere{1.0, 1.0, Angle{}};
@@ -69,4 +69,4 @@ TEST(ParticleStrata, WhatIsEvenAndOfTheRightNumberStaysAsItIs) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-namespace docent {
+namespace docent::localization {
 
 namespace {
 
@@ -120,4 +120,4 @@ void gather(ParticleSet& particles, const Gathering& gathering) {
     if (is_near[i] != 0) particles.weight[i] *= static_cast<float>(is_found[i] != 0 ? factors.found : factors.rest);
 }
 
-}  // namespace docent
+}  // namespace docent::localization

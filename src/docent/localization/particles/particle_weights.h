@@ -7,7 +7,7 @@
 #include "docent/localization/belief/neighbourhood.h"
 #include "docent/localization/particles/particle_set.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// How much one scan may count, as the grid's EvidenceWeights: beams and scans err together (decision 0006).
 struct ParticleEvidence {
@@ -32,4 +32,4 @@ double reweigh(ParticleSet& particles, std::span<const std::uint32_t> costs, con
 /// What a search has found inside a neighbourhood; the weight of the neighbourhood as a whole stays. O(particles).
 void gather(ParticleSet& particles, const Gathering& gathering);
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -6,7 +6,7 @@
 
 #include "docent/localization/monte_carlo/testing.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 std::vector<std::uint32_t> any_costs(Rng& rng, const ParticleSet& particles) {
@@ -109,4 +109,4 @@ TEST(ParticleWeights, GatheringMovesMassInsideTheNeighbourhoodAndNothingElse) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

@@ -8,7 +8,7 @@
 
 #include "docent/base/check.h"
 
-namespace docent {
+namespace docent::localization {
 
 namespace {
 
@@ -125,4 +125,4 @@ std::size_t occupied_bins(const ParticleSet& particles, std::size_t first, std::
   return bins;
 }
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -6,7 +6,7 @@
 #include "docent/base/result.h"
 #include "docent/localization/particles/particle_set.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// Systematic resampling, step 1 of [Minerva2000] 3.3: appends `count` particles to `to`, drawn from the particles
 /// first … last - 1 of `from` by their weights. Each is drawn its expected number of times, rounded up or down, with
@@ -48,4 +48,4 @@ struct KldParams {
 [[nodiscard]] std::size_t occupied_bins(const ParticleSet& particles, std::size_t first, std::size_t last,
                                         const KldParams& params);
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -5,7 +5,7 @@
 #include "docent/localization/particles/testing.h"
 
 /// Linear: the time a particle stays the same from a thousand to a million, but for the caches.
-namespace docent {
+namespace docent::localization {
 namespace {
 
 void resampling(benchmark::State& state) {
@@ -25,4 +25,4 @@ void resampling(benchmark::State& state) {
 BENCHMARK(resampling)->RangeMultiplier(10)->Range(1000, 1000000)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

@@ -7,7 +7,7 @@
 
 #include "docent/localization/monte_carlo/testing.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 /// Particle i stands at x = i, so that its copies can be counted.
@@ -168,4 +168,4 @@ TEST(Kld, CountsTheBinsThatHoldMass) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

@@ -6,7 +6,7 @@
 #include "docent/localization/particles/particle_set.h"
 
 /// Particles for tests and benchmarks.
-namespace docent::testing {
+namespace docent::localization::testing {
 
 /// `count` particles anywhere in the box 0..width x 0..height, with weights between 0 and 1 that do not sum to 1.
 inline ParticleSet any_particles(Rng& rng, std::size_t count, double width, double height) {
@@ -21,4 +21,4 @@ inline ParticleSet any_particles(Rng& rng, std::size_t count, double width, doub
   return particles;
 }
 
-}  // namespace docent::testing
+}  // namespace docent::localization::testing

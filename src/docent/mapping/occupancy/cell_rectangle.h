@@ -5,7 +5,7 @@
 
 #include "docent/grid/occupancy_grid.h"
 
-namespace docent {
+namespace docent::mapping {
 
 /// Cells from `low` to `high`, both among them.
 struct CellRectangle {
@@ -19,4 +19,4 @@ inline void widen(std::optional<CellRectangle>& rectangle, CellIndex cell) {
   rectangle->high = {std::max(rectangle->high.column, cell.column), std::max(rectangle->high.row, cell.row)};
 }
 
-}  // namespace docent
+}  // namespace docent::mapping

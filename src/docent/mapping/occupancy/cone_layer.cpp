@@ -7,7 +7,7 @@
 
 #include "docent/geometry/point_transform.h"
 
-namespace docent {
+namespace docent::mapping {
 
 Result<void> ConeLayerParams::validate() const {
   if (!(reach > 0.0)) return fail("reach must be > 0");
@@ -131,4 +131,4 @@ void ConeLayer::forget(Time now) {
 
 std::optional<CellRectangle> ConeLayer::take_changes() { return std::exchange(changes_, std::nullopt); }
 
-}  // namespace docent
+}  // namespace docent::mapping

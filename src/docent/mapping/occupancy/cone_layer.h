@@ -9,7 +9,7 @@
 #include "docent/grid/occupancy_grid.h"
 #include "docent/mapping/occupancy/cell_rectangle.h"
 
-namespace docent {
+namespace docent::mapping {
 
 /// Parts `sonar` and `infrared` of section `map` of robot.yaml.
 struct ConeLayerParams {
@@ -99,4 +99,4 @@ class ConeLayer {
   std::optional<CellRectangle> changes_;
 };
 
-}  // namespace docent
+}  // namespace docent::mapping

@@ -8,7 +8,7 @@
 
 #include "docent/geometry/polygon.h"
 
-namespace docent {
+namespace docent::mapping {
 namespace {
 
 constexpr double kCell = 0.15;  // [m]
@@ -150,4 +150,4 @@ TEST(ConeLayerParams, AreChecked) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::mapping

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace docent {
+namespace docent::mapping {
 
 Result<void> LiveMapParams::validate() const {
   if (coarsening < 1 || coarsening > 20) return fail("coarsening must be in 1..20");
@@ -161,4 +161,4 @@ std::optional<CellRectangle> LiveMap::take_changes() {
   return std::exchange(changes_, std::nullopt);
 }
 
-}  // namespace docent
+}  // namespace docent::mapping

@@ -13,7 +13,7 @@
 #include "docent/mapping/occupancy/cone_layer.h"
 #include "docent/mapping/occupancy/touch_layer.h"
 
-namespace docent {
+namespace docent::mapping {
 
 /// Section `map`: what stands in the hall now and not on the map.
 struct LiveMapParams {
@@ -107,4 +107,4 @@ class LiveMap {
   TouchLayer touch_;
 };
 
-}  // namespace docent
+}  // namespace docent::mapping

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::mapping {
 namespace {
 
 OccupancyGrid hall() {
@@ -131,4 +131,4 @@ TEST(LiveMap, NearHazardsAnEchoIsNoNews) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::mapping

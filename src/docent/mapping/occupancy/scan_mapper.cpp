@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace docent {
+namespace docent::mapping {
 namespace {
 
 constexpr double kMostCells = 4e8;
@@ -40,8 +40,9 @@ Result<GridFrame> ScanMapper::frame_of(std::span<const PlacedSweep> sweeps, cons
   };
   for (const PlacedSweep& placed : sweeps) {
     include(placed.map_from_sensor.position());
-    for (const SweepBeam& beam : placed.sweep.beams)
-      if (!beam.no_return && beam.range <= params.reach) include(placed.map_from_sensor * endpoint(beam));
+    for (const sensor_models::SweepBeam& beam : placed.sweep.beams)
+      if (!beam.no_return && beam.range <= params.reach)
+        include(placed.map_from_sensor * sensor_models::endpoint(beam));
   }
   const double columns = std::ceil((high.x - low.x + 2.0 * params.border) / params.resolution) + 1.0;
   const double rows = std::ceil((high.y - low.y + 2.0 * params.border) / params.resolution) + 1.0;
@@ -101,25 +102,26 @@ void ScanMapper::clear_triangle(Point2 a, Point2 b, Point2 c) {
   }
 }
 
-const SweepBeam* ScanMapper::neighbour_of(std::span<const SweepBeam> beams, std::size_t i, std::size_t n) const {
+const sensor_models::SweepBeam* ScanMapper::neighbour_of(std::span<const sensor_models::SweepBeam> beams, std::size_t i,
+                                                         std::size_t n) const {
   // The last beam of a full turn is the neighbour of the first.
   const double apart = std::abs(Angle::radians(beams[n].bearing - beams[i].bearing).radians());
   const bool is_one = n != i && !beams[n].no_return && apart <= params_.widest_gap * std::numbers::pi / 180.0;
   return is_one ? &beams[n] : nullptr;
 }
 
-std::vector<double> ScanMapper::clear_ranges(std::span<const SweepBeam> beams) const {
+std::vector<double> ScanMapper::clear_ranges(std::span<const sensor_models::SweepBeam> beams) const {
   std::vector<double> clear(beams.size(), 0.0);
   for (std::size_t i = 0; i < beams.size(); ++i) {
     if (beams[i].no_return) continue;
-    const Point2 end = endpoint(beams[i]);
+    const Point2 end = sensor_models::endpoint(beams[i]);
     double steepest = 0.0;  // sine of the angle at which the beam meets its surface
     bool is_alone = true;
     for (const std::size_t n : {i + 1 < beams.size() ? i + 1 : 0, i > 0 ? i - 1 : beams.size() - 1}) {
-      const SweepBeam* const neighbour = neighbour_of(beams, i, n);
+      const sensor_models::SweepBeam* const neighbour = neighbour_of(beams, i, n);
       if (neighbour == nullptr) continue;
       is_alone = false;
-      const Point2 along = endpoint(*neighbour) - end;
+      const Point2 along = sensor_models::endpoint(*neighbour) - end;
       const Point2 across = unit(Angle::radians(beams[i].bearing + 0.5 * std::numbers::pi));
       steepest = std::max(steepest, std::abs(dot(across, along)) / std::max(norm(along), 1e-9));
     }
@@ -136,21 +138,21 @@ void ScanMapper::add(const PlacedSweep& placed) {
   const auto next_of = [&](std::size_t i) { return i + 1 < beams.size() ? i + 1 : 0; };
   for (std::size_t i = 0; i < beams.size(); ++i) {  // hits first: they win
     if (beams[i].no_return || beams[i].range > params_.reach) continue;
-    const Point2 end = placed.map_from_sensor * endpoint(beams[i]);
+    const Point2 end = placed.map_from_sensor * sensor_models::endpoint(beams[i]);
     add_evidence(frame_.cell_at(end), hit_);
-    const SweepBeam* const neighbour = neighbour_of(beams, i, next_of(i));
+    const sensor_models::SweepBeam* const neighbour = neighbour_of(beams, i, next_of(i));
     if (neighbour == nullptr || neighbour->range > params_.reach) continue;
-    const Point2 next = placed.map_from_sensor * endpoint(*neighbour);
+    const Point2 next = placed.map_from_sensor * sensor_models::endpoint(*neighbour);
     if (distance(end, next) <= params_.widest_wall) mark_line(end, next, hit_);
   }
-  const auto seen_to = [&](const SweepBeam& beam, double clear) {
+  const auto seen_to = [&](const sensor_models::SweepBeam& beam, double clear) {
     return sensor + clear * unit(placed.map_from_sensor.theta + Angle::radians(beam.bearing));
   };
   const std::vector<double> clear = clear_ranges(beams);
   for (std::size_t i = 0; i < beams.size(); ++i) {
     if (beams[i].no_return) continue;
     mark_line(sensor, seen_to(beams[i], clear[i]), pass_);
-    const SweepBeam* const neighbour = neighbour_of(beams, i, next_of(i));
+    const sensor_models::SweepBeam* const neighbour = neighbour_of(beams, i, next_of(i));
     if (neighbour == nullptr) continue;
     const double both = std::min(clear[i], clear[next_of(i)]);
     clear_triangle(sensor, seen_to(beams[i], both), seen_to(*neighbour, both));
@@ -168,4 +170,4 @@ OccupancyGrid ScanMapper::map() const {
   return map;
 }
 
-}  // namespace docent
+}  // namespace docent::mapping

@@ -8,7 +8,7 @@
 #include "docent/grid/occupancy_grid.h"
 #include "docent/sensor_models/range_sweep.h"
 
-namespace docent {
+namespace docent::mapping {
 
 struct ScanMapperParams {
   double resolution = 0.05;  ///< [m/cell], 0.01..1
@@ -41,7 +41,7 @@ struct ScanMapperParams {
 
 /// A sweep as seen from its sensor, and where the sensor was.
 struct PlacedSweep {
-  RangeSweep sweep;
+  sensor_models::RangeSweep sweep;
   Pose2 map_from_sensor;
 };
 
@@ -69,10 +69,11 @@ class ScanMapper {
   void mark_line(Point2 from, Point2 to, float evidence);
   void clear_triangle(Point2 a, Point2 b, Point2 c);
   /// Beam `n` where it is the neighbour of beam `i` and came back; else none.
-  [[nodiscard]] const SweepBeam* neighbour_of(std::span<const SweepBeam> beams, std::size_t i, std::size_t n) const;
+  [[nodiscard]] const sensor_models::SweepBeam* neighbour_of(std::span<const sensor_models::SweepBeam> beams,
+                                                             std::size_t i, std::size_t n) const;
   /// [m] up to where each beam passed free space for certain: `margin` from the surface it ended on, measured square
   /// to it. A beam that grazes a wall runs beside it for metres, nearer than poses are known.
-  [[nodiscard]] std::vector<double> clear_ranges(std::span<const SweepBeam> beams) const;
+  [[nodiscard]] std::vector<double> clear_ranges(std::span<const sensor_models::SweepBeam> beams) const;
 
   GridFrame frame_;
   ScanMapperParams params_;
@@ -83,4 +84,4 @@ class ScanMapper {
   std::uint32_t sweep_ = 0;
 };
 
-}  // namespace docent
+}  // namespace docent::mapping

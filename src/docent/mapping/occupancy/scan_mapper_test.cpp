@@ -7,7 +7,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent {
+namespace docent::mapping {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -72,7 +72,7 @@ TEST(ScanMapper, WhoWalkedThroughLeavesNoTrace) {
   for (int i = 0; i < 8; ++i) sweeps.push_back(in_room({-2.0, 0.02, Angle{}}, 360));
   // Somebody at 1 m before the sensor, in two of the sweeps.
   for (std::size_t sweep : {2U, 3U})
-    for (SweepBeam& beam : sweeps[sweep].sweep.beams)
+    for (sensor_models::SweepBeam& beam : sweeps[sweep].sweep.beams)
       if (std::abs(beam.bearing) < 10.0 * kDegree) beam.range = 1.02;
   EXPECT_TRUE(map_of({sweeps[2]}).is_occupied(map_of({sweeps[2]}).frame.cell_at({-0.98, 0.02})));
   EXPECT_EQ(at(map_of(sweeps), {-0.98, 0.02}), OccupancyGrid::kFree);
@@ -169,7 +169,8 @@ TEST(ScanMapper, ABeamWithoutReturnSaysNothingAndAFarOneOnlyClears) {
   EXPECT_EQ(at(map, {0.0, 19.0}), OccupancyGrid::kFree);
   EXPECT_EQ(at(map, {0.0, 21.0}), OccupancyGrid::kUnknown);
   EXPECT_EQ(at(map, {0.0, 30.0}), OccupancyGrid::kUnknown);
-  EXPECT_TRUE(map.is_occupied(map.frame.cell_at(placed.map_from_sensor * endpoint(placed.sweep.beams[2]))));
+  EXPECT_TRUE(
+      map.is_occupied(map.frame.cell_at(placed.map_from_sensor * sensor_models::endpoint(placed.sweep.beams[2]))));
 }
 
 TEST(ScanMapper, RefusesWhatCannotBeMapped) {
@@ -188,4 +189,4 @@ TEST(ScanMapper, RefusesWhatCannotBeMapped) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::mapping

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace docent {
+namespace docent::mapping {
 
 Result<void> TouchLayerParams::validate() const {
   if (!(radius > 0.0)) return fail("radius must be > 0");
@@ -53,4 +53,4 @@ void TouchLayer::forget(Time now) {
 
 std::optional<CellRectangle> TouchLayer::take_changes() { return std::exchange(changes_, std::nullopt); }
 
-}  // namespace docent
+}  // namespace docent::mapping

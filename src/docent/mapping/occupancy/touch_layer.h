@@ -8,7 +8,7 @@
 #include "docent/grid/occupancy_grid.h"
 #include "docent/mapping/occupancy/cell_rectangle.h"
 
-namespace docent {
+namespace docent::mapping {
 
 /// Part `touch` of section `map` of robot.yaml.
 struct TouchLayerParams {
@@ -55,4 +55,4 @@ class TouchLayer {
   std::optional<CellRectangle> changes_;
 };
 
-}  // namespace docent
+}  // namespace docent::mapping

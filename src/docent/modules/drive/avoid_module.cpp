@@ -9,7 +9,7 @@
 #include "docent/modules/shared/scanners.h"
 #include "docent/vocabulary/vocabulary.h"
 
-namespace docent {
+namespace docent::modules {
 
 namespace {
 
@@ -21,17 +21,17 @@ constexpr double kTogether = 0.02;  // [s] a choice waits so long for another la
 constexpr double kWindowPeriod = 0.5;
 constexpr Duration kModePeriod = std::chrono::seconds{1};
 
-Result<BaseLimits> limits_of(const RobotBody& body) {
-  BaseLimits limits{body.radius,       body.max_speed,    body.max_turn_rate,
-                    body.acceleration, body.deceleration, body.turn_acceleration,
-                    body.latency,      body.watchdog,     {}};
-  auto outline = Outline::of_body(body.outline);
+Result<collision_avoidance::BaseLimits> limits_of(const robot::RobotBody& body) {
+  collision_avoidance::BaseLimits limits{body.radius,       body.max_speed,    body.max_turn_rate,
+                                         body.acceleration, body.deceleration, body.turn_acceleration,
+                                         body.latency,      body.watchdog,     {}};
+  auto outline = collision_avoidance::Outline::of_body(body.outline);
   if (!outline) return tl::unexpected<Error>(outline.error());
   limits.outline = std::move(*outline);
   return limits;
 }
 
-SensorSweep to_sweep(const sensor_msgs::LaserScan& scan, const Pose2& base_from_sensor) {
+collision_avoidance::SensorSweep to_sweep(const sensor_msgs::LaserScan& scan, const Pose2& base_from_sensor) {
   return {from_message(scan.header.stamp),
           base_from_sensor,
           scan.angle_min,
@@ -41,29 +41,30 @@ SensorSweep to_sweep(const sensor_msgs::LaserScan& scan, const Pose2& base_from_
           scan.ranges};
 }
 
-const char* name_of(AvoiderDecision::State state) {
+const char* name_of(collision_avoidance::AvoiderDecision::State state) {
   switch (state) {
-    case AvoiderDecision::State::driving:
+    case collision_avoidance::AvoiderDecision::State::driving:
       return "driving";
-    case AvoiderDecision::State::turning:
+    case collision_avoidance::AvoiderDecision::State::turning:
       return "turning";
-    case AvoiderDecision::State::blocked:
+    case collision_avoidance::AvoiderDecision::State::blocked:
       return "blocked";
-    case AvoiderDecision::State::stopped:
+    case collision_avoidance::AvoiderDecision::State::stopped:
       break;
   }
   return "stopped";
 }
 
-std::vector<std::string> laser_names(const RobotBody& body) {
+std::vector<std::string> laser_names(const robot::RobotBody& body) {
   std::vector<std::string> names;
-  for (const Scanner& scanner : body.scanners) names.push_back(scanner.name + " laser");
+  for (const robot::Scanner& scanner : body.scanners) names.push_back(scanner.name + " laser");
   return names;
 }
 
 class AvoidModule final : public Module {
  public:
-  AvoidModule(const ModuleContext& context, const BaseLimits& limits, const AvoiderParams& params)
+  AvoidModule(const ModuleContext& context, const collision_avoidance::BaseLimits& limits,
+              const collision_avoidance::AvoiderParams& params)
       : bus_{context.bus},
         mode_{context},
         body_{context.config.body()},
@@ -85,8 +86,8 @@ class AvoidModule final : public Module {
  private:
   void subscribe_sensors() {
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const nav_msgs::Odometry& odometry) {
-      const BaseState state{from_message(odometry.pose.pose),
-                            {odometry.twist.twist.linear.x, odometry.twist.twist.angular.z}};
+      const collision_avoidance::BaseState state{from_message(odometry.pose.pose),
+                                                 {odometry.twist.twist.linear.x, odometry.twist.twist.angular.z}};
       avoider_.add_odometry(bus_.now(), from_message(odometry.header.stamp), state);
     });
     subscribe_scanners(bus_, body_, [this](std::size_t i, const sensor_msgs::LaserScan& scan) {
@@ -143,11 +144,11 @@ class AvoidModule final : public Module {
     });
     bus_.every(kModePeriod, [this] { limit_speed(); });
     bus_.subscribe<docent_msgs::Target>(topics::kTarget, [this](const docent_msgs::Target& target) {
-      AvoiderTarget wish;
+      collision_avoidance::AvoiderTarget wish;
       const auto mode = parse<DriveMode>(target.mode);
-      wish.mode = mode == DriveMode::drive  ? AvoiderTarget::Mode::drive
-                  : mode == DriveMode::turn ? AvoiderTarget::Mode::turn
-                                            : AvoiderTarget::Mode::stop;
+      wish.mode = mode == DriveMode::drive  ? collision_avoidance::AvoiderTarget::Mode::drive
+                  : mode == DriveMode::turn ? collision_avoidance::AvoiderTarget::Mode::turn
+                                            : collision_avoidance::AvoiderTarget::Mode::stop;
       for (std::size_t i = 0; i < std::min(target.via_x.size(), target.via_y.size()); ++i) {
         wish.via.push_back({target.via_x[i], target.via_y[i]});
       }
@@ -189,7 +190,7 @@ class AvoidModule final : public Module {
 
   void decide() {
     decided_before_ = std::exchange(decided_, bus_.now());
-    const AvoiderDecision choice = avoider_.decide(decided_);
+    const collision_avoidance::AvoiderDecision choice = avoider_.decide(decided_);
     const auto check = avoider_.reflex(decided_);
     publish(check ? *check : choice);
   }
@@ -208,12 +209,12 @@ class AvoidModule final : public Module {
     }
   }
 
-  void publish_drive(const Velocity& command) {
+  void publish_drive(const collision_avoidance::Velocity& command) {
     driven_ = bus_.now();
     drive_.publish({{to_message(driven_), "base_link"}, command.linear, command.angular});
   }
 
-  void publish(const AvoiderDecision& decision) {
+  void publish(const collision_avoidance::AvoiderDecision& decision) {
     publish_drive(decision.command);
     docent_msgs::AvoidState state;
     state.header = {to_message(driven_), "base_link"};
@@ -237,17 +238,17 @@ class AvoidModule final : public Module {
     state_.publish(std::move(state));
   }
 
-  Bus& bus_;
+  transport::Bus& bus_;
   MuseumMode mode_;
-  RobotBody body_;
+  robot::RobotBody body_;
   double cycle_;
   std::vector<double> widest_field_;  ///< [scanners] [rad] that each has shown
-  Avoider avoider_;
-  std::vector<BelievedPose> cells_;       ///< of the newest belief
-  std::vector<BelievedPose> hypotheses_;  ///< likewise
-  Publisher<docent_msgs::Drive> drive_;
-  Publisher<docent_msgs::AvoidState> state_;
-  AvoiderTarget::Mode target_mode_ = AvoiderTarget::Mode::stop;
+  collision_avoidance::Avoider avoider_;
+  std::vector<collision_avoidance::BelievedPose> cells_;       ///< of the newest belief
+  std::vector<collision_avoidance::BelievedPose> hypotheses_;  ///< likewise
+  transport::Publisher<docent_msgs::Drive> drive_;
+  transport::Publisher<docent_msgs::AvoidState> state_;
+  collision_avoidance::AvoiderTarget::Mode target_mode_ = collision_avoidance::AvoiderTarget::Mode::stop;
   Time decided_{};
   Time decided_before_{};  ///< likewise, once more
   Time driven_{};
@@ -257,9 +258,9 @@ class AvoidModule final : public Module {
 }  // namespace
 
 Result<std::unique_ptr<Module>> make_avoid(const ModuleContext& context) {
-  auto params = context.config.section<AvoiderParams>("avoid");
+  auto params = context.config.section<collision_avoidance::AvoiderParams>("avoid");
   if (!params) return tl::unexpected<Error>(params.error());
-  const RobotBody& body = context.config.body();
+  const robot::RobotBody& body = context.config.body();
   params->needs_sonar = params->needs_sonar && body.sonars > 0;
   params->has_infrared = body.infrareds > 0;
   params->has_tactile = body.tactile;
@@ -270,8 +271,8 @@ Result<std::unique_ptr<Module>> make_avoid(const ModuleContext& context) {
   return std::make_unique<AvoidModule>(context, *limits, *params);
 }
 
-Result<ParameterRows> parameters_of_avoid(const RobotConfig& config) {
-  return list_parameters<AvoiderParams>(config, "avoid");
+Result<robot::ParameterRows> parameters_of_avoid(const robot::RobotConfig& config) {
+  return robot::list_parameters<collision_avoidance::AvoiderParams>(config, "avoid");
 }
 
-}  // namespace docent
+}  // namespace docent::modules

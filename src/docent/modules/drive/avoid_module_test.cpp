@@ -13,7 +13,7 @@
 #include "docent/modules/drive/robot_module.h"
 #include "docent/transport/virtual_time_bus.h"
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
 using std::numbers::pi;
@@ -25,7 +25,7 @@ class MotionModules : public ::testing::Test {
   MotionModules() {
     for (const char* has_no : {"body.infrareds=0", "body.tactile=false"}) EXPECT_TRUE(config.set(has_no));
     museum.area = walls;
-    museum.hazards.push_back({"plate", HazardKind::plate, {{9, -3.9}, {11, -3.9}, {11, -1.0}, {9, -1.0}}});
+    museum.hazards.push_back({"plate", museum::HazardKind::plate, {{9, -3.9}, {11, -3.9}, {11, -1.0}, {9, -1.0}}});
     world->subscribe<geometry_msgs::Twist>(topics::kCommandVelocity, [this](const geometry_msgs::Twist& twist) {
       wanted = twist;
       commanded = world->now();
@@ -44,14 +44,15 @@ class MotionModules : public ::testing::Test {
     start(hazards, hazards_bus, "hazards", make_hazards);
     start(robot, robot_bus, "robot", make_robot);
   }
-  void start(std::unique_ptr<Module>& module, std::unique_ptr<Bus>& bus, const char* name, ModuleFactory make) {
+  void start(std::unique_ptr<Module>& module, std::unique_ptr<transport::Bus>& bus, const char* name,
+             ModuleFactory make) {
     module.reset();
     bus = hub.connect(name);
     auto made = make({*bus, museum, config, "", 1, true});
     ASSERT_TRUE(made) << made.error().message;
     module = std::move(*made);
   }
-  void kill(std::unique_ptr<Module>& module, std::unique_ptr<Bus>& bus) {
+  void kill(std::unique_ptr<Module>& module, std::unique_ptr<transport::Bus>& bus) {
     module.reset();
     bus.reset();
   }
@@ -127,16 +128,16 @@ class MotionModules : public ::testing::Test {
     if (plan_works) target_publisher.publish(target);
   }
 
-  VirtualTimeHub hub;
-  Museum museum;
-  RobotConfig config;
-  std::unique_ptr<Bus> world = hub.connect("world");
-  Publisher<nav_msgs::Odometry> odometry_publisher = world->publisher(topics::kOdometry);
-  Publisher<sensor_msgs::LaserScan> front_publisher = world->publisher(topics::kScanFront);
-  Publisher<sensor_msgs::LaserScan> rear_publisher = world->publisher(topics::kScanRear);
-  Publisher<sensor_msgs::Range> sonar_publisher = world->publisher(topics::kSonar);
-  Publisher<docent_msgs::Belief> belief_publisher = world->publisher(topics::kBelief);
-  Publisher<docent_msgs::Target> target_publisher = world->publisher(topics::kTarget);
+  transport::VirtualTimeHub hub;
+  museum::Museum museum;
+  robot::RobotConfig config;
+  std::unique_ptr<transport::Bus> world = hub.connect("world");
+  transport::Publisher<nav_msgs::Odometry> odometry_publisher = world->publisher(topics::kOdometry);
+  transport::Publisher<sensor_msgs::LaserScan> front_publisher = world->publisher(topics::kScanFront);
+  transport::Publisher<sensor_msgs::LaserScan> rear_publisher = world->publisher(topics::kScanRear);
+  transport::Publisher<sensor_msgs::Range> sonar_publisher = world->publisher(topics::kSonar);
+  transport::Publisher<docent_msgs::Belief> belief_publisher = world->publisher(topics::kBelief);
+  transport::Publisher<docent_msgs::Target> target_publisher = world->publisher(topics::kTarget);
   geometry_msgs::Twist wanted;
   Time commanded{};
   docent_msgs::AvoidState state;
@@ -155,7 +156,7 @@ class MotionModules : public ::testing::Test {
   int rear_sweeps = 0;
   bool wants_inside = false;  ///< wants to go along +y, else along the hall's axis
   Polygon walls{{-2, -4}, {18, -4}, {18, 4}, {-2, 4}};
-  std::unique_ptr<Bus> avoid_bus, hazards_bus, robot_bus;
+  std::unique_ptr<transport::Bus> avoid_bus, hazards_bus, robot_bus;
   std::unique_ptr<Module> avoid, hazards, robot;
 };
 
@@ -331,7 +332,7 @@ TEST_F(MotionModules, StandWhenALaserOrTheHazardsOrThePlanFallSilent) {
 TEST_F(MotionModules, StandForARingThatNeverSpokeAndThatTheBodyHas) {
   for (const auto& [has, name] : {std::pair{"body.infrareds=24", "no fresh infrared reading"},
                                   std::pair{"body.tactile=true", "the tactile ring is silent"}}) {
-    config = RobotConfig{};
+    config = robot::RobotConfig{};
     for (const char* setting : {"body.infrareds=0", "body.tactile=false", has}) ASSERT_TRUE(config.set(setting));
     start(avoid, avoid_bus, "avoid", make_avoid);
     run(3.0);
@@ -435,4 +436,4 @@ TEST_F(MotionModules, RefuseBadParameters) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::modules

@@ -5,16 +5,18 @@
 #include "docent/collision_avoidance/virtual_measurements/virtual_measurements.h"
 #include "docent/messages/conversions.h"
 
-namespace docent {
+namespace docent::modules {
 
 namespace {
 
 class HazardsModule final : public Module {
  public:
-  HazardsModule(const ModuleContext& context, const VirtualMeasurementParams& params)
+  HazardsModule(const ModuleContext& context, const collision_avoidance::VirtualMeasurementParams& params)
       : bus_{context.bus},
-        hazards_{context.museum.area, context.museum.hazard_polygons(), params, VirtualMeasurements::Ends::hazards},
-        border_{context.museum.area, context.museum.hazard_polygons(), params, VirtualMeasurements::Ends::border},
+        hazards_{context.museum.area, context.museum.hazard_polygons(), params,
+                 collision_avoidance::VirtualMeasurements::Ends::hazards},
+        border_{context.museum.area, context.museum.hazard_polygons(), params,
+                collision_avoidance::VirtualMeasurements::Ends::border},
         best_pose_only_{params.best_pose_only},
         ignored_{context.config.evaluation().ignores_hazards},
         scan_{bus_.publisher(topics::kVirtualScan)} {
@@ -59,10 +61,12 @@ class HazardsModule final : public Module {
 
     sensor_msgs::LaserScan scan;
     scan.header = {belief.header.stamp, "base_link"};
-    scan.angle_increment = static_cast<float>(2.0 * std::numbers::pi / VirtualMeasurements::kDirections);
+    scan.angle_increment =
+        static_cast<float>(2.0 * std::numbers::pi / collision_avoidance::VirtualMeasurements::kDirections);
     scan.angle_min = static_cast<float>(-std::numbers::pi);
-    scan.angle_max = scan.angle_min + scan.angle_increment * (2 * VirtualMeasurements::kDirections - 1);
-    scan.range_max = static_cast<float>(VirtualMeasurements::kMaxRange);
+    scan.angle_max =
+        scan.angle_min + scan.angle_increment * (2 * collision_avoidance::VirtualMeasurements::kDirections - 1);
+    scan.range_max = static_cast<float>(collision_avoidance::VirtualMeasurements::kMaxRange);
     // Two turns: the body keeps off the hazards of the first, the centre off the border in the second.
     for (const auto* measured : {&of_hazards, &of_border}) {
       for (const double range : measured->ranges)
@@ -78,14 +82,14 @@ class HazardsModule final : public Module {
     scan_.publish(*last_);
   }
 
-  Bus& bus_;
-  VirtualMeasurements hazards_;
-  VirtualMeasurements border_;
+  transport::Bus& bus_;
+  collision_avoidance::VirtualMeasurements hazards_;
+  collision_avoidance::VirtualMeasurements border_;
   bool best_pose_only_;  ///< crippled, for evaluation
   bool ignored_;         ///< likewise
-  Publisher<sensor_msgs::LaserScan> scan_;
-  std::vector<WeightedPose> poses_;
-  std::vector<WeightedSquare> squares_;
+  transport::Publisher<sensor_msgs::LaserScan> scan_;
+  std::vector<collision_avoidance::WeightedPose> poses_;
+  std::vector<collision_avoidance::WeightedSquare> squares_;
   std::optional<sensor_msgs::LaserScan> last_;
   Time received_{};
   Time published_{};
@@ -95,14 +99,14 @@ class HazardsModule final : public Module {
 }  // namespace
 
 Result<std::unique_ptr<Module>> make_hazards(const ModuleContext& context) {
-  auto params = context.config.section<VirtualMeasurementParams>("hazards");
+  auto params = context.config.section<collision_avoidance::VirtualMeasurementParams>("hazards");
   if (!params) return tl::unexpected<Error>(params.error());
   params->best_pose_only = context.config.evaluation().best_pose_only;
   return std::make_unique<HazardsModule>(context, *params);
 }
 
-Result<ParameterRows> parameters_of_hazards(const RobotConfig& config) {
-  return list_parameters<VirtualMeasurementParams>(config, "hazards");
+Result<robot::ParameterRows> parameters_of_hazards(const robot::RobotConfig& config) {
+  return robot::list_parameters<collision_avoidance::VirtualMeasurementParams>(config, "hazards");
 }
 
-}  // namespace docent
+}  // namespace docent::modules

@@ -8,7 +8,7 @@
 
 #include "docent/modules/shared/module_bench.h"
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
 constexpr std::size_t kDirections = 180;         // of a turn
@@ -19,7 +19,7 @@ class HazardsModule : public ModuleBench {
  protected:
   HazardsModule() : ModuleBench{"hazards", make_hazards} {
     museum.area = {{0, 0}, {20, 0}, {20, 20}, {0, 20}};
-    museum.hazards.push_back({"plate", HazardKind::plate, {{10, 9}, {11, 9}, {11, 11}, {10, 11}}});
+    museum.hazards.push_back({"plate", museum::HazardKind::plate, {{10, 9}, {11, 9}, {11, 11}, {10, 11}}});
     world->subscribe<sensor_msgs::LaserScan>(topics::kVirtualScan, [this](const auto& scan) { scans.push_back(scan); });
   }
   /// Cells of equal mass, all looking to the east.
@@ -33,7 +33,7 @@ class HazardsModule : public ModuleBench {
     return belief;
   }
   [[nodiscard]] float ahead() const { return scans.back().ranges[kAhead]; }
-  Publisher<docent_msgs::Belief> beliefs = world->publisher(topics::kBelief);
+  transport::Publisher<docent_msgs::Belief> beliefs = world->publisher(topics::kBelief);
   std::vector<sensor_msgs::LaserScan> scans;
 };
 
@@ -110,4 +110,4 @@ TEST_F(HazardsModule, SaysSoWhenTheRobotCannotBeWhereItIsBelieved) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::modules

@@ -15,7 +15,7 @@
 #include "docent/planning/value_iteration/route.h"
 #include "docent/vocabulary/vocabulary.h"
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
 constexpr Duration kPeriod = std::chrono::milliseconds{200};
@@ -29,10 +29,10 @@ constexpr Duration kBeliefStaleAfter = std::chrono::seconds{3};
 
 /// Section `plan`: ways through the building.
 struct PlanParams {
-  RouteParams route;
-  PursuitParams pursuit;
-  TellApartParams tell_apart;
-  CoastalParams coastal;
+  planning::RouteParams route;
+  planning::PursuitParams pursuit;
+  planning::TellApartParams tell_apart;
+  planning::CoastalParams coastal;
   bool active = true;           ///< lost: drives to where its hypotheses are told apart; else it only looks round
   double goal_tolerance = 0.2;  ///< [m] cells so near to the goal are goals
   template <class V>
@@ -75,7 +75,8 @@ class PlanModule final : public Module {
     obstacles_.assign(route_.frame().size(), false);
     settled_.assign(route_.frame().size(), false);
     if (params.coastal.weight > 0.0)
-      coastal_.emplace(context.museum.map, CoastalFloor::of(route_.frame(), route_.static_costs(), kCoastCoarsening),
+      coastal_.emplace(context.museum.map,
+                       planning::CoastalFloor::of(route_.frame(), route_.static_costs(), kCoastCoarsening),
                        params.coastal);
 
     bus_.subscribe<docent_msgs::Belief>(topics::kBelief, [this](const auto& belief) {
@@ -91,7 +92,7 @@ class PlanModule final : public Module {
     bus_.subscribe<docent_msgs::LiveMapUpdate>(topics::kLiveMapUpdate,
                                                [this](const auto& update) { on_update(update); });
     bus_.subscribe<docent_msgs::DriveGoal>(topics::kDriveGoal, [this](const auto& goal) { on_goal(goal); });
-    publish_state(Pursuit{});
+    publish_state(planning::Pursuit{});
     bus_.every(kPeriod, [this] { step(); });
   }
 
@@ -149,11 +150,11 @@ class PlanModule final : public Module {
       low = {std::min(low.column, changed_->low.column), std::min(low.row, changed_->low.row)};
       high = {std::max(high.column, changed_->high.column), std::max(high.row, changed_->high.row)};
     }
-    changed_ = CellBox{low, high};
+    changed_ = planning::CellBox{low, high};
   }
   void take(std::size_t index, std::int8_t live) {
     obstacles_[index] = live >= 65 && static_cells_[index] < 65 && !ignores_live_map_;
-    settled_[index] = obstacles_[index] && live >= LiveMap::kSettled;
+    settled_[index] = obstacles_[index] && live >= mapping::LiveMap::kSettled;
   }
 
   void step() {
@@ -166,7 +167,7 @@ class PlanModule final : public Module {
     if (!goal_.id.empty()) follow_coast();
     plan_ahead();
     const bool knows = pose_.localized() && now - pose_.belief_stamp() < kBeliefStaleAfter;
-    const Pursuit pursuit = pursuit_.step(knows ? pose_.map_from_base() : std::nullopt, route_, now);
+    const planning::Pursuit pursuit = pursuit_.step(knows ? pose_.map_from_base() : std::nullopt, route_, now);
     publish_target(pursuit, now);
     publish_state(pursuit);
     if (step_count_++ % kStepsAPath == 0) publish_path(pursuit, now);
@@ -209,7 +210,7 @@ class PlanModule final : public Module {
     target.header = {to_message(now), "odom"};
     target.goal_id = goal_.id;
     target.mode = to_text(DriveMode::stop);
-    Pursuit pursuit;
+    planning::Pursuit pursuit;
     pursuit.state = pose_.localized() ? GoalStatus::arrived : GoalStatus::waiting;
     pursuit.reason = pose_.localized() ? "" : "looking around to find the position";
     if (!pose_.localized() && pose_.odom_from_base()) {
@@ -227,13 +228,13 @@ class PlanModule final : public Module {
     publish_state(pursuit);
   }
 
-  LookAroundStep look_around(Time now) {
+  planning::LookAroundStep look_around(Time now) {
     const auto free = clearances(now);
     const auto telling = [&]() -> std::optional<Point2> {
       if (!params_.active || !pose_.map_from_odom()) return std::nullopt;
       // The hypotheses are those of the last update: odometry carries them on.
       const Pose2 moved = inverse(odom_at_belief_) * *pose_.odom_from_base();
-      std::vector<PossiblePose> possible;
+      std::vector<planning::PossiblePose> possible;
       for (const auto& h : hypotheses_) possible.push_back({Pose2{h.x, h.y, Angle::radians(h.theta)} * moved, h.mass});
       std::optional<Point2> last;
       if (telling_goal_) last = inverse(*pose_.odom_from_base()) * *telling_goal_;
@@ -253,8 +254,8 @@ class PlanModule final : public Module {
     constexpr Duration kLooked =
         std::chrono::milliseconds{5500};  // about a full turn; odometry's poses are kept for 6 s
     constexpr Duration kBetweenLooks = std::chrono::milliseconds{300};
-    const auto look = [&](Clearances& clearances, const sensor_msgs::LaserScan& scan, const Pose2& then_from_sensor,
-                          Duration stale) {
+    const auto look = [&](planning::Clearances& clearances, const sensor_msgs::LaserScan& scan,
+                          const Pose2& then_from_sensor, Duration stale) {
       const Time stamp = from_message(scan.header.stamp);
       const auto odom_from_then = pose_.odom_from_base_at(stamp);
       if (scan.ranges.empty() || now - stamp > stale || !odom_from_then) return false;
@@ -263,14 +264,14 @@ class PlanModule final : public Module {
                      scan.ranges);
       return true;
     };
-    Clearances real;
-    Clearances virtual_ones;
+    planning::Clearances real;
+    planning::Clearances virtual_ones;
     bool complete = !scans_.empty() && look(virtual_ones, virtual_scan_, Pose2{}, kStale);
     for (std::size_t i = 0; i < scans_.size() && complete; ++i)
       complete = look(real, scans_[i], base_from_laser_[i], kStale);
     if (!complete) return {};
     for (auto past = past_looks_.rbegin(); past != past_looks_.rend(); ++past) {
-      Clearances then;
+      planning::Clearances then;
       for (std::size_t i = 0; i < past->scans.size(); ++i)
         (void)look(then, past->scans[i], base_from_laser_[i], kLooked);
       real.fill(then);
@@ -290,7 +291,7 @@ class PlanModule final : public Module {
     return static_cast<double>(reach);
   }
 
-  void publish_target(const Pursuit& pursuit, Time now) {
+  void publish_target(const planning::Pursuit& pursuit, Time now) {
     docent_msgs::Target target;
     target.header = {to_message(now), "odom"};
     target.goal_id = goal_.id;
@@ -329,20 +330,20 @@ class PlanModule final : public Module {
     gaze_.publish(std::move(gaze));
   }
 
-  void publish_state(const Pursuit& pursuit) {
+  void publish_state(const planning::Pursuit& pursuit) {
     docent_msgs::GoalState state;
     state.id = goal_.id;
     state.state = to_text(pursuit.state);
     state.remaining_m = pursuit.remaining_m;
     state.blocked_s = pursuit.blocked_s;
     state.reason = pursuit.reason;
-    state.detour = to_text(pursuit.detour);
+    state.detour = planning::to_text(pursuit.detour);
     state.detour_extra = pursuit.detour_extra;
     state.header = {to_message(bus_.now()), "map"};
     goal_state_.publish(std::move(state));
   }
 
-  void publish_path(const Pursuit& pursuit, Time now) {
+  void publish_path(const planning::Pursuit& pursuit, Time now) {
     nav_msgs::Path path;
     path.header = {to_message(now), "map"};
     const auto here = pose_.map_from_base();
@@ -356,15 +357,15 @@ class PlanModule final : public Module {
     path_.publish(std::move(path));
   }
 
-  Bus& bus_;
+  transport::Bus& bus_;
   PlanParams params_;
   bool ignores_live_map_;  ///< crippled, for evaluation
-  RoutePlanner route_;
-  std::optional<CoastalPlanner> coastal_;  ///< with `coastal.weight` alone
-  std::vector<Point2> coast_;              ///< [m], map: its way; empty: none yet
-  GoalPursuit pursuit_;
-  LookAround look_around_;
-  TellApart tell_apart_;
+  planning::RoutePlanner route_;
+  std::optional<planning::CoastalPlanner> coastal_;  ///< with `coastal.weight` alone
+  std::vector<Point2> coast_;                        ///< [m], map: its way; empty: none yet
+  planning::GoalPursuit pursuit_;
+  planning::LookAround look_around_;
+  planning::TellApart tell_apart_;
   std::optional<Point2> telling_goal_;  ///< odom: where it drives to tell its hypotheses apart
   std::vector<Pose2> base_from_laser_;  ///< [scanners]
   struct PastLook {
@@ -373,10 +374,10 @@ class PlanModule final : public Module {
   };
   std::deque<PastLook> past_looks_;            ///< while it looks round
   std::vector<sensor_msgs::LaserScan> scans_;  ///< [scanners] newest sweeps
-  Publisher<docent_msgs::Target> target_;
-  Publisher<docent_msgs::GoalState> goal_state_;
-  Publisher<nav_msgs::Path> path_;
-  Publisher<docent_msgs::Gaze> gaze_;
+  transport::Publisher<docent_msgs::Target> target_;
+  transport::Publisher<docent_msgs::GoalState> goal_state_;
+  transport::Publisher<nav_msgs::Path> path_;
+  transport::Publisher<docent_msgs::Gaze> gaze_;
   PoseTracker pose_;
   std::vector<docent_msgs::Hypothesis> hypotheses_;  ///< of the last belief
   Pose2 odom_at_belief_;
@@ -387,7 +388,7 @@ class PlanModule final : public Module {
   std::vector<bool> settled_;              ///< those of them that have stood there for long
   Time base_{};
   std::uint32_t number_ = 0;
-  std::optional<CellBox> changed_;  ///< where `obstacles_` may differ from those of `route_`
+  std::optional<planning::CellBox> changed_;  ///< where `obstacles_` may differ from those of `route_`
   bool path_was_empty_ = true;
   int step_count_ = 0;
 };
@@ -401,14 +402,14 @@ Result<std::unique_ptr<Module>> make_plan(const ModuleContext& context) {
   return std::make_unique<PlanModule>(context, *params);
 }
 
-Result<CheckedRobot> checked_robot_of_plan(const RobotConfig& config) {
+Result<museum::CheckedRobot> checked_robot_of_plan(const robot::RobotConfig& config) {
   const auto params = config.section<PlanParams>("plan");
   if (!params) return tl::unexpected<Error>(params.error());
-  return CheckedRobot{config.body().radius, params->route.clearance, params->route.coarsening};
+  return museum::CheckedRobot{config.body().radius, params->route.clearance, params->route.coarsening};
 }
 
-Result<ParameterRows> parameters_of_plan(const RobotConfig& config) {
-  return list_parameters<PlanParams>(config, "plan");
+Result<robot::ParameterRows> parameters_of_plan(const robot::RobotConfig& config) {
+  return robot::list_parameters<PlanParams>(config, "plan");
 }
 
-}  // namespace docent
+}  // namespace docent::modules

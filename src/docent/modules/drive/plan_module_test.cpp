@@ -8,7 +8,7 @@
 
 #include "docent/modules/shared/module_bench.h"
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
 constexpr double kSide = 12.0;        // [m] of the hall
@@ -89,11 +89,11 @@ class PlanModule : public ModuleBench {
   Pose2 map_from_base{3.0, 6.0, Angle{}};
   Pose2 odom_from_base{0.0, 0.0, Angle::degrees(90.0)};
   bool believes = true, localized = true;
-  Publisher<nav_msgs::Odometry> odometry = world->publisher(topics::kOdometry);
-  Publisher<docent_msgs::Belief> beliefs = world->publisher(topics::kBelief);
-  Publisher<docent_msgs::DriveGoal> goals = world->publisher(topics::kDriveGoal);
-  Publisher<nav_msgs::OccupancyGrid> live_maps = world->publisher(topics::kLiveMap);
-  Publisher<docent_msgs::LiveMapUpdate> updates = world->publisher(topics::kLiveMapUpdate);
+  transport::Publisher<nav_msgs::Odometry> odometry = world->publisher(topics::kOdometry);
+  transport::Publisher<docent_msgs::Belief> beliefs = world->publisher(topics::kBelief);
+  transport::Publisher<docent_msgs::DriveGoal> goals = world->publisher(topics::kDriveGoal);
+  transport::Publisher<nav_msgs::OccupancyGrid> live_maps = world->publisher(topics::kLiveMap);
+  transport::Publisher<docent_msgs::LiveMapUpdate> updates = world->publisher(topics::kLiveMapUpdate);
   docent_msgs::Target target;
   docent_msgs::GoalState state_of_goal;
   int targets = 0, states = 0;
@@ -209,4 +209,4 @@ TEST_F(PlanModule, ANewProcessGoesOnWithTheGoalThatHolds) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::modules

@@ -3,7 +3,7 @@
 #include "docent/messages/conversions.h"
 #include "docent/robot/watchdog.h"
 
-namespace docent {
+namespace docent::modules {
 
 namespace {
 
@@ -61,7 +61,7 @@ class RobotModule final : public Module {
     velocity_.publish({{command.linear, 0.0, 0.0}, {0.0, 0.0, command.angular}});
   }
 
-  void publish_mounts(const RobotBody& body) {
+  void publish_mounts(const robot::RobotBody& body) {
     tf2_msgs::TFMessage mounts;
     const auto add = [&](const std::string& frame, const Pose2& base_from_sensor) {
       mounts.transforms.push_back(
@@ -69,19 +69,19 @@ class RobotModule final : public Module {
            frame,
            {{base_from_sensor.x, base_from_sensor.y, 0.0}, to_quaternion(base_from_sensor.theta)}});
     };
-    for (const Scanner& scanner : body.scanners) add(scanner.frame, scanner.base_from_sensor());
+    for (const robot::Scanner& scanner : body.scanners) add(scanner.frame, scanner.base_from_sensor());
     for (int i = 0; i < body.sonars; ++i) {
-      add(RobotBody::sonar_frame(i), body.base_from_sonar(i));
+      add(robot::RobotBody::sonar_frame(i), body.base_from_sonar(i));
     }
-    for (int i = 0; i < body.infrareds; ++i) add(RobotBody::infrared_frame(i), body.base_from_infrared(i));
+    for (int i = 0; i < body.infrareds; ++i) add(robot::RobotBody::infrared_frame(i), body.base_from_infrared(i));
     bus_.publisher(topics::kStaticTransforms).publish(std::move(mounts));
   }
 
-  Bus& bus_;
+  transport::Bus& bus_;
   RobotParams params_;
-  CommandWatchdog watchdog_;
-  Publisher<geometry_msgs::Twist> velocity_;
-  Publisher<tf2_msgs::TFMessage> transforms_;
+  robot::CommandWatchdog watchdog_;
+  transport::Publisher<geometry_msgs::Twist> velocity_;
+  transport::Publisher<tf2_msgs::TFMessage> transforms_;
   std::optional<Time> odometry_received_;
   float battery_ = 1.0F;
 };
@@ -94,8 +94,8 @@ Result<std::unique_ptr<Module>> make_robot(const ModuleContext& context) {
   return std::make_unique<RobotModule>(context, *params);
 }
 
-Result<ParameterRows> parameters_of_robot(const RobotConfig& config) {
-  return list_parameters<RobotParams>(config, "robot");
+Result<robot::ParameterRows> parameters_of_robot(const robot::RobotConfig& config) {
+  return robot::list_parameters<RobotParams>(config, "robot");
 }
 
-}  // namespace docent
+}  // namespace docent::modules

@@ -9,7 +9,7 @@
 
 #include "docent/modules/shared/module_bench.h"
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
 class RobotModule : public ModuleBench {
@@ -23,9 +23,9 @@ class RobotModule : public ModuleBench {
     double at, linear, angular;
   };
   std::vector<Command> commands;
-  Publisher<docent_msgs::Drive> drive = world->publisher(topics::kDrive);
-  Publisher<nav_msgs::Odometry> odometry = world->publisher(topics::kOdometry);
-  Publisher<sensor_msgs::BatteryState> battery = world->publisher(topics::kBattery);
+  transport::Publisher<docent_msgs::Drive> drive = world->publisher(topics::kDrive);
+  transport::Publisher<nav_msgs::Odometry> odometry = world->publisher(topics::kOdometry);
+  transport::Publisher<sensor_msgs::BatteryState> battery = world->publisher(topics::kBattery);
 };
 
 TEST_F(RobotModule, PassesACommandOnAtOnceThenRepeatsItWhileItIsFresh) {
@@ -84,7 +84,8 @@ TEST_F(RobotModule, PublishesEveryMountForThoseWhoComeLateAndTheBaseAsOdometryHa
     for (const auto& mount : mounts.transforms) {
       EXPECT_EQ(mount.header.frame_id, "base_link");
       frames.insert(mount.child_frame_id);
-      if (mount.child_frame_id == RobotBody::sonar_frame(1)) second_sonar = yaw_of(mount.transform.rotation).degrees();
+      if (mount.child_frame_id == robot::RobotBody::sonar_frame(1))
+        second_sonar = yaw_of(mount.transform.rotation).degrees();
     }
   });
   geometry_msgs::TransformStamped base;
@@ -97,7 +98,7 @@ TEST_F(RobotModule, PublishesEveryMountForThoseWhoComeLateAndTheBaseAsOdometryHa
   run(0.1);
   EXPECT_EQ(frames.size(), 2U + 24U + 2U);
   EXPECT_TRUE(frames.contains("laser_front") && frames.contains("laser_rear"));
-  EXPECT_TRUE(frames.contains(RobotBody::infrared_frame(1)));
+  EXPECT_TRUE(frames.contains(robot::RobotBody::infrared_frame(1)));
   EXPECT_NEAR(second_sonar, 15.0, 1e-6);
   EXPECT_EQ(base.header.frame_id, "odom");
   EXPECT_EQ(base.child_frame_id, "base_link");
@@ -126,4 +127,4 @@ TEST_F(RobotModule, SaysWhenTheBaseIsSilentOrItsBatteryLow) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::modules

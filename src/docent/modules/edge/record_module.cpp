@@ -5,7 +5,7 @@
 #include "docent/recording/mcap/recovery.h"
 #include "docent/recording/rolling_recorder.h"
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
 constexpr Duration kFlushPeriod = std::chrono::seconds{1};
@@ -14,7 +14,7 @@ constexpr double kFaultShown = 5.0;  ///< [s] that a failed write shows in the h
 /// Section `record`: recordings of all topics.
 struct RecordParams {
   bool enabled = true;  ///< false: nothing is recorded
-  RollingRecorderParams files;
+  recording::RollingRecorderParams files;
   template <class V>
   void visit(V& v) {
     v("enabled", enabled);
@@ -28,24 +28,27 @@ class RecordModule final : public Module {
   RecordModule(const ModuleContext& context, const RecordParams& params)
       : bus_{context.bus}, recorder_{context.state / "recordings", params.files} {
     // What a killed recorder left is made whole beside the work: it may take seconds.
-    const auto left = RollingRecorder::unfinished(context.state / "recordings");
+    const auto left = recording::RollingRecorder::unfinished(context.state / "recordings");
     recovery_ = std::jthread{[left](const std::stop_token& stop) {
       for (const auto& part : left) {
         if (stop.stop_requested()) return;
         const std::filesystem::path whole = std::filesystem::path{part}.replace_extension();
         // One without even a header can never be read.
-        if (!recover_mcap(part, whole)) std::filesystem::rename(part, part.string() + ".unreadable");
+        if (!recording::recover_mcap(part, whole)) std::filesystem::rename(part, part.string() + ".unreadable");
       }
     }};
-    subscribe_robot_topics(
-        bus_, [this](const TopicInfo& topic, const std::shared_ptr<const void>& message) { write(topic, message); });
+    recording::subscribe_robot_topics(
+        bus_, [this](const transport::TopicInfo& topic, const std::shared_ptr<const void>& message) {
+          write(topic, message);
+        });
     if (context.truth != nullptr) {
       const std::weak_ptr<RecordModule*> self = self_;
-      subscribe_truth_topics(*context.truth, [self, &bus = bus_](const TopicInfo& topic, const auto& message) {
-        bus.post([self, topic, message] {
-          if (const auto module = self.lock()) (*module)->write(topic, message);
-        });
-      });
+      recording::subscribe_truth_topics(*context.truth,
+                                        [self, &bus = bus_](const transport::TopicInfo& topic, const auto& message) {
+                                          bus.post([self, topic, message] {
+                                            if (const auto module = self.lock()) (*module)->write(topic, message);
+                                          });
+                                        });
     }
     bus_.every(kFlushPeriod, [this] { note(recorder_.flush()); });
   }
@@ -56,7 +59,7 @@ class RecordModule final : public Module {
   }
 
  private:
-  void write(const TopicInfo& topic, const std::shared_ptr<const void>& message) {
+  void write(const transport::TopicInfo& topic, const std::shared_ptr<const void>& message) {
     note(recorder_.write(topic, bus_.now(), message));
   }
   void note(const Result<void>& result) {
@@ -65,8 +68,8 @@ class RecordModule final : public Module {
     fault_time_ = bus_.now();
   }
 
-  Bus& bus_;
-  RollingRecorder recorder_;
+  transport::Bus& bus_;
+  recording::RollingRecorder recorder_;
   std::string fault_;
   Time fault_time_{};
   std::shared_ptr<RecordModule*> self_ = std::make_shared<RecordModule*>(this);
@@ -84,8 +87,8 @@ Result<std::unique_ptr<Module>> make_record(const ModuleContext& context) {
   return std::make_unique<RecordModule>(context, *params);
 }
 
-Result<ParameterRows> parameters_of_record(const RobotConfig& config) {
-  return list_parameters<RecordParams>(config, "record");
+Result<robot::ParameterRows> parameters_of_record(const robot::RobotConfig& config) {
+  return robot::list_parameters<RecordParams>(config, "record");
 }
 
-}  // namespace docent
+}  // namespace docent::modules

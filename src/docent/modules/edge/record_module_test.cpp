@@ -9,7 +9,7 @@
 #include "docent/recording/recorder.h"
 #include "docent/transport/virtual_time_bus.h"
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
 class RecordModuleFolder : public testing::Test {
@@ -26,13 +26,13 @@ class RecordModuleFolder : public testing::Test {
     return found;
   }
   std::filesystem::path state_;
-  Museum museum_;
-  RobotConfig config_;
+  museum::Museum museum_;
+  robot::RobotConfig config_;
 };
 
 TEST_F(RecordModuleFolder, RecordsTheRobotAndTheTruth) {
-  VirtualTimeHub hub;
-  VirtualTimeHub truth_hub;
+  transport::VirtualTimeHub hub;
+  transport::VirtualTimeHub truth_hub;
   auto bus = hub.connect("record");
   auto robot = hub.connect("robot");
   auto truth = truth_hub.connect("record");
@@ -52,7 +52,7 @@ TEST_F(RecordModuleFolder, RecordsTheRobotAndTheTruth) {
   world->publisher(topics::kTrueContact).publish({});  // nobody is there any more
   truth_hub.run_until(time_from_seconds(6));
   ASSERT_EQ(files().size(), 1U);
-  auto reader = McapReader::open(files()[0]);
+  auto reader = recording::McapReader::open(files()[0]);
   ASSERT_TRUE(reader);
   EXPECT_TRUE(reader->is_complete());
   EXPECT_EQ(reader->counts_by_topic(),
@@ -60,7 +60,7 @@ TEST_F(RecordModuleFolder, RecordsTheRobotAndTheTruth) {
 }
 
 TEST_F(RecordModuleFolder, MakesWholeWhatAKilledOneLeft) {
-  VirtualTimeHub hub;
+  transport::VirtualTimeHub hub;
   auto robot = hub.connect("robot");
   const auto horn = robot->publisher(topics::kHorn);
   std::filesystem::create_directories(state_ / "recordings");
@@ -87,7 +87,7 @@ TEST_F(RecordModuleFolder, MakesWholeWhatAKilledOneLeft) {
       std::this_thread::sleep_for(std::chrono::milliseconds{10});
   }
   EXPECT_TRUE(std::filesystem::exists(hopeless.string() + ".unreadable"));
-  auto reader = McapReader::open(std::filesystem::path{left}.replace_extension());
+  auto reader = recording::McapReader::open(std::filesystem::path{left}.replace_extension());
   ASSERT_TRUE(reader) << reader.error().message;
   EXPECT_TRUE(reader->is_complete());
   EXPECT_GE(reader->message_count().value_or(0), 40U);
@@ -95,7 +95,7 @@ TEST_F(RecordModuleFolder, MakesWholeWhatAKilledOneLeft) {
 
 TEST_F(RecordModuleFolder, ADiskThatIsGoneDegradesAndNamesTheReason) {
   ASSERT_TRUE(write_file_atomically(state_ / "recordings", "a file where the folder should be"));
-  VirtualTimeHub hub;
+  transport::VirtualTimeHub hub;
   auto bus = hub.connect("record");
   auto module = make_record({*bus, museum_, config_, state_, 1, false, nullptr});
   ASSERT_TRUE(module);
@@ -106,7 +106,7 @@ TEST_F(RecordModuleFolder, ADiskThatIsGoneDegradesAndNamesTheReason) {
 }
 
 TEST_F(RecordModuleFolder, ConfigurationIsChecked) {
-  VirtualTimeHub hub;
+  transport::VirtualTimeHub hub;
   auto bus = hub.connect("record");
   ASSERT_TRUE(config_.set("record.keep_files=0"));
   const auto module = make_record({*bus, museum_, config_, state_, 1, false, nullptr});
@@ -115,7 +115,7 @@ TEST_F(RecordModuleFolder, ConfigurationIsChecked) {
 }
 
 TEST_F(RecordModuleFolder, DoesNothingInVirtualTime) {
-  VirtualTimeHub hub;
+  transport::VirtualTimeHub hub;
   auto bus = hub.connect("record");
   const auto module = make_record({*bus, museum_, config_, state_, 1, true, nullptr});
   ASSERT_TRUE(module);
@@ -125,4 +125,4 @@ TEST_F(RecordModuleFolder, DoesNothingInVirtualTime) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::modules

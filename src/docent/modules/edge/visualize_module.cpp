@@ -8,7 +8,7 @@
 #include "docent/visualization/museum_markers.h"
 #include "docent/visualization/people_markers.h"
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
 /// Section `visualize`: what rviz2, Foxglove and Lichtblick are shown.
@@ -55,7 +55,7 @@ class VisualizeModule final : public Module {
         params_{params},
         cloud_{bus_.publisher(topics::kParticleCloud)},
         people_{bus_.publisher(topics::kPeopleMarkers)} {
-    bus_.publisher(topics::kMuseumMarkers).publish(museum_markers(context.museum));
+    bus_.publisher(topics::kMuseumMarkers).publish(visualization::museum_markers(context.museum));
     bus_.subscribe<docent_msgs::Belief>(topics::kBelief, [this](const auto& belief) { show(belief); });
     bus_.subscribe<docent_msgs::People>(topics::kPeople, [this](const auto& people) { show(people); });
   }
@@ -64,7 +64,7 @@ class VisualizeModule final : public Module {
   void show(const docent_msgs::Belief& belief) {
     const Time now = bus_.now();
     if (!belief_pace_.is_due(now)) return;
-    auto sample = belief_sample(belief, params_.belief_poses);
+    auto sample = visualization::belief_sample(belief, params_.belief_poses);
     if (std::equal(sample.begin(), sample.end(), shown_.begin(), shown_.end(), is_same)) return;
     geometry_msgs::PoseArray cloud;
     cloud.header = belief.header;
@@ -78,19 +78,19 @@ class VisualizeModule final : public Module {
     const Time now = bus_.now();
     if (people.people.empty() || !people_pace_.is_due(now)) return;
     people_pace_.done(now);
-    publish(people_, people_markers(people));
+    publish(people_, visualization::people_markers(people));
   }
 
   /// What fits one by one may be beyond all bounds together.
   template <class T>
-  static void publish(const Publisher<T>& publisher, T message) {
+  static void publish(const transport::Publisher<T>& publisher, T message) {
     if (!fault_of(message)) publisher.publish(std::move(message));
   }
 
-  Bus& bus_;
+  transport::Bus& bus_;
   VisualizeParams params_;
-  Publisher<geometry_msgs::PoseArray> cloud_;
-  Publisher<visualization_msgs::MarkerArray> people_;
+  transport::Publisher<geometry_msgs::PoseArray> cloud_;
+  transport::Publisher<visualization_msgs::MarkerArray> people_;
   Pace belief_pace_{params_.belief_period};
   Pace people_pace_{params_.people_period};
   std::vector<Pose2> shown_;
@@ -107,8 +107,8 @@ Result<std::unique_ptr<Module>> make_visualize(const ModuleContext& context) {
   return std::make_unique<VisualizeModule>(context, *params);
 }
 
-Result<ParameterRows> parameters_of_visualize(const RobotConfig& config) {
-  return list_parameters<VisualizeParams>(config, "visualize");
+Result<robot::ParameterRows> parameters_of_visualize(const robot::RobotConfig& config) {
+  return robot::list_parameters<VisualizeParams>(config, "visualize");
 }
 
-}  // namespace docent
+}  // namespace docent::modules

@@ -4,7 +4,7 @@
 
 #include "docent/transport/virtual_time_bus.h"
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
 /// `visualize`, and a viewer that keeps what it gets.
@@ -44,14 +44,14 @@ class Visualize : public testing::Test {
     return people;
   }
 
-  VirtualTimeHub hub_;
-  std::unique_ptr<Bus> bus_ = hub_.connect("visualize");
-  std::unique_ptr<Bus> viewer_ = hub_.connect("viewer");
-  std::unique_ptr<Bus> robot_ = hub_.connect("robot");
-  Publisher<docent_msgs::Belief> beliefs_publisher_ = robot_->publisher(topics::kBelief);
-  Publisher<docent_msgs::People> people_publisher_ = robot_->publisher(topics::kPeople);
-  Museum museum_;
-  RobotConfig config_;
+  transport::VirtualTimeHub hub_;
+  std::unique_ptr<transport::Bus> bus_ = hub_.connect("visualize");
+  std::unique_ptr<transport::Bus> viewer_ = hub_.connect("viewer");
+  std::unique_ptr<transport::Bus> robot_ = hub_.connect("robot");
+  transport::Publisher<docent_msgs::Belief> beliefs_publisher_ = robot_->publisher(topics::kBelief);
+  transport::Publisher<docent_msgs::People> people_publisher_ = robot_->publisher(topics::kPeople);
+  museum::Museum museum_;
+  robot::RobotConfig config_;
   std::unique_ptr<Module> module_;
   std::vector<geometry_msgs::PoseArray> clouds_;
   std::vector<visualization_msgs::MarkerArray> people_;
@@ -117,11 +117,11 @@ TEST_F(Visualize, DrawsNothingBeyondAllBounds) {
 
 TEST_F(Visualize, WildParametersAreFaults) {
   for (const char* setting : {"visualize.belief_poses=0", "visualize.belief_period=0", "visualize.people_period=0.6"}) {
-    RobotConfig config;
+    robot::RobotConfig config;
     ASSERT_TRUE(config.set(setting));
     EXPECT_FALSE(make_visualize({*bus_, museum_, config, "", 1, true})) << setting;
   }
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::modules

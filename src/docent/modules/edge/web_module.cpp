@@ -21,11 +21,11 @@
 #include "docent/telepresence/site.h"
 #include "docent/vocabulary/vocabulary.h"
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
 /// Section `web`: the page and its server.
-struct WebParams : WebServerParams {
+struct WebParams : telepresence::WebServerParams {
   std::string root;             ///< folder of the built page; empty: beside the program, else beside the sources
   double live_hz = 10.0;        ///< of what moves
   double belief_hz = 2.0;       ///< at most
@@ -35,7 +35,7 @@ struct WebParams : WebServerParams {
   int max_open_requests = 500;  ///< of everybody together; more are refused
   template <class V>
   void visit(V& v) {
-    WebServerParams::visit(v);
+    telepresence::WebServerParams::visit(v);
     v("root", root);
     v("live_hz", live_hz);
     v("belief_hz", belief_hz);
@@ -45,7 +45,7 @@ struct WebParams : WebServerParams {
     v("max_open_requests", max_open_requests);
   }
   [[nodiscard]] Result<void> validate() const {
-    auto server = WebServerParams::validate();
+    auto server = telepresence::WebServerParams::validate();
     if (!server) return server;
     if (!(live_hz >= 1.0 && live_hz <= 60.0)) return fail("web.live_hz must be 1 to 60");
     if (!(belief_hz >= 0.1 && belief_hz <= 20.0)) return fail("web.belief_hz must be 0.1 to 20");
@@ -77,13 +77,13 @@ class WebModule final : public Module {
   static Result<std::unique_ptr<Module>> make(const ModuleContext& context) {
     auto params = context.config.section<WebParams>("web");
     if (!params) return tl::unexpected<Error>(params.error());
-    auto outbox = Outbox::open(context.state / "web.sqlite");
+    auto outbox = telepresence::Outbox::open(context.state / "web.sqlite");
     if (!outbox) return tl::unexpected<Error>(outbox.error());
-    auto map = encode_map_png(context.museum.map);
+    auto map = telepresence::encode_map_png(context.museum.map);
     if (!map) return tl::unexpected<Error>(map.error());
 
     std::unique_ptr<WebModule> module{new WebModule{context, *params, std::move(*outbox)}};
-    Site& site = *module->site_;
+    telepresence::Site& site = *module->site_;
     auto page = site.load_page(page_folder(params->root));
     if (!page) {
       if (!params->root.empty()) return tl::unexpected<Error>(page.error());
@@ -92,13 +92,14 @@ class WebModule final : public Module {
     }
     site.set_audio_folder(context.state / "audio");
     site.set_document("/api/museum.json", "application/json",
-                      encode_museum(context.museum, context.config.body().radius));
+                      telepresence::encode_museum(context.museum, context.config.body().radius));
     site.set_document("/api/map.png", "image/png", std::move(*map));
     site.set_live_document("/api/health", "application/json", [raw = module.get()] { return raw->health_document(); });
     site.set_live_document("/metrics", "text/plain; version=0.0.4", [raw = module.get()] { return raw->metrics(); });
 
-    auto server =
-        WebServer::start(*params, module->site_, [raw = module.get()](ViewerId viewer, const ClientMessage& m) {
+    auto server = telepresence::WebServer::start(
+        *params, module->site_,
+        [raw = module.get()](telepresence::ViewerId viewer, const telepresence::ClientMessage& m) {
           raw->bus_.post([raw, viewer, m] { raw->take(viewer, m); });
         });
     if (!server) return fail("web: " + server.error().message);
@@ -113,7 +114,7 @@ class WebModule final : public Module {
   }
 
  private:
-  WebModule(const ModuleContext& context, WebParams params, std::unique_ptr<Outbox> outbox)
+  WebModule(const ModuleContext& context, WebParams params, std::unique_ptr<telepresence::Outbox> outbox)
       : bus_{context.bus},
         museum_{context.museum},
         body_{context.config.body()},
@@ -125,7 +126,7 @@ class WebModule final : public Module {
     if (outbox_->was_damaged()) reason_ = "web.sqlite was damaged and has been set aside; a new one was begun";
   }
 
-  void set_server(std::unique_ptr<WebServer> server) {
+  void set_server(std::unique_ptr<telepresence::WebServer> server) {
     server_ = std::move(server);
     server_->restrict_to_details(kWindow);
     const std::scoped_lock lock{shared_mutex_};
@@ -143,7 +144,7 @@ class WebModule final : public Module {
     });
     bus_.subscribe<docent_msgs::AvoidState>(topics::kAvoidState, [this](const auto& m) {
       avoid_ = m;
-      if (!m.window.empty()) server_->broadcast(kWindow, encode_window(m));
+      if (!m.window.empty()) server_->broadcast(kWindow, telepresence::encode_window(m));
     });
     bus_.subscribe<nav_msgs::Path>(topics::kPath, [this](const auto& m) {
       path_ = m;
@@ -155,10 +156,10 @@ class WebModule final : public Module {
     });
     bus_.subscribe<docent_msgs::MissionState>(topics::kMissionState, [this](const auto& m) {
       mission_ = m;
-      server_->broadcast(kMission, encode_mission(m));
+      server_->broadcast(kMission, telepresence::encode_mission(m));
     });
-    bus_.subscribe<docent_msgs::SpeechState>(topics::kSpeechState,
-                                             [this](const auto& m) { server_->broadcast(kSpeech, encode_speech(m)); });
+    bus_.subscribe<docent_msgs::SpeechState>(
+        topics::kSpeechState, [this](const auto& m) { server_->broadcast(kSpeech, telepresence::encode_speech(m)); });
     bus_.subscribe<docent_msgs::Limits>(topics::kLimits, [this](const auto& m) {
       if (m.volume != volume_) horn_.reset();
       volume_ = std::clamp(m.volume, 0.0, 1.0);
@@ -181,7 +182,7 @@ class WebModule final : public Module {
 
   void show_live() {
     constexpr Duration kFresh = std::chrono::seconds{1};
-    LiveFrame frame;
+    telepresence::LiveFrame frame;
     frame.now = bus_.now();
     frame.map_from_base = carrier_.map_from_base(frame.now);
     frame.linear = carrier_.linear();
@@ -195,23 +196,23 @@ class WebModule final : public Module {
       if (scan.ranges.empty() || frame.now - taken > kFresh) continue;
       const Pose2 from_base = frame.is_scan_in_map ? *carrier_.map_from_base(taken) : Pose2{};
       frame.scan_origin = from_base.position();
-      for (const Point2 point :
-           scan_points(scan, body_.scanners[i].base_from_sensor(), static_cast<std::size_t>(params_.scan_step)))
+      for (const Point2 point : telepresence::scan_points(scan, body_.scanners[i].base_from_sensor(),
+                                                          static_cast<std::size_t>(params_.scan_step)))
         frame.scan.push_back(from_base * point);
     }
     if (frame.now - from_message(people_.header.stamp) <= kFresh) frame.people = people_;
     if (avoid_ && frame.now - from_message(avoid_->header.stamp) <= kFresh) frame.avoid = avoid_;
     frame.battery = battery_;
-    server_->broadcast(kLive, encode_live(frame));
+    server_->broadcast(kLive, telepresence::encode_live(frame));
   }
 
   void show_slow() {
-    if (belief_) server_->broadcast(kBelief, encode_belief(*std::exchange(belief_, std::nullopt)));
-    if (std::exchange(is_path_new_, false)) server_->broadcast(kPath, encode_path(path_, goal_));
+    if (belief_) server_->broadcast(kBelief, telepresence::encode_belief(*std::exchange(belief_, std::nullopt)));
+    if (std::exchange(is_path_new_, false)) server_->broadcast(kPath, telepresence::encode_path(path_, goal_));
   }
 
   void show_health() {
-    std::string text = encode_health(modules_, server_->figures().viewers, bus_.now());
+    std::string text = telepresence::encode_health(modules_, server_->figures().viewers, bus_.now());
     {
       const std::scoped_lock lock{shared_mutex_};
       health_text_ = text;
@@ -221,8 +222,9 @@ class WebModule final : public Module {
 
   /// The `sound` module has written the file of this name.
   void show_horn() {
-    if (!horn_) horn_ = horn_sound(volume_);
-    server_->broadcast(kHorn, encode_horn(bus_.now(), volume_ > 0.0 ? horn_->file : "", horn_->duration_s));
+    if (!horn_) horn_ = interaction::horn_sound(volume_);
+    server_->broadcast(kHorn,
+                       telepresence::encode_horn(bus_.now(), volume_ > 0.0 ? horn_->file : "", horn_->duration_s));
   }
 
   void see_board(const docent_msgs::RequestBoard& board) {
@@ -241,7 +243,7 @@ class WebModule final : public Module {
       if (is_cancellation(request) && closed.contains(request.target)) done.push_back(request.id);
     }
     for (const auto& id : done) outbox_->delivered(id);
-    server_->broadcast(kBoard, encode_board(board));
+    server_->broadcast(kBoard, telepresence::encode_board(board));
   }
 
   void resend() {
@@ -257,21 +259,22 @@ class WebModule final : public Module {
     if (choice_) choices_.publish(*choice_);
   }
 
-  void take(ViewerId viewer, const ClientMessage& message) {
-    if (const auto* request = std::get_if<RequestMessage>(&message)) return take_request(viewer, *request);
-    if (const auto* cancel = std::get_if<CancelMessage>(&message)) {
+  void take(telepresence::ViewerId viewer, const telepresence::ClientMessage& message) {
+    if (const auto* request = std::get_if<telepresence::RequestMessage>(&message))
+      return take_request(viewer, *request);
+    if (const auto* cancel = std::get_if<telepresence::CancelMessage>(&message)) {
       docent_msgs::Request wish;
       wish.id = cancel->id;
       wish.kind = to_text(RequestKind::cancel);
       wish.target = cancel->request;
       return store(viewer, std::move(wish));
     }
-    if (const auto* choice = std::get_if<ChoiceMessage>(&message)) return take_choice(viewer, *choice);
+    if (const auto* choice = std::get_if<telepresence::ChoiceMessage>(&message)) return take_choice(viewer, *choice);
   }
 
-  void take_request(ViewerId viewer, const RequestMessage& message) {
+  void take_request(telepresence::ViewerId viewer, const telepresence::RequestMessage& message) {
     const std::string why = refusal(message);
-    if (!why.empty()) return server_->send(viewer, encode_refusal(message.id, why));
+    if (!why.empty()) return server_->send(viewer, telepresence::encode_refusal(message.id, why));
     docent_msgs::Request wish;
     wish.id = message.id;
     wish.visitor = message.name;
@@ -283,40 +286,40 @@ class WebModule final : public Module {
     store(viewer, std::move(wish));
   }
 
-  [[nodiscard]] std::string refusal(const RequestMessage& message) const {
+  [[nodiscard]] std::string refusal(const telepresence::RequestMessage& message) const {
     if (open_requests_ + outbox_->pending().size() >= static_cast<std::size_t>(params_.max_open_requests)) {
       return "too many requests are waiting";
     }
     if (message.kind == RequestKind::tour) return museum_.find_tour(message.target) == nullptr ? "no such tour" : "";
-    const Exhibit* exhibit = museum_.find_exhibit(message.target);
+    const museum::Exhibit* exhibit = museum_.find_exhibit(message.target);
     if (exhibit == nullptr) return "no such exhibit";
     if (message.viewpoint >= static_cast<int>(exhibit->viewpoints.size())) return "no such viewpoint";
     return "";
   }
 
   /// Commits, then acknowledges, then tells the robot (architecture 10.8, 10.9).
-  void store(ViewerId viewer, docent_msgs::Request wish) {
+  void store(telepresence::ViewerId viewer, docent_msgs::Request wish) {
     wish.stamp = to_message(bus_.now());
     wish.source = to_text(RequestSource::web);
     auto stored = outbox_->put(wish);
-    if (!stored) return server_->send(viewer, encode_refusal(wish.id, stored.error().message));
-    server_->send(viewer, encode_acknowledgement(wish.id));
+    if (!stored) return server_->send(viewer, telepresence::encode_refusal(wish.id, stored.error().message));
+    server_->send(viewer, telepresence::encode_acknowledgement(wish.id));
     requests_.publish(std::move(wish));
   }
 
-  void take_choice(ViewerId viewer, const ChoiceMessage& message) {
+  void take_choice(telepresence::ViewerId viewer, const telepresence::ChoiceMessage& message) {
     const auto* prompt = mission_ ? &mission_->prompt : nullptr;
     if (prompt == nullptr || prompt->id != message.prompt) {
-      return server_->send(viewer, encode_refusal(message.id, "the question is no longer open"));
+      return server_->send(viewer, telepresence::encode_refusal(message.id, "the question is no longer open"));
     }
     if (std::find(prompt->options.begin(), prompt->options.end(), message.choice) == prompt->options.end()) {
-      return server_->send(viewer, encode_refusal(message.id, "no such answer"));
+      return server_->send(viewer, telepresence::encode_refusal(message.id, "no such answer"));
     }
     if (!choice_ || choice_->prompt_id != message.prompt) {  // the first answer counts
       choice_ = docent_msgs::Choice{message.id, message.prompt, message.choice, to_text(RequestSource::web)};
       choices_.publish(*choice_);
     }
-    server_->send(viewer, encode_acknowledgement(message.id));
+    server_->send(viewer, telepresence::encode_acknowledgement(message.id));
   }
 
   // The server's thread calls these two.
@@ -327,7 +330,7 @@ class WebModule final : public Module {
   [[nodiscard]] std::string metrics() {
     const std::scoped_lock lock{shared_mutex_};
     if (figures_from_ == nullptr) return "";
-    const WebServerFigures f = figures_from_->figures();
+    const telepresence::WebServerFigures f = figures_from_->figures();
     const auto line = [](const char* name, auto value) {
       return "docent_web_" + (name + (" " + std::to_string(value))) + "\n";
     };
@@ -337,17 +340,17 @@ class WebModule final : public Module {
            line("values_skipped_total", f.values_skipped);
   }
 
-  Bus& bus_;
-  const Museum& museum_;
-  const RobotBody body_;
+  transport::Bus& bus_;
+  const museum::Museum& museum_;
+  const robot::RobotBody body_;
   const WebParams params_;
   std::string reason_;
-  std::unique_ptr<Outbox> outbox_;
-  Publisher<docent_msgs::Request> requests_;
-  Publisher<docent_msgs::Choice> choices_;
-  std::shared_ptr<Site> site_ = std::make_shared<Site>();
+  std::unique_ptr<telepresence::Outbox> outbox_;
+  transport::Publisher<docent_msgs::Request> requests_;
+  transport::Publisher<docent_msgs::Choice> choices_;
+  std::shared_ptr<telepresence::Site> site_ = std::make_shared<telepresence::Site>();
 
-  BeliefCarrier carrier_;
+  telepresence::BeliefCarrier carrier_;
   std::vector<sensor_msgs::LaserScan> scans_;  ///< [scanners] newest sweeps
   docent_msgs::People people_;
   std::optional<docent_msgs::Belief> belief_;  ///< not yet shown
@@ -356,24 +359,26 @@ class WebModule final : public Module {
   std::optional<docent_msgs::Choice> choice_;  ///< resent until its question is closed
   std::optional<double> battery_;
   double volume_ = 1.0;
-  std::optional<HornSound> horn_;  ///< in this volume
+  std::optional<interaction::HornSound> horn_;  ///< in this volume
   nav_msgs::Path path_;
   docent_msgs::GoalState goal_;
   bool is_path_new_ = false;
   std::size_t open_requests_ = 0;
-  std::map<std::string, HealthEntry> modules_;
+  std::map<std::string, telepresence::HealthEntry> modules_;
 
   std::mutex shared_mutex_;  ///< of the two below
   std::string health_text_ = R"({"type":"health","modules":[]})";
-  const WebServer* figures_from_ = nullptr;
+  const telepresence::WebServer* figures_from_ = nullptr;
 
-  std::unique_ptr<WebServer> server_;  ///< last: its thread ends before the rest goes
+  std::unique_ptr<telepresence::WebServer> server_;  ///< last: its thread ends before the rest goes
 };
 
 }  // namespace
 
 Result<std::unique_ptr<Module>> make_web(const ModuleContext& context) { return WebModule::make(context); }
 
-Result<ParameterRows> parameters_of_web(const RobotConfig& config) { return list_parameters<WebParams>(config, "web"); }
+Result<robot::ParameterRows> parameters_of_web(const robot::RobotConfig& config) {
+  return robot::list_parameters<WebParams>(config, "web");
+}
 
-}  // namespace docent
+}  // namespace docent::modules

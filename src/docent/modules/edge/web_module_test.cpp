@@ -12,7 +12,7 @@
 #include "docent/telepresence/server/test_client.h"
 #include "docent/transport/virtual_time_bus.h"
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
 using Json = nlohmann::json;
@@ -20,18 +20,18 @@ using Json = nlohmann::json;
 const std::string kId = "018f3a6c-5b2e-7c3d-9a4b-0123456789ab";
 const std::string kOtherId = "018f3a6c-5b2e-7c3d-9a4b-ba9876543210";
 
-Museum small_museum() {
-  Museum museum;
+museum::Museum small_museum() {
+  museum::Museum museum;
   museum.name = {{"en", "A hall"}};
   museum.languages = {"en"};
   museum.map.frame = {40, 30, 0.25, {0, 0}};
   museum.map.cells.assign(museum.map.frame.size(), OccupancyGrid::kFree);
-  Exhibit exhibit;
+  museum::Exhibit exhibit;
   exhibit.id = "sputnik";
   exhibit.title = {{"en", "Sputnik \"1\""}};
   exhibit.viewpoints = {{1, 1, Angle{}}, {2, 1, Angle{}}};
   museum.exhibits.push_back(exhibit);
-  Tour tour;
+  museum::Tour tour;
   tour.id = "space";
   tour.exhibits = {"sputnik"};
   museum.tours.push_back(tour);
@@ -79,14 +79,14 @@ class WebModuleTest : public testing::Test {
     module_.reset();
     web_bus_.reset();
   }
-  ModuleContext context(Bus& bus) { return {bus, museum_, config_, state_, 1, true}; }
+  ModuleContext context(transport::Bus& bus) { return {bus, museum_, config_, state_, 1, true}; }
 
   void run(double seconds_of_bus) {
     const Time end = hub_.now() + seconds(seconds_of_bus);
     while (hub_.now() < end) hub_.run_until(std::min(end, hub_.now() + seconds(0.05)));
   }
   /// Lets the bus run until the viewer gets a message of this type.
-  Json next(TestClient& viewer, const std::string& type) {
+  Json next(telepresence::TestClient& viewer, const std::string& type) {
     for (int i = 0; i < 2000; ++i) {
       hub_.run_until(hub_.now() + seconds(0.01));
       const auto frame = viewer.receive_frame(std::chrono::milliseconds{2});
@@ -116,18 +116,18 @@ class WebModuleTest : public testing::Test {
 
   std::filesystem::path state_;
   int port_ = 0;
-  VirtualTimeHub hub_;
-  Museum museum_ = small_museum();
-  RobotConfig config_;
+  transport::VirtualTimeHub hub_;
+  museum::Museum museum_ = small_museum();
+  robot::RobotConfig config_;
   std::vector<docent_msgs::Request> requests_;
   std::vector<docent_msgs::Choice> choices_;
-  std::unique_ptr<Bus> robot_bus_;
-  std::unique_ptr<Bus> web_bus_;
+  std::unique_ptr<transport::Bus> robot_bus_;
+  std::unique_ptr<transport::Bus> web_bus_;
   std::unique_ptr<Module> module_;
 };
 
 TEST_F(WebModuleTest, ARequestIsResentUntilItIsOnTheBoard) {
-  TestClient viewer{port_};
+  telepresence::TestClient viewer{port_};
   ASSERT_TRUE(viewer.upgrade());
   viewer.send_frame(request(kId, "sputnik", 1));
   EXPECT_EQ(next(viewer, "ack")["id"], kId);
@@ -154,7 +154,7 @@ TEST_F(WebModuleTest, ARequestIsResentUntilItIsOnTheBoard) {
 
 TEST_F(WebModuleTest, AnAcknowledgedRequestOutlivesTheModule) {
   {
-    TestClient viewer{port_};
+    telepresence::TestClient viewer{port_};
     ASSERT_TRUE(viewer.upgrade());
     viewer.send_frame(request(kId, "sputnik"));
     next(viewer, "ack");
@@ -170,7 +170,7 @@ TEST_F(WebModuleTest, AnAcknowledgedRequestOutlivesTheModule) {
 }
 
 TEST_F(WebModuleTest, WhatTheMuseumDoesNotHaveIsRefused) {
-  TestClient viewer{port_};
+  telepresence::TestClient viewer{port_};
   ASSERT_TRUE(viewer.upgrade());
   viewer.send_frame(request(kId, "mona-lisa"));
   EXPECT_EQ(next(viewer, "refused")["reason"], "no such exhibit");
@@ -181,7 +181,7 @@ TEST_F(WebModuleTest, WhatTheMuseumDoesNotHaveIsRefused) {
 }
 
 TEST_F(WebModuleTest, ACancellationIsResentUntilItShows) {
-  TestClient viewer{port_};
+  telepresence::TestClient viewer{port_};
   ASSERT_TRUE(viewer.upgrade());
   viewer.send_frame(request(kId, "sputnik"));
   next(viewer, "ack");
@@ -202,7 +202,7 @@ TEST_F(WebModuleTest, ACancellationIsResentUntilItShows) {
 }
 
 TEST_F(WebModuleTest, OnlyAnOpenQuestionCanBeAnswered) {
-  TestClient viewer{port_};
+  telepresence::TestClient viewer{port_};
   ASSERT_TRUE(viewer.upgrade());
   const auto answer = [&](const std::string& prompt, const std::string& choice) {
     viewer.send_frame(Json{{"type", "choice"}, {"id", kId}, {"prompt", prompt}, {"choice", choice}}.dump());
@@ -233,7 +233,7 @@ TEST_F(WebModuleTest, OnlyAnOpenQuestionCanBeAnswered) {
 }
 
 TEST_F(WebModuleTest, ShowsThePoseOnceItIsKnown) {
-  TestClient viewer{port_};
+  telepresence::TestClient viewer{port_};
   ASSERT_TRUE(viewer.upgrade());
   EXPECT_TRUE(next(viewer, "live")["pose"].is_null());
   nav_msgs::Odometry odometry;
@@ -255,7 +255,7 @@ TEST_F(WebModuleTest, ShowsThePoseOnceItIsKnown) {
 }
 
 TEST_F(WebModuleTest, ServesTheMuseum) {
-  TestClient client{port_};
+  telepresence::TestClient client{port_};
   client.send("GET /api/museum.json HTTP/1.1\r\nHost: a\r\n\r\n");
   const auto [head, body] = client.receive_reply();
   EXPECT_TRUE(head.starts_with("HTTP/1.1 200")) << head;
@@ -276,7 +276,7 @@ TEST_F(WebModuleTest, APortInUseIsOneClearLine) {
 }
 
 TEST_F(WebModuleTest, NonsenseInTheConfigurationIsNamed) {
-  RobotConfig config;
+  robot::RobotConfig config;
   ASSERT_TRUE(config.set("web.live_hz=0"));
   const auto bus = hub_.connect("second");
   const auto module = make_web({*bus, museum_, config, state_, 1, true});
@@ -285,30 +285,30 @@ TEST_F(WebModuleTest, NonsenseInTheConfigurationIsNamed) {
 }
 
 TEST_F(WebModuleTest, TheHornIsToldWithTheNameOfItsSound) {
-  TestClient viewer{port_};
+  telepresence::TestClient viewer{port_};
   ASSERT_TRUE(viewer.upgrade());
   const auto horn = robot_bus_->publisher(topics::kHorn);
   horn.publish({});
   const Json loud = next(viewer, "horn");
-  EXPECT_EQ(loud["audio"], "/audio/" + horn_sound(1.0).file);
+  EXPECT_EQ(loud["audio"], "/audio/" + interaction::horn_sound(1.0).file);
   EXPECT_NEAR(loud["t"].get<double>(), to_seconds(hub_.now()), 0.5);
-  EXPECT_NEAR(loud["duration"].get<double>(), horn_sound(1.0).duration_s, 0.01);
-  ASSERT_TRUE(write_horn_sound(horn_sound(1.0), state_ / "audio"));  // as `sound` does
-  TestClient listener{port_};
+  EXPECT_NEAR(loud["duration"].get<double>(), interaction::horn_sound(1.0).duration_s, 0.01);
+  ASSERT_TRUE(interaction::write_horn_sound(interaction::horn_sound(1.0), state_ / "audio"));  // as `sound` does
+  telepresence::TestClient listener{port_};
   listener.send("GET " + loud["audio"].get<std::string>() + " HTTP/1.1\r\nHost: a\r\n\r\n");
-  EXPECT_EQ(listener.receive_reply().second, horn_sound(1.0).content);
+  EXPECT_EQ(listener.receive_reply().second, interaction::horn_sound(1.0).content);
 
   const auto limits = robot_bus_->publisher(topics::kLimits);
   limits.publish({0.7, 0.4, "open", true});
   horn.publish({});
-  EXPECT_EQ(next(viewer, "horn")["audio"], "/audio/" + horn_sound(0.4).file);
+  EXPECT_EQ(next(viewer, "horn")["audio"], "/audio/" + interaction::horn_sound(0.4).file);
   limits.publish({0.7, 0.0, "open", true});
   horn.publish({});
   EXPECT_EQ(next(viewer, "horn")["audio"], "") << "muted";
 }
 
 TEST_F(WebModuleTest, AViewerHearsSomethingAtLeastEverySecond) {
-  TestClient viewer{port_};
+  telepresence::TestClient viewer{port_};
   ASSERT_TRUE(viewer.upgrade());
   run(0.5);
   while (viewer.receive_frame(std::chrono::milliseconds{20}).opcode == 1) {
@@ -322,4 +322,4 @@ TEST_F(WebModuleTest, AViewerHearsSomethingAtLeastEverySecond) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::modules

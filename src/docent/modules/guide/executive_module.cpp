@@ -7,7 +7,7 @@
 #include "docent/task_control/executive/executive.h"
 #include "docent/vocabulary/vocabulary.h"
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
 constexpr Duration kPeriod = std::chrono::milliseconds{250};
@@ -20,8 +20,8 @@ std::vector<std::string> texts_of(const std::vector<Answer>& answers) {
 
 class ExecutiveModule final : public Module {
  public:
-  ExecutiveModule(const ModuleContext& context, const ExecutiveParams& params, ExecutiveMemory memory,
-                  std::string fault)
+  ExecutiveModule(const ModuleContext& context, const task_control::ExecutiveParams& params,
+                  task_control::ExecutiveMemory memory, std::string fault)
       : bus_{context.bus},
         museum_{context.museum},
         mode_{context},
@@ -73,25 +73,25 @@ class ExecutiveModule final : public Module {
   }
 
  private:
-  [[nodiscard]] ExecutiveTask to_task(const docent_msgs::Task& task) const {
-    ExecutiveTask result;
+  [[nodiscard]] task_control::ExecutiveTask to_task(const docent_msgs::Task& task) const {
+    task_control::ExecutiveTask result;
     result.order = {
         task.id,       Word<TaskKind>{task.kind}, task.exhibit_id, {task.x, task.y, Angle::radians(task.theta)},
         task.language, task.offer_more,           task.tour_id};
-    if (const Exhibit* exhibit = museum_.find_exhibit(task.exhibit_id)) {
-      result.title = translated(exhibit->title, task.language);
-      result.short_text = spoken_text(translated(exhibit->short_text, task.language));
-      result.long_text = spoken_text(translated(exhibit->long_text, task.language));
+    if (const museum::Exhibit* exhibit = museum_.find_exhibit(task.exhibit_id)) {
+      result.title = museum::translated(exhibit->title, task.language);
+      result.short_text = interaction::spoken_text(museum::translated(exhibit->short_text, task.language));
+      result.long_text = interaction::spoken_text(museum::translated(exhibit->long_text, task.language));
       result.wait_s = mode_.wait_s(bus_.now());
     }
     return result;
   }
 
   void flush() {
-    Executive::Actions actions = executive_.take_actions();
+    task_control::Executive::Actions actions = executive_.take_actions();
     if (actions.must_save) {
       // A robot whose disk is full goes on guiding; only a restart would forget the step.
-      auto saved = save_checkpoint(checkpoint_, executive_.memory(), map_, survives_);
+      auto saved = task_control::save_checkpoint(checkpoint_, executive_.memory(), map_, survives_);
       fault_ = saved ? "" : saved.error().message;
     }
     if (actions.drive) {
@@ -104,13 +104,13 @@ class ExecutiveModule final : public Module {
       goal.position_tolerance = actions.drive->position_tolerance;
       goal_.publish(std::move(goal));
     }
-    for (Utterance& line : actions.utterances) {
+    for (task_control::Utterance& line : actions.utterances) {
       say_.publish({std::move(line.id), std::move(line.text), std::move(line.language), to_text(line.mood)});
     }
     const auto stamp = to_message(bus_.now());
     if (actions.report) {
-      TaskReport& report = *actions.report;
-      Question& question = report.question;
+      task_control::TaskReport& report = *actions.report;
+      task_control::Question& question = report.question;
       state_.publish({{stamp, "map"},
                       std::move(report.id),
                       to_text(report.state),
@@ -119,12 +119,12 @@ class ExecutiveModule final : public Module {
                        to_text(question.default_option), to_message(question.deadline)},
                       report.took_long});
     }
-    for (LadderStep& step : actions.reactions) {
+    for (task_control::LadderStep& step : actions.reactions) {
       if (step.rung == Rung::horn) horn_.publish({{stamp, "base_link"}, step.cause});
       reaction_.publish(
           {{stamp, "map"}, actions.reactions_of, to_text(step.rung), std::move(step.cause), step.after_s, step.count});
     }
-    for (Happening& happening : actions.happenings) {
+    for (task_control::Happening& happening : actions.happenings) {
       event_.publish({{stamp, "map"},
                       to_text(happening.kind),
                       std::move(happening.subject),
@@ -133,36 +133,36 @@ class ExecutiveModule final : public Module {
     }
   }
 
-  Bus& bus_;
-  const Museum& museum_;
+  transport::Bus& bus_;
+  const museum::Museum& museum_;
   MuseumMode mode_;
   std::filesystem::path checkpoint_;
   std::string map_;
   Survives survives_;
-  Executive executive_;
+  task_control::Executive executive_;
   std::string fault_;
-  Publisher<docent_msgs::DriveGoal> goal_;
-  Publisher<docent_msgs::Say> say_;
-  Publisher<docent_msgs::TaskState> state_;
-  Publisher<docent_msgs::Event> event_;
-  Publisher<docent_msgs::Reaction> reaction_;
-  Publisher<docent_msgs::Horn> horn_;
+  transport::Publisher<docent_msgs::DriveGoal> goal_;
+  transport::Publisher<docent_msgs::Say> say_;
+  transport::Publisher<docent_msgs::TaskState> state_;
+  transport::Publisher<docent_msgs::Event> event_;
+  transport::Publisher<docent_msgs::Reaction> reaction_;
+  transport::Publisher<docent_msgs::Horn> horn_;
 };
 
 }  // namespace
 
 Result<std::unique_ptr<Module>> make_executive(const ModuleContext& context) {
-  auto params = context.config.section<ExecutiveParams>("executive");
+  auto params = context.config.section<task_control::ExecutiveParams>("executive");
   if (!params) return tl::unexpected<Error>(params.error());
   params->ladder.active = !context.config.evaluation().without_ladder;
-  auto memory = load_checkpoint(context.state / "executive.json", map_hash(context.museum.map));
+  auto memory = task_control::load_checkpoint(context.state / "executive.json", map_hash(context.museum.map));
   // A damaged checkpoint costs the running step, not the robot: the mission's task begins again.
-  return std::make_unique<ExecutiveModule>(context, *params, memory.value_or(ExecutiveMemory{}),
+  return std::make_unique<ExecutiveModule>(context, *params, memory.value_or(task_control::ExecutiveMemory{}),
                                            memory ? "" : memory.error().message);
 }
 
-Result<ParameterRows> parameters_of_executive(const RobotConfig& config) {
-  return list_parameters<ExecutiveParams>(config, "executive");
+Result<robot::ParameterRows> parameters_of_executive(const robot::RobotConfig& config) {
+  return robot::list_parameters<task_control::ExecutiveParams>(config, "executive");
 }
 
-}  // namespace docent
+}  // namespace docent::modules

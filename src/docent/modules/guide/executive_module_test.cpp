@@ -9,14 +9,14 @@
 
 #include "docent/modules/shared/module_bench.h"
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
 /// The executive with a museum of one exhibit. The test is mission, plan and sound.
 class ExecutiveModule : public ModuleBench {
  protected:
   ExecutiveModule() : ModuleBench{"executive", make_executive} {
-    Exhibit vase;
+    museum::Exhibit vase;
     vase.id = "vase";
     vase.title = {{"en", "The Vase"}, {"de", "Die Vase"}};
     vase.short_text = {{"en", "It is old."}, {"de", "Sie ist alt."}};
@@ -56,10 +56,10 @@ class ExecutiveModule : public ModuleBench {
     run(0.01);
   }
 
-  Publisher<docent_msgs::Task> tasks = world->publisher(topics::kTask);
-  Publisher<docent_msgs::GoalState> plan = world->publisher(topics::kGoalState);
-  Publisher<docent_msgs::SpeechState> speech = world->publisher(topics::kSpeechState);
-  Publisher<docent_msgs::AvoidState> avoid = world->publisher(topics::kAvoidState);
+  transport::Publisher<docent_msgs::Task> tasks = world->publisher(topics::kTask);
+  transport::Publisher<docent_msgs::GoalState> plan = world->publisher(topics::kGoalState);
+  transport::Publisher<docent_msgs::SpeechState> speech = world->publisher(topics::kSpeechState);
+  transport::Publisher<docent_msgs::AvoidState> avoid = world->publisher(topics::kAvoidState);
   docent_msgs::DriveGoal goal;
   docent_msgs::Say line;
   docent_msgs::TaskState progress;
@@ -168,4 +168,4 @@ TEST_F(ExecutiveModule, SoundsTheHornBeforePeopleAndNotBeforeWhatTheMapHolds) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::modules

@@ -16,37 +16,38 @@
 #include "docent/task_control/tour_scheduler/travel.h"
 #include "docent/vocabulary/vocabulary.h"
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
 constexpr Duration kPeriod = std::chrono::milliseconds{500};
 constexpr std::size_t kMostText = 200;  ///< [bytes] of any field of a request: it comes from anybody
 
-Programme programme_of(const Museum& museum) {
-  Programme programme;
+task_control::Programme programme_of(const museum::Museum& museum) {
+  task_control::Programme programme;
   if (!museum.languages.empty()) programme.languages = museum.languages;
   programme.home = museum.home;
   programme.charger = museum.charger;
   const std::string& language = programme.languages.front();
-  for (const Exhibit& exhibit : museum.exhibits) {
-    const std::string text = translated(exhibit.title, language) + ". " + translated(exhibit.short_text, language);
-    ProgrammeExhibit& shown = programme.exhibits.emplace_back();
-    shown = {exhibit.id, exhibit.pose, exhibit.viewpoints, speech_duration(spoken_text(text), language, Mood::neutral),
-             exhibit.web_only};
-    for (const Exhibit* next : sensible_next(museum, exhibit)) shown.next.push_back(next->id);
+  for (const museum::Exhibit& exhibit : museum.exhibits) {
+    const std::string text =
+        museum::translated(exhibit.title, language) + ". " + museum::translated(exhibit.short_text, language);
+    task_control::ProgrammeExhibit& shown = programme.exhibits.emplace_back();
+    shown = {exhibit.id, exhibit.pose, exhibit.viewpoints,
+             interaction::speech_duration(interaction::spoken_text(text), language, Mood::neutral), exhibit.web_only};
+    for (const museum::Exhibit* next : museum::sensible_next(museum, exhibit)) shown.next.push_back(next->id);
   }
-  for (const Tour& tour : museum.tours) {
+  for (const museum::Tour& tour : museum.tours) {
     programme.tours.push_back({tour.id, tour.exhibits, 60.0 * tour.minutes.value_or(0.0)});
   }
   return programme;
 }
 
-TravelDistance travel_in(const ModuleContext& context) {
-  const Museum& museum = context.museum;
-  if (museum.map.cells.empty()) return straight_distance();
-  RouteParams params;
+task_control::TravelDistance travel_in(const ModuleContext& context) {
+  const museum::Museum& museum = context.museum;
+  if (museum.map.cells.empty()) return task_control::straight_distance();
+  planning::RouteParams params;
   params.robot_radius = context.config.body().radius;
-  return travel_on_map(RoutePlanner{museum.map, museum.hazard_polygons(), museum.area, params});
+  return task_control::travel_on_map(planning::RoutePlanner{museum.map, museum.hazard_polygons(), museum.area, params});
 }
 
 /// Its charger holds it there.
@@ -70,8 +71,8 @@ std::string deployment_name(std::uint64_t seed, Time now) {
   return name;
 }
 
-docent_msgs::RequestState to_message(const BoardEntry& entry) {
-  const VisitorRequest& request = entry.request;
+docent_msgs::RequestState to_message(const task_control::BoardEntry& entry) {
+  const task_control::VisitorRequest& request = entry.request;
   return {{request.id, docent::to_message(request.stamp), request.source.text(), request.visitor, request.kind.text(),
            request.target, request.viewpoint, request.language},
           to_text(entry.status),
@@ -82,7 +83,8 @@ docent_msgs::RequestState to_message(const BoardEntry& entry) {
 
 class MissionModule final : public Module {
  public:
-  MissionModule(const ModuleContext& context, const MissionParams& params, MissionStore store, MissionMemory memory)
+  MissionModule(const ModuleContext& context, const task_control::MissionParams& params,
+                task_control::MissionStore store, task_control::MissionMemory memory)
       : bus_{context.bus},
         museum_{context.museum},
         mode_{context},
@@ -161,7 +163,7 @@ class MissionModule final : public Module {
 
   /// Commits what changed, then publishes it; what cannot be committed is not published and tried again.
   void flush() {
-    const MissionMemory memory = mission_.memory();
+    const task_control::MissionMemory memory = mission_.memory();
     if (auto saved = store_.save(memory); !saved) {
       fault_ = saved.error().message;
       return;
@@ -169,7 +171,7 @@ class MissionModule final : public Module {
     fault_.clear();
     mission_.scheduler().board().mark_stored();
     const Time now = bus_.now();
-    for (Happening& happening : mission_.take_happenings()) {
+    for (task_control::Happening& happening : mission_.take_happenings()) {
       event_.publish({{docent::to_message(now), "map"},
                       to_text(happening.kind),
                       std::move(happening.subject),
@@ -183,16 +185,16 @@ class MissionModule final : public Module {
     is_published_ = true;
   }
 
-  void publish_board(const RequestBoard& board, Time now) {
+  void publish_board(const task_control::RequestBoard& board, Time now) {
     docent_msgs::RequestBoard message;
     message.header.stamp = docent::to_message(now);
     message.revision = board.revision();
-    for (const BoardEntry& entry : board.entries()) message.requests.push_back(to_message(entry));
+    for (const task_control::BoardEntry& entry : board.entries()) message.requests.push_back(to_message(entry));
     published_revision_ = board.revision();
     board_.publish(std::move(message));
   }
 
-  void publish_task(const TaskOrder& task) {
+  void publish_task(const task_control::TaskOrder& task) {
     const Pose2& pose = task.map_from_base;
     published_task_ = task.id;
     prompt_ = {};
@@ -201,17 +203,18 @@ class MissionModule final : public Module {
   }
 
   void publish_state(Time now) {
-    const MissionSummary summary = mission_.summary(now);
+    const task_control::MissionSummary summary = mission_.summary(now);
     docent_msgs::MissionState message;
     message.phase = to_text(summary.phase);
     message.tour_id = summary.tour_id;
     message.exhibit_id = summary.exhibit_id;
-    const Exhibit* exhibit = museum_.find_exhibit(summary.exhibit_id);
-    const Translations title = exhibit != nullptr ? exhibit->title : Translations{};
+    const museum::Exhibit* exhibit = museum_.find_exhibit(summary.exhibit_id);
+    const museum::Translations title = exhibit != nullptr ? exhibit->title : museum::Translations{};
     const auto text = [&](const std::string& language) {
       const std::string minutes = std::to_string(std::max(5, summary.charging_min));
-      return sentence(sentence_of(summary), language,
-                      summary.phase == MissionPhase::charging ? minutes : translated(title, language));
+      return interaction::sentence(
+          sentence_of(summary), language,
+          summary.phase == MissionPhase::charging ? minutes : museum::translated(title, language));
     };
     message.languages = mission_.scheduler().programme().languages;
     for (const std::string& language : message.languages) message.texts.push_back(text(language));
@@ -229,28 +232,29 @@ class MissionModule final : public Module {
     state_.publish(std::move(message));
   }
 
-  [[nodiscard]] static Sentence sentence_of(const MissionSummary& summary) {
-    if (summary.phase == MissionPhase::waking) return Sentence::waking;
-    if (summary.phase == MissionPhase::relocalizing) return Sentence::relocalizing;
-    if (summary.phase == MissionPhase::driving) return summary.is_blocked ? Sentence::blocked : Sentence::driving;
-    if (summary.phase == MissionPhase::explaining) return Sentence::explaining;
-    if (summary.phase == MissionPhase::asking) return Sentence::asking;
-    if (summary.phase == MissionPhase::charging) return Sentence::charging;
-    if (summary.needs_charge) return Sentence::battery_low;
-    if (summary.phase == MissionPhase::going_home) return Sentence::going_home;
-    return summary.phase == MissionPhase::idle ? Sentence::idle : Sentence::waiting;
+  [[nodiscard]] static interaction::Sentence sentence_of(const task_control::MissionSummary& summary) {
+    if (summary.phase == MissionPhase::waking) return interaction::Sentence::waking;
+    if (summary.phase == MissionPhase::relocalizing) return interaction::Sentence::relocalizing;
+    if (summary.phase == MissionPhase::driving)
+      return summary.is_blocked ? interaction::Sentence::blocked : interaction::Sentence::driving;
+    if (summary.phase == MissionPhase::explaining) return interaction::Sentence::explaining;
+    if (summary.phase == MissionPhase::asking) return interaction::Sentence::asking;
+    if (summary.phase == MissionPhase::charging) return interaction::Sentence::charging;
+    if (summary.needs_charge) return interaction::Sentence::battery_low;
+    if (summary.phase == MissionPhase::going_home) return interaction::Sentence::going_home;
+    return summary.phase == MissionPhase::idle ? interaction::Sentence::idle : interaction::Sentence::waiting;
   }
 
-  Bus& bus_;
-  const Museum& museum_;
+  transport::Bus& bus_;
+  const museum::Museum& museum_;
   MuseumMode mode_;
-  MissionStore store_;
+  task_control::MissionStore store_;
   std::string set_aside_;
-  Mission mission_;
-  Publisher<docent_msgs::RequestBoard> board_;
-  Publisher<docent_msgs::Task> task_;
-  Publisher<docent_msgs::MissionState> state_;
-  Publisher<docent_msgs::Event> event_;
+  task_control::Mission mission_;
+  transport::Publisher<docent_msgs::RequestBoard> board_;
+  transport::Publisher<docent_msgs::Task> task_;
+  transport::Publisher<docent_msgs::MissionState> state_;
+  transport::Publisher<docent_msgs::Event> event_;
   docent_msgs::Prompt prompt_;
   bool is_localized_ = false;
   bool is_published_ = false;
@@ -263,18 +267,18 @@ class MissionModule final : public Module {
 }  // namespace
 
 Result<std::unique_ptr<Module>> make_mission(const ModuleContext& context) {
-  auto params = context.config.section<MissionParams>("mission");
+  auto params = context.config.section<task_control::MissionParams>("mission");
   if (!params) return tl::unexpected<Error>(params.error());
-  auto store = MissionStore::open(context.state / "mission.sqlite", deployment_name(context.seed, context.bus.now()),
-                                  !context.virtual_time);
+  auto store = task_control::MissionStore::open(
+      context.state / "mission.sqlite", deployment_name(context.seed, context.bus.now()), !context.virtual_time);
   if (!store) return tl::unexpected<Error>(store.error());
   auto memory = store->load();
   if (!memory) return tl::unexpected<Error>(memory.error());
   return std::make_unique<MissionModule>(context, *params, std::move(*store), std::move(*memory));
 }
 
-Result<ParameterRows> parameters_of_mission(const RobotConfig& config) {
-  return list_parameters<MissionParams>(config, "mission");
+Result<robot::ParameterRows> parameters_of_mission(const robot::RobotConfig& config) {
+  return robot::list_parameters<task_control::MissionParams>(config, "mission");
 }
 
-}  // namespace docent
+}  // namespace docent::modules

@@ -6,7 +6,7 @@
 
 #include "docent/modules/guide/tour_rehearsal_for_test.h"
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
 TEST(Tour, AnExhibitIsReachedExplainedAndTheRobotGoesHome) {
@@ -347,4 +347,4 @@ TEST(Tour, TheHoursSayWhoIsServedAndHowLongItStays) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::modules

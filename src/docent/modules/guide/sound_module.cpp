@@ -14,7 +14,7 @@
 #include "docent/messages/conversions.h"
 #include "docent/vocabulary/vocabulary.h"
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
 constexpr Duration kPeriod = std::chrono::milliseconds{100};
@@ -40,7 +40,7 @@ struct SoundParams {
 /// Renders one line at a time on a thread of its own; a newer line ends the one before.
 class RenderWorker {
  public:
-  using Done = std::function<void(std::string id, Result<RenderedLine>)>;
+  using Done = std::function<void(std::string id, Result<interaction::RenderedLine>)>;
 
   RenderWorker(const SoundParams& params, std::filesystem::path folder, Done done)
       : params_{params}, folder_{std::move(folder)}, done_{std::move(done)}, thread_{[this] { work(); }} {}
@@ -56,7 +56,7 @@ class RenderWorker {
     thread_.join();
   }
 
-  void render(std::string id, SpokenLine line) {
+  void render(std::string id, interaction::SpokenLine line) {
     {
       const std::scoped_lock lock{mutex_};
       next_.emplace(std::move(id), std::move(line));
@@ -68,7 +68,7 @@ class RenderWorker {
  private:
   void work() {
     while (true) {
-      std::pair<std::string, SpokenLine> job;
+      std::pair<std::string, interaction::SpokenLine> job;
       {
         std::unique_lock lock{mutex_};
         wake_.wait(lock, [this] { return is_ending_ || next_; });
@@ -77,7 +77,7 @@ class RenderWorker {
         next_.reset();
         stop_ = false;
       }
-      auto line = render_speech(job.second, folder_, params_.program, params_.timeout_s, stop_);
+      auto line = interaction::render_speech(job.second, folder_, params_.program, params_.timeout_s, stop_);
       if (!stop_) done_(std::move(job.first), std::move(line));
     }
   }
@@ -87,7 +87,7 @@ class RenderWorker {
   Done done_;
   std::mutex mutex_;
   std::condition_variable wake_;
-  std::optional<std::pair<std::string, SpokenLine>> next_;
+  std::optional<std::pair<std::string, interaction::SpokenLine>> next_;
   bool is_ending_ = false;
   std::atomic<bool> stop_{false};
   std::thread thread_;
@@ -95,7 +95,7 @@ class RenderWorker {
 
 class SoundModule final : public Module {
  public:
-  SoundModule(const ModuleContext& context, const SoundParams& params, SpeakerMemory memory)
+  SoundModule(const ModuleContext& context, const SoundParams& params, interaction::SpeakerMemory memory)
       : bus_{context.bus},
         checkpoint_{context.state / "sound.json"},
         audio_{context.state / "audio"},
@@ -107,12 +107,12 @@ class SoundModule final : public Module {
     if (makes_sound_ && !params.program.empty()) {
       // The worker outlives no module: what it posts late finds the guard gone.
       const std::weak_ptr<SoundModule*> guard = guard_;
-      worker_ = std::make_unique<RenderWorker>(params, audio_,
-                                               [&bus = bus_, guard](std::string id, Result<RenderedLine> line) {
-                                                 bus.post([guard, id = std::move(id), line = std::move(line)] {
-                                                   if (const auto self = guard.lock()) (*self)->on_rendered(id, line);
-                                                 });
-                                               });
+      worker_ = std::make_unique<RenderWorker>(
+          params, audio_, [&bus = bus_, guard](std::string id, Result<interaction::RenderedLine> line) {
+            bus.post([guard, id = std::move(id), line = std::move(line)] {
+              if (const auto self = guard.lock()) (*self)->on_rendered(id, line);
+            });
+          });
     }
     if (!speaker_.present().id.empty()) publish();
     bus_.subscribe<docent_msgs::Limits>(topics::kLimits,
@@ -138,27 +138,27 @@ class SoundModule final : public Module {
  private:
   void on_say(const docent_msgs::Say& message) {
     if (message.id.empty() || message.text.size() > kMostText) return;
-    const Say say{message.id, spoken_text(message.text), message.language,
-                  parse<Mood>(message.mood).value_or(Mood::neutral)};
+    const interaction::Say say{message.id, interaction::spoken_text(message.text), message.language,
+                               parse<Mood>(message.mood).value_or(Mood::neutral)};
     switch (speaker_.judge(say)) {
-      case Speaker::Verdict::under_way:
+      case interaction::Speaker::Verdict::under_way:
         if (speaker_.present().id == say.id) publish();
         return;
-      case Speaker::Verdict::finished:
+      case interaction::Speaker::Verdict::finished:
         publish_finished(say);
         return;
-      case Speaker::Verdict::fresh:
+      case interaction::Speaker::Verdict::fresh:
         break;
     }
     speaker_.expect(say);
     if (worker_ && volume_ > 0.0) {
       worker_->render(say.id, {say.text, say.language, say.mood, volume_});
     } else {
-      begin("", speech_duration(say.text, say.language, say.mood));
+      begin("", interaction::speech_duration(say.text, say.language, say.mood));
     }
   }
 
-  void on_rendered(const std::string& id, const Result<RenderedLine>& line) {
+  void on_rendered(const std::string& id, const Result<interaction::RenderedLine>& line) {
     const auto& expected = speaker_.expected();
     if (!expected || expected->id != id) return;
     if (line) {
@@ -166,7 +166,7 @@ class SoundModule final : public Module {
       begin(line->file, line->duration_s);
     } else {
       speech_fault_ = "no voice: " + line.error().message;
-      begin("", speech_duration(expected->text, expected->language, expected->mood));
+      begin("", interaction::speech_duration(expected->text, expected->language, expected->mood));
     }
   }
 
@@ -188,9 +188,9 @@ class SoundModule final : public Module {
     if (volume_ == horn_volume_ && bus_.now() - horn_tried_ < kRetry) return;
     horn_volume_ = volume_;
     horn_tried_ = bus_.now();
-    const HornSound horn = horn_sound(volume_);
+    const interaction::HornSound horn = interaction::horn_sound(volume_);
     horn_file_ = horn.file;
-    const auto written = write_horn_sound(horn, audio_);
+    const auto written = interaction::write_horn_sound(horn, audio_);
     horn_fault_ = written ? "" : "no horn: " + written.error().message;
   }
   void honk() {
@@ -203,12 +203,12 @@ class SoundModule final : public Module {
   }
 
   void save() {
-    auto saved = save_checkpoint(checkpoint_, speaker_.memory(), survives_);
+    auto saved = interaction::save_checkpoint(checkpoint_, speaker_.memory(), survives_);
     disk_fault_ = saved ? "" : saved.error().message;
   }
 
   void publish() {
-    const Speech& speech = speaker_.present();
+    const interaction::Speech& speech = speaker_.present();
     state_.publish({{to_message(bus_.now()), ""},
                     speech.id,
                     to_text(speech.is_speaking ? SpeechStatus::speaking : SpeechStatus::done),
@@ -220,7 +220,7 @@ class SoundModule final : public Module {
   }
 
   /// Who orders a line again has not heard that it is over. The latched state stays that of the newest line.
-  void publish_finished(const Say& say) {
+  void publish_finished(const interaction::Say& say) {
     if (say.id == speaker_.present().id) {
       publish();
       return;
@@ -230,14 +230,14 @@ class SoundModule final : public Module {
     publish();
   }
 
-  Bus& bus_;
+  transport::Bus& bus_;
   std::filesystem::path checkpoint_;
   std::filesystem::path audio_;  ///< the folder of what is heard
   bool makes_sound_;             ///< not in virtual time
   Survives survives_;
-  Speaker speaker_;
-  Publisher<docent_msgs::SpeechState> state_;
-  Loudspeaker loudspeaker_;
+  interaction::Speaker speaker_;
+  transport::Publisher<docent_msgs::SpeechState> state_;
+  interaction::Loudspeaker loudspeaker_;
   double volume_ = 1.0;
   Time horn_tried_;
   double horn_volume_ = 0.0;  ///< of `horn_file_`; 0: there is none yet
@@ -255,12 +255,12 @@ class SoundModule final : public Module {
 Result<std::unique_ptr<Module>> make_sound(const ModuleContext& context) {
   auto params = context.config.section<SoundParams>("sound");
   if (!params) return tl::unexpected<Error>(params.error());
-  auto memory = load_speaker_checkpoint(context.state / "sound.json");
-  return std::make_unique<SoundModule>(context, *params, memory.value_or(SpeakerMemory{}));
+  auto memory = interaction::load_speaker_checkpoint(context.state / "sound.json");
+  return std::make_unique<SoundModule>(context, *params, memory.value_or(interaction::SpeakerMemory{}));
 }
 
-Result<ParameterRows> parameters_of_sound(const RobotConfig& config) {
-  return list_parameters<SoundParams>(config, "sound");
+Result<robot::ParameterRows> parameters_of_sound(const robot::RobotConfig& config) {
+  return robot::list_parameters<SoundParams>(config, "sound");
 }
 
-}  // namespace docent
+}  // namespace docent::modules

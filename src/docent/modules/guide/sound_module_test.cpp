@@ -13,7 +13,7 @@
 #include "docent/messages/conversions.h"
 #include "docent/transport/virtual_time_bus.h"
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
 class Sound : public testing::Test {
@@ -54,14 +54,14 @@ class Sound : public testing::Test {
   }
 
   std::filesystem::path folder_;
-  VirtualTimeHub hub_;
-  Museum museum_;
-  RobotConfig config_;
-  std::unique_ptr<Bus> listener_;
-  Publisher<docent_msgs::Say> say_;
-  Publisher<docent_msgs::Limits> limits_;
+  transport::VirtualTimeHub hub_;
+  museum::Museum museum_;
+  robot::RobotConfig config_;
+  std::unique_ptr<transport::Bus> listener_;
+  transport::Publisher<docent_msgs::Say> say_;
+  transport::Publisher<docent_msgs::Limits> limits_;
   std::vector<docent_msgs::SpeechState> heard_;
-  std::unique_ptr<Bus> bus_;
+  std::unique_ptr<transport::Bus> bus_;
   std::unique_ptr<Module> module_;
 };
 
@@ -74,7 +74,7 @@ TEST_F(Sound, InVirtualTimeTheTextForetellsTheDuration) {
   ASSERT_EQ(heard_.size(), 1U);
   EXPECT_EQ(heard_[0].state, "speaking");
   EXPECT_EQ(heard_[0].audio, "");
-  EXPECT_DOUBLE_EQ(heard_[0].duration, speech_duration(kText, "en", Mood::neutral));
+  EXPECT_DOUBLE_EQ(heard_[0].duration, interaction::speech_duration(kText, "en", Mood::neutral));
   run_for(heard_[0].duration);
   ASSERT_EQ(heard_.size(), 2U);
   EXPECT_EQ(heard_[1].state, "done");
@@ -138,8 +138,8 @@ TEST_F(Sound, UnderWallTimeItRendersAWavFile) {
   say("t1/short", kText);
   wait_for_news();
   EXPECT_EQ(heard_[0].state, "speaking");
-  EXPECT_EQ(heard_[0].audio, audio_file_name({kText, "en", Mood::neutral, 1.0}));
-  EXPECT_DOUBLE_EQ(heard_[0].duration, *wav_duration(folder_ / "audio" / heard_[0].audio));
+  EXPECT_EQ(heard_[0].audio, interaction::audio_file_name({kText, "en", Mood::neutral, 1.0}));
+  EXPECT_DOUBLE_EQ(heard_[0].duration, *interaction::wav_duration(folder_ / "audio" / heard_[0].audio));
   EXPECT_EQ(module_->health().state, "ready");
 }
 
@@ -150,7 +150,7 @@ TEST_F(Sound, WithoutAVoiceTheWordsRemain) {
   wait_for_news();
   EXPECT_EQ(heard_[0].state, "speaking");
   EXPECT_EQ(heard_[0].audio, "");
-  EXPECT_DOUBLE_EQ(heard_[0].duration, speech_duration(kText, "en", Mood::neutral));
+  EXPECT_DOUBLE_EQ(heard_[0].duration, interaction::speech_duration(kText, "en", Mood::neutral));
   EXPECT_EQ(module_->health().state, "degraded");
   EXPECT_NE(module_->health().reason.find("/nonexistent/voice"), std::string::npos);
 }
@@ -169,11 +169,13 @@ TEST_F(Sound, MutedItMakesNoSound) {
 TEST_F(Sound, TheHornHasAFileThatEverybodyCanFetch) {
   start(false);
   run_for(0.3);
-  const HornSound horn = horn_sound(1.0);
-  EXPECT_NEAR(wav_duration(folder_ / "audio" / horn.file).value_or(0.0), horn.duration_s, 0.001) << "before it sounds";
+  const interaction::HornSound horn = interaction::horn_sound(1.0);
+  EXPECT_NEAR(interaction::wav_duration(folder_ / "audio" / horn.file).value_or(0.0), horn.duration_s, 0.001)
+      << "before it sounds";
   limits_.publish({0.7, 0.3, "open", true});
   run_for(0.3);
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "audio" / horn_sound(0.3).file)) << "and in the volume of the hour";
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "audio" / interaction::horn_sound(0.3).file))
+      << "and in the volume of the hour";
   EXPECT_EQ(module_->health().state, "ready");
 }
 
@@ -193,7 +195,7 @@ TEST_F(Sound, ThePlayerPlaysTheHornAndTheLines) {
   };
   horn.publish({});
   run_for(0.01);
-  EXPECT_TRUE(played(horn_sound(1.0).file));
+  EXPECT_TRUE(played(interaction::horn_sound(1.0).file));
   say("t1/short", kText);
   wait_for_news();
   EXPECT_TRUE(played(heard_.back().audio));
@@ -231,4 +233,4 @@ TEST_F(Sound, DiesWhileItRendersWithoutWaiting) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::modules

@@ -19,15 +19,15 @@
 
 // For tests: mission, executive and sound at work in a museum made of air, with a plan that glides in straight lines.
 
-namespace docent {
+namespace docent::modules {
 
-inline Museum museum_of_air() {
-  Museum museum;
+inline museum::Museum museum_of_air() {
+  museum::Museum museum;
   museum.name = {{"en", "Museum of Air"}, {"de", "Luftmuseum"}};
   museum.languages = {"en", "de"};
   museum.home = {0.0, 0.0, Angle{}};
   const auto add = [&](const std::string& id, double x, double y, bool has_more, bool web_only) {
-    Exhibit exhibit;
+    museum::Exhibit exhibit;
     exhibit.id = id;
     exhibit.title = {{"en", "The " + id}, {"de", "Das " + id}};
     exhibit.pose = {x, y, Angle::degrees(90)};
@@ -50,7 +50,7 @@ inline Museum museum_of_air() {
 /// Stands for localize, plan, avoid and robot: glides to the goal at 0.6 m/s.
 class GlidingPlan {
  public:
-  explicit GlidingPlan(VirtualTimeHub& hub) : bus_{hub.connect("plan")} {
+  explicit GlidingPlan(transport::VirtualTimeHub& hub) : bus_{hub.connect("plan")} {
     belief_ = bus_->publisher(topics::kBelief);
     state_ = bus_->publisher(topics::kGoalState);
     bus_->subscribe<docent_msgs::DriveGoal>(topics::kDriveGoal, [this](const auto& goal) { goal_ = goal; });
@@ -98,9 +98,9 @@ class GlidingPlan {
     belief_.publish(std::move(belief));
   }
 
-  std::unique_ptr<Bus> bus_;
-  Publisher<docent_msgs::Belief> belief_;
-  Publisher<docent_msgs::GoalState> state_;
+  std::unique_ptr<transport::Bus> bus_;
+  transport::Publisher<docent_msgs::Belief> belief_;
+  transport::Publisher<docent_msgs::GoalState> state_;
   docent_msgs::DriveGoal goal_;
   Time moved_{};
 };
@@ -108,7 +108,7 @@ class GlidingPlan {
 /// A visitor's page: sends each wish every two seconds until it sees it on the board (architecture 10.8).
 class Client {
  public:
-  explicit Client(VirtualTimeHub& hub) : bus_{hub.connect("client")} {
+  explicit Client(transport::VirtualTimeHub& hub) : bus_{hub.connect("client")} {
     request_ = bus_->publisher(topics::kRequest);
     bus_->subscribe<docent_msgs::RequestBoard>(topics::kRequestBoard, [this](const auto& board) {
       for (const auto& entry : board.requests) {
@@ -135,8 +135,8 @@ class Client {
   std::map<std::string, docent_msgs::RequestState> states;
 
  private:
-  std::unique_ptr<Bus> bus_;
-  Publisher<docent_msgs::Request> request_;
+  std::unique_ptr<transport::Bus> bus_;
+  transport::Publisher<docent_msgs::Request> request_;
   std::map<std::string, docent_msgs::Request> unseen_;
 };
 
@@ -155,7 +155,9 @@ class Rehearsal {
                ("docent_" + name + "_" + std::to_string(seed) + "_" + std::to_string(getpid()))} {
     std::filesystem::remove_all(state_);
     std::filesystem::create_directories(state_);
-    hub.tap([this](const TopicInfo& topic, Time, const std::shared_ptr<const void>& message) { see(topic, message); });
+    hub.tap([this](const transport::TopicInfo& topic, Time, const std::shared_ptr<const void>& message) {
+      see(topic, message);
+    });
     for (const char* module : {"mission", "executive", "sound"}) start(module);
   }
   ~Rehearsal() {
@@ -198,9 +200,9 @@ class Rehearsal {
     return subjects;
   }
 
-  VirtualTimeHub hub;
-  Museum museum = museum_of_air();
-  RobotConfig config;
+  transport::VirtualTimeHub hub;
+  museum::Museum museum = museum_of_air();
+  robot::RobotConfig config;
   GlidingPlan plan;
   Client client;
 
@@ -215,10 +217,10 @@ class Rehearsal {
 
  private:
   template <class T>
-  static bool is(const TopicInfo& info, const Topic<T>& topic) {
+  static bool is(const transport::TopicInfo& info, const Topic<T>& topic) {
     return std::string_view{info.name} == topic.name;
   }
-  void see(const TopicInfo& info, const std::shared_ptr<const void>& message) {
+  void see(const transport::TopicInfo& info, const std::shared_ptr<const void>& message) {
     const auto death = deaths_.find(info.name);
     if (death != deaths_.end() && is_up(death->second)) {
       const Killed killed{death->second};
@@ -257,4 +259,4 @@ class Rehearsal {
   std::map<std::string, std::unique_ptr<ModuleHost>> hosts_;
 };
 
-}  // namespace docent
+}  // namespace docent::modules

@@ -2,14 +2,14 @@
 
 #include "docent/messages/conversions.h"
 
-namespace docent {
+namespace docent::modules {
 
 namespace {
 constexpr Duration kHealthPeriod = std::chrono::milliseconds{500};
 constexpr Duration kRefusalsShown = std::chrono::seconds{5};  // after the last one
 
 /// What has come lately that could not be used; empty: all was well.
-std::string lately_refused(const Bus& bus) {
+std::string lately_refused(const transport::Bus& bus) {
   std::string text;
   for (const auto& [topic, refusals] : bus.refusals()) {
     if (bus.now() - refusals.last_at > kRefusalsShown) continue;
@@ -21,8 +21,8 @@ std::string lately_refused(const Bus& bus) {
 
 }  // namespace
 
-Result<std::unique_ptr<ModuleHost>> ModuleHost::create(const ModuleEntry& entry, std::unique_ptr<Bus> bus,
-                                                       const Museum& museum, const RobotConfig& config,
+Result<std::unique_ptr<ModuleHost>> ModuleHost::create(const ModuleEntry& entry, std::unique_ptr<transport::Bus> bus,
+                                                       const museum::Museum& museum, const robot::RobotConfig& config,
                                                        const Options& options) {
   std::unique_ptr<ModuleHost> host{new ModuleHost{entry.name, std::move(bus)}};
   host->pid_ = options.pid;
@@ -52,4 +52,4 @@ void ModuleHost::publish_health() {
   health_.publish(std::move(message));
 }
 
-}  // namespace docent
+}  // namespace docent::modules

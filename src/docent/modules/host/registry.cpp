@@ -16,7 +16,7 @@
 #include "docent/modules/perception/map_module.h"
 #include "docent/modules/perception/people_module.h"
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
 // clang-format off
@@ -48,4 +48,4 @@ const ModuleEntry* find_module(std::string_view name) {
   return nullptr;
 }
 
-}  // namespace docent
+}  // namespace docent::modules

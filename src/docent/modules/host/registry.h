@@ -5,7 +5,7 @@
 
 #include "docent/modules/shared/module.h"
 
-namespace docent {
+namespace docent::modules {
 
 struct ModuleEntry {
   const char* name;
@@ -21,4 +21,4 @@ struct ModuleEntry {
 /// Null: there is none of that name.
 [[nodiscard]] const ModuleEntry* find_module(std::string_view name);
 
-}  // namespace docent
+}  // namespace docent::modules

@@ -19,7 +19,7 @@
 #include "docent/motion_models/odometry_history.h"
 #include "docent/motion_models/unbroken_odometry.h"
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
 constexpr Duration kPeriod = std::chrono::milliseconds{100};
@@ -33,7 +33,7 @@ constexpr double kCheckpointWay = 5.0;  // [m] that odometry may have gone on me
 /// Section `localize.sonar`: sonars alone, with `localize.method: sonar`, or beside the lasers.
 struct SonarParams {
   SonarLocalizeParams alone;
-  SonarEvidenceParams beside;
+  localization::SonarEvidenceParams beside;
   template <class V>
   void visit(V& v) {
     alone.visit(v);
@@ -49,11 +49,11 @@ struct SonarParams {
 struct LocalizeParams {
   /// grid; particles, which share all of the grid's parameters that concern them; sonar: a tracker without laser
   std::string method = "grid";
-  LocalizerParams markov;
-  MonteCarloParams particles;
+  localization::LocalizerParams markov;
+  localization::MonteCarloParams particles;
   SonarParams sonar;
-  PersonFilterParams people;  ///< the inverse filter
-  double person_range = 6.0;  ///< [m], > 0: how far away people are looked for
+  localization::PersonFilterParams people;  ///< the inverse filter
+  double person_range = 6.0;                ///< [m], > 0: how far away people are looked for
   template <class V>
   void visit(V& v) {
     v("method", method);
@@ -75,29 +75,31 @@ struct LocalizeParams {
 
 /// A localizer and, where they take part in its belief, the sonars.
 struct Believer {
-  std::unique_ptr<Localizer> localizer;
-  std::shared_ptr<SonarEvidence> sonars;
+  std::unique_ptr<localization::Localizer> localizer;
+  std::shared_ptr<localization::SonarEvidence> sonars;
 };
 
 Believer with_sonars(auto localizer, const ModuleContext& context, const LocalizeParams& params) {
-  std::shared_ptr<SonarEvidence> sonars;
+  std::shared_ptr<localization::SonarEvidence> sonars;
   const int count = context.config.body().sonars;
   if (params.sonar.beside.beams > 0 && count > 0) {
-    sonars = std::make_shared<SonarEvidence>(params.sonar.beside, count, localizer->space(), localizer->table(),
-                                             ProximityModel{params.markov.sensor}, context.seed);
+    sonars = std::make_shared<localization::SonarEvidence>(
+        params.sonar.beside, count, localizer->space(), localizer->table(),
+        sensor_models::ProximityModel{params.markov.sensor}, context.seed);
     localizer->add_sensor(sonars);
   }
   return {std::move(localizer), std::move(sonars)};
 }
 
 Believer make_believer(const ModuleContext& context, const LocalizeParams& params) {
-  const RangeTableCache cache{context.cache};
+  const localization::RangeTableCache cache{context.cache};
   if (params.method == "particles")
-    return with_sonars(
-        std::make_unique<MonteCarloLocalizer>(context.museum.map, params.markov, params.particles, cache, context.seed),
-        context, params);
-  return with_sonars(std::make_unique<MarkovLocalizer>(context.museum.map, params.markov, cache, context.seed), context,
-                     params);
+    return with_sonars(std::make_unique<localization::MonteCarloLocalizer>(context.museum.map, params.markov,
+                                                                           params.particles, cache, context.seed),
+                       context, params);
+  return with_sonars(
+      std::make_unique<localization::MarkovLocalizer>(context.museum.map, params.markov, cache, context.seed), context,
+      params);
 }
 
 class LocalizeModule final : public Module {
@@ -130,8 +132,9 @@ class LocalizeModule final : public Module {
     subscribe_scanners(bus_, body_, [this](std::size_t i, const auto& scan) { on_scan(i, scan); });
     if (believer_.sonars)
       bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const auto& range) { on_sonar(range); });
-    subscribe_initial_pose(bus_, context.museum.map,
-                           [this](const BeliefMode& mode, Time stamp) { return start_where_told(mode, stamp); });
+    subscribe_initial_pose(bus_, context.museum.map, [this](const localization::BeliefMode& mode, Time stamp) {
+      return start_where_told(mode, stamp);
+    });
     bus_.every(kPeriod, [this] { look(); });
   }
 
@@ -164,11 +167,11 @@ class LocalizeModule final : public Module {
   [[nodiscard]] ModuleHealth health_of_sonars(Time now) const {
     if (now - sonar_received_ > kSilent) return {"degraded", "no sonar"};
     switch (believer_.sonars->trust().state()) {
-      case SonarTrust::State::frozen:
+      case localization::SonarTrust::State::frozen:
         return {"degraded", "sonar is frozen"};
-      case SonarTrust::State::at_odds:
+      case localization::SonarTrust::State::at_odds:
         return {"degraded", "sonar hears nothing of what the map holds"};
-      case SonarTrust::State::well:
+      case localization::SonarTrust::State::well:
         break;
     }
     return {};
@@ -193,7 +196,7 @@ class LocalizeModule final : public Module {
       if (laser.is_new) stamp = std::max(stamp, from_message(laser.scan.header.stamp));
     const auto odom_from_base = odometry_.at(stamp);
     if (!odom_from_base) return;  // wait for odometry, or the scan is too old to be placed
-    RangeSweep sweep;
+    sensor_models::RangeSweep sweep;
     for (std::size_t i = 0; i < lasers_.size(); ++i) {
       Laser& laser = lasers_[i];
       const Time taken = from_message(laser.scan.header.stamp);
@@ -201,18 +204,18 @@ class LocalizeModule final : public Module {
       laser.is_new = false;
       if (laser.scan.ranges.empty() || stamp - taken > kTogether || !then) continue;
       const Pose2 base_from_then = inverse(*odom_from_base) * *then;
-      append(sweep,
-             {laser.scan.ranges, Angle::radians(static_cast<double>(laser.scan.angle_min)),
-              static_cast<double>(laser.scan.angle_increment), static_cast<double>(laser.scan.range_min),
-              static_cast<double>(laser.scan.range_max)},
-             base_from_then * body_.scanners[i].base_from_sensor());
+      sensor_models::append(sweep,
+                            {laser.scan.ranges, Angle::radians(static_cast<double>(laser.scan.angle_min)),
+                             static_cast<double>(laser.scan.angle_increment), static_cast<double>(laser.scan.range_min),
+                             static_cast<double>(laser.scan.range_max)},
+                            base_from_then * body_.scanners[i].base_from_sensor());
     }
     if (sweep.beams.empty()) return;
     digest(sweep, *odom_from_base, stamp);
   }
 
-  void digest(const RangeSweep& sweep, const Pose2& odom_from_base, Time stamp) {
-    Localizer::Step step;
+  void digest(const sensor_models::RangeSweep& sweep, const Pose2& odom_from_base, Time stamp) {
+    localization::Localizer::Step step;
     if (!frozen_) step = localizer_->observe(sweep, odom_from_base, stamp);
     if (evaluation_.dead_reckoning && localizer_->verdict().localized()) frozen_ = true;
     if (step.updated) last_step_ = step;
@@ -229,7 +232,7 @@ class LocalizeModule final : public Module {
 
   /// The belief of the last update, carried forward by odometry to the stamp.
   void publish_belief(Time stamp, const Pose2& odom_from_base) {
-    const BeliefSummary& summary = localizer_->summary();
+    const localization::BeliefSummary& summary = localizer_->summary();
     const Pose2 before_from_now = inverse(localizer_->odom_from_robot()) * odom_from_base;
     docent_msgs::Belief message;
     message.header = {docent::to_message(stamp), "map"};
@@ -247,7 +250,7 @@ class LocalizeModule final : public Module {
     message.rest = {static_cast<float>(summary.rest_origin.x),     static_cast<float>(summary.rest_origin.y),
                     static_cast<float>(summary.rest_cell_size),    static_cast<std::uint32_t>(summary.rest_columns),
                     static_cast<std::uint32_t>(summary.rest_rows), summary.rest};
-    for (const BeliefMode& mode : summary.modes) {
+    for (const localization::BeliefMode& mode : summary.modes) {
       const Pose2 pose = mode.map_from_robot * before_from_now;
       message.hypotheses.push_back({pose.x, pose.y, pose.theta.radians(), mode.covariance, mode.mass});
     }
@@ -276,7 +279,7 @@ class LocalizeModule final : public Module {
     belief_published_ = bus_.now();
   }
 
-  void publish_person_beams(const RangeSweep& sweep, const Pose2& odom_from_base, Time stamp) {
+  void publish_person_beams(const sensor_models::RangeSweep& sweep, const Pose2& odom_from_base, Time stamp) {
     docent_msgs::PersonBeams message;
     message.header = {docent::to_message(stamp), "base_link"};
     message.localized = localized();
@@ -288,12 +291,12 @@ class LocalizeModule final : public Module {
     message.origins.reserve(sweep.beams.size());
     const auto origins = localizer_->origins(sweep, odom_from_base, params_.markov.sensor.max_range, params_.people);
     for (std::size_t i = 0; i < sweep.beams.size(); ++i) {
-      const SweepBeam& beam = sweep.beams[i];
+      const sensor_models::SweepBeam& beam = sweep.beams[i];
       message.bearings.push_back(static_cast<float>(beam.bearing));
       message.ranges.push_back(static_cast<float>(beam.no_return ? -beam.range : beam.range));
       message.origins.push_back(static_cast<std::uint8_t>(origins[i]));
-      if (origins[i] != BeamOrigin::not_map || beam.range > params_.person_range) continue;
-      const Point2 end = endpoint(beam);
+      if (origins[i] != sensor_models::BeamOrigin::not_map || beam.range > params_.person_range) continue;
+      const Point2 end = sensor_models::endpoint(beam);
       message.x.push_back(static_cast<float>(end.x));
       message.y.push_back(static_cast<float>(end.y));
     }
@@ -313,7 +316,7 @@ class LocalizeModule final : public Module {
   }
 
   void publish_pose(Time stamp) {
-    const BeliefMode& best = localizer_->summary().modes.front();
+    const localization::BeliefMode& best = localizer_->summary().modes.front();
     geometry_msgs::PoseWithCovarianceStamped message;
     message.header = {docent::to_message(stamp), "map"};
     message.pose.pose = docent::to_message(best.map_from_robot);
@@ -328,11 +331,12 @@ class LocalizeModule final : public Module {
     saved_ = bus_.now();
     // A checkpoint that cannot be written costs a restarted robot a new search, nothing else.
     const Pose2 raw_from_robot = inverse(unbroken_.odom_from_raw(stamp)) * localizer_->odom_from_robot();
-    (void)save_localizer_checkpoint({map_hash_, stamp, raw_from_robot, localizer_->summary().modes}, checkpoint_path_);
+    (void)localization::save_localizer_checkpoint({map_hash_, stamp, raw_from_robot, localizer_->summary().modes},
+                                                  checkpoint_path_);
   }
 
   void restore() {
-    auto checkpoint = load_localizer_checkpoint(checkpoint_path_);
+    auto checkpoint = localization::load_localizer_checkpoint(checkpoint_path_);
     if (!checkpoint || checkpoint->map_hash != map_hash_) return;
     const Duration age = bus_.now() - checkpoint->time;
     if (age < Duration{0} - kTogether || age > kCheckpointAge) return;
@@ -341,7 +345,7 @@ class LocalizeModule final : public Module {
   }
 
   /// Somebody says where the robot stood at `stamp`; where nobody knows odometry of then, it stands there now.
-  MessageFault start_where_told(const BeliefMode& mode, Time stamp) {
+  MessageFault start_where_told(const localization::BeliefMode& mode, Time stamp) {
     if (odometry_.empty()) return {"pose", "came before any odometry"};
     restored_.reset();
     auto odom_from_base = odometry_.at(stamp);
@@ -360,24 +364,24 @@ class LocalizeModule final : public Module {
     restored_.reset();
   }
 
-  Bus& bus_;
+  transport::Bus& bus_;
   LocalizeParams params_;
-  EvaluationParams evaluation_;
+  robot::EvaluationParams evaluation_;
   std::filesystem::path checkpoint_path_;
   std::string map_hash_;
-  RobotBody body_;
+  robot::RobotBody body_;
   Believer believer_;
-  Localizer* localizer_;
+  localization::Localizer* localizer_;
   std::vector<Laser> lasers_;  ///< [scanners]
-  Publisher<docent_msgs::Belief> belief_;
-  Publisher<geometry_msgs::PoseWithCovarianceStamped> pose_;
-  Publisher<tf2_msgs::TFMessage> transforms_;
-  Publisher<docent_msgs::PersonBeams> person_beams_;
-  UnbrokenOdometry unbroken_;
-  OdometryHistory odometry_;
+  transport::Publisher<docent_msgs::Belief> belief_;
+  transport::Publisher<geometry_msgs::PoseWithCovarianceStamped> pose_;
+  transport::Publisher<tf2_msgs::TFMessage> transforms_;
+  transport::Publisher<docent_msgs::PersonBeams> person_beams_;
+  motion_models::UnbrokenOdometry unbroken_;
+  motion_models::OdometryHistory odometry_;
   bool has_jumped_ = false;        ///< since the last belief: others carry that one by an odometry that is torn
   std::optional<Pose2> restored_;  ///< odometry of the checkpoint, until odometry speaks
-  Localizer::Step last_step_;
+  localization::Localizer::Step last_step_;
   bool frozen_ = false;
   Time odometry_received_{};
   Time sonar_received_{};
@@ -396,14 +400,14 @@ Result<std::unique_ptr<Module>> make_localize(const ModuleContext& context) {
   return module;
 }
 
-Result<std::string> simd_of_localize(const RobotConfig& config) {
+Result<std::string> simd_of_localize(const robot::RobotConfig& config) {
   auto params = config.section<LocalizeParams>("localize");
   if (!params) return tl::unexpected<Error>(params.error());
   return instruction_set_of(params->markov.simd).map([](InstructionSet set) { return std::string{name_of(set)}; });
 }
 
-Result<ParameterRows> parameters_of_localize(const RobotConfig& config) {
-  return list_parameters<LocalizeParams>(config, "localize");
+Result<robot::ParameterRows> parameters_of_localize(const robot::RobotConfig& config) {
+  return robot::list_parameters<LocalizeParams>(config, "localize");
 }
 
-}  // namespace docent
+}  // namespace docent::modules

@@ -11,7 +11,7 @@
 #include "docent/geometry/polygon.h"
 #include "docent/modules/shared/module_bench.h"
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -90,9 +90,9 @@ class LocalizeModule : public ModuleBench {
   Pose2 odom_from_map{7.0, -3.0, Angle::degrees(50.0)};
   bool drives = true, has_odometry = true, has_front = true, has_rear = true;
   double rear_late = 0.0;  // [s]
-  Publisher<nav_msgs::Odometry> odometries = world->publisher(topics::kOdometry);
-  Publisher<sensor_msgs::LaserScan> fronts = world->publisher(topics::kScanFront);
-  Publisher<sensor_msgs::LaserScan> rears = world->publisher(topics::kScanRear);
+  transport::Publisher<nav_msgs::Odometry> odometries = world->publisher(topics::kOdometry);
+  transport::Publisher<sensor_msgs::LaserScan> fronts = world->publisher(topics::kScanFront);
+  transport::Publisher<sensor_msgs::LaserScan> rears = world->publisher(topics::kScanRear);
   docent_msgs::Belief belief;
   geometry_msgs::PoseWithCovarianceStamped pose;
   docent_msgs::PersonBeams beams;
@@ -195,4 +195,4 @@ TEST_F(LocalizeModule, ACheckpointOfAnotherMapIsNotUsed) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::modules

@@ -10,7 +10,7 @@
 #include "docent/modules/shared/pose_tracker.h"
 #include "docent/modules/shared/scanners.h"
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
 constexpr Duration kFullMapPeriod = std::chrono::seconds{10};
@@ -28,7 +28,7 @@ nav_msgs::MapMetaData to_message(const GridFrame& frame, Time now) {
 
 class MapModule final : public Module {
  public:
-  MapModule(const ModuleContext& context, const LiveMapParams& params, Outline outline)
+  MapModule(const ModuleContext& context, const mapping::LiveMapParams& params, collision_avoidance::Outline outline)
       : bus_{context.bus},
         body_{context.config.body()},
         outline_{std::move(outline)},
@@ -51,12 +51,12 @@ class MapModule final : public Module {
     bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const auto& range) {
       if (const auto index = body_.sonar_of(range.header.frame_id))
         take(range, body_.base_from_sonar(*index),
-             [this](const ConeReading& reading) { live_.add_sonar(reading, laser_looks(), bus_.now()); });
+             [this](const mapping::ConeReading& reading) { live_.add_sonar(reading, laser_looks(), bus_.now()); });
     });
     bus_.subscribe<sensor_msgs::Range>(topics::kInfrared, [this](const auto& range) {
       if (const auto index = body_.infrared_of(range.header.frame_id))
         take(range, body_.base_from_infrared(*index),
-             [this](const ConeReading& reading) { live_.add_infrared(reading, laser_looks(), bus_.now()); });
+             [this](const mapping::ConeReading& reading) { live_.add_infrared(reading, laser_looks(), bus_.now()); });
     });
     bus_.subscribe<docent_msgs::Tactile>(topics::kTactile, [this](const auto& tactile) { feel(tactile); });
     bus_.every(seconds(params.period), [this] { look(); });
@@ -115,7 +115,7 @@ class MapModule final : public Module {
   }
 
   /// What the lasers see at present.
-  std::span<const LaserLook> laser_looks() {
+  std::span<const mapping::LaserLook> laser_looks() {
     looks_.clear();
     for (std::size_t i = 0; i < sights_.size(); ++i) {
       if (!place(i)) continue;
@@ -130,7 +130,7 @@ class MapModule final : public Module {
   void take(const sensor_msgs::Range& range, const Pose2& base_from_sensor, const Add& add) {
     const auto map_from_base = pose_.map_from_base_at(from_message(range.header.stamp));
     if (!pose_.localized() || !map_from_base) return;
-    add(ConeReading{*map_from_base * base_from_sensor, range.field_of_view, range.max_range, range.range});
+    add(mapping::ConeReading{*map_from_base * base_from_sensor, range.field_of_view, range.max_range, range.range});
   }
 
   void feel(const docent_msgs::Tactile& tactile) {
@@ -140,7 +140,7 @@ class MapModule final : public Module {
     for (std::size_t i = 0; i < tactile.segments.size(); ++i) {
       const Angle bearing = Angle::radians(step * static_cast<double>(i));
       const double reach = outline_.empty() ? body_.radius : outline_.radius_at(bearing);
-      if (tactile.segments[i] == 0 || tactile.segments[i] == TactileWatch::kNoReading) continue;
+      if (tactile.segments[i] == 0 || tactile.segments[i] == collision_avoidance::TactileWatch::kNoReading) continue;
       live_.add_touch(*map_from_base * (reach * unit(bearing)), unit(map_from_base->theta + bearing), laser_looks(),
                       bus_.now());
     }
@@ -180,16 +180,16 @@ class MapModule final : public Module {
     live_map_.publish(std::move(map));
   }
 
-  Bus& bus_;
-  RobotBody body_;
-  Outline outline_;  ///< empty: a disc
-  LiveMap live_;
+  transport::Bus& bus_;
+  robot::RobotBody body_;
+  collision_avoidance::Outline outline_;  ///< empty: a disc
+  mapping::LiveMap live_;
   std::vector<Pose2> base_from_laser_;  ///< [scanners]
   std::vector<Sight> sights_;           ///< [scanners] newest sweeps
-  Publisher<nav_msgs::OccupancyGrid> live_map_;
-  Publisher<docent_msgs::LiveMapUpdate> updates_;
+  transport::Publisher<nav_msgs::OccupancyGrid> live_map_;
+  transport::Publisher<docent_msgs::LiveMapUpdate> updates_;
   PoseTracker pose_;
-  std::vector<LaserLook> looks_;
+  std::vector<mapping::LaserLook> looks_;
   Time full_stamp_{};
   std::uint32_t number_ = 0;
   bool changed_since_full_ = false;
@@ -198,15 +198,15 @@ class MapModule final : public Module {
 }  // namespace
 
 Result<std::unique_ptr<Module>> make_map(const ModuleContext& context) {
-  auto params = context.config.section<LiveMapParams>("map");
+  auto params = context.config.section<mapping::LiveMapParams>("map");
   if (!params) return tl::unexpected<Error>(params.error());
-  auto outline = Outline::of_body(context.config.body().outline);
+  auto outline = collision_avoidance::Outline::of_body(context.config.body().outline);
   if (!outline) return tl::unexpected<Error>(outline.error());
   return std::make_unique<MapModule>(context, *params, std::move(*outline));
 }
 
-Result<ParameterRows> parameters_of_map(const RobotConfig& config) {
-  return list_parameters<LiveMapParams>(config, "map");
+Result<robot::ParameterRows> parameters_of_map(const robot::RobotConfig& config) {
+  return robot::list_parameters<mapping::LiveMapParams>(config, "map");
 }
 
-}  // namespace docent
+}  // namespace docent::modules

@@ -10,7 +10,7 @@
 #include "docent/messages/conversions.h"
 #include "docent/transport/virtual_time_bus.h"
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
 constexpr double kHalf = 4.0;         // [m] of the square room
@@ -78,7 +78,7 @@ class LiveMapOfARoom : public ::testing::Test {
 
   void count(const docent_msgs::LiveMapUpdate& update) {
     std::size_t k = 0;
-    const double cell = kResolution * LiveMapParams{}.coarsening;
+    const double cell = kResolution * mapping::LiveMapParams{}.coarsening;
     for (std::uint32_t row = 0; row < update.height; ++row) {
       for (std::uint32_t column = 0; column < update.width; ++column, ++k) {
         const Point2 centre{-kHalf - 0.5 + (update.x + column + 0.5) * cell,
@@ -89,14 +89,14 @@ class LiveMapOfARoom : public ::testing::Test {
     }
   }
 
-  VirtualTimeHub hub;
-  Museum museum;
-  RobotConfig config;
-  std::unique_ptr<Bus> world = hub.connect("world");
-  std::unique_ptr<Bus> map_bus = hub.connect("map");
-  Publisher<nav_msgs::Odometry> odometry_publisher = world->publisher(topics::kOdometry);
-  Publisher<docent_msgs::Belief> belief_publisher = world->publisher(topics::kBelief);
-  Publisher<sensor_msgs::LaserScan> scan_publisher = world->publisher(topics::kScanFront);
+  transport::VirtualTimeHub hub;
+  museum::Museum museum;
+  robot::RobotConfig config;
+  std::unique_ptr<transport::Bus> world = hub.connect("world");
+  std::unique_ptr<transport::Bus> map_bus = hub.connect("map");
+  transport::Publisher<nav_msgs::Odometry> odometry_publisher = world->publisher(topics::kOdometry);
+  transport::Publisher<docent_msgs::Belief> belief_publisher = world->publisher(topics::kBelief);
+  transport::Publisher<sensor_msgs::LaserScan> scan_publisher = world->publisher(topics::kScanFront);
   std::vector<Segment> walls = sides({{-kHalf, -kHalf}, {kHalf, -kHalf}, {kHalf, kHalf}, {-kHalf, kHalf}});
   bool has_post = false;
   int post_cells = 0;
@@ -118,4 +118,4 @@ TEST_F(LiveMapOfARoom, WhatStandsThereIsSeenWhereItStands) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::modules

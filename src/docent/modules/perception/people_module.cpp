@@ -7,7 +7,7 @@
 #include "docent/messages/conversions.h"
 #include "docent/people/people_finder.h"
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
 constexpr Duration kStaleAfter = std::chrono::seconds{2};
@@ -15,13 +15,15 @@ constexpr std::string_view kMapFrame = "map";
 
 Pose2 pose_of(const std::array<double, 3>& fields) { return {fields[0], fields[1], Angle::radians(fields[2])}; }
 
-BeamOrigin origin_of(std::uint8_t field) {
-  return field <= static_cast<std::uint8_t>(BeamOrigin::not_map) ? static_cast<BeamOrigin>(field) : BeamOrigin::unknown;
+sensor_models::BeamOrigin origin_of(std::uint8_t field) {
+  return field <= static_cast<std::uint8_t>(sensor_models::BeamOrigin::not_map)
+             ? static_cast<sensor_models::BeamOrigin>(field)
+             : sensor_models::BeamOrigin::unknown;
 }
 
 class PeopleModule final : public Module {
  public:
-  PeopleModule(const ModuleContext& context, const PeopleFinderParams& params)
+  PeopleModule(const ModuleContext& context, const people::PeopleFinderParams& params)
       : bus_{context.bus},
 
         finder_{params},
@@ -40,7 +42,7 @@ class PeopleModule final : public Module {
     received_ = bus_.now();
     const Pose2 map_from_base = pose_of(beams.map_from_base);
     const Pose2 odom_from_base = pose_of(beams.odom_from_base);
-    PeopleSweep sweep;
+    people::PeopleSweep sweep;
     sweep.odom_from_base = odom_from_base;
     const std::size_t count = std::min({beams.bearings.size(), beams.ranges.size(), beams.origins.size()});
     sweep.sweep.beams.reserve(count);
@@ -57,14 +59,14 @@ class PeopleModule final : public Module {
     publish(people_, beams, kMapFrame, map_from_base * inverse(odom_from_base), map_from_base);
   }
 
-  void publish(const Publisher<docent_msgs::People>& publisher, const docent_msgs::PersonBeams& beams,
+  void publish(const transport::Publisher<docent_msgs::People>& publisher, const docent_msgs::PersonBeams& beams,
                std::string_view frame, const Pose2& frame_from_odom, const Pose2& frame_from_base) const {
     docent_msgs::People message;
     message.header = {beams.header.stamp, std::string{frame}};
     message.localized = beams.localized;
     message.frame_from_base = {frame_from_base.x, frame_from_base.y, frame_from_base.theta.radians()};
     message.groups = finder_.groups();
-    for (const TrackedPerson& person : finder_.people()) {
+    for (const people::TrackedPerson& person : finder_.people()) {
       const Point2 position = frame_from_odom * person.position;
       const Point2 velocity = frame_from_odom * person.velocity - frame_from_odom.position();
       message.people.push_back({person.id, static_cast<float>(position.x), static_cast<float>(position.y),
@@ -77,24 +79,24 @@ class PeopleModule final : public Module {
     publisher.publish(std::move(message));
   }
 
-  Bus& bus_;
-  PeopleFinder finder_;
-  Publisher<docent_msgs::People> people_;
-  Publisher<docent_msgs::People> people_odom_;
+  transport::Bus& bus_;
+  people::PeopleFinder finder_;
+  transport::Publisher<docent_msgs::People> people_;
+  transport::Publisher<docent_msgs::People> people_odom_;
   Time received_{};
 };
 
 }  // namespace
 
 Result<std::unique_ptr<Module>> make_people(const ModuleContext& context) {
-  auto params = context.config.section<PeopleFinderParams>("people");
+  auto params = context.config.section<people::PeopleFinderParams>("people");
   if (!params) return tl::unexpected<Error>(params.error());
   params->keeps_all = context.config.evaluation().keeps_all_people;
   return std::make_unique<PeopleModule>(context, *params);
 }
 
-Result<ParameterRows> parameters_of_people(const RobotConfig& config) {
-  return list_parameters<PeopleFinderParams>(config, "people");
+Result<robot::ParameterRows> parameters_of_people(const robot::RobotConfig& config) {
+  return robot::list_parameters<people::PeopleFinderParams>(config, "people");
 }
 
-}  // namespace docent
+}  // namespace docent::modules

@@ -8,7 +8,7 @@
 #include "docent/geometry/polygon.h"
 #include "docent/modules/shared/module_bench.h"
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
 constexpr std::uint8_t kOfTheMap = 1;
@@ -50,7 +50,7 @@ class PeopleModule : public ModuleBench {
   Pose2 odom_from_base{1.0, 0.0, Angle::degrees(90.0)};
   bool localized = true;
   std::uint8_t origin = kSurelyNotTheMap;
-  Publisher<docent_msgs::PersonBeams> publisher = world->publisher(topics::kPersonBeams);
+  transport::Publisher<docent_msgs::PersonBeams> publisher = world->publisher(topics::kPersonBeams);
   docent_msgs::People in_map, in_odom;
   int map_count = 0, odom_count = 0;
 };
@@ -130,4 +130,4 @@ TEST_F(PeopleModule, SaysSoAndPublishesNothingWithoutBeams) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::modules

@@ -11,7 +11,7 @@
 #include "docent/modules/shared/initial_pose.h"
 #include "docent/motion_models/odometry_history.h"
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
 constexpr Duration kPeriod = std::chrono::milliseconds{125};
@@ -44,8 +44,8 @@ class SonarLocalizeModule final : public Module {
     publish_belief(bus_.now(), Pose2{});
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const auto& odometry) { on_odometry(odometry); });
     bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const auto& range) { on_sonar(range); });
-    subscribe_initial_pose(bus_, map_,
-                           [this](const BeliefMode& mode, Time stamp) { return start_where_told(mode, stamp); });
+    subscribe_initial_pose(
+        bus_, map_, [this](const localization::BeliefMode& mode, Time stamp) { return start_where_told(mode, stamp); });
     bus_.every(kPeriod, [this] { tell(); });
   }
 
@@ -59,7 +59,7 @@ class SonarLocalizeModule final : public Module {
 
  private:
   [[nodiscard]] bool localized() const {
-    const PoseMatrix covariance = tracker_.covariance();
+    const localization::PoseMatrix covariance = tracker_.covariance();
     return tracker_.p_lost() < kMostDoubt && std::max(covariance[0], covariance[4]) < kWidest * kWidest;
   }
 
@@ -89,7 +89,7 @@ class SonarLocalizeModule final : public Module {
   }
 
   /// As in the other localizers. What the robot has driven since `stamp` is added to the pose that it had then.
-  MessageFault start_where_told(const BeliefMode& mode, Time stamp) {
+  MessageFault start_where_told(const localization::BeliefMode& mode, Time stamp) {
     if (odometry_.empty()) return {"pose", "came before any odometry"};
     restored_.reset();
     const Pose2 then_from_now = inverse(odometry_.at(stamp).value_or(odometry_.latest())) * odometry_.latest();
@@ -110,8 +110,8 @@ class SonarLocalizeModule final : public Module {
   }
 
   void publish_belief(Time stamp, const Pose2& odom_from_robot) {
-    const BeliefSummary summary =
-        gaussian_belief(tracker_.map_from_robot(), tracker_.covariance(), tracker_.p_lost(), map_);
+    const localization::BeliefSummary summary =
+        localization::gaussian_belief(tracker_.map_from_robot(), tracker_.covariance(), tracker_.p_lost(), map_);
     docent_msgs::Belief message;
     message.header = {docent::to_message(stamp), "map"};
     message.map_hash = map_hash_;
@@ -121,7 +121,7 @@ class SonarLocalizeModule final : public Module {
     message.rest = {static_cast<float>(summary.rest_origin.x),     static_cast<float>(summary.rest_origin.y),
                     static_cast<float>(summary.rest_cell_size),    static_cast<std::uint32_t>(summary.rest_columns),
                     static_cast<std::uint32_t>(summary.rest_rows), summary.rest};
-    const BeliefMode& mode = summary.modes.front();
+    const localization::BeliefMode& mode = summary.modes.front();
     message.hypotheses.push_back({mode.map_from_robot.x, mode.map_from_robot.y, mode.map_from_robot.theta.radians(),
                                   mode.covariance, mode.mass});
     message.entropy = summary.entropy;
@@ -159,7 +159,7 @@ class SonarLocalizeModule final : public Module {
     message.header = {docent::to_message(stamp), "map"};
     message.pose.pose = docent::to_message(tracker_.map_from_robot());
     constexpr std::array<std::size_t, 3> kAxes{0, 1, 5};  // x, y, yaw of six
-    const PoseMatrix covariance = tracker_.covariance();
+    const localization::PoseMatrix covariance = tracker_.covariance();
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) message.pose.covariance[kAxes[i] * 6 + kAxes[j]] = covariance[3 * i + j];
     pose_.publish(std::move(message));
@@ -169,13 +169,13 @@ class SonarLocalizeModule final : public Module {
     if (bus_.now() - saved_ < kCheckpointEvery) return;
     saved_ = bus_.now();
     // A checkpoint that cannot be written costs a restarted robot its place, which it then must be told.
-    (void)save_localizer_checkpoint(
+    (void)localization::save_localizer_checkpoint(
         {map_hash_, stamp, odometry_.latest(), {{tracker_.map_from_robot(), tracker_.covariance(), 1.0}}},
         checkpoint_path_);
   }
 
   void restore(const SonarLocalizeParams& params) {
-    auto checkpoint = load_localizer_checkpoint(checkpoint_path_);
+    auto checkpoint = localization::load_localizer_checkpoint(checkpoint_path_);
     if (!checkpoint || checkpoint->map_hash != map_hash_ || checkpoint->modes.empty()) return;
     const Duration age = bus_.now() - checkpoint->time;
     if (age < -kPeriod || age > kCheckpointAge) return;
@@ -184,17 +184,17 @@ class SonarLocalizeModule final : public Module {
     restored_ = checkpoint->odom_from_robot;
   }
 
-  Bus& bus_;
+  transport::Bus& bus_;
   const OccupancyGrid& map_;
-  RobotBody body_;
+  robot::RobotBody body_;
   std::string map_hash_;
   std::filesystem::path checkpoint_path_;
-  SonarTracker tracker_;
-  Publisher<docent_msgs::Belief> belief_;
-  Publisher<geometry_msgs::PoseWithCovarianceStamped> pose_;
-  Publisher<tf2_msgs::TFMessage> transforms_;
-  Publisher<docent_msgs::PersonBeams> person_beams_;
-  OdometryHistory odometry_;
+  localization::SonarTracker tracker_;
+  transport::Publisher<docent_msgs::Belief> belief_;
+  transport::Publisher<geometry_msgs::PoseWithCovarianceStamped> pose_;
+  transport::Publisher<tf2_msgs::TFMessage> transforms_;
+  transport::Publisher<docent_msgs::PersonBeams> person_beams_;
+  motion_models::OdometryHistory odometry_;
   std::optional<Pose2> restored_;  ///< odometry of the checkpoint, until odometry speaks
   Time odometry_received_{};
   Time sonar_received_{};
@@ -213,4 +213,4 @@ std::unique_ptr<Module> make_sonar_localize(const ModuleContext& context, const 
   return std::make_unique<SonarLocalizeModule>(context, params);
 }
 
-}  // namespace docent
+}  // namespace docent::modules

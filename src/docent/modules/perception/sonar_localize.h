@@ -5,11 +5,11 @@
 #include "docent/localization/sonar/tracker/sonar_tracker.h"
 #include "docent/modules/shared/module.h"
 
-namespace docent {
+namespace docent::modules {
 
 /// Section `localize.sonar` of robot.yaml: for robots without laser, `localize.method: sonar`.
 struct SonarLocalizeParams {
-  SonarTrackerParams tracker;
+  localization::SonarTrackerParams tracker;
   std::optional<double> start_x;        ///< [m], map; without: the museum's home
   std::optional<double> start_y;        ///< [m], map
   std::optional<double> start_heading;  ///< [deg] in the map; absent: unknown
@@ -32,4 +32,4 @@ struct SonarLocalizeParams {
 [[nodiscard]] std::unique_ptr<Module> make_sonar_localize(const ModuleContext& context,
                                                           const SonarLocalizeParams& params);
 
-}  // namespace docent
+}  // namespace docent::modules

@@ -10,7 +10,7 @@
 #include "docent/modules/perception/localize_module.h"
 #include "docent/transport/virtual_time_bus.h"
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
 /// `localize` with `method: sonar` before a robot that drives rounds in a room of 9 x 6 m with a case in a corner; its
@@ -30,7 +30,7 @@ class SonarLocalize : public ::testing::Test {
       }
     }
     museum_.home = {2.0, 1.5, Angle{}};
-    world_map_ = std::make_unique<EchoMap>(museum_.map);
+    world_map_ = std::make_unique<localization::EchoMap>(museum_.map);
     truth_ = museum_.home;
     EXPECT_TRUE(config_.set("localize.method=sonar"));
     world_->subscribe<docent_msgs::Belief>(topics::kBelief, [this](const auto& belief) { belief_ = belief; });
@@ -86,15 +86,15 @@ class SonarLocalize : public ::testing::Test {
     return std::hypot(belief_.hypotheses[0].x - truth_.x, belief_.hypotheses[0].y - truth_.y);
   }
 
-  VirtualTimeHub hub_;
-  std::unique_ptr<Bus> world_ = hub_.connect("world");
-  std::unique_ptr<Bus> bus_;
-  Publisher<nav_msgs::Odometry> odometry_publisher_ = world_->publisher(topics::kOdometry);
-  Publisher<sensor_msgs::Range> sonar_publisher_ = world_->publisher(topics::kSonar);
-  Museum museum_;
-  RobotConfig config_;
+  transport::VirtualTimeHub hub_;
+  std::unique_ptr<transport::Bus> world_ = hub_.connect("world");
+  std::unique_ptr<transport::Bus> bus_;
+  transport::Publisher<nav_msgs::Odometry> odometry_publisher_ = world_->publisher(topics::kOdometry);
+  transport::Publisher<sensor_msgs::Range> sonar_publisher_ = world_->publisher(topics::kSonar);
+  museum::Museum museum_;
+  robot::RobotConfig config_;
   std::filesystem::path state_;
-  std::unique_ptr<EchoMap> world_map_;
+  std::unique_ptr<localization::EchoMap> world_map_;
   std::unique_ptr<Module> module_;
   docent_msgs::Belief belief_;
   Pose2 truth_;
@@ -137,11 +137,11 @@ TEST_F(SonarLocalize, SaysWhatIsMissing) {
 }
 
 TEST(SonarLocalizeConfiguration, UnknownMethodsAndWildStartsAreFaults) {
-  RobotConfig config;
+  robot::RobotConfig config;
   ASSERT_TRUE(config.set("localize.method=compass"));
-  VirtualTimeHub hub;
+  transport::VirtualTimeHub hub;
   const auto bus = hub.connect("localize");
-  const Museum museum;
+  const museum::Museum museum;
   const auto made = make_localize({*bus, museum, config, "", 1, true});
   ASSERT_FALSE(made);
   EXPECT_NE(made.error().message.find("method"), std::string::npos);
@@ -151,4 +151,4 @@ TEST(SonarLocalizeConfiguration, UnknownMethodsAndWildStartsAreFaults) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::modules

@@ -7,12 +7,12 @@
 
 #include "docent/messages/conversions.h"
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
-BeliefMode mode_of(const geometry_msgs::PoseWithCovariance& pose, const InitialPoseParams& params) {
+localization::BeliefMode mode_of(const geometry_msgs::PoseWithCovariance& pose, const InitialPoseParams& params) {
   constexpr std::array<std::size_t, 3> kAxes{0, 1, 5};  // x, y, yaw of six
-  BeliefMode mode{from_message(pose.pose), {}, 1.0};
+  localization::BeliefMode mode{from_message(pose.pose), {}, 1.0};
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) mode.covariance[i * 3 + j] = pose.covariance[kAxes[i] * 6 + kAxes[j]];
   const double heading = params.least_heading * std::numbers::pi / 180.0;
@@ -31,16 +31,16 @@ MessageFault fault_in(const OccupancyGrid& map, Point2 place) {
 
 }  // namespace
 
-void subscribe_initial_pose(Bus& bus, const OccupancyGrid& map,
-                            std::function<MessageFault(const BeliefMode& mode, Time stamp)> take,
+void subscribe_initial_pose(transport::Bus& bus, const OccupancyGrid& map,
+                            std::function<MessageFault(const localization::BeliefMode& mode, Time stamp)> take,
                             const InitialPoseParams& params) {
   bus.subscribe<geometry_msgs::PoseWithCovarianceStamped>(
       topics::kInitialPose, [&bus, &map, take = std::move(take), params](const auto& told) {
-        const BeliefMode mode = mode_of(told.pose, params);
+        const localization::BeliefMode mode = mode_of(told.pose, params);
         MessageFault fault = fault_in(map, mode.map_from_robot.position());
         if (!fault) fault = take(mode, from_message(told.header.stamp));
         if (fault) bus.refuse(topics::kInitialPose.name, fault);
       });
 }
 
-}  // namespace docent
+}  // namespace docent::modules

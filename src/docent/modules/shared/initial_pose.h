@@ -6,7 +6,7 @@
 #include "docent/localization/belief/belief_summary.h"
 #include "docent/transport/bus.h"
 
-namespace docent {
+namespace docent::modules {
 
 /// How exactly somebody who points at a map can say where the robot stands. What they claim may be less exact, not
 /// more: many tools send zeros.
@@ -19,8 +19,8 @@ struct InitialPoseParams {
 /// its free floor is refused, which the module's health tells.
 /// @param map   outlives the bus
 /// @param take  gets the pose as the one mode of a belief, and when it was said; returns why it cannot be taken now
-void subscribe_initial_pose(Bus& bus, const OccupancyGrid& map,
-                            std::function<MessageFault(const BeliefMode& mode, Time stamp)> take,
+void subscribe_initial_pose(transport::Bus& bus, const OccupancyGrid& map,
+                            std::function<MessageFault(const localization::BeliefMode& mode, Time stamp)> take,
                             const InitialPoseParams& params = {});
 
-}  // namespace docent
+}  // namespace docent::modules

@@ -11,7 +11,7 @@
 #include "docent/modules/host/module_host.h"
 #include "docent/transport/virtual_time_bus.h"
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
 /// `localize` by each method in a room of 6 x 4 m, without a single scan or echo: what it believes, it was told.
@@ -81,12 +81,13 @@ class InitialPose : public testing::TestWithParam<const char*> {
   }
 
   std::filesystem::path state_;
-  VirtualTimeHub hub_;
-  Museum museum_;
-  RobotConfig config_;
-  std::unique_ptr<Bus> world_ = hub_.connect("world");
-  Publisher<nav_msgs::Odometry> odometry_publisher_ = world_->publisher(topics::kOdometry);
-  Publisher<geometry_msgs::PoseWithCovarianceStamped> pose_publisher_ = world_->publisher(topics::kInitialPose);
+  transport::VirtualTimeHub hub_;
+  museum::Museum museum_;
+  robot::RobotConfig config_;
+  std::unique_ptr<transport::Bus> world_ = hub_.connect("world");
+  transport::Publisher<nav_msgs::Odometry> odometry_publisher_ = world_->publisher(topics::kOdometry);
+  transport::Publisher<geometry_msgs::PoseWithCovarianceStamped> pose_publisher_ =
+      world_->publisher(topics::kInitialPose);
   std::unique_ptr<ModuleHost> host_;
   docent_msgs::Belief belief_;
   docent_msgs::Health health_;
@@ -147,4 +148,4 @@ INSTANTIATE_TEST_SUITE_P(Methods, InitialPose, testing::Values("grid", "particle
                          [](const auto& of) { return std::string{of.param}; });
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::modules

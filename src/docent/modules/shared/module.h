@@ -12,19 +12,19 @@
 #include "docent/robot/robot_config.h"
 #include "docent/transport/bus.h"
 
-namespace docent {
+namespace docent::modules {
 
 /// What a module is given. All references outlive the module.
 struct ModuleContext {
-  Bus& bus;
-  const Museum& museum;
-  const RobotConfig& config;
+  transport::Bus& bus;
+  const museum::Museum& museum;
+  const robot::RobotConfig& config;
   std::filesystem::path state;  ///< --state DIR: checkpoints, databases; exists
   std::uint64_t seed = 0;
   bool virtual_time = false;
   /// For `record` alone, where a simulator runs: the bus of what is true. Its handlers run on a thread of their own, so
   /// they `bus.post` what they got. Null everywhere else.
-  Bus* truth = nullptr;
+  transport::Bus* truth = nullptr;
   Duration day_begins = std::chrono::hours{10};  ///< the time of day at which virtual time begins
   std::filesystem::path cache{};                 ///< --cache DIR: what can be made anew; empty: nothing is kept
 };
@@ -48,6 +48,6 @@ class Module {
 /// Error: a fault of the configuration, with file and line. Every module NAME has `make_NAME` in NAME_module.h.
 using ModuleFactory = Result<std::unique_ptr<Module>> (*)(const ModuleContext& context);
 /// The keys of a module's section of robot.yaml with the values that hold; error: as above. `parameters_of_NAME`.
-using ModuleParameters = Result<ParameterRows> (*)(const RobotConfig& config);
+using ModuleParameters = Result<robot::ParameterRows> (*)(const robot::RobotConfig& config);
 
-}  // namespace docent
+}  // namespace docent::modules

@@ -15,7 +15,7 @@
 
 // For tests of one module: it is alone on a bus of virtual time, and the test says and hears all the rest.
 
-namespace docent {
+namespace docent::modules {
 
 class ModuleBench : public ::testing::Test {
  protected:
@@ -52,17 +52,17 @@ class ModuleBench : public ::testing::Test {
                      }});
   }
 
-  VirtualTimeHub hub;
-  Museum museum;
-  RobotConfig config;
+  transport::VirtualTimeHub hub;
+  museum::Museum museum;
+  robot::RobotConfig config;
   std::filesystem::path state = std::filesystem::temp_directory_path() / ("docent_module_" + std::to_string(getpid()));
-  std::unique_ptr<Bus> world = hub.connect("world");
+  std::unique_ptr<transport::Bus> world = hub.connect("world");
   std::unique_ptr<Module> module;
 
  private:
   std::string name_;
   ModuleFactory make_;
-  std::unique_ptr<Bus> bus_;
+  std::unique_ptr<transport::Bus> bus_;
 };
 
-}  // namespace docent
+}  // namespace docent::modules

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <ctime>
 
-namespace docent {
+namespace docent::modules {
 
 int MuseumMode::minute_of_day(Time now) const {
   if (is_virtual_) {
@@ -19,24 +19,24 @@ int MuseumMode::minute_of_day(Time now) const {
 }
 
 std::string MuseumMode::name(Time now) const {
-  return is_by_hours() ? mode_at(museum_, minute_of_day(now)) : limits_->mode;
+  return is_by_hours() ? museum::mode_at(museum_, minute_of_day(now)) : limits_->mode;
 }
 
-const Mode* MuseumMode::mode(Time now) const {
+const museum::Mode* MuseumMode::mode(Time now) const {
   const auto place = museum_.modes.find(name(now));
   return place == museum_.modes.end() ? nullptr : &place->second;
 }
 
 std::optional<double> MuseumMode::max_speed(Time now) const {
   if (!is_by_hours()) return limits_->max_speed;
-  const Mode* present = mode(now);
+  const museum::Mode* present = mode(now);
   if (present == nullptr) return limits_ ? std::optional{limits_->max_speed} : std::nullopt;
   return limits_ ? std::min(present->max_speed, limits_->max_speed) : present->max_speed;
 }
 
 double MuseumMode::wait_s(Time now) const {
-  const Mode* present = mode(now);
+  const museum::Mode* present = mode(now);
   return present == nullptr ? 0.0 : present->wait_s;
 }
 
-}  // namespace docent
+}  // namespace docent::modules

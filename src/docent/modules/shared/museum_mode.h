@@ -7,7 +7,7 @@
 #include "docent/modules/shared/module.h"
 #include "docent/vocabulary/vocabulary.h"
 
-namespace docent {
+namespace docent::modules {
 
 /// Which mode of the museum holds, and what follows from it. What the operator says on docent/limits counts; where they
 /// say the mode `hours`, and as long as they say nothing, the museum's hours decide by the time of day. That is the
@@ -31,12 +31,12 @@ class MuseumMode {
 
  private:
   [[nodiscard]] int minute_of_day(Time now) const;
-  [[nodiscard]] const Mode* mode(Time now) const;
+  [[nodiscard]] const museum::Mode* mode(Time now) const;
 
-  const Museum& museum_;
+  const museum::Museum& museum_;
   bool is_virtual_;
   Duration day_begins_;
   std::optional<docent_msgs::Limits> limits_;
 };
 
-}  // namespace docent
+}  // namespace docent::modules

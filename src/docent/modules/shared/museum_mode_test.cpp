@@ -4,7 +4,7 @@
 
 #include "docent/transport/virtual_time_bus.h"
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
 class MuseumModeTest : public testing::Test {
@@ -13,16 +13,16 @@ class MuseumModeTest : public testing::Test {
     museum.modes = {{"open", {0.7, 0.0, {}}}, {"web", {0.4, 30.0, {"18:30-21:30"}}}, {"closed", {1.63, 0.0, {}}}};
   }
   [[nodiscard]] MuseumMode mode_from(const std::string& begins) const {
-    const std::unique_ptr<Bus> bus = hub.connect("test");
+    const std::unique_ptr<transport::Bus> bus = hub.connect("test");
     ModuleContext context{*bus, museum, config, {}, 1, true};
     context.day_begins = std::chrono::minutes{std::stoi(begins) * 60};
     return MuseumMode{context};
   }
   static Time at(double minutes) { return time_from_seconds(60.0 * minutes); }
 
-  mutable VirtualTimeHub hub;
-  Museum museum;
-  RobotConfig config;
+  mutable transport::VirtualTimeHub hub;
+  museum::Museum museum;
+  robot::RobotConfig config;
 };
 
 TEST_F(MuseumModeTest, TheHoursDecideAsLongAsTheOperatorSaysNothing) {
@@ -63,4 +63,4 @@ TEST_F(MuseumModeTest, AMuseumWithoutModesIsOpen) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::modules

@@ -7,7 +7,7 @@
 #include "docent/messages/conversions.h"
 #include "docent/messages/topics.h"
 
-namespace docent {
+namespace docent::modules {
 
 /// Carries the belief's best hypothesis forward with odometry. For modules that plan or draw; never for safety, which
 /// uses the whole belief.
@@ -52,9 +52,9 @@ class PoseTracker {
   bool localized_ = false;
   std::optional<Pose2> map_from_odom_;
   std::optional<Pose2> odom_from_base_;
-  BaseHistory history_;
+  collision_avoidance::BaseHistory history_;
   Time belief_stamp_{};
   Time odometry_stamp_{};
 };
 
-}  // namespace docent
+}  // namespace docent::modules

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::modules {
 namespace {
 
 TEST(PoseTracker, KnowsWhereTheBaseWasWhenAReadingWasTaken) {
@@ -33,4 +33,4 @@ TEST(PoseTracker, KnowsWhereTheBaseWasWhenAReadingWasTaken) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::modules

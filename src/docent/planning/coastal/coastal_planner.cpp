@@ -6,7 +6,7 @@
 #include <numbers>
 #include <queue>
 
-namespace docent {
+namespace docent::planning {
 namespace {
 
 constexpr float kClosed = std::numeric_limits<float>::infinity();
@@ -292,4 +292,4 @@ std::vector<double> CoastalPlanner::variances_along(Point2 start, std::span<cons
   return variances;
 }
 
-}  // namespace docent
+}  // namespace docent::planning

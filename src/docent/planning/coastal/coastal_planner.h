@@ -9,7 +9,7 @@
 #include "docent/planning/coastal/place_information.h"
 #include "docent/planning/coastal/uncertainty.h"
 
-namespace docent {
+namespace docent::planning {
 
 /// Ways that keep near what the lasers can see.
 struct CoastalParams {
@@ -112,4 +112,4 @@ class CoastalPlanner {
   bool is_settled_ = false;
 };
 
-}  // namespace docent
+}  // namespace docent::planning

@@ -9,11 +9,11 @@
 #include "docent/planning/coastal/testing.h"
 #include "docent/planning/value_iteration/value_iteration.h"
 
-namespace docent {
+namespace docent::planning {
 namespace {
 
-using coastal_testing::floor_of;
-using coastal_testing::hall;
+using testing::floor_of;
+using testing::hall;
 
 constexpr double kKnown = 0.05 * 0.05;  // [m2]
 
@@ -189,4 +189,4 @@ TEST(CoastalParams, RefusesNonsense) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::planning

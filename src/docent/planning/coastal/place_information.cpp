@@ -5,7 +5,7 @@
 #include <numbers>
 #include <optional>
 
-namespace docent {
+namespace docent::planning {
 namespace {
 
 constexpr double kUnknownAllowance = 0.3;  // [m] of a ray that the map may not know
@@ -83,7 +83,8 @@ std::array<double, 3> PoseInformation::eigenvalues(double heading_scale) const {
   return {std::max(0.0, first), std::max(0.0, 3.0 * mean - first - last), std::max(0.0, last)};
 }
 
-std::vector<float> ranges_around(const RayCaster& caster, Point2 in_map, const PlaceInformationParams& params) {
+std::vector<float> ranges_around(const sensor_models::RayCaster& caster, Point2 in_map,
+                                 const PlaceInformationParams& params) {
   std::vector<float> ranges(static_cast<std::size_t>(params.beams));
   const double step = 2.0 * std::numbers::pi / params.beams;
   for (std::size_t beam = 0; beam < ranges.size(); ++beam) {
@@ -137,7 +138,7 @@ PoseInformation scan_information(std::span<const float> ranges, double rate, con
 
 InformationMap information_map(const OccupancyGrid& map, const GridFrame& frame, std::span<const float> costs,
                                const PlaceInformationParams& params) {
-  const RayCaster caster{map};
+  const sensor_models::RayCaster caster{map};
   std::vector<float> ranges;  // of the open cells, one after another
   for (int row = 0; row < frame.rows; ++row) {
     for (int column = 0; column < frame.columns; ++column) {
@@ -158,4 +159,4 @@ InformationMap information_map(const OccupancyGrid& map, const GridFrame& frame,
   return result;
 }
 
-}  // namespace docent
+}  // namespace docent::planning

@@ -8,7 +8,7 @@
 #include "docent/grid/occupancy_grid.h"
 #include "docent/sensor_models/ray_caster.h"
 
-namespace docent {
+namespace docent::planning {
 
 /// What a range finder that looks all round can tell in a building full of people.
 struct PlaceInformationParams {
@@ -43,7 +43,7 @@ struct PoseInformation {
 
 /// Ranges [m] that a perfect sensor measures all round from a place: `beams` of them, counter-clockwise from the x
 /// axis; `range` where nothing is nearer or the map does not know. O(beams) rays.
-[[nodiscard]] std::vector<float> ranges_around(const RayCaster& caster, Point2 in_map,
+[[nodiscard]] std::vector<float> ranges_around(const sensor_models::RayCaster& caster, Point2 in_map,
                                                const PlaceInformationParams& params);
 
 /// Rate [1/m] at which people hide beams: one of length r stays free with probability exp(-rate r), as among people who
@@ -72,4 +72,4 @@ struct InformationMap {
 [[nodiscard]] InformationMap information_map(const OccupancyGrid& map, const GridFrame& frame,
                                              std::span<const float> costs, const PlaceInformationParams& params);
 
-}  // namespace docent
+}  // namespace docent::planning

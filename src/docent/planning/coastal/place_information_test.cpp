@@ -7,19 +7,19 @@
 #include "docent/base/random.h"
 #include "docent/planning/coastal/testing.h"
 
-namespace docent {
+namespace docent::planning {
 namespace {
 
-using coastal_testing::hall;
+using testing::hall;
 
-PoseInformation information_at(const RayCaster& caster, Point2 place, const PlaceInformationParams& params,
-                               double rate = 0.0) {
+PoseInformation information_at(const sensor_models::RayCaster& caster, Point2 place,
+                               const PlaceInformationParams& params, double rate = 0.0) {
   return scan_information(ranges_around(caster, place, params), rate, params);
 }
 
 TEST(PlaceInformation, OfACorridorIsAcrossItAndOfTheHeading) {
   // 40 m long, so that its ends are out of reach.
-  const auto corridor = information_at(RayCaster{hall(40.0, 3.0)}, {20.0, 1.2}, {});
+  const auto corridor = information_at(sensor_models::RayCaster{hall(40.0, 3.0)}, {20.0, 1.2}, {});
   EXPECT_GT(corridor.yy, 1000.0);
   EXPECT_GT(corridor.tt, 100.0);
   EXPECT_LT(corridor.xx, 1e-3 * corridor.yy);
@@ -28,7 +28,7 @@ TEST(PlaceInformation, OfACorridorIsAcrossItAndOfTheHeading) {
 }
 
 TEST(PlaceInformation, OfASquareRoomIsTheSameBothWays) {
-  const auto room = information_at(RayCaster{hall(6.0, 6.0)}, {3.0, 3.0}, {});
+  const auto room = information_at(sensor_models::RayCaster{hall(6.0, 6.0)}, {3.0, 3.0}, {});
   EXPECT_NEAR(room.xx, room.yy, 0.02 * room.xx);
   EXPECT_NEAR(room.xy, 0.0, 0.02 * room.xx);
 }
@@ -36,7 +36,7 @@ TEST(PlaceInformation, OfASquareRoomIsTheSameBothWays) {
 TEST(PlaceInformation, IsNoneWhereNothingIsInReach) {
   PlaceInformationParams params;
   params.range = 2.5;
-  const RayCaster caster{hall(20.0, 20.0)};
+  const sensor_models::RayCaster caster{hall(20.0, 20.0)};
   const auto middle = information_at(caster, {10.0, 10.0}, params);
   EXPECT_EQ(middle.xx + middle.yy + middle.tt, 0.0);
   const auto beside = information_at(caster, {10.0, 1.0}, params);
@@ -55,7 +55,7 @@ TEST(PlaceInformation, IsTheSquareOfTheRangesSlopes) {
   PlaceInformationParams params;
   params.map_deviation = 0.0;
   params.beams = 360;
-  const RayCaster caster{map};
+  const sensor_models::RayCaster caster{map};
   const Point2 place{3.2, 2.9};
   const auto found = information_at(caster, place, params);
   PoseInformation wanted;
@@ -77,7 +77,7 @@ TEST(PlaceInformation, IsTheSquareOfTheRangesSlopes) {
 }
 
 TEST(PlaceInformation, FallsWithTheCrowdAndGrowsWithTheReach) {
-  const RayCaster caster{hall(12.0, 9.0)};
+  const sensor_models::RayCaster caster{hall(12.0, 9.0)};
   Rng rng{7};
   for (int trial = 0; trial < 50; ++trial) {
     const Point2 place{rng.uniform(0.5, 11.5), rng.uniform(0.5, 8.5)};
@@ -104,7 +104,7 @@ TEST(PlaceInformation, HidesTheShareOfBeamsThatIsAskedFor) {
   for (const double blocked : {0.2, 0.6, 0.9}) {
     PlaceInformationParams params;
     params.blocked = blocked;
-    const auto ranges = ranges_around(RayCaster{map}, {4.0, 3.0}, params);
+    const auto ranges = ranges_around(sensor_models::RayCaster{map}, {4.0, 3.0}, params);
     const double rate = hiding_rate(ranges, params);
     double hidden = 0.0;
     for (const float range : ranges) hidden += 1.0 - std::exp(-rate * static_cast<double>(range));
@@ -142,4 +142,4 @@ TEST(PlaceInformationParams, RefusesNonsense) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::planning

@@ -5,7 +5,7 @@
 #include "docent/grid/occupancy_grid.h"
 #include "docent/planning/coastal/coastal_planner.h"
 
-namespace docent::coastal_testing {
+namespace docent::planning::testing {
 
 /// An empty hall of `width` x `height` metres with walls of 20 cm, its lower left inner corner at (0, 0).
 inline OccupancyGrid hall(double width, double height) {
@@ -46,4 +46,4 @@ inline CoastalFloor floor_of(const OccupancyGrid& map) {
   return floor;
 }
 
-}  // namespace docent::coastal_testing
+}  // namespace docent::planning::testing

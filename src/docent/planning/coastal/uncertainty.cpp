@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace docent {
+namespace docent::planning {
 
 Result<void> UncertaintyParams::validate() const {
   if (!(heading_scale > 0.0)) return fail("heading_scale must be > 0");
@@ -35,4 +35,4 @@ double Uncertainty::variance_of(const std::array<double, 9>& c) const {
   return std::cbrt(std::max(0.0, determinant) / (k * k));
 }
 
-}  // namespace docent
+}  // namespace docent::planning

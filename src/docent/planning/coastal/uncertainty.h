@@ -5,11 +5,11 @@
 #include "docent/base/result.h"
 #include "docent/motion_models/odometry_model.h"
 
-namespace docent {
+namespace docent::planning {
 
 /// How the degree of uncertainty grows with the way and shrinks by what the sensors tell.
 struct UncertaintyParams {
-  OdometryModelParams motion;    ///< how the robot's odometry errs
+  motion_models::OdometryModelParams motion;  ///< how the robot's odometry errs
   double heading_scale = 0.25;   ///< [rad/m], > 0: heading deviation that goes with a metre of position deviation
   double scans_per_metre = 4.0;  ///< > 0: updates of the belief
   template <class V>
@@ -48,4 +48,4 @@ class Uncertainty {
   UncertaintyParams params_;
 };
 
-}  // namespace docent
+}  // namespace docent::planning

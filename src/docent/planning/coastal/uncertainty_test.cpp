@@ -7,7 +7,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent {
+namespace docent::planning {
 namespace {
 
 TEST(Uncertainty, GrowsWithTheWayInTheDark) {
@@ -64,4 +64,4 @@ TEST(Uncertainty, EntropyIsThatOfTheGaussian) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::planning

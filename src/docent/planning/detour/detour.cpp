@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace docent {
+namespace docent::planning {
 
 const char* to_text(Detour detour) {
   constexpr std::array<const char*, 3> kTexts{"none", "local", "global"};
@@ -14,4 +14,4 @@ Detour detour_of(const std::string& text) {
   return text == to_text(Detour::global) ? Detour::global : Detour::none;
 }
 
-}  // namespace docent
+}  // namespace docent::planning

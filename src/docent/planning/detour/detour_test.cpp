@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::planning {
 namespace {
 
 TEST(Detour, TextsRoundTrip) {
@@ -12,4 +12,4 @@ TEST(Detour, TextsRoundTrip) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::planning

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace docent {
+namespace docent::planning {
 
 void Clearances::add(const Pose2& base_from_sensor, double first_bearing, double bearing_step, double max_range,
                      std::span<const float> ranges) {
@@ -31,4 +31,4 @@ std::vector<double> Clearances::free() const {
   return result;
 }
 
-}  // namespace docent
+}  // namespace docent::planning

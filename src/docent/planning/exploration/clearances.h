@@ -6,7 +6,7 @@
 
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::planning {
 
 /// Free distance all round the robot, every 2 degrees from -180, of sweeps that were taken where it was a moment ago.
 class Clearances {
@@ -31,4 +31,4 @@ class Clearances {
   std::array<double, kDirections> least_{};
 };
 
-}  // namespace docent
+}  // namespace docent::planning

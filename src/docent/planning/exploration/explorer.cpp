@@ -6,7 +6,7 @@
 
 #include "docent/planning/value_iteration/value_iteration.h"
 
-namespace docent {
+namespace docent::planning {
 namespace {
 
 constexpr int kEnough = std::numeric_limits<int>::max();
@@ -103,4 +103,4 @@ std::optional<Exploration> Explorer::next(const OccupancyGrid& map, Point2 robot
   return result;
 }
 
-}  // namespace docent
+}  // namespace docent::planning

@@ -7,7 +7,7 @@
 #include "docent/base/result.h"
 #include "docent/grid/occupancy_grid.h"
 
-namespace docent {
+namespace docent::planning {
 
 struct ExplorerParams {
   int coarsening = 2;           ///< planning cell = so many map cells
@@ -57,4 +57,4 @@ class Explorer {
   std::optional<Point2> last_;    ///< [m], map: the goal before
 };
 
-}  // namespace docent
+}  // namespace docent::planning

@@ -10,7 +10,7 @@
 #include "docent/base/random.h"
 #include "docent/sensor_models/ray_caster.h"
 
-namespace docent {
+namespace docent::planning {
 namespace {
 
 constexpr double kRange = 4.0;  // [m]
@@ -50,7 +50,7 @@ OccupancyGrid any_floor(Rng& rng) {
 }
 
 /// What 720 beams from here show.
-void see(const RayCaster& caster, Point2 from, OccupancyGrid& known) {
+void see(const sensor_models::RayCaster& caster, Point2 from, OccupancyGrid& known) {
   const double step = 0.3 * known.frame.resolution;
   for (int beam = 0; beam < 720; ++beam) {
     const double bearing = beam * std::numbers::pi / 360.0;
@@ -94,7 +94,7 @@ TEST(Explorer, ExploresUntilNothingReachableIsUnknown) {
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     Rng rng{seed};
     const OccupancyGrid truth = any_floor(rng);
-    const RayCaster caster{truth};
+    const sensor_models::RayCaster caster{truth};
     OccupancyGrid known = truth;
     std::fill(known.cells.begin(), known.cells.end(), OccupancyGrid::kUnknown);
     Point2 robot = truth.frame.centre({40, 40});
@@ -166,4 +166,4 @@ TEST(Explorer, WhatCannotBeSeenIsGivenUp) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::planning

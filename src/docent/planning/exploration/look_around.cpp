@@ -6,7 +6,7 @@
 
 #include "docent/planning/exploration/tell_apart.h"
 
-namespace docent {
+namespace docent::planning {
 namespace {
 
 constexpr double kNeeded = 1.3;        ///< [m] of free way that makes a drive worthwhile
@@ -78,4 +78,4 @@ LookAroundStep LookAround::step(const Pose2& odom_from_base, std::span<const dou
   return turn_on(odom_from_base);
 }
 
-}  // namespace docent
+}  // namespace docent::planning

@@ -7,7 +7,7 @@
 #include "docent/base/time.h"
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::planning {
 
 struct LookAroundStep {
   bool drive = false;  ///< else turn
@@ -47,4 +47,4 @@ class LookAround {
   std::optional<Time> asked_;  ///< when `telling` was asked last
 };
 
-}  // namespace docent
+}  // namespace docent::planning

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace docent {
+namespace docent::planning {
 namespace {
 
 constexpr double kMapError = 0.3;   // [m] a smaller difference is none
@@ -161,4 +161,4 @@ std::optional<TellApart::Place> TellApart::best_place(std::span<const PossiblePo
   return best;
 }
 
-}  // namespace docent
+}  // namespace docent::planning

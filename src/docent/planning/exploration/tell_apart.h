@@ -9,7 +9,7 @@
 #include "docent/grid/occupancy_grid.h"
 #include "docent/sensor_models/ray_caster.h"
 
-namespace docent {
+namespace docent::planning {
 
 /// Where to drive while lost, to tell hypotheses apart.
 struct TellApartParams {
@@ -76,7 +76,7 @@ class TellApart {
   /// What would be read there if the hypothesis were right; empty where the robot could not stand.
   [[nodiscard]] std::vector<double> imagined(const PossiblePose& hypothesis, Point2 in_base, double max_range) const;
 
-  RayCaster caster_;
+  sensor_models::RayCaster caster_;
   double radius_;
   TellApartParams params_;
 };
@@ -84,4 +84,4 @@ class TellApart {
 /// The least clearance within 20 degrees of direction `index`: the robot is wider than a beam.
 [[nodiscard]] double clearance_of_cone(std::span<const double> clearances, int index);
 
-}  // namespace docent
+}  // namespace docent::planning

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace docent {
+namespace docent::planning {
 namespace {
 
 constexpr double kRange = 10.0;  // [m] of the laser
@@ -96,4 +96,4 @@ TEST(TellApartParams, RefusesNonsense) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::planning

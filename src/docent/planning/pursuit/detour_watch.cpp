@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace docent {
+namespace docent::planning {
 namespace {
 
 struct Nearest {
@@ -82,4 +82,4 @@ Detour DetourWatch::update(std::span<const Point2> way, Time now) {
   return change_;
 }
 
-}  // namespace docent
+}  // namespace docent::planning

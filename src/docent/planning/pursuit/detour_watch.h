@@ -9,7 +9,7 @@
 #include "docent/geometry/pose2.h"
 #include "docent/planning/detour/detour.h"
 
-namespace docent {
+namespace docent::planning {
 
 /// When a blocked way is left for another one.
 struct DetourParams {
@@ -66,4 +66,4 @@ class DetourWatch {
   double extra_ = 0.0;
 };
 
-}  // namespace docent
+}  // namespace docent::planning

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::planning {
 namespace {
 
 /// Corners joined by points 0.2 m apart, as RoutePlanner gives them.
@@ -70,4 +70,4 @@ TEST_F(DetourWatchTest, AnotherGoalIsNoDetour) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::planning

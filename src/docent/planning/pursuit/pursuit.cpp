@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace docent {
+namespace docent::planning {
 
 Result<void> PursuitParams::validate() const {
   if (!(horizon > 0.0)) return fail("horizon must be > 0");
@@ -116,4 +116,4 @@ Pursuit GoalPursuit::follow(const std::vector<Point2>& way, Point2 here, Time no
   return pursuit;
 }
 
-}  // namespace docent
+}  // namespace docent::planning

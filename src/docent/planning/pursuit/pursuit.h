@@ -11,7 +11,7 @@
 #include "docent/planning/value_iteration/route.h"
 #include "docent/vocabulary/vocabulary.h"
 
-namespace docent {
+namespace docent::planning {
 
 /// How a way is followed, and when it counts as blocked.
 struct PursuitParams {
@@ -82,4 +82,4 @@ class GoalPursuit {
   DetourWatch detour_;
 };
 
-}  // namespace docent
+}  // namespace docent::planning

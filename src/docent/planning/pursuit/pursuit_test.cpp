@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::planning {
 namespace {
 
 class PursuitTest : public ::testing::Test {
@@ -79,4 +79,4 @@ TEST_F(PursuitTest, WaitsWhileItDoesNotKnowWhereItIs) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::planning

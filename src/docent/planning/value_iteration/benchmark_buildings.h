@@ -13,7 +13,7 @@
 
 // Random buildings of 5 cm a cell for value_iteration_benchmark.cpp.
 
-namespace docent::benchmarks {
+namespace docent::planning::benchmarks {
 
 inline constexpr double kResolution = 0.05;  ///< [m/cell]
 
@@ -126,4 +126,4 @@ inline std::vector<float> costs_of(const OccupancyGrid& map) {
   return costs;
 }
 
-}  // namespace docent::benchmarks
+}  // namespace docent::planning::benchmarks

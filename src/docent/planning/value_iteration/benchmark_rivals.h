@@ -17,7 +17,7 @@
 // Dijkstra is meant to be fair: flat arrays with a closed border, so that nothing tests bounds, entries of eight
 // bytes, nothing allocated while it runs.
 
-namespace docent::benchmarks {
+namespace docent::planning::benchmarks {
 
 /// Backwards from the goal, over a grid with a closed border.
 class Dijkstra {
@@ -160,4 +160,4 @@ class WavePropagation {
   float threshold_ = 0.0F;
 };
 
-}  // namespace docent::benchmarks
+}  // namespace docent::planning::benchmarks

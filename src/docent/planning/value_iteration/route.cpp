@@ -7,7 +7,7 @@
 #include <queue>
 #include <utility>
 
-namespace docent {
+namespace docent::planning {
 
 Result<void> RouteParams::validate() const {
   if (coarsening < 1 || coarsening > 20) return fail("coarsening must be in 1..20");
@@ -383,4 +383,4 @@ std::vector<Point2> RoutePlanner::way(Point2 start) const {
   return way;
 }
 
-}  // namespace docent
+}  // namespace docent::planning

@@ -11,7 +11,7 @@
 #include "docent/grid/occupancy_grid.h"
 #include "docent/planning/value_iteration/value_iteration.h"
 
-namespace docent {
+namespace docent::planning {
 
 /// What makes floor dear or closed to a way.
 struct RouteParams {
@@ -131,4 +131,4 @@ class RoutePlanner {
   std::vector<CellIndex> chosen_;     ///< the same before any step aside
 };
 
-}  // namespace docent
+}  // namespace docent::planning

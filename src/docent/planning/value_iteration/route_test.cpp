@@ -8,7 +8,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent {
+namespace docent::planning {
 namespace {
 
 /// 6 x 4 m, walled in, with a wall from below in the middle that leaves a gap at the top.
@@ -363,4 +363,4 @@ TEST(RoutePlanner, GivesUpTheWayHeldForOneThatIsClearlyBetter) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::planning

@@ -8,7 +8,7 @@
 
 #include "docent/base/kernel_targets.h"
 
-namespace docent {
+namespace docent::planning {
 
 namespace {
 
@@ -61,4 +61,4 @@ constexpr int kWidth = 16;
 
 const TileKernels& tile_kernels(InstructionSet set) { return kernels_for<TileKernels>(set, DOCENT_KERNELS); }
 
-}  // namespace docent
+}  // namespace docent::planning

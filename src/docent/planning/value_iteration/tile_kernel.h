@@ -7,7 +7,7 @@
 
 #include "docent/base/instruction_set.h"
 
-namespace docent {
+namespace docent::planning {
 
 /// Value iteration works on square tiles of the grid, [kTileSide][kTileSide] floats each, row by row, aligned to 64
 /// bytes: a tile's values and costs stay in the first caches until nothing changes in it.
@@ -49,4 +49,4 @@ struct TileKernels {
 
 [[nodiscard]] const TileKernels& tile_kernels(InstructionSet set);
 
-}  // namespace docent
+}  // namespace docent::planning

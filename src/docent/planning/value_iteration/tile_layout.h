@@ -6,7 +6,7 @@
 
 #include "docent/planning/value_iteration/tile_kernel.h"
 
-namespace docent {
+namespace docent::planning {
 
 /// A step from one cell to a neighbour; `length` in cells.
 struct GridStep {
@@ -26,4 +26,4 @@ inline constexpr std::array<GridStep, 8> kGridSteps{{{1, 0, 1.0F},
 inline constexpr std::uint64_t kAllLines = ~std::uint64_t{0} >> (64 - kTileSide);  ///< of a tile, a bit each
 inline constexpr int kLastLine = kTileSide - 1;
 
-}  // namespace docent
+}  // namespace docent::planning

@@ -6,7 +6,7 @@
 
 // What is done in one tile: it takes what its neighbours offer, sweeps until nothing changes, and offers in turn.
 
-namespace docent {
+namespace docent::planning {
 namespace {
 
 constexpr std::uint64_t kOffersALine =
@@ -278,4 +278,4 @@ void ValueIteration::pass_on_losses(std::size_t tile, const std::array<Edge, 4>&
   }
 }
 
-}  // namespace docent
+}  // namespace docent::planning

@@ -5,7 +5,7 @@
 #include "docent/base/check.h"
 #include "docent/planning/value_iteration/tile_layout.h"
 
-namespace docent {
+namespace docent::planning {
 namespace {
 
 std::uint64_t row_bit(CellIndex cell) { return std::uint64_t{1} << cell.row % kTileSide; }
@@ -210,4 +210,4 @@ std::vector<CellIndex> ValueIteration::descend(CellIndex start) const {
   return way;
 }
 
-}  // namespace docent
+}  // namespace docent::planning

@@ -14,7 +14,7 @@
 #include "docent/grid/occupancy_grid.h"
 #include "docent/planning/value_iteration/tile_kernel.h"
 
-namespace docent {
+namespace docent::planning {
 
 /// Value iteration on a grid [Rhino1999] 4.2, steps (1) to (5): V of a cell is the least cost of a way to
 /// the nearest goal, where entering a neighbour costs that neighbour's cost times the step's length in cells.
@@ -196,4 +196,4 @@ inline float ValueIteration::value(CellIndex cell) const {
   return tiles_[tile_of(cell)].is_blank ? kClosed : values_[index(cell)];
 }
 
-}  // namespace docent
+}  // namespace docent::planning

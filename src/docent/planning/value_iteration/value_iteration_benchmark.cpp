@@ -15,7 +15,7 @@
 /// Value iteration against Dijkstra's algorithm with a std::priority_queue, over random buildings of 5 cm a cell, on
 /// one core: the full value function, and after an obstacle of 1 x 1 m has appeared on the way of a robot. Ratios
 /// within one run mean something.
-namespace docent {
+namespace docent::planning {
 namespace {
 
 using namespace benchmarks;
@@ -285,4 +285,4 @@ void full_solve_and_replanning(benchmark::State& state) {
 BENCHMARK(full_solve_and_replanning)->Args({1000, 4, 40})->Args({4000, 2, 40})->Iterations(1)->Unit(benchmark::kSecond);
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::planning

@@ -11,7 +11,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent {
+namespace docent::planning {
 namespace {
 
 using Goal = ValueIteration::Goal;
@@ -329,4 +329,4 @@ TEST(ValueIteration, DescendsRoundAUShape) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::planning

@@ -6,7 +6,7 @@
 
 // How values that have lost their ground are repaired, only as far as the value of one cell needs it.
 
-namespace docent {
+namespace docent::planning {
 
 bool ValueIteration::settle(CellIndex cell, int most_visits) {
   // A value is final when nothing that falls can lower it and when a chain of cells, each less than the one before and
@@ -189,4 +189,4 @@ void ValueIteration::start_over_above(float sound) {
   }
 }
 
-}  // namespace docent
+}  // namespace docent::planning

@@ -12,7 +12,7 @@
 // The bytes of an MCAP file: magic, records (one byte kind, eight bytes length, content), magic. All numbers little
 // endian, strings with a length of four bytes in front, maps and arrays with their size in bytes in front.
 
-namespace docent::mcap {
+namespace docent::recording::mcap {
 
 inline constexpr std::array<std::uint8_t, 8> kMagic{0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
 
@@ -124,4 +124,4 @@ class ByteReader {
   bool good_ = true;
 };
 
-}  // namespace docent::mcap
+}  // namespace docent::recording::mcap

@@ -15,7 +15,7 @@
 
 #include "docent/recording/mcap/format.h"
 
-namespace docent {
+namespace docent::recording {
 namespace {
 
 using Bytes = std::span<const std::uint8_t>;
@@ -440,4 +440,4 @@ Result<void> McapReader::read(const Selection& selection, const std::function<bo
   return Reading{*state_, selection, handler}.run();
 }
 
-}  // namespace docent
+}  // namespace docent::recording

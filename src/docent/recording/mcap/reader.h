@@ -15,7 +15,7 @@
 #include "docent/base/time.h"
 #include "docent/recording/mcap/writer.h"
 
-namespace docent {
+namespace docent::recording {
 
 /// A message as it lies in a recording. Valid during the call that hands it over.
 struct McapMessage {
@@ -68,4 +68,4 @@ class McapReader {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace docent
+}  // namespace docent::recording

@@ -5,7 +5,7 @@
 #include "docent/recording/mcap/reader.h"
 #include "docent/recording/mcap/writer.h"
 
-namespace docent {
+namespace docent::recording {
 
 Result<RecoveryReport> recover_mcap(const std::filesystem::path& path, const std::filesystem::path& out) {
   // Not beside `out` under the writer's usual name: that may be the very file that is read.
@@ -47,4 +47,4 @@ Result<RecoveryReport> recover_mcap(const std::filesystem::path& path, const std
   return report;
 }
 
-}  // namespace docent
+}  // namespace docent::recording

@@ -7,7 +7,7 @@
 
 #include "docent/base/result.h"
 
-namespace docent {
+namespace docent::recording {
 
 struct RecoveryReport {
   std::uint64_t messages = 0;
@@ -18,4 +18,4 @@ struct RecoveryReport {
 /// Error: not an MCAP file, or `out` cannot be written.
 [[nodiscard]] Result<RecoveryReport> recover_mcap(const std::filesystem::path& path, const std::filesystem::path& out);
 
-}  // namespace docent
+}  // namespace docent::recording

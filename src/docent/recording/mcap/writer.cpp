@@ -14,7 +14,7 @@
 #include "docent/base/check.h"
 #include "docent/recording/mcap/format.h"
 
-namespace docent {
+namespace docent::recording {
 namespace {
 
 using mcap::ByteWriter;
@@ -382,4 +382,4 @@ std::uint64_t McapWriter::messages() const {
 }
 std::uint64_t McapWriter::bytes_written() const { return state_->position; }
 
-}  // namespace docent
+}  // namespace docent::recording

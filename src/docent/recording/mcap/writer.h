@@ -10,7 +10,7 @@
 #include "docent/base/result.h"
 #include "docent/base/time.h"
 
-namespace docent {
+namespace docent::recording {
 
 /// A channel of a recording: one topic with its type.
 struct McapChannel {
@@ -69,4 +69,4 @@ class McapWriter {
 /// PATH.part, where the writer of PATH writes.
 [[nodiscard]] std::filesystem::path unfinished_path(const std::filesystem::path& path);
 
-}  // namespace docent
+}  // namespace docent::recording

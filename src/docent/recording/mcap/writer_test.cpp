@@ -12,7 +12,7 @@
 #include "docent/recording/mcap/reader.h"
 #include "docent/recording/mcap/recovery.h"
 
-namespace docent {
+namespace docent::recording {
 namespace {
 
 using std::filesystem::path;
@@ -272,4 +272,4 @@ TEST_F(Mcap, AFullDiskIsAnErrorAndTheFileStaysReadable) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::recording

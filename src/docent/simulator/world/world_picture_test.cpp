@@ -20,18 +20,19 @@ TEST(WorldPicture, ShowsEachKindWhereItStands) {
                   {"f", SolidKind::furniture, box(3.0, 1.0), 0.0, 1.0, false},
                   {"g", SolidKind::glass, box(5.0, 1.0), 0.0, 2.0, false},
                   {"s", SolidKind::stairs, box(7.0, 1.0), 0.0, 0.0, false}};
-  Axes axes = Axes::metres({-1.0, -1.0}, {11.0, 11.0}, 120.0);
+  pictures::Axes axes = pictures::Axes::metres({-1.0, -1.0}, {11.0, 11.0}, 120.0);
   draw_world(axes, world);
-  const Image image = raster_inside(axes);
+  const pictures::Image image = pictures::raster_inside(axes);
   const auto at = [&](double x, double y) {
-    const Point2 pixel = kPixelsPerPoint * axes.page({x, y});
+    const Point2 pixel = pictures::kPixelsPerPoint * axes.page({x, y});
     return image.at(static_cast<int>(pixel.x), static_cast<int>(pixel.y));
   };
-  const std::vector<Color> shades{at(-0.5, -0.5), at(2.5, 5.0), at(1.2, 1.2), at(3.2, 1.2), at(5.2, 1.2), at(7.2, 1.2)};
+  const std::vector<pictures::Color> shades{at(-0.5, -0.5), at(2.5, 5.0), at(1.2, 1.2),
+                                            at(3.2, 1.2),   at(5.2, 1.2), at(7.2, 1.2)};
   for (std::size_t i = 0; i < shades.size(); ++i) {
     for (std::size_t k = i + 1; k < shades.size(); ++k) EXPECT_FALSE(shades[i] == shades[k]) << i << " and " << k;
   }
-  EXPECT_EQ(at(2.5, 5.0), colors::kFloor);
+  EXPECT_EQ(at(2.5, 5.0), pictures::colors::kFloor);
 }
 
 TEST(WorldPicture, ItsLegendHasWhatIsThereAndNothingElse) {

@@ -4,7 +4,7 @@
 
 #include "docent/base/files.h"
 
-namespace docent {
+namespace docent::task_control {
 
 using Json = nlohmann::json;
 
@@ -68,4 +68,4 @@ Result<ExecutiveMemory> load_checkpoint(const std::filesystem::path& path, const
   }
 }
 
-}  // namespace docent
+}  // namespace docent::task_control

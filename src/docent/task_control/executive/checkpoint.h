@@ -7,7 +7,7 @@
 #include "docent/base/result.h"
 #include "docent/task_control/executive/executive.h"
 
-namespace docent {
+namespace docent::task_control {
 
 /// Writes the memory as JSON, atomically. `map` names the map that its poses lie in.
 [[nodiscard]] Result<void> save_checkpoint(const std::filesystem::path& path, const ExecutiveMemory& memory,
@@ -15,4 +15,4 @@ namespace docent {
 /// No file, or one of another map: a fresh memory. Error: "FILE: why" for a file that is damaged.
 [[nodiscard]] Result<ExecutiveMemory> load_checkpoint(const std::filesystem::path& path, const std::string& map);
 
-}  // namespace docent
+}  // namespace docent::task_control

@@ -6,7 +6,7 @@
 #include "docent/interaction/speech/sentences.h"
 #include "docent/interaction/speech/spoken_text.h"
 
-namespace docent {
+namespace docent::task_control {
 namespace {
 
 constexpr std::array<const char*, 9> kSteps{
@@ -88,10 +88,11 @@ void Executive::set_task(ExecutiveTask task, Time now) {
     enter(Step::idle, now);
   } else if (order.kind == TaskKind::visit || order.kind == TaskKind::home || order.kind == TaskKind::charge) {
     if (order.kind == TaskKind::visit) {
-      say("announcement", sentence(Sentence::announcement, order.language, memory_.task.title), Mood::happy);
+      say("announcement",
+          interaction::sentence(interaction::Sentence::announcement, order.language, memory_.task.title), Mood::happy);
     }
     if (order.kind == TaskKind::charge && !(order.exhibit_id.empty() && order.tour_id.empty())) {
-      say("announcement", sentence(Sentence::must_charge, order.language), Mood::sad);
+      say("announcement", interaction::sentence(interaction::Sentence::must_charge, order.language), Mood::sad);
     }
     memory_.drive_began = now;
     enter(Step::driving, now);
@@ -159,7 +160,7 @@ void Executive::say(const std::string& name, const std::string& text, Mood mood)
 Utterance Executive::speech() const {
   const bool is_long = memory_.step == Step::explaining_more;
   const std::string text =
-      is_long ? memory_.task.long_text : spoken_text(memory_.task.title) + " " + memory_.task.short_text;
+      is_long ? memory_.task.long_text : interaction::spoken_text(memory_.task.title) + " " + memory_.task.short_text;
   return {own_id(is_long ? "long" : "short"), text, memory_.task.order.language, Mood::neutral};
 }
 
@@ -173,7 +174,7 @@ Time Executive::question_deadline() const { return memory_.step_began + seconds(
 Question Executive::question() const {
   if (memory_.step != Step::asking) return {};
   return {own_id("more"),
-          sentence(Sentence::offer_more, memory_.task.order.language, memory_.task.title),
+          interaction::sentence(interaction::Sentence::offer_more, memory_.task.order.language, memory_.task.title),
           {Answer::more, Answer::next},
           Answer::next,
           question_deadline()};
@@ -234,8 +235,9 @@ void Executive::arrive(Time now) {
   // At a charger that gives no current it tries again and again without going anywhere: it greets once.
   constexpr double kNoDrive = 5.0;  // [s]
   const bool stood_there = order.kind == TaskKind::charge && now - memory_.drive_began < seconds(kNoDrive);
-  const Sentence greeting = order.kind == TaskKind::charge ? Sentence::at_charger : Sentence::home_again;
-  if (!stood_there) say(order.kind.text(), sentence(greeting, order.language), Mood::happy);
+  const interaction::Sentence greeting =
+      order.kind == TaskKind::charge ? interaction::Sentence::at_charger : interaction::Sentence::home_again;
+  if (!stood_there) say(order.kind.text(), interaction::sentence(greeting, order.language), Mood::happy);
   finish(true, "", now);
 }
 
@@ -255,9 +257,12 @@ void Executive::obstacle_report(const ObstacleReport& report, Time now) {
 void Executive::climb_ladder(Time now) {
   if (now - obstacle_time_ > kObstacleLife) obstacle_ = {};
   const bool is_unreachable = goal_.state == GoalStatus::unreachable;
-  const LadderView view{obstacle_.is_hindered,   obstacle_.is_unmapped,
-                        is_unreachable,          goal_.blocked_s,
-                        detour_of(goal_.detour), obstacle_.reason.empty() ? goal_.reason : obstacle_.reason,
+  const LadderView view{obstacle_.is_hindered,
+                        obstacle_.is_unmapped,
+                        is_unreachable,
+                        goal_.blocked_s,
+                        planning::detour_of(goal_.detour),
+                        obstacle_.reason.empty() ? goal_.reason : obstacle_.reason,
                         obstacle_.is_thing};
   auto steps = ladder_.step(view, now);
   bool gives_up = false;
@@ -275,7 +280,8 @@ void Executive::climb_ladder(Time now) {
 void Executive::ask_for_way(Time now, int count) {
   // The name carries the time, so that a restarted executive does not repeat an id that was spoken already.
   say("please-" + std::to_string(std::max<std::int64_t>(0, (now - memory_.step_began).count() / 1000000)),
-      sentence(Sentence::let_me_through, memory_.task.order.language), count == 1 ? Mood::neutral : Mood::sad);
+      interaction::sentence(interaction::Sentence::let_me_through, memory_.task.order.language),
+      count == 1 ? Mood::neutral : Mood::sad);
   actions_.happenings.push_back(
       {EventKind::asked_for_way, memory_.task.order.exhibit_id, "", static_cast<double>(count)});
 }
@@ -292,7 +298,7 @@ void Executive::watch_speech(Time now) {
   if (heard_) {
     is_over = heard_->state != SpeechStatus::speaking || now > heard_->start + seconds(heard_->duration_s + 5.0);
   } else {
-    const double foreseen_s = speech_duration(present.text, present.language, present.mood);
+    const double foreseen_s = interaction::speech_duration(present.text, present.language, present.mood);
     is_over = now > memory_.step_began + seconds(1.5 * foreseen_s + 5.0);
     if (!is_over && (!speech_sent_ || now - *speech_sent_ >= seconds(params_.resend_s))) send_speech(now);
   }
@@ -338,4 +344,4 @@ void Executive::tick(Time now) {
   }
 }
 
-}  // namespace docent
+}  // namespace docent::task_control

@@ -9,7 +9,7 @@
 #include "docent/task_control/reaction_ladder/reaction_ladder.h"
 #include "docent/task_control/tour_scheduler/mission.h"
 
-namespace docent {
+namespace docent::task_control {
 
 /// Section `executive` of robot.yaml.
 struct ExecutiveParams {
@@ -173,4 +173,4 @@ class Executive {
   std::string note_;  ///< shown while driving: why it does not go on
 };
 
-}  // namespace docent
+}  // namespace docent::task_control

@@ -8,7 +8,7 @@
 #include "docent/base/files.h"
 #include "docent/task_control/executive/checkpoint.h"
 
-namespace docent {
+namespace docent::task_control {
 namespace {
 
 ExecutiveTask visit(const std::string& id, bool has_more = true) {
@@ -358,4 +358,4 @@ TEST_F(ExecutiveTest, StaysAtTheExhibitAsLongAsTheModeSays) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::task_control

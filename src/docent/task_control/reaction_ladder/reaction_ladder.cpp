@@ -1,6 +1,6 @@
 #include "docent/task_control/reaction_ladder/reaction_ladder.h"
 
-namespace docent {
+namespace docent::task_control {
 namespace {
 
 constexpr double kFlicker = 0.6;   // [s] out of sight is no way out
@@ -26,7 +26,7 @@ std::vector<LadderStep> ReactionLadder::step(const LadderView& view, Time now) {
   if (!params_.active) return steps;
   const bool is_stuck = view.is_unreachable || view.without_progress_s >= params_.wait_after_s;
   if (!episode_) {
-    const bool is_new_way = view.detour != detour_ && view.detour != Detour::none;
+    const bool is_new_way = view.detour != detour_ && view.detour != planning::Detour::none;
     if (!is_new_way) detour_ = view.detour;
     if (!view.is_hindered && !is_stuck && !is_new_way) return steps;
     episode_ = Episode{};
@@ -90,8 +90,8 @@ void ReactionLadder::climb(const LadderView& view, Time now, std::vector<LadderS
   }
   if (view.detour != detour_) {
     detour_ = view.detour;
-    if (view.detour == Detour::local) take(Rung::local_detour, view, now, steps);
-    if (view.detour == Detour::global) take(Rung::global_detour, view, now, steps);
+    if (view.detour == planning::Detour::local) take(Rung::local_detour, view, now, steps);
+    if (view.detour == planning::Detour::global) take(Rung::global_detour, view, now, steps);
   }
   const bool is_stuck = view.is_unreachable || view.without_progress_s >= params_.wait_after_s;
   if (is_stuck && !episode.waits) {
@@ -108,4 +108,4 @@ void ReactionLadder::climb(const LadderView& view, Time now, std::vector<LadderS
   }
 }
 
-}  // namespace docent
+}  // namespace docent::task_control

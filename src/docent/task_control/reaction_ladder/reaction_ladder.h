@@ -10,7 +10,7 @@
 #include "docent/planning/detour/detour.h"
 #include "docent/vocabulary/vocabulary.h"
 
-namespace docent {
+namespace docent::task_control {
 
 /// How long the robot waits before each step of the ladder, counted from the last progress.
 struct LadderParams {
@@ -45,7 +45,7 @@ struct LadderView {
   bool is_unmapped = false;         ///< and it is not in the map: likely a person
   bool is_unreachable = false;      ///< the planner knows no way
   double without_progress_s = 0.0;  ///< [s] along the value function
-  Detour detour = Detour::none;
+  planning::Detour detour = planning::Detour::none;
   std::string cause;      ///< what is in the way, for a person
   bool is_thing = false;  ///< the obstacle, or what has touched the robot here, is a thing: it hears nothing
 };
@@ -80,7 +80,7 @@ class ReactionLadder {
   /// Another drive: what was in the way of the last one is forgotten.
   void restart() {
     episode_.reset();
-    detour_ = Detour::none;
+    detour_ = planning::Detour::none;
   }
   /// Several times a second while driving. @returns the steps that are taken now, in their order.
   [[nodiscard]] std::vector<LadderStep> step(const LadderView& view, Time now);
@@ -106,7 +106,7 @@ class ReactionLadder {
 
   LadderParams params_;
   std::optional<Episode> episode_;
-  Detour detour_ = Detour::none;  ///< that was told
+  planning::Detour detour_ = planning::Detour::none;  ///< that was told
 };
 
-}  // namespace docent
+}  // namespace docent::task_control

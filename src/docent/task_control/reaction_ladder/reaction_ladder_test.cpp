@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::task_control {
 namespace {
 
 class ReactionLadderTest : public testing::Test {
@@ -115,16 +115,16 @@ TEST_F(ReactionLadderTest, AFlickerDoesNotHideWhoStandsThere) {
 TEST_F(ReactionLadderTest, TellsOfDetoursOnceAndOfTheFreeWay) {
   view.is_hindered = view.is_unmapped = true;
   pass(3.0);
-  view.detour = Detour::local;
+  view.detour = planning::Detour::local;
   pass(1.0);
-  view.detour = Detour::global;
+  view.detour = planning::Detour::global;
   pass(0.4);
   view.is_hindered = view.is_unmapped = false;
   pass(2.8);
   EXPECT_EQ(count(Rung::free), 0);
   pass(1.0);
   EXPECT_EQ(log, "slow horn local_detour wait global_detour free");
-  view.detour = Detour::none;
+  view.detour = planning::Detour::none;
   pass(30.0);
   EXPECT_EQ(count(Rung::free), 1);
 }
@@ -171,4 +171,4 @@ TEST_F(ReactionLadderTest, SwitchedOffItDoesNothing) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::task_control

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace docent {
+namespace docent::task_control {
 
 void BatteryWatch::report(double charge, std::optional<bool> is_charging, Time now) {
   if (!charge_ || is_charging != is_charging_ || now <= step_began_) {
@@ -37,4 +37,4 @@ void BatteryWatch::is_away_from_charger(Time now) {
   extrapolated_from_ = now;
 }
 
-}  // namespace docent
+}  // namespace docent::task_control

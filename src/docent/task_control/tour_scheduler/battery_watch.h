@@ -4,7 +4,7 @@
 
 #include "docent/base/time.h"
 
-namespace docent {
+namespace docent::task_control {
 
 /// What the battery says of itself, and at what rates its charge falls and rises. Charge: share of a full battery,
 /// 0..1. Both rates are measured over steps of kStep; the discharge is never taken for slower than expected, for a
@@ -50,4 +50,4 @@ class BatteryWatch {
   Time step_began_;
 };
 
-}  // namespace docent
+}  // namespace docent::task_control

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::task_control {
 namespace {
 
 class BatteryWatchTest : public testing::Test {
@@ -67,4 +67,4 @@ TEST_F(BatteryWatchTest, WhatABatterySaysAwayFromTheChargerCounts) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::task_control

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace docent {
+namespace docent::task_control {
 
 Result<void> SchedulerParams::validate() const {
   if (max_stops < 1) return fail("mission.max_stops must be >= 1");
@@ -63,4 +63,4 @@ std::vector<std::string> compose_tour(const Programme& programme, Point2 start, 
   }
 }
 
-}  // namespace docent
+}  // namespace docent::task_control

@@ -6,7 +6,7 @@
 #include "docent/base/result.h"
 #include "docent/task_control/tour_scheduler/programme.h"
 
-namespace docent {
+namespace docent::task_control {
 
 /// Section `mission` of robot.yaml holds these, too.
 struct SchedulerParams {
@@ -61,4 +61,4 @@ inline constexpr double kSensibleFactor = 0.5;
                                                     const StopChoice& choice, const TravelDistance& travel,
                                                     const SchedulerParams& params);
 
-}  // namespace docent
+}  // namespace docent::task_control

@@ -8,7 +8,7 @@
 
 #include "docent/task_control/tour_scheduler/scheduling_fixture.h"
 
-namespace docent {
+namespace docent::task_control {
 namespace {
 
 TEST(Composition, FillsTheTimeWithWhatIsNear) {
@@ -95,4 +95,4 @@ TEST_F(ComposedTour, AComposedTourIsJoinedBeforeItsFirstWordOnly) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::task_control

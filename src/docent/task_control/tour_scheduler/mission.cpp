@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-namespace docent {
+namespace docent::task_control {
 namespace {
 
 /// What has begun may use so much of `battery_low` before it is broken off: a tour is rather finished than given twice.
@@ -311,4 +311,4 @@ MissionSummary Mission::summary(Time now) {
 
 MissionMemory Mission::memory() const { return {scheduler_.state(), deployment_, next_task_, task_, must_charge_}; }
 
-}  // namespace docent
+}  // namespace docent::task_control

@@ -8,7 +8,7 @@
 #include "docent/task_control/tour_scheduler/battery_watch.h"
 #include "docent/task_control/tour_scheduler/tour_scheduler.h"
 
-namespace docent {
+namespace docent::task_control {
 
 /// One thing to do, for the executive.
 struct TaskOrder {
@@ -162,4 +162,4 @@ class Mission {
   std::string agenda_task_ = "none yet";
 };
 
-}  // namespace docent
+}  // namespace docent::task_control

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-namespace docent {
+namespace docent::task_control {
 namespace {
 
 using Json = nlohmann::json;
@@ -294,4 +294,4 @@ Result<std::optional<BoardEntry>> MissionStore::find(const std::string& id) {
   }
 }
 
-}  // namespace docent
+}  // namespace docent::task_control

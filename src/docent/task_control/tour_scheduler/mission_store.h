@@ -8,7 +8,7 @@
 #include "docent/base/result.h"
 #include "docent/task_control/tour_scheduler/mission.h"
 
-namespace docent {
+namespace docent::task_control {
 
 /// mission.sqlite (architecture 10.9): every request ever made and the plan of the running visit, in WAL mode. Each
 /// `save` is one transaction: after a kill at any moment the file holds the state before it or after it.
@@ -42,4 +42,4 @@ class MissionStore {
   std::unique_ptr<Connection> connection_;
 };
 
-}  // namespace docent
+}  // namespace docent::task_control

@@ -6,7 +6,7 @@
 
 #include "docent/base/files.h"
 
-namespace docent {
+namespace docent::task_control {
 namespace {
 
 class Store : public testing::Test {
@@ -143,4 +143,4 @@ TEST_F(Store, AFolderThatIsNotThereIsOneClearLine) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::task_control

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace docent {
+namespace docent::task_control {
 namespace {
 
 Programme small_programme() {
@@ -400,4 +400,4 @@ TEST(MissionParamsTest, RefusesNonsenseByName) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::task_control

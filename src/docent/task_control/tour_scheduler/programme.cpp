@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace docent {
+namespace docent::task_control {
 
 const ProgrammeExhibit* Programme::find_exhibit(const std::string& id) const {
   const auto place = std::find_if(exhibits.begin(), exhibits.end(), [&](const auto& e) { return e.id == id; });
@@ -24,4 +24,4 @@ TravelDistance straight_distance() {
   return [](Point2 from, Point2 to) { return distance(from, to); };
 }
 
-}  // namespace docent
+}  // namespace docent::task_control

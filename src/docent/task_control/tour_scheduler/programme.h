@@ -9,7 +9,7 @@
 #include "docent/geometry/pose2.h"
 #include "docent/vocabulary/vocabulary.h"
 
-namespace docent {
+namespace docent::task_control {
 
 /// What the scheduler must know of an exhibit.
 struct ProgrammeExhibit {
@@ -69,4 +69,4 @@ struct Happening {
   double value = 0.0;
 };
 
-}  // namespace docent
+}  // namespace docent::task_control

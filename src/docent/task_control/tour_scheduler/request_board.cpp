@@ -6,7 +6,7 @@
 
 #include "docent/base/check.h"
 
-namespace docent {
+namespace docent::task_control {
 bool is_step(RequestStatus from, RequestStatus to) {
   switch (from) {
     case RequestStatus::queued:
@@ -106,4 +106,4 @@ void RequestBoard::tidy() {
                  last);
 }
 
-}  // namespace docent
+}  // namespace docent::task_control

@@ -10,7 +10,7 @@
 #include "docent/base/time.h"
 #include "docent/vocabulary/vocabulary.h"
 
-namespace docent {
+namespace docent::task_control {
 
 /// Whether a request may go from one status to the other.
 [[nodiscard]] bool is_step(RequestStatus from, RequestStatus to);
@@ -78,4 +78,4 @@ class RequestBoard {
   std::uint64_t revision_ = 0;
 };
 
-}  // namespace docent
+}  // namespace docent::task_control

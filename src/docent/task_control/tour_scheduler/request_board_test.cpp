@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::task_control {
 namespace {
 
 VisitorRequest request(const std::string& id) {
@@ -67,4 +67,4 @@ TEST(RequestBoard, RemembersWhatIsNotStored) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::task_control

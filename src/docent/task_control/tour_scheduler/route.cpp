@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace docent {
+namespace docent::task_control {
 namespace {
 
 // What cannot be reached is dear but comparable, so that the others still come in a good order.
@@ -133,4 +133,4 @@ std::vector<std::size_t> shortest_order(Point2 start, std::span<const Point2> po
   return order;
 }
 
-}  // namespace docent
+}  // namespace docent::task_control

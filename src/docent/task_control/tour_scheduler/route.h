@@ -6,7 +6,7 @@
 #include "docent/geometry/pose2.h"
 #include "docent/task_control/tour_scheduler/programme.h"
 
-namespace docent {
+namespace docent::task_control {
 
 /// Length [m] of the way from `start` through `points` in the order of `order` (indices into `points`).
 [[nodiscard]] double route_length(Point2 start, std::span<const Point2> points, std::span<const std::size_t> order,
@@ -20,4 +20,4 @@ namespace docent {
                                                       const TravelDistance& travel);
 inline constexpr std::size_t kExactStops = 9;
 
-}  // namespace docent
+}  // namespace docent::task_control

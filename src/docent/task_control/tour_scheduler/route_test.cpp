@@ -7,7 +7,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent {
+namespace docent::task_control {
 namespace {
 
 std::vector<Point2> any_points(Rng& rng, std::size_t count) {
@@ -81,4 +81,4 @@ TEST(Route, WhatCannotBeReachedComesLast) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::task_control

@@ -9,7 +9,7 @@
 
 // For tests of the scheduler.
 
-namespace docent {
+namespace docent::task_control {
 
 /// Six exhibits, 4 m apart on a line; the last for the Web alone.
 inline Programme programme_on_a_line() {
@@ -66,4 +66,4 @@ class Scheduling : public testing::Test {
   TourScheduler scheduler{params, programme_on_a_line(), straight_distance(), {}, {}};
 };
 
-}  // namespace docent
+}  // namespace docent::task_control

@@ -6,7 +6,7 @@
 #include "docent/base/check.h"
 #include "docent/task_control/tour_scheduler/route.h"
 
-namespace docent {
+namespace docent::task_control {
 namespace {
 
 template <class T>
@@ -410,4 +410,4 @@ std::vector<std::string> TourScheduler::agenda(Point2 robot, Time now) const {
 
 std::vector<Happening> TourScheduler::take_happenings() { return std::exchange(happenings_, {}); }
 
-}  // namespace docent
+}  // namespace docent::task_control

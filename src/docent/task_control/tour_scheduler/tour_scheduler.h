@@ -11,7 +11,7 @@
 #include "docent/task_control/tour_scheduler/programme.h"
 #include "docent/task_control/tour_scheduler/request_board.h"
 
-namespace docent {
+namespace docent::task_control {
 
 /// What decides whether a request is taken.
 struct Conditions {
@@ -168,4 +168,4 @@ class TourScheduler {
   std::vector<Happening> happenings_;
 };
 
-}  // namespace docent
+}  // namespace docent::task_control

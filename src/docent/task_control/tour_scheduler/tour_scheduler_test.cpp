@@ -9,7 +9,7 @@
 #include "docent/base/random.h"
 #include "docent/task_control/tour_scheduler/scheduling_fixture.h"
 
-namespace docent {
+namespace docent::task_control {
 namespace {
 
 TEST_F(Scheduling, TakesTheShortestWayThroughTheQueue) {
@@ -447,4 +447,4 @@ TEST(SchedulerLaws, EveryRequestEnds) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::task_control

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace docent {
+namespace docent::task_control {
 namespace {
 
 constexpr double kGoalTolerance = 0.3;  ///< [m]
@@ -15,7 +15,7 @@ constexpr int kMostVisits = 100'000;    ///< of tiles
 
 class TravelOnMap {
  public:
-  explicit TravelOnMap(RoutePlanner planner) : planner_{std::move(planner)} {}
+  explicit TravelOnMap(planning::RoutePlanner planner) : planner_{std::move(planner)} {}
 
   [[nodiscard]] double distance_between(Point2 from, Point2 to) {
     const std::vector<float>& values = values_to(to);
@@ -55,16 +55,16 @@ class TravelOnMap {
     return place->second;
   }
 
-  RoutePlanner planner_;
+  planning::RoutePlanner planner_;
   std::map<std::pair<double, double>, std::vector<float>> fields_;
 };
 
 }  // namespace
 
-TravelDistance travel_on_map(RoutePlanner planner) {
+TravelDistance travel_on_map(planning::RoutePlanner planner) {
   return [travel = std::make_shared<TravelOnMap>(std::move(planner))](Point2 from, Point2 to) {
     return travel->distance_between(from, to);
   };
 }
 
-}  // namespace docent
+}  // namespace docent::task_control

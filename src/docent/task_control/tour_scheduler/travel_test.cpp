@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace docent {
+namespace docent::task_control {
 namespace {
 
 /// 12 x 6 m of free floor with a wall across at x = 6 that leaves a gap of 1.5 m at the top.
@@ -22,15 +22,15 @@ OccupancyGrid hall_with_a_wall(bool has_gap) {
   return map;
 }
 
-RouteParams plain() {
-  RouteParams params;
+planning::RouteParams plain() {
+  planning::RouteParams params;
   params.coarsening = 1;
   params.comfort_cost = 0.0;
   return params;
 }
 
 TEST(Travel, GoesRoundTheWall) {
-  const auto travel = travel_on_map(RoutePlanner{hall_with_a_wall(true), {}, {}, plain()});
+  const auto travel = travel_on_map(planning::RoutePlanner{hall_with_a_wall(true), {}, {}, plain()});
   EXPECT_NEAR(travel({2, 2}, {5, 2}), 3.0, 0.4);
   const double round = travel({5, 1}, {7, 1});
   EXPECT_GT(round, 2.0 * std::hypot(1.0, 3.5) - 0.5);
@@ -40,16 +40,16 @@ TEST(Travel, GoesRoundTheWall) {
 }
 
 TEST(Travel, NoWayIsInfinite) {
-  const auto travel = travel_on_map(RoutePlanner{hall_with_a_wall(false), {}, {}, plain()});
+  const auto travel = travel_on_map(planning::RoutePlanner{hall_with_a_wall(false), {}, {}, plain()});
   EXPECT_TRUE(std::isinf(travel({5, 1}, {7, 1})));
   EXPECT_FALSE(std::isinf(travel({1, 1}, {5, 1})));
 }
 
 TEST(Travel, StartsFromWhereTheRobotCannotBe) {
-  const auto travel = travel_on_map(RoutePlanner{hall_with_a_wall(true), {}, {}, plain()});
+  const auto travel = travel_on_map(planning::RoutePlanner{hall_with_a_wall(true), {}, {}, plain()});
   EXPECT_NEAR(travel({0.15, 2}, {3, 2}), 2.85, 0.5) << "too near to the wall";
   EXPECT_NEAR(travel({-5, 2}, {3, 2}), 8.0, 1e-9) << "outside of the map: as the crow flies";
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::task_control

@@ -8,7 +8,7 @@
 #include "docent/task_control/tour_scheduler/route.h"
 #include "docent/task_control/tour_scheduler/tour_scheduler.h"
 
-namespace docent {
+namespace docent::task_control {
 namespace {
 
 template <class T>
@@ -277,4 +277,4 @@ void TourScheduler::begin_visit_of(const WishedStop& stop, bool is_stop, Time no
   state_.visit = std::move(visit);
 }
 
-}  // namespace docent
+}  // namespace docent::task_control

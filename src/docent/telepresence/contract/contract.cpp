@@ -9,7 +9,7 @@
 #include "docent/telepresence/live_encoding.h"
 #include "docent/telepresence/museum_document.h"
 
-namespace docent {
+namespace docent::telepresence {
 namespace {
 
 const Time kNow = time_from_seconds(12.5);
@@ -110,14 +110,14 @@ std::string health() {
 }
 
 std::string museum() {
-  Museum museum;
+  museum::Museum museum;
   museum.name = {{"en", "A hall"}, {"fr", "Une salle"}};
   museum.languages = {"fr", "en"};
   museum.area = {{0, 0}, {5, 0}, {5, 4}};
   museum.charger = Pose2{1, 1, Angle{}};
   museum.hazards.resize(1);
   museum.hazards[0].id = "steps";
-  museum.hazards[0].kind = HazardKind::stairs;
+  museum.hazards[0].kind = museum::HazardKind::stairs;
   museum.hazards[0].polygon = {{1, 1}, {2, 1}, {2, 2}};
   museum.exhibits.resize(1);
   museum.exhibits[0].id = "sputnik";
@@ -167,4 +167,4 @@ std::map<std::string, std::string> contract_samples() {
           {"error.json", encode_error("too many messages, wait a moment")}};
 }
 
-}  // namespace docent
+}  // namespace docent::telepresence

@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-namespace docent {
+namespace docent::telepresence {
 
 /// The page's side of documents.h and client_message.h, as it stands in web/src/contract.
 [[nodiscard]] std::string contract_types();
@@ -12,4 +12,4 @@ namespace docent {
 /// some of the same kind that leave out what may be left out.
 [[nodiscard]] std::map<std::string, std::string> contract_samples();
 
-}  // namespace docent
+}  // namespace docent::telepresence

@@ -11,8 +11,9 @@ int main(int argc, char** argv) {
     return 2;
   }
   const std::filesystem::path root = argv[1];
-  auto written = docent::write_file_atomically(root / "web/src/contract/contract.ts", docent::contract_types());
-  for (const auto& [name, text] : docent::contract_samples()) {
+  auto written =
+      docent::write_file_atomically(root / "web/src/contract/contract.ts", docent::telepresence::contract_types());
+  for (const auto& [name, text] : docent::telepresence::contract_samples()) {
     if (written) written = docent::write_file_atomically(root / "tests/web_contract/server" / name, text + "\n");
   }
   if (!written) std::cerr << written.error().message << '\n';

@@ -13,7 +13,7 @@
 
 // The page's half of this test is web/src/contract/contract.test.ts.
 
-namespace docent {
+namespace docent::telepresence {
 namespace {
 
 using Json = nlohmann::json;
@@ -68,4 +68,4 @@ TEST(Contract, WhatThePageSaysIsUnderstood) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::telepresence

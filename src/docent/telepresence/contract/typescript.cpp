@@ -1,6 +1,6 @@
 #include "docent/telepresence/contract/typescript.h"
 
-namespace docent {
+namespace docent::telepresence {
 
 TypeScript::Type TypeScript::words(const std::vector<std::string>& words) {
   Type type{"", {{"words", words}}};
@@ -22,4 +22,4 @@ std::string TypeScript::text() const {
   return interfaces_ + unions_ + "export const documents = " + table_.dump(2) + " as const;\n";
 }
 
-}  // namespace docent
+}  // namespace docent::telepresence

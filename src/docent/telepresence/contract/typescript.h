@@ -12,7 +12,7 @@
 
 #include "docent/telepresence/document_json.h"
 
-namespace docent {
+namespace docent::telepresence {
 
 /// Writes documents as TypeScript: an interface for each, and a table `documents` of their fields, with which a test
 /// can look at what is sent. Both come from the documents' `visit`.
@@ -119,4 +119,4 @@ class TypeScript {
   nlohmann::json table_ = nlohmann::json::object();
 };
 
-}  // namespace docent
+}  // namespace docent::telepresence

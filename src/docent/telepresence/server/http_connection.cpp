@@ -3,7 +3,7 @@
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <chrono>
 
-namespace docent {
+namespace docent::telepresence {
 namespace {
 
 namespace asio = boost::asio;
@@ -85,4 +85,4 @@ void HttpConnection::send(const HttpAnswer& answer, bool keep_alive, bool takes_
   }
 }
 
-}  // namespace docent
+}  // namespace docent::telepresence

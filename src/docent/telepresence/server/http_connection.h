@@ -13,7 +13,7 @@
 
 #include "docent/telepresence/server/router.h"
 
-namespace docent {
+namespace docent::telepresence {
 
 using HttpRequest = boost::beast::http::request<boost::beast::http::string_body>;
 
@@ -53,4 +53,4 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   std::optional<boost::beast::http::response_serializer<Body>> serializer_;
 };
 
-}  // namespace docent
+}  // namespace docent::telepresence

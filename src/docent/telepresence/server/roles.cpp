@@ -5,7 +5,7 @@
 
 #include "docent/telepresence/server/roles.h"
 
-namespace docent {
+namespace docent::telepresence {
 
 std::optional<Role> role_of(const Opening& opening, const std::vector<std::string>& others) {
   if (opening.origin.empty()) return Role::visitor;
@@ -27,4 +27,4 @@ bool may_ask(Role role, const ClientMessage& message) {
   return role != Role::observer || std::holds_alternative<WatchMessage>(message);
 }
 
-}  // namespace docent
+}  // namespace docent::telepresence

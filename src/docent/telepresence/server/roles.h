@@ -7,7 +7,7 @@
 
 #include "docent/telepresence/client_message.h"
 
-namespace docent {
+namespace docent::telepresence {
 
 /// As whom somebody is on the live channel.
 enum class Role {
@@ -29,4 +29,4 @@ struct Opening {
 /// Whether somebody in this role may ask for it.
 [[nodiscard]] bool may_ask(Role role, const ClientMessage& message);
 
-}  // namespace docent
+}  // namespace docent::telepresence

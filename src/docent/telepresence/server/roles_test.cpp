@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::telepresence {
 namespace {
 
 TEST(Roles, PagesOfOtherSitesMayNotOpenTheChannel) {
@@ -23,4 +23,4 @@ TEST(Roles, AnObserverOnlyWatches) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::telepresence

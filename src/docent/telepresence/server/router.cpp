@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace docent {
+namespace docent::telepresence {
 namespace {
 
 constexpr std::string_view kLive = "/live";
@@ -30,4 +30,4 @@ Route Router::route(const RouteRequest& request, bool is_full) const {
   return HttpAnswer{site_->get(request.target), is_head, false};
 }
 
-}  // namespace docent
+}  // namespace docent::telepresence

@@ -9,7 +9,7 @@
 #include "docent/telepresence/server/roles.h"
 #include "docent/telepresence/site.h"
 
-namespace docent {
+namespace docent::telepresence {
 
 /// What decides where a request goes.
 struct RouteRequest {
@@ -49,4 +49,4 @@ class Router {
 /// A few words of text, after which the connection is closed.
 [[nodiscard]] HttpAnswer refusal(int status, std::string text);
 
-}  // namespace docent
+}  // namespace docent::telepresence

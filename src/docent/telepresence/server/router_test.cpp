@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent {
+namespace docent::telepresence {
 namespace {
 
 class RouterTest : public testing::Test {
@@ -46,4 +46,4 @@ TEST_F(RouterTest, TheChannelIsOpenedOnItsPathAlone) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::telepresence

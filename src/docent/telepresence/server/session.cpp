@@ -4,7 +4,7 @@
 
 #include "docent/telepresence/live_encoding.h"
 
-namespace docent {
+namespace docent::telepresence {
 
 namespace asio = boost::asio;
 namespace beast = boost::beast;
@@ -115,4 +115,4 @@ void Session::leave() {
   owner_.left(id_);
 }
 
-}  // namespace docent
+}  // namespace docent::telepresence

@@ -16,7 +16,7 @@
 #include "docent/telepresence/server/viewer_queue.h"
 #include "docent/telepresence/server/web_server.h"
 
-namespace docent {
+namespace docent::telepresence {
 
 /// What all sessions share with their server, which outlives them.
 struct SessionOwner {
@@ -70,4 +70,4 @@ class Session : public std::enable_shared_from_this<Session> {
   bool wants_details_ = false;
 };
 
-}  // namespace docent
+}  // namespace docent::telepresence

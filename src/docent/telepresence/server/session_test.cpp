@@ -9,7 +9,7 @@
 
 #include "docent/telepresence/server/test_client.h"
 
-namespace docent {
+namespace docent::telepresence {
 namespace {
 
 using boost::asio::ip::tcp;
@@ -93,4 +93,4 @@ TEST_F(SessionTest, WhoSaysTooMuchIsToldSo) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::telepresence

@@ -13,7 +13,7 @@
 
 // For tests only.
 
-namespace docent {
+namespace docent::telepresence {
 
 /// A client made of a bare socket, so that it can misbehave.
 class TestClient {
@@ -129,4 +129,4 @@ class TestClient {
   std::string buffer_;
 };
 
-}  // namespace docent
+}  // namespace docent::telepresence

@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-namespace docent {
+namespace docent::telepresence {
 
 /// Encoded once, sent to many.
 using SharedText = std::shared_ptr<const std::string>;
@@ -79,4 +79,4 @@ class ViewerQueue {
   std::size_t next_slot_ = 0;
 };
 
-}  // namespace docent
+}  // namespace docent::telepresence

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace docent {
+namespace docent::telepresence {
 namespace {
 
 using namespace std::chrono_literals;
@@ -50,4 +50,4 @@ TEST(ViewerQueue, UnreadAnswersAreBounded) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::telepresence

@@ -13,7 +13,7 @@
 #include "docent/telepresence/server/session.h"
 #include "docent/telepresence/server/web_server.h"
 
-namespace docent {
+namespace docent::telepresence {
 namespace {
 
 namespace asio = boost::asio;
@@ -195,4 +195,4 @@ WebServerFigures WebServer::figures() const {
           sessions.messages_out, sessions.values_skipped};
 }
 
-}  // namespace docent
+}  // namespace docent::telepresence

@@ -11,7 +11,7 @@
 #include "docent/telepresence/client_message.h"
 #include "docent/telepresence/site.h"
 
-namespace docent {
+namespace docent::telepresence {
 
 struct WebServerParams {
   std::string address = "127.0.0.1";  ///< that the server listens at; 0.0.0.0: all of this computer
@@ -87,4 +87,4 @@ class WebServer {
   std::unique_ptr<Core> core_;
 };
 
-}  // namespace docent
+}  // namespace docent::telepresence

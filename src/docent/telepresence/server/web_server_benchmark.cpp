@@ -15,7 +15,7 @@
 
 // How late viewers see a value. Server and viewers share the machine, so the figures are an upper bound.
 
-namespace docent {
+namespace docent::telepresence {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -94,4 +94,4 @@ void BM_Viewers(benchmark::State& state) {
 BENCHMARK(BM_Viewers)->Arg(10)->Arg(100)->Arg(1000)->Arg(5000)->Iterations(20)->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::telepresence

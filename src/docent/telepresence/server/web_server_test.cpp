@@ -9,7 +9,7 @@
 
 #include "docent/telepresence/server/test_client.h"
 
-namespace docent {
+namespace docent::telepresence {
 namespace {
 
 using namespace std::chrono_literals;
@@ -318,4 +318,4 @@ TEST_F(WebServerTest, EndsWithViewersConnected) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::telepresence

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace docent {
+namespace docent::localization {
 
 namespace {
 
@@ -26,7 +26,8 @@ Result<void> SonarEvidenceParams::validate() const {
 }
 
 SonarEvidence::SonarEvidence(const SonarEvidenceParams& params, int sonars, const StateSpace& space,
-                             const RangeTable& rays, const ProximityModel& rays_model, std::uint64_t seed)
+                             const RangeTable& rays, const sensor_models::ProximityModel& rays_model,
+                             std::uint64_t seed)
     : params_{params},
       filter_{beam_filter_of(params.filter).value_or(BeamFilter::distance)},
       space_{&space},
@@ -37,8 +38,8 @@ SonarEvidence::SonarEvidence(const SonarEvidenceParams& params, int sonars, cons
       rng_{Rng{seed}.stream("sonar evidence")},
       ears_(static_cast<std::size_t>(sonars)) {
   const double temper = std::min(1.0, params.independent_beams / params.beams);
-  costs_.reserve(static_cast<std::size_t>(kRangeBins) * kExpectedRanges);
-  for (int measured = 0; measured < kRangeBins; ++measured) {
+  costs_.reserve(static_cast<std::size_t>(sensor_models::kRangeBins) * sensor_models::kExpectedRanges);
+  for (int measured = 0; measured < sensor_models::kRangeBins; ++measured) {
     const auto log_probabilities = model_.log_probabilities(measured);
     const float best = *std::max_element(log_probabilities.begin(), log_probabilities.end());
     for (const float log_probability : log_probabilities)
@@ -46,8 +47,8 @@ SonarEvidence::SonarEvidence(const SonarEvidenceParams& params, int sonars, cons
   }
   const auto steps = static_cast<std::size_t>(std::ceil(params.model.max_range * kBinsPerMetre));
   for (std::size_t i = 0; i < steps; ++i)
-    bin_at_.push_back(
-        static_cast<std::uint8_t>(std::min(model_.bin((static_cast<double>(i) + 0.5) / kBinsPerMetre), kNoReturn - 1)));
+    bin_at_.push_back(static_cast<std::uint8_t>(
+        std::min(model_.bin((static_cast<double>(i) + 0.5) / kBinsPerMetre), sensor_models::kNoReturn - 1)));
 }
 
 void SonarEvidence::hear(const SonarPing& ping) {
@@ -60,17 +61,19 @@ void SonarEvidence::hear(const SonarPing& ping) {
   ears_[static_cast<std::size_t>(ping.sonar)] = {ping, true};
 }
 
-RangeSweep SonarEvidence::fresh_sweep(const ObservationMoment& moment) {
-  RangeSweep sweep;
+sensor_models::RangeSweep SonarEvidence::fresh_sweep(const ObservationMoment& moment) {
+  sensor_models::RangeSweep sweep;
   for (Ear& ear : ears_) {
     const double age = to_seconds(moment.time - ear.ping.time);
     if (!ear.is_new || age > params_.oldest) continue;
     ear.is_new = false;  // the same echo must not count twice
     const Pose2 base_from_then = inverse(moment.odom_from_robot) * ear.ping.odom_from_base;
     const auto range = static_cast<float>(ear.ping.range);
-    append(sweep, {{&range, 1}, Angle{}, 0.0, 0.0, ear.ping.max_range}, base_from_then * ear.ping.base_from_sonar);
+    sensor_models::append(sweep, {{&range, 1}, Angle{}, 0.0, 0.0, ear.ping.max_range},
+                          base_from_then * ear.ping.base_from_sonar);
   }
-  for (SweepBeam& beam : sweep.beams) beam.no_return = beam.no_return || beam.range >= params_.model.max_range;
+  for (sensor_models::SweepBeam& beam : sweep.beams)
+    beam.no_return = beam.no_return || beam.range >= params_.model.max_range;
   return sweep;
 }
 
@@ -94,7 +97,7 @@ double SonarEvidence::heading_steps(Angle angle) const {
 }
 
 Agreement SonarEvidence::compare(const ExpectedRanges& expected, int direction, int bin) const {
-  if (bin != kNoReturn) return agreement(expected, model_, direction, bin, params_.filter_sureness);
+  if (bin != sensor_models::kNoReturn) return agreement(expected, model_, direction, bin, params_.filter_sureness);
   // An echo that is expected well within reach and does not come.
   constexpr double kWithinReach = 0.6;
   Agreement result;
@@ -104,15 +107,16 @@ Agreement SonarEvidence::compare(const ExpectedRanges& expected, int direction, 
   return result;
 }
 
-std::vector<BinnedBeam> SonarEvidence::filtered(const RangeSweep& sweep, std::span<const LikelyPose> likely) {
-  std::vector<BinnedBeam> beams = binned(sweep, space_->headings());
+std::vector<sensor_models::BinnedBeam> SonarEvidence::filtered(const sensor_models::RangeSweep& sweep,
+                                                               std::span<const LikelyPose> likely) {
+  std::vector<sensor_models::BinnedBeam> beams = sensor_models::binned(sweep, space_->headings());
   filtered_ = 0;
   const std::vector<LikelyState> states = states_of(likely);
   if (states.empty()) return beams;
   const ExpectedRanges expected{states, table_, space_->headings(), asks_entropy(filter_)};
-  std::vector<BinnedBeam> kept;
+  std::vector<sensor_models::BinnedBeam> kept;
   Agreement readings;
-  for (const BinnedBeam& beam : beams) {
+  for (const sensor_models::BinnedBeam& beam : beams) {
     const int bin = bin_of(sweep.beams[beam.beam]);
     readings += compare(expected, beam.direction, bin);
     const bool rejected = rejects(filter_, expected, model_, beam.direction, bin, params_.filter_sureness);
@@ -124,12 +128,13 @@ std::vector<BinnedBeam> SonarEvidence::filtered(const RangeSweep& sweep, std::sp
 }
 
 bool SonarEvidence::observe(const ObservationMoment& moment) {
-  const RangeSweep sweep = fresh_sweep(moment);
-  const auto chosen = thinned(filtered(sweep, moment.likely), static_cast<std::size_t>(params_.beams), ++phase_);
+  const sensor_models::RangeSweep sweep = fresh_sweep(moment);
+  const auto chosen =
+      sensor_models::thinned(filtered(sweep, moment.likely), static_cast<std::size_t>(params_.beams), ++phase_);
   beams_.clear();
   if (trust_.state() != SonarTrust::State::well && !params_.trusting) return false;
-  for (const BinnedBeam& beam : chosen) {
-    const SweepBeam& reading = sweep.beams[beam.beam];
+  for (const sensor_models::BinnedBeam& beam : chosen) {
+    const sensor_models::SweepBeam& reading = sweep.beams[beam.beam];
     const Angle bearing = Angle::radians(reading.bearing);
     beams_.push_back({reading.range, unit(bearing), heading_steps(bearing), bin_of(reading)});
   }
@@ -152,12 +157,12 @@ float SonarEvidence::cost_at(const Pose2& map_from_robot) const {
   float sum = 0.0F;
   for (const Beam& beam : beams_) {
     auto measured = static_cast<std::size_t>(beam.bin);
-    if (beam.bin != kNoReturn) {
+    if (beam.bin != sensor_models::kNoReturn) {
       const double range = beam.range + along * beam.along.x + aside * beam.along.y;
       measured = bin_at_[static_cast<std::size_t>(std::clamp(range * kBinsPerMetre, 0.0, last))];
     }
     const auto direction = static_cast<std::size_t>(heading + beam.direction) % headings;
-    sum += costs_[measured * kExpectedRanges + row[direction]];
+    sum += costs_[measured * sensor_models::kExpectedRanges + row[direction]];
   }
   return std::min(sum, most);
 }
@@ -177,4 +182,4 @@ double SonarEvidence::mean_cost() const {
   return std::min(sum, params_.most_nats);
 }
 
-}  // namespace docent
+}  // namespace docent::localization

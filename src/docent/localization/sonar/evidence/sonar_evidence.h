@@ -14,7 +14,7 @@
 #include "docent/localization/sonar/evidence/sonar_trust.h"
 #include "docent/sensor_models/proximity_model.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// Sonars beside lasers in one belief, [Rhino1999] 3.1: with a model, a number of beams and a filter of their own.
 struct SonarEvidenceParams {
@@ -28,7 +28,7 @@ struct SonarEvidenceParams {
   double oldest = 0.5;              ///< [s], > 0: readings older than this are not carried on by odometry
   bool trusting = false;            ///< crippled, for evaluation: readings of frozen and deaf sonars count as well
   /// As learned amid visitors in both museums of the repository, rounded between the two.
-  ProximityModelParams model{5.0, 0.06, 0.02, 0.35, 0.28, 0.06, 4.0, 0.36, 0.16, 0.14};
+  sensor_models::ProximityModelParams model{5.0, 0.06, 0.02, 0.35, 0.28, 0.06, 4.0, 0.36, 0.16, 0.14};
   template <class V>
   void visit(V& v) {
     v("beams", beams);
@@ -64,7 +64,7 @@ class SonarEvidence final : public ObservationModel {
   /// `rays`, with ranges in the bins of `rays_model`: the lasers' table, of which a copy for cones is made. `space`
   /// must outlive the object. @pre params are valid, params.beams > 0
   SonarEvidence(const SonarEvidenceParams& params, int sonars, const StateSpace& space, const RangeTable& rays,
-                const ProximityModel& rays_model, std::uint64_t seed);
+                const sensor_models::ProximityModel& rays_model, std::uint64_t seed);
 
   /// @pre 0 <= ping.sonar < sonars
   void hear(const SonarPing& ping);
@@ -89,20 +89,23 @@ class SonarEvidence final : public ObservationModel {
     SonarPing ping;
     bool is_new = false;
   };
-  [[nodiscard]] RangeSweep fresh_sweep(const ObservationMoment& moment);
-  [[nodiscard]] std::vector<BinnedBeam> filtered(const RangeSweep& sweep, std::span<const LikelyPose> likely);
+  [[nodiscard]] sensor_models::RangeSweep fresh_sweep(const ObservationMoment& moment);
+  [[nodiscard]] std::vector<sensor_models::BinnedBeam> filtered(const sensor_models::RangeSweep& sweep,
+                                                                std::span<const LikelyPose> likely);
   [[nodiscard]] std::vector<LikelyState> states_of(std::span<const LikelyPose> likely) const;
   [[nodiscard]] Agreement compare(const ExpectedRanges& expected, int direction, int bin) const;
   [[nodiscard]] double heading_steps(Angle angle) const;  ///< 0..headings
-  [[nodiscard]] int bin_of(const SweepBeam& beam) const { return beam.no_return ? kNoReturn : model_.bin(beam.range); }
+  [[nodiscard]] int bin_of(const sensor_models::SweepBeam& beam) const {
+    return beam.no_return ? sensor_models::kNoReturn : model_.bin(beam.range);
+  }
   [[nodiscard]] float cost_at(const Pose2& map_from_robot) const;
 
   SonarEvidenceParams params_;
   BeamFilter filter_;
   const StateSpace* space_;
-  ProximityModel bins_;  ///< ranges to bins, before the table is known
-  RangeTable table_;     ///< of cones
-  ProximityModel model_;
+  sensor_models::ProximityModel bins_;  ///< ranges to bins, before the table is known
+  RangeTable table_;                    ///< of cones
+  sensor_models::ProximityModel model_;
   std::vector<float> costs_;          ///< [measured][expected]: ln of the best P(d | o) less ln P(d | o), tempered
   std::vector<std::uint8_t> bin_at_;  ///< of a range in centimetres
   SonarTrust trust_;
@@ -113,4 +116,4 @@ class SonarEvidence final : public ObservationModel {
   std::size_t phase_ = 0;
 };
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -8,7 +8,7 @@
 
 #include "docent/localization/markov/testing.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 constexpr int kSonars = 24;
@@ -20,7 +20,8 @@ enum class Fault { none, frozen, deaf, near, storm };
 class Ring {
  public:
   explicit Ring(const SonarEvidenceParams& params, std::uint64_t seed = 1)
-      : evidence{params, kSonars, room.space, room.table, ProximityModel{{}}, seed}, rng_{Rng{seed}.stream("ring")} {}
+      : evidence{params, kSonars, room.space, room.table, sensor_models::ProximityModel{{}}, seed},
+        rng_{Rng{seed}.stream("ring")} {}
 
   /// All sonars, once.
   void ping(const Pose2& truth, const Pose2& odom, double time, Fault fault = Fault::none) {
@@ -204,4 +205,4 @@ TEST(SonarEvidence, ParametersAreChecked) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

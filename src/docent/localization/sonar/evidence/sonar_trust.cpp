@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace docent {
+namespace docent::localization {
 
 void SonarTrust::hear(int sonar, double range, const Pose2& odom_from_robot) {
   constexpr double kMoved = 0.3;    // [m]: enough to change what nearly every sonar hears
@@ -38,4 +38,4 @@ SonarTrust::State SonarTrust::state() const {
   return at_odds_ ? State::at_odds : State::well;
 }
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -6,7 +6,7 @@
 #include "docent/geometry/pose2.h"
 #include "docent/localization/judgement/verdict.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// Whether a ring of sonars may be believed. Who hears the same again and again though the robot moves has died with
 /// its last reading on the line; who hears nothing of what the belief lets expect is deaf. Too short readings tell
@@ -39,4 +39,4 @@ class SonarTrust {
   bool at_odds_ = false;
 };
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace docent {
+namespace docent::localization {
 
 PoseMatrix inverse_of(const PoseMatrix& m) {
   const double a = m[4] * m[8] - m[5] * m[7];
@@ -41,7 +41,8 @@ Result<void> OdometryDriftParams::validate() const {
   return {};
 }
 
-DriftFilter::DriftFilter(const OdometryModelParams& noise, const OdometryDriftParams& drift) : noise_{noise} {
+DriftFilter::DriftFilter(const motion_models::OdometryModelParams& noise, const OdometryDriftParams& drift)
+    : noise_{noise} {
   at(3, 3) = drift.scale * drift.scale;
   at(4, 4) = drift.turning * drift.turning;
   at(5, 5) = drift.veer * drift.veer;
@@ -84,7 +85,7 @@ Pose2 DriftFilter::move(const Pose2& step) {
       at(i, k) = at(k, i) = sum;
     }
   }
-  const MotionNoise noise = motion_noise(noise_, step);
+  const motion_models::MotionNoise noise = motion_models::motion_noise(noise_, step);
   at(0, 0) += noise.position_variance;
   at(1, 1) += noise.position_variance;
   at(2, 2) += noise.heading_variance;
@@ -148,4 +149,4 @@ void DriftFilter::shift(const std::array<double, kStates>& by) {
   }
 }
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -5,7 +5,7 @@
 #include "docent/geometry/pose2.h"
 #include "docent/motion_models/odometry_model.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// Row-major symmetric 3 x 3 matrix over x [m], y [m], heading [rad].
 using PoseMatrix = std::array<double, 9>;
@@ -34,7 +34,7 @@ struct OdometryDriftParams {
 /// Extended Kalman filter over the pose and three systematic errors of odometry. O(1) a step.
 class DriftFilter {
  public:
-  DriftFilter(const OdometryModelParams& noise, const OdometryDriftParams& drift);
+  DriftFilter(const motion_models::OdometryModelParams& noise, const OdometryDriftParams& drift);
 
   /// Starts anew at a known pose; what was learned about odometry is kept. @param covariance  of the pose
   void start_at(const Pose2& map_from_robot, const PoseMatrix& covariance);
@@ -60,10 +60,10 @@ class DriftFilter {
   [[nodiscard]] double at(std::size_t row, std::size_t column) const { return covariance_[row * kStates + column]; }
   void shift(const std::array<double, kStates>& by);
 
-  OdometryModelParams noise_;
+  motion_models::OdometryModelParams noise_;
   Pose2 pose_;
   std::array<double, 3> drift_{};
   std::array<double, kStates * kStates> covariance_{};
 };
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -6,10 +6,10 @@
 
 #include "docent/base/random.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
-constexpr OdometryModelParams kNoise{4e-4, 1e-4, 2e-4, 1e-3, 0.0};
+constexpr motion_models::OdometryModelParams kNoise{4e-4, 1e-4, 2e-4, 1e-3, 0.0};
 
 PoseMatrix diagonal(double position, double heading) {
   return {position * position, 0.0, 0.0, 0.0, position * position, 0.0, 0.0, 0.0, heading * heading};
@@ -56,7 +56,7 @@ TEST(DriftFilter, ItsCovarianceIsThatOfManyDraws) {
   double xx = 0.0;
   double yy = 0.0;
   double tt = 0.0;
-  const MotionNoise noise = motion_noise(kNoise, step);
+  const motion_models::MotionNoise noise = motion_models::motion_noise(kNoise, step);
   for (int draw = 0; draw < kDraws; ++draw) {
     Pose2 pose{rng.normal(0.0, 0.05), rng.normal(0.0, 0.05), Angle::radians(rng.normal(0.0, 0.02))};
     const double scale = rng.normal(0.0, drift.scale);
@@ -131,4 +131,4 @@ TEST(DriftFilter, RefusesWildParameters) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 constexpr float kFarthest = 100.0F;  // [m], of an empty map
@@ -161,4 +161,4 @@ double EchoMap::sharpness(const std::vector<Point2>& surface, double heading, do
   return sum;
 }
 
-}  // namespace docent
+}  // namespace docent::localization

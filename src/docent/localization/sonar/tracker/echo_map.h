@@ -6,7 +6,7 @@
 #include "docent/geometry/pose2.h"
 #include "docent/grid/occupancy_grid.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// What a sonar should hear in a map.
 struct ExpectedEcho {
@@ -51,4 +51,4 @@ class EchoMap {
   std::optional<MainDirection> main_direction_;
 };
 
-}  // namespace docent
+}  // namespace docent::localization

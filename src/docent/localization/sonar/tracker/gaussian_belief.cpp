@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 constexpr int kDeviations = 3;  // to each side
@@ -78,4 +78,4 @@ BeliefSummary gaussian_belief(const Pose2& mean, const PoseMatrix& covariance, d
   return summary;
 }
 
-}  // namespace docent
+}  // namespace docent::localization

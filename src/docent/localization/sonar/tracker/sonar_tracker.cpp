@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -120,4 +120,4 @@ void SonarTracker::match_now() {
   filter_.widen(kDoubtPosition, kDoubtHeading);
 }
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -9,10 +9,10 @@
 #include "docent/localization/sonar/tracker/sweep_match.h"
 #include "docent/localization/sonar/tracker/wall_angles.h"
 
-namespace docent {
+namespace docent::localization {
 
 struct SonarTrackerParams {
-  OdometryModelParams motion{4e-4, 1e-4, 2e-4, 1e-3, 0.0};
+  motion_models::OdometryModelParams motion{4e-4, 1e-4, 2e-4, 1e-3, 0.0};
   OdometryDriftParams drift;
   WallAngleParams walls;
   SweepMatchParams match;
@@ -96,4 +96,4 @@ class SonarTracker {
   int contradictions_ = 0;
 };
 
-}  // namespace docent
+}  // namespace docent::localization

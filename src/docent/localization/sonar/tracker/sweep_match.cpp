@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -266,4 +266,4 @@ SweepMatch match_sweep(const SweepMatchParams& params, const EchoMap& map, const
   return Matcher{params, map, echoes, prior, prior_covariance}.run();
 }
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -6,7 +6,7 @@
 #include "docent/localization/sonar/tracker/drift_filter.h"
 #include "docent/localization/sonar/tracker/echo_map.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// How echoes are matched with the map of echoes.
 struct SweepMatchParams {
@@ -65,4 +65,4 @@ struct SweepMatch {
                                      const std::vector<PlacedEcho>& echoes, const Pose2& prior,
                                      const PoseMatrix& prior_covariance);
 
-}  // namespace docent
+}  // namespace docent::localization

@@ -8,7 +8,7 @@
 #include "docent/base/random.h"
 #include "docent/localization/sonar/tracker/testing.h"
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 PoseMatrix diagonal(double position, double heading) {
@@ -148,4 +148,4 @@ TEST(SweepMatch, RefusesWildParameters) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::localization

@@ -8,7 +8,7 @@
 #include "docent/localization/sonar/tracker/sweep_match.h"
 
 /// Worlds and echoes for the tests of this folder.
-namespace docent::testing {
+namespace docent::localization::testing {
 
 /// A room of 8 x 5 m round (0, 0) with a pillar, turned by `turn` and drawn with a resolution of 5 cm.
 struct TurnedRoom {
@@ -70,4 +70,4 @@ struct TurnedRoom {
   }
 };
 
-}  // namespace docent::testing
+}  // namespace docent::localization::testing

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace docent {
+namespace docent::localization {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -98,4 +98,4 @@ std::optional<WallAngle> WallAngles::fit(const std::vector<Echo>& run) const {
   return WallAngle{Angle::radians(heading), std::hypot(kModelDeviation, kEchoDeviation / std::sqrt(spread))};
 }
 
-}  // namespace docent
+}  // namespace docent::localization

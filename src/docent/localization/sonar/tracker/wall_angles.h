@@ -6,7 +6,7 @@
 #include "docent/base/result.h"
 #include "docent/geometry/pose2.h"
 
-namespace docent {
+namespace docent::localization {
 
 /// The directions of walls from echoes.
 struct WallAngleParams {
@@ -59,4 +59,4 @@ class WallAngles {
   std::vector<std::vector<Echo>> runs_;  ///< one a sonar
 };
 
-}  // namespace docent
+}  // namespace docent::localization
