@@ -81,4 +81,26 @@ struct Horn {
   }
 };
 
+/// What head, face and voice show, decided in one place; 10 Hz.
+struct Expression {
+  static constexpr const char* kType = "docent_msgs/msg/Expression";
+  std_msgs::Header header;  ///< frame base_link
+  std::string mood;         ///< neutral, happy, sad, angry
+  double valence = 0;       ///< -1 (angry) .. 1 (happy), for a face between the moods
+  bool is_speaking = false;
+  std::string gaze;  ///< at what the head looks: goal, person, visitor, way, none
+  double pan = 0;    ///< [rad], base_link, to the left
+  double tilt = 0;   ///< [rad], upwards
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("header", m.header);
+    v("mood", m.mood);
+    v("valence", m.valence);
+    v("is_speaking", m.is_speaking);
+    v("gaze", m.gaze);
+    v("pan", m.pan);
+    v("tilt", m.tilt);
+  }
+};
+
 }  // namespace docent::docent_msgs

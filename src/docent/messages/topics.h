@@ -86,6 +86,7 @@ inline constexpr Topic<docent_msgs::TaskState> kTaskState{"docent/task_state", Q
 inline constexpr Topic<docent_msgs::Event> kEvent{"docent/event", Qos::command};
 inline constexpr Topic<docent_msgs::Reaction> kReaction{"docent/reaction", Qos::command};
 inline constexpr Topic<docent_msgs::Gaze> kGaze{"docent/gaze", Qos::sensor};
+inline constexpr Topic<docent_msgs::Expression> kExpression{"docent/expression", Qos::sensor};
 inline constexpr Topic<docent_msgs::Say> kSay{"docent/say", Qos::command};
 inline constexpr Topic<docent_msgs::SpeechState> kSpeechState{"docent/speech_state", Qos::state};
 inline constexpr Topic<docent_msgs::Horn> kHorn{"docent/horn", Qos::command};
@@ -120,7 +121,7 @@ void for_each_robot_topic(F&& f) {
   f(kPersonBeams), f(kPeople), f(kPeopleInOdom), f(kVirtualScan), f(kDriveGoal), f(kGoalState), f(kTarget), f(kPath);
   f(kDrive), f(kAvoidState), f(kRequest), f(kChoice), f(kRequestBoard), f(kMissionState), f(kTask), f(kTaskState),
       f(kEvent);
-  f(kReaction), f(kGaze), f(kSay), f(kSpeechState), f(kHorn), f(kLimits), f(kHealth);
+  f(kReaction), f(kGaze), f(kExpression), f(kSay), f(kSpeechState), f(kHorn), f(kLimits), f(kHealth);
   f(kInitialPose), f(kParticleCloud), f(kPeopleMarkers), f(kMuseumMarkers);
 }
 template <class F>
