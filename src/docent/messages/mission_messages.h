@@ -80,6 +80,7 @@ struct TaskState {
   std::string reason;
   Prompt prompt;
   bool took_long = false;  ///< the visitor asked for more
+  std::string look;        ///< where the task wants the head to look: place, visitors, way, nobody; empty: as it likes
   template <class Self, class V>
   static void visit(Self& m, V& v) {
     v("header", m.header);
@@ -88,6 +89,7 @@ struct TaskState {
     v("reason", m.reason);
     v("prompt", m.prompt);
     v("took_long", m.took_long);
+    v("look", m.look);
   }
 };
 

@@ -1,5 +1,6 @@
 #include "docent/interaction/speech/dictionary.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "docent/base/check.h"
@@ -54,6 +55,12 @@ Result<Dictionary> parse_dictionary(const std::string& text, const std::string& 
   } catch (const YamlFault& fault) {
     return tl::unexpected<Error>(fault.error);
   }
+}
+
+std::optional<Sentence> find_sentence(std::string_view key) {
+  const auto* found = std::find(kKeys.begin(), kKeys.end(), key);
+  if (found == kKeys.end()) return std::nullopt;
+  return static_cast<Sentence>(found - kKeys.begin());
 }
 
 const std::map<std::string, Dictionary, std::less<>>& dictionaries() {

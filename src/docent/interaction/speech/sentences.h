@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -27,6 +28,8 @@ enum class Sentence {
 };
 inline constexpr int kSentences = static_cast<int>(Sentence::at_charger) + 1;
 
+/// By its key in the dictionaries; nullopt: there is no such sentence.
+[[nodiscard]] std::optional<Sentence> find_sentence(std::string_view key);
 /// The sentence with `title` put in. Never empty.
 [[nodiscard]] std::string sentence(Sentence which, std::string_view language, std::string_view title = {});
 

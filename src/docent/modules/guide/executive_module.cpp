@@ -1,10 +1,11 @@
 #include "docent/modules/guide/executive_module.h"
 
+#include "docent/base/files.h"
 #include "docent/interaction/speech/spoken_text.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/shared/museum_mode.h"
-#include "docent/task_control/executive/checkpoint.h"
-#include "docent/task_control/executive/executive.h"
+#include "docent/task_control/golex/checkpoint.h"
+#include "docent/task_control/golex/executive.h"
 #include "docent/vocabulary/vocabulary.h"
 
 namespace docent::modules {
@@ -18,17 +19,26 @@ std::vector<std::string> texts_of(const std::vector<Answer>& answers) {
   return texts;
 }
 
+/// The built-in one under what the museum's file says.
+Result<task_control::Decomposition> decomposition_of(const museum::Museum& museum) {
+  const std::filesystem::path file = museum.folder / "golex.yaml";
+  if (museum.folder.empty() || !std::filesystem::exists(file)) return task_control::default_decomposition();
+  const auto text = read_file(file);
+  if (!text) return tl::unexpected<Error>(text.error());
+  return task_control::parse_decomposition(*text, file.string(), task_control::default_decomposition());
+}
+
 class ExecutiveModule final : public Module {
  public:
   ExecutiveModule(const ModuleContext& context, const task_control::ExecutiveParams& params,
-                  task_control::ExecutiveMemory memory, std::string fault)
+                  task_control::Decomposition decomposition, task_control::ExecutiveMemory memory, std::string fault)
       : bus_{context.bus},
         museum_{context.museum},
         mode_{context},
         checkpoint_{context.state / "executive.json"},
         map_{map_hash(context.museum.map)},
         survives_{context.virtual_time ? Survives::process_death : Survives::power_failure},
-        executive_{params, std::move(memory), bus_.now()},
+        executive_{params, std::move(decomposition), std::move(memory), bus_.now()},
         fault_{std::move(fault)},
         goal_{bus_.publisher(topics::kDriveGoal)},
         say_{bus_.publisher(topics::kSay)},
@@ -117,8 +127,10 @@ class ExecutiveModule final : public Module {
                       std::move(report.reason),
                       {std::move(question.id), std::move(question.text), texts_of(question.options),
                        to_text(question.default_option), to_message(question.deadline)},
-                      report.took_long});
+                      report.took_long,
+                      std::move(report.look)});
     }
+    for (std::string& reason : actions.horns) horn_.publish({{stamp, "base_link"}, std::move(reason)});
     for (task_control::LadderStep& step : actions.reactions) {
       if (step.rung == Rung::horn) horn_.publish({{stamp, "base_link"}, step.cause});
       reaction_.publish(
@@ -155,9 +167,12 @@ Result<std::unique_ptr<Module>> make_executive(const ModuleContext& context) {
   auto params = context.config.section<task_control::ExecutiveParams>("executive");
   if (!params) return tl::unexpected<Error>(params.error());
   params->ladder.active = !context.config.evaluation().without_ladder;
+  auto decomposition = decomposition_of(context.museum);
+  if (!decomposition) return tl::unexpected<Error>(decomposition.error());
   auto memory = task_control::load_checkpoint(context.state / "executive.json", map_hash(context.museum.map));
   // A damaged checkpoint costs the running step, not the robot: the mission's task begins again.
-  return std::make_unique<ExecutiveModule>(context, *params, memory.value_or(task_control::ExecutiveMemory{}),
+  return std::make_unique<ExecutiveModule>(context, *params, std::move(*decomposition),
+                                           memory.value_or(task_control::ExecutiveMemory{}),
                                            memory ? "" : memory.error().message);
 }
 

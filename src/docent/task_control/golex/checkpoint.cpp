@@ -1,4 +1,4 @@
-#include "docent/task_control/executive/checkpoint.h"
+#include "docent/task_control/golex/checkpoint.h"
 
 #include <nlohmann/json.hpp>
 
@@ -13,11 +13,15 @@ Result<void> save_checkpoint(const std::filesystem::path& path, const ExecutiveM
   const TaskOrder& order = memory.task.order;
   const Pose2& pose = order.map_from_base;
   const Json json{{"map", map},
-                  {"step", to_text(memory.step)},
-                  {"step_began", memory.step_began.nanoseconds},
+                  {"phase", to_text(memory.phase)},
+                  {"item", memory.item},
+                  {"finished", memory.finished},
+                  {"item_began", memory.item_began.nanoseconds},
                   {"drive_began", memory.drive_began.nanoseconds},
                   {"reason", memory.reason},
                   {"took_long", memory.took_long},
+                  {"moved", memory.moved},
+                  {"look", memory.look},
                   {"title", memory.task.title},
                   {"short", memory.task.short_text},
                   {"long", memory.task.long_text},
@@ -42,13 +46,17 @@ Result<ExecutiveMemory> load_checkpoint(const std::filesystem::path& path, const
     const Json json = Json::parse(*text);
     if (json.at("map").get<std::string>() != map) return ExecutiveMemory{};
     ExecutiveMemory memory;
-    const auto step = step_of(json.at("step").get<std::string>());
-    if (!step) return fail(path.string() + ": unknown step");
-    memory.step = *step;
-    memory.step_began = {json.at("step_began").get<std::int64_t>()};
+    const auto phase = parse<Phase>(json.at("phase").get<std::string>());
+    if (!phase) return fail(path.string() + ": unknown phase");
+    memory.phase = *phase;
+    memory.item = json.at("item").get<int>();
+    memory.finished = json.at("finished").get<std::vector<std::string>>();
+    memory.item_began = {json.at("item_began").get<std::int64_t>()};
     memory.drive_began = {json.at("drive_began").get<std::int64_t>()};
     memory.reason = json.at("reason").get<std::string>();
     memory.took_long = json.at("took_long").get<bool>();
+    memory.moved = json.at("moved").get<bool>();
+    memory.look = json.at("look").get<std::string>();
     memory.task.title = json.at("title").get<std::string>();
     memory.task.short_text = json.at("short").get<std::string>();
     memory.task.long_text = json.at("long").get<std::string>();

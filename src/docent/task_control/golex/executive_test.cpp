@@ -1,4 +1,4 @@
-#include "docent/task_control/executive/executive.h"
+#include "docent/task_control/golex/executive.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "docent/base/files.h"
-#include "docent/task_control/executive/checkpoint.h"
+#include "docent/task_control/golex/checkpoint.h"
 
 namespace docent::task_control {
 namespace {
@@ -52,7 +52,7 @@ class ExecutiveTest : public testing::Test {
     }
   }
   void restart() {
-    executive = Executive{{}, saved, time()};
+    executive = Executive{{}, default_decomposition(), saved, time()};
     said.clear();
     drive.reset();
     state = {};
@@ -65,7 +65,7 @@ class ExecutiveTest : public testing::Test {
 
   double now_s = 100.0;
   double progress_s = 100.0;
-  Executive executive{{}, {}, time_from_seconds(100.0)};
+  Executive executive{{}, default_decomposition(), {}, time_from_seconds(100.0)};
   std::optional<DriveOrder> drive;
   TaskReport state;
   ExecutiveMemory saved;
@@ -236,7 +236,7 @@ TEST_F(ExecutiveTest, HomeAndRelocalizing) {
   start({{"h", TaskKind::home, "", {0, 0, {}}, "de", false, ""}, "", "", ""});
   goal(GoalStatus::arrived);
   EXPECT_EQ(state.state, TaskStatus::done);
-  EXPECT_EQ(said.back().id, "h/home");
+  EXPECT_EQ(said.back().id, "h/home_again");
   start({{"l", TaskKind::relocalize, "", {}, "en", false, ""}, "", "", ""});
   EXPECT_TRUE(drive->relocalize);
   goal(GoalStatus::arrived);
@@ -299,34 +299,29 @@ TEST_F(ExecutiveTest, TheCheckpointHoldsEverything) {
   std::filesystem::remove(path);
   const auto none = load_checkpoint(path, "hall");
   ASSERT_TRUE(none);
-  EXPECT_EQ(none->step, Step::idle);
+  EXPECT_EQ(none->phase, Phase::idle);
   start(visit("t1"));
   goal(GoalStatus::arrived);
   speech("t1/short", SpeechStatus::done);
   ASSERT_TRUE(save_checkpoint(path, saved, "hall"));
   const auto loaded = load_checkpoint(path, "hall");
   ASSERT_TRUE(loaded);
-  EXPECT_EQ(loaded->step, Step::asking);
-  EXPECT_EQ(loaded->step_began, saved.step_began);
+  EXPECT_EQ(loaded->phase, Phase::running);
+  EXPECT_EQ(loaded->item, saved.item);
+  EXPECT_EQ(loaded->item_began, saved.item_began);
+  EXPECT_EQ(loaded->look, "visitors");
   EXPECT_EQ(loaded->drive_began, saved.drive_began);
   EXPECT_EQ(loaded->task.order.id, "t1");
   EXPECT_EQ(loaded->task.order.map_from_base.y, 4.0);
   EXPECT_EQ(loaded->task.long_text, saved.task.long_text);
-  EXPECT_EQ(load_checkpoint(path, "another hall")->step, Step::idle) << "its poses mean nothing there";
+  EXPECT_EQ(load_checkpoint(path, "another hall")->phase, Phase::idle) << "its poses mean nothing there";
   const std::string whole = *read_file(path);
   for (const std::string& damaged : {whole.substr(0, whole.size() / 2), std::string{"{}"}, std::string{"[1]"},
-                                     std::string{"{\"step\": \"dancing\"}"}, std::string{}}) {
+                                     std::string{"{\"phase\": \"dancing\"}"}, std::string{}}) {
     ASSERT_TRUE(write_file_atomically(path, damaged));
     EXPECT_FALSE(load_checkpoint(path, "hall")) << damaged;
   }
   std::filesystem::remove(path);
-}
-
-TEST(ExecutiveSteps, TextsRoundTrip) {
-  for (int i = 0; i <= static_cast<int>(Step::failed); ++i) {
-    EXPECT_EQ(step_of(to_text(static_cast<Step>(i))), static_cast<Step>(i));
-  }
-  EXPECT_FALSE(step_of("dancing"));
 }
 
 TEST_F(ExecutiveTest, ChargesNearerToThePlaceAndInvitesNobody) {
@@ -338,7 +333,7 @@ TEST_F(ExecutiveTest, ChargesNearerToThePlaceAndInvitesNobody) {
   EXPECT_EQ(state.state, TaskStatus::done);
   EXPECT_EQ(said.back().text.find("Who would like"), std::string::npos);
   start({{"c2", TaskKind::charge, "", {3, 4, {}}, "en", false, ""}, "", "", ""});
-  EXPECT_EQ(count("c2/announcement"), 0) << "nobody was with it";
+  EXPECT_EQ(count("c2/must_charge"), 0) << "nobody was with it";
 }
 
 TEST_F(ExecutiveTest, StaysAtTheExhibitAsLongAsTheModeSays) {
@@ -354,6 +349,95 @@ TEST_F(ExecutiveTest, StaysAtTheExhibitAsLongAsTheModeSays) {
   pass(9.0);
   EXPECT_EQ(state.state, TaskStatus::explaining);
   pass(2.0);
+  EXPECT_EQ(state.state, TaskStatus::done);
+}
+
+TEST_F(ExecutiveTest, ADepartureIsLookedForwardToAndHeard) {
+  executive.set_task(visit("t1"), time());
+  const auto actions = executive.take_actions();
+  EXPECT_EQ(actions.report->look, "place");
+  EXPECT_EQ(actions.horns.size(), 1U);
+  EXPECT_EQ(actions.music, true);
+  ASSERT_TRUE(actions.drive);
+  EXPECT_EQ(actions.drive->id, "t1/drive");
+  executive.goal_report({"t1/drive", GoalStatus::arrived, 0.0, 0.0, "", "none"}, time());
+  const auto arrived = executive.take_actions();
+  EXPECT_EQ(arrived.music, false);
+  EXPECT_EQ(arrived.report->look, "visitors");
+  EXPECT_TRUE(arrived.horns.empty());
+}
+
+/// Of a museum's own action.
+class OwnAction : public ExecutiveTest {
+ protected:
+  void begin(const std::string& text) {
+    auto read = parse_decomposition(text, "golex.yaml", default_decomposition());
+    ASSERT_TRUE(read) << read.error().message;
+    executive = Executive{{}, *read, {}, time()};
+    ExecutiveTask task = visit("o");
+    task.order.kind = Word<TaskKind>{std::string{"own"}};
+    start(task);
+  }
+};
+
+TEST_F(OwnAction, WhatStandsTogetherRunsTogetherAndEndsWithTheLast) {
+  begin("own:\n  - {say: {en: A story on the way.}, drive: place, wait: 4}\n  - say: {en: The end.}\n");
+  EXPECT_EQ(said.back().text, "A story on the way.");
+  EXPECT_EQ(state.state, TaskStatus::driving);
+  goal(GoalStatus::arrived);
+  EXPECT_EQ(state.state, TaskStatus::explaining) << "the story goes on";
+  speech("o/say", SpeechStatus::speaking);
+  speech("o/say", SpeechStatus::done);
+  EXPECT_EQ(said.back().text, "A story on the way.") << "the wait is not over";
+  pass(4.5);
+  EXPECT_EQ(said.back().text, "The end.");
+  EXPECT_EQ(said.back().id, "o/say-2");
+  speech("o/say-2", SpeechStatus::done);
+  EXPECT_EQ(state.state, TaskStatus::done);
+}
+
+TEST_F(OwnAction, ARestartRepeatsOnlyWhatIsNotOver) {
+  begin("own:\n  - {say: {en: A story.}, drive: place}\n");
+  speech("o/say", SpeechStatus::done);
+  const auto before = saved;
+  executive =
+      Executive{{},
+                *parse_decomposition("own:\n  - {say: {en: A story.}, drive: place}\n", "g", default_decomposition()),
+                before,
+                time()};
+  said.clear();
+  collect();
+  pass(2.0);
+  EXPECT_TRUE(said.empty());
+  EXPECT_EQ(drive->id, "o/drive");
+  goal(GoalStatus::arrived);
+  EXPECT_EQ(state.state, TaskStatus::done);
+}
+
+TEST_F(OwnAction, AnActionThatHoldsNothingUpIsDoneAtOnce) {
+  begin("own:\n  - look: way\n  - {music: stop, announce: {en: Hi!}}\n");
+  EXPECT_EQ(state.state, TaskStatus::done);
+  EXPECT_EQ(said.back().text, "Hi!");
+  begin("own: []\n");
+  EXPECT_EQ(state.state, TaskStatus::done);
+}
+
+TEST_F(OwnAction, TheDriveOfTheTaskBeforeIsOver) {
+  start(visit("t1"));
+  begin("own:\n  - wait: 3\n  - drive: place\n");
+  EXPECT_EQ(drive->id, "") << "it does not go on to the exhibit";
+  pass(3.5);
+  EXPECT_EQ(drive->id, "o/drive");
+}
+
+TEST_F(OwnAction, AFileThatWasChangedBeginsTheActionAnew) {
+  begin("own:\n  - wait: 3\n  - drive: place\n");
+  pass(3.5);
+  executive =
+      Executive{{}, *parse_decomposition("own:\n  - drive: place\n", "g", default_decomposition()), saved, time()};
+  collect();
+  EXPECT_EQ(state.state, TaskStatus::driving);
+  goal(GoalStatus::arrived);
   EXPECT_EQ(state.state, TaskStatus::done);
 }
 

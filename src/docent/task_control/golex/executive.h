@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "docent/base/result.h"
+#include "docent/task_control/golex/decomposition.h"
 #include "docent/task_control/reaction_ladder/reaction_ladder.h"
 #include "docent/task_control/tour_scheduler/mission.h"
 
@@ -15,6 +17,8 @@ namespace docent::task_control {
 struct ExecutiveParams {
   LadderParams ladder;              ///< what it does about a blocked way, and when
   double max_drive_s = 600.0;       ///< [s] > 0 under way in all
+  double charger_tolerance = 0.15;  ///< [m] > 0: contacts lie closer than where an exhibit is shown
+  double no_drive_s = 5.0;          ///< [s] >= 0: a shorter drive led nowhere: it stood there before
   double offer_s = 5.0;             ///< [s] > 0 to choose more or next ([Rhino1999] 5.1 (3))
   double resend_s = 1.0;            ///< [s] > 0: an utterance is sent again until it is heard
   double checkpoint_age_s = 900.0;  ///< [s] > 0: an older running step begins again
@@ -22,6 +26,8 @@ struct ExecutiveParams {
   void visit(V& v) {
     v("ladder", ladder);
     v("max_drive_s", max_drive_s);
+    v("charger_tolerance", charger_tolerance);
+    v("no_drive_s", no_drive_s);
     v("offer_s", offer_s);
     v("resend_s", resend_s);
     v("checkpoint_age_s", checkpoint_age_s);
@@ -38,19 +44,23 @@ struct ExecutiveTask {
   double wait_s = 0.0;     ///< [s] it stays at the exhibit after its last word
 };
 
-enum class Step { idle, driving, relocalizing, explaining, asking, explaining_more, waiting, done, failed };
-[[nodiscard]] const char* to_text(Step step);
-[[nodiscard]] std::optional<Step> step_of(const std::string& text);
+/// How far the executive has come with its task.
+enum class Phase { idle, running, done, failed };
+[[nodiscard]] constexpr auto words_of(Phase) { return std::array{"idle", "running", "done", "failed"}; }
 
 /// All that must survive a restart of the executive. Ids of goals, utterances and questions follow from the task's id
-/// and the step, so doing a step again sends the same ids, and who has done it already does nothing.
+/// and the directive's name, so doing one again sends the same id, and who has done it already does nothing.
 struct ExecutiveMemory {
   ExecutiveTask task;
-  Step step = Step::idle;
-  Time step_began;
+  Phase phase = Phase::idle;
+  int item = 0;                         ///< of the task's action, while it runs
+  std::vector<std::string> finished{};  ///< names of the item's directives that are over
+  Time item_began;
   Time drive_began;
   std::string reason;
-  bool took_long = false;
+  bool took_long = false;  ///< the visitor asked for more
+  bool moved = true;       ///< its last drive led it from one place to another
+  std::string look;        ///< where the head shall look; empty: nothing was said of it
 };
 
 struct DriveOrder {
@@ -99,21 +109,18 @@ struct TaskReport {
   std::string reason;
   Question question;
   bool took_long = false;
+  std::string look;
 };
 
-/// Does one task after the other ([Rhino1999] 4.3, GOLEX: decompose, monitor, recover):
+/// GOLEX ([Rhino1999] 4.3): does one task after the other. The decomposition says of which directives each task's
+/// action consists; the executive begins them, those of one item at once, watches them, recovers and reports.
 ///
-///   visit:      driving -> explaining -> asking -> [explaining_more ->] [waiting ->] done
-///   home:       driving -> done
-///   charge:     driving -> done, nearer to the place
-///   relocalize: relocalizing -> done
-///
-/// A drive whose way is blocked climbs the reaction ladder. Every step has a limit, so that a dead module holds nothing
-/// up: a drive fails after its patience, a speech counts as spoken 1.5 times its foreseen length plus 5 s after it was
-/// sent, a question has its default. Deterministic; knows nothing of messages and files.
+/// A drive whose way is blocked climbs the reaction ladder. Every directive has a limit, so that a dead module holds
+/// nothing up: a drive fails after its patience, a speech counts as spoken 1.5 times its foreseen length plus 5 s after
+/// it was sent, a question has its default. Deterministic; knows nothing of messages and files.
 class Executive {
  public:
-  Executive(const ExecutiveParams& params, ExecutiveMemory memory, Time now);
+  Executive(const ExecutiveParams& params, Decomposition decomposition, ExecutiveMemory memory, Time now);
 
   /// The task to work on. The same id again changes nothing; another one replaces the present; an empty one stops it.
   void set_task(ExecutiveTask task, Time now);
@@ -133,34 +140,50 @@ class Executive {
     std::vector<Happening> happenings;
     std::vector<LadderStep> reactions;  ///< to a blocked way, of the drive `reactions_of`
     std::string reactions_of;
+    std::vector<std::string> horns{};  ///< reasons
+    std::optional<bool> music{};       ///< play or stop
   };
   [[nodiscard]] Actions take_actions() { return std::exchange(actions_, {}); }
   [[nodiscard]] const ExecutiveMemory& memory() const { return memory_; }
   [[nodiscard]] const std::string& task_id() const { return memory_.task.order.id; }
 
  private:
-  void enter(Step step, Time now);
+  /// Goes to the item, or the next one whose condition holds; behind the last one the task is done.
+  void begin_item(int item, Time now);
+  void begin(const Directive& directive, Time now);
+  void end(const Directive& directive, Time now);
   void finish(bool is_success, const std::string& reason, Time now);
   void resume(Time now);
-  void send_drive();
+  [[nodiscard]] bool holds(Condition condition) const;
+  /// What the present item consists of; nothing while no task runs.
+  [[nodiscard]] const std::vector<Directive>& together() const;
+  /// The item's directive of this kind, while it is not over.
+  [[nodiscard]] const Directive* under_way(DirectiveKind kind) const;
+  /// The drive or the relocalizing under way.
+  [[nodiscard]] const Directive* drive_under_way() const;
+  [[nodiscard]] std::optional<TaskStatus> status() const;
+  [[nodiscard]] DriveOrder drive_order() const;
+  void send_drive() { actions_.drive = drive_order(); }
   void say(const std::string& name, const std::string& text, Mood mood);
-  void send_speech(Time now);
+  /// In the task's language; empty: there is nothing to say.
+  [[nodiscard]] std::string text_of(const Directive& directive) const;
+  void send_speech(const Directive& directive, Time now);
   void report();
   void watch_drive(Time now);
   void climb_ladder(Time now);
-  void watch_speech(Time now);
-  void arrive(Time now);
-  /// All is said: done, or stays a while.
-  void end_visit(Time now);
+  void watch_speech(const Directive& directive, Time now);
+  void watch_wait(const Directive& directive, Time now);
+  void arrive(const Directive& directive, Time now);
   void ask_for_way(Time now, int count);
   void set_note(const std::string& note);
-  [[nodiscard]] bool is_speaking() const;
+  [[nodiscard]] bool is_asked(const Directive& directive) const;
+  [[nodiscard]] double wait_s(const Directive& directive) const;
   [[nodiscard]] std::string own_id(const std::string& name) const;
-  [[nodiscard]] Utterance speech() const;
   [[nodiscard]] Question question() const;
   [[nodiscard]] Time question_deadline() const;
 
   ExecutiveParams params_;
+  Decomposition decomposition_;
   ExecutiveMemory memory_;
   Actions actions_;
 

@@ -5,7 +5,7 @@
 
 #include "docent/base/files.h"
 #include "docent/base/result.h"
-#include "docent/task_control/executive/executive.h"
+#include "docent/task_control/golex/executive.h"
 
 namespace docent::task_control {
 

@@ -1,0 +1,72 @@
+#include "docent/task_control/golex/decomposition.h"
+
+#include <gtest/gtest.h>
+
+#include "docent/vocabulary/vocabulary.h"
+
+namespace docent::task_control {
+namespace {
+
+std::string error_of(const std::string& text) {
+  const auto read = parse_decomposition(text, "golex.yaml", default_decomposition());
+  return read ? "" : read.error().message;
+}
+
+TEST(Decomposition, TheBuiltInOneKnowsEveryTask) {
+  for (const char* kind : words_of(TaskKind{})) {
+    ASSERT_NE(default_decomposition().find(kind), nullptr) << kind;
+    EXPECT_FALSE(default_decomposition().find(kind)->empty()) << kind;
+  }
+  EXPECT_EQ(default_decomposition().find("dance"), nullptr);
+}
+
+// [Rhino1999] Table 5: track point, horn, music, drive (which ends turned to the exhibit), then explain.
+TEST(Decomposition, ADriveIsDividedAsInTable5) {
+  const auto& visit = *default_decomposition().find("visit");
+  std::vector<DirectiveKind> kinds;
+  for (const Directive& directive : visit.front().together) {
+    if (directive.kind != DirectiveKind::announce) kinds.push_back(directive.kind);
+  }
+  EXPECT_EQ(kinds, (std::vector{DirectiveKind::look, DirectiveKind::horn, DirectiveKind::music, DirectiveKind::drive}));
+  EXPECT_EQ(visit.front().together.front().argument, "place");
+}
+
+TEST(Decomposition, AMuseumReplacesSingleActionsAndAddsOthers) {
+  const auto read = parse_decomposition(
+      "home:\n"
+      "  - drive: place\n"
+      "wave:\n"
+      "  - {look: visitors, say: {en: Hello!, de: Hallo!}, wait: 2.5}\n"
+      "  - {say: short}\n"
+      "  - {say: short, if: more}\n",
+      "golex.yaml", default_decomposition());
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->find("home")->size(), 1U);
+  EXPECT_EQ(read->find("visit")->size(), default_decomposition().find("visit")->size());
+  const auto& wave = *read->find("wave");
+  ASSERT_EQ(wave.size(), 3U);
+  EXPECT_EQ(wave[0].together[1].texts.at("de"), "Hallo!");
+  EXPECT_EQ(wave[2].condition, Condition::more);
+  EXPECT_NE(wave[1].together[0].name, wave[2].together[0].name) << "ids follow from names";
+}
+
+TEST(Decomposition, WhatIsWrongIsNamedWithItsLine) {
+  EXPECT_EQ(error_of("visit:\n  - fly: place\n"), "golex.yaml:2: unknown directive 'fly'");
+  EXPECT_EQ(error_of("visit:\n  - drive: moon\n"), "golex.yaml:2: 'drive' must be place or charger");
+  EXPECT_EQ(error_of("visit:\n  - say: shrot\n"),
+            "golex.yaml:2: 'say' must be short, long, the key of a sentence, or a text in each language");
+  EXPECT_EQ(error_of("visit:\n  - wait: 3 days\n"), "golex.yaml:2: 'wait' must be linger or seconds, 0 to 600");
+  EXPECT_EQ(error_of("visit:\n  - wait: -1\n"), "golex.yaml:2: 'wait' must be linger or seconds, 0 to 600");
+  EXPECT_EQ(error_of("visit:\n  - {drive: place, drive: place}\n"), "golex.yaml:2: 'drive' comes twice in one item");
+  EXPECT_EQ(error_of("visit:\n  - drive: place\n    if: rain\n"),
+            "golex.yaml:3: 'if' must be more, broken_off or moved");
+  EXPECT_NE(error_of("visit: drive\n"), "");
+  EXPECT_NE(error_of("- visit\n"), "");
+  EXPECT_NE(error_of("visit:\n  - [drive]\n"), "");
+  EXPECT_NE(error_of("visit:\n  - drive: {a: b}\n"), "");
+  EXPECT_NE(error_of("[1]: [2]\n"), "");
+  EXPECT_NE(error_of(""), "");
+}
+
+}  // namespace
+}  // namespace docent::task_control

@@ -1,0 +1,423 @@
+#include "docent/task_control/golex/executive.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "docent/interaction/speech/sentences.h"
+#include "docent/interaction/speech/spoken_text.h"
+
+namespace docent::task_control {
+namespace {
+
+constexpr Duration kObstacleLife = std::chrono::seconds{1};  // the collision avoidance speaks four times a second
+
+bool is_positive(double value) { return value > 0.0; }
+
+template <class T>
+bool contains(const std::vector<T>& list, const T& value) {
+  return std::find(list.begin(), list.end(), value) != list.end();
+}
+
+}  // namespace
+
+Result<void> ExecutiveParams::validate() const {
+  if (auto valid = ladder.validate(); !valid) return fail("executive." + valid.error().message);
+  if (!is_positive(max_drive_s)) return fail("executive.max_drive_s must be > 0");
+  if (!is_positive(charger_tolerance)) return fail("executive.charger_tolerance must be > 0");
+  if (!(no_drive_s >= 0.0)) return fail("executive.no_drive_s must be >= 0");
+  if (!is_positive(offer_s)) return fail("executive.offer_s must be > 0");
+  if (!is_positive(resend_s)) return fail("executive.resend_s must be > 0");
+  if (!is_positive(checkpoint_age_s)) return fail("executive.checkpoint_age_s must be > 0");
+  return {};
+}
+
+Executive::Executive(const ExecutiveParams& params, Decomposition decomposition, ExecutiveMemory memory, Time now)
+    : params_{params}, decomposition_{std::move(decomposition)}, memory_{std::move(memory)}, ladder_{params.ladder} {
+  resume(now);
+}
+
+void Executive::resume(Time now) {
+  // A clock that went back belongs to another life.
+  memory_.item_began = std::min(memory_.item_began, now);
+  memory_.drive_began = std::min(memory_.drive_began, now);
+  if (memory_.phase == Phase::running) {
+    const auto* action = decomposition_.find(memory_.task.order.kind.text());
+    const bool is_other = action == nullptr || memory_.item < 0 || memory_.item >= static_cast<int>(action->size());
+    const bool is_old = drive_under_way() == nullptr && now - memory_.item_began > seconds(params_.checkpoint_age_s);
+    if (is_other || is_old) {  // the file was changed, or visitors and place are others by now
+      begin_item(0, now);
+      return;
+    }
+  }
+  send_drive();
+  report();
+}
+
+void Executive::set_task(ExecutiveTask task, Time now) {
+  if (task.order.id == memory_.task.order.id) return;
+  memory_ = {};
+  memory_.task = std::move(task);
+  memory_.drive_began = now;
+  goal_ = {};
+  actions_.must_save = true;
+  const TaskOrder& order = memory_.task.order;
+  send_drive();  // what it did before is over, whatever begins now
+  if (order.id.empty()) {
+    actions_.music = false;
+    report();
+  } else if (decomposition_.find(order.kind.text()) != nullptr) {
+    memory_.phase = Phase::running;
+    begin_item(0, now);
+  } else {
+    finish(false, "I do not know the task '" + order.kind.text() + "'.", now);
+  }
+}
+
+std::string Executive::own_id(const std::string& name) const { return memory_.task.order.id + "/" + name; }
+
+const std::vector<Directive>& Executive::together() const {
+  static const std::vector<Directive> kNone;
+  if (memory_.phase != Phase::running) return kNone;
+  const auto* action = decomposition_.find(memory_.task.order.kind.text());
+  if (action == nullptr || memory_.item < 0 || memory_.item >= static_cast<int>(action->size())) return kNone;
+  return (*action)[static_cast<std::size_t>(memory_.item)].together;
+}
+
+const Directive* Executive::under_way(DirectiveKind kind) const {
+  for (const Directive& directive : together()) {
+    if (directive.kind == kind && holds_up(kind) && !contains(memory_.finished, directive.name)) return &directive;
+  }
+  return nullptr;
+}
+
+const Directive* Executive::drive_under_way() const {
+  const Directive* drive = under_way(DirectiveKind::drive);
+  return drive != nullptr ? drive : under_way(DirectiveKind::relocalize);
+}
+
+bool Executive::holds(Condition condition) const {
+  const TaskOrder& order = memory_.task.order;
+  switch (condition) {
+    case Condition::always:
+      return true;
+    case Condition::more:
+      return memory_.took_long;
+    case Condition::broken_off:
+      return order.kind == TaskKind::charge && !(order.exhibit_id.empty() && order.tour_id.empty());
+    case Condition::moved:
+      return memory_.moved;
+  }
+  return true;
+}
+
+void Executive::begin_item(int item, Time now) {
+  const std::vector<ActionItem>& items = *decomposition_.find(memory_.task.order.kind.text());
+  while (item < static_cast<int>(items.size()) && !holds(items[static_cast<std::size_t>(item)].condition)) ++item;
+  if (item >= static_cast<int>(items.size())) {
+    finish(true, "", now);
+    return;
+  }
+  memory_.item = item;
+  memory_.item_began = now;
+  memory_.finished.clear();
+  ladder_.restart();
+  heard_.reset();
+  speech_sent_.reset();
+  note_.clear();
+  actions_.must_save = true;
+  for (const Directive& directive : together()) begin(directive, now);
+  const bool is_over = std::none_of(together().begin(), together().end(),
+                                    [&](const Directive& directive) { return under_way(directive.kind) != nullptr; });
+  if (is_over) {
+    begin_item(item + 1, now);
+  } else {
+    report();
+  }
+}
+
+void Executive::begin(const Directive& directive, Time now) {
+  switch (directive.kind) {
+    case DirectiveKind::look:
+      memory_.look = directive.argument;
+      break;
+    case DirectiveKind::horn:
+      actions_.horns.push_back(directive.argument);
+      break;
+    case DirectiveKind::music:
+      actions_.music = directive.argument == "play";
+      break;
+    case DirectiveKind::announce:
+      if (const std::string text = text_of(directive); !text.empty()) say(directive.name, text, Mood::happy);
+      break;
+    case DirectiveKind::drive:
+      memory_.drive_began = now;
+      send_drive();
+      break;
+    case DirectiveKind::relocalize:
+      send_drive();
+      break;
+    case DirectiveKind::say:
+      if (text_of(directive).empty()) {
+        memory_.finished.push_back(directive.name);
+      } else {
+        send_speech(directive, now);
+      }
+      break;
+    case DirectiveKind::ask:
+      if (!is_asked(directive)) {
+        memory_.finished.push_back(directive.name);
+        break;
+      }
+      say("question", question().text, Mood::neutral);
+      actions_.happenings.push_back(
+          {EventKind::prompt_shown, memory_.task.order.exhibit_id, question().id, params_.offer_s});
+      break;
+    case DirectiveKind::wait:
+      if (!(wait_s(directive) > 0.0)) memory_.finished.push_back(directive.name);
+      break;
+  }
+}
+
+void Executive::end(const Directive& directive, Time now) {
+  memory_.finished.push_back(directive.name);
+  actions_.must_save = true;
+  const bool is_over = std::all_of(together().begin(), together().end(), [&](const Directive& other) {
+    return !holds_up(other.kind) || contains(memory_.finished, other.name);
+  });
+  if (is_over) {
+    begin_item(memory_.item + 1, now);
+  } else {
+    report();
+  }
+}
+
+void Executive::finish(bool is_success, const std::string& reason, Time /*now*/) {
+  memory_.phase = is_success ? Phase::done : Phase::failed;
+  memory_.reason = reason;
+  note_.clear();
+  actions_.must_save = true;
+  if (!is_success) {
+    send_drive();
+    actions_.music = false;
+  }
+  report();
+}
+
+DriveOrder Executive::drive_order() const {
+  const TaskOrder& order = memory_.task.order;
+  if (under_way(DirectiveKind::relocalize) != nullptr) return {own_id("relocalize"), {}, true};
+  const auto* action = decomposition_.find(order.kind.text());
+  if (memory_.phase == Phase::idle || memory_.phase == Phase::failed || action == nullptr) return {};
+  // After its drive it stays at the place: the goal remains the last one that was begun.
+  const std::size_t begun = memory_.phase == Phase::done ? action->size() : static_cast<std::size_t>(memory_.item) + 1;
+  DriveOrder last;
+  for (std::size_t i = 0; i < std::min(begun, action->size()); ++i) {
+    for (const Directive& directive : (*action)[i].together) {
+      if (directive.kind != DirectiveKind::drive) continue;
+      last = DriveOrder{own_id(directive.name), order.map_from_base};
+      if (directive.argument == "charger") last.position_tolerance = params_.charger_tolerance;
+    }
+  }
+  return last;
+}
+
+void Executive::say(const std::string& name, const std::string& text, Mood mood) {
+  actions_.utterances.push_back({own_id(name), text, memory_.task.order.language, mood});
+}
+
+std::string Executive::text_of(const Directive& directive) const {
+  const ExecutiveTask& task = memory_.task;
+  if (!directive.texts.empty()) {
+    const auto text = directive.texts.find(task.order.language);
+    return interaction::spoken_text((text != directive.texts.end() ? text : directive.texts.begin())->second);
+  }
+  if (directive.argument == "long") return task.long_text;
+  if (directive.argument != "short")
+    return interaction::sentence(*interaction::find_sentence(directive.argument), task.order.language, task.title);
+  return task.title.empty() ? task.short_text : interaction::spoken_text(task.title) + " " + task.short_text;
+}
+
+void Executive::send_speech(const Directive& directive, Time now) {
+  say(directive.name, text_of(directive), Mood::neutral);
+  speech_sent_ = now;
+}
+
+bool Executive::is_asked(const Directive& /*directive*/) const {
+  return memory_.task.order.offer_more && !memory_.task.long_text.empty();
+}
+
+double Executive::wait_s(const Directive& directive) const {
+  return directive.argument == "linger" ? memory_.task.wait_s : std::strtod(directive.argument.c_str(), nullptr);
+}
+
+Time Executive::question_deadline() const { return memory_.item_began + seconds(params_.offer_s); }
+
+Question Executive::question() const {
+  const Directive* asked = under_way(DirectiveKind::ask);
+  if (asked == nullptr) return {};
+  return {own_id(asked->name),
+          interaction::sentence(interaction::Sentence::offer_more, memory_.task.order.language, memory_.task.title),
+          {Answer::more, Answer::next},
+          Answer::next,
+          question_deadline()};
+}
+
+std::optional<TaskStatus> Executive::status() const {
+  switch (memory_.phase) {
+    case Phase::idle:
+      return std::nullopt;
+    case Phase::done:
+      return TaskStatus::done;
+    case Phase::failed:
+      return TaskStatus::failed;
+    case Phase::running:
+      break;
+  }
+  if (under_way(DirectiveKind::ask) != nullptr) return TaskStatus::asking;
+  return drive_under_way() != nullptr ? TaskStatus::driving : TaskStatus::explaining;
+}
+
+void Executive::report() {
+  if (memory_.phase == Phase::idle) {
+    actions_.report = TaskReport{};
+    return;
+  }
+  TaskReport report{task_id(), status(), memory_.reason, question(), memory_.took_long, memory_.look};
+  if (!note_.empty()) report.reason = note_;
+  actions_.report = std::move(report);
+}
+
+void Executive::set_note(const std::string& note) {
+  if (note == note_) return;
+  note_ = note;
+  report();
+}
+
+void Executive::goal_report(const GoalReport& goal, Time now) {
+  goal_ = goal;
+  const Directive* driven = drive_under_way();
+  if (driven == nullptr || goal.id != own_id(driven->name)) return;
+  if (goal.state == GoalStatus::arrived) {
+    arrive(*driven, now);
+    return;
+  }
+  if (driven->kind == DirectiveKind::relocalize) {
+    climb_ladder(now);
+    return;
+  }
+  const bool is_stuck = goal.state == GoalStatus::blocked || goal.state == GoalStatus::unreachable;
+  if (goal.state == GoalStatus::driving || goal.state == GoalStatus::turning) {
+    set_note("");
+  } else if (is_stuck && note_.empty()) {
+    set_note(goal.state == GoalStatus::unreachable ? "I see no way there." : "Someone is in my way.");
+    actions_.happenings.push_back({EventKind::drive_blocked, memory_.task.order.exhibit_id,
+                                   std::string{to_text(goal.state)} + " " + goal.reason, goal.remaining_m});
+  }
+  watch_drive(now);
+}
+
+void Executive::arrive(const Directive& directive, Time now) {
+  if (directive.kind == DirectiveKind::drive) {
+    const TaskOrder& order = memory_.task.order;
+    const Duration lasted = now - memory_.drive_began;
+    memory_.moved = lasted >= seconds(params_.no_drive_s);
+    actions_.happenings.push_back({EventKind::arrived,
+                                   order.kind == TaskKind::visit ? order.exhibit_id : order.kind.text(), order.id,
+                                   to_seconds(lasted)});
+  }
+  note_.clear();
+  end(directive, now);
+}
+
+void Executive::watch_drive(Time now) {
+  const Directive* driven = under_way(DirectiveKind::drive);
+  if (driven == nullptr) return;
+  if (now - memory_.drive_began > seconds(params_.max_drive_s)) {
+    finish(false, "It took me too long to get there.", now);
+  } else if (goal_.id == own_id(driven->name)) {
+    climb_ladder(now);
+  }
+}
+
+void Executive::obstacle_report(const ObstacleReport& report, Time now) {
+  obstacle_ = report;
+  obstacle_time_ = now;
+}
+
+void Executive::climb_ladder(Time now) {
+  if (now - obstacle_time_ > kObstacleLife) obstacle_ = {};
+  const bool is_unreachable = goal_.state == GoalStatus::unreachable;
+  const LadderView view{obstacle_.is_hindered,
+                        obstacle_.is_unmapped,
+                        is_unreachable,
+                        goal_.blocked_s,
+                        planning::detour_of(goal_.detour),
+                        obstacle_.reason.empty() ? goal_.reason : obstacle_.reason,
+                        obstacle_.is_thing};
+  auto steps = ladder_.step(view, now);
+  bool gives_up = false;
+  for (const LadderStep& step : steps) {
+    if (step.rung == Rung::ask) ask_for_way(now, step.count);
+    gives_up = gives_up || step.rung == Rung::give_up;
+  }
+  actions_.reactions_of = goal_.id;
+  actions_.reactions.insert(actions_.reactions.end(), steps.begin(), steps.end());
+  // A robot that does not know where it is has nothing else to choose.
+  if (gives_up && under_way(DirectiveKind::drive) != nullptr)
+    finish(false, is_unreachable ? "I found no way there." : "The way was blocked for too long.", now);
+}
+
+void Executive::ask_for_way(Time now, int count) {
+  // The name carries the time, so that a restarted executive does not repeat an id that was spoken already.
+  say("please-" + std::to_string(std::max<std::int64_t>(0, (now - memory_.item_began).count() / 1000000)),
+      interaction::sentence(interaction::Sentence::let_me_through, memory_.task.order.language),
+      count == 1 ? Mood::neutral : Mood::sad);
+  actions_.happenings.push_back(
+      {EventKind::asked_for_way, memory_.task.order.exhibit_id, "", static_cast<double>(count)});
+}
+
+void Executive::speech_report(const SpeechReport& report, Time now) {
+  const Directive* spoken = under_way(DirectiveKind::say);
+  if (spoken == nullptr || report.id != own_id(spoken->name)) return;
+  heard_ = report;
+  watch_speech(*spoken, now);
+}
+
+void Executive::watch_speech(const Directive& directive, Time now) {
+  bool is_over = false;
+  if (heard_) {
+    is_over = heard_->state != SpeechStatus::speaking || now > heard_->start + seconds(heard_->duration_s + 5.0);
+  } else {
+    const double foreseen_s =
+        interaction::speech_duration(text_of(directive), memory_.task.order.language, Mood::neutral);
+    is_over = now > memory_.item_began + seconds(1.5 * foreseen_s + 5.0);
+    if (!is_over && (!speech_sent_ || now - *speech_sent_ >= seconds(params_.resend_s))) send_speech(directive, now);
+  }
+  if (is_over) end(directive, now);
+}
+
+void Executive::watch_wait(const Directive& directive, Time now) {
+  if (now - memory_.item_began >= seconds(wait_s(directive))) end(directive, now);
+}
+
+void Executive::choose(const std::string& question_id, std::optional<Answer> option, Time now) {
+  const Directive* asked = under_way(DirectiveKind::ask);
+  if (asked == nullptr || question_id != own_id(asked->name)) return;
+  if (option != Answer::more && option != Answer::next) return;
+  actions_.happenings.push_back({EventKind::choice, memory_.task.order.exhibit_id, to_text(option)});
+  memory_.took_long = memory_.took_long || option == Answer::more;
+  end(*asked, now);
+}
+
+void Executive::tick(Time now) {
+  // Each may end the item: what comes next is looked up anew.
+  watch_drive(now);
+  if (const Directive* spoken = under_way(DirectiveKind::say)) watch_speech(*spoken, now);
+  if (const Directive* asked = under_way(DirectiveKind::ask); asked != nullptr && now >= question_deadline()) {
+    actions_.happenings.push_back({EventKind::choice, memory_.task.order.exhibit_id, "next (default)"});
+    end(*asked, now);
+  }
+  if (const Directive* waited = under_way(DirectiveKind::wait)) watch_wait(*waited, now);
+}
+
+}  // namespace docent::task_control
