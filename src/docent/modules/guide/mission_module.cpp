@@ -11,8 +11,9 @@
 #include "docent/interaction/speech/spoken_text.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/shared/museum_mode.h"
-#include "docent/task_control/tour_scheduler/mission.h"
-#include "docent/task_control/tour_scheduler/mission_store.h"
+#include "docent/task_control/mission/mission.h"
+#include "docent/task_control/mission/mission_store.h"
+#include "docent/task_control/plan_controller/plan_controller.h"
 #include "docent/task_control/tour_scheduler/travel.h"
 #include "docent/vocabulary/vocabulary.h"
 
@@ -90,7 +91,12 @@ class MissionModule final : public Module {
         mode_{context},
         store_{std::move(store)},
         set_aside_{store_.set_aside()},
-        mission_{params, programme_of(context.museum), travel_in(context), std::move(memory), bus_.now()},
+        mission_{params,
+                 programme_of(context.museum),
+                 travel_in(context),
+                 std::move(memory),
+                 std::make_unique<task_control::PlanController>(),
+                 bus_.now()},
         board_{bus_.publisher(topics::kRequestBoard)},
         task_{bus_.publisher(topics::kTask)},
         state_{bus_.publisher(topics::kMissionState)},

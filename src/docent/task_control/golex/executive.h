@@ -9,7 +9,8 @@
 #include "docent/base/result.h"
 #include "docent/task_control/golex/decomposition.h"
 #include "docent/task_control/reaction_ladder/reaction_ladder.h"
-#include "docent/task_control/tour_scheduler/mission.h"
+#include "docent/task_control/tour_scheduler/programme.h"
+#include "docent/task_control/tour_scheduler/task_order.h"
 
 namespace docent::task_control {
 

@@ -1,4 +1,4 @@
-#include "docent/task_control/tour_scheduler/mission_store.h"
+#include "docent/task_control/mission/mission_store.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -1,4 +1,4 @@
-#include "docent/task_control/tour_scheduler/battery_watch.h"
+#include "docent/task_control/mission/battery_watch.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "docent/base/result.h"
-#include "docent/task_control/tour_scheduler/mission.h"
+#include "docent/task_control/mission/mission.h"
 
 namespace docent::task_control {
 

@@ -1,4 +1,4 @@
-#include "docent/task_control/tour_scheduler/mission.h"
+#include "docent/task_control/mission/mission.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,9 +31,10 @@ Result<void> MissionParams::validate() const {
 }
 
 Mission::Mission(const MissionParams& params, Programme programme, TravelDistance travel, MissionMemory memory,
-                 Time now)
+                 std::unique_ptr<Planner> planner, Time now)
     : params_{params},
       scheduler_{params.schedule, std::move(programme), std::move(travel), std::move(memory.schedule), now},
+      planner_{std::move(planner)},
       deployment_{std::move(memory.deployment)},
       next_task_{memory.next_task},
       task_{std::move(memory.task)},
@@ -44,7 +45,7 @@ Mission::Mission(const MissionParams& params, Programme programme, TravelDistanc
   // The running visit goes on under its old task id, so that an executive that works on it is not disturbed.
   if (const auto& visit = scheduler_.state().visit) {
     activity_ = Activity::visit;
-    if (task_.kind != TaskKind::visit || !is_same(task_.map_from_base, visit->map_from_base)) start_visit(now);
+    if (task_.kind != TaskKind::visit || !is_same(task_.map_from_base, visit->map_from_base)) order_visit(now);
   } else if (task_.kind == TaskKind::home && is_same(task_.map_from_base, scheduler_.programme().home)) {
     activity_ = Activity::home;
   } else if (task_.kind == TaskKind::charge && is_same(task_.map_from_base, resting_place())) {
@@ -173,48 +174,56 @@ Point2 Mission::position() const { return position_.value_or(scheduler_.programm
 
 void Mission::decide(Time now) {
   watch_battery(now);
-  if (!is_localized_) {
-    decide_when_lost(now);
-    return;
-  }
-  if (activity_ == Activity::relocalize || !was_ever_localized_) {
-    if (now - localization_changed_ < seconds(params_.localized_after_s)) return;
-    scheduler_.note({EventKind::localized, "", was_ever_localized_ ? "found itself again" : "woke up",
-                     to_seconds(now - lost_since_)});
-    was_ever_localized_ = true;
-    if (activity_ == Activity::relocalize) {
-      start_task(Activity::none, {});
-      if (scheduler_.state().visit) start_visit(now);  // what was suspended goes on
-    }
-  }
-  if (break_off_to_charge(now) || activity_ == Activity::visit) return rest(now);
-  const bool may_serve = !must_charge_ || battery_.charge(now).value_or(1.0) >= enough_to_serve();
-  if (may_serve && scheduler_.begin_visit(position(), now, budget_s(now))) {
-    must_charge_ = false;
-    start_visit(now);
-    return;
-  }
-  if (!must_charge_ && scheduler_.is_anything_due(now)) {  // what comes next would take more than there is
-    must_charge_ = true;
-    scheduler_.note({EventKind::battery_low, "", "for what comes next", battery_.charge(now).value_or(1.0)});
-  }
-  rest(now);
+  planner_->decide(*this, now);
 }
 
-bool Mission::break_off_to_charge(Time now) {
+Situation Mission::situation(Time now) const {
   const SchedulerState& schedule = scheduler_.state();
-  if (!must_charge_ || !(schedule.visit || schedule.tour)) return false;
-  if (activity_ == Activity::visit && !may_interrupt()) return false;
+  Situation seen;
+  seen.activity = activity_;
+  seen.may_interrupt = may_interrupt();
+  seen.is_localized = is_localized_;
+  seen.is_lost = is_lost(now);
+  seen.is_settled = is_localized_ && now - localization_changed_ >= seconds(params_.localized_after_s);
+  seen.was_ever_localized = was_ever_localized_;
+  seen.has_visit = schedule.visit.has_value();
+  seen.has_tour = schedule.tour.has_value();
+  seen.is_anything_due = scheduler_.is_anything_due(now);
+  seen.has_charger = scheduler_.programme().charger.has_value();
+  seen.must_charge = must_charge_;
+  seen.charges = charges();
+  seen.may_serve = !must_charge_ || battery_.charge(now).value_or(1.0) >= enough_to_serve();
+  return seen;
+}
+
+bool Mission::begin_visit(Time now) {
+  if (!scheduler_.begin_visit(position(), now, budget_s(now))) return false;
+  must_charge_ = false;
+  order_visit(now);
+  return true;
+}
+
+void Mission::end_relocalizing(Time now) {
+  scheduler_.note({EventKind::localized, "", was_ever_localized_ ? "found itself again" : "woke up",
+                   to_seconds(now - lost_since_)});
+  was_ever_localized_ = true;
+  if (activity_ == Activity::relocalize) start_task(Activity::none, {});
+}
+
+void Mission::need_charge(const std::string& why, Time now) {
+  must_charge_ = true;
+  scheduler_.note({EventKind::battery_low, "", why, battery_.charge(now).value_or(1.0)});
+}
+
+void Mission::break_off_to_charge(Time now) {
+  const SchedulerState& schedule = scheduler_.state();
   broken_exhibit_ = schedule.visit ? schedule.visit->exhibit_id : "";
   broken_tour_ = schedule.tour ? schedule.tour->tour_id : "";
   scheduler_.break_off("My battery is low, I have to charge it.", now);
   start_task(Activity::none, {});
-  return true;
 }
 
-void Mission::rest(Time now) {
-  if (activity_ == Activity::visit) return;
-  if (charges() && scheduler_.programme().charger) return charge(now);
+void Mission::go_home(Time now) {
   if (activity_ == Activity::home || is_resting_ || now < home_not_before_) return;
   const Pose2 place = scheduler_.programme().home;
   if (distance(position(), place.position()) <= params_.at_home_m) {
@@ -224,16 +233,14 @@ void Mission::rest(Time now) {
   start_task(Activity::home, {"", TaskKind::home, "", place, scheduler_.programme().languages.front(), false, ""});
 }
 
-void Mission::charge(Time now) {
+void Mission::go_charging(Time now) {
   is_resting_ = false;
   if (activity_ == Activity::charge || has_contact(now) || now < home_not_before_) return;
   start_task(Activity::charge, {"", TaskKind::charge, std::exchange(broken_exhibit_, ""), resting_place(),
                                 scheduler_.programme().languages.front(), false, std::exchange(broken_tour_, "")});
 }
 
-void Mission::decide_when_lost(Time now) {
-  if (activity_ == Activity::relocalize || !is_lost(now)) return;
-  if (activity_ == Activity::visit && !may_interrupt()) return;  // it stands and talks: first things first
+void Mission::relocalize(Time /*now*/) {
   start_task(Activity::relocalize,
              {"", TaskKind::relocalize, "", {}, scheduler_.programme().languages.front(), false, ""});
   is_resting_ = false;
@@ -242,7 +249,7 @@ void Mission::decide_when_lost(Time now) {
                    was_ever_localized_ ? "lost" : "waking up"});
 }
 
-void Mission::start_visit(Time now) {
+void Mission::order_visit(Time now) {
   const Visit& visit = *scheduler_.state().visit;
   const bool offer_more = params_.offer_more && !scheduler_.is_in_a_hurry(now);
   start_task(Activity::visit,

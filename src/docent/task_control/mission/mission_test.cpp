@@ -1,8 +1,10 @@
-#include "docent/task_control/tour_scheduler/mission.h"
+#include "docent/task_control/mission/mission.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+
+#include "docent/task_control/plan_controller/plan_controller.h"
 
 namespace docent::task_control {
 namespace {
@@ -22,7 +24,8 @@ class MissionTest : public testing::Test {
   MissionTest() { make({}); }
   void make(MissionMemory memory) {
     memory.deployment = "dep";
-    mission = std::make_unique<Mission>(MissionParams{}, programme, straight_distance(), std::move(memory), time());
+    mission = std::make_unique<Mission>(MissionParams{}, programme, straight_distance(), std::move(memory),
+                                        std::make_unique<PlanController>(), time());
   }
   [[nodiscard]] Time time() const { return time_from_seconds(now_s); }
   /// Passes time with ticks; the robot stays where it is.

@@ -1,25 +1,17 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "docent/task_control/tour_scheduler/battery_watch.h"
+#include "docent/task_control/mission/battery_watch.h"
+#include "docent/task_control/mission/planner.h"
+#include "docent/task_control/tour_scheduler/task_order.h"
 #include "docent/task_control/tour_scheduler/tour_scheduler.h"
 
 namespace docent::task_control {
-
-/// One thing to do, for the executive.
-struct TaskOrder {
-  std::string id;  ///< empty: nothing to do
-  Word<TaskKind> kind;
-  std::string exhibit_id;  ///< for charge: the visit that is broken off for it
-  Pose2 map_from_base;     ///< where to stand
-  std::string language;
-  bool offer_more = true;
-  std::string tour_id;  ///< for charge: the tour that is broken off for it
-};
 
 /// Section `mission` of robot.yaml.
 struct MissionParams {
@@ -79,17 +71,16 @@ struct MissionSummary {
   std::vector<std::string> agenda;
 };
 
-/// Decides what the robot does, from waking up to going home: serves the requests on the board one visit after the
-/// other, returns home when none is open ([Rhino1999] Table 4, `internet-tourguide`), finds itself again when it is
-/// lost. Deterministic; knows nothing of messages and files.
+/// What the robot is about, from waking up to going home: it keeps the requests, knows how the robot is (its place, its
+/// charge, its task), and gives tasks to the executive. Which task comes next is the planner's choice: the museum's
+/// `plans` or its `golog` program. Deterministic; knows nothing of messages and files.
 ///
-/// Wherever it is, it keeps enough charge to reach its charger with `battery_low` left, or half of that once it has
-/// begun a visit or a tour. It begins no tour that would take more, breaks off what does, between two explanations and
-/// with a word, and goes to charge; requests are taken and wait. It charges until it is full or, when somebody waits,
-/// has gained `battery_gain` and what comes next can be done. When nobody wants anything it charges before it must.
+/// Wherever it is, the robot keeps enough charge to reach its charger with `battery_low` left, or half of that once it
+/// has begun a visit or a tour; `situation()` tells the planner when it must go.
 class Mission {
  public:
-  Mission(const MissionParams& params, Programme programme, TravelDistance travel, MissionMemory memory, Time now);
+  Mission(const MissionParams& params, Programme programme, TravelDistance travel, MissionMemory memory,
+          std::unique_ptr<Planner> planner, Time now);
 
   void submit(VisitorRequest request, Time now);
   /// How a task goes; nullopt: as nobody here understands. Reports of other tasks than the present are ignored.
@@ -109,13 +100,28 @@ class Mission {
   [[nodiscard]] TourScheduler& scheduler() { return scheduler_; }
   [[nodiscard]] std::vector<Happening> take_happenings() { return scheduler_.take_happenings(); }
 
- private:
-  enum class Activity { none, visit, home, charge, relocalize };
+  // For planners: what they see, and the primitive actions that they choose from.
+  [[nodiscard]] Situation situation(Time now) const;
+  /// Begins the scheduler's next visit from here; false: nothing to do now, or what comes next would take more charge
+  /// than there is. @pre no visit is under way.
+  [[nodiscard]] bool begin_visit(Time now);
+  /// Gives the visit under way to the executive, once more after it was suspended.
+  void order_visit(Time now);
+  /// Ends the visit and the tour under way for want of charge, with a word to the visitors; their requests wait.
+  void break_off_to_charge(Time now);
+  /// Drives to its charger, or stays there.
+  void go_charging(Time now);
+  /// Drives home, or stays there.
+  void go_home(Time now);
+  void relocalize(Time now);
+  /// It knows its place again.
+  void end_relocalizing(Time now);
+  /// What comes next takes more charge than there is.
+  void need_charge(const std::string& why, Time now);
 
+ private:
   void decide(Time now);
-  void decide_when_lost(Time now);
   void start_task(Activity activity, TaskOrder order);
-  void start_visit(Time now);
   [[nodiscard]] bool may_interrupt() const;
   [[nodiscard]] bool is_lost(Time now) const;
   [[nodiscard]] bool charges() const { return must_charge_ || tops_up_; }
@@ -126,17 +132,14 @@ class Mission {
   [[nodiscard]] double budget_s(Time now) const;
   [[nodiscard]] double enough_to_serve() const;
   void watch_battery(Time now);
-  /// Ends what is under way for want of charge; true when it may not go on.
-  [[nodiscard]] bool break_off_to_charge(Time now);
   [[nodiscard]] const std::vector<std::string>& agenda(Time now);
-  void rest(Time now);
-  void charge(Time now);
   [[nodiscard]] bool is_at_charger() const;
   [[nodiscard]] bool has_contact(Time now) const;
   [[nodiscard]] Point2 position() const;
 
   MissionParams params_;
   TourScheduler scheduler_;
+  std::unique_ptr<Planner> planner_;
   std::string deployment_;
   std::uint64_t next_task_;
   TaskOrder task_;

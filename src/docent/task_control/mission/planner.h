@@ -1,0 +1,42 @@
+#pragma once
+
+#include "docent/base/time.h"
+
+namespace docent::task_control {
+
+class Mission;
+
+/// What the robot is doing.
+enum class Activity { none, visit, home, charge, relocalize };
+
+/// What a planner sees when it decides.
+struct Situation {
+  Activity activity = Activity::none;
+  bool may_interrupt = true;  ///< nothing is being explained or asked
+  bool is_localized = false;
+  bool is_lost = false;             ///< not localized for `lost_after_s`
+  bool is_settled = false;          ///< localized for `localized_after_s`
+  bool was_ever_localized = false;  ///< since it woke up
+  bool has_visit = false;           ///< one is under way or suspended
+  bool has_tour = false;            ///< likewise
+  bool is_anything_due = false;     ///< somebody waits whose turn it may be
+  bool has_charger = false;
+  bool must_charge = false;  ///< before it goes on
+  bool charges = false;      ///< it must, or does as long as nobody wants anything
+  bool may_serve = true;     ///< its charge is enough for the next visit
+};
+
+/// Chooses what the robot does next, from the primitive actions that the mission offers. One of two stands above the
+/// executive: the plan-based controller ([Minerva2000] 5.3) or a museum's GOLOG program ([Rhino1999] 4.3).
+class Planner {
+ public:
+  Planner() = default;
+  Planner(const Planner&) = delete;
+  Planner& operator=(const Planner&) = delete;
+  virtual ~Planner() = default;
+
+  /// Called when anything has happened, and twice a second: orders at most one new action of the mission.
+  virtual void decide(Mission& mission, Time now) = 0;
+};
+
+}  // namespace docent::task_control
