@@ -25,14 +25,14 @@ struct Room {
     docent::write_room_map(path);
     auto map = docent::load_map(path / "room.yaml");
     if (!map) std::abort();
-    docent::LocalizerParams params;
+    docent::localization::LocalizerParams params;
     params.states.cell_size = 0.5;
     params.states.heading_step = 10.0;
-    localizer.emplace(*map, params, docent::RangeTableCache{}, 1);
+    localizer.emplace(*map, params, docent::localization::RangeTableCache{}, 1);
   }
   ~Room() { std::filesystem::remove_all(path); }
   std::filesystem::path path;
-  std::optional<docent::MarkovLocalizer> localizer;
+  std::optional<docent::localization::MarkovLocalizer> localizer;
 };
 
 }  // namespace
@@ -56,13 +56,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const bool is_mcap = data[1] % 2 == 0;
   const auto path = room.path / (is_mcap ? "drive.mcap" : "drive.db3");
   (is_mcap ? docent::write_mcap : docent::write_rosbag2)(path, messages);
-  const auto log = docent::read_laser_log(path, true);
+  const auto log = docent::recording::read_laser_log(path, true);
   if (!log) {
     if (log.error().message.rfind(path.string() + ": ", 0) != 0) std::abort();
     return 0;
   }
   room.localizer->start_unknown();
-  for (const auto& pose : docent::localize_log(*log, *room.localizer, {}).poses)
+  for (const auto& pose : docent::apps::localize_log(*log, *room.localizer, {}).poses)
     if (pose.has_pose && !std::isfinite(pose.map_from_base.x)) std::abort();
   return 0;
 }

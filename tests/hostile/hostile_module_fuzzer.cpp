@@ -30,7 +30,7 @@ struct Folder {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const Folder folder;
   if (size < 1) return 0;
-  const auto modules = docent::all_modules();
+  const auto modules = docent::modules::all_modules();
   const std::string module = modules[data[0] % modules.size()].name;
   if (module == "web") return 0;  // it listens on a port, in threads of its own
   std::filesystem::remove_all(folder.path);

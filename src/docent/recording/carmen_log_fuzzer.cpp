@@ -6,7 +6,7 @@
 #include "docent/recording/carmen_log.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto log = docent::parse_carmen_log({reinterpret_cast<const char*>(data), size}, "log");
+  const auto log = docent::recording::parse_carmen_log({reinterpret_cast<const char*>(data), size}, "log");
   if (!log) {
     // A fault is one line that names the file.
     const std::string& message = log.error().message;

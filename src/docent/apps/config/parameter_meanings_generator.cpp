@@ -95,7 +95,7 @@ class Scan {
   void read_code(const std::string& code, const std::string& behind) {
     static const std::regex kStruct{R"(^struct (\w+)(?: final)?(?: : (?:public )?([\w:]+))? \{)"};
     static const std::regex kField{R"(^(?:std::\w+<)?(?:\w+::)*(\w+)[\w:<>, ]*[ >]\w+ ?(=|\{|;|,))"};
-    static const std::regex kListsOther{R"(^(\w+)(?:\.|::)visit\(v\);)"};
+    static const std::regex kListsOther{R"(^(?:\w+::)*(\w+)(?:\.|::)visit\(v\);)"};
     std::smatch found;
     const bool in_struct = !open_.empty() && depth_ == open_.back().depth + 1;
     if (std::regex_search(code, found, kStruct)) {

@@ -9,12 +9,12 @@
 // ends, and speaking it again gives the same.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view markdown{reinterpret_cast<const char*>(data), size};
-  const std::string text = docent::spoken_text(markdown);
+  const std::string text = docent::interaction::spoken_text(markdown);
   if (text.size() > 2 * size + 1) std::abort();
   for (const char c : text) {
     if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') std::abort();
   }
   if (!text.empty() && (text.front() == ' ' || text.back() == ' ')) std::abort();
-  if (!(docent::speech_duration(text, "de", docent::Mood::happy) >= 0.0)) std::abort();
+  if (!(docent::interaction::speech_duration(text, "de", docent::Mood::happy) >= 0.0)) std::abort();
   return 0;
 }
