@@ -44,10 +44,10 @@ take_event(D, Event, State0, State) :-
     must_be(ground, Event),
     ( \+ \+ D:exogenous(Event) -> true ; throw(error(golog(unknown_event(Event)), _)) ),
     progress(Event, State0, D, State1),
-    count_news(State1, State).
+    count_news(State1, D, State).
 
-count_news(State0, State) :-
-    ( holds(news(N0), now(State0), user) -> true ; N0 = 0 ),
+count_news(State0, D, State) :-
+    holds(news(N0), now(State0), D), !,
     N is N0 + 1,
     put_fluent(news(N), State0, State).
 
@@ -82,18 +82,17 @@ ended_as(done, A, D, State0, State) :- !, progress(A, State0, D, State).
 ended_as(value(V), A, D, State0, State) :- !,
     progress(A, State0, D, State1),
     progress(sensed(A, V), State1, D, State2),
-    count_news(State2, State).
+    count_news(State2, D, State).
 ended_as(failed, A, D, State0, State) :- !,
     progress(failed(A), State0, D, State1),
-    count_news(State1, State).
+    count_news(State1, D, State).
 ended_as(Outcome, _, _, _, _) :- domain_error(outcome, Outcome).
 
 %!  foresee(+Agent, +MostActions, +MostInferences, -Actions, -End) is det.
 %   What the agent would do from here if every action succeeded and nothing else happened. End: finished, waits, or
 %   `more` after MostActions. Throws as step/6.
 foresee(Agent, Most, MostInferences, Actions, End) :-
-    Agent = agent(_, _, State),
-    holds(time(Now), now(State), user), !,
+    agent_holds(Agent, time(Now)), !,
     foresee(Most, Agent, Now, MostInferences, Actions, End).
 
 foresee(0, _, _, _, [], more) :- !.

@@ -5,7 +5,7 @@
         [P, Q, ...]             one after the other
         drive(e1)               an action of the domain, or
         goto(e1)                a procedure: the first clause proc(Head, P) that fits
-        ?(C)                    test; waits until C holds. Binds variables
+        ?(C)                    test: waits until C holds. Of all conditions only this one binds variables, those of pi
         ndet(P, Q)              one of the two
         pi(X, P)                P for some X; a list of variables is allowed
         if(C, P, Q), while(C, P)
@@ -41,9 +41,9 @@ trans(?(C), S, R, S1, D) :- !, holds(C, S, D), R = [], S1 = S.
 trans(ndet(P, Q), S, R, S1, D) :- !, ( trans(P, S, R, S1, D) ; trans(Q, S, R, S1, D) ).
 trans(pi(X, P), S, R, S1, D) :- !, fresh(X, P, _, P1), trans(P1, S, R, S1, D).
 trans(if(C, P, Q), S, R, S1, D) :- !,
-    ( holds(C, S, D) *-> trans(P, S, R, S1, D) ; trans(Q, S, R, S1, D) ).
+    ( \+ \+ holds(C, S, D) -> trans(P, S, R, S1, D) ; trans(Q, S, R, S1, D) ).
 trans(while(C, P), S, R, S1, D) :- !,
-    holds(C, S, D),
+    \+ \+ holds(C, S, D),
     trans(P, S, P1, S1, D),
     sequence(P1, [while(C, P)], R).
 trans(star(P), S, R, S1, D) :- !, trans(P, S, P1, S1, D), sequence(P1, [star(P)], R).
@@ -61,7 +61,7 @@ trans(prioritized([P | Ps]), S, R, S1, D) :- !,
         ( Rest = prioritized(Qs) -> R = prioritized([P | Qs]) ; R = prioritized([P, Rest]) )
     ).
 trans(interrupt(C, P), S, R, S1, D) :- !,
-    holds(C, S, D),
+    \+ \+ holds(C, S, D),
     trans(P, S, P1, S1, D),
     sequence(P1, [interrupt(C, P)], R).
 trans(interrupt(X, C, P), S, R, S1, D) :- !,
@@ -106,8 +106,8 @@ final_([P | Ps], S, D) :- !, final_(P, S, D), final_(Ps, S, D).
 final_(?(_), _, _) :- !, fail.
 final_(ndet(P, Q), S, D) :- !, ( final_(P, S, D) ; final_(Q, S, D) ).
 final_(pi(X, P), S, D) :- !, fresh(X, P, _, P1), final_(P1, S, D).
-final_(if(C, P, Q), S, D) :- !, ( holds(C, S, D) *-> final_(P, S, D) ; final_(Q, S, D) ).
-final_(while(C, P), S, D) :- !, ( holds(C, S, D) -> final_(P, S, D) ; true ).
+final_(if(C, P, Q), S, D) :- !, ( \+ \+ holds(C, S, D) -> final_(P, S, D) ; final_(Q, S, D) ).
+final_(while(C, P), S, D) :- !, ( \+ \+ holds(C, S, D) -> final_(P, S, D) ; true ).
 final_(star(_), _, _) :- !.
 final_(conc(P, Q), S, D) :- !, final_(P, S, D), final_(Q, S, D).
 final_(iconc(_), _, _) :- !.
@@ -188,7 +188,7 @@ search_step(P, Aim, S, R, S1, D) :-
     first_step(Path, News, Aim, S, R, S1, D).
 
 follow(Path, News, P, Aim, S, R, S1, D) :-
-    (   news(S, D, News), first_step(Path, News, Aim, S, R0, S0, D)
+    (   \+ \+ news(S, D, News), first_step(Path, News, Aim, S, R0, S0, D)
     ->  R = R0, S1 = S0
     ;   search_step(P, Aim, S, R, S1, D)
     ).
@@ -198,8 +198,7 @@ first_step([step(P1, action(A)) | Path], News, Aim, S, R, S1, D) :-
     trans(A, S, Rest, S1, D),
     sequence(Rest, [following(Path, News, P1, Aim)], R).
 
-news(S, D, N) :- S = now(_), holds(news(N), S, D), !.
-news(_, _, 0).
+news(S, D, N) :- ( S = now(_) -> holds(news(N), S, D) ; N = 0 ).
 
 imagine(P, S, D, State) :-
     base(S, D, Base),

@@ -36,6 +36,7 @@ initially(travelled(0.0)).
 derived(due(E), (request(E), may_try(E))).
 derived(may_try(L), \+ (failed_at(L, T), time(Now), retry_after(S), Now < T + S)).
 derived(next(E), (set(X, due(X), Xs), Xs = [_ | _], robot_location(Here), schedule(Here, Xs, [E | _]))).
+derived(further(L, M), (travelled(M0), robot_location(Here), way(Here, L, W), M is M0 + W)).
 derived(low_battery, (charge(C), low_charge(Low), C < Low)).
 derived(critical_battery, (charge(C), critical_charge(Low), C < Low)).
 derived(must_charge, (has_charger, low_battery, may_try(charger))).
@@ -66,7 +67,8 @@ expects(explain(E), exhibit(E)).
 
 causes_true(begin(drive(_)), robot_location(somewhere), true).
 causes_true(drive(L), robot_location(L), true).
-causes_true(drive(L), travelled(M), (travelled(M0), robot_location(Here), way(Here, L, W), M is M0 + W)).
+causes_true(begin(drive(L)), travelled(M), further(L, M)).
+causes_true(drive(L), travelled(M), (\+ robot_location(somewhere), further(L, M))).
 causes_false(drive(L), failed_at(L, T), failed_at(L, T)).
 causes_true(failed(drive(L)), failed_at(L, Now), time(Now)).
 causes_true(explain(E), explained(E), true).
@@ -106,6 +108,7 @@ causes_false(requested(E), explained(E), true).
 causes_false(cancelled(E), request(E), true).
 causes_true(battery(C), charge(C), true).
 causes_true(lost, lost, true).
+causes_true(lost, robot_location(somewhere), true).
 causes_false(localized, lost, true).
 causes_true(way_blocked, blocked, true).
 causes_false(way_free, blocked, true).
@@ -123,13 +126,20 @@ proc(stop_driving(Loc),
      while(some(L, (under_way(drive(L)), L \= Loc)),
            pi(L, [?((under_way(drive(L)), L \= Loc)), stop(drive(L))]))).
 
+proc(stop_all, while(some(A, under_way(A)), pi(A, [?(under_way(A)), stop(A)]))).
+
+/*  An action is impossible where the robot is not, so that what comes after a drive or a question looks whether it still
+    is there: a program that waits for something impossible waits for ever. */
+
 % Explains the exhibit, if the robot got there, and offers more.
 proc(serve(E), [goto(E), if(robot_location(E), [explain(E), offer_more(E)], [])]).
 
 % Nobody is asked while others wait.
 proc(offer_more(E),
-     if(some(X, due(X)), [],
-        pi(T, [?(answer_within(T)), within(T, ask_more(E)), if(choice(more), explain_more(E), [])]))).
+     if((robot_location(E), explained(E), \+ due(_)),
+        [ pi(T, [?(answer_within(T)), within(T, ask_more(E))]),
+          if((robot_location(E), choice(more)), explain_more(E), []) ],
+        [])).
 
 proc(recharge, [goto(charger), if(robot_location(charger), charge_battery, [])]).
-proc(find_oneself, [stop_driving(nowhere), relocalize]).
+proc(find_oneself, [stop_all, relocalize]).

@@ -104,7 +104,10 @@ clause_fault(clause(File, Line, Term, Names), D, Text) :-
 
 term_fault(proc(Head, P), Names, D, Fault) :- !,
     (   program_fault(P, D, Fault)
-    ;   term_variables(Head, Bound), free_variable(P, Bound, V), variable_name(V, Names, Name), Fault = unbound(Name)
+    ;   term_variables(Head, Bound),
+        findall(Name, ( member(Name = V, Names), free_variable(P, Bound, W), V == W ), Free),
+        list_to_set(Free, Set),
+        member(Name, Set), Fault = unbound(Name)
     ).
 term_fault(poss(A, C), _, D, Fault) :- !, ( action_fault(A, D, Fault) ; condition_fault(C, D, Fault) ).
 term_fault(derived(_, C), _, D, Fault) :- !, condition_fault(C, D, Fault).
@@ -192,9 +195,6 @@ binder(all(X, A, B), X, A-B, []).
 binder(set(X, C, Xs), X, C, Xs).
 binder(search(P, least(F)), F, P, []).
 
-variable_name(V, Names, Name) :- member(Name = W, Names), W == V, !.
-variable_name(_, _, '_').
-
 %   Texts.
 at(File, Line, E, Text) :- message_text(E, Message), format(string(Text), "~w:~d: ~s", [File, Line, Message]).
 
@@ -210,7 +210,9 @@ fault_text(error(E, Context), D, Text) :-
 message_text(golog(Fault), Codes) :- !, phrase(fault(Fault), Parts), format_parts(Parts, Codes).
 message_text(E, Codes) :-
     phrase('$messages':translate_message(error(E, _)), Lines),
-    with_output_to(codes(Codes), print_message_lines(current_output, '', Lines)),
+    with_output_to(string(Text), print_message_lines(current_output, '', Lines)),
+    split_string(Text, "", "\n ", [Line]),
+    string_codes(Line, Codes),
     !.
 
 format_parts([Format-Arguments], Codes) :- format(codes(Codes), Format, Arguments).

@@ -7,7 +7,7 @@ proc(main, tour_guide).
 % itself when it is lost, and goes home when nobody wants anything. Ends at home when the museum closes.
 proc(tour_guide,
      [ prioritized([ interrupt(lost, find_oneself),
-                     interrupt((critical_battery, must_charge), recharge),
+                     interrupt((critical_battery, must_charge), [stop_all, recharge]),
                      interrupt((must_charge ; some(E, due(E))), next_task),
                      interrupt((\+ robot_location(home), may_try(home)), goto(home)),
                      ?(closing) ]),
