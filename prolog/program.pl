@@ -205,7 +205,8 @@ fault_text(error(E, Context), D, Text) :-
     (   nonvar(Context), Context = in(Name), procedure_at(D, Name, File, Line)
     ->  format(string(Text), "~w:~d: in ~q: ~s", [File, Line, Name, Message])
     ;   string_codes(Text, Message)
-    ).
+    ), !.
+fault_text(E, _, Text) :- format(string(Text), "~q", [E]).
 
 message_text(golog(Fault), Codes) :- !, phrase(fault(Fault), Parts), format_parts(Parts, Codes).
 message_text(E, Codes) :-
