@@ -64,6 +64,9 @@ expects(drive(L), place(L)).
 expects(goto(L), place(L)).
 expects(serve(E), exhibit(E)).
 expects(explain(E), exhibit(E)).
+expects(request(E), exhibit(E)).
+expects(due(E), exhibit(E)).
+expects(robot_location(L), (place(L) ; L == somewhere)).
 
 causes_true(begin(drive(_)), robot_location(somewhere), true).
 causes_true(drive(L), robot_location(L), true).

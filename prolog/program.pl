@@ -5,6 +5,7 @@
 :- use_module(library(lists)).
 :- use_module(library(error)).
 :- use_module(situation).
+:- use_module(travel, []).
 
 :- dynamic procedure_at/4.  % domain, Name/Arity, file, line
 :- dynamic defined_in/3.    % domain, Name/Arity, file
@@ -166,8 +167,8 @@ condition_fault(\+ C, D, Fault) :- !, condition_fault(C, D, Fault).
 condition_fault(some(_, C), D, Fault) :- !, condition_fault(C, D, Fault).
 condition_fault(all(_, A, B), D, Fault) :- !, ( condition_fault(A, D, Fault) ; condition_fault(B, D, Fault) ).
 condition_fault(set(_, C, _), D, Fault) :- !, condition_fault(C, D, Fault).
-condition_fault(F, D, _) :- situation:is_fluent(F, D), !, fail.
-condition_fault(F, D, _) :- \+ \+ D:derived(F, _), !, fail.
+condition_fault(F, D, unexpected(F, Goal)) :- ground(F), D:expects(F, Goal), \+ D:Goal, !.
+condition_fault(F, D, _) :- ( situation:is_fluent(F, D) ; \+ \+ D:derived(F, _) ), !, fail.
 condition_fault(Goal, D, Fault) :- goal_fault(Goal, D, Fault).
 
 goal_fault(Goal, _, _) :- var(Goal), !, fail.

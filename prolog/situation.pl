@@ -23,7 +23,7 @@
         causes_false(A, F, Condition)
         duration(A, Seconds, Condition)   what an action is expected to take
         proc(Head, Program)          a procedure, see golog.pl
-        expects(Call, Goal)          a call without variables is a fault where the goal fails
+        expects(Call, Goal)          a call or fluent without variables is a fault where the goal fails
 
     From causes_true (gamma+) and causes_false (gamma-) follows the successor-state axiom of each fluent:
     F(do(a, s)) holds if gamma+ holds in s, or if F(s) and not gamma- .

@@ -4,7 +4,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(lists)).
 
-domain_clauses([ fluent(wet), functional(n(_)), action(walk(_)), poss(walk(_), true), room(hall), expects(walk(X), room(X)) ]).
+domain_clauses([ fluent(wet), functional(n(_)), action(walk(_)), poss(walk(_), true), room(hall), expects(walk(X), room(X)), expects(in_room(X), room(X)) ]).
 
 % The faults of a file with this text, each without the file's name.
 faults(Text, Faults) :-
@@ -26,6 +26,7 @@ test(an_unknown_action, F == ['2: jump is neither an action nor a procedure']) :
 test(deep_inside, F == ['1: jump is neither an action nor a procedure']) :-
     faults("proc(main, prioritized([interrupt(wet, walk(hall)), within(5, while(wet, conc([], if(wet, pi(X, [?(X = 1), star(jump)]), []))))])).\n", F).
 test(an_unknown_exhibit, F == ['1: walk(moon): there is no room(moon)']) :- faults("proc(main, walk(moon)).\n", F).
+test(an_unknown_exhibit_in_a_condition, F == ['2: in_room(moon): there is no room(moon)']) :- faults("fluent(in_room(_)).\nproc(main, ?(in_room(moon))).\n", F).
 test(an_unknown_fluent, F == ['1: dry/0 is no fluent and no predicate']) :- faults("proc(main, ?(\\+ dry)).\n", F).
 test(an_unknown_predicate, F == ['2: grows/1 is no fluent and no predicate']) :- faults("proc(main, ?(tall(hall))).\ntall(X) :- grows(X).\n", F).
 test(an_effect_on_nothing, F == ['1: dry is no fluent']) :- faults("causes_true(walk(_), dry, true).\nproc(main, []).\n", F).
