@@ -1,5 +1,5 @@
-/*  A program under way in the real world, step by step (on-line execution, IndiGolog): events come in, actions go out and
-    take their time, nothing is taken back.
+/*  A program under way in the real world, step by step (on-line execution, IndiGolog): events come in, actions go
+    out and take their time, nothing is taken back.
 
     An agent is agent(Domain, Program, State): what is left of the program, and all that is true now. The past is not
     kept: every step rolls the state forward. Time is what the caller says it is [s]. */

@@ -1,5 +1,5 @@
-/*  The constructs of programs and what they mean: GOLOG [Rhino1999] 4.3 with concurrency and interrupts (ConGolog), search
-    and time-outs (IndiGolog). Programs are terms:
+/*  The constructs of programs and what they mean: GOLOG [Rhino1999] 4.3 with concurrency and interrupts (ConGolog),
+    search and time-outs (IndiGolog). Programs are terms:
 
         []                      nothing
         [P, Q, ...]             one after the other

@@ -1,6 +1,6 @@
-/*  The domain of a tour guide: what is true in a museum, what the robot can do there and what may happen to it. Read into
-    the module of each program (program.pl), behind the museum's own tour.pl: whatever predicate that file defines itself is
-    taken from there, and what it says of actions, events and fluents is added to this.
+/*  The domain of a tour guide: what is true in a museum, what the robot can do there and what may happen to it. Read
+    into the module of each program (program.pl), behind the museum's own tour.pl: whatever predicate that file
+    defines itself is taken from there, and what it says of actions, events and fluents is added to this.
 
     The caller says what is where: exhibit(E), has_charger, and distance(From, To, Metres) between exhibits, `home`,
     `charger` and `somewhere`, the robot's place on its way. */

@@ -1,6 +1,7 @@
-/*  Reads the files of a domain and its programs into a module, and finds their faults before the robot does. Each file is
-    plain Prolog without a module. What several files define adds up in their order for the predicates of a domain
-    (situation.pl), so that the first procedure that fits counts; any other predicate is that of the first file. */
+/*  Reads the files of a domain and its programs into a module, and finds their faults before the robot does. Each
+    file is plain Prolog without a module. What several files define adds up in their order for the predicates of a
+    domain (situation.pl), so that the first procedure that fits counts; any other predicate is that of the first
+    file. */
 :- module(program, [load_program/4, unload_program/1, program_faults/3, fault_text/3]).
 :- use_module(library(lists)).
 :- use_module(library(error)).
@@ -20,7 +21,7 @@ load_program(D, Files, Facts, Faults) :-
     read_files(Files, D, Clauses, ReadFaults),
     (   ReadFaults == []
     ->  findall(Text, ( member(Clause, Clauses), clause_fault(Clause, D, Text) ), Found),
-        findall(Text, ( \+ D:proc(main, _), Files = [File | _], format(string(Text), "~w:1: there is no proc(main, ...)", [File]) ), Missing),
+        findall(Text, ( \+ D:proc(main, _), Files = [File | _], at(File, 1, golog(no_main), Text) ), Missing),
         append(Found, Missing, Faults)
     ;   Faults = ReadFaults
     ).
@@ -29,14 +30,19 @@ load_program(D, Files, Facts, Faults) :-
 unload_program(D) :-
     retractall(procedure_at(D, _, _, _)),
     retractall(defined_in(D, _, _)),
-    forall(( current_predicate(D:Name/Arity), functor(Head, Name, Arity), \+ predicate_property(D:Head, imported_from(_)) ),
+    forall(( current_predicate(D:Name/Arity),
+             functor(Head, Name, Arity),
+             \+ predicate_property(D:Head, imported_from(_)) ),
            retractall(D:Head)).
 
 % Reading: each clause as clause(File, Line, Term, Names of its variables).
 read_files([], _, [], []).
 read_files([File | Files], D, Clauses, Faults) :-
-    catch(setup_call_cleanup(open(File, read, In, [encoding(utf8)]), read_clauses(In, File, D, Here, FaultsHere), close(In)),
-          error(E, _), ( Here = [], at(File, 1, E, Fault), FaultsHere = [Fault] )),
+    catch(setup_call_cleanup(open(File, read, In, [encoding(utf8)]),
+                             read_clauses(In, File, D, Here, FaultsHere),
+                             close(In)),
+          error(E, _),
+          ( Here = [], at(File, 1, E, Fault), FaultsHere = [Fault] )),
     read_files(Files, D, There, FaultsThere),
     append(Here, There, Clauses),
     append(FaultsHere, FaultsThere, Faults).
@@ -77,7 +83,7 @@ take(Term, File, Line, D, Faults, Rest) :-
     ( var(E) -> Faults = Rest ; at(File, Line, E, Fault), Faults = [Fault | Rest] ).
 
 take((:- module(_, _)), _, _, _) :- !, throw(error(golog(module), _)).
-take((:- Goal), _, _, D) :- !, ( catch(D:Goal, error(E, _), throw(error(E, _))) -> true ; throw(error(golog(directive(Goal)), _)) ).
+take((:- Goal), _, _, D) :- !, ( D:Goal -> true ; throw(error(golog(directive(Goal)), _)) ).
 take(Term, File, Line, D) :-
     expand_term(Term, Expanded),
     ( is_list(Expanded) -> Clauses = Expanded ; Clauses = [Expanded] ),
@@ -220,9 +226,11 @@ message_text(E, Codes) :-
 format_parts([Format-Arguments], Codes) :- format(codes(Codes), Format, Arguments).
 
 fault(singleton(Name)) --> ["the variable ~w stands here only once"-[Name]].
+fault(no_main) --> ["there is no proc(main, ...)"-[]].
 fault(module) --> ["a program is no module"-[]].
 fault(directive(Goal)) --> ["the directive ~q fails"-[Goal]].
-fault(unbound(Name)) --> ["nothing introduces the variable ~w: it is no parameter, and no pi, interrupt or some names it"-[Name]].
+fault(unbound(Name)) -->
+    ["nothing introduces the variable ~w: it is no parameter, and no pi, interrupt or some names it"-[Name]].
 fault(unknown(Call)) --> ["~q is neither an action nor a procedure"-[Call]].
 fault(unknown_event(Event)) --> ["~q is no event of the domain"-[Event]].
 fault(no_fluent(F)) --> ["~q is no fluent"-[F]].

@@ -1,5 +1,5 @@
-/*  The tour guide's program. A museum that wants another one has a copy of this file as tour.pl in its folder, with whatever
-    it changes; museum.pl says what it can speak of, docs/golog.md how to write, check and try it. */
+/*  The tour guide's program. A museum that wants another one has a copy of this file as tour.pl in its folder, with
+    whatever it changes; museum.pl says what it can speak of, docs/golog.md how to write, check and try it. */
 
 proc(main, tour_guide).
 

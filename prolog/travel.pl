@@ -1,6 +1,6 @@
-/*  The order of exhibits with the least travel [Rhino1999] 4.3. Up to six the prover finds it alone, by branch and bound.
-    Of more it comes from the scheduler of the robot where Prolog is part of it (golog_host:order/3, which C++ defines),
-    else from the nearest neighbour, improved by reversing and moving stretches until nothing gets shorter.
+/*  The order of exhibits with the least travel [Rhino1999] 4.3. Up to six the prover finds it alone, by branch and
+    bound. Of more it comes from the scheduler of the robot where Prolog is part of it (golog_host:order/3, which C++
+    defines), else from the nearest neighbour, improved by reversing and moving stretches until nothing gets shorter.
     The domain says distance(From, To, Metres); what has no distance is as good as out of reach. */
 :- module(travel, [schedule/3, order_length/3, exact_order/3, improved_order/3]).
 :- use_module(library(lists)).
@@ -34,7 +34,12 @@ way_length([To | More], From, D, Metres0, Metres) :-
 
 step_length(D, From, To, Metres) :-
     no_way(NoWay),
-    ( From == To -> Metres = 0.0 ; catch(D:distance(From, To, Known), error(existence_error(_, _), _), fail) -> Metres is min(Known, NoWay) ; Metres = NoWay ).
+    (   From == To
+    ->  Metres = 0.0
+    ;   catch(D:distance(From, To, Known), error(existence_error(_, _), _), fail)
+    ->  Metres is min(Known, NoWay)
+    ;   Metres = NoWay
+    ).
 
 %!  exact_order(+From, +Exhibits, -Order) is det.
 %   The first of the shortest orders, as the list has them. O(n!) without the bound.
@@ -65,7 +70,7 @@ nearest_first(Left, From, D, [Nearest | Order]) :-
     Left = [First | Others],
     step_length(D, From, First, Metres),
     foldl(nearer(D, From), Others, Metres-First, _-Nearest),
-    once(selectchk(Nearest, Left, Rest)),
+    selectchk(Nearest, Left, Rest),
     nearest_first(Rest, Nearest, D, Order).
 
 nearer(D, From, To, Metres-Best, Least) :-
