@@ -36,7 +36,7 @@ step(Agent, Now, Events, Most, Result, NewAgent) :-
     call_with_inference_limit(step(Agent, Now, Events, Result, NewAgent), Most, Limit),
     (   Limit == inference_limit_exceeded
     ->  nb_getval(golog_procedure, Name),
-        throw(error(golog(timeout(Most)), in(Name)))
+        throw(error(golog(timeout(Most)), in(Name, _)))
     ;   true
     ).
 
@@ -121,8 +121,10 @@ agent_holds(agent(D, _, State), Condition) :- holds(Condition, now(State), D).
 %   One line from which restore/3 makes the same agent again.
 snapshot(agent(_, P, State), Text) :-
     state_fluents(State, Fluents),
+    copy_term(P, Named),
+    numbervars(Named, 0, _, [singletons(true)]),
     with_output_to(string(Text),
-                   write_term(golog_agent(1, P, Fluents), [quoted(true), ignore_ops(true), numbervars(false)])).
+                   write_term(golog_agent(1, Named, Fluents), [quoted(true), ignore_ops(true), numbervars(true)])).
 
 %!  restore(+Domain, +Text, -Agent) is det.
 %   Throws where the text is no snapshot, or one of a program with procedures and actions that the domain has not.

@@ -91,7 +91,7 @@ trans(A, S, R, S1, D) :- \+ \+ D:action(A), !,
 trans(Call, S, R, S1, D) :- body(Call, Name, Body, D), trans(in(Name, Body), S, R, S1, D).
 
 begin(S, A, R, S1, D) :-
-    ( ground(A) -> true ; throw(error(instantiation_error, context(A, 'an action with a variable'))) ),
+    ( ground(A) -> true ; throw(error(golog(open_action(A)), _)) ),
     (   S = now(_)
     ->  \+ holds(under_way(A), S, D), R = under_way(A), S1 = do(begin(A), S)
     ;   R = [], S1 = do(A, S)
@@ -153,7 +153,7 @@ body(Call, Name/Arity, Body, D) :-
 
 % The innermost procedure names the fault.
 throw_in(Name, E, Context) :-
-    ( nonvar(Context), Context = in(_) -> throw(error(E, Context)) ; throw(error(E, in(Name))) ).
+    ( nonvar(Context), Context = in(_, _) -> throw(error(E, Context)) ; throw(error(E, in(Name, Context))) ).
 
 is_over(Deadline, S, D) :- holds(time(Now), S, D), Now >= Deadline.
 

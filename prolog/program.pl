@@ -203,29 +203,40 @@ binder(set(X, C, Xs), X, C, Xs).
 binder(search(P, least(F)), F, P, []).
 
 %   Texts.
-at(File, Line, E, Text) :- message_text(E, Message), format(string(Text), "~w:~d: ~s", [File, Line, Message]).
+at(File, Line, E, Text) :- message_text(E, _, Message), format(string(Text), "~w:~d: ~s", [File, Line, Message]).
 
 %!  fault_text(+Error, +Domain, -Text) is det.
 %   The error(E, Context) that a step of the domain's program has thrown, with file and line of its procedure.
 fault_text(error(E, Context), D, Text) :-
-    message_text(E, Message),
-    (   nonvar(Context), Context = in(Name), procedure_at(D, Name, File, Line)
-    ->  format(string(Text), "~w:~d: in ~q: ~s", [File, Line, Name, Message])
-    ;   string_codes(Text, Message)
+    (   nonvar(Context), Context = in(Name, Inner)
+    ->  message_text(E, Inner, Message),
+        (   procedure_at(D, Name, File, Line)
+        ->  format(string(Text), "~w:~d: in ~q: ~s", [File, Line, Name, Message])
+        ;   format(string(Text), "in ~q: ~s", [Name, Message])
+        )
+    ;   message_text(E, Context, Message),
+        string_codes(Text, Message)
     ), !.
 fault_text(E, _, Text) :- format(string(Text), "~q", [E]).
 
-message_text(golog(Fault), Codes) :- !, phrase(fault(Fault), Parts), format_parts(Parts, Codes).
-message_text(E, Codes) :-
-    phrase('$messages':translate_message(error(E, _)), Lines),
-    with_output_to(string(Text), print_message_lines(current_output, '', Lines)),
-    split_string(Text, "", "\n ", [Line]),
-    string_codes(Line, Codes),
-    !.
+message_text(golog(Fault), _, Codes) :- !, phrase(fault(Fault), Parts), format_parts(Parts, Codes).
+message_text(E, Context, Codes) :-
+    catch(prolog_message(E, Context, Line), _, fail), !,
+    atom_codes(Line, Codes).
+message_text(E, _, Codes) :- format(codes(Codes), "~q", [E]).
+
+%   The first line of what Prolog says of its own errors.
+prolog_message(E, Context, Line) :-
+    phrase('$messages':translate_message(error(E, Context)), Parts),
+    with_output_to(string(Text), print_message_lines(current_output, '', Parts)),
+    split_string(Text, "\n", " ", Split),
+    once(( member(First, Split), First \== "" )),
+    atom_string(Line, First).
 
 format_parts([Format-Arguments], Codes) :- format(codes(Codes), Format, Arguments).
 
 fault(singleton(Name)) --> ["the variable ~w stands here only once"-[Name]].
+fault(open_action(A)) --> ["the action ~p has a variable that nothing binds"-[A]].
 fault(no_main) --> ["there is no proc(main, ...)"-[]].
 fault(module) --> ["a program is no module"-[]].
 fault(directive(Goal)) --> ["the directive ~q fails"-[Goal]].

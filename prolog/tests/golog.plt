@@ -35,6 +35,7 @@ test(an_action, R == [[a]]) :- results(a, letters, R).
 test(a_sequence, R == [[a, b, c]]) :- results([a, b, c], letters, R).
 test(an_impossible_action, R == []) :- results([put(1), put(1)], letters, R).
 test(an_unknown_action, error(golog(unknown(z)))) :- results(z, letters, _).
+test(an_action_with_a_variable, error(golog(open_action(pay(_))))) :- results(pi(X, pay(X)), letters, _).
 test(a_test_that_holds, R == [[a, b]]) :- results([a, ?(done_a), b], letters, R).
 test(a_test_that_does_not_hold, R == []) :- results([b, ?(done_a)], letters, R).
 test(choice, R == [[a], [b]]) :- results(ndet(a, b), letters, R).

@@ -56,7 +56,7 @@ test(a_fault_while_it_runs_names_its_procedure) :-
     setup_call_cleanup(tmp_file_stream(text, File, S), write(S, "proc(main, go).\n\nproc(go, ?(some(X, (X = hall, X > 3)))).\n"), close(S)),
     domain_clauses(Clauses), unload_program(late), load_program(late, [File], Clauses, []), start(late, Agent),
     catch(step(Agent, 0.0, [], 10000, _, _), E, true), fault_text(E, late, Text),
-    format(string(Front), "~w:3: in go/0: Arithmetic: ", [File]), assertion(sub_string(Text, 0, _, _, Front)).
+    format(string(Front), "~w:3: in go/0: >/2: Arithmetic: ", [File]), assertion(sub_string(Text, 0, _, _, Front)).
 test(so_does_a_time_out) :-
     setup_call_cleanup(tmp_file_stream(text, File, S), write(S, "proc(main, go).\nproc(go, while(true, ?(true))).\n"), close(S)),
     domain_clauses(Clauses), unload_program(late), load_program(late, [File], Clauses, []), start(late, Agent),

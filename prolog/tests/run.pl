@@ -11,7 +11,7 @@
 main :-
     ( run_tests -> Ran = true ; Ran = false ),
     aggregate_all(count, plunit:passed(_, _, _, _, _), Passed),
-    aggregate_all(count, ( plunit:failed(_, _, _, _) ; plunit:failed_assertion(_, _, _, _, _, _, _) ), Failed0),
+    aggregate_all(count, plunit:failed(_, _, _, _), Failed0),
     ( Ran == false, Failed0 =:= 0 -> Failed = 1 ; Failed = Failed0 ),
     format("~d passed, ~d failed~n", [Passed, Failed]),
     ( Failed =:= 0, Passed > 0 -> halt(0) ; halt(1) ).

@@ -53,7 +53,7 @@ std::string exception_text() {
 Result<PrologHost*> PrologHost::instance() {
   static PrologHost host;
   const std::lock_guard lock{host.mutex_};
-  if (host.engine_ == nullptr) {
+  if (!host.has_started_) {
     if (auto started = host.start(); !started) return tl::unexpected(started.error());
   }
   return &host;
@@ -80,8 +80,7 @@ Result<void> PrologHost::start() {
   const std::string why = is_loaded ? "" : exception_text();
   PL_discard_foreign_frame(frame);
   if (!is_loaded) return fail(file + ": cannot be loaded: " + why);
-  engine_ = PL_create_engine(nullptr);
-  if (engine_ == nullptr) return fail("SWI-Prolog has no engine");
+  has_started_ = true;
   return {};
 }
 
@@ -91,7 +90,8 @@ std::string PrologHost::new_domain() {
 }
 
 PrologTurn::PrologTurn(PrologHost& host, const PrologQuestions& questions) : lock_{host.mutex_} {
-  DOCENT_CHECK(PL_set_engine(host.engine_, &before_) == PL_ENGINE_SET);
+  if (PL_thread_self() < 0) is_guest_ = PL_thread_attach_engine(nullptr) >= 0;
+  DOCENT_CHECK(PL_thread_self() >= 0);
   frame_ = PL_open_foreign_frame();
   questions_under_way() = &questions;
 }
@@ -99,7 +99,7 @@ PrologTurn::PrologTurn(PrologHost& host, const PrologQuestions& questions) : loc
 PrologTurn::~PrologTurn() {
   questions_under_way() = nullptr;
   PL_discard_foreign_frame(frame_);
-  PL_set_engine(before_, nullptr);
+  if (is_guest_) PL_thread_destroy_engine();
 }
 
 Result<bool> PrologTurn::call(const char* name, int arity, term_t arguments) {

@@ -41,7 +41,7 @@ class PrologHost {
   [[nodiscard]] Result<void> start();
 
   std::mutex mutex_;
-  PL_engine_t engine_ = nullptr;
+  bool has_started_ = false;
   int domains_ = 0;
 };
 
@@ -59,7 +59,7 @@ class PrologTurn {
 
  private:
   std::unique_lock<std::mutex> lock_;
-  PL_engine_t before_ = nullptr;
+  bool is_guest_ = false;  ///< the thread has a Prolog engine for this turn only
   fid_t frame_ = 0;
 };
 
