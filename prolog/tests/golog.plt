@@ -41,12 +41,15 @@ test(a_test_that_does_not_hold, R == []) :- results([b, ?(done_a)], letters, R).
 test(choice, R == [[a], [b]]) :- results(ndet(a, b), letters, R).
 test(pi_takes_each_instance, R == [[put(1)], [put(2)], [put(3)]]) :- results(pi(X, put(X)), letters, R).
 test(pi_takes_each_that_passes, R == [[put(2)], [put(3)]]) :- results(pi(X, [?((box(X), X > 1)), put(X)]), letters, R).
-test(pi_keeps_outer_variables, R == [[put(1), put(2)], [put(1), put(3)]]) :- results(pi(X, [?(X = 1), put(X), pi(Y, [?((box(Y), Y > X)), put(Y)])]), letters, R).
-test(pi_of_two, R == [[put(1), put(3)], [put(3), put(1)]]) :- results(pi([X, Y], [?((box(X), box(Y), X + Y =:= 4, X =\= Y)), put(X), put(Y)]), letters, R).
+test(pi_keeps_outer_variables, R == [[put(1), put(2)], [put(1), put(3)]]) :-
+    results(pi(X, [?(X = 1), put(X), pi(Y, [?((box(Y), Y > X)), put(Y)])]), letters, R).
+test(pi_of_two, R == [[put(1), put(3)], [put(3), put(1)]]) :-
+    results(pi([X, Y], [?((box(X), box(Y), X + Y =:= 4, X =\= Y)), put(X), put(Y)]), letters, R).
 test(if_then, R == [[a, b]]) :- results([a, if(done_a, b, c)], letters, R).
 test(if_else, R == [[c]]) :- results(if(done_a, b, c), letters, R).
 test(while, R == [[count, count, count]]) :- results(while(some(N, (n(N), N < 3)), count), letters, R).
-test(a_loop_binds_nothing, R == [[put(1), count], [put(2), count], [put(3), count]]) :- results([pi(X, put(X)), while((full(_), n(0)), count)], letters, R).
+test(a_loop_binds_nothing, R == [[put(1), count], [put(2), count], [put(3), count]]) :-
+    results([pi(X, put(X)), while((full(_), n(0)), count)], letters, R).
 test(while_false_is_nothing, R == [[]]) :- results(while(done_a, b), letters, R).
 test(star, R == [[], [count], [count, count]]) :- results(star([?(some(N, (n(N), N < 2))), count]), letters, R).
 test(procedures, R == [[b, b]]) :- results(twice(b), letters, R).
@@ -55,29 +58,43 @@ test(conc_is_all_interleavings, R == [[a, b, c], [a, c, b], [c, a, b]]) :- resul
 test(conc_synchronizes, R == [[b, a, c]]) :- results(conc([?(done_a), c], [b, a]), letters, R).
 test(conc_deadlock, R == []) :- results(conc([?(full(1)), put(2)], [?(full(2)), put(1)]), letters, R).
 test(prioritized_takes_the_first, R == [[a, b, c, d]]) :- results(prioritized([[a, b], [c, d]]), letters, R).
-test(prioritized_goes_on_below_a_wait, R == [[b, a, c, d]]) :- results(prioritized([[?(done_a), c], [b, a, d]]), letters, R).
-test(prioritized_of_three, R == [[b, d, a, c]]) :- results(prioritized([[?(done_a), c], [?(n(1)), b], [b, d, a]]), letters, R0), assertion(R0 == []), results(prioritized([[?(done_a), c], ?(n(0)), [b, d, a]]), letters, R).
-test(iconc, R == 16) :- results(iconc(fill), letters, All), length(All, R), assertion(subset([[], [put(2)], [put(3), put(1), put(2)]], All)).
-test(an_interrupt_runs_when_it_must, R == [[b, a, d, pay(1), c]]) :- results(prioritized([interrupt((done_a, paid(0)), [d, pay(1)]), [b, a, c]]), letters, R).
+test(prioritized_goes_on_below_a_wait, R == [[b, a, c, d]]) :-
+    results(prioritized([[?(done_a), c], [b, a, d]]), letters, R).
+test(prioritized_of_three, R == [[b, d, a, c]]) :-
+    results(prioritized([[?(done_a), c], [?(n(1)), b], [b, d, a]]), letters, R0), assertion(R0 == []),
+    results(prioritized([[?(done_a), c], ?(n(0)), [b, d, a]]), letters, R).
+test(iconc, R == 16) :-
+    results(iconc(fill), letters, All), length(All, R),
+    assertion(subset([[], [put(2)], [put(3), put(1), put(2)]], All)).
+test(an_interrupt_runs_when_it_must, R == [[b, a, d, pay(1), c]]) :-
+    results(prioritized([interrupt((done_a, paid(0)), [d, pay(1)]), [b, a, c]]), letters, R).
 test(an_interrupt_names_its_reason, R == [[put(2), pay(2), put(3)], [put(2), pay(2), put(3), pay(1)]]) :-
     results(prioritized([interrupt([X, Y], some_of(X, Y), pay(Y)), [put(2), put(3)]]), letters, R).
 test(an_interrupt_alone_is_over, R == [[]]) :- results(interrupt(done_a, b), letters, R).
 
 % Laws over seeded programs: both sides can be executed in the same ways.
-test(sequence_is_associative, [forall(between(1, 30, Seed))]) :- seeded(Seed, [P, Q, R]), same([[P, Q], R], [P, [Q, R]]).
+test(sequence_is_associative, [forall(between(1, 30, Seed))]) :-
+    seeded(Seed, [P, Q, R]), same([[P, Q], R], [P, [Q, R]]).
 test(nothing_is_the_unit, [forall(between(1, 30, Seed))]) :- seeded(Seed, [P]), same([[], P], P), same([P, []], P).
 test(choice_commutes, [forall(between(1, 30, Seed))]) :- seeded(Seed, [P, Q]), same(ndet(P, Q), ndet(Q, P)).
-test(choice_is_associative, [forall(between(1, 30, Seed))]) :- seeded(Seed, [P, Q, R]), same(ndet(P, ndet(Q, R)), ndet(ndet(P, Q), R)).
+test(choice_is_associative, [forall(between(1, 30, Seed))]) :-
+    seeded(Seed, [P, Q, R]), same(ndet(P, ndet(Q, R)), ndet(ndet(P, Q), R)).
 test(choice_is_idempotent, [forall(between(1, 30, Seed))]) :- seeded(Seed, [P]), same(ndet(P, P), P).
-test(sequence_distributes_over_choice, [forall(between(1, 30, Seed))]) :- seeded(Seed, [P, Q, R]), same([ndet(P, Q), R], ndet([P, R], [Q, R])).
+test(sequence_distributes_over_choice, [forall(between(1, 30, Seed))]) :-
+    seeded(Seed, [P, Q, R]), same([ndet(P, Q), R], ndet([P, R], [Q, R])).
 test(conc_commutes, [forall(between(1, 30, Seed))]) :- seeded(Seed, [P, Q]), same(conc(P, Q), conc(Q, P)).
 test(nothing_beside_is_nothing, [forall(between(1, 30, Seed))]) :- seeded(Seed, [P]), same(conc(P, []), P).
-test(a_sequence_is_one_interleaving, [forall(between(1, 30, Seed))]) :- seeded(Seed, [P, Q]), results([P, Q], letters, Some), results(conc(P, Q), letters, All), assertion(subset(Some, All)).
-test(priority_is_some_interleaving, [forall(between(1, 30, Seed))]) :- seeded(Seed, [P, Q]), results(prioritized([P, Q]), letters, Some), results(conc(P, Q), letters, All), assertion(subset(Some, All)).
+test(a_sequence_is_one_interleaving, [forall(between(1, 30, Seed))]) :-
+    seeded(Seed, [P, Q]), results([P, Q], letters, Some), results(conc(P, Q), letters, All),
+    assertion(subset(Some, All)).
+test(priority_is_some_interleaving, [forall(between(1, 30, Seed))]) :-
+    seeded(Seed, [P, Q]), results(prioritized([P, Q]), letters, Some), results(conc(P, Q), letters, All),
+    assertion(subset(Some, All)).
 test(while_unfolds, [forall(between(1, 30, Seed))]) :-
     seeded(Seed, [P]), C = (n(N), N < 2), B = [P, count],
     same(while(C, B), if(C, [B, while(C, B)], [])).
-test(if_is_a_choice_of_tests, [forall(between(1, 30, Seed))]) :- seeded(Seed, [P, Q]), same(if(done_a, P, Q), ndet([?(done_a), P], [?(\+ done_a), Q])).
+test(if_is_a_choice_of_tests, [forall(between(1, 30, Seed))]) :-
+    seeded(Seed, [P, Q]), same(if(done_a, P, Q), ndet([?(done_a), P], [?(\+ done_a), Q])).
 
 :- end_tests(laws).
 
@@ -91,10 +108,12 @@ test(search_is_do, [forall(between(1, 60, Seed))]) :-
     findall(Actions, plan([P, Q], State, Actions, letters), Plans),
     sort(Plans, Planned),
     assertion(Planned == Set).
-test(search_takes_the_first_way_first, Actions == [b, a, c]) :- initial_state(letters, State), once(plan(search([ndet(b, a), a, ?(done_a), c]), State, Actions, letters)).
+test(search_takes_the_first_way_first, Actions == [b, a, c]) :-
+    initial_state(letters, State), once(plan(search([ndet(b, a), a, ?(done_a), c]), State, Actions, letters)).
 test(search_avoids_the_blind_alley, [true(Actions == [b])]) :-
     initial_state(letters, State), once(plan(search([ndet(a, b), ?(\+ done_a)]), State, Actions, letters)).
-test(search_without_a_way_fails, fail) :- initial_state(letters, State), plan(search([a, ?(full(1))]), State, _, letters).
+test(search_without_a_way_fails, fail) :-
+    initial_state(letters, State), plan(search([a, ?(full(1))]), State, _, letters).
 test(the_least_way, Actions == [pay(1), pay(2)]) :-
     initial_state(letters, State),
     plan([ndet(pay(5), ndet(pay(1), pay(3))), ndet(pay(4), pay(2))], paid(_), State, Actions, letters).

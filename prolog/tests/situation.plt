@@ -29,15 +29,18 @@ after([A | As], S0, S) :- after(As, do(A, S0), S).
 
 state(State) :- initial_state(lamps, State).
 
-test(initially, Fs == [level(0), on(hall), at(cat, mat), at(dog, yard)]) :- state(St), all_true(imagined(St), lamps, Fs).
+test(initially, Fs == [level(0), on(hall), at(cat, mat), at(dog, yard)]) :-
+    state(St), all_true(imagined(St), lamps, Fs).
 test(an_effect_holds) :- state(St), holds(on(attic), do(light(attic), imagined(St)), lamps).
 test(an_ended_fluent_does_not_hold, fail) :- state(St), holds(on(hall), do(quench(hall), imagined(St)), lamps).
 test(what_is_not_touched_persists) :- state(St), holds(on(hall), do(light(attic), imagined(St)), lamps).
 test(a_value_is_unique, all(P == [roof])) :- state(St), holds(at(cat, P), do(carry(cat, roof), imagined(St)), lamps).
 test(other_values_persist, all(P == [yard])) :- state(St), holds(at(dog, P), do(carry(cat, roof), imagined(St)), lamps).
 test(an_effect_by_its_condition, fail) :- state(St), holds(on(hall), do(toggle(hall), imagined(St)), lamps).
-test(a_value_that_follows_from_the_last, all(N == [3])) :- state(St), after([raise, raise, raise], imagined(St), S), holds(level(N), S, lamps).
-test(open_questions_find_each_instance_once, all(X == [attic, hall])) :- state(St), after([light(attic), light(hall)], imagined(St), S), holds(on(X), S, lamps).
+test(a_value_that_follows_from_the_last, all(N == [3])) :-
+    state(St), after([raise, raise, raise], imagined(St), S), holds(level(N), S, lamps).
+test(open_questions_find_each_instance_once, all(X == [attic, hall])) :-
+    state(St), after([light(attic), light(hall)], imagined(St), S), holds(on(X), S, lamps).
 test(one_action_may_end_many) :- state(St), after([light(attic), quench_all], imagined(St), S), holds(dark, S, lamps).
 test(derived, all(X == [hall])) :- state(St), after([raise, raise], imagined(St), S), holds(bright(X), S, lamps).
 test(some_binds_nothing, X-1 == Y-1) :- state(St), X = Y, holds(some(Z, on(Z)), imagined(St), lamps), assertion(var(Z)).
@@ -48,7 +51,8 @@ test(the_empty_set, Xs == []) :- state(St), holds(set(X, on(X), Xs), do(quench_a
 test(a_condition_must_be_known, error(instantiation_error)) :- state(St), holds(_, imagined(St), lamps).
 test(possible) :- state(St), possible(light(attic), imagined(St), lamps).
 test(impossible, fail) :- state(St), possible(light(hall), imagined(St), lamps).
-test(fluents_make_the_state, Fs == Gs) :- state(St), state_fluents(St, Fs), fluents_state(Fs, St2), state_fluents(St2, Gs).
+test(fluents_make_the_state, Fs == Gs) :-
+    state(St), state_fluents(St, Fs), fluents_state(Fs, St2), state_fluents(St2, Gs).
 test(an_effect_must_be_known, error(instantiation_error)) :- state(St), progress(light(_), St, lamps, _).
 
 % Regression and progression say the same of 200 random histories of 12 actions.

@@ -64,7 +64,7 @@ Result<void> PrologHost::start() {
     // The strings live on: Prolog keeps pointers to them.
     static std::vector<std::string> words{"docent",     "-q",           "-f",   "none",     "-F",
                                           "none",       "-t",           "halt", "--no-tty", "--no-packs",
-                                          "--no-debug", "--no-signals", "-g",   "true",     "--stack-limit=256m"};
+                                          "--no-debug", "--no-signals", "-g",   "true",     "--stack-limit=64m"};
     static std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
