@@ -117,6 +117,9 @@ test(search_without_a_way_fails, fail) :-
 test(the_least_way, Actions == [pay(1), pay(2)]) :-
     initial_state(letters, State),
     plan([ndet(pay(5), ndet(pay(1), pay(3))), ndet(pay(4), pay(2))], paid(_), State, Actions, letters).
+test(of_equal_ways_the_first, Actions == [pay(2), pay(1)]) :-
+    initial_state(letters, State),
+    plan(ndet([pay(2), pay(1)], ndet(pay(3), [pay(1), pay(2)])), paid(_), State, Actions, letters).
 test(the_least_way_is_the_least_of_all, [forall(between(1, 30, Seed))]) :-
     set_random(seed(Seed)),
     findall(P, ( between(1, 4, _), random_between(1, 9, X), random_between(1, 9, Y), P = ndet(pay(X), [pay(Y), pay(1)]) ), Ps),

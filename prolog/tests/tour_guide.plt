@@ -120,6 +120,10 @@ test(without_a_charger_it_goes_on, [true(Rest == [])]) :-
     step(A0, 0.0, [requested(e12)], _, A1), play(A1, 5.0, [battery(0.05)], Rest, waits-_).
 test(finds_itself_and_takes_up_the_tour_again, Rest == [stop(drive(e12)), begin(relocalize), begin(drive(e12)), begin(explain(e12)), begin(ask_more(e12)), begin(drive(home))]) :-
     line(tour_guide, A0), step(A0, 0.0, [requested(e12)], _, A1), play(A1, 5.0, [lost], Rest, waits-_).
+test(does_not_trust_its_place_after_it_was_lost, [true(Rest = [stop(explain(e1)), begin(relocalize), begin(drive(e1)) | _])]) :-
+    line(tour_guide, A0), step(A0, 0.0, [requested(e1)], _, A1), outcome(A1, drive(e1), done, A2),
+    step(A2, 1.0, [], R, A3), assertion(R == begin(explain(e1))),
+    play(A3, 2.0, [lost], Rest, waits-_).
 test(ends_at_home_when_the_museum_closes, Rest-End == [drive(e12), explain(e12), ask_more(e12), drive(home)]-finished) :-
     line(tour_guide, A0), actions(A0, 5.0, [requested(e12), closing], Rest, End-_).
 test(a_cancelled_request_is_not_served, Actions == []) :-
