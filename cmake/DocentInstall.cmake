@@ -16,6 +16,7 @@ install(TARGETS docent RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT pro
 install(DIRECTORY web/dist DESTINATION ${share}/web COMPONENT program)
 install(DIRECTORY share/lichtblick DESTINATION ${share} COMPONENT program)
 install(DIRECTORY museums robots DESTINATION ${share} COMPONENT program)
+install(DIRECTORY prolog DESTINATION ${share} COMPONENT program PATTERN tests EXCLUDE)
 file(GLOB documents docs/*.md docs/robot.yaml)
 install(FILES ${documents} DESTINATION ${share}/docs COMPONENT program)
 install(FILES README.md LICENSE CHANGELOG.md DESTINATION ${share} COMPONENT program)

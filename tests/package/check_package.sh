@@ -64,6 +64,7 @@ expect "the source tree is not visible" bash -c "! [ -e '$root$PWD' ]"
 expect "docent --version is the package's version" is "docent $(dpkg-deb -f "$deb" Version)" "$(inside docent --version)"
 for museum in bonn smithsonian; do
   expect "docent check says that $museum is fine" inside docent check /usr/share/docent/museums/$museum
+  expect "docent golog check says that its tour program is fine" inside docent golog check /usr/share/docent/museums/$museum
 done
 expect "/etc/docent/robot.yaml changes no default" \
   diff "$root/usr/share/docent/docs/robot.yaml" <(inside docent config --robot /etc/docent/robot.yaml)
@@ -73,6 +74,8 @@ expect "and names all of them" \
 expect "its last line, too" diff <(tail -1 "$root/tmp/uncommented.yaml") <(tail -1 "$root/usr/share/docent/docs/robot.yaml")
 mkdir -p "$root/tmp/moved/share" && cp -r "$root/usr/bin" "$root/tmp/moved/" && cp -r "$root/usr/share/docent" "$root/tmp/moved/share/"
 expect "a moved prefix finds its own museum" grep -qE -- '--museum .*/tmp/moved/share/docent/museums/bonn' <(inside /tmp/moved/bin/docent up --help)
+expect "and its own tour program" grep -qF "/tmp/moved/share/docent/prolog/tour_guide.pl: fine" \
+  <(inside /tmp/moved/bin/docent golog check /usr/share/docent/museums/bonn)
 expect "docent_msgs for ROS 2 holds what the IDL holds" tests/package/check_messages.py "$root/usr/share/docent"
 unit=$root/usr/lib/systemd/system/docent.service
 if command -v systemd-analyze >/dev/null; then

@@ -4,6 +4,7 @@
 
 #include "docent/apps/config/config_command.h"
 #include "docent/apps/crowd/crowd_command.h"
+#include "docent/apps/golog/golog_command.h"
 #include "docent/apps/learn/learn_command.h"
 #include "docent/apps/localize/localize_command.h"
 #include "docent/apps/localize/map_command.h"
@@ -27,6 +28,7 @@ int main(int argc, char** argv) {
   docent::apps::add_config_command(app);
   docent::apps::add_crowd_command(app);
   docent::apps::add_evaluate_command(app);
+  docent::apps::add_golog_command(app);
   docent::apps::add_learn_command(app);
   docent::apps::add_localize_command(app);
   docent::apps::add_map_command(app);

@@ -1,0 +1,131 @@
+#include "docent/apps/golog/golog_command.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "docent/apps/golog/golog_trace.h"
+#include "docent/apps/shared/command.h"
+#include "docent/base/files.h"
+#include "docent/museum/museum.h"
+#include "docent/planning/value_iteration/route.h"
+#include "docent/task_control/golog/golog_program.h"
+#include "docent/task_control/tour_scheduler/travel.h"
+
+namespace docent::apps {
+namespace {
+
+struct Options {
+  std::string museum;
+  std::string program;  ///< empty: the museum's own
+  std::string main;     ///< empty: the program's own
+  std::vector<std::string> requests;
+  std::string events;
+  double most_s = 3600.0;  ///< [s]
+};
+
+/// What a program must know of a museum: its places.
+task_control::Programme programme_of(const museum::Museum& museum) {
+  task_control::Programme programme;
+  programme.home = museum.home;
+  programme.charger = museum.charger;
+  for (const museum::Exhibit& exhibit : museum.exhibits) programme.exhibits.push_back({exhibit.id, exhibit.pose, {}});
+  return programme;
+}
+
+std::filesystem::path file_of(const Options& options) {
+  return options.program.empty() ? task_control::golog_file(options.museum) : std::filesystem::path{options.program};
+}
+
+task_control::GologProgram program_of(const Options& options, const museum::Museum& museum) {
+  const planning::RoutePlanner planner{museum.map, museum.hazard_polygons(), museum.area, planning::RouteParams{}};
+  return value_or_fail(task_control::GologProgram::load({}, file_of(options), programme_of(museum),
+                                                        task_control::travel_on_map(planner), options.main));
+}
+
+std::vector<task_control::GologTerm> requests_of(const Options& options, const museum::Museum& museum) {
+  std::vector<task_control::GologTerm> events;
+  for (const std::string& id : options.requests) {
+    if (museum.find_exhibit(id) == nullptr) throw CommandFailed{"--request " + id + ": there is no such exhibit", 2};
+    events.push_back({"requested", {id}});
+  }
+  return events;
+}
+
+void check(const Options& options) {
+  const museum::Museum museum = value_or_fail(museum::load_museum(options.museum));
+  const auto file = file_of(options);
+  const auto faults = task_control::GologProgram::faults(file, programme_of(museum));
+  for (const Error& fault : faults) std::fprintf(stderr, "%s\n", fault.message.c_str());
+  if (!faults.empty()) {
+    throw CommandFailed{file.string() + ": " + std::to_string(faults.size()) +
+                        (faults.size() == 1 ? " fault" : " faults")};
+  }
+  std::printf("%s: fine, for the %zu exhibits of %s\n", file.string().c_str(), museum.exhibits.size(),
+              options.museum.c_str());
+}
+
+void plan(const Options& options) {
+  const museum::Museum museum = value_or_fail(museum::load_museum(options.museum));
+  task_control::GologProgram program = program_of(options, museum);
+  const Point2 home{museum.home.x, museum.home.y};
+  const auto requests = requests_of(options, museum);
+  const task_control::GologStep first = value_or_fail(program.step(Time{}, home, requests));
+  if (first.kind == task_control::GologStep::Kind::begin) {
+    std::printf("%s\n", to_text(first.action).c_str());
+    value_or_fail(program.outcome(first.action, {}));
+  }
+  const task_control::GologForesight foresight = value_or_fail(program.foresee(home));
+  for (const task_control::GologTerm& action : foresight.actions) std::printf("%s\n", to_text(action).c_str());
+  if (foresight.end == task_control::GologStep::Kind::waits) std::printf("(waits)\n");
+  if (foresight.end == task_control::GologStep::Kind::begin) std::printf("(and so on)\n");
+}
+
+void trace(const Options& options) {
+  const museum::Museum museum = value_or_fail(museum::load_museum(options.museum));
+  std::vector<TraceEvent> events;
+  for (const task_control::GologTerm& request : requests_of(options, museum)) {
+    events.push_back({0.0, TraceEvent::Kind::event, request});
+  }
+  if (!options.events.empty()) {
+    const auto text = value_or_fail(read_file(options.events));
+    for (TraceEvent& event : value_or_fail(parse_trace_events(text, options.events)))
+      events.push_back(std::move(event));
+  }
+  task_control::GologProgram program = program_of(options, museum);
+  value_or_fail(play_trace(program, programme_of(museum), events, options.events, options.most_s,
+                           [](const std::string& line) { std::printf("%s\n", line.c_str()); }));
+}
+
+CLI::App* add(CLI::App& parent, const char* name, const char* meaning, const std::shared_ptr<Options>& options,
+              void (*run)(const Options&)) {
+  CLI::App* command = parent.add_subcommand(name, meaning);
+  command->add_option("museum", options->museum, "folder with a museum.yaml")->required();
+  command->add_option("--program", options->program, "its tour program; without it MUSEUM/tour.pl, or the shipped one");
+  command->callback([options, run] { run(*options); });
+  return command;
+}
+
+}  // namespace
+
+void add_golog_command(CLI::App& app) {
+  CLI::App* golog = app.add_subcommand("golog", "Check a museum's tour program, show its plan, or try it on events");
+  golog->require_subcommand(1);
+  auto options = std::make_shared<Options>();
+  add(*golog, "check", "Every fault of the program, with file and line", options, check);
+  CLI::App* planned = add(*golog, "plan", "What the program would do about some requests", options, plan);
+  CLI::App* traced = add(*golog, "trace", "Play events to the program and print each step", options, trace);
+  for (CLI::App* command : {planned, traced}) {
+    command->add_option("--request", options->requests, "id of an exhibit; may be given again")
+        ->allow_extra_args(false);
+    command->add_option("--main", options->main, "procedure to run instead of the program's main");
+  }
+  traced->add_option("--events", options->events,
+                     "file with lines \"SECONDS EVENT ARGUMENT...\", such as \"20 requested zuse\" or \"30 lost\",\n"
+                     "\"40 failed drive zuse\", \"50 sensed ask_more zuse more\"");
+  traced->add_option("--seconds", options->most_s, "to play at most [s]")->capture_default_str();
+}
+
+}  // namespace docent::apps

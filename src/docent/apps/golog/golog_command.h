@@ -1,0 +1,12 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace docent::apps {
+
+/// `docent golog check|plan|trace MUSEUM`
+void add_golog_command(CLI::App& app);
+
+}  // namespace docent::apps

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "docent/base/result.h"
+#include "docent/base/time.h"
+#include "docent/task_control/golog/golog_term.h"
+#include "docent/task_control/tour_scheduler/programme.h"
+
+namespace docent::task_control {
+
+/// How far a program may go.
+struct GologParams {
+  /// [inferences] > 0 of one step; about 0.4 s. The next action for 13 exhibits takes 0.1 million.
+  std::int64_t most_inferences = 10'000'000;
+  template <class V>
+  void visit(V& v) {
+    v("most_inferences", most_inferences);
+  }
+  [[nodiscard]] Result<void> validate() const;
+};
+
+/// The file of the museum's own program: FOLDER/tour.pl where it exists, else prolog/tour_guide.pl, which is shipped.
+[[nodiscard]] std::filesystem::path golog_file(const std::filesystem::path& museum_folder);
+
+/// What a robot that carries out a program is told next.
+struct GologStep {
+  enum class Kind { begin, stop, waits, finished };
+  Kind kind = Kind::waits;
+  GologTerm action{};  ///< of begin and stop
+};
+
+/// How an action went.
+struct GologOutcome {
+  enum class Kind { done, sensed, failed };
+  Kind kind = Kind::done;
+  std::string value{};  ///< what was sensed
+};
+
+struct GologForesight {
+  std::vector<GologTerm> actions;
+  GologStep::Kind end = GologStep::Kind::waits;  ///< begin: there is more than was asked for
+};
+
+/// A tour program in GOLOG [Rhino1999] 4.3, under way: events come in, primitive actions go out (`prolog/README.md`).
+/// The program is the museum's file, its domain prolog/museum.pl; places are the ids of exhibits, `home`, `charger` and
+/// `somewhere`, the robot's place between them. The order of more than six exhibits is `shortest_order`.
+///
+/// A program is trusted like code: it may call any Prolog. Faults name file and line, and a step that takes more than
+/// `most_inferences` is cut; then nothing has changed. Deterministic; knows no clock and no messages. All programs of a
+/// process share one Prolog and take turns; they may be asked from any thread.
+class GologProgram {
+ public:
+  /// @returns every fault, "FILE:LINE: what is wrong"; none: the program may run.
+  [[nodiscard]] static std::vector<Error> faults(const std::filesystem::path& file, const Programme& programme);
+  /// @param main  the procedure to run instead of the file's own `main`; empty: that one. Error: the first fault.
+  [[nodiscard]] static Result<GologProgram> load(const GologParams& params, const std::filesystem::path& file,
+                                                 Programme programme, TravelDistance travel,
+                                                 const std::string& main = {});
+  GologProgram(GologProgram&& other) noexcept;
+  GologProgram& operator=(GologProgram&&) = delete;
+  GologProgram(const GologProgram&) = delete;
+  GologProgram& operator=(const GologProgram&) = delete;
+  ~GologProgram();
+
+  /// Takes in what has happened and goes on to the next thing that the robot must be told. To be called until nothing
+  /// comes, and again after events, after outcomes, and about once a second, because of time-outs.
+  /// @param robot  its place [m], map. Error: a fault of the program, an unknown event, or a Prolog time-out.
+  [[nodiscard]] Result<GologStep> step(Time now, Point2 robot, std::span<const GologTerm> events = {});
+  /// Of an action that was begun; of any other it changes nothing.
+  [[nodiscard]] Result<void> outcome(const GologTerm& action, const GologOutcome& outcome);
+  /// What the program would begin from here if every action succeeded and nothing else happened.
+  [[nodiscard]] Result<GologForesight> foresee(Point2 robot, int most_actions = 200);
+  /// What the domain expects an action to take from here [s]; nullopt: it does not say.
+  [[nodiscard]] std::optional<double> expected_s(Point2 robot, const GologTerm& action);
+
+  /// All that must survive, one line: what is left of the program, and what is true now.
+  [[nodiscard]] Result<std::string> snapshot();
+  /// Error: no snapshot, or one of a program with other procedures or actions; then nothing has changed.
+  [[nodiscard]] Result<void> restore(const std::string& snapshot);
+
+ private:
+  GologProgram(const GologParams& params, Programme programme, TravelDistance travel);
+  [[nodiscard]] std::vector<Error> read(const std::filesystem::path& file, const std::string& main);
+  [[nodiscard]] std::optional<Point2> place(const std::string& name) const;
+
+  friend class ProgramTurn;
+  GologParams params_;
+  Programme programme_;
+  TravelDistance travel_;
+  Point2 robot_;
+  std::string domain_;  ///< the Prolog module that holds it; empty: moved away
+};
+
+}  // namespace docent::task_control
