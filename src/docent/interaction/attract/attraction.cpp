@@ -1,6 +1,5 @@
 #include "docent/interaction/attract/attraction.h"
 
-#include <algorithm>
 #include <string>
 
 namespace docent::interaction {
@@ -47,9 +46,12 @@ std::optional<double> Attraction::finish(Time now) {
   return reward;
 }
 
-AttractionAction Attraction::best_known(double density) const {
-  const PerAction values = action_values(trials_, density, params_.choice, params_.crowd);
-  return attraction_action(static_cast<int>(std::max_element(values.begin(), values.end()) - values.begin()));
+std::vector<AttractionAction> Attraction::best_known(double density) const {
+  const PerAction chances = action_chances(action_values(trials_, density, params_.choice, params_.crowd), 0.0);
+  std::vector<AttractionAction> best;
+  for (int action = 0; action < kAttractionActions; ++action)
+    if (chances.at(static_cast<std::size_t>(action)) > 0.0) best.push_back(attraction_action(action));
+  return best;
 }
 
 }  // namespace docent::interaction

@@ -51,8 +51,9 @@ class Attraction {
   /// people were looked for in too little of it, and then it is forgotten.
   std::optional<double> finish(Time now);
 
-  /// What it would do at a density if it did not explore; of equals the first. O(trials + actions^2).
-  [[nodiscard]] AttractionAction best_known(double density) const;
+  /// What it could do at a density if it did not explore: the best known action, and all that are as good.
+  /// O(trials + actions^2).
+  [[nodiscard]] std::vector<AttractionAction> best_known(double density) const;
   [[nodiscard]] const TrialMemory& trials() const { return trials_; }
   /// Whether friendly styles attract more people, or fewer; none until it is more than chance.
   [[nodiscard]] const StyleEvidence& evidence() const { return evidence_; }

@@ -13,7 +13,7 @@ namespace docent::interaction {
 /// distinct penalty where somebody comes too close.
 struct ProximityRewardParams {
   double near = 1.0;        ///< [m] from the robot's centre; nearer people are worth 1
-  double far = 3.5;         ///< [m] > near; farther people are worth 0: they rather pass by
+  double far = 2.5;         ///< [m] > near; farther people are worth 0: they rather pass by than listen
   double too_close = 0.55;  ///< [m] 0..near: there the body (0.27 m) and an arm's length end
   double penalty = 2.0;     ///< >= 0, for each moment with somebody too close; more than what this person was worth
   double least_seen =

@@ -10,13 +10,13 @@ namespace {
 Time at(double time_s) { return time_from_seconds(time_s); }
 
 TEST(ProximityReward, FallsWithTheDistanceAndAddsUpOverPeople) {
-  const ProximityRewardParams params;  // worth 1 within 1 m, 0 beyond 3.5 m
+  const ProximityRewardParams params;  // worth 1 within 1 m, 0 beyond 2.5 m
   const auto worth = [&](const std::vector<Point2>& people) { return proximity_reward(people, params); };
   EXPECT_DOUBLE_EQ(worth({}), 0.0);
   EXPECT_DOUBLE_EQ(worth({{0.0, 0.9}}), 1.0);
-  EXPECT_DOUBLE_EQ(worth({{2.25, 0.0}}), 0.5);
+  EXPECT_DOUBLE_EQ(worth({{1.75, 0.0}}), 0.5);
   EXPECT_DOUBLE_EQ(worth({{5.0, 0.0}}), 0.0);
-  EXPECT_DOUBLE_EQ(worth({{0.0, -0.9}, {-2.25, 0.0}}), 1.5);
+  EXPECT_DOUBLE_EQ(worth({{0.0, -0.9}, {-1.75, 0.0}}), 1.5);
 }
 
 TEST(ProximityReward, WhoComesTooCloseCostsMoreThanTheyAreWorth) {

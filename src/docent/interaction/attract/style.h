@@ -34,8 +34,11 @@ inline constexpr int kStyles = 5;
 /// Face and words together make the style: a happy face that complains is even.
 [[nodiscard]] Style style_of(const AttractionAction& action);
 
-/// The two categories of [Minerva2000] 6.3: +1 friendly, fairly or not; -1 upset, fairly or not; 0 even.
-[[nodiscard]] constexpr int category_of(Style style) { return style < Style::even ? 1 : style > Style::even ? -1 : 0; }
+/// 1 friendly, 1/2, 0 even, -1/2, -1 upset: the place in the order of Fig. 15. Those above 0 are the paper's category
+/// of the friendly ones, those below 0 the unfriendly.
+[[nodiscard]] constexpr double friendliness_of(Style style) {
+  return 0.5 * (static_cast<int>(Style::even) - static_cast<int>(style));
+}
 
 /// How probably each style was to be drawn, [styles]; the sum is 1.
 using StyleChances = std::array<double, kStyles>;

@@ -16,8 +16,8 @@ double log_factor(double lean_times_reward, const AttractionTrial& trial) {
   double expected = 0.0;
   for (int style = 0; style < kStyles; ++style)
     expected += trial.chances.at(static_cast<std::size_t>(style)) *
-                std::exp(lean_times_reward * category_of(static_cast<Style>(style)));
-  return lean_times_reward * category_of(style_of(trial.action)) - std::log(expected);
+                std::exp(lean_times_reward * friendliness_of(static_cast<Style>(style)));
+  return lean_times_reward * friendliness_of(style_of(trial.action)) - std::log(expected);
 }
 
 /// ln of the mean of exp(values).

@@ -17,8 +17,9 @@ struct StyleEvidenceParams {
   double level = 0.05;  ///< 0..1, at most so often a claim is made at any time where there is no difference
   int settled = 6;      ///< >= 2, rewards of a class of crowds before one of them is compared with the others
   double clip = 2.5;    ///< [standard deviations] > 0: a reward farther off counts as this; one family is no proof
-  std::vector<double> leans{0.2, 0.4, 0.8};  ///< [1/standard deviation] > 0, differences that are looked for: half of
-                                             ///< a small, a middling and a large one in the sense of Cohen's d
+  /// [1/standard deviation] > 0, the differences that are looked for: half of what lies between the friendliest style
+  /// and the most upset one. A small difference, a large one, and a very large one (Cohen's d of 0.4, 0.8, 1.6).
+  std::vector<double> leans{0.2, 0.4, 0.8};
   template <class V>
   void visit(V& v) {
     v("level", level);
@@ -29,17 +30,16 @@ struct StyleEvidenceParams {
   [[nodiscard]] Result<void> validate() const;
 };
 
-/// Whether friendly styles attract more people than upset ones, or fewer: a test that may be looked at after each
-/// trial.
+/// Whether friendlier styles attract more people, or fewer: a test that may be looked at after each trial.
 ///
 /// The robot chooses by what it has seen, so the means of its styles are no fair samples and the usual intervals are
 /// wrong. But it knows how probably it was to draw each style, given all that had happened before and the gaze that it
 /// drew. Where styles do not matter, the reward x of a trial (in standard deviations of its crowd, from earlier trials)
-/// says nothing of the category g that was drawn (+1 friendly, 0 even, -1 upset), so that
-/// exp(l x g) / sum_g' P(g') exp(l x g') has expectation 1 for every l; and so has the product over all trials, and the
-/// mean of the products over several l. By Ville's inequality such a product ever exceeds 2 / level with a probability
-/// of at most level / 2: one product for "more" (l > 0), one for "fewer" (l < 0). The bound is exact for any policy and
-/// any rewards; it needs no normal distribution and no planned number of trials.
+/// says nothing of the friendliness g that was drawn, so that exp(l x g) / sum_g' P(g') exp(l x g') has expectation 1
+/// for every l; and so has the product over all trials, and the mean of the products over several l. By Ville's
+/// inequality such a product ever exceeds 2 / level with a probability of at most level / 2: one product for "more"
+/// (l > 0), one for "fewer" (l < 0). The bound is exact for any policy and any rewards; it needs no normal distribution
+/// and no planned number of trials.
 class StyleEvidence {
  public:
   StyleEvidence(const StyleEvidenceParams& params, const CrowdClassParams& crowds);

@@ -33,12 +33,12 @@ TEST(Style, FaceAndWordsMakeItAndTheGazeDoesNot) {
   }
 }
 
-TEST(Style, TheCategoriesAreFriendlyAndUpset) {
-  EXPECT_EQ(category_of(Style::friendly), 1);
-  EXPECT_EQ(category_of(Style::fairly_friendly), 1);
-  EXPECT_EQ(category_of(Style::even), 0);
-  EXPECT_EQ(category_of(Style::fairly_upset), -1);
-  EXPECT_EQ(category_of(Style::upset), -1);
+TEST(Style, FriendlinessFallsAlongTheOrder) {
+  EXPECT_EQ(friendliness_of(Style::friendly), 1.0);
+  EXPECT_EQ(friendliness_of(Style::fairly_friendly), 0.5);
+  EXPECT_EQ(friendliness_of(Style::even), 0.0);
+  EXPECT_EQ(friendliness_of(Style::fairly_upset), -0.5);
+  EXPECT_EQ(friendliness_of(Style::upset), -1.0);
 }
 
 TEST(Style, DifferencesCountGazeFaceAndSpeech) {
