@@ -34,8 +34,9 @@ double Neck::reachable_pan(double bearing) const {
 
 void Neck::turn(JointState& joint, double target, double target_speed, double range, double speed,
                 double seconds) const {
-  const double wanted =
-      std::clamp((target - joint.position) / std::max(params_.settling_s, seconds) + target_speed, -speed, speed);
+  const double target_before = target - target_speed * seconds;
+  const double wanted = std::clamp(
+      (target_before - joint.position) / std::max(params_.settling_s, seconds) + target_speed, -speed, speed);
   const double change = params_.acceleration * seconds;
   joint.velocity = std::clamp(wanted, joint.velocity - change, joint.velocity + change);
   const double next = joint.position + joint.velocity * seconds;

@@ -117,12 +117,12 @@ TEST(MoodMachine, TheValenceGlidesBetweenMoods) {
   MoodMachine mood = machine(11);
   double before = mood.valence();
   EXPECT_EQ(before, 1.0);
-  for (int i = 0; i < 1200; ++i) {
-    mood.step(i < 600, time_from_seconds(0.05 * i));
+  for (int i = 0; i < 2400; ++i) {
+    mood.step(i < 1200, time_from_seconds(0.05 * i));
     EXPECT_LE(std::abs(mood.valence() - before), 2.0 * 0.05 / MoodParams{}.glide_s) << "no jumps";
     EXPECT_LE(std::abs(mood.valence()), 1.0);
     before = mood.valence();
-    if (i == 599) {
+    if (i == 1199) {
       EXPECT_EQ(mood.mood(), Mood::angry);
       EXPECT_LT(mood.valence(), -0.95);
     }
