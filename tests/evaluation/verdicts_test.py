@@ -11,7 +11,7 @@ from types import SimpleNamespace
 ROOT = Path(__file__).resolve().parents[2]
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "scripts"))
-from evaluation import benchmarks, coastal, crippled, faults, ledger, reports, safety, scenarios  # noqa: E402
+from evaluation import attract, benchmarks, coastal, crippled, faults, ledger, reports, safety, scenarios  # noqa: E402
 from evaluation.tables import Verdict  # noqa: E402
 
 
@@ -53,6 +53,41 @@ class Crippled(unittest.TestCase):
             verdict = Verdict()
             crippled.want_touches(how, "bonn", [report(lost=600.0, km=km)], verdict)
             self.assertEqual(verdict.good, good)
+
+
+class Attract(unittest.TestCase):
+    @staticmethod
+    def runs(taste, claim, count=20, friendly=0.5, phases=201, hash="a"):
+        return [{"taste": taste, "claim": claim, "friendly_at_end": friendly, "phases": phases, "config_hash": hash}] * count
+
+    def verdict(self, **other):
+        found = {"friendly": self.runs("friendly", attract.MORE, friendly=0.9), "upset": self.runs("upset", attract.FEWER, friendly=0.1),
+                 "neither": self.runs("neither", attract.NONE)}
+        crippled = {"never explores": self.runs("friendly", attract.NONE)}
+        return attract.judge({**found, **other.get("found", {})}, {**crippled, **other.get("crippled", {})}, other.get("many", [])).good
+
+    def test_a_learner_that_finds_everything_holds(self):
+        self.assertTrue(self.verdict())
+        self.assertTrue(self.verdict(many=self.runs("neither", attract.MORE, 10) + self.runs("neither", attract.NONE, 190)))
+
+    def test_a_learner_that_finds_too_little_or_the_contrary_does_not(self):
+        for claim, count in ((attract.NONE, 3), (attract.FEWER, 1)):
+            some = self.runs("friendly", attract.MORE, 20 - count, 0.9) + self.runs("friendly", claim, count, 0.9)
+            self.assertFalse(self.verdict(found={"friendly": some}), claim)
+        self.assertFalse(self.verdict(found={"friendly": self.runs("friendly", attract.MORE, friendly=0.25)}))
+
+    def test_more_than_one_false_claim_of_twenty_does_not(self):
+        for count, good in ((1, True), (2, False)):
+            some = self.runs("neither", attract.FEWER, count) + self.runs("neither", attract.NONE, 20 - count)
+            self.assertEqual(self.verdict(found={"neither": some}), good)
+        self.assertFalse(self.verdict(many=self.runs("neither", attract.MORE, 11) + self.runs("neither", attract.NONE, 189)))
+
+    def test_a_crippled_learner_that_finds_it_shows_that_nothing_was_tested(self):
+        self.assertFalse(self.verdict(crippled={"ignores the reward": self.runs("friendly", attract.MORE)}))
+
+    def test_phases_that_nobody_saw_and_two_configurations_do_not(self):
+        self.assertFalse(self.verdict(found={"neither": self.runs("neither", attract.NONE, phases=100)}))
+        self.assertFalse(self.verdict(found={"neither": self.runs("neither", attract.NONE, hash="b")}))
 
 
 class Safety(unittest.TestCase):

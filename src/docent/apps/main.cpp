@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "docent/apps/attract/attract_command.h"
 #include "docent/apps/config/config_command.h"
 #include "docent/apps/crowd/crowd_command.h"
 #include "docent/apps/golog/golog_command.h"
@@ -24,6 +25,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Docent: an autonomous museum tour guide.", "docent"};
   app.require_subcommand(1);
   app.set_version_flag("--version", "docent " DOCENT_VERSION);
+  docent::apps::add_attract_command(app);
   docent::apps::add_check_command(app);
   docent::apps::add_config_command(app);
   docent::apps::add_crowd_command(app);

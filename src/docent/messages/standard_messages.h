@@ -235,6 +235,22 @@ struct BatteryState {
     v("serial_number", m.serial_number);
   }
 };
+struct JointState {
+  static constexpr const char* kType = "sensor_msgs/msg/JointState";
+  std_msgs::Header header;
+  std::vector<std::string> name;
+  std::vector<double> position;  ///< [rad] of each name; empty: not known
+  std::vector<double> velocity;  ///< [rad/s] likewise
+  std::vector<double> effort;    ///< [Nm] likewise
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("header", m.header);
+    v("name", m.name);
+    v("position", m.position);
+    v("velocity", m.velocity);
+    v("effort", m.effort);
+  }
+};
 }  // namespace sensor_msgs
 
 namespace nav_msgs {

@@ -87,6 +87,8 @@ inline constexpr Topic<docent_msgs::Event> kEvent{"docent/event", Qos::command};
 inline constexpr Topic<docent_msgs::Reaction> kReaction{"docent/reaction", Qos::command};
 inline constexpr Topic<docent_msgs::Gaze> kGaze{"docent/gaze", Qos::sensor};
 inline constexpr Topic<docent_msgs::Expression> kExpression{"docent/expression", Qos::sensor};
+/// The head, for robots that have one; see head_module.h.
+inline constexpr Topic<sensor_msgs::JointState> kJointStates{"joint_states", Qos::sensor};
 inline constexpr Topic<docent_msgs::Say> kSay{"docent/say", Qos::command};
 inline constexpr Topic<docent_msgs::SpeechState> kSpeechState{"docent/speech_state", Qos::state};
 inline constexpr Topic<docent_msgs::Horn> kHorn{"docent/horn", Qos::command};
@@ -122,7 +124,7 @@ void for_each_robot_topic(F&& f) {
   f(kDrive), f(kAvoidState), f(kRequest), f(kChoice), f(kRequestBoard), f(kMissionState), f(kTask), f(kTaskState),
       f(kEvent);
   f(kReaction), f(kGaze), f(kExpression), f(kSay), f(kSpeechState), f(kHorn), f(kLimits), f(kHealth);
-  f(kInitialPose), f(kParticleCloud), f(kPeopleMarkers), f(kMuseumMarkers);
+  f(kInitialPose), f(kParticleCloud), f(kPeopleMarkers), f(kMuseumMarkers), f(kJointStates);
 }
 template <class F>
 void for_each_truth_topic(F&& f) {

@@ -42,6 +42,7 @@ class Axes {
   [[nodiscard]] std::vector<Point2> page(std::span<const Point2> data) const;
 
   void set_title(std::string title) { title_ = std::move(title); }
+  void set_x_ticks(std::vector<Tick> ticks) { x_ticks_ = std::move(ticks); }
   void set_y_ticks(std::vector<Tick> ticks) { y_ticks_ = std::move(ticks); }
   void set_color_bar(ColorBar bar) { color_bar_ = std::move(bar); }
   /// Draws over what was added before, cut at the frame; the origin is the frame's top left corner.

@@ -19,6 +19,8 @@ struct EvaluationParams {
   bool ignores_live_map = false;         ///< plan: with the static map alone
   bool keeps_all_people = false;         ///< people: nobody is ever forgotten, and every thing is a person
   bool without_ladder = false;           ///< executive: it stands before what is in its way
+  bool never_explores = false;           ///< attract: does what it knows best and nothing else
+  bool ignores_reward = false;           ///< attract: remembers each phase as worth nothing
   template <class V>
   void visit(V& v) {
     v("blind_to_people", blind_to_people);
@@ -33,6 +35,8 @@ struct EvaluationParams {
     v("ignores_live_map", ignores_live_map);
     v("keeps_all_people", keeps_all_people);
     v("without_ladder", without_ladder);
+    v("never_explores", never_explores);
+    v("ignores_reward", ignores_reward);
   }
   /// Names of what is not as by default, with ", " between them.
   [[nodiscard]] std::string crippled() const;

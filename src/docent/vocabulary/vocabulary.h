@@ -74,9 +74,23 @@ constexpr auto words_of(Rung) {
 enum class SpeechStatus { speaking, done, failed };
 constexpr auto words_of(SpeechStatus) { return std::array{"speaking", "done", "failed"}; }
 
-/// How the voice sounds.
+/// How the voice sounds and the face looks.
 enum class Mood { neutral, happy, sad, angry };
 constexpr auto words_of(Mood) { return std::array{"neutral", "happy", "sad", "angry"}; }
+
+/// At what the head looks: the next exhibit, a person who stands where the robot wants to go, a visitor who is spoken
+/// to, the direction in which it wants to go, nothing.
+enum class LookAt { goal, person, visitor, way, none };
+constexpr auto words_of(LookAt) { return std::array{"goal", "person", "visitor", "way", "none"}; }
+
+/// Whom the robot looks at while it attracts people: the nearest person, one person after the other, nobody.
+enum class GazeStrategy { nearest, everybody, ahead };
+constexpr auto words_of(GazeStrategy) { return std::array{"nearest", "everybody", "ahead"}; }
+
+/// What the robot says while it attracts people: "come over", "do you like robots?", nothing, that people stay behind
+/// it, that nobody listens.
+enum class SpeechAct { invite, ask, silence, demand, complain };
+constexpr auto words_of(SpeechAct) { return std::array{"invite", "ask", "silence", "demand", "complain"}; }
 
 /// What visitors may answer to a question.
 enum class Answer { more, next, yes, no };

@@ -35,6 +35,9 @@ TEST(Vocabulary, EachValueHasItsWord) {
   expect_each_has_its_word(Rung::free);
   expect_each_has_its_word(SpeechStatus::failed);
   expect_each_has_its_word(Mood::angry);
+  expect_each_has_its_word(LookAt::none);
+  expect_each_has_its_word(GazeStrategy::ahead);
+  expect_each_has_its_word(SpeechAct::complain);
   expect_each_has_its_word(Answer::no);
   expect_each_has_its_word(ContactKind::hazards);
   expect_each_has_its_word(EventKind::choice);
