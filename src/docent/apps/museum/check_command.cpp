@@ -9,7 +9,9 @@
 #include "docent/apps/shared/deployment.h"
 #include "docent/apps/shared/map_note.h"
 #include "docent/base/yaml.h"
+#include "docent/interaction/sound/sound_file.h"
 #include "docent/interaction/speech/dictionary.h"
+#include "docent/interaction/speech/repertoire.h"
 #include "docent/modules/drive/plan_module.h"
 #include "docent/museum/museum.h"
 #include "docent/simulator/world/world.h"
@@ -52,6 +54,16 @@ void note_languages(const museum::Museum& museum) {
   }
 }
 
+/// Recordings and music must be playable; a recording that replaces nothing is only told.
+void check_sounds(const museum::Museum& museum, std::vector<Error>& faults) {
+  const interaction::Recordings recordings{museum.folder, interaction::repertoire(museum)};
+  for (Error& fault : recordings.faults()) faults.push_back(std::move(fault));
+  for (const auto& stray : recordings.strays())
+    std::printf("note: %s is a recording of nothing that the robot says\n", stray.string().c_str());
+  if (!museum.sound.music) return;
+  if (const auto music = interaction::sound_duration(*museum.sound.music); !music) faults.push_back(music.error());
+}
+
 void check(const Deployment& deployment) {
   const std::filesystem::path folder{deployment.museum};
   const robot::RobotConfig config = value_or_fail(deployment.load_config(), 2);
@@ -59,6 +71,7 @@ void check(const Deployment& deployment) {
   if (faults.empty()) {
     const museum::Museum museum = value_or_fail(museum::load_museum(folder));
     if (museum.simulation_path) check_simulation(museum, faults);
+    check_sounds(museum, faults);
     if (faults.empty()) {
       note_languages(museum);
       const GridFrame& frame = museum.map.frame;

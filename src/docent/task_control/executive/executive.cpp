@@ -89,10 +89,13 @@ void Executive::set_task(ExecutiveTask task, Time now) {
   } else if (order.kind == TaskKind::visit || order.kind == TaskKind::home || order.kind == TaskKind::charge) {
     if (order.kind == TaskKind::visit) {
       say("announcement",
-          interaction::sentence(interaction::Sentence::announcement, order.language, memory_.task.title), Mood::happy);
+          interaction::sentence(interaction::Sentence::announcement, order.language, Mood::happy, 0,
+                                memory_.task.title),
+          Mood::happy);
     }
     if (order.kind == TaskKind::charge && !(order.exhibit_id.empty() && order.tour_id.empty())) {
-      say("announcement", interaction::sentence(interaction::Sentence::must_charge, order.language), Mood::sad);
+      say("announcement", interaction::sentence(interaction::Sentence::must_charge, order.language, Mood::sad, 0),
+          Mood::sad);
     }
     memory_.drive_began = now;
     enter(Step::driving, now);
@@ -160,7 +163,7 @@ void Executive::say(const std::string& name, const std::string& text, Mood mood)
 Utterance Executive::speech() const {
   const bool is_long = memory_.step == Step::explaining_more;
   const std::string text =
-      is_long ? memory_.task.long_text : interaction::spoken_text(memory_.task.title) + " " + memory_.task.short_text;
+      is_long ? memory_.task.long_text : interaction::introduction(memory_.task.title, memory_.task.short_text);
   return {own_id(is_long ? "long" : "short"), text, memory_.task.order.language, Mood::neutral};
 }
 
@@ -174,7 +177,7 @@ Time Executive::question_deadline() const { return memory_.step_began + seconds(
 Question Executive::question() const {
   if (memory_.step != Step::asking) return {};
   return {own_id("more"),
-          interaction::sentence(interaction::Sentence::offer_more, memory_.task.order.language, memory_.task.title),
+          interaction::sentence(interaction::Sentence::offer_more, memory_.task.order.language, Mood::neutral, 0),
           {Answer::more, Answer::next},
           Answer::next,
           question_deadline()};
@@ -237,7 +240,8 @@ void Executive::arrive(Time now) {
   const bool stood_there = order.kind == TaskKind::charge && now - memory_.drive_began < seconds(kNoDrive);
   const interaction::Sentence greeting =
       order.kind == TaskKind::charge ? interaction::Sentence::at_charger : interaction::Sentence::home_again;
-  if (!stood_there) say(order.kind.text(), interaction::sentence(greeting, order.language), Mood::happy);
+  if (!stood_there)
+    say(order.kind.text(), interaction::sentence(greeting, order.language, Mood::happy, 0), Mood::happy);
   finish(true, "", now);
 }
 
@@ -278,10 +282,10 @@ void Executive::climb_ladder(Time now) {
 }
 
 void Executive::ask_for_way(Time now, int count) {
+  const Mood mood = count == 1 ? Mood::neutral : Mood::sad;
   // The name carries the time, so that a restarted executive does not repeat an id that was spoken already.
   say("please-" + std::to_string(std::max<std::int64_t>(0, (now - memory_.step_began).count() / 1000000)),
-      interaction::sentence(interaction::Sentence::let_me_through, memory_.task.order.language),
-      count == 1 ? Mood::neutral : Mood::sad);
+      interaction::sentence(interaction::Sentence::let_me_through, memory_.task.order.language, mood, count - 1), mood);
   actions_.happenings.push_back(
       {EventKind::asked_for_way, memory_.task.order.exhibit_id, "", static_cast<double>(count)});
 }
