@@ -13,11 +13,10 @@ namespace docent::interaction {
 /// Section `sound.mix`: how loud what is. Levels are root mean squares of what sounds (`loudness_db`), in dB of full
 /// scale, at volume 1.
 struct MixerParams {
-  double speech_db = -18.0;  ///< [dB] -40..0; peaks of speech lie 12 to 15 dB above its level, so they just fit
-  double horn_db = -12.0;    ///< [dB] -40..0; twice as strong as speech: the horn is short and must be heard over it
-  double music_db = -30.0;   ///< [dB] -60..0; 12 dB below speech: music that one hears and talks over
-  double duck_db =
-      12.0;  ///< [dB] 0..60 by which music sinks under speech, so that it lies 24 dB below (WCAG 1.4.7 asks for 20)
+  double speech_db = -22.0;   ///< [dB] -40..0; peaks of espeak-ng's speech lie 19 dB above its level, so they just fit
+  double horn_db = -14.0;     ///< [dB] -40..0; 8 dB over speech: the horn is short, and must be heard over it
+  double music_db = -34.0;    ///< [dB] -60..0; 12 dB below speech: music that one hears and talks over
+  double duck_db = 12.0;      ///< [dB] 0..60; music sinks by it under speech, to 24 dB below: WCAG 1.4.7 asks for 20
   double fade_s = 1.5;        ///< [s] > 0; music comes and goes softly, within the first metre of a drive
   double duck_s = 0.2;        ///< [s] > 0; music sinks within the first syllable
   double release_s = 1.0;     ///< [s] > 0; and comes back slowly, so that pauses between sentences do not pump

@@ -15,7 +15,8 @@ namespace {
 
 class BackgroundMusicTest : public testing::Test {
  protected:
-  BackgroundMusicTest() : folder_{std::filesystem::temp_directory_path() / ("docent_music_" + std::to_string(getpid()))} {
+  BackgroundMusicTest()
+      : folder_{std::filesystem::temp_directory_path() / ("docent_music_" + std::to_string(getpid()))} {
     std::filesystem::create_directories(folder_);
   }
   ~BackgroundMusicTest() override { std::filesystem::remove_all(folder_); }
