@@ -64,7 +64,19 @@ void check_sounds(const museum::Museum& museum, std::vector<Error>& faults) {
   if (const auto music = interaction::sound_duration(*museum.sound.music); !music) faults.push_back(music.error());
 }
 
-void check(const Deployment& deployment) {
+/// For whoever is to record: each file, whether it is there, and what is to be said in which mood.
+void list_recordings(const museum::Museum& museum) {
+  const auto lines = interaction::repertoire(museum);
+  const interaction::Recordings recordings{museum.folder, lines};
+  for (const interaction::RepertoireLine& entry : lines) {
+    const interaction::SpokenLine& line = entry.line;
+    const bool is_there = recordings.find(line.language, line.text) != nullptr;
+    std::printf("content/audio/%s/%s\t%s\t%s\t%s\n", line.language.c_str(), entry.name.c_str(),
+                is_there ? "recorded" : "spoken by the voice", to_text(line.mood), line.text.c_str());
+  }
+}
+
+void check(const Deployment& deployment, bool lists_recordings) {
   const std::filesystem::path folder{deployment.museum};
   const robot::RobotConfig config = value_or_fail(deployment.load_config(), 2);
   std::vector<Error> faults = museum::check_museum(folder, value_or_fail(modules::checked_robot_of_plan(config), 2));
@@ -74,6 +86,7 @@ void check(const Deployment& deployment) {
     check_sounds(museum, faults);
     if (faults.empty()) {
       note_languages(museum);
+      if (lists_recordings) list_recordings(museum);
       const GridFrame& frame = museum.map.frame;
       std::printf("%s: fine. %zu exhibits (%zu sensible pairs), %zu hazards, %zu tours, map %.1f x %.1f m\n",
                   folder.string().c_str(), museum.exhibits.size(), museum::sensible_pairs(museum),
@@ -97,7 +110,10 @@ void add_check_command(CLI::App& app) {
   command->add_option("--robot", deployment->robot, "robot.yaml of the robot that must fit; without it all defaults");
   command->add_option("--set", deployment->settings, "section.key=value, over robot.yaml; may be repeated")
       ->allow_extra_args(false);
-  command->callback([deployment] { check(*deployment); });
+  auto lists_recordings = std::make_shared<bool>(false);
+  command->add_flag("--recordings", *lists_recordings,
+                    "List all that the robot can say there: the file of its recording, its mood and its words");
+  command->callback([deployment, lists_recordings] { check(*deployment, *lists_recordings); });
 }
 
 }  // namespace docent::apps

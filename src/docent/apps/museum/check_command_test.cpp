@@ -79,6 +79,12 @@ TEST_F(CheckCommand, ListensToRecordingsAndMusic) {
   const std::string said = testing::internal::GetCapturedStdout();
   EXPECT_NE(said.find("partical-trap.short.wav"), std::string::npos) << said;
   EXPECT_EQ(said.find("particle-trap.short.wav"), std::string::npos) << said;
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(run("check --recordings " + folder_.string()), "");
+  const std::string list = testing::internal::GetCapturedStdout();
+  EXPECT_NE(list.find("content/audio/en/particle-trap.short\trecorded\tneutral\tThe particle trap"), std::string::npos);
+  EXPECT_NE(list.find("content/audio/de/particle-trap.short\tspoken by the voice\t"), std::string::npos);
+  EXPECT_NE(list.find("content/audio/en/let_me_through.angry.1\tspoken by the voice\tangry\t"), std::string::npos);
 
   change("museum.yaml", "map: map.yaml", "map: map.yaml\nsound: {music: content/audio/tune.ogg}");
   for (const char* damaged : {"en/particle-trap.short.wav", "tune.ogg"})
