@@ -23,7 +23,7 @@ constexpr std::size_t kMostText = 20000;  ///< [bytes]
 /// Section `sound`: speech, horn and music.
 struct SoundParams {
   std::string program = "espeak-ng";  ///< renders the speech; empty: recordings, and the words alone
-  double timeout_s = 15.0;            ///< [s] > 0 for one line; espeak-ng needs a fiftieth of what it takes to say it
+  double timeout_s = 15.0;            ///< [s] > 0 for one line; espeak-ng needs a hundredth of what saying it takes
   bool ahead = true;                  ///< renders in idle time all that the robot can say in this museum
   std::string output = "none";        ///< where the robot is heard: card, file, or none; the pages play it in any case
   std::string device = "default";     ///< ALSA's name of the card, for instance default or plughw:1
