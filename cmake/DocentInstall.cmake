@@ -73,7 +73,7 @@ each, a systemd unit, and the messages for DDS and ROS 2.")
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-# Without espeak-ng it has no voice, without the fonts pictures have no letters; alsa-utils plays the voice on the robot.
+# Without espeak-ng it has no voice, without the fonts pictures have no letters; alsa-utils names the sound cards.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "espeak-ng, fonts-dejavu-core")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "alsa-utils")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA

@@ -122,7 +122,10 @@ await check('sound plays after a click', async () => {
   await page.locator('.buttons button[aria-pressed]').first().click();
   await page.click('[data-exhibit=particle-trap]');
   await page.click('.go');
+  const volume = () => page.evaluate(() => { const music = document.querySelector('[data-plays=music]'); return music.paused ? 0 : music.volume; });
+  await until('music plays while it drives', async () => Math.abs((await volume()) - 0.3) < 0.01, 30000);
   ensure((await asked).ok(), 'no audio');
+  await until('music ends with the drive', async () => (await volume()) === 0);
 });
 
 await check('the page speaks German', async () => {

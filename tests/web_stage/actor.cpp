@@ -35,7 +35,8 @@ Actor::Actor(transport::Bus& bus, const museum::Museum& museum, Scenery& scenery
       board_publisher_{bus.publisher(topics::kRequestBoard)},
       speech_{bus.publisher(topics::kSpeechState)},
       health_{bus.publisher(topics::kHealth)},
-      horn_{bus.publisher(topics::kHorn)} {
+      horn_{bus.publisher(topics::kHorn)},
+      sound_{bus.publisher(topics::kSoundState)} {
   const Point2 start = scenery_.any_place();
   map_from_base_ = {start.x, start.y, Angle::radians(rng_.uniform(-3.0, 3.0))};
   for (int i = 0; i < 5; ++i) {
@@ -65,6 +66,8 @@ Actor::Actor(transport::Bus& bus, const museum::Museum& museum, Scenery& scenery
 void Actor::set_phase(Phase phase) {
   phase_ = phase;
   phase_since_ = bus_.now();
+  const bool has_music = phase_ == Phase::driving;
+  sound_.publish({{}, 1.0, has_music ? options_.music : "", has_music ? 0.3 : 0.0, to_message(phase_since_)});
   publish_mission();
   publish_path();
 }

@@ -17,6 +17,7 @@ class Actor {
     double lost_s = 12.0;  ///< how long it does not know where it is
     double speed = 0.7;    ///< [m/s]
     double talk = 1.0;     ///< time to say a text, as a factor
+    std::string music;     ///< file of what it plays while it drives
     double horn_s = 0.0;   ///< it sounds its horn every so many seconds; 0: never
     bool is_busy = false;  ///< other visitors have wishes too
   };
@@ -75,6 +76,7 @@ class Actor {
   transport::Publisher<docent_msgs::SpeechState> speech_;
   transport::Publisher<docent_msgs::Health> health_;
   transport::Publisher<docent_msgs::Horn> horn_;
+  transport::Publisher<docent_msgs::SoundState> sound_;
 };
 
 }  // namespace docent::stage

@@ -9,7 +9,8 @@
 
 #include "actor.h"
 #include "docent/base/files.h"
-#include "docent/interaction/speech/horn.h"
+#include "docent/interaction/sound/horn.h"
+#include "docent/interaction/sound/melody.h"
 #include "docent/modules/edge/web_module.h"
 #include "docent/transport/virtual_time_bus.h"
 
@@ -68,7 +69,10 @@ int main(int argc, char** argv) {
   const std::filesystem::path state = argv[2];
   std::filesystem::create_directories(state / "audio");
   if (!write_file_atomically(state / "audio/5a5a5a5a.wav", tone())) return 2;
-  if (!interaction::write_horn_sound(interaction::horn_sound(1.0), state / "audio")) return 2;
+  if (!interaction::write_shared(interaction::horn_sound(), state / "audio")) return 2;
+  const interaction::SharedSound music = interaction::shared_sound(interaction::melody_clip());
+  if (!interaction::write_shared(music, state / "audio")) return 2;
+  options.music = music.file;
   robot::RobotConfig config;
   if (const auto set = config.set(std::string{"web.port="} + argv[3]); !set) return 2;
 

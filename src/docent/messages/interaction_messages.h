@@ -81,6 +81,36 @@ struct Horn {
   }
 };
 
+/// Play music, or stop it; latched. Once ordered, music no longer follows the task.
+struct Music {
+  static constexpr const char* kType = "docent_msgs/msg/Music";
+  std_msgs::Header header;
+  bool plays = false;
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("header", m.header);
+    v("plays", m.plays);
+  }
+};
+
+/// How loud the robot is and what music it plays; latched.
+struct SoundState {
+  static constexpr const char* kType = "docent_msgs/msg/SoundState";
+  std_msgs::Header header;
+  double volume = 1;                     ///< 0..1, of speech and horn
+  std::string music;                     ///< file name of the music that plays, its hash; empty: none plays
+  double music_volume = 0;               ///< amplitude ratio for that file, less while the robot speaks
+  builtin_interfaces::Time music_start;  ///< since when the file is played round and round
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("header", m.header);
+    v("volume", m.volume);
+    v("music", m.music);
+    v("music_volume", m.music_volume);
+    v("music_start", m.music_start);
+  }
+};
+
 /// What head, face and voice show, decided in one place; 10 Hz.
 struct Expression {
   static constexpr const char* kType = "docent_msgs/msg/Expression";

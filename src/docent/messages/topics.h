@@ -92,6 +92,8 @@ inline constexpr Topic<sensor_msgs::JointState> kJointStates{"joint_states", Qos
 inline constexpr Topic<docent_msgs::Say> kSay{"docent/say", Qos::command};
 inline constexpr Topic<docent_msgs::SpeechState> kSpeechState{"docent/speech_state", Qos::state};
 inline constexpr Topic<docent_msgs::Horn> kHorn{"docent/horn", Qos::command};
+inline constexpr Topic<docent_msgs::Music> kMusic{"docent/music", Qos::state};
+inline constexpr Topic<docent_msgs::SoundState> kSoundState{"docent/sound_state", Qos::state};
 inline constexpr Topic<docent_msgs::Limits> kLimits{"docent/limits", Qos::state};
 inline constexpr Topic<docent_msgs::Health> kHealth{"docent/health", Qos::command};
 // For viewers of ROS 2. No module of the robot reads them.
@@ -123,7 +125,8 @@ void for_each_robot_topic(F&& f) {
   f(kPersonBeams), f(kPeople), f(kPeopleInOdom), f(kVirtualScan), f(kDriveGoal), f(kGoalState), f(kTarget), f(kPath);
   f(kDrive), f(kAvoidState), f(kRequest), f(kChoice), f(kRequestBoard), f(kMissionState), f(kTask), f(kTaskState),
       f(kEvent);
-  f(kReaction), f(kGaze), f(kExpression), f(kSay), f(kSpeechState), f(kHorn), f(kLimits), f(kHealth);
+  f(kReaction), f(kGaze), f(kExpression), f(kSay), f(kSpeechState), f(kHorn), f(kMusic), f(kSoundState), f(kLimits),
+      f(kHealth);
   f(kInitialPose), f(kParticleCloud), f(kPeopleMarkers), f(kMuseumMarkers), f(kJointStates);
 }
 template <class F>

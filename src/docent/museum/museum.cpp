@@ -37,22 +37,32 @@ Result<Hours> parse_hours(const std::string& text) {
   return hours;
 }
 
+namespace {
+
+bool any_holds(const std::vector<std::string>& all, int minute_of_day) {
+  return std::any_of(all.begin(), all.end(), [&](const std::string& text) {
+    const auto hours = parse_hours(text);
+    return hours && hours->holds(minute_of_day);
+  });
+}
+
+}  // namespace
+
 std::string mode_at(const Museum& museum, int minute_of_day) {
   const auto has_hours = [&](const char* name) {
     const auto mode = museum.modes.find(name);
     return mode != museum.modes.end() && !mode->second.hours.empty();
   };
   const auto holds = [&](const char* name) {
-    if (!has_hours(name)) return false;
-    const auto& all = museum.modes.at(name).hours;
-    return std::any_of(all.begin(), all.end(), [&](const std::string& text) {
-      const auto hours = parse_hours(text);
-      return hours && hours->holds(minute_of_day);
-    });
+    return has_hours(name) && any_holds(museum.modes.at(name).hours, minute_of_day);
   };
   if (holds("web")) return "web";
   if (holds("closed")) return "closed";
   return !has_hours("open") || holds("open") ? "open" : "closed";
+}
+
+double volume_at(const Museum& museum, int minute_of_day) {
+  return any_holds(museum.sound.quiet_hours, minute_of_day) ? museum.sound.quiet_volume : 1.0;
 }
 
 const Exhibit* Museum::find_exhibit(const std::string& id) const {
@@ -104,6 +114,7 @@ Result<Museum> load_museum(const std::filesystem::path& folder) {
   museum.folder = folder;
   museum.map_path = folder / museum.map_path;
   if (museum.simulation_path) museum.simulation_path = folder / *museum.simulation_path;
+  if (museum.sound.music) museum.sound.music = folder / *museum.sound.music;
   std::error_code code;
   if (!std::filesystem::is_regular_file(museum.map_path, code))
     return tl::unexpected<Error>(file->fault(file->root()["map"], museum.map_path.string() + " does not exist"));

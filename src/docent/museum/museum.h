@@ -57,6 +57,14 @@ struct Mode {
   std::vector<std::string> hours;  ///< as parse_hours reads them
 };
 
+/// How the museum wants to hear the robot.
+struct MuseumSound {
+  std::optional<std::filesystem::path> music;  ///< WAV, Ogg or FLAC; without it Docent's own melody
+  std::vector<std::string> quiet_hours;        ///< as parse_hours reads them
+  double quiet_volume =
+      0.3;  ///< 0..1 of the usual volume in the quiet hours; 10 dB less is about half as loud to the ear
+};
+
 /// The names of modes: everybody, Web visitors alone, nobody but the staff.
 inline constexpr std::array<const char*, 3> kModes{"open", "web", "closed"};
 
@@ -81,6 +89,7 @@ struct Museum {
   std::vector<Exhibit> exhibits;
   std::map<std::string, Mode> modes;
   std::vector<Tour> tours;
+  MuseumSound sound;
   std::optional<std::filesystem::path> simulation_path;
 
   [[nodiscard]] const Exhibit* find_exhibit(const std::string& id) const;
@@ -97,6 +106,9 @@ struct Museum {
 /// The mode that the museum's hours say: web in the hours of `web`, closed in those of `closed`, else open. Where
 /// `open` has hours, the museum is closed outside of all hours.
 [[nodiscard]] std::string mode_at(const Museum& museum, int minute_of_day);
+
+/// What the museum makes of the volume at this time of day, 0..1: 1 outside of its quiet hours.
+[[nodiscard]] double volume_at(const Museum& museum, int minute_of_day);
 
 /// Reads FOLDER/museum.yaml with its map and texts. Error: the first fault, "FILE:LINE: …". Looks at the file's form,
 /// ids, texts, polygons, modes and tours; whether the robot fits where it must stand is check_museum's question.

@@ -143,6 +143,8 @@ std::vector<Error> check_museum(const std::filesystem::path& folder, const Check
       !std::filesystem::is_regular_file(folder / *source.museum.simulation_path, code)) {
     faults.push_back(file->fault(root["simulation"], source.museum.simulation_path->string() + " does not exist"));
   }
+  if (const auto& music = source.museum.sound.music; music && !std::filesystem::is_regular_file(folder / *music, code))
+    faults.push_back(file->fault(root["sound"]["music"], music->string() + " does not exist"));
   if (source.museum.map_path.empty()) return faults;
   if (!std::filesystem::is_regular_file(folder / source.museum.map_path, code)) {
     faults.push_back(file->fault(root["map"], source.museum.map_path.string() + " does not exist"));

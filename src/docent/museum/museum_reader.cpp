@@ -56,6 +56,7 @@ class MuseumYamlReader {
       const YAML::Node exhibits = reader.node("exhibits");
       const YAML::Node modes = reader.node("modes");
       const YAML::Node tours = reader.node("tours");
+      const YAML::Node sound = reader.node("sound");
       guarded([&] { read_languages(languages); });
       guarded([&] { museum_.name = translations(required(file_.root(), name, "name"), "name"); });
       std::string map;
@@ -70,6 +71,7 @@ class MuseumYamlReader {
       read_exhibits(required(file_.root(), exhibits, "exhibits"));
       read_modes(modes);
       read_tours(tours);
+      if (sound.IsDefined()) guarded([&] { read_sound(sound); });
       std::optional<std::string> simulation;
       guarded([&] {
         reader("simulation", simulation);
@@ -341,12 +343,28 @@ class MuseumYamlReader {
     constexpr double kLongestWait = 600.0;  // [s] nothing else is done meanwhile
     if (!(mode.wait_s >= 0.0 && mode.wait_s <= kLongestWait))
       throw fault(node, "mode '" + name + "': wait_s must be 0..600 s");
-    for (const auto& hours : mode.hours) {
-      if (auto parsed = parse_hours(hours); !parsed) {
-        throw fault(reader_child(node, "hours"), "mode '" + name + "': " + parsed.error().message);
-      }
-    }
+    check_hours(reader_child(node, "hours"), mode.hours, "mode '" + name + "'");
     return mode;
+  }
+  void check_hours(const YAML::Node& node, const std::vector<std::string>& all, const std::string& who) const {
+    for (const auto& hours : all) {
+      if (auto parsed = parse_hours(hours); !parsed) throw about(node, who, parsed.error().message);
+    }
+  }
+
+  void read_sound(const YAML::Node& node) {
+    YamlReader reader{file_, node};
+    MuseumSound sound;
+    std::optional<std::string> music;
+    reader("music", music);
+    reader("quiet_hours", sound.quiet_hours);
+    reader("quiet_volume", sound.quiet_volume);
+    reader.finish();
+    if (music) sound.music = inside_folder(reader.node("music"), *music);
+    check_hours(reader.node("quiet_hours"), sound.quiet_hours, "quiet_hours");
+    if (!(sound.quiet_volume >= 0.0 && sound.quiet_volume <= 1.0))
+      throw fault(reader.node("quiet_volume"), "quiet_volume must be 0 to 1");
+    museum_.sound = std::move(sound);
   }
   [[nodiscard]] static YAML::Node reader_child(const YAML::Node& node, const char* key) { return node[key]; }
 

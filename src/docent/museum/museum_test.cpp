@@ -206,6 +206,12 @@ const Broken kBroken[]{
     {"TourWithBoth", ", minutes: 6", ", minutes: 6, exhibits: [coin]", "quick", "either exhibits or minutes"},
     {"MinutesZero", "minutes: 6", "minutes: 0", "quick", "minutes must be > 0"},
     {"MinutesNoNumber", "minutes: 6", "minutes: some", "quick", "expected a number"},
+    {"MusicMissing", "map: map.yaml", "map: map.yaml\nsound:\n  music: content/tune.ogg", "  music", "does not exist",
+     true},
+    {"MusicOutsideFolder", "map: map.yaml", "map: map.yaml\nsound: {music: ../tune.ogg}", "sound", "not a file inside"},
+    {"QuietHoursBad", "map: map.yaml", "map: map.yaml\nsound: {quiet_hours: [noon]}", "sound", "expected HH:MM-HH:MM"},
+    {"QuietVolumeTooHigh", "map: map.yaml", "map: map.yaml\nsound: {quiet_volume: 2}", "sound", "must be 0 to 1"},
+    {"UnknownKeyInSound", "map: map.yaml", "map: map.yaml\nsound: {volume: 1}", "sound", "unknown key 'volume'"},
     {"SimulationMissing", "map: map.yaml", "map: map.yaml\nsimulation: world.yaml", "simulation", "does not exist",
      true},
 };
@@ -325,6 +331,20 @@ TEST(Hours, RunPastMidnight) {
   for (const char* bad : {"", "8:00-9:00", "08:00-24:01", "24:00-08:00", "08:60-09:00", "ab:cd-ef:gh", "08:00 09:00"}) {
     EXPECT_FALSE(parse_hours(bad)) << bad;
   }
+}
+
+TEST(Museum, IsQuietInItsQuietHours) {
+  const SmallMuseum small;
+  small.write("content/tune.ogg", "any");
+  small.write("museum.yaml", std::string{kMuseum} +
+                                 "\nsound: {music: content/tune.ogg, quiet_hours: [\"22:00-08:00\", "
+                                 "\"12:30-13:00\"], quiet_volume: 0.2}\n");
+  const auto museum = load_museum(small.folder());
+  ASSERT_TRUE(museum) << museum.error().message;
+  EXPECT_EQ(museum->sound.music, small.folder() / "content/tune.ogg");
+  for (const int quiet : {23 * 60, 0, 7 * 60 + 59, 12 * 60 + 30}) EXPECT_EQ(volume_at(*museum, quiet), 0.2) << quiet;
+  for (const int usual : {8 * 60, 12 * 60, 13 * 60, 21 * 60}) EXPECT_EQ(volume_at(*museum, usual), 1.0) << usual;
+  EXPECT_EQ(volume_at(Museum{}, 0), 1.0) << "no hours are quiet unless the museum says so";
 }
 
 TEST(Translations, FallBackToTheFirst) {

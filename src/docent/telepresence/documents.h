@@ -236,6 +236,19 @@ struct HornMessage {
     v("t", d.t), v("duration", d.duration), v("audio", d.audio);
   }
 };
+/// How loud a page plays what, and the music that plays now.
+struct SoundMessage {
+  static constexpr const char* kName = "SoundMessage";
+  static constexpr const char* kType = "sound";
+  double volume = 1.0;        ///< 0..1, of speech and horn
+  std::string music;          ///< where it can be fetched; empty: none plays
+  double music_volume = 0.0;  ///< 0..1, less while the robot speaks
+  double start = 0.0;         ///< since when it plays round and round
+  template <class Self, class V>
+  static void visit(Self& d, V& v) {
+    v("volume", d.volume), v("music", d.music), v("music_volume", d.music_volume), v("start", d.start);
+  }
+};
 
 struct BoardEntry {
   static constexpr const char* kName = "BoardEntry";
@@ -323,7 +336,8 @@ struct ErrorMessage {
 };
 
 /// Everything that the live channel carries to a page.
-using ServerMessage = std::tuple<LiveMessage, BeliefMessage, PathMessage, MissionMessage, SpeechMessage, HornMessage,
-                                 BoardMessage, HealthMessage, WindowMessage, Acknowledgement, Refusal, ErrorMessage>;
+using ServerMessage =
+    std::tuple<LiveMessage, BeliefMessage, PathMessage, MissionMessage, SpeechMessage, HornMessage, SoundMessage,
+               BoardMessage, HealthMessage, WindowMessage, Acknowledgement, Refusal, ErrorMessage>;
 
 }  // namespace docent::telepresence::documents

@@ -161,7 +161,7 @@ std::string encode_mission(const docent_msgs::MissionState& mission) {
 
 std::string encode_speech(const docent_msgs::SpeechState& speech) {
   std::string audio = speech.audio;
-  if (!audio.empty() && !audio.ends_with(".wav")) audio += ".wav";
+  if (!audio.empty() && audio.find('.') == std::string::npos) audio += ".wav";
   return json_text(documents::SpeechMessage{speech.id, speech.state, speech.text, speech.language,
                                             rounded(seconds_of(speech.start)), rounded(speech.duration),
                                             address_of(audio)});
@@ -169,6 +169,12 @@ std::string encode_speech(const docent_msgs::SpeechState& speech) {
 
 std::string encode_horn(Time t, const std::string& file, double duration_s) {
   return json_text(documents::HornMessage{rounded(to_seconds(t)), rounded(duration_s), address_of(file)});
+}
+
+std::string encode_sound(const docent_msgs::SoundState& sound) {
+  const auto loudness = [](double value) { return rounded(std::isfinite(value) ? std::clamp(value, 0.0, 1.0) : 0.0); };
+  return json_text(documents::SoundMessage{loudness(sound.volume), address_of(sound.music),
+                                           loudness(sound.music_volume), rounded(seconds_of(sound.music_start))});
 }
 
 std::string encode_board(const docent_msgs::RequestBoard& board) {

@@ -79,8 +79,24 @@ TEST(LiveEncoding, OnlyNamesOfAudioFilesBecomeAddresses) {
   EXPECT_EQ(Json::parse(encode_speech(speech))["audio"], "/audio/00ff.wav");
   speech.audio = "00ff.wav";
   EXPECT_EQ(Json::parse(encode_speech(speech))["audio"], "/audio/00ff.wav");
-  speech.audio = "../00ff.wav";
-  EXPECT_EQ(Json::parse(encode_speech(speech))["audio"], "");
+  speech.audio = "00ff.ogg";
+  EXPECT_EQ(Json::parse(encode_speech(speech))["audio"], "/audio/00ff.ogg");
+  for (const char* other : {"../00ff.wav", "00ff.txt", "00ff.ogg.wav"}) {
+    speech.audio = other;
+    EXPECT_EQ(Json::parse(encode_speech(speech))["audio"], "") << other;
+    EXPECT_EQ(Json::parse(encode_sound({{}, 1.0, other, 0.5, {}}))["music"], "") << other;
+  }
+}
+
+TEST(LiveEncoding, ASoundTellsHowLoudItIs) {
+  const Json sound = Json::parse(encode_sound({{}, 0.5, "00ff.ogg", 0.125, to_message(time_from_seconds(12.5))}));
+  EXPECT_EQ(sound["type"], "sound");
+  EXPECT_EQ(sound["volume"], 0.5);
+  EXPECT_EQ(sound["music"], "/audio/00ff.ogg");
+  EXPECT_EQ(sound["music_volume"], 0.125);
+  EXPECT_EQ(sound["start"], 12.5);
+  EXPECT_EQ(Json::parse(encode_sound({{}, std::nan(""), "", 7.0, {}}))["volume"], 0.0) << "a browser refuses others";
+  EXPECT_EQ(Json::parse(encode_sound({{}, std::nan(""), "", 7.0, {}}))["music_volume"], 1.0);
 }
 
 TEST(LiveEncoding, ASilentModuleIsNamed) {

@@ -31,6 +31,13 @@ std::string content_type_of(const std::filesystem::path& path) {
   return place == kTypes.end() ? "application/octet-stream" : place->second;
 }
 
+/// Empty: no audio.
+std::string_view audio_type_of(std::string_view name) {
+  if (name.ends_with(".wav")) return "audio/wav";
+  if (name.ends_with(".ogg")) return "audio/ogg";
+  return name.ends_with(".flac") ? "audio/flac" : std::string_view{};
+}
+
 SiteReply plain(int status, std::string text) {
   SiteReply reply;
   reply.status = status;
@@ -101,9 +108,10 @@ bool accepts_gzip(std::string_view accept_encoding) {
 }
 
 bool is_audio_name(std::string_view name) {
-  constexpr std::string_view kEnd = ".wav";
-  if (name.size() <= kEnd.size() || name.size() > 64 + kEnd.size() || !name.ends_with(kEnd)) return false;
-  name.remove_suffix(kEnd.size());
+  constexpr std::size_t kLongest = 64;
+  if (audio_type_of(name).empty()) return false;
+  name = name.substr(0, name.rfind('.'));
+  if (name.empty() || name.size() > kLongest) return false;
   return std::all_of(name.begin(), name.end(), [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
 }
 
@@ -152,7 +160,7 @@ SiteReply Site::audio(std::string_view name) const {
   auto content = read_file(path);
   if (!content) return plain(404, "not found\n");
   SiteReply reply;
-  reply.content_type = "audio/wav";
+  reply.content_type = audio_type_of(name);
   reply.body = std::make_shared<const std::string>(std::move(*content));
   reply.is_immutable = true;
   return reply;

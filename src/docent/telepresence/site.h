@@ -22,13 +22,13 @@ struct SiteReply {
 };
 
 /// Everything that can be fetched, by exact path. The page is read into memory once, so no path from outside ever
-/// reaches the file system; audio files are, and their names may only be hexadecimal digits and ".wav". What does not
-/// change is compressed once, when it is set. Any thread may call it.
+/// reaches the file system; audio files are, and their names may only be hexadecimal digits and an ending. What does
+/// not change is compressed once, when it is set. Any thread may call it.
 class Site {
  public:
   /// Reads all files under `folder` as "/…"; "/" is index.html. Error: unreadable, no index.html, or over 64 MB.
   [[nodiscard]] Result<void> load_page(const std::filesystem::path& folder);
-  /// Serves /audio/HASH.wav from here.
+  /// Serves /audio/HASH.wav, .ogg and .flac from here.
   void set_audio_folder(std::filesystem::path folder) { audio_ = std::move(folder); }
   void set_document(const std::string& path, std::string content_type, std::string body);
   /// A document made anew for each reader; `make` is called by the server's thread.
@@ -53,7 +53,7 @@ class Site {
 /// True when a reader whose Accept-Encoding (RFC 9110, 12.5.3) is this may be sent gzip.
 [[nodiscard]] bool accepts_gzip(std::string_view accept_encoding);
 
-/// True for 1 to 64 hexadecimal digits and ".wav": no other name can be a file of ours.
+/// True for 1 to 64 hexadecimal digits and ".wav", ".ogg" or ".flac": no other name can be a file of ours.
 [[nodiscard]] bool is_audio_name(std::string_view name);
 
 }  // namespace docent::telepresence

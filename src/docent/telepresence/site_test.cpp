@@ -18,6 +18,7 @@ class SiteTest : public testing::Test {
     write("page/index.html", "<p>hello");
     write("page/assets/index-1a2b.js", "1;");
     write("audio/0a1b.wav", "RIFF");
+    write("audio/0a1b.ogg", "OggS");
     write("audio/secret.txt", "secret");
     write("secret.wav", "secret");
   }
@@ -93,10 +94,12 @@ TEST_F(SiteTest, NothingElseCanBeReached) {
   site.set_audio_folder(folder_ / "audio");
   EXPECT_EQ(site.get("/audio/0a1b.wav").status, 200);
   EXPECT_EQ(site.get("/audio/0a1b.wav").content_type, "audio/wav");
+  EXPECT_EQ(site.get("/audio/0a1b.ogg").content_type, "audio/ogg");
   for (const char* target :
        {"/audio/secret.txt", "/audio/../secret.wav", "/audio/%2e%2e/secret.wav", "/audio/..%2fsecret.wav", "/audio/",
-        "/audio/.wav", "/audio/0A1B.wav", "/audio/0a1b.wav/", "/audio//0a1b.wav", "/../secret.wav",
-        "/assets/../../secret.wav", "/audio/ffff.wav", "", "index.html", "//"}) {
+        "/audio/.wav", "/audio/0a1b.ogg.wav", "/audio/0a1b.flac", "/audio/0a1bogg", "/audio/0A1B.wav",
+        "/audio/0a1b.wav/", "/audio//0a1b.wav", "/../secret.wav", "/assets/../../secret.wav", "/audio/ffff.wav", "",
+        "index.html", "//"}) {
     EXPECT_EQ(site.get(target).status, 404) << target;
   }
   EXPECT_EQ(site.get({"/audio/0a1b.wav\0", 16}).status, 404);

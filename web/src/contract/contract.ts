@@ -139,6 +139,13 @@ export interface HornMessage {
   duration: number;
   audio: string;
 }
+export interface SoundMessage {
+  type: 'sound';
+  volume: number;
+  music: string;
+  music_volume: number;
+  start: number;
+}
 export interface BoardEntry {
   key: string;
   source: string;
@@ -212,7 +219,7 @@ export interface WatchMessage {
   type: 'watch';
   details: boolean;
 }
-export type ServerMessage = LiveMessage | BeliefMessage | PathMessage | MissionMessage | SpeechMessage | HornMessage | BoardMessage | HealthMessage | WindowMessage | Acknowledgement | Refusal | ErrorMessage;
+export type ServerMessage = LiveMessage | BeliefMessage | PathMessage | MissionMessage | SpeechMessage | HornMessage | SoundMessage | BoardMessage | HealthMessage | WindowMessage | Acknowledgement | Refusal | ErrorMessage;
 export type ClientMessage = RequestMessage | CancelMessage | ChoiceMessage | WatchMessage;
 export const documents = {
   "Acknowledgement": {
@@ -653,6 +660,16 @@ export const documents = {
       }
     },
     "maybe": {}
+  },
+  "SoundMessage": {
+    "fields": {
+      "music": "string",
+      "music_volume": "number",
+      "start": "number",
+      "volume": "number"
+    },
+    "maybe": {},
+    "type": "sound"
   },
   "SpeechMessage": {
     "fields": {

@@ -14,6 +14,7 @@ import type {
   Museum,
   PathMessage,
   ServerMessage,
+  SoundMessage,
   SpeechMessage,
   WindowMessage,
 } from './protocol';
@@ -67,6 +68,7 @@ class App {
   mission = $state.raw<MissionMessage | null>(null);
   speech = $state.raw<SpeechMessage | null>(null);
   horn = $state.raw<HornMessage | null>(null);
+  levels = $state.raw<SoundMessage | null>(null);
   board = $state.raw<BoardMessage | null>(null);
   health = $state.raw<HealthMessage | null>(null);
   path = $state.raw<PathMessage | null>(null);
@@ -312,6 +314,9 @@ class App {
         return;
       case 'horn':
         this.horn = message;
+        return;
+      case 'sound':
+        this.levels = message;
         return;
       case 'ack':
         this.unanswered.delete(message.id);

@@ -9,7 +9,9 @@
 #include "docent/apps/shared/deployment.h"
 #include "docent/apps/shared/map_note.h"
 #include "docent/base/yaml.h"
+#include "docent/interaction/sound/sound_file.h"
 #include "docent/interaction/speech/dictionary.h"
+#include "docent/interaction/speech/repertoire.h"
 #include "docent/modules/drive/plan_module.h"
 #include "docent/museum/museum.h"
 #include "docent/simulator/world/world.h"
@@ -52,15 +54,39 @@ void note_languages(const museum::Museum& museum) {
   }
 }
 
-void check(const Deployment& deployment) {
+/// Recordings and music must be playable; a recording that replaces nothing is only told.
+void check_sounds(const museum::Museum& museum, std::vector<Error>& faults) {
+  const interaction::Recordings recordings{museum.folder, interaction::repertoire(museum)};
+  for (Error& fault : recordings.faults()) faults.push_back(std::move(fault));
+  for (const auto& stray : recordings.strays())
+    std::printf("note: %s is a recording of nothing that the robot says\n", stray.string().c_str());
+  if (!museum.sound.music) return;
+  if (const auto music = interaction::sound_duration(*museum.sound.music); !music) faults.push_back(music.error());
+}
+
+/// For whoever is to record: each file, whether it is there, and what is to be said in which mood.
+void list_recordings(const museum::Museum& museum) {
+  const auto lines = interaction::repertoire(museum);
+  const interaction::Recordings recordings{museum.folder, lines};
+  for (const interaction::RepertoireLine& entry : lines) {
+    const interaction::SpokenLine& line = entry.line;
+    const bool is_there = recordings.find(line.language, line.text) != nullptr;
+    std::printf("content/audio/%s/%s\t%s\t%s\t%s\n", line.language.c_str(), entry.name.c_str(),
+                is_there ? "recorded" : "spoken by the voice", to_text(line.mood), line.text.c_str());
+  }
+}
+
+void check(const Deployment& deployment, bool lists_recordings) {
   const std::filesystem::path folder{deployment.museum};
   const robot::RobotConfig config = value_or_fail(deployment.load_config(), 2);
   std::vector<Error> faults = museum::check_museum(folder, value_or_fail(modules::checked_robot_of_plan(config), 2));
   if (faults.empty()) {
     const museum::Museum museum = value_or_fail(museum::load_museum(folder));
     if (museum.simulation_path) check_simulation(museum, faults);
+    check_sounds(museum, faults);
     if (faults.empty()) {
       note_languages(museum);
+      if (lists_recordings) list_recordings(museum);
       const GridFrame& frame = museum.map.frame;
       std::printf("%s: fine. %zu exhibits (%zu sensible pairs), %zu hazards, %zu tours, map %.1f x %.1f m\n",
                   folder.string().c_str(), museum.exhibits.size(), museum::sensible_pairs(museum),
@@ -84,7 +110,10 @@ void add_check_command(CLI::App& app) {
   command->add_option("--robot", deployment->robot, "robot.yaml of the robot that must fit; without it all defaults");
   command->add_option("--set", deployment->settings, "section.key=value, over robot.yaml; may be repeated")
       ->allow_extra_args(false);
-  command->callback([deployment] { check(*deployment); });
+  auto lists_recordings = std::make_shared<bool>(false);
+  command->add_flag("--recordings", *lists_recordings,
+                    "List all that the robot can say there: the file of its recording, its mood and its words");
+  command->callback([deployment, lists_recordings] { check(*deployment, *lists_recordings); });
 }
 
 }  // namespace docent::apps

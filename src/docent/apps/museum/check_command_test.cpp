@@ -11,6 +11,7 @@
 #include "docent/apps/shared/command.h"
 #include "docent/base/files.h"
 #include "docent/grid/occupancy_grid.h"
+#include "docent/interaction/sound/sound_file.h"
 
 namespace docent::apps {
 namespace {
@@ -65,6 +66,34 @@ TEST_F(CheckCommand, ChecksForTheRobotInUse) {
   EXPECT_NE(faults_of("--robot " + (folder_ / "wide.yaml").string()).find("the robot needs 1 m"), std::string::npos);
   EXPECT_EQ(run("check " + folder_.string() + " --set body.radius=0.25"), "");
   EXPECT_NE(run("check " + folder_.string() + " --set body.radius=thick").find("body.radius"), std::string::npos);
+}
+
+TEST_F(CheckCommand, ListensToRecordingsAndMusic) {
+  const auto audio = folder_ / "content/audio/en";
+  std::filesystem::create_directories(audio);
+  const std::string sound = interaction::shared_sound(interaction::Clip(4410, 0.25F)).content;
+  ASSERT_TRUE(write_file_atomically(audio / "particle-trap.short.wav", sound));
+  ASSERT_TRUE(write_file_atomically(audio / "partical-trap.short.wav", sound));
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(run("check " + folder_.string()), "");
+  const std::string said = testing::internal::GetCapturedStdout();
+  EXPECT_NE(said.find("partical-trap.short.wav"), std::string::npos) << said;
+  EXPECT_EQ(said.find("particle-trap.short.wav"), std::string::npos) << said;
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(run("check --recordings " + folder_.string()), "");
+  const std::string list = testing::internal::GetCapturedStdout();
+  EXPECT_NE(list.find("content/audio/en/particle-trap.short\trecorded\tneutral\tThe particle trap"), std::string::npos);
+  EXPECT_NE(list.find("content/audio/de/particle-trap.short\tspoken by the voice\t"), std::string::npos);
+  EXPECT_NE(list.find("content/audio/en/let_me_through.angry.1\tspoken by the voice\tangry\t"), std::string::npos);
+
+  change("museum.yaml", "map: map.yaml", "map: map.yaml\nsound: {music: content/audio/tune.ogg}");
+  for (const char* damaged : {"en/particle-trap.short.wav", "tune.ogg"})
+    ASSERT_TRUE(write_file_atomically(folder_ / "content/audio" / damaged, "this is no sound at all"));
+  testing::internal::CaptureStderr();
+  EXPECT_NE(run("check " + folder_.string()).find("2 faults"), std::string::npos);
+  const std::string faults = testing::internal::GetCapturedStderr();
+  EXPECT_NE(faults.find("particle-trap.short.wav"), std::string::npos) << faults;
+  EXPECT_NE(faults.find("tune.ogg"), std::string::npos) << faults;
 }
 
 TEST_F(CheckCommand, SaysInWhichLanguageTheRobotHasNoPhrases) {

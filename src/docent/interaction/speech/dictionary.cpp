@@ -12,18 +12,79 @@ namespace {
 
 /// As the values of Sentence.
 constexpr std::array<const char*, kSentences> kKeys{
-    "waking",         "relocalizing", "idle",       "waiting",     "driving",    "blocked",
-    "explaining",     "asking",       "going_home", "battery_low", "charging",   "announcement",
-    "let_me_through", "offer_more",   "home_again", "must_charge", "at_charger",
+    "waking",
+    "relocalizing",
+    "idle",
+    "waiting",
+    "driving",
+    "blocked",
+    "explaining",
+    "asking",
+    "going_home",
+    "battery_low",
+    "charging",
+    "announcement",
+    "let_me_through",
+    "offer_more",
+    "home_again",
+    "must_charge",
+    "at_charger",
+    "stay_behind",
+    "greeting",
+    "next_exhibit",
+    "farewell",
+    "help",
+    "attract_greeting",
+    "attract_invitation",
+    "attract_question",
+    "attract_complaint",
+    "attract_demand",
 };
 
-struct Sentences {
-  std::array<std::string, kSentences>& texts;
+/// A sentence that has words for several moods.
+struct ByMood {
+  Phrasing& phrasing;
   template <class V>
   void visit(V& v) {
-    for (std::size_t i = 0; i < texts.size(); ++i) v.required(kKeys.at(i), texts.at(i));
+    const auto moods = words_of(Mood{});
+    for (std::size_t i = 0; i < moods.size(); ++i) v(moods.at(i), phrasing.by_mood.at(i));
   }
 };
+
+bool has_place(const std::string& text) { return text.find("{}") != std::string::npos; }
+
+Phrasing read_phrasing(const YamlFile& file, const YAML::Node& node, const std::string& key) {
+  Phrasing phrasing;
+  if (node.IsScalar()) {
+    phrasing.by_mood.at(static_cast<std::size_t>(Mood::neutral)) = {node.Scalar()};
+  } else {
+    YamlReader reader{file, node};
+    ByMood{phrasing}.visit(reader);
+    reader.finish();
+  }
+  std::vector<std::string> all;
+  for (const auto& variants : phrasing.by_mood) all.insert(all.end(), variants.begin(), variants.end());
+  if (all.empty()) throw YamlFault{file.fault(node, key + " has no words")};
+  for (const std::string& text : all) {
+    if (text.empty()) throw YamlFault{file.fault(node, key + ": a text is empty")};
+    if (has_place(text) != has_place(all.front()))
+      throw YamlFault{file.fault(node, key + ": {} stands in some of its texts only")};
+  }
+  return phrasing;
+}
+
+void read_sentences(const YamlFile& file, const YAML::Node& node, std::array<Phrasing, kSentences>& sentences) {
+  YamlReader reader{file, node};
+  std::vector<YAML::Node> nodes;
+  for (const char* key : kKeys) nodes.push_back(reader.node(key));
+  reader.finish();
+  for (std::size_t i = 0; i < kKeys.size(); ++i) {
+    const YAML::Node& found = nodes.at(i);
+    if (!found.IsDefined() || found.IsNull())
+      throw YamlFault{file.fault(node, std::string{"missing key '"} + kKeys.at(i) + "'")};
+    sentences.at(i) = read_phrasing(file, found, kKeys.at(i));
+  }
+}
 
 std::map<std::string, Dictionary, std::less<>> load_all() {
   std::map<std::string, Dictionary, std::less<>> all;
@@ -37,6 +98,8 @@ std::map<std::string, Dictionary, std::less<>> load_all() {
 
 }  // namespace
 
+const char* to_text(Sentence which) { return kKeys.at(static_cast<std::size_t>(which)); }
+
 Result<Dictionary> parse_dictionary(const std::string& text, const std::string& name) {
   const auto file = YamlFile::parse(text, name);
   if (!file) return tl::unexpected<Error>(file.error());
@@ -46,9 +109,10 @@ Result<Dictionary> parse_dictionary(const std::string& text, const std::string& 
     reader.required("articles", dictionary.articles);
     reader.required("per_character", dictionary.per_character);
     reader.required("per_sentence", dictionary.per_sentence);
-    Sentences sentences{dictionary.sentences};
-    reader.required("sentences", sentences);
+    const YAML::Node sentences = reader.node("sentences");
     reader.finish();
+    if (!sentences.IsDefined()) return tl::unexpected<Error>(file->fault(file->root(), "missing key 'sentences'"));
+    read_sentences(*file, sentences, dictionary.sentences);
     if (!(dictionary.per_character > 0.0)) return fail(name + ": per_character must be > 0");
     if (!(dictionary.per_sentence >= 0.0)) return fail(name + ": per_sentence must be >= 0");
     return dictionary;

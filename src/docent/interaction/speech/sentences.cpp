@@ -2,14 +2,31 @@
 
 #include <algorithm>
 #include <cctype>
+#include <vector>
 
+#include "docent/base/random.h"
 #include "docent/interaction/speech/dictionary.h"
 
 namespace docent::interaction {
+namespace {
 
-std::string sentence(Sentence which, std::string_view language, std::string_view title) {
+constexpr int kMostVariants = 1000;  // of a beginning; nobody writes so many
+
+const std::vector<std::string>& variants_of(const Dictionary& dictionary, Sentence which, Mood mood) {
+  const Phrasing& phrasing = dictionary.sentences.at(static_cast<std::size_t>(which));
+  const auto& wanted = phrasing.of(mood);
+  if (!wanted.empty()) return wanted;
+  if (!phrasing.of(Mood::neutral).empty()) return phrasing.of(Mood::neutral);
+  return *std::find_if(phrasing.by_mood.begin(), phrasing.by_mood.end(),
+                       [](const auto& variants) { return !variants.empty(); });  // parse_dictionary saw one
+}
+
+}  // namespace
+
+std::string sentence(Sentence which, std::string_view language, Mood mood, int variant, std::string_view title) {
   const Dictionary& dictionary = dictionary_of(language);
-  std::string text = dictionary.sentences.at(static_cast<std::size_t>(which));
+  const auto& variants = variants_of(dictionary, which, mood);
+  std::string text = variants.at(static_cast<std::size_t>(variant) % variants.size());
   const std::size_t place = text.find("{}");
   if (place == std::string::npos) return text;
   std::string name{title};
@@ -18,5 +35,19 @@ std::string sentence(Sentence which, std::string_view language, std::string_view
   if (has_article) name.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(name.front())));
   return text.replace(place, 2, name);
 }
+
+int count_variants(Sentence which, std::string_view language, Mood mood) {
+  return static_cast<int>(variants_of(dictionary_of(language), which, mood).size());
+}
+
+SentenceTurns::SentenceTurns(std::uint64_t seed) {
+  std::uint64_t hash = hash_of(std::to_string(seed));
+  for (int& next : next_) {
+    hash = hash_of("/", hash);
+    next = static_cast<int>(hash % kMostVariants);
+  }
+}
+
+int SentenceTurns::next(Sentence which) { return next_.at(static_cast<std::size_t>(which))++; }
 
 }  // namespace docent::interaction

@@ -1,13 +1,18 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent::interaction {
 
 /// What the robot says and shows of itself, in the languages that have a dictionary; other languages get English.
 enum class Sentence {
+  // shown on the page
   waking,        ///< does not know yet where it is
   relocalizing,  ///< lost its place
   idle,          ///< at home, waits for visitors
@@ -17,20 +22,58 @@ enum class Sentence {
   explaining,    ///< talks about {title}
   asking,        ///< more about {title}, or next?
   going_home,
-  battery_low,     ///< must charge, and is not at the charger yet
-  charging,        ///< at the charger, for about {title} minutes more
-  announcement,    ///< spoken when it sets out for {title}
-  let_me_through,  ///< spoken when people block the way
-  offer_more,      ///< spoken: more, or next?
-  home_again,      ///< spoken on arrival at home
-  must_charge,     ///< spoken when a visit or a tour is broken off for the battery
-  at_charger,      ///< spoken on arrival at the charger
+  battery_low,  ///< must charge, and is not at the charger yet
+  charging,     ///< at the charger, for about {title} minutes more
+  // spoken
+  announcement,    ///< when it sets out for {title}
+  let_me_through,  ///< when people block the way: politely (happy), pleading (sad), angrily
+  offer_more,      ///< more, or next?
+  home_again,      ///< on arrival at home
+  must_charge,     ///< when a visit or a tour is broken off for the battery
+  at_charger,      ///< on arrival at the charger
+  stay_behind,     ///< to people who walk ahead of the robot or crowd round it: they shall walk behind it
+  greeting,        ///< when a tour begins
+  next_exhibit,    ///< in a tour: {title} comes next
+  farewell,        ///< when a tour is over
+  help,            ///< what the robot is and how one asks it for something ([Rhino1999] 5.1 (1))
+  // spoken to attract people, from friendly to upset ([Minerva2000] Fig. 15)
+  attract_greeting,
+  attract_invitation,  ///< "Come over"
+  attract_question,    ///< "Do you like robots?"
+  attract_complaint,
+  attract_demand,
 };
-inline constexpr int kSentences = static_cast<int>(Sentence::at_charger) + 1;
+inline constexpr int kSentences = static_cast<int>(Sentence::attract_demand) + 1;
 
 /// By its key in the dictionaries; nullopt: there is no such sentence.
 [[nodiscard]] std::optional<Sentence> find_sentence(std::string_view key);
-/// The sentence with `title` put in. Never empty.
-[[nodiscard]] std::string sentence(Sentence which, std::string_view language, std::string_view title = {});
+/// Its key in the dictionaries, and its name in the names of recordings.
+[[nodiscard]] const char* to_text(Sentence which);
+[[nodiscard]] constexpr bool is_spoken(Sentence which) { return which >= Sentence::announcement; }
+
+/// The speech acts that may attract people, from friendly to upset.
+inline constexpr std::array kAttraction{Sentence::attract_greeting, Sentence::attract_invitation,
+                                        Sentence::attract_question, Sentence::attract_complaint,
+                                        Sentence::attract_demand};
+
+/// The sentence with `title` put in, in the words of the mood; where a dictionary has none for it, in those of the
+/// neutral mood, else in those of any mood that it has. Of several ways to say it number `variant` modulo their count,
+/// so a caller may simply count. Never empty. @pre variant >= 0
+[[nodiscard]] std::string sentence(Sentence which, std::string_view language, Mood mood, int variant,
+                                   std::string_view title = {});
+/// How many ways there are to say it in these words, at least 1.
+[[nodiscard]] int count_variants(Sentence which, std::string_view language, Mood mood);
+
+/// Whose turn it is among the variants of each sentence: all of them come before one comes again. Deterministic: the
+/// seed says with which of them it begins.
+class SentenceTurns {
+ public:
+  explicit SentenceTurns(std::uint64_t seed);
+  /// A `variant` for `sentence`, another one at each call.
+  [[nodiscard]] int next(Sentence which);
+
+ private:
+  std::array<int, kSentences> next_{};
+};
 
 }  // namespace docent::interaction

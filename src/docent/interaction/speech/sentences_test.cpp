@@ -2,26 +2,85 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "docent/interaction/speech/dictionary.h"
 
 namespace docent::interaction {
 namespace {
 
+constexpr std::array kMoods{Mood::neutral, Mood::happy, Mood::sad, Mood::angry};
+
 TEST(Sentences, AreAllThereInEachLanguage) {
   for (int i = 0; i < kSentences; ++i) {
     const auto which = static_cast<Sentence>(i);
-    const std::string english = sentence(which, "en", "Sputnik");
-    for (const auto& [language, dictionary] : dictionaries()) {
-      const std::string text = sentence(which, language, "Sputnik");
-      EXPECT_GT(text.size(), 10U);
-      EXPECT_EQ(text.find("{}"), std::string::npos);
-      EXPECT_EQ(text == english, language == "en") << text;
-      EXPECT_TRUE(std::string{".!?"}.find(text.back()) != std::string::npos);
+    for (const Mood mood : kMoods) {
+      const std::string english = sentence(which, "en", mood, 0, "Sputnik");
+      for (const auto& [language, dictionary] : dictionaries()) {
+        ASSERT_GE(count_variants(which, language, mood), 1);
+        for (int variant = 0; variant < count_variants(which, language, mood); ++variant) {
+          const std::string text = sentence(which, language, mood, variant, "Sputnik");
+          EXPECT_GT(text.size(), 10U);
+          EXPECT_EQ(text.find("{}"), std::string::npos);
+          EXPECT_EQ(text == english, language == "en" && variant == 0) << text;
+          EXPECT_TRUE(std::string{".!?"}.find(text.back()) != std::string::npos);
+        }
+      }
+      EXPECT_EQ(english, sentence(which, "xx", mood, 0, "Sputnik"));
     }
-    EXPECT_EQ(english, sentence(which, "xx", "Sputnik"));
   }
-  EXPECT_EQ(sentence(Sentence::driving, "en", "The cyclotron"), "I am on my way to the cyclotron. Please follow me!");
-  EXPECT_EQ(sentence(Sentence::driving, "de", "The Who"), "Nächstes Ziel: The Who. Bitte folgen Sie mir!");
+}
+
+TEST(Sentences, TakeTheTitleAsALanguageWritesIt) {
+  const auto driving = [](const char* language, const char* title) {
+    return sentence(Sentence::driving, language, Mood::neutral, 0, title);
+  };
+  EXPECT_EQ(driving("en", "The cyclotron"), "I am on my way to the cyclotron. Please follow me!");
+  EXPECT_EQ(driving("de", "The Who"), "Nächstes Ziel: The Who. Bitte folgen Sie mir!");
+}
+
+TEST(Sentences, EachMoodAsksForTheWayInItsOwnWords) {
+  for (const auto& [language, dictionary] : dictionaries()) {
+    std::set<std::string> all;
+    std::size_t count = 0;
+    for (const Mood mood : kMoods) {
+      for (int variant = 0; variant < count_variants(Sentence::let_me_through, language, mood); ++variant, ++count)
+        all.insert(sentence(Sentence::let_me_through, language, mood, variant));
+    }
+    EXPECT_GE(count, 8U) << language;
+    EXPECT_EQ(all.size(), count) << language;
+  }
+  EXPECT_EQ(sentence(Sentence::let_me_through, "en", Mood::neutral, 0), "Please let me through.");
+}
+
+TEST(Sentences, AMoodWithoutWordsTakesThoseOfAnother) {
+  EXPECT_EQ(sentence(Sentence::waking, "en", Mood::angry, 7), sentence(Sentence::waking, "en", Mood::neutral, 0));
+  EXPECT_EQ(sentence(Sentence::must_charge, "en", Mood::happy, 0), sentence(Sentence::must_charge, "en", Mood::sad, 0));
+}
+
+TEST(Sentences, TurnsDoNotRepeatThemselves) {
+  std::set<int> beginnings;
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    SentenceTurns turns{seed}, again{seed};
+    const int count = count_variants(Sentence::let_me_through, "en", Mood::angry);
+    std::set<std::string> heard;
+    for (int i = 0; i < count; ++i) {
+      const int variant = turns.next(Sentence::let_me_through);
+      if (i == 0) beginnings.insert(variant % count);
+      EXPECT_EQ(variant, again.next(Sentence::let_me_through)) << "the same seed says the same";
+      heard.insert(sentence(Sentence::let_me_through, "en", Mood::angry, variant));
+    }
+    EXPECT_EQ(heard.size(), static_cast<std::size_t>(count)) << "all of them before one comes again";
+  }
+  EXPECT_EQ(beginnings.size(), 3U) << "another seed begins elsewhere";
+}
+
+TEST(Sentences, AttractionGoesFromFriendlyToUpset) {
+  EXPECT_EQ(count_variants(kAttraction.front(), "en", Mood::happy), 3);
+  for (const Sentence act : kAttraction) EXPECT_TRUE(is_spoken(act)) << to_text(act);
+  EXPECT_FALSE(is_spoken(Sentence::charging));
+  EXPECT_STREQ(to_text(Sentence::attract_demand), "attract_demand");
+  EXPECT_STREQ(to_text(Sentence::let_me_through), "let_me_through");
 }
 
 }  // namespace

@@ -95,6 +95,10 @@ std::string spoken_text(std::string_view markdown) {
   return text;
 }
 
+std::string introduction(std::string_view title, std::string_view short_text) {
+  return spoken_text(title) + " " + spoken_text(short_text);
+}
+
 std::size_t count_code_points(std::string_view utf8) {
   return static_cast<std::size_t>(
       std::count_if(utf8.begin(), utf8.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; }));

@@ -12,6 +12,9 @@ namespace docent::interaction {
 /// UTF-8 in, UTF-8 out. O(bytes).
 [[nodiscard]] std::string spoken_text(std::string_view markdown);
 
+/// What the robot says first at an exhibit: its title and its short text, both Markdown.
+[[nodiscard]] std::string introduction(std::string_view title, std::string_view short_text);
+
 /// Letters, digits, signs and blanks as a reader counts them: UTF-8 code points.
 [[nodiscard]] std::size_t count_code_points(std::string_view utf8);
 

@@ -37,5 +37,11 @@ TEST(SpokenText, LongerTextsTakeLonger) {
   EXPECT_LT(speech_duration(text, "de", Mood::happy), before);
 }
 
+TEST(SpokenText, AnExhibitIsIntroducedByItsTitle) {
+  EXPECT_EQ(introduction("The *clock*", "# It\n\nIt ticks"), "The clock. It. It ticks.");
+  EXPECT_EQ(spoken_text(introduction("The *clock*", "It ticks")), introduction("The *clock*", "It ticks"))
+      << "reading it again changes nothing";
+}
+
 }  // namespace
 }  // namespace docent::interaction

@@ -10,7 +10,7 @@
 #include <set>
 
 #include "docent/base/shipped_files.h"
-#include "docent/interaction/speech/horn.h"
+#include "docent/interaction/sound/horn.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/shared/scanners.h"
 #include "docent/telepresence/belief_carrier.h"
@@ -58,7 +58,7 @@ struct WebParams : telepresence::WebServerParams {
 };
 
 /// The slots of the live channel.
-enum Slot : int { kLive, kBelief, kPath, kMission, kSpeech, kBoard, kHealth, kWindow, kHorn };
+enum Slot : int { kLive, kBelief, kPath, kMission, kSpeech, kBoard, kHealth, kWindow, kHorn, kSound };
 
 std::filesystem::path page_folder(const std::string& root) {
   return root.empty() ? shipped_path("web/dist") : std::filesystem::path{root};
@@ -160,9 +160,9 @@ class WebModule final : public Module {
     });
     bus_.subscribe<docent_msgs::SpeechState>(
         topics::kSpeechState, [this](const auto& m) { server_->broadcast(kSpeech, telepresence::encode_speech(m)); });
-    bus_.subscribe<docent_msgs::Limits>(topics::kLimits, [this](const auto& m) {
-      if (m.volume != volume_) horn_.reset();
-      volume_ = std::clamp(m.volume, 0.0, 1.0);
+    bus_.subscribe<docent_msgs::SoundState>(topics::kSoundState, [this](const auto& m) {
+      is_muted_ = !(m.volume > 0.0);
+      server_->broadcast(kSound, telepresence::encode_sound(m));
     });
     bus_.subscribe<docent_msgs::Horn>(topics::kHorn, [this](const auto&) { show_horn(); });
     bus_.subscribe<docent_msgs::RequestBoard>(topics::kRequestBoard, [this](const auto& m) { see_board(m); });
@@ -222,9 +222,7 @@ class WebModule final : public Module {
 
   /// The `sound` module has written the file of this name.
   void show_horn() {
-    if (!horn_) horn_ = interaction::horn_sound(volume_);
-    server_->broadcast(kHorn,
-                       telepresence::encode_horn(bus_.now(), volume_ > 0.0 ? horn_->file : "", horn_->duration_s));
+    server_->broadcast(kHorn, telepresence::encode_horn(bus_.now(), is_muted_ ? "" : horn_.file, horn_.duration_s));
   }
 
   void see_board(const docent_msgs::RequestBoard& board) {
@@ -358,8 +356,8 @@ class WebModule final : public Module {
   std::optional<docent_msgs::MissionState> mission_;
   std::optional<docent_msgs::Choice> choice_;  ///< resent until its question is closed
   std::optional<double> battery_;
-  double volume_ = 1.0;
-  std::optional<interaction::HornSound> horn_;  ///< in this volume
+  bool is_muted_ = false;
+  const interaction::SharedSound horn_ = interaction::horn_sound();
   nav_msgs::Path path_;
   docent_msgs::GoalState goal_;
   bool is_path_new_ = false;

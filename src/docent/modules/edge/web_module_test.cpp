@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "docent/interaction/speech/horn.h"
+#include "docent/interaction/sound/horn.h"
 #include "docent/messages/conversions.h"
 #include "docent/telepresence/server/test_client.h"
 #include "docent/transport/virtual_time_bus.h"
@@ -290,21 +290,29 @@ TEST_F(WebModuleTest, TheHornIsToldWithTheNameOfItsSound) {
   const auto horn = robot_bus_->publisher(topics::kHorn);
   horn.publish({});
   const Json loud = next(viewer, "horn");
-  EXPECT_EQ(loud["audio"], "/audio/" + interaction::horn_sound(1.0).file);
+  EXPECT_EQ(loud["audio"], "/audio/" + interaction::horn_sound().file);
   EXPECT_NEAR(loud["t"].get<double>(), to_seconds(hub_.now()), 0.5);
-  EXPECT_NEAR(loud["duration"].get<double>(), interaction::horn_sound(1.0).duration_s, 0.01);
-  ASSERT_TRUE(interaction::write_horn_sound(interaction::horn_sound(1.0), state_ / "audio"));  // as `sound` does
+  EXPECT_NEAR(loud["duration"].get<double>(), interaction::horn_sound().duration_s, 0.01);
+  ASSERT_TRUE(interaction::write_shared(interaction::horn_sound(), state_ / "audio"));  // as `sound` does
   telepresence::TestClient listener{port_};
   listener.send("GET " + loud["audio"].get<std::string>() + " HTTP/1.1\r\nHost: a\r\n\r\n");
-  EXPECT_EQ(listener.receive_reply().second, interaction::horn_sound(1.0).content);
+  EXPECT_EQ(listener.receive_reply().second, interaction::horn_sound().content);
 
-  const auto limits = robot_bus_->publisher(topics::kLimits);
-  limits.publish({0.7, 0.4, "open", true});
-  horn.publish({});
-  EXPECT_EQ(next(viewer, "horn")["audio"], "/audio/" + interaction::horn_sound(0.4).file);
-  limits.publish({0.7, 0.0, "open", true});
+  const auto sound = robot_bus_->publisher(topics::kSoundState);
+  sound.publish({{}, 0.0, "", 0.0, {}});
   horn.publish({});
   EXPECT_EQ(next(viewer, "horn")["audio"], "") << "muted";
+}
+
+TEST_F(WebModuleTest, ThePageIsToldWhatMusicPlaysAndHowLoud) {
+  robot_bus_->publisher(topics::kSoundState).publish({{}, 0.8, "00ff.ogg", 0.2, to_message(time_from_seconds(1.0))});
+  telepresence::TestClient viewer{port_};
+  ASSERT_TRUE(viewer.upgrade());
+  const Json sound = next(viewer, "sound");
+  EXPECT_EQ(sound["volume"], 0.8);
+  EXPECT_EQ(sound["music"], "/audio/00ff.ogg");
+  EXPECT_EQ(sound["music_volume"], 0.2);
+  EXPECT_EQ(sound["start"], 1.0);
 }
 
 TEST_F(WebModuleTest, AViewerHearsSomethingAtLeastEverySecond) {

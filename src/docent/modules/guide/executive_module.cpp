@@ -45,7 +45,8 @@ class ExecutiveModule final : public Module {
         state_{bus_.publisher(topics::kTaskState)},
         event_{bus_.publisher(topics::kEvent)},
         reaction_{bus_.publisher(topics::kReaction)},
-        horn_{bus_.publisher(topics::kHorn)} {
+        horn_{bus_.publisher(topics::kHorn)},
+        music_{bus_.publisher(topics::kMusic)} {
     flush();
     bus_.subscribe<docent_msgs::Limits>(topics::kLimits, [this](const auto& limits) { mode_.limits(limits); });
     bus_.subscribe<docent_msgs::Task>(topics::kTask, [this](const auto& task) {
@@ -130,6 +131,7 @@ class ExecutiveModule final : public Module {
                       report.took_long,
                       std::move(report.look)});
     }
+    if (actions.music) music_.publish({{stamp, "base_link"}, *actions.music});
     for (std::string& reason : actions.horns) horn_.publish({{stamp, "base_link"}, std::move(reason)});
     for (task_control::LadderStep& step : actions.reactions) {
       if (step.rung == Rung::horn) horn_.publish({{stamp, "base_link"}, step.cause});
@@ -159,6 +161,7 @@ class ExecutiveModule final : public Module {
   transport::Publisher<docent_msgs::Event> event_;
   transport::Publisher<docent_msgs::Reaction> reaction_;
   transport::Publisher<docent_msgs::Horn> horn_;
+  transport::Publisher<docent_msgs::Music> music_;
 };
 
 }  // namespace

@@ -219,7 +219,7 @@ class MissionModule final : public Module {
     const auto text = [&](const std::string& language) {
       const std::string minutes = std::to_string(std::max(5, summary.charging_min));
       return interaction::sentence(
-          sentence_of(summary), language,
+          sentence_of(summary), language, Mood::neutral, 0,
           summary.phase == MissionPhase::charging ? minutes : museum::translated(title, language));
     };
     message.languages = mission_.scheduler().programme().languages;

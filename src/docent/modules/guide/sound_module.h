@@ -4,9 +4,11 @@
 
 namespace docent::modules {
 
-/// `sound`: says what is ordered, one line at a time. In virtual time the words alone, with a foretold duration; else
-/// espeak-ng renders them to state/audio/HASH.wav, where the sound of the horn lies too (horn.h); `sound.player` plays
-/// both on the robot. Checkpoint: state/sound.json.
+/// `sound`: says what is ordered, one line at a time, sounds the horn, and plays music while the task drives or as
+/// docent/music orders. Lines are recordings of the museum or rendered by espeak-ng to state/audio/HASH.wav, where horn
+/// and music lie too, for the pages; `sound.output` brings the mix of all to a sound card or into a file. In virtual
+/// time it says the words alone, with a foretold duration, unless a file is to hold the mix. Checkpoint:
+/// state/sound.json.
 [[nodiscard]] Result<std::unique_ptr<Module>> make_sound(const ModuleContext& context);
 [[nodiscard]] Result<robot::ParameterRows> parameters_of_sound(const robot::RobotConfig& config);
 

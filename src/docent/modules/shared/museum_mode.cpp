@@ -39,4 +39,9 @@ double MuseumMode::wait_s(Time now) const {
   return present == nullptr ? 0.0 : present->wait_s;
 }
 
+double MuseumMode::volume(Time now) const {
+  const double allowed = limits_ ? std::clamp(limits_->volume, 0.0, 1.0) : 1.0;
+  return allowed * museum::volume_at(museum_, minute_of_day(now));
+}
+
 }  // namespace docent::modules

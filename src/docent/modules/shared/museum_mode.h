@@ -28,6 +28,8 @@ class MuseumMode {
   /// [m/s]; nullopt: neither operator nor museum say one.
   [[nodiscard]] std::optional<double> max_speed(Time now) const;
   [[nodiscard]] double wait_s(Time now) const;  ///< [s] at each exhibit
+  /// 0..1: what the operator allows, and less in the museum's quiet hours.
+  [[nodiscard]] double volume(Time now) const;
 
  private:
   [[nodiscard]] int minute_of_day(Time now) const;

@@ -56,6 +56,19 @@ TEST_F(MuseumModeTest, OpeningHoursCloseTheRestOfTheDay) {
   EXPECT_EQ(mode_from("3").name({}), "closed");
 }
 
+TEST_F(MuseumModeTest, QuietHoursTakeFromTheVolumeThatTheOperatorAllows) {
+  museum.sound.quiet_hours = {"12:00-13:00"};
+  museum.sound.quiet_volume = 0.25;
+  MuseumMode mode = mode_from("11");
+  EXPECT_DOUBLE_EQ(mode.volume(at(59)), 1.0);
+  EXPECT_DOUBLE_EQ(mode.volume(at(60)), 0.25);
+  mode.limits({0.7, 0.4, "open", true});
+  EXPECT_DOUBLE_EQ(mode.volume(at(60)), 0.1) << "whatever the mode";
+  EXPECT_DOUBLE_EQ(mode.volume(at(120)), 0.4);
+  mode.limits({0.7, 7.0, "open", true});
+  EXPECT_DOUBLE_EQ(mode.volume(at(120)), 1.0);
+}
+
 TEST_F(MuseumModeTest, AMuseumWithoutModesIsOpen) {
   museum.modes.clear();
   EXPECT_EQ(mode_from("3").name({}), "open");

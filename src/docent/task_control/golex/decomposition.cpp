@@ -5,7 +5,7 @@
 
 #include "docent/base/check.h"
 #include "docent/base/yaml.h"
-#include "docent/interaction/speech/dictionary.h"
+#include "docent/interaction/speech/sentences.h"
 #include "docent/task_control/golex/actions_file.h"
 #include "docent/vocabulary/vocabulary.h"
 
@@ -102,6 +102,12 @@ class ActionsReader {
         const auto condition = parse<Condition>(scalar(entry.second, key));
         if (!condition) throw YamlFault{file_.fault(entry.second, "'if' must be more, broken_off or moved")};
         item.condition = *condition;
+        continue;
+      }
+      if (key == "mood") {
+        const auto mood = parse<Mood>(scalar(entry.second, key));
+        if (!mood) throw YamlFault{file_.fault(entry.second, "'mood' must be neutral, happy, sad or angry")};
+        item.mood = *mood;
         continue;
       }
       const auto kind = parse<DirectiveKind>(key);

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "docent/base/result.h"
-#include "docent/base/time.h"
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent::task_control {
 
@@ -29,6 +30,7 @@ struct Directive {
 /// What begins at once.
 struct ActionItem {
   Condition condition = Condition::always;
+  Mood mood = Mood::neutral;        ///< of its words
   std::vector<Directive> together;  ///< one of each kind at most
 };
 

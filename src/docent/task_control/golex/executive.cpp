@@ -83,6 +83,11 @@ const std::vector<Directive>& Executive::together() const {
   return (*action)[static_cast<std::size_t>(memory_.item)].together;
 }
 
+Mood Executive::mood() const {
+  if (together().empty()) return Mood::neutral;
+  return (*decomposition_.find(memory_.task.order.kind.text()))[static_cast<std::size_t>(memory_.item)].mood;
+}
+
 const Directive* Executive::under_way(DirectiveKind kind) const {
   for (const Directive& directive : together()) {
     if (directive.kind == kind && holds_up(kind) && !contains(memory_.finished, directive.name)) return &directive;
@@ -147,7 +152,7 @@ void Executive::begin(const Directive& directive, Time now) {
       actions_.music = directive.argument == "play";
       break;
     case DirectiveKind::announce:
-      if (const std::string text = text_of(directive); !text.empty()) say(directive.name, text, Mood::happy);
+      if (const std::string text = text_of(directive); !text.empty()) say(directive.name, text, mood());
       break;
     case DirectiveKind::drive:
       memory_.drive_began = now;
@@ -233,12 +238,13 @@ std::string Executive::text_of(const Directive& directive) const {
   }
   if (directive.argument == "long") return task.long_text;
   if (directive.argument != "short")
-    return interaction::sentence(*interaction::find_sentence(directive.argument), task.order.language, task.title);
-  return task.title.empty() ? task.short_text : interaction::spoken_text(task.title) + " " + task.short_text;
+    return interaction::sentence(*interaction::find_sentence(directive.argument), task.order.language, mood(), 0,
+                                 task.title);
+  return interaction::introduction(task.title, task.short_text);
 }
 
 void Executive::send_speech(const Directive& directive, Time now) {
-  say(directive.name, text_of(directive), Mood::neutral);
+  say(directive.name, text_of(directive), mood());
   speech_sent_ = now;
 }
 
@@ -256,7 +262,7 @@ Question Executive::question() const {
   const Directive* asked = under_way(DirectiveKind::ask);
   if (asked == nullptr) return {};
   return {own_id(asked->name),
-          interaction::sentence(interaction::Sentence::offer_more, memory_.task.order.language, memory_.task.title),
+          interaction::sentence(interaction::Sentence::offer_more, memory_.task.order.language, Mood::neutral, 0),
           {Answer::more, Answer::next},
           Answer::next,
           question_deadline()};
@@ -368,10 +374,10 @@ void Executive::climb_ladder(Time now) {
 }
 
 void Executive::ask_for_way(Time now, int count) {
+  const Mood mood = count == 1 ? Mood::neutral : Mood::sad;
   // The name carries the time, so that a restarted executive does not repeat an id that was spoken already.
   say("please-" + std::to_string(std::max<std::int64_t>(0, (now - memory_.item_began).count() / 1000000)),
-      interaction::sentence(interaction::Sentence::let_me_through, memory_.task.order.language),
-      count == 1 ? Mood::neutral : Mood::sad);
+      interaction::sentence(interaction::Sentence::let_me_through, memory_.task.order.language, mood, count - 1), mood);
   actions_.happenings.push_back(
       {EventKind::asked_for_way, memory_.task.order.exhibit_id, "", static_cast<double>(count)});
 }
@@ -388,8 +394,7 @@ void Executive::watch_speech(const Directive& directive, Time now) {
   if (heard_) {
     is_over = heard_->state != SpeechStatus::speaking || now > heard_->start + seconds(heard_->duration_s + 5.0);
   } else {
-    const double foreseen_s =
-        interaction::speech_duration(text_of(directive), memory_.task.order.language, Mood::neutral);
+    const double foreseen_s = interaction::speech_duration(text_of(directive), memory_.task.order.language, mood());
     is_over = now > memory_.item_began + seconds(1.5 * foreseen_s + 5.0);
     if (!is_over && (!speech_sent_ || now - *speech_sent_ >= seconds(params_.resend_s))) send_speech(directive, now);
   }

@@ -158,6 +158,8 @@ class Executive {
   [[nodiscard]] bool holds(Condition condition) const;
   /// What the present item consists of; nothing while no task runs.
   [[nodiscard]] const std::vector<Directive>& together() const;
+  /// How the words of the present item sound.
+  [[nodiscard]] Mood mood() const;
   /// The item's directive of this kind, while it is not over.
   [[nodiscard]] const Directive* under_way(DirectiveKind kind) const;
   /// The drive or the relocalizing under way.

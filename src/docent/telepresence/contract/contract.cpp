@@ -159,6 +159,7 @@ std::map<std::string, std::string> contract_samples() {
           {"mission_asking.json", mission(true)},
           {"speech.json", encode_speech(speech)},
           {"horn.json", encode_horn(kNow, "00ff.wav", 0.5)},
+          {"sound.json", encode_sound({{}, 0.75, "00ff.ogg", 0.125, to_message(kNow)})},
           {"board.json", board()},
           {"health.json", health()},
           {"window.json", encode_window(avoid_state())},
