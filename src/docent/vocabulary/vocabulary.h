@@ -43,8 +43,8 @@ constexpr auto words_of(MissionPhase) {
 }
 
 /// What the executive is to do.
-enum class TaskKind { visit, home, charge, relocalize };
-constexpr auto words_of(TaskKind) { return std::array{"visit", "home", "charge", "relocalize"}; }
+enum class TaskKind { visit, farewell, home, charge, relocalize };
+constexpr auto words_of(TaskKind) { return std::array{"visit", "farewell", "home", "charge", "relocalize"}; }
 
 /// How a task goes.
 enum class TaskStatus { driving, explaining, asking, done, failed };
@@ -103,6 +103,7 @@ enum class EventKind {
   tour_failed,
   tour_broken_off,
   tour_cancelled,
+  farewell,
   plan_inserted,
   plan_removed,
   plan_rescheduled,
@@ -129,7 +130,7 @@ constexpr auto words_of(EventKind) {
                     "visit_failed",     "visit_dropped",
                     "tour_started",     "tour_completed",
                     "tour_failed",      "tour_broken_off",
-                    "tour_cancelled",   "plan_inserted",
+                    "tour_cancelled",   "farewell",         "plan_inserted",
                     "plan_removed",     "plan_rescheduled",
                     "attraction_trial", "relocalizing",
                     "localized",        "home",

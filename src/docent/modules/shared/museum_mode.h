@@ -27,10 +27,10 @@ class MuseumMode {
   [[nodiscard]] bool takes_requests() const { return !limits_ || limits_->is_open; }
   /// [m/s]; nullopt: neither operator nor museum say one.
   [[nodiscard]] std::optional<double> max_speed(Time now) const;
+  [[nodiscard]] int minute_of_day(Time now) const;  ///< 0..1439
   [[nodiscard]] double wait_s(Time now) const;  ///< [s] at each exhibit
 
  private:
-  [[nodiscard]] int minute_of_day(Time now) const;
   [[nodiscard]] const museum::Mode* mode(Time now) const;
 
   const museum::Museum& museum_;

@@ -70,6 +70,7 @@ void Executive::resume(Time now) {
   memory_.drive_began = std::min(memory_.drive_began, now);
   if (is_speaking() || memory_.step == Step::asking) {
     if (now - memory_.step_began > seconds(params_.checkpoint_age_s)) {
+      if (memory_.task.order.kind == TaskKind::farewell) return finish(true, "", now);  // the visitors are gone
       enter(Step::driving, now);
       return;
     }
@@ -96,6 +97,8 @@ void Executive::set_task(ExecutiveTask task, Time now) {
     }
     memory_.drive_began = now;
     enter(Step::driving, now);
+  } else if (order.kind == TaskKind::farewell) {
+    enter(Step::explaining, now);
   } else if (order.kind == TaskKind::relocalize) {
     enter(Step::relocalizing, now);
   } else {
@@ -158,6 +161,11 @@ void Executive::say(const std::string& name, const std::string& text, Mood mood)
 }
 
 Utterance Executive::speech() const {
+  const TaskOrder& order = memory_.task.order;
+  if (order.kind == TaskKind::farewell) {
+    return {own_id("farewell"), interaction::sentence(interaction::Sentence::farewell, order.language), order.language,
+            Mood::happy};
+  }
   const bool is_long = memory_.step == Step::explaining_more;
   const std::string text =
       is_long ? memory_.task.long_text : interaction::spoken_text(memory_.task.title) + " " + memory_.task.short_text;

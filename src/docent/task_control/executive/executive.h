@@ -104,6 +104,7 @@ struct TaskReport {
 /// Does one task after the other ([Rhino1999] 4.3, GOLEX: decompose, monitor, recover):
 ///
 ///   visit:      driving -> explaining -> asking -> [explaining_more ->] [waiting ->] done
+///   farewell:   explaining -> done, where it stands
 ///   home:       driving -> done
 ///   charge:     driving -> done, nearer to the place
 ///   relocalize: relocalizing -> done

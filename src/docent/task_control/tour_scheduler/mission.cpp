@@ -41,10 +41,13 @@ Mission::Mission(const MissionParams& params, Programme programme, TravelDistanc
       lost_since_{now},
       battery_{params.drain_per_s, params.charge_per_s},
       must_charge_{memory.must_charge} {
+  scheduler_.times().restore(memory.lessons);
   // The running visit goes on under its old task id, so that an executive that works on it is not disturbed.
   if (const auto& visit = scheduler_.state().visit) {
     activity_ = Activity::visit;
     if (task_.kind != TaskKind::visit || !is_same(task_.map_from_base, visit->map_from_base)) start_visit(now);
+  } else if (task_.kind == TaskKind::farewell && scheduler_.state().farewell) {
+    activity_ = Activity::farewell;
   } else if (task_.kind == TaskKind::home && is_same(task_.map_from_base, scheduler_.programme().home)) {
     activity_ = Activity::home;
   } else if (task_.kind == TaskKind::charge && is_same(task_.map_from_base, resting_place())) {
@@ -68,6 +71,7 @@ void Mission::report(const std::string& task_id, std::optional<TaskStatus> state
   if (task_id.empty() || task_id != task_.id) return;
   task_state_ = state;
   task_reason_ = reason;
+  if (state) learn(*state, now);
   const bool is_over = state == TaskStatus::done || state == TaskStatus::failed;
   if (activity_ == Activity::visit) {
     if (state == TaskStatus::explaining || state == TaskStatus::asking) scheduler_.close_visit();
@@ -75,6 +79,9 @@ void Mission::report(const std::string& task_id, std::optional<TaskStatus> state
       scheduler_.finish_visit(state == TaskStatus::done, reason, now);
       start_task(Activity::none, {});
     }
+  } else if (activity_ == Activity::farewell && is_over) {
+    scheduler_.finish_farewell(now);
+    start_task(Activity::none, {});
   } else if ((activity_ == Activity::home || activity_ == Activity::charge) && is_over) {
     const bool is_done = state == TaskStatus::done;
     const bool is_home = activity_ == Activity::home;
@@ -135,7 +142,7 @@ double Mission::spare(Time now) const {
   const double reserve = schedule.visit || schedule.tour ? kReserveOfBegun * params_.battery_low : params_.battery_low;
   const Programme& programme = scheduler_.programme();
   const Point2 place = programme.charger.value_or(programme.home).position();
-  const double way_s = scheduler_.way_duration(position(), place);
+  const double way_s = scheduler_.way_duration(position(), place, now);
   // Where no way is known, the reserve must do.
   return *charge - reserve - (std::isfinite(way_s) ? battery_.drain_per_s() * way_s : 0.0);
 }
@@ -187,6 +194,7 @@ void Mission::decide(Time now) {
       if (scheduler_.state().visit) start_visit(now);  // what was suspended goes on
     }
   }
+  if (activity_ == Activity::farewell) return;
   if (break_off_to_charge(now) || activity_ == Activity::visit) return rest(now);
   const bool may_serve = !must_charge_ || battery_.charge(now).value_or(1.0) >= enough_to_serve();
   if (may_serve && scheduler_.begin_visit(position(), now, budget_s(now))) {
@@ -194,6 +202,7 @@ void Mission::decide(Time now) {
     start_visit(now);
     return;
   }
+  if (scheduler_.state().farewell) return start_farewell();
   if (!must_charge_ && scheduler_.is_anything_due(now)) {  // what comes next would take more than there is
     must_charge_ = true;
     scheduler_.note({EventKind::battery_low, "", "for what comes next", battery_.charge(now).value_or(1.0)});
@@ -233,6 +242,7 @@ void Mission::charge(Time now) {
 
 void Mission::decide_when_lost(Time now) {
   if (activity_ == Activity::relocalize || !is_lost(now)) return;
+  if (activity_ == Activity::farewell) return;
   if (activity_ == Activity::visit && !may_interrupt()) return;  // it stands and talks: first things first
   start_task(Activity::relocalize,
              {"", TaskKind::relocalize, "", {}, scheduler_.programme().languages.front(), false, ""});
@@ -244,14 +254,37 @@ void Mission::decide_when_lost(Time now) {
 
 void Mission::start_visit(Time now) {
   const Visit& visit = *scheduler_.state().visit;
-  const bool offer_more = params_.offer_more && !scheduler_.is_in_a_hurry(now);
+  const bool offer_more = params_.schedule.offer_more && visit.asks && !scheduler_.is_in_a_hurry(now);
   start_task(Activity::visit,
              {"", TaskKind::visit, visit.exhibit_id, visit.map_from_base, visit.language, offer_more, visit.tour_id});
+  watch_.set_out(place_at(scheduler_.programme(), position()), place_name({visit.exhibit_id, visit.viewpoint}),
+                 scheduler_.way_length(position(), visit.map_from_base.position()), now);
   is_resting_ = false;
   home_not_before_ = {};
 }
 
+void Mission::start_farewell() {
+  const Farewell& farewell = *scheduler_.state().farewell;
+  const Point2 here = position();
+  start_task(Activity::farewell,
+             {"", TaskKind::farewell, "", {here.x, here.y, {}}, farewell.language, false, farewell.tour_id});
+  is_resting_ = false;
+}
+
+void Mission::learn(TaskStatus status, Time now) {
+  const VisitWatch::Seen seen = watch_.report(status, now);
+  if (seen.way) scheduler_.times().learn_way(seen.way->from, seen.way->to, seen.way->way_m, seen.way->seconds, now);
+  // Where the robot waits at each exhibit, the reports do not tell waiting from speaking.
+  if (!seen.visit || conditions_.mode == OperatingMode::web) return;
+  const ProgrammeExhibit* exhibit = scheduler_.programme().find_exhibit(task_.exhibit_id);
+  if (exhibit == nullptr) return;
+  const SpokenLength spoken = exhibit->length_in(task_.language);
+  const double known_s = spoken.short_s + (seen.visit->course == VisitCourse::heard_more ? spoken.long_s : 0.0);
+  scheduler_.times().learn_visit(seen.visit->course, seen.visit->seconds - known_s);
+}
+
 void Mission::start_task(Activity activity, TaskOrder order) {
+  watch_.forget();
   activity_ = activity;
   task_ = std::move(order);
   if (activity != Activity::none) task_.id = deployment_ + "-" + std::to_string(next_task_++);
@@ -292,6 +325,11 @@ MissionSummary Mission::summary(Time now) {
                       : task_state_ == TaskStatus::asking   ? MissionPhase::asking
                                                             : MissionPhase::driving;
       break;
+    case Activity::farewell:
+      summary.phase = MissionPhase::explaining;
+      summary.exhibit_id.clear();
+      summary.says_farewell = true;
+      break;
     case Activity::home:
     case Activity::charge:
       summary.phase = MissionPhase::going_home;
@@ -309,6 +347,13 @@ MissionSummary Mission::summary(Time now) {
   return summary;
 }
 
-MissionMemory Mission::memory() const { return {scheduler_.state(), deployment_, next_task_, task_, must_charge_}; }
+MissionMemory Mission::memory() const {
+  return {scheduler_.state(), deployment_, next_task_, task_, must_charge_, scheduler_.times().unstored()};
+}
+
+void Mission::mark_stored() {
+  scheduler_.board().mark_stored();
+  scheduler_.times().mark_stored();
+}
 
 }  // namespace docent::task_control
