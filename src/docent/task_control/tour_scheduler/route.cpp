@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 namespace docent::task_control {
 namespace {
@@ -88,13 +89,20 @@ std::vector<RouteStop> exact_route(const Places& places) {
 
 /// The stops in this order, each at the place that makes the whole shortest; its length.
 double best_places(const Places& places, std::span<const std::size_t> order, std::vector<RouteStop>* route) {
+  if (route == nullptr && places.size() == places.stops()) {  // one place each: there is nothing to choose
+    double sum = order.empty() ? 0.0 : places.from_start[order.front()];
+    for (std::size_t k = 1; k < order.size(); ++k) sum += places.way(order[k - 1], order[k]);
+    return sum;
+  }
   std::vector<std::vector<std::size_t>> before;  // for each stop of the order and each of its places
   std::vector<double> lengths;
+  std::vector<double> next;
+  std::vector<std::size_t> from;
   for (std::size_t k = 0; k < order.size(); ++k) {
     const std::size_t first = places.first[order[k]];
     const std::size_t end = places.first[order[k] + 1];
-    std::vector<double> next(end - first, kInfinity);
-    std::vector<std::size_t> from(end - first, 0);
+    next.assign(end - first, kInfinity);
+    from.assign(end - first, 0);
     for (std::size_t i = first; i < end; ++i) {
       if (k == 0) next[i - first] = places.from_start[i];
       for (std::size_t j = 0; k > 0 && j < lengths.size(); ++j) {
@@ -104,8 +112,8 @@ double best_places(const Places& places, std::span<const std::size_t> order, std
         from[i - first] = j;
       }
     }
-    lengths = std::move(next);
-    if (route != nullptr) before.push_back(std::move(from));
+    std::swap(lengths, next);
+    if (route != nullptr) before.push_back(from);
   }
   if (lengths.empty()) return 0.0;
   std::size_t place = 0;
