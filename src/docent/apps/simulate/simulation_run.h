@@ -33,6 +33,7 @@ struct SimulationRunOptions {
   std::string health_log;                        ///< CSV file of what the modules said of themselves; empty: none
   std::string event_log;   ///< CSV file of what happened and where the robot was then; empty: none
   std::string drive_log;   ///< CSV file of how it drives beside what avoid says; empty: none
+  std::string travel_times;  ///< CSV file of the ways whose time was learned, also before this run; empty: none
   std::string people_log;  ///< CSV file of tracked people beside the true ones; empty: none
   std::string state;       ///< folder; empty: a temporary one that goes with the run
   std::string cache;       ///< folder, see ModuleContext; empty: nothing is kept

@@ -248,6 +248,24 @@ TEST_F(ExecutiveTest, HomeAndRelocalizing) {
   EXPECT_EQ(state.id, "");
 }
 
+TEST_F(ExecutiveTest, SaysFarewellWhereItStands) {
+  start({{"f", TaskKind::farewell, "", {3, 4, {}}, "de", false, "space"}, "", "", ""});
+  EXPECT_EQ(state.state, TaskStatus::explaining);
+  ASSERT_FALSE(said.empty());
+  EXPECT_EQ(said.back().id, "f/farewell");
+  EXPECT_EQ(said.back().text, interaction::sentence(interaction::Sentence::farewell, "de"));
+  speech("f/farewell", SpeechStatus::speaking);
+  pass(2.0);
+  restart();
+  EXPECT_EQ(state.state, TaskStatus::explaining) << "it is said again under the same id: heard once";
+  speech("f/farewell", SpeechStatus::idle);
+  EXPECT_EQ(state.state, TaskStatus::done);
+  now_s += 2000.0;
+  saved.step = Step::explaining;
+  restart();
+  EXPECT_EQ(state.state, TaskStatus::done) << "nobody is there any more";
+}
+
 TEST_F(ExecutiveTest, WhoIsLostAmidPeopleAsksForTheWayAndDoesNotGiveUp) {
   start({{"l", TaskKind::relocalize, "", {}, "en", false, ""}, "", "", ""});
   for (int i = 0; i < 120; ++i) {

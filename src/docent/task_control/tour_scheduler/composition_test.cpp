@@ -175,7 +175,7 @@ class ComposedTour : public Scheduling {
  protected:
   ComposedTour() {
     Programme programme = sensible_line();
-    programme.tours[2].target_s = 100.0;  // three stops
+    programme.tours[2].target_s = 90.0;  // three stops
     params.travel_times = exact();
     scheduler = TourScheduler{params, programme, straight_distance(), {}, {}};
   }
@@ -205,13 +205,15 @@ TEST_F(ComposedTour, IsFittedToTheTimeOnTheWay) {
   }
 }
 
-TEST_F(ComposedTour, ShowsWhatOthersWishFor) {
+TEST_F(ComposedTour, ServesSingleWishesForItsStops) {
   wish("a", RequestKind::tour, "quick", 0);
-  wish("b", RequestKind::exhibit, "e3", 0);
-  EXPECT_EQ(next(0), "e3");
-  finish(true, 50);
+  EXPECT_EQ(next(0), "e1");
+  wish("b", RequestKind::exhibit, "e2", 1, "en", 1);
+  finish(true, 30);
+  EXPECT_EQ(next(30, {4, 0}), "e2");
+  EXPECT_EQ(scheduler.state().visit->viewpoint, 1) << "both wishes are met from there";
+  finish(true, 60);
   EXPECT_EQ(state_of("b"), "fulfilled");
-  EXPECT_EQ(next(51, {12, 0}), "e2");
 }
 
 TEST_F(ComposedTour, ShowsSomethingElseInstead) {
@@ -225,6 +227,14 @@ TEST_F(ComposedTour, ShowsSomethingElseInstead) {
   EXPECT_EQ(next(76, {12, 0}), "e4") << "three are shown";
   finish(true, 106);
   EXPECT_EQ(state_of("a"), "fulfilled");
+}
+
+TEST(Composition, RatherShowsWhatOthersWishFor) {
+  const Programme programme = sensible_line();
+  TourSoFar tour{.robot = {0, 0}, .left_s = 90.0};
+  EXPECT_EQ(plan(programme, tour).stops, (Names{"e1", "e2", "e3"}));
+  tour.wished = {"e4"};
+  EXPECT_EQ(plan(programme, tour).stops, (Names{"e2", "e3", "e4"})) << "10 s too long, but somebody is glad";
 }
 
 TEST_F(ComposedTour, SaysItsFarewellBeforeAnythingElse) {

@@ -399,5 +399,52 @@ TEST(MissionParamsTest, RefusesNonsenseByName) {
   EXPECT_NE(params.validate().error().message.find("overdue_s"), std::string::npos);
 }
 
+TEST_F(MissionTest, EndsATourWithAFarewell) {
+  pass(5.0);
+  wish("t", RequestKind::tour, "both");
+  for (const char* exhibit : {"a", "b"}) {
+    ASSERT_EQ(mission->task().exhibit_id, exhibit);
+    report(TaskStatus::explaining);
+    pass(20.0);
+    report(TaskStatus::done);
+  }
+  EXPECT_EQ(status_of("t"), RequestStatus::fulfilled);
+  EXPECT_EQ(mission->task().kind, TaskKind::farewell);
+  EXPECT_TRUE(mission->summary(time()).says_farewell);
+  wish("next", RequestKind::exhibit, "a");
+  pass(2.0, false);
+  make(mission->memory());
+  EXPECT_EQ(mission->task().kind, TaskKind::farewell) << "a wish, a doubt and a restart do not cut it off";
+  pass(2.0);
+  report(TaskStatus::done);
+  EXPECT_TRUE(happened(EventKind::farewell));
+  pass(2.0);
+  EXPECT_EQ(mission->task().exhibit_id, "a");
+}
+
+TEST_F(MissionTest, LearnsHowLongWaysAndVisitsTake) {
+  pass(5.0);
+  for (const char* id : {"1", "2"}) {
+    robot = {0, 0};
+    pass(1.0);
+    wish(id, RequestKind::exhibit, "a");
+    pass(40.0);  // for five metres
+    robot = {5, 0};
+    report(TaskStatus::explaining);
+    pass(20.0);
+    report(TaskStatus::done);
+    report(TaskStatus::done);  // it is home again
+  }
+  const auto table = travel_table(mission->scheduler().times().rows());
+  ASSERT_EQ(table.size(), 1U);
+  EXPECT_EQ(table.front().from, "home");
+  EXPECT_EQ(table.front().to, "a");
+  EXPECT_EQ(table.front().examples, 2);
+  EXPECT_NEAR(table.front().mean_s, 40.0, 0.6);
+  EXPECT_FALSE(mission->memory().lessons.empty());
+  mission->mark_stored();
+  EXPECT_TRUE(mission->memory().lessons.empty());
+}
+
 }  // namespace
 }  // namespace docent::task_control
