@@ -28,7 +28,7 @@ class MuseumMode {
   /// [m/s]; nullopt: neither operator nor museum say one.
   [[nodiscard]] std::optional<double> max_speed(Time now) const;
   [[nodiscard]] int minute_of_day(Time now) const;  ///< 0..1439
-  [[nodiscard]] double wait_s(Time now) const;  ///< [s] at each exhibit
+  [[nodiscard]] double wait_s(Time now) const;      ///< [s] at each exhibit
 
  private:
   [[nodiscard]] const museum::Mode* mode(Time now) const;

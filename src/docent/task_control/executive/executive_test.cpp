@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "docent/base/files.h"
+#include "docent/interaction/speech/sentences.h"
 #include "docent/task_control/executive/checkpoint.h"
 
 namespace docent::task_control {
@@ -258,7 +259,7 @@ TEST_F(ExecutiveTest, SaysFarewellWhereItStands) {
   pass(2.0);
   restart();
   EXPECT_EQ(state.state, TaskStatus::explaining) << "it is said again under the same id: heard once";
-  speech("f/farewell", SpeechStatus::idle);
+  speech("f/farewell", SpeechStatus::done);
   EXPECT_EQ(state.state, TaskStatus::done);
   now_s += 2000.0;
   saved.step = Step::explaining;

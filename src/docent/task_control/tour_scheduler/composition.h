@@ -33,11 +33,11 @@ struct CompositionParams {
 
 /// Section `mission` of robot.yaml holds these, too.
 struct SchedulerParams {
-  int max_stops = 80;          ///< different things wished for at once, >= 1; Bonn has 50 places to stop at
-  int max_open = 500;          ///< open requests, >= 1: each change of the board is sent with all of them
-  double overdue_s = 600.0;    ///< [s] > 0: who waited longer comes first
-  double hurry_after_s = 120;  ///< [s] > 0: while somebody has waited longer, exhibits are shown in the short version
-  int max_attempts = 5;        ///< visits tried for a request, >= 1
+  int max_stops = 80;           ///< different things wished for at once, >= 1; Bonn has 50 places to stop at
+  int max_open = 500;           ///< open requests, >= 1: each change of the board is sent with all of them
+  double overdue_s = 600.0;     ///< [s] > 0: who waited longer comes first
+  double hurry_after_s = 120;   ///< [s] > 0: while somebody has waited longer, exhibits are shown in the short version
+  int max_attempts = 5;         ///< visits tried for a request, >= 1
   double retry_delay_s = 45.0;  ///< [s] >= 0 until the second one; each wait is twice as long as the one before
   double retry_most_s = 240.0;  ///< [s] >= retry_delay_s: but never longer
   int max_stop_attempts = 3;    ///< visits tried for a stop of a tour, >= 1
@@ -90,16 +90,17 @@ struct TourPlan {
 /// Chooses how a composed tour goes on, so that it ends as near as possible to its target ([Minerva2000] 5.3): the
 /// least mean square of what is missing or too much at the end.
 ///
-/// The choice looks ahead over all sequences of sensible pairs. Far from the end a way counts with its mean; in the last
-/// `spread_ahead_s` it is foreseen as three ways (mean, and 1.73 deviations more and less, weighed 4:1:1, which has the
-/// right mean and spread), after each of which the tour goes on in the best manner, and a question has two answers. So
-/// the plan knows that it will choose again at each exhibit. The tour ends where no exhibit makes the end better. While
-/// fewer than `least_exhibits` were explained, it goes on as long as there are any. Where no sensible exhibit is left,
-/// any other is taken, at a cost. Exhibits for the Web alone and those without a way are left out.
+/// The choice looks ahead over all sequences of sensible pairs. Far from the end a way counts with its mean; in the
+/// last `spread_ahead_s` it is foreseen as three ways (mean, and 1.73 deviations more and less, weighed 4:1:1, which
+/// has the right mean and spread), after each of which the tour goes on in the best manner, and a question has two
+/// answers. So the plan knows that it will choose again at each exhibit. The tour ends where no exhibit makes the end
+/// better. While fewer than `least_exhibits` were explained, it goes on as long as there are any. Where no sensible
+/// exhibit is left, any other is taken, at a cost. Exhibits for the Web alone and those without a way are left out.
 ///
 /// At most kMostFirst exhibits are tried first and kMostNext after each, the nearest in time; more than `plan_ahead_s`
-/// before the end the nearest alone. O(kMostFirst kMostNext^k) for k stops within plan_ahead_s; states that were seen (place, exhibits done, time left in steps of 4 s) are not computed twice.
-/// Some ten milliseconds for 23 exhibits and six minutes. Deterministic.
+/// before the end the nearest alone. O(kMostFirst kMostNext^k) for k stops within plan_ahead_s; states that were seen
+/// (place, exhibits done, time left in steps of 4 s) are not computed twice. Some ten milliseconds for 23 exhibits and
+/// six minutes. Deterministic.
 [[nodiscard]] TourPlan plan_tour(const Programme& programme, const TourSoFar& tour, const TravelDistance& travel,
                                  const TravelTimes& times, Time now, const CompositionParams& params);
 inline constexpr std::size_t kMostFirst = 24;

@@ -43,9 +43,7 @@ TourPlan plan(const Programme& programme, const TourSoFar& tour) {
 // Each stop on the line takes 4 m and 20 s of words: 30 s.
 TEST(Composition, FillsTheTime) {
   const Programme programme = sensible_line();
-  const auto stops = [&](double left_s) {
-    return plan(programme, {.robot = {0, 0}, .left_s = left_s}).stops;
-  };
+  const auto stops = [&](double left_s) { return plan(programme, {.robot = {0, 0}, .left_s = left_s}).stops; };
   EXPECT_EQ(stops(90.0), (Names{"e1", "e2", "e3"}));
   EXPECT_EQ(stops(104.0), (Names{"e1", "e2", "e3"}));
   EXPECT_EQ(stops(120.0), (Names{"e1", "e2", "e3", "e4"}));
@@ -118,7 +116,8 @@ TEST(Composition, AnHourOfTourIsPlannedInNoTime) {
     programme.exhibits.push_back({"e" + std::to_string(i), {rng.uniform(0, 60), rng.uniform(0, 40), {}}, {}, 18.0});
   for (ProgrammeExhibit& exhibit : programme.exhibits) exhibit.long_s = 50.0;
   const TravelTimes times{TravelTimeParams{}};
-  const auto stops = plan_tour(programme, {.robot = {0, 0}, .left_s = 3600.0}, straight_distance(), times, {}, {}).stops;
+  const auto stops =
+      plan_tour(programme, {.robot = {0, 0}, .left_s = 3600.0}, straight_distance(), times, {}, {}).stops;
   EXPECT_GT(stops.size(), 30U);
 }
 
@@ -150,8 +149,12 @@ TEST(Composition, ToursInAnUncertainWorldEndInTime) {
       const double way_s = (3.0 + way_m / 0.35) * 1.3 * std::max(0.3, rng.normal(1.0, 0.3));
       times.learn_way(place, exhibit.id, way_m, way_s, now);
       const bool hears_more = next.asks && rng.chance(0.3);
-      times.learn_visit(!next.asks ? VisitCourse::unasked : hears_more ? VisitCourse::heard_more : VisitCourse::went_on,
-                        hears_more ? 3.0 : next.asks ? 5.5 : 0.5);
+      times.learn_visit(!next.asks   ? VisitCourse::unasked
+                        : hears_more ? VisitCourse::heard_more
+                                     : VisitCourse::went_on,
+                        hears_more  ? 3.0
+                        : next.asks ? 5.5
+                                    : 0.5);
       const double spent_s = way_s + 18.0 + (hears_more ? 53.0 : next.asks ? 5.5 : 0.5);
       tour.left_s -= spent_s;
       now = now + seconds(spent_s);

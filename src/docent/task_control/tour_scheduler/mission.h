@@ -72,11 +72,11 @@ struct MissionSummary {
   MissionPhase phase = MissionPhase::waking;
   std::string tour_id;
   std::string exhibit_id;
-  bool is_blocked = false;    ///< people are in the way
-  bool is_charging = false;   ///< or on its way to the charger
-  bool needs_charge = false;  ///< it must, before it goes on
+  bool is_blocked = false;     ///< people are in the way
+  bool is_charging = false;    ///< or on its way to the charger
+  bool needs_charge = false;   ///< it must, before it goes on
   bool says_farewell = false;  ///< at the end of a tour
-  int charging_min = 0;       ///< [min] until it is charged well enough, in steps of five
+  int charging_min = 0;        ///< [min] until it is charged well enough, in steps of five
   Counters counters;
   std::vector<std::string> agenda;
 };

@@ -29,8 +29,8 @@ class MissionStore {
   /// All open requests, the last closed ones, the plan, and all that was learned of travel times. A plan that cannot be
   /// read is left out.
   [[nodiscard]] Result<MissionMemory> load();
-  /// Writes what changed since the last save: the board's unstored entries, the lessons and the plan. Nothing changed: no
-  /// write. The caller marks board and travel times as stored when this succeeds.
+  /// Writes what changed since the last save: the board's unstored entries, the lessons and the plan. Nothing changed:
+  /// no write. The caller marks board and travel times as stored when this succeeds.
   [[nodiscard]] Result<void> save(const MissionMemory& memory);
   /// A request by its id, however long ago it was closed.
   [[nodiscard]] Result<std::optional<BoardEntry>> find(const std::string& id);

@@ -42,7 +42,8 @@ MissionMemory full_memory() {
   memory.schedule.counters = {4, 5, 6};
   memory.schedule.visit->asks = false;
   memory.schedule.farewell = Farewell{"space", "de", {55}};
-  memory.lessons = {{{LessonKind::pair, "a", "b/2"}, {3.0, 61.5, 1300.0, 7.25}}, {{LessonKind::crowd}, {1.5, 2.5, 0.0, 99.0}}};
+  memory.lessons = {{{LessonKind::pair, "a", "b/2"}, {3.0, 61.5, 1300.0, 7.25}},
+                    {{LessonKind::crowd}, {1.5, 2.5, 0.0, 99.0}}};
   return memory;
 }
 

@@ -25,8 +25,8 @@ struct ProgrammeExhibit {
   std::vector<Pose2> viewpoints;  ///< other places to show it from; Web visitors may choose one
   double speech_s = 15.0;         ///< [s] title and short text, spoken
   bool web_only = false;
-  std::vector<std::string> next{};  ///< exhibits that make sense right after this one (sensible_next)
-  double long_s = 0.0;              ///< [s] the long text, spoken; 0: there is none
+  std::vector<std::string> next{};               ///< exhibits that make sense right after this one (sensible_next)
+  double long_s = 0.0;                           ///< [s] the long text, spoken; 0: there is none
   std::map<std::string, SpokenLength> spoken{};  ///< by language; speech_s and long_s for those that are not there
 
   /// Where to stand for the viewpoint of this number; -1: for the exhibit's own place.

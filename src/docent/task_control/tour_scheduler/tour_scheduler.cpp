@@ -86,7 +86,11 @@ EventKind event_of(RequestStatus end) {
 
 TourScheduler::TourScheduler(const SchedulerParams& params, Programme programme, TravelDistance travel,
                              SchedulerState state, Time now)
-    : params_{params}, programme_{std::move(programme)}, travel_{std::move(travel)}, times_{params.travel_times}, state_{std::move(state)} {
+    : params_{params},
+      programme_{std::move(programme)},
+      travel_{std::move(travel)},
+      times_{params.travel_times},
+      state_{std::move(state)} {
   DOCENT_CHECK(!programme_.languages.empty());
   drop_what_is_gone(now);
 }

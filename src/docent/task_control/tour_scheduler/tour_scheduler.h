@@ -55,8 +55,8 @@ struct TourRun {
   double target_s = 0.0;        ///< [s] 0: none
   Time started;
   std::vector<TourMember> members{};
-  bool asks = true;       ///< at the next stop: more, or next?
-  Time composed_at{-1};   ///< when its pending stops were chosen last
+  bool asks = true;      ///< at the next stop: more, or next?
+  Time composed_at{-1};  ///< when its pending stops were chosen last
 };
 
 /// A tour is over, and its visitors are still there.
@@ -90,8 +90,8 @@ struct SchedulerState {
 /// overdue comes first, and the oldest open request decides whether a tour begins; so does a visit that a waiting tour
 /// would make as well: then one visit serves both. A tour keeps its order; between two of its stops at most one single
 /// exhibit is put in: an overdue one, or one with a small detour. A composed tour chooses each exhibit when the one
-/// before was explained, by travel times that were learned, so that it ends in time ([Minerva2000] 5.3); it rather shows
-/// what others have wished for, and only an overdue exhibit is put in. A tour that showed something ends with a
+/// before was explained, by travel times that were learned, so that it ends in time ([Minerva2000] 5.3); it rather
+/// shows what others have wished for, and only an overdue exhibit is put in. A tour that showed something ends with a
 /// farewell.
 class TourScheduler {
  public:
@@ -104,7 +104,8 @@ class TourScheduler {
   void submit(VisitorRequest request, const Conditions& conditions, Time now);
 
   /// Chooses and begins the next visit from where the robot stands; nullopt: nothing to do now, or what comes next, the
-  /// visit or the whole tour, is foreseen to take longer than `budget_s` [s], or (state) a farewell is to be said first.
+  /// visit or the whole tour, is foreseen to take longer than `budget_s` [s], or (state) a farewell is to be said
+  /// first.
   /// @pre no visit is under way.
   const std::optional<Visit>& begin_visit(Point2 robot, Time now,
                                           double budget_s = std::numeric_limits<double>::infinity());

@@ -133,7 +133,8 @@ std::optional<WishedStop> TourScheduler::stop_to_insert(Point2 robot, Time now) 
         entry.request.viewpoint < 0 ? stop_at(exhibit->id, now) : WishedStop{exhibit->id, entry.request.viewpoint};
     const Point2 place = place_of(stop);
     const bool may_detour = !(tour.target_s > 0.0);  // a composed tour has its time
-    if (is_overdue(entry, now) || (may_detour && travel_(robot, place) + travel_(place, goal) - direct <= params_.max_detour_m))
+    if (is_overdue(entry, now) ||
+        (may_detour && travel_(robot, place) + travel_(place, goal) - direct <= params_.max_detour_m))
       return stop;
   }
   return std::nullopt;
@@ -292,8 +293,14 @@ bool TourScheduler::begin_tour(const std::string& tour_id, Point2 robot, Time no
 void TourScheduler::begin_visit_of(const WishedStop& stop, bool is_stop, Time now) {
   const std::string& exhibit_id = stop.exhibit_id;
   const ProgrammeExhibit& exhibit = *programme_.find_exhibit(exhibit_id);
-  Visit visit{exhibit_id, stop.viewpoint, exhibit.place(stop.viewpoint), "", is_stop ? state_.tour->tour_id : "", true,
-              now, !is_stop || state_.tour->asks};
+  Visit visit{exhibit_id,
+              stop.viewpoint,
+              exhibit.place(stop.viewpoint),
+              "",
+              is_stop ? state_.tour->tour_id : "",
+              true,
+              now,
+              !is_stop || state_.tour->asks};
   auto members = ids(RequestKind::exhibit, RequestStatus::queued, exhibit_id);
   std::erase_if(members, [&](const std::string& id) {
     const int wished = state_.board.find(id)->request.viewpoint;

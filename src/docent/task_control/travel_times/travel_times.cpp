@@ -23,19 +23,17 @@ constexpr std::array<const char*, 9> kKinds{"pair",  "metres",  "seconds", "devi
                                             "crowd", "unasked", "went_on", "heard_more"};
 /// [m] The two lengths at which the parameters are taken as seen before any way was: a short way and a long one.
 constexpr std::array<double, 2> kPriorWays{2.0, 20.0};
-constexpr double kSameWay = 0.1;     ///< of the length, and
-constexpr double kSameWay_m = 0.5;   ///< [m]: by so much ways may differ that are still the same
-constexpr double kSlowest = 20.0;    ///< [s/m] no museum is crossed more slowly
-constexpr double kFastest = 0.5;     ///< [s/m] nor faster
+constexpr double kSameWay = 0.1;      ///< of the length, and
+constexpr double kSameWay_m = 0.5;    ///< [m]: by so much ways may differ that are still the same
+constexpr double kSlowest = 20.0;     ///< [s/m] no museum is crossed more slowly
+constexpr double kFastest = 0.5;      ///< [s/m] nor faster
 constexpr double kFactorLeast = 0.5;  ///< of hour and crowd
 constexpr double kFactorMost = 3.0;
 
-std::string hour_name(int hour) {
-  return {static_cast<char>('0' + hour / 10), static_cast<char>('0' + hour % 10)};
-}
+std::string hour_name(int hour) { return {static_cast<char>('0' + hour / 10), static_cast<char>('0' + hour % 10)}; }
 
 LessonKind kind_of(VisitCourse course) {
-  return course == VisitCourse::unasked    ? LessonKind::unasked
+  return course == VisitCourse::unasked   ? LessonKind::unasked
          : course == VisitCourse::went_on ? LessonKind::went_on
                                           : LessonKind::heard_more;
 }
@@ -213,7 +211,7 @@ void TravelTimes::learn_visit(VisitCourse course, double beyond_s) {
 }
 
 double TravelTimes::beyond_speech(VisitCourse course) const {
-  const double prior_s = course == VisitCourse::unasked    ? params_.speech_s
+  const double prior_s = course == VisitCourse::unasked   ? params_.speech_s
                          : course == VisitCourse::went_on ? params_.question_s
                                                           : params_.answer_s;
   const Lesson& seen = find(kind_of(course));
@@ -245,7 +243,8 @@ std::vector<PairRow> travel_table(std::span<const LessonRow> rows) {
     const double mean_s = lesson.sum / lesson.count;
     const double about_mean = std::max(0.0, lesson.squares - lesson.count * mean_s * mean_s);
     const double spread_s = lesson.count > 1.0 ? std::sqrt(about_mean / (lesson.count - 1.0)) : 0.0;
-    table.push_back({key.from, key.to, static_cast<int>(std::lround(lesson.count)), mean_s, spread_s, lesson.reference});
+    table.push_back(
+        {key.from, key.to, static_cast<int>(std::lround(lesson.count)), mean_s, spread_s, lesson.reference});
   }
   std::sort(table.begin(), table.end(),
             [](const PairRow& a, const PairRow& b) { return std::tie(a.from, a.to) < std::tie(b.from, b.to); });
