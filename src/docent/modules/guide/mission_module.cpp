@@ -13,7 +13,7 @@
 #include "docent/modules/shared/museum_mode.h"
 #include "docent/task_control/tour_scheduler/mission.h"
 #include "docent/task_control/tour_scheduler/mission_store.h"
-#include "docent/task_control/tour_scheduler/travel.h"
+#include "docent/task_control/travel_times/travel.h"
 #include "docent/vocabulary/vocabulary.h"
 
 namespace docent::modules {

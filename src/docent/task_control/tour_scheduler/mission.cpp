@@ -257,10 +257,11 @@ void Mission::start_visit(Time now) {
   const bool offer_more = params_.schedule.offer_more && visit.asks && !scheduler_.is_in_a_hurry(now);
   start_task(Activity::visit,
              {"", TaskKind::visit, visit.exhibit_id, visit.map_from_base, visit.language, offer_more, visit.tour_id});
-  watch_.set_out(place_at(scheduler_.programme(), position()), place_name({visit.exhibit_id, visit.viewpoint}),
-                 scheduler_.way_length(position(), visit.map_from_base.position()), now);
   is_resting_ = false;
   home_not_before_ = {};
+  if (!position_) return;  // nobody knows from where it sets out
+  watch_.set_out(place_at(scheduler_.programme(), *position_), place_name({visit.exhibit_id, visit.viewpoint}),
+                 scheduler_.way_length(*position_, visit.map_from_base.position()), now);
 }
 
 void Mission::start_farewell() {

@@ -47,8 +47,4 @@ bool is_same(const Pose2& a, const Pose2& b) {
   return distance(a.position(), b.position()) < kRounding && std::abs((a.theta - b.theta).radians()) < kRounding;
 }
 
-TravelDistance straight_distance() {
-  return [](Point2 from, Point2 to) { return distance(from, to); };
-}
-
 }  // namespace docent::task_control

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -8,6 +7,7 @@
 
 #include "docent/base/time.h"
 #include "docent/geometry/pose2.h"
+#include "docent/task_control/travel_times/travel_distance.h"
 #include "docent/vocabulary/vocabulary.h"
 
 namespace docent::task_control {
@@ -72,12 +72,6 @@ inline constexpr double kAtPlace = 0.7;  ///< [m] as near as a robot counts as a
 
 /// The same pose but for rounding.
 [[nodiscard]] bool is_same(const Pose2& a, const Pose2& b);
-
-/// Length [m] of the way between two points of the map; +infinity where there is none.
-using TravelDistance = std::function<double(Point2 from, Point2 to)>;
-
-/// As the crow flies.
-[[nodiscard]] TravelDistance straight_distance();
 
 /// Something that happened, for the history (docs/terminology.md, Events).
 struct Happening {
