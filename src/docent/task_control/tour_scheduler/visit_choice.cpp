@@ -263,6 +263,7 @@ bool TourScheduler::begin_tour(const std::string& tour_id, Point2 robot, Time no
   TourRun run{tour_id, state_.board.find(members.front())->request.language, {}, false, 0.0, now};
   if (tour != nullptr) {
     run.target_s = tour->target_s;
+    if (run.target_s > 0.0 && exceeds(run.target_s, budget_s)) return false;  // before it is composed, which costs more
     auto exhibits = tour->exhibits;
     if (exhibits.empty()) {
       TourPlan plan = compose(run, robot, now);
