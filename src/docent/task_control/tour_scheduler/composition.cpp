@@ -45,6 +45,14 @@ struct KeyHash {
   }
 };
 
+/// How long a visit lasts from the arrival on [s].
+struct VisitLengths {
+  double unasked_s = 0.0;
+  double went_on_s = 0.0;
+  double heard_more_s = 0.0;
+  bool can_ask = false;
+};
+
 struct Step {
   double loss = kNever;
   std::size_t next = kMostExhibits;  // none: the end
@@ -52,16 +60,26 @@ struct Step {
   bool is_sensible = true;
 };
 
+struct Choices {
+  std::array<std::size_t, std::max(kMostFirst, kMostNext)> exhibits{};
+  std::size_t count = 0;
+  bool are_sensible = true;
+};
+
 class Search {
  public:
   Search(const Programme& programme, const TourSoFar& tour, const TravelDistance& travel, const TravelTimes& times,
          Time now, const CompositionParams& params)
-      : params_{params}, farewell_s_{programme.farewell_s}, may_ask_{tour.may_ask}, times_{times} {
+      : params_{params}, farewell_s_{programme.farewell_s} {
     gather(programme, tour, travel);
     const std::string start = place_at(programme, tour.robot);
-    foresee(start, tour.robot, travel, now);
+    foresee(start, tour.robot, travel, times, now);
     for (std::size_t i = 0; i < exhibits_.size(); ++i) {
-      spoken_.push_back(exhibits_[i]->length_in(tour.language));
+      const SpokenLength spoken = exhibits_[i]->length_in(tour.language);
+      lengths_.push_back({spoken.short_s + times.beyond_speech(VisitCourse::unasked),
+                          spoken.short_s + times.beyond_speech(VisitCourse::went_on),
+                          spoken.short_s + spoken.long_s + times.beyond_speech(VisitCourse::heard_more),
+                          tour.may_ask && spoken.long_s > 0.0});
       is_wished_.push_back(holds(tour.wished, exhibits_[i]->id));
     }
     share_of_more_ = times.share_of_more();
@@ -106,13 +124,14 @@ class Search {
   }
 
   /// The ways between all of them, and (last row) from where the robot stands.
-  void foresee(const std::string& start, Point2 robot, const TravelDistance& travel, Time now) {
+  void foresee(const std::string& start, Point2 robot, const TravelDistance& travel, const TravelTimes& times,
+               Time now) {
     const std::size_t n = exhibits_.size();
     for (std::size_t from = 0; from <= n; ++from) {
       const Point2 place = from < n ? exhibits_[from]->pose.position() : robot;
       const std::string& name = from < n ? exhibits_[from]->id : start;
       for (const ProgrammeExhibit* to : exhibits_)
-        ways_.push_back(times_.way(name, to->id, travel(place, to->pose.position()), now));
+        ways_.push_back(times.way(name, to->id, travel(place, to->pose.position()), now));
     }
   }
 
@@ -140,37 +159,28 @@ class Search {
   [[nodiscard]] const Foreseen& way(std::size_t from, std::size_t to) const {
     return ways_[from * exhibits_.size() + to];
   }
-  [[nodiscard]] double short_s(std::size_t i) const {
-    return spoken_[i].short_s + times_.beyond_speech(VisitCourse::unasked);
-  }
-  [[nodiscard]] double asked_short_s(std::size_t i) const {
-    return spoken_[i].short_s + times_.beyond_speech(VisitCourse::went_on);
-  }
-  [[nodiscard]] double more_s(std::size_t i) const {
-    return spoken_[i].short_s + spoken_[i].long_s + times_.beyond_speech(VisitCourse::heard_more);
-  }
+  [[nodiscard]] double short_s(std::size_t i) const { return lengths_[i].unasked_s; }
+  [[nodiscard]] double asked_short_s(std::size_t i) const { return lengths_[i].went_on_s; }
+  [[nodiscard]] double more_s(std::size_t i) const { return lengths_[i].heard_more_s; }
   [[nodiscard]] static State after(const State& state, std::size_t next, double seconds) {
     return {next, state.done | (std::uint64_t{1} << next), state.left_s - seconds, state.explained + 1};
   }
 
   /// Sensible exhibits that are left; where there are none, any; none that was done.
-  [[nodiscard]] std::vector<std::size_t> choices(const State& state, bool is_first, bool& is_sensible) const {
-    const auto open = [&](const std::vector<std::size_t>& list, std::size_t most) {
-      std::vector<std::size_t> found;
-      for (const std::size_t i : list) {
-        if (found.size() < most && ((state.done >> i) & 1U) == 0) found.push_back(i);
-      }
-      return found;
-    };
-    const bool is_free = state.at == exhibits_.size() && !is_started_;
+  [[nodiscard]] Choices choices(const State& state, bool is_first) const {
+    Choices found;
     const std::size_t most = is_first ? kMostFirst : state.left_s > params_.plan_ahead_s ? 1 : kMostNext;
-    is_sensible = true;
-    if (!is_free) {
-      auto found = open(sensible_[state.at], most);
-      if (!found.empty()) return found;
-      is_sensible = false;
-    }
-    return open(nearest_[state.at], most);
+    const auto take = [&](const std::vector<std::size_t>& list) {
+      for (const std::size_t i : list) {
+        if (found.count < most && ((state.done >> i) & 1U) == 0) found.exhibits[found.count++] = i;
+      }
+    };
+    const bool is_begin = state.at == exhibits_.size() && !is_started_;
+    if (!is_begin) take(sensible_[state.at]);
+    if (found.count > 0) return found;
+    found.are_sensible = is_begin;
+    take(nearest_[state.at]);
+    return found;
   }
 
   [[nodiscard]] double loss_after(const State& state) {
@@ -213,17 +223,18 @@ class Search {
     const double off_s = state.left_s - farewell_s_;
     if (may_end) best.loss = off_s * off_s;
     if (may_end && off_s <= 0.0) return best;
-    bool is_sensible = true;
-    for (const std::size_t next : choices(state, is_first, is_sensible)) {
+    const Choices open = choices(state, is_first);
+    for (std::size_t k = 0; k < open.count; ++k) {
+      const std::size_t next = open.exhibits[k];
       const double way_s = way(state.at, next).mean_s;
       if (may_end && way_s + short_s(next) > 2.0 * off_s + kHopeless) continue;
-      const double cost = params_.way_cost * way_s + (is_sensible ? 0.0 : params_.odd_pair_cost) -
+      const double cost = params_.way_cost * way_s + (open.are_sensible ? 0.0 : params_.odd_pair_cost) -
                           (is_wished_[next] ? params_.wished_gain : 0.0);
       for (const bool asks : {true, false}) {
-        const bool can_ask = may_ask_ && spoken_[next].long_s > 0.0;
+        const bool can_ask = lengths_[next].can_ask;
         if (asks ? !can_ask : can_ask && state.left_s >= params_.spread_ahead_s) continue;  // there is time to ask
         const double loss = loss_of(state, next, asks) + cost - (asks ? params_.question_gain : 0.0);
-        if (loss < best.loss) best = {loss, next, asks, is_sensible};
+        if (loss < best.loss) best = {loss, next, asks, open.are_sensible};
       }
     }
     if (best.next == kMostExhibits && !may_end) best.loss = off_s * off_s;  // there are no more
@@ -232,12 +243,10 @@ class Search {
 
   CompositionParams params_;
   double farewell_s_;
-  bool may_ask_;
-  const TravelTimes& times_;
   double share_of_more_ = 0.0;
   std::vector<const ProgrammeExhibit*> exhibits_;
   std::vector<Foreseen> ways_;
-  std::vector<SpokenLength> spoken_;
+  std::vector<VisitLengths> lengths_;
   std::vector<bool> is_wished_;
   std::vector<std::vector<std::size_t>> nearest_;   // by where the robot is
   std::vector<std::vector<std::size_t>> sensible_;  // likewise

@@ -219,7 +219,8 @@ void MissionStore::Connection::put(const LessonRow& row) {
 std::vector<LessonRow> MissionStore::Connection::lessons() {
   std::vector<LessonRow> rows;
   SQLite::Statement query{database,
-                          "SELECT kind, from_place, to_place, count, sum, squares, reference FROM travel_times"};
+                          "SELECT kind, from_place, to_place, count, sum, squares, reference FROM travel_times ORDER "
+                          "BY kind, from_place, to_place"};
   while (query.executeStep()) {
     const auto kind = lesson_kind_of(query.getColumn(0).getString());
     if (!kind) continue;  // of a newer program

@@ -12,8 +12,9 @@
 //   metres     count of all ways; sum and squares of their metres; reference: sum of metres times seconds
 //   seconds    count of all ways; sum and squares of their seconds
 //   deviation  count of all ways; squares: of (seconds over what was foreseen) - 1
-//   hour       count of ways; sum of (seconds over the mean of the pair); `from` is the hour, two digits
-//   crowd      count and sum of the same, further over the hour's factor, both fading; reference: when [s]
+//   hour       count of ways; sum of their slowness; `from` is the hour, two digits. Slowness: seconds over the mean of
+//              the pair, over the mean of that over all ways, for which `from` is empty
+//   crowd      count and sum of slowness over the hour's factor, both fading; reference: when [s]
 //   unasked, went_on, heard_more: count of visits; sum of the seconds beyond the spoken words
 
 namespace docent::task_control {
@@ -170,15 +171,20 @@ void TravelTimes::learn_way(const std::string& from, const std::string& to, doub
   deviation.count += 1.0;
   deviation.squares += std::pow(seconds / foreseen_s - 1.0, 2);
 
+  Lesson& of_all = change(LessonKind::hour);
+  const double slowness = seconds / usual_s / factor_of(of_all.count, of_all.sum, params_.prior_hours);
+  of_all.count += 1.0;
+  of_all.sum += seconds / usual_s;
+
   Lesson& of_hour = change(LessonKind::hour, hour_name(hour_));
   of_hour.count += 1.0;
-  of_hour.sum += seconds / usual_s;
+  of_hour.sum += slowness;
 
   Lesson& crowd = change(LessonKind::crowd);
   const double now_s = to_seconds(now - Time{});
   const double left = std::exp(-std::max(0.0, now_s - crowd.reference) / params_.crowd_s);
   crowd.count = left * crowd.count + 1.0;
-  crowd.sum = left * crowd.sum + seconds / (usual_s * hour);
+  crowd.sum = left * crowd.sum + slowness / hour;
   crowd.reference = now_s;
 
   Lesson& metres = change(LessonKind::metres);

@@ -26,9 +26,9 @@ TEST(VisitWatch, TimesTheWayAndTheVisit) {
   ASSERT_TRUE(plain.way && plain.visit);
   EXPECT_EQ(plain.way->from, "a");
   EXPECT_EQ(plain.way->to, "b");
-  EXPECT_EQ(plain.way->seconds, 30.0);
+  EXPECT_NEAR(plain.way->seconds, 30.0, 1e-6);
   EXPECT_EQ(plain.visit->course, VisitCourse::unasked);
-  EXPECT_EQ(plain.visit->seconds, 20.0);
+  EXPECT_NEAR(plain.visit->seconds, 20.0, 1e-6);
 }
 
 TEST(VisitWatch, TellsWhetherVisitorsWantedMore) {
@@ -40,7 +40,7 @@ TEST(VisitWatch, TellsWhetherVisitorsWantedMore) {
                              {40, TaskStatus::explaining},
                              {70, TaskStatus::done}});
   EXPECT_EQ(more.visit->course, VisitCourse::heard_more);
-  EXPECT_EQ(more.visit->seconds, 61.0);
+  EXPECT_NEAR(more.visit->seconds, 61.0, 1e-6);
 }
 
 TEST(VisitWatch, LearnsNothingFromWhatFailed) {
