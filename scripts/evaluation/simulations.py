@@ -46,6 +46,10 @@ class Simulations:
 
     def all(self, runs):
         """Reports of many runs, in their order; each what `run` takes."""
+        return self.each(self.run, runs)
+
+    def each(self, function, calls):
+        """What a function gives for each of many calls, in their order, some at a time."""
         with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
-            futures = [pool.submit(self.run, *run) for run in runs]
+            futures = [pool.submit(function, *call) for call in calls]
             return [future.result() for future in futures]

@@ -43,8 +43,8 @@ constexpr auto words_of(MissionPhase) {
 }
 
 /// What the executive is to do.
-enum class TaskKind { visit, home, charge, relocalize };
-constexpr auto words_of(TaskKind) { return std::array{"visit", "home", "charge", "relocalize"}; }
+enum class TaskKind { visit, farewell, home, charge, relocalize };
+constexpr auto words_of(TaskKind) { return std::array{"visit", "farewell", "home", "charge", "relocalize"}; }
 
 /// How a task goes.
 enum class TaskStatus { driving, explaining, asking, done, failed };
@@ -117,6 +117,7 @@ enum class EventKind {
   tour_failed,
   tour_broken_off,
   tour_cancelled,
+  farewell,
   plan_inserted,
   plan_removed,
   plan_rescheduled,
@@ -136,22 +137,13 @@ enum class EventKind {
   choice,
 };
 constexpr auto words_of(EventKind) {
-  return std::array{"request_queued",   "request_refused",
-                    "request_active",   "request_fulfilled",
-                    "request_failed",   "request_cancelled",
-                    "visit_started",    "explained",
-                    "visit_failed",     "visit_dropped",
-                    "tour_started",     "tour_completed",
-                    "tour_failed",      "tour_broken_off",
-                    "tour_cancelled",   "plan_inserted",
-                    "plan_removed",     "plan_rescheduled",
-                    "attraction_trial", "relocalizing",
-                    "localized",        "home",
-                    "home_failed",      "charger",
-                    "charger_failed",   "battery_low",
-                    "battery_full",     "arrived",
-                    "drive_blocked",    "asked_for_way",
-                    "prompt_shown",     "choice"};
+  return std::array{"request_queued",    "request_refused", "request_active", "request_fulfilled", "request_failed",
+                    "request_cancelled", "visit_started",   "explained",      "visit_failed",      "visit_dropped",
+                    "tour_started",      "tour_completed",  "tour_failed",    "tour_broken_off",   "tour_cancelled",
+                    "farewell",          "plan_inserted",   "plan_removed",   "plan_rescheduled",  "attraction_trial",
+                    "relocalizing",      "localized",       "home",           "home_failed",       "charger",
+                    "charger_failed",    "battery_low",     "battery_full",   "arrived",           "drive_blocked",
+                    "asked_for_way",     "prompt_shown",    "choice"};
 }
 
 /// An enumeration of the above.

@@ -12,7 +12,7 @@
 #include "docent/museum/museum.h"
 #include "docent/planning/value_iteration/route.h"
 #include "docent/task_control/golog/golog_program.h"
-#include "docent/task_control/tour_scheduler/travel.h"
+#include "docent/task_control/travel_times/travel.h"
 
 namespace docent::apps {
 namespace {

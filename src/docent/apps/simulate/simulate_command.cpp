@@ -138,6 +138,10 @@ void add_simulate_command(CLI::App& app) {
           "--event-log", options->run.event_log,
           "CSV file to write: events, reactions to blocked ways, lines said and touches, with times and places")
       ->check(output_file());
+  command
+      ->add_option("--travel-times", options->run.travel_times,
+                   "CSV file to write: how long the ways between places took, as the robot has learned it")
+      ->check(output_file());
   command->add_option("--people-log", options->run.people_log, "CSV file to write: tracked people beside the true ones")
       ->check(output_file());
   command->add_option("--record", options->run.recording, "MCAP file of all messages and the truth")

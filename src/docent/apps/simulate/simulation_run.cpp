@@ -10,6 +10,7 @@
 #include "docent/apps/shared/temporary_folder.h"
 #include "docent/apps/simulate/belief_fault.h"
 #include "docent/apps/simulate/simulation_picture.h"
+#include "docent/base/files.h"
 #include "docent/evaluation/deployment_evaluator.h"
 #include "docent/evaluation/run_logs/claim_log.h"
 #include "docent/evaluation/run_logs/drive_log.h"
@@ -21,6 +22,8 @@
 #include "docent/modules/perception/localize_module.h"
 #include "docent/recording/recorder.h"
 #include "docent/simulator/simulated_museum.h"
+#include "docent/task_control/mission/mission_store.h"
+#include "docent/task_control/travel_times/travel_times.h"
 #include "docent/transport/virtual_time_bus.h"
 
 namespace docent::apps {
@@ -104,6 +107,15 @@ class SimulationRun::Parts {
 
  private:
   friend class SimulationRun;
+
+  /// What the mission has committed.
+  Result<void> save_travel_times() const {
+    auto store = task_control::MissionStore::open(state_ / "mission.sqlite", "none", false);
+    if (!store) return tl::unexpected<Error>(store.error());
+    const auto memory = store->load();
+    if (!memory) return tl::unexpected<Error>(memory.error());
+    return write_file_atomically(options_.travel_times, to_csv(task_control::travel_table(memory->lessons)));
+  }
 
   /// Speed limit and mode, as the museum's staff would set them.
   Result<void> start_operator() {
@@ -280,6 +292,9 @@ Result<void> SimulationRun::finish() {
   }
   if (!parts_->options_.event_log.empty()) {
     if (auto saved = parts_->events_.save(parts_->options_.event_log); !saved) return saved;
+  }
+  if (!parts_->options_.travel_times.empty()) {
+    if (auto saved = parts_->save_travel_times(); !saved) return saved;
   }
   if (!parts_->options_.drive_log.empty()) {
     if (auto saved = parts_->drive_.save(parts_->options_.drive_log); !saved) return saved;

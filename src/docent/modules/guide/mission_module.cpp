@@ -14,7 +14,7 @@
 #include "docent/task_control/mission/mission.h"
 #include "docent/task_control/mission/mission_store.h"
 #include "docent/task_control/plan_controller/plan_controller.h"
-#include "docent/task_control/tour_scheduler/travel.h"
+#include "docent/task_control/travel_times/travel.h"
 #include "docent/vocabulary/vocabulary.h"
 
 namespace docent::modules {
@@ -23,18 +23,31 @@ namespace {
 constexpr Duration kPeriod = std::chrono::milliseconds{500};
 constexpr std::size_t kMostText = 200;  ///< [bytes] of any field of a request: it comes from anybody
 
+/// As the executive speaks it.
+task_control::SpokenLength length_of(const museum::Exhibit& exhibit, const std::string& language) {
+  const auto seconds_of = [&](const std::string& text) {
+    return interaction::speech_duration(text, language, Mood::neutral);
+  };
+  const auto spoken = [&](const museum::Translations& text) {
+    return interaction::spoken_text(museum::translated(text, language));
+  };
+  return {seconds_of(spoken(exhibit.title) + " " + spoken(exhibit.short_text)), seconds_of(spoken(exhibit.long_text))};
+}
+
 task_control::Programme programme_of(const museum::Museum& museum) {
   task_control::Programme programme;
   if (!museum.languages.empty()) programme.languages = museum.languages;
   programme.home = museum.home;
   programme.charger = museum.charger;
   const std::string& language = programme.languages.front();
+  const std::string farewell = interaction::sentence(interaction::Sentence::farewell, language);
+  programme.farewell_s = interaction::speech_duration(farewell, language, Mood::happy);
   for (const museum::Exhibit& exhibit : museum.exhibits) {
-    const std::string text =
-        museum::translated(exhibit.title, language) + ". " + museum::translated(exhibit.short_text, language);
     task_control::ProgrammeExhibit& shown = programme.exhibits.emplace_back();
-    shown = {exhibit.id, exhibit.pose, exhibit.viewpoints,
-             interaction::speech_duration(interaction::spoken_text(text), language, Mood::neutral), exhibit.web_only};
+    const task_control::SpokenLength own = length_of(exhibit, language);
+    shown = {exhibit.id, exhibit.pose, exhibit.viewpoints, own.short_s, exhibit.web_only};
+    shown.long_s = own.long_s;
+    for (const std::string& other : programme.languages) shown.spoken[other] = length_of(exhibit, other);
     for (const museum::Exhibit* next : museum::sensible_next(museum, exhibit)) shown.next.push_back(next->id);
   }
   for (const museum::Tour& tour : museum.tours) {
@@ -114,6 +127,7 @@ class MissionModule final : public Module {
       }
     });
     bus_.every(kPeriod, [this] {
+      mission_.time_of_day(mode_.minute_of_day(bus_.now()) / 60);
       mission_.tick(bus_.now());
       flush();
     });
@@ -175,7 +189,7 @@ class MissionModule final : public Module {
       return;
     }
     fault_.clear();
-    mission_.scheduler().board().mark_stored();
+    mission_.mark_stored();
     const Time now = bus_.now();
     for (task_control::Happening& happening : mission_.take_happenings()) {
       event_.publish({{docent::to_message(now), "map"},
@@ -243,6 +257,7 @@ class MissionModule final : public Module {
     if (summary.phase == MissionPhase::relocalizing) return interaction::Sentence::relocalizing;
     if (summary.phase == MissionPhase::driving)
       return summary.is_blocked ? interaction::Sentence::blocked : interaction::Sentence::driving;
+    if (summary.says_farewell) return interaction::Sentence::farewell;
     if (summary.phase == MissionPhase::explaining) return interaction::Sentence::explaining;
     if (summary.phase == MissionPhase::asking) return interaction::Sentence::asking;
     if (summary.phase == MissionPhase::charging) return interaction::Sentence::charging;

@@ -27,12 +27,12 @@ class MuseumMode {
   [[nodiscard]] bool takes_requests() const { return !limits_ || limits_->is_open; }
   /// [m/s]; nullopt: neither operator nor museum say one.
   [[nodiscard]] std::optional<double> max_speed(Time now) const;
-  [[nodiscard]] double wait_s(Time now) const;  ///< [s] at each exhibit
+  [[nodiscard]] int minute_of_day(Time now) const;  ///< 0..1439
+  [[nodiscard]] double wait_s(Time now) const;      ///< [s] at each exhibit
   /// 0..1: what the operator allows, and less in the museum's quiet hours.
   [[nodiscard]] double volume(Time now) const;
 
  private:
-  [[nodiscard]] int minute_of_day(Time now) const;
   [[nodiscard]] const museum::Mode* mode(Time now) const;
 
   const museum::Museum& museum_;

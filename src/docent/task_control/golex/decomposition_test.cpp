@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "docent/task_control/golex/executive_fixture.h"
 #include "docent/vocabulary/vocabulary.h"
 
 namespace docent::task_control {
@@ -66,6 +67,80 @@ TEST(Decomposition, WhatIsWrongIsNamedWithItsLine) {
   EXPECT_NE(error_of("visit:\n  - drive: {a: b}\n"), "");
   EXPECT_NE(error_of("[1]: [2]\n"), "");
   EXPECT_NE(error_of(""), "");
+}
+
+/// Of a museum's own action.
+class OwnAction : public ExecutiveTest {
+ protected:
+  void begin(const std::string& text) {
+    auto read = parse_decomposition(text, "golex.yaml", default_decomposition());
+    ASSERT_TRUE(read) << read.error().message;
+    executive = Executive{{}, *read, {}, time()};
+    ExecutiveTask task = visit("o");
+    task.order.kind = Word<TaskKind>{std::string{"own"}};
+    start(task);
+  }
+};
+
+TEST_F(OwnAction, WhatStandsTogetherRunsTogetherAndEndsWithTheLast) {
+  begin("own:\n  - {say: {en: A story on the way.}, drive: place, wait: 4}\n  - say: {en: The end.}\n");
+  EXPECT_EQ(said.back().text, "A story on the way.");
+  EXPECT_EQ(state.state, TaskStatus::driving);
+  goal(GoalStatus::arrived);
+  EXPECT_EQ(state.state, TaskStatus::explaining) << "the story goes on";
+  speech("o/say", SpeechStatus::speaking);
+  speech("o/say", SpeechStatus::done);
+  EXPECT_EQ(said.back().text, "A story on the way.") << "the wait is not over";
+  pass(4.5);
+  EXPECT_EQ(said.back().text, "The end.");
+  EXPECT_EQ(said.back().id, "o/say-2");
+  speech("o/say-2", SpeechStatus::done);
+  EXPECT_EQ(state.state, TaskStatus::done);
+}
+
+TEST_F(OwnAction, ARestartRepeatsOnlyWhatIsNotOver) {
+  begin("own:\n  - {say: {en: A story.}, drive: place}\n");
+  speech("o/say", SpeechStatus::done);
+  const auto before = saved;
+  executive =
+      Executive{{},
+                *parse_decomposition("own:\n  - {say: {en: A story.}, drive: place}\n", "g", default_decomposition()),
+                before,
+                time()};
+  said.clear();
+  collect();
+  pass(2.0);
+  EXPECT_TRUE(said.empty());
+  EXPECT_EQ(drive->id, "o/drive");
+  goal(GoalStatus::arrived);
+  EXPECT_EQ(state.state, TaskStatus::done);
+}
+
+TEST_F(OwnAction, AnActionThatHoldsNothingUpIsDoneAtOnce) {
+  begin("own:\n  - look: way\n  - {music: stop, announce: {en: Hi!}}\n");
+  EXPECT_EQ(state.state, TaskStatus::done);
+  EXPECT_EQ(said.back().text, "Hi!");
+  begin("own: []\n");
+  EXPECT_EQ(state.state, TaskStatus::done);
+}
+
+TEST_F(OwnAction, TheDriveOfTheTaskBeforeIsOver) {
+  start(visit("t1"));
+  begin("own:\n  - wait: 3\n  - drive: place\n");
+  EXPECT_EQ(drive->id, "") << "it does not go on to the exhibit";
+  pass(3.5);
+  EXPECT_EQ(drive->id, "o/drive");
+}
+
+TEST_F(OwnAction, AFileThatWasChangedBeginsTheActionAnew) {
+  begin("own:\n  - wait: 3\n  - drive: place\n");
+  pass(3.5);
+  executive =
+      Executive{{}, *parse_decomposition("own:\n  - drive: place\n", "g", default_decomposition()), saved, time()};
+  collect();
+  EXPECT_EQ(state.state, TaskStatus::driving);
+  goal(GoalStatus::arrived);
+  EXPECT_EQ(state.state, TaskStatus::done);
 }
 
 }  // namespace

@@ -44,6 +44,8 @@ void Executive::resume(Time now) {
     const auto* action = decomposition_.find(memory_.task.order.kind.text());
     const bool is_other = action == nullptr || memory_.item < 0 || memory_.item >= static_cast<int>(action->size());
     const bool is_old = drive_under_way() == nullptr && now - memory_.item_began > seconds(params_.checkpoint_age_s);
+    if (is_old && !has_drive()) return finish(true, "", now);  // whoever it spoke to is gone
+    if (action == nullptr) return finish(false, "I do not know the task any more.", now);
     if (is_other || is_old) {  // the file was changed, or visitors and place are others by now
       begin_item(0, now);
       return;
@@ -81,6 +83,15 @@ const std::vector<Directive>& Executive::together() const {
   const auto* action = decomposition_.find(memory_.task.order.kind.text());
   if (action == nullptr || memory_.item < 0 || memory_.item >= static_cast<int>(action->size())) return kNone;
   return (*action)[static_cast<std::size_t>(memory_.item)].together;
+}
+
+bool Executive::has_drive() const {
+  const auto* action = decomposition_.find(memory_.task.order.kind.text());
+  return action != nullptr && std::any_of(action->begin(), action->end(), [](const ActionItem& item) {
+           return std::any_of(item.together.begin(), item.together.end(), [](const Directive& directive) {
+             return directive.kind == DirectiveKind::drive || directive.kind == DirectiveKind::relocalize;
+           });
+         });
 }
 
 Mood Executive::mood() const {

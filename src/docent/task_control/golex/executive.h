@@ -158,6 +158,8 @@ class Executive {
   [[nodiscard]] bool holds(Condition condition) const;
   /// What the present item consists of; nothing while no task runs.
   [[nodiscard]] const std::vector<Directive>& together() const;
+  /// The action leads the robot somewhere.
+  [[nodiscard]] bool has_drive() const;
   /// How the words of the present item sound.
   [[nodiscard]] Mood mood() const;
   /// The item's directive of this kind, while it is not over.

@@ -6,73 +6,12 @@
 #include <algorithm>
 
 #include "docent/base/files.h"
+#include "docent/interaction/speech/sentences.h"
 #include "docent/task_control/golex/checkpoint.h"
+#include "docent/task_control/golex/executive_fixture.h"
 
 namespace docent::task_control {
 namespace {
-
-ExecutiveTask visit(const std::string& id, bool has_more = true) {
-  return {{id, TaskKind::visit, "sputnik", {3, 4, Angle::degrees(90)}, "en", true, ""},
-          "Sputnik",
-          "It was the first satellite.",
-          has_more ? "It weighed 83 kilograms." : ""};
-}
-
-class ExecutiveTest : public testing::Test {
- protected:
-  ExecutiveTest() { collect(); }
-  void collect() {
-    auto actions = executive.take_actions();
-    if (actions.drive) drive = actions.drive;
-    if (actions.report) state = *actions.report;
-    said.insert(said.end(), actions.utterances.begin(), actions.utterances.end());
-    for (const LadderStep& step : actions.reactions) rungs.push_back(step.rung);
-    happenings.insert(happenings.end(), actions.happenings.begin(), actions.happenings.end());
-    if (actions.must_save) saved = executive.memory();
-  }
-  void start(const ExecutiveTask& task) {
-    executive.set_task(task, time());
-    collect();
-  }
-  /// What the planner says; a drive that goes on makes progress.
-  void goal(GoalStatus what) {
-    if (what != GoalStatus::blocked) progress_s = now_s;
-    executive.goal_report({drive->id, what, 1.0, now_s - progress_s, "", "none"}, time());
-    collect();
-  }
-  void speech(const std::string& id, SpeechStatus what, double duration_s = 3.0) {
-    executive.speech_report({id, what, time(), duration_s}, time());
-    collect();
-  }
-  void pass(double duration_s) {
-    for (const double end = now_s + duration_s; now_s < end;) {
-      now_s += 0.25;
-      executive.tick(time());
-      collect();
-    }
-  }
-  void restart() {
-    executive = Executive{{}, default_decomposition(), saved, time()};
-    said.clear();
-    drive.reset();
-    state = {};
-    collect();
-  }
-  [[nodiscard]] Time time() const { return time_from_seconds(now_s); }
-  [[nodiscard]] long count(const std::string& id) const {
-    return std::count_if(said.begin(), said.end(), [&](const Utterance& line) { return line.id == id; });
-  }
-
-  double now_s = 100.0;
-  double progress_s = 100.0;
-  Executive executive{{}, default_decomposition(), {}, time_from_seconds(100.0)};
-  std::optional<DriveOrder> drive;
-  TaskReport state;
-  ExecutiveMemory saved;
-  std::vector<Utterance> said;
-  std::vector<Happening> happenings;
-  std::vector<Rung> rungs;
-};
 
 TEST_F(ExecutiveTest, AVisitStepByStep) {
   EXPECT_EQ(drive->id, "") << "without a task it stays";
@@ -248,6 +187,24 @@ TEST_F(ExecutiveTest, HomeAndRelocalizing) {
   EXPECT_EQ(state.id, "");
 }
 
+TEST_F(ExecutiveTest, SaysFarewellWhereItStands) {
+  start({{"f", TaskKind::farewell, "", {3, 4, {}}, "de", false, "space"}, "", "", ""});
+  EXPECT_EQ(state.state, TaskStatus::explaining);
+  ASSERT_FALSE(said.empty());
+  EXPECT_EQ(said.back().id, "f/farewell");
+  EXPECT_EQ(said.back().text, interaction::sentence(interaction::Sentence::farewell, "de", Mood::happy, 0));
+  speech("f/farewell", SpeechStatus::speaking);
+  pass(2.0);
+  restart();
+  EXPECT_EQ(state.state, TaskStatus::explaining) << "it is said again under the same id: heard once";
+  speech("f/farewell", SpeechStatus::done);
+  EXPECT_EQ(state.state, TaskStatus::done);
+  now_s += 2000.0;
+  saved.phase = Phase::running;
+  restart();
+  EXPECT_EQ(state.state, TaskStatus::done) << "nobody is there any more";
+}
+
 TEST_F(ExecutiveTest, WhoIsLostAmidPeopleAsksForTheWayAndDoesNotGiveUp) {
   start({{"l", TaskKind::relocalize, "", {}, "en", false, ""}, "", "", ""});
   for (int i = 0; i < 120; ++i) {
@@ -365,80 +322,6 @@ TEST_F(ExecutiveTest, ADepartureIsLookedForwardToAndHeard) {
   EXPECT_EQ(arrived.music, false);
   EXPECT_EQ(arrived.report->look, "visitors");
   EXPECT_TRUE(arrived.horns.empty());
-}
-
-/// Of a museum's own action.
-class OwnAction : public ExecutiveTest {
- protected:
-  void begin(const std::string& text) {
-    auto read = parse_decomposition(text, "golex.yaml", default_decomposition());
-    ASSERT_TRUE(read) << read.error().message;
-    executive = Executive{{}, *read, {}, time()};
-    ExecutiveTask task = visit("o");
-    task.order.kind = Word<TaskKind>{std::string{"own"}};
-    start(task);
-  }
-};
-
-TEST_F(OwnAction, WhatStandsTogetherRunsTogetherAndEndsWithTheLast) {
-  begin("own:\n  - {say: {en: A story on the way.}, drive: place, wait: 4}\n  - say: {en: The end.}\n");
-  EXPECT_EQ(said.back().text, "A story on the way.");
-  EXPECT_EQ(state.state, TaskStatus::driving);
-  goal(GoalStatus::arrived);
-  EXPECT_EQ(state.state, TaskStatus::explaining) << "the story goes on";
-  speech("o/say", SpeechStatus::speaking);
-  speech("o/say", SpeechStatus::done);
-  EXPECT_EQ(said.back().text, "A story on the way.") << "the wait is not over";
-  pass(4.5);
-  EXPECT_EQ(said.back().text, "The end.");
-  EXPECT_EQ(said.back().id, "o/say-2");
-  speech("o/say-2", SpeechStatus::done);
-  EXPECT_EQ(state.state, TaskStatus::done);
-}
-
-TEST_F(OwnAction, ARestartRepeatsOnlyWhatIsNotOver) {
-  begin("own:\n  - {say: {en: A story.}, drive: place}\n");
-  speech("o/say", SpeechStatus::done);
-  const auto before = saved;
-  executive =
-      Executive{{},
-                *parse_decomposition("own:\n  - {say: {en: A story.}, drive: place}\n", "g", default_decomposition()),
-                before,
-                time()};
-  said.clear();
-  collect();
-  pass(2.0);
-  EXPECT_TRUE(said.empty());
-  EXPECT_EQ(drive->id, "o/drive");
-  goal(GoalStatus::arrived);
-  EXPECT_EQ(state.state, TaskStatus::done);
-}
-
-TEST_F(OwnAction, AnActionThatHoldsNothingUpIsDoneAtOnce) {
-  begin("own:\n  - look: way\n  - {music: stop, announce: {en: Hi!}}\n");
-  EXPECT_EQ(state.state, TaskStatus::done);
-  EXPECT_EQ(said.back().text, "Hi!");
-  begin("own: []\n");
-  EXPECT_EQ(state.state, TaskStatus::done);
-}
-
-TEST_F(OwnAction, TheDriveOfTheTaskBeforeIsOver) {
-  start(visit("t1"));
-  begin("own:\n  - wait: 3\n  - drive: place\n");
-  EXPECT_EQ(drive->id, "") << "it does not go on to the exhibit";
-  pass(3.5);
-  EXPECT_EQ(drive->id, "o/drive");
-}
-
-TEST_F(OwnAction, AFileThatWasChangedBeginsTheActionAnew) {
-  begin("own:\n  - wait: 3\n  - drive: place\n");
-  pass(3.5);
-  executive =
-      Executive{{}, *parse_decomposition("own:\n  - drive: place\n", "g", default_decomposition()), saved, time()};
-  collect();
-  EXPECT_EQ(state.state, TaskStatus::driving);
-  goal(GoalStatus::arrived);
-  EXPECT_EQ(state.state, TaskStatus::done);
 }
 
 }  // namespace

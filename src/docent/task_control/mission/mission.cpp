@@ -42,10 +42,13 @@ Mission::Mission(const MissionParams& params, Programme programme, TravelDistanc
       lost_since_{now},
       battery_{params.drain_per_s, params.charge_per_s},
       must_charge_{memory.must_charge} {
+  scheduler_.times().restore(memory.lessons);
   // The running visit goes on under its old task id, so that an executive that works on it is not disturbed.
   if (const auto& visit = scheduler_.state().visit) {
     activity_ = Activity::visit;
     if (task_.kind != TaskKind::visit || !is_same(task_.map_from_base, visit->map_from_base)) order_visit(now);
+  } else if (task_.kind == TaskKind::farewell && scheduler_.state().farewell) {
+    activity_ = Activity::farewell;
   } else if (task_.kind == TaskKind::home && is_same(task_.map_from_base, scheduler_.programme().home)) {
     activity_ = Activity::home;
   } else if (task_.kind == TaskKind::charge && is_same(task_.map_from_base, resting_place())) {
@@ -69,6 +72,7 @@ void Mission::report(const std::string& task_id, std::optional<TaskStatus> state
   if (task_id.empty() || task_id != task_.id) return;
   task_state_ = state;
   task_reason_ = reason;
+  if (state) learn(*state, now);
   const bool is_over = state == TaskStatus::done || state == TaskStatus::failed;
   if (activity_ == Activity::visit) {
     if (state == TaskStatus::explaining || state == TaskStatus::asking) scheduler_.close_visit();
@@ -76,6 +80,9 @@ void Mission::report(const std::string& task_id, std::optional<TaskStatus> state
       scheduler_.finish_visit(state == TaskStatus::done, reason, now);
       start_task(Activity::none, {});
     }
+  } else if (activity_ == Activity::farewell && is_over) {
+    scheduler_.finish_farewell(now);
+    start_task(Activity::none, {});
   } else if ((activity_ == Activity::home || activity_ == Activity::charge) && is_over) {
     const bool is_done = state == TaskStatus::done;
     const bool is_home = activity_ == Activity::home;
@@ -136,7 +143,7 @@ double Mission::spare(Time now) const {
   const double reserve = schedule.visit || schedule.tour ? kReserveOfBegun * params_.battery_low : params_.battery_low;
   const Programme& programme = scheduler_.programme();
   const Point2 place = programme.charger.value_or(programme.home).position();
-  const double way_s = scheduler_.way_duration(position(), place);
+  const double way_s = scheduler_.way_duration(position(), place, now);
   // Where no way is known, the reserve must do.
   return *charge - reserve - (std::isfinite(way_s) ? battery_.drain_per_s() * way_s : 0.0);
 }
@@ -188,6 +195,7 @@ Situation Mission::situation(Time now) const {
   seen.was_ever_localized = was_ever_localized_;
   seen.has_visit = schedule.visit.has_value();
   seen.has_tour = schedule.tour.has_value();
+  seen.has_farewell = schedule.farewell.has_value();
   seen.is_anything_due = scheduler_.is_anything_due(now);
   seen.has_charger = scheduler_.programme().charger.has_value();
   seen.must_charge = must_charge_;
@@ -251,14 +259,38 @@ void Mission::relocalize(Time /*now*/) {
 
 void Mission::order_visit(Time now) {
   const Visit& visit = *scheduler_.state().visit;
-  const bool offer_more = params_.offer_more && !scheduler_.is_in_a_hurry(now);
+  const bool offer_more = params_.schedule.offer_more && visit.asks && !scheduler_.is_in_a_hurry(now);
   start_task(Activity::visit,
              {"", TaskKind::visit, visit.exhibit_id, visit.map_from_base, visit.language, offer_more, visit.tour_id});
   is_resting_ = false;
   home_not_before_ = {};
+  if (!position_) return;  // nobody knows from where it sets out
+  watch_.set_out(place_at(scheduler_.programme(), *position_), place_name({visit.exhibit_id, visit.viewpoint}),
+                 scheduler_.way_length(*position_, visit.map_from_base.position()), now);
+}
+
+void Mission::say_farewell() {
+  const Farewell& farewell = *scheduler_.state().farewell;
+  const Point2 here = position();
+  start_task(Activity::farewell,
+             {"", TaskKind::farewell, "", {here.x, here.y, {}}, farewell.language, false, farewell.tour_id});
+  is_resting_ = false;
+}
+
+void Mission::learn(TaskStatus status, Time now) {
+  const VisitWatch::Seen seen = watch_.report(status, now);
+  if (seen.way) scheduler_.times().learn_way(seen.way->from, seen.way->to, seen.way->way_m, seen.way->seconds, now);
+  // Where the robot waits at each exhibit, the reports do not tell waiting from speaking.
+  if (!seen.visit || conditions_.mode == OperatingMode::web) return;
+  const ProgrammeExhibit* exhibit = scheduler_.programme().find_exhibit(task_.exhibit_id);
+  if (exhibit == nullptr) return;
+  const SpokenLength spoken = exhibit->length_in(task_.language);
+  const double known_s = spoken.short_s + (seen.visit->course == VisitCourse::heard_more ? spoken.long_s : 0.0);
+  scheduler_.times().learn_visit(seen.visit->course, seen.visit->seconds - known_s);
 }
 
 void Mission::start_task(Activity activity, TaskOrder order) {
+  watch_.forget();
   activity_ = activity;
   task_ = std::move(order);
   if (activity != Activity::none) task_.id = deployment_ + "-" + std::to_string(next_task_++);
@@ -299,6 +331,11 @@ MissionSummary Mission::summary(Time now) {
                       : task_state_ == TaskStatus::asking   ? MissionPhase::asking
                                                             : MissionPhase::driving;
       break;
+    case Activity::farewell:
+      summary.phase = MissionPhase::explaining;
+      summary.exhibit_id.clear();
+      summary.says_farewell = true;
+      break;
     case Activity::home:
     case Activity::charge:
       summary.phase = MissionPhase::going_home;
@@ -316,6 +353,13 @@ MissionSummary Mission::summary(Time now) {
   return summary;
 }
 
-MissionMemory Mission::memory() const { return {scheduler_.state(), deployment_, next_task_, task_, must_charge_}; }
+MissionMemory Mission::memory() const {
+  return {scheduler_.state(), deployment_, next_task_, task_, must_charge_, scheduler_.times().unstored()};
+}
+
+void Mission::mark_stored() {
+  scheduler_.board().mark_stored();
+  scheduler_.times().mark_stored();
+}
 
 }  // namespace docent::task_control

@@ -10,6 +10,7 @@
 #include "docent/task_control/mission/planner.h"
 #include "docent/task_control/tour_scheduler/task_order.h"
 #include "docent/task_control/tour_scheduler/tour_scheduler.h"
+#include "docent/task_control/travel_times/visit_watch.h"
 
 namespace docent::task_control {
 
@@ -29,7 +30,6 @@ struct MissionParams {
   double battery_gain = 0.25;
   double drain_per_s = 1.4e-4;   ///< [1/s] > 0 share of a full battery: two hours of driving; more is measured
   double charge_per_s = 2.2e-4;  ///< [1/s] > 0 likewise: 75 minutes; measured while it charges
-  bool offer_more = true;        ///< ask at each exhibit, unless others wait for long: more, or next?
   template <class V>
   void visit(V& v) {
     schedule.visit(v);
@@ -44,7 +44,6 @@ struct MissionParams {
     v("battery_gain", battery_gain);
     v("drain_per_s", drain_per_s);
     v("charge_per_s", charge_per_s);
-    v("offer_more", offer_more);
   }
   [[nodiscard]] Result<void> validate() const;
 };
@@ -56,6 +55,8 @@ struct MissionMemory {
   std::uint64_t next_task = 1;  ///< number of the next task
   TaskOrder task;               ///< the present one
   bool must_charge = false;     ///< the battery is too low to go on
+  /// Of travel times: all when it begins, then what was learned since it was stored.
+  std::vector<LessonRow> lessons{};
 };
 
 /// What the robot is about.
@@ -63,10 +64,11 @@ struct MissionSummary {
   MissionPhase phase = MissionPhase::waking;
   std::string tour_id;
   std::string exhibit_id;
-  bool is_blocked = false;    ///< people are in the way
-  bool is_charging = false;   ///< or on its way to the charger
-  bool needs_charge = false;  ///< it must, before it goes on
-  int charging_min = 0;       ///< [min] until it is charged well enough, in steps of five
+  bool is_blocked = false;     ///< people are in the way
+  bool is_charging = false;    ///< or on its way to the charger
+  bool needs_charge = false;   ///< it must, before it goes on
+  bool says_farewell = false;  ///< at the end of a tour
+  int charging_min = 0;        ///< [min] until it is charged well enough, in steps of five
   Counters counters;
   std::vector<std::string> agenda;
 };
@@ -88,6 +90,8 @@ class Mission {
   /// @param position  best guess [m], map
   void localization(bool is_localized, Point2 position, Time now);
   void limits(bool is_open, std::optional<OperatingMode> mode);
+  /// @param hour  of the day, 0..23: travel times depend on it
+  void time_of_day(int hour) { scheduler_.times().set_hour(hour); }
   /// @param charge  0..1. @param is_charging  nullopt: the battery does not say
   void battery(double charge, std::optional<bool> is_charging, Time now);
   [[nodiscard]] bool is_battery_silent(Time now) const { return battery_.is_silent(now); }
@@ -98,6 +102,8 @@ class Mission {
   [[nodiscard]] MissionSummary summary(Time now);
   [[nodiscard]] MissionMemory memory() const;
   [[nodiscard]] TourScheduler& scheduler() { return scheduler_; }
+  /// What `memory` held is stored.
+  void mark_stored();
   [[nodiscard]] std::vector<Happening> take_happenings() { return scheduler_.take_happenings(); }
 
   // For planners: what they see, and the primitive actions that they choose from.
@@ -107,6 +113,8 @@ class Mission {
   [[nodiscard]] bool begin_visit(Time now);
   /// Gives the visit under way to the executive, once more after it was suspended.
   void order_visit(Time now);
+  /// Says farewell where a tour has ended. @pre situation().has_farewell
+  void say_farewell();
   /// Ends the visit and the tour under way for want of charge, with a word to the visitors; their requests wait.
   void break_off_to_charge(Time now);
   /// Drives to its charger, or stays there.
@@ -121,6 +129,8 @@ class Mission {
 
  private:
   void decide(Time now);
+  /// Times the drive and the visit of the present task.
+  void learn(TaskStatus status, Time now);
   void start_task(Activity activity, TaskOrder order);
   [[nodiscard]] bool may_interrupt() const;
   [[nodiscard]] bool is_lost(Time now) const;
@@ -140,6 +150,7 @@ class Mission {
   MissionParams params_;
   TourScheduler scheduler_;
   std::unique_ptr<Planner> planner_;
+  VisitWatch watch_;
   std::string deployment_;
   std::uint64_t next_task_;
   TaskOrder task_;

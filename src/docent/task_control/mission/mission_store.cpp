@@ -11,7 +11,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-// closed_rank: 0 while open; then counts up in the order of closing.
+// closed_rank: 0 while open; then counts up in the order of closing. travel_times came later: a file of before gets it
+// when it is opened, empty.
 constexpr const char* kSchema = R"(
   CREATE TABLE IF NOT EXISTS requests (
     arrival INTEGER PRIMARY KEY AUTOINCREMENT, id TEXT NOT NULL UNIQUE, stamp INTEGER NOT NULL, source TEXT NOT NULL,
@@ -20,6 +21,9 @@ constexpr const char* kSchema = R"(
     changed INTEGER NOT NULL, attempts INTEGER NOT NULL, not_before INTEGER NOT NULL, closed_rank INTEGER NOT NULL);
   CREATE INDEX IF NOT EXISTS requests_by_rank ON requests (closed_rank);
   CREATE TABLE IF NOT EXISTS facts (key TEXT PRIMARY KEY, value TEXT NOT NULL);
+  CREATE TABLE IF NOT EXISTS travel_times (
+    kind TEXT NOT NULL, from_place TEXT NOT NULL, to_place TEXT NOT NULL, count REAL NOT NULL, sum REAL NOT NULL,
+    squares REAL NOT NULL, reference REAL NOT NULL, PRIMARY KEY (kind, from_place, to_place));
 )";
 constexpr std::uint64_t kTasksAfterALoss = 1000000;
 constexpr const char* kColumns =
@@ -53,6 +57,7 @@ Json plan_of(const MissionMemory& memory) {
                      {"language", visit->language},
                      {"tour", visit->tour_id},
                      {"is_joinable", visit->is_joinable},
+                     {"asks", visit->asks},
                      {"started", visit->started.nanoseconds}};
   }
   if (const auto& tour = memory.schedule.tour) {
@@ -68,7 +73,12 @@ Json plan_of(const MissionMemory& memory) {
                     {"members", members},
                     {"just_inserted", tour->just_inserted},
                     {"target_s", tour->target_s},
-                    {"started", tour->started.nanoseconds}};
+                    {"started", tour->started.nanoseconds},
+                    {"asks", tour->asks}};
+  }
+  if (const auto& farewell = memory.schedule.farewell) {
+    plan["farewell"] = {
+        {"tour", farewell->tour_id}, {"language", farewell->language}, {"started", farewell->started.nanoseconds}};
   }
   return plan;
 }
@@ -94,7 +104,8 @@ void read_plan(const Json& plan, MissionMemory& memory, std::uint64_t& revision)
                                   visit.at("language").get<std::string>(),
                                   visit.at("tour").get<std::string>(),
                                   visit.at("is_joinable").get<bool>(),
-                                  {visit.at("started").get<std::int64_t>()}};
+                                  {visit.at("started").get<std::int64_t>()},
+                                  visit.value("asks", true)};
   }
   if (plan.contains("tour")) {
     const Json& tour = plan.at("tour");
@@ -111,7 +122,14 @@ void read_plan(const Json& plan, MissionMemory& memory, std::uint64_t& revision)
     }
     for (const Json& member : tour.at("members"))
       run.members.push_back({member.at(0).get<std::string>(), member.at(1).get<std::vector<int>>()});
+    run.asks = tour.value("asks", true);
     memory.schedule.tour = std::move(run);
+  }
+  if (plan.contains("farewell")) {
+    const Json& farewell = plan.at("farewell");
+    memory.schedule.farewell = Farewell{farewell.at("tour").get<std::string>(),
+                                        farewell.at("language").get<std::string>(),
+                                        {farewell.at("started").get<std::int64_t>()}};
   }
 }
 
@@ -156,6 +174,8 @@ struct MissionStore::Connection {
     insert.bind(2, value);
     insert.exec();
   }
+  void put(const LessonRow& row);
+  [[nodiscard]] std::vector<LessonRow> lessons();
   void put(const BoardEntry& entry) {
     SQLite::Statement insert{
         database,
@@ -183,6 +203,33 @@ struct MissionStore::Connection {
     insert.exec();
   }
 };
+
+void MissionStore::Connection::put(const LessonRow& row) {
+  SQLite::Statement insert{database, "INSERT OR REPLACE INTO travel_times VALUES (?, ?, ?, ?, ?, ?, ?)"};
+  insert.bind(1, to_text(row.key.kind));
+  insert.bind(2, row.key.from);
+  insert.bind(3, row.key.to);
+  insert.bind(4, row.lesson.count);
+  insert.bind(5, row.lesson.sum);
+  insert.bind(6, row.lesson.squares);
+  insert.bind(7, row.lesson.reference);
+  insert.exec();
+}
+
+std::vector<LessonRow> MissionStore::Connection::lessons() {
+  std::vector<LessonRow> rows;
+  SQLite::Statement query{database,
+                          "SELECT kind, from_place, to_place, count, sum, squares, reference FROM travel_times ORDER "
+                          "BY kind, from_place, to_place"};
+  while (query.executeStep()) {
+    const auto kind = lesson_kind_of(query.getColumn(0).getString());
+    if (!kind) continue;  // of a newer program
+    rows.push_back({{*kind, query.getColumn(1).getString(), query.getColumn(2).getString()},
+                    {query.getColumn(3).getDouble(), query.getColumn(4).getDouble(), query.getColumn(5).getDouble(),
+                     query.getColumn(6).getDouble()}});
+  }
+  return rows;
+}
 
 MissionStore::MissionStore(std::unique_ptr<Connection> connection) : connection_{std::move(connection)} {}
 MissionStore::MissionStore(MissionStore&&) noexcept = default;
@@ -247,6 +294,7 @@ Result<MissionMemory> MissionStore::load() {
       memory.next_task = kTasksAfterALoss;  // ids that were given before must not come again
     }
     connection_->saved_plan = plan;
+    memory.lessons = connection_->lessons();
     std::vector<BoardEntry> entries;
     const std::string columns = kColumns;
     SQLite::Statement open{connection_->database,
@@ -269,11 +317,12 @@ Result<void> MissionStore::save(const MissionMemory& memory) {
   try {
     std::string plan = plan_of(memory).dump();
     const auto& unstored = memory.schedule.board.unstored();
-    if (unstored.empty() && plan == connection_->saved_plan) return {};
+    if (unstored.empty() && memory.lessons.empty() && plan == connection_->saved_plan) return {};
     SQLite::Transaction transaction{connection_->database};
     for (const BoardEntry& entry : memory.schedule.board.entries()) {  // in this order: arrival and closing keep it
       if (unstored.contains(entry.request.id)) connection_->put(entry);
     }
+    for (const LessonRow& row : memory.lessons) connection_->put(row);
     connection_->set_fact("plan", plan);
     transaction.commit();
     connection_->saved_plan = std::move(plan);

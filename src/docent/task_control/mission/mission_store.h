@@ -26,10 +26,11 @@ class MissionStore {
   /// Where the damaged file went; empty: it was sound.
   [[nodiscard]] const std::string& set_aside() const;
 
-  /// All open requests, the last closed ones, and the plan. A plan that cannot be read is left out.
+  /// All open requests, the last closed ones, the plan, and all that was learned of travel times. A plan that cannot be
+  /// read is left out.
   [[nodiscard]] Result<MissionMemory> load();
-  /// Writes what changed since the last save: the board's unstored entries and the plan. Nothing changed: no write.
-  /// The caller marks the board as stored when this succeeds.
+  /// Writes what changed since the last save: the board's unstored entries, the lessons and the plan. Nothing changed:
+  /// no write. The caller marks board and travel times as stored when this succeeds.
   [[nodiscard]] Result<void> save(const MissionMemory& memory);
   /// A request by its id, however long ago it was closed.
   [[nodiscard]] Result<std::optional<BoardEntry>> find(const std::string& id);

@@ -1,5 +1,6 @@
 #include "docent/task_control/mission/mission_store.h"
 
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -39,6 +40,10 @@ MissionMemory full_memory() {
   memory.schedule.tour->stops = {{"a", StopStatus::explained, 1, 0}, {"b", StopStatus::pending, 2, 5}};
   memory.must_charge = true;
   memory.schedule.counters = {4, 5, 6};
+  memory.schedule.visit->asks = false;
+  memory.schedule.farewell = Farewell{"space", "de", {55}};
+  memory.lessons = {{{LessonKind::pair, "a", "b/2"}, {3.0, 61.5, 1300.0, 7.25}},
+                    {{LessonKind::crowd}, {1.5, 2.5, 0.0, 99.0}}};
   return memory;
 }
 
@@ -75,6 +80,14 @@ TEST_F(Store, GivesBackWhatWasSaved) {
   EXPECT_EQ(loaded->schedule.tour->members[0].request_id, "c");
   EXPECT_EQ(loaded->schedule.tour->members[0].stops, (std::vector<int>{0, 5}));
   EXPECT_TRUE(loaded->must_charge);
+  EXPECT_FALSE(loaded->schedule.visit->asks);
+  ASSERT_TRUE(loaded->schedule.farewell);
+  EXPECT_EQ(loaded->schedule.farewell->tour_id, "space");
+  EXPECT_EQ(loaded->schedule.farewell->started, Time{55});
+  ASSERT_EQ(loaded->lessons.size(), 2U);
+  const LessonRow& pair = loaded->lessons.back();
+  EXPECT_EQ(pair.key, (LessonKey{LessonKind::pair, "a", "b/2"}));
+  EXPECT_EQ(pair.lesson, (Lesson{3.0, 61.5, 1300.0, 7.25}));
   EXPECT_EQ(loaded->schedule.counters.requests_served, 6U);
   const auto& entries = loaded->schedule.board.entries();
   ASSERT_EQ(entries.size(), 3U);
@@ -87,6 +100,31 @@ TEST_F(Store, GivesBackWhatWasSaved) {
   EXPECT_EQ(entries[1].changed, Time{4});
   EXPECT_EQ(entries[2].reason, "closed");
   EXPECT_EQ(loaded->schedule.board.revision(), board.revision());
+}
+
+TEST_F(Store, LearnsOnInAFileOfBefore) {
+  {
+    MissionStore store = open();
+    MissionMemory memory = full_memory();
+    memory.lessons.clear();
+    ASSERT_TRUE(store.save(memory));
+    SQLite::Database before{path().string(), SQLite::OPEN_READWRITE};
+    before.exec("DROP TABLE travel_times");  // as a program without it wrote it
+  }
+  MissionStore store = open();
+  EXPECT_TRUE(store.set_aside().empty());
+  MissionMemory memory = store.load().value();
+  EXPECT_EQ(memory.next_task, 17U);
+  EXPECT_TRUE(memory.lessons.empty());
+  for (const double sum : {10.0, 25.0}) {
+    memory.lessons = {{{LessonKind::pair, "a", "b"}, {1.0, sum, 0.0, 0.0}}};
+    ASSERT_TRUE(store.save(memory));
+  }
+  memory.lessons.clear();
+  ASSERT_TRUE(store.save(memory));
+  const auto lessons = store.load()->lessons;
+  ASSERT_EQ(lessons.size(), 1U) << "a lesson replaces the one before";
+  EXPECT_EQ(lessons.front().lesson.sum, 25.0);
 }
 
 TEST_F(Store, RemembersOldRequestsForEver) {

@@ -4,59 +4,10 @@
 
 #include <algorithm>
 
-#include "docent/task_control/plan_controller/plan_controller.h"
+#include "docent/task_control/mission/mission_fixture.h"
 
 namespace docent::task_control {
 namespace {
-
-Programme small_programme() {
-  Programme programme;
-  programme.languages = {"en"};
-  programme.exhibits = {{"a", {5, 0, {}}, {}, 20.0, false}, {"b", {10, 0, {}}, {}, 20.0, false}};
-  programme.tours = {{"both", {"a", "b"}, 0.0}};
-  programme.home = {0, 0, {}};
-  programme.charger = Pose2{0, 3, {}};
-  return programme;
-}
-
-class MissionTest : public testing::Test {
- protected:
-  MissionTest() { make({}); }
-  void make(MissionMemory memory) {
-    memory.deployment = "dep";
-    mission = std::make_unique<Mission>(MissionParams{}, programme, straight_distance(), std::move(memory),
-                                        std::make_unique<PlanController>(), time());
-  }
-  [[nodiscard]] Time time() const { return time_from_seconds(now_s); }
-  /// Passes time with ticks; the robot stays where it is.
-  void pass(double duration_s, bool is_localized = true) {
-    for (const double end = now_s + duration_s; now_s < end; now_s += 0.5) {
-      mission->localization(is_localized, robot, time());
-      mission->tick(time());
-    }
-  }
-  void wish(const std::string& id, RequestKind kind, const std::string& target) {
-    mission->submit({id, {}, RequestSource::web, "", kind, target, -1, "en"}, time());
-  }
-  void battery(double charge, std::optional<bool> is_charging = false) {
-    mission->battery(charge, is_charging, time());
-  }
-  [[nodiscard]] RequestStatus status_of(const std::string& id) const {
-    return mission->memory().schedule.board.find(id)->status;
-  }
-  void report(TaskStatus state) { mission->report(mission->task().id, state, "", time()); }
-  [[nodiscard]] MissionPhase phase() const { return mission->summary(time()).phase; }
-  bool happened(EventKind kind) {
-    for (auto& happening : mission->take_happenings()) seen.push_back(happening.kind);
-    return std::find(seen.begin(), seen.end(), kind) != seen.end();
-  }
-
-  Programme programme = small_programme();
-  double now_s = 0.0;
-  Point2 robot{0, 0};
-  std::unique_ptr<Mission> mission;
-  std::vector<EventKind> seen;
-};
 
 TEST_F(MissionTest, WakesUpFindsItselfAndStaysAtHome) {
   pass(1.0, false);
@@ -230,143 +181,6 @@ TEST_F(MissionTest, DoesNotStayAtHomeWhenTheBatteryGotLowOnTheWayThere) {
   EXPECT_EQ(mission->task().kind, TaskKind::charge);
 }
 
-TEST_F(MissionTest, LeavesHomeWhenTheBatteryGetsLowThere) {
-  pass(5.0);
-  EXPECT_EQ(phase(), MissionPhase::idle);
-  battery(0.14);
-  pass(2.0);
-  EXPECT_EQ(mission->task().kind, TaskKind::charge);
-}
-
-TEST_F(MissionTest, LeavesInTimeForTheWay) {
-  pass(5.0);
-  robot = {700, 3};  // 2000 s at 0.35 m/s: 0.28 of the charge
-  battery(0.44);
-  pass(1.0);
-  EXPECT_NE(mission->task().map_from_base.y, 0.0);
-  battery(0.42);
-  EXPECT_TRUE(mission->memory().must_charge);
-}
-
-TEST_F(MissionTest, ABatteryThatDrainsFasterThanForeseenCallsItEarlier) {
-  pass(5.0);
-  robot = {300, 3};  // 857 s
-  for (double charge = 0.5; charge > 0.45; charge -= 0.01) {
-    battery(charge);
-    pass(20.0);
-  }
-  EXPECT_TRUE(mission->memory().must_charge) << "5e-4 1/s: the way takes 0.43";
-}
-
-TEST_F(MissionTest, BreaksOffATourBetweenTwoExplanationsWithAWord) {
-  pass(5.0);
-  wish("t", RequestKind::tour, "both");
-  report(TaskStatus::explaining);
-  battery(0.05);
-  EXPECT_EQ(phase(), MissionPhase::explaining) << "the sentence is finished";
-  report(TaskStatus::done);
-  EXPECT_EQ(mission->task().kind, TaskKind::charge);
-  EXPECT_EQ(mission->task().tour_id, "both") << "this is said";
-  EXPECT_EQ(status_of("t"), RequestStatus::queued);
-  EXPECT_TRUE(happened(EventKind::tour_broken_off));
-  battery(0.45, true);
-  EXPECT_EQ(mission->task().tour_id, "both") << "it begins anew";
-  EXPECT_EQ(mission->task().exhibit_id, "a");
-  battery(0.05);
-  EXPECT_EQ(mission->task().kind, TaskKind::charge) << "under way to an exhibit it turns round at once";
-  EXPECT_EQ(mission->task().exhibit_id, "a");
-  EXPECT_EQ(mission->memory().schedule.counters.tours_completed, 0U);
-}
-
-TEST_F(MissionTest, BeginsNoTourThatWouldTakeMoreThanThereIs) {
-  pass(5.0);
-  battery(0.16);
-  EXPECT_FALSE(mission->memory().must_charge);
-  wish("t", RequestKind::tour, "both");
-  EXPECT_EQ(mission->task().kind, TaskKind::charge);
-  EXPECT_EQ(status_of("t"), RequestStatus::queued);
-  battery(0.41, true);
-  EXPECT_EQ(mission->task().tour_id, "both");
-}
-
-TEST_F(MissionTest, ChargesBeforeItMustWhenNobodyWantsAnything) {
-  pass(5.0);
-  battery(0.75);
-  pass(1.0);
-  EXPECT_EQ(phase(), MissionPhase::idle);
-  battery(0.65);
-  EXPECT_EQ(mission->task().kind, TaskKind::charge);
-  report(TaskStatus::done);
-  robot = {0, 3};
-  battery(0.66, true);
-  EXPECT_EQ(phase(), MissionPhase::charging);
-  wish("1", RequestKind::exhibit, "a");
-  EXPECT_EQ(phase(), MissionPhase::driving) << "it leaves at once";
-  battery(0.66);
-  report(TaskStatus::done);
-  EXPECT_EQ(mission->task().kind, TaskKind::charge) << "and comes back";
-  report(TaskStatus::done);
-  battery(0.96, true);
-  pass(15.0);
-  EXPECT_EQ(mission->task().kind, TaskKind::home);
-}
-
-TEST_F(MissionTest, TriesAgainWhenTheChargerDoesNotCharge) {
-  pass(5.0);
-  battery(0.1);
-  const std::string first = mission->task().id;
-  EXPECT_EQ(mission->task().kind, TaskKind::charge);
-  report(TaskStatus::done);
-  robot = {0, 3};
-  battery(0.1, false);
-  pass(5.0);
-  EXPECT_EQ(mission->task().id, "") << "contacts take a moment";
-  pass(6.0);
-  EXPECT_EQ(mission->task().kind, TaskKind::charge);
-  EXPECT_NE(mission->task().id, first);
-  report(TaskStatus::failed);
-  pass(20.0);
-  EXPECT_EQ(mission->task().id, "") << "people stand on it";
-  pass(15.0);
-  EXPECT_EQ(mission->task().kind, TaskKind::charge);
-  report(TaskStatus::done);
-  battery(0.1, std::nullopt);
-  pass(60.0);
-  EXPECT_EQ(phase(), MissionPhase::charging) << "the battery does not say: the place counts";
-}
-
-TEST_F(MissionTest, AMuseumWithoutAChargerLetsItRestAtHome) {
-  programme.charger.reset();
-  make({});
-  pass(5.0);
-  wish("1", RequestKind::exhibit, "a");
-  battery(0.05);
-  EXPECT_EQ(mission->task().kind, Word<TaskKind>{}) << "home is where it stands";
-  EXPECT_EQ(status_of("1"), RequestStatus::queued);
-  pass(60.0);
-  battery(1.0);  // somebody changed the battery
-  EXPECT_EQ(mission->task().kind, TaskKind::visit);
-}
-
-TEST_F(MissionTest, ARestartGoesOnCharging) {
-  pass(5.0);
-  battery(0.1);
-  const std::string task = mission->task().id;
-  MissionMemory memory = mission->memory();
-  make(memory);
-  EXPECT_EQ(mission->task().id, task) << "the way to the charger goes on";
-  report(TaskStatus::done);
-  robot = {0, 3};
-  battery(0.3, true);
-  memory = mission->memory();
-  make(memory);
-  wish("1", RequestKind::exhibit, "a");
-  battery(0.3, true);
-  pass(5.0);
-  EXPECT_EQ(phase(), MissionPhase::charging);
-  EXPECT_EQ(status_of("1"), RequestStatus::queued);
-}
-
 TEST_F(MissionTest, ASilentBatteryIsThoughtToGoOnAsItDid) {
   pass(5.0);
   battery(0.3);
@@ -400,6 +214,53 @@ TEST(MissionParamsTest, RefusesNonsenseByName) {
   params = {};
   params.schedule.overdue_s = -1.0;
   EXPECT_NE(params.validate().error().message.find("overdue_s"), std::string::npos);
+}
+
+TEST_F(MissionTest, EndsATourWithAFarewell) {
+  pass(5.0);
+  wish("t", RequestKind::tour, "both");
+  for (const char* exhibit : {"a", "b"}) {
+    ASSERT_EQ(mission->task().exhibit_id, exhibit);
+    report(TaskStatus::explaining);
+    pass(20.0);
+    report(TaskStatus::done);
+  }
+  EXPECT_EQ(status_of("t"), RequestStatus::fulfilled);
+  EXPECT_EQ(mission->task().kind, TaskKind::farewell);
+  EXPECT_TRUE(mission->summary(time()).says_farewell);
+  wish("next", RequestKind::exhibit, "a");
+  pass(2.0, false);
+  make(mission->memory());
+  EXPECT_EQ(mission->task().kind, TaskKind::farewell) << "a wish, a doubt and a restart do not cut it off";
+  pass(2.0);
+  report(TaskStatus::done);
+  EXPECT_TRUE(happened(EventKind::farewell));
+  pass(2.0);
+  EXPECT_EQ(mission->task().exhibit_id, "a");
+}
+
+TEST_F(MissionTest, LearnsHowLongWaysAndVisitsTake) {
+  pass(5.0);
+  for (const char* id : {"1", "2"}) {
+    robot = {0, 0};
+    pass(1.0);
+    wish(id, RequestKind::exhibit, "a");
+    pass(40.0);  // for five metres
+    robot = {5, 0};
+    report(TaskStatus::explaining);
+    pass(20.0);
+    report(TaskStatus::done);
+    report(TaskStatus::done);  // it is home again
+  }
+  const auto table = travel_table(mission->scheduler().times().rows());
+  ASSERT_EQ(table.size(), 1U);
+  EXPECT_EQ(table.front().from, "home");
+  EXPECT_EQ(table.front().to, "a");
+  EXPECT_EQ(table.front().examples, 2);
+  EXPECT_NEAR(table.front().mean_s, 40.0, 0.6);
+  EXPECT_FALSE(mission->memory().lessons.empty());
+  mission->mark_stored();
+  EXPECT_TRUE(mission->memory().lessons.empty());
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace docent::task_control {
 class Mission;
 
 /// What the robot is doing.
-enum class Activity { none, visit, home, charge, relocalize };
+enum class Activity { none, visit, farewell, home, charge, relocalize };
 
 /// What a planner sees when it decides.
 struct Situation {
@@ -19,6 +19,7 @@ struct Situation {
   bool was_ever_localized = false;  ///< since it woke up
   bool has_visit = false;           ///< one is under way or suspended
   bool has_tour = false;            ///< likewise
+  bool has_farewell = false;        ///< a tour has ended: its visitors wait for a last word
   bool is_anything_due = false;     ///< somebody waits whose turn it may be
   bool has_charger = false;
   bool must_charge = false;  ///< before it goes on

@@ -26,7 +26,8 @@ Round rest(Mission& mission, const Situation& seen, Time now) {
 }
 
 Round look_for_its_place(Mission& mission, const Situation& seen, Time now) {
-  const bool stands_and_talks = seen.activity == Activity::visit && !seen.may_interrupt;  // first things first
+  const bool stands_and_talks =  // first things first
+      seen.activity == Activity::farewell || (seen.activity == Activity::visit && !seen.may_interrupt);
   if (seen.is_lost && seen.activity != Activity::relocalize && !stands_and_talks) mission.relocalize(now);
   return Round::is_over;
 }
@@ -58,6 +59,8 @@ constexpr std::array kRoutines{
     Routine{"found",
             [](const Situation& seen) { return seen.activity == Activity::relocalize || !seen.was_ever_localized; },
             resume},
+    Routine{"farewell under way", [](const Situation& seen) { return seen.activity == Activity::farewell; },
+            [](Mission&, const Situation&, Time) { return Round::is_over; }},
     Routine{"battery low",
             [](const Situation& seen) {
               const bool may_end = seen.activity != Activity::visit || seen.may_interrupt;
@@ -67,6 +70,11 @@ constexpr std::array kRoutines{
     Routine{"visit under way", [](const Situation& seen) { return seen.activity == Activity::visit; },
             [](Mission&, const Situation&, Time) { return Round::is_over; }},
     Routine{"next visit", [](const Situation& seen) { return seen.may_serve; }, next_visit},
+    Routine{"farewell", [](const Situation& seen) { return seen.has_farewell; },
+            [](Mission& mission, const Situation&, Time) {
+              mission.say_farewell();
+              return Round::is_over;
+            }},
     Routine{"charge first", [](const Situation& seen) { return !seen.must_charge && seen.is_anything_due; },
             charge_first},
     Routine{"rest", [](const Situation&) { return true; }, rest},

@@ -13,6 +13,7 @@ namespace docent::task_control {
 ///   battery low      breaks off what would take more charge than there is, between two explanations
 ///   visit under way  lets it go on
 ///   next visit       the scheduler's choice, made anew after each explanation and each new request
+///   farewell         the last word of a tour that has ended
 ///   charge first     what comes next would take too much
 ///   rest             charges when that is worth while, else goes home
 class PlanController final : public Planner {

@@ -15,13 +15,36 @@ const ProgrammeTour* Programme::find_tour(const std::string& id) const {
   return place == tours.end() ? nullptr : &*place;
 }
 
+SpokenLength ProgrammeExhibit::length_in(const std::string& language) const {
+  const auto place = spoken.find(language);
+  return place == spoken.end() ? SpokenLength{speech_s, long_s} : place->second;
+}
+
+std::string place_name(const WishedStop& stop) {
+  return stop.viewpoint < 0 ? stop.exhibit_id : stop.exhibit_id + "/" + std::to_string(stop.viewpoint);
+}
+
+std::string place_at(const Programme& programme, Point2 position) {
+  std::string name;
+  double nearest = kAtPlace;
+  const auto try_place = [&](const Pose2& pose, const std::string& of_place) {
+    const double off = distance(position, pose.position());
+    if (off >= nearest) return;
+    nearest = off;
+    name = of_place;
+  };
+  for (const ProgrammeExhibit& exhibit : programme.exhibits) {
+    for (int viewpoint = -1; viewpoint < static_cast<int>(exhibit.viewpoints.size()); ++viewpoint)
+      try_place(exhibit.place(viewpoint), place_name({exhibit.id, viewpoint}));
+  }
+  try_place(programme.home, "home");
+  if (programme.charger) try_place(*programme.charger, "charger");
+  return name;
+}
+
 bool is_same(const Pose2& a, const Pose2& b) {
   constexpr double kRounding = 1e-6;
   return distance(a.position(), b.position()) < kRounding && std::abs((a.theta - b.theta).radians()) < kRounding;
-}
-
-TravelDistance straight_distance() {
-  return [](Point2 from, Point2 to) { return distance(from, to); };
 }
 
 }  // namespace docent::task_control

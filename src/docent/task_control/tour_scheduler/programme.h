@@ -1,15 +1,22 @@
 #pragma once
 
-#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "docent/base/time.h"
 #include "docent/geometry/pose2.h"
+#include "docent/task_control/travel_times/travel_distance.h"
 #include "docent/vocabulary/vocabulary.h"
 
 namespace docent::task_control {
+
+/// How long the texts of an exhibit last when they are spoken.
+struct SpokenLength {
+  double short_s = 0.0;  ///< [s] title and short text
+  double long_s = 0.0;   ///< [s] 0: there is no long text
+};
 
 /// What the scheduler must know of an exhibit.
 struct ProgrammeExhibit {
@@ -18,12 +25,15 @@ struct ProgrammeExhibit {
   std::vector<Pose2> viewpoints;  ///< other places to show it from; Web visitors may choose one
   double speech_s = 15.0;         ///< [s] title and short text, spoken
   bool web_only = false;
-  std::vector<std::string> next{};  ///< exhibits that make sense right after this one (sensible_next)
+  std::vector<std::string> next{};               ///< exhibits that make sense right after this one (sensible_next)
+  double long_s = 0.0;                           ///< [s] the long text, spoken; 0: there is none
+  std::map<std::string, SpokenLength> spoken{};  ///< by language; speech_s and long_s for those that are not there
 
   /// Where to stand for the viewpoint of this number; -1: for the exhibit's own place.
   [[nodiscard]] const Pose2& place(int viewpoint) const {
     return viewpoint < 0 ? pose : viewpoints.at(static_cast<std::size_t>(viewpoint));
   }
+  [[nodiscard]] SpokenLength length_in(const std::string& language) const;
 };
 
 /// What the scheduler must know of a tour.
@@ -40,6 +50,7 @@ struct Programme {
   std::vector<std::string> languages{"en"};  ///< the first is the museum's own
   Pose2 home;
   std::optional<Pose2> charger;
+  double farewell_s = 4.0;  ///< [s] what is said at the end of a tour
 
   [[nodiscard]] const ProgrammeExhibit* find_exhibit(const std::string& id) const;
   [[nodiscard]] const ProgrammeTour* find_tour(const std::string& id) const;
@@ -52,14 +63,15 @@ struct WishedStop {
   friend bool operator==(const WishedStop&, const WishedStop&) = default;
 };
 
+/// The name of a stop among places: the exhibit's id, with /NUMBER behind it for one of its viewpoints.
+[[nodiscard]] std::string place_name(const WishedStop& stop);
+/// The name of the nearest place where the robot stands, `kAtPlace` m around: of a stop, "home" or "charger"; empty: it
+/// is at none. O(places).
+[[nodiscard]] std::string place_at(const Programme& programme, Point2 position);
+inline constexpr double kAtPlace = 0.7;  ///< [m] as near as a robot counts as at home
+
 /// The same pose but for rounding.
 [[nodiscard]] bool is_same(const Pose2& a, const Pose2& b);
-
-/// Length [m] of the way between two points of the map; +infinity where there is none.
-using TravelDistance = std::function<double(Point2 from, Point2 to)>;
-
-/// As the crow flies.
-[[nodiscard]] TravelDistance straight_distance();
 
 /// Something that happened, for the history (docs/terminology.md, Events).
 struct Happening {

@@ -86,7 +86,15 @@ std::size_t RequestBoard::stops_with(const VisitorRequest& request) const {
     const VisitorRequest& other = entry.request;
     if (is_open(entry.status)) stops.emplace(other.kind, other.target, other.viewpoint);
   }
-  return stops.size();
+  // Whoever does not mind the viewpoint takes part in a stop that is made anyway; in this order it comes before them.
+  std::size_t count = 0;
+  for (auto stop = stops.begin(); stop != stops.end(); ++stop) {
+    const auto next = std::next(stop);
+    const bool is_met = std::get<2>(*stop) < 0 && next != stops.end() && std::get<0>(*next) == std::get<0>(*stop) &&
+                        std::get<1>(*next) == std::get<1>(*stop);
+    if (!is_met) ++count;
+  }
+  return count;
 }
 
 void RequestBoard::touch(const std::string& id) {

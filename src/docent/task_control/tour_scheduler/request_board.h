@@ -60,7 +60,8 @@ class RequestBoard {
   [[nodiscard]] const std::vector<BoardEntry>& entries() const { return entries_; }
   [[nodiscard]] std::size_t open_count() const;
   /// How many different things (tours, exhibits, viewpoints of exhibits) the open requests wish for, if `request` is
-  /// one of them. O(open log open).
+  /// one of them. A wish for an exhibit from anywhere is no stop of its own beside one for a viewpoint. O(open log
+  /// open).
   [[nodiscard]] std::size_t stops_with(const VisitorRequest& request) const;
   [[nodiscard]] std::uint64_t revision() const { return revision_; }
 

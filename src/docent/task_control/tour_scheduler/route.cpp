@@ -1,7 +1,9 @@
 #include "docent/task_control/tour_scheduler/route.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
+#include <utility>
 
 namespace docent::task_control {
 namespace {
@@ -9,100 +11,156 @@ namespace {
 // What cannot be reached is dear but comparable, so that the others still come in a good order.
 constexpr double kNoWay = 1e6;
 constexpr double kGain = 1e-9;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-struct Costs {
+/// All places of all stops in one row, those of a stop beside each other.
+struct Places {
+  std::vector<RouteStop> name;
+  std::vector<std::size_t> first;  ///< of each stop; one more at the end
   std::vector<double> from_start;
-  std::vector<std::vector<double>> between;
+  std::vector<double> between;  ///< [from * size() + to]
 
-  [[nodiscard]] double length(const std::vector<std::size_t>& order) const {
-    double sum = order.empty() ? 0.0 : from_start[order.front()];
-    for (std::size_t i = 1; i < order.size(); ++i) sum += between[order[i - 1]][order[i]];
-    return sum;
-  }
+  [[nodiscard]] std::size_t size() const { return name.size(); }
+  [[nodiscard]] std::size_t stops() const { return first.size() - 1; }
+  [[nodiscard]] double way(std::size_t from, std::size_t to) const { return between[from * size() + to]; }
 };
 
-Costs costs_of(Point2 start, std::span<const Point2> points, const TravelDistance& travel) {
-  Costs costs;
-  for (const Point2 to : points) costs.from_start.push_back(std::min(travel(start, to), kNoWay));
-  for (const Point2 from : points) {
-    auto& row = costs.between.emplace_back();
-    for (const Point2 to : points) row.push_back(std::min(travel(from, to), kNoWay));
+Places places_of(Point2 start, std::span<const StopPlaces> stops, const TravelDistance& travel) {
+  Places places;
+  std::vector<Point2> points;
+  for (std::size_t stop = 0; stop < stops.size(); ++stop) {
+    places.first.push_back(points.size());
+    for (std::size_t place = 0; place < stops[stop].size(); ++place) {
+      places.name.push_back({stop, place});
+      points.push_back(stops[stop][place]);
+    }
   }
-  return costs;
+  places.first.push_back(points.size());
+  for (const Point2 to : points) places.from_start.push_back(std::min(travel(start, to), kNoWay));
+  for (const Point2 from : points) {
+    for (const Point2 to : points) places.between.push_back(std::min(travel(from, to), kNoWay));
+  }
+  return places;
 }
 
-std::vector<std::size_t> exact_order(const Costs& costs) {
-  const std::size_t n = costs.from_start.size();
+std::vector<RouteStop> exact_route(const Places& places) {
+  const std::size_t n = places.stops();
+  const std::size_t count = places.size();
   const std::size_t sets = std::size_t{1} << n;
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  // best[set][last]: the shortest way from the start through all of `set` that ends in `last`.
-  std::vector<std::vector<double>> best(sets, std::vector<double>(n, kInfinity));
-  std::vector<std::vector<std::size_t>> before(sets, std::vector<std::size_t>(n, n));
-  for (std::size_t i = 0; i < n; ++i) best[std::size_t{1} << i][i] = costs.from_start[i];
+  // best[set][last]: the shortest way from the start through all stops of `set` that ends in the place `last`.
+  std::vector<double> best(sets * count, kInfinity);
+  std::vector<std::uint8_t> before(sets * count, 0);
+  static_assert(kExactPlaces <= 256);
+  for (std::size_t i = 0; i < count; ++i)
+    best[(std::size_t{1} << places.name[i].stop) * count + i] = places.from_start[i];
   for (std::size_t set = 1; set < sets; ++set) {
-    for (std::size_t last = 0; last < n; ++last) {
-      if (best[set][last] == kInfinity) continue;
-      for (std::size_t next = 0; next < n; ++next) {
-        const std::size_t bit = std::size_t{1} << next;
+    for (std::size_t last = 0; last < count; ++last) {
+      const double so_far = best[set * count + last];
+      if (so_far == kInfinity) continue;
+      const double* const ways = &places.between[last * count];
+      for (std::size_t stop = 0; stop < n; ++stop) {
+        const std::size_t bit = std::size_t{1} << stop;
         if ((set & bit) != 0) continue;
-        const double length = best[set][last] + costs.between[last][next];
-        if (length < best[set | bit][next] - kGain) {
-          best[set | bit][next] = length;
-          before[set | bit][next] = last;
+        const std::size_t row = (set | bit) * count;
+        for (std::size_t next = places.first[stop]; next < places.first[stop + 1]; ++next) {
+          const double length = so_far + ways[next];
+          if (length >= best[row + next] - kGain) continue;
+          best[row + next] = length;
+          before[row + next] = static_cast<std::uint8_t>(last);
         }
       }
     }
   }
   std::size_t set = sets - 1;
   std::size_t last = 0;
-  for (std::size_t i = 1; i < n; ++i) {
-    if (best[set][i] < best[set][last] - kGain) last = i;
+  for (std::size_t i = 1; i < count; ++i) {
+    if (best[set * count + i] < best[set * count + last] - kGain) last = i;
   }
-  std::vector<std::size_t> order;
+  std::vector<RouteStop> route;
   while (set != 0) {
-    order.push_back(last);
-    const std::size_t previous = before[set][last];
-    set &= ~(std::size_t{1} << last);
+    route.push_back(places.name[last]);
+    const std::size_t previous = before[set * count + last];
+    set &= ~(std::size_t{1} << places.name[last].stop);
     last = previous;
   }
-  std::reverse(order.begin(), order.end());
-  return order;
+  std::reverse(route.begin(), route.end());
+  return route;
 }
 
-std::vector<std::size_t> nearest_neighbour_order(const Costs& costs) {
-  const std::size_t n = costs.from_start.size();
-  std::vector<std::size_t> order;
-  std::vector<bool> used(n, false);
-  while (order.size() < n) {
-    const auto& row = order.empty() ? costs.from_start : costs.between[order.back()];
-    std::size_t nearest = n;
-    for (std::size_t i = 0; i < n; ++i) {
-      if (!used[i] && (nearest == n || row[i] < row[nearest] - kGain)) nearest = i;
+/// The stops in this order, each at the place that makes the whole shortest; its length.
+double best_places(const Places& places, std::span<const std::size_t> order, std::vector<RouteStop>* route) {
+  if (route == nullptr && places.size() == places.stops()) {  // one place each: there is nothing to choose
+    double sum = order.empty() ? 0.0 : places.from_start[order.front()];
+    for (std::size_t k = 1; k < order.size(); ++k) sum += places.way(order[k - 1], order[k]);
+    return sum;
+  }
+  std::vector<std::vector<std::size_t>> before;  // for each stop of the order and each of its places
+  std::vector<double> lengths;
+  std::vector<double> next;
+  std::vector<std::size_t> from;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const std::size_t first = places.first[order[k]];
+    const std::size_t end = places.first[order[k] + 1];
+    next.assign(end - first, kInfinity);
+    from.assign(end - first, 0);
+    for (std::size_t i = first; i < end; ++i) {
+      if (k == 0) next[i - first] = places.from_start[i];
+      for (std::size_t j = 0; k > 0 && j < lengths.size(); ++j) {
+        const double length = lengths[j] + places.way(places.first[order[k - 1]] + j, i);
+        if (length >= next[i - first] - kGain) continue;
+        next[i - first] = length;
+        from[i - first] = j;
+      }
     }
-    used[nearest] = true;
-    order.push_back(nearest);
+    std::swap(lengths, next);
+    if (route != nullptr) before.push_back(from);
+  }
+  if (lengths.empty()) return 0.0;
+  std::size_t place = 0;
+  for (std::size_t i = 1; i < lengths.size(); ++i) {
+    if (lengths[i] < lengths[place] - kGain) place = i;
+  }
+  const double length = lengths[place];
+  if (route == nullptr) return length;
+  for (std::size_t k = order.size(); k-- > 0; place = before[k][place]) route->push_back({order[k], place});
+  std::reverse(route->begin(), route->end());
+  return length;
+}
+
+std::vector<std::size_t> nearest_neighbour_order(const Places& places) {
+  std::vector<std::size_t> order;
+  std::vector<bool> used(places.stops(), false);
+  std::size_t at = places.size();
+  while (order.size() < places.stops()) {
+    std::size_t nearest = places.size();
+    const auto way_to = [&](std::size_t i) { return at == places.size() ? places.from_start[i] : places.way(at, i); };
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (used[places.name[i].stop]) continue;
+      if (nearest == places.size() || way_to(i) < way_to(nearest) - kGain) nearest = i;
+    }
+    at = nearest;
+    used[places.name[at].stop] = true;
+    order.push_back(places.name[at].stop);
   }
   return order;
 }
 
 /// Reverses or moves one stretch if that makes the way shorter.
-bool improve(const Costs& costs, std::vector<std::size_t>& order) {
-  const double length = costs.length(order);
+bool improve(const Places& places, std::vector<std::size_t>& order) {
+  const double length = best_places(places, order, nullptr);
   for (std::size_t first = 0; first < order.size(); ++first) {
     for (std::size_t last = first + 1; last < order.size(); ++last) {
       auto reversed = order;
-      std::reverse(reversed.begin() + static_cast<std::ptrdiff_t>(first),
-                   reversed.begin() + static_cast<std::ptrdiff_t>(last) + 1);
-      if (costs.length(reversed) < length - kGain) {
-        order = std::move(reversed);
-        return true;
-      }
-      auto moved = order;
-      std::rotate(moved.begin() + static_cast<std::ptrdiff_t>(first),
-                  moved.begin() + static_cast<std::ptrdiff_t>(first) + 1,
-                  moved.begin() + static_cast<std::ptrdiff_t>(last) + 1);
-      if (costs.length(moved) < length - kGain) {
-        order = std::move(moved);
+      const auto begin = static_cast<std::ptrdiff_t>(first);
+      const auto end = static_cast<std::ptrdiff_t>(last) + 1;
+      std::reverse(reversed.begin() + begin, reversed.begin() + end);
+      auto later = order;
+      std::rotate(later.begin() + begin, later.begin() + begin + 1, later.begin() + end);
+      auto sooner = order;
+      std::rotate(sooner.begin() + begin, sooner.begin() + end - 1, sooner.begin() + end);
+      for (auto* const candidate : {&reversed, &later, &sooner}) {
+        if (best_places(places, *candidate, nullptr) >= length - kGain) continue;
+        order = std::move(*candidate);
         return true;
       }
     }
@@ -112,25 +170,28 @@ bool improve(const Costs& costs, std::vector<std::size_t>& order) {
 
 }  // namespace
 
-double route_length(Point2 start, std::span<const Point2> points, std::span<const std::size_t> order,
+double route_length(Point2 start, std::span<const StopPlaces> stops, std::span<const RouteStop> route,
                     const TravelDistance& travel) {
   double sum = 0.0;
   Point2 at = start;
-  for (const std::size_t index : order) {
-    sum += travel(at, points[index]);
-    at = points[index];
+  for (const RouteStop& stop : route) {
+    const Point2 place = stops[stop.stop][stop.place];
+    sum += travel(at, place);
+    at = place;
   }
   return sum;
 }
 
-std::vector<std::size_t> shortest_order(Point2 start, std::span<const Point2> points, const TravelDistance& travel) {
-  if (points.empty()) return {};
-  const Costs costs = costs_of(start, points, travel);
-  if (points.size() <= kExactStops) return exact_order(costs);
-  auto order = nearest_neighbour_order(costs);
-  while (improve(costs, order)) {
+std::vector<RouteStop> shortest_route(Point2 start, std::span<const StopPlaces> stops, const TravelDistance& travel) {
+  if (stops.empty()) return {};
+  const Places places = places_of(start, stops, travel);
+  if (places.stops() <= kExactStops && places.size() <= kExactPlaces) return exact_route(places);
+  auto order = nearest_neighbour_order(places);
+  while (improve(places, order)) {
   }
-  return order;
+  std::vector<RouteStop> route;
+  (void)best_places(places, order, &route);
+  return route;
 }
 
 }  // namespace docent::task_control

@@ -30,7 +30,9 @@ class Scheduling : public testing::Test {
     scheduler.submit({id, {}, RequestSource::web, "", kind, target, viewpoint, language}, conditions,
                      time_from_seconds(at));
   }
+  /// The next visit; a tour that is over says its farewell first.
   std::string next(double at, Point2 robot = {0, 0}) {
+    if (scheduler.state().farewell) scheduler.finish_farewell(time_from_seconds(at));
     const auto& visit = scheduler.begin_visit(robot, time_from_seconds(at));
     return visit ? visit->exhibit_id : "";
   }

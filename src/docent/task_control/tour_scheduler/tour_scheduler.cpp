@@ -86,7 +86,11 @@ EventKind event_of(RequestStatus end) {
 
 TourScheduler::TourScheduler(const SchedulerParams& params, Programme programme, TravelDistance travel,
                              SchedulerState state, Time now)
-    : params_{params}, programme_{std::move(programme)}, travel_{std::move(travel)}, state_{std::move(state)} {
+    : params_{params},
+      programme_{std::move(programme)},
+      travel_{std::move(travel)},
+      times_{params.travel_times},
+      state_{std::move(state)} {
   DOCENT_CHECK(!programme_.languages.empty());
   drop_what_is_gone(now);
 }
@@ -291,7 +295,15 @@ void TourScheduler::finish_visit(bool is_success, const std::string& reason, Tim
     try_again(id, reason, now + seconds(params_.retry_after(state_.board.find(id)->attempts + 1)), now);
   }
   if (state_.tour && visit.tour_id == state_.tour->tour_id) finish_stop(visit.exhibit_id, is_success);
+  if (state_.tour && is_success) recompose(visit.map_from_base.position(), now);
   end_tour_if_over(now);
+}
+
+void TourScheduler::finish_farewell(Time now) {
+  DOCENT_CHECK(state_.farewell.has_value());
+  happenings_.push_back(
+      {EventKind::farewell, state_.farewell->tour_id, "", to_seconds(now - state_.farewell->started)});
+  state_.farewell.reset();
 }
 
 void TourScheduler::try_again(const std::string& id, const std::string& reason, Time not_before, Time now) {
@@ -362,6 +374,7 @@ void TourScheduler::end_tour_if_over(Time now) {
   if (is_good(outcome)) ++state_.counters.tours_completed;
   happenings_.push_back({is_good(outcome) ? EventKind::tour_completed : EventKind::tour_failed, tour.tour_id,
                          outcome.reason(), to_seconds(now - tour.started)});
+  if (outcome.explained > 0) state_.farewell = Farewell{tour.tour_id, tour.language, tour.started};
   if (state_.visit) state_.visit->tour_id.clear();
   state_.tour.reset();
 }

@@ -29,6 +29,7 @@ struct Visit {
   std::string tour_id;      ///< empty: not a stop of the tour under way
   bool is_joinable = true;  ///< nothing was said yet: whoever wishes for the exhibit now takes part
   Time started;
+  bool asks = true;  ///< there is time to hear more
 };
 
 enum class StopStatus { pending, explained, skipped };
@@ -54,6 +55,15 @@ struct TourRun {
   double target_s = 0.0;        ///< [s] 0: none
   Time started;
   std::vector<TourMember> members{};
+  bool asks = true;      ///< at the next stop: more, or next?
+  Time composed_at{-1};  ///< when its pending stops were chosen last
+};
+
+/// A tour is over, and its visitors are still there.
+struct Farewell {
+  std::string tour_id;
+  std::string language;
+  Time started;  ///< when the tour began
 };
 
 struct Counters {
@@ -68,6 +78,7 @@ struct SchedulerState {
   std::optional<Visit> visit;
   std::optional<TourRun> tour;
   Counters counters;
+  std::optional<Farewell> farewell{};  ///< to be said before anything else
 };
 
 /// Which exhibit comes next, and what becomes of each request (architecture 10.8; [Rhino1999] 4.3).
@@ -78,8 +89,10 @@ struct SchedulerState {
 /// Without a tour, single exhibits are visited in the order of the least travel, anew after every visit, but who is
 /// overdue comes first, and the oldest open request decides whether a tour begins; so does a visit that a waiting tour
 /// would make as well: then one visit serves both. A tour keeps its order; between two of its stops at most one single
-/// exhibit is put in: an overdue one, or one with a small detour. A composed tour gets longer or shorter on the way, so
-/// that it ends in time ([Minerva2000] 5.3), and shows first what others have wished for.
+/// exhibit is put in: an overdue one, or one with a small detour. A composed tour chooses each exhibit when the one
+/// before was explained, by travel times that were learned, so that it ends in time ([Minerva2000] 5.3); it rather
+/// shows what others have wished for, and only an overdue exhibit is put in. A tour that showed something ends with a
+/// farewell.
 class TourScheduler {
  public:
   /// Open requests in `state` for what the museum no longer has are failed at once.
@@ -91,7 +104,9 @@ class TourScheduler {
   void submit(VisitorRequest request, const Conditions& conditions, Time now);
 
   /// Chooses and begins the next visit from where the robot stands; nullopt: nothing to do now, or what comes next, the
-  /// visit or the whole tour, is foreseen to take longer than `budget_s` [s]. @pre no visit is under way.
+  /// visit or the whole tour, is foreseen to take longer than `budget_s` [s], or (state) a farewell is to be said
+  /// first.
+  /// @pre no visit is under way.
   const std::optional<Visit>& begin_visit(Point2 robot, Time now,
                                           double budget_s = std::numeric_limits<double>::infinity());
   /// Somebody waits whose turn it may be, or a tour is under way.
@@ -100,7 +115,10 @@ class TourScheduler {
   /// anew; after `max_attempts` they fail.
   void break_off(const std::string& reason, Time now);
   /// [s] foreseen for the way.
-  [[nodiscard]] double way_duration(Point2 from, Point2 to) const { return travel_(from, to) / params_.cruise_speed; }
+  [[nodiscard]] double way_duration(Point2 from, Point2 to, Time now) const;
+  [[nodiscard]] double way_length(Point2 from, Point2 to) const { return travel_(from, to); }  ///< [m]
+  /// The farewell was said. @pre there is one.
+  void finish_farewell(Time now);
   /// The explanation began: from now on nobody joins the visit.
   void close_visit();
   /// The visit ended; its requests are fulfilled, tried again later or failed. @pre a visit is under way.
@@ -117,6 +135,8 @@ class TourScheduler {
 
   [[nodiscard]] const SchedulerState& state() const { return state_; }
   [[nodiscard]] RequestBoard& board() { return state_.board; }
+  [[nodiscard]] TravelTimes& times() { return times_; }
+  [[nodiscard]] const TravelTimes& times() const { return times_; }
   [[nodiscard]] const Programme& programme() const { return programme_; }
   /// Adds to the history what the scheduler does not see itself.
   void note(Happening happening) { happenings_.push_back(std::move(happening)); }
@@ -139,6 +159,8 @@ class TourScheduler {
   /// The stop at which the exhibit is shown to the most patient of those who wish for it singly.
   [[nodiscard]] WishedStop stop_at(const std::string& exhibit_id, Time now) const;
   [[nodiscard]] Point2 place_of(const WishedStop& stop) const;
+  /// The stops of which each meets the wish: any viewpoint of the exhibit, where the wish names none.
+  [[nodiscard]] std::vector<WishedStop> ways_to_meet(const WishedStop& stop) const;
   /// Stops wished for singly and due, in the order to visit them.
   [[nodiscard]] std::vector<WishedStop> single_order(Point2 robot, Time now) const;
   [[nodiscard]] const BoardEntry* oldest_due(Time now) const;
@@ -146,10 +168,13 @@ class TourScheduler {
   [[nodiscard]] std::optional<std::string> waiting_tour_to(const std::string& exhibit_id, Time now) const;
   [[nodiscard]] std::optional<WishedStop> stop_to_insert(Point2 robot, Time now) const;
   [[nodiscard]] std::vector<std::string> wished_exhibits() const;
-  [[nodiscard]] std::vector<std::string> first_stops(double target_s, Point2 robot) const;
   /// False: it would take longer than the budget.
   [[nodiscard]] bool begin_tour(const std::string& tour_id, Point2 robot, Time now, double budget_s);
-  [[nodiscard]] double duration_of(const TourRun& tour, Point2 robot) const;
+  [[nodiscard]] double duration_of(const TourRun& tour, Point2 robot, Time now) const;
+  [[nodiscard]] double stop_duration_of(const ProgrammeExhibit& exhibit, const std::string& language, Point2 from,
+                                        Point2 to, Time now) const;
+  /// How a composed tour goes on from here.
+  [[nodiscard]] TourPlan compose(const TourRun& tour, Point2 robot, Time now) const;
   /// A composed tour is fitted to the time that is left: its pending stops are chosen anew.
   void recompose(Point2 robot, Time now);
   void begin_stop(Point2 robot, Time now);
@@ -164,6 +189,7 @@ class TourScheduler {
   SchedulerParams params_;
   Programme programme_;
   TravelDistance travel_;
+  TravelTimes times_;
   SchedulerState state_;
   std::vector<Happening> happenings_;
 };

@@ -70,6 +70,18 @@ Point2 TourScheduler::place_of(const WishedStop& stop) const {
   return programme_.find_exhibit(stop.exhibit_id)->place(stop.viewpoint).position();
 }
 
+std::vector<WishedStop> TourScheduler::ways_to_meet(const WishedStop& stop) const {
+  std::vector<WishedStop> ways{stop};
+  if (stop.viewpoint >= 0) return ways;
+  // After a visit that failed the exhibit's own place is the surest.
+  for (const std::string& id : ids(RequestKind::exhibit, RequestStatus::queued, stop.exhibit_id)) {
+    if (state_.board.find(id)->attempts > 0) return ways;
+  }
+  const int viewpoints = static_cast<int>(programme_.find_exhibit(stop.exhibit_id)->viewpoints.size());
+  for (int viewpoint = 0; viewpoint < viewpoints; ++viewpoint) ways.push_back({stop.exhibit_id, viewpoint});
+  return ways;
+}
+
 std::vector<WishedStop> TourScheduler::single_order(Point2 robot, Time now) const {
   std::vector<WishedStop> order;  // overdue ones, the oldest first
   std::vector<WishedStop> others;
@@ -89,10 +101,15 @@ std::vector<WishedStop> TourScheduler::single_order(Point2 robot, Time now) cons
     }
   }
   std::erase_if(others, [&](const WishedStop& stop) { return holds(order, stop); });
-  std::vector<Point2> points;
-  for (const WishedStop& stop : others) points.push_back(place_of(stop));
+  std::vector<std::vector<WishedStop>> choices;
+  std::vector<StopPlaces> places;
+  for (const WishedStop& stop : others) {
+    choices.push_back(ways_to_meet(stop));
+    StopPlaces& list = places.emplace_back();
+    for (const WishedStop& choice : choices.back()) list.push_back(place_of(choice));
+  }
   const Point2 start = order.empty() ? robot : place_of(order.back());
-  for (const std::size_t index : shortest_order(start, points, travel_)) order.push_back(others[index]);
+  for (const RouteStop& next : shortest_route(start, places, travel_)) order.push_back(choices[next.stop][next.place]);
   return order;
 }
 
@@ -115,7 +132,9 @@ std::optional<WishedStop> TourScheduler::stop_to_insert(Point2 robot, Time now) 
     const WishedStop stop =
         entry.request.viewpoint < 0 ? stop_at(exhibit->id, now) : WishedStop{exhibit->id, entry.request.viewpoint};
     const Point2 place = place_of(stop);
-    if (is_overdue(entry, now) || travel_(robot, place) + travel_(place, goal) - direct <= params_.max_detour_m)
+    const bool may_detour = !(tour.target_s > 0.0);  // a composed tour has its time
+    if (is_overdue(entry, now) ||
+        (may_detour && travel_(robot, place) + travel_(place, goal) - direct <= params_.max_detour_m))
       return stop;
   }
   return std::nullopt;
@@ -124,7 +143,7 @@ std::optional<WishedStop> TourScheduler::stop_to_insert(Point2 robot, Time now) 
 const std::optional<Visit>& TourScheduler::begin_visit(Point2 robot, Time now, double budget_s) {
   DOCENT_CHECK(!state_.visit);
   // A tour may turn out to be over, or to have nothing to show: then the next request has its turn.
-  while (!state_.visit) {
+  while (!state_.visit && !state_.farewell) {
     if (state_.tour) {
       begin_stop(robot, now);
       continue;
@@ -140,8 +159,8 @@ const std::optional<Visit>& TourScheduler::begin_visit(Point2 robot, Time now, d
       if (!begin_tour(*tour, robot, now, budget_s)) break;
       continue;
     }
-    const double way_m = travel_(robot, place_of(next));
-    if (exceeds(stop_duration(*programme_.find_exhibit(next.exhibit_id), way_m, params_), budget_s)) break;
+    const ProgrammeExhibit& exhibit = *programme_.find_exhibit(next.exhibit_id);
+    if (exceeds(stop_duration_of(exhibit, programme_.languages.front(), robot, place_of(next), now), budget_s)) break;
     begin_visit_of(next, false, now);
   }
   return state_.visit;
@@ -163,41 +182,50 @@ void TourScheduler::begin_stop(Point2 robot, Time now) {
   begin_visit_of(stop_at(next->exhibit_id, now), true, now);
 }
 
+TourPlan TourScheduler::compose(const TourRun& tour, Point2 robot, Time now) const {
+  TourSoFar so_far{robot};
+  for (const TourStop& stop : tour.stops) {
+    if (stop.status == StopStatus::pending) continue;
+    so_far.done.push_back(stop.exhibit_id);
+    if (stop.status != StopStatus::explained) continue;
+    so_far.after = stop.exhibit_id;
+    ++so_far.explained;
+  }
+  so_far.left_s = tour.target_s - to_seconds(now - tour.started);
+  so_far.wished = wished_exhibits();
+  so_far.language = tour.language;
+  so_far.may_ask = params_.offer_more && !is_in_a_hurry(now);
+  return plan_tour(programme_, so_far, travel_, times_, now, params_.composition);
+}
+
 void TourScheduler::recompose(Point2 robot, Time now) {
   TourRun& tour = *state_.tour;
-  if (!(tour.target_s > 0.0)) return;
-  std::vector<TourStop> stops;
+  if (!(tour.target_s > 0.0) || tour.composed_at == now) return;
+  tour.composed_at = now;
   std::vector<TourStop> pending;
-  std::vector<std::string> done;
-  for (const TourStop& stop : tour.stops) {
-    const bool is_open = stop.status == StopStatus::pending && stop.attempts == 0;
-    (is_open ? pending : stops).push_back(stop);
-    if (!is_open) done.push_back(stop.exhibit_id);
+  std::vector<TourStop> stops;
+  for (TourStop& stop : tour.stops) {
+    // What failed once is not tried again in a tour that could show something else.
+    if (stop.status == StopStatus::pending && stop.attempts > 0) {
+      stop.status = StopStatus::skipped;
+      happenings_.push_back({EventKind::plan_removed, stop.exhibit_id, tour.tour_id});
+    }
+    (stop.status == StopStatus::pending ? pending : stops).push_back(stop);
   }
-  if (stops.empty()) return;  // it has just begun
-  const double left_s = tour.target_s - to_seconds(now - tour.started);
-  // What failed once is not tried again in a tour that could show something else.
-  for (TourStop& stop : stops) {
-    if (stop.status != StopStatus::pending) continue;
-    stop.status = StopStatus::skipped;
-    happenings_.push_back({EventKind::plan_removed, stop.exhibit_id, tour.tour_id});
-  }
-  const auto last = std::find_if(stops.rbegin(), stops.rend(),
-                                 [](const TourStop& stop) { return stop.status == StopStatus::explained; });
-  const StopChoice choice{done, wished_exhibits(), last == stops.rend() ? "" : last->exhibit_id};
-  const auto chosen = compose_tour(programme_, robot, left_s, choice, travel_, params_);
+  const TourPlan plan = compose(tour, robot, now);
   const auto plans = [](const std::vector<TourStop>& list, const std::string& id) {
     return std::any_of(list.begin(), list.end(), [&](const TourStop& stop) { return stop.exhibit_id == id; });
   };
   for (const TourStop& stop : pending) {
-    if (!holds(chosen, stop.exhibit_id))
+    if (!holds(plan.stops, stop.exhibit_id))
       happenings_.push_back({EventKind::plan_removed, stop.exhibit_id, tour.tour_id});
   }
-  for (const std::string& exhibit : chosen) {
+  for (const std::string& exhibit : plan.stops) {
     if (!plans(pending, exhibit)) happenings_.push_back({EventKind::plan_inserted, exhibit, tour.tour_id});
     stops.push_back({exhibit});
   }
   tour.stops = std::move(stops);
+  tour.asks = plan.asks;
 }
 
 std::vector<std::string> TourScheduler::wished_exhibits() const {
@@ -209,21 +237,21 @@ std::vector<std::string> TourScheduler::wished_exhibits() const {
   return wished;
 }
 
-std::vector<std::string> TourScheduler::first_stops(double target_s, Point2 robot) const {
-  const StopChoice choice{{}, wished_exhibits(), ""};
-  auto stops = compose_tour(programme_, robot, target_s, choice, travel_, params_);
-  if (!stops.empty()) return stops;
-  // However short: one exhibit is the least that a tour shows.
-  stops = compose_tour(programme_, robot, std::numeric_limits<double>::infinity(), choice, travel_, params_);
-  stops.resize(std::min<std::size_t>(stops.size(), 1));
-  return stops;
+double TourScheduler::way_duration(Point2 from, Point2 to, Time now) const {
+  return times_.way(place_at(programme_, from), place_at(programme_, to), travel_(from, to), now).mean_s;
 }
 
-double TourScheduler::duration_of(const TourRun& tour, Point2 robot) const {
+double TourScheduler::stop_duration_of(const ProgrammeExhibit& exhibit, const std::string& language, Point2 from,
+                                       Point2 to, Time now) const {
+  return stop_duration(exhibit.length_in(language), way_duration(from, to, now), params_.offer_more, times_);
+}
+
+double TourScheduler::duration_of(const TourRun& tour, Point2 robot, Time now) const {
+  if (tour.target_s > 0.0) return tour.target_s;
   double duration_s = 0.0;
   for (const TourStop& stop : tour.stops) {
     const ProgrammeExhibit& exhibit = *programme_.find_exhibit(stop.exhibit_id);
-    duration_s += stop_duration(exhibit, travel_(robot, exhibit.pose.position()), params_);
+    duration_s += stop_duration_of(exhibit, tour.language, robot, exhibit.pose.position(), now);
     robot = exhibit.pose.position();
   }
   return duration_s;
@@ -235,7 +263,14 @@ bool TourScheduler::begin_tour(const std::string& tour_id, Point2 robot, Time no
   TourRun run{tour_id, state_.board.find(members.front())->request.language, {}, false, 0.0, now};
   if (tour != nullptr) {
     run.target_s = tour->target_s;
-    const auto exhibits = tour->exhibits.empty() ? first_stops(tour->target_s, robot) : tour->exhibits;
+    if (run.target_s > 0.0 && exceeds(run.target_s, budget_s)) return false;  // before it is composed, which costs more
+    auto exhibits = tour->exhibits;
+    if (exhibits.empty()) {
+      TourPlan plan = compose(run, robot, now);
+      run.asks = plan.asks;
+      run.composed_at = now;
+      exhibits = std::move(plan.stops);
+    }
     for (const std::string& exhibit : exhibits) {
       if (programme_.find_exhibit(exhibit) == nullptr) continue;
       run.stops.push_back({exhibit, StopStatus::pending, 0, static_cast<int>(run.stops.size())});
@@ -245,7 +280,7 @@ bool TourScheduler::begin_tour(const std::string& tour_id, Point2 robot, Time no
     for (const std::string& id : members) close_request(id, RequestStatus::failed, "This tour no longer exists.", now);
     return true;
   }
-  if (exceeds(duration_of(run, robot), budget_s)) return false;
+  if (exceeds(duration_of(run, robot, now), budget_s)) return false;
   for (const std::string& id : members) {
     run.members.push_back({id, numbers_of(run)});
     state_.board.change(id, RequestStatus::active, "The tour has begun.", now);
@@ -259,8 +294,14 @@ bool TourScheduler::begin_tour(const std::string& tour_id, Point2 robot, Time no
 void TourScheduler::begin_visit_of(const WishedStop& stop, bool is_stop, Time now) {
   const std::string& exhibit_id = stop.exhibit_id;
   const ProgrammeExhibit& exhibit = *programme_.find_exhibit(exhibit_id);
-  Visit visit{exhibit_id, stop.viewpoint, exhibit.place(stop.viewpoint), "", is_stop ? state_.tour->tour_id : "", true,
-              now};
+  Visit visit{exhibit_id,
+              stop.viewpoint,
+              exhibit.place(stop.viewpoint),
+              "",
+              is_stop ? state_.tour->tour_id : "",
+              true,
+              now,
+              !is_stop || state_.tour->asks};
   auto members = ids(RequestKind::exhibit, RequestStatus::queued, exhibit_id);
   std::erase_if(members, [&](const std::string& id) {
     const int wished = state_.board.find(id)->request.viewpoint;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "docent/planning/value_iteration/route.h"
-#include "docent/task_control/tour_scheduler/programme.h"
+#include "docent/task_control/travel_times/travel_distance.h"
 
 namespace docent::task_control {
 

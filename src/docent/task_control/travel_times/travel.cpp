@@ -1,4 +1,4 @@
-#include "docent/task_control/tour_scheduler/travel.h"
+#include "docent/task_control/travel_times/travel.h"
 
 #include <cmath>
 #include <limits>
