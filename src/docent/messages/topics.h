@@ -110,7 +110,7 @@ inline constexpr Topic<docent_msgs::TrueOffer> kTrueOffer{"truth/offer", Qos::co
 
 }  // namespace topics
 
-/// Calls f(topic) for every topic of the robot, then for those of the truth.
+/// Calls f(topic) for every topic of the robot.
 template <class F>
 void for_each_robot_topic(F&& f) {
   using namespace topics;
@@ -123,6 +123,7 @@ void for_each_robot_topic(F&& f) {
   f(kReaction), f(kGaze), f(kSay), f(kSpeechState), f(kHorn), f(kLimits), f(kHealth);
   f(kInitialPose), f(kParticleCloud), f(kPeopleMarkers), f(kMuseumMarkers);
 }
+/// Calls f(topic) for every topic of the truth.
 template <class F>
 void for_each_truth_topic(F&& f) {
   using namespace topics;
