@@ -1,14 +1,12 @@
 """Recordings and runs of which the protocols of localization are made, and the rows that a robot said in them."""
-import concurrent.futures
 import csv
 import hashlib
 import json
 import os
 import subprocess
-import sys
-import time
 
 from evaluation.claims import read_claims
+from evaluation.simulations import side_by_side
 
 
 def scenario(escort, kidnaps=()):
@@ -89,12 +87,4 @@ class Bench:
             return read_claims(claims), list(csv.DictReader(file))
 
     def each(self, jobs):
-        """Runs functions beside each other, their results in order, with a word now and then."""
-        results = []
-        started = time.monotonic()
-        with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
-            for i, future in enumerate([pool.submit(job) for job in jobs]):
-                results.append(future.result())
-                if (i + 1) % 20 == 0:
-                    print(f"   {i + 1} of {len(jobs)}, {time.monotonic() - started:.0f} s", file=sys.stderr)
-        return results
+        return side_by_side(jobs, self.jobs)

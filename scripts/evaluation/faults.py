@@ -8,7 +8,6 @@ where the unharmed robot drives at DRIVES m/s and more from one second before to
 bit for bit, everything until then is the same, and slowing down is the fault's doing. The unharmed runs go on
 for longer and count false alarms. Speeds are the truth's; slow is at most SLOW m/s, from then to the end of the watch.
 """
-import concurrent.futures
 import csv
 import hashlib
 import json
@@ -16,9 +15,8 @@ import os
 import random
 import statistics
 import subprocess
-import sys
-import time
 
+from evaluation.simulations import side_by_side
 from evaluation.tables import Verdict, print_table
 
 MUSEUM = "bonn"
@@ -142,13 +140,7 @@ class Bench:
         return read(drive), read(claims)
 
     def each(self, jobs):
-        results, started = [], time.monotonic()
-        with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
-            for i, future in enumerate([pool.submit(job) for job in jobs]):
-                results.append(future.result())
-                if (i + 1) % 20 == 0:
-                    print(f"   {i + 1} of {len(jobs)}, {time.monotonic() - started:.0f} s", file=sys.stderr)
-        return results
+        return side_by_side(jobs, self.jobs)
 
 
 def read(path):

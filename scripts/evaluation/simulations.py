@@ -10,6 +10,18 @@ import time
 from evaluation.keys import key_of
 
 
+def side_by_side(jobs, threads):
+    """Results of functions that run beside each other, in the order of the functions; says now and then how far it is."""
+    results = []
+    started = time.monotonic()
+    with concurrent.futures.ThreadPoolExecutor(threads) as pool:
+        for i, future in enumerate([pool.submit(job) for job in jobs]):
+            results.append(future.result())
+            if (i + 1) % 20 == 0:
+                print(f"   {i + 1} of {len(jobs)}, {time.monotonic() - started:.0f} s", file=sys.stderr)
+    return results
+
+
 class Simulations:
     def __init__(self, docent, root, cache, jobs):
         self.docent, self.root, self.cache, self.jobs = docent, root, cache, jobs

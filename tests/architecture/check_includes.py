@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The architecture test: who may include whom, who may name the truth, what the project may not say.
+"""The architecture test: which folder may include which, which may name the truth, in which namespace names stand, which
+module publishes a topic that must have one publisher. And no file may hold a path of one machine or the host of a registry.
 
 The build gives every folder an include path of its own; this test also reads the CMake files, so that nobody widens a
 DEPENDS against the arrows of the architecture.
@@ -21,12 +22,12 @@ LAYERS = [
     {"geometry", "vocabulary"},
     {"grid"},
     {"pictures", "motion_models", "sensor_models", "messages", "museum", "robot"},
-    {"localization", "mapping", "planning", "collision_avoidance", "people", "vision", "task_control", "interaction"},
+    {"localization", "mapping", "planning", "collision_avoidance", "people", "task_control", "interaction"},
     {"transport", "recording", "simulator", "telepresence", "visualization", "evaluation"},
     {"modules"},
     {"apps"},
 ]
-# Rooms of one layer's folder that stand on floors, the lower ones first. A room may see rooms of lower floors, and no other.
+# Subfolders that are layered too, the lower floors first. A subfolder may see those of lower floors, and no other.
 FLOORS = {
     "collision_avoidance": [
         {"body"},

@@ -23,7 +23,7 @@ READ = {"src": CPP, "tests": CPP | {".py"}, "web/src": PAGE, "scripts": {".py"}}
 
 # What may be larger, and why: a folder, a file, or "file: function".
 EXCEPTIONS = {
-    "web/src/contract/contract.ts": "written by docent_contract_generator, not by hand",
+    "web/src/contract/contract.ts": "written by docent_web_contract, not by hand",
 }
 
 

@@ -115,7 +115,7 @@ inline constexpr Topic<docent_msgs::TrueOffer> kTrueOffer{"truth/offer", Qos::co
 
 }  // namespace topics
 
-/// Calls f(topic) for every topic of the robot, then for those of the truth.
+/// Calls f(topic) for every topic of the robot.
 template <class F>
 void for_each_robot_topic(F&& f) {
   using namespace topics;
@@ -129,6 +129,7 @@ void for_each_robot_topic(F&& f) {
       f(kHealth);
   f(kInitialPose), f(kParticleCloud), f(kPeopleMarkers), f(kMuseumMarkers), f(kJointStates);
 }
+/// Calls f(topic) for every topic of the truth.
 template <class F>
 void for_each_truth_topic(F&& f) {
   using namespace topics;

@@ -101,7 +101,7 @@ struct Steering {
   double duration = 0.0;    ///< [s]; 0: to the end
   std::vector<Point2> way;  ///< along these points, there to stand; empty: from one random place to the next
 };
-/// From now on both lasers are of a kind that does not look so far.
+/// From now on all lasers are of a kind that does not look so far.
 struct LaserReach {
   double range = 10.0;  ///< [m]
 };

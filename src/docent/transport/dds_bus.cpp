@@ -13,10 +13,10 @@
 namespace docent::transport {
 namespace {
 
-// Loopback only. Twenty modules and their tools need more than the nine participants that the default finds room for;
-// a map must fit into the writer's history while a reader is stopped. Who was stopped for less than a minute is still
-// known when it goes on, and others are found within a second: that somebody died is told by liveliness, not by the
-// lease.
+// Loopback only. Thirteen modules, the simulator and tools need more than the nine participants that the default finds
+// room for; a map must fit into the writer's history while a reader is stopped. A process that was stopped for less
+// than a minute is still known when it goes on, and new ones are found within a second. Liveliness tells that a process
+// died, not the lease.
 constexpr const char* kConfig = R"(<CycloneDDS><Domain Id="any">
 <General><Interfaces><NetworkInterface name="lo"/></Interfaces><AllowMulticast>false</AllowMulticast></General>
 <Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>120</MaxAutoParticipantIndex>

@@ -177,7 +177,7 @@ std::optional<double> Localizer::fit(const Update& update) const {
 }
 
 void Localizer::judge(Update& update) {
-  // After a long way odometry foretells too little: the belief of after the update is held against the readings.
+  // After a long way odometry foretells too little, so the readings are compared with the updated belief.
   if (update.views > 1.0 && !likely_.empty()) {
     const ExpectedRanges expected{likely_, map_->table, map_->space.headings(), false};
     update.choice.readings =

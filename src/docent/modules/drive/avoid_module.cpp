@@ -13,12 +13,11 @@ namespace docent::modules {
 
 namespace {
 
-constexpr double kTick = 0.05;  // [s]
-constexpr double kHeartbeat = 0.1;
-constexpr double kLeastPause =
-    0.06;                           // [s] from a choice to the next but one: faster lasers are only checked in between
-constexpr double kTogether = 0.02;  // [s] a choice waits so long for another laser's sweep
-constexpr double kWindowPeriod = 0.5;
+constexpr double kTick = 0.05;         // [s]
+constexpr double kHeartbeat = 0.1;     // [s] between commands, whatever comes
+constexpr double kLeastPause = 0.06;   // [s] from a choice to the next but one: faster lasers are only checked between
+constexpr double kTogether = 0.02;     // [s] a choice waits so long for another laser's sweep
+constexpr double kWindowPeriod = 0.5;  // [s] between two velocity spaces that are shown
 constexpr Duration kModePeriod = std::chrono::seconds{1};
 
 Result<collision_avoidance::BaseLimits> limits_of(const robot::RobotBody& body) {
@@ -249,9 +248,9 @@ class AvoidModule final : public Module {
   transport::Publisher<docent_msgs::Drive> drive_;
   transport::Publisher<docent_msgs::AvoidState> state_;
   collision_avoidance::AvoiderTarget::Mode target_mode_ = collision_avoidance::AvoiderTarget::Mode::stop;
-  Time decided_{};
-  Time decided_before_{};  ///< likewise, once more
-  Time driven_{};
+  Time decided_{};         ///< the last choice
+  Time decided_before_{};  ///< the choice before that
+  Time driven_{};          ///< the last command
   Time window_shown_{};
 };
 

@@ -238,7 +238,7 @@ class MissionModule final : public Module {
     };
     message.languages = mission_.scheduler().programme().languages;
     for (const std::string& language : message.languages) message.texts.push_back(text(language));
-    message.text_en = text("en");  // for whoever reads the messages of before
+    message.text_en = text("en");  // for readers that know no `texts` yet
     message.text_de = text("de");
     if (summary.phase == MissionPhase::asking) message.prompt = prompt_;
     message.exhibits_explained = summary.counters.exhibits_explained;

@@ -13,6 +13,7 @@
 #include "docent/localization/monte_carlo/monte_carlo_localizer.h"
 #include "docent/localization/sonar/evidence/sonar_evidence.h"
 #include "docent/messages/conversions.h"
+#include "docent/modules/perception/belief_messages.h"
 #include "docent/modules/perception/sonar_localize.h"
 #include "docent/modules/shared/initial_pose.h"
 #include "docent/modules/shared/scanners.h"
@@ -247,9 +248,7 @@ class LocalizeModule final : public Module {
       message.cells.push_back({static_cast<float>(pose.x), static_cast<float>(pose.y),
                                static_cast<float>(pose.theta.radians()), cell.mass});
     }
-    message.rest = {static_cast<float>(summary.rest_origin.x),     static_cast<float>(summary.rest_origin.y),
-                    static_cast<float>(summary.rest_cell_size),    static_cast<std::uint32_t>(summary.rest_columns),
-                    static_cast<std::uint32_t>(summary.rest_rows), summary.rest};
+    message.rest = rest_message(summary);
     for (const localization::BeliefMode& mode : summary.modes) {
       const Pose2 pose = mode.map_from_robot * before_from_now;
       message.hypotheses.push_back({pose.x, pose.y, pose.theta.radians(), mode.covariance, mode.mass});
@@ -305,26 +304,10 @@ class LocalizeModule final : public Module {
 
   void publish_transform(Time stamp) {
     if (!localized()) return;
-    const Pose2 map_from_odom = *localizer_->map_from_robot({}) * unbroken_.odom_from_raw(stamp);
-    geometry_msgs::TransformStamped transform;
-    transform.header = {docent::to_message(stamp), "map"};
-    transform.child_frame_id = "odom";
-    transform.transform = {{map_from_odom.x, map_from_odom.y, 0.0}, to_quaternion(map_from_odom.theta)};
-    tf2_msgs::TFMessage message;
-    message.transforms.push_back(std::move(transform));
-    transforms_.publish(std::move(message));
+    transforms_.publish(odom_in_map_message(*localizer_->map_from_robot({}) * unbroken_.odom_from_raw(stamp), stamp));
   }
 
-  void publish_pose(Time stamp) {
-    const localization::BeliefMode& best = localizer_->summary().modes.front();
-    geometry_msgs::PoseWithCovarianceStamped message;
-    message.header = {docent::to_message(stamp), "map"};
-    message.pose.pose = docent::to_message(best.map_from_robot);
-    constexpr std::array<std::size_t, 3> kAxes{0, 1, 5};  // x, y, yaw of six
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j) message.pose.covariance[kAxes[i] * 6 + kAxes[j]] = best.covariance[i * 3 + j];
-    pose_.publish(std::move(message));
-  }
+  void publish_pose(Time stamp) { pose_.publish(pose_message(localizer_->summary().modes.front(), stamp)); }
 
   void save(Time stamp) {
     if (bus_.now() - saved_ < kCheckpointEvery) return;

@@ -1,13 +1,13 @@
 #include "docent/modules/perception/sonar_localize.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "docent/localization/belief/checkpoint.h"
 #include "docent/localization/sonar/tracker/gaussian_belief.h"
 #include "docent/messages/conversions.h"
+#include "docent/modules/perception/belief_messages.h"
 #include "docent/modules/shared/initial_pose.h"
 #include "docent/motion_models/odometry_history.h"
 
@@ -118,9 +118,7 @@ class SonarLocalizeModule final : public Module {
     message.cell_size = static_cast<float>(map_.frame.resolution);
     message.heading_step = static_cast<float>(kDegree);
     for (const auto& cell : summary.cells) message.cells.push_back({cell.x, cell.y, cell.theta, cell.mass});
-    message.rest = {static_cast<float>(summary.rest_origin.x),     static_cast<float>(summary.rest_origin.y),
-                    static_cast<float>(summary.rest_cell_size),    static_cast<std::uint32_t>(summary.rest_columns),
-                    static_cast<std::uint32_t>(summary.rest_rows), summary.rest};
+    message.rest = rest_message(summary);
     const localization::BeliefMode& mode = summary.modes.front();
     message.hypotheses.push_back({mode.map_from_robot.x, mode.map_from_robot.y, mode.map_from_robot.theta.radians(),
                                   mode.covariance, mode.mass});
@@ -144,25 +142,11 @@ class SonarLocalizeModule final : public Module {
   }
 
   void publish_transform(Time stamp) {
-    const Pose2 map_from_odom = tracker_.map_from_robot() * inverse(odometry_.latest());
-    geometry_msgs::TransformStamped transform;
-    transform.header = {docent::to_message(stamp), "map"};
-    transform.child_frame_id = "odom";
-    transform.transform = {{map_from_odom.x, map_from_odom.y, 0.0}, to_quaternion(map_from_odom.theta)};
-    tf2_msgs::TFMessage message;
-    message.transforms.push_back(std::move(transform));
-    transforms_.publish(std::move(message));
+    transforms_.publish(odom_in_map_message(tracker_.map_from_robot() * inverse(odometry_.latest()), stamp));
   }
 
   void publish_pose(Time stamp) {
-    geometry_msgs::PoseWithCovarianceStamped message;
-    message.header = {docent::to_message(stamp), "map"};
-    message.pose.pose = docent::to_message(tracker_.map_from_robot());
-    constexpr std::array<std::size_t, 3> kAxes{0, 1, 5};  // x, y, yaw of six
-    const localization::PoseMatrix covariance = tracker_.covariance();
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j) message.pose.covariance[kAxes[i] * 6 + kAxes[j]] = covariance[3 * i + j];
-    pose_.publish(std::move(message));
+    pose_.publish(pose_message({tracker_.map_from_robot(), tracker_.covariance(), 1.0}, stamp));
   }
 
   void save(Time stamp) {

@@ -22,8 +22,8 @@ class PoseTracker {
   }
   void on_odometry(const nav_msgs::Odometry& odometry) {
     odom_from_base_ = from_message(odometry.pose.pose);
-    odometry_stamp_ = from_message(odometry.header.stamp);
-    history_.add(odometry_stamp_, {*odom_from_base_, {odometry.twist.twist.linear.x, odometry.twist.twist.angular.z}});
+    history_.add(from_message(odometry.header.stamp),
+                 {*odom_from_base_, {odometry.twist.twist.linear.x, odometry.twist.twist.angular.z}});
   }
 
   [[nodiscard]] bool localized() const { return localized_; }
@@ -46,7 +46,6 @@ class PoseTracker {
     return *map_from_odom_ * *odom_from_base;
   }
   [[nodiscard]] Time belief_stamp() const { return belief_stamp_; }
-  [[nodiscard]] Time odometry_stamp() const { return odometry_stamp_; }
 
  private:
   bool localized_ = false;
@@ -54,7 +53,6 @@ class PoseTracker {
   std::optional<Pose2> odom_from_base_;
   collision_avoidance::BaseHistory history_;
   Time belief_stamp_{};
-  Time odometry_stamp_{};
 };
 
 }  // namespace docent::modules

@@ -88,7 +88,6 @@ void ContactLog::touch(Time now, const Body& body, const Touching& touching) {
 std::vector<docent_msgs::TrueContact> ContactLog::finish_step(Time now, double dt, const Body& body) {
   const bool wheels_turn = std::abs(body.linear()) > 0.01 || std::abs(body.angular()) > 0.02;
   if (touches_ > 0 && wheels_turn) wheels_turning_ += dt;
-  touches_this_step_ = touches_;
   touches_ = 0;
   std::erase_if(open_, [&](const auto& entry) { return now - entry.second.last > seconds(kSameContact); });
 

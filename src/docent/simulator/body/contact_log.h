@@ -40,7 +40,6 @@ class ContactLog {
   /// After the touches of one step: ends what no longer touches, returns the contacts that are ripe.
   [[nodiscard]] std::vector<docent_msgs::TrueContact> finish_step(Time now, double dt, const Body& body);
 
-  [[nodiscard]] bool is_touching() const { return touches_this_step_ > 0; }
   /// [s] so far that something was touched and the wheels turned.
   [[nodiscard]] double seconds_wheels_turning() const { return wheels_turning_; }
   /// Someone carried the robot away.
@@ -65,7 +64,6 @@ class ContactLog {
   std::map<std::string, Open> open_;
   std::vector<Pending> pending_;
   int touches_ = 0;
-  int touches_this_step_ = 0;
   double wheels_turning_ = 0.0;
 };
 
