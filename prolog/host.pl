@@ -3,6 +3,7 @@
     travel/3 and order/3 here, the lengths of ways and the least-travel order of the program that is being asked. */
 :- module(golog_host, [host_load/7, host_unload/1, host_step/7, host_outcome/4, host_snapshot/3, host_restore/3,
                        host_foresee/6, host_duration/3]).
+:- use_module(library(apply)).
 :- use_module(library(lists)).
 :- use_module(situation).
 :- use_module(golog).
