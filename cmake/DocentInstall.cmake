@@ -73,6 +73,8 @@ each, a systemd unit, and the messages for DDS and ROS 2.")
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+# Its library alone starts nothing; shlibdeps names a virtual package.
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "swi-prolog-core")
 # Without espeak-ng it has no voice, without the fonts pictures have no letters; alsa-utils names the sound cards.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "espeak-ng, fonts-dejavu-core")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "alsa-utils")

@@ -5,6 +5,7 @@
     kept: every step rolls the state forward. Time is what the caller says it is [s]. */
 :- module(agent, [start/2, step/5, step/6, outcome/4, foresee/5, expected_duration/3,
                   agent_holds/2, snapshot/2, restore/3]).
+:- use_module(library(apply)).
 :- use_module(library(lists)).
 :- use_module(library(error)).
 :- use_module(situation).

@@ -29,6 +29,7 @@
     A procedure's body stands as in(Name, P), so that faults name it.
 */
 :- module(golog, [trans/5, final/3, do/4, plan/4, plan/5, actions_under_way/4]).
+:- use_module(library(apply)).
 :- use_module(library(lists)).
 :- use_module(situation).
 

@@ -1,7 +1,7 @@
-/*  What the robot calls (src/docent/task_control/golog): the agents of its programs by the names of their modules.
-    The last argument of each predicate says what was wrong, "" for nothing; then nothing has changed. C++ defines
-    travel/3 and order/3 here, the lengths of ways and the least-travel order of the program that is being asked. */
-:- module(golog_host, [host_load/7, host_unload/1, host_step/7, host_outcome/4, host_snapshot/3, host_restore/3,
+/*  What the robot calls (src/docent/task_control/golog), which keeps the agents. The last argument of each predicate
+    says what was wrong, "" for nothing; otherwise the new agent stays unbound. C++ defines travel/3 and order/3 here,
+    the lengths of ways and the least-travel order of the program that is being asked. */
+:- module(golog_host, [host_load/8, host_unload/1, host_step/8, host_outcome/5, host_snapshot/3, host_restore/4,
                        host_foresee/6, host_duration/3]).
 :- use_module(library(lists)).
 :- use_module(situation).
@@ -10,54 +10,49 @@
 :- use_module(program).
 :- use_module(travel).
 
-:- dynamic current_agent/2.
 :- set_prolog_gc_thread(false).  % everything happens in the caller's thread
 
-%!  host_load(+Domain, +Files, +Exhibits, +HasCharger, +Main, -Faults, -Fault) is det.
-%   Main: the procedure to run instead of the files' own; '' for that one.
-host_load(D, Files, Exhibits, HasCharger, Main, Faults, Fault) :-
-    guarded(D, load(D, Files, Exhibits, HasCharger, Main, Faults), Fault).
+%!  host_load(+Domain, +Files, +Exhibits, +HasCharger, +Main, -Agent, -Faults, -Fault) is det.
+%   Main: the procedure to run instead of the files' own; '' for that one. Faults: of the program; then there is no agent.
+host_load(D, Files, Exhibits, HasCharger, Main, Agent, Faults, Fault) :-
+    guarded(D, load(D, Files, Exhibits, HasCharger, Main, Agent, Faults), Fault).
 
-load(D, Files, Exhibits, HasCharger, Main, Faults) :-
+load(D, Files, Exhibits, HasCharger, Main, Agent, Faults) :-
     Distances = (distance(From, To, Metres) :- golog_host:travel(From, To, Metres)),
     findall(Fact, ( Fact = Distances
                   ; member(E, Exhibits), Fact = exhibit(E)
                   ; HasCharger == true, Fact = has_charger
                   ; Main \== '', Fact = proc(main, Main) ), Facts),
     load_program(D, Files, Facts, Faults),
-    ( Faults == [] -> start(D, Agent), set_agent(D, Agent) ; true ).
+    ( Faults == [] -> start(D, Agent) ; true ).
 
-host_unload(D) :- retractall(current_agent(D, _)), unload_program(D).
+host_unload(D) :- unload_program(D).
 
-%!  host_step(+Domain, +Now, +Events, +MostInferences, -Kind, -Action, -Fault) is det.
+%!  host_step(+Agent, +Now, +Events, +MostInferences, -Kind, -Action, -NewAgent, -Fault) is det.
 %   Kind: begin, stop, waits or finished; Action: [] for the last two.
-host_step(D, Now, Events, Most, Kind, Action, Fault) :-
-    guarded(D, next_step(D, Now, Events, Most, Result), Fault),
-    ( nonvar(Result), Result =.. [Kind, Action] -> true ; Result = Kind, Action = [] ).
+host_step(Agent, Now, Events, Most, Kind, Action, NewAgent, Fault) :-
+    guarded(Agent, step(Agent, Now, Events, Most, Result, NewAgent), Fault),
+    ( compound(Result) -> Result =.. [Kind, Action] ; Kind = Result, Action = [] ).
 
-next_step(D, Now, Events, Most, Result) :-
-    current_agent(D, Agent0),
-    step(Agent0, Now, Events, Most, Result, Agent),
-    set_agent(D, Agent).
+%!  host_outcome(+Agent, +Action, +Outcome, -NewAgent, -Fault) is det.
+host_outcome(Agent, Action, Outcome, NewAgent, Fault) :-
+    guarded(Agent, outcome(Agent, Action, Outcome, NewAgent), Fault).
 
-%!  host_outcome(+Domain, +Action, +Outcome, -Fault) is det.
-host_outcome(D, Action, Outcome, Fault) :-
-    guarded(D, ( current_agent(D, Agent0), outcome(Agent0, Action, Outcome, Agent), set_agent(D, Agent) ), Fault).
+%!  host_snapshot(+Agent, -Text, -Fault) is det.
+host_snapshot(Agent, Text, Fault) :- guarded(Agent, snapshot(Agent, Text), Fault).
 
-%!  host_snapshot(+Domain, -Text, -Fault) is det.
-host_snapshot(D, Text, Fault) :- guarded(D, ( current_agent(D, Agent), snapshot(Agent, Text) ), Fault).
+%!  host_restore(+Agent, +Text, -NewAgent, -Fault) is det.
+host_restore(Agent, Text, NewAgent, Fault) :-
+    Agent = agent(D, _, _),
+    guarded(Agent, restore(D, Text, NewAgent), Fault).
 
-%!  host_restore(+Domain, +Text, -Fault) is det.
-host_restore(D, Text, Fault) :- guarded(D, ( restore(D, Text, Agent), set_agent(D, Agent) ), Fault).
+%!  host_foresee(+Agent, +Most, +MostInferences, -Actions, -End, -Fault) is det.
+host_foresee(Agent, Most, MostInferences, Actions, End, Fault) :-
+    guarded(Agent, foresee(Agent, Most, MostInferences, Actions, End), Fault).
 
-%!  host_foresee(+Domain, +Most, +MostInferences, -Actions, -End, -Fault) is det.
-host_foresee(D, Most, MostInferences, Actions, End, Fault) :-
-    guarded(D, ( current_agent(D, Agent), foresee(Agent, Most, MostInferences, Actions, End) ), Fault).
+%!  host_duration(+Agent, +Action, -Seconds) is semidet.
+host_duration(Agent, Action, Seconds) :- expected_duration(Agent, Action, Seconds).
 
-%!  host_duration(+Domain, +Action, -Seconds) is semidet.
-host_duration(D, Action, Seconds) :- current_agent(D, Agent), expected_duration(Agent, Action, Seconds).
-
-set_agent(D, Agent) :- retractall(current_agent(D, _)), assertz(current_agent(D, Agent)).
-
-guarded(D, Goal, Fault) :-
-    catch(( Goal -> Fault = "" ; Fault = "there is no such program" ), E, fault_text(E, D, Fault)).
+guarded(Whose, Goal, Fault) :-
+    ( Whose = agent(D, _, _) -> true ; D = Whose ),
+    catch(( Goal -> Fault = "" ; Fault = "Prolog: a step fails" ), E, fault_text(E, D, Fault)).

@@ -3,6 +3,7 @@
     domain (situation.pl), so that the first procedure that fits counts; any other predicate is that of the first
     file. */
 :- module(program, [load_program/4, unload_program/1, program_faults/3, fault_text/3]).
+:- use_module(library(apply)).
 :- use_module(library(lists)).
 :- use_module(library(error)).
 :- use_module(situation).

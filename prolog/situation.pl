@@ -31,6 +31,7 @@
 :- module(situation, [holds/3, possible/3, initial_state/2, progress/4, put_fluent/3, state_fluents/2,
                       fluents_state/2, base_state/2, fresh/4, complete_domain/1, domain_predicate/1]).
 :- use_module(library(assoc)).
+:- use_module(library(apply)).
 :- use_module(library(lists)).
 :- use_module(library(ordsets)).
 :- use_module(library(error)).

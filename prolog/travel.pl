@@ -3,6 +3,7 @@
     defines), else from the nearest neighbour, improved by reversing and moving stretches until nothing gets shorter.
     The domain says distance(From, To, Metres); what has no distance is as good as out of reach. */
 :- module(travel, [schedule/3, order_length/3, exact_order/3, improved_order/3]).
+:- use_module(library(apply)).
 :- use_module(library(lists)).
 
 :- meta_predicate schedule(:, +, -), order_length(:, +, -), exact_order(:, +, -), improved_order(:, +, -).

@@ -78,6 +78,16 @@ class ProgramTurn {
   PrologTurn turn_;
 };
 
+/// Kept by C++: a clause that is replaced at every step would leave Prolog its old ones to look through.
+struct GologProgram::Agent {
+  explicit Agent(term_t term) : record{PL_record(term)} {}
+  ~Agent() { PL_erase(record); }
+  Agent(const Agent&) = delete;
+  Agent& operator=(const Agent&) = delete;
+
+  record_t record;
+};
+
 Result<void> GologParams::validate() const {
   if (most_inferences <= 0) return fail("golog.most_inferences must be > 0");
   return {};
@@ -100,11 +110,13 @@ GologProgram::GologProgram(GologProgram&& other) noexcept
       programme_{std::move(other.programme_)},
       travel_{std::move(other.travel_)},
       robot_{other.robot_},
-      domain_{std::exchange(other.domain_, {})} {}
+      domain_{std::exchange(other.domain_, {})},
+      agent_{std::move(other.agent_)} {}
 
 GologProgram::~GologProgram() {
   if (domain_.empty()) return;
   ProgramTurn turn{*this};
+  agent_.reset();
   const term_t domain = PL_new_term_ref();
   if (put_word(domain, domain_)) static_cast<void>(turn.call("host_unload", 1, domain));
 }
@@ -130,16 +142,17 @@ std::vector<Error> GologProgram::read(const std::filesystem::path& file, const s
   for (const ProgrammeExhibit& exhibit : programme_.exhibits) exhibits.push_back(exhibit.id);
 
   ProgramTurn turn{*this};
-  const term_t arguments = PL_new_term_refs(7);
+  const term_t arguments = PL_new_term_refs(8);
   if (!put_word(arguments, domain_) || !put_words(arguments + 1, files) || !put_words(arguments + 2, exhibits) ||
       !put_word(arguments + 3, programme_.charger ? "true" : "false") || !put_word(arguments + 4, main)) {
     return {out_of_memory()};
   }
-  if (auto fine = no_fault(turn.call("host_load", 7, arguments), arguments + 6); !fine) return {fine.error()};
+  if (auto fine = no_fault(turn.call("host_load", 8, arguments), arguments + 7); !fine) return {fine.error()};
   std::vector<Error> faults;
-  for (std::string& text : texts_of(arguments + 5).value_or(std::vector<std::string>{})) {
+  for (std::string& text : texts_of(arguments + 6).value_or(std::vector<std::string>{})) {
     faults.push_back({std::move(text)});
   }
+  if (faults.empty()) agent_ = std::make_unique<Agent>(arguments + 5);
   return faults;
 }
 
@@ -155,16 +168,17 @@ std::optional<Point2> GologProgram::place(const std::string& name) const {
 Result<GologStep> GologProgram::step(Time now, Point2 robot, std::span<const GologTerm> events) {
   robot_ = robot;
   ProgramTurn turn{*this};
-  const term_t arguments = PL_new_term_refs(7);
-  if (!put_word(arguments, domain_) || PL_put_float(arguments + 1, to_seconds(now)) == 0 ||
+  const term_t arguments = PL_new_term_refs(8);
+  if (PL_recorded(agent_->record, arguments) == 0 || PL_put_float(arguments + 1, to_seconds(now)) == 0 ||
       !put_terms(arguments + 2, events) || PL_put_int64(arguments + 3, params_.most_inferences) == 0) {
     return tl::unexpected(out_of_memory());
   }
-  if (auto fine = no_fault(turn.call("host_step", 7, arguments), arguments + 6); !fine) {
+  if (auto fine = no_fault(turn.call("host_step", 8, arguments), arguments + 7); !fine) {
     return tl::unexpected(fine.error());
   }
   auto kind = kind_of(text_of(arguments + 4).value_or(""));
   if (!kind) return tl::unexpected(kind.error());
+  agent_ = std::make_unique<Agent>(arguments + 6);
   if (*kind == GologStep::Kind::waits || *kind == GologStep::Kind::finished) return GologStep{*kind};
   auto action = term_of(arguments + 5);
   if (!action) return tl::unexpected(action.error());
@@ -175,18 +189,21 @@ Result<void> GologProgram::outcome(const GologTerm& action, const GologOutcome& 
   ProgramTurn turn{*this};
   GologTerm how{outcome.kind == GologOutcome::Kind::failed ? "failed" : "done"};
   if (outcome.kind == GologOutcome::Kind::sensed) how = {"value", {outcome.value}};
-  const term_t arguments = PL_new_term_refs(4);
-  if (!put_word(arguments, domain_) || !put_term(arguments + 1, action) || !put_term(arguments + 2, how)) {
+  const term_t arguments = PL_new_term_refs(5);
+  if (PL_recorded(agent_->record, arguments) == 0 || !put_term(arguments + 1, action) ||
+      !put_term(arguments + 2, how)) {
     return tl::unexpected(out_of_memory());
   }
-  return no_fault(turn.call("host_outcome", 4, arguments), arguments + 3);
+  auto fine = no_fault(turn.call("host_outcome", 5, arguments), arguments + 4);
+  if (fine) agent_ = std::make_unique<Agent>(arguments + 3);
+  return fine;
 }
 
 Result<GologForesight> GologProgram::foresee(Point2 robot, int most_actions) {
   robot_ = robot;
   ProgramTurn turn{*this};
   const term_t arguments = PL_new_term_refs(6);
-  if (!put_word(arguments, domain_) || PL_put_integer(arguments + 1, most_actions) == 0 ||
+  if (PL_recorded(agent_->record, arguments) == 0 || PL_put_integer(arguments + 1, most_actions) == 0 ||
       PL_put_int64(arguments + 2, params_.most_inferences) == 0) {
     return tl::unexpected(out_of_memory());
   }
@@ -210,7 +227,7 @@ std::optional<double> GologProgram::expected_s(Point2 robot, const GologTerm& ac
   ProgramTurn turn{*this};
   const term_t arguments = PL_new_term_refs(3);
   double expected = 0.0;
-  if (!put_word(arguments, domain_) || !put_term(arguments + 1, action)) return std::nullopt;
+  if (PL_recorded(agent_->record, arguments) == 0 || !put_term(arguments + 1, action)) return std::nullopt;
   const auto is_true = turn.call("host_duration", 3, arguments);
   if (!is_true || !*is_true || PL_get_float(arguments + 2, &expected) == 0) return std::nullopt;
   return expected;
@@ -219,7 +236,7 @@ std::optional<double> GologProgram::expected_s(Point2 robot, const GologTerm& ac
 Result<std::string> GologProgram::snapshot() {
   ProgramTurn turn{*this};
   const term_t arguments = PL_new_term_refs(3);
-  if (!put_word(arguments, domain_)) return tl::unexpected(out_of_memory());
+  if (PL_recorded(agent_->record, arguments) == 0) return tl::unexpected(out_of_memory());
   if (auto fine = no_fault(turn.call("host_snapshot", 3, arguments), arguments + 2); !fine) {
     return tl::unexpected(fine.error());
   }
@@ -228,9 +245,12 @@ Result<std::string> GologProgram::snapshot() {
 
 Result<void> GologProgram::restore(const std::string& snapshot) {
   ProgramTurn turn{*this};
-  const term_t arguments = PL_new_term_refs(3);
-  if (!put_word(arguments, domain_) || !put_text(arguments + 1, snapshot)) return tl::unexpected(out_of_memory());
-  return no_fault(turn.call("host_restore", 3, arguments), arguments + 2);
+  const term_t arguments = PL_new_term_refs(4);
+  if (PL_recorded(agent_->record, arguments) == 0 || !put_text(arguments + 1, snapshot))
+    return tl::unexpected(out_of_memory());
+  auto fine = no_fault(turn.call("host_restore", 4, arguments), arguments + 3);
+  if (fine) agent_ = std::make_unique<Agent>(arguments + 2);
+  return fine;
 }
 
 }  // namespace docent::task_control

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -95,6 +96,8 @@ class GologProgram {
   TravelDistance travel_;
   Point2 robot_;
   std::string domain_;  ///< the Prolog module that holds it; empty: moved away
+  struct Agent;
+  std::unique_ptr<Agent> agent_;  ///< what is left of the program, and what is true
 };
 
 }  // namespace docent::task_control

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include <algorithm>
+#include <ctime>
 #include <fstream>
 #include <thread>
 
@@ -249,6 +250,25 @@ TEST_F(GologProgramTest, ProgramsLiveSideBySideInAnyThread) {
   other.join();
   EXPECT_EQ(left, (Actions{"drive(e1)", "explain(e1)", "drive(home)"}));
   EXPECT_EQ(right, (Actions{"drive(e12)", "explain(e12)", "drive(home)"}));
+}
+
+TEST_F(GologProgramTest, ALongDayCostsNothing) {
+  auto program = load("proc(main, while(true, [drive(e1), drive(home)])).\n");
+  ASSERT_TRUE(program) << program.error().message;
+  const auto act = [&](int count) {
+    const std::clock_t begin = std::clock();
+    for (int i = 0; i < count; ++i) {
+      const auto step = program->step(time_from_seconds(i), {});
+      EXPECT_TRUE(step && step->kind == Kind::begin && program->outcome(step->action, {}));
+    }
+    return static_cast<double>(std::clock() - begin);
+  };
+  act(500);
+  const double early = act(2000);
+  act(16000);
+  // Of processor time; the inferences are counted by plunit. One that looks through its past needs many times as much.
+  EXPECT_LT(act(2000), 3.0 * early);
+  EXPECT_LT(program->snapshot()->size(), 400U);
 }
 
 TEST_F(GologProgramTest, ExpectsDurations) {
