@@ -103,7 +103,7 @@ struct TourPlan {
 /// six minutes. Deterministic.
 [[nodiscard]] TourPlan plan_tour(const Programme& programme, const TourSoFar& tour, const TravelDistance& travel,
                                  const TravelTimes& times, Time now, const CompositionParams& params);
-inline constexpr std::size_t kMostFirst = 24;
+inline constexpr std::size_t kMostFirst = 10;
 inline constexpr std::size_t kMostNext = 5;
 
 /// How long it takes to go to an exhibit and show it in the short version [s], with the question if `asks`, nobody
