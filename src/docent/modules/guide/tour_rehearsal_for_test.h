@@ -229,8 +229,15 @@ class Rehearsal {
     }
     if (is(info, topics::kMissionState)) mission = *static_cast<const docent_msgs::MissionState*>(message.get());
     if (is(info, topics::kTask)) task = *static_cast<const docent_msgs::Task*>(message.get());
-    if (is(info, topics::kRequestBoard)) board = *static_cast<const docent_msgs::RequestBoard*>(message.get());
-    if (is(info, topics::kEvent)) events.push_back(*static_cast<const docent_msgs::Event*>(message.get()));
+    if (is(info, topics::kRequestBoard)) {
+      board = *static_cast<const docent_msgs::RequestBoard*>(message.get());
+      active_since_board_.clear();
+    }
+    if (is(info, topics::kEvent)) {
+      const auto& event = *static_cast<const docent_msgs::Event*>(message.get());
+      events.push_back(event);
+      if (event.kind == "request_active") active_since_board_[event.subject] = event.detail;
+    }
     if (is(info, topics::kSpeechState)) {
       const auto& speech = *static_cast<const docent_msgs::SpeechState*>(message.get());
       const bool is_known = std::any_of(speeches.begin(), speeches.end(), [&](const auto& before) {
@@ -248,14 +255,21 @@ class Rehearsal {
     for (const auto& entry : board.requests) {
       const bool wants = entry.request.kind == "tour" ? entry.request.target == task.tour_id && !task.tour_id.empty()
                                                       : entry.request.target == task.exhibit_id;
-      if (entry.state != "active" || !wants) continue;
-      auto& tasks = told[entry.request.id];
-      if (std::find(tasks.begin(), tasks.end(), task.id) == tasks.end()) tasks.push_back(task.id);
+      if (entry.state == "active" && wants) note_told(entry.request.id);
     }
+    // The mission may have died between the events of a change and its board; the change was committed before both.
+    for (const auto& [id, target] : active_since_board_) {
+      if (target == task.exhibit_id || (target == task.tour_id && !target.empty())) note_told(id);
+    }
+  }
+  void note_told(const std::string& id) {
+    auto& tasks = told[id];
+    if (std::find(tasks.begin(), tasks.end(), task.id) == tasks.end()) tasks.push_back(task.id);
   }
 
   std::filesystem::path state_;
   std::map<std::string, std::string> deaths_;
+  std::map<std::string, std::string> active_since_board_;  ///< request id to what it wishes for
   std::map<std::string, std::unique_ptr<ModuleHost>> hosts_;
 };
 

@@ -24,11 +24,11 @@ constexpr std::array<const char*, 9> kKinds{"pair",  "metres",  "seconds", "devi
                                             "crowd", "unasked", "went_on", "heard_more"};
 /// [m] The two lengths at which the parameters are taken as seen before any way was: a short way and a long one.
 constexpr std::array<double, 2> kPriorWays{2.0, 20.0};
-constexpr double kSameWay = 0.1;      ///< of the length, and
-constexpr double kSameWay_m = 0.5;    ///< [m]: by so much ways may differ that are still the same
-constexpr double kSlowest = 20.0;     ///< [s/m] no museum is crossed more slowly
-constexpr double kFastest = 0.5;      ///< [s/m] nor faster
-constexpr double kFactorLeast = 0.5;  ///< of hour and crowd
+constexpr double kSameWay = 0.1;        ///< of the length, and
+constexpr double kSameWayMetres = 0.5;  ///< [m]: by so much ways may differ that are still the same
+constexpr double kSlowest = 20.0;       ///< [s/m] no museum is crossed more slowly
+constexpr double kFastest = 0.5;        ///< [s/m] nor faster
+constexpr double kFactorLeast = 0.5;    ///< of hour and crowd
 constexpr double kFactorMost = 3.0;
 
 std::string hour_name(int hour) { return {static_cast<char>('0' + hour / 10), static_cast<char>('0' + hour % 10)}; }
@@ -129,7 +129,7 @@ Foreseen TravelTimes::pair(const std::string& from, const std::string& to, doubl
   const double by_length_s = by_length(way_m);
   const double prior_spread_s = usual_spread() * by_length_s;
   const Lesson& seen = find(LessonKind::pair, from, to);
-  const bool is_same = std::abs(seen.reference - way_m) <= kSameWay * way_m + kSameWay_m;
+  const bool is_same = std::abs(seen.reference - way_m) <= kSameWay * way_m + kSameWayMetres;
   if (from.empty() || to.empty() || !is_same) return {by_length_s, prior_spread_s};
   const double k = params_.prior_examples;
   const double mean_s = (k * by_length_s + seen.sum) / (k + seen.count);
@@ -199,7 +199,7 @@ void TravelTimes::learn_way(const std::string& from, const std::string& to, doub
 
   if (from.empty() || to.empty()) return;
   Lesson& of_pair = change(LessonKind::pair, from, to);
-  if (std::abs(of_pair.reference - way_m) > kSameWay * way_m + kSameWay_m) of_pair = {};
+  if (std::abs(of_pair.reference - way_m) > kSameWay * way_m + kSameWayMetres) of_pair = {};
   of_pair.count += 1.0;
   of_pair.sum += seconds;
   of_pair.squares += seconds * seconds;
