@@ -60,8 +60,8 @@ void draw_bar(pictures::Axes& axes, std::size_t i, const interaction::RewardStat
       for (const Point2 end : {upper, lower})
         canvas.draw_line({end.x - kWhisker, end.y}, {end.x + kWhisker, end.y}, kLine, pictures::colors::kInk);
     }
-    canvas.draw_text({count_at.x, count_at.y - 2.0}, std::to_string(style.count),
-                     {kCountSize, pictures::colors::kInk, {0.5, 1.0}});
+    canvas.draw_label({count_at.x, count_at.y - 2.0}, std::to_string(style.count),
+                      {kCountSize, pictures::colors::kInk, {0.5, 1.0}}, pictures::colors::kWhite);
   });
 }
 
