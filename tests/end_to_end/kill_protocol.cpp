@@ -18,8 +18,8 @@ namespace {
 constexpr double kMedianBack = 2.0;  // [s] of the kills of one module
 
 struct Options : KillTrialOptions {
-  std::vector<std::string> modules{"avoid",   "robot",     "localize", "hazards", "plan", "map",
-                                   "mission", "executive", "people",   "sound",   "web",  "record"};
+  std::vector<std::string> modules{"avoid",     "robot",  "localize", "hazards", "plan", "map",   "mission",
+                                   "executive", "people", "sound",    "head",    "web",  "record"};
   std::vector<std::string> signals{"kill", "stop"};
   std::vector<std::string> situations{"driving", "hazard", "explaining"};
   int kills = 5;  ///< of each module altogether

@@ -27,7 +27,8 @@ const char* output_of(const std::string& module) {
       {"localize", topics::kBelief.name},      {"hazards", topics::kVirtualScan.name},
       {"plan", topics::kGoalState.name},       {"map", topics::kLiveMap.name},
       {"mission", topics::kMissionState.name}, {"executive", topics::kTaskState.name},
-      {"people", topics::kPeople.name},        {"sound", topics::kSpeechState.name}};
+      {"people", topics::kPeople.name},        {"sound", topics::kSpeechState.name},
+      {"head", topics::kExpression.name}};
   const auto found = kOutputs.find(module);
   return found == kOutputs.end() ? nullptr : found->second;
 }

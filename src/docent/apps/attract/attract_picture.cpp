@@ -16,6 +16,7 @@ constexpr double kLine = 1.0;
 constexpr double kWhisker = 4.0;
 constexpr double kCountSize = 7.0;
 
+constexpr int kEnough = 5;          // phases
 constexpr double kBar = 0.36;       // half its width; styles stand 1 apart
 constexpr double kHeadroom = 0.12;  // of the panel, above everything and below what is negative
 
@@ -30,11 +31,12 @@ struct Range {
   double high = 0.0;
 };
 
-/// Of all bars and intervals, with nought.
+/// Of all bars with nought, and of the intervals of styles with enough phases: that of two phases may be a hundred
+/// times as long as any bar, and runs out of the panel.
 Range range_of(const interaction::StyleStatistics& statistics) {
   Range range;
   for (const interaction::RewardStatistic& style : statistics) {
-    const double half = style.half_width.value_or(0.0);
+    const double half = style.count >= kEnough ? style.half_width.value_or(0.0) : 0.0;
     range.low = std::min(range.low, style.mean - half);
     range.high = std::max(range.high, style.mean + half);
   }
@@ -49,7 +51,8 @@ void draw_bar(pictures::Axes& axes, std::size_t i, const interaction::RewardStat
   const double half = style.half_width.value_or(0.0);
   const Point2 upper = axes.page({x, style.mean + half});
   const Point2 lower = axes.page({x, style.mean - half});
-  const Point2 count_at = axes.page({x, std::max(style.mean + half, 0.0)});
+  Point2 count_at = axes.page({x, std::max(style.mean + half, 0.0)});
+  count_at.y = std::max(count_at.y, kCountSize + kWhisker);
   axes.add([=](pictures::Canvas& canvas) {
     canvas.fill_rectangle(top_left, bottom_right, color_of(i));
     if (half > 0.0) {
@@ -57,8 +60,8 @@ void draw_bar(pictures::Axes& axes, std::size_t i, const interaction::RewardStat
       for (const Point2 end : {upper, lower})
         canvas.draw_line({end.x - kWhisker, end.y}, {end.x + kWhisker, end.y}, kLine, pictures::colors::kInk);
     }
-    canvas.draw_text({count_at.x, count_at.y - 2.0}, std::to_string(style.count),
-                     {kCountSize, pictures::colors::kInk, {0.5, 1.0}});
+    canvas.draw_label({count_at.x, count_at.y - 2.0}, std::to_string(style.count),
+                      {kCountSize, pictures::colors::kInk, {0.5, 1.0}}, pictures::colors::kWhite);
   });
 }
 
@@ -89,7 +92,7 @@ pictures::Figure draw_styles(const interaction::TrialMemory& trials, const inter
   figure.add(panel_of(trials, interaction::CrowdClass::quiet, crowds));
   figure.add(panel_of(trials, interaction::CrowdClass::busy, crowds), true);
   figure.add(panel_of(trials, interaction::CrowdClass::packed, crowds));
-  figure.add_legend(pictures::legend_area("a style's phases", color_of(0)));
+  figure.add_legend(pictures::legend_area("mean of a style's phases, with their number", color_of(0)));
   figure.add_legend(pictures::legend_line("95 % interval of the mean", kLine, pictures::colors::kInk));
   return figure;
 }

@@ -56,7 +56,7 @@ TEST(AttractRun, ARobotThatIgnoresTheRewardIsNeverFriendlierThanChance) {
   options.learner.ignores_reward = true;
   const auto outcome = run_attract(options);
   EXPECT_EQ(outcome.claim, interaction::StyleClaim::none);
-  EXPECT_DOUBLE_EQ(outcome.friendly_at_end, 0.25) << "5 of 20 faces and words are friendly, and all are equally good";
+  EXPECT_NEAR(outcome.friendly_at_end, 0.25, 1e-9) << "5 of 20 faces and words are friendly, and all are equally good";
 }
 
 }  // namespace

@@ -16,18 +16,18 @@ AttractionTrial trial_of(double reward) {
 
 class TrialMemoryFile : public testing::Test {
  protected:
-  ~TrialMemoryFile() override { std::filesystem::remove(path_); }
-  std::filesystem::path path_ =
+  ~TrialMemoryFile() override { std::filesystem::remove(path); }
+  std::filesystem::path path =
       std::filesystem::temp_directory_path() / ("docent_trials_" + std::to_string(getpid()) + ".json");
 };
 
 TEST_F(TrialMemoryFile, WhatWasWrittenComesBack) {
-  const auto none = load_trials(path_);
+  const auto none = load_trials(path);
   ASSERT_TRUE(none);
   EXPECT_TRUE(none->empty()) << "there is no file yet";
   const TrialMemory trials{trial_of(0.1 + 0.2), trial_of(-1.5)};
-  ASSERT_TRUE(save_trials(path_, trials));
-  const auto read = load_trials(path_);
+  ASSERT_TRUE(save_trials(path, trials));
+  const auto read = load_trials(path);
   ASSERT_TRUE(read) << read.error().message;
   ASSERT_EQ(read->size(), 2U);
   EXPECT_EQ((*read)[0].reward, 0.1 + 0.2) << "to the last bit";
@@ -39,15 +39,15 @@ TEST_F(TrialMemoryFile, WhatWasWrittenComesBack) {
 }
 
 TEST_F(TrialMemoryFile, AnEmptyMemoryIsAFileToo) {
-  ASSERT_TRUE(save_trials(path_, {}));
-  const auto read = load_trials(path_);
+  ASSERT_TRUE(save_trials(path, {}));
+  const auto read = load_trials(path);
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_TRUE(read->empty());
 }
 
 TEST_F(TrialMemoryFile, ADamagedFileIsNamed) {
-  ASSERT_TRUE(save_trials(path_, {trial_of(1.0), trial_of(2.0)}));
-  const std::string good = read_file(path_).value();
+  ASSERT_TRUE(save_trials(path, {trial_of(1.0), trial_of(2.0)}));
+  const std::string good = read_file(path).value();
   for (const std::size_t length : {good.size() / 2, good.size() - 4, std::size_t{0}})
     EXPECT_FALSE(parse_trials(good.substr(0, length), "m.json")) << length;
   const auto with = [&](const std::string& before, const std::string& after) {
@@ -76,8 +76,8 @@ TEST_F(TrialMemoryFile, ADamagedFileIsNamed) {
 TEST_F(TrialMemoryFile, AStyleThatHadNoChanceIsRefused) {
   AttractionTrial impossible = trial_of(1.0);
   impossible.chances = {0.0, 0.75, 0.125, 0.0625, 0.0625};
-  ASSERT_TRUE(save_trials(path_, {impossible}));
-  const auto read = load_trials(path_);
+  ASSERT_TRUE(save_trials(path, {impossible}));
+  const auto read = load_trials(path);
   ASSERT_FALSE(read);
   EXPECT_NE(read.error().message.find("trial 1: the style had no chance"), std::string::npos) << read.error().message;
 }

@@ -17,7 +17,7 @@ struct NeckParams {
   double tilt_speed = 0.8;    ///< [rad/s] > 0
   double acceleration = 6.0;  ///< [rad/s2] > 0, of both joints
   double settling_s = 0.25;   ///< [s] > 0, in which the rest of a turn becomes a third; pan_speed / acceleration and
-                             ///< more keep it from overshooting
+                              ///< more keep it from overshooting
   template <class V>
   void visit(V& v) {
     v("pan_range", pan_range);

@@ -11,9 +11,8 @@ namespace docent::interaction {
 
 /// How fast moods follow one another. A rate is 1 / the mean time that a mood lasts.
 struct MoodParams {
-  double to_neutral_s =
-      3.0;  ///< [s] > 0, mean time blocked until a happy robot is neutral: a first "excuse me" is a friendly one
-  double to_sad_s = 5.0;    ///< [s] > 0, then until a neutral one pleads
+  double to_neutral_s = 3.0;  ///< [s] > 0, mean time blocked until a happy robot is neutral: it first asks friendly
+  double to_sad_s = 5.0;      ///< [s] > 0, then until a neutral one pleads
   double to_angry_s = 8.0;  ///< [s] > 0, then until a pleading one is angry: about when the reaction ladder asks again
   double calm_s = 2.0;      ///< [s] > 0, mean time with a free way until it is one mood happier
   double glide_s = 0.7;     ///< [s] > 0, in which a face does two thirds of the way to the next mood

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "docent/modules/shared/module_bench.h"
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent::modules {
 namespace {
@@ -42,11 +43,11 @@ class HeadModuleTest : public ModuleBench {
       if (has_pose) publish_pose();
       if (!people.people.empty()) people_in_odom.publish(people);
       if (is_blocked) {
-        docent_msgs::AvoidState state;
-        state.path_blocked = true;
-        state.unmapped_obstacle = true;
-        state.low_obstacle = is_thing;
-        avoid.publish(state);
+        docent_msgs::AvoidState hindered;
+        hindered.path_blocked = true;
+        hindered.unmapped_obstacle = true;
+        hindered.low_obstacle = is_thing;
+        avoid.publish(hindered);
       }
       if (wanted_in_base) {
         docent_msgs::Gaze gaze;
@@ -63,10 +64,10 @@ class HeadModuleTest : public ModuleBench {
     task.kind = kind;
     task.exhibit_id = kind == "visit" ? "clock" : "";
     tasks.publish(task);
-    docent_msgs::TaskState state;
-    state.id = "t1";
-    state.state = status;
-    task_states.publish(state);
+    docent_msgs::TaskState report;
+    report.id = "t1";
+    report.state = status;
+    task_states.publish(report);
   }
   void put_person(std::uint32_t id, Point2 in_base) {
     const Point2 in_odom = odom_from_base * in_base;

@@ -31,11 +31,11 @@ constexpr std::array kModules{
     ModuleEntry{"record", make_record, parameters_of_record, false, true},
     ModuleEntry{"robot", make_robot, parameters_of_robot, true},
     ModuleEntry{"sound", make_sound, parameters_of_sound},
-    ModuleEntry{"head", make_head, parameters_of_head},
     ModuleEntry{"mission", make_mission, parameters_of_mission},
     ModuleEntry{"executive", make_executive, parameters_of_executive},
     ModuleEntry{"web", make_web, parameters_of_web},
     ModuleEntry{"visualize", make_visualize, parameters_of_visualize},
+    ModuleEntry{"head", make_head, parameters_of_head},
 };
 // clang-format on
 
