@@ -87,6 +87,9 @@ inline constexpr Topic<docent_msgs::Event> kEvent{"docent/event", Qos::command};
 inline constexpr Topic<docent_msgs::Reaction> kReaction{"docent/reaction", Qos::command};
 inline constexpr Topic<docent_msgs::Gaze> kGaze{"docent/gaze", Qos::sensor};
 inline constexpr Topic<docent_msgs::Expression> kExpression{"docent/expression", Qos::sensor};
+/// A press that comes late means another question.
+inline constexpr Topic<docent_msgs::Button> kButton{"docent/button", Qos::command, 0, 1.0};
+inline constexpr Topic<docent_msgs::ButtonLamps> kButtonLamps{"docent/button_lamps", Qos::state};
 inline constexpr Topic<docent_msgs::Say> kSay{"docent/say", Qos::command};
 inline constexpr Topic<docent_msgs::SpeechState> kSpeechState{"docent/speech_state", Qos::state};
 inline constexpr Topic<docent_msgs::Horn> kHorn{"docent/horn", Qos::command};
@@ -121,7 +124,7 @@ void for_each_robot_topic(F&& f) {
   f(kPersonBeams), f(kPeople), f(kPeopleInOdom), f(kVirtualScan), f(kDriveGoal), f(kGoalState), f(kTarget), f(kPath);
   f(kDrive), f(kAvoidState), f(kRequest), f(kChoice), f(kRequestBoard), f(kMissionState), f(kTask), f(kTaskState),
       f(kEvent);
-  f(kReaction), f(kGaze), f(kExpression), f(kSay), f(kSpeechState), f(kHorn), f(kLimits), f(kHealth);
+  f(kReaction), f(kGaze), f(kExpression), f(kButton), f(kButtonLamps), f(kSay), f(kSpeechState), f(kHorn), f(kLimits), f(kHealth);
   f(kInitialPose), f(kParticleCloud), f(kPeopleMarkers), f(kMuseumMarkers);
 }
 template <class F>

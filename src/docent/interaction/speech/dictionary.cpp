@@ -13,7 +13,7 @@ namespace {
 constexpr std::array<const char*, kSentences> kKeys{
     "waking",         "relocalizing", "idle",       "waiting",     "driving",    "blocked",
     "explaining",     "asking",       "going_home", "battery_low", "charging",   "announcement",
-    "let_me_through", "offer_more",   "home_again", "must_charge", "at_charger",
+    "let_me_through", "offer_more",   "home_again", "must_charge", "at_charger", "help",
 };
 
 struct Sentences {

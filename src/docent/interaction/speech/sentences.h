@@ -24,8 +24,9 @@ enum class Sentence {
   home_again,      ///< spoken on arrival at home
   must_charge,     ///< spoken when a visit or a tour is broken off for the battery
   at_charger,      ///< spoken on arrival at the charger
+  help,            ///< spoken when somebody wants to know what to do ([Rhino1999] 5.1)
 };
-inline constexpr int kSentences = static_cast<int>(Sentence::at_charger) + 1;
+inline constexpr int kSentences = static_cast<int>(Sentence::help) + 1;
 
 /// The sentence with `title` put in. Never empty.
 [[nodiscard]] std::string sentence(Sentence which, std::string_view language, std::string_view title = {});
