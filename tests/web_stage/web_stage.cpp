@@ -11,10 +11,12 @@
 #include "docent/base/files.h"
 #include "docent/interaction/speech/horn.h"
 #include "docent/modules/edge/web_module.h"
+#include "docent/modules/guide/buttons_module.h"
 #include "docent/transport/virtual_time_bus.h"
 
-// docent_web_stage MUSEUM_DIR STATE_DIR PORT [lost=S] [people=N] [busy] [speed=V] [talk=F] [horn=S] [seconds=S]
-// The web module of the robot, in real time, among invented messages. Ends on SIGTERM or after `seconds`.
+// docent_web_stage MUSEUM_DIR STATE_DIR PORT [lost=S] [people=N] [busy] [speed=V] [talk=F] [horn=S] [buttons=PIPE] [seconds=S]
+// The web module of the robot, in real time, among invented messages; with `buttons` also the module that reads the
+// four buttons. Ends on SIGTERM or after `seconds`.
 
 namespace {
 
@@ -43,13 +45,15 @@ int main(int argc, char** argv) {
   if (argc < 4) {
     std::fprintf(
         stderr,
-        "usage: %s MUSEUM_DIR STATE_DIR PORT [lost=S] [people=N] [busy] [speed=V] [talk=F] [horn=S] [seconds=S]\n",
+        "usage: %s MUSEUM_DIR STATE_DIR PORT [lost=S] [people=N] [busy] [speed=V] [talk=F] [horn=S] [buttons=PIPE] "
+        "[seconds=S]\n",
         argv[0]);
     return 2;
   }
   stage::Actor::Options options;
   int people = 25;
   double end_s = 1e9;
+  std::string buttons;
   for (int i = 4; i < argc; ++i) {
     const std::string word = argv[i];
     const auto value = [&word](const char* key) {
@@ -61,6 +65,7 @@ int main(int argc, char** argv) {
     if (const auto text = value("seconds="); !text.empty()) end_s = std::stod(text);
     if (const auto text = value("talk="); !text.empty()) options.talk = std::stod(text);
     if (const auto text = value("horn="); !text.empty()) options.horn_s = std::stod(text);
+    if (const auto text = value("buttons="); !text.empty()) buttons = text;
     if (word == "busy") options.is_busy = true;
   }
   const auto museum = museum::load_museum(argv[1]);
@@ -81,6 +86,10 @@ int main(int argc, char** argv) {
   const modules::ModuleContext context{*web_bus, *museum, config, state, 1, true};
   auto web = modules::make_web(context);
   if (!web) return std::fprintf(stderr, "%s\n", web.error().message.c_str()), 2;
+  if (const auto set = config.set("buttons.device=" + buttons); !set) return 2;
+  const auto buttons_bus = hub.connect("buttons");
+  const auto pressed = modules::make_buttons({*buttons_bus, *museum, config, state, 1, false});
+  if (!pressed) return std::fprintf(stderr, "%s\n", pressed.error().message.c_str()), 2;
   std::signal(SIGTERM, [](int) { is_ended = 1; });
   std::signal(SIGINT, [](int) { is_ended = 1; });
   std::printf("http://127.0.0.1:%s/\n", argv[3]);
