@@ -124,7 +124,8 @@ void for_each_robot_topic(F&& f) {
   f(kPersonBeams), f(kPeople), f(kPeopleInOdom), f(kVirtualScan), f(kDriveGoal), f(kGoalState), f(kTarget), f(kPath);
   f(kDrive), f(kAvoidState), f(kRequest), f(kChoice), f(kRequestBoard), f(kMissionState), f(kTask), f(kTaskState),
       f(kEvent);
-  f(kReaction), f(kGaze), f(kExpression), f(kButton), f(kButtonLamps), f(kSay), f(kSpeechState), f(kHorn), f(kLimits), f(kHealth);
+  f(kReaction), f(kGaze), f(kExpression), f(kButton), f(kButtonLamps), f(kSay), f(kSpeechState), f(kHorn), f(kLimits),
+      f(kHealth);
   f(kInitialPose), f(kParticleCloud), f(kPeopleMarkers), f(kMuseumMarkers);
 }
 template <class F>

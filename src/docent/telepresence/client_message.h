@@ -99,8 +99,8 @@ struct AnswerMessage {
     v("id", m.id), v("question", m.question), v("answer", m.answer), v("language", m.language);
   }
 };
-using ClientMessage = std::variant<RequestMessage, CancelMessage, ChoiceMessage, WatchMessage, LampsMessage,
-                                   HelpMessage, AnswerMessage>;
+using ClientMessage =
+    std::variant<RequestMessage, CancelMessage, ChoiceMessage, WatchMessage, LampsMessage, HelpMessage, AnswerMessage>;
 
 /// Error: what is wrong with it, for the close frame (at most 120 bytes, ASCII).
 [[nodiscard]] Result<ClientMessage> parse_client_message(std::string_view text);

@@ -14,7 +14,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   if (const auto* request = std::get_if<docent::telepresence::RequestMessage>(&*message)) {
-    if (!docent::telepresence::is_uuid7(request->id) || !docent::telepresence::is_identifier(request->target)) std::abort();
+    if (!docent::telepresence::is_uuid7(request->id) || !docent::telepresence::is_identifier(request->target))
+      std::abort();
     if (request->viewpoint < -1 || request->name.size() > 160) std::abort();
     for (const char c : request->name) {
       if (static_cast<unsigned char>(c) < 0x20) std::abort();

@@ -350,8 +350,8 @@ struct ErrorMessage {
 };
 
 /// Everything that the live channel carries to a page.
-using ServerMessage = std::tuple<LiveMessage, BeliefMessage, PathMessage, MissionMessage, SpeechMessage, HornMessage,
-                                 ExpressionMessage, ButtonMessage, BoardMessage, HealthMessage, WindowMessage, Acknowledgement,
-                                 Refusal, ErrorMessage>;
+using ServerMessage =
+    std::tuple<LiveMessage, BeliefMessage, PathMessage, MissionMessage, SpeechMessage, HornMessage, ExpressionMessage,
+               ButtonMessage, BoardMessage, HealthMessage, WindowMessage, Acknowledgement, Refusal, ErrorMessage>;
 
 }  // namespace docent::telepresence::documents

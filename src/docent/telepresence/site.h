@@ -26,7 +26,8 @@ struct SiteReply {
 /// change is compressed once, when it is set. Any thread may call it.
 class Site {
  public:
-  /// Reads all files under `folder` as "/…"; "/" is index.html, "/kiosk" kiosk.html and so on. Error: unreadable, no index.html, or over 64 MB.
+  /// Reads all files under `folder` as "/…"; "/" is index.html, "/kiosk" kiosk.html and so on. Error: unreadable, no
+  /// index.html, or over 64 MB.
   [[nodiscard]] Result<void> load_page(const std::filesystem::path& folder);
   /// Serves /audio/HASH.wav from here.
   void set_audio_folder(std::filesystem::path folder) { audio_ = std::move(folder); }

@@ -72,9 +72,9 @@ class ButtonsModuleTest : public testing::Test {
   }
   [[nodiscard]] std::string reason() const { return module_->health().reason; }
 
-  std::filesystem::path state_ = std::filesystem::temp_directory_path() /
-                                 ("docent-buttons-" + std::to_string(::getpid()) + "-" +
-                                  testing::UnitTest::GetInstance()->current_test_info()->name());
+  std::filesystem::path state_ =
+      std::filesystem::temp_directory_path() / ("docent-buttons-" + std::to_string(::getpid()) + "-" +
+                                                testing::UnitTest::GetInstance()->current_test_info()->name());
   std::filesystem::path pipe_ = state_ / "buttons";
   int end_ = -1;
   transport::VirtualTimeHub hub_;

@@ -13,9 +13,9 @@ namespace docent::telepresence {
 enum class Role {
   observer,  ///< watches
   visitor,   ///< also makes wishes, takes them back, and answers questions
-  kiosk,     ///< the robot's own screen: like a visitor, says also which buttons are lit, what was answered to the poll, and
-             ///< that somebody wants help
-  staff,     ///< may ask for the same; nobody comes from the Web as staff
+  kiosk,  ///< the robot's own screen: like a visitor, says also which buttons are lit, what was answered to the poll,
+          ///< and that somebody wants help
+  staff,  ///< may ask for the same; nobody comes from the Web as staff
 };
 
 /// What a browser tells of itself when it opens the live channel.

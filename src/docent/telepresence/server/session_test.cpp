@@ -51,7 +51,7 @@ class SessionTest : public testing::Test {
   }
 
   SessionOwner owner_;
-  std::atomic<ViewerId> heard_{0};  ///< sum over the messages
+  std::atomic<ViewerId> heard_{0};          ///< sum over the messages
   std::atomic<Role> role_{Role::observer};  ///< of the last message
   bool has_left_ = false;
   boost::asio::io_context io_{1};
