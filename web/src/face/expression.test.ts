@@ -75,7 +75,7 @@ test('a mood comes over it within half a second, whatever the rate of the screen
     expect(face.valence).toBeGreaterThan(0.9);
     expect(face.valence).toBeLessThan(1);
   }
-  expect(colourOf(-1)).toBe('rgb(255 122 88)');
+  expect(colourOf(-1)).toBe('rgb(255 110 80)');
   expect(colourOf(1)).toBe('rgb(255 214 92)');
   expect(colourOf(0)).toBe('rgb(126 240 224)');
 });

@@ -36,14 +36,12 @@ const blend = (a: number, b: number, part: number) => a + (b - a) * part;
 const clamp = (value: number, most: number) => Math.max(-most, Math.min(most, value));
 const at = (x: number, y: number) => `${x.toFixed(2)} ${y.toFixed(2)}`;
 
-const ANGRY = [255, 122, 88];
-const NEUTRAL = [126, 240, 224];
-const HAPPY = [255, 214, 92];
-
-/** Red when angry, yellow when happy. */
+/** From red when angry to yellow when happy, by way of colours that are none of them grey. */
+const COLOURS = [[255, 110, 80], [255, 196, 140], [126, 240, 224], [186, 240, 130], [255, 214, 92]];
 export function colourOf(valence: number): string {
-  const end = valence < 0 ? ANGRY : HAPPY;
-  return `rgb(${NEUTRAL.map((part, i) => Math.round(blend(part, end[i], Math.min(1, Math.abs(valence))))).join(' ')})`;
+  const place = (clamp(valence, 1) + 1) * 2;
+  const i = Math.min(3, Math.floor(place));
+  return `rgb(${COLOURS[i].map((part, k) => Math.round(blend(part, COLOURS[i + 1][k], place - i))).join(' ')})`;
 }
 
 /** `side`: -1 for the eye on the left of the screen, 1 for the other. */
@@ -62,10 +60,11 @@ function eyeOf(side: number, e: Expression): Eye {
   // The lids: a line over the eye, which an angry face lowers towards the nose, and a bow below it, which a smile lifts.
   const top = y - EYE.ry - 2;
   const bottom = y + EYE.ry + 2;
-  const lidOuter = blend(top + 8 * angry + 12 * e.sad, bottom, e.shut);
-  const lidInner = blend(top + 30 * angry, bottom, e.shut);
+  const closed = y + 13;
+  const lidOuter = blend(top + 8 * angry + 12 * e.sad, closed, e.shut);
+  const lidInner = blend(top + 30 * angry, closed, e.shut);
   const upperLid = `M${at(outer + side * 9, top - 12)} L${at(inner - side * 9, top - 12)} L${at(inner - side * 9, lidInner)} L${at(outer + side * 9, lidOuter)} Z`;
-  const raised = bottom - 22 * happy - 5 * angry;
+  const raised = blend(bottom - 17 * happy - 5 * angry, closed, e.shut);
   const lowerLid = `M${at(x - 36, bottom + 12)} L${at(x - 36, raised + 8 * happy)} Q${at(x, raised - 9 * happy)} ${at(x + 36, raised + 8 * happy)} L${at(x + 36, bottom + 12)} Z`;
   // It faces us: its left is our right.
   const pupil: [number, number] = [x + 17 * Math.sin(clamp(e.pan, 1.2)), y - 17 * Math.sin(clamp(e.tilt, 0.8)) + 3 * happy];
@@ -75,12 +74,12 @@ function eyeOf(side: number, e: Expression): Eye {
 function mouthOf(e: Expression): string {
   const happy = Math.max(0, e.valence);
   const angry = Math.max(0, -e.valence);
-  const half = 34 + 12 * happy + 2 * angry;
+  const half = 34 + 13 * happy + 2 * angry;
   const middle = 46 + 4 * angry;
   const corner = middle - 13 * happy + 12 * angry + 5 * e.sad;
   const bow = 24 * happy - 26 * angry - 10 * e.sad;
   // A broad smile is open a little; a mouth that speaks opens downwards.
-  const gap = 13 * Math.max(0, e.valence - 0.35) + 26 * e.open;
+  const gap = 24 * Math.max(0, e.valence - 0.35) + 26 * e.open;
   const upper = middle + bow - gap * 0.35;
   const lower = middle + bow + gap * 1.5;
   return `M${at(-half, corner)} Q${at(0, upper)} ${at(half, corner)} Q${at(0, lower)} ${at(-half, corner)} Z`;
@@ -97,7 +96,7 @@ export function faceOf(e: Expression): Face {
 
 /** How far the mouth of a speaker is open at `t` [s]: some four syllables a second, none like the one before. */
 export function syllables(t: number): number {
-  const beat = Math.abs(Math.sin(Math.PI * 2.1 * t));
+  const beat = Math.abs(Math.sin(Math.PI * 4.3 * t));
   const stress = 0.62 + 0.38 * Math.sin(3.7 * t + 1.3 * Math.sin(1.9 * t));
   return Math.max(0.08, beat * stress);
 }

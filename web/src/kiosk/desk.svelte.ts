@@ -13,7 +13,8 @@ const THANKS = 5;
 const FRESH = 120;
 /** The museum's first language comes back after this time [s] without a press, while nobody is shown around. */
 const LANGUAGE = 60;
-/** Two presses of the same button within this time [s] are one: by the button and by the key that it may also be. */
+/** Presses within this time [s] after one that led somewhere are none: a button may be heard as a key, too, and a child
+    that hammers on it shall not answer questions that nobody has read. */
 const DOUBLE = 0.3;
 /** The lamps are told again after this time [s]: a screen that tells nothing for long counts as gone. */
 const LAMPS = 5;
@@ -49,7 +50,7 @@ class Desk {
   private smaller = $state(false);
   private pollState = $state.raw(polls.read());
   private isStranger = $state(false);
-  private pressed = { number: 0, at: -10 };
+  private obeyed = -10;
   private lastPress = $state(0);
   private told = { lit: '', at: -10 };
   private seenButton: unknown = undefined;
@@ -74,11 +75,11 @@ class Desk {
   }
   press(number: number): void {
     const at = this.seconds();
-    if (this.pressed.number === number && at - this.pressed.at < DOUBLE) return;
-    this.pressed = { number, at };
     this.lastPress = at;
     const choice = this.screen.choices[number - 1];
-    if (choice && !choice.isComing) this.obey(choice.act);
+    if (!choice || choice.isComing || at - this.obeyed < DOUBLE) return;
+    this.obeyed = at;
+    this.obey(choice.act);
   }
 
   // What is shown -------------------------------------------------------------------------------------------------
@@ -115,7 +116,8 @@ class Desk {
     if (!wish) return null;
     const entry = [...(app.board?.open ?? []), ...(app.board?.closed ?? [])].find((one) => one.key === keyOf(wish.id));
     void this.now; // ages
-    return { state: wish.state, age: Date.now() / 1000 - wish.made / 1000, since: entry ? this.now - entry.changed : 0 };
+    const age = (Date.now() - wish.made) / 1000;
+    return { state: wish.state, age, since: entry ? this.now - entry.changed : age };
   }
   /** The tour of this screen that has just been fulfilled and is not asked about yet. */
   private poll(): number | null {
