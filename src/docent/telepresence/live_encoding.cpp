@@ -174,7 +174,7 @@ std::string encode_horn(Time t, const std::string& file, double duration_s) {
 std::string encode_expression(const docent_msgs::Expression& expression) {
   constexpr double kFine = 50.0;     // steps of the valence, and of the head to a radian: finer than eyes see on a face
   constexpr double kMostTurn = 3.2;  // [rad]
-  const auto angle = [](double value) { return rounded(std::clamp(value, -kMostTurn, kMostTurn), kFine); };
+  const auto angle = [&](double value) { return rounded(std::clamp(value, -kMostTurn, kMostTurn), kFine); };
   return json_text(documents::ExpressionMessage{
       parse<Mood>(expression.mood).value_or(Mood::neutral), rounded(std::clamp(expression.valence, -1.0, 1.0), kFine),
       expression.is_speaking, expression.gaze, angle(expression.pan), angle(expression.tilt)});

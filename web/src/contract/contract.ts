@@ -23,6 +23,7 @@ export interface Exhibit {
   long: Record<string, string>;
   topics: string[];
   web_only: boolean;
+  picture: string;
 }
 export interface Tour {
   id: string;
@@ -139,6 +140,20 @@ export interface HornMessage {
   duration: number;
   audio: string;
 }
+export interface ExpressionMessage {
+  type: 'expression';
+  mood: 'neutral' | 'happy' | 'sad' | 'angry';
+  valence: number;
+  is_speaking: boolean;
+  gaze: string;
+  pan: number;
+  tilt: number;
+}
+export interface ButtonMessage {
+  type: 'button';
+  t: number;
+  number: number;
+}
 export interface BoardEntry {
   key: string;
   source: string;
@@ -212,8 +227,24 @@ export interface WatchMessage {
   type: 'watch';
   details: boolean;
 }
-export type ServerMessage = LiveMessage | BeliefMessage | PathMessage | MissionMessage | SpeechMessage | HornMessage | BoardMessage | HealthMessage | WindowMessage | Acknowledgement | Refusal | ErrorMessage;
-export type ClientMessage = RequestMessage | CancelMessage | ChoiceMessage | WatchMessage;
+export interface LampsMessage {
+  type: 'lamps';
+  lit: number[];
+}
+export interface HelpMessage {
+  type: 'help';
+  id: string;
+  language: string;
+}
+export interface AnswerMessage {
+  type: 'answer';
+  id: string;
+  question: 'liked' | 'satisfied' | 'intelligence';
+  answer: 'yes' | 'undecided' | 'no' | 'human' | 'monkey' | 'dog' | 'fish' | 'amoeba';
+  language: string;
+}
+export type ServerMessage = LiveMessage | BeliefMessage | PathMessage | MissionMessage | SpeechMessage | HornMessage | ExpressionMessage | ButtonMessage | BoardMessage | HealthMessage | WindowMessage | Acknowledgement | Refusal | ErrorMessage;
+export type ClientMessage = RequestMessage | CancelMessage | ChoiceMessage | WatchMessage | LampsMessage | HelpMessage | AnswerMessage;
 export const documents = {
   "Acknowledgement": {
     "fields": {
@@ -221,6 +252,33 @@ export const documents = {
     },
     "maybe": {},
     "type": "ack"
+  },
+  "AnswerMessage": {
+    "fields": {
+      "answer": {
+        "words": [
+          "yes",
+          "undecided",
+          "no",
+          "human",
+          "monkey",
+          "dog",
+          "fish",
+          "amoeba"
+        ]
+      },
+      "id": "string",
+      "language": "string",
+      "question": {
+        "words": [
+          "liked",
+          "satisfied",
+          "intelligence"
+        ]
+      }
+    },
+    "maybe": {},
+    "type": "answer"
   },
   "Avoid": {
     "fields": {
@@ -312,6 +370,14 @@ export const documents = {
     "maybe": {},
     "type": "board"
   },
+  "ButtonMessage": {
+    "fields": {
+      "number": "number",
+      "t": "number"
+    },
+    "maybe": {},
+    "type": "button"
+  },
   "CancelMessage": {
     "fields": {
       "id": "string",
@@ -348,6 +414,7 @@ export const documents = {
           "number"
         ]
       },
+      "picture": "string",
       "pose": {
         "tuple": [
           "number",
@@ -376,6 +443,25 @@ export const documents = {
       "web_only": "boolean"
     },
     "maybe": {}
+  },
+  "ExpressionMessage": {
+    "fields": {
+      "gaze": "string",
+      "is_speaking": "boolean",
+      "mood": {
+        "words": [
+          "neutral",
+          "happy",
+          "sad",
+          "angry"
+        ]
+      },
+      "pan": "number",
+      "tilt": "number",
+      "valence": "number"
+    },
+    "maybe": {},
+    "type": "expression"
   },
   "Hazard": {
     "fields": {
@@ -411,6 +497,14 @@ export const documents = {
     "maybe": {},
     "type": "health"
   },
+  "HelpMessage": {
+    "fields": {
+      "id": "string",
+      "language": "string"
+    },
+    "maybe": {},
+    "type": "help"
+  },
   "HornMessage": {
     "fields": {
       "audio": "string",
@@ -419,6 +513,15 @@ export const documents = {
     },
     "maybe": {},
     "type": "horn"
+  },
+  "LampsMessage": {
+    "fields": {
+      "lit": {
+        "list": "number"
+      }
+    },
+    "maybe": {},
+    "type": "lamps"
   },
   "LiveMessage": {
     "fields": {
