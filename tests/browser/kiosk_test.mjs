@@ -13,11 +13,15 @@ const stage = await play(museum, `buttons=${pipe}`);
 const kiosk = `${stage.url}/kiosk#${stage.key}`;
 const shows = (page, name, patience = 8000) => page.locator(`main[data-screen=${name}]`).waitFor({ timeout: patience });
 const screenOf = (page) => page.locator('main').getAttribute('data-screen');
+/** A press too soon after another is none: people need a moment, too. */
+const MOMENT = 400;
+const pressKey = async (page, key) => (await pause(MOMENT), await page.keyboard.press(key));
+const tap = async (page, selector) => (await pause(MOMENT), await page.locator(selector).tap());
 const lit = (page) => page.locator('main').getAttribute('data-lit');
 
 /** A press as the kernel tells it: struct input_event of a key that goes down and up. */
 const buttons = openSync(pipe, constants.O_WRONLY | constants.O_NONBLOCK);
-function pressButton(number) {
+function writeButton(number) {
   const event = (type, code, value) => {
     const bytes = Buffer.alloc(24);
     bytes.writeUInt16LE(type, 16);
@@ -26,6 +30,11 @@ function pressButton(number) {
     return bytes;
   };
   writeSync(buttons, Buffer.concat([event(1, number + 1, 1), event(0, 0, 0), event(1, number + 1, 0), event(0, 0, 0)]));
+}
+
+async function pressButton(number) {
+  await pause(MOMENT);
+  writeButton(number);
 }
 
 /** What cannot be read or reached, as sentences. */
@@ -44,6 +53,13 @@ const faults = (page) =>
       const ink = range.getBoundingClientRect();
       if (ink.left < 0 || ink.top < 0 || ink.right > wide + 0.5 || ink.bottom > high + 0.5) found.push(`"${name(one)}" leaves the screen`);
       if (ink.width > box.width + 1) found.push(`"${name(one)}" is wider than its box`);
+      for (const node of [...one.childNodes].filter((node) => node.nodeType === Node.TEXT_NODE)) {
+        for (const word of node.data.matchAll(/[^\s-]+/g)) {
+          range.setStart(node, word.index);
+          range.setEnd(node, word.index + word[0].length);
+          if (new Set([...range.getClientRects()].map((line) => Math.round(line.top))).size > 1) found.push(`"${word[0]}" is broken`);
+        }
+      }
       const size = parseFloat(getComputedStyle(one).fontSize);
       if (size < 4.4 * u - 0.1) found.push(`"${name(one)}" is ${size} px high`);
     }
@@ -118,10 +134,10 @@ const states = {
   asking: ['asking', async ({ robot }) => asks(robot, 'transrapid')],
   answered: ['answered', async ({ page, robot }) => (asks(robot, 'transrapid'), await shows(page, 'asking'), await page.keyboard.press('3'))],
   poll: ['poll', async (all) => beginPoll(all)],
-  clever: ['poll', async (all) => (await beginPoll(all), await all.page.keyboard.press('3'), await pause(400), await all.page.keyboard.press('1'))],
+  clever: ['poll', async (all) => (await beginPoll(all), await all.page.keyboard.press('3'), await pressKey(all.page, '1'))],
   smaller: ['poll', async (all) => {
     await beginPoll(all);
-    for (const key of ['3', '1', '4']) await pause(400), await all.page.keyboard.press(key);
+    for (const key of ['3', '1', '4']) await pressKey(all.page, key);
   }],
   thanks: ['thanks', async (all) => (await beginPoll(all), await all.page.keyboard.press('4'))],
   lost: ['lost', async ({ robot }) => (robot.instead.set('live', () => ({ pose: null })), robot.mission('relocalizing'))],
@@ -143,7 +159,7 @@ for (const [width, height] of SIZES) {
   await page.emulateMedia({ reducedMotion: 'reduce' });
   const reload = async () => {
     await page.reload();
-    await page.waitForFunction(() => !['opening', undefined].includes(document.querySelector('main')?.dataset.screen));
+    await page.locator('main:not([data-screen=opening])').waitFor();
   };
   for (const [name, [expected, set]] of Object.entries(states)) {
     await check(`${width} x ${height}, ${name}: can be read, reached, and axe finds nothing`, async () => {
@@ -196,11 +212,11 @@ await check('a whole tour by four buttons only', async () => {
   await shows(page, 'home', 40000);
   ensure((await lit(page)) === '1 2 3 4', `lit are ${await lit(page)}`);
   await until('the lamps follow', async () => robot.sent.some((message) => message.type === 'lamps' && message.lit.join() === '1,2,3,4'), 3000);
-  pressButton(3);
+  await pressButton(3);
   await shows(page, 'help');
-  pressButton(3); // back
+  await pressButton(3); // back
   await shows(page, 'home');
-  pressButton(1);
+  await pressButton(1);
   await shows(page, 'driving', 15000);
   const asked = (await board(page)).filter((entry) => entry.kind === 'tour');
   ensure(asked.length === 1 && asked[0].source === 'kiosk' && asked[0].target === 'highlights', JSON.stringify(asked));
@@ -212,24 +228,23 @@ await check('a whole tour by four buttons only', async () => {
   await shows(page, 'asking', 20000);
   ensure((await lit(page)) === '3 4', `lit are ${await lit(page)}`);
   await page.screenshot({ path: join(pictures, 'kiosk-tour-asking.png') });
-  pressButton(2); // dark: nothing happens
+  await pressButton(2); // dark: nothing happens
   await pause(300);
   ensure((await screenOf(page)) === 'asking', 'a dark button does something');
-  pressButton(3);
+  await pressButton(3);
   await until('the long story', async () => (await page.locator('.text').innerText()).includes('long'), 8000);
   await shows(page, 'driving', 30000);
   await shows(page, 'asking', 60000);
-  pressButton(4);
+  await pressButton(4);
   await shows(page, 'poll', 30000);
   const before = poll().length;
-  pressButton(3); // likes it
+  await pressButton(3); // likes it
   await page.locator('h1', { hasText: 'good tour' }).waitFor();
-  pressButton(2); // undecided
+  await pressButton(2); // undecided
   await page.locator('h1', { hasText: 'clever' }).waitFor();
-  pressButton(4); // something smaller
+  await pressButton(4); // something smaller
   await page.locator('button', { hasText: 'amoeba' }).waitFor();
-  await pause(400);
-  pressButton(2);
+  await pressButton(2);
   await shows(page, 'thanks');
   await shows(page, 'home', 10000);
   const answers = poll().slice(before).map((line) => line.split(',').slice(2).join());
@@ -242,22 +257,22 @@ await check('by keys, in French; a key and its button at once are one press', as
   const { page, robot, context } = await listen({ viewport: { width: 1920, height: 1080 } });
   await page.goto(kiosk);
   await shows(page, 'home', 40000);
-  await page.keyboard.press('4');
+  await pressKey(page, '4');
   await shows(page, 'languages');
-  await page.keyboard.press('3');
+  await pressKey(page, '3');
   await page.locator('h1', { hasText: 'Je vous fais visiter' }).waitFor();
   ensure((await page.locator('html').getAttribute('lang')) === 'fr', 'the page says it is in another language');
-  await page.keyboard.press('2'); // other tours
-  pressButton(2);
+  await pressKey(page, '2'); // other tours
+  writeButton(2);
   await shows(page, 'tours');
   await pause(500);
   ensure((await screenOf(page)) === 'tours', 'the button came after the key and was a second press');
-  await page.keyboard.press('4');
+  await pressKey(page, '4');
   await page.locator('button', { hasText: 'Six minutes avec moi' }).waitFor();
-  await page.keyboard.press('3'); // nothing lies there
-  await page.keyboard.press('4'); // back home
+  await pressKey(page, '3'); // nothing lies there
+  await pressKey(page, '4'); // back home
   await shows(page, 'home');
-  await page.keyboard.press('1');
+  await pressKey(page, '1');
   await shows(page, 'driving', 15000);
   ensure(robot.sent.find((message) => message.type === 'request').language === 'fr', 'the tour is in another language');
   await shows(page, 'explaining', 60000);
@@ -272,9 +287,9 @@ await check('by keys, in French; a key and its button at once are one press', as
   await page.reload();
   await shows(page, 'asking', 2500);
   await shows(page, 'driving', 20000); // nobody pressed: the tour went on
-  await page.keyboard.press('4');
+  await pressKey(page, '4');
   await shows(page, 'languages');
-  await page.keyboard.press('1');
+  await pressKey(page, '1');
   await shows(page, 'driving');
   ensure((await page.locator('html').getAttribute('lang')) === 'en', 'the language cannot be changed on the way');
   await context.close();
@@ -283,18 +298,19 @@ await check('by keys, in French; a key and its button at once are one press', as
 await check('by touch, in German; a question that nobody answers ends by itself', async () => {
   const { page, context } = await listen({ viewport: { width: 1080, height: 1920 }, hasTouch: true });
   await page.goto(kiosk);
-  await page.waitForFunction(() => ['home', 'poll'].includes(document.querySelector('main')?.dataset.screen), null, { timeout: 120000 });
-  if ((await screenOf(page)) === 'poll') await page.locator('button.blue').tap();
+  await page.locator('main[data-screen=home], main[data-screen=poll]').waitFor({ timeout: 120000 });
+  if ((await screenOf(page)) === 'poll') await tap(page, 'button.blue');
   await shows(page, 'home', 15000);
-  await page.locator('button.blue').tap();
+  await tap(page, 'button.blue');
+  await pause(MOMENT);
   await page.locator('button', { hasText: 'Deutsch' }).tap();
   await page.locator('h1', { hasText: 'Darf ich Sie' }).waitFor();
-  await page.locator('button.red').tap();
+  await tap(page, 'button.red');
   await shows(page, 'asking', 60000);
-  await page.locator('button.green').tap();
+  await tap(page, 'button.green');
   await shows(page, 'answered');
   await shows(page, 'poll', 90000);
-  await page.locator('button.red').tap();
+  await tap(page, 'button.red');
   await page.locator('h1', { hasText: 'gute Führung' }).waitFor();
   await page.reload();
   await page.locator('h1', { hasText: 'gute Führung' }).waitFor({ timeout: 3000 });
@@ -306,7 +322,7 @@ await check('by touch, in German; a question that nobody answers ends by itself'
 await check('a dead line is seen, and the screen comes back by itself', async () => {
   const { page, context } = await listen({ viewport: { width: 1080, height: 1920 } });
   await page.goto(kiosk);
-  await page.waitForFunction(() => !['opening', 'away', undefined].includes(document.querySelector('main')?.dataset.screen), null, { timeout: 20000 });
+  await page.locator('main:not([data-screen=opening]):not([data-screen=away])').waitFor({ timeout: 20000 });
   await stage.stage.stop('SIGKILL');
   await shows(page, 'away', 5000);
   await page.screenshot({ path: join(pictures, 'kiosk-away.png') });

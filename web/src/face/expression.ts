@@ -58,13 +58,13 @@ function eyeOf(side: number, e: Expression): Eye {
   const arch = 8 + 12 * happy - 8 * angry - 6 * e.sad;
   const brow = `M${at(outer, outerY)} Q${at(x, (innerY + outerY) / 2 - arch)} ${at(inner, innerY)}`;
   // The lids: a line over the eye, which an angry face lowers towards the nose, and a bow below it, which a smile lifts.
-  const top = y - EYE.ry - 2;
-  const bottom = y + EYE.ry + 2;
+  const top = y - EYE.ry - 5;
+  const bottom = y + EYE.ry + 5;
   const closed = y + 13;
-  const lidOuter = blend(top + 8 * angry + 12 * e.sad, closed, e.shut);
-  const lidInner = blend(top + 30 * angry, closed, e.shut);
+  const lidOuter = blend(top + 10 * angry + 15 * e.sad, closed, e.shut);
+  const lidInner = blend(top + 33 * angry, closed, e.shut);
   const upperLid = `M${at(outer + side * 9, top - 12)} L${at(inner - side * 9, top - 12)} L${at(inner - side * 9, lidInner)} L${at(outer + side * 9, lidOuter)} Z`;
-  const raised = blend(bottom - 17 * happy - 5 * angry, closed, e.shut);
+  const raised = blend(bottom - 20 * happy - 8 * angry, closed, e.shut);
   const lowerLid = `M${at(x - 36, bottom + 12)} L${at(x - 36, raised + 8 * happy)} Q${at(x, raised - 9 * happy)} ${at(x + 36, raised + 8 * happy)} L${at(x + 36, bottom + 12)} Z`;
   // It faces us: its left is our right.
   const pupil: [number, number] = [x + 17 * Math.sin(clamp(e.pan, 1.2)), y - 17 * Math.sin(clamp(e.tilt, 0.8)) + 3 * happy];

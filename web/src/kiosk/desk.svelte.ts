@@ -1,4 +1,4 @@
-import { app, keyOf } from '../lib/state.svelte';
+import { app, keyOf, type Wish } from '../lib/state.svelte';
 import { answerOf, helpOf, lampsOf } from '../lib/orders';
 import { sentencesOf } from '../lib/sentences';
 import { uuid7 } from '../lib/uuid';
@@ -119,17 +119,20 @@ class Desk {
     const age = (Date.now() - wish.made) / 1000;
     return { state: wish.state, age, since: entry ? this.now - entry.changed : age };
   }
-  /** The tour of this screen that has just been fulfilled and is not asked about yet. */
+  /** The last tour that this screen asked for and that is over. */
+  private get tourWish(): Wish | undefined {
+    return app.wishes.filter((one) => one.kind === 'tour' && one.state === 'fulfilled').at(-1);
+  }
+  /** Which question about it comes; null: none. */
   private poll(): number | null {
-    const wish = app.wishes.findLast((one) => one.kind === 'tour' && one.state === 'fulfilled');
+    const wish = this.tourWish;
     const entry = wish && app.board?.closed.find((one) => one.key === keyOf(wish.id));
     if (!wish || !entry || this.now - entry.changed > FRESH) return null;
     const step = this.pollState.wish === wish.id ? this.pollState.step : 0;
     return step > pollQuestions.length ? null : step;
   }
   private goTo(step: number): void {
-    const wish = app.wishes.findLast((one) => one.kind === 'tour' && one.state === 'fulfilled');
-    this.pollState = { wish: wish?.id ?? '', step };
+    this.pollState = { wish: this.tourWish?.id ?? '', step };
     this.smaller = false;
     polls.write(this.pollState);
   }
@@ -147,7 +150,7 @@ class Desk {
         app.tell(helpOf(uuid7(), app.language));
         return this.open('help');
       case 'language':
-        app.setLanguage(act.code);
+        this.speak(act.code);
         return this.open('home');
       case 'answer':
         return app.answer(act.option);
@@ -165,6 +168,11 @@ class Desk {
     this.page = page;
     this.from = from;
   }
+  /** Until the next choice, and through a reload. */
+  private speak(language: string): void {
+    app.language = language;
+    sessionStorage.setItem('docent.kiosk.language', language);
+  }
   private speakMuseumsLanguage(): void {
     const languages = app.museum?.languages ?? [];
     const kept = sessionStorage.getItem('docent.kiosk.language') ?? '';
@@ -179,9 +187,8 @@ class Desk {
     this.endPoll();
     const languages = app.museum?.languages ?? [];
     if (idle > LANGUAGE && this.screen.name === 'home' && languages.length > 0 && app.language !== languages[0] && !this.isUnderWay()) {
-      app.setLanguage(languages[0]);
+      this.speak(languages[0]);
     }
-    if (app.museum) sessionStorage.setItem('docent.kiosk.language', app.language);
     this.tellLamps();
   }
   private isUnderWay(): boolean {
