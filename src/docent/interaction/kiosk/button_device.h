@@ -14,8 +14,8 @@ namespace docent::interaction {
 struct ButtonParams {
   std::string device;  ///< evdev device, best of /dev/input/by-id, which keep their names; empty: sought by `name`
   std::string name;    ///< of the device, as evtest shows it; both empty: there are no buttons
-  std::vector<std::string> keys{"KEY_1", "KEY_2", "KEY_3",
-                                "KEY_4"};  ///< of buttons 1 to 4, as linux/input.h names them
+  /// Of buttons 1 to 4, as linux/input.h names them.
+  std::vector<std::string> keys{"KEY_1", "KEY_2", "KEY_3", "KEY_4"};
   double debounce = 0.05;  ///< [s], 0..1: contacts bounce for 5 to 20 ms, and nobody presses twice within 50 ms
   double retry = 1.0;      ///< [s], > 0: from one attempt to open a device that is not there to the next
   bool grab = true;        ///< nobody else gets these keys: else the screen's browser would hear each press twice

@@ -20,7 +20,7 @@ TEST_F(ScreenKeyTest, IsMadeOnceAndReadByItsOwnerAlone) {
   const auto key = screen_key(file_);
   ASSERT_TRUE(key) << key.error().message;
   EXPECT_EQ(key->size(), 32U);
-  EXPECT_EQ(screen_key(file_), key);
+  EXPECT_EQ(screen_key(file_).value(), *key);
   EXPECT_EQ(std::filesystem::status(file_).permissions(),
             std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
   const auto other = screen_key(folder_ / "other.key");
@@ -35,7 +35,7 @@ TEST_F(ScreenKeyTest, WhatIsNoKeyIsReplaced) {
     ASSERT_TRUE(key);
     EXPECT_EQ(key->size(), 32U);
     EXPECT_NE(*key, text);
-    EXPECT_EQ(screen_key(file_), key);
+    EXPECT_EQ(screen_key(file_).value(), *key);
   }
 }
 

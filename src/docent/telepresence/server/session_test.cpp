@@ -22,9 +22,9 @@ const std::string kChoice = R"({"type":"choice","id":")" + kUuid + R"(","prompt"
 class SessionTest : public testing::Test {
  protected:
   void open(Role role, const WebServerParams& params = {}) {
-    owner_.message = [this](ViewerId viewer, Role role, const ClientMessage&) {
+    owner_.message = [this](ViewerId viewer, Role as, const ClientMessage&) {
       heard_ += viewer;
-      role_ = role;
+      role_ = as;
     };
     owner_.left = [this](ViewerId) { has_left_ = true; };
     owner_.latest = [](std::size_t slot) {
