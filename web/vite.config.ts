@@ -6,7 +6,14 @@ const robot = process.env.DOCENT ?? '127.0.0.1:8080';
 
 export default defineConfig({
   plugins: [svelte()],
-  build: { target: 'es2022', assetsInlineLimit: 0, reportCompressedSize: true, modulePreload: { polyfill: false } },
+  // Three pages, so that none loads what another needs.
+  build: {
+    target: 'es2022',
+    assetsInlineLimit: 0,
+    reportCompressedSize: true,
+    modulePreload: { polyfill: false },
+    rollupOptions: { input: ['index.html', 'kiosk.html', 'face.html'] },
+  },
   server: {
     proxy: {
       '/api': `http://${robot}`,

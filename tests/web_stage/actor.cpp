@@ -36,7 +36,8 @@ Actor::Actor(transport::Bus& bus, const museum::Museum& museum, Scenery& scenery
       speech_{bus.publisher(topics::kSpeechState)},
       health_{bus.publisher(topics::kHealth)},
       horn_{bus.publisher(topics::kHorn)},
-      sound_{bus.publisher(topics::kSoundState)} {
+      sound_{bus.publisher(topics::kSoundState)},
+      expression_{bus.publisher(topics::kExpression)} {
   const Point2 start = scenery_.any_place();
   map_from_base_ = {start.x, start.y, Angle::radians(rng_.uniform(-3.0, 3.0))};
   for (int i = 0; i < 5; ++i) {
@@ -51,7 +52,11 @@ Actor::Actor(transport::Bus& bus, const museum::Museum& museum, Scenery& scenery
     if (choice.choice != "more" || exhibit == nullptr) return close_active("fulfilled"), next_target();
     took_long_ = true;
     set_phase(Phase::explaining);
-    speak(museum::translated(exhibit->long_text.empty() ? exhibit->short_text : exhibit->long_text, language_));
+    speak(museum::translated(exhibit->long_text.empty() ? exhibit->short_text : exhibit->long_text, language_), "long");
+  });
+  bus_.subscribe<docent_msgs::Say>(topics::kSay, [this](const auto& say) {
+    language_ = say.language;
+    speak(say.text, "help");
   });
   bus_.every(seconds(kStep), [this] { step(); });
   bus_.every(seconds(0.2), [this] { think(); });
@@ -150,10 +155,10 @@ void Actor::next_target() {
   set_phase(Phase::driving);
 }
 
-void Actor::speak(const std::string& text) {
+void Actor::speak(const std::string& text, const std::string& name) {
   docent_msgs::SpeechState speech;
   speech.header.stamp = to_message(bus_.now());
-  speech.id = "say-" + std::to_string(++count_);
+  speech.id = "say-" + std::to_string(++count_) + "/" + name;
   speech.state = "speaking";
   speech.text = text;
   speech.language = language_;
@@ -185,7 +190,7 @@ void Actor::think() {
       }
       set_phase(Phase::explaining);
       ++explained_;
-      speak(museum::translated(museum_.find_exhibit(exhibit_)->short_text, language_));
+      speak(museum::translated(museum_.find_exhibit(exhibit_)->short_text, language_), "short");
       break;
     case Phase::explaining:
       if (since < speech_s_) break;
@@ -195,7 +200,7 @@ void Actor::think() {
         next_target();
         break;
       }
-      prompt_ = {"prompt-" + std::to_string(++count_),
+      prompt_ = {"task-" + std::to_string(++count_) + "/more",
                  language_ == "de" ? "Möchtest du mehr hören?" : "Would you like to hear more?",
                  {"more", "next"},
                  "next",
@@ -287,9 +292,24 @@ void Actor::step() {
     }
   }
   avoid_.publish(avoid);
+  publish_expression(avoid.path_blocked);
   sensor_msgs::BatteryState battery;
   battery.percentage = 0.83F;
   battery_.publish(battery);
+}
+
+/// Glad when the way is free, angry when somebody stands in it for long; it looks where it turns.
+void Actor::publish_expression(bool is_blocked) {
+  const double goal = phase_ == Phase::lost ? 0.0 : is_blocked ? -1.0 : 0.8;
+  valence_ += std::clamp(goal - valence_, -0.05, 0.05);
+  docent_msgs::Expression expression;
+  expression.header.stamp = to_message(bus_.now());
+  expression.valence = valence_;
+  expression.mood = valence_ > 0.3 ? "happy" : valence_ < -0.3 ? "angry" : "neutral";
+  expression.is_speaking = phase_ == Phase::explaining;
+  expression.gaze = way_.empty() ? "visitor" : "goal";
+  expression.pan = std::clamp(turn_, -0.8, 0.8);
+  expression_.publish(expression);
 }
 
 void Actor::publish_belief() {

@@ -32,12 +32,13 @@ class Actor {
   void receive(const docent_msgs::Request& request);
   void wish(const std::string& kind, const std::string& target, const std::string& visitor);
   void next_target();
-  void speak(const std::string& text);
+  void speak(const std::string& text, const std::string& name);
   void close_active(const std::string& state);
   void publish_board();
   void publish_mission();
   void publish_path();
   void publish_belief();
+  void publish_expression(bool is_blocked);
   void publish_health();
 
   transport::Bus& bus_;
@@ -51,6 +52,7 @@ class Actor {
   std::vector<Point2> way_;
   double speed_ = 0.0;
   double turn_ = 0.0;
+  double valence_ = 0.0;
   Phase phase_ = Phase::lost;
   Time phase_since_{};
   double speech_s_ = 0.0;
@@ -77,6 +79,7 @@ class Actor {
   transport::Publisher<docent_msgs::Health> health_;
   transport::Publisher<docent_msgs::Horn> horn_;
   transport::Publisher<docent_msgs::SoundState> sound_;
+  transport::Publisher<docent_msgs::Expression> expression_;
 };
 
 }  // namespace docent::stage

@@ -6,16 +6,19 @@
 #include <filesystem>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "actor.h"
 #include "docent/base/files.h"
 #include "docent/interaction/sound/horn.h"
 #include "docent/interaction/sound/melody.h"
 #include "docent/modules/edge/web_module.h"
+#include "docent/modules/guide/buttons_module.h"
 #include "docent/transport/virtual_time_bus.h"
 
-// docent_web_stage MUSEUM_DIR STATE_DIR PORT [lost=S] [people=N] [busy] [speed=V] [talk=F] [horn=S] [seconds=S]
-// The web module of the robot, in real time, among invented messages. Ends on SIGTERM or after `seconds`.
+// docent_web_stage MUSEUM_DIR STATE_DIR PORT [lost=S] [people=N] [busy] [speed=V] [talk=F] [horn=S] [buttons=PIPE]
+// [seconds=S] The web module of the robot, in real time, among invented messages; with `buttons` also the module that
+// reads the four buttons. Ends on SIGTERM or after `seconds`.
 
 namespace {
 
@@ -37,6 +40,31 @@ std::string tone() {
          number(2 * kRate, 4) + number(2, 2) + number(16, 2) + "data" + number(size, 4) + samples;
 }
 
+struct Words {
+  docent::stage::Actor::Options actor;
+  int people = 25;
+  double end_s = 1e9;
+  std::string buttons;
+};
+
+Words read_words(const std::vector<std::string>& given) {
+  Words words;
+  for (const std::string& word : given) {
+    const auto value = [&word](const char* key) {
+      return word.starts_with(key) ? word.substr(std::strlen(key)) : std::string{};
+    };
+    if (const auto text = value("lost="); !text.empty()) words.actor.lost_s = std::stod(text);
+    if (const auto text = value("people="); !text.empty()) words.people = std::stoi(text);
+    if (const auto text = value("speed="); !text.empty()) words.actor.speed = std::stod(text);
+    if (const auto text = value("seconds="); !text.empty()) words.end_s = std::stod(text);
+    if (const auto text = value("talk="); !text.empty()) words.actor.talk = std::stod(text);
+    if (const auto text = value("horn="); !text.empty()) words.actor.horn_s = std::stod(text);
+    if (const auto text = value("buttons="); !text.empty()) words.buttons = text;
+    if (word == "busy") words.actor.is_busy = true;
+  }
+  return words;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -44,26 +72,12 @@ int main(int argc, char** argv) {
   if (argc < 4) {
     std::fprintf(
         stderr,
-        "usage: %s MUSEUM_DIR STATE_DIR PORT [lost=S] [people=N] [busy] [speed=V] [talk=F] [horn=S] [seconds=S]\n",
+        "usage: %s MUSEUM_DIR STATE_DIR PORT [lost=S] [people=N] [busy] [speed=V] [talk=F] [horn=S] [buttons=PIPE] "
+        "[seconds=S]\n",
         argv[0]);
     return 2;
   }
-  stage::Actor::Options options;
-  int people = 25;
-  double end_s = 1e9;
-  for (int i = 4; i < argc; ++i) {
-    const std::string word = argv[i];
-    const auto value = [&word](const char* key) {
-      return word.starts_with(key) ? word.substr(std::strlen(key)) : std::string{};
-    };
-    if (const auto text = value("lost="); !text.empty()) options.lost_s = std::stod(text);
-    if (const auto text = value("people="); !text.empty()) people = std::stoi(text);
-    if (const auto text = value("speed="); !text.empty()) options.speed = std::stod(text);
-    if (const auto text = value("seconds="); !text.empty()) end_s = std::stod(text);
-    if (const auto text = value("talk="); !text.empty()) options.talk = std::stod(text);
-    if (const auto text = value("horn="); !text.empty()) options.horn_s = std::stod(text);
-    if (word == "busy") options.is_busy = true;
-  }
+  const Words words = read_words({argv + 4, argv + argc});
   const auto museum = museum::load_museum(argv[1]);
   if (!museum) return std::fprintf(stderr, "%s\n", museum.error().message.c_str()), 2;
   const std::filesystem::path state = argv[2];
@@ -78,13 +92,17 @@ int main(int argc, char** argv) {
 
   transport::VirtualTimeHub hub;
   Rng rng{4};
-  stage::Scenery scenery{*museum, people, rng.stream("scenery")};
+  stage::Scenery scenery{*museum, words.people, rng.stream("scenery")};
   const auto actor_bus = hub.connect("actor");
-  const stage::Actor actor{*actor_bus, *museum, scenery, rng.stream("actor"), options};
+  const stage::Actor actor{*actor_bus, *museum, scenery, rng.stream("actor"), words.actor};
   const auto web_bus = hub.connect("web");
   const modules::ModuleContext context{*web_bus, *museum, config, state, 1, true};
   auto web = modules::make_web(context);
   if (!web) return std::fprintf(stderr, "%s\n", web.error().message.c_str()), 2;
+  if (const auto set = config.set("buttons.device=" + words.buttons); !set) return 2;
+  const auto buttons_bus = hub.connect("buttons");
+  const auto pressed = modules::make_buttons({*buttons_bus, *museum, config, state, 1, false});
+  if (!pressed) return std::fprintf(stderr, "%s\n", pressed.error().message.c_str()), 2;
   std::signal(SIGTERM, [](int) { is_ended = 1; });
   std::signal(SIGINT, [](int) { is_ended = 1; });
   std::printf("http://127.0.0.1:%s/\n", argv[3]);
@@ -93,7 +111,7 @@ int main(int argc, char** argv) {
   const auto start = std::chrono::steady_clock::now();
   while (is_ended == 0) {
     const auto now = std::chrono::steady_clock::now() - start;
-    if (std::chrono::duration<double>(now).count() > end_s) break;
+    if (std::chrono::duration<double>(now).count() > words.end_s) break;
     hub.run_until(Time{std::chrono::duration_cast<std::chrono::nanoseconds>(now).count()});
     std::this_thread::sleep_for(std::chrono::milliseconds{10});
   }

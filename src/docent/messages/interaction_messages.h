@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "docent/messages/standard_messages.h"
 
@@ -130,6 +131,30 @@ struct Expression {
     v("gaze", m.gaze);
     v("pan", m.pan);
     v("tilt", m.tilt);
+  }
+};
+
+/// One of the four coloured buttons beside the screen was pressed.
+struct Button {
+  static constexpr const char* kType = "docent_msgs/msg/Button";
+  std_msgs::Header header;
+  std::int32_t number = 0;  ///< 1 red, 2 yellow, 3 green, 4 blue
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("header", m.header);
+    v("number", m.number);
+  }
+};
+
+/// Which buttons lead somewhere now, so that their lamps can follow; latched.
+struct ButtonLamps {
+  static constexpr const char* kType = "docent_msgs/msg/ButtonLamps";
+  std_msgs::Header header;
+  std::vector<std::int32_t> lit;  ///< numbers of buttons, rising
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("header", m.header);
+    v("lit", m.lit);
   }
 };
 

@@ -89,6 +89,9 @@ inline constexpr Topic<docent_msgs::Gaze> kGaze{"docent/gaze", Qos::sensor};
 inline constexpr Topic<docent_msgs::Expression> kExpression{"docent/expression", Qos::sensor};
 /// The head, for robots that have one; see head_module.h.
 inline constexpr Topic<sensor_msgs::JointState> kJointStates{"joint_states", Qos::sensor};
+/// A press that comes late means another question.
+inline constexpr Topic<docent_msgs::Button> kButton{"docent/button", Qos::command, 0, 1.0};
+inline constexpr Topic<docent_msgs::ButtonLamps> kButtonLamps{"docent/button_lamps", Qos::state};
 inline constexpr Topic<docent_msgs::Say> kSay{"docent/say", Qos::command};
 inline constexpr Topic<docent_msgs::SpeechState> kSpeechState{"docent/speech_state", Qos::state};
 inline constexpr Topic<docent_msgs::Horn> kHorn{"docent/horn", Qos::command};
@@ -125,8 +128,8 @@ void for_each_robot_topic(F&& f) {
   f(kPersonBeams), f(kPeople), f(kPeopleInOdom), f(kVirtualScan), f(kDriveGoal), f(kGoalState), f(kTarget), f(kPath);
   f(kDrive), f(kAvoidState), f(kRequest), f(kChoice), f(kRequestBoard), f(kMissionState), f(kTask), f(kTaskState),
       f(kEvent);
-  f(kReaction), f(kGaze), f(kExpression), f(kSay), f(kSpeechState), f(kHorn), f(kMusic), f(kSoundState), f(kLimits),
-      f(kHealth);
+  f(kReaction), f(kGaze), f(kExpression), f(kButton), f(kButtonLamps), f(kSay), f(kSpeechState), f(kHorn), f(kMusic),
+      f(kSoundState), f(kLimits), f(kHealth);
   f(kInitialPose), f(kParticleCloud), f(kPeopleMarkers), f(kMuseumMarkers), f(kJointStates);
 }
 /// Calls f(topic) for every topic of the truth.

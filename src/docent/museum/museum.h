@@ -39,6 +39,7 @@ struct Exhibit {
   Translations long_text;
   std::vector<std::string> topics;
   bool web_only = false;
+  std::filesystem::path picture;  ///< in the folder; screens show it on the way there; empty: none
   /// Exhibits that make sense right after this one (ids). Empty: all that share a topic. See sensible_next.
   std::vector<std::string> next;
 };

@@ -145,6 +145,11 @@ std::vector<Error> check_museum(const std::filesystem::path& folder, const Check
   }
   if (const auto& music = source.museum.sound.music; music && !std::filesystem::is_regular_file(folder / *music, code))
     faults.push_back(file->fault(root["sound"]["music"], music->string() + " does not exist"));
+  for (std::size_t i = 0; i < source.museum.exhibits.size(); ++i) {
+    const auto& picture = source.museum.exhibits[i].picture;
+    if (!picture.empty() && !std::filesystem::is_regular_file(folder / picture, code))
+      faults.push_back(file->fault(source.exhibits[i]["picture"], picture.string() + " does not exist"));
+  }
   if (source.museum.map_path.empty()) return faults;
   if (!std::filesystem::is_regular_file(folder / source.museum.map_path, code)) {
     faults.push_back(file->fault(root["map"], source.museum.map_path.string() + " does not exist"));

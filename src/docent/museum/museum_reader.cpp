@@ -282,6 +282,15 @@ class MuseumYamlReader {
     }
   }
 
+  /// A file of a kind that browsers show.
+  [[nodiscard]] std::filesystem::path picture(const YAML::Node& node, const std::string& who) const {
+    constexpr std::array<std::string_view, 4> kKinds{".png", ".jpg", ".webp", ".svg"};
+    auto file = inside_folder(node, text(node, "a file"));
+    if (std::find(kKinds.begin(), kKinds.end(), file.extension().string()) == kKinds.end())
+      throw fault(node, who + ": picture must be a .png, .jpg, .webp or .svg");
+    return file;
+  }
+
   void read_exhibit(const YAML::Node& entry, std::set<std::string>& seen) {
     YamlReader reader{file_, entry};
     Exhibit exhibit;
@@ -295,6 +304,7 @@ class MuseumYamlReader {
     const YAML::Node long_text = reader.node("long");
     reader("topics", exhibit.topics);
     reader("web_only", exhibit.web_only);
+    const YAML::Node picture_node = reader.node("picture");
     reader("next", exhibit.next);
     reader.finish();
     exhibit.title = translations(required(entry, title, "title"), who + ", title");
@@ -309,6 +319,7 @@ class MuseumYamlReader {
     }
     exhibit.short_text = texts(required(entry, short_text, "short"), who + ", short");
     if (long_text.IsDefined()) exhibit.long_text = texts(long_text, who + ", long");
+    if (picture_node.IsDefined()) exhibit.picture = picture(picture_node, who);
     museum_.exhibits.push_back(std::move(exhibit));
     source_.exhibits.push_back(entry);
   }

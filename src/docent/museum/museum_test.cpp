@@ -137,6 +137,12 @@ const Broken kBroken[]{
     {"NoLanguage", "languages: [en, de]", "languages: []", "languages", "at least one language"},
     {"UnknownLanguage", "languages: [en, de]", "languages: [en, xx]", "languages", "unknown language 'xx'"},
     {"LanguageTwice", "languages: [en, de]", "languages: [en, de, en]", "languages", "'en' stands twice"},
+    {"PictureOutside", "topics: [time, metal]", "topics: [time]\n    picture: ../clock.png", "picture",
+     "not a file inside"},
+    {"PictureOfAnotherKind", "topics: [time, metal]", "topics: [time]\n    picture: content/clock.gif", "picture",
+     "picture must be"},
+    {"PictureMissing", "topics: [time, metal]", "topics: [time]\n    picture: content/clock.png", "picture",
+     "does not exist", true},
     {"TitleLacksLanguage", "title: {en: \"The coin\", de: \"Die Münze\"}", "title: {en: \"The coin\"}", "The coin",
      "'de' is missing"},
     {"TitleOfAnotherLanguage", "de: \"Die Münze\"", "fr: \"La pièce\"", "La pièce", "'fr' is not one of"},
@@ -268,6 +274,20 @@ TEST(Museum, SmallOneIsFine) {
   EXPECT_EQ(museum->find_exhibit("coin")->title.at("de"), "Die Münze");
   EXPECT_EQ(museum->find_exhibit("sword"), nullptr);
   EXPECT_EQ(museum->find_tour("all")->exhibits.size(), 2U);
+}
+
+TEST(Museum, AnExhibitMayHaveAPicture) {
+  const SmallMuseum small;
+  std::string text = kMuseum;
+  const std::string topics = "topics: [time, metal]";
+  text.insert(text.find(topics), "picture: content/clock.svg\n    ");
+  small.write("museum.yaml", text);
+  small.write("content/clock.svg", "<svg xmlns='http://www.w3.org/2000/svg'/>");
+  for (const auto& fault : check_museum(small.folder())) ADD_FAILURE() << fault.message;
+  const auto museum = load_museum(small.folder());
+  ASSERT_TRUE(museum) << museum.error().message;
+  EXPECT_EQ(museum->exhibits[0].picture, "content/clock.svg");
+  EXPECT_EQ(museum->exhibits[1].picture, "");
 }
 
 TEST(Museum, FaultsOfOtherFilesAreNamed) {

@@ -1,6 +1,7 @@
 #include "docent/telepresence/client_message.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
@@ -38,6 +39,10 @@ bool is_printed(std::uint32_t c) {
   return c < 0xE0000;                                                              // tags, private planes
 }
 
+bool is_language(std::string_view text) {
+  return text.size() == 2 && std::all_of(text.begin(), text.end(), [](char c) { return c >= 'a' && c <= 'z'; });
+}
+
 Result<ClientMessage> parse_request(const Json& object, std::string id) {
   RequestMessage message;
   message.id = std::move(id);
@@ -55,9 +60,31 @@ Result<ClientMessage> parse_request(const Json& object, std::string id) {
   }
   message.name = clean_name(text_of(object, "name"));
   message.language = text_of(object, "language");
-  const bool is_language = message.language.size() == 2 && std::all_of(message.language.begin(), message.language.end(),
-                                                                       [](char c) { return c >= 'a' && c <= 'z'; });
-  if (!message.language.empty() && !is_language) return fail("request: language must be two letters");
+  if (!message.language.empty() && !is_language(message.language)) return fail("request: language must be two letters");
+  return message;
+}
+
+Result<ClientMessage> parse_lamps(const Json& object) {
+  LampsMessage message;
+  const auto lit = object.find("lit");
+  if (lit == object.end() || !lit->is_array() || lit->size() > static_cast<std::size_t>(kButtons))
+    return fail("lamps: lit must be a list of buttons");
+  for (const Json& number : *lit) {
+    const int least = message.lit.empty() ? 1 : message.lit.back() + 1;
+    if (!number.is_number_unsigned() || number < least || number > kButtons)
+      return fail("lamps: lit must hold rising numbers of 1 to 4");
+    message.lit.push_back(number.get<int>());
+  }
+  return message;
+}
+
+Result<ClientMessage> parse_answer(const Json& object, std::string id) {
+  const auto question = parse<PollQuestion>(text_of(object, "question"));
+  const auto answer = parse<PollAnswer>(text_of(object, "answer"));
+  if (!question) return fail("answer: no such question");
+  if (!answer || !answers(*answer, *question)) return fail("answer: none that fits the question");
+  AnswerMessage message{std::move(id), *question, *answer, text_of(object, "language")};
+  if (!is_language(message.language)) return fail("answer: language must be two letters");
   return message;
 }
 
@@ -78,6 +105,13 @@ bool is_identifier(std::string_view text) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
            c == '.';
   });
+}
+
+bool is_prompt_id(std::string_view text) {
+  if (text.size() > 64) return false;
+  for (std::size_t slash = 0; (slash = text.find('/')) != std::string_view::npos; text.remove_prefix(slash + 1))
+    if (!is_identifier(text.substr(0, slash))) return false;
+  return is_identifier(text);
 }
 
 std::string clean_name(std::string_view text, std::size_t limit) {
@@ -110,17 +144,25 @@ Result<ClientMessage> parse_client_message(std::string_view text) {
     const auto place = object.find("details");
     return WatchMessage{place != object.end() && place->is_boolean() && place->get<bool>()};
   }
+  if (type == "lamps") return parse_lamps(object);
+  constexpr std::array kOrders{"request", "cancel", "choice", "help", "answer"};
+  if (std::find(kOrders.begin(), kOrders.end(), type) == kOrders.end()) return fail("unknown type of message");
   std::string id = text_of(object, "id");
-  if (type != "request" && type != "cancel" && type != "choice") return fail("unknown type of message");
   if (!is_uuid7(id)) return fail(type + ": id must be a UUID of version 7");
   if (type == "request") return parse_request(object, std::move(id));
+  if (type == "answer") return parse_answer(object, std::move(id));
+  if (type == "help") {
+    HelpMessage message{std::move(id), text_of(object, "language")};
+    if (!is_language(message.language)) return fail("help: language must be two letters");
+    return message;
+  }
   if (type == "cancel") {
     CancelMessage message{std::move(id), text_of(object, "request")};
     if (!is_uuid7(message.request)) return fail("cancel: request must be a UUID of version 7");
     return message;
   }
   ChoiceMessage message{std::move(id), text_of(object, "prompt"), text_of(object, "choice")};
-  if (!is_identifier(message.prompt)) return fail("choice: prompt is not an id");
+  if (!is_prompt_id(message.prompt)) return fail("choice: prompt is not an id");
   if (!is_identifier(message.choice)) return fail("choice: choice is not an id");
   return message;
 }

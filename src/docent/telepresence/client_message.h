@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "docent/base/result.h"
 #include "docent/vocabulary/vocabulary.h"
@@ -61,7 +62,45 @@ struct WatchMessage {
     v("details", m.details);
   }
 };
-using ClientMessage = std::variant<RequestMessage, CancelMessage, ChoiceMessage, WatchMessage>;
+
+// Of the robot's own screen alone:
+
+/// {"type":"lamps","lit":[1,4]}: the buttons that lead somewhere now.
+struct LampsMessage {
+  static constexpr const char* kName = "LampsMessage";
+  static constexpr const char* kType = "lamps";
+  std::vector<int> lit;  ///< of 1 to 4, rising
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("lit", m.lit);
+  }
+};
+/// {"type":"help","id":UUIDv7,"language":…}: the robot is to say what it can do.
+struct HelpMessage {
+  static constexpr const char* kName = "HelpMessage";
+  static constexpr const char* kType = "help";
+  std::string id;
+  std::string language;
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("id", m.id), v("language", m.language);
+  }
+};
+/// {"type":"answer","id":UUIDv7,"question":…,"answer":…,"language":…}: to the poll after a tour.
+struct AnswerMessage {
+  static constexpr const char* kName = "AnswerMessage";
+  static constexpr const char* kType = "answer";
+  std::string id;
+  PollQuestion question = PollQuestion::liked;
+  PollAnswer answer = PollAnswer::undecided;  ///< fits the question
+  std::string language;
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("id", m.id), v("question", m.question), v("answer", m.answer), v("language", m.language);
+  }
+};
+using ClientMessage =
+    std::variant<RequestMessage, CancelMessage, ChoiceMessage, WatchMessage, LampsMessage, HelpMessage, AnswerMessage>;
 
 /// Error: what is wrong with it, for the close frame (at most 120 bytes, ASCII).
 [[nodiscard]] Result<ClientMessage> parse_client_message(std::string_view text);
@@ -70,6 +109,8 @@ using ClientMessage = std::variant<RequestMessage, CancelMessage, ChoiceMessage,
 [[nodiscard]] bool is_uuid7(std::string_view text);
 /// An id of museum.yaml: 1 to 64 of a-z, A-Z, 0-9, '_', '-', '.'.
 [[nodiscard]] bool is_identifier(std::string_view text);
+/// An id of a question: such ids with '/' between them, 1 to 64 characters together.
+[[nodiscard]] bool is_prompt_id(std::string_view text);
 /// One line of at most `limit` characters: control, format and bidirectional characters and outer blanks are dropped.
 /// @pre `text` is valid UTF-8
 [[nodiscard]] std::string clean_name(std::string_view text, std::size_t limit = 40);

@@ -21,5 +21,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       if (static_cast<unsigned char>(c) < 0x20) std::abort();
     }
   }
+  if (const auto* choice = std::get_if<docent::telepresence::ChoiceMessage>(&*message)) {
+    if (choice->prompt.empty() || choice->prompt.size() > 64) std::abort();
+  }
+  if (const auto* lamps = std::get_if<docent::telepresence::LampsMessage>(&*message)) {
+    if (lamps->lit.size() > 4) std::abort();
+    for (const int number : lamps->lit) {
+      if (number < 1 || number > 4) std::abort();
+    }
+  }
+  if (const auto* answer = std::get_if<docent::telepresence::AnswerMessage>(&*message)) {
+    if (!docent::answers(answer->answer, answer->question)) std::abort();
+  }
   return 0;
 }

@@ -33,6 +33,31 @@ TEST(ClientMessage, ReadsTheOtherKinds) {
   EXPECT_TRUE(std::get<WatchMessage>(*watch).details);
 }
 
+TEST(ClientMessage, ReadsWhatTheRobotsScreenSays) {
+  const auto lamps = parse_client_message(R"({"type":"lamps","lit":[1,3,4]})");
+  ASSERT_TRUE(lamps);
+  EXPECT_EQ(std::get<LampsMessage>(*lamps).lit, (std::vector<int>{1, 3, 4}));
+  EXPECT_TRUE(parse_client_message(R"({"type":"lamps","lit":[]})"));
+  const auto help = parse_client_message(R"({"type":"help","id":")" + kId + R"(","language":"fr"})");
+  ASSERT_TRUE(help);
+  EXPECT_EQ(std::get<HelpMessage>(*help).language, "fr");
+  const auto answer = parse_client_message(R"({"type":"answer","id":")" + kId +
+                                           R"(","question":"intelligence","answer":"dog","language":"en"})");
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(std::get<AnswerMessage>(*answer).question, PollQuestion::intelligence);
+  EXPECT_EQ(std::get<AnswerMessage>(*answer).answer, PollAnswer::dog);
+}
+
+TEST(ClientMessage, TheQuestionsOfATourCanBeAnswered) {
+  // The executive names its questions TASK/more.
+  const auto choice =
+      parse_client_message(R"({"type":"choice","id":")" + kId + R"(","prompt":"3-17/more","choice":"more"})");
+  ASSERT_TRUE(choice) << choice.error().message;
+  EXPECT_EQ(std::get<ChoiceMessage>(*choice).prompt, "3-17/more");
+  for (const char* id : {"", "/", "a/", "/a", "a//b", "a b"}) EXPECT_FALSE(is_prompt_id(id)) << id;
+  EXPECT_FALSE(is_prompt_id(std::string(40, 'a') + "/" + std::string(40, 'a')));
+}
+
 TEST(ClientMessage, RefusesEverythingElse) {
   const std::string uuid = R"("id":")" + kId + "\"";
   const std::vector<std::string> bad = {
@@ -56,6 +81,21 @@ TEST(ClientMessage, RefusesEverythingElse) {
       R"({"type":"request",)" + uuid + R"(,"kind":"exhibit","target":"a","language":"english"})",
       R"({"type":"cancel",)" + uuid + R"(,"request":"all"})",
       R"({"type":"choice",)" + uuid + R"(,"prompt":"p","choice":""})",
+      R"({"type":"choice",)" + uuid + R"(,"prompt":"a/../b/","choice":"more"})",
+      R"({"type":"lamps"})",
+      R"({"type":"lamps","lit":[0]})",
+      R"({"type":"lamps","lit":[5]})",
+      R"({"type":"lamps","lit":[-1]})",
+      R"({"type":"lamps","lit":[2,1]})",
+      R"({"type":"lamps","lit":[1,1]})",
+      R"({"type":"lamps","lit":[1.5]})",
+      R"({"type":"lamps","lit":[1,2,3,4,5]})",
+      R"({"type":"help","language":"en"})",
+      R"({"type":"help",)" + uuid + R"(,"language":"english"})",
+      R"({"type":"answer",)" + uuid + R"(,"question":"liked","answer":"dog","language":"en"})",
+      R"({"type":"answer",)" + uuid + R"(,"question":"intelligence","answer":"yes","language":"en"})",
+      R"({"type":"answer",)" + uuid + R"(,"question":"age","answer":"yes","language":"en"})",
+      R"({"type":"answer",)" + uuid + R"(,"question":"liked","answer":"yes","language":"="})",
       std::string(3000, '['),
   };
   for (const auto& text : bad) {

@@ -41,10 +41,12 @@ struct Exhibit {
   Texts short_text, long_text;
   std::vector<std::string> topics;
   bool web_only = false;
+  std::string picture;  ///< where it can be fetched; empty: nowhere
   template <class Self, class V>
   static void visit(Self& d, V& v) {
     v("id", d.id), v("title", d.title), v("pose", d.pose), v("look_at", d.look_at), v("viewpoints", d.viewpoints);
     v("short", d.short_text), v("long", d.long_text), v("topics", d.topics), v("web_only", d.web_only);
+    v("picture", d.picture);
   }
 };
 struct Tour {
@@ -250,6 +252,31 @@ struct SoundMessage {
   }
 };
 
+struct ExpressionMessage {
+  static constexpr const char* kName = "ExpressionMessage";
+  static constexpr const char* kType = "expression";
+  Mood mood = Mood::neutral;
+  double valence = 0.0;  ///< -1 (angry) .. 1 (happy)
+  bool is_speaking = false;
+  std::string gaze;
+  double pan = 0.0, tilt = 0.0;  ///< to the robot's left, upwards
+  template <class Self, class V>
+  static void visit(Self& d, V& v) {
+    v("mood", d.mood), v("valence", d.valence), v("is_speaking", d.is_speaking), v("gaze", d.gaze);
+    v("pan", d.pan), v("tilt", d.tilt);
+  }
+};
+struct ButtonMessage {
+  static constexpr const char* kName = "ButtonMessage";
+  static constexpr const char* kType = "button";
+  double t = 0.0;
+  int number = 0;  ///< 1 red, 2 yellow, 3 green, 4 blue
+  template <class Self, class V>
+  static void visit(Self& d, V& v) {
+    v("t", d.t), v("number", d.number);
+  }
+};
+
 struct BoardEntry {
   static constexpr const char* kName = "BoardEntry";
   std::string key;  ///< the last digits of the request's id
@@ -336,8 +363,8 @@ struct ErrorMessage {
 };
 
 /// Everything that the live channel carries to a page.
-using ServerMessage =
-    std::tuple<LiveMessage, BeliefMessage, PathMessage, MissionMessage, SpeechMessage, HornMessage, SoundMessage,
-               BoardMessage, HealthMessage, WindowMessage, Acknowledgement, Refusal, ErrorMessage>;
+using ServerMessage = std::tuple<LiveMessage, BeliefMessage, PathMessage, MissionMessage, SpeechMessage, HornMessage,
+                                 SoundMessage, ExpressionMessage, ButtonMessage, BoardMessage, HealthMessage,
+                                 WindowMessage, Acknowledgement, Refusal, ErrorMessage>;
 
 }  // namespace docent::telepresence::documents

@@ -177,6 +177,19 @@ std::string encode_sound(const docent_msgs::SoundState& sound) {
                                            loudness(sound.music_volume), rounded(seconds_of(sound.music_start))});
 }
 
+std::string encode_expression(const docent_msgs::Expression& expression) {
+  constexpr double kFine = 50.0;     // steps of the valence, and of the head to a radian: finer than eyes see on a face
+  constexpr double kMostTurn = 3.2;  // [rad]
+  const auto angle = [&](double value) { return rounded(std::clamp(value, -kMostTurn, kMostTurn), kFine); };
+  return json_text(documents::ExpressionMessage{
+      parse<Mood>(expression.mood).value_or(Mood::neutral), rounded(std::clamp(expression.valence, -1.0, 1.0), kFine),
+      expression.is_speaking, expression.gaze, angle(expression.pan), angle(expression.tilt)});
+}
+
+std::string encode_button(Time t, int number) {
+  return json_text(documents::ButtonMessage{rounded(to_seconds(t)), number});
+}
+
 std::string encode_board(const docent_msgs::RequestBoard& board) {
   constexpr std::size_t kMaxOpen = 500;  // as many as the board takes, mission.max_open
   constexpr std::size_t kMaxClosed = 30;

@@ -50,6 +50,10 @@ struct HealthEntry {
 /// The horn sounds at `t`; `file`: what it sounds like, HASH.wav, or empty while the robot is muted.
 [[nodiscard]] std::string encode_horn(Time t, const std::string& file, double duration_s);
 [[nodiscard]] std::string encode_sound(const docent_msgs::SoundState& sound);
+/// Rounded, so that a face that is at rest gives the same text; a word that is no mood is neutral.
+[[nodiscard]] std::string encode_expression(const docent_msgs::Expression& expression);
+/// The button was pressed at `t`.
+[[nodiscard]] std::string encode_button(Time t, int number);
 /// All open requests and the newest closed ones. Viewers see the last 8 digits of an id only: who knows all of it may
 /// cancel the request.
 [[nodiscard]] std::string encode_board(const docent_msgs::RequestBoard& board);

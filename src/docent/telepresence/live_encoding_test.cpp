@@ -107,6 +107,25 @@ TEST(LiveEncoding, ASilentModuleIsNamed) {
   EXPECT_EQ(Json::parse(encode_health(modules, 3, time_from_seconds(13)))["modules"][0]["state"], "silent");
 }
 
+TEST(LiveEncoding, AFaceAtRestGivesTheSameText) {
+  docent_msgs::Expression expression;
+  expression.mood = "happy";
+  expression.valence = 0.701;
+  expression.pan = -0.302;
+  const std::string text = encode_expression(expression);
+  expression.header.stamp = to_message(time_from_seconds(3));
+  expression.valence = 0.699;
+  expression.pan = -0.298;
+  EXPECT_EQ(encode_expression(expression), text);
+  expression.pan = -0.26;
+  EXPECT_NE(encode_expression(expression), text);
+  expression.mood = "furious";
+  expression.valence = -7;
+  const Json json = Json::parse(encode_expression(expression));
+  EXPECT_EQ(json["mood"], "neutral");
+  EXPECT_EQ(json["valence"], -1.0);
+}
+
 TEST(LiveEncoding, ALongPathIsThinnedButKeepsItsEnd) {
   nav_msgs::Path path;
   path.poses.resize(3000);

@@ -27,12 +27,18 @@ documents::Exhibit exhibit_of(const museum::Exhibit& exhibit) {
                               exhibit.short_text,
                               exhibit.long_text,
                               exhibit.topics,
-                              exhibit.web_only};
+                              exhibit.web_only,
+                              picture_address(exhibit)};
   for (const auto& viewpoint : exhibit.viewpoints) document.viewpoints.push_back(pose_of(viewpoint));
   return document;
 }
 
 }  // namespace
+
+std::string picture_address(const museum::Exhibit& exhibit) {
+  if (exhibit.picture.empty()) return {};
+  return "/api/pictures/" + exhibit.id + exhibit.picture.extension().string();
+}
 
 std::string encode_museum(const museum::Museum& museum, double robot_radius) {
   const GridFrame& frame = museum.map.frame;

@@ -11,6 +11,9 @@ namespace docent::telepresence {
 /// All that a page must know of the museum and its map, as JSON text. `robot_radius` in metres.
 [[nodiscard]] std::string encode_museum(const museum::Museum& museum, double robot_radius);
 
+/// Where the exhibit's picture can be fetched; empty: it has none.
+[[nodiscard]] std::string picture_address(const museum::Exhibit& exhibit);
+
 /// The map as a grey PNG, a pixel a cell, the highest row on top: 255 free, 128 unknown, 0 occupied.
 [[nodiscard]] Result<std::string> encode_map_png(const OccupancyGrid& map);
 

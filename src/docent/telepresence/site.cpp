@@ -21,6 +21,7 @@ std::string content_type_of(const std::filesystem::path& path) {
       {".css", "text/css; charset=utf-8"},
       {".svg", "image/svg+xml"},
       {".png", "image/png"},
+      {".jpg", "image/jpeg"},
       {".webp", "image/webp"},
       {".ico", "image/x-icon"},
       {".json", "application/json"},
@@ -135,6 +136,10 @@ Result<void> Site::load_page(const std::filesystem::path& folder) {
   const auto index = page.find("/index.html");
   if (index == page.end()) return fail(folder.string() + ": has no index.html (npm run build makes it)");
   page.insert_or_assign("/", index->second);
+  constexpr std::string_view kPage = ".html";
+  const auto files = page;
+  for (const auto& [path, reply] : files)
+    if (path.ends_with(kPage)) page.insert_or_assign(path.substr(0, path.size() - kPage.size()), reply);
   const std::scoped_lock lock{mutex_};
   for (auto& [path, reply] : page) documents_.insert_or_assign(path, std::move(reply));
   return {};
@@ -144,6 +149,10 @@ void Site::set_document(const std::string& path, std::string content_type, std::
   SiteReply reply = lasting(std::move(content_type), std::move(body));
   const std::scoped_lock lock{mutex_};
   documents_.insert_or_assign(path, std::move(reply));
+}
+
+void Site::set_file(const std::string& path, std::string content) {
+  set_document(path, content_type_of(path), std::move(content));
 }
 
 void Site::set_live_document(const std::string& path, std::string content_type, std::function<std::string()> make) {

@@ -26,11 +26,14 @@ struct SiteReply {
 /// not change is compressed once, when it is set. Any thread may call it.
 class Site {
  public:
-  /// Reads all files under `folder` as "/…"; "/" is index.html. Error: unreadable, no index.html, or over 64 MB.
+  /// Reads all files under `folder` as "/…"; "/" is index.html, "/kiosk" kiosk.html and so on. Error: unreadable, no
+  /// index.html, or over 64 MB.
   [[nodiscard]] Result<void> load_page(const std::filesystem::path& folder);
   /// Serves /audio/HASH.wav, .ogg and .flac from here.
   void set_audio_folder(std::filesystem::path folder) { audio_ = std::move(folder); }
   void set_document(const std::string& path, std::string content_type, std::string body);
+  /// Likewise; the ending of the path says what it is.
+  void set_file(const std::string& path, std::string content);
   /// A document made anew for each reader; `make` is called by the server's thread.
   void set_live_document(const std::string& path, std::string content_type, std::function<std::string()> make);
 

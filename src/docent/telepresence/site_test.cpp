@@ -16,6 +16,7 @@ class SiteTest : public testing::Test {
     std::filesystem::create_directories(folder_ / "page/assets");
     std::filesystem::create_directories(folder_ / "audio");
     write("page/index.html", "<p>hello");
+    write("page/kiosk.html", "<p>touch");
     write("page/assets/index-1a2b.js", "1;");
     write("audio/0a1b.wav", "RIFF");
     write("audio/0a1b.ogg", "OggS");
@@ -33,6 +34,8 @@ TEST_F(SiteTest, ServesThePage) {
   EXPECT_EQ(*site.get("/").body, "<p>hello");
   EXPECT_EQ(*site.get("/?lang=de").body, "<p>hello");
   EXPECT_EQ(site.get("/index.html").content_type, "text/html; charset=utf-8");
+  EXPECT_EQ(*site.get("/kiosk").body, "<p>touch");
+  EXPECT_EQ(site.get("/kiosk").content_type, "text/html; charset=utf-8");
   EXPECT_FALSE(site.get("/").is_immutable);
   const auto script = site.get("/assets/index-1a2b.js");
   EXPECT_EQ(script.status, 200);

@@ -96,6 +96,23 @@ constexpr auto words_of(SpeechAct) { return std::array{"invite", "ask", "silence
 enum class Answer { more, next, yes, no };
 constexpr auto words_of(Answer) { return std::array{"more", "next", "yes", "no"}; }
 
+/// Coloured buttons beside the robot's screen: 1 red, 2 yellow, 3 green, 4 blue ([Rhino1999] 5.1).
+inline constexpr int kButtons = 4;
+
+/// What visitors are asked after a tour ([Minerva2000] 7): whether they like the robot, whether they were satisfied
+/// with it, and whose intelligence its own is most like.
+enum class PollQuestion { liked, satisfied, intelligence };
+constexpr auto words_of(PollQuestion) { return std::array{"liked", "satisfied", "intelligence"}; }
+
+/// What they may answer; the last five are for the third question.
+enum class PollAnswer { yes, undecided, no, human, monkey, dog, fish, amoeba };
+constexpr auto words_of(PollAnswer) {
+  return std::array{"yes", "undecided", "no", "human", "monkey", "dog", "fish", "amoeba"};
+}
+[[nodiscard]] constexpr bool answers(PollAnswer answer, PollQuestion question) {
+  return (question == PollQuestion::intelligence) == (answer >= PollAnswer::human);
+}
+
 /// What the robot touched.
 enum class ContactKind { people, furniture, walls, hazards };
 constexpr auto words_of(ContactKind) { return std::array{"people", "furniture", "walls", "hazards"}; }

@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import clientText from '../../../tests/web_contract/client.json?raw';
 import { Motion } from '../lib/motion';
-import { cancelOf, choiceOf, requestOf, watchOf } from '../lib/orders';
+import { answerOf, cancelOf, choiceOf, helpOf, lampsOf, requestOf, watchOf } from '../lib/orders';
 import { decode, type LiveMessage } from '../lib/protocol';
 import { pageLanguage, pageLanguages, phaseWord, word } from '../lib/words';
 import { documents } from './contract';
@@ -61,7 +61,7 @@ test('the page understands every document of the server', () => {
     seen.add(name);
     expect(documentFaults(message, name, nameOf(path))).toEqual([]);
   }
-  const client = ['RequestMessage', 'CancelMessage', 'ChoiceMessage', 'WatchMessage'];
+  const client = ['RequestMessage', 'CancelMessage', 'ChoiceMessage', 'WatchMessage', 'LampsMessage', 'HelpMessage', 'AnswerMessage'];
   const whole = Object.keys(table).filter((name) => table[name].type !== undefined && !client.includes(name));
   expect([...seen].sort()).toEqual([...whole, 'Museum'].sort());
 });
@@ -92,6 +92,10 @@ test('what the page says is what the server was tested with', () => {
     requestOf({ id, kind: 'tour', target: 'all', viewpoint: -1 }, '', 'en'),
     cancelOf(id, '018f3a6c-5b2e-7c3d-9a4b-ba9876543210'),
     choiceOf(id, 'prompt-17', 'more'),
+    choiceOf(id, '1-17/more', 'next'),
+    lampsOf([1, 4]),
+    helpOf(id, 'fr'),
+    answerOf(id, 'intelligence', 'dog', 'en'),
     watchOf(true),
     watchOf(false),
   ];

@@ -23,6 +23,7 @@ export interface Exhibit {
   long: Record<string, string>;
   topics: string[];
   web_only: boolean;
+  picture: string;
 }
 export interface Tour {
   id: string;
@@ -146,6 +147,20 @@ export interface SoundMessage {
   music_volume: number;
   start: number;
 }
+export interface ExpressionMessage {
+  type: 'expression';
+  mood: 'neutral' | 'happy' | 'sad' | 'angry';
+  valence: number;
+  is_speaking: boolean;
+  gaze: string;
+  pan: number;
+  tilt: number;
+}
+export interface ButtonMessage {
+  type: 'button';
+  t: number;
+  number: number;
+}
 export interface BoardEntry {
   key: string;
   source: string;
@@ -219,8 +234,24 @@ export interface WatchMessage {
   type: 'watch';
   details: boolean;
 }
-export type ServerMessage = LiveMessage | BeliefMessage | PathMessage | MissionMessage | SpeechMessage | HornMessage | SoundMessage | BoardMessage | HealthMessage | WindowMessage | Acknowledgement | Refusal | ErrorMessage;
-export type ClientMessage = RequestMessage | CancelMessage | ChoiceMessage | WatchMessage;
+export interface LampsMessage {
+  type: 'lamps';
+  lit: number[];
+}
+export interface HelpMessage {
+  type: 'help';
+  id: string;
+  language: string;
+}
+export interface AnswerMessage {
+  type: 'answer';
+  id: string;
+  question: 'liked' | 'satisfied' | 'intelligence';
+  answer: 'yes' | 'undecided' | 'no' | 'human' | 'monkey' | 'dog' | 'fish' | 'amoeba';
+  language: string;
+}
+export type ServerMessage = LiveMessage | BeliefMessage | PathMessage | MissionMessage | SpeechMessage | HornMessage | SoundMessage | ExpressionMessage | ButtonMessage | BoardMessage | HealthMessage | WindowMessage | Acknowledgement | Refusal | ErrorMessage;
+export type ClientMessage = RequestMessage | CancelMessage | ChoiceMessage | WatchMessage | LampsMessage | HelpMessage | AnswerMessage;
 export const documents = {
   "Acknowledgement": {
     "fields": {
@@ -228,6 +259,33 @@ export const documents = {
     },
     "maybe": {},
     "type": "ack"
+  },
+  "AnswerMessage": {
+    "fields": {
+      "answer": {
+        "words": [
+          "yes",
+          "undecided",
+          "no",
+          "human",
+          "monkey",
+          "dog",
+          "fish",
+          "amoeba"
+        ]
+      },
+      "id": "string",
+      "language": "string",
+      "question": {
+        "words": [
+          "liked",
+          "satisfied",
+          "intelligence"
+        ]
+      }
+    },
+    "maybe": {},
+    "type": "answer"
   },
   "Avoid": {
     "fields": {
@@ -319,6 +377,14 @@ export const documents = {
     "maybe": {},
     "type": "board"
   },
+  "ButtonMessage": {
+    "fields": {
+      "number": "number",
+      "t": "number"
+    },
+    "maybe": {},
+    "type": "button"
+  },
   "CancelMessage": {
     "fields": {
       "id": "string",
@@ -355,6 +421,7 @@ export const documents = {
           "number"
         ]
       },
+      "picture": "string",
       "pose": {
         "tuple": [
           "number",
@@ -383,6 +450,25 @@ export const documents = {
       "web_only": "boolean"
     },
     "maybe": {}
+  },
+  "ExpressionMessage": {
+    "fields": {
+      "gaze": "string",
+      "is_speaking": "boolean",
+      "mood": {
+        "words": [
+          "neutral",
+          "happy",
+          "sad",
+          "angry"
+        ]
+      },
+      "pan": "number",
+      "tilt": "number",
+      "valence": "number"
+    },
+    "maybe": {},
+    "type": "expression"
   },
   "Hazard": {
     "fields": {
@@ -418,6 +504,14 @@ export const documents = {
     "maybe": {},
     "type": "health"
   },
+  "HelpMessage": {
+    "fields": {
+      "id": "string",
+      "language": "string"
+    },
+    "maybe": {},
+    "type": "help"
+  },
   "HornMessage": {
     "fields": {
       "audio": "string",
@@ -426,6 +520,15 @@ export const documents = {
     },
     "maybe": {},
     "type": "horn"
+  },
+  "LampsMessage": {
+    "fields": {
+      "lit": {
+        "list": "number"
+      }
+    },
+    "maybe": {},
+    "type": "lamps"
   },
   "LiveMessage": {
     "fields": {

@@ -1,5 +1,5 @@
 // What the page says to the server.
-import type { CancelMessage, ChoiceMessage, RequestMessage, WatchMessage } from './protocol';
+import type { AnswerMessage, CancelMessage, ChoiceMessage, HelpMessage, LampsMessage, RequestMessage, WatchMessage } from './protocol';
 
 /** What is asked for. */
 export interface Asked {
@@ -21,3 +21,13 @@ export const requestOf = (asked: Asked, name: string, language: string): Request
 export const cancelOf = (id: string, request: string): CancelMessage => ({ type: 'cancel', id, request });
 export const choiceOf = (id: string, prompt: string, choice: string): ChoiceMessage => ({ type: 'choice', id, prompt, choice });
 export const watchOf = (details: boolean): WatchMessage => ({ type: 'watch', details });
+
+// Of the robot's own screen alone.
+export const lampsOf = (lit: number[]): LampsMessage => ({ type: 'lamps', lit });
+export const helpOf = (id: string, language: string): HelpMessage => ({ type: 'help', id, language });
+export const answerOf = (
+  id: string,
+  question: AnswerMessage['question'],
+  answer: AnswerMessage['answer'],
+  language: string,
+): AnswerMessage => ({ type: 'answer', id, question, answer, language });

@@ -5,8 +5,10 @@ import type {
   BeliefMessage,
   BoardEntry,
   BoardMessage,
+  ButtonMessage,
   ClientMessage,
   Exhibit,
+  ExpressionMessage,
   HealthMessage,
   HornMessage,
   LiveMessage,
@@ -69,6 +71,8 @@ class App {
   speech = $state.raw<SpeechMessage | null>(null);
   horn = $state.raw<HornMessage | null>(null);
   levels = $state.raw<SoundMessage | null>(null);
+  expression = $state.raw<ExpressionMessage | null>(null);
+  button = $state.raw<ButtonMessage | null>(null);
   board = $state.raw<BoardMessage | null>(null);
   health = $state.raw<HealthMessage | null>(null);
   path = $state.raw<PathMessage | null>(null);
@@ -94,6 +98,8 @@ class App {
   /** Counts up with each wish that comes true: time to celebrate. */
   joys = $state(0);
 
+  /** With which the robot's own screen comes; empty: a visitor's page. Set before `start`. */
+  screenKey = '';
   readonly clock = new RobotClock();
   readonly motion = new Motion();
   /** Whoever has asked once needs no hint. */
@@ -186,6 +192,11 @@ class App {
     this.order(choiceOf(uuid7(), prompt.id, choice));
     if (this.connection !== 'open') this.notice(this.t('kept'));
   }
+  /** Of the robot's own screen alone; `lamps` are told and not answered. */
+  tell(message: Exclude<ClientMessage, { type: 'watch' }>): void {
+    if (message.type === 'lamps') this.send(message);
+    else this.order(message);
+  }
   isMine(entry: BoardEntry): boolean {
     return this.wishes.some((wish) => keyOf(wish.id) === entry.key);
   }
@@ -227,7 +238,7 @@ class App {
   // Connection ---------------------------------------------------------------------------------------------------
 
   private connect(): void {
-    const url = `${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/live`;
+    const url = `${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/live${this.screenKey && `?screen=${this.screenKey}`}`;
     const socket = new WebSocket(url);
     this.socket = socket;
     this.lastHeard = performance.now();
@@ -269,7 +280,7 @@ class App {
     if (this.socket && performance.now() - this.lastHeard > patience) this.drop();
     this.repeatOrders(ANSWER);
   }
-  private order(order: Exclude<ClientMessage, { type: 'watch' }>): void {
+  private order(order: Exclude<ClientMessage, { type: 'watch' | 'lamps' }>): void {
     this.unanswered.set(order.id, { order, sent: performance.now() });
     this.send(order);
   }
@@ -317,6 +328,12 @@ class App {
         return;
       case 'sound':
         this.levels = message;
+        return;
+      case 'expression':
+        this.expression = message;
+        return;
+      case 'button':
+        this.button = message;
         return;
       case 'ack':
         this.unanswered.delete(message.id);

@@ -9,14 +9,17 @@
 #include <optional>
 #include <set>
 
+#include "docent/base/files.h"
 #include "docent/base/shipped_files.h"
 #include "docent/interaction/sound/horn.h"
 #include "docent/messages/conversions.h"
+#include "docent/modules/edge/screen_desk.h"
 #include "docent/modules/shared/scanners.h"
 #include "docent/telepresence/belief_carrier.h"
 #include "docent/telepresence/live_encoding.h"
 #include "docent/telepresence/museum_document.h"
 #include "docent/telepresence/outbox.h"
+#include "docent/telepresence/server/screen_key.h"
 #include "docent/telepresence/server/web_server.h"
 #include "docent/telepresence/site.h"
 #include "docent/vocabulary/vocabulary.h"
@@ -58,7 +61,20 @@ struct WebParams : telepresence::WebServerParams {
 };
 
 /// The slots of the live channel.
-enum Slot : int { kLive, kBelief, kPath, kMission, kSpeech, kBoard, kHealth, kWindow, kHorn, kSound };
+enum Slot : int {
+  kLive,
+  kBelief,
+  kPath,
+  kMission,
+  kSpeech,
+  kBoard,
+  kHealth,
+  kWindow,
+  kHorn,
+  kSound,
+  kExpression,
+  kButton
+};
 
 std::filesystem::path page_folder(const std::string& root) {
   return root.empty() ? shipped_path("web/dist") : std::filesystem::path{root};
@@ -72,6 +88,10 @@ bool is_cancellation(const docent_msgs::Request& request) {
   return parse<RequestKind>(request.kind) == RequestKind::cancel;
 }
 
+RequestSource source_of(telepresence::Role role) {
+  return role == telepresence::Role::kiosk ? RequestSource::kiosk : RequestSource::web;
+}
+
 class WebModule final : public Module {
  public:
   static Result<std::unique_ptr<Module>> make(const ModuleContext& context) {
@@ -82,6 +102,9 @@ class WebModule final : public Module {
     auto map = telepresence::encode_map_png(context.museum.map);
     if (!map) return tl::unexpected<Error>(map.error());
 
+    auto key = telepresence::screen_key(context.state / "screen.key");
+    if (!key) return tl::unexpected<Error>(key.error());
+
     std::unique_ptr<WebModule> module{new WebModule{context, *params, std::move(*outbox)}};
     telepresence::Site& site = *module->site_;
     auto page = site.load_page(page_folder(params->root));
@@ -90,6 +113,7 @@ class WebModule final : public Module {
       module->reason_ = page.error().message;
       site.set_document("/", "text/html; charset=utf-8", kNoPage);
     }
+    module->load_pictures();
     site.set_audio_folder(context.state / "audio");
     site.set_document("/api/museum.json", "application/json",
                       telepresence::encode_museum(context.museum, context.config.body().radius));
@@ -99,9 +123,11 @@ class WebModule final : public Module {
 
     auto server = telepresence::WebServer::start(
         *params, module->site_,
-        [raw = module.get()](telepresence::ViewerId viewer, const telepresence::ClientMessage& m) {
-          raw->bus_.post([raw, viewer, m] { raw->take(viewer, m); });
-        });
+        [raw = module.get()](telepresence::ViewerId viewer, telepresence::Role role,
+                             const telepresence::ClientMessage& m) {
+          raw->bus_.post([raw, viewer, role, m] { raw->take(viewer, source_of(role), m); });
+        },
+        std::move(*key));
     if (!server) return fail("web: " + server.error().message);
     module->set_server(std::move(*server));
     module->subscribe();
@@ -122,8 +148,23 @@ class WebModule final : public Module {
         outbox_{std::move(outbox)},
         requests_{bus_.publisher(topics::kRequest)},
         choices_{bus_.publisher(topics::kChoice)},
+        screen_{bus_, context.state / "poll.csv"},
         scans_(body_.scanners.size()) {
     if (outbox_->was_damaged()) reason_ = "web.sqlite was damaged and has been set aside; a new one was begun";
+  }
+
+  void load_pictures() {
+    for (const auto& exhibit : museum_.exhibits) {
+      constexpr std::size_t kMostBytes = 4U << 20U;
+      if (exhibit.picture.empty()) continue;
+      auto content = read_file(museum_.folder / exhibit.picture);
+      if (content && content->size() > kMostBytes) content = fail(exhibit.picture.string() + " is larger than 4 MB");
+      if (content) {
+        site_->set_file(telepresence::picture_address(exhibit), std::move(*content));
+      } else {
+        reason_ = content.error().message;
+      }
+    }
   }
 
   void set_server(std::unique_ptr<telepresence::WebServer> server) {
@@ -165,6 +206,14 @@ class WebModule final : public Module {
       server_->broadcast(kSound, telepresence::encode_sound(m));
     });
     bus_.subscribe<docent_msgs::Horn>(topics::kHorn, [this](const auto&) { show_horn(); });
+    bus_.subscribe<docent_msgs::Expression>(topics::kExpression, [this](const auto& m) {
+      std::string text = telepresence::encode_expression(m);
+      if (std::exchange(expression_, text) != text) server_->broadcast(kExpression, std::move(text));
+    });
+    bus_.subscribe<docent_msgs::Button>(topics::kButton, [this](const auto& m) {
+      if (m.number < 1 || m.number > kButtons) return;
+      server_->broadcast(kButton, telepresence::encode_button(bus_.now(), m.number));
+    });
     bus_.subscribe<docent_msgs::RequestBoard>(topics::kRequestBoard, [this](const auto& m) { see_board(m); });
     bus_.subscribe<docent_msgs::Health>(topics::kHealth, [this](const auto& m) {
       constexpr std::size_t kMostModules = 64;  // whoever invents names shall not fill the memory
@@ -172,7 +221,10 @@ class WebModule final : public Module {
     });
     bus_.every(seconds(1.0 / params_.live_hz), [this] { show_live(); });
     bus_.every(seconds(1.0 / params_.belief_hz), [this] { show_slow(); });
-    bus_.every(seconds(1.0), [this] { show_health(); });
+    bus_.every(seconds(1.0), [this] {
+      show_health();
+      screen_.look();
+    });
     bus_.every(seconds(params_.resend_s), [this] { resend(); });
     bus_.every(std::chrono::minutes{10},
                [this] { outbox_->forget_before(bus_.now() - hours_of(params_.forget_hours)); });
@@ -257,20 +309,33 @@ class WebModule final : public Module {
     if (choice_) choices_.publish(*choice_);
   }
 
-  void take(telepresence::ViewerId viewer, const telepresence::ClientMessage& message) {
+  void take(telepresence::ViewerId viewer, RequestSource source, const telepresence::ClientMessage& message) {
     if (const auto* request = std::get_if<telepresence::RequestMessage>(&message))
-      return take_request(viewer, *request);
+      return take_request(viewer, source, *request);
     if (const auto* cancel = std::get_if<telepresence::CancelMessage>(&message)) {
       docent_msgs::Request wish;
       wish.id = cancel->id;
       wish.kind = to_text(RequestKind::cancel);
       wish.target = cancel->request;
-      return store(viewer, std::move(wish));
+      return store(viewer, source, std::move(wish));
     }
-    if (const auto* choice = std::get_if<telepresence::ChoiceMessage>(&message)) return take_choice(viewer, *choice);
+    if (const auto* choice = std::get_if<telepresence::ChoiceMessage>(&message))
+      return take_choice(viewer, source, *choice);
+    take_of_screen(viewer, message);
   }
 
-  void take_request(telepresence::ViewerId viewer, const telepresence::RequestMessage& message) {
+  void take_of_screen(telepresence::ViewerId viewer, const telepresence::ClientMessage& message) {
+    const auto phase = mission_ ? parse<MissionPhase>(mission_->phase) : std::nullopt;
+    const auto done = screen_.take(message, phase);
+    const auto* help = std::get_if<telepresence::HelpMessage>(&message);
+    const auto* answer = std::get_if<telepresence::AnswerMessage>(&message);
+    if (!done || (help == nullptr && answer == nullptr)) return;
+    const std::string& id = help != nullptr ? help->id : answer->id;
+    server_->send(viewer, *done ? telepresence::encode_acknowledgement(id)
+                                : telepresence::encode_refusal(id, done->error().message));
+  }
+
+  void take_request(telepresence::ViewerId viewer, RequestSource source, const telepresence::RequestMessage& message) {
     const std::string why = refusal(message);
     if (!why.empty()) return server_->send(viewer, telepresence::encode_refusal(message.id, why));
     docent_msgs::Request wish;
@@ -281,7 +346,7 @@ class WebModule final : public Module {
     wish.viewpoint = message.viewpoint;
     wish.language =
         message.language.empty() && !museum_.languages.empty() ? museum_.languages.front() : message.language;
-    store(viewer, std::move(wish));
+    store(viewer, source, std::move(wish));
   }
 
   [[nodiscard]] std::string refusal(const telepresence::RequestMessage& message) const {
@@ -296,16 +361,16 @@ class WebModule final : public Module {
   }
 
   /// Commits, then acknowledges, then tells the robot (architecture 10.8, 10.9).
-  void store(telepresence::ViewerId viewer, docent_msgs::Request wish) {
+  void store(telepresence::ViewerId viewer, RequestSource source, docent_msgs::Request wish) {
     wish.stamp = to_message(bus_.now());
-    wish.source = to_text(RequestSource::web);
+    wish.source = to_text(source);
     auto stored = outbox_->put(wish);
     if (!stored) return server_->send(viewer, telepresence::encode_refusal(wish.id, stored.error().message));
     server_->send(viewer, telepresence::encode_acknowledgement(wish.id));
     requests_.publish(std::move(wish));
   }
 
-  void take_choice(telepresence::ViewerId viewer, const telepresence::ChoiceMessage& message) {
+  void take_choice(telepresence::ViewerId viewer, RequestSource source, const telepresence::ChoiceMessage& message) {
     const auto* prompt = mission_ ? &mission_->prompt : nullptr;
     if (prompt == nullptr || prompt->id != message.prompt) {
       return server_->send(viewer, telepresence::encode_refusal(message.id, "the question is no longer open"));
@@ -314,7 +379,7 @@ class WebModule final : public Module {
       return server_->send(viewer, telepresence::encode_refusal(message.id, "no such answer"));
     }
     if (!choice_ || choice_->prompt_id != message.prompt) {  // the first answer counts
-      choice_ = docent_msgs::Choice{message.id, message.prompt, message.choice, to_text(RequestSource::web)};
+      choice_ = docent_msgs::Choice{message.id, message.prompt, message.choice, to_text(source)};
       choices_.publish(*choice_);
     }
     server_->send(viewer, telepresence::encode_acknowledgement(message.id));
@@ -346,6 +411,7 @@ class WebModule final : public Module {
   std::unique_ptr<telepresence::Outbox> outbox_;
   transport::Publisher<docent_msgs::Request> requests_;
   transport::Publisher<docent_msgs::Choice> choices_;
+  ScreenDesk screen_;
   std::shared_ptr<telepresence::Site> site_ = std::make_shared<telepresence::Site>();
 
   telepresence::BeliefCarrier carrier_;
@@ -356,6 +422,7 @@ class WebModule final : public Module {
   std::optional<docent_msgs::MissionState> mission_;
   std::optional<docent_msgs::Choice> choice_;  ///< resent until its question is closed
   std::optional<double> battery_;
+  std::string expression_;  ///< as it was shown last
   bool is_muted_ = false;
   const interaction::SharedSound horn_ = interaction::horn_sound();
   nav_msgs::Path path_;

@@ -7,8 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "docent/base/files.h"
 #include "docent/interaction/sound/horn.h"
 #include "docent/messages/conversions.h"
+#include "docent/telepresence/server/screen_key.h"
 #include "docent/telepresence/server/test_client.h"
 #include "docent/transport/virtual_time_bus.h"
 
@@ -49,6 +51,7 @@ class WebModuleTest : public testing::Test {
     ASSERT_TRUE(config_.set("web.port=" + std::to_string(port_)));
     robot_bus_ = hub_.connect("robot");
     robot_bus_->subscribe<docent_msgs::Request>(topics::kRequest, [this](const auto& m) { requests_.push_back(m); });
+    robot_bus_->subscribe<docent_msgs::ButtonLamps>(topics::kButtonLamps, [this](const auto& m) { lit_ = m.lit; });
     robot_bus_->subscribe<docent_msgs::Choice>(topics::kChoice, [this](const auto& m) { choices_.push_back(m); });
     start();
   }
@@ -79,6 +82,11 @@ class WebModuleTest : public testing::Test {
     module_.reset();
     web_bus_.reset();
   }
+  /// Says of itself that it is the robot's own screen.
+  bool open_screen(telepresence::TestClient& screen, const std::string& key) {
+    return screen.upgrade("", "/live?screen=" + key);
+  }
+  std::string screen_key() { return telepresence::screen_key(state_ / "screen.key").value(); }
   ModuleContext context(transport::Bus& bus) { return {bus, museum_, config_, state_, 1, true}; }
 
   void run(double seconds_of_bus) {
@@ -121,6 +129,7 @@ class WebModuleTest : public testing::Test {
   robot::RobotConfig config_;
   std::vector<docent_msgs::Request> requests_;
   std::vector<docent_msgs::Choice> choices_;
+  std::vector<std::int32_t> lit_{-1};
   std::unique_ptr<transport::Bus> robot_bus_;
   std::unique_ptr<transport::Bus> web_bus_;
   std::unique_ptr<Module> module_;
@@ -313,6 +322,83 @@ TEST_F(WebModuleTest, ThePageIsToldWhatMusicPlaysAndHowLoud) {
   EXPECT_EQ(sound["music"], "/audio/00ff.ogg");
   EXPECT_EQ(sound["music_volume"], 0.2);
   EXPECT_EQ(sound["start"], 1.0);
+}
+
+TEST_F(WebModuleTest, WhatTheScreenAsksForIsOfTheKiosk) {
+  telepresence::TestClient screen{port_};
+  ASSERT_TRUE(open_screen(screen, screen_key()));
+  screen.send_frame(request(kId, "sputnik"));
+  EXPECT_EQ(next(screen, "ack")["id"], kId);
+  run(0.1);
+  ASSERT_FALSE(requests_.empty());
+  EXPECT_EQ(requests_.front().source, "kiosk");
+  docent_msgs::MissionState mission;
+  mission.prompt.id = "1-2/more";
+  mission.prompt.options = {"more", "next"};
+  robot_bus_->publisher(topics::kMissionState).publish(mission);
+  next(screen, "mission");
+  screen.send_frame(Json{{"type", "choice"}, {"id", kOtherId}, {"prompt", "1-2/more"}, {"choice", "more"}}.dump());
+  EXPECT_EQ(next(screen, "ack")["id"], kOtherId);
+  ASSERT_FALSE(choices_.empty());
+  EXPECT_EQ(choices_.front().source, "kiosk");
+
+  telepresence::TestClient stranger{port_};
+  EXPECT_FALSE(open_screen(stranger, std::string(32, '0')));
+}
+
+TEST_F(WebModuleTest, TheScreenShowsPressesAndTheFace) {
+  telepresence::TestClient viewer{port_};
+  ASSERT_TRUE(viewer.upgrade());
+  const auto presses = robot_bus_->publisher(topics::kButton);
+  presses.publish({{}, 7});  // no such button
+  presses.publish({{}, 3});
+  const Json press = next(viewer, "button");
+  EXPECT_EQ(press["number"], 3);
+  EXPECT_NEAR(press["t"].get<double>(), to_seconds(hub_.now()), 0.5);
+
+  docent_msgs::Expression expression;
+  expression.mood = "happy";
+  expression.valence = 0.8;
+  const auto faces = robot_bus_->publisher(topics::kExpression);
+  faces.publish(expression);
+  EXPECT_EQ(next(viewer, "expression")["valence"], 0.8);
+  for (int i = 0; i < 20; ++i) faces.publish(expression);
+  run(0.5);
+  for (auto frame = viewer.receive_frame(std::chrono::milliseconds{50}); frame.opcode == 1;
+       frame = viewer.receive_frame(std::chrono::milliseconds{50}))
+    EXPECT_EQ(frame.payload.find("\"expression\""), std::string::npos) << "told again though nothing changed";
+}
+
+TEST_F(WebModuleTest, TheScreenGetsAnAnswerToWhatItAloneMayAsk) {
+  telepresence::TestClient screen{port_};
+  ASSERT_TRUE(open_screen(screen, screen_key()));
+  screen.send_frame(R"({"type":"lamps","lit":[3,4]})");
+  screen.send_frame(Json{{"type", "help"}, {"id", kId}, {"language", "de"}}.dump());
+  EXPECT_EQ(next(screen, "refused")["reason"], "the robot is busy");
+  EXPECT_EQ(lit_, (std::vector<std::int32_t>{3, 4}));
+  screen.send_frame(
+      Json{{"type", "answer"}, {"id", kOtherId}, {"question", "liked"}, {"answer", "yes"}, {"language", "en"}}.dump());
+  EXPECT_EQ(next(screen, "ack")["id"], kOtherId);
+  EXPECT_TRUE(read_file(state_ / "poll.csv").value().ends_with("en,liked,yes\n"));
+  run(15.0);  // the screen says nothing any more
+  EXPECT_EQ(lit_, std::vector<std::int32_t>{});
+}
+
+TEST_F(WebModuleTest, APictureOfAnExhibitIsServed) {
+  stop();
+  museum_.folder = state_;
+  museum_.exhibits[0].picture = "sputnik.svg";
+  ASSERT_TRUE(write_file_atomically(state_ / "sputnik.svg", "<svg/>"));
+  start();
+  telepresence::TestClient client{port_};
+  client.send("GET /api/pictures/sputnik.svg HTTP/1.1\r\nHost: a\r\n\r\n");
+  const auto [head, body] = client.receive_reply();
+  EXPECT_NE(head.find("image/svg+xml"), std::string::npos) << head;
+  EXPECT_EQ(body, "<svg/>");
+  stop();
+  std::filesystem::remove(state_ / "sputnik.svg");
+  start();
+  EXPECT_NE(module_->health().reason.find("sputnik.svg"), std::string::npos) << module_->health().reason;
 }
 
 TEST_F(WebModuleTest, AViewerHearsSomethingAtLeastEverySecond) {

@@ -9,6 +9,7 @@
 #include "docent/modules/edge/record_module.h"
 #include "docent/modules/edge/visualize_module.h"
 #include "docent/modules/edge/web_module.h"
+#include "docent/modules/guide/buttons_module.h"
 #include "docent/modules/guide/executive_module.h"
 #include "docent/modules/guide/head_module.h"
 #include "docent/modules/guide/mission_module.h"
@@ -31,6 +32,7 @@ constexpr std::array kModules{
     ModuleEntry{"record", make_record, parameters_of_record, false, true},
     ModuleEntry{"robot", make_robot, parameters_of_robot, true},
     ModuleEntry{"sound", make_sound, parameters_of_sound},
+    ModuleEntry{"buttons", make_buttons, parameters_of_buttons},
     ModuleEntry{"mission", make_mission, parameters_of_mission},
     ModuleEntry{"executive", make_executive, parameters_of_executive},
     ModuleEntry{"web", make_web, parameters_of_web},

@@ -84,6 +84,16 @@ std::string mission(bool asks) {
   return encode_mission(mission);
 }
 
+std::string expression() {
+  docent_msgs::Expression expression;
+  expression.mood = to_text(Mood::happy);
+  expression.valence = 0.7;
+  expression.is_speaking = true;
+  expression.gaze = "visitor";
+  expression.pan = -0.3;
+  return encode_expression(expression);
+}
+
 std::string board() {
   docent_msgs::RequestBoard board;
   board.revision = 3;
@@ -124,6 +134,7 @@ std::string museum() {
   museum.exhibits[0].title = museum.exhibits[0].short_text = museum.name;
   museum.exhibits[0].viewpoints = {{2, 3, Angle{}}};
   museum.exhibits[0].topics = {"space"};
+  museum.exhibits[0].picture = "content/sputnik.webp";
   museum.tours = {{"all", museum.name, {"sputnik"}, std::nullopt}, {"quick", museum.name, {}, 2.0}};
   return encode_museum(museum, 0.3);
 }
@@ -160,6 +171,8 @@ std::map<std::string, std::string> contract_samples() {
           {"speech.json", encode_speech(speech)},
           {"horn.json", encode_horn(kNow, "00ff.wav", 0.5)},
           {"sound.json", encode_sound({{}, 0.75, "00ff.ogg", 0.125, to_message(kNow)})},
+          {"expression.json", expression()},
+          {"button.json", encode_button(kNow, 3)},
           {"board.json", board()},
           {"health.json", health()},
           {"window.json", encode_window(avoid_state())},

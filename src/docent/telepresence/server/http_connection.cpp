@@ -39,7 +39,7 @@ void HttpConnection::serve() {
   const Route route = owner_.route({view_of(request.method_string()),
                                     view_of(request.target()),
                                     beast::websocket::is_upgrade(request),
-                                    {view_of(request[http::field::origin]), view_of(request[http::field::host])}});
+                                    {view_of(request[http::field::origin]), view_of(request[http::field::host]), {}}});
   if (const auto* live = std::get_if<OpenLive>(&route)) {
     stream_.expires_never();
     return owner_.open_live(stream_.release_socket(), std::move(request), live->role);

@@ -6,9 +6,18 @@
 #include "docent/telepresence/server/roles.h"
 
 namespace docent::telepresence {
+namespace {
 
-std::optional<Role> role_of(const Opening& opening, const std::vector<std::string>& others) {
-  if (opening.origin.empty()) return Role::visitor;
+/// In the same time whatever the keys have in common.
+bool is_same_key(std::string_view a, std::string_view b) {
+  if (a.size() != b.size() || b.empty()) return false;
+  unsigned difference = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) difference |= static_cast<unsigned>(a[i] ^ b[i]);
+  return difference == 0;
+}
+
+bool is_page_of_ours(const Opening& opening, const std::vector<std::string>& others) {
+  if (opening.origin.empty()) return true;
   std::string_view page = opening.origin;
   for (const std::string_view scheme : {"http://", "https://"}) {
     if (page.starts_with(scheme)) {
@@ -19,12 +28,24 @@ std::optional<Role> role_of(const Opening& opening, const std::vector<std::strin
   const auto is_page_of = [page](std::string_view host) {
     return boost::beast::iequals({page.data(), page.size()}, {host.data(), host.size()});
   };
-  if (is_page_of(opening.host) || std::any_of(others.begin(), others.end(), is_page_of)) return Role::visitor;
-  return std::nullopt;
+  return is_page_of(opening.host) || std::any_of(others.begin(), others.end(), is_page_of);
+}
+
+}  // namespace
+
+std::optional<Role> role_of(const Opening& opening, const std::vector<std::string>& others,
+                            std::string_view screen_key) {
+  if (!is_page_of_ours(opening, others)) return std::nullopt;
+  if (opening.key.empty()) return Role::visitor;
+  return is_same_key(opening.key, screen_key) ? std::optional{Role::kiosk} : std::nullopt;
 }
 
 bool may_ask(Role role, const ClientMessage& message) {
-  return role != Role::observer || std::holds_alternative<WatchMessage>(message);
+  if (std::holds_alternative<WatchMessage>(message)) return true;
+  const bool is_of_the_screen = std::holds_alternative<LampsMessage>(message) ||
+                                std::holds_alternative<HelpMessage>(message) ||
+                                std::holds_alternative<AnswerMessage>(message);
+  return is_of_the_screen ? role == Role::kiosk : role != Role::observer;
 }
 
 }  // namespace docent::telepresence

@@ -13,18 +13,24 @@ namespace docent::telepresence {
 enum class Role {
   observer,  ///< watches
   visitor,   ///< also makes wishes, takes them back, and answers questions
-  staff,     ///< may ask for the same; nobody comes from the Web as staff
+  kiosk,  ///< the robot's own screen: like a visitor, says also which buttons are lit, what was answered to the poll,
+          ///< and that somebody wants help
+  staff,  ///< may ask for the same; nobody comes from the Web as staff
 };
 
 /// What a browser tells of itself when it opens the live channel.
 struct Opening {
   std::string_view origin;  ///< whose page opens it; empty: not a browser
   std::string_view host;    ///< whom it calls
+  std::string_view key;     ///< with which a page says that it is the robot's own screen; empty: it does not say so
 };
 
-/// nullopt: it may not be opened, for a page of somebody else must not speak for its reader. Everybody else is a
-/// visitor. @param others  hosts besides the called one whose pages may open it
-[[nodiscard]] std::optional<Role> role_of(const Opening& opening, const std::vector<std::string>& others);
+/// nullopt: it may not be opened, for a page of somebody else must not speak for its reader, and no page is the robot's
+/// screen without its key. Everybody else is a visitor.
+/// @param others  hosts besides the called one whose pages may open it
+/// @param screen_key  of the robot's own screen; empty: it has none
+[[nodiscard]] std::optional<Role> role_of(const Opening& opening, const std::vector<std::string>& others,
+                                          std::string_view screen_key);
 
 /// Whether somebody in this role may ask for it.
 [[nodiscard]] bool may_ask(Role role, const ClientMessage& message);

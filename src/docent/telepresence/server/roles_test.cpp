@@ -8,17 +8,27 @@ namespace {
 TEST(Roles, PagesOfOtherSitesMayNotOpenTheChannel) {
   const std::vector<std::string> others{"museum.test"};
   for (const char* origin : {"", "http://robot.test", "https://robot.test", "https://ROBOT.test", "http://museum.test"})
-    EXPECT_EQ(role_of({origin, "robot.test"}, others), Role::visitor) << origin;
+    EXPECT_EQ(role_of({origin, "robot.test", ""}, others, "k1"), Role::visitor) << origin;
   for (const char* origin : {"http://evil.test", "null", "http://robot.test.evil.test", "http://http://robot.test"})
-    EXPECT_EQ(role_of({origin, "robot.test"}, others), std::nullopt) << origin;
+    EXPECT_EQ(role_of({origin, "robot.test", ""}, others, "k1"), std::nullopt) << origin;
 }
 
-TEST(Roles, AnObserverOnlyWatches) {
+TEST(Roles, OnlyItsKeyMakesAPageTheRobotsScreen) {
+  EXPECT_EQ(role_of({"http://robot.test", "robot.test", "k1"}, {}, "k1"), Role::kiosk);
+  EXPECT_EQ(role_of({"http://evil.test", "robot.test", "k1"}, {}, "k1"), std::nullopt);
+  for (const char* key : {"k2", "k", "k11", "K1"})
+    EXPECT_EQ(role_of({"http://robot.test", "robot.test", key}, {}, "k1"), std::nullopt) << key;
+  EXPECT_EQ(role_of({"http://robot.test", "robot.test", "k1"}, {}, ""), std::nullopt) << "the robot has no screen";
+}
+
+TEST(Roles, EachRoleAsksForWhatIsIts) {
   const ClientMessage watch = WatchMessage{true};
   const std::vector<ClientMessage> wishes{RequestMessage{}, CancelMessage{}, ChoiceMessage{}};
-  for (const Role role : {Role::observer, Role::visitor, Role::staff}) {
+  const std::vector<ClientMessage> of_the_screen{LampsMessage{}, HelpMessage{}, AnswerMessage{}};
+  for (const Role role : {Role::observer, Role::visitor, Role::kiosk, Role::staff}) {
     EXPECT_TRUE(may_ask(role, watch));
     for (const ClientMessage& wish : wishes) EXPECT_EQ(may_ask(role, wish), role != Role::observer);
+    for (const ClientMessage& own : of_the_screen) EXPECT_EQ(may_ask(role, own), role == Role::kiosk);
   }
 }
 

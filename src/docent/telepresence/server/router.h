@@ -35,8 +35,9 @@ using Route = std::variant<HttpAnswer, OpenLive>;
 class Router {
  public:
   /// @param origins  hosts besides the server's own whose pages may open the live channel
-  Router(std::shared_ptr<const Site> site, std::vector<std::string> origins)
-      : site_{std::move(site)}, origins_{std::move(origins)} {}
+  /// @param screen_key  see role_of; /live?screen=KEY
+  Router(std::shared_ptr<const Site> site, std::vector<std::string> origins, std::string screen_key)
+      : site_{std::move(site)}, origins_{std::move(origins)}, screen_key_{std::move(screen_key)} {}
 
   /// @param is_full  the live channel takes nobody more
   [[nodiscard]] Route route(const RouteRequest& request, bool is_full) const;
@@ -44,6 +45,7 @@ class Router {
  private:
   std::shared_ptr<const Site> site_;
   std::vector<std::string> origins_;
+  std::string screen_key_;
 };
 
 /// A few words of text, after which the connection is closed.

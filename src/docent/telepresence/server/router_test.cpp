@@ -9,7 +9,7 @@ class RouterTest : public testing::Test {
  protected:
   RouterTest() { site_->set_document("/", "text/html; charset=utf-8", "<p>hello"); }
   [[nodiscard]] Route route(const RouteRequest& request, bool is_full = false) const {
-    return Router{site_, {"museum.test"}}.route(request, is_full);
+    return Router{site_, {"museum.test"}, "0a1b"}.route(request, is_full);
   }
   [[nodiscard]] int status(const RouteRequest& request, bool is_full = false) const {
     const Route found = route(request, is_full);
@@ -36,13 +36,23 @@ TEST_F(RouterTest, TheSiteAnswersGetAndHead) {
 }
 
 TEST_F(RouterTest, TheChannelIsOpenedOnItsPathAlone) {
-  const Opening own{"http://robot.test", "robot.test"};
+  const Opening own{"http://robot.test", "robot.test", ""};
   EXPECT_EQ(std::get<OpenLive>(route({"GET", "/live", true, own})).role, Role::visitor);
   EXPECT_EQ(status({"GET", "/other", true, own}), 404);
-  EXPECT_EQ(status({"GET", "/live", true, {"http://evil.test", "robot.test"}}), 403);
-  EXPECT_EQ(status({"GET", "/live", true, {"http://museum.test", "robot.test"}}), 101);
+  EXPECT_EQ(status({"GET", "/live", true, {"http://evil.test", "robot.test", ""}}), 403);
+  EXPECT_EQ(status({"GET", "/live", true, {"http://museum.test", "robot.test", ""}}), 101);
   EXPECT_EQ(status({"GET", "/live", true, own}, true), 503);
   EXPECT_EQ(status({"GET", "/live", false, own}), 404) << "no document lies there";
+}
+
+TEST_F(RouterTest, TheRobotsScreenComesWithItsKey) {
+  const Opening own{"http://robot.test", "robot.test", ""};
+  EXPECT_EQ(std::get<OpenLive>(route({"GET", "/live?screen=0a1b", true, own})).role, Role::kiosk);
+  for (const char* target : {"/live?screen=0a1c", "/live?screen=0a1b&", "/live?screen=0a1"})
+    EXPECT_EQ(status({"GET", target, true, own}), 403) << target;
+  for (const char* target : {"/live?screen=", "/live?", "/live?key=0a1b"})
+    EXPECT_EQ(status({"GET", target, true, own}), 404) << target;
+  EXPECT_EQ(status({"GET", "/live?screen=0a1b", true, {"http://evil.test", "robot.test", ""}}), 403);
 }
 
 }  // namespace

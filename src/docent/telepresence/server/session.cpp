@@ -87,13 +87,13 @@ void Session::take() {
   }
   auto message = parse_client_message(text);
   if (!message) return refuse(websocket::close_code::policy_error, message.error().message);
-  if (!may_ask(role_, *message)) return refuse(websocket::close_code::policy_error, "you may only watch");
+  if (!may_ask(role_, *message)) return refuse(websocket::close_code::policy_error, "this is not yours to ask");
   if (const auto* watch = std::get_if<WatchMessage>(&*message)) {
     if (watch->details && !wants_details_) queue_.mark(owner_.detail_slots);
     wants_details_ = watch->details;
     flush();
   } else {
-    owner_.message(id_, *message);
+    owner_.message(id_, role_, *message);
   }
   read();
 }

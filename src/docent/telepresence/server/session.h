@@ -20,7 +20,7 @@ namespace docent::telepresence {
 
 /// What all sessions share with their server, which outlives them.
 struct SessionOwner {
-  std::function<void(ViewerId, const ClientMessage&)> message;
+  std::function<void(ViewerId, Role, const ClientMessage&)> message;
   std::function<void(ViewerId)> left;
   std::function<SharedText(std::size_t slot)> latest;  ///< null: it has no value yet
   std::uint32_t detail_slots = 0;                      ///< a bit for each slot that only specialists look at

@@ -22,7 +22,10 @@ const std::string kChoice = R"({"type":"choice","id":")" + kUuid + R"(","prompt"
 class SessionTest : public testing::Test {
  protected:
   void open(Role role, const WebServerParams& params = {}) {
-    owner_.message = [this](ViewerId viewer, const ClientMessage&) { heard_ += viewer; };
+    owner_.message = [this](ViewerId viewer, Role as, const ClientMessage&) {
+      heard_ += viewer;
+      role_ = as;
+    };
     owner_.left = [this](ViewerId) { has_left_ = true; };
     owner_.latest = [](std::size_t slot) {
       return std::make_shared<const std::string>("slot " + std::to_string(slot));
@@ -48,7 +51,8 @@ class SessionTest : public testing::Test {
   }
 
   SessionOwner owner_;
-  std::atomic<ViewerId> heard_{0};  ///< sum over the messages
+  std::atomic<ViewerId> heard_{0};          ///< sum over the messages
+  std::atomic<Role> role_{Role::observer};  ///< of the last message
   bool has_left_ = false;
   boost::asio::io_context io_{1};
   tcp::acceptor acceptor_{io_, {boost::asio::ip::address_v4::loopback(), 0}};
@@ -77,7 +81,25 @@ TEST_F(SessionTest, AnObserverMayOnlyWatch) {
   client_->send_frame(kChoice);
   const auto frame = client_->receive_frame();
   EXPECT_EQ(frame.close_code(), 1008);
-  EXPECT_NE(frame.payload.find("watch"), std::string::npos);
+  EXPECT_NE(frame.payload.find("not yours"), std::string::npos);
+  EXPECT_EQ(heard_, 0U);
+}
+
+TEST_F(SessionTest, OnlyTheRobotsScreenSaysWhichButtonsAreLit) {
+  open(Role::kiosk);
+  EXPECT_EQ(client_->receive_frame().payload, "slot 1");
+  client_->send_frame(R"({"type":"lamps","lit":[1]})");
+  client_->send_frame("nonsense");  // its end comes after the lamps were heard
+  EXPECT_EQ(client_->receive_frame().close_code(), 1008);
+  EXPECT_EQ(heard_, kViewer);
+  EXPECT_EQ(role_, Role::kiosk);
+}
+
+TEST_F(SessionTest, AVisitorSaysNothingOfLamps) {
+  open(Role::visitor);
+  EXPECT_EQ(client_->receive_frame().payload, "slot 1");
+  client_->send_frame(R"({"type":"lamps","lit":[1]})");
+  EXPECT_EQ(client_->receive_frame().close_code(), 1008);
   EXPECT_EQ(heard_, 0U);
 }
 

@@ -70,11 +70,11 @@ class TestClient {
     return {head, body};
   }
   /// True when the server accepts the upgrade.
-  bool upgrade(const std::string& extra = "") {
-    send(
-        "GET /live HTTP/1.1\r\nHost: robot.test\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
-        "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n" +
-        extra + "\r\n");
+  bool upgrade(const std::string& extra = "", const std::string& path = "/live") {
+    send("GET " + path +
+         " HTTP/1.1\r\nHost: robot.test\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+         "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n" +
+         extra + "\r\n");
     const auto [head, body] = receive_reply();
     return head.starts_with("HTTP/1.1 101") && head.find("s3pPLMBiTxaQ9kYGzzhZRbK+xOo=") != std::string::npos;
   }

@@ -27,8 +27,12 @@ constexpr std::size_t kManyViewers = 100;  // from here on sends are spread over
 }  // namespace
 
 struct WebServer::Core {
-  Core(const WebServerParams& given, std::shared_ptr<const Site> site, MessageHandler handler)
-      : params{given}, router{std::move(site), given.origins}, acceptor{io}, timer{io}, accept_timer{io} {
+  Core(const WebServerParams& given, std::shared_ptr<const Site> site, MessageHandler handler, std::string screen_key)
+      : params{given},
+        router{std::move(site), given.origins, std::move(screen_key)},
+        acceptor{io},
+        timer{io},
+        accept_timer{io} {
     sessions.message = std::move(handler);
     sessions.left = [this](ViewerId viewer) {
       if (groups[viewer % kGroups].erase(viewer) > 0) --viewers;
@@ -131,12 +135,12 @@ void WebServer::Core::flush_all() {
 WebServer::WebServer(std::unique_ptr<Core> core) : core_{std::move(core)} {}
 
 Result<std::unique_ptr<WebServer>> WebServer::start(const WebServerParams& params, std::shared_ptr<const Site> site,
-                                                    MessageHandler handler) {
+                                                    MessageHandler handler, std::string screen_key) {
   const std::string name = params.address + ":" + std::to_string(params.port);
   beast::error_code error;
   const auto address = asio::ip::make_address(params.address, error);
   if (error) return fail(name + ": not an address");
-  auto core = std::make_unique<Core>(params, std::move(site), std::move(handler));
+  auto core = std::make_unique<Core>(params, std::move(site), std::move(handler), std::move(screen_key));
   const tcp::endpoint endpoint{address, static_cast<std::uint16_t>(params.port)};
   core->acceptor.open(endpoint.protocol(), error);
   if (!error) core->acceptor.set_option(asio::socket_base::reuse_address{true}, error);

@@ -9,6 +9,7 @@
 
 #include "docent/base/result.h"
 #include "docent/telepresence/client_message.h"
+#include "docent/telepresence/server/roles.h"
 #include "docent/telepresence/site.h"
 
 namespace docent::telepresence {
@@ -62,12 +63,13 @@ class WebServer {
  public:
   static constexpr int kSlots = 16;
   /// Called on the server's thread; must not block.
-  using MessageHandler = std::function<void(ViewerId, const ClientMessage&)>;
+  using MessageHandler = std::function<void(ViewerId, Role, const ClientMessage&)>;
 
   /// Error: "ADDRESS:PORT: why", for instance because another program has the port.
+  /// @param screen_key  with which the robot's own screen comes; empty: it has none
   [[nodiscard]] static Result<std::unique_ptr<WebServer>> start(const WebServerParams& params,
                                                                 std::shared_ptr<const Site> site,
-                                                                MessageHandler handler);
+                                                                MessageHandler handler, std::string screen_key = {});
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
   ~WebServer();  ///< closes everything and ends the thread

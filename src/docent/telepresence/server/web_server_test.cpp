@@ -22,7 +22,7 @@ class WebServerTest : public testing::Test {
   void start(WebServerParams params = {}) {
     params.port = 0;
     site_->set_document("/", "text/html; charset=utf-8", "<p>hello");
-    auto server = WebServer::start(params, site_, [this](ViewerId viewer, const ClientMessage& message) {
+    auto server = WebServer::start(params, site_, [this](ViewerId viewer, Role /*role*/, const ClientMessage& message) {
       const std::scoped_lock lock{mutex_};
       messages_.emplace_back(viewer, message);
     });
