@@ -73,6 +73,9 @@ class ExecutiveModule final : public Module {
                                   state.path_blocked ? state.reason : std::string{}, state.low_obstacle},
                                  bus_.now());
     });
+    bus_.subscribe<docent_msgs::Expression>(topics::kExpression, [this](const auto& expression) {
+      executive_.mood_report(parse<Mood>(expression.mood).value_or(Mood::neutral), bus_.now());
+    });
     bus_.every(kPeriod, [this] {
       executive_.tick(bus_.now());
       flush();

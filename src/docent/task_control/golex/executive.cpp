@@ -9,7 +9,8 @@
 namespace docent::task_control {
 namespace {
 
-constexpr Duration kObstacleLife = std::chrono::seconds{1};  // the collision avoidance speaks four times a second
+constexpr Duration kReportLife =
+    std::chrono::seconds{1};  // collision avoidance and head speak four times a second and more
 
 bool is_positive(double value) { return value > 0.0; }
 
@@ -361,8 +362,13 @@ void Executive::obstacle_report(const ObstacleReport& report, Time now) {
   obstacle_time_ = now;
 }
 
+void Executive::mood_report(Mood mood, Time now) {
+  shown_mood_ = mood;
+  shown_at_ = now;
+}
+
 void Executive::climb_ladder(Time now) {
-  if (now - obstacle_time_ > kObstacleLife) obstacle_ = {};
+  if (now - obstacle_time_ > kReportLife) obstacle_ = {};
   const bool is_unreachable = goal_.state == GoalStatus::unreachable;
   const LadderView view{obstacle_.is_hindered,
                         obstacle_.is_unmapped,
@@ -385,7 +391,8 @@ void Executive::climb_ladder(Time now) {
 }
 
 void Executive::ask_for_way(Time now, int count) {
-  const Mood mood = count == 1 ? Mood::neutral : Mood::sad;
+  const bool is_shown = shown_at_ != Time{} && now - shown_at_ <= kReportLife;
+  const Mood mood = is_shown ? shown_mood_ : count == 1 ? Mood::neutral : Mood::sad;
   // The name carries the time, so that a restarted executive does not repeat an id that was spoken already.
   say("please-" + std::to_string(std::max<std::int64_t>(0, (now - memory_.item_began).count() / 1000000)),
       interaction::sentence(interaction::Sentence::let_me_through, memory_.task.order.language, mood, count - 1), mood);

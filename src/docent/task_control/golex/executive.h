@@ -128,6 +128,8 @@ class Executive {
   void goal_report(const GoalReport& report, Time now);
   void obstacle_report(const ObstacleReport& report, Time now);
   void speech_report(const SpeechReport& report, Time now);
+  /// The mood that the face shows: so the robot asks for the way. Counts for a second, then its own reckoning.
+  void mood_report(Mood mood, Time now);
   void choose(const std::string& question_id, std::optional<Answer> option, Time now);
   /// Several times a second.
   void tick(Time now);
@@ -196,6 +198,8 @@ class Executive {
   ObstacleReport obstacle_;
   Time obstacle_time_{};  ///< when it was reported
   ReactionLadder ladder_;
+  Mood shown_mood_ = Mood::neutral;
+  Time shown_at_{};
   std::optional<SpeechReport> heard_;  ///< of the present utterance
   std::optional<Time> speech_sent_;
   std::string note_;  ///< shown while driving: why it does not go on

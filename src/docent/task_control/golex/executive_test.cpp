@@ -324,5 +324,20 @@ TEST_F(ExecutiveTest, ADepartureIsLookedForwardToAndHeard) {
   EXPECT_TRUE(arrived.horns.empty());
 }
 
+TEST_F(ExecutiveTest, AsksForTheWayInTheMoodThatItsFaceShows) {
+  start(visit("t1"));
+  said.clear();
+  goal(GoalStatus::driving);
+  for (int i = 0; i < 10 && said.empty(); ++i) {
+    executive.mood_report(Mood::angry, time());
+    executive.obstacle_report({true, true, "somebody is in the way"}, time());
+    pass(1.0);
+    goal(GoalStatus::blocked);
+  }
+  ASSERT_FALSE(said.empty());
+  EXPECT_EQ(said[0].mood, Mood::angry);
+  EXPECT_EQ(said[0].text, interaction::sentence(interaction::Sentence::let_me_through, "en", Mood::angry, 0));
+}
+
 }  // namespace
 }  // namespace docent::task_control

@@ -25,6 +25,8 @@ Result<void> MissionParams::validate() const {
   if (!(at_charger_m > 0.0)) return fail("mission.at_charger_m must be > 0");
   if (!(contact_s >= 0.0)) return fail("mission.contact_s must be >= 0");
   if (!(battery_gain >= 0.0 && battery_gain <= 1.0)) return fail("mission.battery_gain must be in 0..1");
+  if (!(battery_soon >= 0.0 && battery_soon <= battery_low + battery_gain))
+    return fail("mission.battery_soon must be in 0..battery_low + battery_gain");
   if (!(drain_per_s > 0.0)) return fail("mission.drain_per_s must be > 0");
   if (!(charge_per_s > 0.0)) return fail("mission.charge_per_s must be > 0");
   return {};
@@ -198,6 +200,7 @@ Situation Mission::situation(Time now) const {
   seen.has_farewell = schedule.farewell.has_value();
   seen.is_anything_due = scheduler_.is_anything_due(now);
   seen.has_charger = scheduler_.programme().charger.has_value();
+  seen.is_low_soon = battery_.charge(now).value_or(1.0) < params_.battery_soon;
   seen.must_charge = must_charge_;
   seen.charges = charges();
   seen.may_serve = !must_charge_ || battery_.charge(now).value_or(1.0) >= enough_to_serve();

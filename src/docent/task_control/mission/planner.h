@@ -22,6 +22,7 @@ struct Situation {
   bool has_farewell = false;        ///< a tour has ended: its visitors wait for a last word
   bool is_anything_due = false;     ///< somebody waits whose turn it may be
   bool has_charger = false;
+  bool is_low_soon = false;  ///< between two tours is the time to charge
   bool must_charge = false;  ///< before it goes on
   bool charges = false;      ///< it must, or does as long as nobody wants anything
   bool may_serve = true;     ///< its charge is enough for the next visit

@@ -49,6 +49,11 @@ Round next_visit(Mission& mission, const Situation& /*seen*/, Time now) {
   return mission.begin_visit(now) ? Round::is_over : Round::goes_on;
 }
 
+Round charge_between_tours(Mission& mission, const Situation& /*seen*/, Time now) {
+  mission.need_charge("between tours", now);
+  return Round::goes_on;
+}
+
 Round charge_first(Mission& mission, const Situation& /*seen*/, Time now) {
   mission.need_charge("for what comes next", now);
   return Round::goes_on;
@@ -69,6 +74,11 @@ constexpr std::array kRoutines{
             break_off},
     Routine{"visit under way", [](const Situation& seen) { return seen.activity == Activity::visit; },
             [](Mission&, const Situation&, Time) { return Round::is_over; }},
+    Routine{"battery low soon",
+            [](const Situation& seen) {
+              return seen.is_low_soon && !seen.must_charge && seen.has_charger && !seen.has_tour && !seen.has_farewell;
+            },
+            charge_between_tours},
     Routine{"next visit", [](const Situation& seen) { return seen.may_serve; }, next_visit},
     Routine{"farewell", [](const Situation& seen) { return seen.has_farewell; },
             [](Mission& mission, const Situation&, Time) {

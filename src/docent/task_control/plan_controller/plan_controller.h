@@ -12,6 +12,7 @@ namespace docent::task_control {
 ///   found            resumes it
 ///   battery low      breaks off what would take more charge than there is, between two explanations
 ///   visit under way  lets it go on
+///   battery low soon charges between two tours, before it must ([Minerva2000] 5.3: periodically)
 ///   next visit       the scheduler's choice, made anew after each explanation and each new request
 ///   farewell         the last word of a tour that has ended
 ///   charge first     what comes next would take too much

@@ -144,5 +144,43 @@ TEST_F(MissionTest, ARestartGoesOnCharging) {
   EXPECT_EQ(status_of("1"), RequestStatus::queued);
 }
 
+TEST_F(MissionTest, ChargesBetweenTwoToursBeforeItMust) {
+  pass(5.0);
+  wish("t", RequestKind::tour, "both");
+  battery(0.29);
+  EXPECT_EQ(mission->task().kind, TaskKind::visit) << "a tour that has begun goes on";
+  for (int stop = 0; stop < 2; ++stop) {
+    report(TaskStatus::explaining);
+    report(TaskStatus::done);
+  }
+  EXPECT_EQ(mission->task().kind, TaskKind::farewell);
+  wish("1", RequestKind::exhibit, "a");
+  report(TaskStatus::done);
+  EXPECT_EQ(mission->task().kind, TaskKind::charge) << "though somebody waits";
+  EXPECT_EQ(status_of("1"), RequestStatus::queued);
+  EXPECT_EQ(status_of("t"), RequestStatus::fulfilled);
+  battery(0.41, true);
+  EXPECT_EQ(mission->task().kind, TaskKind::visit);
+}
+
+TEST_F(MissionTest, ABatteryThatDoesNotLastShortensTheTour) {
+  programme.exhibits.push_back({"c", {400, 0, {}}, {}, 20.0, false});
+  programme.tours = {{"all", {"a", "b", "c"}, 0.0}};
+  make({});
+  pass(5.0);
+  wish("t", RequestKind::tour, "all");
+  report(TaskStatus::explaining);
+  battery(0.2);  // enough for b and the way to the charger, not for 780 m to c and back
+  report(TaskStatus::done);
+  EXPECT_EQ(mission->task().exhibit_id, "b");
+  EXPECT_TRUE(happened(EventKind::plan_shortened));
+  report(TaskStatus::explaining);
+  report(TaskStatus::done);
+  EXPECT_EQ(mission->task().kind, TaskKind::farewell);
+  EXPECT_EQ(status_of("t"), RequestStatus::fulfilled);
+  EXPECT_NE(mission->memory().schedule.board.find("t")->reason.find("c"), std::string::npos)
+      << "it says what it left out";
+}
+
 }  // namespace
 }  // namespace docent::task_control

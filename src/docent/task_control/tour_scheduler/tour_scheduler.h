@@ -91,8 +91,8 @@ struct SchedulerState {
 /// would make as well: then one visit serves both. A tour keeps its order; between two of its stops at most one single
 /// exhibit is put in: an overdue one, or one with a small detour. A composed tour chooses each exhibit when the one
 /// before was explained, by travel times that were learned, so that it ends in time ([Minerva2000] 5.3); it rather
-/// shows what others have wished for, and only an overdue exhibit is put in. A tour that showed something ends with a
-/// farewell.
+/// shows what others have wished for, and only an overdue exhibit is put in. A tour for which the charge does not last
+/// is shortened. A tour that showed something ends with a farewell.
 class TourScheduler {
  public:
   /// Open requests in `state` for what the museum no longer has are failed at once.
@@ -174,10 +174,13 @@ class TourScheduler {
   [[nodiscard]] double stop_duration_of(const ProgrammeExhibit& exhibit, const std::string& language, Point2 from,
                                         Point2 to, Time now) const;
   /// How a composed tour goes on from here.
-  [[nodiscard]] TourPlan compose(const TourRun& tour, Point2 robot, Time now) const;
+  [[nodiscard]] TourPlan compose(const TourRun& tour, Point2 robot, Time now, double budget_s) const;
   /// A composed tour is fitted to the time that is left: its pending stops are chosen anew.
-  void recompose(Point2 robot, Time now);
-  void begin_stop(Point2 robot, Time now);
+  void recompose(Point2 robot, Time now, double budget_s);
+  /// A tour with a fixed order that would take longer than the budget leaves out its last stops, but never more than a
+  /// fulfilled tour may, nor the next one.
+  void shorten(Point2 robot, Time now, double budget_s);
+  void begin_stop(Point2 robot, Time now, double budget_s);
   void begin_visit_of(const WishedStop& stop, bool is_stop, Time now);
   void finish_stop(const std::string& exhibit_id, bool is_success);
   /// Closes the requests of members whose stops are over, and the tour with the last of them.

@@ -145,7 +145,7 @@ const std::optional<Visit>& TourScheduler::begin_visit(Point2 robot, Time now, d
   // A tour may turn out to be over, or to have nothing to show: then the next request has its turn.
   while (!state_.visit && !state_.farewell) {
     if (state_.tour) {
-      begin_stop(robot, now);
+      begin_stop(robot, now, budget_s);
       continue;
     }
     const BoardEntry* oldest = oldest_due(now);
@@ -166,8 +166,27 @@ const std::optional<Visit>& TourScheduler::begin_visit(Point2 robot, Time now, d
   return state_.visit;
 }
 
-void TourScheduler::begin_stop(Point2 robot, Time now) {
-  recompose(robot, now);
+void TourScheduler::shorten(Point2 robot, Time now, double budget_s) {
+  TourRun& tour = *state_.tour;
+  if (tour.target_s > 0.0) return;
+  TourRun rest = tour;
+  std::erase_if(rest.stops, [](const TourStop& stop) { return stop.status != StopStatus::pending; });
+  auto skipped = std::count_if(tour.stops.begin(), tour.stops.end(),
+                               [](const TourStop& stop) { return stop.status == StopStatus::skipped; });
+  while (rest.stops.size() > 1 && skipped < params_.max_skipped && exceeds(duration_of(rest, robot, now), budget_s)) {
+    const TourStop last = rest.stops.back();
+    rest.stops.pop_back();
+    std::find_if(tour.stops.begin(), tour.stops.end(), [&](const TourStop& stop) {
+      return stop.number == last.number;
+    })->status = StopStatus::skipped;
+    ++skipped;
+    happenings_.push_back({EventKind::plan_shortened, last.exhibit_id, tour.tour_id, budget_s});
+  }
+}
+
+void TourScheduler::begin_stop(Point2 robot, Time now, double budget_s) {
+  recompose(robot, now, budget_s);
+  shorten(robot, now, budget_s);
   end_tour_if_over(now);
   if (!state_.tour) return;
   if (const auto extra = stop_to_insert(robot, now)) {
@@ -182,7 +201,7 @@ void TourScheduler::begin_stop(Point2 robot, Time now) {
   begin_visit_of(stop_at(next->exhibit_id, now), true, now);
 }
 
-TourPlan TourScheduler::compose(const TourRun& tour, Point2 robot, Time now) const {
+TourPlan TourScheduler::compose(const TourRun& tour, Point2 robot, Time now, double budget_s) const {
   TourSoFar so_far{robot};
   for (const TourStop& stop : tour.stops) {
     if (stop.status == StopStatus::pending) continue;
@@ -191,14 +210,14 @@ TourPlan TourScheduler::compose(const TourRun& tour, Point2 robot, Time now) con
     so_far.after = stop.exhibit_id;
     ++so_far.explained;
   }
-  so_far.left_s = tour.target_s - to_seconds(now - tour.started);
+  so_far.left_s = std::min(tour.target_s - to_seconds(now - tour.started), budget_s);
   so_far.wished = wished_exhibits();
   so_far.language = tour.language;
   so_far.may_ask = params_.offer_more && !is_in_a_hurry(now);
   return plan_tour(programme_, so_far, travel_, times_, now, params_.composition);
 }
 
-void TourScheduler::recompose(Point2 robot, Time now) {
+void TourScheduler::recompose(Point2 robot, Time now, double budget_s) {
   TourRun& tour = *state_.tour;
   if (!(tour.target_s > 0.0) || tour.composed_at == now) return;
   tour.composed_at = now;
@@ -212,7 +231,7 @@ void TourScheduler::recompose(Point2 robot, Time now) {
     }
     (stop.status == StopStatus::pending ? pending : stops).push_back(stop);
   }
-  const TourPlan plan = compose(tour, robot, now);
+  const TourPlan plan = compose(tour, robot, now, budget_s);
   const auto plans = [](const std::vector<TourStop>& list, const std::string& id) {
     return std::any_of(list.begin(), list.end(), [&](const TourStop& stop) { return stop.exhibit_id == id; });
   };
@@ -266,7 +285,7 @@ bool TourScheduler::begin_tour(const std::string& tour_id, Point2 robot, Time no
     if (run.target_s > 0.0 && exceeds(run.target_s, budget_s)) return false;  // before it is composed, which costs more
     auto exhibits = tour->exhibits;
     if (exhibits.empty()) {
-      TourPlan plan = compose(run, robot, now);
+      TourPlan plan = compose(run, robot, now, budget_s);
       run.asks = plan.asks;
       run.composed_at = now;
       exhibits = std::move(plan.stops);
