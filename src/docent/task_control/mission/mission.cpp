@@ -92,6 +92,7 @@ void Mission::report(const std::string& task_id, std::optional<TaskStatus> state
     // At the charger the battery has a moment to say that it charges.
     const double pause_s = is_done ? params_.contact_s : params_.home_retry_s;
     if (!is_resting_) home_not_before_ = now + seconds(pause_s);
+    if (!is_done && !is_home && spare(now) >= 0.0) must_charge_ = false;  // people stand there: it rather serves
     start_task(Activity::none, {});
     const EventKind arrival = is_home ? EventKind::home : EventKind::charger;
     const EventKind failure = is_home ? EventKind::home_failed : EventKind::charger_failed;
@@ -200,7 +201,7 @@ Situation Mission::situation(Time now) const {
   seen.has_farewell = schedule.farewell.has_value();
   seen.is_anything_due = scheduler_.is_anything_due(now);
   seen.has_charger = scheduler_.programme().charger.has_value();
-  seen.is_low_soon = battery_.charge(now).value_or(1.0) < params_.battery_soon;
+  seen.is_low_soon = now >= home_not_before_ && battery_.charge(now).value_or(1.0) < params_.battery_soon;
   seen.must_charge = must_charge_;
   seen.charges = charges();
   seen.may_serve = !must_charge_ || battery_.charge(now).value_or(1.0) >= enough_to_serve();

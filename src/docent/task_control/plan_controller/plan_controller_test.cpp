@@ -182,5 +182,17 @@ TEST_F(MissionTest, ABatteryThatDoesNotLastShortensTheTour) {
       << "it says what it left out";
 }
 
+TEST_F(MissionTest, ServesWhileItsChargerIsOccupied) {
+  pass(5.0);
+  battery(0.29);
+  wish("1", RequestKind::exhibit, "a");
+  EXPECT_EQ(mission->task().kind, TaskKind::charge);
+  report(TaskStatus::failed);
+  EXPECT_EQ(mission->task().kind, TaskKind::visit) << "there is charge enough";
+  report(TaskStatus::done);
+  pass(40.0);
+  EXPECT_EQ(mission->task().kind, TaskKind::charge) << "it tries again";
+}
+
 }  // namespace
 }  // namespace docent::task_control
