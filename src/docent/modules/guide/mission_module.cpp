@@ -11,6 +11,7 @@
 #include "docent/interaction/speech/spoken_text.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/shared/museum_mode.h"
+#include "docent/task_control/golog_planner/golog_planner.h"
 #include "docent/task_control/mission/mission.h"
 #include "docent/task_control/mission/mission_store.h"
 #include "docent/task_control/plan_controller/plan_controller.h"
@@ -95,10 +96,37 @@ docent_msgs::RequestState to_message(const task_control::BoardEntry& entry) {
           docent::to_message(entry.changed)};
 }
 
+/// Section `mission`, with the choice of its planner.
+struct MissionModuleParams : task_control::MissionParams {
+  std::string planner = "plans";  ///< plans: Minerva's controller; golog: the museum's tour.pl, or the shipped one
+  task_control::GologPlannerParams golog;  ///< of the planner golog
+  template <class V>
+  void visit(V& v) {
+    task_control::MissionParams::visit(v);
+    v("planner", planner);
+    v("golog", golog);
+  }
+  [[nodiscard]] Result<void> validate() const {
+    if (planner != "plans" && planner != "golog") return fail("mission.planner must be plans or golog");
+    if (auto valid = golog.validate(); !valid) return valid;
+    return task_control::MissionParams::validate();
+  }
+};
+
+Result<std::unique_ptr<task_control::Planner>> planner_of(const ModuleContext& context,
+                                                          const MissionModuleParams& params) {
+  if (params.planner == "plans") return std::make_unique<task_control::PlanController>();
+  auto program = task_control::GologProgram::load(params.golog.program, task_control::golog_file(context.museum.folder),
+                                                  programme_of(context.museum), travel_in(context));
+  if (!program) return tl::unexpected<Error>(program.error());
+  return std::make_unique<task_control::GologPlanner>(params.golog, std::move(*program));
+}
+
 class MissionModule final : public Module {
  public:
   MissionModule(const ModuleContext& context, const task_control::MissionParams& params,
-                task_control::MissionStore store, task_control::MissionMemory memory)
+                std::unique_ptr<task_control::Planner> planner, task_control::MissionStore store,
+                task_control::MissionMemory memory)
       : bus_{context.bus},
         museum_{context.museum},
         mode_{context},
@@ -135,6 +163,7 @@ class MissionModule final : public Module {
 
   [[nodiscard]] ModuleHealth health() const override {
     if (!fault_.empty()) return {"degraded", fault_};
+    if (const std::string fault = mission_.planner_fault(); !fault.empty()) return {"degraded", fault};
     if (mission_.is_battery_silent(bus_.now())) return {"degraded", "the battery says nothing"};
     if (!set_aside_.empty()) return {"degraded", "a damaged database was set aside: " + set_aside_};
     return {};
@@ -168,7 +197,7 @@ class MissionModule final : public Module {
 
   void on_task(const docent_msgs::TaskState& message) {
     if (message.id == mission_.task().id) prompt_ = message.prompt;
-    mission_.report(message.id, parse<TaskStatus>(message.state), message.reason, bus_.now());
+    mission_.report(message.id, parse<TaskStatus>(message.state), message.reason, bus_.now(), message.took_long);
     flush();
   }
 
@@ -288,18 +317,20 @@ class MissionModule final : public Module {
 }  // namespace
 
 Result<std::unique_ptr<Module>> make_mission(const ModuleContext& context) {
-  auto params = context.config.section<task_control::MissionParams>("mission");
+  auto params = context.config.section<MissionModuleParams>("mission");
   if (!params) return tl::unexpected<Error>(params.error());
   auto store = task_control::MissionStore::open(
       context.state / "mission.sqlite", deployment_name(context.seed, context.bus.now()), !context.virtual_time);
   if (!store) return tl::unexpected<Error>(store.error());
   auto memory = store->load();
   if (!memory) return tl::unexpected<Error>(memory.error());
-  return std::make_unique<MissionModule>(context, *params, std::move(*store), std::move(*memory));
+  auto planner = planner_of(context, *params);
+  if (!planner) return tl::unexpected<Error>(planner.error());
+  return std::make_unique<MissionModule>(context, *params, std::move(*planner), std::move(*store), std::move(*memory));
 }
 
 Result<robot::ParameterRows> parameters_of_mission(const robot::RobotConfig& config) {
-  return robot::list_parameters<task_control::MissionParams>(config, "mission");
+  return robot::list_parameters<MissionModuleParams>(config, "mission");
 }
 
 }  // namespace docent::modules

@@ -45,8 +45,10 @@ Mission::Mission(const MissionParams& params, Programme programme, TravelDistanc
       battery_{params.drain_per_s, params.charge_per_s},
       must_charge_{memory.must_charge} {
   scheduler_.times().restore(memory.lessons);
-  // The running visit goes on under its old task id, so that an executive that works on it is not disturbed.
-  if (const auto& visit = scheduler_.state().visit) {
+  // What is under way goes on under its old task id, so that an executive that works on it is not disturbed.
+  if (planner_->restore(memory.planner, task_)) {
+    if (!task_.id.empty()) activity_ = Activity::action;
+  } else if (const auto& visit = scheduler_.state().visit) {
     activity_ = Activity::visit;
     if (task_.kind != TaskKind::visit || !is_same(task_.map_from_base, visit->map_from_base)) order_visit(now);
   } else if (task_.kind == TaskKind::farewell && scheduler_.state().farewell) {
@@ -70,7 +72,8 @@ void Mission::submit(VisitorRequest request, Time now) {
   decide(now);
 }
 
-void Mission::report(const std::string& task_id, std::optional<TaskStatus> state, const std::string& reason, Time now) {
+void Mission::report(const std::string& task_id, std::optional<TaskStatus> state, const std::string& reason, Time now,
+                     bool took_long) {
   if (task_id.empty() || task_id != task_.id) return;
   task_state_ = state;
   task_reason_ = reason;
@@ -81,6 +84,14 @@ void Mission::report(const std::string& task_id, std::optional<TaskStatus> state
     if (is_over) {
       scheduler_.finish_visit(state == TaskStatus::done, reason, now);
       start_task(Activity::none, {});
+    }
+  } else if (activity_ == Activity::action) {
+    const bool speaks = state == TaskStatus::explaining || state == TaskStatus::asking;
+    if (speaks && task_.exhibit_id == visited_exhibit()) scheduler_.close_visit();
+    if (is_over) {
+      const TaskOrder order = task_;
+      start_task(Activity::none, {});
+      planner_->outcome(*this, order, {state == TaskStatus::done, took_long, reason}, now);
     }
   } else if (activity_ == Activity::farewell && is_over) {
     scheduler_.finish_farewell(now);
@@ -200,12 +211,32 @@ Situation Mission::situation(Time now) const {
   seen.has_tour = schedule.tour.has_value();
   seen.has_farewell = schedule.farewell.has_value();
   seen.is_anything_due = scheduler_.is_anything_due(now);
+  seen.is_open = conditions_.is_open && conditions_.mode != OperatingMode::closed;
+  seen.is_blocked = task_state_ == TaskStatus::driving && !task_reason_.empty();
+  seen.charge = battery_.charge(now);
+  seen.is_charging = is_at_charger() && has_contact(now);
+  seen.is_charged = !charges() || (seen.is_anything_due && seen.charge.value_or(1.0) >= enough_to_serve());
   seen.has_charger = scheduler_.programme().charger.has_value();
   seen.is_low_soon = now >= home_not_before_ && battery_.charge(now).value_or(1.0) < params_.battery_soon;
   seen.must_charge = must_charge_;
   seen.charges = charges();
   seen.may_serve = !must_charge_ || battery_.charge(now).value_or(1.0) >= enough_to_serve();
   return seen;
+}
+
+void Mission::order_action(TaskOrder order) {
+  start_task(Activity::action, std::move(order));
+  is_resting_ = false;
+}
+
+std::string Mission::language() const {
+  const auto& visit = scheduler_.state().visit;
+  return visit ? visit->language : scheduler_.programme().languages.front();
+}
+
+std::string Mission::visited_exhibit() const {
+  const auto& visit = scheduler_.state().visit;
+  return visit ? visit->exhibit_id : "";
 }
 
 bool Mission::begin_visit(Time now) {
@@ -310,6 +341,13 @@ const std::vector<std::string>& Mission::agenda(Time now) {
   return agenda_;
 }
 
+MissionPhase Mission::phase_of_action() const {
+  if (task_state_ == TaskStatus::asking) return MissionPhase::asking;
+  if (task_state_ == TaskStatus::explaining) return MissionPhase::explaining;
+  const bool leads_home = task_.kind == TaskKind::home || task_.kind == TaskKind::charge;
+  return leads_home ? MissionPhase::going_home : MissionPhase::driving;
+}
+
 MissionSummary Mission::summary(Time now) {
   MissionSummary summary;
   const SchedulerState& schedule = scheduler_.state();
@@ -340,6 +378,9 @@ MissionSummary Mission::summary(Time now) {
       summary.exhibit_id.clear();
       summary.says_farewell = true;
       break;
+    case Activity::action:
+      summary.phase = phase_of_action();
+      break;
     case Activity::home:
     case Activity::charge:
       summary.phase = MissionPhase::going_home;
@@ -358,7 +399,8 @@ MissionSummary Mission::summary(Time now) {
 }
 
 MissionMemory Mission::memory() const {
-  return {scheduler_.state(), deployment_, next_task_, task_, must_charge_, scheduler_.times().unstored()};
+  return {scheduler_.state(),           deployment_, next_task_, task_, must_charge_, planner_->memory(),
+          scheduler_.times().unstored()};
 }
 
 void Mission::mark_stored() {

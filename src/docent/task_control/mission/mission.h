@@ -58,6 +58,7 @@ struct MissionMemory {
   std::uint64_t next_task = 1;  ///< number of the next task
   TaskOrder task;               ///< the present one
   bool must_charge = false;     ///< the battery is too low to go on
+  std::string planner{};        ///< what the planner must remember
   /// Of travel times: all when it begins, then what was learned since it was stored.
   std::vector<LessonRow> lessons{};
 };
@@ -89,7 +90,9 @@ class Mission {
 
   void submit(VisitorRequest request, Time now);
   /// How a task goes; nullopt: as nobody here understands. Reports of other tasks than the present are ignored.
-  void report(const std::string& task_id, std::optional<TaskStatus> state, const std::string& reason, Time now);
+  /// @param took_long  the visitor asked for more
+  void report(const std::string& task_id, std::optional<TaskStatus> state, const std::string& reason, Time now,
+              bool took_long = false);
   /// @param position  best guess [m], map
   void localization(bool is_localized, Point2 position, Time now);
   void limits(bool is_open, std::optional<OperatingMode> mode);
@@ -105,6 +108,8 @@ class Mission {
   [[nodiscard]] MissionSummary summary(Time now);
   [[nodiscard]] MissionMemory memory() const;
   [[nodiscard]] TourScheduler& scheduler() { return scheduler_; }
+  /// What is wrong with the planner; empty: nothing.
+  [[nodiscard]] std::string planner_fault() const { return planner_->fault(); }
   /// What `memory` held is stored.
   void mark_stored();
   [[nodiscard]] std::vector<Happening> take_happenings() { return scheduler_.take_happenings(); }
@@ -127,6 +132,11 @@ class Mission {
   void relocalize(Time now);
   /// It knows its place again.
   void end_relocalizing(Time now);
+  /// Any action that the executive knows; whatever was under way is over.
+  void order_action(TaskOrder order);
+  /// As it is now, for the order of an action: the visit's language, else the museum's own.
+  [[nodiscard]] std::string language() const;
+  [[nodiscard]] Point2 position() const;
   /// What comes next takes more charge than there is.
   void need_charge(const std::string& why, Time now);
 
@@ -136,6 +146,8 @@ class Mission {
   void learn(TaskStatus status, Time now);
   void start_task(Activity activity, TaskOrder order);
   [[nodiscard]] bool may_interrupt() const;
+  [[nodiscard]] std::string visited_exhibit() const;  ///< empty: no visit is under way
+  [[nodiscard]] MissionPhase phase_of_action() const;
   [[nodiscard]] bool is_lost(Time now) const;
   [[nodiscard]] bool charges() const { return must_charge_ || tops_up_; }
   [[nodiscard]] Pose2 resting_place() const;
@@ -148,7 +160,6 @@ class Mission {
   [[nodiscard]] const std::vector<std::string>& agenda(Time now);
   [[nodiscard]] bool is_at_charger() const;
   [[nodiscard]] bool has_contact(Time now) const;
-  [[nodiscard]] Point2 position() const;
 
   MissionParams params_;
   TourScheduler scheduler_;

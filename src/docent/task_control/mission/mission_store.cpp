@@ -39,6 +39,7 @@ Json plan_of(const MissionMemory& memory) {
   Json plan;
   plan["next_task"] = memory.next_task;
   plan["must_charge"] = memory.must_charge;
+  plan["planner"] = memory.planner;
   plan["revision"] = memory.schedule.board.revision();
   const Counters& counters = memory.schedule.counters;
   plan["counters"] = {counters.exhibits_explained, counters.tours_completed, counters.requests_served};
@@ -87,6 +88,7 @@ Json plan_of(const MissionMemory& memory) {
 void read_plan(const Json& plan, MissionMemory& memory, std::uint64_t& revision) {
   memory.next_task = plan.at("next_task").get<std::uint64_t>();
   memory.must_charge = plan.value("must_charge", false);
+  memory.planner = plan.value("planner", "");
   revision = plan.at("revision").get<std::uint64_t>();
   const Json& counters = plan.at("counters");
   memory.schedule.counters = {counters.at(0).get<std::uint32_t>(), counters.at(1).get<std::uint32_t>(),

@@ -1,13 +1,25 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "docent/base/time.h"
+#include "docent/task_control/tour_scheduler/task_order.h"
 
 namespace docent::task_control {
 
 class Mission;
 
 /// What the robot is doing.
-enum class Activity { none, visit, farewell, home, charge, relocalize };
+enum class Activity {
+  none,
+  visit,
+  farewell,
+  home,
+  charge,
+  relocalize,
+  action,  ///< one that the planner ordered by its name
+};
 
 /// What a planner sees when it decides.
 struct Situation {
@@ -21,11 +33,23 @@ struct Situation {
   bool has_tour = false;            ///< likewise
   bool has_farewell = false;        ///< a tour has ended: its visitors wait for a last word
   bool is_anything_due = false;     ///< somebody waits whose turn it may be
+  bool is_open = true;              ///< requests are taken
+  bool is_blocked = false;          ///< people stand in its way
+  std::optional<double> charge{};   ///< 0..1; nullopt: the battery never spoke
+  bool is_charging = false;
+  bool is_charged = true;  ///< well enough for what is wanted
   bool has_charger = false;
   bool is_low_soon = false;  ///< between two tours is the time to charge
   bool must_charge = false;  ///< before it goes on
   bool charges = false;      ///< it must, or does as long as nobody wants anything
   bool may_serve = true;     ///< its charge is enough for the next visit
+};
+
+/// How an action went.
+struct ActionOutcome {
+  bool is_done = false;    ///< else it failed
+  bool took_long = false;  ///< the visitor asked for more
+  std::string reason{};
 };
 
 /// Chooses what the robot does next, from the primitive actions that the mission offers. One of two stands above the
@@ -39,6 +63,15 @@ class Planner {
 
   /// Called when anything has happened, and twice a second: orders at most one new action of the mission.
   virtual void decide(Mission& mission, Time now) = 0;
+  /// An action that it ordered by `Mission::order_action` is over.
+  virtual void outcome(Mission& /*mission*/, const TaskOrder& /*order*/, const ActionOutcome& /*outcome*/,
+                       Time /*now*/) {}
+  /// What must survive a restart; empty: nothing.
+  [[nodiscard]] virtual std::string memory() const { return {}; }
+  /// Goes on from there. True: it orders actions by their names, of which `task` may be one that is under way.
+  [[nodiscard]] virtual bool restore(const std::string& /*memory*/, TaskOrder& /*task*/) { return false; }
+  /// Why it does not work as it should; empty: it does.
+  [[nodiscard]] virtual std::string fault() const { return {}; }
 };
 
 }  // namespace docent::task_control

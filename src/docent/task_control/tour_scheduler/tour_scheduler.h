@@ -109,6 +109,13 @@ class TourScheduler {
   /// @pre no visit is under way.
   const std::optional<Visit>& begin_visit(Point2 robot, Time now,
                                           double budget_s = std::numeric_limits<double>::infinity());
+  /// Of which exhibits one may be visited next, for planners that choose themselves: the next stop of the tour under
+  /// way, the first of one whose turn it is, or all that are wished for singly. Empty while a visit is under way.
+  [[nodiscard]] std::vector<std::string> choices(Point2 robot, Time now);
+  /// Begins a visit of one of the `choices`; false: it is none. @pre no visit is under way.
+  [[nodiscard]] bool begin_visit_to(const std::string& exhibit_id, Point2 robot, Time now);
+  /// The visit under way waits again, as if it had never begun. @pre one is under way.
+  void suspend_visit(Time now);
   /// Somebody waits whose turn it may be, or a tour is under way.
   [[nodiscard]] bool is_anything_due(Time now) const { return state_.tour || oldest_due(now) != nullptr; }
   /// Ends the visit and the tour under way for a reason that is not theirs. Their requests wait again, a tour begins
@@ -164,6 +171,8 @@ class TourScheduler {
   /// Stops wished for singly and due, in the order to visit them.
   [[nodiscard]] std::vector<WishedStop> single_order(Point2 robot, Time now) const;
   [[nodiscard]] const BoardEntry* oldest_due(Time now) const;
+  /// Of a composed tour that somebody waits for, if it began here and now.
+  [[nodiscard]] std::vector<std::string> first_stops(const VisitorRequest& request, Point2 robot, Time now) const;
   /// The first tour that somebody waits for and that stops at the exhibit.
   [[nodiscard]] std::optional<std::string> waiting_tour_to(const std::string& exhibit_id, Time now) const;
   [[nodiscard]] std::optional<WishedStop> stop_to_insert(Point2 robot, Time now) const;

@@ -166,6 +166,64 @@ const std::optional<Visit>& TourScheduler::begin_visit(Point2 robot, Time now, d
   return state_.visit;
 }
 
+std::vector<std::string> TourScheduler::choices(Point2 robot, Time now) {
+  if (state_.visit || state_.farewell) return {};
+  if (state_.tour) {
+    recompose(robot, now, std::numeric_limits<double>::infinity());
+    end_tour_if_over(now);
+  }
+  if (state_.tour) {
+    for (const TourStop& stop : state_.tour->stops) {
+      if (stop.status == StopStatus::pending) return {stop.exhibit_id};
+    }
+  }
+  const BoardEntry* oldest = oldest_due(now);
+  if (oldest == nullptr || state_.farewell) return {};
+  std::vector<std::string> exhibits;
+  if (oldest->request.kind == RequestKind::tour) {
+    if (const ProgrammeTour* tour = programme_.find_tour(oldest->request.target)) exhibits = tour->exhibits;
+    if (exhibits.empty()) exhibits = first_stops(oldest->request, robot, now);
+    std::erase_if(exhibits, [&](const std::string& id) { return programme_.find_exhibit(id) == nullptr; });
+    exhibits.resize(std::min<std::size_t>(exhibits.size(), 1));
+    return exhibits;
+  }
+  for (const WishedStop& stop : single_order(robot, now)) {
+    if (!holds(exhibits, stop.exhibit_id)) exhibits.push_back(stop.exhibit_id);
+  }
+  return exhibits;
+}
+
+std::vector<std::string> TourScheduler::first_stops(const VisitorRequest& request, Point2 robot, Time now) const {
+  const ProgrammeTour* tour = programme_.find_tour(request.target);
+  if (tour == nullptr) return {};
+  TourRun run{tour->id, request.language, {}, false, tour->target_s, now};
+  return compose(run, robot, now, std::numeric_limits<double>::infinity()).stops;
+}
+
+bool TourScheduler::begin_visit_to(const std::string& exhibit_id, Point2 robot, Time now) {
+  DOCENT_CHECK(!state_.visit);
+  if (!holds(choices(robot, now), exhibit_id)) return false;
+  const BoardEntry* oldest = oldest_due(now);
+  if (!state_.tour && oldest->request.kind == RequestKind::tour &&
+      (!begin_tour(std::string{oldest->request.target}, robot, now, std::numeric_limits<double>::infinity()) ||
+       !state_.tour))
+    return false;
+  const bool is_stop =
+      state_.tour && std::any_of(state_.tour->stops.begin(), state_.tour->stops.end(), [&](const TourStop& stop) {
+        return stop.exhibit_id == exhibit_id && stop.status == StopStatus::pending;
+      });
+  begin_visit_of(stop_at(exhibit_id, now), is_stop, now);
+  return true;
+}
+
+void TourScheduler::suspend_visit(Time now) {
+  DOCENT_CHECK(state_.visit.has_value());
+  for (const std::string& id : ids(RequestKind::exhibit, RequestStatus::active, state_.visit->exhibit_id))
+    state_.board.change(id, RequestStatus::queued, "", now);
+  happenings_.push_back({EventKind::plan_rescheduled, state_.visit->exhibit_id, state_.visit->tour_id});
+  state_.visit.reset();
+}
+
 void TourScheduler::shorten(Point2 robot, Time now, double budget_s) {
   TourRun& tour = *state_.tour;
   if (tour.target_s > 0.0) return;

@@ -1,0 +1,278 @@
+#include "docent/task_control/golog_planner/golog_planner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "docent/task_control/mission/mission.h"
+
+namespace docent::task_control {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int kMostActions = 50;  ///< that begin at one moment: more is a program that turns round in itself
+
+std::string argument(const GologTerm& term) {
+  if (term.arguments.empty()) return "";
+  const auto* text = std::get_if<std::string>(&term.arguments.front());
+  return text == nullptr ? "" : *text;
+}
+
+bool is_drive(const GologTerm& action) { return action.name == "drive"; }
+
+Json to_json(const GologTerm& term) {
+  Json arguments = Json::array();
+  for (const auto& value : term.arguments) {
+    std::visit([&](const auto& argument) { arguments.push_back(argument); }, value);
+  }
+  return {{"name", term.name}, {"arguments", arguments}};
+}
+
+GologTerm term_from(const Json& json) {
+  GologTerm term{json.at("name").get<std::string>()};
+  for (const Json& value : json.at("arguments")) {
+    if (value.is_number()) {
+      term.arguments.emplace_back(value.get<double>());
+    } else {
+      term.arguments.emplace_back(value.get<std::string>());
+    }
+  }
+  return term;
+}
+
+}  // namespace
+
+Result<void> GologPlannerParams::validate() const {
+  if (auto valid = program.validate(); !valid) return valid;
+  if (!(retry_s > 0.0)) return docent::fail("mission.golog.retry_s must be > 0");
+  if (!(contact_s > 0.0)) return docent::fail("mission.golog.contact_s must be > 0");
+  if (!(invitation_s > 0.0)) return docent::fail("mission.golog.invitation_s must be > 0");
+  if (!(battery_step >= 0.0 && battery_step <= 1.0)) return docent::fail("mission.golog.battery_step must be in 0..1");
+  return {};
+}
+
+void GologPlanner::decide(Mission& mission, Time now) {
+  Situation seen = mission.situation(now);
+  if (stands_in_) {
+    if (now < retry_at_ || seen.activity != Activity::none || seen.has_visit || seen.has_tour || seen.has_farewell)
+      return stand_in_.decide(mission, now);
+    stands_in_ = false;
+  }
+  if (!seen.was_ever_localized) {  // it wakes up
+    if (seen.is_settled) {
+      mission.end_relocalizing(now);
+    } else if (seen.is_lost && seen.activity != Activity::relocalize) {
+      mission.relocalize(now);
+    }
+    if (!mission.situation(now).was_ever_localized) return;
+  }
+  if (seen.activity == Activity::farewell) return;
+  watch(mission, seen, now);
+  if (mission.situation(now).has_farewell && mission.situation(now).activity == Activity::none)
+    return mission.say_farewell();
+  run(mission, now);
+}
+
+std::vector<GologTerm> GologPlanner::news(Mission& mission, const Situation& seen, Time now) {
+  std::vector<GologTerm> events;
+  const auto tell = [&](bool& told, bool is, const char* yes, const char* no) {
+    if (std::exchange(told, is) != is) events.push_back({is ? yes : no, {}});
+  };
+  if (seen.is_localized || seen.is_lost) tell(told_lost_, !seen.is_localized, "lost", "localized");
+  tell(told_blocked_, seen.is_blocked, "way_blocked", "way_free");
+  tell(told_closing_, !seen.is_open, "closing", "opening");
+  if (seen.charge && (!told_charge_ || std::abs(*seen.charge - *told_charge_) >= params_.battery_step)) {
+    told_charge_ = seen.charge;
+    events.push_back({"battery", {*seen.charge}});
+  }
+  if (seen.has_visit) return events;
+  const auto choices = mission.scheduler().choices(mission.position(), now);
+  const std::set<std::string> wanted{choices.begin(), choices.end()};
+  for (const std::string& exhibit : requested_) {
+    if (!wanted.contains(exhibit)) events.push_back({"cancelled", {exhibit}});
+  }
+  for (const std::string& exhibit : wanted) {
+    if (!requested_.contains(exhibit)) events.push_back({"requested", {exhibit}});
+  }
+  requested_ = wanted;
+  return events;
+}
+
+void GologPlanner::watch(Mission& mission, const Situation& seen, Time now) {
+  for (const UnderWay& action : std::vector<UnderWay>{under_way_}) {
+    const double lasted_s = to_seconds(now - action.began);
+    if (action.action.name == "relocalize" && seen.is_settled) {
+      mission.end_relocalizing(now);
+      end(action.action, {});
+    } else if (action.action.name == "charge_battery") {
+      if (seen.is_charged) {
+        end(action.action, {});
+      } else if (!seen.is_charging && lasted_s > params_.contact_s) {
+        end(action.action, {GologOutcome::Kind::failed});
+      }
+    }
+  }
+}
+
+void GologPlanner::run(Mission& mission, Time now) {
+  auto events = news(mission, mission.situation(now), now);
+  for (int i = 0; i < kMostActions; ++i) {
+    const auto step = program_.step(now, mission.position(), events);
+    if (!step) return fail(step.error(), now);
+    events.clear();
+    if (step->kind == GologStep::Kind::begin) {
+      begin(mission, step->action, now);
+    } else if (step->kind == GologStep::Kind::stop) {
+      stop(mission, step->action, now);
+    } else {
+      remember();
+      return;
+    }
+    if (stands_in_) return;
+  }
+  fail(Error{"the program begins one action after the other and comes to no end"}, now);
+}
+
+void GologPlanner::order(Mission& mission, const GologTerm& action, const std::string& kind, TaskOrder order,
+                         Time now) {
+  const bool is_busy =
+      std::any_of(under_way_.begin(), under_way_.end(), [](const UnderWay& other) { return !other.task_kind.empty(); });
+  under_way_.push_back({action, now, is_busy ? "" : kind});
+  if (is_busy) return end(action, {GologOutcome::Kind::failed});
+  order.kind = Word<TaskKind>{std::string{kind}};
+  if (order.language.empty()) order.language = mission.language();
+  mission.order_action(std::move(order));
+}
+
+void GologPlanner::begin_drive(Mission& mission, const std::string& place, const GologTerm& action, Time now) {
+  const Programme& programme = mission.scheduler().programme();
+  if (place == "home") return order(mission, action, "home", {"", {}, "", programme.home, "", false, ""}, now);
+  if (place == "charger" && programme.charger)
+    return order(mission, action, "charge", {"", {}, "", *programme.charger, "", false, ""}, now);
+  const ProgrammeExhibit* exhibit = programme.find_exhibit(place);
+  if (exhibit == nullptr) {
+    under_way_.push_back({action, now, ""});
+    return end(action, {GologOutcome::Kind::failed});
+  }
+  // Nobody may wait for it: a program may go where it likes.
+  Pose2 pose = exhibit->pose;
+  std::string tour;
+  if (!mission.situation(now).has_visit && mission.scheduler().begin_visit_to(place, mission.position(), now)) {
+    pose = mission.scheduler().state().visit->map_from_base;
+    tour = mission.scheduler().state().visit->tour_id;
+  }
+  order(mission, action, "drive", {"", {}, place, pose, "", false, tour}, now);
+}
+
+void GologPlanner::begin(Mission& mission, const GologTerm& action, Time now) {
+  const std::string about = argument(action);
+  if (is_drive(action)) return begin_drive(mission, about, action, now);
+  if (action.name == "relocalize") {
+    under_way_.push_back({action, now, ""});
+    mission.relocalize(now);
+    return;
+  }
+  if (action.name == "charge_battery") {
+    under_way_.push_back({action, now, ""});
+    return;
+  }
+  Pose2 here;
+  here.x = mission.position().x;
+  here.y = mission.position().y;
+  const auto& visit = mission.scheduler().state().visit;
+  const bool may_ask = action.name == "ask_more" && (!visit || visit->asks);
+  order(mission, action, action.name, {"", {}, about, here, "", may_ask, visit ? visit->tour_id : ""}, now);
+}
+
+void GologPlanner::stop(Mission& mission, const GologTerm& action, Time now) {
+  const auto stopped =
+      std::find_if(under_way_.begin(), under_way_.end(), [&](const UnderWay& other) { return other.action == action; });
+  if (stopped == under_way_.end()) return;
+  const bool has_task = !stopped->task_kind.empty();
+  under_way_.erase(stopped);
+  if (has_task) mission.order_action({});
+  if (mission.situation(now).has_visit) mission.scheduler().suspend_visit(now);
+}
+
+void GologPlanner::outcome(Mission& mission, const TaskOrder& order, const ActionOutcome& outcome, Time now) {
+  const auto done = std::find_if(under_way_.begin(), under_way_.end(), [&](const UnderWay& other) {
+    return !other.task_kind.empty() && order.kind.text() == other.task_kind;
+  });
+  if (done == under_way_.end()) return;
+  const GologTerm action = done->action;
+  const auto& visit = mission.scheduler().state().visit;
+  const bool is_of_visit = visit && visit->exhibit_id == argument(action);
+  if (is_of_visit && (action.name == "explain" || (is_drive(action) && !outcome.is_done))) {
+    requested_.erase(argument(action));
+    mission.scheduler().finish_visit(outcome.is_done, outcome.reason, now);
+  }
+  if (!outcome.is_done) {
+    end(action, {GologOutcome::Kind::failed});
+  } else if (action.name == "ask_more") {
+    end(action, {GologOutcome::Kind::sensed, outcome.took_long ? "more" : "next"});
+  } else {
+    end(action, {});
+  }
+}
+
+void GologPlanner::end(const GologTerm& action, GologOutcome outcome) {
+  std::erase_if(under_way_, [&](const UnderWay& other) { return other.action == action; });
+  if (const auto told = program_.outcome(action, outcome); !told) fault_ = told.error().message;
+}
+
+void GologPlanner::fail(const Error& error, Time now) {
+  fault_ = error.message;
+  stands_in_ = true;
+  retry_at_ = now + seconds(params_.retry_s);
+  for (const UnderWay& action : std::vector<UnderWay>{under_way_}) end(action.action, {GologOutcome::Kind::failed});
+  fault_ = error.message;
+}
+
+void GologPlanner::remember() {
+  fault_.clear();
+  const auto snapshot = program_.snapshot();
+  if (!snapshot) {
+    fault_ = snapshot.error().message;
+    return;
+  }
+  Json under_way = Json::array();
+  for (const UnderWay& action : under_way_) {
+    under_way.push_back(
+        {{"action", to_json(action.action)}, {"began", action.began.nanoseconds}, {"task", action.task_kind}});
+  }
+  memory_ = Json{{"snapshot", *snapshot}, {"requested", requested_},  {"under_way", under_way},
+                 {"lost", told_lost_},    {"blocked", told_blocked_}, {"closing", told_closing_}}
+                .dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+bool GologPlanner::restore(const std::string& memory, TaskOrder& task) {
+  if (memory.empty()) {
+    task = {};
+    return true;
+  }
+  try {
+    const Json json = Json::parse(memory);
+    if (const auto restored = program_.restore(json.at("snapshot").get<std::string>()); !restored) {
+      fault_ = restored.error().message;  // the program was changed: it begins anew
+      task = {};
+      return true;
+    }
+    requested_ = json.at("requested").get<std::set<std::string>>();
+    for (const Json& action : json.at("under_way")) {
+      under_way_.push_back({term_from(action.at("action")),
+                            {action.at("began").get<std::int64_t>()},
+                            action.at("task").get<std::string>()});
+    }
+    told_lost_ = json.at("lost").get<bool>();
+    told_blocked_ = json.at("blocked").get<bool>();
+    told_closing_ = json.at("closing").get<bool>();
+    memory_ = memory;
+  } catch (const Json::exception& why) {
+    fault_ = std::string{"what the planner remembered is damaged: "} + why.what();
+    task = {};
+  }
+  return true;
+}
+
+}  // namespace docent::task_control

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "docent/task_control/golog/golog_program.h"
+#include "docent/task_control/mission/planner.h"
+#include "docent/task_control/plan_controller/plan_controller.h"
+
+namespace docent::task_control {
+
+/// How a GOLOG program and the mission work together. Section `mission.golog` of robot.yaml.
+struct GologPlannerParams {
+  GologParams program;
+  double retry_s = 60.0;       ///< [s] > 0 after a fault of the program: meanwhile the plan controller decides
+  double contact_s = 30.0;     ///< [s] > 0: so long at its charger without a charge is a failure
+  double invitation_s = 60.0;  ///< [s] > 0 that `wait_for_request` lasts when nobody comes
+  double battery_step = 0.01;  ///< 0..1: the program hears of changes of the charge by so much
+  template <class V>
+  void visit(V& v) {
+    v("program", program);
+    v("retry_s", retry_s);
+    v("contact_s", contact_s);
+    v("invitation_s", invitation_s);
+    v("battery_step", battery_step);
+  }
+  [[nodiscard]] Result<void> validate() const;
+};
+
+/// A museum's GOLOG program as the planner above the executive ([Rhino1999] 4.3): what happens in the mission becomes
+/// events, and the primitive actions that the program begins become tasks. Exhibits are requested as the scheduler lets
+/// them be visited: all that are wished for singly, or the next stop of a tour; which of them comes first is the
+/// program's choice. A drive to one of them begins a visit on the request board, its explanation fulfills it.
+///
+/// One task is under way at a time; an action that the executive would have to do beside it fails. A program that is
+/// faulty or takes too many inferences is reported, and the plan controller serves until it is tried again.
+class GologPlanner final : public Planner {
+ public:
+  GologPlanner(const GologPlannerParams& params, GologProgram program)
+      : params_{params}, program_{std::move(program)} {}
+
+  void decide(Mission& mission, Time now) override;
+  void outcome(Mission& mission, const TaskOrder& order, const ActionOutcome& outcome, Time now) override;
+  [[nodiscard]] std::string memory() const override { return memory_; }
+  [[nodiscard]] bool restore(const std::string& memory, TaskOrder& task) override;
+  [[nodiscard]] std::string fault() const override { return fault_; }
+
+ private:
+  /// An action that has begun and is not over.
+  struct UnderWay {
+    GologTerm action;
+    Time began;
+    std::string task_kind;  ///< of the executive's task; empty: it has none
+  };
+  [[nodiscard]] std::vector<GologTerm> news(Mission& mission, const Situation& seen, Time now);
+  void watch(Mission& mission, const Situation& seen, Time now);
+  void run(Mission& mission, Time now);
+  void begin(Mission& mission, const GologTerm& action, Time now);
+  void begin_drive(Mission& mission, const std::string& place, const GologTerm& action, Time now);
+  void stop(Mission& mission, const GologTerm& action, Time now);
+  /// Tells the program how the action went.
+  void end(const GologTerm& action, GologOutcome outcome);
+  void order(Mission& mission, const GologTerm& action, const std::string& kind, TaskOrder order, Time now);
+  void fail(const Error& error, Time now);
+  void remember();
+
+  GologPlannerParams params_;
+  GologProgram program_;
+  PlanController stand_in_;
+  bool stands_in_ = false;  ///< the plan controller decides
+  Time retry_at_{};
+  std::vector<UnderWay> under_way_;
+  std::set<std::string> requested_;  ///< exhibits of which the program knows that somebody waits
+  std::optional<double> told_charge_;
+  bool told_lost_ = false;
+  bool told_blocked_ = false;
+  bool told_closing_ = false;
+  std::string memory_;
+  std::string fault_;
+};
+
+}  // namespace docent::task_control
