@@ -62,15 +62,15 @@ class ProgramTurn {
   static std::optional<std::vector<std::string>> order(const GologProgram& program, const std::string& from,
                                                        const std::vector<std::string>& places) {
     const auto start = program.place(from);
-    std::vector<Point2> points;
+    std::vector<StopPlaces> stops;
     for (const std::string& name : places) {
       const auto point = program.place(name);
       if (!point) return std::nullopt;
-      points.push_back(*point);
+      stops.push_back({*point});
     }
     if (!start) return std::nullopt;
     std::vector<std::string> ordered;
-    for (const std::size_t index : shortest_order(*start, points, program.travel_)) ordered.push_back(places[index]);
+    for (const RouteStop& next : shortest_route(*start, stops, program.travel_)) ordered.push_back(places[next.stop]);
     return ordered;
   }
 

@@ -107,12 +107,12 @@ TEST_F(GologProgramTest, TakesTheOrderOfManyFromTheScheduler) {
   std::vector<std::string> ids;
   for (const auto& exhibit : programme.exhibits) ids.push_back(exhibit.id);
   std::sort(ids.begin(), ids.end());
-  std::vector<Point2> sorted;
+  std::vector<StopPlaces> sorted;
   for (const std::string& id : ids) {
     const Pose2& pose = programme.find_exhibit(id)->pose;
-    sorted.push_back({pose.x, pose.y});
+    sorted.push_back({pose.position()});
   }
-  const std::string nearest = ids[shortest_order({}, sorted, straight_distance()).front()];
+  const std::string nearest = ids[shortest_route({}, sorted, straight_distance()).front().stop];
   const auto step = program->step(Time{}, {}, wishes);
   ASSERT_TRUE(step) << step.error().message;
   EXPECT_EQ(to_text(step->action), "drive(" + nearest + ")");

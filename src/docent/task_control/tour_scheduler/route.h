@@ -26,10 +26,9 @@ struct RouteStop {
 /// is not counted. This is the sequencing problem of [Rhino1999] 4.3 and Fig. 22, generalised to groups of places.
 ///
 /// Exact up to kExactStops stops with kExactPlaces places p in all, by dynamic programming over sets of stops (Held and
-/// Karp): O(2^n p^2) time, O(2^n p) space; 15 stops cost 13 ms with one
-/// place each, 64 ms with four (route_benchmark). With
-/// more, a nearest-neighbour route is improved by moving and reversing stretches until nothing gets shorter, the places
-/// being the best ones for each order: O(n^2 p) a round. Deterministic: ties go to the lower index.
+/// Karp): O(2^n p^2) time, O(2^n p) space; 15 stops cost 13 ms with one place each, 64 ms with four (route_benchmark).
+/// With more, a nearest-neighbour route is improved by moving and reversing stretches until nothing gets shorter, the
+/// places being the best ones for each order: O(n^2 p) a round. Deterministic: ties go to the lower index.
 [[nodiscard]] std::vector<RouteStop> shortest_route(Point2 start, std::span<const StopPlaces> stops,
                                                     const TravelDistance& travel);
 inline constexpr std::size_t kExactStops = 15;

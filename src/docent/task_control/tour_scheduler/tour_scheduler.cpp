@@ -1,6 +1,7 @@
 #include "docent/task_control/tour_scheduler/tour_scheduler.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "docent/base/check.h"
@@ -295,7 +296,8 @@ void TourScheduler::finish_visit(bool is_success, const std::string& reason, Tim
     try_again(id, reason, now + seconds(params_.retry_after(state_.board.find(id)->attempts + 1)), now);
   }
   if (state_.tour && visit.tour_id == state_.tour->tour_id) finish_stop(visit.exhibit_id, is_success);
-  if (state_.tour && is_success) recompose(visit.map_from_base.position(), now);
+  if (state_.tour && is_success)
+    recompose(visit.map_from_base.position(), now, std::numeric_limits<double>::infinity());
   end_tour_if_over(now);
 }
 

@@ -277,7 +277,7 @@ TourPlan TourScheduler::compose(const TourRun& tour, Point2 robot, Time now, dou
 
 void TourScheduler::recompose(Point2 robot, Time now, double budget_s) {
   TourRun& tour = *state_.tour;
-  if (!(tour.target_s > 0.0) || tour.composed_at == now) return;
+  if (!(tour.target_s > 0.0) || (tour.composed_at == now && !std::isfinite(budget_s))) return;
   tour.composed_at = now;
   std::vector<TourStop> pending;
   std::vector<TourStop> stops;
