@@ -41,7 +41,7 @@ task_control::Programme programme_of(const museum::Museum& museum) {
   programme.home = museum.home;
   programme.charger = museum.charger;
   const std::string& language = programme.languages.front();
-  const std::string farewell = interaction::sentence(interaction::Sentence::farewell, language);
+  const std::string farewell = interaction::sentence(interaction::Sentence::farewell, language, Mood::happy, 0);
   programme.farewell_s = interaction::speech_duration(farewell, language, Mood::happy);
   for (const museum::Exhibit& exhibit : museum.exhibits) {
     task_control::ProgrammeExhibit& shown = programme.exhibits.emplace_back();
@@ -132,11 +132,7 @@ class MissionModule final : public Module {
         mode_{context},
         store_{std::move(store)},
         set_aside_{store_.set_aside()},
-        mission_{params,
-                 programme_of(context.museum),
-                 travel_in(context),
-                 std::move(memory),
-                 std::make_unique<task_control::PlanController>(),
+        mission_{params,    programme_of(context.museum), travel_in(context), std::move(memory), std::move(planner),
                  bus_.now()},
         board_{bus_.publisher(topics::kRequestBoard)},
         task_{bus_.publisher(topics::kTask)},

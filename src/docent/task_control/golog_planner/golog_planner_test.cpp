@@ -194,7 +194,7 @@ TEST_F(GologPlannerTest, ARestartGoesOnWithTheActionUnderWay) {
 
 TEST_F(GologPlannerTest, AProgramThatRunsAwayIsReportedAndVisitorsAreServed) {
   const auto file = std::filesystem::temp_directory_path() / ("docent_golog_" + std::to_string(getpid()) + ".pl");
-  ASSERT_TRUE(write_file_atomically(file, "proc(main, [?(some(E, due(E))), while(true, [])]).\n"));
+  ASSERT_TRUE(write_file_atomically(file, "proc(main, [?(some(E, due(E))), while(true, ?(true))]).\n"));
   params.program.most_inferences = 100000;
   start(file);
   std::filesystem::remove(file);

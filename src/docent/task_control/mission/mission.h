@@ -25,7 +25,7 @@ struct MissionParams {
   double contact_s = 10.0;         ///< [s] >= 0 until a battery at its charger says so; then the robot tries again
   double battery_low = 0.15;       ///< 0..1: still left on arrival at its charger; what has begun may use half of it
   /// 0..1: with less it charges between two tours, before it must, though somebody waits. Below what it charges to.
-  double battery_soon = 0.3;
+  double battery_soon = 0.25;
   double battery_full = 0.95;  ///< 0..1, > battery_low: charged; the last part takes real batteries long
   /// 0..1: what makes the way to the charger worth while. An idle robot goes there when so much is missing; people
   /// who wait are served again when there is so much more than battery_low.

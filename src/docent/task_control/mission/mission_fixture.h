@@ -31,7 +31,7 @@ class MissionTest : public testing::Test {
   MissionTest() { make({}); }
   void make(MissionMemory memory) {
     memory.deployment = "dep";
-    mission = std::make_unique<Mission>(MissionParams{}, programme, straight_distance(), std::move(memory),
+    mission = std::make_unique<Mission>(params, programme, straight_distance(), std::move(memory),
                                         std::make_unique<PlanController>(), time());
   }
   [[nodiscard]] Time time() const { return time_from_seconds(now_s); }
@@ -58,6 +58,7 @@ class MissionTest : public testing::Test {
     return std::find(seen.begin(), seen.end(), kind) != seen.end();
   }
 
+  MissionParams params;
   Programme programme = small_programme();
   double now_s = 0.0;
   Point2 robot{0, 0};

@@ -56,6 +56,8 @@ TEST_F(MissionTest, BreaksOffATourBetweenTwoExplanationsWithAWord) {
 }
 
 TEST_F(MissionTest, BeginsNoTourThatWouldTakeMoreThanThereIs) {
+  params.battery_soon = 0.0;
+  make({});
   pass(5.0);
   battery(0.16);
   EXPECT_FALSE(mission->memory().must_charge);
@@ -147,7 +149,7 @@ TEST_F(MissionTest, ARestartGoesOnCharging) {
 TEST_F(MissionTest, ChargesBetweenTwoToursBeforeItMust) {
   pass(5.0);
   wish("t", RequestKind::tour, "both");
-  battery(0.29);
+  battery(0.24);
   EXPECT_EQ(mission->task().kind, TaskKind::visit) << "a tour that has begun goes on";
   for (int stop = 0; stop < 2; ++stop) {
     report(TaskStatus::explaining);
@@ -184,7 +186,7 @@ TEST_F(MissionTest, ABatteryThatDoesNotLastShortensTheTour) {
 
 TEST_F(MissionTest, ServesWhileItsChargerIsOccupied) {
   pass(5.0);
-  battery(0.29);
+  battery(0.24);
   wish("1", RequestKind::exhibit, "a");
   EXPECT_EQ(mission->task().kind, TaskKind::charge);
   report(TaskStatus::failed);
