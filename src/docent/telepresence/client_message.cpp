@@ -80,6 +80,13 @@ bool is_identifier(std::string_view text) {
   });
 }
 
+bool is_prompt_id(std::string_view text) {
+  if (text.size() > 64) return false;
+  for (std::size_t slash = 0; (slash = text.find('/')) != std::string_view::npos; text.remove_prefix(slash + 1))
+    if (!is_identifier(text.substr(0, slash))) return false;
+  return is_identifier(text);
+}
+
 std::string clean_name(std::string_view text, std::size_t limit) {
   std::string clean;
   std::size_t count = 0;
@@ -120,7 +127,7 @@ Result<ClientMessage> parse_client_message(std::string_view text) {
     return message;
   }
   ChoiceMessage message{std::move(id), text_of(object, "prompt"), text_of(object, "choice")};
-  if (!is_identifier(message.prompt)) return fail("choice: prompt is not an id");
+  if (!is_prompt_id(message.prompt)) return fail("choice: prompt is not an id");
   if (!is_identifier(message.choice)) return fail("choice: choice is not an id");
   return message;
 }

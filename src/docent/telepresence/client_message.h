@@ -70,6 +70,8 @@ using ClientMessage = std::variant<RequestMessage, CancelMessage, ChoiceMessage,
 [[nodiscard]] bool is_uuid7(std::string_view text);
 /// An id of museum.yaml: 1 to 64 of a-z, A-Z, 0-9, '_', '-', '.'.
 [[nodiscard]] bool is_identifier(std::string_view text);
+/// An id of a question: such ids with '/' between them, 1 to 64 characters together.
+[[nodiscard]] bool is_prompt_id(std::string_view text);
 /// One line of at most `limit` characters: control, format and bidirectional characters and outer blanks are dropped.
 /// @pre `text` is valid UTF-8
 [[nodiscard]] std::string clean_name(std::string_view text, std::size_t limit = 40);
