@@ -25,9 +25,11 @@ TEST(ClientMessage, ReadsTheOtherKinds) {
   const auto cancel = parse_client_message(R"({"type":"cancel","id":")" + kId + R"(","request":")" + kId + R"("})");
   ASSERT_TRUE(cancel);
   EXPECT_EQ(std::get<CancelMessage>(*cancel).request, kId);
-  const auto choice = parse_client_message(R"({"type":"choice","id":")" + kId + R"(","prompt":"p-1","choice":"more"})");
+  const auto choice =
+      parse_client_message(R"({"type":"choice","id":")" + kId + R"(","prompt":"dep-1/more","choice":"more"})");
   ASSERT_TRUE(choice);
   EXPECT_EQ(std::get<ChoiceMessage>(*choice).choice, "more");
+  EXPECT_EQ(std::get<ChoiceMessage>(*choice).prompt, "dep-1/more") << "as the executive names its questions";
   const auto watch = parse_client_message(R"({"type":"watch","details":true})");
   ASSERT_TRUE(watch);
   EXPECT_TRUE(std::get<WatchMessage>(*watch).details);
@@ -96,6 +98,9 @@ TEST(ClientMessage, RefusesEverythingElse) {
       R"({"type":"answer",)" + uuid + R"(,"question":"intelligence","answer":"yes","language":"en"})",
       R"({"type":"answer",)" + uuid + R"(,"question":"age","answer":"yes","language":"en"})",
       R"({"type":"answer",)" + uuid + R"(,"question":"liked","answer":"yes","language":"="})",
+      R"({"type":"choice",)" + uuid + R"(,"prompt":"/p","choice":"more"})",
+      R"({"type":"choice",)" + uuid + R"(,"prompt":"p/","choice":"more"})",
+      R"({"type":"choice",)" + uuid + R"(,"prompt":"p/","choice":"more"})",
       std::string(3000, '['),
   };
   for (const auto& text : bad) {
