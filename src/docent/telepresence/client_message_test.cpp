@@ -59,7 +59,7 @@ TEST(ClientMessage, RefusesEverythingElse) {
       R"({"type":"cancel",)" + uuid + R"(,"request":"all"})",
       R"({"type":"choice",)" + uuid + R"(,"prompt":"p","choice":""})",
       R"({"type":"choice",)" + uuid + R"(,"prompt":"/p","choice":"more"})",
-      R"({"type":"choice",)" + uuid + R"(,"prompt":"p/","choice":"more"})",
+      R"({"type":"choice",)" + uuid + R"(,"prompt":"a//p","choice":"more"})",
       R"({"type":"choice",)" + uuid + R"(,"prompt":"p/","choice":"more"})",
       std::string(3000, '['),
   };
