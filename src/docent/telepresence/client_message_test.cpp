@@ -99,7 +99,7 @@ TEST(ClientMessage, RefusesEverythingElse) {
       R"({"type":"answer",)" + uuid + R"(,"question":"age","answer":"yes","language":"en"})",
       R"({"type":"answer",)" + uuid + R"(,"question":"liked","answer":"yes","language":"="})",
       R"({"type":"choice",)" + uuid + R"(,"prompt":"/p","choice":"more"})",
-      R"({"type":"choice",)" + uuid + R"(,"prompt":"p/","choice":"more"})",
+      R"({"type":"choice",)" + uuid + R"(,"prompt":"a//p","choice":"more"})",
       R"({"type":"choice",)" + uuid + R"(,"prompt":"p/","choice":"more"})",
       std::string(3000, '['),
   };
