@@ -77,7 +77,7 @@ int main(int argc, char** argv) {
         argv[0]);
     return 2;
   }
-  const Words words = read_words({argv + 4, argv + argc});
+  Words words = read_words({argv + 4, argv + argc});
   const auto museum = museum::load_museum(argv[1]);
   if (!museum) return std::fprintf(stderr, "%s\n", museum.error().message.c_str()), 2;
   const std::filesystem::path state = argv[2];
@@ -86,7 +86,7 @@ int main(int argc, char** argv) {
   if (!interaction::write_shared(interaction::horn_sound(), state / "audio")) return 2;
   const interaction::SharedSound music = interaction::shared_sound(interaction::melody_clip());
   if (!interaction::write_shared(music, state / "audio")) return 2;
-  options.music = music.file;
+  words.actor.music = music.file;
   robot::RobotConfig config;
   if (const auto set = config.set(std::string{"web.port="} + argv[3]); !set) return 2;
 
