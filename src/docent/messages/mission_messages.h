@@ -49,7 +49,7 @@ struct MissionState {
 struct Task {
   static constexpr const char* kType = "docent_msgs/msg/Task";
   std::string id;          ///< empty: nothing to do
-  std::string kind;        ///< visit, home, charge, relocalize
+  std::string kind;        ///< visit, farewell, home, charge, relocalize, mingle, or one of a museum's own
   std::string exhibit_id;  ///< for charge: of the visit that is broken off for it
   double x = 0;            ///< [m], map: where to stand
   double y = 0;
@@ -57,6 +57,9 @@ struct Task {
   std::string language;
   bool offer_more = true;
   std::string tour_id;
+  std::string gaze;    ///< for mingle: nearest, everybody, ahead
+  std::string face;    ///< likewise: neutral, happy, sad, angry
+  std::string speech;  ///< likewise: invite, ask, silence, demand, complain
   template <class Self, class V>
   static void visit(Self& m, V& v) {
     v("id", m.id);
@@ -68,6 +71,9 @@ struct Task {
     v("language", m.language);
     v("offer_more", m.offer_more);
     v("tour_id", m.tour_id);
+    v("gaze", m.gaze);
+    v("face", m.face);
+    v("speech", m.speech);
   }
 };
 
@@ -80,7 +86,7 @@ struct TaskState {
   std::string reason;
   Prompt prompt;
   bool took_long = false;  ///< the visitor asked for more
-  std::string look;        ///< where the task wants the head to look: place, visitors, way, nobody; empty: as it likes
+  std::string look;        ///< where the task wants the head to look: place, visitors, way, nobody, company
   template <class Self, class V>
   static void visit(Self& m, V& v) {
     v("header", m.header);

@@ -43,8 +43,8 @@ constexpr auto words_of(MissionPhase) {
 }
 
 /// What the executive is to do.
-enum class TaskKind { visit, farewell, home, charge, relocalize };
-constexpr auto words_of(TaskKind) { return std::array{"visit", "farewell", "home", "charge", "relocalize"}; }
+enum class TaskKind { visit, farewell, home, charge, relocalize, mingle };
+constexpr auto words_of(TaskKind) { return std::array{"visit", "farewell", "home", "charge", "relocalize", "mingle"}; }
 
 /// How a task goes.
 enum class TaskStatus { driving, explaining, asking, done, failed };
@@ -82,6 +82,11 @@ constexpr auto words_of(Mood) { return std::array{"neutral", "happy", "sad", "an
 /// to, the direction in which it wants to go, nothing.
 enum class LookAt { goal, person, visitor, way, none };
 constexpr auto words_of(LookAt) { return std::array{"goal", "person", "visitor", "way", "none"}; }
+
+/// Where an action wants the head to look: at the exhibit, at visitors, along the way, at nobody, or at the people whom
+/// it wants to attract, as its style says.
+enum class LookFor { place, visitors, way, nobody, company };
+constexpr auto words_of(LookFor) { return std::array{"place", "visitors", "way", "nobody", "company"}; }
 
 /// Whom the robot looks at while it attracts people: the nearest person, one person after the other, nobody.
 enum class GazeStrategy { nearest, everybody, ahead };

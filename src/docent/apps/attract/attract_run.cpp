@@ -13,6 +13,7 @@ constexpr double kDensitySpread = 0.3;             // [ln] from hour to hour
 constexpr double kStep = 0.5;                      // [s]
 constexpr double kCounted = 6.0;                   // [m] round the robot, for the density that it sees
 constexpr double kSeenError = 0.1;                 // [m] of where it sees people
+constexpr double kPhase = 60.0;                    // [s] ([Minerva2000] 6.3)
 constexpr double kBetween = 240.0;                 // [s] a tour between two phases
 
 simulator::Shown shown_by(const interaction::AttractionAction& action) {
@@ -88,7 +89,7 @@ AttractRunOutcome run_attract(const AttractRunOptions& options) {
     const interaction::AttractionAction action = learner.begin(now, counted);
     people.show(shown_by(action));
     const Time begin = now;
-    while (!learner.is_over(now)) {
+    while (now - begin < seconds(kPhase)) {
       people.step(kStep);
       now = now + seconds(kStep);
       learner.observe(seen(people, sight), now);

@@ -5,7 +5,6 @@
 namespace docent::interaction {
 
 Result<void> AttractionParams::validate() const {
-  if (!(phase_s > 0.0)) return fail("phase_s must be > 0");
   if (auto valid = reward.validate(); !valid) return valid;
   if (auto valid = choice.validate(); !valid) return valid;
   if (auto valid = evidence.validate(); !valid) return valid;
@@ -29,8 +28,6 @@ AttractionAction Attraction::begin(Time now, double density) {
 void Attraction::observe(std::span<const Point2> people, Time now) {
   if (phase_) phase_->reward.observe(people, now);
 }
-
-bool Attraction::is_over(Time now) const { return phase_ && now - phase_->trial.begin >= seconds(params_.phase_s); }
 
 std::optional<double> Attraction::finish(Time now) {
   if (!phase_) return std::nullopt;

@@ -11,14 +11,12 @@ namespace docent::interaction {
 
 /// How the robot learns to attract people ([Minerva2000] 6.3).
 struct AttractionParams {
-  double phase_s = 60.0;  ///< [s] > 0, a phase between two tours
   ProximityRewardParams reward;
   ActionChoiceParams choice;
   StyleEvidenceParams evidence;
   CrowdClassParams crowd;
   template <class V>
   void visit(V& v) {
-    v("phase_s", phase_s);
     v("reward", reward);
     v("choice", choice);
     v("evidence", evidence);
@@ -30,7 +28,7 @@ struct AttractionParams {
 
 /// The learner: one phase after the other, each with an action that is chosen by all that were before.
 ///
-///   const AttractionAction action = attraction.begin(now, density);  // look, smile and speak so for a minute
+///   const AttractionAction action = attraction.begin(now, density);  // look, smile and speak so, about a minute
 ///   attraction.observe(people, now);                                 // as often as people are seen
 ///   if (attraction.finish(now)) save_trials(file, attraction.trials());
 ///
@@ -45,8 +43,7 @@ class Attraction {
   [[nodiscard]] AttractionAction begin(Time now, double density);
   /// People while it lasts: [m], robot frame. Without a phase nothing happens.
   void observe(std::span<const Point2> people, Time now);
-  /// Whether a phase is under way and its time is over.
-  [[nodiscard]] bool is_over(Time now) const;
+  [[nodiscard]] bool is_under_way() const { return phase_.has_value(); }
   /// The phase ends and is remembered, unless the memory is full. @returns its reward; nullopt: there was no phase, or
   /// people were looked for in too little of it, and then it is forgotten.
   std::optional<double> finish(Time now);

@@ -23,17 +23,33 @@ Result<void> GazeChoiceParams::validate() const {
   return {};
 }
 
+LookFor GazeChoice::look_of(const HeadView& view) {
+  if (view.task == TaskKind::relocalize && view.status == TaskStatus::driving) return LookFor::nobody;
+  switch (view.status.value_or(TaskStatus::done)) {
+    case TaskStatus::driving:
+      return view.look.value_or(view.task == TaskKind::visit ? LookFor::place : LookFor::way);
+    case TaskStatus::explaining:
+    case TaskStatus::asking:
+      return view.look.value_or(LookFor::visitors);
+    case TaskStatus::done:
+    case TaskStatus::failed:
+      break;
+  }
+  return LookFor::company;
+}
+
 GazeTarget GazeChoice::choose(const HeadView& view, Time now) {
-  const bool is_driving = view.status == TaskStatus::driving && view.task != TaskKind::relocalize;
-  const bool is_talking = view.status == TaskStatus::explaining || view.status == TaskStatus::asking;
+  const LookFor look = look_of(view);
+  const bool is_driving = view.status == TaskStatus::driving && look != LookFor::nobody;
   const SeenPerson* person = nullptr;
-  LookAt at = LookAt::none;
+  LookAt at = LookAt::visitor;
   if (is_driving || view.is_blocked) {
     person = in_the_way(view);
     at = LookAt::person;
-  } else if (is_talking || !view.status || view.status == TaskStatus::done || view.status == TaskStatus::failed) {
-    person = company(view, is_talking ? GazeStrategy::nearest : view.company, now);
-    at = LookAt::visitor;
+  } else if (look == LookFor::visitors) {
+    person = company(view, GazeStrategy::nearest, now);
+  } else if (look == LookFor::company) {
+    person = company(view, view.company, now);
   }
   if (person != nullptr) {
     if (person->id != last_person_) since_ = now;
@@ -41,11 +57,15 @@ GazeTarget GazeChoice::choose(const HeadView& view, Time now) {
     return at_person(*person, at);
   }
   last_person_ = 0;
+  return at_things(view, look);
+}
+
+GazeTarget GazeChoice::at_things(const HeadView& view, LookFor look) const {
   if (view.is_blocked && view.wanted) return {LookAt::way, 0, view.wanted->radians(), 0.0};
-  const bool shows = (is_driving || is_talking) && view.task == TaskKind::visit && view.exhibit;
+  const bool shows = view.exhibit && (look == LookFor::place || look == LookFor::visitors);
   if (shows) return {LookAt::goal, 0, bearing_of(*view.exhibit).radians(), tilt_to(*view.exhibit, params_.exhibit)};
-  if (is_driving && view.wanted) return {LookAt::way, 0, view.wanted->radians(), 0.0};
-  return {};
+  const bool has_way = view.wanted && (look == LookFor::place || look == LookFor::way);
+  return has_way ? GazeTarget{LookAt::way, 0, view.wanted->radians(), 0.0} : GazeTarget{};
 }
 
 const SeenPerson* GazeChoice::in_the_way(const HeadView& view) const {

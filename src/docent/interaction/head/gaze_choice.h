@@ -49,11 +49,12 @@ struct SeenPerson {
 struct HeadView {
   std::optional<TaskKind> task;      ///< nullopt: nothing to do
   std::optional<TaskStatus> status;  ///< of the task
+  std::optional<LookFor> look;       ///< what the task under way says; nullopt: nothing, and the status decides
   std::optional<Point2> exhibit;     ///< [m], robot frame: what the task's exhibit shows
   std::optional<Angle> wanted;       ///< robot frame: the direction in which it wants to go, or the heading it turns to
   bool is_blocked = false;           ///< a person stands in its way
   std::span<const SeenPerson> people;
-  GazeStrategy company = GazeStrategy::nearest;  ///< whom it looks at while it has nothing to do
+  GazeStrategy company = GazeStrategy::nearest;  ///< whom it looks at while it has nothing to do or attracts people
 };
 
 /// Where to look, robot frame.
@@ -67,11 +68,16 @@ struct GazeTarget {
 /// The one place that decides where the robot looks ([Rhino1999] 5.1 (2) and 5.3, [Minerva2000] 6.2 and 6.3,
 /// [Markov1998] 4.3):
 ///
-///   blocked                 at the person who stands where it wants to go, else in the wanted direction
-///   driving to an exhibit   at somebody who stands in the way, else at the exhibit
-///   driving elsewhere       the same, else in the wanted direction
-///   explaining, asking      at a visitor, else at the exhibit
-///   nothing to do           at the company, as `HeadView::company` says, else straight on
+///   blocked         at the person who stands where it wants to go, else in the wanted direction
+///   driving         at somebody who stands in the way, else as below
+///   place           at the exhibit
+///   visitors        at a visitor, else at the exhibit
+///   way             in the wanted direction
+///   company         at people, as `HeadView::company` says, else straight on
+///   nobody          straight on
+///
+/// Where the task says nothing of it, it looks for the place while it drives to an exhibit, along the way while it
+/// drives elsewhere, for visitors while it explains and asks, and for company while it has nothing to do.
 ///
 /// It keeps to a person until somebody else is clearly nearer. Deterministic.
 class GazeChoice {
@@ -81,6 +87,8 @@ class GazeChoice {
   [[nodiscard]] GazeTarget choose(const HeadView& view, Time now);
 
  private:
+  [[nodiscard]] static LookFor look_of(const HeadView& view);
+  [[nodiscard]] GazeTarget at_things(const HeadView& view, LookFor look) const;
   [[nodiscard]] const SeenPerson* in_the_way(const HeadView& view) const;
   [[nodiscard]] const SeenPerson* company(const HeadView& view, GazeStrategy strategy, Time now);
   [[nodiscard]] const SeenPerson* next_of(std::span<const SeenPerson> people) const;

@@ -63,7 +63,7 @@ double MoodMachine::valence_of(Mood mood) const {
 }
 
 void MoodMachine::glide(double seconds) {
-  const double target = valence_of(mood_);
+  const double target = valence_of(mood());
   valence_ = target + (valence_ - target) * std::exp(-seconds / params_.glide_s);
 }
 

@@ -44,7 +44,10 @@ class MoodMachine {
   /// From the last step until now it was blocked, or not. Several times a second; times must not fall, an older one
   /// changes nothing.
   void step(bool is_blocked, Time now);
-  [[nodiscard]] Mood mood() const { return mood_; }
+  /// Puts on a face, whatever the mood is below it; nullopt: takes it off.
+  void put_on(std::optional<Mood> face) { face_ = face; }
+  /// The mood that is shown.
+  [[nodiscard]] Mood mood() const { return face_.value_or(mood_); }
   /// -1 (angry) .. 1 (happy), on its way to that of the mood, for a face between moods.
   [[nodiscard]] double valence() const { return valence_; }
 
@@ -56,6 +59,7 @@ class MoodMachine {
   MoodParams params_;
   Rng rng_;
   Mood mood_ = Mood::happy;
+  std::optional<Mood> face_;
   double valence_ = 1.0;
   double hazard_left_ = 0.0;  ///< until the next change
   std::optional<Time> last_;

@@ -34,7 +34,7 @@ struct PlanParams {
   planning::TellApartParams tell_apart;
   planning::CoastalParams coastal;
   bool active = true;           ///< lost: drives to where its hypotheses are told apart; else it only looks round
-  double goal_tolerance = 0.2;  ///< [m] cells so near to the goal are goals
+  double goal_tolerance = 0.2;  ///< [m] >= 0: cells so near to the goal are goals
   template <class V>
   void visit(V& v) {
     v("route", route);
@@ -114,7 +114,7 @@ class PlanModule final : public Module {
     if (!goal.id.empty() && !goal.relocalize) {
       route_.set_obstacles(obstacles_, settled_);
       seek_coast({goal.x, goal.y});
-      route_.set_goal({goal.x, goal.y}, params_.goal_tolerance);
+      route_.set_goal({goal.x, goal.y}, goal_tolerance());
     }
     step();
   }
@@ -173,12 +173,17 @@ class PlanModule final : public Module {
     if (step_count_++ % kStepsAPath == 0) publish_path(pursuit, now);
   }
 
+  /// [m]: a way must end where the robot counts as arrived, whatever the goal asks for; a cell is 0.05 m wide.
+  [[nodiscard]] double goal_tolerance() const {
+    return std::min(params_.goal_tolerance, std::max(0.0, goal_.position_tolerance - 0.05));
+  }
+
   /// The coastal planner begins; until it has a way the robot takes the shortest.
   void seek_coast(Point2 goal) {
     if (!coastal_) return;
     coast_.clear();
     route_.prefer({});
-    coastal_->set_goal(goal, params_.goal_tolerance);
+    coastal_->set_goal(goal, goal_tolerance());
   }
 
   /// Any-time, like the route: when the values have settled, or the robot has been driven off, the way is taken anew.

@@ -92,6 +92,10 @@ class ExecutiveModule final : public Module {
     result.order = {
         task.id,       Word<TaskKind>{task.kind}, task.exhibit_id, {task.x, task.y, Angle::radians(task.theta)},
         task.language, task.offer_more,           task.tour_id};
+    const auto gaze = parse<GazeStrategy>(task.gaze);
+    const auto face = parse<Mood>(task.face);
+    const auto speech = parse<SpeechAct>(task.speech);
+    if (gaze && face && speech) result.style = interaction::AttractionAction{*gaze, *face, *speech};
     if (const museum::Exhibit* exhibit = museum_.find_exhibit(task.exhibit_id)) {
       result.title = museum::translated(exhibit->title, task.language);
       result.short_text = interaction::spoken_text(museum::translated(exhibit->short_text, task.language));

@@ -6,6 +6,7 @@
 #include "docent/interaction/head/neck.h"
 #include "docent/interaction/mood/mood_machine.h"
 #include "docent/messages/conversions.h"
+#include "docent/modules/guide/people_around.h"
 #include "docent/modules/shared/pose_tracker.h"
 #include "docent/vocabulary/vocabulary.h"
 
@@ -44,18 +45,12 @@ class HeadModule final : public Module {
         gaze_choice_{params.gaze},
         neck_{params.neck},
         expression_{bus_.publisher(topics::kExpression)},
-        joints_{bus_.publisher(topics::kJointStates)} {
+        joints_{bus_.publisher(topics::kJointStates)},
+        around_{bus_} {
     bus_.subscribe<docent_msgs::Task>(topics::kTask, [this](const auto& task) { task_ = task; });
     bus_.subscribe<docent_msgs::TaskState>(topics::kTaskState, [this](const auto& state) { task_state_ = state; });
     bus_.subscribe<docent_msgs::Belief>(topics::kBelief, [this](const auto& belief) { pose_.on_belief(belief); });
-    bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const auto& odometry) {
-      pose_.on_odometry(odometry);
-      odometry_received_ = bus_.now();
-    });
-    bus_.subscribe<docent_msgs::People>(topics::kPeopleInOdom, [this](const auto& people) {
-      people_ = people;
-      people_received_ = bus_.now();
-    });
+    bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const auto& odom) { pose_.on_odometry(odom); });
     bus_.subscribe<docent_msgs::AvoidState>(topics::kAvoidState, [this](const auto& state) {
       const bool by_person = state.path_blocked && state.unmapped_obstacle && !state.low_obstacle;
       if (by_person) blocked_until_ = bus_.now() + kStaleAfter;
@@ -75,7 +70,7 @@ class HeadModule final : public Module {
   }
 
   [[nodiscard]] ModuleHealth health() const override {
-    if (!has_odometry(bus_.now())) return {"degraded", "no odometry"};
+    if (!around_.odom_from_base()) return {"degraded", "no odometry"};
     return {};
   }
 
@@ -83,8 +78,9 @@ class HeadModule final : public Module {
   void step() {
     const Time now = bus_.now();
     const bool is_blocked = now < blocked_until_;
+    mood_.put_on(is_mingling() && !is_blocked ? parse<Mood>(task_.face) : std::nullopt);
     mood_.step(is_blocked, now);
-    const std::vector<interaction::SeenPerson> people = people_in_base(now);
+    const auto people = around_.people().value_or(std::vector<interaction::SeenPerson>{});
     interaction::HeadView view = view_of_task();
     view.wanted = wanted(now);
     view.is_blocked = is_blocked;
@@ -94,37 +90,31 @@ class HeadModule final : public Module {
     publish(target, now);
   }
 
+  [[nodiscard]] bool is_under_way() const {
+    const auto status = parse<TaskStatus>(task_state_.state);
+    const bool is_over = !status || status == TaskStatus::done || status == TaskStatus::failed;
+    return !task_.id.empty() && task_state_.id == task_.id && !is_over;
+  }
+  [[nodiscard]] bool is_mingling() const { return is_under_way() && parse<TaskKind>(task_.kind) == TaskKind::mingle; }
+
   [[nodiscard]] interaction::HeadView view_of_task() const {
     interaction::HeadView view;
     if (task_.id.empty()) return view;
     view.task = parse<TaskKind>(task_.kind);
     if (task_state_.id == task_.id) view.status = parse<TaskStatus>(task_state_.state);
+    if (is_under_way()) view.look = parse<LookFor>(task_state_.look);
+    if (is_mingling()) view.company = parse<GazeStrategy>(task_.gaze).value_or(GazeStrategy::nearest);
     const museum::Exhibit* exhibit = museum_.find_exhibit(task_.exhibit_id);
     const auto map_from_base = pose_.localized() ? pose_.map_from_base() : std::nullopt;
     if (exhibit != nullptr && map_from_base) view.exhibit = inverse(*map_from_base) * exhibit->look_at;
     return view;
   }
 
-  [[nodiscard]] bool has_odometry(Time now) const {
-    return pose_.odom_from_base() && now - odometry_received_ <= kStaleAfter;
-  }
-
   [[nodiscard]] std::optional<Angle> wanted(Time now) const {
-    if (!has_odometry(now) || now - gaze_received_ > kStaleAfter) return std::nullopt;
+    const auto odom_from_base = around_.odom_from_base();
+    if (!odom_from_base || now - gaze_received_ > kStaleAfter) return std::nullopt;
     if (parse<GazeAt>(gaze_.at).value_or(GazeAt::none) == GazeAt::none) return std::nullopt;
-    return Angle::radians(gaze_.heading) - pose_.odom_from_base()->theta;
-  }
-
-  [[nodiscard]] std::vector<interaction::SeenPerson> people_in_base(Time now) const {
-    std::vector<interaction::SeenPerson> seen;
-    if (!has_odometry(now) || now - people_received_ > kStaleAfter) return seen;
-    const Pose2 base_from_odom = inverse(*pose_.odom_from_base());
-    for (const docent_msgs::Person& person : people_.people) {
-      const Point2 in_odom{static_cast<double>(person.x), static_cast<double>(person.y)};
-      const Point2 velocity{static_cast<double>(person.vx), static_cast<double>(person.vy)};
-      seen.push_back({person.id, base_from_odom * in_odom, base_from_odom * velocity - base_from_odom.position()});
-    }
-    return seen;
+    return Angle::radians(gaze_.heading) - odom_from_base->theta;
   }
 
   [[nodiscard]] bool is_speaking(Time now) const {
@@ -152,11 +142,9 @@ class HeadModule final : public Module {
   transport::Publisher<docent_msgs::Expression> expression_;
   transport::Publisher<sensor_msgs::JointState> joints_;
   PoseTracker pose_;
-  Time odometry_received_{};
+  PeopleAround around_;
   docent_msgs::Task task_;
   docent_msgs::TaskState task_state_;
-  docent_msgs::People people_;
-  Time people_received_{};
   docent_msgs::Gaze gaze_;
   Time gaze_received_{};
   docent_msgs::SpeechState speech_;

@@ -10,6 +10,7 @@
 #include "docent/interaction/speech/sentences.h"
 #include "docent/interaction/speech/spoken_text.h"
 #include "docent/messages/conversions.h"
+#include "docent/modules/guide/mingling.h"
 #include "docent/modules/shared/museum_mode.h"
 #include "docent/task_control/golog_planner/golog_planner.h"
 #include "docent/task_control/mission/mission.h"
@@ -100,15 +101,18 @@ docent_msgs::RequestState to_message(const task_control::BoardEntry& entry) {
 struct MissionModuleParams : task_control::MissionParams {
   std::string planner = "plans";  ///< plans: Minerva's controller; golog: the museum's tour.pl, or the shipped one
   task_control::GologPlannerParams golog;  ///< of the planner golog
+  MinglingParams attraction;               ///< how it learns to attract people
   template <class V>
   void visit(V& v) {
     task_control::MissionParams::visit(v);
     v("planner", planner);
     v("golog", golog);
+    v("attraction", attraction);
   }
   [[nodiscard]] Result<void> validate() const {
     if (planner != "plans" && planner != "golog") return fail("mission.planner must be plans or golog");
     if (auto valid = golog.validate(); !valid) return valid;
+    if (auto valid = attraction.validate(); !valid) return fail("mission.attraction." + valid.error().message);
     return task_control::MissionParams::validate();
   }
 };
@@ -124,7 +128,7 @@ Result<std::unique_ptr<task_control::Planner>> planner_of(const ModuleContext& c
 
 class MissionModule final : public Module {
  public:
-  MissionModule(const ModuleContext& context, const task_control::MissionParams& params,
+  MissionModule(const ModuleContext& context, const MissionModuleParams& params,
                 std::unique_ptr<task_control::Planner> planner, task_control::MissionStore store,
                 task_control::MissionMemory memory)
       : bus_{context.bus},
@@ -134,6 +138,7 @@ class MissionModule final : public Module {
         set_aside_{store_.set_aside()},
         mission_{params,    programme_of(context.museum), travel_in(context), std::move(memory), std::move(planner),
                  bus_.now()},
+        mingling_{context, params.attraction},
         board_{bus_.publisher(topics::kRequestBoard)},
         task_{bus_.publisher(topics::kTask)},
         state_{bus_.publisher(topics::kMissionState)},
@@ -152,6 +157,9 @@ class MissionModule final : public Module {
     });
     bus_.every(kPeriod, [this] {
       mission_.time_of_day(mode_.minute_of_day(bus_.now()) / 60);
+      tell_mode();
+      mission_.company(mingling_.has_company());
+      mingling_.observe();
       mission_.tick(bus_.now());
       flush();
     });
@@ -160,14 +168,17 @@ class MissionModule final : public Module {
   [[nodiscard]] ModuleHealth health() const override {
     if (!fault_.empty()) return {"degraded", fault_};
     if (const std::string fault = mission_.planner_fault(); !fault.empty()) return {"degraded", fault};
+    if (!mingling_.fault().empty()) return {"degraded", mingling_.fault()};
     if (mission_.is_battery_silent(bus_.now())) return {"degraded", "the battery says nothing"};
     if (!set_aside_.empty()) return {"degraded", "a damaged database was set aside: " + set_aside_};
     return {};
   }
 
  private:
+  void tell_mode() { mission_.limits(mode_.takes_requests(), parse<OperatingMode>(mode_.name(bus_.now()))); }
+
   void on_request(const docent_msgs::Request& message) {
-    mission_.limits(mode_.takes_requests(), parse<OperatingMode>(mode_.name(bus_.now())));
+    tell_mode();
     for (const std::string* text :
          {&message.id, &message.source, &message.visitor, &message.kind, &message.target, &message.language}) {
       if (text->size() > kMostText) return;
@@ -243,8 +254,28 @@ class MissionModule final : public Module {
     const Pose2& pose = task.map_from_base;
     published_task_ = task.id;
     prompt_ = {};
-    task_.publish({task.id, task.kind.text(), task.exhibit_id, pose.x, pose.y, pose.theta.radians(), task.language,
-                   task.offer_more, task.tour_id});
+    end_mingling();
+    docent_msgs::Task message{task.id,       task.kind.text(), task.exhibit_id, pose.x, pose.y, pose.theta.radians(),
+                              task.language, task.offer_more,  task.tour_id,    {},     {},     {}};
+    if (task.kind == TaskKind::mingle) {
+      const interaction::AttractionAction style = mingling_.begin();
+      message.gaze = to_text(style.gaze);
+      message.face = to_text(style.face);
+      message.speech = to_text(style.speech);
+    }
+    task_.publish(std::move(message));
+  }
+
+  /// It counts as what it was worth until now, also where a visitor ended it by a wish.
+  void end_mingling() {
+    const auto trial = mingling_.finish();
+    if (!trial) return;
+    const interaction::AttractionAction& action = trial->action;
+    event_.publish({{docent::to_message(bus_.now()), "map"},
+                    to_text(EventKind::attraction_trial),
+                    to_text(interaction::style_of(action)),
+                    std::string{to_text(action.gaze)} + " " + to_text(action.face) + " " + to_text(action.speech),
+                    trial->reward});
   }
 
   void publish_state(Time now) {
@@ -297,6 +328,7 @@ class MissionModule final : public Module {
   task_control::MissionStore store_;
   std::string set_aside_;
   task_control::Mission mission_;
+  Mingling mingling_;
   transport::Publisher<docent_msgs::RequestBoard> board_;
   transport::Publisher<docent_msgs::Task> task_;
   transport::Publisher<docent_msgs::MissionState> state_;

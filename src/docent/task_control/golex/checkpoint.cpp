@@ -26,6 +26,7 @@ Result<void> save_checkpoint(const std::filesystem::path& path, const ExecutiveM
                   {"short", memory.task.short_text},
                   {"long", memory.task.long_text},
                   {"wait_s", memory.task.wait_s},
+                  {"style", memory.task.style ? interaction::index_of(*memory.task.style) : -1},
                   {"order",
                    {{"id", order.id},
                     {"kind", order.kind.text()},
@@ -61,6 +62,8 @@ Result<ExecutiveMemory> load_checkpoint(const std::filesystem::path& path, const
     memory.task.short_text = json.at("short").get<std::string>();
     memory.task.long_text = json.at("long").get<std::string>();
     memory.task.wait_s = json.value("wait_s", 0.0);
+    if (const int style = json.value("style", -1); style >= 0 && style < interaction::kAttractionActions)
+      memory.task.style = interaction::attraction_action(style);
     const Json& order = json.at("order");
     const Json& pose = order.at("pose");
     memory.task.order = {order.at("id").get<std::string>(),

@@ -32,7 +32,7 @@ bool is_wait(const std::string& text) {
 std::string fault_of(DirectiveKind kind, const std::string& argument) {
   switch (kind) {
     case DirectiveKind::look:
-      return is_one_of(argument, {"place", "visitors", "way", "nobody"}) ? "" : "place, visitors, way or nobody";
+      return parse<LookFor>(argument) ? "" : "place, visitors, way, nobody or company";
     case DirectiveKind::music:
       return is_one_of(argument, {"play", "stop"}) ? "" : "play or stop";
     case DirectiveKind::drive:
@@ -47,9 +47,9 @@ std::string fault_of(DirectiveKind kind, const std::string& argument) {
       return argument.empty() ? "a reason" : "";
     case DirectiveKind::say:
     case DirectiveKind::announce:
-      return is_one_of(argument, {"short", "long"}) || interaction::find_sentence(argument)
+      return is_one_of(argument, {"short", "long", "attraction"}) || interaction::find_sentence(argument)
                  ? ""
-                 : "short, long, the key of a sentence, or a text in each language";
+                 : "short, long, attraction, the key of a sentence, or a text in each language";
   }
   return "";
 }

@@ -12,6 +12,24 @@ namespace {
 constexpr Duration kReportLife =
     std::chrono::seconds{1};  // collision avoidance and head speak four times a second and more
 
+/// What attracts people; empty: silence does.
+std::string attraction_text(SpeechAct act, const std::string& language, Mood mood, int variant) {
+  using interaction::Sentence;
+  switch (act) {
+    case SpeechAct::invite:
+      return interaction::sentence(Sentence::attract_invitation, language, mood, variant);
+    case SpeechAct::ask:
+      return interaction::sentence(Sentence::attract_question, language, mood, variant);
+    case SpeechAct::demand:
+      return interaction::sentence(Sentence::attract_demand, language, mood, variant);
+    case SpeechAct::complain:
+      return interaction::sentence(Sentence::attract_complaint, language, mood, variant);
+    case SpeechAct::silence:
+      break;
+  }
+  return "";
+}
+
 bool is_positive(double value) { return value > 0.0; }
 
 template <class T>
@@ -97,6 +115,7 @@ bool Executive::has_drive() const {
 
 Mood Executive::mood() const {
   if (together().empty()) return Mood::neutral;
+  if (memory_.task.style) return memory_.task.style->face;
   return (*decomposition_.find(memory_.task.order.kind.text()))[static_cast<std::size_t>(memory_.item)].mood;
 }
 
@@ -249,6 +268,10 @@ std::string Executive::text_of(const Directive& directive) const {
     return interaction::spoken_text((text != directive.texts.end() ? text : directive.texts.begin())->second);
   }
   if (directive.argument == "long") return task.long_text;
+  if (directive.argument == "attraction") {
+    const SpeechAct act = task.style ? task.style->speech : SpeechAct::silence;
+    return attraction_text(act, task.order.language, mood(), memory_.item);
+  }
   if (directive.argument != "short")
     return interaction::sentence(*interaction::find_sentence(directive.argument), task.order.language, mood(), 0,
                                  task.title);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "docent/base/result.h"
+#include "docent/interaction/attract/style.h"
 #include "docent/task_control/golex/decomposition.h"
 #include "docent/task_control/reaction_ladder/reaction_ladder.h"
 #include "docent/task_control/tour_scheduler/programme.h"
@@ -40,9 +41,10 @@ struct ExecutiveParams {
 struct ExecutiveTask {
   TaskOrder order;
   std::string title;
-  std::string short_text;  ///< as it is spoken
-  std::string long_text;   ///< empty: there is no more to tell
-  double wait_s = 0.0;     ///< [s] it stays at the exhibit after its last word
+  std::string short_text;                                ///< as it is spoken
+  std::string long_text;                                 ///< empty: there is no more to tell
+  double wait_s = 0.0;                                   ///< [s] it stays at the exhibit after its last word
+  std::optional<interaction::AttractionAction> style{};  ///< in which it attracts people
 };
 
 /// How far the executive has come with its task.

@@ -47,7 +47,6 @@ Result<void> GologPlannerParams::validate() const {
   if (auto valid = program.validate(); !valid) return valid;
   if (!(retry_s > 0.0)) return docent::fail("mission.golog.retry_s must be > 0");
   if (!(contact_s > 0.0)) return docent::fail("mission.golog.contact_s must be > 0");
-  if (!(invitation_s > 0.0)) return docent::fail("mission.golog.invitation_s must be > 0");
   if (!(battery_step >= 0.0 && battery_step <= 1.0)) return docent::fail("mission.golog.battery_step must be in 0..1");
   return {};
 }
@@ -182,7 +181,8 @@ void GologPlanner::begin(Mission& mission, const GologTerm& action, Time now) {
   here.y = mission.position().y;
   const auto& visit = mission.scheduler().state().visit;
   const bool may_ask = action.name == "ask_more" && (!visit || visit->asks);
-  order(mission, action, action.name, {"", {}, about, here, "", may_ask, visit ? visit->tour_id : ""}, now);
+  const std::string kind = action.name == "wait_for_request" ? to_text(TaskKind::mingle) : action.name;
+  order(mission, action, kind, {"", {}, about, here, "", may_ask, visit ? visit->tour_id : ""}, now);
 }
 
 void GologPlanner::stop(Mission& mission, const GologTerm& action, Time now) {

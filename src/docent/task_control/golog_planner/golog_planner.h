@@ -16,14 +16,12 @@ struct GologPlannerParams {
   GologParams program;
   double retry_s = 60.0;       ///< [s] > 0 after a fault of the program: meanwhile the plan controller decides
   double contact_s = 30.0;     ///< [s] > 0: so long at its charger without a charge is a failure
-  double invitation_s = 60.0;  ///< [s] > 0 that `wait_for_request` lasts when nobody comes
   double battery_step = 0.01;  ///< 0..1: the program hears of changes of the charge by so much
   template <class V>
   void visit(V& v) {
     v("program", program);
     v("retry_s", retry_s);
     v("contact_s", contact_s);
-    v("invitation_s", invitation_s);
     v("battery_step", battery_step);
   }
   [[nodiscard]] Result<void> validate() const;

@@ -27,6 +27,7 @@ Result<void> MissionParams::validate() const {
   if (!(battery_gain >= 0.0 && battery_gain <= 1.0)) return fail("mission.battery_gain must be in 0..1");
   if (!(battery_soon >= 0.0 && battery_soon <= battery_low + battery_gain))
     return fail("mission.battery_soon must be in 0..battery_low + battery_gain");
+  if (!(mingle_pause_s >= 0.0)) return fail("mission.mingle_pause_s must be >= 0");
   if (!(drain_per_s > 0.0)) return fail("mission.drain_per_s must be > 0");
   if (!(charge_per_s > 0.0)) return fail("mission.charge_per_s must be > 0");
   return {};
@@ -95,6 +96,9 @@ void Mission::report(const std::string& task_id, std::optional<TaskStatus> state
     }
   } else if (activity_ == Activity::farewell && is_over) {
     scheduler_.finish_farewell(now);
+    start_task(Activity::none, {});
+  } else if (activity_ == Activity::mingle && is_over) {
+    mingle_not_before_ = now + seconds(params_.mingle_pause_s);
     start_task(Activity::none, {});
   } else if ((activity_ == Activity::home || activity_ == Activity::charge) && is_over) {
     const bool is_done = state == TaskStatus::done;
@@ -220,6 +224,8 @@ Situation Mission::situation(Time now) const {
   seen.is_low_soon = now >= home_not_before_ && battery_.charge(now).value_or(1.0) < params_.battery_soon;
   seen.must_charge = must_charge_;
   seen.charges = charges();
+  seen.may_mingle = params_.mingles && is_resting_ && has_company_ && seen.is_open &&
+                    conditions_.mode.value_or(OperatingMode::open) == OperatingMode::open;
   seen.may_serve = !must_charge_ || battery_.charge(now).value_or(1.0) >= enough_to_serve();
   return seen;
 }
@@ -274,6 +280,13 @@ void Mission::go_home(Time now) {
     return;
   }
   start_task(Activity::home, {"", TaskKind::home, "", place, scheduler_.programme().languages.front(), false, ""});
+}
+
+void Mission::mingle(Time now) {
+  if (activity_ == Activity::mingle || now < mingle_not_before_) return;
+  const Point2 here = position();
+  start_task(Activity::mingle,
+             {"", TaskKind::mingle, "", {here.x, here.y, {}}, scheduler_.programme().languages.front(), false, ""});
 }
 
 void Mission::go_charging(Time now) {
@@ -377,6 +390,9 @@ MissionSummary Mission::summary(Time now) {
       summary.phase = MissionPhase::explaining;
       summary.exhibit_id.clear();
       summary.says_farewell = true;
+      break;
+    case Activity::mingle:
+      summary.phase = MissionPhase::idle;
       break;
     case Activity::action:
       summary.phase = phase_of_action();

@@ -30,6 +30,8 @@ struct MissionParams {
   /// 0..1: what makes the way to the charger worth while. An idle robot goes there when so much is missing; people
   /// who wait are served again when there is so much more than battery_low.
   double battery_gain = 0.25;
+  bool mingles = true;           ///< attracts people while it rests at home and nobody wants anything
+  double mingle_pause_s = 30.0;  ///< [s] >= 0 between two phases: who listens may choose
   double drain_per_s = 1.4e-4;   ///< [1/s] > 0 share of a full battery: two hours of driving; more is measured
   double charge_per_s = 2.2e-4;  ///< [1/s] > 0 likewise: 75 minutes; measured while it charges
   template <class V>
@@ -45,6 +47,8 @@ struct MissionParams {
     v("battery_soon", battery_soon);
     v("battery_full", battery_full);
     v("battery_gain", battery_gain);
+    v("mingles", mingles);
+    v("mingle_pause_s", mingle_pause_s);
     v("drain_per_s", drain_per_s);
     v("charge_per_s", charge_per_s);
   }
@@ -101,6 +105,8 @@ class Mission {
   /// @param charge  0..1. @param is_charging  nullopt: the battery does not say
   void battery(double charge, std::optional<bool> is_charging, Time now);
   [[nodiscard]] bool is_battery_silent(Time now) const { return battery_.is_silent(now); }
+  /// @param has_company  people are near
+  void company(bool has_company) { has_company_ = has_company; }
   /// Once or twice a second.
   void tick(Time now);
 
@@ -129,6 +135,8 @@ class Mission {
   void go_charging(Time now);
   /// Drives home, or stays there.
   void go_home(Time now);
+  /// Attracts people for a minute, where it stands. @pre situation().may_mingle
+  void mingle(Time now);
   void relocalize(Time now);
   /// It knows its place again.
   void end_relocalizing(Time now);
@@ -183,7 +191,9 @@ class Mission {
   bool tops_up_ = false;        ///< charges, or goes to its charger, whenever nobody wants anything
   std::string broken_exhibit_;  ///< what was broken off for the charge that comes
   std::string broken_tour_;
-  bool is_resting_ = false;          ///< arrived at home, nothing has happened since
+  bool is_resting_ = false;  ///< arrived at home, nothing has happened since
+  bool has_company_ = false;
+  Time mingle_not_before_{};
   Time home_not_before_{};           ///< nor to the charger
   std::vector<std::string> agenda_;  ///< it is costly, so it is made anew only when board or task have changed
   std::uint64_t agenda_revision_ = 0;

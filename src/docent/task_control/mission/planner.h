@@ -18,6 +18,7 @@ enum class Activity {
   home,
   charge,
   relocalize,
+  mingle,
   action,  ///< one that the planner ordered by its name
 };
 
@@ -43,6 +44,7 @@ struct Situation {
   bool must_charge = false;  ///< before it goes on
   bool charges = false;      ///< it must, or does as long as nobody wants anything
   bool may_serve = true;     ///< its charge is enough for the next visit
+  bool may_mingle = false;   ///< it rests at home in an open museum, and people are near whom it may attract
 };
 
 /// How an action went.

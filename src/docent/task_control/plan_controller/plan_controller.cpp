@@ -87,6 +87,11 @@ constexpr std::array kRoutines{
             }},
     Routine{"charge first", [](const Situation& seen) { return !seen.must_charge && seen.is_anything_due; },
             charge_first},
+    Routine{"mingle", [](const Situation& seen) { return seen.may_mingle && !seen.charges; },
+            [](Mission& mission, const Situation&, Time now) {
+              mission.mingle(now);
+              return Round::is_over;
+            }},
     Routine{"rest", [](const Situation&) { return true; }, rest},
 };
 

@@ -16,6 +16,7 @@ namespace docent::task_control {
 ///   next visit       the scheduler's choice, made anew after each explanation and each new request
 ///   farewell         the last word of a tour that has ended
 ///   charge first     what comes next would take too much
+///   mingle           attracts people between two tours ([Minerva2000] 6.3)
 ///   rest             charges when that is worth while, else goes home
 class PlanController final : public Planner {
  public:
