@@ -151,5 +151,24 @@ TEST(GazeChoiceParams, HaveBounds) {
   EXPECT_TRUE(refused([](auto& p) { p.nearest = 0.0; }));
 }
 
+TEST(GazeChoice, ATaskMaySayWhereItLooks) {
+  HeadView view = explaining(kBeside);
+  view.look = LookFor::place;
+  EXPECT_EQ(choose(view).at, LookAt::goal) << "at what it explains";
+  view.look = LookFor::nobody;
+  EXPECT_EQ(choose(view).at, LookAt::none);
+  view.look = LookFor::company;
+  EXPECT_EQ(choose(view).at, LookAt::visitor);
+  view.company = GazeStrategy::ahead;
+  EXPECT_EQ(choose(view).at, LookAt::none) << "the style says at whom";
+  view = driving(kNobody);
+  view.task.reset();
+  EXPECT_EQ(choose(view).at, LookAt::way) << "an action of a museum's own";
+  view.look = LookFor::place;
+  EXPECT_EQ(choose(view).at, LookAt::goal);
+  view.is_blocked = true;
+  EXPECT_EQ(choose(view).at, LookAt::way) << "a blocked way comes first";
+}
+
 }  // namespace
 }  // namespace docent::interaction

@@ -149,5 +149,17 @@ TEST(MoodParams, HaveBounds) {
     EXPECT_FALSE(bad.validate());
 }
 
+TEST(MoodMachine, AFaceIsPutOnOverTheMood) {
+  MoodMachine machine{{}, Rng{1}};
+  machine.put_on(Mood::angry);
+  for (int i = 0; i < 50; ++i) machine.step(false, time_from_seconds(0.1 * i));
+  EXPECT_EQ(machine.mood(), Mood::angry);
+  EXPECT_LT(machine.valence(), -0.9);
+  machine.put_on(std::nullopt);
+  for (int i = 50; i < 100; ++i) machine.step(false, time_from_seconds(0.1 * i));
+  EXPECT_EQ(machine.mood(), Mood::happy);
+  EXPECT_GT(machine.valence(), 0.9);
+}
+
 }  // namespace
 }  // namespace docent::interaction

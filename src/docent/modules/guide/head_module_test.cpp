@@ -231,5 +231,31 @@ TEST_F(HeadModuleTest, TheSameSeedIsTheSameMoodAndSectionsAreChecked) {
   EXPECT_NE(refused.error().message.find("head.mood.calm_s"), std::string::npos) << refused.error().message;
 }
 
+TEST_F(HeadModuleTest, WearsTheFaceThatShallAttractPeopleAndNoLonger) {
+  start();
+  docent_msgs::Task task;
+  task.id = "m1";
+  task.kind = "mingle";
+  task.gaze = "ahead";
+  task.face = "angry";
+  task.speech = "demand";
+  docent_msgs::TaskState report;
+  report.id = "m1";
+  report.state = "explaining";
+  report.look = "company";
+  put_person(7, {1.4, 0.6});
+  tasks.publish(task);
+  task_states.publish(report);
+  live(4.0);
+  EXPECT_EQ(expression.mood, "angry");
+  EXPECT_LT(expression.valence, -0.9);
+  EXPECT_EQ(expression.gaze, "none");
+  report.state = "done";
+  task_states.publish(report);
+  live(4.0);
+  EXPECT_EQ(expression.mood, "happy");
+  EXPECT_EQ(expression.gaze, "visitor");
+}
+
 }  // namespace
 }  // namespace docent::modules

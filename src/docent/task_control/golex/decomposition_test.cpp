@@ -55,7 +55,7 @@ TEST(Decomposition, WhatIsWrongIsNamedWithItsLine) {
   EXPECT_EQ(error_of("visit:\n  - fly: place\n"), "golex.yaml:2: unknown directive 'fly'");
   EXPECT_EQ(error_of("visit:\n  - drive: moon\n"), "golex.yaml:2: 'drive' must be place or charger");
   EXPECT_EQ(error_of("visit:\n  - say: shrot\n"),
-            "golex.yaml:2: 'say' must be short, long, the key of a sentence, or a text in each language");
+            "golex.yaml:2: 'say' must be short, long, attraction, the key of a sentence, or a text in each language");
   EXPECT_EQ(error_of("visit:\n  - wait: 3 days\n"), "golex.yaml:2: 'wait' must be linger or seconds, 0 to 600");
   EXPECT_EQ(error_of("visit:\n  - wait: -1\n"), "golex.yaml:2: 'wait' must be linger or seconds, 0 to 600");
   EXPECT_EQ(error_of("visit:\n  - {drive: place, drive: place}\n"), "golex.yaml:2: 'drive' comes twice in one item");

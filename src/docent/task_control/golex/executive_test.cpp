@@ -339,5 +339,29 @@ TEST_F(ExecutiveTest, AsksForTheWayInTheMoodThatItsFaceShows) {
   EXPECT_EQ(said[0].text, interaction::sentence(interaction::Sentence::let_me_through, "en", Mood::angry, 0));
 }
 
+TEST_F(ExecutiveTest, AttractsPeopleAsItsStyleSaysAlsoAfterARestart) {
+  ExecutiveTask mingle{{"m1", TaskKind::mingle, "", {}, "en", false, ""}, "", "", ""};
+  mingle.style = interaction::AttractionAction{GazeStrategy::everybody, Mood::happy, SpeechAct::invite};
+  start(mingle);
+  EXPECT_EQ(state.look, "company");
+  pass(25.0);
+  restart();
+  pass(30.0);
+  EXPECT_EQ(state.state, TaskStatus::explaining);
+  pass(6.0);
+  EXPECT_EQ(state.state, TaskStatus::done);
+  ASSERT_EQ(said.size(), 1U) << "since the restart";
+  EXPECT_EQ(said[0].mood, Mood::happy);
+  EXPECT_EQ(said[0].text, interaction::sentence(interaction::Sentence::attract_invitation, "en", Mood::happy, 2));
+
+  said.clear();
+  mingle.order.id = "m2";
+  mingle.style->speech = SpeechAct::silence;
+  start(mingle);
+  pass(61.0);
+  EXPECT_EQ(state.state, TaskStatus::done);
+  EXPECT_TRUE(said.empty());
+}
+
 }  // namespace
 }  // namespace docent::task_control

@@ -196,5 +196,41 @@ TEST_F(MissionTest, ServesWhileItsChargerIsOccupied) {
   EXPECT_EQ(mission->task().kind, TaskKind::charge) << "it tries again";
 }
 
+TEST_F(MissionTest, AttractsPeopleWhileItRestsAndNobodyWantsAnything) {
+  pass(5.0);
+  EXPECT_EQ(mission->task().kind.text(), "") << "nobody is there";
+  mission->company(true);
+  pass(1.0);
+  EXPECT_EQ(mission->task().kind, TaskKind::mingle);
+  EXPECT_EQ(phase(), MissionPhase::idle);
+  const std::string first = mission->task().id;
+  report(TaskStatus::done);
+  pass(params.mingle_pause_s - 1.0);
+  EXPECT_EQ(mission->task().id, "");
+  pass(2.0);
+  EXPECT_EQ(mission->task().kind, TaskKind::mingle);
+  EXPECT_NE(mission->task().id, first);
+  wish("r", RequestKind::exhibit, "a");
+  EXPECT_EQ(mission->task().kind, TaskKind::visit) << "a wish ends it at once";
+}
+
+TEST_F(MissionTest, AttractsNobodyInWebHoursOrWithALowBatteryOrWhenItIsToldNotTo) {
+  mission->company(true);
+  mission->limits(true, OperatingMode::web);
+  pass(5.0);
+  EXPECT_EQ(phase(), MissionPhase::idle);
+  EXPECT_EQ(mission->task().id, "");
+  mission->limits(true, OperatingMode::open);
+  battery(0.14);
+  pass(1.0);
+  EXPECT_EQ(mission->task().kind, TaskKind::charge);
+  params.mingles = false;
+  make({});
+  mission->company(true);
+  pass(5.0);
+  EXPECT_EQ(phase(), MissionPhase::idle);
+  EXPECT_EQ(mission->task().id, "");
+}
+
 }  // namespace
 }  // namespace docent::task_control
