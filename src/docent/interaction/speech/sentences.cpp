@@ -23,6 +23,22 @@ const std::vector<std::string>& variants_of(const Dictionary& dictionary, Senten
 
 }  // namespace
 
+std::optional<Sentence> sentence_of(SpeechAct act) {
+  switch (act) {
+    case SpeechAct::invite:
+      return Sentence::attract_invitation;
+    case SpeechAct::ask:
+      return Sentence::attract_question;
+    case SpeechAct::demand:
+      return Sentence::attract_demand;
+    case SpeechAct::complain:
+      return Sentence::attract_complaint;
+    case SpeechAct::silence:
+      break;
+  }
+  return std::nullopt;
+}
+
 std::string sentence(Sentence which, std::string_view language, Mood mood, int variant, std::string_view title) {
   const Dictionary& dictionary = dictionary_of(language);
   const auto& variants = variants_of(dictionary, which, mood);

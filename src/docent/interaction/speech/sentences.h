@@ -56,6 +56,9 @@ inline constexpr std::array kAttraction{Sentence::attract_greeting, Sentence::at
                                         Sentence::attract_question, Sentence::attract_complaint,
                                         Sentence::attract_demand};
 
+/// What the robot says to attract people so; nullopt: nothing.
+[[nodiscard]] std::optional<Sentence> sentence_of(SpeechAct act);
+
 /// The sentence with `title` put in, in the words of the mood; where a dictionary has none for it, in those of the
 /// neutral mood, else in those of any mood that it has. Of several ways to say it number `variant` modulo their count,
 /// so a caller may simply count. Never empty. @pre variant >= 0

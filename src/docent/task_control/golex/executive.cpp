@@ -12,24 +12,6 @@ namespace {
 constexpr Duration kReportLife =
     std::chrono::seconds{1};  // collision avoidance and head speak four times a second and more
 
-/// What attracts people; empty: silence does.
-std::string attraction_text(SpeechAct act, const std::string& language, Mood mood, int variant) {
-  using interaction::Sentence;
-  switch (act) {
-    case SpeechAct::invite:
-      return interaction::sentence(Sentence::attract_invitation, language, mood, variant);
-    case SpeechAct::ask:
-      return interaction::sentence(Sentence::attract_question, language, mood, variant);
-    case SpeechAct::demand:
-      return interaction::sentence(Sentence::attract_demand, language, mood, variant);
-    case SpeechAct::complain:
-      return interaction::sentence(Sentence::attract_complaint, language, mood, variant);
-    case SpeechAct::silence:
-      break;
-  }
-  return "";
-}
-
 bool is_positive(double value) { return value > 0.0; }
 
 template <class T>
@@ -269,8 +251,8 @@ std::string Executive::text_of(const Directive& directive) const {
   }
   if (directive.argument == "long") return task.long_text;
   if (directive.argument == "attraction") {
-    const SpeechAct act = task.style ? task.style->speech : SpeechAct::silence;
-    return attraction_text(act, task.order.language, mood(), memory_.item);
+    const auto sentence = task.style ? interaction::sentence_of(task.style->speech) : std::nullopt;
+    return sentence ? interaction::sentence(*sentence, task.order.language, mood(), memory_.item) : "";
   }
   if (directive.argument != "short")
     return interaction::sentence(*interaction::find_sentence(directive.argument), task.order.language, mood(), 0,
