@@ -6,7 +6,7 @@ from evaluation.tables import Verdict, print_table
 HEADER = ["seed", "km", "m/s", "explained", "offered", "served", "contacts", "bumped", "area", "passes", "localized s",
           "error cm", "lost", "speedup"]
 MINUTES, SLICE_MINUTES = 30, 25
-PARTS = ["one-scanner"]
+PARTS = ["one-scanner", "golog"]
 SCANNER_SEEDS = 5  # of the robot with one scanner in front, and of the full robot beside it
 
 
@@ -86,6 +86,18 @@ def one_scanner(simulations, seeds, minutes):
     return verdict
 
 
+def golog(simulations, museum, seeds, minutes, floors):
+    """The museum's GOLOG program instead of the plan controller: the same service."""
+    print(f"\n## {museum.name}, busy, {len(seeds)} seeds x {minutes:g} minutes, unknown start: GOLOG program\n")
+    reports = simulations.of_seeds("tour", museum, seeds, minutes, ["--crowd", "busy", "--set", "mission.planner=golog"])
+    print_table(HEADER, [row_of(seed, report) for seed, report in zip(seeds, reports)])
+    print()
+    verdict = judge(reports, minutes, floors)
+    verdict.want_one_configuration(r["config_hash"] for r in reports)
+    verdict.print()
+    return verdict
+
+
 def protocol(simulations, options):
     is_bonn = options.name == "tour"
     if options.part == "one-scanner":
@@ -100,6 +112,8 @@ def protocol(simulations, options):
     # A single short run may fall short of its share of the exposure: it must only not be idle.
     idle = 0.3 if count * minutes < 60 else 1.0
     floors = {"offered": 12 * idle, "km": 2 * share * idle, "explained": 100 * share * idle}
+    if options.part == "golog":
+        return golog(simulations, museum, seeds, minutes, floors)
     print(f"\n## {museum.name}, busy, {count} seeds x {minutes:g} minutes, unknown start\n")
     reports = simulations.of_seeds("tour", museum, seeds, minutes, ["--crowd", "busy"])
     print_table(HEADER, [row_of(seed, report) for seed, report in zip(seeds, reports)])
@@ -109,7 +123,10 @@ def protocol(simulations, options):
     verdict.want_one_configuration(r["config_hash"] for r in reports)
     verdict.note("instruction set", reports[0]["simd"])
     verdict.print()
-    if options.no_crippled or options.slice:
+    if options.slice:
+        return verdict
+    verdict.add(golog(simulations, museum, seeds, minutes, floors))
+    if options.no_crippled:
         return verdict
     for name, arguments in crippled.CRIPPLED.items():
         verdict.add(run_crippled(simulations, museum, name, arguments, seeds[:crippled.CRIPPLED_SEEDS], minutes))

@@ -9,8 +9,7 @@
 namespace docent::task_control {
 namespace {
 
-constexpr Duration kReportLife =
-    std::chrono::seconds{1};  // collision avoidance and head speak four times a second and more
+constexpr Duration kReportLife = std::chrono::seconds{1};  // avoidance and head speak four times a second and more
 
 bool is_positive(double value) { return value > 0.0; }
 
