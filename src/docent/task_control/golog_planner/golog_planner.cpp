@@ -164,6 +164,13 @@ void GologPlanner::begin_drive(Mission& mission, const std::string& place, const
   order(mission, action, "drive", {"", {}, place, pose, "", false, tour}, now);
 }
 
+/// The program need not drive, for it is there; the visit may want another viewpoint, and then the executive drives.
+void GologPlanner::explain_where_asked(Mission& mission, const GologTerm& action, Time now) {
+  const Visit& visit = *mission.scheduler().state().visit;
+  const TaskOrder stop{"", {}, visit.exhibit_id, visit.map_from_base, visit.language, false, visit.tour_id};
+  order(mission, action, to_text(TaskKind::visit), stop, now);
+}
+
 void GologPlanner::begin(Mission& mission, const GologTerm& action, Time now) {
   const std::string about = argument(action);
   if (is_drive(action)) return begin_drive(mission, about, action, now);
@@ -176,6 +183,9 @@ void GologPlanner::begin(Mission& mission, const GologTerm& action, Time now) {
     under_way_.push_back({action, now, ""});
     return;
   }
+  if (action.name == "explain" && !mission.situation(now).has_visit &&
+      mission.scheduler().begin_visit_to(about, mission.position(), now))
+    return explain_where_asked(mission, action, now);
   Pose2 here;
   here.x = mission.position().x;
   here.y = mission.position().y;
@@ -203,6 +213,8 @@ void GologPlanner::outcome(Mission& mission, const TaskOrder& order, const Actio
   const GologTerm action = done->action;
   const auto& visit = mission.scheduler().state().visit;
   const bool is_of_visit = visit && visit->exhibit_id == argument(action);
+  // The program takes it for served: should it still be wanted, it is told anew.
+  if (action.name == "explain") requested_.erase(argument(action));
   if (is_of_visit && (action.name == "explain" || (is_drive(action) && !outcome.is_done))) {
     requested_.erase(argument(action));
     mission.scheduler().finish_visit(outcome.is_done, outcome.reason, now);

@@ -55,6 +55,7 @@ class GologPlanner final : public Planner {
   [[nodiscard]] std::vector<GologTerm> news(Mission& mission, const Situation& seen, Time now);
   void watch(Mission& mission, const Situation& seen, Time now);
   void run(Mission& mission, Time now);
+  void explain_where_asked(Mission& mission, const GologTerm& action, Time now);
   void begin(Mission& mission, const GologTerm& action, Time now);
   void begin_drive(Mission& mission, const std::string& place, const GologTerm& action, Time now);
   void stop(Mission& mission, const GologTerm& action, Time now);

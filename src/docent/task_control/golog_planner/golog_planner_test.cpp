@@ -22,7 +22,7 @@ Programme line_museum() {
     exhibit.id = id;
     exhibit.pose = {x, 0, {}};
   }
-  programme.tours = {{"back", {"e12", "e1"}, 0.0}};
+  programme.tours = {{"back", {"e12", "e1"}, 0.0}, {"forth", {"e1", "e12"}, 0.0}};
   programme.home = {0, 0, {}};
   programme.charger = Pose2{0, 3, {}};
   return programme;
@@ -205,6 +205,18 @@ TEST_F(GologPlannerTest, AProgramThatRunsAwayIsReportedAndVisitorsAreServed) {
   report(TaskStatus::explaining);
   report(TaskStatus::done);
   EXPECT_EQ(status_of("1"), RequestStatus::fulfilled);
+}
+
+TEST_F(GologPlannerTest, ATourThatBeginsWhereTheLastOneEndedIsGiven) {
+  start_shipped();
+  wish("t1", RequestKind::tour, "back");  // e12, e1
+  while (task() != "explain e1") report(TaskStatus::done);
+  wish("t2", RequestKind::tour, "forth");  // e1, e12
+  wish("1", RequestKind::exhibit, "e5");
+  const Tasks done = run(40);
+  EXPECT_EQ(done.back(), "home");
+  EXPECT_NE(std::find(done.begin(), done.end(), "visit e1"), done.end()) << "it stands there, and tells it again";
+  for (const char* id : {"t1", "t2", "1"}) EXPECT_EQ(status_of(id), RequestStatus::fulfilled) << id;
 }
 
 }  // namespace
