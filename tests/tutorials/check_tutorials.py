@@ -22,7 +22,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = ROOT / "docs/tutorials"
 PATIENCE_S = 300
-BESIDE = ("docs", "museums", "scripts", "src", "tests")
+BESIDE = ("docs", "museums", "prolog", "scripts", "src", "tests")
 
 
 def binary():

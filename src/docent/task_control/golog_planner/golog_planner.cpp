@@ -192,7 +192,10 @@ void GologPlanner::begin(Mission& mission, const GologTerm& action, Time now) {
   const auto& visit = mission.scheduler().state().visit;
   const bool may_ask = action.name == "ask_more" && (!visit || visit->asks);
   const std::string kind = action.name == "wait_for_request" ? to_text(TaskKind::mingle) : action.name;
-  order(mission, action, kind, {"", {}, about, here, "", may_ask, visit ? visit->tour_id : ""}, now);
+  // Whoever is asked for more has just been told of it: the visit is over, its visitors are still there.
+  const bool goes_on = !visit && told_.exhibit == about;
+  order(mission, action, kind,
+        {"", {}, about, here, goes_on ? told_.language : "", may_ask, visit ? visit->tour_id : ""}, now);
 }
 
 void GologPlanner::stop(Mission& mission, const GologTerm& action, Time now) {
@@ -215,6 +218,7 @@ void GologPlanner::outcome(Mission& mission, const TaskOrder& order, const Actio
   const bool is_of_visit = visit && visit->exhibit_id == argument(action);
   // The program takes it for served: should it still be wanted, it is told anew.
   if (action.name == "explain") requested_.erase(argument(action));
+  if (is_of_visit) told_ = {visit->exhibit_id, visit->language};
   if (is_of_visit && (action.name == "explain" || (is_drive(action) && !outcome.is_done))) {
     requested_.erase(argument(action));
     mission.scheduler().finish_visit(outcome.is_done, outcome.reason, now);

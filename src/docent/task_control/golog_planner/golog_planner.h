@@ -71,6 +71,11 @@ class GologPlanner final : public Planner {
   bool stands_in_ = false;  ///< the plan controller decides
   Time retry_at_{};
   std::vector<UnderWay> under_way_;
+  struct Told {
+    std::string exhibit{};
+    std::string language{};
+  };
+  Told told_;                        ///< the last visit
   std::set<std::string> requested_;  ///< exhibits of which the program knows that somebody waits
   std::optional<double> told_charge_;
   bool told_lost_ = false;

@@ -16,7 +16,7 @@ namespace {
 /// Three exhibits on a line, as in [Rhino1999] Figs. 21 and 22: e5 lies between e1 and e12.
 Programme line_museum() {
   Programme programme;
-  programme.languages = {"en"};
+  programme.languages = {"en", "de"};
   for (const auto& [id, x] : {std::pair{"e1", 4.0}, std::pair{"e5", 9.0}, std::pair{"e12", 20.0}}) {
     ProgrammeExhibit& exhibit = programme.exhibits.emplace_back();
     exhibit.id = id;
@@ -217,6 +217,18 @@ TEST_F(GologPlannerTest, ATourThatBeginsWhereTheLastOneEndedIsGiven) {
   EXPECT_EQ(done.back(), "home");
   EXPECT_NE(std::find(done.begin(), done.end(), "visit e1"), done.end()) << "it stands there, and tells it again";
   for (const char* id : {"t1", "t2", "1"}) EXPECT_EQ(status_of(id), RequestStatus::fulfilled) << id;
+}
+
+TEST_F(GologPlannerTest, AsksForMoreInTheLanguageOfItsVisitors) {
+  start_shipped();
+  mission->submit({"1", {}, RequestSource::kiosk, "", RequestKind::exhibit, "e1", -1, "de"}, time());
+  pass(0.5);
+  EXPECT_EQ(mission->task().language, "de");
+  while (task() != "ask_more e1") report(TaskStatus::done);
+  EXPECT_EQ(mission->task().language, "de") << "though the visit is over";
+  report(TaskStatus::done);
+  EXPECT_EQ(task(), "home");
+  EXPECT_EQ(mission->task().language, "en");
 }
 
 }  // namespace
