@@ -95,6 +95,46 @@ await check('tall, wide and small screens', async () => {
   }
 });
 
+/** Where the yellow of a happy face lies on a canvas: how many pixels, and their mean column as a share of its width. */
+const yellow = (selector) =>
+  page.evaluate((selector) => {
+    const canvas = document.querySelector(selector);
+    const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+    let [count, sum] = [0, 0];
+    for (let i = 0; i < data.length; i += 4) {
+      if (data[i + 3] < 250 || Math.abs(data[i] - 255) > 8 || Math.abs(data[i + 1] - 214) > 14 || Math.abs(data[i + 2] - 92) > 20) continue;
+      ++count;
+      sum += ((i / 4) % canvas.width) / canvas.width;
+    }
+    return { count, x: count > 0 ? sum / count : 0 };
+  }, selector);
+
+await check('the robot on the visitors\' page shows the same mood and gaze', async () => {
+  await page.setViewportSize({ width: 1280, height: 800 });
+  await page.goto(`${stage.url}/`);
+  await page.waitForSelector('.map[data-localized=true]', { timeout: 20000 });
+  for (const isDark of [false, true]) {
+    for (const canvas of ['canvas.face', 'canvas.robot']) {
+      expression(1);
+      await until(`${canvas} is happy`, async () => (await yellow(canvas)).count > 25, 3000);
+      expression(-1);
+      await until(`${canvas} is angry`, async () => (await yellow(canvas)).count === 0, 3000);
+    }
+    await page.screenshot({ path: join(pictures, `page-angry-${isDark ? 'dark' : 'light'}.png`) });
+    await page.getByRole('button', { name: 'Light or dark' }).click();
+  }
+  expression(1, { pan: 0.7 });
+  await pause(1000);
+  const left = await yellow('canvas.face');
+  await page.screenshot({ path: join(pictures, 'page-happy.png') });
+  expression(1, { pan: -0.7 });
+  await pause(1000);
+  const right = await yellow('canvas.face');
+  ensure(left.x > right.x + 0.1, `its left is our right: ${left.x.toFixed(2)} and ${right.x.toFixed(2)}`);
+  await page.goto(`${stage.url}/face`);
+  await page.waitForSelector('main[data-connection=open]');
+});
+
 await check('without a line it is pale and calm', async () => {
   await stage.stage.stop();
   await page.waitForSelector('main.away', { timeout: 6000 });

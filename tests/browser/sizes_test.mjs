@@ -201,6 +201,40 @@ await check('a long story scrolls to the sentence that is spoken', async () => {
   robot.change = untouched;
 });
 
+await check('one wish at a time is on the way', async () => {
+  const wish = { source: 'web', visitor: 'Ada', viewpoint: -1, state: 'active', reason: '', created: 1, changed: 2 };
+  robot.change = (message) => {
+    if (message.type === 'mission') return { ...message, phase: 'driving', tour: 'highlights', exhibit: 'zuse' };
+    if (message.type !== 'board') return message;
+    return { type: 'board', open: [{ ...wish, key: '1', kind: 'tour', target: 'highlights' }, { ...wish, key: '2', kind: 'exhibit', target: 'zuse' }], closed: [] };
+  };
+  for (const socket of robot.sockets) socket.send(JSON.stringify(robot.change({ type: 'board' })));
+  await page.locator('.queue .state', { hasText: 'has begun' }).waitFor();
+  const words = await page.locator('.queue .state').allInnerTexts();
+  ensure(words.filter((word) => word === 'on the way').length === 1, words.join(', '));
+  await page.locator('.queue').screenshot({ path: join(pictures, 'tour-and-wish.png') });
+  robot.change = untouched;
+});
+
+await check('nothing scrolls into the buttons', async () => {
+  const look = () =>
+    page.evaluate(() => {
+      const [buttons, panel] = [document.querySelector('.buttons'), document.querySelector('.panel')];
+      return { bottom: buttons.getBoundingClientRect().bottom, top: panel.getBoundingClientRect().top, colour: getComputedStyle(buttons).backgroundColor };
+    });
+  for (const [width, height] of [[1400, 900], [390, 844]]) {
+    await page.setViewportSize({ width, height });
+    const { bottom, top, colour } = await look();
+    if (width > 860) ensure(top >= bottom, `${width} px: the panel begins at ${top} px, the buttons end at ${bottom} px`);
+    ensure(colour.startsWith('rgb('), `${width} px: the buttons let ${colour} through`);
+    await page.evaluate(() => [document.querySelector('.panel'), document.querySelector('main')].forEach((one) => one.scrollTo(0, 380)));
+    await pause(200);
+    await page.screenshot({ path: join(pictures, `scrolled-${width}.png`) });
+    await page.evaluate(() => [document.querySelector('.panel'), document.querySelector('main')].forEach((one) => one.scrollTo(0, 0)));
+  }
+  await page.setViewportSize({ width: 1400, height: 900 });
+});
+
 await check('a lost robot says what it does about it', async () => {
   robot.change = (message) => {
     if (message.type === 'mission') return { ...message, phase: 'driving', exhibit: 'zuse', text: { en: 'I am on my way to the Z22.' } };

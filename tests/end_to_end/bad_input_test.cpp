@@ -77,7 +77,7 @@ TEST(BadInput, UpSaysWhichOptionIsWrongBeforeAnythingStarts) {
   const TakenPort port;
   for (const auto& bad : std::vector<BadInput>{
            {"port in use", with({"--port", port.number()}), "Address already in use"},
-           {"no museum", with({"--museum", "/nowhere"}), "/nowhere/museum.yaml"},
+           {"no museum", with({"--museum", "/nowhere"}), "/nowhere: there is no such folder"},
            {"no robot.yaml", with({"--robot", "/nowhere.yaml"}), "/nowhere.yaml"},
            {"crowd of a real museum", with({"--crowd", "busy"}), "--crowd is of a simulated museum: it needs --sim"},
            {"crippled by --set", with({"--set", "evaluation.blind_to_people=yes"}),
@@ -251,7 +251,7 @@ TEST_F(BadFiles, Learning) {
            {"learn in no map", {"learn-sensor-model", "--map", no_image, "--log", standing}, "no_image.yaml:1: "},
            {"learn in no museum",
             {"learn-sensor-model", "--museum", "/nowhere", "--log", standing},
-            "/nowhere/museum.yaml"},
+            "/nowhere: there is no such folder"},
            {"learn an unknown sensor",
             {"learn-sensor-model", "--map", kMap, "--log", standing, "--sensor", "nose"},
             "--sensor"},
@@ -299,7 +299,7 @@ TEST(BadInput, Simulations) {
     return more;
   };
   for (const auto& bad : std::vector<BadInput>{
-           {"no museum", {"simulate", "--museum", "/nowhere", "--hours", "1"}, "/nowhere/museum.yaml"},
+           {"no museum", {"simulate", "--museum", "/nowhere", "--hours", "1"}, "/nowhere: there is no such folder"},
            {"no time", {"simulate", "--museum", kMuseum, "--hours", "-1"}, "--hours"},
            {"no scenario", with({"--scenario", "/nowhere.yaml"}), "/nowhere.yaml: "},
            {"scenario without a list", with({"--scenario", no_list}), "no_list.yaml:1: "},
@@ -313,6 +313,13 @@ TEST(BadInput, Simulations) {
            {"report into nothing", with({"--report", "/nowhere/report.json"}), "/nowhere/report.json"},
            {"recording into nothing", with({"--record", "/nowhere/run.mcap"}), "/nowhere/run.mcap"},
            {"unknown setting", with({"--set", "plan.wings=2"}), "--set plan.wings=2:"},
+           {"misspelt setting", with({"--set", "map.sonar.reech=1"}),
+            "--set map.sonar.reech=1: unknown key 'reech'; did you mean 'reach'? (known: "},
+           {"misspelt section", with({"--set", "mapp.reach=1"}), "unknown section 'mapp'; did you mean 'map'?"},
+           {"misspelt museum",
+            {"simulate", "--museum", kMuseum.substr(0, kMuseum.size() - 1)},
+            "/bon: there is no such folder; did you mean 'bonn'? (museums in "},
+           {"misspelt command", {"simulatee"}, "unknown command 'simulatee'; did you mean 'simulate'?"},
            {"setting out of range", with({"--set", "avoid.cycle=-1"}), "--set avoid.cycle=-1"},
            {"unknown mode", with({"--mode", "upside-down"}), "--mode upside-down"},
            {"unknown module", {"run", "nothing"}, "no module 'nothing'"},

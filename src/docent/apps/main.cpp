@@ -1,6 +1,9 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <initializer_list>
+#include <string>
+#include <vector>
 
 #include "docent/apps/attract/attract_command.h"
 #include "docent/apps/config/config_command.h"
@@ -20,28 +23,42 @@
 #include "docent/apps/simulate/simulate_command.h"
 #include "docent/apps/up/run_command.h"
 #include "docent/apps/up/up_command.h"
+#include "docent/base/suggestion.h"
+
+namespace {
+
+/// Under the headings of `docent --help`, in its order: by what somebody wants.
+void add_commands(CLI::App& app) {
+  using namespace docent::apps;
+  const auto add = [&app](const char* heading, std::initializer_list<void (*)(CLI::App&)> commands) {
+    const std::size_t before = app.get_subcommands({}).size();
+    for (const auto command : commands) command(app);
+    const std::vector<CLI::App*> all = app.get_subcommands({});
+    for (std::size_t i = before; i < all.size(); ++i) all[i]->group(heading);
+  };
+  add("Drive through a museum", {add_simulate_command, add_up_command});
+  add("Make a museum",
+      {add_museum_command, add_office_command, add_survey_command, add_check_command, add_golog_command});
+  add("Look at recordings", {add_localize_command, add_map_command, add_replay_command, add_evaluate_command});
+  add("Learn and tune",
+      {add_config_command, add_learn_command, add_attract_command, add_crowd_command, add_plan_command});
+  add("Put it into a robot of your own", {add_run_command});
+}
+
+/// The commands by name, for a misspelt one.
+std::vector<std::string> names_of_commands(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{"Docent: an autonomous museum tour guide.", "docent"};
   app.require_subcommand(1);
   app.set_version_flag("--version", "docent " DOCENT_VERSION);
-  docent::apps::add_attract_command(app);
-  docent::apps::add_check_command(app);
-  docent::apps::add_config_command(app);
-  docent::apps::add_crowd_command(app);
-  docent::apps::add_evaluate_command(app);
-  docent::apps::add_golog_command(app);
-  docent::apps::add_learn_command(app);
-  docent::apps::add_localize_command(app);
-  docent::apps::add_map_command(app);
-  docent::apps::add_museum_command(app);
-  docent::apps::add_office_command(app);
-  docent::apps::add_plan_command(app);
-  docent::apps::add_replay_command(app);
-  docent::apps::add_run_command(app);
-  docent::apps::add_simulate_command(app);
-  docent::apps::add_survey_command(app);
-  docent::apps::add_up_command(app);
+  add_commands(app);
   try {
     app.parse(argc, argv);
     return 0;
@@ -51,7 +68,8 @@ int main(int argc, char** argv) {
         argc > 1 ? app.get_subcommands([&](const CLI::App* command) { return command->get_name() == argv[1]; })
                  : std::vector<CLI::App*>{};
     if (argc > 1 && argv[1][0] != '-' && commands.empty()) {
-      std::fprintf(stderr, "docent: unknown command '%s' (try --help)\n", argv[1]);
+      const std::string meant = docent::did_you_mean(argv[1], names_of_commands(app));
+      std::fprintf(stderr, "docent: unknown command '%s'%s (try --help)\n", argv[1], meant.c_str());
       return 2;
     }
     std::fprintf(stderr, "docent: %s (try --help)\n", error.what());

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "docent/base/files.h"
+#include "docent/base/suggestion.h"
 
 namespace docent {
 namespace {
@@ -26,6 +27,9 @@ std::string on_one_line(std::string text) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
   return text;
 }
+
+/// What was parsed from an option of the command line, named after it, has no lines that its reader could look up.
+bool is_option(const std::string& name) { return name.starts_with("--"); }
 
 }  // namespace
 
@@ -50,12 +54,13 @@ Result<YamlFile> YamlFile::parse(const std::string& text, std::string name) {
   try {
     return YamlFile{YAML::Load(text), std::move(name)};
   } catch (const YAML::Exception& exception) {
-    return fail(name + ":" + std::to_string(exception.mark.line + 1) +
-                ": not valid YAML: " + on_one_line(exception.msg));
+    const std::string line = is_option(name) ? "" : ":" + std::to_string(exception.mark.line + 1);
+    return fail(name + line + ": not valid YAML: " + on_one_line(exception.msg));
   }
 }
 
 Error YamlFile::fault(const YAML::Node& at, const std::string& what) const {
+  if (is_option(name_)) return Error{name_ + ": " + on_one_line(what)};
   const int line = at.IsDefined() ? at.Mark().line : -1;
   return Error{name_ + ":" + std::to_string(line < 0 ? 1 : line + 1) + ": " + on_one_line(what)};
 }
@@ -87,7 +92,8 @@ void YamlReader::finish() const {
     if (known_.contains(key)) continue;
     std::string names;
     for (const auto& name : known_) names += (names.empty() ? "" : ", ") + name;
-    throw YamlFault{file_.fault(entry.first, "unknown key '" + key + "' (known: " + names + ")")};
+    const std::string meant = did_you_mean(key, {known_.begin(), known_.end()});
+    throw YamlFault{file_.fault(entry.first, "unknown key '" + key + "'" + meant + " (known: " + names + ")")};
   }
   if (!missing_.empty()) throw YamlFault{file_.fault(node_, "missing key '" + missing_.front() + "'")};
 }

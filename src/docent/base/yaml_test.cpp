@@ -55,6 +55,17 @@ TEST(Yaml, FaultsNameFileAndLine) {
   EXPECT_EQ(fault_of("- 1\n"), "f.yaml:1: expected a mapping (key: value)");
 }
 
+TEST(Yaml, AMisspeltKeyIsToldFromTheOneThatIsMeant) {
+  EXPECT_EQ(fault_of("name: a\ncuont: 3\n"),
+            "f.yaml:2: unknown key 'cuont'; did you mean 'count'? (known: count, name, parts)");
+  const auto option = YamlFile::parse("count: 1\nnmae: a\n", "--set count=1").value();
+  Outer outer;
+  EXPECT_EQ(read_yaml(option, option.root(), outer).error().message,
+            "--set count=1: unknown key 'nmae'; did you mean 'name'? (known: count, name, parts)")
+      << "an option has no lines";
+  EXPECT_TRUE(YamlFile::parse("a: [", "--set a").error().message.starts_with("--set a: not valid YAML"));
+}
+
 TEST(Yaml, WhatIsNoTextIsRefusedWithItsLine) {
   using std::string_literals::operator""s;
   const auto file = YamlFile::parse("leaf: 1\n\0\x1a"s, "picture.png");

@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "docent/base/files.h"
+#include "docent/museum/museum_file.h"
 #include "docent/museum/museum_reader.h"
 
 namespace docent::museum {
@@ -106,7 +107,7 @@ std::size_t sensible_pairs(const Museum& museum) {
 }
 
 Result<Museum> load_museum(const std::filesystem::path& folder) {
-  auto file = YamlFile::load(folder / "museum.yaml");
+  auto file = load_museum_file(folder);
   if (!file) return tl::unexpected<Error>(file.error());
   auto source = read_museum(*file, [&](const std::filesystem::path& relative) { return read_file(folder / relative); });
   if (!source.faults.empty()) return tl::unexpected<Error>(source.faults.front());

@@ -4,6 +4,7 @@
 #include "docent/base/files.h"
 #include "docent/grid/clearance.h"
 #include "docent/museum/museum.h"
+#include "docent/museum/museum_file.h"
 #include "docent/museum/museum_reader.h"
 
 namespace docent::museum {
@@ -133,7 +134,7 @@ void check_places(const YamlFile& file, const MuseumSource& source, const Checke
 }  // namespace
 
 std::vector<Error> check_museum(const std::filesystem::path& folder, const CheckedRobot& robot) {
-  auto file = YamlFile::load(folder / "museum.yaml");
+  auto file = load_museum_file(folder);
   if (!file) return {file.error()};
   auto source = read_museum(*file, [&](const std::filesystem::path& relative) { return read_file(folder / relative); });
   std::vector<Error> faults = source.faults;

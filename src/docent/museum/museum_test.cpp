@@ -313,6 +313,25 @@ TEST(Museum, FaultsOfOtherFilesAreNamed) {
   expect("museum.yaml: cannot be read");
 }
 
+TEST(Museum, AMisspeltFolderIsToldFromTheMuseumsBesideIt) {
+  const SmallMuseum small;
+  const std::filesystem::path folder = small.folder().parent_path();
+  const std::string name = small.folder().filename().string();
+  const auto fault = load_museum(folder / (name + "e"));
+  ASSERT_FALSE(fault);
+  const std::string& message = fault.error().message;
+  EXPECT_TRUE(message.starts_with((folder / (name + "e")).string() + ": there is no such folder; did you mean '"))
+      << message;
+  EXPECT_NE(message.find("(museums in " + folder.string() + ": "), std::string::npos) << message;
+  EXPECT_NE(message.find(name), std::string::npos) << message;
+  EXPECT_EQ(check_museum(folder / (name + "e")).at(0).message, message);
+
+  const auto nowhere = load_museum("/nowhere/hall");
+  ASSERT_FALSE(nowhere);
+  EXPECT_TRUE(nowhere.error().message.starts_with("/nowhere/hall: there is no such folder (museums in "));
+  EXPECT_NE(nowhere.error().message.find("bonn, smithsonian"), std::string::npos) << "those that come with the program";
+}
+
 TEST(Museum, EveryFaultIsNamedNotOnlyTheFirst) {
   const SmallMuseum small;
   std::string text = kMuseum;

@@ -12,7 +12,8 @@ namespace docent::pictures {
 namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
-constexpr double kDecades = 3.0;
+constexpr double kLeastDensity = 1e-4;  // [1/m2] of the colours
+constexpr double kMostDensity = 1e2;
 
 Color color_of(float percent) {
   if (percent < 0.0F) return colors::kUnknown;
@@ -88,25 +89,27 @@ void add_map_legend(Figure& figure) {
   figure.add_legend(legend_area("unknown", colors::kUnknown, colors::kGrey));
 }
 
+namespace {
+
+Color color_of_density(double density) {
+  const double decades = std::log10(kMostDensity / kLeastDensity);
+  const double share = std::clamp(std::log10(density / kLeastDensity) / decades, 0.0, 1.0);
+  return with_alpha(heat(share), static_cast<std::uint8_t>(110 + 120 * share));
+}
+
+}  // namespace
+
 void draw_density(Axes& axes, const GridFrame& frame, std::span<const float> mass) {
   const double area = frame.resolution * frame.resolution;
   std::vector<float> density{mass.begin(), mass.end()};
-  double most = 0.0;
   for (float& value : density) {
     value = static_cast<float>(static_cast<double>(value) / area);
-    most = std::max(most, static_cast<double>(value));
+    if (!(static_cast<double>(value) > kLeastDensity)) value = kNothing;
   }
-  if (!(most > 0.0)) most = 1.0;  // nothing is drawn, but the bar is there: frames of a film have one size
-  const auto color = [most](double value) {
-    const double share = std::clamp(1.0 + std::log10(value / most) / kDecades, 0.0, 1.0);
-    return with_alpha(heat(share), static_cast<std::uint8_t>(110 + 120 * share));
-  };
-  const double least = most / std::pow(10.0, kDecades);
-  for (float& value : density)
-    if (!(static_cast<double>(value) > least)) value = kNothing;
-  draw_cells(axes, frame, density, [color](float value) { return color(static_cast<double>(value)); });
-  axes.set_color_bar({"probability density [1/m²]", color, least, most, true});
+  draw_cells(axes, frame, density, [](float value) { return color_of_density(static_cast<double>(value)); });
 }
+
+ColorBar density_bar() { return {"probability density [1/m²]", color_of_density, kLeastDensity, kMostDensity, true}; }
 
 void draw_robot(Axes& axes, const Pose2& map_from_robot, double radius, Color color) {
   const double size = std::max(2.0, radius * axes.scale());
@@ -144,18 +147,6 @@ void draw_area(Axes& axes, std::span<const Point2> corners_in_map, Color color) 
 
 LegendEntry legend_of_area(std::string text, Color color) {
   return legend_area(std::move(text), color, outline_of(color));
-}
-
-void draw_note(Axes& axes, Point2 in_map, const std::string& text, Point2 anchor) {
-  const TextStyle style{.size = 6.5, .anchor = anchor};
-  const Point2 size = text_size(text, style);
-  Point2 at = axes.page(in_map);
-  const auto pushed_inside = [](double place, double length, double part, double room) {
-    return std::clamp(place, part * length, std::max(part * length, room - (1.0 - part) * length));
-  };
-  at.x = pushed_inside(at.x, size.x, anchor.x, axes.width());
-  at.y = pushed_inside(at.y, size.y, anchor.y, axes.height());
-  axes.add([=](Canvas& canvas) { canvas.draw_label(at, text, style, with_alpha(colors::kWhite, 150)); });
 }
 
 void draw_timed_path(Axes& axes, std::span<const TimedPoint> way, double width) {

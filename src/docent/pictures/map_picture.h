@@ -22,9 +22,12 @@ void draw_map(Axes& axes, const OccupancyGrid& map);
 /// What they look like, for the legend.
 void add_map_legend(Figure& figure);
 
-/// A probability for each cell (row-major), coloured by `heat` on a logarithmic scale of three decades below the
-/// greatest, what is less stays clear; with a colour bar of the density [1/m2].
+/// A probability for each cell (row-major), coloured by `heat` on a logarithmic scale of the density from 1e-4 to
+/// 100 m^-2, which is the same for all pictures: from less than uniform over a large museum to sure to 10 cm. What is
+/// less stays clear.
 void draw_density(Axes& axes, const GridFrame& frame, std::span<const float> mass);
+/// What its colours mean.
+[[nodiscard]] ColorBar density_bar();
 
 /// A disc with a line towards the front; `radius` [m].
 void draw_robot(Axes& axes, const Pose2& map_from_robot, double radius, Color color);
@@ -35,8 +38,6 @@ void draw_path(Axes& axes, std::span<const Point2> in_map, double width, Color c
 /// A filled shape with a darker outline: an area, a hazard.
 void draw_area(Axes& axes, std::span<const Point2> corners_in_map, Color color);
 [[nodiscard]] LegendEntry legend_of_area(std::string text, Color color);
-/// Text beside a place; the part `anchor` of its box lies left of and above it, unless it would not fit in the frame.
-void draw_note(Axes& axes, Point2 in_map, const std::string& text, Point2 anchor = {0.0, 1.0});
 
 /// A place at a time [s].
 struct TimedPoint {

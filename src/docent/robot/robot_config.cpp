@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "docent/base/random.h"
+#include "docent/base/suggestion.h"
 #include "docent/geometry/convex.h"
 
 namespace docent::robot {
@@ -167,7 +168,9 @@ Result<void> RobotConfig::check_sections(const std::vector<std::string>& names) 
         continue;
       std::string known = "body";
       for (const std::string& one : names) known += ", " + one;
-      return tl::unexpected<Error>(file.fault(entry.first, "unknown section '" + name + "' (known: " + known + ")"));
+      const std::string meant = did_you_mean(name, names);
+      return tl::unexpected<Error>(
+          file.fault(entry.first, "unknown section '" + name + "'" + meant + " (known: " + known + ")"));
     }
     return {};
   };

@@ -128,6 +128,13 @@ class App {
     }
   }
 
+  /** What its face shows; null while nobody says so. */
+  get feeling(): ExpressionMessage | null {
+    return this.connection === 'open' ? this.expression : null;
+  }
+  get isMoving(): boolean {
+    return this.connection === 'open' && (Math.abs(this.speed) > 0.03 || Math.abs(this.turn) > 0.1);
+  }
   t(key: Parameters<typeof word>[1]): string {
     return word(this.language, key);
   }

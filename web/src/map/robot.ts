@@ -1,35 +1,31 @@
+import { colourOf, type Expression } from '../face/expression';
+import { paintFace } from '../face/paint';
 import type { Palette } from './palette';
 
-export type Mood = 'calm' | 'driving' | 'talking' | 'lost' | 'waiting' | 'happy' | 'asleep';
-
 export interface RobotLook {
-  /** Direction it looks [rad], counter-clockwise from the x axis. */
+  /** Where its body heads [rad], counter-clockwise from the x axis. */
   heading: number;
-  mood: Mood;
+  /** What its face shows; it looks `pan` to the left of its heading. */
+  face: Expression;
+  isMoving: boolean;
+  /** Whether a wedge says exactly where it heads. */
+  hasWedge: boolean;
   time: number;
   still: boolean;
   palette: Palette;
 }
 
-const glow: Record<Mood, string> = {
-  calm: '#7ef0e0',
-  driving: '#7ef0e0',
-  talking: '#8dffb0',
-  lost: '#c9a8ff',
-  waiting: '#ffc95c',
-  happy: '#ffe27a',
-  asleep: '#6f8f9c',
-};
+const VISOR = '#262038';
 
 type Context = CanvasRenderingContext2D;
 
-/** The ground under it: a shadow, and a wedge that says exactly where it heads. */
+/** The ground under it: a shadow, and the wedge. */
 function drawGround(context: Context, r: number, look: RobotLook): void {
   context.fillStyle = look.palette.dark ? 'rgba(0,0,0,0.45)' : 'rgba(50,30,60,0.25)';
   context.beginPath();
   context.ellipse(0, r * 0.62, r * 0.95, r * 0.5, 0, 0, 7);
   context.fill();
-  if (look.mood === 'lost') return;
+  if (!look.hasWedge) return;
   context.save();
   context.rotate(-look.heading);
   context.fillStyle = look.palette.path;
@@ -43,7 +39,7 @@ function drawGround(context: Context, r: number, look: RobotLook): void {
 }
 
 /** The antenna, swinging against the motion. */
-function drawAntenna(context: Context, r: number, { heading, mood, time, still, palette }: RobotLook): void {
+function drawAntenna(context: Context, r: number, { heading, face, time, still, palette }: RobotLook): void {
   const dx = Math.cos(heading);
   const swing = still ? 0 : Math.sin(time * 5) * r * 0.08;
   context.strokeStyle = palette.dark ? '#d9d2f0' : '#4b4463';
@@ -53,7 +49,7 @@ function drawAntenna(context: Context, r: number, { heading, mood, time, still, 
   context.moveTo(-dx * r * 0.1, -r * 0.9);
   context.quadraticCurveTo(-dx * r * 0.1, -r * 1.2, swing - dx * r * 0.3, -r * 1.35);
   context.stroke();
-  context.fillStyle = mood === 'talking' && !still ? (Math.sin(time * 12) > 0 ? '#ffd166' : '#ff6b4a') : '#ff6b4a';
+  context.fillStyle = face.open > 0 && !still && Math.sin(time * 12) > 0 ? '#ffd166' : '#ff6b4a';
   context.beginPath();
   context.arc(swing - dx * r * 0.3, -r * 1.38, r * 0.16, 0, 7);
   context.fill();
@@ -73,83 +69,34 @@ function drawBody(context: Context, r: number, palette: Palette): void {
   context.stroke();
 }
 
-/** The visor slides over the ball towards where it looks; in it the face. */
-function drawVisor(context: Context, r: number, look: RobotLook): void {
-  const dx = Math.cos(look.heading);
-  const dy = -Math.sin(look.heading);
+/** The visor slides over the ball towards where the head looks; in it the face. */
+function drawVisor(context: Context, r: number, { heading, face }: RobotLook): void {
+  const dx = Math.cos(heading + face.pan);
+  const dy = -Math.sin(heading + face.pan);
   context.save();
   context.beginPath();
   context.arc(0, 0, r * 0.95, 0, 7);
   context.clip();
-  const vx = dx * r * 0.3;
-  const vy = dy * r * 0.26 + r * 0.02;
-  const vw = r * 0.72 * (1 - 0.1 * Math.abs(dx));
-  const vh = r * 0.42;
-  context.fillStyle = '#262038';
+  const x = dx * r * 0.26;
+  const y = dy * r * 0.2 + r * 0.02;
+  const wide = r * 0.78 * (1 - 0.08 * Math.abs(dx));
+  const tall = r * 0.58;
+  context.fillStyle = VISOR;
+  context.shadowColor = colourOf(face.valence);
+  context.shadowBlur = r * 0.25;
   context.beginPath();
-  context.roundRect(vx - vw, vy - vh, 2 * vw, 2 * vh, vh * 0.95);
+  context.roundRect(x - wide, y - tall, 2 * wide, 2 * tall, tall * 0.9);
   context.fill();
-  context.fillStyle = 'rgba(255,255,255,0.10)';
-  context.beginPath();
-  context.ellipse(vx - vw * 0.45, vy - vh * 0.5, vw * 0.35, vh * 0.22, -0.4, 0, 7);
-  context.fill();
-  const wander = look.mood === 'lost' && !look.still ? Math.sin(look.time * 1.7) : 0;
-  const ex = vx + dx * r * 0.12 + wander * r * 0.16;
-  const ey = vy + dy * r * 0.06 - r * 0.03;
-  drawEyes(context, ex, ey, r, look);
-  drawMouth(context, ex, ey + r * 0.2, r, look);
+  context.shadowBlur = 0;
+  // The head has turned already: in the turned face the eyes look straight on.
+  paintFace(context, x + dx * r * 0.08, y + dy * r * 0.05 - r * 0.02, r * 0.0074, { ...face, pan: 0 }, VISOR);
   context.restore();
-}
-
-/** (x, y): between the eyes. */
-function drawEyes(context: Context, x: number, y: number, r: number, { mood, time, still }: RobotLook): void {
-  const blink = !still && (time % 4.3 < 0.13 || (time + 1.7) % 7.1 < 0.11);
-  context.fillStyle = glow[mood];
-  context.strokeStyle = glow[mood];
-  context.shadowColor = glow[mood];
-  context.shadowBlur = r * 0.3;
-  context.lineWidth = r * 0.09;
-  for (const side of [-1, 1]) {
-    const cx = x + side * r * 0.27;
-    context.beginPath();
-    if (blink || mood === 'asleep') {
-      context.moveTo(cx - r * 0.1, y);
-      context.lineTo(cx + r * 0.1, y);
-      context.stroke();
-    } else if (mood === 'happy') {
-      context.arc(cx, y + r * 0.06, r * 0.12, Math.PI * 1.1, Math.PI * 1.9);
-      context.stroke();
-    } else {
-      const size = mood === 'lost' ? (side < 0 ? 0.15 : 0.11) : 0.13;
-      context.ellipse(cx, y, r * size * 0.85, r * size * (mood === 'waiting' ? 0.75 : 1.1), 0, 0, 7);
-      context.fill();
-    }
-  }
-}
-
-/** It glows as the eyes do. */
-function drawMouth(context: Context, x: number, y: number, r: number, { mood, time, still }: RobotLook): void {
-  context.lineWidth = r * 0.06;
-  context.beginPath();
-  if (mood === 'talking') {
-    const open = still ? 0.06 : 0.03 + 0.07 * Math.abs(Math.sin(time * 9) * Math.sin(time * 5.3 + 1));
-    context.ellipse(x, y + r * 0.02, r * 0.11, r * open, 0, 0, 7);
-    context.fill();
-  } else if (mood === 'lost' || mood === 'waiting') {
-    context.moveTo(x - r * 0.08, y + r * 0.02);
-    context.lineTo(x + r * 0.08, y + (mood === 'lost' ? -r * 0.02 : r * 0.02));
-    context.stroke();
-  } else if (mood !== 'asleep') {
-    context.arc(x, y - r * 0.08, r * 0.13, Math.PI * 0.2, Math.PI * 0.8);
-    context.stroke();
-  }
 }
 
 /** The robot: a round little body whose face is where it looks. (x, y) and radius in pixels. */
 export function drawRobot(context: Context, x: number, y: number, radius: number, look: RobotLook): void {
-  const { time, mood, still } = look;
-  const stays = still || mood === 'lost' || mood === 'asleep';
-  const hop = stays ? 0 : Math.abs(Math.sin(time * (mood === 'driving' ? 7 : 2.4))) * radius * 0.07;
+  const { time, isMoving, still } = look;
+  const hop = still ? 0 : Math.abs(Math.sin(time * (isMoving ? 7 : 2.4))) * radius * 0.07;
   context.save();
   context.translate(x, y);
   drawGround(context, radius, look);
@@ -164,6 +111,6 @@ export function drawRobot(context: Context, x: number, y: number, radius: number
 export function drawGhost(context: Context, x: number, y: number, radius: number, mass: number, look: RobotLook): void {
   context.save();
   context.globalAlpha = 0.2 + 0.6 * Math.min(1, mass);
-  drawRobot(context, x, y, radius * (0.75 + 0.25 * Math.min(1, mass)), { ...look, mood: 'lost' });
+  drawRobot(context, x, y, radius * (0.75 + 0.25 * Math.min(1, mass)), { ...look, hasWedge: false });
   context.restore();
 }

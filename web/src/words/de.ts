@@ -40,6 +40,7 @@ export default {
   waiting: 'gesendet, warte auf den Roboter',
   queued: 'in der Schlange',
   active: 'unterwegs',
+  begun: 'hat begonnen',
   fulfilled: 'erledigt',
   failed: 'hat nicht geklappt',
   refused: 'geht leider nicht',
@@ -74,7 +75,8 @@ export default {
   beams: 'Strahlen genutzt, Menschen gefiltert',
   modules: 'Module',
   velocities: 'Was er als Nächstes tun könnte',
-  velocitiesHelp: 'Jeder Punkt ist ein Tempo mit einer Drehung, über die er nachdenkt; helle sind gut, dunkle würden anstoßen.',
+  velocitiesHelp:
+    'Jede Marke ist ein Tempo und eine Drehung, die er erwägt: je höher, desto schneller, und links der Mitte dreht er nach links. Je grüner ein Punkt, desto besser; ein Kreuz würde etwas treffen. Der Ring ist, was er tut.',
   map: 'Karte des Museums',
   phase_waking: 'Wache gerade auf',
   phase_relocalizing: 'Wo bin ich?',

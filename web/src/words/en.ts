@@ -40,6 +40,7 @@ const words = {
   waiting: 'sent, waiting for the robot',
   queued: 'in the queue',
   active: 'on the way',
+  begun: 'has begun',
   fulfilled: 'done',
   failed: 'did not work',
   refused: 'not possible',
@@ -74,7 +75,8 @@ const words = {
   beams: 'beams used, people filtered',
   modules: 'Modules',
   velocities: 'What it could do next',
-  velocitiesHelp: 'Every dot is a pair of speed and turn it thinks about; bright ones are good, dark ones would hit something.',
+  velocitiesHelp:
+    'Every mark is a speed and a turn that it thinks about: the higher, the faster, and to the left of the middle it turns left. The greener a dot, the better; a cross would hit something. The ring is what it does.',
   map: 'Map of the museum',
   phase_waking: 'Waking up',
   phase_relocalizing: 'Where am I?',

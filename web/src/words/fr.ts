@@ -40,6 +40,7 @@ export default {
   waiting: 'envoyé, j’attends le robot',
   queued: 'dans la file',
   active: 'en route',
+  begun: 'a commencé',
   fulfilled: 'fait',
   failed: 'n’a pas marché',
   refused: 'impossible',
@@ -74,7 +75,8 @@ export default {
   beams: 'rayons utilisés, gens écartés',
   modules: 'Modules',
   velocities: 'Ce qu’il pourrait faire ensuite',
-  velocitiesHelp: 'Chaque point est une vitesse avec un virage auxquels il réfléchit ; les clairs sont bons, les sombres heurteraient quelque chose.',
+  velocitiesHelp:
+    'Chaque marque est une vitesse et une rotation qu’il envisage : plus haut, plus vite ; à gauche du milieu, il tourne à gauche. Plus un point est vert, mieux c’est ; une croix heurterait quelque chose. L’anneau est ce qu’il fait.',
   map: 'Plan du musée',
   phase_waking: 'Je me réveille',
   phase_relocalizing: 'Où suis-je ?',

@@ -96,9 +96,8 @@ void run(Options& options) {
 
 void add_attract_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
-      "attract",
-      "Learn in one-minute phases to attract people, before a simulated crowd whose taste the learner does not know");
+  CLI::App* command =
+      app.add_subcommand("attract", "Learn to attract people, before a simulated crowd of unknown taste");
   add_seed(*command, "--seed", options->run.seed, "of the crowd and the learner; same seed, same run");
   command->add_option("--taste", options->taste, "what people like: friendly, upset, neither")
       ->check(CLI::IsMember({"friendly", "upset", "neither"}))

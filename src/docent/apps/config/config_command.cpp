@@ -8,6 +8,7 @@
 #include "docent/apps/config/parameter_meanings.h"
 #include "docent/apps/shared/command.h"
 #include "docent/apps/shared/deployment.h"
+#include "docent/base/suggestion.h"
 #include "docent/modules/host/registry.h"
 #include "docent/robot/evaluation_params.h"
 #include "docent/robot/parameter_list.h"
@@ -68,8 +69,12 @@ Result<std::string> commented_config(const robot::RobotConfig& config, const std
                                       [&](const robot::ParameterRows& rows) { return rows.front().key == section; });
     if (is_known) continue;
     std::string known;
-    for (const robot::ParameterRows& rows : *all) known += (known.empty() ? "" : ", ") + rows.front().key;
-    return fail("no section '" + section + "'; there are " + known);
+    std::vector<std::string> names;
+    for (const robot::ParameterRows& rows : *all) {
+      names.push_back(rows.front().key);
+      known += (known.empty() ? "" : ", ") + names.back();
+    }
+    return fail("unknown section '" + section + "'" + did_you_mean(section, names) + " (known: " + known + ")");
   }
   std::string text = "# robot.yaml: a section a module; what is left out keeps the value that stands here.\n";
   for (const robot::ParameterRows& rows : *all) {
@@ -104,8 +109,7 @@ void add_config_command(CLI::App& app) {
     std::vector<std::string> sections;
   };
   auto options = std::make_shared<Options>();
-  auto* command = app.add_subcommand(
-      "config", "Print every key of robot.yaml with its value, unit and meaning; the output is a robot.yaml itself");
+  auto* command = app.add_subcommand("config", "Print a robot.yaml with every parameter, its unit and its meaning");
   command->add_option("section", options->sections, "Sections to print: body, avoid, localize, …; without any, all");
   command->add_option("--robot", options->deployment.robot,
                       "robot.yaml whose values are shown instead of the defaults");

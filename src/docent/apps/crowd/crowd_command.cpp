@@ -92,8 +92,7 @@ void run(Options& options) {
 void add_crowd_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
   options->method = "cautious_window";
-  CLI::App* command =
-      app.add_subcommand("crowd", "Cross a crowded hall once in virtual time, scored after HuNavSim's definitions");
+  CLI::App* command = app.add_subcommand("crowd", "Cross a crowded hall once, scored after HuNavSim's definitions");
   add_seed(*command, "--seed", options->trial.seed, "of the hall, its crowd and the noise; same seed, same run");
   command->add_option("--density", options->trial.density, "persons a square metre of free floor")
       ->capture_default_str();

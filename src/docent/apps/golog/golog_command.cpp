@@ -111,7 +111,7 @@ CLI::App* add(CLI::App& parent, const char* name, const char* meaning, const std
 }  // namespace
 
 void add_golog_command(CLI::App& app) {
-  CLI::App* golog = app.add_subcommand("golog", "Check a museum's tour program, show its plan, or try it on events");
+  CLI::App* golog = app.add_subcommand("golog", "Check a museum's tour program, show its plan, try it on events");
   golog->require_subcommand(1);
   auto options = std::make_shared<Options>();
   add(*golog, "check", "Every fault of the program, with file and line", options, check);

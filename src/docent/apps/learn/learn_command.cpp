@@ -137,8 +137,7 @@ void learn(const Options& options) {
 
 void add_learn_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("learn-sensor-model", "Learn how a sensor and the wheels err, from recordings in a known map");
+  CLI::App* command = app.add_subcommand("learn-sensor-model", "Learn from recordings how a sensor and the wheels err");
   command->add_option("--map", options->map, "map_server YAML file");
   command->add_option("--museum", options->museum, "museum folder, instead of a map");
   command

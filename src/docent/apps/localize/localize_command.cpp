@@ -80,9 +80,12 @@ LogRun run_once(const Options& options, const ReferencedLog& referenced, const O
   if (!pictures.empty()) {
     std::filesystem::create_directories(pictures);
     const std::string suffix = reverse ? "-reversed" : "";
-    if (run.updates > 0) value_or_fail(movie->save(pictures / ("belief" + suffix + ".webp")));
-    const std::size_t stride = std::max<std::size_t>(1, log.scans.size() / 25);
     const std::string extension = suffix + "." + options.picture_format;
+    if (run.updates > 0) {
+      value_or_fail(movie->save(pictures / ("belief" + suffix + ".webp")));
+      value_or_fail(movie->moments().save(pictures / ("moments" + extension)));
+    }
+    const std::size_t stride = std::max<std::size_t>(1, log.scans.size() / 25);
     value_or_fail(draw_run(map, log, run, stride, referenced.reference).save(pictures / ("scans" + extension)));
     for (std::size_t n = 1; n <= 12; ++n) {
       const std::size_t i = n * log.scans.size() / 13;

@@ -13,6 +13,7 @@ constexpr double kRobotRadius = 0.3;  // [m] in pictures
 constexpr double kDot = 1.5;          // [points] diameter of an endpoint
 constexpr double kWay = 1.0;          // [points]
 constexpr double kReferenceWay = 3.0;
+constexpr double kJump = 1.0;  // [m] more than the wheels say: the robot was carried, or thinks better of its place
 constexpr pictures::Color kReference = pictures::with_alpha(pictures::colors::kGrey, 150);
 
 std::vector<Point2> endpoints_at(const recording::LoggedScan& scan, double max_range, const Pose2& map_from_laser) {
@@ -44,11 +45,29 @@ void add_robot_legend(pictures::Figure& figure) {
 
 }  // namespace
 
-pictures::Figure draw_belief(const OccupancyGrid& map, const localization::Localizer& localizer,
-                             const recording::LaserLog& log, std::size_t scan) {
-  // The moment stands over the frame, where it takes the same room whatever it says: frames of a film have one size.
-  pictures::Figure figure{""};
-  pictures::Axes& axes = figure.add(pictures::Axes::metres(map.frame, 400.0));
+std::vector<std::vector<Point2>> ways_of(const recording::LaserLog& log, const LogRun& run) {
+  std::vector<std::vector<Point2>> ways;
+  const LoggedPose* last = nullptr;
+  for (const LoggedPose& pose : run.poses) {
+    if (!pose.localized) {
+      last = nullptr;
+      continue;
+    }
+    const Point2 place = pose.map_from_base.position();
+    const auto driven = [&] {
+      const Pose2& from = log.scans[last->scan].odom_from_base;
+      return distance(from.position(), log.scans[pose.scan].odom_from_base.position());
+    };
+    if (last == nullptr || distance(last->map_from_base.position(), place) > driven() + kJump) ways.emplace_back();
+    ways.back().push_back(place);
+    last = &pose;
+  }
+  return ways;
+}
+
+pictures::Axes belief_axes(const OccupancyGrid& map, const localization::Localizer& localizer,
+                           const recording::LaserLog& log, std::size_t scan) {
+  pictures::Axes axes = pictures::Axes::metres(map.frame, 400.0);
   axes.set_title(moment_of(log, scan));
   pictures::draw_map(axes, map);
   const localization::PositionDensity density = localizer.density();
@@ -62,18 +81,26 @@ pictures::Figure draw_belief(const OccupancyGrid& map, const localization::Local
                           pictures::with_alpha(color, 180));
     pictures::draw_robot(axes, map_from_base, kRobotRadius, color);
   }
-  pictures::add_map_legend(figure);
-  add_robot_legend(figure);
-  return figure;
+  return axes;
 }
 
 bool BeliefMovie::is_full() const { return frames_localized_ >= 12 || frames_ >= 150; }
 
 Result<void> BeliefMovie::add(const localization::Localizer& localizer, std::size_t scan) {
   ++frames_;
-  if (localizer.verdict().localized()) ++frames_localized_;
+  const bool is_localized = localizer.verdict().localized();
+  if (is_localized) ++frames_localized_;
+  pictures::Axes axes = belief_axes(map_, localizer, log_, scan);
+  if (frames_ == 1 || frames_ == 3 || frames_ == 5) first_.push_back(axes);
+  if (frames_localized_ == 0 || (is_localized && frames_localized_ == 1)) known_ = axes;
+  axes.set_color_bar(pictures::density_bar());
+  // The moment stands over the frame, where it takes the same room whatever it says: frames of a film have one size.
+  pictures::Figure figure{""};
+  figure.add(std::move(axes));
+  pictures::add_map_legend(figure);
+  add_robot_legend(figure);
+  const pictures::Image frame = figure.raster();
   const Duration shown = std::chrono::milliseconds(is_full() ? 3000 : 300);
-  const pictures::Image frame = draw_belief(map_, localizer, log_, scan).raster();
   if (!animation_) {
     auto animation = pictures::Animation::create(frame.width(), frame.height());
     if (!animation) return tl::unexpected<Error>(animation.error());
@@ -85,6 +112,17 @@ Result<void> BeliefMovie::add(const localization::Localizer& localizer, std::siz
 Result<void> BeliefMovie::save(const std::filesystem::path& path) {
   if (!animation_) return fail(path.string() + ": a movie needs a frame");
   return animation_->save(path);
+}
+
+pictures::Figure BeliefMovie::moments() const {
+  std::vector<pictures::Axes> all = first_;
+  if (known_) all.push_back(*known_);
+  if (!all.empty()) all[std::min<std::size_t>(1, all.size() - 1)].set_color_bar(pictures::density_bar());
+  pictures::Figure figure{"The belief at four moments"};
+  for (std::size_t i = 0; i < all.size(); ++i) figure.add(std::move(all[i]), i == 2);
+  pictures::add_map_legend(figure);
+  add_robot_legend(figure);
+  return figure;
 }
 
 pictures::Figure draw_scan(const OccupancyGrid& map, const recording::LaserLog& log, const LoggedPose& pose) {
@@ -120,19 +158,16 @@ pictures::Figure draw_run(const OccupancyGrid& map, const recording::LaserLog& l
     figure.add_legend(pictures::legend_line("reference trajectory", kReferenceWay, kReference));
   }
   const auto color_at = [end](double seconds) { return pictures::rainbow(end > 0.0 ? seconds / end : 0.0); };
-  std::vector<Point2> way;
-  for (std::size_t i = 0; i < run.poses.size(); ++i) {
+  for (const std::vector<Point2>& way : ways_of(log, run)) pictures::draw_path(axes, way, kWay, pictures::colors::kInk);
+  for (std::size_t i = 0; i < run.poses.size(); i += stride) {
     const LoggedPose& pose = run.poses[i];
     if (!pose.localized) continue;
-    way.push_back(pose.map_from_base.position());
-    if (i % stride != 0) continue;
     const pictures::Color color = color_at(seconds_into(log, i));
     pictures::draw_points(axes,
                           endpoints_at(log.scans[i], log.max_range, pose.map_from_base * log.scans[i].base_from_laser),
                           kDot, color);
     pictures::draw_robot(axes, pose.map_from_base, kRobotRadius, color);
   }
-  pictures::draw_path(axes, way, kWay, pictures::colors::kInk);
   figure.add_legend(pictures::legend_line("trajectory while localized", kWay, pictures::colors::kInk));
   figure.add_legend(
       pictures::legend_disc("robot and scan, some of them, at the time of their colour", 6.0, color_at(0.5 * end)));

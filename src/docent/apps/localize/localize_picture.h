@@ -10,30 +10,39 @@
 
 namespace docent::apps {
 
-/// The belief finding itself, one frame an update until some time after the robot knows, as an animated WebP.
+/// The belief finding itself: a film of one frame an update until some time after the robot knows where it is, and a
+/// figure of four of these moments.
 class BeliefMovie {
  public:
   /// @pre both outlive the movie
   BeliefMovie(const OccupancyGrid& map, const recording::LaserLog& log) : map_{map}, log_{log} {}
   [[nodiscard]] Result<void> add(const localization::Localizer& localizer, std::size_t scan);
+  /// An animated WebP.
   [[nodiscard]] Result<void> save(const std::filesystem::path& path);
+  /// The first, the third and the fifth update, and the first after which the robot knew (or the last one).
+  [[nodiscard]] pictures::Figure moments() const;
   [[nodiscard]] bool is_full() const;  ///< enough frames
 
  private:
   const OccupancyGrid& map_;
   const recording::LaserLog& log_;
   std::optional<pictures::Animation> animation_;  ///< since the first frame, which says how large they are
+  std::vector<pictures::Axes> first_;
+  std::optional<pictures::Axes> known_;
   int frames_ = 0;
   int frames_localized_ = 0;
 };
 
-/// Belief summed over headings, the scan at the best pose.
-[[nodiscard]] pictures::Figure draw_belief(const OccupancyGrid& map, const localization::Localizer& localizer,
-                                           const recording::LaserLog& log, std::size_t scan);
+/// Belief summed over headings, the scan at the best pose; without its colour bar.
+[[nodiscard]] pictures::Axes belief_axes(const OccupancyGrid& map, const localization::Localizer& localizer,
+                                         const recording::LaserLog& log, std::size_t scan);
 
 /// One scan at its pose, 24 m of the map around the robot.
 [[nodiscard]] pictures::Figure draw_scan(const OccupancyGrid& map, const recording::LaserLog& log,
                                          const LoggedPose& pose);
+
+/// Where the robot was while it knew, in pieces: one ends where it does not know, or where its pose jumps.
+[[nodiscard]] std::vector<std::vector<Point2>> ways_of(const recording::LaserLog& log, const LogRun& run);
 
 /// The way through the map, and scans drawn at their poses along it (every `stride`-th). Beneath it the reference's
 /// way, broad, where there is one.

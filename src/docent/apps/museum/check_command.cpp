@@ -104,7 +104,7 @@ void check(const Deployment& deployment, bool lists_recordings) {
 }  // namespace
 
 void add_check_command(CLI::App& app) {
-  auto* command = app.add_subcommand("check", "Validate a museum; every fault is named with file and line");
+  auto* command = app.add_subcommand("check", "Check a museum; every fault is named with file and line");
   auto deployment = std::make_shared<Deployment>();
   command->add_option("museum", deployment->museum, "Folder with a museum.yaml")->required();
   command->add_option("--robot", deployment->robot, "robot.yaml of the robot that must fit; without it all defaults");

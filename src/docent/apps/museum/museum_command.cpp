@@ -108,10 +108,7 @@ void run(const MuseumOptions& options) {
 }  // namespace
 
 void add_museum_command(CLI::App& app) {
-  auto* command = app.add_subcommand(
-      "museum",
-      "Make a museum folder from a map: a true world traced from it, exhibits, hazards, recorded people, and "
-      "the map that a survey of it gives the robot");
+  auto* command = app.add_subcommand("museum", "Make a museum folder from a map: exhibits, hazards, recorded people");
   auto options = std::make_shared<MuseumOptions>();
   command->add_option("map", options->map, "map.yaml of map_server")->required();
   command->add_option("--out", options->out, "Folder for museum.yaml, simulation.yaml, the map and texts")

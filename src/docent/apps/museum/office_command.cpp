@@ -35,8 +35,7 @@ void run(const OfficeOptions& options) {
 }  // namespace
 
 void add_office_command(CLI::App& app) {
-  auto* command = app.add_subcommand(
-      "office", "Draw an office building: a museum folder with a true world and the map that a survey of it gives");
+  auto* command = app.add_subcommand("office", "Make a museum folder of an invented office building");
   auto options = std::make_shared<OfficeOptions>();
   command->add_option("--out", options->out, "Folder for museum.yaml, simulation.yaml, the map and texts")
       ->check(output_folder())

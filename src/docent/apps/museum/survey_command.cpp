@@ -48,8 +48,7 @@ void run(const SurveyOptions& options) {
 }  // namespace
 
 void add_survey_command(CLI::App& app) {
-  auto* command = app.add_subcommand(
-      "survey", "Draw a robot's map and hazards from a true world, with the small errors that a survey has");
+  auto* command = app.add_subcommand("survey", "Draw the robot's map of a true world, with a survey's small errors");
   auto options = std::make_shared<SurveyOptions>();
   command->add_option("--world", options->world, "simulation.yaml")->required();
   command->add_option("--out", options->out, "Folder for map.yaml, map.pgm and hazards.yaml")

@@ -138,8 +138,7 @@ void plan(Options& options) {
 
 void add_plan_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
-      "plan", "Plan the way through a map to a goal, or to the nearest of several, with its cost and a picture");
+  CLI::App* command = app.add_subcommand("plan", "Plan the way through a map to a goal, with its cost and a picture");
   command->add_option("--map", options->map, "map_server YAML file");
   command->add_option("--museum", options->museum, "folder of a museum, instead of a map: with its area and hazards");
   command->add_option("--from", options->from, "X,Y in metres, map frame")->required();

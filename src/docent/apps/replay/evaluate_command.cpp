@@ -47,8 +47,7 @@ void evaluate(const Options& options) {
 
 void add_evaluate_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("evaluate", "Compute the deployment report again from a recording and its truth channel");
+  CLI::App* command = app.add_subcommand("evaluate", "Compute the report of a run again, from its recording");
   command->add_option("recording", options->recording, "MCAP file")->required();
   command->add_option("--report", options->report, "JSON file to write")->check(output_file());
   command->callback([options] { evaluate(*options); });

@@ -85,7 +85,7 @@ void replay_recording(Options& options) {
 
 void add_replay_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("replay", "Run modules again, in virtual time, on what was recorded");
+  CLI::App* command = app.add_subcommand("replay", "Run modules again on what a recording's sensors saw");
   command->add_option("recording", options->replay.recording, "MCAP file")->required();
   command->add_option("--modules", options->replay.modules, "Which, separated by commas; without it all but sound")
       ->delimiter(',');

@@ -13,6 +13,7 @@
 #include "docent/apps/shared/cache_folder.h"
 #include "docent/apps/shared/command.h"
 #include "docent/apps/shared/deployment.h"
+#include "docent/apps/simulate/progress.h"
 #include "docent/apps/simulate/simulation_run.h"
 #include "docent/base/files.h"
 #include "docent/museum/museum.h"
@@ -68,24 +69,23 @@ void simulate(Options& options) {
   const auto wall_s = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count();
   };
-  const bool shows_progress = !options.quiet && ::isatty(STDERR_FILENO) != 0;
+  Progress progress{::isatty(STDERR_FILENO) != 0};
   // Steps of a tenth of a second when paced, so that the page is smooth.
   const Duration step = options.pace > 0.0 ? seconds(0.1) : seconds(10.0);
-  double next_progress = 0.0;
   while (run->now() < end) {
     value_or_fail(run->run_until(std::min(run->now() + step, end)));
     if (options.pace > 0.0) {
       const double ahead = to_seconds(run->now()) / options.pace - wall_s();
       if (ahead > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(ahead));
     }
-    if (shows_progress && wall_s() > next_progress) {
-      next_progress = wall_s() + 0.5;
-      const double done = to_seconds(run->now()) / to_seconds(end);
-      std::fprintf(stderr, "\r%3.0f %% of %.2f h, %.1f x real time. %s\033[K", 100.0 * done, options.hours,
-                   to_seconds(run->now()) / wall_s(), run->status().c_str());
-    }
+    const double done = to_seconds(run->now()) / to_seconds(end);
+    if (options.quiet || !progress.is_due(done, wall_s())) continue;
+    char line[200];
+    std::snprintf(line, sizeof line, "%3.0f %% of %.2f h, %.1f x real time. %s", 100.0 * done, options.hours,
+                  to_seconds(run->now()) / wall_s(), run->status().c_str());
+    std::fputs(progress.shown(line).c_str(), stderr);
   }
-  if (shows_progress) std::fprintf(stderr, "\r\033[K");
+  if (!options.quiet) std::fputs(progress.end().c_str(), stderr);
   value_or_fail(run->finish());
   if (!options.report.empty()) value_or_fail(write_file_atomically(options.report, run->report_json() + "\n"));
   if (!options.picture.empty()) value_or_fail(run->save_picture(options.picture));
@@ -98,8 +98,8 @@ void simulate(Options& options) {
 void add_simulate_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
   options->run.museum = default_museum();
-  CLI::App* command = app.add_subcommand(
-      "simulate", "The whole robot in a simulated museum in virtual time, as fast as the machine allows");
+  CLI::App* command =
+      app.add_subcommand("simulate", "Run the whole robot in a simulated museum, faster than real time");
   command->add_option("--museum", options->run.museum, "museum folder")->capture_default_str();
   command->add_option("--robot", options->run.robot, "robot.yaml; without: all defaults");
   command->add_option("--hours", options->hours, "virtual hours")->capture_default_str();

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "docent/messages/conversions.h"
+#include "docent/pictures/notes.h"
 
 namespace docent::apps {
 namespace {
@@ -53,7 +54,9 @@ Result<void> SimulationPicture::save(const museum::Museum& museum, const std::st
   std::vector<Point2> exhibits;
   for (const auto& exhibit : museum.exhibits) exhibits.push_back(exhibit.pose.position());
   pictures::draw_points(axes, exhibits, kDot, kExhibit);
-  for (const auto& exhibit : museum.exhibits) pictures::draw_note(axes, exhibit.pose.position(), exhibit.id);
+  std::vector<pictures::Note> names;
+  for (const auto& exhibit : museum.exhibits) names.push_back({exhibit.pose.position(), exhibit.id});
+  pictures::draw_notes(axes, names);
   axes.add([places = axes.page(contacts_)](pictures::Canvas& canvas) {
     for (const Point2 place : places) canvas.draw_circle(place, 0.5 * kRing, 1.0, kTouch);
   });

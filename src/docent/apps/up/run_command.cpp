@@ -74,7 +74,7 @@ void run(const Options& options) {
 
 void add_run_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("run", "Run one module as a process; modules may live on several computers");
+  CLI::App* command = app.add_subcommand("run", "Run one module as a process, perhaps on another computer");
   command->add_option("module", options->module, module_names())->required();
   options->deployment.add_options(*command);
   options->simulator.add_options(*command->add_option_group("For the simulator"));

@@ -196,7 +196,7 @@ void up(const Options& options) {
 
 void add_up_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("up", "Start every module as a process, supervise and restart it");
+  CLI::App* command = app.add_subcommand("up", "Run the robot: every module as a process, watched and restarted");
   options->deployment.add_options(*command);
   command->add_flag("--sim", options->simulate, "Simulate the museum, its visitors and the robot's body");
   command->add_option("--port", options->port, "Port of the page")->check(CLI::Range(1, 65535))->capture_default_str();

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
+
+#include "docent/pictures/notes.h"
 
 namespace docent::simulator {
 namespace {
@@ -50,6 +53,24 @@ Point2 middle(const Polygon& polygon) {
   return (1.0 / static_cast<double>(polygon.size())) * sum;
 }
 
+/// Of the places that people like, and of the large things that are no such place.
+void draw_names(pictures::Axes& axes, const World& world) {
+  std::vector<pictures::Note> names;
+  for (const auto& attraction : world.attractions) names.push_back({attraction.centre, attraction.id, {0.5, 0.5}});
+  for (const Solid& solid : world.solids) {
+    const Point2 centre = middle(solid.polygon);
+    const bool is_named = std::any_of(world.attractions.begin(), world.attractions.end(),
+                                      [&](const Attraction& a) { return distance(a.centre, centre) < a.radius; });
+    if ((solid.kind == SolidKind::plate || solid.kind == SolidKind::stairs || solid.kind == SolidKind::furniture) &&
+        !is_named && std::abs(signed_area(solid.polygon)) > 0.5) {
+      names.push_back({centre, solid.id, {0.5, 0.5}});
+    }
+  }
+  std::vector<Point2> dots = world.entrances;
+  dots.push_back(world.home);
+  pictures::draw_notes(axes, names, dots, kDot);
+}
+
 }  // namespace
 
 void draw_world(pictures::Axes& axes, const World& world) {
@@ -79,20 +100,10 @@ void draw_world(pictures::Axes& axes, const World& world) {
     axes.add([centre = axes.page(attraction.centre), radius = attraction.radius * axes.scale()](
                  pictures::Canvas& canvas) { canvas.draw_circle(centre, radius, kLine, kAttraction); });
   }
-  for (const auto& attraction : world.attractions)
-    pictures::draw_note(axes, attraction.centre, attraction.id, {0.5, 0.5});
-  for (const Solid& solid : world.solids) {
-    const Point2 centre = middle(solid.polygon);
-    const bool is_named = std::any_of(world.attractions.begin(), world.attractions.end(),
-                                      [&](const Attraction& a) { return distance(a.centre, centre) < a.radius; });
-    if ((solid.kind == SolidKind::plate || solid.kind == SolidKind::stairs || solid.kind == SolidKind::furniture) &&
-        !is_named && std::abs(signed_area(solid.polygon)) > 0.5) {
-      pictures::draw_note(axes, centre, solid.id, {0.5, 0.5});
-    }
-  }
   pictures::draw_points(axes, world.entrances, kDot, pictures::colors::kOrange);
   const Point2 home[] = {world.home};
   pictures::draw_points(axes, home, kDot, pictures::colors::kBlue);
+  draw_names(axes, world);
 }
 
 void draw_operating_area(pictures::Axes& axes, const World& world) {

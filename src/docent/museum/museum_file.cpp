@@ -1,0 +1,48 @@
+#include "docent/museum/museum_file.h"
+
+#include <algorithm>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "docent/base/shipped_files.h"
+#include "docent/base/suggestion.h"
+
+namespace docent::museum {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The names of the museums in `folder`, sorted.
+std::vector<std::string> museums_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code code;
+  for (fs::directory_iterator entry{folder, code}, end; !code && entry != end; entry.increment(code)) {
+    std::error_code ignored;
+    if (fs::is_regular_file(entry->path() / "museum.yaml", ignored)) names.push_back(entry->path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string no_museum(const fs::path& given) {
+  const fs::path folder = given.has_filename() ? given : given.parent_path();
+  fs::path beside = folder.has_parent_path() ? folder.parent_path() : fs::path{"."};
+  std::vector<std::string> names = museums_in(beside);
+  if (names.empty()) names = museums_in(beside = shipped_path("museums"));
+  std::string text = folder.string() + ": there is no such folder" + did_you_mean(folder.filename().string(), names);
+  if (names.empty()) return text;
+  text += " (museums in " + beside.string() + ": ";
+  for (const std::string& name : names) text += (name == names.front() ? "" : ", ") + name;
+  return text + ")";
+}
+
+}  // namespace
+
+Result<YamlFile> load_museum_file(const fs::path& folder) {
+  std::error_code code;
+  if (!fs::exists(folder, code)) return fail(no_museum(folder));
+  return YamlFile::load(folder / "museum.yaml");
+}
+
+}  // namespace docent::museum
