@@ -139,6 +139,10 @@ void add_simulate_command(CLI::App& app) {
           "CSV file to write: events, reactions to blocked ways, lines said and touches, with times and places")
       ->check(output_file());
   command
+      ->add_option("--request-log", options->run.request_log,
+                   "CSV file to write: requests, what became of them, explanations and orders of visits, with places")
+      ->check(output_file());
+  command
       ->add_option("--travel-times", options->run.travel_times,
                    "CSV file to write: how long the ways between places took, as the robot has learned it")
       ->check(output_file());
