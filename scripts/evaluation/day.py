@@ -280,7 +280,10 @@ def decisions_of(record, museum, lengths):
     for at, start, order in record.chosen:
         waiting = [r for r in record.requests.values() if r.kind == "exhibit" and r.state_at(at) == "queued"]
         due = [r for r in waiting if not r.was_tried(at)]
-        asked = {(r.target, r.viewpoint) for r in waiting}
+        # What the board told at that very moment may have come just before the choice, or just after.
+        just_now = [r for r in record.requests.values() if r.kind == "exhibit" and any(when == at and state in ("queued", "active")
+                                                                                              for when, state, _ in r.steps)]
+        asked = {(r.target, r.viewpoint) for r in waiting + just_now}
         left_out = [r for r in due if not any(name == r.target and (r.viewpoint in (-1, viewpoint)) for name, viewpoint in order)]
         unasked = [stop for stop in order if stop not in asked and (stop[0], -1) not in asked]
         if left_out or unasked:
