@@ -146,6 +146,7 @@ TEST_F(HeadModuleTest, CrippledItHasNoMoods) {
   ASSERT_TRUE(config.set("evaluation.without_moods=true"));
   start();
   set_task("visit", "driving");
+  wanted_in_base = Angle::degrees(20.0);
   put_person(7, {1.4, 0.6});
   is_blocked = true;
   live(60.0);
