@@ -169,7 +169,7 @@ const std::optional<Visit>& TourScheduler::begin_visit(Point2 robot, Time now, d
       continue;
     }
     const std::vector<WishedStop> order = single_order(robot, now);
-    const WishedStop next = order.front();
+    const WishedStop& next = order.front();
     if (const auto tour = waiting_tour_to(next.exhibit_id, now)) {
       if (!begin_tour(*tour, robot, now, budget_s)) break;
       continue;
