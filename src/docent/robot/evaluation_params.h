@@ -19,6 +19,9 @@ struct EvaluationParams {
   bool ignores_live_map = false;         ///< plan: with the static map alone
   bool keeps_all_people = false;         ///< people: nobody is ever forgotten, and every thing is a person
   bool without_ladder = false;           ///< executive: it stands before what is in its way
+  bool forgets_requests = false;         ///< mission: begins with an empty board whenever it starts
+  bool serves_by_arrival = false;        ///< mission: single exhibits in the order in which they were asked for
+  bool without_moods = false;            ///< head, executive: a neutral face, and nobody is asked for way
   bool never_explores = false;           ///< attract: does what it knows best and nothing else
   bool ignores_reward = false;           ///< attract: remembers each phase as worth nothing
   template <class V>
@@ -35,6 +38,9 @@ struct EvaluationParams {
     v("ignores_live_map", ignores_live_map);
     v("keeps_all_people", keeps_all_people);
     v("without_ladder", without_ladder);
+    v("forgets_requests", forgets_requests);
+    v("serves_by_arrival", serves_by_arrival);
+    v("without_moods", without_moods);
     v("never_explores", never_explores);
     v("ignores_reward", ignores_reward);
   }

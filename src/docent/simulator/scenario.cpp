@@ -340,7 +340,13 @@ class EventReader {
                choice<std::string>(at, {{"exhibit", "exhibit"}, {"tour", "tour"}}, event.kind);
              }},
             {"target", into(event.target)},
-            {"language", into(event.language)}},
+            {"viewpoint", [&](const YAML::Node& at) { event.viewpoint = static_cast<int>(number(at, -1.0, 1000.0)); }},
+            {"language", into(event.language)},
+            {"source",
+             [&](const YAML::Node& at) {
+               choice<std::string>(at, {{"visitor", "visitor"}, {"kiosk", "kiosk"}, {"web", "web"}, {"staff", "staff"}},
+                                   event.source);
+             }}},
            {"target"});
     return event;
   }

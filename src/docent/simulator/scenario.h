@@ -108,7 +108,9 @@ struct LaserReach {
 struct Wish {
   std::string kind = "exhibit";  ///< exhibit or tour
   std::string target;
+  int viewpoint = -1;  ///< of the exhibit; -1: from anywhere
   std::string language = "en";
+  std::string source;  ///< who asks: visitor, kiosk, web, staff; empty: as the run's other visitors
 };
 /// A signal to a module: carried out by the application.
 struct Kill {

@@ -22,12 +22,13 @@ TEST(Scenario, ReadsEveryKindOfEventInOrderOfTime) {
   - {at: 99, fault: {sensor: tactile, kind: half}}
   - {at: 100, visitors: {count: 4, at: [5, 5], formation: wall, heading: 90, heeds: 0.5}}
   - {at: 105, pushers: {count: 5, at: [6, 7], heading: -90, for: 120}}
+  - {at: 107, request: {target: airbus, viewpoint: 3, source: web}}
   - {at: 110, runners: {count: 3, at: [6, 7], within: 2.5}}
 )",
                                        "s.yaml");
   ASSERT_TRUE(scenario) << scenario.error().message;
   const auto& events = scenario->events;
-  ASSERT_EQ(events.size(), 15U);
+  ASSERT_EQ(events.size(), 16U);
   const auto& kidnap = std::get<Kidnap>(events[0].what);
   ASSERT_TRUE(kidnap.to);
   EXPECT_DOUBLE_EQ(kidnap.to->y, 4.5);
@@ -44,6 +45,10 @@ TEST(Scenario, ReadsEveryKindOfEventInOrderOfTime) {
   EXPECT_EQ(std::get<Visitors>(events[6].what).formation, Formation::wall);
   EXPECT_EQ(std::get<Visitors>(events[6].what).count, 6);
   EXPECT_EQ(std::get<Wish>(events[7].what).kind, "tour");
+  EXPECT_EQ(std::get<Wish>(events[7].what).viewpoint, -1);
+  EXPECT_EQ(std::get<Wish>(events[7].what).source, "");
+  EXPECT_EQ(std::get<Wish>(events[13].what).viewpoint, 3);
+  EXPECT_EQ(std::get<Wish>(events[13].what).source, "web");
   EXPECT_DOUBLE_EQ(std::get<SecondMode>(events[8].what).at.y, 4.0);
   EXPECT_DOUBLE_EQ(std::get<SecondMode>(events[8].what).duration, 20.0);
   EXPECT_NEAR(std::get<OdometryJump>(events[9].what).by.theta.degrees(), -40.0, 1e-9);
@@ -53,9 +58,9 @@ TEST(Scenario, ReadsEveryKindOfEventInOrderOfTime) {
   EXPECT_DOUBLE_EQ(*std::get<Visitors>(events[11].what).heeds, 0.5);
   EXPECT_NEAR(std::get<Pushers>(events[12].what).heading, -1.5708, 1e-4);
   EXPECT_EQ(std::get<Pushers>(events[12].what).count, 5);
-  EXPECT_DOUBLE_EQ(std::get<Runners>(events[13].what).within, 2.5);
-  EXPECT_EQ(std::get<Kill>(events[14].what).signal, "stop");
-  EXPECT_DOUBLE_EQ(events[14].at, 300.0);
+  EXPECT_DOUBLE_EQ(std::get<Runners>(events[14].what).within, 2.5);
+  EXPECT_EQ(std::get<Kill>(events[15].what).signal, "stop");
+  EXPECT_DOUBLE_EQ(events[15].at, 300.0);
 }
 
 TEST(Scenario, ReadsAWayAndAReach) {

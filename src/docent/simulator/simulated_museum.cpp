@@ -72,6 +72,8 @@ void SimulatedMuseum::Impl::command(const geometry_msgs::Twist& twist) {
 
 void SimulatedMuseum::Impl::hear_speech(const docent_msgs::SpeechState& speech) {
   if (parse<SpeechStatus>(speech.state) != SpeechStatus::speaking) return crowd_.hear_speech(-1.0);
+  if (speech.id.find("/please-") != std::string::npos)
+    return crowd_.hear_request(run_seconds());  // no tale to gather for
   const Time end = from_message(speech.start) + seconds(speech.duration);
   crowd_.hear_speech(to_seconds(end - start_));
 }
@@ -282,6 +284,7 @@ SimulatedMuseum::SimulatedMuseum(transport::Bus& robot_bus, transport::Bus& trut
   listen(topics::kCommandVelocity, [](Impl& impl, const geometry_msgs::Twist& twist) { impl.command(twist); });
   listen(topics::kHorn, [](Impl& impl, const docent_msgs::Horn&) { impl.hear_horn(); });
   listen(topics::kSpeechState, [](Impl& impl, const docent_msgs::SpeechState& speech) { impl.hear_speech(speech); });
+  listen(topics::kExpression, [](Impl& impl, const docent_msgs::Expression& expression) { impl.see_face(expression); });
   listen(topics::kRequestBoard, [](Impl& impl, const docent_msgs::RequestBoard& board) { impl.see_board(board); });
   listen(topics::kMissionState,
          [](Impl& impl, const docent_msgs::MissionState& mission) { impl.see_mission(mission); });

@@ -39,7 +39,8 @@ struct SimulationOptions {
 /// what it missed by more than half a second. Bit-for-bit the same for the same options and commands.
 class SimulatedMuseum {
  public:
-  /// Subscribes cmd_vel, docent/horn, docent/speech_state, docent/request_board and docent/mission_state; publishes
+  /// Subscribes cmd_vel, docent/horn, docent/speech_state, docent/expression, docent/request_board and
+  /// docent/mission_state; publishes
   /// what its hardware has of scan_front, scan_rear, scan_left, scan_right, sonar, infrared and tactile, and odom,
   /// battery_state, docent/request and docent/choice, and the truth. The truth is posted to `truth_bus`, so under DDS
   /// both buses must be run, each on a thread of its own if need be. Both buses must outlive it or die before the next

@@ -27,6 +27,7 @@ class SimulatedMuseum::Impl {
   void command(const geometry_msgs::Twist& twist);
   void hear_horn() { crowd_.hear_horn(run_seconds()); }
   void hear_speech(const docent_msgs::SpeechState& speech);
+  void see_face(const docent_msgs::Expression& expression) { crowd_.see_face(expression.valence); }
   void see_board(const docent_msgs::RequestBoard& board) { visitors_.see_board(board); }
   void see_mission(const docent_msgs::MissionState& mission) { visitors_.see_mission(bus_.now(), mission); }
 

@@ -50,7 +50,8 @@ double WishingVisitors::next_gap() {
 
 std::string WishingVisitors::new_id(Time now) { return make_uuid_v7(now, id_rng_); }
 
-void WishingVisitors::ask(Time now, const std::string& kind, const std::string& target, const std::string& language) {
+docent_msgs::Request& WishingVisitors::ask(Time now, const std::string& kind, const std::string& target,
+                                           const std::string& language) {
   docent_msgs::Request request;
   request.id = new_id(now);
   request.stamp = to_message(now);
@@ -60,7 +61,7 @@ void WishingVisitors::ask(Time now, const std::string& kind, const std::string& 
   request.kind = kind;
   request.target = target;
   request.language = language;
-  open_.push_back({std::move(request), now, false});
+  return open_.emplace_back(Open{std::move(request), now, false}).request;
 }
 
 std::string WishingVisitors::language() {
@@ -69,7 +70,11 @@ std::string WishingVisitors::language() {
   return params_.languages.at(std::min(pick, count - 1));
 }
 
-void WishingVisitors::ask(Time now, const Wish& wish) { ask(now, wish.kind, wish.target, wish.language); }
+void WishingVisitors::ask(Time now, const Wish& wish) {
+  docent_msgs::Request& request = ask(now, wish.kind, wish.target, wish.language);
+  request.viewpoint = wish.viewpoint;
+  if (!wish.source.empty()) request.source = wish.source;
+}
 
 WishingVisitors::Output WishingVisitors::step(Time now, Duration since_start) {
   Output output;

@@ -49,7 +49,7 @@ class WishingVisitors {
   [[nodiscard]] std::string new_id(Time now);
   [[nodiscard]] std::string language();
   [[nodiscard]] double next_gap();
-  void ask(Time now, const std::string& kind, const std::string& target, const std::string& language);
+  docent_msgs::Request& ask(Time now, const std::string& kind, const std::string& target, const std::string& language);
 
   WishParams params_;
   std::vector<std::string> exhibits_;

@@ -51,6 +51,19 @@ TEST(WishingVisitors, AskForNothingWhereThereIsNothing) {
   }
 }
 
+TEST(WishingVisitors, AskAsAScenarioSays) {
+  WishingVisitors visitors = make(0.0, 1);
+  visitors.ask({}, {"exhibit", "a", 2, "de", "web"});
+  visitors.ask({}, {"tour", "t", -1, "en", ""});
+  const auto output = visitors.step({}, {});
+  ASSERT_EQ(output.requests.size(), 2U);
+  EXPECT_EQ(output.requests[0].viewpoint, 2);
+  EXPECT_EQ(output.requests[0].source, "web");
+  EXPECT_EQ(output.requests[0].language, "de");
+  EXPECT_EQ(output.requests[1].viewpoint, -1);
+  EXPECT_EQ(output.requests[1].source, "visitor");
+}
+
 TEST(WishingVisitors, AnswerSomeQuestionsOnceAndInTime) {
   WishingVisitors visitors = make(0.0, 1);
   int more = 0;

@@ -144,6 +144,7 @@ enum class EventKind {
   plan_removed,
   plan_rescheduled,
   plan_shortened,
+  order_chosen,
   attraction_trial,
   relocalizing,
   localized,
@@ -160,23 +161,13 @@ enum class EventKind {
   choice,
 };
 constexpr auto words_of(EventKind) {
-  return std::array{"request_queued",   "request_refused",
-                    "request_active",   "request_fulfilled",
-                    "request_failed",   "request_cancelled",
-                    "visit_started",    "explained",
-                    "visit_failed",     "visit_dropped",
-                    "tour_started",     "tour_completed",
-                    "tour_failed",      "tour_broken_off",
-                    "tour_cancelled",   "farewell",
-                    "plan_inserted",    "plan_removed",
-                    "plan_rescheduled", "plan_shortened",
-                    "attraction_trial", "relocalizing",
-                    "localized",        "home",
-                    "home_failed",      "charger",
-                    "charger_failed",   "battery_low",
-                    "battery_full",     "arrived",
-                    "drive_blocked",    "asked_for_way",
-                    "prompt_shown",     "choice"};
+  return std::array{"request_queued",    "request_refused",  "request_active", "request_fulfilled", "request_failed",
+                    "request_cancelled", "visit_started",    "explained",      "visit_failed",      "visit_dropped",
+                    "tour_started",      "tour_completed",   "tour_failed",    "tour_broken_off",   "tour_cancelled",
+                    "farewell",          "plan_inserted",    "plan_removed",   "plan_rescheduled",  "plan_shortened",
+                    "order_chosen",      "attraction_trial", "relocalizing",   "localized",         "home",
+                    "home_failed",       "charger",          "charger_failed", "battery_low",       "battery_full",
+                    "arrived",           "drive_blocked",    "asked_for_way",  "prompt_shown",      "choice"};
 }
 
 /// An enumeration of the above.

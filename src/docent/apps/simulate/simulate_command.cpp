@@ -50,6 +50,33 @@ void print_profile(const SimulationRun& run) {
               virtual_s / whole.cpu_seconds, virtual_s / whole.wall_seconds);
 }
 
+/// CSV files of single runs.
+void add_logs(CLI::App& command, SimulationRunOptions& run) {
+  command.add_option("--claims", run.claims, "CSV file to write: every belief beside the truth")->check(output_file());
+  command
+      .add_option("--health-log", run.health_log,
+                  "CSV file to write: what the modules said of themselves, a row a change")
+      ->check(output_file());
+  command
+      .add_option("--drive-log", run.drive_log,
+                  "CSV file to write: how the robot drives beside what collision avoidance says")
+      ->check(output_file());
+  command
+      .add_option("--event-log", run.event_log,
+                  "CSV file to write: events, reactions to blocked ways, lines said and touches, with times and places")
+      ->check(output_file());
+  command
+      .add_option("--request-log", run.request_log,
+                  "CSV file to write: requests, what became of them, explanations and orders of visits, with places")
+      ->check(output_file());
+  command
+      .add_option("--travel-times", run.travel_times,
+                  "CSV file to write: how long the ways between places took, as the robot has learned it")
+      ->check(output_file());
+  command.add_option("--people-log", run.people_log, "CSV file to write: tracked people beside the true ones")
+      ->check(output_file());
+}
+
 void simulate(Options& options) {
   if (!(options.hours > 0.0 && options.hours <= 10000.0)) throw CommandFailed{"--hours must be in (0, 10000]", 2};
   if (!options.start.empty()) options.run.start = parse_pose("--start", options.start);
@@ -123,27 +150,7 @@ void add_simulate_command(CLI::App& app) {
   command->add_flag("!--world-only", options->run.has_robot,
                     "no module of the robot runs: for recordings of sensors, with a scenario that steers");
   command->add_option("--report", options->report, "JSON file for the deployment report")->check(output_file());
-  command->add_option("--claims", options->run.claims, "CSV file to write: every belief beside the truth")
-      ->check(output_file());
-  command
-      ->add_option("--health-log", options->run.health_log,
-                   "CSV file to write: what the modules said of themselves, a row a change")
-      ->check(output_file());
-  command
-      ->add_option("--drive-log", options->run.drive_log,
-                   "CSV file to write: how the robot drives beside what collision avoidance says")
-      ->check(output_file());
-  command
-      ->add_option(
-          "--event-log", options->run.event_log,
-          "CSV file to write: events, reactions to blocked ways, lines said and touches, with times and places")
-      ->check(output_file());
-  command
-      ->add_option("--travel-times", options->run.travel_times,
-                   "CSV file to write: how long the ways between places took, as the robot has learned it")
-      ->check(output_file());
-  command->add_option("--people-log", options->run.people_log, "CSV file to write: tracked people beside the true ones")
-      ->check(output_file());
+  add_logs(*command, options->run);
   command->add_option("--record", options->run.recording, "MCAP file of all messages and the truth")
       ->check(output_file());
   command->add_option("--picture", options->picture, "the way driven over the map")->check(output_picture());

@@ -17,6 +17,7 @@
 #include "docent/evaluation/run_logs/event_log.h"
 #include "docent/evaluation/run_logs/health_log.h"
 #include "docent/evaluation/run_logs/people_log.h"
+#include "docent/evaluation/run_logs/request_log.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/host/module_host.h"
 #include "docent/modules/perception/localize_module.h"
@@ -51,6 +52,7 @@ class SimulationRun::Parts {
       if (!options_.health_log.empty()) health_.add(topic, time, message);
       if (!options_.drive_log.empty()) drive_.add(topic, time, message);
       if (!options_.event_log.empty()) events_.add(topic, time, message);
+      if (!options_.request_log.empty()) requests_.add(topic, time, message);
       if (!options_.people_log.empty()) people_.add(topic, time, message);
       if (recorder_ && failure_.empty()) {
         if (auto written = recorder_->write(topic, time, message); !written) failure_ = written.error().message;
@@ -226,6 +228,7 @@ class SimulationRun::Parts {
   evaluation::DriveLog drive_;
   BeliefFault belief_fault_;
   evaluation::EventLog events_;
+  evaluation::RequestLog requests_;
   evaluation::PeopleLog people_;
   SimulationPicture picture_;
   std::optional<recording::Recorder> recorder_;
@@ -292,6 +295,9 @@ Result<void> SimulationRun::finish() {
   }
   if (!parts_->options_.event_log.empty()) {
     if (auto saved = parts_->events_.save(parts_->options_.event_log); !saved) return saved;
+  }
+  if (!parts_->options_.request_log.empty()) {
+    if (auto saved = parts_->requests_.save(parts_->options_.request_log); !saved) return saved;
   }
   if (!parts_->options_.travel_times.empty()) {
     if (auto saved = parts_->save_travel_times(); !saved) return saved;

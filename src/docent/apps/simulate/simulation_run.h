@@ -32,6 +32,7 @@ struct SimulationRunOptions {
   std::string claims;                            ///< CSV file of every belief beside the truth; empty: none
   std::string health_log;                        ///< CSV file of what the modules said of themselves; empty: none
   std::string event_log;     ///< CSV file of what happened and where the robot was then; empty: none
+  std::string request_log;   ///< CSV file of requests, explanations and orders of visits; empty: none
   std::string drive_log;     ///< CSV file of how it drives beside what avoid says; empty: none
   std::string travel_times;  ///< CSV file of the ways whose time was learned, also before this run; empty: none
   std::string people_log;    ///< CSV file of tracked people beside the true ones; empty: none

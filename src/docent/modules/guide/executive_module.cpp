@@ -177,6 +177,7 @@ Result<std::unique_ptr<Module>> make_executive(const ModuleContext& context) {
   auto params = context.config.section<task_control::ExecutiveParams>("executive");
   if (!params) return tl::unexpected<Error>(params.error());
   params->ladder.active = !context.config.evaluation().without_ladder;
+  params->ladder.asks = !context.config.evaluation().without_moods;
   auto decomposition = decomposition_of(context.museum);
   if (!decomposition) return tl::unexpected<Error>(decomposition.error());
   auto memory = task_control::load_checkpoint(context.state / "executive.json", map_hash(context.museum.map));

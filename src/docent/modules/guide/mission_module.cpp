@@ -347,11 +347,13 @@ class MissionModule final : public Module {
 Result<std::unique_ptr<Module>> make_mission(const ModuleContext& context) {
   auto params = context.config.section<MissionModuleParams>("mission");
   if (!params) return tl::unexpected<Error>(params.error());
+  params->schedule.by_travel = !context.config.evaluation().serves_by_arrival;
   auto store = task_control::MissionStore::open(
       context.state / "mission.sqlite", deployment_name(context.seed, context.bus.now()), !context.virtual_time);
   if (!store) return tl::unexpected<Error>(store.error());
   auto memory = store->load();
   if (!memory) return tl::unexpected<Error>(memory.error());
+  if (context.config.evaluation().forgets_requests) memory->schedule = {};
   auto planner = planner_of(context, *params);
   if (!planner) return tl::unexpected<Error>(planner.error());
   return std::make_unique<MissionModule>(context, *params, std::move(*planner), std::move(*store), std::move(*memory));

@@ -288,6 +288,20 @@ TEST(Tour, RequestsSurviveDeathsInAnyOrder) {
   }
 }
 
+TEST(Tour, CrippledItForgetsRequestsWhenItStarts) {
+  for (const bool forgets : {false, true}) {
+    Rehearsal rehearsal{21, forgets ? "forgets" : "remembers"};
+    ASSERT_TRUE(!forgets || rehearsal.config.set("evaluation.forgets_requests=true"));
+    rehearsal.client.wish_for("r1", "exhibit", "cloud");
+    rehearsal.run_for(2);
+    EXPECT_EQ(rehearsal.client.state_of("r1"), "active");
+    rehearsal.kill("mission");
+    rehearsal.start("mission");
+    rehearsal.run_for(90);
+    EXPECT_EQ(rehearsal.mission.requests_served, forgets ? 0U : 1U);
+  }
+}
+
 TEST(Tour, ChargesServesAfterwardsAndSaysUntilWhen) {
   Rehearsal rehearsal{20, "charge"};
   rehearsal.museum.charger = Pose2{0.0, 3.0, Angle{}};

@@ -21,7 +21,7 @@ namespace docent::simulator {
 
 /// The visitors of a museum. They stroll, gather, follow the robot, step in its way, line up, block, push and listen
 /// (RHINO, sections 1 and 5; Minerva, section 4). They know of the robot what people know: where it is and how it
-/// moves, its horn and its voice. The world's recorded people are among them; these know nothing of it.
+/// moves, its horn, its voice and its face. The world's recorded people are among them; these know nothing of it.
 class Crowd {
  public:
   /// @param floor  of this world
@@ -33,6 +33,10 @@ class Crowd {
   /// 50 Hz. Every person decides at 10 Hz. O(people * neighbours). @param now [s], @param dt [s]
   void step(double now, double dt, const RobotView& robot);
   void hear_horn(double now);
+  /// The robot asks for way, in words.
+  void hear_request(double now);
+  /// Its face from now on: -1 (angry) .. 1 (happy).
+  void see_face(double valence) { valence_ = valence; }
   /// The robot talks until then [s]; a time in the past ends it.
   void hear_speech(double until) { speech_until_ = until; }
   /// Puts people where a scenario wants them; they stay until `until` [s], then behave as the others and leave.
@@ -84,6 +88,10 @@ class Crowd {
   [[nodiscard]] bool gets_nowhere(Person& person, Point2 desired, double now);
   [[nodiscard]] bool minds_robot(const Person& person, const Sight& sight) const;
   void take_interest(std::size_t index, const Sight& sight, double now);
+  /// A displeased face makes who is in its way step aside.
+  void look_at_face(Person& person, const Sight& sight, double now);
+  /// The robot means this person: ahead of it and within `range` [m], or beside it within `near` [m].
+  [[nodiscard]] bool is_meant(const Person& person, double range, double near) const;
   void form_wall(std::size_t leader, double now);
   void step_aside(Person& person, const Sight& sight, double now);
   void return_to_strolling(Person& person, double now, bool bored);
@@ -131,6 +139,7 @@ class Crowd {
   std::uint64_t steps_ = 0;
   double now_ = 0.0;  ///< [s] of the last step
   double speech_until_ = -1.0;
+  double valence_ = 0.0;
 
   std::array<RobotView, 32> seen_{};  ///< ring of what there was to see
   std::size_t seen_count_ = 0;

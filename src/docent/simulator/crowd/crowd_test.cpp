@@ -233,6 +233,40 @@ TEST(Crowd, TheHornClearsTheWay) {
   EXPECT_EQ(cleared_without, 0);
 }
 
+/// Of so many trials with somebody in its way, how often the way is clear after 15 s before this face.
+int cleared(double valence, int requests, int trials, std::optional<double> heeds = std::nullopt) {
+  int count = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    Visit run = make_run(0, static_cast<std::uint64_t>(300 + trial), robot_at(5.0, 4.0));
+    const std::vector<Point2> places{{6.2, 4.0}};
+    run.steps(0.1);
+    run.crowd.add_standing(places, run.now + 120.0, heeds);
+    run.crowd.see_face(valence);
+    for (int i = 0; i < 3; ++i) {
+      if (i < requests) run.crowd.hear_request(run.now);
+      run.steps(5.0);
+    }
+    count += run.crowd.people().front().position.x < 6.5 && std::abs(run.crowd.people().front().position.y - 4.0) < 0.5
+                 ? 0
+                 : 1;
+  }
+  return count;
+}
+
+TEST(Crowd, WhoIsAskedStepsAsideMoreOftenBeforeADispleasedFace) {
+  constexpr int kTrials = 60;
+  EXPECT_EQ(cleared(0.0, 0, kTrials), 0) << "nobody asks, and the face is neutral";
+  EXPECT_EQ(cleared(1.0, 0, kTrials), 0);
+  const int happy = cleared(1.0, 1, kTrials);
+  const int neutral = cleared(0.0, 1, kTrials);
+  const int angry = cleared(-1.0, 1, kTrials);
+  EXPECT_GT(happy, 0);
+  EXPECT_LT(happy, neutral);
+  EXPECT_LT(neutral, angry);
+  EXPECT_GT(cleared(-1.0, 0, kTrials), kTrials / 5) << "a displeased face alone";
+  EXPECT_EQ(cleared(-1.0, 3, kTrials, 0.0), 0) << "who heeds nothing does not";
+}
+
 TEST(Crowd, ABlockerStaysInTheWayForMinutesButNotForEver) {
   CrowdParams params;
   params.block_rate = 1.0;  // the first who can

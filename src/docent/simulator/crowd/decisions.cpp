@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kDecisionPeriod = 0.1;  // [s]
 constexpr double kNearRobot = 5.0;       // [m]
+constexpr double kInItsWay = 2.0;        // [m]
 
 }  // namespace
 
@@ -73,6 +74,7 @@ void Crowd::decide(std::size_t index, double now) {
     person.reacts_at = std::numeric_limits<double>::infinity();
     step_aside(person, sight, now);
   }
+  look_at_face(person, sight, now);
   take_interest(index, sight, now);
   Point2 desired = desired_velocity(person, sight, now);
 
@@ -261,13 +263,7 @@ void Crowd::form_wall(std::size_t leader, double now) {
 
 void Crowd::hear_horn(double now) {
   for (Person& person : people_) {
-    if (person.activity == Activity::recorded) continue;
-    const Point2 from_robot = person.position - robot_.position;
-    const double away = norm(from_robot);
-    if (away > params_.horn_range || person.ignores_robot) continue;
-    const bool is_ahead = dot(from_robot, unit(Angle::radians(robot_.heading))) > 0.2 * away;
-    if (!is_ahead && away > 1.5) continue;
-    if (person.activity == Activity::romp) continue;
+    if (!is_meant(person, params_.horn_range, 1.5)) continue;
     const double effect = person.heeds >= 0.0                  ? person.heeds
                           : person.activity == Activity::block ? params_.horn_effect_block
                           : person.activity == Activity::wall  ? params_.horn_effect_wall
@@ -278,6 +274,38 @@ void Crowd::hear_horn(double now) {
     person.back_turned = false;
     if (rng_.chance(effect)) person.reacts_at = now + rng_.uniform(params_.reaction_time, 1.6);
   }
+}
+
+bool Crowd::is_meant(const Person& person, double range, double near) const {
+  const Point2 from_robot = person.position - robot_.position;
+  const double away = norm(from_robot);
+  if (away > range || person.ignores_robot || person.activity == Activity::recorded ||
+      person.activity == Activity::romp)
+    return false;
+  return away <= near || dot(from_robot, unit(Angle::radians(robot_.heading))) > 0.2 * away;
+}
+
+void Crowd::hear_request(double now) {
+  const double by_mood = 1.0 - params_.mood_effect * valence_;
+  for (Person& person : people_) {
+    if (!is_meant(person, params_.ask_range, 1.0)) continue;
+    const bool stands_firm = person.activity == Activity::curious || person.activity == Activity::block ||
+                             person.activity == Activity::wall || person.activity == Activity::push ||
+                             person.activity == Activity::press || person.activity == Activity::stand;
+    const double effect = person.heeds >= 0.0 ? person.heeds
+                          : stands_firm       ? by_mood * params_.ask_effect_firm
+                                              : by_mood * params_.ask_effect;
+    person.back_turned = false;
+    if (rng_.chance(effect)) person.reacts_at = now + rng_.uniform(params_.reaction_time, 1.6);
+  }
+}
+
+void Crowd::look_at_face(Person& person, const Sight& sight, double now) {
+  if (valence_ >= 0.0 || !sight.in_sight || person.heeds >= 0.0 || person.back_turned ||
+      person.activity == Activity::step_aside || !is_meant(person, kInItsWay, 0.0))
+    return;
+  if (std::abs(cross(unit(Angle::radians(robot_.heading)), sight.offset)) > robot_.radius + person.radius + 0.2) return;
+  if (rng_.chance(-valence_ * params_.face_rate * kDecisionPeriod)) step_aside(person, sight, now);
 }
 
 void Crowd::step_aside(Person& person, const Sight& sight, double now) {

@@ -100,7 +100,7 @@ void ReactionLadder::climb(const LadderView& view, Time now, std::vector<LadderS
   }
   const bool may_ask =
       view.without_progress_s >= params_.ask_after_s || lasts(episode.unreachable_since, params_.ask_after_s);
-  if (may_ask && !episode.by_thing && is_due_again(Rung::ask, params_.ask_every_s, now))
+  if (params_.asks && may_ask && !episode.by_thing && is_due_again(Rung::ask, params_.ask_every_s, now))
     take(Rung::ask, view, now, steps);
   const double patience_s = episode.by_thing ? params_.thing_patience_s : params_.patience_s;
   if (view.without_progress_s >= patience_s || lasts(episode.unreachable_since, params_.unreachable_patience_s)) {

@@ -15,6 +15,7 @@ namespace docent::task_control {
 /// How long the robot waits before each step of the ladder, counted from the last progress.
 struct LadderParams {
   bool active = true;                    ///< false: crippled, for evaluation: it stands before what is in its way
+  bool asks = true;                      ///< false: crippled, for evaluation: it asks nobody for way
   double horn_after_s = 1.5;             ///< [s] >= 0 behind something unmapped, without progress
   double horn_every_s = 6.0;             ///< [s] > 0
   double wait_after_s = 4.0;             ///< [s] > 0

@@ -161,6 +161,17 @@ TEST_F(ReactionLadderTest, PatienceIsConfigured) {
   EXPECT_FALSE(params.validate());
 }
 
+TEST_F(ReactionLadderTest, CrippledItAsksNobody) {
+  LadderParams params;
+  params.asks = false;
+  ladder = ReactionLadder{params};
+  view.is_hindered = view.is_unmapped = true;
+  pass(95.0);
+  EXPECT_EQ(count(Rung::ask), 0);
+  EXPECT_GT(count(Rung::horn), 5);
+  EXPECT_EQ(count(Rung::give_up), 1);
+}
+
 TEST_F(ReactionLadderTest, SwitchedOffItDoesNothing) {
   LadderParams params;
   params.active = false;

@@ -275,6 +275,7 @@ Result<void> SchedulerParams::validate() const {
   if (max_stops < 1) return fail("mission.max_stops must be >= 1");
   if (max_open < 1) return fail("mission.max_open must be >= 1");
   if (!(overdue_s > 0.0)) return fail("mission.overdue_s must be > 0");
+  if (!(overdue_per_stop_s >= 0.0)) return fail("mission.overdue_per_stop_s must be >= 0");
   if (!(hurry_after_s > 0.0)) return fail("mission.hurry_after_s must be > 0");
   if (max_attempts < 1) return fail("mission.max_attempts must be >= 1");
   if (!(retry_delay_s >= 0.0)) return fail("mission.retry_delay_s must be >= 0");

@@ -87,12 +87,12 @@ struct SchedulerState {
 /// run; each keeps a state and a reason of its own. Who wishes for the tour under way joins it where it is, and what
 /// they missed is shown at its end; once its first round is over, or if it is composed, they get a run of their own.
 /// Without a tour, single exhibits are visited in the order of the least travel, anew after every visit, but who is
-/// overdue comes first, and the oldest open request decides whether a tour begins; so does a visit that a waiting tour
-/// would make as well: then one visit serves both. A tour keeps its order; between two of its stops at most one single
-/// exhibit is put in: an overdue one, or one with a small detour. A composed tour chooses each exhibit when the one
-/// before was explained, by travel times that were learned, so that it ends in time ([Minerva2000] 5.3); it rather
-/// shows what others have wished for, and only an overdue exhibit is put in. A tour for which the charge does not last
-/// is shortened. A tour that showed something ends with a farewell.
+/// overdue comes first (the least travel among these), and the oldest open request decides whether a tour begins; so
+/// does a visit that a waiting tour would make as well: then one visit serves both. A tour keeps its order; between two
+/// of its stops at most one single exhibit is put in: an overdue one, or one with a small detour. A composed tour
+/// chooses each exhibit when the one before was explained, by travel times that were learned, so that it ends in time
+/// ([Minerva2000] 5.3); it rather shows what others have wished for, and only an overdue exhibit is put in. A tour for
+/// which the charge does not last is shortened. A tour that showed something ends with a farewell.
 class TourScheduler {
  public:
   /// Open requests in `state` for what the museum no longer has are failed at once.
@@ -168,8 +168,10 @@ class TourScheduler {
   [[nodiscard]] Point2 place_of(const WishedStop& stop) const;
   /// The stops of which each meets the wish: any viewpoint of the exhibit, where the wish names none.
   [[nodiscard]] std::vector<WishedStop> ways_to_meet(const WishedStop& stop) const;
-  /// Stops wished for singly and due, in the order to visit them.
+  /// Stops wished for singly and due, in the order to visit them: overdue ones first, each part by the least travel.
   [[nodiscard]] std::vector<WishedStop> single_order(Point2 robot, Time now) const;
+  /// Adds stops in the order of the least travel from the end of `order`, or from the robot where that is empty.
+  void append_shortest(const std::vector<WishedStop>& stops, Point2 robot, std::vector<WishedStop>& order) const;
   [[nodiscard]] const BoardEntry* oldest_due(Time now) const;
   /// Of a composed tour that somebody waits for, if it began here and now.
   [[nodiscard]] std::vector<std::string> first_stops(const VisitorRequest& request, Point2 robot, Time now) const;

@@ -22,6 +22,12 @@ std::string joined(const std::vector<TourStop>& stops) {
   return text;
 }
 
+std::string joined(const std::vector<WishedStop>& stops) {
+  std::string text;
+  for (const WishedStop& stop : stops) text += (text.empty() ? "" : " ") + place_name(stop);
+  return text;
+}
+
 /// The stops that a member of a tour with a fixed order takes part in from its beginning.
 std::vector<int> numbers_of(const TourRun& tour) {
   std::vector<int> numbers;
@@ -36,7 +42,8 @@ bool exceeds(double duration_s, double budget_s) { return std::isfinite(duration
 }  // namespace
 
 bool TourScheduler::is_overdue(const BoardEntry& entry, Time now) const {
-  return now - entry.created > seconds(params_.overdue_s);
+  const auto stops = static_cast<double>(state_.board.stops_with(entry.request));
+  return now - entry.created > seconds(std::max(params_.overdue_s, params_.overdue_per_stop_s * stops));
 }
 
 const BoardEntry* TourScheduler::oldest_due(Time now) const {
@@ -83,7 +90,7 @@ std::vector<WishedStop> TourScheduler::ways_to_meet(const WishedStop& stop) cons
 }
 
 std::vector<WishedStop> TourScheduler::single_order(Point2 robot, Time now) const {
-  std::vector<WishedStop> order;  // overdue ones, the oldest first
+  std::vector<WishedStop> overdue;
   std::vector<WishedStop> others;
   for (const BoardEntry& entry : state_.board.entries()) {
     const VisitorRequest& request = entry.request;
@@ -93,24 +100,31 @@ std::vector<WishedStop> TourScheduler::single_order(Point2 robot, Time now) cons
     // Who does not mind the viewpoint takes part in the first stop that is made there.
     const WishedStop stop =
         request.viewpoint < 0 ? stop_at(request.target, now) : WishedStop{request.target, request.viewpoint};
-    if (holds(order, stop)) continue;
-    if (is_overdue(entry, now)) {
-      order.push_back(stop);
+    if (holds(overdue, stop)) continue;
+    if (is_overdue(entry, now) || !params_.by_travel) {
+      overdue.push_back(stop);
     } else if (!holds(others, stop)) {
       others.push_back(stop);
     }
   }
-  std::erase_if(others, [&](const WishedStop& stop) { return holds(order, stop); });
+  std::erase_if(others, [&](const WishedStop& stop) { return holds(overdue, stop); });
+  if (!params_.by_travel) return overdue;
+  std::vector<WishedStop> order;
+  for (const auto* stops : {&overdue, &others}) append_shortest(*stops, robot, order);
+  return order;
+}
+
+void TourScheduler::append_shortest(const std::vector<WishedStop>& stops, Point2 robot,
+                                    std::vector<WishedStop>& order) const {
   std::vector<std::vector<WishedStop>> choices;
   std::vector<StopPlaces> places;
-  for (const WishedStop& stop : others) {
+  for (const WishedStop& stop : stops) {
     choices.push_back(ways_to_meet(stop));
     StopPlaces& list = places.emplace_back();
     for (const WishedStop& choice : choices.back()) list.push_back(place_of(choice));
   }
   const Point2 start = order.empty() ? robot : place_of(order.back());
   for (const RouteStop& next : shortest_route(start, places, travel_)) order.push_back(choices[next.stop][next.place]);
-  return order;
 }
 
 std::optional<WishedStop> TourScheduler::stop_to_insert(Point2 robot, Time now) const {
@@ -154,13 +168,15 @@ const std::optional<Visit>& TourScheduler::begin_visit(Point2 robot, Time now, d
       if (!begin_tour(std::string{oldest->request.target}, robot, now, budget_s)) break;
       continue;
     }
-    const WishedStop next = single_order(robot, now).front();
+    const std::vector<WishedStop> order = single_order(robot, now);
+    const WishedStop& next = order.front();
     if (const auto tour = waiting_tour_to(next.exhibit_id, now)) {
       if (!begin_tour(*tour, robot, now, budget_s)) break;
       continue;
     }
     const ProgrammeExhibit& exhibit = *programme_.find_exhibit(next.exhibit_id);
     if (exceeds(stop_duration_of(exhibit, programme_.languages.front(), robot, place_of(next), now), budget_s)) break;
+    happenings_.push_back({EventKind::order_chosen, next.exhibit_id, joined(order)});
     begin_visit_of(next, false, now);
   }
   return state_.visit;
