@@ -201,7 +201,9 @@ void Actor::think() {
         break;
       }
       prompt_ = {"task-" + std::to_string(++count_) + "/more",
-                 language_ == "de" ? "Möchtest du mehr hören?" : "Would you like to hear more?",
+                 language_,
+                 {"en", "de"},
+                 {"Would you like to hear more?", "Möchtest du mehr hören?"},
                  {"more", "next"},
                  "next",
                  to_message(bus_.now() + seconds(5.0))};
@@ -249,7 +251,7 @@ void Actor::step() {
   avoid.angular = turn_;
   avoid.path_blocked = !way_.empty() && std::abs(speed_) < 0.02 && std::abs(turn_) < 0.1;
   avoid.unmapped_obstacle = avoid.path_blocked;
-  if (avoid.path_blocked) avoid.reason = "a person is in the way";
+  if (avoid.path_blocked) avoid.reason = "person_in_way";
   avoid.nearest_real_m = 0.6 + 0.2 * std::sin(to_seconds(now));
   avoid.nearest_virtual_m = 1.4;
   for (int i = 0; i <= 8; ++i) {
@@ -365,36 +367,31 @@ void Actor::publish_mission() {
   mission.tours_completed = tours_;
   mission.requests_served = served_;
   mission.prompt = prompt_;
+  mission.languages = {"en", "de"};
   switch (phase_) {
     case Phase::lost:
       mission.phase = "relocalizing";
-      mission.text_en = "I am finding out where I am.";
-      mission.text_de = "Ich finde gerade heraus, wo ich bin.";
+      mission.texts = {"I am finding out where I am.", "Ich finde gerade heraus, wo ich bin."};
       break;
     case Phase::idle:
       mission.phase = "idle";
-      mission.text_en = "I am at home, waiting for visitors.";
-      mission.text_de = "Ich bin zu Hause und warte auf Besuch.";
+      mission.texts = {"I am at home, waiting for visitors.", "Ich bin zu Hause und warte auf Besuch."};
       break;
     case Phase::driving:
       mission.phase = "driving";
-      mission.text_en = "I am on my way to: " + en + ".";
-      mission.text_de = "Ich bin unterwegs. Ziel: " + de + ".";
+      mission.texts = {"I am on my way to: " + en + ".", "Ich bin unterwegs. Ziel: " + de + "."};
       break;
     case Phase::explaining:
       mission.phase = "explaining";
-      mission.text_en = en;
-      mission.text_de = de;
+      mission.texts = {en, de};
       break;
     case Phase::asking:
       mission.phase = "asking";
-      mission.text_en = en;
-      mission.text_de = de;
+      mission.texts = {en, de};
       break;
     case Phase::going_home:
       mission.phase = "going_home";
-      mission.text_en = "Nobody needs me. I am going home.";
-      mission.text_de = "Niemand braucht mich. Ich fahre nach Hause.";
+      mission.texts = {"Nobody needs me. I am going home.", "Niemand braucht mich. Ich fahre nach Hause."};
       break;
   }
   mission_.publish(mission);
