@@ -23,7 +23,6 @@
 #include "docent/telepresence/server/web_server.h"
 #include "docent/telepresence/site.h"
 #include "docent/vocabulary/reason.h"
-#include "docent/vocabulary/vocabulary.h"
 
 namespace docent::modules {
 namespace {
@@ -356,14 +355,7 @@ class WebModule final : public Module {
   [[nodiscard]] Reason refusal(const telepresence::RequestMessage& message) const {
     if (open_requests_ + outbox_->pending().size() >= static_cast<std::size_t>(params_.max_open_requests))
       return ReasonWord::too_many_wait;
-    if (message.kind == RequestKind::tour) {
-      if (museum_.find_tour(message.target) == nullptr) return {ReasonWord::no_such_tour, message.target};
-      return {};
-    }
-    const museum::Exhibit* exhibit = museum_.find_exhibit(message.target);
-    if (exhibit == nullptr) return {ReasonWord::no_such_exhibit, message.target};
-    if (message.viewpoint >= static_cast<int>(exhibit->viewpoints.size())) return ReasonWord::no_such_viewpoint;
-    return {};
+    return telepresence::why_not_in(museum_, message);
   }
 
   /// Commits, then acknowledges, then tells the robot (architecture 10.8, 10.9).
@@ -381,13 +373,11 @@ class WebModule final : public Module {
   }
 
   void take_choice(telepresence::ViewerId viewer, RequestSource source, const telepresence::ChoiceMessage& message) {
-    const auto* prompt = mission_ ? &mission_->prompt : nullptr;
-    if (prompt == nullptr || prompt->id != message.prompt) {
+    const auto* prompt = mission_ && mission_->prompt.id == message.prompt ? &mission_->prompt : nullptr;
+    if (prompt == nullptr)
       return server_->send(viewer, telepresence::encode_refusal(message.id, ReasonWord::question_over));
-    }
-    if (std::find(prompt->options.begin(), prompt->options.end(), message.choice) == prompt->options.end()) {
+    if (std::find(prompt->options.begin(), prompt->options.end(), message.choice) == prompt->options.end())
       return server_->send(viewer, telepresence::encode_refusal(message.id, ReasonWord::no_such_answer));
-    }
     if (!choice_ || choice_->prompt_id != message.prompt) {  // the first answer counts
       choice_ = docent_msgs::Choice{message.id, message.prompt, message.choice, to_text(source)};
       choices_.publish(*choice_);
