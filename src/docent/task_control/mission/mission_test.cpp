@@ -93,7 +93,7 @@ TEST_F(MissionTest, ALongOneSuspendsTheTourAndResumesItWithANewTask) {
   report(TaskStatus::driving);
   pass(6.0, false);
   EXPECT_EQ(phase(), MissionPhase::relocalizing);
-  mission->report(task, TaskStatus::failed, "stopped", time());
+  mission->report(task, TaskStatus::failed, ReasonWord::no_way, time());
   EXPECT_TRUE(mission->memory().schedule.visit) << "the suspended visit is not over";
   pass(3.0);
   EXPECT_EQ(mission->task().exhibit_id, "a");

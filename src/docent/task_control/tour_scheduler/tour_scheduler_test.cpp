@@ -431,7 +431,7 @@ TEST(SchedulerLaws, EveryRequestEnds) {
       EXPECT_FALSE(is_open(entry.status)) << "seed " << seed << ' ' << entry.request.id;
       if (entry.status == RequestStatus::fulfilled && entry.request.kind != RequestKind::cancel) ++served;
       if (entry.status == RequestStatus::failed || entry.status == RequestStatus::refused) {
-        EXPECT_FALSE(entry.reason.empty());
+        EXPECT_FALSE(entry.reason.is_none());
       }
     }
     EXPECT_EQ(scheduler->state().counters.requests_served, served) << "seed " << seed;
