@@ -47,12 +47,11 @@ std::optional<FieldSchema> field_of(const std::string& line) {
 class LayoutTranslator {
  public:
   LayoutTranslator(const OlderLayout& layout, std::span<const std::uint8_t> bytes) : layout_{layout}, bytes_{bytes} {
-    if (bytes.size() < kHeader) return spoil();
-    out_.assign(bytes.begin(), bytes.begin() + kHeader);
-    at_ = kHeader;
+    good_ = bytes.size() >= kHeader;
+    if (good_) out_.assign(bytes.begin(), bytes.begin() + kHeader);
   }
   std::optional<std::vector<std::uint8_t>> run() {
-    carry("", 0);
+    if (good_) carry("", 0);
     return good_ ? std::optional{std::move(out_)} : std::nullopt;
   }
 
@@ -163,7 +162,7 @@ class LayoutTranslator {
   const OlderLayout& layout_;
   std::span<const std::uint8_t> bytes_;
   std::vector<std::uint8_t> out_;
-  std::size_t at_ = 0;
+  std::size_t at_ = kHeader;
   bool good_ = true;
 };
 
