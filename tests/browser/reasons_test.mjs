@@ -59,6 +59,8 @@ for (const [language, words] of Object.entries(expected)) {
     const queue = await textOf('.queue');
     for (const reason of [words.refused, words.charging, words.again]) ensure(queue.includes(reason), `${reason} is not in ${queue}`);
     ensure(words.missed.test(queue), queue);
+    const cut = await page.locator('.queue .why').evaluateAll((all) => all.filter((one) => one.scrollWidth > one.clientWidth + 1 || one.clientHeight < 10).length);
+    ensure(cut === 0, `${cut} reasons cannot be read`);
     robot.say({ type: 'refused', id: `${id.slice(0, -1)}c`, reason: { word: 'too_many_wait', about: '' } });
     await page.locator('.toast', { hasText: words.wait }).waitFor();
     await page.screenshot({ path: join(pictures, `reasons-refused-${language}.png`) });

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "docent/interaction/speech/sentences.h"
 #include "docent/messages/conversions.h"
 
 namespace docent::stage {
@@ -200,13 +201,7 @@ void Actor::think() {
         next_target();
         break;
       }
-      prompt_ = {"task-" + std::to_string(++count_) + "/more",
-                 language_,
-                 {"en", "de"},
-                 {"Would you like to hear more?", "Möchtest du mehr hören?"},
-                 {"more", "next"},
-                 "next",
-                 to_message(bus_.now() + seconds(5.0))};
+      ask();
       set_phase(Phase::asking);
       break;
     case Phase::asking:
@@ -355,45 +350,54 @@ void Actor::publish_path() {
   goal_.publish(goal);
 }
 
+void Actor::ask() {
+  prompt_ = {"task-" + std::to_string(++count_) + "/more", language_, museum_.languages, {}, {"more", "next"}, "next",
+             to_message(bus_.now() + seconds(5.0))};
+  for (const std::string& language : museum_.languages)
+    prompt_.texts.push_back(interaction::sentence(interaction::Sentence::offer_more, language, Mood::neutral, 0));
+}
+
 void Actor::publish_mission() {
   docent_msgs::MissionState mission;
   mission.header.stamp = to_message(bus_.now());
   const auto* exhibit = museum_.find_exhibit(exhibit_);
-  const std::string en = exhibit != nullptr ? museum::translated(exhibit->title, "en") : "";
-  const std::string de = exhibit != nullptr ? museum::translated(exhibit->title, "de") : "";
   mission.exhibit_id = exhibit_;
   mission.agenda = agenda_;
   mission.exhibits_explained = explained_;
   mission.tours_completed = tours_;
   mission.requests_served = served_;
   mission.prompt = prompt_;
-  mission.languages = {"en", "de"};
+  auto what = interaction::Sentence::idle;
   switch (phase_) {
     case Phase::lost:
       mission.phase = "relocalizing";
-      mission.texts = {"I am finding out where I am.", "Ich finde gerade heraus, wo ich bin."};
+      what = interaction::Sentence::relocalizing;
       break;
     case Phase::idle:
       mission.phase = "idle";
-      mission.texts = {"I am at home, waiting for visitors.", "Ich bin zu Hause und warte auf Besuch."};
       break;
     case Phase::driving:
       mission.phase = "driving";
-      mission.texts = {"I am on my way to: " + en + ".", "Ich bin unterwegs. Ziel: " + de + "."};
+      what = interaction::Sentence::driving;
       break;
     case Phase::explaining:
       mission.phase = "explaining";
-      mission.texts = {en, de};
+      what = interaction::Sentence::explaining;
       break;
     case Phase::asking:
       mission.phase = "asking";
-      mission.texts = {en, de};
+      what = interaction::Sentence::asking;
       break;
     case Phase::going_home:
       mission.phase = "going_home";
-      mission.texts = {"Nobody needs me. I am going home.", "Niemand braucht mich. Ich fahre nach Hause."};
+      what = interaction::Sentence::going_home;
       break;
   }
+  const museum::Translations title = exhibit != nullptr ? exhibit->title : museum::Translations{};
+  mission.languages = museum_.languages;
+  for (const std::string& language : mission.languages)
+    mission.texts.push_back(
+        interaction::sentence(what, language, Mood::neutral, 0, museum::translated(title, language)));
   mission_.publish(mission);
 }
 
