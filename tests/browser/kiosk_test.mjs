@@ -100,11 +100,11 @@ const speech = (robot, id, text) =>
   robot.say({ type: 'speech', id, state: 'speaking', text, language: 'en', start: robot.t - 1, duration: 60, audio: '' });
 const silence = (robot) => robot.say({ type: 'speech', id: '', state: 'done', text: '', language: 'en', start: 0, duration: 0, audio: '' });
 const asks = (robot, exhibit) =>
-  robot.mission('asking', { exhibit, prompt: { id: `t${robot.t}/more`, text: 'More?', options: ['more', 'next'], default: 'next', deadline: robot.t + 5 } });
+  robot.mission('asking', { exhibit, prompt: { id: `t${robot.t}/more`, text: { en: 'More?', de: 'Mehr?', fr: 'Encore ?' }, language: 'de', options: ['more', 'next'], default: 'next', deadline: robot.t + 5 } });
 const long = 'In nineteen hundred and seventy-nine it carried the visitors of an exhibition over nine hundred metres of track, without wheels and without a driver, and everybody wanted to ride.';
-const tourWish = { id: '018f3a6c-5b2e-7c3d-9a4b-0123456789ab', kind: 'tour', target: 'highlights', viewpoint: -1, reason: '', seen: true };
+const tourWish = { id: '018f3a6c-5b2e-7c3d-9a4b-0123456789ab', kind: 'tour', target: 'highlights', viewpoint: -1, reason: null, seen: true };
 const wishes = (page, list) => page.evaluate((list) => localStorage.setItem('docent.wishes', JSON.stringify(list)), list);
-const fulfilled = (robot) => ({ key: '456789ab', source: 'kiosk', visitor: '', kind: 'tour', target: 'highlights', viewpoint: -1, state: 'fulfilled', reason: '', created: robot.t - 200, changed: robot.t - 2 });
+const fulfilled = (robot) => ({ key: '456789ab', source: 'kiosk', visitor: '', kind: 'tour', target: 'highlights', viewpoint: -1, state: 'fulfilled', reason: null, created: robot.t - 200, changed: robot.t - 2 });
 
 const states = {
   home: ['home', async ({ robot }) => robot.mission('idle')],
@@ -119,13 +119,13 @@ const states = {
   }],
   refused: ['refused', async ({ page, robot, reload }) => {
     robot.mission('idle');
-    await wishes(page, [{ ...tourWish, made: Date.now(), state: 'refused', reason: 'closed' }]);
+    await wishes(page, [{ ...tourWish, made: Date.now(), state: 'refused', reason: { word: 'closed', about: '' } }]);
     await reload();
   }],
   driving: ['driving', async ({ robot }) => robot.mission('driving', { exhibit: 'zuse' })],
   picture: ['driving', async ({ robot }) => robot.mission('driving', { exhibit: 'transrapid' })],
   blocked: ['blocked', async ({ robot }) => {
-    robot.say({ type: 'path', points: [], goal: '', state: 'blocked', remaining: 4, blocked: 3, reason: '' });
+    robot.say({ type: 'path', points: [], goal: '', state: 'blocked', remaining: 4, blocked: 3 });
     robot.mission('driving', { exhibit: 'transrapid' });
   }],
   explaining: ['explaining', async ({ robot }) => (robot.mission('explaining', { exhibit: 'zuse' }), speech(robot, 't/short', 'This is the Z22. It counts with tubes.'))],
@@ -167,7 +167,7 @@ for (const [width, height] of SIZES) {
         robot.instead.clear();
         robot.mission('idle');
         silence(robot);
-        robot.say({ type: 'path', points: [], goal: '', state: 'idle', remaining: 0, blocked: 0, reason: '' });
+        robot.say({ type: 'path', points: [], goal: '', state: 'idle', remaining: 0, blocked: 0 });
         robot.instead.set('live', () => ({ pose: [9, 4, 0], avoid: undefined }));
         robot.instead.set('board', () => ({ open: [], closed: [] }));
         await page.evaluate((language) => {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "docent/interaction/speech/sentences.h"
 #include "docent/messages/conversions.h"
 
 namespace docent::stage {
@@ -200,11 +201,7 @@ void Actor::think() {
         next_target();
         break;
       }
-      prompt_ = {"task-" + std::to_string(++count_) + "/more",
-                 language_ == "de" ? "Möchtest du mehr hören?" : "Would you like to hear more?",
-                 {"more", "next"},
-                 "next",
-                 to_message(bus_.now() + seconds(5.0))};
+      ask();
       set_phase(Phase::asking);
       break;
     case Phase::asking:
@@ -249,7 +246,7 @@ void Actor::step() {
   avoid.angular = turn_;
   avoid.path_blocked = !way_.empty() && std::abs(speed_) < 0.02 && std::abs(turn_) < 0.1;
   avoid.unmapped_obstacle = avoid.path_blocked;
-  if (avoid.path_blocked) avoid.reason = "a person is in the way";
+  if (avoid.path_blocked) avoid.reason = "person_in_way";
   avoid.nearest_real_m = 0.6 + 0.2 * std::sin(to_seconds(now));
   avoid.nearest_virtual_m = 1.4;
   for (int i = 0; i <= 8; ++i) {
@@ -353,50 +350,54 @@ void Actor::publish_path() {
   goal_.publish(goal);
 }
 
+void Actor::ask() {
+  prompt_ = {"task-" + std::to_string(++count_) + "/more", language_, museum_.languages, {}, {"more", "next"}, "next",
+             to_message(bus_.now() + seconds(5.0))};
+  for (const std::string& language : museum_.languages)
+    prompt_.texts.push_back(interaction::sentence(interaction::Sentence::offer_more, language, Mood::neutral, 0));
+}
+
 void Actor::publish_mission() {
   docent_msgs::MissionState mission;
   mission.header.stamp = to_message(bus_.now());
   const auto* exhibit = museum_.find_exhibit(exhibit_);
-  const std::string en = exhibit != nullptr ? museum::translated(exhibit->title, "en") : "";
-  const std::string de = exhibit != nullptr ? museum::translated(exhibit->title, "de") : "";
   mission.exhibit_id = exhibit_;
   mission.agenda = agenda_;
   mission.exhibits_explained = explained_;
   mission.tours_completed = tours_;
   mission.requests_served = served_;
   mission.prompt = prompt_;
+  auto what = interaction::Sentence::idle;
   switch (phase_) {
     case Phase::lost:
       mission.phase = "relocalizing";
-      mission.text_en = "I am finding out where I am.";
-      mission.text_de = "Ich finde gerade heraus, wo ich bin.";
+      what = interaction::Sentence::relocalizing;
       break;
     case Phase::idle:
       mission.phase = "idle";
-      mission.text_en = "I am at home, waiting for visitors.";
-      mission.text_de = "Ich bin zu Hause und warte auf Besuch.";
       break;
     case Phase::driving:
       mission.phase = "driving";
-      mission.text_en = "I am on my way to: " + en + ".";
-      mission.text_de = "Ich bin unterwegs. Ziel: " + de + ".";
+      what = interaction::Sentence::driving;
       break;
     case Phase::explaining:
       mission.phase = "explaining";
-      mission.text_en = en;
-      mission.text_de = de;
+      what = interaction::Sentence::explaining;
       break;
     case Phase::asking:
       mission.phase = "asking";
-      mission.text_en = en;
-      mission.text_de = de;
+      what = interaction::Sentence::asking;
       break;
     case Phase::going_home:
       mission.phase = "going_home";
-      mission.text_en = "Nobody needs me. I am going home.";
-      mission.text_de = "Niemand braucht mich. Ich fahre nach Hause.";
+      what = interaction::Sentence::going_home;
       break;
   }
+  const museum::Translations title = exhibit != nullptr ? exhibit->title : museum::Translations{};
+  mission.languages = museum_.languages;
+  for (const std::string& language : mission.languages)
+    mission.texts.push_back(
+        interaction::sentence(what, language, Mood::neutral, 0, museum::translated(title, language)));
   mission_.publish(mission);
 }
 

@@ -35,6 +35,7 @@ class Actor {
   void speak(const std::string& text, const std::string& name);
   void close_active(const std::string& state);
   void publish_board();
+  void ask();
   void publish_mission();
   void publish_path();
   void publish_belief();

@@ -1,7 +1,7 @@
 #pragma once
 
 // Docent's own messages, package docent_msgs, by subject. A source that needs few of them includes those alone.
-// Messages only grow: add fields at the end (architecture 10.16).
+// Messages grow, at the end; a recording is read by the schema that it embeds (architecture 10.16).
 
 #include "docent/messages/driving_messages.h"
 #include "docent/messages/interaction_messages.h"

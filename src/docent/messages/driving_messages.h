@@ -36,10 +36,10 @@ struct GoalState {
   static constexpr const char* kType = "docent_msgs/msg/GoalState";
   std_msgs::Header header;
   std::string id;
-  std::string state;       ///< idle, waiting (no pose or no plan yet), driving, turning, arrived, blocked, unreachable
-  double remaining_m = 0;  ///< along the path
-  double blocked_s = 0;    ///< no progress for so long
-  std::string reason;
+  std::string state;        ///< idle, waiting (no pose or no plan yet), driving, turning, arrived, blocked, unreachable
+  double remaining_m = 0;   ///< along the path
+  double blocked_s = 0;     ///< no progress for so long
+  std::string reason;       ///< in English, for logs
   std::string detour;       ///< none, local, global: how the way differs from the one that was meant
   double detour_extra = 0;  ///< [m] that it is longer
   template <class Self, class V>
@@ -131,7 +131,7 @@ struct AvoidState {
   static constexpr const char* kType = "docent_msgs/msg/AvoidState";
   std_msgs::Header header;
   std::string state;     ///< driving, turning, stopped, blocked
-  std::string reason;    ///< why it stands or is slow, for a person
+  std::string reason;    ///< why it stands or is slow: a word of ReasonWord, or in English what is broken or missing
   double speed_cap = 0;  ///< [m/s]
   double linear = 0;     ///< commanded
   double angular = 0;

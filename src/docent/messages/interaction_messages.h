@@ -16,7 +16,7 @@ struct Reaction {
   std_msgs::Header header;
   std::string goal_id;
   std::string step;        ///< slow, horn, local_detour, global_detour, wait, ask, give_up, free
-  std::string cause;       ///< what is in the way, for a person
+  std::string cause;       ///< what is in the way: a word of ReasonWord, or a diagnosis in English
   double after = 0;        ///< [s] since the way was blocked
   std::int32_t count = 0;  ///< how often this step was taken since then, from 1
   template <class Self, class V>

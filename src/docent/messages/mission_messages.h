@@ -18,23 +18,19 @@ struct MissionState {
   std::string phase;  ///< waking, relocalizing, idle, driving, explaining, asking, going_home, charging, waiting
   std::string tour_id;
   std::string exhibit_id;  ///< the present or next exhibit
-  std::string text_en;     ///< one sentence for people: what it is doing; `texts` has it in each language
-  std::string text_de;
   Prompt prompt;
   std::uint32_t exhibits_explained = 0;  ///< since the start of the deployment
   std::uint32_t tours_completed = 0;
   std::uint32_t requests_served = 0;
   std::vector<std::string> agenda;     ///< exhibit ids still to come, in order
   std::vector<std::string> languages;  ///< codes of the museum's languages, its own first
-  std::vector<std::string> texts;      ///< [languages] what it is doing
+  std::vector<std::string> texts;      ///< [languages] one sentence for people: what it is doing
   template <class Self, class V>
   static void visit(Self& m, V& v) {
     v("header", m.header);
     v("phase", m.phase);
     v("tour_id", m.tour_id);
     v("exhibit_id", m.exhibit_id);
-    v("text_en", m.text_en);
-    v("text_de", m.text_de);
     v("prompt", m.prompt);
     v("exhibits_explained", m.exhibits_explained);
     v("tours_completed", m.tours_completed);
@@ -82,8 +78,8 @@ struct TaskState {
   static constexpr const char* kType = "docent_msgs/msg/TaskState";
   std_msgs::Header header;
   std::string id;
-  std::string state;  ///< driving, explaining, asking, done, failed
-  std::string reason;
+  std::string state;   ///< driving, explaining, asking, done, failed
+  std::string reason;  ///< why it failed or does not go on: as in RequestState
   Prompt prompt;
   bool took_long = false;  ///< the visitor asked for more
   std::string look;        ///< where the task wants the head to look: place, visitors, way, nobody, company

@@ -54,8 +54,8 @@ struct Choice {
 struct RequestState {
   static constexpr const char* kType = "docent_msgs/msg/RequestState";
   Request request;
-  std::string state;  ///< queued, active, fulfilled, failed, refused, cancelled
-  std::string reason;
+  std::string state;   ///< queued, active, fulfilled, failed, refused, cancelled
+  std::string reason;  ///< a word of ReasonWord (vocabulary/reason.h), alone or with what it is about; empty: none
   builtin_interfaces::Time created;
   builtin_interfaces::Time changed;
   template <class Self, class V>
@@ -85,15 +85,19 @@ struct RequestBoard {
 /// A question with buttons and a default.
 struct Prompt {
   static constexpr const char* kType = "docent_msgs/msg/Prompt";
-  std::string id;  ///< empty: nothing is asked
-  std::string text;
-  std::vector<std::string> options;  ///< more, next, yes, no
+  std::string id;                      ///< empty: nothing is asked
+  std::string language;                ///< code of the one in which it is spoken
+  std::vector<std::string> languages;  ///< codes of the museum's languages, its own first
+  std::vector<std::string> texts;      ///< [languages] the question
+  std::vector<std::string> options;    ///< more, next, yes, no
   std::string default_option;
   builtin_interfaces::Time deadline;
   template <class Self, class V>
   static void visit(Self& m, V& v) {
     v("id", m.id);
-    v("text", m.text);
+    v("language", m.language);
+    v("languages", m.languages);
+    v("texts", m.texts);
     v("options", m.options);
     v("default_option", m.default_option);
     v("deadline", m.deadline);

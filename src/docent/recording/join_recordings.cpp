@@ -23,7 +23,7 @@ std::set<std::filesystem::path> recordings_in(const std::filesystem::path& folde
 Result<void> join_recordings(const std::vector<std::filesystem::path>& files, const std::filesystem::path& out) {
   auto writer = McapWriter::create(out);
   if (!writer) return tl::unexpected<Error>(writer.error());
-  std::map<std::string, McapWriter::Channel> channels;  // by topic and type
+  std::map<std::string, McapWriter::Channel> channels;  // by topic, type and schema
   std::optional<Error> fault;
   bool is_any_good = false;
   for (const auto& file : files) {
@@ -35,7 +35,7 @@ Result<void> join_recordings(const std::vector<std::filesystem::path>& files, co
     is_any_good = true;
     Result<void> written;
     const auto read = reader->read({{}, {}, {}, true}, [&](const McapMessage& message) {
-      const std::string key = message.channel.topic + ' ' + message.channel.type;
+      const std::string key = message.channel.topic + ' ' + message.channel.type + '\n' + message.channel.schema;
       auto place = channels.find(key);
       if (place == channels.end()) {
         const auto channel = writer->add_channel(message.channel);

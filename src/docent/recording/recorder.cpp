@@ -2,6 +2,7 @@
 
 #include "docent/base/check.h"
 #include "docent/messages/schema.h"
+#include "docent/recording/older_layout.h"
 
 namespace docent::recording {
 namespace {
@@ -26,6 +27,25 @@ std::map<std::string, RecordedTopic, std::less<>> all_topics() {
   for_each_truth_topic(add);
   return topics;
 }
+
+/// Docent's own messages of a recording, by the schemas that it embeds.
+class MessageDecoder {
+ public:
+  /// nullptr: damaged.
+  std::shared_ptr<const void> decode(const McapMessage& message, const RecordedTopic& topic) {
+    const auto& channel = message.channel;
+    if (channel.schema == topic.schema || !channel.type.starts_with("docent_msgs/"))
+      return topic.info.type->decode(message.data);
+    const auto [place, is_new] = layouts_.try_emplace(channel.topic + "\n" + channel.schema);
+    if (is_new) place->second = OlderLayout::between(channel.schema, topic.schema);
+    if (!place->second) return topic.info.type->decode(message.data);
+    const auto bytes = place->second->translated(message.data);
+    return bytes ? topic.info.type->decode(*bytes) : nullptr;
+  }
+
+ private:
+  std::map<std::string, std::optional<OlderLayout>> layouts_;  ///< by topic and schema; nullopt: ours
+};
 
 void subscribe(transport::Bus& bus, const transport::TopicInfo& info, const TopicHandler& handler) {
   bus.add_subscription(info, [info, handler](const std::shared_ptr<const void>& message) { handler(info, message); });
@@ -74,6 +94,7 @@ Result<void> Recorder::write(const transport::TopicInfo& topic, Time time, const
 Result<void> read_recording(McapReader& reader, const McapReader::Selection& selection,
                             const std::function<bool(const RecordedMessage&)>& handler) {
   Result<void> decoded;
+  MessageDecoder decoder;
   const auto read = reader.read(selection, [&](const McapMessage& message) {
     const RecordedTopic* topic = find_recorded_topic(message.channel.topic);
     if (topic == nullptr) return true;
@@ -83,7 +104,7 @@ Result<void> read_recording(McapReader& reader, const McapReader::Selection& sel
                      topic->info.type->name);
       return false;
     }
-    auto content = topic->info.type->decode(message.data);
+    auto content = decoder.decode(message, *topic);
     if (!content) {
       if (selection.skip_damaged) return true;
       decoded = fail(message.channel.topic + ": damaged " + topic->info.type->name + at());

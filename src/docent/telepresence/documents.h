@@ -31,6 +31,17 @@ using Point = std::array<double, 2>;
 using Pose = std::array<double, 3>;                ///< x, y, heading, in the map's frame
 using Texts = std::map<std::string, std::string>;  ///< by language
 
+/// Why something is as it is, for the page to put into words.
+struct Reason {
+  static constexpr const char* kName = "Reason";
+  ReasonWord word{};
+  std::string about;  ///< id of an exhibit or a tour, or several with spaces between them; empty: nothing more
+  template <class Self, class V>
+  static void visit(Self& d, V& v) {
+    v("word", d.word), v("about", d.about);
+  }
+};
+
 struct Exhibit {
   static constexpr const char* kName = "Exhibit";
   std::string id;
@@ -103,7 +114,8 @@ struct Museum {
 
 struct Avoid {
   static constexpr const char* kName = "Avoid";
-  std::string state, reason;
+  std::string state;
+  std::optional<Reason> reason;
   double cap = 0.0;
   bool blocked = false, person = false;
   std::optional<double> real, virtual_one;
@@ -182,24 +194,24 @@ struct PathMessage {
   std::vector<double> points;  ///< x, y, x, y …
   std::string goal, state;
   double remaining = 0.0, blocked = 0.0;
-  std::string reason;
   template <class Self, class V>
   static void visit(Self& d, V& v) {
     v("points", d.points), v("goal", d.goal), v("state", d.state), v("remaining", d.remaining), v("blocked", d.blocked);
-    v("reason", d.reason);
   }
 };
 
 struct Prompt {
   static constexpr const char* kName = "Prompt";
-  std::string id, text;
+  std::string id;
+  Texts text;
+  std::string language;  ///< in which it is spoken
   std::vector<std::string> options;
   std::string default_option;
   double deadline = 0.0;
   template <class Self, class V>
   static void visit(Self& d, V& v) {
-    v("id", d.id), v("text", d.text), v("options", d.options), v("default", d.default_option);
-    v("deadline", d.deadline);
+    v("id", d.id), v("text", d.text), v("language", d.language), v("options", d.options);
+    v("default", d.default_option), v("deadline", d.deadline);
   }
 };
 struct MissionMessage {
@@ -282,7 +294,8 @@ struct BoardEntry {
   std::string key;  ///< the last digits of the request's id
   std::string source, visitor, kind, target;
   int viewpoint = -1;
-  std::string state, reason;
+  std::string state;
+  std::optional<Reason> reason;
   double created = 0.0, changed = 0.0;
   template <class Self, class V>
   static void visit(Self& d, V& v) {
@@ -346,7 +359,8 @@ struct Acknowledgement {
 struct Refusal {
   static constexpr const char* kName = "Refusal";
   static constexpr const char* kType = "refused";
-  std::string id, reason;
+  std::string id;
+  Reason reason;
   template <class Self, class V>
   static void visit(Self& d, V& v) {
     v("id", d.id), v("reason", d.reason);
@@ -355,7 +369,7 @@ struct Refusal {
 struct ErrorMessage {
   static constexpr const char* kName = "ErrorMessage";
   static constexpr const char* kType = "error";
-  std::string reason;
+  Reason reason;
   template <class Self, class V>
   static void visit(Self& d, V& v) {
     v("reason", d.reason);

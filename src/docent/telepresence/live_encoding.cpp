@@ -9,6 +9,7 @@
 #include "docent/telepresence/document_json.h"
 #include "docent/telepresence/documents.h"
 #include "docent/telepresence/site.h"
+#include "docent/vocabulary/reason.h"
 #include "docent/vocabulary/vocabulary.h"
 
 namespace docent::telepresence {
@@ -46,6 +47,12 @@ bool is_open(const docent_msgs::RequestState& request) {
   return status && docent::is_open(*status);
 }
 
+/// nullopt: there is none that the page has words for.
+std::optional<documents::Reason> reason_of(const Reason& reason) {
+  if (!reason.word()) return std::nullopt;
+  return documents::Reason{*reason.word(), reason.about()};
+}
+
 documents::BoardEntry entry_of(const docent_msgs::RequestState& entry) {
   const auto& request = entry.request;
   return {request.id.size() > 8 ? request.id.substr(request.id.size() - 8) : request.id,
@@ -55,18 +62,15 @@ documents::BoardEntry entry_of(const docent_msgs::RequestState& entry) {
           request.target,
           request.viewpoint,
           entry.state,
-          entry.reason,
+          reason_of(Reason::from_text(entry.reason)),
           rounded(seconds_of(entry.created)),
           rounded(seconds_of(entry.changed))};
 }
 
-/// What the robot is doing, by language. A recording of before has two.
-documents::Texts texts_of(const docent_msgs::MissionState& mission) {
-  if (mission.languages.empty()) return {{"en", mission.text_en}, {"de", mission.text_de}};
-  documents::Texts texts;
-  for (std::size_t i = 0; i < std::min(mission.languages.size(), mission.texts.size()); ++i)
-    texts[mission.languages[i]] = mission.texts[i];
-  return texts;
+documents::Texts by_language(const std::vector<std::string>& languages, const std::vector<std::string>& texts) {
+  documents::Texts result;
+  for (std::size_t i = 0; i < std::min(languages.size(), texts.size()); ++i) result[languages[i]] = texts[i];
+  return result;
 }
 
 std::string address_of(const std::string& audio) { return is_audio_name(audio) ? "/audio/" + audio : ""; }
@@ -96,7 +100,7 @@ std::string encode_live(const LiveFrame& frame) {
   }
   if (frame.avoid) {
     live.avoid = {frame.avoid->state,
-                  frame.avoid->reason,
+                  reason_of(Reason::from_text(frame.avoid->reason)),
                   rounded(frame.avoid->speed_cap),
                   frame.avoid->path_blocked,
                   frame.avoid->unmapped_obstacle,
@@ -144,16 +148,25 @@ std::string encode_path(const nav_msgs::Path& path, const docent_msgs::GoalState
   message.state = state.state;
   message.remaining = rounded(state.remaining_m, 10);
   message.blocked = rounded(state.blocked_s, 10);
-  message.reason = state.reason;
   return json_text(message);
 }
 
 std::string encode_mission(const docent_msgs::MissionState& mission) {
-  documents::MissionMessage message{mission.phase,           mission.tour_id,         mission.exhibit_id,
-                                    texts_of(mission),       mission.agenda,          mission.exhibits_explained,
-                                    mission.tours_completed, mission.requests_served, std::nullopt};
+  documents::MissionMessage message{mission.phase,
+                                    mission.tour_id,
+                                    mission.exhibit_id,
+                                    by_language(mission.languages, mission.texts),
+                                    mission.agenda,
+                                    mission.exhibits_explained,
+                                    mission.tours_completed,
+                                    mission.requests_served,
+                                    std::nullopt};
   if (const auto& prompt = mission.prompt; !prompt.id.empty()) {
-    message.prompt = {prompt.id, prompt.text, prompt.options, prompt.default_option,
+    message.prompt = {prompt.id,
+                      by_language(prompt.languages, prompt.texts),
+                      prompt.language,
+                      prompt.options,
+                      prompt.default_option,
                       rounded(seconds_of(prompt.deadline))};
   }
   return json_text(message);
@@ -233,11 +246,11 @@ std::string encode_window(const docent_msgs::AvoidState& avoid) {
 
 std::string encode_acknowledgement(const std::string& id) { return json_text(documents::Acknowledgement{id}); }
 
-std::string encode_refusal(const std::string& id, const std::string& reason) {
-  return json_text(documents::Refusal{id, reason});
+std::string encode_refusal(const std::string& id, const Reason& reason) {
+  return json_text(documents::Refusal{id, reason_of(reason).value()});
 }
 
-std::string encode_error(const std::string& reason) { return json_text(documents::ErrorMessage{reason}); }
+std::string encode_error(const Reason& reason) { return json_text(documents::ErrorMessage{reason_of(reason).value()}); }
 
 std::vector<Point2> scan_points(const sensor_msgs::LaserScan& scan, const Pose2& base_from_sensor, std::size_t every) {
   std::vector<Point2> points;

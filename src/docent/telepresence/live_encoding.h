@@ -14,6 +14,7 @@
 #include "docent/messages/people_messages.h"
 #include "docent/messages/request_messages.h"
 #include "docent/telepresence/belief_carrier.h"
+#include "docent/vocabulary/reason.h"
 
 // What viewers get, as JSON text; docs/web-protocol.md describes it. Times are seconds of the bus's clock, lengths
 // metres, angles radians; points of a scan are whole centimetres.
@@ -64,8 +65,9 @@ struct HealthEntry {
 [[nodiscard]] std::string encode_window(const docent_msgs::AvoidState& avoid);
 
 [[nodiscard]] std::string encode_acknowledgement(const std::string& id);
-[[nodiscard]] std::string encode_refusal(const std::string& id, const std::string& reason);
-[[nodiscard]] std::string encode_error(const std::string& reason);
+/// @pre reason.word()
+[[nodiscard]] std::string encode_refusal(const std::string& id, const Reason& reason);
+[[nodiscard]] std::string encode_error(const Reason& reason);
 
 /// Every n-th reading of a scan as points in the robot's frame; invalid readings are left out, those without a return
 /// end at the largest range.

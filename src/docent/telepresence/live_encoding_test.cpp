@@ -20,7 +20,7 @@ TEST(LiveEncoding, AFrameSaysWhereAndWhat) {
   frame.scan = {{1.0, 2.0}, {-0.125, 3.456}};
   frame.people.people = {{7, 1.5F, 2.5F, 0.1F, 0.0F}};
   frame.avoid = docent_msgs::AvoidState{};
-  frame.avoid->reason = "a person is in the way";
+  frame.avoid->reason = "person_in_way";
   frame.battery = 0.8;
   const Json json = Json::parse(encode_live(frame));
   EXPECT_EQ(json["t"], 12.5);
@@ -28,7 +28,9 @@ TEST(LiveEncoding, AFrameSaysWhereAndWhat) {
   EXPECT_EQ(json["scan"]["points"], Json({100, 200, -13, 346}));
   EXPECT_EQ(json["scan"]["frame"], "map");
   EXPECT_EQ(json["people"][0], Json({7, 1.5, 2.5, 0.1, 0.0}));
-  EXPECT_EQ(json["avoid"]["reason"], "a person is in the way");
+  EXPECT_EQ(json["avoid"]["reason"], Json({{"word", "person_in_way"}, {"about", ""}}));
+  frame.avoid->reason = "no fresh sweep of the front laser";
+  EXPECT_TRUE(Json::parse(encode_live(frame))["avoid"]["reason"].is_null()) << "for operators, in the health";
   EXPECT_EQ(json["battery"], 0.8);
 }
 
@@ -46,12 +48,13 @@ TEST(LiveEncoding, NonsenseStaysValidJson) {
   frame.map_from_base = Pose2{NAN, INFINITY, Angle{}};
   EXPECT_TRUE(Json::accept(encode_live(frame)));
   docent_msgs::MissionState mission;
-  mission.text_en = "broken \xff\xc3";
+  mission.languages = {"en", "de"};
+  mission.texts = {"broken \xff\xc3"};
   EXPECT_TRUE(Json::accept(encode_mission(mission)));
   EXPECT_TRUE(Json::accept(encode_belief({})));
   EXPECT_TRUE(Json::accept(encode_path({}, {})));
   EXPECT_TRUE(Json::accept(encode_window({})));
-  EXPECT_TRUE(Json::accept(encode_refusal("x", "\"\\\n")));
+  EXPECT_TRUE(Json::accept(encode_refusal("x", {ReasonWord::gone, "\"\\\n\xff"})));
 }
 
 TEST(LiveEncoding, TheBoardHidesWholeIdsAndKeepsOpenRequests) {

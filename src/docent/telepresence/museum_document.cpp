@@ -57,6 +57,17 @@ std::string encode_museum(const museum::Museum& museum, double robot_radius) {
   return json_text(document);
 }
 
+Reason why_not_in(const museum::Museum& museum, const RequestMessage& message) {
+  if (message.kind == RequestKind::tour) {
+    if (museum.find_tour(message.target) == nullptr) return {ReasonWord::no_such_tour, message.target};
+    return {};
+  }
+  const museum::Exhibit* exhibit = museum.find_exhibit(message.target);
+  if (exhibit == nullptr) return {ReasonWord::no_such_exhibit, message.target};
+  if (message.viewpoint >= static_cast<int>(exhibit->viewpoints.size())) return ReasonWord::no_such_viewpoint;
+  return {};
+}
+
 Result<std::string> encode_map_png(const OccupancyGrid& map) {
   const auto columns = static_cast<std::size_t>(map.frame.columns);
   const auto rows = static_cast<std::size_t>(map.frame.rows);

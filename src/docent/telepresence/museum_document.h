@@ -5,6 +5,8 @@
 #include "docent/base/result.h"
 #include "docent/grid/occupancy_grid.h"
 #include "docent/museum/museum.h"
+#include "docent/telepresence/client_message.h"
+#include "docent/vocabulary/reason.h"
 
 namespace docent::telepresence {
 
@@ -13,6 +15,9 @@ namespace docent::telepresence {
 
 /// Where the exhibit's picture can be fetched; empty: it has none.
 [[nodiscard]] std::string picture_address(const museum::Exhibit& exhibit);
+
+/// Why the museum cannot show what is asked for; none: it can.
+[[nodiscard]] Reason why_not_in(const museum::Museum& museum, const RequestMessage& message);
 
 /// The map as a grey PNG, a pixel a cell, the highest row on top: 255 free, 128 unknown, 0 occupied.
 [[nodiscard]] Result<std::string> encode_map_png(const OccupancyGrid& map);

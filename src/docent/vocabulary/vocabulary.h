@@ -122,6 +122,82 @@ constexpr auto words_of(PollAnswer) {
 enum class ContactKind { people, furniture, walls, hazards };
 constexpr auto words_of(ContactKind) { return std::array{"people", "furniture", "walls", "hazards"}; }
 
+/// Why a request is refused, waits or has come to its end, why the robot stands. People read them in their own
+/// language: each page has words for every one of them (`reason_WORD` in web/src/words). `Reason` says what each is
+/// about.
+enum class ReasonWord {
+  no_such_exhibit,    ///< about its id
+  no_such_viewpoint,  ///< of that exhibit
+  no_such_tour,       ///< about its id
+  no_such_request,    ///< as is open
+  not_understood,     ///< about the word that is no kind of wish
+  for_web_only,       ///< an exhibit that is shown to Web visitors only
+  web_only_now,       ///< the hours of the Web visitors
+  closed,
+  too_many_wait,
+  not_stored,      ///< the disk is full or gone
+  question_over,   ///< the question is no longer open
+  no_such_answer,  ///< to the question
+  busy,            ///< with something else
+  too_fast,        ///< more messages than anybody can mean
+  charging_first,
+  on_the_way,  ///< there already: who asks takes part
+  joins_tour,  ///< that is under way: what was missed comes at its end
+  tour_begun,
+  cancelled,
+  gone,           ///< the museum no longer has it
+  not_reached,    ///< about the ids of exhibits, with spaces between them
+  battery_low,    ///< the robot must charge
+  took_too_long,  ///< to get there
+  no_way,         ///< leads there
+  way_blocked,    ///< for too long
+  unknown_task,   ///< the executive does not know the task; about its kind
+  person_in_way,
+  obstacle_in_way,
+  hazard_in_way,
+  border_in_way,  ///< of the robot's area
+  people_near,
+  touched,          ///< somebody or something touches the robot
+  felt_thing_near,  ///< something that only touch finds
+  braking,
+};
+constexpr auto words_of(ReasonWord) {
+  return std::array{"no_such_exhibit",
+                    "no_such_viewpoint",
+                    "no_such_tour",
+                    "no_such_request",
+                    "not_understood",
+                    "for_web_only",
+                    "web_only_now",
+                    "closed",
+                    "too_many_wait",
+                    "not_stored",
+                    "question_over",
+                    "no_such_answer",
+                    "busy",
+                    "too_fast",
+                    "charging_first",
+                    "on_the_way",
+                    "joins_tour",
+                    "tour_begun",
+                    "cancelled",
+                    "gone",
+                    "not_reached",
+                    "battery_low",
+                    "took_too_long",
+                    "no_way",
+                    "way_blocked",
+                    "unknown_task",
+                    "person_in_way",
+                    "obstacle_in_way",
+                    "hazard_in_way",
+                    "border_in_way",
+                    "people_near",
+                    "touched",
+                    "felt_thing_near",
+                    "braking"};
+}
+
 /// What is worth a line in the history (docs/terminology.md, Events).
 enum class EventKind {
   request_queued,

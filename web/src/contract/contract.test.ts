@@ -2,8 +2,9 @@ import { expect, test } from 'vitest';
 import clientText from '../../../tests/web_contract/client.json?raw';
 import { Motion } from '../lib/motion';
 import { answerOf, cancelOf, choiceOf, helpOf, lampsOf, requestOf, watchOf } from '../lib/orders';
-import { decode, type LiveMessage } from '../lib/protocol';
-import { pageLanguage, pageLanguages, phaseWord, word } from '../lib/words';
+import { decode, type LiveMessage, type Reason } from '../lib/protocol';
+import { pageLanguage, pageLanguages, phaseWord, reasonText, word } from '../lib/words';
+import { kioskLanguages } from '../kiosk/words';
 import { documents } from './contract';
 
 // The server's half of this test is src/docent/telepresence/contract/contract_test.cpp.
@@ -101,6 +102,31 @@ test('what the page says is what the server was tested with', () => {
   ];
   for (const message of said) expect(documentFaults(message, documentOf(message.type), message.type)).toEqual([]);
   expect(said).toEqual(JSON.parse(clientText));
+});
+
+test('every reason has words of its own in each language, with a place for what it is about in all or in none', () => {
+  const reasons: readonly Reason['word'][] = documents.Reason.fields.word.words;
+  expect(reasons.length).toBeGreaterThan(20);
+  const text = (language: string, reason: Reason['word'], about = '') => reasonText(language, { word: reason, about }, (id) => `<${id}>`);
+  for (const language of pageLanguages) {
+    expect(new Set(reasons.map((reason) => text(language, reason))).size).toBe(reasons.length);
+    for (const reason of reasons) {
+      expect(text(language, reason)).toMatch(/^\p{Lu}.*[.!]$/u);
+      if (language !== 'en') expect(text(language, reason)).not.toBe(text('en', reason));
+      expect(text(language, reason, 'a b').includes('<a>, <b>')).toBe(text('en', reason, 'a b').includes('<a>, <b>'));
+    }
+  }
+  expect(text('de', 'not_reached', 'clock')).toBe('Ich kam nicht hin: <clock>.');
+  expect(text('xx', 'closed')).toBe(text('en', 'closed'));
+  expect(text('en', 'of a newer server' as Reason['word'])).toBe('');
+});
+
+test('a language that the robot speaks is on its pages, too', () => {
+  const spoken = Object.keys(import.meta.glob('../../../src/docent/interaction/speech/languages/*.yaml', { query: '?raw' }));
+  const codes = spoken.map((path) => path.slice(path.lastIndexOf('/') + 1, -'.yaml'.length)).sort();
+  expect(codes.length).toBeGreaterThan(2);
+  expect([...pageLanguages].sort()).toEqual(codes);
+  expect([...kioskLanguages].sort()).toEqual(codes);
 });
 
 test('every dictionary is whole, and who wants another language gets the first of the museum', () => {

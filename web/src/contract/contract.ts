@@ -48,9 +48,13 @@ export interface Scan {
   from: [number, number];
   points: number[];
 }
+export interface Reason {
+  word: 'no_such_exhibit' | 'no_such_viewpoint' | 'no_such_tour' | 'no_such_request' | 'not_understood' | 'for_web_only' | 'web_only_now' | 'closed' | 'too_many_wait' | 'not_stored' | 'question_over' | 'no_such_answer' | 'busy' | 'too_fast' | 'charging_first' | 'on_the_way' | 'joins_tour' | 'tour_begun' | 'cancelled' | 'gone' | 'not_reached' | 'battery_low' | 'took_too_long' | 'no_way' | 'way_blocked' | 'unknown_task' | 'person_in_way' | 'obstacle_in_way' | 'hazard_in_way' | 'border_in_way' | 'people_near' | 'touched' | 'felt_thing_near' | 'braking';
+  about: string;
+}
 export interface Avoid {
   state: string;
-  reason: string;
+  reason: Reason | null;
   cap: number;
   blocked: boolean;
   person: boolean;
@@ -103,11 +107,11 @@ export interface PathMessage {
   state: string;
   remaining: number;
   blocked: number;
-  reason: string;
 }
 export interface Prompt {
   id: string;
-  text: string;
+  text: Record<string, string>;
+  language: string;
   options: string[];
   default: string;
   deadline: number;
@@ -169,7 +173,7 @@ export interface BoardEntry {
   target: string;
   viewpoint: number;
   state: string;
-  reason: string;
+  reason: Reason | null;
   created: number;
   changed: number;
 }
@@ -204,11 +208,11 @@ export interface Acknowledgement {
 export interface Refusal {
   type: 'refused';
   id: string;
-  reason: string;
+  reason: Reason;
 }
 export interface ErrorMessage {
   type: 'error';
-  reason: string;
+  reason: Reason;
 }
 export interface RequestMessage {
   type: 'request';
@@ -295,7 +299,11 @@ export const documents = {
       "real": {
         "nullable": "number"
       },
-      "reason": "string",
+      "reason": {
+        "nullable": {
+          "document": "Reason"
+        }
+      },
       "state": "string",
       "virtual": {
         "nullable": "number"
@@ -350,7 +358,11 @@ export const documents = {
       "created": "number",
       "key": "string",
       "kind": "string",
-      "reason": "string",
+      "reason": {
+        "nullable": {
+          "document": "Reason"
+        }
+      },
       "source": "string",
       "state": "string",
       "target": "string",
@@ -404,7 +416,9 @@ export const documents = {
   },
   "ErrorMessage": {
     "fields": {
-      "reason": "string"
+      "reason": {
+        "document": "Reason"
+      }
     },
     "maybe": {},
     "type": "error"
@@ -688,7 +702,6 @@ export const documents = {
       "points": {
         "list": "number"
       },
-      "reason": "string",
       "remaining": "number",
       "state": "string"
     },
@@ -700,10 +713,13 @@ export const documents = {
       "deadline": "number",
       "default": "string",
       "id": "string",
+      "language": "string",
       "options": {
         "list": "string"
       },
-      "text": "string"
+      "text": {
+        "map": "string"
+      }
     },
     "maybe": {}
   },
@@ -718,10 +734,56 @@ export const documents = {
     },
     "maybe": {}
   },
+  "Reason": {
+    "fields": {
+      "about": "string",
+      "word": {
+        "words": [
+          "no_such_exhibit",
+          "no_such_viewpoint",
+          "no_such_tour",
+          "no_such_request",
+          "not_understood",
+          "for_web_only",
+          "web_only_now",
+          "closed",
+          "too_many_wait",
+          "not_stored",
+          "question_over",
+          "no_such_answer",
+          "busy",
+          "too_fast",
+          "charging_first",
+          "on_the_way",
+          "joins_tour",
+          "tour_begun",
+          "cancelled",
+          "gone",
+          "not_reached",
+          "battery_low",
+          "took_too_long",
+          "no_way",
+          "way_blocked",
+          "unknown_task",
+          "person_in_way",
+          "obstacle_in_way",
+          "hazard_in_way",
+          "border_in_way",
+          "people_near",
+          "touched",
+          "felt_thing_near",
+          "braking"
+        ]
+      }
+    },
+    "maybe": {}
+  },
   "Refusal": {
     "fields": {
       "id": "string",
-      "reason": "string"
+      "reason": {
+        "document": "Reason"
+      }
     },
     "maybe": {},
     "type": "refused"

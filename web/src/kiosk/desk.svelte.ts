@@ -117,7 +117,7 @@ class Desk {
     const entry = [...(app.board?.open ?? []), ...(app.board?.closed ?? [])].find((one) => one.key === keyOf(wish.id));
     void this.now; // ages
     const age = (Date.now() - wish.made) / 1000;
-    return { state: wish.state, age, since: entry ? this.now - entry.changed : age };
+    return { state: wish.state, reason: wish.reason, age, since: entry ? this.now - entry.changed : age };
   }
   /** The last tour that this screen asked for and that is over. */
   private get tourWish(): Wish | undefined {

@@ -16,7 +16,7 @@ const museum = (languages: string[], tours: string[]): Museum => ({
 const mission = (phase: string, more: Partial<MissionMessage> = {}): MissionMessage => ({
   type: 'mission', phase, tour: '', exhibit: 'clock', text: {}, agenda: [], explained: 0, tours: 0, served: 0, prompt: null, ...more,
 });
-const asksMore = { id: 't/more', text: 'More?', options: ['more', 'next'], default: 'next', deadline: 5 };
+const asksMore = { id: 't/more', text: { en: 'More?', de: 'Mehr?' }, language: 'de', options: ['more', 'next'], default: 'next', deadline: 5 };
 const base: Situation = {
   language: 'en', museum: museum(['en', 'de', 'fr'], ['a', 'b', 'c', 'd', 'e']), isOwn: true, line: 'open', localized: true, mission: mission('idle'),
   speech: null, sentence: '', blocked: false, left: 0, answered: false, asked: null, poll: null, page: 'home', from: 0, smaller: false,
@@ -68,16 +68,20 @@ describe('at home', () => {
 
 describe('a tour', () => {
   test('from the wish to the way there', () => {
-    expect(at({ asked: { state: 'sending', age: 0, since: 0 } }).name).toBe('sending');
-    expect(at({ asked: { state: 'queued', age: 1, since: 1 } }).name).toBe('coming');
-    const later = at({ asked: { state: 'queued', age: 60, since: 60 }, mission: mission('charging') });
+    expect(at({ asked: { state: 'sending', reason: null, age: 0, since: 0 } }).name).toBe('sending');
+    expect(at({ asked: { state: 'queued', reason: null, age: 1, since: 1 } }).name).toBe('coming');
+    const later = at({ asked: { state: 'queued', reason: null, age: 60, since: 60 }, mission: mission('charging') });
     expect(later.name).toBe('home');
     expect(later.text).toContain('on my list');
-    expect(at({ asked: { state: 'refused', age: 2, since: 2 } }).name).toBe('refused');
-    expect(at({ asked: { state: 'refused', age: 60, since: 60 } }).name).toBe('home');
+    expect(at({ asked: { state: 'refused', reason: null, age: 2, since: 2 } }).name).toBe('refused');
+    const closed = at({ language: 'de', asked: { state: 'refused', reason: { word: 'closed', about: '' }, age: 2, since: 2 } });
+    expect([closed.title, closed.text]).toEqual([kioskWord('de', 'refused'), 'Das Museum ist geschlossen.']);
+    const missed = at({ asked: { state: 'failed', reason: { word: 'not_reached', about: 'clock gone' }, age: 2, since: 2 } });
+    expect(missed.text).toBe('I could not get to: The clock, gone.');
+    expect(at({ asked: { state: 'refused', reason: null, age: 60, since: 60 } }).name).toBe('home');
   });
   test('on the way it shows where to; others may ask for a tour, too', () => {
-    const own = at({ mission: mission('driving'), asked: { state: 'active', age: 30, since: 20 } });
+    const own = at({ mission: mission('driving'), asked: { state: 'active', reason: null, age: 30, since: 20 } });
     expect([own.name, own.title, own.exhibit, litOf(own).join()]).toEqual(['driving', 'The clock', 'clock', '4']);
     expect(litOf(at({ mission: mission('driving') }))).toEqual([1, 4]);
     expect(at({ mission: mission('driving'), page: 'tours' }).name).toBe('tours');
@@ -98,7 +102,7 @@ describe('a tour', () => {
     expect(labels(screen.choices)).toEqual([null, null, 'Tell me more', 'Go on']);
     expect(screen.title).toBe('Would you like to hear more?');
     expect(litOf(screen)).toEqual([3, 4]);
-    const yes = at({ mission: mission('asking', { prompt: { ...asksMore, text: 'Shall we?', options: ['yes', 'no'] } }), left: 4 });
+    const yes = at({ mission: mission('asking', { prompt: { ...asksMore, text: { en: 'Shall we?', de: 'Sollen wir?' }, options: ['yes', 'no'] } }), left: 4 });
     expect([yes.title, ...labels(yes.choices)]).toEqual(['Shall we?', 'No', null, 'Yes', null]);
     const other = at({ mission: mission('asking', { prompt: { ...asksMore, options: ['left', 'right', 'yes', 'a', 'b'] } }), left: 4 });
     expect(labels(other.choices)).toEqual(['left', 'right', 'Yes', 'a']);

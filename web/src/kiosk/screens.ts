@@ -1,6 +1,7 @@
 // What the robot's own screen shows, and where its four buttons lead, as a function of what the robot says and of what was
 // chosen here. Pure, so that a reload gives the same screen at once and each state can be tested.
-import type { AnswerMessage, MissionMessage, Museum, SpeechMessage, Tour } from '../lib/protocol';
+import type { AnswerMessage, MissionMessage, Museum, Reason, SpeechMessage, Tour } from '../lib/protocol';
+import { reasonText } from '../lib/words';
 import { type KioskWord, kioskWord, nameOf } from './words';
 
 export type Page = 'home' | 'tours' | 'languages' | 'help';
@@ -43,6 +44,8 @@ export interface Screen {
 /** The wish that was made here last. */
 export interface Asked {
   state: string;
+  /** Why it is in this state. */
+  reason: Reason | null;
   /** [s] since it was made */
   age: number;
   /** [s] since its state changed */
@@ -93,6 +96,10 @@ class Teller {
   say(texts: Record<string, string> | undefined): string {
     if (!texts) return '';
     return texts[this.s.language] || texts[this.s.museum?.languages[0] ?? ''] || Object.values(texts)[0] || '';
+  }
+  why(reason: Reason | null): string {
+    const exhibits = this.s.museum?.exhibits ?? [];
+    return reason ? reasonText(this.s.language, reason, (id) => this.say(exhibits.find((one) => one.id === id)?.title) || id) : '';
   }
   screen(name: ScreenName, title: string, text = '', choices: Choices = NONE, exhibit?: string): Screen {
     return { name, title, text, choices, exhibit };
@@ -163,7 +170,7 @@ class Teller {
     const isWaiting = openStates.includes(asked.state);
     if (isWaiting && asked.age < PROMPT) return this.screen('coming', this.w('coming'), this.w('comingText'));
     if (['refused', 'failed'].includes(asked.state) && asked.since < NEWS) {
-      return this.screen('refused', this.w('refused'), this.w('refusedText'));
+      return this.screen('refused', this.w('refused'), this.why(asked.reason) || this.w('refusedText'));
     }
     return null;
   }
@@ -178,7 +185,7 @@ class Teller {
       choices[place] = { label: words[option] ? this.w(words[option]) : option, act: { do: 'answer', option } };
     }
     const isOfMore = prompt.options.includes('more');
-    return this.screen('asking', isOfMore ? this.w('moreQuestion') : prompt.text, isOfMore ? this.w('goOnSoon') : '', choices, this.s.mission!.exhibit);
+    return this.screen('asking', isOfMore ? this.w('moreQuestion') : this.say(prompt.text), isOfMore ? this.w('goOnSoon') : '', choices, this.s.mission!.exhibit);
   }
   /** "More" is announced while the first words are spoken: in Bonn people found it at the third exhibit only. */
   explaining(): Screen {

@@ -15,6 +15,7 @@ import type {
   MissionMessage,
   Museum,
   PathMessage,
+  Reason,
   ServerMessage,
   SoundMessage,
   SpeechMessage,
@@ -23,14 +24,14 @@ import type {
 import { decode } from './protocol';
 import { type Asked, cancelOf, choiceOf, requestOf, watchOf } from './orders';
 import { uuid7 } from './uuid';
-import { pageLanguage, word } from './words';
+import { pageLanguage, reasonText, word } from './words';
 
 /** What this browser asked for, and has to see through. */
 export interface Wish extends Asked {
   made: number;
   /** sending until the server has it on disk, then sent; from the board on, the board's word. */
   state: string;
-  reason: string;
+  reason: Reason | null;
   seen: boolean;
 }
 
@@ -149,6 +150,13 @@ class App {
     const found = kind === 'tour' ? this.museum?.tours.find((tour) => tour.id === target) : this.exhibit(target);
     return this.say(found?.title) || target;
   }
+  /** Why something is in this state; empty: nobody said so. */
+  why(reason: Reason | null, state = ''): string {
+    if (!reason) return '';
+    const text = reasonText(this.language, reason, (id) => this.titleOf('exhibit', id));
+    // What waits after something went wrong has its turn once more.
+    return state === 'queued' && reason.word !== 'charging_first' ? `${text} ${this.t('tryAgain')}` : text;
+  }
   setLanguage(language: string): void {
     this.language = language;
     store.write('language', language);
@@ -175,7 +183,7 @@ class App {
   }
   ask(kind: 'exhibit' | 'tour', target: string, viewpoint = -1): void {
     if (this.wishFor(kind, target)) return;
-    const wish: Wish = { id: uuid7(), kind, target, viewpoint, made: Date.now(), state: 'sending', reason: '', seen: false };
+    const wish: Wish = { id: uuid7(), kind, target, viewpoint, made: Date.now(), state: 'sending', reason: null, seen: false };
     this.wishes = [...this.wishes.slice(-30), wish];
     store.write('name', this.name);
     store.write('asked', (this.hasAsked = true));
@@ -232,7 +240,8 @@ class App {
         this.notice(`${this.t('hurray')} ${this.titleOf(wish.kind, wish.target)}`);
       }
       if (entry.state === 'refused' || entry.state === 'failed') {
-        this.notice(`${this.titleOf(wish.kind, wish.target)}: ${this.t(entry.state)} (${entry.reason})`);
+        const why = this.why(entry.reason);
+        this.notice(`${this.titleOf(wish.kind, wish.target)}: ${this.t(entry.state)}${why && ` (${why})`}`);
       }
       return { ...wish, state: entry.state, reason: entry.reason, seen: true };
     });
@@ -352,10 +361,10 @@ class App {
       case 'refused':
         this.unanswered.delete(message.id);
         this.changeWish(message.id, { state: 'refused', reason: message.reason });
-        this.notice(`${this.t('refused')}: ${message.reason}`);
+        this.notice(`${this.t('refused')}: ${this.why(message.reason)}`);
         return;
       case 'error':
-        this.notice(message.reason);
+        this.notice(this.why(message.reason));
     }
   }
   private takeLive(message: LiveMessage): void {

@@ -1,4 +1,5 @@
 import en, { type Words } from '../words/en';
+import type { Reason } from './protocol';
 
 /** The dictionaries: every file of words/, by the code of its language. */
 const files = import.meta.glob<Words>('../words/*.ts', { eager: true, import: 'default' });
@@ -14,6 +15,14 @@ export function pageLanguage(wanted: string, museum: string[]): string {
 }
 export function word(language: string, key: WordKey): string {
   return (dictionaries.get(language) ?? en)[key];
+}
+/**
+ * Why, in the reader's words; `titleOf` tells an exhibit's title. A reason without words does not compile; a page that
+ * was opened before its server became a newer one may still hear of one, and says nothing then.
+ */
+export function reasonText(language: string, reason: Reason, titleOf: (id: string) => string): string {
+  const text: string | undefined = word(language, `reason_${reason.word}`);
+  return text?.replace('{}', () => reason.about.split(' ').map(titleOf).join(', ')) ?? '';
 }
 export function phaseWord(language: string, phase: string): string {
   const table = dictionaries.get(language) ?? en;

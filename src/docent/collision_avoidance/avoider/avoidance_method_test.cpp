@@ -104,7 +104,7 @@ std::optional<AvoiderDecision> reflex_to_somebody(double gap) {
 TEST(AvoidanceMethod, TheCheckOfEveryScanSlowsACreepWhereOnlyLessIsHarmless) {
   const auto near = reflex_to_somebody(0.16);
   ASSERT_TRUE(near) << "no reflex";
-  EXPECT_EQ(near->reason, "people are near");
+  EXPECT_EQ(near->reason, "people_near");
   EXPECT_NEAR(near->command.linear, PeopleCautionParams{}.harmless, 1e-6);
   EXPECT_FALSE(reflex_to_somebody(1.5)) << "far off";
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "docent/collision_avoidance/body/braking.h"
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent::collision_avoidance {
 
@@ -148,7 +149,7 @@ bool Avoider::cap_by_touched_things(Time now, const Pose2& odom_from_base, Speed
   bool is_near = false;
   for (const Point2& thing : surroundings_.memory().touched_things(now)) {
     if (limits_.gap_to(inverse(odom_from_base) * thing) >= params_.touch.near) continue;
-    cap.lower(params_.touch.feels_its_way, "something that only touch finds is near");
+    cap.lower(params_.touch.feels_its_way, to_text(ReasonWord::felt_thing_near));
     is_near = true;
   }
   return is_near;
@@ -170,14 +171,14 @@ void Avoider::judge_blocking(Time now, Point2 carrot, const Pose2& odom_from_bas
   if (blocker == nullptr || std::abs(decision.command.linear) > params_.blocking.least_speed) return;
   decision.path_blocked = true;
   decision.state = AvoiderDecision::State::blocked;
-  decision.reason = blocker->is_border    ? "the border of its area is in the way"
-                    : blocker->is_virtual ? "a hazard is in the way"
-                                          : "something is in the way";
+  decision.reason = to_text(blocker->is_border    ? ReasonWord::border_in_way
+                            : blocker->is_virtual ? ReasonWord::hazard_in_way
+                                                  : ReasonWord::obstacle_in_way);
   if (blocker->is_virtual) return;
   const UnmappedPlaces& unmapped = surroundings_.unmapped();
   const Point2 in_odom = odom_from_base * blocker->at;
   decision.unmapped_obstacle = unmapped.judge(now) ? unmapped.is_near(in_odom) : blocker->person;
-  if (decision.unmapped_obstacle) decision.reason = "somebody is in the way";
+  if (decision.unmapped_obstacle) decision.reason = to_text(ReasonWord::person_in_way);
   decision.low_obstacle = blocker->is_low && !decision.unmapped_obstacle;
 }
 
@@ -203,7 +204,7 @@ std::optional<std::string> Avoider::reason_to_stand(Time now) const {
   if (auto why = fault(now); !why.empty()) return why;
   if (!target_ || target_->mode == AvoiderTarget::Mode::stop) return "";
   if (target_freshness_.age(now) > params_.target_timeout) return "no fresh target";
-  if (is_touched(now, contact_.stands_for())) return "the robot was touched";
+  if (is_touched(now, contact_.stands_for())) return to_text(ReasonWord::touched);
   return std::nullopt;
 }
 
@@ -260,7 +261,7 @@ AvoiderDecision Avoider::decide(Time now) {
   auto choice = window_.choose(start.velocity, command_, obstacles, course->steering);
   decision.command = choice.command;
   decision.window = std::move(choice.window);
-  if (choice.is_braking) decision.reason = "braking";
+  if (choice.is_braking) decision.reason = to_text(ReasonWord::braking);
   if (!turns) judge_blocking(now, course->wanted, start.odom_from_base, obstacles, decision);
   return finish(now, std::move(decision));
 }
@@ -270,7 +271,7 @@ std::optional<AvoiderDecision> Avoider::reflex(Time now) {
   AvoiderDecision decision;
   decision.nearest_real = decision.nearest_virtual = surroundings_.reach(top_speed());
   if (auto why = fault(now); !why.empty()) return stand(now, std::move(decision), std::move(why));
-  if (is_touched(now, params_.touch.brakes_for)) return stand(now, std::move(decision), "the robot was touched");
+  if (is_touched(now, params_.touch.brakes_for)) return stand(now, std::move(decision), to_text(ReasonWord::touched));
   const BaseState start = state_when_effective(now);
   // A disc turns in its own place; another body sweeps more.
   const ReflexParams& reflex = params_.reflex;
@@ -289,11 +290,11 @@ std::optional<AvoiderDecision> Avoider::reflex(Time now) {
       decision.command = *slowed;
       decision.state = AvoiderDecision::State::driving;
       decision.speed_cap = slowed->linear;
-      decision.reason = "people are near";
+      decision.reason = to_text(ReasonWord::people_near);
       return finish(now, std::move(decision));
     }
   }
-  return stand(now, std::move(decision), "braking");
+  return stand(now, std::move(decision), to_text(ReasonWord::braking));
 }
 
 }  // namespace docent::collision_avoidance

@@ -39,7 +39,7 @@ struct AvoiderDecision {
   enum class State { driving, turning, stopped, blocked };
   Velocity command;
   State state = State::stopped;
-  std::string reason;      ///< why it stands or is slow; empty when nothing hinders
+  std::string reason;  ///< why it stands or is slow: a word of ReasonWord, or in English what is broken; empty: nothing
   double speed_cap = 0.0;  ///< [m/s]
   bool path_blocked = false;
   bool unmapped_obstacle = false;

@@ -10,23 +10,25 @@ ScreenDesk::ScreenDesk(transport::Bus& bus, const std::filesystem::path& poll)
   lamps_.publish({{to_message(bus_.now()), ""}, {}});
 }
 
-std::optional<Result<void>> ScreenDesk::take(const telepresence::ClientMessage& message,
-                                             std::optional<MissionPhase> phase) {
+std::optional<Reason> ScreenDesk::take(const telepresence::ClientMessage& message, std::optional<MissionPhase> phase) {
   if (const auto* lamps = std::get_if<telepresence::LampsMessage>(&message)) {
     heard_ = bus_.now();
     light(lamps->lit);
-    return Result<void>{};
+    return Reason{};
   }
-  if (const auto* answer = std::get_if<telepresence::AnswerMessage>(&message))
-    return poll_.add({answer->id, answer->question, answer->answer, answer->language}, bus_.now());
+  if (const auto* answer = std::get_if<telepresence::AnswerMessage>(&message)) {
+    const auto kept = poll_.add({answer->id, answer->question, answer->answer, answer->language}, bus_.now());
+    fault_ = kept ? "" : kept.error().message;
+    return kept ? Reason{} : ReasonWord::not_stored;
+  }
   if (const auto* wanted = std::get_if<telepresence::HelpMessage>(&message)) return help(*wanted, phase);
   return std::nullopt;
 }
 
-Result<void> ScreenDesk::help(const telepresence::HelpMessage& message, std::optional<MissionPhase> phase) {
+Reason ScreenDesk::help(const telepresence::HelpMessage& message, std::optional<MissionPhase> phase) {
   const bool has_time =
       phase == MissionPhase::idle || phase == MissionPhase::waiting || phase == MissionPhase::charging;
-  if (!has_time) return fail("the robot is busy");
+  if (!has_time) return ReasonWord::busy;
   says_.publish({message.id, interaction::sentence(interaction::Sentence::help, message.language, Mood::neutral, 0),
                  message.language, to_text(Mood::happy)});
   return {};

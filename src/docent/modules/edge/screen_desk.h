@@ -7,6 +7,7 @@
 #include "docent/messages/topics.h"
 #include "docent/telepresence/client_message.h"
 #include "docent/transport/bus.h"
+#include "docent/vocabulary/reason.h"
 #include "docent/vocabulary/vocabulary.h"
 
 namespace docent::modules {
@@ -17,15 +18,17 @@ class ScreenDesk {
   /// @param poll  the file of the visitors' answers
   ScreenDesk(transport::Bus& bus, const std::filesystem::path& poll);
 
-  /// Does what the screen asks for. nullopt: that is no matter of its own, anybody could have asked. Error: why not,
-  /// for the visitor. `phase`: of the mission, as last heard.
-  [[nodiscard]] std::optional<Result<void>> take(const telepresence::ClientMessage& message,
-                                                 std::optional<MissionPhase> phase);
+  /// Does what the screen asks for. nullopt: that is no matter of its own, anybody could have asked. A reason: why
+  /// not; none: done. `phase`: of the mission, as last heard.
+  [[nodiscard]] std::optional<Reason> take(const telepresence::ClientMessage& message,
+                                           std::optional<MissionPhase> phase);
+  /// Why the last answer could not be written; empty: it was.
+  [[nodiscard]] const std::string& fault() const { return fault_; }
   /// Now and then: a screen that says nothing any more has no lit buttons.
   void look();
 
  private:
-  [[nodiscard]] Result<void> help(const telepresence::HelpMessage& message, std::optional<MissionPhase> phase);
+  [[nodiscard]] Reason help(const telepresence::HelpMessage& message, std::optional<MissionPhase> phase);
   void light(const std::vector<int>& lit);
 
   transport::Bus& bus_;
@@ -34,6 +37,7 @@ class ScreenDesk {
   transport::Publisher<docent_msgs::Say> says_;
   std::vector<int> lit_;
   Time heard_;
+  std::string fault_;
 };
 
 }  // namespace docent::modules

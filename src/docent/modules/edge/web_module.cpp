@@ -22,7 +22,7 @@
 #include "docent/telepresence/server/screen_key.h"
 #include "docent/telepresence/server/web_server.h"
 #include "docent/telepresence/site.h"
-#include "docent/vocabulary/vocabulary.h"
+#include "docent/vocabulary/reason.h"
 
 namespace docent::modules {
 namespace {
@@ -135,7 +135,9 @@ class WebModule final : public Module {
   }
 
   [[nodiscard]] ModuleHealth health() const override {
-    if (!reason_.empty()) return {"degraded", reason_};
+    for (const std::string& fault : {reason_, fault_, screen_.fault()}) {
+      if (!fault.empty()) return {"degraded", fault};
+    }
     return {};
   }
 
@@ -331,13 +333,13 @@ class WebModule final : public Module {
     const auto* answer = std::get_if<telepresence::AnswerMessage>(&message);
     if (!done || (help == nullptr && answer == nullptr)) return;
     const std::string& id = help != nullptr ? help->id : answer->id;
-    server_->send(viewer, *done ? telepresence::encode_acknowledgement(id)
-                                : telepresence::encode_refusal(id, done->error().message));
+    server_->send(viewer,
+                  done->is_none() ? telepresence::encode_acknowledgement(id) : telepresence::encode_refusal(id, *done));
   }
 
   void take_request(telepresence::ViewerId viewer, RequestSource source, const telepresence::RequestMessage& message) {
-    const std::string why = refusal(message);
-    if (!why.empty()) return server_->send(viewer, telepresence::encode_refusal(message.id, why));
+    if (const Reason why = refusal(message); !why.is_none())
+      return server_->send(viewer, telepresence::encode_refusal(message.id, why));
     docent_msgs::Request wish;
     wish.id = message.id;
     wish.visitor = message.name;
@@ -349,15 +351,11 @@ class WebModule final : public Module {
     store(viewer, source, std::move(wish));
   }
 
-  [[nodiscard]] std::string refusal(const telepresence::RequestMessage& message) const {
-    if (open_requests_ + outbox_->pending().size() >= static_cast<std::size_t>(params_.max_open_requests)) {
-      return "too many requests are waiting";
-    }
-    if (message.kind == RequestKind::tour) return museum_.find_tour(message.target) == nullptr ? "no such tour" : "";
-    const museum::Exhibit* exhibit = museum_.find_exhibit(message.target);
-    if (exhibit == nullptr) return "no such exhibit";
-    if (message.viewpoint >= static_cast<int>(exhibit->viewpoints.size())) return "no such viewpoint";
-    return "";
+  /// None: it is taken.
+  [[nodiscard]] Reason refusal(const telepresence::RequestMessage& message) const {
+    if (open_requests_ + outbox_->pending().size() >= static_cast<std::size_t>(params_.max_open_requests))
+      return ReasonWord::too_many_wait;
+    return telepresence::why_not_in(museum_, message);
   }
 
   /// Commits, then acknowledges, then tells the robot (architecture 10.8, 10.9).
@@ -365,19 +363,21 @@ class WebModule final : public Module {
     wish.stamp = to_message(bus_.now());
     wish.source = to_text(source);
     auto stored = outbox_->put(wish);
-    if (!stored) return server_->send(viewer, telepresence::encode_refusal(wish.id, stored.error().message));
+    if (!stored) {
+      fault_ = stored.error().message;
+      return server_->send(viewer, telepresence::encode_refusal(wish.id, ReasonWord::not_stored));
+    }
+    fault_.clear();
     server_->send(viewer, telepresence::encode_acknowledgement(wish.id));
     requests_.publish(std::move(wish));
   }
 
   void take_choice(telepresence::ViewerId viewer, RequestSource source, const telepresence::ChoiceMessage& message) {
-    const auto* prompt = mission_ ? &mission_->prompt : nullptr;
-    if (prompt == nullptr || prompt->id != message.prompt) {
-      return server_->send(viewer, telepresence::encode_refusal(message.id, "the question is no longer open"));
-    }
-    if (std::find(prompt->options.begin(), prompt->options.end(), message.choice) == prompt->options.end()) {
-      return server_->send(viewer, telepresence::encode_refusal(message.id, "no such answer"));
-    }
+    const auto* prompt = mission_ && mission_->prompt.id == message.prompt ? &mission_->prompt : nullptr;
+    if (prompt == nullptr)
+      return server_->send(viewer, telepresence::encode_refusal(message.id, ReasonWord::question_over));
+    if (std::find(prompt->options.begin(), prompt->options.end(), message.choice) == prompt->options.end())
+      return server_->send(viewer, telepresence::encode_refusal(message.id, ReasonWord::no_such_answer));
     if (!choice_ || choice_->prompt_id != message.prompt) {  // the first answer counts
       choice_ = docent_msgs::Choice{message.id, message.prompt, message.choice, to_text(source)};
       choices_.publish(*choice_);
@@ -407,7 +407,8 @@ class WebModule final : public Module {
   const museum::Museum& museum_;
   const robot::RobotBody body_;
   const WebParams params_;
-  std::string reason_;
+  std::string reason_;  ///< what is wrong since the start
+  std::string fault_;   ///< why the last request could not be stored
   std::unique_ptr<telepresence::Outbox> outbox_;
   transport::Publisher<docent_msgs::Request> requests_;
   transport::Publisher<docent_msgs::Choice> choices_;

@@ -182,9 +182,9 @@ TEST_F(WebModuleTest, WhatTheMuseumDoesNotHaveIsRefused) {
   telepresence::TestClient viewer{port_};
   ASSERT_TRUE(viewer.upgrade());
   viewer.send_frame(request(kId, "mona-lisa"));
-  EXPECT_EQ(next(viewer, "refused")["reason"], "no such exhibit");
+  EXPECT_EQ(next(viewer, "refused")["reason"]["word"], "no_such_exhibit");
   viewer.send_frame(request(kId, "sputnik", 2));
-  EXPECT_EQ(next(viewer, "refused")["reason"], "no such viewpoint");
+  EXPECT_EQ(next(viewer, "refused")["reason"]["word"], "no_such_viewpoint");
   run(3.0);
   EXPECT_TRUE(requests_.empty());
 }
@@ -217,7 +217,7 @@ TEST_F(WebModuleTest, OnlyAnOpenQuestionCanBeAnswered) {
     viewer.send_frame(Json{{"type", "choice"}, {"id", kId}, {"prompt", prompt}, {"choice", choice}}.dump());
   };
   answer("p1", "more");
-  EXPECT_EQ(next(viewer, "refused")["reason"], "the question is no longer open");
+  EXPECT_EQ(next(viewer, "refused")["reason"]["word"], "question_over");
   docent_msgs::MissionState mission;
   mission.prompt.id = "p1";
   mission.prompt.options = {"more", "next"};
@@ -225,7 +225,7 @@ TEST_F(WebModuleTest, OnlyAnOpenQuestionCanBeAnswered) {
   missions.publish(mission);
   EXPECT_EQ(next(viewer, "mission")["prompt"]["id"], "p1");
   answer("p1", "drive-faster");
-  EXPECT_EQ(next(viewer, "refused")["reason"], "no such answer");
+  EXPECT_EQ(next(viewer, "refused")["reason"]["word"], "no_such_answer");
   answer("p1", "more");
   next(viewer, "ack");
   answer("p1", "next");  // too late: the first answer counts
@@ -374,7 +374,7 @@ TEST_F(WebModuleTest, TheScreenGetsAnAnswerToWhatItAloneMayAsk) {
   ASSERT_TRUE(open_screen(screen, screen_key()));
   screen.send_frame(R"({"type":"lamps","lit":[3,4]})");
   screen.send_frame(Json{{"type", "help"}, {"id", kId}, {"language", "de"}}.dump());
-  EXPECT_EQ(next(screen, "refused")["reason"], "the robot is busy");
+  EXPECT_EQ(next(screen, "refused")["reason"]["word"], "busy");
   EXPECT_EQ(lit_, (std::vector<std::int32_t>{3, 4}));
   screen.send_frame(
       Json{{"type", "answer"}, {"id", kOtherId}, {"question", "liked"}, {"answer", "yes"}, {"language", "en"}}.dump());

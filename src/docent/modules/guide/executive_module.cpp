@@ -1,6 +1,7 @@
 #include "docent/modules/guide/executive_module.h"
 
 #include "docent/base/files.h"
+#include "docent/interaction/speech/sentences.h"
 #include "docent/interaction/speech/spoken_text.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/shared/museum_mode.h"
@@ -17,6 +18,22 @@ std::vector<std::string> texts_of(const std::vector<Answer>& answers) {
   std::vector<std::string> texts;
   for (const Answer answer : answers) texts.emplace_back(to_text(answer));
   return texts;
+}
+
+/// The question in each of the museum's languages.
+docent_msgs::Prompt to_message(const task_control::Question& question, const museum::Museum& museum) {
+  docent_msgs::Prompt prompt;
+  if (question.id.empty()) return prompt;
+  prompt.id = question.id;
+  prompt.language = question.language;
+  prompt.languages = museum.languages;
+  if (prompt.languages.empty()) prompt.languages = {question.language};
+  for (const std::string& language : prompt.languages)
+    prompt.texts.push_back(interaction::sentence(question.sentence, language, Mood::neutral, 0));
+  prompt.options = texts_of(question.options);
+  prompt.default_option = to_text(question.default_option);
+  prompt.deadline = docent::to_message(question.deadline);
+  return prompt;
 }
 
 /// The built-in one under what the museum's file says.
@@ -125,16 +142,14 @@ class ExecutiveModule final : public Module {
     for (task_control::Utterance& line : actions.utterances) {
       say_.publish({std::move(line.id), std::move(line.text), std::move(line.language), to_text(line.mood)});
     }
-    const auto stamp = to_message(bus_.now());
+    const auto stamp = docent::to_message(bus_.now());
     if (actions.report) {
       task_control::TaskReport& report = *actions.report;
-      task_control::Question& question = report.question;
       state_.publish({{stamp, "map"},
                       std::move(report.id),
                       to_text(report.state),
-                      std::move(report.reason),
-                      {std::move(question.id), std::move(question.text), texts_of(question.options),
-                       to_text(question.default_option), to_message(question.deadline)},
+                      report.reason.text(),
+                      to_message(report.question, museum_),
                       report.took_long,
                       std::move(report.look)});
     }

@@ -146,7 +146,7 @@ TEST_F(ExecutiveModule, SoundsTheHornBeforePeopleAndNotBeforeWhatTheMapHolds) {
   EXPECT_EQ(horns, 1) << "it departs";
   docent_msgs::AvoidState before;
   before.path_blocked = true;
-  before.reason = "someone stands there";
+  before.reason = "person_in_way";
   const auto stand_before = [&](bool unmapped, double duration) {
     before.unmapped_obstacle = unmapped;
     for (double stood = 0.0; stood < duration; stood += 0.2) {
@@ -161,7 +161,7 @@ TEST_F(ExecutiveModule, SoundsTheHornBeforePeopleAndNotBeforeWhatTheMapHolds) {
   steps.clear();
   stand_before(true, 3.5);
   EXPECT_EQ(horns, 2);
-  EXPECT_EQ(horn.reason, "someone stands there");
+  EXPECT_EQ(horn.reason, "person_in_way");
   const auto step = std::find_if(steps.begin(), steps.end(), [](const auto& taken) { return taken.step == "horn"; });
   ASSERT_NE(step, steps.end()) << "the page and the report hear of it";
   EXPECT_EQ(step->goal_id, goal.id);

@@ -17,6 +17,7 @@
 #include "docent/task_control/mission/mission_store.h"
 #include "docent/task_control/plan_controller/plan_controller.h"
 #include "docent/task_control/travel_times/travel.h"
+#include "docent/vocabulary/reason.h"
 #include "docent/vocabulary/vocabulary.h"
 
 namespace docent::modules {
@@ -92,7 +93,7 @@ docent_msgs::RequestState to_message(const task_control::BoardEntry& entry) {
   return {{request.id, docent::to_message(request.stamp), request.source.text(), request.visitor, request.kind.text(),
            request.target, request.viewpoint, request.language},
           to_text(entry.status),
-          entry.reason,
+          entry.reason.text(),
           docent::to_message(entry.created),
           docent::to_message(entry.changed)};
 }
@@ -204,7 +205,8 @@ class MissionModule final : public Module {
 
   void on_task(const docent_msgs::TaskState& message) {
     if (message.id == mission_.task().id) prompt_ = message.prompt;
-    mission_.report(message.id, parse<TaskStatus>(message.state), message.reason, bus_.now(), message.took_long);
+    mission_.report(message.id, parse<TaskStatus>(message.state), Reason::from_text(message.reason), bus_.now(),
+                    message.took_long);
     flush();
   }
 
@@ -294,8 +296,6 @@ class MissionModule final : public Module {
     };
     message.languages = mission_.scheduler().programme().languages;
     for (const std::string& language : message.languages) message.texts.push_back(text(language));
-    message.text_en = text("en");  // for readers that know no `texts` yet
-    message.text_de = text("de");
     if (summary.phase == MissionPhase::asking) message.prompt = prompt_;
     message.exhibits_explained = summary.counters.exhibits_explained;
     message.tours_completed = summary.counters.tours_completed;

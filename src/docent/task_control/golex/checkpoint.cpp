@@ -18,7 +18,7 @@ Result<void> save_checkpoint(const std::filesystem::path& path, const ExecutiveM
                   {"finished", memory.finished},
                   {"item_began", memory.item_began.nanoseconds},
                   {"drive_began", memory.drive_began.nanoseconds},
-                  {"reason", memory.reason},
+                  {"reason", memory.reason.text()},
                   {"took_long", memory.took_long},
                   {"moved", memory.moved},
                   {"look", memory.look},
@@ -54,7 +54,7 @@ Result<ExecutiveMemory> load_checkpoint(const std::filesystem::path& path, const
     memory.finished = json.at("finished").get<std::vector<std::string>>();
     memory.item_began = {json.at("item_began").get<std::int64_t>()};
     memory.drive_began = {json.at("drive_began").get<std::int64_t>()};
-    memory.reason = json.at("reason").get<std::string>();
+    memory.reason = Reason::from_text(json.at("reason").get<std::string>());
     memory.took_long = json.at("took_long").get<bool>();
     memory.moved = json.at("moved").get<bool>();
     memory.look = json.at("look").get<std::string>();

@@ -44,8 +44,8 @@ void Executive::resume(Time now) {
     const auto* action = decomposition_.find(memory_.task.order.kind.text());
     const bool is_other = action == nullptr || memory_.item < 0 || memory_.item >= static_cast<int>(action->size());
     const bool is_old = drive_under_way() == nullptr && now - memory_.item_began > seconds(params_.checkpoint_age_s);
-    if (is_old && !has_drive()) return finish(true, "", now);  // whoever it spoke to is gone
-    if (action == nullptr) return finish(false, "I do not know the task any more.", now);
+    if (is_old && !has_drive()) return finish(true, {}, now);  // whoever it spoke to is gone
+    if (action == nullptr) return finish(false, {ReasonWord::unknown_task, memory_.task.order.kind.text()}, now);
     if (is_other || is_old) {  // the file was changed, or visitors and place are others by now
       begin_item(0, now);
       return;
@@ -71,7 +71,7 @@ void Executive::set_task(ExecutiveTask task, Time now) {
     memory_.phase = Phase::running;
     begin_item(0, now);
   } else {
-    finish(false, "I do not know the task '" + order.kind.text() + "'.", now);
+    finish(false, {ReasonWord::unknown_task, order.kind.text()}, now);
   }
 }
 
@@ -131,7 +131,7 @@ void Executive::begin_item(int item, Time now) {
   const std::vector<ActionItem>& items = *decomposition_.find(memory_.task.order.kind.text());
   while (item < static_cast<int>(items.size()) && !holds(items[static_cast<std::size_t>(item)].condition)) ++item;
   if (item >= static_cast<int>(items.size())) {
-    finish(true, "", now);
+    finish(true, {}, now);
     return;
   }
   memory_.item = item;
@@ -140,7 +140,7 @@ void Executive::begin_item(int item, Time now) {
   ladder_.restart();
   heard_.reset();
   speech_sent_.reset();
-  note_.clear();
+  note_ = {};
   actions_.must_save = true;
   for (const Directive& directive : together()) begin(directive, now);
   const bool is_over = std::none_of(together().begin(), together().end(),
@@ -185,7 +185,7 @@ void Executive::begin(const Directive& directive, Time now) {
         memory_.finished.push_back(directive.name);
         break;
       }
-      say("question", question().text, Mood::neutral);
+      say("question", interaction::sentence(question().sentence, question().language, Mood::neutral, 0), Mood::neutral);
       actions_.happenings.push_back(
           {EventKind::prompt_shown, memory_.task.order.exhibit_id, question().id, params_.offer_s});
       break;
@@ -208,10 +208,10 @@ void Executive::end(const Directive& directive, Time now) {
   }
 }
 
-void Executive::finish(bool is_success, const std::string& reason, Time /*now*/) {
+void Executive::finish(bool is_success, const Reason& reason, Time /*now*/) {
   memory_.phase = is_success ? Phase::done : Phase::failed;
   memory_.reason = reason;
-  note_.clear();
+  note_ = {};
   actions_.must_save = true;
   if (!is_success) {
     send_drive();
@@ -278,7 +278,8 @@ Question Executive::question() const {
   const Directive* asked = under_way(DirectiveKind::ask);
   if (asked == nullptr) return {};
   return {own_id(asked->name),
-          interaction::sentence(interaction::Sentence::offer_more, memory_.task.order.language, Mood::neutral, 0),
+          interaction::Sentence::offer_more,
+          memory_.task.order.language,
           {Answer::more, Answer::next},
           Answer::next,
           question_deadline()};
@@ -305,11 +306,11 @@ void Executive::report() {
     return;
   }
   TaskReport report{task_id(), status(), memory_.reason, question(), memory_.took_long, memory_.look};
-  if (!note_.empty()) report.reason = note_;
+  if (!note_.is_none()) report.reason = note_;
   actions_.report = std::move(report);
 }
 
-void Executive::set_note(const std::string& note) {
+void Executive::set_note(const Reason& note) {
   if (note == note_) return;
   note_ = note;
   report();
@@ -329,9 +330,9 @@ void Executive::goal_report(const GoalReport& goal, Time now) {
   }
   const bool is_stuck = goal.state == GoalStatus::blocked || goal.state == GoalStatus::unreachable;
   if (goal.state == GoalStatus::driving || goal.state == GoalStatus::turning) {
-    set_note("");
-  } else if (is_stuck && note_.empty()) {
-    set_note(goal.state == GoalStatus::unreachable ? "I see no way there." : "Someone is in my way.");
+    set_note({});
+  } else if (is_stuck && note_.is_none()) {
+    set_note(goal.state == GoalStatus::unreachable ? ReasonWord::no_way : ReasonWord::person_in_way);
     actions_.happenings.push_back({EventKind::drive_blocked, memory_.task.order.exhibit_id,
                                    std::string{to_text(goal.state)} + " " + goal.reason, goal.remaining_m});
   }
@@ -347,7 +348,7 @@ void Executive::arrive(const Directive& directive, Time now) {
                                    order.kind == TaskKind::visit ? order.exhibit_id : order.kind.text(), order.id,
                                    to_seconds(lasted)});
   }
-  note_.clear();
+  note_ = {};
   end(directive, now);
 }
 
@@ -355,7 +356,7 @@ void Executive::watch_drive(Time now) {
   const Directive* driven = under_way(DirectiveKind::drive);
   if (driven == nullptr) return;
   if (now - memory_.drive_began > seconds(params_.max_drive_s)) {
-    finish(false, "It took me too long to get there.", now);
+    finish(false, ReasonWord::took_too_long, now);
   } else if (goal_.id == own_id(driven->name)) {
     climb_ladder(now);
   }
@@ -391,7 +392,7 @@ void Executive::climb_ladder(Time now) {
   actions_.reactions.insert(actions_.reactions.end(), steps.begin(), steps.end());
   // A robot that does not know where it is has nothing else to choose.
   if (gives_up && under_way(DirectiveKind::drive) != nullptr)
-    finish(false, is_unreachable ? "I found no way there." : "The way was blocked for too long.", now);
+    finish(false, is_unreachable ? ReasonWord::no_way : ReasonWord::way_blocked, now);
 }
 
 void Executive::ask_for_way(Time now, int count) {

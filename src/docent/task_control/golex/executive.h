@@ -8,10 +8,12 @@
 
 #include "docent/base/result.h"
 #include "docent/interaction/attract/style.h"
+#include "docent/interaction/speech/sentences.h"
 #include "docent/task_control/golex/decomposition.h"
 #include "docent/task_control/reaction_ladder/reaction_ladder.h"
 #include "docent/task_control/tour_scheduler/programme.h"
 #include "docent/task_control/tour_scheduler/task_order.h"
+#include "docent/vocabulary/reason.h"
 
 namespace docent::task_control {
 
@@ -60,7 +62,7 @@ struct ExecutiveMemory {
   std::vector<std::string> finished{};  ///< names of the item's directives that are over
   Time item_began;
   Time drive_began;
-  std::string reason;
+  Reason reason;
   bool took_long = false;  ///< the visitor asked for more
   bool moved = true;       ///< its last drive led it from one place to another
   std::string look;        ///< where the head shall look; empty: nothing was said of it
@@ -77,15 +79,15 @@ struct GoalReport {
   std::optional<GoalStatus> state;  ///< nullopt: one that is not known
   double remaining_m = 0.0;
   double blocked_s = 0.0;  ///< without progress
-  std::string reason;
+  std::string reason;      ///< in English, for logs
   std::string detour;
 };
 /// What the collision avoidance says of the way ahead; counts for a second, for who is silent may be dead.
 struct ObstacleReport {
   bool is_hindered = false;  ///< an obstacle in the wanted direction holds the robot up
   bool is_unmapped = false;  ///< that obstacle is not in the map
-  std::string reason;
-  bool is_thing = false;  ///< it, or what has touched the robot here, lies below the lasers, which see nobody there
+  std::string reason;        ///< a word of ReasonWord, or a diagnosis in English
+  bool is_thing = false;     ///< it, or what has touched the robot here, lies below the lasers, which see nobody there
 };
 struct Utterance {
   std::string id;
@@ -101,7 +103,8 @@ struct SpeechReport {
 };
 struct Question {
   std::string id;  ///< empty: nothing is asked
-  std::string text;
+  interaction::Sentence sentence = interaction::Sentence::offer_more;
+  std::string language{};  ///< in which it is spoken
   std::vector<Answer> options;
   std::optional<Answer> default_option;
   Time deadline;
@@ -109,7 +112,7 @@ struct Question {
 struct TaskReport {
   std::string id;
   std::optional<TaskStatus> state;  ///< nullopt: there is no task
-  std::string reason;
+  Reason reason;
   Question question;
   bool took_long = false;
   std::string look;
@@ -157,7 +160,7 @@ class Executive {
   void begin_item(int item, Time now);
   void begin(const Directive& directive, Time now);
   void end(const Directive& directive, Time now);
-  void finish(bool is_success, const std::string& reason, Time now);
+  void finish(bool is_success, const Reason& reason, Time now);
   void resume(Time now);
   [[nodiscard]] bool holds(Condition condition) const;
   /// What the present item consists of; nothing while no task runs.
@@ -184,7 +187,7 @@ class Executive {
   void watch_wait(const Directive& directive, Time now);
   void arrive(const Directive& directive, Time now);
   void ask_for_way(Time now, int count);
-  void set_note(const std::string& note);
+  void set_note(const Reason& note);
   [[nodiscard]] bool is_asked(const Directive& directive) const;
   [[nodiscard]] double wait_s(const Directive& directive) const;
   [[nodiscard]] std::string own_id(const std::string& name) const;
@@ -204,7 +207,7 @@ class Executive {
   Time shown_at_{};
   std::optional<SpeechReport> heard_;  ///< of the present utterance
   std::optional<Time> speech_sent_;
-  std::string note_;  ///< shown while driving: why it does not go on
+  Reason note_;  ///< shown while driving: why it does not go on
 };
 
 }  // namespace docent::task_control

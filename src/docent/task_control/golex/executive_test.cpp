@@ -93,20 +93,20 @@ TEST_F(ExecutiveTest, ABlockedWayIsAskedForAndThenGivenUp) {
     goal(GoalStatus::blocked);
   }
   EXPECT_EQ(state.state, TaskStatus::driving);
-  EXPECT_EQ(state.reason, "Someone is in my way.");
+  EXPECT_EQ(state.reason, ReasonWord::person_in_way);
   EXPECT_GE(said.size(), 5U);
   EXPECT_LE(said.size(), 6U) << "at most every fifteen seconds";
   for (std::size_t i = 1; i < said.size(); ++i) EXPECT_NE(said[i].id, said[i - 1].id);
   goal(GoalStatus::driving);
   pass(4.0);
-  EXPECT_EQ(state.reason, "");
+  EXPECT_EQ(state.reason, Reason{});
   EXPECT_EQ(rungs.back(), Rung::free);
   for (int i = 0; i < 92; ++i) {
     if (state.state == TaskStatus::driving) goal(GoalStatus::blocked);
     pass(1.0);
   }
   EXPECT_EQ(state.state, TaskStatus::failed);
-  EXPECT_FALSE(state.reason.empty());
+  EXPECT_EQ(state.reason, ReasonWord::way_blocked);
   EXPECT_EQ(rungs.back(), Rung::give_up);
   EXPECT_EQ(drive->id, "") << "it stays where it is";
 }
@@ -115,11 +115,11 @@ TEST_F(ExecutiveTest, APersonInTheWayIsBlownAtAndAsked) {
   start(visit("t1"));
   said.clear();
   goal(GoalStatus::driving);
-  executive.obstacle_report({true, true, "somebody is in the way"}, time());
+  executive.obstacle_report({true, true, "person_in_way"}, time());
   pass(1.0);
   EXPECT_EQ(rungs, std::vector<Rung>{Rung::slow});
   for (int i = 0; i < 8; ++i) {
-    executive.obstacle_report({true, true, "somebody is in the way"}, time());
+    executive.obstacle_report({true, true, "person_in_way"}, time());
     pass(1.0);
     goal(GoalStatus::blocked);
   }
@@ -136,7 +136,7 @@ TEST_F(ExecutiveTest, ADeadCollisionAvoidanceBlowsAtNobody) {
   start(visit("t1"));
   goal(GoalStatus::driving);
   for (int i = 0; i < 4; ++i) {
-    executive.obstacle_report({true, true, "somebody is in the way"}, time());
+    executive.obstacle_report({true, true, "person_in_way"}, time());
     pass(1.0);
     goal(GoalStatus::blocked);
   }
@@ -208,7 +208,7 @@ TEST_F(ExecutiveTest, SaysFarewellWhereItStands) {
 TEST_F(ExecutiveTest, WhoIsLostAmidPeopleAsksForTheWayAndDoesNotGiveUp) {
   start({{"l", TaskKind::relocalize, "", {}, "en", false, ""}, "", "", ""});
   for (int i = 0; i < 120; ++i) {
-    executive.obstacle_report({true, true, "somebody is in the way"}, time());
+    executive.obstacle_report({true, true, "person_in_way"}, time());
     pass(1.0);
     goal(GoalStatus::blocked);
   }
@@ -330,7 +330,7 @@ TEST_F(ExecutiveTest, AsksForTheWayInTheMoodThatItsFaceShows) {
   goal(GoalStatus::driving);
   for (int i = 0; i < 10 && said.empty(); ++i) {
     executive.mood_report(Mood::angry, time());
-    executive.obstacle_report({true, true, "somebody is in the way"}, time());
+    executive.obstacle_report({true, true, "person_in_way"}, time());
     pass(1.0);
     goal(GoalStatus::blocked);
   }

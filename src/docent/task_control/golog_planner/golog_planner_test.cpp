@@ -61,7 +61,7 @@ class GologPlannerTest : public testing::Test {
     if (status == TaskStatus::done &&
         (order.kind == TaskKind::home || order.kind == TaskKind::charge || order.kind.text() == "drive"))
       robot = order.map_from_base.position();
-    mission->report(order.id, status, "why", time(), took_long);
+    mission->report(order.id, status, ReasonWord::way_blocked, time(), took_long);
     pass(0.5);
   }
   [[nodiscard]] RequestStatus status_of(const std::string& id) {

@@ -64,7 +64,7 @@ Mission::Mission(const MissionParams& params, Programme programme, TravelDistanc
 }
 
 void Mission::submit(VisitorRequest request, Time now) {
-  conditions_.delay = must_charge_ ? "I am charging my battery first." : "";
+  conditions_.delay = must_charge_ ? ReasonWord::charging_first : Reason{};
   scheduler_.submit(std::move(request), conditions_, now);
   if (activity_ == Activity::visit && scheduler_.is_visit_unwanted() && may_interrupt()) {
     scheduler_.drop_visit(now);
@@ -73,7 +73,7 @@ void Mission::submit(VisitorRequest request, Time now) {
   decide(now);
 }
 
-void Mission::report(const std::string& task_id, std::optional<TaskStatus> state, const std::string& reason, Time now,
+void Mission::report(const std::string& task_id, std::optional<TaskStatus> state, const Reason& reason, Time now,
                      bool took_long) {
   if (task_id.empty() || task_id != task_.id) return;
   task_state_ = state;
@@ -111,7 +111,7 @@ void Mission::report(const std::string& task_id, std::optional<TaskStatus> state
     start_task(Activity::none, {});
     const EventKind arrival = is_home ? EventKind::home : EventKind::charger;
     const EventKind failure = is_home ? EventKind::home_failed : EventKind::charger_failed;
-    scheduler_.note({is_done ? arrival : failure, "", reason});
+    scheduler_.note({is_done ? arrival : failure, "", reason.text()});
   }
   decide(now);
 }
@@ -216,7 +216,7 @@ Situation Mission::situation(Time now) const {
   seen.has_farewell = schedule.farewell.has_value();
   seen.is_anything_due = scheduler_.is_anything_due(now);
   seen.is_open = conditions_.is_open && conditions_.mode != OperatingMode::closed;
-  seen.is_blocked = task_state_ == TaskStatus::driving && !task_reason_.empty();
+  seen.is_blocked = task_state_ == TaskStatus::driving && !task_reason_.is_none();
   seen.charge = battery_.charge(now);
   seen.is_charging = is_at_charger() && has_contact(now);
   seen.is_charged = !charges() || (seen.is_anything_due && seen.charge.value_or(1.0) >= enough_to_serve());
@@ -268,7 +268,7 @@ void Mission::break_off_to_charge(Time now) {
   const SchedulerState& schedule = scheduler_.state();
   broken_exhibit_ = schedule.visit ? schedule.visit->exhibit_id : "";
   broken_tour_ = schedule.tour ? schedule.tour->tour_id : "";
-  scheduler_.break_off("My battery is low, I have to charge it.", now);
+  scheduler_.break_off(ReasonWord::battery_low, now);
   start_task(Activity::none, {});
 }
 
@@ -343,7 +343,7 @@ void Mission::start_task(Activity activity, TaskOrder order) {
   task_ = std::move(order);
   if (activity != Activity::none) task_.id = deployment_ + "-" + std::to_string(next_task_++);
   task_state_.reset();
-  task_reason_.clear();
+  task_reason_ = {};
 }
 
 const std::vector<std::string>& Mission::agenda(Time now) {
@@ -379,7 +379,7 @@ MissionSummary Mission::summary(Time now) {
     const double missing = (is_awaited ? enough_to_serve() : params_.battery_full) - *charge;
     summary.charging_min = 5 * static_cast<int>(std::ceil(std::max(0.0, missing) / battery_.charge_per_s() / 300.0));
   }
-  summary.is_blocked = task_state_ == TaskStatus::driving && !task_reason_.empty();
+  summary.is_blocked = task_state_ == TaskStatus::driving && !task_reason_.is_none();
   switch (activity_) {
     case Activity::visit:
       summary.phase = task_state_ == TaskStatus::explaining ? MissionPhase::explaining

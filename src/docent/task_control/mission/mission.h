@@ -95,7 +95,7 @@ class Mission {
   void submit(VisitorRequest request, Time now);
   /// How a task goes; nullopt: as nobody here understands. Reports of other tasks than the present are ignored.
   /// @param took_long  the visitor asked for more
-  void report(const std::string& task_id, std::optional<TaskStatus> state, const std::string& reason, Time now,
+  void report(const std::string& task_id, std::optional<TaskStatus> state, const Reason& reason, Time now,
               bool took_long = false);
   /// @param position  best guess [m], map
   void localization(bool is_localized, Point2 position, Time now);
@@ -178,7 +178,7 @@ class Mission {
   TaskOrder task_;
   Activity activity_ = Activity::none;
   std::optional<TaskStatus> task_state_;
-  std::string task_reason_;
+  Reason task_reason_;
 
   bool is_localized_ = false;
   bool was_ever_localized_ = false;

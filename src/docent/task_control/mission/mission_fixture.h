@@ -51,7 +51,7 @@ class MissionTest : public testing::Test {
   [[nodiscard]] RequestStatus status_of(const std::string& id) const {
     return mission->memory().schedule.board.find(id)->status;
   }
-  void report(TaskStatus state) { mission->report(mission->task().id, state, "", time()); }
+  void report(TaskStatus state) { mission->report(mission->task().id, state, {}, time()); }
   [[nodiscard]] MissionPhase phase() const { return mission->summary(time()).phase; }
   bool happened(EventKind kind) {
     for (auto& happening : mission->take_happenings()) seen.push_back(happening.kind);

@@ -147,7 +147,7 @@ BoardEntry entry_from(SQLite::Statement& row) {
   request.viewpoint = row.getColumn(6).getInt();
   request.language = row.getColumn(7).getString();
   entry.status = parse<RequestStatus>(row.getColumn(8).getString()).value_or(RequestStatus::failed);
-  entry.reason = row.getColumn(9).getString();
+  entry.reason = Reason::from_text(row.getColumn(9).getString());
   entry.created = {row.getColumn(10).getInt64()};
   entry.changed = {row.getColumn(11).getInt64()};
   entry.attempts = row.getColumn(12).getInt();
@@ -196,7 +196,7 @@ struct MissionStore::Connection {
     insert.bind(7, request.viewpoint);
     insert.bind(8, request.language);
     insert.bind(9, std::string{to_text(entry.status)});
-    insert.bind(10, entry.reason);
+    insert.bind(10, entry.reason.text());
     insert.bind(11, entry.created.nanoseconds);
     insert.bind(12, entry.changed.nanoseconds);
     insert.bind(13, entry.attempts);

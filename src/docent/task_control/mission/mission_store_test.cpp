@@ -50,10 +50,10 @@ MissionMemory full_memory() {
 TEST_F(Store, GivesBackWhatWasSaved) {
   MissionMemory memory = full_memory();
   RequestBoard& board = memory.schedule.board;
-  board.add(request("a"), RequestStatus::queued, "", {1});
-  board.add(request("b"), RequestStatus::refused, "closed", {2});
-  board.add(request("c"), RequestStatus::queued, "", {3});
-  board.change("c", RequestStatus::active, "now", {4});
+  board.add(request("a"), RequestStatus::queued, {}, {1});
+  board.add(request("b"), RequestStatus::refused, {ReasonWord::no_such_exhibit, "sputnik"}, {2});
+  board.add(request("c"), RequestStatus::queued, {}, {3});
+  board.change("c", RequestStatus::active, ReasonWord::on_the_way, {4});
   board.count_attempt("a", {1000});
   {
     MissionStore store = open();
@@ -98,7 +98,7 @@ TEST_F(Store, GivesBackWhatWasSaved) {
   EXPECT_EQ(entries[1].request.id, "c");
   EXPECT_EQ(entries[1].status, RequestStatus::active);
   EXPECT_EQ(entries[1].changed, Time{4});
-  EXPECT_EQ(entries[2].reason, "closed");
+  EXPECT_EQ(entries[2].reason, Reason(ReasonWord::no_such_exhibit, "sputnik"));
   EXPECT_EQ(loaded->schedule.board.revision(), board.revision());
 }
 
@@ -131,7 +131,7 @@ TEST_F(Store, RemembersOldRequestsForEver) {
   MissionStore store = open();
   MissionMemory memory;
   for (int i = 0; i < 250; ++i) {
-    memory.schedule.board.add(request("r" + std::to_string(i)), RequestStatus::refused, "closed", {i});
+    memory.schedule.board.add(request("r" + std::to_string(i)), RequestStatus::refused, ReasonWord::closed, {i});
     ASSERT_TRUE(store.save(memory));
     memory.schedule.board.mark_stored();
   }
@@ -150,7 +150,7 @@ TEST_F(Store, ADeathLosesNothingThatWasSaved) {
   if (child == 0) {
     auto store = MissionStore::open(path(), "abc", true);
     MissionMemory memory = full_memory();
-    memory.schedule.board.add(request("a"), RequestStatus::queued, "", {1});
+    memory.schedule.board.add(request("a"), RequestStatus::queued, {}, {1});
     if (store && store->save(memory)) kill(getpid(), SIGKILL);  // no destructor, no checkpoint of the WAL
     _exit(1);
   }

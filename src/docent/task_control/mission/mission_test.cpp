@@ -44,7 +44,7 @@ TEST_F(MissionTest, AWishInterruptsTheWayHome) {
   wish("1", RequestKind::exhibit, "a");
   EXPECT_EQ(mission->task().kind, TaskKind::visit);
   EXPECT_NE(mission->task().id, home);
-  mission->report(home, TaskStatus::done, "", time());
+  mission->report(home, TaskStatus::done, {}, time());
   EXPECT_EQ(phase(), MissionPhase::driving) << "the old task no longer counts";
 }
 
@@ -93,7 +93,7 @@ TEST_F(MissionTest, ALongOneSuspendsTheTourAndResumesItWithANewTask) {
   report(TaskStatus::driving);
   pass(6.0, false);
   EXPECT_EQ(phase(), MissionPhase::relocalizing);
-  mission->report(task, TaskStatus::failed, "stopped", time());
+  mission->report(task, TaskStatus::failed, ReasonWord::no_way, time());
   EXPECT_TRUE(mission->memory().schedule.visit) << "the suspended visit is not over";
   pass(3.0);
   EXPECT_EQ(mission->task().exhibit_id, "a");
@@ -111,7 +111,7 @@ TEST_F(MissionTest, ARestartTakesUpTheRunningTaskUnderItsId) {
   EXPECT_EQ(mission->task().id, task);
   pass(2.0);
   EXPECT_EQ(mission->task().id, task);
-  mission->report(task, TaskStatus::done, "", time());
+  mission->report(task, TaskStatus::done, {}, time());
   EXPECT_EQ(mission->memory().schedule.counters.requests_served, 1U);
   wish("2", RequestKind::exhibit, "b");
   EXPECT_NE(mission->task().id, task);
@@ -160,7 +160,7 @@ TEST_F(MissionTest, ChargesWhenTheBatteryIsLowAndServesAfterwardsWhoCameMeanwhil
   wish("3", RequestKind::exhibit, "a");
   pass(60.0);
   for (const char* id : {"2", "3"}) EXPECT_EQ(status_of(id), RequestStatus::queued) << id;
-  EXPECT_NE(mission->memory().schedule.board.find("3")->reason, "");
+  EXPECT_EQ(mission->memory().schedule.board.find("3")->reason, ReasonWord::charging_first);
   battery(0.41, true);
   EXPECT_EQ(phase(), MissionPhase::driving) << "somebody waits: enough is enough";
   report(TaskStatus::done);
@@ -174,7 +174,7 @@ TEST_F(MissionTest, DoesNotStayAtHomeWhenTheBatteryGotLowOnTheWayThere) {
   EXPECT_EQ(phase(), MissionPhase::going_home);
   const std::string home = mission->task().id;
   battery(0.14);
-  mission->report(home, TaskStatus::done, "", time());
+  mission->report(home, TaskStatus::done, {}, time());
   robot = {0, 0.5};
   pass(60.0);
   EXPECT_EQ(mission->task().map_from_base.y, 3.0) << "the charger";

@@ -5,6 +5,7 @@
 
 #include "docent/base/time.h"
 #include "docent/task_control/tour_scheduler/task_order.h"
+#include "docent/vocabulary/reason.h"
 
 namespace docent::task_control {
 
@@ -51,7 +52,7 @@ struct Situation {
 struct ActionOutcome {
   bool is_done = false;    ///< else it failed
   bool took_long = false;  ///< the visitor asked for more
-  std::string reason{};
+  Reason reason{};
 };
 
 /// Chooses what the robot does next, from the primitive actions that the mission offers. One of two stands above the

@@ -47,7 +47,7 @@ struct LadderView {
   bool is_unreachable = false;      ///< the planner knows no way
   double without_progress_s = 0.0;  ///< [s] along the value function
   planning::Detour detour = planning::Detour::none;
-  std::string cause;      ///< what is in the way, for a person
+  std::string cause;      ///< what is in the way: a word of ReasonWord, or a diagnosis in English
   bool is_thing = false;  ///< the obstacle, or what has touched the robot here, is a thing: it hears nothing
 };
 

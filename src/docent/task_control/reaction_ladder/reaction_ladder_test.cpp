@@ -49,14 +49,14 @@ TEST_F(ReactionLadderTest, AFreeWayIsNoNews) {
 
 TEST_F(ReactionLadderTest, WhoStaysInTheWaySeesStepAfterStep) {
   view.is_hindered = view.is_unmapped = true;
-  view.cause = "somebody is in the way";
+  view.cause = "person_in_way";
   pass(6.5);
   EXPECT_EQ(log, "slow horn wait ask");
   EXPECT_NEAR(time_of(Rung::slow), 0.2, 1e-6);
   EXPECT_NEAR(time_of(Rung::horn), 1.8, 0.21);
   EXPECT_NEAR(time_of(Rung::wait), 4.0, 0.21);
   EXPECT_NEAR(time_of(Rung::ask), 6.0, 0.21);
-  EXPECT_EQ(steps.front().cause, "somebody is in the way");
+  EXPECT_EQ(steps.front().cause, "person_in_way");
   pass(82.0);
   EXPECT_EQ(count(Rung::horn), 15) << "every six seconds";
   EXPECT_EQ(count(Rung::ask), 6) << "every fifteen seconds";

@@ -197,7 +197,7 @@ TEST_F(ComposedTour, IsFittedToTheTimeOnTheWay) {
       const Point2 place = visit->map_from_base.position();
       at += 2.5 * distance(robot, place) + 20.0 + (stops == 0 ? delay_s : 0.0);
       robot = place;
-      tour.finish_visit(true, "", time_from_seconds(at));
+      tour.finish_visit(true, {}, time_from_seconds(at));
       ++stops;
     }
     EXPECT_EQ(tour.state().board.find("a")->status, RequestStatus::fulfilled);

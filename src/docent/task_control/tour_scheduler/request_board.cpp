@@ -33,7 +33,7 @@ const BoardEntry* RequestBoard::find(const std::string& id) const {
 
 BoardEntry* RequestBoard::find_mutable(const std::string& id) { return const_cast<BoardEntry*>(find(id)); }
 
-void RequestBoard::add(VisitorRequest request, RequestStatus status, std::string reason, Time now) {
+void RequestBoard::add(VisitorRequest request, RequestStatus status, Reason reason, Time now) {
   DOCENT_CHECK(find(request.id) == nullptr);
   const std::string id = request.id;
   BoardEntry entry{std::move(request), status, std::move(reason), now, now};
@@ -54,7 +54,7 @@ void RequestBoard::show_again(BoardEntry entry) {
   touch(id);
 }
 
-void RequestBoard::change(const std::string& id, RequestStatus status, std::string reason, Time now) {
+void RequestBoard::change(const std::string& id, RequestStatus status, Reason reason, Time now) {
   BoardEntry* entry = find_mutable(id);
   DOCENT_CHECK(entry != nullptr && is_step(entry->status, status));
   entry->status = status;

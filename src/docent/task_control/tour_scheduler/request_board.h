@@ -8,6 +8,7 @@
 
 #include "docent/base/result.h"
 #include "docent/base/time.h"
+#include "docent/vocabulary/reason.h"
 #include "docent/vocabulary/vocabulary.h"
 
 namespace docent::task_control {
@@ -30,7 +31,7 @@ struct VisitorRequest {
 struct BoardEntry {
   VisitorRequest request;
   RequestStatus status = RequestStatus::queued;
-  std::string reason;  ///< in words, for the visitor
+  Reason reason;  ///< for the visitor
   Time created;
   Time changed;
   int attempts = 0;   ///< visits for it that failed
@@ -48,11 +49,11 @@ class RequestBoard {
 
   [[nodiscard]] const BoardEntry* find(const std::string& id) const;
   /// @pre the id is not on the board.
-  void add(VisitorRequest request, RequestStatus status, std::string reason, Time now);
+  void add(VisitorRequest request, RequestStatus status, Reason reason, Time now);
   /// An old entry, long closed, to show once more: its client has not seen it. @pre not on the board, not open.
   void show_again(BoardEntry entry);
   /// @pre the id is on the board and is_step(its status, status).
-  void change(const std::string& id, RequestStatus status, std::string reason, Time now);
+  void change(const std::string& id, RequestStatus status, Reason reason, Time now);
   /// Notes a failed visit: one more attempt; not tried again before `not_before`. @pre the id is open.
   void count_attempt(const std::string& id, Time not_before);
 

@@ -32,11 +32,11 @@ TEST(RequestBoard, ClosedRequestsNeverOpenAgain) {
 
 TEST(RequestBoard, OpenOnesComeFirstInOrderOfArrival) {
   RequestBoard board;
-  board.add(request("a"), RequestStatus::queued, "", {1});
-  board.add(request("b"), RequestStatus::refused, "closed", {2});
-  board.add(request("c"), RequestStatus::queued, "", {3});
-  board.change("a", RequestStatus::active, "", {4});
-  board.change("a", RequestStatus::fulfilled, "", {5});
+  board.add(request("a"), RequestStatus::queued, {}, {1});
+  board.add(request("b"), RequestStatus::refused, ReasonWord::closed, {2});
+  board.add(request("c"), RequestStatus::queued, {}, {3});
+  board.change("a", RequestStatus::active, {}, {4});
+  board.change("a", RequestStatus::fulfilled, {}, {5});
   std::vector<std::string> ids;
   for (const auto& entry : board.entries()) ids.push_back(entry.request.id);
   EXPECT_EQ(ids, (std::vector<std::string>{"c", "b", "a"}));
@@ -48,10 +48,10 @@ TEST(RequestBoard, OpenOnesComeFirstInOrderOfArrival) {
 
 TEST(RequestBoard, KeepsTheLastHundredClosedOnesAndNeverDropsWhatIsNotStored) {
   RequestBoard board;
-  for (int i = 0; i < 150; ++i) board.add(request("r" + std::to_string(i)), RequestStatus::refused, "", {i});
+  for (int i = 0; i < 150; ++i) board.add(request("r" + std::to_string(i)), RequestStatus::refused, {}, {i});
   EXPECT_EQ(board.entries().size(), 150U);
   board.mark_stored();
-  board.add(request("last"), RequestStatus::refused, "", {200});
+  board.add(request("last"), RequestStatus::refused, {}, {200});
   EXPECT_EQ(board.entries().size(), RequestBoard::kClosedKept);
   EXPECT_EQ(board.entries().back().request.id, "last");
   EXPECT_EQ(board.entries().front().request.id, "r51");
@@ -59,7 +59,7 @@ TEST(RequestBoard, KeepsTheLastHundredClosedOnesAndNeverDropsWhatIsNotStored) {
 
 TEST(RequestBoard, RemembersWhatIsNotStored) {
   RequestBoard board;
-  board.add(request("a"), RequestStatus::queued, "", {1});
+  board.add(request("a"), RequestStatus::queued, {}, {1});
   EXPECT_EQ(board.unstored(), std::set<std::string>{"a"});
   board.mark_stored();
   EXPECT_TRUE(board.unstored().empty());

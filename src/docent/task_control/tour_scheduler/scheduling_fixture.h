@@ -36,7 +36,9 @@ class Scheduling : public testing::Test {
     const auto& visit = scheduler.begin_visit(robot, time_from_seconds(at));
     return visit ? visit->exhibit_id : "";
   }
-  void finish(bool is_success, double at) { scheduler.finish_visit(is_success, "why", time_from_seconds(at)); }
+  void finish(bool is_success, double at) {
+    scheduler.finish_visit(is_success, ReasonWord::way_blocked, time_from_seconds(at));
+  }
   [[nodiscard]] std::string state_of(const std::string& id) const {
     const BoardEntry* entry = scheduler.state().board.find(id);
     return entry == nullptr ? "" : to_text(entry->status);

@@ -42,10 +42,10 @@ struct Outcome {
   int pending = 0;
   int explained = 0;
   int skipped = 0;
-  std::string missed;
-  [[nodiscard]] std::string reason() const {
-    if (skipped > 0) return "I could not get to: " + missed + ".";
-    return explained > 0 ? "" : "The museum no longer has this.";
+  std::string missed;  ///< ids of exhibits, with spaces between them
+  [[nodiscard]] Reason reason() const {
+    if (skipped > 0) return {ReasonWord::not_reached, missed};
+    return explained > 0 ? Reason{} : ReasonWord::gone;
   }
 };
 
@@ -66,7 +66,7 @@ Outcome outcome_of(const TourRun& tour, const TourMember* member) {
     if (stop.status == StopStatus::explained) ++outcome.explained;
     if (stop.status != StopStatus::skipped || is_shown(stop.exhibit_id)) continue;
     ++outcome.skipped;
-    outcome.missed += (outcome.missed.empty() ? "" : ", ") + stop.exhibit_id;
+    outcome.missed += (outcome.missed.empty() ? "" : " ") + stop.exhibit_id;
   }
   return outcome;
 }
@@ -106,7 +106,7 @@ void TourScheduler::drop_what_is_gone(Time now) {
                               : exhibit != nullptr && has_viewpoint(*exhibit, request.viewpoint);
     if (docent::is_open(entry.status) && !is_known) gone.push_back(request.id);
   }
-  for (const std::string& id : gone) close_request(id, RequestStatus::failed, "The museum no longer has this.", now);
+  for (const std::string& id : gone) close_request(id, RequestStatus::failed, ReasonWord::gone, now);
   if (state_.visit) {
     const ProgrammeExhibit* exhibit = programme_.find_exhibit(state_.visit->exhibit_id);
     if (exhibit == nullptr) {
@@ -133,28 +133,28 @@ void TourScheduler::drop_what_is_gone(Time now) {
                                : state_.visit && state_.visit->exhibit_id == request.target;
     if (entry.status == RequestStatus::active && !is_served) orphans.push_back(request.id);
   }
-  for (const std::string& id : orphans) state_.board.change(id, RequestStatus::queued, "", now);
+  for (const std::string& id : orphans) state_.board.change(id, RequestStatus::queued, {}, now);
 }
 
-std::string TourScheduler::refusal(const VisitorRequest& request, const Conditions& conditions) const {
+Reason TourScheduler::refusal(const VisitorRequest& request, const Conditions& conditions) const {
   if (request.kind == RequestKind::exhibit) {
     const ProgrammeExhibit* exhibit = programme_.find_exhibit(request.target);
-    if (exhibit == nullptr) return "There is no exhibit '" + request.target + "' here.";
-    if (exhibit->web_only && request.source != RequestSource::web) return "This one is shown to Web visitors only.";
-    if (!has_viewpoint(*exhibit, request.viewpoint)) return "There is no such viewpoint.";
+    if (exhibit == nullptr) return {ReasonWord::no_such_exhibit, request.target};
+    if (exhibit->web_only && request.source != RequestSource::web) return ReasonWord::for_web_only;
+    if (!has_viewpoint(*exhibit, request.viewpoint)) return ReasonWord::no_such_viewpoint;
   } else if (request.kind == RequestKind::tour) {
-    if (programme_.find_tour(request.target) == nullptr) return "There is no tour '" + request.target + "' here.";
+    if (programme_.find_tour(request.target) == nullptr) return {ReasonWord::no_such_tour, request.target};
   } else {
-    return "I do not understand the wish '" + request.kind.text() + "'.";
+    return {ReasonWord::not_understood, request.kind.text()};
   }
   const bool is_staff = request.source == RequestSource::staff;
-  if ((!conditions.is_open || conditions.mode == OperatingMode::closed) && !is_staff) return "The museum is closed.";
+  if ((!conditions.is_open || conditions.mode == OperatingMode::closed) && !is_staff) return ReasonWord::closed;
   if (conditions.mode == OperatingMode::web && request.source != RequestSource::web && !is_staff)
-    return "Just now only Web visitors guide me.";
+    return ReasonWord::web_only_now;
   if (state_.board.open_count() >= static_cast<std::size_t>(params_.max_open) ||
       state_.board.stops_with(request) > static_cast<std::size_t>(params_.max_stops))
-    return "Too many people are waiting already. Please try again later.";
-  return "";
+    return ReasonWord::too_many_wait;
+  return {};
 }
 
 void TourScheduler::submit(VisitorRequest request, const Conditions& conditions, Time now) {
@@ -165,22 +165,20 @@ void TourScheduler::submit(VisitorRequest request, const Conditions& conditions,
     cancel(request, now);
     return;
   }
-  const std::string why_not = refusal(request, conditions);
+  const Reason why_not = refusal(request, conditions);
   const std::string id = request.id;
-  if (!why_not.empty()) {
+  if (!why_not.is_none()) {
     state_.board.add(std::move(request), RequestStatus::refused, why_not, now);
-    happenings_.push_back({EventKind::request_refused, id, why_not});
+    happenings_.push_back({EventKind::request_refused, id, why_not.text()});
     return;
   }
   const bool joins = join(request);
   happenings_.push_back(
       {EventKind::request_queued, id, request.target, static_cast<double>(state_.board.open_count() + 1)});
   const bool is_late = joins && request.kind == RequestKind::tour && !is_at_its_beginning();
-  state_.board.add(std::move(request), RequestStatus::queued, joins ? "" : conditions.delay, now);
+  state_.board.add(std::move(request), RequestStatus::queued, joins ? Reason{} : conditions.delay, now);
   if (joins) {
-    state_.board.change(
-        id, RequestStatus::active,
-        is_late ? "The tour is under way. What you missed comes at its end." : "I am on my way there already.", now);
+    state_.board.change(id, RequestStatus::active, is_late ? ReasonWord::joins_tour : ReasonWord::on_the_way, now);
     happenings_.push_back({EventKind::request_active, id, state_.board.find(id)->request.target});
   }
 }
@@ -237,15 +235,15 @@ bool TourScheduler::join_tour(const VisitorRequest& request) {
 void TourScheduler::cancel(const VisitorRequest& request, Time now) {
   const BoardEntry* target = state_.board.find(request.target);
   if (target == nullptr || !docent::is_open(target->status)) {
-    const std::string why_not = "There is no such open request.";
+    const Reason why_not = ReasonWord::no_such_request;
     state_.board.add(request, RequestStatus::refused, why_not, now);
-    happenings_.push_back({EventKind::request_refused, request.id, why_not});
+    happenings_.push_back({EventKind::request_refused, request.id, why_not.text()});
     return;
   }
-  close_request(request.target, RequestStatus::cancelled, "Cancelled.", now);
-  state_.board.add(request, RequestStatus::queued, "", now);
-  state_.board.change(request.id, RequestStatus::active, "", now);
-  state_.board.change(request.id, RequestStatus::fulfilled, "", now);
+  close_request(request.target, RequestStatus::cancelled, ReasonWord::cancelled, now);
+  state_.board.add(request, RequestStatus::queued, {}, now);
+  state_.board.change(request.id, RequestStatus::active, {}, now);
+  state_.board.change(request.id, RequestStatus::fulfilled, {}, now);
   if (!state_.tour || !is_member(*state_.tour, request.target)) return;
   std::erase_if(state_.tour->members, [&](const TourMember& member) { return member.request_id == request.target; });
   cancel_tour_without_members();
@@ -258,11 +256,11 @@ void TourScheduler::cancel_tour_without_members() {
   if (state_.visit) state_.visit->tour_id.clear();
 }
 
-void TourScheduler::close_request(const std::string& id, RequestStatus status, const std::string& reason, Time now) {
+void TourScheduler::close_request(const std::string& id, RequestStatus status, const Reason& reason, Time now) {
   const Time created = state_.board.find(id)->created;
   state_.board.change(id, status, reason, now);
   if (status == RequestStatus::fulfilled) ++state_.counters.requests_served;
-  happenings_.push_back({event_of(status), id, reason, to_seconds(now - created)});
+  happenings_.push_back({event_of(status), id, reason.text(), to_seconds(now - created)});
 }
 
 std::vector<std::string> TourScheduler::ids(RequestKind kind, RequestStatus status, const std::string& target) const {
@@ -278,7 +276,7 @@ void TourScheduler::close_visit() {
   if (state_.visit) state_.visit->is_joinable = false;
 }
 
-void TourScheduler::finish_visit(bool is_success, const std::string& reason, Time now) {
+void TourScheduler::finish_visit(bool is_success, const Reason& reason, Time now) {
   DOCENT_CHECK(state_.visit.has_value());
   const Visit visit = *state_.visit;
   state_.visit.reset();
@@ -286,11 +284,11 @@ void TourScheduler::finish_visit(bool is_success, const std::string& reason, Tim
     ++state_.counters.exhibits_explained;
     happenings_.push_back({EventKind::explained, visit.exhibit_id, visit.tour_id, to_seconds(now - visit.started)});
   } else {
-    happenings_.push_back({EventKind::visit_failed, visit.exhibit_id, reason, to_seconds(now - visit.started)});
+    happenings_.push_back({EventKind::visit_failed, visit.exhibit_id, reason.text(), to_seconds(now - visit.started)});
   }
   for (const std::string& id : ids(RequestKind::exhibit, RequestStatus::active, visit.exhibit_id)) {
     if (is_success) {
-      close_request(id, RequestStatus::fulfilled, "", now);
+      close_request(id, RequestStatus::fulfilled, {}, now);
       continue;
     }
     try_again(id, reason, now + seconds(params_.retry_after(state_.board.find(id)->attempts + 1)), now);
@@ -308,28 +306,28 @@ void TourScheduler::finish_farewell(Time now) {
   state_.farewell.reset();
 }
 
-void TourScheduler::try_again(const std::string& id, const std::string& reason, Time not_before, Time now) {
+void TourScheduler::try_again(const std::string& id, const Reason& reason, Time not_before, Time now) {
   state_.board.count_attempt(id, not_before);
   if (state_.board.find(id)->attempts >= params_.max_attempts) {
     close_request(id, RequestStatus::failed, reason, now);
     return;
   }
-  state_.board.change(id, RequestStatus::queued, reason + " I will try again.", now);
-  happenings_.push_back({EventKind::plan_rescheduled, state_.board.find(id)->request.target, reason});
+  state_.board.change(id, RequestStatus::queued, reason, now);
+  happenings_.push_back({EventKind::plan_rescheduled, state_.board.find(id)->request.target, reason.text()});
 }
 
-void TourScheduler::break_off(const std::string& reason, Time now) {
+void TourScheduler::break_off(const Reason& reason, Time now) {
   if (state_.visit) {
     for (const std::string& id : ids(RequestKind::exhibit, RequestStatus::active, state_.visit->exhibit_id))
       try_again(id, reason, now, now);
     happenings_.push_back(
-        {EventKind::visit_failed, state_.visit->exhibit_id, reason, to_seconds(now - state_.visit->started)});
+        {EventKind::visit_failed, state_.visit->exhibit_id, reason.text(), to_seconds(now - state_.visit->started)});
     state_.visit.reset();
   }
   if (state_.tour) {
     for (const TourMember& member : state_.tour->members) try_again(member.request_id, reason, now, now);
     happenings_.push_back(
-        {EventKind::tour_broken_off, state_.tour->tour_id, reason, to_seconds(now - state_.tour->started)});
+        {EventKind::tour_broken_off, state_.tour->tour_id, reason.text(), to_seconds(now - state_.tour->started)});
     state_.tour.reset();
   }
 }
@@ -375,7 +373,7 @@ void TourScheduler::end_tour_if_over(Time now) {
   const Outcome outcome = outcome_of(tour, nullptr);
   if (is_good(outcome)) ++state_.counters.tours_completed;
   happenings_.push_back({is_good(outcome) ? EventKind::tour_completed : EventKind::tour_failed, tour.tour_id,
-                         outcome.reason(), to_seconds(now - tour.started)});
+                         outcome.reason().text(), to_seconds(now - tour.started)});
   if (outcome.explained > 0) state_.farewell = Farewell{tour.tour_id, tour.language, tour.started};
   if (state_.visit) state_.visit->tour_id.clear();
   state_.tour.reset();

@@ -17,7 +17,7 @@ namespace docent::task_control {
 struct Conditions {
   bool is_open = true;
   std::optional<OperatingMode> mode = OperatingMode::open;  ///< nullopt: one that is not known, taken as open
-  std::string delay = {};  ///< why all who come now wait a while, in words; empty: they do not
+  Reason delay = {};                                        ///< why all who come now wait a while; none: they do not
 };
 
 /// One exhibit to show, for one request or many.
@@ -120,7 +120,7 @@ class TourScheduler {
   [[nodiscard]] bool is_anything_due(Time now) const { return state_.tour || oldest_due(now) != nullptr; }
   /// Ends the visit and the tour under way for a reason that is not theirs. Their requests wait again, a tour begins
   /// anew; after `max_attempts` they fail.
-  void break_off(const std::string& reason, Time now);
+  void break_off(const Reason& reason, Time now);
   /// [s] foreseen for the way.
   [[nodiscard]] double way_duration(Point2 from, Point2 to, Time now) const;
   [[nodiscard]] double way_length(Point2 from, Point2 to) const { return travel_(from, to); }  ///< [m]
@@ -129,7 +129,7 @@ class TourScheduler {
   /// The explanation began: from now on nobody joins the visit.
   void close_visit();
   /// The visit ended; its requests are fulfilled, tried again later or failed. @pre a visit is under way.
-  void finish_visit(bool is_success, const std::string& reason, Time now);
+  void finish_visit(bool is_success, const Reason& reason, Time now);
   /// True while somebody has waited long who is not being served: then nobody is asked whether they want more.
   [[nodiscard]] bool is_in_a_hurry(Time now) const;
   /// True when no request wants the visit under way any more.
@@ -151,7 +151,8 @@ class TourScheduler {
   [[nodiscard]] std::vector<Happening> take_happenings();
 
  private:
-  [[nodiscard]] std::string refusal(const VisitorRequest& request, const Conditions& conditions) const;
+  /// None: it is taken.
+  [[nodiscard]] Reason refusal(const VisitorRequest& request, const Conditions& conditions) const;
   void drop_what_is_gone(Time now);
   /// Whether the visit or the tour under way serves the request, too; a tour takes it as a member.
   [[nodiscard]] bool join(const VisitorRequest& request);
@@ -159,7 +160,7 @@ class TourScheduler {
   [[nodiscard]] bool is_at_its_beginning() const;
   [[nodiscard]] bool join_tour(const VisitorRequest& request);
   void cancel(const VisitorRequest& request, Time now);
-  void close_request(const std::string& id, RequestStatus status, const std::string& reason, Time now);
+  void close_request(const std::string& id, RequestStatus status, const Reason& reason, Time now);
   [[nodiscard]] std::vector<std::string> ids(RequestKind kind, RequestStatus status, const std::string& target) const;
   /// @pre there is a tour
   void cancel_tour_without_members();
@@ -197,7 +198,7 @@ class TourScheduler {
   /// Closes the requests of members whose stops are over, and the tour with the last of them.
   void end_tour_if_over(Time now);
   /// One more attempt that came to nothing: waits again, not before `not_before`, or fails.
-  void try_again(const std::string& id, const std::string& reason, Time not_before, Time now);
+  void try_again(const std::string& id, const Reason& reason, Time not_before, Time now);
   [[nodiscard]] bool is_overdue(const BoardEntry& entry, Time now) const;
 
   SchedulerParams params_;

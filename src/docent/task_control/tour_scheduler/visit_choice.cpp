@@ -235,7 +235,7 @@ bool TourScheduler::begin_visit_to(const std::string& exhibit_id, Point2 robot, 
 void TourScheduler::suspend_visit(Time now) {
   DOCENT_CHECK(state_.visit.has_value());
   for (const std::string& id : ids(RequestKind::exhibit, RequestStatus::active, state_.visit->exhibit_id))
-    state_.board.change(id, RequestStatus::queued, "", now);
+    state_.board.change(id, RequestStatus::queued, {}, now);
   happenings_.push_back({EventKind::plan_rescheduled, state_.visit->exhibit_id, state_.visit->tour_id});
   state_.visit.reset();
 }
@@ -370,13 +370,13 @@ bool TourScheduler::begin_tour(const std::string& tour_id, Point2 robot, Time no
     }
   }
   if (run.stops.empty()) {  // the museum changed while the request waited
-    for (const std::string& id : members) close_request(id, RequestStatus::failed, "This tour no longer exists.", now);
+    for (const std::string& id : members) close_request(id, RequestStatus::failed, ReasonWord::gone, now);
     return true;
   }
   if (exceeds(duration_of(run, robot, now), budget_s)) return false;
   for (const std::string& id : members) {
     run.members.push_back({id, numbers_of(run)});
-    state_.board.change(id, RequestStatus::active, "The tour has begun.", now);
+    state_.board.change(id, RequestStatus::active, ReasonWord::tour_begun, now);
     happenings_.push_back({EventKind::request_active, id, tour_id});
   }
   happenings_.push_back({EventKind::tour_started, tour_id, joined(run.stops), run.target_s});
@@ -402,7 +402,7 @@ void TourScheduler::begin_visit_of(const WishedStop& stop, bool is_stop, Time no
   });
   for (const std::string& id : members) {
     if (visit.language.empty()) visit.language = state_.board.find(id)->request.language;
-    state_.board.change(id, RequestStatus::active, "", now);
+    state_.board.change(id, RequestStatus::active, {}, now);
     happenings_.push_back({EventKind::request_active, id, exhibit_id});
   }
   if (is_stop) visit.language = state_.tour->language;

@@ -8,6 +8,7 @@
 #include "docent/telepresence/documents.h"
 #include "docent/telepresence/live_encoding.h"
 #include "docent/telepresence/museum_document.h"
+#include "docent/vocabulary/reason.h"
 
 namespace docent::telepresence {
 namespace {
@@ -17,7 +18,7 @@ const Time kNow = time_from_seconds(12.5);
 docent_msgs::AvoidState avoid_state() {
   docent_msgs::AvoidState avoid;
   avoid.state = "stopped";
-  avoid.reason = "somebody is in the way";
+  avoid.reason = to_text(ReasonWord::person_in_way);
   avoid.path_blocked = avoid.unmapped_obstacle = true;
   avoid.nearest_real_m = 0.42;
   avoid.nearest_virtual_m = std::numeric_limits<double>::infinity();
@@ -76,7 +77,9 @@ std::string mission(bool asks) {
   mission.agenda = {"sputnik", "vase"};
   if (asks) {
     mission.prompt.id = "t1/more";
-    mission.prompt.text = "More?";
+    mission.prompt.language = "fr";
+    mission.prompt.languages = mission.languages;
+    mission.prompt.texts = {"More?", "Encore ?"};
     mission.prompt.options = {to_text(Answer::more), to_text(Answer::next)};
     mission.prompt.default_option = to_text(Answer::next);
     mission.prompt.deadline = to_message(kNow);
@@ -105,6 +108,7 @@ std::string board() {
     entry.request.kind = to_text(RequestKind::exhibit);
     entry.request.target = "sputnik";
     entry.state = to_text(status);
+    if (status == RequestStatus::queued) entry.reason = Reason{ReasonWord::not_reached, "sputnik vase"}.text();
     entry.created = entry.changed = to_message(kNow);
     board.requests.push_back(entry);
   }
@@ -161,24 +165,25 @@ std::map<std::string, std::string> contract_samples() {
   speech.start = to_message(kNow);
   speech.duration = 3.25;
   speech.audio = "00ff";
-  return {{"museum.json", museum()},
-          {"live.json", live()},
-          {"live_lost.json", lost()},
-          {"belief.json", belief()},
-          {"path.json", path()},
-          {"mission.json", mission(false)},
-          {"mission_asking.json", mission(true)},
-          {"speech.json", encode_speech(speech)},
-          {"horn.json", encode_horn(kNow, "00ff.wav", 0.5)},
-          {"sound.json", encode_sound({{}, 0.75, "00ff.ogg", 0.125, to_message(kNow)})},
-          {"expression.json", expression()},
-          {"button.json", encode_button(kNow, 3)},
-          {"board.json", board()},
-          {"health.json", health()},
-          {"window.json", encode_window(avoid_state())},
-          {"ack.json", encode_acknowledgement("018f3a6c-5b2e-7c3d-9a4b-0123456789ab")},
-          {"refused.json", encode_refusal("018f3a6c-5b2e-7c3d-9a4b-0123456789ab", "no such exhibit")},
-          {"error.json", encode_error("too many messages, wait a moment")}};
+  return {
+      {"museum.json", museum()},
+      {"live.json", live()},
+      {"live_lost.json", lost()},
+      {"belief.json", belief()},
+      {"path.json", path()},
+      {"mission.json", mission(false)},
+      {"mission_asking.json", mission(true)},
+      {"speech.json", encode_speech(speech)},
+      {"horn.json", encode_horn(kNow, "00ff.wav", 0.5)},
+      {"sound.json", encode_sound({{}, 0.75, "00ff.ogg", 0.125, to_message(kNow)})},
+      {"expression.json", expression()},
+      {"button.json", encode_button(kNow, 3)},
+      {"board.json", board()},
+      {"health.json", health()},
+      {"window.json", encode_window(avoid_state())},
+      {"ack.json", encode_acknowledgement("018f3a6c-5b2e-7c3d-9a4b-0123456789ab")},
+      {"refused.json", encode_refusal("018f3a6c-5b2e-7c3d-9a4b-0123456789ab", {ReasonWord::no_such_exhibit, "vase"})},
+      {"error.json", encode_error(ReasonWord::too_fast)}};
 }
 
 }  // namespace docent::telepresence

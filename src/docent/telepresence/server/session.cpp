@@ -82,7 +82,7 @@ void Session::take() {
   if (!bucket_.take(TokenBucket::Clock::now())) {
     ++owner_.messages_refused;
     if (++too_many_ > 100) return close(websocket::close_code::policy_error, "too many messages");
-    answer(std::make_shared<const std::string>(encode_error("too many messages, wait a moment")));
+    answer(std::make_shared<const std::string>(encode_error(ReasonWord::too_fast)));
     return read();
   }
   auto message = parse_client_message(text);
