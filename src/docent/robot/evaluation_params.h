@@ -19,6 +19,10 @@ struct EvaluationParams {
   bool ignores_live_map = false;         ///< plan: with the static map alone
   bool keeps_all_people = false;         ///< people: nobody is ever forgotten, and every thing is a person
   bool without_ladder = false;           ///< executive: it stands before what is in its way
+  bool never_gives_up = false;           ///< executive: no directive has a limit, no question a default
+  bool without_battery_watch = false;    ///< mission: it never hears of its battery
+  bool forgets_tasks = false;            ///< mission: a restart forgets what was under way, and keeps the requests
+  bool without_stand_in = false;         ///< mission: nobody decides for a GOLOG program that has failed
   bool never_explores = false;           ///< attract: does what it knows best and nothing else
   bool ignores_reward = false;           ///< attract: remembers each phase as worth nothing
   template <class V>
@@ -35,6 +39,10 @@ struct EvaluationParams {
     v("ignores_live_map", ignores_live_map);
     v("keeps_all_people", keeps_all_people);
     v("without_ladder", without_ladder);
+    v("never_gives_up", never_gives_up);
+    v("without_battery_watch", without_battery_watch);
+    v("forgets_tasks", forgets_tasks);
+    v("without_stand_in", without_stand_in);
     v("never_explores", never_explores);
     v("ignores_reward", ignores_reward);
   }

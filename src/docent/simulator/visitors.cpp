@@ -71,6 +71,11 @@ std::string WishingVisitors::language() {
 
 void WishingVisitors::ask(Time now, const Wish& wish) { ask(now, wish.kind, wish.target, wish.language); }
 
+void WishingVisitors::answer_with(double more, double next) {
+  params_.answers_more = more;
+  params_.answers_next = next;
+}
+
 WishingVisitors::Output WishingVisitors::step(Time now, Duration since_start) {
   Output output;
   while (to_seconds(since_start) >= next_wish_) {

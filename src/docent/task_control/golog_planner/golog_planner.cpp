@@ -54,6 +54,7 @@ Result<void> GologPlannerParams::validate() const {
 
 void GologPlanner::decide(Mission& mission, Time now) {
   Situation seen = mission.situation(now);
+  if (stands_in_ && !params_.has_stand_in) return;
   if (stands_in_) {
     if (now < retry_at_ || seen.activity != Activity::none || seen.has_visit || seen.has_tour || seen.has_farewell)
       return stand_in_.decide(mission, now);

@@ -18,6 +18,7 @@ struct GologPlannerParams {
   double contact_s = 30.0;     ///< [s] > 0: so long at its charger without a charge is a failure
   double invitation_s = 60.0;  ///< [s] > 0 that `wait_for_request` lasts when nobody comes
   double battery_step = 0.01;  ///< 0..1: the program hears of changes of the charge by so much
+  bool has_stand_in = true;    ///< false only in evaluations: nobody decides for a program that has failed
   template <class V>
   void visit(V& v) {
     v("program", program);
