@@ -162,7 +162,7 @@ SCENARIOS = {
                                                                                                run.struck("kidnap"))),
         Duty("explains another one, after its odometry jumped", 240, lambda run: since(run.first("explained", run.struck("odometry_jump") or 1e9),
                                                                                      run.struck("odometry_jump"))),
-        Duty("completes the tour, after it was carried off", 900, lambda run: tour_goes_on(run, "highlights", run.struck("kidnap"))),
+        Duty("completes the tour, after it was carried off", 900, lambda run: tour_goes_on(run, "on-the-move", run.struck("kidnap"))),
     ], {"carried off in a tour": (count("kidnap", "scenario"), 1), "jumps of the odometry in a tour": (count("odometry_jump", "scenario"), 1)},
         {"dead reckoning": ["evaluation.dead_reckoning=true"]}),
     "way-closed": Exceptional(30, WAY, {"s blocked": (lambda run: run.report["blocked"]["seconds"], 5)}, GIVES_UP),

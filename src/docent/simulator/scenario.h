@@ -135,11 +135,11 @@ struct Moment {
 };
 
 struct ScenarioEvent {
-  double at = 0.0;               ///< [s] since the start: not before
-  std::optional<Moment> during;  ///< without: at its time
+  double at = 0.0;  ///< [s] since the start: not before
   std::variant<Kidnap, SensorFault, Stool, ClosedPassage, PoseError, Visitors, Pushers, Runners, Escort, Steering,
                LaserReach, Wish, Answers, BatteryChange, Kill, SecondMode, OdometryJump>
       what;
+  std::optional<Moment> during{};  ///< without: at its time
 };
 
 /// Timed events over a run (architecture 10.2), by rising time; equal times keep the file's order. An event that waits

@@ -41,7 +41,8 @@ TEST(ScenarioPlay, WhatWaitsForAMomentHoldsUpNothingElse) {
     missions.publish(state);
   };
   const auto told = [&](const std::string& kind) {
-    return std::count_if(bench.offers.begin(), bench.offers.end(), [&](const auto& offer) { return offer.kind == kind; });
+    return std::count_if(bench.offers.begin(), bench.offers.end(),
+                         [&](const auto& offer) { return offer.kind == kind; });
   };
   say("driving");
   bench.run(0.5);

@@ -155,7 +155,8 @@ constexpr Broken kBroken[] = {
     {"events:\n  - at: 1\n    battery: {}", "s.yaml:3: missing key 'charge'"},
     {"events:\n  - at: 1\n    battery: {charge: 15}", "s.yaml:3: expected a number from 0 to 1, found 15"},
     {"events:\n  - at: 1\n    during: dancing\n    kidnap:",
-     "s.yaml:3: expected one of waking, relocalizing, idle, driving, explaining, asking, going_home, charging, waiting, "
+     "s.yaml:3: expected one of waking, relocalizing, idle, driving, explaining, asking, going_home, charging, "
+     "waiting, "
      "found 'dancing'"},
     {"events:\n  - at: 1\n    during: [idle]\n    kidnap:", "s.yaml:3: expected a text"},
     {"events:\n  - at: 1\n    during: idle\n    during: idle\n    kidnap:", "s.yaml:4: key 'during' stands twice"},

@@ -31,7 +31,7 @@ Result<task_control::Decomposition> decomposition_of(const museum::Museum& museu
 /// For an evaluation: a robot that waits for ever for what does not come.
 task_control::ExecutiveParams without_limits(task_control::ExecutiveParams params) {
   constexpr double kForEver = 1e8;  // [s]
-  params.max_drive_s = params.offer_s = kForEver;
+  params.max_drive_s = params.offer_s = params.approach.patience_s = kForEver;
   params.ladder.patience_s = params.ladder.unreachable_patience_s = params.ladder.thing_patience_s = kForEver;
   return params;
 }

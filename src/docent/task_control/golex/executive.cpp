@@ -23,6 +23,7 @@ bool contains(const std::vector<T>& list, const T& value) {
 
 Result<void> ExecutiveParams::validate() const {
   if (auto valid = ladder.validate(); !valid) return fail("executive." + valid.error().message);
+  if (auto valid = approach.validate(); !valid) return fail("executive." + valid.error().message);
   if (!is_positive(max_drive_s)) return fail("executive.max_drive_s must be > 0");
   if (!is_positive(charger_tolerance)) return fail("executive.charger_tolerance must be > 0");
   if (!(no_drive_s >= 0.0)) return fail("executive.no_drive_s must be >= 0");
@@ -33,7 +34,11 @@ Result<void> ExecutiveParams::validate() const {
 }
 
 Executive::Executive(const ExecutiveParams& params, Decomposition decomposition, ExecutiveMemory memory, Time now)
-    : params_{params}, decomposition_{std::move(decomposition)}, memory_{std::move(memory)}, ladder_{params.ladder} {
+    : params_{params},
+      decomposition_{std::move(decomposition)},
+      memory_{std::move(memory)},
+      ladder_{params.ladder},
+      approach_{now} {
   resume(now);
 }
 
@@ -168,8 +173,8 @@ void Executive::begin(const Directive& directive, Time now) {
       break;
     case DirectiveKind::drive:
       memory_.drive_began = now;
-      send_drive();
-      break;
+      approach_ = ApproachWatch{now};
+      [[fallthrough]];
     case DirectiveKind::relocalize:
       send_drive();
       break;
@@ -324,6 +329,7 @@ void Executive::goal_report(const GoalReport& goal, Time now) {
     return;
   }
   const bool is_stuck = goal.state == GoalStatus::blocked || goal.state == GoalStatus::unreachable;
+  approach_.see(goal.state, goal.remaining_m, now);
   if (goal.state == GoalStatus::driving || goal.state == GoalStatus::turning) {
     set_note("");
   } else if (is_stuck && note_.empty()) {
@@ -339,9 +345,9 @@ void Executive::arrive(const Directive& directive, Time now) {
     const TaskOrder& order = memory_.task.order;
     const Duration lasted = now - memory_.drive_began;
     memory_.moved = lasted >= seconds(params_.no_drive_s);
-    actions_.happenings.push_back({EventKind::arrived,
-                                   order.kind == TaskKind::visit ? order.exhibit_id : order.kind.text(), order.id,
-                                   to_seconds(lasted)});
+    const bool is_rest = order.kind == TaskKind::home || order.kind == TaskKind::charge;
+    actions_.happenings.push_back(
+        {EventKind::arrived, is_rest ? order.kind.text() : order.exhibit_id, order.id, to_seconds(lasted)});
   }
   note_.clear();
   end(directive, now);
@@ -352,6 +358,8 @@ void Executive::watch_drive(Time now) {
   if (driven == nullptr) return;
   if (now - memory_.drive_began > seconds(params_.max_drive_s)) {
     finish(false, "It took me too long to get there.", now);
+  } else if (params_.ladder.active && approach_.is_in_vain(params_.approach, now)) {
+    finish(false, "The way was blocked for too long.", now);
   } else if (goal_.id == own_id(driven->name)) {
     climb_ladder(now);
   }
