@@ -31,23 +31,23 @@ struct ApproachParams {
 /// left, so that it drives to and fro between them and each detour looks like progress. Deterministic, O(1).
 class ApproachWatch {
  public:
-  explicit ApproachWatch(Time began) : nearer_at_{began} {}
+  ApproachWatch(const ApproachParams& params, Time began) : params_{params}, nearer_at_{began} {}
 
   /// @param remaining_m  [m] of way to the goal, as the planner sees it now; counts while it sees one
   void see(std::optional<GoalStatus> state, double remaining_m, Time now) {
-    const bool sees_way =
-        state == GoalStatus::driving || state == GoalStatus::turning || state == GoalStatus::blocked;
+    const bool sees_way = state == GoalStatus::driving || state == GoalStatus::turning || state == GoalStatus::blocked;
     if (!sees_way) return;
     remaining_m_ = remaining_m;
     if (remaining_m >= nearest_m_) return;
     nearest_m_ = remaining_m;
     nearer_at_ = now;
   }
-  [[nodiscard]] bool is_in_vain(const ApproachParams& params, Time now) const {
-    return now - nearer_at_ > seconds(params.patience_s + remaining_m_ / params.slowest_mps);
+  [[nodiscard]] bool is_in_vain(Time now) const {
+    return now - nearer_at_ > seconds(params_.patience_s + remaining_m_ / params_.slowest_mps);
   }
 
  private:
+  ApproachParams params_;
   double nearest_m_ = std::numeric_limits<double>::infinity();
   double remaining_m_ = 0.0;
   Time nearer_at_;

@@ -9,8 +9,7 @@
 namespace docent::task_control {
 namespace {
 
-constexpr Duration kReportLife =
-    std::chrono::seconds{1};  // collision avoidance and head speak four times a second and more
+constexpr Duration kReportLife = std::chrono::seconds{1};  // avoid and head speak four times a second and more
 
 bool is_positive(double value) { return value > 0.0; }
 
@@ -34,15 +33,12 @@ Result<void> ExecutiveParams::validate() const {
 }
 
 Executive::Executive(const ExecutiveParams& params, Decomposition decomposition, ExecutiveMemory memory, Time now)
-    : params_{params},
-      decomposition_{std::move(decomposition)},
-      memory_{std::move(memory)},
-      ladder_{params.ladder},
-      approach_{now} {
+    : params_{params}, decomposition_{std::move(decomposition)}, memory_{std::move(memory)}, ladder_{params.ladder} {
   resume(now);
 }
 
 void Executive::resume(Time now) {
+  approach_ = ApproachWatch{params_.approach, now};
   // A clock that went back belongs to another life.
   memory_.item_began = std::min(memory_.item_began, now);
   memory_.drive_began = std::min(memory_.drive_began, now);
@@ -173,7 +169,7 @@ void Executive::begin(const Directive& directive, Time now) {
       break;
     case DirectiveKind::drive:
       memory_.drive_began = now;
-      approach_ = ApproachWatch{now};
+      approach_ = ApproachWatch{params_.approach, now};
       [[fallthrough]];
     case DirectiveKind::relocalize:
       send_drive();
@@ -358,8 +354,6 @@ void Executive::watch_drive(Time now) {
   if (driven == nullptr) return;
   if (now - memory_.drive_began > seconds(params_.max_drive_s)) {
     finish(false, "It took me too long to get there.", now);
-  } else if (params_.ladder.active && approach_.is_in_vain(params_.approach, now)) {
-    finish(false, "The way was blocked for too long.", now);
   } else if (goal_.id == own_id(driven->name)) {
     climb_ladder(now);
   }
@@ -384,7 +378,8 @@ void Executive::climb_ladder(Time now) {
                         goal_.blocked_s,
                         planning::detour_of(goal_.detour),
                         obstacle_.reason.empty() ? goal_.reason : obstacle_.reason,
-                        obstacle_.is_thing};
+                        obstacle_.is_thing,
+                        under_way(DirectiveKind::drive) != nullptr && approach_.is_in_vain(now)};
   auto steps = ladder_.step(view, now);
   bool gives_up = false;
   for (const LadderStep& step : steps) {

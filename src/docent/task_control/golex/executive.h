@@ -201,7 +201,7 @@ class Executive {
   ObstacleReport obstacle_;
   Time obstacle_time_{};  ///< when it was reported
   ReactionLadder ladder_;
-  ApproachWatch approach_;
+  ApproachWatch approach_{{}, {}};
   Mood shown_mood_ = Mood::neutral;
   Time shown_at_{};
   std::optional<SpeechReport> heard_;  ///< of the present utterance
