@@ -8,21 +8,23 @@ from evaluation.reports import contacts_of
 from evaluation.tables import Verdict, print_table
 
 TARGET = "docent_kill_protocol"
+KIOSK = ["--modules", "web,buttons", "--signals", "kill", "--situations", "asking"]  # what serves the visitor at the robot's screen
 
 
-def trials_of(simulations, seed, is_slice):
-    """What the program of the trials reports, from the cache when it ran before."""
+def trials_of(simulations, seed, is_slice, which=()):
+    """What the program of the trials reports, from the cache when it ran before. `which`: modules, signals and situations."""
     if not os.environ.get("DOCENT_BINARY"):
         subprocess.run(["cmake", "--build", "--preset", "dev", "--target", TARGET], cwd=simulations.root, check=True,
                        stdout=subprocess.DEVNULL)
     program = simulations.root / "build/dev/tests/end_to_end" / TARGET
-    key = hashlib.sha256(json.dumps([simulations.key(simulations.museums / "bonn", program), seed, is_slice]).encode())
+    key = hashlib.sha256(json.dumps([simulations.key(simulations.museums / "bonn", program), seed, is_slice, *which]).encode())
     folder = simulations.cache / "kill"
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / f"bonn-seed{seed}-{key.hexdigest()[:16]}.json"
     if not path.exists():
         print("\n## every module, killed and stopped\n", flush=True)
-        subprocess.run([program, "--report", path, "--seed", str(seed), *(["--slice"] if is_slice else [])], check=False)
+        subprocess.run([program, "--report", path, "--seed", str(seed), *which, *(["--slice"] if is_slice else [])],
+                       check=False)
         if not path.exists():
             raise RuntimeError("the kill protocol made no report")
     return json.loads(path.read_text())

@@ -7,9 +7,10 @@ import subprocess
 
 from evaluation.tables import Verdict, print_table
 
-ROWS = ["tour", "smithsonian", "tours", "day", "safety", "faults", "speed", "crowd", "coastal", "scenarios"]
+ROWS = ["tour", "smithsonian", "tours", "day", "safety", "faults", "speed", "crowd", "coastal", "scenarios", "exceptions"]
 # These set something of their own; all else is as in the others.
-OWN = {"crowd": "avoid.method is set for each method", "coastal": "localize.sensor.max_range is set to the lasers' reach"}
+OWN = {"crowd": "avoid.method is set for each method", "coastal": "localize.sensor.max_range is set to the lasers' reach",
+       "exceptions": "mission.planner is set for each planner"}
 
 
 def program_hash(docent):

@@ -295,8 +295,8 @@ await check('by keys, in French; a key and its button at once are one press', as
   await context.close();
 });
 
-await check('by touch, in German; a question that nobody answers ends by itself', async () => {
-  const { page, context } = await listen({ viewport: { width: 1080, height: 1920 }, hasTouch: true });
+await check('by touch, in German; a line that breaks at a question; a poll that nobody answers ends by itself', async () => {
+  const { page, robot, context } = await listen({ viewport: { width: 1080, height: 1920 }, hasTouch: true });
   await page.goto(kiosk);
   await page.locator('main[data-screen=home], main[data-screen=poll]').waitFor({ timeout: 120000 });
   if ((await screenOf(page)) === 'poll') await tap(page, 'button.blue');
@@ -307,6 +307,11 @@ await check('by touch, in German; a question that nobody answers ends by itself'
   await page.locator('h1', { hasText: 'Darf ich Sie' }).waitFor();
   await tap(page, 'button.red');
   await shows(page, 'asking', 60000);
+  // The line breaks while a question is open: the screen has it again at once, and it can still be answered.
+  for (const socket of robot.sockets) await socket.close();
+  robot.sockets.clear();
+  await until('a new line', () => robot.sockets.size > 0, 3000);
+  await shows(page, 'asking', 2500);
   await tap(page, 'button.green');
   await shows(page, 'answered');
   await shows(page, 'poll', 90000);

@@ -8,9 +8,9 @@
 // Kills and stops the modules of a running robot, one after the other, where it hurts, and looks at what happens:
 // nothing is touched, the robot stands when it must, the module is back with current state, the tour goes on.
 //
-//   docent_kill_protocol [--modules a,b] [--signals kill,stop] [--situations driving,hazard,explaining] [--kills N]
-//                        [--museum DIR] [--crowd LEVEL] [--seed N] [--domain N] [--port N] [--report FILE.json]
-//                        [--slice]
+//   docent_kill_protocol [--modules a,b] [--signals kill,stop] [--situations driving,hazard,explaining,asking]
+//                        [--kills N] [--museum DIR] [--crowd LEVEL] [--seed N] [--domain N] [--port N]
+//                        [--report FILE.json] [--slice]
 
 namespace docent {
 namespace {

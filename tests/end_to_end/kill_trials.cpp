@@ -111,6 +111,7 @@ bool KillTrials::is_in(const std::string& situation, const RobotWatch::Snapshot&
   const double speed = std::abs(now.truth.linear);
   if (situation == "driving") return speed >= 0.4;
   if (situation == "explaining") return now.task.state == "explaining" && now.speech.state == "speaking";
+  if (situation == "asking") return now.task.state == "asking";
   constexpr double kRadius = 0.265;  // [m], the body's
   constexpr double kBeside = 0.6;    // [m] from its outline
   return speed >= 0.2 && std::any_of(museum_.hazards.begin(), museum_.hazards.end(), [&](const museum::Hazard& hazard) {

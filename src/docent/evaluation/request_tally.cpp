@@ -18,7 +18,9 @@ void RequestTally::add_offer(Time time, const docent_msgs::TrueOffer& offer) {
 }
 
 void RequestTally::add_task(const docent_msgs::Task& task) {
-  if (parse<TaskKind>(task.kind) == TaskKind::visit) places_[task.exhibit_id] = {task.x, task.y};
+  // The plan controller visits an exhibit; a GOLOG program drives to it and explains it then.
+  const bool leads_there = parse<TaskKind>(task.kind) == TaskKind::visit || task.kind == "drive";
+  if (leads_there) places_[task.exhibit_id] = {task.x, task.y};
 }
 
 void RequestTally::add_board(Time time, const docent_msgs::RequestBoard& board, const std::optional<Point2>& truth) {

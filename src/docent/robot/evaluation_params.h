@@ -22,6 +22,10 @@ struct EvaluationParams {
   bool forgets_requests = false;         ///< mission: begins with an empty board whenever it starts
   bool serves_by_arrival = false;        ///< mission: single exhibits in the order in which they were asked for
   bool without_moods = false;            ///< head, executive: a neutral face, and nobody is asked for way
+  bool never_gives_up = false;           ///< executive: no directive has a limit, no question a default
+  bool without_battery_watch = false;    ///< mission: it never hears of its battery
+  bool forgets_tasks = false;            ///< mission: a restart forgets what was under way, and keeps the requests
+  bool without_stand_in = false;         ///< mission: nobody decides for a GOLOG program that has failed
   bool never_explores = false;           ///< attract: does what it knows best and nothing else
   bool ignores_reward = false;           ///< attract: remembers each phase as worth nothing
   template <class V>
@@ -41,6 +45,10 @@ struct EvaluationParams {
     v("forgets_requests", forgets_requests);
     v("serves_by_arrival", serves_by_arrival);
     v("without_moods", without_moods);
+    v("never_gives_up", never_gives_up);
+    v("without_battery_watch", without_battery_watch);
+    v("forgets_tasks", forgets_tasks);
+    v("without_stand_in", without_stand_in);
     v("never_explores", never_explores);
     v("ignores_reward", ignores_reward);
   }

@@ -23,6 +23,7 @@ class EventReader {
     std::string kind;
     YAML::Node body;
     bool has_time = false;
+    std::optional<double> after;
     for (const auto& entry : node) {
       if (!entry.first.IsScalar()) fault(entry.first, "expected a plain key");
       const std::string& key = entry.first.Scalar();
@@ -30,6 +31,12 @@ class EventReader {
         if (has_time) fault(entry.first, "key 'at' stands twice");
         has_time = true;
         event.at = number(entry.second, 0.0, kLongest);
+      } else if (key == "during") {
+        if (event.during) fault(entry.first, "key 'during' stands twice");
+        event.during.emplace().phase = phase(entry.second);
+      } else if (key == "after") {
+        if (after) fault(entry.first, "key 'after' stands twice");
+        after = number(entry.second, 0.0, kLongest);
       } else if (!kind.empty()) {
         fault(entry.first, "one kind an event: '" + kind + "' or '" + key + "'");
       } else {
@@ -40,6 +47,8 @@ class EventReader {
     }
     if (!has_time) fault(node, "missing key 'at'");
     if (kind.empty()) fault(node, "the event has no kind");
+    if (after && !event.during) fault(node, "'after' needs 'during'");
+    if (after) event.during->after = *after;
     event.what = content(kind, body);
     return event;
   }
@@ -62,13 +71,14 @@ class EventReader {
     if (kind == "steering") return steering(body);
     if (kind == "lasers") return lasers(body);
     if (kind == "request") return wish(body);
+    if (kind == "answers") return answers(body);
+    if (kind == "battery") return battery(body);
     if (kind == "kill") return kill(body);
     if (kind == "second_mode") return second_mode(body);
     if (kind == "odometry_jump") return odometry_jump(body);
     fault(kind_at_, "unknown kind '" + kind +
                         "' (known: kidnap, fault, stool, closed, pose_error, visitors, pushers, runners, escort, "
-                        "steering, lasers, request, kill, "
-                        "second_mode, odometry_jump)");
+                        "steering, lasers, request, answers, battery, kill, second_mode, odometry_jump)");
   }
 
   [[nodiscard]] double number(const YAML::Node& node, double low, double high) const {
@@ -135,6 +145,14 @@ class EventReader {
       names += (names.empty() ? "" : ", ") + name;
     }
     fault(node, "expected one of " + names + ", found '" + found + "'");
+  }
+  [[nodiscard]] MissionPhase phase(const YAML::Node& node) const {
+    const std::string found = string(node);
+    const auto phase = parse<MissionPhase>(found);
+    std::string names;
+    for (const char* name : words_of(MissionPhase{})) names += (names.empty() ? "" : ", ") + std::string{name};
+    if (!phase) fault(node, "expected one of " + names + ", found '" + found + "'");
+    return *phase;
   }
   [[nodiscard]] std::string string(const YAML::Node& node) const {
     if (!node.IsScalar() || node.Scalar().empty()) fault(node, "expected a text");
@@ -348,6 +366,17 @@ class EventReader {
                                    event.source);
              }}},
            {"target"});
+    return event;
+  }
+  [[nodiscard]] Answers answers(const YAML::Node& node) const {
+    Answers event;
+    fields(node, {{"more", into(event.more, 0.0, 1.0)}, {"next", into(event.next, 0.0, 1.0)}}, {});
+    if (event.more + event.next > 1.0) fault(node, "'more' and 'next' are more than 1 together");
+    return event;
+  }
+  [[nodiscard]] BatteryChange battery(const YAML::Node& node) const {
+    BatteryChange event;
+    fields(node, {{"charge", into(event.charge, 0.0, 1.0)}}, {"charge"});
     return event;
   }
   [[nodiscard]] Kill kill(const YAML::Node& node) const {

@@ -8,6 +8,7 @@
 
 #include "docent/base/result.h"
 #include "docent/geometry/pose2.h"
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent::simulator {
 
@@ -112,6 +113,15 @@ struct Wish {
   std::string language = "en";
   std::string source;  ///< who asks: visitor, kiosk, web, staff; empty: as the run's other visitors
 };
+/// From now on visitors answer what the robot asks them with these chances; else nobody answers.
+struct Answers {
+  double more = 0.0;  ///< 0..1: "more" or "yes"
+  double next = 0.0;  ///< 0..1: "next" or "no"; both together at most 1
+};
+/// The battery is changed for one with this charge.
+struct BatteryChange {
+  double charge = 1.0;  ///< 0..1
+};
 /// A signal to a module: carried out by the application.
 struct Kill {
   std::string module;
@@ -119,21 +129,31 @@ struct Kill {
   double duration = 10.0;       ///< [s] for stop: until it continues
 };
 
-struct ScenarioEvent {
-  double at = 0.0;  ///< [s] since the start
-  std::variant<Kidnap, SensorFault, Stool, ClosedPassage, PoseError, Visitors, Pushers, Runners, Escort, Steering,
-               LaserReach, Wish, Kill, SecondMode, OdometryJump>
-      what;
+/// What an event of a scenario waits for, once its time has come: that the robot says to be in a phase, and has said so
+/// for a while.
+struct Moment {
+  MissionPhase phase = MissionPhase::driving;
+  double after = 0.0;  ///< [s] since the phase began
 };
 
-/// Timed events over a run (architecture 10.2), by rising time; equal times keep the file's order.
+struct ScenarioEvent {
+  double at = 0.0;  ///< [s] since the start: not before
+  std::variant<Kidnap, SensorFault, Stool, ClosedPassage, PoseError, Visitors, Pushers, Runners, Escort, Steering,
+               LaserReach, Wish, Answers, BatteryChange, Kill, SecondMode, OdometryJump>
+      what;
+  std::optional<Moment> during{};  ///< without: at its time
+};
+
+/// Timed events over a run (architecture 10.2), by rising time; equal times keep the file's order. An event that waits
+/// for a moment holds up none of the others.
 struct Scenario {
   std::vector<ScenarioEvent> events;
 };
 
 /// Reads `events:`, a list of `{at: SECONDS, KIND: {...}}` with KIND one of kidnap, fault, stool, closed, pose_error,
-/// visitors, pushers, runners, escort, steering, lasers, request, kill, second_mode, odometry_jump. Error: "FILE:LINE:
-/// ...".
+/// visitors, pushers, runners, escort, steering, lasers, request, answers, battery, kill, second_mode, odometry_jump.
+/// With `during: PHASE` it waits for that phase of the mission, with `after: SECONDS` until the phase has lasted so
+/// long. Error: "FILE:LINE: ...".
 [[nodiscard]] Result<Scenario> load_scenario(const std::filesystem::path& path);
 [[nodiscard]] Result<Scenario> parse_scenario(const std::string& text, const std::string& name);
 

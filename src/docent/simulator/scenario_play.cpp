@@ -12,10 +12,15 @@ namespace docent::simulator {
 
 void SimulatedMuseum::Impl::play_scenario() {
   const double now = run_seconds();
-  while (next_event_ < options_.scenario.events.size() && options_.scenario.events[next_event_].at <= now) {
-    std::visit([this](const auto& event) { play(event); }, options_.scenario.events[next_event_].what);
-    ++next_event_;
-  }
+  const std::vector<ScenarioEvent>& events = options_.scenario.events;
+  for (; next_event_ < events.size() && events[next_event_].at <= now; ++next_event_)
+    waiting_events_.push_back(next_event_);
+  std::erase_if(waiting_events_, [&](std::size_t i) {
+    if (events[i].during && !is_now(*events[i].during)) return false;
+    event_ = i;
+    std::visit([this](const auto& event) { play(event); }, events[i].what);
+    return true;
+  });
   if (!every(10) || temporary_.empty()) return;
   bool changed = false;
   for (Temporary& item : temporary_) {
@@ -36,6 +41,17 @@ void SimulatedMuseum::Impl::play_scenario() {
   obstacles_ = Obstacles{world_};
   instruments_.change_world(world_);
   crowd_.change_world(world_);
+}
+
+void SimulatedMuseum::Impl::see_mission(const docent_msgs::MissionState& mission) {
+  const auto phase = parse<MissionPhase>(mission.phase);
+  if (phase != phase_) phase_began_ = bus_.now();
+  phase_ = phase;
+  visitors_.see_mission(bus_.now(), mission);
+}
+
+bool SimulatedMuseum::Impl::is_now(const Moment& moment) const {
+  return phase_ == moment.phase && time_ - phase_began_ >= seconds(moment.after);
 }
 
 void SimulatedMuseum::Impl::play(const Kidnap& event) {
@@ -96,7 +112,7 @@ void SimulatedMuseum::Impl::play(const ClosedPassage& event) {
 
 void SimulatedMuseum::Impl::put_up(const std::string& kind, SolidKind solid, Polygon outline, double height,
                                    double duration) {
-  const std::string id = kind + "-" + std::to_string(next_event_);
+  const std::string id = kind + "-" + std::to_string(event_);
   temporary_.push_back(
       {{id, solid, std::move(outline), 0.0, height, true}, duration > 0.0 ? run_seconds() + duration : 0.0});
   offer(kind, id);
@@ -149,6 +165,16 @@ void SimulatedMuseum::Impl::play(const Steering& event) {
 void SimulatedMuseum::Impl::play(const LaserReach& event) {
   instruments_.limit_reach(event.range);
   offer("lasers", "");
+}
+
+void SimulatedMuseum::Impl::play(const Answers& event) {
+  visitors_.answer_with(event.more, event.next);
+  offer("answers", "");
+}
+
+void SimulatedMuseum::Impl::play(const BatteryChange& event) {
+  battery_.set_charge(event.charge);
+  offer("battery", "");
 }
 
 void SimulatedMuseum::Impl::play(const OdometryJump& event) {

@@ -28,6 +28,69 @@ TEST(ScenarioPlay, AKidnapMayTurnTheRobotAndShiftItALittle) {
   EXPECT_LE(distance(pose.position(), {3.0, 4.0}), 1.5);
 }
 
+TEST(ScenarioPlay, WhatWaitsForAMomentHoldsUpNothingElse) {
+  Bench bench{playing(R"(events:
+  - {at: 1, during: explaining, after: 2, kill: {module: mission}}
+  - {at: 2, during: driving, stool: {at: [15, 7]}}
+  - {at: 3, battery: {charge: 0.25}}
+)")};
+  const auto missions = bench.robot_bus->publisher(topics::kMissionState);
+  const auto say = [&](const char* phase) {
+    docent_msgs::MissionState state;
+    state.phase = phase;
+    missions.publish(state);
+  };
+  const auto told = [&](const std::string& kind) {
+    return std::count_if(bench.offers.begin(), bench.offers.end(),
+                         [&](const auto& offer) { return offer.kind == kind; });
+  };
+  say("driving");
+  bench.run(0.5);
+  EXPECT_EQ(told("stool"), 0);  // its time has not come
+  say("explaining");
+  bench.run(2.0);  // 2.5: explaining since 0.5, so that the kill is due now
+  EXPECT_EQ(told("stool"), 0);
+  bench.run(0.1);
+  EXPECT_EQ(told("kill"), 1);
+  bench.run(1.0);
+  EXPECT_NEAR(bench.state.battery, 0.25, 0.001);
+  say("driving");
+  bench.run(0.1);
+  EXPECT_EQ(told("stool"), 1);
+  say("explaining");
+  bench.run(5.0);
+  EXPECT_EQ(told("kill"), 1);  // each event is played once
+}
+
+TEST(ScenarioPlay, TheApplicationDoesItsPartWhenTheTimeHasCome) {
+  auto options = playing("events:\n  - {at: 1, kill: {module: mission}}\n  - {at: 2, pose_error: {x: 1}}\n");
+  std::vector<std::size_t> asked;
+  options.application = [&](const auto& event) { asked.push_back(event.index()); };
+  Bench bench{std::move(options)};
+  bench.run(1.5);
+  EXPECT_EQ(asked, std::vector<std::size_t>{0});
+  bench.run(1.0);
+  EXPECT_EQ(asked, (std::vector<std::size_t>{0, 1}));
+}
+
+TEST(ScenarioPlay, VisitorsAnswerOrGo) {
+  const auto answers = [](const std::string& chances) {
+    Bench bench{playing("events:\n  - {at: 1, answers: " + chances + "}\n")};
+    const auto missions = bench.robot_bus->publisher(topics::kMissionState);
+    bench.run(1.5);
+    for (int i = 0; i < 30; ++i) {
+      docent_msgs::MissionState state;
+      state.prompt = {"question-" + std::to_string(i), "", {"more", "next"}, "next", {}};
+      missions.publish(state);
+      bench.run(0.1);
+    }
+    bench.run(5.0);
+    return bench.counts[topics::kChoice.name];
+  };
+  EXPECT_EQ(answers("{more: 0.5, next: 0.5}"), 30);
+  EXPECT_EQ(answers("{}"), 0);
+}
+
 TEST(ScenarioPlay, SonarsDieInManyWays) {
   Bench bench{playing(R"(events:
   - {at: 1, fault: {sensor: sonar, kind: short, for: 1}}

@@ -73,6 +73,27 @@ TEST(Scenario, ReadsAWayAndAReach) {
   EXPECT_DOUBLE_EQ(std::get<LaserReach>(scenario->events[1].what).range, 2.5);
 }
 
+TEST(Scenario, ReadsWhatWaitsForAMoment) {
+  const auto scenario = parse_scenario(R"(events:
+  - {at: 60, during: explaining, after: 2.5, kill: {module: mission}}
+  - {at: 70, during: driving, battery: {charge: 0.15}}
+  - {at: 80, answers: {more: 0.1, next: 0.9}}
+  - {at: 90, answers: }
+)",
+                                       "s.yaml");
+  ASSERT_TRUE(scenario) << scenario.error().message;
+  const auto& events = scenario->events;
+  ASSERT_TRUE(events[0].during);
+  EXPECT_EQ(events[0].during->phase, MissionPhase::explaining);
+  EXPECT_DOUBLE_EQ(events[0].during->after, 2.5);
+  ASSERT_TRUE(events[1].during);
+  EXPECT_DOUBLE_EQ(events[1].during->after, 0.0);
+  EXPECT_DOUBLE_EQ(std::get<BatteryChange>(events[1].what).charge, 0.15);
+  EXPECT_FALSE(events[2].during);
+  EXPECT_DOUBLE_EQ(std::get<Answers>(events[2].what).next, 0.9);
+  EXPECT_DOUBLE_EQ(std::get<Answers>(events[3].what).more, 0.0);
+}
+
 struct Broken {
   const char* text;
   const char* fault;
@@ -99,7 +120,8 @@ constexpr Broken kBroken[] = {
     {"events:\n  - {at: 1, kidnap: , stool: {at: [1, 2]}}", "s.yaml:2: one kind an event: 'kidnap' or 'stool'"},
     {"events:\n  - {at: 1, abduct: }",
      "s.yaml:2: unknown kind 'abduct' (known: kidnap, fault, stool, closed, pose_error, "
-     "visitors, pushers, runners, escort, steering, lasers, request, kill, second_mode, odometry_jump)"},
+     "visitors, pushers, runners, escort, steering, lasers, request, answers, battery, kill, second_mode, "
+     "odometry_jump)"},
     {"events:\n  - at: 1\n    kidnap: {to: [1]}", "s.yaml:3: expected a point [x, y]"},
     {"events:\n  - at: 1\n    kidnap: {where: [1, 2]}",
      "s.yaml:3: unknown key 'where' (known: from_hazards, heading, shift, to, turn)"},
@@ -133,6 +155,19 @@ constexpr Broken kBroken[] = {
     {"events:\n  - at: 1\n    request: {kind: cancel, target: a}",
      "s.yaml:3: expected one of exhibit, tour, found 'cancel'"},
     {"events:\n  - at: 1\n    kill: {signal: stop}", "s.yaml:3: missing key 'module'"},
+    {"events:\n  - at: 1\n    answers: {more: 0.6, next: 0.6}", "s.yaml:3: 'more' and 'next' are more than 1 together"},
+    {"events:\n  - at: 1\n    answers: {yes: 0.6}", "s.yaml:3: unknown key 'yes' (known: more, next)"},
+    {"events:\n  - at: 1\n    battery: {}", "s.yaml:3: missing key 'charge'"},
+    {"events:\n  - at: 1\n    battery: {charge: 15}", "s.yaml:3: expected a number from 0 to 1, found 15"},
+    {"events:\n  - at: 1\n    during: dancing\n    kidnap:",
+     "s.yaml:3: expected one of waking, relocalizing, idle, driving, explaining, asking, going_home, charging, "
+     "waiting, "
+     "found 'dancing'"},
+    {"events:\n  - at: 1\n    during: [idle]\n    kidnap:", "s.yaml:3: expected a text"},
+    {"events:\n  - at: 1\n    during: idle\n    during: idle\n    kidnap:", "s.yaml:4: key 'during' stands twice"},
+    {"events:\n  - at: 1\n    after: 2\n    kidnap:", "s.yaml:2: 'after' needs 'during'"},
+    {"events:\n  - {at: 1, during: idle, after: -2, kidnap: }",
+     "s.yaml:2: expected a number from 0 to 100000000, found -2"},
 };
 INSTANTIATE_TEST_SUITE_P(Cases, BrokenScenario, testing::ValuesIn(kBroken));
 

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "docent/base/result.h"
 #include "docent/simulator/crowd/crowd_params.h"
@@ -25,6 +27,8 @@ struct SimulationOptions {
   std::optional<Point2> charger;  ///< [m]; standing within 0.4 m of it charges the battery
   double battery = 1.0;           ///< 0..1 at the start
   Scenario scenario;
+  /// Does what the museum cannot do, when its time has come: the application's part of the scenario.
+  std::function<void(const std::variant<Kill, PoseError, SecondMode>&)> application;
   std::optional<double> requests_per_hour;  ///< instead of the world's visitors_per_hour
   docent_msgs::RunInfo run_info;            ///< museum, mode, config_hash, ...; seed and crowd are filled in
 };

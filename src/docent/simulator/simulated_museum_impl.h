@@ -29,7 +29,7 @@ class SimulatedMuseum::Impl {
   void hear_speech(const docent_msgs::SpeechState& speech);
   void see_face(const docent_msgs::Expression& expression) { crowd_.see_face(expression.valence); }
   void see_board(const docent_msgs::RequestBoard& board) { visitors_.see_board(board); }
-  void see_mission(const docent_msgs::MissionState& mission) { visitors_.see_mission(bus_.now(), mission); }
+  void see_mission(const docent_msgs::MissionState& mission);
 
   /// Steps when the next step is due, for as long as it lives. A beat of its own would, in wall time, have every sensor
   /// read up to a step late.
@@ -82,10 +82,18 @@ class SimulatedMuseum::Impl {
   void play(const Steering& event);
   void play(const LaserReach& event);
   void play(const Wish& event) { visitors_.ask(time_, event); }
+  void play(const Answers& event);
+  void play(const BatteryChange& event);
   void play(const OdometryJump& event);
-  void play(const PoseError&) { offer("pose_error", ""); }       // the application applies it
-  void play(const SecondMode&) { offer("second_mode", ""); }     // likewise
-  void play(const Kill& event) { offer("kill", event.module); }  // likewise
+  void play(const PoseError& event) { leave_to_application(event, "pose_error", ""); }
+  void play(const SecondMode& event) { leave_to_application(event, "second_mode", ""); }
+  void play(const Kill& event) { leave_to_application(event, "kill", event.module); }
+  template <class Event>
+  void leave_to_application(const Event& event, const char* kind, const std::string& subject) {
+    if (options_.application) options_.application(event);
+    offer(kind, subject);
+  }
+  [[nodiscard]] bool is_now(const Moment& moment) const;
 
   struct Temporary {
     Solid solid;
@@ -116,6 +124,10 @@ class SimulatedMuseum::Impl {
   std::optional<Steersman> steersman_;
   double steered_until_ = 0.0;  ///< [s] run time; 0: to the end
   std::size_t next_event_ = 0;
+  std::size_t event_ = 0;                    ///< the one that is played
+  std::vector<std::size_t> waiting_events_;  ///< indices of those whose time has come, but not their moment
+  std::optional<MissionPhase> phase_;        ///< of the mission; nullopt: it has said nothing yet
+  Time phase_began_{};
   std::vector<Temporary> temporary_;
   std::vector<Disc> people_;
   std::vector<std::size_t> beside_;  ///< indices of the people who are near the robot

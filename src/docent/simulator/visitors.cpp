@@ -76,6 +76,11 @@ void WishingVisitors::ask(Time now, const Wish& wish) {
   if (!wish.source.empty()) request.source = wish.source;
 }
 
+void WishingVisitors::answer_with(double more, double next) {
+  params_.answers_more = more;
+  params_.answers_next = next;
+}
+
 WishingVisitors::Output WishingVisitors::step(Time now, Duration since_start) {
   Output output;
   while (to_seconds(since_start) >= next_wish_) {

@@ -37,6 +37,8 @@ class WishingVisitors {
   /// Ten times a second or so. @param since_start  run time
   [[nodiscard]] Output step(Time now, Duration since_start);
   void ask(Time now, const Wish& wish);
+  /// From now on. @pre more >= 0, next >= 0, more + next <= 1
+  void answer_with(double more, double next);
   void see_board(const docent_msgs::RequestBoard& board);
   void see_mission(Time now, const docent_msgs::MissionState& mission);
 

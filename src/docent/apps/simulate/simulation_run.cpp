@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 #include <ctime>
+#include <variant>
 
 #include "docent/apps/shared/deployment.h"
 #include "docent/apps/shared/simulated_hardware.h"
@@ -162,12 +163,15 @@ class SimulationRun::Parts {
     if (!options_.scenario.empty()) {
       auto scenario = simulator::load_scenario(options_.scenario);
       if (!scenario) return tl::unexpected<Error>(scenario.error());
-      for (const auto& event : scenario->events) {
-        if (const auto* kill = std::get_if<simulator::Kill>(&event.what)) schedule_kill(event.at, *kill);
-        if (const auto* error = std::get_if<simulator::PoseError>(&event.what)) schedule_strike(event.at, *error);
-        if (const auto* mode = std::get_if<simulator::SecondMode>(&event.what)) schedule_strike(event.at, *mode);
-      }
+      const bool alters_belief = std::any_of(scenario->events.begin(), scenario->events.end(), [](const auto& event) {
+        return std::holds_alternative<simulator::PoseError>(event.what) ||
+               std::holds_alternative<simulator::SecondMode>(event.what);
+      });
+      if (alters_belief) alter_belief();
       options.scenario = std::move(*scenario);
+      options.application = [this](const auto& event) {
+        std::visit([this](const auto& what) { carry_out(what); }, event);
+      };
     }
     if (auto valid = validate(options); !valid) return valid;
     world_robot_bus_ = hub_.connect("simulator");
@@ -189,20 +193,20 @@ class SimulationRun::Parts {
     return {};
   }
 
-  /// Faults of the belief, between `localize` and its readers.
-  template <class Event>
-  void schedule_strike(double at, const Event& event) {
+  /// Faults of the belief strike between `localize` and its readers.
+  void alter_belief() {
     hub_.alter(transport::topic_info(topics::kBelief), [this](Time now, std::shared_ptr<const void> message) {
       const auto& belief = *static_cast<const docent_msgs::Belief*>(message.get());
       return std::make_shared<docent_msgs::Belief>(belief_fault_.apply(belief, now));
     });
-    operator_bus_->after(seconds(at), [this, event] { belief_fault_.strike(event, hub_.now()); });
   }
 
+  void carry_out(const simulator::PoseError& event) { belief_fault_.strike(event, hub_.now()); }
+  void carry_out(const simulator::SecondMode& event) { belief_fault_.strike(event, hub_.now()); }
   /// A killed module is gone at once and back a second later, as its process would be; a stopped one is gone for the
   /// time of the stop.
-  void schedule_kill(double at, const simulator::Kill& kill) {
-    operator_bus_->after(seconds(at), [this, kill] {
+  void carry_out(const simulator::Kill& kill) {
+    operator_bus_->post([this, kill] {
       const modules::ModuleEntry* entry = modules::find_module(kill.module);
       const auto host = hosts_.find(kill.module);
       if (entry == nullptr || host == hosts_.end()) {

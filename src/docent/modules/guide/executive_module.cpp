@@ -45,6 +45,14 @@ Result<task_control::Decomposition> decomposition_of(const museum::Museum& museu
   return task_control::parse_decomposition(*text, file.string(), task_control::default_decomposition());
 }
 
+/// For an evaluation: a robot that waits for ever for what does not come.
+task_control::ExecutiveParams without_limits(task_control::ExecutiveParams params) {
+  constexpr double kForEver = 1e8;  // [s]
+  params.max_drive_s = params.offer_s = params.approach.patience_s = kForEver;
+  params.ladder.patience_s = params.ladder.unreachable_patience_s = params.ladder.thing_patience_s = kForEver;
+  return params;
+}
+
 class ExecutiveModule final : public Module {
  public:
   ExecutiveModule(const ModuleContext& context, const task_control::ExecutiveParams& params,
@@ -193,6 +201,7 @@ Result<std::unique_ptr<Module>> make_executive(const ModuleContext& context) {
   if (!params) return tl::unexpected<Error>(params.error());
   params->ladder.active = !context.config.evaluation().without_ladder;
   params->ladder.asks = !context.config.evaluation().without_moods;
+  if (context.config.evaluation().never_gives_up) *params = without_limits(*params);
   auto decomposition = decomposition_of(context.museum);
   if (!decomposition) return tl::unexpected<Error>(decomposition.error());
   auto memory = task_control::load_checkpoint(context.state / "executive.json", map_hash(context.museum.map));

@@ -22,6 +22,7 @@ bool contains(const std::vector<T>& list, const T& value) {
 
 Result<void> ExecutiveParams::validate() const {
   if (auto valid = ladder.validate(); !valid) return fail("executive." + valid.error().message);
+  if (auto valid = approach.validate(); !valid) return fail("executive." + valid.error().message);
   if (!is_positive(max_drive_s)) return fail("executive.max_drive_s must be > 0");
   if (!is_positive(charger_tolerance)) return fail("executive.charger_tolerance must be > 0");
   if (!(no_drive_s >= 0.0)) return fail("executive.no_drive_s must be >= 0");
@@ -37,6 +38,7 @@ Executive::Executive(const ExecutiveParams& params, Decomposition decomposition,
 }
 
 void Executive::resume(Time now) {
+  approach_ = ApproachWatch{params_.approach, now};
   // A clock that went back belongs to another life.
   memory_.item_began = std::min(memory_.item_began, now);
   memory_.drive_began = std::min(memory_.drive_began, now);
@@ -168,8 +170,8 @@ void Executive::begin(const Directive& directive, Time now) {
       break;
     case DirectiveKind::drive:
       memory_.drive_began = now;
-      send_drive();
-      break;
+      approach_ = ApproachWatch{params_.approach, now};
+      [[fallthrough]];
     case DirectiveKind::relocalize:
       send_drive();
       break;
@@ -329,6 +331,7 @@ void Executive::goal_report(const GoalReport& goal, Time now) {
     return;
   }
   const bool is_stuck = goal.state == GoalStatus::blocked || goal.state == GoalStatus::unreachable;
+  approach_.see(goal.state, goal.remaining_m, now);
   if (goal.state == GoalStatus::driving || goal.state == GoalStatus::turning) {
     set_note({});
   } else if (is_stuck && note_.is_none()) {
@@ -344,9 +347,9 @@ void Executive::arrive(const Directive& directive, Time now) {
     const TaskOrder& order = memory_.task.order;
     const Duration lasted = now - memory_.drive_began;
     memory_.moved = lasted >= seconds(params_.no_drive_s);
-    actions_.happenings.push_back({EventKind::arrived,
-                                   order.kind == TaskKind::visit ? order.exhibit_id : order.kind.text(), order.id,
-                                   to_seconds(lasted)});
+    const bool is_rest = order.kind == TaskKind::home || order.kind == TaskKind::charge;
+    actions_.happenings.push_back(
+        {EventKind::arrived, is_rest ? order.kind.text() : order.exhibit_id, order.id, to_seconds(lasted)});
   }
   note_ = {};
   end(directive, now);
@@ -381,7 +384,8 @@ void Executive::climb_ladder(Time now) {
                         goal_.blocked_s,
                         planning::detour_of(goal_.detour),
                         obstacle_.reason.empty() ? goal_.reason : obstacle_.reason,
-                        obstacle_.is_thing};
+                        obstacle_.is_thing,
+                        under_way(DirectiveKind::drive) != nullptr && approach_.is_in_vain(now)};
   auto steps = ladder_.step(view, now);
   bool gives_up = false;
   for (const LadderStep& step : steps) {

@@ -9,6 +9,7 @@
 #include "docent/base/result.h"
 #include "docent/interaction/attract/style.h"
 #include "docent/interaction/speech/sentences.h"
+#include "docent/task_control/golex/approach_watch.h"
 #include "docent/task_control/golex/decomposition.h"
 #include "docent/task_control/reaction_ladder/reaction_ladder.h"
 #include "docent/task_control/tour_scheduler/programme.h"
@@ -20,6 +21,7 @@ namespace docent::task_control {
 /// Section `executive` of robot.yaml.
 struct ExecutiveParams {
   LadderParams ladder;              ///< what it does about a blocked way, and when
+  ApproachParams approach;          ///< when a drive that moves is in vain
   double max_drive_s = 600.0;       ///< [s] > 0 under way in all
   double charger_tolerance = 0.15;  ///< [m] > 0: contacts lie closer than where an exhibit is shown
   double no_drive_s = 5.0;          ///< [s] >= 0: a shorter drive led nowhere: it stood there before
@@ -29,6 +31,7 @@ struct ExecutiveParams {
   template <class V>
   void visit(V& v) {
     v("ladder", ladder);
+    v("approach", approach);
     v("max_drive_s", max_drive_s);
     v("charger_tolerance", charger_tolerance);
     v("no_drive_s", no_drive_s);
@@ -203,6 +206,7 @@ class Executive {
   ObstacleReport obstacle_;
   Time obstacle_time_{};  ///< when it was reported
   ReactionLadder ladder_;
+  ApproachWatch approach_{{}, {}};
   Mood shown_mood_ = Mood::neutral;
   Time shown_at_{};
   std::optional<SpeechReport> heard_;  ///< of the present utterance

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "docent/base/files.h"
 #include "docent/interaction/speech/sentences.h"
@@ -109,6 +110,28 @@ TEST_F(ExecutiveTest, ABlockedWayIsAskedForAndThenGivenUp) {
   EXPECT_EQ(state.reason, ReasonWord::way_blocked);
   EXPECT_EQ(rungs.back(), Rung::give_up);
   EXPECT_EQ(drive->id, "") << "it stays where it is";
+}
+
+TEST_F(ExecutiveTest, ADriveToAndFroBetweenClosedWaysIsGivenUp) {
+  const auto drive_for = [&](double seconds_driven, double nearest_m, bool comes_nearer) {
+    start(visit("t" + std::to_string(now_s)));
+    const double began = now_s;
+    while (now_s - began < seconds_driven && state.state == TaskStatus::driving) {
+      const double way_m = std::abs(std::fmod(now_s - began, 40.0) - 20.0) / 2.0;  // 10 m to and fro
+      const double progress_m = comes_nearer ? 0.05 * (now_s - began) : 0.0;
+      executive.goal_report({drive->id, GoalStatus::driving, nearest_m + way_m - progress_m, 0.0, "", "global"},
+                            time());
+      collect();
+      pass(0.5);
+    }
+    return now_s - began;
+  };
+  const double vain_s = drive_for(500.0, 30.0, false);
+  EXPECT_EQ(state.state, TaskStatus::failed);
+  EXPECT_GT(vain_s, 20.0 + 120.0 + 30.0 / 0.25);
+  EXPECT_LT(vain_s, 20.0 + 120.0 + 40.0 / 0.25 + 1.0);
+  drive_for(500.0, 30.0, true);
+  EXPECT_EQ(state.state, TaskStatus::driving) << "it comes nearer, though slowly";
 }
 
 TEST_F(ExecutiveTest, APersonInTheWayIsBlownAtAndAsked) {

@@ -53,6 +53,7 @@ Result<void> GologPlannerParams::validate() const {
 
 void GologPlanner::decide(Mission& mission, Time now) {
   Situation seen = mission.situation(now);
+  if (stands_in_ && !params_.has_stand_in) return;
   if (stands_in_) {
     if (now < retry_at_ || seen.activity != Activity::none || seen.has_visit || seen.has_tour || seen.has_farewell)
       return stand_in_.decide(mission, now);
@@ -147,8 +148,12 @@ void GologPlanner::order(Mission& mission, const GologTerm& action, const std::s
 void GologPlanner::begin_drive(Mission& mission, const std::string& place, const GologTerm& action, Time now) {
   const Programme& programme = mission.scheduler().programme();
   if (place == "home") return order(mission, action, "home", {"", {}, "", programme.home, "", false, ""}, now);
-  if (place == "charger" && programme.charger)
-    return order(mission, action, "charge", {"", {}, "", *programme.charger, "", false, ""}, now);
+  if (place == "charger" && programme.charger) {
+    // Whoever takes part in the tour under way has a word, and is not left to wait for a battery: it is given anew.
+    const Situation seen = mission.situation(now);
+    if (seen.has_visit || seen.has_tour) mission.break_off_to_charge(now);
+    return order(mission, action, "charge", mission.order_to_charge(), now);
+  }
   const ProgrammeExhibit* exhibit = programme.find_exhibit(place);
   if (exhibit == nullptr) {
     under_way_.push_back({action, now, ""});

@@ -17,6 +17,7 @@ struct GologPlannerParams {
   double retry_s = 60.0;       ///< [s] > 0 after a fault of the program: meanwhile the plan controller decides
   double contact_s = 30.0;     ///< [s] > 0: so long at its charger without a charge is a failure
   double battery_step = 0.01;  ///< 0..1: the program hears of changes of the charge by so much
+  bool has_stand_in = true;    ///< false only in evaluations: nobody decides for a program that has failed
   template <class V>
   void visit(V& v) {
     v("program", program);

@@ -179,6 +179,32 @@ TEST_F(GologPlannerTest, ChargesWhenItIsLowAndServesAfterwards) {
   EXPECT_EQ(task(), "drive e1");
 }
 
+TEST_F(GologPlannerTest, ATourIsBrokenOffForTheChargerAndGivenAnew) {
+  start_shipped();
+  wish("t", RequestKind::tour, "back");
+  report(TaskStatus::done);
+  ASSERT_EQ(task(), "explain e12");
+  mission->battery(0.15, false, time());
+  report(TaskStatus::explaining);
+  report(TaskStatus::done);
+  EXPECT_EQ(task(), "charge");
+  EXPECT_EQ(mission->task().tour_id, "back") << "so that the robot says a word to its visitors";
+  EXPECT_EQ(status_of("t"), RequestStatus::queued);
+  report(TaskStatus::done);
+  const auto happenings = mission->take_happenings();
+  const auto happened = [&](EventKind kind) {
+    return std::any_of(happenings.begin(), happenings.end(), [&](const Happening& one) { return one.kind == kind; });
+  };
+  EXPECT_TRUE(happened(EventKind::tour_broken_off));
+  EXPECT_TRUE(happened(EventKind::charger));
+  mission->battery(0.16, true, time());
+  pass(5.0);
+  mission->battery(0.96, true, time());
+  pass(1.0);
+  run();
+  EXPECT_EQ(status_of("t"), RequestStatus::fulfilled);
+}
+
 TEST_F(GologPlannerTest, ARestartGoesOnWithTheActionUnderWay) {
   start_shipped();
   wish("1", RequestKind::exhibit, "e1");

@@ -92,6 +92,8 @@ void Mission::report(const std::string& task_id, std::optional<TaskStatus> state
     if (is_over) {
       const TaskOrder order = task_;
       start_task(Activity::none, {});
+      if (order.kind == TaskKind::home || order.kind == TaskKind::charge)
+        note_rest(*order.kind.value(), state == TaskStatus::done, reason);
       planner_->outcome(*this, order, {state == TaskStatus::done, took_long, reason}, now);
     }
   } else if (activity_ == Activity::farewell && is_over) {
@@ -109,11 +111,16 @@ void Mission::report(const std::string& task_id, std::optional<TaskStatus> state
     if (!is_resting_) home_not_before_ = now + seconds(pause_s);
     if (!is_done && !is_home && spare(now) >= 0.0) must_charge_ = false;  // people stand there: it rather serves
     start_task(Activity::none, {});
-    const EventKind arrival = is_home ? EventKind::home : EventKind::charger;
-    const EventKind failure = is_home ? EventKind::home_failed : EventKind::charger_failed;
-    scheduler_.note({is_done ? arrival : failure, "", reason.text()});
+    note_rest(is_home ? TaskKind::home : TaskKind::charge, is_done, reason);
   }
   decide(now);
+}
+
+void Mission::note_rest(TaskKind kind, bool is_done, const Reason& reason) {
+  const bool is_home = kind == TaskKind::home;
+  const EventKind arrival = is_home ? EventKind::home : EventKind::charger;
+  const EventKind failure = is_home ? EventKind::home_failed : EventKind::charger_failed;
+  scheduler_.note({is_done ? arrival : failure, "", reason.text()});
 }
 
 void Mission::localization(bool is_localized, Point2 position, Time now) {
@@ -292,8 +299,18 @@ void Mission::mingle(Time now) {
 void Mission::go_charging(Time now) {
   is_resting_ = false;
   if (activity_ == Activity::charge || has_contact(now) || now < home_not_before_) return;
-  start_task(Activity::charge, {"", TaskKind::charge, std::exchange(broken_exhibit_, ""), resting_place(),
-                                scheduler_.programme().languages.front(), false, std::exchange(broken_tour_, "")});
+  start_task(Activity::charge, order_to_charge());
+}
+
+TaskOrder Mission::order_to_charge() {
+  const Programme& programme = scheduler_.programme();
+  return {"",
+          TaskKind::charge,
+          std::exchange(broken_exhibit_, ""),
+          programme.charger.value_or(programme.home),
+          programme.languages.front(),
+          false,
+          std::exchange(broken_tour_, "")};
 }
 
 void Mission::relocalize(Time /*now*/) {

@@ -133,6 +133,8 @@ class Mission {
   void break_off_to_charge(Time now);
   /// Drives to its charger, or stays there.
   void go_charging(Time now);
+  /// The order for that. Where a visit or a tour was broken off for it, it names them, so that the robot says so.
+  [[nodiscard]] TaskOrder order_to_charge();
   /// Drives home, or stays there.
   void go_home(Time now);
   /// Attracts people for a minute, where it stands. @pre situation().may_mingle
@@ -153,6 +155,8 @@ class Mission {
   /// Times the drive and the visit of the present task.
   void learn(TaskStatus status, Time now);
   void start_task(Activity activity, TaskOrder order);
+  /// The way home or to the charger is over.
+  void note_rest(TaskKind kind, bool is_done, const Reason& reason);
   [[nodiscard]] bool may_interrupt() const;
   [[nodiscard]] std::string visited_exhibit() const;  ///< empty: no visit is under way
   [[nodiscard]] MissionPhase phase_of_action() const;

@@ -24,7 +24,7 @@ Result<void> LadderParams::validate() const {
 std::vector<LadderStep> ReactionLadder::step(const LadderView& view, Time now) {
   std::vector<LadderStep> steps;
   if (!params_.active) return steps;
-  const bool is_stuck = view.is_unreachable || view.without_progress_s >= params_.wait_after_s;
+  const bool is_stuck = view.is_unreachable || view.is_in_vain || view.without_progress_s >= params_.wait_after_s;
   if (!episode_) {
     const bool is_new_way = view.detour != detour_ && view.detour != planning::Detour::none;
     if (!is_new_way) detour_ = view.detour;
@@ -55,7 +55,8 @@ void ReactionLadder::look(const LadderView& view, Time now) {
   } else if (!episode.unreachable_since) {
     episode.unreachable_since = now;
   }
-  const bool is_calm = !view.is_hindered && !view.is_unreachable && view.without_progress_s < kProgress;
+  const bool is_calm =
+      !view.is_hindered && !view.is_unreachable && !view.is_in_vain && view.without_progress_s < kProgress;
   if (!is_calm) {
     episode.calm_since.reset();
   } else if (!episode.calm_since) {
@@ -103,7 +104,8 @@ void ReactionLadder::climb(const LadderView& view, Time now, std::vector<LadderS
   if (params_.asks && may_ask && !episode.by_thing && is_due_again(Rung::ask, params_.ask_every_s, now))
     take(Rung::ask, view, now, steps);
   const double patience_s = episode.by_thing ? params_.thing_patience_s : params_.patience_s;
-  if (view.without_progress_s >= patience_s || lasts(episode.unreachable_since, params_.unreachable_patience_s)) {
+  if (view.is_in_vain || view.without_progress_s >= patience_s ||
+      lasts(episode.unreachable_since, params_.unreachable_patience_s)) {
     if (episode.counts[Rung::give_up] == 0) take(Rung::give_up, view, now, steps);
   }
 }

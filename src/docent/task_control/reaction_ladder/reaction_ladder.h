@@ -49,6 +49,7 @@ struct LadderView {
   planning::Detour detour = planning::Detour::none;
   std::string cause;      ///< what is in the way: a word of ReasonWord, or a diagnosis in English
   bool is_thing = false;  ///< the obstacle, or what has touched the robot here, is a thing: it hears nothing
+  bool is_in_vain = false;  ///< it moves, but comes no nearer to its goal
 };
 
 /// A step that is taken now.
@@ -66,7 +67,8 @@ struct LadderStep {
 ///   local_detour    the way leads round it, and comes back to the one that was meant
 ///   global_detour   the modified map leads another way altogether
 ///   wait, ask       no way round: it stands, and says so
-///   give_up         patience is over: the mission chooses something else, and tries this again later
+///   give_up         patience is over, or the robot goes to and fro in vain: the mission chooses something else, and
+///                   tries this again later
 ///   free            it drives again
 ///
 /// Nobody speaks to a thing: before one there is no horn and no asking, and less patience. The planner knows it by then

@@ -67,6 +67,12 @@ TEST_F(ReactionLadderTest, WhoStaysInTheWaySeesStepAfterStep) {
   EXPECT_EQ(count(Rung::wait), 1);
 }
 
+TEST_F(ReactionLadderTest, WhoGoesToAndFroInVainGivesUp) {
+  view.is_in_vain = true;
+  pass(60.0);
+  EXPECT_EQ(log, "give_up") << "once";
+}
+
 TEST_F(ReactionLadderTest, NobodySpeaksToAThing) {
   view.is_hindered = view.is_thing = true;
   pass(19.0);
