@@ -160,6 +160,9 @@ enum class ReasonWord {
   touched,          ///< somebody or something touches the robot
   felt_thing_near,  ///< something that only touch finds
   braking,
+  border_near,  ///< so the robot drives slowly; likewise the next two
+  hazard_near,
+  obstacle_near,
 };
 constexpr auto words_of(ReasonWord) {
   return std::array{"no_such_exhibit",
@@ -195,7 +198,10 @@ constexpr auto words_of(ReasonWord) {
                     "people_near",
                     "touched",
                     "felt_thing_near",
-                    "braking"};
+                    "braking",
+                    "border_near",
+                    "hazard_near",
+                    "obstacle_near"};
 }
 
 /// What is worth a line in the history (docs/terminology.md, Events).

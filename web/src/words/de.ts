@@ -127,4 +127,7 @@ export default {
   reason_touched: 'Jemand oder etwas berührt mich.',
   reason_felt_thing_near: 'In der Nähe ist etwas, das ich nur fühlen kann.',
   reason_braking: 'Ich bremse.',
+  reason_border_near: 'Das Ende meines Bereichs ist nahe, darum fahre ich langsam.',
+  reason_hazard_near: 'In der Nähe ist etwas, das ich nicht berühren darf, darum fahre ich langsam.',
+  reason_obstacle_near: 'Etwas ist nahe, darum fahre ich langsam.',
 } satisfies Words;

@@ -127,6 +127,9 @@ const words = {
   reason_touched: 'Somebody or something touches me.',
   reason_felt_thing_near: 'Something that I can only feel is near.',
   reason_braking: 'I am braking.',
+  reason_border_near: 'The end of my area is near, so I drive slowly.',
+  reason_hazard_near: 'I must not touch what is near, so I drive slowly.',
+  reason_obstacle_near: 'Something is near, so I drive slowly.',
 };
 export default words;
 export type Words = typeof words;

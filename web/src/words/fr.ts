@@ -127,4 +127,7 @@ export default {
   reason_touched: 'Quelqu’un ou quelque chose me touche.',
   reason_felt_thing_near: 'Il y a tout près une chose que je peux seulement sentir.',
   reason_braking: 'Je freine.',
+  reason_border_near: 'La limite de ma zone est proche, je roule donc lentement.',
+  reason_hazard_near: 'Il y a tout près une chose que je ne dois pas toucher, je roule donc lentement.',
+  reason_obstacle_near: 'Quelque chose est tout près, je roule donc lentement.',
 } satisfies Words;

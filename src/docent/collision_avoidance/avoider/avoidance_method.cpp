@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "docent/vocabulary/vocabulary.h"
+
 namespace docent::collision_avoidance {
 
 namespace {
@@ -61,9 +63,9 @@ void CautiousWindow::cap_by_surroundings(std::span<const Obstacle> obstacles, Sp
     // The security distance grows with the speed [Buhmann1995]: read backwards, the speed with the distance. On the
     // border of its area, or beyond, the robot is slow whichever way it goes.
     if (ahead > params_.beside || (obstacle.is_border && slack < 0.0)) {
-      cap.lower(window_.speed_with(slack), obstacle.is_border    ? "the border of its area is near"
-                                           : obstacle.is_virtual ? "a hazard is near"
-                                                                 : "something is near");
+      cap.lower(window_.speed_with(slack), to_text(obstacle.is_border    ? ReasonWord::border_near
+                                                   : obstacle.is_virtual ? ReasonWord::hazard_near
+                                                                         : ReasonWord::obstacle_near));
     }
   }
 }
