@@ -11,6 +11,7 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr double kThere = 0.5;    // [m] from where an exhibit is shown
 constexpr int kMostActions = 50;  ///< that begin at one moment: more is a program that turns round in itself
 
 std::string argument(const GologTerm& term) {
@@ -182,6 +183,16 @@ void GologPlanner::begin(Mission& mission, const GologTerm& action, Time now) {
     under_way_.push_back({action, now, ""});
     return;
   }
+  // Somebody may wait for the exhibit before which it stands.
+  if (action.name == "explain" && !mission.situation(now).has_visit &&
+      mission.scheduler().begin_visit_to(about, mission.position(), now)) {
+    const Point2 place = mission.scheduler().state().visit->map_from_base.position();
+    if (distance(place, mission.position()) > kThere) {  // but wishes to see it from elsewhere
+      mission.scheduler().suspend_visit(now);
+      under_way_.push_back({action, now, ""});
+      return end(action, {GologOutcome::Kind::failed});
+    }
+  }
   Pose2 here;
   here.x = mission.position().x;
   here.y = mission.position().y;
@@ -207,6 +218,7 @@ void GologPlanner::outcome(Mission& mission, const TaskOrder& order, const Actio
   if (done == under_way_.end()) return;
   const GologTerm action = done->action;
   const auto& visit = mission.scheduler().state().visit;
+  if (action.name == "explain") requested_.erase(argument(action));  // who still waits for it is told anew
   const bool is_of_visit = visit && visit->exhibit_id == argument(action);
   if (is_of_visit && (action.name == "explain" || (is_drive(action) && !outcome.is_done))) {
     requested_.erase(argument(action));
