@@ -11,7 +11,7 @@ from types import SimpleNamespace
 ROOT = Path(__file__).resolve().parents[2]
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "scripts"))
-from evaluation import attract, benchmarks, coastal, crippled, faults, ledger, reports, safety, scenarios  # noqa: E402
+from evaluation import attract, benchmarks, coastal, crippled, exceptions, faults, ledger, reports, safety, scenarios  # noqa: E402
 from evaluation.tables import Verdict  # noqa: E402
 
 
@@ -53,6 +53,66 @@ class Crippled(unittest.TestCase):
             verdict = Verdict()
             crippled.want_touches(how, "bonn", [report(lost=600.0, km=km)], verdict)
             self.assertEqual(verdict.good, good)
+
+
+class Exceptions(unittest.TestCase):
+    """Events as in `--event-log`; the report of a run in which nothing bad happened."""
+
+    def run_of(self, rows, wishes=(), **other):
+        events = [dict(zip(("time", "source", "kind", "subject", "detail"), row), value="5", x="7.0", y="1.5") for row in rows]
+        quiet = {**report(), "battery": {"depleted": 0, "charges": 1}, "explained_in_wrong_place": 0, **other}
+        return exceptions.Run(quiet, events, [], list(wishes))
+
+    def test_each_request_ends_once_and_as_it_should(self):
+        queued = (1, "event", "request_queued", "a", "zuse")
+        fulfilled, failed = (9, "event", "request_fulfilled", "a", ""), (9, "event", "request_failed", "a", "")
+        for rows, good in (([queued], False), ([queued, fulfilled], True), ([queued, failed], False), ([queued, fulfilled, fulfilled], False),
+                           ([], False)):
+            lost = [fault for fault in exceptions.faults_of("battery-low", self.run_of(rows, [("exhibit", "zuse")])) if "wished for" in fault]
+            self.assertEqual(not lost, good, rows)
+        asked = [("exhibit", "mp3")]
+        for end, good in ((failed, True), (fulfilled, False)):
+            faults = exceptions.faults_of("unreachable", self.run_of([(1, "event", "request_queued", "a", "mp3"), end], asked))
+            self.assertEqual(not [fault for fault in faults if "wished for" in fault], good)
+
+    def test_nothing_is_explained_more_often_than_asked_for(self):
+        explained = (5, "event", "explained", "zuse", "")
+        tour = (1, "event", "tour_started", "highlights", "zuse transrapid")
+        for rows, wishes, good in (([explained], [("exhibit", "zuse")], True), ([explained, explained], [("exhibit", "zuse")], False),
+                                   ([tour, explained, explained], [("exhibit", "zuse")], True), ([tour, explained, explained], [], False)):
+            self.assertEqual(not exceptions.twice(self.run_of(rows, wishes)), good)
+
+    def test_a_tour_that_began_anew_was_not_given_in_one_piece(self):
+        began, ended = (1, "event", "tour_started", "t", "zuse"), (60, "event", "tour_completed", "t", "")
+        self.assertEqual(exceptions.tour_goes_on(self.run_of([began, ended]), "t", 10.0), 50.0)
+        self.assertIsNone(exceptions.tour_goes_on(self.run_of([began, began, ended]), "t", 10.0))
+        self.assertIsNone(exceptions.tour_goes_on(self.run_of([began]), "t", 10.0))
+
+    def test_a_tour_is_broken_off_with_a_word(self):
+        low, broken = (100, "scenario", "battery", "", ""), (120, "event", "tour_broken_off", "t", "")
+        word = (121, "say", "sad", "d-7/must_charge", "I must charge.")
+        self.assertEqual(exceptions.gives_way_to_the_battery(self.run_of([low, broken, word])), 20.0)
+        self.assertIsNone(exceptions.gives_way_to_the_battery(self.run_of([low, broken])))
+
+    def test_a_question_without_an_answer_stands_for_ever(self):
+        asked, other = (10, "event", "prompt_shown", "zuse", "d-1/more"), (30, "event", "prompt_shown", "wankel", "d-2/more")
+        default = (15.5, "event", "choice", "zuse", "next (default)")
+        self.assertAlmostEqual(exceptions.longest_question(self.run_of([asked, default])), 0.5)
+        self.assertIsNone(exceptions.longest_question(self.run_of([asked, default, other])))
+        self.assertIsNone(exceptions.longest_question(self.run_of([])))
+
+    def test_where_nothing_went_wrong_nothing_was_shown(self):
+        for struck, good in (([(5, "scenario", "kill", "mission", "")] * 9, True), ([], False)):
+            verdict = Verdict()
+            exceptions.want_exposure("mission-killed", "plans", [self.run_of(struck)], verdict)
+            self.assertEqual(verdict.good, good)
+
+    def test_each_seed_draws_moments_of_its_own(self):
+        text = "{at: 1, during: idle, after: DELAY, battery: {charge: CHARGE}}"
+        first, again, other = (exceptions.Bonn.drawn(text, "x", seed) for seed in (1, 1, 2))
+        self.assertEqual(first, again)
+        self.assertNotEqual(first, other)
+        self.assertNotIn("DELAY", first[0])
 
 
 class Attract(unittest.TestCase):

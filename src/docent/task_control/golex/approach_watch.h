@@ -14,14 +14,17 @@ struct ApproachParams {
   /// [s] > 0 to come nearer to the goal than ever before on this drive. More than the ladder's patience, which ends a
   /// drive that stands: a way round may lead away from the goal at first.
   double patience_s = 120.0;
+  double nearer_m = 0.3;      ///< [m] >= 0 that count as nearer: the way is measured anew all the time
   double slowest_mps = 0.25;  ///< [m/s] > 0 the patience is longer by what the rest of the way takes so slowly
   template <class V>
   void visit(V& v) {
     v("patience_s", patience_s);
+    v("nearer_m", nearer_m);
     v("slowest_mps", slowest_mps);
   }
   [[nodiscard]] Result<void> validate() const {
     if (!(patience_s > 0.0)) return fail("approach.patience_s must be > 0");
+    if (!(nearer_m >= 0.0)) return fail("approach.nearer_m must be >= 0");
     if (!(slowest_mps > 0.0)) return fail("approach.slowest_mps must be > 0");
     return {};
   }
@@ -38,7 +41,7 @@ class ApproachWatch {
     const bool sees_way = state == GoalStatus::driving || state == GoalStatus::turning || state == GoalStatus::blocked;
     if (!sees_way) return;
     remaining_m_ = remaining_m;
-    if (remaining_m >= nearest_m_) return;
+    if (remaining_m >= nearest_m_ - params_.nearer_m) return;
     nearest_m_ = remaining_m;
     nearer_at_ = now;
   }

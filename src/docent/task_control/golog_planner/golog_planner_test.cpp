@@ -134,6 +134,20 @@ TEST_F(GologPlannerTest, ATourKeepsItsOrderAndEndsWithAFarewell) {
   EXPECT_EQ(mission->memory().schedule.counters.tours_completed, 1U);
 }
 
+TEST_F(GologPlannerTest, ATourMayBeginWhereItStands) {
+  start_shipped();
+  wish("12", RequestKind::exhibit, "e12");
+  report(TaskStatus::done);
+  EXPECT_EQ(task(), "explain e12");
+  report(TaskStatus::explaining);
+  wish("t", RequestKind::tour, "back");
+  report(TaskStatus::done);
+  EXPECT_EQ(status_of("12"), RequestStatus::fulfilled);
+  run();
+  EXPECT_EQ(status_of("t"), RequestStatus::fulfilled);
+  EXPECT_EQ(mission->memory().schedule.counters.exhibits_explained, 3U);
+}
+
 TEST_F(GologPlannerTest, WhatCannotBeReachedIsTriedAgainAndOthersAreServedMeanwhile) {
   start_shipped();
   wish("1", RequestKind::exhibit, "e1");
