@@ -23,14 +23,15 @@ ITEMS = 49  # exhibits and viewpoints that may be asked for; a museum with fewer
 HOURS, LAST_HOURS = 20.0, 2.0  # in the last ones nobody asks any more, so that every request may end
 SLICE_HOURS, SLICE_LAST = 2.0, 0.8
 CRIPPLED_HOURS, CRIPPLED_LAST = 3.0, 1.5
-RUSH, RUSH_EVERY, RUSH_FOR = 90, 3.0, 180.0  # Web visitors who ask within so many seconds [h, s]
+RUSH, RUSH_EVERY, RUSH_FOR = 100, 2.0, 180.0  # Web visitors who ask within so many seconds [h, s]
 SLICE_RUSH = 30
-HALL, HALL_TOURS, WEB = 9.0, 2.0, 8.0  # requests an hour: exhibits and tours in the hall, between the rushes from the Web
+PENDING = 90  # at once, at least: the rush is served while it comes
+HALL, HALL_TOURS, WEB = 10.0, 2.0, 15.0  # requests an hour: exhibits and tours in the hall, between the rushes from the Web
 KILLED = ["mission", "executive", "sound", "plan"]  # in turn,
 KILL_EVERY = 1.3  # [h]
 FIRST_KILL = 0.4  # [h]: during the first rush
-# How far from the place asked for the robot may stand, and turned how far: less than half the way to the next viewpoint.
-NEAR, TURNED = 0.5, 30.0  # [m, deg]
+# How far from the place asked for the robot may stand, where no other place of the exhibit is nearer, and turned how far.
+NEAR, TURNED = 0.7, 30.0  # [m, deg]
 SERVED, AIM = 0.9975, 0.9995  # [Rhino1999] Table 6
 REFUSED = 0.01
 MAY_REFUSE = ("unreachable", "closed", "night")
@@ -76,14 +77,14 @@ def viewpoints_of(museum):
             if missing == 0 or exhibit.viewpoints:
                 continue
             at_x, at_y = exhibit.look_at[:2]
-            far, bearing = math.hypot(exhibit.pose[0] - at_x, exhibit.pose[1] - at_y), \
+            away, bearing = math.hypot(exhibit.pose[0] - at_x, exhibit.pose[1] - at_y), \
                 math.atan2(exhibit.pose[1] - at_y, exhibit.pose[0] - at_x) + math.radians(turn)
-            x, y = at_x + far * math.cos(bearing), at_y + far * math.sin(bearing)
+            x, y = at_x + away * math.cos(bearing), at_y + away * math.sin(bearing)
             around = [(x + 0.35 * math.cos(k), y + 0.35 * math.sin(k)) for k in range(7)]
             cells = [floor.cell_of(*point) for point in [(x, y), *around]]
             stands = all(math.hypot(floor.x0 + column * floor.cell - a, floor.y0 + row * floor.cell - b) < floor.cell
                          for (row, column), (a, b) in zip(cells, [(x, y), *around]))
-            if not stands or not math.isfinite(from_home[cells[0]]) or 2 * far * math.sin(math.radians(17.5)) < 2.0 * NEAR - 0.3:
+            if not stands or not math.isfinite(from_home[cells[0]]) or 2 * away * math.sin(math.radians(17.5)) < 0.7:
                 continue
             found[exhibit.name].append((x, y, math.degrees(math.atan2(at_y - y, at_x - x))))
             missing -= 1
@@ -151,9 +152,7 @@ def run(simulations, museum, seed, events, hours, arguments):
         for kind, path in kept.items():  # the report last: it says that all are there
             part[kind].rename(path)
         print(f"   {museum.name} seed {seed}, {hours:.1f} h: {time.monotonic() - started:.0f} s", file=sys.stderr)
-    record = Record(read_rows(kept["requests.csv"]))
-    charges = [row for row in read_rows(kept["events.csv"]) if row["source"] == "event" and row["kind"] == "charger"]
-    return record, len(charges), json.loads(kept["json"].read_text())
+    return Record(read_rows(kept["requests.csv"])), json.loads(kept["json"].read_text())
 
 
 def read_rows(path):
@@ -213,9 +212,19 @@ class Record:
         return [row for row in self.heard if row["state"] == "short"]
 
 
-def is_at(pose, place):
-    turned = (pose[2] - place[2] + 180.0) % 360.0 - 180.0
-    return math.hypot(pose[0] - place[0], pose[1] - place[1]) <= NEAR and abs(turned) <= TURNED
+def far(pose, place):
+    return math.hypot(pose[0] - place[0], pose[1] - place[1])
+
+
+def is_at(pose, places, viewpoint):
+    """Whether the robot stands at this place of an exhibit, and at no other."""
+    turned = (pose[2] - places[viewpoint][2] + 180.0) % 360.0 - 180.0
+    return far(pose, places[viewpoint]) <= NEAR and abs(turned) <= TURNED and \
+        all(far(pose, other) >= far(pose, places[viewpoint]) for key, other in places.items() if key >= 0)
+
+
+def is_at_any(pose, places):
+    return any(is_at(pose, places, viewpoint) for viewpoint in places)
 
 
 def heard_by(record, request):
@@ -233,14 +242,11 @@ def is_shown(record, museum, request):
     if request.kind == "tour":
         stops = museum.tours[request.target]
         missed = set(stops) - {row["target"] for row in heard}
-        return bool(heard) and len(missed) <= 1 and all(at_its_exhibit(museum, row) for row in heard)
+        return bool(heard) and len(missed) <= 1 and \
+            all(is_at_any(row["pose"], museum.exhibits[row["target"]].places()) for row in heard)
     places = museum.exhibits[request.target].places()
-    wanted = places.values() if request.viewpoint < 0 else [places[request.viewpoint]]
-    return any(is_at(row["pose"], place) for row in heard for place in wanted)
-
-
-def at_its_exhibit(museum, row):
-    return any(is_at(row["pose"], place) for place in museum.exhibits[row["target"]].places().values())
+    return any(is_at_any(row["pose"], places) if request.viewpoint < 0 else is_at(row["pose"], places, request.viewpoint)
+               for row in heard)
 
 
 def done_twice(record):
@@ -307,16 +313,16 @@ HEADER = ["museum", "robot", "h", "km", "charges", "asked", "refused", "served",
           "wait hall min", "wait Web min", "longest"]
 
 
-def row_of(name, robot, hours, record, charges, report):
+def row_of(name, robot, hours, record, report):
     ends = collections.Counter(r.end for r in record.requests.values())
     hall, web = waits(record, "kiosk"), waits(record, "web")
-    return [name, robot, f"{hours:g}", f"{report['distance_m'] / 1000:.1f}", charges, len(record.requests), ends["refused"],
+    return [name, robot, f"{hours:g}", f"{report['distance_m'] / 1000:.1f}", report["battery"]["charges"], len(record.requests), ends["refused"],
             ends["fulfilled"], ends["failed"] + ends["cancelled"], ends[""], most_pending(record), len(record.explanations()),
             contacts_of(report), *[f"{statistics.median(some) / 60:.0f}" if some else "-" for some in (hall, web)],
             f"{max(hall + web, default=0.0) / 60:.0f}"]
 
 
-def judge(verdict, name, museum, record, charges, report, is_slice):
+def judge(verdict, name, museum, record, report, is_slice):
     """Nothing lost, nothing twice, nothing at the wrong place; refusals and requests served."""
     requests = list(record.requests.values())
     ends = collections.Counter(r.end for r in requests)
@@ -344,13 +350,16 @@ def judge(verdict, name, museum, record, charges, report, is_slice):
                  f"{right} of {accepted}, {100 * right / max(1, accepted):.2f} %", accepted > 0 and right >= SERVED * accepted)
     for reason, count in collections.Counter(r.steps[-1][2] for r in requests if r.end in ("failed", "cancelled")).items():
         verdict.note(f"{name}: failed", f"{count}: {reason}")
-    verdict.want(f"{name}: contacts", f"{contacts_of(report)} in {report['distance_m'] / 1000:.2f} km", contacts_of(report) == 0)
+    verdict.note(f"{name}: contacts (the protocol safety judges them)", f"{contacts_of(report)} in {report['distance_m'] / 1000:.2f} km, "
+                 f"{report['passes_within_1m']} passes within 1 m")
     items = {(r.target, r.viewpoint) for r in requests if r.kind == "exhibit"}
     if is_slice:
         return
     verdict.want(f"{name}: items asked for, at least {ITEMS}", len(items), len(items) >= ITEMS)
-    verdict.want(f"{name}: most pending at once, at least {RUSH}", most_pending(record), most_pending(record) >= RUSH)
-    verdict.want(f"{name}: charges, at least 4", charges, charges >= 4)
+    verdict.want(f"{name}: most pending at once, at least {PENDING}", most_pending(record), most_pending(record) >= PENDING)
+    charges = report["battery"]["charges"]
+    verdict.want(f"{name}: charges, at least 4, and the battery never empty", f"{charges}, {report['battery']['depleted']} times empty",
+                 charges >= 4 and report["battery"]["depleted"] == 0)
 
 
 def judge_travel(verdict, name, record, museum, lengths):
@@ -404,12 +413,12 @@ def protocol(simulations, options):
     print("\nwait: median, from the wish to the end; lost: without an end; explained: short texts that were heard.\n")
     lengths = {name: ways.Lengths(known[name], folder / f"ways-{name}-{key_of(museums[name])[:16]}.npy") for name in names}
     verdict = Verdict()
-    for (name, how, *_), (record, charges, report) in zip(jobs, made):
+    for (name, how, *_), (record, report) in zip(jobs, made):
         if how == "whole":
-            judge(verdict, name, known[name], record, charges, report, is_slice)
+            judge(verdict, name, known[name], record, report, is_slice)
             judge_travel(verdict, name, record, known[name], lengths[name])
         else:
             must_fail(verdict, how, name, record, known[name], lengths[name])
-    verdict.want_one_configuration(report["config_hash"] for job, (_, _, report) in zip(jobs, made) if job[1] == "whole")
+    verdict.want_one_configuration(report["config_hash"] for job, (_, report) in zip(jobs, made) if job[1] == "whole")
     verdict.print()
     return verdict

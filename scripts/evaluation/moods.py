@@ -15,11 +15,13 @@ CROWDS = ["busy", "packed"]
 WITHOUT = ["--set", "evaluation.without_moods=true"]
 WISHES = 40  # an hour: it is seldom idle, and so often among people
 SURE = 0.95
-HEADER = ["crowd", "moods", "runs", "h", "km", "m/s", "blocked s/h", "blockages/h", "s a blockage", "horn/h", "contacts", "passes < 1 m"]
+HEADER = ["crowd", "moods", "runs", "h", "km", "m/s", "standing s/h", "blocked s/h", "blockages/h", "s a blockage", "horn/h", "contacts", "passes < 1 m"]
 # What is compared: name, unit, value of a report, and whether more of it is better.
 FIGURES = [
     ("mean speed", "m/s", lambda report: report["mean_speed_mps"], True),
-    ("blocked, of the time on the way", "%", lambda report: 100 * report["blocked"]["seconds"] / report["travel_seconds"], False),
+    ("standing, of the time on the way", "%", lambda report: 100 * report["standing_seconds"] / report["travel_seconds"], False),
+    ("blocked by its own word, of the time on the way", "%",
+     lambda report: 100 * report["blocked"]["seconds"] / report["travel_seconds"], False),
 ]
 
 
@@ -51,7 +53,7 @@ def row_of(crowd, moods, reports):
     travel = sum(report["travel_seconds"] for report in reports)
     metres = sum(report["mean_speed_mps"] * report["travel_seconds"] for report in reports)
     return [crowd, moods, len(reports), f"{hours:.1f}", f"{sum(report['distance_m'] for report in reports) / 1000:.2f}",
-            f"{metres / travel:.3f}", f"{blocked / hours:.0f}", f"{events / hours:.0f}", f"{blocked / max(1, events):.1f}",
+            f"{metres / travel:.3f}", f"{sum(report['standing_seconds'] for report in reports) / hours:.0f}", f"{blocked / hours:.0f}", f"{events / hours:.0f}", f"{blocked / max(1, events):.1f}",
             f"{sum(report['blocked']['horn'] for report in reports) / hours:.0f}", sum(map(contacts_of, reports)),
             sum(report["passes_within_1m"] for report in reports)]
 
@@ -82,12 +84,12 @@ def draw(path, found, title):
                 if row == 0:
                     here.set_title(f"Bonn, {crowd}")
                 if column == 0:
-                    here.set_ylabel(f"{name} [{unit}]")
+                    here.set_ylabel(f"{name.replace(', ', ',' + chr(10))} [{unit}]")
         seed.set_label("a seed")
         mean.set_label(f"mean, {100 * SURE:.0f} % confidence")
         figures.legend(figure, title, [seed, mean])
 
-    figures.draw(path, (figures.WIDTH, 0.75 * figures.WIDTH), fill)
+    figures.draw(path, (figures.WIDTH, 1.1 * figures.WIDTH), fill)
 
 
 def judge(verdict, crowd, with_moods, without):

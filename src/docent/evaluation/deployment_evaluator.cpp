@@ -15,6 +15,7 @@ constexpr double kContactSpeed = 0.1;  ///< [m/s] towards a person; slower, they
 constexpr double kPass = 1.0;          ///< [m], outline to outline
 constexpr double kPassEnd = 1.2;       ///< [m]
 constexpr double kMoves = 0.05;        ///< [m/s]
+constexpr double kTurns = 0.1;         ///< [rad/s]
 constexpr double kCharge = 0.05;       ///< of the battery: a rise that is a charge
 constexpr double kDepleted = 0.01;
 
@@ -93,6 +94,8 @@ void DeploymentEvaluator::add_state(std::shared_ptr<const docent_msgs::TrueState
     const double dt = to_seconds(time - truth_.latest_time());
     report_.travel_seconds += dt;
     report_.travel_distance_m += state.distance_m - truth_.latest().distance_m;
+    const bool stands = std::abs(state.linear) < kMoves && std::abs(state.angular) < kTurns;
+    if (stands) report_.standing_seconds += dt;
     if (is_blocked_) report_.blocked.seconds += dt;
   }
   report_.area_violations += was_inside_ && !state.inside_area ? 1 : 0;

@@ -103,6 +103,7 @@ TEST(DeploymentEvaluator, SpeedCountsBlockedTimeAndNothingWithoutAGoal) {
   const auto report = story.report();
   EXPECT_NEAR(report.virtual_seconds, 48.0, 1e-6);
   EXPECT_NEAR(report.travel_seconds, 35.0, 1e-6);
+  EXPECT_NEAR(report.standing_seconds, 5.0, 0.11);
   EXPECT_NEAR(report.travel_distance_m, 18.0, 1e-6);
   EXPECT_NEAR(report.distance_m, 25.4, 1e-6);
   EXPECT_NEAR(report.max_speed_mps, 0.8, 1e-9);

@@ -127,6 +127,7 @@ std::string to_json(const DeploymentReport& r, const std::optional<RunCost>& cos
     json["wall_speedup"] = times_faster(r, cost->wall_seconds);
   }
   json["travel_seconds"] = rounded(r.travel_seconds);
+  json["standing_seconds"] = rounded(r.standing_seconds);
   json["distance_m"] = rounded(r.distance_m);
   json["mean_speed_mps"] = rounded(mean_speed(r));
   json["max_speed_mps"] = rounded(r.max_speed_mps);

@@ -28,6 +28,7 @@ TEST(DeploymentReport, JsonHasTheKeysOfTheArchitectureInTheirOrder) {
                                             "speedup",
                                             "wall_speedup",
                                             "travel_seconds",
+                                            "standing_seconds",
                                             "distance_m",
                                             "mean_speed_mps",
                                             "max_speed_mps",
