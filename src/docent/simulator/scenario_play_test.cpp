@@ -80,7 +80,7 @@ TEST(ScenarioPlay, VisitorsAnswerOrGo) {
     bench.run(1.5);
     for (int i = 0; i < 30; ++i) {
       docent_msgs::MissionState state;
-      state.prompt = {"question-" + std::to_string(i), "", {"more", "next"}, "next", {}};
+      state.prompt = {"question-" + std::to_string(i), "en", {"en"}, {"More, or next?"}, {"more", "next"}, "next", {}};
       missions.publish(state);
       bench.run(0.1);
     }

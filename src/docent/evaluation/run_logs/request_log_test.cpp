@@ -27,7 +27,7 @@ TEST(RequestLog, FollowsARequestFromTheWishToTheExplanation) {
   tell(log, topics::kRequestBoard, 103.0, board);
   tell(log, topics::kRequestBoard, 104.0, board);
   tell(log, topics::kEvent, 105.0, {{}, "order_chosen", "airbus", "airbus/3 zuse", 0.0});
-  tell(log, topics::kTask, 105.0, {"t-1", "visit", "airbus", 0, 0, 0, "de", true, "highlights"});
+  tell(log, topics::kTask, 105.0, {"t-1", "visit", "airbus", 0, 0, 0, "de", true, "highlights", {}, {}, {}});
   docent_msgs::SpeechState speech;
   speech.state = "speaking";
   for (const char* line : {"t-0/short", "t-1/announcement", "t-1/short", "t-1/short", "t-1/long"}) {
