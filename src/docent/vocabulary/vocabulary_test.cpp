@@ -27,7 +27,8 @@ TEST(Vocabulary, EachValueHasItsWord) {
   expect_each_has_its_word(RequestStatus::cancelled);
   expect_each_has_its_word(OperatingMode::hours);
   expect_each_has_its_word(MissionPhase::waiting);
-  expect_each_has_its_word(TaskKind::relocalize);
+  expect_each_has_its_word(TaskKind::mingle);
+  expect_each_has_its_word(LookFor::company);
   expect_each_has_its_word(TaskStatus::failed);
   expect_each_has_its_word(GoalStatus::unreachable);
   expect_each_has_its_word(DriveMode::turn);

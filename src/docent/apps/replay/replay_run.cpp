@@ -21,8 +21,10 @@ namespace {
 
 constexpr Duration kAnswerWaits = std::chrono::seconds{20};
 constexpr double kCutAtTheEnd = 5.0;  ///< [s]
-/// The executive's events: how it goes under way, which is not the same twice.
-constexpr std::array<const char*, 5> kUnderWay{"arrived", "drive_blocked", "asked_for_way", "prompt_shown", "choice"};
+/// The executive's events: how it goes under way, which is not the same twice; and what is drawn by the seed, which a
+/// recording does not tell.
+constexpr std::array<const char*, 6> kUnderWay{"arrived",      "drive_blocked", "asked_for_way",
+                                               "prompt_shown", "choice",        "attraction_trial"};
 
 /// Publishes decoded messages of any topic.
 class Feeder {

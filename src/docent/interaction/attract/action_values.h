@@ -11,8 +11,8 @@ namespace docent::interaction {
 /// How the next action follows from all trials ([Minerva2000] 6.3: memory-based, without delayed reward).
 struct ActionChoiceParams {
   double explore = 0.1;  ///< 0..1, at least so often it does anything at all, that it may learn what is new
-  double learning =
-      60.0;  ///< >= 0 trials: after so many, half of its actions are still random; 0: `explore` from the start
+  /// >= 0 trials: after so many, half of its actions are still random; 0: `explore` from the start
+  double learning = 60.0;
   double kinship = 0.3;  ///< 0..1, how far a trial tells of an action that differs in one of gaze, face and speech
   double density_width = 0.7;  ///< [ln] > 0: how far it tells of other densities; half of what quiet and busy are apart
   double doubt = 2.0;          ///< > 0 trials: few ones count little; so many with an average reward are added

@@ -14,7 +14,7 @@ struct AttractionParams {
   ProximityRewardParams reward;
   ActionChoiceParams choice;
   StyleEvidenceParams evidence;
-  CrowdClassParams crowd;
+  CrowdClassParams crowd;  ///< what counts as quiet, busy and packed
   template <class V>
   void visit(V& v) {
     v("reward", reward);

@@ -16,8 +16,8 @@ struct ProximityRewardParams {
   double far = 2.5;         ///< [m] > near; farther people are worth 0: they rather pass by than listen
   double too_close = 0.55;  ///< [m] 0..near: there the body (0.27 m) and an arm's length end
   double penalty = 2.0;     ///< >= 0, for each moment with somebody too close; more than what this person was worth
-  double least_seen =
-      0.5;             ///< 0..1, share of the phase in which people must have been looked for; else it taught nothing
+  /// 0..1, share of the phase in which people must have been looked for; else it taught nothing
+  double least_seen = 0.5;
   double gap_s = 1.0;  ///< [s] > 0: people seen longer ago than this are not known any more
   template <class V>
   void visit(V& v) {
