@@ -168,10 +168,10 @@ SCENARIOS = {
     "way-closed": Exceptional(30, WAY, {"s blocked": (lambda run: run.report["blocked"]["seconds"], 5)}, GIVES_UP),
     "way-full-of-people": Exceptional(30, WAY, {"s blocked": (lambda run: run.report["blocked"]["seconds"], 30),
                                                "horns": (lambda run: run.report["blocked"]["horn"], 3)}, GIVES_UP),
-    "unreachable": Exceptional(40, [
-        Duty("says that mp3 cannot be reached, after its request", 1800, lambda run: since(next((t for t, how in run.ends("mp3") if how == "failed"), None), 70.0)),
-        Duty("says so of the zeolite", 1800, lambda run: since(next((t for t, how in run.ends("zeolite") if how == "failed"), None), 60.0)),
-        Duty("the tour with the zeolite is given, after its wish", 1500, lambda run: since(run.served("small-things"), 100.0)),
+    "unreachable": Exceptional(60, [
+        Duty("says that mp3 cannot be reached, after its request", 3000, lambda run: since(next((t for t, how in run.ends("mp3") if how == "failed"), None), 70.0)),
+        Duty("says so of the zeolite", 3000, lambda run: since(next((t for t, how in run.ends("zeolite") if how == "failed"), None), 60.0)),
+        Duty("the tour with the zeolite is given, after its wish", 1800, lambda run: since(run.served("small-things"), 100.0)),
     ], {"visits that failed": (count("visit_failed"), 4)}, GIVES_UP, fails=("mp3", "zeolite")),
     "visitors-leave": Exceptional(20, [
         Duty("the longest question, over the time to answer", LATEST, longest_question),

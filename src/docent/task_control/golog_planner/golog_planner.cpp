@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "docent/task_control/mission/mission.h"
 
@@ -11,6 +12,7 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr std::string_view kStandsIn = "stand-in ";  // before the memory of a program that has failed
 constexpr int kMostActions = 50;  ///< that begin at one moment: more is a program that turns round in itself
 
 std::string argument(const GologTerm& term) {
@@ -267,7 +269,17 @@ void GologPlanner::remember() {
                 .dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+std::string GologPlanner::memory() const { return (stands_in_ ? std::string{kStandsIn} : "") + memory_; }
+
 bool GologPlanner::restore(const std::string& memory, TaskOrder& task) {
+  if (memory.starts_with(kStandsIn)) {  // what is under way was ordered by the plan controller, and goes on as it does
+    TaskOrder none;
+    static_cast<void>(restore(memory.substr(kStandsIn.size()), none));
+    for (const UnderWay& action : std::vector<UnderWay>{under_way_}) end(action.action, {GologOutcome::Kind::failed});
+    fault_ = "the program has failed and is tried again";
+    stands_in_ = true;
+    return false;
+  }
   if (memory.empty()) {
     task = {};
     return true;

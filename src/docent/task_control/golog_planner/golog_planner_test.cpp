@@ -271,5 +271,21 @@ TEST_F(GologPlannerTest, AsksForMoreInTheLanguageOfItsVisitors) {
   EXPECT_EQ(mission->task().language, "en");
 }
 
+TEST_F(GologPlannerTest, WhatTheStandInWasAboutGoesOnAfterARestart) {
+  const auto file = std::filesystem::temp_directory_path() / ("docent_golog_again_" + std::to_string(getpid()) + ".pl");
+  ASSERT_TRUE(write_file_atomically(file, "proc(main, [?(some(E, due(E))), while(true, ?(true))]).\n"));
+  params.program.most_inferences = 100000;
+  start(file);
+  wish("t", RequestKind::tour, "back");
+  ASSERT_EQ(task(), "visit e12") << "the plan controller stands in";
+  const std::string id = mission->task().id;
+  start(file, mission->memory());
+  std::filesystem::remove(file);
+  EXPECT_EQ(mission->task().id, id) << "an executive that works on it is not disturbed";
+  EXPECT_NE(mission->planner_fault(), "");
+  EXPECT_EQ(run(), (Tasks{"visit e12", "visit e1", "farewell"}));
+  EXPECT_EQ(status_of("t"), RequestStatus::fulfilled);
+}
+
 }  // namespace
 }  // namespace docent::task_control
