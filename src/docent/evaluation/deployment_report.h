@@ -39,7 +39,7 @@ struct DeploymentReport {
   std::string crippled;  ///< by what, with ", " between; empty: not at all (architecture 10.17)
   std::uint64_t seed = 0;
   double virtual_seconds = 0.0;
-  double travel_seconds = 0.0;  ///< a drive goal was active, blocked time included
+  double travel_seconds = 0.0;    ///< a drive goal was active, blocked time included
   double standing_seconds = 0.0;  ///< of these, in which its wheels hardly turned: it waited for people or a command
   double distance_m = 0.0;
   double travel_distance_m = 0.0;  ///< while a drive goal was active
