@@ -81,6 +81,7 @@ causes_false(begin(ask_more(_)), choice(C), choice(C)).
 causes_true(sensed(ask_more(_), C), choice(C), true).
 causes_false(relocalize, lost, true).
 causes_true(charge_battery, charge(1.0), true).
+causes_true(failed(charge_battery), robot_location(somewhere), true).  % it does not stand where it is charged
 
 duration(drive(L), T, (robot_location(Here), way(Here, L, W), speed(V), T is W / V)).
 duration(explain(_), T, talk(T)).

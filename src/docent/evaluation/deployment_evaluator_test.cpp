@@ -292,11 +292,12 @@ TEST(DeploymentEvaluator, RequestsAreCountedOnce) {
 }
 
 TEST(DeploymentEvaluator, AnExplanationElsewhereDoesNotCount) {
-  for (const double x : {5.2, 8.0}) {
+  // The plan controller visits, a GOLOG program drives there.
+  for (const auto& [x, kind] : {std::pair{5.2, "visit"}, std::pair{8.0, "visit"}, std::pair{8.0, "drive"}}) {
     Story story;
     story.offer("a");
     docent_msgs::Task task;
-    task.kind = "visit";
+    task.kind = kind;
     task.exhibit_id = "vase";
     task.x = 5.0;
     story.say(topics::kTask, task);

@@ -170,7 +170,7 @@ class SimulationRun::Parts {
       if (alters_belief) alter_belief();
       options.scenario = std::move(*scenario);
       options.application = [this](const auto& event) {
-        std::visit([this](const auto& what) { carry_out(what); }, event);
+        std::visit([this](const auto& what) { this->carry_out(what); }, event);
       };
     }
     if (auto valid = validate(options); !valid) return valid;

@@ -193,6 +193,22 @@ TEST_F(GologPlannerTest, ChargesWhenItIsLowAndServesAfterwards) {
   EXPECT_EQ(task(), "drive e1");
 }
 
+TEST_F(GologPlannerTest, ApproachesAChargerAgainThatDoesNotCharge) {
+  start_shipped();
+  mission->battery(0.12, false, time());
+  pass(1.0);
+  ASSERT_EQ(task(), "charge");
+  const std::string first = mission->task().id;
+  report(TaskStatus::done);
+  EXPECT_EQ(task(), "");
+  for (int i = 0; i < 40; ++i) {
+    mission->battery(0.12, false, time());
+    pass(1.0);
+  }
+  EXPECT_EQ(task(), "charge");
+  EXPECT_NE(mission->task().id, first);
+}
+
 TEST_F(GologPlannerTest, ATourIsBrokenOffForTheChargerAndGivenAnew) {
   start_shipped();
   wish("t", RequestKind::tour, "back");
