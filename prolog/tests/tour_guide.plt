@@ -98,8 +98,8 @@ test(turns_round_on_the_way_home, Results == [stop(drive(home)), begin(drive(e1)
 test(tries_a_place_that_it_did_not_reach_later) :-
     line(tour_guide, A0), step(A0, 0.0, [requested(e1)], _, A1), outcome(A1, drive(e1), failed, A2),
     actions(A2, 10.0, [], Then, waits-A3), assertion(Then == [drive(home)]), assertion(agent_holds(A3, request(e1))),
-    actions(A3, 119.0, [], Before, waits-A4), assertion(Before == []),
-    actions(A4, 121.0, [], After, _), assertion(After = [drive(e1), explain(e1) | _]).
+    actions(A3, 44.0, [], Before, waits-A4), assertion(Before == []),
+    actions(A4, 46.0, [], After, _), assertion(After = [drive(e1), explain(e1) | _]).
 test(takes_another_exhibit_meanwhile, [true(Then = [drive(e5), explain(e5) | _])]) :-
     line(tour_guide, A0), step(A0, 0.0, [requested(e1), requested(e5)], _, A1), outcome(A1, drive(e1), failed, A2),
     actions(A2, 10.0, [], Then, _).

@@ -32,7 +32,7 @@ class Simulations:
 
     def key(self, museum, *programs):
         """Of everything that decides a run: the programs as they are built, scenarios, the museum."""
-        return key_of(self.docent, *programs, self.root / "scripts" / "scenarios", museum)
+        return key_of(self.docent, *programs, self.root / "scripts" / "scenarios", self.root / "prolog", museum)
 
     def run(self, name, museum, seed, minutes, arguments, timeout=3600):
         """One run; its report, from the cache when it was made before."""

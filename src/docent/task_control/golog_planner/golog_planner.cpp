@@ -227,7 +227,6 @@ void GologPlanner::outcome(Mission& mission, const TaskOrder& order, const Actio
   if (action.name == "explain") requested_.erase(argument(action));
   if (is_of_visit) told_ = {visit->exhibit_id, visit->language};
   if (is_of_visit && (action.name == "explain" || (is_drive(action) && !outcome.is_done))) {
-    requested_.erase(argument(action));
     mission.scheduler().finish_visit(outcome.is_done, outcome.reason, now);
   }
   if (!outcome.is_done) {

@@ -303,5 +303,28 @@ TEST_F(GologPlannerTest, WhatTheStandInWasAboutGoesOnAfterARestart) {
   EXPECT_EQ(status_of("t"), RequestStatus::fulfilled);
 }
 
+TEST_F(GologPlannerTest, WhatCannotBeReachedIsForgottenWhenItsRequestIsOver) {
+  start_shipped();
+  wish("1", RequestKind::exhibit, "e1");
+  for (int i = 0; i < 3000 && status_of("1") != RequestStatus::failed; ++i) {
+    if (task() == "drive e1") {
+      report(TaskStatus::failed);
+    } else if (!task().empty()) {
+      report(TaskStatus::done);
+    } else {
+      pass(5.0);
+    }
+  }
+  ASSERT_EQ(status_of("1"), RequestStatus::failed);
+  Tasks later = run();
+  for (int i = 0; i < 200; ++i) {
+    pass(5.0);
+    for (const std::string& next : run()) later.push_back(next);
+  }
+  EXPECT_EQ(std::count(later.begin(), later.end(), "drive e1"), 0) << "nobody waits for it any more";
+  wish("5", RequestKind::exhibit, "e5");
+  EXPECT_EQ(task(), "drive e5");
+}
+
 }  // namespace
 }  // namespace docent::task_control
