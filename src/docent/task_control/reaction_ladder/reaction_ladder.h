@@ -47,8 +47,8 @@ struct LadderView {
   bool is_unreachable = false;      ///< the planner knows no way
   double without_progress_s = 0.0;  ///< [s] along the value function
   planning::Detour detour = planning::Detour::none;
-  std::string cause;      ///< what is in the way: a word of ReasonWord, or a diagnosis in English
-  bool is_thing = false;  ///< the obstacle, or what has touched the robot here, is a thing: it hears nothing
+  std::string cause;        ///< what is in the way: a word of ReasonWord, or a diagnosis in English
+  bool is_thing = false;    ///< the obstacle, or what has touched the robot here, is a thing: it hears nothing
   bool is_in_vain = false;  ///< it moves, but comes no nearer to its goal
 };
 
