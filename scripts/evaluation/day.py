@@ -3,15 +3,11 @@ requests so that about a hundred are pending, the battery runs down, and modules
 run's record: what was asked, what the board said, what was heard, and where the robot truly stood."""
 import collections
 import csv
-import hashlib
-import json
 import math
 import os
 import random
 import statistics
 import subprocess
-import sys
-import time
 
 from evaluation import ways
 from evaluation.keys import key_of
@@ -134,25 +130,9 @@ def events_of(museum, seed, hours, last, rush):
 def run(simulations, museum, seed, events, hours, arguments):
     """The record of a run and its report; from the cache when it was made before."""
     scenario = "events:\n" + "".join(f"  - {{at: {at:.1f}, {event}}}\n" for at, event in events)
-    key = hashlib.sha256(json.dumps([simulations.key(museum), seed, scenario, hours, arguments]).encode()).hexdigest()[:16]
-    folder = simulations.cache / "day"
-    stem = f"{museum.name}-seed{seed}-{key}"
-    kept = {kind: folder / f"{stem}.{kind}" for kind in ("requests.csv", "events.csv", "json")}
-    if not kept["json"].exists():
-        part = {kind: folder / f"{stem}.part{os.getpid()}.{kind}" for kind in (*kept, "yaml")}
-        part["yaml"].write_text(scenario)
-        started = time.monotonic()
-        done = subprocess.run(
-            [simulations.docent, "simulate", "--museum", museum, "--hours", f"{hours:.6f}", "--seed", str(seed), "--crowd", "busy",
-             "--requests-per-hour", "0", "--scenario", part["yaml"], "--request-log", part["requests.csv"], "--event-log",
-             part["events.csv"], "--report", part["json"], "--quiet", *arguments], capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            raise RuntimeError(f"seed {seed}: docent simulate exited {done.returncode}: {done.stderr.strip()[-500:]}")
-        part["yaml"].unlink()
-        for kind, path in kept.items():  # the report last: it says that all are there
-            part[kind].rename(path)
-        print(f"   {museum.name} seed {seed}, {hours:.1f} h: {time.monotonic() - started:.0f} s", file=sys.stderr)
-    return Record(read_rows(kept["requests.csv"])), json.loads(kept["json"].read_text())
+    kept, report = simulations.run_logged("day", museum, seed, scenario, hours, arguments,
+                                          {"--request-log": "requests.csv", "--event-log": "events.csv"})
+    return Record(read_rows(kept["requests.csv"])), report
 
 
 def read_rows(path):

@@ -53,6 +53,32 @@ class Simulations:
             print(f"   {museum.name} seed {seed}: {time.monotonic() - started:.0f} s", file=sys.stderr)
         return json.loads(path.read_text())
 
+    def run_logged(self, name, museum, seed, scenario, hours, arguments, logs):
+        """One busy run whose requests are those of a scenario, with its logs; from the cache when it was made before.
+
+        logs: option of `docent simulate` to the end of a file's name. Returns the paths by those ends, and the report."""
+        key = hashlib.sha256(json.dumps([self.key(museum), seed, scenario, hours, arguments]).encode()).hexdigest()[:16]
+        folder = self.cache / name
+        folder.mkdir(parents=True, exist_ok=True)
+        stem = f"{museum.name}-seed{seed}-{key}"
+        kept = {kind: folder / f"{stem}.{kind}" for kind in (*logs.values(), "json")}
+        if not kept["json"].exists():
+            part = {kind: folder / f"{stem}.part{os.getpid()}.{kind}" for kind in (*kept, "yaml")}
+            part["yaml"].write_text(scenario)
+            command = [self.docent, "simulate", "--museum", museum, "--hours", f"{hours:.6f}", "--seed", str(seed), "--crowd", "busy",
+                       "--requests-per-hour", "0", "--scenario", part["yaml"], "--report", part["json"], "--quiet", *arguments]
+            for option, kind in logs.items():
+                command += [option, part[kind]]
+            started = time.monotonic()
+            done = subprocess.run(command, capture_output=True, text=True, check=False)
+            if done.returncode != 0:
+                raise RuntimeError(f"seed {seed}: docent simulate exited {done.returncode}: {done.stderr.strip()[-500:]}")
+            part["yaml"].unlink()
+            for kind, path in kept.items():  # the report last: it says that all are there
+                part[kind].rename(path)
+            print(f"   {museum.name} seed {seed}, {hours:.1f} h: {time.monotonic() - started:.0f} s", file=sys.stderr)
+        return kept, json.loads(kept["json"].read_text())
+
     def of_seeds(self, name, museum, seeds, minutes, arguments):
         return self.all([(name, museum, seed, minutes, arguments) for seed in seeds])
 

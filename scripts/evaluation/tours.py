@@ -1,13 +1,7 @@
 """Tours composed to six minutes, after hours in which the robot learned how long its ways take ([Minerva2000] Tables 2 and 3)."""
 import csv
-import hashlib
-import json
-import os
 import random
 import statistics
-import subprocess
-import sys
-import time
 from pathlib import Path
 
 from evaluation import figures
@@ -60,28 +54,11 @@ def scenario_of(events):
 def run(simulations, museum, seed, events, hours, arguments):
     """The events of a run and its report and learned ways; from the cache when it was made before."""
     scenario = scenario_of(events)
-    key = hashlib.sha256(json.dumps([simulations.key(museum), seed, scenario, hours, arguments]).encode()).hexdigest()[:16]
-    folder = simulations.cache / "tours"
-    folder.mkdir(parents=True, exist_ok=True)
-    stem = f"{museum.name}-seed{seed}-{key}"
-    kept = {kind: folder / f"{stem}.{kind}" for kind in ("events.csv", "ways.csv", "json")}
-    if not kept["json"].exists():
-        part = {kind: folder / f"{stem}.part{os.getpid()}.{kind}" for kind in (*kept, "yaml")}
-        part["yaml"].write_text(scenario)
-        started = time.monotonic()
-        done = subprocess.run(
-            [simulations.docent, "simulate", "--museum", museum, "--hours", f"{hours:.6f}", "--seed", str(seed), "--crowd", "busy",
-             "--requests-per-hour", "0", "--scenario", part["yaml"], "--event-log", part["events.csv"], "--travel-times",
-             part["ways.csv"], "--report", part["json"], "--quiet", *arguments], capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            raise RuntimeError(f"seed {seed}: docent simulate exited {done.returncode}: {done.stderr.strip()[-500:]}")
-        part["yaml"].unlink()
-        for kind, path in kept.items():  # the report last: it says that all are there
-            part[kind].rename(path)
-        print(f"   {museum.name} seed {seed}, {hours:.1f} h: {time.monotonic() - started:.0f} s", file=sys.stderr)
+    kept, report = simulations.run_logged("tours", museum, seed, scenario, hours, arguments,
+                                          {"--event-log": "events.csv", "--travel-times": "ways.csv"})
     with open(kept["events.csv"], newline="", encoding="utf-8") as file:
         rows = [row for row in csv.DictReader(file) if row["source"] == "event"]
-    return rows, read_ways(kept["ways.csv"]), json.loads(kept["json"].read_text())
+    return rows, read_ways(kept["ways.csv"]), report
 
 
 def read_ways(path):

@@ -9,7 +9,8 @@ const SIZES = [[1080, 1920], [1920, 1080]];
 const pipe = join(temporaryFolder('buttons'), 'event0');
 execFileSync('mkfifo', [pipe]);
 const museum = museumOfThreeLanguages();
-const stage = await play(museum, `buttons=${pipe}`);
+// A question is open for longer than in the museum: a browser of a busy machine needs seconds for a new line.
+const stage = await play(museum, `buttons=${pipe}`, 'ask=15');
 const kiosk = `${stage.url}/kiosk#${stage.key}`;
 const shows = (page, name, patience = 8000) => page.locator(`main[data-screen=${name}]`).waitFor({ timeout: patience });
 const screenOf = (page) => page.locator('main').getAttribute('data-screen');

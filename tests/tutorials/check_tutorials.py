@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs every command of the tutorials, page by page, in a folder of its own, and compares what they print.
+"""Runs every command of the tutorials, each page in a folder of its own, and compares what they print.
 
     tests/tutorials/check_tutorials.py [--write] [PAGE...]
 
@@ -17,6 +17,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -146,15 +147,16 @@ def main():
     parser.add_argument("--write", action="store_true", help="write today's output into the pages")
     options = parser.parse_args()
     pages = [PAGES / f"{Path(name).stem}.md" for name in options.pages] or sorted(PAGES.glob("*.md"))
+    checks = [PageCheck(page, options.write) for page in pages]
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        list(pool.map(PageCheck.run, checks))
     passed = failed = 0
-    for page in pages:
-        check = PageCheck(page, options.write)
-        check.run()
+    for check in checks:
         failed += len(check.faults)
         passed += check.commands + check.figures - len(check.faults)
         if check.commands == 0 and not check.is_skipped:
             failed += 1
-            print(f"{page.name}: no command to run")
+            print(f"{check.page.name}: no command to run")
         for fault in check.faults:
             print(fault)
     print(f"{passed} passed, {failed} failed")

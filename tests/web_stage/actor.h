@@ -17,6 +17,7 @@ class Actor {
     double lost_s = 12.0;  ///< how long it does not know where it is
     double speed = 0.7;    ///< [m/s]
     double talk = 1.0;     ///< time to say a text, as a factor
+    double ask_s = 5.0;    ///< how long a question is open
     std::string music;     ///< file of what it plays while it drives
     double horn_s = 0.0;   ///< it sounds its horn every so many seconds; 0: never
     bool is_busy = false;  ///< other visitors have wishes too

@@ -16,8 +16,8 @@
 #include "docent/modules/guide/buttons_module.h"
 #include "docent/transport/virtual_time_bus.h"
 
-// docent_web_stage MUSEUM_DIR STATE_DIR PORT [lost=S] [people=N] [busy] [speed=V] [talk=F] [horn=S] [buttons=PIPE]
-// [seconds=S] The web module of the robot, in real time, among invented messages; with `buttons` also the module that
+// docent_web_stage MUSEUM_DIR STATE_DIR PORT [lost=S] [people=N] [busy] [speed=V] [talk=F] [ask=S] [horn=S]
+// [buttons=PIPE] [seconds=S] The web module of the robot, in real time, among invented messages; with `buttons` also the module that
 // reads the four buttons. Ends on SIGTERM or after `seconds`.
 
 namespace {
@@ -58,6 +58,7 @@ Words read_words(const std::vector<std::string>& given) {
     if (const auto text = value("speed="); !text.empty()) words.actor.speed = std::stod(text);
     if (const auto text = value("seconds="); !text.empty()) words.end_s = std::stod(text);
     if (const auto text = value("talk="); !text.empty()) words.actor.talk = std::stod(text);
+    if (const auto text = value("ask="); !text.empty()) words.actor.ask_s = std::stod(text);
     if (const auto text = value("horn="); !text.empty()) words.actor.horn_s = std::stod(text);
     if (const auto text = value("buttons="); !text.empty()) words.buttons = text;
     if (word == "busy") words.actor.is_busy = true;
@@ -72,8 +73,8 @@ int main(int argc, char** argv) {
   if (argc < 4) {
     std::fprintf(
         stderr,
-        "usage: %s MUSEUM_DIR STATE_DIR PORT [lost=S] [people=N] [busy] [speed=V] [talk=F] [horn=S] [buttons=PIPE] "
-        "[seconds=S]\n",
+        "usage: %s MUSEUM_DIR STATE_DIR PORT [lost=S] [people=N] [busy] [speed=V] [talk=F] [ask=S] [horn=S] "
+        "[buttons=PIPE] [seconds=S]\n",
         argv[0]);
     return 2;
   }

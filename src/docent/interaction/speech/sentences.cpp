@@ -4,13 +4,10 @@
 #include <cctype>
 #include <vector>
 
-#include "docent/base/random.h"
 #include "docent/interaction/speech/dictionary.h"
 
 namespace docent::interaction {
 namespace {
-
-constexpr int kMostVariants = 1000;  // of a beginning; nobody writes so many
 
 const std::vector<std::string>& variants_of(const Dictionary& dictionary, Sentence which, Mood mood) {
   const Phrasing& phrasing = dictionary.sentences.at(static_cast<std::size_t>(which));
@@ -55,15 +52,5 @@ std::string sentence(Sentence which, std::string_view language, Mood mood, int v
 int count_variants(Sentence which, std::string_view language, Mood mood) {
   return static_cast<int>(variants_of(dictionary_of(language), which, mood).size());
 }
-
-SentenceTurns::SentenceTurns(std::uint64_t seed) {
-  std::uint64_t hash = hash_of(std::to_string(seed));
-  for (int& next : next_) {
-    hash = hash_of("/", hash);
-    next = static_cast<int>(hash % kMostVariants);
-  }
-}
-
-int SentenceTurns::next(Sentence which) { return next_.at(static_cast<std::size_t>(which))++; }
 
 }  // namespace docent::interaction

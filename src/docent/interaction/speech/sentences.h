@@ -67,16 +67,4 @@ inline constexpr std::array kAttraction{Sentence::attract_greeting, Sentence::at
 /// How many ways there are to say it in these words, at least 1.
 [[nodiscard]] int count_variants(Sentence which, std::string_view language, Mood mood);
 
-/// Whose turn it is among the variants of each sentence: all of them come before one comes again. Deterministic: the
-/// seed says with which of them it begins.
-class SentenceTurns {
- public:
-  explicit SentenceTurns(std::uint64_t seed);
-  /// A `variant` for `sentence`, another one at each call.
-  [[nodiscard]] int next(Sentence which);
-
- private:
-  std::array<int, kSentences> next_{};
-};
-
 }  // namespace docent::interaction

@@ -58,23 +58,6 @@ TEST(Sentences, AMoodWithoutWordsTakesThoseOfAnother) {
   EXPECT_EQ(sentence(Sentence::must_charge, "en", Mood::happy, 0), sentence(Sentence::must_charge, "en", Mood::sad, 0));
 }
 
-TEST(Sentences, TurnsDoNotRepeatThemselves) {
-  std::set<int> beginnings;
-  for (std::uint64_t seed = 0; seed < 50; ++seed) {
-    SentenceTurns turns{seed}, again{seed};
-    const int count = count_variants(Sentence::let_me_through, "en", Mood::angry);
-    std::set<std::string> heard;
-    for (int i = 0; i < count; ++i) {
-      const int variant = turns.next(Sentence::let_me_through);
-      if (i == 0) beginnings.insert(variant % count);
-      EXPECT_EQ(variant, again.next(Sentence::let_me_through)) << "the same seed says the same";
-      heard.insert(sentence(Sentence::let_me_through, "en", Mood::angry, variant));
-    }
-    EXPECT_EQ(heard.size(), static_cast<std::size_t>(count)) << "all of them before one comes again";
-  }
-  EXPECT_EQ(beginnings.size(), 3U) << "another seed begins elsewhere";
-}
-
 TEST(Sentences, AttractionGoesFromFriendlyToUpset) {
   EXPECT_EQ(count_variants(kAttraction.front(), "en", Mood::happy), 3);
   for (const Sentence act : kAttraction) EXPECT_TRUE(is_spoken(act)) << to_text(act);

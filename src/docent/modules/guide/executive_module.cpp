@@ -4,6 +4,7 @@
 #include "docent/interaction/speech/sentences.h"
 #include "docent/interaction/speech/spoken_text.h"
 #include "docent/messages/conversions.h"
+#include "docent/modules/shared/battery.h"
 #include "docent/modules/shared/museum_mode.h"
 #include "docent/task_control/golex/checkpoint.h"
 #include "docent/task_control/golex/executive.h"
@@ -29,7 +30,7 @@ docent_msgs::Prompt to_message(const task_control::Question& question, const mus
   prompt.languages = museum.languages;
   if (prompt.languages.empty()) prompt.languages = {question.language};
   for (const std::string& language : prompt.languages)
-    prompt.texts.push_back(interaction::sentence(question.sentence, language, Mood::neutral, 0));
+    prompt.texts.push_back(interaction::sentence(question.sentence, language, Mood::neutral, question.variant));
   prompt.options = texts_of(question.options);
   prompt.default_option = to_text(question.default_option);
   prompt.deadline = docent::to_message(question.deadline);
@@ -98,6 +99,8 @@ class ExecutiveModule final : public Module {
                                   state.path_blocked ? state.reason : std::string{}, state.low_obstacle},
                                  bus_.now());
     });
+    bus_.subscribe<sensor_msgs::BatteryState>(
+        topics::kBattery, [this](const auto& battery) { executive_.charging_report(is_charging(battery)); });
     bus_.subscribe<docent_msgs::Expression>(topics::kExpression, [this](const auto& expression) {
       executive_.mood_report(parse<Mood>(expression.mood).value_or(Mood::neutral), bus_.now());
     });

@@ -11,6 +11,7 @@
 #include "docent/interaction/speech/spoken_text.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/guide/mingling.h"
+#include "docent/modules/shared/battery.h"
 #include "docent/modules/shared/museum_mode.h"
 #include "docent/task_control/golog_planner/golog_planner.h"
 #include "docent/task_control/mission/mission.h"
@@ -65,20 +66,6 @@ task_control::TravelDistance travel_in(const ModuleContext& context) {
   planning::RouteParams params;
   params.robot_radius = context.config.body().radius;
   return task_control::travel_on_map(planning::RoutePlanner{museum.map, museum.hazard_polygons(), museum.area, params});
-}
-
-/// Its charger holds it there.
-bool is_full(const sensor_msgs::BatteryState& battery) {
-  constexpr std::uint8_t kFull = 4;
-  return battery.power_supply_status == kFull;
-}
-
-/// What the battery says of itself; nullopt: nothing.
-std::optional<bool> is_charging(const sensor_msgs::BatteryState& battery) {
-  constexpr std::uint8_t kUnknown = 0;
-  constexpr std::uint8_t kCharging = 1;
-  if (battery.power_supply_status == kUnknown) return std::nullopt;
-  return battery.power_supply_status == kCharging || is_full(battery);
 }
 
 std::string deployment_name(std::uint64_t seed, Time now) {

@@ -22,6 +22,8 @@ Result<void> save_checkpoint(const std::filesystem::path& path, const ExecutiveM
                   {"took_long", memory.took_long},
                   {"moved", memory.moved},
                   {"look", memory.look},
+                  {"tour", memory.tour},
+                  {"tour_begins", memory.tour_begins},
                   {"title", memory.task.title},
                   {"short", memory.task.short_text},
                   {"long", memory.task.long_text},
@@ -58,6 +60,8 @@ Result<ExecutiveMemory> load_checkpoint(const std::filesystem::path& path, const
     memory.took_long = json.at("took_long").get<bool>();
     memory.moved = json.at("moved").get<bool>();
     memory.look = json.at("look").get<std::string>();
+    memory.tour = json.value("tour", "");
+    memory.tour_begins = json.value("tour_begins", false);
     memory.task.title = json.at("title").get<std::string>();
     memory.task.short_text = json.at("short").get<std::string>();
     memory.task.long_text = json.at("long").get<std::string>();

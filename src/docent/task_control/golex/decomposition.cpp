@@ -37,6 +37,8 @@ std::string fault_of(DirectiveKind kind, const std::string& argument) {
       return is_one_of(argument, {"play", "stop"}) ? "" : "play or stop";
     case DirectiveKind::drive:
       return is_one_of(argument, {"place", "charger"}) ? "" : "place or charger";
+    case DirectiveKind::dock:
+      return argument == "charger" ? "" : "charger";
     case DirectiveKind::relocalize:
       return argument == "here" ? "" : "here";
     case DirectiveKind::ask:
@@ -78,8 +80,8 @@ class ActionsReader {
       ActionItem& item = items.emplace_back(this->item(entry));
       for (Directive& directive : item.together) {
         directive.name = base_name(directive);
-        const int use = ++uses[directive.name];
-        if (use > 1) directive.name += "-" + std::to_string(use);
+        directive.use = ++uses[directive.name];
+        if (directive.use > 1) directive.name += "-" + std::to_string(directive.use);
       }
     }
     return items;
@@ -100,7 +102,8 @@ class ActionsReader {
       if (!seen.insert(key).second) throw YamlFault{file_.fault(entry.first, "'" + key + "' comes twice in one item")};
       if (key == "if") {
         const auto condition = parse<Condition>(scalar(entry.second, key));
-        if (!condition) throw YamlFault{file_.fault(entry.second, "'if' must be more, broken_off or moved")};
+        if (!condition)
+          throw YamlFault{file_.fault(entry.second, "'if' must be more, broken_off, moved or tour_begins")};
         item.condition = *condition;
         continue;
       }
@@ -145,8 +148,27 @@ const std::vector<ActionItem>* Decomposition::find(const std::string& kind) cons
 }
 
 bool holds_up(DirectiveKind kind) {
-  return kind == DirectiveKind::drive || kind == DirectiveKind::relocalize || kind == DirectiveKind::say ||
-         kind == DirectiveKind::ask || kind == DirectiveKind::wait;
+  return kind == DirectiveKind::drive || kind == DirectiveKind::relocalize || kind == DirectiveKind::dock ||
+         kind == DirectiveKind::say || kind == DirectiveKind::ask || kind == DirectiveKind::wait;
+}
+
+bool leads_somewhere(const std::vector<ActionItem>& action, std::size_t first) {
+  for (std::size_t i = first; i < action.size(); ++i) {
+    for (const Directive& directive : action[i].together) {
+      if (directive.kind == DirectiveKind::drive || directive.kind == DirectiveKind::relocalize) return true;
+    }
+  }
+  return false;
+}
+
+const Directive* last_drive(const std::vector<ActionItem>& action, std::size_t count) {
+  const Directive* last = nullptr;
+  for (std::size_t i = 0; i < std::min(count, action.size()); ++i) {
+    for (const Directive& directive : action[i].together) {
+      if (directive.kind == DirectiveKind::drive) last = &directive;
+    }
+  }
+  return last;
 }
 
 const Decomposition& default_decomposition() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
@@ -11,20 +12,23 @@
 namespace docent::task_control {
 
 /// What the executive orders of the rest of the robot.
-enum class DirectiveKind { look, horn, music, announce, drive, relocalize, say, ask, wait };
+enum class DirectiveKind { look, horn, music, announce, drive, relocalize, dock, say, ask, wait };
 [[nodiscard]] constexpr auto words_of(DirectiveKind) {
-  return std::array{"look", "horn", "music", "announce", "drive", "relocalize", "say", "ask", "wait"};
+  return std::array{"look", "horn", "music", "announce", "drive", "relocalize", "dock", "say", "ask", "wait"};
 }
 
 /// When an item of an action is carried out.
-enum class Condition { always, more, broken_off, moved };
-[[nodiscard]] constexpr auto words_of(Condition) { return std::array{"always", "more", "broken_off", "moved"}; }
+enum class Condition { always, more, broken_off, moved, tour_begins };
+[[nodiscard]] constexpr auto words_of(Condition) {
+  return std::array{"always", "more", "broken_off", "moved", "tour_begins"};
+}
 
 struct Directive {
   DirectiveKind kind{};
   std::string argument;                        ///< as actions.yaml explains
   std::map<std::string, std::string> texts{};  ///< of say and announce, by language; empty: `argument` names a text
   std::string name{};                          ///< is used once in an action: for ids
+  int use = 1;                                 ///< the how many of its kind in the action
 };
 
 /// What begins at once.
@@ -45,6 +49,10 @@ struct Decomposition {
 
 /// Whether an item that holds such a directive lasts until the directive is over.
 [[nodiscard]] bool holds_up(DirectiveKind kind);
+/// Whether one of the action's items from `first` on moves the robot.
+[[nodiscard]] bool leads_somewhere(const std::vector<ActionItem>& action, std::size_t first);
+/// The last drive among the action's first `count` items; nullptr: there is none.
+[[nodiscard]] const Directive* last_drive(const std::vector<ActionItem>& action, std::size_t count);
 
 [[nodiscard]] const Decomposition& default_decomposition();
 /// The actions of the file over those of `base`. Error: "NAME:LINE: why".

@@ -25,11 +25,12 @@ TEST(Decomposition, TheBuiltInOneKnowsEveryTask) {
 TEST(Decomposition, ADriveIsDividedAsInTable5) {
   const auto& visit = *default_decomposition().find("visit");
   std::vector<DirectiveKind> kinds;
-  for (const Directive& directive : visit.front().together) {
+  const ActionItem& way = visit.at(1);  // a greeting comes before the first one of a tour
+  for (const Directive& directive : way.together) {
     if (directive.kind != DirectiveKind::announce) kinds.push_back(directive.kind);
   }
   EXPECT_EQ(kinds, (std::vector{DirectiveKind::look, DirectiveKind::horn, DirectiveKind::music, DirectiveKind::drive}));
-  EXPECT_EQ(visit.front().together.front().argument, "place");
+  EXPECT_EQ(way.together.front().argument, "place");
 }
 
 TEST(Decomposition, AMuseumReplacesSingleActionsAndAddsOthers) {
@@ -60,7 +61,8 @@ TEST(Decomposition, WhatIsWrongIsNamedWithItsLine) {
   EXPECT_EQ(error_of("visit:\n  - wait: -1\n"), "golex.yaml:2: 'wait' must be linger or seconds, 0 to 600");
   EXPECT_EQ(error_of("visit:\n  - {drive: place, drive: place}\n"), "golex.yaml:2: 'drive' comes twice in one item");
   EXPECT_EQ(error_of("visit:\n  - drive: place\n    if: rain\n"),
-            "golex.yaml:3: 'if' must be more, broken_off or moved");
+            "golex.yaml:3: 'if' must be more, broken_off, moved or tour_begins");
+  EXPECT_EQ(error_of("charge:\n  - dock: wall\n"), "golex.yaml:2: 'dock' must be charger");
   EXPECT_NE(error_of("visit: drive\n"), "");
   EXPECT_NE(error_of("- visit\n"), "");
   EXPECT_NE(error_of("visit:\n  - [drive]\n"), "");

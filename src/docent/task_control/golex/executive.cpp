@@ -5,6 +5,7 @@
 
 #include "docent/interaction/speech/sentences.h"
 #include "docent/interaction/speech/spoken_text.h"
+#include "docent/task_control/golex/directive_text.h"
 
 namespace docent::task_control {
 namespace {
@@ -39,16 +40,23 @@ void Executive::resume(Time now) {
       return;
     }
   }
+  if (under_way(DirectiveKind::dock) != nullptr)
+    docking_.emplace(params_.docking, memory_.task.order.map_from_base, now);
   send_drive();
   report();
 }
 
 void Executive::set_task(ExecutiveTask task, Time now) {
   if (task.order.id == memory_.task.order.id) return;
+  const std::string last_tour = memory_.tour;
   memory_ = {};
   memory_.task = std::move(task);
+  if (memory_.task.order.kind == TaskKind::visit) memory_.tour = memory_.task.order.tour_id;
+  if (memory_.task.order.id.empty()) memory_.tour = last_tour;  // between two stops
+  memory_.tour_begins = !memory_.tour.empty() && memory_.tour != last_tour;
   memory_.drive_began = now;
   goal_ = {};
+  docking_.reset();
   actions_.must_save = true;
   const TaskOrder& order = memory_.task.order;
   send_drive();  // what it did before is over, whatever begins now
@@ -75,11 +83,7 @@ const std::vector<Directive>& Executive::together() const {
 
 bool Executive::has_drive() const {
   const auto* action = decomposition_.find(memory_.task.order.kind.text());
-  return action != nullptr && std::any_of(action->begin(), action->end(), [](const ActionItem& item) {
-           return std::any_of(item.together.begin(), item.together.end(), [](const Directive& directive) {
-             return directive.kind == DirectiveKind::drive || directive.kind == DirectiveKind::relocalize;
-           });
-         });
+  return action != nullptr && leads_somewhere(*action, 0);
 }
 
 Mood Executive::mood() const {
@@ -93,6 +97,12 @@ const Directive* Executive::under_way(DirectiveKind kind) const {
     if (directive.kind == kind && holds_up(kind) && !contains(memory_.finished, directive.name)) return &directive;
   }
   return nullptr;
+}
+
+bool Executive::is_before_drive() const {
+  if (drive_under_way() != nullptr) return true;
+  const auto* action = decomposition_.find(memory_.task.order.kind.text());
+  return action != nullptr && leads_somewhere(*action, static_cast<std::size_t>(memory_.item) + 1);
 }
 
 const Directive* Executive::drive_under_way() const {
@@ -111,6 +121,8 @@ bool Executive::holds(Condition condition) const {
       return order.kind == TaskKind::charge && !(order.exhibit_id.empty() && order.tour_id.empty());
     case Condition::moved:
       return memory_.moved;
+    case Condition::tour_begins:
+      return memory_.tour_begins;
   }
   return true;
 }
@@ -129,6 +141,7 @@ void Executive::begin_item(int item, Time now) {
   heard_.reset();
   speech_sent_.reset();
   note_ = {};
+  docking_.reset();
   actions_.must_save = true;
   for (const Directive& directive : together()) begin(directive, now);
   const bool is_over = std::none_of(together().begin(), together().end(),
@@ -152,7 +165,8 @@ void Executive::begin(const Directive& directive, Time now) {
       actions_.music = directive.argument == "play";
       break;
     case DirectiveKind::announce:
-      if (const std::string text = text_of(directive); !text.empty()) say(directive.name, text, mood());
+      if (const std::string text = text_of(directive, memory_.task, mood()); !text.empty())
+        say(directive.name, text, mood());
       break;
     case DirectiveKind::drive:
       memory_.drive_began = now;
@@ -161,19 +175,24 @@ void Executive::begin(const Directive& directive, Time now) {
     case DirectiveKind::relocalize:
       send_drive();
       break;
+    case DirectiveKind::dock:
+      docking_.emplace(params_.docking, memory_.task.order.map_from_base, now);
+      break;
     case DirectiveKind::say:
-      if (text_of(directive).empty()) {
+      if (text_of(directive, memory_.task, mood()).empty()) {
         memory_.finished.push_back(directive.name);
       } else {
         send_speech(directive, now);
       }
       break;
     case DirectiveKind::ask:
-      if (!is_asked(directive)) {
+      if (!is_asked()) {
         memory_.finished.push_back(directive.name);
         break;
       }
-      say("question", interaction::sentence(question().sentence, question().language, Mood::neutral, 0), Mood::neutral);
+      say("question",
+          interaction::sentence(question().sentence, question().language, Mood::neutral, question().variant),
+          Mood::neutral);
       actions_.happenings.push_back(
           {EventKind::prompt_shown, memory_.task.order.exhibit_id, question().id, params_.offer_s});
       break;
@@ -211,49 +230,25 @@ void Executive::finish(bool is_success, const Reason& reason, Time /*now*/) {
 DriveOrder Executive::drive_order() const {
   const TaskOrder& order = memory_.task.order;
   if (under_way(DirectiveKind::relocalize) != nullptr) return {own_id("relocalize"), {}, true};
+  if (const auto move = docking_ ? docking_->move() : std::nullopt)
+    return {own_id(move->name), move->map_from_base, false, move->position_tolerance};
   const auto* action = decomposition_.find(order.kind.text());
   if (memory_.phase == Phase::idle || memory_.phase == Phase::failed || action == nullptr) return {};
   // After its drive it stays at the place: the goal remains the last one that was begun.
   const std::size_t begun = memory_.phase == Phase::done ? action->size() : static_cast<std::size_t>(memory_.item) + 1;
-  DriveOrder last;
-  for (std::size_t i = 0; i < std::min(begun, action->size()); ++i) {
-    for (const Directive& directive : (*action)[i].together) {
-      if (directive.kind != DirectiveKind::drive) continue;
-      last = DriveOrder{own_id(directive.name), order.map_from_base};
-      if (directive.argument == "charger") last.position_tolerance = params_.charger_tolerance;
-    }
-  }
-  return last;
+  const Directive* drive = last_drive(*action, begun);
+  if (drive == nullptr) return {};
+  const double tolerance = drive->argument == "charger" ? params_.charger_tolerance : DriveOrder{}.position_tolerance;
+  return {own_id(drive->name), order.map_from_base, false, tolerance};
 }
 
 void Executive::say(const std::string& name, const std::string& text, Mood mood) {
   actions_.utterances.push_back({own_id(name), text, memory_.task.order.language, mood});
 }
 
-std::string Executive::text_of(const Directive& directive) const {
-  const ExecutiveTask& task = memory_.task;
-  if (!directive.texts.empty()) {
-    const auto text = directive.texts.find(task.order.language);
-    return interaction::spoken_text((text != directive.texts.end() ? text : directive.texts.begin())->second);
-  }
-  if (directive.argument == "long") return task.long_text;
-  if (directive.argument == "attraction") {
-    const auto sentence = task.style ? interaction::sentence_of(task.style->speech) : std::nullopt;
-    return sentence ? interaction::sentence(*sentence, task.order.language, mood(), memory_.item) : "";
-  }
-  if (directive.argument != "short")
-    return interaction::sentence(*interaction::find_sentence(directive.argument), task.order.language, mood(), 0,
-                                 task.title);
-  return interaction::introduction(task.title, task.short_text);
-}
-
 void Executive::send_speech(const Directive& directive, Time now) {
-  say(directive.name, text_of(directive), mood());
+  say(directive.name, text_of(directive, memory_.task, mood()), mood());
   speech_sent_ = now;
-}
-
-bool Executive::is_asked(const Directive& /*directive*/) const {
-  return memory_.task.order.offer_more && !memory_.task.long_text.empty();
 }
 
 double Executive::wait_s(const Directive& directive) const {
@@ -265,11 +260,9 @@ Time Executive::question_deadline() const { return memory_.item_began + seconds(
 Question Executive::question() const {
   const Directive* asked = under_way(DirectiveKind::ask);
   if (asked == nullptr) return {};
-  return {own_id(asked->name),
-          interaction::Sentence::offer_more,
-          memory_.task.order.language,
-          {Answer::more, Answer::next},
-          Answer::next,
+  return {own_id(asked->name),          interaction::Sentence::offer_more,
+          memory_.task.order.language,  variant_of(*asked, memory_.task),
+          {Answer::more, Answer::next}, Answer::next,
           question_deadline()};
 }
 
@@ -285,7 +278,7 @@ std::optional<TaskStatus> Executive::status() const {
       break;
   }
   if (under_way(DirectiveKind::ask) != nullptr) return TaskStatus::asking;
-  return drive_under_way() != nullptr ? TaskStatus::driving : TaskStatus::explaining;
+  return is_before_drive() || docking_ ? TaskStatus::driving : TaskStatus::explaining;
 }
 
 void Executive::report() {
@@ -306,6 +299,10 @@ void Executive::set_note(const Reason& note) {
 
 void Executive::goal_report(const GoalReport& goal, Time now) {
   goal_ = goal;
+  if (const Directive* docks = under_way(DirectiveKind::dock)) {
+    watch_docking(*docks, now);
+    return;
+  }
   const Directive* driven = drive_under_way();
   if (driven == nullptr || goal.id != own_id(driven->name)) return;
   if (goal.state == GoalStatus::arrived) {
@@ -390,7 +387,7 @@ void Executive::ask_for_way(Time now, int count) {
   const Mood mood = is_shown ? shown_mood_ : count == 1 ? Mood::neutral : Mood::sad;
   // The name carries the time, so that a restarted executive does not repeat an id that was spoken already.
   say("please-" + std::to_string(std::max<std::int64_t>(0, (now - memory_.item_began).count() / 1000000)),
-      interaction::sentence(interaction::Sentence::let_me_through, memory_.task.order.language, mood, count - 1), mood);
+      words_for_way(memory_.task, mood, count), mood);
   actions_.happenings.push_back(
       {EventKind::asked_for_way, memory_.task.order.exhibit_id, "", static_cast<double>(count)});
 }
@@ -407,11 +404,21 @@ void Executive::watch_speech(const Directive& directive, Time now) {
   if (heard_) {
     is_over = heard_->state != SpeechStatus::speaking || now > heard_->start + seconds(heard_->duration_s + 5.0);
   } else {
-    const double foreseen_s = interaction::speech_duration(text_of(directive), memory_.task.order.language, mood());
+    const double foreseen_s =
+        interaction::speech_duration(text_of(directive, memory_.task, mood()), memory_.task.order.language, mood());
     is_over = now > memory_.item_began + seconds(1.5 * foreseen_s + 5.0);
     if (!is_over && (!speech_sent_ || now - *speech_sent_ >= seconds(params_.resend_s))) send_speech(directive, now);
   }
   if (is_over) end(directive, now);
+}
+
+void Executive::watch_docking(const Directive& directive, Time now) {
+  const auto move = docking_->move();
+  const bool is_told = move && goal_.id == own_id(move->name);
+  const auto state = docking_->step(is_charging_, is_told ? goal_.state : std::nullopt, now);
+  if (state == Docking::State::docked) return end(directive, now);
+  if (state == Docking::State::failed) return finish(false, ReasonWord::not_reached, now);
+  if (state == Docking::State::sets_out) send_drive();
 }
 
 void Executive::watch_wait(const Directive& directive, Time now) {
@@ -430,6 +437,7 @@ void Executive::choose(const std::string& question_id, std::optional<Answer> opt
 void Executive::tick(Time now) {
   // Each may end the item: what comes next is looked up anew.
   watch_drive(now);
+  if (const Directive* docks = under_way(DirectiveKind::dock)) watch_docking(*docks, now);
   if (const Directive* spoken = under_way(DirectiveKind::say)) watch_speech(*spoken, now);
   if (const Directive* asked = under_way(DirectiveKind::ask); asked != nullptr && now >= question_deadline()) {
     actions_.happenings.push_back({EventKind::choice, memory_.task.order.exhibit_id, "next (default)"});

@@ -7,27 +7,17 @@
 #include <vector>
 
 #include "docent/base/result.h"
-#include "docent/interaction/attract/style.h"
 #include "docent/interaction/speech/sentences.h"
 #include "docent/task_control/golex/approach_watch.h"
 #include "docent/task_control/golex/decomposition.h"
+#include "docent/task_control/golex/docking.h"
 #include "docent/task_control/golex/executive_params.h"
+#include "docent/task_control/golex/executive_task.h"
 #include "docent/task_control/reaction_ladder/reaction_ladder.h"
 #include "docent/task_control/tour_scheduler/programme.h"
-#include "docent/task_control/tour_scheduler/task_order.h"
 #include "docent/vocabulary/reason.h"
 
 namespace docent::task_control {
-
-/// A task with all that is needed to do it.
-struct ExecutiveTask {
-  TaskOrder order;
-  std::string title;
-  std::string short_text;                                ///< as it is spoken
-  std::string long_text;                                 ///< empty: there is no more to tell
-  double wait_s = 0.0;                                   ///< [s] it stays at the exhibit after its last word
-  std::optional<interaction::AttractionAction> style{};  ///< in which it attracts people
-};
 
 /// How far the executive has come with its task.
 enum class Phase { idle, running, done, failed };
@@ -46,6 +36,8 @@ struct ExecutiveMemory {
   bool took_long = false;  ///< the visitor asked for more
   bool moved = true;       ///< its last drive led it from one place to another
   std::string look;        ///< where the head shall look; empty: nothing was said of it
+  std::string tour;        ///< whose stops it visits; a tour begins at its first one
+  bool tour_begins = false;
 };
 
 struct DriveOrder {
@@ -85,6 +77,7 @@ struct Question {
   std::string id;  ///< empty: nothing is asked
   interaction::Sentence sentence = interaction::Sentence::offer_more;
   std::string language{};  ///< in which it is spoken
+  int variant = 0;         ///< of the sentence
   std::vector<Answer> options;
   std::optional<Answer> default_option;
   Time deadline;
@@ -113,6 +106,8 @@ class Executive {
   void goal_report(const GoalReport& report, Time now);
   void obstacle_report(const ObstacleReport& report, Time now);
   void speech_report(const SpeechReport& report, Time now);
+  /// What the battery says; nullopt: nothing of this.
+  void charging_report(std::optional<bool> is_charging) { is_charging_ = is_charging; }
   /// The mood that the face shows: so the robot asks for the way. Counts for a second, then its own reckoning.
   void mood_report(Mood mood, Time now);
   void choose(const std::string& question_id, std::optional<Answer> option, Time now);
@@ -153,22 +148,23 @@ class Executive {
   [[nodiscard]] const Directive* under_way(DirectiveKind kind) const;
   /// The drive or the relocalizing under way.
   [[nodiscard]] const Directive* drive_under_way() const;
+  /// It has not come to its place yet: a drive is under way or follows.
+  [[nodiscard]] bool is_before_drive() const;
   [[nodiscard]] std::optional<TaskStatus> status() const;
   [[nodiscard]] DriveOrder drive_order() const;
   void send_drive() { actions_.drive = drive_order(); }
   void say(const std::string& name, const std::string& text, Mood mood);
-  /// In the task's language; empty: there is nothing to say.
-  [[nodiscard]] std::string text_of(const Directive& directive) const;
   void send_speech(const Directive& directive, Time now);
   void report();
   void watch_drive(Time now);
   void climb_ladder(Time now);
   void watch_speech(const Directive& directive, Time now);
+  void watch_docking(const Directive& directive, Time now);
   void watch_wait(const Directive& directive, Time now);
   void arrive(const Directive& directive, Time now);
   void ask_for_way(Time now, int count);
   void set_note(const Reason& note);
-  [[nodiscard]] bool is_asked(const Directive& directive) const;
+  [[nodiscard]] bool is_asked() const { return memory_.task.order.offer_more && !memory_.task.long_text.empty(); }
   [[nodiscard]] double wait_s(const Directive& directive) const;
   [[nodiscard]] std::string own_id(const std::string& name) const;
   [[nodiscard]] Question question() const;
@@ -184,6 +180,8 @@ class Executive {
   Time obstacle_time_{};  ///< when it was reported
   ReactionLadder ladder_;
   ApproachWatch approach_{{}, {}};
+  std::optional<Docking> docking_;  ///< while it docks
+  std::optional<bool> is_charging_;
   Mood shown_mood_ = Mood::neutral;
   Time shown_at_{};
   std::optional<SpeechReport> heard_;  ///< of the present utterance

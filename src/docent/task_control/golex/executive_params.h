@@ -2,6 +2,7 @@
 
 #include "docent/base/result.h"
 #include "docent/task_control/golex/approach_watch.h"
+#include "docent/task_control/golex/docking.h"
 #include "docent/task_control/reaction_ladder/reaction_ladder.h"
 
 namespace docent::task_control {
@@ -10,6 +11,7 @@ namespace docent::task_control {
 struct ExecutiveParams {
   LadderParams ladder;              ///< what it does about a blocked way, and when
   ApproachParams approach;          ///< when a drive that moves is in vain
+  DockingParams docking;            ///< from standing at the charger to charging
   double max_drive_s = 600.0;       ///< [s] > 0 under way in all
   double charger_tolerance = 0.15;  ///< [m] > 0: contacts lie closer than where an exhibit is shown
   double no_drive_s = 5.0;          ///< [s] >= 0: a shorter drive led nowhere: it stood there before
@@ -20,6 +22,7 @@ struct ExecutiveParams {
   void visit(V& v) {
     v("ladder", ladder);
     v("approach", approach);
+    v("docking", docking);
     v("max_drive_s", max_drive_s);
     v("charger_tolerance", charger_tolerance);
     v("no_drive_s", no_drive_s);
