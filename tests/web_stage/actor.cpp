@@ -351,8 +351,9 @@ void Actor::publish_path() {
 }
 
 void Actor::ask() {
-  prompt_ = {"task-" + std::to_string(++count_) + "/more", language_, museum_.languages, {}, {"more", "next"}, "next",
-             to_message(bus_.now() + seconds(options_.ask_s))};
+  prompt_ = {
+      "task-" + std::to_string(++count_) + "/more",    language_, museum_.languages, {}, {"more", "next"}, "next",
+      to_message(bus_.now() + seconds(options_.ask_s))};
   for (const std::string& language : museum_.languages)
     prompt_.texts.push_back(interaction::sentence(interaction::Sentence::offer_more, language, Mood::neutral, 0));
 }

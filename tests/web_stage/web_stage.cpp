@@ -17,8 +17,8 @@
 #include "docent/transport/virtual_time_bus.h"
 
 // docent_web_stage MUSEUM_DIR STATE_DIR PORT [lost=S] [people=N] [busy] [speed=V] [talk=F] [ask=S] [horn=S]
-// [buttons=PIPE] [seconds=S] The web module of the robot, in real time, among invented messages; with `buttons` also the module that
-// reads the four buttons. Ends on SIGTERM or after `seconds`.
+// [buttons=PIPE] [seconds=S] The web module of the robot, in real time, among invented messages; with `buttons` also
+// the module that reads the four buttons. Ends on SIGTERM or after `seconds`.
 
 namespace {
 
@@ -71,11 +71,10 @@ Words read_words(const std::vector<std::string>& given) {
 int main(int argc, char** argv) {
   using namespace docent;
   if (argc < 4) {
-    std::fprintf(
-        stderr,
-        "usage: %s MUSEUM_DIR STATE_DIR PORT [lost=S] [people=N] [busy] [speed=V] [talk=F] [ask=S] [horn=S] "
-        "[buttons=PIPE] [seconds=S]\n",
-        argv[0]);
+    std::fprintf(stderr,
+                 "usage: %s MUSEUM_DIR STATE_DIR PORT [lost=S] [people=N] [busy] [speed=V] [talk=F] [ask=S] [horn=S] "
+                 "[buttons=PIPE] [seconds=S]\n",
+                 argv[0]);
     return 2;
   }
   Words words = read_words({argv + 4, argv + argc});

@@ -183,14 +183,14 @@ class MissionModule final : public Module {
       if (text->size() > kMostText) return;
     }
     if (message.id.empty()) return;
-    if (mission_.scheduler().board().find(message.id) == nullptr) {
+    if (mission_.scheduler().state().board.find(message.id) == nullptr) {
       const auto old = store_.find(message.id);
       if (!old) {  // unknown whether it is new: the client will ask again
         fault_ = old.error().message;
         return;
       }
       if (*old) {
-        mission_.scheduler().board().show_again(**old);
+        mission_.show_again(**old);
         flush();
         return;
       }

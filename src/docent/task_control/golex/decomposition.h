@@ -28,7 +28,7 @@ struct Directive {
   std::string argument;                        ///< as actions.yaml explains
   std::map<std::string, std::string> texts{};  ///< of say and announce, by language; empty: `argument` names a text
   std::string name{};                          ///< is used once in an action: for ids
-  int use = 1;                                 ///< the how many of its kind in the action
+  int use = 1;                                 ///< its number, from 1, among the action's directives of this name
 };
 
 /// What begins at once.

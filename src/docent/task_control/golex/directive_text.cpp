@@ -26,7 +26,7 @@ std::string text_of(const Directive& directive, const ExecutiveTask& task, Mood 
 }
 
 std::string words_for_way(const ExecutiveTask& task, Mood mood, int count) {
-  const bool leads_tour = task.order.kind == TaskKind::visit && !task.order.tour_id.empty();
+  const bool leads_tour = task.order.kind != TaskKind::charge && !task.order.tour_id.empty();
   const auto which = leads_tour && count % 2 == 0 ? interaction::Sentence::stay_behind  //
                                                   : interaction::Sentence::let_me_through;
   return interaction::sentence(which, task.order.language, mood, leads_tour ? (count - 1) / 2 : count - 1);

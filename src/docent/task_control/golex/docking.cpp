@@ -24,12 +24,13 @@ std::optional<Docking::Move> Docking::move() const {
   return Move{step.move, map_from_charger_ * charger_from_base, params_.closer_tolerance};
 }
 
-Docking::State Docking::step(std::optional<bool> is_charging, std::optional<GoalStatus> moved, Time now) {
+Docking::State Docking::step(Contact contact, std::optional<GoalStatus> moved, Time now) {
   if (step_ >= kSteps.size()) return State::failed;
   const bool is_waiting = kSteps.at(step_).move == nullptr;
-  if (is_waiting && is_charging.value_or(true)) return State::docked;
+  if (is_waiting && (contact == Contact::made || contact == Contact::unknown)) return State::docked;
   const double limit_s = is_waiting ? params_.contact_s : params_.move_s;
   if (moved != GoalStatus::arrived && now - since_ < seconds(limit_s)) return State::under_way;
+  if (is_waiting && contact == Contact::unheard) return State::docked;  // a robot without a gauge
   ++step_;
   since_ = now;
   return step_ >= kSteps.size() ? State::failed : move() ? State::sets_out : State::under_way;

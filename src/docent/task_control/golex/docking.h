@@ -33,6 +33,14 @@ struct DockingParams {
   }
 };
 
+/// What the battery at the charger says.
+enum class Contact {
+  unheard,  ///< nothing yet
+  unknown,  ///< it never says whether it charges
+  none,
+  made,
+};
+
 /// From standing at the charger to charging: waits until the battery says that it charges. Where it does not, the robot
 /// comes closer, then sets out anew from before the charger, then from behind it, and at last gives up. A battery that
 /// never says whether it charges is believed to. Deterministic.
@@ -52,9 +60,9 @@ class Docking {
   /// nullopt: the robot stands where it came to.
   [[nodiscard]] std::optional<Move> move() const;
 
-  /// @param is_charging  nullopt: the battery does not say. @param moved  what became of the drive named by `move`.
+  /// @param moved  what became of the drive named by `move`.
   /// @returns how it stands; sets_out: `move` is another one now.
-  State step(std::optional<bool> is_charging, std::optional<GoalStatus> moved, Time now);
+  State step(Contact contact, std::optional<GoalStatus> moved, Time now);
 
  private:
   DockingParams params_;

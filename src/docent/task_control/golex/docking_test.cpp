@@ -15,7 +15,7 @@ const Pose2 kCharger{7.0, 1.5, Angle::degrees(90)};
 class DockingTest : public testing::Test {
  protected:
   /// Steps four times a second for so long, or until it is over; drives arrive after `drive_s`.
-  Docking::State pass(double duration_s, std::optional<bool> is_charging, double drive_s = 3.0) {
+  Docking::State pass(double duration_s, Contact contact, double drive_s = 3.0) {
     auto state = Docking::State::under_way;
     for (const double end = now_s + duration_s; now_s < end && !is_over(state); now_s += 0.25) {
       const auto before = docking.move();
@@ -24,7 +24,7 @@ class DockingTest : public testing::Test {
       move = before ? before->name : "";
       if (before) moves.insert(before->name);
       const bool arrives = before && moved_s >= drive_s;
-      state = docking.step(is_charging, arrives ? std::optional{GoalStatus::arrived} : std::nullopt, time());
+      state = docking.step(contact, arrives ? std::optional{GoalStatus::arrived} : std::nullopt, time());
     }
     return state;
   }
@@ -40,34 +40,39 @@ class DockingTest : public testing::Test {
   Docking docking{{}, kCharger, time_from_seconds(100.0)};
 };
 
-TEST_F(DockingTest, ABatteryThatChargesEndsIt) { EXPECT_EQ(pass(1.0, true), Docking::State::docked); }
+TEST_F(DockingTest, ABatteryThatChargesEndsIt) { EXPECT_EQ(pass(1.0, Contact::made), Docking::State::docked); }
 
-TEST_F(DockingTest, ABatteryThatNeverSaysIsBelieved) { EXPECT_EQ(pass(1.0, std::nullopt), Docking::State::docked); }
+TEST_F(DockingTest, ABatteryThatNeverSaysIsBelieved) { EXPECT_EQ(pass(1.0, Contact::unknown), Docking::State::docked); }
+
+TEST_F(DockingTest, ABatteryThatWasNotHeardYetMayStillSay) {
+  EXPECT_EQ(pass(9.0, Contact::unheard), Docking::State::under_way);
+  EXPECT_EQ(pass(2.0, Contact::unheard), Docking::State::docked) << "the robot has no gauge";
+}
 
 TEST_F(DockingTest, WithoutContactItComesCloser) {
   EXPECT_FALSE(docking.move()) << "it stands and waits";
-  EXPECT_FALSE(is_over(pass(11.0, false)));
+  EXPECT_FALSE(is_over(pass(11.0, Contact::none)));
   ASSERT_TRUE(docking.move());
   EXPECT_EQ(docking.move()->map_from_base.position(), kCharger.position());
   EXPECT_LT(docking.move()->position_tolerance, 0.15) << "closer than an ordinary arrival at the charger";
-  pass(3.0, false);
-  EXPECT_EQ(pass(2.0, true), Docking::State::docked);
+  pass(3.0, Contact::none);
+  EXPECT_EQ(pass(2.0, Contact::made), Docking::State::docked);
 }
 
 TEST_F(DockingTest, ThenItSetsOutAnewFromBothSidesAndGivesUp) {
-  EXPECT_EQ(pass(300.0, false), Docking::State::failed);
+  EXPECT_EQ(pass(300.0, Contact::none), Docking::State::failed);
   EXPECT_EQ(moves, (std::set<std::string>{"closer", "before", "from-before", "behind", "from-behind"}));
   EXPECT_LT(now_s, 100.0 + 4 * 10.5 + 5 * 3.5);
-  EXPECT_EQ(docking.step(true, std::nullopt, time()), Docking::State::failed) << "what is over stays over";
+  EXPECT_EQ(docking.step(Contact::made, std::nullopt, time()), Docking::State::failed) << "what is over stays over";
 }
 
 TEST_F(DockingTest, AMoveThatDoesNotArriveIsGivenUp) {
-  EXPECT_EQ(pass(300.0, false, 1e9), Docking::State::failed);
+  EXPECT_EQ(pass(300.0, Contact::none, 1e9), Docking::State::failed);
   EXPECT_LT(now_s, 100.0 + 4 * 10.5 + 5 * 30.5);
 }
 
 TEST_F(DockingTest, TheStandOffLiesOnTheAxisOfTheCharger) {
-  while (move != "before") pass(0.25, false);
+  while (move != "before") pass(0.25, Contact::none);
   ASSERT_TRUE(docking.move());
   EXPECT_NEAR(docking.move()->map_from_base.x, 7.0, 1e-9);
   EXPECT_NEAR(docking.move()->map_from_base.y, 2.1, 1e-9);
@@ -85,8 +90,11 @@ TEST_F(ExecutiveTest, DocksUntilTheBatteryCharges) {
   EXPECT_LT(drive->position_tolerance, 0.1);
   restart();
   EXPECT_EQ(drive->id, "c/drive") << "it begins to dock anew";
+  pass(5.0);
+  EXPECT_EQ(state.state, TaskStatus::driving) << "it has not heard its battery yet";
   executive.charging_report(false);
-  pass(10.5);
+  pass(5.5);
+  EXPECT_EQ(drive->id, "c/closer");
   goal(GoalStatus::arrived);
   executive.charging_report(true);
   pass(0.5);

@@ -33,8 +33,11 @@ void Executive::resume(Time now) {
     const auto* action = decomposition_.find(memory_.task.order.kind.text());
     const bool is_other = action == nullptr || memory_.item < 0 || memory_.item >= static_cast<int>(action->size());
     const bool is_old = drive_under_way() == nullptr && now - memory_.item_began > seconds(params_.checkpoint_age_s);
-    if (is_old && !has_drive()) return finish(true, {}, now);  // whoever it spoke to is gone
-    if (action == nullptr) return finish(false, {ReasonWord::unknown_task, memory_.task.order.kind.text()}, now);
+    if (is_old && !has_drive()) {  // those to whom it spoke are gone; an exhibit was not explained
+      const bool is_owed = !memory_.task.order.exhibit_id.empty();
+      return finish(!is_owed, is_owed ? Reason{ReasonWord::took_too_long} : Reason{});
+    }
+    if (action == nullptr) return finish(false, {ReasonWord::unknown_task, memory_.task.order.kind.text()});
     if (is_other || is_old) {  // the file was changed, or visitors and place are others by now
       begin_item(0, now);
       return;
@@ -51,8 +54,7 @@ void Executive::set_task(ExecutiveTask task, Time now) {
   const std::string last_tour = memory_.tour;
   memory_ = {};
   memory_.task = std::move(task);
-  if (memory_.task.order.kind == TaskKind::visit) memory_.tour = memory_.task.order.tour_id;
-  if (memory_.task.order.id.empty()) memory_.tour = last_tour;  // between two stops
+  memory_.tour = tour_after(memory_.task.order, has_drive(), last_tour);
   memory_.tour_begins = !memory_.tour.empty() && memory_.tour != last_tour;
   memory_.drive_began = now;
   goal_ = {};
@@ -67,7 +69,7 @@ void Executive::set_task(ExecutiveTask task, Time now) {
     memory_.phase = Phase::running;
     begin_item(0, now);
   } else {
-    finish(false, {ReasonWord::unknown_task, order.kind.text()}, now);
+    finish(false, {ReasonWord::unknown_task, order.kind.text()});
   }
 }
 
@@ -79,11 +81,6 @@ const std::vector<Directive>& Executive::together() const {
   const auto* action = decomposition_.find(memory_.task.order.kind.text());
   if (action == nullptr || memory_.item < 0 || memory_.item >= static_cast<int>(action->size())) return kNone;
   return (*action)[static_cast<std::size_t>(memory_.item)].together;
-}
-
-bool Executive::has_drive() const {
-  const auto* action = decomposition_.find(memory_.task.order.kind.text());
-  return action != nullptr && leads_somewhere(*action, 0);
 }
 
 Mood Executive::mood() const {
@@ -99,10 +96,9 @@ const Directive* Executive::under_way(DirectiveKind kind) const {
   return nullptr;
 }
 
-bool Executive::is_before_drive() const {
-  if (drive_under_way() != nullptr) return true;
+bool Executive::leads_from(int first) const {
   const auto* action = decomposition_.find(memory_.task.order.kind.text());
-  return action != nullptr && leads_somewhere(*action, static_cast<std::size_t>(memory_.item) + 1);
+  return action != nullptr && leads_somewhere(*action, static_cast<std::size_t>(first));
 }
 
 const Directive* Executive::drive_under_way() const {
@@ -131,7 +127,7 @@ void Executive::begin_item(int item, Time now) {
   const std::vector<ActionItem>& items = *decomposition_.find(memory_.task.order.kind.text());
   while (item < static_cast<int>(items.size()) && !holds(items[static_cast<std::size_t>(item)].condition)) ++item;
   if (item >= static_cast<int>(items.size())) {
-    finish(true, {}, now);
+    finish(true, {});
     return;
   }
   memory_.item = item;
@@ -215,7 +211,7 @@ void Executive::end(const Directive& directive, Time now) {
   }
 }
 
-void Executive::finish(bool is_success, const Reason& reason, Time /*now*/) {
+void Executive::finish(bool is_success, const Reason& reason) {
   memory_.phase = is_success ? Phase::done : Phase::failed;
   memory_.reason = reason;
   note_ = {};
@@ -342,7 +338,7 @@ void Executive::watch_drive(Time now) {
   const Directive* driven = under_way(DirectiveKind::drive);
   if (driven == nullptr) return;
   if (now - memory_.drive_began > seconds(params_.max_drive_s)) {
-    finish(false, ReasonWord::took_too_long, now);
+    finish(false, ReasonWord::took_too_long);
   } else if (goal_.id == own_id(driven->name)) {
     climb_ladder(now);
   }
@@ -379,7 +375,7 @@ void Executive::climb_ladder(Time now) {
   actions_.reactions.insert(actions_.reactions.end(), steps.begin(), steps.end());
   // A robot that does not know where it is has nothing else to choose.
   if (gives_up && under_way(DirectiveKind::drive) != nullptr)
-    finish(false, is_unreachable ? ReasonWord::no_way : ReasonWord::way_blocked, now);
+    finish(false, is_unreachable ? ReasonWord::no_way : ReasonWord::way_blocked);
 }
 
 void Executive::ask_for_way(Time now, int count) {
@@ -415,9 +411,9 @@ void Executive::watch_speech(const Directive& directive, Time now) {
 void Executive::watch_docking(const Directive& directive, Time now) {
   const auto move = docking_->move();
   const bool is_told = move && goal_.id == own_id(move->name);
-  const auto state = docking_->step(is_charging_, is_told ? goal_.state : std::nullopt, now);
+  const auto state = docking_->step(contact_, is_told ? goal_.state : std::nullopt, now);
   if (state == Docking::State::docked) return end(directive, now);
-  if (state == Docking::State::failed) return finish(false, ReasonWord::not_reached, now);
+  if (state == Docking::State::failed) return finish(false, ReasonWord::not_reached);
   if (state == Docking::State::sets_out) send_drive();
 }
 

@@ -107,7 +107,9 @@ class Executive {
   void obstacle_report(const ObstacleReport& report, Time now);
   void speech_report(const SpeechReport& report, Time now);
   /// What the battery says; nullopt: nothing of this.
-  void charging_report(std::optional<bool> is_charging) { is_charging_ = is_charging; }
+  void charging_report(std::optional<bool> is_charging) {
+    contact_ = !is_charging ? Contact::unknown : *is_charging ? Contact::made : Contact::none;
+  }
   /// The mood that the face shows: so the robot asks for the way. Counts for a second, then its own reckoning.
   void mood_report(Mood mood, Time now);
   void choose(const std::string& question_id, std::optional<Answer> option, Time now);
@@ -135,13 +137,13 @@ class Executive {
   void begin_item(int item, Time now);
   void begin(const Directive& directive, Time now);
   void end(const Directive& directive, Time now);
-  void finish(bool is_success, const Reason& reason, Time now);
+  void finish(bool is_success, const Reason& reason);
   void resume(Time now);
   [[nodiscard]] bool holds(Condition condition) const;
   /// What the present item consists of; nothing while no task runs.
   [[nodiscard]] const std::vector<Directive>& together() const;
   /// The action leads the robot somewhere.
-  [[nodiscard]] bool has_drive() const;
+  [[nodiscard]] bool has_drive() const { return leads_from(0); }
   /// How the words of the present item sound.
   [[nodiscard]] Mood mood() const;
   /// The item's directive of this kind, while it is not over.
@@ -149,7 +151,9 @@ class Executive {
   /// The drive or the relocalizing under way.
   [[nodiscard]] const Directive* drive_under_way() const;
   /// It has not come to its place yet: a drive is under way or follows.
-  [[nodiscard]] bool is_before_drive() const;
+  [[nodiscard]] bool is_before_drive() const { return drive_under_way() != nullptr || leads_from(memory_.item + 1); }
+  /// One of the action's items from `first` on moves the robot.
+  [[nodiscard]] bool leads_from(int first) const;
   [[nodiscard]] std::optional<TaskStatus> status() const;
   [[nodiscard]] DriveOrder drive_order() const;
   void send_drive() { actions_.drive = drive_order(); }
@@ -181,7 +185,7 @@ class Executive {
   ReactionLadder ladder_;
   ApproachWatch approach_{{}, {}};
   std::optional<Docking> docking_;  ///< while it docks
-  std::optional<bool> is_charging_;
+  Contact contact_ = Contact::unheard;
   Mood shown_mood_ = Mood::neutral;
   Time shown_at_{};
   std::optional<SpeechReport> heard_;  ///< of the present utterance

@@ -18,4 +18,10 @@ struct ExecutiveTask {
   std::optional<interaction::AttractionAction> style{};  ///< in which it attracts people
 };
 
+/// The tour whose visitors the robot leads with this order, when it led those of `last_tour` before; empty: none.
+[[nodiscard]] inline std::string tour_after(const TaskOrder& order, bool has_drive, const std::string& last_tour) {
+  if (order.kind == TaskKind::farewell || order.kind == TaskKind::charge) return "";
+  return has_drive ? order.tour_id : last_tour;
+}
+
 }  // namespace docent::task_control

@@ -12,8 +12,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::string_view kStandsIn = "stand-in ";  // before the memory of a program that has failed
-constexpr int kMostActions = 50;  ///< that begin at one moment: more is a program that turns round in itself
+constexpr std::string_view kStandsIn = "stand-in ";      // before the memory of a program that has failed
+constexpr Duration kAskAgain = std::chrono::seconds{1};  // what may be visited: to compose a tour takes a while
+constexpr int kMostActions = 50;  // that begin at one moment: more is a program that turns round in itself
 
 std::string argument(const GologTerm& term) {
   if (term.arguments.empty()) return "";
@@ -65,14 +66,17 @@ void GologPlanner::decide(Mission& mission, Time now) {
     if (seen.is_settled) {
       mission.end_relocalizing(now);
     } else if (seen.is_lost && seen.activity != Activity::relocalize) {
-      mission.relocalize(now);
+      mission.relocalize();
     }
     if (!mission.situation(now).was_ever_localized) return;
   }
   if (seen.activity == Activity::farewell) return;
   watch(mission, seen, now);
-  if (mission.situation(now).has_farewell && mission.situation(now).activity == Activity::none)
+  if (mission.situation(now).has_farewell && mission.situation(now).activity == Activity::none) {
+    have_left_ = true;
+    remember();
     return mission.say_farewell();
+  }
   run(mission, now);
 }
 
@@ -88,8 +92,11 @@ std::vector<GologTerm> GologPlanner::news(Mission& mission, const Situation& see
     told_charge_ = seen.charge;
     events.push_back({"battery", {*seen.charge}});
   }
-  if (seen.has_visit) return events;
-  const auto choices = mission.scheduler().choices(mission.position(), now);
+  const std::uint64_t revision = mission.scheduler().state().board.revision();
+  if (seen.has_visit || (revision == asked_revision_ && now < ask_again_)) return events;
+  asked_revision_ = revision;
+  ask_again_ = now + kAskAgain;
+  const auto choices = mission.choices(now);
   const std::set<std::string> wanted{choices.begin(), choices.end()};
   for (const std::string& exhibit : requested_) {
     if (!wanted.contains(exhibit)) events.push_back({"cancelled", {exhibit}});
@@ -121,7 +128,7 @@ void GologPlanner::run(Mission& mission, Time now) {
   auto events = news(mission, mission.situation(now), now);
   for (int i = 0; i < kMostActions; ++i) {
     const auto step = program_.step(now, mission.position(), events);
-    if (!step) return fail(step.error(), now);
+    if (!step) return fail(mission, step.error(), now);
     events.clear();
     if (step->kind == GologStep::Kind::begin) {
       begin(mission, step->action, now);
@@ -133,25 +140,25 @@ void GologPlanner::run(Mission& mission, Time now) {
     }
     if (stands_in_) return;
   }
-  fail(Error{"the program begins one action after the other and comes to no end"}, now);
+  fail(mission, Error{"the program begins one action after the other and comes to no end"}, now);
 }
 
 void GologPlanner::order(Mission& mission, const GologTerm& action, const std::string& kind, TaskOrder order,
                          Time now) {
-  const bool is_busy =
-      std::any_of(under_way_.begin(), under_way_.end(), [](const UnderWay& other) { return !other.task_kind.empty(); });
-  under_way_.push_back({action, now, is_busy ? "" : kind});
-  if (is_busy) return end(action, {GologOutcome::Kind::failed});
+  under_way_.push_back({action, now, kind});
   order.kind = Word<TaskKind>{std::string{kind}};
   if (order.language.empty()) order.language = mission.language();
-  mission.order_action(std::move(order));
+  mission.order_action(std::move(order), now);
 }
 
 void GologPlanner::begin_drive(Mission& mission, const std::string& place, const GologTerm& action, Time now) {
   const Programme& programme = mission.scheduler().programme();
+  const auto& visit = mission.scheduler().state().visit;
+  // Where it explains nothing at the place to which it drove, its visitors wait again.
+  if (visit && visit->exhibit_id != place && place != "charger") mission.stop(now);
   if (place == "home") return order(mission, action, "home", {"", {}, "", programme.home, "", false, ""}, now);
   if (place == "charger" && programme.charger) {
-    // Whoever takes part in the tour under way has a word, and is not left to wait for a battery: it is given anew.
+    // The visitors of the tour under way are told; the tour is given again from its beginning later.
     const Situation seen = mission.situation(now);
     if (seen.has_visit || seen.has_tour) mission.break_off_to_charge(now);
     return order(mission, action, "charge", mission.order_to_charge(), now);
@@ -164,15 +171,16 @@ void GologPlanner::begin_drive(Mission& mission, const std::string& place, const
   // Nobody may wait for it: a program may go where it likes.
   Pose2 pose = exhibit->pose;
   std::string tour;
-  if (!mission.situation(now).has_visit && mission.scheduler().begin_visit_to(place, mission.position(), now)) {
-    pose = mission.scheduler().state().visit->map_from_base;
-    tour = mission.scheduler().state().visit->tour_id;
+  if (visit || mission.begin_visit_to(place, now)) {
+    pose = visit->map_from_base;
+    tour = visit->tour_id;
   }
   order(mission, action, "drive", {"", {}, place, pose, "", false, tour}, now);
 }
 
 /// The program need not drive, for it is there; the visit may want another viewpoint, and then the executive drives.
 void GologPlanner::explain_where_asked(Mission& mission, const GologTerm& action, Time now) {
+  have_left_ = false;
   const Visit& visit = *mission.scheduler().state().visit;
   const TaskOrder stop{"", {}, visit.exhibit_id, visit.map_from_base, visit.language, false, visit.tour_id};
   order(mission, action, to_text(TaskKind::visit), stop, now);
@@ -180,26 +188,32 @@ void GologPlanner::explain_where_asked(Mission& mission, const GologTerm& action
 
 void GologPlanner::begin(Mission& mission, const GologTerm& action, Time now) {
   const std::string about = argument(action);
+  if (action.name == "charge_battery") {  // the executive has nothing to do for it
+    under_way_.push_back({action, now, ""});
+    return;
+  }
+  const bool is_busy =
+      std::any_of(under_way_.begin(), under_way_.end(), [](const UnderWay& other) { return !other.task_kind.empty(); });
+  if (is_busy) {
+    under_way_.push_back({action, now, ""});
+    return end(action, {GologOutcome::Kind::failed});
+  }
   if (is_drive(action)) return begin_drive(mission, about, action, now);
   if (action.name == "relocalize") {
-    under_way_.push_back({action, now, ""});
-    mission.relocalize(now);
+    under_way_.push_back({action, now, action.name});
+    mission.relocalize();
     return;
   }
-  if (action.name == "charge_battery") {
-    under_way_.push_back({action, now, ""});
-    return;
-  }
-  if (action.name == "explain" && !mission.situation(now).has_visit &&
-      mission.scheduler().begin_visit_to(about, mission.position(), now))
+  if (action.name == "explain" && !mission.situation(now).has_visit && mission.begin_visit_to(about, now))
     return explain_where_asked(mission, action, now);
   Pose2 here;
   here.x = mission.position().x;
   here.y = mission.position().y;
   const auto& visit = mission.scheduler().state().visit;
-  const bool may_ask = action.name == "ask_more" && (!visit || visit->asks);
+  if (action.name == "explain") have_left_ = false;
+  const bool may_ask = action.name == "ask_more" && (!visit || visit->asks) && !have_left_;
   const std::string kind = action.name == "wait_for_request" ? to_text(TaskKind::mingle) : action.name;
-  // Whoever is asked for more has just been told of it: the visit is over, its visitors are still there.
+  // Before it asks whether they want more it has explained: the visit is over, its visitors are still there.
   const bool goes_on = !visit && told_.exhibit == about;
   order(mission, action, kind,
         {"", {}, about, here, goes_on ? told_.language : "", may_ask, visit ? visit->tour_id : ""}, now);
@@ -211,8 +225,7 @@ void GologPlanner::stop(Mission& mission, const GologTerm& action, Time now) {
   if (stopped == under_way_.end()) return;
   const bool has_task = !stopped->task_kind.empty();
   under_way_.erase(stopped);
-  if (has_task) mission.order_action({});
-  if (mission.situation(now).has_visit) mission.scheduler().suspend_visit(now);
+  if (has_task || mission.situation(now).has_visit) mission.stop(now);
 }
 
 void GologPlanner::outcome(Mission& mission, const TaskOrder& order, const ActionOutcome& outcome, Time now) {
@@ -227,7 +240,7 @@ void GologPlanner::outcome(Mission& mission, const TaskOrder& order, const Actio
   if (action.name == "explain") requested_.erase(argument(action));
   if (is_of_visit) told_ = {visit->exhibit_id, visit->language};
   if (is_of_visit && (action.name == "explain" || (is_drive(action) && !outcome.is_done))) {
-    mission.scheduler().finish_visit(outcome.is_done, outcome.reason, now);
+    mission.finish_visit(outcome.is_done, outcome.reason, now);
   }
   if (!outcome.is_done) {
     end(action, {GologOutcome::Kind::failed});
@@ -243,7 +256,8 @@ void GologPlanner::end(const GologTerm& action, GologOutcome outcome) {
   if (const auto told = program_.outcome(action, outcome); !told) fault_ = told.error().message;
 }
 
-void GologPlanner::fail(const Error& error, Time now) {
+void GologPlanner::fail(Mission& mission, const Error& error, Time now) {
+  mission.stop(now);  // the stand-in has its own ways, and begins anew
   fault_ = error.message;
   stands_in_ = true;
   retry_at_ = now + seconds(params_.retry_s);
@@ -263,8 +277,9 @@ void GologPlanner::remember() {
     under_way.push_back(
         {{"action", to_json(action.action)}, {"began", action.began.nanoseconds}, {"task", action.task_kind}});
   }
-  memory_ = Json{{"snapshot", *snapshot}, {"requested", requested_},  {"under_way", under_way},
-                 {"lost", told_lost_},    {"blocked", told_blocked_}, {"closing", told_closing_}}
+  memory_ = Json{{"snapshot", *snapshot},    {"requested", requested_},    {"under_way", under_way},
+                 {"lost", told_lost_},       {"blocked", told_blocked_},   {"closing", told_closing_},
+                 {"exhibit", told_.exhibit}, {"language", told_.language}, {"left", have_left_}}
                 .dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -299,6 +314,8 @@ bool GologPlanner::restore(const std::string& memory, TaskOrder& task) {
     told_lost_ = json.at("lost").get<bool>();
     told_blocked_ = json.at("blocked").get<bool>();
     told_closing_ = json.at("closing").get<bool>();
+    told_ = {json.value("exhibit", ""), json.value("language", "")};
+    have_left_ = json.value("left", false);
     memory_ = memory;
   } catch (const Json::exception& why) {
     fault_ = std::string{"what the planner remembered is damaged: "} + why.what();

@@ -63,7 +63,8 @@ class GologPlanner final : public Planner {
   /// Tells the program how the action went.
   void end(const GologTerm& action, GologOutcome outcome);
   void order(Mission& mission, const GologTerm& action, const std::string& kind, TaskOrder order, Time now);
-  void fail(const Error& error, Time now);
+  /// The plan controller decides from now on.
+  void fail(Mission& mission, const Error& error, Time now);
   void remember();
 
   GologPlannerParams params_;
@@ -76,7 +77,10 @@ class GologPlanner final : public Planner {
     std::string exhibit{};
     std::string language{};
   };
-  Told told_;                        ///< the last visit
+  bool have_left_ = false;            ///< the visitors of the last visit, after a farewell: nobody is asked for more
+  Told told_;                         ///< the last visit
+  std::uint64_t asked_revision_ = 0;  ///< of the board, when it was asked what may be visited
+  Time ask_again_{};
   std::set<std::string> requested_;  ///< exhibits of which the program knows that somebody waits
   std::optional<double> told_charge_;
   bool told_lost_ = false;

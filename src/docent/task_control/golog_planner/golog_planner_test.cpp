@@ -1,89 +1,14 @@
 #include "docent/task_control/golog_planner/golog_planner.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <string>
 
-#include "docent/base/files.h"
-#include "docent/base/shipped_files.h"
-#include "docent/task_control/mission/mission.h"
+#include "docent/task_control/golog_planner/golog_planner_fixture.h"
 
 namespace docent::task_control {
 namespace {
-
-/// Three exhibits on a line, as in [Rhino1999] Figs. 21 and 22: e5 lies between e1 and e12.
-Programme line_museum() {
-  Programme programme;
-  programme.languages = {"en", "de"};
-  for (const auto& [id, x] : {std::pair{"e1", 4.0}, std::pair{"e5", 9.0}, std::pair{"e12", 20.0}}) {
-    ProgrammeExhibit& exhibit = programme.exhibits.emplace_back();
-    exhibit.id = id;
-    exhibit.pose = {x, 0, {}};
-  }
-  programme.tours = {{"back", {"e12", "e1"}, 0.0}, {"forth", {"e1", "e12"}, 0.0}};
-  programme.home = {0, 0, {}};
-  programme.charger = Pose2{0, 3, {}};
-  return programme;
-}
-
-/// The mission with a program; the test is the executive.
-class GologPlannerTest : public testing::Test {
- protected:
-  void start(const std::filesystem::path& file, MissionMemory memory = {}) {
-    auto program = GologProgram::load(params.program, file, line_museum(), straight_distance());
-    ASSERT_TRUE(program) << program.error().message;
-    memory.deployment = "dep";
-    mission = std::make_unique<Mission>(MissionParams{}, line_museum(), straight_distance(), std::move(memory),
-                                        std::make_unique<GologPlanner>(params, std::move(*program)), time());
-    pass(5.0);
-  }
-  void start_shipped(MissionMemory memory = {}) { start(shipped_path("prolog/tour_guide.pl"), std::move(memory)); }
-  [[nodiscard]] Time time() const { return time_from_seconds(now_s); }
-  void pass(double duration_s, bool is_localized = true) {
-    for (const double end = now_s + duration_s; now_s < end; now_s += 0.5) {
-      mission->localization(is_localized, robot, time());
-      mission->tick(time());
-    }
-  }
-  void wish(const std::string& id, RequestKind kind, const std::string& target) {
-    mission->submit({id, {}, RequestSource::web, "", kind, target, -1, "en"}, time());
-    pass(0.5);
-  }
-  /// "drive e1": what the robot does now.
-  [[nodiscard]] std::string task() const {
-    const TaskOrder& order = mission->task();
-    return order.id.empty() ? "" : order.kind.text() + (order.exhibit_id.empty() ? "" : " " + order.exhibit_id);
-  }
-  void report(TaskStatus status, bool took_long = false) {
-    const TaskOrder order = mission->task();
-    if (status == TaskStatus::done &&
-        (order.kind == TaskKind::home || order.kind == TaskKind::charge || order.kind.text() == "drive"))
-      robot = order.map_from_base.position();
-    mission->report(order.id, status, ReasonWord::way_blocked, time(), took_long);
-    pass(0.5);
-  }
-  [[nodiscard]] RequestStatus status_of(const std::string& id) {
-    return mission->memory().schedule.board.find(id)->status;
-  }
-  /// Every action succeeds, until there is nothing to do; what the robot did.
-  std::vector<std::string> run(int most = 30) {
-    std::vector<std::string> tasks;
-    while (!task().empty() && most-- > 0) {
-      tasks.push_back(task());
-      report(TaskStatus::done);
-    }
-    return tasks;
-  }
-
-  GologPlannerParams params;
-  double now_s = 0.0;
-  Point2 robot{0, 0};
-  std::unique_ptr<Mission> mission;
-};
-
-using Tasks = std::vector<std::string>;
 
 // [Rhino1999] Figs. 21 and 22.
 TEST_F(GologPlannerTest, ARequestThatComesDuringAnExplanationChangesTheOrder) {
@@ -249,11 +174,8 @@ TEST_F(GologPlannerTest, ARestartGoesOnWithTheActionUnderWay) {
 }
 
 TEST_F(GologPlannerTest, AProgramThatRunsAwayIsReportedAndVisitorsAreServed) {
-  const auto file = std::filesystem::temp_directory_path() / ("docent_golog_" + std::to_string(getpid()) + ".pl");
-  ASSERT_TRUE(write_file_atomically(file, "proc(main, [?(some(E, due(E))), while(true, ?(true))]).\n"));
   params.program.most_inferences = 100000;
-  start(file);
-  std::filesystem::remove(file);
+  start_text("proc(main, [?(some(E, due(E))), while(true, ?(true))]).\n");
   EXPECT_EQ(mission->planner_fault(), "");
   wish("1", RequestKind::exhibit, "e1");
   EXPECT_NE(mission->planner_fault(), "");
@@ -287,22 +209,6 @@ TEST_F(GologPlannerTest, AsksForMoreInTheLanguageOfItsVisitors) {
   EXPECT_EQ(mission->task().language, "en");
 }
 
-TEST_F(GologPlannerTest, WhatTheStandInWasAboutGoesOnAfterARestart) {
-  const auto file = std::filesystem::temp_directory_path() / ("docent_golog_again_" + std::to_string(getpid()) + ".pl");
-  ASSERT_TRUE(write_file_atomically(file, "proc(main, [?(some(E, due(E))), while(true, ?(true))]).\n"));
-  params.program.most_inferences = 100000;
-  start(file);
-  wish("t", RequestKind::tour, "back");
-  ASSERT_EQ(task(), "visit e12") << "the plan controller stands in";
-  const std::string id = mission->task().id;
-  start(file, mission->memory());
-  std::filesystem::remove(file);
-  EXPECT_EQ(mission->task().id, id) << "an executive that works on it is not disturbed";
-  EXPECT_NE(mission->planner_fault(), "");
-  EXPECT_EQ(run(), (Tasks{"visit e12", "visit e1", "farewell"}));
-  EXPECT_EQ(status_of("t"), RequestStatus::fulfilled);
-}
-
 TEST_F(GologPlannerTest, WhatCannotBeReachedIsForgottenWhenItsRequestIsOver) {
   start_shipped();
   wish("1", RequestKind::exhibit, "e1");
@@ -324,6 +230,121 @@ TEST_F(GologPlannerTest, WhatCannotBeReachedIsForgottenWhenItsRequestIsOver) {
   EXPECT_EQ(std::count(later.begin(), later.end(), "drive e1"), 0) << "nobody waits for it any more";
   wish("5", RequestKind::exhibit, "e5");
   EXPECT_EQ(task(), "drive e5");
+}
+
+TEST_F(GologPlannerTest, WhatTheStandInWasAboutGoesOnAfterARestart) {
+  const std::string runaway = "proc(main, [?(some(E, due(E))), while(true, ?(true))]).\n";
+  params.program.most_inferences = 100000;
+  start_text(runaway);
+  wish("t", RequestKind::tour, "back");
+  ASSERT_EQ(task(), "visit e12") << "the plan controller stands in";
+  const std::string id = mission->task().id;
+  start_text(runaway, mission->memory());
+  EXPECT_EQ(mission->task().id, id) << "an executive that works on it is not disturbed";
+  EXPECT_NE(mission->planner_fault(), "");
+  EXPECT_EQ(run(), (Tasks{"visit e12", "visit e1", "farewell"}));
+  EXPECT_EQ(status_of("t"), RequestStatus::fulfilled);
+}
+
+// Between the drive to an exhibit and the end of its explanation a visit is under way.
+TEST_F(GologPlannerTest, AProgramThatFailsInAVisitLeavesItToThePlanController) {
+  params.program.most_inferences = 100000;
+  for (const char* last : {"drive(E)", "drive(E), explain(E)"}) {
+    robot = {0, 0};
+    start_text(std::string{"proc(main, [?(some(E, due(E))), pi(E, [?(next(E)), conc(["} + last +
+               "], [?(robot_location(e1)), while(true, ?(true))])])]).\n");
+    wish("1", RequestKind::exhibit, "e1");
+    ASSERT_EQ(task(), "drive e1");
+    report(TaskStatus::done);
+    EXPECT_NE(mission->planner_fault(), "");
+    EXPECT_EQ(task(), "visit e1") << "it is begun anew";
+    report(TaskStatus::done);
+    EXPECT_EQ(status_of("1"), RequestStatus::fulfilled);
+    EXPECT_EQ(mission->memory().schedule.counters.requests_served, 1U);
+  }
+}
+
+TEST_F(GologPlannerTest, AVisitOfAnotherProgramWaitsAgain) {
+  start_shipped();
+  wish("1", RequestKind::exhibit, "e1");
+  report(TaskStatus::done);
+  ASSERT_EQ(task(), "explain e1");
+  start_text("proc(main, while(true, [?(some(E, due(E))), pi(E, [?(next(E)), drive(E), explain(E)])])).\n",
+             mission->memory());
+  EXPECT_EQ(task(), "drive e1") << "the program was changed while the robot was off";
+  report(TaskStatus::done);
+  ASSERT_EQ(task(), "explain e1");
+  report(TaskStatus::done);
+  EXPECT_EQ(status_of("1"), RequestStatus::fulfilled);
+}
+
+TEST_F(GologPlannerTest, ARestartInTheFarewellSaysItOnce) {
+  start_shipped();
+  wish("t", RequestKind::tour, "back");
+  while (task() != "farewell") report(TaskStatus::done);
+  const std::string id = mission->task().id;
+  start_shipped(mission->memory());
+  EXPECT_EQ(mission->task().id, id);
+  report(TaskStatus::done);
+  EXPECT_EQ(task(), "ask_more e1");
+  EXPECT_FALSE(mission->task().offer_more) << "its visitors have left";
+  EXPECT_EQ(run(), (Tasks{"ask_more e1", "home"}));
+}
+
+TEST_F(GologPlannerTest, WhoIsBusyDoesNothingBesideIt) {
+  start_text("proc(main, [?(some(E, due(E))), conc(wait_for_request, pi(E, [?(next(E)), drive(E)]))]).\n");
+  wish("1", RequestKind::exhibit, "e1");
+  EXPECT_EQ(task().substr(0, 6), "mingle");
+  EXPECT_FALSE(mission->situation(time()).has_visit) << "the drive has failed";
+  EXPECT_EQ(status_of("1"), RequestStatus::queued);
+}
+
+TEST_F(GologPlannerTest, AtHomeItIsIdle) {
+  start_shipped();
+  wish("1", RequestKind::exhibit, "e1");
+  run();
+  pass(2.0);
+  EXPECT_EQ(mission->summary(time()).phase, MissionPhase::idle);
+}
+
+TEST_F(GologPlannerTest, DoesNotDriveForAWishThatIsTakenBack) {
+  start_shipped();
+  wish("12", RequestKind::exhibit, "e12");
+  wish("5", RequestKind::exhibit, "e5");
+  ASSERT_EQ(task(), "drive e12");
+  mission->submit({"c", {}, RequestSource::web, "", RequestKind::cancel, "12", -1, "en"}, time());
+  pass(1.0);
+  EXPECT_EQ(task(), "drive e5");
+  const Tasks done = run();
+  EXPECT_EQ(std::count(done.begin(), done.end(), "explain e12"), 0);
+  EXPECT_EQ(status_of("12"), RequestStatus::cancelled);
+  EXPECT_EQ(status_of("5"), RequestStatus::fulfilled);
+}
+
+TEST_F(GologPlannerTest, SaysNotForEverThatItMustChargeFirst) {
+  start_shipped();
+  mission->battery(0.12, false, time());
+  pass(1.0);
+  ASSERT_EQ(task(), "charge");
+  report(TaskStatus::done);
+  wish("1", RequestKind::exhibit, "e1");
+  mission->battery(0.45, true, time());
+  pass(1.0);
+  ASSERT_EQ(task(), "drive e1") << "it is charged well enough for who waits";
+  EXPECT_FALSE(mission->summary(time()).needs_charge);
+  EXPECT_FALSE(mission->memory().must_charge);
+}
+
+TEST_F(GologPlannerTest, LearnsHowLongItsWaysTake) {
+  start_shipped();
+  wish("1", RequestKind::exhibit, "e1");
+  report(TaskStatus::driving);
+  pass(20.0);
+  report(TaskStatus::done);
+  const auto table = travel_table(mission->scheduler().times().rows());
+  ASSERT_EQ(table.size(), 1U);
+  EXPECT_EQ(table.front().to, "e1");
+  EXPECT_NEAR(table.front().mean_s, 20.5, 1.0);
 }
 
 }  // namespace

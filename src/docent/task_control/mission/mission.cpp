@@ -6,33 +6,6 @@
 #include <utility>
 
 namespace docent::task_control {
-namespace {
-
-/// What has begun may use so much of `battery_low` before it is broken off: a tour is rather finished than given twice.
-constexpr double kReserveOfBegun = 0.5;
-
-}  // namespace
-
-Result<void> MissionParams::validate() const {
-  if (auto valid = schedule.validate(); !valid) return valid;
-  if (!(lost_after_s >= 0.0)) return fail("mission.lost_after_s must be >= 0");
-  if (!(localized_after_s >= 0.0)) return fail("mission.localized_after_s must be >= 0");
-  if (!(at_home_m > 0.0)) return fail("mission.at_home_m must be > 0");
-  if (!(home_retry_s >= 0.0)) return fail("mission.home_retry_s must be >= 0");
-  if (!(battery_low >= 0.0 && battery_low <= 1.0)) return fail("mission.battery_low must be in 0..1");
-  if (!(battery_full > battery_low && battery_full <= 1.0))
-    return fail("mission.battery_full must be in battery_low..1");
-  if (!(at_charger_m > 0.0)) return fail("mission.at_charger_m must be > 0");
-  if (!(contact_s >= 0.0)) return fail("mission.contact_s must be >= 0");
-  if (!(battery_gain >= 0.0 && battery_gain <= 1.0)) return fail("mission.battery_gain must be in 0..1");
-  if (!(battery_soon >= 0.0 && battery_soon <= battery_low + battery_gain))
-    return fail("mission.battery_soon must be in 0..battery_low + battery_gain");
-  if (!(mingle_pause_s >= 0.0)) return fail("mission.mingle_pause_s must be >= 0");
-  if (!(drain_per_s > 0.0)) return fail("mission.drain_per_s must be > 0");
-  if (!(charge_per_s > 0.0)) return fail("mission.charge_per_s must be > 0");
-  return {};
-}
-
 Mission::Mission(const MissionParams& params, Programme programme, TravelDistance travel, MissionMemory memory,
                  std::unique_ptr<Planner> planner, Time now)
     : params_{params},
@@ -47,13 +20,20 @@ Mission::Mission(const MissionParams& params, Programme programme, TravelDistanc
       must_charge_{memory.must_charge} {
   scheduler_.times().restore(memory.lessons);
   // What is under way goes on under its old task id, so that an executive that works on it is not disturbed.
-  if (planner_->restore(memory.planner, task_)) {
-    if (!task_.id.empty()) activity_ = Activity::action;
+  TaskOrder ordered = task_;
+  const bool orders_actions = planner_->restore(memory.planner, ordered);
+  if (task_.kind == TaskKind::farewell && scheduler_.state().farewell) {
+    activity_ = Activity::farewell;
+  } else if (orders_actions) {
+    task_ = std::move(ordered);
+    if (!task_.id.empty()) {
+      activity_ = Activity::action;
+    } else {
+      stop(now);
+    }
   } else if (const auto& visit = scheduler_.state().visit) {
     activity_ = Activity::visit;
     if (task_.kind != TaskKind::visit || !is_same(task_.map_from_base, visit->map_from_base)) order_visit(now);
-  } else if (task_.kind == TaskKind::farewell && scheduler_.state().farewell) {
-    activity_ = Activity::farewell;
   } else if (task_.kind == TaskKind::home && is_same(task_.map_from_base, scheduler_.programme().home)) {
     activity_ = Activity::home;
   } else if (task_.kind == TaskKind::charge && is_same(task_.map_from_base, resting_place())) {
@@ -66,10 +46,6 @@ Mission::Mission(const MissionParams& params, Programme programme, TravelDistanc
 void Mission::submit(VisitorRequest request, Time now) {
   conditions_.delay = must_charge_ ? ReasonWord::charging_first : Reason{};
   scheduler_.submit(std::move(request), conditions_, now);
-  if (activity_ == Activity::visit && scheduler_.is_visit_unwanted() && may_interrupt()) {
-    scheduler_.drop_visit(now);
-    start_task(Activity::none, {});
-  }
   decide(now);
 }
 
@@ -93,7 +69,7 @@ void Mission::report(const std::string& task_id, std::optional<TaskStatus> state
       const TaskOrder order = task_;
       start_task(Activity::none, {});
       if (order.kind == TaskKind::home || order.kind == TaskKind::charge)
-        note_rest(*order.kind.value(), state == TaskStatus::done, reason);
+        note_rest(*order.kind.value(), state == TaskStatus::done, reason, now);
       planner_->outcome(*this, order, {state == TaskStatus::done, took_long, reason}, now);
     }
   } else if (activity_ == Activity::farewell && is_over) {
@@ -103,21 +79,19 @@ void Mission::report(const std::string& task_id, std::optional<TaskStatus> state
     mingle_not_before_ = now + seconds(params_.mingle_pause_s);
     start_task(Activity::none, {});
   } else if ((activity_ == Activity::home || activity_ == Activity::charge) && is_over) {
-    const bool is_done = state == TaskStatus::done;
     const bool is_home = activity_ == Activity::home;
-    is_resting_ = is_done && is_home;
-    // At the charger the battery has a moment to say that it charges.
-    const double pause_s = is_done ? params_.contact_s : params_.home_retry_s;
-    if (!is_resting_) home_not_before_ = now + seconds(pause_s);
-    if (!is_done && !is_home && spare(now) >= 0.0) must_charge_ = false;  // people stand there: it rather serves
     start_task(Activity::none, {});
-    note_rest(is_home ? TaskKind::home : TaskKind::charge, is_done, reason);
+    note_rest(is_home ? TaskKind::home : TaskKind::charge, state == TaskStatus::done, reason, now);
   }
   decide(now);
 }
 
-void Mission::note_rest(TaskKind kind, bool is_done, const Reason& reason) {
+void Mission::note_rest(TaskKind kind, bool is_done, const Reason& reason, Time now) {
   const bool is_home = kind == TaskKind::home;
+  is_resting_ = is_done && is_home;
+  // At the charger the battery has a moment to say that it charges.
+  if (!is_resting_) home_not_before_ = now + seconds(is_done ? params_.contact_s : params_.home_retry_s);
+  if (!is_done && !is_home && spare(now) >= 0.0) must_charge_ = false;  // people stand there: it rather serves
   const EventKind arrival = is_home ? EventKind::home : EventKind::charger;
   const EventKind failure = is_home ? EventKind::home_failed : EventKind::charger_failed;
   scheduler_.note({is_done ? arrival : failure, "", reason.text()});
@@ -165,7 +139,8 @@ double Mission::spare(Time now) const {
   const auto charge = battery_.charge(now);
   if (!charge) return std::numeric_limits<double>::infinity();
   const SchedulerState& schedule = scheduler_.state();
-  const double reserve = schedule.visit || schedule.tour ? kReserveOfBegun * params_.battery_low : params_.battery_low;
+  const double reserve =
+      schedule.visit || schedule.tour ? params_.reserve_of_begun * params_.battery_low : params_.battery_low;
   const Programme& programme = scheduler_.programme();
   const Point2 place = programme.charger.value_or(programme.home).position();
   const double way_s = scheduler_.way_duration(position(), place, now);
@@ -204,8 +179,20 @@ void Mission::watch_battery(Time now) {
 
 Point2 Mission::position() const { return position_.value_or(scheduler_.programme().home.position()); }
 
+void Mission::drop_unwanted_visit(Time now) {
+  if (!scheduler_.is_visit_unwanted() || !may_interrupt()) return;
+  const bool is_for_visit = activity_ == Activity::visit || activity_ == Activity::action;
+  const TaskOrder order = task_;
+  const bool was_ordered = activity_ == Activity::action;
+  scheduler_.drop_visit(now);
+  if (!is_for_visit) return;
+  start_task(Activity::none, {});
+  if (was_ordered) planner_->outcome(*this, order, {false, false, ReasonWord::cancelled}, now);
+}
+
 void Mission::decide(Time now) {
   watch_battery(now);
+  drop_unwanted_visit(now);
   planner_->decide(*this, now);
 }
 
@@ -223,7 +210,7 @@ Situation Mission::situation(Time now) const {
   seen.has_farewell = schedule.farewell.has_value();
   seen.is_anything_due = scheduler_.is_anything_due(now);
   seen.is_open = conditions_.is_open && conditions_.mode != OperatingMode::closed;
-  seen.is_blocked = task_state_ == TaskStatus::driving && !task_reason_.is_none();
+  seen.is_blocked = is_blocked();
   seen.charge = battery_.charge(now);
   seen.is_charging = is_at_charger() && has_contact(now);
   seen.is_charged = !charges() || (seen.is_anything_due && seen.charge.value_or(1.0) >= enough_to_serve());
@@ -237,9 +224,17 @@ Situation Mission::situation(Time now) const {
   return seen;
 }
 
-void Mission::order_action(TaskOrder order) {
+void Mission::order_action(TaskOrder order, Time now) {
+  is_resting_ = is_resting_ && order.kind == TaskKind::mingle;
   start_task(Activity::action, std::move(order));
-  is_resting_ = false;
+  const auto& visit = scheduler_.state().visit;
+  if (visit && visit->exhibit_id == task_.exhibit_id && is_same(visit->map_from_base, task_.map_from_base))
+    set_out(now);
+}
+
+void Mission::stop(Time now) {
+  if (scheduler_.state().visit) scheduler_.suspend_visit(now);
+  start_task(Activity::none, {});
 }
 
 std::string Mission::language() const {
@@ -256,6 +251,12 @@ bool Mission::begin_visit(Time now) {
   if (!scheduler_.begin_visit(position(), now, budget_s(now))) return false;
   must_charge_ = false;
   order_visit(now);
+  return true;
+}
+
+bool Mission::begin_visit_to(const std::string& exhibit_id, Time now) {
+  if (!scheduler_.begin_visit_to(exhibit_id, position(), now)) return false;
+  must_charge_ = false;
   return true;
 }
 
@@ -313,7 +314,7 @@ TaskOrder Mission::order_to_charge() {
           std::exchange(broken_tour_, "")};
 }
 
-void Mission::relocalize(Time /*now*/) {
+void Mission::relocalize() {
   start_task(Activity::relocalize,
              {"", TaskKind::relocalize, "", {}, scheduler_.programme().languages.front(), false, ""});
   is_resting_ = false;
@@ -329,6 +330,11 @@ void Mission::order_visit(Time now) {
              {"", TaskKind::visit, visit.exhibit_id, visit.map_from_base, visit.language, offer_more, visit.tour_id});
   is_resting_ = false;
   home_not_before_ = {};
+  set_out(now);
+}
+
+void Mission::set_out(Time now) {
+  const Visit& visit = *scheduler_.state().visit;
   if (!position_) return;  // nobody knows from where it sets out
   watch_.set_out(place_at(scheduler_.programme(), *position_), place_name({visit.exhibit_id, visit.viewpoint}),
                  scheduler_.way_length(*position_, visit.map_from_base.position()), now);
@@ -371,13 +377,6 @@ const std::vector<std::string>& Mission::agenda(Time now) {
   return agenda_;
 }
 
-MissionPhase Mission::phase_of_action() const {
-  if (task_state_ == TaskStatus::asking) return MissionPhase::asking;
-  if (task_state_ == TaskStatus::explaining) return MissionPhase::explaining;
-  const bool leads_home = task_.kind == TaskKind::home || task_.kind == TaskKind::charge;
-  return leads_home ? MissionPhase::going_home : MissionPhase::driving;
-}
-
 MissionSummary Mission::summary(Time now) {
   MissionSummary summary;
   const SchedulerState& schedule = scheduler_.state();
@@ -389,46 +388,43 @@ MissionSummary Mission::summary(Time now) {
   } else if (!summary.agenda.empty()) {
     summary.exhibit_id = summary.agenda.front();
   }
-  summary.is_charging = charges();
   summary.needs_charge = must_charge_;
   if (const auto charge = battery_.charge(now); charge && charges()) {
     const bool is_awaited = scheduler_.is_anything_due(now);
     const double missing = (is_awaited ? enough_to_serve() : params_.battery_full) - *charge;
     summary.charging_min = 5 * static_cast<int>(std::ceil(std::max(0.0, missing) / battery_.charge_per_s() / 300.0));
   }
-  summary.is_blocked = task_state_ == TaskStatus::driving && !task_reason_.is_none();
+  summary.is_blocked = is_blocked();
+  summary.says_farewell = activity_ == Activity::farewell;
+  if (summary.says_farewell) summary.exhibit_id.clear();
+  summary.phase = phase(now);
+  return summary;
+}
+
+MissionPhase Mission::phase(Time now) const {
   switch (activity_) {
     case Activity::visit:
-      summary.phase = task_state_ == TaskStatus::explaining ? MissionPhase::explaining
-                      : task_state_ == TaskStatus::asking   ? MissionPhase::asking
-                                                            : MissionPhase::driving;
-      break;
-    case Activity::farewell:
-      summary.phase = MissionPhase::explaining;
-      summary.exhibit_id.clear();
-      summary.says_farewell = true;
-      break;
-    case Activity::mingle:
-      summary.phase = MissionPhase::idle;
-      break;
     case Activity::action:
-      summary.phase = phase_of_action();
-      break;
+      if (task_.kind == TaskKind::mingle) return MissionPhase::idle;
+      if (task_state_ == TaskStatus::asking) return MissionPhase::asking;
+      if (task_state_ == TaskStatus::explaining) return MissionPhase::explaining;
+      return task_.kind == TaskKind::home || task_.kind == TaskKind::charge ? MissionPhase::going_home
+                                                                            : MissionPhase::driving;
+    case Activity::farewell:
+      return MissionPhase::explaining;
+    case Activity::mingle:
+      return MissionPhase::idle;
     case Activity::home:
     case Activity::charge:
-      summary.phase = MissionPhase::going_home;
-      break;
+      return MissionPhase::going_home;
     case Activity::relocalize:
-      summary.phase = was_ever_localized_ ? MissionPhase::relocalizing : MissionPhase::waking;
-      break;
+      return was_ever_localized_ ? MissionPhase::relocalizing : MissionPhase::waking;
     case Activity::none:
-      summary.phase = !was_ever_localized_            ? MissionPhase::waking
-                      : charges() && has_contact(now) ? MissionPhase::charging
-                      : is_resting_                   ? MissionPhase::idle
-                                                      : MissionPhase::waiting;
       break;
   }
-  return summary;
+  if (!was_ever_localized_) return MissionPhase::waking;
+  if (charges() && has_contact(now)) return MissionPhase::charging;
+  return is_resting_ ? MissionPhase::idle : MissionPhase::waiting;
 }
 
 MissionMemory Mission::memory() const {

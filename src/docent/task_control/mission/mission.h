@@ -4,56 +4,17 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "docent/task_control/mission/battery_watch.h"
+#include "docent/task_control/mission/mission_params.h"
 #include "docent/task_control/mission/planner.h"
 #include "docent/task_control/tour_scheduler/task_order.h"
 #include "docent/task_control/tour_scheduler/tour_scheduler.h"
 #include "docent/task_control/travel_times/visit_watch.h"
 
 namespace docent::task_control {
-
-/// Section `mission` of robot.yaml.
-struct MissionParams {
-  SchedulerParams schedule;
-  double lost_after_s = 3.0;       ///< [s] >= 0 without localization before a tour is suspended
-  double localized_after_s = 1.0;  ///< [s] >= 0 with localization before it is resumed
-  double at_home_m = 0.7;          ///< [m] > 0: so near, the robot is at home
-  double home_retry_s = 30.0;      ///< [s] >= 0 after a failed way home
-  double at_charger_m = 0.3;       ///< [m] > 0: so near, it is at a charger whose battery does not say that it charges
-  double contact_s = 10.0;         ///< [s] >= 0 until a battery at its charger says so; then the robot tries again
-  double battery_low = 0.15;       ///< 0..1: still left on arrival at its charger; what has begun may use half of it
-  /// 0..1: with less it charges between two tours, before it must, though somebody waits. Below what it charges to.
-  double battery_soon = 0.25;
-  double battery_full = 0.95;  ///< 0..1, > battery_low: charged; the last part takes real batteries long
-  /// 0..1: what makes the way to the charger worth while. An idle robot goes there when so much is missing; people
-  /// who wait are served again when there is so much more than battery_low.
-  double battery_gain = 0.25;
-  bool mingles = true;           ///< attracts people while it rests at home and nobody wants anything
-  double mingle_pause_s = 30.0;  ///< [s] >= 0 between two phases: who listens may choose
-  double drain_per_s = 1.4e-4;   ///< [1/s] > 0 share of a full battery: two hours of driving; more is measured
-  double charge_per_s = 2.2e-4;  ///< [1/s] > 0 likewise: 75 minutes; measured while it charges
-  template <class V>
-  void visit(V& v) {
-    schedule.visit(v);
-    v("lost_after_s", lost_after_s);
-    v("localized_after_s", localized_after_s);
-    v("at_home_m", at_home_m);
-    v("home_retry_s", home_retry_s);
-    v("at_charger_m", at_charger_m);
-    v("contact_s", contact_s);
-    v("battery_low", battery_low);
-    v("battery_soon", battery_soon);
-    v("battery_full", battery_full);
-    v("battery_gain", battery_gain);
-    v("mingles", mingles);
-    v("mingle_pause_s", mingle_pause_s);
-    v("drain_per_s", drain_per_s);
-    v("charge_per_s", charge_per_s);
-  }
-  [[nodiscard]] Result<void> validate() const;
-};
 
 /// All that must survive a restart of the mission.
 struct MissionMemory {
@@ -73,7 +34,6 @@ struct MissionSummary {
   std::string tour_id;
   std::string exhibit_id;
   bool is_blocked = false;     ///< people are in the way
-  bool is_charging = false;    ///< or on its way to the charger
   bool needs_charge = false;   ///< it must, before it goes on
   bool says_farewell = false;  ///< at the end of a tour
   int charging_min = 0;        ///< [min] until it is charged well enough, in steps of five
@@ -113,7 +73,9 @@ class Mission {
   [[nodiscard]] const TaskOrder& task() const { return task_; }
   [[nodiscard]] MissionSummary summary(Time now);
   [[nodiscard]] MissionMemory memory() const;
-  [[nodiscard]] TourScheduler& scheduler() { return scheduler_; }
+  [[nodiscard]] const TourScheduler& scheduler() const { return scheduler_; }
+  /// A request that was closed long ago, for somebody who asks for it again.
+  void show_again(BoardEntry entry) { scheduler_.board().show_again(std::move(entry)); }
   /// What is wrong with the planner; empty: nothing.
   [[nodiscard]] std::string planner_fault() const { return planner_->fault(); }
   /// What `memory` held is stored.
@@ -125,8 +87,18 @@ class Mission {
   /// Begins the scheduler's next visit from here; false: nothing to do now, or what comes next would take more charge
   /// than there is. @pre no visit is under way.
   [[nodiscard]] bool begin_visit(Time now);
+  /// Begins the visit of one of `choices()`; false: it is none. @pre no visit is under way.
+  [[nodiscard]] bool begin_visit_to(const std::string& exhibit_id, Time now);
+  /// Of which exhibits one may be visited next (TourScheduler::choices).
+  [[nodiscard]] std::vector<std::string> choices(Time now) { return scheduler_.choices(position(), now); }
+  /// The visit under way has ended (TourScheduler::finish_visit). @pre one is under way.
+  void finish_visit(bool is_success, const Reason& reason, Time now) {
+    scheduler_.finish_visit(is_success, reason, now);
+  }
   /// Gives the visit under way to the executive, once more after it was suspended.
   void order_visit(Time now);
+  /// Stops what is under way. A visit waits again, as if it had never begun.
+  void stop(Time now);
   /// Says farewell where a tour has ended. @pre situation().has_farewell
   void say_farewell();
   /// Ends the visit and the tour under way for want of charge, with a word to the visitors; their requests wait.
@@ -139,11 +111,11 @@ class Mission {
   void go_home(Time now);
   /// Attracts people for a minute, where it stands. @pre situation().may_mingle
   void mingle(Time now);
-  void relocalize(Time now);
+  void relocalize();
   /// It knows its place again.
   void end_relocalizing(Time now);
   /// Any action that the executive knows; whatever was under way is over.
-  void order_action(TaskOrder order);
+  void order_action(TaskOrder order, Time now);
   /// As it is now, for the order of an action: the visit's language, else the museum's own.
   [[nodiscard]] std::string language() const;
   [[nodiscard]] Point2 position() const;
@@ -156,10 +128,15 @@ class Mission {
   void learn(TaskStatus status, Time now);
   void start_task(Activity activity, TaskOrder order);
   /// The way home or to the charger is over.
-  void note_rest(TaskKind kind, bool is_done, const Reason& reason);
+  void note_rest(TaskKind kind, bool is_done, const Reason& reason, Time now);
+  /// Ends a visit that nobody wants any more, and the robot's way there.
+  void drop_unwanted_visit(Time now);
+  /// From now on its way to the visit under way is timed.
+  void set_out(Time now);
+  [[nodiscard]] bool is_blocked() const { return task_state_ == TaskStatus::driving && !task_reason_.is_none(); }
   [[nodiscard]] bool may_interrupt() const;
   [[nodiscard]] std::string visited_exhibit() const;  ///< empty: no visit is under way
-  [[nodiscard]] MissionPhase phase_of_action() const;
+  [[nodiscard]] MissionPhase phase(Time now) const;
   [[nodiscard]] bool is_lost(Time now) const;
   [[nodiscard]] bool charges() const { return must_charge_ || tops_up_; }
   [[nodiscard]] Pose2 resting_place() const;

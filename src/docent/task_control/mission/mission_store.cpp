@@ -176,6 +176,12 @@ struct MissionStore::Connection {
     insert.bind(2, value);
     insert.exec();
   }
+  /// How often the plan was lost, with this time.
+  [[nodiscard]] std::uint64_t count_loss() {
+    const std::uint64_t losses = std::strtoull(fact("losses").c_str(), nullptr, 10) + 1;
+    set_fact("losses", std::to_string(losses));
+    return losses;
+  }
   void put(const LessonRow& row);
   [[nodiscard]] std::vector<LessonRow> lessons();
   void put(const BoardEntry& entry) {
@@ -293,7 +299,8 @@ Result<MissionMemory> MissionStore::load() {
     } catch (const Json::exception&) {  // the requests are worth more than the step that was under way
       memory = {};
       memory.deployment = connection_->deployment;
-      memory.next_task = kTasksAfterALoss;  // ids that were given before must not come again
+      memory.next_task =
+          kTasksAfterALoss * connection_->count_loss();  // ids that were given before must not come again
     }
     connection_->saved_plan = plan;
     memory.lessons = connection_->lessons();

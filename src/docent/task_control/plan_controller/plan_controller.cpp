@@ -25,10 +25,10 @@ Round rest(Mission& mission, const Situation& seen, Time now) {
   return Round::is_over;
 }
 
-Round look_for_its_place(Mission& mission, const Situation& seen, Time now) {
+Round look_for_its_place(Mission& mission, const Situation& seen, Time /*now*/) {
   const bool stands_and_talks =  // first things first
       seen.activity == Activity::farewell || (seen.activity == Activity::visit && !seen.may_interrupt);
-  if (seen.is_lost && seen.activity != Activity::relocalize && !stands_and_talks) mission.relocalize(now);
+  if (seen.is_lost && seen.activity != Activity::relocalize && !stands_and_talks) mission.relocalize();
   return Round::is_over;
 }
 
