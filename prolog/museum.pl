@@ -13,7 +13,7 @@ place(E) :- exhibit(E).
 /*  What an integrator may change, by saying it in tour.pl. */
 low_charge(0.2).        % 0..1: the robot charges when it has served the present exhibit
 critical_charge(0.1).   % 0..1: it breaks off and goes
-retry_after(45).        % [s] until it tries a place again that it could not reach: who waits for the next one waits, too
+retry_after(45).        % [s] after which it tries again to reach a place; visitors whose exhibit comes after it wait meanwhile
 answer_within(5).       % [s] for "more" or "next"; the fast version follows [Rhino1999] 5.1
 speed(0.35).            % [m/s] expected on the way, for the times of `docent golog trace`
 talk(30).               % [s] expected of an explanation, likewise

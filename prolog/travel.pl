@@ -9,7 +9,7 @@
 :- meta_predicate schedule(:, +, -), order_length(:, +, -), exact_order(:, +, -), improved_order(:, +, -).
 
 most_proved(6).
-no_way(1.0e6).     % [m], as for the scheduler
+no_way(1.0e6).      % [m]; this and the next are those of the scheduler (route.cpp: kNoWay, kGain)
 least_gain(1.0e-9). % [m]
 
 %!  schedule(+From, +Exhibits, -Order) is det.

@@ -64,7 +64,7 @@ APART = {"modules": "modules/host", "apps": "apps"}
 TRUTH = re.compile(r"kTrueState|kTrueContact|kTrueOffer|kRunInfo|for_each_truth_topic|\"truth/")
 TRUTH_MAY = {"messages", "simulator", "evaluation", "recording", "apps", "transport"}
 CODE = {".h", ".cpp", ".inc"}
-# Who may publish a topic that must have one publisher (architecture 10.7); its name as topics.h has it.
+# The modules that may publish a topic that must have one publisher (architecture 10.7); its name as topics.h has it.
 ONE_PUBLISHER = {"docent/drive": "avoid_module.cpp"}
 
 

@@ -17,7 +17,7 @@ inline constexpr double kMatchRange = 0.5;
 /// A person counts as visible when at least so many beams of the sweep ended on them.
 inline constexpr int kVisibleBeams = 3;
 
-/// Who was found and which tracks are right: one to one, nearest pairs first.
+/// Which people were found and which tracks are right: one to one, nearest pairs first.
 struct PeopleMatch {
   std::vector<std::optional<std::size_t>> track_of;   ///< [people]
   std::vector<std::optional<std::size_t>> person_of;  ///< [tracks]

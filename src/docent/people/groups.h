@@ -11,10 +11,10 @@
 
 namespace docent::people {
 
-/// Who stands together.
+/// People who stand together.
 struct GroupParams {
-  double distance = 1.3;  ///< [m], > 0: who belongs together keeps so near
-  double speed = 0.4;     ///< [m/s], > 0: and goes as fast, in the same direction
+  double distance = 1.3;  ///< [m], > 0: people who belong together keep so near
+  double speed = 0.4;     ///< [m/s], > 0: and go as fast, in the same direction
   double seconds = 2.0;   ///< [s], > 0: for so long
   template <class V>
   void visit(V& v) {
@@ -25,7 +25,7 @@ struct GroupParams {
   [[nodiscard]] Result<void> validate() const;
 };
 
-/// Who stands or walks together.
+/// People who stand or walk together.
 class Groups {
  public:
   explicit Groups(const GroupParams& params) : params_{params} {}

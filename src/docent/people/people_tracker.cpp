@@ -84,13 +84,13 @@ void PeopleTracker::miss(PersonTrack& track, const Sightlines& sightlines) const
       wait = params_.patience;
       break;
     case Look::hidden:
-      // Who walks comes out on the other side soon, or has gone elsewhere.
+      // A person who walks comes out on the other side soon, or has gone elsewhere.
       wait = norm(track.person.velocity) > kStands ? 0.5 * params_.patience_hidden : params_.patience_hidden;
       break;
     case Look::unclear:
       break;
   }
-  // Who was not confirmed yet is forgotten sooner.
+  // A person who was not confirmed yet is forgotten sooner.
   if (!is_confirmed(track)) wait = std::min(wait, 0.3 * params_.patience_unclear);
   track.missed += seconds_ / wait;
 }

@@ -64,8 +64,8 @@ struct PersonTrack {
 };
 
 /// Follows people from sighting to sighting: a Kalman filter of constant velocity each, joined to the nearest sighting.
-/// Who is not seen is kept as long as the sweep allows: shortly where beams pass, longer behind others. In odometry's
-/// frame, so that it does not matter whether the robot knows its place.
+/// A person who is not seen is kept as long as the sweep allows: shortly where beams pass, longer behind others. In
+/// odometry's frame, so that it does not matter whether the robot knows its place.
 class PeopleTracker {
  public:
   explicit PeopleTracker(const PeopleTrackerParams& params) : params_{params} {}

@@ -73,7 +73,7 @@ void SimulatedMuseum::Impl::play(const Kidnap& event) {
     return;
   }
   body_.carry_to(*to);
-  // Who carries it asks for room.
+  // The people who carry it ask for room.
   for (std::size_t i = 0; i < crowd_.people().size(); ++i) {
     (void)crowd_.give_way(i, to->position(), body_.params().radius + crowd_.people()[i].radius + 0.4);
   }

@@ -92,7 +92,7 @@ class Bus {
       }
     });
   }
-  /// First after one period. Who is late skips, never catches up.
+  /// First after one period. Calls that are overdue are skipped, never made up for.
   virtual void every(Duration period, std::function<void()> action) = 0;
   virtual void after(Duration delay, std::function<void()> action) = 0;
   /// Runs `action` on the bus's thread. The one call that any thread may make.

@@ -4,10 +4,8 @@ import { sentencesOf } from '../lib/sentences';
 import { uuid7 } from '../lib/uuid';
 import { type Act, type Asked, litOf, openStates, type Page, pollQuestions, type Screen, screenOf } from './screens';
 
-/** What was opened here closes by itself after this time [s] without a press: the next visitors begin at home. */
+/** What was opened here, or a poll, closes by itself after this time [s] without a press: the next visitors begin at home. */
 const OPENED = 25;
-/** Nobody answers any more [s]. */
-const POLL = 25;
 const THANKS = 5;
 /** A tour that is over for longer [s] is asked about no more. */
 const FRESH = 120;
@@ -208,7 +206,7 @@ class Desk {
     if (this.pollSince.key !== key) this.pollSince = { key, at: this.seconds() };
     if (step === null) return;
     const since = this.seconds() - Math.max(this.pollSince.at, this.lastPress);
-    if (step >= pollQuestions.length ? since > THANKS : since > POLL) this.goTo(pollQuestions.length + 1);
+    if (step >= pollQuestions.length ? since > THANKS : since > OPENED) this.goTo(pollQuestions.length + 1);
   }
   private tellLamps(): void {
     const lit = litOf(this.screen);

@@ -103,7 +103,7 @@ class App {
   screenKey = '';
   readonly clock = new RobotClock();
   readonly motion = new Motion();
-  /** Whoever has asked once needs no hint. */
+  /** A visitor who has asked once needs no hint. */
   hasAsked = $state(store.read('asked', false));
   private socket: WebSocket | null = null;
   private tries = 0;

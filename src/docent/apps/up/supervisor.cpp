@@ -21,7 +21,7 @@ namespace {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(1);  // it died before the line above
-  // Who may not raise a priority keeps that of the others.
+  // A process that may not raise its priority keeps that of the others.
   if (niceness != 0) static_cast<void>(setpriority(PRIO_PROCESS, 0, niceness));
   const int nothing = open("/dev/null", O_RDONLY);
   dup2(nothing, STDIN_FILENO);

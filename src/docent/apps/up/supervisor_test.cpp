@@ -108,7 +108,7 @@ TEST(Supervisor, StopTakesAlsoTheStubbornTheStoppedAndTheirChildren) {
   for (const auto& status : supervisor.status()) EXPECT_EQ(status.pid, 0) << status.name;
   EXPECT_EQ(lines.count("stopped: bye"), 1) << "it was woken to end in order";
   std::this_thread::sleep_for(50ms);
-  // Whoever adopts orphans may not have collected it yet.
+  // The process that adopts orphans may not have collected it yet.
   std::ifstream state{"/proc/" + std::to_string(grandchild) + "/stat"};
   std::string number, name, letter;
   EXPECT_TRUE(!(state >> number >> name >> letter) || letter == "Z") << letter;

@@ -37,8 +37,8 @@ struct PersonPoint {
 class BrakingWay {
  public:
   BrakingWay(double speed, double curvature, const BaseLimits& limits, const PeopleCautionParams& params);
-  /// True when the robot meets them nowhere faster than harmless before it stands. Who stands beside the way thus slows
-  /// the robot less than who stands in it, who walks away less than who comes. O(speed).
+  /// True when the robot meets them nowhere faster than harmless before it stands. A person beside the way thus slows
+  /// the robot less than one in it, and one who walks away less than one who comes. O(speed).
   [[nodiscard]] bool is_forgivable(const PersonPoint& person) const;
 
  private:

@@ -52,7 +52,7 @@ TEST(BrakingWay, WhoComesSlowsMoreThanWhoGoes) {
   const double stands = speed_for({1.0, 0.0});
   EXPECT_LT(speed_for({1.0, 0.0}, {-0.6, 0.0}), stands - 0.1);
   EXPECT_GT(speed_for({1.0, 0.0}, {0.6, 0.0}), stands + 0.1);
-  // Who crosses is met where they will be.
+  // A person who crosses is met where they will be.
   EXPECT_LT(speed_for({0.8, 0.8}, {0.0, -1.0}), speed_for({0.8, 0.8}, {0.0, 1.0}));
 }
 

@@ -255,7 +255,7 @@ void ObstacleMemory::add_touch(Time stamp, Point2 in_base, const Pose2& odom_fro
   }
   const double memory = is_seen ? params_.seen_touch : is_somebody ? params_.memory : params_.touch_memory;
   const bool low = !is_seen && !is_somebody;
-  // Who goes on touching says the same again.
+  // A touch that lasts says the same again.
   std::erase_if(touches_, [&](const Touch& touch) {
     return stamp > touch.until ||
            (touch.point.low == low && distance(touch.point.in_odom, in_odom) < params_.same_touch);

@@ -14,8 +14,10 @@ struct ActionChoiceParams {
   /// >= 0 trials: after so many, half of its actions are still random; 0: `explore` from the start
   double learning = 60.0;
   double kinship = 0.3;  ///< 0..1, how far a trial tells of an action that differs in one of gaze, face and speech
-  double density_width = 0.7;  ///< [ln] > 0: how far it tells of other densities; half of what quiet and busy are apart
-  double doubt = 2.0;          ///< > 0 trials: few ones count little; so many with an average reward are added
+  /// > 0: width, in ln of density, over which a trial counts for other crowds; half the distance between quiet and busy
+  double density_width = 0.7;
+  /// [trials] > 0: this many imaginary trials with the average reward are added, so that a few real ones say little
+  double doubt = 2.0;
   template <class V>
   void visit(V& v) {
     v("explore", explore);

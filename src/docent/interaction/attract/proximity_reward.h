@@ -39,8 +39,8 @@ class PhaseReward {
  public:
   PhaseReward(const ProximityRewardParams& params, Time begin) : params_{params}, begin_{begin}, last_{begin} {}
 
-  /// Who is there now [m], robot frame; counts from the observation before, or from `gap_s` ago when that is later.
-  /// Times must not fall; an older one is ignored.
+  /// People who are there now [m], robot frame; they count from the observation before, or from `gap_s` ago when that
+  /// is later. Times must not fall; an older one is ignored.
   void observe(std::span<const Point2> people, Time now);
   /// Mean reward over the seconds in which people were looked for; nullopt: they were too few to tell.
   [[nodiscard]] std::optional<double> finish(Time now) const;

@@ -34,7 +34,6 @@ constexpr std::array<const char*, kSentences> kKeys{
     "next_exhibit",
     "farewell",
     "help",
-    "attract_greeting",
     "attract_invitation",
     "attract_question",
     "attract_complaint",

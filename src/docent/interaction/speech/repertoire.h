@@ -24,7 +24,7 @@ struct RepertoireLine {
 [[nodiscard]] std::vector<RepertoireLine> repertoire(const museum::Museum& museum);
 
 /// Lines that somebody recorded for the museum: FOLDER/content/audio/LANGUAGE/NAME.wav, .ogg or .flac, NAME as in its
-/// repertoire. Whoever is to say such a line plays the recording.
+/// repertoire. To say such a line is to play its recording.
 class Recordings {
  public:
   Recordings() = default;

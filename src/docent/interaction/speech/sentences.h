@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -37,7 +36,6 @@ enum class Sentence {
   farewell,        ///< when a tour is over
   help,            ///< what the robot is and how one asks it for something ([Rhino1999] 5.1 (1))
   // spoken to attract people, from friendly to upset ([Minerva2000] Fig. 15)
-  attract_greeting,
   attract_invitation,  ///< "Come over"
   attract_question,    ///< "Do you like robots?"
   attract_complaint,
@@ -50,11 +48,6 @@ inline constexpr int kSentences = static_cast<int>(Sentence::attract_demand) + 1
 /// Its key in the dictionaries, and its name in the names of recordings.
 [[nodiscard]] const char* to_text(Sentence which);
 [[nodiscard]] constexpr bool is_spoken(Sentence which) { return which >= Sentence::announcement; }
-
-/// The speech acts that may attract people, from friendly to upset.
-inline constexpr std::array kAttraction{Sentence::attract_greeting, Sentence::attract_invitation,
-                                        Sentence::attract_question, Sentence::attract_complaint,
-                                        Sentence::attract_demand};
 
 /// What the robot says to attract people so; nullopt: nothing.
 [[nodiscard]] std::optional<Sentence> sentence_of(SpeechAct act);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <set>
 
 #include "docent/interaction/speech/dictionary.h"
@@ -58,9 +59,18 @@ TEST(Sentences, AMoodWithoutWordsTakesThoseOfAnother) {
   EXPECT_EQ(sentence(Sentence::must_charge, "en", Mood::happy, 0), sentence(Sentence::must_charge, "en", Mood::sad, 0));
 }
 
-TEST(Sentences, AttractionGoesFromFriendlyToUpset) {
-  EXPECT_EQ(count_variants(kAttraction.front(), "en", Mood::happy), 3);
-  for (const Sentence act : kAttraction) EXPECT_TRUE(is_spoken(act)) << to_text(act);
+TEST(Sentences, EachSpeechActButSilenceHasASentenceOfItsOwn) {
+  std::set<Sentence> said;
+  for (const SpeechAct act : {SpeechAct::invite, SpeechAct::ask, SpeechAct::demand, SpeechAct::complain}) {
+    const auto which = sentence_of(act);
+    ASSERT_TRUE(which) << to_text(act);
+    EXPECT_TRUE(is_spoken(*which)) << to_text(act);
+    EXPECT_TRUE(said.insert(*which).second) << to_text(act);
+  }
+  EXPECT_FALSE(sentence_of(SpeechAct::silence));
+}
+
+TEST(Sentences, ThoseOfThePageAreNotSpokenAndEachHasItsKey) {
   EXPECT_FALSE(is_spoken(Sentence::charging));
   EXPECT_STREQ(to_text(Sentence::attract_demand), "attract_demand");
   EXPECT_STREQ(to_text(Sentence::let_me_through), "let_me_through");

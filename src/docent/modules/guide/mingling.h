@@ -28,7 +28,6 @@ class Mingling {
   [[nodiscard]] bool has_company() const;
   /// A phase begins, in this style.
   [[nodiscard]] interaction::AttractionAction begin();
-  [[nodiscard]] bool is_under_way() const { return attraction_.is_under_way(); }
   /// Twice a second.
   void observe();
   /// The phase is over, or a visitor has ended it by a wish. nullopt: it taught nothing.

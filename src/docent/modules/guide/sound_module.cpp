@@ -239,7 +239,8 @@ class SoundModule final : public Module {
                     speech.audio});
   }
 
-  /// Who orders a line again has not heard that it is over. The latched state stays that of the newest line.
+  /// A line is ordered again by a module that has not heard that it is over. The latched state stays that of the newest
+  /// line.
   void publish_finished(const interaction::Say& say) {
     if (say.id == speaker_.present().id) {
       publish();

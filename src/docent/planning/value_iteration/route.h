@@ -87,7 +87,7 @@ class RoutePlanner {
 
   /// Decides which way to follow from `start`: the one held, as long as it leads on from here and no other is better by
   /// `switch_gain`. So two ways that cost the same do not take turns when noise favours now the one and now the other.
-  /// Who stands on it is passed within `aside` of it, where there is room and that is hardly longer; what closes it, or
+  /// A person on it is passed within `aside` of it, where there is room and that is hardly longer; what closes it, or
   /// what cannot be passed there, makes it as dear as it is.
   void hold_way(Point2 start);
 

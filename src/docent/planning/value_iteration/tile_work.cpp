@@ -245,7 +245,7 @@ bool ValueIteration::reset_tile(std::size_t tile) {
   return any;
 }
 
-/// Who leaned on a border that has lost values must be looked at.
+/// What leaned on a border that has lost values must be looked at.
 void ValueIteration::pass_on_losses(std::size_t tile, const std::array<Edge, 4>& before) {
   const Edges& own = edges_[tile];
   alignas(64) Edge old_line;

@@ -69,7 +69,7 @@ void ValueIteration::queue_loss(std::size_t tile, float from, std::uint64_t rows
   tiles_[tile].lost_from = from;
   losses_.emplace(from, static_cast<std::uint32_t>(tile));
 }
-// Whoever takes a tile from a queue clears what is out of date behind it, so that the top is always true.
+// What takes a tile from a queue clears what is out of date behind it, so that the top is always true.
 void ValueIteration::settle_next() {
   const std::size_t tile = falls_.top().second;
   tiles_[tile].falls_from = kClosed;

@@ -41,7 +41,7 @@ void ContactLog::watch(Time now, const Body& body, const std::vector<PersonSampl
     const auto known = approaches_.find(person.id);
     const bool is_new = known == approaches_.end();
     if (std::abs(body.linear()) < 0.02 && is_new) continue;
-    // Whoever was seen inside stays watched while they are there, also when the braking shortens that distance.
+    // A person who was seen inside stays watched while they are there, also when the braking shortens that distance.
     const bool inside = is_inside_stopping_distance(person, body);
     if (is_new) {
       if (inside && person.in_sight) approaches_[person.id] = {now, now, body.is_braking_fully()};
@@ -78,7 +78,7 @@ void ContactLog::touch(Time now, const Body& body, const Touching& touching) {
   pending.due = now;
   if (touching.person) {
     const auto approach = approaches_.find(*touching.person);
-    // Who was never seen inside the stopping distance before the touch is first seen there now.
+    // A person never seen inside the stopping distance before the touch is first seen there now.
     if (approach == approaches_.end()) approaches_[*touching.person] = {now, now, body.is_braking_fully()};
     pending.due = std::max(now, approaches_[*touching.person].first + seconds(kReaction));
   }

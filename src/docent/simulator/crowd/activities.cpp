@@ -13,7 +13,7 @@ Point2 along(Point2 from, Point2 to, double speed) {
   const Point2 way = to - from;
   const double length = norm(way);
   if (length < 0.08) return {};
-  // Who arrives slows down.
+  // A person who arrives slows down.
   return (std::min(speed, std::sqrt(2.0 * length)) / length) * way;
 }
 
@@ -199,7 +199,7 @@ Point2 Crowd::standing_in_the_way(Person& person, const Sight& sight, double now
   }
   const double robot_speed = norm(robot_.velocity);
   if (person.activity == Activity::block && person.has_arrived && robot_speed > 0.1 && sight.in_sight) {
-    // Who means it changes place with the robot: before it again, where it goes now.
+    // A person who means it changes place with the robot: before it again, where it goes now.
     const bool is_passed = dot(robot_ahead(1.0) - robot_.position, sight.offset) > -0.5 * sight.away;
     const Point2 place = robot_ahead(1.5 + robot_speed);
     if (is_passed && floor_.clearance(place) > 0.3 && floor_.is_clear(person.position, place, 0.2)) {

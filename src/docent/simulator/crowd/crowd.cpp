@@ -114,7 +114,7 @@ void Crowd::enter(Person& person) {
 
 void Crowd::let_recorded_in(double now, const RobotView& robot) {
   replay_.begin(now, waiting_);
-  // Who would appear right before the robot comes in a little later on their way, or not at all.
+  // A person who would appear right before the robot comes in a little later on their way, or not at all.
   std::erase_if(waiting_, [&](const Walk& walk) {
     if (replay_.is_over(walk, now)) return true;
     const Point2 place = replay_.at(walk, now);
@@ -265,7 +265,7 @@ void Crowd::step(double now, double dt, const RobotView& robot) {
     }
   }
 
-  // Who has left makes room for someone else; who was put there by a scenario just goes.
+  // A person who has left makes room for another; one who was put there by a scenario just goes.
   const auto has_left = [](const Person& person) { return person.activity == Activity::leave && person.has_arrived; };
   const auto gone = std::erase_if(people_, [&](const Person& person) { return person.is_extra && has_left(person); });
   for (Person& person : people_) {

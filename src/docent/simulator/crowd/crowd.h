@@ -116,7 +116,7 @@ class Crowd {
   [[nodiscard]] std::size_t count_of(Activity activity) const;
   void draw_people_near(double now);
   void move(std::size_t index, double dt, const RobotView& robot);
-  /// Who does not walk into the robot comes no nearer to it than a hand's breadth.
+  /// A person who does not walk into the robot comes no nearer to it than a hand's breadth.
   void keep_off(Person& person, Point2& next, const RobotView& robot) const;
   void follow_track(Person& person, double now, double dt) const;
   [[nodiscard]] bool ignores_robot(const Person& person) const {

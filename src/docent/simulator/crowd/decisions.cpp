@@ -105,7 +105,7 @@ void Crowd::decide(std::size_t index, double now) {
       choose_velocity(person, desired, std::span{neighbours}.first(count), floor_, now - person.progress_at);
 }
 
-/// Whoever gets nowhere for a while wants something else, and first goes anywhere. @returns whether this is so now
+/// A person who gets nowhere for a while wants something else, and first goes anywhere. @returns whether this is so now
 bool Crowd::gets_nowhere(Person& person, Point2 desired, double now) {
   if (norm(desired) < 0.3 || distance(person.position, person.progress_from) > 0.4) {
     person.progress_from = person.position;

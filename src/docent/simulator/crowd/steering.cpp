@@ -61,8 +61,8 @@ class Scales {
     if (speed_ < 0.05) {
       cost = 0.15 * norm(velocity - person_.velocity) + speed;
     } else {
-      // A step aside costs less than waiting: else two who meet head on would stand for ever. Who has waited for some
-      // seconds goes back a little, too, to get round what they stand against.
+      // A step aside costs less than waiting: else two who meet head on would stand for ever. One who has waited
+      // for some seconds goes back a little, too, to get round what they stand against.
       const double forward = dot(velocity, desired_) / speed_;
       const double sideways = std::abs(cross(velocity, desired_)) / speed_;
       const double off = (speed_ - forward) + 0.35 * sideways;
@@ -136,7 +136,7 @@ Point2 choose_velocity(const Person& person, Point2 desired, std::span<const Nei
                        const WalkableFloor& floor, double waited) {
   const double wanted_speed = norm(desired);
   if (wanted_speed < 0.05) {
-    // Who stands moves only when something comes at them.
+    // A person who stands moves only when something comes at them.
     const bool is_threatened = std::any_of(neighbours.begin(), neighbours.end(), [](const Neighbour& neighbour) {
       const auto time = time_to_touch(neighbour.offset, Point2{} - neighbour.velocity, neighbour.reach);
       return time && *time < 2.0;

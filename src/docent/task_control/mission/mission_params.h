@@ -1,7 +1,7 @@
 #pragma once
 
 #include "docent/base/result.h"
-#include "docent/task_control/tour_scheduler/tour_scheduler.h"
+#include "docent/task_control/tour_scheduler/scheduler_params.h"
 
 namespace docent::task_control {
 
@@ -15,8 +15,8 @@ struct MissionParams {
   double at_charger_m = 0.3;       ///< [m] > 0: so near, it is at a charger whose battery does not say that it charges
   double contact_s = 10.0;    ///< [s] >= 0 after it has docked, before a charger that does not charge is tried again
   double battery_low = 0.15;  ///< 0..1: still left on arrival at its charger
-  double reserve_of_begun =
-      0.5;  ///< 0..1 of battery_low must be left of what has begun: rather finished than given twice
+  /// 0..1 of battery_low must be left for what has begun: a tour is rather finished than given twice.
+  double reserve_of_begun = 0.5;
   /// 0..1: with less it charges between two tours, before it must, though somebody waits. Below what it charges to.
   double battery_soon = 0.25;
   double battery_full = 0.95;  ///< 0..1, > battery_low: charged; the last part takes real batteries long

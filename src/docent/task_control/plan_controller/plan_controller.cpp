@@ -11,7 +11,6 @@ enum class Round { goes_on, is_over };
 
 /// One routine: does it apply, and what does it do?
 struct Routine {
-  const char* name;
   bool (*applies)(const Situation& seen);
   Round (*act)(Mission& mission, const Situation& seen, Time now);
 };
@@ -60,39 +59,46 @@ Round charge_first(Mission& mission, const Situation& /*seen*/, Time now) {
 }
 
 constexpr std::array kRoutines{
-    Routine{"lost", [](const Situation& seen) { return !seen.is_localized; }, look_for_its_place},
-    Routine{"found",
-            [](const Situation& seen) { return seen.activity == Activity::relocalize || !seen.was_ever_localized; },
+    // lost
+    Routine{[](const Situation& seen) { return !seen.is_localized; }, look_for_its_place},
+    // found
+    Routine{[](const Situation& seen) { return seen.activity == Activity::relocalize || !seen.was_ever_localized; },
             resume},
-    Routine{"farewell under way", [](const Situation& seen) { return seen.activity == Activity::farewell; },
+    // farewell under way
+    Routine{[](const Situation& seen) { return seen.activity == Activity::farewell; },
             [](Mission&, const Situation&, Time) { return Round::is_over; }},
-    Routine{"battery low",
-            [](const Situation& seen) {
+    // battery low
+    Routine{[](const Situation& seen) {
               const bool may_end = seen.activity != Activity::visit || seen.may_interrupt;
               return seen.must_charge && (seen.has_visit || seen.has_tour) && may_end;
             },
             break_off},
-    Routine{"visit under way", [](const Situation& seen) { return seen.activity == Activity::visit; },
+    // visit under way
+    Routine{[](const Situation& seen) { return seen.activity == Activity::visit; },
             [](Mission&, const Situation&, Time) { return Round::is_over; }},
-    Routine{"battery low soon",
-            [](const Situation& seen) {
+    // battery low soon
+    Routine{[](const Situation& seen) {
               return seen.is_low_soon && !seen.must_charge && seen.has_charger && !seen.has_tour && !seen.has_farewell;
             },
             charge_between_tours},
-    Routine{"next visit", [](const Situation& seen) { return seen.may_serve; }, next_visit},
-    Routine{"farewell", [](const Situation& seen) { return seen.has_farewell; },
+    // next visit
+    Routine{[](const Situation& seen) { return seen.may_serve; }, next_visit},
+    // farewell
+    Routine{[](const Situation& seen) { return seen.has_farewell; },
             [](Mission& mission, const Situation&, Time) {
               mission.say_farewell();
               return Round::is_over;
             }},
-    Routine{"charge first", [](const Situation& seen) { return !seen.must_charge && seen.is_anything_due; },
-            charge_first},
-    Routine{"mingle", [](const Situation& seen) { return seen.may_mingle && !seen.charges; },
+    // charge first
+    Routine{[](const Situation& seen) { return !seen.must_charge && seen.is_anything_due; }, charge_first},
+    // mingle
+    Routine{[](const Situation& seen) { return seen.may_mingle && !seen.charges; },
             [](Mission& mission, const Situation&, Time now) {
               mission.mingle(now);
               return Round::is_over;
             }},
-    Routine{"rest", [](const Situation&) { return true; }, rest},
+    // rest
+    Routine{[](const Situation&) { return true; }, rest},
 };
 
 }  // namespace

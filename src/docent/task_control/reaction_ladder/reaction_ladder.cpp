@@ -1,12 +1,6 @@
 #include "docent/task_control/reaction_ladder/reaction_ladder.h"
 
 namespace docent::task_control {
-namespace {
-
-constexpr double kFlicker = 0.6;   // [s] out of sight is no way out
-constexpr double kProgress = 1.5;  // [s] since the last progress is still driving
-
-}  // namespace
 
 Result<void> LadderParams::validate() const {
   if (!(horn_after_s >= 0.0)) return fail("ladder.horn_after_s must be >= 0");
@@ -18,6 +12,8 @@ Result<void> LadderParams::validate() const {
   if (!(unreachable_patience_s > 0.0)) return fail("ladder.unreachable_patience_s must be > 0");
   if (!(thing_patience_s > 0.0)) return fail("ladder.thing_patience_s must be > 0");
   if (!(calm_s > 0.0)) return fail("ladder.calm_s must be > 0");
+  if (!(flicker_s >= 0.0)) return fail("ladder.flicker_s must be >= 0");
+  if (!(driving_s > 0.0)) return fail("ladder.driving_s must be > 0");
   return {};
 }
 
@@ -47,7 +43,7 @@ void ReactionLadder::look(const LadderView& view, Time now) {
   if (view.is_hindered && view.is_unmapped) {
     episode.unmapped_seen = now;
     if (!episode.unmapped_since) episode.unmapped_since = now;
-  } else if (!episode.unmapped_seen || now - *episode.unmapped_seen > seconds(kFlicker)) {
+  } else if (!episode.unmapped_seen || now - *episode.unmapped_seen > seconds(params_.flicker_s)) {
     episode.unmapped_since.reset();
   }
   if (!view.is_unreachable) {
@@ -56,7 +52,7 @@ void ReactionLadder::look(const LadderView& view, Time now) {
     episode.unreachable_since = now;
   }
   const bool is_calm =
-      !view.is_hindered && !view.is_unreachable && !view.is_in_vain && view.without_progress_s < kProgress;
+      !view.is_hindered && !view.is_unreachable && !view.is_in_vain && view.without_progress_s < params_.driving_s;
   if (!is_calm) {
     episode.calm_since.reset();
   } else if (!episode.calm_since) {

@@ -25,6 +25,8 @@ struct LadderParams {
   double unreachable_patience_s = 20.0;  ///< [s] > 0: people may close the only way for a moment
   double thing_patience_s = 20.0;        ///< [s] > 0 without progress before a thing: it does not step aside
   double calm_s = 3.0;                   ///< [s] > 0 of progress until the way counts as free
+  double flicker_s = 0.6;                ///< [s] >= 0: somebody who is out of sight for less is still in the way
+  double driving_s = 1.5;                ///< [s] > 0: the robot still drives while its last progress is less old
   template <class V>
   void visit(V& v) {
     v("horn_after_s", horn_after_s);
@@ -36,6 +38,8 @@ struct LadderParams {
     v("unreachable_patience_s", unreachable_patience_s);
     v("thing_patience_s", thing_patience_s);
     v("calm_s", calm_s);
+    v("flicker_s", flicker_s);
+    v("driving_s", driving_s);
   }
   [[nodiscard]] Result<void> validate() const;
 };

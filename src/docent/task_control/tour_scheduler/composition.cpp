@@ -8,6 +8,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "docent/task_control/tour_scheduler/stop_lists.h"
+
 namespace docent::task_control {
 namespace {
 
@@ -104,10 +106,6 @@ class Search {
   }
 
  private:
-  [[nodiscard]] static bool holds(const std::vector<std::string>& list, const std::string& id) {
-    return std::find(list.begin(), list.end(), id) != list.end();
-  }
-
   /// The exhibits that a tour may show, the nearest ones if there are more than a set can hold.
   void gather(const Programme& programme, const TourSoFar& tour, const TravelDistance& travel) {
     std::vector<std::pair<double, const ProgrammeExhibit*>> near;
@@ -269,26 +267,6 @@ Result<void> CompositionParams::validate() const {
     if (!(value >= 0.0)) return fail("mission.composition." + std::string{name} + " must be >= 0");
   }
   return {};
-}
-
-Result<void> SchedulerParams::validate() const {
-  if (max_stops < 1) return fail("mission.max_stops must be >= 1");
-  if (max_open < 1) return fail("mission.max_open must be >= 1");
-  if (!(overdue_s > 0.0)) return fail("mission.overdue_s must be > 0");
-  if (!(overdue_per_stop_s >= 0.0)) return fail("mission.overdue_per_stop_s must be >= 0");
-  if (!(hurry_after_s > 0.0)) return fail("mission.hurry_after_s must be > 0");
-  if (max_attempts < 1) return fail("mission.max_attempts must be >= 1");
-  if (!(retry_delay_s >= 0.0)) return fail("mission.retry_delay_s must be >= 0");
-  if (!(retry_most_s >= retry_delay_s)) return fail("mission.retry_most_s must be >= retry_delay_s");
-  if (max_stop_attempts < 1) return fail("mission.max_stop_attempts must be >= 1");
-  if (!(max_detour_m >= 0.0)) return fail("mission.max_detour_m must be >= 0");
-  if (max_skipped < 0) return fail("mission.max_skipped must be >= 0");
-  if (auto valid = travel_times.validate(); !valid) return valid;
-  return composition.validate();
-}
-
-double SchedulerParams::retry_after(int attempts) const {
-  return std::min(retry_most_s, std::ldexp(retry_delay_s, attempts - 1));
 }
 
 TourPlan plan_tour(const Programme& programme, const TourSoFar& tour, const TravelDistance& travel,

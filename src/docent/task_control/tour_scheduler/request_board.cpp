@@ -86,7 +86,7 @@ std::size_t RequestBoard::stops_with(const VisitorRequest& request) const {
     const VisitorRequest& other = entry.request;
     if (is_open(entry.status)) stops.emplace(other.kind, other.target, other.viewpoint);
   }
-  // Whoever does not mind the viewpoint takes part in a stop that is made anyway; in this order it comes before them.
+  // A request that minds no viewpoint is met at a stop that is made anyway; in this order it comes before these stops.
   std::size_t count = 0;
   for (auto stop = stops.begin(); stop != stops.end(); ++stop) {
     const auto next = std::next(stop);

@@ -9,8 +9,9 @@ namespace docent::task_control {
 namespace {
 
 // What cannot be reached is dear but comparable, so that the others still come in a good order.
-constexpr double kNoWay = 1e6;
-constexpr double kGain = 1e-9;
+// prolog/travel.pl orders by the same two: no_way, least_gain.
+constexpr double kNoWay = 1e6;  // [m]
+constexpr double kGain = 1e-9;  // [m] a route that is shorter by less is as long
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// All places of all stops in one row, those of a stop beside each other.

@@ -11,7 +11,7 @@ namespace docent::task_control {
 struct TaskOrder {
   std::string id;  ///< empty: nothing to do
   Word<TaskKind> kind;
-  std::string exhibit_id;  ///< for charge: the visit that is broken off for it
+  std::string exhibit_id;  ///< what it is about; for charge: of the visit that is broken off for it
   Pose2 map_from_base;     ///< where to stand
   std::string language;
   bool offer_more = true;

@@ -6,20 +6,10 @@
 
 #include "docent/base/check.h"
 #include "docent/task_control/tour_scheduler/route.h"
+#include "docent/task_control/tour_scheduler/stop_lists.h"
 
 namespace docent::task_control {
 namespace {
-
-template <class T>
-bool holds(const std::vector<T>& list, const T& value) {
-  return std::find(list.begin(), list.end(), value) != list.end();
-}
-
-std::string joined(const std::vector<TourStop>& stops) {
-  std::string text;
-  for (const TourStop& stop : stops) text += (text.empty() ? "" : " ") + stop.exhibit_id;
-  return text;
-}
 
 bool has_viewpoint(const ProgrammeExhibit& exhibit, int viewpoint) {
   return viewpoint < static_cast<int>(exhibit.viewpoints.size());
@@ -251,7 +241,8 @@ void TourScheduler::cancel(const VisitorRequest& request, Time now) {
 
 void TourScheduler::cancel_tour_without_members() {
   if (!state_.tour->members.empty()) return;
-  happenings_.push_back({EventKind::tour_cancelled, state_.tour->tour_id, joined(state_.tour->stops)});
+  happenings_.push_back(
+      {EventKind::tour_cancelled, state_.tour->tour_id, joined(state_.tour->stops, &TourStop::exhibit_id)});
   state_.tour.reset();
   if (state_.visit) state_.visit->tour_id.clear();
 }

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "docent/base/result.h"
-#include "docent/task_control/tour_scheduler/composition.h"
 #include "docent/task_control/tour_scheduler/programme.h"
 #include "docent/task_control/tour_scheduler/request_board.h"
+#include "docent/task_control/tour_scheduler/scheduler_params.h"
 
 namespace docent::task_control {
 
@@ -40,7 +40,7 @@ struct TourStop {
   int number = 0;  ///< from 0, in the order in which stops were added to a tour with a fixed order
 };
 
-/// Who takes part in a tour, and in which of its stops.
+/// A request that takes part in a tour, and in which of its stops it does.
 struct TourMember {
   std::string request_id;
   std::vector<int> stops;  ///< their numbers; empty: all there are (composed tours)
@@ -84,10 +84,10 @@ struct SchedulerState {
 /// Which exhibit comes next, and what becomes of each request (architecture 10.8; [Rhino1999] 4.3).
 ///
 /// Requests for one exhibit are merged into one visit as far as their viewpoints allow, requests for one tour into one
-/// run; each keeps a state and a reason of its own. Who wishes for the tour under way joins it where it is, and what
-/// they missed is shown at its end; once its first round is over, or if it is composed, they get a run of their own.
-/// Without a tour, single exhibits are visited in the order of the least travel, anew after every visit, but who is
-/// overdue comes first (the least travel among these), and the oldest open request decides whether a tour begins; so
+/// run; each keeps a state and a reason of its own. A wish for the tour under way joins it where it is, and what its
+/// visitors missed is shown at the end; once its first round is over, or if it is composed, they get a run of their
+/// own. Without a tour, single exhibits are visited in the order of the least travel, anew after every visit, but who
+/// is overdue comes first (the least travel among these), and the oldest open request decides whether a tour begins; so
 /// does a visit that a waiting tour would make as well: then one visit serves both. A tour keeps its order; between two
 /// of its stops at most one single exhibit is put in: an overdue one, or one with a small detour. A composed tour
 /// chooses each exhibit when the one before was explained, by travel times that were learned, so that it ends in time

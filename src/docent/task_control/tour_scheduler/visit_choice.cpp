@@ -6,27 +6,11 @@
 
 #include "docent/base/check.h"
 #include "docent/task_control/tour_scheduler/route.h"
+#include "docent/task_control/tour_scheduler/stop_lists.h"
 #include "docent/task_control/tour_scheduler/tour_scheduler.h"
 
 namespace docent::task_control {
 namespace {
-
-template <class T>
-bool holds(const std::vector<T>& list, const T& value) {
-  return std::find(list.begin(), list.end(), value) != list.end();
-}
-
-std::string joined(const std::vector<TourStop>& stops) {
-  std::string text;
-  for (const TourStop& stop : stops) text += (text.empty() ? "" : " ") + stop.exhibit_id;
-  return text;
-}
-
-std::string joined(const std::vector<WishedStop>& stops) {
-  std::string text;
-  for (const WishedStop& stop : stops) text += (text.empty() ? "" : " ") + place_name(stop);
-  return text;
-}
 
 /// The stops that a member of a tour with a fixed order takes part in from its beginning.
 std::vector<int> numbers_of(const TourRun& tour) {
@@ -97,7 +81,7 @@ std::vector<WishedStop> TourScheduler::single_order(Point2 robot, Time now) cons
     if (entry.status != RequestStatus::queued || request.kind != RequestKind::exhibit || entry.not_before > now)
       continue;
     if (programme_.find_exhibit(request.target) == nullptr) continue;
-    // Who does not mind the viewpoint takes part in the first stop that is made there.
+    // A request that minds no viewpoint takes part in the first stop that is made there.
     const WishedStop stop =
         request.viewpoint < 0 ? stop_at(request.target, now) : WishedStop{request.target, request.viewpoint};
     if (holds(overdue, stop)) continue;
@@ -176,7 +160,7 @@ const std::optional<Visit>& TourScheduler::begin_visit(Point2 robot, Time now, d
     }
     const ProgrammeExhibit& exhibit = *programme_.find_exhibit(next.exhibit_id);
     if (exceeds(stop_duration_of(exhibit, programme_.languages.front(), robot, place_of(next), now), budget_s)) break;
-    happenings_.push_back({EventKind::order_chosen, next.exhibit_id, joined(order)});
+    happenings_.push_back({EventKind::order_chosen, next.exhibit_id, joined(order, place_name)});
     begin_visit_of(next, false, now);
   }
   return state_.visit;
@@ -379,7 +363,7 @@ bool TourScheduler::begin_tour(const std::string& tour_id, Point2 robot, Time no
     state_.board.change(id, RequestStatus::active, ReasonWord::tour_begun, now);
     happenings_.push_back({EventKind::request_active, id, tour_id});
   }
-  happenings_.push_back({EventKind::tour_started, tour_id, joined(run.stops), run.target_s});
+  happenings_.push_back({EventKind::tour_started, tour_id, joined(run.stops, &TourStop::exhibit_id), run.target_s});
   state_.tour = std::move(run);
   return true;
 }

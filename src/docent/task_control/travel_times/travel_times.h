@@ -21,17 +21,17 @@ struct TravelTimeParams {
   double speed = 0.35;        ///< [m/s] > 0 on the way, people included: until ways were seen
   double start_s = 3.0;       ///< [s] >= 0 to set out and to turn to the exhibit: likewise
   double spread = 0.35;       ///< > 0 deviation of a way's time over its mean: likewise
-  double prior_ways = 10.0;   ///< > 0: the three above count as much as so many ways that were seen
-  double prior_examples = 3;  ///< > 0: for one pair of places the length of its way counts as much as so many examples
-  double prior_hours = 20;    ///< > 0: an hour of the day is like all others as if so many ways had said so
+  double prior_ways = 10.0;   ///< [ways] > 0: weight of the three above against ways that were seen
+  double prior_examples = 3;  ///< [ways] > 0: weight of what the length says against ways of the same pair of places
+  double prior_hours = 20;    ///< [ways] > 0: weight of the assumption that this hour is as fast as all others
   double crowd_s = 1200;      ///< [s] > 0: how long a way tells of the crowd; busy and quiet change within the hour
-  double prior_crowd = 3;     ///< > 0: the crowd is as usual as if so many ways had said so
+  double prior_crowd = 3;     ///< [ways] > 0: weight of the assumption that the crowd is as usual
   double most_ratio = 3.0;  ///< > 1: a way that took longer than so many times its mean counts as that: it was blocked
   double speech_s = 1.0;    ///< [s] >= 0 that a visit takes beyond its spoken words, when nothing is asked
   double question_s = 5.0;  ///< [s] >= 0 likewise, with the question and nobody who wants more
   double answer_s = 3.5;    ///< [s] >= 0 likewise, with the question and somebody who wants more
   double more_share = 0.2;  ///< 0..1 of the questions are answered with "more"
-  double prior_visits = 5.0;  ///< > 0: the four above count as much as so many visits
+  double prior_visits = 5.0;  ///< [visits] > 0: weight of the four above against visits that were seen
   template <class V>
   void visit(V& v) {
     v("learns", learns);

@@ -8,9 +8,9 @@
 
 namespace docent::localization {
 
-/// Whether a ring of sonars may be believed. Who hears the same again and again though the robot moves has died with
-/// its last reading on the line; who hears nothing of what the belief lets expect is deaf. Too short readings tell
-/// nothing: they may be people as well as a sensor's fault, and a filter takes out both.
+/// Whether a ring of sonars may be believed. One that hears the same again and again though the robot moves has died
+/// with its last reading on the line; one that hears nothing of what the belief lets expect is deaf. Too short readings
+/// tell nothing: they may be people as well as a sensor's fault, and a filter takes out both.
 class SonarTrust {
  public:
   enum class State { well, frozen, at_odds };
