@@ -58,10 +58,11 @@ class Crippled(unittest.TestCase):
 class Exceptions(unittest.TestCase):
     """Events as in `--event-log`; the report of a run in which nothing bad happened."""
 
-    def run_of(self, rows, wishes=(), **other):
+    def run_of(self, rows, wishes=(), kills=0, **other):
         events = [dict(zip(("time", "source", "kind", "subject", "detail"), row), value="5", x="7.0", y="1.5") for row in rows]
         quiet = {**report(), "battery": {"depleted": 0, "charges": 1}, "explained_in_wrong_place": 0, **other}
-        return exceptions.Run(quiet, events, [], list(wishes))
+        scenario = "".join(f"request: {{kind: {kind}, target: {target}}}\n" for kind, target in wishes) + kills * "kill: {module: mission}\n"
+        return exceptions.Run(quiet, events, [], scenario)
 
     def test_each_request_ends_once_and_as_it_should(self):
         queued = (1, "event", "request_queued", "a", "zuse")
@@ -80,7 +81,43 @@ class Exceptions(unittest.TestCase):
         tour = (1, "event", "tour_started", "highlights", "zuse transrapid")
         for rows, wishes, good in (([explained], [("exhibit", "zuse")], True), ([explained, explained], [("exhibit", "zuse")], False),
                                    ([tour, explained, explained], [("exhibit", "zuse")], True), ([tour, explained, explained], [], False)):
-            self.assertEqual(not exceptions.twice(self.run_of(rows, wishes)), good)
+            wishes = [*wishes, ("tour", "highlights")]
+            self.assertEqual(not exceptions.twice(self.run_of(rows, wishes), 0), good)
+
+    def test_a_tour_begins_anew_only_where_the_scenario_breaks_it_off(self):
+        began, broken = (1, "event", "tour_started", "t", "zuse"), (50, "event", "tour_broken_off", "t", "battery_low")
+        for rows, breaks_off, good in (([began], 0, True), ([began, began], 0, False), ([began, broken, began], 0, False),
+                                       ([began, broken, began], 1, True), ([began, began], 1, False),
+                                       ([began, broken, began, broken, began], 1, False)):
+            self.assertEqual(not exceptions.twice(self.run_of(rows, [("tour", "t")]), breaks_off), good, (rows, breaks_off))
+        self.assertTrue(exceptions.twice(self.run_of([began]), 0), "nobody wished for it")
+
+    def test_a_tour_has_one_farewell(self):
+        began, ended = (1, "event", "tour_started", "t", "zuse"), (60, "event", "tour_completed", "t", "")
+        one, other = ((at, "say", "happy", f"d-{at}/farewell", "Goodbye!") for at in (61, 90))
+        for said, good in (([one], True), ([one, other], False)):
+            self.assertEqual(not exceptions.twice(self.run_of([began, ended, *said], [("tour", "t")]), 0), good)
+
+    def test_what_came_before_its_cause_did_not_come_of_it(self):
+        self.assertEqual(exceptions.since(70.0, 60.0), 10.0)
+        self.assertIsNone(exceptions.since(50.0, 60.0))
+
+    def test_a_way_that_was_never_closed_shows_nothing(self):
+        def faults(at, meanwhile):
+            rows = [(1, "event", "request_queued", "a", "lithotripter"), (90, "event", "explained", meanwhile, ""),
+                    (at, "event", "explained", "lithotripter", ""), (at + 9, "event", "request_fulfilled", "a", "")]
+            found = exceptions.faults_of("way-closed", self.run_of(rows, [("exhibit", "lithotripter"), ("exhibit", "zuse")]))
+            return [fault for fault in found if "meanwhile" in fault or "was free" in fault]
+
+        self.assertEqual(faults(700, "zuse"), [])
+        self.assertEqual(len(faults(700, "lithotripter")), 1, "nothing else was explained")
+        self.assertEqual(len(faults(200, "zuse")), 1, "the robot got there while the ways were closed")
+
+    def test_a_report_that_does_not_say_where_it_explained_is_no_good(self):
+        run = self.run_of([])
+        del run.report["explained_in_wrong_place"]
+        with self.assertRaises(KeyError):
+            exceptions.faults_of("lost", run)
 
     def test_a_tour_that_began_anew_was_not_given_in_one_piece(self):
         began, ended = (1, "event", "tour_started", "t", "zuse"), (60, "event", "tour_completed", "t", "")
@@ -102,10 +139,11 @@ class Exceptions(unittest.TestCase):
         self.assertIsNone(exceptions.longest_question(self.run_of([])))
 
     def test_where_nothing_went_wrong_nothing_was_shown(self):
-        for struck, good in (([(5, "scenario", "kill", "mission", "")] * 9, True), ([], False)):
+        for kills, planned, good in (([9], 9, True), ([0], 9, False), ([10], 11, False), ([11, 9], 11, True), ([0], 0, False)):
             verdict = Verdict()
-            exceptions.want_exposure("mission-killed", "plans", [self.run_of(struck)], verdict)
-            self.assertEqual(verdict.good, good)
+            runs = [self.run_of([(5, "scenario", "kill", "mission", "")] * struck, kills=planned) for struck in kills]
+            exceptions.want_exposure("mission-killed", "plans", runs, verdict)
+            self.assertEqual(verdict.good, good, (kills, planned))
 
     def test_each_seed_draws_moments_of_its_own(self):
         text = "{at: 1, during: idle, after: DELAY, battery: {charge: CHARGE}}"
