@@ -11,7 +11,7 @@ from types import SimpleNamespace
 ROOT = Path(__file__).resolve().parents[2]
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "scripts"))
-from evaluation import attract, benchmarks, coastal, crippled, exceptions, faults, ledger, reports, safety, scenarios  # noqa: E402
+from evaluation import attract, benchmarks, coastal, crippled, exceptions, faults, ledger, reports, safety, scenarios, tours  # noqa: E402
 from evaluation.tables import Verdict  # noqa: E402
 
 
@@ -186,6 +186,42 @@ class Attract(unittest.TestCase):
     def test_phases_that_nobody_saw_and_two_configurations_do_not(self):
         self.assertFalse(self.verdict(found={"neither": self.runs("neither", attract.NONE, phases=100)}))
         self.assertFalse(self.verdict(found={"neither": self.runs("neither", attract.NONE, hash="b")}))
+
+
+class Tours(unittest.TestCase):
+    @staticmethod
+    def row(at, kind, subject="six-minutes", detail=""):
+        return {"time": str(at), "kind": kind, "subject": subject, "detail": detail}
+
+    def tour(self, at, seconds, end="farewell"):
+        shown = [self.row(at + 60 * i, "explained", name, "six-minutes") for i, name in enumerate(("zuse", "wankel", "mp3"), 1)]
+        return [self.row(at, "request_queued", "r", "six-minutes"), self.row(at, "tour_started"), *shown, self.row(at + seconds, end)]
+
+    def test_a_tour_without_an_end_is_counted_and_not_completed(self):
+        rows = self.tour(0, 350) + self.tour(1000, 200, "tour_failed") + self.tour(2000, 200, "tour_broken_off") + self.tour(3000, 370)
+        found = tours.tours_of(rows, "six-minutes", 0.0)
+        self.assertEqual([tour["seconds"] for tour in found], [350.0, None, None, 370.0])
+        self.assertEqual([tour["exhibits"] for tour in tours.completed(found)], [3, 3])
+        self.assertEqual(len(tours.tours_of(rows, "six-minutes", 1500.0)), 2)
+        for some, counts in ((found, [4, 2]), (found[1:3], [2, 0])):
+            cells = tours.row_of("bonn", "composed", some)
+            self.assertEqual(cells[2:4], counts)
+            self.assertEqual(len(cells), len(tours.HEADER))
+
+    def good(self, learned, fixed, is_slice=False):
+        verdict = Verdict()
+        of = [tours.tours_of([row for i, s in enumerate(some) for row in self.tour(600 * i, s)], "six-minutes", 0.0) for some in (learned, fixed)]
+        tours.judge(verdict, "bonn", *of, 4, is_slice)
+        return verdict.good
+
+    def test_a_robot_that_learns_is_nearer_to_the_target(self):
+        near, far = [350, 370, 355, 365], [320, 380, 335, 395]
+        self.assertTrue(self.good(near, far))
+        self.assertFalse(self.good(near, near), "learning changes nothing")
+        self.assertFalse(self.good(near, []), "nothing to compare with")
+        self.assertTrue(self.good(near, [], is_slice=True))
+        self.assertFalse(self.good(near[:3], far), "one is missing")
+        self.assertFalse(self.good(far, [200, 600, 250, 500]))
 
 
 class Safety(unittest.TestCase):
