@@ -189,8 +189,8 @@ SCENARIOS = {
     "visitors-leave": Exceptional(20, [
         Duty("the longest question, over the time to answer", LATEST, longest_question),
         Duty("gives the tour to its end, after its wish", 600, lambda run: since(run.served("small-things"), 60.0)),
-        Duty("goes home, after the last wish", 400, lambda run: since(run.first("home", 500.0), 500.0)),
-        # The shipped GOLOG program asks nobody while anything is due.
+        Duty("goes home, after the last wish", 400, lambda run: since(run.first("home", 600.0), 600.0)),
+        # The shipped GOLOG program asks nobody while anything is due, nor after a farewell.
     ], {"questions": (count("prompt_shown"), 2)}, GIVES_UP),
     "prolog-timeout": Exceptional(30, [
         Duty("reports the fault, after the first explanation", 10, lambda run: since(health_of(run, "degraded"), run.first("explained"))),
