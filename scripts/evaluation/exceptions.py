@@ -150,11 +150,14 @@ def explained_while_closed(run):
     return next((row["time"] for row in run.all("explained") if row["subject"] != BEYOND and row["time"] < FREE), None)
 
 
-WAY = [
-    Duty("something else is explained meanwhile, after the first request", FREE - 60.0, lambda run: since(explained_while_closed(run), 60.0)),
-    Duty(f"the {BEYOND}'s wish comes true, after the way was free", 420, lambda run: since(run.served(BEYOND), FREE)),
-    Duty("and the tour's, after its wish", 1500, lambda run: since(run.served("for-your-health"), 100.0)),
-]
+def vain_visits(run):
+    """To the exhibit beyond, before the ways were free."""
+    return sum(row["time"] < FREE for row in run.all("visit_failed", subject=BEYOND))
+
+
+MEANWHILE = Duty("something else is explained meanwhile, after the first request", FREE - 60.0,
+                 lambda run: since(explained_while_closed(run), 60.0))
+TOUR_BEYOND = Duty("the tour's wish comes true, after it was made", 1500, lambda run: since(run.served("for-your-health"), 100.0))
 GIVES_UP = {"never gives up": ["evaluation.never_gives_up=true"]}
 NO_WATCH = {"without the battery watch": ["evaluation.without_battery_watch=true"]}
 
@@ -178,9 +181,16 @@ SCENARIOS = {
         Duty("completes the tour, after it was carried off", 900, lambda run: tour_goes_on(run, "on-the-move", run.struck("kidnap"))),
     ], {"carried off in a tour": (count("kidnap", "scenario"), 1), "jumps of the odometry in a tour": (count("odometry_jump", "scenario"), 1)},
         {"dead reckoning": ["evaluation.dead_reckoning=true"]}),
-    "way-closed": Exceptional(30, WAY, {"s blocked": (lambda run: run.report["blocked"]["seconds"], 5)}, GIVES_UP),
-    "way-full-of-people": Exceptional(30, WAY, {"s blocked": (lambda run: run.report["blocked"]["seconds"], 30),
-                                               "horns": (lambda run: run.report["blocked"]["horn"], 3)}, GIVES_UP),
+    "way-closed": Exceptional(30, [
+        MEANWHILE, TOUR_BEYOND,
+        Duty(f"the {BEYOND}'s wish comes true, after the way was free", 420, lambda run: since(run.served(BEYOND), FREE)),
+    ], {"s blocked": (lambda run: run.report["blocked"]["seconds"], 5), f"vain visits to the {BEYOND}": (vain_visits, 1)}, GIVES_UP),
+    "way-full-of-people": Exceptional(30, [
+        MEANWHILE, TOUR_BEYOND,
+        # People who stand make a step now and then: a gap may open before they leave.
+        Duty(f"the {BEYOND}'s wish comes true, after it was made", FREE + 420 - 60, lambda run: since(run.served(BEYOND), 60.0)),
+    ], {"s blocked": (lambda run: run.report["blocked"]["seconds"], 30), "horns": (lambda run: run.report["blocked"]["horn"], 3),
+        f"vain visits to the {BEYOND}": (vain_visits, 0.5)}, GIVES_UP),
     "unreachable": Exceptional(60, [
         Duty("says that mp3 cannot be reached, after its request", 3000, lambda run: since(next((t for t, how in run.ends("mp3") if how == "failed"), None), 70.0)),
         Duty("says so of the zeolite", 3000, lambda run: since(next((t for t, how in run.ends("zeolite") if how == "failed"), None), 60.0)),

@@ -22,7 +22,7 @@ HEADER = ["crowd", "moods", "runs", "h", "km", "m/s", "standing s/h", "blocked s
 # interval as a share of the mean without moods. Where it is known worse, "no harm" would say nothing.
 FIGURES = [
     ("mean speed", "m/s", lambda report: report["mean_speed_mps"], True, 0.1),
-    ("standing, of the time on the way", "%", lambda report: 100 * report["standing_seconds"] / report["travel_seconds"], False, 0.3),
+    ("standing, of the time on the way", "%", lambda report: 100 * report["standing_seconds"] / report["travel_seconds"], False, 0.5),
     ("blocked by its own word, of the time on the way", "%",
      lambda report: 100 * report["blocked"]["seconds"] / report["travel_seconds"], False, 0.5),
 ]

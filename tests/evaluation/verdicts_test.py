@@ -112,6 +112,11 @@ class Exceptions(unittest.TestCase):
         self.assertEqual(faults(700, "zuse"), [])
         self.assertEqual(len(faults(700, "lithotripter")), 1, "nothing else was explained")
         self.assertEqual(len(faults(200, "zuse")), 1, "the robot got there while the ways were closed")
+        for at, good in ((200, True), (700, False)):
+            verdict = Verdict()
+            failed = [(at, "event", "visit_failed", "lithotripter", "way_blocked"), (200, "event", "visit_failed", "zuse", "way_blocked")]
+            exceptions.want_exposure("way-full-of-people", "plans", [self.run_of(failed, blocked={"seconds": 50, "horn": 5})], verdict)
+            self.assertEqual(verdict.good, good)
 
     def test_a_report_that_does_not_say_where_it_explained_is_no_good(self):
         run = self.run_of([])
