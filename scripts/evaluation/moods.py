@@ -125,7 +125,7 @@ def judge(verdict, crowd, with_moods, without, is_slice=False):
                      "within 1 m", contacts == 0)
         asked = sum(report["asked_for_way"] for report in reports)
         least = 1 if is_slice else len(reports)
-        verdict.want(f"{crowd}, {moods}: asked people to make way, {f'at least {least} times' if moods == 'on' else 'never'}", asked,
+        verdict.want(f"{crowd}, {moods}: times it asked people to make way, {f'at least {least}' if moods == 'on' else 'none'}", asked,
                      asked >= least if moods == "on" else asked == 0)
         events = sum(report["blocked"]["events"] for report in reports)
         verdict.want(f"{crowd}, {moods}: blockages, so that there is something to compare", events, events >= len(reports))
