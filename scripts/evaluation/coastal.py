@@ -171,7 +171,7 @@ def evaluate(bench, verdict, print_table, count, reaches, weight, is_slice=False
         elif reach < 10.0:
             verdict.want(f"{name}: entropy at the goal lower by the coast (95 %)", f"{fall:+.2f} ± {half:.2f} nat",
                          fall + half < 0.0)
-            # Who arrives beside a wall finds the last centimetres there, whichever way it came.
+            # A robot that arrives beside a wall finds the last centimetres there, whichever way it came.
             verdict.want(f"{name}: error at the goal not higher by the coast (95 % below {100 * ERROR_MARGIN:.0f} cm)",
                          f"{100 * nearer:+.1f} ± {100 * width:.1f} cm", nearer + width <= ERROR_MARGIN)
             want_not_lost(verdict, name, fewer, span)

@@ -12,7 +12,9 @@ import subprocess
 from evaluation import ways
 from evaluation.keys import key_of
 from evaluation.reports import contacts_of
+from evaluation.simulations import ONLY_SCENARIO
 from evaluation.tables import Verdict, print_table
+from evaluation.tours import LEAST_EXHIBITS
 
 MUSEUMS = ["bonn", "smithsonian"]
 ITEMS = 49  # exhibits and viewpoints that may be asked for; a museum with fewer gets more viewpoints
@@ -30,7 +32,7 @@ FIRST_KILL = 0.4  # [h]: during the first rush
 NEAR, TURNED = 0.7, 30.0  # [m, deg]
 SERVED, AIM = 0.9975, 0.9995  # [Rhino1999] Table 6
 REFUSED = 0.01
-MAY_REFUSE = ("closed", "web_only_now", "no_way", "not_reached")  # words of ReasonWord: night, or unreachable
+MAY_REFUSE = ("closed", "web_only_now")  # words of ReasonWord
 TRAVEL = 1.05
 MOST_VISITS = 15
 FINAL = {"fulfilled", "failed", "refused", "cancelled"}
@@ -130,9 +132,9 @@ def events_of(museum, seed, hours, last, rush):
 def run(simulations, museum, seed, events, hours, arguments):
     """The record of a run and its report; from the cache when it was made before."""
     scenario = "events:\n" + "".join(f"  - {{at: {at:.1f}, {event}}}\n" for at, event in events)
-    kept, report = simulations.run_logged("day", museum, seed, scenario, hours, arguments,
-                                          {"--request-log": "requests.csv", "--event-log": "events.csv"})
-    return Record(read_rows(kept["requests.csv"])), report
+    kept, report = simulations.run_logged("day", museum, seed, hours, ONLY_SCENARIO + arguments,
+                                          {"--request-log": "requests.csv", "--event-log": "events.csv"}, scenario)
+    return Record(read_rows(kept["requests.csv"]), read_rows(kept["events.csv"])), report
 
 
 def read_rows(path):
@@ -171,10 +173,11 @@ class Request:
 
 
 class Record:
-    """The rows of a request log in their order."""
+    """The rows of a request log in their order, and the modules that an event log says were killed."""
 
-    def __init__(self, rows):
+    def __init__(self, rows, events=()):
         self.requests, self.heard, self.chosen = {}, [], []
+        self.killed = [row["subject"] for row in events if (row["source"], row["kind"]) == ("scenario", "kill")]
         for row in rows:
             at = float(row["time"])
             if row["what"] == "asked":
@@ -220,9 +223,9 @@ def is_shown(record, museum, request):
     """People heard what the request asked for while the robot truly stood where it asked for."""
     heard = heard_by(record, request)
     if request.kind == "tour":
-        stops = museum.tours[request.target]
-        missed = set(stops) - {row["target"] for row in heard}
-        return bool(heard) and len(missed) <= 1 and \
+        stops, told = museum.tours[request.target], {row["target"] for row in heard}
+        is_whole = len(set(stops) - told) <= 1 if stops else len(told) >= LEAST_EXHIBITS  # one that is composed names none
+        return bool(heard) and is_whole and \
             all(is_at_any(row["pose"], museum.exhibits[row["target"]].places()) for row in heard)
     places = museum.exhibits[request.target].places()
     return any(is_at_any(row["pose"], places) if request.viewpoint < 0 else is_at(row["pose"], places, request.viewpoint)
@@ -289,14 +292,15 @@ def waits(record, source):
     return sorted(r.steps[-1][0] - r.asked for r in record.requests.values() if r.end == "fulfilled" and r.source == source)
 
 
-HEADER = ["museum", "robot", "h", "km", "charges", "asked", "refused", "served", "failed", "lost", "pending", "explained", "contacts",
+HEADER = ["museum", "robot", "h", "km", "charges", "killed", "asked", "refused", "served", "failed", "lost", "pending", "explained", "contacts",
           "wait hall min", "wait Web min", "longest"]
 
 
 def row_of(name, robot, hours, record, report):
     ends = collections.Counter(r.end for r in record.requests.values())
     hall, web = waits(record, "kiosk"), waits(record, "web")
-    return [name, robot, f"{hours:g}", f"{report['distance_m'] / 1000:.1f}", report["battery"]["charges"], len(record.requests), ends["refused"],
+    return [name, robot, f"{hours:g}", f"{report['distance_m'] / 1000:.1f}", report["battery"]["charges"], len(record.killed),
+            len(record.requests), ends["refused"],
             ends["fulfilled"], ends["failed"] + ends["cancelled"], ends[""], most_pending(record), len(record.explanations()),
             contacts_of(report), *[f"{statistics.median(some) / 60:.0f}" if some else "-" for some in (hall, web)],
             f"{max(hall + web, default=0.0) / 60:.0f}"]
@@ -322,7 +326,7 @@ def judge(verdict, name, museum, record, report, is_slice):
                      f"{[(row['time'], row['target'], row['pose']) for row in heard_by(record, request)]}")
     reasons = collections.Counter(r.steps[-1][2] for r in requests if r.end == "refused")
     bad = {reason: count for reason, count in reasons.items() if reason.split(" ")[0] not in MAY_REFUSE}
-    verdict.want(f"{name}: refused, at most {100 * REFUSED:g} %, only unreachable, closed or night",
+    verdict.want(f"{name}: refused, at most {100 * REFUSED:g} %, only when closed or at night",
                  f"{ends['refused']} of {len(requests)} {dict(reasons) or ''}", ends["refused"] <= REFUSED * len(requests) and not bad)
     accepted = len(requests) - ends["refused"]
     right = len(served) - len(wrong)
@@ -340,6 +344,13 @@ def judge(verdict, name, museum, record, report, is_slice):
     charges = report["battery"]["charges"]
     verdict.want(f"{name}: charges, at least 4, and the battery never empty", f"{charges}, {report['battery']['depleted']} times empty",
                  charges >= 4 and report["battery"]["depleted"] == 0)
+
+
+def judge_kills(verdict, name, events, record):
+    """Every module died that was to die, in this order."""
+    planned = [event.split("module: ")[1].rstrip("}") for _, event in events if event.startswith("kill:")]
+    verdict.want(f"{name}: modules killed, as planned", f"{', '.join(record.killed) or 'none'}; planned {len(planned)}",
+                 bool(planned) and record.killed == planned)
 
 
 def judge_travel(verdict, name, record, museum, lengths):
@@ -386,14 +397,16 @@ def protocol(simulations, options):
     if crippled:
         short = (SLICE_HOURS, SLICE_LAST, SLICE_RUSH) if is_slice else (CRIPPLED_HOURS, CRIPPLED_LAST, RUSH)
         jobs += [(names[0], how, seeds[0], *short, arguments) for how, arguments in crippled.items()]
-    made = simulations.each(run, [(simulations, museums[name], seed, events_of(known[name], seed, hours, last, rush), hours, arguments)
-                                  for name, _, seed, hours, last, rush, arguments in jobs])
+    asked = [events_of(known[name], seed, hours, last, rush) for name, _, seed, hours, last, rush, _ in jobs]
+    made = simulations.each(run, [(simulations, museums[name], seed, events, hours, arguments)
+                                  for (name, _, seed, hours, _, _, arguments), events in zip(jobs, asked)])
     print(f"\n## A day of requests, busy, with charging, dying modules and rushes of {SLICE_RUSH if is_slice else RUSH} from the Web\n")
     print_table(HEADER, [row_of(name, how, hours, *seen) for (name, how, _, hours, *_), seen in zip(jobs, made)])
     print("\nwait: median, from the wish to the end; lost: without an end; explained: short texts that were heard.\n")
     lengths = {name: ways.Lengths(known[name], folder / f"ways-{name}-{key_of(museums[name])[:16]}.npy") for name in names}
     verdict = Verdict()
-    for (name, how, *_), (record, report) in zip(jobs, made):
+    for (name, how, *_), events, (record, report) in zip(jobs, asked, made):
+        judge_kills(verdict, name if how == "whole" else f"{name}, crippled: {how}", events, record)
         if how == "whole":
             judge(verdict, name, known[name], record, report, is_slice)
             judge_travel(verdict, name, record, known[name], lengths[name])

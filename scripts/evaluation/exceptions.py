@@ -28,8 +28,9 @@ FOYER = ((8.0, 10.5), (2.2, 4.2))  # [m] where the robot starts: x and y
 class Run:
     """One run: its report, its events in order of time, what the mission said of its health, and what the scenario wished for."""
 
-    def __init__(self, report, events, health, wishes):
-        self.report, self.health, self.wishes = report, health, wishes
+    def __init__(self, report, events, health, scenario):
+        self.report, self.health, self.scenario = report, health, scenario
+        self.wishes = re.findall(r"request: \{kind: (\w+), target: ([\w-]+)", scenario)
         self.rows = [dict(row, time=float(row["time"]), value=float(row["value"]), x=float(row["x"]), y=float(row["y"]))
                      for row in events]
 
@@ -62,7 +63,8 @@ class Run:
 
 
 def since(later, earlier):
-    return None if later is None or earlier is None else later - earlier
+    """[s] from one to the other; None where either never came, or the later one came first."""
+    return None if later is None or earlier is None or later < earlier else later - earlier
 
 
 # What must happen in a scenario: a function of the run that gives the seconds it took; None: it did not happen.
@@ -126,6 +128,8 @@ class Exceptional:
     crippled: dict  # name: settings
     planners: tuple = ("plans", "golog")
     fails: tuple = ()
+    breaks_off: int = 0  # how often a tour may be broken off, and so begin anew
+    once: tuple = ()  # (name, of a run whether it is so): in one of the seeds at least
     programs: tuple = ()  # files that stand in the place of the program's main, one seed after the other
 
 
@@ -133,15 +137,27 @@ def count(kind, source="event"):
     return lambda run: len(run.all(kind, source=source))
 
 
+def each_kill_struck(run):
+    """Each kill waits for a phase of the mission: all of them strike only where every phase came."""
+    return len(run.all("kill", source="scenario")) == run.scenario.count("kill:") > 0
+
+
+BEYOND, FREE = "lithotripter", 650.0  # the exhibit whose ways are closed, and when [s] they are free again
+
+
 def explained_while_closed(run):
-    return run.first("explained", 60.0) if (run.first("explained", 60.0) or 1e9) <= 650 else None
+    """When something else was explained before the ways were free."""
+    return next((row["time"] for row in run.all("explained") if row["subject"] != BEYOND and row["time"] < FREE), None)
 
 
-WAY = [
-    Duty("something else is explained meanwhile, after the first request", 590, lambda run: since(explained_while_closed(run), 60.0)),
-    Duty("the lithotripter's wish comes true, after the way was free", 420, lambda run: since(run.served("lithotripter"), 650.0)),
-    Duty("and the tour's, after its wish", 1500, lambda run: since(run.served("for-your-health"), 100.0)),
-]
+def vain_visits(run):
+    """To the exhibit beyond, before the ways were free."""
+    return sum(row["time"] < FREE for row in run.all("visit_failed", subject=BEYOND))
+
+
+MEANWHILE = Duty("something else is explained meanwhile, after the first request", FREE - 60.0,
+                 lambda run: since(explained_while_closed(run), 60.0))
+TOUR_BEYOND = Duty("the tour's wish comes true, after it was made", 1500, lambda run: since(run.served("for-your-health"), 100.0))
 GIVES_UP = {"never gives up": ["evaluation.never_gives_up=true"]}
 NO_WATCH = {"without the battery watch": ["evaluation.without_battery_watch=true"]}
 
@@ -151,7 +167,7 @@ SCENARIOS = {
         Duty("at its charger, after the charge fell", 900, lambda run: since(run.at_charger(run.struck("battery") or 1e9), run.struck("battery"))),
         Duty("the tour's wish comes true, after it was made", 3300, lambda run: since(run.served("on-the-move"), 60.0)),
     ], {"tours under way when the charge fell": (lambda run: sum(row["time"] < (run.struck("battery") or 0) for row in run.all("tour_started")), 1),
-        "charges": (lambda run: run.report["battery"]["charges"], 1)}, NO_WATCH),
+        "charges": (lambda run: run.report["battery"]["charges"], 1)}, NO_WATCH, breaks_off=1),
     "charger-occupied": Exceptional(60, [
         Duty("finds its charger occupied, after the charge fell", 400, lambda run: since(run.first("charger_failed"), 60.0)),
         Duty("serves meanwhile, by the time of the run", 640, serves_beside_the_charger),
@@ -165,9 +181,16 @@ SCENARIOS = {
         Duty("completes the tour, after it was carried off", 900, lambda run: tour_goes_on(run, "on-the-move", run.struck("kidnap"))),
     ], {"carried off in a tour": (count("kidnap", "scenario"), 1), "jumps of the odometry in a tour": (count("odometry_jump", "scenario"), 1)},
         {"dead reckoning": ["evaluation.dead_reckoning=true"]}),
-    "way-closed": Exceptional(30, WAY, {"s blocked": (lambda run: run.report["blocked"]["seconds"], 5)}, GIVES_UP),
-    "way-full-of-people": Exceptional(30, WAY, {"s blocked": (lambda run: run.report["blocked"]["seconds"], 30),
-                                               "horns": (lambda run: run.report["blocked"]["horn"], 3)}, GIVES_UP),
+    "way-closed": Exceptional(30, [
+        MEANWHILE, TOUR_BEYOND,
+        Duty(f"the {BEYOND}'s wish comes true, after the way was free", 420, lambda run: since(run.served(BEYOND), FREE)),
+    ], {"s blocked": (lambda run: run.report["blocked"]["seconds"], 5), f"vain visits to the {BEYOND}": (vain_visits, 1)}, GIVES_UP),
+    "way-full-of-people": Exceptional(30, [
+        MEANWHILE, TOUR_BEYOND,
+        # People who stand make a step now and then: a gap may open before they leave.
+        Duty(f"the {BEYOND}'s wish comes true, after it was made", FREE + 420 - 60, lambda run: since(run.served(BEYOND), 60.0)),
+    ], {"s blocked": (lambda run: run.report["blocked"]["seconds"], 30), "horns": (lambda run: run.report["blocked"]["horn"], 3),
+        f"vain visits to the {BEYOND}": (vain_visits, 0.5)}, GIVES_UP),
     "unreachable": Exceptional(60, [
         Duty("says that mp3 cannot be reached, after its request", 3000, lambda run: since(next((t for t, how in run.ends("mp3") if how == "failed"), None), 70.0)),
         Duty("says so of the zeolite", 3000, lambda run: since(next((t for t, how in run.ends("zeolite") if how == "failed"), None), 60.0)),
@@ -176,8 +199,8 @@ SCENARIOS = {
     "visitors-leave": Exceptional(20, [
         Duty("the longest question, over the time to answer", LATEST, longest_question),
         Duty("gives the tour to its end, after its wish", 600, lambda run: since(run.served("small-things"), 60.0)),
-        Duty("goes home, after the last wish", 400, lambda run: since(run.first("home", 500.0), 500.0)),
-        # The shipped GOLOG program asks nobody while anything is due.
+        Duty("goes home, after the last wish", 400, lambda run: since(run.first("home", 600.0), 600.0)),
+        # The shipped GOLOG program asks nobody while anything is due, nor after a farewell.
     ], {"questions": (count("prompt_shown"), 2)}, GIVES_UP),
     "prolog-timeout": Exceptional(30, [
         Duty("reports the fault, after the first explanation", 10, lambda run: since(health_of(run, "degraded"), run.first("explained"))),
@@ -187,7 +210,8 @@ SCENARIOS = {
     "mission-killed": Exceptional(40, [
         Duty("gives the tour in one piece, after its wish", 1000, lambda run: tour_goes_on(run, "highlights", 60.0)),
         Duty("the last tour's wish comes true, after it was made", 1200, lambda run: since(run.served("for-your-health"), 1100.0)),
-    ], {"kills": (count("kill", "scenario"), 9)}, {"forgets what it was about": ["evaluation.forgets_tasks=true"]}),
+    ], {"kills": (count("kill", "scenario"), 9)}, {"forgets what it was about": ["evaluation.forgets_tasks=true"]},
+        once=(("a kill in each phase", each_kill_struck),)),
 }
 PARTS = [*SCENARIOS, "kiosk"]
 
@@ -256,7 +280,7 @@ class Bonn:
             part.rename(path)
             print(f"   {name} {planner} seed {seed}: {time.monotonic() - began:.0f} s", file=sys.stderr)
         rows = [list(csv.DictReader(open_lines(file))) for file in (log, health)]
-        return Run(json.loads(path.read_text()), *rows, re.findall(r"request: \{kind: (\w+), target: ([\w-]+)", text))
+        return Run(json.loads(path.read_text()), *rows, text)
 
 
 def open_lines(path):
@@ -268,7 +292,7 @@ def faults_of(name, run):
     what, report = SCENARIOS[name], run.report
     faults = []
     for bad, how_often in (("touched", contacts_of(report)), ("left its area", report["area_violations"]),
-                           ("explained in a wrong place", report.get("explained_in_wrong_place", 0)),
+                           ("explained in a wrong place", report["explained_in_wrong_place"]),
                            ("battery empty", report["battery"]["depleted"])):
         if how_often:
             faults.append(f"{bad}: {how_often}")
@@ -277,7 +301,7 @@ def faults_of(name, run):
         expected = ["failed" if target in what.fails and kind == "exhibit" else "fulfilled"] * wished
         if ends != expected:
             faults.append(f"{target}: wished for {wished} times, ended as {', '.join(ends) or 'nothing'}")
-    faults += twice(run)
+    faults += twice(run, what.breaks_off)
     for duty in what.duties:
         seconds = duty.seconds(run)
         if seconds is None or seconds > duty.bound:
@@ -285,15 +309,23 @@ def faults_of(name, run):
     return faults
 
 
-def twice(run):
-    """Exhibits that were explained more often than anybody wished for. A tour that was broken off is given anew."""
+def twice(run, breaks_off):
+    """What was begun, explained or said more often than anybody wished for. A tour that was broken off is given anew, as often as the
+    scenario makes the robot break one off."""
     faults = []
+    for tour in sorted({row["subject"] for row in run.all("tour_started")}):
+        begun, anew = len(run.all("tour_started", subject=tour)), min(breaks_off, len(run.all("tour_broken_off", subject=tour)))
+        if begun > run.wishes.count(("tour", tour)) + anew:
+            faults.append(f"{tour} begun {begun} times")
     for exhibit in sorted({row["subject"] for row in run.all("explained")}):
         often = len(run.all("explained", subject=exhibit))
         of_tours = sum(exhibit in row["detail"].split() for row in run.all("tour_started"))
-        wishes = sum(target == exhibit for _, target in run.wishes)
-        if often > wishes + of_tours:
+        if often > run.wishes.count(("exhibit", exhibit)) + of_tours:
             faults.append(f"{exhibit} explained {often} times")
+    farewells = {row["subject"] for row in run.rows if row["source"] == "say" and row["subject"].endswith("/farewell")}
+    ended = len(run.all("tour_completed")) + len(run.all("tour_failed"))
+    if len(farewells) > ended:
+        faults.append(f"{len(farewells)} farewells after {ended} tours")
     return faults
 
 
@@ -319,6 +351,9 @@ def want_exposure(name, planner, runs, verdict):
     for what, (seen_in, least) in SCENARIOS[name].exposure.items():
         mean = statistics.mean(seen_in(run) for run in runs)
         verdict.want(f"{name}, {planner}: {what}, a seed on average ({least:g})", f"{mean:.1f}", mean >= least)
+    for what, is_so in SCENARIOS[name].once:
+        seeds = sum(map(is_so, runs))
+        verdict.want(f"{name}, {planner}: {what}, with one seed at least", f"{seeds} of {len(runs)} seeds", seeds > 0)
 
 
 def judge(name, planner, seeds, runs, verdict):

@@ -22,6 +22,9 @@ def side_by_side(jobs, threads):
     return results
 
 
+ONLY_SCENARIO = ["--crowd", "busy", "--requests-per-hour", "0"]  # arguments of a run whose requests are those of its scenario alone
+
+
 class Simulations:
     def __init__(self, docent, root, cache, jobs):
         self.docent, self.root, self.cache, self.jobs = docent, root, cache, jobs
@@ -34,29 +37,15 @@ class Simulations:
         """Of everything that decides a run: the programs as they are built, scenarios, the museum."""
         return key_of(self.docent, *programs, self.root / "scripts" / "scenarios", self.root / "prolog", museum)
 
-    def run(self, name, museum, seed, minutes, arguments, timeout=3600):
+    def run(self, name, museum, seed, minutes, arguments):
         """One run; its report, from the cache when it was made before."""
-        arguments = [str(argument) for argument in arguments]
-        key = hashlib.sha256(json.dumps([self.key(museum), seed, minutes, arguments]).encode()).hexdigest()[:16]
-        folder = self.cache / name
-        folder.mkdir(parents=True, exist_ok=True)
-        path = folder / f"{museum.name}-seed{seed}-{key}.json"
-        if not path.exists():
-            part = path.with_suffix(f".part{os.getpid()}")
-            command = [self.docent, "simulate", "--museum", museum, "--hours", f"{minutes / 60:.6f}", "--seed", str(seed),
-                       "--report", part, "--quiet", *arguments]
-            started = time.monotonic()
-            done = subprocess.run(command, capture_output=True, text=True, timeout=timeout, check=False)
-            if done.returncode != 0 or not part.exists():
-                raise RuntimeError(f"seed {seed}: docent simulate exited {done.returncode}: {done.stderr.strip()[-500:]}")
-            part.rename(path)
-            print(f"   {museum.name} seed {seed}: {time.monotonic() - started:.0f} s", file=sys.stderr)
-        return json.loads(path.read_text())
+        return self.run_logged(name, museum, seed, minutes / 60, arguments, {})[1]
 
-    def run_logged(self, name, museum, seed, scenario, hours, arguments, logs):
-        """One busy run whose requests are those of a scenario, with its logs; from the cache when it was made before.
+    def run_logged(self, name, museum, seed, hours, arguments, logs, scenario=""):
+        """One run with its logs and the text of a scenario, if it has one; from the cache when it was made before.
 
         logs: option of `docent simulate` to the end of a file's name. Returns the paths by those ends, and the report."""
+        arguments = [str(argument) for argument in arguments]
         key = hashlib.sha256(json.dumps([self.key(museum), seed, scenario, hours, arguments]).encode()).hexdigest()[:16]
         folder = self.cache / name
         folder.mkdir(parents=True, exist_ok=True)
@@ -64,16 +53,18 @@ class Simulations:
         kept = {kind: folder / f"{stem}.{kind}" for kind in (*logs.values(), "json")}
         if not kept["json"].exists():
             part = {kind: folder / f"{stem}.part{os.getpid()}.{kind}" for kind in (*kept, "yaml")}
-            part["yaml"].write_text(scenario)
-            command = [self.docent, "simulate", "--museum", museum, "--hours", f"{hours:.6f}", "--seed", str(seed), "--crowd", "busy",
-                       "--requests-per-hour", "0", "--scenario", part["yaml"], "--report", part["json"], "--quiet", *arguments]
+            command = [self.docent, "simulate", "--museum", museum, "--hours", f"{hours:.6f}", "--seed", str(seed),
+                       "--report", part["json"], "--quiet", *arguments]
             for option, kind in logs.items():
                 command += [option, part[kind]]
+            if scenario:
+                part["yaml"].write_text(scenario)
+                command += ["--scenario", part["yaml"]]
             started = time.monotonic()
-            done = subprocess.run(command, capture_output=True, text=True, check=False)
-            if done.returncode != 0:
+            done = subprocess.run(command, capture_output=True, text=True, timeout=3600 * max(1.0, hours), check=False)
+            part["yaml"].unlink(missing_ok=True)
+            if done.returncode != 0 or not part["json"].exists():
                 raise RuntimeError(f"seed {seed}: docent simulate exited {done.returncode}: {done.stderr.strip()[-500:]}")
-            part["yaml"].unlink()
             for kind, path in kept.items():  # the report last: it says that all are there
                 part[kind].rename(path)
             print(f"   {museum.name} seed {seed}, {hours:.1f} h: {time.monotonic() - started:.0f} s", file=sys.stderr)

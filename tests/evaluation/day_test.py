@@ -76,13 +76,34 @@ class Day(unittest.TestCase):
         late = [*joins("a", 0), told(10, "t-1"), *joins("b", 20), told(50, "t-2")]
         self.assertEqual(day.done_twice(day.Record(late)), [], "somebody came later and missed it")
 
+    def test_a_composed_tour_shows_more_than_one_exhibit(self):
+        def served(names):
+            steps = [row(0, "asked", "r", "tour", "six-minutes"), row(1, "board", "r", "tour", "six-minutes", state="active")]
+            told = [row(10 * i, "heard", f"t-{i}", "", name, state="short", detail="six-minutes", pose=BONN.exhibits[name].pose)
+                    for i, name in enumerate(names, 1)]
+            return holds([*steps, *told, row(90, "board", "r", "tour", "six-minutes", state="fulfilled")])
+
+        self.assertTrue(served(["zuse", "airbus", "mp3"]))
+        self.assertFalse(served(["zuse", "airbus"]))
+        self.assertFalse(served([]))
+
+    def test_every_module_dies_that_was_to(self):
+        planned = [(10.0, "request: {kind: exhibit}"), (20.0, "kill: {module: mission}"), (30.0, "kill: {module: plan}")]
+        for killed, events, good in ((["mission", "plan"], planned, True), (["mission"], planned, False), ([], planned, False),
+                                     ([], planned[:1], False)):
+            rows = [{"source": "scenario", "kind": "kill", "subject": module} for module in killed]
+            verdict = Verdict()
+            day.judge_kills(verdict, "bonn", events, day.Record([], [*rows, {"source": "event", "kind": "home", "subject": ""}]))
+            self.assertEqual(verdict.good, good, killed)
+
     def test_refusals_and_failures_do_not(self):
         self.assertFalse(holds(story(end="failed", detail="The way was blocked for too long.")))
         many = [r for i in range(200) for r in ([{**r, "id": f"{r['id']}-{i}"} for r in story()])]
         refused = [row(0, "asked", "x", viewpoint=3), row(1, "board", "x", viewpoint=3, state="refused", detail="closed")]
         self.assertTrue(holds(many + refused))
-        refused[1]["detail"] = "too_many_wait"
-        self.assertFalse(holds(many + refused))
+        for reason in ("too_many_wait", "not_reached"):
+            refused[1]["detail"] = reason
+            self.assertFalse(holds(many + refused), reason)
 
     def test_orders_are_compared_with_the_optimum(self):
         at = {"zuse": 1.0, "airbus": 2.0, "mp3": 3.0}  # [m] on a line
@@ -144,9 +165,14 @@ class Ways(unittest.TestCase):
 
 class Moods(unittest.TestCase):
     @staticmethod
-    def reports(speeds, blocked=60.0):
+    def reports(speeds, blocked=60.0, asked=0):
         return [{**REPORT, "mean_speed_mps": speed, "travel_seconds": 600.0, "passes_within_1m": 5, "standing_seconds": 2 * blocked,
-                 "blocked": {"seconds": blocked, "events": 3, "horn": 1}} for speed in speeds]
+                 "asked_for_way": asked, "blocked": {"seconds": blocked, "events": 3, "horn": 1}} for speed in speeds]
+
+    def good(self, with_moods, without, is_slice=False):
+        verdict = Verdict()
+        moods.judge(verdict, "busy", with_moods, without, is_slice)
+        return verdict.good
 
     def test_students_quantiles(self):
         for freedom, quantile in ((9, 2.262), (19, 2.093), (100, 1.984)):
@@ -163,13 +189,22 @@ class Moods(unittest.TestCase):
         off = [0.30 + 0.001 * i for i in range(10)]
         for speeds, blocked, good in ((off, 60.0, True), ([s + 0.02 for s in off], 50.0, True), ([s - 0.02 for s in off], 60.0, False),
                                       (off, 70.0, False)):
-            verdict = Verdict()
-            moods.judge(verdict, "busy", self.reports(speeds, blocked), self.reports(off))
-            self.assertEqual(verdict.good, good, (speeds, blocked))
-        idle = [{**report, "standing_seconds": 0.0, "blocked": {"seconds": 0.0, "events": 0, "horn": 0}} for report in self.reports(off)]
-        verdict = Verdict()
-        moods.judge(verdict, "busy", idle, idle)
-        self.assertFalse(verdict.good)
+            self.assertEqual(self.good(self.reports(speeds, blocked, asked=2), self.reports(off)), good, (speeds, blocked))
+        idle = [{**report, "standing_seconds": 0.0, "blocked": {"seconds": 0.0, "events": 0, "horn": 0}} for report in self.reports(off, asked=2)]
+        self.assertFalse(self.good(idle, [{**report, "asked_for_way": 0} for report in idle]))
+
+    def test_moods_that_do_nothing_fail(self):
+        off = [0.30 + 0.001 * i for i in range(10)]
+        for asked_on, asked_off, good in ((2, 0, True), (0, 0, False), (2, 2, False)):
+            self.assertEqual(self.good(self.reports(off, asked=asked_on), self.reports(off, asked=asked_off)), good, (asked_on, asked_off))
+
+    def test_a_difference_that_nobody_knows_is_no_absence_of_harm(self):
+        off = [0.30 + 0.001 * i for i in range(10)]
+        for spread, good in ((0.01, True), (0.1, False)):
+            on = [speed + spread * (1 if i % 2 else -1) for i, speed in enumerate(off)]
+            self.assertEqual(self.good(self.reports(on, asked=2), self.reports(off)), good, spread)
+            self.assertTrue(self.good(self.reports(on, asked=2), self.reports(off), is_slice=True), "two seeds are not asked that")
+        self.assertFalse(self.good(self.reports(off), self.reports(off), is_slice=True), "it asked nobody")
 
     def test_the_figure_says_what_is_drawn(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -11,7 +11,7 @@ from types import SimpleNamespace
 ROOT = Path(__file__).resolve().parents[2]
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "scripts"))
-from evaluation import attract, benchmarks, coastal, crippled, exceptions, faults, ledger, reports, safety, scenarios  # noqa: E402
+from evaluation import attract, benchmarks, coastal, crippled, exceptions, faults, ledger, reports, safety, scenarios, tours  # noqa: E402
 from evaluation.tables import Verdict  # noqa: E402
 
 
@@ -58,10 +58,11 @@ class Crippled(unittest.TestCase):
 class Exceptions(unittest.TestCase):
     """Events as in `--event-log`; the report of a run in which nothing bad happened."""
 
-    def run_of(self, rows, wishes=(), **other):
+    def run_of(self, rows, wishes=(), kills=0, **other):
         events = [dict(zip(("time", "source", "kind", "subject", "detail"), row), value="5", x="7.0", y="1.5") for row in rows]
         quiet = {**report(), "battery": {"depleted": 0, "charges": 1}, "explained_in_wrong_place": 0, **other}
-        return exceptions.Run(quiet, events, [], list(wishes))
+        scenario = "".join(f"request: {{kind: {kind}, target: {target}}}\n" for kind, target in wishes) + kills * "kill: {module: mission}\n"
+        return exceptions.Run(quiet, events, [], scenario)
 
     def test_each_request_ends_once_and_as_it_should(self):
         queued = (1, "event", "request_queued", "a", "zuse")
@@ -80,7 +81,48 @@ class Exceptions(unittest.TestCase):
         tour = (1, "event", "tour_started", "highlights", "zuse transrapid")
         for rows, wishes, good in (([explained], [("exhibit", "zuse")], True), ([explained, explained], [("exhibit", "zuse")], False),
                                    ([tour, explained, explained], [("exhibit", "zuse")], True), ([tour, explained, explained], [], False)):
-            self.assertEqual(not exceptions.twice(self.run_of(rows, wishes)), good)
+            wishes = [*wishes, ("tour", "highlights")]
+            self.assertEqual(not exceptions.twice(self.run_of(rows, wishes), 0), good)
+
+    def test_a_tour_begins_anew_only_where_the_scenario_breaks_it_off(self):
+        began, broken = (1, "event", "tour_started", "t", "zuse"), (50, "event", "tour_broken_off", "t", "battery_low")
+        for rows, breaks_off, good in (([began], 0, True), ([began, began], 0, False), ([began, broken, began], 0, False),
+                                       ([began, broken, began], 1, True), ([began, began], 1, False),
+                                       ([began, broken, began, broken, began], 1, False)):
+            self.assertEqual(not exceptions.twice(self.run_of(rows, [("tour", "t")]), breaks_off), good, (rows, breaks_off))
+        self.assertTrue(exceptions.twice(self.run_of([began]), 0), "nobody wished for it")
+
+    def test_a_tour_has_one_farewell(self):
+        began, ended = (1, "event", "tour_started", "t", "zuse"), (60, "event", "tour_completed", "t", "")
+        one, other = ((at, "say", "happy", f"d-{at}/farewell", "Goodbye!") for at in (61, 90))
+        for said, good in (([one], True), ([one, other], False)):
+            self.assertEqual(not exceptions.twice(self.run_of([began, ended, *said], [("tour", "t")]), 0), good)
+
+    def test_what_came_before_its_cause_did_not_come_of_it(self):
+        self.assertEqual(exceptions.since(70.0, 60.0), 10.0)
+        self.assertIsNone(exceptions.since(50.0, 60.0))
+
+    def test_a_way_that_was_never_closed_shows_nothing(self):
+        def faults(at, meanwhile):
+            rows = [(1, "event", "request_queued", "a", "lithotripter"), (90, "event", "explained", meanwhile, ""),
+                    (at, "event", "explained", "lithotripter", ""), (at + 9, "event", "request_fulfilled", "a", "")]
+            found = exceptions.faults_of("way-closed", self.run_of(rows, [("exhibit", "lithotripter"), ("exhibit", "zuse")]))
+            return [fault for fault in found if "meanwhile" in fault or "was free" in fault]
+
+        self.assertEqual(faults(700, "zuse"), [])
+        self.assertEqual(len(faults(700, "lithotripter")), 1, "nothing else was explained")
+        self.assertEqual(len(faults(200, "zuse")), 1, "the robot got there while the ways were closed")
+        for at, good in ((200, True), (700, False)):
+            verdict = Verdict()
+            failed = [(at, "event", "visit_failed", "lithotripter", "way_blocked"), (200, "event", "visit_failed", "zuse", "way_blocked")]
+            exceptions.want_exposure("way-full-of-people", "plans", [self.run_of(failed, blocked={"seconds": 50, "horn": 5})], verdict)
+            self.assertEqual(verdict.good, good)
+
+    def test_a_report_that_does_not_say_where_it_explained_is_no_good(self):
+        run = self.run_of([])
+        del run.report["explained_in_wrong_place"]
+        with self.assertRaises(KeyError):
+            exceptions.faults_of("lost", run)
 
     def test_a_tour_that_began_anew_was_not_given_in_one_piece(self):
         began, ended = (1, "event", "tour_started", "t", "zuse"), (60, "event", "tour_completed", "t", "")
@@ -102,10 +144,11 @@ class Exceptions(unittest.TestCase):
         self.assertIsNone(exceptions.longest_question(self.run_of([])))
 
     def test_where_nothing_went_wrong_nothing_was_shown(self):
-        for struck, good in (([(5, "scenario", "kill", "mission", "")] * 9, True), ([], False)):
+        for kills, planned, good in (([9], 9, True), ([0], 9, False), ([10], 11, False), ([11, 9], 11, True), ([0], 0, False)):
             verdict = Verdict()
-            exceptions.want_exposure("mission-killed", "plans", [self.run_of(struck)], verdict)
-            self.assertEqual(verdict.good, good)
+            runs = [self.run_of([(5, "scenario", "kill", "mission", "")] * struck, kills=planned) for struck in kills]
+            exceptions.want_exposure("mission-killed", "plans", runs, verdict)
+            self.assertEqual(verdict.good, good, (kills, planned))
 
     def test_each_seed_draws_moments_of_its_own(self):
         text = "{at: 1, during: idle, after: DELAY, battery: {charge: CHARGE}}"
@@ -148,6 +191,42 @@ class Attract(unittest.TestCase):
     def test_phases_that_nobody_saw_and_two_configurations_do_not(self):
         self.assertFalse(self.verdict(found={"neither": self.runs("neither", attract.NONE, phases=100)}))
         self.assertFalse(self.verdict(found={"neither": self.runs("neither", attract.NONE, hash="b")}))
+
+
+class Tours(unittest.TestCase):
+    @staticmethod
+    def row(at, kind, subject="six-minutes", detail=""):
+        return {"time": str(at), "kind": kind, "subject": subject, "detail": detail}
+
+    def tour(self, at, seconds, end="farewell"):
+        shown = [self.row(at + 60 * i, "explained", name, "six-minutes") for i, name in enumerate(("zuse", "wankel", "mp3"), 1)]
+        return [self.row(at, "request_queued", "r", "six-minutes"), self.row(at, "tour_started"), *shown, self.row(at + seconds, end)]
+
+    def test_a_tour_without_an_end_is_counted_and_not_completed(self):
+        rows = self.tour(0, 350) + self.tour(1000, 200, "tour_failed") + self.tour(2000, 200, "tour_broken_off") + self.tour(3000, 370)
+        found = tours.tours_of(rows, "six-minutes", 0.0)
+        self.assertEqual([tour["seconds"] for tour in found], [350.0, None, None, 370.0])
+        self.assertEqual([tour["exhibits"] for tour in tours.completed(found)], [3, 3])
+        self.assertEqual(len(tours.tours_of(rows, "six-minutes", 1500.0)), 2)
+        for some, counts in ((found, [4, 2]), (found[1:3], [2, 0])):
+            cells = tours.row_of("bonn", "composed", some)
+            self.assertEqual(cells[2:4], counts)
+            self.assertEqual(len(cells), len(tours.HEADER))
+
+    def good(self, learned, fixed, is_slice=False):
+        verdict = Verdict()
+        of = [tours.tours_of([row for i, s in enumerate(some) for row in self.tour(600 * i, s)], "six-minutes", 0.0) for some in (learned, fixed)]
+        tours.judge(verdict, "bonn", *of, 4, is_slice)
+        return verdict.good
+
+    def test_a_robot_that_learns_is_nearer_to_the_target(self):
+        near, far = [350, 370, 355, 365], [320, 380, 335, 395]
+        self.assertTrue(self.good(near, far))
+        self.assertFalse(self.good(near, near), "learning changes nothing")
+        self.assertFalse(self.good(near, []), "nothing to compare with")
+        self.assertTrue(self.good(near, [], is_slice=True))
+        self.assertFalse(self.good(near[:3], far), "one is missing")
+        self.assertFalse(self.good(far, [200, 600, 250, 500]))
 
 
 class Safety(unittest.TestCase):
