@@ -3,7 +3,7 @@
 
     An agent is agent(Domain, Program, State): what is left of the program, and all that is true now. The past is not
     kept: every step rolls the state forward. Time is what the caller says it is [s]. */
-:- module(agent, [start/2, step/5, step/6, outcome/4, foresee/5, expected_duration/3,
+:- module(agent, [start/2, begin_again/2, step/5, step/6, outcome/4, foresee/5, expected_duration/3,
                   agent_holds/2, snapshot/2, restore/3]).
 :- use_module(library(apply)).
 :- use_module(library(lists)).
@@ -15,6 +15,10 @@
 %!  start(+Domain, -Agent) is det.
 %   The domain's procedure `main` in its initial state.
 start(D, agent(D, main, State)) :- initial_state(D, State).
+
+%!  begin_again(+Agent, -NewAgent) is det.
+%   `main` from its beginning, where what is true now is true.
+begin_again(agent(D, _, State), agent(D, main, State)).
 
 %!  step(+Agent, +Now, +Events, -Result, -NewAgent) is det.
 %   Takes the events in and goes on to the next thing that the robot must be told:

@@ -133,17 +133,18 @@ proc(stop_driving(Loc),
 proc(stop_all, while(some(A, under_way(A)), pi(A, [?(under_way(A)), stop(A)]))).
 
 /*  An action is impossible where the robot is not, so that what comes after a drive or a question looks whether it still
-    is there: a program that waits for something impossible waits for ever. */
+    is there: a program that waits for something impossible waits for ever. The else is ?(true), a step: with [] the
+    choice would not be made yet, and would fall on the other side as soon as the robot came there by another way. */
 
 % Explains the exhibit, if the robot got there, and offers more.
-proc(serve(E), [goto(E), if(robot_location(E), [explain(E), offer_more(E)], [])]).
+proc(serve(E), [goto(E), if(robot_location(E), [explain(E), offer_more(E)], ?(true))]).
 
 % Nobody is asked while others wait.
 proc(offer_more(E),
      if((robot_location(E), explained(E), \+ due(_)),
         [ pi(T, [?(answer_within(T)), within(T, ask_more(E))]),
-          if((robot_location(E), choice(more)), explain_more(E), []) ],
-        [])).
+          if((robot_location(E), choice(more)), explain_more(E), ?(true)) ],
+        ?(true))).
 
-proc(recharge, [goto(charger), if(robot_location(charger), charge_battery, [])]).
+proc(recharge, [goto(charger), if(robot_location(charger), charge_battery, ?(true))]).
 proc(find_oneself, [stop_all, relocalize]).

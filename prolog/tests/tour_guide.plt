@@ -100,6 +100,12 @@ test(tries_a_place_that_it_did_not_reach_later) :-
     actions(A2, 10.0, [], Then, waits-A3), assertion(Then == [drive(home)]), assertion(agent_holds(A3, request(e1))),
     actions(A3, 44.0, [], Before, waits-A4), assertion(Before == []),
     actions(A4, 46.0, [], After, _), assertion(After = [drive(e1), explain(e1) | _]).
+% What could not be shown is over: should the robot come there by another way, nothing of it is left.
+test(what_was_not_reached_is_not_explained_later, After == [drive(e1), explain(e1), ask_more(e1)]) :-
+    line(prioritized([serve(e1), interrupt(E, due(E), serve(E)), ?(closing)]), A0),
+    step(A0, 0.0, [], R, A1), assertion(R == begin(drive(e1))), outcome(A1, drive(e1), failed, A2),
+    actions(A2, 1.0, [], Nothing, waits-A3), assertion(Nothing == []),
+    actions(A3, 60.0, [requested(e1)], After, waits-_).
 test(takes_another_exhibit_meanwhile, [true(Then = [drive(e5), explain(e5) | _])]) :-
     line(tour_guide, A0), step(A0, 0.0, [requested(e1), requested(e5)], _, A1), outcome(A1, drive(e1), failed, A2),
     actions(A2, 10.0, [], Then, _).

@@ -199,6 +199,15 @@ Result<void> GologProgram::outcome(const GologTerm& action, const GologOutcome& 
   return fine;
 }
 
+Result<void> GologProgram::begin_again() {
+  ProgramTurn turn{*this};
+  const term_t arguments = PL_new_term_refs(3);
+  if (PL_recorded(agent_->record, arguments) == 0) return tl::unexpected(out_of_memory());
+  auto fine = no_fault(turn.call("host_begin_again", 3, arguments), arguments + 2);
+  if (fine) agent_ = std::make_unique<Agent>(arguments + 1);
+  return fine;
+}
+
 Result<GologForesight> GologProgram::foresee(Point2 robot, int most_actions) {
   robot_ = robot;
   ProgramTurn turn{*this};

@@ -75,6 +75,8 @@ class GologProgram {
   [[nodiscard]] Result<GologStep> step(Time now, Point2 robot, std::span<const GologTerm> events = {});
   /// Of an action that was begun; of any other it changes nothing.
   [[nodiscard]] Result<void> outcome(const GologTerm& action, const GologOutcome& outcome);
+  /// Runs `main` from its beginning; what is true stays true.
+  [[nodiscard]] Result<void> begin_again();
   /// What the program would begin from here if every action succeeded and nothing else happened.
   [[nodiscard]] Result<GologForesight> foresee(Point2 robot, int most_actions = 200);
   /// What the domain expects an action to take from here [s]; nullopt: it does not say.

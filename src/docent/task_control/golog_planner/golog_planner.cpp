@@ -126,10 +126,18 @@ void GologPlanner::watch(Mission& mission, const Situation& seen, Time now) {
 
 void GologPlanner::run(Mission& mission, Time now) {
   auto events = news(mission, mission.situation(now), now);
+  const bool opens =
+      std::any_of(events.begin(), events.end(), [](const auto& event) { return event.name == "opening"; });
+  if (opens && has_ended_) {
+    if (const auto begun = program_.begin_again(); !begun) return fail(mission, begun.error(), now);
+  }
   for (int i = 0; i < kMostActions; ++i) {
     const auto step = program_.step(now, mission.position(), events);
     if (!step) return fail(mission, step.error(), now);
     events.clear();
+    has_ended_ = step->kind == GologStep::Kind::finished;
+    if (const Situation seen = mission.situation(now); has_ended_ && seen.is_open && seen.is_anything_due)
+      return fail(mission, Error{"the program has ended though the museum is open and somebody waits"}, now);
     if (step->kind == GologStep::Kind::begin) {
       begin(mission, step->action, now);
     } else if (step->kind == GologStep::Kind::stop) {
@@ -279,7 +287,8 @@ void GologPlanner::remember() {
   }
   memory_ = Json{{"snapshot", *snapshot},    {"requested", requested_},    {"under_way", under_way},
                  {"lost", told_lost_},       {"blocked", told_blocked_},   {"closing", told_closing_},
-                 {"exhibit", told_.exhibit}, {"language", told_.language}, {"left", have_left_}}
+                 {"exhibit", told_.exhibit}, {"language", told_.language}, {"left", have_left_},
+                 {"ended", has_ended_}}
                 .dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -316,6 +325,7 @@ bool GologPlanner::restore(const std::string& memory, TaskOrder& task) {
     told_closing_ = json.at("closing").get<bool>();
     told_ = {json.value("exhibit", ""), json.value("language", "")};
     have_left_ = json.value("left", false);
+    has_ended_ = json.value("ended", false);
     memory_ = memory;
   } catch (const Json::exception& why) {
     fault_ = std::string{"what the planner remembered is damaged: "} + why.what();

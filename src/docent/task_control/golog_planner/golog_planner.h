@@ -34,7 +34,8 @@ struct GologPlannerParams {
 /// program's choice. A drive to one of them begins a visit on the request board, its explanation fulfills it.
 ///
 /// One task is under way at a time; an action that the executive would have to do beside it fails. A program that is
-/// faulty or takes too many inferences is reported, and the plan controller serves until it is tried again.
+/// faulty, takes too many inferences, or has ended while somebody waits is reported, and the plan controller serves
+/// until it is tried again. One that has ended begins again when the museum opens.
 class GologPlanner final : public Planner {
  public:
   GologPlanner(const GologPlannerParams& params, GologProgram program)
@@ -70,6 +71,7 @@ class GologPlanner final : public Planner {
   GologPlannerParams params_;
   GologProgram program_;
   PlanController stand_in_;
+  bool has_ended_ = false;  ///< it begins again when the museum opens
   bool stands_in_ = false;  ///< the plan controller decides
   Time retry_at_{};
   std::vector<UnderWay> under_way_;

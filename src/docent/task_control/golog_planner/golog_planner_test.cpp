@@ -347,5 +347,29 @@ TEST_F(GologPlannerTest, LearnsHowLongItsWaysTake) {
   EXPECT_NEAR(table.front().mean_s, 20.5, 1.0);
 }
 
+TEST_F(GologPlannerTest, AProgramThatHasEndedBeginsAgainWhenTheMuseumOpens) {
+  start_shipped();
+  mission->limits(false, OperatingMode::closed);
+  pass(5.0);
+  mission->limits(true, OperatingMode::open);
+  pass(1.0);
+  wish("1", RequestKind::exhibit, "e1");
+  EXPECT_EQ(mission->planner_fault(), "");
+  ASSERT_EQ(task(), "drive e1");
+  run();
+  EXPECT_EQ(status_of("1"), RequestStatus::fulfilled);
+}
+
+TEST_F(GologPlannerTest, AProgramThatHasEndedLeavesTheVisitorsToThePlanController) {
+  start_text("proc(main, [goto(e1), explain(e1)]).\n");
+  EXPECT_EQ(run(), (Tasks{"drive e1", "explain e1"}));
+  EXPECT_EQ(mission->planner_fault(), "") << "nobody waits";
+  wish("5", RequestKind::exhibit, "e5");
+  EXPECT_NE(mission->planner_fault(), "");
+  EXPECT_EQ(task(), "visit e5");
+  report(TaskStatus::done);
+  EXPECT_EQ(status_of("5"), RequestStatus::fulfilled);
+}
+
 }  // namespace
 }  // namespace docent::task_control
