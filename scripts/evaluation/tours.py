@@ -184,7 +184,7 @@ def draw_ways(path, museum, table):
         axes.set_xlabel("to")
         axes.set_ylabel("from")
         axes.set_title(f"{museum.name}: learned seconds from one exhibit to another")
-        figure.colorbar(image, label="s")
+        figure.colorbar(image, label="s", fraction=0.046, pad=0.04)
 
     figures.draw(path, (figures.WIDTH, figures.WIDTH), fill)
 
