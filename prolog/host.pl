@@ -2,7 +2,7 @@
     says what was wrong, "" for nothing; otherwise the new agent stays unbound. C++ defines travel/3 and order/3 here,
     the lengths of ways and the least-travel order of the program that is being asked. */
 :- module(golog_host, [host_load/8, host_unload/1, host_step/8, host_outcome/5, host_snapshot/3, host_restore/4,
-                       host_begin_again/3, host_foresee/6, host_duration/3]).
+                       host_begin_again/3, host_actions/3, host_foresee/6, host_duration/3]).
 :- use_module(library(lists)).
 :- use_module(situation).
 :- use_module(golog).
@@ -40,6 +40,14 @@ host_outcome(Agent, Action, Outcome, NewAgent, Fault) :-
 
 %!  host_begin_again(+Agent, -NewAgent, -Fault) is det.
 host_begin_again(Agent, NewAgent, Fault) :- guarded(Agent, begin_again(Agent, NewAgent), Fault).
+
+%!  host_actions(+Agent, -Names, -Fault) is det.
+%   Of all actions of the domain, as strings, each once.
+host_actions(Agent, Names, Fault) :- guarded(Agent, action_names(Agent, Names), Fault).
+
+action_names(agent(D, _, _), Names) :-
+    findall(Text, ( D:action(A), functor(A, Name, _), atom_string(Name, Text) ), Texts),
+    sort(Texts, Names).
 
 %!  host_snapshot(+Agent, -Text, -Fault) is det.
 host_snapshot(Agent, Text, Fault) :- guarded(Agent, snapshot(Agent, Text), Fault).

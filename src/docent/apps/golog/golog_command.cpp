@@ -9,8 +9,10 @@
 #include "docent/apps/golog/golog_trace.h"
 #include "docent/apps/shared/command.h"
 #include "docent/base/files.h"
+#include "docent/base/suggestion.h"
 #include "docent/museum/museum.h"
 #include "docent/planning/value_iteration/route.h"
+#include "docent/task_control/golex/decomposition.h"
 #include "docent/task_control/golog/golog_program.h"
 #include "docent/task_control/travel_times/travel.h"
 
@@ -54,6 +56,22 @@ std::vector<task_control::GologTerm> requests_of(const Options& options, const m
   return events;
 }
 
+/// What the robot does for each of the program's actions must be said: by golex.yaml, or by the built-in file.
+void check_actions(const Options& options, const museum::Museum& museum) {
+  const auto decomposition = value_or_fail(task_control::load_decomposition(options.museum));
+  auto program = value_or_fail(
+      task_control::GologProgram::load({}, file_of(options), programme_of(museum), task_control::straight_distance()));
+  for (const std::string& action : value_or_fail(program.actions())) {
+    // These two have no entry of their own: the robot stands, or attracts people.
+    if (action == "charge_battery" || action == "wait_for_request" || decomposition.find(action) != nullptr) continue;
+    std::vector<std::string> known;
+    for (const auto& [name, items] : decomposition.actions) known.push_back(name);
+    throw CommandFailed{(std::filesystem::path{options.museum} / "golex.yaml").string() +
+                        ": does not say what the robot does for the action '" + action + "'" +
+                        did_you_mean(action, known)};
+  }
+}
+
 void check(const Options& options) {
   const museum::Museum museum = value_or_fail(museum::load_museum(options.museum));
   const auto file = file_of(options);
@@ -63,6 +81,7 @@ void check(const Options& options) {
     throw CommandFailed{file.string() + ": " + std::to_string(faults.size()) +
                         (faults.size() == 1 ? " fault" : " faults")};
   }
+  check_actions(options, museum);
   std::printf("%s: fine, for the %zu exhibits of %s\n", file.string().c_str(), museum.exhibits.size(),
               options.museum.c_str());
 }
@@ -114,7 +133,7 @@ void add_golog_command(CLI::App& app) {
   CLI::App* golog = app.add_subcommand("golog", "Check a museum's tour program, show its plan, try it on events");
   golog->require_subcommand(1);
   auto options = std::make_shared<Options>();
-  add(*golog, "check", "Every fault of the program, with file and line", options, check);
+  add(*golog, "check", "Every fault of the program and of golex.yaml, with file and line", options, check);
   CLI::App* planned = add(*golog, "plan", "What the program would do about some requests", options, plan);
   CLI::App* traced = add(*golog, "trace", "Play events to the program and print each step", options, trace);
   for (CLI::App* command : {planned, traced}) {

@@ -1,6 +1,5 @@
 #include "docent/modules/guide/executive_module.h"
 
-#include "docent/base/files.h"
 #include "docent/interaction/speech/sentences.h"
 #include "docent/interaction/speech/spoken_text.h"
 #include "docent/messages/conversions.h"
@@ -35,15 +34,6 @@ docent_msgs::Prompt to_message(const task_control::Question& question, const mus
   prompt.default_option = to_text(question.default_option);
   prompt.deadline = docent::to_message(question.deadline);
   return prompt;
-}
-
-/// The built-in one under what the museum's file says.
-Result<task_control::Decomposition> decomposition_of(const museum::Museum& museum) {
-  const std::filesystem::path file = museum.folder / "golex.yaml";
-  if (museum.folder.empty() || !std::filesystem::exists(file)) return task_control::default_decomposition();
-  const auto text = read_file(file);
-  if (!text) return tl::unexpected<Error>(text.error());
-  return task_control::parse_decomposition(*text, file.string(), task_control::default_decomposition());
 }
 
 /// For an evaluation: a robot that waits for ever for what does not come.
@@ -205,7 +195,7 @@ Result<std::unique_ptr<Module>> make_executive(const ModuleContext& context) {
   params->ladder.active = !context.config.evaluation().without_ladder;
   params->ladder.asks = !context.config.evaluation().without_moods;
   if (context.config.evaluation().never_gives_up) *params = without_limits(*params);
-  auto decomposition = decomposition_of(context.museum);
+  auto decomposition = task_control::load_decomposition(context.museum.folder);
   if (!decomposition) return tl::unexpected<Error>(decomposition.error());
   auto memory = task_control::load_checkpoint(context.state / "executive.json", map_hash(context.museum.map));
   // A damaged checkpoint costs the running step, not the robot: the mission's task begins again.

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "docent/base/check.h"
+#include "docent/base/files.h"
 #include "docent/base/yaml.h"
 #include "docent/interaction/speech/sentences.h"
 #include "docent/task_control/golex/actions_file.h"
@@ -191,6 +192,14 @@ Result<Decomposition> parse_decomposition(const std::string& text, const std::st
   } catch (const YAML::Exception& why) {
     return fail(name + ":" + std::to_string(why.mark.line + 1) + ": " + why.msg);
   }
+}
+
+Result<Decomposition> load_decomposition(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "golex.yaml";
+  if (folder.empty() || !std::filesystem::exists(file)) return default_decomposition();
+  const auto text = read_file(file);
+  if (!text) return tl::unexpected<Error>(text.error());
+  return parse_decomposition(*text, file.string(), default_decomposition());
 }
 
 }  // namespace docent::task_control

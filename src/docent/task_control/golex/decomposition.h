@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -58,5 +59,9 @@ struct Decomposition {
 /// The actions of the file over those of `base`. Error: "NAME:LINE: why".
 [[nodiscard]] Result<Decomposition> parse_decomposition(const std::string& text, const std::string& name,
                                                         Decomposition base);
+
+/// That of a museum: the built-in one under what the folder's golex.yaml says, if there is one. Error: names file and
+/// line.
+[[nodiscard]] Result<Decomposition> load_decomposition(const std::filesystem::path& folder);
 
 }  // namespace docent::task_control

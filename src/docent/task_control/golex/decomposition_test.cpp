@@ -1,7 +1,11 @@
 #include "docent/task_control/golex/decomposition.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <filesystem>
+
+#include "docent/base/files.h"
 #include "docent/task_control/golex/executive_fixture.h"
 #include "docent/vocabulary/vocabulary.h"
 
@@ -69,6 +73,18 @@ TEST(Decomposition, WhatIsWrongIsNamedWithItsLine) {
   EXPECT_NE(error_of("visit:\n  - drive: {a: b}\n"), "");
   EXPECT_NE(error_of("[1]: [2]\n"), "");
   EXPECT_NE(error_of(""), "");
+}
+
+TEST(Decomposition, AMuseumsFolderMayHaveOne) {
+  const auto folder = std::filesystem::temp_directory_path() / ("docent-golex-" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  EXPECT_EQ(load_decomposition(folder)->find("hello"), nullptr);
+  ASSERT_TRUE(write_file_atomically(folder / "golex.yaml", "hello:\n  - wait: 1\n"));
+  EXPECT_NE(load_decomposition(folder)->find("hello"), nullptr);
+  ASSERT_TRUE(write_file_atomically(folder / "golex.yaml", "hello:\n  - wiat: 1\n"));
+  EXPECT_EQ(load_decomposition(folder).error().message,
+            (folder / "golex.yaml").string() + ":2: unknown directive 'wiat'");
+  std::filesystem::remove_all(folder);
 }
 
 /// Of a museum's own action.

@@ -199,6 +199,15 @@ Result<void> GologProgram::outcome(const GologTerm& action, const GologOutcome& 
   return fine;
 }
 
+Result<std::vector<std::string>> GologProgram::actions() {
+  ProgramTurn turn{*this};
+  const term_t arguments = PL_new_term_refs(3);
+  if (PL_recorded(agent_->record, arguments) == 0) return tl::unexpected(out_of_memory());
+  if (auto fine = no_fault(turn.call("host_actions", 3, arguments), arguments + 2); !fine)
+    return tl::unexpected(fine.error());
+  return texts_of(arguments + 1).value_or(std::vector<std::string>{});
+}
+
 Result<void> GologProgram::begin_again() {
   ProgramTurn turn{*this};
   const term_t arguments = PL_new_term_refs(3);

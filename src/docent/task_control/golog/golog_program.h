@@ -75,6 +75,8 @@ class GologProgram {
   [[nodiscard]] Result<GologStep> step(Time now, Point2 robot, std::span<const GologTerm> events = {});
   /// Of an action that was begun; of any other it changes nothing.
   [[nodiscard]] Result<void> outcome(const GologTerm& action, const GologOutcome& outcome);
+  /// The names of all actions that it can speak of, its own among them.
+  [[nodiscard]] Result<std::vector<std::string>> actions();
   /// Runs `main` from its beginning; what is true stays true.
   [[nodiscard]] Result<void> begin_again();
   /// What the program would begin from here if every action succeeded and nothing else happened.

@@ -208,6 +208,15 @@ TEST_F(GologProgramTest, AProgramThatEatsMemoryIsCut) {
   EXPECT_EQ(run(other, {requested("e1")}), (Actions{"drive(e1)", "explain(e1)", "drive(home)"}));
 }
 
+TEST_F(GologProgramTest, KnowsItsActions) {
+  auto program = load("proc(main, hello).\naction(hello).\nposs(hello, true).\n");
+  ASSERT_TRUE(program) << program.error().message;
+  const auto names = program->actions();
+  ASSERT_TRUE(names) << names.error().message;
+  for (const char* name : {"hello", "drive", "explain", "charge_battery"})
+    EXPECT_EQ(std::count(names->begin(), names->end(), name), 1) << name;
+}
+
 TEST_F(GologProgramTest, UnknownEventsAreErrors) {
   GologProgram program = shipped("tour_guide");
   const std::vector<GologTerm> nonsense{{"earthquake"}};
