@@ -2,14 +2,17 @@
     file is plain Prolog without a module. What several files define adds up in their order for the predicates of a
     domain (situation.pl), so that the first procedure that fits counts; any other predicate is that of the first
     file. */
-:- module(program, [load_program/4, unload_program/1, program_faults/3, fault_text/3]).
+:- module(program, [load_program/4, unload_program/1, action_place/3, program_faults/3, fault_text/3]).
 :- use_module(library(apply)).
 :- use_module(library(lists)).
 :- use_module(library(error)).
+:- use_module(library(occurs)).
+:- use_module(library(readutil)).
 :- use_module(situation).
 :- use_module(travel, []).
 
 :- dynamic procedure_at/4.  % domain, Name/Arity, file, line
+:- dynamic action_at/4.     % domain, name, file, line
 :- dynamic defined_in/3.    % domain, Name/Arity, file
 
 %!  load_program(+Domain, +Files, +Facts, -Faults) is det.
@@ -21,14 +24,25 @@ load_program(D, Files, Facts, Faults) :-
     forall(member(Fact, Facts), add_clause(Fact, facts, D)),
     read_files(Files, D, Clauses, ReadFaults),
     (   ReadFaults == []
-    ->  findall(Text, ( member(Clause, Clauses), clause_fault(Clause, D, Text) ), Found),
-        findall(Text, ( \+ D:proc(main, _), Files = [File | _], at(File, 1, golog(no_main), Text) ), Missing),
+    ->  findall(Text, ( member(Clause, Clauses), clause_fault(Clause, Clauses, D, Text) ), Found),
+        findall(Text, ( Files = [File | _], main_fault(Facts, D, Fault), at(File, 1, golog(Fault, D), Text) ), Missing),
         append(Found, Missing, Faults)
     ;   Faults = ReadFaults
     ).
 
+main_fault(_, D, no_main) :- \+ D:proc(main, _).
+main_fault(Facts, D, Fault) :- member(proc(main, P), Facts), program_fault(P, D, Fault).
+
+%!  action_place(+Domain, ?Name, -Place) is nondet.
+%   Where a file declares an action, "FILE:LINE", both as strings.
+action_place(D, Text, Place) :-
+    action_at(D, Name, File, Line),
+    atom_string(Name, Text),
+    format(string(Place), "~w:~d", [File, Line]).
+
 %!  unload_program(+Domain) is det.
 unload_program(D) :-
+    retractall(action_at(D, _, _, _)),
     retractall(procedure_at(D, _, _, _)),
     retractall(defined_in(D, _, _)),
     forall(( current_predicate(D:Name/Arity),
@@ -36,37 +50,42 @@ unload_program(D) :-
              \+ predicate_property(D:Head, imported_from(_)) ),
            retractall(D:Head)).
 
-% Reading: each clause as clause(File, Line, Term, Names of its variables).
+% Reading: each clause as clause(File, where(Line, Character, Positions of its terms), Term, Names of its variables).
 read_files([], _, [], []).
 read_files([File | Files], D, Clauses, Faults) :-
     catch(setup_call_cleanup(open(File, read, In, [encoding(utf8)]),
                              read_clauses(In, File, D, Here, FaultsHere),
                              close(In)),
           error(E, _),
-          ( Here = [], at(File, 1, E, Fault), FaultsHere = [Fault] )),
+          ( Here = [], reading_fault(E, Why), at(File, 1, Why, Fault), FaultsHere = [Fault] )),
     read_files(Files, D, There, FaultsThere),
     append(Here, There, Clauses),
     append(FaultsHere, FaultsThere, Faults).
+
+reading_fault(E, Why) :- ( E = existence_error(source_sink, _) -> Why = golog(no_file) ; Why = E ).
 
 read_clauses(In, File, D, Clauses, Faults) :-
     read_one(In, D, Read),
     (   Read = read(end_of_file, _, _, _)
     ->  Clauses = [], Faults = []
     ;   Read = fault(Line, E)
-    ->  at(File, Line, E, Fault), Clauses = Rest, Faults = [Fault | RestFaults],
+    ->  syntax_text(File, Line, E, Fault), Clauses = Rest, Faults = [Fault | RestFaults],
         read_clauses(In, File, D, Rest, RestFaults)
-    ;   Read = read(Term, Line, Names, Singletons),
-        singleton_faults(Singletons, File, Line, Faults, Faults1),
+    ;   Read = read(Term, Where, Names, Singletons),
+        Clause = clause(File, Where, Term, Names),
+        singleton_faults(Singletons, Clause, D, Faults, Faults1),
+        Where = where(Line, _, _),
         take(Term, File, Line, D, Faults1, RestFaults),
-        ( Term = (:- _) -> Clauses = Rest ; Clauses = [clause(File, Line, Term, Names) | Rest] ),
+        ( Term = (:- _) -> Clauses = Rest ; Clauses = [Clause | Rest] ),
         read_clauses(In, File, D, Rest, RestFaults)
     ).
 
 read_one(In, D, Read) :-
-    catch(( read_term(In, Term, [module(D), term_position(At), variable_names(Names), singletons(Singletons),
-                                 syntax_errors(error)]),
+    catch(( read_term(In, Term, [module(D), term_position(At), subterm_positions(Positions), variable_names(Names),
+                                 singletons(Singletons), syntax_errors(error)]),
             stream_position_data(line_count, At, Line),
-            Read = read(Term, Line, Names, Singletons) ),
+            stream_position_data(char_count, At, Start),
+            Read = read(Term, where(Line, Start, Positions), Names, Singletons) ),
           error(syntax_error(E), Where),
           ( error_line(Where, Line), Read = fault(Line, syntax_error(E)) )).
 
@@ -74,10 +93,24 @@ error_line(stream(_, Line, _, _), Line) :- !.
 error_line(file(_, Line, _, _), Line) :- !.
 error_line(_, 1).
 
+% What Prolog says, and what it is most often about.
+syntax_text(File, Line, E, Text) :-
+    at(File, Line, E, Said),
+    (   file_line(File, Line, Written), split_string(Written, "", " \t", [Bare]), sub_string(Bare, 0, 1, _, "#")
+    ->  Hint = "comments begin with %"
+    ;   Hint = "is a bracket, a comma or a full stop missing before this?"
+    ),
+    format(string(Text), "~s; ~s", [Said, Hint]).
+
+file_line(File, Line, Text) :-
+    read_file_to_string(File, All, [encoding(utf8)]),
+    split_string(All, "\n", "", Lines),
+    nth1(Line, Lines, Text).
+
 singleton_faults([], _, _, Faults, Faults).
-singleton_faults([Name = _ | More], File, Line, [Fault | Faults], Rest) :-
-    at(File, Line, golog(singleton(Name)), Fault),
-    singleton_faults(More, File, Line, Faults, Rest).
+singleton_faults([Name = V | More], Clause, D, [Fault | Faults], Rest) :-
+    clause_text(Clause, V, singleton(Name), D, Fault),
+    singleton_faults(More, Clause, D, Faults, Rest).
 
 take(Term, File, Line, D, Faults, Rest) :-
     catch(take(Term, File, Line, D), error(E, _), true),
@@ -91,10 +124,15 @@ take(Term, File, Line, D) :-
     forall(member(Clause, Clauses), add_clause(Clause, File, D)),
     forall(( member(proc(Head, _), Clauses), callable(Head), functor(Head, Name, Arity),
              \+ procedure_at(D, Name/Arity, _, _) ),
-           assertz(procedure_at(D, Name/Arity, File, Line))).
+           assertz(procedure_at(D, Name/Arity, File, Line))),
+    forall(( member(Clause, Clauses), clause_head(Clause, action(A)), callable(A), functor(A, Name, _),
+             \+ action_at(D, Name, _, _) ),
+           assertz(action_at(D, Name, File, Line))).
+
+clause_head(Clause, Head) :- ( Clause = (Head0 :- _) -> Head = Head0 ; Head = Clause ).
 
 add_clause(Clause, File, D) :-
-    ( Clause = (Head :- _) -> true ; Head = Clause ),
+    clause_head(Clause, Head),
     must_be(callable, Head),
     functor(Head, Name, Arity),
     (   domain_predicate(Name/Arity)
@@ -106,9 +144,67 @@ add_clause(Clause, File, D) :-
     ).
 
 % Faults of what was read, each with its place.
-clause_fault(clause(File, Line, Term, Names), D, Text) :-
-    term_fault(Term, Names, D, Fault),
-    at(File, Line, golog(Fault), Text).
+clause_fault(Clause, Clauses, D, Text) :-
+    Clause = clause(_, _, Term, Names),
+    (   term_fault(Term, Names, D, Fault)
+    ;   hidden_fault(Clause, Clauses, D, Fault)
+    ),
+    culprit(Fault, Term, Names, Culprit),
+    clause_text(Clause, Culprit, Fault, D, Text).
+
+% The part of the clause that is wrong, if the fault names one.
+culprit(unbound(Name), _, Names, V) :- !, memberchk(Name = V, Names).
+culprit(Fault, _, _, Culprit) :- compound(Fault), !, arg(1, Fault, Culprit).
+culprit(_, Term, _, Term).
+
+%   With the line of the culprit, and with the names that variables have in the file.
+clause_text(clause(File, Where, Term, Names), Culprit, Fault, D, Text) :-
+    culprit_line(Where, File, Term, Culprit, Line),
+    findall(Text, ( maplist(name_variable, Names), term_variables(Fault, Nameless), maplist(=('$VAR'('_')), Nameless),
+                    at(File, Line, golog(Fault, D), Text) ), [Text]).
+
+name_variable(Name = '$VAR'(Name)).
+
+culprit_line(where(Line0, Start, Positions), File, Term, Culprit, Line) :-
+    (   subterm_start(Term, Positions, Culprit, At)
+    ->  read_file_to_string(File, All, [encoding(utf8)]),
+        Length is At - Start,
+        sub_string(All, Start, Length, _, Between),
+        split_string(Between, "\n", "", Lines),
+        length(Lines, Count),
+        Line is Line0 + Count - 1
+    ;   Line = Line0
+    ).
+
+%   The first character of the first subterm that is identical to the culprit.
+subterm_start(Term, Positions, Culprit, At) :- Term == Culprit, !, arg(1, Positions, At).
+subterm_start(Term, parentheses_term_position(_, _, Positions), Culprit, At) :- !,
+    subterm_start(Term, Positions, Culprit, At).
+subterm_start(Term, term_position(_, _, _, _, Positions), Culprit, At) :- !,
+    nth1(I, Positions, Inner),
+    arg(I, Term, Arg),
+    subterm_start(Arg, Inner, Culprit, At), !.
+subterm_start(Term, list_position(_, _, Positions, _), Culprit, At) :-
+    nth0(I, Positions, Inner),
+    length(Front, I),
+    append(Front, [Element | _], Term),
+    subterm_start(Element, Inner, Culprit, At), !.
+
+% What Prolog takes, but nobody means.
+hidden_fault(clause(_, _, Term, _), _, _, wrong_arity(Head, Wanted)) :-
+    clause_head(Term, Head),
+    functor(Head, Name, Arity),
+    domain_predicate(Name/Wanted), Wanted =\= Arity.
+hidden_fault(clause(File, where(_, Start, _), proc(Head, _), _), Clauses, _, repeated(Head, Line)) :-
+    once(( member(clause(File, where(Line, Earlier, _), proc(Head0, _), _), Clauses),
+           Earlier < Start, subsumes_term(Head0, Head) )).
+hidden_fault(clause(File, _, Term, _), Clauses, D, unused(Head, Other)) :-
+    clause_head(Term, Head),
+    functor(Head, Name, Arity),
+    defined_in(D, Name/Arity, File),
+    once(( defined_in(D, Other/Arity, Elsewhere), Elsewhere \== File, is_misspelt(Name, Other) )),
+    \+ ( member(clause(_, _, Using, _), Clauses), clause_head(Using, UsingHead), \+ functor(UsingHead, Name, Arity),
+         sub_term(Use, Using), nonvar(Use), functor(Use, Name, Arity) ).
 
 term_fault(proc(Head, P), Names, D, Fault) :- !,
     (   program_fault(P, D, Fault)
@@ -120,13 +216,27 @@ term_fault(proc(Head, P), Names, D, Fault) :- !,
 term_fault(poss(A, C), _, D, Fault) :- !, ( action_fault(A, D, Fault) ; condition_fault(C, D, Fault) ).
 term_fault(derived(_, C), _, D, Fault) :- !, condition_fault(C, D, Fault).
 term_fault(duration(_, _, C), _, D, Fault) :- !, condition_fault(C, D, Fault).
-term_fault(causes_true(_, F, C), _, D, Fault) :- !, ( fluent_fault(F, D, Fault) ; condition_fault(C, D, Fault) ).
-term_fault(causes_false(_, F, C), _, D, Fault) :- !, ( fluent_fault(F, D, Fault) ; condition_fault(C, D, Fault) ).
+term_fault(causes_true(A, F, C), _, D, Fault) :- !, effect_fault(A, F, C, D, Fault).
+term_fault(causes_false(A, F, C), _, D, Fault) :- !, effect_fault(A, F, C, D, Fault).
 term_fault(initially(F), _, D, Fault) :- !, fluent_fault(F, D, Fault).
 term_fault(action(A), _, D, impossible(A)) :- !, \+ D:poss(A, _).
 term_fault((_ :- Body), _, D, Fault) :- goal_fault(Body, D, Fault).
 
 action_fault(A, D, unknown(A)) :- \+ D:action(A).
+
+effect_fault(A, _, _, D, no_event(A)) :- \+ \+ cannot_happen(A, D).
+effect_fault(_, F, _, D, Fault) :- fluent_fault(F, D, Fault).
+effect_fault(_, _, C, D, Fault) :- condition_fault(C, D, Fault).
+
+cannot_happen(A, _) :- var(A), !, fail.
+cannot_happen(A, D) :- phase(A, B), !, nonvar(B), \+ D:action(B).
+cannot_happen(A, D) :- \+ D:action(A), \+ clause(D:exogenous(A), _).
+
+phase(begin(A), A).
+phase(ended(A), A).
+phase(failed(A), A).
+phase(stopped(A), A).
+phase(sensed(A, _), A).
 
 fluent_fault(F, D, no_fluent(F)) :- \+ situation:is_fluent(F, D).
 
@@ -142,8 +252,31 @@ program_fault(P, D, Fault) :- parts(P, Programs, Conditions), !,
 program_fault(stop(A), D, Fault) :- !, nonvar(A), action_fault(A, D, Fault).
 program_fault(under_way(A), D, Fault) :- !, action_fault(A, D, Fault).
 program_fault(Call, D, Fault) :- callable(Call), ( D:action(Call) -> true ; D:proc(Call, _) -> true ), !,
-    ground(Call), D:expects(Call, Goal), \+ D:Goal, Fault = unexpected(Call, Goal).
+    ground(Call), misleads(Call, [], D, Goal), Fault = unexpected(Call, Goal).
 program_fault(Call, _, unknown(Call)).
+
+% The call, or one that it is certain to make with the same argument, expects a goal that fails.
+misleads(Call, _, D, Goal) :- D:expects(Call, Goal), \+ D:Goal, !.
+misleads(Call, Within, D, Goal) :-
+    compound(Call),
+    functor(Call, Name, Arity),
+    \+ memberchk(Name/Arity, Within),
+    once(D:proc(Call, P)),
+    certain_call(P, Inner),
+    ground(Inner),
+    misleads(Inner, [Name/Arity | Within], D, Goal),
+    arg(_, Call, Argument),
+    sub_term(Part, Goal), Part == Argument, !.
+
+certain_call(P, _) :- var(P), !, fail.
+certain_call(P, Call) :- is_list(P), !, member(Q, P), certain_call(Q, Call).
+certain_call(pi(_, P), Call) :- !, certain_call(P, Call).
+certain_call(conc(P, Q), Call) :- !, ( certain_call(P, Call) ; certain_call(Q, Call) ).
+certain_call(within(_, P), Call) :- !, certain_call(P, Call).
+certain_call(within(_, P, _), Call) :- !, certain_call(P, Call).
+certain_call(search(P), Call) :- !, certain_call(P, Call).
+certain_call(search(P, _), Call) :- !, certain_call(P, Call).
+certain_call(P, P) :- callable(P), \+ parts(P, _, _), P \= stop(_).
 
 % What a construct is made of.
 parts([], [], []).
@@ -184,9 +317,7 @@ goal_fault((A ; B), D, Fault) :- !, ( goal_fault(A, D, Fault) ; goal_fault(B, D,
 goal_fault((A -> B), D, Fault) :- !, ( goal_fault(A, D, Fault) ; goal_fault(B, D, Fault) ).
 goal_fault(\+ A, D, Fault) :- !, goal_fault(A, D, Fault).
 goal_fault(_:_, _, _) :- !, fail.
-goal_fault(Goal, D, undefined(Name/Arity)) :-
-    \+ predicate_property(D:Goal, visible),
-    functor(Goal, Name, Arity).
+goal_fault(Goal, D, undefined(Goal)) :- \+ predicate_property(D:Goal, visible).
 
 % A variable of a program that is no parameter and that nothing introduces.
 free_variable(T, Bound, V) :- var(T), !, \+ ( member(B, Bound), B == T ), V = T.
@@ -208,7 +339,8 @@ at(File, Line, E, Text) :- message_text(E, _, Message), format(string(Text), "~w
 
 %!  fault_text(+Error, +Domain, -Text) is det.
 %   The error(E, Context) that a step of the domain's program has thrown, with file and line of its procedure.
-fault_text(error(E, Context), D, Text) :-
+fault_text(error(E0, Context), D, Text) :-
+    ( E0 = golog(Fault) -> E = golog(Fault, D) ; E = E0 ),
     (   nonvar(Context), Context = in(Name, Inner)
     ->  message_text(E, Inner, Message),
         (   procedure_at(D, Name, File, Line)
@@ -221,6 +353,10 @@ fault_text(error(E, Context), D, Text) :-
 fault_text(E, _, Text) :- format(string(Text), "~q", [E]).
 
 message_text(golog(Fault), _, Codes) :- !, phrase(fault(Fault), Parts), format_parts(Parts, Codes).
+message_text(golog(Fault, D), _, Codes) :- !,
+    message_text(golog(Fault), _, Said),
+    ( hint(Fault, D, Format-Arguments) -> format(codes(Hint), Format, Arguments) ; Hint = [] ),
+    append(Said, Hint, Codes).
 message_text(E, Context, Codes) :-
     catch(prolog_message(E, Context, Line), _, fail), !,
     atom_codes(Line, Codes).
@@ -236,6 +372,51 @@ prolog_message(E, Context, Line) :-
 
 format_parts([Format-Arguments], Codes) :- format(codes(Codes), Format, Arguments).
 
+%   What may have been meant.
+hint(unknown(Call), D, Hint) :- meant(Call, program_name(D), Hint).
+hint(unknown_event(Event), D, Hint) :- meant(Event, event_name(D), Hint).
+hint(no_event(Event), D, Hint) :- ( phase(Event, A) -> true ; A = Event ), meant(A, occurrence_name(D), Hint).
+hint(no_fluent(F), D, Hint) :- meant(F, fluent_name(D), Hint).
+hint(undefined(Goal), D, Hint) :- meant(Goal, condition_name(D), Hint).
+hint(unexpected(_, Goal), D, Hint) :-
+    first_alternative(Goal, Expected),
+    Expected =.. [Kind, Argument],
+    Known =.. [Kind, Right],
+    (   format(atom(Right), "~w", [Argument]), Right \== Argument, D:Known
+    ->  Hint = "; write ~q"-[Right]
+    ;   atom(Argument), Right = Other, D:Known, atom(Other), is_misspelt(Argument, Other)
+    ->  Hint = "; did you mean ~q?"-[Other]
+    ).
+
+meant(Call, Known, Hint) :-
+    functor(Call, Name, Arity),
+    (   call(Known, Name, Wanted)
+    ->  Wanted =\= Arity, Hint = "; did you mean ~q?"-[Name/Wanted]
+    ;   call(Known, Other, _), is_misspelt(Name, Other)
+    ->  Hint = "; did you mean ~q?"-[Other]
+    ).
+
+is_misspelt(Name, Other) :- Name \== Other, dwim_match(Name, Other).
+
+program_name(D, Name, Arity) :- ( action_name(D, Name, Arity) ; procedure_name(D, Name, Arity) ; construct_name(Name, Arity) ).
+occurrence_name(D, Name, Arity) :- ( action_name(D, Name, Arity) ; event_name(D, Name, Arity) ).
+condition_name(D, Name, Arity) :- ( fluent_name(D, Name, Arity) ; defined_in(D, Name/Arity, _) ).
+
+action_name(D, Name, Arity) :- clause(D:action(A), _), is_name(A, Name, Arity).
+event_name(D, Name, Arity) :- clause(D:exogenous(Event), _), is_name(Event, Name, Arity).
+procedure_name(D, Name, Arity) :- clause(D:proc(Head, _), _), is_name(Head, Name, Arity).
+fluent_name(D, Name, Arity) :-
+    ( clause(D:fluent(F), _) ; clause(D:functional(F), _) ; clause(D:derived(F, _), _) ),
+    is_name(F, Name, Arity).
+construct_name(Name, Arity) :-
+    clause(parts(P, _, _), _),
+    \+ memberchk(P, [until(_, _, _), following(_, _, _, _), in(_, _)]),  % of programs under way
+    is_name(P, Name, Arity).
+
+is_name(Term, Name, Arity) :- callable(Term), functor(Term, Name, Arity).
+
+first_alternative(Goal, First) :- ( Goal = (First ; _) -> true ; First = Goal ).
+
 fault(singleton(Name)) --> ["the variable ~w stands here only once"-[Name]].
 fault(open_action(A)) --> ["the action ~p has a variable that nothing binds"-[A]].
 fault(no_main) --> ["there is no proc(main, ...)"-[]].
@@ -247,8 +428,13 @@ fault(unknown(Call)) --> ["~q is neither an action nor a procedure"-[Call]].
 fault(unknown_event(Event)) --> ["~q is no event of the domain"-[Event]].
 fault(no_fluent(F)) --> ["~q is no fluent"-[F]].
 fault(impossible(A)) --> ["nothing says when the action ~q is possible"-[A]].
-fault(undefined(Name)) --> ["~q is no fluent and no predicate"-[Name]].
-fault(unexpected(Call, Goal)) --> ["~q: there is no ~q"-[Call, Goal]].
+fault(undefined(Goal)) --> { functor(Goal, Name, Arity) }, ["~q is no fluent and no predicate"-[Name/Arity]].
+fault(unexpected(Call, Goal)) --> { first_alternative(Goal, Expected) }, ["~q: there is no ~q"-[Call, Expected]].
+fault(no_event(A)) --> ["~q is neither an action nor an event"-[A]].
+fault(wrong_arity(Head, Wanted)) --> { functor(Head, Name, Arity) }, ["~q means nothing; did you mean ~q?"-[Name/Arity, Name/Wanted]].
+fault(repeated(Head, Line)) --> ["the procedure ~q stands on line ~d already, and that one counts"-[Head, Line]].
+fault(unused(Head, Other)) --> ["~q is used nowhere; did you mean ~q?"-[Head, Other]].
+fault(no_file) --> ["there is no such file"-[]].
 fault(variable_program) --> ["a variable stands where a program should"-[]].
 fault(variable_condition) --> ["a variable stands where a condition should"-[]].
 fault(timeout(Most)) --> ["Prolog time-out: the step took more than ~D inferences"-[Most]].
