@@ -5,6 +5,7 @@
 
 #include "docent/base/check.h"
 #include "docent/base/files.h"
+#include "docent/base/suggestion.h"
 #include "docent/base/yaml.h"
 #include "docent/interaction/speech/sentences.h"
 #include "docent/task_control/golex/actions_file.h"
@@ -55,6 +56,13 @@ std::string fault_of(DirectiveKind kind, const std::string& argument) {
                  : "short, long, attraction, the key of a sentence, or a text in each language";
   }
   return "";
+}
+
+/// What an item may hold.
+std::vector<std::string> keys_of_items() {
+  std::vector<std::string> keys{"if", "mood"};
+  for (const char* kind : words_of(DirectiveKind{})) keys.emplace_back(kind);
+  return keys;
 }
 
 class ActionsReader {
@@ -115,7 +123,9 @@ class ActionsReader {
         continue;
       }
       const auto kind = parse<DirectiveKind>(key);
-      if (!kind) throw YamlFault{file_.fault(entry.first, "unknown directive '" + key + "'")};
+      if (!kind)
+        throw YamlFault{
+            file_.fault(entry.first, "unknown directive '" + key + "'" + did_you_mean(key, keys_of_items()))};
       item.together.push_back(directive(*kind, entry.second));
     }
     return item;

@@ -83,7 +83,7 @@ TEST(Decomposition, AMuseumsFolderMayHaveOne) {
   EXPECT_NE(load_decomposition(folder)->find("hello"), nullptr);
   ASSERT_TRUE(write_file_atomically(folder / "golex.yaml", "hello:\n  - wiat: 1\n"));
   EXPECT_EQ(load_decomposition(folder).error().message,
-            (folder / "golex.yaml").string() + ":2: unknown directive 'wiat'");
+            (folder / "golex.yaml").string() + ":2: unknown directive 'wiat'; did you mean 'wait'?");
   std::filesystem::remove_all(folder);
 }
 
