@@ -3,7 +3,8 @@
 
     An agent is agent(Domain, Program, State): what is left of the program, and all that is true now. The past is not
     kept: every step rolls the state forward. Time is what the caller says it is [s]. */
-:- module(agent, [start/2, begin_again/2, step/5, step/6, outcome/4, foresee/5, expected_duration/3,
+:- module(agent, [start/2, begin_again/2, step/5, step/6, outcome/4, foresee/5, check_event/2,
+                  impossible_actions/2, expected_duration/3,
                   agent_holds/2, snapshot/2, restore/3]).
 :- use_module(library(apply)).
 :- use_module(library(lists)).
@@ -45,9 +46,16 @@ step(Agent, Now, Events, Most, Result, NewAgent) :-
     ;   true
     ).
 
-take_event(D, Event, State0, State) :-
+%!  check_event(+Agent, +Event) is det.
+%   Throws where the domain knows no such event.
+check_event(agent(D, _, _), Event) :- known_event(D, Event).
+
+known_event(D, Event) :-
     must_be(ground, Event),
-    ( \+ \+ D:exogenous(Event) -> true ; throw(error(golog(unknown_event(Event)), _)) ),
+    ( \+ \+ D:exogenous(Event) -> true ; throw(error(golog(unknown_event(Event)), _)) ).
+
+take_event(D, Event, State0, State) :-
+    known_event(D, Event),
     progress(Event, State0, D, State1),
     count_news(State1, D, State).
 
@@ -112,6 +120,15 @@ foresee(Most, Agent0, Now, MostInferences, Actions, End) :-
     ->  foresee(Most, Agent1, Now, MostInferences, Actions, End)
     ;   Actions = [], End = Result
     ).
+
+%!  impossible_actions(+Agent, -Actions) is det.
+%   Those that the program would begin now if they were possible.
+impossible_actions(agent(D, P, State), Actions) :-
+    findall(A, wanted_action(P, now(State), D, A), Wanted),
+    sort(Wanted, Sorted),
+    exclude(is_possible(State, D), Sorted, Actions).
+
+is_possible(State, D, A) :- possible(A, now(State), D).
 
 %!  expected_duration(+Agent, +Action, -Seconds) is semidet.
 %   As the domain's duration/3 says; fails where it says nothing.

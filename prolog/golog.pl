@@ -28,7 +28,7 @@
 
     A procedure's body stands as in(Name, P), so that faults name it.
 */
-:- module(golog, [trans/5, final/3, do/4, plan/4, plan/5, actions_under_way/4]).
+:- module(golog, [trans/5, final/3, do/4, plan/4, plan/5, actions_under_way/4, wanted_action/4]).
 :- use_module(library(apply)).
 :- use_module(library(lists)).
 :- use_module(situation).
@@ -179,6 +179,28 @@ awaited(prioritized(Ps), A) :- !, member(P, Ps), awaited(P, A).
 awaited(until(_, P, _), A) :- !, awaited(P, A).
 awaited(in(_, P), A) :- !, awaited(P, A).
 awaited(following(_, _, P, _), A) :- awaited(P, A).
+
+%!  wanted_action(+P, +S, +D, -A) is nondet.
+%   The actions without variables that P begins with in S, possible or not.
+wanted_action(P, _, _, _) :- var(P), !, fail.
+wanted_action([P | Ps], S, D, A) :- !, ( wanted_action(P, S, D, A) ; final(P, S, D), wanted_action(Ps, S, D, A) ).
+wanted_action(ndet(P, Q), S, D, A) :- !, ( wanted_action(P, S, D, A) ; wanted_action(Q, S, D, A) ).
+wanted_action(conc(P, Q), S, D, A) :- !, ( wanted_action(P, S, D, A) ; wanted_action(Q, S, D, A) ).
+wanted_action(prioritized(Ps), S, D, A) :- !, member(P, Ps), wanted_action(P, S, D, A).
+wanted_action(if(C, P, Q), S, D, A) :- !,
+    ( \+ \+ holds(C, S, D) -> wanted_action(P, S, D, A) ; wanted_action(Q, S, D, A) ).
+wanted_action(while(C, P), S, D, A) :- !, \+ \+ holds(C, S, D), wanted_action(P, S, D, A).
+wanted_action(interrupt(C, P), S, D, A) :- !, \+ \+ holds(C, S, D), wanted_action(P, S, D, A).
+wanted_action(interrupt(X, C, P), S, D, A) :- !,
+    fresh(X, C-P, _, C1-P1),
+    holds(C1, S, D),
+    wanted_action(P1, S, D, A).
+wanted_action(within(_, P), S, D, A) :- !, wanted_action(P, S, D, A).
+wanted_action(within(_, P, _), S, D, A) :- !, wanted_action(P, S, D, A).
+wanted_action(until(_, P, _), S, D, A) :- !, wanted_action(P, S, D, A).
+wanted_action(in(_, P), S, D, A) :- !, wanted_action(P, S, D, A).
+wanted_action(A, _, D, A) :- ground(A), \+ \+ D:action(A), !.
+wanted_action(Call, S, D, A) :- \+ \+ D:proc(Call, _), !, body(Call, _, P, D), wanted_action(P, S, D, A).
 
 /*  Search. Actions under way are imagined done. The way found is followed as long as nothing happens that it did not
     foresee (the fluent news(N), which agent.pl counts up); then it is searched again from what is left of the program. */

@@ -2,8 +2,10 @@
     says what was wrong, "" for nothing; otherwise the new agent stays unbound. C++ defines travel/3 and order/3 here,
     the lengths of ways and the least-travel order of the program that is being asked. */
 :- module(golog_host, [host_load/8, host_unload/1, host_step/8, host_outcome/5, host_snapshot/3, host_restore/4,
-                       host_begin_again/3, host_actions/3, host_foresee/6, host_duration/3]).
+                       host_begin_again/3, host_actions/4, host_check_event/3,
+                       host_impossible/3, host_foresee/6, host_duration/3]).
 :- use_module(library(lists)).
+:- use_module(library(pairs)).
 :- use_module(situation).
 :- use_module(golog).
 :- use_module(agent).
@@ -41,13 +43,19 @@ host_outcome(Agent, Action, Outcome, NewAgent, Fault) :-
 %!  host_begin_again(+Agent, -NewAgent, -Fault) is det.
 host_begin_again(Agent, NewAgent, Fault) :- guarded(Agent, begin_again(Agent, NewAgent), Fault).
 
-%!  host_actions(+Agent, -Names, -Fault) is det.
-%   Of all actions of the domain, as strings, each once.
-host_actions(Agent, Names, Fault) :- guarded(Agent, action_names(Agent, Names), Fault).
+%!  host_actions(+Agent, -Names, -Places, -Fault) is det.
+%   Of all actions of the domain, as strings, each name once, with the file and line of its first declaration.
+host_actions(Agent, Names, Places, Fault) :- guarded(Agent, actions(Agent, Names, Places), Fault).
 
-action_names(agent(D, _, _), Names) :-
-    findall(Text, ( D:action(A), functor(A, Name, _), atom_string(Name, Text) ), Texts),
-    sort(Texts, Names).
+actions(agent(D, _, _), Names, Places) :-
+    findall(Name-Place, action_place(D, Name, Place), Pairs),
+    pairs_keys_values(Pairs, Names, Places).
+
+%!  host_check_event(+Agent, +Event, -Fault) is det.
+host_check_event(Agent, Event, Fault) :- guarded(Agent, check_event(Agent, Event), Fault).
+
+%!  host_impossible(+Agent, -Actions, -Fault) is det.
+host_impossible(Agent, Actions, Fault) :- guarded(Agent, impossible_actions(Agent, Actions), Fault).
 
 %!  host_snapshot(+Agent, -Text, -Fault) is det.
 host_snapshot(Agent, Text, Fault) :- guarded(Agent, snapshot(Agent, Text), Fault).

@@ -35,6 +35,12 @@ test(a_program_finishes) :-
     agent([ring], A0), step(A0, 1.0, [], _, A1), outcome(A1, ring, done, A2), step(A2, 1.0, [], R, A3),
     assertion(R == finished),
     step(A3, 2.0, [], R2, _), assertion(R2 == finished).
+test(impossible_actions_are_waited_for, A == [swim, fly(x)]) :-
+    unload_program(office), office(Clauses),
+    domain(office, [action(fly(_)), poss(fly(_), alarm), action(swim), poss(swim, alarm), proc(up(X), [[], fly(X)]),
+                    proc(main, conc(prioritized([interrupt(alarm, swim), interrupt(\+ alarm, swim), sing]),
+                                    while(\+ alarm, if(alarm, swim, within(9, up(x)))))) | Clauses], _),
+    start(office, A0), step(A0, 1.0, [], R, A1), assertion(R == begin(sing)), impossible_actions(A1, A).
 test(a_failed_action_has_no_effect_of_its_own) :-
     agent([walk(x), ring], A0), step(A0, 1.0, [], _, A1), outcome(A1, walk(x), failed, A2),
     assertion(\+ agent_holds(A2, seen(x))), assertion(agent_holds(A2, seen(failed(x)))),

@@ -8,11 +8,11 @@
 
 #include "docent/apps/golog/golog_trace.h"
 #include "docent/apps/shared/command.h"
+#include "docent/apps/shared/tour_check.h"
 #include "docent/base/files.h"
 #include "docent/base/suggestion.h"
 #include "docent/museum/museum.h"
 #include "docent/planning/value_iteration/route.h"
-#include "docent/task_control/golex/decomposition.h"
 #include "docent/task_control/golog/golog_program.h"
 #include "docent/task_control/travel_times/travel.h"
 
@@ -28,15 +28,6 @@ struct Options {
   double most_s = 3600.0;  ///< [s]
 };
 
-/// What a program must know of a museum: its places.
-task_control::Programme programme_of(const museum::Museum& museum) {
-  task_control::Programme programme;
-  programme.home = museum.home;
-  programme.charger = museum.charger;
-  for (const museum::Exhibit& exhibit : museum.exhibits) programme.exhibits.push_back({exhibit.id, exhibit.pose, {}});
-  return programme;
-}
-
 std::filesystem::path file_of(const Options& options) {
   return options.program.empty() ? task_control::golog_file(options.museum) : std::filesystem::path{options.program};
 }
@@ -50,40 +41,29 @@ task_control::GologProgram program_of(const Options& options, const museum::Muse
 std::vector<task_control::GologTerm> requests_of(const Options& options, const museum::Museum& museum) {
   std::vector<task_control::GologTerm> events;
   for (const std::string& id : options.requests) {
-    if (museum.find_exhibit(id) == nullptr) throw CommandFailed{"--request " + id + ": there is no such exhibit", 2};
+    if (museum.find_exhibit(id) == nullptr) {
+      std::vector<std::string> known;
+      for (const museum::Exhibit& exhibit : museum.exhibits) known.push_back(exhibit.id);
+      throw CommandFailed{"--request " + id + ": there is no such exhibit" + did_you_mean(id, known), 2};
+    }
     events.push_back({"requested", {id}});
   }
   return events;
 }
 
-/// What the robot does for each of the program's actions must be said: by golex.yaml, or by the built-in file.
-void check_actions(const Options& options, const museum::Museum& museum) {
-  const auto decomposition = value_or_fail(task_control::load_decomposition(options.museum));
-  auto program = value_or_fail(
-      task_control::GologProgram::load({}, file_of(options), programme_of(museum), task_control::straight_distance()));
-  for (const std::string& action : value_or_fail(program.actions())) {
-    // These two have no entry of their own: the robot stands, or attracts people.
-    if (action == "charge_battery" || action == "wait_for_request" || decomposition.find(action) != nullptr) continue;
-    std::vector<std::string> known;
-    for (const auto& [name, items] : decomposition.actions) known.push_back(name);
-    throw CommandFailed{(std::filesystem::path{options.museum} / "golex.yaml").string() +
-                        ": does not say what the robot does for the action '" + action + "'" +
-                        did_you_mean(action, known)};
-  }
-}
-
 void check(const Options& options) {
   const museum::Museum museum = value_or_fail(museum::load_museum(options.museum));
   const auto file = file_of(options);
-  const auto faults = task_control::GologProgram::faults(file, programme_of(museum));
-  for (const Error& fault : faults) std::fprintf(stderr, "%s\n", fault.message.c_str());
-  if (!faults.empty()) {
-    throw CommandFailed{file.string() + ": " + std::to_string(faults.size()) +
-                        (faults.size() == 1 ? " fault" : " faults")};
+  const TourFindings found = check_tour(file, museum);
+  for (const std::string& note : found.notes) std::printf("%s\n", note.c_str());
+  for (const Error& fault : found.faults) std::fprintf(stderr, "%s\n", fault.message.c_str());
+  if (!found.faults.empty()) {
+    throw CommandFailed{file.string() + ": " + std::to_string(found.faults.size()) +
+                        (found.faults.size() == 1 ? " fault" : " faults")};
   }
-  check_actions(options, museum);
-  std::printf("%s: fine, for the %zu exhibits of %s\n", file.string().c_str(), museum.exhibits.size(),
-              options.museum.c_str());
+  const bool is_shipped = options.program.empty() && file != std::filesystem::path{options.museum} / "tour.pl";
+  std::printf("%s: fine, for the %zu exhibits of %s%s\n", file.string().c_str(), museum.exhibits.size(),
+              options.museum.c_str(), is_shipped ? ", which has no tour.pl of its own" : "");
 }
 
 void plan(const Options& options) {

@@ -8,6 +8,7 @@
 #include "docent/apps/shared/command.h"
 #include "docent/apps/shared/deployment.h"
 #include "docent/apps/shared/map_note.h"
+#include "docent/apps/shared/tour_check.h"
 #include "docent/base/yaml.h"
 #include "docent/interaction/sound/sound_file.h"
 #include "docent/interaction/speech/dictionary.h"
@@ -15,6 +16,7 @@
 #include "docent/modules/drive/plan_module.h"
 #include "docent/museum/museum.h"
 #include "docent/simulator/world/world.h"
+#include "docent/task_control/golog/golog_program.h"
 
 namespace docent::apps {
 namespace {
@@ -64,6 +66,13 @@ void check_sounds(const museum::Museum& museum, std::vector<Error>& faults) {
   if (const auto music = interaction::sound_duration(*museum.sound.music); !music) faults.push_back(music.error());
 }
 
+/// The tour program, the museum's own or the shipped one, and golex.yaml.
+void check_program(const museum::Museum& museum, std::vector<Error>& faults) {
+  const TourFindings found = check_tour(task_control::golog_file(museum.folder), museum);
+  for (const std::string& note : found.notes) std::printf("%s\n", note.c_str());
+  faults.insert(faults.end(), found.faults.begin(), found.faults.end());
+}
+
 /// For whoever is to record: each file, whether it is there, and what is to be said in which mood.
 void list_recordings(const museum::Museum& museum) {
   const auto lines = interaction::repertoire(museum);
@@ -84,6 +93,7 @@ void check(const Deployment& deployment, bool lists_recordings) {
     const museum::Museum museum = value_or_fail(museum::load_museum(folder));
     if (museum.simulation_path) check_simulation(museum, faults);
     check_sounds(museum, faults);
+    check_program(museum, faults);
     if (faults.empty()) {
       note_languages(museum);
       if (lists_recordings) list_recordings(museum);

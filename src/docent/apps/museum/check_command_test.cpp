@@ -134,6 +134,27 @@ TEST_F(CheckCommand, PassesDrawnOffices) {
     EXPECT_NE(survey->find(word), std::string::npos) << word;
 }
 
+TEST_F(CheckCommand, ReadsTheTourProgramAndItsActions) {
+  const auto faults = [&] {
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(run("check " + folder_.string()), folder_.string() + ": 2 faults");
+    return testing::internal::GetCapturedStderr();
+  };
+  ASSERT_TRUE(write_file_atomically(folder_ / "tour.pl", "proc(main, goto(zuze)).\n"));
+  ASSERT_TRUE(write_file_atomically(folder_ / "golex.yaml", "drive:\n  - look: plaice\n"));
+  const std::string said = faults();
+  EXPECT_NE(said.find("tour.pl:1: goto(zuze): there is no place(zuze); did you mean zuse?"), std::string::npos) << said;
+  EXPECT_NE(said.find("golex.yaml:2: 'look' must be"), std::string::npos) << said;
+
+  ASSERT_TRUE(write_file_atomically(folder_ / "tour.pl", "proc(main, goto(zuse)).\n"));
+  ASSERT_TRUE(write_file_atomically(folder_ / "golex.yaml", "drvie:\n  - look: place\n"));
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(run("check " + folder_.string()), "");
+  const std::string note = testing::internal::GetCapturedStdout();
+  EXPECT_NE(note.find("golex.yaml:1: note: no action is called 'drvie'; did you mean 'drive'?"), std::string::npos)
+      << note;
+}
+
 TEST_F(CheckCommand, CountsFaults) {
   change("museum.yaml", "minutes: 6", "minutes: -6");
   change("museum.yaml", "kind: plate", "kind: hole");

@@ -1,5 +1,6 @@
 #include "docent/task_control/golog/golog_program.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -199,13 +200,34 @@ Result<void> GologProgram::outcome(const GologTerm& action, const GologOutcome& 
   return fine;
 }
 
-Result<std::vector<std::string>> GologProgram::actions() {
+Result<std::vector<GologAction>> GologProgram::actions() {
+  ProgramTurn turn{*this};
+  const term_t arguments = PL_new_term_refs(4);
+  if (PL_recorded(agent_->record, arguments) == 0) return tl::unexpected(out_of_memory());
+  if (auto fine = no_fault(turn.call("host_actions", 4, arguments), arguments + 3); !fine)
+    return tl::unexpected(fine.error());
+  const auto names = texts_of(arguments + 1).value_or(std::vector<std::string>{});
+  const auto places = texts_of(arguments + 2).value_or(std::vector<std::string>{});
+  std::vector<GologAction> actions;
+  for (std::size_t i = 0; i < std::min(names.size(), places.size()); ++i) actions.push_back({names[i], places[i]});
+  return actions;
+}
+
+Result<void> GologProgram::check_event(const GologTerm& event) {
+  ProgramTurn turn{*this};
+  const term_t arguments = PL_new_term_refs(3);
+  if (PL_recorded(agent_->record, arguments) == 0 || !put_term(arguments + 1, event))
+    return tl::unexpected(out_of_memory());
+  return no_fault(turn.call("host_check_event", 3, arguments), arguments + 2);
+}
+
+Result<std::vector<GologTerm>> GologProgram::impossible() {
   ProgramTurn turn{*this};
   const term_t arguments = PL_new_term_refs(3);
   if (PL_recorded(agent_->record, arguments) == 0) return tl::unexpected(out_of_memory());
-  if (auto fine = no_fault(turn.call("host_actions", 3, arguments), arguments + 2); !fine)
+  if (auto fine = no_fault(turn.call("host_impossible", 3, arguments), arguments + 2); !fine)
     return tl::unexpected(fine.error());
-  return texts_of(arguments + 1).value_or(std::vector<std::string>{});
+  return terms_of(arguments + 1);
 }
 
 Result<void> GologProgram::begin_again() {
@@ -230,14 +252,9 @@ Result<GologForesight> GologProgram::foresee(Point2 robot, int most_actions) {
   }
   auto end = kind_of(text_of(arguments + 4).value_or(""));
   if (!end) return tl::unexpected(end.error());
-  GologForesight foresight{{}, *end};
-  const term_t head = PL_new_term_ref();
-  while (PL_get_list(arguments + 3, head, arguments + 3) != 0) {
-    auto action = term_of(head);
-    if (!action) return tl::unexpected(action.error());
-    foresight.actions.push_back(std::move(*action));
-  }
-  return foresight;
+  auto actions = terms_of(arguments + 3);
+  if (!actions) return tl::unexpected(actions.error());
+  return GologForesight{std::move(*actions), *end};
 }
 
 std::optional<double> GologProgram::expected_s(Point2 robot, const GologTerm& action) {

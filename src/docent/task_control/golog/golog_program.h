@@ -43,6 +43,12 @@ struct GologOutcome {
   std::string value{};  ///< what was sensed
 };
 
+/// An action that a program can speak of.
+struct GologAction {
+  std::string name;
+  std::string place;  ///< where it is declared, "FILE:LINE"
+};
+
 struct GologForesight {
   std::vector<GologTerm> actions;
   GologStep::Kind end = GologStep::Kind::waits;  ///< begin: there is more than was asked for
@@ -75,8 +81,12 @@ class GologProgram {
   [[nodiscard]] Result<GologStep> step(Time now, Point2 robot, std::span<const GologTerm> events = {});
   /// Of an action that was begun; of any other it changes nothing.
   [[nodiscard]] Result<void> outcome(const GologTerm& action, const GologOutcome& outcome);
-  /// The names of all actions that it can speak of, its own among them.
-  [[nodiscard]] Result<std::vector<std::string>> actions();
+  /// All actions that it can speak of, its own among them, each name once.
+  [[nodiscard]] Result<std::vector<GologAction>> actions();
+  /// Error: why it is no event of the program.
+  [[nodiscard]] Result<void> check_event(const GologTerm& event);
+  /// The actions that it would begin now if they were possible.
+  [[nodiscard]] Result<std::vector<GologTerm>> impossible();
   /// Runs `main` from its beginning; what is true stays true.
   [[nodiscard]] Result<void> begin_again();
   /// What the program would begin from here if every action succeeded and nothing else happened.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <ctime>
 #include <fstream>
+#include <map>
 #include <thread>
 
 #include "docent/base/shipped_files.h"
@@ -211,10 +212,14 @@ TEST_F(GologProgramTest, AProgramThatEatsMemoryIsCut) {
 TEST_F(GologProgramTest, KnowsItsActions) {
   auto program = load("proc(main, hello).\naction(hello).\nposs(hello, true).\n");
   ASSERT_TRUE(program) << program.error().message;
-  const auto names = program->actions();
-  ASSERT_TRUE(names) << names.error().message;
-  for (const char* name : {"hello", "drive", "explain", "charge_battery"})
-    EXPECT_EQ(std::count(names->begin(), names->end(), name), 1) << name;
+  const auto actions = program->actions();
+  ASSERT_TRUE(actions) << actions.error().message;
+  std::map<std::string, std::string> places;
+  for (const GologAction& action : *actions)
+    EXPECT_TRUE(places.emplace(action.name, action.place).second) << action.name;
+  EXPECT_EQ(places["hello"], (folder_ / "tour.pl").string() + ":2");
+  for (const char* name : {"drive", "explain", "charge_battery"})
+    EXPECT_NE(places[name].find("museum.pl:"), std::string::npos) << name;
 }
 
 TEST_F(GologProgramTest, UnknownEventsAreErrors) {

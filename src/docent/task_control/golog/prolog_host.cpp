@@ -197,4 +197,16 @@ Result<GologTerm> term_of(term_t term) {
   return found;
 }
 
+Result<std::vector<GologTerm>> terms_of(term_t list) {
+  std::vector<GologTerm> terms;
+  const term_t rest = PL_copy_term_ref(list);
+  const term_t head = PL_new_term_ref();
+  while (PL_get_list(rest, head, rest) != 0) {
+    auto term = term_of(head);
+    if (!term) return tl::unexpected(term.error());
+    terms.push_back(std::move(*term));
+  }
+  return terms;
+}
+
 }  // namespace docent::task_control

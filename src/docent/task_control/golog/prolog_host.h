@@ -74,5 +74,6 @@ class PrologTurn {
 [[nodiscard]] std::optional<std::vector<std::string>> texts_of(term_t list);
 /// Error: an argument is neither an atom nor a number.
 [[nodiscard]] Result<GologTerm> term_of(term_t term);
+[[nodiscard]] Result<std::vector<GologTerm>> terms_of(term_t list);
 
 }  // namespace docent::task_control
