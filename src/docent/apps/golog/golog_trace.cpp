@@ -88,12 +88,12 @@ class Player {
     for (int count = 0; count < kMostSteps; ++count) {
       auto step = program_.step(time_from_seconds(now_s), robot_, events);
       if (!step) return tl::unexpected(step.error());
-      for (const GologTerm& event : events) say(now_s, "event", event);
+      for (const GologTerm& event : events) say(now_s, "event", to_text(event));
       events.clear();
       if (step->kind == GologStep::Kind::waits) return {};
       if (step->kind == GologStep::Kind::finished) {
         is_finished_ = true;
-        say(now_s, "finished", {});
+        say(now_s, "finished");
         return {};
       }
       if (step->kind == GologStep::Kind::begin) {
@@ -101,10 +101,20 @@ class Player {
       } else {
         forget(step->action);
       }
-      say(now_s, step->kind == GologStep::Kind::begin ? "begin" : "stop", step->action);
+      say(now_s, step->kind == GologStep::Kind::begin ? "begin" : "stop", to_text(step->action));
     }
     return fail("the program does not come to rest: " + std::to_string(kMostSteps) + " steps at one moment");
   }
+
+  /// Says why nothing more comes of the program.
+  Result<void> say_waits(double now_s) {
+    const auto impossible = program_.impossible();
+    if (!impossible) return tl::unexpected(impossible.error());
+    if (impossible->empty()) say(now_s, "waits");
+    for (const GologTerm& action : *impossible) say(now_s, "waits", "for " + to_text(action) + ", which is impossible");
+    return {};
+  }
+  void say_is_up(double now_s) { say(now_s, "the time is up"); }
 
   /// False: it is not under way.
   [[nodiscard]] bool is_running(const GologTerm& action) const {
@@ -116,7 +126,8 @@ class Player {
     forget(action);
     if (outcome.kind != GologOutcome::Kind::failed && action.name == "drive") arrive(action);
     const char* words[]{"done", "sensed", "failed"};
-    say(now_s, words[static_cast<int>(outcome.kind)], action, outcome.value);
+    say(now_s, words[static_cast<int>(outcome.kind)],
+        to_text(action) + (outcome.value.empty() ? "" : " = " + outcome.value));
     return program_.outcome(action, outcome);
   }
 
@@ -131,10 +142,10 @@ class Player {
   void forget(const GologTerm& action) {
     std::erase_if(running_, [&](const RunningAction& one) { return one.action == action; });
   }
-  void say(double now_s, const char* what, const GologTerm& term, const std::string& value = {}) {
+  void say(double now_s, const char* what, const std::string& term = {}) {
     char front[48];
     std::snprintf(front, sizeof front, "%8.1f s  %-8s ", now_s, what);
-    std::string line = front + to_text(term) + (value.empty() ? "" : " = " + value);
+    std::string line = front + term;
     line.erase(line.find_last_not_of(' ') + 1);
     print_(line);
   }
@@ -172,6 +183,11 @@ Result<std::vector<TraceEvent>> parse_trace_events(const std::string& text, cons
 Result<void> play_trace(task_control::GologProgram& program, const task_control::Programme& programme,
                         const std::vector<TraceEvent>& events, const std::filesystem::path& file, double most_s,
                         const std::function<void(const std::string&)>& print) {
+  for (const TraceEvent& event : events) {
+    if (event.kind != TraceEvent::Kind::event) continue;
+    if (const auto known = program.check_event(event.term); !known)
+      return fail(at(file, event.line, known.error().message));
+  }
   Player player{program, programme, print};
   double now = 0.0;
   double active = 0.0;  // when something last was under way or came in
@@ -191,10 +207,11 @@ Result<void> play_trace(task_control::GologProgram& program, const task_control:
     }
     if (auto gone = player.go_on(now, std::move(incoming)); !gone) return gone;
     if (player.is_busy()) active = now;
-    if (next == events.size() && now - active > kPatience) return {};
+    if (next == events.size() && now - active > kPatience && !player.is_finished()) return player.say_waits(now);
     const double event_s = next < events.size() ? events[next].time_s : std::numeric_limits<double>::infinity();
     now = std::min({now + kTick, player.next_end_s(), std::max(event_s, now)});
   }
+  if (!player.is_finished()) player.say_is_up(most_s);
   return {};
 }
 

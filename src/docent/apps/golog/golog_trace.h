@@ -28,7 +28,8 @@ struct TraceEvent {
 
 /// Plays the events to a program that begins at home, and prints each thing that comes in or goes out on a line.
 /// Actions take as long as the domain expects and succeed, unless an event ends them. Ends when the program has
-/// finished, when it waits and nothing more is to come for a minute (time-outs), or after `most_s` [s]. Error: a fault
+/// finished, when it waits and nothing more is to come for a minute (time-outs), or after `most_s` [s]; the last lines
+/// say which, and which impossible actions it waits for. Error: a fault
 /// of the program, or of an event ("FILE:LINE: ...").
 [[nodiscard]] Result<void> play_trace(task_control::GologProgram& program, const task_control::Programme& programme,
                                       const std::vector<TraceEvent>& events, const std::filesystem::path& file,

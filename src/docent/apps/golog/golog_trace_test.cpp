@@ -15,14 +15,14 @@ task_control::Programme line_museum() {
   return programme;
 }
 
-std::string trace_of(const std::string& events, const std::string& main) {
+std::string trace_of(const std::string& events, const std::string& main, double most_s = 3600.0) {
   const auto parsed = parse_trace_events(events, "events.txt");
   if (!parsed) return parsed.error().message;
   auto program = task_control::GologProgram::load({}, shipped_path("prolog/tour_guide.pl"), line_museum(),
                                                   task_control::straight_distance(), main);
   if (!program) return program.error().message;
   std::string text;
-  const auto played = play_trace(*program, line_museum(), *parsed, "events.txt", 3600.0,
+  const auto played = play_trace(*program, line_museum(), *parsed, "events.txt", most_s,
                                  [&](const std::string& line) { text += line + "\n"; });
   return played ? text : text + played.error().message;
 }
@@ -73,7 +73,19 @@ TEST(GologTrace, NamesTheLineOfAFault) {
   EXPECT_EQ(trace_of("5 sensed more\n", "tour_guide"), "events.txt:1: 'sensed' needs an action and a value");
   EXPECT_EQ(trace_of("5 lost\n4 localized\n", "tour_guide"), "events.txt:2: events stand in the order of their times");
   EXPECT_EQ(trace_of("5 failed drive e1\n", "tour_guide"), "events.txt:1: drive(e1) is not under way");
-  EXPECT_EQ(trace_of("5 earthquake\n", "tour_guide"), "earthquake is no event of the domain");
+  EXPECT_EQ(trace_of("5 earthquake\n", "tour_guide"), "events.txt:1: earthquake is no event of the domain");
+  EXPECT_EQ(trace_of("0 requested e1\n5 requestd e1\n", "tour_guide"),
+            "events.txt:2: requestd(e1) is no event of the domain; did you mean requested?");
+}
+
+TEST(GologTrace, SaysHowItEnds) {
+  const auto last_line = [](std::string text) {
+    text.pop_back();
+    return text.substr(text.rfind('\n') + 1);
+  };
+  EXPECT_EQ(trace_of("", "tour_guide"), "    61.0 s  waits\n");
+  EXPECT_EQ(trace_of("", "charge_battery"), "    61.0 s  waits    for charge_battery, which is impossible\n");
+  EXPECT_EQ(last_line(trace_of("0 requested e1\n", "tour_guide", 20.0)), "    20.0 s  the time is up");
 }
 
 }  // namespace
