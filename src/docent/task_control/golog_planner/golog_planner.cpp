@@ -233,7 +233,7 @@ void GologPlanner::stop(Mission& mission, const GologTerm& action, Time now) {
   if (stopped == under_way_.end()) return;
   const bool has_task = !stopped->task_kind.empty();
   under_way_.erase(stopped);
-  if (has_task || mission.situation(now).has_visit) mission.stop(now);
+  if (has_task) mission.stop(now);
 }
 
 void GologPlanner::outcome(Mission& mission, const TaskOrder& order, const ActionOutcome& outcome, Time now) {

@@ -13,7 +13,7 @@
 #include "docent/base/files.h"
 #include "docent/base/shipped_files.h"
 #include "docent/task_control/golog_planner/golog_planner.h"
-#include "docent/task_control/mission/mission.h"
+#include "docent/task_control/mission/mission_fixture.h"
 
 // For tests of missions with a GOLOG program.
 
@@ -35,14 +35,14 @@ inline Programme line_museum() {
 }
 
 /// The mission with a program; the test is the executive.
-class GologPlannerTest : public testing::Test {
+class GologPlannerTest : public MissionTest {
  protected:
   void start(const std::filesystem::path& file, MissionMemory memory = {}) {
-    auto program = GologProgram::load(params.program, file, line_museum(), straight_distance());
+    auto program = GologProgram::load(golog.program, file, line_museum(), straight_distance());
     ASSERT_TRUE(program) << program.error().message;
     memory.deployment = "dep";
     mission = std::make_unique<Mission>(MissionParams{}, line_museum(), straight_distance(), std::move(memory),
-                                        std::make_unique<GologPlanner>(params, std::move(*program)), time());
+                                        std::make_unique<GologPlanner>(golog, std::move(*program)), time());
     pass(5.0);
   }
   void start_shipped(MissionMemory memory = {}) { start(shipped_path("prolog/tour_guide.pl"), std::move(memory)); }
@@ -53,15 +53,8 @@ class GologPlannerTest : public testing::Test {
     start(file, std::move(memory));
     std::filesystem::remove(file);
   }
-  [[nodiscard]] Time time() const { return time_from_seconds(now_s); }
-  void pass(double duration_s, bool is_localized = true) {
-    for (const double end = now_s + duration_s; now_s < end; now_s += 0.5) {
-      mission->localization(is_localized, robot, time());
-      mission->tick(time());
-    }
-  }
   void wish(const std::string& id, RequestKind kind, const std::string& target) {
-    mission->submit({id, {}, RequestSource::web, "", kind, target, -1, "en"}, time());
+    MissionTest::wish(id, kind, target);
     pass(0.5);
   }
   /// "drive e1": what the robot does now.
@@ -77,9 +70,6 @@ class GologPlannerTest : public testing::Test {
     mission->report(order.id, status, ReasonWord::way_blocked, time(), took_long);
     pass(0.5);
   }
-  [[nodiscard]] RequestStatus status_of(const std::string& id) {
-    return mission->memory().schedule.board.find(id)->status;
-  }
   /// Every action succeeds, until there is nothing to do; what the robot did.
   std::vector<std::string> run(int most = 30) {
     std::vector<std::string> tasks;
@@ -90,10 +80,7 @@ class GologPlannerTest : public testing::Test {
     return tasks;
   }
 
-  GologPlannerParams params;
-  double now_s = 0.0;
-  Point2 robot{0, 0};
-  std::unique_ptr<Mission> mission;
+  GologPlannerParams golog;
 };
 
 using Tasks = std::vector<std::string>;

@@ -174,7 +174,7 @@ TEST_F(GologPlannerTest, ARestartGoesOnWithTheActionUnderWay) {
 }
 
 TEST_F(GologPlannerTest, AProgramThatRunsAwayIsReportedAndVisitorsAreServed) {
-  params.program.most_inferences = 100000;
+  golog.program.most_inferences = 100000;
   start_text("proc(main, [?(some(E, due(E))), while(true, ?(true))]).\n");
   EXPECT_EQ(mission->planner_fault(), "");
   wish("1", RequestKind::exhibit, "e1");
@@ -234,7 +234,7 @@ TEST_F(GologPlannerTest, WhatCannotBeReachedIsForgottenWhenItsRequestIsOver) {
 
 TEST_F(GologPlannerTest, WhatTheStandInWasAboutGoesOnAfterARestart) {
   const std::string runaway = "proc(main, [?(some(E, due(E))), while(true, ?(true))]).\n";
-  params.program.most_inferences = 100000;
+  golog.program.most_inferences = 100000;
   start_text(runaway);
   wish("t", RequestKind::tour, "back");
   ASSERT_EQ(task(), "visit e12") << "the plan controller stands in";
@@ -248,7 +248,7 @@ TEST_F(GologPlannerTest, WhatTheStandInWasAboutGoesOnAfterARestart) {
 
 // Between the drive to an exhibit and the end of its explanation a visit is under way.
 TEST_F(GologPlannerTest, AProgramThatFailsInAVisitLeavesItToThePlanController) {
-  params.program.most_inferences = 100000;
+  golog.program.most_inferences = 100000;
   for (const char* last : {"drive(E)", "drive(E), explain(E)"}) {
     robot = {0, 0};
     start_text(std::string{"proc(main, [?(some(E, due(E))), pi(E, [?(next(E)), conc(["} + last +
@@ -369,6 +369,20 @@ TEST_F(GologPlannerTest, AProgramThatHasEndedLeavesTheVisitorsToThePlanControlle
   EXPECT_EQ(task(), "visit e5");
   report(TaskStatus::done);
   EXPECT_EQ(status_of("5"), RequestStatus::fulfilled);
+}
+
+TEST_F(GologPlannerTest, AnActionBesideAVisitGoesOnWhenItsWishIsTakenBack) {
+  start_text(
+      "proc(main, [?(some(E, due(E))), pi(E, [?(next(E)), drive(E)]), wave, ?(closing)]).\n"
+      "action(wave).\nposs(wave, true).\n");
+  wish("1", RequestKind::exhibit, "e1");
+  ASSERT_EQ(task(), "drive e1");
+  report(TaskStatus::done);
+  ASSERT_EQ(task(), "wave");
+  mission->submit({"c", {}, RequestSource::web, "", RequestKind::cancel, "1", -1, "en"}, time());
+  pass(1.0);
+  EXPECT_FALSE(mission->situation(time()).has_visit);
+  EXPECT_EQ(task(), "wave");
 }
 
 }  // namespace

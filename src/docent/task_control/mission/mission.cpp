@@ -181,9 +181,9 @@ Point2 Mission::position() const { return position_.value_or(scheduler_.programm
 
 void Mission::drop_unwanted_visit(Time now) {
   if (!scheduler_.is_visit_unwanted() || !may_interrupt()) return;
-  const bool is_for_visit = activity_ == Activity::visit || activity_ == Activity::action;
   const TaskOrder order = task_;
   const bool was_ordered = activity_ == Activity::action;
+  const bool is_for_visit = activity_ == Activity::visit || (was_ordered && order.exhibit_id == visited_exhibit());
   scheduler_.drop_visit(now);
   if (!is_for_visit) return;
   start_task(Activity::none, {});
