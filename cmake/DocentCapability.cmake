@@ -9,6 +9,10 @@
 #                                         # are the same, and compilers may take such calls out of a loop. No vectors of two
 #                                         # from the coordinates of one point: to read back together what a call has just
 #                                         # stored apart takes longer than they save
+#
+# A folder's tests are compiled as one file, for most of their time goes into reading the same headers; so are its
+# sources, where DOCENT_UNITY is on. Where two of them call different things by one name in their unnamed namespaces,
+# the folder says TESTS_APART or SOURCES_APART.
 
 add_library(docent_options INTERFACE)
 # -ffp-contract=off: the same arithmetic with and without FMA, so that a seed gives the same run on every CPU.
@@ -47,7 +51,7 @@ function(docent_target_name folder result)
 endfunction()
 
 function(docent_capability folder)
-  cmake_parse_arguments(PARSE_ARGV 1 ARG "HOT" "" "SOURCES;DEPENDS;LIBRARIES;TEST_DEPENDS;TEST_LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "HOT;SOURCES_APART;TESTS_APART" "" "SOURCES;DEPENDS;LIBRARIES;TEST_DEPENDS;TEST_LIBRARIES")
   docent_target_name(${folder} target)
   set(directory ${DOCENT_SOURCE_ROOT}/${folder})
 
@@ -86,6 +90,9 @@ function(docent_capability folder)
 
   if(files)
     add_library(${target} STATIC ${files})
+    if(DOCENT_UNITY AND NOT ARG_SOURCES_APART)
+      set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+    endif()
     set(scope PUBLIC)
     if(ARG_HOT)
       target_compile_options(${target} PRIVATE -fno-math-errno -fno-trapping-math -fno-tree-slp-vectorize)
@@ -104,6 +111,9 @@ function(docent_capability folder)
       list(APPEND test_dependency_targets ${dependency_target})
     endforeach()
     add_executable(${target}_test ${tests})
+    if(NOT ARG_TESTS_APART)
+      set_target_properties(${target}_test PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+    endif()
     # Tests are half of all there is to compile, and what takes them long lies in the libraries.
     if(NOT DOCENT_SANITIZE)
       target_compile_options(${target}_test PRIVATE -O1 -g0)

@@ -392,7 +392,9 @@ def protocol(simulations, options):
     how_many = options.seeds or (1 if options.slice else SEEDS)
     seeds = list(range(options.first_seed, options.first_seed + how_many))
     verdict = Verdict()
-    cells = [(name, planner, "", []) for name in names for planner in SCENARIOS[name].planners]
+    of_slice = lambda number, planners: [planners[number % len(planners)]]  # they take turns
+    cells = [(name, planner, "", []) for number, name in enumerate(names)
+             for planner in (of_slice(number, SCENARIOS[name].planners) if options.slice else SCENARIOS[name].planners)]
     if not options.no_crippled:
         cells += [(name, SCENARIOS[name].planners[0], how, settings) for name in names for how, settings in SCENARIOS[name].crippled.items()]
     calls = [(name, planner, seed, settings) for name, planner, how, settings in cells for seed in (seeds[:CRIPPLED_SEEDS] if how else seeds)]
