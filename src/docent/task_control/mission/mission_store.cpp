@@ -77,6 +77,9 @@ Json plan_of(const MissionMemory& memory) {
                     {"started", tour->started.nanoseconds},
                     {"asks", tour->asks}};
   }
+  Json loads = Json::array();
+  for (const Load& load : memory.schedule.loads) loads.push_back({load.at.nanoseconds, load.stops});
+  plan["loads"] = loads;
   if (const auto& farewell = memory.schedule.farewell) {
     plan["farewell"] = {
         {"tour", farewell->tour_id}, {"language", farewell->language}, {"started", farewell->started.nanoseconds}};
@@ -127,6 +130,8 @@ void read_plan(const Json& plan, MissionMemory& memory, std::uint64_t& revision)
     run.asks = tour.value("asks", true);
     memory.schedule.tour = std::move(run);
   }
+  for (const Json& load : plan.value("loads", Json::array()))
+    memory.schedule.loads.push_back({{load.at(0).get<std::int64_t>()}, load.at(1).get<int>()});
   if (plan.contains("farewell")) {
     const Json& farewell = plan.at("farewell");
     memory.schedule.farewell = Farewell{farewell.at("tour").get<std::string>(),

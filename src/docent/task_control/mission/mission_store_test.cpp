@@ -42,6 +42,7 @@ MissionMemory full_memory() {
   memory.schedule.counters = {4, 5, 6};
   memory.schedule.visit->asks = false;
   memory.schedule.farewell = Farewell{"space", "de", {55}};
+  memory.schedule.loads = {{{7}, 50}, {{9}, 3}};
   memory.lessons = {{{LessonKind::pair, "a", "b/2"}, {3.0, 61.5, 1300.0, 7.25}},
                     {{LessonKind::crowd}, {1.5, 2.5, 0.0, 99.0}}};
   return memory;
@@ -81,6 +82,9 @@ TEST_F(Store, GivesBackWhatWasSaved) {
   EXPECT_EQ(loaded->schedule.tour->members[0].stops, (std::vector<int>{0, 5}));
   EXPECT_TRUE(loaded->must_charge);
   EXPECT_FALSE(loaded->schedule.visit->asks);
+  ASSERT_EQ(loaded->schedule.loads.size(), 2U);
+  EXPECT_EQ(loaded->schedule.loads[0].at, Time{7});
+  EXPECT_EQ(loaded->schedule.loads[1].stops, 3);
   ASSERT_TRUE(loaded->schedule.farewell);
   EXPECT_EQ(loaded->schedule.farewell->tour_id, "space");
   EXPECT_EQ(loaded->schedule.farewell->started, Time{55});

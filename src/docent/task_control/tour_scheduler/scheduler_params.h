@@ -11,8 +11,9 @@ struct SchedulerParams {
   int max_stops = 80;        ///< different things wished for at once, >= 1; Bonn has 50 places to stop at
   int max_open = 500;        ///< open requests, >= 1: each change of the board is sent with all of them
   double overdue_s = 600.0;  ///< [s] > 0: who waited longer comes first,
-  /// [s] >= 0: but nobody is overdue before so much for each stop that is wished for, twice what a visit takes: where
-  /// many wait, all wait for long, and the order of the least travel serves them soonest.
+  /// [s] >= 0: but nobody is overdue before so much, twice what a visit takes, for each of the most stops that were
+  /// wished for at once while they waited: where many wait, all wait for long, and the order of the least travel serves
+  /// them soonest.
   double overdue_per_stop_s = 120.0;
   double hurry_after_s = 120;   ///< [s] > 0: while somebody has waited longer, exhibits are shown in the short version
   int max_attempts = 5;         ///< visits tried for a request, >= 1

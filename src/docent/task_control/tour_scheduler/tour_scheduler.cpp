@@ -166,6 +166,7 @@ void TourScheduler::submit(VisitorRequest request, const Conditions& conditions,
   happenings_.push_back(
       {EventKind::request_queued, id, request.target, static_cast<double>(state_.board.open_count() + 1)});
   const bool is_late = joins && request.kind == RequestKind::tour && !is_at_its_beginning();
+  note_load(request, now);
   state_.board.add(std::move(request), RequestStatus::queued, joins ? Reason{} : conditions.delay, now);
   if (joins) {
     state_.board.change(id, RequestStatus::active, is_late ? ReasonWord::joins_tour : ReasonWord::on_the_way, now);

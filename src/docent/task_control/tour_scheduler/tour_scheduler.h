@@ -72,6 +72,12 @@ struct Counters {
   std::uint32_t requests_served = 0;
 };
 
+/// So many different things were wished for at once when a request came.
+struct Load {
+  Time at;
+  int stops = 0;
+};
+
 /// All that must survive.
 struct SchedulerState {
   RequestBoard board;
@@ -79,6 +85,7 @@ struct SchedulerState {
   std::optional<TourRun> tour;
   Counters counters;
   std::optional<Farewell> farewell{};  ///< to be said before anything else
+  std::vector<Load> loads{};           ///< rising in time, falling in stops: each the most since it was
 };
 
 /// Which exhibit comes next, and what becomes of each request (architecture 10.8; [Rhino1999] 4.3).
@@ -199,6 +206,7 @@ class TourScheduler {
   void end_tour_if_over(Time now);
   /// One more attempt that came to nothing: waits again, not before `not_before`, or fails.
   void try_again(const std::string& id, const Reason& reason, Time not_before, Time now);
+  void note_load(const VisitorRequest& newest, Time now);
   [[nodiscard]] bool is_overdue(const BoardEntry& entry, Time now) const;
 
   SchedulerParams params_;

@@ -26,8 +26,16 @@ bool exceeds(double duration_s, double budget_s) { return std::isfinite(duration
 }  // namespace
 
 bool TourScheduler::is_overdue(const BoardEntry& entry, Time now) const {
-  const auto stops = static_cast<double>(state_.board.stops_with(entry.request));
+  const auto most = std::find_if(state_.loads.begin(), state_.loads.end(),
+                                 [&](const Load& load) { return load.at >= entry.created; });
+  const int stops = most == state_.loads.end() ? static_cast<int>(state_.board.stops_with(entry.request)) : most->stops;
   return now - entry.created > seconds(std::max(params_.overdue_s, params_.overdue_per_stop_s * stops));
+}
+
+void TourScheduler::note_load(const VisitorRequest& newest, Time now) {
+  const int stops = static_cast<int>(state_.board.stops_with(newest));
+  while (!state_.loads.empty() && state_.loads.back().stops <= stops) state_.loads.pop_back();
+  state_.loads.push_back({now, stops});
 }
 
 const BoardEntry* TourScheduler::oldest_due(Time now) const {

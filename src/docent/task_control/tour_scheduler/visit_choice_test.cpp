@@ -48,6 +48,22 @@ TEST_F(Scheduling, WhereManyWaitNobodyIsOverdueOnlyForThat) {
   }
 }
 
+TEST_F(Scheduling, WhoCameAmongManyIsNotOverdueWhenFewAreLeft) {
+  params.overdue_per_stop_s = 300.0;
+  scheduler = TourScheduler{params, programme_on_a_line(), straight_distance(), {}, {}};
+  for (const char* exhibit : {"e2", "e3", "e4", "e5"}) wish(exhibit, RequestKind::exhibit, exhibit, 0);
+  for (const char* exhibit : {"e2", "e3"}) {
+    EXPECT_EQ(next(10, {4, 0}), exhibit);
+    finish(true, 60);
+  }
+  wish("new", RequestKind::exhibit, "e1", 700);
+  const auto first_of = [&](double at) { return scheduler.agenda({4, 0}, time_from_seconds(at)).front(); };
+  EXPECT_EQ(first_of(1100), "e1") << "three stops now, but four were wished for at once: 1200 s";
+  EXPECT_EQ(first_of(1300), "e4");
+  TourScheduler again{params, programme_on_a_line(), straight_distance(), scheduler.state(), time_from_seconds(1100)};
+  EXPECT_EQ(again.agenda({4, 0}, time_from_seconds(1100)).front(), "e1") << "also after a restart";
+}
+
 TEST_F(Scheduling, CrippledItServesInTheOrderOfArrival) {
   params.by_travel = false;
   scheduler = TourScheduler{params, programme_on_a_line(), straight_distance(), {}, {}};
