@@ -141,8 +141,11 @@ Result<ClientMessage> parse_client_message(std::string_view text) {
   if (!object.is_object()) return fail("not a JSON object");
   const std::string type = text_of(object, "type");
   if (type == "watch") {
-    const auto place = object.find("details");
-    return WatchMessage{place != object.end() && place->is_boolean() && place->get<bool>()};
+    const auto is_set = [&](const char* key) {
+      const auto place = object.find(key);
+      return place != object.end() && place->is_boolean() && place->get<bool>();
+    };
+    return WatchMessage{is_set("details"), is_set("thin")};
   }
   if (type == "lamps") return parse_lamps(object);
   constexpr std::array kOrders{"request", "cancel", "choice", "help", "answer"};

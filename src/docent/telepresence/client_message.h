@@ -52,14 +52,16 @@ struct ChoiceMessage {
     v("id", m.id), v("prompt", m.prompt), v("choice", m.choice);
   }
 };
-/// {"type":"watch","details":true|false}: also send what only specialists look at.
+/// {"type":"watch","details":true|false,"thin":true|false}: also send what only specialists look at; of what moves send
+/// the pose alone.
 struct WatchMessage {
   static constexpr const char* kName = "WatchMessage";
   static constexpr const char* kType = "watch";
   bool details = false;
+  bool thin = false;
   template <class Self, class V>
   static void visit(Self& m, V& v) {
-    v("details", m.details);
+    v("details", m.details), v("thin", m.thin);
   }
 };
 

@@ -153,6 +153,20 @@ struct LiveMessage {
   }
 };
 
+/// All that a viewer gets of what moves who wants little, or comes when many are there.
+struct PoseMessage {
+  static constexpr const char* kName = "PoseMessage";
+  static constexpr const char* kType = "pose";
+  double t = 0.0;
+  std::optional<Pose> pose;
+  double v = 0.0, w = 0.0, p_lost = 0.0;
+  std::optional<double> battery;
+  template <class Self, class V>
+  static void visit(Self& d, V& v) {
+    v("t", d.t), v("pose", d.pose), v("v", d.v), v("w", d.w), v("p_lost", d.p_lost), v.maybe("battery", d.battery);
+  }
+};
+
 struct BeliefHypothesis {
   static constexpr const char* kName = "BeliefHypothesis";
   Pose pose{};
@@ -377,8 +391,8 @@ struct ErrorMessage {
 };
 
 /// Everything that the live channel carries to a page.
-using ServerMessage = std::tuple<LiveMessage, BeliefMessage, PathMessage, MissionMessage, SpeechMessage, HornMessage,
-                                 SoundMessage, ExpressionMessage, ButtonMessage, BoardMessage, HealthMessage,
-                                 WindowMessage, Acknowledgement, Refusal, ErrorMessage>;
+using ServerMessage = std::tuple<LiveMessage, PoseMessage, BeliefMessage, PathMessage, MissionMessage, SpeechMessage,
+                                 HornMessage, SoundMessage, ExpressionMessage, ButtonMessage, BoardMessage,
+                                 HealthMessage, WindowMessage, Acknowledgement, Refusal, ErrorMessage>;
 
 }  // namespace docent::telepresence::documents

@@ -111,6 +111,17 @@ std::string encode_live(const LiveFrame& frame) {
   return json_text(live);
 }
 
+std::string encode_pose(const LiveFrame& frame) {
+  documents::PoseMessage message;
+  message.t = rounded(to_seconds(frame.now));
+  if (frame.map_from_base) message.pose = pose_of(*frame.map_from_base);
+  message.v = rounded(frame.linear);
+  message.w = rounded(frame.angular);
+  message.p_lost = rounded(frame.p_lost);
+  if (frame.battery) message.battery = rounded(*frame.battery, 100);
+  return json_text(message);
+}
+
 std::string encode_belief(const docent_msgs::Belief& belief) {
   const BeliefRaster raster = belief_raster(belief);
   documents::BeliefMessage message;

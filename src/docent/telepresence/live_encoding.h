@@ -44,6 +44,8 @@ struct HealthEntry {
 };
 
 [[nodiscard]] std::string encode_live(const LiveFrame& frame);
+/// Of the same frame what costs little: where the robot is, and how fast.
+[[nodiscard]] std::string encode_pose(const LiveFrame& frame);
 [[nodiscard]] std::string encode_belief(const docent_msgs::Belief& belief);
 [[nodiscard]] std::string encode_path(const nav_msgs::Path& path, const docent_msgs::GoalState& state);
 [[nodiscard]] std::string encode_mission(const docent_msgs::MissionState& mission);

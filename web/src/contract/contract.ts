@@ -74,6 +74,15 @@ export interface LiveMessage {
   avoid?: Avoid;
   battery?: number;
 }
+export interface PoseMessage {
+  type: 'pose';
+  t: number;
+  pose: [number, number, number] | null;
+  v: number;
+  w: number;
+  p_lost: number;
+  battery?: number;
+}
 export interface BeliefHypothesis {
   pose: [number, number, number];
   mass: number;
@@ -237,6 +246,7 @@ export interface ChoiceMessage {
 export interface WatchMessage {
   type: 'watch';
   details: boolean;
+  thin: boolean;
 }
 export interface LampsMessage {
   type: 'lamps';
@@ -254,7 +264,7 @@ export interface AnswerMessage {
   answer: 'yes' | 'undecided' | 'no' | 'human' | 'monkey' | 'dog' | 'fish' | 'amoeba';
   language: string;
 }
-export type ServerMessage = LiveMessage | BeliefMessage | PathMessage | MissionMessage | SpeechMessage | HornMessage | SoundMessage | ExpressionMessage | ButtonMessage | BoardMessage | HealthMessage | WindowMessage | Acknowledgement | Refusal | ErrorMessage;
+export type ServerMessage = LiveMessage | PoseMessage | BeliefMessage | PathMessage | MissionMessage | SpeechMessage | HornMessage | SoundMessage | ExpressionMessage | ButtonMessage | BoardMessage | HealthMessage | WindowMessage | Acknowledgement | Refusal | ErrorMessage;
 export type ClientMessage = RequestMessage | CancelMessage | ChoiceMessage | WatchMessage | LampsMessage | HelpMessage | AnswerMessage;
 export const documents = {
   "Acknowledgement": {
@@ -708,6 +718,27 @@ export const documents = {
     "maybe": {},
     "type": "path"
   },
+  "PoseMessage": {
+    "fields": {
+      "p_lost": "number",
+      "pose": {
+        "nullable": {
+          "tuple": [
+            "number",
+            "number",
+            "number"
+          ]
+        }
+      },
+      "t": "number",
+      "v": "number",
+      "w": "number"
+    },
+    "maybe": {
+      "battery": "number"
+    },
+    "type": "pose"
+  },
   "Prompt": {
     "fields": {
       "deadline": "number",
@@ -869,7 +900,8 @@ export const documents = {
   },
   "WatchMessage": {
     "fields": {
-      "details": "boolean"
+      "details": "boolean",
+      "thin": "boolean"
     },
     "maybe": {},
     "type": "watch"

@@ -1,7 +1,11 @@
 import type { LiveMessage, Pose } from './protocol';
 
-/** Shown so much later than it happened [s], so that there is nearly always a newer value to move towards. */
+/** Shown so much later than it happened [s], so that there is nearly always a newer value to move towards; */
 const DELAY = 0.18;
+/** more where values come more seldom: so many times what lies between two of them, */
+const SPACES = 1.3;
+/** but never more. */
+const MOST_DELAY = 0.6;
 
 function blendAngle(a: number, b: number, part: number): number {
   const turn = Math.atan2(Math.sin(b - a), Math.cos(b - a));
@@ -19,9 +23,12 @@ export interface ShownPerson {
 /** The last frames, and what lies between them: motion at the pace of the screen. */
 export class Motion {
   private frames: LiveMessage[] = [];
+  private delay = DELAY;
 
   add(frame: LiveMessage): void {
     const last = this.frames[this.frames.length - 1];
+    const wanted = last ? Math.min(MOST_DELAY, Math.max(DELAY, SPACES * (frame.t - last.t))) : DELAY;
+    this.delay += 0.2 * (wanted - this.delay);
     if (last && (frame.t <= last.t || frame.t - last.t > 5)) this.frames = [];
     this.frames.push(frame);
     if (this.frames.length > 30) this.frames.shift();
@@ -31,7 +38,7 @@ export class Motion {
   }
   private around(now: number): [LiveMessage, LiveMessage, number] | null {
     if (this.frames.length === 0) return null;
-    const t = now - DELAY;
+    const t = now - this.delay;
     for (let i = this.frames.length - 1; i >= 0; --i) {
       const a = this.frames[i];
       if (a.t > t) continue;

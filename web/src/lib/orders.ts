@@ -20,7 +20,7 @@ export const requestOf = (asked: Asked, name: string, language: string): Request
 });
 export const cancelOf = (id: string, request: string): CancelMessage => ({ type: 'cancel', id, request });
 export const choiceOf = (id: string, prompt: string, choice: string): ChoiceMessage => ({ type: 'choice', id, prompt, choice });
-export const watchOf = (details: boolean): WatchMessage => ({ type: 'watch', details });
+export const watchOf = (details: boolean): WatchMessage => ({ type: 'watch', details, thin: false });
 
 // Of the robot's own screen alone.
 export const lampsOf = (lit: number[]): LampsMessage => ({ type: 'lamps', lit });

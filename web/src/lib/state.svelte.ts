@@ -317,6 +317,9 @@ class App {
     switch (message.type) {
       case 'live':
         return this.takeLive(message);
+      case 'pose':
+        // A visitor among very many, or with a thin line: nothing but the robot moves.
+        return this.takeLive({ ...message, type: 'live', hypotheses: [], scan: { frame: 'map', from: [0, 0], points: [] }, people: [] });
       case 'belief':
         this.belief = message;
         return;

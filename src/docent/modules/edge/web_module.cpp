@@ -14,6 +14,7 @@
 #include "docent/interaction/sound/horn.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/edge/screen_desk.h"
+#include "docent/modules/edge/web_params.h"
 #include "docent/modules/shared/scanners.h"
 #include "docent/telepresence/belief_carrier.h"
 #include "docent/telepresence/live_encoding.h"
@@ -26,39 +27,6 @@
 
 namespace docent::modules {
 namespace {
-
-/// Section `web`: the page and its server.
-struct WebParams : telepresence::WebServerParams {
-  std::string root;             ///< folder of the built page; empty: beside the program, else beside the sources
-  double live_hz = 10.0;        ///< of what moves
-  double belief_hz = 2.0;       ///< at most
-  double resend_s = 1.0;        ///< requests that are not on the board yet
-  double forget_hours = 24.0;   ///< after that a request is given up and forgotten
-  int scan_step = 3;            ///< every n-th reading is shown
-  int max_open_requests = 500;  ///< of everybody together; more are refused
-  template <class V>
-  void visit(V& v) {
-    telepresence::WebServerParams::visit(v);
-    v("root", root);
-    v("live_hz", live_hz);
-    v("belief_hz", belief_hz);
-    v("resend_s", resend_s);
-    v("forget_hours", forget_hours);
-    v("scan_step", scan_step);
-    v("max_open_requests", max_open_requests);
-  }
-  [[nodiscard]] Result<void> validate() const {
-    auto server = telepresence::WebServerParams::validate();
-    if (!server) return server;
-    if (!(live_hz >= 1.0 && live_hz <= 60.0)) return fail("web.live_hz must be 1 to 60");
-    if (!(belief_hz >= 0.1 && belief_hz <= 20.0)) return fail("web.belief_hz must be 0.1 to 20");
-    if (!(resend_s >= 0.05)) return fail("web.resend_s must be at least 0.05");
-    if (!(forget_hours > 0.0)) return fail("web.forget_hours must be > 0");
-    if (scan_step < 1 || scan_step > 90) return fail("web.scan_step must be 1 to 90");
-    if (max_open_requests < 1) return fail("web.max_open_requests must be at least 1");
-    return {};
-  }
-};
 
 /// The slots of the live channel.
 enum Slot : int {
@@ -73,7 +41,8 @@ enum Slot : int {
   kHorn,
   kSound,
   kExpression,
-  kButton
+  kButton,
+  kPose
 };
 
 std::filesystem::path page_folder(const std::string& root) {
@@ -171,7 +140,10 @@ class WebModule final : public Module {
 
   void set_server(std::unique_ptr<telepresence::WebServer> server) {
     server_ = std::move(server);
-    server_->restrict_to_details(kWindow);
+    server_->restrict_to(telepresence::Stream::details, kWindow);
+    server_->restrict_to(telepresence::Stream::full, kLive);
+    server_->restrict_to(telepresence::Stream::full, kBelief);
+    server_->restrict_to(telepresence::Stream::thin, kPose);
     const std::scoped_lock lock{shared_mutex_};
     figures_from_ = server_.get();
   }
@@ -222,6 +194,7 @@ class WebModule final : public Module {
       if (modules_.size() < kMostModules || modules_.contains(m.module)) modules_[m.module] = {m, bus_.now()};
     });
     bus_.every(seconds(1.0 / params_.live_hz), [this] { show_live(); });
+    bus_.every(seconds(params_.pose_s / telepresence::WebServer::kParts), [this] { show_pose(); });
     bus_.every(seconds(1.0 / params_.belief_hz), [this] { show_slow(); });
     bus_.every(seconds(1.0), [this] {
       show_health();
@@ -258,6 +231,19 @@ class WebModule final : public Module {
     if (avoid_ && frame.now - from_message(avoid_->header.stamp) <= kFresh) frame.avoid = avoid_;
     frame.battery = battery_;
     server_->broadcast(kLive, telepresence::encode_live(frame));
+  }
+
+  /// Each part of the thin viewers gets the pose of its own moment, so that nobody waits until all have theirs.
+  void show_pose() {
+    telepresence::LiveFrame frame;
+    frame.now = bus_.now();
+    frame.map_from_base = carrier_.map_from_base(frame.now);
+    frame.linear = carrier_.linear();
+    frame.angular = carrier_.angular();
+    frame.p_lost = carrier_.p_lost();
+    frame.battery = battery_;
+    server_->broadcast_part(kPose, part_, telepresence::encode_pose(frame));
+    part_ = (part_ + 1) % telepresence::WebServer::kParts;
   }
 
   void show_slow() {
@@ -429,6 +415,7 @@ class WebModule final : public Module {
   nav_msgs::Path path_;
   docent_msgs::GoalState goal_;
   bool is_path_new_ = false;
+  int part_ = 0;  ///< of the thin viewers, that gets the next pose
   std::size_t open_requests_ = 0;
   std::map<std::string, telepresence::HealthEntry> modules_;
 

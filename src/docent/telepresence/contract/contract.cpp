@@ -40,6 +40,15 @@ std::string live() {
   return encode_live(frame);
 }
 
+std::string pose() {
+  LiveFrame frame;
+  frame.now = kNow;
+  frame.map_from_base = Pose2{1.25, -2.5, Angle::radians(0.5)};
+  frame.linear = 0.3;
+  frame.battery = 0.8;
+  return encode_pose(frame);
+}
+
 std::string lost() {
   LiveFrame frame;
   frame.now = kNow;
@@ -169,6 +178,7 @@ std::map<std::string, std::string> contract_samples() {
       {"museum.json", museum()},
       {"live.json", live()},
       {"live_lost.json", lost()},
+      {"pose.json", pose()},
       {"belief.json", belief()},
       {"path.json", path()},
       {"mission.json", mission(false)},

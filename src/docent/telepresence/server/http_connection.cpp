@@ -42,7 +42,7 @@ void HttpConnection::serve() {
                                     {view_of(request[http::field::origin]), view_of(request[http::field::host]), {}}});
   if (const auto* live = std::get_if<OpenLive>(&route)) {
     stream_.expires_never();
-    return owner_.open_live(stream_.release_socket(), std::move(request), live->role);
+    return owner_.open_live(stream_.release_socket(), std::move(request), *live);
   }
   const HttpAnswer& answer = std::get<HttpAnswer>(route);
   send(answer, request.keep_alive() && !answer.is_last,

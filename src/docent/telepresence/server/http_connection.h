@@ -21,7 +21,7 @@ using HttpRequest = boost::beast::http::request<boost::beast::http::string_body>
 struct HttpOwner {
   std::function<Route(const RouteRequest&)> route;
   /// The connection becomes a session.
-  std::function<void(boost::asio::ip::tcp::socket, HttpRequest, Role)> open_live;
+  std::function<void(boost::asio::ip::tcp::socket, HttpRequest, const OpenLive&)> open_live;
   std::atomic<std::size_t>* connections = nullptr;
   std::atomic<std::uint64_t> requests{0};
 };

@@ -6,6 +6,7 @@ namespace docent::telepresence {
 namespace {
 
 constexpr std::string_view kLive = "/live";
+constexpr std::string_view kThinLive = "/live?thin";
 constexpr std::string_view kLiveOfScreen = "/live?screen=";
 
 }  // namespace
@@ -21,14 +22,15 @@ HttpAnswer refusal(int status, std::string text) {
 Route Router::route(const RouteRequest& request, bool is_full) const {
   if (request.is_upgrade) {
     const bool is_screen = request.target.starts_with(kLiveOfScreen) && request.target != kLiveOfScreen;
-    if (!is_screen && request.target != kLive) return refusal(404, "not found\n");
+    const bool is_thin = request.target == kThinLive;
+    if (!is_screen && !is_thin && request.target != kLive) return refusal(404, "not found\n");
     Opening opening = request.opening;
     if (is_screen) opening.key = request.target.substr(kLiveOfScreen.size());
     const auto role = role_of(opening, origins_, screen_key_);
     if (!role && is_screen) return refusal(403, "this is not the robot's own screen\n");
     if (!role) return refusal(403, "pages of another site may not steer the robot\n");
     if (is_full) return refusal(503, "too many viewers\n");
-    return OpenLive{*role};
+    return OpenLive{*role, is_thin};
   }
   const bool is_head = request.method == "HEAD";
   if (!is_head && request.method != "GET") return refusal(405, "GET only\n");

@@ -28,6 +28,7 @@ struct HttpAnswer {
 /// The connection becomes a session on the live channel.
 struct OpenLive {
   Role role = Role::observer;
+  bool is_thin = false;  ///< of what moves it wants the pose alone: /live?thin
 };
 using Route = std::variant<HttpAnswer, OpenLive>;
 

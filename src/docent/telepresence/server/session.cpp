@@ -12,12 +12,15 @@ namespace http = beast::http;
 namespace websocket = beast::websocket;
 using asio::ip::tcp;
 
-Session::Session(SessionOwner& owner, const WebServerParams& params, tcp::socket socket, ViewerId id, Role role)
+Session::Session(SessionOwner& owner, const WebServerParams& params, tcp::socket socket, ViewerId id, Role role,
+                 bool must_be_thin)
     : owner_{owner},
       id_{id},
       role_{role},
       bucket_{params.messages_per_second, params.message_burst},
-      stream_{std::move(socket)} {
+      stream_{std::move(socket)},
+      must_be_thin_{must_be_thin},
+      is_thin_{must_be_thin} {
   ++owner_.connections;
   websocket::stream_base::timeout timeout{};
   timeout.handshake_timeout = std::chrono::seconds{10};
@@ -28,10 +31,12 @@ Session::Session(SessionOwner& owner, const WebServerParams& params, tcp::socket
   stream_.auto_fragment(false);
 }
 
-void Session::run(http::request<http::string_body> request, std::uint32_t slots) {
-  queue_ = ViewerQueue{slots};
-  request_ = std::move(request);
-  stream_.async_accept(request_, [self = shared_from_this()](beast::error_code error) {
+void Session::run(http::request<http::string_body> request, std::uint32_t slots, bool is_thin) {
+  is_thin_ = is_thin || must_be_thin_;
+  queue_ = ViewerQueue{slots & wanted()};
+  request_ = std::make_unique<http::request<http::string_body>>(std::move(request));
+  stream_.async_accept(*request_, [self = shared_from_this()](beast::error_code error) {
+    self->request_.reset();
     if (error) return self->leave();
     self->is_open_ = true;
     self->stream_.text(true);
@@ -40,9 +45,23 @@ void Session::run(http::request<http::string_body> request, std::uint32_t slots)
   });
 }
 
+std::uint32_t Session::wanted() const {
+  const std::uint32_t others =
+      (is_thin_ ? owner_.full_slots : owner_.thin_slots) | (wants_details_ ? 0 : owner_.detail_slots);
+  return ~others;
+}
+
+void Session::watch(const WatchMessage& wish) {
+  const std::uint32_t before = wanted();
+  wants_details_ = wish.details;
+  is_thin_ = wish.thin || must_be_thin_;
+  queue_.mark(wanted() & ~before);
+  flush();
+}
+
 void Session::mark(std::size_t slot) {
   const std::uint32_t bit = 1U << slot;
-  if ((owner_.detail_slots & bit) != 0 && !wants_details_) return;
+  if ((wanted() & bit) == 0) return;
   if (queue_.mark(bit)) ++owner_.values_skipped;
 }
 
@@ -88,10 +107,8 @@ void Session::take() {
   auto message = parse_client_message(text);
   if (!message) return refuse(websocket::close_code::policy_error, message.error().message);
   if (!may_ask(role_, *message)) return refuse(websocket::close_code::policy_error, "this is not yours to ask");
-  if (const auto* watch = std::get_if<WatchMessage>(&*message)) {
-    if (watch->details && !wants_details_) queue_.mark(owner_.detail_slots);
-    wants_details_ = watch->details;
-    flush();
+  if (const auto* wish = std::get_if<WatchMessage>(&*message)) {
+    watch(*wish);
   } else {
     owner_.message(id_, role_, *message);
   }

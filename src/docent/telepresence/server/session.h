@@ -23,7 +23,10 @@ struct SessionOwner {
   std::function<void(ViewerId, Role, const ClientMessage&)> message;
   std::function<void(ViewerId)> left;
   std::function<SharedText(std::size_t slot)> latest;  ///< null: it has no value yet
-  std::uint32_t detail_slots = 0;                      ///< a bit for each slot that only specialists look at
+  // A bit for each slot that only some viewers get (Stream).
+  std::uint32_t detail_slots = 0;
+  std::uint32_t full_slots = 0;
+  std::uint32_t thin_slots = 0;
   std::atomic<std::size_t> connections{0};
   std::atomic<std::uint64_t> messages_in{0}, messages_refused{0}, messages_out{0}, values_skipped{0};
 };
@@ -33,13 +36,14 @@ struct SessionOwner {
 class Session : public std::enable_shared_from_this<Session> {
  public:
   Session(SessionOwner& owner, const WebServerParams& params, boost::asio::ip::tcp::socket socket, ViewerId id,
-          Role role);
+          Role role, bool must_be_thin);
   ~Session() { --owner_.connections; }
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
   /// Accepts the upgrade and sends the `slots` (a bit each) that have a value.
-  void run(boost::beast::http::request<boost::beast::http::string_body> request, std::uint32_t slots);
+  /// @param is_thin  it asks for the pose alone of what moves
+  void run(boost::beast::http::request<boost::beast::http::string_body> request, std::uint32_t slots, bool is_thin);
   /// The slot has a new value.
   void mark(std::size_t slot);
   void answer(SharedText text);
@@ -49,6 +53,9 @@ class Session : public std::enable_shared_from_this<Session> {
 
  private:
   void read();
+  void watch(const WatchMessage& wish);
+  /// Which slots it gets.
+  [[nodiscard]] std::uint32_t wanted() const;
   void take();
   void refuse(boost::beast::websocket::close_code code, const std::string& reason);
   void close(boost::beast::websocket::close_code code, const std::string& reason);
@@ -58,8 +65,8 @@ class Session : public std::enable_shared_from_this<Session> {
   const ViewerId id_;
   const Role role_;
   TokenBucket bucket_;
-  boost::beast::websocket::stream<boost::beast::tcp_stream> stream_;
-  boost::beast::http::request<boost::beast::http::string_body> request_;
+  boost::beast::websocket::stream<boost::beast::tcp_stream, false> stream_;                // without compression
+  std::unique_ptr<boost::beast::http::request<boost::beast::http::string_body>> request_;  ///< until it is accepted
   boost::beast::flat_buffer buffer_;
   ViewerQueue queue_;
   SharedText sending_;
@@ -68,6 +75,8 @@ class Session : public std::enable_shared_from_this<Session> {
   bool is_writing_ = false;
   bool is_closing_ = false;
   bool wants_details_ = false;
+  bool must_be_thin_;
+  bool is_thin_ = false;
 };
 
 }  // namespace docent::telepresence

@@ -40,7 +40,8 @@ class SessionTest : public testing::Test {
     boost::beast::flat_buffer buffer;
     boost::beast::http::request<boost::beast::http::string_body> request;
     boost::beast::http::read(socket, buffer, request);
-    std::make_shared<Session>(owner_, params, std::move(socket), kViewer, role)->run(std::move(request), 0b10);
+    std::make_shared<Session>(owner_, params, std::move(socket), kViewer, role, false)
+        ->run(std::move(request), 0b10, false);
     io_.run();
   }
   void TearDown() override {

@@ -20,7 +20,7 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 using asio::ip::tcp;
 
-constexpr std::size_t kGroups = 10;
+constexpr std::size_t kGroups = WebServer::kParts;
 constexpr auto kGroupPeriod = std::chrono::milliseconds{10};
 constexpr std::size_t kManyViewers = 100;  // from here on sends are spread over the groups
 
@@ -42,13 +42,13 @@ struct WebServer::Core {
     http.route = [this](const RouteRequest& request) {
       return router.route(request, viewers >= static_cast<std::size_t>(params.max_viewers));
     };
-    http.open_live = [this](tcp::socket socket, HttpRequest request, Role role) {
-      open_live(std::move(socket), std::move(request), role);
+    http.open_live = [this](tcp::socket socket, HttpRequest request, const OpenLive& how) {
+      open_live(std::move(socket), std::move(request), how);
     };
   }
 
   void accept();
-  void open_live(tcp::socket socket, HttpRequest request, Role role);
+  void open_live(tcp::socket socket, HttpRequest request, const OpenLive& how);
   void tick();
   void flush_all();
 
@@ -74,6 +74,7 @@ struct WebServer::Core {
 Result<void> WebServerParams::validate() const {
   if (port < 0 || port > 65535) return fail("web.port must be 0 to 65535");
   if (max_connections < 1) return fail("web.max_connections must be at least 1");
+  if (full_viewers < 0) return fail("web.full_viewers must be >= 0");
   if (max_viewers < 1) return fail("web.max_viewers must be at least 1");
   if (!(messages_per_second > 0.0)) return fail("web.messages_per_second must be > 0");
   if (!(message_burst >= 1.0)) return fail("web.message_burst must be at least 1");
@@ -99,12 +100,13 @@ void WebServer::Core::accept() {
   });
 }
 
-void WebServer::Core::open_live(tcp::socket socket, HttpRequest request, Role role) {
+void WebServer::Core::open_live(tcp::socket socket, HttpRequest request, const OpenLive& how) {
   beast::error_code ignored;
   socket.set_option(tcp::no_delay{true}, ignored);
   socket.set_option(asio::socket_base::send_buffer_size{params.send_buffer_bytes}, ignored);
   const ViewerId id = next_viewer++;
-  const auto session = std::make_shared<Session>(sessions, params, std::move(socket), id, role);
+  const auto session = std::make_shared<Session>(sessions, params, std::move(socket), id, how.role,
+                                                 viewers >= static_cast<std::size_t>(params.full_viewers));
   groups[id % kGroups].emplace(id, session);
   ++viewers;
   ++viewers_ever;
@@ -112,7 +114,7 @@ void WebServer::Core::open_live(tcp::socket socket, HttpRequest request, Role ro
   for (std::size_t slot = 0; slot < latest.size(); ++slot) {
     if (latest.at(slot)) slots |= 1U << slot;
   }
-  session->run(std::move(request), slots & ~sessions.detail_slots);
+  session->run(std::move(request), slots, how.is_thin);
 }
 
 void WebServer::Core::tick() {
@@ -177,9 +179,26 @@ void WebServer::broadcast(int slot, std::string text) {
   });
 }
 
-void WebServer::restrict_to_details(int slot) {
+void WebServer::broadcast_part(int slot, int part, std::string text) {
   asio::post(core_->io,
-             [core = core_.get(), slot] { core->sessions.detail_slots |= 1U << static_cast<unsigned>(slot); });
+             [core = core_.get(), slot = static_cast<std::size_t>(slot), part = static_cast<std::size_t>(part),
+              shared = std::make_shared<const std::string>(std::move(text))] {
+               core->latest.at(slot) = shared;
+               for (auto& [id, viewer] : core->groups.at(part)) {
+                 viewer->mark(slot);
+                 viewer->flush();
+               }
+             });
+}
+
+void WebServer::restrict_to(Stream stream, int slot) {
+  asio::post(core_->io, [core = core_.get(), stream, bit = 1U << static_cast<unsigned>(slot)] {
+    SessionOwner& sessions = core->sessions;
+    for (const auto& [kind, slots] :
+         {std::pair{Stream::details, &sessions.detail_slots}, std::pair{Stream::full, &sessions.full_slots},
+          std::pair{Stream::thin, &sessions.thin_slots}})
+      *slots = kind == stream ? *slots | bit : *slots & ~bit;
+  });
 }
 
 void WebServer::send(ViewerId viewer, std::string text) {

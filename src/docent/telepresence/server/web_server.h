@@ -19,6 +19,7 @@ struct WebServerParams {
   int port = 8080;                    ///< 0: any free one, see WebServer::port
   int max_connections = 12000;        ///< all kinds together
   int max_viewers = 10000;            ///< on the live channel
+  int full_viewers = 200;             ///< who get more than the pose of what moves; who comes later gets the pose alone
   double messages_per_second = 2.0;   ///< of one viewer, sustained
   double message_burst = 20.0;        ///< of one viewer
   int max_message_bytes = 4096;       ///< a longer one ends the connection
@@ -31,6 +32,7 @@ struct WebServerParams {
     v("port", port);
     v("max_connections", max_connections);
     v("max_viewers", max_viewers);
+    v("full_viewers", full_viewers);
     v("messages_per_second", messages_per_second);
     v("message_burst", message_burst);
     v("max_message_bytes", max_message_bytes);
@@ -42,6 +44,9 @@ struct WebServerParams {
 };
 
 using ViewerId = std::uint64_t;
+
+/// To whom a slot is sent: everybody; who asked for details; who gets all that moves; who gets the pose alone.
+enum class Stream { everybody, details, full, thin };
 
 struct WebServerFigures {
   std::size_t connections = 0;
@@ -62,6 +67,7 @@ struct WebServerFigures {
 class WebServer {
  public:
   static constexpr int kSlots = 16;
+  static constexpr int kParts = 10;  ///< of all viewers
   /// Called on the server's thread; must not block.
   using MessageHandler = std::function<void(ViewerId, Role, const ClientMessage&)>;
 
@@ -77,8 +83,12 @@ class WebServer {
   [[nodiscard]] int port() const;
   /// Any thread: the new value of a slot, for all viewers. @pre 0 <= slot < kSlots
   void broadcast(int slot, std::string text);
-  /// The slot is only sent to viewers who asked for details.
-  void restrict_to_details(int slot);
+  /// Any thread: the new value of a slot, at once for the viewers of one of `kParts` parts. Whoever calls it for one
+  /// part after the other, each with the newest value, spares the server a burst and its viewers the wait for its end.
+  /// @pre 0 <= part < kParts
+  void broadcast_part(int slot, int part, std::string text);
+  /// From now on the slot is only sent to these viewers.
+  void restrict_to(Stream stream, int slot);
   /// Any thread: an answer to one viewer. One who leaves too many unread is cut off.
   void send(ViewerId viewer, std::string text);
   [[nodiscard]] WebServerFigures figures() const;

@@ -126,7 +126,7 @@ TEST_F(WebServerTest, AViewerGetsThePresentThenTheChanges) {
 
 TEST_F(WebServerTest, DetailsAreForThoseWhoAsk) {
   start();
-  server_->restrict_to_details(7);
+  server_->restrict_to(Stream::details, 7);
   TestClient curious{server_->port()};
   TestClient plain{server_->port()};
   ASSERT_TRUE(curious.upgrade());
@@ -140,6 +140,34 @@ TEST_F(WebServerTest, DetailsAreForThoseWhoAsk) {
   const std::set<std::string> both{curious.receive_frame().payload, curious.receive_frame().payload};
   EXPECT_EQ(both, (std::set<std::string>{"window 2", "belief"}));
   EXPECT_EQ(plain.receive_frame(100ms).opcode, -1);
+}
+
+TEST_F(WebServerTest, WhoWantsLittleGetsThePoseAlone) {
+  WebServerParams params;
+  params.full_viewers = 2;
+  start(params);
+  server_->restrict_to(Stream::full, 0);
+  server_->restrict_to(Stream::thin, 1);
+  TestClient full{server_->port()};
+  TestClient thin{server_->port()};
+  TestClient third{server_->port()};  // one too many for all that moves
+  ASSERT_TRUE(full.upgrade());
+  ASSERT_TRUE(thin.upgrade("", "/live?thin"));
+  ASSERT_TRUE(third.upgrade());
+  server_->broadcast(0, "all that moves");
+  server_->broadcast(1, "pose");
+  server_->broadcast(2, "mission");
+  const auto two = [](TestClient& client) {
+    return std::set<std::string>{client.receive_frame().payload, client.receive_frame().payload};
+  };
+  EXPECT_EQ(two(full), (std::set<std::string>{"all that moves", "mission"}));
+  EXPECT_EQ(two(thin), (std::set<std::string>{"pose", "mission"}));
+  EXPECT_EQ(two(third), (std::set<std::string>{"pose", "mission"}));
+  // Who changes their mind gets the present at once.
+  thin.send_frame(R"({"type":"watch","details":false,"thin":false})");
+  EXPECT_EQ(thin.receive_frame().payload, "all that moves");
+  third.send_frame(R"({"type":"watch","details":false,"thin":false})");
+  EXPECT_EQ(third.receive_frame(200ms).opcode, -1);
 }
 
 TEST_F(WebServerTest, HandsMessagesOverAndAnswersTheirSender) {
