@@ -109,7 +109,6 @@ TEST_F(Points, ACancelledOneIsNotWantedAnyMore) {
 
 TEST_F(Scheduling, ATourThatWasVotedForIsTheNext) {
   wish("first", RequestKind::tour, "t", 0);
-  wish("alone", RequestKind::exhibit, "e1", 1);
   scheduler.submit({"round", {}, RequestSource::vote, "", RequestKind::tour, "two", -1, "en"}, conditions,
                    time_from_seconds(2));
   EXPECT_EQ(next(3), "e2");
