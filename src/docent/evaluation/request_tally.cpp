@@ -19,7 +19,8 @@ void RequestTally::add_offer(Time time, const docent_msgs::TrueOffer& offer) {
 
 void RequestTally::add_task(const docent_msgs::Task& task) {
   // The plan controller visits an exhibit; a GOLOG program drives to it and explains it then.
-  const bool leads_there = parse<TaskKind>(task.kind) == TaskKind::visit || task.kind == "drive";
+  const bool leads_there = parse<TaskKind>(task.kind) == TaskKind::visit ||
+                           parse<TaskKind>(task.kind) == TaskKind::point || task.kind == "drive";
   if (leads_there) places_[task.exhibit_id] = {task.x, task.y};
 }
 
@@ -38,7 +39,7 @@ void RequestTally::add_board(Time time, const docent_msgs::RequestBoard& board, 
     wish.reason = entry.reason;
     wish.source = parse<RequestSource>(request.source);
     wish.visitor = request.visitor;
-    if (is_change && status == RequestStatus::fulfilled && kind == RequestKind::exhibit)
+    if (is_change && status == RequestStatus::fulfilled && kind != RequestKind::tour)
       wish.in_wrong_place = !is_in_place(request.target, truth);
   }
 }

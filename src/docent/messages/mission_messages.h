@@ -45,7 +45,7 @@ struct MissionState {
 struct Task {
   static constexpr const char* kType = "docent_msgs/msg/Task";
   std::string id;          ///< empty: nothing to do
-  std::string kind;        ///< visit, farewell, home, charge, relocalize, mingle, or one of a museum's own
+  std::string kind;        ///< visit, farewell, home, charge, relocalize, mingle, point, or one of a museum's own
   std::string exhibit_id;  ///< for charge: of the visit that is broken off for it
   double x = 0;            ///< [m], map: where to stand
   double y = 0;

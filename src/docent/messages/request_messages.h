@@ -15,10 +15,10 @@ struct Request {
   static constexpr const char* kType = "docent_msgs/msg/Request";
   std::string id;  ///< UUIDv7, made at the edge
   builtin_interfaces::Time stamp;
-  std::string source;           ///< web, kiosk, visitor, staff
+  std::string source;           ///< web, kiosk, visitor, staff, vote
   std::string visitor;          ///< a name to show
-  std::string kind;             ///< exhibit, tour, cancel
-  std::string target;           ///< exhibit or tour id; for cancel: the request's id
+  std::string kind;             ///< exhibit, tour, cancel, point
+  std::string target;           ///< exhibit or tour id; for cancel: the request's id; for point: "x,y" [m], map
   std::int32_t viewpoint = -1;  ///< index in the exhibit's viewpoints
   std::string language;
   template <class Self, class V>
@@ -79,6 +79,22 @@ struct RequestBoard {
     v("header", m.header);
     v("revision", m.revision);
     v("requests", m.requests);
+  }
+};
+
+/// How the Web's visitors vote which tour comes next; latched, from web.
+struct Votes {
+  static constexpr const char* kType = "docent_msgs/msg/Votes";
+  std_msgs::Header header;
+  std::string round;  ///< UUIDv7: the id of the request that the robot makes of the most voted tour
+  std::vector<std::string> tours;
+  std::vector<std::uint32_t> counts;  ///< [tours]
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("header", m.header);
+    v("round", m.round);
+    v("tours", m.tours);
+    v("counts", m.counts);
   }
 };
 

@@ -79,6 +79,7 @@ inline constexpr Topic<docent_msgs::AvoidState> kAvoidState{"docent/avoid_state"
 // Task and interaction.
 inline constexpr Topic<docent_msgs::Request> kRequest{"docent/request", Qos::command};
 inline constexpr Topic<docent_msgs::Choice> kChoice{"docent/choice", Qos::command};
+inline constexpr Topic<docent_msgs::Votes> kVotes{"docent/votes", Qos::state};
 inline constexpr Topic<docent_msgs::RequestBoard> kRequestBoard{"docent/request_board", Qos::state};
 inline constexpr Topic<docent_msgs::MissionState> kMissionState{"docent/mission_state", Qos::state};
 inline constexpr Topic<docent_msgs::Task> kTask{"docent/task", Qos::state};
@@ -126,8 +127,8 @@ void for_each_robot_topic(F&& f) {
   f(kScanLeft), f(kScanRight), f(kInfrared), f(kObstacleLines);
   f(kTransforms), f(kStaticTransforms), f(kStaticMap), f(kLiveMap), f(kLiveMapUpdate), f(kBelief), f(kPose);
   f(kPersonBeams), f(kPeople), f(kPeopleInOdom), f(kVirtualScan), f(kDriveGoal), f(kGoalState), f(kTarget), f(kPath);
-  f(kDrive), f(kAvoidState), f(kRequest), f(kChoice), f(kRequestBoard), f(kMissionState), f(kTask), f(kTaskState),
-      f(kEvent);
+  f(kDrive), f(kAvoidState), f(kRequest), f(kChoice), f(kVotes), f(kRequestBoard), f(kMissionState), f(kTask),
+      f(kTaskState), f(kEvent);
   f(kReaction), f(kGaze), f(kExpression), f(kButton), f(kButtonLamps), f(kSay), f(kSpeechState), f(kHorn), f(kMusic),
       f(kSoundState), f(kLimits), f(kHealth);
   f(kInitialPose), f(kParticleCloud), f(kPeopleMarkers), f(kMuseumMarkers), f(kJointStates);

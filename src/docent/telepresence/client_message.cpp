@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 namespace docent::telepresence {
@@ -43,14 +45,30 @@ bool is_language(std::string_view text) {
   return text.size() == 2 && std::all_of(text.begin(), text.end(), [](char c) { return c >= 'a' && c <= 'z'; });
 }
 
+/// "x,y" [m], map
+bool is_point(const std::string& text) {
+  double x = 0.0;
+  double y = 0.0;
+  int used = 0;
+  constexpr std::size_t kMost = 24;
+  constexpr double kFarthest = 10'000.0;  // [m]
+  if (text.size() > kMost || text.find_first_not_of("0123456789.,-") != std::string::npos) return false;
+  return std::sscanf(text.c_str(), "%lf,%lf%n", &x, &y, &used) == 2 && static_cast<std::size_t>(used) == text.size() &&
+         std::abs(x) < kFarthest && std::abs(y) < kFarthest;
+}
+
 Result<ClientMessage> parse_request(const Json& object, std::string id) {
   RequestMessage message;
   message.id = std::move(id);
   const auto kind = parse<RequestKind>(text_of(object, "kind"));
-  if (kind != RequestKind::exhibit && kind != RequestKind::tour) return fail("request: kind must be exhibit or tour");
+  if (!kind || kind == RequestKind::cancel) return fail("request: kind must be exhibit, tour or point");
   message.kind = *kind;
   message.target = text_of(object, "target");
-  if (!is_identifier(message.target)) return fail("request: target is not an id");
+  if (kind == RequestKind::point) {
+    if (!is_point(message.target)) return fail("request: target is no point x,y");
+  } else if (!is_identifier(message.target)) {
+    return fail("request: target is not an id");
+  }
   if (const auto place = object.find("viewpoint"); place != object.end() && !place->is_null()) {
     if (!place->is_number_integer()) return fail("request: viewpoint must be a whole number");
     const bool is_huge = place->is_number_unsigned() && place->get<std::uint64_t>() > 255;

@@ -18,7 +18,7 @@ struct RequestMessage {
   static constexpr const char* kName = "RequestMessage";
   static constexpr const char* kType = "request";
   std::string id;
-  RequestKind kind = RequestKind::exhibit;  ///< or tour
+  RequestKind kind = RequestKind::exhibit;  ///< or tour, or point
   std::string target;
   int viewpoint = -1;
   std::string name;  ///< at most 40 characters on one line, nothing that is not printed

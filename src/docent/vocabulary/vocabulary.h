@@ -13,12 +13,12 @@
 namespace docent {
 
 /// What a visitor wishes for.
-enum class RequestKind { exhibit, tour, cancel };
-constexpr auto words_of(RequestKind) { return std::array{"exhibit", "tour", "cancel"}; }
+enum class RequestKind { exhibit, tour, cancel, point };
+constexpr auto words_of(RequestKind) { return std::array{"exhibit", "tour", "cancel", "point"}; }
 
-/// Where a request was made.
-enum class RequestSource { web, kiosk, visitor, staff };
-constexpr auto words_of(RequestSource) { return std::array{"web", "kiosk", "visitor", "staff"}; }
+/// Where a request was made; vote: a tour for which the Web's visitors voted.
+enum class RequestSource { web, kiosk, visitor, staff, vote };
+constexpr auto words_of(RequestSource) { return std::array{"web", "kiosk", "visitor", "staff", "vote"}; }
 
 /// The life of a request: queued -> active -> fulfilled, with ways back to queued (a visit that failed and is tried
 /// again, or was suspended) and out to failed and cancelled. refused is a first and last state.
@@ -43,8 +43,10 @@ constexpr auto words_of(MissionPhase) {
 }
 
 /// What the executive is to do.
-enum class TaskKind { visit, farewell, home, charge, relocalize, mingle };
-constexpr auto words_of(TaskKind) { return std::array{"visit", "farewell", "home", "charge", "relocalize", "mingle"}; }
+enum class TaskKind { visit, farewell, home, charge, relocalize, mingle, point };
+constexpr auto words_of(TaskKind) {
+  return std::array{"visit", "farewell", "home", "charge", "relocalize", "mingle", "point"};
+}
 
 /// How a task goes.
 enum class TaskStatus { driving, explaining, asking, done, failed };
@@ -135,11 +137,14 @@ enum class ReasonWord {
   web_only_now,       ///< the hours of the Web visitors
   closed,
   too_many_wait,
-  not_stored,      ///< the disk is full or gone
-  question_over,   ///< the question is no longer open
-  no_such_answer,  ///< to the question
-  busy,            ///< with something else
-  too_fast,        ///< more messages than anybody can mean
+  too_many_points,    ///< on the map are wished for already
+  only_in_web_hours,  ///< points on the map
+  not_on_free_floor,  ///< where the robot cannot stand, or cannot get to
+  not_stored,         ///< the disk is full or gone
+  question_over,      ///< the question is no longer open
+  no_such_answer,     ///< to the question
+  busy,               ///< with something else
+  too_fast,           ///< more messages than anybody can mean
   charging_first,
   on_the_way,  ///< there already: who asks takes part
   joins_tour,  ///< that is under way: what was missed comes at its end
@@ -174,6 +179,9 @@ constexpr auto words_of(ReasonWord) {
                     "web_only_now",
                     "closed",
                     "too_many_wait",
+                    "too_many_points",
+                    "only_in_web_hours",
+                    "not_on_free_floor",
                     "not_stored",
                     "question_over",
                     "no_such_answer",
@@ -216,6 +224,7 @@ enum class EventKind {
   explained,
   visit_failed,
   visit_dropped,
+  point_reached,
   tour_started,
   tour_completed,
   tour_failed,
@@ -243,13 +252,24 @@ enum class EventKind {
   choice,
 };
 constexpr auto words_of(EventKind) {
-  return std::array{"request_queued",    "request_refused",  "request_active", "request_fulfilled", "request_failed",
-                    "request_cancelled", "visit_started",    "explained",      "visit_failed",      "visit_dropped",
-                    "tour_started",      "tour_completed",   "tour_failed",    "tour_broken_off",   "tour_cancelled",
-                    "farewell",          "plan_inserted",    "plan_removed",   "plan_rescheduled",  "plan_shortened",
-                    "order_chosen",      "attraction_trial", "relocalizing",   "localized",         "home",
-                    "home_failed",       "charger",          "charger_failed", "battery_low",       "battery_full",
-                    "arrived",           "drive_blocked",    "asked_for_way",  "prompt_shown",      "choice"};
+  return std::array{"request_queued",   "request_refused",
+                    "request_active",   "request_fulfilled",
+                    "request_failed",   "request_cancelled",
+                    "visit_started",    "explained",
+                    "visit_failed",     "visit_dropped",
+                    "point_reached",    "tour_started",
+                    "tour_completed",   "tour_failed",
+                    "tour_broken_off",  "tour_cancelled",
+                    "farewell",         "plan_inserted",
+                    "plan_removed",     "plan_rescheduled",
+                    "plan_shortened",   "order_chosen",
+                    "attraction_trial", "relocalizing",
+                    "localized",        "home",
+                    "home_failed",      "charger",
+                    "charger_failed",   "battery_low",
+                    "battery_full",     "arrived",
+                    "drive_blocked",    "asked_for_way",
+                    "prompt_shown",     "choice"};
 }
 
 /// An enumeration of the above.

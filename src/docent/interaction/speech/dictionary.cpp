@@ -12,32 +12,12 @@ namespace {
 
 /// As the values of Sentence.
 constexpr std::array<const char*, kSentences> kKeys{
-    "waking",
-    "relocalizing",
-    "idle",
-    "waiting",
-    "driving",
-    "blocked",
-    "explaining",
-    "asking",
-    "going_home",
-    "battery_low",
-    "charging",
-    "announcement",
-    "let_me_through",
-    "offer_more",
-    "home_again",
-    "must_charge",
-    "at_charger",
-    "stay_behind",
-    "greeting",
-    "next_exhibit",
-    "farewell",
-    "help",
-    "attract_invitation",
-    "attract_question",
-    "attract_complaint",
-    "attract_demand",
+    "waking",           "relocalizing",      "idle",           "waiting",      "driving",
+    "blocked",          "to_point",          "at_point",       "explaining",   "asking",
+    "going_home",       "battery_low",       "charging",       "announcement", "let_me_through",
+    "offer_more",       "home_again",        "must_charge",    "at_charger",   "stay_behind",
+    "greeting",         "next_exhibit",      "farewell",       "help",         "attract_invitation",
+    "attract_question", "attract_complaint", "attract_demand",
 };
 
 /// A sentence that has words for several moods.

@@ -18,6 +18,8 @@ enum class Sentence {
   waiting,       ///< nothing to do just now, not at home
   driving,       ///< on its way to {title}
   blocked,       ///< on its way to {title}, people in the way
+  to_point,      ///< on its way to a point on the map for which a visitor on the Web wished
+  at_point,      ///< looks round there
   explaining,    ///< talks about {title}
   asking,        ///< more about {title}, or next?
   going_home,

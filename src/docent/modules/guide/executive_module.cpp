@@ -114,6 +114,7 @@ class ExecutiveModule final : public Module {
     const auto face = parse<Mood>(task.face);
     const auto speech = parse<SpeechAct>(task.speech);
     if (gaze && face && speech) result.style = interaction::AttractionAction{*gaze, *face, *speech};
+    if (result.order.kind == TaskKind::point) result.wait_s = mode_.wait_s(bus_.now());
     if (const museum::Exhibit* exhibit = museum_.find_exhibit(task.exhibit_id)) {
       result.title = museum::translated(exhibit->title, task.language);
       result.short_text = interaction::spoken_text(museum::translated(exhibit->short_text, task.language));

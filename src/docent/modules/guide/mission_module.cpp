@@ -144,6 +144,7 @@ class MissionModule final : public Module {
     flush();
     bus_.subscribe<docent_msgs::Request>(topics::kRequest, [this](const auto& message) { on_request(message); });
     bus_.subscribe<docent_msgs::TaskState>(topics::kTaskState, [this](const auto& message) { on_task(message); });
+    bus_.subscribe<docent_msgs::Votes>(topics::kVotes, [this](const auto& message) { on_votes(message); });
     bus_.subscribe<docent_msgs::Belief>(topics::kBelief, [this](const auto& message) { on_belief(message); });
     bus_.subscribe<docent_msgs::Limits>(topics::kLimits, [this](const auto& message) { mode_.limits(message); });
     const bool watches_battery = !context.config.evaluation().without_battery_watch;
@@ -198,6 +199,20 @@ class MissionModule final : public Module {
     mission_.submit({message.id, from_message(message.stamp), Word<RequestSource>{message.source}, message.visitor,
                      Word<RequestKind>{message.kind}, message.target, message.viewpoint, message.language},
                     bus_.now());
+    flush();
+  }
+
+  /// The tour that leads; of two with as many votes the one that is listed first.
+  void on_votes(const docent_msgs::Votes& message) {
+    std::size_t best = 0;
+    std::uint32_t most = 0;
+    for (std::size_t i = 0; i < std::min(message.tours.size(), message.counts.size()); ++i) {
+      if (message.counts[i] <= most || museum_.find_tour(message.tours[i]) == nullptr) continue;
+      most = message.counts[i];
+      best = i;
+    }
+    if (message.round.size() > kMostText) return;
+    mission_.votes(message.round, most > 0 ? message.tours[best] : "", bus_.now());
     flush();
   }
 
@@ -309,6 +324,8 @@ class MissionModule final : public Module {
   [[nodiscard]] static interaction::Sentence sentence_of(const task_control::MissionSummary& summary) {
     if (summary.phase == MissionPhase::waking) return interaction::Sentence::waking;
     if (summary.phase == MissionPhase::relocalizing) return interaction::Sentence::relocalizing;
+    if (summary.is_point && summary.phase == MissionPhase::driving) return interaction::Sentence::to_point;
+    if (summary.is_point && summary.phase == MissionPhase::explaining) return interaction::Sentence::at_point;
     if (summary.phase == MissionPhase::driving)
       return summary.is_blocked ? interaction::Sentence::blocked : interaction::Sentence::driving;
     if (summary.says_farewell) return interaction::Sentence::farewell;

@@ -43,6 +43,8 @@ class GologPlanner final : public Planner {
 
   void decide(Mission& mission, Time now) override;
   void outcome(Mission& mission, const TaskOrder& order, const ActionOutcome& outcome, Time now) override;
+  /// Programs know exhibits alone.
+  [[nodiscard]] bool serves_points() const override { return false; }
   [[nodiscard]] std::string memory() const override;
   [[nodiscard]] bool restore(const std::string& memory, TaskOrder& task) override;
   [[nodiscard]] std::string fault() const override { return fault_; }

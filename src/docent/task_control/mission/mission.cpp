@@ -6,6 +6,12 @@
 #include <utility>
 
 namespace docent::task_control {
+namespace {
+
+TaskKind kind_of(const Visit& visit) { return visit.is_point ? TaskKind::point : TaskKind::visit; }
+
+}  // namespace
+
 Mission::Mission(const MissionParams& params, Programme programme, TravelDistance travel, MissionMemory memory,
                  std::unique_ptr<Planner> planner, Time now)
     : params_{params},
@@ -19,6 +25,7 @@ Mission::Mission(const MissionParams& params, Programme programme, TravelDistanc
       battery_{params.drain_per_s, params.charge_per_s},
       must_charge_{memory.must_charge} {
   scheduler_.times().restore(memory.lessons);
+  conditions_.takes_points = planner_->serves_points();
   // What is under way goes on under its old task id, so that an executive that works on it is not disturbed.
   TaskOrder ordered = task_;
   const bool orders_actions = planner_->restore(memory.planner, ordered);
@@ -33,7 +40,7 @@ Mission::Mission(const MissionParams& params, Programme programme, TravelDistanc
     }
   } else if (const auto& visit = scheduler_.state().visit) {
     activity_ = Activity::visit;
-    if (task_.kind != TaskKind::visit || !is_same(task_.map_from_base, visit->map_from_base)) order_visit(now);
+    if (task_.kind != kind_of(*visit) || !is_same(task_.map_from_base, visit->map_from_base)) order_visit(now);
   } else if (task_.kind == TaskKind::home && is_same(task_.map_from_base, scheduler_.programme().home)) {
     activity_ = Activity::home;
   } else if (task_.kind == TaskKind::charge && is_same(task_.map_from_base, resting_place())) {
@@ -190,8 +197,27 @@ void Mission::drop_unwanted_visit(Time now) {
   if (was_ordered) planner_->outcome(*this, order, {false, false, ReasonWord::cancelled}, now);
 }
 
+void Mission::votes(const std::string& round, const std::string& tour, Time now) {
+  vote_.told(round, tour, scheduler_.state().board.find(round) != nullptr, now);
+}
+
+void Mission::take_vote(Time now) {
+  const SchedulerState& schedule = scheduler_.state();
+  const bool is_open = conditions_.is_open && conditions_.mode.value_or(OperatingMode::open) == OperatingMode::open;
+  if (!vote_.is_open() || !is_open || schedule.tour) return;
+  const bool is_turn = schedule.counters.tours_since_vote + 1 >= static_cast<std::uint32_t>(params_.vote_every);
+  const bool is_idle =
+      is_resting_ && schedule.board.open_count() == 0 && vote_.lasts(now) >= seconds(params_.vote_idle_s);
+  if (!is_turn && !is_idle) return;
+  const TourVote::Winner winner = vote_.take();
+  scheduler_.submit({winner.round, now, RequestSource::vote, "", RequestKind::tour, winner.tour, -1,
+                     scheduler_.programme().languages.front()},
+                    conditions_, now);
+}
+
 void Mission::decide(Time now) {
   watch_battery(now);
+  take_vote(now);
   drop_unwanted_visit(now);
   planner_->decide(*this, now);
 }
@@ -326,8 +352,8 @@ void Mission::relocalize() {
 void Mission::order_visit(Time now) {
   const Visit& visit = *scheduler_.state().visit;
   const bool offer_more = params_.schedule.offer_more && visit.asks && !scheduler_.is_in_a_hurry(now);
-  start_task(Activity::visit,
-             {"", TaskKind::visit, visit.exhibit_id, visit.map_from_base, visit.language, offer_more, visit.tour_id});
+  start_task(Activity::visit, {"", kind_of(visit), visit.exhibit_id, visit.map_from_base, visit.language,
+                               offer_more && !visit.is_point, visit.tour_id});
   is_resting_ = false;
   home_not_before_ = {};
   set_out(now);
@@ -335,7 +361,8 @@ void Mission::order_visit(Time now) {
 
 void Mission::set_out(Time now) {
   const Visit& visit = *scheduler_.state().visit;
-  if (!position_) return;  // nobody knows from where it sets out
+  if (visit.is_point) return;  // nobody learns ways to it
+  if (!position_) return;      // nobody knows from where it sets out
   watch_.set_out(place_at(scheduler_.programme(), *position_), place_name({visit.exhibit_id, visit.viewpoint}),
                  scheduler_.way_length(*position_, visit.map_from_base.position()), now);
 }
@@ -384,7 +411,8 @@ MissionSummary Mission::summary(Time now) {
   summary.agenda = agenda(now);
   if (schedule.tour) summary.tour_id = schedule.tour->tour_id;
   if (schedule.visit) {
-    summary.exhibit_id = schedule.visit->exhibit_id;
+    summary.is_point = schedule.visit->is_point;
+    if (!summary.is_point) summary.exhibit_id = schedule.visit->exhibit_id;
   } else if (!summary.agenda.empty()) {
     summary.exhibit_id = summary.agenda.front();
   }

@@ -10,6 +10,7 @@
 #include "docent/task_control/mission/battery_watch.h"
 #include "docent/task_control/mission/mission_params.h"
 #include "docent/task_control/mission/planner.h"
+#include "docent/task_control/mission/tour_vote.h"
 #include "docent/task_control/tour_scheduler/task_order.h"
 #include "docent/task_control/tour_scheduler/tour_scheduler.h"
 #include "docent/task_control/travel_times/visit_watch.h"
@@ -33,6 +34,7 @@ struct MissionSummary {
   MissionPhase phase = MissionPhase::waking;
   std::string tour_id;
   std::string exhibit_id;
+  bool is_point = false;       ///< it is on its way to a point on the map, or there
   bool is_blocked = false;     ///< people are in the way
   bool needs_charge = false;   ///< it must, before it goes on
   bool says_farewell = false;  ///< at the end of a tour
@@ -65,6 +67,9 @@ class Mission {
   /// @param charge  0..1. @param is_charging  nullopt: the battery does not say
   void battery(double charge, std::optional<bool> is_charging, Time now);
   [[nodiscard]] bool is_battery_silent(Time now) const { return battery_.is_silent(now); }
+  /// The Web's visitors vote for a tour; every `vote_every`th is theirs ([Minerva2000] 6.4), and one that they want
+  /// while nobody else wants anything. @param round  a UUIDv7, the id of its request. @param tour  empty: no votes yet
+  void votes(const std::string& round, const std::string& tour, Time now);
   /// @param has_company  people are near
   void company(bool has_company) { has_company_ = has_company; }
   /// Once or twice a second.
@@ -124,6 +129,8 @@ class Mission {
 
  private:
   void decide(Time now);
+  /// Requests the tour with the most votes when it is its turn.
+  void take_vote(Time now);
   /// Times the drive and the visit of the present task.
   void learn(TaskStatus status, Time now);
   void start_task(Activity activity, TaskOrder order);
@@ -174,6 +181,7 @@ class Mission {
   std::string broken_tour_;
   bool is_resting_ = false;  ///< arrived at home, nothing has happened since
   bool has_company_ = false;
+  TourVote vote_;
   Time mingle_not_before_{};
   Time home_not_before_{};           ///< nor to the charger
   std::vector<std::string> agenda_;  ///< it is costly, so it is made anew only when board or task have changed

@@ -18,6 +18,8 @@ Result<void> MissionParams::validate() const {
   if (!(battery_soon >= 0.0 && battery_soon <= battery_low + battery_gain))
     return fail("mission.battery_soon must be in 0..battery_low + battery_gain");
   if (!(mingle_pause_s >= 0.0)) return fail("mission.mingle_pause_s must be >= 0");
+  if (vote_every < 1) return fail("mission.vote_every must be >= 1");
+  if (!(vote_idle_s >= 0.0)) return fail("mission.vote_idle_s must be >= 0");
   if (!(drain_per_s > 0.0)) return fail("mission.drain_per_s must be > 0");
   if (!(charge_per_s > 0.0)) return fail("mission.charge_per_s must be > 0");
   return {};

@@ -25,6 +25,8 @@ struct MissionParams {
   double battery_gain = 0.25;
   bool mingles = true;           ///< attracts people while it rests at home and nobody wants anything
   double mingle_pause_s = 30.0;  ///< [s] >= 0 between two phases: who listens may choose
+  int vote_every = 3;            ///< >= 1: of so many tours one is the Web's, if there are votes ([Minerva2000] 6.4)
+  double vote_idle_s = 120.0;    ///< [s] >= 0 after the first vote a robot at home gives it though it is not its turn
   double drain_per_s = 1.4e-4;   ///< [1/s] > 0 share of a full battery: two hours of driving; more is measured
   double charge_per_s = 2.2e-4;  ///< [1/s] > 0 likewise: 75 minutes; measured while it charges
   template <class V>
@@ -43,6 +45,8 @@ struct MissionParams {
     v("battery_gain", battery_gain);
     v("mingles", mingles);
     v("mingle_pause_s", mingle_pause_s);
+    v("vote_every", vote_every);
+    v("vote_idle_s", vote_idle_s);
     v("drain_per_s", drain_per_s);
     v("charge_per_s", charge_per_s);
   }

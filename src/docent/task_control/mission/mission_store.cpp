@@ -42,7 +42,8 @@ Json plan_of(const MissionMemory& memory) {
   plan["planner"] = memory.planner;
   plan["revision"] = memory.schedule.board.revision();
   const Counters& counters = memory.schedule.counters;
-  plan["counters"] = {counters.exhibits_explained, counters.tours_completed, counters.requests_served};
+  plan["counters"] = {counters.exhibits_explained, counters.tours_completed, counters.requests_served,
+                      counters.tours_since_vote};
   const TaskOrder& task = memory.task;
   plan["task"] = {{"id", task.id},
                   {"kind", task.kind.text()},
@@ -52,14 +53,10 @@ Json plan_of(const MissionMemory& memory) {
                   {"offer_more", task.offer_more},
                   {"tour", task.tour_id}};
   if (const auto& visit = memory.schedule.visit) {
-    plan["visit"] = {{"exhibit", visit->exhibit_id},
-                     {"viewpoint", visit->viewpoint},
-                     {"pose", to_json(visit->map_from_base)},
-                     {"language", visit->language},
-                     {"tour", visit->tour_id},
-                     {"is_joinable", visit->is_joinable},
-                     {"asks", visit->asks},
-                     {"started", visit->started.nanoseconds}};
+    plan["visit"] = {
+        {"exhibit", visit->exhibit_id}, {"viewpoint", visit->viewpoint}, {"pose", to_json(visit->map_from_base)},
+        {"language", visit->language},  {"tour", visit->tour_id},        {"is_joinable", visit->is_joinable},
+        {"asks", visit->asks},          {"is_point", visit->is_point},   {"started", visit->started.nanoseconds}};
   }
   if (const auto& tour = memory.schedule.tour) {
     Json stops = Json::array();
@@ -95,7 +92,8 @@ void read_plan(const Json& plan, MissionMemory& memory, std::uint64_t& revision)
   revision = plan.at("revision").get<std::uint64_t>();
   const Json& counters = plan.at("counters");
   memory.schedule.counters = {counters.at(0).get<std::uint32_t>(), counters.at(1).get<std::uint32_t>(),
-                              counters.at(2).get<std::uint32_t>()};
+                              counters.at(2).get<std::uint32_t>(),
+                              counters.size() > 3 ? counters.at(3).get<std::uint32_t>() : 0};
   const Json& task = plan.at("task");
   memory.task = {task.at("id").get<std::string>(),       Word<TaskKind>{task.at("kind").get<std::string>()},
                  task.at("exhibit").get<std::string>(),  pose_from(task.at("pose")),
@@ -110,7 +108,8 @@ void read_plan(const Json& plan, MissionMemory& memory, std::uint64_t& revision)
                                   visit.at("tour").get<std::string>(),
                                   visit.at("is_joinable").get<bool>(),
                                   {visit.at("started").get<std::int64_t>()},
-                                  visit.value("asks", true)};
+                                  visit.value("asks", true),
+                                  visit.value("is_point", false)};
   }
   if (plan.contains("tour")) {
     const Json& tour = plan.at("tour");

@@ -69,6 +69,8 @@ class Planner {
   /// An action that it ordered by `Mission::order_action` is over.
   virtual void outcome(Mission& /*mission*/, const TaskOrder& /*order*/, const ActionOutcome& /*outcome*/,
                        Time /*now*/) {}
+  /// Whether it can drive to a point on the map for which a Web visitor wishes.
+  [[nodiscard]] virtual bool serves_points() const { return true; }
   /// What must survive a restart; empty: nothing.
   [[nodiscard]] virtual std::string memory() const { return {}; }
   /// Goes on from there. True: it orders actions by their names, of which `task` may be one that is under way.

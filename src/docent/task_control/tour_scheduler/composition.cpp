@@ -110,6 +110,7 @@ class Search {
   void gather(const Programme& programme, const TourSoFar& tour, const TravelDistance& travel) {
     std::vector<std::pair<double, const ProgrammeExhibit*>> near;
     for (const ProgrammeExhibit& exhibit : programme.exhibits) {
+      if (exhibit.is_point) continue;
       if (exhibit.web_only || holds(tour.done, exhibit.id)) continue;
       const double way_m = travel(tour.robot, exhibit.pose.position());
       if (std::isfinite(way_m)) near.emplace_back(way_m, &exhibit);

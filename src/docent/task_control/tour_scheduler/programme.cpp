@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace docent::task_control {
 
@@ -34,12 +35,32 @@ std::string place_at(const Programme& programme, Point2 position) {
     name = of_place;
   };
   for (const ProgrammeExhibit& exhibit : programme.exhibits) {
+    if (exhibit.is_point) continue;  // nobody learns ways to it
     for (int viewpoint = -1; viewpoint < static_cast<int>(exhibit.viewpoints.size()); ++viewpoint)
       try_place(exhibit.place(viewpoint), place_name({exhibit.id, viewpoint}));
   }
   try_place(programme.home, "home");
   if (programme.charger) try_place(*programme.charger, "charger");
   return name;
+}
+
+std::optional<Point2> point_of(const std::string& target) {
+  constexpr double kFarthest = 10'000.0;  // [m]
+  double x = 0.0;
+  double y = 0.0;
+  int used = 0;
+  if (std::sscanf(target.c_str(), "%lf,%lf%n", &x, &y, &used) != 2 || static_cast<std::size_t>(used) != target.size())
+    return std::nullopt;
+  if (!(std::abs(x) < kFarthest && std::abs(y) < kFarthest)) return std::nullopt;
+  return Point2{x, y};
+}
+
+std::string point_name(Point2 place) {
+  char text[40];
+  // Adding zero turns -0.00 into 0.00.
+  std::snprintf(text, sizeof text, "%.2f,%.2f", std::round(100.0 * place.x) / 100.0 + 0.0,
+                std::round(100.0 * place.y) / 100.0 + 0.0);
+  return text;
 }
 
 bool is_same(const Pose2& a, const Pose2& b) {

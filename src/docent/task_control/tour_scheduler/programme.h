@@ -28,6 +28,7 @@ struct ProgrammeExhibit {
   std::vector<std::string> next{};               ///< exhibits that make sense right after this one (sensible_next)
   double long_s = 0.0;                           ///< [s] the long text, spoken; 0: there is none
   std::map<std::string, SpokenLength> spoken{};  ///< by language; speech_s and long_s for those that are not there
+  bool is_point = false;  ///< no exhibit of the museum: a point on the map for which a Web visitor wishes
 
   /// Where to stand for the viewpoint of this number; -1: for the exhibit's own place.
   [[nodiscard]] const Pose2& place(int viewpoint) const {
@@ -35,6 +36,11 @@ struct ProgrammeExhibit {
   }
   [[nodiscard]] SpokenLength length_in(const std::string& language) const;
 };
+
+/// Where a wish for a point on the map wants the robot: "x,y" [m], map; nullopt: it is no such text.
+[[nodiscard]] std::optional<Point2> point_of(const std::string& target);
+/// The same text for the same place, to the centimetre.
+[[nodiscard]] std::string point_name(Point2 place);
 
 /// What the scheduler must know of a tour.
 struct ProgrammeTour {

@@ -8,6 +8,7 @@ namespace docent::task_control {
 Result<void> SchedulerParams::validate() const {
   if (max_stops < 1) return fail("mission.max_stops must be >= 1");
   if (max_open < 1) return fail("mission.max_open must be >= 1");
+  if (max_points < 1) return fail("mission.max_points must be >= 1");
   if (!(overdue_s > 0.0)) return fail("mission.overdue_s must be > 0");
   if (!(overdue_per_stop_s >= 0.0)) return fail("mission.overdue_per_stop_s must be >= 0");
   if (!(hurry_after_s > 0.0)) return fail("mission.hurry_after_s must be > 0");

@@ -10,6 +10,7 @@ namespace docent::task_control {
 struct SchedulerParams {
   int max_stops = 80;        ///< different things wished for at once, >= 1; Bonn has 50 places to stop at
   int max_open = 500;        ///< open requests, >= 1: each change of the board is sent with all of them
+  int max_points = 5;        ///< points on the map wished for at once, >= 1 ([Minerva2000] 6.4)
   double overdue_s = 600.0;  ///< [s] > 0: who waited longer comes first,
   /// [s] >= 0: but nobody is overdue before so much, twice what a visit takes, for each of the most stops that were
   /// wished for at once while they waited: where many wait, all wait for long, and the order of the least travel serves
@@ -30,6 +31,7 @@ struct SchedulerParams {
   void visit(V& v) {
     v("max_stops", max_stops);
     v("max_open", max_open);
+    v("max_points", max_points);
     v("overdue_s", overdue_s);
     v("overdue_per_stop_s", overdue_per_stop_s);
     v("hurry_after_s", hurry_after_s);

@@ -1,6 +1,7 @@
 #include "docent/task_control/tour_scheduler/tour_scheduler.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -13,6 +14,11 @@ namespace {
 
 bool has_viewpoint(const ProgrammeExhibit& exhibit, int viewpoint) {
   return viewpoint < static_cast<int>(exhibit.viewpoints.size());
+}
+
+/// Whether a visit serves it, not a tour.
+bool is_single(const VisitorRequest& request) {
+  return request.kind == RequestKind::exhibit || request.kind == RequestKind::point;
 }
 
 bool is_member(const TourRun& tour, const std::string& request_id) {
@@ -87,6 +93,7 @@ TourScheduler::TourScheduler(const SchedulerParams& params, Programme programme,
 }
 
 void TourScheduler::drop_what_is_gone(Time now) {
+  keep_points();
   std::vector<std::string> gone;
   for (const BoardEntry& entry : state_.board.entries()) {
     const VisitorRequest& request = entry.request;
@@ -101,7 +108,7 @@ void TourScheduler::drop_what_is_gone(Time now) {
     const ProgrammeExhibit* exhibit = programme_.find_exhibit(state_.visit->exhibit_id);
     if (exhibit == nullptr) {
       state_.visit.reset();
-    } else {  // it may have been moved, or the map is another
+    } else if (!exhibit->is_point) {  // it may have been moved, or the map is another
       if (!has_viewpoint(*exhibit, state_.visit->viewpoint)) state_.visit->viewpoint = -1;
       state_.visit->map_from_base = exhibit->place(state_.visit->viewpoint);
     }
@@ -126,6 +133,34 @@ void TourScheduler::drop_what_is_gone(Time now) {
   for (const std::string& id : orphans) state_.board.change(id, RequestStatus::queued, {}, now);
 }
 
+void TourScheduler::keep_points() {
+  std::erase_if(programme_.exhibits, [](const ProgrammeExhibit& exhibit) { return exhibit.is_point; });
+  for (const BoardEntry& entry : state_.board.entries()) {
+    const VisitorRequest& request = entry.request;
+    if (request.kind != RequestKind::point || !docent::is_open(entry.status)) continue;
+    const auto place = point_of(request.target);
+    if (!place || programme_.find_exhibit(request.target) != nullptr) continue;
+    ProgrammeExhibit& point = programme_.exhibits.emplace_back();
+    point.id = request.target;
+    point.pose = {place->x, place->y, {}};
+    point.speech_s = 0.0;
+    point.is_point = true;
+  }
+}
+
+Reason TourScheduler::refusal_of_point(const VisitorRequest& request, const Conditions& conditions) const {
+  const auto place = point_of(request.target);
+  if (!place || !conditions.takes_points) return {ReasonWord::not_understood, request.kind.text()};
+  if (conditions.mode != OperatingMode::web && request.source != RequestSource::staff)
+    return ReasonWord::only_in_web_hours;
+  const auto points = std::count_if(programme_.exhibits.begin(), programme_.exhibits.end(),
+                                    [](const ProgrammeExhibit& exhibit) { return exhibit.is_point; });
+  if (programme_.find_exhibit(point_name(*place)) == nullptr && points >= params_.max_points)
+    return ReasonWord::too_many_points;
+  if (!std::isfinite(travel_(programme_.home.position(), *place))) return ReasonWord::not_on_free_floor;
+  return {};
+}
+
 Reason TourScheduler::refusal(const VisitorRequest& request, const Conditions& conditions) const {
   if (request.kind == RequestKind::exhibit) {
     const ProgrammeExhibit* exhibit = programme_.find_exhibit(request.target);
@@ -134,13 +169,17 @@ Reason TourScheduler::refusal(const VisitorRequest& request, const Conditions& c
     if (!has_viewpoint(*exhibit, request.viewpoint)) return ReasonWord::no_such_viewpoint;
   } else if (request.kind == RequestKind::tour) {
     if (programme_.find_tour(request.target) == nullptr) return {ReasonWord::no_such_tour, request.target};
-  } else {
+  } else if (request.kind != RequestKind::point) {
     return {ReasonWord::not_understood, request.kind.text()};
   }
   const bool is_staff = request.source == RequestSource::staff;
   if ((!conditions.is_open || conditions.mode == OperatingMode::closed) && !is_staff) return ReasonWord::closed;
-  if (conditions.mode == OperatingMode::web && request.source != RequestSource::web && !is_staff)
+  if (conditions.mode == OperatingMode::web && request.source != RequestSource::web &&
+      request.source != RequestSource::vote && !is_staff)
     return ReasonWord::web_only_now;
+  if (request.kind == RequestKind::point) {
+    if (const Reason why_not = refusal_of_point(request, conditions); !why_not.is_none()) return why_not;
+  }
   if (state_.board.open_count() >= static_cast<std::size_t>(params_.max_open) ||
       state_.board.stops_with(request) > static_cast<std::size_t>(params_.max_stops))
     return ReasonWord::too_many_wait;
@@ -157,6 +196,7 @@ void TourScheduler::submit(VisitorRequest request, const Conditions& conditions,
   }
   const Reason why_not = refusal(request, conditions);
   const std::string id = request.id;
+  if (request.kind == RequestKind::point && why_not.is_none()) request.target = point_name(*point_of(request.target));
   if (!why_not.is_none()) {
     state_.board.add(std::move(request), RequestStatus::refused, why_not, now);
     happenings_.push_back({EventKind::request_refused, id, why_not.text()});
@@ -172,6 +212,7 @@ void TourScheduler::submit(VisitorRequest request, const Conditions& conditions,
     state_.board.change(id, RequestStatus::active, is_late ? ReasonWord::joins_tour : ReasonWord::on_the_way, now);
     happenings_.push_back({EventKind::request_active, id, state_.board.find(id)->request.target});
   }
+  keep_points();
 }
 
 bool TourScheduler::join(const VisitorRequest& request) {
@@ -252,6 +293,7 @@ void TourScheduler::close_request(const std::string& id, RequestStatus status, c
   const Time created = state_.board.find(id)->created;
   state_.board.change(id, status, reason, now);
   if (status == RequestStatus::fulfilled) ++state_.counters.requests_served;
+  if (state_.board.find(id)->request.kind == RequestKind::point) keep_points();
   happenings_.push_back({event_of(status), id, reason.text(), to_seconds(now - created)});
 }
 
@@ -259,6 +301,15 @@ std::vector<std::string> TourScheduler::ids(RequestKind kind, RequestStatus stat
   std::vector<std::string> found;
   for (const BoardEntry& entry : state_.board.entries()) {
     if (entry.status == status && entry.request.kind == kind && entry.request.target == target)
+      found.push_back(entry.request.id);
+  }
+  return found;
+}
+
+std::vector<std::string> TourScheduler::ids_of_visit(RequestStatus status, const std::string& target) const {
+  std::vector<std::string> found;
+  for (const BoardEntry& entry : state_.board.entries()) {
+    if (entry.status == status && is_single(entry.request) && entry.request.target == target)
       found.push_back(entry.request.id);
   }
   return found;
@@ -272,13 +323,15 @@ void TourScheduler::finish_visit(bool is_success, const Reason& reason, Time now
   DOCENT_CHECK(state_.visit.has_value());
   const Visit visit = *state_.visit;
   state_.visit.reset();
-  if (is_success) {
+  if (is_success && visit.is_point) {
+    happenings_.push_back({EventKind::point_reached, visit.exhibit_id, "", to_seconds(now - visit.started)});
+  } else if (is_success) {
     ++state_.counters.exhibits_explained;
     happenings_.push_back({EventKind::explained, visit.exhibit_id, visit.tour_id, to_seconds(now - visit.started)});
   } else {
     happenings_.push_back({EventKind::visit_failed, visit.exhibit_id, reason.text(), to_seconds(now - visit.started)});
   }
-  for (const std::string& id : ids(RequestKind::exhibit, RequestStatus::active, visit.exhibit_id)) {
+  for (const std::string& id : ids_of_visit(RequestStatus::active, visit.exhibit_id)) {
     if (is_success) {
       close_request(id, RequestStatus::fulfilled, {}, now);
       continue;
@@ -310,7 +363,7 @@ void TourScheduler::try_again(const std::string& id, const Reason& reason, Time 
 
 void TourScheduler::break_off(const Reason& reason, Time now) {
   if (state_.visit) {
-    for (const std::string& id : ids(RequestKind::exhibit, RequestStatus::active, state_.visit->exhibit_id))
+    for (const std::string& id : ids_of_visit(RequestStatus::active, state_.visit->exhibit_id))
       try_again(id, reason, now, now);
     happenings_.push_back(
         {EventKind::visit_failed, state_.visit->exhibit_id, reason.text(), to_seconds(now - state_.visit->started)});
@@ -380,7 +433,7 @@ bool TourScheduler::is_in_a_hurry(Time now) const {
 
 bool TourScheduler::is_visit_unwanted() const {
   return state_.visit && state_.visit->tour_id.empty() &&
-         ids(RequestKind::exhibit, RequestStatus::active, state_.visit->exhibit_id).empty();
+         ids_of_visit(RequestStatus::active, state_.visit->exhibit_id).empty();
 }
 
 void TourScheduler::drop_visit(Time now) {

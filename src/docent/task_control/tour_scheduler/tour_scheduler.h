@@ -17,6 +17,7 @@ namespace docent::task_control {
 struct Conditions {
   bool is_open = true;
   std::optional<OperatingMode> mode = OperatingMode::open;  ///< nullopt: one that is not known, taken as open
+  bool takes_points = true;                                 ///< the planner can drive to points on the map
   Reason delay = {};                                        ///< why all who come now wait a while; none: they do not
 };
 
@@ -29,7 +30,8 @@ struct Visit {
   std::string tour_id;      ///< empty: not a stop of the tour under way
   bool is_joinable = true;  ///< nothing was said yet: whoever wishes for the exhibit now takes part
   Time started;
-  bool asks = true;  ///< there is time to hear more
+  bool asks = true;       ///< there is time to hear more
+  bool is_point = false;  ///< a point on the map; `exhibit_id` is its name (point_name)
 };
 
 enum class StopStatus { pending, explained, skipped };
@@ -70,6 +72,7 @@ struct Counters {
   std::uint32_t exhibits_explained = 0;
   std::uint32_t tours_completed = 0;
   std::uint32_t requests_served = 0;
+  std::uint32_t tours_since_vote = 0;  ///< begun since the last one for which the Web voted
 };
 
 /// So many different things were wished for at once when a request came.
@@ -99,7 +102,9 @@ struct SchedulerState {
 /// of its stops at most one single exhibit is put in: an overdue one, or one with a small detour. A composed tour
 /// chooses each exhibit when the one before was explained, by travel times that were learned, so that it ends in time
 /// ([Minerva2000] 5.3); it rather shows what others have wished for, and only an overdue exhibit is put in. A tour for
-/// which the charge does not last is shortened. A tour that showed something ends with a farewell.
+/// which the charge does not last is shortened. A tour that showed something ends with a farewell. Points on the map
+/// are approached in the order in which they were wished for ([Minerva2000] 6.4): one has its turn when its request is
+/// the oldest. A tour that was voted for is the next to begin.
 class TourScheduler {
  public:
   /// Open requests in `state` for what the museum no longer has are failed at once.
@@ -169,6 +174,11 @@ class TourScheduler {
   void cancel(const VisitorRequest& request, Time now);
   void close_request(const std::string& id, RequestStatus status, const Reason& reason, Time now);
   [[nodiscard]] std::vector<std::string> ids(RequestKind kind, RequestStatus status, const std::string& target) const;
+  /// Of requests for an exhibit, or for a point, which a visit may serve.
+  [[nodiscard]] std::vector<std::string> ids_of_visit(RequestStatus status, const std::string& target) const;
+  [[nodiscard]] Reason refusal_of_point(const VisitorRequest& request, const Conditions& conditions) const;
+  /// The programme holds the points of the open requests, and no others.
+  void keep_points();
   /// @pre there is a tour
   void cancel_tour_without_members();
   /// The stop at which the exhibit is shown to the most patient of those who wish for it singly.

@@ -39,10 +39,13 @@ void TourScheduler::note_load(const VisitorRequest& newest, Time now) {
 }
 
 const BoardEntry* TourScheduler::oldest_due(Time now) const {
+  const BoardEntry* oldest = nullptr;
   for (const BoardEntry& entry : state_.board.entries()) {
-    if (entry.status == RequestStatus::queued && entry.not_before <= now) return &entry;
+    if (entry.status != RequestStatus::queued || entry.not_before > now) continue;
+    if (entry.request.source == RequestSource::vote) return &entry;
+    if (oldest == nullptr) oldest = &entry;
   }
-  return nullptr;
+  return oldest;
 }
 
 std::optional<std::string> TourScheduler::waiting_tour_to(const std::string& exhibit_id, Time now) const {
@@ -160,7 +163,9 @@ const std::optional<Visit>& TourScheduler::begin_visit(Point2 robot, Time now, d
       if (!begin_tour(std::string{oldest->request.target}, robot, now, budget_s)) break;
       continue;
     }
-    const std::vector<WishedStop> order = single_order(robot, now);
+    const std::vector<WishedStop> order = oldest->request.kind == RequestKind::point
+                                              ? std::vector<WishedStop>{{oldest->request.target}}
+                                              : single_order(robot, now);
     const WishedStop& next = order.front();
     if (const auto tour = waiting_tour_to(next.exhibit_id, now)) {
       if (!begin_tour(*tour, robot, now, budget_s)) break;
@@ -169,7 +174,9 @@ const std::optional<Visit>& TourScheduler::begin_visit(Point2 robot, Time now, d
     const ProgrammeExhibit& exhibit = *programme_.find_exhibit(next.exhibit_id);
     if (exceeds(stop_duration_of(exhibit, programme_.languages.front(), robot, place_of(next), now), budget_s)) break;
     happenings_.push_back({EventKind::order_chosen, next.exhibit_id, joined(order, place_name)});
+    const Point2 way = place_of(next) - robot;
     begin_visit_of(next, false, now);
+    if (state_.visit->is_point) state_.visit->map_from_base.theta = Angle::radians(std::atan2(way.y, way.x));
   }
   return state_.visit;
 }
@@ -195,6 +202,7 @@ std::vector<std::string> TourScheduler::choices(Point2 robot, Time now) {
     exhibits.resize(std::min<std::size_t>(exhibits.size(), 1));
     return exhibits;
   }
+  if (oldest->request.kind == RequestKind::point) return {oldest->request.target};
   for (const WishedStop& stop : single_order(robot, now)) {
     if (!holds(exhibits, stop.exhibit_id)) exhibits.push_back(stop.exhibit_id);
   }
@@ -226,7 +234,7 @@ bool TourScheduler::begin_visit_to(const std::string& exhibit_id, Point2 robot, 
 
 void TourScheduler::suspend_visit(Time now) {
   DOCENT_CHECK(state_.visit.has_value());
-  for (const std::string& id : ids(RequestKind::exhibit, RequestStatus::active, state_.visit->exhibit_id))
+  for (const std::string& id : ids_of_visit(RequestStatus::active, state_.visit->exhibit_id))
     state_.board.change(id, RequestStatus::queued, {}, now);
   happenings_.push_back({EventKind::plan_rescheduled, state_.visit->exhibit_id, state_.visit->tour_id});
   state_.visit.reset();
@@ -366,6 +374,10 @@ bool TourScheduler::begin_tour(const std::string& tour_id, Point2 robot, Time no
     return true;
   }
   if (exceeds(duration_of(run, robot, now), budget_s)) return false;
+  const bool is_voted = std::any_of(members.begin(), members.end(), [&](const std::string& id) {
+    return state_.board.find(id)->request.source == RequestSource::vote;
+  });
+  state_.counters.tours_since_vote = is_voted ? 0 : state_.counters.tours_since_vote + 1;
   for (const std::string& id : members) {
     run.members.push_back({id, numbers_of(run)});
     state_.board.change(id, RequestStatus::active, ReasonWord::tour_begun, now);
@@ -386,8 +398,9 @@ void TourScheduler::begin_visit_of(const WishedStop& stop, bool is_stop, Time no
               is_stop ? state_.tour->tour_id : "",
               true,
               now,
-              !is_stop || state_.tour->asks};
-  auto members = ids(RequestKind::exhibit, RequestStatus::queued, exhibit_id);
+              !is_stop || state_.tour->asks,
+              exhibit.is_point};
+  auto members = ids_of_visit(RequestStatus::queued, exhibit_id);
   std::erase_if(members, [&](const std::string& id) {
     const int wished = state_.board.find(id)->request.viewpoint;
     return wished >= 0 && wished != stop.viewpoint;

@@ -1,6 +1,8 @@
 #include "docent/task_control/travel_times/travel.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <memory>
@@ -10,8 +12,9 @@
 namespace docent::task_control {
 namespace {
 
-constexpr double kGoalTolerance = 0.3;  ///< [m]
-constexpr int kMostVisits = 100'000;    ///< of tiles
+constexpr double kGoalTolerance = 0.3;    ///< [m]
+constexpr std::size_t kMostFields = 200;  ///< kept: more than a museum has places; points on the map come and go
+constexpr int kMostVisits = 100'000;      ///< of tiles
 
 class TravelOnMap {
  public:
@@ -41,22 +44,37 @@ class TravelOnMap {
 
  private:
   const std::vector<float>& values_to(Point2 to) {
-    const auto [place, is_new] = fields_.try_emplace({to.x, to.y});
-    if (!is_new) return place->second;
+    ++uses_;
+    if (const auto known = fields_.find({to.x, to.y}); known != fields_.end()) {
+      known->second.last_use = uses_;
+      return known->second.values;
+    }
+    if (fields_.size() >= kMostFields) {
+      fields_.erase(std::min_element(fields_.begin(), fields_.end(), [](const auto& a, const auto& b) {
+        return a.second.last_use < b.second.last_use;
+      }));
+    }
+    Field& field = fields_[{to.x, to.y}];
+    field.last_use = uses_;
     planner_.set_goal(to, kGoalTolerance);
     planner_.iterate(kMostVisits);
     const GridFrame& frame = planner_.frame();
-    place->second.reserve(frame.size());
+    field.values.reserve(frame.size());
     for (int row = 0; row < frame.rows; ++row) {
       for (int column = 0; column < frame.columns; ++column) {
-        place->second.push_back(planner_.values().value({column, row}));
+        field.values.push_back(planner_.values().value({column, row}));
       }
     }
-    return place->second;
+    return field.values;
   }
 
   planning::RoutePlanner planner_;
-  std::map<std::pair<double, double>, std::vector<float>> fields_;
+  struct Field {
+    std::vector<float> values;
+    std::uint64_t last_use = 0;
+  };
+  std::map<std::pair<double, double>, Field> fields_;
+  std::uint64_t uses_ = 0;
 };
 
 }  // namespace
