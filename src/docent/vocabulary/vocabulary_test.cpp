@@ -22,12 +22,12 @@ void expect_each_has_its_word(E last) {
 }
 
 TEST(Vocabulary, EachValueHasItsWord) {
-  expect_each_has_its_word(RequestKind::cancel);
-  expect_each_has_its_word(RequestSource::staff);
+  expect_each_has_its_word(RequestKind::point);
+  expect_each_has_its_word(RequestSource::vote);
   expect_each_has_its_word(RequestStatus::cancelled);
   expect_each_has_its_word(OperatingMode::hours);
   expect_each_has_its_word(MissionPhase::waiting);
-  expect_each_has_its_word(TaskKind::mingle);
+  expect_each_has_its_word(TaskKind::point);
   expect_each_has_its_word(LookFor::company);
   expect_each_has_its_word(TaskStatus::failed);
   expect_each_has_its_word(GoalStatus::unreachable);

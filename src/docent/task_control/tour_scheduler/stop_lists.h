@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "docent/task_control/tour_scheduler/tour_scheduler.h"
+
 namespace docent::task_control {
 
 // Lists of exhibits and stops, for the sources of this folder.
@@ -20,6 +22,28 @@ template <class Stop, class NameOf>
   std::string text;
   for (const Stop& stop : stops) text += (text.empty() ? "" : " ") + std::invoke(name_of, stop);
   return text;
+}
+
+[[nodiscard]] inline bool has_viewpoint(const ProgrammeExhibit& exhibit, int viewpoint) {
+  return viewpoint < static_cast<int>(exhibit.viewpoints.size());
+}
+
+/// Whether a visit serves it, not a tour.
+[[nodiscard]] inline bool is_single(const VisitorRequest& request) {
+  return request.kind == RequestKind::exhibit || request.kind == RequestKind::point;
+}
+
+[[nodiscard]] inline bool is_member(const TourRun& tour, const std::string& request_id) {
+  return std::any_of(tour.members.begin(), tour.members.end(),
+                     [&](const TourMember& member) { return member.request_id == request_id; });
+}
+
+/// The next stop at the exhibit, but not the one with the number `except`.
+[[nodiscard]] inline std::vector<TourStop>::iterator pending_stop(std::vector<TourStop>& stops,
+                                                                  const std::string& exhibit_id, int except) {
+  return std::find_if(stops.begin(), stops.end(), [&](const TourStop& stop) {
+    return stop.exhibit_id == exhibit_id && stop.status == StopStatus::pending && stop.number != except;
+  });
 }
 
 }  // namespace docent::task_control

@@ -32,6 +32,8 @@ struct Visit {
   Time started;
   bool asks = true;       ///< there is time to hear more
   bool is_point = false;  ///< a point on the map; `exhibit_id` is its name (point_name)
+
+  [[nodiscard]] TaskKind task_kind() const { return is_point ? TaskKind::point : TaskKind::visit; }
 };
 
 enum class StopStatus { pending, explained, skipped };

@@ -1,0 +1,167 @@
+// The part of TourScheduler that takes requests, refuses them, and lets them join what is under way.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "docent/task_control/tour_scheduler/stop_lists.h"
+#include "docent/task_control/tour_scheduler/tour_scheduler.h"
+
+namespace docent::task_control {
+
+void TourScheduler::keep_points() {
+  std::erase_if(programme_.exhibits, [](const ProgrammeExhibit& exhibit) { return exhibit.is_point; });
+  for (const BoardEntry& entry : state_.board.entries()) {
+    const VisitorRequest& request = entry.request;
+    if (request.kind != RequestKind::point || !docent::is_open(entry.status)) continue;
+    const auto place = point_of(request.target);
+    if (!place || programme_.find_exhibit(request.target) != nullptr) continue;
+    ProgrammeExhibit& point = programme_.exhibits.emplace_back();
+    point.id = request.target;
+    point.pose = {place->x, place->y, {}};
+    point.speech_s = 0.0;
+    point.is_point = true;
+  }
+}
+
+Reason TourScheduler::refusal_of_point(const VisitorRequest& request, const Conditions& conditions) const {
+  const auto place = point_of(request.target);
+  if (!place || !conditions.takes_points) return {ReasonWord::not_understood, request.kind.text()};
+  if (conditions.mode != OperatingMode::web && request.source != RequestSource::staff)
+    return ReasonWord::only_in_web_hours;
+  const auto points = std::count_if(programme_.exhibits.begin(), programme_.exhibits.end(),
+                                    [](const ProgrammeExhibit& exhibit) { return exhibit.is_point; });
+  if (programme_.find_exhibit(point_name(*place)) == nullptr && points >= params_.max_points)
+    return ReasonWord::too_many_points;
+  if (!std::isfinite(travel_(programme_.home.position(), *place))) return ReasonWord::not_on_free_floor;
+  return {};
+}
+
+Reason TourScheduler::refusal(const VisitorRequest& request, const Conditions& conditions) const {
+  if (request.kind == RequestKind::exhibit) {
+    const ProgrammeExhibit* exhibit = programme_.find_exhibit(request.target);
+    if (exhibit == nullptr) return {ReasonWord::no_such_exhibit, request.target};
+    if (exhibit->web_only && request.source != RequestSource::web) return ReasonWord::for_web_only;
+    if (!has_viewpoint(*exhibit, request.viewpoint)) return ReasonWord::no_such_viewpoint;
+  } else if (request.kind == RequestKind::tour) {
+    if (programme_.find_tour(request.target) == nullptr) return {ReasonWord::no_such_tour, request.target};
+  } else if (request.kind != RequestKind::point) {
+    return {ReasonWord::not_understood, request.kind.text()};
+  }
+  const bool is_staff = request.source == RequestSource::staff;
+  if ((!conditions.is_open || conditions.mode == OperatingMode::closed) && !is_staff) return ReasonWord::closed;
+  if (conditions.mode == OperatingMode::web && request.source != RequestSource::web &&
+      request.source != RequestSource::vote && !is_staff)
+    return ReasonWord::web_only_now;
+  if (request.kind == RequestKind::point) {
+    if (const Reason why_not = refusal_of_point(request, conditions); !why_not.is_none()) return why_not;
+  }
+  if (state_.board.open_count() >= static_cast<std::size_t>(params_.max_open) ||
+      state_.board.stops_with(request) > static_cast<std::size_t>(params_.max_stops))
+    return ReasonWord::too_many_wait;
+  return {};
+}
+
+void TourScheduler::submit(VisitorRequest request, const Conditions& conditions, Time now) {
+  if (request.id.empty() || state_.board.find(request.id) != nullptr) return;
+  if (!holds(programme_.languages, request.language)) request.language = programme_.languages.front();
+  request.viewpoint = std::max(request.viewpoint, -1);
+  if (request.kind == RequestKind::cancel) {
+    cancel(request, now);
+    return;
+  }
+  const Reason why_not = refusal(request, conditions);
+  const std::string id = request.id;
+  if (request.kind == RequestKind::point && why_not.is_none()) request.target = point_name(*point_of(request.target));
+  if (!why_not.is_none()) {
+    state_.board.add(std::move(request), RequestStatus::refused, why_not, now);
+    happenings_.push_back({EventKind::request_refused, id, why_not.text()});
+    return;
+  }
+  const bool joins = join(request);
+  happenings_.push_back(
+      {EventKind::request_queued, id, request.target, static_cast<double>(state_.board.open_count() + 1)});
+  const bool is_late = joins && request.kind == RequestKind::tour && !is_at_its_beginning();
+  note_load(request, now);
+  state_.board.add(std::move(request), RequestStatus::queued, joins ? Reason{} : conditions.delay, now);
+  if (joins) {
+    state_.board.change(id, RequestStatus::active, is_late ? ReasonWord::joins_tour : ReasonWord::on_the_way, now);
+    happenings_.push_back({EventKind::request_active, id, state_.board.find(id)->request.target});
+  }
+  keep_points();
+}
+
+bool TourScheduler::join(const VisitorRequest& request) {
+  if (request.kind == RequestKind::tour) return join_tour(request);
+  return state_.visit && state_.visit->is_joinable && state_.visit->exhibit_id == request.target &&
+         (request.viewpoint < 0 || request.viewpoint == state_.visit->viewpoint);
+}
+
+bool TourScheduler::is_at_its_beginning() const {
+  const bool is_speaking = state_.visit && !state_.visit->tour_id.empty() && !state_.visit->is_joinable;
+  return !is_speaking && std::none_of(state_.tour->stops.begin(), state_.tour->stops.end(),
+                                      [](const TourStop& stop) { return stop.status != StopStatus::pending; });
+}
+
+bool TourScheduler::join_tour(const VisitorRequest& request) {
+  if (!state_.tour || state_.tour->tour_id != request.target) return false;
+  TourRun& tour = *state_.tour;
+  if (tour.target_s > 0.0) {
+    if (!is_at_its_beginning()) return false;
+    tour.members.push_back({request.id, {}});
+    return true;
+  }
+  const auto& exhibits = programme_.find_tour(tour.tour_id)->exhibits;
+  const auto is_first_round = [&](const TourStop& stop) {
+    return stop.status == StopStatus::pending && stop.number < static_cast<int>(exhibits.size());
+  };
+  if (std::none_of(tour.stops.begin(), tour.stops.end(), is_first_round)) return false;
+  // The stop that is being explained is over for whoever comes now.
+  const auto spoken_of = state_.visit && !state_.visit->tour_id.empty() && !state_.visit->is_joinable
+                             ? pending_stop(tour.stops, state_.visit->exhibit_id, -1)
+                             : tour.stops.end();
+  const int over = spoken_of == tour.stops.end() ? -1 : spoken_of->number;
+  TourMember member{request.id, {}};
+  for (const std::string& exhibit : exhibits) {
+    if (programme_.find_exhibit(exhibit) == nullptr) continue;
+    const auto stop = pending_stop(tour.stops, exhibit, over);
+    if (stop != tour.stops.end()) {
+      member.stops.push_back(stop->number);
+      continue;
+    }
+    int number = 0;
+    for (const TourStop& other : tour.stops) number = std::max(number, other.number + 1);
+    number = std::max(number, static_cast<int>(exhibits.size()));
+    tour.stops.push_back({exhibit, StopStatus::pending, 0, number});
+    member.stops.push_back(number);
+    happenings_.push_back({EventKind::plan_inserted, exhibit, tour.tour_id});
+  }
+  tour.members.push_back(std::move(member));
+  return true;
+}
+
+void TourScheduler::cancel(const VisitorRequest& request, Time now) {
+  const BoardEntry* target = state_.board.find(request.target);
+  if (target == nullptr || !docent::is_open(target->status)) {
+    const Reason why_not = ReasonWord::no_such_request;
+    state_.board.add(request, RequestStatus::refused, why_not, now);
+    happenings_.push_back({EventKind::request_refused, request.id, why_not.text()});
+    return;
+  }
+  close_request(request.target, RequestStatus::cancelled, ReasonWord::cancelled, now);
+  state_.board.add(request, RequestStatus::queued, {}, now);
+  state_.board.change(request.id, RequestStatus::active, {}, now);
+  state_.board.change(request.id, RequestStatus::fulfilled, {}, now);
+  if (!state_.tour || !is_member(*state_.tour, request.target)) return;
+  std::erase_if(state_.tour->members, [&](const TourMember& member) { return member.request_id == request.target; });
+  cancel_tour_without_members();
+}
+
+void TourScheduler::cancel_tour_without_members() {
+  if (!state_.tour->members.empty()) return;
+  happenings_.push_back(
+      {EventKind::tour_cancelled, state_.tour->tour_id, joined(state_.tour->stops, &TourStop::exhibit_id)});
+  state_.tour.reset();
+  if (state_.visit) state_.visit->tour_id.clear();
+}
+
+}  // namespace docent::task_control
