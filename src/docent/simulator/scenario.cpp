@@ -355,7 +355,7 @@ class EventReader {
     fields(node,
            {{"kind",
              [&](const YAML::Node& at) {
-               choice<std::string>(at, {{"exhibit", "exhibit"}, {"tour", "tour"}}, event.kind);
+               choice<std::string>(at, {{"exhibit", "exhibit"}, {"tour", "tour"}, {"point", "point"}}, event.kind);
              }},
             {"target", into(event.target)},
             {"viewpoint", [&](const YAML::Node& at) { event.viewpoint = static_cast<int>(number(at, -1.0, 1000.0)); }},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -60,12 +61,25 @@ task_control::Programme programme_of(const museum::Museum& museum) {
   return programme;
 }
 
-task_control::TravelDistance travel_in(const ModuleContext& context) {
+planning::RoutePlanner planner_in(const ModuleContext& context) {
   const museum::Museum& museum = context.museum;
-  if (museum.map.cells.empty()) return task_control::straight_distance();
   planning::RouteParams params;
   params.robot_radius = context.config.body().radius;
-  return task_control::travel_on_map(planning::RoutePlanner{museum.map, museum.hazard_polygons(), museum.area, params});
+  return {museum.map, museum.hazard_polygons(), museum.area, params};
+}
+
+task_control::TravelDistance travel_in(const ModuleContext& context) {
+  if (context.museum.map.cells.empty()) return task_control::straight_distance();
+  return task_control::travel_on_map(planner_in(context));
+}
+
+task_control::Programme programme_in(const ModuleContext& context) {
+  task_control::Programme programme = programme_of(context.museum);
+  if (context.museum.map.cells.empty()) return programme;
+  programme.has_room = [planner = std::make_shared<planning::RoutePlanner>(planner_in(context))](Point2 place) {
+    return !planner->is_closed(place);
+  };
+  return programme;
 }
 
 std::string deployment_name(std::uint64_t seed, Time now) {
@@ -134,8 +148,7 @@ class MissionModule final : public Module {
         mode_{context},
         store_{std::move(store)},
         set_aside_{store_.set_aside()},
-        mission_{params,    programme_of(context.museum), travel_in(context), std::move(memory), std::move(planner),
-                 bus_.now()},
+        mission_{params, programme_in(context), travel_in(context), std::move(memory), std::move(planner), bus_.now()},
         mingling_{context, params.attraction},
         board_{bus_.publisher(topics::kRequestBoard)},
         task_{bus_.publisher(topics::kTask)},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -57,6 +58,8 @@ struct Programme {
   Pose2 home;
   std::optional<Pose2> charger;
   double farewell_s = 4.0;  ///< [s] what is said at the end of a tour
+  /// Whether the robot has room at a point [m, map]; empty: everywhere.
+  std::function<bool(Point2)> has_room{};
 
   [[nodiscard]] const ProgrammeExhibit* find_exhibit(const std::string& id) const;
   [[nodiscard]] const ProgrammeTour* find_tour(const std::string& id) const;

@@ -62,6 +62,13 @@ TEST_F(Points, WhereTheRobotCannotGetTo) {
                        {}};
   walled.submit({"p", {}, RequestSource::web, "", RequestKind::point, "3,6", -1, "en"}, conditions, {});
   EXPECT_EQ(walled.state().board.find("p")->reason.text(), "not_on_free_floor");
+  auto programme = programme_on_a_line();
+  programme.has_room = [](Point2 place) { return place.x < 5.0; };
+  TourScheduler narrow{params, programme, straight_distance(), {}, {}};
+  narrow.submit({"p", {}, RequestSource::web, "", RequestKind::point, "6,1", -1, "en"}, conditions, {});
+  EXPECT_EQ(narrow.state().board.find("p")->reason.text(), "not_on_free_floor");
+  narrow.submit({"r", {}, RequestSource::web, "", RequestKind::point, "4,1", -1, "en"}, conditions, {});
+  EXPECT_EQ(narrow.state().board.find("r")->status, RequestStatus::queued);
   walled.submit({"q", {}, RequestSource::web, "", RequestKind::point, "3;6", -1, "en"}, conditions, {});
   EXPECT_EQ(walled.state().board.find("q")->status, RequestStatus::refused);
 }

@@ -32,6 +32,7 @@ Reason TourScheduler::refusal_of_point(const VisitorRequest& request, const Cond
                                     [](const ProgrammeExhibit& exhibit) { return exhibit.is_point; });
   if (programme_.find_exhibit(point_name(*place)) == nullptr && points >= params_.max_points)
     return ReasonWord::too_many_points;
+  if (programme_.has_room && !programme_.has_room(*place)) return ReasonWord::not_on_free_floor;
   if (!std::isfinite(travel_(programme_.home.position(), *place))) return ReasonWord::not_on_free_floor;
   return {};
 }
