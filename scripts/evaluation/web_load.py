@@ -24,7 +24,8 @@ def one(root, name, viewers, bad, seconds):
     programs = root / "build/dev/tests/web_load"
     command = [programs / "docent_pose_server"] if name == "docent" else [sys.executable, TORNADO]
     cores = sorted(os.sched_getaffinity(0))
-    server = subprocess.Popen(["taskset", "-c", str(cores[0]), *command], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    server = subprocess.Popen(["taskset", "-c", str(cores[0]), *command], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                              stderr=subprocess.DEVNULL, text=True)  # tornado tells of every viewer who leaves
     try:
         port = server.stdout.readline().strip()
         seen = subprocess.run(["taskset", "-c", str(cores[-1]), programs / "docent_web_load", "--port", port, "--process", str(server.pid),

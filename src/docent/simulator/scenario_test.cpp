@@ -153,7 +153,7 @@ constexpr Broken kBroken[] = {
     {"events:\n  - at: 1\n    lasers: {reach: 0.1}", "s.yaml:3: expected a number from 0.5 to 10, found 0.1"},
     {"events:\n  - at: 1\n    lasers: {}", "s.yaml:3: missing key 'reach'"},
     {"events:\n  - at: 1\n    request: {kind: cancel, target: a}",
-     "s.yaml:3: expected one of exhibit, tour, found 'cancel'"},
+     "s.yaml:3: expected one of exhibit, tour, point, found 'cancel'"},
     {"events:\n  - at: 1\n    kill: {signal: stop}", "s.yaml:3: missing key 'module'"},
     {"events:\n  - at: 1\n    answers: {more: 0.6, next: 0.6}", "s.yaml:3: 'more' and 'next' are more than 1 together"},
     {"events:\n  - at: 1\n    answers: {yes: 0.6}", "s.yaml:3: unknown key 'yes' (known: more, next)"},

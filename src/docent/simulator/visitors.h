@@ -69,7 +69,4 @@ class WishingVisitors {
   std::vector<Answer> answers_;
 };
 
-/// RFC 9562 version 7 from a time and random bits. @pre time >= 0
-[[nodiscard]] std::string make_uuid_v7(Time time, Rng& rng);
-
 }  // namespace docent::simulator

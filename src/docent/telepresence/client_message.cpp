@@ -166,7 +166,7 @@ Result<ClientMessage> parse_client_message(std::string_view text) {
     return WatchMessage{is_set("details"), is_set("thin")};
   }
   if (type == "lamps") return parse_lamps(object);
-  constexpr std::array kOrders{"request", "cancel", "choice", "help", "answer"};
+  constexpr std::array kOrders{"request", "cancel", "choice", "vote", "help", "answer"};
   if (std::find(kOrders.begin(), kOrders.end(), type) == kOrders.end()) return fail("unknown type of message");
   std::string id = text_of(object, "id");
   if (!is_uuid7(id)) return fail(type + ": id must be a UUID of version 7");
@@ -175,6 +175,12 @@ Result<ClientMessage> parse_client_message(std::string_view text) {
   if (type == "help") {
     HelpMessage message{std::move(id), text_of(object, "language")};
     if (!is_language(message.language)) return fail("help: language must be two letters");
+    return message;
+  }
+  if (type == "vote") {
+    VoteMessage message{std::move(id), text_of(object, "voter"), text_of(object, "tour")};
+    if (!is_uuid7(message.voter)) return fail("vote: voter must be a UUID of version 7");
+    if (!is_identifier(message.tour)) return fail("vote: tour is not an id");
     return message;
   }
   if (type == "cancel") {

@@ -52,6 +52,18 @@ struct ChoiceMessage {
     v("id", m.id), v("prompt", m.prompt), v("choice", m.choice);
   }
 };
+/// {"type":"vote","id":UUIDv7,"voter":UUIDv7,"tour":…}: the tour that the voter wants next; a later vote replaces it.
+struct VoteMessage {
+  static constexpr const char* kName = "VoteMessage";
+  static constexpr const char* kType = "vote";
+  std::string id;
+  std::string voter;  ///< an id that the browser keeps
+  std::string tour;
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("id", m.id), v("voter", m.voter), v("tour", m.tour);
+  }
+};
 /// {"type":"watch","details":true|false,"thin":true|false}: also send what only specialists look at; of what moves send
 /// the pose alone.
 struct WatchMessage {
@@ -101,8 +113,8 @@ struct AnswerMessage {
     v("id", m.id), v("question", m.question), v("answer", m.answer), v("language", m.language);
   }
 };
-using ClientMessage =
-    std::variant<RequestMessage, CancelMessage, ChoiceMessage, WatchMessage, LampsMessage, HelpMessage, AnswerMessage>;
+using ClientMessage = std::variant<RequestMessage, CancelMessage, ChoiceMessage, VoteMessage, WatchMessage,
+                                   LampsMessage, HelpMessage, AnswerMessage>;
 
 /// Error: what is wrong with it, for the close frame (at most 120 bytes, ASCII).
 [[nodiscard]] Result<ClientMessage> parse_client_message(std::string_view text);

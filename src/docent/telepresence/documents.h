@@ -331,6 +331,29 @@ struct BoardMessage {
   }
 };
 
+/// Which tour the Web's visitors want next.
+struct VotesMessage {
+  static constexpr const char* kName = "VotesMessage";
+  static constexpr const char* kType = "votes";
+  std::string round;  ///< its last digits: another one, and everybody votes anew
+  std::vector<std::tuple<std::string, std::uint32_t>> tours;  ///< those that have votes, with their number
+  template <class Self, class V>
+  static void visit(Self& d, V& v) {
+    v("round", d.round), v("tours", d.tours);
+  }
+};
+/// Whose hours these are.
+struct HoursMessage {
+  static constexpr const char* kName = "HoursMessage";
+  static constexpr const char* kType = "hours";
+  std::string mode;      ///< open, web, closed
+  bool is_open = false;  ///< the robot takes requests
+  template <class Self, class V>
+  static void visit(Self& d, V& v) {
+    v("mode", d.mode), v("is_open", d.is_open);
+  }
+};
+
 struct ModuleState {
   static constexpr const char* kName = "ModuleState";
   std::string name, state, reason;
@@ -391,8 +414,9 @@ struct ErrorMessage {
 };
 
 /// Everything that the live channel carries to a page.
-using ServerMessage = std::tuple<LiveMessage, PoseMessage, BeliefMessage, PathMessage, MissionMessage, SpeechMessage,
-                                 HornMessage, SoundMessage, ExpressionMessage, ButtonMessage, BoardMessage,
-                                 HealthMessage, WindowMessage, Acknowledgement, Refusal, ErrorMessage>;
+using ServerMessage =
+    std::tuple<LiveMessage, PoseMessage, BeliefMessage, PathMessage, MissionMessage, SpeechMessage, HornMessage,
+               SoundMessage, ExpressionMessage, ButtonMessage, BoardMessage, VotesMessage, HoursMessage, HealthMessage,
+               WindowMessage, Acknowledgement, Refusal, ErrorMessage>;
 
 }  // namespace docent::telepresence::documents

@@ -15,6 +15,9 @@
 namespace docent::telepresence {
 namespace {
 
+/// The last eight digits of an id: who knows all of it may cancel a request.
+std::string end_of(const std::string& id) { return id.size() > 8 ? id.substr(id.size() - 8) : id; }
+
 /// Rounded, so that the text stays short.
 double rounded(double value, double scale = 1000.0) { return std::round(value * scale) / scale; }
 
@@ -55,7 +58,7 @@ std::optional<documents::Reason> reason_of(const Reason& reason) {
 
 documents::BoardEntry entry_of(const docent_msgs::RequestState& entry) {
   const auto& request = entry.request;
-  return {request.id.size() > 8 ? request.id.substr(request.id.size() - 8) : request.id,
+  return {end_of(request.id),
           request.source,
           request.visitor,
           request.kind,
@@ -232,6 +235,17 @@ std::string encode_board(const docent_msgs::RequestBoard& board) {
   if (closed.size() > kMaxClosed) closed.resize(kMaxClosed);
   for (const auto* entry : closed) message.closed.push_back(entry_of(*entry));
   return json_text(message);
+}
+
+std::string encode_votes(const Tally& tally) {
+  documents::VotesMessage message;
+  message.round = end_of(tally.round);
+  for (const auto& [tour, count] : tally.counts) message.tours.emplace_back(tour, count);
+  return json_text(message);
+}
+
+std::string encode_hours(const std::string& mode, bool is_open) {
+  return json_text(documents::HoursMessage{mode, is_open});
 }
 
 std::string encode_health(const std::map<std::string, HealthEntry>& modules, std::size_t viewers, Time now) {

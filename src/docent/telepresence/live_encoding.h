@@ -14,6 +14,7 @@
 #include "docent/messages/people_messages.h"
 #include "docent/messages/request_messages.h"
 #include "docent/telepresence/belief_carrier.h"
+#include "docent/telepresence/tour_votes.h"
 #include "docent/vocabulary/reason.h"
 
 // What viewers get, as JSON text; docs/web-protocol.md describes it. Times are seconds of the bus's clock, lengths
@@ -60,6 +61,8 @@ struct HealthEntry {
 /// All open requests and the newest closed ones. Viewers see the last 8 digits of an id only: who knows all of it may
 /// cancel the request.
 [[nodiscard]] std::string encode_board(const docent_msgs::RequestBoard& board);
+[[nodiscard]] std::string encode_votes(const Tally& tally);
+[[nodiscard]] std::string encode_hours(const std::string& mode, bool is_open);
 /// A module that was not heard for 2 s is silent. `viewers`: how many watch.
 [[nodiscard]] std::string encode_health(const std::map<std::string, HealthEntry>& modules, std::size_t viewers,
                                         Time now);

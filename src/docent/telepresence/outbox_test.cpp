@@ -18,9 +18,20 @@ class OutboxTest : public testing::Test {
                                                         testing::UnitTest::GetInstance()->current_test_info()->name());
     std::filesystem::create_directories(folder_);
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
+  void TearDown() override {
+    database_.reset();
+    std::filesystem::remove_all(folder_);
+  }
   [[nodiscard]] std::filesystem::path file() const { return folder_ / "web.sqlite"; }
+  [[nodiscard]] Result<std::unique_ptr<Outbox>> open() {
+    database_.reset();
+    auto database = Database::open(file().string());
+    if (!database) return tl::unexpected<Error>(database.error());
+    database_ = std::move(*database);
+    return Outbox::open(*database_);
+  }
   std::filesystem::path folder_;
+  std::unique_ptr<Database> database_;
 };
 
 docent_msgs::Request request(const std::string& id, double created) {
@@ -38,7 +49,7 @@ docent_msgs::Request request(const std::string& id, double created) {
 
 TEST_F(OutboxTest, KeepsWhatWasNotDeliveredOverARestart) {
   {
-    auto outbox = Outbox::open(file());
+    auto outbox = open();
     ASSERT_TRUE(outbox) << outbox.error().message;
     ASSERT_TRUE((*outbox)->put(request("b", 2)));
     ASSERT_TRUE((*outbox)->put(request("a", 1)));
@@ -46,7 +57,7 @@ TEST_F(OutboxTest, KeepsWhatWasNotDeliveredOverARestart) {
     (*outbox)->delivered("c");
     EXPECT_EQ((*outbox)->pending().size(), 2U);
   }
-  auto outbox = Outbox::open(file());
+  auto outbox = open();
   ASSERT_TRUE(outbox);
   ASSERT_EQ((*outbox)->pending().size(), 2U);
   const auto& first = (*outbox)->pending().front();
@@ -57,11 +68,10 @@ TEST_F(OutboxTest, KeepsWhatWasNotDeliveredOverARestart) {
   EXPECT_EQ(first.viewpoint, 3);
   EXPECT_EQ(first.language, "de");
   EXPECT_EQ(from_message(first.stamp), time_from_seconds(1));
-  EXPECT_FALSE((*outbox)->was_damaged());
 }
 
 TEST_F(OutboxTest, AskingTwiceIsAskingOnce) {
-  auto outbox = Outbox::open(file());
+  auto outbox = open();
   ASSERT_TRUE(outbox);
   ASSERT_TRUE((*outbox)->put(request("a", 1)));
   ASSERT_TRUE((*outbox)->put(request("a", 2)));
@@ -74,7 +84,7 @@ TEST_F(OutboxTest, AskingTwiceIsAskingOnce) {
 TEST_F(OutboxTest, AnAcknowledgedRequestSurvivesAKill) {
   const pid_t child = ::fork();
   if (child == 0) {
-    auto outbox = Outbox::open(file());
+    auto outbox = open();
     const bool is_stored = outbox && (*outbox)->put(request("a", 1));
     ::kill(::getpid(), is_stored ? SIGKILL : SIGTERM);
   }
@@ -82,13 +92,13 @@ TEST_F(OutboxTest, AnAcknowledgedRequestSurvivesAKill) {
   ASSERT_EQ(::waitpid(child, &status, 0), child);
   ASSERT_TRUE(WIFSIGNALED(status));
   ASSERT_EQ(WTERMSIG(status), SIGKILL);
-  auto outbox = Outbox::open(file());
+  auto outbox = open();
   ASSERT_TRUE(outbox);
   ASSERT_EQ((*outbox)->pending().size(), 1U);
 }
 
 TEST_F(OutboxTest, ForgetsTheOld) {
-  auto outbox = Outbox::open(file());
+  auto outbox = open();
   ASSERT_TRUE(outbox);
   ASSERT_TRUE((*outbox)->put(request("a", 1)));
   ASSERT_TRUE((*outbox)->put(request("b", 20)));
@@ -97,19 +107,20 @@ TEST_F(OutboxTest, ForgetsTheOld) {
   EXPECT_EQ((*outbox)->pending().front().id, "b");
 }
 
-TEST_F(OutboxTest, ADamagedFileIsSetAside) {
-  std::ofstream{file()} << std::string(5000, 'x');
-  auto outbox = Outbox::open(file());
-  ASSERT_TRUE(outbox) << outbox.error().message;
-  EXPECT_TRUE((*outbox)->was_damaged());
-  EXPECT_TRUE(std::filesystem::exists(file().string() + ".damaged"));
-  EXPECT_TRUE((*outbox)->put(request("a", 1)));
-}
-
-TEST_F(OutboxTest, AFolderThatIsMissingIsAnError) {
-  const auto outbox = Outbox::open(folder_ / "nowhere" / "web.sqlite");
-  ASSERT_FALSE(outbox);
-  EXPECT_NE(outbox.error().message.find("web.sqlite"), std::string::npos);
+TEST_F(OutboxTest, TellsWhatAnotherGatewayTook) {
+  auto outbox = open();
+  ASSERT_TRUE(outbox);
+  auto connection = Database::open(file().string());
+  ASSERT_TRUE(connection);
+  auto other = Outbox::open(**connection);
+  ASSERT_TRUE(other);
+  ASSERT_TRUE((*other)->put(request("a", 1)));
+  EXPECT_TRUE((*outbox)->pending().empty());
+  ASSERT_TRUE((*outbox)->refresh());
+  ASSERT_EQ((*outbox)->pending().size(), 1U);
+  (*outbox)->delivered("a");
+  ASSERT_TRUE((*other)->refresh());
+  EXPECT_TRUE((*other)->pending().empty());
 }
 
 }  // namespace

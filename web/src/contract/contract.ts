@@ -193,6 +193,16 @@ export interface BoardMessage {
   open_count: number;
   closed: BoardEntry[];
 }
+export interface VotesMessage {
+  type: 'votes';
+  round: string;
+  tours: [string, number][];
+}
+export interface HoursMessage {
+  type: 'hours';
+  mode: string;
+  is_open: boolean;
+}
 export interface ModuleState {
   name: string;
   state: string;
@@ -243,6 +253,12 @@ export interface ChoiceMessage {
   prompt: string;
   choice: string;
 }
+export interface VoteMessage {
+  type: 'vote';
+  id: string;
+  voter: string;
+  tour: string;
+}
 export interface WatchMessage {
   type: 'watch';
   details: boolean;
@@ -264,8 +280,8 @@ export interface AnswerMessage {
   answer: 'yes' | 'undecided' | 'no' | 'human' | 'monkey' | 'dog' | 'fish' | 'amoeba';
   language: string;
 }
-export type ServerMessage = LiveMessage | PoseMessage | BeliefMessage | PathMessage | MissionMessage | SpeechMessage | HornMessage | SoundMessage | ExpressionMessage | ButtonMessage | BoardMessage | HealthMessage | WindowMessage | Acknowledgement | Refusal | ErrorMessage;
-export type ClientMessage = RequestMessage | CancelMessage | ChoiceMessage | WatchMessage | LampsMessage | HelpMessage | AnswerMessage;
+export type ServerMessage = LiveMessage | PoseMessage | BeliefMessage | PathMessage | MissionMessage | SpeechMessage | HornMessage | SoundMessage | ExpressionMessage | ButtonMessage | BoardMessage | VotesMessage | HoursMessage | HealthMessage | WindowMessage | Acknowledgement | Refusal | ErrorMessage;
+export type ClientMessage = RequestMessage | CancelMessage | ChoiceMessage | VoteMessage | WatchMessage | LampsMessage | HelpMessage | AnswerMessage;
 export const documents = {
   "Acknowledgement": {
     "fields": {
@@ -544,6 +560,14 @@ export const documents = {
     },
     "maybe": {},
     "type": "horn"
+  },
+  "HoursMessage": {
+    "fields": {
+      "is_open": "boolean",
+      "mode": "string"
+    },
+    "maybe": {},
+    "type": "hours"
   },
   "LampsMessage": {
     "fields": {
@@ -901,6 +925,30 @@ export const documents = {
       }
     },
     "maybe": {}
+  },
+  "VoteMessage": {
+    "fields": {
+      "id": "string",
+      "tour": "string",
+      "voter": "string"
+    },
+    "maybe": {},
+    "type": "vote"
+  },
+  "VotesMessage": {
+    "fields": {
+      "round": "string",
+      "tours": {
+        "list": {
+          "tuple": [
+            "string",
+            "number"
+          ]
+        }
+      }
+    },
+    "maybe": {},
+    "type": "votes"
   },
   "WatchMessage": {
     "fields": {

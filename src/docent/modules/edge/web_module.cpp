@@ -14,7 +14,10 @@
 #include "docent/interaction/sound/horn.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/edge/screen_desk.h"
+#include "docent/modules/edge/vote_desk.h"
 #include "docent/modules/edge/web_params.h"
+#include "docent/modules/edge/wish_desk.h"
+#include "docent/modules/shared/museum_mode.h"
 #include "docent/modules/shared/scanners.h"
 #include "docent/telepresence/belief_carrier.h"
 #include "docent/telepresence/live_encoding.h"
@@ -42,7 +45,9 @@ enum Slot : int {
   kSound,
   kExpression,
   kButton,
-  kPose
+  kPose,
+  kVotes,
+  kHours
 };
 
 std::filesystem::path page_folder(const std::string& root) {
@@ -53,10 +58,6 @@ constexpr const char* kNoPage =
     "<!doctype html><meta charset=utf-8><title>Docent</title><p>The page has not been built yet: "
     "<code>cd web &amp;&amp; npm ci &amp;&amp; npm run build</code>, then start again.</p>";
 
-bool is_cancellation(const docent_msgs::Request& request) {
-  return parse<RequestKind>(request.kind) == RequestKind::cancel;
-}
-
 RequestSource source_of(telepresence::Role role) {
   return role == telepresence::Role::kiosk ? RequestSource::kiosk : RequestSource::web;
 }
@@ -66,15 +67,21 @@ class WebModule final : public Module {
   static Result<std::unique_ptr<Module>> make(const ModuleContext& context) {
     auto params = context.config.section<WebParams>("web");
     if (!params) return tl::unexpected<Error>(params.error());
-    auto outbox = telepresence::Outbox::open(context.state / "web.sqlite");
+    auto database = telepresence::Database::open(params->database.empty() ? (context.state / "web.sqlite").string()
+                                                                          : params->database);
+    if (!database) return tl::unexpected<Error>(database.error());
+    auto outbox = telepresence::Outbox::open(**database);
     if (!outbox) return tl::unexpected<Error>(outbox.error());
+    auto votes = telepresence::TourVotes::open(**database);
+    if (!votes) return tl::unexpected<Error>(votes.error());
     auto map = telepresence::encode_map_png(context.museum.map);
     if (!map) return tl::unexpected<Error>(map.error());
 
     auto key = telepresence::screen_key(context.state / "screen.key");
     if (!key) return tl::unexpected<Error>(key.error());
 
-    std::unique_ptr<WebModule> module{new WebModule{context, *params, std::move(*outbox)}};
+    std::unique_ptr<WebModule> module{
+        new WebModule{context, *params, std::move(*database), std::move(*outbox), std::move(*votes)}};
     telepresence::Site& site = *module->site_;
     auto page = site.load_page(page_folder(params->root));
     if (!page) {
@@ -104,24 +111,27 @@ class WebModule final : public Module {
   }
 
   [[nodiscard]] ModuleHealth health() const override {
-    for (const std::string& fault : {reason_, fault_, screen_.fault()}) {
+    for (const std::string& fault : {reason_, wishes_.fault(), screen_.fault(), votes_.fault()}) {
       if (!fault.empty()) return {"degraded", fault};
     }
     return {};
   }
 
  private:
-  WebModule(const ModuleContext& context, WebParams params, std::unique_ptr<telepresence::Outbox> outbox)
+  WebModule(const ModuleContext& context, WebParams params, std::unique_ptr<telepresence::Database> database,
+            std::unique_ptr<telepresence::Outbox> outbox, std::unique_ptr<telepresence::TourVotes> votes)
       : bus_{context.bus},
         museum_{context.museum},
         body_{context.config.body()},
         params_{std::move(params)},
-        outbox_{std::move(outbox)},
-        requests_{bus_.publisher(topics::kRequest)},
+        database_{std::move(database)},
+        wishes_{bus_, std::move(outbox), telepresence::Database::is_shared(params_.database)},
         choices_{bus_.publisher(topics::kChoice)},
         screen_{bus_, context.state / "poll.csv"},
+        votes_{bus_, museum_, std::move(votes), context.seed},
+        mode_{context},
         scans_(body_.scanners.size()) {
-    if (outbox_->was_damaged()) reason_ = "web.sqlite was damaged and has been set aside; a new one was begun";
+    if (database_->was_damaged()) reason_ = "web.sqlite was damaged and has been set aside; a new one was begun";
   }
 
   void load_pictures() {
@@ -196,13 +206,16 @@ class WebModule final : public Module {
     bus_.every(seconds(1.0 / params_.live_hz), [this] { show_live(); });
     bus_.every(seconds(params_.pose_s / telepresence::WebServer::kParts), [this] { show_pose(); });
     bus_.every(seconds(1.0 / params_.belief_hz), [this] { show_slow(); });
+    bus_.subscribe<docent_msgs::Limits>(topics::kLimits, [this](const auto& m) { mode_.limits(m); });
     bus_.every(seconds(1.0), [this] {
       show_health();
+      show_hours();
+      if (auto votes = votes_.look()) server_->broadcast(kVotes, std::move(*votes));
       screen_.look();
     });
     bus_.every(seconds(params_.resend_s), [this] { resend(); });
     bus_.every(std::chrono::minutes{10},
-               [this] { outbox_->forget_before(bus_.now() - hours_of(params_.forget_hours)); });
+               [this] { wishes_.forget_before(bus_.now() - hours_of(params_.forget_hours)); });
     resend();
   }
   static Duration hours_of(double hours) { return seconds(hours * 3600.0); }
@@ -260,39 +273,24 @@ class WebModule final : public Module {
     server_->broadcast(kHealth, std::move(text));
   }
 
+  void show_hours() {
+    std::string text = telepresence::encode_hours(mode_.name(bus_.now()), mode_.takes_requests());
+    if (std::exchange(hours_, text) != text) server_->broadcast(kHours, std::move(text));
+  }
+
   /// The `sound` module has written the file of this name.
   void show_horn() {
     server_->broadcast(kHorn, telepresence::encode_horn(bus_.now(), is_muted_ ? "" : horn_.file, horn_.duration_s));
   }
 
   void see_board(const docent_msgs::RequestBoard& board) {
-    open_requests_ = 0;
-    std::set<std::string> closed;
-    for (const auto& entry : board.requests) {
-      const auto status = parse<RequestStatus>(entry.state);
-      const bool is_waiting = status && is_open(*status);
-      if (is_waiting) ++open_requests_;
-      if (!is_waiting) closed.insert(entry.request.id);
-      outbox_->delivered(entry.request.id);
-    }
-    // A cancellation is seen in the state of what it cancels.
-    std::vector<std::string> done;
-    for (const auto& request : outbox_->pending()) {
-      if (is_cancellation(request) && closed.contains(request.target)) done.push_back(request.id);
-    }
-    for (const auto& id : done) outbox_->delivered(id);
+    wishes_.see(board);
+    votes_.see(board);
     server_->broadcast(kBoard, telepresence::encode_board(board));
   }
 
   void resend() {
-    // A cancellation whose request nobody knows any more would otherwise be repeated for hours.
-    std::vector<std::string> given_up;
-    for (const auto& request : outbox_->pending()) {
-      const bool is_old = bus_.now() - from_message(request.stamp) > std::chrono::minutes{1};
-      if (is_cancellation(request) && is_old) given_up.push_back(request.id);
-    }
-    for (const auto& id : given_up) outbox_->delivered(id);
-    for (const auto& request : outbox_->pending()) requests_.publish(request);
+    wishes_.resend();
     if (choice_ && (!mission_ || choice_->prompt_id != mission_->prompt.id)) choice_.reset();
     if (choice_) choices_.publish(*choice_);
   }
@@ -309,6 +307,8 @@ class WebModule final : public Module {
     }
     if (const auto* choice = std::get_if<telepresence::ChoiceMessage>(&message))
       return take_choice(viewer, source, *choice);
+    if (const auto* vote = std::get_if<telepresence::VoteMessage>(&message))
+      return tell(viewer, vote->id, votes_.take(*vote));
     take_of_screen(viewer, message);
   }
 
@@ -319,8 +319,7 @@ class WebModule final : public Module {
     const auto* answer = std::get_if<telepresence::AnswerMessage>(&message);
     if (!done || (help == nullptr && answer == nullptr)) return;
     const std::string& id = help != nullptr ? help->id : answer->id;
-    server_->send(viewer,
-                  done->is_none() ? telepresence::encode_acknowledgement(id) : telepresence::encode_refusal(id, *done));
+    tell(viewer, id, *done);
   }
 
   void take_request(telepresence::ViewerId viewer, RequestSource source, const telepresence::RequestMessage& message) {
@@ -339,23 +338,19 @@ class WebModule final : public Module {
 
   /// None: it is taken.
   [[nodiscard]] Reason refusal(const telepresence::RequestMessage& message) const {
-    if (open_requests_ + outbox_->pending().size() >= static_cast<std::size_t>(params_.max_open_requests))
-      return ReasonWord::too_many_wait;
+    if (wishes_.waiting() >= static_cast<std::size_t>(params_.max_open_requests)) return ReasonWord::too_many_wait;
     return telepresence::why_not_in(museum_, message);
   }
 
-  /// Commits, then acknowledges, then tells the robot (architecture 10.8, 10.9).
   void store(telepresence::ViewerId viewer, RequestSource source, docent_msgs::Request wish) {
-    wish.stamp = to_message(bus_.now());
+    const std::string id = wish.id;
     wish.source = to_text(source);
-    auto stored = outbox_->put(wish);
-    if (!stored) {
-      fault_ = stored.error().message;
-      return server_->send(viewer, telepresence::encode_refusal(wish.id, ReasonWord::not_stored));
-    }
-    fault_.clear();
-    server_->send(viewer, telepresence::encode_acknowledgement(wish.id));
-    requests_.publish(std::move(wish));
+    tell(viewer, id, wishes_.take(std::move(wish)));
+  }
+
+  void tell(telepresence::ViewerId viewer, const std::string& id, const Reason& why_not) {
+    server_->send(viewer, why_not.is_none() ? telepresence::encode_acknowledgement(id)
+                                            : telepresence::encode_refusal(id, why_not));
   }
 
   void take_choice(telepresence::ViewerId viewer, RequestSource source, const telepresence::ChoiceMessage& message) {
@@ -394,11 +389,13 @@ class WebModule final : public Module {
   const robot::RobotBody body_;
   const WebParams params_;
   std::string reason_;  ///< what is wrong since the start
-  std::string fault_;   ///< why the last request could not be stored
-  std::unique_ptr<telepresence::Outbox> outbox_;
-  transport::Publisher<docent_msgs::Request> requests_;
+  std::unique_ptr<telepresence::Database> database_;
+  WishDesk wishes_;
   transport::Publisher<docent_msgs::Choice> choices_;
   ScreenDesk screen_;
+  VoteDesk votes_;
+  MuseumMode mode_;
+  std::string hours_;  ///< as they were shown last
   std::shared_ptr<telepresence::Site> site_ = std::make_shared<telepresence::Site>();
 
   telepresence::BeliefCarrier carrier_;
@@ -416,7 +413,6 @@ class WebModule final : public Module {
   docent_msgs::GoalState goal_;
   bool is_path_new_ = false;
   int part_ = 0;  ///< of the thin viewers, that gets the next pose
-  std::size_t open_requests_ = 0;
   std::map<std::string, telepresence::HealthEntry> modules_;
 
   std::mutex shared_mutex_;  ///< of the two below

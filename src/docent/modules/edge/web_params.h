@@ -4,16 +4,18 @@
 
 #include "docent/base/result.h"
 #include "docent/telepresence/server/web_server.h"
+#include "docent/telepresence/store/database.h"
 
 namespace docent::modules {
 
 /// Section `web`: the page and its server.
 struct WebParams : telepresence::WebServerParams {
-  std::string root;             ///< folder of the built page; empty: beside the program, else beside the sources
-  double live_hz = 10.0;        ///< of what moves
-  double pose_s = 0.3;          ///< between two poses of viewers who get these alone of what moves
-  double belief_hz = 2.0;       ///< at most
-  double resend_s = 1.0;        ///< requests that are not on the board yet
+  std::string root;        ///< folder of the built page; empty: beside the program, else beside the sources
+  std::string database;    ///< of wishes and votes: postgresql://…; empty: the file web.sqlite of the state folder
+  double live_hz = 10.0;   ///< of what moves
+  double pose_s = 0.3;     ///< between two poses of viewers who get these alone of what moves
+  double belief_hz = 2.0;  ///< at most
+  double resend_s = 1.0;   ///< requests that are not on the board yet
   double forget_hours = 24.0;   ///< after that a request is given up and forgotten
   int scan_step = 3;            ///< every n-th reading is shown
   int max_open_requests = 500;  ///< of everybody together; more are refused
@@ -21,6 +23,7 @@ struct WebParams : telepresence::WebServerParams {
   void visit(V& v) {
     telepresence::WebServerParams::visit(v);
     v("root", root);
+    v("database", database);
     v("live_hz", live_hz);
     v("pose_s", pose_s);
     v("belief_hz", belief_hz);
@@ -32,6 +35,8 @@ struct WebParams : telepresence::WebServerParams {
   [[nodiscard]] Result<void> validate() const {
     auto server = telepresence::WebServerParams::validate();
     if (!server) return server;
+    if (!database.empty() && !telepresence::Database::is_shared(database))
+      return fail("web.database must be empty or postgresql://…");
     if (!(live_hz >= 1.0 && live_hz <= 60.0)) return fail("web.live_hz must be 1 to 60");
     if (!(pose_s >= 0.1 && pose_s <= 10.0)) return fail("web.pose_s must be 0.1 to 10");
     if (!(belief_hz >= 0.1 && belief_hz <= 20.0)) return fail("web.belief_hz must be 0.1 to 20");

@@ -189,6 +189,8 @@ std::map<std::string, std::string> contract_samples() {
       {"expression.json", expression()},
       {"button.json", encode_button(kNow, 3)},
       {"board.json", board()},
+      {"votes.json", encode_votes({"018f3a6c-5b2e-7c3d-9a4b-0123456789ab", {{"highlights", 3}, {"space", 1}}})},
+      {"hours.json", encode_hours("web", true)},
       {"health.json", health()},
       {"window.json", encode_window(avoid_state())},
       {"ack.json", encode_acknowledgement("018f3a6c-5b2e-7c3d-9a4b-0123456789ab")},

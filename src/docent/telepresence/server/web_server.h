@@ -66,7 +66,7 @@ struct WebServerFigures {
 /// the memory for a viewer is bounded. With many viewers the sends are spread over ten groups.
 class WebServer {
  public:
-  static constexpr int kSlots = 16;
+  static constexpr int kSlots = 24;
   static constexpr int kParts = 10;  ///< of all viewers
   /// Called on the server's thread; must not block.
   using MessageHandler = std::function<void(ViewerId, Role, const ClientMessage&)>;

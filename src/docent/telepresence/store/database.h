@@ -32,7 +32,7 @@ class Row {
   std::vector<Value> values_;
 };
 
-struct Answer {
+struct QueryResult {
   std::vector<Row> rows;
   std::int64_t changed = 0;  ///< rows that were inserted, updated or deleted
 };
@@ -52,7 +52,8 @@ class Database {
   virtual ~Database() = default;
 
   /// @param statement  one, with $1, $2 … where the arguments stand
-  [[nodiscard]] virtual Result<Answer> run(const std::string& statement, const std::vector<Value>& arguments = {}) = 0;
+  [[nodiscard]] virtual Result<QueryResult> run(const std::string& statement,
+                                                const std::vector<Value>& arguments = {}) = 0;
   /// Several statements without arguments, as they stand in a migration.
   [[nodiscard]] virtual Result<void> run_script(const std::string& statements) = 0;
   [[nodiscard]] virtual bool was_damaged() const { return false; }

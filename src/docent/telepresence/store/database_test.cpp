@@ -188,7 +188,7 @@ TEST_P(Store, AServerThatCameBackIsUsedAgain) {
   if (GetParam() != Kind::server) GTEST_SKIP() << "of servers alone";
   ASSERT_TRUE(database_->run_script("CREATE TABLE t (a BIGINT)"));
   ASSERT_TRUE(postgres->restart());
-  Result<Answer> put = fail("not tried");
+  Result<QueryResult> put = fail("not tried");
   for (int i = 0; i < 100 && !put; ++i) {
     put = database_->run("INSERT INTO t (a) VALUES (1)");
     if (!put) std::this_thread::sleep_for(std::chrono::milliseconds{50});

@@ -55,7 +55,7 @@ class PostgresDatabase final : public Database {
  public:
   explicit PostgresDatabase(Connection connection) : connection_{std::move(connection)} {}
 
-  [[nodiscard]] Result<Answer> run(const std::string& statement, const std::vector<Value>& arguments) override {
+  [[nodiscard]] Result<QueryResult> run(const std::string& statement, const std::vector<Value>& arguments) override {
     std::vector<std::string> texts(arguments.size());
     std::vector<const char*> values(arguments.size(), nullptr);
     std::vector<Oid> types(arguments.size(), 0);
@@ -99,11 +99,11 @@ class PostgresDatabase final : public Database {
     if (PQstatus(connection_.get()) == CONNECTION_OK) return {};
     return fail("PostgreSQL: " + one_line(PQerrorMessage(connection_.get())));
   }
-  [[nodiscard]] Result<Answer> answer_of(const PGresult* reply) const {
+  [[nodiscard]] Result<QueryResult> answer_of(const PGresult* reply) const {
     const ExecStatusType status = PQresultStatus(reply);
     if (status != PGRES_COMMAND_OK && status != PGRES_TUPLES_OK)
       return fail("PostgreSQL: " + one_line(PQerrorMessage(connection_.get())));
-    Answer answer;
+    QueryResult answer;
     answer.changed = std::strtoll(PQcmdTuples(const_cast<PGresult*>(reply)), nullptr, 10);
     const int columns = PQnfields(reply);
     for (int row = 0; row < PQntuples(reply); ++row) {

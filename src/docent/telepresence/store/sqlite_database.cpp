@@ -26,11 +26,11 @@ class SqliteDatabase final : public Database {
       throw SQLite::Exception("damaged", SQLITE_CORRUPT);
   }
 
-  [[nodiscard]] Result<Answer> run(const std::string& statement, const std::vector<Value>& arguments) override {
+  [[nodiscard]] Result<QueryResult> run(const std::string& statement, const std::vector<Value>& arguments) override {
     try {
       SQLite::Statement query{connection_, statement};
       for (std::size_t i = 0; i < arguments.size(); ++i) bind(query, "$" + std::to_string(i + 1), arguments[i]);
-      Answer answer;
+      QueryResult answer;
       const int before = connection_.getTotalChanges();
       while (query.executeStep()) answer.rows.emplace_back(values_of(query));
       answer.changed = connection_.getTotalChanges() - before;

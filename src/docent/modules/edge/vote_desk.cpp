@@ -1,0 +1,71 @@
+#include "docent/modules/edge/vote_desk.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "docent/messages/conversions.h"
+#include "docent/messages/topics.h"
+#include "docent/telepresence/live_encoding.h"
+#include "docent/vocabulary/uuid.h"
+
+namespace docent::modules {
+namespace {
+
+constexpr Duration kKept = std::chrono::hours{48};
+
+}  // namespace
+
+VoteDesk::VoteDesk(transport::Bus& bus, const museum::Museum& museum, std::unique_ptr<telepresence::TourVotes> votes,
+                   std::uint64_t seed)
+    : bus_{bus},
+      museum_{museum},
+      votes_{std::move(votes)},
+      rng_{Rng{seed ^ static_cast<std::uint64_t>(bus.now().nanoseconds)}.stream("votes")},
+      publisher_{bus.publisher(topics::kVotes)} {
+  if (auto begun = votes_->begin(make_uuid_v7(bus_.now(), rng_), bus_.now()); !begun) fault_ = begun.error().message;
+}
+
+Reason VoteDesk::take(const telepresence::VoteMessage& message) {
+  if (museum_.find_tour(message.tour) == nullptr) return {ReasonWord::no_such_tour, message.tour};
+  if (auto stored = votes_->vote(message.voter, message.tour, bus_.now()); !stored) {
+    fault_ = stored.error().message;
+    return ReasonWord::not_stored;
+  }
+  fault_.clear();
+  return {};
+}
+
+void VoteDesk::see(const docent_msgs::RequestBoard& board) {
+  const bool is_taken = std::any_of(board.requests.begin(), board.requests.end(),
+                                    [&](const auto& entry) { return entry.request.id == tally_.round; });
+  if (!is_taken || tally_.round.empty()) return;
+  auto closed = votes_->close(tally_.round, make_uuid_v7(bus_.now(), rng_), bus_.now());
+  if (!closed) fault_ = closed.error().message;
+}
+
+std::optional<std::string> VoteDesk::look() {
+  auto tally = votes_->tally();
+  if (!tally) {
+    fault_ = tally.error().message;
+    return std::nullopt;
+  }
+  tally_ = std::move(*tally);
+  votes_->forget_before(bus_.now() - kKept);
+  std::string text = telepresence::encode_votes(tally_);
+  if (text == shown_) return std::nullopt;
+  shown_ = text;
+  docent_msgs::Votes message;
+  message.header.stamp = to_message(bus_.now());
+  message.round = tally_.round;
+  // In the museum's order, for of two with as many votes the first counts.
+  for (const museum::Tour& tour : museum_.tours) {
+    const auto place = tally_.counts.find(tour.id);
+    if (place == tally_.counts.end()) continue;
+    message.tours.push_back(tour.id);
+    message.counts.push_back(place->second);
+  }
+  publisher_.publish(std::move(message));
+  return text;
+}
+
+}  // namespace docent::modules
