@@ -102,3 +102,5 @@ export const routeIcon = drawings.route;
 export function hueFor(index: number): number {
   return (18 + index * 137.508) % 360;
 }
+/** Of a place on the map. */
+export const pinIcon = 'M12 21c-4-5-6-8-6-11a6 6 0 0 1 12 0c0 3-2 6-6 11zM12 7.500a2.5 2.5 0 1 0 .01 0';

@@ -1,10 +1,10 @@
 // What the page says to the server.
-import type { AnswerMessage, CancelMessage, ChoiceMessage, HelpMessage, LampsMessage, RequestMessage, WatchMessage } from './protocol';
+import type { AnswerMessage, CancelMessage, ChoiceMessage, HelpMessage, LampsMessage, RequestMessage, VoteMessage, WatchMessage } from './protocol';
 
 /** What is asked for. */
 export interface Asked {
   id: string;
-  kind: 'exhibit' | 'tour';
+  kind: 'exhibit' | 'tour' | 'point';
   target: string;
   viewpoint: number;
 }
@@ -20,6 +20,7 @@ export const requestOf = (asked: Asked, name: string, language: string): Request
 });
 export const cancelOf = (id: string, request: string): CancelMessage => ({ type: 'cancel', id, request });
 export const choiceOf = (id: string, prompt: string, choice: string): ChoiceMessage => ({ type: 'choice', id, prompt, choice });
+export const voteOf = (id: string, voter: string, tour: string): VoteMessage => ({ type: 'vote', id, voter, tour });
 export const watchOf = (details: boolean): WatchMessage => ({ type: 'watch', details, thin: false });
 
 // Of the robot's own screen alone.

@@ -10,19 +10,22 @@ import type {
   Exhibit,
   ExpressionMessage,
   HealthMessage,
+  HoursMessage,
   HornMessage,
   LiveMessage,
   MissionMessage,
   Museum,
   PathMessage,
+  Point,
   Reason,
   ServerMessage,
   SoundMessage,
   SpeechMessage,
+  VotesMessage,
   WindowMessage,
 } from './protocol';
 import { decode } from './protocol';
-import { type Asked, cancelOf, choiceOf, requestOf, watchOf } from './orders';
+import { type Asked, cancelOf, choiceOf, requestOf, voteOf, watchOf } from './orders';
 import { uuid7 } from './uuid';
 import { pageLanguage, reasonText, word } from './words';
 
@@ -76,6 +79,10 @@ class App {
   button = $state.raw<ButtonMessage | null>(null);
   board = $state.raw<BoardMessage | null>(null);
   health = $state.raw<HealthMessage | null>(null);
+  hours = $state.raw<HoursMessage | null>(null);
+  votes = $state.raw<VotesMessage | null>(null);
+  /** For what this browser voted, and in which round. */
+  private cast = $state(store.read('vote', { round: '', tour: '' }));
   path = $state.raw<PathMessage | null>(null);
   belief = $state.raw<BeliefMessage | null>(null);
   window = $state.raw<WindowMessage | null>(null);
@@ -93,6 +100,8 @@ class App {
   expert = $state(false);
   selected = $state<string | null>(null);
   viewpoint = $state(-1);
+  /** Chosen on the floor, not yet asked for [m]. */
+  point = $state.raw<Point | null>(null);
   answered = $state('');
   toast = $state('');
   wishes = $state<Wish[]>(store.read<Wish[]>('wishes', []).filter((wish) => Date.now() - wish.made < 3 * 3600e3));
@@ -146,7 +155,27 @@ class App {
   exhibit(id: string): Exhibit | undefined {
     return this.museum?.exhibits.find((exhibit) => exhibit.id === id);
   }
+  /** The hours of the Web's visitors: any place on the floor may be wished for. */
+  get isWebHours(): boolean {
+    return this.connection === 'open' && this.hours?.mode === 'web' && this.hours.is_open;
+  }
+  votesFor(tour: string): number {
+    return this.votes?.tours.find(([id]) => id === tour)?.[1] ?? 0;
+  }
+  /** The tour for which this browser voted in this round. */
+  get myVote(): string {
+    return this.cast.round === this.votes?.round ? this.cast.tour : '';
+  }
+  vote(tour: string): void {
+    const voter = store.read('voter', '') || uuid7();
+    store.write('voter', voter);
+    this.cast = { round: this.votes?.round ?? '', tour };
+    store.write('vote', this.cast);
+    this.order(voteOf(uuid7(), voter, tour));
+    this.notice(this.t(this.connection === 'open' ? 'voted' : 'kept'));
+  }
   titleOf(kind: string, target: string): string {
+    if (kind === 'point') return this.t('pointOnMap');
     const found = kind === 'tour' ? this.museum?.tours.find((tour) => tour.id === target) : this.exhibit(target);
     return this.say(found?.title) || target;
   }
@@ -181,7 +210,7 @@ class App {
   wishFor(kind: string, target: string): Wish | undefined {
     return this.wishes.find((w) => w.kind === kind && w.target === target && !closedStates.includes(w.state));
   }
-  ask(kind: 'exhibit' | 'tour', target: string, viewpoint = -1): void {
+  ask(kind: Wish['kind'], target: string, viewpoint = -1): void {
     if (this.wishFor(kind, target)) return;
     const wish: Wish = { id: uuid7(), kind, target, viewpoint, made: Date.now(), state: 'sending', reason: null, seen: false };
     this.wishes = [...this.wishes.slice(-30), wish];
@@ -190,6 +219,7 @@ class App {
     this.keepWishes();
     this.sendWish(wish);
     this.selected = null;
+    this.point = null;
     if (this.connection !== 'open') this.notice(this.t('kept'));
   }
   cancel(wish: Wish): void {
@@ -336,6 +366,13 @@ class App {
       case 'board':
         this.board = message;
         return this.followBoard(message);
+      case 'hours':
+        this.hours = message;
+        if (!this.isWebHours) this.point = null;
+        return;
+      case 'votes':
+        this.votes = message;
+        return;
       case 'health':
         this.health = message;
         return;
