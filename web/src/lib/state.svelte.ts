@@ -350,18 +350,9 @@ class App {
       case 'pose':
         // A visitor among very many, or with a thin line: nothing but the robot moves.
         return this.takeLive({ ...message, type: 'live', hypotheses: [], scan: { frame: 'map', from: [0, 0], points: [] }, people: [] });
-      case 'belief':
-        this.belief = message;
-        return;
-      case 'path':
-        this.path = message;
-        return;
       case 'mission':
         if (message.prompt?.id !== this.mission?.prompt?.id) this.answered = '';
         this.mission = message;
-        return;
-      case 'speech':
-        this.speech = message;
         return;
       case 'board':
         this.board = message;
@@ -370,9 +361,27 @@ class App {
         this.hours = message;
         if (!this.isWebHours) this.point = null;
         return;
-      case 'votes':
-        this.votes = message;
+      case 'ack':
+        this.unanswered.delete(message.id);
+        if (this.wishes.some((wish) => wish.id === message.id && wish.state === 'sending')) {
+          this.changeWish(message.id, { state: 'sent' });
+          this.notice(this.t('onItsWay'));
+        }
         return;
+      case 'refused':
+        this.unanswered.delete(message.id);
+        this.changeWish(message.id, { state: 'refused', reason: message.reason });
+        this.notice(`${this.t('refused')}: ${this.why(message.reason)}`);
+        return;
+      case 'error':
+        return this.notice(this.why(message.reason));
+      default:
+        this.keep(message);
+    }
+  }
+  /** What is shown as it came. */
+  private keep(message: ServerMessage): void {
+    switch (message.type) {
       case 'health':
         this.health = message;
         return;
@@ -391,20 +400,18 @@ class App {
       case 'button':
         this.button = message;
         return;
-      case 'ack':
-        this.unanswered.delete(message.id);
-        if (this.wishes.some((wish) => wish.id === message.id && wish.state === 'sending')) {
-          this.changeWish(message.id, { state: 'sent' });
-          this.notice(this.t('onItsWay'));
-        }
+      case 'speech':
+        this.speech = message;
         return;
-      case 'refused':
-        this.unanswered.delete(message.id);
-        this.changeWish(message.id, { state: 'refused', reason: message.reason });
-        this.notice(`${this.t('refused')}: ${this.why(message.reason)}`);
+      case 'votes':
+        this.votes = message;
         return;
-      case 'error':
-        this.notice(this.why(message.reason));
+      case 'belief':
+        this.belief = message;
+        return;
+      case 'path':
+        this.path = message;
+        return;
     }
   }
   private takeLive(message: LiveMessage): void {
