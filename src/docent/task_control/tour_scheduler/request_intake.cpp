@@ -54,7 +54,7 @@ Reason TourScheduler::refusal(const VisitorRequest& request, const Conditions& c
       request.source != RequestSource::vote && !is_staff)
     return ReasonWord::web_only_now;
   if (request.kind == RequestKind::point) {
-    if (const Reason why_not = refusal_of_point(request, conditions); !why_not.is_none()) return why_not;
+    if (Reason why_not = refusal_of_point(request, conditions); !why_not.is_none()) return why_not;
   }
   if (state_.board.open_count() >= static_cast<std::size_t>(params_.max_open) ||
       state_.board.stops_with(request) > static_cast<std::size_t>(params_.max_stops))
