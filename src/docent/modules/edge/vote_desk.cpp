@@ -9,12 +9,6 @@
 #include "docent/vocabulary/uuid.h"
 
 namespace docent::modules {
-namespace {
-
-constexpr Duration kKept = std::chrono::hours{48};
-
-}  // namespace
-
 VoteDesk::VoteDesk(transport::Bus& bus, const museum::Museum& museum, std::unique_ptr<telepresence::TourVotes> votes,
                    std::uint64_t seed)
     : bus_{bus},
@@ -50,7 +44,6 @@ std::optional<std::string> VoteDesk::look() {
     return std::nullopt;
   }
   tally_ = std::move(*tally);
-  votes_->forget_before(bus_.now() - kKept);
   std::string text = telepresence::encode_votes(tally_);
   if (text == shown_) return std::nullopt;
   shown_ = text;

@@ -25,9 +25,9 @@ class VoteDesk {
   [[nodiscard]] Reason take(const telepresence::VoteMessage& message);
   /// A round whose tour the robot has taken is over.
   void see(const docent_msgs::RequestBoard& board);
-  /// Now and then: votes that other gateways took; what is older than two days is forgotten. What viewers are to be
-  /// shown; nullopt: as before.
+  /// Now and then: votes that other gateways took. What viewers are to be shown; nullopt: as before.
   [[nodiscard]] std::optional<std::string> look();
+  void forget_before(Time time) { votes_->forget_before(time); }
   /// Why the last vote could not be stored; empty: it was.
   [[nodiscard]] const std::string& fault() const { return fault_; }
 

@@ -214,11 +214,15 @@ class WebModule final : public Module {
       screen_.look();
     });
     bus_.every(seconds(params_.resend_s), [this] { resend(); });
-    bus_.every(std::chrono::minutes{10},
-               [this] { wishes_.forget_before(bus_.now() - hours_of(params_.forget_hours)); });
+    bus_.every(std::chrono::minutes{10}, [this] { forget_old(); });
     resend();
   }
-  static Duration hours_of(double hours) { return seconds(hours * 3600.0); }
+
+  void forget_old() {
+    const Time before = bus_.now() - seconds(params_.forget_hours * 3600.0);
+    wishes_.forget_before(before);
+    votes_.forget_before(before);
+  }
 
   void show_live() {
     constexpr Duration kFresh = std::chrono::seconds{1};
