@@ -105,8 +105,9 @@ void WebServer::Core::open_live(tcp::socket socket, HttpRequest request, const O
   socket.set_option(tcp::no_delay{true}, ignored);
   socket.set_option(asio::socket_base::send_buffer_size{params.send_buffer_bytes}, ignored);
   const ViewerId id = next_viewer++;
-  const auto session = std::make_shared<Session>(sessions, params, std::move(socket), id, how.role,
-                                                 viewers >= static_cast<std::size_t>(params.full_viewers));
+  // The robot's own screen shows all there is, whoever watches besides.
+  const bool must_be_thin = how.role != Role::kiosk && viewers >= static_cast<std::size_t>(params.full_viewers);
+  const auto session = std::make_shared<Session>(sessions, params, std::move(socket), id, how.role, must_be_thin);
   groups[id % kGroups].emplace(id, session);
   ++viewers;
   ++viewers_ever;

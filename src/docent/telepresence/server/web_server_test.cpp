@@ -19,13 +19,16 @@ const std::string kRequest =
 
 class WebServerTest : public testing::Test {
  protected:
-  void start(WebServerParams params = {}) {
+  void start(WebServerParams params = {}, const std::string& screen_key = "") {
     params.port = 0;
     site_->set_document("/", "text/html; charset=utf-8", "<p>hello");
-    auto server = WebServer::start(params, site_, [this](ViewerId viewer, Role /*role*/, const ClientMessage& message) {
-      const std::scoped_lock lock{mutex_};
-      messages_.emplace_back(viewer, message);
-    });
+    auto server = WebServer::start(
+        params, site_,
+        [this](ViewerId viewer, Role /*role*/, const ClientMessage& message) {
+          const std::scoped_lock lock{mutex_};
+          messages_.emplace_back(viewer, message);
+        },
+        screen_key);
     ASSERT_TRUE(server) << server.error().message;
     server_ = std::move(*server);
   }
@@ -145,7 +148,7 @@ TEST_F(WebServerTest, DetailsAreForThoseWhoAsk) {
 TEST_F(WebServerTest, WhoWantsLittleGetsThePoseAlone) {
   WebServerParams params;
   params.full_viewers = 2;
-  start(params);
+  start(params, "key");
   server_->restrict_to(Stream::full, 0);
   server_->restrict_to(Stream::thin, 1);
   TestClient full{server_->port()};
@@ -163,6 +166,9 @@ TEST_F(WebServerTest, WhoWantsLittleGetsThePoseAlone) {
   EXPECT_EQ(two(full), (std::set<std::string>{"all that moves", "mission"}));
   EXPECT_EQ(two(thin), (std::set<std::string>{"pose", "mission"}));
   EXPECT_EQ(two(third), (std::set<std::string>{"pose", "mission"}));
+  TestClient screen{server_->port()};
+  ASSERT_TRUE(screen.upgrade("", "/live?screen=key"));
+  EXPECT_EQ(two(screen), (std::set<std::string>{"all that moves", "mission"})) << "the robot's own";
   // Who changes their mind gets the present at once.
   thin.send_frame(R"({"type":"watch","details":false,"thin":false})");
   EXPECT_EQ(thin.receive_frame().payload, "all that moves");
