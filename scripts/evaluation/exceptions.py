@@ -90,6 +90,13 @@ def serves_beside_the_charger(run):
     return explained if explained is not None and explained <= 640 else None
 
 
+def charges_after_people_left(run, left=640.0):
+    """At its charger; at once where it found room between them, and stayed."""
+    before = max((row["time"] for row in run.all("charger") if row["time"] < left and run.at_charger(row["time"]) == row["time"]), default=None)
+    gone = before is not None and any(before < row["time"] < left for row in run.all("visit_started") + run.all("charger_failed"))
+    return 0.0 if before is not None and not gone else since(run.at_charger(left), left)
+
+
 def tour_goes_on(run, tour, after):
     """Gives the tour to its end, in one piece."""
     if after is None or len(run.all("tour_started", subject=tour)) != 1:
@@ -172,7 +179,7 @@ SCENARIOS = {
     "charger-occupied": Exceptional(60, [
         Duty("finds its charger occupied, after the charge fell", 400, lambda run: since(run.first("charger_failed"), 60.0)),
         Duty("serves meanwhile, by the time of the run", 640, serves_beside_the_charger),
-        Duty("at its charger, after people have left", 420, lambda run: since(run.at_charger(640.0), 640.0)),
+        Duty("at its charger, after people have left", 420, charges_after_people_left),
     ], {"vain ways to the charger": (count("charger_failed"), 1), "charges": (lambda run: run.report["battery"]["charges"], 1)}, NO_WATCH),
     "lost": Exceptional(25, [
         Duty("explains the tour's next exhibit, after it was carried off", 240, lambda run: since(run.first("explained", run.struck("kidnap") or 1e9),

@@ -52,6 +52,7 @@ void Executive::resume(Time now) {
 void Executive::set_task(ExecutiveTask task, Time now) {
   if (task.order.id == memory_.task.order.id) return;
   const std::string last_tour = memory_.tour;
+  if (under_way(DirectiveKind::drive) != nullptr) approach_.interrupt(now);
   memory_ = {};
   memory_.task = std::move(task);
   memory_.tour = tour_after(memory_.task.order, has_drive(), last_tour);
@@ -166,7 +167,7 @@ void Executive::begin(const Directive& directive, Time now) {
       break;
     case DirectiveKind::drive:
       memory_.drive_began = now;
-      approach_ = ApproachWatch{params_.approach, now};
+      approach_.set_out(memory_.task.order.map_from_base, now);
       [[fallthrough]];
     case DirectiveKind::relocalize:
       send_drive();

@@ -134,6 +134,32 @@ TEST_F(ExecutiveTest, ADriveToAndFroBetweenClosedWaysIsGivenUp) {
   EXPECT_EQ(state.state, TaskStatus::driving) << "it comes nearer, though slowly";
 }
 
+TEST_F(ExecutiveTest, ADriveThatIsInterruptedAgainAndAgainIsGivenUpAllTheSame) {
+  // It loses its place every 40 s, and finds it within 5 s.
+  const auto give_up_after = [&](double pause_s) {
+    const double began = now_s;
+    for (int i = 0; now_s - began < 900.0; ++i) {
+      start(visit("t" + std::to_string(now_s)));
+      for (double end = now_s + 40.0; now_s < end; pass(0.5)) {
+        executive.goal_report({drive->id, GoalStatus::driving, 30.0, 0.0, "", "global"}, time());
+        collect();
+        if (state.state == TaskStatus::failed) return now_s - began;
+      }
+      ExecutiveTask lost;
+      lost.order.id = "lost" + std::to_string(now_s);
+      lost.order.kind = TaskKind::relocalize;
+      start(lost);
+      pass(pause_s);
+    }
+    return 900.0;
+  };
+  const double patience_s = 120.0 + 30.0 / 0.25;
+  const double vain_s = give_up_after(5.0);
+  EXPECT_GT(vain_s, patience_s);
+  EXPECT_LT(vain_s, 1.3 * patience_s) << "the pauses do not count";
+  EXPECT_EQ(give_up_after(100.0), 900.0) << "long after, it is a drive of its own";
+}
+
 TEST_F(ExecutiveTest, APersonInTheWayIsBlownAtAndAsked) {
   start(visit("t1"));
   said.clear();
