@@ -224,14 +224,21 @@ class WebModule final : public Module {
     votes_.forget_before(before);
   }
 
-  void show_live() {
-    constexpr Duration kFresh = std::chrono::seconds{1};
+  /// Where the robot is, and how fast.
+  [[nodiscard]] telepresence::LiveFrame frame_now() const {
     telepresence::LiveFrame frame;
     frame.now = bus_.now();
     frame.map_from_base = carrier_.map_from_base(frame.now);
     frame.linear = carrier_.linear();
     frame.angular = carrier_.angular();
     frame.p_lost = carrier_.p_lost();
+    frame.battery = battery_;
+    return frame;
+  }
+
+  void show_live() {
+    constexpr Duration kFresh = std::chrono::seconds{1};
+    telepresence::LiveFrame frame = frame_now();
     if (!frame.map_from_base) frame.hypotheses = carrier_.hypotheses(frame.now, 0.03);
     frame.is_scan_in_map = frame.map_from_base.has_value();
     for (std::size_t i = 0; i < scans_.size(); ++i) {
@@ -246,20 +253,12 @@ class WebModule final : public Module {
     }
     if (frame.now - from_message(people_.header.stamp) <= kFresh) frame.people = people_;
     if (avoid_ && frame.now - from_message(avoid_->header.stamp) <= kFresh) frame.avoid = avoid_;
-    frame.battery = battery_;
     server_->broadcast(kLive, telepresence::encode_live(frame));
   }
 
   /// Each part of the thin viewers gets the pose of its own moment, so that nobody waits until all have theirs.
   void show_pose() {
-    telepresence::LiveFrame frame;
-    frame.now = bus_.now();
-    frame.map_from_base = carrier_.map_from_base(frame.now);
-    frame.linear = carrier_.linear();
-    frame.angular = carrier_.angular();
-    frame.p_lost = carrier_.p_lost();
-    frame.battery = battery_;
-    server_->broadcast_part(kPose, part_, telepresence::encode_pose(frame));
+    server_->broadcast_part(kPose, part_, telepresence::encode_pose(frame_now()));
     part_ = (part_ + 1) % telepresence::WebServer::kParts;
   }
 
