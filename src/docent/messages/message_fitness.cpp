@@ -62,6 +62,22 @@ MessageFault fault_of(const sensor_msgs::BatteryState& battery) {
   return {};
 }
 
+MessageFault fault_of(const sensor_msgs::CompressedImage& picture) {
+  if (const MessageFault fault = fault_of(picture.header)) return fault;
+  if (picture.format.size() > kLongestFrame) return {"format", "is too long"};
+  if (picture.data.size() > kMostPictureBytes) return {"data", "is more than 2 MB"};
+  if (picture.data.empty()) return {"data", "is no picture"};
+  return {};
+}
+
+MessageFault fault_of(const docent_msgs::CameraView& view) {
+  constexpr double kRound = 2.0 * std::numbers::pi;
+  if (!(std::abs(view.pan) <= kRound)) return {"pan", "is no angle"};
+  if (!(std::abs(view.tilt) <= kRound)) return {"tilt", "is no angle"};
+  if (!(view.field_of_view > 0.0 && view.field_of_view < std::numbers::pi)) return {"field_of_view", "is none"};
+  return fault_of(view.header);
+}
+
 MessageFault fault_of(const nav_msgs::Odometry& odometry) {
   FitnessCheck check;
   check("header", odometry.header);

@@ -10,6 +10,7 @@
 #include "docent/messages/localization_messages.h"
 #include "docent/messages/operation_messages.h"
 #include "docent/messages/people_messages.h"
+#include "docent/messages/sensing_messages.h"
 #include "docent/messages/standard_messages.h"
 
 // What comes from outside, by DDS or from a file, decodes and may yet hold what no sensor ever measured: numbers that
@@ -26,7 +27,8 @@ inline constexpr std::size_t kMostBeams = 10000;         ///< of one scan
 inline constexpr std::size_t kMostBelievedCells = 8192;  ///< architecture 10.5
 inline constexpr std::size_t kMostItems = 1000000;       ///< of any list
 inline constexpr std::size_t kMostText = 100000;         ///< [bytes]
-inline constexpr std::size_t kLongestFrame = 255;        ///< [bytes] of a frame's name
+inline constexpr std::size_t kMostPictureBytes = 2'000'000;  ///< of a compressed picture
+inline constexpr std::size_t kLongestFrame = 255;            ///< [bytes] of a frame's name
 
 /// What is wrong with a message; both null: nothing.
 struct MessageFault {
@@ -50,6 +52,9 @@ struct MessageFault {
 [[nodiscard]] MessageFault fault_of(const sensor_msgs::Range& range);
 /// Only the charge counts: drivers leave what they do not measure at any value.
 [[nodiscard]] MessageFault fault_of(const sensor_msgs::BatteryState& battery);
+/// A file of some size; whether it is a picture is known when it is decoded (vision/jpeg).
+[[nodiscard]] MessageFault fault_of(const sensor_msgs::CompressedImage& picture);
+[[nodiscard]] MessageFault fault_of(const docent_msgs::CameraView& view);
 /// Likewise covariances are not looked at.
 [[nodiscard]] MessageFault fault_of(const nav_msgs::Odometry& odometry);
 [[nodiscard]] MessageFault fault_of(const nav_msgs::OccupancyGrid& map);

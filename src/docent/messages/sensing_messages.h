@@ -54,4 +54,21 @@ struct ObstacleLines {
   }
 };
 
+/// Where a camera on a pan-tilt-zoom mount shall look; sent again now and then, so that a mount that woke up late
+/// follows.
+struct CameraView {
+  static constexpr const char* kType = "docent_msgs/msg/CameraView";
+  std_msgs::Header header;   ///< frame map: the mount's zero looks along its x
+  double pan = 0;            ///< [rad] to the left
+  double tilt = 0;           ///< [rad] upwards
+  double field_of_view = 1;  ///< [rad] from the picture's left edge to its right edge: smaller is nearer
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("header", m.header);
+    v("pan", m.pan);
+    v("tilt", m.tilt);
+    v("field_of_view", m.field_of_view);
+  }
+};
+
 }  // namespace docent::docent_msgs

@@ -251,6 +251,18 @@ struct JointState {
     v("effort", m.effort);
   }
 };
+struct CompressedImage {
+  static constexpr const char* kType = "sensor_msgs/msg/CompressedImage";
+  std_msgs::Header header;         ///< frame of the camera: x to the right, y down, z into the picture
+  std::string format;              ///< "jpeg", or what OpenCV's bridge writes: "bgr8; jpeg compressed bgr8"
+  std::vector<std::uint8_t> data;  ///< the file
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("header", m.header);
+    v("format", m.format);
+    v("data", m.data);
+  }
+};
 }  // namespace sensor_msgs
 
 namespace nav_msgs {

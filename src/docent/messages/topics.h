@@ -50,6 +50,11 @@ inline constexpr Topic<nav_msgs::Odometry> kOdometry{"odom", Qos::sensor};
 inline constexpr Topic<sensor_msgs::BatteryState> kBattery{"battery_state", Qos::sensor};
 inline constexpr Topic<docent_msgs::Tactile> kTactile{"tactile", Qos::sensor};
 inline constexpr Topic<docent_msgs::ObstacleLines> kObstacleLines{"obstacle_lines", Qos::sensor};
+/// On the robot's head, and in the hall: [Rhino1999] 5.2 shows both. Under DDS a picture may be a few kilobytes or some
+/// hundred.
+inline constexpr Topic<sensor_msgs::CompressedImage> kCamera{"camera/image/compressed", Qos::sensor, 1};
+inline constexpr Topic<sensor_msgs::CompressedImage> kSceneCamera{"scene_camera/image/compressed", Qos::sensor, 1};
+inline constexpr Topic<docent_msgs::CameraView> kSceneCameraView{"scene_camera/view", Qos::command, 0, 2.0};
 inline constexpr Topic<geometry_msgs::Twist> kCommandVelocity{"cmd_vel", Qos::command, 0, 0.3};
 // Frames.
 inline constexpr Topic<tf2_msgs::TFMessage> kTransforms{"tf", Qos::sensor};
@@ -124,7 +129,7 @@ template <class F>
 void for_each_robot_topic(F&& f) {
   using namespace topics;
   f(kScanFront), f(kScanRear), f(kSonar), f(kOdometry), f(kBattery), f(kTactile), f(kCommandVelocity);
-  f(kScanLeft), f(kScanRight), f(kInfrared), f(kObstacleLines);
+  f(kScanLeft), f(kScanRight), f(kInfrared), f(kObstacleLines), f(kCamera), f(kSceneCamera), f(kSceneCameraView);
   f(kTransforms), f(kStaticTransforms), f(kStaticMap), f(kLiveMap), f(kLiveMapUpdate), f(kBelief), f(kPose);
   f(kPersonBeams), f(kPeople), f(kPeopleInOdom), f(kVirtualScan), f(kDriveGoal), f(kGoalState), f(kTarget), f(kPath);
   f(kDrive), f(kAvoidState), f(kRequest), f(kChoice), f(kVotes), f(kRequestBoard), f(kMissionState), f(kTask),
