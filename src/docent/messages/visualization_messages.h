@@ -50,21 +50,6 @@ struct PoseArray {
 };
 }  // namespace geometry_msgs
 
-namespace sensor_msgs {
-struct CompressedImage {
-  static constexpr const char* kType = "sensor_msgs/msg/CompressedImage";
-  std_msgs::Header header;
-  std::string format;
-  std::vector<std::uint8_t> data;
-  template <class Self, class V>
-  static void visit(Self& m, V& v) {
-    v("header", m.header);
-    v("format", m.format);
-    v("data", m.data);
-  }
-};
-}  // namespace sensor_msgs
-
 namespace visualization_msgs {
 struct UVCoordinate {
   static constexpr const char* kType = "visualization_msgs/msg/UVCoordinate";
