@@ -22,7 +22,7 @@ LAYERS = [
     {"geometry", "vocabulary"},
     {"grid"},
     {"pictures", "motion_models", "sensor_models", "messages", "museum", "robot"},
-    {"localization", "mapping", "planning", "collision_avoidance", "people", "task_control", "interaction"},
+    {"localization", "mapping", "planning", "collision_avoidance", "people", "task_control", "interaction", "vision"},
     {"transport", "recording", "simulator", "telepresence", "visualization", "evaluation"},
     {"modules"},
     {"apps"},

@@ -17,6 +17,7 @@ class Image {
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
   [[nodiscard]] std::span<const std::uint8_t> bytes() const { return bytes_; }  ///< [height][width][4], RGBA
+  [[nodiscard]] std::span<std::uint8_t> writable_bytes() { return bytes_; }     ///< likewise
   [[nodiscard]] bool holds(int x, int y) const { return x >= 0 && y >= 0 && x < width_ && y < height_; }
 
   [[nodiscard]] Color at(int x, int y) const;  ///< @pre holds(x, y)
