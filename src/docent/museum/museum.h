@@ -66,6 +66,12 @@ struct MuseumSound {
       0.3;  ///< 0..1 of the usual volume in the quiet hours; 10 dB less is about half as loud to the ear
 };
 
+/// A camera in the hall, on a mount that turns: the scene's camera.
+struct SceneCamera {
+  Point2 position;      ///< [m], map
+  double height = 2.7;  ///< [m] above the floor
+};
+
 /// The names of modes: everybody, Web visitors alone, nobody but the staff.
 inline constexpr std::array<const char*, 3> kModes{"open", "web", "closed"};
 
@@ -91,6 +97,7 @@ struct Museum {
   std::map<std::string, Mode> modes;
   std::vector<Tour> tours;
   MuseumSound sound;
+  std::optional<SceneCamera> scene_camera;
   std::optional<std::filesystem::path> simulation_path;
 
   [[nodiscard]] const Exhibit* find_exhibit(const std::string& id) const;

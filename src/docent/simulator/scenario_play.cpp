@@ -40,6 +40,7 @@ void SimulatedMuseum::Impl::play_scenario() {
   if (!changed) return;
   obstacles_ = Obstacles{world_};
   instruments_.change_world(world_);
+  if (cameras_) cameras_->change_world(world_);
   crowd_.change_world(world_);
 }
 

@@ -34,6 +34,9 @@ Result<void> validate(const SimulationOptions& options) {
   if (options.start && Obstacles{options.world}.clearance(options.start->position()) < BodyParams{}.radius) {
     return fail("the start touches a solid of the world");
   }
+  if (options.cameras) {
+    if (auto valid = options.cameras->validate(); !valid) return valid;
+  }
   if (options.requests_per_hour && !(*options.requests_per_hour >= 0.0)) return fail("requests per hour must be >= 0");
   return {};
 }
@@ -60,6 +63,7 @@ SimulatedMuseum::Impl::Impl(transport::Bus& robot_bus, transport::Bus& truth_bus
       contacts_{truth_bus.publisher(topics::kTrueContact)},
       offers_{truth_bus.publisher(topics::kTrueOffer)} {
   battery_.set_charge(options_.battery);
+  if (options_.cameras) cameras_.emplace(robot_bus, world_, *options_.cameras);
   docent_msgs::RunInfo info = options_.run_info;
   info.seed = options_.seed;
   info.crowd = options_.crowd;
@@ -220,6 +224,7 @@ void SimulatedMuseum::Impl::watch_people() {
 void SimulatedMuseum::Impl::publish() {
   if (every(5)) instruments_.publish_odometry(time_, body_);
   if (every(10)) instruments_.publish_scans(time_, body_.pose(), people_);
+  if (cameras_) cameras_->step(time_, steps_, body_.pose(), body_.params().radius, crowd_.people());
   instruments_.publish_sonar(time_, steps_, body_.pose(), people_);
   instruments_.publish_infrared(time_, steps_, body_.pose(), people_);
   if (tactile_now_ != tactile_ || every(20)) {
@@ -285,6 +290,7 @@ SimulatedMuseum::SimulatedMuseum(transport::Bus& robot_bus, transport::Bus& trut
   listen(topics::kHorn, [](Impl& impl, const docent_msgs::Horn&) { impl.hear_horn(); });
   listen(topics::kSpeechState, [](Impl& impl, const docent_msgs::SpeechState& speech) { impl.hear_speech(speech); });
   listen(topics::kExpression, [](Impl& impl, const docent_msgs::Expression& expression) { impl.see_face(expression); });
+  listen(topics::kSceneCameraView, [](Impl& impl, const docent_msgs::CameraView& view) { impl.turn_camera(view); });
   listen(topics::kRequestBoard, [](Impl& impl, const docent_msgs::RequestBoard& board) { impl.see_board(board); });
   listen(topics::kMissionState,
          [](Impl& impl, const docent_msgs::MissionState& mission) { impl.see_mission(mission); });

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "docent/base/result.h"
+#include "docent/simulator/cameras.h"
 #include "docent/simulator/crowd/crowd_params.h"
 #include "docent/simulator/hardware.h"
 #include "docent/simulator/scenario.h"
@@ -23,9 +24,10 @@ struct SimulationOptions {
   std::string crowd = "busy";              ///< empty, quiet, busy, packed (architecture 10.3)
   std::optional<std::size_t> crowd_count;  ///< instead of the level's density; recorded people are among them
   CrowdParams crowd_params;
-  std::optional<Pose2> start;     ///< world_from_base; without: random, free, inside the operating area
-  std::optional<Point2> charger;  ///< [m]; standing within 0.4 m of it charges the battery
-  double battery = 1.0;           ///< 0..1 at the start
+  std::optional<Pose2> start;            ///< world_from_base; without: random, free, inside the operating area
+  std::optional<Point2> charger;         ///< [m]; standing within 0.4 m of it charges the battery
+  double battery = 1.0;                  ///< 0..1 at the start
+  std::optional<CameraOptions> cameras;  ///< without: none is simulated, which costs nothing
   Scenario scenario;
   /// Does what the museum cannot do, when its time has come: the application's part of the scenario.
   std::function<void(const std::variant<Kill, PoseError, SecondMode>&)> application;
@@ -43,12 +45,11 @@ struct SimulationOptions {
 /// what it missed by more than half a second. Bit-for-bit the same for the same options and commands.
 class SimulatedMuseum {
  public:
-  /// Subscribes cmd_vel, docent/horn, docent/speech_state, docent/expression, docent/request_board and
-  /// docent/mission_state; publishes
-  /// what its hardware has of scan_front, scan_rear, scan_left, scan_right, sonar, infrared and tactile, and odom,
-  /// battery_state, docent/request and docent/choice, and the truth. The truth is posted to `truth_bus`, so under DDS
-  /// both buses must be run, each on a thread of its own if need be. Both buses must outlive it or die before the next
-  /// event; it may be destroyed at any time.
+  /// Subscribes cmd_vel, docent/horn, docent/speech_state, docent/expression, scene_camera/view, docent/request_board
+  /// and docent/mission_state; publishes what its hardware has of scan_front, scan_rear, scan_left, scan_right, sonar,
+  /// infrared and tactile, and odom, the pictures of its cameras, battery_state, docent/request and docent/choice, and
+  /// the truth. The truth is posted to `truth_bus`, so under DDS both buses must be run, each on a thread of its own if
+  /// need be. Both buses must outlive it or die before the next event; it may be destroyed at any time.
   /// @pre validate(options)
   SimulatedMuseum(transport::Bus& robot_bus, transport::Bus& truth_bus, SimulationOptions options);
   SimulatedMuseum(const SimulatedMuseum&) = delete;

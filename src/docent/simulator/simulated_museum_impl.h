@@ -27,7 +27,13 @@ class SimulatedMuseum::Impl {
   void command(const geometry_msgs::Twist& twist);
   void hear_horn() { crowd_.hear_horn(run_seconds()); }
   void hear_speech(const docent_msgs::SpeechState& speech);
-  void see_face(const docent_msgs::Expression& expression) { crowd_.see_face(expression.valence); }
+  void see_face(const docent_msgs::Expression& expression) {
+    crowd_.see_face(expression.valence);
+    if (cameras_) cameras_->see_face(expression);
+  }
+  void turn_camera(const docent_msgs::CameraView& view) {
+    if (cameras_) cameras_->turn_mount(view);
+  }
   void see_board(const docent_msgs::RequestBoard& board) { visitors_.see_board(board); }
   void see_mission(const docent_msgs::MissionState& mission);
 
@@ -115,6 +121,7 @@ class SimulatedMuseum::Impl {
   Body body_;
   Crowd crowd_;
   Instruments instruments_;
+  std::optional<Cameras> cameras_;
   WishingVisitors visitors_;
   Battery battery_;
   ContactLog log_;

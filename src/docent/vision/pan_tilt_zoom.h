@@ -25,7 +25,7 @@ struct PanTiltZoomParams {
   double shown_m = 4.5;      ///< [m] across, at the robot: it and the people round it
   double height_m = 0.7;     ///< [m] above the floor, of the point that is kept in the middle: the robot's waist
   double deviations = 2.0;   ///< standard deviations of the robot's place that the picture must hold on either side
-  double narrowest = 12.0;   ///< [deg] across: the zoom's end
+  double narrowest = 25.0;   ///< [deg] across: the zoom's end
   double widest = 65.0;      ///< [deg] across: the other end
   double lowest = -85.0;     ///< [deg] downwards
   double dead_share = 0.15;  ///< of the picture's width: a robot that is nearer to the middle makes no move

@@ -154,6 +154,11 @@ void add_simulate_command(CLI::App& app) {
   command->add_option("--record", options->run.recording, "MCAP file of all messages and the truth")
       ->check(output_file());
   command->add_option("--picture", options->picture, "the way driven over the map")->check(output_picture());
+  command
+      ->add_option("--camera-pictures", options->run.camera_pictures,
+                   "folder for robot.jpg and scene.jpg, which both cameras saw last; without, and without a page, no "
+                   "camera is simulated")
+      ->check(output_folder());
   command->add_option("--pace", options->pace, "virtual seconds a second; 0: as fast as possible")
       ->capture_default_str();
   command->add_option("--port", options->port, "also serve the page at this port (pace 1 unless given)");

@@ -152,6 +152,7 @@ class SimulationRun::Parts {
       return fail("--start: outside the area in which the robot may be");
     }
     options.requests_per_hour = options_.requests_per_hour;
+    if (options_.hosts_web || !options_.camera_pictures.empty()) options.cameras.emplace();
     if (museum_.charger) options.charger = museum_.charger->position();
     options.run_info.museum = museum_.folder.filename().string();
     options.run_info.mode = options_.mode;
@@ -174,9 +175,29 @@ class SimulationRun::Parts {
       };
     }
     if (auto valid = validate(options); !valid) return valid;
+    if (!options_.camera_pictures.empty()) keep_pictures();
     world_robot_bus_ = hub_.connect("simulator");
     world_truth_bus_ = hub_.connect("simulator.truth");
     world_ = std::make_unique<simulator::SimulatedMuseum>(*world_robot_bus_, *world_truth_bus_, std::move(options));
+    return {};
+  }
+
+  void keep_pictures() {
+    for (const auto& [topic, name] :
+         {std::pair{topics::kCamera, "robot.jpg"}, std::pair{topics::kSceneCamera, "scene.jpg"}}) {
+      operator_bus_->subscribe<sensor_msgs::CompressedImage>(topic,
+                                                             [this, name = std::string{name}](const auto& image) {
+                                                               pictures_[name] = {image.data.begin(), image.data.end()};
+                                                             });
+    }
+  }
+
+  [[nodiscard]] Result<void> save_camera_pictures() const {
+    std::filesystem::create_directories(options_.camera_pictures);
+    for (const auto& [name, file] : pictures_) {
+      auto saved = write_file_atomically(std::filesystem::path{options_.camera_pictures} / name, file);
+      if (!saved) return saved;
+    }
     return {};
   }
 
@@ -235,6 +256,7 @@ class SimulationRun::Parts {
   evaluation::RequestLog requests_;
   evaluation::PeopleLog people_;
   SimulationPicture picture_;
+  std::map<std::string, std::string> pictures_;  ///< of the cameras, by file name
   std::optional<recording::Recorder> recorder_;
   std::string failure_;
   double wall_s_ = 0.0;
@@ -311,6 +333,9 @@ Result<void> SimulationRun::finish() {
   }
   if (!parts_->options_.people_log.empty()) {
     if (auto saved = parts_->people_.save(parts_->options_.people_log); !saved) return saved;
+  }
+  if (!parts_->options_.camera_pictures.empty()) {
+    if (auto saved = parts_->save_camera_pictures(); !saved) return saved;
   }
   if (!parts_->recorder_) return {};
   return parts_->recorder_->close();

@@ -33,6 +33,7 @@ Result<simulator::SimulationOptions> simulation_of(const Deployment& deployment,
       return fail("--start " + options.start + ": outside the robot's area");
     }
   }
+  if (options.has_cameras) simulation.cameras.emplace();
   if (museum->charger) simulation.charger = museum->charger->position();
   if (options.requests_per_hour >= 0.0) simulation.requests_per_hour = options.requests_per_hour;
   if (!options.scenario.empty()) {
@@ -58,6 +59,7 @@ void SimulatorOptions::add_options(CLI::App& command) {
       ->capture_default_str();
   command.add_option("--start", start, "Where the simulated robot wakes up: X,Y,DEG; without it somewhere");
   command.add_option("--scenario", scenario, "Scenario file for the simulator");
+  command.add_flag("!--no-cameras", has_cameras, "Simulate no camera: saves a tenth of a processor");
   command.add_option("--mode", mode, "One of the museum's modes, or hours: what the museum's hours say")
       ->capture_default_str();
   command.add_option("--requests-per-hour", requests_per_hour, "Of simulated visitors; without it as the museum says")
@@ -67,6 +69,7 @@ void SimulatorOptions::add_options(CLI::App& command) {
 std::vector<std::string> SimulatorOptions::arguments() const {
   std::vector<std::string> all{"--crowd", crowd, "--mode", mode};
   if (!start.empty()) all.insert(all.end(), {"--start=" + start});  // it may begin with a minus
+  if (!has_cameras) all.emplace_back("--no-cameras");
   if (!scenario.empty()) all.insert(all.end(), {"--scenario", scenario});
   if (requests_per_hour >= 0.0) all.insert(all.end(), {"--requests-per-hour", std::to_string(requests_per_hour)});
   return all;

@@ -14,6 +14,7 @@ struct SimulatorOptions {
   std::string start;           ///< X,Y,DEG; empty: somewhere
   std::string scenario;        ///< file; empty: nothing special happens
   std::string mode = "open";
+  bool has_cameras = true;
   double requests_per_hour = -1.0;  ///< < 0: as the museum's simulation says
 
   void add_options(CLI::App& command);

@@ -13,15 +13,22 @@ constexpr double kFaultShown = 5.0;  ///< [s] that a failed write shows in the h
 
 /// Section `record`: recordings of all topics.
 struct RecordParams {
-  bool enabled = true;  ///< false: nothing is recorded
+  bool enabled = true;    ///< false: nothing is recorded
+  bool pictures = false;  ///< those of the cameras too: some 50 kB a second
   recording::RollingRecorderParams files;
   template <class V>
   void visit(V& v) {
     v("enabled", enabled);
+    v("pictures", pictures);
     files.visit(v);
   }
   [[nodiscard]] Result<void> validate() const { return files.validate(); }
 };
+
+bool is_picture(const transport::TopicInfo& topic) {
+  return topic.name == std::string_view{topics::kCamera.name} ||
+         topic.name == std::string_view{topics::kSceneCamera.name};
+}
 
 class RecordModule final : public Module {
  public:
@@ -37,10 +44,11 @@ class RecordModule final : public Module {
         if (!recording::recover_mcap(part, whole)) std::filesystem::rename(part, part.string() + ".unreadable");
       }
     }};
-    recording::subscribe_robot_topics(
-        bus_, [this](const transport::TopicInfo& topic, const std::shared_ptr<const void>& message) {
-          write(topic, message);
-        });
+    recording::subscribe_robot_topics(bus_,
+                                      [this, pictures = params.pictures](const transport::TopicInfo& topic,
+                                                                         const std::shared_ptr<const void>& message) {
+                                        if (pictures || !is_picture(topic)) write(topic, message);
+                                      });
     if (context.truth != nullptr) {
       const std::weak_ptr<RecordModule*> self = self_;
       recording::subscribe_truth_topics(*context.truth,

@@ -7,6 +7,7 @@
 #include "docent/modules/drive/plan_module.h"
 #include "docent/modules/drive/robot_module.h"
 #include "docent/modules/edge/record_module.h"
+#include "docent/modules/edge/scene_camera_module.h"
 #include "docent/modules/edge/visualize_module.h"
 #include "docent/modules/edge/web_module.h"
 #include "docent/modules/guide/buttons_module.h"
@@ -38,6 +39,7 @@ constexpr std::array kModules{
     ModuleEntry{"web", make_web, parameters_of_web},
     ModuleEntry{"visualize", make_visualize, parameters_of_visualize},
     ModuleEntry{"head", make_head, parameters_of_head},
+    ModuleEntry{"scene_camera", make_scene_camera, parameters_of_scene_camera},
 };
 // clang-format on
 

@@ -101,6 +101,10 @@ std::string to_yaml(const World& world) {
     text += "  - {id: " + a.id + ", centre: " + point(a.centre) + ", radius: " + number(a.radius) +
             ", weight: " + number(a.weight) + "}\n";
   }
+  if (world.scene_camera)
+    text += "scene_camera: {x: " + number(world.scene_camera->position.x) +
+            ", y: " + number(world.scene_camera->position.y) + ", height: " + number(world.scene_camera->height) +
+            "}\n";
   if (!world.pedestrians_file.empty()) text += "pedestrians: " + world.pedestrians_file + "\n";
   return text;
 }

@@ -115,6 +115,18 @@ struct CeilingYaml {
   }
 };
 
+struct CameraYaml {
+  double x = 0.0;
+  double y = 0.0;
+  double height = 2.7;
+  template <class V>
+  void visit(V& v) {
+    v.required("x", x);
+    v.required("y", y);
+    v("height", height);
+  }
+};
+
 class WorldParser {
  public:
   explicit WorldParser(const YamlFile& file) : file_{file}, root_{file.root()} {}
@@ -129,6 +141,7 @@ class WorldParser {
     std::vector<SolidYaml> solids;
     std::vector<AttractionYaml> attractions;
     std::vector<CeilingYaml> ceiling;
+    std::optional<CameraYaml> camera;
     reader.required("floor", floor);
     reader.required("operating_area", area);
     reader.required("solids", solids);
@@ -141,6 +154,7 @@ class WorldParser {
     reader("ceiling_height", world.ceiling_height);
     reader("ceiling", ceiling);
     reader("pedestrians", world.pedestrians_file);
+    reader("scene_camera", camera);
     reader.finish();
 
     world.floor = polygon(root_["floor"], floor);
@@ -158,6 +172,11 @@ class WorldParser {
       const YAML::Node node = root_["ceiling"][i];
       if (!(ceiling[i].height > 0.0)) throw fault(node, "height must be > 0");
       world.ceiling.push_back({polygon(node["polygon"], ceiling[i].polygon), ceiling[i].height});
+    }
+    if (camera) {
+      if (!(camera->height > 0.5 && camera->height < 50.0))
+        throw fault(root_["scene_camera"], "height must be 0.5 to 50");
+      world.scene_camera = CameraPlace{{camera->x, camera->y}, camera->height};
     }
     for (std::size_t i = 0; i < solids.size(); ++i) add_solids(root_["solids"][i], solids[i], world.solids);
     for (std::size_t i = 0; i < attractions.size(); ++i) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,12 @@ struct CeilingPart {
   double height = 3.0;  ///< [m] above the floor
 };
 
+/// A camera that hangs in the hall.
+struct CameraPlace {
+  Point2 position;      ///< [m], world
+  double height = 2.7;  ///< [m] above the floor
+};
+
 /// The true museum (simulation.yaml). Read by the simulator, the evaluation's tools and nothing else
 /// (architecture 10.1).
 struct World {
@@ -54,8 +61,9 @@ struct World {
   double visitors_per_hour = 24.0;    ///< who ask the robot for something
   std::vector<std::string> exhibits;  ///< ids that they may ask for
   std::vector<std::string> tours;
-  double ceiling_height = 3.0;         ///< [m], where no part says otherwise
-  std::vector<CeilingPart> ceiling;    ///< the last part that holds a point counts
+  double ceiling_height = 3.0;       ///< [m], where no part says otherwise
+  std::vector<CeilingPart> ceiling;  ///< the last part that holds a point counts
+  std::optional<CameraPlace> scene_camera;
   std::string pedestrians_file;        ///< beside simulation.yaml; empty: nobody was recorded
   std::vector<Recording> pedestrians;  ///< recorded people who walk here, whatever the robot does
 
