@@ -155,6 +155,17 @@ void Site::set_file(const std::string& path, std::string content) {
   set_document(path, content_type_of(path), std::move(content));
 }
 
+void Site::set_changing(const std::string& path, std::string content_type, std::shared_ptr<const std::string> body,
+                        std::string taken) {
+  SiteReply reply;
+  reply.content_type = std::move(content_type);
+  if (body->empty()) reply.status = 204;  // there is none yet
+  reply.body = std::move(body);
+  reply.taken = std::move(taken);
+  const std::scoped_lock lock{mutex_};
+  documents_.insert_or_assign(path, std::move(reply));
+}
+
 void Site::set_live_document(const std::string& path, std::string content_type, std::function<std::string()> make) {
   const std::scoped_lock lock{mutex_};
   live_.insert_or_assign(path, Live{std::move(content_type), std::move(make)});

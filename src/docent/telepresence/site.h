@@ -18,7 +18,8 @@ struct SiteReply {
   std::string content_type = "text/plain; charset=utf-8";
   std::shared_ptr<const std::string> body;     ///< never null
   std::shared_ptr<const std::string> gzipped;  ///< the same body compressed; null where that saves nothing
-  bool is_immutable = false;                   ///< its name changes with its content: keep it for ever
+  std::string taken;          ///< when it was made, by the robot's clock [s]: also its version; empty: it has none
+  bool is_immutable = false;  ///< its name changes with its content: keep it for ever
 };
 
 /// Everything that can be fetched, by exact path. The page is read into memory once, so no path from outside ever
@@ -34,6 +35,10 @@ class Site {
   void set_document(const std::string& path, std::string content_type, std::string body);
   /// Likewise; the ending of the path says what it is.
   void set_file(const std::string& path, std::string content);
+  /// A file that is replaced every now and then, such as a camera's picture; `taken` says when it was made [s], and
+  /// whoever has that one already is told so instead. Not compressed. An empty body says that there is none yet (204).
+  void set_changing(const std::string& path, std::string content_type, std::shared_ptr<const std::string> body,
+                    std::string taken);
   /// A document made anew for each reader; `make` is called by the server's thread.
   void set_live_document(const std::string& path, std::string content_type, std::function<std::string()> make);
 

@@ -38,7 +38,7 @@ export interface Wish extends Asked {
   seen: boolean;
 }
 
-const store = {
+export const store = {
   read<T>(key: string, otherwise: T): T {
     try {
       return JSON.parse(localStorage.getItem(`docent.${key}`) ?? 'null') ?? otherwise;

@@ -13,6 +13,7 @@
 #include "docent/base/shipped_files.h"
 #include "docent/interaction/sound/horn.h"
 #include "docent/messages/conversions.h"
+#include "docent/modules/edge/camera_desk.h"
 #include "docent/modules/edge/screen_desk.h"
 #include "docent/modules/edge/vote_desk.h"
 #include "docent/modules/edge/web_params.h"
@@ -111,7 +112,7 @@ class WebModule final : public Module {
   }
 
   [[nodiscard]] ModuleHealth health() const override {
-    for (const std::string& fault : {reason_, wishes_.fault(), screen_.fault(), votes_.fault()}) {
+    for (const std::string& fault : {reason_, wishes_.fault(), screen_.fault(), votes_.fault(), cameras_.fault()}) {
       if (!fault.empty()) return {"degraded", fault};
     }
     return {};
@@ -400,6 +401,7 @@ class WebModule final : public Module {
   MuseumMode mode_;
   std::string hours_;  ///< as they were shown last
   std::shared_ptr<telepresence::Site> site_ = std::make_shared<telepresence::Site>();
+  CameraDesk cameras_{bus_, site_};
 
   telepresence::BeliefCarrier carrier_;
   std::vector<sensor_msgs::LaserScan> scans_;  ///< [scanners] newest sweeps

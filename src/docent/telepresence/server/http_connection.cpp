@@ -15,6 +15,8 @@ constexpr auto kHttpTimeout = std::chrono::seconds{15};
 
 std::string_view view_of(beast::string_view text) { return {text.data(), text.size()}; }
 
+std::string etag_of(const SiteReply& reply) { return '"' + reply.taken + '"'; }
+
 }  // namespace
 
 void HttpConnection::read() {
@@ -44,7 +46,11 @@ void HttpConnection::serve() {
     stream_.expires_never();
     return owner_.open_live(stream_.release_socket(), std::move(request), *live);
   }
-  const HttpAnswer& answer = std::get<HttpAnswer>(route);
+  HttpAnswer answer = std::get<HttpAnswer>(route);
+  if (!answer.reply.taken.empty() && view_of(request[http::field::if_none_match]) == etag_of(answer.reply)) {
+    answer.reply.status = 304;
+    answer.is_head = true;  // they have the body
+  }
   send(answer, request.keep_alive() && !answer.is_last,
        !answer.is_last && accepts_gzip(view_of(request[http::field::accept_encoding])));
 }
@@ -60,6 +66,10 @@ void HttpConnection::send(const HttpAnswer& answer, bool keep_alive, bool takes_
   response_->set(http::field::content_type, reply.content_type);
   response_->set(http::field::cache_control, reply.is_immutable ? "public, max-age=31536000, immutable" : "no-cache");
   if (is_gzipped) response_->set(http::field::content_encoding, "gzip");
+  if (!reply.taken.empty()) {
+    response_->set(http::field::etag, etag_of(reply));
+    response_->set("Docent-Taken", reply.taken);
+  }
   if (reply.gzipped) response_->set(http::field::vary, "Accept-Encoding");
   response_->set("X-Content-Type-Options", "nosniff");
   response_->set("Referrer-Policy", "no-referrer");
