@@ -7,6 +7,7 @@
 #include <set>
 
 #include "docent/museum/languages.h"
+#include "docent/museum/scene_camera_yaml.h"
 #include "docent/vocabulary/vocabulary.h"
 
 namespace docent::museum {
@@ -37,18 +38,6 @@ struct PoseYaml {
     v.required("heading", heading);
   }
   [[nodiscard]] Pose2 pose() const { return {x, y, Angle::degrees(heading)}; }
-};
-
-struct SceneCameraYaml {
-  double x = 0.0;
-  double y = 0.0;
-  double height = 2.7;
-  template <class V>
-  void visit(V& v) {
-    v.required("x", x);
-    v.required("y", y);
-    v("height", height);
-  }
 };
 
 class MuseumYamlReader {
@@ -83,11 +72,7 @@ class MuseumYamlReader {
       read_exhibits(required(file_.root(), exhibits, "exhibits"));
       read_modes(modes);
       read_tours(tours);
-      std::optional<SceneCameraYaml> camera;
-      guarded([&] {
-        reader("scene_camera", camera);
-        if (camera) museum_.scene_camera = scene_camera(reader.node("scene_camera"), *camera);
-      });
+      guarded([&] { museum_.scene_camera = read_scene_camera(file_, reader); });
       if (sound.IsDefined()) guarded([&] { read_sound(sound); });
       std::optional<std::string> simulation;
       guarded([&] {
@@ -130,12 +115,6 @@ class MuseumYamlReader {
   [[nodiscard]] std::string text(const YAML::Node& node, const char* what) const {
     if (!node.IsScalar()) throw fault(node, std::string{"expected "} + what);
     return node.Scalar();
-  }
-
-  [[nodiscard]] SceneCamera scene_camera(const YAML::Node& node, const SceneCameraYaml& camera) const {
-    if (!(std::abs(camera.x) <= kFarthest && std::abs(camera.y) <= kFarthest)) throw fault(node, "too far away");
-    if (!(camera.height >= 0.5 && camera.height <= 50.0)) throw fault(node, "height must be 0.5 to 50 m");
-    return {{camera.x, camera.y}, camera.height};
   }
 
   void read_languages(const YAML::Node& node) {
