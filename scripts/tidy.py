@@ -19,6 +19,7 @@ ROOT = Path(__file__).resolve().parents[1]
 BUILD = ROOT / "build" / "dev"
 GOOD = BUILD / "tidy"
 TOGETHER = GOOD / "together"  # one file a folder, which includes its sources
+SINGLE = GOOD / "single"  # commands for each source, however it was compiled
 TIDY = "clang-tidy-14"
 
 
@@ -39,9 +40,27 @@ def files_read_by_compiler():
     return read
 
 
-def keys_of(sources, commands):
+def sources_in(path):
+    """Those that a file which cmake wrote includes, so that they are compiled as one (DOCENT_UNITY)."""
+    return [Path(line.split('"')[1]) for line in path.read_text().splitlines() if line.startswith("#include")]
+
+
+def commands_of_compiler():
+    """Source to its compiler's entry, also where it is compiled as one with others; and the file as which it is."""
+    commands, compiled_as = {}, {}
+    for entry in json.loads((BUILD / "compile_commands.json").read_text()):
+        path = Path(entry["file"])
+        is_joint = path.parent.name == "Unity" and path.is_file()
+        for source in sources_in(path) if is_joint else [path]:
+            commands[source] = {**entry, "file": str(source), "command": entry["command"].replace(str(path), str(source))}
+            compiled_as[source] = path
+    return commands, compiled_as
+
+
+def keys_of(sources, commands, compiled_as):
     """Source to the hash of all that a finding depends on; none where it was not compiled since it changed."""
-    read = files_read_by_compiler()
+    joint = files_read_by_compiler()
+    read = {source: joint[path] for source, path in compiled_as.items() if path in joint}
     version = subprocess.run([TIDY, "--version"], capture_output=True, text=True, check=True).stdout
     common = version + hash_of(ROOT / ".clang-tidy") + hash_of(ROOT / ".clang-format")
     keys = {}
@@ -94,8 +113,10 @@ def write_together(groups, commands):
 def main():
     sources = [Path(name).resolve() for name in sys.argv[1:]]
     GOOD.mkdir(parents=True, exist_ok=True)
-    commands = {Path(entry["file"]): entry for entry in json.loads((BUILD / "compile_commands.json").read_text())}
-    keys = keys_of(sources, commands)
+    commands, compiled_as = commands_of_compiler()
+    SINGLE.mkdir(exist_ok=True)
+    (SINGLE / "compile_commands.json").write_text(json.dumps(list(commands.values())))
+    keys = keys_of(sources, commands, compiled_as)
     known = {path.name for path in GOOD.iterdir() if path.is_file()}
     to_do = [source for source in sources if keys.get(source) not in known]
 
@@ -104,7 +125,7 @@ def main():
         if together and tidy(together, TOGETHER)[0]:
             findings = {source: (True, "") for source in group}
         else:
-            findings = {source: tidy(source, BUILD) for source in group}
+            findings = {source: tidy(source, SINGLE) for source in group}
         for source, (is_good, text) in findings.items():
             if not is_good:
                 print(text, end="", flush=True)
