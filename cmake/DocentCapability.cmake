@@ -20,6 +20,9 @@ target_compile_options(docent_options INTERFACE -Wall -Wextra -Wpedantic -Wconve
 if(DOCENT_WARNINGS_AS_ERRORS)
   target_compile_options(docent_options INTERFACE -Werror)
 endif()
+if(DOCENT_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)  # a joint file includes what is in truth its own
+  target_compile_options(docent_options INTERFACE -Wno-subobject-linkage)
+endif()
 if(DOCENT_SANITIZE)
   target_compile_options(docent_options INTERFACE -fsanitize=${DOCENT_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(docent_options INTERFACE -fsanitize=${DOCENT_SANITIZE})
