@@ -14,6 +14,7 @@
 #include "docent/interaction/sound/horn.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/edge/camera_desk.h"
+#include "docent/modules/edge/foxglove_desk.h"
 #include "docent/modules/edge/screen_desk.h"
 #include "docent/modules/edge/vote_desk.h"
 #include "docent/modules/edge/web_params.h"
@@ -104,7 +105,7 @@ class WebModule final : public Module {
                              const telepresence::ClientMessage& m) {
           raw->bus_.post([raw, viewer, role, m] { raw->take(viewer, source_of(role), m); });
         },
-        std::move(*key));
+        std::move(*key), module->foxglove_.hub());
     if (!server) return fail("web: " + server.error().message);
     module->set_server(std::move(*server));
     module->subscribe();
@@ -131,6 +132,7 @@ class WebModule final : public Module {
         screen_{bus_, context.state / "poll.csv"},
         votes_{bus_, museum_, std::move(votes), context.seed},
         mode_{context},
+        foxglove_{bus_, "Docent, " + museum::translated(context.museum.name, "en")},
         scans_(body_.scanners.size()) {
     if (database_->was_damaged()) reason_ = "web.sqlite was damaged and has been set aside; a new one was begun";
   }
@@ -151,6 +153,7 @@ class WebModule final : public Module {
 
   void set_server(std::unique_ptr<telepresence::WebServer> server) {
     server_ = std::move(server);
+    foxglove_.set_server(*server_);
     server_->restrict_to(telepresence::Stream::details, kWindow);
     server_->restrict_to(telepresence::Stream::full, kLive);
     server_->restrict_to(telepresence::Stream::full, kBelief);
@@ -402,6 +405,7 @@ class WebModule final : public Module {
   std::string hours_;  ///< as they were shown last
   std::shared_ptr<telepresence::Site> site_ = std::make_shared<telepresence::Site>();
   CameraDesk cameras_{bus_, site_};
+  FoxgloveDesk foxglove_;
 
   telepresence::BeliefCarrier carrier_;
   std::vector<sensor_msgs::LaserScan> scans_;  ///< [scanners] newest sweeps

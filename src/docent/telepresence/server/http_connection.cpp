@@ -41,10 +41,15 @@ void HttpConnection::serve() {
   const Route route = owner_.route({view_of(request.method_string()),
                                     view_of(request.target()),
                                     beast::websocket::is_upgrade(request),
-                                    {view_of(request[http::field::origin]), view_of(request[http::field::host]), {}}});
+                                    {view_of(request[http::field::origin]), view_of(request[http::field::host]), {}},
+                                    is_local(request)});
   if (const auto* live = std::get_if<OpenLive>(&route)) {
     stream_.expires_never();
     return owner_.open_live(stream_.release_socket(), std::move(request), *live);
+  }
+  if (std::holds_alternative<OpenFoxglove>(route)) {
+    stream_.expires_never();
+    return owner_.open_foxglove(stream_.release_socket(), std::move(request));
   }
   HttpAnswer answer = std::get<HttpAnswer>(route);
   if (!answer.reply.taken.empty() && view_of(request[http::field::if_none_match]) == etag_of(answer.reply)) {
@@ -53,6 +58,15 @@ void HttpConnection::serve() {
   }
   send(answer, request.keep_alive() && !answer.is_last,
        !answer.is_last && accepts_gzip(view_of(request[http::field::accept_encoding])));
+}
+
+bool HttpConnection::is_local(const HttpRequest& request) const {
+  beast::error_code error;
+  const auto peer = stream_.socket().remote_endpoint(error);
+  if (error || !peer.address().is_loopback()) return false;
+  for (const char* header : {"Forwarded", "X-Forwarded-For", "X-Real-IP", "Via"})
+    if (request.find(header) != request.end()) return false;
+  return true;
 }
 
 void HttpConnection::send(const HttpAnswer& answer, bool keep_alive, bool takes_gzip) {

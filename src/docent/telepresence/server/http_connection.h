@@ -22,6 +22,7 @@ struct HttpOwner {
   std::function<Route(const RouteRequest&)> route;
   /// The connection becomes a session.
   std::function<void(boost::asio::ip::tcp::socket, HttpRequest, const OpenLive&)> open_live;
+  std::function<void(boost::asio::ip::tcp::socket, HttpRequest)> open_foxglove;
   std::atomic<std::size_t>* connections = nullptr;
   std::atomic<std::uint64_t> requests{0};
 };
@@ -42,6 +43,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   using Body = boost::beast::http::span_body<const char>;
 
   void serve();
+  /// The other end is a program of this computer; a proxy says for whom it speaks.
+  [[nodiscard]] bool is_local(const HttpRequest& request) const;
   void send(const HttpAnswer& answer, bool keep_alive, bool takes_gzip);
 
   HttpOwner& owner_;

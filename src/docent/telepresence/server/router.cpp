@@ -6,6 +6,7 @@ namespace docent::telepresence {
 namespace {
 
 constexpr std::string_view kLive = "/live";
+constexpr std::string_view kFoxglove = "/foxglove";
 constexpr std::string_view kThinLive = "/live?thin";
 constexpr std::string_view kLiveOfScreen = "/live?screen=";
 
@@ -20,6 +21,12 @@ HttpAnswer refusal(int status, std::string text) {
 }
 
 Route Router::route(const RouteRequest& request, bool is_full) const {
+  if (request.is_upgrade && request.target == kFoxglove) {
+    if (!role_of(request.opening, origins_, screen_key_))
+      return refusal(403, "pages of another site may not look in\n");
+    if (!request.is_local) return refusal(403, "for programs of the robot's own computer\n");
+    return OpenFoxglove{};
+  }
   if (request.is_upgrade) {
     const bool is_screen = request.target.starts_with(kLiveOfScreen) && request.target != kLiveOfScreen;
     const bool is_thin = request.target == kThinLive;

@@ -17,6 +17,7 @@ struct RouteRequest {
   std::string_view target;
   bool is_upgrade = false;  ///< wants a WebSocket
   Opening opening;
+  bool is_local = false;  ///< comes from this computer, and nobody has handed it on
 };
 
 /// The request is answered.
@@ -30,9 +31,12 @@ struct OpenLive {
   Role role = Role::observer;
   bool is_thin = false;  ///< of what moves it wants the pose alone: /live?thin
 };
-using Route = std::variant<HttpAnswer, OpenLive>;
+/// The connection becomes a client of the Foxglove protocol.
+struct OpenFoxglove {};
+using Route = std::variant<HttpAnswer, OpenLive, OpenFoxglove>;
 
-/// Paths to handlers: everything that can be fetched is the site's; /live is the channel.
+/// Paths to handlers: everything that can be fetched is the site's; /live is the channel; /foxglove, for programs of
+/// this computer alone, shows all topics.
 class Router {
  public:
   /// @param origins  hosts besides the server's own whose pages may open the live channel

@@ -45,6 +45,15 @@ TEST_F(RouterTest, TheChannelIsOpenedOnItsPathAlone) {
   EXPECT_EQ(status({"GET", "/live", false, own}), 404) << "no document lies there";
 }
 
+TEST_F(RouterTest, FoxgloveIsForProgramsOfThisComputer) {
+  const Opening program{"", "127.0.0.1:8080", ""};
+  EXPECT_TRUE(std::holds_alternative<OpenFoxglove>(route({"GET", "/foxglove", true, program, true})));
+  EXPECT_EQ(status({"GET", "/foxglove", true, program, false}), 403);
+  EXPECT_EQ(status({"GET", "/foxglove", true, {"http://evil.test", "127.0.0.1:8080", ""}, true}), 403);
+  EXPECT_EQ(status({"GET", "/foxglove", false, program, true}), 404) << "no document lies there";
+  EXPECT_EQ(status({"GET", "/foxglove?live", true, program, true}), 404);
+}
+
 TEST_F(RouterTest, TheRobotsScreenComesWithItsKey) {
   const Opening own{"http://robot.test", "robot.test", ""};
   EXPECT_EQ(std::get<OpenLive>(route({"GET", "/live?screen=0a1b", true, own})).role, Role::kiosk);

@@ -7,8 +7,10 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <map>
+#include <set>
 #include <thread>
 
+#include "docent/telepresence/server/foxglove_session.h"
 #include "docent/telepresence/server/http_connection.h"
 #include "docent/telepresence/server/session.h"
 #include "docent/telepresence/server/web_server.h"
@@ -27,9 +29,11 @@ constexpr std::size_t kManyViewers = 100;  // from here on sends are spread over
 }  // namespace
 
 struct WebServer::Core {
-  Core(const WebServerParams& given, std::shared_ptr<const Site> site, MessageHandler handler, std::string screen_key)
+  Core(const WebServerParams& given, std::shared_ptr<const Site> site, MessageHandler handler, std::string screen_key,
+       std::shared_ptr<FoxgloveHub> hub)
       : params{given},
         router{std::move(site), given.origins, std::move(screen_key)},
+        foxglove{std::move(hub)},
         acceptor{io},
         timer{io},
         accept_timer{io} {
@@ -45,15 +49,20 @@ struct WebServer::Core {
     http.open_live = [this](tcp::socket socket, HttpRequest request, const OpenLive& how) {
       open_live(std::move(socket), std::move(request), how);
     };
+    http.open_foxglove = [this](tcp::socket socket, HttpRequest request) {
+      open_foxglove(std::move(socket), std::move(request));
+    };
   }
 
   void accept();
   void open_live(tcp::socket socket, HttpRequest request, const OpenLive& how);
+  void open_foxglove(tcp::socket socket, HttpRequest request);
   void tick();
   void flush_all();
 
   const WebServerParams params;
   const Router router;
+  const std::shared_ptr<FoxgloveHub> foxglove;
   std::atomic<std::size_t> viewers{0};
   std::atomic<std::uint64_t> viewers_ever{0};
   SessionOwner sessions;
@@ -65,6 +74,7 @@ struct WebServer::Core {
   // Only the server's thread touches these.
   std::array<SharedText, kSlots> latest;
   std::array<std::map<ViewerId, std::shared_ptr<Session>>, kGroups> groups;
+  std::set<std::shared_ptr<FoxgloveSession>> foxglove_sessions;
   ViewerId next_viewer = 1;
   std::size_t next_group = 0;
   bool is_ticking = false;
@@ -74,6 +84,7 @@ struct WebServer::Core {
 Result<void> WebServerParams::validate() const {
   if (port < 0 || port > 65535) return fail("web.port must be 0 to 65535");
   if (max_connections < 1) return fail("web.max_connections must be at least 1");
+  if (foxglove_clients < 0 || foxglove_clients > 100) return fail("web.foxglove_clients must be 0 to 100");
   if (full_viewers < 0) return fail("web.full_viewers must be >= 0");
   if (max_viewers < 1) return fail("web.max_viewers must be at least 1");
   if (!(messages_per_second > 0.0)) return fail("web.messages_per_second must be > 0");
@@ -118,6 +129,17 @@ void WebServer::Core::open_live(tcp::socket socket, HttpRequest request, const O
   session->run(std::move(request), slots, how.is_thin);
 }
 
+void WebServer::Core::open_foxglove(tcp::socket socket, HttpRequest request) {
+  if (!foxglove || foxglove_sessions.size() >= static_cast<std::size_t>(params.foxglove_clients)) return;  // it closes
+  beast::error_code ignored;
+  socket.set_option(tcp::no_delay{true}, ignored);
+  const auto session = std::make_shared<FoxgloveSession>(*foxglove, std::move(socket), [this](FoxgloveSession* left) {
+    foxglove_sessions.erase(left->shared_from_this());
+  });
+  foxglove_sessions.insert(session);
+  session->run(std::move(request));
+}
+
 void WebServer::Core::tick() {
   for (auto& [id, viewer] : groups[next_group]) viewer->flush();
   next_group = (next_group + 1) % kGroups;
@@ -138,12 +160,14 @@ void WebServer::Core::flush_all() {
 WebServer::WebServer(std::unique_ptr<Core> core) : core_{std::move(core)} {}
 
 Result<std::unique_ptr<WebServer>> WebServer::start(const WebServerParams& params, std::shared_ptr<const Site> site,
-                                                    MessageHandler handler, std::string screen_key) {
+                                                    MessageHandler handler, std::string screen_key,
+                                                    std::shared_ptr<FoxgloveHub> foxglove) {
   const std::string name = params.address + ":" + std::to_string(params.port);
   beast::error_code error;
   const auto address = asio::ip::make_address(params.address, error);
   if (error) return fail(name + ": not an address");
-  auto core = std::make_unique<Core>(params, std::move(site), std::move(handler), std::move(screen_key));
+  auto core =
+      std::make_unique<Core>(params, std::move(site), std::move(handler), std::move(screen_key), std::move(foxglove));
   const tcp::endpoint endpoint{address, static_cast<std::uint16_t>(params.port)};
   core->acceptor.open(endpoint.protocol(), error);
   if (!error) core->acceptor.set_option(asio::socket_base::reuse_address{true}, error);
@@ -159,6 +183,8 @@ Result<std::unique_ptr<WebServer>> WebServer::start(const WebServerParams& param
 WebServer::~WebServer() {
   core_->io.stop();
   core_->thread.join();
+  for (const auto& session : core_->foxglove_sessions) session->drop();
+  core_->foxglove_sessions.clear();
   for (auto& group : core_->groups) {
     for (auto& [id, viewer] : group) viewer->drop();
     group.clear();
@@ -209,6 +235,13 @@ void WebServer::send(ViewerId viewer, std::string text) {
       const auto held = place->second;  // closing it may take it out of the group
       held->answer(shared);
     }
+  });
+}
+
+void WebServer::show(std::uint32_t channel, Time time, std::shared_ptr<const std::vector<std::uint8_t>> message) {
+  asio::post(core_->io, [core = core_.get(), channel, time, message = std::move(message)] {
+    const auto sessions = core->foxglove_sessions;  // one that is full may leave
+    for (const auto& session : sessions) session->add(channel, time, message);
   });
 }
 

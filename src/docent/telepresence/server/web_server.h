@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "docent/base/result.h"
+#include "docent/base/time.h"
 #include "docent/telepresence/client_message.h"
 #include "docent/telepresence/server/roles.h"
 #include "docent/telepresence/site.h"
@@ -19,6 +20,7 @@ struct WebServerParams {
   int port = 8080;                    ///< 0: any free one, see WebServer::port
   int max_connections = 12000;        ///< all kinds together
   int max_viewers = 10000;            ///< on the live channel
+  int foxglove_clients = 4;           ///< at /foxglove, from this computer alone; 0: nobody
   int full_viewers = 200;             ///< who get more than the pose of what moves; who comes later gets the pose alone
   double messages_per_second = 2.0;   ///< of one viewer, sustained
   double message_burst = 20.0;        ///< of one viewer
@@ -32,6 +34,7 @@ struct WebServerParams {
     v("port", port);
     v("max_connections", max_connections);
     v("max_viewers", max_viewers);
+    v("foxglove_clients", foxglove_clients);
     v("full_viewers", full_viewers);
     v("messages_per_second", messages_per_second);
     v("message_burst", message_burst);
@@ -47,6 +50,8 @@ using ViewerId = std::uint64_t;
 
 /// To whom a slot is sent: everybody; who asked for details; who gets all that moves; who gets the pose alone.
 enum class Stream { everybody, details, full, thin };
+
+class FoxgloveHub;
 
 struct WebServerFigures {
   std::size_t connections = 0;
@@ -73,9 +78,11 @@ class WebServer {
 
   /// Error: "ADDRESS:PORT: why", for instance because another program has the port.
   /// @param screen_key  with which the robot's own screen comes; empty: it has none
+  /// @param foxglove    what it shows at /foxglove; null: nothing
   [[nodiscard]] static Result<std::unique_ptr<WebServer>> start(const WebServerParams& params,
                                                                 std::shared_ptr<const Site> site,
-                                                                MessageHandler handler, std::string screen_key = {});
+                                                                MessageHandler handler, std::string screen_key = {},
+                                                                std::shared_ptr<FoxgloveHub> foxglove = nullptr);
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
   ~WebServer();  ///< closes everything and ends the thread
@@ -91,6 +98,8 @@ class WebServer {
   void restrict_to(Stream stream, int slot);
   /// Any thread: an answer to one viewer. One who leaves too many unread is cut off.
   void send(ViewerId viewer, std::string text);
+  /// Any thread: a message of a channel for the Foxglove clients that have subscribed to it.
+  void show(std::uint32_t channel, Time time, std::shared_ptr<const std::vector<std::uint8_t>> message);
   [[nodiscard]] WebServerFigures figures() const;
 
  private:
