@@ -53,7 +53,7 @@ class Gamma {
   }
   [[nodiscard]] std::uint8_t operator()(float linear) const {
     const float scaled = std::clamp(linear, 0.0F, 1.0F) * static_cast<float>(table_.size() - 1);
-    return table_[static_cast<std::size_t>(scaled + 0.5F)];
+    return table_[static_cast<std::size_t>(std::lround(scaled))];
   }
 
  private:
