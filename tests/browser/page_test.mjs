@@ -98,7 +98,9 @@ await check('a click on an exhibit puts it on the list for everybody', async () 
 
 await check('the robot drives there, speaks, asks and the wish comes true', async () => {
   await page.waitForSelector('.now[data-phase=driving]', { timeout: 8000 });
+  await page.locator('.far', { hasText: /^\d+ m to go, about (\d+ s|\d:\d\d min)/ }).waitFor({ timeout: 5000 });
   await page.waitForSelector('.now[data-phase=explaining]', { timeout: 40000 });
+  await page.locator('.about h3', { hasText: 'cyclotron' }).waitFor({ timeout: 2000 });
   await page.locator('.story .saying').first().waitFor();
   await pause(600);
   await page.screenshot({ path: join(pictures, 'explaining.png') });
@@ -106,6 +108,10 @@ await check('the robot drives there, speaks, asks and the wish comes true', asyn
   await page.locator('.options button', { hasText: 'Go on' }).click({ timeout: 20000 });
   await page.locator('.queue li.done[data-target=cyclotron][data-state=fulfilled]').waitFor({ timeout: 8000 });
   await page.locator('.toast.shown', { hasText: 'Your wish has come true' }).waitFor({ timeout: 3000 });
+});
+
+await check('what is known of an exhibit closes when the robot sets out', async () => {
+  await page.locator('.about').waitFor({ state: 'detached', timeout: 20000 });
 });
 
 await check('a tour is one click', async () => {

@@ -15,3 +15,11 @@ export function sentencesOf(text: string): { text: string; from: number; to: num
   }
   return parts.filter((part) => part.text.trim() !== '');
 }
+
+/** Of a text of the museum: an empty line ends one; headings are paragraphs. */
+export function paragraphs(text: string): string[] {
+  return text
+    .split(/\n\s*\n/)
+    .map((part) => part.replace(/^#+\s*/, '').trim())
+    .filter(Boolean);
+}

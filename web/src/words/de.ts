@@ -42,6 +42,7 @@ export default {
   someone: 'ein Gast',
   stops: 'Stationen',
   minutes: 'Min.',
+  about: 'etwa',
   toGo: 'noch',
   webOnly: 'nur für Gäste aus dem Netz',
   sending: 'wird gesendet…',

@@ -42,6 +42,7 @@ const words = {
   someone: 'a visitor',
   stops: 'stops',
   minutes: 'min',
+  about: 'about',
   toGo: 'to go',
   webOnly: 'only for web visitors',
   sending: 'sending…',

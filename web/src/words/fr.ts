@@ -42,6 +42,7 @@ export default {
   someone: 'un visiteur',
   stops: 'étapes',
   minutes: 'min',
+  about: 'environ',
   toGo: 'restants',
   webOnly: 'réservé aux visiteurs du Web',
   sending: 'envoi…',
