@@ -6,6 +6,7 @@
 #include "docent/base/check.h"
 #include "docent/messages/conversions.h"
 #include "docent/messages/hostile_message.h"
+#include "docent/pictures/jpeg/jpeg.h"
 
 namespace docent {
 namespace {
@@ -148,6 +149,10 @@ void fill(nav_msgs::OccupancyGrid& map, Rng& /*rng*/) {
   map.info.width = 50;
   map.info.height = 40;
   map.data.assign(2000, 0);
+}
+void fill(sensor_msgs::CompressedImage& picture, Rng& /*rng*/) {
+  picture.format = "jpeg";
+  picture.data = pictures::encode_jpeg({16, 12}, 80);
 }
 void fill(docent_msgs::LiveMapUpdate& update, Rng& /*rng*/) {
   update.number = 1;

@@ -52,7 +52,7 @@ struct MessageFault {
 [[nodiscard]] MessageFault fault_of(const sensor_msgs::Range& range);
 /// Only the charge counts: drivers leave what they do not measure at any value.
 [[nodiscard]] MessageFault fault_of(const sensor_msgs::BatteryState& battery);
-/// A file of some size; whether it is a picture is known when it is decoded (vision/jpeg).
+/// A file of some size, also an empty one, as markers hold; whether it is a picture, pictures/jpeg knows.
 [[nodiscard]] MessageFault fault_of(const sensor_msgs::CompressedImage& picture);
 [[nodiscard]] MessageFault fault_of(const docent_msgs::CameraView& view);
 /// Likewise covariances are not looked at.

@@ -14,6 +14,10 @@ constexpr Duration kPeriod = std::chrono::milliseconds{500};
 
 /// Section `scene_camera`: how the camera in the hall follows the robot.
 struct SceneCameraParams : vision::PanTiltZoomParams {
+  template <class V>
+  void visit(V& v) {
+    PanTiltZoomParams::visit(v);
+  }
   [[nodiscard]] Result<void> validate() const {
     if (auto valid = vision::PanTiltZoomParams::validate(); !valid)
       return fail("scene_camera." + valid.error().message);
