@@ -153,6 +153,26 @@ std::string clean_name(std::string_view text, std::size_t limit) {
   return clean;
 }
 
+std::string clean_text(std::string_view text, std::size_t limit) {
+  std::string clean;
+  int breaks = 0;
+  for (std::size_t left = limit; !text.empty() && left > 0;) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const auto used = static_cast<std::size_t>(
+        std::count_if(clean.begin(), clean.end(), [](char c) { return (static_cast<unsigned>(c) & 0xC0U) != 0x80U; }));
+    left = limit - std::min(limit, used + static_cast<std::size_t>(std::min(breaks, 2)));
+    const std::string line = clean_name(text.substr(0, end), left);
+    if (!line.empty()) {
+      if (!clean.empty()) clean.append(static_cast<std::size_t>(std::min(breaks, 2)), '\n');
+      clean += line;
+      breaks = 0;
+    }
+    ++breaks;
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return clean;
+}
+
 Result<ClientMessage> parse_client_message(std::string_view text) {
   const Json object = Json::parse(text.begin(), text.end(), nullptr, false);
   if (object.is_discarded()) return fail("not JSON");

@@ -128,5 +128,7 @@ using ClientMessage = std::variant<RequestMessage, CancelMessage, ChoiceMessage,
 /// One line of at most `limit` characters: control, format and bidirectional characters and outer blanks are dropped.
 /// @pre `text` is valid UTF-8
 [[nodiscard]] std::string clean_name(std::string_view text, std::size_t limit = 40);
+/// Likewise of several lines with '\n' between them, never more than one of them empty in a row.
+[[nodiscard]] std::string clean_text(std::string_view text, std::size_t limit);
 
 }  // namespace docent::telepresence

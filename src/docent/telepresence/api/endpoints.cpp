@@ -1,0 +1,270 @@
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "docent/telepresence/api/endpoint.h"
+#include "docent/telepresence/client_message.h"
+
+namespace docent::telepresence {
+namespace {
+
+using documents::Nothing;
+
+/// What the store could not do.
+tl::unexpected<ApiRefusal> unstored(const Error& why) { return refuse(ApiFault::not_stored, why.message); }
+
+Result<void> note(ApiCall& call, const std::string& who, const char* what, std::string about = {}) {
+  return call.services.audit->add({call.now, who, what, std::move(about), call.request.address});
+}
+
+std::string cookie_of(const std::string& token, double seconds_it_lasts, bool is_secure) {
+  return std::string{kLoginCookie} + "=" + token +
+         "; Path=/; HttpOnly; SameSite=Strict; Max-Age=" + std::to_string(std::llround(seconds_it_lasts)) +
+         (is_secure ? "; Secure" : "");
+}
+
+documents::Me me_of(const std::optional<Login>& login) {
+  if (!login) return {"", Rank::viewer, "", 0.0};
+  return {login->person.name, login->person.rank, login->csrf, to_seconds(login->expires)};
+}
+
+ApiAnswer<documents::Me> begin_login(ApiCall& call, const Person& person, double lifetime) {
+  if (call.login) {
+    if (auto ended = call.services.accounts->end(call.login->token); !ended) return unstored(ended.error());
+  }
+  auto login = call.services.accounts->begin(person, call.request.address, lifetime, call.now);
+  if (!login) return unstored(login.error());
+  call.set_cookie = cookie_of(login->token, lifetime, call.services.params.secure_cookies);
+  return me_of(*login);
+}
+
+ApiAnswer<documents::Me> log_in(ApiCall& call, const documents::NewLogin& wish) {
+  auto person = call.services.accounts->check(wish.name, wish.password);
+  if (!person) return unstored(person.error());
+  if (!*person) {
+    if (auto noted = note(call, clean_name(wish.name), "wrong_password"); !noted) return unstored(noted.error());
+    return refuse(ApiFault::wrong_password);
+  }
+  if (auto noted = note(call, (*person)->id, "login"); !noted) return unstored(noted.error());
+  return begin_login(call, **person, 3600.0 * call.services.params.login_hours);
+}
+
+ApiAnswer<documents::Me> name_oneself(ApiCall& call, const documents::NewVisitor& wish) {
+  const auto away = call.services.accounts->is_sent_away(call.request.address, call.now);
+  if (!away) return unstored(away.error());
+  if (*away) return refuse(ApiFault::sent_away);
+  const std::string name = clean_name(wish.name);
+  if (name.empty()) return refuse(ApiFault::nothing_said);
+  // Who has a name already keeps what they have written.
+  const bool is_visitor = call.login && call.login->person.rank == Rank::visitor;
+  const std::string id = is_visitor ? call.login->person.id : "v-" + make_token().substr(0, 32);
+  return begin_login(call, {id, name, Rank::visitor}, 86400.0 * call.services.params.visitor_days);
+}
+
+ApiAnswer<Nothing> log_out(ApiCall& call, const Nothing& /*wish*/) {
+  call.set_cookie = cookie_of("", 0.0, call.services.params.secure_cookies);
+  if (!call.login) return Nothing{};
+  if (auto ended = call.services.accounts->end(call.login->token); !ended) return unstored(ended.error());
+  return Nothing{};
+}
+
+documents::ForumPost document_of(const Post& post, const Person& reader) {
+  return {post.id,
+          post.thread,
+          post.name,
+          post.title,
+          post.text,
+          to_seconds(post.written),
+          post.state,
+          reader.is_at_least(Rank::moderator) ? post.reports : 0,
+          !reader.id.empty() && post.person == reader.id};
+}
+
+ApiAnswer<documents::ForumThreads> list_threads(ApiCall& call, const Nothing& /*wish*/) {
+  std::optional<Time> before;
+  if (const auto given = call.query.find("before"); given != call.query.end()) {
+    double value = 0.0;
+    const std::string& text = given->second;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size() || !(value >= 0.0 && value < 1e10))
+      return refuse(ApiFault::not_understood, "before must be a time");
+    before = time_from_seconds(value);
+  }
+  auto threads = call.services.forum->threads(before);
+  if (!threads) return unstored(threads.error());
+  documents::ForumThreads page;
+  for (const Thread& thread : *threads)
+    page.threads.push_back({thread.first.id, thread.first.title, thread.first.name, to_seconds(thread.first.written),
+                            to_seconds(thread.latest), thread.posts});
+  page.is_last = threads->empty();
+  return page;
+}
+
+documents::ForumPosts page_of(const std::vector<Post>& posts, const Person& reader) {
+  documents::ForumPosts page;
+  for (const Post& post : posts) page.posts.push_back(document_of(post, reader));
+  page.is_last = posts.empty();
+  return page;
+}
+
+ApiAnswer<documents::ForumPosts> list_posts(ApiCall& call, const Nothing& /*wish*/) {
+  const auto after = call.query.find("after");
+  auto posts =
+      call.services.forum->posts(call.path.at("thread"), after == call.query.end() ? "" : after->second, call.person);
+  if (!posts) return unstored(posts.error());
+  return page_of(*posts, call.person);
+}
+
+ApiAnswer<documents::PostWritten> write(ApiCall& call, const documents::NewPost& wish) {
+  if (!is_uuid7(wish.id)) return refuse(ApiFault::not_understood, "id must be a UUID of version 7");
+  const auto thread = call.path.find("thread");
+  Post post;
+  post.id = wish.id;
+  post.thread = thread == call.path.end() ? wish.id : thread->second;
+  post.title = wish.title;
+  post.text = wish.text;
+  const auto written = call.services.forum->write(std::move(post), call.person, call.now);
+  if (!written) return unstored(written.error());
+  switch (*written) {
+    case Forum::Written::held:
+      return documents::PostWritten{PostState::held};
+    case Forum::Written::shown:
+      return documents::PostWritten{PostState::shown};
+    case Forum::Written::too_often:
+      return refuse(ApiFault::too_often);
+    case Forum::Written::no_thread:
+      return refuse(ApiFault::not_found, "no such thread");
+    case Forum::Written::empty:
+      break;
+  }
+  return refuse(ApiFault::nothing_said);
+}
+
+ApiAnswer<Nothing> report(ApiCall& call, const Nothing& /*wish*/) {
+  const auto reported = call.services.forum->report(call.path.at("post"), call.person);
+  if (!reported) return unstored(reported.error());
+  if (!*reported) return refuse(ApiFault::not_found, "no such post");
+  return Nothing{};
+}
+
+ApiAnswer<documents::ForumPosts> moderation_queue(ApiCall& call, const Nothing& /*wish*/) {
+  auto posts = call.services.forum->queue();
+  if (!posts) return unstored(posts.error());
+  return page_of(*posts, call.person);
+}
+
+ApiAnswer<Nothing> judge(ApiCall& call, const documents::Verdict& verdict) {
+  const auto judged = call.services.forum->judge(call.path.at("post"), verdict.state);
+  if (!judged) return unstored(judged.error());
+  if (!*judged) return refuse(ApiFault::not_found, "no such post");
+  return Nothing{};
+}
+
+ApiAnswer<Nothing> send_away(ApiCall& call, const Nothing& /*wish*/) {
+  const auto post = call.services.forum->find(call.path.at("post"));
+  if (!post) return unstored(post.error());
+  if (!*post) return refuse(ApiFault::not_found, "no such post");
+  const std::string& author = (*post)->person;
+  if (author.starts_with("account:")) return refuse(ApiFault::not_allowed, "its author has an account");
+  const Time until = call.now + seconds(86400.0 * call.services.params.away_days);
+  auto done = call.services.accounts->send_away(author, until, call.now);
+  if (done) done = call.services.forum->hide_all_of(author);
+  if (!done) return unstored(done.error());
+  return Nothing{};
+}
+
+ApiAnswer<documents::StatisticsDays> statistics(ApiCall& call, const Nothing& /*wish*/) {
+  const auto from = call.query.find("from");
+  const auto days = call.services.statistics->days(from == call.query.end() ? "" : from->second);
+  if (!days) return unstored(days.error());
+  documents::StatisticsDays page;
+  for (const DayCount& day : *days) {
+    page.days.push_back({day.day, day.mode, day.web_visitors, {}});
+    for (const auto& [what, amount] : day.counts) page.days.back().counts[to_text(what)] = amount;
+  }
+  return page;
+}
+
+ApiAnswer<documents::AuditLines> audit(ApiCall& call, const Nothing& /*wish*/) {
+  constexpr int kMost = 200;
+  const auto entries = call.services.audit->newest(kMost);
+  if (!entries) return unstored(entries.error());
+  documents::AuditLines page;
+  for (const AuditEntry& entry : *entries)
+    page.lines.push_back({to_seconds(entry.time), entry.who, entry.what, entry.about, entry.address});
+  return page;
+}
+
+ApiAnswer<documents::AccountLines> list_accounts(ApiCall& call, const Nothing& /*wish*/) {
+  const auto accounts = call.services.accounts->list();
+  if (!accounts) return unstored(accounts.error());
+  documents::AccountLines page;
+  for (const Account& account : *accounts)
+    page.accounts.push_back({account.name, account.rank, to_seconds(account.created)});
+  return page;
+}
+
+Endpoint at(const char* method, const char* path, Rank least, const char* name, const char* summary,
+            std::vector<const char*> query = {}) {
+  Endpoint what;
+  what.method = method;
+  what.path = path;
+  what.least = least;
+  what.name = name;
+  what.summary = summary;
+  what.query = std::move(query);
+  return what;
+}
+
+std::vector<Endpoint> make_table() {
+  using documents::Me;
+  std::vector<Endpoint> table{
+      endpoint<Nothing, Me>(at("GET", "/login", Rank::viewer, "who_am_i", "Who the caller is"),
+                            [](ApiCall& call, const Nothing&) -> ApiAnswer<Me> { return me_of(call.login); }),
+      endpoint<documents::NewLogin, Me>(
+          at("POST", "/login", Rank::viewer, "login", "Begins the login of an account; sets a cookie"), log_in),
+      endpoint<Nothing, Nothing>(at("DELETE", "/login", Rank::viewer, "logout", "Ends the login"), log_out),
+      endpoint<documents::NewVisitor, Me>(
+          at("POST", "/visitor", Rank::viewer, "name_oneself", "Takes a name, with which one may write; sets a cookie"),
+          name_oneself),
+      endpoint<Nothing, documents::ForumThreads>(at("GET", "/forum", Rank::viewer, "list_threads",
+                                                    "A page of threads, that with the newest post first", {"before"}),
+                                                 list_threads),
+      endpoint<documents::NewPost, documents::PostWritten>(
+          at("POST", "/forum", Rank::visitor, "begin_thread", "Begins a thread"), write),
+      endpoint<Nothing, documents::ForumPosts>(at("GET", "/forum/{thread}", Rank::viewer, "list_posts",
+                                                  "A page of a thread's posts, the oldest first", {"after"}),
+                                               list_posts),
+      endpoint<documents::NewPost, documents::PostWritten>(
+          at("POST", "/forum/{thread}", Rank::visitor, "write_post", "Writes in a thread"), write),
+      endpoint<Nothing, Nothing>(
+          at("POST", "/posts/{post}/report", Rank::visitor, "report_post", "Says that a post should not stand there"),
+          report),
+      endpoint<Nothing, documents::ForumPosts>(at("GET", "/moderation", Rank::moderator, "moderation_queue",
+                                                  "Posts that a moderator has to read, the oldest first"),
+                                               moderation_queue),
+      endpoint<documents::Verdict, Nothing>(
+          at("PUT", "/posts/{post}", Rank::moderator, "judge_post", "Shows or hides a post"), judge),
+      endpoint<Nothing, Nothing>(at("POST", "/posts/{post}/send_away", Rank::moderator, "send_away",
+                                    "Sends the author of a post away for some days, and hides all that they wrote"),
+                                 send_away),
+      endpoint<Nothing, documents::StatisticsDays>(at("GET", "/statistics", Rank::moderator, "statistics",
+                                                      "What was counted, by day and kind of hours", {"from"}),
+                                                   statistics),
+      endpoint<Nothing, documents::AuditLines>(
+          at("GET", "/audit", Rank::operator_, "audit", "The newest entries of the audit log"), audit),
+      endpoint<Nothing, documents::AccountLines>(
+          at("GET", "/accounts", Rank::operator_, "list_accounts", "Who has an account"), list_accounts),
+  };
+  for (Endpoint& each : table) each.is_dear = std::string_view{each.name} == "login";
+  return table;
+}
+
+}  // namespace
+
+std::span<const Endpoint> endpoints() {
+  static const std::vector<Endpoint> kTable = make_table();
+  return kTable;
+}
+
+}  // namespace docent::telepresence

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+// Between the Web server, which knows HTTP and nobody's name, and the desk that answers /api/v1 (api/).
+
+namespace docent::telepresence {
+
+/// A request to /api/v1, its lengths bounded, nothing else checked.
+struct ApiRequest {
+  std::string method;      ///< GET, POST, PUT, DELETE
+  std::string target;      ///< as it came, with its query
+  std::string body;        ///< at most kLongestBody bytes
+  std::string token;       ///< of the cookie; empty: none came
+  std::string csrf;        ///< of the header Docent-Csrf
+  std::string address;     ///< from where it comes
+  bool is_json = false;    ///< it says that its body is JSON
+  bool is_of_ours = true;  ///< no page of another site sends it
+};
+inline constexpr std::size_t kLongestBody = 262'144;  ///< bytes: a museum's exhibits with their texts
+
+struct ApiReply {
+  int status = 200;
+  std::string body;        ///< JSON
+  std::string set_cookie;  ///< empty: none
+};
+
+/// Answers from threads of its own: what it is asked may wait for a disk.
+class ApiDesk {
+ public:
+  ApiDesk() = default;
+  ApiDesk(const ApiDesk&) = delete;
+  ApiDesk& operator=(const ApiDesk&) = delete;
+  virtual ~ApiDesk() = default;
+  /// Any thread. `answer` is called once, by whichever thread, also when the desk is full.
+  virtual void take(ApiRequest request, std::function<void(ApiReply)> answer) = 0;
+  /// Whose login it is when that is an operator's, else nullopt.
+  virtual void admit(std::string token, std::function<void(std::optional<std::string>)> answer) = 0;
+};
+
+inline constexpr std::string_view kLoginCookie = "docent_login";
+/// The value of a cookie in the header `Cookie` (RFC 6265, 4.2.1); empty: it has none of that name.
+[[nodiscard]] std::string_view cookie_value(std::string_view header, std::string_view name);
+/// The nearest address of X-Forwarded-For, which a proxy of ours has added; `peer` where there is none.
+[[nodiscard]] std::string forwarded_address(std::string_view header, std::string_view peer);
+
+}  // namespace docent::telepresence

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "docent/base/result.h"
+#include "docent/base/time.h"
+#include "docent/telepresence/store/database.h"
+#include "docent/vocabulary/vocabulary.h"
+
+namespace docent::telepresence {
+
+/// What is counted of each day and each kind of hours, as [Rhino1999] table 6 and [Minerva2000] table 4 count.
+enum class Counted {
+  uptime_s,    ///< [s] that the robot was on
+  travel_s,    ///< [s] that it moved
+  distance_m,  ///< [m] that it drove
+  max_speed,   ///< [m/s] the highest of the day
+  tours,       ///< that were completed
+  exhibits,    ///< that were explained
+  visitors,    ///< people who stood round the robot when it began to explain
+  accesses,    ///< requests for files and documents, and openings of the live channel
+  web,         ///< requests from the Web, likewise the next four by their source
+  kiosk,
+  visitor,
+  staff,
+  vote,
+  fulfilled,  ///< requests
+  failed,     ///< requests that were taken and not fulfilled
+  points,     ///< on the map that the robot reached
+  votes,      ///< for tours
+};
+constexpr auto words_of(Counted) {
+  return std::array{"uptime_s", "travel_s",  "distance_m", "max_speed", "tours",   "exhibits",
+                    "visitors", "accesses",  "web",        "kiosk",     "visitor", "staff",
+                    "vote",     "fulfilled", "failed",     "points",    "votes"};
+}
+using Counts = std::map<Counted, double>;
+
+/// One day of one kind of hours.
+struct DayCount {
+  std::string day;   ///< 2026-11-25, UTC
+  std::string mode;  ///< open, web, closed
+  Counts counts;
+  std::int64_t web_visitors = 0;  ///< different addresses from which the page was opened
+};
+
+/// Counts that last, by days. Several gateways may share the database: each adds what came through it, and one at a
+/// time what is of the robot. One thread.
+class Statistics {
+ public:
+  /// Makes its tables where there are none. The database outlives it.
+  [[nodiscard]] static Result<std::unique_ptr<Statistics>> open(Database& database);
+  Statistics(const Statistics&) = delete;
+  Statistics& operator=(const Statistics&) = delete;
+
+  /// Adds all of it, or nothing.
+  [[nodiscard]] Result<void> add(Time now, const std::string& mode, const Counts& counts);
+  /// Somebody opened the page. Of the address a hash is kept, with a salt that is thrown away after the day: nobody can
+  /// be followed from one day to the next, and so who comes on two days counts twice.
+  [[nodiscard]] Result<void> add_web_visitor(Time now, const std::string& mode, const std::string& address);
+  /// Whether this gateway is the one that counts the robot; it is for the next 30 s.
+  /// @param gateway  a name of its own
+  [[nodiscard]] Result<bool> may_count_robot(const std::string& gateway, Time now);
+  /// By day and mode. @param from  the first day; empty: all
+  [[nodiscard]] Result<std::vector<DayCount>> days(const std::string& from);
+
+ private:
+  explicit Statistics(Database& database) : database_{database} {}
+  [[nodiscard]] Result<std::string> salt_of(const std::string& day);
+
+  Database& database_;
+};
+
+/// 2026-11-25, UTC.
+[[nodiscard]] std::string day_of(Time time);
+
+}  // namespace docent::telepresence
