@@ -6,18 +6,19 @@ const robot = process.env.DOCENT ?? '127.0.0.1:8080';
 
 export default defineConfig({
   plugins: [svelte()],
-  // Three pages, so that none loads what another needs.
+  // Four pages, so that none loads what another needs.
   build: {
     target: 'es2022',
     assetsInlineLimit: 0,
     reportCompressedSize: true,
     modulePreload: { polyfill: false },
-    rollupOptions: { input: ['index.html', 'kiosk.html', 'face.html'] },
+    rollupOptions: { input: ['index.html', 'kiosk.html', 'face.html', 'operate.html'] },
   },
   server: {
     proxy: {
       '/api': `http://${robot}`,
       '/audio': `http://${robot}`,
+      '/operate': { target: `ws://${robot}`, ws: true, changeOrigin: true, bypass: (request) => (request.headers.upgrade ? undefined : '/operate.html') },
       '/live': { target: `ws://${robot}`, ws: true, changeOrigin: true },
     },
   },

@@ -50,7 +50,7 @@ int main(int argc, char** argv) {
   app.add_option("--port", params.port);
   app.add_option("--period", period_s, "[s] between two values of a viewer")->check(CLI::Range(0.01, 10.0));
   CLI11_PARSE(app, argc, argv);
-  auto server = telepresence::WebServer::start(params, std::make_shared<telepresence::Site>(), [](auto&&...) {});
+  auto server = telepresence::WebServer::start(params, std::make_shared<telepresence::Site>(), {[](auto&&...) {}});
   if (!server) {
     std::fprintf(stderr, "%s\n", server.error().message.c_str());
     return 1;

@@ -12,7 +12,7 @@
 #include "docent/base/files.h"
 #include "docent/interaction/sound/horn.h"
 #include "docent/interaction/sound/melody.h"
-#include "docent/modules/edge/web_module.h"
+#include "docent/modules/web/web_module.h"
 #include "docent/modules/guide/buttons_module.h"
 #include "docent/transport/virtual_time_bus.h"
 

@@ -23,6 +23,7 @@
 #include "docent/apps/simulate/simulate_command.h"
 #include "docent/apps/up/run_command.h"
 #include "docent/apps/up/up_command.h"
+#include "docent/apps/web_account/web_account_command.h"
 #include "docent/base/suggestion.h"
 
 namespace {
@@ -36,7 +37,7 @@ void add_commands(CLI::App& app) {
     const std::vector<CLI::App*> all = app.get_subcommands({});
     for (std::size_t i = before; i < all.size(); ++i) all[i]->group(heading);
   };
-  add("Drive through a museum", {add_simulate_command, add_up_command});
+  add("Drive through a museum", {add_simulate_command, add_up_command, add_web_account_command});
   add("Make a museum",
       {add_museum_command, add_office_command, add_survey_command, add_check_command, add_golog_command});
   add("Look at recordings", {add_localize_command, add_map_command, add_replay_command, add_evaluate_command});

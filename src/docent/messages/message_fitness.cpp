@@ -77,6 +77,12 @@ MessageFault fault_of(const docent_msgs::CameraView& view) {
   return fault_of(view.header);
 }
 
+MessageFault fault_of(const docent_msgs::Steering& steering) {
+  if (!(std::abs(steering.forward) <= 1.0)) return {"forward", "is no share from -1 to 1"};
+  if (!(std::abs(steering.turn) <= 1.0)) return {"turn", "is no share from -1 to 1"};
+  return fault_of_fields(steering);
+}
+
 MessageFault fault_of(const nav_msgs::Odometry& odometry) {
   FitnessCheck check;
   check("header", odometry.header);

@@ -55,6 +55,7 @@ struct MessageFault {
 /// A file of some size, also an empty one, as markers hold; whether it is a picture, pictures/jpeg knows.
 [[nodiscard]] MessageFault fault_of(const sensor_msgs::CompressedImage& picture);
 [[nodiscard]] MessageFault fault_of(const docent_msgs::CameraView& view);
+[[nodiscard]] MessageFault fault_of(const docent_msgs::Steering& steering);
 /// Likewise covariances are not looked at.
 [[nodiscard]] MessageFault fault_of(const nav_msgs::Odometry& odometry);
 [[nodiscard]] MessageFault fault_of(const nav_msgs::OccupancyGrid& map);

@@ -25,6 +25,38 @@ struct Limits {
   }
 };
 
+/// An operator steers by hand, through the collision avoidance; from web at 10 Hz as long as they hold the lease.
+struct Steering {
+  static constexpr const char* kType = "docent_msgs/msg/Steering";
+  std_msgs::Header header;
+  std::string by;           ///< the operator's name
+  bool is_pressed = false;  ///< the dead man's switch: they hold it down
+  double forward = 0;       ///< -1..1, share of the speed that the robot may drive; below 0: backwards
+  double turn = 0;          ///< -1..1, to the left
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("header", m.header);
+    v("by", m.by);
+    v("is_pressed", m.is_pressed);
+    v("forward", m.forward);
+    v("turn", m.turn);
+  }
+};
+
+/// The stop button; latched.
+struct Stop {
+  static constexpr const char* kType = "docent_msgs/msg/Stop";
+  std_msgs::Header header;
+  bool is_stopped = false;
+  std::string by;  ///< the name of whoever pressed it last
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("header", m.header);
+    v("is_stopped", m.is_stopped);
+    v("by", m.by);
+  }
+};
+
 /// Life of a module, 2 Hz (architecture 10.10).
 struct Health {
   static constexpr const char* kType = "docent_msgs/msg/Health";

@@ -79,6 +79,9 @@ inline constexpr Topic<docent_msgs::DriveGoal> kDriveGoal{"docent/drive_goal", Q
 inline constexpr Topic<docent_msgs::GoalState> kGoalState{"docent/goal_state", Qos::state};
 inline constexpr Topic<docent_msgs::Target> kTarget{"docent/target", Qos::command, 0, 1.0};
 inline constexpr Topic<nav_msgs::Path> kPath{"docent/path", Qos::state};
+/// Older steering is no longer meant: the avoidance stops by itself.
+inline constexpr Topic<docent_msgs::Steering> kSteering{"docent/steering", Qos::command, 0, 0.5};
+inline constexpr Topic<docent_msgs::Stop> kStop{"docent/stop", Qos::state};
 inline constexpr Topic<docent_msgs::Drive> kDrive{"docent/drive", Qos::command, 0, 0.3};
 inline constexpr Topic<docent_msgs::AvoidState> kAvoidState{"docent/avoid_state", Qos::sensor};
 // Task and interaction.
@@ -135,7 +138,7 @@ void for_each_robot_topic(F&& f) {
   f(kDrive), f(kAvoidState), f(kRequest), f(kChoice), f(kVotes), f(kRequestBoard), f(kMissionState), f(kTask),
       f(kTaskState), f(kEvent);
   f(kReaction), f(kGaze), f(kExpression), f(kButton), f(kButtonLamps), f(kSay), f(kSpeechState), f(kHorn), f(kMusic),
-      f(kSoundState), f(kLimits), f(kHealth);
+      f(kSoundState), f(kLimits), f(kSteering), f(kStop), f(kHealth);
   f(kInitialPose), f(kParticleCloud), f(kPeopleMarkers), f(kMuseumMarkers), f(kJointStates);
 }
 /// Calls f(topic) for every topic of the truth.

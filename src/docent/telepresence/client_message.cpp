@@ -106,6 +106,39 @@ Result<ClientMessage> parse_answer(const Json& object, std::string id) {
   return message;
 }
 
+bool is_set(const Json& object, const char* key) {
+  const auto place = object.find(key);
+  return place != object.end() && place->is_boolean() && place->get<bool>();
+}
+
+Result<ClientMessage> parse_steer(const Json& object) {
+  SteerMessage message;
+  message.pressed = is_set(object, "pressed");
+  for (const auto& [key, share] : {std::pair{"forward", &message.forward}, std::pair{"turn", &message.turn}}) {
+    const auto place = object.find(key);
+    if (place == object.end() || !place->is_number() || !(std::abs(place->get<double>()) <= 1.0))
+      return fail(std::string{"steer: "} + key + " must be a number from -1 to 1");
+    *share = place->get<double>();
+  }
+  return message;
+}
+
+/// Those of operators that have an id.
+Result<ClientMessage> parse_order(const Json& object, const std::string& type, std::string id) {
+  const auto need = [&](const char* key) { return object.contains(key) && object[key].is_boolean(); };
+  if (type == "lease") {
+    if (!need("wants")) return fail("lease: wants must be true or false");
+    return LeaseMessage{std::move(id), is_set(object, "wants")};
+  }
+  if (type == "stop") {
+    if (!need("stopped")) return fail("stop: stopped must be true or false");
+    return StopMessage{std::move(id), is_set(object, "stopped")};
+  }
+  const auto mode = parse<OperatingMode>(text_of(object, "mode"));
+  if (!mode) return fail("set_hours: no such mode");
+  return SetHoursMessage{std::move(id), *mode};
+}
+
 }  // namespace
 
 bool is_uuid7(std::string_view text) {
@@ -178,20 +211,16 @@ Result<ClientMessage> parse_client_message(std::string_view text) {
   if (object.is_discarded()) return fail("not JSON");
   if (!object.is_object()) return fail("not a JSON object");
   const std::string type = text_of(object, "type");
-  if (type == "watch") {
-    const auto is_set = [&](const char* key) {
-      const auto place = object.find(key);
-      return place != object.end() && place->is_boolean() && place->get<bool>();
-    };
-    return WatchMessage{is_set("details"), is_set("thin")};
-  }
+  if (type == "watch") return WatchMessage{is_set(object, "details"), is_set(object, "thin")};
+  if (type == "steer") return parse_steer(object);
   if (type == "lamps") return parse_lamps(object);
-  constexpr std::array kOrders{"request", "cancel", "choice", "vote", "help", "answer"};
-  if (std::find(kOrders.begin(), kOrders.end(), type) == kOrders.end()) return fail("unknown type of message");
+  constexpr std::array kWithId{"request", "cancel", "choice", "vote", "help", "answer", "lease", "stop", "set_hours"};
+  if (std::find(kWithId.begin(), kWithId.end(), type) == kWithId.end()) return fail("unknown type of message");
   std::string id = text_of(object, "id");
   if (!is_uuid7(id)) return fail(type + ": id must be a UUID of version 7");
   if (type == "request") return parse_request(object, std::move(id));
   if (type == "answer") return parse_answer(object, std::move(id));
+  if (type == "lease" || type == "stop" || type == "set_hours") return parse_order(object, type, std::move(id));
   if (type == "help") {
     HelpMessage message{std::move(id), text_of(object, "language")};
     if (!is_language(message.language)) return fail("help: language must be two letters");

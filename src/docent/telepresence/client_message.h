@@ -113,8 +113,57 @@ struct AnswerMessage {
     v("id", m.id), v("question", m.question), v("answer", m.answer), v("language", m.language);
   }
 };
-using ClientMessage = std::variant<RequestMessage, CancelMessage, ChoiceMessage, VoteMessage, WatchMessage,
-                                   LampsMessage, HelpMessage, AnswerMessage>;
+
+// Of an operator alone, on /operate:
+
+/// {"type":"lease","id":UUIDv7,"wants":true}: they want to steer, or no longer.
+struct LeaseMessage {
+  static constexpr const char* kName = "LeaseMessage";
+  static constexpr const char* kType = "lease";
+  std::string id;
+  bool wants = false;
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("id", m.id), v("wants", m.wants);
+  }
+};
+/// {"type":"steer","pressed":true,"forward":0.5,"turn":-0.2}: ten times a second, by whoever holds the lease.
+struct SteerMessage {
+  static constexpr const char* kName = "SteerMessage";
+  static constexpr const char* kType = "steer";
+  bool pressed = false;  ///< the dead man's switch
+  double forward = 0.0;  ///< -1..1
+  double turn = 0.0;     ///< -1..1, to the left
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("pressed", m.pressed), v("forward", m.forward), v("turn", m.turn);
+  }
+};
+/// {"type":"stop","id":UUIDv7,"stopped":true}: the stop button; nobody needs the lease for it.
+struct StopMessage {
+  static constexpr const char* kName = "StopMessage";
+  static constexpr const char* kType = "stop";
+  std::string id;
+  bool stopped = false;
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("id", m.id), v("stopped", m.stopped);
+  }
+};
+/// {"type":"set_hours","id":UUIDv7,"mode":"web"}: whose requests are taken from now on; hours: as the museum's hours say.
+struct SetHoursMessage {
+  static constexpr const char* kName = "SetHoursMessage";
+  static constexpr const char* kType = "set_hours";
+  std::string id;
+  OperatingMode mode = OperatingMode::hours;
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("id", m.id), v("mode", m.mode);
+  }
+};
+using ClientMessage =
+    std::variant<RequestMessage, CancelMessage, ChoiceMessage, VoteMessage, WatchMessage, LampsMessage, HelpMessage,
+                 AnswerMessage, LeaseMessage, SteerMessage, StopMessage, SetHoursMessage>;
 
 /// Error: what is wrong with it, for the close frame (at most 120 bytes, ASCII).
 [[nodiscard]] Result<ClientMessage> parse_client_message(std::string_view text);

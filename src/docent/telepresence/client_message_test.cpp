@@ -50,6 +50,23 @@ TEST(ClientMessage, ReadsWhatTheRobotsScreenSays) {
   EXPECT_EQ(std::get<AnswerMessage>(*answer).answer, PollAnswer::dog);
 }
 
+TEST(ClientMessage, ReadsWhatAnOperatorSays) {
+  const auto of = [](const std::string& rest) { return parse_client_message(R"({"id":")" + kId + "\"," + rest); };
+  EXPECT_TRUE(std::get<LeaseMessage>(*of(R"("type":"lease","wants":true})")).wants);
+  EXPECT_TRUE(std::get<StopMessage>(*of(R"("type":"stop","stopped":true})")).stopped);
+  EXPECT_EQ(std::get<SetHoursMessage>(*of(R"("type":"set_hours","mode":"web"})")).mode, OperatingMode::web);
+  const auto steer = std::get<SteerMessage>(*of(R"("type":"steer","pressed":true,"forward":-0.5,"turn":1})"));
+  EXPECT_TRUE(steer.pressed);
+  EXPECT_EQ(steer.forward, -0.5);
+  EXPECT_EQ(steer.turn, 1.0);
+  for (const char* wrong :
+       {R"("type":"lease"})", R"("type":"lease","wants":1})", R"("type":"stop","stopped":"yes"})",
+        R"("type":"set_hours","mode":"never"})", R"("type":"steer","pressed":true,"forward":1.1,"turn":0})",
+        R"("type":"steer","pressed":true,"forward":1e999,"turn":0})", R"("type":"steer","pressed":true,"forward":0})"})
+    EXPECT_FALSE(of(wrong)) << wrong;
+  EXPECT_FALSE(parse_client_message(R"({"type":"stop","stopped":true})")) << "it needs an id";
+}
+
 TEST(ClientMessage, TheQuestionsOfATourCanBeAnswered) {
   // The executive names its questions TASK/more.
   const auto choice =

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "docent/museum/museum.h"
+#include "docent/telepresence/inside_documents.h"
 #include "docent/vocabulary/vocabulary.h"
 
 // Everything that a page gets, as structs: the one definition of it. Each `visit` names the fields; from it come the
@@ -354,36 +355,6 @@ struct HoursMessage {
   }
 };
 
-struct ModuleState {
-  static constexpr const char* kName = "ModuleState";
-  std::string name, state, reason;
-  std::optional<double> p99_ms;
-  template <class Self, class V>
-  static void visit(Self& d, V& v) {
-    v("name", d.name), v("state", d.state), v("reason", d.reason), v("p99_ms", d.p99_ms);
-  }
-};
-struct HealthMessage {
-  static constexpr const char* kName = "HealthMessage";
-  static constexpr const char* kType = "health";
-  std::size_t viewers = 0;
-  std::vector<ModuleState> modules;
-  template <class Self, class V>
-  static void visit(Self& d, V& v) {
-    v("viewers", d.viewers), v("modules", d.modules);
-  }
-};
-struct WindowMessage {
-  static constexpr const char* kName = "WindowMessage";
-  static constexpr const char* kType = "window";
-  double v = 0.0, w = 0.0;
-  std::vector<double> candidates;  ///< v, w, value, v, w, value …
-  template <class Self, class V>
-  static void visit(Self& d, V& v) {
-    v("v", d.v), v("w", d.w), v("candidates", d.candidates);
-  }
-};
-
 struct Acknowledgement {
   static constexpr const char* kName = "Acknowledgement";
   static constexpr const char* kType = "ack";
@@ -416,7 +387,7 @@ struct ErrorMessage {
 /// Everything that the live channel carries to a page.
 using ServerMessage =
     std::tuple<LiveMessage, PoseMessage, BeliefMessage, PathMessage, MissionMessage, SpeechMessage, HornMessage,
-               SoundMessage, ExpressionMessage, ButtonMessage, BoardMessage, VotesMessage, HoursMessage, HealthMessage,
-               WindowMessage, Acknowledgement, Refusal, ErrorMessage>;
+               SoundMessage, ExpressionMessage, ButtonMessage, BoardMessage, VotesMessage, HoursMessage, FieldMessage,
+               LogMessage, OperationMessage, HealthMessage, WindowMessage, Acknowledgement, Refusal, ErrorMessage>;
 
 }  // namespace docent::telepresence::documents

@@ -269,6 +269,27 @@ std::string encode_window(const docent_msgs::AvoidState& avoid) {
   return json_text(message);
 }
 
+std::string encode_field(const sensor_msgs::LaserScan& virtual_scan, const docent_msgs::PersonBeams& beams) {
+  const auto in_cm = [](double metres) { return static_cast<int>(std::lround(100.0 * metres)); };
+  documents::FieldMessage message;
+  // The first turn: what binds the whole body.
+  for (std::size_t i = 0; i < virtual_scan.ranges.size() / 2; ++i) {
+    const double range = virtual_scan.ranges[i];
+    if (!(range < virtual_scan.range_max)) continue;
+    const double bearing = virtual_scan.angle_min + static_cast<double>(i) * virtual_scan.angle_increment;
+    message.virtual_points.push_back(in_cm(range * std::cos(bearing)));
+    message.virtual_points.push_back(in_cm(range * std::sin(bearing)));
+  }
+  const std::size_t count = std::min({beams.bearings.size(), beams.ranges.size(), beams.origins.size()});
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!(beams.ranges[i] > 0.0F && beams.ranges[i] < 100.0F)) continue;
+    message.beams.push_back(in_cm(beams.ranges[i] * std::cos(beams.bearings[i])));
+    message.beams.push_back(in_cm(beams.ranges[i] * std::sin(beams.bearings[i])));
+    message.beams.push_back(beams.origins[i]);
+  }
+  return json_text(message);
+}
+
 std::string encode_acknowledgement(const std::string& id) { return json_text(documents::Acknowledgement{id}); }
 
 std::string encode_refusal(const std::string& id, const Reason& reason) {

@@ -69,6 +69,9 @@ struct HealthEntry {
 /// The evaluated velocity window, for specialists.
 [[nodiscard]] std::string encode_window(const docent_msgs::AvoidState& avoid);
 
+/// @param virtual_scan  as fault_of_virtual_scan describes it; may be empty
+[[nodiscard]] std::string encode_field(const sensor_msgs::LaserScan& virtual_scan,
+                                       const docent_msgs::PersonBeams& beams);
 [[nodiscard]] std::string encode_acknowledgement(const std::string& id);
 /// @pre reason.word()
 [[nodiscard]] std::string encode_refusal(const std::string& id, const Reason& reason);

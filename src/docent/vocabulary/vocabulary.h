@@ -168,6 +168,9 @@ enum class ReasonWord {
   border_near,  ///< so the robot drives slowly; likewise the next two
   hazard_near,
   obstacle_near,
+  stopped_by_hand,  ///< by an operator's stop button
+  steered_by_hand,
+  no_lease,  ///< to steer, or no longer; about the name of whoever has it
 };
 constexpr auto words_of(ReasonWord) {
   return std::array{"no_such_exhibit",
@@ -209,7 +212,10 @@ constexpr auto words_of(ReasonWord) {
                     "braking",
                     "border_near",
                     "hazard_near",
-                    "obstacle_near"};
+                    "obstacle_near",
+                    "stopped_by_hand",
+                    "steered_by_hand",
+                    "no_lease"};
 }
 
 /// What is worth a line in the history (docs/terminology.md, Events).

@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import clientText from '../../../tests/web_contract/client.json?raw';
 import { Motion } from '../lib/motion';
-import { answerOf, cancelOf, choiceOf, helpOf, lampsOf, requestOf, voteOf, watchOf } from '../lib/orders';
+import { answerOf, cancelOf, choiceOf, helpOf, lampsOf, leaseOf, requestOf, setHoursOf, steerOf, stopOf, voteOf, watchOf } from '../lib/orders';
 import { decode, type LiveMessage, type Reason } from '../lib/protocol';
 import { pageLanguage, pageLanguages, phaseWord, reasonText, word } from '../lib/words';
 import { kioskLanguages } from '../kiosk/words';
@@ -62,7 +62,7 @@ test('the page understands every document of the server', () => {
     seen.add(name);
     expect(documentFaults(message, name, nameOf(path))).toEqual([]);
   }
-  const client = ['RequestMessage', 'CancelMessage', 'ChoiceMessage', 'VoteMessage', 'WatchMessage', 'LampsMessage', 'HelpMessage', 'AnswerMessage'];
+  const client = ['RequestMessage', 'CancelMessage', 'ChoiceMessage', 'VoteMessage', 'WatchMessage', 'LampsMessage', 'HelpMessage', 'AnswerMessage', 'LeaseMessage', 'SteerMessage', 'StopMessage', 'SetHoursMessage'];
   const whole = Object.keys(table).filter((name) => table[name].type !== undefined && !client.includes(name));
   expect([...seen].sort()).toEqual([...whole, 'Museum'].sort());
 });
@@ -97,6 +97,10 @@ test('what the page says is what the server was tested with', () => {
     lampsOf([1, 4]),
     helpOf(id, 'fr'),
     answerOf(id, 'intelligence', 'dog', 'en'),
+    leaseOf(id, true),
+    steerOf(true, 0.5, -0.25),
+    stopOf(id, true),
+    setHoursOf(id, 'web'),
     voteOf(id, '018f3a6c-5b2e-7c3d-9a4b-0123456789ac', 'space'),
     watchOf(true),
     watchOf(false),

@@ -49,7 +49,7 @@ export interface Scan {
   points: number[];
 }
 export interface Reason {
-  word: 'no_such_exhibit' | 'no_such_viewpoint' | 'no_such_tour' | 'no_such_request' | 'not_understood' | 'for_web_only' | 'web_only_now' | 'closed' | 'too_many_wait' | 'too_many_points' | 'only_in_web_hours' | 'not_on_free_floor' | 'not_stored' | 'question_over' | 'no_such_answer' | 'busy' | 'too_fast' | 'charging_first' | 'on_the_way' | 'joins_tour' | 'tour_begun' | 'cancelled' | 'gone' | 'not_reached' | 'battery_low' | 'took_too_long' | 'no_way' | 'way_blocked' | 'unknown_task' | 'person_in_way' | 'obstacle_in_way' | 'hazard_in_way' | 'border_in_way' | 'people_near' | 'touched' | 'felt_thing_near' | 'braking' | 'border_near' | 'hazard_near' | 'obstacle_near';
+  word: 'no_such_exhibit' | 'no_such_viewpoint' | 'no_such_tour' | 'no_such_request' | 'not_understood' | 'for_web_only' | 'web_only_now' | 'closed' | 'too_many_wait' | 'too_many_points' | 'only_in_web_hours' | 'not_on_free_floor' | 'not_stored' | 'question_over' | 'no_such_answer' | 'busy' | 'too_fast' | 'charging_first' | 'on_the_way' | 'joins_tour' | 'tour_begun' | 'cancelled' | 'gone' | 'not_reached' | 'battery_low' | 'took_too_long' | 'no_way' | 'way_blocked' | 'unknown_task' | 'person_in_way' | 'obstacle_in_way' | 'hazard_in_way' | 'border_in_way' | 'people_near' | 'touched' | 'felt_thing_near' | 'braking' | 'border_near' | 'hazard_near' | 'obstacle_near' | 'stopped_by_hand' | 'steered_by_hand' | 'no_lease';
   about: string;
 }
 export interface Avoid {
@@ -203,6 +203,29 @@ export interface HoursMessage {
   mode: string;
   is_open: boolean;
 }
+export interface FieldMessage {
+  type: 'field';
+  virtual: number[];
+  beams: number[];
+}
+export interface LogLine {
+  t: number;
+  kind: string;
+  subject: string;
+  detail: string;
+}
+export interface LogMessage {
+  type: 'log';
+  lines: LogLine[];
+}
+export interface OperationMessage {
+  type: 'operation';
+  holder: string;
+  pressed: boolean;
+  stopped: boolean;
+  stopped_by: string;
+  hours: string;
+}
 export interface ModuleState {
   name: string;
   state: string;
@@ -232,6 +255,73 @@ export interface Refusal {
 export interface ErrorMessage {
   type: 'error';
   reason: Reason;
+}
+export interface Fault {
+  reason: 'not_found' | 'wrong_method' | 'not_understood' | 'too_large' | 'too_fast' | 'not_allowed' | 'other_site' | 'wrong_csrf' | 'wrong_password' | 'sent_away' | 'too_often' | 'nothing_said' | 'not_stored' | 'busy';
+  about: string;
+}
+export interface Me {
+  name: string;
+  rank: 'viewer' | 'visitor' | 'moderator' | 'operator';
+  csrf: string;
+  expires: number;
+}
+export interface ForumThread {
+  id: string;
+  title: string;
+  name: string;
+  written: number;
+  latest: number;
+  posts: number;
+}
+export interface ForumThreads {
+  threads: ForumThread[];
+  is_last: boolean;
+}
+export interface ForumPost {
+  id: string;
+  thread: string;
+  name: string;
+  title: string;
+  text: string;
+  written: number;
+  state: 'held' | 'shown' | 'hidden';
+  reports: number;
+  is_own: boolean;
+}
+export interface ForumPosts {
+  posts: ForumPost[];
+  is_last: boolean;
+}
+export interface PostWritten {
+  state: 'held' | 'shown' | 'hidden';
+}
+export interface AuditLine {
+  time: number;
+  who: string;
+  what: string;
+  about: string;
+  address: string;
+}
+export interface AuditLines {
+  lines: AuditLine[];
+}
+export interface StatisticsDay {
+  day: string;
+  mode: string;
+  web_visitors: number;
+  counts: Record<string, number>;
+}
+export interface StatisticsDays {
+  days: StatisticsDay[];
+}
+export interface AccountLine {
+  name: string;
+  rank: 'viewer' | 'visitor' | 'moderator' | 'operator';
+  created: number;
+}
+export interface AccountLines {
+  accounts: AccountLine[];
 }
 export interface RequestMessage {
   type: 'request';
@@ -280,9 +370,55 @@ export interface AnswerMessage {
   answer: 'yes' | 'undecided' | 'no' | 'human' | 'monkey' | 'dog' | 'fish' | 'amoeba';
   language: string;
 }
-export type ServerMessage = LiveMessage | PoseMessage | BeliefMessage | PathMessage | MissionMessage | SpeechMessage | HornMessage | SoundMessage | ExpressionMessage | ButtonMessage | BoardMessage | VotesMessage | HoursMessage | HealthMessage | WindowMessage | Acknowledgement | Refusal | ErrorMessage;
-export type ClientMessage = RequestMessage | CancelMessage | ChoiceMessage | VoteMessage | WatchMessage | LampsMessage | HelpMessage | AnswerMessage;
+export interface LeaseMessage {
+  type: 'lease';
+  id: string;
+  wants: boolean;
+}
+export interface SteerMessage {
+  type: 'steer';
+  pressed: boolean;
+  forward: number;
+  turn: number;
+}
+export interface StopMessage {
+  type: 'stop';
+  id: string;
+  stopped: boolean;
+}
+export interface SetHoursMessage {
+  type: 'set_hours';
+  id: string;
+  mode: 'open' | 'web' | 'closed' | 'hours';
+}
+export type ServerMessage = LiveMessage | PoseMessage | BeliefMessage | PathMessage | MissionMessage | SpeechMessage | HornMessage | SoundMessage | ExpressionMessage | ButtonMessage | BoardMessage | VotesMessage | HoursMessage | FieldMessage | LogMessage | OperationMessage | HealthMessage | WindowMessage | Acknowledgement | Refusal | ErrorMessage;
+export type ClientMessage = RequestMessage | CancelMessage | ChoiceMessage | VoteMessage | WatchMessage | LampsMessage | HelpMessage | AnswerMessage | LeaseMessage | SteerMessage | StopMessage | SetHoursMessage;
 export const documents = {
+  "AccountLine": {
+    "fields": {
+      "created": "number",
+      "name": "string",
+      "rank": {
+        "words": [
+          "viewer",
+          "visitor",
+          "moderator",
+          "operator"
+        ]
+      }
+    },
+    "maybe": {}
+  },
+  "AccountLines": {
+    "fields": {
+      "accounts": {
+        "list": {
+          "document": "AccountLine"
+        }
+      }
+    },
+    "maybe": {}
+  },
   "Acknowledgement": {
     "fields": {
       "id": "string"
@@ -316,6 +452,26 @@ export const documents = {
     },
     "maybe": {},
     "type": "answer"
+  },
+  "AuditLine": {
+    "fields": {
+      "about": "string",
+      "address": "string",
+      "time": "number",
+      "what": "string",
+      "who": "string"
+    },
+    "maybe": {}
+  },
+  "AuditLines": {
+    "fields": {
+      "lines": {
+        "list": {
+          "document": "AuditLine"
+        }
+      }
+    },
+    "maybe": {}
   },
   "Avoid": {
     "fields": {
@@ -510,6 +666,95 @@ export const documents = {
     "maybe": {},
     "type": "expression"
   },
+  "Fault": {
+    "fields": {
+      "about": "string",
+      "reason": {
+        "words": [
+          "not_found",
+          "wrong_method",
+          "not_understood",
+          "too_large",
+          "too_fast",
+          "not_allowed",
+          "other_site",
+          "wrong_csrf",
+          "wrong_password",
+          "sent_away",
+          "too_often",
+          "nothing_said",
+          "not_stored",
+          "busy"
+        ]
+      }
+    },
+    "maybe": {}
+  },
+  "FieldMessage": {
+    "fields": {
+      "beams": {
+        "list": "number"
+      },
+      "virtual": {
+        "list": "number"
+      }
+    },
+    "maybe": {},
+    "type": "field"
+  },
+  "ForumPost": {
+    "fields": {
+      "id": "string",
+      "is_own": "boolean",
+      "name": "string",
+      "reports": "number",
+      "state": {
+        "words": [
+          "held",
+          "shown",
+          "hidden"
+        ]
+      },
+      "text": "string",
+      "thread": "string",
+      "title": "string",
+      "written": "number"
+    },
+    "maybe": {}
+  },
+  "ForumPosts": {
+    "fields": {
+      "is_last": "boolean",
+      "posts": {
+        "list": {
+          "document": "ForumPost"
+        }
+      }
+    },
+    "maybe": {}
+  },
+  "ForumThread": {
+    "fields": {
+      "id": "string",
+      "latest": "number",
+      "name": "string",
+      "posts": "number",
+      "title": "string",
+      "written": "number"
+    },
+    "maybe": {}
+  },
+  "ForumThreads": {
+    "fields": {
+      "is_last": "boolean",
+      "threads": {
+        "list": {
+          "document": "ForumThread"
+        }
+      }
+    },
+    "maybe": {}
+  },
   "Hazard": {
     "fields": {
       "id": "string",
@@ -578,6 +823,14 @@ export const documents = {
     "maybe": {},
     "type": "lamps"
   },
+  "LeaseMessage": {
+    "fields": {
+      "id": "string",
+      "wants": "boolean"
+    },
+    "maybe": {},
+    "type": "lease"
+  },
   "LiveMessage": {
     "fields": {
       "hypotheses": {
@@ -626,6 +879,26 @@ export const documents = {
     },
     "type": "live"
   },
+  "LogLine": {
+    "fields": {
+      "detail": "string",
+      "kind": "string",
+      "subject": "string",
+      "t": "number"
+    },
+    "maybe": {}
+  },
+  "LogMessage": {
+    "fields": {
+      "lines": {
+        "list": {
+          "document": "LogLine"
+        }
+      }
+    },
+    "maybe": {},
+    "type": "log"
+  },
   "MapPicture": {
     "fields": {
       "columns": "number",
@@ -638,6 +911,22 @@ export const documents = {
       "resolution": "number",
       "rows": "number",
       "url": "string"
+    },
+    "maybe": {}
+  },
+  "Me": {
+    "fields": {
+      "csrf": "string",
+      "expires": "number",
+      "name": "string",
+      "rank": {
+        "words": [
+          "viewer",
+          "visitor",
+          "moderator",
+          "operator"
+        ]
+      }
     },
     "maybe": {}
   },
@@ -729,6 +1018,17 @@ export const documents = {
     },
     "maybe": {}
   },
+  "OperationMessage": {
+    "fields": {
+      "holder": "string",
+      "hours": "string",
+      "pressed": "boolean",
+      "stopped": "boolean",
+      "stopped_by": "string"
+    },
+    "maybe": {},
+    "type": "operation"
+  },
   "PathMessage": {
     "fields": {
       "blocked": "number",
@@ -762,6 +1062,18 @@ export const documents = {
       "battery": "number"
     },
     "type": "pose"
+  },
+  "PostWritten": {
+    "fields": {
+      "state": {
+        "words": [
+          "held",
+          "shown",
+          "hidden"
+        ]
+      }
+    },
+    "maybe": {}
   },
   "Prompt": {
     "fields": {
@@ -833,7 +1145,10 @@ export const documents = {
           "braking",
           "border_near",
           "hazard_near",
-          "obstacle_near"
+          "obstacle_near",
+          "stopped_by_hand",
+          "steered_by_hand",
+          "no_lease"
         ]
       }
     },
@@ -888,6 +1203,21 @@ export const documents = {
     },
     "maybe": {}
   },
+  "SetHoursMessage": {
+    "fields": {
+      "id": "string",
+      "mode": {
+        "words": [
+          "open",
+          "web",
+          "closed",
+          "hours"
+        ]
+      }
+    },
+    "maybe": {},
+    "type": "set_hours"
+  },
   "SoundMessage": {
     "fields": {
       "music": "string",
@@ -910,6 +1240,44 @@ export const documents = {
     },
     "maybe": {},
     "type": "speech"
+  },
+  "StatisticsDay": {
+    "fields": {
+      "counts": {
+        "map": "number"
+      },
+      "day": "string",
+      "mode": "string",
+      "web_visitors": "number"
+    },
+    "maybe": {}
+  },
+  "StatisticsDays": {
+    "fields": {
+      "days": {
+        "list": {
+          "document": "StatisticsDay"
+        }
+      }
+    },
+    "maybe": {}
+  },
+  "SteerMessage": {
+    "fields": {
+      "forward": "number",
+      "pressed": "boolean",
+      "turn": "number"
+    },
+    "maybe": {},
+    "type": "steer"
+  },
+  "StopMessage": {
+    "fields": {
+      "id": "string",
+      "stopped": "boolean"
+    },
+    "maybe": {},
+    "type": "stop"
   },
   "Tour": {
     "fields": {

@@ -1,5 +1,18 @@
 // What the page says to the server.
-import type { AnswerMessage, CancelMessage, ChoiceMessage, HelpMessage, LampsMessage, RequestMessage, VoteMessage, WatchMessage } from './protocol';
+import type {
+  AnswerMessage,
+  CancelMessage,
+  ChoiceMessage,
+  HelpMessage,
+  LampsMessage,
+  LeaseMessage,
+  RequestMessage,
+  SetHoursMessage,
+  SteerMessage,
+  StopMessage,
+  VoteMessage,
+  WatchMessage,
+} from './protocol';
 
 /** What is asked for. */
 export interface Asked {
@@ -32,3 +45,9 @@ export const answerOf = (
   answer: AnswerMessage['answer'],
   language: string,
 ): AnswerMessage => ({ type: 'answer', id, question, answer, language });
+
+// Of operators alone.
+export const leaseOf = (id: string, wants: boolean): LeaseMessage => ({ type: 'lease', id, wants });
+export const steerOf = (pressed: boolean, forward: number, turn: number): SteerMessage => ({ type: 'steer', pressed, forward, turn });
+export const stopOf = (id: string, stopped: boolean): StopMessage => ({ type: 'stop', id, stopped });
+export const setHoursOf = (id: string, mode: SetHoursMessage['mode']): SetHoursMessage => ({ type: 'set_hours', id, mode });

@@ -9,10 +9,12 @@ import type {
   ClientMessage,
   Exhibit,
   ExpressionMessage,
+  FieldMessage,
   HealthMessage,
   HoursMessage,
   HornMessage,
   LiveMessage,
+  LogMessage,
   MissionMessage,
   Museum,
   PathMessage,
@@ -86,6 +88,8 @@ class App {
   path = $state.raw<PathMessage | null>(null);
   belief = $state.raw<BeliefMessage | null>(null);
   window = $state.raw<WindowMessage | null>(null);
+  field = $state.raw<FieldMessage | null>(null);
+  log = $state.raw<LogMessage | null>(null);
   avoid = $state.raw<Avoid | null>(null);
   localized = $state(false);
   battery = $state<number | null>(null);
@@ -238,7 +242,7 @@ class App {
     if (this.connection !== 'open') this.notice(this.t('kept'));
   }
   /** Of the robot's own screen alone; `lamps` are told and not answered. */
-  tell(message: Exclude<ClientMessage, { type: 'watch' }>): void {
+  tell(message: Exclude<ClientMessage, { type: 'watch' | 'steer' }>): void {
     if (message.type === 'lamps') this.send(message);
     else this.order(message);
   }
@@ -326,7 +330,7 @@ class App {
     if (this.socket && performance.now() - this.lastHeard > patience) this.drop();
     this.repeatOrders(ANSWER);
   }
-  private order(order: Exclude<ClientMessage, { type: 'watch' | 'lamps' }>): void {
+  private order(order: Exclude<ClientMessage, { type: 'watch' | 'lamps' | 'steer' }>): void {
     this.unanswered.set(order.id, { order, sent: performance.now() });
     this.send(order);
   }
@@ -387,6 +391,12 @@ class App {
         return;
       case 'window':
         this.window = message;
+        return;
+      case 'field':
+        this.field = message;
+        return;
+      case 'log':
+        this.log = message;
         return;
       case 'horn':
         this.horn = message;

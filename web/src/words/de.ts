@@ -54,6 +54,7 @@ export default {
   failed: 'hat nicht geklappt',
   refused: 'geht leider nicht',
   cancelled: 'abgesagt',
+  talk: 'Miteinander reden',
   cameras: 'Was die Kameras sehen',
   robotCamera: 'Mit den Augen des Roboters',
   sceneCamera: 'Die Halle',
@@ -152,4 +153,7 @@ export default {
   reason_border_near: 'Das Ende meines Bereichs ist nahe, darum fahre ich langsam.',
   reason_hazard_near: 'In der Nähe ist etwas, das ich nicht berühren darf, darum fahre ich langsam.',
   reason_obstacle_near: 'Etwas ist nahe, darum fahre ich langsam.',
+  reason_stopped_by_hand: 'Jemand vom Personal hat mich angehalten.',
+  reason_steered_by_hand: 'Jemand vom Personal steuert mich.',
+  reason_no_lease: 'Du hast das Steuer nicht.',
 } satisfies Words;

@@ -54,6 +54,7 @@ const words = {
   failed: 'did not work',
   refused: 'not possible',
   cancelled: 'cancelled',
+  talk: 'Talk to one another',
   cameras: 'What the cameras see',
   robotCamera: 'The robot’s eyes',
   sceneCamera: 'The hall',
@@ -152,6 +153,9 @@ const words = {
   reason_border_near: 'The end of my area is near, so I drive slowly.',
   reason_hazard_near: 'I must not touch what is near, so I drive slowly.',
   reason_obstacle_near: 'Something is near, so I drive slowly.',
+  reason_stopped_by_hand: 'An operator has stopped me.',
+  reason_steered_by_hand: 'An operator is steering me.',
+  reason_no_lease: 'You do not have the wheel.',
 };
 export default words;
 export type Words = typeof words;

@@ -54,6 +54,7 @@ export default {
   failed: 'n’a pas marché',
   refused: 'impossible',
   cancelled: 'annulé',
+  talk: 'Parler ensemble',
   cameras: 'Ce que voient les caméras',
   robotCamera: 'Par les yeux du robot',
   sceneCamera: 'La salle',
@@ -152,4 +153,7 @@ export default {
   reason_border_near: 'La limite de ma zone est proche, je roule donc lentement.',
   reason_hazard_near: 'Il y a tout près une chose que je ne dois pas toucher, je roule donc lentement.',
   reason_obstacle_near: 'Quelque chose est tout près, je roule donc lentement.',
+  reason_stopped_by_hand: 'Un opérateur m’a arrêté.',
+  reason_steered_by_hand: 'Un opérateur me conduit.',
+  reason_no_lease: 'Vous n’avez pas les commandes.',
 } satisfies Words;

@@ -202,10 +202,44 @@ bool Avoider::awaits_sweep(Time now, double soon) const { return inputs_.await_s
 
 std::optional<std::string> Avoider::reason_to_stand(Time now) const {
   if (auto why = fault(now); !why.empty()) return why;
+  if (is_stopped_) return to_text(ReasonWord::stopped_by_hand);
+  if (const HandSteering* wish = hand(now)) {
+    const bool is_dead = now - hand_->said > seconds(params_.hand.watchdog) || !wish->is_pressed;
+    if (is_dead) return to_text(ReasonWord::steered_by_hand);
+    return is_touched(now, contact_.stands_for()) ? std::optional<std::string>{to_text(ReasonWord::touched)}
+                                                  : std::nullopt;
+  }
   if (!target_ || target_->mode == AvoiderTarget::Mode::stop) return "";
   if (target_freshness_.age(now) > params_.target_timeout) return "no fresh target";
   if (is_touched(now, contact_.stands_for())) return to_text(ReasonWord::touched);
   return std::nullopt;
+}
+
+const HandSteering* Avoider::hand(Time now) const {
+  return hand_ && now - hand_->said <= seconds(params_.hand.watchdog + params_.hand.returns) ? &hand_->wish : nullptr;
+}
+
+std::optional<Avoider::Course> Avoider::course_by_hand(Time now, const HandSteering& wish,
+                                                       AvoiderDecision& decision) const {
+  const HandParams& hand = params_.hand;
+  decision.reason = to_text(ReasonWord::steered_by_hand);
+  if (std::abs(wish.forward) < hand.least && std::abs(wish.turn) < hand.least) return std::nullopt;
+  if (std::abs(wish.forward) < hand.least) {
+    decision.speed_cap = 0.0;
+    decision.state = AvoiderDecision::State::turning;
+    const double quarter = std::numbers::pi / 2.0;
+    return Course{{wish.turn * quarter, params_.approach.far, 0.0, false}, {}};
+  }
+  const bool is_backwards = wish.forward < 0.0;
+  SpeedCap cap{top_speed() * std::abs(wish.forward) * (is_backwards ? hand.backwards : 1.0), {}};
+  cap_by_knowledge(now, cap);
+  if (!cap.reason.empty()) decision.reason = cap.reason;
+  decision.speed_cap = cap.speed;
+  decision.state = AvoiderDecision::State::driving;
+  const double aside = wish.turn * hand.full_turn;
+  // Backwards, a stick to the left turns the robot's nose to the left, as it does in a car.
+  const double bearing = is_backwards ? Angle::radians(std::numbers::pi - aside).radians() : aside;
+  return Course{{bearing, hand.distance, cap.speed, is_backwards}, {}};
 }
 
 std::optional<Avoider::Course> Avoider::course_of_turn(const BaseState& start, AvoiderDecision& decision) const {
@@ -255,14 +289,17 @@ AvoiderDecision Avoider::decide(Time now) {
   if (auto why = reason_to_stand(now)) return stand(now, std::move(decision), std::move(*why));
 
   decision.speed_cap = top_speed();
-  const bool turns = target_->mode == AvoiderTarget::Mode::turn;
-  const auto course = turns ? course_of_turn(start, decision) : course_along_path(now, start, obstacles, decision);
-  if (!course) return stand(now, std::move(decision), "");
+  const HandSteering* wish = hand(now);
+  const bool is_led = wish == nullptr && target_->mode == AvoiderTarget::Mode::drive;  // along a path
+  const auto course = wish != nullptr ? course_by_hand(now, *wish, decision)
+                      : is_led        ? course_along_path(now, start, obstacles, decision)
+                                      : course_of_turn(start, decision);
+  if (!course) return stand(now, std::move(decision), wish != nullptr ? to_text(ReasonWord::steered_by_hand) : "");
   auto choice = window_.choose(start.velocity, command_, obstacles, course->steering);
   decision.command = choice.command;
   decision.window = std::move(choice.window);
   if (choice.is_braking) decision.reason = to_text(ReasonWord::braking);
-  if (!turns) judge_blocking(now, course->wanted, start.odom_from_base, obstacles, decision);
+  if (is_led) judge_blocking(now, course->wanted, start.odom_from_base, obstacles, decision);
   return finish(now, std::move(decision));
 }
 
@@ -271,6 +308,10 @@ std::optional<AvoiderDecision> Avoider::reflex(Time now) {
   AvoiderDecision decision;
   decision.nearest_real = decision.nearest_virtual = surroundings_.reach(top_speed());
   if (auto why = fault(now); !why.empty()) return stand(now, std::move(decision), std::move(why));
+  if (is_stopped_) return stand(now, std::move(decision), to_text(ReasonWord::stopped_by_hand));
+  const HandSteering* wish = hand(now);
+  if (wish != nullptr && (!wish->is_pressed || now - hand_->said > seconds(params_.hand.watchdog)))
+    return stand(now, std::move(decision), to_text(ReasonWord::steered_by_hand));
   if (is_touched(now, params_.touch.brakes_for)) return stand(now, std::move(decision), to_text(ReasonWord::touched));
   const BaseState start = state_when_effective(now);
   // A disc turns in its own place; another body sweeps more.

@@ -10,6 +10,7 @@
 #include "docent/collision_avoidance/avoider/avoidance_method.h"
 #include "docent/collision_avoidance/avoider/avoider_params.h"
 #include "docent/collision_avoidance/avoider/carrot.h"
+#include "docent/collision_avoidance/avoider/hand_steering.h"
 #include "docent/collision_avoidance/avoider/input_watches.h"
 #include "docent/collision_avoidance/avoider/speed_cap.h"
 #include "docent/collision_avoidance/avoider/surroundings.h"
@@ -80,6 +81,10 @@ class Avoider {
   /// What localization believes: it slows the robot where that is little (safety rule 4).
   void add_belief(const BeliefOutline& belief) { doubt_.believe(belief); }
   void set_target(Time now, Time stamp, AvoiderTarget target);
+  /// An operator steers: as long as their word is fresh, no target counts. What must not be touched stays so.
+  void steer_by_hand(Time now, const HandSteering& wish) { hand_ = {wish, now}; }
+  /// The stop button.
+  void stop_by_hand(bool is_stopped) { is_stopped_ = is_stopped; }
   void set_max_speed(double max_speed) { max_speed_ = max_speed; }
 
   /// True when another laser's sweep is due by its period within `soon` [s]: a choice had better wait for it.
@@ -123,6 +128,10 @@ class Avoider {
   [[nodiscard]] std::optional<Course> course_of_turn(const BaseState& start, AvoiderDecision& decision) const;
   [[nodiscard]] std::optional<Course> course_along_path(Time now, const BaseState& start,
                                                         std::span<const Obstacle> obstacles, AvoiderDecision& decision);
+  /// What the hand says; nullopt: nothing, or nothing new.
+  [[nodiscard]] const HandSteering* hand(Time now) const;
+  [[nodiscard]] std::optional<Course> course_by_hand(Time now, const HandSteering& wish,
+                                                     AvoiderDecision& decision) const;
   [[nodiscard]] Carrot carrot(const BaseState& start, std::span<const Obstacle> obstacles) const;
   void cap_by_knowledge(Time now, SpeedCap& cap) const;
   /// @returns whether a thing that only touch finds is near
@@ -148,6 +157,12 @@ class Avoider {
   double max_speed_;
   Freshness target_freshness_;
   std::optional<AvoiderTarget> target_;
+  struct Hand {
+    HandSteering wish;
+    Time said;
+  };
+  std::optional<Hand> hand_;
+  bool is_stopped_ = false;
 };
 
 }  // namespace docent::collision_avoidance

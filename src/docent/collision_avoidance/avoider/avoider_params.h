@@ -5,6 +5,7 @@
 #include "docent/base/result.h"
 #include "docent/collision_avoidance/avoider/avoidance_method.h"
 #include "docent/collision_avoidance/avoider/carrot.h"
+#include "docent/collision_avoidance/avoider/hand_steering.h"
 #include "docent/collision_avoidance/avoider/input_watches.h"
 #include "docent/collision_avoidance/avoider/surroundings.h"
 #include "docent/collision_avoidance/body/speed_near_people.h"
@@ -70,6 +71,7 @@ struct AvoiderParams {
   TouchParams touch{};
   BlockingParams blocking{};
   ReflexParams reflex{};
+  HandParams hand{};
   CarrotParams carrot{};
 
   template <class V>

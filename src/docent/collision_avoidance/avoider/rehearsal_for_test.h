@@ -49,6 +49,7 @@ class Rehearsal {
   double odometry_clock = 0.0;  ///< [s] of the base's
   Pose2 raw_from_map;           ///< what the odometry has made of the map: a change is a jump
   AvoiderTarget target;
+  std::optional<HandSteering> hand;  ///< of an operator, ten times a second
 
   // What happened.
   Pose2 map_from_base;
@@ -107,6 +108,7 @@ class Rehearsal {
     }
     if (ticks_ % 20 == 0 && virtual_works) see_virtually();
     if (ticks_ % 20 == 5 && target_works) avoider.set_target(now, now, target_in_raw());
+    if (ticks_ % 10 == 7 && hand) avoider.steer_by_hand(now, *hand);
     if (ticks_ % 25 == 3) give(avoider.decide(now));
   }
 

@@ -142,6 +142,14 @@ class AvoidModule final : public Module {
       limit_speed();
     });
     bus_.every(kModePeriod, [this] { limit_speed(); });
+    bus_.subscribe<docent_msgs::Stop>(topics::kStop, [this](const docent_msgs::Stop& stop) {
+      avoider_.stop_by_hand(stop.is_stopped);
+      decide();
+    });
+    bus_.subscribe<docent_msgs::Steering>(topics::kSteering, [this](const docent_msgs::Steering& steering) {
+      avoider_.steer_by_hand(bus_.now(), {steering.is_pressed, steering.forward, steering.turn});
+      reflex();  // a hand that lets go
+    });
     bus_.subscribe<docent_msgs::Target>(topics::kTarget, [this](const docent_msgs::Target& target) {
       collision_avoidance::AvoiderTarget wish;
       const auto mode = parse<DriveMode>(target.mode);

@@ -93,6 +93,7 @@ class PlanModule final : public Module {
                                                [this](const auto& update) { on_update(update); });
     bus_.subscribe<docent_msgs::DriveGoal>(topics::kDriveGoal, [this](const auto& goal) { on_goal(goal); });
     publish_state(planning::Pursuit{});
+    subscribe_operator();
     bus_.every(kPeriod, [this] { step(); });
   }
 
@@ -103,6 +104,11 @@ class PlanModule final : public Module {
   }
 
  private:
+  void subscribe_operator() {
+    bus_.subscribe<docent_msgs::Stop>(topics::kStop, [this](const auto& stop) { is_stopped_ = stop.is_stopped; });
+    bus_.subscribe<docent_msgs::Steering>(topics::kSteering, [this](const auto&) { steered_ = bus_.now(); });
+  }
+
   void on_goal(const docent_msgs::DriveGoal& goal) {
     const bool is_new = goal.id != goal_.id;
     goal_ = goal;
@@ -167,6 +173,8 @@ class PlanModule final : public Module {
     if (!goal_.id.empty()) follow_coast();
     plan_ahead();
     const bool knows = pose_.localized() && now - pose_.belief_stamp() < kBeliefStaleAfter;
+    constexpr Duration kAfterSteering = std::chrono::seconds{3};  // until the avoidance goes its own way again
+    if (is_stopped_ || (steered_ && now - *steered_ < kAfterSteering)) pursuit_.hold(now);
     const planning::Pursuit pursuit = pursuit_.step(knows ? pose_.map_from_base() : std::nullopt, route_, now);
     publish_target(pursuit, now);
     publish_state(pursuit);
@@ -368,6 +376,8 @@ class PlanModule final : public Module {
   planning::RoutePlanner route_;
   std::optional<planning::CoastalPlanner> coastal_;  ///< with `coastal.weight` alone
   std::vector<Point2> coast_;                        ///< [m], map: its way; empty: none yet
+  bool is_stopped_ = false;                          ///< by an operator
+  std::optional<Time> steered_;                      ///< by an operator, last
   planning::GoalPursuit pursuit_;
   planning::LookAround look_around_;
   planning::TellApart tell_apart_;

@@ -66,6 +66,11 @@ Pursuit GoalPursuit::step(const std::optional<Pose2>& map_from_base, const Route
 
 double GoalPursuit::stuck_for(Time now) const { return to_seconds(now - last_progress_); }
 
+void GoalPursuit::hold(Time now) {
+  best_remaining_ = std::numeric_limits<double>::infinity();
+  last_progress_ = now;
+}
+
 /// @param off  [m] from the goal's place
 /// @param turn  [rad] from its heading
 void GoalPursuit::change_phase(double off, double turn, Time now) {

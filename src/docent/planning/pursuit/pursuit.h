@@ -65,6 +65,9 @@ class GoalPursuit {
   void set_goal(const PursuitGoal& goal, Time now);
   [[nodiscard]] const PursuitGoal& goal() const { return goal_; }
 
+  /// Somebody holds the robot or leads it elsewhere: that it does not get on is no fault of its way.
+  void hold(Time now);
+
   /// @param map_from_base  nullopt: the robot does not know where it is
   /// @param planner  holds this goal
   [[nodiscard]] Pursuit step(const std::optional<Pose2>& map_from_base, const RoutePlanner& planner, Time now);

@@ -53,6 +53,16 @@ TEST_F(PursuitTest, SaysThatItIsBlocked) {
   EXPECT_EQ(step({3, 4, {}}, 6.0).state, GoalStatus::driving);
 }
 
+TEST_F(PursuitTest, IsNotBlockedWhileSomebodyHoldsIt) {
+  EXPECT_EQ(step({2, 4, {}}, 0.0).state, GoalStatus::driving);
+  for (double t = 1.0; t < 60.0; t += 1.0) {
+    pursuit_.hold(time_from_seconds(t));
+    EXPECT_EQ(step({2.0 - 0.01 * t, 4, {}}, t).state, GoalStatus::driving) << t;
+  }
+  EXPECT_EQ(step({1.4, 4, {}}, 62.0).state, GoalStatus::driving);
+  EXPECT_EQ(step({1.4, 4, {}}, 67.0).state, GoalStatus::blocked) << "let go, it is blocked as ever";
+}
+
 TEST_F(PursuitTest, SettlesBesideAGoalThatPeopleStandOn) {
   EXPECT_EQ(step({5.55, 4, {}}, 0.0).state, GoalStatus::driving);
   EXPECT_EQ(step({5.55, 4, {}}, 7.0).state, GoalStatus::turning);

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "docent/messages/conversions.h"
+#include "docent/telepresence/api/api_documents.h"
 #include "docent/telepresence/client_message.h"
 #include "docent/telepresence/contract/typescript.h"
 #include "docent/telepresence/documents.h"
@@ -132,6 +133,18 @@ std::string health() {
   return encode_health({{"sound", {module, kNow}}, {"web", {{}, Time{}}}}, 2, kNow);
 }
 
+std::string field() {
+  sensor_msgs::LaserScan scan;
+  scan.range_max = 6.0F;
+  scan.angle_increment = 0.1F;
+  scan.ranges = {1.0F, 6.0F, 1.0F, 6.0F};
+  docent_msgs::PersonBeams beams;
+  beams.bearings = {0.0F, 1.0F, 2.0F};
+  beams.ranges = {2.0F, -1.0F, 0.5F};
+  beams.origins = {1, 0, 3};
+  return encode_field(scan, beams);
+}
+
 std::string museum() {
   museum::Museum museum;
   museum.name = {{"en", "A hall"}, {"fr", "Une salle"}};
@@ -158,6 +171,14 @@ std::string contract_types() {
   TypeScript types;
   types.add<documents::Museum>();
   types.add_union("ServerMessage", static_cast<const documents::ServerMessage*>(nullptr));
+  types.add<documents::Fault>();
+  types.add<documents::Me>();
+  types.add<documents::ForumThreads>();
+  types.add<documents::ForumPosts>();
+  types.add<documents::PostWritten>();
+  types.add<documents::AuditLines>();
+  types.add<documents::StatisticsDays>();
+  types.add<documents::AccountLines>();
   types.add_union("ClientMessage", static_cast<const ClientMessage*>(nullptr));
   return "// What the server sends and takes. docent_web_contract writes this file from documents.h and "
          "client_message.h in\n"
@@ -191,6 +212,9 @@ std::map<std::string, std::string> contract_samples() {
       {"board.json", board()},
       {"votes.json", encode_votes({"018f3a6c-5b2e-7c3d-9a4b-0123456789ab", {{"highlights", 3}, {"space", 1}}})},
       {"hours.json", encode_hours("web", true)},
+      {"field.json", field()},
+      {"log.json", json_text(documents::LogMessage{{{12.5, "visit_started", "sputnik", ""}}})},
+      {"operation.json", json_text(documents::OperationMessage{"ada", true, true, "grace", "web"})},
       {"health.json", health()},
       {"window.json", encode_window(avoid_state())},
       {"ack.json", encode_acknowledgement("018f3a6c-5b2e-7c3d-9a4b-0123456789ab")},

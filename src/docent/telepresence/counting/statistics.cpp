@@ -70,13 +70,20 @@ Result<std::string> Statistics::salt_of(const std::string& day) {
   return salt->rows.empty() ? Result<std::string>{fail("the day's salt is gone")} : salt->rows[0].text(0);
 }
 
-Result<void> Statistics::add_web_visitor(Time now, const std::string& mode, const std::string& address) {
-  const std::string day = day_of(now);
-  auto salt = salt_of(day);
-  if (!salt) return tl::unexpected<Error>(salt.error());
-  return done(
-      database_.run("INSERT INTO web_visitors (day, mode, hash) VALUES ($1, $2, $3) ON CONFLICT (day, hash) DO NOTHING",
-                    {day, mode, hash_token(*salt + address)}));
+Result<void> Statistics::add_web_visitors(Time now, const std::string& mode, const std::set<std::string>& addresses) {
+  if (addresses.empty()) return {};
+  return database_.in_transaction([&]() -> Result<void> {
+    const std::string day = day_of(now);
+    auto salt = salt_of(day);
+    if (!salt) return tl::unexpected<Error>(salt.error());
+    for (const std::string& address : addresses) {
+      auto added = database_.run(
+          "INSERT INTO web_visitors (day, mode, hash) VALUES ($1, $2, $3) ON CONFLICT (day, hash) DO NOTHING",
+          {day, mode, hash_token(*salt + address)});
+      if (!added) return done(added);
+    }
+    return {};
+  });
 }
 
 Result<bool> Statistics::may_count_robot(const std::string& gateway, Time now) {

@@ -18,9 +18,9 @@ void fill_and_check(Database& database, Database& other) {
   ASSERT_TRUE(there->add(kNoon, "web", {{Counted::votes, 3}}));
   ASSERT_TRUE(here->add(kNoon + seconds(kDay), "open", {{Counted::tours, 1}}));
   for (int i = 0; i < 2; ++i) {
-    ASSERT_TRUE(here->add_web_visitor(kNoon, "open", "192.0.2.1"));
-    ASSERT_TRUE(there->add_web_visitor(kNoon, "open", "192.0.2.1"));
-    ASSERT_TRUE(there->add_web_visitor(kNoon, "open", "192.0.2.2"));
+    ASSERT_TRUE(here->add_web_visitors(kNoon, "open", {"192.0.2.1"}));
+    ASSERT_TRUE(there->add_web_visitors(kNoon, "open", {"192.0.2.1"}));
+    ASSERT_TRUE(there->add_web_visitors(kNoon, "open", {"192.0.2.2"}));
   }
   const auto days = *there->days("");
   ASSERT_EQ(days.size(), 3U);
@@ -59,8 +59,8 @@ TEST(TheStatistics, AddUpInASharedDatabase) {
 TEST(TheStatistics, KeepNoAddressAndNoOldSalt) {
   auto database = std::move(*Database::open(":memory:"));
   auto statistics = std::move(*Statistics::open(*database));
-  ASSERT_TRUE(statistics->add_web_visitor(kNoon, "open", "192.0.2.1"));
-  ASSERT_TRUE(statistics->add_web_visitor(kNoon + seconds(kDay), "open", "192.0.2.1"));
+  ASSERT_TRUE(statistics->add_web_visitors(kNoon, "open", {"192.0.2.1"}));
+  ASSERT_TRUE(statistics->add_web_visitors(kNoon + seconds(kDay), "open", {"192.0.2.1"}));
   const auto hashes = *database->run("SELECT DISTINCT hash FROM web_visitors");
   ASSERT_EQ(hashes.rows.size(), 2U) << "the same address is another on another day";
   EXPECT_EQ(hashes.rows[0].text(0).find("192"), std::string::npos);

@@ -1,5 +1,7 @@
 #include "docent/telepresence/server/http_connection.h"
 
+#include <algorithm>
+#include <boost/asio/post.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <chrono>
 
@@ -22,7 +24,7 @@ std::string etag_of(const SiteReply& reply) { return '"' + reply.taken + '"'; }
 void HttpConnection::read() {
   parser_.emplace();
   parser_->header_limit(8192);
-  parser_->body_limit(1024);
+  parser_->body_limit(kLongestBody);
   stream_.expires_after(kHttpTimeout);
   http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
     if (!error) return self->serve();
@@ -35,6 +37,60 @@ void HttpConnection::read() {
   });
 }
 
+std::string HttpConnection::address_of(const HttpRequest& request) const {
+  beast::error_code error;
+  const auto peer = stream_.socket().remote_endpoint(error);
+  if (error) return "";
+  const std::string address = peer.address().to_string();
+  const bool is_proxy = std::find(owner_.proxies.begin(), owner_.proxies.end(), address) != owner_.proxies.end();
+  return is_proxy ? forwarded_address(view_of(request["X-Forwarded-For"]), address) : address;
+}
+
+template <class Answer, class Then>
+auto HttpConnection::when_answered(Then then) {
+  ++owner_.asked;
+  return [self = shared_from_this(), then = std::move(then)](Answer answer) mutable {
+    HttpOwner& owner = self->owner_;
+    const auto executor = self->stream_.get_executor();
+    asio::post(executor, [self = std::move(self), then = std::move(then), answer = std::move(answer)]() mutable {
+      then(*self, std::move(answer));
+    });
+    --owner.asked;  // last: then the server may go
+  };
+}
+
+void HttpConnection::call_api(const HttpRequest& request) {
+  const bool keep_alive = request.keep_alive();
+  if (!owner_.desk || owner_.is_closing) return send(refusal(503, "not now\n"), false, false);
+  ApiRequest call;
+  call.method = view_of(request.method_string());
+  call.target = view_of(request.target());
+  call.body = request.body();
+  call.token = cookie_value(view_of(request[http::field::cookie]), kLoginCookie);
+  call.csrf = view_of(request["Docent-Csrf"]);
+  call.address = address_of(request);
+  call.is_json = view_of(request[http::field::content_type]).starts_with("application/json");
+  call.is_of_ours =
+      role_of({view_of(request[http::field::origin]), view_of(request[http::field::host]), {}}, owner_.origins, "")
+          .has_value();
+  stream_.expires_never();  // until it is answered
+  owner_.desk->take(std::move(call), when_answered<ApiReply>([keep_alive](HttpConnection& self, ApiReply reply) {
+                      self.send(std::move(reply), keep_alive);
+                    }));
+}
+
+void HttpConnection::admit(HttpRequest request) {
+  if (!owner_.desk || owner_.is_closing) return send(refusal(503, "not now\n"), false, false);
+  std::string token{cookie_value(view_of(request[http::field::cookie]), kLoginCookie)};
+  const std::string address = address_of(request);
+  stream_.expires_never();
+  auto open = [request = std::move(request), address](HttpConnection& self, std::optional<std::string> name) mutable {
+    if (!name) return self.send(refusal(403, "for operators who have logged in\n"), false, false);
+    self.owner_.open_live(self.stream_.release_socket(), std::move(request), {Role::staff, false, address, *name});
+  };
+  owner_.desk->admit(std::move(token), when_answered<std::optional<std::string>>(std::move(open)));
+}
+
 void HttpConnection::serve() {
   ++owner_.requests;
   HttpRequest request = parser_->release();
@@ -45,8 +101,11 @@ void HttpConnection::serve() {
                                     is_local(request)});
   if (const auto* live = std::get_if<OpenLive>(&route)) {
     stream_.expires_never();
-    return owner_.open_live(stream_.release_socket(), std::move(request), *live);
+    const std::string address = address_of(request);
+    return owner_.open_live(stream_.release_socket(), std::move(request), {live->role, live->is_thin, address, ""});
   }
+  if (std::holds_alternative<CallApi>(route)) return call_api(request);
+  if (std::holds_alternative<OpenOperate>(route)) return admit(std::move(request));
   if (std::holds_alternative<OpenFoxglove>(route)) {
     stream_.expires_never();
     return owner_.open_foxglove(stream_.release_socket(), std::move(request));
@@ -69,14 +128,26 @@ bool HttpConnection::is_local(const HttpRequest& request) const {
   return true;
 }
 
+void HttpConnection::set_common_headers() {
+  response_->version(11);
+  response_->set(http::field::server, "docent");
+  response_->set("X-Content-Type-Options", "nosniff");
+  response_->set("Referrer-Policy", "no-referrer");
+  response_->set("Cross-Origin-Opener-Policy", "same-origin");
+  response_->set("Permissions-Policy", "camera=(), geolocation=(), microphone=()");
+  response_->set("Content-Security-Policy",
+                 "default-src 'self'; connect-src 'self' ws: wss:; img-src 'self' data: blob:; media-src 'self' blob:; "
+                 "style-src 'self' 'unsafe-inline'; object-src 'none'; frame-ancestors 'self'; base-uri 'none'; "
+                 "form-action 'none'");
+}
+
 void HttpConnection::send(const HttpAnswer& answer, bool keep_alive, bool takes_gzip) {
   const SiteReply& reply = answer.reply;
   const bool is_gzipped = takes_gzip && reply.gzipped != nullptr;
   body_ = is_gzipped ? reply.gzipped : reply.body;
   response_.emplace();
   response_->result(static_cast<unsigned>(reply.status));
-  response_->version(11);
-  response_->set(http::field::server, "docent");
+  set_common_headers();
   response_->set(http::field::content_type, reply.content_type);
   response_->set(http::field::cache_control, reply.is_immutable ? "public, max-age=31536000, immutable" : "no-cache");
   if (is_gzipped) response_->set(http::field::content_encoding, "gzip");
@@ -85,15 +156,24 @@ void HttpConnection::send(const HttpAnswer& answer, bool keep_alive, bool takes_
     response_->set("Docent-Taken", reply.taken);
   }
   if (reply.gzipped) response_->set(http::field::vary, "Accept-Encoding");
-  response_->set("X-Content-Type-Options", "nosniff");
-  response_->set("Referrer-Policy", "no-referrer");
-  response_->set(
-      "Content-Security-Policy",
-      "default-src 'self'; connect-src 'self' ws: wss:; img-src 'self' data: blob:; media-src 'self' "
-      "blob:; style-src 'self' 'unsafe-inline'; frame-ancestors 'self'; base-uri 'none'; form-action 'none'");
+  write(answer.is_head, keep_alive);
+}
+
+void HttpConnection::send(ApiReply reply, bool keep_alive) {
+  body_ = std::make_shared<const std::string>(std::move(reply.body));
+  response_.emplace();
+  response_->result(static_cast<unsigned>(reply.status));
+  set_common_headers();
+  response_->set(http::field::content_type, "application/json");
+  response_->set(http::field::cache_control, "no-store");
+  if (!reply.set_cookie.empty()) response_->set(http::field::set_cookie, reply.set_cookie);
+  write(false, keep_alive);
+}
+
+void HttpConnection::write(bool is_head, bool keep_alive) {
   response_->keep_alive(keep_alive);
   response_->content_length(body_->size());
-  if (!answer.is_head) response_->body() = beast::span<const char>{body_->data(), body_->size()};
+  if (!is_head) response_->body() = beast::span<const char>{body_->data(), body_->size()};
   stream_.expires_after(kHttpTimeout);
   serializer_.emplace(*response_);
   const auto done = [self = shared_from_this(), keep_alive](beast::error_code error, std::size_t) {
@@ -102,7 +182,7 @@ void HttpConnection::send(const HttpAnswer& answer, bool keep_alive, bool takes_
     beast::error_code ignored;
     self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
   };
-  if (answer.is_head) {
+  if (is_head) {
     http::async_write_header(stream_, *serializer_, done);
   } else {
     http::async_write(stream_, *serializer_, done);

@@ -11,18 +11,32 @@
 #include <memory>
 #include <optional>
 
+#include "docent/telepresence/api/exchange/exchange.h"
 #include "docent/telepresence/server/router.h"
 
 namespace docent::telepresence {
 
 using HttpRequest = boost::beast::http::request<boost::beast::http::string_body>;
 
+/// As whom, and from where, a connection becomes a session.
+struct Arrival {
+  Role role = Role::observer;
+  bool is_thin = false;  ///< of what moves it wants the pose alone
+  std::string address;
+  std::string name;  ///< an operator's
+};
+
 /// What all connections share with their server, which outlives them.
 struct HttpOwner {
   std::function<Route(const RouteRequest&)> route;
   /// The connection becomes a session.
-  std::function<void(boost::asio::ip::tcp::socket, HttpRequest, const OpenLive&)> open_live;
+  std::function<void(boost::asio::ip::tcp::socket, HttpRequest, const Arrival&)> open_live;
   std::function<void(boost::asio::ip::tcp::socket, HttpRequest)> open_foxglove;
+  std::shared_ptr<ApiDesk> desk;         ///< null: there is no /api/v1
+  std::vector<std::string> proxies;      ///< addresses whose X-Forwarded-For is believed
+  std::vector<std::string> origins;      ///< see role_of
+  std::atomic<int> asked{0};             ///< of the desk, and not yet answered
+  std::atomic<bool> is_closing = false;  ///< the desk is asked no more
   std::atomic<std::size_t>* connections = nullptr;
   std::atomic<std::uint64_t> requests{0};
 };
@@ -43,9 +57,19 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   using Body = boost::beast::http::span_body<const char>;
 
   void serve();
+  /// Has the desk answer.
+  void call_api(const HttpRequest& request);
+  void admit(HttpRequest request);
+  /// Takes what the desk has to say back to the server's thread.
+  template <class Answer, class Then>
+  auto when_answered(Then then);
+  [[nodiscard]] std::string address_of(const HttpRequest& request) const;
   /// The other end is a program of this computer; a proxy says for whom it speaks.
   [[nodiscard]] bool is_local(const HttpRequest& request) const;
   void send(const HttpAnswer& answer, bool keep_alive, bool takes_gzip);
+  void send(ApiReply reply, bool keep_alive);
+  void set_common_headers();
+  void write(bool is_head, bool keep_alive);
 
   HttpOwner& owner_;
   boost::beast::tcp_stream stream_;

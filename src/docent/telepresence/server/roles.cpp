@@ -45,6 +45,10 @@ bool may_ask(Role role, const ClientMessage& message) {
   const bool is_of_the_screen = std::holds_alternative<LampsMessage>(message) ||
                                 std::holds_alternative<HelpMessage>(message) ||
                                 std::holds_alternative<AnswerMessage>(message);
+  const bool is_of_staff =
+      std::holds_alternative<LeaseMessage>(message) || std::holds_alternative<SteerMessage>(message) ||
+      std::holds_alternative<StopMessage>(message) || std::holds_alternative<SetHoursMessage>(message);
+  if (is_of_staff) return role == Role::staff;
   return is_of_the_screen ? role == Role::kiosk : role != Role::observer;
 }
 

@@ -15,7 +15,7 @@ enum class Role {
   visitor,   ///< also makes wishes, takes them back, and answers questions
   kiosk,  ///< the robot's own screen: like a visitor, says also which buttons are lit, what was answered to the poll,
           ///< and that somebody wants help
-  staff,  ///< may ask for the same; nobody comes from the Web as staff
+  staff,  ///< an operator, on /operate: stops the robot, steers it, says whose hours these are
 };
 
 /// What a browser tells of itself when it opens the live channel.

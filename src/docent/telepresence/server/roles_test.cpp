@@ -25,10 +25,12 @@ TEST(Roles, EachRoleAsksForWhatIsIts) {
   const ClientMessage watch = WatchMessage{true};
   const std::vector<ClientMessage> wishes{RequestMessage{}, CancelMessage{}, ChoiceMessage{}};
   const std::vector<ClientMessage> of_the_screen{LampsMessage{}, HelpMessage{}, AnswerMessage{}};
+  const std::vector<ClientMessage> of_staff{LeaseMessage{}, SteerMessage{}, StopMessage{}, SetHoursMessage{}};
   for (const Role role : {Role::observer, Role::visitor, Role::kiosk, Role::staff}) {
     EXPECT_TRUE(may_ask(role, watch));
     for (const ClientMessage& wish : wishes) EXPECT_EQ(may_ask(role, wish), role != Role::observer);
     for (const ClientMessage& own : of_the_screen) EXPECT_EQ(may_ask(role, own), role == Role::kiosk);
+    for (const ClientMessage& own : of_staff) EXPECT_EQ(may_ask(role, own), role == Role::staff);
   }
 }
 

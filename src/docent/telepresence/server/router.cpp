@@ -6,6 +6,8 @@ namespace docent::telepresence {
 namespace {
 
 constexpr std::string_view kLive = "/live";
+constexpr std::string_view kOperate = "/operate";
+constexpr std::string_view kApi = "/api/v1/";
 constexpr std::string_view kFoxglove = "/foxglove";
 constexpr std::string_view kThinLive = "/live?thin";
 constexpr std::string_view kLiveOfScreen = "/live?screen=";
@@ -27,6 +29,11 @@ Route Router::route(const RouteRequest& request, bool is_full) const {
     if (!request.is_local) return refusal(403, "for programs of the robot's own computer\n");
     return OpenFoxglove{};
   }
+  if (request.is_upgrade && request.target == kOperate) {
+    if (!role_of(request.opening, origins_, screen_key_))
+      return refusal(403, "pages of another site may not steer the robot\n");
+    return OpenOperate{};
+  }
   if (request.is_upgrade) {
     const bool is_screen = request.target.starts_with(kLiveOfScreen) && request.target != kLiveOfScreen;
     const bool is_thin = request.target == kThinLive;
@@ -39,6 +46,7 @@ Route Router::route(const RouteRequest& request, bool is_full) const {
     if (is_full) return refusal(503, "too many viewers\n");
     return OpenLive{*role, is_thin};
   }
+  if (request.target.starts_with(kApi)) return CallApi{};
   const bool is_head = request.method == "HEAD";
   if (!is_head && request.method != "GET") return refusal(405, "GET only\n");
   return HttpAnswer{site_->get(request.target), is_head, false};

@@ -31,11 +31,16 @@ struct OpenLive {
   Role role = Role::observer;
   bool is_thin = false;  ///< of what moves it wants the pose alone: /live?thin
 };
+/// The desk of /api/v1 answers (api/exchange).
+struct CallApi {};
+/// The connection becomes an operator's, if the desk admits them.
+struct OpenOperate {};
 /// The connection becomes a client of the Foxglove protocol.
 struct OpenFoxglove {};
-using Route = std::variant<HttpAnswer, OpenLive, OpenFoxglove>;
+using Route = std::variant<HttpAnswer, OpenLive, OpenFoxglove, CallApi, OpenOperate>;
 
-/// Paths to handlers: everything that can be fetched is the site's; /live is the channel; /foxglove, for programs of
+/// Paths to handlers: everything that can be fetched is the site's; /live is the channel of those who watch, /operate
+/// that of operators; /api/v1 is answered by the desk; /foxglove, for programs of
 /// this computer alone, shows all topics.
 class Router {
  public:

@@ -54,6 +54,18 @@ TEST_F(RouterTest, FoxgloveIsForProgramsOfThisComputer) {
   EXPECT_EQ(status({"GET", "/foxglove?live", true, program, true}), 404);
 }
 
+TEST_F(RouterTest, TheDeskAnswersItsPathsAndAdmitsOperators) {
+  for (const char* method : {"GET", "POST", "PUT", "DELETE", "PATCH"})
+    EXPECT_TRUE(std::holds_alternative<CallApi>(route({method, "/api/v1/forum?before=1", false, {}}))) << method;
+  EXPECT_EQ(status({"GET", "/api/v1", false, {}}), 404);
+  EXPECT_EQ(status({"GET", "/api/museum.json", false, {}}), 404);
+  const Opening own{"http://robot.test", "robot.test", ""};
+  EXPECT_TRUE(std::holds_alternative<OpenOperate>(route({"GET", "/operate", true, own})));
+  EXPECT_EQ(status({"GET", "/operate", true, {"http://evil.test", "robot.test", ""}}), 403);
+  EXPECT_EQ(status({"GET", "/operate?x", true, own}), 404);
+  EXPECT_EQ(status({"GET", "/operate", false, own}), 404) << "no document lies there";
+}
+
 TEST_F(RouterTest, TheRobotsScreenComesWithItsKey) {
   const Opening own{"http://robot.test", "robot.test", ""};
   EXPECT_EQ(std::get<OpenLive>(route({"GET", "/live?screen=0a1b", true, own})).role, Role::kiosk);

@@ -1,6 +1,7 @@
 #include "docent/telepresence/server/session.h"
 
 #include <chrono>
+#include <utility>
 
 #include "docent/telepresence/live_encoding.h"
 
@@ -12,12 +13,12 @@ namespace http = beast::http;
 namespace websocket = beast::websocket;
 using asio::ip::tcp;
 
-Session::Session(SessionOwner& owner, const WebServerParams& params, tcp::socket socket, ViewerId id, Role role,
+Session::Session(SessionOwner& owner, const WebServerParams& params, tcp::socket socket, Caller caller,
                  bool must_be_thin)
     : owner_{owner},
-      id_{id},
-      role_{role},
-      bucket_{params.messages_per_second, params.message_burst},
+      caller_{std::move(caller)},
+      bucket_{caller_.role == Role::staff ? params.steering_per_second : params.messages_per_second,
+              caller_.role == Role::staff ? 2.0 * params.steering_per_second : params.message_burst},
       stream_{std::move(socket)},
       must_be_thin_{must_be_thin},
       is_thin_{must_be_thin} {
@@ -46,8 +47,10 @@ void Session::run(http::request<http::string_body> request, std::uint32_t slots,
 }
 
 std::uint32_t Session::wanted() const {
-  const std::uint32_t others =
-      (is_thin_ ? owner_.full_slots : owner_.thin_slots) | (wants_details_ ? 0 : owner_.detail_slots);
+  // An operator's connection is for orders and what becomes of them; they watch on another.
+  if (caller_.role == Role::staff) return owner_.operator_slots;
+  const std::uint32_t others = owner_.operator_slots | (is_thin_ ? owner_.full_slots : owner_.thin_slots) |
+                               (wants_details_ ? 0 : owner_.detail_slots);
   return ~others;
 }
 
@@ -106,11 +109,11 @@ void Session::take() {
   }
   auto message = parse_client_message(text);
   if (!message) return refuse(websocket::close_code::policy_error, message.error().message);
-  if (!may_ask(role_, *message)) return refuse(websocket::close_code::policy_error, "this is not yours to ask");
+  if (!may_ask(caller_.role, *message)) return refuse(websocket::close_code::policy_error, "this is not yours to ask");
   if (const auto* wish = std::get_if<WatchMessage>(&*message)) {
     watch(*wish);
   } else {
-    owner_.message(id_, role_, *message);
+    owner_.message(caller_, *message);
   }
   read();
 }
@@ -129,7 +132,7 @@ void Session::close(websocket::close_code code, const std::string& reason) {
 
 void Session::leave() {
   is_open_ = false;
-  owner_.left(id_);
+  owner_.left(caller_);
 }
 
 }  // namespace docent::telepresence

@@ -20,13 +20,14 @@ namespace docent::telepresence {
 
 /// What all sessions share with their server, which outlives them.
 struct SessionOwner {
-  std::function<void(ViewerId, Role, const ClientMessage&)> message;
-  std::function<void(ViewerId)> left;
+  std::function<void(const Caller&, const ClientMessage&)> message;
+  std::function<void(const Caller&)> left;
   std::function<SharedText(std::size_t slot)> latest;  ///< null: it has no value yet
   // A bit for each slot that only some viewers get (Stream).
   std::uint32_t detail_slots = 0;
   std::uint32_t full_slots = 0;
   std::uint32_t thin_slots = 0;
+  std::uint32_t operator_slots = 0;
   std::atomic<std::size_t> connections{0};
   std::atomic<std::uint64_t> messages_in{0}, messages_refused{0}, messages_out{0}, values_skipped{0};
 };
@@ -35,8 +36,8 @@ struct SessionOwner {
 /// its is under way.
 class Session : public std::enable_shared_from_this<Session> {
  public:
-  Session(SessionOwner& owner, const WebServerParams& params, boost::asio::ip::tcp::socket socket, ViewerId id,
-          Role role, bool must_be_thin);
+  Session(SessionOwner& owner, const WebServerParams& params, boost::asio::ip::tcp::socket socket, Caller caller,
+          bool must_be_thin);
   ~Session() { --owner_.connections; }
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -62,8 +63,7 @@ class Session : public std::enable_shared_from_this<Session> {
   void leave();
 
   SessionOwner& owner_;
-  const ViewerId id_;
-  const Role role_;
+  const Caller caller_;
   TokenBucket bucket_;
   boost::beast::websocket::stream<boost::beast::tcp_stream, false> stream_;                // without compression
   std::unique_ptr<boost::beast::http::request<boost::beast::http::string_body>> request_;  ///< until it is accepted

@@ -22,11 +22,11 @@ const std::string kChoice = R"({"type":"choice","id":")" + kUuid + R"(","prompt"
 class SessionTest : public testing::Test {
  protected:
   void open(Role role, const WebServerParams& params = {}) {
-    owner_.message = [this](ViewerId viewer, Role as, const ClientMessage&) {
-      heard_ += viewer;
-      role_ = as;
+    owner_.message = [this](const Caller& caller, const ClientMessage&) {
+      heard_ += caller.id;
+      role_ = caller.role;
     };
-    owner_.left = [this](ViewerId) { has_left_ = true; };
+    owner_.left = [this](const Caller&) { has_left_ = true; };
     owner_.latest = [](std::size_t slot) {
       return std::make_shared<const std::string>("slot " + std::to_string(slot));
     };
@@ -40,7 +40,7 @@ class SessionTest : public testing::Test {
     boost::beast::flat_buffer buffer;
     boost::beast::http::request<boost::beast::http::string_body> request;
     boost::beast::http::read(socket, buffer, request);
-    std::make_shared<Session>(owner_, params, std::move(socket), kViewer, role, false)
+    std::make_shared<Session>(owner_, params, std::move(socket), Caller{kViewer, role, ""}, false)
         ->run(std::move(request), 0b10, false);
     io_.run();
   }

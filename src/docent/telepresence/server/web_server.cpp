@@ -29,24 +29,29 @@ constexpr std::size_t kManyViewers = 100;  // from here on sends are spread over
 }  // namespace
 
 struct WebServer::Core {
-  Core(const WebServerParams& given, std::shared_ptr<const Site> site, MessageHandler handler, std::string screen_key,
-       std::shared_ptr<FoxgloveHub> hub)
+  Core(const WebServerParams& given, std::shared_ptr<const Site> site, WebServerHooks the_hooks)
       : params{given},
-        router{std::move(site), given.origins, std::move(screen_key)},
-        foxglove{std::move(hub)},
+        hooks{std::move(the_hooks)},
+        router{std::move(site), given.origins, hooks.screen_key},
+        foxglove{hooks.foxglove},
         acceptor{io},
         timer{io},
         accept_timer{io} {
-    sessions.message = std::move(handler);
-    sessions.left = [this](ViewerId viewer) {
-      if (groups[viewer % kGroups].erase(viewer) > 0) --viewers;
+    sessions.message = hooks.message;
+    sessions.left = [this](const Caller& caller) {
+      if (groups[caller.id % kGroups].erase(caller.id) == 0) return;
+      --viewers;
+      if (caller.role == Role::staff && hooks.left) hooks.left(caller);
     };
     sessions.latest = [this](std::size_t slot) { return latest.at(slot); };
     http.connections = &sessions.connections;
+    http.desk = hooks.desk;
+    http.origins = params.origins;
+    http.proxies = params.proxies;
     http.route = [this](const RouteRequest& request) {
       return router.route(request, viewers >= static_cast<std::size_t>(params.max_viewers));
     };
-    http.open_live = [this](tcp::socket socket, HttpRequest request, const OpenLive& how) {
+    http.open_live = [this](tcp::socket socket, HttpRequest request, const Arrival& how) {
       open_live(std::move(socket), std::move(request), how);
     };
     http.open_foxglove = [this](tcp::socket socket, HttpRequest request) {
@@ -55,12 +60,13 @@ struct WebServer::Core {
   }
 
   void accept();
-  void open_live(tcp::socket socket, HttpRequest request, const OpenLive& how);
+  void open_live(tcp::socket socket, HttpRequest request, const Arrival& how);
   void open_foxglove(tcp::socket socket, HttpRequest request);
   void tick();
   void flush_all();
 
   const WebServerParams params;
+  const WebServerHooks hooks;
   const Router router;
   const std::shared_ptr<FoxgloveHub> foxglove;
   std::atomic<std::size_t> viewers{0};
@@ -88,6 +94,7 @@ Result<void> WebServerParams::validate() const {
   if (full_viewers < 0) return fail("web.full_viewers must be >= 0");
   if (max_viewers < 1) return fail("web.max_viewers must be at least 1");
   if (!(messages_per_second > 0.0)) return fail("web.messages_per_second must be > 0");
+  if (!(steering_per_second >= 10.0)) return fail("web.steering_per_second must be at least 10");
   if (!(message_burst >= 1.0)) return fail("web.message_burst must be at least 1");
   if (max_message_bytes < 256 || max_message_bytes > 1 << 20)
     return fail("web.max_message_bytes must be 256 to 1048576");
@@ -111,14 +118,16 @@ void WebServer::Core::accept() {
   });
 }
 
-void WebServer::Core::open_live(tcp::socket socket, HttpRequest request, const OpenLive& how) {
+void WebServer::Core::open_live(tcp::socket socket, HttpRequest request, const Arrival& how) {
   beast::error_code ignored;
   socket.set_option(tcp::no_delay{true}, ignored);
   socket.set_option(asio::socket_base::send_buffer_size{params.send_buffer_bytes}, ignored);
   const ViewerId id = next_viewer++;
   // The robot's own screen shows all there is, whoever watches besides.
   const bool must_be_thin = how.role != Role::kiosk && viewers >= static_cast<std::size_t>(params.full_viewers);
-  const auto session = std::make_shared<Session>(sessions, params, std::move(socket), id, how.role, must_be_thin);
+  const auto session =
+      std::make_shared<Session>(sessions, params, std::move(socket), Caller{id, how.role, how.name}, must_be_thin);
+  if (how.role == Role::visitor && hooks.arrived) hooks.arrived(how.address);
   groups[id % kGroups].emplace(id, session);
   ++viewers;
   ++viewers_ever;
@@ -160,14 +169,12 @@ void WebServer::Core::flush_all() {
 WebServer::WebServer(std::unique_ptr<Core> core) : core_{std::move(core)} {}
 
 Result<std::unique_ptr<WebServer>> WebServer::start(const WebServerParams& params, std::shared_ptr<const Site> site,
-                                                    MessageHandler handler, std::string screen_key,
-                                                    std::shared_ptr<FoxgloveHub> foxglove) {
+                                                    WebServerHooks hooks) {
   const std::string name = params.address + ":" + std::to_string(params.port);
   beast::error_code error;
   const auto address = asio::ip::make_address(params.address, error);
   if (error) return fail(name + ": not an address");
-  auto core =
-      std::make_unique<Core>(params, std::move(site), std::move(handler), std::move(screen_key), std::move(foxglove));
+  auto core = std::make_unique<Core>(params, std::move(site), std::move(hooks));
   const tcp::endpoint endpoint{address, static_cast<std::uint16_t>(params.port)};
   core->acceptor.open(endpoint.protocol(), error);
   if (!error) core->acceptor.set_option(asio::socket_base::reuse_address{true}, error);
@@ -181,6 +188,9 @@ Result<std::unique_ptr<WebServer>> WebServer::start(const WebServerParams& param
 }
 
 WebServer::~WebServer() {
+  // What the desk was asked it still answers, and each answer finds its connection.
+  core_->http.is_closing = true;
+  while (core_->http.asked > 0) std::this_thread::sleep_for(std::chrono::milliseconds{1});
   core_->io.stop();
   core_->thread.join();
   for (const auto& session : core_->foxglove_sessions) session->drop();
@@ -223,7 +233,7 @@ void WebServer::restrict_to(Stream stream, int slot) {
     SessionOwner& sessions = core->sessions;
     for (const auto& [kind, slots] :
          {std::pair{Stream::details, &sessions.detail_slots}, std::pair{Stream::full, &sessions.full_slots},
-          std::pair{Stream::thin, &sessions.thin_slots}})
+          std::pair{Stream::thin, &sessions.thin_slots}, std::pair{Stream::operators, &sessions.operator_slots}})
       *slots = kind == stream ? *slots | bit : *slots & ~bit;
   });
 }

@@ -24,10 +24,12 @@ struct WebServerParams {
   int full_viewers = 200;             ///< who get more than the pose of what moves; who comes later gets the pose alone
   double messages_per_second = 2.0;   ///< of one viewer, sustained
   double message_burst = 20.0;        ///< of one viewer
+  double steering_per_second = 30.0;  ///< messages of one operator
   int max_message_bytes = 4096;       ///< a longer one ends the connection
   int send_buffer_bytes = 65536;      ///< of the kernel, for one connection: small, so that old values do not pile up
   double idle_timeout_s = 30.0;       ///< a viewer who answers no ping for so long is gone
   std::vector<std::string> origins;   ///< hosts besides the server's own whose pages may open the live channel
+  std::vector<std::string> proxies;   ///< addresses of proxies of ours: the address that they forward is believed
   template <class V>
   void visit(V& v) {
     v("address", address);
@@ -38,20 +40,41 @@ struct WebServerParams {
     v("full_viewers", full_viewers);
     v("messages_per_second", messages_per_second);
     v("message_burst", message_burst);
+    v("steering_per_second", steering_per_second);
     v("max_message_bytes", max_message_bytes);
     v("send_buffer_bytes", send_buffer_bytes);
     v("idle_timeout_s", idle_timeout_s);
     v("origins", origins);
+    v("proxies", proxies);
   }
   [[nodiscard]] Result<void> validate() const;
 };
 
 using ViewerId = std::uint64_t;
 
-/// To whom a slot is sent: everybody; who asked for details; who gets all that moves; who gets the pose alone.
-enum class Stream { everybody, details, full, thin };
+/// Somebody who sends a message.
+struct Caller {
+  ViewerId id = 0;
+  Role role = Role::observer;
+  std::string name;  ///< an operator's
+};
 
+/// To whom a slot is sent: everybody but operators' own connections; who asked for details; who gets all that moves;
+/// who gets the pose alone; operators.
+enum class Stream { everybody, details, full, thin, operators };
+
+class ApiDesk;
 class FoxgloveHub;
+
+/// What a server is for. All of it is called on the server's thread and must not block.
+struct WebServerHooks {
+  std::function<void(const Caller&, const ClientMessage&)> message;
+  std::function<void(const std::string& address)> arrived = {};  ///< somebody opened the live channel
+  std::function<void(const Caller&)> left = {};                  ///< an operator is gone
+  std::string screen_key = {};                 ///< with which the robot's own screen comes; empty: it has none
+  std::shared_ptr<FoxgloveHub> foxglove = {};  ///< what it shows at /foxglove; null: nothing
+  std::shared_ptr<ApiDesk> desk = {};          ///< who answers /api/v1 and admits operators; null: nobody
+};
 
 struct WebServerFigures {
   std::size_t connections = 0;
@@ -73,16 +96,10 @@ class WebServer {
  public:
   static constexpr int kSlots = 24;
   static constexpr int kParts = 10;  ///< of all viewers
-  /// Called on the server's thread; must not block.
-  using MessageHandler = std::function<void(ViewerId, Role, const ClientMessage&)>;
 
   /// Error: "ADDRESS:PORT: why", for instance because another program has the port.
-  /// @param screen_key  with which the robot's own screen comes; empty: it has none
-  /// @param foxglove    what it shows at /foxglove; null: nothing
   [[nodiscard]] static Result<std::unique_ptr<WebServer>> start(const WebServerParams& params,
-                                                                std::shared_ptr<const Site> site,
-                                                                MessageHandler handler, std::string screen_key = {},
-                                                                std::shared_ptr<FoxgloveHub> foxglove = nullptr);
+                                                                std::shared_ptr<const Site> site, WebServerHooks hooks);
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
   ~WebServer();  ///< closes everything and ends the thread

@@ -47,7 +47,7 @@ void BM_Viewers(benchmark::State& state) {
 
   WebServerParams params;
   params.port = 0;
-  auto server = WebServer::start(params, std::make_shared<Site>(), [](ViewerId, Role, const ClientMessage&) {});
+  auto server = WebServer::start(params, std::make_shared<Site>(), {[](const Caller&, const ClientMessage&) {}});
   if (!server) return state.SkipWithError(server.error().message.c_str());
   const int poll = ::epoll_create1(0);
   std::vector<int> ends;

@@ -22,13 +22,14 @@ class WebServerTest : public testing::Test {
   void start(WebServerParams params = {}, const std::string& screen_key = "") {
     params.port = 0;
     site_->set_document("/", "text/html; charset=utf-8", "<p>hello");
-    auto server = WebServer::start(
-        params, site_,
-        [this](ViewerId viewer, Role /*role*/, const ClientMessage& message) {
-          const std::scoped_lock lock{mutex_};
-          messages_.emplace_back(viewer, message);
-        },
-        screen_key);
+    auto server = WebServer::start(params, site_,
+                                   {.message =
+                                        [this](const Caller& caller, const ClientMessage& message) {
+                                          const std::scoped_lock lock{mutex_};
+                                          messages_.emplace_back(caller.id, message);
+                                        },
+                                    .screen_key = screen_key,
+                                    .desk = desk_});
     ASSERT_TRUE(server) << server.error().message;
     server_ = std::move(*server);
   }
@@ -47,6 +48,7 @@ class WebServerTest : public testing::Test {
   std::mutex mutex_;
   std::vector<std::pair<ViewerId, ClientMessage>> messages_;
   std::shared_ptr<Site> site_ = std::make_shared<Site>();
+  std::shared_ptr<ApiDesk> desk_;
   std::unique_ptr<WebServer> server_;
 };
 

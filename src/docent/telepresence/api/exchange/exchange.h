@@ -20,7 +20,7 @@ struct ApiRequest {
   bool is_json = false;    ///< it says that its body is JSON
   bool is_of_ours = true;  ///< no page of another site sends it
 };
-inline constexpr std::size_t kLongestBody = 262'144;  ///< bytes: a museum's exhibits with their texts
+inline constexpr std::size_t kLongestBody = 16'384;  ///< bytes
 
 struct ApiReply {
   int status = 200;

@@ -1,4 +1,4 @@
-#include "docent/modules/edge/web_module.h"
+#include "docent/modules/web/web_module.h"
 
 #include <gtest/gtest.h>
 

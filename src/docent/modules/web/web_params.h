@@ -3,6 +3,7 @@
 #include <string>
 
 #include "docent/base/result.h"
+#include "docent/telepresence/api/endpoint.h"
 #include "docent/telepresence/server/web_server.h"
 #include "docent/telepresence/store/database.h"
 
@@ -10,15 +11,18 @@ namespace docent::modules {
 
 /// Section `web`: the page and its server.
 struct WebParams : telepresence::WebServerParams {
-  std::string root;        ///< folder of the built page; empty: beside the program, else beside the sources
-  std::string database;    ///< of wishes and votes: postgresql://…; empty: the file web.sqlite of the state folder
-  double live_hz = 10.0;   ///< of what moves
-  double pose_s = 0.3;     ///< between two poses of viewers who get these alone of what moves
-  double belief_hz = 2.0;  ///< at most
-  double resend_s = 1.0;   ///< requests that are not on the board yet
-  double forget_hours = 24.0;   ///< after that a request is given up and forgotten
-  int scan_step = 3;            ///< every n-th reading is shown
-  int max_open_requests = 500;  ///< of everybody together; more are refused
+  std::string root;      ///< folder of the built page; empty: beside the program, else beside the sources
+  std::string database;  ///< of wishes, votes, names, posts and counts: postgresql://…; empty: the file web.sqlite of
+                         ///< the state folder
+  double live_hz = 10.0;            ///< of what moves
+  double pose_s = 0.3;              ///< between two poses of viewers who get these alone of what moves
+  double belief_hz = 2.0;           ///< at most
+  double resend_s = 1.0;            ///< requests that are not on the board yet
+  double forget_hours = 24.0;       ///< after that a request is given up and forgotten
+  int scan_step = 3;                ///< every n-th reading is shown
+  int max_open_requests = 500;      ///< of everybody together; more are refused
+  telepresence::ApiParams api;      ///< logins, and how often somebody may call
+  telepresence::ForumParams forum;  ///< what visitors may write
   template <class V>
   void visit(V& v) {
     telepresence::WebServerParams::visit(v);
@@ -31,10 +35,14 @@ struct WebParams : telepresence::WebServerParams {
     v("forget_hours", forget_hours);
     v("scan_step", scan_step);
     v("max_open_requests", max_open_requests);
+    v("api", api);
+    v("forum", forum);
   }
   [[nodiscard]] Result<void> validate() const {
     auto server = telepresence::WebServerParams::validate();
     if (!server) return server;
+    if (auto valid = api.validate(); !valid) return valid;
+    if (auto valid = forum.validate(); !valid) return valid;
     if (!database.empty() && !telepresence::Database::is_shared(database))
       return fail("web.database must be empty or postgresql://…");
     if (!(live_hz >= 1.0 && live_hz <= 60.0)) return fail("web.live_hz must be 1 to 60");

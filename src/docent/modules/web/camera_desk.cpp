@@ -1,4 +1,4 @@
-#include "docent/modules/edge/camera_desk.h"
+#include "docent/modules/web/camera_desk.h"
 
 #include <cstdio>
 #include <utility>

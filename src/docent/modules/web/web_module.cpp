@@ -1,4 +1,4 @@
-#include "docent/modules/edge/web_module.h"
+#include "docent/modules/web/web_module.h"
 
 #include <unistd.h>
 
@@ -13,15 +13,19 @@
 #include "docent/base/shipped_files.h"
 #include "docent/interaction/sound/horn.h"
 #include "docent/messages/conversions.h"
-#include "docent/modules/edge/camera_desk.h"
-#include "docent/modules/edge/foxglove_desk.h"
-#include "docent/modules/edge/screen_desk.h"
-#include "docent/modules/edge/vote_desk.h"
-#include "docent/modules/edge/web_params.h"
-#include "docent/modules/edge/wish_desk.h"
 #include "docent/modules/shared/museum_mode.h"
-#include "docent/modules/shared/scanners.h"
-#include "docent/telepresence/belief_carrier.h"
+#include "docent/modules/web/camera_desk.h"
+#include "docent/modules/web/count_desk.h"
+#include "docent/modules/web/foxglove_desk.h"
+#include "docent/modules/web/inside_desk.h"
+#include "docent/modules/web/live_desk.h"
+#include "docent/modules/web/operator_desk.h"
+#include "docent/modules/web/screen_desk.h"
+#include "docent/modules/web/slots.h"
+#include "docent/modules/web/vote_desk.h"
+#include "docent/modules/web/web_params.h"
+#include "docent/modules/web/wish_desk.h"
+#include "docent/telepresence/api/desk.h"
 #include "docent/telepresence/live_encoding.h"
 #include "docent/telepresence/museum_document.h"
 #include "docent/telepresence/outbox.h"
@@ -33,25 +37,6 @@
 namespace docent::modules {
 namespace {
 
-/// The slots of the live channel.
-enum Slot : int {
-  kLive,
-  kBelief,
-  kPath,
-  kMission,
-  kSpeech,
-  kBoard,
-  kHealth,
-  kWindow,
-  kHorn,
-  kSound,
-  kExpression,
-  kButton,
-  kPose,
-  kVotes,
-  kHours
-};
-
 std::filesystem::path page_folder(const std::string& root) {
   return root.empty() ? shipped_path("web/dist") : std::filesystem::path{root};
 }
@@ -60,8 +45,25 @@ constexpr const char* kNoPage =
     "<!doctype html><meta charset=utf-8><title>Docent</title><p>The page has not been built yet: "
     "<code>cd web &amp;&amp; npm ci &amp;&amp; npm run build</code>, then start again.</p>";
 
+constexpr Duration kOperationPeriod = std::chrono::milliseconds{200};
+constexpr Duration kCountPeriod = std::chrono::seconds{10};
+
 RequestSource source_of(telepresence::Role role) {
-  return role == telepresence::Role::kiosk ? RequestSource::kiosk : RequestSource::web;
+  switch (role) {
+    case telepresence::Role::kiosk:
+      return RequestSource::kiosk;
+    case telepresence::Role::staff:
+      return RequestSource::staff;
+    case telepresence::Role::observer:
+    case telepresence::Role::visitor:
+      break;
+  }
+  return RequestSource::web;
+}
+
+/// Logins outlive restarts, and simulations: they go by the computer's clock.
+Time wall_clock() {
+  return Time{std::chrono::nanoseconds{std::chrono::system_clock::now().time_since_epoch()}.count()};
 }
 
 class WebModule final : public Module {
@@ -69,43 +71,20 @@ class WebModule final : public Module {
   static Result<std::unique_ptr<Module>> make(const ModuleContext& context) {
     auto params = context.config.section<WebParams>("web");
     if (!params) return tl::unexpected<Error>(params.error());
-    auto database = telepresence::Database::open(params->database.empty() ? (context.state / "web.sqlite").string()
-                                                                          : params->database);
-    if (!database) return tl::unexpected<Error>(database.error());
-    auto outbox = telepresence::Outbox::open(**database);
-    if (!outbox) return tl::unexpected<Error>(outbox.error());
-    auto votes = telepresence::TourVotes::open(**database);
-    if (!votes) return tl::unexpected<Error>(votes.error());
+    const std::string where = params->database.empty() ? (context.state / "web.sqlite").string() : params->database;
+    auto store = Store::open(where);
+    if (!store) return tl::unexpected<Error>(store.error());
+    auto desk = telepresence::Desk::open(where, params->api, params->forum, wall_clock);
+    if (!desk) return tl::unexpected<Error>(desk.error());
     auto map = telepresence::encode_map_png(context.museum.map);
     if (!map) return tl::unexpected<Error>(map.error());
-
     auto key = telepresence::screen_key(context.state / "screen.key");
     if (!key) return tl::unexpected<Error>(key.error());
 
-    std::unique_ptr<WebModule> module{
-        new WebModule{context, *params, std::move(*database), std::move(*outbox), std::move(*votes)}};
-    telepresence::Site& site = *module->site_;
-    auto page = site.load_page(page_folder(params->root));
-    if (!page) {
-      if (!params->root.empty()) return tl::unexpected<Error>(page.error());
-      module->reason_ = page.error().message;
-      site.set_document("/", "text/html; charset=utf-8", kNoPage);
-    }
-    module->load_pictures();
-    site.set_audio_folder(context.state / "audio");
-    site.set_document("/api/museum.json", "application/json",
-                      telepresence::encode_museum(context.museum, context.config.body().radius));
-    site.set_document("/api/map.png", "image/png", std::move(*map));
-    site.set_live_document("/api/health", "application/json", [raw = module.get()] { return raw->health_document(); });
-    site.set_live_document("/metrics", "text/plain; version=0.0.4", [raw = module.get()] { return raw->metrics(); });
-
-    auto server = telepresence::WebServer::start(
-        *params, module->site_,
-        [raw = module.get()](telepresence::ViewerId viewer, telepresence::Role role,
-                             const telepresence::ClientMessage& m) {
-          raw->bus_.post([raw, viewer, role, m] { raw->take(viewer, source_of(role), m); });
-        },
-        std::move(*key), module->foxglove_.hub());
+    std::unique_ptr<WebModule> module{new WebModule{context, *params, std::move(*store), std::move(*desk)}};
+    if (auto filled = module->fill_site(context, std::move(*map)); !filled)
+      return tl::unexpected<Error>(filled.error());
+    auto server = telepresence::WebServer::start(*params, module->site_, module->hooks(std::move(*key)));
     if (!server) return fail("web: " + server.error().message);
     module->set_server(std::move(*server));
     module->subscribe();
@@ -113,28 +92,83 @@ class WebModule final : public Module {
   }
 
   [[nodiscard]] ModuleHealth health() const override {
-    for (const std::string& fault : {reason_, wishes_.fault(), screen_.fault(), votes_.fault(), cameras_.fault()}) {
+    for (const std::string& fault : {reason_, wishes_.fault(), screen_.fault(), votes_.fault(), cameras_.fault(),
+                                     operator_.fault(), counts_.fault()}) {
       if (!fault.empty()) return {"degraded", fault};
     }
     return {};
   }
 
  private:
-  WebModule(const ModuleContext& context, WebParams params, std::unique_ptr<telepresence::Database> database,
-            std::unique_ptr<telepresence::Outbox> outbox, std::unique_ptr<telepresence::TourVotes> votes)
+  /// What lies in the database, on the bus's thread.
+  struct Store {
+    std::unique_ptr<telepresence::Database> database;
+    std::unique_ptr<telepresence::Outbox> outbox;
+    std::unique_ptr<telepresence::TourVotes> votes;
+    std::unique_ptr<telepresence::Statistics> statistics;
+    static Result<Store> open(const std::string& where) {
+      auto database = telepresence::Database::open(where);
+      if (!database) return tl::unexpected<Error>(database.error());
+      auto outbox = telepresence::Outbox::open(**database);
+      if (!outbox) return tl::unexpected<Error>(outbox.error());
+      auto votes = telepresence::TourVotes::open(**database);
+      if (!votes) return tl::unexpected<Error>(votes.error());
+      auto statistics = telepresence::Statistics::open(**database);
+      if (!statistics) return tl::unexpected<Error>(statistics.error());
+      return Store{std::move(*database), std::move(*outbox), std::move(*votes), std::move(*statistics)};
+    }
+  };
+
+  WebModule(const ModuleContext& context, WebParams params, Store store, std::shared_ptr<telepresence::Desk> desk)
       : bus_{context.bus},
         museum_{context.museum},
-        body_{context.config.body()},
         params_{std::move(params)},
-        database_{std::move(database)},
-        wishes_{bus_, std::move(outbox), telepresence::Database::is_shared(params_.database)},
+        database_{std::move(store.database)},
+        desk_{std::move(desk)},
+        wishes_{bus_, std::move(store.outbox), telepresence::Database::is_shared(params_.database)},
         choices_{bus_.publisher(topics::kChoice)},
         screen_{bus_, context.state / "poll.csv"},
-        votes_{bus_, museum_, std::move(votes), context.seed},
+        votes_{bus_, museum_, std::move(store.votes), context.seed},
+        operator_{bus_, context.state / "stopped",
+                  [raw = desk_.get()](std::string who, std::string what, std::string about) {
+                    raw->note(std::move(who), std::move(what), std::move(about));
+                  }},
+        counts_{bus_, std::move(store.statistics), telepresence::make_token()},
         mode_{context},
         foxglove_{bus_, "Docent, " + museum::translated(context.museum.name, "en")},
-        scans_(body_.scanners.size()) {
+        live_{bus_, context.config.body(), params_} {
     if (database_->was_damaged()) reason_ = "web.sqlite was damaged and has been set aside; a new one was begun";
+  }
+
+  Result<void> fill_site(const ModuleContext& context, std::string map) {
+    auto page = site_->load_page(page_folder(params_.root));
+    if (!page) {
+      if (!params_.root.empty()) return page;
+      reason_ = page.error().message;
+      site_->set_document("/", "text/html; charset=utf-8", kNoPage);
+    }
+    load_pictures();
+    site_->set_audio_folder(context.state / "audio");
+    site_->set_document("/api/museum.json", "application/json",
+                        telepresence::encode_museum(museum_, context.config.body().radius));
+    site_->set_document("/api/map.png", "image/png", std::move(map));
+    site_->set_live_document("/api/health", "application/json", [this] { return health_document(); });
+    site_->set_live_document("/metrics", "text/plain; version=0.0.4", [this] { return metrics(); });
+    return {};
+  }
+
+  /// What the server calls on its own thread is done on the bus's.
+  telepresence::WebServerHooks hooks(std::string screen_key) {
+    telepresence::WebServerHooks hooks;
+    hooks.message = [this](const telepresence::Caller& caller, const telepresence::ClientMessage& m) {
+      bus_.post([this, caller, m] { take(caller, m); });
+    };
+    hooks.arrived = [this](const std::string& address) { bus_.post([this, address] { counts_.arrived(address); }); };
+    hooks.left = [this](const telepresence::Caller& caller) { bus_.post([this, caller] { operator_.left(caller); }); };
+    hooks.screen_key = std::move(screen_key);
+    hooks.foxglove = foxglove_.hub();
+    hooks.desk = desk_;
+    return hooks;
   }
 
   void load_pictures() {
@@ -154,35 +188,14 @@ class WebModule final : public Module {
   void set_server(std::unique_ptr<telepresence::WebServer> server) {
     server_ = std::move(server);
     foxglove_.set_server(*server_);
-    server_->restrict_to(telepresence::Stream::details, kWindow);
-    server_->restrict_to(telepresence::Stream::full, kLive);
-    server_->restrict_to(telepresence::Stream::full, kBelief);
-    server_->restrict_to(telepresence::Stream::thin, kPose);
+    server_->restrict_to(telepresence::Stream::operators, kOperation);
+    live_.begin(*server_);
+    inside_.begin(*server_);
     const std::scoped_lock lock{shared_mutex_};
     figures_from_ = server_.get();
   }
 
   void subscribe() {
-    bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const auto& m) { carrier_.add_odometry(m); });
-    subscribe_scanners(bus_, body_, [this](std::size_t i, const auto& m) { scans_[i] = m; });
-    bus_.subscribe<sensor_msgs::BatteryState>(topics::kBattery, [this](const auto& m) { battery_ = m.percentage; });
-    bus_.subscribe<docent_msgs::People>(topics::kPeople, [this](const auto& m) { people_ = m; });
-    bus_.subscribe<docent_msgs::Belief>(topics::kBelief, [this](const auto& m) {
-      carrier_.set_belief(m);
-      belief_ = m;
-    });
-    bus_.subscribe<docent_msgs::AvoidState>(topics::kAvoidState, [this](const auto& m) {
-      avoid_ = m;
-      if (!m.window.empty()) server_->broadcast(kWindow, telepresence::encode_window(m));
-    });
-    bus_.subscribe<nav_msgs::Path>(topics::kPath, [this](const auto& m) {
-      path_ = m;
-      is_path_new_ = true;
-    });
-    bus_.subscribe<docent_msgs::GoalState>(topics::kGoalState, [this](const auto& m) {
-      goal_ = m;
-      is_path_new_ = true;
-    });
     bus_.subscribe<docent_msgs::MissionState>(topics::kMissionState, [this](const auto& m) {
       mission_ = m;
       server_->broadcast(kMission, telepresence::encode_mission(m));
@@ -207,17 +220,20 @@ class WebModule final : public Module {
       constexpr std::size_t kMostModules = 64;  // whoever invents names shall not fill the memory
       if (modules_.size() < kMostModules || modules_.contains(m.module)) modules_[m.module] = {m, bus_.now()};
     });
-    bus_.every(seconds(1.0 / params_.live_hz), [this] { show_live(); });
-    bus_.every(seconds(params_.pose_s / telepresence::WebServer::kParts), [this] { show_pose(); });
-    bus_.every(seconds(1.0 / params_.belief_hz), [this] { show_slow(); });
     bus_.subscribe<docent_msgs::Limits>(topics::kLimits, [this](const auto& m) { mode_.limits(m); });
     bus_.every(seconds(1.0), [this] {
       show_health();
       show_hours();
+      counts_.see_people(live_.people(), live_.map_from_base());
       if (auto votes = votes_.look()) server_->broadcast(kVotes, std::move(*votes));
       screen_.look();
     });
     bus_.every(seconds(params_.resend_s), [this] { resend(); });
+    bus_.every(kOperationPeriod, [this] { show_operation(); });
+    bus_.every(kCountPeriod, [this] {
+      counts_.asked(server_->figures().http_requests);
+      counts_.store(mode_.name(bus_.now()));
+    });
     bus_.every(std::chrono::minutes{10}, [this] { forget_old(); });
     resend();
   }
@@ -226,49 +242,7 @@ class WebModule final : public Module {
     const Time before = bus_.now() - seconds(params_.forget_hours * 3600.0);
     wishes_.forget_before(before);
     votes_.forget_before(before);
-  }
-
-  /// Where the robot is, and how fast.
-  [[nodiscard]] telepresence::LiveFrame frame_now() const {
-    telepresence::LiveFrame frame;
-    frame.now = bus_.now();
-    frame.map_from_base = carrier_.map_from_base(frame.now);
-    frame.linear = carrier_.linear();
-    frame.angular = carrier_.angular();
-    frame.p_lost = carrier_.p_lost();
-    frame.battery = battery_;
-    return frame;
-  }
-
-  void show_live() {
-    constexpr Duration kFresh = std::chrono::seconds{1};
-    telepresence::LiveFrame frame = frame_now();
-    if (!frame.map_from_base) frame.hypotheses = carrier_.hypotheses(frame.now, 0.03);
-    frame.is_scan_in_map = frame.map_from_base.has_value();
-    for (std::size_t i = 0; i < scans_.size(); ++i) {
-      const sensor_msgs::LaserScan& scan = scans_[i];
-      const Time taken = from_message(scan.header.stamp);
-      if (scan.ranges.empty() || frame.now - taken > kFresh) continue;
-      const Pose2 from_base = frame.is_scan_in_map ? *carrier_.map_from_base(taken) : Pose2{};
-      frame.scan_origin = from_base.position();
-      for (const Point2 point : telepresence::scan_points(scan, body_.scanners[i].base_from_sensor(),
-                                                          static_cast<std::size_t>(params_.scan_step)))
-        frame.scan.push_back(from_base * point);
-    }
-    if (frame.now - from_message(people_.header.stamp) <= kFresh) frame.people = people_;
-    if (avoid_ && frame.now - from_message(avoid_->header.stamp) <= kFresh) frame.avoid = avoid_;
-    server_->broadcast(kLive, telepresence::encode_live(frame));
-  }
-
-  /// Each part of the thin viewers gets the pose of its own moment, so that nobody waits until all have theirs.
-  void show_pose() {
-    server_->broadcast_part(kPose, part_, telepresence::encode_pose(frame_now()));
-    part_ = (part_ + 1) % telepresence::WebServer::kParts;
-  }
-
-  void show_slow() {
-    if (belief_) server_->broadcast(kBelief, telepresence::encode_belief(*std::exchange(belief_, std::nullopt)));
-    if (std::exchange(is_path_new_, false)) server_->broadcast(kPath, telepresence::encode_path(path_, goal_));
+    desk_->tidy();
   }
 
   void show_health() {
@@ -285,6 +259,11 @@ class WebModule final : public Module {
     if (std::exchange(hours_, text) != text) server_->broadcast(kHours, std::move(text));
   }
 
+  void show_operation() {
+    std::string text = telepresence::json_text(operator_.document());
+    if (std::exchange(operation_, text) != text) server_->broadcast(kOperation, std::move(text));
+  }
+
   /// The `sound` module has written the file of this name.
   void show_horn() {
     server_->broadcast(kHorn, telepresence::encode_horn(bus_.now(), is_muted_ ? "" : horn_.file, horn_.duration_s));
@@ -293,6 +272,7 @@ class WebModule final : public Module {
   void see_board(const docent_msgs::RequestBoard& board) {
     wishes_.see(board);
     votes_.see(board);
+    counts_.see(board);
     server_->broadcast(kBoard, telepresence::encode_board(board));
   }
 
@@ -302,7 +282,13 @@ class WebModule final : public Module {
     if (choice_) choices_.publish(*choice_);
   }
 
-  void take(telepresence::ViewerId viewer, RequestSource source, const telepresence::ClientMessage& message) {
+  void take(const telepresence::Caller& caller, const telepresence::ClientMessage& message) {
+    const telepresence::ViewerId viewer = caller.id;
+    const RequestSource source = source_of(caller.role);
+    if (const auto done = operator_.take(caller, message)) {
+      show_operation();
+      return tell_operator(viewer, message, *done);
+    }
     if (const auto* request = std::get_if<telepresence::RequestMessage>(&message))
       return take_request(viewer, source, *request);
     if (const auto* cancel = std::get_if<telepresence::CancelMessage>(&message)) {
@@ -314,8 +300,11 @@ class WebModule final : public Module {
     }
     if (const auto* choice = std::get_if<telepresence::ChoiceMessage>(&message))
       return take_choice(viewer, source, *choice);
-    if (const auto* vote = std::get_if<telepresence::VoteMessage>(&message))
-      return tell(viewer, vote->id, votes_.take(*vote));
+    if (const auto* vote = std::get_if<telepresence::VoteMessage>(&message)) {
+      const Reason why_not = votes_.take(*vote);
+      if (why_not.is_none()) counts_.voted();
+      return tell(viewer, vote->id, why_not);
+    }
     take_of_screen(viewer, message);
   }
 
@@ -327,6 +316,15 @@ class WebModule final : public Module {
     if (!done || (help == nullptr && answer == nullptr)) return;
     const std::string& id = help != nullptr ? help->id : answer->id;
     tell(viewer, id, *done);
+  }
+
+  /// Steering has no id: it is answered only where it was refused.
+  void tell_operator(telepresence::ViewerId viewer, const telepresence::ClientMessage& message, const Reason& why_not) {
+    if (const auto* lease = std::get_if<telepresence::LeaseMessage>(&message)) return tell(viewer, lease->id, why_not);
+    if (const auto* stop = std::get_if<telepresence::StopMessage>(&message)) return tell(viewer, stop->id, why_not);
+    if (const auto* hours = std::get_if<telepresence::SetHoursMessage>(&message))
+      return tell(viewer, hours->id, why_not);
+    if (const auto word = why_not.word()) server_->send(viewer, telepresence::encode_error(*word));
   }
 
   void take_request(telepresence::ViewerId viewer, RequestSource source, const telepresence::RequestMessage& message) {
@@ -393,35 +391,30 @@ class WebModule final : public Module {
 
   transport::Bus& bus_;
   const museum::Museum& museum_;
-  const robot::RobotBody body_;
   const WebParams params_;
   std::string reason_;  ///< what is wrong since the start
   std::unique_ptr<telepresence::Database> database_;
+  std::shared_ptr<telepresence::Desk> desk_;
   WishDesk wishes_;
   transport::Publisher<docent_msgs::Choice> choices_;
   ScreenDesk screen_;
   VoteDesk votes_;
+  OperatorDesk operator_;
+  CountDesk counts_;
   MuseumMode mode_;
   std::string hours_;  ///< as they were shown last
   std::shared_ptr<telepresence::Site> site_ = std::make_shared<telepresence::Site>();
   CameraDesk cameras_{bus_, site_};
   FoxgloveDesk foxglove_;
+  LiveDesk live_;
+  InsideDesk inside_{bus_};
+  std::string operation_;  ///< as it was shown last
 
-  telepresence::BeliefCarrier carrier_;
-  std::vector<sensor_msgs::LaserScan> scans_;  ///< [scanners] newest sweeps
-  docent_msgs::People people_;
-  std::optional<docent_msgs::Belief> belief_;  ///< not yet shown
-  std::optional<docent_msgs::AvoidState> avoid_;
   std::optional<docent_msgs::MissionState> mission_;
   std::optional<docent_msgs::Choice> choice_;  ///< resent until its question is closed
-  std::optional<double> battery_;
-  std::string expression_;  ///< as it was shown last
+  std::string expression_;                     ///< as it was shown last
   bool is_muted_ = false;
   const interaction::SharedSound horn_ = interaction::horn_sound();
-  nav_msgs::Path path_;
-  docent_msgs::GoalState goal_;
-  bool is_path_new_ = false;
-  int part_ = 0;  ///< of the thin viewers, that gets the next pose
   std::map<std::string, telepresence::HealthEntry> modules_;
 
   std::mutex shared_mutex_;  ///< of the two below

@@ -1,4 +1,4 @@
-#include "docent/modules/edge/vote_desk.h"
+#include "docent/modules/web/vote_desk.h"
 
 #include <algorithm>
 #include <utility>

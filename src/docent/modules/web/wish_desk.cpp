@@ -1,4 +1,4 @@
-#include "docent/modules/edge/wish_desk.h"
+#include "docent/modules/web/wish_desk.h"
 
 #include <set>
 #include <utility>

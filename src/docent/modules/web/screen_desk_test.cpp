@@ -1,4 +1,4 @@
-#include "docent/modules/edge/screen_desk.h"
+#include "docent/modules/web/screen_desk.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

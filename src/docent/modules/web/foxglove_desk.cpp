@@ -1,4 +1,4 @@
-#include "docent/modules/edge/foxglove_desk.h"
+#include "docent/modules/web/foxglove_desk.h"
 
 #include "docent/messages/topics.h"
 #include "docent/recording/recorder.h"

@@ -1,0 +1,101 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "docent/collision_avoidance/avoider/avoider.h"
+#include "docent/collision_avoidance/avoider/rehearsal_for_test.h"
+#include "docent/vocabulary/vocabulary.h"
+
+namespace docent::collision_avoidance {
+namespace {
+
+Rehearsal in_a_hall() {
+  Rehearsal world;
+  world.box(-6, -6, 12, 6);
+  world.run(0.5);  // its sensors have spoken
+  return world;
+}
+
+TEST(HandSteering, DrivesTurnsAndGoesBack) {
+  Rehearsal world = in_a_hall();
+  world.hand = HandSteering{true, 0.5, 0.0};
+  world.run(6.0);
+  EXPECT_NEAR(world.velocity.linear, 0.35, 0.05);
+  EXPECT_EQ(world.decision.reason, to_text(ReasonWord::steered_by_hand));
+  EXPECT_GT(world.map_from_base.x, 1.0);
+  world.hand = HandSteering{true, 0.0, 1.0};
+  world.run(2.0);
+  EXPECT_GT(world.velocity.angular, 0.2);
+  EXPECT_LT(std::abs(world.velocity.linear), 0.05);
+  world.hand = HandSteering{true, -1.0, 0.0};
+  world.run(3.0);
+  EXPECT_LT(world.velocity.linear, -0.05);
+}
+
+TEST(HandSteering, NeverDrivesIntoAnything) {
+  Rehearsal world;
+  world.box(-3, -3, 5, 3);
+  world.hazards = sides({{2.5, -1}, {3.5, -1}, {3.5, 1}, {2.5, 1}});
+  world.run(0.5);
+  for (const auto& [forward, turn] : {std::pair{1.0, 0.0}, {1.0, 0.6}, {-1.0, 0.0}, {1.0, -1.0}, {1.0, 0.0}}) {
+    world.hand = HandSteering{true, forward, turn};
+    world.run(15.0);
+  }
+  EXPECT_GT(world.driven, 3.0);
+  EXPECT_GT(world.least_wall, 0.02);
+}
+
+TEST(HandSteering, AHandThatLetsGoOrFallsSilentStopsTheRobot) {
+  for (const bool falls_silent : {true, false}) {
+    Rehearsal world = in_a_hall();
+    world.hand = HandSteering{true, 1.0, 0.0};
+    world.run(3.0);
+    ASSERT_GT(world.velocity.linear, 0.5);
+    if (falls_silent) {
+      world.hand.reset();
+    } else {
+      world.hand->is_pressed = false;
+    }
+    // Half a second of patience at most, a scan, and the way to brake.
+    world.run(falls_silent ? 0.5 + 0.15 : 0.15 + 0.1);
+    EXPECT_EQ(world.decision.command.linear, 0.0) << falls_silent;
+    world.run(1.5);
+    EXPECT_LT(std::abs(world.velocity.linear), 0.02);
+  }
+}
+
+TEST(HandSteering, TheRobotWaitsAWhileAndGoesItsOwnWayAgain) {
+  Rehearsal world = in_a_hall();
+  world.drive_to({{8, 0}});
+  world.hand = HandSteering{false, 0.0, 0.0};
+  world.run(5.0);
+  EXPECT_LT(world.driven, 0.05) << "the operator holds it";
+  world.hand.reset();
+  world.run(3.0);
+  EXPECT_LT(world.driven, 0.05);
+  world.run(4.0);
+  EXPECT_GT(world.driven, 0.5);
+}
+
+TEST(HandSteering, TheStopButtonStopsWhateverIsWanted) {
+  Rehearsal world = in_a_hall();
+  world.drive_to({{8, 0}});
+  world.run(4.0);
+  ASSERT_GT(world.velocity.linear, 0.5);
+  world.avoider.stop_by_hand(true);
+  world.run(0.15);
+  EXPECT_EQ(world.decision.command.linear, 0.0);
+  EXPECT_EQ(world.decision.reason, to_text(ReasonWord::stopped_by_hand));
+  world.run(2.0);
+  const double driven = world.driven;
+  world.hand = HandSteering{true, 1.0, 0.0};
+  world.run(3.0);
+  EXPECT_EQ(world.driven, driven) << "nor does the hand move it";
+  world.hand.reset();
+  world.avoider.stop_by_hand(false);
+  world.run(8.0);
+  EXPECT_GT(world.driven, driven + 0.5);
+}
+
+}  // namespace
+}  // namespace docent::collision_avoidance

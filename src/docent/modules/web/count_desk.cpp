@@ -1,0 +1,127 @@
+#include "docent/modules/web/count_desk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "docent/messages/conversions.h"
+#include "docent/messages/topics.h"
+#include "docent/vocabulary/vocabulary.h"
+
+namespace docent::modules {
+namespace {
+
+using telepresence::Counted;
+
+constexpr double kMoves = 0.02;                  // [m/s] and more
+constexpr double kLongest = 1.0;                 // [s] between two odometries that belong together
+constexpr double kRound = 3.0;                   // [m] round the robot stand those whom it guides
+constexpr double kFastest = 3.0;                 // [m/s] whatever says more has jumped
+constexpr std::size_t kMostAddresses = 100'000;  // between two stores
+
+std::optional<Counted> counted_of(const std::string& source) {
+  switch (parse<RequestSource>(source).value_or(RequestSource::web)) {
+    case RequestSource::web:
+      return Counted::web;
+    case RequestSource::kiosk:
+      return Counted::kiosk;
+    case RequestSource::visitor:
+      return Counted::visitor;
+    case RequestSource::staff:
+      return Counted::staff;
+    case RequestSource::vote:
+      return Counted::vote;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+CountDesk::CountDesk(transport::Bus& bus, std::unique_ptr<telepresence::Statistics> statistics, std::string gateway)
+    : bus_{bus}, statistics_{std::move(statistics)}, gateway_{std::move(gateway)}, begun_{bus.now()} {
+  bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const auto& m) { see_odometry(m); });
+  bus_.subscribe<docent_msgs::Event>(topics::kEvent, [this](const auto& m) { see_event(m); });
+}
+
+void CountDesk::arrived(const std::string& address) {
+  if (addresses_.size() < kMostAddresses) addresses_.insert(address);
+}
+
+void CountDesk::asked(std::uint64_t accesses) {
+  own_[Counted::accesses] += static_cast<double>(accesses - std::min(accesses, accesses_));
+  accesses_ = accesses;
+}
+
+void CountDesk::see_odometry(const nav_msgs::Odometry& odometry) {
+  const Time stamp = from_message(odometry.header.stamp);
+  const Pose2 now = from_message(odometry.pose.pose);
+  const double passed = moved_ ? to_seconds(stamp - *moved_) : 0.0;
+  const double way = odom_from_base_ ? distance(odom_from_base_->position(), now.position()) : 0.0;
+  const double speed = std::abs(odometry.twist.twist.linear.x);
+  moved_ = stamp;
+  odom_from_base_ = now;
+  if (!(passed > 0.0 && passed < kLongest) || way > kFastest * passed || speed > kFastest) return;
+  robot_[Counted::uptime_s] += passed;
+  if (speed < kMoves) return;
+  robot_[Counted::travel_s] += passed;
+  robot_[Counted::distance_m] += way;
+  robot_[Counted::max_speed] = std::max(robot_[Counted::max_speed], speed);
+}
+
+void CountDesk::see_event(const docent_msgs::Event& event) {
+  const auto kind = parse<EventKind>(event.kind);
+  if (kind == EventKind::tour_completed) robot_[Counted::tours] += 1.0;
+  if (kind == EventKind::point_reached) robot_[Counted::points] += 1.0;
+  if (kind != EventKind::explained) return;
+  robot_[Counted::exhibits] += 1.0;
+  robot_[Counted::visitors] += people_near_;
+}
+
+void CountDesk::see_people(const docent_msgs::People& people, std::optional<Pose2> map_from_base) {
+  people_near_ = 0.0;
+  if (!map_from_base) return;
+  for (const auto& person : people.people)
+    if (distance({person.x, person.y}, map_from_base->position()) <= kRound) people_near_ += 1.0;
+}
+
+void CountDesk::see(const docent_msgs::RequestBoard& board) {
+  std::map<std::string, bool> requests;
+  for (const auto& entry : board.requests) {
+    const auto known = requests_.find(entry.request.id);
+    bool& is_over = requests[entry.request.id];
+    is_over = known != requests_.end() && known->second;
+    // What the board held before this program began was counted by the one before.
+    if (known == requests_.end() && from_message(entry.created) >= begun_)
+      if (const auto source = counted_of(entry.request.source)) robot_[*source] += 1.0;
+    if (is_over || from_message(entry.changed) < begun_) continue;
+    const auto status = parse<RequestStatus>(entry.state);
+    if (status == RequestStatus::fulfilled) robot_[Counted::fulfilled] += 1.0;
+    if (status == RequestStatus::failed) robot_[Counted::failed] += 1.0;
+    is_over = status == RequestStatus::fulfilled || status == RequestStatus::failed;
+  }
+  requests_ = std::move(requests);
+}
+
+void CountDesk::store(const std::string& mode) {
+  const Time now = bus_.now();
+  fault_.clear();
+  const auto keep = [&](telepresence::Counts& counts) {
+    if (auto stored = statistics_->add(now, mode, counts)) {
+      counts.clear();
+    } else {
+      fault_ = stored.error().message;
+    }
+  };
+  keep(own_);
+  if (auto stored = statistics_->add_web_visitors(now, mode, addresses_)) {
+    addresses_.clear();
+  } else {
+    fault_ = stored.error().message;
+  }
+  const auto is_ours = statistics_->may_count_robot(gateway_, now);
+  if (!is_ours) fault_ = is_ours.error().message;
+  if (is_ours && *is_ours) keep(robot_);
+  if (is_ours && !*is_ours) robot_.clear();  // another gateway counts it
+}
+
+}  // namespace docent::modules

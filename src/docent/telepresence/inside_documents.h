@@ -1,0 +1,88 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+// Of documents.h: what those get who look inside the robot, and operators.
+
+namespace docent::telepresence::documents {
+
+/// What the robot must not touch, and what it makes of its beams, for those who look inside. Frame of the robot.
+struct FieldMessage {
+  static constexpr const char* kName = "FieldMessage";
+  static constexpr const char* kType = "field";
+  std::vector<int> virtual_points;  ///< [cm] x, y, x, y … of virtual measurements: hazards and the area's border
+  std::vector<int> beams;  ///< [cm] x, y, and where it comes from: 0 nobody knows, 1 the map, 2 and 3 not the map
+  template <class Self, class V>
+  static void visit(Self& d, V& v) {
+    v("virtual", d.virtual_points), v("beams", d.beams);
+  }
+};
+struct LogLine {
+  static constexpr const char* kName = "LogLine";
+  double t = 0;
+  std::string kind, subject, detail;
+  template <class Self, class V>
+  static void visit(Self& d, V& v) {
+    v("t", d.t), v("kind", d.kind), v("subject", d.subject), v("detail", d.detail);
+  }
+};
+/// What happened, the newest first, for those who look inside.
+struct LogMessage {
+  static constexpr const char* kName = "LogMessage";
+  static constexpr const char* kType = "log";
+  std::vector<LogLine> lines;
+  template <class Self, class V>
+  static void visit(Self& d, V& v) {
+    v("lines", d.lines);
+  }
+};
+
+/// Who operates the robot, for operators.
+struct OperationMessage {
+  static constexpr const char* kName = "OperationMessage";
+  static constexpr const char* kType = "operation";
+  std::string holder;       ///< of the lease to steer; empty: nobody
+  bool is_pressed = false;  ///< they hold the dead man's switch down
+  bool is_stopped = false;  ///< by the stop button
+  std::string stopped_by;   ///< whoever pressed it last
+  std::string hours;        ///< what an operator has said of the hours last: open, web, closed, hours; empty: nothing
+  template <class Self, class V>
+  static void visit(Self& d, V& v) {
+    v("holder", d.holder), v("pressed", d.is_pressed), v("stopped", d.is_stopped), v("stopped_by", d.stopped_by);
+    v("hours", d.hours);
+  }
+};
+
+struct ModuleState {
+  static constexpr const char* kName = "ModuleState";
+  std::string name, state, reason;
+  std::optional<double> p99_ms;
+  template <class Self, class V>
+  static void visit(Self& d, V& v) {
+    v("name", d.name), v("state", d.state), v("reason", d.reason), v("p99_ms", d.p99_ms);
+  }
+};
+struct HealthMessage {
+  static constexpr const char* kName = "HealthMessage";
+  static constexpr const char* kType = "health";
+  std::size_t viewers = 0;
+  std::vector<ModuleState> modules;
+  template <class Self, class V>
+  static void visit(Self& d, V& v) {
+    v("viewers", d.viewers), v("modules", d.modules);
+  }
+};
+struct WindowMessage {
+  static constexpr const char* kName = "WindowMessage";
+  static constexpr const char* kType = "window";
+  double v = 0.0, w = 0.0;
+  std::vector<double> candidates;  ///< v, w, value, v, w, value …
+  template <class Self, class V>
+  static void visit(Self& d, V& v) {
+    v("v", d.v), v("w", d.w), v("candidates", d.candidates);
+  }
+};
+
+}  // namespace docent::telepresence::documents

@@ -1,0 +1,198 @@
+#include "docent/telepresence/server/http_connection.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <future>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "docent/telepresence/server/test_client.h"
+#include "docent/telepresence/server/web_server.h"
+
+namespace docent::telepresence {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Answers from another thread, what the tests want; knows one operator.
+class ADesk final : public ApiDesk {
+ public:
+  ~ADesk() override {
+    for (std::thread& thread : threads_) thread.join();
+  }
+  void take(ApiRequest request, std::function<void(ApiReply)> answer) override {
+    const std::scoped_lock lock{mutex_};
+    requests_.push_back(request);
+    threads_.emplace_back([answer = std::move(answer), delay = delay] {
+      std::this_thread::sleep_for(delay);
+      answer({200, R"({"ok":true})", "docent_login=abc; HttpOnly"});
+    });
+  }
+  void admit(std::string token, std::function<void(std::optional<std::string>)> answer) override {
+    const std::scoped_lock lock{mutex_};
+    threads_.emplace_back([token = std::move(token), answer = std::move(answer)] {
+      answer(token == "good" ? std::optional<std::string>{"ada"} : std::nullopt);
+    });
+  }
+  std::vector<ApiRequest> requests() {
+    const std::scoped_lock lock{mutex_};
+    return requests_;
+  }
+  std::chrono::milliseconds delay{0};
+
+ private:
+  std::mutex mutex_;
+  std::vector<ApiRequest> requests_;
+  std::vector<std::thread> threads_;
+};
+
+class HttpConnections : public testing::Test {
+ protected:
+  void start(WebServerParams params = {}) {
+    params.port = 0;
+    auto server = WebServer::start(params, std::make_shared<Site>(),
+                                   {.message =
+                                        [this](const Caller& caller, const ClientMessage& message) {
+                                          const std::scoped_lock lock{mutex_};
+                                          heard_.emplace_back(caller, message);
+                                        },
+                                    .arrived =
+                                        [this](const std::string& address) {
+                                          const std::scoped_lock lock{mutex_};
+                                          arrived_.push_back(address);
+                                        },
+                                    .left = [this](const Caller& caller) { left_.set_value(caller.name); },
+                                    .desk = desk_});
+    ASSERT_TRUE(server) << server.error().message;
+    server_ = std::move(*server);
+  }
+  std::pair<std::string, std::string> call(const std::string& line, const std::string& headers = "",
+                                           const std::string& body = "") const {
+    TestClient client{server_->port()};
+    client.send(line + " HTTP/1.1\r\nHost: robot.test\r\n" + headers +
+                (body.empty() ? "" : "Content-Length: " + std::to_string(body.size()) + "\r\n") + "\r\n" + body);
+    return client.receive_reply();
+  }
+  std::mutex mutex_;
+  std::vector<std::pair<Caller, ClientMessage>> heard_;
+  std::vector<std::string> arrived_;
+  std::promise<std::string> left_;
+  std::shared_ptr<ADesk> desk_ = std::make_shared<ADesk>();
+  std::unique_ptr<WebServer> server_;
+};
+
+TEST_F(HttpConnections, HandCallsToTheDeskAndAnswersBack) {
+  start();
+  const auto [head, body] = call("PUT /api/v1/posts/1?x=2",
+                                 "Content-Type: application/json; charset=utf-8\r\nCookie: a=1; docent_login=tok\r\n"
+                                 "Docent-Csrf: c\r\nOrigin: http://robot.test\r\n",
+                                 "{}");
+  EXPECT_TRUE(head.starts_with("HTTP/1.1 200")) << head;
+  for (const char* wanted :
+       {"Cache-Control: no-store", "Set-Cookie: docent_login=abc; HttpOnly", "Content-Type: application/json",
+        "Content-Security-Policy: ", "X-Content-Type-Options: nosniff"})
+    EXPECT_NE(head.find(wanted), std::string::npos) << head;
+  EXPECT_EQ(body, R"({"ok":true})");
+  ASSERT_EQ(desk_->requests().size(), 1U);
+  const ApiRequest request = desk_->requests()[0];
+  EXPECT_EQ(request.method, "PUT");
+  EXPECT_EQ(request.target, "/api/v1/posts/1?x=2");
+  EXPECT_EQ(request.body, "{}");
+  EXPECT_EQ(request.token, "tok");
+  EXPECT_EQ(request.csrf, "c");
+  EXPECT_EQ(request.address, "127.0.0.1");
+  EXPECT_TRUE(request.is_json && request.is_of_ours);
+}
+
+TEST_F(HttpConnections, SayWhatComesFromAnotherSite) {
+  start();
+  (void)call("POST /api/v1/forum", "Content-Type: text/plain\r\nOrigin: http://evil.test\r\n", "{}");
+  ASSERT_EQ(desk_->requests().size(), 1U);
+  EXPECT_FALSE(desk_->requests()[0].is_of_ours);
+  EXPECT_FALSE(desk_->requests()[0].is_json);
+}
+
+TEST_F(HttpConnections, RefuseWhatIsTooLarge) {
+  start();
+  const std::string large(kLongestBody + 1, 'x');
+  EXPECT_TRUE(call("POST /api/v1/forum", "", large).first.starts_with("HTTP/1.1 413"));
+  EXPECT_TRUE(call("GET /api/v1/forum", "X: " + std::string(9000, 'x') + "\r\n").first.starts_with("HTTP/1.1 413"));
+  EXPECT_TRUE(desk_->requests().empty());
+}
+
+TEST_F(HttpConnections, ServeOneCallAfterTheOther) {
+  start();
+  TestClient client{server_->port()};
+  for (int i = 0; i < 5; ++i) {
+    client.send("GET /api/v1/forum HTTP/1.1\r\nHost: a\r\n\r\n");
+    EXPECT_TRUE(client.receive_reply().first.starts_with("HTTP/1.1 200")) << i;
+  }
+}
+
+TEST_F(HttpConnections, BelieveAForwardedAddressFromAProxyOfOursAlone) {
+  start();
+  (void)call("GET /api/v1/forum", "X-Forwarded-For: 203.0.113.9\r\n");
+  server_.reset();
+  WebServerParams params;
+  params.proxies = {"127.0.0.1"};
+  start(params);
+  (void)call("GET /api/v1/forum", "X-Forwarded-For: 1.1.1.1, 203.0.113.9\r\n");
+  EXPECT_EQ(desk_->requests().at(0).address, "127.0.0.1");
+  EXPECT_EQ(desk_->requests().at(1).address, "203.0.113.9");
+  TestClient viewer{server_->port()};
+  ASSERT_TRUE(viewer.upgrade("X-Forwarded-For: 203.0.113.10\r\n"));
+  const std::scoped_lock lock{mutex_};
+  EXPECT_EQ(arrived_, std::vector<std::string>{"203.0.113.10"});
+}
+
+TEST_F(HttpConnections, AnOperatorWhoHasLoggedInIsAdmitted) {
+  start();
+  server_->restrict_to(Stream::operators, 5);
+  server_->broadcast(5, "for operators");
+  server_->broadcast(6, "for all who watch");
+  TestClient viewer{server_->port()};
+  EXPECT_FALSE(viewer.upgrade("Cookie: docent_login=bad\r\n", "/operate"));
+  TestClient other{server_->port()};
+  EXPECT_FALSE(other.upgrade("Cookie: docent_login=good\r\nOrigin: http://evil.test\r\n", "/operate"));
+  {
+    TestClient ada{server_->port()};
+    ASSERT_TRUE(ada.upgrade("Cookie: docent_login=good\r\n", "/operate"));
+    EXPECT_EQ(ada.receive_frame().payload, "for operators");
+    ada.send_frame(R"({"type":"steer","pressed":true,"forward":0.5,"turn":0})");
+    ada.send_frame(R"({"type":"watch"})");
+    for (int i = 0; i < 300; ++i) {
+      const std::scoped_lock lock{mutex_};
+      if (!heard_.empty()) break;
+      std::this_thread::sleep_for(10ms);
+    }
+    const std::scoped_lock lock{mutex_};
+    ASSERT_EQ(heard_.size(), 1U);
+    EXPECT_EQ(heard_[0].first.name, "ada");
+    EXPECT_EQ(heard_[0].first.role, Role::staff);
+    EXPECT_TRUE(arrived_.empty()) << "no visitor";
+  }
+  EXPECT_EQ(left_.get_future().get(), "ada");
+  // Who watches neither hears nor says what is an operator's.
+  TestClient watching{server_->port()};
+  ASSERT_TRUE(watching.upgrade());
+  EXPECT_EQ(watching.receive_frame().payload, "for all who watch");
+  watching.send_frame(R"({"type":"steer","pressed":true,"forward":0.5,"turn":0})");
+  EXPECT_EQ(watching.receive_frame().close_code(), 1008);
+}
+
+TEST_F(HttpConnections, TheServerEndsWithCallsUnderWay) {
+  desk_->delay = 200ms;
+  start();
+  std::vector<std::unique_ptr<TestClient>> clients;
+  for (int i = 0; i < 20; ++i) {
+    clients.push_back(std::make_unique<TestClient>(server_->port()));
+    clients.back()->send("GET /api/v1/forum HTTP/1.1\r\nHost: a\r\n\r\n");
+  }
+  while (desk_->requests().size() < 10) std::this_thread::sleep_for(1ms);
+  server_.reset();
+}
+
+}  // namespace
+}  // namespace docent::telepresence

@@ -1,0 +1,96 @@
+// What the forum says; loaded with it.
+import type { ApiFault } from '../lib/api';
+
+const en = {
+  title: 'Talk to one another',
+  empty: 'Nobody has written yet. Begin!',
+  begin: 'Begin a new thread',
+  older: 'Older threads',
+  later: 'Later posts',
+  back: 'All threads',
+  heading: 'What is it about?',
+  text: 'What do you want to say?',
+  name: 'Your name',
+  send: 'Send',
+  held: 'Thank you! Somebody of the museum reads it before everybody sees it.',
+  sent: 'Sent.',
+  waits: 'waits for a moderator',
+  report: 'Report',
+  reported: 'Thank you, a moderator will look at it.',
+  posts: 'posts',
+  fault_not_found: 'This is no longer there.',
+  fault_too_fast: 'That was too fast. Wait a moment.',
+  fault_not_allowed: 'You may not do that.',
+  fault_sent_away: 'A moderator has asked you to stay away for a while.',
+  fault_too_often: 'You have written a lot. Come back in ten minutes.',
+  fault_nothing_said: 'Write something first.',
+  fault_not_stored: 'It could not be kept just now. Try again.',
+  fault_wrong_password: 'No account has this name and password.',
+  fault_offline: 'The robot does not answer just now.',
+  fault_other: 'That did not work.',
+};
+export type ForumWords = typeof en;
+
+const de: ForumWords = {
+  title: 'Miteinander reden',
+  empty: 'Noch hat niemand geschrieben. Fang an!',
+  begin: 'Ein neues Thema beginnen',
+  older: 'Ältere Themen',
+  later: 'Spätere Beiträge',
+  back: 'Alle Themen',
+  heading: 'Worum geht es?',
+  text: 'Was möchtest du sagen?',
+  name: 'Dein Name',
+  send: 'Senden',
+  held: 'Danke! Jemand vom Museum liest es, bevor alle es sehen.',
+  sent: 'Gesendet.',
+  waits: 'wird noch gelesen',
+  report: 'Melden',
+  reported: 'Danke, jemand sieht es sich an.',
+  posts: 'Beiträge',
+  fault_not_found: 'Das gibt es nicht mehr.',
+  fault_too_fast: 'Das war zu schnell. Warte einen Moment.',
+  fault_not_allowed: 'Das darfst du nicht.',
+  fault_sent_away: 'Du sollst eine Weile fortbleiben, sagt die Moderation.',
+  fault_too_often: 'Du hast viel geschrieben. Komm in zehn Minuten wieder.',
+  fault_nothing_said: 'Schreib erst etwas.',
+  fault_not_stored: 'Es ließ sich gerade nicht speichern. Versuch es noch einmal.',
+  fault_wrong_password: 'Kein Konto hat diesen Namen und dieses Passwort.',
+  fault_offline: 'Der Roboter antwortet gerade nicht.',
+  fault_other: 'Das ging nicht.',
+};
+
+const fr: ForumWords = {
+  title: 'Parler ensemble',
+  empty: 'Personne n’a encore écrit. Commencez !',
+  begin: 'Commencer un sujet',
+  older: 'Sujets plus anciens',
+  later: 'Messages suivants',
+  back: 'Tous les sujets',
+  heading: 'De quoi s’agit-il ?',
+  text: 'Que voulez-vous dire ?',
+  name: 'Votre nom',
+  send: 'Envoyer',
+  held: 'Merci ! Quelqu’un du musée le lit avant que tous le voient.',
+  sent: 'Envoyé.',
+  waits: 'attend d’être lu',
+  report: 'Signaler',
+  reported: 'Merci, un modérateur va regarder.',
+  posts: 'messages',
+  fault_not_found: 'Cela n’existe plus.',
+  fault_too_fast: 'C’était trop rapide. Attendez un moment.',
+  fault_not_allowed: 'Vous n’avez pas le droit de faire cela.',
+  fault_sent_away: 'Un modérateur vous a demandé de rester à l’écart un moment.',
+  fault_too_often: 'Vous avez beaucoup écrit. Revenez dans dix minutes.',
+  fault_nothing_said: 'Écrivez d’abord quelque chose.',
+  fault_not_stored: 'Impossible de le garder pour l’instant. Réessayez.',
+  fault_wrong_password: 'Aucun compte n’a ce nom et ce mot de passe.',
+  fault_offline: 'Le robot ne répond pas pour l’instant.',
+  fault_other: 'Cela n’a pas marché.',
+};
+
+const all: Record<string, ForumWords> = { en, de, fr };
+export const forumWords = (language: string): ForumWords => all[language] ?? en;
+export function faultText(words: ForumWords, reason: ApiFault): string {
+  return (words as Record<string, string>)[`fault_${reason}`] ?? words.fault_other;
+}
