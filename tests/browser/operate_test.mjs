@@ -90,7 +90,7 @@ await check('the stop button stops the robot and shows it', async () => {
 await check('a stop outlives a reload, and is taken back', async () => {
   await page.reload();
   await page.waitForSelector('.stop[data-stopped=true]');
-  await page.locator('.stop button.quiet').click();
+  await page.locator('.stop button.plain').click();
   await page.waitForSelector('.stop[data-stopped=false]');
   await robotDoes('it may move', (now) => now.reason !== 'stopped_by_hand', 5000);
 });
@@ -172,7 +172,7 @@ await check('a page that dies while it steers lets the robot stand, and the whee
 await check('the stop button needs no wheel, and works by touch', async () => {
   await other.page.locator('.stop-button').tap();
   await other.page.waitForSelector('.stop[data-stopped=true]');
-  await other.page.locator('.stop button.quiet').tap();
+  await other.page.locator('.stop button.plain').tap();
   await other.page.waitForSelector('.stop[data-stopped=false]');
 });
 await check('an operator says whose hours these are', async () => {

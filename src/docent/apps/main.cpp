@@ -8,6 +8,7 @@
 #include "docent/apps/attract/attract_command.h"
 #include "docent/apps/config/config_command.h"
 #include "docent/apps/crowd/crowd_command.h"
+#include "docent/apps/gateway/gateway_command.h"
 #include "docent/apps/golog/golog_command.h"
 #include "docent/apps/learn/learn_command.h"
 #include "docent/apps/localize/localize_command.h"
@@ -37,7 +38,7 @@ void add_commands(CLI::App& app) {
     const std::vector<CLI::App*> all = app.get_subcommands({});
     for (std::size_t i = before; i < all.size(); ++i) all[i]->group(heading);
   };
-  add("Drive through a museum", {add_simulate_command, add_up_command, add_web_account_command});
+  add("Drive through a museum", {add_simulate_command, add_up_command, add_web_account_command, add_gateway_command});
   add("Make a museum",
       {add_museum_command, add_office_command, add_survey_command, add_check_command, add_golog_command});
   add("Look at recordings", {add_localize_command, add_map_command, add_replay_command, add_evaluate_command});

@@ -183,8 +183,8 @@ void Avoider::judge_blocking(Time now, Point2 carrot, const Pose2& odom_from_bas
 }
 
 AvoiderDecision Avoider::finish(Time now, AvoiderDecision decision) {
-  // Whatever else hinders it: what is broken must be known.
-  if (auto found = complaint(now)) decision.reason = std::move(found->reason);
+  // Whatever else hinders it, but for a person's hand: what is broken must be known.
+  if (auto found = complaint(now); found && !is_stopped_) decision.reason = std::move(found->reason);
   command_ = decision.command;
   commands_.add(now, command_);
   return decision;

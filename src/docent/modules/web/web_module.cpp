@@ -80,11 +80,14 @@ class WebModule final : public Module {
     if (!map) return tl::unexpected<Error>(map.error());
     auto key = telepresence::screen_key(context.state / "screen.key");
     if (!key) return tl::unexpected<Error>(key.error());
+    auto uplink_key = telepresence::screen_key(context.state / "uplink.key");
+    if (!uplink_key) return tl::unexpected<Error>(uplink_key.error());
 
     std::unique_ptr<WebModule> module{new WebModule{context, *params, std::move(*store), std::move(*desk)}};
     if (auto filled = module->fill_site(context, std::move(*map)); !filled)
       return tl::unexpected<Error>(filled.error());
-    auto server = telepresence::WebServer::start(*params, module->site_, module->hooks(std::move(*key)));
+    auto server =
+        telepresence::WebServer::start(*params, module->site_, module->hooks(std::move(*key), std::move(*uplink_key)));
     if (!server) return fail("web: " + server.error().message);
     module->set_server(std::move(*server));
     module->subscribe();
@@ -158,7 +161,7 @@ class WebModule final : public Module {
   }
 
   /// What the server calls on its own thread is done on the bus's.
-  telepresence::WebServerHooks hooks(std::string screen_key) {
+  telepresence::WebServerHooks hooks(std::string screen_key, std::string uplink_key) {
     telepresence::WebServerHooks hooks;
     hooks.message = [this](const telepresence::Caller& caller, const telepresence::ClientMessage& m) {
       bus_.post([this, caller, m] { take(caller, m); });
@@ -166,6 +169,7 @@ class WebModule final : public Module {
     hooks.arrived = [this](const std::string& address) { bus_.post([this, address] { counts_.arrived(address); }); };
     hooks.left = [this](const telepresence::Caller& caller) { bus_.post([this, caller] { operator_.left(caller); }); };
     hooks.screen_key = std::move(screen_key);
+    hooks.uplink_key = std::move(uplink_key);
     hooks.foxglove = foxglove_.hub();
     hooks.desk = desk_;
     return hooks;

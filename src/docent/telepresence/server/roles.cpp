@@ -8,14 +8,6 @@
 namespace docent::telepresence {
 namespace {
 
-/// In the same time whatever the keys have in common.
-bool is_same_key(std::string_view a, std::string_view b) {
-  if (a.size() != b.size() || b.empty()) return false;
-  unsigned difference = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) difference |= static_cast<unsigned>(a[i] ^ b[i]);
-  return difference == 0;
-}
-
 bool is_page_of_ours(const Opening& opening, const std::vector<std::string>& others) {
   if (opening.origin.empty()) return true;
   std::string_view page = opening.origin;
@@ -32,6 +24,13 @@ bool is_page_of_ours(const Opening& opening, const std::vector<std::string>& oth
 }
 
 }  // namespace
+
+bool is_same_key(std::string_view a, std::string_view b) {
+  if (a.size() != b.size() || b.empty()) return false;
+  unsigned difference = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) difference |= static_cast<unsigned>(a[i] ^ b[i]);
+  return difference == 0;
+}
 
 std::optional<Role> role_of(const Opening& opening, const std::vector<std::string>& others,
                             std::string_view screen_key) {

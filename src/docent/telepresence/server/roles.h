@@ -25,6 +25,9 @@ struct Opening {
   std::string_view key;     ///< with which a page says that it is the robot's own screen; empty: it does not say so
 };
 
+/// In the same time whatever the keys have in common; an empty one is none.
+[[nodiscard]] bool is_same_key(std::string_view a, std::string_view b);
+
 /// nullopt: it may not be opened, for a page of somebody else must not speak for its reader, and no page is the robot's
 /// screen without its key. Everybody else is a visitor.
 /// @param others  hosts besides the called one whose pages may open it

@@ -13,6 +13,7 @@
 #include "docent/telepresence/server/foxglove_session.h"
 #include "docent/telepresence/server/http_connection.h"
 #include "docent/telepresence/server/session.h"
+#include "docent/telepresence/server/uplink_session.h"
 #include "docent/telepresence/server/web_server.h"
 
 namespace docent::telepresence {
@@ -32,7 +33,7 @@ struct WebServer::Core {
   Core(const WebServerParams& given, std::shared_ptr<const Site> site, WebServerHooks the_hooks)
       : params{given},
         hooks{std::move(the_hooks)},
-        router{std::move(site), given.origins, hooks.screen_key},
+        router{site, given.origins, hooks.screen_key, hooks.uplink_key},
         foxglove{hooks.foxglove},
         acceptor{io},
         timer{io},
@@ -54,6 +55,15 @@ struct WebServer::Core {
     http.open_live = [this](tcp::socket socket, HttpRequest request, const Arrival& how) {
       open_live(std::move(socket), std::move(request), how);
     };
+    uplink_owner.arrived = hooks.arrived;
+    uplink_owner.left = [this](std::uint64_t number) { uplinks.erase(number); };
+    uplink_owner.site = std::move(site);
+    uplink_owner.desk = hooks.desk;
+    uplink_owner.asked = &http.asked;
+    uplink_owner.is_closing = &http.is_closing;
+    http.open_uplink = [this](tcp::socket socket, HttpRequest request) {
+      open_uplink(std::move(socket), std::move(request));
+    };
     http.open_foxglove = [this](tcp::socket socket, HttpRequest request) {
       open_foxglove(std::move(socket), std::move(request));
     };
@@ -62,6 +72,8 @@ struct WebServer::Core {
   void accept();
   void open_live(tcp::socket socket, HttpRequest request, const Arrival& how);
   void open_foxglove(tcp::socket socket, HttpRequest request);
+  void open_uplink(tcp::socket socket, HttpRequest request);
+  [[nodiscard]] std::uint32_t slots_with_a_value() const;
   void tick();
   void flush_all();
 
@@ -73,6 +85,7 @@ struct WebServer::Core {
   std::atomic<std::uint64_t> viewers_ever{0};
   SessionOwner sessions;
   HttpOwner http;
+  UplinkOwner uplink_owner;
   asio::io_context io{1};  // after the counters: its last handlers still count down
   tcp::acceptor acceptor;
   asio::steady_timer timer;
@@ -81,6 +94,8 @@ struct WebServer::Core {
   std::array<SharedText, kSlots> latest;
   std::array<std::map<ViewerId, std::shared_ptr<Session>>, kGroups> groups;
   std::set<std::shared_ptr<FoxgloveSession>> foxglove_sessions;
+  std::map<std::uint64_t, std::shared_ptr<UplinkSession>> uplinks;
+  std::uint64_t next_uplink = 1;
   ViewerId next_viewer = 1;
   std::size_t next_group = 0;
   bool is_ticking = false;
@@ -99,6 +114,8 @@ Result<void> WebServerParams::validate() const {
   if (max_message_bytes < 256 || max_message_bytes > 1 << 20)
     return fail("web.max_message_bytes must be 256 to 1048576");
   if (send_buffer_bytes < 4096) return fail("web.send_buffer_bytes must be at least 4096");
+  if (!(uplink_picture_s >= 0.1)) return fail("web.uplink_picture_s must be at least 0.1");
+  if (uplink_picture_bytes_per_s < 100) return fail("web.uplink_picture_bytes_per_s must be at least 100");
   if (!(idle_timeout_s >= 1.0)) return fail("web.idle_timeout_s must be at least 1");
   return {};
 }
@@ -131,11 +148,28 @@ void WebServer::Core::open_live(tcp::socket socket, HttpRequest request, const A
   groups[id % kGroups].emplace(id, session);
   ++viewers;
   ++viewers_ever;
+  session->run(std::move(request), slots_with_a_value(), how.is_thin);
+}
+
+std::uint32_t WebServer::Core::slots_with_a_value() const {
   std::uint32_t slots = 0;
   for (std::size_t slot = 0; slot < latest.size(); ++slot) {
     if (latest.at(slot)) slots |= 1U << slot;
   }
-  session->run(std::move(request), slots, how.is_thin);
+  return slots;
+}
+
+void WebServer::Core::open_uplink(tcp::socket socket, HttpRequest request) {
+  constexpr std::size_t kMostUplinks = 4;
+  if (uplinks.size() >= kMostUplinks) return;  // it closes
+  constexpr int kLittle = 8192;                // what the kernel holds is old before it has left
+  beast::error_code ignored;
+  socket.set_option(tcp::no_delay{true}, ignored);
+  socket.set_option(asio::socket_base::send_buffer_size{kLittle}, ignored);
+  const std::uint64_t number = next_uplink++;
+  const auto session = std::make_shared<UplinkSession>(sessions, uplink_owner, params, std::move(socket), number);
+  uplinks.emplace(number, session);
+  session->run(std::move(request), slots_with_a_value());
 }
 
 void WebServer::Core::open_foxglove(tcp::socket socket, HttpRequest request) {
@@ -195,6 +229,7 @@ WebServer::~WebServer() {
   core_->thread.join();
   for (const auto& session : core_->foxglove_sessions) session->drop();
   core_->foxglove_sessions.clear();
+  for (const auto& [number, uplink] : std::exchange(core_->uplinks, {})) uplink->drop();
   for (auto& group : core_->groups) {
     for (auto& [id, viewer] : group) viewer->drop();
     group.clear();
@@ -210,6 +245,8 @@ void WebServer::broadcast(int slot, std::string text) {
     for (auto& group : core->groups) {
       for (auto& [id, viewer] : group) viewer->mark(slot);
     }
+    const auto uplinks = core->uplinks;  // one that is full may leave
+    for (const auto& [number, uplink] : uplinks) uplink->mark(slot);
     if (core->is_ticking) return;
     if (core->viewers > kManyViewers) return core->tick();
     core->flush_all();
@@ -225,6 +262,9 @@ void WebServer::broadcast_part(int slot, int part, std::string text) {
                  viewer->mark(slot);
                  viewer->flush();
                }
+               if (part != 0) return;
+               const auto uplinks = core->uplinks;
+               for (const auto& [number, uplink] : uplinks) uplink->mark(slot);
              });
 }
 
@@ -240,6 +280,10 @@ void WebServer::restrict_to(Stream stream, int slot) {
 
 void WebServer::send(ViewerId viewer, std::string text) {
   asio::post(core_->io, [core = core_.get(), viewer, shared = std::make_shared<const std::string>(std::move(text))] {
+    if (const auto uplink = core->uplinks.find(viewer >> kUplinkShift); uplink != core->uplinks.end()) {
+      const auto held = uplink->second;
+      return held->answer(viewer & ((1ULL << kUplinkShift) - 1), *shared);
+    }
     auto& group = core->groups[viewer % kGroups];
     if (const auto place = group.find(viewer); place != group.end()) {
       const auto held = place->second;  // closing it may take it out of the group

@@ -27,9 +27,11 @@ struct WebServerParams {
   double steering_per_second = 30.0;  ///< messages of one operator
   int max_message_bytes = 4096;       ///< a longer one ends the connection
   int send_buffer_bytes = 65536;      ///< of the kernel, for one connection: small, so that old values do not pile up
-  double idle_timeout_s = 30.0;       ///< a viewer who answers no ping for so long is gone
-  std::vector<std::string> origins;   ///< hosts besides the server's own whose pages may open the live channel
-  std::vector<std::string> proxies;   ///< addresses of proxies of ours: the address that they forward is believed
+  double uplink_picture_s = 5.0;      ///< between two pictures of a camera for a gateway far away
+  int uplink_picture_bytes_per_s = 12000;  ///< of its line, for pictures
+  double idle_timeout_s = 30.0;            ///< a viewer who answers no ping for so long is gone
+  std::vector<std::string> origins;        ///< hosts besides the server's own whose pages may open the live channel
+  std::vector<std::string> proxies;        ///< addresses of proxies of ours: the address that they forward is believed
   template <class V>
   void visit(V& v) {
     v("address", address);
@@ -43,6 +45,8 @@ struct WebServerParams {
     v("steering_per_second", steering_per_second);
     v("max_message_bytes", max_message_bytes);
     v("send_buffer_bytes", send_buffer_bytes);
+    v("uplink_picture_s", uplink_picture_s);
+    v("uplink_picture_bytes_per_s", uplink_picture_bytes_per_s);
     v("idle_timeout_s", idle_timeout_s);
     v("origins", origins);
     v("proxies", proxies);
@@ -72,6 +76,7 @@ struct WebServerHooks {
   std::function<void(const std::string& address)> arrived = {};  ///< somebody opened the live channel
   std::function<void(const Caller&)> left = {};                  ///< an operator is gone
   std::string screen_key = {};                 ///< with which the robot's own screen comes; empty: it has none
+  std::string uplink_key = {};                 ///< of a gateway far away; empty: there may be none
   std::shared_ptr<FoxgloveHub> foxglove = {};  ///< what it shows at /foxglove; null: nothing
   std::shared_ptr<ApiDesk> desk = {};          ///< who answers /api/v1 and admits operators; null: nobody
 };

@@ -1,0 +1,155 @@
+#include "docent/apps/gateway/gateway_command.h"
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+
+#include "docent/apps/shared/command.h"
+#include "docent/apps/shared/log.h"
+#include "docent/base/files.h"
+#include "docent/base/shipped_files.h"
+#include "docent/modules/web/slots.h"
+#include "docent/telepresence/document_json.h"
+#include "docent/telepresence/server/web_server.h"
+#include "docent/telepresence/site.h"
+#include "docent/telepresence/uplink/uplink_client.h"
+
+namespace docent::apps {
+namespace {
+
+struct Options {
+  std::string from = "127.0.0.1:8080";
+  std::string key;
+  std::string page;
+  telepresence::WebServerParams server;
+};
+
+std::atomic<bool> is_ended{false};
+
+/// What does not change while the museum's robot runs: the museum, its map, the exhibits' pictures.
+void fetch_documents(const std::string& host, const std::string& port, telepresence::Site& site) {
+  const auto fetch = [&](const std::string& path) {
+    return value_or_fail(telepresence::fetch_document(host, port, path));
+  };
+  std::string museum = fetch("/api/museum.json");
+  const auto json = nlohmann::json::parse(museum, nullptr, false);
+  if (!json.is_object()) throw CommandFailed{"http://" + host + ":" + port + " is no Docent"};
+  for (const auto& exhibit : json.value("exhibits", nlohmann::json::array())) {
+    const std::string picture = exhibit.value("picture", std::string{});
+    if (picture.starts_with('/')) site.set_file(picture, fetch(picture));
+  }
+  site.set_document("/api/map.png", "image/png", fetch("/api/map.png"));
+  site.set_document("/api/museum.json", "application/json", std::move(museum));
+}
+
+/// The text of a viewer's message, as the museum reads it again.
+std::string text_of(const telepresence::ClientMessage& message) {
+  return std::visit([](const auto& one) { return telepresence::json_text(one); }, message);
+}
+
+/// The server for the crowd and the line to the museum, which need one another.
+class Gateway {
+ public:
+  Gateway(const std::string& host, const std::string& port, const std::string& key, const Options& options)
+      : site_{std::make_shared<telepresence::Site>()} {
+    const auto page = options.page.empty() ? shipped_path("web/dist") : std::filesystem::path{options.page};
+    value_or_fail(site_->load_page(page));
+    fetch_documents(host, port, *site_);
+    for (const char* camera : {"/camera/robot.jpg", "/camera/scene.jpg"})
+      site_->set_changing(camera, "image/jpeg", std::make_shared<const std::string>(), "");
+    site_->set_live_document("/metrics", "text/plain; version=0.0.4", [this] { return metrics(); });
+    uplink_ = std::make_shared<telepresence::UplinkClient>(host, port, key, from_museum());
+    telepresence::WebServerHooks hooks;
+    hooks.message = [this](const telepresence::Caller& caller, const telepresence::ClientMessage& message) {
+      if (is_ready_ && !uplink_->say(telepresence::UplinkMessage{caller.id, text_of(message)})) server_->send(caller.id, kBusy);
+    };
+    hooks.arrived = [this](const std::string& address) { uplink_->say(telepresence::UplinkArrival{address}); };
+    hooks.desk = uplink_;
+    auto params = options.server;
+    params.full_viewers = 0;  // what the line carries is the pose alone of what moves
+    params.foxglove_clients = 0;
+    server_ = value_or_fail(telepresence::WebServer::start(params, site_, std::move(hooks)));
+    server_->restrict_to(telepresence::Stream::thin, modules::kPose);
+    is_ready_ = true;
+  }
+
+  void run() const {
+    while (!is_ended) std::this_thread::sleep_for(std::chrono::milliseconds{100});
+  }
+  [[nodiscard]] int port() const { return server_->port(); }
+
+ private:
+  static constexpr const char* kBusy = R"({"type":"error","reason":{"word":"not_stored","about":""}})";
+
+  telepresence::UplinkHooks from_museum() {
+    telepresence::UplinkHooks hooks;
+    hooks.slot = [this](std::size_t slot, std::string text) {
+      if (is_ready_ && slot < static_cast<std::size_t>(telepresence::WebServer::kSlots))
+        server_->broadcast(static_cast<int>(slot), std::move(text));
+    };
+    hooks.answer = [this](std::uint64_t viewer, std::string text) {
+      if (is_ready_) server_->send(viewer, std::move(text));
+    };
+    hooks.picture = [this](telepresence::JoinedPicture picture) {
+      if (picture.path == "/camera/robot.jpg" || picture.path == "/camera/scene.jpg")
+        site_->set_changing(picture.path, "image/jpeg", std::make_shared<const std::string>(std::move(picture.bytes)),
+                            picture.taken);
+    };
+    hooks.line = [](bool is_open) {
+      log_to_stderr(is_open ? LogLevel::info : LogLevel::warning, "gateway",
+                    is_open ? "the line to the museum is open" : "the line to the museum is lost");
+    };
+    return hooks;
+  }
+  [[nodiscard]] std::string metrics() const {
+    if (!is_ready_) return "";
+    const auto figures = server_->figures();
+    return "docent_web_viewers " + std::to_string(figures.viewers) + "\ndocent_web_http_requests_total " +
+           std::to_string(figures.http_requests) + "\n";
+  }
+
+  std::shared_ptr<telepresence::Site> site_;
+  std::atomic<bool> is_ready_{false};
+  std::shared_ptr<telepresence::UplinkClient> uplink_;
+  std::unique_ptr<telepresence::WebServer> server_;
+};
+
+void run(const Options& options) {
+  const auto colon = options.from.rfind(':');
+  if (colon == std::string::npos) throw CommandFailed{"--from is HOST:PORT, not '" + options.from + "'"};
+  std::string key = value_or_fail(read_file(options.key));
+  while (!key.empty() && key.find_last_not_of("0123456789abcdef") == key.size() - 1) key.pop_back();
+  value_or_fail(options.server.validate());
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { is_ended = true; });
+  const Gateway gateway{options.from.substr(0, colon), options.from.substr(colon + 1), key, options};
+  std::printf("open http://%s:%d/\n", options.server.address.c_str(), gateway.port());
+  std::fflush(stdout);
+  gateway.run();
+}
+
+}  // namespace
+
+void add_gateway_command(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("gateway", "Serve the Web's visitors from far away, over one thin line from the museum");
+  command->add_option("--from", options->from, "HOST:PORT of the museum's page")->capture_default_str();
+  command->add_option("--key", options->key, "the museum's file uplink.key, of its state folder")
+      ->required()
+      ->check(CLI::ExistingFile);
+  command->add_option("--port", options->server.port, "where the page is served; 0: any free one")
+      ->capture_default_str();
+  command->add_option("--address", options->server.address, "where it listens")->capture_default_str();
+  command->add_option("--max-viewers", options->server.max_viewers, "at most")->capture_default_str();
+  command->add_option("--proxy", options->server.proxies,
+                      "address of a proxy of yours, whose X-Forwarded-For is believed");
+  command->add_option("--page", options->page, "folder of the built page; without it the one that came with docent");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace docent::apps

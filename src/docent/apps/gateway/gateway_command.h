@@ -1,0 +1,12 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace docent::apps {
+
+/// docent gateway --from HOST:PORT --key FILE
+void add_gateway_command(CLI::App& app);
+
+}  // namespace docent::apps

@@ -1,0 +1,171 @@
+#include "docent/telepresence/server/uplink_session.h"
+
+#include <algorithm>
+#include <boost/asio/post.hpp>
+#include <chrono>
+
+namespace docent::telepresence {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+
+constexpr auto kTick = std::chrono::milliseconds{100};
+constexpr std::size_t kMostAnswers = 2000;       // that wait; an uplink that lets more pile up is cut off
+constexpr std::size_t kLongestRequest = 65'536;  // bytes: a call with its body
+constexpr const char* kRobotPath = "/camera/robot.jpg";
+constexpr const char* kScenePath = "/camera/scene.jpg";
+
+}  // namespace
+
+UplinkSession::UplinkSession(SessionOwner& sessions, UplinkOwner& owner, const WebServerParams& params,
+                             asio::ip::tcp::socket socket, std::uint64_t number)
+    : sessions_{sessions},
+      owner_{owner},
+      number_{number},
+      picture_s_{params.uplink_picture_s},
+      piece_bytes_{static_cast<std::size_t>(std::max(1, params.uplink_picture_bytes_per_s / 10))},
+      stream_{std::move(socket)},
+      timer_{stream_.get_executor()} {
+  ++sessions_.connections;
+  auto timeout = websocket::stream_base::timeout::suggested(beast::role_type::server);
+  timeout.idle_timeout = std::chrono::milliseconds{static_cast<int>(params.idle_timeout_s * 1e3)};
+  timeout.keep_alive_pings = true;
+  stream_.set_option(timeout);
+  websocket::permessage_deflate deflate;
+  deflate.server_enable = true;
+  stream_.set_option(deflate);
+  stream_.read_message_max(kLongestRequest);
+  stream_.auto_fragment(false);
+}
+
+void UplinkSession::run(http::request<http::string_body> request, std::uint32_t slots) {
+  stale_ = slots & wanted();
+  request_ = std::make_unique<http::request<http::string_body>>(std::move(request));
+  stream_.async_accept(*request_, [self = shared_from_this()](beast::error_code error) {
+    self->request_.reset();
+    if (error) return self->leave();
+    self->is_open_ = true;
+    self->stream_.binary(true);
+    self->flush();
+    self->feed_pictures();
+    self->read();
+  });
+}
+
+std::uint32_t UplinkSession::wanted() const {
+  return ~(sessions_.full_slots | sessions_.detail_slots | sessions_.operator_slots);
+}
+
+void UplinkSession::mark(std::size_t slot) {
+  const std::uint32_t bit = 1U << slot;
+  if ((wanted() & bit) == 0) return;
+  stale_ |= bit;
+  flush();
+}
+
+void UplinkSession::say(const FromMuseum& message) {
+  if (answers_.size() >= kMostAnswers) return drop();
+  answers_.push_back(encode(message));
+  flush();
+}
+
+void UplinkSession::flush() {
+  if (!is_open_ || is_writing_) return;
+  if (!answers_.empty()) {
+    sending_ = std::move(answers_.front());
+    answers_.pop_front();
+  } else {
+    SharedText text;
+    while (stale_ != 0 && !text) {
+      do last_slot_ = (last_slot_ + 1) % 32;
+      while ((stale_ & (1U << last_slot_)) == 0);
+      stale_ &= ~(1U << last_slot_);
+      text = sessions_.latest(last_slot_);
+    }
+    if (!text) return;
+    sending_ = encode(UplinkSlot{last_slot_, *text});
+  }
+  is_writing_ = true;
+  stream_.async_write(asio::buffer(sending_), [self = shared_from_this()](beast::error_code error, std::size_t) {
+    self->is_writing_ = false;
+    if (error) return self->leave();
+    ++self->sessions_.messages_out;
+    self->flush();
+  });
+}
+
+void UplinkSession::feed_pictures() {
+  if (!is_open_) return;
+  const int period = std::max(1, static_cast<int>(picture_s_ * 10.0));
+  if (ticks_++ % period == 0) {
+    for (const auto& [path, cutter, taken] :
+         {std::tuple{kRobotPath, &robot_, &robot_taken_}, std::tuple{kScenePath, &scene_, &scene_taken_}}) {
+      const SiteReply reply = owner_.site->get(path);
+      if (reply.status != 200 || reply.taken == *taken) continue;
+      *taken = reply.taken;
+      cutter->begin(path, reply.taken, reply.body);
+    }
+  }
+  // One piece at a time, and none while something is still on its way: a pose never waits behind a picture.
+  if (!is_writing_) {
+    auto piece = robot_.next(piece_bytes_);
+    if (!piece) piece = scene_.next(piece_bytes_);
+    if (piece) say(*piece);
+  }
+  timer_.expires_after(kTick);
+  timer_.async_wait([self = shared_from_this()](beast::error_code error) {
+    if (!error) self->feed_pictures();
+  });
+}
+
+void UplinkSession::read() {
+  stream_.async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+    if (error) return self->leave();
+    ++self->sessions_.messages_in;
+    const std::string frame = beast::buffers_to_string(self->buffer_.data());
+    self->buffer_.consume(self->buffer_.size());
+    auto message = decode_to_museum(frame);
+    if (message) {
+      self->hear(std::move(*message));
+    } else {
+      ++self->sessions_.messages_refused;
+    }
+    self->read();
+  });
+}
+
+void UplinkSession::hear(ToMuseum message) {
+  if (const auto* arrival = std::get_if<UplinkArrival>(&message)) {
+    if (owner_.arrived) owner_.arrived(arrival->address);
+    return;
+  }
+  if (const auto* said = std::get_if<UplinkMessage>(&message)) {
+    // The far gateway has looked at it; here it is looked at again.
+    const auto parsed = parse_client_message(said->text);
+    const bool is_theirs = said->viewer < (1ULL << kUplinkShift);
+    if (!parsed || !is_theirs || !may_ask(Role::visitor, *parsed)) return void(++sessions_.messages_refused);
+    return sessions_.message({(number_ << kUplinkShift) | said->viewer, Role::visitor, ""}, *parsed);
+  }
+  auto& call = std::get<UplinkCall>(message);
+  if (!owner_.desk || *owner_.is_closing) return say(UplinkReply{call.call, {503, "{}", ""}});
+  ++*owner_.asked;
+  owner_.desk->take(std::move(call.request), [self = shared_from_this(), number = call.call](ApiReply reply) mutable {
+    std::atomic<int>& asked = *self->owner_.asked;
+    const auto executor = self->stream_.get_executor();
+    asio::post(executor, [self = std::move(self), number, reply = std::move(reply)]() mutable {
+      self->say(UplinkReply{number, std::move(reply)});
+    });
+    --asked;  // last: then the server may go
+  });
+}
+
+void UplinkSession::leave() {
+  if (!std::exchange(is_open_, false)) return;
+  timer_.cancel();
+  owner_.left(number_);
+}
+
+}  // namespace docent::telepresence

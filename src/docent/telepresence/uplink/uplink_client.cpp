@@ -1,0 +1,220 @@
+#include <utility>  // first: Beast 1.74 forgets it in C++20
+//
+#include <atomic>
+#include <boost/asio/connect.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <chrono>
+#include <deque>
+#include <map>
+#include <thread>
+
+#include "docent/telepresence/uplink/uplink_client.h"
+
+namespace docent::telepresence {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using asio::ip::tcp;
+
+constexpr auto kPatience = std::chrono::seconds{10};
+constexpr auto kPause = std::chrono::seconds{1};  // from a lost line to the next attempt
+constexpr std::size_t kMostWaiting = 1000;        // messages
+constexpr std::size_t kLargestFrame = 4U << 20U;  // bytes
+
+ApiReply unanswered() { return {503, R"({"reason":"busy","about":"the line to the museum is down"})", ""}; }
+
+}  // namespace
+
+class UplinkClient::Impl {
+ public:
+  Impl(std::string host, std::string port, std::string key, UplinkHooks hooks)
+      : host_{std::move(host)}, port_{std::move(port)}, key_{std::move(key)}, hooks_{std::move(hooks)} {
+    asio::post(io_, [this] { connect(); });
+    thread_ = std::thread{[this] { io_.run(); }};
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+  ~Impl() {
+    io_.stop();
+    thread_.join();
+    give_up_calls();
+  }
+
+  bool say(std::string frame) {
+    if (!is_open_ || waiting_count_ >= kMostWaiting) return false;
+    ++waiting_count_;
+    asio::post(io_, [this, frame = std::move(frame)]() mutable {
+      waiting_.push_back(std::move(frame));
+      flush();
+    });
+    return true;
+  }
+  void take(ApiRequest request, std::function<void(ApiReply)> answer) {
+    if (!is_open_) return answer(unanswered());
+    asio::post(io_, [this, request = std::move(request), answer = std::move(answer)]() mutable {
+      if (!stream_ || calls_.size() >= kMostWaiting) return answer(unanswered());
+      const std::uint64_t call = ++last_call_;
+      calls_.emplace(call, std::move(answer));
+      ++waiting_count_;
+      waiting_.push_back(encode(ToMuseum{UplinkCall{call, std::move(request)}}));
+      flush();
+    });
+  }
+
+ private:
+  using Stream = websocket::stream<beast::tcp_stream>;
+
+  void connect() {
+    buffer_.clear();
+    auto resolved = std::make_shared<tcp::resolver>(io_);
+    resolved->async_resolve(
+        host_, port_, [this, resolved](beast::error_code error, const tcp::resolver::results_type& at) {
+          if (error) return lose();
+          stream_ = std::make_unique<Stream>(io_);
+          beast::get_lowest_layer(*stream_).expires_after(kPatience);
+          beast::get_lowest_layer(*stream_).async_connect(at, [this](beast::error_code failed, const tcp::endpoint&) {
+            if (failed) return lose();
+            greet();
+          });
+        });
+  }
+  void greet() {
+    beast::get_lowest_layer(*stream_).expires_never();
+    auto timeout = websocket::stream_base::timeout::suggested(beast::role_type::client);
+    timeout.idle_timeout = kPatience;
+    stream_->set_option(timeout);
+    websocket::permessage_deflate deflate;
+    deflate.client_enable = true;
+    stream_->set_option(deflate);
+    stream_->read_message_max(kLargestFrame);
+    stream_->binary(true);
+    stream_->async_handshake(host_ + ":" + port_, "/uplink?key=" + key_, [this](beast::error_code error) {
+      if (error) return lose();
+      is_open_ = true;
+      if (hooks_.line) hooks_.line(true);
+      read();
+    });
+  }
+  void read() {
+    stream_->async_read(buffer_, [this](beast::error_code error, std::size_t) {
+      if (error) return lose();
+      const std::string frame = beast::buffers_to_string(buffer_.data());
+      buffer_.consume(buffer_.size());
+      if (auto message = decode_from_museum(frame)) hear(std::move(*message));
+      read();
+    });
+  }
+  void hear(FromMuseum message) {
+    if (auto* slot = std::get_if<UplinkSlot>(&message)) return hooks_.slot(slot->slot, std::move(slot->text));
+    if (auto* answer = std::get_if<UplinkAnswer>(&message))
+      return hooks_.answer(answer->viewer, std::move(answer->text));
+    if (auto* piece = std::get_if<UplinkPiece>(&message)) {
+      if (auto picture = joiner_.add(std::move(*piece))) hooks_.picture(std::move(*picture));
+      return;
+    }
+    auto& reply = std::get<UplinkReply>(message);
+    const auto call = calls_.find(reply.call);
+    if (call == calls_.end()) return;
+    const auto answer = std::move(call->second);
+    calls_.erase(call);
+    answer(std::move(reply.reply));
+  }
+  void flush() {
+    if (!is_open_ || is_writing_ || waiting_.empty()) return;
+    is_writing_ = true;
+    sending_ = std::move(waiting_.front());
+    waiting_.pop_front();
+    --waiting_count_;
+    stream_->async_write(asio::buffer(sending_), [this](beast::error_code error, std::size_t) {
+      is_writing_ = false;
+      if (error) return lose();
+      flush();
+    });
+  }
+  /// The line is down; tries again in a while. Reading and writing may both say so.
+  void lose() {
+    if (is_lost_) return;
+    is_lost_ = true;
+    if (is_open_.exchange(false) && hooks_.line) hooks_.line(false);
+    waiting_.clear();
+    waiting_count_ = 0;
+    give_up_calls();
+    if (stream_) beast::get_lowest_layer(*stream_).close();
+    timer_.expires_after(kPause);  // meanwhile what was under way ends, with an error
+    timer_.async_wait([this](beast::error_code error) {
+      if (error) return;
+      is_lost_ = false;
+      is_writing_ = false;
+      connect();
+    });
+  }
+  void give_up_calls() {
+    const auto calls = std::exchange(calls_, {});
+    for (const auto& [call, answer] : calls) answer(unanswered());
+  }
+
+  const std::string host_, port_, key_;
+  const UplinkHooks hooks_;
+  asio::io_context io_{1};
+  asio::steady_timer timer_{io_};
+  std::atomic<bool> is_open_{false};
+  std::atomic<std::size_t> waiting_count_{0};
+  // Only the client's thread touches these.
+  std::unique_ptr<Stream> stream_;
+  beast::flat_buffer buffer_;
+  std::deque<std::string> waiting_;
+  std::string sending_;
+  std::map<std::uint64_t, std::function<void(ApiReply)>> calls_;
+  std::uint64_t last_call_ = 0;
+  PictureJoiner joiner_;
+  bool is_writing_ = false;
+  bool is_lost_ = false;
+  std::thread thread_;
+};
+
+UplinkClient::UplinkClient(std::string host, std::string port, std::string key, UplinkHooks hooks)
+    : impl_{std::make_unique<Impl>(std::move(host), std::move(port), std::move(key), std::move(hooks))} {}
+UplinkClient::~UplinkClient() = default;
+
+bool UplinkClient::say(const ToMuseum& message) { return impl_->say(encode(message)); }
+
+void UplinkClient::take(ApiRequest request, std::function<void(ApiReply)> answer) {
+  impl_->take(std::move(request), std::move(answer));
+}
+
+void UplinkClient::admit(std::string /*token*/, std::function<void(std::optional<std::string>)> answer) {
+  answer(std::nullopt);  // who steers must be nearer than this
+}
+
+Result<std::string> fetch_document(const std::string& host, const std::string& port, const std::string& path) {
+  const std::string name = "http://" + host + ":" + port + path;
+  asio::io_context io;
+  beast::error_code error;
+  tcp::resolver resolver{io};
+  const auto at = resolver.resolve(host, port, error);
+  if (error) return fail(name + ": " + error.message());
+  beast::tcp_stream stream{io};
+  stream.connect(at, error);
+  if (error) return fail(name + ": " + error.message());
+  http::request<http::empty_body> request{http::verb::get, path, 11};
+  request.set(http::field::host, host + ":" + port);
+  http::write(stream, request, error);
+  if (error) return fail(name + ": " + error.message());
+  beast::flat_buffer buffer;
+  http::response_parser<http::string_body> parser;
+  parser.body_limit(64U << 20U);
+  http::read(stream, buffer, parser, error);
+  if (error) return fail(name + ": " + error.message());
+  if (parser.get().result() != http::status::ok) return fail(name + ": " + std::to_string(parser.get().result_int()));
+  return std::move(parser.get().body());
+}
+
+}  // namespace docent::telepresence

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "docent/base/result.h"
+#include "docent/telepresence/api/exchange/exchange.h"
+#include "docent/telepresence/uplink/picture_pieces.h"
+
+namespace docent::telepresence {
+
+/// What the far gateway does with what comes. All of it is called on the client's thread.
+struct UplinkHooks {
+  std::function<void(std::size_t slot, std::string text)> slot;
+  std::function<void(std::uint64_t viewer, std::string text)> answer;
+  std::function<void(JoinedPicture picture)> picture;
+  std::function<void(bool is_open)> line = {};  ///< it was opened, or is lost
+};
+
+/// The far end of the line to the museum, on a thread of its own: opens it again whenever it is lost. It is also the
+/// desk of the far gateway: calls to /api/v1 are answered by the museum, of which operators must be nearer.
+class UplinkClient final : public ApiDesk {
+ public:
+  /// @param host, port  of the museum's server  @param key  of its file uplink.key
+  UplinkClient(std::string host, std::string port, std::string key, UplinkHooks hooks);
+  UplinkClient(const UplinkClient&) = delete;
+  UplinkClient& operator=(const UplinkClient&) = delete;
+  ~UplinkClient() override;
+
+  /// Any thread. False: the line is down, or too much waits.
+  bool say(const ToMuseum& message);
+  void take(ApiRequest request, std::function<void(ApiReply)> answer) override;
+  void admit(std::string token, std::function<void(std::optional<std::string>)> answer) override;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The body of a document of a server. Error: it could not be had.
+[[nodiscard]] Result<std::string> fetch_document(const std::string& host, const std::string& port,
+                                                 const std::string& path);
+
+}  // namespace docent::telepresence
