@@ -28,7 +28,7 @@ using docent::Time;
 volatile std::sig_atomic_t is_ended = 0;
 
 /// What the web module publishes itself.
-constexpr std::array kOurs{"docent/request", "docent/choice", "docent/votes", "docent/steering",
+constexpr std::array kOurs{"docent/request", "docent/choice", "docent/votes",       "docent/steering",
                            "docent/stop",    "docent/limits", "docent/button_lamps"};
 
 /// A message of the recording, published with its stamp moved.

@@ -12,8 +12,8 @@
 #include "docent/base/files.h"
 #include "docent/interaction/sound/horn.h"
 #include "docent/interaction/sound/melody.h"
-#include "docent/modules/web/web_module.h"
 #include "docent/modules/guide/buttons_module.h"
+#include "docent/modules/web/web_module.h"
 #include "docent/transport/virtual_time_bus.h"
 
 // docent_web_stage MUSEUM_DIR STATE_DIR PORT [lost=S] [people=N] [busy] [speed=V] [talk=F] [ask=S] [horn=S]

@@ -150,7 +150,8 @@ struct StopMessage {
     v("id", m.id), v("stopped", m.stopped);
   }
 };
-/// {"type":"set_hours","id":UUIDv7,"mode":"web"}: whose requests are taken from now on; hours: as the museum's hours say.
+/// {"type":"set_hours","id":UUIDv7,"mode":"web"}: whose requests are taken from now on; hours: as the museum's hours
+/// say.
 struct SetHoursMessage {
   static constexpr const char* kName = "SetHoursMessage";
   static constexpr const char* kType = "set_hours";

@@ -66,7 +66,8 @@ class Gateway {
     uplink_ = std::make_shared<telepresence::UplinkClient>(host, port, key, from_museum());
     telepresence::WebServerHooks hooks;
     hooks.message = [this](const telepresence::Caller& caller, const telepresence::ClientMessage& message) {
-      if (is_ready_ && !uplink_->say(telepresence::UplinkMessage{caller.id, text_of(message)})) server_->send(caller.id, kBusy);
+      if (is_ready_ && !uplink_->say(telepresence::UplinkMessage{caller.id, text_of(message)}))
+        server_->send(caller.id, kBusy);
     };
     hooks.arrived = [this](const std::string& address) { uplink_->say(telepresence::UplinkArrival{address}); };
     hooks.desk = uplink_;

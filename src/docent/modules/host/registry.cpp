@@ -9,7 +9,6 @@
 #include "docent/modules/edge/record_module.h"
 #include "docent/modules/edge/scene_camera_module.h"
 #include "docent/modules/edge/visualize_module.h"
-#include "docent/modules/web/web_module.h"
 #include "docent/modules/guide/buttons_module.h"
 #include "docent/modules/guide/executive_module.h"
 #include "docent/modules/guide/head_module.h"
@@ -18,6 +17,7 @@
 #include "docent/modules/perception/localize_module.h"
 #include "docent/modules/perception/map_module.h"
 #include "docent/modules/perception/people_module.h"
+#include "docent/modules/web/web_module.h"
 
 namespace docent::modules {
 namespace {

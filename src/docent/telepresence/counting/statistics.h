@@ -62,7 +62,8 @@ class Statistics {
   [[nodiscard]] Result<void> add(Time now, const std::string& mode, const Counts& counts);
   /// From these addresses the page was opened. Of each a hash is kept, with a salt that is thrown away after the day:
   /// nobody can be followed from one day to the next, and so who comes on two days counts twice.
-  [[nodiscard]] Result<void> add_web_visitors(Time now, const std::string& mode, const std::set<std::string>& addresses);
+  [[nodiscard]] Result<void> add_web_visitors(Time now, const std::string& mode,
+                                              const std::set<std::string>& addresses);
   /// Whether this gateway is the one that counts the robot; it is for the next 30 s.
   /// @param gateway  a name of its own
   [[nodiscard]] Result<bool> may_count_robot(const std::string& gateway, Time now);
