@@ -21,6 +21,7 @@ GOOD = BUILD / "tidy"
 TOGETHER = GOOD / "together"  # one file a folder, which includes its sources
 SINGLE = GOOD / "single"  # commands for each source, however it was compiled
 TIDY = "clang-tidy-14"
+FOREIGN = " -Wno-subobject-linkage"  # an option that only the compiler of build/dev knows
 
 
 @cache
@@ -52,7 +53,8 @@ def commands_of_compiler():
         path = Path(entry["file"])
         is_joint = path.parent.name == "Unity" and path.is_file()
         for source in sources_in(path) if is_joint else [path]:
-            commands[source] = {**entry, "file": str(source), "command": entry["command"].replace(str(path), str(source))}
+            command = entry["command"].replace(FOREIGN, "").replace(str(path), str(source))
+            commands[source] = {**entry, "file": str(source), "command": command}
             compiled_as[source] = path
     return commands, compiled_as
 

@@ -14,7 +14,7 @@ constexpr const char* kRobotPath = "/camera/robot.jpg";
 constexpr const char* kScenePath = "/camera/scene.jpg";
 constexpr Duration kTolerance = std::chrono::milliseconds{300};  // of the moments of a pair
 constexpr Duration kAlone = std::chrono::seconds{2};             // without a pair for so long, each is shown by itself
-constexpr int kLongest = 4096;                                   // [pixels] of a side
+constexpr int kLongestSide = 4096;                               // [pixels] of a side
 
 }  // namespace
 
@@ -40,7 +40,7 @@ std::optional<vision::Picture> CameraDesk::checked(const char* camera, const sen
   const auto size = pictures::jpeg_size(image.data);
   fault_.clear();
   if (!size) fault_ = std::string{camera} + ": " + size.error().message;
-  if (size && (size->width > kLongest || size->height > kLongest))
+  if (size && (size->width > kLongestSide || size->height > kLongestSide))
     fault_ = std::string{camera} + ": a side over 4096 pixels";
   if (!fault_.empty()) return std::nullopt;
   return vision::Picture{from_message(image.header.stamp),

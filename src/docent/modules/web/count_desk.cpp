@@ -14,7 +14,7 @@ namespace {
 using telepresence::Counted;
 
 constexpr double kMoves = 0.02;                  // [m/s] and more
-constexpr double kLongest = 1.0;                 // [s] between two odometries that belong together
+constexpr double kLongestGap = 1.0;              // [s] between two odometries that belong together
 constexpr double kRound = 3.0;                   // [m] round the robot stand those whom it guides
 constexpr double kFastest = 3.0;                 // [m/s] whatever says more has jumped
 constexpr std::size_t kMostAddresses = 100'000;  // between two stores
@@ -60,7 +60,7 @@ void CountDesk::see_odometry(const nav_msgs::Odometry& odometry) {
   const double speed = std::abs(odometry.twist.twist.linear.x);
   moved_ = stamp;
   odom_from_base_ = now;
-  if (!(passed > 0.0 && passed < kLongest) || way > kFastest * passed || speed > kFastest) return;
+  if (!(passed > 0.0 && passed < kLongestGap) || way > kFastest * passed || speed > kFastest) return;
   robot_[Counted::uptime_s] += passed;
   if (speed < kMoves) return;
   robot_[Counted::travel_s] += passed;

@@ -9,9 +9,9 @@
 namespace docent::modules {
 namespace {
 
-constexpr Duration kPeriod = std::chrono::milliseconds{500};
+constexpr Duration kShowPeriod = std::chrono::milliseconds{500};
 constexpr std::size_t kMostLines = 60;
-constexpr Duration kFresh = std::chrono::seconds{2};
+constexpr Duration kFreshState = std::chrono::seconds{2};
 
 }  // namespace
 
@@ -26,14 +26,14 @@ void InsideDesk::begin(telepresence::WebServer& server) {
     if (lines_.size() > kMostLines) lines_.pop_back();
     is_log_new_ = true;
   });
-  bus_.every(kPeriod, [this] { show(); });
+  bus_.every(kShowPeriod, [this] { show(); });
 }
 
 void InsideDesk::show() {
   const Time now = bus_.now();
   const auto fresh = [now](const auto& message) {
     using T = std::decay_t<decltype(message)>;
-    return now - from_message(message.header.stamp) <= kFresh ? message : T{};
+    return now - from_message(message.header.stamp) <= kFreshState ? message : T{};
   };
   server_->broadcast(kField, telepresence::encode_field(fresh(virtual_scan_), fresh(beams_)));
   if (!std::exchange(is_log_new_, false)) return;

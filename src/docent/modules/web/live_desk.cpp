@@ -59,22 +59,22 @@ telepresence::LiveFrame LiveDesk::frame_now() const {
 }
 
 void LiveDesk::show_live() {
-  constexpr Duration kFresh = std::chrono::seconds{1};
+  constexpr Duration kFreshPose = std::chrono::seconds{1};
   telepresence::LiveFrame frame = frame_now();
   if (!frame.map_from_base) frame.hypotheses = carrier_.hypotheses(frame.now, 0.03);
   frame.is_scan_in_map = frame.map_from_base.has_value();
   for (std::size_t i = 0; i < scans_.size(); ++i) {
     const sensor_msgs::LaserScan& scan = scans_[i];
     const Time taken = from_message(scan.header.stamp);
-    if (scan.ranges.empty() || frame.now - taken > kFresh) continue;
+    if (scan.ranges.empty() || frame.now - taken > kFreshPose) continue;
     const Pose2 from_base = frame.is_scan_in_map ? *carrier_.map_from_base(taken) : Pose2{};
     frame.scan_origin = from_base.position();
     for (const Point2 point : telepresence::scan_points(scan, body_.scanners[i].base_from_sensor(),
                                                         static_cast<std::size_t>(params_.scan_step)))
       frame.scan.push_back(from_base * point);
   }
-  if (frame.now - from_message(people_.header.stamp) <= kFresh) frame.people = people_;
-  if (avoid_ && frame.now - from_message(avoid_->header.stamp) <= kFresh) frame.avoid = avoid_;
+  if (frame.now - from_message(people_.header.stamp) <= kFreshPose) frame.people = people_;
+  if (avoid_ && frame.now - from_message(avoid_->header.stamp) <= kFreshPose) frame.avoid = avoid_;
   server_->broadcast(kLive, telepresence::encode_live(frame));
 }
 

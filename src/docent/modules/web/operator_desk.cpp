@@ -10,7 +10,7 @@
 namespace docent::modules {
 namespace {
 
-constexpr Duration kPeriod = std::chrono::milliseconds{100};
+constexpr Duration kSteeringPeriod = std::chrono::milliseconds{100};
 constexpr Duration kStale = std::chrono::milliseconds{300};  // a hand that was not heard for so long holds nothing
 constexpr Duration kLeaseLasts = std::chrono::seconds{2};    // without word from its holder
 
@@ -32,7 +32,7 @@ OperatorDesk::OperatorDesk(transport::Bus& bus, std::filesystem::path stop_file,
     stop_ = {{to_message(bus_.now()), ""}, true, *by};
     stops_.publish(stop_);
   }
-  bus_.every(kPeriod, [this] { publish_steering(); });
+  bus_.every(kSteeringPeriod, [this] { publish_steering(); });
 }
 
 std::optional<Reason> OperatorDesk::take(const telepresence::Caller& caller,

@@ -13,8 +13,8 @@ namespace http = beast::http;
 namespace websocket = beast::websocket;
 
 constexpr auto kTick = std::chrono::milliseconds{100};
-constexpr std::size_t kMostAnswers = 2000;       // that wait; an uplink that lets more pile up is cut off
-constexpr std::size_t kLongestRequest = 65'536;  // bytes: a call with its body
+constexpr std::size_t kMostAnswers = 2000;     // that wait; an uplink that lets more pile up is cut off
+constexpr std::size_t kLongestFrame = 65'536;  // bytes: a call with its body
 constexpr const char* kRobotPath = "/camera/robot.jpg";
 constexpr const char* kScenePath = "/camera/scene.jpg";
 
@@ -37,7 +37,7 @@ UplinkSession::UplinkSession(SessionOwner& sessions, UplinkOwner& owner, const W
   websocket::permessage_deflate deflate;
   deflate.server_enable = true;
   stream_.set_option(deflate);
-  stream_.read_message_max(kLongestRequest);
+  stream_.read_message_max(kLongestFrame);
   stream_.auto_fragment(false);
 }
 
