@@ -57,6 +57,18 @@ struct Stop {
   }
 };
 
+/// The museum has changed, or the robot shall work in the other one of the two: all modules begin anew.
+struct MuseumMoved {
+  static constexpr const char* kType = "docent_msgs/msg/MuseumMoved";
+  std_msgs::Header header;
+  bool is_trial = false;  ///< into the trial that operators have laid out; else into the museum itself
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("header", m.header);
+    v("is_trial", m.is_trial);
+  }
+};
+
 /// Life of a module, 2 Hz (architecture 10.10).
 struct Health {
   static constexpr const char* kType = "docent_msgs/msg/Health";

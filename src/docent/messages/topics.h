@@ -107,6 +107,7 @@ inline constexpr Topic<docent_msgs::Horn> kHorn{"docent/horn", Qos::command};
 inline constexpr Topic<docent_msgs::Music> kMusic{"docent/music", Qos::state};
 inline constexpr Topic<docent_msgs::SoundState> kSoundState{"docent/sound_state", Qos::state};
 inline constexpr Topic<docent_msgs::Limits> kLimits{"docent/limits", Qos::state};
+inline constexpr Topic<docent_msgs::MuseumMoved> kMuseumMoved{"docent/museum_moved", Qos::command, 0, 5.0};
 inline constexpr Topic<docent_msgs::Health> kHealth{"docent/health", Qos::command};
 // For viewers of ROS 2. No module of the robot reads them.
 inline constexpr Topic<geometry_msgs::PoseArray> kParticleCloud{"particle_cloud", Qos::state};
@@ -138,7 +139,7 @@ void for_each_robot_topic(F&& f) {
   f(kDrive), f(kAvoidState), f(kRequest), f(kChoice), f(kVotes), f(kRequestBoard), f(kMissionState), f(kTask),
       f(kTaskState), f(kEvent);
   f(kReaction), f(kGaze), f(kExpression), f(kButton), f(kButtonLamps), f(kSay), f(kSpeechState), f(kHorn), f(kMusic),
-      f(kSoundState), f(kLimits), f(kSteering), f(kStop), f(kHealth);
+      f(kSoundState), f(kLimits), f(kSteering), f(kStop), f(kMuseumMoved), f(kHealth);
   f(kInitialPose), f(kParticleCloud), f(kPeopleMarkers), f(kMuseumMarkers), f(kJointStates);
 }
 /// Calls f(topic) for every topic of the truth.

@@ -8,20 +8,27 @@
 #include "docent/telepresence/documents.h"
 
 namespace docent::telepresence {
-namespace {
+std::string picture_address(const museum::Exhibit& exhibit) {
+  if (exhibit.picture.empty()) return {};
+  return "/api/pictures/" + exhibit.id + exhibit.picture.extension().string();
+}
 
-documents::Pose pose_of(const Pose2& pose) { return {pose.x, pose.y, pose.theta.radians()}; }
+documents::Pose document_of(const Pose2& pose) { return {pose.x, pose.y, pose.theta.radians()}; }
 
-std::vector<documents::Point> polygon_of(const Polygon& polygon) {
+std::vector<documents::Point> document_of(const Polygon& polygon) {
   std::vector<documents::Point> corners;
   for (const Point2 corner : polygon) corners.push_back({corner.x, corner.y});
   return corners;
 }
 
-documents::Exhibit exhibit_of(const museum::Exhibit& exhibit) {
+documents::Hazard document_of(const museum::Hazard& hazard) {
+  return {hazard.id, hazard.kind, document_of(hazard.polygon)};
+}
+
+documents::Exhibit document_of(const museum::Exhibit& exhibit) {
   documents::Exhibit document{exhibit.id,
                               exhibit.title,
-                              pose_of(exhibit.pose),
+                              document_of(exhibit.pose),
                               {exhibit.look_at.x, exhibit.look_at.y},
                               {},
                               exhibit.short_text,
@@ -29,15 +36,8 @@ documents::Exhibit exhibit_of(const museum::Exhibit& exhibit) {
                               exhibit.topics,
                               exhibit.web_only,
                               picture_address(exhibit)};
-  for (const auto& viewpoint : exhibit.viewpoints) document.viewpoints.push_back(pose_of(viewpoint));
+  for (const auto& viewpoint : exhibit.viewpoints) document.viewpoints.push_back(document_of(viewpoint));
   return document;
-}
-
-}  // namespace
-
-std::string picture_address(const museum::Exhibit& exhibit) {
-  if (exhibit.picture.empty()) return {};
-  return "/api/pictures/" + exhibit.id + exhibit.picture.extension().string();
 }
 
 std::string encode_museum(const museum::Museum& museum, double robot_radius) {
@@ -45,14 +45,13 @@ std::string encode_museum(const museum::Museum& museum, double robot_radius) {
   documents::Museum document;
   document.name = museum.name;
   document.languages = museum.languages;
-  document.area = polygon_of(museum.area);
-  document.home = pose_of(museum.home);
-  if (museum.charger) document.charger = pose_of(*museum.charger);
+  document.area = document_of(museum.area);
+  document.home = document_of(museum.home);
+  if (museum.charger) document.charger = document_of(*museum.charger);
   document.robot_radius = robot_radius;
   document.map = {"/api/map.png", frame.columns, frame.rows, frame.resolution, {frame.origin.x, frame.origin.y}};
-  for (const auto& hazard : museum.hazards)
-    document.hazards.push_back({hazard.id, hazard.kind, polygon_of(hazard.polygon)});
-  for (const auto& exhibit : museum.exhibits) document.exhibits.push_back(exhibit_of(exhibit));
+  for (const auto& hazard : museum.hazards) document.hazards.push_back(document_of(hazard));
+  for (const auto& exhibit : museum.exhibits) document.exhibits.push_back(document_of(exhibit));
   for (const auto& tour : museum.tours) document.tours.push_back({tour.id, tour.title, tour.exhibits, tour.minutes});
   return json_text(document);
 }

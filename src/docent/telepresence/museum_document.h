@@ -1,14 +1,21 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "docent/base/result.h"
 #include "docent/grid/occupancy_grid.h"
 #include "docent/museum/museum.h"
 #include "docent/telepresence/client_message.h"
+#include "docent/telepresence/documents.h"
 #include "docent/vocabulary/reason.h"
 
 namespace docent::telepresence {
+
+[[nodiscard]] documents::Pose document_of(const Pose2& pose);
+[[nodiscard]] std::vector<documents::Point> document_of(const Polygon& polygon);
+[[nodiscard]] documents::Hazard document_of(const museum::Hazard& hazard);
+[[nodiscard]] documents::Exhibit document_of(const museum::Exhibit& exhibit);
 
 /// All that a page must know of the museum and its map, as JSON text. `robot_radius` in metres.
 [[nodiscard]] std::string encode_museum(const museum::Museum& museum, double robot_radius);

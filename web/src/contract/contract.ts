@@ -257,7 +257,7 @@ export interface ErrorMessage {
   reason: Reason;
 }
 export interface Fault {
-  reason: 'not_found' | 'wrong_method' | 'not_understood' | 'too_large' | 'too_fast' | 'not_allowed' | 'other_site' | 'wrong_csrf' | 'wrong_password' | 'sent_away' | 'too_often' | 'nothing_said' | 'not_stored' | 'busy';
+  reason: 'not_found' | 'wrong_method' | 'not_understood' | 'too_large' | 'too_fast' | 'not_allowed' | 'other_site' | 'wrong_csrf' | 'wrong_password' | 'sent_away' | 'too_often' | 'nothing_said' | 'not_stored' | 'must_stand' | 'outdated' | 'busy';
   about: string;
 }
 export interface Me {
@@ -322,6 +322,25 @@ export interface AccountLine {
 }
 export interface AccountLines {
   accounts: AccountLine[];
+}
+export interface MuseumDraft {
+  area: [number, number][];
+  hazards: Hazard[];
+  home: [number, number, number];
+  charger: [number, number, number] | null;
+  exhibits: Exhibit[];
+}
+export interface MuseumEdition {
+  revision: string;
+  is_trial: boolean;
+  draft: MuseumDraft;
+}
+export interface MuseumWish {
+  revision: string;
+  draft: MuseumDraft;
+}
+export interface MuseumFaults {
+  faults: string[];
 }
 export interface RequestMessage {
   type: 'request';
@@ -684,6 +703,8 @@ export const documents = {
           "too_often",
           "nothing_said",
           "not_stored",
+          "must_stand",
+          "outdated",
           "busy"
         ]
       }
@@ -1015,6 +1036,72 @@ export const documents = {
           "document": "Tour"
         }
       }
+    },
+    "maybe": {}
+  },
+  "MuseumDraft": {
+    "fields": {
+      "area": {
+        "list": {
+          "tuple": [
+            "number",
+            "number"
+          ]
+        }
+      },
+      "charger": {
+        "nullable": {
+          "tuple": [
+            "number",
+            "number",
+            "number"
+          ]
+        }
+      },
+      "exhibits": {
+        "list": {
+          "document": "Exhibit"
+        }
+      },
+      "hazards": {
+        "list": {
+          "document": "Hazard"
+        }
+      },
+      "home": {
+        "tuple": [
+          "number",
+          "number",
+          "number"
+        ]
+      }
+    },
+    "maybe": {}
+  },
+  "MuseumEdition": {
+    "fields": {
+      "draft": {
+        "document": "MuseumDraft"
+      },
+      "is_trial": "boolean",
+      "revision": "string"
+    },
+    "maybe": {}
+  },
+  "MuseumFaults": {
+    "fields": {
+      "faults": {
+        "list": "string"
+      }
+    },
+    "maybe": {}
+  },
+  "MuseumWish": {
+    "fields": {
+      "draft": {
+        "document": "MuseumDraft"
+      },
+      "revision": "string"
     },
     "maybe": {}
   },

@@ -16,6 +16,8 @@
 namespace docent::apps {
 namespace {
 
+constexpr std::chrono::seconds kOrderlyEnd{3};  // for a child that shall start again
+
 /// In the child, between fork and exec: only what is safe there.
 [[noreturn]] void become(const std::vector<char*>& arguments, int output, int niceness, pid_t parent) {
   setpgid(0, 0);
@@ -45,7 +47,7 @@ std::string describe_end(int status) {
 Supervisor::Supervisor(std::vector<ChildSpec> children, Log log, LifecycleParams params) : log_{std::move(log)} {
   for (auto& spec : children) {
     const bool has_health = spec.has_health;
-    children_.push_back({std::move(spec), Lifecycle{has_health, params}, 0, -1, {}, {}});
+    children_.push_back({std::move(spec), Lifecycle{has_health, params}, 0, -1, {}, {}, {}});
   }
 }
 
@@ -109,7 +111,7 @@ std::optional<std::string> Supervisor::reap(Child& child) {
   close(child.output);
   child.output = -1;
   child.pid = 0;
-  const std::string how = describe_end(status);
+  const std::string how = child.told_to_end ? "begins anew" : describe_end(status);
   child.life.ended(Clock::now(), how);
   return how;
 }
@@ -124,11 +126,31 @@ void Supervisor::collect(Child& child) {
   }
 }
 
+void Supervisor::restart(const std::string& name, std::vector<std::string> command) {
+  for (auto& child : children_) {
+    if (child.spec.name != name) continue;
+    child.spec.command = std::move(command);
+    if (child.pid <= 0) continue;  // it takes it when it starts
+    child.told_to_end = Clock::now();
+    signal_group(child, SIGTERM);
+    signal_group(child, SIGCONT);
+  }
+}
+
 void Supervisor::step() {
   for (auto& child : children_) {
     read_output(child);
     collect(child);
     if (fatal_) continue;
+    if (child.told_to_end) {
+      if (child.pid > 0) {
+        if (Clock::now() - *child.told_to_end > kOrderlyEnd) signal_group(child, SIGKILL);
+        continue;
+      }
+      child.told_to_end.reset();
+      start(child);
+      continue;
+    }
     switch (child.life.next(Clock::now())) {
       case Lifecycle::Step::wait:
         break;

@@ -24,6 +24,7 @@
 #include "docent/apps/up/supervisor.h"
 #include "docent/base/shipped_files.h"
 #include "docent/modules/host/registry.h"
+#include "docent/museum/editing/museum_workshop.h"
 #include "docent/recording/join_recordings.h"
 #include "docent/transport/dds_bus.h"
 
@@ -108,8 +109,10 @@ docent_msgs::Limits check(const Options& options) {
   return limits;
 }
 
-std::vector<ChildSpec> children_of(const Options& options) {
+/// @param museum  the folder in which they work
+std::vector<ChildSpec> children_of(const Options& options, const std::string& museum) {
   Deployment told = options.deployment;
+  told.museum = museum;
   told.settings.push_back("web.port=" + std::to_string(options.port));
   if (!options.record.empty()) {
     told.settings.push_back("record.keep_files=10000");  // all of this run are needed at its end
@@ -161,7 +164,7 @@ void up(const Options& options) {
   const auto bus = value_or_fail(
       transport::DdsBus::create({options.deployment.domain, options.deployment.name,
                                  [&](const std::string& text) { display.log(LogLevel::warning, "bus", text); }}));
-  Supervisor supervisor{children_of(options), log};
+  Supervisor supervisor{children_of(options, options.deployment.museum), log};
   bus->publisher(topics::kLimits).publish(limits);
   bool is_announced = false;
   bus->subscribe<docent_msgs::Health>(topics::kHealth, [&](const docent_msgs::Health& health) {
@@ -170,6 +173,14 @@ void up(const Options& options) {
       is_announced = true;
       display.log(LogLevel::info, "web", "open http://127.0.0.1:" + std::to_string(options.port) + "/");
     }
+  });
+  bus->subscribe<docent_msgs::MuseumMoved>(topics::kMuseumMoved, [&](const docent_msgs::MuseumMoved& moved) {
+    const std::string trial = museum::trial_folder(options.deployment.state).string();
+    const std::string& museum = moved.is_trial ? trial : options.deployment.museum;
+    display.log(LogLevel::info, "museum", moved.is_trial ? "the robot tries a draft" : "the museum is read again");
+    // The simulated world stays as it is: people change what the robot knows of it.
+    for (ChildSpec& child : children_of(options, museum))
+      if (child.name != kSimulatorProcess) supervisor.restart(child.name, std::move(child.command));
   });
   std::stop_source stop;
   bus->every(kStep, [&] {

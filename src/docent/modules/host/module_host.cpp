@@ -1,6 +1,7 @@
 #include "docent/modules/host/module_host.h"
 
 #include "docent/messages/conversions.h"
+#include "docent/modules/drive/plan_module.h"
 
 namespace docent::modules {
 
@@ -27,8 +28,10 @@ Result<std::unique_ptr<ModuleHost>> ModuleHost::create(const ModuleEntry& entry,
   std::unique_ptr<ModuleHost> host{new ModuleHost{entry.name, std::move(bus)}};
   host->pid_ = options.pid;
   host->health_ = host->bus_->publisher(topics::kHealth);
+  const auto checked_robot = checked_robot_of_plan(config);
+  if (!checked_robot) return tl::unexpected<Error>(checked_robot.error());
   auto module = entry.make({*host->bus_, museum, config, options.state, options.seed, options.virtual_time,
-                            options.truth, options.day_begins, options.cache});
+                            options.truth, options.day_begins, options.cache, *checked_robot});
   if (!module) return tl::unexpected<Error>(module.error());
   host->module_ = std::move(*module);
   host->bus_->every(kHealthPeriod, [raw = host.get()] { raw->publish_health(); });

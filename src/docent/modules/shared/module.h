@@ -27,6 +27,7 @@ struct ModuleContext {
   transport::Bus* truth = nullptr;
   Duration day_begins = std::chrono::hours{10};  ///< the time of day at which virtual time begins
   std::filesystem::path cache{};                 ///< --cache DIR: what can be made anew; empty: nothing is kept
+  museum::CheckedRobot checked_robot{};          ///< for which a museum is checked: that for which `plan` plans
 };
 
 struct ModuleHealth {

@@ -19,6 +19,7 @@
 #include "docent/modules/web/foxglove_desk.h"
 #include "docent/modules/web/inside_desk.h"
 #include "docent/modules/web/live_desk.h"
+#include "docent/modules/web/museum_desk.h"
 #include "docent/modules/web/operator_desk.h"
 #include "docent/modules/web/screen_desk.h"
 #include "docent/modules/web/slots.h"
@@ -74,7 +75,8 @@ class WebModule final : public Module {
     const std::string where = params->database.empty() ? (context.state / "web.sqlite").string() : params->database;
     auto store = Store::open(where);
     if (!store) return tl::unexpected<Error>(store.error());
-    auto desk = telepresence::Desk::open(where, params->api, params->forum, wall_clock);
+    auto museum_desk = std::make_unique<MuseumDesk>(context);
+    auto desk = telepresence::Desk::open(where, params->api, params->forum, wall_clock, {}, museum_desk->office());
     if (!desk) return tl::unexpected<Error>(desk.error());
     auto map = telepresence::encode_map_png(context.museum.map);
     if (!map) return tl::unexpected<Error>(map.error());
@@ -83,7 +85,8 @@ class WebModule final : public Module {
     auto uplink_key = telepresence::screen_key(context.state / "uplink.key");
     if (!uplink_key) return tl::unexpected<Error>(uplink_key.error());
 
-    std::unique_ptr<WebModule> module{new WebModule{context, *params, std::move(*store), std::move(*desk)}};
+    std::unique_ptr<WebModule> module{
+        new WebModule{context, *params, std::move(*store), std::move(museum_desk), std::move(*desk)}};
     if (auto filled = module->fill_site(context, std::move(*map)); !filled)
       return tl::unexpected<Error>(filled.error());
     auto server =
@@ -122,11 +125,13 @@ class WebModule final : public Module {
     }
   };
 
-  WebModule(const ModuleContext& context, WebParams params, Store store, std::shared_ptr<telepresence::Desk> desk)
+  WebModule(const ModuleContext& context, WebParams params, Store store, std::unique_ptr<MuseumDesk> museum_desk,
+            std::shared_ptr<telepresence::Desk> desk)
       : bus_{context.bus},
         museum_{context.museum},
         params_{std::move(params)},
         database_{std::move(store.database)},
+        museum_desk_{std::move(museum_desk)},
         desk_{std::move(desk)},
         wishes_{bus_, std::move(store.outbox), telepresence::Database::is_shared(params_.database)},
         choices_{bus_.publisher(topics::kChoice)},
@@ -264,7 +269,9 @@ class WebModule final : public Module {
   }
 
   void show_operation() {
-    std::string text = telepresence::json_text(operator_.document());
+    const auto document = operator_.document();
+    museum_desk_->see_stop(document.is_stopped);
+    std::string text = telepresence::json_text(document);
     if (std::exchange(operation_, text) != text) server_->broadcast(kOperation, std::move(text));
   }
 
@@ -398,6 +405,7 @@ class WebModule final : public Module {
   const WebParams params_;
   std::string reason_;  ///< what is wrong since the start
   std::unique_ptr<telepresence::Database> database_;
+  std::unique_ptr<MuseumDesk> museum_desk_;  // outlives the desk, which works in it
   std::shared_ptr<telepresence::Desk> desk_;
   WishDesk wishes_;
   transport::Publisher<docent_msgs::Choice> choices_;

@@ -30,12 +30,14 @@ enum class ApiFault {
   too_often,       ///< more posts than one person may write
   nothing_said,    ///< an empty text, or a thread without a title
   not_stored,      ///< the disk is full or gone
+  must_stand,      ///< the robot first; somebody has to press the stop button
+  outdated,        ///< somebody else has changed it since
   busy,
 };
 constexpr auto words_of(ApiFault) {
   return std::array{"not_found",  "wrong_method", "not_understood", "too_large", "too_fast",  "not_allowed",
                     "other_site", "wrong_csrf",   "wrong_password", "sent_away", "too_often", "nothing_said",
-                    "not_stored", "busy"};
+                    "not_stored", "must_stand",   "outdated",       "busy"};
 }
 
 }  // namespace docent::telepresence

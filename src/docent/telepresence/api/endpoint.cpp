@@ -109,6 +109,9 @@ int status_of(ApiFault reason) {
     case ApiFault::wrong_csrf:
     case ApiFault::sent_away:
       return 403;
+    case ApiFault::must_stand:
+    case ApiFault::outdated:
+      return 409;
     case ApiFault::not_stored:
     case ApiFault::busy:
       break;

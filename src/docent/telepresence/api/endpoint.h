@@ -16,6 +16,7 @@
 #include "docent/telepresence/api/audit.h"
 #include "docent/telepresence/api/document_reader.h"
 #include "docent/telepresence/api/exchange/exchange.h"
+#include "docent/telepresence/api/museum_office.h"
 #include "docent/telepresence/api/schemas.h"
 #include "docent/telepresence/counting/statistics.h"
 #include "docent/telepresence/forum/forum.h"
@@ -57,6 +58,7 @@ struct ApiServices {
   std::unique_ptr<Forum> forum;
   std::unique_ptr<Statistics> statistics;
   std::unique_ptr<Audit> audit;
+  std::shared_ptr<const MuseumOffice> museum;  ///< null: no museum can be changed here
   ApiParams params;
   [[nodiscard]] static Result<ApiServices> open(const std::string& database, const ApiParams& params,
                                                 const ForumParams& forum, const PasswordCost& cost);
@@ -98,6 +100,12 @@ struct Endpoint {
   std::function<nlohmann::json(Schemas&)> request, reply;
   [[nodiscard]] bool changes() const { return std::string_view{method} != "GET"; }
 };
+
+/// Those that change the museum.
+[[nodiscard]] std::vector<Endpoint> museum_endpoints();
+/// A row of the table, without what it does.
+[[nodiscard]] Endpoint at(const char* method, const char* path, Rank least, const char* name, const char* summary,
+                          std::vector<const char*> query = {});
 
 /// The whole table.
 [[nodiscard]] std::span<const Endpoint> endpoints();

@@ -204,18 +204,6 @@ ApiAnswer<documents::AccountLines> list_accounts(ApiCall& call, const Nothing& /
   return page;
 }
 
-Endpoint at(const char* method, const char* path, Rank least, const char* name, const char* summary,
-            std::vector<const char*> query = {}) {
-  Endpoint what;
-  what.method = method;
-  what.path = path;
-  what.least = least;
-  what.name = name;
-  what.summary = summary;
-  what.query = std::move(query);
-  return what;
-}
-
 std::vector<Endpoint> make_table() {
   using documents::Me;
   std::vector<Endpoint> table{
@@ -256,11 +244,24 @@ std::vector<Endpoint> make_table() {
       endpoint<Nothing, documents::AccountLines>(
           at("GET", "/accounts", Rank::operator_, "list_accounts", "Who has an account"), list_accounts),
   };
+  for (Endpoint& each : museum_endpoints()) table.push_back(std::move(each));
   for (Endpoint& each : table) each.is_dear = std::string_view{each.name} == "login";
   return table;
 }
 
 }  // namespace
+
+Endpoint at(const char* method, const char* path, Rank least, const char* name, const char* summary,
+            std::vector<const char*> query) {
+  Endpoint what;
+  what.method = method;
+  what.path = path;
+  what.least = least;
+  what.name = name;
+  what.summary = summary;
+  what.query = std::move(query);
+  return what;
+}
 
 std::span<const Endpoint> endpoints() {
   static const std::vector<Endpoint> kTable = make_table();

@@ -4,6 +4,7 @@
 
 #include "docent/messages/conversions.h"
 #include "docent/telepresence/api/api_documents.h"
+#include "docent/telepresence/api/museum_documents.h"
 #include "docent/telepresence/client_message.h"
 #include "docent/telepresence/contract/typescript.h"
 #include "docent/telepresence/documents.h"
@@ -179,6 +180,9 @@ std::string contract_types() {
   types.add<documents::AuditLines>();
   types.add<documents::StatisticsDays>();
   types.add<documents::AccountLines>();
+  types.add<documents::MuseumEdition>();
+  types.add<documents::MuseumWish>();
+  types.add<documents::MuseumFaults>();
   types.add_union("ClientMessage", static_cast<const ClientMessage*>(nullptr));
   return "// What the server sends and takes. docent_web_contract writes this file from documents.h and "
          "client_message.h in\n"

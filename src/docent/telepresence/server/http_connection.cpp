@@ -14,6 +14,7 @@ namespace http = beast::http;
 using asio::ip::tcp;
 
 constexpr auto kHttpTimeout = std::chrono::seconds{15};
+constexpr int kMostLargeBodies = 4;  // read at a time, so that nobody fills the memory with them
 
 std::string_view view_of(beast::string_view text) { return {text.data(), text.size()}; }
 
@@ -24,17 +25,40 @@ std::string etag_of(const SiteReply& reply) { return '"' + reply.taken + '"'; }
 void HttpConnection::read() {
   parser_.emplace();
   parser_->header_limit(8192);
-  parser_->body_limit(kLongestBody);
+  parser_->body_limit(kLongestMuseum);
   stream_.expires_after(kHttpTimeout);
+  http::async_read_header(stream_, buffer_, *parser_,
+                          [self = shared_from_this()](beast::error_code error, std::size_t) {
+                            if (error) return self->complain(error);
+                            self->read_body();
+                          });
+}
+
+void HttpConnection::read_body() {
+  const bool is_large = parser_->content_length().value_or(0) > kLongestBody;
+  if (!is_large) {
+    parser_->body_limit(kLongestBody);
+  } else if (parser_->content_length().value_or(0) > longest_body_of(view_of(parser_->get().target()))) {
+    return send(refusal(413, "too large\n"), false, false);
+  } else {
+    if (owner_.large_bodies >= kMostLargeBodies) return send(refusal(503, "not now\n"), false, false);
+    large_body_.emplace(owner_.large_bodies);
+  }
   http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
-    if (!error) return self->serve();
-    if (error == http::error::header_limit || error == http::error::body_limit) {
-      self->send(refusal(413, "too large\n"), false, false);
-    } else if (error != http::error::end_of_stream &&
-               error.category() == http::make_error_code(http::error::bad_method).category()) {
-      self->send(refusal(400, "not HTTP\n"), false, false);
-    }
+    if (error) return self->complain(error);
+    self->serve();
+    self->large_body_.reset();
   });
+}
+
+void HttpConnection::complain(beast::error_code error) {
+  large_body_.reset();
+  if (error == http::error::header_limit || error == http::error::body_limit) {
+    send(refusal(413, "too large\n"), false, false);
+  } else if (error != http::error::end_of_stream &&
+             error.category() == http::make_error_code(http::error::bad_method).category()) {
+    send(refusal(400, "not HTTP\n"), false, false);
+  }
 }
 
 std::string HttpConnection::address_of(const HttpRequest& request) const {

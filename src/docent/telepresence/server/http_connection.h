@@ -39,6 +39,7 @@ struct HttpOwner {
   std::atomic<int> asked{0};             ///< of the desk, and not yet answered
   std::atomic<bool> is_closing = false;  ///< the desk is asked no more
   std::atomic<std::size_t>* connections = nullptr;
+  int large_bodies = 0;  ///< that are being read; the server's thread alone
   std::atomic<std::uint64_t> requests{0};
 };
 
@@ -57,6 +58,17 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
  private:
   using Body = boost::beast::http::span_body<const char>;
 
+  /// Holds a place among the few large bodies.
+  struct LargeBody {
+    explicit LargeBody(int& all) : count{all} { ++count; }
+    LargeBody(const LargeBody&) = delete;
+    LargeBody& operator=(const LargeBody&) = delete;
+    ~LargeBody() { --count; }
+    int& count;
+  };
+
+  void read_body();
+  void complain(boost::beast::error_code error);
   void serve();
   /// Has the desk answer.
   void call_api(const HttpRequest& request);
@@ -76,6 +88,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   boost::beast::tcp_stream stream_;
   boost::beast::flat_buffer buffer_;
   std::optional<boost::beast::http::request_parser<boost::beast::http::string_body>> parser_;
+  std::optional<LargeBody> large_body_;
   std::shared_ptr<const std::string> body_;
   std::optional<boost::beast::http::response<Body>> response_;
   std::optional<boost::beast::http::response_serializer<Body>> serializer_;

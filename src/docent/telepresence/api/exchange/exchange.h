@@ -13,14 +13,19 @@ namespace docent::telepresence {
 struct ApiRequest {
   std::string method;      ///< GET, POST, PUT, DELETE
   std::string target;      ///< as it came, with its query
-  std::string body;        ///< at most kLongestBody bytes
+  std::string body;        ///< at most longest_body_of(target) bytes
   std::string token;       ///< of the cookie; empty: none came
   std::string csrf;        ///< of the header Docent-Csrf
   std::string address;     ///< from where it comes
   bool is_json = false;    ///< it says that its body is JSON
   bool is_of_ours = true;  ///< no page of another site sends it
 };
-inline constexpr std::size_t kLongestBody = 16'384;  ///< bytes
+inline constexpr std::size_t kLongestBody = 16'384;       ///< bytes
+inline constexpr std::size_t kLongestMuseum = 1'048'576;  ///< bytes: with the texts of all exhibits
+/// [bytes] Only a museum is larger than everything else; the server reads few of them at a time.
+[[nodiscard]] constexpr std::size_t longest_body_of(std::string_view target) {
+  return target.starts_with("/api/v1/museum") ? kLongestMuseum : kLongestBody;
+}
 
 struct ApiReply {
   int status = 200;

@@ -1,0 +1,34 @@
+#include "docent/modules/web/museum_desk.h"
+
+#include <utility>
+
+#include "docent/messages/conversions.h"
+#include "docent/messages/topics.h"
+
+namespace docent::modules {
+namespace {
+
+// Whoever asked for it hears that it is done before this module, too, begins anew.
+constexpr Duration kAnswerGoesOut = std::chrono::milliseconds{300};
+constexpr Duration kLookPeriod = std::chrono::milliseconds{100};
+
+}  // namespace
+
+MuseumDesk::MuseumDesk(const ModuleContext& context) : bus_{context.bus}, moved_{bus_.publisher(topics::kMuseumMoved)} {
+  telepresence::MuseumOffice office{
+      {context.museum.folder, museum::trial_folder(context.state), context.checked_robot},
+      [this] { return is_stopped_.load(); },
+      [this](bool into_trial) {
+        bus_.post([this, into_trial] { move_ = Move{into_trial, bus_.now() + kAnswerGoesOut}; });
+      }};
+  office_ = std::make_shared<const telepresence::MuseumOffice>(std::move(office));
+  bus_.every(kLookPeriod, [this] { look(); });
+}
+
+void MuseumDesk::look() {
+  if (!move_ || bus_.now() < move_->when) return;
+  moved_.publish({{to_message(bus_.now()), ""}, move_->into_trial});
+  move_.reset();
+}
+
+}  // namespace docent::modules

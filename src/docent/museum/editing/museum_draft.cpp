@@ -1,0 +1,74 @@
+#include "docent/museum/editing/museum_draft.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+namespace docent::museum {
+namespace {
+
+constexpr double kMillimetre = 0.00051;                      // [m] half of what is written, and rounding
+constexpr double kTenth = 0.051 * 3.14159265358979 / 180.0;  // [rad] likewise
+
+bool is_near(double one, double other) { return std::abs(one - other) <= kMillimetre; }
+
+std::string_view trimmed(std::string_view text) {
+  constexpr const char* kSpace = " \t\r\n";
+  const auto first = text.find_first_not_of(kSpace);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kSpace) - first + 1);
+}
+
+/// Each of `one` has its equal, by id, in `other`, which has no more.
+template <class T>
+bool is_same_by_id(const std::vector<T>& one, const std::vector<T>& other) {
+  return one.size() == other.size() && std::all_of(one.begin(), one.end(), [&](const T& item) {
+           return std::any_of(other.begin(), other.end(),
+                              [&](const T& candidate) { return candidate.id == item.id && is_same(item, candidate); });
+         });
+}
+
+}  // namespace
+
+MuseumDraft draft_of(const Museum& museum) {
+  return {museum.area, museum.hazards, museum.home, museum.charger, museum.exhibits};
+}
+
+bool is_same(const Pose2& one, const Pose2& other) {
+  return is_near(one.x, other.x) && is_near(one.y, other.y) && std::abs((one.theta - other.theta).radians()) <= kTenth;
+}
+
+bool is_same(const Polygon& one, const Polygon& other) {
+  return std::equal(one.begin(), one.end(), other.begin(), other.end(),
+                    [](Point2 a, Point2 b) { return is_near(a.x, b.x) && is_near(a.y, b.y); });
+}
+
+bool is_same(const Hazard& one, const Hazard& other) {
+  return one.id == other.id && one.kind == other.kind && is_same(one.polygon, other.polygon);
+}
+
+bool is_same(const std::vector<Pose2>& one, const std::vector<Pose2>& other) {
+  return std::equal(one.begin(), one.end(), other.begin(), other.end(),
+                    [](const Pose2& a, const Pose2& b) { return is_same(a, b); });
+}
+
+bool is_same(const Translations& one, const Translations& other) {
+  return std::equal(one.begin(), one.end(), other.begin(), other.end(), [](const auto& a, const auto& b) {
+    return a.first == b.first && trimmed(a.second) == trimmed(b.second);
+  });
+}
+
+bool is_same(const Exhibit& one, const Exhibit& other) {
+  return one.id == other.id && is_same(one.title, other.title) && is_same(one.pose, other.pose) &&
+         is_near(one.look_at.x, other.look_at.x) && is_near(one.look_at.y, other.look_at.y) &&
+         is_same(one.viewpoints, other.viewpoints) && is_same(one.short_text, other.short_text) &&
+         is_same(one.long_text, other.long_text) && one.topics == other.topics && one.web_only == other.web_only;
+}
+
+bool is_same(const MuseumDraft& one, const MuseumDraft& other) {
+  if (one.charger.has_value() != other.charger.has_value()) return false;
+  return is_same(one.area, other.area) && is_same_by_id(one.hazards, other.hazards) && is_same(one.home, other.home) &&
+         (!one.charger || is_same(*one.charger, *other.charger)) && is_same_by_id(one.exhibits, other.exhibits);
+}
+
+}  // namespace docent::museum

@@ -1,0 +1,100 @@
+#include "docent/museum/editing/museum_workshop.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "docent/base/files.h"
+#include "docent/base/shipped_files.h"
+
+namespace docent::museum {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A copy of the museum of Bonn, and a place for trials.
+class MuseumWorkshopTest : public testing::Test {
+ protected:
+  MuseumWorkshopTest() {
+    fs::remove_all(root_);
+    fs::create_directories(root_);
+    fs::copy(shipped_path("museums/bonn"), root_ / "bonn", fs::copy_options::recursive);
+  }
+  ~MuseumWorkshopTest() override { fs::remove_all(root_); }
+
+  [[nodiscard]] MuseumWorkshop workshop(const fs::path& folder) const { return {folder, root_ / "trial", {}}; }
+  [[nodiscard]] MuseumWorkshop workshop() const { return workshop(root_ / "bonn"); }
+  /// What is free of everything in Bonn.
+  static Hazard puddle() { return {"puddle", HazardKind::other, {{9.0, 7.0}, {10.0, 7.0}, {10.0, 8.0}, {9.0, 8.0}}}; }
+
+  fs::path root_ = fs::temp_directory_path() / ("docent-workshop-" + std::to_string(::getpid()));
+};
+
+TEST_F(MuseumWorkshopTest, TriesAndPublishes) {
+  const auto before = workshop().read();
+  ASSERT_TRUE(before) << before.error().message;
+  MuseumDraft draft = draft_of(before->museum);
+  draft.hazards.push_back(puddle());
+  draft.exhibits[0].short_text["en"] = "Something new.";
+
+  const auto tried = workshop().try_out(draft, before->revision);
+  ASSERT_TRUE(tried) << tried.error().message;
+  ASSERT_TRUE(tried->faults.empty()) << tried->faults.front();
+  const auto trial = load_museum(root_ / "trial");
+  ASSERT_TRUE(trial) << trial.error().message;
+  EXPECT_EQ(trial->hazards.back().id, "puddle");
+  EXPECT_EQ(trial->exhibits[0].short_text.at("en"), "Something new.\n");
+  EXPECT_EQ(load_museum(root_ / "bonn")->hazards.size() + 1, trial->hazards.size()) << "what is published stays";
+
+  const MuseumWorkshop inside = workshop(root_ / "trial");
+  EXPECT_TRUE(inside.is_trial());
+  EXPECT_EQ(inside.published(), root_ / "bonn");
+  const auto now = inside.read();
+  ASSERT_TRUE(now);
+  EXPECT_EQ(now->museum.hazards.back().id, "puddle");
+  const auto published = inside.publish(draft_of(now->museum), now->revision);
+  ASSERT_TRUE(published) << published.error().message;
+  ASSERT_TRUE(published->faults.empty()) << published->faults.front();
+  const auto after = load_museum(root_ / "bonn");
+  ASSERT_TRUE(after);
+  EXPECT_EQ(after->hazards.back().id, "puddle");
+  EXPECT_TRUE(fs::is_regular_file(root_ / "bonn" / "museum.yaml.before"));
+  EXPECT_NE(workshop().read()->revision, before->revision);
+}
+
+TEST_F(MuseumWorkshopTest, RefusesWhatCannotWorkAndWritesNothing) {
+  const auto before = workshop().read();
+  const std::string yaml = *read_file(root_ / "bonn" / "museum.yaml");
+  MuseumDraft draft = draft_of(before->museum);
+  Hazard over_home = puddle();
+  const Point2 home = draft.home.position();
+  over_home.polygon = {
+      {home.x - 1, home.y - 1}, {home.x + 1, home.y - 1}, {home.x + 1, home.y + 1}, {home.x - 1, home.y + 1}};
+  draft.hazards.push_back(over_home);
+  const auto faults = workshop().check(draft);
+  ASSERT_TRUE(faults) << faults.error().message;
+  ASSERT_EQ(faults->size(), 1U);
+  EXPECT_EQ(faults->front(), "home lies inside the hazard 'puddle'");
+  for (const auto& outcome :
+       {workshop().try_out(draft, before->revision), workshop().publish(draft, before->revision)}) {
+    ASSERT_TRUE(outcome);
+    EXPECT_EQ(outcome->faults, *faults);
+  }
+  EXPECT_EQ(*read_file(root_ / "bonn" / "museum.yaml"), yaml);
+  EXPECT_FALSE(fs::exists(root_ / "trial"));
+  EXPECT_FALSE(fs::exists(root_ / "trial.check"));
+  EXPECT_FALSE(fs::exists(root_ / "trial.next"));
+}
+
+TEST_F(MuseumWorkshopTest, WhoeverComesLateIsTold) {
+  const auto before = workshop().read();
+  MuseumDraft draft = draft_of(before->museum);
+  draft.hazards.push_back(puddle());
+  ASSERT_TRUE(workshop().publish(draft, before->revision)->faults.empty());
+  EXPECT_TRUE(workshop().publish(draft_of(before->museum), before->revision)->is_outdated);
+  EXPECT_TRUE(workshop().try_out(draft_of(before->museum), before->revision)->is_outdated);
+  EXPECT_EQ(load_museum(root_ / "bonn")->hazards.back().id, "puddle");
+}
+
+}  // namespace
+}  // namespace docent::museum

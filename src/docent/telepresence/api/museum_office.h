@@ -1,0 +1,22 @@
+#pragma once
+
+#include <functional>
+
+#include "docent/museum/editing/museum_workshop.h"
+#include "docent/telepresence/api/museum_documents.h"
+
+namespace docent::telepresence {
+
+/// Where operators change the robot's museum.
+struct MuseumOffice {
+  museum::MuseumWorkshop workshop;
+  /// Any thread: the stop button is pressed. Without it nothing changes under a robot that drives.
+  std::function<bool()> is_stopped;
+  /// Any thread: all modules shall begin anew, in the trial or in the published museum.
+  std::function<void(bool into_trial)> move;
+};
+
+[[nodiscard]] documents::MuseumDraft document_of(const museum::MuseumDraft& draft);
+[[nodiscard]] museum::MuseumDraft draft_of(const documents::MuseumDraft& document);
+
+}  // namespace docent::telepresence
