@@ -118,6 +118,7 @@ class App {
   readonly motion = new Motion();
   /** A visitor who has asked once needs no hint. */
   hasAsked = $state(store.read('asked', false));
+  private museumText = '';
   private socket: WebSocket | null = null;
   private tries = 0;
   private lastHeard = 0;
@@ -128,17 +129,24 @@ class App {
   async start(): Promise<void> {
     this.connect();
     setInterval(() => this.watchOver(), 500);
-    for (let pause = 500; ; pause = Math.min(pause * 2, 8000)) {
-      try {
-        const reply = await fetch('/api/museum.json', { signal: AbortSignal.timeout(20000) });
-        if (!reply.ok) throw new Error(String(reply.status));
-        const museum: Museum = await reply.json();
-        this.museum = museum;
-        this.language = pageLanguage(wantedLanguage(), museum.languages);
-        return;
-      } catch {
-        await new Promise((resolve) => setTimeout(resolve, pause));
-      }
+    for (let pause = 500; !(await this.readMuseum()); pause = Math.min(pause * 2, 8000))
+      await new Promise((resolve) => setTimeout(resolve, pause));
+  }
+  /** Whether it was there. It stays the same object as long as it says the same. */
+  private async readMuseum(): Promise<boolean> {
+    try {
+      const reply = await fetch('/api/museum.json', { signal: AbortSignal.timeout(20000) });
+      if (!reply.ok) return false;
+      const text = await reply.text();
+      if (text === this.museumText) return true;
+      const museum: Museum = JSON.parse(text);
+      const isFirst = this.museum === null;
+      this.museumText = text;
+      this.museum = museum;
+      if (isFirst) this.language = pageLanguage(wantedLanguage(), museum.languages);
+      return true;
+    } catch {
+      return false;
     }
   }
 
@@ -296,6 +304,7 @@ class App {
       this.lastHeard = performance.now();
       this.connection = 'open';
       if (this.expert) this.send(watchOf(true));
+      if (this.museum) void this.readMuseum(); // it may be another one since
       // Whatever was not yet on the board is said again, with the same id: the server knows it if it had it.
       for (const wish of this.wishes) {
         if (!wish.seen && !closedStates.includes(wish.state)) this.sendWish(wish);

@@ -51,6 +51,31 @@ TEST(Supervisor, RestartsWhoEndsAndPassesOnWhatTheySay) {
   EXPECT_GE(supervisor.status()[0].restarts, 2);
 }
 
+TEST(Supervisor, WhoShallBeginAnewDoesSoAtOnceWithAnotherCommand) {
+  Lines lines;
+  const auto saying = [](const std::string& word) {
+    return shell("a", "trap 'echo bye; exit 0' TERM; echo " + word + "; while :; do sleep 0.01; done");
+  };
+  Supervisor supervisor{{saying("one"), shell("b", "echo b; exec sleep 100")}, lines.log()};
+  ASSERT_TRUE(step_until(supervisor, [&] { return lines.count("one") == 1 && lines.count("b: b") == 1; }));
+  const pid_t other = supervisor.status()[1].pid;
+  const auto begun = Supervisor::Clock::now();
+  supervisor.restart("a", saying("two").command);
+  ASSERT_TRUE(step_until(supervisor, [&] { return lines.count("two") == 1; }));
+  EXPECT_LT(Supervisor::Clock::now() - begun, 2s);
+  EXPECT_EQ(lines.count("bye"), 1) << "it ended in order";
+  EXPECT_EQ(supervisor.status()[1].pid, other) << "the other was left alone";
+  EXPECT_TRUE(is_alive(other));
+}
+
+TEST(Supervisor, WhoDoesNotEndWhenToldIsKilledAndBeginsAnew) {
+  Lines lines;
+  Supervisor supervisor{{shell("a", "trap '' TERM; echo up; while :; do sleep 0.01; done")}, lines.log()};
+  ASSERT_TRUE(step_until(supervisor, [&] { return lines.count("up") == 1; }));
+  supervisor.restart("a", {"/bin/sh", "-c", "echo again; exec sleep 100"});
+  EXPECT_TRUE(step_until(supervisor, [&] { return lines.count("again") == 1; }));
+}
+
 TEST(Supervisor, AKilledProcessIsBackSoon) {
   Lines lines;
   Supervisor supervisor{{shell("a", "echo up; exec sleep 100")}, lines.log()};

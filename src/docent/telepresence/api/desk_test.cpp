@@ -7,6 +7,9 @@
 #include <filesystem>
 #include <future>
 
+#include "docent/base/files.h"
+#include "docent/base/shipped_files.h"
+
 namespace docent::telepresence {
 namespace {
 
@@ -258,6 +261,81 @@ TEST_F(TheDesk, AdmitsOperatorsAlone) {
   EXPECT_EQ(admitted(moderator().token), std::nullopt);
   EXPECT_EQ(admitted(visitor().token), std::nullopt);
   EXPECT_EQ(admitted(""), std::nullopt);
+}
+
+/// A desk in whose office lies a copy of the museum of Bonn.
+class TheMuseumDesk : public TheDesk {
+ protected:
+  TheMuseumDesk() {
+    std::filesystem::create_directories(root_);
+    std::filesystem::copy(shipped_path("museums/bonn"), root_ / "bonn", std::filesystem::copy_options::recursive);
+    MuseumOffice office{{root_ / "bonn", root_ / "trial", {}},
+                        [this] { return is_stopped_.load(); },
+                        [this](bool into_trial) { moves_.push_back(into_trial); }};
+    desk_.reset();
+    desk_ = std::move(*Desk::open(
+        path_, generous(), {}, [this] { return now_.load(); }, kCheap,
+        std::make_shared<const MuseumOffice>(std::move(office))));
+    ada_ = operator_();
+  }
+  ~TheMuseumDesk() override {
+    desk_.reset();
+    std::filesystem::remove_all(root_);
+  }
+  /// The museum as it is, with a hazard round (x, y).
+  nlohmann::json wish(double x, double y) {
+    auto edition = nlohmann::json::parse(call(ada_, "GET", "/museum").body);
+    edition["draft"]["hazards"].push_back(
+        {{"id", "puddle"}, {"kind", "other"}, {"polygon", {{x, y}, {x + 1.0, y}, {x + 1.0, y + 1.0}, {x, y + 1.0}}}});
+    return {{"revision", edition["revision"]}, {"draft", edition["draft"]}};
+  }
+  [[nodiscard]] std::string published() const { return *read_file(root_ / "bonn" / "museum.yaml"); }
+
+  const std::filesystem::path root_ = testing::TempDir() + "/desk-museum-" + std::to_string(::getpid());
+  std::atomic<bool> is_stopped_ = true;
+  std::vector<bool> moves_;
+  Browser ada_;
+};
+
+TEST_F(TheMuseumDesk, TriesAndPublishesWhatCanWork) {
+  const std::string wish_text = wish(9.0, 7.0).dump();
+  ApiReply reply = call(ada_, "PUT", "/museum/trial", wish_text);
+  EXPECT_EQ(reply.status, 200) << reply.body;
+  EXPECT_EQ(reply.body, R"({"faults":[]})");
+  EXPECT_EQ(published().find("puddle"), std::string::npos);
+  reply = call(ada_, "PUT", "/museum", wish_text);
+  EXPECT_EQ(reply.body, R"({"faults":[]})");
+  EXPECT_NE(published().find("puddle"), std::string::npos);
+  EXPECT_EQ(reason(call(ada_, "PUT", "/museum", wish_text)), "outdated");
+  EXPECT_EQ(call(ada_, "DELETE", "/museum/trial").status, 200);
+  EXPECT_EQ(moves_, (std::vector{true, false, false}));
+}
+
+TEST_F(TheMuseumDesk, ChangesNothingUnderARobotThatMayDrive) {
+  const auto wanted = wish(9.0, 7.0);
+  const std::string before = published();
+  is_stopped_ = false;
+  for (const char* path : {"/museum", "/museum/trial"}) {
+    const ApiReply reply = call(ada_, "PUT", path, wanted.dump());
+    EXPECT_EQ(reply.status, 409);
+    EXPECT_EQ(reason(reply), "must_stand");
+  }
+  EXPECT_EQ(reason(call(ada_, "DELETE", "/museum/trial")), "must_stand");
+  EXPECT_EQ(call(ada_, "POST", "/museum/check", wanted["draft"].dump()).status, 200) << "to look needs no stop";
+  EXPECT_EQ(published(), before);
+  EXPECT_TRUE(moves_.empty());
+}
+
+TEST_F(TheMuseumDesk, NamesWhatCannotWork) {
+  const auto wanted = wish(8.5, 3.1);  // round where it waits
+  for (const ApiReply& reply :
+       {call(ada_, "POST", "/museum/check", wanted["draft"].dump()), call(ada_, "PUT", "/museum/trial", wanted.dump()),
+        call(ada_, "PUT", "/museum", wanted.dump())})
+    EXPECT_NE(reply.body.find("home lies inside the hazard 'puddle'"), std::string::npos) << reply.body;
+  auto strange = wish(9.0, 7.0);
+  strange["draft"]["hazards"][0]["id"] = "../../a}, kind: glass";
+  EXPECT_NE(call(ada_, "PUT", "/museum", strange.dump()).body, R"({"faults":[]})");
+  EXPECT_TRUE(moves_.empty());
 }
 
 }  // namespace

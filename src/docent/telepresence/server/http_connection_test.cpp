@@ -122,6 +122,32 @@ TEST_F(HttpConnections, RefuseWhatIsTooLarge) {
   EXPECT_TRUE(desk_->requests().empty());
 }
 
+TEST_F(HttpConnections, TakeAWholeMuseumButFewAtATime) {
+  start();
+  const std::string museum(kLongestBody + 1, 'x');
+  EXPECT_TRUE(call("PUT /api/v1/museum", "", museum).first.starts_with("HTTP/1.1 200"));
+  EXPECT_EQ(desk_->requests().at(0).body, museum);
+  EXPECT_TRUE(call("PUT /api/v1/museum", "", std::string(kLongestMuseum + 1, 'x')).first.starts_with("HTTP/1.1 413"));
+  // Four that never end hold all the places; when they go, there is room again.
+  const std::string begun = "PUT /api/v1/museum HTTP/1.1\r\nHost: a\r\nContent-Length: 500000\r\n\r\n{";
+  std::vector<std::unique_ptr<TestClient>> slow;
+  for (int i = 0; i < 4; ++i) {
+    slow.push_back(std::make_unique<TestClient>(server_->port()));
+    slow.back()->send(begun);
+  }
+  const auto status_becomes = [&](const std::string& wanted) {
+    for (int i = 0; i < 100; ++i) {
+      if (call("PUT /api/v1/museum", "", museum).first.starts_with("HTTP/1.1 " + wanted)) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds{20});
+    }
+    return false;
+  };
+  EXPECT_TRUE(status_becomes("503"));
+  EXPECT_TRUE(call("POST /api/v1/forum", "", "{}").first.starts_with("HTTP/1.1 200")) << "small ones are not held up";
+  slow.clear();
+  EXPECT_TRUE(status_becomes("200"));
+}
+
 TEST_F(HttpConnections, ServeOneCallAfterTheOther) {
   start();
   TestClient client{server_->port()};

@@ -1,0 +1,56 @@
+import { expect, test } from 'vitest';
+import type { MuseumDraft, Point } from '../lib/protocol';
+import { addExhibit, addHazard, addViewpoint, crossesItself, handlesOf, moveAll, moveHandle, remove, removeHandle, splitSide } from './draft';
+
+const square: Point[] = [[0, 0], [2, 0], [2, 2], [0, 2]];
+const draft: MuseumDraft = {
+  area: [[0, 0], [9, 0], [9, 7], [0, 7]],
+  hazards: [{ id: 'case', kind: 'glass', polygon: square }],
+  home: [1, 5, 0],
+  charger: null,
+  exhibits: [],
+};
+const hazard = { kind: 'hazard', index: 0 } as const;
+
+test('corners and the middles of sides are handles', () => {
+  const handles = handlesOf(draft, hazard);
+  expect(handles.filter(({ kind }) => kind === 'corner').map(({ at }) => at)).toEqual(square);
+  expect(handles.find(({ key }) => key === 'middle:3')?.at).toEqual([0, 1]);
+});
+test('a corner moves to the millimetre, and the old draft stays', () => {
+  const moved = moveHandle(draft, hazard, { kind: 'corner', index: 2 }, [3.00049, 2.5]);
+  expect(moved.hazards[0].polygon[2]).toEqual([3, 2.5]);
+  expect(draft.hazards[0].polygon[2]).toEqual([2, 2]);
+});
+test('a side is split, and a corner taken away, but three remain', () => {
+  let next = splitSide(draft, hazard, 3);
+  expect(next.hazards[0].polygon).toEqual([...square, [0, 1]]);
+  for (let i = 0; i < 9; ++i) next = removeHandle(next, hazard, { kind: 'corner', index: 0 });
+  expect(next.hazards[0].polygon.length).toBe(3);
+});
+test('a whole hazard moves, and goes', () => {
+  expect(moveAll(draft, hazard, [1, -1]).hazards[0].polygon[0]).toEqual([1, -1]);
+  expect(remove(draft, hazard).hazards).toEqual([]);
+});
+test('new hazards have names of their own', () => {
+  const two = addHazard(addHazard(draft, square), square);
+  expect(two.hazards.map(({ id }) => id)).toEqual(['case', 'hazard-1', 'hazard-2']);
+});
+test('an exhibit is placed, turned, and looked at from viewpoints', () => {
+  let next = addExhibit(draft, [4, 4], ['en', 'de'], 'New');
+  const exhibit = { kind: 'exhibit', index: 0 } as const;
+  expect(next.exhibits[0].title).toEqual({ en: 'New', de: 'New' });
+  expect(next.exhibits[0].pose).toEqual([4, 3, Math.PI / 2]);
+  next = moveHandle(next, exhibit, { kind: 'heading', index: -1 }, [9, 3]);
+  expect(next.exhibits[0].pose[2]).toBe(0);
+  next = addViewpoint(next, 0, [4, 6]);
+  expect(next.exhibits[0].viewpoints[0][2]).toBeCloseTo(-Math.PI / 2);
+  next = moveHandle(next, exhibit, { kind: 'viewpoint', index: 0 }, [6, 4]);
+  expect(Math.abs(next.exhibits[0].viewpoints[0][2])).toBeCloseTo(Math.PI);
+  expect(removeHandle(next, exhibit, { kind: 'viewpoint', index: 0 }).exhibits[0].viewpoints).toEqual([]);
+});
+test('polygons that cross themselves are known', () => {
+  expect(crossesItself(square)).toBe(false);
+  expect(crossesItself([[0, 0], [2, 2], [2, 0], [0, 2]])).toBe(true);
+  expect(crossesItself([[0, 0], [1, 0], [0, 1]])).toBe(false);
+});

@@ -1,0 +1,186 @@
+// A draft of a museum: handles on its map, and what becomes of it when one of them is moved. Nothing here changes a draft:
+// each function gives a new one. Metres and radians in the map's frame.
+import type { Exhibit, Hazard, MuseumDraft, Point, Pose } from '../lib/protocol';
+
+export type Selection = { kind: 'area' | 'home' | 'charger' } | { kind: 'hazard' | 'exhibit'; index: number };
+export interface Handle {
+  /** Names it among those of what is selected. */
+  key: string;
+  kind: 'corner' | 'middle' | 'pose' | 'heading' | 'look' | 'viewpoint';
+  at: Point;
+  /** Of corners and viewpoints. */
+  index: number;
+}
+
+/** [m] from a pose to the handle that turns it. */
+export const ARM = 0.9;
+const LEAST_CORNERS = 3;
+
+const rounded = (value: number) => Math.round(value * 1000) / 1000;
+const at = (point: Point): Point => [rounded(point[0]), rounded(point[1])];
+const ahead = (pose: Pose): Point => [pose[0] + ARM * Math.cos(pose[2]), pose[1] + ARM * Math.sin(pose[2])];
+const towards = (from: Point | Pose, to: Point) => Math.atan2(to[1] - from[1], to[0] - from[0]);
+const middle = (a: Point, b: Point): Point => [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
+
+/** The corners of what is selected; undefined: it has none. */
+export function cornersOf(draft: MuseumDraft, selection: Selection): Point[] | undefined {
+  if (selection.kind === 'area') return draft.area;
+  return selection.kind === 'hazard' ? draft.hazards[selection.index]?.polygon : undefined;
+}
+
+export function handlesOf(draft: MuseumDraft, selection: Selection): Handle[] {
+  const corners = cornersOf(draft, selection);
+  if (corners)
+    return corners.flatMap((corner, index): Handle[] => [
+      { key: `corner:${index}`, kind: 'corner', at: corner, index },
+      { key: `middle:${index}`, kind: 'middle', at: middle(corner, corners[(index + 1) % corners.length]), index },
+    ]);
+  const pose = poseOf(draft, selection);
+  if (!pose) return [];
+  const handles: Handle[] = [
+    { key: 'pose', kind: 'pose', at: [pose[0], pose[1]], index: -1 },
+    { key: 'heading', kind: 'heading', at: ahead(pose), index: -1 },
+  ];
+  if (selection.kind === 'exhibit') {
+    const exhibit = draft.exhibits[selection.index];
+    handles.push({ key: 'look', kind: 'look', at: exhibit.look_at, index: -1 });
+    exhibit.viewpoints.forEach((viewpoint, index) =>
+      handles.push({ key: `viewpoint:${index}`, kind: 'viewpoint', at: [viewpoint[0], viewpoint[1]], index }),
+    );
+  }
+  return handles;
+}
+
+/** Where the robot stands for what is selected. */
+export function poseOf(draft: MuseumDraft, selection: Selection): Pose | null | undefined {
+  switch (selection.kind) {
+    case 'home':
+      return draft.home;
+    case 'charger':
+      return draft.charger;
+    case 'exhibit':
+      return draft.exhibits[selection.index]?.pose;
+  }
+  return undefined;
+}
+
+function withCorners(draft: MuseumDraft, selection: Selection, corners: Point[]): MuseumDraft {
+  if (selection.kind === 'area') return { ...draft, area: corners };
+  if (selection.kind !== 'hazard') return draft;
+  return withHazard(draft, selection.index, { polygon: corners });
+}
+export function withHazard(draft: MuseumDraft, index: number, change: Partial<Hazard>): MuseumDraft {
+  return { ...draft, hazards: draft.hazards.map((hazard, i) => (i === index ? { ...hazard, ...change } : hazard)) };
+}
+export function withExhibit(draft: MuseumDraft, index: number, change: Partial<Exhibit>): MuseumDraft {
+  return { ...draft, exhibits: draft.exhibits.map((exhibit, i) => (i === index ? { ...exhibit, ...change } : exhibit)) };
+}
+export function withPose(draft: MuseumDraft, selection: Selection, pose: Pose): MuseumDraft {
+  const next: Pose = [...at([pose[0], pose[1]]), pose[2]];
+  if (selection.kind === 'home') return { ...draft, home: next };
+  if (selection.kind === 'charger') return { ...draft, charger: next };
+  return selection.kind === 'exhibit' ? withExhibit(draft, selection.index, { pose: next }) : draft;
+}
+
+/** A corner in the middle of a side becomes one of its own: it is `corner:INDEX+1` then. */
+export function splitSide(draft: MuseumDraft, selection: Selection, index: number): MuseumDraft {
+  const corners = cornersOf(draft, selection);
+  if (!corners) return draft;
+  const between = at(middle(corners[index], corners[(index + 1) % corners.length]));
+  return withCorners(draft, selection, [...corners.slice(0, index + 1), between, ...corners.slice(index + 1)]);
+}
+
+export function moveHandle(draft: MuseumDraft, selection: Selection, handle: Pick<Handle, 'kind' | 'index'>, to: Point): MuseumDraft {
+  const corners = cornersOf(draft, selection);
+  if (corners)
+    return handle.kind === 'corner' ? withCorners(draft, selection, corners.map((corner, i) => (i === handle.index ? at(to) : corner))) : draft;
+  const pose = poseOf(draft, selection);
+  if (!pose) return draft;
+  if (handle.kind === 'pose') return withPose(draft, selection, [...to, pose[2]]);
+  if (handle.kind === 'heading') return withPose(draft, selection, [pose[0], pose[1], towards(pose, to)]);
+  if (selection.kind !== 'exhibit') return draft;
+  const exhibit = draft.exhibits[selection.index];
+  if (handle.kind === 'look') return withExhibit(draft, selection.index, { look_at: at(to) });
+  // From a viewpoint the robot looks at the exhibit.
+  const viewpoint: Pose = [...at(to), towards(to, exhibit.look_at)];
+  return withExhibit(draft, selection.index, { viewpoints: exhibit.viewpoints.map((old, i) => (i === handle.index ? viewpoint : old)) });
+}
+
+/** All of what is selected, by so many metres. */
+export function moveAll(draft: MuseumDraft, selection: Selection, by: Point): MuseumDraft {
+  const corners = cornersOf(draft, selection);
+  const moved = (point: Point): Point => at([point[0] + by[0], point[1] + by[1]]);
+  if (corners) return withCorners(draft, selection, corners.map(moved));
+  const pose = poseOf(draft, selection);
+  return pose ? withPose(draft, selection, [...moved([pose[0], pose[1]]), pose[2]]) : draft;
+}
+
+/** Without a corner or viewpoint; the same draft where it cannot be spared. */
+export function removeHandle(draft: MuseumDraft, selection: Selection, handle: Pick<Handle, 'kind' | 'index'>): MuseumDraft {
+  const corners = cornersOf(draft, selection);
+  if (corners)
+    return handle.kind === 'corner' && corners.length > LEAST_CORNERS ? withCorners(draft, selection, corners.filter((_, i) => i !== handle.index)) : draft;
+  if (selection.kind !== 'exhibit' || handle.kind !== 'viewpoint') return draft;
+  const { viewpoints } = draft.exhibits[selection.index];
+  return withExhibit(draft, selection.index, { viewpoints: viewpoints.filter((_, i) => i !== handle.index) });
+}
+
+export function remove(draft: MuseumDraft, selection: Selection): MuseumDraft {
+  switch (selection.kind) {
+    case 'hazard':
+      return { ...draft, hazards: draft.hazards.filter((_, i) => i !== selection.index) };
+    case 'exhibit':
+      return { ...draft, exhibits: draft.exhibits.filter((_, i) => i !== selection.index) };
+    case 'charger':
+      return { ...draft, charger: null };
+  }
+  return draft;
+}
+
+/** `word-1`, or the first number that nobody has. */
+export function freshId(taken: { id: string }[], word: string): string {
+  const ids = new Set(taken.map(({ id }) => id));
+  let number = 1;
+  while (ids.has(`${word}-${number}`)) ++number;
+  return `${word}-${number}`;
+}
+
+export function addHazard(draft: MuseumDraft, polygon: Point[]): MuseumDraft {
+  const hazard: Hazard = { id: freshId(draft.hazards, 'hazard'), kind: 'other', polygon: polygon.map(at) };
+  return { ...draft, hazards: [...draft.hazards, hazard] };
+}
+/** The robot stands a metre before what it shows. */
+export function addExhibit(draft: MuseumDraft, lookAt: Point, languages: string[], title: string): MuseumDraft {
+  const [x, y] = at(lookAt);
+  const texts = () => Object.fromEntries(languages.map((language) => [language, title]));
+  const exhibit: Exhibit = {
+    id: freshId(draft.exhibits, 'exhibit'),
+    title: texts(),
+    pose: [x, rounded(y - 1), Math.PI / 2],
+    look_at: [x, y],
+    viewpoints: [],
+    short: texts(),
+    long: {},
+    topics: [],
+    web_only: false,
+    picture: '',
+  };
+  return { ...draft, exhibits: [...draft.exhibits, exhibit] };
+}
+export function addViewpoint(draft: MuseumDraft, index: number, place: Point): MuseumDraft {
+  const { viewpoints, look_at } = draft.exhibits[index];
+  return withExhibit(draft, index, { viewpoints: [...viewpoints, [...at(place), towards(place, look_at)]] });
+}
+
+/** Whether two sides cross: no robot understands such a polygon. */
+export function crossesItself(corners: Point[]): boolean {
+  const side = (a: Point, b: Point, c: Point) => Math.sign((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+  const count = corners.length;
+  for (let i = 0; i < count; ++i)
+    for (let k = i + 2; k < count; ++k) {
+      if ((k + 1) % count === i) continue;
+      const [a, b, c, d] = [corners[i], corners[i + 1], corners[k], corners[(k + 1) % count]];
+      if (side(a, b, c) !== side(a, b, d) && side(c, d, a) !== side(c, d, b)) return true;
+    }
+  return false;
+}
