@@ -59,7 +59,7 @@ EDGE_MAY_SEE = {
 }
 # What every folder speaks stands in `docent` itself; the names of each other folder in a namespace that is called like it.
 COMMON = {"base", "geometry", "vocabulary", "grid", "messages"}
-# The folders of these see no other one of their own, but `shared`; what starts them all sees all.
+# The folders of these see no other one of their own, but `shared` and what lies within them; what starts them all sees all.
 APART = {"modules": "modules/host", "apps": "apps"}
 TRUTH = re.compile(r"kTrueState|kTrueContact|kTrueOffer|kRunInfo|for_each_truth_topic|\"truth/")
 TRUTH_MAY = {"messages", "simulator", "evaluation", "recording", "apps", "transport"}
@@ -106,7 +106,8 @@ def check_arrow(source, target, where):
 
 
 def check_apart(source, target, where):
-    if top(source) == top(target) and top(source) in APART and source not in {target, APART[top(source)]}:
+    is_own = target == source or target.startswith(source + "/")
+    if top(source) == top(target) and top(source) in APART and not is_own and source != APART[top(source)]:
         check(target == f"{top(source)}/shared", f"{where}: {source} may not see {target}, only {top(source)}/shared")
 
 

@@ -16,7 +16,7 @@
 #include "docent/telepresence/api/audit.h"
 #include "docent/telepresence/api/document_reader.h"
 #include "docent/telepresence/api/exchange/exchange.h"
-#include "docent/telepresence/api/museum_office.h"
+#include "docent/telepresence/museum_office/museum_office.h"
 #include "docent/telepresence/api/schemas.h"
 #include "docent/telepresence/counting/statistics.h"
 #include "docent/telepresence/forum/forum.h"

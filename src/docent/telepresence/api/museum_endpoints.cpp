@@ -1,5 +1,5 @@
 #include "docent/telepresence/api/endpoint.h"
-#include "docent/telepresence/api/museum_documents.h"
+#include "docent/telepresence/museum_office/museum_documents.h"
 
 namespace docent::telepresence {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "docent/messages/conversions.h"
 #include "docent/telepresence/api/api_documents.h"
-#include "docent/telepresence/api/museum_documents.h"
+#include "docent/telepresence/museum_office/museum_documents.h"
 #include "docent/telepresence/client_message.h"
 #include "docent/telepresence/contract/typescript.h"
 #include "docent/telepresence/documents.h"

@@ -1,4 +1,4 @@
-#include "docent/modules/web/museum_desk.h"
+#include "docent/modules/web/operators/museum_desk.h"
 
 #include <utility>
 

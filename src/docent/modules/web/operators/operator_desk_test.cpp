@@ -1,4 +1,4 @@
-#include "docent/modules/web/operator_desk.h"
+#include "docent/modules/web/operators/operator_desk.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "docent/telepresence/api/museum_office.h"
+#include "docent/telepresence/museum_office/museum_office.h"
 
 #include "docent/telepresence/museum_document.h"
 

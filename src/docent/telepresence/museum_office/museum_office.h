@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "docent/museum/editing/museum_workshop.h"
-#include "docent/telepresence/api/museum_documents.h"
+#include "docent/telepresence/museum_office/museum_documents.h"
 
 namespace docent::telepresence {
 

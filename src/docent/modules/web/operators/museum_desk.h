@@ -6,7 +6,7 @@
 
 #include "docent/messages/operation_messages.h"
 #include "docent/modules/shared/module.h"
-#include "docent/telepresence/api/museum_office.h"
+#include "docent/telepresence/museum_office/museum_office.h"
 #include "docent/transport/bus.h"
 
 namespace docent::modules {
