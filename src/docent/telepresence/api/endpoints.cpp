@@ -68,7 +68,7 @@ ApiAnswer<Nothing> log_out(ApiCall& call, const Nothing& /*wish*/) {
   return Nothing{};
 }
 
-documents::ForumPost document_of(const Post& post, const Person& reader) {
+documents::ForumPost post_for(const Post& post, const Person& reader) {
   return {post.id,
           post.thread,
           post.name,
@@ -102,7 +102,7 @@ ApiAnswer<documents::ForumThreads> list_threads(ApiCall& call, const Nothing& /*
 
 documents::ForumPosts page_of(const std::vector<Post>& posts, const Person& reader) {
   documents::ForumPosts page;
-  for (const Post& post : posts) page.posts.push_back(document_of(post, reader));
+  for (const Post& post : posts) page.posts.push_back(post_for(post, reader));
   page.is_last = posts.empty();
   return page;
 }
