@@ -79,6 +79,9 @@ inline constexpr Topic<docent_msgs::DriveGoal> kDriveGoal{"docent/drive_goal", Q
 inline constexpr Topic<docent_msgs::GoalState> kGoalState{"docent/goal_state", Qos::state};
 inline constexpr Topic<docent_msgs::Target> kTarget{"docent/target", Qos::command, 0, 1.0};
 inline constexpr Topic<nav_msgs::Path> kPath{"docent/path", Qos::state};
+/// Share of the costs to the goal, 0 at it, 100 farthest; -1: no way from there. For those who look; no module needs
+/// it.
+inline constexpr Topic<nav_msgs::OccupancyGrid> kValueFunction{"docent/value_function", Qos::state};
 /// Older steering is no longer meant: the avoidance stops by itself.
 inline constexpr Topic<docent_msgs::Steering> kSteering{"docent/steering", Qos::command, 0, 0.5};
 inline constexpr Topic<docent_msgs::Stop> kStop{"docent/stop", Qos::state};
@@ -135,7 +138,8 @@ void for_each_robot_topic(F&& f) {
   f(kScanFront), f(kScanRear), f(kSonar), f(kOdometry), f(kBattery), f(kTactile), f(kCommandVelocity);
   f(kScanLeft), f(kScanRight), f(kInfrared), f(kObstacleLines), f(kCamera), f(kSceneCamera), f(kSceneCameraView);
   f(kTransforms), f(kStaticTransforms), f(kStaticMap), f(kLiveMap), f(kLiveMapUpdate), f(kBelief), f(kPose);
-  f(kPersonBeams), f(kPeople), f(kPeopleInOdom), f(kVirtualScan), f(kDriveGoal), f(kGoalState), f(kTarget), f(kPath);
+  f(kPersonBeams), f(kPeople), f(kPeopleInOdom), f(kVirtualScan), f(kDriveGoal), f(kGoalState), f(kTarget), f(kPath),
+      f(kValueFunction);
   f(kDrive), f(kAvoidState), f(kRequest), f(kChoice), f(kVotes), f(kRequestBoard), f(kMissionState), f(kTask),
       f(kTaskState), f(kEvent);
   f(kReaction), f(kGaze), f(kExpression), f(kButton), f(kButtonLamps), f(kSay), f(kSpeechState), f(kHorn), f(kMusic),

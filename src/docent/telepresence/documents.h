@@ -177,16 +177,6 @@ struct BeliefHypothesis {
     v("pose", d.pose), v("mass", d.mass), v("xx", d.xx), v("xy", d.xy), v("yy", d.yy);
   }
 };
-struct Raster {
-  static constexpr const char* kName = "Raster";
-  double x = 0.0, y = 0.0, cell = 0.0;
-  int columns = 0, rows = 0;
-  std::string levels;  ///< a byte a cell, base64
-  template <class Self, class V>
-  static void visit(Self& d, V& v) {
-    v("x", d.x), v("y", d.y), v("cell", d.cell), v("columns", d.columns), v("rows", d.rows), v("levels", d.levels);
-  }
-};
 struct BeliefMessage {
   static constexpr const char* kName = "BeliefMessage";
   static constexpr const char* kType = "belief";
@@ -385,9 +375,9 @@ struct ErrorMessage {
 };
 
 /// Everything that the live channel carries to a page.
-using ServerMessage =
-    std::tuple<LiveMessage, PoseMessage, BeliefMessage, PathMessage, MissionMessage, SpeechMessage, HornMessage,
-               SoundMessage, ExpressionMessage, ButtonMessage, BoardMessage, VotesMessage, HoursMessage, FieldMessage,
-               LogMessage, OperationMessage, HealthMessage, WindowMessage, Acknowledgement, Refusal, ErrorMessage>;
+using ServerMessage = std::tuple<LiveMessage, PoseMessage, BeliefMessage, PathMessage, MissionMessage, SpeechMessage,
+                                 HornMessage, SoundMessage, ExpressionMessage, ButtonMessage, BoardMessage,
+                                 VotesMessage, HoursMessage, FieldMessage, MapsMessage, LogMessage, OperationMessage,
+                                 HealthMessage, WindowMessage, Acknowledgement, Refusal, ErrorMessage>;
 
 }  // namespace docent::telepresence::documents

@@ -8,6 +8,29 @@
 
 namespace docent::telepresence::documents {
 
+struct Raster {
+  static constexpr const char* kName = "Raster";
+  double x = 0.0, y = 0.0, cell = 0.0;
+  int columns = 0, rows = 0;
+  std::string levels;  ///< a byte a cell, base64
+  template <class Self, class V>
+  static void visit(Self& d, V& v) {
+    v("x", d.x), v("y", d.y), v("cell", d.cell), v("columns", d.columns), v("rows", d.rows), v("levels", d.levels);
+  }
+};
+/// What the planner knows, for operators: how far it is to the goal from everywhere, and what stands in the building
+/// now.
+struct MapsMessage {
+  static constexpr const char* kName = "MapsMessage";
+  static constexpr const char* kType = "maps";
+  Raster value;  ///< 255 at the goal, 1 farthest from it by cost, 0: no way from there; no columns: no goal
+  Raster live;   ///< 255: something stands there that the map does not show; no columns: not known yet
+  template <class Self, class V>
+  static void visit(Self& d, V& v) {
+    v("value", d.value), v("live", d.live);
+  }
+};
+
 /// What the robot must not touch, and what it makes of its beams, for those who look inside. Frame of the robot.
 struct FieldMessage {
   static constexpr const char* kName = "FieldMessage";

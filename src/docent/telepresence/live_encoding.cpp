@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "docent/messages/conversions.h"
+#include "docent/telepresence/base64.h"
 #include "docent/telepresence/belief_raster.h"
 #include "docent/telepresence/document_json.h"
 #include "docent/telepresence/documents.h"
@@ -27,23 +28,6 @@ std::optional<double> finite(double value) { return std::isfinite(value) ? std::
 double seconds_of(const builtin_interfaces::Time& time) { return to_seconds(from_message(time)); }
 
 documents::Pose pose_of(const Pose2& pose) { return {rounded(pose.x), rounded(pose.y), rounded(pose.theta.radians())}; }
-
-std::string base64(const std::vector<std::uint8_t>& bytes) {
-  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t left = bytes.size() - i;
-    const std::uint32_t group = (static_cast<std::uint32_t>(bytes[i]) << 16U) |
-                                (left > 1 ? static_cast<std::uint32_t>(bytes[i + 1]) << 8U : 0U) |
-                                (left > 2 ? static_cast<std::uint32_t>(bytes[i + 2]) : 0U);
-    text += kDigits[group >> 18U];
-    text += kDigits[(group >> 12U) & 63U];
-    text += left > 1 ? kDigits[(group >> 6U) & 63U] : '=';
-    text += left > 2 ? kDigits[group & 63U] : '=';
-  }
-  return text;
-}
 
 bool is_open(const docent_msgs::RequestState& request) {
   const auto status = parse<RequestStatus>(request.state);

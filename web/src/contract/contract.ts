@@ -208,6 +208,11 @@ export interface FieldMessage {
   virtual: number[];
   beams: number[];
 }
+export interface MapsMessage {
+  type: 'maps';
+  value: Raster;
+  live: Raster;
+}
 export interface LogLine {
   t: number;
   kind: string;
@@ -410,7 +415,7 @@ export interface SetHoursMessage {
   id: string;
   mode: 'open' | 'web' | 'closed' | 'hours';
 }
-export type ServerMessage = LiveMessage | PoseMessage | BeliefMessage | PathMessage | MissionMessage | SpeechMessage | HornMessage | SoundMessage | ExpressionMessage | ButtonMessage | BoardMessage | VotesMessage | HoursMessage | FieldMessage | LogMessage | OperationMessage | HealthMessage | WindowMessage | Acknowledgement | Refusal | ErrorMessage;
+export type ServerMessage = LiveMessage | PoseMessage | BeliefMessage | PathMessage | MissionMessage | SpeechMessage | HornMessage | SoundMessage | ExpressionMessage | ButtonMessage | BoardMessage | VotesMessage | HoursMessage | FieldMessage | MapsMessage | LogMessage | OperationMessage | HealthMessage | WindowMessage | Acknowledgement | Refusal | ErrorMessage;
 export type ClientMessage = RequestMessage | CancelMessage | ChoiceMessage | VoteMessage | WatchMessage | LampsMessage | HelpMessage | AnswerMessage | LeaseMessage | SteerMessage | StopMessage | SetHoursMessage;
 export const documents = {
   "AccountLine": {
@@ -934,6 +939,18 @@ export const documents = {
       "url": "string"
     },
     "maybe": {}
+  },
+  "MapsMessage": {
+    "fields": {
+      "live": {
+        "document": "Raster"
+      },
+      "value": {
+        "document": "Raster"
+      }
+    },
+    "maybe": {},
+    "type": "maps"
   },
   "Me": {
     "fields": {

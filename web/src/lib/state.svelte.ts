@@ -15,6 +15,7 @@ import type {
   HornMessage,
   LiveMessage,
   LogMessage,
+  MapsMessage,
   MissionMessage,
   Museum,
   PathMessage,
@@ -90,6 +91,9 @@ class App {
   window = $state.raw<WindowMessage | null>(null);
   field = $state.raw<FieldMessage | null>(null);
   log = $state.raw<LogMessage | null>(null);
+  /** For operators alone, and what of it lies over the map. */
+  maps = $state.raw<MapsMessage | null>(null);
+  shows = $state({ value: false, live: false });
   avoid = $state.raw<Avoid | null>(null);
   localized = $state(false);
   battery = $state<number | null>(null);

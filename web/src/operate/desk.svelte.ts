@@ -77,6 +77,7 @@ class OperateDesk {
     this.socket = null;
     this.isOpen = false;
     this.hasWheel = this.pressed = false;
+    app.maps = null;
     if (!socket) return;
     socket.onclose = null;
     socket.close();
@@ -86,6 +87,8 @@ class OperateDesk {
     if (message.type === 'operation') {
       this.operation = message;
       if (message.holder !== this.me?.name) this.hasWheel = false;
+    } else if (message.type === 'maps') {
+      app.maps = message;
     } else if (message.type === 'ack' && message.id === this.lease) {
       this.hasWheel = true;
     } else if (message.type === 'refused' || message.type === 'error') {

@@ -13,12 +13,15 @@
 #include "docent/planning/exploration/tell_apart.h"
 #include "docent/planning/pursuit/pursuit.h"
 #include "docent/planning/value_iteration/route.h"
+#include "docent/planning/value_iteration/value_picture.h"
 #include "docent/vocabulary/vocabulary.h"
 
 namespace docent::modules {
 namespace {
 
 constexpr Duration kPeriod = std::chrono::milliseconds{200};
+constexpr Duration kValuePeriod = std::chrono::seconds{2};
+constexpr int kValueCoarsening = 2;
 constexpr int kVisitsAStep = 200;     ///< any-time: so many tiles of the value function between two targets
 constexpr int kCoastSweepsAStep = 2;  ///< of the coastal planner, which has more to do in one
 constexpr int kCoastCoarsening = 2;   ///< its cell = so many planning cells
@@ -68,6 +71,7 @@ class PlanModule final : public Module {
         scans_(base_from_laser_.size()),
         target_{bus_.publisher(topics::kTarget)},
         goal_state_{bus_.publisher(topics::kGoalState)},
+        value_{bus_.publisher(topics::kValueFunction)},
         path_{bus_.publisher(topics::kPath)},
         gaze_{bus_.publisher(topics::kGaze)} {
     const OccupancyGrid coarse = coarsened(context.museum.map, params.route.coarsening);
@@ -95,6 +99,7 @@ class PlanModule final : public Module {
     publish_state(planning::Pursuit{});
     subscribe_operator();
     bus_.every(kPeriod, [this] { step(); });
+    bus_.every(kValuePeriod, [this] { publish_value(); });
   }
 
   [[nodiscard]] ModuleHealth health() const override {
@@ -304,6 +309,25 @@ class PlanModule final : public Module {
     return static_cast<double>(reach);
   }
 
+  /// Of the way that it plans now; nothing where it plans none.
+  void publish_value() {
+    const bool has_goal = !goal_.id.empty();
+    if (!has_goal && !had_value_) return;
+    had_value_ = has_goal;
+    nav_msgs::OccupancyGrid message;
+    message.header = {to_message(bus_.now()), "map"};
+    message.info.resolution = static_cast<float>(route_.frame().resolution * kValueCoarsening);
+    if (has_goal) {
+      planning::ValuePicture picture = planning::value_picture(route_.values(), kValueCoarsening);
+      message.info.width = static_cast<std::uint32_t>(picture.frame.columns);
+      message.info.height = static_cast<std::uint32_t>(picture.frame.rows);
+      message.info.origin.position.x = picture.frame.origin.x;
+      message.info.origin.position.y = picture.frame.origin.y;
+      message.data = std::move(picture.shares);
+    }
+    value_.publish(std::move(message));
+  }
+
   void publish_target(const planning::Pursuit& pursuit, Time now) {
     docent_msgs::Target target;
     target.header = {to_message(now), "odom"};
@@ -391,6 +415,7 @@ class PlanModule final : public Module {
   std::vector<sensor_msgs::LaserScan> scans_;  ///< [scanners] newest sweeps
   transport::Publisher<docent_msgs::Target> target_;
   transport::Publisher<docent_msgs::GoalState> goal_state_;
+  transport::Publisher<nav_msgs::OccupancyGrid> value_;
   transport::Publisher<nav_msgs::Path> path_;
   transport::Publisher<docent_msgs::Gaze> gaze_;
   PoseTracker pose_;
@@ -405,6 +430,7 @@ class PlanModule final : public Module {
   std::uint32_t number_ = 0;
   std::optional<planning::CellBox> changed_;  ///< where `obstacles_` may differ from those of `route_`
   bool path_was_empty_ = true;
+  bool had_value_ = false;
   int step_count_ = 0;
 };
 

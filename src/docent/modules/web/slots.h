@@ -21,7 +21,8 @@ enum Slot : int {
   kHours,
   kOperation,
   kField,
-  kLog
+  kLog,
+  kMaps
 };
 
 }  // namespace docent::modules

@@ -19,6 +19,7 @@
 #include "docent/modules/web/foxglove_desk.h"
 #include "docent/modules/web/inside_desk.h"
 #include "docent/modules/web/live_desk.h"
+#include "docent/modules/web/operators/maps_desk.h"
 #include "docent/modules/web/operators/museum_desk.h"
 #include "docent/modules/web/operators/operator_desk.h"
 #include "docent/modules/web/screen_desk.h"
@@ -200,6 +201,7 @@ class WebModule final : public Module {
     server_->restrict_to(telepresence::Stream::operators, kOperation);
     live_.begin(*server_);
     inside_.begin(*server_);
+    maps_.begin(*server_, kMaps);
     const std::scoped_lock lock{shared_mutex_};
     figures_from_ = server_.get();
   }
@@ -420,6 +422,7 @@ class WebModule final : public Module {
   FoxgloveDesk foxglove_;
   LiveDesk live_;
   InsideDesk inside_{bus_};
+  MapsDesk maps_{bus_};
   std::string operation_;  ///< as it was shown last
 
   std::optional<docent_msgs::MissionState> mission_;

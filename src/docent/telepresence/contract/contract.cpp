@@ -4,12 +4,13 @@
 
 #include "docent/messages/conversions.h"
 #include "docent/telepresence/api/api_documents.h"
-#include "docent/telepresence/museum_office/museum_documents.h"
+#include "docent/telepresence/base64.h"
 #include "docent/telepresence/client_message.h"
 #include "docent/telepresence/contract/typescript.h"
 #include "docent/telepresence/documents.h"
 #include "docent/telepresence/live_encoding.h"
 #include "docent/telepresence/museum_document.h"
+#include "docent/telepresence/museum_office/museum_documents.h"
 #include "docent/vocabulary/reason.h"
 
 namespace docent::telepresence {
@@ -217,6 +218,8 @@ std::map<std::string, std::string> contract_samples() {
       {"votes.json", encode_votes({"018f3a6c-5b2e-7c3d-9a4b-0123456789ab", {{"highlights", 3}, {"space", 1}}})},
       {"hours.json", encode_hours("web", true)},
       {"field.json", field()},
+      {"maps.json", json_text(documents::MapsMessage{{0.5, 1.0, 0.15, 2, 1, base64({255, 1})},
+                                                     {0.0, 0.0, 0.15, 1, 1, base64({255})}})},
       {"log.json", json_text(documents::LogMessage{{{12.5, "visit_started", "sputnik", ""}}})},
       {"operation.json", json_text(documents::OperationMessage{"ada", true, true, "grace", "web"})},
       {"health.json", health()},
