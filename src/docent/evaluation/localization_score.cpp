@@ -15,7 +15,7 @@ constexpr double kLostAfter = 1.0;      ///< [s] not right: a lost event begins
 constexpr double kFoundAfter = 2.0;     ///< [s] right again: it ends
 constexpr double kStale = 3.0;          ///< [s] a belief is good for so long …
 constexpr double kStaleDistance = 1.0;  ///< … or for so many metres
-constexpr std::size_t kMostWaiting = 1000;
+constexpr std::size_t kMostClaims = 1000;
 
 }  // namespace
 
@@ -28,7 +28,7 @@ void LocalizationScore::add_belief(const docent_msgs::Belief& belief) {
     claim.map_from_base = {best.x, best.y, Angle::radians(best.theta)};
   }
   waiting_.push_back(claim);
-  if (waiting_.size() > kMostWaiting) waiting_.pop_front();
+  if (waiting_.size() > kMostClaims) waiting_.pop_front();
 }
 
 void LocalizationScore::step(const TruthHistory& truth) {

@@ -8,14 +8,14 @@
 namespace docent::evaluation {
 namespace {
 
-constexpr std::size_t kMostWaiting = 100;
+constexpr std::size_t kMostSightings = 100;
 
 }  // namespace
 
 void PeopleScore::add(const docent_msgs::People& people) {
   if (!people.localized) return;
   waiting_.push_back(people);
-  if (waiting_.size() > kMostWaiting) waiting_.pop_front();
+  if (waiting_.size() > kMostSightings) waiting_.pop_front();
 }
 
 void PeopleScore::step(const TruthHistory& truth) {

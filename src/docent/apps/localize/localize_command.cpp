@@ -50,12 +50,6 @@ struct Options {
   std::string cache;
 };
 
-double quantile(std::vector<double> values, double q) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[std::min(values.size() - 1, static_cast<std::size_t>(q * static_cast<double>(values.size())))];
-}
-
 /// Runs the log once; draws into `pictures` when it is not empty.
 LogRun run_once(const Options& options, const ReferencedLog& referenced, const OccupancyGrid& map,
                 localization::Localizer& localizer, bool reverse, const std::filesystem::path& pictures) {

@@ -16,12 +16,6 @@ using WallClock = std::chrono::steady_clock;
 
 constexpr const char* kHeader = "scan,time,x,y,heading_deg,has_pose,localized,p_lost";
 
-double quantile(std::vector<double> values, double q) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[std::min(values.size() - 1, static_cast<std::size_t>(q * static_cast<double>(values.size())))];
-}
-
 /// First and last scan, in the order of the log, from which on (until which) a run knew where it was.
 std::pair<std::size_t, std::size_t> known_span(const std::vector<LoggedPose>& poses) {
   std::size_t first = 0;
@@ -32,6 +26,12 @@ std::pair<std::size_t, std::size_t> known_span(const std::vector<LoggedPose>& po
 }
 
 }  // namespace
+
+double quantile(std::vector<double> values, double q) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  return values[std::min(values.size() - 1, static_cast<std::size_t>(q * static_cast<double>(values.size())))];
+}
 
 sensor_models::RangeSweep sweep_of(const recording::LoggedScan& scan, double max_range) {
   sensor_models::RangeSweep sweep;

@@ -12,6 +12,9 @@
 
 namespace docent::apps {
 
+/// The value below which a share q of `values` lies; 0 for none.
+[[nodiscard]] double quantile(std::vector<double> values, double q);
+
 /// Where the robot was at one scan of a log.
 struct LoggedPose {
   std::size_t scan = 0;  ///< index in the log, also in a reversed run

@@ -55,15 +55,15 @@ std::vector<mapping::PlacedSweep> placed_sweeps(const ReferencedLog& referenced)
 }
 
 pictures::Figure draw(const OccupancyGrid& map, const std::vector<mapping::PlacedSweep>& placed) {
-  constexpr double kDot = 2.0;  // [points]
+  constexpr double kScanDot = 2.0;  // [points]
   pictures::Figure figure{"Map of " + std::to_string(placed.size()) + " scans"};
   pictures::Axes& axes = figure.add(pictures::Axes::metres(map.frame));
   pictures::draw_map(axes, map);
   std::vector<Point2> way;
   for (const mapping::PlacedSweep& sweep : placed) way.push_back(sweep.map_from_sensor.position());
-  pictures::draw_points(axes, way, kDot, pictures::distinct(0));
+  pictures::draw_points(axes, way, kScanDot, pictures::distinct(0));
   pictures::add_map_legend(figure);
-  figure.add_legend(pictures::legend_disc("laser at a scan", kDot, pictures::distinct(0)));
+  figure.add_legend(pictures::legend_disc("laser at a scan", kScanDot, pictures::distinct(0)));
   return figure;
 }
 

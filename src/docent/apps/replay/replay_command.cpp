@@ -18,7 +18,7 @@
 namespace docent::apps {
 namespace {
 
-struct Options {
+struct ReplayCommandOptions {
   ReplayOptions replay;
   Deployment deployment;
   std::string report;
@@ -27,7 +27,7 @@ struct Options {
 };
 
 /// --museum, else the one that the recording names, beside the default one.
-std::string museum_folder(const Options& options) {
+std::string museum_folder(const ReplayCommandOptions& options) {
   if (!options.deployment.museum.empty()) return options.deployment.museum;
   const std::string name = value_or_fail(museum_of_recording(options.replay.recording));
   const std::filesystem::path known = default_museum();
@@ -39,7 +39,7 @@ std::string museum_folder(const Options& options) {
   return folder.string();
 }
 
-void replay_recording(Options& options) {
+void replay_recording(ReplayCommandOptions& options) {
   options.deployment.museum = museum_folder(options);
   const museum::Museum museum = value_or_fail(options.deployment.load());
   const robot::RobotConfig config = value_or_fail(options.deployment.load_config());
@@ -84,7 +84,7 @@ void replay_recording(Options& options) {
 }  // namespace
 
 void add_replay_command(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReplayCommandOptions>();
   CLI::App* command = app.add_subcommand("replay", "Run modules again on what a recording's sensors saw");
   command->add_option("recording", options->replay.recording, "MCAP file")->required();
   command->add_option("--modules", options->replay.modules, "Which, separated by commas; without it all but sound")

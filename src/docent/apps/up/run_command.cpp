@@ -19,7 +19,7 @@
 namespace docent::apps {
 namespace {
 
-struct Options {
+struct RunOptions {
   Deployment deployment;
   SimulatorOptions simulator;
   std::string module;
@@ -37,7 +37,7 @@ std::unique_ptr<transport::DdsBus> join(const Deployment& deployment, int domain
                                                   }}));
 }
 
-void run(const Options& options) {
+void run(const RunOptions& options) {
   if (options.module == kSimulatorProcess) {
     return value_or_fail(run_simulator(options.deployment, options.simulator), kExitBadConfiguration);
   }
@@ -73,7 +73,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_run_command(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand("run", "Run one module as a process, perhaps on another computer");
   command->add_option("module", options->module, module_names())->required();
   options->deployment.add_options(*command);

@@ -36,7 +36,7 @@ constexpr Duration kShow = std::chrono::milliseconds{500};
 constexpr int kUrgent = -5;        // nice value
 constexpr double kPatience = 5.0;  // [s] for the modules to end in order
 
-struct Options {
+struct UpOptions {
   Deployment deployment;
   bool simulate = false;
   int port = 8080;
@@ -44,7 +44,7 @@ struct Options {
   SimulatorOptions simulator;
 };
 
-std::filesystem::path recordings_folder(const Options& options) {
+std::filesystem::path recordings_folder(const UpOptions& options) {
   return std::filesystem::path{options.deployment.state} / "recordings";
 }
 
@@ -80,7 +80,7 @@ bool may_raise_priority() {
 }
 
 /// Mode and speed limit, as the museum's staff would set them in the morning.
-Result<docent_msgs::Limits> limits_of(const Options& options, const museum::Museum& museum,
+Result<docent_msgs::Limits> limits_of(const UpOptions& options, const museum::Museum& museum,
                                       const robot::RobotConfig& config) {
   docent_msgs::Limits limits;
   limits.mode = options.simulator.mode;
@@ -95,7 +95,7 @@ Result<docent_msgs::Limits> limits_of(const Options& options, const museum::Muse
 }
 
 /// Everything that can be known to be wrong before a process is started.
-docent_msgs::Limits check(const Options& options) {
+docent_msgs::Limits check(const UpOptions& options) {
   const museum::Museum museum = value_or_fail(options.deployment.load());
   const robot::RobotConfig config = value_or_fail(options.deployment.load_whole_config());
   std::vector<std::string> sections;
@@ -110,7 +110,7 @@ docent_msgs::Limits check(const Options& options) {
 }
 
 /// @param museum  the folder in which they work
-std::vector<ChildSpec> children_of(const Options& options, const std::string& museum) {
+std::vector<ChildSpec> children_of(const UpOptions& options, const std::string& museum) {
   Deployment told = options.deployment;
   told.museum = museum;
   told.settings.push_back("web.port=" + std::to_string(options.port));
@@ -141,14 +141,14 @@ std::vector<ChildSpec> children_of(const Options& options, const std::string& mu
 }
 
 /// What was recorded since `before`, as one file.
-Result<void> keep_recording(const Options& options, const std::set<std::filesystem::path>& before) {
+Result<void> keep_recording(const UpOptions& options, const std::set<std::filesystem::path>& before) {
   const auto all = recording::recordings_in(recordings_folder(options));
   std::vector<std::filesystem::path> files;
   std::set_difference(all.begin(), all.end(), before.begin(), before.end(), std::back_inserter(files));
   return recording::join_recordings(files, options.record);
 }
 
-void up(const Options& options) {
+void up(const UpOptions& options) {
   const docent_msgs::Limits limits = check(options);
   const auto recorded_before = recording::recordings_in(recordings_folder(options));
   block_end_signals();
@@ -206,7 +206,7 @@ void up(const Options& options) {
 }  // namespace
 
 void add_up_command(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<UpOptions>();
   CLI::App* command = app.add_subcommand("up", "Run the robot: every module as a process, watched and restarted");
   options->deployment.add_options(*command);
   command->add_flag("--sim", options->simulate, "Simulate the museum, its visitors and the robot's body");

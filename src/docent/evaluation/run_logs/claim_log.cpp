@@ -12,12 +12,12 @@
 namespace docent::evaluation {
 namespace {
 
-constexpr const char* kColumns =
+constexpr const char* kClaimColumns =
     "time,true_x,true_y,true_heading,has_pose,x,y,heading,mass,localized,p_lost,entropy,hypotheses,active_cells,"
     "beams_used,beams_filtered,blocked,distance,speed,kidnaps,"
     "agreement,contradiction,surprise,hidden,confirmation,blind_way,unmapped,spread,rival,explained,contacts,"
     "violations\n";
-constexpr std::size_t kMostWaiting = 1000;
+constexpr std::size_t kMostClaimsWaiting = 1000;
 
 }  // namespace
 
@@ -25,7 +25,7 @@ void ClaimLog::add(const transport::TopicInfo& topic, Time time, const std::shar
   const std::string_view name = topic.name;
   if (name == topics::kBelief.name) {
     waiting_.push_back(std::static_pointer_cast<const docent_msgs::Belief>(message));
-    if (waiting_.size() > kMostWaiting) waiting_.pop_front();
+    if (waiting_.size() > kMostClaimsWaiting) waiting_.pop_front();
   } else if (name == topics::kTrueOffer.name) {
     if (static_cast<const docent_msgs::TrueOffer*>(message.get())->kind == "kidnap") ++kidnaps_;
   } else if (name == topics::kEvent.name) {
@@ -70,6 +70,8 @@ void ClaimLog::judge(const docent_msgs::Belief& belief, const Pose2& truth) {
   lines_.append(line, static_cast<std::size_t>(size));
 }
 
-Result<void> ClaimLog::save(const std::string& path) const { return write_file_atomically(path, kColumns + lines_); }
+Result<void> ClaimLog::save(const std::string& path) const {
+  return write_file_atomically(path, kClaimColumns + lines_);
+}
 
 }  // namespace docent::evaluation

@@ -9,10 +9,10 @@
 namespace docent::evaluation {
 namespace {
 
-constexpr const char* kColumns =
+constexpr const char* kPeopleColumns =
     "time,frame,localized,robot_speed,robot_turn,kind,id,away,beams,in_view_s,speed,radius,track,off,track_speed,x,y\n";
 constexpr Duration kEvery = std::chrono::milliseconds{500};
-constexpr std::size_t kMostWaiting = 200;
+constexpr std::size_t kMostPeopleWaiting = 200;
 
 double speed_of(const docent_msgs::Person& person) {
   return norm({static_cast<double>(person.vx), static_cast<double>(person.vy)});
@@ -24,7 +24,7 @@ void PeopleLog::add(const transport::TopicInfo& topic, Time time, const std::sha
   const std::string_view name = topic.name;
   if (name == topics::kPeople.name || name == topics::kPeopleInOdom.name) {
     waiting_.push_back({name == topics::kPeople.name, std::static_pointer_cast<const docent_msgs::People>(message)});
-    if (waiting_.size() > kMostWaiting) waiting_.pop_front();
+    if (waiting_.size() > kMostPeopleWaiting) waiting_.pop_front();
   } else if (name == topics::kTrueState.name) {
     add_truth(time, std::static_pointer_cast<const docent_msgs::TrueState>(message));
   }
@@ -96,6 +96,8 @@ void PeopleLog::judge(const Waiting& claim, const docent_msgs::TrueState& truth,
   }
 }
 
-Result<void> PeopleLog::save(const std::string& path) const { return write_file_atomically(path, kColumns + lines_); }
+Result<void> PeopleLog::save(const std::string& path) const {
+  return write_file_atomically(path, kPeopleColumns + lines_);
+}
 
 }  // namespace docent::evaluation

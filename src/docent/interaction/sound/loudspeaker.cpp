@@ -8,8 +8,8 @@
 namespace docent::interaction {
 namespace {
 
-constexpr Duration kRetry = std::chrono::seconds{5};      ///< after a card that could not be opened
-constexpr std::int64_t kMostAtOnce = 60LL * kSampleRate;  ///< [samples] written in one go; a longer pause is left out
+constexpr Duration kRetry = std::chrono::seconds{5};        ///< after a card that could not be opened
+constexpr std::int64_t kLongestWrite = 60LL * kSampleRate;  ///< [samples] written in one go; a longer pause is left out
 
 }  // namespace
 
@@ -72,7 +72,7 @@ void Loudspeaker::advance(Time now) {
 
 void Loudspeaker::write_until(Time now) {
   const auto due = static_cast<std::int64_t>(to_seconds(now - begin_) * kSampleRate);
-  if (due - written_ > kMostAtOnce) written_ = due - kMostAtOnce;
+  if (due - written_ > kLongestWrite) written_ = due - kLongestWrite;
   if (due <= written_) return;
   std::vector<std::int16_t> samples(static_cast<std::size_t>(due - written_));
   mixer_.mix(samples);

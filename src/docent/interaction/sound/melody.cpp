@@ -10,7 +10,7 @@ namespace docent::interaction {
 namespace {
 
 constexpr double kBeat = 60.0 / 112.0;  ///< [s] 112 beats a minute: a brisk walk
-constexpr double kLoudest = 0.5;        ///< of full scale
+constexpr double kMelodyLevel = 0.5;    ///< of full scale
 constexpr int kRest = 0;
 
 /// `pitch`: MIDI number, 60 is C4, 69 is A4 (440 Hz).
@@ -89,7 +89,7 @@ Clip melody_clip() {
   play(clip, kBass, kLow);
   float most = 0.0F;
   for (const float sample : clip) most = std::max(most, std::abs(sample));
-  for (float& sample : clip) sample *= static_cast<float>(kLoudest) / most;
+  for (float& sample : clip) sample *= static_cast<float>(kMelodyLevel) / most;
   return clip;
 }
 

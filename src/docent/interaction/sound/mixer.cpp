@@ -6,9 +6,9 @@
 namespace docent::interaction {
 namespace {
 
-constexpr double kBreakOff = 0.01;      ///< [s] in which a line is broken off: no click is heard, and no word
-constexpr double kVolumeGlide = 0.1;    ///< [s] from silence to full volume
-constexpr std::size_t kMostAtOnce = 8;  ///< clips of one kind; older ones are on their way out
+constexpr double kBreakOff = 0.01;     ///< [s] in which a line is broken off: no click is heard, and no word
+constexpr double kVolumeGlide = 0.1;   ///< [s] from silence to full volume
+constexpr std::size_t kMostClips = 8;  ///< clips of one kind; older ones are on their way out
 
 bool is_within(double value, double least, double most) { return value >= least && value <= most; }
 
@@ -46,8 +46,8 @@ double Mixer::Playing::next() {
 
 Mixer::Mixer(const MixerParams& params)
     : params_{params}, duck_{1.0, 1.0, 1.0}, volume_{1.0, 1.0, step_of(kVolumeGlide)} {
-  lines_.reserve(kMostAtOnce);
-  music_.reserve(kMostAtOnce);
+  lines_.reserve(kMostClips);
+  music_.reserve(kMostClips);
 }
 
 Mixer::Playing Mixer::playing(const SharedClip& clip, double loudness, double from_s) const {
@@ -58,7 +58,7 @@ Mixer::Playing Mixer::playing(const SharedClip& clip, double loudness, double fr
 
 void Mixer::speak(const SharedClip& line, double from_s) {
   hush();
-  if (lines_.size() == kMostAtOnce) lines_.erase(lines_.begin());
+  if (lines_.size() == kMostClips) lines_.erase(lines_.begin());
   lines_.push_back(playing(line, params_.speech_db, from_s));
 }
 
@@ -77,7 +77,7 @@ void Mixer::play_music(const SharedClip& music, double from_s) {
   }
   for (Playing& before : music_) before.gain.target = 0.0;
   if (!music || music->empty()) return;
-  if (music_.size() == kMostAtOnce) music_.erase(music_.begin());
+  if (music_.size() == kMostClips) music_.erase(music_.begin());
   Playing begun = playing(music, params_.music_db, std::fmod(std::max(0.0, from_s), duration_s(*music)));
   begun.at %= music->size();
   begun.is_looped = true;

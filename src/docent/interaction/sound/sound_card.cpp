@@ -15,7 +15,7 @@ namespace {
 
 constexpr unsigned kLatency = 100'000;  ///< [us] of the card's buffer: outlasts a busy computer's pauses
 constexpr std::size_t kPeriod = 1024;   ///< [samples] 23 ms
-constexpr auto kRest =
+constexpr auto kBetweenWrites =
     std::chrono::milliseconds{5};  ///< between two looks: a device that takes all at once is not flooded
 
 void say_nothing(const char*, int, const char*, int, const char*, ...) {}  // ALSA prints what it also returns
@@ -46,7 +46,7 @@ struct SoundCard::Body {
         fault = name + ": " + snd_strerror(static_cast<int>(status));
         return;
       }
-      std::this_thread::sleep_for(kRest);
+      std::this_thread::sleep_for(kBetweenWrites);
     }
   }
 

@@ -12,7 +12,7 @@
 namespace docent::modules {
 namespace {
 
-constexpr Duration kPeriod = std::chrono::milliseconds{250};
+constexpr Duration kTaskPeriod = std::chrono::milliseconds{250};
 
 std::vector<std::string> texts_of(const std::vector<Answer>& answers) {
   std::vector<std::string> texts;
@@ -94,7 +94,7 @@ class ExecutiveModule final : public Module {
     bus_.subscribe<docent_msgs::Expression>(topics::kExpression, [this](const auto& expression) {
       executive_.mood_report(parse<Mood>(expression.mood).value_or(Mood::neutral), bus_.now());
     });
-    bus_.every(kPeriod, [this] {
+    bus_.every(kTaskPeriod, [this] {
       executive_.tick(bus_.now());
       flush();
     });

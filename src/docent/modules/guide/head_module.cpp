@@ -13,7 +13,7 @@
 namespace docent::modules {
 namespace {
 
-constexpr Duration kPeriod = std::chrono::milliseconds{100};
+constexpr Duration kGazePeriod = std::chrono::milliseconds{100};
 constexpr Duration kStaleAfter = std::chrono::seconds{1};  // whoever is silent for so long may be dead
 constexpr Duration kMouthClosesAfter = std::chrono::seconds{1};
 
@@ -67,7 +67,7 @@ class HeadModule final : public Module {
       gaze_received_ = bus_.now();
     });
     bus_.subscribe<docent_msgs::SpeechState>(topics::kSpeechState, [this](const auto& speech) { speech_ = speech; });
-    bus_.every(kPeriod, [this] { step(); });
+    bus_.every(kGazePeriod, [this] { step(); });
   }
 
   [[nodiscard]] ModuleHealth health() const override {

@@ -25,8 +25,8 @@
 namespace docent::modules {
 namespace {
 
-constexpr Duration kPeriod = std::chrono::milliseconds{500};
-constexpr std::size_t kMostText = 200;  ///< [bytes] of any field of a request: it comes from anybody
+constexpr Duration kMissionPeriod = std::chrono::milliseconds{500};
+constexpr std::size_t kLongestField = 200;  ///< [bytes] of any field of a request: it comes from anybody
 
 /// As the executive speaks it.
 task_control::SpokenLength length_of(const museum::Exhibit& exhibit, const std::string& language) {
@@ -168,7 +168,7 @@ class MissionModule final : public Module {
         mission_.battery(charge, is_charging(message), bus_.now());
       }
     });
-    bus_.every(kPeriod, [this] {
+    bus_.every(kMissionPeriod, [this] {
       mission_.time_of_day(mode_.minute_of_day(bus_.now()) / 60);
       tell_mode();
       mission_.company(mingling_.has_company());
@@ -194,7 +194,7 @@ class MissionModule final : public Module {
     tell_mode();
     for (const std::string* text :
          {&message.id, &message.source, &message.visitor, &message.kind, &message.target, &message.language}) {
-      if (text->size() > kMostText) return;
+      if (text->size() > kLongestField) return;
     }
     if (message.id.empty()) return;
     if (mission_.scheduler().state().board.find(message.id) == nullptr) {
@@ -224,7 +224,7 @@ class MissionModule final : public Module {
       most = message.counts[i];
       best = i;
     }
-    if (message.round.size() > kMostText) return;
+    if (message.round.size() > kLongestField) return;
     mission_.votes(message.round, most > 0 ? message.tours[best] : "", bus_.now());
     flush();
   }

@@ -17,8 +17,8 @@
 namespace docent::modules {
 namespace {
 
-constexpr Duration kPeriod = std::chrono::milliseconds{100};
-constexpr std::size_t kMostText = 20000;  ///< [bytes]
+constexpr Duration kSoundPeriod = std::chrono::milliseconds{100};
+constexpr std::size_t kLongestSpeech = 20000;  ///< [bytes]
 
 /// Section `sound`: speech, horn and music.
 struct SoundParams {
@@ -129,7 +129,7 @@ class SoundModule final : public Module {
     });
     bus_.subscribe<docent_msgs::Say>(topics::kSay, [this](const auto& say) { on_say(say); });
     bus_.subscribe<docent_msgs::Horn>(topics::kHorn, [this](const auto&) { honk(); });
-    bus_.every(kPeriod, [this] { step(); });
+    bus_.every(kSoundPeriod, [this] { step(); });
   }
 
   void step() {
@@ -152,7 +152,7 @@ class SoundModule final : public Module {
   }
 
   void on_say(const docent_msgs::Say& message) {
-    if (message.id.empty() || message.text.size() > kMostText) return;
+    if (message.id.empty() || message.text.size() > kLongestSpeech) return;
     const interaction::Say say{message.id, interaction::spoken_text(message.text), message.language,
                                parse<Mood>(message.mood).value_or(Mood::neutral)};
     switch (speaker_.judge(say)) {
