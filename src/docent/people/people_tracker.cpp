@@ -7,18 +7,18 @@
 namespace docent::people {
 namespace {
 
-constexpr double kLongest = 2.0;    // [s] that a prediction reaches
-constexpr double kSlowsDown = 0.8;  // [s] in which somebody unseen is thought to stop
-constexpr double kShare = 0.15;     // of a new sighting in the running shares
-constexpr double kShoulder = 0.38;  // [m] nobody stands nearer to another
-constexpr double kSoonGone = 0.3;   // [s]
-constexpr double kTwice = 0.25;     // [m] two tracks so near are one person
-constexpr double kCome = 0.6;       // share
-constexpr int kSoon = 12;           // sightings: later the floor beside something may seem to be what it stands on
-constexpr int kAway = 4;            // sightings in a row: one may be of somebody who passes
-constexpr double kStands = 0.25;    // [m/s]
-constexpr double kNewcomer = 0.15;  // [m] that a track must be nearer than a confirmed one
-constexpr double kMostGain = 6.0;   // [nat] that one sighting says
+constexpr double kLongest = 2.0;        // [s] that a prediction reaches
+constexpr double kSlowsDown = 0.8;      // [s] in which somebody unseen is thought to stop
+constexpr double kShare = 0.15;         // of a new sighting in the running shares
+constexpr double kShoulder = 0.38;      // [m] nobody stands nearer to another
+constexpr double kSoonGone = 0.3;       // [s]
+constexpr double kTwice = 0.25;         // [m] two tracks so near are one person
+constexpr double kCome = 0.6;           // share
+constexpr int kSoon = 12;               // sightings: later the floor beside something may seem to be what it stands on
+constexpr int kAway = 4;                // sightings in a row: one may be of somebody who passes
+constexpr double kSeemsToStand = 0.25;  // [m/s]
+constexpr double kNewcomer = 0.15;      // [m] that a track must be nearer than a confirmed one
+constexpr double kMostGain = 6.0;       // [nat] that one sighting says
 constexpr double kRadiusShare = 0.1;
 
 }  // namespace
@@ -85,7 +85,7 @@ void PeopleTracker::miss(PersonTrack& track, const Sightlines& sightlines) const
       break;
     case Look::hidden:
       // A person who walks comes out on the other side soon, or has gone elsewhere.
-      wait = norm(track.person.velocity) > kStands ? 0.5 * params_.patience_hidden : params_.patience_hidden;
+      wait = norm(track.person.velocity) > kSeemsToStand ? 0.5 * params_.patience_hidden : params_.patience_hidden;
       break;
     case Look::unclear:
       break;

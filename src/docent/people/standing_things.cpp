@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kSurelyFree = 5;                              // sweeps in a row
 constexpr double kJustBegun = 3.0;                          // [s]
-constexpr double kBody = 0.2;                               // [m]
+constexpr double kThingSide = 0.2;                          // [m]
 constexpr Duration kRemembered = std::chrono::minutes{30};  // without being seen again
 constexpr double kSurely = 1.0 + 1e-9;                      // more than rounding may do
 constexpr double kSlow = 0.05;                              // how fast a place follows what is seen there
@@ -61,7 +61,7 @@ void StandingThings::forget(const Sightlines& sightlines, const Pose2& odom_from
   std::erase_if(places_, [&](Place& place) {
     if (now - place.seen > kRemembered) return true;
     if (distance(place.in_map, robot_in_map) > range) return false;
-    if (sightlines.look(of_points * place.in_map, kBody) != Look::free) {
+    if (sightlines.look(of_points * place.in_map, kThingSide) != Look::free) {
       place.seen_free = 0;
       return false;
     }

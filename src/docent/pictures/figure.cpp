@@ -26,7 +26,7 @@ constexpr double kLegendRow = 14.0;
 // Else Cairo writes the time of day, and no two files were the same.
 constexpr const char* kNoDate = "1970-01-01T00:00:00Z";
 
-const TextStyle kTitleStyle{.size = 10.5, .anchor = {0.5, 0.0}, .bold = true};
+const TextStyle kFigureTitle{.size = 10.5, .anchor = {0.5, 0.0}, .bold = true};
 const TextStyle kLegendStyle{.size = 8.5, .anchor = {0.0, 0.5}};
 
 using Surface = std::unique_ptr<cairo_surface_t, CairoDeleter>;
@@ -111,7 +111,7 @@ struct Figure::Layout {
 
 Figure::Layout Figure::layout() const {
   Layout layout;
-  const Point2 title = text_size(title_, kTitleStyle);
+  const Point2 title = text_size(title_, kFigureTitle);
   double top = kMargin + (title_.empty() ? 0.0 : title.y + 4.0);
   double widest = title.x;
   // Frames lie on lines: those at the left of all rows, and columns of rows with as many axes. Corners are whole
@@ -178,7 +178,7 @@ void Figure::draw(cairo_t* context) const {
   const Layout page = layout();
   Canvas canvas{context};
   canvas.fill_rectangle({0.0, 0.0}, {page.width, page.height}, colors::kWhite);
-  canvas.draw_text({0.5 * page.width, kMargin}, title_, kTitleStyle);
+  canvas.draw_text({0.5 * page.width, kMargin}, title_, kFigureTitle);
   for (std::size_t row = 0; row < rows_.size(); ++row)
     for (std::size_t i = 0; i < rows_[row].size(); ++i)
       canvas.at(page.corners[row][i], [&](Canvas& at) { rows_[row][i]->draw(at); });

@@ -12,7 +12,7 @@ namespace docent::pictures {
 namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
-constexpr double kLeastDensity = 1e-4;  // [1/m2] of the colours
+constexpr double kLeastShown = 1e-4;  // [1/m2] of the colours
 constexpr double kMostDensity = 1e2;
 
 Color color_of(float percent) {
@@ -92,8 +92,8 @@ void add_map_legend(Figure& figure) {
 namespace {
 
 Color color_of_density(double density) {
-  const double decades = std::log10(kMostDensity / kLeastDensity);
-  const double share = std::clamp(std::log10(density / kLeastDensity) / decades, 0.0, 1.0);
+  const double decades = std::log10(kMostDensity / kLeastShown);
+  const double share = std::clamp(std::log10(density / kLeastShown) / decades, 0.0, 1.0);
   return with_alpha(heat(share), static_cast<std::uint8_t>(110 + 120 * share));
 }
 
@@ -104,12 +104,12 @@ void draw_density(Axes& axes, const GridFrame& frame, std::span<const float> mas
   std::vector<float> density{mass.begin(), mass.end()};
   for (float& value : density) {
     value = static_cast<float>(static_cast<double>(value) / area);
-    if (!(static_cast<double>(value) > kLeastDensity)) value = kNothing;
+    if (!(static_cast<double>(value) > kLeastShown)) value = kNothing;
   }
   draw_cells(axes, frame, density, [](float value) { return color_of_density(static_cast<double>(value)); });
 }
 
-ColorBar density_bar() { return {"probability density [1/m²]", color_of_density, kLeastDensity, kMostDensity, true}; }
+ColorBar density_bar() { return {"probability density [1/m²]", color_of_density, kLeastShown, kMostDensity, true}; }
 
 void draw_robot(Axes& axes, const Pose2& map_from_robot, double radius, Color color) {
   const double size = std::max(2.0, radius * axes.scale());

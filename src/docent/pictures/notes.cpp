@@ -6,10 +6,10 @@
 namespace docent::pictures {
 namespace {
 
-constexpr double kSize = 6.5;   // [points] of the letters
-constexpr double kStep = 0.25;  // of a note's height
-constexpr int kSteps = 12;      // up or down
-constexpr double kGap = 0.5;    // [points] between notes
+constexpr double kSize = 6.5;     // [points] of the letters
+constexpr double kStep = 0.25;    // of a note's height
+constexpr int kSteps = 12;        // up or down
+constexpr double kNoteGap = 0.5;  // [points] between notes
 
 /// A rectangle of the page [points].
 struct Box {
@@ -17,8 +17,8 @@ struct Box {
 };
 
 bool overlap(const Box& a, const Box& b) {
-  return a.low.x < b.high.x + kGap && b.low.x < a.high.x + kGap && a.low.y < b.high.y + kGap &&
-         b.low.y < a.high.y + kGap;
+  return a.low.x < b.high.x + kNoteGap && b.low.x < a.high.x + kNoteGap && a.low.y < b.high.y + kNoteGap &&
+         b.low.y < a.high.y + kNoteGap;
 }
 
 /// The least that is inside [0, room], where `length` fits into it.

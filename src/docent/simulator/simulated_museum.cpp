@@ -14,7 +14,7 @@
 namespace docent::simulator {
 namespace {
 
-constexpr double kStep = 0.01;         // [s]
+constexpr double kWorldStep = 0.01;    // [s]
 constexpr double kPeopleStep = 0.02;   // [s]
 constexpr double kChargerReach = 0.4;  // [m]
 
@@ -86,7 +86,7 @@ void SimulatedMuseum::Impl::keep_stepping(const std::weak_ptr<Impl>& weak) {
   const auto impl = weak.lock();
   if (!impl) return;
   const Duration behind = impl->bus_.now() - impl->time_;
-  impl->bus_.after((behind / seconds(kStep) + 1) * seconds(kStep) - behind, [weak] {
+  impl->bus_.after((behind / seconds(kWorldStep) + 1) * seconds(kWorldStep) - behind, [weak] {
     keep_stepping(weak);
     if (const auto living = weak.lock()) living->tick();
   });
@@ -94,9 +94,9 @@ void SimulatedMuseum::Impl::keep_stepping(const std::weak_ptr<Impl>& weak) {
 
 void SimulatedMuseum::Impl::tick() {
   const Time now = bus_.now();
-  if (now - time_ > seconds(0.5)) time_ = now - seconds(kStep);  // too late to catch up: skip
-  while (time_ + seconds(kStep) <= now) {
-    time_ = time_ + seconds(kStep);
+  if (now - time_ > seconds(0.5)) time_ = now - seconds(kWorldStep);  // too late to catch up: skip
+  while (time_ + seconds(kWorldStep) <= now) {
+    time_ = time_ + seconds(kWorldStep);
     step();
     ++steps_;
   }
@@ -138,7 +138,7 @@ void SimulatedMuseum::Impl::step() {
   play_scenario();
   if (steersman_ && every(10)) steer();
   const Pose2 before = body_.pose();
-  body_.step(time_, kStep, !battery_.is_empty());
+  body_.step(time_, kWorldStep, !battery_.is_empty());
   if (has_fallen_) body_.carry_to(before);
   if (steps_ % 2 == 0) crowd_.step(run_seconds(), kPeopleStep, view());
   people_.clear();
@@ -154,7 +154,7 @@ void SimulatedMuseum::Impl::step() {
   distance_ += distance(before.position(), body_.pose().position());
   const bool at_charger = options_.charger && distance(*options_.charger, body_.pose().position()) < kChargerReach &&
                           std::abs(body_.linear()) < 0.01;
-  battery_.step(kStep, body_.linear(), at_charger);
+  battery_.step(kWorldStep, body_.linear(), at_charger);
   publish();
 }
 
@@ -197,7 +197,7 @@ void SimulatedMuseum::Impl::touch() {
     has_fallen_ = true;
     offer("fall", "stairs");
   }
-  for (auto& contact : log_.finish_step(time_, kStep, body_)) tell(contacts_, std::move(contact));
+  for (auto& contact : log_.finish_step(time_, kWorldStep, body_)) tell(contacts_, std::move(contact));
 }
 
 void SimulatedMuseum::Impl::press(Point2 towards) {

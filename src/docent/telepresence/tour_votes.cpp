@@ -6,7 +6,7 @@ namespace docent::telepresence {
 namespace {
 
 // The open round is the one that is not closed; the index lets there be one alone.
-constexpr Migration kTables[] = {
+constexpr Migration kVoteTables[] = {
     {"votes",
      "CREATE TABLE vote_rounds (round TEXT PRIMARY KEY, begun BIGINT NOT NULL, is_open BIGINT);"
      "CREATE UNIQUE INDEX one_open_round ON vote_rounds (is_open);"
@@ -23,7 +23,7 @@ Result<void> done(const Result<QueryResult>& answer) {
 }  // namespace
 
 Result<std::unique_ptr<TourVotes>> TourVotes::open(Database& database) {
-  if (auto made = migrate(database, "votes", kTables); !made) return tl::unexpected<Error>(made.error());
+  if (auto made = migrate(database, "votes", kVoteTables); !made) return tl::unexpected<Error>(made.error());
   return std::unique_ptr<TourVotes>{new TourVotes{database}};
 }
 

@@ -13,7 +13,7 @@ namespace docent::task_control {
 namespace {
 
 /// What became of the stops of a tour.
-struct Outcome {
+struct StopOutcome {
   int pending = 0;
   int explained = 0;
   int skipped = 0;
@@ -25,8 +25,8 @@ struct Outcome {
 };
 
 /// For one member, or (nullptr) for all: then what was shown in one round counts, though another left it out.
-Outcome outcome_of(const TourRun& tour, const TourMember* member) {
-  Outcome outcome;
+StopOutcome outcome_of(const TourRun& tour, const TourMember* member) {
+  StopOutcome outcome;
   const auto concerns = [&](const TourStop& stop) {
     return member == nullptr || member->stops.empty() || holds(member->stops, stop.number);
   };
@@ -223,12 +223,12 @@ void TourScheduler::end_tour_if_over(Time now) {
   TourRun& tour = *state_.tour;
   const bool is_composed = tour.target_s > 0.0;
   // A composed tour shows something else instead of what it could not get to.
-  const auto is_good = [&](const Outcome& outcome) {
+  const auto is_good = [&](const StopOutcome& outcome) {
     return outcome.explained > 0 && (is_composed || outcome.skipped <= params_.max_skipped);
   };
   std::vector<TourMember> others;
   for (TourMember& member : tour.members) {
-    const Outcome outcome = outcome_of(tour, &member);
+    const StopOutcome outcome = outcome_of(tour, &member);
     if (outcome.pending > 0) {
       others.push_back(std::move(member));
     } else {
@@ -238,7 +238,7 @@ void TourScheduler::end_tour_if_over(Time now) {
   }
   tour.members = std::move(others);
   if (!tour.members.empty()) return;
-  const Outcome outcome = outcome_of(tour, nullptr);
+  const StopOutcome outcome = outcome_of(tour, nullptr);
   if (is_good(outcome)) ++state_.counters.tours_completed;
   happenings_.push_back({is_good(outcome) ? EventKind::tour_completed : EventKind::tour_failed, tour.tour_id,
                          outcome.reason().text(), to_seconds(now - tour.started)});
