@@ -102,6 +102,23 @@ await check('the robot is on its way to an exhibit, and is stopped', async () =>
   await page.waitForSelector('.stop[data-stopped=true]');
   await until('it stands', async () => Math.abs((await heard()).v) < 0.02);
 });
+await check('the value function and what stands there now lie over the map when they are asked for', async () => {
+  await page.waitForSelector('.maps[data-value=true][data-live=true]', { timeout: 15000 });
+  const colours = () => page.evaluate(() => {
+    const canvas = document.querySelector('.map canvas');
+    const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+    let warm = 0;
+    for (let i = 0; i < data.length; i += 4) if (data[i] > 150 && data[i + 2] < 110) ++warm;
+    return warm;
+  });
+  const before = await colours();
+  await page.locator('.maps [name=value]').check();
+  await page.locator('.maps [name=live]').check();
+  await until('the map is coloured', async () => (await colours()) > before + 5000);
+  await page.screenshot({ path: join(pictures, 'museum-maps.png') });
+  await page.locator('.maps [name=value]').uncheck();
+  await page.locator('.maps [name=live]').uncheck();
+});
 await check('nothing is tried or published while the robot may drive; the editor says so', async () => {
   const refused = await page.evaluate(async () => {
     const me = await (await fetch('/api/v1/login')).json();
