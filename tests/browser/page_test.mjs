@@ -57,6 +57,25 @@ await check('it finds itself and the cloud shrinks to one place', async () => {
   ensure(await page.locator('canvas.robot').isVisible(), 'no robot');
 });
 
+await check('the robot is on a page soon after somebody opens it, and little is loaded for that', async () => {
+  const waits = [];
+  let bytes = 0;
+  for (let i = 0; i < 5; ++i) {
+    const visitor = await browse();
+    const begun = Date.now();
+    await visitor.page.goto(url, { waitUntil: 'commit' });
+    await visitor.page.waitForSelector('.map[data-localized=true]');
+    await until('the robot is drawn', () => visitor.page.locator('canvas.robot').isVisible(), 5000, 10);
+    waits.push(Date.now() - begun);
+    bytes = await visitor.page.evaluate(() => performance.getEntriesByType('resource').filter(({ name }) => name.endsWith('.js')).reduce((sum, { encodedBodySize }) => sum + encodedBodySize, 0));
+    await visitor.context.close();
+  }
+  waits.sort((a, b) => a - b);
+  console.log(`  robot shown after ${waits.join(', ')} ms; ${(bytes / 1000).toFixed(0)} kB of JavaScript, compressed`);
+  ensure(bytes > 10000 && bytes < 150000, `${bytes} bytes of JavaScript`);
+  ensure(waits[2] < 3000, 'half of them waited for 3 s and more'); // 1 s on a computer that does nothing else
+});
+
 await check('an exhibit is chosen by keyboard', async () => {
   await page.locator('[data-exhibit=zuse]').focus();
   await page.keyboard.press('Enter');
@@ -85,6 +104,9 @@ await check('a click on an exhibit puts it on the list for everybody', async () 
   await page.click('[data-exhibit=cyclotron]');
   await page.locator('.exhibit-card h2', { hasText: 'The cyclotron' }).waitFor();
   ensure((await page.locator('.exhibit-card .words').innerText()).length > 40, 'no text');
+  const link = page.locator('.exhibit-card .links a');
+  ensure((await link.getAttribute('href')) === 'https://en.wikipedia.org/wiki/Cyclotron', 'no link');
+  ensure((await link.getAttribute('rel')) === 'noopener noreferrer', 'the link tells where people come from');
   await page.fill('.who input', 'Lise');
   await page.click('.go');
   await rows().first().waitFor({ timeout: 3000 });

@@ -29,6 +29,12 @@ struct Hazard {
   Polygon polygon;  ///< [m], map
 };
 
+/// Where people can read on.
+struct Link {
+  Translations title;
+  std::string url;  ///< http:// or https://
+};
+
 struct Exhibit {
   std::string id;
   Translations title;
@@ -40,6 +46,7 @@ struct Exhibit {
   std::vector<std::string> topics;
   bool web_only = false;
   std::filesystem::path picture;  ///< in the folder; screens show it on the way there; empty: none
+  std::vector<Link> links;        ///< the page shows them
   /// Exhibits that make sense right after this one (ids). Empty: all that share a topic. See sensible_next.
   std::vector<std::string> next;
 };

@@ -16,6 +16,7 @@ namespace {
 constexpr double kFarthest = 10'000.0;                        // [m]; coordinates beyond it are a slip of the pen
 constexpr std::size_t kLongestText = std::size_t{16} * 1024;  // [bytes]; about 20 minutes of speech
 constexpr std::size_t kLongestId = 40;
+constexpr std::size_t kLongestUrl = 2000;
 
 struct PointYaml {
   double x = 0.0;
@@ -293,6 +294,20 @@ class MuseumYamlReader {
     return file;
   }
 
+  [[nodiscard]] Link link(const YAML::Node& node, const std::string& who) const {
+    YamlReader reader{file_, node};
+    const YAML::Node title = reader.node("title");
+    Link link;
+    reader.required("url", link.url);
+    reader.finish();
+    link.title = translations(required(node, title, "title"), who + ", links, title");
+    const bool is_address = link.url.starts_with("http://") || link.url.starts_with("https://");
+    const bool is_plain = std::all_of(link.url.begin(), link.url.end(), [](char c) { return c > ' ' && c < 127; });
+    if (!is_address || !is_plain || link.url.size() > kLongestUrl)
+      throw fault(reader.node("url"), who + ": a link's url must begin with http:// or https://");
+    return link;
+  }
+
   void read_exhibit(const YAML::Node& entry, std::set<std::string>& seen) {
     YamlReader reader{file_, entry};
     Exhibit exhibit;
@@ -307,6 +322,7 @@ class MuseumYamlReader {
     reader("topics", exhibit.topics);
     reader("web_only", exhibit.web_only);
     const YAML::Node picture_node = reader.node("picture");
+    const YAML::Node links = reader.node("links");
     reader("next", exhibit.next);
     reader.finish();
     exhibit.title = translations(required(entry, title, "title"), who + ", title");
@@ -322,6 +338,9 @@ class MuseumYamlReader {
     exhibit.short_text = texts(required(entry, short_text, "short"), who + ", short");
     if (long_text.IsDefined()) exhibit.long_text = texts(long_text, who + ", long");
     if (picture_node.IsDefined()) exhibit.picture = picture(picture_node, who);
+    if (links.IsDefined()) {
+      for (const auto& one : list(links, "links")) exhibit.links.push_back(link(one, who));
+    }
     museum_.exhibits.push_back(std::move(exhibit));
     source_.exhibits.push_back(entry);
   }

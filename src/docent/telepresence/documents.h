@@ -43,6 +43,15 @@ struct Reason {
   }
 };
 
+struct Link {
+  static constexpr const char* kName = "Link";
+  Texts title;
+  std::string url;
+  template <class Self, class V>
+  static void visit(Self& d, V& v) {
+    v("title", d.title), v("url", d.url);
+  }
+};
 struct Exhibit {
   static constexpr const char* kName = "Exhibit";
   std::string id;
@@ -54,11 +63,12 @@ struct Exhibit {
   std::vector<std::string> topics;
   bool web_only = false;
   std::string picture;  ///< where it can be fetched; empty: nowhere
+  std::vector<Link> links;
   template <class Self, class V>
   static void visit(Self& d, V& v) {
     v("id", d.id), v("title", d.title), v("pose", d.pose), v("look_at", d.look_at), v("viewpoints", d.viewpoints);
     v("short", d.short_text), v("long", d.long_text), v("topics", d.topics), v("web_only", d.web_only);
-    v("picture", d.picture);
+    v("picture", d.picture), v("links", d.links);
   }
 };
 struct Tour {

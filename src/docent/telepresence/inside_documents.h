@@ -24,7 +24,7 @@ struct MapsMessage {
   static constexpr const char* kName = "MapsMessage";
   static constexpr const char* kType = "maps";
   Raster value;  ///< 255 at the goal, 1 farthest from it by cost, 0: no way from there; no columns: no goal
-  Raster live;   ///< 255: something stands there that the map does not show; no columns: not known yet
+  Raster live;   ///< 255: occupied now; no columns: not known yet
   template <class Self, class V>
   static void visit(Self& d, V& v) {
     v("value", d.value), v("live", d.live);

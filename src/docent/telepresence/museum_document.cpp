@@ -35,7 +35,9 @@ documents::Exhibit document_of(const museum::Exhibit& exhibit) {
                               exhibit.long_text,
                               exhibit.topics,
                               exhibit.web_only,
-                              picture_address(exhibit)};
+                              picture_address(exhibit),
+                              {}};
+  for (const auto& link : exhibit.links) document.links.push_back({link.title, link.url});
   for (const auto& viewpoint : exhibit.viewpoints) document.viewpoints.push_back(document_of(viewpoint));
   return document;
 }

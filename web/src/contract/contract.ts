@@ -13,6 +13,10 @@ export interface Hazard {
   kind: 'glass' | 'plate' | 'stairs' | 'other';
   polygon: [number, number][];
 }
+export interface Link {
+  title: Record<string, string>;
+  url: string;
+}
 export interface Exhibit {
   id: string;
   title: Record<string, string>;
@@ -24,6 +28,7 @@ export interface Exhibit {
   topics: string[];
   web_only: boolean;
   picture: string;
+  links: Link[];
 }
 export interface Tour {
   id: string;
@@ -632,6 +637,11 @@ export const documents = {
   "Exhibit": {
     "fields": {
       "id": "string",
+      "links": {
+        "list": {
+          "document": "Link"
+        }
+      },
       "long": {
         "map": "string"
       },
@@ -856,6 +866,15 @@ export const documents = {
     },
     "maybe": {},
     "type": "lease"
+  },
+  "Link": {
+    "fields": {
+      "title": {
+        "map": "string"
+      },
+      "url": "string"
+    },
+    "maybe": {}
   },
   "LiveMessage": {
     "fields": {

@@ -164,6 +164,7 @@ export function addExhibit(draft: MuseumDraft, lookAt: Point, languages: string[
     topics: [],
     web_only: false,
     picture: '',
+    links: [],
   };
   return { ...draft, exhibits: [...draft.exhibits, exhibit] };
 }

@@ -5,7 +5,7 @@ import { kioskLanguages, kioskWord, nameOf } from './words';
 
 const exhibit = (id: string, long: string) => ({
   id, title: { en: `The ${id}`, de: `Das ${id}`, fr: `Le ${id}` }, pose: [0, 0, 0] as [number, number, number], look_at: [1, 0] as [number, number],
-  viewpoints: [], short: { en: 'short' }, long: (long ? { en: long } : {}) as Record<string, string>, topics: [], web_only: false, picture: '',
+  viewpoints: [], short: { en: 'short' }, long: (long ? { en: long } : {}) as Record<string, string>, topics: [], web_only: false, picture: '', links: [],
 });
 const tour = (id: string) => ({ id, title: { en: `Tour ${id}` }, exhibits: ['clock', 'coin'], minutes: null });
 const museum = (languages: string[], tours: string[]): Museum => ({

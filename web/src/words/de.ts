@@ -19,6 +19,7 @@ export default {
   noWishes: 'Noch hat sich niemand etwas gewünscht. Tippen Sie etwas auf der Karte an, und ich fahre hin!',
   hint: 'Tippen Sie ein Exponat an, und der Roboter fährt hin. Wirklich!',
   readMore: 'Weiterlesen',
+  readElsewhere: 'Anderswo mehr',
   watching: 'schauen zu',
   tours: 'Führungen',
   exhibits: 'Alle Exponate',

@@ -19,6 +19,7 @@ const words = {
   noWishes: 'Nobody has asked for anything yet. Tap something on the map and I will drive there!',
   hint: 'Tap an exhibit, and the robot drives there. Really!',
   readMore: 'Read on',
+  readElsewhere: 'More elsewhere',
   watching: 'watching',
   tours: 'Tours',
   exhibits: 'All exhibits',

@@ -19,6 +19,7 @@ export default {
   noWishes: 'Personne n’a encore rien demandé. Touchez quelque chose sur la carte, et j’y vais !',
   hint: 'Touchez un objet exposé, et le robot y va. Vraiment !',
   readMore: 'Lire la suite',
+  readElsewhere: 'En savoir plus ailleurs',
   watching: 'regardent',
   tours: 'Visites',
   exhibits: 'Tous les objets',

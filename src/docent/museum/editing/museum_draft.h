@@ -7,7 +7,8 @@
 
 namespace docent::museum {
 
-/// What an editor may change of a museum, as people want it to be. Of exhibits, `picture` and `next` are not looked at.
+/// What an editor may change of a museum, as people want it to be. Of exhibits, `picture`, `links` and `next` are not
+/// looked at.
 struct MuseumDraft {
   Polygon area;  ///< [m], map
   std::vector<Hazard> hazards;

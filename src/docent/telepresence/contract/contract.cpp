@@ -163,6 +163,7 @@ std::string museum() {
   museum.exhibits[0].viewpoints = {{2, 3, Angle{}}};
   museum.exhibits[0].topics = {"space"};
   museum.exhibits[0].picture = "content/sputnik.webp";
+  museum.exhibits[0].links = {{museum.name, "https://en.wikipedia.org/wiki/Sputnik_1"}};
   museum.tours = {{"all", museum.name, {"sputnik"}, std::nullopt}, {"quick", museum.name, {}, 2.0}};
   return encode_museum(museum, 0.3);
 }
