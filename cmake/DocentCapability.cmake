@@ -34,13 +34,14 @@ endif()
 set(DOCENT_SOURCE_ROOT ${CMAKE_SOURCE_DIR}/src/docent)
 
 # docent_fuzzer(NAME SOURCE LIBRARY): a program in a build for fuzzing; other builds with tests compile its source, so
-# that it keeps up with what it calls.
+# that it keeps up with what it calls. Not so where folders are compiled as one file: scripts/test, which asks for
+# that, also builds them for fuzzing.
 function(docent_fuzzer name source library)
   if(DOCENT_FUZZERS)
     add_executable(${name} ${source})
     target_link_options(${name} PRIVATE -fsanitize=fuzzer)
     set_property(GLOBAL APPEND PROPERTY DOCENT_FUZZERS ${name})
-  elseif(DOCENT_TESTS)
+  elseif(DOCENT_TESTS AND NOT DOCENT_UNITY)
     add_library(${name} OBJECT ${source})
   else()
     return()
