@@ -7,6 +7,7 @@
 #include <set>
 
 #include "docent/museum/languages.h"
+#include "docent/museum/place_yaml.h"
 #include "docent/museum/scene_camera_yaml.h"
 #include "docent/vocabulary/vocabulary.h"
 
@@ -17,29 +18,6 @@ constexpr double kFarthest = 10'000.0;                        // [m]; coordinate
 constexpr std::size_t kLongestText = std::size_t{16} * 1024;  // [bytes]; about 20 minutes of speech
 constexpr std::size_t kLongestId = 40;
 constexpr std::size_t kLongestUrl = 2000;
-
-struct PointYaml {
-  double x = 0.0;
-  double y = 0.0;
-  template <class V>
-  void visit(V& v) {
-    v.required("x", x);
-    v.required("y", y);
-  }
-};
-
-struct PoseYaml {
-  double x = 0.0;
-  double y = 0.0;
-  double heading = 0.0;
-  template <class V>
-  void visit(V& v) {
-    v.required("x", x);
-    v.required("y", y);
-    v.required("heading", heading);
-  }
-  [[nodiscard]] Pose2 pose() const { return {x, y, Angle::degrees(heading)}; }
-};
 
 class MuseumYamlReader {
  public:

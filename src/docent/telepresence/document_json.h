@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -92,5 +93,8 @@ template <Document T>
 [[nodiscard]] std::string json_text(const T& document) {
   return to_json(document).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
+
+/// Bytes as text: RFC 4648, 4, with padding.
+[[nodiscard]] std::string base64(const std::vector<std::uint8_t>& bytes);
 
 }  // namespace docent::telepresence

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "docent/messages/conversions.h"
-#include "docent/telepresence/base64.h"
 #include "docent/telepresence/belief_raster.h"
 #include "docent/telepresence/document_json.h"
 #include "docent/telepresence/documents.h"

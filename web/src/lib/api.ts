@@ -26,6 +26,16 @@ export async function call<T>(method: 'GET' | 'POST' | 'PUT' | 'DELETE', path: s
   return document;
 }
 
+/** What lies there; null: nothing, or nobody answers. */
+export async function fetchText(url: string): Promise<string | null> {
+  try {
+    const reply = await fetch(url, { signal: AbortSignal.timeout(20000) });
+    return reply.ok ? await reply.text() : null;
+  } catch {
+    return null;
+  }
+}
+
 function know(me: Me): Me {
   csrf = me.csrf;
   return me;

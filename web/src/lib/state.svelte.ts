@@ -1,4 +1,5 @@
 import { RobotClock } from './clock';
+import { fetchText } from './api';
 import { Motion } from './motion';
 import type {
   Avoid,
@@ -138,20 +139,13 @@ class App {
   }
   /** Whether it was there. It stays the same object as long as it says the same. */
   private async readMuseum(): Promise<boolean> {
-    try {
-      const reply = await fetch('/api/museum.json', { signal: AbortSignal.timeout(20000) });
-      if (!reply.ok) return false;
-      const text = await reply.text();
-      if (text === this.museumText) return true;
-      const museum: Museum = JSON.parse(text);
-      const isFirst = this.museum === null;
-      this.museumText = text;
-      this.museum = museum;
-      if (isFirst) this.language = pageLanguage(wantedLanguage(), museum.languages);
-      return true;
-    } catch {
-      return false;
-    }
+    const text = await fetchText('/api/museum.json');
+    if (text === null || text === this.museumText) return text !== null;
+    const isFirst = this.museum === null;
+    this.museumText = text;
+    this.museum = JSON.parse(text) as Museum;
+    if (isFirst) this.language = pageLanguage(wantedLanguage(), this.museum.languages);
+    return true;
   }
 
   /** What its face shows; null while nobody says so. */

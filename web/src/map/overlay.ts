@@ -6,15 +6,15 @@ type Raster = MapsMessage['value'];
 type Ramp = (level: number) => [red: number, green: number, blue: number, alpha: number];
 
 /** The nearer the goal by cost, the warmer; in bands, as lines of height on a map. */
-export const valueRamp: Ramp = (level) => {
+const valueRamp: Ramp = (level) => {
   const near = (level - 1) / 254;
   const band = Math.floor(near * 20) % 2 === 0 ? 1 : 0.82;
   return [Math.round(255 * near * band), Math.round((90 + 70 * near) * band), Math.round(210 * (1 - near) * band), 150];
 };
-export const thingRamp: Ramp = () => [230, 80, 20, 230];
+const thingRamp: Ramp = () => [230, 80, 20, 230];
 
 /** A raster of the robot's over the floor plan. */
-export class Overlay {
+class Overlay {
   private canvas: HTMLCanvasElement | null = null;
   private shown: Raster | null = null;
 
@@ -46,5 +46,16 @@ export class Overlay {
     }
     context.putImageData(image, 0, 0);
     return canvas;
+  }
+}
+
+/** What the planner knows, as far as it is asked for. */
+export class PlannersMaps {
+  private readonly value = new Overlay(valueRamp);
+  private readonly things = new Overlay(thingRamp);
+
+  draw(context: CanvasRenderingContext2D, camera: Camera, maps: MapsMessage | null, shows: { value: boolean; live: boolean }): void {
+    if (shows.value) this.value.draw(context, camera, maps?.value ?? null);
+    if (shows.live) this.things.draw(context, camera, maps?.live ?? null);
   }
 }

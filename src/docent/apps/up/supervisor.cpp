@@ -126,10 +126,10 @@ void Supervisor::collect(Child& child) {
   }
 }
 
-void Supervisor::restart(const std::string& name, std::vector<std::string> command) {
+void Supervisor::restart(const std::string& name, const std::vector<std::string>& command) {
   for (auto& child : children_) {
     if (child.spec.name != name) continue;
-    child.spec.command = std::move(command);
+    child.spec.command = command;
     if (child.pid <= 0) continue;  // it takes it when it starts
     child.told_to_end = Clock::now();
     signal_group(child, SIGTERM);

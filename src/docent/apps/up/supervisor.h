@@ -38,7 +38,7 @@ class Supervisor {
   /// Starts what is due, collects who ended, passes on what they wrote.
   void step();
   /// Ends that child in order; it starts again at once, with that command.
-  void restart(const std::string& name, std::vector<std::string> command);
+  void restart(const std::string& name, const std::vector<std::string>& command);
   void heard(const std::string& name, pid_t pid, const std::string& state, const std::string& reason);
   /// SIGTERM to all, SIGKILL to those who are still there after `patience_s`. Blocks so long.
   void stop(double patience_s = 3.0);

@@ -179,8 +179,8 @@ void up(const UpOptions& options) {
     const std::string& museum = moved.is_trial ? trial : options.deployment.museum;
     display.log(LogLevel::info, "museum", moved.is_trial ? "the robot tries a draft" : "the museum is read again");
     // The simulated world stays as it is: people change what the robot knows of it.
-    for (ChildSpec& child : children_of(options, museum))
-      if (child.name != kSimulatorProcess) supervisor.restart(child.name, std::move(child.command));
+    for (const ChildSpec& child : children_of(options, museum))
+      if (child.name != kSimulatorProcess) supervisor.restart(child.name, child.command);
   });
   std::stop_source stop;
   bus->every(kStep, [&] {

@@ -5,6 +5,7 @@
 #include <deque>
 
 #include "docent/mapping/occupancy/live_map.h"
+#include "docent/modules/shared/grid_message.h"
 #include "docent/modules/shared/pose_tracker.h"
 #include "docent/modules/shared/scanners.h"
 #include "docent/planning/coastal/coastal_planner.h"
@@ -314,17 +315,10 @@ class PlanModule final : public Module {
     const bool has_goal = !goal_.id.empty();
     if (!has_goal && !had_value_) return;
     had_value_ = has_goal;
-    nav_msgs::OccupancyGrid message;
-    message.header = {to_message(bus_.now()), "map"};
-    message.info.resolution = static_cast<float>(route_.frame().resolution * kValueCoarsening);
-    if (has_goal) {
-      planning::ValuePicture picture = planning::value_picture(route_.values(), kValueCoarsening);
-      message.info.width = static_cast<std::uint32_t>(picture.frame.columns);
-      message.info.height = static_cast<std::uint32_t>(picture.frame.rows);
-      message.info.origin.position.x = picture.frame.origin.x;
-      message.info.origin.position.y = picture.frame.origin.y;
-      message.data = std::move(picture.shares);
-    }
+    planning::ValuePicture picture = planning::value_picture(route_.values(), kValueCoarsening);
+    const Time now = bus_.now();
+    nav_msgs::OccupancyGrid message{{to_message(now), "map"}, info_of(picture.frame, now), std::move(picture.shares)};
+    if (!has_goal) message.info.width = message.info.height = 0, message.data.clear();
     value_.publish(std::move(message));
   }
 

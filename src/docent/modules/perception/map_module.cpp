@@ -7,6 +7,7 @@
 #include "docent/collision_avoidance/body/outline_distance.h"
 #include "docent/collision_avoidance/watches/tactile_watch.h"
 #include "docent/mapping/occupancy/live_map.h"
+#include "docent/modules/shared/grid_message.h"
 #include "docent/modules/shared/pose_tracker.h"
 #include "docent/modules/shared/scanners.h"
 
@@ -15,16 +16,6 @@ namespace {
 
 constexpr Duration kFullMapPeriod = std::chrono::seconds{10};
 constexpr Duration kStaleAfter = std::chrono::seconds{1};
-
-nav_msgs::MapMetaData to_message(const GridFrame& frame, Time now) {
-  nav_msgs::MapMetaData info;
-  info.map_load_time = docent::to_message(now);
-  info.resolution = static_cast<float>(frame.resolution);
-  info.width = static_cast<std::uint32_t>(frame.columns);
-  info.height = static_cast<std::uint32_t>(frame.rows);
-  info.origin = docent::to_message(Pose2{frame.origin.x, frame.origin.y, {}});
-  return info;
-}
 
 class MapModule final : public Module {
  public:
@@ -38,8 +29,8 @@ class MapModule final : public Module {
         live_map_{bus_.publisher(topics::kLiveMap)},
         updates_{bus_.publisher(topics::kLiveMapUpdate)} {
     nav_msgs::OccupancyGrid map;
-    map.header = {docent::to_message(bus_.now()), "map"};
-    map.info = to_message(context.museum.map.frame, bus_.now());
+    map.header = {to_message(bus_.now()), "map"};
+    map.info = info_of(context.museum.map.frame, bus_.now());
     map.data = context.museum.map.cells;
     bus_.publisher(topics::kStaticMap).publish(std::move(map));
     publish_full();
@@ -152,8 +143,8 @@ class MapModule final : public Module {
     if (!changes) return;
     changed_since_full_ = true;
     docent_msgs::LiveMapUpdate update;
-    update.header = {docent::to_message(bus_.now()), "map"};
-    update.base = docent::to_message(full_stamp_);
+    update.header = {to_message(bus_.now()), "map"};
+    update.base = to_message(full_stamp_);
     update.number = ++number_;
     update.x = changes->low.column;
     update.y = changes->low.row;
@@ -173,8 +164,8 @@ class MapModule final : public Module {
     changed_since_full_ = false;
     (void)live_.take_changes();
     nav_msgs::OccupancyGrid map;
-    map.header = {docent::to_message(full_stamp_), "map"};
-    map.info = to_message(live_.frame(), full_stamp_);
+    map.header = {to_message(full_stamp_), "map"};
+    map.info = info_of(live_.frame(), full_stamp_);
     map.data.resize(live_.frame().size());
     for (std::size_t i = 0; i < map.data.size(); ++i) map.data[i] = live_.cell(i);
     live_map_.publish(std::move(map));

@@ -4,9 +4,9 @@
 
 #include "docent/messages/conversions.h"
 #include "docent/telepresence/api/api_documents.h"
-#include "docent/telepresence/base64.h"
 #include "docent/telepresence/client_message.h"
 #include "docent/telepresence/contract/typescript.h"
+#include "docent/telepresence/document_json.h"
 #include "docent/telepresence/documents.h"
 #include "docent/telepresence/live_encoding.h"
 #include "docent/telepresence/museum_document.h"

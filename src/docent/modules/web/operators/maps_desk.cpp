@@ -6,7 +6,6 @@
 
 #include "docent/messages/conversions.h"
 #include "docent/messages/topics.h"
-#include "docent/telepresence/base64.h"
 #include "docent/telepresence/document_json.h"
 #include "docent/telepresence/documents.h"
 

@@ -1,4 +1,4 @@
-#include "docent/telepresence/base64.h"
+#include "docent/telepresence/document_json.h"
 
 namespace docent::telepresence {
 
