@@ -176,10 +176,13 @@ void up(const UpOptions& options) {
   });
   bus->subscribe<docent_msgs::MuseumMoved>(topics::kMuseumMoved, [&](const docent_msgs::MuseumMoved& moved) {
     const std::string trial = museum::trial_folder(options.deployment.state).string();
-    const std::string& museum = moved.is_trial ? trial : options.deployment.museum;
+    const std::string& folder = moved.is_trial ? trial : options.deployment.museum;
+    // Whoever sends this: where nothing can work, all would be lost.
+    if (const auto known = museum::load_museum(folder); !known)
+      return display.log(LogLevel::error, "museum", known.error().message);
     display.log(LogLevel::info, "museum", moved.is_trial ? "the robot tries a draft" : "the museum is read again");
     // The simulated world stays as it is: people change what the robot knows of it.
-    for (const ChildSpec& child : children_of(options, museum))
+    for (const ChildSpec& child : children_of(options, folder))
       if (child.name != kSimulatorProcess) supervisor.restart(child.name, child.command);
   });
   std::stop_source stop;

@@ -57,16 +57,28 @@ MuseumWorkshop::MuseumWorkshop(fs::path folder, fs::path trial, const CheckedRob
   published_ = *original;
 }
 
-Result<std::string> MuseumWorkshop::published_text() const { return read_file(published_ / kMuseumFile); }
+Result<MuseumWorkshop::Published> MuseumWorkshop::read_published() const {
+  auto yaml = read_file(published_ / kMuseumFile);
+  if (!yaml) return tl::unexpected<Error>(yaml.error());
+  const auto file = YamlFile::parse(*yaml, kMuseumFile);
+  if (!file) return tl::unexpected<Error>(file.error());
+  std::string all = *yaml;
+  (void)read_museum(*file, [&](const fs::path& relative) {
+    auto text = read_file(published_ / relative);
+    if (text) all += '\0' + *text;
+    return text;
+  });
+  return Published{std::move(*yaml), revision_of(all)};
+}
 
 Result<MuseumWorkshop::Edition> MuseumWorkshop::read() const {
-  auto text = published_text();
-  if (!text) return tl::unexpected<Error>(text.error());
+  const auto published = read_published();
+  if (!published) return tl::unexpected<Error>(published.error());
   auto file = YamlFile::load(folder_ / kMuseumFile);
   if (!file) return tl::unexpected<Error>(file.error());
   auto source = read_museum(*file, [this](const fs::path& relative) { return read_file(folder_ / relative); });
   if (!source.faults.empty()) return tl::unexpected<Error>(source.faults.front());
-  return Edition{std::move(source.museum), revision_of(*text)};
+  return Edition{std::move(source.museum), published->revision};
 }
 
 Result<EditedMuseum> MuseumWorkshop::edit(const std::string& yaml, const MuseumDraft& draft) const {
@@ -99,9 +111,9 @@ Result<void> MuseumWorkshop::lay_out(const fs::path& where, const FolderFiles& f
 }
 
 Result<std::vector<std::string>> MuseumWorkshop::check(const fs::path& where, const MuseumDraft& draft) const {
-  auto yaml = published_text();
-  if (!yaml) return tl::unexpected<Error>(yaml.error());
-  auto edited = edit(*yaml, draft);
+  const auto published = read_published();
+  if (!published) return tl::unexpected<Error>(published.error());
+  auto edited = edit(published->yaml, draft);
   if (!edited) return tl::unexpected<Error>(edited.error());
   if (!edited->faults.empty()) return sentences_of(edited->faults);
   if (auto laid = lay_out(where, edited->files); !laid) return tl::unexpected<Error>(laid.error());
@@ -117,9 +129,9 @@ Result<std::vector<std::string>> MuseumWorkshop::check(const MuseumDraft& draft)
 }
 
 Result<MuseumWorkshop::Outcome> MuseumWorkshop::try_out(const MuseumDraft& draft, const std::string& revision) const {
-  auto yaml = published_text();
-  if (!yaml) return tl::unexpected<Error>(yaml.error());
-  if (revision_of(*yaml) != revision) return Outcome{{}, true};
+  const auto before = read_published();
+  if (!before) return tl::unexpected<Error>(before.error());
+  if (before->revision != revision) return Outcome{{}, true};
   // Laid out beside the trial first: the robot may be in that.
   const fs::path where = trial_.string() + ".next";
   auto faults = check(where, draft);
@@ -136,15 +148,15 @@ Result<MuseumWorkshop::Outcome> MuseumWorkshop::try_out(const MuseumDraft& draft
 }
 
 Result<MuseumWorkshop::Outcome> MuseumWorkshop::publish(const MuseumDraft& draft, const std::string& revision) const {
-  auto yaml = published_text();
-  if (!yaml) return tl::unexpected<Error>(yaml.error());
-  if (revision_of(*yaml) != revision) return Outcome{{}, true};
+  const auto before = read_published();
+  if (!before) return tl::unexpected<Error>(before.error());
+  if (before->revision != revision) return Outcome{{}, true};
   auto faults = check(draft);
   if (!faults) return tl::unexpected<Error>(faults.error());
   if (!faults->empty()) return Outcome{std::move(*faults), false};
-  auto edited = edit(*yaml, draft);
+  auto edited = edit(before->yaml, draft);
   if (!edited) return tl::unexpected<Error>(edited.error());
-  auto written = write_file_atomically(published_ / kBefore, *yaml);
+  auto written = write_file_atomically(published_ / kBefore, before->yaml);
   for (const auto& [relative, content] : edited->files) {
     if (!written) break;
     std::error_code error;

@@ -29,7 +29,7 @@ class MuseumWorkshop {
 
   struct Edition {
     Museum museum;         ///< in which the robot is now, without its map
-    std::string revision;  ///< of what is published: another one when anybody has changed it since
+    std::string revision;  ///< of what is published, texts too: another one when anybody has changed it since
   };
   [[nodiscard]] Result<Edition> read() const;
 
@@ -47,7 +47,10 @@ class MuseumWorkshop {
   [[nodiscard]] Result<Outcome> publish(const MuseumDraft& draft, const std::string& revision) const;
 
  private:
-  [[nodiscard]] Result<std::string> published_text() const;
+  struct Published {
+    std::string yaml, revision;
+  };
+  [[nodiscard]] Result<Published> read_published() const;
   [[nodiscard]] Result<EditedMuseum> edit(const std::string& yaml, const MuseumDraft& draft) const;
   /// The museum with those files, in `where`.
   [[nodiscard]] Result<void> lay_out(const std::filesystem::path& where, const FolderFiles& files) const;

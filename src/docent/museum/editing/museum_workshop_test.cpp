@@ -96,5 +96,16 @@ TEST_F(MuseumWorkshopTest, WhoeverComesLateIsTold) {
   EXPECT_EQ(load_museum(root_ / "bonn")->hazards.back().id, "puddle");
 }
 
+TEST_F(MuseumWorkshopTest, ATextIsSomethingThatWhoeverComesLateMustNotUndo) {
+  const auto before = workshop().read();
+  MuseumDraft first = draft_of(before->museum);
+  first.exhibits[0].short_text["en"] = "Something new.";
+  ASSERT_TRUE(workshop().publish(first, before->revision)->faults.empty());
+  MuseumDraft second = draft_of(before->museum);
+  second.hazards.push_back(puddle());
+  EXPECT_TRUE(workshop().publish(second, before->revision)->is_outdated);
+  EXPECT_EQ(load_museum(root_ / "bonn")->exhibits[0].short_text.at("en"), "Something new.\n");
+}
+
 }  // namespace
 }  // namespace docent::museum
