@@ -9,10 +9,12 @@
 
 #include "docent/apps/localize/localize_log.h"
 #include "docent/apps/localize/log_reference.h"
+#include "docent/apps/localize/map_poses.h"
 #include "docent/apps/shared/arguments.h"
 #include "docent/apps/shared/command.h"
 #include "docent/base/files.h"
 #include "docent/base/yaml.h"
+#include "docent/evaluation/reference/relations.h"
 #include "docent/mapping/occupancy/scan_mapper.h"
 #include "docent/pictures/map_picture.h"
 
@@ -21,7 +23,10 @@ namespace {
 
 struct MapOptions {
   LogChoice choice;
-  std::string method = "known-poses";
+  std::string method = "auto";
+  std::string relations;
+  std::string odometry = "logged";
+  std::uint64_t seed = 1;
   std::string out;
   std::string report;
   std::string picture_format = "png";
@@ -67,12 +72,68 @@ pictures::Figure draw(const OccupancyGrid& map, const std::vector<mapping::Place
   return figure;
 }
 
+/// Poses by matching scans, with a line of progress now and then.
+std::vector<Pose2> learned_poses(const recording::LaserLog& log, nlohmann::json& report) {
+  const mapping::GraphMapperParams params;
+  const ChosenScans chosen = choose_scans(log, {}, params.points);
+  std::size_t told = 0;
+  const auto map = mapping::map_by_graph(chosen.scans, params, [&](const mapping::MappingProgress& progress) {
+    if (progress.stage == "chain" && progress.done < told + 300) return;
+    if (progress.stage == "loops" && progress.done < told + 300 && progress.done > told) return;
+    told = progress.done;
+    std::fprintf(stderr, "%s: %zu of %zu scans, %zu loops\n", progress.stage.c_str(), progress.done, progress.of,
+                 progress.loops);
+  });
+  report["scans_matched"] = chosen.scans.size();
+  report["loops"] = map.loops;
+  report["loops_refused"] = map.loops_refused;
+  report["scans_by_odometry"] = map.unmatched;
+  return poses_of_all(log, chosen, map.map_from_base);
+}
+
+void score(const MapOptions& options, const recording::LaserLog& log, const std::vector<Pose2>& poses,
+           const evaluation::ScanReference& truth, nlohmann::json& report) {
+  std::vector<evaluation::TimedPose> timed;
+  std::vector<evaluation::TimedPose> known;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (log.scans[i].rear) continue;
+    timed.push_back({log.scans[i].time, poses[i]});
+    if (truth[i]) known.push_back({log.scans[i].time, *truth[i]});
+  }
+  std::vector<evaluation::Relation> relations;
+  if (!options.relations.empty()) {
+    relations = value_or_fail(evaluation::load_relations(options.relations));
+  } else if (!known.empty()) {
+    constexpr double kApart[] = {1.0, 5.0, 20.0, 60.0, 150.0};
+    relations = evaluation::relations_between(known, kApart);
+  } else {
+    return;
+  }
+  const auto scored = evaluation::score_relations(relations, timed);
+  report["relations"] = {
+      {"relations", scored.relations},       {"metres", scored.metres},   {"metres_spread", scored.metres_spread},
+      {"metres_worst", scored.metres_worst}, {"degrees", scored.degrees}, {"degrees_spread", scored.degrees_spread}};
+  std::printf("relations: %zu, translational error %.3f +- %.3f m (worst %.2f), rotational %.2f +- %.2f degrees\n",
+              scored.relations, scored.metres, scored.metres_spread, scored.metres_worst, scored.degrees,
+              scored.degrees_spread);
+}
+
 void make_map(const MapOptions& options) {
   const mapping::ScanMapperParams params = params_of(options.settings);
   // What odometry places between known poses would blur the walls: good enough to judge by, not to map.
   evaluation::ReferenceGaps gaps;
   gaps.between_own_scans = false;
-  const ReferencedLog referenced = load_referenced_log(options.choice, gaps);
+  ReferencedLog referenced = load_referenced_log(options.choice, gaps);
+  if (options.odometry == "perturbed") replace_odometry(referenced, {}, options.seed);
+  const evaluation::ScanReference truth = referenced.reference;
+  nlohmann::json report;
+  const bool is_known =
+      options.method == "known-poses" || (options.method == "auto" && !options.choice.reference.empty());
+  if (!is_known) {
+    const std::vector<Pose2> poses = learned_poses(referenced.log, report);
+    for (std::size_t i = 0; i < poses.size(); ++i) referenced.reference[i] = poses[i];
+    score(options, referenced.log, poses, truth, report);
+  }
   for (const std::string& note : referenced.log.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
   const std::vector<mapping::PlacedSweep> placed = placed_sweeps(referenced);
   if (placed.empty()) throw CommandFailed{options.choice.log + ": no scan has a pose (--reference)"};
@@ -92,14 +153,14 @@ void make_map(const MapOptions& options) {
     return static_cast<double>(std::count(map.cells.begin(), map.cells.end(), kind)) * params.resolution *
            params.resolution;
   };
-  const nlohmann::json report{{"log", options.choice.log},
-                              {"scans", referenced.log.scans.size()},
-                              {"scans_with_a_pose", placed.size()},
-                              {"columns", map.frame.columns},
-                              {"rows", map.frame.rows},
-                              {"resolution", params.resolution},
-                              {"free_m2", share(OccupancyGrid::kFree)},
-                              {"occupied_m2", share(OccupancyGrid::kOccupied)}};
+  report.update(nlohmann::json{{"log", options.choice.log},
+                               {"scans", referenced.log.scans.size()},
+                               {"scans_with_a_pose", placed.size()},
+                               {"columns", map.frame.columns},
+                               {"rows", map.frame.rows},
+                               {"resolution", params.resolution},
+                               {"free_m2", share(OccupancyGrid::kFree)},
+                               {"occupied_m2", share(OccupancyGrid::kOccupied)}});
   if (!options.report.empty()) value_or_fail(write_file_atomically(options.report, report.dump(2) + "\n"));
   std::printf("%s: %d x %d cells of %.2f m, %.0f m2 free, from %zu of %zu scans\n", (out / "map.yaml").c_str(),
               map.frame.columns, map.frame.rows, params.resolution, report["free_m2"].get<double>(), placed.size(),
@@ -115,10 +176,20 @@ void add_map_command(CLI::App& app) {
   command->add_option("--out", options->out, "folder for map.yaml, map.pgm and a picture, map.png")
       ->check(output_folder())
       ->required();
-  command->add_option("--method", options->method, "known-poses: scans are placed where --reference says")
-      ->check(CLI::IsMember({"known-poses"}))
+  command
+      ->add_option("--method", options->method,
+                   "known-poses: scans are placed where --reference says; graph: where they fit together; "
+                   "auto: as --reference is given or not")
+      ->check(CLI::IsMember({"auto", "known-poses", "graph"}))
       ->capture_default_str();
   add_picture_format(*command, options->picture_format);
+  command->add_option("--relations", options->relations,
+                      "score: true relations between places, lines of \"t1 t2 x y z roll pitch yaw\"");
+  command
+      ->add_option("--odometry", options->odometry,
+                   "perturbed: odometry of our making, seeded errors along --reference")
+      ->check(CLI::IsMember({"logged", "perturbed"}));
+  add_seed(*command, "--odometry-seed", options->seed, "seed of perturbed odometry");
   command->add_option("--report", options->report, "JSON file to write")->check(output_file());
   command->add_option("--set", options->settings, "key=value of the mapper's parameters, e.g. resolution=0.1");
   command->callback([options] { make_map(*options); });

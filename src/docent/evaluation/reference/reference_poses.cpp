@@ -1,10 +1,10 @@
 #include "docent/evaluation/reference/reference_poses.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "docent/base/files.h"
+#include "docent/evaluation/reference/number_lines.h"
 
 namespace docent::evaluation {
 namespace {
@@ -40,17 +40,6 @@ class OdometryTrack {
  private:
   std::vector<TimedPose> track_;
 };
-
-/// One number of a line; false where there is none.
-bool take_number(std::string_view& rest, double& value) {
-  const std::size_t start = rest.find_first_not_of(" \t\r");
-  if (start == std::string_view::npos) return false;
-  rest.remove_prefix(start);
-  const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
-  if (error != std::errc{} || !std::isfinite(value) || std::abs(value) > 1e12) return false;
-  rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
-  return rest.empty() || rest.front() == ' ' || rest.front() == '\t' || rest.front() == '\r';
-}
 
 double length(const Pose2& motion) { return norm(motion.position()) + kMetreOfTurn * std::abs(motion.theta.radians()); }
 
@@ -116,20 +105,11 @@ void follow_time(const recording::LaserLog& log, std::span<const TimedPose> pose
 }  // namespace
 
 Result<std::vector<TimedPose>> parse_timed_poses(std::string_view text, const std::string& name) {
+  const auto lines = parse_number_lines(text, name, "time x y theta");
+  if (!lines) return tl::unexpected<Error>(lines.error());
   std::vector<TimedPose> poses;
-  for (int line = 1; !text.empty(); ++line) {
-    const std::size_t end = text.find('\n');
-    std::string_view rest = text.substr(0, end);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    rest = rest.substr(0, rest.find('#'));
-    if (rest.find_first_not_of(" \t\r") == std::string_view::npos) continue;
-    double numbers[4] = {};
-    for (double& number : numbers)
-      if (!take_number(rest, number)) return fail(name + ":" + std::to_string(line) + ": expected time x y theta");
-    if (rest.find_first_not_of(" \t\r") != std::string_view::npos)
-      return fail(name + ":" + std::to_string(line) + ": more than time x y theta");
-    if (std::abs(numbers[0]) > 9e9) return fail(name + ":" + std::to_string(line) + ": the time is out of range");
-    poses.push_back({time_from_seconds(numbers[0]), {numbers[1], numbers[2], Angle::radians(numbers[3])}});
+  for (const std::vector<double>& line : *lines) {
+    poses.push_back({time_from_seconds(line[0]), {line[1], line[2], Angle::radians(line[3])}});
   }
   if (poses.empty()) return fail(name + ": holds no pose");
   std::stable_sort(poses.begin(), poses.end(), [](const auto& a, const auto& b) { return a.time < b.time; });

@@ -16,10 +16,10 @@
 #include "docent/telepresence/api/audit.h"
 #include "docent/telepresence/api/document_reader.h"
 #include "docent/telepresence/api/exchange/exchange.h"
-#include "docent/telepresence/museum_office/museum_office.h"
 #include "docent/telepresence/api/schemas.h"
 #include "docent/telepresence/counting/statistics.h"
 #include "docent/telepresence/forum/forum.h"
+#include "docent/telepresence/museum_office/museum_office.h"
 
 // One table says what /api/v1 answers; from it come the dispatcher, docs/openapi.json, the page's types and the test of
 // who may do what.

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "docent/geometry/pose2.h"
+#include "docent/mapping/graph_mapping/graph_mapper.h"
+#include "docent/recording/laser_log.h"
+
+namespace docent::apps {
+
+/// Which scans of a log a map is learned from.
+struct ScanChoiceParams {
+  double way = 0.15;  ///< [m], >= 0: a scan is taken after this way since the last one taken,
+  double turn = 8.0;  ///< [deg], >= 0: or this turn
+};
+
+/// Scans of all lasers together, where the robot has moved, each with its index in the log.
+struct ChosenScans {
+  std::vector<mapping::MappingScan> scans;
+  std::vector<std::size_t> indices;
+};
+[[nodiscard]] ChosenScans choose_scans(const recording::LaserLog& log, const ScanChoiceParams& choice,
+                                       const mapping::PointSweepParams& points);
+
+/// Poses of all scans of the log, from those of the chosen ones: between these odometry tells the way, bent so that it
+/// meets both.
+[[nodiscard]] std::vector<Pose2> poses_of_all(const recording::LaserLog& log, const ChosenScans& chosen,
+                                              const std::vector<Pose2>& map_from_base);
+
+}  // namespace docent::apps

@@ -1,0 +1,246 @@
+#include "docent/mapping/graph_mapping/graph_mapper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <map>
+#include <utility>
+
+#include "docent/mapping/pose_graph/relative_covariance.h"
+
+namespace docent::mapping {
+namespace {
+
+struct LoopCandidate {
+  std::size_t segment = 0;
+  double likelihood_order = 0.0;
+  Eigen::Matrix3d covariance;
+};
+
+class GraphMapping {
+ public:
+  GraphMapping(std::span<const MappingScan> scans, const GraphMapperParams& params,
+               const std::function<void(const MappingProgress&)>& progress)
+      : scans_{scans},
+        params_{params},
+        progress_{progress},
+        chain_{params.chain, params.chain_grid, params.lines},
+        closer_{params.loops, params.lines} {}
+
+  GraphMap run() {
+    graph_.add_pose(scans_.front().odom_from_base);
+    for (std::size_t i = 1; i < scans_.size(); ++i) {
+      add_scan(i);
+      if (is_segment_full(i)) end_segment(i);
+    }
+    if (first_ + 1 < scans_.size()) end_segment(scans_.size() - 1);
+    close_all_loops();
+    for (int round = 0; round < params_.fine_rounds; ++round) refine(round);
+    tell("fine", scans_.size());
+    return {graph_.poses(), loops_, refused_, unmatched_};
+  }
+
+ private:
+  void tell(const char* stage, std::size_t done) const {
+    if (progress_) progress_({stage, done, scans_.size(), loops_, graph_.poses()});
+  }
+
+  void add_scan(std::size_t i) {
+    const ChainStep step = chain_.step(scans_, graph_.poses(), i);
+    graph_.add_pose(graph_.poses()[i - 1] * step.before_from_after);
+    graph_.add({i - 1, i, step.before_from_after, step.information, false});
+    unmatched_ += step.is_matched ? 0U : 1U;
+    way_ += norm(step.before_from_after.position());
+    turn_ += std::abs(step.before_from_after.theta.radians());
+  }
+
+  [[nodiscard]] bool is_segment_full(std::size_t last) const {
+    const SegmentParams& bounds = params_.segments;
+    return way_ >= bounds.way || turn_ >= bounds.turn || last - first_ + 1 >= static_cast<std::size_t>(bounds.scans);
+  }
+
+  void end_segment(std::size_t last) {
+    segments_.emplace_back(scans_, graph_.poses(), first_, last, params_.segments, params_.loop_grid);
+    first_ = last;  // the next one shares this scan
+    way_ = 0.0;
+    turn_ = 0.0;
+    if (segments_.back().points().empty()) {
+      segments_.pop_back();
+      return;
+    }
+    if (close_loops(segments_.size() - 1)) optimise();
+    tell("chain", last);
+  }
+
+  void optimise() {
+    graph_.optimise(params_.graph);
+    const std::size_t removed = graph_.remove_wrong_loops(params_.graph);
+    refused_ += removed;
+    if (removed > 0) graph_.optimise(params_.graph);
+  }
+
+  [[nodiscard]] Pose2 middle_of(std::size_t segment) const { return graph_.poses()[segments_[segment].middle()]; }
+
+  /// Older segments that may show the same place, the likeliest first.
+  [[nodiscard]] std::vector<LoopCandidate> candidates_for(std::size_t newer) const {
+    constexpr std::size_t kRecent = 3;  ///< segments that the chain itself is matched to, nearly
+    std::vector<LoopCandidate> candidates;
+    if (newer < kRecent) return candidates;
+    const auto covariances = covariances_seen_from(graph_, segments_[newer].middle());
+    for (std::size_t older = 0; older + kRecent <= newer; ++older) {
+      if (closed_.contains({older, newer})) continue;
+      const Eigen::Matrix3d& covariance = covariances[segments_[older].middle()];
+      const double sigma = std::sqrt(std::max(covariance(0, 0), covariance(1, 1)));
+      const double apart = distance(middle_of(older).position(), middle_of(newer).position());
+      if (apart - params_.loops.sigmas * sigma > params_.loop_reach) continue;
+      candidates.push_back({older, apart / (params_.loop_reach + sigma), covariance});
+    }
+    std::stable_sort(candidates.begin(), candidates.end(), [](const LoopCandidate& a, const LoopCandidate& b) {
+      return a.likelihood_order < b.likelihood_order;
+    });
+    if (candidates.size() > static_cast<std::size_t>(params_.candidates)) {
+      candidates.resize(static_cast<std::size_t>(params_.candidates));
+    }
+    return candidates;
+  }
+
+  /// @returns whether any was found that is to be believed.
+  bool close_loops(std::size_t newer) {
+    bool is_any = false;
+    for (const LoopCandidate& candidate : candidates_for(newer)) {
+      const Pose2 expected = inverse(middle_of(candidate.segment)) * middle_of(newer);
+      auto found = closer_.close(segments_[candidate.segment], segments_[newer], expected, candidate.covariance);
+      if (!found) continue;
+      found->from = candidate.segment;
+      found->to = newer;
+      is_any = believe(*found) || is_any;
+    }
+    return is_any;
+  }
+
+  /// A loop found in a wide window may be a place that looks alike: it waits until another one says the same.
+  bool believe(const LoopClosure& closure) {
+    constexpr double kNarrow = 1.5;  // [m]
+    if (closure.window <= kNarrow) {
+      accept(closure);
+      return true;
+    }
+    bool is_borne_out = false;
+    for (auto other = waiting_.begin(); other != waiting_.end();) {
+      if (agree(closure, *other)) {
+        accept(*other);
+        other = waiting_.erase(other);
+        is_borne_out = true;
+      } else {
+        ++other;
+      }
+    }
+    if (is_borne_out) {
+      accept(closure);
+    } else {
+      waiting_.push_back(closure);
+    }
+    return is_borne_out;
+  }
+
+  void accept(const LoopClosure& closure) {
+    closed_[{closure.from, closure.to}] = true;
+    graph_.add(closure.constraint);
+    ++loops_;
+  }
+
+  /// Both loops join the same two pieces of the way, and say the same of how they lie to each other.
+  [[nodiscard]] bool agree(const LoopClosure& a, const LoopClosure& b) const {
+    constexpr std::size_t kNear = 4;  // segments
+    constexpr double kApart = 0.7;    // [m]
+    constexpr double kTurned = 0.2;   // [rad]
+    const auto gap = [](std::size_t i, std::size_t k) { return i > k ? i - k : k - i; };
+    if (gap(a.from, b.from) > kNear || gap(a.to, b.to) > kNear) return false;
+    if (a.to == b.to && a.from == b.from) return false;
+    const Pose2 from_from_from = inverse(middle_of(a.from)) * middle_of(b.from);
+    const Pose2 to_from_to = inverse(middle_of(b.to)) * middle_of(a.to);
+    const Pose2 by_other = from_from_from * b.constraint.from_from_to * to_from_to;
+    const Pose2 difference = inverse(a.constraint.from_from_to) * by_other;
+    return norm(difference.position()) < kApart && std::abs(difference.theta.radians()) < kTurned;
+  }
+
+  /// Once more over all segments, now that the map is as good as the drive could make it.
+  void close_all_loops() {
+    for (std::size_t newer = 0; newer < segments_.size(); ++newer) {
+      if (close_loops(newer)) optimise();
+      tell("loops", segments_[newer].last());
+    }
+    optimise();
+  }
+
+  /// For each scan the nearest scans of other pieces of the way.
+  [[nodiscard]] std::map<std::size_t, std::vector<std::size_t>> pairs_by_reference() const {
+    std::map<std::size_t, std::vector<std::size_t>> sweeps_of;
+    const std::vector<Pose2>& poses = graph_.poses();
+    for (std::size_t i = 0; i < scans_.size(); ++i) {
+      std::vector<std::pair<double, std::size_t>> nearest;
+      for (const Segment& segment : segments_) {
+        if (segment.last() + static_cast<std::size_t>(params_.chain.scans) >= i) break;
+        std::pair<double, std::size_t> best{params_.fine_reach, 0};
+        for (std::size_t k = segment.first(); k <= segment.last(); ++k) {
+          best = std::min(best, {distance(poses[i].position(), poses[k].position()), k});
+        }
+        if (best.first < params_.fine_reach) nearest.push_back(best);
+      }
+      std::sort(nearest.begin(), nearest.end());
+      if (nearest.size() > static_cast<std::size_t>(params_.fine_pairs)) {
+        nearest.resize(static_cast<std::size_t>(params_.fine_pairs));
+      }
+      for (const auto& [apart, k] : nearest) sweeps_of[k].push_back(i);
+    }
+    return sweeps_of;
+  }
+
+  void refine(int round) {
+    constexpr double kLeastOverlap = 0.35;
+    std::vector<PoseConstraint> kept;
+    for (const PoseConstraint& constraint : graph_.constraints()) {
+      if (!constraint.is_loop || (round == 0 && params_.fine_rounds == 1)) kept.push_back(constraint);
+    }
+    const std::vector<Pose2> poses = graph_.poses();
+    for (const auto& [reference, sweeps] : pairs_by_reference()) {
+      if (scans_[reference].points.empty()) continue;
+      const SurfaceIndex index{scans_[reference].points};
+      for (const std::size_t i : sweeps) {
+        if (scans_[i].points.empty()) continue;
+        const auto match = line_match(index, scans_[i].points, inverse(poses[reference]) * poses[i], params_.lines);
+        if (!match || match->overlap < kLeastOverlap) continue;
+        kept.push_back({reference, i, match->reference_from_sweep, match->information, true});
+      }
+    }
+    graph_.clear_constraints();
+    for (const PoseConstraint& constraint : kept) graph_.add(constraint);
+    optimise();
+  }
+
+  std::span<const MappingScan> scans_;
+  const GraphMapperParams& params_;
+  const std::function<void(const MappingProgress&)>& progress_;
+  ScanChain chain_;
+  LoopCloser closer_;
+  PoseGraph graph_;
+  std::deque<Segment> segments_;
+  std::vector<LoopClosure> waiting_;
+  std::map<std::pair<std::size_t, std::size_t>, bool> closed_;
+  std::size_t first_ = 0;  ///< scan that the next segment begins with
+  double way_ = 0.0;       ///< [m] of the next segment
+  double turn_ = 0.0;      ///< [rad]
+  std::size_t loops_ = 0;
+  std::size_t refused_ = 0;
+  std::size_t unmatched_ = 0;
+};
+
+}  // namespace
+
+GraphMap map_by_graph(std::span<const MappingScan> scans, const GraphMapperParams& params,
+                      const std::function<void(const MappingProgress&)>& progress) {
+  if (scans.empty()) return {};
+  return GraphMapping{scans, params, progress}.run();
+}
+
+}  // namespace docent::mapping

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "docent/mapping/graph_mapping/loop_closer.h"
+#include "docent/mapping/graph_mapping/scan_chain.h"
+
+namespace docent::mapping {
+
+struct GraphMapperParams {
+  PointSweepParams points;
+  ScanChainParams chain;
+  SegmentParams segments;
+  LoopCloserParams loops;
+  PoseGraphParams graph;
+  MatchGridParams chain_grid{0.05, 0.07, 4};
+  MatchGridParams loop_grid{0.10, 0.10, 6};
+  LineMatcherParams lines;
+  int candidates = 8;       ///< > 0: older segments that a new one is matched to, the likeliest first
+  double loop_reach = 6.0;  ///< [m], > 0: segments whose middles lie farther apart show too little in common
+  int fine_rounds = 3;      ///< >= 0: rounds in which scans are matched to scans nearby, and all poses improved
+  int fine_pairs = 6;       ///< > 0: of a scan in a round
+  double fine_reach = 4.0;  ///< [m], > 0, between two such scans
+  template <class V>
+  void visit(V& v) {
+    v("points", points);
+    v("chain", chain);
+    v("segments", segments);
+    v("loops", loops);
+    v("graph", graph);
+    v("lines", lines);
+    v("candidates", candidates);
+    v("loop_reach", loop_reach);
+    v("fine_rounds", fine_rounds);
+    v("fine_pairs", fine_pairs);
+    v("fine_reach", fine_reach);
+  }
+};
+
+/// What a person who waits is told, and may draw.
+struct MappingProgress {
+  std::string stage;  ///< "chain", "loops", "fine"
+  std::size_t done = 0;
+  std::size_t of = 0;
+  std::size_t loops = 0;
+  std::span<const Pose2> map_from_base;  ///< as far as known now
+};
+
+struct GraphMap {
+  std::vector<Pose2> map_from_base;  ///< of every scan
+  std::size_t loops = 0;
+  std::size_t loops_refused = 0;
+  std::size_t unmatched = 0;  ///< scans that only odometry places
+};
+
+/// Poses of all scans of a drive: a chain of matches to what was seen just before, loops closed between short segments
+/// in the order of the drive, each time all poses by least squares; then scans nearby are matched to each other.
+/// Beyond [Minerva2000] 4.1, which has no loops but those that its grid of poses finds: see expectation_maximization.
+[[nodiscard]] GraphMap map_by_graph(std::span<const MappingScan> scans, const GraphMapperParams& params,
+                                    const std::function<void(const MappingProgress&)>& progress = {});
+
+}  // namespace docent::mapping

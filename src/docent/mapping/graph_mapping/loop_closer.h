@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "docent/mapping/graph_mapping/segment.h"
+#include "docent/mapping/pose_graph/pose_graph.h"
+#include "docent/mapping/scan_matching/correlative_matcher.h"
+#include "docent/mapping/scan_matching/line_matcher.h"
+
+namespace docent::mapping {
+
+struct LoopCloserParams {
+  double least_score = 0.50;    ///< 0..1, of the search
+  double least_overlap = 0.45;  ///< 0..1: share of the points that then lie on lines of the other segment
+  double most_conflict = 0.06;  ///< 0..1: share of the points that lie where the other segment saw free floor
+  double clearly_best = 0.88;   ///< 0..1: the next best place elsewhere reaches at most this share of the score
+  double elsewhere = 0.8;       ///< [m]
+  double elsewhere_turn = 0.5;  ///< [rad]
+  double widest_window = 12.0;  ///< [m]: the search goes no farther, however little is known
+  double sigmas = 3.0;          ///< > 0: the search goes so far about the expected place
+  double least_window = 0.6;    ///< [m]
+  double least_turn = 0.2;      ///< [rad]
+  template <class V>
+  void visit(V& v) {
+    v("least_score", least_score);
+    v("least_overlap", least_overlap);
+    v("most_conflict", most_conflict);
+    v("clearly_best", clearly_best);
+    v("elsewhere", elsewhere);
+    v("elsewhere_turn", elsewhere_turn);
+    v("widest_window", widest_window);
+    v("sigmas", sigmas);
+    v("least_window", least_window);
+    v("least_turn", least_turn);
+  }
+};
+
+/// Two segments that show one place.
+struct LoopClosure {
+  std::size_t from = 0;  ///< index of the older segment
+  std::size_t to = 0;
+  PoseConstraint constraint;  ///< between their middle scans
+  double score = 0.0;
+  double overlap = 0.0;
+  double conflict = 0.0;
+  double window = 0.0;  ///< [m] that was searched each way
+};
+
+/// Whether and where one segment fits onto another: search, check that no other place fits nearly as well, lines, check
+/// that nothing stands where the other one saw free floor.
+class LoopCloser {
+ public:
+  LoopCloser(const LoopCloserParams& params, const LineMatcherParams& lines) : params_{params}, lines_{lines} {}
+
+  /// `expected`: the newer segment's middle as the older one's sees it, with its covariance in the older one's frame.
+  [[nodiscard]] std::optional<LoopClosure> close(const Segment& older, const Segment& newer, const Pose2& expected,
+                                                 const Eigen::Matrix3d& covariance) const;
+
+ private:
+  LoopCloserParams params_;
+  LineMatcherParams lines_;
+};
+
+}  // namespace docent::mapping

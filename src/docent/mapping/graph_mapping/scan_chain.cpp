@@ -1,0 +1,61 @@
+#include "docent/mapping/graph_mapping/scan_chain.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace docent::mapping {
+namespace {
+
+std::vector<Point2> places_of(std::span<const SurfacePoint> points) {
+  std::vector<Point2> places;
+  places.reserve(points.size());
+  for (const SurfacePoint& point : points) places.push_back(point.at);
+  return places;
+}
+
+Eigen::Matrix3d diagonal_information(double way_sigma, double turn_sigma) {
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  information(0, 0) = information(1, 1) = 1.0 / (way_sigma * way_sigma);
+  information(2, 2) = 1.0 / (turn_sigma * turn_sigma);
+  return information;
+}
+
+}  // namespace
+
+ChainStep ScanChain::step(std::span<const MappingScan> scans, std::span<const Pose2> map_from_base,
+                          std::size_t i) const {
+  const Pose2 odometry = inverse(scans[i - 1].odom_from_base) * scans[i].odom_from_base;
+  const double way = norm(odometry.position());
+  const double turn = std::abs(odometry.theta.radians());
+  const double way_sigma = params_.way_sigma + params_.way_per_metre * way + params_.way_per_radian * turn;
+  const double turn_sigma = params_.turn_sigma + params_.turn_per_metre * way + params_.turn_per_radian * turn;
+  ChainStep result{odometry, diagonal_information(way_sigma, turn_sigma), false};
+
+  const Pose2& before = map_from_base[i - 1];
+  const Pose2 before_from_map = inverse(before);
+  std::vector<SurfacePoint> local;
+  const std::size_t first = i - std::min(i, static_cast<std::size_t>(params_.scans));
+  for (std::size_t k = first; k < i; ++k) {
+    const Pose2 before_from_scan = before_from_map * map_from_base[k];
+    for (const SurfacePoint& point : scans[k].points) local.push_back(transformed(before_from_scan, point));
+  }
+  if (local.empty() || scans[i].points.empty()) return result;
+  const MatchGrid grid{places_of(local), grid_};
+  MatchWindow window;
+  window.reach = params_.sigmas * way_sigma;
+  window.turn = params_.sigmas * turn_sigma;
+  window.position_sigma = way_sigma;
+  window.heading_sigma = turn_sigma;
+  window.expectation_weight = params_.expectation_weight;
+  const std::vector<Point2> query = thinned_points(places_of(scans[i].points), params_.query_cell);
+  const auto found = best_match(grid, query, odometry, window, params_.least_score);
+  if (!found) return result;
+  const auto fine = line_match(SurfaceIndex{local}, scans[i].points, found->reference_from_sweep, lines_);
+  if (!fine) return result;
+  result.before_from_after = fine->reference_from_sweep;
+  result.information += fine->information;
+  result.is_matched = true;
+  return result;
+}
+
+}  // namespace docent::mapping

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "docent/mapping/graph_mapping/mapping_scan.h"
+#include "docent/mapping/occupancy/scan_mapper.h"
+#include "docent/mapping/scan_matching/match_grid.h"
+
+namespace docent::mapping {
+
+struct SegmentParams {
+  double way = 3.0;          ///< [m], > 0: a segment ends after this way,
+  double turn = 6.0;         ///< [rad], > 0: this much turning,
+  int scans = 40;            ///< or so many scans
+  double reach = 12.0;       ///< [m], > 0, from its middle: what lies farther depends on the chain's heading too much
+  double query_cell = 0.20;  ///< [m], > 0: one point a cell takes part in a search
+  double free_cell = 0.10;   ///< [m], > 0: of what was seen through
+  template <class V>
+  void visit(V& v) {
+    v("way", way);
+    v("turn", turn);
+    v("scans", scans);
+    v("reach", reach);
+    v("query_cell", query_cell);
+    v("free_cell", free_cell);
+  }
+};
+
+/// A short piece of the way, over which the chain of scans is trusted: one small map about its middle scan.
+class Segment {
+ public:
+  /// Scans `first` to `last` of all, at these poses of the chain. @pre first <= last
+  Segment(std::span<const MappingScan> scans, std::span<const Pose2> map_from_base, std::size_t first, std::size_t last,
+          const SegmentParams& params, const MatchGridParams& grid);
+
+  [[nodiscard]] std::size_t first() const { return first_; }
+  [[nodiscard]] std::size_t last() const { return last_; }
+  [[nodiscard]] std::size_t middle() const { return (first_ + last_) / 2; }  ///< the scan whose frame all is seen in
+  [[nodiscard]] std::span<const SurfacePoint> points() const { return points_; }
+  [[nodiscard]] std::span<const Point2> query() const { return query_; }  ///< thinned
+  [[nodiscard]] const MatchGrid& grid() const { return *grid_; }
+  [[nodiscard]] double radius() const { return radius_; }  ///< [m] about the middle, that holds 90 % of the points
+  /// Beams went through here, clear of everything.
+  [[nodiscard]] bool is_free(Point2 at) const;
+
+ private:
+  std::size_t first_;
+  std::size_t last_;
+  std::vector<SurfacePoint> points_;  ///< [m], middle scan's base frame
+  std::vector<Point2> query_;
+  double radius_ = 0.0;
+  std::unique_ptr<MatchGrid> grid_;
+  GridFrame free_frame_;
+  std::vector<bool> free_;
+};
+
+}  // namespace docent::mapping
