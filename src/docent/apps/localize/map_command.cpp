@@ -1,5 +1,6 @@
 #include "docent/apps/localize/map_command.h"
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -25,6 +26,7 @@ struct MapOptions {
   LogChoice choice;
   std::string method = "auto";
   std::string relations;
+  std::string poses;
   std::string odometry = "logged";
   std::uint64_t seed = 1;
   std::string out;
@@ -91,6 +93,17 @@ std::vector<Pose2> learned_poses(const recording::LaserLog& log, nlohmann::json&
   return poses_of_all(log, chosen, map.map_from_base);
 }
 
+/// As --reference reads them.
+void save_poses(const std::string& path, const recording::LaserLog& log, const std::vector<Pose2>& poses) {
+  std::string text = "# time x y theta: s, m, m, rad\n";
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (log.scans[i].rear) continue;
+    text += fmt::format("{:.6f} {:.4f} {:.4f} {:.5f}\n", to_seconds(log.scans[i].time), poses[i].x, poses[i].y,
+                        poses[i].theta.radians());
+  }
+  value_or_fail(write_file_atomically(path, text));
+}
+
 void score(const MapOptions& options, const recording::LaserLog& log, const std::vector<Pose2>& poses,
            const evaluation::ScanReference& truth, nlohmann::json& report) {
   std::vector<evaluation::TimedPose> timed;
@@ -133,6 +146,7 @@ void make_map(const MapOptions& options) {
     const std::vector<Pose2> poses = learned_poses(referenced.log, report);
     for (std::size_t i = 0; i < poses.size(); ++i) referenced.reference[i] = poses[i];
     score(options, referenced.log, poses, truth, report);
+    if (!options.poses.empty()) save_poses(options.poses, referenced.log, poses);
   }
   for (const std::string& note : referenced.log.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
   const std::vector<mapping::PlacedSweep> placed = placed_sweeps(referenced);
@@ -190,6 +204,9 @@ void add_map_command(CLI::App& app) {
                    "perturbed: odometry of our making, seeded errors along --reference")
       ->check(CLI::IsMember({"logged", "perturbed"}));
   add_seed(*command, "--odometry-seed", options->seed, "seed of perturbed odometry");
+  command
+      ->add_option("--poses", options->poses, "file to write: where each scan was taken, lines of \"time x y theta\"")
+      ->check(output_file());
   command->add_option("--report", options->report, "JSON file to write")->check(output_file());
   command->add_option("--set", options->settings, "key=value of the mapper's parameters, e.g. resolution=0.1");
   command->callback([options] { make_map(*options); });

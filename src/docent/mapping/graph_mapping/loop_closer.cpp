@@ -14,6 +14,13 @@ double share_on_free_floor(const Segment& seer, std::span<const Point2> points, 
   return static_cast<double>(count) / static_cast<double>(points.size());
 }
 
+/// What remains of it when nothing is known of the displacement along a way, as along a corridor.
+Eigen::Matrix3d unknown_along(const Eigen::Matrix3d& information, const Pose2& way) {
+  const Eigen::Vector3d u{way.x, way.y, 0.0};
+  const Eigen::Vector3d pull = information * u;
+  return information - pull * pull.transpose() / u.dot(pull) + 1e-6 * Eigen::Matrix3d::Identity();
+}
+
 }  // namespace
 
 std::optional<LoopClosure> LoopCloser::close(const Segment& older, const Segment& newer, const Pose2& expected,
@@ -21,18 +28,24 @@ std::optional<LoopClosure> LoopCloser::close(const Segment& older, const Segment
   MatchWindow window;
   const double position_sigma = std::sqrt(std::max(covariance(0, 0), covariance(1, 1)));
   window.reach = std::clamp(params_.sigmas * position_sigma, params_.least_window, params_.widest_window);
+  window.position_sigma = std::max(position_sigma, 0.1);
+  window.heading_sigma = std::max(std::sqrt(covariance(2, 2)), 0.02);
+  window.expectation_weight = params_.expectation_weight;
   window.turn = std::clamp(params_.sigmas * std::sqrt(covariance(2, 2)), params_.least_turn, std::numbers::pi);
   const auto best = best_match(older.grid(), newer.query(), expected, window, params_.least_score);
   if (!best) return std::nullopt;
   const ForbiddenPlace here{best->reference_from_sweep, params_.elsewhere, params_.elsewhere_turn};
-  if (best_match(older.grid(), newer.query(), expected, window, params_.clearly_best * best->score, &here)) {
-    return std::nullopt;
-  }
-  const auto fine = line_match(SurfaceIndex{older.points()}, newer.points(), best->reference_from_sweep, lines_);
+  const auto other =
+      best_match(older.grid(), newer.query(), expected, window, params_.clearly_best * best->score, &here);
+  if (other && window.reach > params_.narrow_window) return std::nullopt;
+  auto fine = line_match(SurfaceIndex{older.points()}, newer.points(), best->reference_from_sweep, lines_);
   if (!fine || fine->overlap < params_.least_overlap) return std::nullopt;
   const double conflict = std::max(share_on_free_floor(older, newer.query(), fine->reference_from_sweep),
                                    share_on_free_floor(newer, older.query(), inverse(fine->reference_from_sweep)));
   if (conflict > params_.most_conflict) return std::nullopt;
+  if (other)
+    fine->information =
+        unknown_along(fine->information, inverse(best->reference_from_sweep) * other->reference_from_sweep);
   LoopClosure closure;
   closure.constraint = {older.middle(), newer.middle(), fine->reference_from_sweep, fine->information, true};
   closure.score = best->score;
