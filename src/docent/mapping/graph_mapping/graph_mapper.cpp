@@ -118,10 +118,10 @@ class GraphMapping {
     return is_any;
   }
 
-  /// A loop found in a wide window may be a place that looks alike: it waits until another one says the same.
+  /// A loop far from where it was expected may be a place that looks alike: it waits until another one says the same.
   bool believe(const LoopClosure& closure) {
-    constexpr double kNarrow = 1.5;  // [m]
-    if (closure.window <= kNarrow) {
+    constexpr double kExpected = 1.0;  // [m]
+    if (closure.surprise <= kExpected) {
       accept(closure);
       return true;
     }

@@ -51,7 +51,7 @@ std::optional<LoopClosure> LoopCloser::close(const Segment& older, const Segment
   closure.score = best->score;
   closure.overlap = fine->overlap;
   closure.conflict = conflict;
-  closure.window = window.reach;
+  closure.surprise = distance(fine->reference_from_sweep.position(), expected.position());
   return closure;
 }
 

@@ -48,7 +48,7 @@ struct LoopClosure {
   double score = 0.0;
   double overlap = 0.0;
   double conflict = 0.0;
-  double window = 0.0;  ///< [m] that was searched each way
+  double surprise = 0.0;  ///< [m] from where the newer segment was expected
 };
 
 /// Whether and where one segment fits onto another: search, check that no other place fits nearly as well, lines, check
