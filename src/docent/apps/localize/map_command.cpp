@@ -16,6 +16,7 @@
 #include "docent/base/files.h"
 #include "docent/base/yaml.h"
 #include "docent/evaluation/reference/relations.h"
+#include "docent/mapping/expectation_maximization/em_mapper.h"
 #include "docent/mapping/occupancy/scan_mapper.h"
 #include "docent/pictures/map_picture.h"
 
@@ -75,9 +76,8 @@ pictures::Figure draw(const OccupancyGrid& map, const std::vector<mapping::Place
 }
 
 /// Poses by matching scans, with a line of progress now and then.
-std::vector<Pose2> learned_poses(const recording::LaserLog& log, nlohmann::json& report) {
-  const mapping::GraphMapperParams params;
-  const ChosenScans chosen = choose_scans(log, {}, params.points);
+std::vector<Pose2> poses_by_graph(const recording::LaserLog& log, const ChosenScans& chosen,
+                                  const mapping::GraphMapperParams& params, nlohmann::json& report) {
   std::size_t told = 0;
   const auto map = mapping::map_by_graph(chosen.scans, params, [&](const mapping::MappingProgress& progress) {
     if (progress.stage == "chain" && progress.done < told + 300) return;
@@ -90,7 +90,47 @@ std::vector<Pose2> learned_poses(const recording::LaserLog& log, nlohmann::json&
   report["loops"] = map.loops;
   report["loops_refused"] = map.loops_refused;
   report["scans_by_odometry"] = map.unmatched;
-  return poses_of_all(log, chosen, map.map_from_base);
+  return poses_of_all(log, chosen.indices, map.map_from_base);
+}
+
+pictures::Figure draw_iteration(const mapping::EmProgress& progress) {
+  const OccupancyGrid grid = progress.map.picture();
+  pictures::Figure figure{"Expectation maximization, level " + std::to_string(progress.level + 1) + ", iteration " +
+                          std::to_string(progress.iteration)};
+  pictures::Axes& axes = figure.add(pictures::Axes::metres(grid.frame));
+  pictures::draw_map(axes, grid);
+  std::vector<Point2> way;
+  for (const Pose2& pose : progress.poses) way.push_back(pose.position());
+  pictures::draw_points(axes, way, 2.0, pictures::distinct(0));
+  return figure;
+}
+
+/// Poses by expectation maximization alone, with a picture of each iteration.
+std::vector<Pose2> poses_by_em(const recording::LaserLog& log, const ChosenScans& chosen, const MapOptions& options,
+                               nlohmann::json& report) {
+  nlohmann::json iterations = nlohmann::json::array();
+  const auto map = mapping::map_by_em(chosen.scans, {}, [&](const mapping::EmProgress& progress) {
+    std::fprintf(stderr, "level %d, iteration %d: ln p(d | m) %.0f, poses moved by %.2f m\n", progress.level + 1,
+                 progress.iteration, progress.log_likelihood, std::min(progress.moved, 999.0));
+    iterations.push_back({{"level", progress.level + 1},
+                          {"iteration", progress.iteration},
+                          {"log_likelihood", progress.log_likelihood}});
+    const std::string name = fmt::format("em-{}-{}.{}", progress.level + 1, progress.iteration, options.picture_format);
+    value_or_fail(draw_iteration(progress).save(std::filesystem::path{options.out} / name));
+    return true;
+  });
+  report["places"] = map.scans.size();
+  report["iterations"] = iterations;
+  std::vector<std::size_t> indices;
+  for (const std::size_t scan : map.scans) indices.push_back(chosen.indices[scan]);
+  return poses_of_all(log, indices, map.map_from_base);
+}
+
+std::vector<Pose2> learned_poses(const recording::LaserLog& log, const MapOptions& options, nlohmann::json& report) {
+  const mapping::GraphMapperParams params;
+  const ChosenScans chosen = choose_scans(log, {}, params.points);
+  return options.method == "em" ? poses_by_em(log, chosen, options, report)
+                                : poses_by_graph(log, chosen, params, report);
 }
 
 /// As --reference reads them.
@@ -132,6 +172,10 @@ void score(const MapOptions& options, const recording::LaserLog& log, const std:
 }
 
 void make_map(const MapOptions& options) {
+  const std::filesystem::path out{options.out};
+  std::error_code code;
+  std::filesystem::create_directories(out, code);
+  if (code) throw CommandFailed{options.out + ": cannot be made: " + code.message()};
   const mapping::ScanMapperParams params = params_of(options.settings);
   // What odometry places between known poses would blur the walls: good enough to judge by, not to map.
   evaluation::ReferenceGaps gaps;
@@ -143,7 +187,7 @@ void make_map(const MapOptions& options) {
   const bool is_known =
       options.method == "known-poses" || (options.method == "auto" && !options.choice.reference.empty());
   if (!is_known) {
-    const std::vector<Pose2> poses = learned_poses(referenced.log, report);
+    const std::vector<Pose2> poses = learned_poses(referenced.log, options, report);
     for (std::size_t i = 0; i < poses.size(); ++i) referenced.reference[i] = poses[i];
     score(options, referenced.log, poses, truth, report);
     if (!options.poses.empty()) save_poses(options.poses, referenced.log, poses);
@@ -157,10 +201,6 @@ void make_map(const MapOptions& options) {
     if ((i + 1) % 500 == 0) std::fprintf(stderr, "%zu of %zu scans\n", i + 1, placed.size());
   }
   const OccupancyGrid map = mapper.map();
-  const std::filesystem::path out{options.out};
-  std::error_code code;
-  std::filesystem::create_directories(out, code);
-  if (code) throw CommandFailed{options.out + ": cannot be made: " + code.message()};
   value_or_fail(save_map(map, out / "map"));
   value_or_fail(draw(map, placed).save(out / ("map." + options.picture_format)));
   const auto share = [&](std::int8_t kind) {
@@ -192,9 +232,10 @@ void add_map_command(CLI::App& app) {
       ->required();
   command
       ->add_option("--method", options->method,
-                   "known-poses: scans are placed where --reference says; graph: where they fit together; "
+                   "known-poses: scans are placed where --reference says; graph: where they fit together; em: by "
+                   "expectation maximization; "
                    "auto: as --reference is given or not")
-      ->check(CLI::IsMember({"auto", "known-poses", "graph"}))
+      ->check(CLI::IsMember({"auto", "known-poses", "graph", "em"}))
       ->capture_default_str();
   add_picture_format(*command, options->picture_format);
   command->add_option("--relations", options->relations,

@@ -55,20 +55,20 @@ ChosenScans choose_scans(const recording::LaserLog& log, const ScanChoiceParams&
   return chosen;
 }
 
-std::vector<Pose2> poses_of_all(const recording::LaserLog& log, const ChosenScans& chosen,
-                                const std::vector<Pose2>& map_from_base) {
+std::vector<Pose2> poses_of_all(const recording::LaserLog& log, std::span<const std::size_t> indices,
+                                std::span<const Pose2> map_from_base) {
   std::vector<Pose2> poses(log.scans.size());
   std::size_t n = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    while (n + 1 < chosen.indices.size() && chosen.indices[n + 1] <= i) ++n;
+    while (n + 1 < indices.size() && indices[n + 1] <= i) ++n;
     const auto carried = [&](std::size_t to) {
-      return map_from_base[n] * (inverse(log.scans[chosen.indices[n]].odom_from_base) * log.scans[to].odom_from_base);
+      return map_from_base[n] * (inverse(log.scans[indices[n]].odom_from_base) * log.scans[to].odom_from_base);
     };
     poses[i] = carried(i);
-    if (n + 1 >= chosen.indices.size()) continue;
-    const std::size_t next = chosen.indices[n + 1];
+    if (n + 1 >= indices.size()) continue;
+    const std::size_t next = indices[n + 1];
     const double before =
-        distance(log.scans[chosen.indices[n]].odom_from_base.position(), log.scans[i].odom_from_base.position());
+        distance(log.scans[indices[n]].odom_from_base.position(), log.scans[i].odom_from_base.position());
     const double after = distance(log.scans[next].odom_from_base.position(), log.scans[i].odom_from_base.position());
     if (before + after > 0.0) {
       poses[i] = poses[i] * part_of(inverse(carried(next)) * map_from_base[n + 1], before / (before + after));

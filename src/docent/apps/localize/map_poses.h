@@ -1,7 +1,6 @@
 #pragma once
 
-#include <functional>
-#include <string>
+#include <span>
 #include <vector>
 
 #include "docent/geometry/pose2.h"
@@ -24,9 +23,9 @@ struct ChosenScans {
 [[nodiscard]] ChosenScans choose_scans(const recording::LaserLog& log, const ScanChoiceParams& choice,
                                        const mapping::PointSweepParams& points);
 
-/// Poses of all scans of the log, from those of the chosen ones: between these odometry tells the way, bent so that it
-/// meets both.
-[[nodiscard]] std::vector<Pose2> poses_of_all(const recording::LaserLog& log, const ChosenScans& chosen,
-                                              const std::vector<Pose2>& map_from_base);
+/// Poses of all scans of the log, from those of some, `indices` in the log: between these odometry tells the way, bent
+/// so that it meets both. @pre at least one index; they rise
+[[nodiscard]] std::vector<Pose2> poses_of_all(const recording::LaserLog& log, std::span<const std::size_t> indices,
+                                              std::span<const Pose2> map_from_base);
 
 }  // namespace docent::apps
