@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -17,6 +18,7 @@
 #include "docent/base/yaml.h"
 #include "docent/evaluation/reference/relations.h"
 #include "docent/mapping/expectation_maximization/em_mapper.h"
+#include "docent/mapping/expectation_maximization/odometry_calibration.h"
 #include "docent/mapping/occupancy/scan_mapper.h"
 #include "docent/pictures/map_picture.h"
 
@@ -109,7 +111,21 @@ pictures::Figure draw_iteration(const mapping::EmProgress& progress) {
 std::vector<Pose2> poses_by_em(const recording::LaserLog& log, const ChosenScans& chosen, const MapOptions& options,
                                nlohmann::json& report) {
   nlohmann::json iterations = nlohmann::json::array();
-  const auto map = mapping::map_by_em(chosen.scans, {}, [&](const mapping::EmProgress& progress) {
+  mapping::EmMapperParams params;
+  const mapping::GraphMapperParams matching;
+  const mapping::ScanChain chain{matching.chain, matching.chain_grid, matching.lines};
+  const auto calibration = mapping::calibrate_odometry(chosen.scans, chain_of(chosen.scans, chain), params);
+  params.way_per_metre = calibration.way_per_metre;
+  params.way_per_radian = calibration.way_per_radian;
+  params.turn_per_metre = calibration.turn_per_metre;
+  params.turn_per_radian = calibration.turn_per_radian;
+  std::fprintf(
+      stderr,
+      "odometry: ways times %.3f, turns times %.3f, %.2f degrees a metre; then %.3f m and %.2f degrees after a metre\n",
+      calibration.way_scale, calibration.turn_scale, calibration.veer * 57.2958, std::sqrt(calibration.way_per_metre),
+      std::sqrt(calibration.turn_per_metre) * 57.2958);
+  const auto scans = with_odometry_corrected(chosen.scans, calibration);
+  const auto map = mapping::map_by_em(scans, params, [&](const mapping::EmProgress& progress) {
     std::fprintf(stderr, "level %d, iteration %d: ln p(d | m) %.0f, poses moved by %.2f m\n", progress.level + 1,
                  progress.iteration, progress.log_likelihood, std::min(progress.moved, 999.0));
     iterations.push_back({{"level", progress.level + 1},

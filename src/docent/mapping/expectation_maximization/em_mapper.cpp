@@ -20,9 +20,9 @@ struct PoseWindow {
 
 class ExpectationMaximization {
  public:
-  ExpectationMaximization(std::span<const Place> places, const EmMapperParams& params, const PoseCells& cells,
+  ExpectationMaximization(std::span<const Place> places, const EmMapperParams& params, const EmLevel& level,
                           const std::vector<PoseWindow>& windows)
-      : places_{places}, params_{params}, cells_{cells}, windows_{windows} {}
+      : places_{places}, params_{params}, cells_{level.cells}, independent_{level.independent}, windows_{windows} {}
 
   /// Posterior of each place's pose given all data and the map; without one the robot is blind. @returns ln p(d | m).
   double expect(const std::optional<EvidenceMap>& map) {
@@ -62,7 +62,7 @@ class ExpectationMaximization {
         if (is_new) entry->second = EvidenceMap::turned(places_[t], pose.theta, cells_.cell);
         const CellIndex at{static_cast<int>(std::lround(pose.x / cells_.cell)),
                            static_cast<int>(std::lround(pose.y / cells_.cell))};
-        logs[i] = map->log_likelihood(entry->second, at, params_.independent);
+        logs[i] = map->log_likelihood(entry->second, at, independent_);
       }
       best = std::max(best, logs[i]);
     }
@@ -124,6 +124,7 @@ class ExpectationMaximization {
   std::span<const Place> places_;
   const EmMapperParams& params_;
   PoseCells cells_;
+  double independent_;
   const std::vector<PoseWindow>& windows_;
   std::vector<PoseBox> forwards_;
   std::vector<PoseBox> posteriors_;
@@ -164,7 +165,7 @@ EmMap map_by_em(std::span<const MappingScan> scans, const EmMapperParams& params
     const PoseCells& cells = params.levels[level].cells;
     const std::vector<Place> places = places_of(scans, params.places, cells.cell);
     if (places.empty()) return result;
-    ExpectationMaximization em{places, params, cells, windows};
+    ExpectationMaximization em{places, params, params.levels[level], windows};
     std::optional<EvidenceMap> map;
     if (level > 0) map = map_of_modes(places, result.map_from_base, cells);
     for (int iteration = 0; iteration < params.levels[level].iterations && is_wanted; ++iteration) {

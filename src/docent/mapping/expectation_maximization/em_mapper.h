@@ -12,16 +12,16 @@ namespace docent::mapping {
 struct EmLevel {
   PoseCells cells;
   int iterations = 5;
+  double independent = 4;  ///< > 0: cells of a place that are worth counting; their errors hang together
 };
 
 struct EmMapperParams {
   PlaceParams places;
-  std::vector<EmLevel> levels{{{1.0, 36}, 8}, {{0.5, 72}, 5}, {{0.25, 144}, 4}};
-  double way_per_metre = 0.01;     ///< [m2/m], > 0: variance of odometry, by the way,
-  double way_per_radian = 0.005;   ///< [m2/rad], and by the turn
-  double turn_per_metre = 0.0015;  ///< [rad2/m]
-  double turn_per_radian = 0.008;  ///< [rad2/rad]
-  double independent = 12.0;       ///< > 0: cells of a place that are worth counting; their errors hang together
+  std::vector<EmLevel> levels{{{1.0, 36}, 8, 6}, {{0.5, 72}, 5, 8}, {{0.25, 144}, 4, 16}};
+  double way_per_metre = 0.003;    ///< [m2/m], > 0: variance of odometry, by the way,
+  double way_per_radian = 0.001;   ///< [m2/rad], and by the turn
+  double turn_per_metre = 0.0006;  ///< [rad2/m]
+  double turn_per_radian = 0.003;  ///< [rad2/rad]
   double least = 1e-4;             ///< 0..1: cells below this share of the best one are dropped
   double window = 3.0;             ///< > 0: on a finer level poses are looked for within so many coarser cells
   double still = 0.15;             ///< [cells]: a level ends when poses move less on average
@@ -32,7 +32,6 @@ struct EmMapperParams {
     v("way_per_radian", way_per_radian);
     v("turn_per_metre", turn_per_metre);
     v("turn_per_radian", turn_per_radian);
-    v("independent", independent);
     v("least", least);
     v("window", window);
     v("still", still);

@@ -10,8 +10,8 @@
 namespace docent::mapping {
 
 struct PlaceParams {
-  double way = 1.5;    ///< [m], > 0: a place ends after this way,
-  double turn = 1.5;   ///< [rad], > 0: or this turn
+  double way = 3.0;    ///< [m], > 0: a place ends after this way,
+  double turn = 3.0;   ///< [rad], > 0: or this turn
   double reach = 8.0;  ///< [m], > 0: what lies farther moves by more than a cell where the heading is a little wrong
   template <class V>
   void visit(V& v) {

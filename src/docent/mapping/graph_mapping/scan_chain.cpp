@@ -58,4 +58,18 @@ ChainStep ScanChain::step(std::span<const MappingScan> scans, std::span<const Po
   return result;
 }
 
+std::vector<Pose2> chain_of(std::span<const MappingScan> scans, const ScanChain& chain) {
+  std::vector<Pose2> steps;
+  std::vector<Pose2> map_from_base;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    if (i == 0) {
+      map_from_base.push_back(scans[i].odom_from_base);
+      continue;
+    }
+    steps.push_back(chain.step(scans, map_from_base, i).before_from_after);
+    map_from_base.push_back(map_from_base.back() * steps.back());
+  }
+  return steps;
+}
+
 }  // namespace docent::mapping

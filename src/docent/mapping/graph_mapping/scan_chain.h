@@ -62,4 +62,7 @@ class ScanChain {
   LineMatcherParams lines_;
 };
 
+/// The steps from each scan to the next, all along. O(scans).
+[[nodiscard]] std::vector<Pose2> chain_of(std::span<const MappingScan> scans, const ScanChain& chain);
+
 }  // namespace docent::mapping
