@@ -31,6 +31,7 @@ struct MapOptions {
   std::string relations;
   std::string poses;
   std::string odometry = "logged";
+  evaluation::OdometryNoiseParams noise;
   std::uint64_t seed = 1;
   std::string out;
   std::string report;
@@ -92,6 +93,18 @@ std::vector<Pose2> poses_by_graph(const recording::LaserLog& log, const ChosenSc
   report["loops"] = map.loops;
   report["loops_refused"] = map.loops_refused;
   report["scans_by_odometry"] = map.unmatched;
+  report["revisits"] = map.revisits;
+  report["revisit_error_m"] = map.revisit_error;
+  report["judgement"] = {{"is_trusted", map.judgement.is_trusted},
+                         {"reason", map.judgement.reason},
+                         {"pairs", map.judgement.pairs},
+                         {"in_conflict", map.judgement.in_conflict},
+                         {"mean_conflict", map.judgement.mean_conflict},
+                         {"expected_error_m", map.judgement.expected_error}};
+  if (!map.judgement.is_trusted)
+    std::fprintf(stderr, "warning: do not trust this map: %s\n", map.judgement.reason.c_str());
+  std::printf("%zu loops; %zu pairs of scans of one place agree to %.3f m\n", map.loops, map.revisits,
+              map.revisit_error);
   return poses_of_all(log, chosen.indices, map.map_from_base);
 }
 
@@ -142,11 +155,18 @@ std::vector<Pose2> poses_by_em(const recording::LaserLog& log, const ChosenScans
   return poses_of_all(log, indices, map.map_from_base);
 }
 
-std::vector<Pose2> learned_poses(const recording::LaserLog& log, const MapOptions& options, nlohmann::json& report) {
+/// Poses of all scans, and of which of them the map is made: a robot that stands sees one visitor a thousand times.
+struct LearnedPoses {
+  std::vector<Pose2> map_from_base;
+  std::vector<std::size_t> sources;
+};
+
+LearnedPoses learned_poses(const recording::LaserLog& log, const MapOptions& options, nlohmann::json& report) {
   const mapping::GraphMapperParams params;
   const ChosenScans chosen = choose_scans(log, {}, params.points);
-  return options.method == "em" ? poses_by_em(log, chosen, options, report)
-                                : poses_by_graph(log, chosen, params, report);
+  return {
+      options.method == "em" ? poses_by_em(log, chosen, options, report) : poses_by_graph(log, chosen, params, report),
+      chosen.sources};
 }
 
 /// As --reference reads them.
@@ -187,6 +207,20 @@ void score(const MapOptions& options, const recording::LaserLog& log, const std:
               scored.degrees_spread);
 }
 
+/// How far off the made-up odometry is in the end.
+void note_end_error(const ReferencedLog& referenced, nlohmann::json& report) {
+  double way = 0.0;
+  for (std::size_t i = 1; i < referenced.reference.size(); ++i) {
+    way += distance(referenced.reference[i - 1]->position(), referenced.reference[i]->position());
+  }
+  const Pose2 by_odometry =
+      inverse(referenced.log.scans.front().odom_from_base) * referenced.log.scans.back().odom_from_base;
+  const Pose2 truly = inverse(*referenced.reference.front()) * *referenced.reference.back();
+  report["odometry"] = {{"way_m", way},
+                        {"end_error_m", distance(by_odometry.position(), truly.position())},
+                        {"end_error_deg", std::abs((by_odometry.theta - truly.theta).degrees())}};
+}
+
 void make_map(const MapOptions& options) {
   const std::filesystem::path out{options.out};
   std::error_code code;
@@ -196,15 +230,18 @@ void make_map(const MapOptions& options) {
   // What odometry places between known poses would blur the walls: good enough to judge by, not to map.
   evaluation::ReferenceGaps gaps;
   gaps.between_own_scans = false;
-  ReferencedLog referenced = load_referenced_log(options.choice, gaps);
-  if (options.odometry == "perturbed") replace_odometry(referenced, {}, options.seed);
-  const evaluation::ScanReference truth = referenced.reference;
   nlohmann::json report;
+  ReferencedLog referenced = load_referenced_log(options.choice, gaps);
+  if (options.odometry == "perturbed") replace_odometry(referenced, options.noise, options.seed);
+  const evaluation::ScanReference truth = referenced.reference;
+  if (options.odometry == "perturbed") note_end_error(referenced, report);
   const bool is_known =
       options.method == "known-poses" || (options.method == "auto" && !options.choice.reference.empty());
   if (!is_known) {
-    const std::vector<Pose2> poses = learned_poses(referenced.log, options, report);
-    for (std::size_t i = 0; i < poses.size(); ++i) referenced.reference[i] = poses[i];
+    const LearnedPoses learned = learned_poses(referenced.log, options, report);
+    const std::vector<Pose2>& poses = learned.map_from_base;
+    std::fill(referenced.reference.begin(), referenced.reference.end(), std::nullopt);
+    for (const std::size_t i : learned.sources) referenced.reference[i] = poses[i];
     score(options, referenced.log, poses, truth, report);
     if (!options.poses.empty()) save_poses(options.poses, referenced.log, poses);
   }
@@ -260,6 +297,12 @@ void add_map_command(CLI::App& app) {
       ->add_option("--odometry", options->odometry,
                    "perturbed: odometry of our making, seeded errors along --reference")
       ->check(CLI::IsMember({"logged", "perturbed"}));
+  command->add_option("--odometry-turn", options->noise.turn_per_metre, "of it: deviation of the heading [rad/m]")
+      ->capture_default_str();
+  command
+      ->add_option("--odometry-veer", options->noise.veer,
+                   "of it: deviation of the turn that comes with all ways of a run [rad/m]")
+      ->capture_default_str();
   add_seed(*command, "--odometry-seed", options->seed, "seed of perturbed odometry");
   command
       ->add_option("--poses", options->poses, "file to write: where each scan was taken, lines of \"time x y theta\"")

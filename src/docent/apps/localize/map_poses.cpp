@@ -46,11 +46,13 @@ ChosenScans choose_scans(const recording::LaserLog& log, const ScanChoiceParams&
       const recording::LoggedScan& other = log.scans[k];
       if (!other.rear || std::abs(to_seconds(other.time - scan.time)) > kTogether) continue;
       append_points(other, log.max_range, scan.odom_from_base, points, taken);
+      chosen.sources.push_back(k);
       break;
     }
     last = scan.odom_from_base;
     chosen.scans.push_back(std::move(taken));
     chosen.indices.push_back(i);
+    chosen.sources.push_back(i);
   }
   return chosen;
 }

@@ -19,6 +19,7 @@ struct ScanChoiceParams {
 struct ChosenScans {
   std::vector<mapping::MappingScan> scans;
   std::vector<std::size_t> indices;
+  std::vector<std::size_t> sources;  ///< all scans of the log that took part, those of a second laser among them
 };
 [[nodiscard]] ChosenScans choose_scans(const recording::LaserLog& log, const ScanChoiceParams& choice,
                                        const mapping::PointSweepParams& points);

@@ -37,7 +37,11 @@ class GraphMapping {
     close_all_loops();
     for (int round = 0; round < params_.fine_rounds; ++round) refine(round);
     tell("fine", scans_.size());
-    return {graph_.poses(), loops_, refused_, unmatched_};
+    GraphMap map{graph_.poses(), loops_, refused_, unmatched_, 0, 0.0, judge(graph_, segments_, params_.judgement)};
+    map.revisits = revisits_.size();
+    for (const PoseConstraint& revisit : revisits_) map.revisit_error += missed_by(revisit);
+    if (map.revisits > 0) map.revisit_error /= static_cast<double>(map.revisits);
+    return map;
   }
 
  private:
@@ -214,8 +218,18 @@ class GraphMapping {
       }
     }
     graph_.clear_constraints();
-    for (const PoseConstraint& constraint : kept) graph_.add(constraint);
+    revisits_.clear();
+    for (const PoseConstraint& constraint : kept) {
+      graph_.add(constraint);
+      if (constraint.is_loop) revisits_.push_back(constraint);
+    }
     optimise();
+  }
+
+  /// [m] between how two scans lie to each other in the map and how they match.
+  [[nodiscard]] double missed_by(const PoseConstraint& match) const {
+    const Pose2 in_map = inverse(graph_.poses()[match.from]) * graph_.poses()[match.to];
+    return norm((inverse(match.from_from_to) * in_map).position());
   }
 
   std::span<const MappingScan> scans_;
@@ -226,6 +240,7 @@ class GraphMapping {
   PoseGraph graph_;
   std::deque<Segment> segments_;
   std::vector<LoopClosure> waiting_;
+  std::vector<PoseConstraint> revisits_;  ///< matches of the last fine round between different pieces of the way
   std::map<std::pair<std::size_t, std::size_t>, bool> closed_;
   std::size_t first_ = 0;  ///< scan that the next segment begins with
   double way_ = 0.0;       ///< [m] of the next segment

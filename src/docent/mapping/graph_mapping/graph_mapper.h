@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "docent/mapping/graph_mapping/loop_closer.h"
+#include "docent/mapping/graph_mapping/map_judgement.h"
 #include "docent/mapping/graph_mapping/scan_chain.h"
 
 namespace docent::mapping {
@@ -16,6 +17,7 @@ struct GraphMapperParams {
   SegmentParams segments;
   LoopCloserParams loops;
   PoseGraphParams graph;
+  MapJudgementParams judgement;
   MatchGridParams chain_grid{0.05, 0.07, 4};
   MatchGridParams loop_grid{0.10, 0.10, 6};
   LineMatcherParams lines;
@@ -31,6 +33,7 @@ struct GraphMapperParams {
     v("segments", segments);
     v("loops", loops);
     v("graph", graph);
+    v("judgement", judgement);
     v("lines", lines);
     v("candidates", candidates);
     v("loop_reach", loop_reach);
@@ -54,6 +57,9 @@ struct GraphMap {
   std::size_t loops = 0;
   std::size_t loops_refused = 0;
   std::size_t unmatched = 0;  ///< scans that only odometry places
+  std::size_t revisits = 0;  ///< pairs of scans of one place, taken at different times, that were matched to each other
+  double revisit_error = 0.0;  ///< [m], mean: by how much the map misses these matches
+  MapJudgement judgement;
 };
 
 /// Poses of all scans of a drive: a chain of matches to what was seen just before, loops closed between short segments

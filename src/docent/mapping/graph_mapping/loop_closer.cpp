@@ -7,13 +7,6 @@
 namespace docent::mapping {
 namespace {
 
-double share_on_free_floor(const Segment& seer, std::span<const Point2> points, const Pose2& seer_from_points) {
-  if (points.empty()) return 0.0;
-  const auto count =
-      std::count_if(points.begin(), points.end(), [&](Point2 p) { return seer.is_free(seer_from_points * p); });
-  return static_cast<double>(count) / static_cast<double>(points.size());
-}
-
 /// What remains of it when nothing is known of the displacement along a way, as along a corridor.
 Eigen::Matrix3d unknown_along(const Eigen::Matrix3d& information, const Pose2& way) {
   const Eigen::Vector3d u{way.x, way.y, 0.0};
@@ -40,8 +33,7 @@ std::optional<LoopClosure> LoopCloser::close(const Segment& older, const Segment
   if (other && window.reach > params_.narrow_window) return std::nullopt;
   auto fine = line_match(SurfaceIndex{older.points()}, newer.points(), best->reference_from_sweep, lines_);
   if (!fine || fine->overlap < params_.least_overlap) return std::nullopt;
-  const double conflict = std::max(share_on_free_floor(older, newer.query(), fine->reference_from_sweep),
-                                   share_on_free_floor(newer, older.query(), inverse(fine->reference_from_sweep)));
+  const double conflict = share_in_conflict(older, newer, fine->reference_from_sweep);
   if (conflict > params_.most_conflict) return std::nullopt;
   if (other)
     fine->information =

@@ -18,6 +18,13 @@ void mark_free(const GridFrame& frame, Point2 from, Point2 to, double margin, st
   }
 }
 
+double share_on_free_floor(const Segment& seer, std::span<const Point2> points, const Pose2& seer_from_points) {
+  if (points.empty()) return 0.0;
+  const auto count =
+      std::count_if(points.begin(), points.end(), [&](Point2 p) { return seer.is_free(seer_from_points * p); });
+  return static_cast<double>(count) / static_cast<double>(points.size());
+}
+
 }  // namespace
 
 Segment::Segment(std::span<const MappingScan> scans, std::span<const Pose2> map_from_base, std::size_t first,
@@ -72,6 +79,11 @@ Segment::Segment(std::span<const MappingScan> scans, std::span<const Pose2> map_
 bool Segment::is_free(Point2 at) const {
   const CellIndex cell = free_frame_.cell_at(at);
   return free_frame_.holds(cell) && free_[free_frame_.index(cell)];
+}
+
+double share_in_conflict(const Segment& older, const Segment& newer, const Pose2& older_from_newer) {
+  return std::max(share_on_free_floor(older, newer.query(), older_from_newer),
+                  share_on_free_floor(newer, older.query(), inverse(older_from_newer)));
 }
 
 }  // namespace docent::mapping

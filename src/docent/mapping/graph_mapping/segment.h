@@ -57,4 +57,7 @@ class Segment {
   std::vector<bool> free_;
 };
 
+/// Share of the points of one segment that lie on floor which the other one saw free; of both ways the larger one.
+[[nodiscard]] double share_in_conflict(const Segment& older, const Segment& newer, const Pose2& older_from_newer);
+
 }  // namespace docent::mapping

@@ -1,0 +1,87 @@
+#include "docent/mapping/graph_mapping/graph_mapper.h"
+
+#include <gtest/gtest.h>
+
+#include "docent/mapping/graph_mapping/testing.h"
+
+namespace docent::mapping {
+namespace {
+
+using testing::Drive;
+
+std::vector<Pose2> by_odometry(const Drive& drive) {
+  std::vector<Pose2> poses;
+  for (const MappingScan& scan : drive.scans) poses.push_back(scan.odom_from_base);
+  return poses;
+}
+
+TEST(GraphMapping, ClosesARingThatOdometryLeavesOpen) {
+  for (const std::uint64_t seed : {1U, 2U}) {
+    const Drive drive = testing::drive_round(1.4, 0.02, 0.05, seed);
+    EXPECT_GT(testing::relation_error(drive.truth, by_odometry(drive), 150), 8.0) << "odometry is that bad";
+    const GraphMap map = map_by_graph(drive.scans, {});
+    EXPECT_LT(testing::relation_error(drive.truth, map.map_from_base, 150), 0.10) << "seed " << seed;
+    EXPECT_GE(map.loops, 2U);
+    EXPECT_TRUE(map.judgement.is_trusted) << map.judgement.reason;
+    EXPECT_LT(map.revisit_error, 0.05);
+  }
+}
+
+TEST(GraphMapping, SaysSoWhereNothingWasSeenTwice) {
+  const Drive drive = testing::drive_round(0.7, 0.02, 0.05, 3);
+  const GraphMap map = map_by_graph(drive.scans, {});
+  EXPECT_EQ(map.loops, 0U);
+  EXPECT_EQ(map.judgement.pairs, 0U);
+  const Drive round = testing::drive_round(1.4, 0.02, 0.05, 3);
+  EXPECT_GT(map.judgement.expected_error, map_by_graph(round.scans, {}).judgement.expected_error);
+}
+
+TEST(GraphMapping, AMapThatContradictsItselfIsNotTrusted) {
+  const Drive drive = testing::drive_round(1.4, 0.02, 0.05, 1);
+  GraphMapperParams crippled;
+  crippled.loops.least_score = 1.1;  // no loop is ever closed,
+  crippled.chain.least_score = 1.1;  // and only odometry is believed
+  crippled.fine_rounds = 0;
+  const GraphMap map = map_by_graph(drive.scans, crippled);
+  EXPECT_EQ(map.loops, 0U);
+  EXPECT_EQ(map.unmatched, drive.scans.size() - 1);
+  EXPECT_GT(testing::relation_error(drive.truth, map.map_from_base, 150), 1.0);
+  EXPECT_FALSE(map.judgement.is_trusted);
+}
+
+TEST(GraphMapping, TheSameScansGiveTheSameMap) {
+  const Drive drive = testing::drive_round(0.4, 0.02, 0.05, 4);
+  const GraphMap first = map_by_graph(drive.scans, {});
+  const GraphMap second = map_by_graph(drive.scans, {});
+  for (std::size_t i = 0; i < first.map_from_base.size(); ++i) {
+    ASSERT_EQ(first.map_from_base[i].x, second.map_from_base[i].x);
+    ASSERT_EQ(first.map_from_base[i].theta.radians(), second.map_from_base[i].theta.radians());
+  }
+}
+
+TEST(GraphMapping, TellsHowFarItIs) {
+  const Drive drive = testing::drive_round(0.4, 0.02, 0.05, 5);
+  std::size_t last = 0;
+  std::size_t told = 0;
+  const GraphMap map = map_by_graph(drive.scans, {}, [&](const MappingProgress& progress) {
+    ++told;
+    last = progress.done;
+    EXPECT_LE(progress.done, progress.of);
+  });
+  EXPECT_GT(told, 3U);
+  EXPECT_EQ(last, drive.scans.size());
+  EXPECT_TRUE(map_by_graph({}, {}).map_from_base.empty());
+}
+
+TEST(Segment, KnowsTheFloorThatWasSeenThrough) {
+  const Drive drive = testing::drive_round(0.1, 0.0, 0.0, 6);
+  const Segment segment{drive.scans, drive.truth, 0, 6, {}, {0.10, 0.10, 4}};
+  const Pose2 map_from_middle = drive.truth[segment.middle()];
+  EXPECT_TRUE(segment.is_free(inverse(map_from_middle) * Point2{5.0, 1.5}));
+  EXPECT_FALSE(segment.is_free(inverse(map_from_middle) * Point2{5.0, 3.1})) << "inside the block";
+  EXPECT_LT(share_in_conflict(segment, segment, {}), 0.01);
+  EXPECT_GT(share_in_conflict(segment, segment, {0.0, 1.2, {}}), 0.15) << "a wall in the middle of the corridor";
+}
+
+}  // namespace
+}  // namespace docent::mapping

@@ -1,0 +1,84 @@
+#include "docent/mapping/graph_mapping/map_judgement.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "docent/mapping/pose_graph/relative_covariance.h"
+
+namespace docent::mapping {
+namespace {
+
+constexpr std::size_t kRecent = 3;  ///< segments that the chain itself has matched to each other
+
+void compare_pieces(const PoseGraph& graph, const std::deque<Segment>& segments, const MapJudgementParams& params,
+                    MapJudgement& judgement) {
+  double sum = 0.0;
+  std::size_t in_conflict = 0;
+  for (std::size_t newer = kRecent; newer < segments.size(); ++newer) {
+    for (std::size_t older = 0; older + kRecent <= newer; ++older) {
+      const Pose2& a = graph.poses()[segments[older].middle()];
+      const Pose2& b = graph.poses()[segments[newer].middle()];
+      if (distance(a.position(), b.position()) > params.near) continue;
+      const double share = share_in_conflict(segments[older], segments[newer], inverse(a) * b);
+      sum += share;
+      in_conflict += share > params.conflict ? 1U : 0U;
+      ++judgement.pairs;
+    }
+  }
+  if (judgement.pairs == 0) return;
+  judgement.mean_conflict = sum / static_cast<double>(judgement.pairs);
+  judgement.in_conflict = static_cast<double>(in_conflict) / static_cast<double>(judgement.pairs);
+}
+
+/// Mean expected error of places 1, 5, 20, 60 and 150 m of way apart.
+double expected_error(const PoseGraph& graph) {
+  constexpr std::array kApart{1.0, 5.0, 20.0, 60.0, 150.0};
+  constexpr std::size_t kSamples = 16;
+  std::vector<double> way(graph.poses().size(), 0.0);
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    way[i] = way[i - 1] + distance(graph.poses()[i - 1].position(), graph.poses()[i].position());
+  }
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (std::size_t sample = 0; sample < kSamples; ++sample) {
+    const std::size_t from = sample * way.size() / kSamples;
+    const auto covariances = covariances_seen_from(graph, from);
+    for (const double apart : kApart) {
+      const auto to = std::lower_bound(way.begin(), way.end(), way[from] + apart);
+      if (to == way.end()) continue;
+      const Eigen::Matrix3d& covariance = covariances[static_cast<std::size_t>(to - way.begin())];
+      sum += std::sqrt(covariance(0, 0) + covariance(1, 1));
+      ++count;
+    }
+  }
+  return count == 0 ? 0.0 : sum / static_cast<double>(count);
+}
+
+}  // namespace
+
+MapJudgement judge(const PoseGraph& graph, const std::deque<Segment>& segments, const MapJudgementParams& params) {
+  MapJudgement judgement;
+  if (graph.poses().empty()) {
+    judgement.reason = "there is no scan";
+    return judgement;
+  }
+  compare_pieces(graph, segments, params, judgement);
+  judgement.expected_error = expected_error(graph);
+  char text[160];
+  if (judgement.in_conflict > params.most_in_conflict) {
+    std::snprintf(text, sizeof text, "of the pieces of the way that lie near each other, %.0f %% contradict each other",
+                  100.0 * judgement.in_conflict);
+    judgement.reason = text;
+  } else if (judgement.expected_error > params.most_error) {
+    std::snprintf(text, sizeof text, "too few places were seen twice: distances may be wrong by %.1f m on average",
+                  judgement.expected_error);
+    judgement.reason = text;
+  }
+  judgement.is_trusted = judgement.reason.empty();
+  return judgement;
+}
+
+}  // namespace docent::mapping
