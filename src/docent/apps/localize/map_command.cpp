@@ -164,6 +164,11 @@ struct LearnedPoses {
 LearnedPoses learned_poses(const recording::LaserLog& log, const MapOptions& options, nlohmann::json& report) {
   const mapping::GraphMapperParams params;
   const ChosenScans chosen = choose_scans(log, {}, params.points);
+  if (options.method == "odometry") {
+    LearnedPoses reckoned{{}, chosen.sources};
+    for (const recording::LoggedScan& scan : log.scans) reckoned.map_from_base.push_back(scan.odom_from_base);
+    return reckoned;
+  }
   return {
       options.method == "em" ? poses_by_em(log, chosen, options, report) : poses_by_graph(log, chosen, params, report),
       chosen.sources};
@@ -288,7 +293,7 @@ void add_map_command(CLI::App& app) {
                    "known-poses: scans are placed where --reference says; graph: where they fit together; em: by "
                    "expectation maximization; "
                    "auto: as --reference is given or not")
-      ->check(CLI::IsMember({"auto", "known-poses", "graph", "em"}))
+      ->check(CLI::IsMember({"auto", "known-poses", "graph", "em", "odometry"}))
       ->capture_default_str();
   add_picture_format(*command, options->picture_format);
   command->add_option("--relations", options->relations,
