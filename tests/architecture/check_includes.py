@@ -34,6 +34,11 @@ FLOORS = {
         {"obstacle_field", "dynamic_window", "watches", "virtual_measurements"},
         {"avoider"},
     ],
+    "mapping": [
+        {"occupancy", "scan_matching", "pose_graph", "sonar_network"},
+        {"graph_mapping"},
+        {"expectation_maximization"},
+    ],
     "localization": [
         {"belief", "expected_ranges"},
         {"beam_choice", "particles", "sonar/tracker"},

@@ -22,6 +22,7 @@
 #include "docent/apps/replay/replay_command.h"
 #include "docent/apps/shared/command.h"
 #include "docent/apps/simulate/simulate_command.h"
+#include "docent/apps/train_sonar/train_sonar_command.h"
 #include "docent/apps/up/run_command.h"
 #include "docent/apps/up/up_command.h"
 #include "docent/apps/web_account/web_account_command.h"
@@ -42,8 +43,8 @@ void add_commands(CLI::App& app) {
   add("Make a museum",
       {add_museum_command, add_office_command, add_survey_command, add_check_command, add_golog_command});
   add("Look at recordings", {add_localize_command, add_map_command, add_replay_command, add_evaluate_command});
-  add("Learn and tune",
-      {add_config_command, add_learn_command, add_attract_command, add_crowd_command, add_plan_command});
+  add("Learn and tune", {add_config_command, add_learn_command, add_train_sonar_command, add_attract_command,
+                         add_crowd_command, add_plan_command});
   add("Put it into a robot of your own", {add_run_command});
 }
 
