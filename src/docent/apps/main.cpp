@@ -16,6 +16,7 @@
 #include "docent/apps/museum/check_command.h"
 #include "docent/apps/museum/museum_command.h"
 #include "docent/apps/museum/office_command.h"
+#include "docent/apps/museum/score_map_command.h"
 #include "docent/apps/museum/survey_command.h"
 #include "docent/apps/plan/plan_command.h"
 #include "docent/apps/replay/evaluate_command.h"
@@ -42,7 +43,8 @@ void add_commands(CLI::App& app) {
   add("Drive through a museum", {add_simulate_command, add_up_command, add_web_account_command, add_gateway_command});
   add("Make a museum",
       {add_museum_command, add_office_command, add_survey_command, add_check_command, add_golog_command});
-  add("Look at recordings", {add_localize_command, add_map_command, add_replay_command, add_evaluate_command});
+  add("Look at recordings",
+      {add_localize_command, add_map_command, add_score_map_command, add_replay_command, add_evaluate_command});
   add("Learn and tune", {add_config_command, add_learn_command, add_train_sonar_command, add_attract_command,
                          add_crowd_command, add_plan_command});
   add("Put it into a robot of your own", {add_run_command});

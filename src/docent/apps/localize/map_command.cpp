@@ -39,8 +39,9 @@ struct MapOptions {
   std::vector<std::string> settings;
 };
 
-mapping::ScanMapperParams params_of(const std::vector<std::string>& settings) {
+mapping::ScanMapperParams params_of(const std::vector<std::string>& settings, int fewest_hits) {
   mapping::ScanMapperParams params;
+  params.fewest_hits = fewest_hits;
   std::string yaml;
   for (const std::string& setting : settings) {
     const std::size_t equals = setting.find('=');
@@ -63,6 +64,20 @@ std::vector<mapping::PlacedSweep> placed_sweeps(const ReferencedLog& referenced)
     placed.push_back({sweep_of(scan, referenced.log.max_range), *referenced.reference[i] * scan.base_from_laser});
   }
   return placed;
+}
+
+/// A wall is met by each scan over half a metre of way at least; who walks by is met once or twice.
+int fewest_hits_of(const ReferencedLog& placed) {
+  std::vector<double> steps;
+  std::optional<Point2> last;
+  for (const auto& pose : placed.reference) {
+    if (!pose) continue;
+    if (last) steps.push_back(distance(*last, pose->position()));
+    last = pose->position();
+  }
+  constexpr double kWay = 0.5;  // [m]
+  const double step = quantile(steps, 0.5);
+  return step > 0.0 ? static_cast<int>(std::clamp(kWay / step, 1.0, 3.0)) : 1;
 }
 
 pictures::Figure draw(const OccupancyGrid& map, const std::vector<mapping::PlacedSweep>& placed) {
@@ -231,7 +246,7 @@ void make_map(const MapOptions& options) {
   std::error_code code;
   std::filesystem::create_directories(out, code);
   if (code) throw CommandFailed{options.out + ": cannot be made: " + code.message()};
-  const mapping::ScanMapperParams params = params_of(options.settings);
+  (void)params_of(options.settings, 1);  // mistakes show before the work
   // What odometry places between known poses would blur the walls: good enough to judge by, not to map.
   evaluation::ReferenceGaps gaps;
   gaps.between_own_scans = false;
@@ -251,6 +266,7 @@ void make_map(const MapOptions& options) {
     if (!options.poses.empty()) save_poses(options.poses, referenced.log, poses);
   }
   for (const std::string& note : referenced.log.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
+  const mapping::ScanMapperParams params = params_of(options.settings, is_known ? 1 : fewest_hits_of(referenced));
   const std::vector<mapping::PlacedSweep> placed = placed_sweeps(referenced);
   if (placed.empty()) throw CommandFailed{options.choice.log + ": no scan has a pose (--reference)"};
   mapping::ScanMapper mapper{value_or_fail(mapping::ScanMapper::frame_of(placed, params)), params};

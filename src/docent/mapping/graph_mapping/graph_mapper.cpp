@@ -12,7 +12,7 @@ namespace docent::mapping {
 namespace {
 
 struct LoopCandidate {
-  std::size_t segment = 0;
+  std::size_t submap = 0;
   double likelihood_order = 0.0;
   Eigen::Matrix3d covariance;
 };
@@ -31,13 +31,19 @@ class GraphMapping {
     graph_.add_pose(scans_.front().odom_from_base);
     for (std::size_t i = 1; i < scans_.size(); ++i) {
       add_scan(i);
-      if (is_segment_full(i)) end_segment(i);
+      if (is_submap_full(i)) end_submap(i);
     }
-    if (first_ + 1 < scans_.size()) end_segment(scans_.size() - 1);
+    if (first_ + 1 < scans_.size()) end_submap(scans_.size() - 1);
     close_all_loops();
     for (int round = 0; round < params_.fine_rounds; ++round) refine(round);
     tell("fine", scans_.size());
-    GraphMap map{graph_.poses(), loops_, refused_, unmatched_, 0, 0.0, judge(graph_, segments_, params_.judgement)};
+    GraphMap map{graph_.poses(),
+                 loops_,
+                 refused_,
+                 unmatched_,
+                 0,
+                 0.0,
+                 judge(graph_, submaps_, restlessness(), params_.judgement)};
     map.revisits = revisits_.size();
     for (const PoseConstraint& revisit : revisits_) map.revisit_error += missed_by(revisit);
     if (map.revisits > 0) map.revisit_error /= static_cast<double>(map.revisits);
@@ -58,21 +64,22 @@ class GraphMapping {
     turn_ += std::abs(step.before_from_after.theta.radians());
   }
 
-  [[nodiscard]] bool is_segment_full(std::size_t last) const {
-    const SegmentParams& bounds = params_.segments;
+  [[nodiscard]] bool is_submap_full(std::size_t last) const {
+    const SubmapParams& bounds = params_.submaps;
     return way_ >= bounds.way || turn_ >= bounds.turn || last - first_ + 1 >= static_cast<std::size_t>(bounds.scans);
   }
 
-  void end_segment(std::size_t last) {
-    segments_.emplace_back(scans_, graph_.poses(), first_, last, params_.segments, params_.loop_grid);
+  void end_submap(std::size_t last) {
+    submaps_.emplace_back(scans_, graph_.poses(), first_, last, params_.submaps, params_.loop_grid);
     first_ = last;  // the next one shares this scan
     way_ = 0.0;
     turn_ = 0.0;
-    if (segments_.back().points().empty()) {
-      segments_.pop_back();
+    if (submaps_.back().points().empty()) {
+      submaps_.pop_back();
       return;
     }
-    if (close_loops(segments_.size() - 1)) optimise();
+    note_restlessness();
+    if (close_loops(submaps_.size() - 1)) optimise();
     tell("chain", last);
   }
 
@@ -83,17 +90,34 @@ class GraphMapping {
     if (removed > 0) graph_.optimise(params_.graph);
   }
 
-  [[nodiscard]] Pose2 middle_of(std::size_t segment) const { return graph_.poses()[segments_[segment].middle()]; }
+  [[nodiscard]] Pose2 middle_of(std::size_t submap) const { return graph_.poses()[submaps_[submap].middle()]; }
 
-  /// Older segments that may show the same place, the likeliest first.
+  /// Between the newest submap and the last but two, which the chain has matched to each other: what walks about.
+  void note_restlessness() {
+    constexpr std::size_t kApart = 2;
+    if (submaps_.size() <= kApart) return;
+    const std::size_t newest = submaps_.size() - 1;
+    const Pose2 older_from_newer = inverse(middle_of(newest - kApart)) * middle_of(newest);
+    restless_.push_back(share_in_conflict(submaps_[newest - kApart], submaps_[newest], older_from_newer));
+  }
+  [[nodiscard]] double restlessness() const {
+    constexpr std::size_t kFewest = 5;
+    if (restless_.size() < kFewest) return 0.0;
+    std::vector<double> shares = restless_;
+    const auto middle = shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2);
+    std::nth_element(shares.begin(), middle, shares.end());
+    return *middle;
+  }
+
+  /// Older submaps that may show the same place, the likeliest first.
   [[nodiscard]] std::vector<LoopCandidate> candidates_for(std::size_t newer) const {
-    constexpr std::size_t kRecent = 3;  ///< segments that the chain itself is matched to, nearly
+    constexpr std::size_t kRecent = 3;  ///< submaps that the chain itself is matched to, nearly
     std::vector<LoopCandidate> candidates;
     if (newer < kRecent) return candidates;
-    const auto covariances = covariances_seen_from(graph_, segments_[newer].middle());
+    const auto covariances = covariances_seen_from(graph_, submaps_[newer].middle());
     for (std::size_t older = 0; older + kRecent <= newer; ++older) {
       if (closed_.contains({older, newer})) continue;
-      const Eigen::Matrix3d& covariance = covariances[segments_[older].middle()];
+      const Eigen::Matrix3d& covariance = covariances[submaps_[older].middle()];
       const double sigma = std::sqrt(std::max(covariance(0, 0), covariance(1, 1)));
       const double apart = distance(middle_of(older).position(), middle_of(newer).position());
       if (apart - params_.loops.sigmas * sigma > params_.loop_reach) continue;
@@ -111,11 +135,12 @@ class GraphMapping {
   /// @returns whether any was found that is to be believed.
   bool close_loops(std::size_t newer) {
     bool is_any = false;
+    const double restless = restlessness();
     for (const LoopCandidate& candidate : candidates_for(newer)) {
-      const Pose2 expected = inverse(middle_of(candidate.segment)) * middle_of(newer);
-      auto found = closer_.close(segments_[candidate.segment], segments_[newer], expected, candidate.covariance);
+      const Pose2 expected = inverse(middle_of(candidate.submap)) * middle_of(newer);
+      auto found = closer_.close(submaps_[candidate.submap], submaps_[newer], expected, candidate.covariance, restless);
       if (!found) continue;
-      found->from = candidate.segment;
+      found->from = candidate.submap;
       found->to = newer;
       is_any = believe(*found) || is_any;
     }
@@ -155,7 +180,7 @@ class GraphMapping {
 
   /// Both loops join the same two pieces of the way, and say the same of how they lie to each other.
   [[nodiscard]] bool agree(const LoopClosure& a, const LoopClosure& b) const {
-    constexpr std::size_t kNear = 4;  // segments
+    constexpr std::size_t kNear = 4;  // submaps
     constexpr double kApart = 0.7;    // [m]
     constexpr double kTurned = 0.2;   // [rad]
     const auto gap = [](std::size_t i, std::size_t k) { return i > k ? i - k : k - i; };
@@ -168,11 +193,11 @@ class GraphMapping {
     return norm(difference.position()) < kApart && std::abs(difference.theta.radians()) < kTurned;
   }
 
-  /// Once more over all segments, now that the map is as good as the drive could make it.
+  /// Once more over all submaps, now that the map is as good as the drive could make it.
   void close_all_loops() {
-    for (std::size_t newer = 0; newer < segments_.size(); ++newer) {
+    for (std::size_t newer = 0; newer < submaps_.size(); ++newer) {
       if (close_loops(newer)) optimise();
-      tell("loops", segments_[newer].last());
+      tell("loops", submaps_[newer].last());
     }
     optimise();
   }
@@ -183,10 +208,10 @@ class GraphMapping {
     const std::vector<Pose2>& poses = graph_.poses();
     for (std::size_t i = 0; i < scans_.size(); ++i) {
       std::vector<std::pair<double, std::size_t>> nearest;
-      for (const Segment& segment : segments_) {
-        if (segment.last() + static_cast<std::size_t>(params_.chain.scans) >= i) break;
+      for (const Submap& submap : submaps_) {
+        if (submap.last() + static_cast<std::size_t>(params_.chain.scans) >= i) break;
         std::pair<double, std::size_t> best{params_.fine_reach, 0};
-        for (std::size_t k = segment.first(); k <= segment.last(); ++k) {
+        for (std::size_t k = submap.first(); k <= submap.last(); ++k) {
           best = std::min(best, {distance(poses[i].position(), poses[k].position()), k});
         }
         if (best.first < params_.fine_reach) nearest.push_back(best);
@@ -238,12 +263,13 @@ class GraphMapping {
   ScanChain chain_;
   LoopCloser closer_;
   PoseGraph graph_;
-  std::deque<Segment> segments_;
+  std::deque<Submap> submaps_;
+  std::vector<double> restless_;  ///< shares of points in conflict
   std::vector<LoopClosure> waiting_;
   std::vector<PoseConstraint> revisits_;  ///< matches of the last fine round between different pieces of the way
   std::map<std::pair<std::size_t, std::size_t>, bool> closed_;
-  std::size_t first_ = 0;  ///< scan that the next segment begins with
-  double way_ = 0.0;       ///< [m] of the next segment
+  std::size_t first_ = 0;  ///< scan that the next submap begins with
+  double way_ = 0.0;       ///< [m] of the next submap
   double turn_ = 0.0;      ///< [rad]
   std::size_t loops_ = 0;
   std::size_t refused_ = 0;

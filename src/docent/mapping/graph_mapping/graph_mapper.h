@@ -14,15 +14,15 @@ namespace docent::mapping {
 struct GraphMapperParams {
   PointSweepParams points;
   ScanChainParams chain;
-  SegmentParams segments;
+  SubmapParams submaps;
   LoopCloserParams loops;
   PoseGraphParams graph;
   MapJudgementParams judgement;
   MatchGridParams chain_grid{0.05, 0.07, 4};
   MatchGridParams loop_grid{0.10, 0.10, 6};
   LineMatcherParams lines;
-  int candidates = 8;       ///< > 0: older segments that a new one is matched to, the likeliest first
-  double loop_reach = 6.0;  ///< [m], > 0: segments whose middles lie farther apart show too little in common
+  int candidates = 8;       ///< > 0: older submaps that a new one is matched to, the likeliest first
+  double loop_reach = 6.0;  ///< [m], > 0: submaps whose middles lie farther apart show too little in common
   int fine_rounds = 3;      ///< >= 0: rounds in which scans are matched to scans nearby, and all poses improved
   int fine_pairs = 6;       ///< > 0: of a scan in a round
   double fine_reach = 4.0;  ///< [m], > 0, between two such scans
@@ -30,7 +30,7 @@ struct GraphMapperParams {
   void visit(V& v) {
     v("points", points);
     v("chain", chain);
-    v("segments", segments);
+    v("submaps", submaps);
     v("loops", loops);
     v("graph", graph);
     v("judgement", judgement);
@@ -62,7 +62,7 @@ struct GraphMap {
   MapJudgement judgement;
 };
 
-/// Poses of all scans of a drive: a chain of matches to what was seen just before, loops closed between short segments
+/// Poses of all scans of a drive: a chain of matches to what was seen just before, loops closed between short submaps
 /// in the order of the drive, each time all poses by least squares; then scans nearby are matched to each other.
 /// Beyond [Minerva2000] 4.1, which has no loops but those that its grid of poses finds: see expectation_maximization.
 [[nodiscard]] GraphMap map_by_graph(std::span<const MappingScan> scans, const GraphMapperParams& params,

@@ -73,14 +73,14 @@ TEST(GraphMapping, TellsHowFarItIs) {
   EXPECT_TRUE(map_by_graph({}, {}).map_from_base.empty());
 }
 
-TEST(Segment, KnowsTheFloorThatWasSeenThrough) {
+TEST(Submap, KnowsTheFloorThatWasSeenThrough) {
   const Drive drive = testing::drive_round(0.1, 0.0, 0.0, 6);
-  const Segment segment{drive.scans, drive.truth, 0, 6, {}, {0.10, 0.10, 4}};
-  const Pose2 map_from_middle = drive.truth[segment.middle()];
-  EXPECT_TRUE(segment.is_free(inverse(map_from_middle) * Point2{5.0, 1.5}));
-  EXPECT_FALSE(segment.is_free(inverse(map_from_middle) * Point2{5.0, 3.1})) << "inside the block";
-  EXPECT_LT(share_in_conflict(segment, segment, {}), 0.01);
-  EXPECT_GT(share_in_conflict(segment, segment, {0.0, 1.2, {}}), 0.15) << "a wall in the middle of the corridor";
+  const Submap submap{drive.scans, drive.truth, 0, 6, {}, {0.10, 0.10, 4}};
+  const Pose2 map_from_middle = drive.truth[submap.middle()];
+  EXPECT_TRUE(submap.is_free(inverse(map_from_middle) * Point2{5.0, 1.5}));
+  EXPECT_FALSE(submap.is_free(inverse(map_from_middle) * Point2{5.0, 3.1})) << "inside the block";
+  EXPECT_LT(share_in_conflict(submap, submap, {}), 0.01);
+  EXPECT_GT(share_in_conflict(submap, submap, {0.0, 1.2, {}}), 0.15) << "a wall in the middle of the corridor";
 }
 
 }  // namespace

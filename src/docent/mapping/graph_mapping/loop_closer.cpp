@@ -16,8 +16,8 @@ Eigen::Matrix3d unknown_along(const Eigen::Matrix3d& information, const Pose2& w
 
 }  // namespace
 
-std::optional<LoopClosure> LoopCloser::close(const Segment& older, const Segment& newer, const Pose2& expected,
-                                             const Eigen::Matrix3d& covariance) const {
+std::optional<LoopClosure> LoopCloser::close(const Submap& older, const Submap& newer, const Pose2& expected,
+                                             const Eigen::Matrix3d& covariance, double restless) const {
   MatchWindow window;
   const double position_sigma = std::sqrt(std::max(covariance(0, 0), covariance(1, 1)));
   window.reach = std::clamp(params_.sigmas * position_sigma, params_.least_window, params_.widest_window);
@@ -34,7 +34,7 @@ std::optional<LoopClosure> LoopCloser::close(const Segment& older, const Segment
   auto fine = line_match(SurfaceIndex{older.points()}, newer.points(), best->reference_from_sweep, lines_);
   if (!fine || fine->overlap < params_.least_overlap) return std::nullopt;
   const double conflict = share_in_conflict(older, newer, fine->reference_from_sweep);
-  if (conflict > params_.most_conflict) return std::nullopt;
+  if (conflict > params_.most_conflict + restless) return std::nullopt;
   if (other)
     fine->information =
         unknown_along(fine->information, inverse(best->reference_from_sweep) * other->reference_from_sweep);

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "docent/mapping/graph_mapping/segment.h"
+#include "docent/mapping/graph_mapping/submap.h"
 #include "docent/mapping/pose_graph/pose_graph.h"
 #include "docent/mapping/scan_matching/correlative_matcher.h"
 #include "docent/mapping/scan_matching/line_matcher.h"
@@ -12,8 +12,8 @@ namespace docent::mapping {
 
 struct LoopCloserParams {
   double least_score = 0.50;         ///< 0..1, of the search
-  double least_overlap = 0.45;       ///< 0..1: share of the points that then lie on lines of the other segment
-  double most_conflict = 0.06;       ///< 0..1: share of the points that lie where the other segment saw free floor
+  double least_overlap = 0.40;       ///< 0..1: share of the points that then lie on lines of the other submap
+  double most_conflict = 0.06;       ///< 0..1: share of the points that lie where the other submap saw free floor
   double clearly_best = 0.88;        ///< 0..1: the next best place elsewhere reaches at most this share of the score
   double elsewhere = 0.8;            ///< [m]
   double elsewhere_turn = 0.5;       ///< [rad]
@@ -40,26 +40,27 @@ struct LoopCloserParams {
   }
 };
 
-/// Two segments that show one place.
+/// Two submaps that show one place.
 struct LoopClosure {
-  std::size_t from = 0;  ///< index of the older segment
+  std::size_t from = 0;  ///< index of the older submap
   std::size_t to = 0;
   PoseConstraint constraint;  ///< between their middle scans
   double score = 0.0;
   double overlap = 0.0;
   double conflict = 0.0;
-  double surprise = 0.0;  ///< [m] from where the newer segment was expected
+  double surprise = 0.0;  ///< [m] from where the newer submap was expected
 };
 
-/// Whether and where one segment fits onto another: search, check that no other place fits nearly as well, lines, check
+/// Whether and where one submap fits onto another: search, check that no other place fits nearly as well, lines, check
 /// that nothing stands where the other one saw free floor.
 class LoopCloser {
  public:
   LoopCloser(const LoopCloserParams& params, const LineMatcherParams& lines) : params_{params}, lines_{lines} {}
 
-  /// `expected`: the newer segment's middle as the older one's sees it, with its covariance in the older one's frame.
-  [[nodiscard]] std::optional<LoopClosure> close(const Segment& older, const Segment& newer, const Pose2& expected,
-                                                 const Eigen::Matrix3d& covariance) const;
+  /// `restless`: share of the points of submaps one after the other that are in conflict: people walk here.
+  /// `expected`: the newer submap's middle as the older one's sees it, with its covariance in the older one's frame.
+  [[nodiscard]] std::optional<LoopClosure> close(const Submap& older, const Submap& newer, const Pose2& expected,
+                                                 const Eigen::Matrix3d& covariance, double restless) const;
 
  private:
   LoopCloserParams params_;

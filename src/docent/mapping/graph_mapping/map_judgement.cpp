@@ -11,20 +11,20 @@
 namespace docent::mapping {
 namespace {
 
-constexpr std::size_t kRecent = 3;  ///< segments that the chain itself has matched to each other
+constexpr std::size_t kRecent = 3;  ///< submaps that the chain itself has matched to each other
 
-void compare_pieces(const PoseGraph& graph, const std::deque<Segment>& segments, const MapJudgementParams& params,
+void compare_pieces(const PoseGraph& graph, const std::deque<Submap>& submaps, const MapJudgementParams& params,
                     MapJudgement& judgement) {
   double sum = 0.0;
   std::size_t in_conflict = 0;
-  for (std::size_t newer = kRecent; newer < segments.size(); ++newer) {
+  for (std::size_t newer = kRecent; newer < submaps.size(); ++newer) {
     for (std::size_t older = 0; older + kRecent <= newer; ++older) {
-      const Pose2& a = graph.poses()[segments[older].middle()];
-      const Pose2& b = graph.poses()[segments[newer].middle()];
+      const Pose2& a = graph.poses()[submaps[older].middle()];
+      const Pose2& b = graph.poses()[submaps[newer].middle()];
       if (distance(a.position(), b.position()) > params.near) continue;
-      const double share = share_in_conflict(segments[older], segments[newer], inverse(a) * b);
+      const double share = share_in_conflict(submaps[older], submaps[newer], inverse(a) * b);
       sum += share;
-      in_conflict += share > params.conflict ? 1U : 0U;
+      in_conflict += share > params.conflict + judgement.restless ? 1U : 0U;
       ++judgement.pairs;
     }
   }
@@ -59,13 +59,15 @@ double expected_error(const PoseGraph& graph) {
 
 }  // namespace
 
-MapJudgement judge(const PoseGraph& graph, const std::deque<Segment>& segments, const MapJudgementParams& params) {
+MapJudgement judge(const PoseGraph& graph, const std::deque<Submap>& submaps, double restless,
+                   const MapJudgementParams& params) {
   MapJudgement judgement;
   if (graph.poses().empty()) {
     judgement.reason = "there is no scan";
     return judgement;
   }
-  compare_pieces(graph, segments, params, judgement);
+  judgement.restless = restless;
+  compare_pieces(graph, submaps, params, judgement);
   judgement.expected_error = expected_error(graph);
   char text[160];
   if (judgement.in_conflict > params.most_in_conflict) {

@@ -3,7 +3,7 @@
 #include <deque>
 #include <string>
 
-#include "docent/mapping/graph_mapping/segment.h"
+#include "docent/mapping/graph_mapping/submap.h"
 #include "docent/mapping/pose_graph/pose_graph.h"
 
 namespace docent::mapping {
@@ -27,14 +27,17 @@ struct MapJudgement {
   std::size_t pairs = 0;        ///< of pieces of the way that lie near each other, and not one after the other
   double in_conflict = 0.0;     ///< share of these where one sees free floor and the other something
   double mean_conflict = 0.0;   ///< share of the points of all pairs that do
+  double restless = 0.0;        ///< restlessness of the drive: so much more conflict is no sign of a wrong map
   double expected_error = 0.0;  ///< [m], mean over pairs of places, by the graph's own covariances
   bool is_trusted = false;
   std::string reason;  ///< why not, for a person
 };
 
 /// Two pieces that contradict each other, or a loop that nothing closes, show a map that is wrong; one that agrees with
-/// itself may still be wrong where nothing was seen twice, which the covariances say. O(pairs * points).
-[[nodiscard]] MapJudgement judge(const PoseGraph& graph, const std::deque<Segment>& segments,
+/// itself may still be wrong where nothing was seen twice, which the covariances say. `restless`: share of the points
+/// in conflict between pieces one after the other, which the chain has matched: what walks about, and no sign of an
+/// error. O(pairs * points).
+[[nodiscard]] MapJudgement judge(const PoseGraph& graph, const std::deque<Submap>& submaps, double restless,
                                  const MapJudgementParams& params);
 
 }  // namespace docent::mapping

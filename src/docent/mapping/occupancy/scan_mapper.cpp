@@ -27,6 +27,7 @@ Result<void> ScanMapperParams::validate() const {
   if (!(border >= 0.0)) return fail("border must be >= 0 m");
   if (!(free > 0.0 && free < occupied && occupied < 1.0))
     return fail("free and occupied must hold 0 < free < occupied < 1");
+  if (fewest_hits < 1 || fewest_hits > 255) return fail("fewest_hits must be 1..255");
   return {};
 }
 
@@ -61,6 +62,7 @@ ScanMapper::ScanMapper(const GridFrame& frame, const ScanMapperParams& params)
       hit_{static_cast<float>(log_odds_of(params.hit))},
       pass_{static_cast<float>(log_odds_of(params.pass))},
       log_odds_(frame.size(), 0.0F),
+      hits_(frame.size(), std::uint8_t{0}),
       met_(frame.size(), 0U) {}
 
 void ScanMapper::add_evidence(CellIndex cell, float evidence) {
@@ -68,6 +70,7 @@ void ScanMapper::add_evidence(CellIndex cell, float evidence) {
   const std::size_t index = frame_.index(cell);
   if (met_[index] == sweep_) return;
   met_[index] = sweep_;
+  if (evidence > 0.0F && hits_[index] < 255) ++hits_[index];
   const auto most = static_cast<float>(params_.most_log_odds);
   log_odds_[index] = std::clamp(log_odds_[index] + evidence, -most, most);
 }
@@ -164,7 +167,7 @@ OccupancyGrid ScanMapper::map() const {
   const auto occupied = static_cast<float>(log_odds_of(params_.occupied));
   const auto free = static_cast<float>(log_odds_of(params_.free));
   for (std::size_t i = 0; i < map.cells.size(); ++i) {
-    if (log_odds_[i] >= occupied) map.cells[i] = OccupancyGrid::kOccupied;
+    if (log_odds_[i] >= occupied && hits_[i] >= params_.fewest_hits) map.cells[i] = OccupancyGrid::kOccupied;
     if (log_odds_[i] <= free) map.cells[i] = OccupancyGrid::kFree;
   }
   return map;

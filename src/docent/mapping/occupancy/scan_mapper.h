@@ -22,6 +22,7 @@ struct ScanMapperParams {
   double border = 1.0;       ///< [m], >= 0, about everything that was seen
   double occupied = 0.6;     ///< a cell of at least this probability is drawn occupied, and
   double free = 0.4;         ///< of at most this one free; the rest is unknown
+  int fewest_hits = 1;  ///< > 0: sweeps that a cell was met in, else it is unknown: who walks by is met once or twice
   template <class V>
   void visit(V& v) {
     v("resolution", resolution);
@@ -35,6 +36,7 @@ struct ScanMapperParams {
     v("border", border);
     v("occupied", occupied);
     v("free", free);
+    v("fewest_hits", fewest_hits);
   }
   [[nodiscard]] Result<void> validate() const;
 };
@@ -80,6 +82,7 @@ class ScanMapper {
   float hit_;                       ///< log odds
   float pass_;                      ///< log odds
   std::vector<float> log_odds_;     ///< [rows * columns]
+  std::vector<std::uint8_t> hits_;  ///< [rows * columns] sweeps that met the cell, up to 255
   std::vector<std::uint32_t> met_;  ///< the last sweep that said something of the cell
   std::uint32_t sweep_ = 0;
 };

@@ -11,12 +11,13 @@
 
 namespace docent::mapping {
 
-struct SegmentParams {
-  double way = 3.0;          ///< [m], > 0: a segment ends after this way,
+struct SubmapParams {
+  double way = 3.0;          ///< [m], > 0: a submap ends after this way,
   double turn = 6.0;         ///< [rad], > 0: this much turning,
   int scans = 40;            ///< or so many scans
   double reach = 12.0;       ///< [m], > 0, from its middle: what lies farther depends on the chain's heading too much
   double query_cell = 0.20;  ///< [m], > 0: one point a cell takes part in a search
+  double still = 0.3;        ///< 0..1: a point whose cell was ended in by less of the scans that saw it moved on
   double free_cell = 0.10;   ///< [m], > 0: of what was seen through
   template <class V>
   void visit(V& v) {
@@ -25,16 +26,18 @@ struct SegmentParams {
     v("scans", scans);
     v("reach", reach);
     v("query_cell", query_cell);
+    v("still", still);
     v("free_cell", free_cell);
   }
 };
 
-/// A short piece of the way, over which the chain of scans is trusted: one small map about its middle scan.
-class Segment {
+/// A short piece of the way, over which the chain of scans is trusted: one small map about its middle scan. Points that
+/// later or earlier scans of the same piece saw through were of somebody who walked, and are left out.
+class Submap {
  public:
   /// Scans `first` to `last` of all, at these poses of the chain. @pre first <= last
-  Segment(std::span<const MappingScan> scans, std::span<const Pose2> map_from_base, std::size_t first, std::size_t last,
-          const SegmentParams& params, const MatchGridParams& grid);
+  Submap(std::span<const MappingScan> scans, std::span<const Pose2> map_from_base, std::size_t first, std::size_t last,
+         const SubmapParams& params, const MatchGridParams& grid);
 
   [[nodiscard]] std::size_t first() const { return first_; }
   [[nodiscard]] std::size_t last() const { return last_; }
@@ -47,6 +50,10 @@ class Segment {
   [[nodiscard]] bool is_free(Point2 at) const;
 
  private:
+  struct Seen;  ///< how often each cell was ended in and passed through
+  [[nodiscard]] Seen look(std::span<const MappingScan> scans, std::span<const Pose2> map_from_base,
+                          const SubmapParams& params) const;
+
   std::size_t first_;
   std::size_t last_;
   std::vector<SurfacePoint> points_;  ///< [m], middle scan's base frame
@@ -57,7 +64,7 @@ class Segment {
   std::vector<bool> free_;
 };
 
-/// Share of the points of one segment that lie on floor which the other one saw free; of both ways the larger one.
-[[nodiscard]] double share_in_conflict(const Segment& older, const Segment& newer, const Pose2& older_from_newer);
+/// Share of the points of one submap that lie on floor which the other one saw free; of both ways the larger one.
+[[nodiscard]] double share_in_conflict(const Submap& older, const Submap& newer, const Pose2& older_from_newer);
 
 }  // namespace docent::mapping
