@@ -30,7 +30,8 @@ std::optional<LoopClosure> LoopCloser::close(const Submap& older, const Submap& 
   const ForbiddenPlace here{best->reference_from_sweep, params_.elsewhere, params_.elsewhere_turn};
   const auto other =
       best_match(older.grid(), newer.query(), expected, window, params_.clearly_best * best->score, &here);
-  if (other && window.reach > params_.narrow_window) return std::nullopt;
+  const double best_is_off = distance(best->reference_from_sweep.position(), expected.position());
+  if (other && best_is_off > params_.narrow_window) return std::nullopt;
   auto fine = line_match(SurfaceIndex{older.points()}, newer.points(), best->reference_from_sweep, lines_);
   if (!fine || fine->overlap < params_.least_overlap) return std::nullopt;
   const double conflict = share_in_conflict(older, newer, fine->reference_from_sweep);

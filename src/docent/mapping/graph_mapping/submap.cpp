@@ -9,10 +9,19 @@ namespace {
 
 constexpr double kMargin = 0.3;  // [m]: near what it ends on a beam says little
 
+/// [m] before its end a beam may run so near to the surface that it ends on: a beam that grazes a wall runs beside it.
+double margin_of(const SurfacePoint& point, Point2 sensor) {
+  constexpr double kBeside = 0.15;  // [m], square to the surface
+  constexpr double kMost = 2.5;     // [m]
+  if (!point.has_normal()) return kMargin;
+  const double square = std::abs(dot(point.normal, unit(direction(sensor, point.at))));
+  return std::clamp(kBeside / std::max(square, 1e-3), kMargin, kMost);
+}
+
 /// Calls `at(cell index)` for the cells on a line, up to a margin before its end.
 template <class F>
-void for_cells_before(const GridFrame& frame, Point2 from, Point2 to, F at) {
-  const double length = distance(from, to) - kMargin;
+void for_cells_before(const GridFrame& frame, Point2 from, Point2 to, double margin, F at) {
+  const double length = distance(from, to) - margin;
   if (length <= 0.0) return;
   const Point2 along = (1.0 / distance(from, to)) * (to - from);
   const double step = 0.7 * frame.resolution;
@@ -61,7 +70,8 @@ Submap::Seen Submap::look(std::span<const MappingScan> scans, std::span<const Po
       if (seen.frame.holds(cell)) count(seen.ended, seen.frame.index(cell));
     }
     for (const SurfacePoint& point : scans[i].points) {
-      for_cells_before(seen.frame, middle_from_scan * sensor_of(scans[i], point.at), middle_from_scan * point.at,
+      const Point2 sensor = sensor_of(scans[i], point.at);
+      for_cells_before(seen.frame, middle_from_scan * sensor, middle_from_scan * point.at, margin_of(point, sensor),
                        [&](std::size_t cell) { count(seen.passed, cell); });
     }
   }
