@@ -75,9 +75,9 @@ int fewest_hits_of(const ReferencedLog& placed) {
     if (last) steps.push_back(distance(*last, pose->position()));
     last = pose->position();
   }
-  constexpr double kWay = 0.5;  // [m]
+  constexpr double kSeenOver = 0.5;  // [m]
   const double step = quantile(steps, 0.5);
-  return step > 0.0 ? static_cast<int>(std::clamp(kWay / step, 1.0, 3.0)) : 1;
+  return step > 0.0 ? static_cast<int>(std::clamp(kSeenOver / step, 1.0, 3.0)) : 1;
 }
 
 pictures::Figure draw(const OccupancyGrid& map, const std::vector<mapping::PlacedSweep>& placed) {

@@ -19,7 +19,8 @@ TEST(Relations, AreReadWithTheirYaw) {
 }
 
 TEST(Relations, FaultsNameFileAndLine) {
-  EXPECT_EQ(parse_relations("1 2 3 4 5 6 7 8\n1 2 3\n", "a").error().message, "a:2: expected t1 t2 x y z roll pitch yaw");
+  EXPECT_EQ(parse_relations("1 2 3 4 5 6 7 8\n1 2 3\n", "a").error().message,
+            "a:2: expected t1 t2 x y z roll pitch yaw");
   EXPECT_EQ(parse_relations("1 2 3 4 5 6 7 8 9\n", "a").error().message, "a:1: more than t1 t2 x y z roll pitch yaw");
   EXPECT_EQ(parse_relations("# nothing\n", "a").error().message, "a: holds no relation");
 }

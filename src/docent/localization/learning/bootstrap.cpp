@@ -80,8 +80,9 @@ class Bootstrap {
         if (!settled) progress_("no step to the new fit makes better labels: the last model stands");
         break;
       }
-      result.sensor = between(result.sensor, fit->params, *step);
-      result.iterations.push_back({sweeps(), sure_of(labels), *step, fit->readings, fit->before,
+      const double share = step.value_or(0.0);  // there is one; not every compiler sees that
+      result.sensor = between(result.sensor, fit->params, share);
+      result.iterations.push_back({sweeps(), sure_of(labels), share, fit->readings, fit->before,
                                    sensor_models::mean_log_likelihood(readings.fitted, result.sensor),
                                    compare(readings.held_out, start, result.sensor)});
       if (params_.sonar) break;

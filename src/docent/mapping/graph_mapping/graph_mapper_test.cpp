@@ -83,5 +83,31 @@ TEST(Submap, KnowsTheFloorThatWasSeenThrough) {
   EXPECT_GT(share_in_conflict(submap, submap, {0.0, 1.2, {}}), 0.15) << "a wall in the middle of the corridor";
 }
 
+/// Somebody walks towards the robot: each scan sees him elsewhere, and the next ones the floor where he was.
+TEST(Submap, LeavesOutWhoWalksBy) {
+  testing::Drive drive = testing::drive_round(0.1, 0.0, 0.0, 6);
+  std::vector<Point2> walker;
+  for (std::size_t i = 0; i <= 6; ++i) {
+    walker.push_back(Point2{9.0 - 0.5 * static_cast<double>(i), 1.2});
+    const Point2 seen = inverse(drive.truth[i]) * walker.back();
+    std::erase_if(drive.scans[i].points, [&](const SurfacePoint& point) {  // he hides what is behind him
+      return std::abs((direction({}, point.at) - direction({}, seen)).degrees()) < 2.5;
+    });
+    for (double side = -0.1; side <= 0.1; side += 0.05) drive.scans[i].points.push_back({{seen.x, seen.y + side}, {}});
+  }
+  const Submap submap{drive.scans, drive.truth, 0, 6, {}, {0.10, 0.10, 4}};
+  const Pose2 map_from_middle = drive.truth[submap.middle()];
+  std::size_t of_walker = 0;
+  for (const SurfacePoint& point : submap.points()) {
+    for (const Point2 at : walker) of_walker += distance(map_from_middle * point.at, at) < 0.2 ? 1U : 0U;
+  }
+  EXPECT_LT(of_walker, 20U) << "of 35 points; those beside his last places nobody saw through";
+  SubmapParams crippled;
+  crippled.still = 0.0;
+  const Submap all{drive.scans, drive.truth, 0, 6, crippled, {0.10, 0.10, 4}};
+  EXPECT_GE(all.points().size(), submap.points().size() + 20);
+  EXPECT_LT(all.points().size(), submap.points().size() + 80) << "walls stay";
+}
+
 }  // namespace
 }  // namespace docent::mapping

@@ -188,5 +188,17 @@ TEST(ScanMapper, RefusesWhatCannotBeMapped) {
   EXPECT_TRUE(ScanMapperParams{}.validate());
 }
 
+TEST(ScanMapper, WhatTooFewSweepsMetIsUnknown) {
+  std::vector<PlacedSweep> sweeps(3, in_room({}, 360));
+  ScanMapperParams params;
+  params.fewest_hits = 3;
+  EXPECT_EQ(at(map_of(sweeps, params), {kEast, 0.5}), OccupancyGrid::kOccupied);
+  sweeps.pop_back();
+  EXPECT_EQ(at(map_of(sweeps, params), {kEast, 0.5}), OccupancyGrid::kUnknown);
+  EXPECT_EQ(at(map_of(sweeps), {kEast, 0.5}), OccupancyGrid::kOccupied);
+  params.fewest_hits = 0;
+  EXPECT_FALSE(params.validate());
+}
+
 }  // namespace
 }  // namespace docent::mapping

@@ -240,10 +240,14 @@ Result<void> SonarNetwork::save(const std::filesystem::path& json) const {
 Result<SonarNetwork> SonarNetwork::load(const std::filesystem::path& json) {
   const auto text = read_file(json);
   if (!text) return tl::unexpected<Error>(text.error());
+  return parse(*text, json.string());
+}
+
+Result<SonarNetwork> SonarNetwork::parse(const std::string& text, const std::string& name) {
   SonarNetwork network;
   try {
-    const nlohmann::json document = nlohmann::json::parse(*text);
-    if (document.at("format") != kFormat) return fail(json.string() + ": not a sonar network that this program knows");
+    const nlohmann::json document = nlohmann::json::parse(text);
+    if (document.at("format") != kFormat) return fail(name + ": not a sonar network that this program knows");
     const nlohmann::json& ring = document.at("ring");
     network.ring_ = {ring.at("count").get<int>(), ring.at("radius").get<double>(), ring.at("max_range").get<double>(),
                      ring.at("field_of_view").get<double>()};
@@ -256,14 +260,15 @@ Result<SonarNetwork> SonarNetwork::load(const std::filesystem::path& json) {
       layers[i]->bias = matrix_of(document.at("layers").at(i).at("bias"));
     }
   } catch (const nlohmann::json::exception& error) {
-    return fail(json.string() + ": not a sonar network: " + error.what());
+    return fail(name + ": not a sonar network: " + error.what());
   }
-  const bool fits = network.ring_.count >= 4 && network.first_.weights.cols() == kInputs &&
+  const bool fits = network.ring_.count >= 4 && network.ring_.count <= 1000 &&
+                    network.first_.weights.cols() == kInputs &&
                     network.second_.weights.cols() == network.first_.weights.rows() &&
                     network.last_.weights.cols() == network.second_.weights.rows() &&
                     network.last_.weights.rows() == 1 && network.first_.bias.size() == network.first_.weights.rows() &&
                     network.second_.bias.size() == network.second_.weights.rows() && network.last_.bias.size() == 1;
-  if (!fits) return fail(json.string() + ": the layers do not fit each other");
+  if (!fits) return fail(name + ": the layers do not fit each other");
   return network;
 }
 

@@ -54,6 +54,8 @@ class SonarNetwork {
                                             const std::function<void(int, double)>& progress = {});
   /// Error: "FILE: …", not a network of ours.
   [[nodiscard]] static Result<SonarNetwork> load(const std::filesystem::path& json);
+  /// From memory; `name` stands where the file's name would.
+  [[nodiscard]] static Result<SonarNetwork> parse(const std::string& text, const std::string& name);
   [[nodiscard]] Result<void> save(const std::filesystem::path& json) const;
 
   [[nodiscard]] const SonarRingGeometry& ring() const { return ring_; }
