@@ -1,5 +1,5 @@
-// docent_mrpt_rawlog LOG OUT.rawlog: a recording as pairs of action and observation, which MRPT's rbpf-slam asks for and
-// MRPT's own converters do not write.
+// docent_mrpt_rawlog LOG OUT.rawlog: a recording as pairs of action and observation, which MRPT's rbpf-slam asks for
+// and MRPT's own converters do not write.
 #include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>

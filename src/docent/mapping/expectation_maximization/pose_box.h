@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -32,7 +33,7 @@ class PoseBox {
   template <class F>
   static PoseBox about(const PoseCells& cells, const Pose2& at, double reach, double turn, F value_of) {
     PoseBox box{cells, at};
-    box.widen(static_cast<int>(reach / cells.cell + 0.5), static_cast<int>(turn / cells.step() + 0.5));
+    box.widen(static_cast<int>(std::lround(reach / cells.cell)), static_cast<int>(std::lround(turn / cells.step())));
     for (std::size_t i = 0; i < box.size(); ++i) box.values_[i] = static_cast<float>(value_of(box.pose(i)));
     return box;
   }
