@@ -20,6 +20,10 @@ chmod 1777 "$root/tmp" "$root/var/tmp"
 dpkg-query -L "${packages[@]}" | grep '^/' | sort -u | sed 's,^/,,; /^\.\?$/d' |
   tar -C / --no-recursion --ignore-failed-read -cf - -T - 2>/dev/null | tar -C "$root" --skip-old-files -xpf -
 cp -a /etc/passwd /etc/group /etc/nsswitch.conf /etc/alternatives "$root/etc/"
+# Links that update-alternatives has made belong to no package.
+find /usr/bin /usr/lib -lname '/etc/alternatives/*' | while read -r link; do
+  if [ -e "$root$(readlink -f "$link")" ] && [ ! -e "$root$link" ]; then cp -a "$link" "$root$link"; fi
+done
 ldconfig -r "$root"
 
 cd "$root/var/lib/dpkg"
