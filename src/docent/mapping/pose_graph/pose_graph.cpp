@@ -42,6 +42,7 @@ Eigen::Matrix3d root_of(const Eigen::Matrix3d& information) {
 ceres::Solver::Options options_of(const PoseGraphParams& params) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;  // others call the BLAS that a machine has
   options.max_num_iterations = params.most_steps;
   options.function_tolerance = 1e-7;
   options.num_threads = 1;  // sums in one order: the same poses everywhere
