@@ -17,6 +17,8 @@ GAIN = 0.20  # lower cross-entropy than the cones, at least
 
 def train(program, root, seed, is_slice, folder, pictures):
     report = folder / f"{seed}.json"
+    if pictures:
+        Path(pictures).mkdir(parents=True, exist_ok=True)
     size = ["--worlds", 6, "--places", 150, "--held-out", 2] if is_slice else ["--worlds", 20, "--places", 400, "--held-out", 5]
     museums = [] if is_slice else ["--museum", root / "museums/bonn", "--museum", root / "museums/smithsonian"]
     drawn = ["--picture", Path(pictures) / f"sonar-network-{seed}.png"] if pictures else []
