@@ -39,7 +39,6 @@ ChosenScans choose_scans(const recording::LaserLog& log, const ScanChoiceParams&
       if (norm(moved.position()) < choice.way && std::abs(moved.theta.degrees()) < choice.turn) continue;
     }
     mapping::MappingScan taken;
-    taken.time = to_seconds(scan.time);
     taken.odom_from_base = scan.odom_from_base;
     append_points(scan, log.max_range, scan.odom_from_base, points, taken);
     for (std::size_t k = i > 3 ? i - 3 : 0; two && k < std::min(log.scans.size(), i + 4); ++k) {

@@ -41,9 +41,6 @@ std::optional<LoopClosure> LoopCloser::close(const Submap& older, const Submap& 
         unknown_along(fine->information, inverse(best->reference_from_sweep) * other->reference_from_sweep);
   LoopClosure closure;
   closure.constraint = {older.middle(), newer.middle(), fine->reference_from_sweep, fine->information, true};
-  closure.score = best->score;
-  closure.overlap = fine->overlap;
-  closure.conflict = conflict;
   closure.surprise = distance(fine->reference_from_sweep.position(), expected.position());
   return closure;
 }

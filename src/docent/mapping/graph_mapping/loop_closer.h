@@ -46,10 +46,7 @@ struct LoopClosure {
   std::size_t from = 0;  ///< index of the older submap
   std::size_t to = 0;
   PoseConstraint constraint;  ///< between their middle scans
-  double score = 0.0;
-  double overlap = 0.0;
-  double conflict = 0.0;
-  double surprise = 0.0;  ///< [m] from where the newer submap was expected
+  double surprise = 0.0;      ///< [m] from where the newer submap was expected
 };
 
 /// Whether and where one submap fits onto another: search, check that no other place fits nearly as well, lines, check

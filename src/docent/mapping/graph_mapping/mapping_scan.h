@@ -9,7 +9,6 @@ namespace docent::mapping {
 
 /// What all lasers of the robot saw at one moment.
 struct MappingScan {
-  double time = 0.0;                 ///< [s]
   Pose2 odom_from_base;              ///< raw odometry
   std::vector<SurfacePoint> points;  ///< [m], base frame
   std::vector<Point2> sensors;       ///< [m], base frame: where the lasers are

@@ -84,7 +84,6 @@ Submap::Submap(std::span<const MappingScan> scans, std::span<const Pose2> map_fr
   const Seen seen = look(scans, map_from_base, params);
   const Pose2 middle_from_map = inverse(map_from_base[middle()]);
   std::vector<Point2> places;
-  std::vector<double> ranges;
   for (std::size_t i = first; i <= last; ++i) {
     const Pose2 middle_from_scan = middle_from_map * map_from_base[i];
     for (const SurfacePoint& point : scans[i].points) {
@@ -95,13 +94,9 @@ Submap::Submap(std::span<const MappingScan> scans, std::span<const Pose2> map_fr
       if (ended < params.still * (ended + seen.passed[seen.frame.index(cell)])) continue;
       points_.push_back(at);
       places.push_back(at.at);
-      ranges.push_back(norm(at.at));
     }
   }
   if (points_.empty()) return;
-  const auto most = ranges.begin() + static_cast<std::ptrdiff_t>(0.9 * static_cast<double>(ranges.size() - 1));
-  std::nth_element(ranges.begin(), most, ranges.end());
-  radius_ = *most;
   query_ = thinned_points(places, params.query_cell);
   grid_ = std::make_unique<MatchGrid>(places, grid);
 

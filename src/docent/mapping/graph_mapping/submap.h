@@ -45,7 +45,6 @@ class Submap {
   [[nodiscard]] std::span<const SurfacePoint> points() const { return points_; }
   [[nodiscard]] std::span<const Point2> query() const { return query_; }  ///< thinned
   [[nodiscard]] const MatchGrid& grid() const { return *grid_; }
-  [[nodiscard]] double radius() const { return radius_; }  ///< [m] about the middle, that holds 90 % of the points
   /// Beams went through here, clear of everything.
   [[nodiscard]] bool is_free(Point2 at) const;
 
@@ -58,7 +57,6 @@ class Submap {
   std::size_t last_;
   std::vector<SurfacePoint> points_;  ///< [m], middle scan's base frame
   std::vector<Point2> query_;
-  double radius_ = 0.0;
   std::unique_ptr<MatchGrid> grid_;
   GridFrame free_frame_;
   std::vector<bool> free_;

@@ -93,8 +93,7 @@ inline Drive drive_round(double rounds, double veer, double noise, std::uint64_t
     step.theta = step.theta + Angle::radians(veer * length + rng.normal(0.0, noise * 0.3));
     odometry = odometry * step;
     drive.truth.push_back(now);
-    drive.scans.push_back(
-        {0.5 * static_cast<double>(drive.scans.size()), odometry, scan_of(walls, now, rng), {{0.0, 0.0}}});
+    drive.scans.push_back({odometry, scan_of(walls, now, rng), {{0.0, 0.0}}});
   }
   return drive;
 }
