@@ -257,6 +257,8 @@ void make_map(const MapOptions& options) {
   if (options.odometry == "perturbed") note_end_error(referenced, report);
   const bool is_known =
       options.method == "known-poses" || (options.method == "auto" && !options.choice.reference.empty());
+  if (is_known && !(options.relations.empty() && options.poses.empty()))
+    throw CommandFailed{"--relations and --poses are of maps whose poses are learned (--method graph)", 2};
   if (!is_known) {
     const LearnedPoses learned = learned_poses(referenced.log, options, report);
     const std::vector<Pose2>& poses = learned.map_from_base;
@@ -307,8 +309,8 @@ void add_map_command(CLI::App& app) {
   command
       ->add_option("--method", options->method,
                    "known-poses: scans are placed where --reference says; graph: where they fit together; em: by "
-                   "expectation maximization; "
-                   "auto: as --reference is given or not")
+                   "expectation maximization; odometry: as it stands, to compare; auto: known-poses or graph, as "
+                   "--reference is given or not")
       ->check(CLI::IsMember({"auto", "known-poses", "graph", "em", "odometry"}))
       ->capture_default_str();
   add_picture_format(*command, options->picture_format);

@@ -161,32 +161,39 @@ void PoseBox::shift_places(Point2 way, double sign) {
   values_ = std::move(shifted);
 }
 
-PoseBox PoseBox::moved(const Motion& motion) const {
+PoseBox::Noise PoseBox::noise_of(const Motion& motion) const {
   // Sharing a cell's mass between its neighbours blurs by itself, by up to a quarter of a square cell.
   constexpr double kOwnBlur = 0.17;  // [cells2], the mean
-  const auto places = gaussian_kernel(std::max(0.0, motion.way_variance / (cells_.cell * cells_.cell) - kOwnBlur));
-  const auto turns = gaussian_kernel(std::max(0.0, motion.turn_variance / (cells_.step() * cells_.step()) - kOwnBlur));
-  const Point2 way = motion.before_from_after.position();
+  const auto kernel = [](double variance, double cell) {
+    return gaussian_kernel(std::max(0.0, variance / (cell * cell) - kOwnBlur));
+  };
+  return {kernel(motion.way_variance, cells_.cell), kernel(motion.turn_variance, cells_.step())};
+}
+
+PoseBox PoseBox::with_room_for(const Motion& motion, const Noise& noise) const {
   PoseBox box{*this};
-  box.widen(reach_of(places) + static_cast<int>(std::ceil(norm(way) / cells_.cell)) + 1, reach_of(turns) + 1);
-  box.shift_places(way, 1.0);
+  const double way = norm(motion.before_from_after.position());
+  box.widen(reach_of(noise.places) + static_cast<int>(std::ceil(way / cells_.cell)) + 1, reach_of(noise.turns) + 1);
+  return box;
+}
+
+PoseBox PoseBox::moved(const Motion& motion) const {
+  const Noise noise = noise_of(motion);
+  PoseBox box = with_room_for(motion, noise);
+  box.shift_places(motion.before_from_after.position(), 1.0);
   box.shift_turns(motion.before_from_after.theta.radians() / cells_.step());
-  box.blur_turns(turns);
-  box.blur_places(places);
+  box.blur_turns(noise.turns);
+  box.blur_places(noise.places);
   return box;
 }
 
 PoseBox PoseBox::moved_back(const Motion& motion) const {
-  constexpr double kOwnBlur = 0.17;  // [cells2]
-  const auto places = gaussian_kernel(std::max(0.0, motion.way_variance / (cells_.cell * cells_.cell) - kOwnBlur));
-  const auto turns = gaussian_kernel(std::max(0.0, motion.turn_variance / (cells_.step() * cells_.step()) - kOwnBlur));
-  const Point2 way = motion.before_from_after.position();
-  PoseBox box{*this};
-  box.widen(reach_of(places) + static_cast<int>(std::ceil(norm(way) / cells_.cell)) + 1, reach_of(turns) + 1);
-  box.blur_places(places);
-  box.blur_turns(turns);
+  const Noise noise = noise_of(motion);
+  PoseBox box = with_room_for(motion, noise);
+  box.blur_places(noise.places);
+  box.blur_turns(noise.turns);
   box.shift_turns(-motion.before_from_after.theta.radians() / cells_.step());
-  box.shift_places(way, -1.0);
+  box.shift_places(motion.before_from_after.position(), -1.0);
   return box;
 }
 

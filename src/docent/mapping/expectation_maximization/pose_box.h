@@ -72,6 +72,14 @@ class PoseBox {
                static_cast<std::size_t>(columns_) +
            static_cast<std::size_t>(column);
   }
+  /// What odometry's errors blur by, in cells.
+  struct Noise {
+    std::vector<float> places;
+    std::vector<float> turns;
+  };
+  [[nodiscard]] Noise noise_of(const Motion& motion) const;
+  /// The same in a box that holds it after the motion, too.
+  [[nodiscard]] PoseBox with_room_for(const Motion& motion, const Noise& noise) const;
   /// The same with an empty border of so many cells; an arc never grows beyond the circle.
   void widen(int places, int turns);
   void blur_places(std::span<const float> kernel);
