@@ -81,8 +81,9 @@ def groups_of(sources):
     groups = []
     for folder, members in folders.items():
         target = folder / "CMakeLists.txt"
-        is_capability = target.is_file() and "docent_capability(" in target.read_text()
-        if is_capability and "SOURCES_APART" not in target.read_text():
+        text = target.read_text() if target.is_file() else ""
+        is_one = "docent_capability(" in text or folder.is_relative_to(ROOT / "tests")
+        if is_one and "SOURCES_APART" not in text:
             groups.append(members)
         else:
             groups += [[member] for member in members]
@@ -106,6 +107,9 @@ def write_together(groups, commands):
         name = TOGETHER / ("_".join(group[0].parent.relative_to(ROOT).parts) + ".cpp")
         name.write_text("".join(f'#include "{source}"\n' for source in group))
         command = commands[group[0]]["command"].replace(str(group[0]), str(name))
+        for source in group[1:]:  # targets of one folder need not see the same
+            seen = [word for word in commands[source]["command"].split() if word.startswith(("-I", "-D"))]
+            command += "".join(f" {word}" for word in seen if f" {word} " not in command)
         entries.append({"directory": str(BUILD), "file": str(name), "command": command})
         files.append((group, name))
     (TOGETHER / "compile_commands.json").write_text(json.dumps(entries))

@@ -22,6 +22,7 @@
 #include "docent/apps/replay/evaluate_command.h"
 #include "docent/apps/replay/replay_command.h"
 #include "docent/apps/shared/command.h"
+#include "docent/apps/simulate/explore_command.h"
 #include "docent/apps/simulate/simulate_command.h"
 #include "docent/apps/train_sonar/train_sonar_command.h"
 #include "docent/apps/up/run_command.h"
@@ -40,7 +41,7 @@ void add_commands(CLI::App& app) {
     const std::vector<CLI::App*> all = app.get_subcommands({});
     for (std::size_t i = before; i < all.size(); ++i) all[i]->group(heading);
   };
-  add("Drive through a museum", {add_simulate_command, add_up_command, add_web_account_command, add_gateway_command});
+  add("Drive through a museum", {add_simulate_command, add_explore_command, add_up_command, add_web_account_command, add_gateway_command});
   add("Make a museum",
       {add_museum_command, add_office_command, add_survey_command, add_check_command, add_golog_command});
   add("Look at recordings",

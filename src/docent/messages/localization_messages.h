@@ -143,4 +143,32 @@ struct LiveMapUpdate {
   }
 };
 
+/// How far a robot is that maps a building by itself; latched.
+struct Exploration {
+  static constexpr const char* kType = "docent_msgs/msg/Exploration";
+  std_msgs::Header header;
+  std::string state;           ///< starting, exploring, returning, mapping (it computes and stands), done
+  float known_m2 = 0;          ///< floor known to be free
+  std::uint32_t frontier = 0;  ///< unknown cells that it can still go to
+  float way_m = 0;             ///< driven
+  std::uint32_t loops = 0;     ///< places recognised
+  std::vector<double> unreached_x;  ///< [m], map: unknown places beside free floor that it could not get to or see into
+  std::vector<double> unreached_y;  ///< [m]
+  std::string map;      ///< done: the file of the map
+  std::string warning;  ///< done: why the map is not to be trusted; empty: it is
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("header", m.header);
+    v("state", m.state);
+    v("known_m2", m.known_m2);
+    v("frontier", m.frontier);
+    v("way_m", m.way_m);
+    v("loops", m.loops);
+    v("unreached_x", m.unreached_x);
+    v("unreached_y", m.unreached_y);
+    v("map", m.map);
+    v("warning", m.warning);
+  }
+};
+
 }  // namespace docent::docent_msgs

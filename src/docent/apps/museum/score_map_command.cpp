@@ -29,6 +29,7 @@ void run(const ScoreOptions& options) {
   std::printf(
       "%zu ghosts more than 0.3 m off, %.3f %% of %zu free cells; %.1f %% of the surfaces beside free floor found\n",
       score.ghosts, 100.0 * ghost_share, score.free, 100.0 * score.found);
+  std::printf("%.2f %% of %.0f m2 of connected floor covered\n", 100.0 * score.covered, score.floor);
   if (options.report.empty()) return;
   const nlohmann::json report{
       {"world_from_map", {score.world_from_map.x, score.world_from_map.y, score.world_from_map.theta.radians()}},
@@ -37,6 +38,8 @@ void run(const ScoreOptions& options) {
       {"wall_error_m", score.wall_error},
       {"wall_error_p95_m", score.wall_error_p95},
       {"ghosts", score.ghosts},
+      {"floor_m2", score.floor},
+      {"covered", score.covered},
       {"found", score.found}};
   value_or_fail(write_file_atomically(options.report, report.dump(2) + "\n"));
 }

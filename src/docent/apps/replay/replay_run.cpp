@@ -114,7 +114,7 @@ std::string replayable() {
   std::string names;
   for (const modules::ModuleEntry& entry : modules::all_modules()) {
     const std::string name = entry.name;
-    if (name != "record" && name != "web") names += (names.empty() ? "" : ", ") + name;
+    if (name != "record" && name != "web" && entry.guides) names += (names.empty() ? "" : ", ") + name;
   }
   return names;
 }
@@ -128,7 +128,7 @@ Result<std::vector<const modules::ModuleEntry*>> chosen_modules(const std::vecto
   }
   for (const modules::ModuleEntry& entry : modules::all_modules()) {
     const std::string name = entry.name;
-    if (name == "record" || name == "web" || (names.empty() && name == "sound")) continue;
+    if (name == "record" || name == "web" || (names.empty() && (name == "sound" || !entry.guides))) continue;
     if (names.empty() || std::find(names.begin(), names.end(), name) != names.end()) chosen.push_back(&entry);
   }
   return chosen;

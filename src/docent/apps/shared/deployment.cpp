@@ -14,6 +14,7 @@
 #include "docent/apps/shared/cache_folder.h"
 #include "docent/base/shipped_files.h"
 #include "docent/modules/host/registry.h"
+#include "docent/museum/blank_museum.h"
 #include "docent/transport/dds_bus.h"
 
 namespace docent::apps {
@@ -31,6 +32,10 @@ void Deployment::add_options(CLI::App& command) {
       ->check(CLI::Range(0, transport::kMaxDdsDomain))
       ->capture_default_str();
   add_seed(command, "--seed", seed, "Seed of everything random");
+  command.add_option(
+      "--explore", explore,
+      "X,Y,DEG: where the robot begins to map the museum by itself, in the frame of its hazards and area; "
+      "its map, exhibits and tours are not used");
 }
 
 std::vector<std::string> Deployment::arguments() const {
@@ -43,11 +48,16 @@ std::vector<std::string> Deployment::arguments() const {
   if (!robot.empty()) all.insert(all.end(), {"--robot", robot});
   for (const auto& setting : settings) all.insert(all.end(), {"--set", setting});
   if (!name.empty()) all.insert(all.end(), {"--name", name});
+  if (!explore.empty()) all.insert(all.end(), {"--explore", explore});
   all.insert(all.end(), {"--domain", std::to_string(domain), "--seed", std::to_string(seed)});
   return all;
 }
 
-Result<museum::Museum> Deployment::load() const { return museum::load_museum(museum); }
+Result<museum::Museum> Deployment::load() const {
+  auto loaded = museum::load_museum(museum);
+  if (!loaded || !is_exploring()) return loaded;
+  return museum::without_map(*loaded, parse_pose("--explore", explore));
+}
 
 Result<robot::RobotConfig> Deployment::load_config() const {
   robot::RobotConfig config;

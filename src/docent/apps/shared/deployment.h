@@ -25,11 +25,14 @@ struct Deployment {
   std::string name;                   ///< prefix of the topics
   int domain = 0;
   std::uint64_t seed = 1;
+  std::string explore;  ///< X,Y,DEG: it begins there and maps the museum by itself; empty: it has its map
 
   void add_options(CLI::App& command);
   /// As arguments of another process.
   [[nodiscard]] std::vector<std::string> arguments() const;
+  /// Without its map where the robot explores.
   [[nodiscard]] Result<museum::Museum> load() const;
+  [[nodiscard]] bool is_exploring() const { return !explore.empty(); }
   [[nodiscard]] Result<robot::RobotConfig> load_config() const;
   /// The same for a robot that may meet people: error when it is crippled for an evaluation.
   [[nodiscard]] Result<robot::RobotConfig> load_whole_config() const;

@@ -22,6 +22,7 @@
 #include "docent/messages/conversions.h"
 #include "docent/modules/host/module_host.h"
 #include "docent/modules/perception/localize_module.h"
+#include "docent/museum/blank_museum.h"
 #include "docent/recording/recorder.h"
 #include "docent/simulator/simulated_museum.h"
 #include "docent/task_control/mission/mission_store.h"
@@ -83,6 +84,7 @@ class SimulationRun::Parts {
     for (const modules::ModuleEntry& entry : modules::all_modules()) {
       const std::string name = entry.name;
       if (name == "record" || (name == "web" && !options_.hosts_web)) continue;
+      if (!modules::runs(entry, options_.explore.has_value())) continue;
       if (auto started = start_module(entry); !started) return started;
     }
     return {};
@@ -123,6 +125,8 @@ class SimulationRun::Parts {
   /// Speed limit and mode, as the museum's staff would set them.
   Result<void> start_operator() {
     operator_bus_ = hub_.connect("operator");
+    operator_bus_->subscribe<docent_msgs::Exploration>(topics::kExploration,
+                                                       [this](const auto& state) { exploration_ = state; });
     docent_msgs::Limits limits;
     limits.mode = options_.mode;
     limits.max_speed = config_.body().max_speed;
@@ -147,7 +151,7 @@ class SimulationRun::Parts {
     options.seed = options_.seed;
     options.crowd = options_.crowd;
     options.crowd_count = options_.people;
-    options.start = options_.start;
+    options.start = options_.explore ? options_.explore : options_.start;
     if (options_.start && !contains(museum_.area, options_.start->position())) {
       return fail("--start: outside the area in which the robot may be");
     }
@@ -259,6 +263,7 @@ class SimulationRun::Parts {
   std::map<std::string, std::string> pictures_;  ///< of the cameras, by file name
   std::optional<recording::Recorder> recorder_;
   std::string failure_;
+  std::optional<docent_msgs::Exploration> exploration_;
   double wall_s_ = 0.0;
   double cpu_s_ = 0.0;
   double evaluation_s_ = 0.0;
@@ -281,6 +286,7 @@ Result<std::unique_ptr<SimulationRun>> SimulationRun::create(const SimulationRun
   if (!museum) return tl::unexpected<Error>(museum.error());
   auto config = deployment.load_config();
   if (!config) return tl::unexpected<Error>(config.error());
+  if (options.explore) *museum = museum::without_map(*museum, *options.explore);
   auto parts = std::make_unique<Parts>(std::move(*museum), std::move(*config), options);
   if (auto started = parts->start(); !started) return tl::unexpected<Error>(started.error());
   return std::unique_ptr<SimulationRun>{new SimulationRun{std::move(parts)}};
@@ -288,6 +294,7 @@ Result<std::unique_ptr<SimulationRun>> SimulationRun::create(const SimulationRun
 
 Result<void> SimulationRun::run_until(Time end) { return parts_->run_until(end); }
 Time SimulationRun::now() const { return parts_->hub_.now(); }
+std::optional<docent_msgs::Exploration> SimulationRun::exploration() const { return parts_->exploration_; }
 std::string SimulationRun::report_json() const {
   return evaluation::to_json(parts_->evaluator_.report(), parts_->cost());
 }

@@ -11,6 +11,7 @@
 #include "docent/base/time.h"
 #include "docent/evaluation/deployment_report.h"
 #include "docent/geometry/pose2.h"
+#include "docent/messages/localization_messages.h"
 
 namespace docent::apps {
 
@@ -41,6 +42,7 @@ struct SimulationRunOptions {
   std::string cache;            ///< folder, see ModuleContext; empty: nothing is kept
   bool hosts_web = false;       ///< the page too
   bool profile = false;         ///< costs are counted by the processor's time, which is slower to ask for
+  std::optional<Pose2> explore;  ///< the robot begins here and maps the museum by itself; none: it has its map
   bool has_robot = true;        ///< false: the world and the robot's body alone, no module
 };
 
@@ -57,6 +59,8 @@ class SimulationRun {
   [[nodiscard]] Result<void> run_until(Time end);
   [[nodiscard]] Time now() const;
 
+  /// What the robot said last of its exploration.
+  [[nodiscard]] std::optional<docent_msgs::Exploration> exploration() const;
   /// The deployment report so far (architecture 9), JSON.
   [[nodiscard]] std::string report_json() const;
   /// The same for people.

@@ -134,6 +134,7 @@ std::vector<ChildSpec> children_of(const UpOptions& options, const std::string& 
     children.push_back({kSimulatorProcess, std::move(words), may_raise ? 0 : -kUrgent, false});
   }
   for (const auto& entry : modules::all_modules()) {
+    if (!modules::runs(entry, options.deployment.is_exploring())) continue;
     const int niceness = entry.is_urgent ? (may_raise ? kUrgent : 0) : (may_raise ? 0 : -kUrgent);
     children.push_back({entry.name, command(entry.name), niceness, true});
   }

@@ -22,6 +22,7 @@ Result<void> ScanMapperParams::validate() const {
   if (!(most_log_odds > 0.0)) return fail("most_log_odds must be > 0");
   if (!(reach > 0.0)) return fail("reach must be > 0 m");
   if (!(margin >= 0.0)) return fail("margin must be >= 0 m");
+  if (!(empty_reach >= 0.0)) return fail("empty_reach must be >= 0 m");
   if (!(widest_gap >= 0.0 && widest_gap < 90.0)) return fail("widest_gap must be 0..90 degrees");
   if (!(widest_wall >= 0.0)) return fail("widest_wall must be >= 0 m");
   if (!(border >= 0.0)) return fail("border must be >= 0 m");
@@ -105,18 +106,24 @@ void ScanMapper::clear_triangle(Point2 a, Point2 b, Point2 c) {
   }
 }
 
-const sensor_models::SweepBeam* ScanMapper::neighbour_of(std::span<const sensor_models::SweepBeam> beams, std::size_t i,
-                                                         std::size_t n) const {
+bool ScanMapper::are_neighbours(std::span<const sensor_models::SweepBeam> beams, std::size_t i, std::size_t n) const {
   // The last beam of a full turn is the neighbour of the first.
   const double apart = std::abs(Angle::radians(beams[n].bearing - beams[i].bearing).radians());
-  const bool is_one = n != i && !beams[n].no_return && apart <= params_.widest_gap * std::numbers::pi / 180.0;
-  return is_one ? &beams[n] : nullptr;
+  return n != i && apart <= params_.widest_gap * std::numbers::pi / 180.0;
+}
+
+const sensor_models::SweepBeam* ScanMapper::neighbour_of(std::span<const sensor_models::SweepBeam> beams, std::size_t i,
+                                                         std::size_t n) const {
+  return !beams[n].no_return && are_neighbours(beams, i, n) ? &beams[n] : nullptr;
 }
 
 std::vector<double> ScanMapper::clear_ranges(std::span<const sensor_models::SweepBeam> beams) const {
   std::vector<double> clear(beams.size(), 0.0);
   for (std::size_t i = 0; i < beams.size(); ++i) {
-    if (beams[i].no_return) continue;
+    if (beams[i].no_return) {
+      clear[i] = params_.empty_reach;
+      continue;
+    }
     const Point2 end = sensor_models::endpoint(beams[i]);
     double steepest = 0.0;  // sine of the angle at which the beam meets its surface
     bool is_alone = true;
@@ -153,12 +160,21 @@ void ScanMapper::add(const PlacedSweep& placed) {
   };
   const std::vector<double> clear = clear_ranges(beams);
   for (std::size_t i = 0; i < beams.size(); ++i) {
-    if (beams[i].no_return) continue;
     mark_line(sensor, seen_to(beams[i], clear[i]), pass_);
-    const sensor_models::SweepBeam* const neighbour = neighbour_of(beams, i, next_of(i));
-    if (neighbour == nullptr) continue;
     const double both = std::min(clear[i], clear[next_of(i)]);
-    clear_triangle(sensor, seen_to(beams[i], both), seen_to(*neighbour, both));
+    if (both <= 0.0 || !are_neighbours(beams, i, next_of(i))) continue;
+    clear_triangle(sensor, seen_to(beams[i], both), seen_to(beams[next_of(i)], both));
+  }
+}
+
+void ScanMapper::stand(Point2 centre, double radius) {
+  ++sweep_;
+  const CellIndex low = frame_.cell_at(centre - Point2{radius, radius});
+  const CellIndex high = frame_.cell_at(centre + Point2{radius, radius});
+  for (int row = low.row; row <= high.row; ++row) {
+    for (int column = low.column; column <= high.column; ++column) {
+      if (distance(frame_.centre({column, row}), centre) <= radius) add_evidence({column, row}, pass_);
+    }
   }
 }
 

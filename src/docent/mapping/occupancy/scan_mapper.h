@@ -17,6 +17,7 @@ struct ScanMapperParams {
   double most_log_odds = 4;  ///< [nat], > 0: so that a cell can change its mind
   double reach = 25.0;       ///< [m], > 0: beyond it an error of half a degree is many cells
   double margin = 0.10;      ///< [m], >= 0: so near the surface it ends on a beam says nothing; walls are rough
+  double empty_reach = 0.0;  ///< [m], >= 0: so far a beam without a return shows free floor; 0: it says nothing
   double widest_gap = 2.0;   ///< [deg], >= 0: between beams no farther apart the floor is clear as far as both saw
   double widest_wall = 0.4;  ///< [m], >= 0: ends of such neighbours no farther apart lie on one surface
   double border = 1.0;       ///< [m], >= 0, about everything that was seen
@@ -31,6 +32,7 @@ struct ScanMapperParams {
     v("most_log_odds", most_log_odds);
     v("reach", reach);
     v("margin", margin);
+    v("empty_reach", empty_reach);
     v("widest_gap", widest_gap);
     v("widest_wall", widest_wall);
     v("border", border);
@@ -50,8 +52,8 @@ struct PlacedSweep {
 /// Occupancy map of sweeps at known poses [Rhino1999] 3.2.1, Table 3: evidence of each sweep is added to each cell as
 /// log odds (eq. 17, prior 0.5). The inverse sensor model is made by hand: the cell a beam ends in was hit, those
 /// before it were passed. Departures: a cell counts once a sweep, however many beams meet it there (beams of one sweep
-/// err together), and a hit wins; log odds are bounded. A beam without a return says nothing: glass and black cloth
-/// give none either.
+/// err together), and a hit wins; log odds are bounded. A beam without a return says nothing, unless
+/// `empty_reach` says how far: glass and black cloth give none either.
 class ScanMapper {
  public:
   /// The smallest frame that holds all sensors and endpoints within reach, and the border. Error: nothing to map, or
@@ -63,6 +65,8 @@ class ScanMapper {
 
   /// O(cells in view). What lies outside the frame is passed over.
   void add(const PlacedSweep& placed);
+  /// The body stood here: the floor within `radius` [m] was free. O(cells within).
+  void stand(Point2 centre, double radius);
   [[nodiscard]] OccupancyGrid map() const;
   [[nodiscard]] std::span<const float> log_odds() const { return log_odds_; }  ///< [rows * columns]
 
@@ -70,6 +74,9 @@ class ScanMapper {
   void add_evidence(CellIndex cell, float evidence);
   void mark_line(Point2 from, Point2 to, float evidence);
   void clear_triangle(Point2 a, Point2 b, Point2 c);
+  /// Whether beam `n` is the neighbour of beam `i`.
+  [[nodiscard]] bool are_neighbours(std::span<const sensor_models::SweepBeam> beams, std::size_t i,
+                                    std::size_t n) const;
   /// Beam `n` where it is the neighbour of beam `i` and came back; else none.
   [[nodiscard]] const sensor_models::SweepBeam* neighbour_of(std::span<const sensor_models::SweepBeam> beams,
                                                              std::size_t i, std::size_t n) const;

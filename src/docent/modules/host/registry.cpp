@@ -9,6 +9,7 @@
 #include "docent/modules/edge/record_module.h"
 #include "docent/modules/edge/scene_camera_module.h"
 #include "docent/modules/edge/visualize_module.h"
+#include "docent/modules/exploration/explore_module.h"
 #include "docent/modules/guide/buttons_module.h"
 #include "docent/modules/guide/executive_module.h"
 #include "docent/modules/guide/head_module.h"
@@ -24,22 +25,23 @@ namespace {
 
 // clang-format off
 constexpr std::array kModules{
-    ModuleEntry{"avoid", make_avoid, parameters_of_avoid, true},
-    ModuleEntry{"hazards", make_hazards, parameters_of_hazards},
-    ModuleEntry{"localize", make_localize, parameters_of_localize, false, false, true},
-    ModuleEntry{"map", make_map, parameters_of_map},
-    ModuleEntry{"people", make_people, parameters_of_people},
-    ModuleEntry{"plan", make_plan, parameters_of_plan},
-    ModuleEntry{"record", make_record, parameters_of_record, false, true},
-    ModuleEntry{"robot", make_robot, parameters_of_robot, true},
-    ModuleEntry{"sound", make_sound, parameters_of_sound},
-    ModuleEntry{"buttons", make_buttons, parameters_of_buttons},
-    ModuleEntry{"mission", make_mission, parameters_of_mission},
-    ModuleEntry{"executive", make_executive, parameters_of_executive},
-    ModuleEntry{"web", make_web, parameters_of_web},
-    ModuleEntry{"visualize", make_visualize, parameters_of_visualize},
-    ModuleEntry{"head", make_head, parameters_of_head},
-    ModuleEntry{"scene_camera", make_scene_camera, parameters_of_scene_camera},
+    ModuleEntry{.name = "avoid", .make = make_avoid, .parameters = parameters_of_avoid, .is_urgent = true, .explores = true},
+    ModuleEntry{.name = "hazards", .make = make_hazards, .parameters = parameters_of_hazards, .explores = true},
+    ModuleEntry{.name = "localize", .make = make_localize, .parameters = parameters_of_localize, .keeps_cache = true},
+    ModuleEntry{.name = "map", .make = make_map, .parameters = parameters_of_map},
+    ModuleEntry{.name = "people", .make = make_people, .parameters = parameters_of_people, .explores = true},
+    ModuleEntry{.name = "plan", .make = make_plan, .parameters = parameters_of_plan},
+    ModuleEntry{.name = "record", .make = make_record, .parameters = parameters_of_record, .sees_truth = true, .explores = true},
+    ModuleEntry{.name = "robot", .make = make_robot, .parameters = parameters_of_robot, .is_urgent = true, .explores = true},
+    ModuleEntry{.name = "sound", .make = make_sound, .parameters = parameters_of_sound},
+    ModuleEntry{.name = "buttons", .make = make_buttons, .parameters = parameters_of_buttons},
+    ModuleEntry{.name = "mission", .make = make_mission, .parameters = parameters_of_mission},
+    ModuleEntry{.name = "executive", .make = make_executive, .parameters = parameters_of_executive},
+    ModuleEntry{.name = "web", .make = make_web, .parameters = parameters_of_web},
+    ModuleEntry{.name = "visualize", .make = make_visualize, .parameters = parameters_of_visualize, .explores = true},
+    ModuleEntry{.name = "head", .make = make_head, .parameters = parameters_of_head, .explores = true},
+    ModuleEntry{.name = "scene_camera", .make = make_scene_camera, .parameters = parameters_of_scene_camera},
+    ModuleEntry{.name = "explore", .make = make_explore, .parameters = parameters_of_explore, .explores = true, .guides = false},
 };
 // clang-format on
 

@@ -51,46 +51,85 @@ Result<void> ExplorerParams::validate() const {
   if (!(comfort >= 0.0)) return fail("comfort must be >= 0");
   if (!(comfort_cost >= 0.0)) return fail("comfort_cost must be >= 0");
   if (!(switch_cost >= 0.0)) return fail("switch_cost must be >= 0");
+  if (!(hazard_margin >= 0.0)) return fail("hazard_margin must be >= 0");
+  if (!(close > 0.0)) return fail("close must be > 0");
+  if (close_looks < 1) return fail("close_looks must be >= 1");
   return {};
 }
+
+Explorer::Explorer(ExplorerParams params, std::vector<Polygon> hazards, Polygon area)
+    : params_{params}, hazards_{std::move(hazards)}, area_{std::move(area)} {}
 
 bool Explorer::is_given_up(Point2 place, double within) const {
   return std::any_of(given_up_.begin(), given_up_.end(), [&](Point2 p) { return distance(p, place) < within; });
 }
 
-std::optional<Exploration> Explorer::next(const OccupancyGrid& map, Point2 robot) {
-  const OccupancyGrid coarse = coarsened(map, params_.coarsening);
-  const GridFrame& frame = coarse.frame;
-  std::vector<bool> solid(frame.size());
-  for (std::size_t i = 0; i < solid.size(); ++i) solid[i] = coarse.cells[i] >= 65;
-  const auto clearances = distance_transform(frame, solid);
+bool Explorer::may_stand(Point2 place) const {
+  if (!area_.empty() && !contains(area_, place)) return false;
+  const double keep = params_.robot_radius + params_.hazard_margin;
+  for (const Polygon& hazard : hazards_) {
+    if (distance(hazard, place) < keep) return false;
+  }
+  return std::none_of(blocked_.begin(), blocked_.end(),
+                      [&](const Disc& disc) { return distance(disc.centre, place) < disc.radius; });
+}
 
-  std::vector<float> costs(frame.size(), ValueIteration::kClosed);
-  std::vector<ValueIteration::Goal> goals;
+Explorer::Costs Explorer::costs_of(const OccupancyGrid& map) const {
+  Costs result{coarsened(map, params_.coarsening), {}, {}};
+  const GridFrame& frame = result.coarse.frame;
+  std::vector<bool> solid(frame.size());
+  for (std::size_t i = 0; i < solid.size(); ++i) solid[i] = result.coarse.cells[i] >= 65;
+  const auto clearances = distance_transform(frame, solid);
+  result.costs.assign(frame.size(), ValueIteration::kClosed);
   for (int row = 0; row < frame.rows; ++row) {
     for (int column = 0; column < frame.columns; ++column) {
       const CellIndex cell{column, row};
       const std::size_t i = frame.index(cell);
       const double spare = static_cast<double>(clearances[i]) - params_.robot_radius - params_.wall_margin;
-      if (spare < 0.0 || (!is_unknown(coarse.cells[i]) && !coarse.is_free(cell))) continue;
-      if (!is_unknown(coarse.cells[i])) {
-        const double discomfort = params_.comfort > 0.0 ? std::max(0.0, 1.0 - spare / params_.comfort) : 0.0;
-        costs[i] = static_cast<float>(frame.resolution * (1.0 + params_.comfort_cost * discomfort * discomfort));
+      const bool is_free = result.coarse.is_free(cell);
+      const bool is_frontier = is_unknown(result.coarse.cells[i]) && borders_on_free(result.coarse, cell);
+      if (spare < 0.0 || !(is_free || is_frontier) || !may_stand(frame.centre(cell))) continue;
+      if (is_frontier) {
+        result.frontier.push_back(cell);
         continue;
       }
-      if (!borders_on_free(coarse, cell)) continue;
-      const Point2 place = frame.centre(cell);
-      if (distance(place, robot) < params_.robot_radius + frame.resolution && !is_given_up(place, frame.resolution))
-        given_up_.push_back(place);
-      if (is_given_up(place, frame.resolution)) continue;
-      costs[i] = static_cast<float>(frame.resolution);
-      const bool is_same = !last_ || distance(*last_, place) < kSamePlace;
-      goals.push_back({cell, is_same ? 0.0F : static_cast<float>(params_.switch_cost)});
+      const double discomfort = params_.comfort > 0.0 ? std::max(0.0, 1.0 - spare / params_.comfort) : 0.0;
+      result.costs[i] = static_cast<float>(frame.resolution * (1.0 + params_.comfort_cost * discomfort * discomfort));
     }
+  }
+  return result;
+}
+
+void Explorer::give_up_what_stays_unknown(const OccupancyGrid& coarse, std::span<const CellIndex> frontier,
+                                          Point2 robot) {
+  const GridFrame& frame = coarse.frame;
+  for (const CellIndex cell : frontier) {
+    const Point2 place = frame.centre(cell);
+    const double off = distance(place, robot);
+    if (off >= params_.close && off >= params_.robot_radius + frame.resolution) continue;
+    if (is_given_up(place, frame.resolution)) continue;
+    const std::pair<int, int> key{static_cast<int>(std::lround(place.x / frame.resolution)),
+                                  static_cast<int>(std::lround(place.y / frame.resolution))};
+    const int looks = off < params_.robot_radius + frame.resolution ? params_.close_looks : ++looked_at_[key];
+    if (looks >= params_.close_looks) given_up_.push_back(place);
+  }
+}
+
+std::optional<Exploration> Explorer::next(const OccupancyGrid& map, Point2 robot) {
+  Costs known = costs_of(map);
+  const GridFrame& frame = known.coarse.frame;
+  give_up_what_stays_unknown(known.coarse, known.frontier, robot);
+  std::vector<ValueIteration::Goal> goals;
+  for (const CellIndex cell : known.frontier) {
+    const Point2 place = frame.centre(cell);
+    if (is_given_up(place, frame.resolution)) continue;
+    known.costs[frame.index(cell)] = static_cast<float>(frame.resolution);
+    const bool is_same = !last_ || distance(*last_, place) < kSamePlace;
+    goals.push_back({cell, is_same ? 0.0F : static_cast<float>(params_.switch_cost)});
   }
 
   ValueIteration planner{frame};
-  planner.set_costs(costs);
+  planner.set_costs(known.costs);
   planner.set_goals(goals);
   const auto start = start_cell(planner, robot);
   if (!start || !planner.settle(*start, kEnough)) return std::nullopt;
@@ -101,6 +140,45 @@ std::optional<Exploration> Explorer::next(const OccupancyGrid& map, Point2 robot
   result.frontier = goals.size();
   last_ = result.way.back();
   return result;
+}
+
+std::vector<Point2> Explorer::way_to(const OccupancyGrid& map, Point2 robot, Point2 goal) const {
+  const Costs known = costs_of(map);
+  ValueIteration planner{known.coarse.frame};
+  planner.set_costs(known.costs);
+  const CellIndex cell = known.coarse.frame.cell_at(goal);
+  if (!known.coarse.frame.holds(cell)) return {};
+  planner.set_goals(std::vector<ValueIteration::Goal>{{cell}});
+  const auto start = start_cell(planner, robot);
+  if (!start || !planner.settle(*start, kEnough)) return {};
+  std::vector<Point2> way;
+  for (const CellIndex& step : planner.descend(*start)) way.push_back(known.coarse.frame.centre(step));
+  return way;
+}
+
+std::vector<Explorer::Unreached> Explorer::unreached(const OccupancyGrid& map) const {
+  constexpr double kTogether = 0.5;   // [m] between cells of one group
+  constexpr std::size_t kFewest = 3;  // cells: fewer are specks
+  const Costs known = costs_of(map);
+  std::vector<Point2> left;
+  for (const CellIndex cell : known.frontier) left.push_back(known.coarse.frame.centre(cell));
+  std::vector<Unreached> groups;
+  while (!left.empty()) {
+    std::vector<Point2> group{left.back()};
+    left.pop_back();
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      const auto near =
+          std::partition(left.begin(), left.end(), [&](Point2 p) { return distance(p, group[i]) > kTogether; });
+      group.insert(group.end(), near, left.end());
+      left.erase(near, left.end());
+    }
+    if (group.size() < kFewest) continue;
+    Point2 sum;
+    for (const Point2 p : group) sum = sum + p;
+    groups.push_back({(1.0 / static_cast<double>(group.size())) * sum, group.size()});
+  }
+  std::sort(groups.begin(), groups.end(), [](const Unreached& a, const Unreached& b) { return a.cells > b.cells; });
+  return groups;
 }
 
 }  // namespace docent::planning

@@ -1,10 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "docent/base/result.h"
+#include "docent/geometry/polygon.h"
 #include "docent/grid/occupancy_grid.h"
 
 namespace docent::planning {
@@ -16,6 +20,9 @@ struct ExplorerParams {
   double comfort = 0.5;         ///< [m] beyond which clearance costs nothing
   double comfort_cost = 2.0;    ///< extra cost, as a factor, at the least clearance
   double switch_cost = 0.5;     ///< [m of free floor] by which another place must be nearer than the last one
+  double hazard_margin = 0.25;  ///< [m] kept from what only people know of, beyond the radius: the pose errs, too
+  double close = 0.9;           ///< [m], > 0: what is still unknown from so near
+  int close_looks = 5;          ///< > 0: in so many calls, is not to be seen
   template <class V>
   void visit(V& v) {
     v("coarsening", coarsening);
@@ -24,6 +31,9 @@ struct ExplorerParams {
     v("comfort", comfort);
     v("comfort_cost", comfort_cost);
     v("switch_cost", switch_cost);
+    v("hazard_margin", hazard_margin);
+    v("close", close);
+    v("close_looks", close_looks);
   }
   [[nodiscard]] Result<void> validate() const;
 };
@@ -38,23 +48,56 @@ struct Exploration {
 /// Exploration ([Buhmann1995], "Planning and Exploration"): value iteration whose goals are the unknown places, all at
 /// once, so the robot moves straight to the unexplored. Goals are those unknown cells that border on free floor and are
 /// wide enough for the robot, by what is known to be occupied: a crack between a case and the wall is none. A cell that
-/// is still unknown when the robot stands right before it cannot be seen, and is not gone to again.
+/// is still unknown when the robot stands right before it, or has looked from nearby for a while, cannot be seen, and
+/// is not gone to again.
 class Explorer {
  public:
-  explicit Explorer(ExplorerParams params) : params_{params} {}
+  /// @param hazards  [m], map: what no sensor sees, and people have marked; the body keeps off
+  /// @param area  [m], map: the robot's centre stays inside; empty: anywhere
+  explicit Explorer(ExplorerParams params, std::vector<Polygon> hazards = {}, Polygon area = {});
 
   /// @param map    what is known now, with all that is seen from `robot`; it may have grown or moved since the last
   /// call
   /// @param robot  [m], map
   /// @returns nullopt when nothing unknown can be reached: the map is done. O(cells)
   [[nodiscard]] std::optional<Exploration> next(const OccupancyGrid& map, Point2 robot);
+  /// The way to a place over known free floor; empty: there is none. O(cells)
+  [[nodiscard]] std::vector<Point2> way_to(const OccupancyGrid& map, Point2 robot, Point2 goal) const;
+
+  /// Something stands there that the map does not show: no way leads through the disc until `unblock`.
+  void block(Point2 centre, double radius) { blocked_.push_back({centre, radius}); }
+  void unblock() { blocked_.clear(); }
+  [[nodiscard]] bool is_anything_blocked() const { return !blocked_.empty(); }
+  /// Unknown places beside free floor that are wide enough for the robot, and that it did not get to, in groups: the
+  /// middle of each and how many unknown cells border on free floor there. @pre no area of `map` was explored since
+  struct Unreached {
+    Point2 place;  ///< [m], map
+    std::size_t cells = 0;
+  };
+  [[nodiscard]] std::vector<Unreached> unreached(const OccupancyGrid& map) const;
 
  private:
+  struct Disc {
+    Point2 centre;
+    double radius = 0.0;
+  };
+  struct Costs {
+    OccupancyGrid coarse;
+    std::vector<float> costs;         ///< [rows * columns] of planning cells
+    std::vector<CellIndex> frontier;  ///< unknown, beside free floor, wide enough
+  };
   [[nodiscard]] bool is_given_up(Point2 place, double within) const;
+  [[nodiscard]] bool may_stand(Point2 place) const;
+  [[nodiscard]] Costs costs_of(const OccupancyGrid& map) const;
+  void give_up_what_stays_unknown(const OccupancyGrid& coarse, std::span<const CellIndex> frontier, Point2 robot);
 
   ExplorerParams params_;
-  std::vector<Point2> given_up_;  ///< [m], map
-  std::optional<Point2> last_;    ///< [m], map: the goal before
+  std::vector<Polygon> hazards_;
+  Polygon area_;
+  std::vector<Disc> blocked_;
+  std::vector<Point2> given_up_;                  ///< [m], map
+  std::map<std::pair<int, int>, int> looked_at_;  ///< calls in which a cell, by its place, was near and unknown
+  std::optional<Point2> last_;                    ///< [m], map: the goal before
 };
 
 }  // namespace docent::planning

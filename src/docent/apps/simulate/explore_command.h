@@ -1,0 +1,12 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace docent::apps {
+
+/// `docent explore`.
+void add_explore_command(CLI::App& app);
+
+}  // namespace docent::apps

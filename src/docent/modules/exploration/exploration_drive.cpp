@@ -1,0 +1,126 @@
+#include "docent/modules/exploration/exploration_drive.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace docent::modules {
+namespace {
+
+constexpr double kBlockedRadius = 0.5;  // [m] about what holds it up
+constexpr double kBlockedAhead = 0.7;   // [m] from the robot's centre: where it stands
+constexpr int kSecondTries = 2;         // times that it forgets where it was held up, before it goes home
+constexpr std::size_t kTriesHome = 5;   // ways home on which it was held up, then it stays
+
+/// Ends of the staircase that a way over cells is, at most half a metre from each other.
+std::vector<Point2> smoothed(const std::vector<Point2>& cells) {
+  constexpr std::ptrdiff_t kHalf = 2;
+  const auto last = static_cast<std::ptrdiff_t>(cells.size()) - 1;
+  std::vector<Point2> way;
+  for (std::ptrdiff_t i = 0; i <= last; ++i) {
+    const std::ptrdiff_t half = std::min({kHalf, i, last - i});
+    Point2 sum;
+    for (std::ptrdiff_t k = i - half; k <= i + half; ++k) sum = sum + cells[static_cast<std::size_t>(k)];
+    way.push_back((1.0 / static_cast<double>(2 * half + 1)) * sum);
+  }
+  return way;
+}
+
+}  // namespace
+
+Result<void> ExplorationDriveParams::validate() const {
+  if (!(horizon > 0.0)) return fail("horizon must be > 0 m");
+  if (!(held_up > 0.0)) return fail("held_up must be > 0 s");
+  if (!(moved > 0.0)) return fail("moved must be > 0 m");
+  if (!(turned_away > 0.0)) return fail("turned_away must be > 0 s");
+  if (!(home_tolerance > 0.0)) return fail("home_tolerance must be > 0 m");
+  return {};
+}
+
+ExplorationDrive::ExplorationDrive(const ExplorationDriveParams& params, planning::Explorer explorer, Point2 home)
+    : params_{params}, explorer_{std::move(explorer)}, home_{home} {}
+
+void ExplorationDrive::set_way(std::vector<Point2> cells) { way_ = smoothed(cells); }
+
+void ExplorationDrive::note_progress(Point2 robot, bool waits, Time now) {
+  if (waits || !progress_ || distance(robot, last_progress_) >= params_.moved) {
+    last_progress_ = robot;
+    progress_ = now;
+  }
+  std::erase_if(obstacles_, [&](const Obstacle& obstacle) { return obstacle.until <= now; });
+  if (now - *progress_ >= seconds(params_.held_up) && !way_.empty()) {
+    Point2 at = way_.back();
+    for (const Point2 point : way_) {
+      if (distance(point, robot) < kBlockedAhead) continue;
+      at = point;
+      break;
+    }
+    obstacles_.push_back({at, now + seconds(params_.turned_away)});
+    if (state_ == State::returning) ++held_up_at_home_;
+    progress_ = now;
+  }
+  explorer_.unblock();
+  for (const Obstacle& obstacle : obstacles_) {
+    // Never so wide that the robot stands within it.
+    const double radius = std::min(kBlockedRadius, distance(obstacle.place, robot) - 0.1);
+    if (radius > 0.0) explorer_.block(obstacle.place, radius);
+  }
+}
+
+void ExplorationDrive::explore(const OccupancyGrid& map, Point2 robot, Time now) {
+  auto next = explorer_.next(map, robot);
+  if (!next && !obstacles_.empty() && second_tries_ < kSecondTries) {
+    ++second_tries_;
+    obstacles_.clear();
+    explorer_.unblock();
+    next = explorer_.next(map, robot);
+  }
+  if (next) {
+    frontier_ = next->frontier;
+    set_way(std::move(next->way));
+    return;
+  }
+  frontier_ = 0;
+  obstacles_.clear();
+  explorer_.unblock();
+  progress_ = now;
+  state_ = State::returning;
+  go_home(map, robot);
+}
+
+void ExplorationDrive::go_home(const OccupancyGrid& map, Point2 robot) {
+  set_way(explorer_.way_to(map, robot, home_));
+  if (way_.empty() || distance(robot, home_) < params_.home_tolerance || held_up_at_home_ >= kTriesHome) {
+    state_ = State::arrived;
+    way_.clear();
+  }
+}
+
+void ExplorationDrive::plan(const OccupancyGrid& map, Point2 robot, bool waits, Time now) {
+  if (state_ == State::arrived) return;
+  note_progress(robot, waits, now);
+  if (state_ == State::exploring) {
+    explore(map, robot, now);
+  } else {
+    go_home(map, robot);
+  }
+}
+
+ExplorationDrive::Ahead ExplorationDrive::ahead(Point2 robot) const {
+  constexpr double kSpacing = 0.2;  // [m]
+  Ahead result;
+  if (way_.empty()) return result;
+  const auto nearest = std::min_element(way_.begin(), way_.end(),
+                                        [&](Point2 a, Point2 b) { return distance(a, robot) < distance(b, robot); });
+  double length = 0.0;
+  for (auto point = nearest; point != way_.end(); ++point) {
+    if (point != nearest) length += distance(*(point - 1), *point);
+    if (length > params_.horizon) return result;
+    if (result.via.empty() || distance(result.via.back(), *point) >= kSpacing) result.via.push_back(*point);
+  }
+  if (result.via.empty() || distance(result.via.back(), way_.back()) > 0.0) result.via.push_back(way_.back());
+  result.is_final = true;
+  return result;
+}
+
+}  // namespace docent::modules

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "docent/base/result.h"
+#include "docent/base/time.h"
+#include "docent/planning/exploration/explorer.h"
+
+namespace docent::modules {
+
+struct ExplorationDriveParams {
+  double horizon = 3.0;         ///< [m], > 0: so far ahead of the robot its way is told to the avoidance
+  double held_up = 8.0;         ///< [s], > 0: so long it waits where it does not get on, then it goes elsewhere
+  double moved = 0.3;           ///< [m], > 0: that counts as getting on
+  double turned_away = 120.0;   ///< [s], > 0: so long it keeps off where it was held up
+  double home_tolerance = 0.4;  ///< [m], > 0
+  template <class V>
+  void visit(V& v) {
+    v("horizon", horizon);
+    v("held_up", held_up);
+    v("moved", moved);
+    v("turned_away", turned_away);
+    v("home_tolerance", home_tolerance);
+  }
+  [[nodiscard]] Result<void> validate() const;
+};
+
+/// The way of a robot that explores: to the nearest unknown place; elsewhere, where it is held up; home, when nothing
+/// is left. Places where it was held up are tried once more before it goes home.
+class ExplorationDrive {
+ public:
+  enum class State { exploring, returning, arrived };
+
+  ExplorationDrive(const ExplorationDriveParams& params, planning::Explorer explorer, Point2 home);
+
+  /// Plans anew. O(cells of the map)
+  /// @param waits  it is held by hand, or knows no way for another reason: no time counts
+  void plan(const OccupancyGrid& map, Point2 robot, bool waits, Time now);
+  /// [m], map: the way ahead, nearest first, up to the horizon; empty: stand.
+  struct Ahead {
+    std::vector<Point2> via;
+    bool is_final = false;
+  };
+  [[nodiscard]] Ahead ahead(Point2 robot) const;
+
+  [[nodiscard]] State state() const { return state_; }
+  [[nodiscard]] std::size_t frontier() const { return frontier_; }  ///< unknown cells that it can go to
+  [[nodiscard]] const planning::Explorer& explorer() const { return explorer_; }
+  [[nodiscard]] const std::vector<Point2>& way() const { return way_; }  ///< [m], map
+
+ private:
+  struct Obstacle {
+    Point2 place;
+    Time until{};
+  };
+  void note_progress(Point2 robot, bool waits, Time now);
+  void explore(const OccupancyGrid& map, Point2 robot, Time now);
+  void go_home(const OccupancyGrid& map, Point2 robot);
+  void set_way(std::vector<Point2> cells);
+
+  ExplorationDriveParams params_;
+  planning::Explorer explorer_;
+  Point2 home_;
+  State state_ = State::exploring;
+  std::vector<Point2> way_;
+  std::size_t frontier_ = 0;
+  std::vector<Obstacle> obstacles_;  ///< where it was held up
+  Point2 last_progress_;
+  std::optional<Time> progress_;
+  int second_tries_ = 0;
+  std::size_t held_up_at_home_ = 0;
+};
+
+}  // namespace docent::modules
