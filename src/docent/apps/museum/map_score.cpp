@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "docent/apps/museum/reachable_floor.h"
 #include "docent/mapping/scan_matching/correlative_matcher.h"
 #include "docent/mapping/scan_matching/point_sweep.h"
 
@@ -117,57 +118,17 @@ double found_share(const Structure& structure, const OccupancyGrid& map, const P
   return bordering == 0 ? 0.0 : static_cast<double>(found) / static_cast<double>(bordering);
 }
 
-/// The true floor in cells of 10 cm: inside the building and clear of all that stands or lies on it, in one piece.
-std::vector<Point2> largest_floor(const simulator::World& world, double step) {
-  Point2 low = world.floor.front();
-  Point2 high = low;
-  for (const Point2 p : world.floor) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  const GridFrame frame{static_cast<int>((high.x - low.x) / step) + 1, static_cast<int>((high.y - low.y) / step) + 1,
-                        step, low};
-  std::vector<bool> is_floor(frame.size(), false);
-  for (int row = 0; row < frame.rows; ++row) {
-    for (int column = 0; column < frame.columns; ++column) {
-      const Point2 at = frame.centre({column, row});
-      is_floor[frame.index({column, row})] =
-          contains(world.floor, at) &&
-          std::none_of(world.solids.begin(), world.solids.end(),
-                       [&](const simulator::Solid& solid) { return contains(solid.polygon, at); });
-    }
-  }
-  std::vector<Point2> largest;
-  for (int row = 0; row < frame.rows; ++row) {
-    for (int column = 0; column < frame.columns; ++column) {
-      if (!is_floor[frame.index({column, row})]) continue;
-      std::vector<CellIndex> piece{{column, row}};
-      is_floor[frame.index({column, row})] = false;
-      for (std::size_t i = 0; i < piece.size(); ++i) {
-        const CellIndex cell = piece[i];
-        for (const CellIndex next : {CellIndex{cell.column + 1, cell.row}, CellIndex{cell.column - 1, cell.row},
-                                     CellIndex{cell.column, cell.row + 1}, CellIndex{cell.column, cell.row - 1}}) {
-          if (!frame.holds(next) || !is_floor[frame.index(next)]) continue;
-          is_floor[frame.index(next)] = false;
-          piece.push_back(next);
-        }
-      }
-      if (piece.size() <= largest.size()) continue;
-      largest.clear();
-      for (const CellIndex cell : piece) largest.push_back(frame.centre(cell));
-    }
-  }
-  return largest;
-}
-
-void measure_cover(const simulator::World& world, const OccupancyGrid& map, MapScore& score) {
-  constexpr double kStep = 0.1;  // [m]
-  const auto floor = largest_floor(world, kStep);
+void measure_cover(const simulator::World& world, const Structure& structure, const OccupancyGrid& map,
+                   MapScore& score) {
+  constexpr double kBeside = 0.1;  // [m]: floor so near to a wall may lie in the wall's cell
+  const ReachableFloor floor = reachable_floor(world);
   const Pose2 map_from_world = inverse(score.world_from_map);
-  const auto covered = std::count_if(floor.begin(), floor.end(),
-                                     [&](Point2 at) { return map.is_free(map.frame.cell_at(map_from_world * at)); });
-  score.floor = static_cast<double>(floor.size()) * kStep * kStep;
-  score.covered = floor.empty() ? 0.0 : static_cast<double>(covered) / static_cast<double>(floor.size());
+  const auto covered = std::count_if(floor.cells.begin(), floor.cells.end(), [&](Point2 at) {
+    const CellIndex cell = map.frame.cell_at(map_from_world * at);
+    return map.is_free(cell) || (map.is_occupied(cell) && structure.distance_from(at) <= kBeside);
+  });
+  score.floor = static_cast<double>(floor.cells.size()) * floor.step * floor.step;
+  score.covered = floor.cells.empty() ? 0.0 : static_cast<double>(covered) / static_cast<double>(floor.cells.size());
 }
 
 }  // namespace
@@ -206,7 +167,7 @@ Result<MapScore> score_map(const OccupancyGrid& map, const simulator::World& wor
   for (const double error : errors) score.wall_error += error / static_cast<double>(errors.size());
   score.wall_error_p95 = errors[static_cast<std::size_t>(0.95 * static_cast<double>(errors.size() - 1))];
   score.found = found_share(structure, map, score.world_from_map);
-  measure_cover(world, map, score);
+  measure_cover(world, structure, map, score);
   return score;
 }
 

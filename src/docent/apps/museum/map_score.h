@@ -14,8 +14,8 @@ struct MapScore {
   double wall_error = 0.0;      ///< [m], mean distance of occupied cells from true structure, ghosts left out
   double wall_error_p95 = 0.0;  ///< [m], likewise
   std::size_t ghosts = 0;       ///< occupied cells over 0.3 m from true structure
-  double floor = 0.0;    ///< [m2] of the largest piece of floor in one, as the lasers may look over it
-  double covered = 0.0;  ///< 0..1: of that floor, what the map calls free
+  double floor = 0.0;           ///< [m2] that the robot's lasers can see from where it can drive, see reachable_floor
+  double covered = 0.0;         ///< 0..1: of that floor, what the map calls free, or beside a wall occupied
   double found = 0.0;           ///< 0..1: of the true surfaces that border on floor the map calls free, those it has
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace docent::mapping {
 namespace {
@@ -28,6 +29,7 @@ Result<void> ScanMapperParams::validate() const {
   if (!(border >= 0.0)) return fail("border must be >= 0 m");
   if (!(free > 0.0 && free < occupied && occupied < 1.0))
     return fail("free and occupied must hold 0 < free < occupied < 1");
+  if (!(most_free_pieces >= 0.0)) return fail("most_free_pieces must be >= 0");
   if (fewest_hits < 1 || fewest_hits > 255) return fail("fewest_hits must be 1..255");
   return {};
 }
@@ -64,7 +66,10 @@ ScanMapper::ScanMapper(const GridFrame& frame, const ScanMapperParams& params)
       pass_{static_cast<float>(log_odds_of(params.pass))},
       log_odds_(frame.size(), 0.0F),
       hits_(frame.size(), std::uint8_t{0}),
-      met_(frame.size(), 0U) {}
+      met_(frame.size(), 0U),
+      piece_log_odds_(frame.size(), 0.0F),
+      met_by_(frame.size(), std::uint8_t{0}),
+      freed_by_(frame.size(), std::uint8_t{0}) {}
 
 void ScanMapper::add_evidence(CellIndex cell, float evidence) {
   if (!frame_.holds(cell)) return;
@@ -74,6 +79,18 @@ void ScanMapper::add_evidence(CellIndex cell, float evidence) {
   if (evidence > 0.0F && hits_[index] < 255) ++hits_[index];
   const auto most = static_cast<float>(params_.most_log_odds);
   log_odds_[index] = std::clamp(log_odds_[index] + evidence, -most, most);
+  if (piece_log_odds_[index] == 0.0F) seen_in_piece_.push_back(index);
+  piece_log_odds_[index] += evidence;
+}
+
+void ScanMapper::end_piece() {
+  constexpr float kClearlyFree = 2.5F;  // passes
+  for (const std::size_t index : seen_in_piece_) {
+    const float odds = std::exchange(piece_log_odds_[index], 0.0F);
+    if (odds > 0.0F && met_by_[index] < 255) ++met_by_[index];
+    if (odds < kClearlyFree * pass_ && freed_by_[index] < 255) ++freed_by_[index];
+  }
+  seen_in_piece_.clear();
 }
 
 void ScanMapper::mark_line(Point2 from, Point2 to, float evidence) {
@@ -184,7 +201,9 @@ OccupancyGrid ScanMapper::map() const {
   const auto free = static_cast<float>(log_odds_of(params_.free));
   for (std::size_t i = 0; i < map.cells.size(); ++i) {
     if (log_odds_[i] >= occupied && hits_[i] >= params_.fewest_hits) map.cells[i] = OccupancyGrid::kOccupied;
-    if (log_odds_[i] <= free) map.cells[i] = OccupancyGrid::kFree;
+    const bool is_passed = freed_by_[i] > params_.most_free_pieces * met_by_[i];
+    if (log_odds_[i] <= free || (map.cells[i] == OccupancyGrid::kOccupied && is_passed))
+      map.cells[i] = OccupancyGrid::kFree;
   }
   return map;
 }

@@ -23,6 +23,8 @@ struct ScanMapperParams {
   double border = 1.0;       ///< [m], >= 0, about everything that was seen
   double occupied = 0.6;     ///< a cell of at least this probability is drawn occupied, and
   double free = 0.4;         ///< of at most this one free; the rest is unknown
+  double most_free_pieces =
+      0.25;             ///< >= 0: a cell that more pieces of the way, for each that met it, saw free is no wall
   int fewest_hits = 1;  ///< > 0: sweeps that a cell was met in, else it is unknown: who walks by is met once or twice
   template <class V>
   void visit(V& v) {
@@ -38,6 +40,7 @@ struct ScanMapperParams {
     v("border", border);
     v("occupied", occupied);
     v("free", free);
+    v("most_free_pieces", most_free_pieces);
     v("fewest_hits", fewest_hits);
   }
   [[nodiscard]] Result<void> validate() const;
@@ -67,6 +70,10 @@ class ScanMapper {
   void add(const PlacedSweep& placed);
   /// The body stood here: the floor within `radius` [m] was free. O(cells within).
   void stand(Point2 centre, double radius);
+  /// The sweeps since the last call were one piece of the way, some metres or half a minute of it. Whoever stands
+  /// before the robot for a while is met by many sweeps of one piece, and not by those of another time: each piece has
+  /// one vote on what a cell is. Without a call evidence alone counts. O(cells seen since).
+  void end_piece();
   [[nodiscard]] OccupancyGrid map() const;
   [[nodiscard]] std::span<const float> log_odds() const { return log_odds_; }  ///< [rows * columns]
 
@@ -92,6 +99,10 @@ class ScanMapper {
   std::vector<std::uint8_t> hits_;  ///< [rows * columns] sweeps that met the cell, up to 255
   std::vector<std::uint32_t> met_;  ///< the last sweep that said something of the cell
   std::uint32_t sweep_ = 0;
+  std::vector<float> piece_log_odds_;       ///< [rows * columns] of this piece alone
+  std::vector<std::size_t> seen_in_piece_;  ///< cells
+  std::vector<std::uint8_t> met_by_;        ///< [rows * columns] pieces that met something there, up to 255
+  std::vector<std::uint8_t> freed_by_;      ///< [rows * columns] pieces that saw through, up to 255
 };
 
 }  // namespace docent::mapping

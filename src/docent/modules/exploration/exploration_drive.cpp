@@ -9,7 +9,6 @@ namespace {
 
 constexpr double kBlockedRadius = 0.5;  // [m] about what holds it up
 constexpr double kBlockedAhead = 0.7;   // [m] from the robot's centre: where it stands
-constexpr int kSecondTries = 2;         // times that it forgets where it was held up, before it goes home
 constexpr std::size_t kTriesHome = 5;   // ways home on which it was held up, then it stays
 
 /// Ends of the staircase that a way over cells is, at most half a metre from each other.
@@ -56,7 +55,7 @@ void ExplorationDrive::note_progress(Point2 robot, bool waits, Time now) {
       break;
     }
     obstacles_.push_back({at, now + seconds(params_.turned_away)});
-    if (state_ == State::returning) ++held_up_at_home_;
+    if (state_ == State::returning) ++held_up_on_way_home_;
     progress_ = now;
   }
   explorer_.unblock();
@@ -67,43 +66,46 @@ void ExplorationDrive::note_progress(Point2 robot, bool waits, Time now) {
   }
 }
 
-void ExplorationDrive::explore(const OccupancyGrid& map, Point2 robot, Time now) {
+bool ExplorationDrive::explore(const OccupancyGrid& map, Point2 robot) {
   auto next = explorer_.next(map, robot);
-  if (!next && !obstacles_.empty() && second_tries_ < kSecondTries) {
-    ++second_tries_;
-    obstacles_.clear();
-    explorer_.unblock();
-    next = explorer_.next(map, robot);
-  }
-  if (next) {
-    frontier_ = next->frontier;
-    set_way(std::move(next->way));
-    return;
-  }
-  frontier_ = 0;
-  obstacles_.clear();
-  explorer_.unblock();
-  progress_ = now;
-  state_ = State::returning;
-  go_home(map, robot);
+  frontier_ = next ? next->frontier : 0;
+  if (!next) return false;
+  set_way(std::move(next->way));
+  return true;
 }
 
-void ExplorationDrive::go_home(const OccupancyGrid& map, Point2 robot) {
+bool ExplorationDrive::is_stuck_for_long(Time now) {
+  if (!stuck_) stuck_ = now;
+  way_.clear();
+  if (now - *stuck_ < seconds(params_.patience)) return false;
+  stuck_.reset();
+  return true;
+}
+
+void ExplorationDrive::go_home(const OccupancyGrid& map, Point2 robot, Time now) {
   set_way(explorer_.way_to(map, robot, home_));
-  if (way_.empty() || distance(robot, home_) < params_.home_tolerance || held_up_at_home_ >= kTriesHome) {
-    state_ = State::arrived;
-    way_.clear();
-  }
+  const bool is_there = distance(robot, home_) < params_.home_tolerance;
+  const bool is_lost = way_.empty() && is_stuck_for_long(now);
+  if (!way_.empty()) stuck_.reset();
+  if (!is_there && !is_lost && held_up_on_way_home_ < kTriesHome) return;
+  state_ = State::arrived;
+  way_.clear();
 }
 
 void ExplorationDrive::plan(const OccupancyGrid& map, Point2 robot, bool waits, Time now) {
   if (state_ == State::arrived) return;
   note_progress(robot, waits, now);
-  if (state_ == State::exploring) {
-    explore(map, robot, now);
-  } else {
-    go_home(map, robot);
+  if (explore(map, robot)) {
+    state_ = State::exploring;
+    stuck_.reset();
+    return;
   }
+  if (state_ == State::returning) return go_home(map, robot, now);
+  if (!is_stuck_for_long(now)) return;
+  state_ = State::returning;
+  obstacles_.clear();
+  explorer_.unblock();
+  go_home(map, robot, now);
 }
 
 ExplorationDrive::Ahead ExplorationDrive::ahead(Point2 robot) const {

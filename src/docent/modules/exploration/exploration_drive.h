@@ -15,6 +15,7 @@ struct ExplorationDriveParams {
   double moved = 0.3;           ///< [m], > 0: that counts as getting on
   double turned_away = 120.0;   ///< [s], > 0: so long it keeps off where it was held up
   double home_tolerance = 0.4;  ///< [m], > 0
+  double patience = 30.0;       ///< [s], >= 0: so long it looks for a way on, before it goes home and when it has come
   template <class V>
   void visit(V& v) {
     v("horizon", horizon);
@@ -22,6 +23,7 @@ struct ExplorationDriveParams {
     v("moved", moved);
     v("turned_away", turned_away);
     v("home_tolerance", home_tolerance);
+    v("patience", patience);
   }
   [[nodiscard]] Result<void> validate() const;
 };
@@ -55,8 +57,9 @@ class ExplorationDrive {
     Time until{};
   };
   void note_progress(Point2 robot, bool waits, Time now);
-  void explore(const OccupancyGrid& map, Point2 robot, Time now);
-  void go_home(const OccupancyGrid& map, Point2 robot);
+  [[nodiscard]] bool explore(const OccupancyGrid& map, Point2 robot);
+  [[nodiscard]] bool is_stuck_for_long(Time now);
+  void go_home(const OccupancyGrid& map, Point2 robot, Time now);
   void set_way(std::vector<Point2> cells);
 
   ExplorationDriveParams params_;
@@ -68,8 +71,8 @@ class ExplorationDrive {
   std::vector<Obstacle> obstacles_;  ///< where it was held up
   Point2 last_progress_;
   std::optional<Time> progress_;
-  int second_tries_ = 0;
-  std::size_t held_up_at_home_ = 0;
+  std::optional<Time> stuck_;  ///< since when there is no way on
+  std::size_t held_up_on_way_home_ = 0;
 };
 
 }  // namespace docent::modules

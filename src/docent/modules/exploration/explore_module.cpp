@@ -19,6 +19,7 @@ constexpr Duration kTargetPeriod = std::chrono::milliseconds{200};
 constexpr Duration kPlanPeriod = std::chrono::seconds{1};
 constexpr Duration kMapPeriod = std::chrono::seconds{5};
 constexpr std::size_t kMomentsAPlan = 100;  // drawn anew in a second
+constexpr std::size_t kMomentsAPiece = 20;  // of the way, some four metres: see ScanMapper::end_piece
 
 /// Section `explore`.
 struct ExploreParams {
@@ -212,7 +213,12 @@ class ExploreModule final : public Module {
       return;
     }
     mapping::ScanMapper mapper{*frame, params};
-    for (const mapping::PlacedSweep& sweep : placed) mapper.add(sweep);
+    const std::size_t piece = kMomentsAPiece * placed.size() / std::max<std::size_t>(1, map_.moments());
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+      mapper.add(placed[i]);
+      if ((i + 1) % piece == 0) mapper.end_piece();
+    }
+    mapper.end_piece();
     for (const Pose2& pose : result.map_from_base) mapper.stand(pose.position(), params_.explorer.robot_radius);
     const OccupancyGrid map = mapper.map();
     if (auto saved = save(map, result.map_from_base); !saved) {

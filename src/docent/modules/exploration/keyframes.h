@@ -13,7 +13,7 @@ namespace docent::modules {
 struct KeyframeParams {
   double way = 0.2;        ///< [m], > 0: scans are taken for the map after this way,
   double turn = 10.0;      ///< [deg], > 0: this turn,
-  double pause = 20.0;     ///< [s], > 0: or this time, for what stands in the way now may be gone
+  double pause = 5.0;      ///< [s], > 0: or this time, for what stands in the way now may be gone
   double together = 0.15;  ///< [s], > 0: sweeps of two lasers no farther apart are of one moment
   template <class V>
   void visit(V& v) {
