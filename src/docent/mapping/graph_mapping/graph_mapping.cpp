@@ -208,10 +208,11 @@ void GraphMapping::refine(int round) {
   }
   const std::vector<Pose2> poses = graph_.poses();
   for (const auto& [reference, sweeps] : pairs_by_reference()) {
-    if (scans_[reference].points.empty()) continue;
+    const auto fewest = static_cast<std::size_t>(params_.chain.fewest_points);
+    if (scans_[reference].points.size() < fewest) continue;
     const SurfaceIndex index{scans_[reference].points};
     for (const std::size_t i : sweeps) {
-      if (scans_[i].points.empty()) continue;
+      if (scans_[i].points.size() < fewest) continue;
       const auto match = line_match(index, scans_[i].points, inverse(poses[reference]) * poses[i], params_.lines);
       if (!match || match->overlap < kLeastOverlap) continue;
       kept.push_back({reference, i, match->reference_from_sweep, match->information, true});

@@ -39,7 +39,7 @@ ChainStep ScanChain::step(std::span<const MappingScan> scans, std::span<const Po
     const Pose2 before_from_scan = before_from_map * map_from_base[k];
     for (const SurfacePoint& point : scans[k].points) local.push_back(transformed(before_from_scan, point));
   }
-  if (local.empty() || scans[i].points.empty()) return result;
+  if (local.empty() || scans[i].points.size() < static_cast<std::size_t>(params_.fewest_points)) return result;
   const MatchGrid grid{places_of(local), grid_};
   MatchWindow window;
   window.reach = params_.sigmas * way_sigma;

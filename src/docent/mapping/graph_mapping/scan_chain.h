@@ -21,6 +21,7 @@ struct ScanChainParams {
   double sigmas = 3.0;               ///< > 0: so far from odometry's pose a match is looked for
   double expectation_weight = 0.01;  ///< >= 0: see MatchWindow
   double least_score = 0.35;         ///< 0..1: a match below is none; odometry is believed
+  int fewest_points = 30;            ///< > 0: of a scan; fewer are as likely people as walls: odometry is believed
   double query_cell = 0.10;          ///< [m], > 0: one point a cell takes part in the search
   template <class V>
   void visit(V& v) {
@@ -34,6 +35,7 @@ struct ScanChainParams {
     v("sigmas", sigmas);
     v("expectation_weight", expectation_weight);
     v("least_score", least_score);
+    v("fewest_points", fewest_points);
     v("query_cell", query_cell);
   }
 };
