@@ -33,6 +33,8 @@ Result<void> ExplorationDriveParams::validate() const {
   if (!(moved > 0.0)) return fail("moved must be > 0 m");
   if (!(turned_away > 0.0)) return fail("turned_away must be > 0 s");
   if (!(home_tolerance > 0.0)) return fail("home_tolerance must be > 0 m");
+  if (!(patience >= 0.0)) return fail("patience must be >= 0 s");
+  if (!(enclosed >= 0.0)) return fail("enclosed must be >= 0 s");
   return {};
 }
 
@@ -74,19 +76,18 @@ bool ExplorationDrive::explore(const OccupancyGrid& map, Point2 robot) {
   return true;
 }
 
-bool ExplorationDrive::is_stuck_for_long(Time now) {
+bool ExplorationDrive::is_stuck_for(double most_s, Time now) {
   if (!stuck_) stuck_ = now;
-  way_.clear();
-  if (now - *stuck_ < seconds(params_.patience)) return false;
+  if (now - *stuck_ < seconds(most_s)) return false;
   stuck_.reset();
   return true;
 }
 
 void ExplorationDrive::go_home(const OccupancyGrid& map, Point2 robot, Time now) {
   set_way(explorer_.way_to(map, robot, home_));
-  const bool is_there = distance(robot, home_) < params_.home_tolerance;
-  const bool is_lost = way_.empty() && is_stuck_for_long(now);
   if (!way_.empty()) stuck_.reset();
+  const bool is_there = distance(robot, home_) < params_.home_tolerance;
+  const bool is_lost = way_.empty() && is_stuck_for(params_.enclosed, now);
   if (!is_there && !is_lost && held_up_on_way_home_ < kTriesHome) return;
   state_ = State::arrived;
   way_.clear();
@@ -101,7 +102,9 @@ void ExplorationDrive::plan(const OccupancyGrid& map, Point2 robot, bool waits, 
     return;
   }
   if (state_ == State::returning) return go_home(map, robot, now);
-  if (!is_stuck_for_long(now)) return;
+  way_.clear();
+  const bool is_enclosed = explorer_.way_to(map, robot, home_).empty();
+  if (!is_stuck_for(is_enclosed ? params_.enclosed : params_.patience, now)) return;
   state_ = State::returning;
   obstacles_.clear();
   explorer_.unblock();

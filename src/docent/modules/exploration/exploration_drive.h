@@ -15,7 +15,8 @@ struct ExplorationDriveParams {
   double moved = 0.3;           ///< [m], > 0: that counts as getting on
   double turned_away = 120.0;   ///< [s], > 0: so long it keeps off where it was held up
   double home_tolerance = 0.4;  ///< [m], > 0
-  double patience = 30.0;       ///< [s], >= 0: so long it looks for a way on, before it goes home and when it has come
+  double patience = 30.0;       ///< [s], >= 0: so long it looks for a way on, before it goes home, and
+  double enclosed = 300.0;      ///< [s], >= 0: so long where there is no way home either: people stand about it
   template <class V>
   void visit(V& v) {
     v("horizon", horizon);
@@ -24,6 +25,7 @@ struct ExplorationDriveParams {
     v("turned_away", turned_away);
     v("home_tolerance", home_tolerance);
     v("patience", patience);
+    v("enclosed", enclosed);
   }
   [[nodiscard]] Result<void> validate() const;
 };
@@ -58,7 +60,7 @@ class ExplorationDrive {
   };
   void note_progress(Point2 robot, bool waits, Time now);
   [[nodiscard]] bool explore(const OccupancyGrid& map, Point2 robot);
-  [[nodiscard]] bool is_stuck_for_long(Time now);
+  [[nodiscard]] bool is_stuck_for(double most_s, Time now);
   void go_home(const OccupancyGrid& map, Point2 robot, Time now);
   void set_way(std::vector<Point2> cells);
 
