@@ -9,6 +9,7 @@
 #include "docent/mapping/graph_mapping/graph_mapping.h"
 #include "docent/modules/exploration/exploration_drive.h"
 #include "docent/modules/exploration/keyframes.h"
+#include "docent/modules/exploration/people_seen.h"
 #include "docent/modules/shared/grid_message.h"
 #include "docent/vocabulary/vocabulary.h"
 
@@ -68,10 +69,11 @@ class ExploreModule final : public Module {
                context.museum.home.position()},
         belief_{bus_.publisher(topics::kBelief)},
         target_{bus_.publisher(topics::kTarget)},
-        goal_state_{bus_.publisher(topics::kGoalState)},
         static_map_{bus_.publisher(topics::kStaticMap)},
         path_{bus_.publisher(topics::kPath)},
+        person_beams_{bus_.publisher(topics::kPersonBeams)},
         exploration_{bus_.publisher(topics::kExploration)} {
+    bus_.subscribe<docent_msgs::People>(topics::kPeopleInOdom, [this](const auto& people) { people_.note(people); });
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry,
                                        [this](const auto& odometry) { pose_.on_odometry(odometry); });
     subscribe_scanners(bus_, context.config.body(), [this](std::size_t i, const auto& scan) { see(i, scan); });
@@ -99,7 +101,10 @@ class ExploreModule final : public Module {
   void see(std::size_t laser, const sensor_msgs::LaserScan& scan) {
     keyframes_.keep(laser, scan);
     if (laser != 0 || is_done_) return;
-    auto frame = keyframes_.take(pose_);
+    if (map_from_odom_) {
+      if (const auto look = keyframes_.look(pose_)) person_beams_.publish(person_beams(*look, *map_from_odom_, grid_));
+    }
+    auto frame = keyframes_.take(pose_, people_.walkers());
     if (!frame) return;
     const Pose2 odom_from_base = frame->scan.odom_from_base;
     if (!start_from_odom_) start_from_odom_ = home_ * inverse(odom_from_base);
@@ -162,7 +167,8 @@ class ExploreModule final : public Module {
     map_.work(kMomentsAPlan);
     constexpr Duration kAfterSteering = std::chrono::seconds{3};
     const bool waits = is_stopped_ || (steered_ && bus_.now() - *steered_ < kAfterSteering);
-    const OccupancyGrid map = map_.map();
+    grid_ = map_.map();
+    const OccupancyGrid& map = grid_;
     known_m2_ = static_cast<double>(std::count(map.cells.begin(), map.cells.end(), OccupancyGrid::kFree)) *
                 map.frame.resolution * map.frame.resolution;
     drive_.plan(map, here->position(), waits, bus_.now());
@@ -293,10 +299,12 @@ class ExploreModule final : public Module {
   ExplorationDrive drive_;
   transport::Publisher<docent_msgs::Belief> belief_;
   transport::Publisher<docent_msgs::Target> target_;
-  transport::Publisher<docent_msgs::GoalState> goal_state_;
   transport::Publisher<nav_msgs::OccupancyGrid> static_map_;
   transport::Publisher<nav_msgs::Path> path_;
+  transport::Publisher<docent_msgs::PersonBeams> person_beams_;
   transport::Publisher<docent_msgs::Exploration> exploration_;
+  PeopleSeen people_;
+  OccupancyGrid grid_;  ///< of a second ago at most
   PoseTracker pose_;
   std::optional<Pose2> start_from_odom_;
   std::optional<Pose2> map_from_odom_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "docent/mapping/graph_mapping/mapping_scan.h"
@@ -15,12 +16,14 @@ struct KeyframeParams {
   double turn = 10.0;      ///< [deg], > 0: this turn,
   double pause = 5.0;      ///< [s], > 0: or this time, for what stands in the way now may be gone
   double together = 0.15;  ///< [s], > 0: sweeps of two lasers no farther apart are of one moment
+  double person = 0.5;     ///< [m], >= 0: what is seen so near to the place of a tracked person is of them
   template <class V>
   void visit(V& v) {
     v("way", way);
     v("turn", turn);
     v("pause", pause);
     v("together", together);
+    v("person", person);
   }
   [[nodiscard]] Result<void> validate() const;
 };
@@ -39,11 +42,21 @@ class Keyframes {
             const std::vector<robot::Scanner>& scanners);
 
   void keep(std::size_t laser, const sensor_msgs::LaserScan& scan);
-  /// After a sweep of the first laser: the moment, if the robot has moved enough since the last one.
-  [[nodiscard]] std::optional<Keyframe> take(const PoseTracker& pose);
+  /// After a sweep of the first laser: all lasers about the robot's centre at that moment.
+  struct Look {
+    Time stamp{};
+    Pose2 odom_from_base;
+    sensor_models::RangeSweep sweep;
+  };
+  [[nodiscard]] std::optional<Look> look(const PoseTracker& pose) const;
+  /// The same, kept for the map, if the robot has moved enough since the last one.
+  /// @param people  [m], odom: what is seen of them belongs to no map
+  [[nodiscard]] std::optional<Keyframe> take(const PoseTracker& pose, std::span<const Point2> people);
 
  private:
-  void append(std::size_t laser, const Pose2& odom_from_base, const Pose2& odom_from_then, Keyframe& frame) const;
+  /// [scanners] where the base was when each newest sweep was taken, odom; none: it is of another moment.
+  [[nodiscard]] std::vector<std::optional<Pose2>> bases(const PoseTracker& pose) const;
+  [[nodiscard]] sensor_models::LaserReading reading(std::size_t laser) const;
 
   KeyframeParams params_;
   mapping::PointSweepParams points_;
