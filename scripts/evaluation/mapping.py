@@ -3,10 +3,8 @@
 intel: raw odometry, 2,984 relations that people have checked; ours, expectation maximization alone, odometry alone, and
 MRPT's rbpf-slam as it is shipped. odometry: corrected logs with odometry of our making, seeded, that errs by up to a
 third of the way and turns right round. honesty: the same with odometry so bad that maps fail: does the map say so?
-loops: logs without a truth, that end where they began. museums: half an hour's drive through each simulated museum, at night
-and among 20 people, against the true world.
+loops: logs without a truth, that end where they began.
 """
-import concurrent.futures
 import json
 import os
 import re
@@ -19,12 +17,10 @@ from pathlib import Path
 
 from evaluation.tables import Verdict, print_table
 
-PARTS = ["intel", "peer", "odometry", "honesty", "loops", "museums"]
+PARTS = ["intel", "peer", "odometry", "honesty", "loops"]
 FAILED = 0.5  # [m], mean error of relations: such a map is of no use
 INTEL_BOUND = 0.10  # [m]
 MOST_MEMORY = 1e6  # [kB]
-WALLS = 0.05  # [m], mean
-GHOSTS = 0.001  # of the free cells
 HARD = ["--odometry-turn", "0.2", "--odometry-veer", "0.05"]
 
 
@@ -203,38 +199,6 @@ def loops(mapper, verdict):
     print_table([*HEADER, "pairs", "apart m"], rows)
 
 
-def museum_run(mapper, root, museum, people, seed):
-    name = f"{museum}-{people}-{seed}"
-    folder = mapper.folder(name)
-    folder.mkdir(parents=True, exist_ok=True)
-    log, score = folder / "drive.mcap", folder / "score.json"
-    call = lambda *arguments: subprocess.run([mapper.program, *map(str, arguments)], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)  # noqa: E731
-    call("simulate", "--museum", root / "museums" / museum, "--seed", seed, "--hours", 0.5, "--mode", "closed", "--people", people, "--record", log)
-    call("map", "--log", log, "--out", folder, "--report", folder / "report.json")
-    call("score-map", "--map", folder / "map.yaml", "--world", root / "museums" / museum / "simulation.yaml", "--report", score)
-    log.unlink()
-    run = {**json.loads((folder / "report.json").read_text()), **json.loads(score.read_text())}
-    print(f"   {name}: walls {run['wall_error_m']:.3f} m, {run['ghosts']} ghosts", file=sys.stderr, flush=True)
-    return run
-
-
-def museums(mapper, root, seeds, verdict):
-    print("\n## Simulated museums from scratch, half an hour's drive along tours\n")
-    rows = []
-    for museum in ("bonn", "smithsonian"):
-        for people in (0, 20):
-            with concurrent.futures.ThreadPoolExecutor(mapper.jobs) as pool:
-                runs = list(pool.map(lambda seed: museum_run(mapper, root, museum, people, seed), seeds))  # noqa: B023
-            for seed, run in zip(seeds, runs):
-                rows.append([museum, people, seed, run["loops"], f"{run['wall_error_m']:.3f}", f"{run['wall_error_p95_m']:.3f}", run["ghosts"],
-                             f"{100 * run['ghosts'] / run['free']:.3f}", f"{100 * run['found']:.0f}", "yes" if run["judgement"]["is_trusted"] else "no"])
-            walls = max(run["wall_error_m"] for run in runs)
-            ghosts = max(run["ghosts"] / run["free"] for run in runs)
-            verdict.want(f"{museum}, {people} people: walls, worst seed (5 cm)", f"{100 * walls:.1f} cm", walls <= WALLS)
-            verdict.want(f"{museum}, {people} people: ghosts, worst seed (0.1 %)", f"{100 * ghosts:.3f} % of the free cells", ghosts <= GHOSTS)
-    print_table(["museum", "people", "seed", "loops", "walls m", "p95 m", "ghosts", "% of free", "found %", "trusted"], rows)
-
-
 def protocol(program, root, options):
     data = Path(os.environ.get("DOCENT_DATA", root.parent / "shared" / "data"))
     if not (data / "logs" / "intel.relations").exists():
@@ -255,8 +219,6 @@ def protocol(program, root, options):
         honesty(mapper, names, seeds, ordinary, verdict)
     if "loops" in parts:
         loops(mapper, verdict)
-    if "museums" in parts:
-        museums(mapper, root, range(options.first_seed, options.first_seed + (options.seeds or 3)), verdict)
     print()
     verdict.print()
     return verdict

@@ -15,7 +15,7 @@ struct EvaluationParams {
   double best_pose_error_heading = 0.0;  ///< [deg]: likewise
   bool trusts_dead_sonars = false;       ///< localize: readings of frozen and deaf sonars count as well
   bool best_pose_only = false;           ///< hazards: trusts the likeliest pose
-  bool ignores_hazards = false;          ///< hazards, plan: as if there were no hazards and no border
+  bool ignores_hazards = false;          ///< hazards, plan, explore: as if there were no hazards and no border
   bool ignores_live_map = false;         ///< plan: with the static map alone
   bool keeps_all_people = false;         ///< people: nobody is ever forgotten, and every thing is a person
   bool without_ladder = false;           ///< executive: it stands before what is in its way

@@ -1,0 +1,99 @@
+"""A robot without a map maps buildings by itself, in simulation; what it made is scored against the true world.
+
+Both museums, at night and among 20 people, and drawn office buildings. A robot that ignores what people have marked must
+touch something.
+"""
+import concurrent.futures
+import json
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from evaluation.tables import Verdict, print_table
+
+COVERED = 0.98  # of the floor that lasers can see from where the robot can drive
+WALLS = 0.05  # [m], mean
+GHOSTS = 0.001  # of the free cells
+MINUTES = {"bonn": 15, "smithsonian": 30, "office": 15}
+LIMIT_HOURS = 1.0
+
+
+class Explorations:
+    def __init__(self, program, root, pictures, jobs):
+        self.program, self.root, self.jobs = program, root, jobs
+        self.scratch = tempfile.TemporaryDirectory(prefix="docent-exploration-")
+        self.pictures = Path(pictures) if pictures else Path(self.scratch.name)
+
+    def call(self, *arguments, may_fail=False):
+        done = subprocess.run([self.program, *map(str, arguments)], capture_output=True, text=True, check=False)
+        if done.returncode != 0 and not may_fail:
+            raise RuntimeError(f"docent {' '.join(map(str, arguments))} exited {done.returncode}: {done.stderr.strip()[-500:]}")
+        return done.returncode == 0
+
+    def museum(self, kind, seed):
+        if kind != "office":
+            return self.root / "museums" / kind
+        folder = Path(self.scratch.name) / f"office-{seed}"
+        self.call("office", "--seed", seed, "--out", folder)
+        return folder
+
+    def run(self, kind, people, seed, *more):
+        name = f"{kind}-{people}-{seed}{'-crippled' if more else ''}"
+        folder, museum = self.pictures / name, self.museum(kind, seed)
+        is_done = self.call("explore", "--museum", museum, "--seed", seed, "--people", people, "--hours", LIMIT_HOURS, "--out", folder, "--quiet",
+                            *more, may_fail=bool(more))
+        if not is_done:
+            return None
+        self.call("score-map", "--map", folder / "map.yaml", "--world", museum / "simulation.yaml", "--report", folder / "score.json")
+        run = json.loads((folder / "report.json").read_text())
+        run |= json.loads((folder / "score.json").read_text())
+        print(f"   {name}: {run['exploration']['minutes']:.1f} min, {100 * run['covered']:.1f} % covered", file=sys.stderr, flush=True)
+        return run
+
+
+def contacts_of(run):
+    return sum(run["contacts"].values())
+
+
+def row_of(kind, people, seed, run):
+    told = run["exploration"]
+    return [kind, people, seed, f"{told['minutes']:.1f}", f"{told['way_m']:.0f}", f"{told['way_m'] / told['minutes'] / 60:.2f}", told["loops"],
+            f"{100 * run['covered']:.2f}", f"{run['floor_m2']:.0f}", f"{run['wall_error_m']:.3f}", run["ghosts"],
+            f"{100 * run['ghosts'] / run['free']:.3f}", contacts_of(run), "no" if told["warning"] else "yes"]
+
+
+def judge(verdict, name, kind, runs):
+    exposure = f"{len(runs)} runs, {sum(run['exploration']['way_m'] for run in runs) / 1000:.2f} km"
+    covered = min(run["covered"] for run in runs)
+    walls = max(run["wall_error_m"] for run in runs)
+    ghosts = max(run["ghosts"] / run["free"] for run in runs)
+    minutes = max(run["exploration"]["minutes"] for run in runs)
+    contacts = sum(map(contacts_of, runs))
+    verdict.want(f"{name}: covered, worst run (98 %)", f"{100 * covered:.2f} % of the floor that can be seen; {exposure}", covered >= COVERED)
+    verdict.want(f"{name}: time, longest run ({MINUTES[kind]} min)", f"{minutes:.1f} min", minutes <= MINUTES[kind])
+    verdict.want(f"{name}: contacts (0)", f"{contacts} in {exposure}", contacts == 0)
+    verdict.want(f"{name}: walls, worst run (5 cm)", f"{100 * walls:.1f} cm", walls <= WALLS)
+    verdict.want(f"{name}: ghosts, worst run (0.1 %)", f"{100 * ghosts:.3f} % of the free cells", ghosts <= GHOSTS)
+
+
+def protocol(program, root, options):
+    explorations = Explorations(program, root, options.pictures, options.jobs)
+    verdict, rows = Verdict(), []
+    count = options.seeds or (1 if options.slice else 5)
+    seeds = range(options.first_seed, options.first_seed + count)
+    kinds = [("bonn", 20), ("office", 0)] if options.slice else [("bonn", 0), ("bonn", 20), ("smithsonian", 0), ("smithsonian", 20), ("office", 0)]
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        for kind, people in kinds:
+            runs = list(pool.map(lambda seed: explorations.run(kind, people, seed), seeds))  # noqa: B023
+            rows += [row_of(kind, people, seed, run) for seed, run in zip(seeds, runs)]
+            judge(verdict, f"{kind}, {people} people", kind, runs)
+    print_table(["world", "people", "seed", "min", "m", "m/s", "loops", "covered %", "floor m2", "walls m", "ghosts", "% of free", "contacts", "trusted"], rows)
+    if not options.no_crippled:
+        run = explorations.run("bonn", 0, options.first_seed, "--set", "evaluation.ignores_hazards=true")
+        touched = run is None or contacts_of(run) > 0
+        seen = "it never came back" if run is None else f"{contacts_of(run)} contacts in {run['exploration']['way_m']:.0f} m"
+        verdict.want("crippled, ignores what people marked: touches something", seen, touched)
+    print()
+    verdict.print()
+    return verdict
