@@ -156,6 +156,10 @@ void add_explore_command(CLI::App& app) {
       ->check(output_file());
   command->add_option("--event-log", options->run.event_log, "CSV file to write: touches, with times and places")
       ->check(output_file());
+  command
+      ->add_option("--drive-log", options->run.drive_log,
+                   "CSV file to write: how the robot drives beside what collision avoidance says")
+      ->check(output_file());
   add_picture_format(*command, options->picture_format);
   command->add_flag("--quiet", options->quiet, "no progress");
   command->callback([options] { explore(*options); });

@@ -200,5 +200,47 @@ TEST(ScanMapper, WhatTooFewSweepsMetIsUnknown) {
   EXPECT_FALSE(params.validate());
 }
 
+TEST(ScanMapper, ABeamWithoutAReturnShowsFloorOnlyAsFarAsIsSaid) {
+  PlacedSweep lost{{}, {0.01, 0.01, {}}};
+  for (int i = 0; i < 90; ++i) lost.sweep.beams.push_back({kDegree * i, 10.0, true});
+  lost.sweep.beams.push_back({-3.0, 3.0, false});  // so that there is something to map
+  ScanMapperParams params;
+  params.border = 8.0;
+  EXPECT_EQ(at(map_of({lost}, params), {1.4, 1.4}), OccupancyGrid::kUnknown);
+  params.empty_reach = 4.0;
+  const OccupancyGrid map = map_of({lost}, params);
+  EXPECT_EQ(at(map, {1.4, 1.4}), OccupancyGrid::kFree);
+  EXPECT_EQ(at(map, {3.4, 3.4}), OccupancyGrid::kUnknown);
+}
+
+TEST(ScanMapper, TheBodyShowsThatTheFloorIsFree) {
+  const std::vector<PlacedSweep> sweeps{in_room({}, 4)};
+  ScanMapper mapper{ScanMapper::frame_of(sweeps, {}).value(), {}};
+  EXPECT_EQ(at(mapper.map(), {1.2, 1.1}), OccupancyGrid::kUnknown);
+  mapper.stand({1.0, 1.0}, 0.3);
+  EXPECT_EQ(at(mapper.map(), {1.2, 1.1}), OccupancyGrid::kFree);
+  EXPECT_EQ(at(mapper.map(), {1.4, 1.4}), OccupancyGrid::kUnknown);
+}
+
+TEST(ScanMapper, WhoStandsDuringOnePieceOfTheWayIsNoWall) {
+  PlacedSweep with_somebody = in_room({}, 720);
+  for (auto& beam : with_somebody.sweep.beams)
+    if (std::abs(beam.bearing - 1.0) < 0.1) beam.range = 1.5;
+  const Point2 somebody = 1.5 * unit(Angle::radians(1.0));
+  const std::vector<PlacedSweep> frame_of{in_room({}, 720)};
+  for (const bool comes_last : {false, true}) {
+    ScanMapper mapper{ScanMapper::frame_of(frame_of, {}).value(), {}};
+    const auto piece = [&](bool is_there, int sweeps) {
+      for (int i = 0; i < sweeps; ++i) mapper.add(is_there ? with_somebody : frame_of.front());
+    };
+    piece(!comes_last, comes_last ? 10 : 30);
+    mapper.end_piece();
+    piece(comes_last, comes_last ? 30 : 10);
+    mapper.end_piece();
+    EXPECT_EQ(at(mapper.map(), somebody), OccupancyGrid::kFree) << comes_last;
+    EXPECT_EQ(at(mapper.map(), {kEast, 0.0}), OccupancyGrid::kOccupied) << "the wall";
+  }
+}
+
 }  // namespace
 }  // namespace docent::mapping

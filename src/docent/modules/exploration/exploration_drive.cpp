@@ -34,6 +34,7 @@ Result<void> ExplorationDriveParams::validate() const {
   if (!(turned_away > 0.0)) return fail("turned_away must be > 0 s");
   if (!(home_tolerance > 0.0)) return fail("home_tolerance must be > 0 m");
   if (!(patience >= 0.0)) return fail("patience must be >= 0 s");
+  if (!(forget >= 0.0)) return fail("forget must be >= 0 s");
   if (!(enclosed >= 0.0)) return fail("enclosed must be >= 0 s");
   return {};
 }
@@ -103,6 +104,7 @@ void ExplorationDrive::plan(const OccupancyGrid& map, Point2 robot, bool waits, 
   }
   if (state_ == State::returning) return go_home(map, robot, now);
   way_.clear();
+  if (stuck_ && now - *stuck_ >= seconds(params_.forget)) obstacles_.clear();
   const bool is_enclosed = explorer_.way_to(map, robot, home_).empty();
   if (!is_stuck_for(is_enclosed ? params_.enclosed : params_.patience, now)) return;
   state_ = State::returning;

@@ -16,6 +16,7 @@ struct ExplorationDriveParams {
   double turned_away = 120.0;   ///< [s], > 0: so long it keeps off where it was held up
   double home_tolerance = 0.4;  ///< [m], > 0
   double patience = 30.0;       ///< [s], >= 0: so long it looks for a way on, before it goes home, and
+  double forget = 10.0;         ///< [s], >= 0: then it forgets where it was held up, and
   double enclosed = 300.0;      ///< [s], >= 0: so long where there is no way home either: people stand about it
   template <class V>
   void visit(V& v) {
@@ -25,6 +26,7 @@ struct ExplorationDriveParams {
     v("turned_away", turned_away);
     v("home_tolerance", home_tolerance);
     v("patience", patience);
+    v("forget", forget);
     v("enclosed", enclosed);
   }
   [[nodiscard]] Result<void> validate() const;

@@ -31,7 +31,7 @@ struct ExploreParams {
   /// Free is what two sweeps at least have passed: a single beam may have lost its echo.
   mapping::ScanMapperParams map{.reach = 12.0, .empty_reach = 5.0, .free = 0.25, .fewest_hits = 2};
   double least_sigma = 0.04;    ///< [m], > 0: the pose is never known better, nor
-  double most_sigma = 0.15;     ///< [m]: believed to be worse: hazards that are marked would close the building
+  double most_sigma = 0.08;     ///< [m]: believed to be worse: hazards that are marked would close the building
   double sigma_heading = 0.02;  ///< [rad], > 0
   template <class V>
   void visit(V& v) {

@@ -48,6 +48,9 @@ Result<void> ExplorerParams::validate() const {
   if (coarsening < 1 || coarsening > 20) return fail("coarsening must be in 1..20");
   if (!(robot_radius > 0.0)) return fail("robot_radius must be > 0");
   if (!(wall_margin >= 0.0)) return fail("wall_margin must be >= 0");
+  if (!(tight_margin >= 0.0 && tight_margin <= wall_margin)) return fail("0 <= tight_margin <= wall_margin must hold");
+  if (!(tight_reach >= 0.0)) return fail("tight_reach must be >= 0");
+  if (!(tight_cost >= 0.0)) return fail("tight_cost must be >= 0");
   if (!(comfort >= 0.0)) return fail("comfort must be >= 0");
   if (!(comfort_cost >= 0.0)) return fail("comfort_cost must be >= 0");
   if (!(switch_cost >= 0.0)) return fail("switch_cost must be >= 0");
@@ -64,9 +67,9 @@ bool Explorer::is_given_up(Point2 place, double within) const {
   return std::any_of(given_up_.begin(), given_up_.end(), [&](Point2 p) { return distance(p, place) < within; });
 }
 
-bool Explorer::may_stand(Point2 place) const {
+bool Explorer::may_stand(Point2 place, double hazard_margin) const {
   if (!area_.empty() && !contains(area_, place)) return false;
-  const double keep = params_.robot_radius + params_.hazard_margin;
+  const double keep = params_.robot_radius + hazard_margin;
   for (const Polygon& hazard : hazards_) {
     if (distance(hazard, place) < keep) return false;
   }
@@ -74,7 +77,7 @@ bool Explorer::may_stand(Point2 place) const {
                       [&](const Disc& disc) { return distance(disc.centre, place) < disc.radius; });
 }
 
-Explorer::Costs Explorer::costs_of(const OccupancyGrid& map) const {
+Explorer::Costs Explorer::costs_of(const OccupancyGrid& map, std::optional<Point2> robot) const {
   Costs result{coarsened(map, params_.coarsening), {}, {}};
   const GridFrame& frame = result.coarse.frame;
   std::vector<bool> solid(frame.size());
@@ -88,13 +91,18 @@ Explorer::Costs Explorer::costs_of(const OccupancyGrid& map) const {
       const double spare = static_cast<double>(clearances[i]) - params_.robot_radius - params_.wall_margin;
       const bool is_free = result.coarse.is_free(cell);
       const bool is_frontier = is_unknown(result.coarse.cells[i]) && borders_on_free(result.coarse, cell);
-      if (spare < 0.0 || !(is_free || is_frontier) || !may_stand(frame.centre(cell))) continue;
+      const bool is_near = robot && distance(*robot, frame.centre(cell)) < params_.tight_reach;
+      const double least = is_near && is_free ? params_.tight_margin - params_.wall_margin : 0.0;
+      if (spare < least || !(is_free || is_frontier) ||
+          !may_stand(frame.centre(cell), is_near ? params_.tight_margin : params_.hazard_margin))
+        continue;
       if (is_frontier) {
         result.frontier.push_back(cell);
         continue;
       }
-      const double discomfort = params_.comfort > 0.0 ? std::max(0.0, 1.0 - spare / params_.comfort) : 0.0;
-      result.costs[i] = static_cast<float>(frame.resolution * (1.0 + params_.comfort_cost * discomfort * discomfort));
+      const double discomfort = params_.comfort > 0.0 ? std::clamp(1.0 - spare / params_.comfort, 0.0, 1.0) : 0.0;
+      const double extra = params_.comfort_cost * discomfort * discomfort + (spare < 0.0 ? params_.tight_cost : 0.0);
+      result.costs[i] = static_cast<float>(frame.resolution * (1.0 + extra));
     }
   }
   return result;
@@ -116,7 +124,7 @@ void Explorer::give_up_what_stays_unknown(const OccupancyGrid& coarse, std::span
 }
 
 std::optional<Exploration> Explorer::next(const OccupancyGrid& map, Point2 robot) {
-  Costs known = costs_of(map);
+  Costs known = costs_of(map, robot);
   const GridFrame& frame = known.coarse.frame;
   give_up_what_stays_unknown(known.coarse, known.frontier, robot);
   std::vector<ValueIteration::Goal> goals;
@@ -143,7 +151,7 @@ std::optional<Exploration> Explorer::next(const OccupancyGrid& map, Point2 robot
 }
 
 std::vector<Point2> Explorer::way_to(const OccupancyGrid& map, Point2 robot, Point2 goal) const {
-  const Costs known = costs_of(map);
+  const Costs known = costs_of(map, robot);
   ValueIteration planner{known.coarse.frame};
   planner.set_costs(known.costs);
   const CellIndex cell = known.coarse.frame.cell_at(goal);
@@ -159,7 +167,7 @@ std::vector<Point2> Explorer::way_to(const OccupancyGrid& map, Point2 robot, Poi
 std::vector<Explorer::Unreached> Explorer::unreached(const OccupancyGrid& map) const {
   constexpr double kTogether = 0.5;   // [m] between cells of one group
   constexpr std::size_t kFewest = 3;  // cells: fewer are specks
-  const Costs known = costs_of(map);
+  const Costs known = costs_of(map, std::nullopt);
   std::vector<Point2> left;
   for (const CellIndex cell : known.frontier) left.push_back(known.coarse.frame.centre(cell));
   std::vector<Unreached> groups;

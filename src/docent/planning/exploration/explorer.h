@@ -17,10 +17,13 @@ struct ExplorerParams {
   int coarsening = 2;           ///< planning cell = so many map cells
   double robot_radius = 0.265;  ///< [m]
   double wall_margin = 0.10;    ///< [m] kept from what is known to be occupied, beyond the radius
+  double tight_margin = 0.03;   ///< [m] likewise near the robot itself: it may have come too close to something
+  double tight_reach = 0.8;     ///< [m], >= 0: so near
+  double tight_cost = 6.0;      ///< a factor more
   double comfort = 0.5;         ///< [m] beyond which clearance costs nothing
   double comfort_cost = 2.0;    ///< extra cost, as a factor, at the least clearance
   double switch_cost = 0.5;     ///< [m of free floor] by which another place must be nearer than the last one
-  double hazard_margin = 0.25;  ///< [m] kept from what only people know of, beyond the radius: the pose errs, too
+  double hazard_margin = 0.30;  ///< [m] kept from what only people know of, beyond the radius: the pose errs, too
   double close = 0.9;           ///< [m], > 0: what is still unknown from so near
   int close_looks = 5;          ///< > 0: in so many calls, is not to be seen
   template <class V>
@@ -28,6 +31,9 @@ struct ExplorerParams {
     v("coarsening", coarsening);
     v("robot_radius", robot_radius);
     v("wall_margin", wall_margin);
+    v("tight_margin", tight_margin);
+    v("tight_reach", tight_reach);
+    v("tight_cost", tight_cost);
     v("comfort", comfort);
     v("comfort_cost", comfort_cost);
     v("switch_cost", switch_cost);
@@ -87,8 +93,8 @@ class Explorer {
     std::vector<CellIndex> frontier;  ///< unknown, beside free floor, wide enough
   };
   [[nodiscard]] bool is_given_up(Point2 place, double within) const;
-  [[nodiscard]] bool may_stand(Point2 place) const;
-  [[nodiscard]] Costs costs_of(const OccupancyGrid& map) const;
+  [[nodiscard]] bool may_stand(Point2 place, double hazard_margin) const;
+  [[nodiscard]] Costs costs_of(const OccupancyGrid& map, std::optional<Point2> robot) const;
   void give_up_what_stays_unknown(const OccupancyGrid& coarse, std::span<const CellIndex> frontier, Point2 robot);
 
   ExplorerParams params_;

@@ -165,5 +165,70 @@ TEST(Explorer, WhatCannotBeSeenIsGivenUp) {
   EXPECT_GT(calls, 0);
 }
 
+/// Free floor of 10 x 4 m whose far end is unknown.
+OccupancyGrid half_known_hall() {
+  OccupancyGrid map;
+  map.frame = {240, 80, 0.05, {}};
+  map.cells.assign(map.frame.size(), OccupancyGrid::kUnknown);
+  for (int row = 0; row < 80; ++row)
+    for (int column = 0; column < 200; ++column) {
+      const bool is_wall = row == 0 || row == 79 || column == 0;
+      map.cells[map.frame.index({column, row})] = is_wall ? OccupancyGrid::kOccupied : OccupancyGrid::kFree;
+    }
+  return map;
+}
+
+double nearest_to(const std::vector<Point2>& way, Point2 place) {
+  double nearest = 1e9;
+  for (const Point2 point : way) nearest = std::min(nearest, distance(point, place));
+  return nearest;
+}
+
+TEST(Explorer, KeepsOffWhatPeopleHaveMarkedAndInsideTheArea) {
+  const OccupancyGrid map = half_known_hall();
+  const Point2 robot{1.0, 2.0};
+  const Polygon glass{{4.0, 1.2}, {5.0, 1.2}, {5.0, 2.8}, {4.0, 2.8}};
+  const ExplorerParams params;
+  const double keep = params.robot_radius + params.hazard_margin;
+  Explorer straight{params};
+  const auto through = straight.next(map, robot);
+  ASSERT_TRUE(through);
+  EXPECT_LT(nearest_to(through->way, {4.5, 2.0}), 0.3);
+  Explorer marked{params, {glass}};
+  const auto around = marked.next(map, robot);
+  ASSERT_TRUE(around);
+  for (const Point2 point : around->way) EXPECT_GE(distance(glass, point), keep) << point.x << ", " << point.y;
+  Explorer fenced{params, {}, Polygon{{0.0, 0.0}, {6.0, 0.0}, {6.0, 4.0}, {0.0, 4.0}}};
+  EXPECT_FALSE(fenced.next(map, robot)) << "what is unknown lies outside of the area";
+}
+
+TEST(Explorer, GoesRoundWhatHeldItUpUntilThatIsForgotten) {
+  const OccupancyGrid map = half_known_hall();
+  const Point2 robot{1.0, 2.0};
+  Explorer explorer{{}};
+  explorer.block({4.0, 2.0}, 0.8);
+  const auto round = explorer.next(map, robot);
+  ASSERT_TRUE(round);
+  EXPECT_GE(nearest_to(round->way, {4.0, 2.0}), 0.8);
+  explorer.block({4.0, 2.0}, 5.0);
+  EXPECT_FALSE(explorer.next(map, robot));
+  explorer.unblock();
+  EXPECT_TRUE(explorer.next(map, robot));
+}
+
+TEST(Explorer, FindsTheWayBackAndNamesWhatItCouldNotReach) {
+  const OccupancyGrid map = half_known_hall();
+  Explorer explorer{{}, {}, Polygon{{0.0, 0.0}, {8.0, 0.0}, {8.0, 4.0}, {0.0, 4.0}}};
+  const auto way = explorer.way_to(map, {7.0, 2.0}, {1.0, 2.0});
+  ASSERT_FALSE(way.empty());
+  EXPECT_LT(distance(way.back(), {1.0, 2.0}), 0.15);
+  EXPECT_TRUE(explorer.way_to(map, {7.0, 2.0}, {11.0, 2.0}).empty()) << "nobody has seen that place";
+  EXPECT_TRUE(explorer.unreached(map).empty()) << "outside of the area nothing is missed";
+  Explorer free{{}};
+  const auto unreached = free.unreached(map);
+  ASSERT_EQ(unreached.size(), 1U);
+  EXPECT_NEAR(unreached.front().place.x, 10.0, 0.2);
+}
+
 }  // namespace
 }  // namespace docent::planning

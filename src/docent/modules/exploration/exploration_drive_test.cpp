@@ -1,0 +1,75 @@
+#include "docent/modules/exploration/exploration_drive.h"
+
+#include <gtest/gtest.h>
+
+namespace docent::modules {
+namespace {
+
+/// A hall of 12 x 4 m, known up to `known` [m].
+OccupancyGrid hall(double known) {
+  OccupancyGrid map;
+  map.frame = {240, 80, 0.05, {}};
+  map.cells.assign(map.frame.size(), OccupancyGrid::kUnknown);
+  for (int row = 0; row < 80; ++row)
+    for (int column = 0; column < 240; ++column) {
+      if (map.frame.centre({column, row}).x > known) continue;
+      const bool is_wall = row == 0 || row == 79 || column == 0 || column == 239;
+      map.cells[map.frame.index({column, row})] = is_wall ? OccupancyGrid::kOccupied : OccupancyGrid::kFree;
+    }
+  return map;
+}
+
+ExplorationDrive drive_from(Point2 home) { return {{}, planning::Explorer{{}}, home}; }
+
+TEST(ExplorationDrive, GoesToWhatIsUnknownThenHomeThenStays) {
+  const Point2 home{1.0, 2.0};
+  ExplorationDrive drive = drive_from(home);
+  Time now{};
+  EXPECT_TRUE(drive.ahead(home).via.empty());
+  drive.plan(hall(6.0), home, false, now);
+  EXPECT_EQ(drive.state(), ExplorationDrive::State::exploring);
+  EXPECT_GT(drive.frontier(), 0U);
+  const auto ahead = drive.ahead(home);
+  ASSERT_FALSE(ahead.via.empty());
+  EXPECT_FALSE(ahead.is_final) << "it lies beyond the horizon";
+  EXPECT_LE(ahead.via.back().x, home.x + 3.2);
+  const Point2 far{9.0, 2.0};
+  const auto plan_for = [&](double seconds_of_it, Point2 robot) {
+    for (double t = 0.0; t < seconds_of_it; t += 1.0) drive.plan(hall(12.0), robot, false, now += seconds(1.0));
+  };
+  plan_for(20.0, far);
+  EXPECT_EQ(drive.state(), ExplorationDrive::State::exploring) << "a way on may open";
+  EXPECT_TRUE(drive.ahead(far).via.empty());
+  plan_for(15.0, far);
+  EXPECT_EQ(drive.state(), ExplorationDrive::State::returning);
+  EXPECT_LT(drive.ahead(far).via.back().x, far.x);
+  plan_for(1.0, home);
+  EXPECT_EQ(drive.state(), ExplorationDrive::State::arrived);
+  EXPECT_TRUE(drive.ahead(home).via.empty());
+}
+
+TEST(ExplorationDrive, TurnsBackOnItsWayHomeWhenAWayHasOpened) {
+  ExplorationDrive drive = drive_from({1.0, 2.0});
+  Time now{};
+  for (int i = 0; i < 40; ++i) drive.plan(hall(12.0), {9.0, 2.0}, false, now += seconds(1.0));
+  ASSERT_EQ(drive.state(), ExplorationDrive::State::returning);
+  drive.plan(hall(6.0), {5.0, 2.0}, false, now += seconds(1.0));
+  EXPECT_EQ(drive.state(), ExplorationDrive::State::exploring);
+}
+
+TEST(ExplorationDrive, GoesRoundWhereItIsHeldUpButNotWhileItWaits) {
+  const Point2 robot{1.0, 2.0};
+  ExplorationDrive drive = drive_from(robot);
+  Time now{};
+  const auto side_of_way = [&](bool waits) {
+    for (int i = 0; i < 10; ++i) drive.plan(hall(6.0), robot, waits, now += seconds(1.0));
+    double most = 0.0;
+    for (const Point2 point : drive.way()) most = std::max(most, std::abs(point.y - robot.y));
+    return most;
+  };
+  EXPECT_LT(side_of_way(true), 0.3);
+  EXPECT_GT(side_of_way(false), 0.3);
+}
+
+}  // namespace
+}  // namespace docent::modules
