@@ -57,6 +57,7 @@ void ExplorationDrive::note_progress(Point2 robot, bool waits, Time now) {
       at = point;
       break;
     }
+    if (distance(way_.back(), robot) < kBlockedAhead) explorer_.give_up(way_.back(), kBlockedAhead);  // it is there
     obstacles_.push_back({at, now + seconds(params_.turned_away)});
     if (state_ == State::returning) ++held_up_on_way_home_;
     progress_ = now;

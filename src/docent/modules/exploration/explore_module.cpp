@@ -195,6 +195,7 @@ class ExploreModule final : public Module {
     target.header = {to_message(now), "odom"};
     target.goal_id = "explore";
     target.mode = to_text(DriveMode::stop);
+    target.position_tolerance = 0.1;
     const auto here = map_from_base();
     if (here && !is_done_) {
       const auto ahead = drive_.ahead(here->position());

@@ -21,6 +21,16 @@ bool borders_on_free(const OccupancyGrid& map, CellIndex cell) {
   return false;
 }
 
+/// Something stands between the two.
+bool is_hidden(const OccupancyGrid& map, Point2 from, Point2 to) {
+  const double length = distance(from, to);
+  const double step = 0.5 * map.frame.resolution;
+  for (double d = 0.0; d < length; d += step) {
+    if (map.is_occupied(map.frame.cell_at(from + (d / length) * (to - from)))) return true;
+  }
+  return false;
+}
+
 /// The open cell nearest to the robot, which may stand a little nearer to something than it plans to.
 std::optional<CellIndex> start_cell(const ValueIteration& planner, Point2 robot) {
   constexpr double kNear = 0.5;  // [m]
@@ -55,6 +65,7 @@ Result<void> ExplorerParams::validate() const {
   if (!(comfort_cost >= 0.0)) return fail("comfort_cost must be >= 0");
   if (!(switch_cost >= 0.0)) return fail("switch_cost must be >= 0");
   if (!(hazard_margin >= 0.0)) return fail("hazard_margin must be >= 0");
+  if (!(gap >= 0.0)) return fail("gap must be >= 0");
   if (!(close > 0.0)) return fail("close must be > 0");
   if (close_looks < 1) return fail("close_looks must be >= 1");
   return {};
@@ -64,7 +75,9 @@ Explorer::Explorer(ExplorerParams params, std::vector<Polygon> hazards, Polygon 
     : params_{params}, hazards_{std::move(hazards)}, area_{std::move(area)} {}
 
 bool Explorer::is_given_up(Point2 place, double within) const {
-  return std::any_of(given_up_.begin(), given_up_.end(), [&](Point2 p) { return distance(p, place) < within; });
+  return std::any_of(given_up_.begin(), given_up_.end(), [&](Point2 p) { return distance(p, place) < within; }) ||
+         std::any_of(forgone_.begin(), forgone_.end(),
+                     [&](const Disc& disc) { return distance(disc.centre, place) < disc.radius; });
 }
 
 bool Explorer::may_stand(Point2 place, double hazard_margin) const {
@@ -78,7 +91,7 @@ bool Explorer::may_stand(Point2 place, double hazard_margin) const {
 }
 
 Explorer::Costs Explorer::costs_of(const OccupancyGrid& map, std::optional<Point2> robot) const {
-  Costs result{coarsened(map, params_.coarsening), {}, {}};
+  Costs result{coarsened(map, params_.coarsening), {}, {}, {}};
   const GridFrame& frame = result.coarse.frame;
   std::vector<bool> solid(frame.size());
   for (std::size_t i = 0; i < solid.size(); ++i) solid[i] = result.coarse.cells[i] >= 65;
@@ -91,11 +104,11 @@ Explorer::Costs Explorer::costs_of(const OccupancyGrid& map, std::optional<Point
       const double spare = static_cast<double>(clearances[i]) - params_.robot_radius - params_.wall_margin;
       const bool is_free = result.coarse.is_free(cell);
       const bool is_frontier = is_unknown(result.coarse.cells[i]) && borders_on_free(result.coarse, cell);
+      if (!(is_free || is_frontier)) continue;
       const bool is_near = robot && distance(*robot, frame.centre(cell)) < params_.tight_reach;
-      const double least = is_near && is_free ? params_.tight_margin - params_.wall_margin : 0.0;
-      if (spare < least || !(is_free || is_frontier) ||
-          !may_stand(frame.centre(cell), is_near ? params_.tight_margin : params_.hazard_margin))
-        continue;
+      if (!may_stand(frame.centre(cell), is_near ? params_.tight_margin : params_.hazard_margin)) continue;
+      if (is_frontier && spare < 0.0 && static_cast<double>(clearances[i]) >= params_.gap) result.gaps.push_back(cell);
+      if (spare < (is_near && is_free ? params_.tight_margin - params_.wall_margin : 0.0)) continue;
       if (is_frontier) {
         result.frontier.push_back(cell);
         continue;
@@ -118,15 +131,40 @@ void Explorer::give_up_what_stays_unknown(const OccupancyGrid& coarse, std::span
     if (is_given_up(place, frame.resolution)) continue;
     const std::pair<int, int> key{static_cast<int>(std::lround(place.x / frame.resolution)),
                                   static_cast<int>(std::lround(place.y / frame.resolution))};
+    if (is_hidden(coarse, robot, place)) continue;  // behind a door's frame
     const int looks = off < params_.robot_radius + frame.resolution ? params_.close_looks : ++looked_at_[key];
     if (looks >= params_.close_looks) given_up_.push_back(place);
   }
+}
+
+std::vector<CellIndex> Explorer::views_of_gaps(const Costs& known) const {
+  const GridFrame& frame = known.coarse.frame;
+  const double reach = params_.close - frame.resolution;
+  const int cells = static_cast<int>(std::ceil(reach / frame.resolution));
+  std::vector<CellIndex> views;
+  std::vector<bool> is_listed(frame.size(), false);
+  for (const CellIndex gap : known.gaps) {
+    const Point2 place = frame.centre(gap);
+    if (is_given_up(place, frame.resolution)) continue;
+    for (int row = gap.row - cells; row <= gap.row + cells; ++row) {
+      for (int column = gap.column - cells; column <= gap.column + cells; ++column) {
+        const CellIndex view{column, row};
+        if (!frame.holds(view) || known.costs[frame.index(view)] == ValueIteration::kClosed) continue;
+        if (is_listed[frame.index(view)] || distance(frame.centre(view), place) > reach) continue;
+        if (is_hidden(known.coarse, frame.centre(view), place)) continue;
+        is_listed[frame.index(view)] = true;
+        views.push_back(view);
+      }
+    }
+  }
+  return views;
 }
 
 std::optional<Exploration> Explorer::next(const OccupancyGrid& map, Point2 robot) {
   Costs known = costs_of(map, robot);
   const GridFrame& frame = known.coarse.frame;
   give_up_what_stays_unknown(known.coarse, known.frontier, robot);
+  give_up_what_stays_unknown(known.coarse, known.gaps, robot);
   std::vector<ValueIteration::Goal> goals;
   for (const CellIndex cell : known.frontier) {
     const Point2 place = frame.centre(cell);
@@ -140,7 +178,13 @@ std::optional<Exploration> Explorer::next(const OccupancyGrid& map, Point2 robot
   planner.set_costs(known.costs);
   planner.set_goals(goals);
   const auto start = start_cell(planner, robot);
-  if (!start || !planner.settle(*start, kEnough)) return std::nullopt;
+  if (!start) return std::nullopt;
+  if (!planner.settle(*start, kEnough) || planner.descend(*start).empty()) {
+    goals.clear();
+    for (const CellIndex cell : views_of_gaps(known)) goals.push_back({cell, 0.0F});
+    planner.set_goals(goals);
+    if (!planner.settle(*start, kEnough)) return std::nullopt;
+  }
   Exploration result;
   for (const CellIndex& cell : planner.descend(*start)) result.way.push_back(frame.centre(cell));
   if (result.way.empty()) return std::nullopt;

@@ -24,6 +24,7 @@ struct ExplorerParams {
   double comfort_cost = 2.0;    ///< extra cost, as a factor, at the least clearance
   double switch_cost = 0.5;     ///< [m of free floor] by which another place must be nearer than the last one
   double hazard_margin = 0.30;  ///< [m] kept from what only people know of, beyond the radius: the pose errs, too
+  double gap = 0.30;            ///< [m], >= 0: half of a gap that may be wide enough when it is seen from nearby
   double close = 0.9;           ///< [m], > 0: what is still unknown from so near
   int close_looks = 5;          ///< > 0: in so many calls, is not to be seen
   template <class V>
@@ -38,6 +39,7 @@ struct ExplorerParams {
     v("comfort_cost", comfort_cost);
     v("switch_cost", switch_cost);
     v("hazard_margin", hazard_margin);
+    v("gap", gap);
     v("close", close);
     v("close_looks", close_looks);
   }
@@ -73,7 +75,8 @@ class Explorer {
   /// Something stands there that the map does not show: no way leads through the disc until `unblock`.
   void block(Point2 centre, double radius) { blocked_.push_back({centre, radius}); }
   void unblock() { blocked_.clear(); }
-  [[nodiscard]] bool is_anything_blocked() const { return !blocked_.empty(); }
+  /// What is unknown there is not gone to again.
+  void give_up(Point2 centre, double radius) { forgone_.push_back({centre, radius}); }
   /// Unknown places beside free floor that are wide enough for the robot, and that it did not get to, in groups: the
   /// middle of each and how many unknown cells border on free floor there. @pre no area of `map` was explored since
   struct Unreached {
@@ -91,16 +94,19 @@ class Explorer {
     OccupancyGrid coarse;
     std::vector<float> costs;         ///< [rows * columns] of planning cells
     std::vector<CellIndex> frontier;  ///< unknown, beside free floor, wide enough
+    std::vector<CellIndex> gaps;      ///< the same, too narrow by what is known, but perhaps only seen badly
   };
   [[nodiscard]] bool is_given_up(Point2 place, double within) const;
   [[nodiscard]] bool may_stand(Point2 place, double hazard_margin) const;
   [[nodiscard]] Costs costs_of(const OccupancyGrid& map, std::optional<Point2> robot) const;
+  [[nodiscard]] std::vector<CellIndex> views_of_gaps(const Costs& known) const;
   void give_up_what_stays_unknown(const OccupancyGrid& coarse, std::span<const CellIndex> frontier, Point2 robot);
 
   ExplorerParams params_;
   std::vector<Polygon> hazards_;
   Polygon area_;
   std::vector<Disc> blocked_;
+  std::vector<Disc> forgone_;
   std::vector<Point2> given_up_;                  ///< [m], map
   std::map<std::pair<int, int>, int> looked_at_;  ///< calls in which a cell, by its place, was near and unknown
   std::optional<Point2> last_;                    ///< [m], map: the goal before

@@ -143,6 +143,13 @@ TEST(Explorer, ShutRoomsAndCracksAreNoGoals) {
   EXPECT_FALSE((Explorer{{}}.next(map, {1.0, 1.0})));
   for (int row = 30; row < 36; ++row) map.cells[map.frame.index({49, row})] = OccupancyGrid::kUnknown;
   EXPECT_FALSE((Explorer{{}}.next(map, {1.0, 1.0}))) << "30 cm";
+  for (int row = 29; row < 43; ++row) map.cells[map.frame.index({49, row})] = OccupancyGrid::kUnknown;
+  const auto gap = Explorer{{}}.next(map, {1.0, 1.0});
+  ASSERT_TRUE(gap) << "70 cm, which may be more from nearby";
+  EXPECT_LT(gap->way.back().x, 49 * 0.05 - 0.3) << "it does not go in";
+  Explorer looks{{}};
+  for (int look = 0; look < ExplorerParams{}.close_looks; ++look) (void)looks.next(map, gap->way.back());
+  EXPECT_FALSE(looks.next(map, gap->way.back())) << "it is no more";
   for (int row = 20; row < 40; ++row) map.cells[map.frame.index({49, row})] = OccupancyGrid::kUnknown;
   const auto door = Explorer{{}}.next(map, {1.0, 1.0});
   ASSERT_TRUE(door);
