@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kBlockedRadius = 0.5;  // [m] about what holds it up
 constexpr double kBlockedAhead = 0.7;   // [m] from the robot's centre: where it stands
+constexpr int kTriesAGoal = 3;          // times that it was held up on its way to one place, then it lets that be
+constexpr double kSameGoal = 0.8;       // [m]
 constexpr std::size_t kTriesHome = 5;   // ways home on which it was held up, then it stays
 
 /// Ends of the staircase that a way over cells is, at most half a metre from each other.
@@ -57,7 +59,7 @@ void ExplorationDrive::note_progress(Point2 robot, bool waits, Time now) {
       at = point;
       break;
     }
-    if (distance(way_.back(), robot) < kBlockedAhead) explorer_.give_up(way_.back(), kBlockedAhead);  // it is there
+    note_failure(way_.back(), robot);
     obstacles_.push_back({at, now + seconds(params_.turned_away)});
     if (state_ == State::returning) ++held_up_on_way_home_;
     progress_ = now;
@@ -68,6 +70,14 @@ void ExplorationDrive::note_progress(Point2 robot, bool waits, Time now) {
     const double radius = std::min(kBlockedRadius, distance(obstacle.place, robot) - 0.1);
     if (radius > 0.0) explorer_.block(obstacle.place, radius);
   }
+}
+
+void ExplorationDrive::note_failure(Point2 goal, Point2 robot) {
+  auto known = std::find_if(failures_.begin(), failures_.end(),
+                            [&](const Failure& failure) { return distance(failure.goal, goal) < kSameGoal; });
+  if (known == failures_.end()) known = failures_.insert(failures_.end(), {goal, 0});
+  const bool is_there = distance(goal, robot) < kBlockedAhead;
+  if (++known->times >= kTriesAGoal || is_there) explorer_.give_up(goal, kSameGoal);
 }
 
 bool ExplorationDrive::explore(const OccupancyGrid& map, Point2 robot) {

@@ -60,6 +60,12 @@ class ExplorationDrive {
     Point2 place;
     Time until{};
   };
+  struct Failure {
+    Point2 goal;
+    int times = 0;
+  };
+  /// It was held up on its way to `goal`.
+  void note_failure(Point2 goal, Point2 robot);
   void note_progress(Point2 robot, bool waits, Time now);
   [[nodiscard]] bool explore(const OccupancyGrid& map, Point2 robot);
   [[nodiscard]] bool is_stuck_for(double most_s, Time now);
@@ -73,6 +79,7 @@ class ExplorationDrive {
   std::vector<Point2> way_;
   std::size_t frontier_ = 0;
   std::vector<Obstacle> obstacles_;  ///< where it was held up
+  std::vector<Failure> failures_;
   Point2 last_progress_;
   std::optional<Time> progress_;
   std::optional<Time> stuck_;  ///< since when there is no way on
