@@ -24,8 +24,8 @@ struct GraphMapperParams {
   int candidates = 8;       ///< > 0: older submaps that a new one is matched to, the likeliest first
   double loop_reach = 6.0;  ///< [m], > 0: submaps whose middles lie farther apart show too little in common
   int fine_rounds = 3;      ///< >= 0: rounds in which scans are matched to scans nearby, and all poses improved
-  int fine_pairs = 6;       ///< > 0: of a scan in a round
-  double fine_reach = 4.0;  ///< [m], > 0, between two such scans
+  int fine_pairs = 10;      ///< > 0: of a scan in a round
+  double fine_reach = 8.0;  ///< [m], > 0, between two such scans
   template <class V>
   void visit(V& v) {
     v("points", points);
