@@ -32,7 +32,7 @@ TEST(ReachableFloor, EndsWhereTheRobotCannotSee) {
   EXPECT_TRUE(holds(wide, {1.0, 0.3}));
   EXPECT_TRUE(holds(wide, {7.0, 0.3}));
   const ReachableFloor narrow = two_rooms(0.5);  // it looks through, and does not drive there
-  EXPECT_NE(holds(narrow, {1.0, 0.3}), holds(narrow, {7.0, 0.3}));
+  EXPECT_NE(holds(narrow, {3.85, 0.25}), holds(narrow, {4.25, 0.25}));
   const ReachableFloor shut = two_rooms(0.0);
   EXPECT_NE(holds(shut, {1.0, 2.0}), holds(shut, {7.0, 2.0})) << "doors are thinner than a cell";
 }

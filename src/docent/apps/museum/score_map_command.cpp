@@ -29,7 +29,8 @@ void run(const ScoreOptions& options) {
   std::printf(
       "%zu ghosts more than 0.3 m off, %.3f %% of %zu free cells; %.1f %% of the surfaces beside free floor found\n",
       score.ghosts, 100.0 * ghost_share, score.free, 100.0 * score.found);
-  std::printf("%.2f %% of %.0f m2 of floor covered that lasers can see from where the robot can drive\n", 100.0 * score.covered, score.floor);
+  std::printf("%.2f %% of %.0f m2 of floor covered that lasers can see from where the robot can drive\n",
+              100.0 * score.covered, score.floor);
   if (options.report.empty()) return;
   const nlohmann::json report{
       {"world_from_map", {score.world_from_map.x, score.world_from_map.y, score.world_from_map.theta.radians()}},

@@ -23,8 +23,7 @@ struct ScanMapperParams {
   double border = 1.0;       ///< [m], >= 0, about everything that was seen
   double occupied = 0.6;     ///< a cell of at least this probability is drawn occupied, and
   double free = 0.4;         ///< of at most this one free; the rest is unknown
-  double most_free_pieces =
-      0.25;             ///< >= 0: a cell that more pieces of the way, for each that met it, saw free is no wall
+  double most_free_pieces = 0.25;  ///< >= 0: for each piece that met a wall's cell, so many that saw through
   int fewest_hits = 1;  ///< > 0: sweeps that a cell was met in, else it is unknown: who walks by is met once or twice
   template <class V>
   void visit(V& v) {

@@ -35,7 +35,7 @@ TEST(ExplorationDrive, GoesToWhatIsUnknownThenHomeThenStays) {
   EXPECT_LE(ahead.via.back().x, home.x + 3.2);
   const Point2 far{9.0, 2.0};
   const auto plan_for = [&](double seconds_of_it, Point2 robot) {
-    for (double t = 0.0; t < seconds_of_it; t += 1.0) drive.plan(hall(12.0), robot, false, now += seconds(1.0));
+    for (double t = 0.0; t < seconds_of_it; t += 1.0) drive.plan(hall(12.0), robot, false, now = now + seconds(1.0));
   };
   plan_for(20.0, far);
   EXPECT_EQ(drive.state(), ExplorationDrive::State::exploring) << "a way on may open";
@@ -51,9 +51,9 @@ TEST(ExplorationDrive, GoesToWhatIsUnknownThenHomeThenStays) {
 TEST(ExplorationDrive, TurnsBackOnItsWayHomeWhenAWayHasOpened) {
   ExplorationDrive drive = drive_from({1.0, 2.0});
   Time now{};
-  for (int i = 0; i < 40; ++i) drive.plan(hall(12.0), {9.0, 2.0}, false, now += seconds(1.0));
+  for (int i = 0; i < 40; ++i) drive.plan(hall(12.0), {9.0, 2.0}, false, now = now + seconds(1.0));
   ASSERT_EQ(drive.state(), ExplorationDrive::State::returning);
-  drive.plan(hall(6.0), {5.0, 2.0}, false, now += seconds(1.0));
+  drive.plan(hall(6.0), {5.0, 2.0}, false, now = now + seconds(1.0));
   EXPECT_EQ(drive.state(), ExplorationDrive::State::exploring);
 }
 
@@ -62,7 +62,7 @@ TEST(ExplorationDrive, GoesRoundWhereItIsHeldUpButNotWhileItWaits) {
   ExplorationDrive drive = drive_from(robot);
   Time now{};
   const auto side_of_way = [&](bool waits) {
-    for (int i = 0; i < 10; ++i) drive.plan(hall(6.0), robot, waits, now += seconds(1.0));
+    for (int i = 0; i < 10; ++i) drive.plan(hall(6.0), robot, waits, now = now + seconds(1.0));
     double most = 0.0;
     for (const Point2 point : drive.way()) most = std::max(most, std::abs(point.y - robot.y));
     return most;

@@ -92,6 +92,7 @@ class ExploreModule final : public Module {
   }
 
   [[nodiscard]] ModuleHealth health() const override {
+    if (!fault_.empty()) return {"faulted", fault_};
     if (!pose_.odom_from_base()) return {"degraded", "no odometry"};
     if (!map_from_odom_) return {"starting", "no scan of all lasers yet"};
     return {};
@@ -324,7 +325,7 @@ class ExploreModule final : public Module {
   bool is_done_ = false;
   std::string file_;
   std::string warning_;
-  std::string fault_;
+  std::string fault_;  ///< why there is no map in the end
   std::vector<planning::Explorer::Unreached> unreached_;
 };
 
@@ -333,6 +334,7 @@ class ExploreModule final : public Module {
 Result<std::unique_ptr<Module>> make_explore(const ModuleContext& context) {
   auto params = context.config.section<ExploreParams>("explore");
   if (!params) return tl::unexpected<Error>(params.error());
+  params->explorer.robot_radius = std::max(params->explorer.robot_radius, context.config.body().radius);
   return std::make_unique<ExploreModule>(context, *params);
 }
 

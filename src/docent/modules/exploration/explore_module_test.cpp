@@ -70,11 +70,11 @@ TEST_F(ExploreModule, KnowsWhereItBeganMapsTheRoomAndSavesIt) {
   EXPECT_NEAR(belief.hypotheses.front().y, 2.0, 1e-6);
   EXPECT_EQ(module->health().state, "ready");
   for (int i = 0; i < 30; ++i) sense(museum.home * Pose2{0.08 * i, 0.0, {}});
-  EXPECT_NEAR(belief.hypotheses.front().x, 1.5 + 0.08 * 29, 0.05);
+  EXPECT_NEAR(belief.hypotheses.front().x, 1.5 + 0.08 * 29, 0.1);
   for (int i = 29; i > 0; --i) sense(museum.home * Pose2{0.08 * i, 0.0, {}});
   for (int i = 0; i < 600 && exploration.state != "done"; ++i) sense(museum.home);
   EXPECT_EQ(exploration.state, "done");
-  EXPECT_NEAR(exploration.known_m2, 24.0, 1.0);
+  EXPECT_NEAR(exploration.known_m2, 24.0, 2.0);
   EXPECT_TRUE(exploration.unreached_x.empty());
   EXPECT_TRUE(std::filesystem::exists(state / "explored" / "map.yaml"));
   EXPECT_EQ(exploration.map, (state / "explored" / "map.yaml").string());
