@@ -41,7 +41,8 @@ void add_commands(CLI::App& app) {
     const std::vector<CLI::App*> all = app.get_subcommands({});
     for (std::size_t i = before; i < all.size(); ++i) all[i]->group(heading);
   };
-  add("Drive through a museum", {add_simulate_command, add_explore_command, add_up_command, add_web_account_command, add_gateway_command});
+  add("Drive through a museum",
+      {add_simulate_command, add_explore_command, add_up_command, add_web_account_command, add_gateway_command});
   add("Make a museum",
       {add_museum_command, add_office_command, add_survey_command, add_check_command, add_golog_command});
   add("Look at recordings",

@@ -147,15 +147,15 @@ struct LiveMapUpdate {
 struct Exploration {
   static constexpr const char* kType = "docent_msgs/msg/Exploration";
   std_msgs::Header header;
-  std::string state;           ///< starting, exploring, returning, mapping (it computes and stands), done
-  float known_m2 = 0;          ///< floor known to be free
-  std::uint32_t frontier = 0;  ///< unknown cells that it can still go to
-  float way_m = 0;             ///< driven
-  std::uint32_t loops = 0;     ///< places recognised
+  std::string state;                ///< starting, exploring, returning, mapping (it computes and stands), done
+  float known_m2 = 0;               ///< floor known to be free
+  std::uint32_t frontier = 0;       ///< unknown cells that it can still go to
+  float way_m = 0;                  ///< driven
+  std::uint32_t loops = 0;          ///< places recognised
   std::vector<double> unreached_x;  ///< [m], map: unknown places beside free floor that it could not get to or see into
   std::vector<double> unreached_y;  ///< [m]
-  std::string map;      ///< done: the file of the map
-  std::string warning;  ///< done: why the map is not to be trusted; empty: it is
+  std::string map;                  ///< done: the file of the map
+  std::string warning;              ///< done: why the map is not to be trusted; empty: it is
   template <class Self, class V>
   static void visit(Self& m, V& v) {
     v("header", m.header);

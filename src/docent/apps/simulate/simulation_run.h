@@ -32,18 +32,18 @@ struct SimulationRunOptions {
   std::string recording;                         ///< MCAP file; empty: none
   std::string claims;                            ///< CSV file of every belief beside the truth; empty: none
   std::string health_log;                        ///< CSV file of what the modules said of themselves; empty: none
-  std::string event_log;        ///< CSV file of what happened and where the robot was then; empty: none
-  std::string request_log;      ///< CSV file of requests, explanations and orders of visits; empty: none
-  std::string drive_log;        ///< CSV file of how it drives beside what avoid says; empty: none
-  std::string travel_times;     ///< CSV file of the ways whose time was learned, also before this run; empty: none
-  std::string people_log;       ///< CSV file of tracked people beside the true ones; empty: none
-  std::string camera_pictures;  ///< folder for what both cameras saw last; empty: none are simulated
-  std::string state;            ///< folder; empty: a temporary one that goes with the run
-  std::string cache;            ///< folder, see ModuleContext; empty: nothing is kept
-  bool hosts_web = false;       ///< the page too
-  bool profile = false;         ///< costs are counted by the processor's time, which is slower to ask for
+  std::string event_log;         ///< CSV file of what happened and where the robot was then; empty: none
+  std::string request_log;       ///< CSV file of requests, explanations and orders of visits; empty: none
+  std::string drive_log;         ///< CSV file of how it drives beside what avoid says; empty: none
+  std::string travel_times;      ///< CSV file of the ways whose time was learned, also before this run; empty: none
+  std::string people_log;        ///< CSV file of tracked people beside the true ones; empty: none
+  std::string camera_pictures;   ///< folder for what both cameras saw last; empty: none are simulated
+  std::string state;             ///< folder; empty: a temporary one that goes with the run
+  std::string cache;             ///< folder, see ModuleContext; empty: nothing is kept
+  bool hosts_web = false;        ///< the page too
+  bool profile = false;          ///< costs are counted by the processor's time, which is slower to ask for
   std::optional<Pose2> explore;  ///< the robot begins here and maps the museum by itself; none: it has its map
-  bool has_robot = true;        ///< false: the world and the robot's body alone, no module
+  bool has_robot = true;         ///< false: the world and the robot's body alone, no module
 };
 
 /// The whole robot and its museum in one process in virtual time: simulator, modules, evaluation. One thread,
