@@ -27,10 +27,12 @@ Result<simulator::SimulationOptions> simulation_of(const Deployment& deployment,
   simulation.hardware = simulated_hardware(config->body());
   simulation.seed = deployment.seed;
   simulation.crowd = options.crowd;
-  if (!options.start.empty()) {
-    simulation.start = parse_pose("--start", options.start);
+  const std::string option = options.start.empty() ? "--explore" : "--start";
+  const std::string& start = options.start.empty() ? deployment.explore : options.start;
+  if (!start.empty()) {
+    simulation.start = parse_pose(option, start);
     if (!contains(simulation.world.operating_area, simulation.start->position())) {
-      return fail("--start " + options.start + ": outside the robot's area");
+      return fail(option + " " + start + ": outside the robot's area");
     }
   }
   if (options.has_cameras) simulation.cameras.emplace();

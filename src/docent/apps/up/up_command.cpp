@@ -149,6 +149,24 @@ Result<void> keep_recording(const UpOptions& options, const std::set<std::filesy
   return recording::join_recordings(files, options.record);
 }
 
+/// For whoever stands beside it; empty: nothing new.
+std::string told_of(const docent_msgs::Exploration& now, const std::string& state_before) {
+  if (now.state == state_before) return {};
+  if (now.state != "done") return now.state;
+  char text[120];
+  std::snprintf(text, sizeof text, "done: %.0f m2 after %.0f m, %zu places not reached or not seen into; ",
+                static_cast<double>(now.known_m2), static_cast<double>(now.way_m), now.unreached_x.size());
+  return text + now.map + (now.warning.empty() ? "" : "; do not trust it: " + now.warning);
+}
+
+void tell_exploration(transport::Bus& bus, StatusDisplay& display) {
+  auto state = std::make_shared<std::string>();
+  bus.subscribe<docent_msgs::Exploration>(topics::kExploration, [state, &display](const docent_msgs::Exploration& now) {
+    if (const std::string told = told_of(now, *state); !told.empty()) display.log(LogLevel::info, "explore", told);
+    *state = now.state;
+  });
+}
+
 void up(const UpOptions& options) {
   const docent_msgs::Limits limits = check(options);
   const auto recorded_before = recording::recordings_in(recordings_folder(options));
@@ -175,6 +193,7 @@ void up(const UpOptions& options) {
       display.log(LogLevel::info, "web", "open http://127.0.0.1:" + std::to_string(options.port) + "/");
     }
   });
+  tell_exploration(*bus, display);
   bus->subscribe<docent_msgs::MuseumMoved>(topics::kMuseumMoved, [&](const docent_msgs::MuseumMoved& moved) {
     const std::string trial = museum::trial_folder(options.deployment.state).string();
     const std::string& folder = moved.is_trial ? trial : options.deployment.museum;
