@@ -28,7 +28,7 @@
 namespace docent::apps {
 namespace {
 
-struct Options {
+struct ExploreOptions {
   SimulationRunOptions run;
   std::string start;
   double most_hours = 2.0;
@@ -75,7 +75,7 @@ std::string line_of(const docent_msgs::Exploration& state, double minutes) {
 }
 
 /// @returns what the robot says in the end
-docent_msgs::Exploration drive(SimulationRun& run, const Options& options) {
+docent_msgs::Exploration drive(SimulationRun& run, const ExploreOptions& options) {
   Progress progress{::isatty(STDERR_FILENO) != 0};
   const auto start = std::chrono::steady_clock::now();
   const Time end = time_from_seconds(options.most_hours * 3600.0);
@@ -92,7 +92,7 @@ docent_msgs::Exploration drive(SimulationRun& run, const Options& options) {
   return state;
 }
 
-void explore(Options& options) {
+void explore(ExploreOptions& options) {
   if (!(options.most_hours > 0.0 && options.most_hours <= 100.0)) throw CommandFailed{"--hours must be in (0, 100]", 2};
   const museum::Museum museum = value_or_fail(museum::load_museum(options.run.museum));
   options.run.explore = options.start.empty() ? museum.home : parse_pose("--start", options.start);
@@ -128,7 +128,7 @@ void explore(Options& options) {
 }  // namespace
 
 void add_explore_command(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExploreOptions>();
   options->run.museum = default_museum();
   options->run.crowd = "empty";
   options->run.requests_per_hour = 0.0;
