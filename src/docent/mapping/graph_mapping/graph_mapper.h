@@ -11,6 +11,7 @@
 
 namespace docent::mapping {
 
+/// How a map is made of scans and odometry.
 struct GraphMapperParams {
   PointSweepParams points;
   ScanChainParams chain;

@@ -10,16 +10,16 @@
 
 namespace docent::mapping {
 
+/// When two pieces show one place.
 struct LoopCloserParams {
-  double least_score = 0.50;    ///< 0..1, of the search
-  double least_overlap = 0.40;  ///< 0..1: share of the points that then lie on lines of the other submap
-  double most_conflict = 0.06;  ///< 0..1: share of the points that lie where the other submap saw free floor
-  double clearly_best = 0.88;   ///< 0..1: the next best place elsewhere reaches at most this share of the score
-  double elsewhere = 0.8;       ///< [m]
-  double elsewhere_turn = 0.5;  ///< [rad]
-  double widest_window = 12.0;  ///< [m]: the search goes no farther, however little is known
-  double narrow_window =
-      1.0;  ///< [m]: a place so near to the expected one may leave one direction open, as along a corridor
+  double least_score = 0.50;         ///< 0..1, of the search
+  double least_overlap = 0.40;       ///< 0..1: share of the points that then lie on lines of the other submap
+  double most_conflict = 0.06;       ///< 0..1: share of the points that lie where the other submap saw free floor
+  double clearly_best = 0.88;        ///< 0..1: the next best place elsewhere reaches at most this share of the score
+  double elsewhere = 0.8;            ///< [m]
+  double elsewhere_turn = 0.5;       ///< [rad]
+  double widest_window = 12.0;       ///< [m]: the search goes no farther, however little is known
+  double narrow_window = 1.0;        ///< [m]: so near to the expected place, one direction may stay open
   double expectation_weight = 0.01;  ///< >= 0: see MatchWindow
   double sigmas = 3.0;               ///< > 0: the search goes so far about the expected place
   double least_window = 0.6;         ///< [m]

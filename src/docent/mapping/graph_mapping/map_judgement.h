@@ -8,6 +8,7 @@
 
 namespace docent::mapping {
 
+/// When a map is not to be trusted.
 struct MapJudgementParams {
   double near = 6.0;       ///< [m], > 0: pieces of the way so near to each other should agree
   double conflict = 0.15;  ///< 0..1: share of a piece's points on floor that the other one saw free: they do not

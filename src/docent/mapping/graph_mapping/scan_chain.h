@@ -10,14 +10,15 @@
 
 namespace docent::mapping {
 
+/// How each scan is matched to those before it.
 struct ScanChainParams {
-  int scans = 12;                ///< > 0: a scan is matched to so many before it
-  double way_sigma = 0.05;       ///< [m], > 0: odometry, of each step, and
-  double way_per_metre = 0.15;   ///< [m/m] more
-  double way_per_radian = 0.05;  ///< [m/rad]
-  double turn_sigma = 0.035;     ///< [rad], > 0: odometry, of each step, and
-  double turn_per_metre = 0.1;   ///< [rad/m] more
-  double turn_per_radian = 0.15;
+  int scans = 12;                    ///< > 0: a scan is matched to so many before it
+  double way_sigma = 0.05;           ///< [m], > 0: odometry, of each step, and
+  double way_per_metre = 0.15;       ///< [m/m] more
+  double way_per_radian = 0.05;      ///< [m/rad]
+  double turn_sigma = 0.035;         ///< [rad], > 0: odometry, of each step, and
+  double turn_per_metre = 0.1;       ///< [rad/m] more
+  double turn_per_radian = 0.15;     ///< [rad/rad]
   double sigmas = 3.0;               ///< > 0: so far from odometry's pose a match is looked for
   double expectation_weight = 0.01;  ///< >= 0: see MatchWindow
   double least_score = 0.35;         ///< 0..1: a match below is none; odometry is believed

@@ -11,6 +11,7 @@
 
 namespace docent::mapping {
 
+/// Pieces of the way that are matched to each other.
 struct SubmapParams {
   double way = 3.0;          ///< [m], > 0: a submap ends after this way,
   double turn = 6.0;         ///< [rad], > 0: this much turning,

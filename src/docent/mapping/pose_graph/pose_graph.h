@@ -17,6 +17,7 @@ struct PoseConstraint {
   bool is_loop = false;         ///< joins parts of the way between which much time passed: may be wrong
 };
 
+/// How all poses are found together.
 struct PoseGraphParams {
   double loop_scale = 3.0;    ///< sigmas, > 0: beyond it a loop counts less and less (Cauchy)
   double loop_refused = 6.0;  ///< sigmas, > 0: loops that after optimisation miss by more are wrong

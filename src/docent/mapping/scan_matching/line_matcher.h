@@ -8,6 +8,7 @@
 
 namespace docent::mapping {
 
+/// How points are laid finely onto surfaces.
 struct LineMatcherParams {
   int steps = 12;                  ///< > 0: at most
   double first_gate = 0.30;        ///< [m], up to SurfaceIndex::kReach: pairs farther apart do not count at first,

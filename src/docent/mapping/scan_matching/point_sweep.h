@@ -15,6 +15,7 @@ struct SurfacePoint {
   [[nodiscard]] bool has_normal() const { return normal.x != 0.0 || normal.y != 0.0; }
 };
 
+/// Which ends of beams are points of surfaces.
 struct PointSweepParams {
   double reach = 20.0;        ///< [m], > 0: beyond it half a degree is 17 cm
   double nearest = 0.05;      ///< [m], >= 0: nearer returns are the robot's own body

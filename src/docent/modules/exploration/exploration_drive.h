@@ -9,6 +9,7 @@
 
 namespace docent::modules {
 
+/// Part `drive` of section `explore`: what it does where it does not get on.
 struct ExplorationDriveParams {
   double horizon = 3.0;         ///< [m], > 0: so far ahead of the robot its way is told to the avoidance
   double held_up = 8.0;         ///< [s], > 0: so long it waits where it does not get on, then it goes elsewhere

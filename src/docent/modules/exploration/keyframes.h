@@ -11,6 +11,7 @@
 
 namespace docent::modules {
 
+/// Part `keyframes` of section `explore`: what the map is made of.
 struct KeyframeParams {
   double way = 0.2;        ///< [m], > 0: scans are taken for the map after this way,
   double turn = 10.0;      ///< [deg], > 0: this turn,

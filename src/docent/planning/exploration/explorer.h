@@ -13,6 +13,7 @@
 
 namespace docent::planning {
 
+/// Part `explorer` of section `explore`: which unknown places are gone to.
 struct ExplorerParams {
   int coarsening = 2;           ///< planning cell = so many map cells
   double robot_radius = 0.265;  ///< [m]
