@@ -15,7 +15,8 @@ from evaluation.tables import Verdict, print_table
 COVERED = 0.98  # of the floor that lasers can see from where the robot can drive
 WALLS = 0.05  # [m], mean
 GHOSTS = 0.001  # of the free cells
-MINUTES = {"bonn": 15, "smithsonian": 30, "office": 15}
+MINUTES = {"bonn": 15, "smithsonian": 30, "office": 15}  # with nobody about; people stand in the way:
+SLOWER_AMID_PEOPLE = 1.5
 LIMIT_HOURS = 1.0
 
 
@@ -63,7 +64,9 @@ def row_of(kind, people, seed, run):
             f"{100 * run['ghosts'] / run['free']:.3f}", contacts_of(run), "no" if told["warning"] else "yes"]
 
 
-def judge(verdict, name, kind, runs):
+def judge(verdict, kind, people, runs):
+    name = f"{kind}, {people} people"
+    most = MINUTES[kind] * (SLOWER_AMID_PEOPLE if people else 1)
     exposure = f"{len(runs)} runs, {sum(run['exploration']['way_m'] for run in runs) / 1000:.2f} km"
     covered = min(run["covered"] for run in runs)
     walls = max(run["wall_error_m"] for run in runs)
@@ -71,7 +74,7 @@ def judge(verdict, name, kind, runs):
     minutes = max(run["exploration"]["minutes"] for run in runs)
     contacts = sum(map(contacts_of, runs))
     verdict.want(f"{name}: covered, worst run (98 %)", f"{100 * covered:.2f} % of the floor that can be seen; {exposure}", covered >= COVERED)
-    verdict.want(f"{name}: time, longest run ({MINUTES[kind]} min)", f"{minutes:.1f} min", minutes <= MINUTES[kind])
+    verdict.want(f"{name}: time, longest run ({most:g} min)", f"{minutes:.1f} min", minutes <= most)
     verdict.want(f"{name}: contacts (0)", f"{contacts} in {exposure}", contacts == 0)
     verdict.want(f"{name}: walls, worst run (5 cm)", f"{100 * walls:.1f} cm", walls <= WALLS)
     verdict.want(f"{name}: ghosts, worst run (0.1 %)", f"{100 * ghosts:.3f} % of the free cells", ghosts <= GHOSTS)
@@ -87,7 +90,7 @@ def protocol(program, root, options):
         for kind, people in kinds:
             runs = list(pool.map(lambda seed: explorations.run(kind, people, seed), seeds))  # noqa: B023
             rows += [row_of(kind, people, seed, run) for seed, run in zip(seeds, runs)]
-            judge(verdict, f"{kind}, {people} people", kind, runs)
+            judge(verdict, kind, people, runs)
     print_table(["world", "people", "seed", "min", "m", "m/s", "loops", "covered %", "floor m2", "walls m", "ghosts", "% of free", "contacts", "trusted"], rows)
     if not options.no_crippled:
         crippled = range(options.first_seed, options.first_seed + 3)
