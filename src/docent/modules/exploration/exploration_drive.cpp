@@ -13,7 +13,7 @@ constexpr int kTriesAGoal = 3;          // times that it was held up on its way 
 constexpr double kSameGoal = 0.8;       // [m]
 constexpr std::size_t kTriesHome = 5;   // ways home on which it was held up, then it stays
 
-/// Ends of the staircase that a way over cells is, at most half a metre from each other.
+/// The mean of five cells for each: a way over cells is a staircase.
 std::vector<Point2> smoothed(const std::vector<Point2>& cells) {
   constexpr std::ptrdiff_t kHalf = 2;
   const auto last = static_cast<std::ptrdiff_t>(cells.size()) - 1;

@@ -34,7 +34,8 @@ struct ExplorationDriveParams {
 };
 
 /// The way of a robot that explores: to the nearest unknown place; elsewhere, where it is held up; home, when nothing
-/// is left. Places where it was held up are tried once more before it goes home.
+/// is left. People stand in the way and go: it waits a while before it believes that there is no way on, and turns back
+/// on its way home when one has opened.
 class ExplorationDrive {
  public:
   enum class State { exploring, returning, arrived };

@@ -55,6 +55,12 @@ struct ExploreParams {
   }
 };
 
+/// [m2]
+double free_area(const OccupancyGrid& map) {
+  const auto cells = std::count(map.cells.begin(), map.cells.end(), OccupancyGrid::kFree);
+  return static_cast<double>(cells) * map.frame.resolution * map.frame.resolution;
+}
+
 /// Crippled, for evaluation.
 bool ignores_hazards(const ModuleContext& context) { return context.config.evaluation().ignores_hazards; }
 
@@ -176,8 +182,7 @@ class ExploreModule final : public Module {
     const bool waits = is_stopped_ || (steered_ && bus_.now() - *steered_ < kAfterSteering);
     grid_ = map_.map();
     const OccupancyGrid& map = grid_;
-    known_m2_ = static_cast<double>(std::count(map.cells.begin(), map.cells.end(), OccupancyGrid::kFree)) *
-                map.frame.resolution * map.frame.resolution;
+    known_m2_ = free_area(map);
     drive_.plan(map, here->position(), waits, bus_.now());
     if (drive_.state() == ExplorationDrive::State::arrived) {
       is_done_ = true;
@@ -239,8 +244,7 @@ class ExploreModule final : public Module {
       fault_ = saved.error().message;
       return;
     }
-    known_m2_ = static_cast<double>(std::count(map.cells.begin(), map.cells.end(), OccupancyGrid::kFree)) *
-                map.frame.resolution * map.frame.resolution;
+    known_m2_ = free_area(map);
     unreached_ = drive_.explorer().unreached(map);
     file_ = (folder_ / "map.yaml").string();
     publish_map(map);
