@@ -82,8 +82,7 @@ def groups_of(sources):
     for folder, members in folders.items():
         target = folder / "CMakeLists.txt"
         text = target.read_text() if target.is_file() else ""
-        is_one = "docent_capability(" in text or folder.is_relative_to(ROOT / "tests")
-        if is_one and "SOURCES_APART" not in text:
+        if "docent_capability(" in text and "SOURCES_APART" not in text:
             groups.append(members)
         else:
             groups += [[member] for member in members]

@@ -392,7 +392,7 @@ def protocol(simulations, options):
     names = options.museums.split(",") if options.museums else MUSEUMS[:1] if is_slice else MUSEUMS
     museums = {name: with_items(simulations.museums / name, folder) for name in names}
     known = {name: ways.Museum(path) for name, path in museums.items()}
-    crippled = {} if options.no_crippled else CRIPPLED
+    crippled = {} if options.no_crippled else dict(list(CRIPPLED.items())[: 1 if is_slice else None])
     jobs = [(name, "whole", seed, hours, last, SLICE_RUSH if is_slice else RUSH, []) for name in names for seed in seeds]
     if crippled:
         short = (SLICE_HOURS, SLICE_LAST, SLICE_RUSH) if is_slice else (CRIPPLED_HOURS, CRIPPLED_LAST, RUSH)

@@ -17,15 +17,20 @@ from evaluation.keys import key_of
 from evaluation.tables import Verdict, print_table
 
 REQUEST = 60.0  # [s] when the first wish is made, in every scenario
-POSES = {"clock": (2.8, 10.1), "globe": (15.3, 9.4), "lantern": (17.0, 2.2)}  # as in annex/museum.head.yaml
+AGAIN = 240.0  # [s] when it is made again, of a blocked way
+POSES = {  # as in museum.head.yaml of each world
+    "annex": {"clock": (2.8, 10.1), "globe": (15.3, 9.4), "lantern": (17.0, 2.2)},
+    "two-ways": {"clock": (2.8, 10.1), "globe": (10.05, 3.7)},
+}
 SEEDS, CRIPPLED_SEEDS = 10, 3
 
 
 class Run:
-    """One run: its report and its events in order of time."""
+    """One run: its report, its events in order of time, and when the first thing put up was seen and mapped."""
 
-    def __init__(self, report, events):
-        self.report = report
+    def __init__(self, report, events, things, poses):
+        self.report, self.poses = report, poses
+        self.thing = {row["what"]: float(row["time"]) for row in things if row["thing"] == "0"}
         self.events = [dict(row, time=float(row["time"]), x=float(row["x"]), y=float(row["y"])) for row in events]
 
     def first(self, source, kind, after=0.0, about=""):
@@ -33,16 +38,33 @@ class Run:
         return next((row["time"] for row in self.events if row["source"] == source and row["kind"] == kind
                      and row["time"] >= after and about in row["subject"]), None)
 
-    def arrived(self, exhibit):
+    def arrived(self, exhibit, begin=0.0):
         """When it said to be there and truly was, within 1 m."""
-        x, y = POSES[exhibit]
-        return next((row["time"] for row in self.events if row["source"] == "event" and row["kind"] == "arrived"
+        x, y = self.poses[exhibit]
+        return next((row["time"] for row in self.events if row["source"] == "event" and row["kind"] == "arrived" and row["time"] >= begin
                      and row["subject"] == exhibit and (row["x"] - x) ** 2 + (row["y"] - y) ** 2 <= 1.0), None)
 
     def blocked(self):
         """When its way was blocked first on the way to what was asked for."""
         times = [t for t in (self.first("reaction", kind, REQUEST) for kind in ("slow", "wait")) if t is not None]
         return min(times) if times else None
+
+    def mapped(self, sensor):
+        """[s] from when a sensor saw the thing to when the live map had it."""
+        return after(self.thing.get("mapped"), self.thing.get(sensor))
+
+    def unmapped(self, sensor):
+        """[s] from when a sensor looked where the thing had stood to when the live map had it no more; 0: it had forgotten it before."""
+        seen, gone = self.thing.get(sensor), self.thing.get("unmapped")
+        return None if seen is None or gone is None else max(0.0, gone - seen)
+
+    def kept_until_seen_gone(self):
+        gone = [time for what, time in self.thing.items() if what.endswith("_gone")]
+        return 1 if gone and self.thing.get("unmapped", 0.0) >= min(gone) else 0
+
+    def goes_round(self):
+        """When it first planned a detour by another way because of what the live map has."""
+        return self.first("way", "global", REQUEST)
 
     def looks_along_the_way(self):
         """Reactions to a blocked way, and those of them at which the head showed where the robot wants to go."""
@@ -69,6 +91,8 @@ class Scenario:
     crippled: dict = field(default_factory=dict)  # name: settings
     floors: dict = field(default_factory=dict)  # what its crowd must do to the robot, a seed on average; without the crowd it fails
     crowd: str = ""  # the event that brings this crowd
+    world: str = "annex"
+    people: tuple = ("quiet", 2)
 
 
 SLICE_FLOORS = 0.5  # of the floors, which are of a mean over seeds, is asked of a single one
@@ -92,6 +116,14 @@ SCENARIOS = {
     "low-stool": Scenario(4, [
         Duty("at the globe, after the request", 100, lambda run: after(run.arrived("globe"), REQUEST)),
     ]),
+    **{name: Scenario(8, [
+        Duty(f"in the live map, after a {sensor} saw it", in_map, lambda run, sensor=sensor: run.mapped(sensor)),
+        Duty("plans to go round, after it was in the live map", 30, lambda run: after(run.goes_round(), run.thing.get("mapped"))),
+        Duty("at the globe by the other way, after the request", 150, lambda run: after(run.arrived("globe"), REQUEST)),
+        Duty(f"out of the live map, after a {sensor} saw it gone", out_of_map, lambda run, sensor=sensor: run.unmapped(f"{sensor}_gone")),
+        Duty("at the globe again, after the second request", 150, lambda run: after(run.arrived("globe", AGAIN), AGAIN)),
+    ], {"without the live map": ["evaluation.ignores_live_map=true"]}, {"passes within 1 m": 1, "things in the live map until seen gone": 0.5}, world="two-ways", people=("busy", 8))
+       for name, sensor, in_map, out_of_map in (("blocked-way", "laser", 2, 10), ("blocked-way-low", "cone", 5, 30))},
     "closed-passage": Scenario(17, [
         Duty("asks, after the way was blocked", 25, lambda run: after(run.first("reaction", "ask", REQUEST), run.blocked())),
         Duty("gives up for now, after the way was blocked", 130,
@@ -110,26 +142,27 @@ SCENARIOS = {
 
 
 class Annex:
-    """Runs in the annex, kept under a key of the program, the museum and the scenario."""
+    """Runs in one of the worlds beside the scenarios, kept under a key of the program, the museum and the scenario."""
 
-    def __init__(self, docent, root, cache, jobs):
+    def __init__(self, docent, root, cache, jobs, world):
         self.docent, self.scenarios, self.jobs = docent, root / "scripts" / "scenarios", jobs
         self.cache = cache / "scenarios"
-        self.key = key_of(docent, self.scenarios / "annex")
-        self.museum = self.cache / f"annex-{self.key}"
+        self.world = world
+        self.key = key_of(docent, self.scenarios / world)
+        self.museum = self.cache / f"{world}-{self.key}"
         if not (self.museum / "museum.yaml").exists():
             self.draw()
 
     def draw(self):
-        """Surveys the annex: the robot gets a map and hazards with the small errors that a survey has."""
+        """Surveys the world: the robot gets a map and hazards with the small errors that a survey has."""
         (self.museum / "content").mkdir(parents=True, exist_ok=True)
-        world = (self.scenarios / "annex" / "simulation.yaml").read_text()
+        world = (self.scenarios / self.world / "simulation.yaml").read_text()
         (self.museum / "simulation.yaml").write_text(world)
         subprocess.run([self.docent, "survey", "--world", self.museum / "simulation.yaml", "--seed", "7", "--out", self.museum],
                        check=True, stdout=subprocess.DEVNULL)
-        for exhibit in POSES:
-            (self.museum / "content" / f"{exhibit}.short.en.md").write_text(f"This is the {exhibit} of the annex.\n")
-        head = (self.scenarios / "annex" / "museum.head.yaml").read_text()
+        for exhibit in POSES[self.world]:
+            (self.museum / "content" / f"{exhibit}.short.en.md").write_text(f"This is the {exhibit} of the museum.\n")
+        head = (self.scenarios / self.world / "museum.head.yaml").read_text()
         (self.museum / "museum.yaml").write_text(head + (self.museum / "hazards.yaml").read_text())
 
     def run(self, name, seed, settings, without=""):
@@ -139,27 +172,30 @@ class Annex:
             text = "".join(line for line in text.splitlines(keepends=True) if f" {without}:" not in line)
         what = [self.key, text, SCENARIOS[name].minutes, seed, settings]
         path = self.cache / f"{name}-seed{seed}-{hashlib.sha256(json.dumps(what).encode()).hexdigest()[:16]}.json"
-        log = path.with_suffix(".csv")
-        if not path.exists() or not log.exists():
+        log, things = path.with_suffix(".csv"), path.with_suffix(".things.csv")
+        if not path.exists() or not log.exists() or not things.exists():
+            crowd, people = SCENARIOS[name].people
             draw = random.Random(f"annex {seed}")
             start = f"{draw.uniform(1.3, 5.0):.2f},{draw.uniform(1.5, 4.0):.2f},{draw.uniform(-180, 180):.0f}"
             part, part_log = path.with_suffix(f".part{os.getpid()}"), path.with_suffix(f".part{os.getpid()}.csv")
+            part_things = path.with_suffix(f".part{os.getpid()}.things.csv")
             scenario = path.with_suffix(f".part{os.getpid()}.yaml")
             scenario.write_text(text)
             began = time.monotonic()
             done = subprocess.run([self.docent, "simulate", "--museum", self.museum, "--scenario", scenario, "--hours",
-                                   f"{SCENARIOS[name].minutes / 60:.6f}", "--seed", str(seed), "--crowd", "quiet", "--people", "2",
-                                   "--requests-per-hour", "0", f"--start={start}", "--report", part, "--event-log", part_log,
+                                   f"{SCENARIOS[name].minutes / 60:.6f}", "--seed", str(seed), "--crowd", crowd, "--people", str(people),
+                                   "--requests-per-hour", "0", f"--start={start}", "--report", part, "--event-log", part_log, "--thing-log", part_things,
                                    "--quiet", *(word for setting in settings for word in ("--set", setting))],
                                   capture_output=True, text=True, check=False)
             scenario.unlink()
             if done.returncode != 0:
                 raise RuntimeError(f"{name}, seed {seed}: docent simulate exited {done.returncode}: {done.stderr.strip()[-400:]}")
             part_log.rename(log)
+            part_things.rename(things)
             part.rename(path)
             print(f"   {name} seed {seed}: {time.monotonic() - began:.0f} s", file=sys.stderr)
-        with open(log, newline="", encoding="utf-8") as file:
-            return Run(json.loads(path.read_text()), list(csv.DictReader(file)))
+        with open(log, newline="", encoding="utf-8") as events, open(things, newline="", encoding="utf-8") as seen:
+            return Run(json.loads(path.read_text()), list(csv.DictReader(events)), list(csv.DictReader(seen)), POSES[self.world])
 
     def runs(self, name, seeds, settings=(), without=""):
         with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
@@ -175,6 +211,7 @@ EXPOSURES = {  # of a run
     "s blocked": lambda run: run.report["blocked"]["seconds"],
     "horns": lambda run: run.report["blocked"]["horn"],
     "bumps": lambda run: run.report["bumped_by_people"],
+    "things in the live map until seen gone": lambda run: run.kept_until_seen_gone(),
 }
 
 
@@ -219,13 +256,14 @@ def exposure_of(name, runs):
 
 
 def protocol(simulations, options):
-    annex = Annex(simulations.docent, simulations.root, simulations.cache, options.jobs)
+    worlds = {world: Annex(simulations.docent, simulations.root, simulations.cache, options.jobs, world) for world in POSES}
+    runs_of = lambda name, *arguments, **keywords: worlds[SCENARIOS[name].world].runs(name, *arguments, **keywords)
     names = [options.part] if options.part else list(SCENARIOS)
     count = options.seeds or (1 if options.slice else SEEDS)
     seeds = list(range(options.first_seed, options.first_seed + count))
     share = SLICE_FLOORS if options.slice else 1.0
     verdict = Verdict()
-    runs = {name: annex.runs(name, seeds) for name in names}
+    runs = {name: runs_of(name, seeds) for name in names}
     print(f"\n## what the robot must do, {count} seed{'s' if count > 1 else ''} each\n")
     print_table(["scenario", "what", "by s", "median", "worst", "in time"], [row for name in names for row in rows_of(name, runs[name])])
     print("\n## exposure\n")
@@ -248,19 +286,19 @@ def protocol(simulations, options):
                      f"{shown} of {total}", total >= least and shown >= LOOKS * total)
     verdict.want_one_configuration(run.report["config_hash"] for name in names for run in runs[name])
     if not options.no_crippled:
-        judge_crippled(annex, names, seeds[:CRIPPLED_SEEDS], share, verdict)
+        judge_crippled(runs_of, names, seeds[:CRIPPLED_SEEDS], share, verdict)
     verdict.print()
     return verdict
 
 
-def judge_crippled(annex, names, seeds, share, verdict):
+def judge_crippled(runs_of, names, seeds, share, verdict):
     """Each must fail what the whole robot passes, with most of the seeds."""
     for name in names:
         for how, settings in SCENARIOS[name].crippled.items():
-            failed = [faults_of(name, run) for run in annex.runs(name, seeds, settings)]
+            failed = [faults_of(name, run) for run in runs_of(name, seeds, settings)]
             first = next((", ".join(faults) for faults in failed if faults), "nothing")
             verdict.want(f"{name}, crippled: {how} (must fail)", f"fails {sum(map(bool, failed))} of {len(seeds)}: {first}",
                          2 * sum(map(bool, failed)) > len(seeds))
         if SCENARIOS[name].crowd:
-            words, enough = exposures_of(name, annex.runs(name, seeds, without=SCENARIOS[name].crowd), share)
+            words, enough = exposures_of(name, runs_of(name, seeds, without=SCENARIOS[name].crowd), share)
             verdict.want(f"{name}, without its {SCENARIOS[name].crowd} (must fall short)", words, not enough)

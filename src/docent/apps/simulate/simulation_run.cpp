@@ -19,6 +19,7 @@
 #include "docent/evaluation/run_logs/health_log.h"
 #include "docent/evaluation/run_logs/people_log.h"
 #include "docent/evaluation/run_logs/request_log.h"
+#include "docent/evaluation/run_logs/thing_log.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/host/module_host.h"
 #include "docent/modules/perception/localize_module.h"
@@ -56,6 +57,7 @@ class SimulationRun::Parts {
       if (!options_.event_log.empty()) events_.add(topic, time, message);
       if (!options_.request_log.empty()) requests_.add(topic, time, message);
       if (!options_.people_log.empty()) people_.add(topic, time, message);
+      if (!options_.thing_log.empty()) things_.add(topic, time, message);
       if (recorder_ && failure_.empty()) {
         if (auto written = recorder_->write(topic, time, message); !written) failure_ = written.error().message;
       }
@@ -173,6 +175,7 @@ class SimulationRun::Parts {
                std::holds_alternative<simulator::SecondMode>(event.what);
       });
       if (alters_belief) alter_belief();
+      watch_things(*scenario);
       options.scenario = std::move(*scenario);
       options.application = [this](const auto& event) {
         std::visit([this](const auto& what) { this->carry_out(what); }, event);
@@ -184,6 +187,20 @@ class SimulationRun::Parts {
     world_truth_bus_ = hub_.connect("simulator.truth");
     world_ = std::make_unique<simulator::SimulatedMuseum>(*world_robot_bus_, *world_truth_bus_, std::move(options));
     return {};
+  }
+
+  void watch_things(const simulator::Scenario& scenario) {
+    std::vector<evaluation::WatchedThing> things;
+    for (const auto& event : scenario.events)
+      if (const auto* stool = std::get_if<simulator::Stool>(&event.what))
+        things.push_back({stool->at, stool->radius, stool->duration});
+    things_.watch(std::move(things), [&body = config_.body()](std::string_view frame) -> std::optional<Pose2> {
+      for (const robot::Scanner& scanner : body.scanners)
+        if (frame == "laser_" + scanner.name) return scanner.base_from_sensor();
+      if (const auto sonar = body.sonar_of(std::string{frame})) return body.base_from_sonar(*sonar);
+      if (const auto infrared = body.infrared_of(std::string{frame})) return body.base_from_infrared(*infrared);
+      return std::nullopt;
+    });
   }
 
   void keep_pictures() {
@@ -259,6 +276,7 @@ class SimulationRun::Parts {
   evaluation::EventLog events_;
   evaluation::RequestLog requests_;
   evaluation::PeopleLog people_;
+  evaluation::ThingLog things_;
   SimulationPicture picture_;
   std::map<std::string, std::string> pictures_;  ///< of the cameras, by file name
   std::optional<recording::Recorder> recorder_;
@@ -337,6 +355,9 @@ Result<void> SimulationRun::finish() {
   }
   if (!parts_->options_.drive_log.empty()) {
     if (auto saved = parts_->drive_.save(parts_->options_.drive_log); !saved) return saved;
+  }
+  if (!parts_->options_.thing_log.empty()) {
+    if (auto saved = parts_->things_.save(parts_->options_.thing_log); !saved) return saved;
   }
   if (!parts_->options_.people_log.empty()) {
     if (auto saved = parts_->people_.save(parts_->options_.people_log); !saved) return saved;

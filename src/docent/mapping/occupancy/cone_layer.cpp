@@ -98,7 +98,9 @@ void ConeLayer::clear(const ConeReading& reading, Time now) {
       const double beside = slope * at.x + 0.5 * frame_.resolution;
       if (at.x <= 0.0 || std::abs(at.y) > beside || dot(at, at) > farthest * farthest) continue;
       const std::size_t i = frame_.index({column, row});
+      const bool was_blocked = blocked_[i];
       change({column, row}, static_cast<double>(evidence_[i]) - params_.pass, false, now);
+      if (was_blocked && !blocked_[i]) gone_.push_back({column, row});
     }
   }
 }
@@ -127,6 +129,10 @@ void ConeLayer::forget(Time now) {
       if (to_seconds(now - seen_[i]) >= memory) change({column, row}, 0.0, false, seen_[i]);
     }
   }
+}
+
+void ConeLayer::release(CellIndex cell) {
+  if (frame_.holds(cell)) change(cell, 0.0, false, seen_[frame_.index(cell)]);
 }
 
 std::optional<CellRectangle> ConeLayer::take_changes() { return std::exchange(changes_, std::nullopt); }

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "docent/base/result.h"
@@ -75,6 +76,10 @@ class ConeLayer {
   void add(const ConeReading& reading, std::span<const LaserLook> lasers, Time now);
   /// Frees what nobody looked at for too long. O(cells).
   void forget(Time now);
+  /// Cells that were blocked until a reading went through them, since the last call.
+  [[nodiscard]] std::vector<CellIndex> take_gone() { return std::exchange(gone_, {}); }
+  /// Another sensor, which had met the same thing, has seen that it is gone: the cell is as if never looked at.
+  void release(CellIndex cell);
 
   [[nodiscard]] bool is_blocked(std::size_t index) const { return blocked_[index]; }
   /// A blocked cell where a laser looked and saw nobody: a thing, that stays.
@@ -96,6 +101,7 @@ class ConeLayer {
   std::vector<bool> blocked_;
   std::vector<bool> thing_;
   std::vector<Time> seen_;
+  std::vector<CellIndex> gone_;
   std::optional<CellRectangle> changes_;
 };
 

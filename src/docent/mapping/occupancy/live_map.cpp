@@ -145,6 +145,13 @@ void LiveMap::forget(Time now) {
   }
 }
 
+void LiveMap::add_sonar(const ConeReading& reading, std::span<const LaserLook> lasers, Time now) {
+  sonar_.add(reading, lasers, now);
+  for (const CellIndex gone : sonar_.take_gone())
+    for (int row = gone.row - 1; row <= gone.row + 1; ++row)
+      for (int column = gone.column - 1; column <= gone.column + 1; ++column) infrared_.release({column, row});
+}
+
 void LiveMap::add_touch(Point2 at, Point2 outward, std::span<const LaserLook> lasers, Time now) {
   for (const LaserLook& laser : lasers)
     for (const Point2& endpoint : laser.endpoints)

@@ -61,10 +61,10 @@ class LiveMap {
   /// One look: rays from `sensor` to `endpoints` (map frame). An endpoint beyond the reach only clears. O(rays * cells
   /// on them).
   void look(Point2 sensor, std::span<const Point2> endpoints, Time now);
-  /// A sonar's reading, and an infrared sensor's. What a laser of these meets is in its own layer already.
-  void add_sonar(const ConeReading& reading, std::span<const LaserLook> lasers, Time now) {
-    sonar_.add(reading, lasers, now);
-  }
+  /// A sonar's reading, and an infrared sensor's. What a laser of these meets is in its own layer already. Where a
+  /// sonar looks through what it had met itself, the thing is gone, and with it what the infrared sensors, which see no
+  /// farther than an arm's length, had met there.
+  void add_sonar(const ConeReading& reading, std::span<const LaserLook> lasers, Time now);
   void add_infrared(const ConeReading& reading, std::span<const LaserLook> lasers, Time now) {
     infrared_.add(reading, lasers, now);
   }

@@ -111,6 +111,21 @@ TEST(LiveMap, EveryLayerCountsByTheMaxRule) {
   EXPECT_EQ(map.cell(wall), OccupancyGrid::kOccupied);
 }
 
+TEST(LiveMap, WhatASonarSeesGoneIsGoneForTheInfraredSensorsToo) {
+  LiveMap map{hall(), {}};
+  const auto look_near = [&map](double at_s) {
+    for (int i = 0; i < 6; ++i)
+      map.add_infrared({{2.4, 2.5, {}}, 0.09, 0.8, 0.6}, {}, time_from_seconds(at_s + 0.2 * i));
+  };
+  look_near(0.0);
+  for (int i = 0; i < 10; ++i) hear(map, 5.0, 2.0 + 0.4 * i);
+  EXPECT_TRUE(blocked(map, {3.0, 2.5})) << "the sonar never met it: it may be lower than the sonars";
+  for (int i = 0; i < 6; ++i) hear(map, 1.2, 8.0 + 0.4 * i);
+  look_near(11.0);
+  for (int i = 0; i < 10; ++i) hear(map, 5.0, 14.0 + 0.4 * i);
+  EXPECT_FALSE(blocked(map, {3.0, 2.5}));
+}
+
 TEST(LiveMap, WhatTouchesAndALaserSeesIsNoThing) {
   LiveMap map{hall(), {}};
   const std::vector<Point2> person{{2.4, 2.6}};
