@@ -110,6 +110,23 @@ TEST(Deployment, OneScannerInFrontGivesATourInACrowd) {
   EXPECT_EQ(report.at("area_violations").get<int>(), 0);
 }
 
+/// [robots] that lack what the papers' robot has: a tour all the same, slower, and nothing touched.
+TEST(Deployment, OtherBasesGiveToursToo) {
+  for (const auto& [robot, crowd, top_speed] : {std::tuple{"turtlebot", "busy", 0.48}, {"sonars-only", "quiet", 0.32}}) {
+    SCOPED_TRACE(robot);
+    apps::SimulationRunOptions options = busy_bonn(2);
+    options.robot = std::string{DOCENT_SOURCES} + "/robots/" + robot + ".yaml";
+    options.crowd = crowd;
+    const auto report = report_of(options, 6.0);
+    EXPECT_GT(report.at("distance_m").get<double>(), 20.0);
+    EXPECT_LT(report.at("max_speed_mps").get<double>(), top_speed);
+    EXPECT_GE(report.at("exhibits_explained").get<int>(), 1);
+    for (const char* kind : {"people", "furniture", "walls", "hazards"})
+      EXPECT_EQ(report.at("contacts").at(kind).get<int>(), 0) << kind;
+    EXPECT_EQ(report.at("area_violations").get<int>(), 0);
+  }
+}
+
 TEST(Deployment, ABatteryThatIsLowBesideTheChargerIsCharged) {
   apps::SimulationRunOptions options = busy_bonn(4711);
   options.crowd = "empty";

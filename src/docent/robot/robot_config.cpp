@@ -61,9 +61,10 @@ Result<void> RobotBody::validate() const {
     return fail("body: from max_speed it must stand within 3 m and 3 s (watchdog and latency included)");
   if (auto valid = check_scanners(scanners); !valid) return valid;
   if (!(sonars >= 0 && sonars <= 100)) return fail("body.sonars must be 0..100");
-  if (!(sonar_radius >= 0.0 && sonar_radius <= radius)) return fail("body.sonar_radius must be 0 to the body's radius");
+  if (sonars > 0 && !(sonar_radius >= 0.0 && sonar_radius <= radius))
+    return fail("body.sonar_radius must be 0 to the body's radius");
   if (!(infrareds >= 0 && infrareds <= 100)) return fail("body.infrareds must be 0..100");
-  if (!(infrared_radius >= 0.0 && infrared_radius <= radius))
+  if (infrareds > 0 && !(infrared_radius >= 0.0 && infrared_radius <= radius))
     return fail("body.infrared_radius must be 0 to the body's radius");
   return {};
 }

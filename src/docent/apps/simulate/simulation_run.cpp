@@ -154,6 +154,8 @@ class SimulationRun::Parts {
     options.crowd = options_.crowd;
     options.crowd_count = options_.people;
     options.start = options_.explore ? options_.explore : options_.start;
+    // Sonars alone find no place from nowhere.
+    if (!options.start && config_.body().scanners.empty()) options.start = museum_.home;
     if (options_.start && !contains(museum_.area, options_.start->position())) {
       return fail("--start: outside the area in which the robot may be");
     }

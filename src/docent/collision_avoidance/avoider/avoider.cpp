@@ -138,6 +138,7 @@ Carrot Avoider::carrot(const BaseState& start, std::span<const Obstacle> obstacl
 }
 
 void Avoider::cap_by_knowledge(Time now, SpeedCap& cap) const {
+  if (!params_.has_lasers) cap.lower(params_.sonar_speed, "no laser looks ahead");
   if (!params_.watches) return;
   if (const auto found = complaint(now)) cap.lower(found->max_speed, found->reason);
   inputs_.cap_by_age(now, max_speed_, cap);

@@ -10,6 +10,7 @@ Result<void> AvoiderParams::validate() const {
   if (method != "cautious_window" && method != "dynamic_window")
     return fail("avoid.method must be cautious_window or dynamic_window");
   if (!(seen_for >= 0.0 && seen_for <= 60.0)) return fail("avoid.seen_for must lie in 0..60 s");
+  if (!(sonar_speed > 0.0)) return fail("avoid.sonar_speed must be > 0 m/s");
   if (!(arrival_deceleration > 0.0)) return fail("avoid.arrival_deceleration must be > 0 m/s2");
   if (!(target_timeout > 0.0 && virtual_timeout > 0.0)) return fail("avoid: timeouts must be > 0 s");
   return {};
@@ -24,6 +25,7 @@ SurroundingsParams AvoiderParams::surroundings() const {
   return {.real_margin = window.real_margin,
           .surprise = people.surprise,
           .seen_for = seen_for,
+          .has_lasers = has_lasers,
           .blind_to_people = blind_to_people};
 }
 

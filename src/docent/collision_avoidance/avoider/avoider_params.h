@@ -60,8 +60,10 @@ struct AvoiderParams {
   double virtual_timeout = 1.5;       ///< [s] without new virtual measurements, then it stands
   double seen_for = 3.0;              ///< [s] a place that a laser saw to be free counts as free when none looks there
   bool needs_sonar = true;            ///< stands when the sonars are silent
-  bool has_infrared = false;          ///< the body has these rings: stands when they are silent, from the start on
+  double sonar_speed = 0.3;   ///< [m/s] > 0, at most, of a robot without lasers: sonars see 1.5 m far, twice a second
+  bool has_infrared = false;  ///< the body has these rings: stands when they are silent, from the start on
   bool has_tactile = false;
+  bool has_lasers = true;        ///< false: the ring of sonars tells what is free
   bool blind_to_people = false;  ///< crippled, for evaluation: sees virtual measurements and touch only
   bool watches = true;           ///< false: likewise: takes every sensor and belief for well
 
@@ -86,6 +88,7 @@ struct AvoiderParams {
     v("virtual_timeout", virtual_timeout);
     v("seen_for", seen_for);
     v("needs_sonar", needs_sonar);
+    v("sonar_speed", sonar_speed);
   }
   [[nodiscard]] Result<void> validate() const;
 

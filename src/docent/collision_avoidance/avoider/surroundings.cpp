@@ -66,7 +66,7 @@ std::vector<Obstacle> Surroundings::obstacles(const Pose2& odom_from_base, Time 
   const Pose2 base_from_odom = inverse(odom_from_base);
   if (!params_.blind_to_people) {
     add_sensed(result, base_from_odom, when, speed, method);
-    add_unseen(result, odom_from_base, when);
+    if (params_.has_lasers) add_unseen(result, odom_from_base, when);
   }
   virtual_.add_to(result, base_from_odom, reach(speed));
   return result;

@@ -16,6 +16,7 @@ struct SurroundingsParams {
   double real_margin = 0.08;     ///< [m] as DynamicWindowParams::real_margin
   double surprise = 0.4;         ///< [m/s] as PeopleCautionParams::surprise
   double seen_for = 3.0;         ///< [s] a place that a laser saw to be free counts as free when none looks there
+  bool has_lasers = true;        ///< false: sonars all round hear what is there, and no place is unknown
   bool blind_to_people = false;  ///< crippled, for evaluation: knows virtual measurements only
   double least_reach = 3.5;      ///< [m] what is farther away does not matter to a slow robot within one cycle
   double fast_walk = 1.5;        ///< [m/s] of who may come towards the robot

@@ -78,6 +78,14 @@ TEST(Surroundings, WithOneLaserInFrontItDrivesAheadAsWithTwo) {
   EXPECT_LT(to_seconds(one.now), 1.1 * to_seconds(two.now));
 }
 
+TEST(Surroundings, ARobotWithoutLasersTakesNoPlaceForUnknown) {
+  for (const bool has_lasers : {true, false}) {
+    const Surroundings surroundings{{}, {.has_lasers = has_lasers}, {}};
+    const auto things = surroundings.obstacles({}, time_from_seconds(10.0), 0.3, PlainWindow{{}});
+    EXPECT_EQ(things.empty(), !has_lasers) << "what no laser looks at is unknown, unless sonars look all round";
+  }
+}
+
 /// A long body that stands or turns on its own behalf: the test is its base, its lasers and what they see.
 class LongBody : public ::testing::Test {
  protected:

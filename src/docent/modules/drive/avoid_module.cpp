@@ -271,6 +271,7 @@ Result<std::unique_ptr<Module>> make_avoid(const ModuleContext& context) {
   params->needs_sonar = params->needs_sonar && body.sonars > 0;
   params->has_infrared = body.infrareds > 0;
   params->has_tactile = body.tactile;
+  params->has_lasers = !body.scanners.empty();
   params->blind_to_people = context.config.evaluation().blind_to_people;
   params->watches = !context.config.evaluation().without_watches;
   auto limits = limits_of(body);
