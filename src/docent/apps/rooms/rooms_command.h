@@ -1,0 +1,12 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace docent::apps {
+
+/// `docent rooms`: rooms, hallways and doors of a map [Rhino1994].
+void add_rooms_command(CLI::App& app);
+
+}  // namespace docent::apps
