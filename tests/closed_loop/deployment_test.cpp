@@ -112,7 +112,8 @@ TEST(Deployment, OneScannerInFrontGivesATourInACrowd) {
 
 /// [robots] that lack what the papers' robot has: a tour all the same, slower, and nothing touched.
 TEST(Deployment, OtherBasesGiveToursToo) {
-  for (const auto& [robot, crowd, top_speed] : {std::tuple{"turtlebot", "busy", 0.48}, {"sonars-only", "quiet", 0.32}}) {
+  for (const auto& [robot, crowd, top_speed] :
+       {std::tuple{"turtlebot", "busy", 0.48}, {"sonars-only", "quiet", 0.32}}) {
     SCOPED_TRACE(robot);
     apps::SimulationRunOptions options = busy_bonn(2);
     options.robot = std::string{DOCENT_SOURCES} + "/robots/" + robot + ".yaml";

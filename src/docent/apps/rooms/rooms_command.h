@@ -6,7 +6,7 @@ class App;
 
 namespace docent::apps {
 
-/// `docent rooms`: rooms, hallways and doors of a map [Rhino1994].
+/// `docent rooms`: rooms, hallways and doors of a map [Buhmann1995].
 void add_rooms_command(CLI::App& app);
 
 }  // namespace docent::apps

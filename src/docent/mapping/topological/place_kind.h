@@ -24,8 +24,8 @@ struct PlaceExample {
 [[nodiscard]] std::span<const PlaceExample> place_examples();
 
 /// The kind of most of the `nearest` examples whose shapes are most like this one, by width, elongation and doors on
-/// logarithmic scales. As RHINO named the places of its map by matching labelled examples [Rhino1994], which it had of
-/// parts of the map itself. O(examples log examples).
+/// logarithmic scales. As RHINO named the places of its map by matching labelled examples [Buhmann1995], which it had
+/// of parts of the map itself. O(examples log examples).
 [[nodiscard]] PlaceKind kind_of(const PlaceShape& shape, std::span<const PlaceExample> examples, int nearest = 3);
 
 }  // namespace docent::mapping

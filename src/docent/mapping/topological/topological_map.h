@@ -15,7 +15,7 @@ struct Place {
   std::vector<int> doors{};  ///< numbers in `Regions::gaps`
 };
 
-/// Rooms, hallways and doors of a building, and which leads to which [Rhino1994].
+/// Rooms, hallways and doors of a building, and which leads to which [Buhmann1995].
 struct TopologicalMap {
   Regions regions;
   std::vector<Place> places;  ///< [regions]

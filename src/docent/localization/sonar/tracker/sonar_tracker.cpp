@@ -16,6 +16,7 @@ constexpr double kDoubtPosition = 0.05;   // [m] a contradiction adds
 constexpr double kDoubtHeading = 0.01;    // [rad]
 constexpr double kSure = 0.998;           // without a contradiction
 constexpr double kTrust = 0.85;           // that one contradiction leaves
+constexpr int kMostContradictions = 8;    // that are kept: as many matches in a row end the doubt
 constexpr double kSideways = 0.6;         // cosine limit: sonars that look along the way see no wall beside it
 
 }  // namespace
@@ -100,7 +101,7 @@ void SonarTracker::match_now() {
   switch (match.outcome) {
     case MatchOutcome::matched:
       ++tally_.matched;
-      contradictions_ = 0;
+      contradictions_ = std::max(0, contradictions_ - 1);  // one match may be by chance: doubt goes as it came
       filter_.correct_pose(match.map_from_robot, match.covariance);
       return;
     case MatchOutcome::too_few_echoes:
@@ -116,7 +117,7 @@ void SonarTracker::match_now() {
       ++tally_.too_far;
       break;
   }
-  ++contradictions_;
+  contradictions_ = std::min(contradictions_ + 1, kMostContradictions);
   filter_.widen(kDoubtPosition, kDoubtHeading);
 }
 
