@@ -72,7 +72,15 @@ Result<void> ExplorerParams::validate() const {
 }
 
 Explorer::Explorer(ExplorerParams params, std::vector<Polygon> hazards, Polygon area)
-    : params_{params}, hazards_{std::move(hazards)}, area_{std::move(area)} {}
+    : params_{params}, area_{std::move(area)} {
+  for (Polygon& outline : hazards) {
+    Hazard hazard{std::move(outline), {}, 0.0};
+    for (const Point2 corner : hazard.outline)
+      hazard.centre = hazard.centre + (1.0 / static_cast<double>(hazard.outline.size())) * corner;
+    for (const Point2 corner : hazard.outline) hazard.radius = std::max(hazard.radius, distance(hazard.centre, corner));
+    hazards_.push_back(std::move(hazard));
+  }
+}
 
 bool Explorer::is_given_up(Point2 place, double within) const {
   return std::any_of(given_up_.begin(), given_up_.end(), [&](Point2 p) { return distance(p, place) < within; }) ||
@@ -81,10 +89,12 @@ bool Explorer::is_given_up(Point2 place, double within) const {
 }
 
 bool Explorer::may_stand(Point2 place, double hazard_margin) const {
+  constexpr double kRounding = 1e-6;  // [m]
   if (!area_.empty() && !contains(area_, place)) return false;
   const double keep = params_.robot_radius + hazard_margin;
-  for (const Polygon& hazard : hazards_) {
-    if (distance(hazard, place) < keep) return false;
+  for (const Hazard& hazard : hazards_) {
+    if (distance(hazard.centre, place) > hazard.radius + keep + kRounding) continue;
+    if (distance(hazard.outline, place) < keep) return false;
   }
   return std::none_of(blocked_.begin(), blocked_.end(),
                       [&](const Disc& disc) { return distance(disc.centre, place) < disc.radius; });

@@ -104,7 +104,12 @@ class Explorer {
   void give_up_what_stays_unknown(const OccupancyGrid& coarse, std::span<const CellIndex> frontier, Point2 robot);
 
   ExplorerParams params_;
-  std::vector<Polygon> hazards_;
+  struct Hazard {
+    Polygon outline;
+    Point2 centre;        ///< [m], of its corners
+    double radius = 0.0;  ///< [m] that holds it, so that what is far needs no look at its sides
+  };
+  std::vector<Hazard> hazards_;
   Polygon area_;
   std::vector<Disc> blocked_;
   std::vector<Disc> forgone_;
