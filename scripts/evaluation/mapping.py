@@ -3,7 +3,8 @@
 intel: raw odometry, 2,984 relations that people have checked; ours, expectation maximization alone, odometry alone, and
 MRPT's rbpf-slam as it is shipped. odometry: corrected logs with odometry of our making, seeded, that errs by up to a
 third of the way and turns right round. honesty: the same with odometry so bad that maps fail: does the map say so?
-loops: logs without a truth, that end where they began.
+loops: logs without a truth, that end where they began. museum: a simulated museum, whose walls are known, from a drive with odometry
+as bad as the paper's.
 """
 import json
 import os
@@ -17,10 +18,13 @@ from pathlib import Path
 
 from evaluation.tables import Verdict, print_table
 
-PARTS = ["intel", "peer", "odometry", "honesty", "loops"]
+PARTS = ["intel", "peer", "odometry", "honesty", "loops", "museum"]
 FAILED = 0.5  # [m], mean error of relations: such a map is of no use
 INTEL_BOUND = 0.10  # [m]
 MOST_MEMORY = 1e6  # [kB]
+CLOSED = 0.10  # [m], mean distance of a museum's learned walls from true ones: the map closes
+BAD = ["--odometry-turn", "0.15", "--odometry-veer", "0.03"]  # [Minerva2000] 4: 70 m and 180 degrees off after 110 m
+FOUND = 0.7  # of the surfaces beside free floor, by a map that closes
 HARD = ["--odometry-turn", "0.2", "--odometry-veer", "0.05"]
 
 
@@ -199,6 +203,40 @@ def loops(mapper, verdict):
     print_table([*HEADER, "pairs", "apart m"], rows)
 
 
+def museum(mapper, root, seeds, verdict):
+    """As [Minerva2000] Figs. 3 and 4: what odometry alone makes of a drive, and what was learned; --pictures keeps both."""
+    print(f"\n## Bonn, simulated, with odometry as bad as the paper's, {len(seeds)} seeds\n")
+    drive, world = mapper.folder("museum-drive") / "drive.mcap", root / "museums" / "bonn" / "simulation.yaml"
+    drive.parent.mkdir(parents=True, exist_ok=True)
+    subprocess.run([mapper.program, "simulate", "--museum", root / "museums" / "bonn", "--crowd", "empty", "--hours", "0.13", "--seed", "5",
+                    "--requests-per-hour", "60", "--record", drive, "--quiet"], check=True, capture_output=True)
+    rows, closed, told, off = [], 0, 0, []
+    runs = {method: mapper.run_all([(f"museum-{method}-{seed}", drive, ["--reference", "logged", "--odometry", "perturbed", "--odometry-seed", seed,
+                                                                       "--method", method, *BAD]) for seed in seeds]) for method in ("graph", "odometry")}
+    for i, seed in enumerate(seeds):
+        for method, made in runs.items():
+            run, folder = made[i], mapper.folder(f"museum-{method}-{seed}")
+            done = subprocess.run([mapper.program, "score-map", "--map", folder / "map.yaml", "--world", world, "--report", folder / "score.json"],
+                                  check=False, capture_output=True)
+            score = json.loads((folder / "score.json").read_text()) if done.returncode == 0 else {"wall_error_m": float("inf"), "found": 0.0}  # fits nowhere
+            ends = run["odometry"]
+            trusted = run.get("judgement", {}).get("is_trusted")
+            rows.append([seed, method, f"{ends['way_m']:.0f}", f"{ends['end_error_m']:.0f}", f"{ends['end_error_deg']:.0f}", f"{score['wall_error_m']:.3f}",
+                         f"{100 * score['found']:.0f}", run.get("loops", "-"), {True: "yes", False: "no", None: "-"}[trusted]])
+            if method == "graph":
+                is_closed = score["wall_error_m"] <= CLOSED and score["found"] >= FOUND
+                closed += is_closed
+                told += not is_closed and not trusted
+                off.append(ends["end_error_deg"])
+            else:
+                verdict.want(f"museum, seed {seed}, odometry alone (must not close)", f"{100 * score['found']:.0f} % of the surfaces found",
+                             score["found"] < FOUND)
+    print_table(["seed", "method", "way m", "odometry off m", "deg", "walls m", "found %", "loops", "trusted"], rows)
+    verdict.want("museum: the map closes (walls within 10 cm), in 9 of 10", f"{closed} of {len(seeds)}; {told} of the others say that they cannot be trusted",
+                 closed >= 0.9 * len(seeds))
+    verdict.want("museum: odometry turns right round, the worst seed (150 degrees)", f"{max(off):.0f} degrees", max(off) >= 150 or len(seeds) < 5)
+
+
 def protocol(program, root, options):
     data = Path(os.environ.get("DOCENT_DATA", root.parent / "shared" / "data"))
     if not (data / "logs" / "intel.relations").exists():
@@ -219,6 +257,8 @@ def protocol(program, root, options):
         honesty(mapper, names, seeds, ordinary, verdict)
     if "loops" in parts:
         loops(mapper, verdict)
+    if "museum" in parts:
+        museum(mapper, root, seeds, verdict)
     print()
     verdict.print()
     return verdict

@@ -147,7 +147,8 @@ ScanReference logged_reference(const recording::LaserLog& log) {
   for (const recording::LoggedScan& scan : log.scans) {
     // Where both poses of a line agree but for the laser's mount, they are the laser's and the robot's.
     const Pose2 base = scan.logged_pose * inverse(scan.base_from_laser);
-    const bool is_laser = distance(base.position(), scan.odom_from_base.position()) < 0.05;
+    const bool is_laser = distance(base.position(), scan.odom_from_base.position()) < 0.05 &&
+                          std::abs((base.theta - scan.odom_from_base.theta).radians()) < 0.1;
     reference.emplace_back(is_laser ? base : scan.logged_pose);
   }
   return reference;

@@ -106,13 +106,16 @@ TEST(ReferenceOf, SaysNothingAcrossGapsAndTurnsOfAnotherClock) {
 
 TEST(LoggedReference, TakesTheLaserOffItsMountAndACorrectedPoseAsItIs) {
   recording::LaserLog log;
-  log.scans = {scan_at(0.0, {1, 2, Angle{}}), scan_at(1.0, {1, 2, Angle{}})};
+  log.scans = {scan_at(0.0, {1, 2, Angle{}}), scan_at(1.0, {1, 2, Angle{}}), scan_at(2.0, {1, 2, Angle{}})};
   log.scans[0].base_from_laser = log.scans[1].base_from_laser = {0.25, 0, Angle{}};
+  log.scans[2].base_from_laser = {0, 0, Angle::degrees(180)};  // it looks back, and its pose is the robot's
+  log.scans[2].logged_pose = {1, 2, Angle{}};
   log.scans[0].logged_pose = {1.25, 2, Angle{}};
   log.scans[1].logged_pose = {7, 8, Angle{}};
   const ScanReference reference = logged_reference(log);
   EXPECT_NEAR(reference[0]->x, 1.0, 1e-12);
   EXPECT_NEAR(reference[1]->x, 7.0, 1e-12);
+  EXPECT_NEAR(reference[2]->theta.radians(), 0.0, 1e-12);
 }
 
 }  // namespace
