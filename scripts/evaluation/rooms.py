@@ -195,7 +195,9 @@ def protocol(program, data, options):
     if options.part == "examples":
         print_examples(rooms)
         return verdict
-    if options.part != "kinds" and (data / "rooms").is_dir():
+    if options.part != "kinds" and not (data / "rooms").is_dir():
+        print(f"skipped: labelled floor plans, no data in {data}")
+    elif options.part != "kinds":
         plans(rooms, data, range(options.first_seed, options.first_seed + (options.seeds or (1 if options.slice else 5))), verdict)
     if options.part != "plans":
         kinds(rooms, HELD_OUT[:5] if options.slice else HELD_OUT, verdict)
