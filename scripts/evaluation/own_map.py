@@ -6,7 +6,7 @@ import random
 import shutil
 import subprocess
 
-from evaluation import tour
+from evaluation import crippled, tour
 from evaluation.tables import Verdict, print_table
 
 MARKED_WITHIN = 0.03  # [m], one standard deviation of each coordinate: a hand that points at a corner
@@ -94,4 +94,7 @@ def protocol(simulations, options):
                    f"{100 * max(off):.1f} cm at most")
         found.print()
         verdict.add(found)
+        if not options.slice and not options.no_crippled:
+            for how, arguments in crippled.CRIPPLED.items():
+                verdict.add(tour.run_crippled(simulations, own, how, arguments, seeds[:crippled.CRIPPLED_SEEDS], minutes))
     return verdict

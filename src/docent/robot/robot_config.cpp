@@ -61,6 +61,9 @@ Result<void> RobotBody::validate() const {
     return fail("body: from max_speed it must stand within 3 m and 3 s (watchdog and latency included)");
   if (auto valid = check_scanners(scanners); !valid) return valid;
   if (!(sonars >= 0 && sonars <= 100)) return fail("body.sonars must be 0..100");
+  constexpr int kRing = 16;  // fewer leave gaps between their cones
+  if (scanners.empty() && sonars < kRing)
+    return fail("body: without scanners it needs a ring of at least 16 sonars, which look all round");
   if (sonars > 0 && !(sonar_radius >= 0.0 && sonar_radius <= radius))
     return fail("body.sonar_radius must be 0 to the body's radius");
   if (!(infrareds >= 0 && infrareds <= 100)) return fail("body.infrareds must be 0..100");

@@ -174,6 +174,16 @@ TEST(RobotBody, HasTheScannersThatItsConfigurationLists) {
   }
 }
 
+TEST(RobotBody, WithoutScannersItNeedsARingOfSonars) {
+  RobotBody body;
+  body.scanners.clear();
+  EXPECT_TRUE(body.validate());
+  for (const int sonars : {0, 8}) {
+    body.sonars = sonars;
+    EXPECT_FALSE(body.validate()) << sonars << " sonars: it would drive blind";
+  }
+}
+
 TEST(RobotBody, KnowsItsSonarsByTheirFrames) {
   const RobotBody body;
   for (const int index : {0, 7, 10, 23}) EXPECT_EQ(body.sonar_of(RobotBody::sonar_frame(index)), index);

@@ -9,11 +9,15 @@
 namespace docent::mapping {
 namespace {
 
+CellIndex cell_of(const GridFrame& frame, std::size_t index) {
+  const auto columns = static_cast<std::size_t>(frame.columns);
+  return {static_cast<int>(index % columns), static_cast<int>(index / columns)};
+}
+
 /// Calls f with each of the eight neighbours of a cell that lie on the grid.
 template <class F>
 void for_neighbours(const GridFrame& frame, std::size_t cell, const F& f) {
-  const int column = static_cast<int>(cell % static_cast<std::size_t>(frame.columns));
-  const int row = static_cast<int>(cell / static_cast<std::size_t>(frame.columns));
+  const auto [column, row] = cell_of(frame, cell);
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx)
       if ((dx != 0 || dy != 0) && frame.holds({column + dx, row + dy})) f(frame.index({column + dx, row + dy}));
@@ -46,8 +50,7 @@ std::vector<bool> walls_of(const OccupancyGrid& map, double thing) {
     const auto cells = grow(frame, i, seen, [&wall](std::size_t cell) { return wall[cell]; });
     int left = frame.columns, right = 0, low = frame.rows, high = 0;
     for (const std::size_t cell : cells) {
-      const int column = static_cast<int>(cell % static_cast<std::size_t>(frame.columns));
-      const int row = static_cast<int>(cell / static_cast<std::size_t>(frame.columns));
+      const auto [column, row] = cell_of(frame, cell);
       left = std::min(left, column);
       right = std::max(right, column);
       low = std::min(low, row);

@@ -268,7 +268,8 @@ Result<std::unique_ptr<Module>> make_avoid(const ModuleContext& context) {
   auto params = context.config.section<collision_avoidance::AvoiderParams>("avoid");
   if (!params) return tl::unexpected<Error>(params.error());
   const robot::RobotBody& body = context.config.body();
-  params->needs_sonar = params->needs_sonar && body.sonars > 0;
+  // Where no laser looks, silent sonars are no sight at all, whatever the configuration says.
+  params->needs_sonar = body.sonars > 0 && (params->needs_sonar || body.scanners.empty());
   params->has_infrared = body.infrareds > 0;
   params->has_tactile = body.tactile;
   params->has_lasers = !body.scanners.empty();
