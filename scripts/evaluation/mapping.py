@@ -243,6 +243,8 @@ def protocol(program, root, options):
         raise RuntimeError(f"no recorded data in {data}; DOCENT_DATA says where they are")
     mapper = Mapper(program, data, options.pictures, options.jobs)
     parts = [options.part] if options.part else ["intel", "odometry", "loops"] if options.slice else PARTS
+    if options.part == "honesty":
+        parts = ["odometry", "honesty"]  # maps that failed and maps that did not are judged together
     names = corrected_logs(mapper)
     names = [name for name in names if name == "seattle"] if options.slice else names
     seeds = range(options.first_seed, options.first_seed + (options.seeds or (2 if options.slice else 10)))

@@ -115,7 +115,8 @@ std::vector<Pose2> poses_by_graph(const recording::LaserLog& log, const ChosenSc
                          {"pairs", map.judgement.pairs},
                          {"in_conflict", map.judgement.in_conflict},
                          {"mean_conflict", map.judgement.mean_conflict},
-                         {"expected_error_m", map.judgement.expected_error}};
+                         {"expected_error_m", map.judgement.expected_error},
+                         {"odometry_scale", map.judgement.odometry_scale}};
   if (!map.judgement.is_trusted)
     std::fprintf(stderr, "warning: do not trust this map: %s\n", map.judgement.reason.c_str());
   std::printf("%zu loops; %zu pairs of scans of one place agree to %.3f m\n", map.loops, map.revisits,

@@ -19,8 +19,9 @@ void GraphMapping::add(MappingScan scan) {
   }
   const ChainStep step = chain_.step(scans_, graph_.poses(), i);
   graph_.add_pose(graph_.poses()[i - 1] * step.before_from_after);
-  graph_.add({i - 1, i, step.before_from_after, step.information, false});
+  graph_.add({i - 1, i, step.before_from_after, step.information, false, !step.is_matched});
   unmatched_ += step.is_matched ? 0U : 1U;
+  if (step.is_matched) surprises_.push_back(step.surprise);
   way_ += norm(step.before_from_after.position());
   turn_ += std::abs(step.before_from_after.theta.radians());
   if (is_submap_full(i)) end_submap(i);
@@ -40,8 +41,13 @@ GraphMap GraphMapping::finish(const std::function<void(const MappingProgress&)>&
   optimise();
   for (int round = 0; round < params_.fine_rounds; ++round) refine(round);
   tell("fine", scans_.size());
-  GraphMap map{
-      graph_.poses(), loops_, refused_, unmatched_, 0, 0.0, judge(graph_, submaps_, restlessness(), params_.judgement)};
+  GraphMap map{graph_.poses(),
+               loops_,
+               refused_,
+               unmatched_,
+               0,
+               0.0,
+               judge(graph_, submaps_, restlessness(), odometry_scale(), params_.judgement)};
   map.revisits = revisits_.size();
   for (const PoseConstraint& revisit : revisits_) map.revisit_error += missed_by(revisit);
   if (map.revisits > 0) map.revisit_error /= static_cast<double>(map.revisits);
@@ -89,6 +95,20 @@ double GraphMapping::restlessness() const {
   const auto middle = shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2);
   std::nth_element(shares.begin(), middle, shares.end());
   return *middle;
+}
+
+/// How odometry errs by the steps that scans bear out, as a share of what was expected of it: a mean without the
+/// largest, which are wrong matches as likely.
+double GraphMapping::odometry_scale() const {
+  constexpr std::size_t kFewest = 20;
+  constexpr double kKept = 0.95;
+  if (surprises_.size() < kFewest) return 1.0;
+  std::vector<double> sorted = surprises_;
+  std::sort(sorted.begin(), sorted.end());
+  const auto kept = static_cast<std::size_t>(kKept * static_cast<double>(sorted.size()));
+  double sum = 0.0;
+  for (std::size_t i = 0; i < kept; ++i) sum += sorted[i];
+  return std::sqrt(sum / static_cast<double>(kept));
 }
 
 /// Older submaps that may show the same place, the likeliest first.

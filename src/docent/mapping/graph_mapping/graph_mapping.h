@@ -46,6 +46,7 @@ class GraphMapping {
   [[nodiscard]] Pose2 middle_of(std::size_t submap) const { return graph_.poses()[submaps_[submap].middle()]; }
   void note_restlessness();
   [[nodiscard]] double restlessness() const;
+  [[nodiscard]] double odometry_scale() const;
   [[nodiscard]] std::vector<LoopCandidate> candidates_for(std::size_t newer);
   bool close_loops(std::size_t newer);
   bool believe(const LoopClosure& closure);
@@ -61,7 +62,8 @@ class GraphMapping {
   LoopCloser closer_;
   PoseGraph graph_;
   std::deque<Submap> submaps_;
-  std::vector<double> restless_;  ///< shares of points in conflict
+  std::vector<double> restless_;   ///< shares of points in conflict
+  std::vector<double> surprises_;  ///< how odometry erred at each matched step
   std::vector<LoopClosure> waiting_;
   std::vector<PoseConstraint> revisits_;  ///< matches of the last fine round between different pieces of the way
   std::map<std::pair<std::size_t, std::size_t>, bool> closed_;

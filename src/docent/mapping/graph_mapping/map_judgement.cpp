@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "docent/mapping/pose_graph/relative_covariance.h"
+#include "docent/mapping/pose_graph/marginal_covariance.h"
 
 namespace docent::mapping {
 namespace {
@@ -33,8 +33,20 @@ void compare_pieces(const PoseGraph& graph, const std::deque<Submap>& submaps, c
   judgement.in_conflict = static_cast<double>(in_conflict) / static_cast<double>(judgement.pairs);
 }
 
+/// The graph with odometry as good as it has proved to be.
+PoseGraph with_odometry_of(const PoseGraph& graph, double scale) {
+  PoseGraph rated = graph;
+  rated.clear_constraints();
+  for (PoseConstraint constraint : graph.constraints()) {
+    if (constraint.is_odometry) constraint.information /= scale * scale;
+    rated.add(constraint);
+  }
+  return rated;
+}
+
 /// Mean expected error of places 1, 5, 20, 60 and 150 m of way apart.
 double expected_error(const PoseGraph& graph) {
+  const MarginalCovariances covariances{graph};
   constexpr std::array kApart{1.0, 5.0, 20.0, 60.0, 150.0};
   constexpr std::size_t kSamples = 16;
   std::vector<double> way(graph.poses().size(), 0.0);
@@ -45,11 +57,10 @@ double expected_error(const PoseGraph& graph) {
   std::size_t count = 0;
   for (std::size_t sample = 0; sample < kSamples; ++sample) {
     const std::size_t from = sample * way.size() / kSamples;
-    const auto covariances = covariances_seen_from(graph, from);
     for (const double apart : kApart) {
       const auto to = std::lower_bound(way.begin(), way.end(), way[from] + apart);
       if (to == way.end()) continue;
-      const Eigen::Matrix3d& covariance = covariances[static_cast<std::size_t>(to - way.begin())];
+      const Eigen::Matrix3d covariance = covariances.between(from, static_cast<std::size_t>(to - way.begin()));
       sum += std::sqrt(covariance(0, 0) + covariance(1, 1));
       ++count;
     }
@@ -59,7 +70,7 @@ double expected_error(const PoseGraph& graph) {
 
 }  // namespace
 
-MapJudgement judge(const PoseGraph& graph, const std::deque<Submap>& submaps, double restless,
+MapJudgement judge(const PoseGraph& graph, const std::deque<Submap>& submaps, double restless, double odometry_scale,
                    const MapJudgementParams& params) {
   MapJudgement judgement;
   if (graph.poses().empty()) {
@@ -67,8 +78,9 @@ MapJudgement judge(const PoseGraph& graph, const std::deque<Submap>& submaps, do
     return judgement;
   }
   judgement.restless = restless;
+  judgement.odometry_scale = odometry_scale;
   compare_pieces(graph, submaps, params, judgement);
-  judgement.expected_error = expected_error(graph);
+  judgement.expected_error = expected_error(with_odometry_of(graph, odometry_scale));
   char text[160];
   if (judgement.in_conflict > params.most_in_conflict) {
     std::snprintf(text, sizeof text, "of the pieces of the way that lie near each other, %.0f %% contradict each other",

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace docent::mapping {
 namespace {
@@ -42,8 +43,8 @@ ChainStep ScanChain::step(std::span<const MappingScan> scans, std::span<const Po
   if (local.empty() || scans[i].points.size() < static_cast<std::size_t>(params_.fewest_points)) return result;
   const MatchGrid grid{places_of(local), grid_};
   MatchWindow window;
-  window.reach = params_.sigmas * way_sigma;
-  window.turn = params_.sigmas * turn_sigma;
+  window.reach = std::min(params_.sigmas * way_sigma, params_.most_reach);
+  window.turn = std::min(params_.sigmas * turn_sigma, std::numbers::pi);
   window.position_sigma = way_sigma;
   window.heading_sigma = turn_sigma;
   window.expectation_weight = params_.expectation_weight;
@@ -55,6 +56,10 @@ ChainStep ScanChain::step(std::span<const MappingScan> scans, std::span<const Po
   result.before_from_after = fine->reference_from_sweep;
   result.information += fine->information;
   result.is_matched = true;
+  const Pose2 error = inverse(odometry) * fine->reference_from_sweep;
+  const double in_way = norm(error.position()) / way_sigma;
+  const double in_turn = error.theta.radians() / turn_sigma;
+  result.surprise = (in_way * in_way + in_turn * in_turn) / 3.0;
   return result;
 }
 

@@ -20,6 +20,7 @@ struct ScanChainParams {
   double turn_per_metre = 0.1;       ///< [rad/m] more
   double turn_per_radian = 0.15;     ///< [rad/rad]
   double sigmas = 3.0;               ///< > 0: so far from odometry's pose a match is looked for
+  double most_reach = 5.0;           ///< [m], > 0: and never farther, whatever odometry says
   double expectation_weight = 0.01;  ///< >= 0: see MatchWindow
   double least_score = 0.35;         ///< 0..1: a match below is none; odometry is believed
   int fewest_points = 30;            ///< > 0: of a scan; fewer are as likely people as walls: odometry is believed
@@ -34,6 +35,7 @@ struct ScanChainParams {
     v("turn_per_metre", turn_per_metre);
     v("turn_per_radian", turn_per_radian);
     v("sigmas", sigmas);
+    v("most_reach", most_reach);
     v("expectation_weight", expectation_weight);
     v("least_score", least_score);
     v("fewest_points", fewest_points);
@@ -46,6 +48,7 @@ struct ChainStep {
   Pose2 before_from_after;
   Eigen::Matrix3d information;  ///< of its error, seen in the later scan's frame
   bool is_matched = false;      ///< false: odometry's own
+  double surprise = 0.0;        ///< matched: by how much odometry erred, in squared sigmas, mean of x, y and heading
 };
 
 /// Matches each scan to the map that the few before it make: the search takes the best place about odometry's, the

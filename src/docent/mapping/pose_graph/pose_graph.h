@@ -15,6 +15,7 @@ struct PoseConstraint {
   Pose2 from_from_to;           ///< the second pose as the first one sees it
   Eigen::Matrix3d information;  ///< inverse covariance of its error in (x, y, theta), seen in the second pose's frame
   bool is_loop = false;         ///< joins parts of the way between which much time passed: may be wrong
+  bool is_odometry = false;     ///< nothing but odometry says so
 };
 
 /// How all poses are found together.

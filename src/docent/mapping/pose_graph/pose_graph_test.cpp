@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 
+#include "docent/mapping/pose_graph/marginal_covariance.h"
 #include "docent/mapping/pose_graph/relative_covariance.h"
 
 namespace docent::mapping {
@@ -87,6 +88,28 @@ TEST(CovariancesSeenFrom, AreThoseOfAStraightWay) {
   double sideways = 10 * 0.01;
   for (int i = 0; i < 10; ++i) sideways += i * i * 0.0004;
   EXPECT_NEAR(end(1, 1), sideways, 1e-6);
+}
+
+TEST(MarginalCovariances, OfOneChainAreThoseOfTheChain) {
+  PoseGraph graph = square_that_veers();
+  const MarginalCovariances marginal{graph};
+  for (const std::size_t from : {0U, 3U, 17U}) {
+    const auto chain = covariances_seen_from(graph, from);
+    for (const std::size_t to : {18U, 25U, 40U})
+      EXPECT_TRUE(marginal.between(from, to).isApprox(chain[to], 0.02)) << from << " to " << to;
+  }
+}
+
+TEST(MarginalCovariances, TwoWaysTellMoreThanOne) {
+  PoseGraph graph;
+  for (int i = 0; i < 3; ++i) graph.add_pose({static_cast<double>(i), 0.0, {}});
+  for (int times = 0; times < 4; ++times) {
+    graph.add({0, 1, {1.0, 0.0, {}}, information(0.1, 0.02), false});
+    graph.add({1, 2, {1.0, 0.0, {}}, information(0.1, 0.02), false});
+  }
+  EXPECT_NEAR(MarginalCovariances{graph}.between(0, 1)(0, 0), 0.01 / 4.0, 1e-6);
+  EXPECT_NEAR(MarginalCovariances{graph}.between(0, 2)(0, 0), 0.02 / 4.0, 1e-6);
+  EXPECT_NEAR(covariances_seen_from(graph, 0)[2](0, 0), 0.02, 1e-6) << "one chain alone";
 }
 
 }  // namespace
