@@ -6,13 +6,13 @@ const robot = process.env.DOCENT ?? '127.0.0.1:8080';
 
 export default defineConfig({
   plugins: [svelte()],
-  // Four pages, so that none loads what another needs.
+  // Five pages, so that none loads what another needs.
   build: {
     target: 'es2022',
     assetsInlineLimit: 0,
     reportCompressedSize: true,
     modulePreload: { polyfill: false },
-    rollupOptions: { input: ['index.html', 'kiosk.html', 'face.html', 'operate.html'] },
+    rollupOptions: { input: ['index.html', 'kiosk.html', 'face.html', 'operate.html', 'setup.html'] },
   },
   server: {
     proxy: {

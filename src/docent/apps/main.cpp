@@ -27,6 +27,7 @@
 #include "docent/apps/simulate/simulate_command.h"
 #include "docent/apps/train_sonar/train_sonar_command.h"
 #include "docent/apps/up/run_command.h"
+#include "docent/apps/up/setup_command.h"
 #include "docent/apps/up/up_command.h"
 #include "docent/apps/web_account/web_account_command.h"
 #include "docent/base/suggestion.h"
@@ -44,8 +45,8 @@ void add_commands(CLI::App& app) {
   };
   add("Drive through a museum",
       {add_simulate_command, add_explore_command, add_up_command, add_web_account_command, add_gateway_command});
-  add("Make a museum", {add_museum_command, add_office_command, add_survey_command, add_check_command,
-                        add_rooms_command, add_golog_command});
+  add("Make a museum", {add_setup_command, add_museum_command, add_office_command, add_survey_command,
+                        add_check_command, add_rooms_command, add_golog_command});
   add("Look at recordings",
       {add_localize_command, add_map_command, add_score_map_command, add_replay_command, add_evaluate_command});
   add("Learn and tune", {add_config_command, add_learn_command, add_train_sonar_command, add_attract_command,

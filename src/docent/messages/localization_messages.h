@@ -143,6 +143,18 @@ struct LiveMapUpdate {
   }
 };
 
+/// What a technician has a robot do that maps a building; latched.
+struct ExplorationOrder {
+  static constexpr const char* kType = "docent_msgs/msg/ExplorationOrder";
+  std_msgs::Header header;
+  std::string order;  ///< wait, by_itself, by_hand, finish (the map is made of what it has seen)
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("header", m.header);
+    v("order", m.order);
+  }
+};
+
 /// How far a robot is that maps a building by itself; latched.
 struct Exploration {
   static constexpr const char* kType = "docent_msgs/msg/Exploration";
@@ -156,6 +168,7 @@ struct Exploration {
   std::vector<double> unreached_y;  ///< [m]
   std::string map;                  ///< done: the file of the map
   std::string warning;              ///< done: why the map is not to be trusted; empty: it is
+  std::string order;                ///< as it was taken last: wait, by_itself, by_hand, finish
   template <class Self, class V>
   static void visit(Self& m, V& v) {
     v("header", m.header);
@@ -168,6 +181,7 @@ struct Exploration {
     v("unreached_y", m.unreached_y);
     v("map", m.map);
     v("warning", m.warning);
+    v("order", m.order);
   }
 };
 

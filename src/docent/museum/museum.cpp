@@ -106,10 +106,10 @@ std::size_t sensible_pairs(const Museum& museum) {
   return count;
 }
 
-Result<Museum> load_museum(const std::filesystem::path& folder) {
+Result<Museum> load_museum(const std::filesystem::path& folder, Stage stage) {
   auto file = load_museum_file(folder);
   if (!file) return tl::unexpected<Error>(file.error());
-  auto source = read_museum(*file, [&](const std::filesystem::path& relative) { return read_file(folder / relative); });
+  auto source = read_museum_file(*file, folder, stage);
   if (!source.faults.empty()) return tl::unexpected<Error>(source.faults.front());
   Museum museum = std::move(source.museum);
   museum.folder = folder;

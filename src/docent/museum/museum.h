@@ -125,9 +125,12 @@ struct Museum {
 /// What the museum makes of the volume at this time of day, 0..1: 1 outside of its quiet hours.
 [[nodiscard]] double volume_at(const Museum& museum, int minute_of_day);
 
+/// How far a museum has come: one that is being set up has no exhibit yet.
+enum class Stage { complete, being_set_up };
+
 /// Reads FOLDER/museum.yaml with its map and texts. Error: the first fault, "FILE:LINE: …". Looks at the file's form,
 /// ids, texts, polygons, modes and tours; whether the robot fits where it must stand is check_museum's question.
-[[nodiscard]] Result<Museum> load_museum(const std::filesystem::path& folder);
+[[nodiscard]] Result<Museum> load_museum(const std::filesystem::path& folder, Stage stage = Stage::complete);
 
 /// The robot that a museum is checked for, as its planner takes it.
 struct CheckedRobot {
@@ -139,6 +142,7 @@ struct CheckedRobot {
 /// Everything that cannot work in the museum: each fault with file, line and reason. Empty: the museum is fine.
 /// The robot must reach each exhibit, viewpoint and the charger from home on the map's free cells, inside the area,
 /// clear of walls and hazards. O(cells).
-[[nodiscard]] std::vector<Error> check_museum(const std::filesystem::path& folder, const CheckedRobot& robot = {});
+[[nodiscard]] std::vector<Error> check_museum(const std::filesystem::path& folder, const CheckedRobot& robot = {},
+                                              Stage stage = Stage::complete);
 
 }  // namespace docent::museum

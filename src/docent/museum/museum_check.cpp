@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
@@ -133,10 +134,10 @@ void check_places(const YamlFile& file, const MuseumSource& source, const Checke
 
 }  // namespace
 
-std::vector<Error> check_museum(const std::filesystem::path& folder, const CheckedRobot& robot) {
+std::vector<Error> check_museum(const std::filesystem::path& folder, const CheckedRobot& robot, Stage stage) {
   auto file = load_museum_file(folder);
   if (!file) return {file.error()};
-  auto source = read_museum(*file, [&](const std::filesystem::path& relative) { return read_file(folder / relative); });
+  auto source = read_museum_file(*file, folder, stage);
   std::vector<Error> faults = source.faults;
   const YAML::Node& root = file->root();
   std::error_code code;
@@ -162,7 +163,11 @@ std::vector<Error> check_museum(const std::filesystem::path& folder, const Check
     return faults;
   }
   source.museum.map = std::move(*map);
-  // Places mean something only where area and home could be read.
+  // Places mean something only where area and home could be read, and somebody has seen the floor.
+  const auto& cells = source.museum.map.cells;
+  const bool is_blank =
+      std::all_of(cells.begin(), cells.end(), [](auto cell) { return cell == OccupancyGrid::kUnknown; });
+  if (stage == Stage::being_set_up && is_blank) return faults;
   if (source.museum.area.size() >= 3 && root["home"].IsDefined()) check_places(*file, source, robot, faults);
   return faults;
 }

@@ -5,6 +5,7 @@
 #include <system_error>
 #include <vector>
 
+#include "docent/base/files.h"
 #include "docent/base/shipped_files.h"
 #include "docent/base/suggestion.h"
 
@@ -43,6 +44,16 @@ Result<YamlFile> load_museum_file(const fs::path& folder) {
   std::error_code code;
   if (!fs::exists(folder, code)) return fail(no_museum(folder));
   return YamlFile::load(folder / "museum.yaml");
+}
+
+MuseumSource read_museum_file(const YamlFile& file, const fs::path& folder, Stage stage) {
+  MuseumSource source = read_museum(file, [&](const fs::path& relative) { return read_file(folder / relative); });
+  const YAML::Node& root = file.root();
+  if (stage == Stage::being_set_up || !root.IsMap()) return source;
+  const YAML::Node exhibits = root["exhibits"];
+  if (exhibits.IsDefined() && exhibits.IsSequence() && exhibits.size() == 0)
+    source.faults.push_back(file.fault(exhibits, "needs at least one exhibit"));
+  return source;
 }
 
 }  // namespace docent::museum

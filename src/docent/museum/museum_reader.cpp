@@ -247,8 +247,7 @@ class MuseumYamlReader {
   void read_exhibits(const YAML::Node& node) {
     std::set<std::string> seen;
     guarded([&] {
-      if (list(node, "exhibits").size() == 0) throw fault(node, "needs at least one exhibit");
-      for (const auto& entry : node) guarded([&] { read_exhibit(entry, seen); });
+      for (const auto& entry : list(node, "exhibits")) guarded([&] { read_exhibit(entry, seen); });
     });
     for (std::size_t i = 0; i < museum_.exhibits.size(); ++i) {
       const Exhibit& exhibit = museum_.exhibits[i];

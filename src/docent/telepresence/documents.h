@@ -92,17 +92,6 @@ struct Hazard {
     v("id", d.id), v("kind", d.kind), v("polygon", d.polygon);
   }
 };
-struct MapPicture {
-  static constexpr const char* kName = "MapPicture";
-  std::string url;
-  int columns = 0, rows = 0;
-  double resolution = 0.0;
-  Point origin{};
-  template <class Self, class V>
-  static void visit(Self& d, V& v) {
-    v("url", d.url), v("columns", d.columns), v("rows", d.rows), v("resolution", d.resolution), v("origin", d.origin);
-  }
-};
 struct Museum {
   static constexpr const char* kName = "Museum";
   Texts name;
@@ -385,9 +374,10 @@ struct ErrorMessage {
 };
 
 /// Everything that the live channel carries to a page.
-using ServerMessage = std::tuple<LiveMessage, PoseMessage, BeliefMessage, PathMessage, MissionMessage, SpeechMessage,
-                                 HornMessage, SoundMessage, ExpressionMessage, ButtonMessage, BoardMessage,
-                                 VotesMessage, HoursMessage, FieldMessage, MapsMessage, LogMessage, OperationMessage,
-                                 HealthMessage, WindowMessage, Acknowledgement, Refusal, ErrorMessage>;
+using ServerMessage =
+    std::tuple<LiveMessage, PoseMessage, BeliefMessage, PathMessage, MissionMessage, SpeechMessage, HornMessage,
+               SoundMessage, ExpressionMessage, ButtonMessage, BoardMessage, VotesMessage, HoursMessage, FieldMessage,
+               MapsMessage, ExplorationMessage, LogMessage, OperationMessage, HealthMessage, WindowMessage,
+               Acknowledgement, Refusal, ErrorMessage>;
 
 }  // namespace docent::telepresence::documents

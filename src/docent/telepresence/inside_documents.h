@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +10,17 @@
 
 namespace docent::telepresence::documents {
 
+struct MapPicture {
+  static constexpr const char* kName = "MapPicture";
+  std::string url;
+  int columns = 0, rows = 0;
+  double resolution = 0.0;
+  std::array<double, 2> origin{};  ///< [m], the lower left corner
+  template <class Self, class V>
+  static void visit(Self& d, V& v) {
+    v("url", d.url), v("columns", d.columns), v("rows", d.rows), v("resolution", d.resolution), v("origin", d.origin);
+  }
+};
 struct Raster {
   static constexpr const char* kName = "Raster";
   double x = 0.0, y = 0.0, cell = 0.0;
@@ -28,6 +41,24 @@ struct MapsMessage {
   template <class Self, class V>
   static void visit(Self& d, V& v) {
     v("value", d.value), v("live", d.live);
+  }
+};
+
+/// How far a robot is that maps a building, for operators.
+struct ExplorationMessage {
+  static constexpr const char* kName = "ExplorationMessage";
+  static constexpr const char* kType = "exploration";
+  std::string state;  ///< starting, exploring, returning, mapping, done
+  std::string order;  ///< wait, by_itself, by_hand, finish
+  double known_m2 = 0.0, way_m = 0.0;
+  std::uint32_t frontier = 0;                    ///< unknown cells that it can still go to
+  std::vector<std::array<double, 2>> unreached;  ///< done: places that it could not get to or see into
+  std::string warning;                           ///< done: why the map is not to be trusted; empty: it is
+  std::optional<MapPicture> map;                 ///< as far as it is known
+  template <class Self, class V>
+  static void visit(Self& d, V& v) {
+    v("state", d.state), v("order", d.order), v("known_m2", d.known_m2), v("way_m", d.way_m);
+    v("frontier", d.frontier), v("unreached", d.unreached), v("warning", d.warning), v("map", d.map);
   }
 };
 

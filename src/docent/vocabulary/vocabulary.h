@@ -35,6 +35,15 @@ constexpr auto words_of(RequestStatus) {
 enum class OperatingMode { open, web, closed, hours };
 constexpr auto words_of(OperatingMode) { return std::array{"open", "web", "closed", "hours"}; }
 
+/// What a technician has a robot do that maps a building; finish: the map is made of what it has seen.
+enum class ExplorationOrder { wait, by_itself, by_hand, finish };
+constexpr auto words_of(ExplorationOrder) { return std::array{"wait", "by_itself", "by_hand", "finish"}; }
+
+/// How far the setting up of a museum has come: its name, its map, what no sensor sees, what it shows, the check, and
+/// its first tour.
+enum class SetupStep { name, map, hazards, exhibits, check, tour, done };
+constexpr auto words_of(SetupStep) { return std::array{"name", "map", "hazards", "exhibits", "check", "tour", "done"}; }
+
 /// What the mission is about.
 enum class MissionPhase { waking, relocalizing, idle, driving, explaining, asking, going_home, charging, waiting };
 constexpr auto words_of(MissionPhase) {

@@ -26,6 +26,8 @@ TEST(Vocabulary, EachValueHasItsWord) {
   expect_each_has_its_word(RequestSource::vote);
   expect_each_has_its_word(RequestStatus::cancelled);
   expect_each_has_its_word(OperatingMode::hours);
+  expect_each_has_its_word(ExplorationOrder::finish);
+  expect_each_has_its_word(SetupStep::done);
   expect_each_has_its_word(MissionPhase::waiting);
   expect_each_has_its_word(TaskKind::point);
   expect_each_has_its_word(LookFor::company);

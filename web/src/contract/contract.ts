@@ -218,6 +218,17 @@ export interface MapsMessage {
   value: Raster;
   live: Raster;
 }
+export interface ExplorationMessage {
+  type: 'exploration';
+  state: string;
+  order: string;
+  known_m2: number;
+  way_m: number;
+  frontier: number;
+  unreached: [number, number][];
+  warning: string;
+  map: MapPicture | null;
+}
 export interface LogLine {
   t: number;
   kind: string;
@@ -352,6 +363,22 @@ export interface MuseumWish {
 export interface MuseumFaults {
   faults: string[];
 }
+export interface SetupState {
+  step: 'name' | 'map' | 'hazards' | 'exhibits' | 'check' | 'tour' | 'done';
+  name: string;
+  languages: string[];
+  has_explored: boolean;
+}
+export interface SetupName {
+  name: string;
+  languages: string[];
+}
+export interface SetupOrder {
+  order: 'wait' | 'by_itself' | 'by_hand' | 'finish';
+}
+export interface SetupWish {
+  step: 'name' | 'map' | 'hazards' | 'exhibits' | 'check' | 'tour' | 'done';
+}
 export interface RequestMessage {
   type: 'request';
   id: string;
@@ -420,7 +447,7 @@ export interface SetHoursMessage {
   id: string;
   mode: 'open' | 'web' | 'closed' | 'hours';
 }
-export type ServerMessage = LiveMessage | PoseMessage | BeliefMessage | PathMessage | MissionMessage | SpeechMessage | HornMessage | SoundMessage | ExpressionMessage | ButtonMessage | BoardMessage | VotesMessage | HoursMessage | FieldMessage | MapsMessage | LogMessage | OperationMessage | HealthMessage | WindowMessage | Acknowledgement | Refusal | ErrorMessage;
+export type ServerMessage = LiveMessage | PoseMessage | BeliefMessage | PathMessage | MissionMessage | SpeechMessage | HornMessage | SoundMessage | ExpressionMessage | ButtonMessage | BoardMessage | VotesMessage | HoursMessage | FieldMessage | MapsMessage | ExplorationMessage | LogMessage | OperationMessage | HealthMessage | WindowMessage | Acknowledgement | Refusal | ErrorMessage;
 export type ClientMessage = RequestMessage | CancelMessage | ChoiceMessage | VoteMessage | WatchMessage | LampsMessage | HelpMessage | AnswerMessage | LeaseMessage | SteerMessage | StopMessage | SetHoursMessage;
 export const documents = {
   "AccountLine": {
@@ -680,6 +707,31 @@ export const documents = {
       "web_only": "boolean"
     },
     "maybe": {}
+  },
+  "ExplorationMessage": {
+    "fields": {
+      "frontier": "number",
+      "known_m2": "number",
+      "map": {
+        "nullable": {
+          "document": "MapPicture"
+        }
+      },
+      "order": "string",
+      "state": "string",
+      "unreached": {
+        "list": {
+          "tuple": [
+            "number",
+            "number"
+          ]
+        }
+      },
+      "warning": "string",
+      "way_m": "number"
+    },
+    "maybe": {},
+    "type": "exploration"
   },
   "ExpressionMessage": {
     "fields": {
@@ -1340,6 +1392,65 @@ export const documents = {
     },
     "maybe": {},
     "type": "set_hours"
+  },
+  "SetupName": {
+    "fields": {
+      "languages": {
+        "list": "string"
+      },
+      "name": "string"
+    },
+    "maybe": {}
+  },
+  "SetupOrder": {
+    "fields": {
+      "order": {
+        "words": [
+          "wait",
+          "by_itself",
+          "by_hand",
+          "finish"
+        ]
+      }
+    },
+    "maybe": {}
+  },
+  "SetupState": {
+    "fields": {
+      "has_explored": "boolean",
+      "languages": {
+        "list": "string"
+      },
+      "name": "string",
+      "step": {
+        "words": [
+          "name",
+          "map",
+          "hazards",
+          "exhibits",
+          "check",
+          "tour",
+          "done"
+        ]
+      }
+    },
+    "maybe": {}
+  },
+  "SetupWish": {
+    "fields": {
+      "step": {
+        "words": [
+          "name",
+          "map",
+          "hazards",
+          "exhibits",
+          "check",
+          "tour",
+          "done"
+        ]
+      }
+    },
+    "maybe": {}
   },
   "SoundMessage": {
     "fields": {

@@ -149,6 +149,16 @@ export function addHazard(draft: MuseumDraft, polygon: Point[]): MuseumDraft {
   const hazard: Hazard = { id: freshId(draft.hazards, 'hazard'), kind: 'other', polygon: polygon.map(at) };
   return { ...draft, hazards: [...draft.hazards, hazard] };
 }
+/** So many metres before the robot, which looks there. */
+export const inFrontOf = (pose: Pose, metres: number): Pose => [pose[0] + metres * Math.cos(pose[2]), pose[1] + metres * Math.sin(pose[2]), pose[2]];
+
+/** What stands a metre before the robot, which has been driven there to show it. */
+export function addExhibitBefore(draft: MuseumDraft, robot: Pose, languages: string[], title: string): MuseumDraft {
+  const [x, y] = inFrontOf(robot, 1);
+  const next = addExhibit(draft, [x, y], languages, title);
+  return withExhibit(next, next.exhibits.length - 1, { pose: [...at([robot[0], robot[1]]), robot[2]] });
+}
+
 /** The robot stands a metre before what it shows. */
 export function addExhibit(draft: MuseumDraft, lookAt: Point, languages: string[], title: string): MuseumDraft {
   const [x, y] = at(lookAt);

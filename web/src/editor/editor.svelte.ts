@@ -1,6 +1,6 @@
 // The draft at work: what is chosen, what is being drawn, and the way back.
 import type { MuseumDraft, Point, Pose } from '../lib/protocol';
-import { addExhibit, addHazard, addViewpoint, handlesOf, moveAll, moveHandle, poseOf, remove, removeHandle, splitSide, type Handle, type Selection } from './draft';
+import { addExhibit, addExhibitBefore, addHazard, addViewpoint, handlesOf, moveAll, moveHandle, poseOf, remove, removeHandle, splitSide, type Handle, type Selection } from './draft';
 
 export type Tool = 'choose' | 'hazard' | 'exhibit' | 'viewpoint' | 'charger';
 /** [m] so near to its first corner, a click closes a polygon. */
@@ -105,10 +105,13 @@ export class Editor {
     this.change(addHazard(this.draft, this.drawing));
     this.choose({ kind: 'hazard', index: this.draft.hazards.length - 1 });
   }
-  /** What the robot stands at: the next corner of a hazard, or where it shall stand for what is chosen. */
+  /** What the robot stands at: the next corner of a hazard, a new exhibit, or where it shall stand for what is chosen. */
   placeRobot(pose: Pose): void {
     if (this.tool === 'hazard') this.drawing = [...this.drawing, [pose[0], pose[1]]];
-    else if (this.selection && poseOf(this.draft, this.selection)) {
+    else if (this.tool === 'exhibit') {
+      this.change(addExhibitBefore(this.draft, pose, this.languages, this.newTitle));
+      this.choose({ kind: 'exhibit', index: this.draft.exhibits.length - 1 });
+    } else if (this.selection && poseOf(this.draft, this.selection)) {
       const handle = { kind: 'pose', index: -1 } as const;
       const placed = moveHandle(this.draft, this.selection, handle, [pose[0], pose[1]]);
       this.change(moveHandle(placed, this.selection, { kind: 'heading', index: -1 }, [pose[0] + Math.cos(pose[2]), pose[1] + Math.sin(pose[2])]));

@@ -9,6 +9,7 @@ import type {
   ButtonMessage,
   ClientMessage,
   Exhibit,
+  ExplorationMessage,
   ExpressionMessage,
   FieldMessage,
   HealthMessage,
@@ -92,9 +93,10 @@ class App {
   window = $state.raw<WindowMessage | null>(null);
   field = $state.raw<FieldMessage | null>(null);
   log = $state.raw<LogMessage | null>(null);
-  /** For operators alone, and what of it lies over the map. */
+  /** For operators alone: what of `maps` lies over the map; how far the museum is mapped. */
   maps = $state.raw<MapsMessage | null>(null);
   shows = $state({ value: false, live: false });
+  exploration = $state.raw<ExplorationMessage | null>(null);
   avoid = $state.raw<Avoid | null>(null);
   localized = $state(false);
   battery = $state<number | null>(null);

@@ -77,7 +77,7 @@ class OperateDesk {
     this.socket = null;
     this.isOpen = false;
     this.hasWheel = this.pressed = false;
-    app.maps = null;
+    app.maps = app.exploration = null;
     if (!socket) return;
     socket.onclose = null;
     socket.close();
@@ -89,6 +89,8 @@ class OperateDesk {
       if (message.holder !== this.me?.name) this.hasWheel = false;
     } else if (message.type === 'maps') {
       app.maps = message;
+    } else if (message.type === 'exploration') {
+      app.exploration = message;
     } else if (message.type === 'ack' && message.id === this.lease) {
       this.hasWheel = true;
     } else if (message.type === 'refused' || message.type === 'error') {

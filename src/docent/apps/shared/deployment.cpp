@@ -19,10 +19,12 @@
 
 namespace docent::apps {
 
-void Deployment::add_options(CLI::App& command) {
-  museum = default_museum();
+void Deployment::add_options(CLI::App& command, Museum named) {
   state = default_state();
-  command.add_option("--museum", museum, "Folder of the museum")->capture_default_str();
+  if (named == Museum::is_option) {
+    museum = default_museum();
+    command.add_option("--museum", museum, "Folder of the museum")->capture_default_str();
+  }
   command.add_option("--state", state, "Folder for what must survive: checkpoints, databases")->capture_default_str();
   add_cache_options(command, cache);
   command.add_option("--robot", robot, "robot.yaml of the robot; without it all defaults");
@@ -36,6 +38,7 @@ void Deployment::add_options(CLI::App& command) {
       "--explore", explore,
       "X,Y,DEG: where the robot begins to map the museum by itself, in the frame of its hazards and area; "
       "its map, exhibits and tours are not used");
+  command.add_flag("--setup", is_setup)->group("");  // how docent setup tells its modules
 }
 
 std::vector<std::string> Deployment::arguments() const {
@@ -48,15 +51,25 @@ std::vector<std::string> Deployment::arguments() const {
   if (!robot.empty()) all.insert(all.end(), {"--robot", robot});
   for (const auto& setting : settings) all.insert(all.end(), {"--set", setting});
   if (!name.empty()) all.insert(all.end(), {"--name", name});
+  if (is_setup) all.emplace_back("--setup");
   if (!explore.empty()) all.insert(all.end(), {"--explore", explore});
   all.insert(all.end(), {"--domain", std::to_string(domain), "--seed", std::to_string(seed)});
   return all;
 }
 
 Result<museum::Museum> Deployment::load() const {
-  auto loaded = museum::load_museum(museum);
+  const auto stage = is_setup || is_exploring() ? museum::Stage::being_set_up : museum::Stage::complete;
+  auto loaded = museum::load_museum(museum, stage);
   if (!loaded || !is_exploring()) return loaded;
   return museum::without_map(*loaded, parse_pose("--explore", explore));
+}
+
+Result<museum::SetupWork> Deployment::work() const {
+  if (is_exploring()) return museum::SetupWork::map;
+  if (!is_setup) return museum::SetupWork::guide;
+  const auto progress = museum::MuseumSetup::read(museum);
+  if (!progress) return tl::unexpected<Error>(progress.error());
+  return museum::work_of(progress->step);
 }
 
 Result<robot::RobotConfig> Deployment::load_config() const {

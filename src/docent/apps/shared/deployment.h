@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "docent/base/result.h"
+#include "docent/museum/editing/museum_setup.h"
 #include "docent/museum/museum.h"
 #include "docent/robot/robot_config.h"
 
@@ -25,14 +26,18 @@ struct Deployment {
   std::string name;                   ///< prefix of the topics
   int domain = 0;
   std::uint64_t seed = 1;
-  std::string explore;  ///< X,Y,DEG: it begins there and maps the museum by itself; empty: it has its map
+  bool is_setup = false;  ///< the museum is being set up: setup.yaml of its folder says how far it is
+  std::string explore;    ///< X,Y,DEG: it begins there and maps the museum by itself; empty: it has its map
 
-  void add_options(CLI::App& command);
+  /// Whether the command names the museum in another way than by --museum.
+  enum class Museum { is_option, is_given };
+  void add_options(CLI::App& command, Museum named = Museum::is_option);
   /// As arguments of another process.
   [[nodiscard]] std::vector<std::string> arguments() const;
   /// Without its map where the robot explores.
   [[nodiscard]] Result<museum::Museum> load() const;
   [[nodiscard]] bool is_exploring() const { return !explore.empty(); }
+  [[nodiscard]] Result<museum::SetupWork> work() const;
   [[nodiscard]] Result<robot::RobotConfig> load_config() const;
   /// The same for a robot that may meet people: error when it is crippled for an evaluation.
   [[nodiscard]] Result<robot::RobotConfig> load_whole_config() const;

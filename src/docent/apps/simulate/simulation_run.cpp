@@ -86,7 +86,7 @@ class SimulationRun::Parts {
     for (const modules::ModuleEntry& entry : modules::all_modules()) {
       const std::string name = entry.name;
       if (name == "record" || (name == "web" && !options_.hosts_web)) continue;
-      if (!modules::runs(entry, options_.explore.has_value())) continue;
+      if (!modules::runs(entry, options_.explore ? museum::SetupWork::map : museum::SetupWork::guide)) continue;
       if (auto started = start_module(entry); !started) return started;
     }
     return {};

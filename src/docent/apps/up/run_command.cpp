@@ -59,6 +59,7 @@ void run(const RunOptions& options) {
   modules::ModuleHost::Options host_options;
   host_options.state = deployment.state;
   host_options.cache = deployment.cache;
+  host_options.is_setup = deployment.is_setup;
   host_options.seed = deployment.seed;
   host_options.pid = getpid();
   host_options.truth = truth.get();

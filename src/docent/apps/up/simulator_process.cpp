@@ -14,13 +14,32 @@
 namespace docent::apps {
 namespace {
 
-Result<simulator::SimulationOptions> simulation_of(const Deployment& deployment, const SimulatorOptions& options) {
-  auto museum = deployment.load();
+/// What is simulated, and where its charger stands.
+struct SimulatedPlace {
+  std::filesystem::path file;  ///< simulation.yaml
+  std::string name;
+  std::optional<Point2> charger;
+};
+
+/// The robot's museum, or another place of which it knows nothing.
+Result<SimulatedPlace> place_of(const Deployment& deployment, const std::string& world) {
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(world, ignored))
+    return SimulatedPlace{world, std::filesystem::path{world}.stem().string(), std::nullopt};
+  const auto museum = world.empty() ? deployment.load() : museum::load_museum(world);
   if (!museum) return tl::unexpected<Error>(museum.error());
+  if (!museum->simulation_path) return fail(museum->folder.string() + ": the museum has no simulation");
+  SimulatedPlace place{*museum->simulation_path, museum->folder.filename().string(), std::nullopt};
+  if (museum->charger) place.charger = museum->charger->position();
+  return place;
+}
+
+Result<simulator::SimulationOptions> simulation_of(const Deployment& deployment, const SimulatorOptions& options) {
+  auto place = place_of(deployment, options.world);
+  if (!place) return tl::unexpected<Error>(place.error());
   auto config = deployment.load_whole_config();
   if (!config) return tl::unexpected<Error>(config.error());
-  if (!museum->simulation_path) return fail(deployment.museum + ": the museum has no simulation");
-  auto world = simulator::load_world(*museum->simulation_path);
+  auto world = simulator::load_world(place->file);
   if (!world) return tl::unexpected<Error>(world.error());
   simulator::SimulationOptions simulation;
   simulation.world = std::move(*world);
@@ -36,14 +55,14 @@ Result<simulator::SimulationOptions> simulation_of(const Deployment& deployment,
     }
   }
   if (options.has_cameras) simulation.cameras.emplace();
-  if (museum->charger) simulation.charger = museum->charger->position();
+  simulation.charger = place->charger;
   if (options.requests_per_hour >= 0.0) simulation.requests_per_hour = options.requests_per_hour;
   if (!options.scenario.empty()) {
     auto scenario = simulator::load_scenario(options.scenario);
     if (!scenario) return tl::unexpected<Error>(scenario.error());
     simulation.scenario = std::move(*scenario);
   }
-  simulation.run_info.museum = museum->folder.filename().string();
+  simulation.run_info.museum = place->name;
   simulation.run_info.mode = options.mode;
   simulation.run_info.config_hash = config->hash();
   auto simd = modules::simd_of_localize(*config);
@@ -60,6 +79,9 @@ void SimulatorOptions::add_options(CLI::App& command) {
       ->check(CLI::IsMember({"empty", "quiet", "busy", "packed"}))
       ->capture_default_str();
   command.add_option("--start", start, "Where the simulated robot wakes up: X,Y,DEG; without it somewhere");
+  command.add_option(
+      "--world", world,
+      "What is simulated: folder of a museum, or a file simulation.yaml; without it the robot's own museum");
   command.add_option("--scenario", scenario, "Scenario file for the simulator");
   command.add_flag("!--no-cameras", has_cameras, "Simulate no camera: saves a tenth of a processor");
   command.add_option("--mode", mode, "One of the museum's modes, or hours: what the museum's hours say")
@@ -70,6 +92,7 @@ void SimulatorOptions::add_options(CLI::App& command) {
 
 std::vector<std::string> SimulatorOptions::arguments() const {
   std::vector<std::string> all{"--crowd", crowd, "--mode", mode};
+  if (!world.empty()) all.insert(all.end(), {"--world", world});
   if (!start.empty()) all.insert(all.end(), {"--start=" + start});  // it may begin with a minus
   if (!has_cameras) all.emplace_back("--no-cameras");
   if (!scenario.empty()) all.insert(all.end(), {"--scenario", scenario});

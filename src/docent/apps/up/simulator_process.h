@@ -12,6 +12,7 @@ inline constexpr const char* kSimulatorProcess = "sim";
 struct SimulatorOptions {
   std::string crowd = "busy";  ///< empty, quiet, busy, packed
   std::string start;           ///< X,Y,DEG; empty: somewhere
+  std::string world;           ///< what is simulated, a museum's folder or its file; empty: the robot's own museum
   std::string scenario;        ///< file; empty: nothing special happens
   std::string mode = "open";
   bool has_cameras = true;

@@ -44,11 +44,14 @@ std::string describe_end(int status) {
 
 }  // namespace
 
-Supervisor::Supervisor(std::vector<ChildSpec> children, Log log, LifecycleParams params) : log_{std::move(log)} {
-  for (auto& spec : children) {
-    const bool has_health = spec.has_health;
-    children_.push_back({std::move(spec), Lifecycle{has_health, params}, 0, -1, {}, {}, {}});
-  }
+Supervisor::Supervisor(std::vector<ChildSpec> children, Log log, LifecycleParams params)
+    : log_{std::move(log)}, params_{params} {
+  for (auto& spec : children) children_.push_back(child_of(std::move(spec)));
+}
+
+Supervisor::Child Supervisor::child_of(ChildSpec spec) const {
+  const bool has_health = spec.has_health;
+  return {std::move(spec), Lifecycle{has_health, params_}, 0, -1, {}, {}, {}, false};
 }
 
 Supervisor::~Supervisor() { stop(); }
@@ -111,7 +114,9 @@ std::optional<std::string> Supervisor::reap(Child& child) {
   close(child.output);
   child.output = -1;
   child.pid = 0;
-  const std::string how = child.told_to_end ? "begins anew" : describe_end(status);
+  const std::string how = child.retires       ? "is not needed now"
+                          : child.told_to_end ? "begins anew"
+                                              : describe_end(status);
   child.life.ended(Clock::now(), how);
   return how;
 }
@@ -121,23 +126,36 @@ void Supervisor::collect(Child& child) {
   if (!how) return;
   if (child.life.starts() == 1 && *how == "exit code " + std::to_string(kExitBadConfiguration)) {
     if (!fatal_) fatal_ = child.last_line.empty() ? child.spec.name + " cannot start" : child.last_line;
-  } else {
+  } else if (!child.told_to_end) {
     log_(From::supervisor, child.spec.name, child.life.status(Clock::now()));
   }
 }
 
-void Supervisor::restart(const std::string& name, const std::vector<std::string>& command) {
+void Supervisor::tell_to_end(Child& child) {
+  if (child.pid <= 0) return;  // it takes its command when it starts
+  child.told_to_end = Clock::now();
+  signal_group(child, SIGTERM);
+  signal_group(child, SIGCONT);
+}
+
+void Supervisor::replace(const std::vector<ChildSpec>& children, const std::string& kept) {
   for (auto& child : children_) {
-    if (child.spec.name != name) continue;
-    child.spec.command = command;
-    if (child.pid <= 0) continue;  // it takes it when it starts
-    child.told_to_end = Clock::now();
-    signal_group(child, SIGTERM);
-    signal_group(child, SIGCONT);
+    if (child.spec.name == kept) continue;
+    const auto wanted =
+        std::find_if(children.begin(), children.end(), [&](const auto& spec) { return spec.name == child.spec.name; });
+    child.retires = wanted == children.end();
+    if (!child.retires) child.spec = *wanted;
+    tell_to_end(child);
+  }
+  for (const ChildSpec& spec : children) {
+    const bool is_there = std::any_of(children_.begin(), children_.end(),
+                                      [&](const Child& child) { return child.spec.name == spec.name; });
+    if (!is_there) children_.push_back(child_of(spec));
   }
 }
 
 void Supervisor::step() {
+  std::erase_if(children_, [](const Child& child) { return child.retires && child.pid <= 0; });
   for (auto& child : children_) {
     read_output(child);
     collect(child);
@@ -148,7 +166,7 @@ void Supervisor::step() {
         continue;
       }
       child.told_to_end.reset();
-      start(child);
+      if (!child.retires) start(child);
       continue;
     }
     switch (child.life.next(Clock::now())) {

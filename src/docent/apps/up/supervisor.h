@@ -37,8 +37,9 @@ class Supervisor {
 
   /// Starts what is due, collects who ended, passes on what they wrote.
   void step();
-  /// Ends that child in order; it starts again at once, with that command.
-  void restart(const std::string& name, const std::vector<std::string>& command);
+  /// From now on it is these: who is not among them ends in order, the others do and start again at once, with their
+  /// command; but for `kept`, which goes on as it is.
+  void replace(const std::vector<ChildSpec>& children, const std::string& kept);
   void heard(const std::string& name, pid_t pid, const std::string& state, const std::string& reason);
   /// SIGTERM to all, SIGKILL to those who are still there after `patience_s`. Blocks so long.
   void stop(double patience_s = 3.0);
@@ -64,8 +65,11 @@ class Supervisor {
     std::string partial_line;
     std::string last_line;
     std::optional<Clock::time_point> told_to_end{};  ///< since then it should end, to start again
+    bool retires = false;                            ///< and not start again
   };
   void start(Child& child);
+  void tell_to_end(Child& child);
+  [[nodiscard]] Child child_of(ChildSpec spec) const;
   void collect(Child& child);
   /// How it ended, once.
   std::optional<std::string> reap(Child& child);
@@ -74,6 +78,7 @@ class Supervisor {
 
   std::vector<Child> children_;
   Log log_;
+  LifecycleParams params_;
   std::optional<std::string> fatal_;
 };
 

@@ -60,7 +60,7 @@ TEST(Supervisor, WhoShallBeginAnewDoesSoAtOnceWithAnotherCommand) {
   ASSERT_TRUE(step_until(supervisor, [&] { return lines.count("one") == 1 && lines.count("b: b") == 1; }));
   const pid_t other = supervisor.status()[1].pid;
   const auto begun = Supervisor::Clock::now();
-  supervisor.restart("a", saying("two").command);
+  supervisor.replace({saying("two"), shell("b", "")}, "b");
   ASSERT_TRUE(step_until(supervisor, [&] { return lines.count("two") == 1; }));
   EXPECT_LT(Supervisor::Clock::now() - begun, 2s);
   EXPECT_EQ(lines.count("bye"), 1) << "it ended in order";
@@ -68,11 +68,27 @@ TEST(Supervisor, WhoShallBeginAnewDoesSoAtOnceWithAnotherCommand) {
   EXPECT_TRUE(is_alive(other));
 }
 
+TEST(Supervisor, OthersTakeThePlaceOfThoseWhoAreNotNeeded) {
+  Lines lines;
+  Supervisor supervisor{{shell("a", "echo a; exec sleep 100"), shell("b", "echo b; exec sleep 100")}, lines.log()};
+  ASSERT_TRUE(step_until(supervisor, [&] { return lines.count("a: a") == 1 && lines.count("b: b") == 1; }));
+  const pid_t gone = supervisor.status()[1].pid;
+  supervisor.replace({shell("a", "echo again; exec sleep 100"), shell("c", "echo c; exec sleep 100")}, "");
+  ASSERT_TRUE(step_until(supervisor, [&] {
+    return lines.count("a: again") == 1 && lines.count("c: c") == 1 && supervisor.status().size() == 2;
+  }));
+  EXPECT_EQ(supervisor.status()[1].name, "c");
+  EXPECT_FALSE(is_alive(gone));
+  supervisor.replace({shell("a", "echo third; exec sleep 100"), shell("b", "echo b; exec sleep 100")}, "");
+  EXPECT_TRUE(step_until(supervisor, [&] { return lines.count("b: b") == 2 && supervisor.status().size() == 2; }))
+      << "who was not needed may come back";
+}
+
 TEST(Supervisor, WhoDoesNotEndWhenToldIsKilledAndBeginsAnew) {
   Lines lines;
   Supervisor supervisor{{shell("a", "trap '' TERM; echo up; while :; do sleep 0.01; done")}, lines.log()};
   ASSERT_TRUE(step_until(supervisor, [&] { return lines.count("up") == 1; }));
-  supervisor.restart("a", {"/bin/sh", "-c", "echo again; exec sleep 100"});
+  supervisor.replace({shell("a", "echo again; exec sleep 100")}, "");
   EXPECT_TRUE(step_until(supervisor, [&] { return lines.count("again") == 1; }));
 }
 

@@ -1,235 +1,16 @@
 #include "docent/apps/up/up_command.h"
 
-#include <arpa/inet.h>
-#include <fcntl.h>
-#include <netinet/in.h>
-#include <sys/file.h>
-#include <sys/resource.h>
-#include <sys/socket.h>
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
 #include <memory>
 
 #include "docent/apps/shared/arguments.h"
 #include "docent/apps/shared/command.h"
-#include "docent/apps/shared/deployment.h"
-#include "docent/apps/up/simulator_process.h"
-#include "docent/apps/up/status_display.h"
-#include "docent/apps/up/supervisor.h"
-#include "docent/base/shipped_files.h"
-#include "docent/modules/host/registry.h"
-#include "docent/museum/editing/museum_workshop.h"
-#include "docent/recording/join_recordings.h"
-#include "docent/transport/dds_bus.h"
+#include "docent/apps/up/robot_run.h"
 
 namespace docent::apps {
-namespace {
-
-constexpr Duration kStep = std::chrono::milliseconds{50};
-constexpr Duration kShow = std::chrono::milliseconds{500};
-constexpr int kUrgent = -5;        // nice value
-constexpr double kPatience = 5.0;  // [s] for the modules to end in order
-
-struct UpOptions {
-  Deployment deployment;
-  bool simulate = false;
-  int port = 8080;
-  std::string record;
-  SimulatorOptions simulator;
-};
-
-std::filesystem::path recordings_folder(const UpOptions& options) {
-  return std::filesystem::path{options.deployment.state} / "recordings";
-}
-
-Result<void> check_port(int port) {
-  const int end = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  const int yes = 1;
-  setsockopt(end, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);  // as the web server does
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  address.sin_port = htons(static_cast<std::uint16_t>(port));
-  const bool is_free = bind(end, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
-  const std::string why = std::strerror(errno);
-  close(end);
-  if (!is_free) return fail("--port " + std::to_string(port) + ": " + why);
-  return {};
-}
-
-/// Held until the process ends: two robots would write the same checkpoints.
-Result<void> lock_state(const std::string& folder) {
-  const std::string path = folder + "/up.lock";
-  const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  if (file < 0) return fail(path + ": " + std::strerror(errno));
-  if (flock(file, LOCK_EX | LOCK_NB) != 0) return fail("--state " + folder + ": another `docent up` works there");
-  return {};
-}
-
-bool may_raise_priority() {
-  const int before = getpriority(PRIO_PROCESS, 0);
-  if (setpriority(PRIO_PROCESS, 0, before + kUrgent) != 0) return false;
-  setpriority(PRIO_PROCESS, 0, before);
-  return true;
-}
-
-/// Mode and speed limit, as the museum's staff would set them in the morning.
-Result<docent_msgs::Limits> limits_of(const UpOptions& options, const museum::Museum& museum,
-                                      const robot::RobotConfig& config) {
-  docent_msgs::Limits limits;
-  limits.mode = options.simulator.mode;
-  limits.max_speed = config.body().max_speed;
-  const auto mode = museum.modes.find(limits.mode);
-  if (mode != museum.modes.end()) {
-    limits.max_speed = std::min(limits.max_speed, mode->second.max_speed);
-  } else if (limits.mode != "open" && limits.mode != "hours") {
-    return fail("--mode " + limits.mode + ": the museum has no such mode");
-  }
-  return limits;
-}
-
-/// Everything that can be known to be wrong before a process is started.
-docent_msgs::Limits check(const UpOptions& options) {
-  const museum::Museum museum = value_or_fail(options.deployment.load());
-  const robot::RobotConfig config = value_or_fail(options.deployment.load_whole_config());
-  std::vector<std::string> sections;
-  for (const auto& entry : modules::all_modules()) sections.emplace_back(entry.name);
-  value_or_fail(config.check_sections(sections));
-  if (options.simulate) value_or_fail(check_simulator(options.deployment, options.simulator));
-  docent_msgs::Limits limits = value_or_fail(limits_of(options, museum, config));
-  value_or_fail(check_port(options.port));
-  value_or_fail(options.deployment.prepare_state());
-  value_or_fail(lock_state(options.deployment.state));
-  return limits;
-}
-
-/// @param museum  the folder in which they work
-std::vector<ChildSpec> children_of(const UpOptions& options, const std::string& museum) {
-  Deployment told = options.deployment;
-  told.museum = museum;
-  told.settings.push_back("web.port=" + std::to_string(options.port));
-  if (!options.record.empty()) {
-    told.settings.push_back("record.keep_files=10000");  // all of this run are needed at its end
-  }
-  const std::string program = program_path().string();
-  const auto command = [&](const std::string& name) {
-    std::vector<std::string> words{program, "run", name};
-    const auto arguments = told.arguments();
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    return words;
-  };
-  std::vector<ChildSpec> children;
-  // Where nobody may be put in front, the others step back.
-  const bool may_raise = may_raise_priority();
-  if (options.simulate) {
-    auto words = command(kSimulatorProcess);
-    const auto more = options.simulator.arguments();
-    words.insert(words.end(), more.begin(), more.end());
-    children.push_back({kSimulatorProcess, std::move(words), may_raise ? 0 : -kUrgent, false});
-  }
-  for (const auto& entry : modules::all_modules()) {
-    if (!modules::runs(entry, options.deployment.is_exploring())) continue;
-    const int niceness = entry.is_urgent ? (may_raise ? kUrgent : 0) : (may_raise ? 0 : -kUrgent);
-    children.push_back({entry.name, command(entry.name), niceness, true});
-  }
-  return children;
-}
-
-/// What was recorded since `before`, as one file.
-Result<void> keep_recording(const UpOptions& options, const std::set<std::filesystem::path>& before) {
-  const auto all = recording::recordings_in(recordings_folder(options));
-  std::vector<std::filesystem::path> files;
-  std::set_difference(all.begin(), all.end(), before.begin(), before.end(), std::back_inserter(files));
-  return recording::join_recordings(files, options.record);
-}
-
-/// For whoever stands beside it; empty: nothing new.
-std::string told_of(const docent_msgs::Exploration& now, const std::string& state_before) {
-  if (now.state == state_before) return {};
-  if (now.state != "done") return now.state;
-  char text[120];
-  std::snprintf(text, sizeof text, "done: %.0f m2 after %.0f m, %zu places not reached or not seen into; ",
-                static_cast<double>(now.known_m2), static_cast<double>(now.way_m), now.unreached_x.size());
-  return text + now.map + (now.warning.empty() ? "" : "; do not trust it: " + now.warning);
-}
-
-void tell_exploration(transport::Bus& bus, StatusDisplay& display) {
-  auto state = std::make_shared<std::string>();
-  bus.subscribe<docent_msgs::Exploration>(topics::kExploration, [state, &display](const docent_msgs::Exploration& now) {
-    if (const std::string told = told_of(now, *state); !told.empty()) display.log(LogLevel::info, "explore", told);
-    *state = now.state;
-  });
-}
-
-void up(const UpOptions& options) {
-  const docent_msgs::Limits limits = check(options);
-  const auto recorded_before = recording::recordings_in(recordings_folder(options));
-  block_end_signals();
-  const auto print = [](const std::string& text) {
-    std::fputs(text.c_str(), stdout);
-    std::fflush(stdout);
-  };
-  StatusDisplay display{isatty(STDOUT_FILENO) == 1, print, StatusDisplay::Clock::now()};
-  const auto log = [&](Supervisor::From from, const std::string& name, const std::string& line) {
-    if (from == Supervisor::From::child) return display.log_output(name, line);
-    display.log(LogLevel::error, name, line);
-  };
-  const auto bus = value_or_fail(
-      transport::DdsBus::create({options.deployment.domain, options.deployment.name,
-                                 [&](const std::string& text) { display.log(LogLevel::warning, "bus", text); }}));
-  Supervisor supervisor{children_of(options, options.deployment.museum), log};
-  bus->publisher(topics::kLimits).publish(limits);
-  bool is_announced = false;
-  bus->subscribe<docent_msgs::Health>(topics::kHealth, [&](const docent_msgs::Health& health) {
-    supervisor.heard(health.module, health.pid, health.state, health.reason);
-    if (!is_announced && health.module == "web" && health.state != "starting") {
-      is_announced = true;
-      display.log(LogLevel::info, "web", "open http://127.0.0.1:" + std::to_string(options.port) + "/");
-    }
-  });
-  tell_exploration(*bus, display);
-  bus->subscribe<docent_msgs::MuseumMoved>(topics::kMuseumMoved, [&](const docent_msgs::MuseumMoved& moved) {
-    const std::string trial = museum::trial_folder(options.deployment.state).string();
-    const std::string& folder = moved.is_trial ? trial : options.deployment.museum;
-    // Whoever sends this: where nothing can work, all would be lost.
-    if (const auto known = museum::load_museum(folder); !known)
-      return display.log(LogLevel::error, "museum", known.error().message);
-    display.log(LogLevel::info, "museum", moved.is_trial ? "the robot tries a draft" : "the museum is read again");
-    // The simulated world stays as it is: people change what the robot knows of it.
-    for (const ChildSpec& child : children_of(options, folder))
-      if (child.name != kSimulatorProcess) supervisor.restart(child.name, child.command);
-  });
-  std::stop_source stop;
-  bus->every(kStep, [&] {
-    supervisor.step();
-    if (supervisor.fatal() || wait_for_end_signal(0.0) != 0) stop.request_stop();
-  });
-  bus->every(kShow, [&] { display.show(supervisor.status(), StatusDisplay::Clock::now()); });
-  bus->run(stop.get_token());
-  display.show(supervisor.status(), StatusDisplay::Clock::now());
-  display.finish();
-  supervisor.stop(kPatience);
-  if (supervisor.fatal()) {
-    const std::string own_name = "docent: ";
-    const std::string& line = *supervisor.fatal();
-    throw CommandFailed{line.starts_with(own_name) ? line.substr(own_name.size()) : line, kExitBadConfiguration};
-  }
-  if (!options.record.empty()) {
-    value_or_fail(keep_recording(options, recorded_before));
-    display.log(LogLevel::info, "record", "the recording is " + options.record);
-  }
-}
-
-}  // namespace
 
 void add_up_command(CLI::App& app) {
-  auto options = std::make_shared<UpOptions>();
+  auto options = std::make_shared<RobotRun>();
   CLI::App* command = app.add_subcommand("up", "Run the robot: every module as a process, watched and restarted");
   options->deployment.add_options(*command);
   command->add_flag("--sim", options->simulate, "Simulate the museum, its visitors and the robot's body");
@@ -240,12 +21,12 @@ void add_up_command(CLI::App& app) {
       ->check(output_file());
   options->simulator.add_options(*command->add_option_group("With --sim"));
   command->callback([options, command] {
-    for (const std::string option : {"--crowd", "--start", "--scenario", "--requests-per-hour"})
+    for (const std::string option : {"--crowd", "--start", "--world", "--scenario", "--requests-per-hour"})
       if (!options->simulate && command->count(option) > 0)
         throw CommandFailed{option + " is of a simulated museum: it needs --sim", 2};
     // A real museum keeps its hours; a simulated one is open whenever somebody looks.
     if (!options->simulate && command->count("--mode") == 0) options->simulator.mode = "hours";
-    up(*options);
+    run_robot(*options);
   });
 }
 

@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "docent/base/files.h"
+#include "docent/localization/belief/checkpoint.h"
 #include "docent/mapping/graph_mapping/graph_mapping.h"
+#include "docent/mapping/occupancy/stray_floor.h"
 #include "docent/modules/exploration/exploration_drive.h"
 #include "docent/modules/exploration/keyframes.h"
 #include "docent/modules/exploration/people_seen.h"
@@ -18,7 +20,10 @@ namespace {
 
 constexpr Duration kTargetPeriod = std::chrono::milliseconds{200};
 constexpr Duration kPlanPeriod = std::chrono::seconds{1};
-constexpr Duration kMapPeriod = std::chrono::seconds{5};
+constexpr Duration kMapPeriod = std::chrono::seconds{2};
+constexpr Duration kCheckpointAge = std::chrono::seconds{60};  // as localize takes one
+constexpr double kCheckpointWay = 5.0;                         // [m] that odometry may have gone on meanwhile
+constexpr const char* kMapHash = "exploration";
 constexpr std::size_t kMomentsAPlan = 100;  // drawn anew in a second
 constexpr std::size_t kMomentsAPiece = 20;  // of the way, some four metres: see ScanMapper::end_piece
 
@@ -30,9 +35,11 @@ struct ExploreParams {
   mapping::GraphMapperParams mapping;
   /// Free is what two sweeps at least have passed: a single beam may have lost its echo.
   mapping::ScanMapperParams map{.reach = 12.0, .empty_reach = 5.0, .free = 0.25, .fewest_hits = 2};
-  double least_sigma = 0.04;    ///< [m], > 0: the pose is never known better, nor
-  double most_sigma = 0.08;     ///< [m]: believed to be worse: hazards that are marked would close the building
-  double sigma_heading = 0.02;  ///< [rad], > 0
+  double least_sigma = 0.04;     ///< [m], > 0: the pose is never known better, nor
+  double most_sigma = 0.08;      ///< [m]: believed to be worse: hazards that are marked would close the building
+  double sigma_heading = 0.02;   ///< [rad], > 0
+  double stray_floor = 0.5;      ///< [m2], >= 0: less free floor than that in one piece was seen by stray beams
+  bool waits_for_order = false;  ///< stands until a technician says who drives
   template <class V>
   void visit(V& v) {
     v("keyframes", keyframes);
@@ -43,9 +50,12 @@ struct ExploreParams {
     v("least_sigma", least_sigma);
     v("most_sigma", most_sigma);
     v("sigma_heading", sigma_heading);
+    v("stray_floor", stray_floor);
+    v("waits_for_order", waits_for_order);
   }
   [[nodiscard]] Result<void> validate() const {
     if (!(least_sigma > 0.0 && least_sigma <= most_sigma)) return fail("0 < least_sigma <= most_sigma must hold");
+    if (!(stray_floor >= 0.0)) return fail("stray_floor must be >= 0");
     if (!(sigma_heading > 0.0)) return fail("sigma_heading must be > 0");
     if (auto valid = keyframes.validate(); !valid) return fail("keyframes." + valid.error().message);
     if (auto valid = explorer.validate(); !valid) return fail("explorer." + valid.error().message);
@@ -70,6 +80,8 @@ class ExploreModule final : public Module {
       : bus_{context.bus},
         params_{params},
         folder_{context.state / "explored"},
+        checkpoint_path_{context.state / "explore.yaml"},
+        localizers_checkpoint_path_{context.state / "localize.yaml"},
         home_{context.museum.home},
         keyframes_{params.keyframes, params.mapping.points, context.config.body().scanners},
         mapping_{params.mapping},
@@ -84,13 +96,17 @@ class ExploreModule final : public Module {
         static_map_{bus_.publisher(topics::kStaticMap)},
         path_{bus_.publisher(topics::kPath)},
         person_beams_{bus_.publisher(topics::kPersonBeams)},
-        exploration_{bus_.publisher(topics::kExploration)} {
+        exploration_{bus_.publisher(topics::kExploration)},
+        order_{params.waits_for_order ? ExplorationOrder::wait : ExplorationOrder::by_itself} {
+    restore();
     bus_.subscribe<docent_msgs::People>(topics::kPeopleInOdom, [this](const auto& people) { people_.note(people); });
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry,
                                        [this](const auto& odometry) { pose_.on_odometry(odometry); });
     subscribe_scanners(bus_, context.config.body(), [this](std::size_t i, const auto& scan) { see(i, scan); });
     bus_.subscribe<docent_msgs::Stop>(topics::kStop, [this](const auto& stop) { is_stopped_ = stop.is_stopped; });
     bus_.subscribe<docent_msgs::Steering>(topics::kSteering, [this](const auto&) { steered_ = bus_.now(); });
+    bus_.subscribe<docent_msgs::ExplorationOrder>(
+        topics::kExplorationOrder, [this](const auto& order) { obey(parse<ExplorationOrder>(order.order)); });
     bus_.every(kTargetPeriod, [this] { aim(); });
     bus_.every(kPlanPeriod, [this] { plan(); });
     bus_.every(kMapPeriod, [this] { publish_map(map_.map()); });
@@ -120,7 +136,7 @@ class ExploreModule final : public Module {
     auto frame = keyframes_.take(pose_, people_.walkers());
     if (!frame) return;
     const Pose2 odom_from_base = frame->scan.odom_from_base;
-    if (!start_from_odom_) start_from_odom_ = home_ * inverse(odom_from_base);
+    if (!start_from_odom_) start_from_odom_ = start_of(odom_from_base);
     frame->scan.odom_from_base = *start_from_odom_ * odom_from_base;
     if (last_odom_) way_m_ += distance(last_odom_->position(), odom_from_base.position());
     last_odom_ = odom_from_base;
@@ -170,8 +186,56 @@ class ExploreModule final : public Module {
     belief_.publish(std::move(belief));
   }
 
+  /// Where it is in the frame of its map: where it was before this module began anew, or at its start.
+  [[nodiscard]] Pose2 start_of(const Pose2& odom_from_base) const {
+    if (!restored_ || distance(restored_->odom_from_robot.position(), odom_from_base.position()) > kCheckpointWay)
+      return home_ * inverse(odom_from_base);
+    return restored_->modes.front().map_from_robot * inverse(restored_->odom_from_robot);
+  }
+
+  /// Marks that people have made in the frame of the map hold as long as the frame does.
+  void restore() {
+    auto checkpoint = localization::load_localizer_checkpoint(checkpoint_path_);
+    if (!checkpoint || checkpoint->map_hash != kMapHash || checkpoint->modes.empty()) return;
+    if (bus_.now() - checkpoint->time <= kCheckpointAge && bus_.now() >= checkpoint->time) restored_ = *checkpoint;
+  }
+
+  /// For itself; and for localize, when it is to go on in the map that was made.
+  void save_pose() const {
+    const auto here = map_from_base();
+    if (!here) return;
+    localization::BeliefMode mode;
+    mode.map_from_robot = *here;
+    const double variance = params_.most_sigma * params_.most_sigma;
+    mode.covariance = {variance, 0, 0, 0, variance, 0, 0, 0, params_.sigma_heading * params_.sigma_heading};
+    mode.mass = 1.0;
+    localization::LocalizerCheckpoint checkpoint{kMapHash, bus_.now(), *pose_.odom_from_base(), {mode}};
+    // A checkpoint that cannot be written costs a search, nothing else.
+    (void)localization::save_localizer_checkpoint(checkpoint, checkpoint_path_);
+    if (finished_map_.empty()) return;
+    checkpoint.map_hash = finished_map_;
+    (void)localization::save_localizer_checkpoint(checkpoint, localizers_checkpoint_path_);
+  }
+
+  void obey(std::optional<ExplorationOrder> order) {
+    if (!order || is_done_) return;
+    order_ = *order;
+    if (order_ == ExplorationOrder::finish && map_from_odom_) end();
+    aim();
+    publish_state();
+  }
+
+  /// No more is seen; when it stands, the map is made.
+  void end() {
+    is_done_ = true;
+    aim();
+    publish_state();
+    bus_.after(seconds(1.0), [this] { finish(); });
+  }
+
   void plan() {
     const auto here = map_from_base();
+    save_pose();
     if (!here || is_done_) return;
     if (mapping_.revision() != revision_) {
       revision_ = mapping_.revision();
@@ -179,18 +243,16 @@ class ExploreModule final : public Module {
     }
     map_.work(kMomentsAPlan);
     constexpr Duration kAfterSteering = std::chrono::seconds{3};
+    if (order_ == ExplorationOrder::finish) return end();
     const bool waits = is_stopped_ || (steered_ && bus_.now() - *steered_ < kAfterSteering);
     grid_ = map_.map();
     const OccupancyGrid& map = grid_;
     known_m2_ = free_area(map);
-    drive_.plan(map, here->position(), waits, bus_.now());
-    if (drive_.state() == ExplorationDrive::State::arrived) {
-      is_done_ = true;
-      aim();
-      publish_state();
-      bus_.after(seconds(1.0), [this] { finish(); });  // when it stands
+    if (order_ == ExplorationOrder::by_itself) {
+      drive_.plan(map, here->position(), waits, bus_.now());
+      if (drive_.state() == ExplorationDrive::State::arrived) end();
+      publish_path();
     }
-    publish_path();
     publish_state();
   }
 
@@ -203,7 +265,7 @@ class ExploreModule final : public Module {
     target.mode = to_text(DriveMode::stop);
     target.position_tolerance = 0.1;
     const auto here = map_from_base();
-    if (here && !is_done_) {
+    if (here && !is_done_ && order_ == ExplorationOrder::by_itself) {
       const auto ahead = drive_.ahead(here->position());
       if (!ahead.via.empty()) {
         const Pose2 odom_from_map = inverse(*map_from_odom_);
@@ -239,7 +301,8 @@ class ExploreModule final : public Module {
     }
     mapper.end_piece();
     for (const Pose2& pose : result.map_from_base) mapper.stand(pose.position(), params_.explorer.robot_radius);
-    const OccupancyGrid map = mapper.map();
+    OccupancyGrid map = mapper.map();
+    mapping::forget_stray_floor(map, params_.stray_floor);
     if (auto saved = save(map, result.map_from_base); !saved) {
       fault_ = saved.error().message;
       return;
@@ -247,6 +310,8 @@ class ExploreModule final : public Module {
     known_m2_ = free_area(map);
     unreached_ = drive_.explorer().unreached(map);
     file_ = (folder_ / "map.yaml").string();
+    if (const auto written = load_map(file_)) finished_map_ = map_hash(*written);
+    save_pose();
     publish_map(map);
     publish_state();
   }
@@ -298,12 +363,14 @@ class ExploreModule final : public Module {
     }
     state.map = file_;
     state.warning = warning_;
+    state.order = to_text(order_);
     exploration_.publish(std::move(state));
   }
 
   transport::Bus& bus_;
   ExploreParams params_;
   std::filesystem::path folder_;
+  std::filesystem::path checkpoint_path_, localizers_checkpoint_path_;
   Pose2 home_;
   Keyframes keyframes_;
   mapping::GraphMapping mapping_;
@@ -315,6 +382,9 @@ class ExploreModule final : public Module {
   transport::Publisher<nav_msgs::Path> path_;
   transport::Publisher<docent_msgs::PersonBeams> person_beams_;
   transport::Publisher<docent_msgs::Exploration> exploration_;
+  ExplorationOrder order_;
+  std::optional<localization::LocalizerCheckpoint> restored_;  ///< where it was before it began anew
+  std::string finished_map_;                                   ///< its hash; empty: it is not made yet
   PeopleSeen people_;
   OccupancyGrid grid_;  ///< of a second ago at most
   PoseTracker pose_;

@@ -85,5 +85,36 @@ TEST_F(ExploreModule, KnowsWhereItBeganMapsTheRoomAndSavesIt) {
   EXPECT_EQ(target.mode, "stop");
 }
 
+TEST_F(ExploreModule, WaitsForATechnicianWhereItIsTold) {
+  ASSERT_TRUE(config.set("explore.waits_for_order=true"));
+  start();
+  for (int i = 0; i < 30; ++i) sense(museum.home);
+  EXPECT_EQ(exploration.order, "wait");
+  EXPECT_EQ(target.mode, "stop") << "nobody has said that it may drive";
+  world->publisher(topics::kExplorationOrder).publish({{}, "by_hand"});
+  for (int i = 0; i < 30; ++i) sense(museum.home * Pose2{0.08 * i, 0.0, {}});
+  EXPECT_EQ(exploration.order, "by_hand");
+  EXPECT_EQ(target.mode, "stop") << "a hand drives it";
+  EXPECT_EQ(exploration.state, "exploring") << "it does not end by itself";
+  world->publisher(topics::kExplorationOrder).publish({{}, "finish"});
+  for (int i = 0; i < 30; ++i) sense(museum.home * Pose2{0.08 * 29, 0.0, {}});
+  EXPECT_EQ(exploration.state, "done");
+  EXPECT_TRUE(std::filesystem::exists(state / "explored" / "map.yaml"));
+  EXPECT_TRUE(std::filesystem::exists(state / "localize.yaml")) << "localize goes on from there";
+}
+
+TEST_F(ExploreModule, KeepsTheFrameOfItsMapWhenItBeginsAnew) {
+  start();
+  for (int i = 0; i < 40; ++i) sense(museum.home * Pose2{0.05 * i, 0.0, {}});
+  start();
+  sense(museum.home * Pose2{0.05 * 39, 0.0, {}});
+  EXPECT_NEAR(belief.hypotheses.front().x, 1.5 + 0.05 * 39, 0.1) << "marks that people have made hold";
+  kill();
+  run(90.0);  // put away: nobody knows where it stands now
+  start();
+  sense(museum.home * Pose2{0.05 * 39, 0.0, {}});
+  EXPECT_NEAR(belief.hypotheses.front().x, 1.5, 1e-6);
+}
+
 }  // namespace
 }  // namespace docent::modules

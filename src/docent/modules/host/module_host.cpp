@@ -31,7 +31,7 @@ Result<std::unique_ptr<ModuleHost>> ModuleHost::create(const ModuleEntry& entry,
   const auto checked_robot = checked_robot_of_plan(config);
   if (!checked_robot) return tl::unexpected<Error>(checked_robot.error());
   auto module = entry.make({*host->bus_, museum, config, options.state, options.seed, options.virtual_time,
-                            options.truth, options.day_begins, options.cache, *checked_robot});
+                            options.truth, options.day_begins, options.cache, options.is_setup, *checked_robot});
   if (!module) return tl::unexpected<Error>(module.error());
   host->module_ = std::move(*module);
   host->bus_->every(kHealthPeriod, [raw = host.get()] { raw->publish_health(); });

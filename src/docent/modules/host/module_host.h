@@ -19,6 +19,7 @@ class ModuleHost {
     transport::Bus* truth = nullptr;               ///< see ModuleContext; outlives the host
     Duration day_begins = std::chrono::hours{10};  ///< see ModuleContext
     std::filesystem::path cache{};                 ///< likewise
+    bool is_setup = false;                         ///< likewise
   };
   /// Error: what the module's factory says of the configuration.
   [[nodiscard]] static Result<std::unique_ptr<ModuleHost>> create(const ModuleEntry& entry,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "docent/grid/occupancy_grid.h"
 #include "docent/messages/conversions.h"
 #include "docent/messages/standard_messages.h"
@@ -15,6 +17,19 @@ namespace docent::modules {
   info.height = static_cast<std::uint32_t>(frame.rows);
   info.origin = to_message(Pose2{frame.origin.x, frame.origin.y, {}});
   return info;
+}
+
+/// The grid of a message; nothing where its cells are not as many as it says.
+[[nodiscard]] inline std::optional<OccupancyGrid> grid_of(const nav_msgs::OccupancyGrid& message) {
+  const auto& info = message.info;
+  OccupancyGrid grid;
+  grid.frame = {static_cast<int>(info.width),
+                static_cast<int>(info.height),
+                static_cast<double>(info.resolution),
+                {info.origin.position.x, info.origin.position.y}};
+  if (message.data.size() != std::size_t{info.width} * info.height) return std::nullopt;
+  grid.cells = message.data;
+  return grid;
 }
 
 }  // namespace docent::modules

@@ -27,7 +27,9 @@ struct ModuleContext {
   transport::Bus* truth = nullptr;
   Duration day_begins = std::chrono::hours{10};  ///< the time of day at which virtual time begins
   std::filesystem::path cache{};                 ///< --cache DIR: what can be made anew; empty: nothing is kept
-  museum::CheckedRobot checked_robot{};          ///< for which a museum is checked: that for which `plan` plans
+  /// The museum is being set up, and `web` has the page for it.
+  bool is_setup = false;
+  museum::CheckedRobot checked_robot{};  ///< for which a museum is checked: that for which `plan` plans
 };
 
 struct ModuleHealth {

@@ -22,7 +22,8 @@ enum Slot : int {
   kOperation,
   kField,
   kLog,
-  kMaps
+  kMaps,
+  kExploration
 };
 
 }  // namespace docent::modules

@@ -20,12 +20,13 @@
 #include "docent/modules/web/inside_desk.h"
 #include "docent/modules/web/live_desk.h"
 #include "docent/modules/web/operators/maps_desk.h"
-#include "docent/modules/web/operators/museum_desk.h"
+#include "docent/modules/web/operators/offices.h"
 #include "docent/modules/web/operators/operator_desk.h"
 #include "docent/modules/web/screen_desk.h"
 #include "docent/modules/web/slots.h"
 #include "docent/modules/web/vote_desk.h"
 #include "docent/modules/web/web_params.h"
+#include "docent/modules/web/web_store.h"
 #include "docent/modules/web/wish_desk.h"
 #include "docent/telepresence/api/desk.h"
 #include "docent/telepresence/live_encoding.h"
@@ -74,10 +75,11 @@ class WebModule final : public Module {
     auto params = context.config.section<WebParams>("web");
     if (!params) return tl::unexpected<Error>(params.error());
     const std::string where = params->database.empty() ? (context.state / "web.sqlite").string() : params->database;
-    auto store = Store::open(where);
+    auto store = WebStore::open(where);
     if (!store) return tl::unexpected<Error>(store.error());
-    auto museum_desk = std::make_unique<MuseumDesk>(context);
-    auto desk = telepresence::Desk::open(where, params->api, params->forum, wall_clock, {}, museum_desk->office());
+    Offices offices{context};
+    auto desk = telepresence::Desk::open(where, params->api, params->forum, wall_clock, {}, offices.museum->office(),
+                                         offices.setup->office());
     if (!desk) return tl::unexpected<Error>(desk.error());
     auto map = telepresence::encode_map_png(context.museum.map);
     if (!map) return tl::unexpected<Error>(map.error());
@@ -87,7 +89,7 @@ class WebModule final : public Module {
     if (!uplink_key) return tl::unexpected<Error>(uplink_key.error());
 
     std::unique_ptr<WebModule> module{
-        new WebModule{context, *params, std::move(*store), std::move(museum_desk), std::move(*desk)}};
+        new WebModule{context, *params, std::move(*store), std::move(offices), std::move(*desk)}};
     if (auto filled = module->fill_site(context, std::move(*map)); !filled)
       return tl::unexpected<Error>(filled.error());
     auto server =
@@ -107,32 +109,15 @@ class WebModule final : public Module {
   }
 
  private:
-  /// What lies in the database, on the bus's thread.
-  struct Store {
-    std::unique_ptr<telepresence::Database> database;
-    std::unique_ptr<telepresence::Outbox> outbox;
-    std::unique_ptr<telepresence::TourVotes> votes;
-    std::unique_ptr<telepresence::Statistics> statistics;
-    static Result<Store> open(const std::string& where) {
-      auto database = telepresence::Database::open(where);
-      if (!database) return tl::unexpected<Error>(database.error());
-      auto outbox = telepresence::Outbox::open(**database);
-      if (!outbox) return tl::unexpected<Error>(outbox.error());
-      auto votes = telepresence::TourVotes::open(**database);
-      if (!votes) return tl::unexpected<Error>(votes.error());
-      auto statistics = telepresence::Statistics::open(**database);
-      if (!statistics) return tl::unexpected<Error>(statistics.error());
-      return Store{std::move(*database), std::move(*outbox), std::move(*votes), std::move(*statistics)};
-    }
-  };
-
-  WebModule(const ModuleContext& context, WebParams params, Store store, std::unique_ptr<MuseumDesk> museum_desk,
+  WebModule(const ModuleContext& context, WebParams params, WebStore store, Offices offices,
             std::shared_ptr<telepresence::Desk> desk)
       : bus_{context.bus},
         museum_{context.museum},
         params_{std::move(params)},
         database_{std::move(store.database)},
-        museum_desk_{std::move(museum_desk)},
+        site_{std::move(offices.site)},
+        museum_desk_{std::move(offices.museum)},
+        setup_desk_{std::move(offices.setup)},
         desk_{std::move(desk)},
         wishes_{bus_, std::move(store.outbox), telepresence::Database::is_shared(params_.database)},
         choices_{bus_.publisher(topics::kChoice)},
@@ -202,6 +187,7 @@ class WebModule final : public Module {
     live_.begin(*server_);
     inside_.begin(*server_);
     maps_.begin(*server_, kMaps);
+    setup_desk_->begin(*server_, kExploration);
     const std::scoped_lock lock{shared_mutex_};
     figures_from_ = server_.get();
   }
@@ -272,7 +258,7 @@ class WebModule final : public Module {
 
   void show_operation() {
     const auto document = operator_.document();
-    museum_desk_->see_stop(document.is_stopped);
+    museum_desk_->see(document);
     std::string text = telepresence::json_text(document);
     if (std::exchange(operation_, text) != text) server_->broadcast(kOperation, std::move(text));
   }
@@ -407,7 +393,9 @@ class WebModule final : public Module {
   const WebParams params_;
   std::string reason_;  ///< what is wrong since the start
   std::unique_ptr<telepresence::Database> database_;
-  std::unique_ptr<MuseumDesk> museum_desk_;  // outlives the desk, which works in it
+  std::shared_ptr<telepresence::Site> site_;
+  std::unique_ptr<MuseumDesk> museum_desk_;  // these two outlive the desk, which works in them
+  std::unique_ptr<SetupDesk> setup_desk_;
   std::shared_ptr<telepresence::Desk> desk_;
   WishDesk wishes_;
   transport::Publisher<docent_msgs::Choice> choices_;
@@ -417,7 +405,6 @@ class WebModule final : public Module {
   CountDesk counts_;
   MuseumMode mode_;
   std::string hours_;  ///< as they were shown last
-  std::shared_ptr<telepresence::Site> site_ = std::make_shared<telepresence::Site>();
   CameraDesk cameras_{bus_, site_};
   FoxgloveDesk foxglove_;
   LiveDesk live_;

@@ -14,6 +14,7 @@ namespace docent::museum {
 namespace {
 
 using Lines = std::vector<std::string>;
+using museum::yaml_of;  // beside those of this file
 
 /// To the last of `digits`, without zeros at its end.
 std::string number(double value, int digits) {
@@ -33,9 +34,6 @@ std::string quoted(const std::string& text) {
 }
 
 std::string yaml_of(Point2 point) { return "{x: " + metres(point.x) + ", y: " + metres(point.y) + "}"; }
-std::string yaml_of(const Pose2& pose) {
-  return "{x: " + metres(pose.x) + ", y: " + metres(pose.y) + ", heading: " + number(pose.theta.degrees(), 1) + "}";
-}
 
 /// [a, b, c]
 template <class List, class Write>
@@ -43,17 +41,6 @@ std::string in_brackets(const List& list, Write write) {
   std::string text;
   for (const auto& item : list) text += (text.empty() ? "" : ", ") + write(item);
   return "[" + text + "]";
-}
-std::string yaml_of(const Polygon& polygon) {
-  return in_brackets(polygon, [](Point2 corner) { return "[" + metres(corner.x) + ", " + metres(corner.y) + "]"; });
-}
-std::string yaml_of(const Hazard& hazard) {
-  return "{id: " + hazard.id + ", kind: " + to_text(hazard.kind) + ", polygon: " + yaml_of(hazard.polygon) + "}";
-}
-std::string yaml_of(const Translations& texts) {
-  std::string text;
-  for (const auto& [language, words] : texts) text += (text.empty() ? "" : ", ") + language + ": " + quoted(words);
-  return "{" + text + "}";
 }
 std::string yaml_of(const std::vector<std::string>& words) { return in_brackets(words, quoted); }
 
@@ -301,6 +288,24 @@ Result<MuseumSource> read_back(const std::string& yaml, const FolderFiles& texts
 }
 
 }  // namespace
+
+std::string yaml_of(const Pose2& pose) {
+  return "{x: " + metres(pose.x) + ", y: " + metres(pose.y) + ", heading: " + number(pose.theta.degrees(), 1) + "}";
+}
+
+std::string yaml_of(const Polygon& polygon) {
+  return in_brackets(polygon, [](Point2 corner) { return "[" + metres(corner.x) + ", " + metres(corner.y) + "]"; });
+}
+
+std::string yaml_of(const Hazard& hazard) {
+  return "{id: " + hazard.id + ", kind: " + to_text(hazard.kind) + ", polygon: " + yaml_of(hazard.polygon) + "}";
+}
+
+std::string yaml_of(const Translations& texts) {
+  std::string text;
+  for (const auto& [language, words] : texts) text += (text.empty() ? "" : ", ") + language + ": " + quoted(words);
+  return "{" + text + "}";
+}
 
 Result<EditedMuseum> edit_museum(const std::string& yaml, const ReadText& read_text, const MuseumDraft& draft) {
   const auto file = YamlFile::parse(yaml, kMuseumFile);

@@ -16,6 +16,12 @@ inline constexpr const char* kMuseumFile = "museum.yaml";
 /// Files of a museum's folder, named relative to it, with their content.
 using FolderFiles = std::map<std::filesystem::path, std::string>;
 
+/// As it is written in museum.yaml: to the millimetre and a tenth of a degree.
+[[nodiscard]] std::string yaml_of(const Pose2& pose);
+[[nodiscard]] std::string yaml_of(const Polygon& polygon);
+[[nodiscard]] std::string yaml_of(const Hazard& hazard);
+[[nodiscard]] std::string yaml_of(const Translations& texts);
+
 struct EditedMuseum {
   FolderFiles files;          ///< those that change
   std::vector<Error> faults;  ///< of form, that the draft has; then nothing should be written

@@ -30,7 +30,6 @@ std::string revision_of(const std::string& text) {
   return digits.data();
 }
 
-/// "/a/folder/museum.yaml:12: home lies …" without the file, which people on the page do not see.
 std::string sentence_of(const Error& fault) {
   const std::string& text = fault.message;
   const auto file = text.find(kMuseumFile);
@@ -39,16 +38,16 @@ std::string sentence_of(const Error& fault) {
   return end == std::string::npos ? text : text.substr(end + 2);
 }
 
+}  // namespace
+
 std::vector<std::string> sentences_of(const std::vector<Error>& faults) {
   std::vector<std::string> sentences;
   for (const Error& fault : faults) sentences.push_back(sentence_of(fault));
   return sentences;
 }
 
-}  // namespace
-
-MuseumWorkshop::MuseumWorkshop(fs::path folder, fs::path trial, const CheckedRobot& robot)
-    : folder_{std::move(folder)}, trial_{std::move(trial)}, published_{folder_}, robot_{robot} {
+MuseumWorkshop::MuseumWorkshop(fs::path folder, fs::path trial, const CheckedRobot& robot, Stage stage)
+    : folder_{std::move(folder)}, trial_{std::move(trial)}, published_{folder_}, robot_{robot}, stage_{stage} {
   std::error_code error;
   if (!fs::equivalent(folder_, trial_, error) || error) return;
   auto original = read_file(trial_ / kOriginal);
@@ -117,7 +116,7 @@ Result<std::vector<std::string>> MuseumWorkshop::check(const fs::path& where, co
   if (!edited) return tl::unexpected<Error>(edited.error());
   if (!edited->faults.empty()) return sentences_of(edited->faults);
   if (auto laid = lay_out(where, edited->files); !laid) return tl::unexpected<Error>(laid.error());
-  return sentences_of(check_museum(where, robot_));
+  return sentences_of(check_museum(where, robot_, stage_));
 }
 
 Result<std::vector<std::string>> MuseumWorkshop::check(const MuseumDraft& draft) const {

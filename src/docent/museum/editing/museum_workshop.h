@@ -13,6 +13,9 @@ namespace docent::museum {
 /// Where a robot that keeps its state in `state` has the trial of a museum.
 [[nodiscard]] inline std::filesystem::path trial_folder(const std::filesystem::path& state) { return state / "trial"; }
 
+/// "/a/folder/museum.yaml:12: home lies …" without the file, which people on the page do not see.
+[[nodiscard]] std::vector<std::string> sentences_of(const std::vector<Error>& faults);
+
 /// Where a museum is changed: people work on a draft of it, have it checked, let the robot try it, and publish it into
 /// the museum's folder. A trial is a folder beside it, in which the robot finds the museum as the draft has it; all
 /// that the draft leaves alone are links. Not thread-safe.
@@ -20,7 +23,9 @@ class MuseumWorkshop {
  public:
   /// @param folder  of the museum in which the robot is now: the published one, or the trial
   /// @param trial   where a trial is laid out; made when there is one, replaced by the next
-  MuseumWorkshop(std::filesystem::path folder, std::filesystem::path trial, const CheckedRobot& robot);
+  /// @param stage   of the museum: one that is being set up may be published without an exhibit
+  MuseumWorkshop(std::filesystem::path folder, std::filesystem::path trial, const CheckedRobot& robot,
+                 Stage stage = Stage::complete);
 
   /// The robot finds its way in a trial.
   [[nodiscard]] bool is_trial() const { return is_trial_; }
@@ -61,6 +66,7 @@ class MuseumWorkshop {
   std::filesystem::path folder_, trial_, published_;
   bool is_trial_ = false;
   CheckedRobot robot_;
+  Stage stage_;
 };
 
 }  // namespace docent::museum

@@ -29,10 +29,12 @@ Desk::Desk(ApiServices store, ApiServices passwords, const ApiParams& params, Cl
 
 Result<std::unique_ptr<Desk>> Desk::open(const std::string& database, const ApiParams& params, const ForumParams& forum,
                                          Clock clock, const PasswordCost& cost,
-                                         std::shared_ptr<const MuseumOffice> museum) {
+                                         std::shared_ptr<const MuseumOffice> museum,
+                                         std::shared_ptr<const SetupOffice> setup) {
   auto store = ApiServices::open(database, params, forum, cost);
   if (!store) return tl::unexpected<Error>(store.error());
   store->museum = std::move(museum);
+  store->setup = std::move(setup);
   auto passwords = ApiServices::open(database, params, forum, cost);
   if (!passwords) return tl::unexpected<Error>(passwords.error());
   return std::unique_ptr<Desk>{new Desk{std::move(*store), std::move(*passwords), params, std::move(clock)}};

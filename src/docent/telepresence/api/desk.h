@@ -20,10 +20,12 @@ class Desk final : public ApiDesk {
   /// Error: the database cannot be opened.
   /// @param clock   since 1970; any thread may call it
   /// @param museum  what operators may change; null: nothing. Only the desk's own thread uses it
+  /// @param setup   where a museum is set up; null: nowhere. Likewise
   [[nodiscard]] static Result<std::unique_ptr<Desk>> open(const std::string& database, const ApiParams& params,
                                                           const ForumParams& forum, Clock clock,
                                                           const PasswordCost& cost = {},
-                                                          std::shared_ptr<const MuseumOffice> museum = nullptr);
+                                                          std::shared_ptr<const MuseumOffice> museum = nullptr,
+                                                          std::shared_ptr<const SetupOffice> setup = nullptr);
 
   void take(ApiRequest request, std::function<void(ApiReply)> answer) override;
   void admit(std::string token, std::function<void(std::optional<std::string>)> answer) override;

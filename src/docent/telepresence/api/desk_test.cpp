@@ -338,5 +338,52 @@ TEST_F(TheMuseumDesk, NamesWhatCannotWork) {
   EXPECT_TRUE(moves_.empty());
 }
 
+TEST_F(TheMuseumDesk, SetsUpNothingWhereNothingIsSetUp) {
+  const ApiReply reply = call(ada_, "GET", "/setup");
+  EXPECT_EQ(reply.status, 404);
+  EXPECT_EQ(reason(call(ada_, "PUT", "/setup/step", R"({"step":"tour"})")), "not_found");
+}
+
+/// A desk in whose office a museum is set up.
+class TheSetupDesk : public TheDesk {
+ protected:
+  TheSetupDesk() {
+    EXPECT_TRUE(museum::MuseumSetup::begin(root_ / "hall", {}));
+    SetupOffice office{root_ / "hall",
+                       {root_ / "hall", root_ / "state", {}},
+                       [this](ExplorationOrder order) { orders_.push_back(order); },
+                       [this] { ++moves_; }};
+    desk_.reset();
+    desk_ = std::move(*Desk::open(
+        path_, generous(), {}, [this] { return now_.load(); }, kCheap, nullptr,
+        std::make_shared<const SetupOffice>(std::move(office))));
+    ada_ = operator_();
+  }
+  ~TheSetupDesk() override {
+    desk_.reset();
+    std::filesystem::remove_all(root_);
+  }
+
+  const std::filesystem::path root_ = testing::TempDir() + "/desk-setup-" + std::to_string(::getpid());
+  std::vector<ExplorationOrder> orders_;
+  int moves_ = 0;
+  Browser ada_;
+};
+
+TEST_F(TheSetupDesk, LeadsOperatorsThroughTheSteps) {
+  EXPECT_EQ(nlohmann::json::parse(call(ada_, "GET", "/setup").body)["step"], "name");
+  EXPECT_EQ(call(visitor(), "GET", "/setup").status, 403) << "nobody else";
+  EXPECT_NE(call(ada_, "PUT", "/setup/name", R"({"name":"","languages":["en"]})").body, R"({"faults":[]})");
+  EXPECT_EQ(moves_, 0);
+  EXPECT_EQ(call(ada_, "PUT", "/setup/name", R"({"name":"Hall","languages":["en"]})").body, R"({"faults":[]})");
+  EXPECT_EQ(moves_, 1) << "the museum has another name";
+  EXPECT_EQ(call(ada_, "PUT", "/setup/order", R"({"order":"by_itself"})").status, 200);
+  EXPECT_EQ(orders_, std::vector{ExplorationOrder::by_itself});
+  EXPECT_EQ(reason(call(ada_, "PUT", "/setup/order", R"({"order":"dance"})")), "not_understood");
+  EXPECT_NE(call(ada_, "PUT", "/setup/map").body, R"({"faults":[]})") << "there is no map";
+  EXPECT_NE(call(ada_, "PUT", "/setup/step", R"({"step":"tour"})").body, R"({"faults":[]})");
+  EXPECT_EQ(moves_, 1);
+}
+
 }  // namespace
 }  // namespace docent::telepresence

@@ -20,6 +20,7 @@
 #include "docent/telepresence/counting/statistics.h"
 #include "docent/telepresence/forum/forum.h"
 #include "docent/telepresence/museum_office/museum_office.h"
+#include "docent/telepresence/setup_office/setup_office.h"
 
 // One table says what /api/v1 answers; from it come the dispatcher, docs/openapi.json, the page's types and the test of
 // who may do what.
@@ -59,6 +60,7 @@ struct ApiServices {
   std::unique_ptr<Statistics> statistics;
   std::unique_ptr<Audit> audit;
   std::shared_ptr<const MuseumOffice> museum;  ///< null: no museum can be changed here
+  std::shared_ptr<const SetupOffice> setup;    ///< null: no museum is set up here
   ApiParams params;
   [[nodiscard]] static Result<ApiServices> open(const std::string& database, const ApiParams& params,
                                                 const ForumParams& forum, const PasswordCost& cost);
@@ -103,6 +105,8 @@ struct Endpoint {
 
 /// Those that change the museum.
 [[nodiscard]] std::vector<Endpoint> museum_endpoints();
+/// Those that set one up.
+[[nodiscard]] std::vector<Endpoint> setup_endpoints();
 /// A row of the table, without what it does.
 [[nodiscard]] Endpoint at(const char* method, const char* path, Rank least, const char* name, const char* summary,
                           std::vector<const char*> query = {});

@@ -245,6 +245,7 @@ std::vector<Endpoint> make_table() {
           at("GET", "/accounts", Rank::operator_, "list_accounts", "Who has an account"), list_accounts),
   };
   for (Endpoint& each : museum_endpoints()) table.push_back(std::move(each));
+  for (Endpoint& each : setup_endpoints()) table.push_back(std::move(each));
   for (Endpoint& each : table) each.is_dear = std::string_view{each.name} == "login";
   return table;
 }

@@ -1,5 +1,6 @@
 #include "docent/telepresence/api/endpoint.h"
 #include "docent/telepresence/museum_office/museum_documents.h"
+#include "docent/telepresence/setup_office/setup_office.h"
 
 namespace docent::telepresence {
 namespace {
@@ -58,6 +59,57 @@ ApiAnswer<MuseumFaults> end_trial(ApiCall& call, const Nothing& /*wish*/) {
                 [](const MuseumOffice& /*office*/) -> Outcome { return museum::MuseumWorkshop::Outcome{}; });
 }
 
+// A museum that is being set up.
+
+constexpr const char* kNoSetup = "no museum is being set up here: docent setup does that";
+
+ApiAnswer<documents::SetupState> read_setup(ApiCall& call, const Nothing& /*wish*/) {
+  const auto& office = call.services.setup;
+  if (!office) return refuse(ApiFault::not_found, kNoSetup);
+  auto state = state_of(*office);
+  if (!state) return refuse(ApiFault::not_stored, state.error().message);
+  return *state;
+}
+
+/// What `work` does to the folder; all modules begin anew when it has done it.
+ApiAnswer<MuseumFaults> change_setup(ApiCall& call, const std::function<Result<void>(const SetupOffice&)>& work) {
+  const auto& office = call.services.setup;
+  if (!office) return refuse(ApiFault::not_found, kNoSetup);
+  if (auto done = work(*office); !done) return MuseumFaults{{done.error().message}};
+  office->move();
+  return MuseumFaults{};
+}
+
+ApiAnswer<MuseumFaults> name_museum(ApiCall& call, const documents::SetupName& wish) {
+  return change_setup(call, [&](const SetupOffice& office) { return office.setup.name(wish.name, wish.languages); });
+}
+
+ApiAnswer<Nothing> order(ApiCall& call, const documents::SetupOrder& wish) {
+  const auto& office = call.services.setup;
+  if (!office) return refuse(ApiFault::not_found, kNoSetup);
+  office->order(wish.order);
+  return Nothing{};
+}
+
+ApiAnswer<MuseumFaults> keep_map(ApiCall& call, const Nothing& /*wish*/) {
+  return change_setup(call, [](const SetupOffice& office) { return office.setup.keep_map(); });
+}
+
+ApiAnswer<MuseumFaults> map_again(ApiCall& call, const Nothing& /*wish*/) {
+  return change_setup(call, [](const SetupOffice& office) { return office.setup.map_again(std::nullopt); });
+}
+
+ApiAnswer<MuseumFaults> go(ApiCall& call, const documents::SetupWish& wish) {
+  const auto& office = call.services.setup;
+  if (!office) return refuse(ApiFault::not_found, kNoSetup);
+  const auto before = office->setup.read();
+  auto faults = office->setup.go(wish.step);
+  if (!faults) return refuse(ApiFault::not_stored, faults.error().message);
+  const bool has_other_work = before && museum::work_of(before->step) != museum::work_of(wish.step);
+  if (faults->empty() && has_other_work) office->move();
+  return MuseumFaults{std::move(*faults)};
+}
+
 }  // namespace
 
 std::vector<Endpoint> museum_endpoints() {
@@ -76,6 +128,28 @@ std::vector<Endpoint> museum_endpoints() {
           at("PUT", "/museum", Rank::operator_, "publish_museum",
              "Writes a draft into the museum's folder, and has the robot, which stands, work in it"),
           publish),
+  };
+}
+
+std::vector<Endpoint> setup_endpoints() {
+  const auto row = [](const char* method, const char* path, const char* name, const char* summary) {
+    return at(method, path, Rank::operator_, name, summary);
+  };
+  return {
+      endpoint<Nothing, documents::SetupState>(
+          row("GET", "/setup", "read_setup", "How far the setting up of the museum is"), read_setup),
+      endpoint<documents::SetupName, MuseumFaults>(
+          row("PUT", "/setup/name", "name_museum", "What the museum is called, and which languages it speaks"),
+          name_museum),
+      endpoint<documents::SetupOrder, Nothing>(
+          row("PUT", "/setup/order", "order_exploration", "Who drives while the museum is mapped"), order),
+      endpoint<Nothing, MuseumFaults>(
+          row("PUT", "/setup/map", "keep_map", "Takes the map that the robot has made for the museum's"), keep_map),
+      endpoint<Nothing, MuseumFaults>(
+          row("DELETE", "/setup/map", "map_again", "Forgets map, hazards and exhibits, and begins a new map"),
+          map_again),
+      endpoint<documents::SetupWish, MuseumFaults>(
+          row("PUT", "/setup/step", "go_to_step", "Goes to another step of the set-up"), go),
   };
 }
 

@@ -11,6 +11,7 @@
 #include "docent/telepresence/live_encoding.h"
 #include "docent/telepresence/museum_document.h"
 #include "docent/telepresence/museum_office/museum_documents.h"
+#include "docent/telepresence/setup_office/setup_documents.h"
 #include "docent/vocabulary/reason.h"
 
 namespace docent::telepresence {
@@ -147,6 +148,12 @@ std::string field() {
   return encode_field(scan, beams);
 }
 
+std::string exploration() {
+  documents::ExplorationMessage message{"done", "by_itself", 81.5, 42.25, 0, {{3.5, 4.0}}, "no loop was closed", {}};
+  message.map = {"/api/growing.png?3", 120, 80, 0.05, {-1.0, -2.0}};
+  return json_text(message);
+}
+
 std::string museum() {
   museum::Museum museum;
   museum.name = {{"en", "A hall"}, {"fr", "Une salle"}};
@@ -185,6 +192,10 @@ std::string contract_types() {
   types.add<documents::MuseumEdition>();
   types.add<documents::MuseumWish>();
   types.add<documents::MuseumFaults>();
+  types.add<documents::SetupState>();
+  types.add<documents::SetupName>();
+  types.add<documents::SetupOrder>();
+  types.add<documents::SetupWish>();
   types.add_union("ClientMessage", static_cast<const ClientMessage*>(nullptr));
   return "// What the server sends and takes. docent_web_contract writes this file from documents.h and "
          "client_message.h in\n"
@@ -221,6 +232,7 @@ std::map<std::string, std::string> contract_samples() {
       {"field.json", field()},
       {"maps.json", json_text(documents::MapsMessage{{0.5, 1.0, 0.15, 2, 1, base64({255, 1})},
                                                      {0.0, 0.0, 0.15, 1, 1, base64({255})}})},
+      {"exploration.json", exploration()},
       {"log.json", json_text(documents::LogMessage{{{12.5, "visit_started", "sputnik", ""}}})},
       {"operation.json", json_text(documents::OperationMessage{"ada", true, true, "grace", "web"})},
       {"health.json", health()},

@@ -4,6 +4,7 @@
 
 #include "docent/messages/conversions.h"
 #include "docent/messages/topics.h"
+#include "docent/museum/editing/museum_setup.h"
 
 namespace docent::modules {
 namespace {
@@ -12,11 +13,19 @@ namespace {
 constexpr Duration kAnswerGoesOut = std::chrono::milliseconds{300};
 constexpr Duration kLookPeriod = std::chrono::milliseconds{100};
 
+bool is_being_set_up(const ModuleContext& context) {
+  if (!context.is_setup) return false;
+  const auto progress = museum::MuseumSetup::read(context.museum.folder);
+  return progress && museum::work_of(progress->step) != museum::SetupWork::guide;
+}
+
 }  // namespace
 
-MuseumDesk::MuseumDesk(const ModuleContext& context) : bus_{context.bus}, moved_{bus_.publisher(topics::kMuseumMoved)} {
+MuseumDesk::MuseumDesk(const ModuleContext& context)
+    : bus_{context.bus}, moved_{bus_.publisher(topics::kMuseumMoved)}, nothing_drives_{is_being_set_up(context)} {
+  const auto stage = nothing_drives_ ? museum::Stage::being_set_up : museum::Stage::complete;
   telepresence::MuseumOffice office{
-      {context.museum.folder, museum::trial_folder(context.state), context.checked_robot},
+      {context.museum.folder, museum::trial_folder(context.state), context.checked_robot, stage},
       [this] { return is_stopped_.load(); },
       [this](bool into_trial) {
         bus_.post([this, into_trial] { move_ = Move{into_trial, bus_.now() + kAnswerGoesOut}; });

@@ -6,6 +6,7 @@
 
 #include "docent/messages/operation_messages.h"
 #include "docent/modules/shared/module.h"
+#include "docent/telepresence/documents.h"
 #include "docent/telepresence/museum_office/museum_office.h"
 #include "docent/transport/bus.h"
 
@@ -19,13 +20,17 @@ class MuseumDesk {
   explicit MuseumDesk(const ModuleContext& context);
 
   [[nodiscard]] std::shared_ptr<const telepresence::MuseumOffice> office() const { return office_; }
-  void see_stop(bool is_stopped) { is_stopped_ = is_stopped; }
+  /// While the museum is set up nothing drives by itself: there it is enough that nobody holds the knob.
+  void see(const telepresence::documents::OperationMessage& operation) {
+    is_stopped_ = operation.is_stopped || (nothing_drives_ && !operation.is_pressed);
+  }
 
  private:
   void look();
 
   transport::Bus& bus_;
   transport::Publisher<docent_msgs::MuseumMoved> moved_;
+  const bool nothing_drives_;
   std::atomic<bool> is_stopped_ = false;
   struct Move {
     bool into_trial;

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "docent/apps/shared/deployment.h"
+#include "docent/apps/up/simulator_process.h"
+
+namespace docent::apps {
+
+/// A robot: every module as a process of its own, watched and restarted.
+struct RobotRun {
+  Deployment deployment;
+  bool simulate = false;
+  int port = 8080;
+  std::string record;      ///< MCAP file; empty: what is recorded stays in the folder of the state
+  std::string page = "/";  ///< that is told to whoever has started it
+  SimulatorOptions simulator;
+};
+
+/// Runs it until the process is told to end; CommandFailed where something is wrong that can be known before.
+void run_robot(const RobotRun& options);
+
+}  // namespace docent::apps

@@ -1,0 +1,221 @@
+// docent setup, as a technician uses it: from a folder that is not there to the first tour. The robot maps a small simulated
+// hall by itself, is driven to what shall be marked, is put away over night, and gives its tour. That it touches nothing is
+// said by the truth channel of its recordings.
+import { existsSync, readdirSync, readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { browse, build, check, ensure, finish, freePort, pause, pictures, root, start, temporaryFolder, until } from './harness.mjs';
+import { readRecording } from './recording.mjs';
+import { axeSays } from './stage.mjs';
+
+const docent = join(build, 'bin', 'docent');
+const base = temporaryFolder('setup');
+const [museum, state] = [join(base, 'hall'), join(base, 'state')];
+const port = String(await freePort());
+const words = [
+  'setup', museum, '--sim', join(root, 'tests', 'browser', 'worlds', 'small-hall.yaml'), '--no-cameras', '--port', port,
+  '--domain', process.env.DOCENT_TEST_DOMAIN ?? '72', '--state', state,
+];
+/** The address that it prints, with the password of this time. */
+async function begin() {
+  const robot = start(docent, words);
+  const address = await until('an address is printed', () => {
+    ensure(robot.code === null, `docent setup ended with ${robot.code}: ${robot.output.slice(-600)}`);
+    return robot.output.match(/http:\/\/127\.0\.0\.1:\d+\/setup#\w+/)?.[0];
+  }, 60000);
+  return { robot, address };
+}
+let { robot, address } = await begin();
+const { page, complaints } = await browse({ viewport: { width: 1360, height: 900 } });
+const step = (name, patience = 60000) => page.waitForSelector(`.setup[data-step=${name}][data-busy=false][data-beginning=false]`, { timeout: patience });
+const press = (what) => page.locator(`.setup [data-do=${what}]`).click();
+const shot = (name) => page.screenshot({ path: join(pictures, `setup-${name}.png`) });
+
+/** Where a place of the map is on the page. */
+const onPage = (place) => page.evaluate(([x, y]) => {
+  const matrix = document.querySelector('.editor-map svg > g').getScreenCTM();
+  const point = new DOMPoint(x, y).matrixTransform(matrix);
+  return [point.x, point.y];
+}, place);
+async function click(place) {
+  const [x, y] = await onPage(place);
+  await page.mouse.click(x, y);
+}
+const tool = (name) => page.locator(`.editor-tools [data-tool=${name}]`).click();
+/** Where the robot says that it is: of the drawing on the map. */
+const robotAt = () => page.evaluate(() => {
+  const [, x, y, heading] = document.querySelector('.editor-map .robot')?.getAttribute('transform').match(/translate\((\S+) (\S+)\) rotate\((\S+)\)/) ?? [];
+  return x === undefined ? null : [Number(x), Number(y), (Number(heading) * Math.PI) / 180];
+});
+/** Holds the knob, pulled so far up and to the left, until `isEnough` says so of where the robot is. */
+async function drive(up, left, isEnough, patience = 20000) {
+  if (await page.locator('.steer .go').count()) await page.locator('.steer .go').click();
+  await page.waitForSelector('.steer[data-wheel=true]');
+  await page.locator('.pad').scrollIntoViewIfNeeded();
+  const box = await page.locator('.pad').boundingBox();
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x - (left * box.width) / 2, y - (up * box.height) / 2, { steps: 3 });
+  try {
+    await until('it has been driven there', async () => isEnough(await robotAt()), patience, 50);
+  } finally {
+    await page.mouse.up();
+  }
+  await pause(1500); // it stands
+}
+const far = ([ax, ay], [bx, by]) => Math.hypot(ax - bx, ay - by);
+const turned = (from, to) => Math.abs(Math.atan2(Math.sin(to - from), Math.cos(to - from)));
+
+/** A step without which the others would only wait. */
+const must = async (name, action) => {
+  if (await check(name, action)) return;
+  await shot('failed');
+  console.log(robot.output.slice(-1500));
+  await finish();
+};
+
+await must('the printed address opens the assistant, which asks for the name', async () => {
+  await page.goto(address);
+  await step('name');
+  ensure(!page.url().includes('#'), 'the password stays in the address');
+  await page.locator('[name=museum]').fill('The small hall');
+  await page.locator('[name=language][value=de]').check();
+  await shot('name');
+  const says = await axeSays(page);
+  ensure(says.length === 0, `axe: ${says.join('; ')}`);
+  await press('name');
+  await step('map');
+});
+await must('what no sensor sees is fenced on the map that has just begun', async () => {
+  await page.waitForSelector('.map-card[data-order=wait]', { timeout: 60000 });
+  await page.waitForSelector('.editor-map .robot', { timeout: 60000 });
+  await until('the map has begun', async () => Number((await page.locator('[data-figure=known]').textContent()).replace(/\D/g, '')) > 5, 60000);
+  await pause(2500);
+  await tool('hazard');
+  for (const corner of [[7.7, 1.8], [8.9, 1.8], [8.9, 2.6], [7.7, 2.6], [7.7, 1.8]]) await click(corner);
+  await page.locator('select[name=kind]').selectOption('glass');
+  await shot('fence');
+  ensure(await page.locator('[data-do=by-itself]').isDisabled(), 'it may drive although a mark is not kept');
+  await press('fence');
+  await step('map');
+  await page.waitForSelector('.map-card[data-order=wait]', { timeout: 60000 });
+  ensure(readFileSync(join(museum, 'museum.yaml'), 'utf8').includes('kind: glass'), 'the mark is not in museum.yaml');
+});
+await must('the robot maps the hall by itself', async () => {
+  await press('by-itself');
+  await page.waitForSelector('.map-card[data-order=by_itself][data-state=exploring]', { timeout: 30000 });
+  await pause(15000);
+  await shot('exploring');
+  await page.waitForSelector('.map-card[data-state=done]', { timeout: 420000 });
+  await pause(1000);
+  await shot('map');
+  const known = Number((await page.locator('[data-figure=known]').textContent()).replace(/\D/g, ''));
+  ensure(known > 45 && known < 70, `${known} m² of some 60 are known`);
+  await press('keep');
+  await step('hazards');
+  ensure(existsSync(join(museum, 'map.pgm')), 'there is no map');
+});
+await must('it knows its place in its own map at once, and the mark has stayed', async () => {
+  await page.waitForSelector('.place[data-localized=true]', { timeout: 30000 });
+  await page.waitForSelector('.editor-map polygon.hazard');
+  await page.waitForSelector('.editor-map .robot', { timeout: 30000 });
+});
+await must('a hazard is marked by driving round it', async () => {
+  const corners = [];
+  const east = (at) => turned(at[2], 0);
+  if (east(await robotAt()) > 0.2) await drive(0, 0.25, (at) => east(at) < 0.1, 60000);
+  await drive(0.6, 0, (at) => at[0] > 3.2);
+  await tool('hazard');
+  const mark = async () => {
+    corners.push(await robotAt());
+    await page.locator('.editor-hint button', { hasText: 'where the robot is' }).click();
+  };
+  await mark();
+  const first = await robotAt();
+  await drive(0.6, 0, (at) => far(at, first) > 0.5);
+  await mark();
+  const second = await robotAt();
+  await drive(0, 0.4, (at) => turned(second[2], at[2]) > 1.5);
+  await drive(0.6, 0, (at) => far(at, second) > 0.6);
+  await mark();
+  await page.locator('.editor-hint button', { hasText: 'Close' }).click();
+  await shot('hazards');
+  const third = await robotAt();
+  await drive(0.6, 0, (at) => far(at, third) > 0.7);
+  await press('next');
+  await page.waitForSelector('.setup[data-busy=false][data-beginning=false]', { timeout: 60000 });
+  const faults = await page.locator('.faults').allTextContents();
+  ensure(faults.length === 0, faults.join(' '));
+  await step('exhibits');
+  const yaml = readFileSync(join(museum, 'museum.yaml'), 'utf8');
+  const written = [...yaml.split('hazard-2')[1].split('\n')[0].matchAll(/\[(-?[\d.]+), (-?[\d.]+)\]/g)].map(([, x, y]) => [Number(x), Number(y)]);
+  ensure(written.length === 3, `${written.length} corners in museum.yaml`);
+  written.forEach((corner, i) => ensure(far(corner, corners[i]) < 0.05, `corner ${i + 1} is ${far(corner, corners[i]).toFixed(2)} m from where the robot was`));
+});
+const write = async (which, texts) => {
+  for (const [language, text] of Object.entries(texts)) await page.locator(`[name=${which}-${language}]`).fill(text);
+};
+await must('exhibits are placed on the map, and by driving there', async () => {
+  await page.waitForSelector('.place[data-localized=true]', { timeout: 60000 });
+  await page.waitForSelector('.editor-map .robot', { timeout: 30000 });
+  await tool('exhibit');
+  await click([3.4, 5.2]);
+  await write('title', { en: 'The globe', de: 'Der Globus' });
+  await write('short', { en: 'The earth is round.', de: 'Die Erde ist rund.' });
+  const begun = await robotAt();
+  await drive(0, 0.5, (at) => turned(begun[2], at[2]) > 0.8);
+  await tool('exhibit');
+  const at = await robotAt();
+  await page.locator('.editor-hint button', { hasText: 'stands before it' }).click();
+  await write('title', { en: 'The wall', de: 'Die Wand' });
+  await write('short', { en: 'This is a wall.', de: 'Das ist eine Wand.' });
+  await shot('exhibits');
+  await press('save');
+  await step('exhibits');
+  const known = await page.evaluate(() => fetch('/api/museum.json').then((reply) => reply.json()));
+  ensure(known.exhibits.length === 2, `${known.exhibits.length} exhibits`);
+  ensure(far(known.exhibits[1].pose, at) < 0.05, 'the second one is not where the robot was');
+});
+await must('over night: the set-up goes on where it was', async () => {
+  await robot.stop();
+  ({ robot, address } = await begin());
+  await page.goto('about:blank');
+  await page.goto(address);
+  await step('exhibits');
+  ensure((await page.locator('.of-exhibit').count()) === 2, 'the exhibits are not there');
+  await press('next');
+  await step('check');
+});
+await must('the check finds no fault, and says what is missing', async () => {
+  await page.waitForSelector('.check-card[data-faults="0"]', { timeout: 30000 });
+  ensure((await page.locator('.checks .missing').count()) === 1, 'that there is no charger is not said');
+  await shot('check');
+  await press('tour');
+  await step('tour');
+});
+await must('the first tour', async () => {
+  await page.waitForSelector('.tour-card [data-do=start]:not([disabled])', { timeout: 240000 });
+  await press('start');
+  await page.waitForSelector('.tour-card[data-phase=driving]', { timeout: 60000 });
+  await pause(3000);
+  await shot('tour');
+  await step('done', 420000);
+  await shot('done');
+  ensure(readFileSync(join(museum, 'setup.yaml'), 'utf8').includes('step: done'), 'setup.yaml does not say so');
+});
+await check('nothing was touched, and both exhibits were explained', async () => {
+  await robot.stop();
+  const folder = join(state, 'recordings');
+  let contacts = 0;
+  const explained = new Set();
+  for (const file of readdirSync(folder).filter((name) => name.endsWith('.mcap'))) {
+    readRecording(join(folder, file), ['truth/contact', 'docent/event'], (topic, message) => {
+      if (topic === 'truth/contact') ++contacts;
+      else if (message.kind === 'explained') explained.add(message.subject);
+    });
+  }
+  ensure(contacts === 0, `${contacts} contacts`);
+  ensure(explained.size === 2, `explained: ${[...explained].join(', ')}`);
+});
+await check('no page complained', () => ensure(complaints.every((text) => /WebSocket|Failed to load resource|ERR_CONNECTION/.test(text)), complaints.join('\n')));
+await finish();
