@@ -104,6 +104,7 @@ void add_setup_command(CLI::App& app) {
   options->simulator.crowd = "empty";
   options->simulator.requests_per_hour = 0.0;
   options->simulator.add_options(*command->add_option_group("With --sim"));
+  for (const char* not_here : {"--explore", "--world"}) command->get_option(not_here)->group("");
   command->callback([options, world, command] {
     for (const std::string option : {"--crowd", "--start", "--scenario", "--requests-per-hour"})
       if (world->empty() && command->count(option) > 0)
