@@ -117,6 +117,16 @@ export async function browse(options = {}) {
   return { context, complaints, hosts, page: context.pages()[0] ?? (await context.newPage()) };
 }
 
+/** The map of the museum editor on a page: where a place of it is, and a click there. */
+export function editorMap(page) {
+  const onPage = (place) => page.evaluate(([x, y]) => {
+    const matrix = document.querySelector('.editor-map svg > g').getScreenCTM();
+    const point = new DOMPoint(x, y).matrixTransform(matrix);
+    return [point.x, point.y];
+  }, place);
+  return { onPage, click: async (place) => page.mouse.click(...(await onPage(place))) };
+}
+
 let passed = 0;
 let failed = 0;
 export async function check(name, action) {

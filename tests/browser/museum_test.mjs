@@ -3,7 +3,7 @@
 import { spawnSync } from 'node:child_process';
 import { cpSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { browse, build, check, ensure, finish, freePort, pictures, root, start, temporaryFolder, until } from './harness.mjs';
+import { browse, build, check, editorMap, ensure, finish, freePort, pictures, root, start, temporaryFolder, until } from './harness.mjs';
 import { axeSays } from './stage.mjs';
 
 const docent = join(build, 'bin', 'docent');
@@ -58,16 +58,7 @@ await page.locator('.login button[type=submit]').click();
 await page.waitForSelector('.stop[data-open=true]');
 await page.waitForSelector('.map[data-localized=true]', { timeout: 300000 });
 
-/** Where a place of the map is on the page. */
-const onPage = (place) => page.evaluate(([x, y]) => {
-  const matrix = document.querySelector('.editor-map svg > g').getScreenCTM();
-  const point = new DOMPoint(x, y).matrixTransform(matrix);
-  return [point.x, point.y];
-}, place);
-async function click(place) {
-  const [x, y] = await onPage(place);
-  await page.mouse.click(x, y);
-}
+const { onPage, click } = editorMap(page);
 async function drag(from, to) {
   const [a, b] = [await onPage(from), await onPage(to)];
   await page.mouse.move(...a);

@@ -3,7 +3,7 @@
 // said by the truth channel of its recordings.
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { browse, build, check, ensure, finish, freePort, pause, pictures, root, start, temporaryFolder, until } from './harness.mjs';
+import { browse, build, check, editorMap, ensure, finish, freePort, pause, pictures, root, start, temporaryFolder, until } from './harness.mjs';
 import { readRecording } from './recording.mjs';
 import { axeSays } from './stage.mjs';
 
@@ -30,16 +30,7 @@ const step = (name, patience = 60000) => page.waitForSelector(`.setup[data-step=
 const press = (what) => page.locator(`.setup [data-do=${what}]`).click();
 const shot = (name) => page.screenshot({ path: join(pictures, `setup-${name}.png`) });
 
-/** Where a place of the map is on the page. */
-const onPage = (place) => page.evaluate(([x, y]) => {
-  const matrix = document.querySelector('.editor-map svg > g').getScreenCTM();
-  const point = new DOMPoint(x, y).matrixTransform(matrix);
-  return [point.x, point.y];
-}, place);
-async function click(place) {
-  const [x, y] = await onPage(place);
-  await page.mouse.click(x, y);
-}
+const { click } = editorMap(page);
 const tool = (name) => page.locator(`.editor-tools [data-tool=${name}]`).click();
 /** Where the robot says that it is: of the drawing on the map. */
 const robotAt = () => page.evaluate(() => {

@@ -52,6 +52,10 @@ Pose2 parse_pose(const std::string& option, const std::string& text) {
   return {numbers[0], numbers[1], Angle::degrees(numbers[2])};
 }
 
+std::string pose_text(const Pose2& pose) {
+  return std::to_string(pose.x) + "," + std::to_string(pose.y) + "," + std::to_string(pose.theta.degrees());
+}
+
 namespace {
 
 namespace fs = std::filesystem;

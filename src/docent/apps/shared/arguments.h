@@ -16,6 +16,7 @@ namespace docent::apps {
 [[nodiscard]] double parse_number(const std::string& option, const std::string& text, const std::string& form);
 [[nodiscard]] Point2 parse_point(const std::string& option, const std::string& text);  ///< X,Y [m]
 [[nodiscard]] Pose2 parse_pose(const std::string& option, const std::string& text);    ///< X,Y,DEG
+[[nodiscard]] std::string pose_text(const Pose2& pose);                                ///< what parse_pose reads
 
 /// For options that name what a command will write: refused before the work begins when it could not be written at the
 /// end. A file needs a folder that exists; a folder is made where it can be.

@@ -40,11 +40,6 @@ std::filesystem::path recordings_folder(const RobotRun& options) {
   return std::filesystem::path{options.deployment.state} / "recordings";
 }
 
-/// As --explore takes it.
-std::string pose_text(const Pose2& pose) {
-  return std::to_string(pose.x) + "," + std::to_string(pose.y) + "," + std::to_string(pose.theta.degrees());
-}
-
 Result<void> check_port(int port) {
   const int end = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   const int yes = 1;
@@ -57,15 +52,6 @@ Result<void> check_port(int port) {
   const std::string why = std::strerror(errno);
   close(end);
   if (!is_free) return fail("--port " + std::to_string(port) + ": " + why);
-  return {};
-}
-
-/// Held until the process ends: two robots would write the same checkpoints.
-Result<void> lock_state(const std::string& folder) {
-  const std::string path = folder + "/up.lock";
-  const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  if (file < 0) return fail(path + ": " + std::strerror(errno));
-  if (flock(file, LOCK_EX | LOCK_NB) != 0) return fail("--state " + folder + ": another `docent up` works there");
   return {};
 }
 
@@ -101,8 +87,7 @@ docent_msgs::Limits check(const RobotRun& options) {
   if (options.simulate) value_or_fail(check_simulator(options.deployment, options.simulator));
   docent_msgs::Limits limits = value_or_fail(limits_of(options, museum, config));
   value_or_fail(check_port(options.port));
-  value_or_fail(options.deployment.prepare_state());
-  value_or_fail(lock_state(options.deployment.state));
+  value_or_fail(own_state(options.deployment));
   return limits;
 }
 
@@ -182,6 +167,21 @@ void tell_exploration(transport::Bus& bus, StatusDisplay& display) {
 }
 
 }  // namespace
+
+Result<void> own_state(const Deployment& deployment) {
+  static int held = -1;  // until the process ends
+  if (held >= 0) return {};
+  if (auto made = deployment.prepare_state(); !made) return made;
+  const std::string path = deployment.state + "/up.lock";
+  const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (file < 0) return fail(path + ": " + std::strerror(errno));
+  if (flock(file, LOCK_EX | LOCK_NB) != 0) {
+    close(file);
+    return fail("--state " + deployment.state + ": another `docent up` works there");
+  }
+  held = file;
+  return {};
+}
 
 void run_robot(const RobotRun& options) {
   const docent_msgs::Limits limits = check(options);

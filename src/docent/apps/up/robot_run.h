@@ -17,6 +17,10 @@ struct RobotRun {
   SimulatorOptions simulator;
 };
 
+/// Makes the folder of the state and keeps others out of it until the process ends: two robots would write the same
+/// checkpoints. Once is enough. Error: another one works there.
+[[nodiscard]] Result<void> own_state(const Deployment& deployment);
+
 /// Runs it until the process is told to end; CommandFailed where something is wrong that can be known before.
 void run_robot(const RobotRun& options);
 

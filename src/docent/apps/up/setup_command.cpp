@@ -55,20 +55,17 @@ Pose2 home_in(const std::string& world) {
 void simulate(RobotRun& run, const std::string& world) {
   run.simulate = true;
   run.simulator.world = world;
-  if (!run.simulator.start.empty()) return;
-  const Pose2 home = home_in(world);
-  run.simulator.start =
-      std::to_string(home.x) + "," + std::to_string(home.y) + "," + std::to_string(home.theta.degrees());
+  if (run.simulator.start.empty()) run.simulator.start = pose_text(home_in(world));
 }
 
 void set_up(RobotRun run) {
   const std::string& folder = run.deployment.museum;
   // A simulated robot maps in the frame of its world, so that reports can compare the two.
   const Pose2 start = run.simulate ? parse_pose("--start", run.simulator.start) : Pose2{};
+  value_or_fail(own_state(run.deployment));  // before anything is touched that another one works with
   const bool is_new = !fs::exists(fs::path{folder} / "setup.yaml");
   const auto progress = value_or_fail(museum::MuseumSetup::begin(folder, start), 2);
   run.deployment.is_setup = true;
-  value_or_fail(run.deployment.prepare_state());
   const museum::MuseumSetup setup{folder, run.deployment.state, {}};
   // A map of which nothing is kept begins anew, where the robot is now.
   const bool is_mapping = museum::work_of(progress.step) == museum::SetupWork::map;

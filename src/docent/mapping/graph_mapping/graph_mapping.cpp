@@ -102,13 +102,14 @@ double GraphMapping::restlessness() const {
 double GraphMapping::odometry_scale() const {
   constexpr std::size_t kFewest = 20;
   constexpr double kKept = 0.95;
+  constexpr double kLeast = 0.01;  // no odometry is perfect
   if (surprises_.size() < kFewest) return 1.0;
   std::vector<double> sorted = surprises_;
   std::sort(sorted.begin(), sorted.end());
   const auto kept = static_cast<std::size_t>(kKept * static_cast<double>(sorted.size()));
   double sum = 0.0;
   for (std::size_t i = 0; i < kept; ++i) sum += sorted[i];
-  return std::sqrt(sum / static_cast<double>(kept));
+  return std::max(kLeast, std::sqrt(sum / static_cast<double>(kept)));
 }
 
 /// Older submaps that may show the same place, the likeliest first.

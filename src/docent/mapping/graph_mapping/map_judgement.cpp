@@ -86,7 +86,7 @@ MapJudgement judge(const PoseGraph& graph, const std::deque<Submap>& submaps, do
     std::snprintf(text, sizeof text, "of the pieces of the way that lie near each other, %.0f %% contradict each other",
                   100.0 * judgement.in_conflict);
     judgement.reason = text;
-  } else if (judgement.expected_error > params.most_error) {
+  } else if (!(judgement.expected_error <= params.most_error)) {  // nor one that is no number
     std::snprintf(text, sizeof text, "too few places were seen twice: distances may be wrong by %.1f m on average",
                   judgement.expected_error);
     judgement.reason = text;

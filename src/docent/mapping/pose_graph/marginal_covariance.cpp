@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "docent/mapping/pose_graph/turned_matrix.h"
+
 namespace docent::mapping {
 namespace {
 
@@ -21,14 +23,6 @@ Eigen::Matrix<double, 3, 6> jacobian_of(const Pose2& from, const Pose2& to) {
   return j;
 }
 
-Eigen::Matrix3d turned_into(const Eigen::Matrix3d& information, Angle heading) {
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  turn(0, 0) = turn(1, 1) = std::cos(heading.radians());
-  turn(0, 1) = -std::sin(heading.radians());
-  turn(1, 0) = std::sin(heading.radians());
-  return turn * information * turn.transpose();
-}
-
 }  // namespace
 
 MarginalCovariances::MarginalCovariances(const PoseGraph& graph) : graph_{graph} {
@@ -38,7 +32,7 @@ MarginalCovariances::MarginalCovariances(const PoseGraph& graph) : graph_{graph}
   for (Eigen::Index i = 0; i < size; ++i) entries.emplace_back(i, i, kLeastInformation);
   for (const PoseConstraint& constraint : graph.constraints()) {
     // The constraint's error is seen in the second pose's frame; the Jacobian speaks of the first one's.
-    const Eigen::Matrix3d information = turned_into(constraint.information, constraint.from_from_to.theta);
+    const Eigen::Matrix3d information = turned(constraint.information, constraint.from_from_to.theta);
     const auto j = jacobian_of(graph.poses()[constraint.from], graph.poses()[constraint.to]);
     const Eigen::Matrix<double, 6, 6> block = j.transpose() * information * j;
     const std::array<std::size_t, 2> ends{constraint.from, constraint.to};

@@ -5,6 +5,8 @@
 #include <limits>
 #include <queue>
 
+#include "docent/mapping/pose_graph/turned_matrix.h"
+
 namespace docent::mapping {
 namespace {
 
@@ -13,14 +15,6 @@ struct Step {
   Pose2 from_from_to;
   Eigen::Matrix3d covariance;  ///< seen in the second pose's frame
 };
-
-Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, Angle by) {
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  turn(0, 0) = turn(1, 1) = std::cos(by.radians());
-  turn(0, 1) = -std::sin(by.radians());
-  turn(1, 0) = std::sin(by.radians());
-  return turn * covariance * turn.transpose();
-}
 
 std::vector<std::vector<Step>> steps_of(const PoseGraph& graph) {
   std::vector<std::vector<Step>> steps(graph.poses().size());
