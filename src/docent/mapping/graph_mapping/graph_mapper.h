@@ -27,6 +27,12 @@ struct GraphMapperParams {
   int fine_rounds = 3;      ///< >= 0: rounds in which scans are matched to scans nearby, and all poses improved
   int fine_pairs = 10;      ///< > 0: of a scan in a round
   double fine_reach = 8.0;  ///< [m], > 0, between two such scans
+  // Where no scan says, odometry binds as well as it has proved to be where scans do.
+  int first_steps = 100;              ///< >= 0: that were matched, then the map begins anew with what they told
+  double contradiction = 5.0;         ///< > 0: by so many sigmas of it a scan with few points may not contradict it
+  double few_points = 0.6;            ///< >= 0: as a share of what is usual on this drive
+  double odometry_margin = 2.0;       ///< > 0: times its error there, for an error that lasts adds up
+  double least_odometry_scale = 0.1;  ///< in (0, 1], as a share of the chain's expectation
   template <class V>
   void visit(V& v) {
     v("points", points);
@@ -41,6 +47,11 @@ struct GraphMapperParams {
     v("fine_rounds", fine_rounds);
     v("fine_pairs", fine_pairs);
     v("fine_reach", fine_reach);
+    v("first_steps", first_steps);
+    v("contradiction", contradiction);
+    v("few_points", few_points);
+    v("odometry_margin", odometry_margin);
+    v("least_odometry_scale", least_odometry_scale);
   }
 };
 

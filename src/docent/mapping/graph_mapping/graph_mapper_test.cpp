@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "docent/mapping/graph_mapping/graph_mapping.h"
 #include "docent/mapping/graph_mapping/testing.h"
 
 namespace docent::mapping {
@@ -47,6 +48,28 @@ TEST(GraphMapping, AMapThatContradictsItselfIsNotTrusted) {
   EXPECT_EQ(map.unmatched, drive.scans.size() - 1);
   EXPECT_GT(testing::relation_error(drive.truth, map.map_from_base, 150), 1.0);
   EXPECT_FALSE(map.judgement.is_trusted);
+}
+
+TEST(GraphMapping, MarksAreDoubtedTheFartherItDrivesUntilALoopCloses) {
+  const Drive drive = testing::drive_round(1.4, 0.0, 0.02, 2);
+  GraphMapping mapping{{}};
+  std::vector<double> doubt;
+  for (const MappingScan& scan : drive.scans) {
+    mapping.add(scan);
+    doubt.push_back(mapping.doubt_of_marks());
+  }
+  EXPECT_GT(doubt[80], doubt[20]);
+  EXPECT_LT(doubt.back(), 0.5 * doubt[120]) << "having come round";
+}
+
+TEST(GraphMapping, SomebodyWhoWalksAlongIsNotTheWorld) {
+  Drive drive = testing::drive_round(0.7, 0.001, 0.01, 6);  // no loop puts it right afterwards
+  testing::walk_along(drive, 10, 14);                       // also before anything is known of odometry
+  testing::walk_along(drive, 60, 80);
+  EXPECT_LT(testing::relation_error(drive.truth, map_by_graph(drive.scans, {}).map_from_base, 30), 0.15);
+  GraphMapperParams crippled;
+  crippled.contradiction = 1e3;
+  EXPECT_GT(testing::relation_error(drive.truth, map_by_graph(drive.scans, crippled).map_from_base, 30), 1.0);
 }
 
 TEST(GraphMapping, TheSameScansGiveTheSameMap) {

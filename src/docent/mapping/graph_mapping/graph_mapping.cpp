@@ -3,9 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "docent/mapping/pose_graph/marginal_covariance.h"
 #include "docent/mapping/pose_graph/relative_covariance.h"
 
 namespace docent::mapping {
+namespace {
+
+constexpr std::size_t kFewestSteps = 20;  ///< that were matched: before, nothing is known of the odometry
+
+}  // namespace
 
 GraphMapping::GraphMapping(const GraphMapperParams& params)
     : params_{params}, chain_{params.chain, params.chain_grid, params.lines}, closer_{params.loops, params.lines} {}
@@ -13,11 +19,13 @@ GraphMapping::GraphMapping(const GraphMapperParams& params)
 void GraphMapping::add(MappingScan scan) {
   scans_.push_back(std::move(scan));
   const std::size_t i = scans_.size() - 1;
+  points_ += scans_[i].points.size();
   if (i == 0) {
     graph_.add_pose(scans_.front().odom_from_base);
     return;
   }
-  const ChainStep step = chain_.step(scans_, graph_.poses(), i);
+  ChainStep step = chain_.step(scans_, graph_.poses(), i);
+  if (contradicts_odometry(step, scans_[i])) step = chain_.odometry_step(scans_, i);
   graph_.add_pose(graph_.poses()[i - 1] * step.before_from_after);
   graph_.add({i - 1, i, step.before_from_after, step.information, false, !step.is_matched});
   unmatched_ += step.is_matched ? 0U : 1U;
@@ -25,6 +33,17 @@ void GraphMapping::add(MappingScan scan) {
   way_ += norm(step.before_from_after.position());
   turn_ += std::abs(step.before_from_after.theta.radians());
   if (is_submap_full(i)) end_submap(i);
+  if (!has_begun_anew_ && surprises_.size() >= static_cast<std::size_t>(params_.first_steps)) begin_anew();
+}
+
+/// With what has been learned of odometry and of scans.
+void GraphMapping::begin_anew() {
+  GraphMapping anew{params_};
+  anew.has_begun_anew_ = true;
+  anew.surprises_ = std::move(surprises_);
+  anew.revision_ = revision_ + 1;
+  for (MappingScan& scan : scans_) anew.add(std::move(scan));
+  *this = std::move(anew);
 }
 
 GraphMap GraphMapping::finish(const std::function<void(const MappingProgress&)>& progress) {
@@ -54,6 +73,16 @@ GraphMap GraphMapping::finish(const std::function<void(const MappingProgress&)>&
   return map;
 }
 
+/// A scan with few points that odometry, as good as it has proved to be, cannot have made so wrong: a person that walks
+/// along, in a hall whose walls are far away.
+bool GraphMapping::contradicts_odometry(const ChainStep& step, const MappingScan& scan) const {
+  if (!step.is_matched || surprises_.size() < kFewestSteps) return false;
+  const double usual = static_cast<double>(points_) / static_cast<double>(scans_.size());
+  if (static_cast<double>(scan.points.size()) >= params_.few_points * usual) return false;
+  const double sigmas = params_.contradiction * odometry_scale();
+  return step.surprise > sigmas * sigmas;
+}
+
 bool GraphMapping::is_submap_full(std::size_t last) const {
   const SubmapParams& bounds = params_.submaps;
   return way_ >= bounds.way || turn_ >= bounds.turn || last - first_ + 1 >= static_cast<std::size_t>(bounds.scans);
@@ -70,14 +99,16 @@ void GraphMapping::end_submap(std::size_t last) {
   }
   note_restlessness();
   if (close_loops(submaps_.size() - 1)) optimise();
+  rate_marks();
 }
 
 void GraphMapping::optimise() {
   ++revision_;
-  graph_.optimise(params_.graph);
+  const double scale = binding_scale();
+  graph_.optimise(params_.graph, scale);
   const std::size_t removed = graph_.remove_wrong_loops(params_.graph);
   refused_ += removed;
-  if (removed > 0) graph_.optimise(params_.graph);
+  if (removed > 0) graph_.optimise(params_.graph, scale);
 }
 
 /// Between the newest submap and the last but two, which the chain has matched to each other: what walks about.
@@ -100,16 +131,31 @@ double GraphMapping::restlessness() const {
 /// How odometry errs by the steps that scans bear out, as a share of what was expected of it: a mean without the
 /// largest, which are wrong matches as likely.
 double GraphMapping::odometry_scale() const {
-  constexpr std::size_t kFewest = 20;
   constexpr double kKept = 0.95;
   constexpr double kLeast = 0.01;  // no odometry is perfect
-  if (surprises_.size() < kFewest) return 1.0;
+  if (surprises_.size() < kFewestSteps) return 1.0;
   std::vector<double> sorted = surprises_;
   std::sort(sorted.begin(), sorted.end());
   const auto kept = static_cast<std::size_t>(kKept * static_cast<double>(sorted.size()));
   double sum = 0.0;
   for (std::size_t i = 0; i < kept; ++i) sum += sorted[i];
   return std::max(kLeast, std::sqrt(sum / static_cast<double>(kept)));
+}
+
+double GraphMapping::binding_scale() const {
+  return std::clamp(params_.odometry_margin * odometry_scale(), params_.least_odometry_scale, 1.0);
+}
+
+/// A mark at the newest pose, told in the frame of the first one: if that frame, seen from here, lies wrong by (x, y,
+/// theta), the mark is off by (x, y) + theta * the normal of the way to it.
+void GraphMapping::rate_marks() {
+  const PoseGraph rated = graph_.with_odometry(binding_scale());
+  const Eigen::Matrix3d covariance = MarginalCovariances{rated}.between(graph_.poses().size() - 1, 0);
+  const Point2 first = (inverse(graph_.poses().back()) * graph_.poses().front()).position();
+  Eigen::Matrix<double, 2, 3> from_frame;
+  from_frame << 1.0, 0.0, first.y, 0.0, 1.0, -first.x;
+  const Eigen::Matrix2d of_mark = from_frame * covariance * from_frame.transpose();
+  doubt_of_marks_ = std::sqrt(std::max(0.0, 0.5 * of_mark.trace()));
 }
 
 /// Older submaps that may show the same place, the likeliest first.

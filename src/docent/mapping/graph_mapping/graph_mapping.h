@@ -29,6 +29,9 @@ class GraphMapping {
     double heading = 0.0;   ///< [rad], likewise
   };
   [[nodiscard]] Spread spread() const { return spread_; }
+  /// [m], one standard deviation: how far from the newest pose's place on the map something may lie that is marked in
+  /// the frame of the first pose; as of the last submap. Odometry is rated as it has proved to be.
+  [[nodiscard]] double doubt_of_marks() const { return doubt_of_marks_; }
   [[nodiscard]] std::size_t loops() const { return loops_; }
 
   /// Closes what loops are left, matches scans nearby to each other and judges the map. No scan may follow.
@@ -46,7 +49,11 @@ class GraphMapping {
   [[nodiscard]] Pose2 middle_of(std::size_t submap) const { return graph_.poses()[submaps_[submap].middle()]; }
   void note_restlessness();
   [[nodiscard]] double restlessness() const;
+  void begin_anew();
+  [[nodiscard]] bool contradicts_odometry(const ChainStep& step, const MappingScan& scan) const;
   [[nodiscard]] double odometry_scale() const;
+  void rate_marks();
+  [[nodiscard]] double binding_scale() const;
   [[nodiscard]] std::vector<LoopCandidate> candidates_for(std::size_t newer);
   bool close_loops(std::size_t newer);
   bool believe(const LoopClosure& closure);
@@ -68,13 +75,16 @@ class GraphMapping {
   std::vector<PoseConstraint> revisits_;  ///< matches of the last fine round between different pieces of the way
   std::map<std::pair<std::size_t, std::size_t>, bool> closed_;
   std::size_t first_ = 0;  ///< scan that the next submap begins with
-  double way_ = 0.0;       ///< [m] of the next submap
-  double turn_ = 0.0;      ///< [rad]
+  bool has_begun_anew_ = false;
+  std::size_t points_ = 0;  ///< of all scans
+  double way_ = 0.0;        ///< [m] of the next submap
+  double turn_ = 0.0;       ///< [rad]
   std::size_t loops_ = 0;
   std::size_t refused_ = 0;
   std::size_t unmatched_ = 0;
   std::size_t revision_ = 0;
   Spread spread_;
+  double doubt_of_marks_ = 0.0;
 };
 
 }  // namespace docent::mapping

@@ -33,17 +33,6 @@ void compare_pieces(const PoseGraph& graph, const std::deque<Submap>& submaps, c
   judgement.in_conflict = static_cast<double>(in_conflict) / static_cast<double>(judgement.pairs);
 }
 
-/// The graph with odometry as good as it has proved to be.
-PoseGraph with_odometry_of(const PoseGraph& graph, double scale) {
-  PoseGraph rated = graph;
-  rated.clear_constraints();
-  for (PoseConstraint constraint : graph.constraints()) {
-    if (constraint.is_odometry) constraint.information /= scale * scale;
-    rated.add(constraint);
-  }
-  return rated;
-}
-
 /// Mean expected error of places 1, 5, 20, 60 and 150 m of way apart.
 double expected_error(const PoseGraph& graph) {
   const MarginalCovariances covariances{graph};
@@ -80,7 +69,7 @@ MapJudgement judge(const PoseGraph& graph, const std::deque<Submap>& submaps, do
   judgement.restless = restless;
   judgement.odometry_scale = odometry_scale;
   compare_pieces(graph, submaps, params, judgement);
-  judgement.expected_error = expected_error(with_odometry_of(graph, odometry_scale));
+  judgement.expected_error = expected_error(graph.with_odometry(odometry_scale));
   char text[160];
   if (judgement.in_conflict > params.most_in_conflict) {
     std::snprintf(text, sizeof text, "of the pieces of the way that lie near each other, %.0f %% contradict each other",

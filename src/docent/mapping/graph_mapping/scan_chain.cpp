@@ -23,14 +23,24 @@ Eigen::Matrix3d diagonal_information(double way_sigma, double turn_sigma) {
 
 }  // namespace
 
-ChainStep ScanChain::step(std::span<const MappingScan> scans, std::span<const Pose2> map_from_base,
-                          std::size_t i) const {
+ChainStep ScanChain::odometry_step(std::span<const MappingScan> scans, std::size_t i) const {
   const Pose2 odometry = inverse(scans[i - 1].odom_from_base) * scans[i].odom_from_base;
+  const auto [way_sigma, turn_sigma] = sigmas_of(odometry);
+  return {odometry, diagonal_information(way_sigma, turn_sigma), false};
+}
+
+ScanChain::Sigmas ScanChain::sigmas_of(const Pose2& odometry) const {
   const double way = norm(odometry.position());
   const double turn = std::abs(odometry.theta.radians());
-  const double way_sigma = params_.way_sigma + params_.way_per_metre * way + params_.way_per_radian * turn;
-  const double turn_sigma = params_.turn_sigma + params_.turn_per_metre * way + params_.turn_per_radian * turn;
-  ChainStep result{odometry, diagonal_information(way_sigma, turn_sigma), false};
+  return {params_.way_sigma + params_.way_per_metre * way + params_.way_per_radian * turn,
+          params_.turn_sigma + params_.turn_per_metre * way + params_.turn_per_radian * turn};
+}
+
+ChainStep ScanChain::step(std::span<const MappingScan> scans, std::span<const Pose2> map_from_base,
+                          std::size_t i) const {
+  ChainStep result = odometry_step(scans, i);
+  const Pose2 odometry = result.before_from_after;
+  const auto [way_sigma, turn_sigma] = sigmas_of(odometry);
 
   const Pose2& before = map_from_base[i - 1];
   const Pose2 before_from_map = inverse(before);

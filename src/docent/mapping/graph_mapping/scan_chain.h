@@ -58,11 +58,19 @@ class ScanChain {
   ScanChain(const ScanChainParams& params, const MatchGridParams& grid, const LineMatcherParams& lines)
       : params_{params}, grid_{grid}, lines_{lines} {}
 
+  /// The step to `scans[i]` as odometry has it. @pre 0 < i
+  [[nodiscard]] ChainStep odometry_step(std::span<const MappingScan> scans, std::size_t i) const;
   /// The step to `scans[i]`, of whose predecessors the poses stand in `map_from_base`. @pre 0 < i <= poses.
   [[nodiscard]] ChainStep step(std::span<const MappingScan> scans, std::span<const Pose2> map_from_base,
                                std::size_t i) const;
 
  private:
+  struct Sigmas {
+    double way = 0.0;   ///< [m]
+    double turn = 0.0;  ///< [rad]
+  };
+  [[nodiscard]] Sigmas sigmas_of(const Pose2& odometry) const;
+
   ScanChainParams params_;
   MatchGridParams grid_;
   LineMatcherParams lines_;

@@ -98,6 +98,16 @@ inline Drive drive_round(double rounds, double veer, double noise, std::uint64_t
   return drive;
 }
 
+/// From scan `first` to before `end` nothing is near but one person, who walks along at the robot's side.
+inline void walk_along(Drive& drive, std::size_t first, std::size_t end) {
+  std::vector<SurfacePoint> person;
+  for (int i = 0; i < 40; ++i) {
+    const Angle round = Angle::degrees(180.0 + 4.5 * i);
+    person.push_back({Point2{0.4, 1.2} + 0.2 * unit(round), unit(round)});
+  }
+  for (std::size_t i = first; i < end; ++i) drive.scans[i].points = person;
+}
+
 /// [m], mean over pairs `apart` scans from each other: how wrongly they lie to each other.
 inline double relation_error(const std::vector<Pose2>& truth, const std::vector<Pose2>& found, std::size_t apart) {
   double sum = 0.0;

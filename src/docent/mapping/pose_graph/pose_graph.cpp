@@ -59,15 +59,24 @@ std::size_t PoseGraph::add_pose(const Pose2& map_from_base) {
 
 void PoseGraph::add(const PoseConstraint& constraint) { constraints_.push_back(constraint); }
 
-void PoseGraph::optimise(const PoseGraphParams& params) {
+PoseGraph PoseGraph::with_odometry(double scale) const {
+  PoseGraph rated = *this;
+  for (PoseConstraint& constraint : rated.constraints_) {
+    if (constraint.is_odometry) constraint.information /= scale * scale;
+  }
+  return rated;
+}
+
+void PoseGraph::optimise(const PoseGraphParams& params, double odometry_scale) {
   if (constraints_.empty()) return;
   std::vector<std::array<double, 3>> values;
   values.reserve(poses_.size());
   for (const Pose2& pose : poses_) values.push_back({pose.x, pose.y, pose.theta.radians()});
   ceres::Problem problem;
   for (const PoseConstraint& constraint : constraints_) {
+    const double scale = constraint.is_odometry ? odometry_scale : 1.0;
     auto* cost = new ceres::AutoDiffCostFunction<PoseDifference, 3, 3, 3>(
-        new PoseDifference{root_of(constraint.information), constraint.from_from_to});
+        new PoseDifference{root_of(constraint.information) / scale, constraint.from_from_to});
     ceres::LossFunction* loss = constraint.is_loop ? new ceres::CauchyLoss(params.loop_scale) : nullptr;
     problem.AddResidualBlock(cost, loss, values[constraint.from].data(), values[constraint.to].data());
   }

@@ -43,11 +43,14 @@ class PoseGraph {
   std::size_t add_pose(const Pose2& map_from_base);
   /// @pre both poses exist
   void add(const PoseConstraint& constraint);
+  /// The same poses and constraints, with the sigmas of what only odometry says times `scale`. @pre scale > 0
+  [[nodiscard]] PoseGraph with_odometry(double scale) const;
   void set_poses(std::vector<Pose2> poses) { poses_ = std::move(poses); }
   void clear_constraints() { constraints_.clear(); }
 
   /// Moves all poses but the first. Where no constraint reaches, poses stay. O(constraints * steps), nearly.
-  void optimise(const PoseGraphParams& params);
+  /// @param odometry_scale > 0: the sigmas of what only odometry says are this share of those in its information
+  void optimise(const PoseGraphParams& params, double odometry_scale = 1.0);
   /// By how many sigmas the poses miss the constraint. O(1).
   [[nodiscard]] double error_of(const PoseConstraint& constraint) const;
   /// Takes away the loops that miss by more than params.loop_refused sigmas. @returns how many

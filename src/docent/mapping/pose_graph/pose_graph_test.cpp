@@ -55,6 +55,20 @@ TEST(PoseGraph, AWrongLoopIsOutvotedAndTakenAway) {
   EXPECT_NEAR(graph.poses()[25].y, 10.0, 0.5);
 }
 
+TEST(PoseGraph, OdometryThatHasProvedToBeGoodYieldsLess) {
+  const auto end_with_scale = [](double scale) {
+    PoseGraph graph;
+    for (int i = 0; i < 3; ++i) graph.add_pose({static_cast<double>(i), 0.0, {}});
+    graph.add({0, 1, {1.0, 0.0, {}}, information(0.1, 0.1), false, true});
+    graph.add({1, 2, {1.0, 0.0, {}}, information(0.1, 0.1), false, false});
+    graph.add({0, 2, {2.2, 0.0, {}}, information(0.001, 0.001), false});
+    graph.optimise({}, scale);
+    return graph.poses()[1].x;
+  };
+  EXPECT_NEAR(end_with_scale(1.0), 1.1, 0.001);
+  EXPECT_NEAR(end_with_scale(0.1), 1.0 + 0.2 * 0.01 / 1.01, 0.001);  // in proportion to squared sigmas
+}
+
 TEST(PoseGraph, AnErrorIsCountedInSigmas) {
   PoseGraph graph;
   graph.add_pose({});
