@@ -30,6 +30,11 @@ PathPlace nearest_on(std::span<const Point2> path) {
   return {here, here == path.front() ? 0 : leg + 1};
 }
 
+bool is_taken(Point2 place, std::span<const Obstacle> obstacles, double radius) {
+  return std::any_of(obstacles.begin(), obstacles.end(),
+                     [&](const Obstacle& obstacle) { return distance(obstacle.at, place) < radius; });
+}
+
 }  // namespace
 
 Carrot carrot_on(std::span<const Point2> path, double lookahead, std::span<const Obstacle> obstacles, double radius,
@@ -39,6 +44,7 @@ Carrot carrot_on(std::span<const Point2> path, double lookahead, std::span<const
   Point2 at = here.at;
   Point2 end = here.at;
   bool is_inside = true;
+  bool is_blocked = false;
   double along = 0.0;
   for (std::size_t next = here.next; next < path.size(); ++next) {
     double rest = distance(at, path[next]);
@@ -51,11 +57,13 @@ Carrot carrot_on(std::span<const Point2> path, double lookahead, std::span<const
       is_inside = is_inside && way <= lookahead;
       if (!is_inside) continue;
       end = at;
+      is_blocked = is_blocked || is_taken(at, obstacles, radius);
       const double free = straight_free_way(std::atan2(at.y, at.x), obstacles, radius, way);
       if (free >= way - params.nearly_free) result.in_base = at;
     }
   }
-  if (norm(result.in_base) < params.open_enough) result.in_base = end;
+  const double open = norm(result.in_base);
+  if (open < params.here || (is_blocked && open < params.open_enough)) result.in_base = end;
   result.remaining += along;
   return result;
 }

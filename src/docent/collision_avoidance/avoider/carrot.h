@@ -9,7 +9,8 @@ namespace docent::collision_avoidance {
 
 struct CarrotParams {
   double step = 0.1;          ///< [m] between the places of the path that are looked at
-  double open_enough = 0.7;   ///< [m] when no more of the path can be reached straight, somebody stands on it
+  double open_enough = 0.7;   ///< [m] when no more of a path can be reached straight on which somebody stands, go round
+  double here = 0.15;         ///< [m] so near the robot has nothing to steer for
   double nearly_free = 0.05;  ///< [m] a straight way may end so much before a place and still reach it
 };
 
@@ -19,8 +20,9 @@ struct Carrot {
   double remaining = 0.0;  ///< [m] along the path to its end
 };
 
-/// The farthest point of the path within the lookahead that can be reached straight, so that corners are not cut; the
-/// lookahead's end when the path is blocked at once, for then the robot must go round. O(path / step * obstacles).
+/// The farthest point of the path within the lookahead that can be reached straight, so that corners are not cut, not
+/// even out of a niche; the lookahead's end when the path is blocked soon, for then the robot must go round.
+/// O(path / step * obstacles).
 /// @param path  via-points, base frame @param lookahead  [m] @param radius  [m] of the robot
 /// @pre the path is not empty
 [[nodiscard]] Carrot carrot_on(std::span<const Point2> path, double lookahead, std::span<const Obstacle> obstacles,

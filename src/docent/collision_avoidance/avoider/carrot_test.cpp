@@ -24,6 +24,14 @@ TEST(Carrot, DoesNotCutACornerThatIsInTheWay) {
   EXPECT_LT(carrot_on(path, 1.5, corner, kRadius).in_base.y, 0.3);
 }
 
+TEST(Carrot, LeadsOutOfANicheRoundItsCorner) {
+  const std::vector<Point2> path{{0.0, 0.0}, {0.4, 0.0}, {0.4, 1.5}};
+  const std::vector<Obstacle> corner{{.at = {0.1, 0.3}, .margin = 0.05}, {.at = {0.0, 0.3}, .margin = 0.05}};
+  const Point2 at = carrot_on(path, 1.2, corner, kRadius).in_base;
+  EXPECT_GT(at.x, 0.3) << "no more of the path can be reached straight, but nobody stands on it";
+  EXPECT_LT(at.y, 0.2);
+}
+
 TEST(Carrot, WhereThePathIsBlockedAtOnceItIsTheEndOfTheLookahead) {
   const std::vector<Point2> path{{0.0, 0.0}, {3.0, 0.0}};
   const std::vector<Obstacle> somebody{{.at = {0.6, 0.0}, .margin = 0.08}};
