@@ -11,6 +11,8 @@ constexpr double kBlockedRadius = 0.5;  // [m] about what holds it up
 constexpr double kBlockedAhead = 0.7;   // [m] from the robot's centre: where it stands
 constexpr int kTriesAGoal = 3;          // times that it was held up on its way to one place, then it lets that be
 constexpr double kSameGoal = 0.8;       // [m]
+constexpr int kMostChoices = 4;         // times that it set out for one place, then likewise; counted anew after
+constexpr double kDrivenBetween = 3.0;  // [m] at least: two places nearby may take turns
 constexpr std::size_t kTriesHome = 5;   // ways home on which it was held up, then it stays
 
 /// The mean of five cells for each: a way over cells is a staircase.
@@ -42,7 +44,9 @@ Result<void> ExplorationDriveParams::validate() const {
 }
 
 ExplorationDrive::ExplorationDrive(const ExplorationDriveParams& params, planning::Explorer explorer, Point2 home)
-    : params_{params}, explorer_{std::move(explorer)}, home_{home} {}
+    : params_{params}, explorer_{std::move(explorer)}, home_{home} {
+  explorer_.set_home(home);
+}
 
 void ExplorationDrive::set_way(std::vector<Point2> cells) { way_ = smoothed(cells); }
 
@@ -80,10 +84,22 @@ void ExplorationDrive::note_failure(Point2 goal, Point2 robot) {
   if (++known->times >= kTriesAGoal || is_there) explorer_.give_up(goal, kSameGoal);
 }
 
+/// Two places may each look worse when the robot comes near, and it would drive to and fro between them for ever.
+void ExplorationDrive::note_choice(Point2 goal) {
+  auto known = std::find_if(choices_.begin(), choices_.end(),
+                            [&](const Choice& choice) { return distance(choice.goal, goal) < kSameGoal; });
+  if (known == choices_.end()) known = choices_.insert(choices_.end(), {goal, 0, driven_ - kDrivenBetween});
+  if (driven_ - known->at < kDrivenBetween) return;
+  known->at = driven_;
+  if (++known->times >= kMostChoices) explorer_.give_up(goal, kSameGoal);
+}
+
 bool ExplorationDrive::explore(const OccupancyGrid& map, Point2 robot) {
   auto next = explorer_.next(map, robot);
   frontier_ = next ? next->frontier : 0;
   if (!next) return false;
+  const Point2 goal = next->way.back();
+  if (way_.empty() || distance(way_.back(), goal) > kSameGoal) note_choice(goal);
   set_way(std::move(next->way));
   return true;
 }
@@ -95,9 +111,15 @@ bool ExplorationDrive::is_stuck_for(double most_s, Time now) {
   return true;
 }
 
+std::vector<Point2> ExplorationDrive::way_home(const OccupancyGrid& map, Point2 robot) const {
+  std::vector<Point2> way = explorer_.way_to(map, robot, home_);
+  return way.empty() ? explorer_.way_to(map, robot, home_, true) : way;
+}
+
 void ExplorationDrive::go_home(const OccupancyGrid& map, Point2 robot, Time now) {
-  set_way(explorer_.way_to(map, robot, home_));
+  set_way(way_home(map, robot));
   if (!way_.empty()) stuck_.reset();
+  if (stuck_ && now - *stuck_ >= seconds(params_.forget)) obstacles_.clear();
   const bool is_there = distance(robot, home_) < params_.home_tolerance;
   const bool is_lost = way_.empty() && is_stuck_for(params_.enclosed, now);
   if (!is_there && !is_lost && held_up_on_way_home_ < kTriesHome) return;
@@ -107,6 +129,8 @@ void ExplorationDrive::go_home(const OccupancyGrid& map, Point2 robot, Time now)
 
 void ExplorationDrive::plan(const OccupancyGrid& map, Point2 robot, bool waits, Time now) {
   if (state_ == State::arrived) return;
+  if (last_) driven_ += distance(*last_, robot);
+  last_ = robot;
   note_progress(robot, waits, now);
   if (explore(map, robot)) {
     state_ = State::exploring;
@@ -116,7 +140,7 @@ void ExplorationDrive::plan(const OccupancyGrid& map, Point2 robot, bool waits, 
   if (state_ == State::returning) return go_home(map, robot, now);
   way_.clear();
   if (stuck_ && now - *stuck_ >= seconds(params_.forget)) obstacles_.clear();
-  const bool is_enclosed = explorer_.way_to(map, robot, home_).empty();
+  const bool is_enclosed = way_home(map, robot).empty();
   if (!is_stuck_for(is_enclosed ? params_.enclosed : params_.patience, now)) return;
   state_ = State::returning;
   obstacles_.clear();

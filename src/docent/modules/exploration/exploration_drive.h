@@ -45,6 +45,8 @@ class ExplorationDrive {
   /// Plans anew. O(cells of the map)
   /// @param waits  it is held by hand, or knows no way for another reason: no time counts
   void plan(const OccupancyGrid& map, Point2 robot, bool waits, Time now);
+  /// See `Explorer::set_doubt`.
+  void set_doubt(double sigma) { explorer_.set_doubt(sigma); }
   /// [m], map: the way ahead, nearest first, up to the horizon; empty: stand.
   struct Ahead {
     std::vector<Point2> via;
@@ -66,11 +68,19 @@ class ExplorationDrive {
     Point2 goal;
     int times = 0;
   };
+  struct Choice {
+    Point2 goal;
+    int times = 0;
+    double at = 0.0;  ///< [m] of driven_, the last time
+  };
+  /// It sets out for another place than before.
+  void note_choice(Point2 goal);
   /// It was held up on its way to `goal`.
   void note_failure(Point2 goal, Point2 robot);
   void note_progress(Point2 robot, bool waits, Time now);
   [[nodiscard]] bool explore(const OccupancyGrid& map, Point2 robot);
   [[nodiscard]] bool is_stuck_for(double most_s, Time now);
+  [[nodiscard]] std::vector<Point2> way_home(const OccupancyGrid& map, Point2 robot) const;
   void go_home(const OccupancyGrid& map, Point2 robot, Time now);
   void set_way(std::vector<Point2> cells);
 
@@ -82,6 +92,9 @@ class ExplorationDrive {
   std::size_t frontier_ = 0;
   std::vector<Obstacle> obstacles_;  ///< where it was held up
   std::vector<Failure> failures_;
+  std::vector<Choice> choices_;
+  std::optional<Point2> last_;  ///< where it was at the last plan
+  double driven_ = 0.0;         ///< [m]
   Point2 last_progress_;
   std::optional<Time> progress_;
   std::optional<Time> stuck_;  ///< since when there is no way on

@@ -48,6 +48,37 @@ TEST(ExplorationDrive, GoesToWhatIsUnknownThenHomeThenStays) {
   EXPECT_TRUE(drive.ahead(home).via.empty());
 }
 
+TEST(ExplorationDrive, ComesHomeThroughADoorThatIsHardlyWideEnough) {
+  OccupancyGrid map = hall(12.0);
+  for (int row = 1; row < 79; ++row) {  // a wall at 6 m, with a door of 0.65 m
+    if (row < 34 || row > 46) map.cells[map.frame.index({120, row})] = OccupancyGrid::kOccupied;
+  }
+  const Point2 home{1.0, 2.0};
+  EXPECT_TRUE(planning::Explorer{{}}.way_to(map, {9.0, 2.0}, home).empty());
+  ExplorationDrive drive = drive_from(home);
+  Time now{};
+  for (int i = 0; i < 40; ++i) drive.plan(map, {9.0, 2.0}, false, now = now + seconds(1.0));
+  EXPECT_EQ(drive.state(), ExplorationDrive::State::returning);
+  ASSERT_FALSE(drive.way().empty());
+  EXPECT_LT(distance(drive.way().back(), home), 0.1);
+}
+
+TEST(ExplorationDrive, DoesNotDriveToAndFroBetweenTwoPlacesForEver) {
+  OccupancyGrid west = hall(12.0);  // what is unknown lies in the west when it is in the east, and the other way round
+  for (int row = 1; row < 79; ++row) {
+    for (int column = 1; column < 20; ++column) west.cells[west.frame.index({column, row})] = OccupancyGrid::kUnknown;
+  }
+  ExplorationDrive drive = drive_from({4.0, 2.0});
+  Time now{};
+  int turns = 0;
+  for (; turns < 200; ++turns) {
+    drive.plan(turns % 2 == 0 ? hall(8.0) : west, {turns % 2 == 0 ? 3.0 : 6.0, 2.0}, false, now = now + seconds(10.0));
+    if (drive.way().empty() || drive.state() != ExplorationDrive::State::exploring) break;
+  }
+  EXPECT_GT(turns, 5);
+  EXPECT_LT(turns, 60) << "a line of unknown cells is some places wide";
+}
+
 TEST(ExplorationDrive, TurnsBackOnItsWayHomeWhenAWayHasOpened) {
   ExplorationDrive drive = drive_from({1.0, 2.0});
   Time now{};

@@ -249,6 +249,7 @@ class ExploreModule final : public Module {
     const OccupancyGrid& map = grid_;
     known_m2_ = free_area(map);
     if (order_ == ExplorationOrder::by_itself) {
+      drive_.set_doubt(mapping_.doubt_of_marks());
       drive_.plan(map, here->position(), waits, bus_.now());
       if (drive_.state() == ExplorationDrive::State::arrived) end();
       publish_path();

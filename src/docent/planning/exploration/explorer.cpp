@@ -31,6 +31,20 @@ bool is_hidden(const OccupancyGrid& map, Point2 from, Point2 to) {
   return false;
 }
 
+/// [m] from the place to the middle of what is occupied, up to `most`: of the map itself, whose cells are finer than
+/// those that ways are planned over.
+double fine_clearance(const OccupancyGrid& map, Point2 place, double most) {
+  const CellIndex centre = map.frame.cell_at(place);
+  const int reach = static_cast<int>(std::ceil(most / map.frame.resolution));
+  double least = most;
+  for (int row = centre.row - reach; row <= centre.row + reach; ++row) {
+    for (int column = centre.column - reach; column <= centre.column + reach; ++column) {
+      if (map.is_occupied({column, row})) least = std::min(least, distance(map.frame.centre({column, row}), place));
+    }
+  }
+  return least;
+}
+
 /// The open cell nearest to the robot, which may stand a little nearer to something than it plans to.
 std::optional<CellIndex> start_cell(const ValueIteration& planner, Point2 robot) {
   constexpr double kNear = 0.5;  // [m]
@@ -63,8 +77,12 @@ Result<void> ExplorerParams::validate() const {
   if (!(tight_cost >= 0.0)) return fail("tight_cost must be >= 0");
   if (!(comfort >= 0.0)) return fail("comfort must be >= 0");
   if (!(comfort_cost >= 0.0)) return fail("comfort_cost must be >= 0");
+  if (!(home_cost >= 0.0)) return fail("home_cost must be >= 0");
   if (!(switch_cost >= 0.0)) return fail("switch_cost must be >= 0");
+  if (!(open_reach > 0.0)) return fail("open_reach must be > 0");
+  if (!(open_cost >= 0.0)) return fail("open_cost must be >= 0");
   if (!(hazard_margin >= 0.0)) return fail("hazard_margin must be >= 0");
+  if (!(doubt_sigmas >= 0.0 && doubt_free >= 0.0 && most_doubt >= 0.0)) return fail("doubt must be >= 0");
   if (!(gap >= 0.0)) return fail("gap must be >= 0");
   if (!(close > 0.0)) return fail("close must be > 0");
   if (close_looks < 1) return fail("close_looks must be >= 1");
@@ -100,23 +118,28 @@ bool Explorer::may_stand(Point2 place, double hazard_margin) const {
                       [&](const Disc& disc) { return distance(disc.centre, place) < disc.radius; });
 }
 
-Explorer::Costs Explorer::costs_of(const OccupancyGrid& map, std::optional<Point2> robot) const {
+Explorer::Costs Explorer::costs_of(const OccupancyGrid& map, std::optional<Point2> robot, bool is_squeezing) const {
   Costs result{coarsened(map, params_.coarsening), {}, {}, {}};
   const GridFrame& frame = result.coarse.frame;
   std::vector<bool> solid(frame.size());
   for (std::size_t i = 0; i < solid.size(); ++i) solid[i] = result.coarse.cells[i] >= 65;
   const auto clearances = distance_transform(frame, solid);
   result.costs.assign(frame.size(), ValueIteration::kClosed);
+  const double more = std::clamp(params_.doubt_sigmas * doubt_ - params_.doubt_free, 0.0, params_.most_doubt);
+  const double keep_off = params_.hazard_margin + (is_squeezing ? 0.0 : more);
   for (int row = 0; row < frame.rows; ++row) {
     for (int column = 0; column < frame.columns; ++column) {
       const CellIndex cell{column, row};
       const std::size_t i = frame.index(cell);
-      const double spare = static_cast<double>(clearances[i]) - params_.robot_radius - params_.wall_margin;
+      double spare = static_cast<double>(clearances[i]) - params_.robot_radius - params_.wall_margin;
       const bool is_free = result.coarse.is_free(cell);
       const bool is_frontier = is_unknown(result.coarse.cells[i]) && borders_on_free(result.coarse, cell);
       if (!(is_free || is_frontier)) continue;
-      const bool is_near = robot && distance(*robot, frame.centre(cell)) < params_.tight_reach;
-      if (!may_stand(frame.centre(cell), is_near ? params_.tight_margin : params_.hazard_margin)) continue;
+      const bool is_near = is_squeezing || (robot && distance(*robot, frame.centre(cell)) < params_.tight_reach);
+      if (is_near && is_free && spare < 0.0)
+        spare = fine_clearance(map, frame.centre(cell), params_.robot_radius + params_.wall_margin) -
+                params_.robot_radius - params_.wall_margin;
+      if (!may_stand(frame.centre(cell), is_near && !is_squeezing ? params_.tight_margin : keep_off)) continue;
       if (is_frontier && spare < 0.0 && static_cast<double>(clearances[i]) >= params_.gap) result.gaps.push_back(cell);
       if (spare < (is_near && is_free ? params_.tight_margin - params_.wall_margin : 0.0)) continue;
       if (is_frontier) {
@@ -124,7 +147,10 @@ Explorer::Costs Explorer::costs_of(const OccupancyGrid& map, std::optional<Point
         continue;
       }
       const double discomfort = params_.comfort > 0.0 ? std::clamp(1.0 - spare / params_.comfort, 0.0, 1.0) : 0.0;
-      const double extra = params_.comfort_cost * discomfort * discomfort + (spare < 0.0 ? params_.tight_cost : 0.0);
+      const double openness =
+          std::clamp(static_cast<double>(clearances[i]) / params_.open_reach - 1.0, 0.0, 1.0);  // coastal navigation
+      const double extra = params_.comfort_cost * discomfort * discomfort + (spare < 0.0 ? params_.tight_cost : 0.0) +
+                           params_.open_cost * openness;
       result.costs[i] = static_cast<float>(frame.resolution * (1.0 + extra));
     }
   }
@@ -181,7 +207,8 @@ std::optional<Exploration> Explorer::next(const OccupancyGrid& map, Point2 robot
     if (is_given_up(place, frame.resolution)) continue;
     known.costs[frame.index(cell)] = static_cast<float>(frame.resolution);
     const bool is_same = !last_ || distance(*last_, place) < kSamePlace;
-    goals.push_back({cell, is_same ? 0.0F : static_cast<float>(params_.switch_cost)});
+    const double far = home_ ? params_.home_cost * distance(*home_, place) : 0.0;
+    goals.push_back({cell, static_cast<float>(far + (is_same ? 0.0 : params_.switch_cost))});
   }
 
   ValueIteration planner{frame};
@@ -204,8 +231,8 @@ std::optional<Exploration> Explorer::next(const OccupancyGrid& map, Point2 robot
   return result;
 }
 
-std::vector<Point2> Explorer::way_to(const OccupancyGrid& map, Point2 robot, Point2 goal) const {
-  const Costs known = costs_of(map, robot);
+std::vector<Point2> Explorer::way_to(const OccupancyGrid& map, Point2 robot, Point2 goal, bool is_squeezing) const {
+  const Costs known = costs_of(map, robot, is_squeezing);
   ValueIteration planner{known.coarse.frame};
   planner.set_costs(known.costs);
   const CellIndex cell = known.coarse.frame.cell_at(goal);

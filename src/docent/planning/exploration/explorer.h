@@ -23,8 +23,14 @@ struct ExplorerParams {
   double tight_cost = 6.0;      ///< a factor more
   double comfort = 0.5;         ///< [m] beyond which clearance costs nothing
   double comfort_cost = 2.0;    ///< extra cost, as a factor, at the least clearance
+  double open_reach = 5.0;      ///< [m], > 0: farther from what is known to be occupied, scans tell little of the pose:
+  double open_cost = 1.0;       ///< >= 0: extra cost, as a factor, at twice that
+  double home_cost = 0.7;       ///< [m/m], >= 0: for each metre that a place is farther from home: loops stay short
   double switch_cost = 0.5;     ///< [m of free floor] by which another place must be nearer than the last one
   double hazard_margin = 0.30;  ///< [m] kept from what only people know of, beyond the radius: the pose errs, too
+  double doubt_sigmas = 1.0;    ///< >= 0: that much more, in sigmas of where such marks lie, as far as these are
+  double doubt_free = 0.15;     ///< [m], >= 0: more than this, which the margin holds already;
+  double most_doubt = 0.6;      ///< [m], >= 0: but never more, or the building would be shut
   double gap = 0.30;            ///< [m], >= 0: half of a gap that may be wide enough when it is seen from nearby
   double close = 0.9;           ///< [m], > 0: what is still unknown from so near
   int close_looks = 5;          ///< > 0: in so many calls, is not to be seen
@@ -38,8 +44,14 @@ struct ExplorerParams {
     v("tight_cost", tight_cost);
     v("comfort", comfort);
     v("comfort_cost", comfort_cost);
+    v("open_reach", open_reach);
+    v("open_cost", open_cost);
+    v("home_cost", home_cost);
     v("switch_cost", switch_cost);
     v("hazard_margin", hazard_margin);
+    v("doubt_sigmas", doubt_sigmas);
+    v("doubt_free", doubt_free);
+    v("most_doubt", most_doubt);
     v("gap", gap);
     v("close", close);
     v("close_looks", close_looks);
@@ -71,8 +83,14 @@ class Explorer {
   /// @returns nullopt when nothing unknown can be reached: the map is done. O(cells)
   [[nodiscard]] std::optional<Exploration> next(const OccupancyGrid& map, Point2 robot);
   /// The way to a place over known free floor; empty: there is none. O(cells)
-  [[nodiscard]] std::vector<Point2> way_to(const OccupancyGrid& map, Point2 robot, Point2 goal) const;
+  /// @param is_squeezing  with the least margins all along, for where there is no other way; doubt does not count
+  [[nodiscard]] std::vector<Point2> way_to(const OccupancyGrid& map, Point2 robot, Point2 goal,
+                                           bool is_squeezing = false) const;
 
+  /// How far off, by one standard deviation [m], what people have marked may lie from the robot's place on the map.
+  void set_doubt(double sigma) { doubt_ = sigma; }
+  /// [m], map: what is near to it is explored first.
+  void set_home(Point2 home) { home_ = home; }
   /// Something stands there that the map does not show: no way leads through the disc until `unblock`.
   void block(Point2 centre, double radius) { blocked_.push_back({centre, radius}); }
   void unblock() { blocked_.clear(); }
@@ -99,7 +117,7 @@ class Explorer {
   };
   [[nodiscard]] bool is_given_up(Point2 place, double within) const;
   [[nodiscard]] bool may_stand(Point2 place, double hazard_margin) const;
-  [[nodiscard]] Costs costs_of(const OccupancyGrid& map, std::optional<Point2> robot) const;
+  [[nodiscard]] Costs costs_of(const OccupancyGrid& map, std::optional<Point2> robot, bool is_squeezing = false) const;
   [[nodiscard]] std::vector<CellIndex> views_of_gaps(const Costs& known) const;
   void give_up_what_stays_unknown(const OccupancyGrid& coarse, std::span<const CellIndex> frontier, Point2 robot);
 
@@ -111,6 +129,8 @@ class Explorer {
   };
   std::vector<Hazard> hazards_;
   Polygon area_;
+  double doubt_ = 0.0;
+  std::optional<Point2> home_;
   std::vector<Disc> blocked_;
   std::vector<Disc> forgone_;
   std::vector<Point2> given_up_;                  ///< [m], map

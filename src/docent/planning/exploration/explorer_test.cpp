@@ -209,6 +209,59 @@ TEST(Explorer, KeepsOffWhatPeopleHaveMarkedAndInsideTheArea) {
   EXPECT_FALSE(fenced.next(map, robot)) << "what is unknown lies outside of the area";
 }
 
+TEST(Explorer, KeepsWithinSightOfWalls) {
+  OccupancyGrid map;
+  map.frame = {600, 400, 0.05, {}};
+  map.cells.assign(map.frame.size(), OccupancyGrid::kFree);
+  for (int column = 0; column < 600; ++column) {
+    for (const int row : {0, 399}) map.cells[map.frame.index({column, row})] = OccupancyGrid::kOccupied;
+  }
+  const auto cells_in_the_open = [&](double open_cost) {
+    ExplorerParams params;
+    params.open_cost = open_cost;
+    const auto way = Explorer{params}.way_to(map, {1.0, 2.0}, {29.0, 10.0});
+    EXPECT_GT(way.back().y, 9.8) << "it gets there";
+    return std::count_if(way.begin(), way.end(), [](Point2 point) { return point.y > 6.0; });
+  };
+  EXPECT_LT(2 * cells_in_the_open(ExplorerParams{}.open_cost), cells_in_the_open(0.0));
+}
+
+TEST(Explorer, DoubtKeepsItFartherOffWhatPeopleHaveMarked) {
+  const OccupancyGrid map = half_known_hall();
+  const Point2 robot{1.0, 2.0};
+  const Polygon glass{{4.0, 1.2}, {5.0, 1.2}, {5.0, 2.6}, {4.0, 2.6}};
+  const ExplorerParams params;
+  Explorer explorer{params, {glass}};
+  explorer.set_doubt(0.25);
+  const auto around = explorer.next(map, robot);
+  ASSERT_TRUE(around);
+  const double keep = params.robot_radius + params.hazard_margin + params.doubt_sigmas * 0.25 - params.doubt_free;
+  for (const Point2 point : around->way) EXPECT_GE(distance(glass, point), keep - 1e-6) << point.x << ", " << point.y;
+  explorer.set_doubt(2.0);
+  EXPECT_FALSE(explorer.next(map, robot)) << "it comes back when it is surer";
+  EXPECT_FALSE(explorer.way_to(map, robot, {6.0, 2.0}, true).empty()) << "but it finds its way home";
+}
+
+TEST(Explorer, WhatIsNearHomeComesFirst) {
+  OccupancyGrid map = half_known_hall();
+  for (int row = 0; row < map.frame.rows; ++row) {
+    for (int column = 0; column < 20; ++column) map.cells[map.frame.index({column, row})] = OccupancyGrid::kUnknown;
+  }
+  double known = 0.0;  // [m], where the floor ends that is known
+  for (int column = 0; column < map.frame.columns; ++column)
+    if (map.is_free({column, 40})) known = map.frame.centre({column, 40}).x;
+  const Point2 robot{known - 3.0, 2.0};
+  Explorer nearest{{}};
+  ASSERT_TRUE(nearest.next(map, robot));
+  EXPECT_GT(nearest.next(map, robot)->way.back().x, robot.x);
+  Explorer from_home{{}};
+  from_home.set_home({known - 3.0, 2.0});
+  EXPECT_GT(from_home.next(map, robot)->way.back().x, robot.x) << "not for every little difference";
+  Explorer far_from_home{{}};
+  far_from_home.set_home({1.0, 2.0});
+  EXPECT_LT(far_from_home.next(map, robot)->way.back().x, robot.x);
+}
+
 TEST(Explorer, GoesRoundWhatHeldItUpUntilThatIsForgotten) {
   const OccupancyGrid map = half_known_hall();
   const Point2 robot{1.0, 2.0};
