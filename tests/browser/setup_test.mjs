@@ -37,8 +37,18 @@ const robotAt = () => page.evaluate(() => {
   const [, x, y, heading] = document.querySelector('.editor-map .robot')?.getAttribute('transform').match(/translate\((\S+) (\S+)\) rotate\((\S+)\)/) ?? [];
   return x === undefined ? null : [Number(x), Number(y), (Number(heading) * Math.PI) / 180];
 });
-/** Holds the knob, pulled so far up and to the left, until `isEnough` says so of where the robot is. */
-async function drive(up, left, isEnough, patience = 20000) {
+/** Holds the knob, pulled so far up and to the left, until `isEnough` says so of where the robot is. A robot that stands is
+ * pushed once more, as a person would. */
+async function drive(up, left, isEnough, patience = 30000) {
+  const begun = await robotAt();
+  for (const end = Date.now() + patience; ;) {
+    if (await push(up, left, isEnough, end)) break;
+    ensure(Date.now() < end, `the robot came from ${begun} to ${await robotAt()} only, in ${patience / 1000} s`);
+    console.log(`pushed once more at ${await robotAt()}`);
+  }
+  await pause(1500); // it stands
+}
+async function push(up, left, isEnough, end) {
   if (await page.locator('.steer .go').count()) await page.locator('.steer .go').click();
   await page.waitForSelector('.steer[data-wheel=true]');
   await page.locator('.pad').scrollIntoViewIfNeeded();
@@ -47,15 +57,39 @@ async function drive(up, left, isEnough, patience = 20000) {
   await page.mouse.move(x, y);
   await page.mouse.down();
   await page.mouse.move(x - (left * box.width) / 2, y - (up * box.height) / 2, { steps: 3 });
+  let moved = { at: await robotAt(), time: Date.now() };
   try {
-    await until('it has been driven there', async () => isEnough(await robotAt()), patience, 50);
+    for (; Date.now() < end && Date.now() < moved.time + 6000; await pause(50)) {
+      const at = await robotAt();
+      if (isEnough(at)) return true;
+      if (far(at, moved.at) > 0.05 || turned(at[2], moved.at[2]) > 0.05) moved = { at, time: Date.now() };
+    }
+    return false;
   } finally {
     await page.mouse.up();
   }
-  await pause(1500); // it stands
 }
 const far = ([ax, ay], [bx, by]) => Math.hypot(ax - bx, ay - by);
-const turned = (from, to) => Math.abs(Math.atan2(Math.sin(to - from), Math.cos(to - from)));
+const turn = (from, to) => Math.atan2(Math.sin(to - from), Math.cos(to - from));
+const turned = (from, to) => Math.abs(turn(from, to));
+async function face(direction) {
+  for (let tries = 0; tries < 4; ++tries) { // a slow browser lets go late
+    const gap = turn((await robotAt())[2], direction);
+    if (Math.abs(gap) < 0.15) return;
+    await drive(0, Math.sign(gap) * 0.25, (at) => turn(at[2], direction) * Math.sign(gap) < 0.1, 60000);
+  }
+}
+/** Drives from wherever the robot stands in the hall, by way of the passage between its rooms, to a place of the western one. */
+async function comeTo(place) {
+  const east = (await robotAt())[0];
+  const ways = [[6.4, 2.9], [4.5, 2.4]].filter(([x]) => x < east - 0.3);
+  for (const goal of [...ways, place]) {
+    const from = await robotAt();
+    if (far(from, goal) < 0.4) continue;
+    await face(Math.atan2(goal[1] - from[1], goal[0] - from[0]));
+    await drive(0.6, 0, (at) => far(at, goal) < 0.35 || far(at, from) > far(from, goal), 60000);
+  }
+}
 
 /** A step without which the others would only wait. */
 const must = async (name, action) => {
@@ -113,9 +147,8 @@ await must('it knows its place in its own map at once, and the mark has stayed',
 });
 await must('a hazard is marked by driving round it', async () => {
   const corners = [];
-  const east = (at) => turned(at[2], 0);
-  if (east(await robotAt()) > 0.2) await drive(0, 0.25, (at) => east(at) < 0.1, 60000);
-  await drive(0.6, 0, (at) => at[0] > 3.2);
+  await comeTo([3.2, 2.2]); // where the mapping ended differs
+  await face(0);
   await tool('hazard');
   const mark = async () => {
     corners.push(await robotAt());
