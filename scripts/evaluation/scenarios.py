@@ -96,6 +96,8 @@ class Scenario:
 
 
 SLICE_FLOORS = 0.5  # of the floors, which are of a mean over seeds, is asked of a single one
+KEPT = "things in the live map until seen gone"
+FEWEST_OF_SOME = 4  # seeds, also in a slice
 LOOKS = 0.95  # of the reactions show the wanted direction
 
 BLIND = {"blind to people": ["evaluation.blind_to_people=true"]}
@@ -122,7 +124,7 @@ SCENARIOS = {
         Duty("at the globe by the other way, after the request", 150, lambda run: after(run.arrived("globe"), REQUEST)),
         Duty(f"out of the live map, after a {sensor} saw it gone", out_of_map, lambda run, sensor=sensor: run.unmapped(f"{sensor}_gone")),
         Duty("at the globe again, after the second request", 150, lambda run: after(run.arrived("globe", AGAIN), AGAIN)),
-    ], {"without the live map": ["evaluation.ignores_live_map=true"]}, {"passes within 1 m": 1, "things in the live map until seen gone": 0.5}, world="two-ways", people=("busy", 8))
+    ], {"without the live map": ["evaluation.ignores_live_map=true"]}, {"passes within 1 m": 1, KEPT: 0.5}, world="two-ways", people=("busy", 8))
        for name, sensor, in_map, out_of_map in (("blocked-way", "laser", 2, 10), ("blocked-way-low", "cone", 5, 30))},
     "closed-passage": Scenario(17, [
         Duty("asks, after the way was blocked", 25, lambda run: after(run.first("reaction", "ask", REQUEST), run.blocked())),
@@ -211,7 +213,7 @@ EXPOSURES = {  # of a run
     "s blocked": lambda run: run.report["blocked"]["seconds"],
     "horns": lambda run: run.report["blocked"]["horn"],
     "bumps": lambda run: run.report["bumped_by_people"],
-    "things in the live map until seen gone": lambda run: run.kept_until_seen_gone(),
+    KEPT: lambda run: run.kept_until_seen_gone(),
 }
 
 
@@ -261,9 +263,12 @@ def protocol(simulations, options):
     names = [options.part] if options.part else list(SCENARIOS)
     count = options.seeds or (1 if options.slice else SEEDS)
     seeds = list(range(options.first_seed, options.first_seed + count))
+    # In half of the runs the live map loses the thing before its place is seen: one seed would tell nothing of the other half.
+    seeds_of = {name: list(range(options.first_seed, options.first_seed + max(count, FEWEST_OF_SOME if KEPT in SCENARIOS[name].floors else 1)))
+                for name in names}
     share = SLICE_FLOORS if options.slice else 1.0
     verdict = Verdict()
-    runs = {name: runs_of(name, seeds) for name in names}
+    runs = {name: runs_of(name, seeds_of[name]) for name in names}
     print(f"\n## what the robot must do, {count} seed{'s' if count > 1 else ''} each\n")
     print_table(["scenario", "what", "by s", "median", "worst", "in time"], [row for name in names for row in rows_of(name, runs[name])])
     print("\n## exposure\n")
@@ -271,9 +276,9 @@ def protocol(simulations, options):
                 [exposure_of(name, runs[name]) for name in names])
     print()
     for name in names:
-        bad = {seed: faults for seed, run in zip(seeds, runs[name]) if (faults := faults_of(name, run))}
+        bad = {seed: faults for seed, run in zip(seeds_of[name], runs[name]) if (faults := faults_of(name, run))}
         km = sum(run.report["distance_m"] for run in runs[name]) / 1000
-        verdict.want(f"{name}: all it must, nothing touched, never outside", f"{count - len(bad)} of {count} seeds, {km:.2f} km"
+        verdict.want(f"{name}: all it must, nothing touched, never outside", f"{len(runs[name]) - len(bad)} of {len(runs[name])} seeds, {km:.2f} km"
                      + "".join(f"; seed {seed}: {', '.join(faults)}" for seed, faults in bad.items()), not bad)
         if SCENARIOS[name].floors:
             words, enough = exposures_of(name, runs[name], share)
