@@ -147,8 +147,7 @@ Explorer::Costs Explorer::costs_of(const OccupancyGrid& map, std::optional<Point
         continue;
       }
       const double discomfort = params_.comfort > 0.0 ? std::clamp(1.0 - spare / params_.comfort, 0.0, 1.0) : 0.0;
-      const double openness =
-          std::clamp(static_cast<double>(clearances[i]) / params_.open_reach - 1.0, 0.0, 1.0);  // coastal navigation
+      const double openness = std::clamp(static_cast<double>(clearances[i]) / params_.open_reach - 1.0, 0.0, 1.0);
       const double extra = params_.comfort_cost * discomfort * discomfort + (spare < 0.0 ? params_.tight_cost : 0.0) +
                            params_.open_cost * openness;
       result.costs[i] = static_cast<float>(frame.resolution * (1.0 + extra));
