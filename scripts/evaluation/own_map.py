@@ -6,7 +6,7 @@ import random
 import shutil
 import subprocess
 
-from evaluation import crippled, tour
+from evaluation import crippled, exploration, tour
 from evaluation.tables import Verdict, print_table
 
 MARKED_WITHIN = 0.03  # [m], one standard deviation of each coordinate: a hand that points at a corner
@@ -59,7 +59,8 @@ def set_up(simulations, name, seed):
     original = simulations.museums / name
     folder = simulations.cache / "own-map" / f"{name}-{seed}-{simulations.key(original)[:16]}"
     shutil.rmtree(folder, ignore_errors=True)
-    subprocess.run([simulations.docent, "explore", "--museum", original, "--seed", str(seed), "--out", folder / "explored", "--quiet"],
+    subprocess.run([simulations.docent, "explore", "--museum", original, "--seed", str(seed), *exploration.STARTS.get(name, []), "--out",
+                    folder / "explored", "--quiet"],
                    check=True, capture_output=True)
     shown, own = folder / f"shown-{name}", folder / f"own-{name}"
     for target in (shown, own):
