@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 """scripts/tidy.py FILE…: clang-tidy over sources that build/dev has compiled, as many at a time as there are processors.
 
-The sources of a folder are looked at as one file, for most of the time goes into reading the same headers; where that
-finds something, and in folders that say SOURCES_APART, one by one. What was found good is not looked at again until it,
-a header of it, its compiler options, the list of checks or clang-tidy itself has changed: build/dev/tidy has one empty
-file for each folder or source, named after a hash of all that.
+Most of the time goes into reading the same headers. So the sources of a folder are looked at as one file, and those of
+several folders too, whose names do not meet for they stand in different namespaces; where that finds something, folder
+by folder, and then one by one. What was found good is not looked at again until it, a header of it, its compiler options, the list of checks or
+clang-tidy itself has changed: build/dev/tidy has one empty file for each source, named after a hash of all that.
 """
 import hashlib
 import json
 import os
+import re
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
@@ -18,7 +19,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 BUILD = ROOT / "build" / "dev"
 GOOD = BUILD / "tidy"
-TOGETHER = GOOD / "together"  # one file a folder, which includes its sources
+TOGETHER = GOOD / "together"  # files which include several sources
+MOST_TOGETHER = 40  # sources: what finds something is read once more, one by one
 SINGLE = GOOD / "single"  # commands for each source, however it was compiled
 TIDY = "clang-tidy-14"
 FOREIGN = " -Wno-subobject-linkage"  # an option that only the compiler of build/dev knows
@@ -26,7 +28,13 @@ FOREIGN = " -Wno-subobject-linkage"  # an option that only the compiler of build
 
 @cache
 def hash_of(path):
-    return hashlib.sha256(path.read_bytes()).hexdigest()
+    """None: there is no such file (any more)."""
+    return hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else None
+
+
+@cache
+def resolved(name):
+    return (BUILD / name).resolve()
 
 
 def files_read_by_compiler():
@@ -36,7 +44,7 @@ def files_read_by_compiler():
     for block in listed.split("\n\n"):
         head, *names = block.strip().splitlines() or [""]
         if "(VALID)" in head and names:
-            paths = [(BUILD / name.strip()).resolve() for name in names]
+            paths = [resolved(name.strip()) for name in names]
             read[paths[0]] = paths
     return read
 
@@ -67,26 +75,42 @@ def keys_of(sources, commands, compiled_as):
     common = version + hash_of(ROOT / ".clang-tidy") + hash_of(ROOT / ".clang-format")
     keys = {}
     for source in sources:
-        if source in read and source in commands and all(path.is_file() for path in read[source]):
+        if source in read and source in commands and all(hash_of(path) for path in read[source]):
             text = common + commands[source]["command"] + "".join(f"{path} {hash_of(path)}\n" for path in read[source])
             keys[source] = hashlib.sha256(text.encode()).hexdigest()
     return keys
 
 
-def groups_of(sources):
+def is_program(source):
+    return re.search(r"^int main\(", source.read_text(), re.M) is not None
+
+
+def by_folder(sources):
     """Lists of sources that can be read as one file: those of a folder, or single ones."""
-    folders = {}
+    folders, single = {}, []
     for source in sources:
-        folders.setdefault(source.parent, []).append(source)
-    groups = []
-    for folder, members in folders.items():
-        target = folder / "CMakeLists.txt"
-        text = target.read_text() if target.is_file() else ""
-        if "docent_capability(" in text and "SOURCES_APART" not in text:
-            groups.append(members)
+        target = source.parent / "CMakeLists.txt"
+        if target.is_file() and "docent_capability(" in target.read_text() and not is_program(source):
+            folders.setdefault(source.parent, []).append(source)
         else:
-            groups += [[member] for member in members]
-    return sorted(groups, key=len, reverse=True)  # the longest first
+            single.append([source])
+    return list(folders.values()) + single
+
+
+def groups_of(sources):
+    """Likewise, those of several folders whose namespaces differ."""
+    bins = []  # (namespaces, sources)
+    for members in sorted(by_folder(sources), key=len, reverse=True):
+        namespaces = set()
+        for source in members:
+            namespaces.update(re.findall(r"^namespace ([\w:]+) \{$", source.read_text(), re.M))
+        fits = [one for one in bins if not one[0] & namespaces and len(one[1]) + len(members) <= MOST_TOGETHER]
+        if not fits or not namespaces:
+            fits = [(set(), [])]
+            bins += fits
+        fits[0][0].update(namespaces)
+        fits[0][1].extend(members)
+    return sorted((group for _, group in bins), key=len, reverse=True)  # the longest first
 
 
 def tidy(source, database):
@@ -95,22 +119,31 @@ def tidy(source, database):
     return done.returncode == 0, done.stdout + done.stderr
 
 
+def with_all_seen(command, others):
+    """The command, which sees what those of the other sources see, too."""
+    words = command.split()
+    for other in others:
+        seen = other.split()
+        for i, word in enumerate(seen):
+            option = [word, seen[i + 1]] if word == "-isystem" else [word] if word.startswith(("-I", "-D")) else []
+            if option and option[-1] not in words:
+                words += option
+    return " ".join(words)
+
+
 def write_together(groups, commands):
-    """The files that include the sources of a group, with the compiler's options; list of (group, file)."""
+    """The files that include the sources of a group, with the compiler's options: tuple of sources to file."""
     TOGETHER.mkdir(parents=True, exist_ok=True)
-    entries, files = [], []
+    entries, files = [], {}
     for group in groups:
-        if len(group) == 1 or any(source not in commands for source in group):
-            files.append((group, None))
+        if len(group) == 1 or tuple(group) in files or any(source not in commands for source in group):
             continue
-        name = TOGETHER / ("_".join(group[0].parent.relative_to(ROOT).parts) + ".cpp")
+        name = TOGETHER / ("_".join(group[0].parent.relative_to(ROOT).parts) + f"_{len(group)}.cpp")
         name.write_text("".join(f'#include "{source}"\n' for source in group))
         command = commands[group[0]]["command"].replace(str(group[0]), str(name))
-        for source in group[1:]:  # targets of one folder need not see the same
-            seen = [word for word in commands[source]["command"].split() if word.startswith(("-I", "-D"))]
-            command += "".join(f" {word}" for word in seen if f" {word} " not in command)
+        command = with_all_seen(command, [commands[source]["command"] for source in group[1:]])
         entries.append({"directory": str(BUILD), "file": str(name), "command": command})
-        files.append((group, name))
+        files[tuple(group)] = name
     (TOGETHER / "compile_commands.json").write_text(json.dumps(entries))
     return files
 
@@ -125,21 +158,26 @@ def main():
     known = {path.name for path in GOOD.iterdir() if path.is_file()}
     to_do = [source for source in sources if keys.get(source) not in known]
 
-    def look_at(job):
-        group, together = job
-        if together and tidy(together, TOGETHER)[0]:
-            findings = {source: (True, "") for source in group}
+    groups = groups_of(to_do)
+    together = write_together(groups + by_folder(to_do), commands)
+
+    def is_good(group):
+        """Looks at it as one file, else at its parts; prints what single sources are found guilty of."""
+        if len(group) == 1:
+            good, text = tidy(group[0], SINGLE)
+            print(text if not good else "", end="", flush=True)
         else:
-            findings = {source: tidy(source, SINGLE) for source in group}
-        for source, (is_good, text) in findings.items():
-            if not is_good:
-                print(text, end="", flush=True)
-            elif source in keys:
+            good = tuple(group) in together and tidy(together[tuple(group)], TOGETHER)[0]
+        if not good and len(group) > 1:
+            folders = by_folder(group)
+            return all([is_good(part) for part in (folders if len(folders) > 1 else [[one] for one in group])])
+        for source in group:
+            if good and source in keys:
                 (GOOD / keys[source]).touch()
-        return all(is_good for is_good, _ in findings.values())
+        return good
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        good = list(pool.map(look_at, write_together(groups_of(to_do), commands)))
+        good = list(pool.map(is_good, groups))
     for old in known - set(keys.values()):
         (GOOD / old).unlink()
     print(f"clang-tidy: {len(sources)} files, {len(sources) - len(to_do)} of them unchanged since they were found good")

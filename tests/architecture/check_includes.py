@@ -35,8 +35,8 @@ FLOORS = {
         {"avoider"},
     ],
     "mapping": [
-        {"occupancy", "scan_matching", "pose_graph", "sonar_network"},
-        {"graph_mapping"},
+        {"occupancy", "scan_matching", "pose_graph", "sonar_network", "topological"},
+        {"graph_mapping", "rooms"},
         {"expectation_maximization"},
     ],
     "localization": [
@@ -160,7 +160,7 @@ def check_dependencies():
             folder = words[0]
             section = ""
             for word in words[1:]:
-                if word in {"SOURCES", "HOT", "SOURCES_APART", "TESTS_APART", "DEPENDS", "LIBRARIES", "TEST_DEPENDS", "TEST_LIBRARIES"}:
+                if word in {"SOURCES", "HOT", "DEPENDS", "LIBRARIES", "TEST_DEPENDS", "TEST_LIBRARIES"}:
                     section = word
                 elif section == "DEPENDS":
                     check_arrow(folder, word, f"{cmake.relative_to(ROOT)}")

@@ -133,7 +133,7 @@ await check('by keys, in French; a key and its button at once are one press', as
 await check('by touch, in German; a line that breaks at a question; a poll that nobody answers ends by itself', async () => {
   const { page, robot, context } = await listen({ viewport: { width: 1080, height: 1920 }, hasTouch: true });
   await page.goto(kiosk);
-  await page.locator('main[data-screen=home], main[data-screen=poll]').waitFor({ timeout: 120000 });
+  await page.locator('main[data-screen=home], main[data-screen=poll]').waitFor({ timeout: 300000 });
   if ((await screenOf(page)) === 'poll') await tap(page, 'button.blue');
   await shows(page, 'home', 15000);
   await tap(page, 'button.blue');

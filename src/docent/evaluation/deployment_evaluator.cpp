@@ -167,15 +167,15 @@ void DeploymentEvaluator::count_passes(const docent_msgs::TrueState& state) {
   // The nearest person's gap is given outline to outline; that tells the robot's own radius.
   double nearest = std::numeric_limits<double>::infinity();
   for (const auto& person : state.people)
-    nearest =
-        std::min(nearest, distance({person.x, person.y}, {state.x, state.y}) - static_cast<double>(person.radius));
+    nearest = std::min(nearest,
+                       distance(Point2{person.x, person.y}, {state.x, state.y}) - static_cast<double>(person.radius));
   const double robot_radius = nearest - state.nearest_person_m;
   if (!std::isfinite(robot_radius)) return is_passing_.clear();
   const bool moves = std::abs(state.linear) > kMoves;
   std::map<std::uint32_t, bool> near_by;
   for (const auto& person : state.people) {
     const double gap =
-        distance({person.x, person.y}, {state.x, state.y}) - static_cast<double>(person.radius) - robot_radius;
+        distance(Point2{person.x, person.y}, {state.x, state.y}) - static_cast<double>(person.radius) - robot_radius;
     if (gap > kPassEnd) continue;
     const auto before = is_passing_.find(person.id);
     const bool was_passing = before != is_passing_.end() && before->second;

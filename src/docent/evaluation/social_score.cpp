@@ -24,7 +24,7 @@ void SocialScore::add(const docent_msgs::TrueState& state) {
   if (is_over_ || stamp < start_) return;
   if (last_) {
     const double dt = to_seconds(stamp - from_message(last_->header.stamp));
-    const double way = distance({state.x, state.y}, {last_->x, last_->y});
+    const double way = distance(Point2{state.x, state.y}, {last_->x, last_->y});
     report_.seconds = to_seconds(stamp - start_);
     report_.path_m += way;
     report_.heading_changes += std::abs((Angle::radians(state.theta) - Angle::radians(last_->theta)).radians());
@@ -32,7 +32,7 @@ void SocialScore::add(const docent_msgs::TrueState& state) {
     judge_people(state, dt, way);
   }
   last_ = state;
-  report_.arrived = distance({state.x, state.y}, goal_) < goal_radius_;
+  report_.arrived = distance(Point2{state.x, state.y}, goal_) < goal_radius_;
   is_over_ = report_.arrived || to_seconds(stamp - start_) >= limit_;
 }
 

@@ -5,6 +5,9 @@
 
 namespace docent {
 
+inline constexpr double kDegree = std::numbers::pi / 180.0;    // [rad]
+inline constexpr double kRightAngle = std::numbers::pi / 2.0;  // [rad]
+
 /// Planar angle [rad], always wrapped to [-pi, pi).
 class Angle {
  public:

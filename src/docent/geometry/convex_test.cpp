@@ -9,10 +9,10 @@
 namespace docent {
 namespace {
 
-const Polygon kSquare{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+const Polygon kUnitSquare{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 
 TEST(Convex, KnownByHand) {
-  EXPECT_TRUE(is_convex(kSquare));
+  EXPECT_TRUE(is_convex(kUnitSquare));
   EXPECT_TRUE(is_convex({{0, 1}, {1, 1}, {1, 0}, {0, 0}})) << "clockwise";
   EXPECT_FALSE(is_convex({{0, 0}, {1, 0}}));
   EXPECT_FALSE(is_convex({{0, 0}, {1, 0}, {2, 0}, {1, 1}})) << "a corner on a straight line";
@@ -27,9 +27,9 @@ TEST(Convex, AStarIsNot) {
 }
 
 TEST(Convex, HoldsWhatLiesInsideButNotOnASide) {
-  EXPECT_TRUE(holds_inside(kSquare, {0.5, 0.1}));
-  EXPECT_FALSE(holds_inside(kSquare, {0.5, 0.0}));
-  EXPECT_FALSE(holds_inside(kSquare, {0.5, -0.1}));
+  EXPECT_TRUE(holds_inside(kUnitSquare, {0.5, 0.1}));
+  EXPECT_FALSE(holds_inside(kUnitSquare, {0.5, 0.0}));
+  EXPECT_FALSE(holds_inside(kUnitSquare, {0.5, -0.1}));
 }
 
 }  // namespace

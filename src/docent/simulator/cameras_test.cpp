@@ -5,7 +5,7 @@
 #include "docent/pictures/jpeg/jpeg.h"
 #include "docent/simulator/museum_bench.h"
 
-namespace docent::simulator {
+namespace docent::simulator::cameras_test {
 namespace {
 
 SimulationOptions with_cameras(std::uint64_t seed = 1) {
@@ -90,4 +90,4 @@ TEST(Cameras, RefuseNonsense) {
 }
 
 }  // namespace
-}  // namespace docent::simulator
+}  // namespace docent::simulator::cameras_test

@@ -4,7 +4,7 @@
 
 #include "docent/transport/virtual_time_bus.h"
 
-namespace docent::simulator {
+namespace docent::simulator::instruments_test {
 namespace {
 
 constexpr double kRadius = 0.25;  // [m] of people
@@ -63,4 +63,4 @@ TEST_F(Sight, AScannerLooksFromWhereItIsMounted) {
 TEST_F(Sight, WithoutAScannerNobodyIsSeen) { EXPECT_FALSE(sees(*with({}), {1.0, 0.0})); }
 
 }  // namespace
-}  // namespace docent::simulator
+}  // namespace docent::simulator::instruments_test

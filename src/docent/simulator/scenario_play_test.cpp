@@ -8,7 +8,7 @@
 #include "docent/messages/conversions.h"
 #include "docent/simulator/museum_bench.h"
 
-namespace docent::simulator {
+namespace docent::simulator::scenario_play_test {
 namespace {
 
 /// An empty hall in which nobody asks for anything and a scenario is played.
@@ -224,4 +224,4 @@ TEST(ScenarioPlay, LasersCanBeMadeNearSighted) {
 }
 
 }  // namespace
-}  // namespace docent::simulator
+}  // namespace docent::simulator::scenario_play_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent::simulator {
+namespace docent::simulator::scenario_test {
 namespace {
 
 TEST(Scenario, ReadsEveryKindOfEventInOrderOfTime) {
@@ -181,4 +181,4 @@ TEST(Scenario, FaultsOfTheYamlItselfNameTheLine) {
 }
 
 }  // namespace
-}  // namespace docent::simulator
+}  // namespace docent::simulator::scenario_test

@@ -12,7 +12,7 @@
 #include "docent/messages/conversions.h"
 #include "docent/simulator/museum_bench.h"
 
-namespace docent::simulator {
+namespace docent::simulator::simulated_museum_test {
 namespace {
 
 TEST(SimulatedMuseum, HasTheSensorsOfItsHardwareAndNoOthers) {
@@ -347,4 +347,4 @@ TEST(SimulatedMuseum, MayBeDestroyedWhileTheBusGoesOn) {
 }
 
 }  // namespace
-}  // namespace docent::simulator
+}  // namespace docent::simulator::simulated_museum_test

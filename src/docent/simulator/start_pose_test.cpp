@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent::simulator {
+namespace docent::simulator::start_pose_test {
 namespace {
 
 Polygon box(double x, double y, double width, double depth) {
@@ -67,4 +67,4 @@ TEST(RandomStart, IsTheSameForASeed) {
 }
 
 }  // namespace
-}  // namespace docent::simulator
+}  // namespace docent::simulator::start_pose_test

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-namespace docent::simulator {
+namespace docent::simulator::visitors_test {
 namespace {
 
 WishingVisitors make(double per_hour, std::uint64_t seed) {
@@ -92,4 +92,4 @@ TEST(WishingVisitors, AnswerSomeQuestionsOnceAndInTime) {
 }
 
 }  // namespace
-}  // namespace docent::simulator
+}  // namespace docent::simulator::visitors_test

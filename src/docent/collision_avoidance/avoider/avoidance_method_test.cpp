@@ -9,7 +9,7 @@
 #include "docent/collision_avoidance/avoider/avoider.h"
 #include "docent/collision_avoidance/avoider/rehearsal_for_test.h"
 
-namespace docent::collision_avoidance {
+namespace docent::collision_avoidance::avoidance_method_test {
 namespace {
 
 TEST(AvoidanceMethod, DoesNotPushAPersonWhoComesTowardsIt) {
@@ -177,4 +177,4 @@ TEST(AvoidanceMethod, LeavesWhoTouchedItAwayFromThemOnly) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance
+}  // namespace docent::collision_avoidance::avoidance_method_test

@@ -6,7 +6,7 @@
 
 #include "docent/collision_avoidance/avoider/rehearsal_for_test.h"
 
-namespace docent::collision_avoidance {
+namespace docent::collision_avoidance::avoider_test {
 namespace {
 
 TEST(Avoider, ReachesWalkingSpeedInTheOpenAndStopsAtTheGoal) {
@@ -157,4 +157,4 @@ TEST(Avoider, NeverTouchesAnythingInRandomClutter) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance
+}  // namespace docent::collision_avoidance::avoider_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace docent::collision_avoidance {
+namespace docent::collision_avoidance::bearing_choice_test {
 namespace {
 
 constexpr double kRadius = 0.25;
@@ -46,4 +46,4 @@ TEST(BearingChoice, SlidesOutOfAHazardsMarginButWaitsForWhoStandsAhead) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance
+}  // namespace docent::collision_avoidance::bearing_choice_test

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace docent::collision_avoidance {
+namespace docent::collision_avoidance::carrot_test {
 namespace {
 
 constexpr double kRadius = 0.25;
@@ -39,4 +39,4 @@ TEST(Carrot, WhereThePathIsBlockedAtOnceItIsTheEndOfTheLookahead) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance
+}  // namespace docent::collision_avoidance::carrot_test

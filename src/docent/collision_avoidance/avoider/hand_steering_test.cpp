@@ -6,7 +6,7 @@
 #include "docent/collision_avoidance/avoider/rehearsal_for_test.h"
 #include "docent/vocabulary/vocabulary.h"
 
-namespace docent::collision_avoidance {
+namespace docent::collision_avoidance::hand_steering_test {
 namespace {
 
 Rehearsal in_a_hall() {
@@ -98,4 +98,4 @@ TEST(HandSteering, TheStopButtonStopsWhateverIsWanted) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance
+}  // namespace docent::collision_avoidance::hand_steering_test

@@ -7,7 +7,7 @@
 #include "docent/collision_avoidance/avoider/avoider.h"
 #include "docent/collision_avoidance/avoider/rehearsal_for_test.h"
 
-namespace docent::collision_avoidance {
+namespace docent::collision_avoidance::input_watches_test {
 namespace {
 
 TEST(InputWatches, StandsWhenTheInfraredRingFallsSilent) {
@@ -155,4 +155,4 @@ TEST(InputWatches, VirtualMeasurementsThatAreNoNumbersAreNone) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance
+}  // namespace docent::collision_avoidance::input_watches_test

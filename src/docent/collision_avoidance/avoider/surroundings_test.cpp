@@ -12,7 +12,7 @@
 #include "docent/collision_avoidance/avoider/avoider.h"
 #include "docent/collision_avoidance/avoider/rehearsal_for_test.h"
 
-namespace docent::collision_avoidance {
+namespace docent::collision_avoidance::surroundings_test {
 namespace {
 
 TEST(Surroundings, NobodyIsInsideTheRobot) {
@@ -197,4 +197,4 @@ TEST(Surroundings, DoesNotDriveWhereTheLaserIsBlind) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance
+}  // namespace docent::collision_avoidance::surroundings_test

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-namespace docent::collision_avoidance {
+namespace docent::collision_avoidance::virtual_obstacles_test {
 namespace {
 
 /// Four directions a turn: behind, right, ahead, left.
@@ -39,4 +39,4 @@ TEST(VirtualObstacles, TheSecondTurnIsTheBorder) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance
+}  // namespace docent::collision_avoidance::virtual_obstacles_test

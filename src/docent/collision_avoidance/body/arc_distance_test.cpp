@@ -8,7 +8,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent::collision_avoidance {
+namespace docent::collision_avoidance::arc_distance_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -69,4 +69,4 @@ TEST(ArcDistance, AgreesWithDenseSampling) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance
+}  // namespace docent::collision_avoidance::arc_distance_test

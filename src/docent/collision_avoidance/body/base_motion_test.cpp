@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace docent::collision_avoidance {
+namespace docent::collision_avoidance::base_motion_test {
 namespace {
 
 TEST(BaseMotion, BrakesInTheKnownDistance) {
@@ -53,4 +53,4 @@ TEST(Predict, FromAStateOfLongAgoIsDoneAtOnce) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance
+}  // namespace docent::collision_avoidance::base_motion_test

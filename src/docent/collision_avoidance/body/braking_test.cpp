@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace docent::collision_avoidance {
+namespace docent::collision_avoidance::braking_test {
 namespace {
 
 Obstacle real_at(double x, double y) { return {{x, y}, {}, 0.08, false, false}; }
@@ -82,4 +82,4 @@ TEST(CanBrakeInTime, TheRestOfATurnCountsForABodyThatIsNoDisc) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance
+}  // namespace docent::collision_avoidance::braking_test

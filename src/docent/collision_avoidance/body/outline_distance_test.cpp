@@ -8,7 +8,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent::collision_avoidance {
+namespace docent::collision_avoidance::outline_distance_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -131,4 +131,4 @@ TEST(Outline, IsConvexAndHoldsTheCentre) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance
+}  // namespace docent::collision_avoidance::outline_distance_test

@@ -8,7 +8,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent::collision_avoidance {
+namespace docent::collision_avoidance::speed_near_people_test {
 namespace {
 
 constexpr double kReach = 0.35;  // [m]
@@ -102,4 +102,4 @@ TEST(PeopleCautionParams, RefusesNonsense) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance
+}  // namespace docent::collision_avoidance::speed_near_people_test

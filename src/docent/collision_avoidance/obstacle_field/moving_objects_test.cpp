@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace docent::collision_avoidance {
+namespace docent::collision_avoidance::moving_objects_test {
 namespace {
 
 constexpr double kBeam = std::numbers::pi / 180.0;
@@ -87,4 +87,4 @@ TEST(MovingObjects, TheOtherLasersHalfOfItTellsNoVelocityOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance
+}  // namespace docent::collision_avoidance::moving_objects_test

@@ -6,7 +6,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent::collision_avoidance {
+namespace docent::collision_avoidance::near_points_test {
 namespace {
 
 TEST(NearPoints, IsWhatLookingAtEveryPointSays) {
@@ -41,4 +41,4 @@ TEST(NearPoints, FarAwayNothingIsNear) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance
+}  // namespace docent::collision_avoidance::near_points_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace docent::collision_avoidance {
+namespace docent::collision_avoidance::obstacle_memory_test {
 namespace {
 
 constexpr double kBeam = std::numbers::pi / 180.0;
@@ -304,4 +304,4 @@ TEST(MovingObjects, AWallIsNoPersonNorIsAPieceSeenThroughAGap) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance
+}  // namespace docent::collision_avoidance::obstacle_memory_test

@@ -8,7 +8,7 @@
 #include "docent/base/random.h"
 #include "docent/geometry/polygon.h"
 
-namespace docent::collision_avoidance {
+namespace docent::collision_avoidance::range_flow_test {
 namespace {
 
 constexpr double kBeam = std::numbers::pi / 180.0;
@@ -95,4 +95,4 @@ TEST(RangeFlow, WhoGoesAwayOrStandsWhereNobodyCouldLookIsNotComing) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance
+}  // namespace docent::collision_avoidance::range_flow_test

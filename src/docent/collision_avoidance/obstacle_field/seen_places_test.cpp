@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace docent::collision_avoidance {
+namespace docent::collision_avoidance::seen_places_test {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -98,4 +98,4 @@ TEST(SeenPlaces, NobodyCreepsIntoTheUnknown) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance
+}  // namespace docent::collision_avoidance::seen_places_test

@@ -9,7 +9,7 @@
 #include "docent/base/random.h"
 #include "docent/geometry/polygon.h"
 
-namespace docent::collision_avoidance {
+namespace docent::collision_avoidance::straight_pieces_test {
 namespace {
 
 constexpr double kBeam = std::numbers::pi / 180.0;
@@ -59,4 +59,4 @@ TEST(StraightPieces, PeopleSideBySideAreNot) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance
+}  // namespace docent::collision_avoidance::straight_pieces_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent::collision_avoidance {
+namespace docent::collision_avoidance::sweep_geometry_test {
 namespace {
 
 TEST(SweepGeometry, FindsTheBeamAlsoBeyondHalfATurn) {
@@ -19,4 +19,4 @@ TEST(SweepGeometry, NeighboursMayBeFartherApartFarAway) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance
+}  // namespace docent::collision_avoidance::sweep_geometry_test

@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace docent::collision_avoidance {
+namespace docent::collision_avoidance::unmapped_places_test {
 namespace {
 
 Time at(double time) { return time_from_seconds(100.0 + time); }
@@ -37,4 +37,4 @@ TEST(UnmappedPlaces, WithoutAPlaceInTheMapNothingIsJudged) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance
+}  // namespace docent::collision_avoidance::unmapped_places_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent::collision_avoidance {
+namespace docent::collision_avoidance::complaint_test {
 namespace {
 
 TEST(Complaint, TheMoreCautiousOfTwoWins) {
@@ -50,4 +50,4 @@ TEST(Complaint, LateIsSlowAndTooLateStands) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance
+}  // namespace docent::collision_avoidance::complaint_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent::collision_avoidance {
+namespace docent::collision_avoidance::contact_watch_test {
 namespace {
 
 Time at(double time) { return time_from_seconds(100.0 + time); }
@@ -30,4 +30,4 @@ TEST(ContactWatch, ATouchElsewhereOrAfterAPauseIsAnotherOne) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance
+}  // namespace docent::collision_avoidance::contact_watch_test

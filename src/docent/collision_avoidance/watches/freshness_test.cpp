@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent::collision_avoidance {
+namespace docent::collision_avoidance::freshness_test {
 namespace {
 
 TEST(Freshness, NothingIsFreshBeforeTheFirstMessage) { EXPECT_TRUE(Freshness{}.is_stale(time_from_seconds(100))); }
@@ -49,4 +49,4 @@ TEST(Freshness, AClockThatWasSetForwardIsBelievedAfterThreeMessages) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance
+}  // namespace docent::collision_avoidance::freshness_test

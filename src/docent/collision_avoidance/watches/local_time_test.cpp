@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent::collision_avoidance {
+namespace docent::collision_avoidance::local_time_test {
 namespace {
 
 Time at(double time) { return time_from_seconds(time); }
@@ -78,4 +78,4 @@ TEST(LocalTime, AClockThatWasSetIsFollowed) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance
+}  // namespace docent::collision_avoidance::local_time_test

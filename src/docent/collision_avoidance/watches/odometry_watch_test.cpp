@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent::collision_avoidance {
+namespace docent::collision_avoidance::odometry_watch_test {
 namespace {
 
 /// A base that follows its commands, and an odometry that tells of it every 50 ms.
@@ -119,4 +119,4 @@ TEST(OdometryWatch, AJumpOfAStandingBaseDoesNotMakeItSeemFrozen) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance
+}  // namespace docent::collision_avoidance::odometry_watch_test

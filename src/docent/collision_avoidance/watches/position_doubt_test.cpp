@@ -6,7 +6,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent::collision_avoidance {
+namespace docent::collision_avoidance::position_doubt_test {
 namespace {
 
 /// Cells as a tracking belief has them: a few cells wide, a few degrees.
@@ -74,4 +74,4 @@ TEST(PositionDoubt, IsOverWhenTheBeliefIsWellAgain) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance
+}  // namespace docent::collision_avoidance::position_doubt_test

@@ -7,7 +7,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent::collision_avoidance {
+namespace docent::collision_avoidance::ring_watch_test {
 namespace {
 
 constexpr std::size_t kSensors = 24;
@@ -125,4 +125,4 @@ TEST(RingWatch, ARobotWithoutTheRingIsNotBlamed) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance
+}  // namespace docent::collision_avoidance::ring_watch_test

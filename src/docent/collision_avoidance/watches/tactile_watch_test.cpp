@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace docent::collision_avoidance {
+namespace docent::collision_avoidance::tactile_watch_test {
 namespace {
 
 struct Ring {
@@ -72,4 +72,4 @@ TEST(TactileWatch, SilentLateAndHalfGone) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance
+}  // namespace docent::collision_avoidance::tactile_watch_test

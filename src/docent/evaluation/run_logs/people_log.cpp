@@ -35,7 +35,8 @@ void PeopleLog::add_truth(Time time, std::shared_ptr<const docent_msgs::TrueStat
   std::map<std::uint32_t, Time> in_view;
   for (std::size_t p = 0; p < state->people.size(); ++p) {
     const auto& person = state->people[p];
-    if (beams_on(*state, p) < kVisibleBeams || distance({state->x, state->y}, {person.x, person.y}) > kJudgedRange)
+    if (beams_on(*state, p) < kVisibleBeams ||
+        distance(Point2{state->x, state->y}, {person.x, person.y}) > kJudgedRange)
       continue;
     const auto before = in_view_.find(person.id);
     in_view[person.id] = before == in_view_.end() ? time : before->second;

@@ -4,7 +4,7 @@
 
 #include "docent/interaction/sound/levels_for_test.h"
 
-namespace docent::interaction {
+namespace docent::interaction::clip_test {
 namespace {
 
 TEST(Clip, LevelsByHand) {
@@ -42,4 +42,4 @@ TEST(Clip, QuietAndLoudComeToOneLevel) {
 }
 
 }  // namespace
-}  // namespace docent::interaction
+}  // namespace docent::interaction::clip_test

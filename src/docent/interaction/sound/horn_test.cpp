@@ -7,7 +7,7 @@
 
 #include "docent/interaction/sound/levels_for_test.h"
 
-namespace docent::interaction {
+namespace docent::interaction::horn_test {
 namespace {
 
 TEST(Horn, BeginsAndEndsSoftlyAndStartlesNobody) {
@@ -43,4 +43,4 @@ TEST(Horn, EveryProcessKnowsItsName) {
 }
 
 }  // namespace
-}  // namespace docent::interaction
+}  // namespace docent::interaction::horn_test

@@ -5,7 +5,7 @@
 
 #include "docent/interaction/sound/levels_for_test.h"
 
-namespace docent::interaction {
+namespace docent::interaction::loudspeaker_test {
 namespace {
 
 const auto kLine = std::make_shared<const Clip>(sine(200.0, -9.0, 1.0));
@@ -80,4 +80,4 @@ TEST_F(LoudspeakerTest, WhatIsMissingIsNamedAndSoughtAgain) {
 }
 
 }  // namespace
-}  // namespace docent::interaction
+}  // namespace docent::interaction::loudspeaker_test

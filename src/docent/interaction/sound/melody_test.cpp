@@ -7,7 +7,7 @@
 
 #include "docent/interaction/sound/levels_for_test.h"
 
-namespace docent::interaction {
+namespace docent::interaction::melody_test {
 namespace {
 
 TEST(Melody, LastsEightBarsAndIsNeverSilent) {
@@ -45,4 +45,4 @@ TEST(Melody, BeginsWithItsFirstNotes) {
 }
 
 }  // namespace
-}  // namespace docent::interaction
+}  // namespace docent::interaction::melody_test

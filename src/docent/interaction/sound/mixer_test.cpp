@@ -9,7 +9,7 @@
 #include "docent/interaction/sound/levels_for_test.h"
 #include "docent/interaction/sound/melody.h"
 
-namespace docent::interaction {
+namespace docent::interaction::mixer_test {
 namespace {
 
 using Samples = std::vector<std::int16_t>;
@@ -213,4 +213,4 @@ TEST(Mixer, RefusesParametersOfNoUse) {
 }
 
 }  // namespace
-}  // namespace docent::interaction
+}  // namespace docent::interaction::mixer_test

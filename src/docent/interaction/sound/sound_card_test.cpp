@@ -10,7 +10,7 @@
 
 #include "docent/base/files.h"
 
-namespace docent::interaction {
+namespace docent::interaction::sound_card_test {
 namespace {
 
 bool waited_for(const std::function<bool()>& what) {
@@ -59,4 +59,4 @@ TEST(SoundCard, EndsAtOnce) {
 }
 
 }  // namespace
-}  // namespace docent::interaction
+}  // namespace docent::interaction::sound_card_test

@@ -7,7 +7,7 @@
 #include "docent/base/files.h"
 #include "docent/interaction/sound/levels_for_test.h"
 
-namespace docent::interaction {
+namespace docent::interaction::sound_file_test {
 namespace {
 
 class SoundFile : public testing::Test {
@@ -104,4 +104,4 @@ TEST_F(SoundFile, AGrowingFileIsWholeAtAnyMoment) {
 }
 
 }  // namespace
-}  // namespace docent::interaction
+}  // namespace docent::interaction::sound_file_test

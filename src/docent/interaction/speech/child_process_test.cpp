@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
-namespace docent::interaction {
+namespace docent::interaction::child_process_test {
 namespace {
 
 int status_of(pid_t child) {
@@ -28,4 +28,4 @@ TEST(ChildProcess, AMissingProgramIsNamed) {
 }
 
 }  // namespace
-}  // namespace docent::interaction
+}  // namespace docent::interaction::child_process_test

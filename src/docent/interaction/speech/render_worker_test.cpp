@@ -8,7 +8,7 @@
 #include "docent/base/files.h"
 #include "docent/interaction/sound/sound_file.h"
 
-namespace docent::interaction {
+namespace docent::interaction::render_worker_test {
 namespace {
 
 class RenderWorkerTest : public testing::Test {
@@ -131,4 +131,4 @@ TEST_F(RenderWorkerTest, EndsAtOnce) {
 }
 
 }  // namespace
-}  // namespace docent::interaction
+}  // namespace docent::interaction::render_worker_test

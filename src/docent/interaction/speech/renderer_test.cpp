@@ -11,7 +11,7 @@
 #include "docent/interaction/sound/sound_file.h"
 #include "docent/interaction/speech/spoken_text.h"
 
-namespace docent::interaction {
+namespace docent::interaction::renderer_test {
 namespace {
 
 class Renderer : public testing::Test {
@@ -121,4 +121,4 @@ TEST_F(Renderer, TakesARecordingAsItIs) {
 }
 
 }  // namespace
-}  // namespace docent::interaction
+}  // namespace docent::interaction::renderer_test

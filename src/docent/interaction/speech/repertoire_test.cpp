@@ -10,7 +10,7 @@
 #include "docent/interaction/speech/sentences.h"
 #include "docent/interaction/speech/spoken_text.h"
 
-namespace docent::interaction {
+namespace docent::interaction::repertoire_test {
 namespace {
 
 museum::Museum small_museum() {
@@ -115,4 +115,4 @@ TEST_F(RecordingsTest, AMuseumNeedsNone) {
 }
 
 }  // namespace
-}  // namespace docent::interaction
+}  // namespace docent::interaction::repertoire_test

@@ -5,7 +5,7 @@
 
 #include "docent/base/files.h"
 
-namespace docent::interaction {
+namespace docent::interaction::speaker_test {
 namespace {
 
 const Say kHello{"t1/short", "Hello.", "en", Mood::neutral};
@@ -61,4 +61,4 @@ TEST(Speaker, GoesOnAfterARestart) {
 }
 
 }  // namespace
-}  // namespace docent::interaction
+}  // namespace docent::interaction::speaker_test

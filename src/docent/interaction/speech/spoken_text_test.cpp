@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent::interaction {
+namespace docent::interaction::spoken_text_test {
 namespace {
 
 TEST(SpokenText, LeavesTheWords) {
@@ -44,4 +44,4 @@ TEST(SpokenText, AnExhibitIsIntroducedByItsTitle) {
 }
 
 }  // namespace
-}  // namespace docent::interaction
+}  // namespace docent::interaction::spoken_text_test

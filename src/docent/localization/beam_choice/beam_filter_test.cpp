@@ -4,7 +4,7 @@
 
 #include "docent/localization/markov/testing.h"
 
-namespace docent::localization {
+namespace docent::localization::beam_filter_test {
 namespace {
 
 struct Crowd {
@@ -97,4 +97,4 @@ TEST(ChosenBeams, OnPersonShapesAShareCountsWithAndWithoutABelief) {
 }
 
 }  // namespace
-}  // namespace docent::localization
+}  // namespace docent::localization::beam_filter_test

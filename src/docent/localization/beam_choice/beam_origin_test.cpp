@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace docent::localization {
+namespace docent::localization::beam_origin_test {
 namespace {
 
 constexpr double kMaxRange = 10.0;
@@ -94,4 +94,4 @@ TEST(BeamOrigin, FaultsNameTheField) {
 }
 
 }  // namespace
-}  // namespace docent::localization
+}  // namespace docent::localization::beam_origin_test

@@ -9,15 +9,15 @@
 namespace docent::localization {
 namespace {
 
-constexpr double kReach = 9.5;      // [m] farther off too few beams end on a person
-constexpr double kFace = 0.7;       // [m] a straight face so long is a thing, and
-constexpr double kSlim = 0.7;       // [m] so wide, at most, is a person
-constexpr double kBehind = 0.1;     // [m] that what follows at an edge is nearer or farther off
-constexpr double kCusp = 0.05;      // [m] between two bodies that touch, behind their fronts
-constexpr double kRound = 2.0;      // [1/m] curvature half way between a wall's and a body's
-constexpr double kNoise = 0.025;    // [m] of a reading
-constexpr std::size_t kFew = 3;     // beams, fewer may be of a wall that is seen from its side
-constexpr std::size_t kFewest = 5;  // beams, fewer show no curvature
+constexpr double kReach = 9.5;             // [m] farther off too few beams end on a person
+constexpr double kFace = 0.7;              // [m] a straight face so long is a thing, and
+constexpr double kSlim = 0.7;              // [m] so wide, at most, is a person
+constexpr double kBehind = 0.1;            // [m] that what follows at an edge is nearer or farther off
+constexpr double kCusp = 0.05;             // [m] between two bodies that touch, behind their fronts
+constexpr double kRound = 2.0;             // [1/m] curvature half way between a wall's and a body's
+constexpr double kNoise = 0.025;           // [m] of a reading
+constexpr std::size_t kFew = 3;            // beams, fewer may be of a wall that is seen from its side
+constexpr std::size_t kFewestOfShape = 5;  // beams, fewer show no curvature
 
 /// Two beams on one surface end nearer to each other than this: the step at the rim of a body, and the beams' distance.
 double neighbour_gap(double range) { return 0.10 + 0.05 * range; }
@@ -85,7 +85,7 @@ bool is_person(const Piece& piece) {
   const bool is_attached = piece.left == Edge::attached || piece.right == Edge::attached;
   const bool stands_alone = is_free && !is_attached;
   if (piece.points.size() < kFew) return piece.left == Edge::free && piece.right == Edge::free;
-  if (piece.points.size() < kFewest) return stands_alone;
+  if (piece.points.size() < kFewestOfShape) return stands_alone;
   const Curvature curvature = curvature_of(piece.points);
   if (stands_alone) return curvature.value + kNotFlat * curvature.deviation > kRound;
   return curvature.value - kNoWall * curvature.deviation > kRound;

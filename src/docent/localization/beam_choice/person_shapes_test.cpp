@@ -10,7 +10,7 @@
 #include "docent/base/random.h"
 #include "docent/geometry/polygon.h"
 
-namespace docent::localization {
+namespace docent::localization::person_shapes_test {
 namespace {
 
 /// A robot in the middle of discs and straight walls, with two lasers' 360 beams and noise of 2 cm.
@@ -182,4 +182,4 @@ TEST(PersonShapes, EmptySweepsAreEmpty) {
 }
 
 }  // namespace
-}  // namespace docent::localization
+}  // namespace docent::localization::person_shapes_test

@@ -7,13 +7,13 @@
 namespace docent::localization {
 namespace {
 
-constexpr double kDeviation = 0.06;  // [m] from the chord
-constexpr double kGap = 0.5;         // [m] between neighbours, more is a break
-constexpr std::size_t kFewest = 8;   // beams on a wall
+constexpr double kDeviation = 0.06;       // [m] from the chord
+constexpr double kGap = 0.5;              // [m] between neighbours, more is a break
+constexpr std::size_t kFewestOnWall = 8;  // beams on a wall
 
 /// Marks the straight parts of an unbroken run, splitting it where it is farthest from its chord.
 void split(std::span<const Point2> run, double least_length, std::span<std::uint8_t> is_wall) {
-  if (run.size() < kFewest) return;
+  if (run.size() < kFewestOnWall) return;
   const Point2 chord = run.back() - run.front();
   const double length = norm(chord);
   std::size_t farthest = 0;

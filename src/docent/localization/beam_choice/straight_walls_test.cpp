@@ -8,7 +8,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent::localization {
+namespace docent::localization::straight_walls_test {
 namespace {
 
 std::size_t count(const std::vector<std::uint8_t>& marks) {
@@ -70,4 +70,4 @@ TEST(StraightWalls, AWallIsOneAcrossTheEndOfTheSweep) {
 TEST(StraightWalls, EmptySweepsAreEmpty) { EXPECT_TRUE(on_straight_walls({}).empty()); }
 
 }  // namespace
-}  // namespace docent::localization
+}  // namespace docent::localization::straight_walls_test

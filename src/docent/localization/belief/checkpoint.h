@@ -10,6 +10,10 @@
 
 namespace docent::localization {
 
+inline constexpr Duration kCheckpointEvery = std::chrono::seconds{1};
+inline constexpr Duration kCheckpointAge = std::chrono::seconds{60};  // an older one tells nothing
+inline constexpr double kCheckpointWay = 5.0;                         // [m] that odometry may have gone on meanwhile
+
 /// What lets a restarted localizer go on: the belief's modes and where odometry was then.
 struct LocalizerCheckpoint {
   std::string map_hash;

@@ -8,12 +8,12 @@
 namespace docent::localization {
 namespace {
 
-constexpr std::size_t kBeams = 40;         // of a sweep, and of its walls, that are looked at
-constexpr double kOff = 0.5;               // [m] from the wall: noise of the map and of the heading
-constexpr double kUnknownAllowance = 0.5;  // [m] of a ray's way
+constexpr std::size_t kBeamsOfGlance = 40;  // of a sweep, and of its walls, that are looked at
+constexpr double kOff = 0.5;                // [m] from the wall: noise of the map and of the heading
+constexpr double kUnknownAllowance = 0.5;   // [m] of a ray's way
 
-/// Every so many of `all`, for at most kBeams.
-std::size_t stride_of(std::size_t all) { return std::max<std::size_t>(1, (all + kBeams - 1) / kBeams); }
+/// Every so many of `all`, for at most kBeamsOfGlance.
+std::size_t stride_of(std::size_t all) { return std::max<std::size_t>(1, (all + kBeamsOfGlance - 1) / kBeamsOfGlance); }
 
 double unmapped_share(const sensor_models::RayCaster& caster, const sensor_models::RangeSweep& sweep,
                       const Pose2& map_from_robot) {

@@ -7,10 +7,6 @@
 
 namespace docent::localization {
 
-namespace {
-constexpr double kUnknownAllowance = 0.3;  // [m], as the range table has it
-}
-
 int Expectation::expected(const Pose2& map_from_sensor, std::size_t place, double bearing) const {
   if (at_ == ExpectedAt::pose) {
     const Angle direction = map_from_sensor.theta + Angle::radians(bearing);

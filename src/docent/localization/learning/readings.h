@@ -8,6 +8,9 @@
 
 namespace docent::localization {
 
+inline constexpr double kUnknownAllowance =
+    0.3;  // [m] of unknown space that a beam may cross, as the range table has it
+
 /// Where an expected range is looked up. `cell`: at the middle of the belief's cell and in its nearest heading, as the
 /// grid localizer does; what the cells blur then becomes part of the sensor's noise. `pose`: at the label itself, for
 /// localizers without cells.

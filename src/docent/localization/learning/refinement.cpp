@@ -6,11 +6,11 @@
 #include <map>
 #include <numbers>
 
+#include "docent/localization/learning/readings.h"
+
 namespace docent::localization {
 
 namespace {
-
-constexpr double kUnknownAllowance = 0.3;  // [m], as the range table has it
 
 /// How badly a sweep fits the map at a pose near `label`; less is better.
 class Misfit {

@@ -9,11 +9,7 @@
 #include "docent/localization/beam_choice/person_shapes.h"
 
 namespace docent::localization {
-namespace {
-
-constexpr double kRadians = std::numbers::pi / 180.0;
-
-}  // namespace
+namespace {}  // namespace
 
 Result<void> LocalizerParams::validate() const {
   for (const auto& valid :
@@ -49,7 +45,7 @@ Result<void> LocalizerParams::validate() const {
 }
 
 double LocalizerParams::views(double way, double turn) const {
-  const double updates = std::max(way / update_way, turn / (update_turn * kRadians));
+  const double updates = std::max(way / update_way, turn / (update_turn * kDegree));
   return std::clamp(0.5 * updates, 1.0, most_views);
 }
 

@@ -6,7 +6,6 @@
 namespace docent::localization {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr double kStands = 0.005;  // [m] or [rad]: less is the odometry's noise
 
 }  // namespace
@@ -16,7 +15,7 @@ Motion::Motion(const Pose2& step)
 
 double UpdateCadence::weight(const Motion& motion, Time now) const {
   if (waited(now) * params_.work_per_second < last_work_) return 0.0;
-  const double moved = std::max(motion.way / params_.update_way, motion.turn / (params_.update_turn * kRadians));
+  const double moved = std::max(motion.way / params_.update_way, motion.turn / (params_.update_turn * kDegree));
   const bool shows_news = motion.way >= params_.update_way || !goes_round() || waited(now) >= params_.creeping_period;
   if (moved >= 1.0) return shows_news ? 1.0 : 0.0;
   const bool stands = motion.way < kStands && motion.turn < kStands;

@@ -8,7 +8,7 @@ namespace docent::localization {
 
 namespace {
 
-constexpr std::size_t kTile = RangeTable::kTile;
+constexpr std::size_t kTilePlaces = RangeTable::kTile;
 constexpr std::size_t kNear = 8;  // directions: beams that take their lines together
 constexpr std::size_t kSixteenths = sensor_models::kExpectedRanges / 16;
 
@@ -57,7 +57,7 @@ DOCENT_AVX2 void SixteenthScorer::load(const std::uint8_t* tile, std::size_t hal
   std::uint32_t next = 0;
   Ends ends{};
   for (std::size_t line = 0; line < plan_->headings; ++line) {
-    const __m256i index = _mm256_load_si256(reinterpret_cast<const __m256i*>(tile + line * kTile + half * kHalf));
+    const __m256i index = _mm256_load_si256(reinterpret_cast<const __m256i*>(tile + line * kTilePlaces + half * kHalf));
     const std::uint32_t first = next;
     for (std::size_t sixteenth = 0; sixteenth < kSixteenths; ++sixteenth) {
       // 0..15 in the lanes of this sixteenth and 16..127 in others; bit 7 of those follows by an addition.
@@ -154,7 +154,7 @@ DOCENT_AVX2 const Vector* SixteenthScorer::add_beams(TileScorer::Sector beams, R
 }
 
 DOCENT_AVX2 void SixteenthScorer::score(std::size_t first, std::size_t count, std::uint16_t* sums) {
-  for (std::size_t k = 0; k < count; ++k) std::fill_n(sums + k * kTile, kHalf, std::uint16_t{0});
+  for (std::size_t k = 0; k < count; ++k) std::fill_n(sums + k * kTilePlaces, kHalf, std::uint16_t{0});
   const auto& sectors = plan_->sectors;
   if (plan_->capped_in_byte > 0) {
     const __m256i cap = _mm256_set1_epi8(static_cast<char>(plan_->cap));
@@ -165,7 +165,7 @@ DOCENT_AVX2 void SixteenthScorer::score(std::size_t first, std::size_t count, st
         store_vector(group_[k], _mm256_add_epi8(load_vector(group_[k]), _mm256_min_epu8(load_vector(part[k]), cap)));
       if ((s + 1) % plan_->capped_in_byte != 0 && s + 1 < sectors.size()) continue;
       for (std::size_t k = 0; k < count; ++k) {
-        widen(load_vector(group_[k]), sums + k * kTile);
+        widen(load_vector(group_[k]), sums + k * kTilePlaces);
         group_[k] = {};
       }
     }
@@ -180,8 +180,8 @@ DOCENT_AVX2 void SixteenthScorer::score(std::size_t first, std::size_t count, st
     }
     for (std::size_t k = 0; k < count; ++k)
       for (std::size_t i = 0; i < kHalf; ++i)
-        sums[k * kTile + i] =
-            static_cast<std::uint16_t>(sums[k * kTile + i] + std::min(wide_[k * kHalf + i], plan_->cap));
+        sums[k * kTilePlaces + i] =
+            static_cast<std::uint16_t>(sums[k * kTilePlaces + i] + std::min(wide_[k * kHalf + i], plan_->cap));
   }
 }
 

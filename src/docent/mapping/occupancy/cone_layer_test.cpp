@@ -8,7 +8,7 @@
 
 #include "docent/geometry/polygon.h"
 
-namespace docent::mapping {
+namespace docent::mapping::cone_layer_test {
 namespace {
 
 constexpr double kCell = 0.15;  // [m]
@@ -150,4 +150,4 @@ TEST(ConeLayerParams, AreChecked) {
 }
 
 }  // namespace
-}  // namespace docent::mapping
+}  // namespace docent::mapping::cone_layer_test

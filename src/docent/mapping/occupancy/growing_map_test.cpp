@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace docent::mapping {
+namespace docent::mapping::growing_map_test {
 namespace {
 
 /// A round wall of 3 m about the sensor.
@@ -57,4 +57,4 @@ TEST(GrowingMap, IsNotDrawnAnewForACentimetre) {
 }
 
 }  // namespace
-}  // namespace docent::mapping
+}  // namespace docent::mapping::growing_map_test

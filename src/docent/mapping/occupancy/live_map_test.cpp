@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent::mapping {
+namespace docent::mapping::live_map_test {
 namespace {
 
 OccupancyGrid hall() {
@@ -146,4 +146,4 @@ TEST(LiveMap, NearHazardsAnEchoIsNoNews) {
 }
 
 }  // namespace
-}  // namespace docent::mapping
+}  // namespace docent::mapping::live_map_test

@@ -7,7 +7,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent::mapping {
+namespace docent::mapping::scan_mapper_test {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -243,4 +243,4 @@ TEST(ScanMapper, WhoStandsDuringOnePieceOfTheWayIsNoWall) {
 }
 
 }  // namespace
-}  // namespace docent::mapping
+}  // namespace docent::mapping::scan_mapper_test

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace docent::mapping {
+namespace docent::mapping::stray_floor_test {
 namespace {
 
 OccupancyGrid unknown() {
@@ -43,4 +43,4 @@ TEST(StrayFloor, CellsThatMeetAtACornerAreNoPiece) {
 }
 
 }  // namespace
-}  // namespace docent::mapping
+}  // namespace docent::mapping::stray_floor_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent::mapping {
+namespace docent::mapping::touch_layer_test {
 namespace {
 
 constexpr GridFrame kFrame{40, 40, 0.15, {0.0, 0.0}};
@@ -42,4 +42,4 @@ TEST_F(TouchLayerTest, AMappedWallIsNoNews) {
 }
 
 }  // namespace
-}  // namespace docent::mapping
+}  // namespace docent::mapping::touch_layer_test

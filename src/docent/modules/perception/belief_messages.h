@@ -8,6 +8,8 @@
 
 namespace docent::modules {
 
+inline constexpr Duration kSilent = std::chrono::milliseconds{1500};  // a topic of a sensor that should have spoken
+
 /// What the belief holds beside its listed cells.
 [[nodiscard]] docent_msgs::CoarseBelief rest_message(const localization::BeliefSummary& summary);
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace docent::modules {
+namespace docent::modules::belief_messages_test {
 namespace {
 
 constexpr Time kStamp{2'000'000'007};
@@ -56,4 +56,4 @@ TEST(BeliefMessages, TheCovarianceOfAPoseStandsWhereRosLooksForIt) {
 }
 
 }  // namespace
-}  // namespace docent::modules
+}  // namespace docent::modules::belief_messages_test

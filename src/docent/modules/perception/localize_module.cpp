@@ -23,13 +23,9 @@
 namespace docent::modules {
 namespace {
 
-constexpr Duration kPeriod = std::chrono::milliseconds{100};
+constexpr Duration kLookPeriod = std::chrono::milliseconds{100};
 constexpr Duration kTogether = std::chrono::milliseconds{250};   // scans of two lasers that make one sweep
-constexpr Duration kSilent = std::chrono::milliseconds{1500};    // a topic that should have spoken
 constexpr Duration kRepublish = std::chrono::milliseconds{500};  // the belief of a robot that stands
-constexpr Duration kCheckpointEvery = std::chrono::seconds{1};
-constexpr Duration kCheckpointAge = std::chrono::seconds{60};
-constexpr double kCheckpointWay = 5.0;  // [m] that odometry may have gone on meanwhile
 
 /// Section `localize.sonar`: sonars alone, with `localize.method: sonar`, or beside the lasers.
 struct SonarParams {
@@ -136,7 +132,7 @@ class LocalizeModule final : public Module {
     subscribe_initial_pose(bus_, context.museum.map, [this](const localization::BeliefMode& mode, Time stamp) {
       return start_where_told(mode, stamp);
     });
-    bus_.every(kPeriod, [this] { look(); });
+    bus_.every(kLookPeriod, [this] { look(); });
   }
 
   [[nodiscard]] ModuleHealth health() const override {
@@ -310,7 +306,7 @@ class LocalizeModule final : public Module {
   void publish_pose(Time stamp) { pose_.publish(pose_message(localizer_->summary().modes.front(), stamp)); }
 
   void save(Time stamp) {
-    if (bus_.now() - saved_ < kCheckpointEvery) return;
+    if (bus_.now() - saved_ < localization::kCheckpointEvery) return;
     saved_ = bus_.now();
     // A checkpoint that cannot be written costs a restarted robot a new search, nothing else.
     const Pose2 raw_from_robot = inverse(unbroken_.odom_from_raw(stamp)) * localizer_->odom_from_robot();
@@ -322,7 +318,7 @@ class LocalizeModule final : public Module {
     auto checkpoint = localization::load_localizer_checkpoint(checkpoint_path_);
     if (!checkpoint || checkpoint->map_hash != map_hash_) return;
     const Duration age = bus_.now() - checkpoint->time;
-    if (age < Duration{0} - kTogether || age > kCheckpointAge) return;
+    if (age < Duration{0} - kTogether || age > localization::kCheckpointAge) return;
     localizer_->start_at(checkpoint->modes, checkpoint->odom_from_robot, checkpoint->time);
     restored_ = checkpoint->odom_from_robot;
   }
@@ -343,7 +339,8 @@ class LocalizeModule final : public Module {
 
   /// The first odometry after a restart: has the robot been moved, or its odometry been reset?
   void check_restored() {
-    if (distance(restored_->position(), odometry_.latest().position()) > kCheckpointWay) localizer_->start_unknown();
+    if (distance(restored_->position(), odometry_.latest().position()) > localization::kCheckpointWay)
+      localizer_->start_unknown();
     restored_.reset();
   }
 

@@ -11,7 +11,7 @@
 #include "docent/geometry/polygon.h"
 #include "docent/modules/shared/module_bench.h"
 
-namespace docent::modules {
+namespace docent::modules::localize_module_test {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -195,4 +195,4 @@ TEST_F(LocalizeModule, ACheckpointOfAnotherMapIsNotUsed) {
 }
 
 }  // namespace
-}  // namespace docent::modules
+}  // namespace docent::modules::localize_module_test

@@ -15,7 +15,7 @@ namespace docent::modules {
 namespace {
 
 constexpr Duration kFullMapPeriod = std::chrono::seconds{10};
-constexpr Duration kStaleAfter = std::chrono::seconds{1};
+constexpr Duration kStaleSight = std::chrono::seconds{1};
 
 class MapModule final : public Module {
  public:
@@ -81,7 +81,7 @@ class MapModule final : public Module {
   bool place(std::size_t laser) {
     Sight& sight = sights_[laser];
     const auto& scan = sight.scan;
-    if (scan.ranges.empty() || bus_.now() - sight.received > kStaleAfter) return false;
+    if (scan.ranges.empty() || bus_.now() - sight.received > kStaleSight) return false;
     if (sight.is_placed) return true;
     const auto map_from_base = pose_.map_from_base_at(from_message(scan.header.stamp));
     if (!map_from_base) return false;

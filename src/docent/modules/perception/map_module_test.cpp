@@ -10,7 +10,7 @@
 #include "docent/messages/conversions.h"
 #include "docent/transport/virtual_time_bus.h"
 
-namespace docent::modules {
+namespace docent::modules::map_module_test {
 namespace {
 
 constexpr double kHalf = 4.0;         // [m] of the square room
@@ -118,4 +118,4 @@ TEST_F(LiveMapOfARoom, WhatStandsThereIsSeenWhereItStands) {
 }
 
 }  // namespace
-}  // namespace docent::modules
+}  // namespace docent::modules::map_module_test

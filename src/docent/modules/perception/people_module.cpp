@@ -10,7 +10,7 @@
 namespace docent::modules {
 namespace {
 
-constexpr Duration kStaleAfter = std::chrono::seconds{2};
+constexpr Duration kStaleBeams = std::chrono::seconds{2};
 constexpr std::string_view kMapFrame = "map";
 
 Pose2 pose_of(const std::array<double, 3>& fields) { return {fields[0], fields[1], Angle::radians(fields[2])}; }
@@ -33,7 +33,7 @@ class PeopleModule final : public Module {
   }
 
   [[nodiscard]] ModuleHealth health() const override {
-    if (bus_.now() - received_ > kStaleAfter) return {"degraded", "no docent/person_beams"};
+    if (bus_.now() - received_ > kStaleBeams) return {"degraded", "no docent/person_beams"};
     return {};
   }
 

@@ -8,7 +8,7 @@
 #include "docent/geometry/polygon.h"
 #include "docent/modules/shared/module_bench.h"
 
-namespace docent::modules {
+namespace docent::modules::people_module_test {
 namespace {
 
 constexpr std::uint8_t kOfTheMap = 1;
@@ -130,4 +130,4 @@ TEST_F(PeopleModule, SaysSoAndPublishesNothingWithoutBeams) {
 }
 
 }  // namespace
-}  // namespace docent::modules
+}  // namespace docent::modules::people_module_test

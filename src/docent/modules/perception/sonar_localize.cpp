@@ -14,14 +14,9 @@
 namespace docent::modules {
 namespace {
 
-constexpr Duration kPeriod = std::chrono::milliseconds{125};
-constexpr Duration kSilent = std::chrono::milliseconds{1500};  // a topic that should have spoken
-constexpr Duration kCheckpointEvery = std::chrono::seconds{1};
-constexpr Duration kCheckpointAge = std::chrono::seconds{60};
-constexpr double kCheckpointWay = 5.0;  // [m] that odometry may have gone on meanwhile
-constexpr double kMostDoubt = 0.5;      // of being lost, to say "here"
-constexpr double kWidest = 0.5;         // [m] standard deviation, to say "here"
-constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr Duration kTellPeriod = std::chrono::milliseconds{125};
+constexpr double kMostDoubt = 0.5;  // of being lost, to say "here"
+constexpr double kWidest = 0.5;     // [m] standard deviation, to say "here"
 
 class SonarLocalizeModule final : public Module {
  public:
@@ -46,7 +41,7 @@ class SonarLocalizeModule final : public Module {
     bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const auto& range) { on_sonar(range); });
     subscribe_initial_pose(
         bus_, map_, [this](const localization::BeliefMode& mode, Time stamp) { return start_where_told(mode, stamp); });
-    bus_.every(kPeriod, [this] { tell(); });
+    bus_.every(kTellPeriod, [this] { tell(); });
   }
 
   [[nodiscard]] ModuleHealth health() const override {
@@ -71,7 +66,8 @@ class SonarLocalizeModule final : public Module {
     odometry_.add(stamp, odom_from_robot);
     if (restored_) {
       // What odometry did while nobody listened, unless it began anew.
-      if (distance(restored_->position(), odom_from_robot.position()) < kCheckpointWay) tracker_.move(*restored_);
+      if (distance(restored_->position(), odom_from_robot.position()) < localization::kCheckpointWay)
+        tracker_.move(*restored_);
       restored_.reset();
     }
     tracker_.move(odom_from_robot);
@@ -150,7 +146,7 @@ class SonarLocalizeModule final : public Module {
   }
 
   void save(Time stamp) {
-    if (bus_.now() - saved_ < kCheckpointEvery) return;
+    if (bus_.now() - saved_ < localization::kCheckpointEvery) return;
     saved_ = bus_.now();
     // A checkpoint that cannot be written costs a restarted robot its place, which it then must be told.
     (void)localization::save_localizer_checkpoint(
@@ -162,7 +158,7 @@ class SonarLocalizeModule final : public Module {
     auto checkpoint = localization::load_localizer_checkpoint(checkpoint_path_);
     if (!checkpoint || checkpoint->map_hash != map_hash_ || checkpoint->modes.empty()) return;
     const Duration age = bus_.now() - checkpoint->time;
-    if (age < -kPeriod || age > kCheckpointAge) return;
+    if (age < -kTellPeriod || age > localization::kCheckpointAge) return;
     tracker_.start_at(checkpoint->modes.front().map_from_robot, params.start_position_error,
                       params.start_heading_error * kDegree);
     restored_ = checkpoint->odom_from_robot;

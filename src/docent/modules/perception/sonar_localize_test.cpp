@@ -10,7 +10,7 @@
 #include "docent/modules/perception/localize_module.h"
 #include "docent/transport/virtual_time_bus.h"
 
-namespace docent::modules {
+namespace docent::modules::sonar_localize_test {
 namespace {
 
 /// `localize` with `method: sonar` before a robot that drives rounds in a room of 9 x 6 m with a case in a corner; its
@@ -151,4 +151,4 @@ TEST(SonarLocalizeConfiguration, UnknownMethodsAndWildStartsAreFaults) {
 }
 
 }  // namespace
-}  // namespace docent::modules
+}  // namespace docent::modules::sonar_localize_test

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-namespace docent::planning {
+namespace docent::planning::clearances_test {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -69,4 +69,4 @@ TEST(Clearances, NothingReadIsNothingFree) {
 }
 
 }  // namespace
-}  // namespace docent::planning
+}  // namespace docent::planning::clearances_test

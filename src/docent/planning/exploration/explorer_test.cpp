@@ -10,7 +10,7 @@
 #include "docent/base/random.h"
 #include "docent/sensor_models/ray_caster.h"
 
-namespace docent::planning {
+namespace docent::planning::explorer_test {
 namespace {
 
 constexpr double kRange = 4.0;  // [m]
@@ -291,4 +291,4 @@ TEST(Explorer, FindsTheWayBackAndNamesWhatItCouldNotReach) {
 }
 
 }  // namespace
-}  // namespace docent::planning
+}  // namespace docent::planning::explorer_test

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace docent::planning {
+namespace docent::planning::look_around_test {
 namespace {
 
 /// Turns the robot as told for up to `seconds_left`; returns the first drive.
@@ -55,4 +55,4 @@ TEST(LookAround, LeavesADriveThatIsHeldUpAndTurnsAgain) {
 }
 
 }  // namespace
-}  // namespace docent::planning
+}  // namespace docent::planning::look_around_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace docent::planning {
+namespace docent::planning::tell_apart_test {
 namespace {
 
 constexpr double kRange = 10.0;  // [m] of the laser
@@ -96,4 +96,4 @@ TEST(TellApartParams, RefusesNonsense) {
 }
 
 }  // namespace
-}  // namespace docent::planning
+}  // namespace docent::planning::tell_apart_test

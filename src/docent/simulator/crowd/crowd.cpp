@@ -8,7 +8,7 @@
 namespace docent::simulator {
 namespace {
 
-constexpr double kCell = 1.5;               // [m] of the neighbour search
+constexpr double kNeighbourCell = 1.5;      // [m] of the neighbour search
 constexpr double kWallGap = 0.26;           // [m] no centre comes nearer to a wall, however broad the person
 constexpr double kPersonalRobotGap = 0.05;  // [m] nobody walks nearer to the robot, but those who push or do not look
 constexpr double kSimulationStep = 0.02;    // [s]
@@ -40,8 +40,8 @@ Crowd::Crowd(const World& world, WalkableFloor floor, const CrowdParams& params,
     cells_low_ = {std::min(cells_low_.x, corner.x), std::min(cells_low_.y, corner.y)};
     high = {std::max(high.x, corner.x), std::max(high.y, corner.y)};
   }
-  cell_columns_ = static_cast<int>((high.x - cells_low_.x) / kCell) + 1;
-  cell_rows_ = static_cast<int>((high.y - cells_low_.y) / kCell) + 1;
+  cell_columns_ = static_cast<int>((high.x - cells_low_.x) / kNeighbourCell) + 1;
+  cell_rows_ = static_cast<int>((high.y - cells_low_.y) / kNeighbourCell) + 1;
   let_recorded_in(0.0, robot);
   const auto recorded = static_cast<std::size_t>(std::lround(mean_people(world.pedestrians)));
   const std::size_t others = count - std::min(count, recorded);
@@ -222,8 +222,8 @@ void Crowd::change_world(const World& world) {
 void Crowd::sort_into_cells() {
   const auto cell_of = [&](const Person& person) {
     const Point2 place = person.position - cells_low_;
-    const int column = std::clamp(static_cast<int>(place.x / kCell), 0, cell_columns_ - 1);
-    const int row = std::clamp(static_cast<int>(place.y / kCell), 0, cell_rows_ - 1);
+    const int column = std::clamp(static_cast<int>(place.x / kNeighbourCell), 0, cell_columns_ - 1);
+    const int row = std::clamp(static_cast<int>(place.y / kNeighbourCell), 0, cell_rows_ - 1);
     return static_cast<std::size_t>(row * cell_columns_ + column);
   };
   cell_begin_.assign(static_cast<std::size_t>(cell_columns_ * cell_rows_) + 1, 0);

@@ -7,7 +7,7 @@
 namespace docent::simulator {
 namespace {
 
-constexpr double kCell = 0.1;         // [m]
+constexpr double kFloorCell = 0.1;    // [m]
 constexpr double kCoarse = 0.2;       // [m]
 constexpr double kFar = 1.5;          // [m] clearances are not told apart beyond
 constexpr double kWalkable = 0.27;    // [m] clearance that a way needs
@@ -39,19 +39,19 @@ Box box_of(const Polygon& polygon) {
 WalkableFloor::WalkableFloor(const World& world) {
   if (world.floor.size() < 3) return;
   const Box bounds = box_of(world.floor);
-  low_ = bounds.low - Point2{kCell, kCell};
-  columns_ = static_cast<int>(std::ceil((bounds.high.x - low_.x) / kCell)) + 2;
-  rows_ = static_cast<int>(std::ceil((bounds.high.y - low_.y) / kCell)) + 2;
+  low_ = bounds.low - Point2{kFloorCell, kFloorCell};
+  columns_ = static_cast<int>(std::ceil((bounds.high.x - low_.x) / kFloorCell)) + 2;
+  rows_ = static_cast<int>(std::ceil((bounds.high.y - low_.y) / kFloorCell)) + 2;
   clearance_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), static_cast<float>(kFar));
 
   const auto for_cells_near = [&](const Box& box, auto&& action) {
     const auto bound = [](double value, int limit) { return std::clamp(static_cast<int>(value), 0, limit - 1); };
-    for (int row = bound((box.low.y - kFar - low_.y) / kCell, rows_);
-         row <= bound((box.high.y + kFar - low_.y) / kCell, rows_); ++row) {
-      for (int column = bound((box.low.x - kFar - low_.x) / kCell, columns_);
-           column <= bound((box.high.x + kFar - low_.x) / kCell, columns_); ++column) {
+    for (int row = bound((box.low.y - kFar - low_.y) / kFloorCell, rows_);
+         row <= bound((box.high.y + kFar - low_.y) / kFloorCell, rows_); ++row) {
+      for (int column = bound((box.low.x - kFar - low_.x) / kFloorCell, columns_);
+           column <= bound((box.high.x + kFar - low_.x) / kFloorCell, columns_); ++column) {
         action(static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column),
-               low_ + Point2{(column + 0.5) * kCell, (row + 0.5) * kCell});
+               low_ + Point2{(column + 0.5) * kFloorCell, (row + 0.5) * kFloorCell});
       }
     }
   };
@@ -99,8 +99,8 @@ void WalkableFloor::weigh_steps() {
 }
 
 std::size_t WalkableFloor::fine_cell(Point2 point) const {
-  const int column = std::clamp(static_cast<int>((point.x - low_.x) / kCell), 0, columns_ - 1);
-  const int row = std::clamp(static_cast<int>((point.y - low_.y) / kCell), 0, rows_ - 1);
+  const int column = std::clamp(static_cast<int>((point.x - low_.x) / kFloorCell), 0, columns_ - 1);
+  const int row = std::clamp(static_cast<int>((point.y - low_.y) / kFloorCell), 0, rows_ - 1);
   return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
 }
 
@@ -138,7 +138,8 @@ void WalkableFloor::find_reachable(const World& world) {
       members.push_back(static_cast<std::uint32_t>(cell));
       const int column = static_cast<int>(cell) % columns_;
       const int row = static_cast<int>(cell) / columns_;
-      nearest = std::min(nearest, distance(anchor, low_ + Point2{(column + 0.5) * kCell, (row + 0.5) * kCell}));
+      nearest =
+          std::min(nearest, distance(anchor, low_ + Point2{(column + 0.5) * kFloorCell, (row + 0.5) * kFloorCell}));
       for (int k = 0; k < 4; ++k) {
         const int c = column + kNeighbours[static_cast<std::size_t>(k)][0];
         const int r = row + kNeighbours[static_cast<std::size_t>(k)][1];
@@ -150,7 +151,7 @@ void WalkableFloor::find_reachable(const World& world) {
       }
     }
     // A pocket of less than 2 m2 is not a museum, however near the anchor.
-    if (static_cast<double>(members.size()) * kCell * kCell > 2.0 && nearest < best_distance) {
+    if (static_cast<double>(members.size()) * kFloorCell * kFloorCell > 2.0 && nearest < best_distance) {
       best_distance = nearest;
       best = std::move(members);
     }
@@ -174,13 +175,13 @@ void WalkableFloor::find_reachable(const World& world) {
     }
     if (near) ++floor_cells;
   }
-  free_area_ = static_cast<double>(floor_cells) * kCell * kCell;
+  free_area_ = static_cast<double>(floor_cells) * kFloorCell * kFloorCell;
 }
 
 double WalkableFloor::clearance(Point2 point) const {
   if (columns_ == 0) return -kFar;
-  const double x = (point.x - low_.x) / kCell - 0.5;
-  const double y = (point.y - low_.y) / kCell - 0.5;
+  const double x = (point.x - low_.x) / kFloorCell - 0.5;
+  const double y = (point.y - low_.y) / kFloorCell - 0.5;
   if (!(x >= 0.0 && y >= 0.0 && x < columns_ - 1 && y < rows_ - 1)) return -kFar;
   const int column = static_cast<int>(x);
   const int row = static_cast<int>(y);
@@ -228,7 +229,7 @@ std::optional<Point2> WalkableFloor::random_point(Rng& rng, double wanted) const
     const auto pick = static_cast<std::size_t>(rng.integer(0, static_cast<std::int64_t>(usable_cells_.size()) - 1));
     const int cell = static_cast<int>(usable_cells_[pick]);
     const Point2 point =
-        low_ + Point2{(cell % columns_ + rng.uniform()) * kCell, (cell / columns_ + rng.uniform()) * kCell};
+        low_ + Point2{(cell % columns_ + rng.uniform()) * kFloorCell, (cell / columns_ + rng.uniform()) * kFloorCell};
     if (clearance(point) >= wanted) return point;
   }
   return std::nullopt;

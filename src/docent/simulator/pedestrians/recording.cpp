@@ -13,12 +13,12 @@
 namespace docent::simulator {
 namespace {
 
-constexpr double kFarthest = 1000.0;         // [m] from the recording's origin
-constexpr double kLongestGap = 2.0;          // [s] that a straight line bridges
-constexpr double kFastestMedian = 4.0;       // [m/s] of all people: else these are no metres
-constexpr double kMostFrames = 1e7;          // of a recording: days
-constexpr double kEdinburghPixel = 0.0247;   // [m]
-constexpr double kEdinburghFrame = 1.0 / 9;  // [s]
+constexpr double kFarthestSighting = 1000.0;  // [m] from the recording's origin
+constexpr double kLongestGap = 2.0;           // [s] that a straight line bridges
+constexpr double kFastestMedian = 4.0;        // [m/s] of all people: else these are no metres
+constexpr double kMostFrames = 1e7;           // of a recording: days
+constexpr double kEdinburghPixel = 0.0247;    // [m]
+constexpr double kEdinburghFrame = 1.0 / 9;   // [s]
 
 /// Someone, seen once.
 struct Sighting {
@@ -40,7 +40,7 @@ struct Source {
     if (!(frame >= 0.0 && frame <= kMostFrames && frame == std::floor(frame))) {
       return "a frame is a whole number of 0 to 10000000";
     }
-    if (std::abs(sighting.position.x) > kFarthest || std::abs(sighting.position.y) > kFarthest) {
+    if (std::abs(sighting.position.x) > kFarthestSighting || std::abs(sighting.position.y) > kFarthestSighting) {
       return "a person is more than 1000 m away";
     }
     people[static_cast<std::int64_t>(person)].push_back(sighting);

@@ -5,7 +5,7 @@
 
 #include "docent/base/files.h"
 
-namespace docent::simulator {
+namespace docent::simulator::recording_test {
 namespace {
 
 constexpr const char* kObsmat =
@@ -98,4 +98,4 @@ TEST(Recording, AFolderHoldsObsmatOrOneText) {
 }
 
 }  // namespace
-}  // namespace docent::simulator
+}  // namespace docent::simulator::recording_test

@@ -12,8 +12,8 @@
 namespace docent::simulator {
 namespace {
 
-constexpr double kFarthest = 10'000.0;  // [m]; coordinates beyond it are a slip of the pen
-constexpr double kLongest = 1e6;        // [s]
+constexpr double kFarthestPoint = 10'000.0;  // [m]; coordinates beyond it are a slip of the pen
+constexpr double kLongest = 1e6;             // [s]
 
 std::string number(double value) {
   std::array<char, 32> text{};
@@ -46,7 +46,7 @@ Result<Track> parse_track(std::string_view rest, const Recording& recording) {
   track.start = numbers->front();
   for (std::size_t i = 1; i < numbers->size(); i += 2) {
     const Point2 point{(*numbers)[i], (*numbers)[i + 1]};
-    if (std::abs(point.x) > kFarthest || std::abs(point.y) > kFarthest) return fail("too far away");
+    if (std::abs(point.x) > kFarthestPoint || std::abs(point.y) > kFarthestPoint) return fail("too far away");
     track.points.push_back(point);
   }
   if (!(track.start >= 0.0) || track.end() > recording.duration + 1e-3) {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent::simulator {
+namespace docent::simulator::tracks_file_test {
 namespace {
 
 std::string fault_of(const std::string& text) {
@@ -45,4 +45,4 @@ TEST(TracksFile, NonsenseIsAFaultWithFileAndLine) {
 }
 
 }  // namespace
-}  // namespace docent::simulator
+}  // namespace docent::simulator::tracks_file_test

@@ -6,7 +6,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent::localization {
+namespace docent::localization::drift_filter_test {
 namespace {
 
 constexpr motion_models::OdometryModelParams kNoise{4e-4, 1e-4, 2e-4, 1e-3, 0.0};
@@ -131,4 +131,4 @@ TEST(DriftFilter, RefusesWildParameters) {
 }
 
 }  // namespace
-}  // namespace docent::localization
+}  // namespace docent::localization::drift_filter_test

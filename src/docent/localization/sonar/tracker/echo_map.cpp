@@ -11,12 +11,10 @@ namespace {
 constexpr float kFarthest = 100.0F;  // [m], of an empty map
 constexpr double kNear = 0.3;        // [m] from a wall its direction is asked, up to
 constexpr double kFar = 0.8;         // [m]
-constexpr double kRight = std::numbers::pi / 2.0;
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kAligned = 8.0 * kDegree;
 
 /// Modulo a right angle, -45..45 degrees.
-double off_right(double heading, double from) { return std::remainder(heading - from, kRight); }
+double off_right(double heading, double from) { return std::remainder(heading - from, kRightAngle); }
 
 }  // namespace
 

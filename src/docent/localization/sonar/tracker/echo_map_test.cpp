@@ -9,7 +9,7 @@
 #include "docent/base/random.h"
 #include "docent/localization/sonar/tracker/testing.h"
 
-namespace docent::localization {
+namespace docent::localization::echo_map_test {
 namespace {
 
 constexpr double kCone = 10.0 * std::numbers::pi / 180.0;
@@ -88,4 +88,4 @@ TEST(EchoMap, SaysHowSlantedASurfaceIsAndWhenThereIsNone) {
 }
 
 }  // namespace
-}  // namespace docent::localization
+}  // namespace docent::localization::echo_map_test

@@ -6,7 +6,7 @@
 
 #include "docent/localization/sonar/tracker/testing.h"
 
-namespace docent::localization {
+namespace docent::localization::gaussian_belief_test {
 namespace {
 
 TEST(GaussianBelief, HasTheGaussiansMomentsAndAllTheMass) {
@@ -48,4 +48,4 @@ TEST(GaussianBelief, TheRestLiesOnTheFloorAlone) {
 }
 
 }  // namespace
-}  // namespace docent::localization
+}  // namespace docent::localization::gaussian_belief_test

@@ -7,8 +7,6 @@
 namespace docent::localization {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kRight = std::numbers::pi / 2.0;
 constexpr double kWallGate = 3.0;         // deviations
 constexpr double kWallCorrelation = 1.5;  // sonars beside each other see the same wall
 constexpr double kLeastRange = 0.1;       // [m]
@@ -72,10 +70,10 @@ void SonarTracker::use_wall(const WallAngle& wall) {
   if (!main || main->share < params_.rectangular) return;
   // The wall as the filter's pose turns it, against the nearest of the building's four directions.
   const Angle normal_in_map = filter_.map_from_robot().theta + (wall.normal - track_from_robot_.theta);
-  const double off = std::remainder((normal_in_map - main->heading).radians(), kRight);
+  const double off = std::remainder((normal_in_map - main->heading).radians(), kRightAngle);
   const double deviation = kWallCorrelation * wall.deviation;
   const double expected = std::sqrt(filter_.covariance()[8] + deviation * deviation);
-  if (std::abs(off) > kWallGate * expected || std::abs(off) > 0.5 * kRight) {
+  if (std::abs(off) > kWallGate * expected || std::abs(off) > 0.5 * kRightAngle) {
     ++tally_.walls_refused;
     return;
   }

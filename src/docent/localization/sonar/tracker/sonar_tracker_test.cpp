@@ -7,7 +7,7 @@
 #include "docent/base/random.h"
 #include "docent/localization/sonar/tracker/testing.h"
 
-namespace docent::localization {
+namespace docent::localization::sonar_tracker_test {
 namespace {
 
 /// Rounds in a room with odometry that scales and veers, every second sonar in turn.
@@ -139,4 +139,4 @@ TEST(SonarTracker, RefusesWildParameters) {
 }
 
 }  // namespace
-}  // namespace docent::localization
+}  // namespace docent::localization::sonar_tracker_test

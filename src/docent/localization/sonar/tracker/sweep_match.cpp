@@ -7,7 +7,6 @@
 namespace docent::localization {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr int kRays = 5;               // across a cone
 constexpr int kCoarseRays = 3;         // on the lattice
 constexpr int kSteps = 2;              // of the lattice to each side

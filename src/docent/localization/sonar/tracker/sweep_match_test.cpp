@@ -8,7 +8,7 @@
 #include "docent/base/random.h"
 #include "docent/localization/sonar/tracker/testing.h"
 
-namespace docent::localization {
+namespace docent::localization::sweep_match_test {
 namespace {
 
 PoseMatrix diagonal(double position, double heading) {
@@ -148,4 +148,4 @@ TEST(SweepMatch, RefusesWildParameters) {
 }
 
 }  // namespace
-}  // namespace docent::localization
+}  // namespace docent::localization::sweep_match_test

@@ -7,7 +7,6 @@
 namespace docent::localization {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kEchoDeviation = 0.02;   // [m], of one echo, for the angle's deviation
 constexpr double kModelDeviation = 0.01;  // [rad]: walls are not quite straight, the way is not quite known
 

@@ -7,7 +7,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent::localization {
+namespace docent::localization::wall_angles_test {
 namespace {
 
 /// Drives along the x axis past the wall y = 1.2 + slope * x; the sonar looks to the left, `bearing` off.
@@ -111,4 +111,4 @@ TEST(WallAngles, RefusesWildParameters) {
 }
 
 }  // namespace
-}  // namespace docent::localization
+}  // namespace docent::localization::wall_angles_test
