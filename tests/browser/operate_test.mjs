@@ -175,6 +175,17 @@ await check('the stop button needs no wheel, and works by touch', async () => {
   await other.page.locator('.stop button.plain').tap();
   await other.page.waitForSelector('.stop[data-stopped=false]');
 });
+await check('an operator sends it into the next room', async () => {
+  const { rooms } = await (await fetch(`${url}api/museum.json`)).json();
+  await other.page.locator('.mission [data-order=next-room]').tap();
+  await until('it says so', async () => {
+    const text = (await other.page.locator('.mission p').first().innerText()).toLowerCase();
+    return rooms.some((room) => text.includes(room.name.en.toLowerCase()));
+  });
+  await other.page.locator('.mission').scrollIntoViewIfNeeded();
+  await other.page.screenshot({ path: join(pictures, 'operate-next-room.png') });
+  await robotDoes('it drives', (now) => now.v > 0.15, 60000);
+});
 await check('an operator says whose hours these are', async () => {
   await other.page.locator('.hours .choices button').nth(2).tap();
   await other.page.waitForSelector('.hours[data-mode=web]');

@@ -18,6 +18,7 @@ export function museumOfThreeLanguages() {
     .replace('languages: [en, de]', 'languages: [en, de, fr]')
     .replace(/exhibits: \[zuse, transrapid[^\]]*\]/, 'exhibits: [zuse, transrapid]')
     .replace(/(- \{id: ([\w-]+), title: \{en: "([^"]*)", de: "[^"]*")/g, (_, all, id, english) => `${all}, fr: "${french[id] ?? `${english} (fr)`}"`)
+    .replace(/(- \{id: [\w-]+, name: \{en: "([^"]*)", de: "[^"]*")/g, '$1, fr: "$2 (fr)"')
     .replace(/^((?:name| {4}title| {4}links: \[\{title): \{en: "([^"]*)", de: "[^"]*")/gm, '$1, fr: "$2 (fr)"')
     .replace(/\{en: (content\/[\w.-]+)\.en\.md, de: [^}]*\}/g, '{en: $1.en.md, de: $1.de.md, fr: $1.fr.md}')
     .replace('  - id: transrapid\n', '  - id: transrapid\n    picture: content/transrapid.svg\n');

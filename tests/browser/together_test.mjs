@@ -84,6 +84,23 @@ await check('a tap on the floor sends the robot there', async () => {
   await page.waitForSelector('.queue li.done[data-state=fulfilled]', { timeout: 90000 });
 });
 
+await check('the rooms have their names, and a tap on one sends the robot there', async () => {
+  ensure((await page.locator('.room').count()) === museum.rooms.length && museum.rooms.length > 3, `${museum.rooms.length} rooms`);
+  const pose = await poseOf(page);
+  const far = (room) => Math.hypot(room.at[0] - pose[0], room.at[1] - pose[1]);
+  const room = [...museum.rooms].sort((a, b) => far(a) - far(b)).find((one) => far(one) > 2);
+  await page.locator(`button[data-room=${room.id}] span`).click();
+  await page.screenshot({ path: join(pictures, 'together-room.png') });
+  await page.locator('.pin-card .go').click();
+  await page.waitForSelector(`.queue li[data-target=${room.id}][data-state=active]`);
+  await until('it says so', async () => (await page.locator('.now').innerText()).includes(room.name.en.toLowerCase()) || (await page.locator('.now').innerText()).includes(room.name.en));
+  await until('it is there', async () => {
+    const now = await poseOf(page);
+    return Math.hypot(now[0] - room.at[0], now[1] - room.at[1]) < NEAR;
+  }, 120000, 1000);
+  await page.waitForSelector(`.queue li.done[data-target=${room.id}][data-state=fulfilled]`, { timeout: 90000 });
+});
+
 await check('five places may be wished for at once, the sixth is refused with a reason', async () => {
   const answers = await page.evaluate((poses) => new Promise((resolve) => {
     const socket = new WebSocket(`ws://${location.host}/live`);

@@ -15,10 +15,11 @@ struct Request {
   static constexpr const char* kType = "docent_msgs/msg/Request";
   std::string id;  ///< UUIDv7, made at the edge
   builtin_interfaces::Time stamp;
-  std::string source;           ///< web, kiosk, visitor, staff, vote
-  std::string visitor;          ///< a name to show
-  std::string kind;             ///< exhibit, tour, cancel, point
-  std::string target;           ///< exhibit or tour id; for cancel: the request's id; for point: "x,y" [m], map
+  std::string source;   ///< web, kiosk, visitor, staff, vote
+  std::string visitor;  ///< a name to show
+  std::string kind;     ///< exhibit, tour, cancel, point, room
+  std::string target;   ///< exhibit or tour id; for cancel: the request's id; for point: "x,y" [m], map; for room: its
+                        ///< id or "next"
   std::int32_t viewpoint = -1;  ///< index in the exhibit's viewpoints
   std::string language;
   template <class Self, class V>

@@ -89,6 +89,14 @@ struct Tour {
   std::optional<double> minutes;      ///< composed on the fly to last so long
 };
 
+/// A room, or a part of a large one, as people call it. The robot knows rooms and doors from its map; this is what they
+/// are called. Several names in one room divide it: what is nearest to walk to belongs to each.
+struct Room {
+  std::string id;  ///< no exhibit has it, either, and it is not "next"
+  Translations name;
+  Point2 at;  ///< [m], map: where the robot goes in it
+};
+
 /// A museum folder, read and validated (architecture 5). What the robot knows of the building; never the true world.
 struct Museum {
   std::filesystem::path folder;
@@ -103,6 +111,7 @@ struct Museum {
   std::vector<Exhibit> exhibits;
   std::map<std::string, Mode> modes;
   std::vector<Tour> tours;
+  std::vector<Room> rooms;
   MuseumSound sound;
   std::optional<SceneCamera> scene_camera;
   std::optional<std::filesystem::path> simulation_path;

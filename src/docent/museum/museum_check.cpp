@@ -20,9 +20,9 @@ std::string metres(double value) {
 }
 
 /// Where the robot's centre may be, by map, hazards and area: as the planner of ways sees it.
-class Room {
+class StandingRoom {
  public:
-  Room(const Museum& museum, const CheckedRobot& robot)
+  StandingRoom(const Museum& museum, const CheckedRobot& robot)
       : museum_{museum}, robot_{robot}, frame_{coarse_frame(museum.map.frame, robot.coarsening)} {
     const GridFrame& frame = museum.map.frame;
     std::vector<bool> blocked(frame.size());
@@ -107,7 +107,7 @@ class Room {
 void check_places(const YamlFile& file, const MuseumSource& source, const CheckedRobot& robot,
                   std::vector<Error>& faults) {
   const Museum& museum = source.museum;
-  const Room room{museum, robot};
+  const StandingRoom room{museum, robot};
   const YAML::Node& root = file.root();
   const auto check = [&](const YAML::Node& at, const std::string& who, const Pose2& pose) {
     const std::string why = room.why_not(pose.position());
@@ -129,6 +129,10 @@ void check_places(const YamlFile& file, const MuseumSource& source, const Checke
       check(node["viewpoints"][k], "viewpoint " + std::to_string(k + 1) + " of exhibit '" + exhibit.id + "'",
             exhibit.viewpoints[k]);
     }
+  }
+  for (std::size_t i = 0; i < museum.rooms.size(); ++i) {
+    const Point2 at = museum.rooms[i].at;
+    check(source.rooms[i]["at"], "room '" + museum.rooms[i].id + "'", {at.x, at.y, {}});
   }
 }
 

@@ -7,22 +7,20 @@
 #include <set>
 
 #include "docent/museum/languages.h"
-#include "docent/museum/place_yaml.h"
+#include "docent/museum/museum_fields.h"
 #include "docent/museum/scene_camera_yaml.h"
 #include "docent/vocabulary/vocabulary.h"
 
 namespace docent::museum {
 namespace {
 
-constexpr double kFarthest = 10'000.0;                        // [m]; coordinates beyond it are a slip of the pen
 constexpr std::size_t kLongestText = std::size_t{16} * 1024;  // [bytes]; about 20 minutes of speech
-constexpr std::size_t kLongestId = 40;
 constexpr std::size_t kLongestUrl = 2000;
 
-class MuseumYamlReader {
+class MuseumYamlReader : MuseumFields {
  public:
   MuseumYamlReader(const YamlFile& file, const ReadText& read_text, MuseumSource& source)
-      : file_{file}, read_text_{read_text}, source_{source}, museum_{source.museum} {}
+      : MuseumFields{file}, read_text_{read_text}, source_{source}, museum_{source.museum} {}
 
   void read() {
     guarded([&] {
@@ -36,6 +34,7 @@ class MuseumYamlReader {
       const YAML::Node exhibits = reader.node("exhibits");
       const YAML::Node modes = reader.node("modes");
       const YAML::Node tours = reader.node("tours");
+      const YAML::Node rooms = reader.node("rooms");
       const YAML::Node sound = reader.node("sound");
       guarded([&] { read_languages(languages); });
       guarded([&] { museum_.name = translations(required(file_.root(), name, "name"), "name"); });
@@ -51,6 +50,7 @@ class MuseumYamlReader {
       read_exhibits(required(file_.root(), exhibits, "exhibits"));
       read_modes(modes);
       read_tours(tours);
+      read_rooms(rooms);
       guarded([&] { museum_.scene_camera = read_scene_camera(file_, reader); });
       if (sound.IsDefined()) guarded([&] { read_sound(sound); });
       std::optional<std::string> simulation;
@@ -75,27 +75,6 @@ class MuseumYamlReader {
     }
   }
   void report(const YAML::Node& at, const std::string& what) { source_.faults.push_back(file_.fault(at, what)); }
-  [[nodiscard]] YamlFault fault(const YAML::Node& at, const std::string& what) const {
-    return YamlFault{file_.fault(at, what)};
-  }
-
-  [[nodiscard]] YamlFault about(const YAML::Node& at, const std::string& what, const std::string& why) const {
-    return fault(at, what + ": " + why);
-  }
-
-  [[nodiscard]] YAML::Node required(const YAML::Node& parent, const YAML::Node& node, const char* key) const {
-    if (!node.IsDefined() || node.IsNull()) throw fault(parent, std::string{"missing key '"} + key + "'");
-    return node;
-  }
-  [[nodiscard]] YAML::Node list(const YAML::Node& node, const char* what) const {
-    if (!node.IsSequence()) throw fault(node, std::string{"expected a list of "} + what);
-    return node;
-  }
-  [[nodiscard]] std::string text(const YAML::Node& node, const char* what) const {
-    if (!node.IsScalar()) throw fault(node, std::string{"expected "} + what);
-    return node.Scalar();
-  }
-
   void read_languages(const YAML::Node& node) {
     for (const auto& entry : list(required(file_.root(), node, "languages"), "languages")) {
       const std::string language = text(entry, "a language");
@@ -161,60 +140,6 @@ class MuseumYamlReader {
         source_.faults.push_back(about(at, what, why).error);
       }
     }
-    return result;
-  }
-
-  [[nodiscard]] std::filesystem::path inside_folder(const YAML::Node& node, const std::string& name) const {
-    const std::filesystem::path path{name};
-    auto normal = path.lexically_normal();
-    if (name.empty() || name.find('\0') != std::string::npos || path.is_absolute() || *normal.begin() == "..") {
-      throw fault(node, "'" + name + "' is not a file inside the museum's folder");
-    }
-    return normal;
-  }
-
-  [[nodiscard]] std::string id(const YAML::Node& parent, const YAML::Node& node, std::set<std::string>& seen,
-                               const char* what) const {
-    std::string name = text(required(parent, node, "id"), "an id");
-    const bool plain = std::all_of(name.begin(), name.end(),
-                                   [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; });
-    if (name.empty() || !plain || name.size() > kLongestId) {
-      throw fault(node, std::string{what} + " id '" + name + "': small letters, digits and '-', at most 40");
-    }
-    if (!seen.insert(name).second) throw fault(node, std::string{what} + " '" + name + "' stands twice");
-    return name;
-  }
-
-  template <class T>
-  [[nodiscard]] T structure(const YAML::Node& node) const {
-    T value;
-    YamlReader reader{file_, node};
-    value.visit(reader);
-    reader.finish();
-    if (std::abs(value.x) > kFarthest || std::abs(value.y) > kFarthest) throw fault(node, "too far away");
-    return value;
-  }
-  [[nodiscard]] Pose2 pose(const YAML::Node& node) const { return structure<PoseYaml>(node).pose(); }
-
-  [[nodiscard]] Polygon polygon(const YAML::Node& node) const {
-    Polygon result;
-    for (const auto& corner : list(node, "corners [x, y]")) {
-      if (!corner.IsSequence() || corner.size() != 2) throw fault(corner, "expected a corner [x, y]");
-      std::array<double, 2> xy{};
-      for (std::size_t i = 0; i < 2; ++i) {
-        try {
-          xy[i] = corner[i].as<double>();
-        } catch (const YAML::Exception&) {
-          throw fault(corner, "expected numbers [x, y]");
-        }
-        if (!(std::abs(xy[i]) <= kFarthest)) throw fault(corner, "too far away, or not a number");
-      }
-      result.push_back({xy[0], xy[1]});
-    }
-    if (result.size() < 3) throw fault(node, "a polygon needs at least 3 corners");
-    if (result.size() > 1000) throw fault(node, "a polygon may have at most 1000 corners");
-    if (!is_simple(result)) throw fault(node, "the polygon crosses itself");
-    if (std::abs(signed_area(result)) < 1e-6) throw fault(node, "the polygon has no area");
     return result;
   }
 
@@ -385,6 +310,31 @@ class MuseumYamlReader {
     });
   }
 
+  void read_rooms(const YAML::Node& node) {
+    if (!node.IsDefined() || node.IsNull()) return;
+    std::set<std::string> seen;
+    guarded([&] {
+      for (const auto& entry : list(node, "rooms")) guarded([&] { read_room(entry, seen); });
+    });
+  }
+
+  void read_room(const YAML::Node& entry, std::set<std::string>& seen) {
+    YamlReader reader{file_, entry};
+    Room room;
+    room.id = id(entry, reader.node("id"), seen, "room");
+    const std::string who = "room '" + room.id + "'";
+    const YAML::Node name = reader.node("name");
+    const YAML::Node at = reader.node("at");
+    reader.finish();
+    if (room.id == kNextRoom) throw fault(entry, "no room can be called 'next'");
+    if (museum_.find_exhibit(room.id) != nullptr) throw fault(entry, who + ": an exhibit has the same id");
+    room.name = translations(required(entry, name, "name"), who + ", name");
+    const auto place = structure<PointYaml>(required(entry, at, "at"));
+    room.at = {place.x, place.y};
+    museum_.rooms.push_back(std::move(room));
+    source_.rooms.push_back(entry);
+  }
+
   void read_tour(const YAML::Node& entry, std::set<std::string>& seen) {
     YamlReader reader{file_, entry};
     Tour tour;
@@ -428,7 +378,6 @@ class MuseumYamlReader {
     });
   }
 
-  const YamlFile& file_;
   const ReadText& read_text_;
   MuseumSource& source_;
   Museum& museum_;

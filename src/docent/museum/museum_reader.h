@@ -18,10 +18,11 @@ using ReadText = std::function<Result<std::string>(const std::filesystem::path& 
 struct MuseumSource {
   Museum museum;  ///< without its map
   std::vector<Error> faults;
-  /// Where things stand, for later faults: parallel to museum.exhibits, .hazards, .tours.
+  /// Where things stand, for later faults: parallel to museum.exhibits, .hazards, .tours, .rooms.
   std::vector<YAML::Node> exhibits;
   std::vector<YAML::Node> hazards;
   std::vector<YAML::Node> tours;
+  std::vector<YAML::Node> rooms;
 };
 
 /// Reads the parsed museum.yaml; texts come through `read_text`. Never throws, whatever the file holds.

@@ -61,7 +61,7 @@ Result<ClientMessage> parse_request(const Json& object, std::string id) {
   RequestMessage message;
   message.id = std::move(id);
   const auto kind = parse<RequestKind>(text_of(object, "kind"));
-  if (!kind || kind == RequestKind::cancel) return fail("request: kind must be exhibit, tour or point");
+  if (!kind || kind == RequestKind::cancel) return fail("request: kind must be exhibit, tour, point or room");
   message.kind = *kind;
   message.target = text_of(object, "target");
   if (kind == RequestKind::point) {

@@ -92,6 +92,32 @@ struct Hazard {
     v("id", d.id), v("kind", d.kind), v("polygon", d.polygon);
   }
 };
+/// Where the robot can be sent, in the order of a walk through all rooms.
+struct Room {
+  static constexpr const char* kName = "Room";
+  std::string id;
+  Texts name;
+  Point at{};                     ///< where the robot goes in it
+  std::vector<std::string> next;  ///< ids of the rooms beside it
+  template <class Self, class V>
+  static void visit(Self& d, V& v) {
+    v("id", d.id), v("name", d.name), v("at", d.at), v("next", d.next);
+  }
+};
+struct Door {
+  static constexpr const char* kName = "Door";
+  Point at{};
+  double width = 0.0;
+  std::vector<std::string> between;  ///< ids of two rooms
+  template <class Self, class V>
+  static void visit(Self& d, V& v) {
+    v("at", d.at), v("width", d.width), v("between", d.between);
+  }
+};
+struct Rooms {
+  std::vector<Room> rooms;
+  std::vector<Door> doors;
+};
 struct Museum {
   static constexpr const char* kName = "Museum";
   Texts name;
@@ -104,11 +130,13 @@ struct Museum {
   std::vector<Hazard> hazards;
   std::vector<Exhibit> exhibits;
   std::vector<Tour> tours;
+  std::vector<Room> rooms;
+  std::vector<Door> doors;
   template <class Self, class V>
   static void visit(Self& d, V& v) {
     v("name", d.name), v("languages", d.languages), v("area", d.area), v("home", d.home), v("charger", d.charger);
     v("robot_radius", d.robot_radius), v("map", d.map), v("hazards", d.hazards), v("exhibits", d.exhibits);
-    v("tours", d.tours);
+    v("tours", d.tours), v("rooms", d.rooms), v("doors", d.doors);
   }
 };
 

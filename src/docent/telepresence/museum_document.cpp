@@ -2,6 +2,7 @@
 
 #include <png.h>
 
+#include <utility>
 #include <vector>
 
 #include "docent/telepresence/document_json.h"
@@ -42,7 +43,7 @@ documents::Exhibit document_of(const museum::Exhibit& exhibit) {
   return document;
 }
 
-std::string encode_museum(const museum::Museum& museum, double robot_radius) {
+std::string encode_museum(const museum::Museum& museum, double robot_radius, documents::Rooms rooms) {
   const GridFrame& frame = museum.map.frame;
   documents::Museum document;
   document.name = museum.name;
@@ -55,11 +56,13 @@ std::string encode_museum(const museum::Museum& museum, double robot_radius) {
   for (const auto& hazard : museum.hazards) document.hazards.push_back(document_of(hazard));
   for (const auto& exhibit : museum.exhibits) document.exhibits.push_back(document_of(exhibit));
   for (const auto& tour : museum.tours) document.tours.push_back({tour.id, tour.title, tour.exhibits, tour.minutes});
+  document.rooms = std::move(rooms.rooms);
+  document.doors = std::move(rooms.doors);
   return json_text(document);
 }
 
 Reason why_not_in(const museum::Museum& museum, const RequestMessage& message) {
-  if (message.kind == RequestKind::point) return {};  // the mission knows where the robot can go
+  if (is_place(message.kind)) return {};  // the mission knows where the robot can go
   if (message.kind == RequestKind::tour) {
     if (museum.find_tour(message.target) == nullptr) return {ReasonWord::no_such_tour, message.target};
     return {};

@@ -18,7 +18,7 @@ namespace docent::telepresence {
 [[nodiscard]] documents::Exhibit document_of(const museum::Exhibit& exhibit);
 
 /// All that a page must know of the museum and its map, as JSON text. `robot_radius` in metres.
-[[nodiscard]] std::string encode_museum(const museum::Museum& museum, double robot_radius);
+[[nodiscard]] std::string encode_museum(const museum::Museum& museum, double robot_radius, documents::Rooms rooms = {});
 
 /// Where the exhibit's picture can be fetched; empty: it has none.
 [[nodiscard]] std::string picture_address(const museum::Exhibit& exhibit);

@@ -13,8 +13,14 @@
 namespace docent {
 
 /// What a visitor wishes for.
-enum class RequestKind { exhibit, tour, cancel, point };
-constexpr auto words_of(RequestKind) { return std::array{"exhibit", "tour", "cancel", "point"}; }
+enum class RequestKind { exhibit, tour, cancel, point, room };
+constexpr auto words_of(RequestKind) { return std::array{"exhibit", "tour", "cancel", "point", "room"}; }
+/// The target of a wish for the room after that in which the robot is.
+inline constexpr const char* kNextRoom = "next";
+/// Such a wish takes the robot to a place of the floor, where it shows nothing.
+[[nodiscard]] constexpr bool is_place(RequestKind kind) {
+  return kind == RequestKind::point || kind == RequestKind::room;
+}
 
 /// Where a request was made; vote: a tour for which the Web's visitors voted.
 enum class RequestSource { web, kiosk, visitor, staff, vote };
@@ -147,7 +153,8 @@ enum class ReasonWord {
   closed,
   too_many_wait,
   too_many_points,    ///< on the map are wished for already
-  only_in_web_hours,  ///< points on the map
+  only_in_web_hours,  ///< points on the map, and rooms for visitors on the Web
+  no_such_room,       ///< about its id
   not_on_free_floor,  ///< where the robot cannot stand, or cannot get to
   not_stored,         ///< the disk is full or gone
   question_over,      ///< the question is no longer open
@@ -193,6 +200,7 @@ constexpr auto words_of(ReasonWord) {
                     "too_many_wait",
                     "too_many_points",
                     "only_in_web_hours",
+                    "no_such_room",
                     "not_on_free_floor",
                     "not_stored",
                     "question_over",

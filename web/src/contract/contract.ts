@@ -36,6 +36,17 @@ export interface Tour {
   exhibits: string[];
   minutes: number | null;
 }
+export interface Room {
+  id: string;
+  name: Record<string, string>;
+  at: [number, number];
+  next: string[];
+}
+export interface Door {
+  at: [number, number];
+  width: number;
+  between: string[];
+}
 export interface Museum {
   name: Record<string, string>;
   languages: string[];
@@ -47,6 +58,8 @@ export interface Museum {
   hazards: Hazard[];
   exhibits: Exhibit[];
   tours: Tour[];
+  rooms: Room[];
+  doors: Door[];
 }
 export interface Scan {
   frame: 'map' | 'base';
@@ -54,7 +67,7 @@ export interface Scan {
   points: number[];
 }
 export interface Reason {
-  word: 'no_such_exhibit' | 'no_such_viewpoint' | 'no_such_tour' | 'no_such_request' | 'not_understood' | 'for_web_only' | 'web_only_now' | 'closed' | 'too_many_wait' | 'too_many_points' | 'only_in_web_hours' | 'not_on_free_floor' | 'not_stored' | 'question_over' | 'no_such_answer' | 'busy' | 'too_fast' | 'charging_first' | 'on_the_way' | 'joins_tour' | 'tour_begun' | 'cancelled' | 'gone' | 'not_reached' | 'battery_low' | 'took_too_long' | 'no_way' | 'way_blocked' | 'unknown_task' | 'person_in_way' | 'obstacle_in_way' | 'hazard_in_way' | 'border_in_way' | 'people_near' | 'touched' | 'felt_thing_near' | 'braking' | 'border_near' | 'hazard_near' | 'obstacle_near' | 'stopped_by_hand' | 'steered_by_hand' | 'no_lease';
+  word: 'no_such_exhibit' | 'no_such_viewpoint' | 'no_such_tour' | 'no_such_request' | 'not_understood' | 'for_web_only' | 'web_only_now' | 'closed' | 'too_many_wait' | 'too_many_points' | 'only_in_web_hours' | 'no_such_room' | 'not_on_free_floor' | 'not_stored' | 'question_over' | 'no_such_answer' | 'busy' | 'too_fast' | 'charging_first' | 'on_the_way' | 'joins_tour' | 'tour_begun' | 'cancelled' | 'gone' | 'not_reached' | 'battery_low' | 'took_too_long' | 'no_way' | 'way_blocked' | 'unknown_task' | 'person_in_way' | 'obstacle_in_way' | 'hazard_in_way' | 'border_in_way' | 'people_near' | 'touched' | 'felt_thing_near' | 'braking' | 'border_near' | 'hazard_near' | 'obstacle_near' | 'stopped_by_hand' | 'steered_by_hand' | 'no_lease';
   about: string;
 }
 export interface Avoid {
@@ -382,7 +395,7 @@ export interface SetupWish {
 export interface RequestMessage {
   type: 'request';
   id: string;
-  kind: 'exhibit' | 'tour' | 'cancel' | 'point';
+  kind: 'exhibit' | 'tour' | 'cancel' | 'point' | 'room';
   target: string;
   viewpoint: number;
   name: string;
@@ -651,6 +664,21 @@ export const documents = {
     },
     "maybe": {},
     "type": "choice"
+  },
+  "Door": {
+    "fields": {
+      "at": {
+        "tuple": [
+          "number",
+          "number"
+        ]
+      },
+      "between": {
+        "list": "string"
+      },
+      "width": "number"
+    },
+    "maybe": {}
   },
   "ErrorMessage": {
     "fields": {
@@ -1092,6 +1120,11 @@ export const documents = {
           ]
         }
       },
+      "doors": {
+        "list": {
+          "document": "Door"
+        }
+      },
       "exhibits": {
         "list": {
           "document": "Exhibit"
@@ -1119,6 +1152,11 @@ export const documents = {
         "map": "string"
       },
       "robot_radius": "number",
+      "rooms": {
+        "list": {
+          "document": "Room"
+        }
+      },
       "tours": {
         "list": {
           "document": "Tour"
@@ -1292,6 +1330,7 @@ export const documents = {
           "too_many_wait",
           "too_many_points",
           "only_in_web_hours",
+          "no_such_room",
           "not_on_free_floor",
           "not_stored",
           "question_over",
@@ -1347,7 +1386,8 @@ export const documents = {
           "exhibit",
           "tour",
           "cancel",
-          "point"
+          "point",
+          "room"
         ]
       },
       "language": "string",
@@ -1357,6 +1397,24 @@ export const documents = {
     },
     "maybe": {},
     "type": "request"
+  },
+  "Room": {
+    "fields": {
+      "at": {
+        "tuple": [
+          "number",
+          "number"
+        ]
+      },
+      "id": "string",
+      "name": {
+        "map": "string"
+      },
+      "next": {
+        "list": "string"
+      }
+    },
+    "maybe": {}
   },
   "Scan": {
     "fields": {

@@ -11,7 +11,7 @@ const tour = (id: string) => ({ id, title: { en: `Tour ${id}` }, exhibits: ['clo
 const museum = (languages: string[], tours: string[]): Museum => ({
   name: { en: 'A hall' }, languages, area: [], home: [0, 0, 0], charger: null, robot_radius: 0.3,
   map: { url: '', columns: 1, rows: 1, resolution: 1, origin: [0, 0] }, hazards: [],
-  exhibits: [exhibit('clock', 'a long story'), exhibit('coin', '')], tours: tours.map(tour),
+  exhibits: [exhibit('clock', 'a long story'), exhibit('coin', '')], tours: tours.map(tour), rooms: [], doors: [],
 });
 const mission = (phase: string, more: Partial<MissionMessage> = {}): MissionMessage => ({
   type: 'mission', phase, tour: '', exhibit: 'clock', text: {}, agenda: [], explained: 0, tours: 0, served: 0, prompt: null, ...more,

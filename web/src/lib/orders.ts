@@ -6,6 +6,7 @@ import type {
   HelpMessage,
   LampsMessage,
   LeaseMessage,
+  Point,
   RequestMessage,
   SetHoursMessage,
   SteerMessage,
@@ -17,11 +18,13 @@ import type {
 /** What is asked for. */
 export interface Asked {
   id: string;
-  kind: 'exhibit' | 'tour' | 'point';
+  kind: 'exhibit' | 'tour' | 'point' | 'room';
   target: string;
   viewpoint: number;
 }
 
+/** The target of a wish for a point on the map. */
+export const pointName = ([x, y]: Point): string => `${x.toFixed(2)},${y.toFixed(2)}`;
 export const requestOf = (asked: Asked, name: string, language: string): RequestMessage => ({
   type: 'request',
   id: asked.id,

@@ -111,8 +111,8 @@ class App {
   expert = $state(false);
   selected = $state<string | null>(null);
   viewpoint = $state(-1);
-  /** Chosen on the floor, not yet asked for [m]. */
-  point = $state.raw<Point | null>(null);
+  /** A point of the floor or a room that is chosen, not yet asked for; `at` [m]. */
+  place = $state.raw<{ kind: 'point' | 'room'; target: string; at: Point } | null>(null);
   answered = $state('');
   toast = $state('');
   wishes = $state<Wish[]>(store.read<Wish[]>('wishes', []).filter((wish) => Date.now() - wish.made < 3 * 3600e3));
@@ -167,7 +167,7 @@ class App {
   exhibit(id: string): Exhibit | undefined {
     return this.museum?.exhibits.find((exhibit) => exhibit.id === id);
   }
-  /** The hours of the Web's visitors: any place on the floor may be wished for. */
+  /** The hours of the Web's visitors: any place on the floor and any room may be wished for. */
   get isWebHours(): boolean {
     return this.connection === 'open' && this.hours?.mode === 'web' && this.hours.is_open;
   }
@@ -188,8 +188,8 @@ class App {
   }
   titleOf(kind: string, target: string): string {
     if (kind === 'point') return this.t('pointOnMap');
-    const found = kind === 'tour' ? this.museum?.tours.find((tour) => tour.id === target) : this.exhibit(target);
-    return this.say(found?.title) || target;
+    const place = kind === 'room' ? this.museum?.rooms.find((room) => room.id === target)?.name : this.exhibit(target)?.title;
+    return this.say(kind === 'tour' ? this.museum?.tours.find((tour) => tour.id === target)?.title : place) || target;
   }
   /** Why something is in this state; empty: nobody said so. */
   why(reason: Reason | null, state = ''): string {
@@ -231,7 +231,7 @@ class App {
     this.keepWishes();
     this.sendWish(wish);
     this.selected = null;
-    this.point = null;
+    this.place = null;
     if (this.connection !== 'open') this.notice(this.t('kept'));
   }
   cancel(wish: Wish): void {
@@ -372,7 +372,7 @@ class App {
         return this.followBoard(message);
       case 'hours':
         this.hours = message;
-        if (!this.isWebHours) this.point = null;
+        if (!this.isWebHours) this.place = null;
         return;
       case 'ack':
         this.unanswered.delete(message.id);

@@ -95,7 +95,20 @@ export class Floorplan {
     context.fill(this.walls, 'evenodd');
     context.stroke(this.walls);
     this.homeMat(context, palette);
+    this.doors(context, camera, palette);
     context.restore();
+  }
+  /** A dashed ring where one walks from one room into another. */
+  private doors(context: CanvasRenderingContext2D, camera: Camera, palette: Palette): void {
+    context.strokeStyle = palette.path;
+    context.globalAlpha = 0.4;
+    context.lineWidth = 1.5 / camera.scale;
+    context.setLineDash([3 / camera.scale, 3 / camera.scale]);
+    for (const door of this.museum.doors) {
+      context.beginPath();
+      context.arc(door.at[0], door.at[1], Math.max(0.25, door.width / 2), 0, 7);
+      context.stroke();
+    }
   }
 
   private parquet(context: CanvasRenderingContext2D, palette: Palette): void {

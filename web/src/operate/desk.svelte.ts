@@ -1,7 +1,7 @@
 // The operators' own connection: orders, and what becomes of them.
 import { ApiError, logIn, logOut, whoAmI } from '../lib/api';
 import { faultText, forumWords } from '../forum/words';
-import { leaseOf, setHoursOf, steerOf, stopOf } from '../lib/orders';
+import { leaseOf, requestOf, setHoursOf, steerOf, stopOf } from '../lib/orders';
 import type { ClientMessage, Me, OperationMessage, SetHoursMessage } from '../lib/protocol';
 import { decode } from '../lib/protocol';
 import { app } from '../lib/state.svelte';
@@ -23,6 +23,8 @@ class OperateDesk {
   turn = $state(0);
   private socket: WebSocket | null = null;
   private lease = '';
+  /** The last one for a room. */
+  private wish = '';
 
   get isOperator(): boolean {
     return this.me?.rank === 'operator';
@@ -93,6 +95,8 @@ class OperateDesk {
       app.exploration = message;
     } else if (message.type === 'ack' && message.id === this.lease) {
       this.hasWheel = true;
+    } else if (message.type === 'refused' && message.id === this.wish) {
+      app.notice(app.why(message.reason));
     } else if (message.type === 'refused' || message.type === 'error') {
       this.hasWheel = this.pressed = false;
       app.notice(app.why(message.reason));
@@ -127,6 +131,11 @@ class OperateDesk {
   }
   stop(stopped: boolean): void {
     this.send(stopOf(uuid7(), stopped));
+  }
+  /** Sends it into a room, or into the next one. */
+  goTo(room: string): void {
+    this.wish = uuid7();
+    this.send(requestOf({ id: this.wish, kind: 'room', target: room, viewpoint: -1 }, this.me?.name ?? '', app.language));
   }
   setHours(mode: SetHoursMessage['mode']): void {
     this.send(setHoursOf(uuid7(), mode));

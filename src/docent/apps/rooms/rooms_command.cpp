@@ -9,13 +9,16 @@
 #include "docent/apps/shared/arguments.h"
 #include "docent/apps/shared/command.h"
 #include "docent/base/files.h"
+#include "docent/mapping/rooms/room_graph.h"
 #include "docent/mapping/topological/topological_map.h"
+#include "docent/museum/museum.h"
 
 namespace docent::apps {
 namespace {
 
 struct RoomsOptions {
   std::string map;
+  std::string museum;
   std::string picture;
   std::string report;
   std::string cells;
@@ -60,8 +63,21 @@ std::string picture_of_cells(const mapping::Regions& regions) {
   return file;
 }
 
+/// The rooms of a museum with their names, in the order in which "go to the next room" takes them.
+void list_rooms(const museum::Museum& museum, const mapping::RegionParams& params) {
+  const mapping::RoomGraph graph = mapping::room_graph(museum, params);
+  for (const mapping::Room& room : graph.rooms()) {
+    const std::string name = museum.languages.empty() ? "" : museum::translated(room.name, museum.languages.front());
+    std::printf("%-16s %-24s at (%.1f, %.1f)  leads to", room.id.c_str(), name.c_str(), room.at.x, room.at.y);
+    for (const int other : room.next) std::printf(" %s", graph.rooms()[static_cast<std::size_t>(other)].id.c_str());
+    std::printf("\n");
+  }
+  std::printf("%zu rooms, %zu doors between them\n", graph.rooms().size(), graph.doors().size());
+}
+
 void run(const RoomsOptions& options) {
   value_or_fail(options.params.validate());
+  if (!options.museum.empty()) return list_rooms(value_or_fail(museum::load_museum(options.museum)), options.params);
   const OccupancyGrid map = value_or_fail(load_map(options.map));
   const mapping::TopologicalMap rooms = mapping::topological_map(map, options.params);
   for (std::size_t i = 0; i < rooms.places.size(); ++i) {
@@ -82,12 +98,20 @@ void run(const RoomsOptions& options) {
 void add_rooms_command(CLI::App& app) {
   auto* command = app.add_subcommand("rooms", "Rooms, hallways and doors of a map");
   auto options = std::make_shared<RoomsOptions>();
-  command->add_option("--map", options->map, "map_server YAML file")->required();
-  command->add_option("--picture", options->picture, "SVG, PDF or PNG file to write")->check(output_file());
+  auto* source = command->add_option_group("source", "Whose rooms");
+  source->add_option("--map", options->map, "map_server YAML file");
+  auto* museum = source->add_option("--museum", options->museum,
+                                    "Museum folder: its rooms by their names, in the order of \"the next room\"");
+  source->require_option(1);
+  command->add_option("--picture", options->picture, "SVG, PDF or PNG file to write")
+      ->check(output_file())
+      ->excludes(museum);
   command->add_option("--report", options->report, "JSON file to write: places, doors, and what is next to what")
-      ->check(output_file());
+      ->check(output_file())
+      ->excludes(museum);
   command->add_option("--cells", options->cells, "PGM file of 16 bits to write: the number of each cell's place")
-      ->check(output_file());
+      ->check(output_file())
+      ->excludes(museum);
   command->add_option("--door", options->params.door, "[m] what is wider is no door")->capture_default_str();
   command->callback([options] { run(*options); });
 }

@@ -7,7 +7,7 @@
 #include "docent/base/files.h"
 #include "docent/interaction/speech/dictionary_files.h"
 
-namespace docent::interaction {
+namespace docent::interaction::dictionary_test {
 namespace {
 
 std::string any_text(const Phrasing& phrasing) {
@@ -97,4 +97,4 @@ TEST(Dictionary, AFaultNamesFileAndKey) {
 }
 
 }  // namespace
-}  // namespace docent::interaction
+}  // namespace docent::interaction::dictionary_test

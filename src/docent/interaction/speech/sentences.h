@@ -20,6 +20,9 @@ enum class Sentence {
   blocked,       ///< on its way to {title}, people in the way
   to_point,      ///< on its way to a point on the map for which a visitor on the Web wished
   at_point,      ///< looks round there
+  at_room,       ///< has come to the room {title}, as somebody wished
+  room,          ///< what a room without a name is called: its number is {title}
+  hallway,       ///< likewise
   explaining,    ///< talks about {title}
   asking,        ///< more about {title}, or next?
   going_home,

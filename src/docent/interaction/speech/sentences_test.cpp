@@ -7,7 +7,7 @@
 
 #include "docent/interaction/speech/dictionary.h"
 
-namespace docent::interaction {
+namespace docent::interaction::sentences_test {
 namespace {
 
 constexpr std::array kMoods{Mood::neutral, Mood::happy, Mood::sad, Mood::angry};
@@ -15,6 +15,7 @@ constexpr std::array kMoods{Mood::neutral, Mood::happy, Mood::sad, Mood::angry};
 TEST(Sentences, AreAllThereInEachLanguage) {
   for (int i = 0; i < kSentences; ++i) {
     const auto which = static_cast<Sentence>(i);
+    if (which == Sentence::room || which == Sentence::hallway) continue;  // names, not sentences
     for (const Mood mood : kMoods) {
       const std::string english = sentence(which, "en", mood, 0, "Sputnik");
       for (const auto& [language, dictionary] : dictionaries()) {
@@ -77,4 +78,4 @@ TEST(Sentences, ThoseOfThePageAreNotSpokenAndEachHasItsKey) {
 }
 
 }  // namespace
-}  // namespace docent::interaction
+}  // namespace docent::interaction::sentences_test

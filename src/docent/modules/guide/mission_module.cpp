@@ -12,6 +12,7 @@
 #include "docent/interaction/speech/spoken_text.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/guide/mingling.h"
+#include "docent/modules/guide/room_guide.h"
 #include "docent/modules/shared/battery.h"
 #include "docent/modules/shared/museum_mode.h"
 #include "docent/task_control/golog_planner/golog_planner.h"
@@ -73,12 +74,13 @@ task_control::TravelDistance travel_in(const ModuleContext& context) {
   return task_control::travel_on_map(planner_in(context));
 }
 
-task_control::Programme programme_in(const ModuleContext& context) {
+task_control::Programme programme_in(const ModuleContext& context, RoomGuide& guide) {
   task_control::Programme programme = programme_of(context.museum);
   if (context.museum.map.cells.empty()) return programme;
   programme.has_room = [planner = std::make_shared<planning::RoutePlanner>(planner_in(context))](Point2 place) {
     return !planner->is_closed(place);
   };
+  programme.rooms = [&guide]() -> const task_control::Rooms& { return guide.rooms(); };
   return programme;
 }
 
@@ -145,10 +147,12 @@ class MissionModule final : public Module {
                 task_control::MissionMemory memory)
       : bus_{context.bus},
         museum_{context.museum},
+        guide_{context.museum},
         mode_{context},
         store_{std::move(store)},
         set_aside_{store_.set_aside()},
-        mission_{params, programme_in(context), travel_in(context), std::move(memory), std::move(planner), bus_.now()},
+        mission_{params,    programme_in(context, guide_), travel_in(context), std::move(memory), std::move(planner),
+                 bus_.now()},
         mingling_{context, params.attraction},
         board_{bus_.publisher(topics::kRequestBoard)},
         task_{bus_.publisher(topics::kTask)},
@@ -313,7 +317,10 @@ class MissionModule final : public Module {
     message.tour_id = summary.tour_id;
     message.exhibit_id = summary.exhibit_id;
     const museum::Exhibit* exhibit = museum_.find_exhibit(summary.exhibit_id);
-    const museum::Translations title = exhibit != nullptr ? exhibit->title : museum::Translations{};
+    const bool is_room = summary.is_point && !task_control::point_of(summary.place);
+    const museum::Translations title = is_room              ? guide_.name(summary.place)
+                                       : exhibit != nullptr ? exhibit->title
+                                                            : museum::Translations{};
     const auto text = [&](const std::string& language) {
       const std::string minutes = std::to_string(std::max(5, summary.charging_min));
       return interaction::sentence(
@@ -337,8 +344,10 @@ class MissionModule final : public Module {
   [[nodiscard]] static interaction::Sentence sentence_of(const task_control::MissionSummary& summary) {
     if (summary.phase == MissionPhase::waking) return interaction::Sentence::waking;
     if (summary.phase == MissionPhase::relocalizing) return interaction::Sentence::relocalizing;
-    if (summary.is_point && summary.phase == MissionPhase::driving) return interaction::Sentence::to_point;
-    if (summary.is_point && summary.phase == MissionPhase::explaining) return interaction::Sentence::at_point;
+    const bool is_room = summary.is_point && !task_control::point_of(summary.place);
+    if (summary.is_point && summary.phase == MissionPhase::explaining)
+      return is_room ? interaction::Sentence::at_room : interaction::Sentence::at_point;
+    if (summary.is_point && !is_room && summary.phase == MissionPhase::driving) return interaction::Sentence::to_point;
     if (summary.phase == MissionPhase::driving)
       return summary.is_blocked ? interaction::Sentence::blocked : interaction::Sentence::driving;
     if (summary.says_farewell) return interaction::Sentence::farewell;
@@ -352,6 +361,7 @@ class MissionModule final : public Module {
 
   transport::Bus& bus_;
   const museum::Museum& museum_;
+  RoomGuide guide_;
   MuseumMode mode_;
   task_control::MissionStore store_;
   std::string set_aside_;

@@ -81,7 +81,7 @@ void CountDesk::see_people(const docent_msgs::People& people, std::optional<Pose
   people_near_ = 0.0;
   if (!map_from_base) return;
   for (const auto& person : people.people)
-    if (distance({person.x, person.y}, map_from_base->position()) <= kRound) people_near_ += 1.0;
+    if (distance(Point2{person.x, person.y}, map_from_base->position()) <= kRound) people_near_ += 1.0;
 }
 
 void CountDesk::see(const docent_msgs::RequestBoard& board) {

@@ -22,6 +22,7 @@
 #include "docent/modules/web/operators/maps_desk.h"
 #include "docent/modules/web/operators/offices.h"
 #include "docent/modules/web/operators/operator_desk.h"
+#include "docent/modules/web/room_documents.h"
 #include "docent/modules/web/screen_desk.h"
 #include "docent/modules/web/slots.h"
 #include "docent/modules/web/vote_desk.h"
@@ -144,7 +145,7 @@ class WebModule final : public Module {
     load_pictures();
     site_->set_audio_folder(context.state / "audio");
     site_->set_document("/api/museum.json", "application/json",
-                        telepresence::encode_museum(museum_, context.config.body().radius));
+                        telepresence::encode_museum(museum_, context.config.body().radius, rooms_of(museum_)));
     site_->set_document("/api/map.png", "image/png", std::move(map));
     site_->set_live_document("/api/health", "application/json", [this] { return health_document(); });
     site_->set_live_document("/metrics", "text/plain; version=0.0.4", [this] { return metrics(); });

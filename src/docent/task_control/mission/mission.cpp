@@ -46,6 +46,7 @@ Mission::Mission(const MissionParams& params, Programme programme, TravelDistanc
 
 void Mission::submit(VisitorRequest request, Time now) {
   conditions_.delay = must_charge_ ? ReasonWord::charging_first : Reason{};
+  conditions_.robot = position();
   scheduler_.submit(std::move(request), conditions_, now);
   decide(now);
 }
@@ -281,7 +282,7 @@ MissionSummary Mission::summary(Time now) {
   if (schedule.tour) summary.tour_id = schedule.tour->tour_id;
   if (schedule.visit) {
     summary.is_point = schedule.visit->is_point;
-    if (!summary.is_point) summary.exhibit_id = schedule.visit->exhibit_id;
+    (summary.is_point ? summary.place : summary.exhibit_id) = schedule.visit->exhibit_id;
   } else if (!summary.agenda.empty()) {
     summary.exhibit_id = summary.agenda.front();
   }

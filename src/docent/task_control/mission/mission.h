@@ -34,7 +34,8 @@ struct MissionSummary {
   MissionPhase phase = MissionPhase::waking;
   std::string tour_id;
   std::string exhibit_id;
-  bool is_point = false;       ///< it is on its way to a point on the map, or there
+  bool is_point = false;       ///< it is on its way to a point on the map or a room, or there
+  std::string place{};         ///< then: the point's name, or the room's id
   bool is_blocked = false;     ///< people are in the way
   bool needs_charge = false;   ///< it must, before it goes on
   bool says_farewell = false;  ///< at the end of a tour

@@ -16,6 +16,18 @@ const ProgrammeTour* Programme::find_tour(const std::string& id) const {
   return place == tours.end() ? nullptr : &*place;
 }
 
+const ProgrammeRoom* Rooms::find(const std::string& id) const {
+  const auto place = std::find_if(rooms.begin(), rooms.end(), [&](const auto& room) { return room.id == id; });
+  return place == rooms.end() ? nullptr : &*place;
+}
+
+const ProgrammeRoom* Rooms::after(Point2 point) const {
+  const int here = room_at ? room_at(point) : -1;
+  const int count = static_cast<int>(rooms.size());
+  if (count == 0 || (count == 1 && here == 0)) return nullptr;
+  return &rooms[static_cast<std::size_t>((here + 1) % count)];
+}
+
 SpokenLength ProgrammeExhibit::length_in(const std::string& language) const {
   const auto place = spoken.find(language);
   return place == spoken.end() ? SpokenLength{speech_s, long_s} : place->second;

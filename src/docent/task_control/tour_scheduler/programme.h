@@ -29,7 +29,7 @@ struct ProgrammeExhibit {
   std::vector<std::string> next{};               ///< exhibits that make sense right after this one (sensible_next)
   double long_s = 0.0;                           ///< [s] the long text, spoken; 0: there is none
   std::map<std::string, SpokenLength> spoken{};  ///< by language; speech_s and long_s for those that are not there
-  bool is_point = false;  ///< no exhibit of the museum: a point on the map for which a Web visitor wishes
+  bool is_point = false;  ///< no exhibit of the museum: a point on the map or a room for which somebody wishes
 
   /// Where to stand for the viewpoint of this number; -1: for the exhibit's own place.
   [[nodiscard]] const Pose2& place(int viewpoint) const {
@@ -50,6 +50,22 @@ struct ProgrammeTour {
   double target_s = 0.0;              ///< [s] > 0: composed on the fly to last so long
 };
 
+/// Where the robot goes in a room.
+struct ProgrammeRoom {
+  std::string id;
+  Point2 place;  ///< [m], map
+};
+
+/// The rooms that the robot can get to, in the order of a walk through all of them.
+struct Rooms {
+  std::vector<ProgrammeRoom> rooms;
+  std::function<int(Point2)> room_at{};  ///< number of the room of a point; -1: in none
+
+  [[nodiscard]] const ProgrammeRoom* find(const std::string& id) const;
+  /// The one after that of a point in the walk, after the last the first; nullptr: there is no other.
+  [[nodiscard]] const ProgrammeRoom* after(Point2 point) const;
+};
+
 /// What a museum offers.
 struct Programme {
   std::vector<ProgrammeExhibit> exhibits;
@@ -60,6 +76,8 @@ struct Programme {
   double farewell_s = 4.0;  ///< [s] what is said at the end of a tour
   /// Whether the robot has room at a point [m, map]; empty: everywhere.
   std::function<bool(Point2)> has_room{};
+  /// To cut a map into rooms takes a while: asked for when somebody wishes for one; empty: there are none.
+  std::function<const Rooms&()> rooms{};
 
   [[nodiscard]] const ProgrammeExhibit* find_exhibit(const std::string& id) const;
   [[nodiscard]] const ProgrammeTour* find_tour(const std::string& id) const;

@@ -1,6 +1,6 @@
 #include "docent/task_control/tour_scheduler/scheduling_fixture.h"
 
-// Points on the map, and tours for which the Web's visitors voted ([Minerva2000] 6.4).
+// Points on the map, rooms, and tours for which the Web's visitors voted ([Minerva2000] 6.4).
 
 namespace docent::task_control {
 namespace {
@@ -112,6 +112,92 @@ TEST_F(Points, ACancelledOneIsNotWantedAnyMore) {
   EXPECT_TRUE(scheduler.is_visit_unwanted());
   scheduler.drop_visit(time_from_seconds(3));
   EXPECT_EQ(next(4), "");
+}
+
+/// Three rooms beside one another, 10 m wide each: "a" from 0, "b" from 10, "c" from 20; the robot goes to their
+/// middles.
+class RoomWishes : public Scheduling {
+ protected:
+  RoomWishes() {
+    rooms.rooms = {{"a", {5.0, 2.0}}, {"b", {15.0, 2.0}}, {"c", {25.0, 2.0}}};
+    rooms.room_at = [](Point2 point) {
+      return point.x < 0.0 || point.x >= 30.0 ? -1 : static_cast<int>(point.x / 10.0);
+    };
+    auto programme = programme_on_a_line();
+    programme.rooms = [this]() -> const Rooms& { return rooms; };
+    scheduler = TourScheduler{params, programme, straight_distance(), {}, {}};
+  }
+  void wish_for_room(const std::string& id, const std::string& target, double at,
+                     RequestSource source = RequestSource::staff) {
+    scheduler.submit({id, time_from_seconds(at), source, "", RequestKind::room, target, -1, "en"}, conditions,
+                     time_from_seconds(at));
+  }
+  [[nodiscard]] const BoardEntry& entry(const std::string& id) const { return *scheduler.state().board.find(id); }
+  Rooms rooms;
+};
+
+TEST_F(RoomWishes, AreServedLikePoints) {
+  wish_for_room("r", "c", 0);
+  ASSERT_EQ(next(1), "c");
+  EXPECT_EQ(scheduler.state().visit->task_kind(), TaskKind::point);
+  EXPECT_EQ(scheduler.state().visit->map_from_base.position(), (Point2{25.0, 2.0}));
+  finish(true, 30);
+  EXPECT_EQ(state_of("r"), "fulfilled");
+  EXPECT_EQ(scheduler.programme().exhibits.size(), 6U) << "it is forgotten with its request";
+}
+
+TEST_F(RoomWishes, TheNextIsTheOneAfterWhereTheRobotIs) {
+  conditions.robot = {12.0, 0.0};
+  wish_for_room("r", "next", 0);
+  EXPECT_EQ(entry("r").request.target, "c");
+  wish_for_room("again", "next", 1);
+  EXPECT_EQ(entry("again").request.target, "a") << "after the one for which somebody waits";
+  EXPECT_EQ(next(2), "c");
+  finish(true, 10);
+  EXPECT_EQ(next(11), "a");
+  finish(true, 20);
+  conditions.robot = {-5.0, 0.0};
+  wish_for_room("lost", "next", 30);
+  EXPECT_EQ(entry("lost").request.target, "a") << "from nowhere to the first";
+}
+
+TEST_F(RoomWishes, WhoMay) {
+  wish_for_room("web", "b", 0, RequestSource::web);
+  EXPECT_EQ(entry("web").reason.text(), "only_in_web_hours");
+  wish_for_room("kiosk", "b", 0, RequestSource::kiosk);
+  EXPECT_EQ(entry("kiosk").status, RequestStatus::queued) << "whoever stands beside the robot goes with it";
+  conditions.mode = OperatingMode::web;
+  wish_for_room("late", "b", 0, RequestSource::web);
+  EXPECT_EQ(entry("late").status, RequestStatus::queued);
+}
+
+TEST_F(RoomWishes, ThatNobodyCanServe) {
+  wish_for_room("r", "attic", 0);
+  EXPECT_EQ(entry("r").reason.text(), "no_such_room attic");
+  rooms.rooms.resize(1);
+  rooms.room_at = [](Point2) { return 0; };
+  wish_for_room("only", "next", 0);
+  EXPECT_EQ(entry("only").reason.text(), "no_such_room next") << "there is no other";
+  conditions.takes_points = false;
+  wish_for_room("golog", "a", 0);
+  EXPECT_EQ(entry("golog").status, RequestStatus::refused);
+  TourScheduler without{params, programme_on_a_line(), straight_distance(), {}, {}};
+  conditions.takes_points = true;
+  without.submit({"x", {}, RequestSource::staff, "", RequestKind::room, "a", -1, "en"}, conditions, {});
+  EXPECT_EQ(without.state().board.find("x")->reason.text(), "no_such_room a");
+}
+
+TEST_F(RoomWishes, GoOnAfterARestart) {
+  wish_for_room("r", "b", 0);
+  wish_for_room("s", "c", 1);
+  ASSERT_EQ(next(2), "b");
+  auto programme = programme_on_a_line();
+  programme.rooms = [this]() -> const Rooms& { return rooms; };
+  rooms.rooms.pop_back();
+  TourScheduler again{params, programme, straight_distance(), scheduler.state(), time_from_seconds(3)};
+  ASSERT_TRUE(again.state().visit);
+  EXPECT_EQ(again.state().visit->exhibit_id, "b");
+  EXPECT_EQ(again.state().board.find("s")->reason.text(), "gone") << "another map, another room";
 }
 
 TEST_F(Scheduling, ATourThatWasVotedForIsTheNext) {

@@ -12,8 +12,8 @@ void TourScheduler::keep_points() {
   std::erase_if(programme_.exhibits, [](const ProgrammeExhibit& exhibit) { return exhibit.is_point; });
   for (const BoardEntry& entry : state_.board.entries()) {
     const VisitorRequest& request = entry.request;
-    if (request.kind != RequestKind::point || !docent::is_open(entry.status)) continue;
-    const auto place = point_of(request.target);
+    if (!is_place_wish(request) || !docent::is_open(entry.status)) continue;
+    const auto place = place_of_wish(request);
     if (!place || programme_.find_exhibit(request.target) != nullptr) continue;
     ProgrammeExhibit& point = programme_.exhibits.emplace_back();
     point.id = request.target;
@@ -23,14 +23,40 @@ void TourScheduler::keep_points() {
   }
 }
 
-Reason TourScheduler::refusal_of_point(const VisitorRequest& request, const Conditions& conditions) const {
-  const auto place = point_of(request.target);
-  if (!place || !conditions.takes_points) return {ReasonWord::not_understood, request.kind.text()};
-  if (conditions.mode != OperatingMode::web && request.source != RequestSource::staff)
-    return ReasonWord::only_in_web_hours;
+std::optional<Point2> TourScheduler::place_of_wish(const VisitorRequest& request) const {
+  if (request.kind == RequestKind::point) return point_of(request.target);
+  const ProgrammeRoom* room = programme_.rooms ? programme_.rooms().find(request.target) : nullptr;
+  return room != nullptr ? std::optional{room->place} : std::nullopt;
+}
+
+void TourScheduler::name_place(VisitorRequest& request, Point2 robot) const {
+  if (request.kind == RequestKind::point) {
+    if (const auto place = point_of(request.target)) request.target = point_name(*place);
+  } else if (request.target == kNextRoom && programme_.rooms) {
+    Point2 from = robot;
+    Time latest{};
+    for (const BoardEntry& entry : state_.board.entries()) {
+      if (entry.request.kind != RequestKind::room || !docent::is_open(entry.status) || entry.created < latest) continue;
+      latest = entry.created;
+      from = place_of_wish(entry.request).value_or(from);
+    }
+    if (const ProgrammeRoom* room = programme_.rooms().after(from)) request.target = room->id;
+  }
+}
+
+Reason TourScheduler::refusal_of_place(const VisitorRequest& request, const Conditions& conditions) const {
+  if (!conditions.takes_points) return {ReasonWord::not_understood, request.kind.text()};
+  const auto place = place_of_wish(request);
+  const bool is_room = request.kind == RequestKind::room;
+  if (!place)
+    return is_room ? Reason{ReasonWord::no_such_room, request.target}
+                   : Reason{ReasonWord::not_understood, request.kind.text()};
+  // Whoever is in the hall goes there with the robot; to others it belongs in their hours only.
+  const bool is_there = request.source == RequestSource::staff || (is_room && request.source != RequestSource::web);
+  if (conditions.mode != OperatingMode::web && !is_there) return ReasonWord::only_in_web_hours;
   const auto points = std::count_if(programme_.exhibits.begin(), programme_.exhibits.end(),
                                     [](const ProgrammeExhibit& exhibit) { return exhibit.is_point; });
-  if (programme_.find_exhibit(point_name(*place)) == nullptr && points >= params_.max_points)
+  if (programme_.find_exhibit(request.target) == nullptr && points >= params_.max_points)
     return ReasonWord::too_many_points;
   if (programme_.has_room && !programme_.has_room(*place)) return ReasonWord::not_on_free_floor;
   if (!std::isfinite(travel_(programme_.home.position(), *place))) return ReasonWord::not_on_free_floor;
@@ -45,7 +71,7 @@ Reason TourScheduler::refusal(const VisitorRequest& request, const Conditions& c
     if (!has_viewpoint(*exhibit, request.viewpoint)) return ReasonWord::no_such_viewpoint;
   } else if (request.kind == RequestKind::tour) {
     if (programme_.find_tour(request.target) == nullptr) return {ReasonWord::no_such_tour, request.target};
-  } else if (request.kind != RequestKind::point) {
+  } else if (!is_place_wish(request)) {
     return {ReasonWord::not_understood, request.kind.text()};
   }
   const bool is_staff = request.source == RequestSource::staff;
@@ -53,8 +79,8 @@ Reason TourScheduler::refusal(const VisitorRequest& request, const Conditions& c
   if (conditions.mode == OperatingMode::web && request.source != RequestSource::web &&
       request.source != RequestSource::vote && !is_staff)
     return ReasonWord::web_only_now;
-  if (request.kind == RequestKind::point) {
-    if (Reason why_not = refusal_of_point(request, conditions); !why_not.is_none()) return why_not;
+  if (is_place_wish(request)) {
+    if (Reason why_not = refusal_of_place(request, conditions); !why_not.is_none()) return why_not;
   }
   if (state_.board.open_count() >= static_cast<std::size_t>(params_.max_open) ||
       state_.board.stops_with(request) > static_cast<std::size_t>(params_.max_stops))
@@ -70,9 +96,9 @@ void TourScheduler::submit(VisitorRequest request, const Conditions& conditions,
     cancel(request, now);
     return;
   }
+  name_place(request, conditions.robot);
   const Reason why_not = refusal(request, conditions);
   const std::string id = request.id;
-  if (request.kind == RequestKind::point && why_not.is_none()) request.target = point_name(*point_of(request.target));
   if (!why_not.is_none()) {
     state_.board.add(std::move(request), RequestStatus::refused, why_not, now);
     happenings_.push_back({EventKind::request_refused, id, why_not.text()});

@@ -28,9 +28,15 @@ template <class Stop, class NameOf>
   return viewpoint < static_cast<int>(exhibit.viewpoints.size());
 }
 
+/// A point on the map or a room.
+[[nodiscard]] inline bool is_place_wish(const VisitorRequest& request) {
+  const auto kind = request.kind.value();
+  return kind && is_place(*kind);
+}
+
 /// Whether a visit serves it, not a tour.
 [[nodiscard]] inline bool is_single(const VisitorRequest& request) {
-  return request.kind == RequestKind::exhibit || request.kind == RequestKind::point;
+  return request.kind == RequestKind::exhibit || is_place_wish(request);
 }
 
 [[nodiscard]] inline bool is_member(const TourRun& tour, const std::string& request_id) {

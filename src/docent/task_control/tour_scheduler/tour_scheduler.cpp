@@ -116,7 +116,7 @@ void TourScheduler::close_request(const std::string& id, RequestStatus status, c
   const Time created = state_.board.find(id)->created;
   state_.board.change(id, status, reason, now);
   if (status == RequestStatus::fulfilled) ++state_.counters.requests_served;
-  if (state_.board.find(id)->request.kind == RequestKind::point) keep_points();
+  if (is_place_wish(state_.board.find(id)->request)) keep_points();
   happenings_.push_back({event_of(status), id, reason.text(), to_seconds(now - created)});
 }
 

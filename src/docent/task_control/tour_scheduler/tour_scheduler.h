@@ -17,8 +17,9 @@ namespace docent::task_control {
 struct Conditions {
   bool is_open = true;
   std::optional<OperatingMode> mode = OperatingMode::open;  ///< nullopt: one that is not known, taken as open
-  bool takes_points = true;                                 ///< the planner can drive to points on the map
-  Reason delay = {};                                        ///< why all who come now wait a while; none: they do not
+  bool takes_points = true;  ///< the planner can drive to points on the map, and to rooms
+  Reason delay = {};         ///< why all who come now wait a while; none: they do not
+  Point2 robot{};            ///< [m], map: where it is, for whoever wishes for the next room
 };
 
 /// One exhibit to show, for one request or many.
@@ -31,7 +32,7 @@ struct Visit {
   bool is_joinable = true;  ///< nothing was said yet: whoever wishes for the exhibit now takes part
   Time started;
   bool asks = true;       ///< there is time to hear more
-  bool is_point = false;  ///< a point on the map; `exhibit_id` is its name (point_name)
+  bool is_point = false;  ///< a point on the map or a room; `exhibit_id` is its name (point_name) or the room's id
 
   [[nodiscard]] TaskKind task_kind() const { return is_point ? TaskKind::point : TaskKind::visit; }
 };
@@ -105,8 +106,8 @@ struct SchedulerState {
 /// chooses each exhibit when the one before was explained, by travel times that were learned, so that it ends in time
 /// ([Minerva2000] 5.3); it rather shows what others have wished for, and only an overdue exhibit is put in. A tour for
 /// which the charge does not last is shortened. A tour that showed something ends with a farewell. Points on the map
-/// are approached in the order in which they were wished for ([Minerva2000] 6.4): one has its turn when its request is
-/// the oldest. A tour that was voted for is the next to begin.
+/// and rooms are approached in the order in which they were wished for ([Minerva2000] 6.4): one has its turn when its
+/// request is the oldest. A tour that was voted for is the next to begin.
 class TourScheduler {
  public:
   /// Open requests in `state` for what the museum no longer has are failed at once.
@@ -178,8 +179,13 @@ class TourScheduler {
   [[nodiscard]] std::vector<std::string> ids(RequestKind kind, RequestStatus status, const std::string& target) const;
   /// Of requests for an exhibit, or for a point, which a visit may serve.
   [[nodiscard]] std::vector<std::string> ids_of_visit(RequestStatus status, const std::string& target) const;
-  [[nodiscard]] Reason refusal_of_point(const VisitorRequest& request, const Conditions& conditions) const;
-  /// The programme holds the points of the open requests, and no others.
+  [[nodiscard]] Reason refusal_of_place(const VisitorRequest& request, const Conditions& conditions) const;
+  /// Where a wish for a point or a room wants the robot; nullopt: nowhere that there is.
+  [[nodiscard]] std::optional<Point2> place_of_wish(const VisitorRequest& request) const;
+  /// "next" becomes the room after the last one for which somebody waits, else after that in which the robot is; a
+  /// point gets its one name.
+  void name_place(VisitorRequest& request, Point2 robot) const;
+  /// The programme holds the points and rooms of the open requests, and no others.
   void keep_points();
   /// @pre there is a tour
   void cancel_tour_without_members();

@@ -163,9 +163,8 @@ const std::optional<Visit>& TourScheduler::begin_visit(Point2 robot, Time now, d
       if (!begin_tour(std::string{oldest->request.target}, robot, now, budget_s)) break;
       continue;
     }
-    const std::vector<WishedStop> order = oldest->request.kind == RequestKind::point
-                                              ? std::vector<WishedStop>{{oldest->request.target}}
-                                              : single_order(robot, now);
+    const std::vector<WishedStop> order =
+        is_place_wish(oldest->request) ? std::vector<WishedStop>{{oldest->request.target}} : single_order(robot, now);
     const WishedStop& next = order.front();
     if (const auto tour = waiting_tour_to(next.exhibit_id, now)) {
       if (!begin_tour(*tour, robot, now, budget_s)) break;
@@ -202,7 +201,7 @@ std::vector<std::string> TourScheduler::choices(Point2 robot, Time now) {
     exhibits.resize(std::min<std::size_t>(exhibits.size(), 1));
     return exhibits;
   }
-  if (oldest->request.kind == RequestKind::point) return {oldest->request.target};
+  if (is_place_wish(oldest->request)) return {oldest->request.target};
   for (const WishedStop& stop : single_order(robot, now)) {
     if (!holds(exhibits, stop.exhibit_id)) exhibits.push_back(stop.exhibit_id);
   }
