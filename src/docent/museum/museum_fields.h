@@ -20,6 +20,7 @@ class MuseumFields {
   static constexpr std::size_t kLongestId = 40;
 
   explicit MuseumFields(const YamlFile& file) : file_{file} {}
+  [[nodiscard]] const YamlFile& file() const { return file_; }
 
   [[nodiscard]] YamlFault fault(const YAML::Node& at, const std::string& what) const {
     return YamlFault{file_.fault(at, what)};
@@ -96,6 +97,7 @@ class MuseumFields {
     return result;
   }
 
+ private:
   const YamlFile& file_;
 };
 

@@ -24,7 +24,7 @@ class MuseumYamlReader : MuseumFields {
 
   void read() {
     guarded([&] {
-      YamlReader reader{file_, file_.root()};
+      YamlReader reader{file(), file().root()};
       const YAML::Node name = reader.node("name");
       const YAML::Node languages = reader.node("languages");
       const YAML::Node area = reader.node("area");
@@ -37,21 +37,21 @@ class MuseumYamlReader : MuseumFields {
       const YAML::Node rooms = reader.node("rooms");
       const YAML::Node sound = reader.node("sound");
       guarded([&] { read_languages(languages); });
-      guarded([&] { museum_.name = translations(required(file_.root(), name, "name"), "name"); });
+      guarded([&] { museum_.name = translations(required(file().root(), name, "name"), "name"); });
       std::string map;
       guarded([&] {
         reader.required("map", map);
         museum_.map_path = inside_folder(reader.node("map"), map);
       });
-      guarded([&] { museum_.area = polygon(required(file_.root(), area, "area")); });
+      guarded([&] { museum_.area = polygon(required(file().root(), area, "area")); });
       read_hazards(hazards);
-      guarded([&] { museum_.home = pose(required(file_.root(), home, "home")); });
+      guarded([&] { museum_.home = pose(required(file().root(), home, "home")); });
       if (charger.IsDefined()) guarded([&] { museum_.charger = pose(charger); });
-      read_exhibits(required(file_.root(), exhibits, "exhibits"));
+      read_exhibits(required(file().root(), exhibits, "exhibits"));
       read_modes(modes);
       read_tours(tours);
       read_rooms(rooms);
-      guarded([&] { museum_.scene_camera = read_scene_camera(file_, reader); });
+      guarded([&] { museum_.scene_camera = read_scene_camera(file(), reader); });
       if (sound.IsDefined()) guarded([&] { read_sound(sound); });
       std::optional<std::string> simulation;
       guarded([&] {
@@ -71,12 +71,12 @@ class MuseumYamlReader : MuseumFields {
       source_.faults.push_back(fault.error);
     } catch (const YAML::Exception& exception) {
       source_.faults.push_back(
-          Error{file_.name() + ":" + std::to_string(exception.mark.line + 1) + ": " + exception.msg});
+          Error{file().name() + ":" + std::to_string(exception.mark.line + 1) + ": " + exception.msg});
     }
   }
-  void report(const YAML::Node& at, const std::string& what) { source_.faults.push_back(file_.fault(at, what)); }
+  void report(const YAML::Node& at, const std::string& what) { source_.faults.push_back(file().fault(at, what)); }
   void read_languages(const YAML::Node& node) {
-    for (const auto& entry : list(required(file_.root(), node, "languages"), "languages")) {
+    for (const auto& entry : list(required(file().root(), node, "languages"), "languages")) {
       const std::string language = text(entry, "a language");
       if (!is_language(language)) {
         throw fault(entry, "unknown language '" + language + "' (two letters of ISO 639-1, such as en, de)");
@@ -149,7 +149,7 @@ class MuseumYamlReader : MuseumFields {
     guarded([&] {
       for (const auto& entry : list(node, "hazards")) {
         guarded([&] {
-          YamlReader reader{file_, entry};
+          YamlReader reader{file(), entry};
           Hazard hazard;
           hazard.id = id(entry, reader.node("id"), seen, "hazard");
           std::string kind;
@@ -197,7 +197,7 @@ class MuseumYamlReader : MuseumFields {
   }
 
   [[nodiscard]] Link link(const YAML::Node& node, const std::string& who) const {
-    YamlReader reader{file_, node};
+    YamlReader reader{file(), node};
     const YAML::Node title = reader.node("title");
     Link link;
     reader.required("url", link.url);
@@ -211,7 +211,7 @@ class MuseumYamlReader : MuseumFields {
   }
 
   void read_exhibit(const YAML::Node& entry, std::set<std::string>& seen) {
-    YamlReader reader{file_, entry};
+    YamlReader reader{file(), entry};
     Exhibit exhibit;
     exhibit.id = id(entry, reader.node("id"), seen, "exhibit");
     const std::string who = "exhibit '" + exhibit.id + "'";
@@ -265,7 +265,7 @@ class MuseumYamlReader : MuseumFields {
   }
 
   [[nodiscard]] Mode mode(const std::string& name, const YAML::Node& node) const {
-    YamlReader reader{file_, node};
+    YamlReader reader{file(), node};
     Mode mode = museum_.modes.at(name);
     reader("max_speed", mode.max_speed);
     reader("wait_s", mode.wait_s);
@@ -287,7 +287,7 @@ class MuseumYamlReader : MuseumFields {
   }
 
   void read_sound(const YAML::Node& node) {
-    YamlReader reader{file_, node};
+    YamlReader reader{file(), node};
     MuseumSound sound;
     std::optional<std::string> music;
     reader("music", music);
@@ -319,7 +319,7 @@ class MuseumYamlReader : MuseumFields {
   }
 
   void read_room(const YAML::Node& entry, std::set<std::string>& seen) {
-    YamlReader reader{file_, entry};
+    YamlReader reader{file(), entry};
     Room room;
     room.id = id(entry, reader.node("id"), seen, "room");
     const std::string who = "room '" + room.id + "'";
@@ -336,7 +336,7 @@ class MuseumYamlReader : MuseumFields {
   }
 
   void read_tour(const YAML::Node& entry, std::set<std::string>& seen) {
-    YamlReader reader{file_, entry};
+    YamlReader reader{file(), entry};
     Tour tour;
     tour.id = id(entry, reader.node("id"), seen, "tour");
     const std::string who = "tour '" + tour.id + "'";
@@ -368,7 +368,7 @@ class MuseumYamlReader : MuseumFields {
   }
 
   [[nodiscard]] bool named(const std::string& exhibit) const {
-    const YAML::Node& root = file_.root();
+    const YAML::Node& root = file().root();
     const YAML::Node exhibits = root["exhibits"];
     if (!exhibits.IsSequence()) return false;
     return std::any_of(exhibits.begin(), exhibits.end(), [&](const YAML::Node& entry) {
