@@ -80,7 +80,7 @@ const GOAL = 'zeolite';
 const known = await answers();
 const goal = known.exhibits.find(({ id }) => id === GOAL);
 /** Where the robot has to be able to stand. */
-const standing = [known.home, known.charger, ...known.exhibits.flatMap(({ pose, viewpoints }) => [pose, ...viewpoints])];
+const standing = [known.home, known.charger, ...known.exhibits.flatMap(({ pose, viewpoints }) => [pose, ...viewpoints]), ...known.rooms.map(({ at }) => at)];
 let hazard = [];
 await check('the robot is on its way to an exhibit, and is stopped', async () => {
   const id = '01900000-0000-7000-8000-00000000000a';
