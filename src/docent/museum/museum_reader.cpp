@@ -49,8 +49,8 @@ class MuseumYamlReader : MuseumFields {
       if (charger.IsDefined()) guarded([&] { museum_.charger = pose(charger); });
       read_exhibits(required(file().root(), exhibits, "exhibits"));
       read_modes(modes);
-      read_tours(tours);
-      read_rooms(rooms);
+      read_list(tours, "tours", &MuseumYamlReader::read_tour);
+      read_list(rooms, "rooms", &MuseumYamlReader::read_room);
       guarded([&] { museum_.scene_camera = read_scene_camera(file(), reader); });
       if (sound.IsDefined()) guarded([&] { read_sound(sound); });
       std::optional<std::string> simulation;
@@ -166,6 +166,16 @@ class MuseumYamlReader : MuseumFields {
           source_.hazards.push_back(entry);
         });
       }
+    });
+  }
+
+  /// A key that may be absent; its entries have ids that differ.
+  void read_list(const YAML::Node& node, const char* what,
+                 void (MuseumYamlReader::*read_one)(const YAML::Node&, std::set<std::string>&)) {
+    if (!node.IsDefined() || node.IsNull()) return;
+    std::set<std::string> seen;
+    guarded([&] {
+      for (const auto& entry : list(node, what)) guarded([&] { (this->*read_one)(entry, seen); });
     });
   }
 
@@ -301,22 +311,6 @@ class MuseumYamlReader : MuseumFields {
     museum_.sound = std::move(sound);
   }
   [[nodiscard]] static YAML::Node reader_child(const YAML::Node& node, const char* key) { return node[key]; }
-
-  void read_tours(const YAML::Node& node) {
-    if (!node.IsDefined() || node.IsNull()) return;
-    std::set<std::string> seen;
-    guarded([&] {
-      for (const auto& entry : list(node, "tours")) guarded([&] { read_tour(entry, seen); });
-    });
-  }
-
-  void read_rooms(const YAML::Node& node) {
-    if (!node.IsDefined() || node.IsNull()) return;
-    std::set<std::string> seen;
-    guarded([&] {
-      for (const auto& entry : list(node, "rooms")) guarded([&] { read_room(entry, seen); });
-    });
-  }
 
   void read_room(const YAML::Node& entry, std::set<std::string>& seen) {
     YamlReader reader{file(), entry};

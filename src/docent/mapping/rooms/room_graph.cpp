@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <queue>
 #include <set>
 #include <utility>
@@ -186,12 +187,6 @@ int RoomGraph::room_at(Point2 point) const {
 const Room* RoomGraph::find(const std::string& id) const {
   const auto place = std::find_if(rooms_.begin(), rooms_.end(), [&](const Room& room) { return room.id == id; });
   return place == rooms_.end() ? nullptr : &*place;
-}
-
-std::optional<int> RoomGraph::after(int room) const {
-  const int count = static_cast<int>(rooms_.size());
-  if (count == 0 || (count == 1 && room == 0)) return std::nullopt;
-  return (room + 1) % count;
 }
 
 RoomGraph room_graph(const museum::Museum& museum, const RegionParams& params) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,8 +36,6 @@ class RoomGraph {
   [[nodiscard]] int room_at(Point2 point) const;
   /// nullptr: there is no such room.
   [[nodiscard]] const Room* find(const std::string& id) const;
-  /// The one after it in the walk, after the last the first. kNone: the first. nullopt: there is no other.
-  [[nodiscard]] std::optional<int> after(int room) const;
 
  private:
   friend RoomGraph room_graph(const museum::Museum& museum, const RegionParams& params);
