@@ -172,6 +172,11 @@ std::int8_t cell_of(const MapYaml& yaml, const GreyImage& image, std::size_t pix
 }  // namespace
 
 Result<OccupancyGrid> load_map(const std::filesystem::path& yaml_path) {
+  if (const auto extension = yaml_path.extension(); extension == ".pgm" || extension == ".png") {
+    const auto beside = std::filesystem::path{yaml_path}.replace_extension(".yaml");
+    return fail(yaml_path.string() + ": this is the image of a map; name the YAML file that says its scale" +
+                (std::filesystem::exists(beside) ? ", " + beside.string() : ""));
+  }
   const auto file = YamlFile::load(yaml_path);
   if (!file) return tl::unexpected<Error>(file.error());
   MapYaml yaml;

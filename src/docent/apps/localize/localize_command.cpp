@@ -1,5 +1,6 @@
 #include "docent/apps/localize/localize_command.h"
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
@@ -50,9 +51,10 @@ struct Options {
   std::string cache;
 };
 
-/// Runs the log once; draws into `pictures` when it is not empty.
+/// Runs the log once; draws into `pictures` when it is not empty. `purpose`: for people who wait.
 LogRun run_once(const Options& options, const ReferencedLog& referenced, const OccupancyGrid& map,
-                localization::Localizer& localizer, bool reverse, const std::filesystem::path& pictures) {
+                localization::Localizer& localizer, bool reverse, const std::string& purpose,
+                const std::filesystem::path& pictures) {
   const recording::LaserLog& log = referenced.log;
   LogRunOptions run_options;
   run_options.reverse = reverse;
@@ -67,7 +69,9 @@ LogRun run_once(const Options& options, const ReferencedLog& referenced, const O
   std::size_t seen = 0;
   run_options.watch = [&](const localization::Localizer& at, std::size_t scan,
                           const localization::Localizer::Step& step) {
-    if (++seen % 500 == 0) std::fprintf(stderr, "%zu of %zu scans\n", seen, log.scans.size());
+    if (++seen % 500 == 0)
+      std::fprintf(stderr, "%s%s: %zu of %zu scans\n", purpose.c_str(), reverse ? ", reversed" : "", seen,
+                   log.scans.size());
     if (movie && step.updated && !movie->is_full()) value_or_fail(movie->add(at, scan));
   };
   LogRun run = localize_log(log, localizer, run_options);
@@ -103,10 +107,14 @@ nlohmann::json report_of(const recording::LaserLog& log, const LogRun& run, cons
   report["beams_used"] = static_cast<double>(run.beams_used) / updates;
   report["beams_filtered"] = static_cast<double>(run.beams_filtered) / updates;
   report["fit"] = run.fit;
-  report["endpoints_near_walls"] = endpoints_near_walls(log, run, caster, 0.2);
-  const auto localized =
-      std::count_if(run.poses.begin(), run.poses.end(), [](const auto& pose) { return pose.localized; });
-  report["localized_fraction"] = static_cast<double>(localized) / static_cast<double>(run.poses.size());
+  const auto near_walls = endpoints_near_walls(log, run, caster, 0.2);
+  report["endpoints_near_walls"] = near_walls ? nlohmann::json(*near_walls) : nlohmann::json();
+  const auto share = [&](auto is_so) {
+    return static_cast<double>(std::count_if(run.poses.begin(), run.poses.end(), is_so)) /
+           static_cast<double>(run.poses.size());
+  };
+  report["localized_fraction"] = share([](const LoggedPose& pose) { return pose.localized; });
+  report["in_hindsight_fraction"] = share([](const LoggedPose& pose) { return pose.in_hindsight; });
   return report;
 }
 
@@ -137,6 +145,9 @@ void add_score(nlohmann::json& report, const LogRun& run, const evaluation::Scan
 }
 
 nlohmann::json to_json(const RunAgreement& agreement) {
+  if (agreement.both_know == 0)
+    return {{"scans", agreement.scans}, {"both_know", 0},   {"within_half_a_metre_and_10_degrees", nullptr},
+            {"median_m", nullptr},      {"p95_m", nullptr}, {"max_m", nullptr}};
   return {{"scans", agreement.scans},
           {"both_know", agreement.both_know},
           {"within_half_a_metre_and_10_degrees", agreement.share},
@@ -203,7 +214,7 @@ double find_wall_depth(const Options& options, const ReferencedLog& log, const O
     double fit = 0.0;
     for (const bool reverse : {false, true}) {
       localizer.start_unknown();
-      fit += 0.5 * run_once(options, log, map, localizer, reverse, {}).fit;
+      fit += 0.5 * run_once(options, log, map, localizer, reverse, fmt::format("walls {:.1f} m deep", depth), {}).fit;
     }
     std::fprintf(stderr, "walls %.1f m deep: mean ln P of a beam %.3f\n", depth, fit);
     if (depth > 0.0 && fit <= best_fit) continue;
@@ -211,6 +222,38 @@ double find_wall_depth(const Options& options, const ReferencedLog& log, const O
     best_fit = fit;
   }
   return best_depth;
+}
+
+/// Refuses a start where no robot can be, and says where the nearest place is that can.
+void check_start(const Options& options, const OccupancyGrid& map, const localization::StateSpace& space) {
+  if (options.start == "unknown" || options.start == "reference") return;
+  const Point2 start = parse_pose("--start", options.start).position();
+  if (space.place_at(space.frame().cell_at(start)) != localization::StateSpace::kNoPlace) return;
+  Point2 nearest = space.centre(0);
+  for (std::size_t place = 1; place < space.places(); ++place)
+    if (distance(space.centre(place), start) < distance(nearest, start)) nearest = space.centre(place);
+  const CellIndex cell = map.frame.cell_at(start);
+  const char* where = !map.frame.holds(cell)                    ? "outside the map"
+                      : map.at(cell) == OccupancyGrid::kUnknown ? "where the map is unknown"
+                                                                : "in a wall, or too near to one";
+  throw CommandFailed{fmt::format("--start {}: this is {}; the nearest free place of {} is {:.2f},{:.2f}",
+                                  options.start, where, options.map, nearest.x, nearest.y),
+                      2};
+}
+
+/// A log without odometry can be read, but hardly be localized.
+void say_still(const recording::LaserLog& log) {
+  const auto stands = [&](const recording::LoggedScan& scan) {
+    const Pose2& first = log.scans.front().odom_from_base;
+    return distance(first.position(), scan.odom_from_base.position()) < 0.01 &&
+           std::abs((scan.odom_from_base.theta - first.theta).degrees()) < 1.0;
+  };
+  if (log.scans.size() > 1 && std::all_of(log.scans.begin(), log.scans.end(), stands))
+    std::fprintf(
+        stderr,
+        "note: the odometry of this log never moves: either the robot stood still, or the log has none, and "
+        "then a way cannot be localized. Where the scans have poses, '--reference logged --odometry perturbed' "
+        "makes odometry from them\n");
 }
 
 /// The log as it is localized: with the odometry that was asked for, and from the first scan whose pose is known where
@@ -232,8 +275,10 @@ void localize(const Options& options) {
   const recording::LaserLog& log = referenced.log;
   const bool has_reference = !options.choice.reference.empty();
   MethodParams params = params_for(options, map, log);
-  if (localization::StateSpace{map, sensor_models::RayCaster{map}, params.grid.states}.places() == 0)
-    throw CommandFailed{options.map + ": no free place in this map"};
+  const localization::StateSpace space{map, sensor_models::RayCaster{map}, params.grid.states};
+  if (space.places() == 0) throw CommandFailed{options.map + ": no free place in this map"};
+  check_start(options, map, space);
+  say_still(log);
   if (options.wall_depth == "auto") {
     params.grid.states.wall_depth = find_wall_depth(options, referenced, map, params);
   } else {
@@ -242,7 +287,7 @@ void localize(const Options& options) {
   }
   const auto localizer = make_localizer(options, map, params);
 
-  const LogRun run = run_once(options, referenced, map, *localizer, options.reverse, options.picture);
+  const LogRun run = run_once(options, referenced, map, *localizer, options.reverse, "localized", options.picture);
   const sensor_models::RayCaster caster{map};
   nlohmann::json report = report_of(log, run, caster);
   report["map"] = options.map;
@@ -260,7 +305,8 @@ void localize(const Options& options) {
               options.start == "unknown" ? "unknown" : "given", summary_of_run(report).c_str());
   if (options.both_ways) {
     localizer->start_unknown();
-    const LogRun other = run_once(options, referenced, map, *localizer, !options.reverse, options.picture);
+    const LogRun other =
+        run_once(options, referenced, map, *localizer, !options.reverse, "the other way", options.picture);
     report["other_way"] = report_of(log, other, caster);
     if (has_reference)
       add_score(report["other_way"], other, referenced.reference, !options.reverse, options.start == "reference");

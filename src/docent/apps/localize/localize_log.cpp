@@ -14,14 +14,16 @@ namespace {
 
 using WallClock = std::chrono::steady_clock;
 
-constexpr const char* kHeader = "scan,time,x,y,heading_deg,has_pose,localized,p_lost";
+constexpr const char* kHeader =
+    "scan,time,x,y,heading_deg,has_pose,localized,in_hindsight,p_lost,mass,share,confirmation,agreement,contradiction,"
+    "surprise,hidden,unmapped,spread";
 
 /// First and last scan, in the order of the log, from which on (until which) a run knew where it was.
 std::pair<std::size_t, std::size_t> known_span(const std::vector<LoggedPose>& poses) {
   std::size_t first = 0;
-  while (first < poses.size() && !poses[first].localized) ++first;
+  while (first < poses.size() && !poses[first].is_known()) ++first;
   std::size_t last = poses.size();
-  while (last > first && !poses[last - 1].localized) --last;
+  while (last > first && !poses[last - 1].is_known()) --last;
   return {first, last};
 }
 
@@ -68,11 +70,11 @@ void know_in_hindsight(const recording::LaserLog& log, bool reverse, std::vector
   for (std::size_t n = count; n-- > 1;) {
     const LoggedPose& later = poses[at(n)];
     LoggedPose& before = poses[at(n - 1)];
-    if (!later.localized || before.localized || !before.has_pose) continue;
+    if (!later.is_known() || before.localized || !before.has_pose) continue;
     const Pose2 moved = inverse(log.scans[at(n - 1)].odom_from_base) * log.scans[at(n)].odom_from_base;
     const Pose2 expected = before.map_from_base * moved;
-    before.localized = distance(expected.position(), later.map_from_base.position()) < 0.5 &&
-                       std::abs((expected.theta - later.map_from_base.theta).degrees()) < 15.0;
+    before.in_hindsight = distance(expected.position(), later.map_from_base.position()) < 0.5 &&
+                          std::abs((expected.theta - later.map_from_base.theta).degrees()) < 15.0;
   }
 }
 
@@ -117,7 +119,8 @@ LogRun localize_log(const recording::LaserLog& log, localization::Localizer& loc
       }
     }
     LoggedPose& pose = run.poses[i];
-    pose = {i, logged, {}, false, localizer.verdict().localized(), localizer.verdict().p_lost()};
+    const localization::Verdict& verdict = localizer.verdict();
+    pose = {i, logged, {}, false, verdict.localized(), false, verdict.p_lost(), verdict.doubt()};
     if (const auto best = localizer.map_from_robot(odom_from_tracked)) {
       pose.map_from_base = *best * inverse(tracked);
       pose.has_pose = true;
@@ -131,8 +134,8 @@ LogRun localize_log(const recording::LaserLog& log, localization::Localizer& loc
   return run;
 }
 
-double endpoints_near_walls(const recording::LaserLog& log, const LogRun& run, const sensor_models::RayCaster& caster,
-                            double distance) {
+std::optional<double> endpoints_near_walls(const recording::LaserLog& log, const LogRun& run,
+                                           const sensor_models::RayCaster& caster, double distance) {
   std::size_t near = 0;
   std::size_t all = 0;
   const auto [first, last] = known_span(run.poses);
@@ -146,7 +149,8 @@ double endpoints_near_walls(const recording::LaserLog& log, const LogRun& run, c
       near += static_cast<double>(clearance) <= distance ? 1 : 0;
     }
   }
-  return all == 0 ? 0.0 : static_cast<double>(near) / static_cast<double>(all);
+  if (all == 0) return std::nullopt;
+  return static_cast<double>(near) / static_cast<double>(all);
 }
 
 RunAgreement agreement_of(const std::vector<LoggedPose>& first, const std::vector<LoggedPose>& second) {
@@ -158,7 +162,7 @@ RunAgreement agreement_of(const std::vector<LoggedPose>& first, const std::vecto
   std::size_t agreed = 0;
   for (std::size_t i = std::max(first_from, second_from); i < std::min(first_to, second_to); ++i) {
     ++result.scans;
-    if (!first[i].localized || !second[i].localized) continue;
+    if (!first[i].is_known() || !second[i].is_known()) continue;
     const Pose2& a = first[i].map_from_base;
     const Pose2& b = second[i].map_from_base;
     off.push_back(distance(a.position(), b.position()));
@@ -177,10 +181,14 @@ RunAgreement agreement_of(const std::vector<LoggedPose>& first, const std::vecto
 Result<void> save_poses(const std::vector<LoggedPose>& poses, const std::string& path) {
   std::string text = std::string{kHeader} + "\n";
   for (const LoggedPose& pose : poses) {
-    char line[200];
-    std::snprintf(line, sizeof line, "%zu,%.6f,%.4f,%.4f,%.3f,%d,%d,%.4f\n", pose.scan, pose.time, pose.map_from_base.x,
-                  pose.map_from_base.y, pose.map_from_base.theta.degrees(), pose.has_pose ? 1 : 0,
-                  pose.localized ? 1 : 0, pose.p_lost);
+    const localization::Doubt& doubt = pose.doubt;
+    char line[300];
+    std::snprintf(line, sizeof line,
+                  "%zu,%.6f,%.4f,%.4f,%.3f,%d,%d,%d,%.5f,%.5f,%.5f,%.3f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f\n", pose.scan,
+                  pose.time, pose.map_from_base.x, pose.map_from_base.y, pose.map_from_base.theta.degrees(),
+                  pose.has_pose ? 1 : 0, pose.localized ? 1 : 0, pose.in_hindsight ? 1 : 0, pose.p_lost, doubt.mass,
+                  doubt.share, doubt.confirmation, doubt.agreement, doubt.contradiction, doubt.surprise, doubt.hidden,
+                  doubt.unmapped, doubt.spread);
     text += line;
   }
   return write_file_atomically(path, text);
@@ -204,15 +212,20 @@ Result<std::vector<LoggedPose>> load_poses(const std::string& path) {
     double degrees = 0.0;
     int has_pose = 0;
     int localized = 0;
+    int in_hindsight = 0;
     int used = 0;
-    const int fields =
-        std::sscanf(content.c_str(), "%zu,%lf,%lf,%lf,%lf,%d,%d,%lf%n", &pose.scan, &pose.time, &pose.map_from_base.x,
-                    &pose.map_from_base.y, &degrees, &has_pose, &localized, &pose.p_lost, &used);
-    if (fields != 8 || static_cast<std::size_t>(used) != content.size() || pose.scan != poses.size())
+    localization::Doubt& doubt = pose.doubt;
+    const int fields = std::sscanf(
+        content.c_str(), "%zu,%lf,%lf,%lf,%lf,%d,%d,%d,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf%n", &pose.scan,
+        &pose.time, &pose.map_from_base.x, &pose.map_from_base.y, &degrees, &has_pose, &localized, &in_hindsight,
+        &pose.p_lost, &doubt.mass, &doubt.share, &doubt.confirmation, &doubt.agreement, &doubt.contradiction,
+        &doubt.surprise, &doubt.hidden, &doubt.unmapped, &doubt.spread, &used);
+    if (fields != 18 || static_cast<std::size_t>(used) != content.size() || pose.scan != poses.size())
       return fail(path + ":" + std::to_string(line) + ": expected the next scan as " + kHeader);
     pose.map_from_base.theta = Angle::degrees(degrees);
     pose.has_pose = has_pose != 0;
     pose.localized = localized != 0;
+    pose.in_hindsight = in_hindsight != 0;
     poses.push_back(pose);
   }
   return poses;

@@ -20,9 +20,12 @@ struct LoggedPose {
   std::size_t scan = 0;  ///< index in the log, also in a reversed run
   double time = 0.0;     ///< [s] of the log
   Pose2 map_from_base;
-  bool has_pose = false;   ///< there was a best mode at all
-  bool localized = false;  ///< the robot said where it is, or, in hindsight, followed the mode that it then was sure of
+  bool has_pose = false;      ///< there was a best mode at all
+  bool localized = false;     ///< the robot said where it is, there and then
+  bool in_hindsight = false;  ///< it did not, but its best mode is the one that it was sure of later
   double p_lost = 1.0;
+  localization::Doubt doubt;  ///< what P(lost) was made of
+  [[nodiscard]] bool is_known() const { return localized || in_hindsight; }
 };
 
 struct LogRun {
@@ -57,9 +60,10 @@ struct LogRunOptions {
 /// The scan in the laser's frame.
 [[nodiscard]] sensor_models::RangeSweep sweep_of(const recording::LoggedScan& scan, double max_range);
 
-/// Share of the valid endpoints within `distance` [m] of an occupied cell, over the scans since localization.
-[[nodiscard]] double endpoints_near_walls(const recording::LaserLog& log, const LogRun& run,
-                                          const sensor_models::RayCaster& caster, double distance);
+/// Share of the valid endpoints within `distance` [m] of an occupied cell, over the scans since localization; nullopt:
+/// there is none.
+[[nodiscard]] std::optional<double> endpoints_near_walls(const recording::LaserLog& log, const LogRun& run,
+                                                         const sensor_models::RayCaster& caster, double distance);
 
 /// How two runs over one log agree, over the scans after both were localized (in a reversed run: before).
 struct RunAgreement {

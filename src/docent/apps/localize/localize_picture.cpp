@@ -1,8 +1,11 @@
 #include "docent/apps/localize/localize_picture.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <span>
 #include <utility>
 
 namespace docent::apps {
@@ -14,6 +17,9 @@ constexpr double kDot = 1.5;          // [points] diameter of an endpoint
 constexpr double kWay = 1.0;          // [points]
 constexpr double kReferenceWay = 3.0;
 constexpr double kJump = 1.0;  // [m] more than the wheels say: the robot was carried, or thinks better of its place
+constexpr double kShownReach = 12.0;  // [m] of a reading, for which the picture is made larger
+constexpr pictures::Color kStart = pictures::colors::kGreen;
+constexpr pictures::Color kEnd = pictures::colors::kRed;
 constexpr pictures::Color kReference = pictures::with_alpha(pictures::colors::kGrey, 150);
 
 std::vector<Point2> endpoints_at(const recording::LoggedScan& scan, double max_range, const Pose2& map_from_laser) {
@@ -45,11 +51,11 @@ void add_robot_legend(pictures::Figure& figure) {
 
 }  // namespace
 
-std::vector<std::vector<Point2>> ways_of(const recording::LaserLog& log, const LogRun& run) {
+std::vector<std::vector<Point2>> ways_of(const recording::LaserLog& log, const LogRun& run, bool known) {
   std::vector<std::vector<Point2>> ways;
   const LoggedPose* last = nullptr;
   for (const LoggedPose& pose : run.poses) {
-    if (!pose.localized) {
+    if (!pose.has_pose || pose.is_known() != known) {
       last = nullptr;
       continue;
     }
@@ -68,7 +74,7 @@ std::vector<std::vector<Point2>> ways_of(const recording::LaserLog& log, const L
 pictures::Axes belief_axes(const OccupancyGrid& map, const localization::Localizer& localizer,
                            const recording::LaserLog& log, std::size_t scan) {
   pictures::Axes axes = pictures::Axes::metres(map.frame, 400.0);
-  axes.set_title(moment_of(log, scan));
+  axes.set_title(fmt::format("{}, P(lost) {:.3f}", moment_of(log, scan), localizer.verdict().p_lost()));
   pictures::draw_map(axes, map);
   const localization::PositionDensity density = localizer.density();
   pictures::draw_density(axes, density.frame, density.mass);
@@ -133,7 +139,7 @@ pictures::Figure draw_scan(const OccupancyGrid& map, const recording::LaserLog& 
       figure.add(pictures::Axes::metres(centre - Point2{kAround, kAround}, centre + Point2{kAround, kAround}, 360.0));
   pictures::draw_map(axes, map);
   const recording::LoggedScan& scan = log.scans[pose.scan];
-  const pictures::Color color = color_when(pose.localized);
+  const pictures::Color color = color_when(pose.is_known());
   pictures::draw_points(axes, endpoints_at(scan, log.max_range, pose.map_from_base * scan.base_from_laser), 2.5, color);
   pictures::draw_robot(axes, pose.map_from_base, kRobotRadius, color);
   pictures::add_map_legend(figure);
@@ -141,13 +147,59 @@ pictures::Figure draw_scan(const OccupancyGrid& map, const recording::LaserLog& 
   return figure;
 }
 
+namespace {
+
+/// What the ways and the scans beside them take of the map, and some metres about it.
+pictures::Axes cropped_axes(const OccupancyGrid& map, const std::vector<Point2>& shown) {
+  constexpr double kMargin = 1.5;  // [m]
+  if (shown.empty()) return pictures::Axes::metres(map.frame);
+  Point2 low = shown.front(), high = shown.front();
+  for (const Point2& point : shown) {
+    low = {std::min(low.x, point.x), std::min(low.y, point.y)};
+    high = {std::max(high.x, point.x), std::max(high.y, point.y)};
+  }
+  const Point2 origin = map.frame.origin;
+  const Point2 end = origin + Point2{map.frame.columns * map.frame.resolution, map.frame.rows * map.frame.resolution};
+  low = {std::max(low.x - kMargin, origin.x), std::max(low.y - kMargin, origin.y)};
+  high = {std::min(high.x + kMargin, end.x), std::min(high.y + kMargin, end.y)};
+  if (!(high.x > low.x && high.y > low.y)) return pictures::Axes::metres(map.frame);
+  return pictures::Axes::metres(low, high);
+}
+
+/// Everything that `draw_run` shows beside the map [m].
+std::vector<Point2> shown_points(const recording::LaserLog& log, const LogRun& run, std::size_t stride) {
+  std::vector<Point2> shown;
+  for (std::size_t i = 0; i < run.poses.size(); ++i) {
+    const LoggedPose& pose = run.poses[i];
+    if (!pose.has_pose) continue;
+    shown.push_back(pose.map_from_base.position());
+    if (i % stride != 0 || !pose.is_known()) continue;
+    const auto ends = endpoints_at(log.scans[i], std::min(log.max_range, kShownReach),
+                                   pose.map_from_base * log.scans[i].base_from_laser);
+    shown.insert(shown.end(), ends.begin(), ends.end());
+  }
+  return shown;
+}
+
+/// Where the first and the last known way begin and end, by the time of the log.
+void draw_ends(pictures::Figure& figure, pictures::Axes& axes, const std::vector<std::vector<Point2>>& ways) {
+  if (ways.empty()) return;
+  constexpr double kSize = 7.0;  // [points]
+  pictures::draw_points(axes, std::span{&ways.front().front(), 1}, kSize, kStart);
+  pictures::draw_points(axes, std::span{&ways.back().back(), 1}, kSize, kEnd);
+  figure.add_legend(pictures::legend_disc("start of what is known", kSize, kStart));
+  figure.add_legend(pictures::legend_disc("end of it", kSize, kEnd));
+}
+
+}  // namespace
+
 pictures::Figure draw_run(const OccupancyGrid& map, const recording::LaserLog& log, const LogRun& run,
                           std::size_t stride, const std::vector<std::optional<Pose2>>& reference) {
   const double end = seconds_into(log, log.scans.size() - 1);
   std::array<char, 60> title{};
   std::snprintf(title.data(), title.size(), "Scans 0 to %zu, 0 to %.0f s", log.scans.size() - 1, end);
   pictures::Figure figure{title.data()};
-  pictures::Axes& axes = figure.add(pictures::Axes::metres(map.frame));
+  pictures::Axes& axes = figure.add(cropped_axes(map, shown_points(log, run, stride)));
   pictures::draw_map(axes, map);
   pictures::add_map_legend(figure);
   std::vector<Point2> true_way;
@@ -158,17 +210,23 @@ pictures::Figure draw_run(const OccupancyGrid& map, const recording::LaserLog& l
     figure.add_legend(pictures::legend_line("reference trajectory", kReferenceWay, kReference));
   }
   const auto color_at = [end](double seconds) { return pictures::rainbow(end > 0.0 ? seconds / end : 0.0); };
-  for (const std::vector<Point2>& way : ways_of(log, run)) pictures::draw_path(axes, way, kWay, pictures::colors::kInk);
+  const auto unsure = ways_of(log, run, false);
+  for (const std::vector<Point2>& way : unsure) pictures::draw_path(axes, way, kWay, pictures::colors::kGrey);
+  const auto ways = ways_of(log, run, true);
+  for (const std::vector<Point2>& way : ways) pictures::draw_path(axes, way, kWay, pictures::colors::kInk);
   for (std::size_t i = 0; i < run.poses.size(); i += stride) {
     const LoggedPose& pose = run.poses[i];
-    if (!pose.localized) continue;
+    if (!pose.is_known()) continue;
     const pictures::Color color = color_at(seconds_into(log, i));
     pictures::draw_points(axes,
                           endpoints_at(log.scans[i], log.max_range, pose.map_from_base * log.scans[i].base_from_laser),
                           kDot, color);
     pictures::draw_robot(axes, pose.map_from_base, kRobotRadius, color);
   }
+  draw_ends(figure, axes, ways);
   figure.add_legend(pictures::legend_line("trajectory while localized", kWay, pictures::colors::kInk));
+  if (!unsure.empty())
+    figure.add_legend(pictures::legend_line("best hypothesis while unsure", kWay, pictures::colors::kGrey));
   figure.add_legend(
       pictures::legend_disc("robot and scan, some of them, at the time of their colour", 6.0, color_at(0.5 * end)));
   if (end > 0.0) axes.set_color_bar({"time [s]", color_at, 0.0, end, false});

@@ -41,11 +41,13 @@ class BeliefMovie {
 [[nodiscard]] pictures::Figure draw_scan(const OccupancyGrid& map, const recording::LaserLog& log,
                                          const LoggedPose& pose);
 
-/// Where the robot was while it knew, in pieces: one ends where it does not know, or where its pose jumps.
-[[nodiscard]] std::vector<std::vector<Point2>> ways_of(const recording::LaserLog& log, const LogRun& run);
+/// Where the robot was while it knew (there or in hindsight), or the best hypotheses while it did not, in pieces: one
+/// ends where the other begins, or where its pose jumps.
+[[nodiscard]] std::vector<std::vector<Point2>> ways_of(const recording::LaserLog& log, const LogRun& run, bool known);
 
-/// The way through the map, and scans drawn at their poses along it (every `stride`-th). Beneath it the reference's
-/// way, broad, where there is one.
+/// The way through the map – grey where the robot was not sure of it – with its start and end, and scans drawn at their
+/// poses along it (every `stride`-th). Beneath it the reference's way, broad, where there is one. Cropped to what is
+/// shown.
 [[nodiscard]] pictures::Figure draw_run(const OccupancyGrid& map, const recording::LaserLog& log, const LogRun& run,
                                         std::size_t stride, const std::vector<std::optional<Pose2>>& reference);
 

@@ -55,20 +55,24 @@ TEST_F(LocalizePicture, TheRunHasItsTimesAndTheReferenceWhereThereIsOne) {
 
 TEST_F(LocalizePicture, AWayEndsWhereTheRobotIsCarriedOffAndWhereItDoesNotKnow) {
   for (std::size_t i = 0; i < log_.scans.size(); ++i) log_.scans[i].odom_from_base = run_.poses[i].map_from_base;
-  EXPECT_EQ(ways_of(log_, run_).size(), 1U);
+  EXPECT_EQ(ways_of(log_, run_, true).size(), 1U);
+  EXPECT_TRUE(ways_of(log_, run_, false).empty());
   for (std::size_t i = 8; i < 12; ++i) run_.poses[i].localized = false;
   for (std::size_t i = 15; i < run_.poses.size(); ++i) run_.poses[i].map_from_base.y += 1.5;  // the wheels do not turn
-  const auto ways = ways_of(log_, run_);
+  const auto ways = ways_of(log_, run_, true);
   ASSERT_EQ(ways.size(), 3U);
   EXPECT_EQ(ways[0].size(), 8U);
   EXPECT_EQ(ways[1].size(), 3U);
   EXPECT_EQ(ways[2].size(), 6U);
   EXPECT_EQ(ways[2].front().y, 3.5);
+  const auto unsure = ways_of(log_, run_, false);
+  ASSERT_EQ(unsure.size(), 1U);
+  EXPECT_EQ(unsure[0].size(), 4U);
 
   // Where scans are rare, a long step is no jump: the wheels have turned.
   for (LoggedPose& pose : run_.poses) pose.localized = true;
   for (std::size_t i = 0; i < log_.scans.size(); ++i) log_.scans[i].odom_from_base = run_.poses[i].map_from_base;
-  EXPECT_EQ(ways_of(log_, run_).size(), 1U);
+  EXPECT_EQ(ways_of(log_, run_, true).size(), 1U);
 }
 
 TEST_F(LocalizePicture, AScanHasItsMoment) {

@@ -47,16 +47,19 @@ std::string summary_of_run(const nlohmann::json& report) {
     text += "  it never said that it knows where it is\n";
   } else {
     text += fmt::format(
-        "  it first said that it knows where it is after {} scans; it knew, in hindsight too, in {:.1f} % of all\n",
-        after->get<std::size_t>(), 100.0 * number(report, "localized_fraction"));
-    text += fmt::format("  {:.1f} % of the readings since then end within 0.2 m of a wall of the map\n",
-                        100.0 * number(report, "endpoints_near_walls"));
+        "  it first said that it knows where it is after {} scans, and said so in {:.1f} % of all; in hindsight it was "
+        "at the same place in another {:.1f} %\n",
+        after->get<std::size_t>(), 100.0 * number(report, "localized_fraction"),
+        100.0 * number(report, "in_hindsight_fraction"));
+    if (report.contains("endpoints_near_walls") && report["endpoints_near_walls"].is_number())
+      text += fmt::format("  {:.1f} % of the readings since then end within 0.2 m of a wall of the map\n",
+                          100.0 * number(report, "endpoints_near_walls"));
   }
   return text + against_reference(report);
 }
 
 std::string summary_of_agreement(const nlohmann::json& agreement) {
-  const auto scans = agreement.value("scans", std::size_t{0});
+  const auto scans = agreement.value("both_know", std::size_t{0});
   if (scans == 0) return "  there is no scan in which both say that they know: nothing to compare\n";
   return fmt::format(
       "  within 0.5 m and 10 degrees in {:.1f} % of {} scans; {} in the median, 19 of 20 within {}, at most {}\n",

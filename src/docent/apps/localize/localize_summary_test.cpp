@@ -39,8 +39,8 @@ TEST(LocalizeSummary, ARobotThatNeverKnewHasNothingElseToTell) {
 }
 
 TEST(LocalizeSummary, AgreementOfNothingIsNoAgreement) {
-  EXPECT_TRUE(says(summary_of_agreement({{"scans", 0}}), "nothing to compare"));
-  EXPECT_TRUE(says(summary_of_agreement({{"scans", 1406},
+  EXPECT_TRUE(says(summary_of_agreement({{"scans", 10}, {"both_know", 0}}), "nothing to compare"));
+  EXPECT_TRUE(says(summary_of_agreement({{"both_know", 1406},
                                          {"within_half_a_metre_and_10_degrees", 1.0},
                                          {"median_m", 0.02},
                                          {"p95_m", 0.1},

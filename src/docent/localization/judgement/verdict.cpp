@@ -29,7 +29,6 @@ Evidence with_best_mode(Evidence evidence, const BeliefSummary& summary, const s
   if (summary.modes.empty()) return evidence;
   const BeliefMode& best = summary.modes.front();
   evidence.mass = best.mass;
-  evidence.rival = summary.modes.size() > 1 ? summary.modes[1].mass : 0.0;
   evidence.spread = std::sqrt(std::max(0.0, best.covariance[0] + best.covariance[4]));
   if (predicted) {
     const double off = distance(predicted->position(), best.map_from_robot.position());
@@ -42,6 +41,7 @@ Evidence with_best_mode(Evidence evidence, const BeliefSummary& summary, const s
 }
 
 Result<void> VerdictParams::validate() const {
+  if (!(enough_share > 0.5 && enough_share < 1.0)) return fail("verdict.enough_share must be 0.5..1");
   if (!(enough_mass > 0.5 && enough_mass < 1.0)) return fail("verdict.enough_mass must be 0.5..1");
   if (!(too_little_mass >= 0.0 && too_little_mass < enough_mass))
     return fail("verdict.too_little_mass must be below enough_mass");
@@ -79,7 +79,9 @@ void Verdict::add(const Evidence& evidence) {
     contradiction_ += share * (readings.longer / through - contradiction_);
   }
 
-  const bool is_good = evidence.mass >= params_.enough_mass && evidence.spread <= params_.widest_spread;
+  constexpr double kTooLittleShare = 0.5;  // another place is the likelier
+  const bool is_good = evidence.mass >= params_.enough_mass && evidence.share >= params_.enough_share &&
+                       evidence.spread <= params_.widest_spread;
   if (!evidence.is_same_mode || (!is_good && !localized_)) {
     confirmed_ = way_ = turn_ = 0.0;
   } else {
@@ -97,17 +99,19 @@ void Verdict::add(const Evidence& evidence) {
     bad_ += std::min(evidence.way + 0.5 * evidence.turn, kMostOfOneScan);
 
   mass_ = evidence.mass;
-  rival_ = evidence.rival;
+  share_ = evidence.share;
   spread_ = evidence.spread;
 
   if (localized_) {
-    if (!evidence.is_same_mode || evidence.mass < params_.too_little_mass || contradicted || blind_ > params_.blind_way)
+    if (!evidence.is_same_mode || evidence.mass < params_.too_little_mass || evidence.share < kTooLittleShare ||
+        contradicted || blind_ > params_.blind_way)
       localized_ = false;
   } else {
     localized_ = is_good && borne_out && moved() >= 1.0 && seen() >= 1.0 && p_lost(true) <= params_.most_doubt;
   }
   if (!localized_ && contradicted) confirmed_ = way_ = turn_ = 0.0;
-  keeps_its_place_ = localized_ || (keeps_its_place_ && evidence.is_same_mode && !contradicted);
+  keeps_its_place_ =
+      localized_ || (keeps_its_place_ && evidence.is_same_mode && !contradicted && evidence.share >= kTooLittleShare);
 }
 
 void Verdict::look(const Glance& glance) {
@@ -135,7 +139,7 @@ double Verdict::p_lost(bool has_said) const {
                    w.contradiction * contradiction_ + w.surprise * glance_.through + w.hidden * hidden_ +
                    w.unmapped * unmapped_ * strangeness * strangeness + w.spread * std::min(spread_, 1.0);
   const double right = 1.0 / (1.0 + std::exp(z));
-  return 1.0 - right * mass_ / (mass_ + rival_);
+  return 1.0 - right * share_;
 }
 
 double Verdict::moved() const {

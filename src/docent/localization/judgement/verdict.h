@@ -11,7 +11,8 @@ namespace docent::localization {
 
 /// When the robot says "here", and how likely it is lost.
 struct VerdictParams {
-  double enough_mass = 0.995;       ///< of the best mode, to say "here"
+  double enough_share = 0.93;       ///< of all that may be, see Tracks, to say "here", and
+  double enough_mass = 0.995;       ///< of the best mode
   double too_little_mass = 0.6;     ///< to take it back, or
   double most_doubt = 0.9;          ///< P(lost), for eight glances in a row
   double widest_spread = 0.35;      ///< [m] standard deviation of the best mode
@@ -26,6 +27,7 @@ struct VerdictParams {
   double startled_hidden = 0.35;    ///< that is suddenly too short: nobody steps before so many beams at once
   template <class V>
   void visit(V& v) {
+    v("enough_share", enough_share);
     v("enough_mass", enough_mass);
     v("too_little_mass", too_little_mass);
     v("most_doubt", most_doubt);
@@ -42,12 +44,25 @@ struct VerdictParams {
   [[nodiscard]] Result<void> validate() const;
 };
 
+/// What P(lost) is made of, see Verdict.
+struct Doubt {
+  double mass = 0.0;           ///< of the best mode
+  double share = 1.0;          ///< of it among the places that the whole way leaves possible, see Tracks
+  double confirmation = 0.0;   ///< 0..1 of what it takes to say "here"
+  double agreement = 0.0;      ///< share of the readings that the map explains, running mean
+  double contradiction = 0.0;  ///< that pass through walls, likewise
+  double surprise = 0.0;       ///< of the last sweep, see Glance::through
+  double hidden = 0.0;         ///< share of the last sweep that is newly too short
+  double unmapped = 0.0;       ///< walls that the map lacks, running mean, see Glance
+  double spread = 0.0;         ///< [m] of the best mode
+};
+
 /// What one update says about the best mode.
 struct Evidence {
   double weight = 1.0;        ///< of the update, 0..1
   double views = 1.0;         ///< >= 1: how many scans the scan counts for, LocalizerParams::views
   double mass = 0.0;          ///< of the best mode
-  double rival = 0.0;         ///< mass of the second best mode
+  double share = 1.0;         ///< of the best mode among the places that the whole way leaves possible, see Tracks
   double spread = 0.0;        ///< [m]
   bool is_same_mode = false;  ///< the mode of the last update, moved by odometry
   double way = 0.0;           ///< [m] since the last update
@@ -81,8 +96,8 @@ class Verdict {
   [[nodiscard]] bool keeps_its_place() const { return keeps_its_place_; }
   /// Probability that the best hypothesis is wrong: a logistic function of what its mass leaves, of how far it has been
   /// confirmed, of how wide it is and of how the readings contradict it. Its weights are learned, see
-  /// scripts/evaluation/calibration.py. Besides, the second best mode may be the right one, as probably as the two
-  /// share their mass: a building in which two places look the same need not have been among those that were learned
+  /// scripts/evaluation/calibration.py. Besides, another place may be the right one, as probably as the whole way
+  /// leaves it possible: a building in which two places look the same need not have been among those that were learned
   /// from.
   [[nodiscard]] double p_lost() const { return p_lost(localized_); }
   /// Readings pass through walls of the map, so many that the place must be wrong, or for so long nothing of the map
@@ -91,6 +106,9 @@ class Verdict {
   /// The last sweep is of another place, as it seems: someone may have carried the robot.
   [[nodiscard]] bool startled() const {
     return glance_.through > params_.startled_through || hidden_ > params_.startled_hidden;
+  }
+  [[nodiscard]] Doubt doubt() const {
+    return {mass_, share_, confirmation(), agreement_, contradiction_, glance_.through, hidden_, unmapped_, spread_};
   }
   [[nodiscard]] double agreement() const { return agreement_; }          ///< share of the readings, running mean
   [[nodiscard]] double contradiction() const { return contradiction_; }  ///< likewise
@@ -113,7 +131,7 @@ class Verdict {
   bool localized_ = false;
   bool keeps_its_place_ = false;
   double mass_ = 0.0;    ///< of the best mode
-  double rival_ = 0.0;   ///< of the second best
+  double share_ = 1.0;   ///< of the best mode among the places that the whole way leaves possible
   double spread_ = 0.0;  ///< [m] of the best mode
   Glance glance_;
   double shorter_ = 0.0;  ///< Glance::shorter, running mean

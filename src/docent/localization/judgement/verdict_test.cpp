@@ -59,7 +59,7 @@ TEST(Verdict, ATwinPlaceIsDoubtHoweverWellTheReadingsFit) {
   Verdict verdict = sure();
   Evidence twin = good();
   twin.mass = 0.7;
-  twin.rival = 0.3;
+  twin.share = 0.7;
   verdict.add(twin);
   EXPECT_GE(verdict.p_lost(), 0.3);
 }

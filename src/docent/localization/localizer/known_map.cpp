@@ -36,6 +36,7 @@ RangeTable range_table_of(const OccupancyGrid& map, const LocalizerParams& param
 
 KnownMap::KnownMap(const OccupancyGrid& map, const LocalizerParams& params, const RangeTableCache& cache)
     : caster{sensor_models::peeled(map, params.states.wall_depth)},
+      places{caster},
       space{map, caster, params.states},
       table{range_table_of(map, params, cache, space, caster)},
       model{params.sensor, table.frequency()},

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "docent/grid/occupancy_grid.h"
+#include "docent/localization/belief/place_search.h"
 #include "docent/localization/expected_ranges/range_table.h"
 #include "docent/localization/expected_ranges/range_table_cache.h"
 #include "docent/localization/expected_ranges/state_space.h"
@@ -21,6 +22,7 @@ struct KnownMap {
   KnownMap(const OccupancyGrid& map, const LocalizerParams& params, const RangeTableCache& cache);
 
   sensor_models::RayCaster caster;
+  PlaceSearch places;
   StateSpace space;
   RangeTable table;
   sensor_models::ProximityModel model;  ///< p(s | l), [Markov1998] 3.2

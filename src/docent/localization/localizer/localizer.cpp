@@ -9,8 +9,14 @@
 namespace docent::localization {
 namespace {
 
-constexpr double kSurpriseWaits = 0.15;  // [s] between updates for a surprise
-constexpr double kElsewhere = 1e-4;      // of the mass, when somebody has told where the robot is
+constexpr double kSurpriseWaits = 0.15;   // [s] between updates for a surprise
+constexpr double kElsewhere = 1e-4;       // of the mass, when somebody has told where the robot is
+constexpr double kWorthFollowing = 2e-3;  // of the best mode's mass: a mode that becomes a track
+
+/// A track and a mode of the belief at the same place.
+bool is_near(const Pose2& a, const Pose2& b) {
+  return distance(a.position(), b.position()) < 0.8 && std::abs((a.theta - b.theta).degrees()) < 20.0;
+}
 
 }  // namespace
 
@@ -22,6 +28,7 @@ Localizer::Localizer(std::shared_ptr<const KnownMap> map, const LocalizerParams&
       cadence_{params, rounds_repeat},
       verdict_{params.verdict},
       refiner_{params.refiner},
+      tracks_{params.tracks, params.motion, params.sensor.max_range, map_->caster},
       rng_{Rng{seed}.stream("localize")} {
   start_unknown();
 }
@@ -32,7 +39,8 @@ void Localizer::start_unknown() {
   started_ = false;
   phase_ = 0;
   verdict_.reset();
-  forget_judgement();
+  refiner_.reset();
+  tracks_.forget();
   summarise_now();
 }
 
@@ -43,13 +51,9 @@ void Localizer::start_at(std::span<const BeliefMode> modes, const Pose2& odom_fr
   cadence_.restart_at(time);
   started_ = true;
   verdict_.assume_localized();
-  forget_judgement();
-  summarise_now();
-}
-
-void Localizer::forget_judgement() {
   refiner_.reset();
-  rivals_.forget();
+  tracks_.start_at(modes, odom_from_robot);
+  summarise_now();
 }
 
 Localizer::Step Localizer::observe(const sensor_models::RangeSweep& sweep, const Pose2& odom_from_robot, Time time) {
@@ -124,7 +128,7 @@ void Localizer::reweigh(Update& update) {
 
 void Localizer::summarise(const Update& update) {
   summarise_now();
-  keep_rivals(update);
+  compare_tracks(update);
   if (!summary_.modes.empty()) refine(update);
 }
 
@@ -133,16 +137,66 @@ void Localizer::summarise_now() {
   summary_ = belief_->summarise();
 }
 
-void Localizer::keep_rivals(const Update& update) {
-  if (!params_.rivals || verdict_.keeps_its_place()) return rivals_.forget();
-  const sensor_models::RangeSweep sweep =
-      update.on_persons.empty() ? update.sweep : without(update.sweep, update.on_persons);
-  const auto modes =
-      rivals_.update(summary_, sweep, update.motion.before_from_after, map_->caster, params_.sensor.max_range);
-  rivals_.hear(summary_, sensors_, update.weight);
+void Localizer::compare_tracks(const Update& update) {
+  const bool is_view = tracks_.is_due(odom_from_robot_, verdict_.startled());
+  if (is_view) {
+    const auto on_persons = params_.on_persons(update.sweep, false);
+    const auto best = summary_.modes.empty() ? std::nullopt : std::optional{summary_.modes.front().map_from_robot};
+    tracks_.add_view(on_persons.empty() ? update.sweep : without(update.sweep, on_persons), odom_from_robot_,
+                     verdict_.startled(), best);
+    std::vector<Pose2> modes;
+    for (const BeliefMode& mode : summary_.modes)
+      if (mode.mass >= kWorthFollowing * summary_.modes.front().mass) modes.push_back(mode.map_from_robot);
+    tracks_.take_in(modes);
+    if (tracks_.is_search_due(verdict_.keeps_its_place())) tracks_.search(map_->places);
+  }
+  tracks_.hear(sensors_, update.weight, odom_from_robot_);
+  const auto modes = belief_lacks();
   if (!modes) return;
   belief_->believe(*modes, params_.teleport_probability, rng_);
   summarise_now();
+}
+
+double Localizer::share_of_best() const {
+  if (summary_.modes.empty()) return 0.0;
+  double share = 0.0;
+  for (const Tracks::Place& place : tracks_.places(odom_from_robot_))
+    share += is_near(place.map_from_robot, summary_.modes.front().map_from_robot) ? place.share : 0.0;
+  return share;
+}
+
+std::optional<std::vector<BeliefMode>> Localizer::belief_lacks() const {
+  constexpr double kTooLittle = 0.5;     // share of the place that the robot keeps: another is the likelier
+  constexpr double kWorthHaving = 0.07;  // share of a place that the belief must not lack
+  constexpr double kLacks = 0.3;         // of a place's share: less mass is too little
+  constexpr double kConcentrated = 0.8;  // mass of the modes, or share of the best place: before, belief is the wiser
+  constexpr double kLeast = 0.01;        // share of a mode
+  constexpr double kDoubt = 0.25;        // mass by which a place counts that the belief has ruled out
+  if (summary_.modes.empty() || (verdict_.keeps_its_place() && share_of_best() >= kTooLittle)) return std::nullopt;
+  const auto places = tracks_.places(odom_from_robot_);
+  if (places.empty()) return std::nullopt;
+  double in_modes = 0.0;
+  for (const BeliefMode& mode : summary_.modes) in_modes += mode.mass;
+  if (in_modes < kConcentrated && places.front().share < kConcentrated) return std::nullopt;
+  bool is_lacking = false;
+  double sum = 0.0;
+  std::vector<BeliefMode> modes;
+  for (const Tracks::Place& place : places) {
+    if (place.share < kLeast) break;
+    BeliefMode found{place.map_from_robot, {0.01, 0.0, 0.0, 0.0, 0.01, 0.0, 0.0, 0.0, 0.001}, 0.0};
+    double mass = 0.0;
+    for (const BeliefMode& mode : summary_.modes) {
+      if (!is_near(mode.map_from_robot, place.map_from_robot)) continue;
+      if (mass == 0.0) found = mode;
+      mass += mode.mass;
+    }
+    is_lacking = is_lacking || (place.share >= kWorthHaving && mass < kLacks * place.share);
+    modes.push_back(found);
+    modes.back().mass = place.share * std::max(mass, kDoubt);
+    sum += modes.back().mass;
+  }
+  for (BeliefMode& mode : modes) mode.mass /= sum;
+  return is_lacking ? std::optional{modes} : std::nullopt;
 }
 
 void Localizer::refine(const Update& update) {
@@ -185,6 +239,7 @@ void Localizer::judge(Update& update) {
   }
   const Evidence evidence{.weight = update.weight,
                           .views = update.views,
+                          .share = share_of_best(),
                           .way = update.motion.way,
                           .turn = update.motion.turn,
                           .readings = update.choice.readings};
@@ -192,7 +247,7 @@ void Localizer::judge(Update& update) {
   if (verdict_.collapsed()) {
     const bool has_changed = belief_->flood();
     verdict_.reset();
-    forget_judgement();
+    refiner_.reset();
     if (has_changed) summarise_now();
   }
   if (const auto now = map_from_robot(odom_from_robot_)) glance_at(update.sweep, *now);

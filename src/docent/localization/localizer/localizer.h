@@ -14,7 +14,7 @@
 #include "docent/localization/belief/belief_summary.h"
 #include "docent/localization/belief/observation_model.h"
 #include "docent/localization/belief/pose_refiner.h"
-#include "docent/localization/judgement/rivals.h"
+#include "docent/localization/judgement/tracks.h"
 #include "docent/localization/judgement/verdict.h"
 #include "docent/localization/localizer/known_map.h"
 #include "docent/localization/localizer/localizer_params.h"
@@ -106,7 +106,11 @@ class Localizer {
   void judge(Update& update);
 
   void summarise_now();
-  void keep_rivals(const Update& update);
+  void compare_tracks(const Update& update);
+  /// The belief as the whole way has it, where it lacks a place that may be the right one.
+  [[nodiscard]] std::optional<std::vector<BeliefMode>> belief_lacks() const;
+  /// Of the best mode, among the places that the whole way leaves possible.
+  [[nodiscard]] double share_of_best() const;
   void refine(const Update& update);
   void glance_at(const sensor_models::RangeSweep& sweep, const Pose2& map_from_robot);
   void forget_judgement();
@@ -118,7 +122,7 @@ class Localizer {
   UpdateCadence cadence_;
   Verdict verdict_;
   PoseRefiner refiner_;
-  Rivals rivals_;
+  Tracks tracks_;
   Rng rng_;
   bool started_ = false;  ///< odometry of the last update is known
   Pose2 odom_from_robot_;

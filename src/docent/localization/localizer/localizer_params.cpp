@@ -9,11 +9,9 @@
 #include "docent/localization/beam_choice/person_shapes.h"
 
 namespace docent::localization {
-namespace {}  // namespace
-
 Result<void> LocalizerParams::validate() const {
-  for (const auto& valid :
-       {states.validate(), sensor.validate(), motion.validate(), verdict.validate(), refiner.validate()})
+  for (const auto& valid : {states.validate(), sensor.validate(), motion.validate(), verdict.validate(),
+                            refiner.validate(), tracks.validate()})
     if (!valid) return valid;
   if (!(beams >= 4 && beams <= 360)) return fail("beams must be 4..360");
   if (!(independent_beams > 0.0 && independent_beams <= beams))
@@ -63,7 +61,7 @@ std::vector<std::uint8_t> LocalizerParams::on_persons(const sensor_models::Range
 double LocalizerParams::sector_nats(std::span<const std::uint8_t> on_persons) const {
   constexpr double kMostlyPeople = 0.2;  // share of the beams that are left
   constexpr double kFewPeople = 0.4;
-  if (!rivals || on_persons.empty()) return most_sector_nats;
+  if (!exact_walls || on_persons.empty()) return most_sector_nats;
   const auto left = static_cast<double>(std::count(on_persons.begin(), on_persons.end(), std::uint8_t{0}));
   const double share = left / static_cast<double>(on_persons.size());
   const double trust = std::clamp((share - kMostlyPeople) / (kFewPeople - kMostlyPeople), 0.0, 1.0);

@@ -10,6 +10,7 @@
 #include "docent/localization/belief/neighbourhood.h"
 #include "docent/localization/belief/pose_refiner.h"
 #include "docent/localization/expected_ranges/state_space.h"
+#include "docent/localization/judgement/tracks.h"
 #include "docent/localization/judgement/verdict.h"
 #include "docent/motion_models/odometry_model.h"
 #include "docent/sensor_models/proximity_model.h"
@@ -24,14 +25,15 @@ struct LocalizerParams {
   motion_models::OdometryModelParams motion;
   VerdictParams verdict;
   PoseRefinerParams refiner;
+  TracksParams tracks;
   int beams = 60;                      ///< at most, per update
   double independent_beams = 12.0;     ///< what so many correlated beams are worth
   double independent_beams_far = 3.5;  ///< and, once the robot is sure of a place, between it and others
   int sectors = 12;                    ///< of a turn: one thing that the map does not know hides the beams of a sector
   double most_sector_nats = 5.0;       ///< [nat] that a sector's beams count at most together
-  /// and, in the grid, while the robot has no place to keep and walls are where the map says (`rivals`): people are out
-  /// by their shape then, and beams through walls must cost more than those that are hidden. Where shapes take out most
-  /// beams, some of the others are of people, too, and it is as above.
+  /// and, in the grid, while the robot has no place to keep and walls are where the map says (`exact_walls`): people
+  /// are out by their shape then, and beams through walls must cost more than those that are hidden. Where shapes take
+  /// out most beams, some of the others are of people, too, and it is as above.
   double most_sector_nats_lost = 12.0;
   std::string filter = "distance";  ///< none, entropy, distance, novelty
   double filter_sureness = 0.99;    ///< theta of [Markov1998] 3.3
@@ -47,7 +49,7 @@ struct LocalizerParams {
   double creeping_period = 2.0;        ///< [s] when it moves less, or
   double standing_period = 3.0;        ///< [s] when it stands
   double standing_weight = 0.1;        ///< of such an update: the same view again says little
-  bool rivals = true;                  ///< see Rivals; for a map whose walls are where it says
+  bool exact_walls = true;             ///< the map's walls are where it says
   double most_views = 4.0;             ///< >= 1: what a scan after a long way is worth, see views()
   double most_nats = 8.0;              ///< [nat] that one scan counts at most
   double most_nats_far = 2.0;          ///< and, once the robot is sure of a place, between it and others
@@ -64,6 +66,7 @@ struct LocalizerParams {
     v("motion", motion);
     v("verdict", verdict);
     v("refiner", refiner);
+    v("tracks", tracks);
     v("beams", beams);
     v("independent_beams", independent_beams);
     v("independent_beams_far", independent_beams_far);
@@ -82,7 +85,7 @@ struct LocalizerParams {
     v("creeping_period", creeping_period);
     v("standing_period", standing_period);
     v("standing_weight", standing_weight);
-    v("rivals", rivals);
+    v("exact_walls", exact_walls);
     v("most_views", most_views);
     v("most_nats", most_nats);
     v("most_nats_far", most_nats_far);

@@ -146,7 +146,7 @@ TEST(MarkovLocalizer, ASectorCountsMoreWhereShapesLeaveEnoughBeams) {
   EXPECT_EQ(params.sector_nats(with_people(40)), params.most_sector_nats_lost);
   EXPECT_EQ(params.sector_nats(with_people(85)), params.most_sector_nats);
   LocalizerParams recorded;  // walls are not where the map says
-  recorded.rivals = false;
+  recorded.exact_walls = false;
   EXPECT_EQ(recorded.sector_nats(with_people(40)), recorded.most_sector_nats);
 }
 
