@@ -12,10 +12,12 @@ import tempfile
 import time
 from pathlib import Path
 
+from evaluation import starts
 from evaluation.tables import Verdict, print_table
 
 METHODS = ["grid", "particles"]
-PARTS = ["wean", "intel", "corrected"]
+PARTS = ["wean", "intel", "corrected", "starts"]
+BEGINNINGS = 24  # of each log, in the part "starts"
 SURFACES = "0"  # [m]: maps made here have their walls where the readings ended
 MEAN_BOUND = 0.10  # [m]
 LEAST_KNOWN = 0.8  # of all scans of the corrected logs, in which the robot says that it knows where it is
@@ -36,6 +38,12 @@ class Logs:
 
     def log(self, name):
         return self.data / "logs" / name
+
+    def scratch_file(self, name):
+        return Path(self.scratch.name) / name
+
+    def quiet_localize(self, arguments):
+        self._call("localize", ["localize", *arguments])
 
     def _call(self, what, arguments):
         done = subprocess.run([self.program, *map(str, arguments)], capture_output=True, text=True, check=False)
@@ -58,6 +66,11 @@ class Logs:
         return run
 
 
+def near(run):
+    """Share of the readings near walls; 0 where the robot never knew its place."""
+    return run["endpoints_near_walls"] or 0.0
+
+
 def wean(logs, methods, verdict):
     print("\n## Wean Hall: drawn map, unknown start, forward and time-reversed\n")
     rows = []
@@ -68,12 +81,12 @@ def wean(logs, methods, verdict):
             agreement = forward["agreement"]
             for way, run in (("forward", forward), ("reversed", forward["other_way"])):
                 rows.append([log, method, way, run["scans"], run["localized_after_scans"],
-                             f"{100 * run['localized_fraction']:.0f}", f"{100 * run['endpoints_near_walls']:.1f}",
+                             f"{100 * run['localized_fraction']:.0f}", f"{100 * near(run):.1f}",
                              f"{1000 * run['seconds_per_scan']['median']:.1f}"])
                 verdict.want(f"{log} {method} {way}: endpoints within 0.2 m of a wall (80 %)",
-                             f"{100 * run['endpoints_near_walls']:.1f} %", run["endpoints_near_walls"] >= 0.8)
+                             f"{100 * near(run):.1f} %", near(run) >= 0.8)
             verdict.want(f"{log} {method}: both ways within 0.5 m and 10 degrees (95 %)",
-                         f"{100 * agreement['within_half_a_metre_and_10_degrees']:.1f} % of {agreement['both_know']} scans, of {agreement['scans']} after both ways had become sure",
+                         f"{100 * (agreement['within_half_a_metre_and_10_degrees'] or 0.0):.1f} % of {agreement['both_know']} scans, of {agreement['scans']} after both ways had become sure",
                          agreement["both_know"] > 0 and agreement["within_half_a_metre_and_10_degrees"] >= 0.95)
     print_table(["log", "method", "way", "scans", "sure after", "sure %", "endpoints %", "ms a scan"], rows)
 
@@ -159,7 +172,7 @@ def protocol(program, root, options):
         raise RuntimeError(f"no recorded data in {data}; DOCENT_DATA says where they are")
     logs = Logs(program, data, options.pictures)
     methods = [options.method] if options.method else ["grid"] if options.slice else METHODS
-    parts = [options.part] if options.part else ["wean", "corrected"] if options.slice else PARTS
+    parts = [options.part] if options.part else ["wean", "corrected", "starts"] if options.slice else PARTS
     seeds = range(options.first_seed, options.first_seed + (options.seeds or (1 if options.slice else 5)))
     verdict = Verdict()
     if "wean" in parts:
@@ -168,6 +181,9 @@ def protocol(program, root, options):
         intel(logs, methods, verdict, not options.no_crippled)
     if "corrected" in parts:
         corrected(logs, options.slice, methods, seeds, verdict, not options.no_crippled)
+    if "starts" in parts:
+        names = ["seattle"] if options.slice else [*starts.WEAN, "intel", *starts.CORRECTED]
+        starts.starts(logs, methods, 12 if options.slice else BEGINNINGS, options.first_seed, names, MOTION, SURFACES, verdict)
     print()
     verdict.print()
     return verdict
