@@ -10,7 +10,6 @@ namespace {
 constexpr double kGross = 0.5;         // [m] off a wall: wholly wrong; half of it costs a quarter
 constexpr double kHeadingError = 2.0;  // [deg]
 constexpr double kAllowance = 0.5;     // [m] of a ray's way through what nobody knows
-constexpr double kShort = 1.0;         // cost of a reading that ends where there is nothing
 constexpr double kUnknown = 1.0;       // and of one of which the map does not say
 constexpr double kNoReturn = 0.5;      // and of one that misses a wall; glass and dark surfaces do that
 constexpr double kSurelyMet = 0.8;     // of the greatest range
@@ -65,7 +64,7 @@ std::vector<PartCost> beam_costs(const sensor_models::RayCaster& caster, const s
     }
     costs.push_back({part_at(end, params.wall_part, true), 0.0F});
     const double off = std::min(expected->least - beam.range, static_cast<double>(caster.clearance(end)));
-    costs.push_back({part_at(end, params.part, false), wrong(kShort, off)});
+    costs.push_back({part_at(end, params.part, false), wrong(params.too_short, off)});
   }
   return costs;
 }

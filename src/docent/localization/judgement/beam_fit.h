@@ -13,12 +13,12 @@ struct BeamFitParams {
   double max_range = 10.0;  ///< [m]
   double part = 1.0;        ///< [m] side of a part of the floor: what stands there and is not in the map
   double wall_part = 0.5;   ///< [m] of a wall: what is not where the map says
+  double too_short = 1.0;   ///< 0..1 cost of a reading that ends where there is nothing; people do that
 };
 
 /// What a sweep says against a pose: readings that pass through walls, that end where there is nothing, or that come
 /// back from nowhere though a wall is well within reach. What fits costs nothing, whether near to walls or far from
-/// them. A reading that is too short costs half: people and furniture do that at the right place, too. O(beams), three
-/// rays each.
+/// them. O(beams), three rays each.
 [[nodiscard]] std::vector<PartCost> beam_costs(const sensor_models::RayCaster& caster,
                                                const sensor_models::RangeSweep& sweep, const Pose2& map_from_robot,
                                                const BeamFitParams& params);

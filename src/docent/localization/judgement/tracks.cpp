@@ -37,6 +37,7 @@ Result<void> TracksParams::validate() const {
   if (!(most_tracks >= 2 && most_tracks <= 1000)) return fail("tracks.most_tracks must be 2..1000");
   if (!(beams >= 10 && beams <= 720)) return fail("tracks.beams must be 10..720");
   if (!(nats > 0.0 && part > 0.0 && wall_part > 0.0)) return fail("tracks.nats, part and wall_part must be > 0");
+  if (!(too_short >= 0.0 && too_short <= 1.0)) return fail("tracks.too_short must be 0..1");
   if (!(part_beams >= 0.0)) return fail("tracks.part_beams must be >= 0");
   if (!(hopeless > 0.0 && given >= 0.0 && carried_off >= 0.0 && startled >= 0.0 && most_heard >= 0.0))
     return fail("tracks.hopeless must be > 0, given, carried_off, startled and most_heard >= 0");
@@ -71,7 +72,7 @@ bool Tracks::is_due(const Pose2& odom_from_robot, bool is_startled) const {
 }
 
 std::vector<PartCost> Tracks::costs_at(const View& view, const Pose2& pose) const {
-  return beam_costs(*caster_, view.sweep, pose, {max_range_, params_.part, params_.wall_part});
+  return beam_costs(*caster_, view.sweep, pose, {max_range_, params_.part, params_.wall_part, params_.too_short});
 }
 
 Pose2 Tracks::followed(const Pose2& from, const View& view, const View& next) const {
