@@ -27,7 +27,7 @@ struct TracksParams {
   double nats = 2.0;             ///< [nat] that a part of the building says at most; less where walls are off
   double part = 0.5;             ///< [m] side of a part of the floor: what stands there and is not in the map
   double wall_part = 0.5;        ///< [m] of a wall
-  double too_short = 0.1;        ///< 0..1 of that for a reading that ends where there is nothing: people do that
+  double too_short = 0.25;       ///< 0..1 of that for a reading that ends where there is nothing: people do that
   double part_beams = 10.0;      ///< readings that count half of what many of one part do
   double hopeless = 15.0;        ///< [nat] behind the best: a way that is followed no longer
   double given = 6.0;            ///< [nat] that a start which somebody gave is likelier than other places

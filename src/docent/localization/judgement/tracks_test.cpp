@@ -120,7 +120,7 @@ TEST(Tracks, AGivenStartIsAPriorThatEvidenceOverturns) {
   drive.look();
   drive.tracks_.search(drive.places_);
   EXPECT_GT(drive.share_near(Drive::twin_of(drive.pose_)), 0.5);  // a case that the robot does not see may be gone
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < 40; ++i) {
     drive.drive({i % 10 < 5 ? 0.4 : -0.4, 0.0, Angle::degrees(9.0)});
     drive.look();
   }
