@@ -5,7 +5,7 @@ What the robot knows while a recording is made decides nothing in it, so that ev
 """
 import random
 
-from evaluation import reliability, sonar_dies, twins
+from evaluation import pressing, reliability, sonar_dies, twins
 from evaluation.bench import scenario
 from evaluation.claims import error_m, is_lost, mean, since_known
 
@@ -297,6 +297,8 @@ def evaluate(bench, verdict, print_table, parts, is_slice, methods, seeds=None):
         honesty(bench, verdict, print_table, museums, seeds or 30, DEFAULT[0])
     if "kidnap" in parts and not is_slice:
         kidnapping(bench, verdict, print_table, museums, seeds or 100)
+    if "pressing" in parts and not is_slice:
+        pressing.protocol(bench, verdict, print_table, seeds or 20)
     if "active" in parts and not is_slice:
         twins.active(bench, verdict, print_table, seeds or 20)
     if "sonar-dies" in parts:

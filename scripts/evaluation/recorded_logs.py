@@ -17,6 +17,7 @@ from evaluation.tables import Verdict, print_table
 
 METHODS = ["grid", "particles"]
 PARTS = ["wean", "intel", "corrected", "starts"]
+ON_DEMAND = ["peer"]  # with --part only: it needs MRPT's programs
 BEGINNINGS = 24  # of each log, in the part "starts"
 SURFACES = "0"  # [m]: maps made here have their walls where the readings ended
 MEAN_BOUND = 0.10  # [m]
@@ -184,6 +185,9 @@ def protocol(program, root, options):
     if "starts" in parts:
         names = ["seattle"] if options.slice else [*starts.WEAN, "intel", *starts.CORRECTED]
         starts.starts(logs, methods, 12 if options.slice else BEGINNINGS, options.first_seed, names, MOTION, SURFACES, verdict)
+    if "peer" in parts:
+        names = ["seattle"] if options.slice else [*starts.WEAN, "intel", *starts.CORRECTED]
+        starts.peer(logs, methods, 12 if options.slice else BEGINNINGS, options.first_seed, names, MOTION, SURFACES, verdict)
     print()
     verdict.print()
     return verdict

@@ -7,14 +7,13 @@ import csv
 import math
 import statistics
 import sys
-import time
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 
 import numpy
 from scipy.ndimage import distance_transform_edt
 
-from evaluation import trial_logs
+from evaluation import starts_peer, trial_logs
 from evaluation.tables import print_table
 
 WEAN = ["wean-1", "wean-2"]
@@ -199,8 +198,8 @@ def turned(a, b):
     return abs((a - b + 180.0) % 360.0 - 180.0)
 
 
-def run_trial(logs, building, moments, number, count, method, first_seed):
-    """The `number`-th of `count` beginnings of a log."""
+def run_trial(logs, building, moments, number, count, method, first_seed, by_peer=False):
+    """The `number`-th of `count` beginnings of a log; `by_peer`: by MRPT."""
     seed = first_seed * 1000 + number
     rng = trial_logs.random.Random(f"{building.name}/{seed}")
     trial = Trial(building.name, KINDS[number % len(KINDS)], CROWDS[(number // len(KINDS) + number) % len(CROWDS)], number % 2 == 1, seed)
@@ -210,7 +209,7 @@ def run_trial(logs, building, moments, number, count, method, first_seed):
     begin = starts[min(len(starts) - 1, int(spread * len(starts)))]
     scans = trial_logs.piece(building.scans, begin, LENGTH)
     shown = trial_logs.with_people(scans, moments, trial.crowd, seed)
-    log = logs.scratch_file(f"{building.name}-{method}-{seed}.log")
+    log = logs.scratch_file(f"{building.name}-{'peer' if by_peer else method}-{seed}.log")
     trial_logs.write_log(log, shown, building.parameters)
     poses = log.with_suffix(".csv")
     arguments = ["--map", building.map, "--log", log, "--method", method, "--poses", poses, "--seed", seed, *building.options]
@@ -228,22 +227,27 @@ def run_trial(logs, building, moments, number, count, method, first_seed):
         if trial.kind != "given":
             where = wrong_start(building, building.scans[first], where, trial.kind, rng)
         arguments += ["--start", f"{where[0]:.3f},{where[1]:.3f},{where[2]:.2f}"]
-    began = time.monotonic()
-    logs.quiet_localize(arguments)
-    trial.seconds = time.monotonic() - began
-    rows = read_poses(poses)
-    order = list(range(len(rows)))[::-1] if trial.reverse else list(range(len(rows)))
+    if by_peer:
+        perturbed = seed if building.is_corrected else None
+        poses, trial.seconds = starts_peer.localized(logs.program, building, log, log.with_suffix(""), trial.reverse, perturbed)
+        beliefs = [(pose, 0.0, True) for pose in poses]  # it has no doubts
+    else:
+        trial.seconds = starts_peer.cpu_of([logs.program, "localize", *arguments], log.with_suffix(".txt"))
+        beliefs = [((float(row["x"]), float(row["y"]), float(row["heading_deg"])) if row["has_pose"] == "1" else None,
+                    float(row["p_lost"]), row["localized"] == "1") for row in read_poses(poses)]
+        if trial.reverse:
+            beliefs.reverse()
+    if len(beliefs) != len(used):
+        raise RuntimeError(f"{building.name}, seed {seed}: {len(beliefs)} poses of {len(used)} scans")
     way, last = 0.0, None
-    for n in order:
-        index = used[n]
+    for index, (pose, p_lost, knows) in zip(reversed(used) if trial.reverse else used, beliefs):
         way += abs(ways[index] - ways[last]) if last is not None else 0.0
         last = index
         if index not in building.truth:
             continue
-        row, true = rows[n], building.truth[index]
-        is_wrong = (row["has_pose"] == "0" or math.hypot(float(row["x"]) - true[0], float(row["y"]) - true[1]) > OFF or
-                    turned(float(row["heading_deg"]), true[2]) > TURNED)
-        trial.rows.append((way, is_wrong, float(row["p_lost"]), row["localized"] == "1"))
+        true = building.truth[index]
+        is_wrong = pose is None or math.dist(pose[:2], true[:2]) > OFF or turned(pose[2], true[2]) > TURNED
+        trial.rows.append((way, is_wrong, p_lost, knows))
     log.unlink()
     return trial
 
@@ -329,8 +333,41 @@ def starts(logs, methods, count, first_seed, names, motion, surfaces, verdict):
                 trials.append(trial)
                 if done % 10 == 0:
                     print(f"   {method}: {done} of {len(tasks)} trials", file=sys.stderr, flush=True)
-        print_figures(f"{method}, {statistics.mean(t.seconds for t in trials):.1f} s a trial", trials)
+        print_figures(f"{method}, {statistics.mean(t.seconds for t in trials):.1f} CPU s a trial", trials)
         ends = [t for t in trials if t.rows[-1][1] and t.rows[-1][2] < SURE]
         for trial in ends:
             print(f"   ends sure and wrong: {trial.building}, {trial.kind}, crowd {trial.crowd}, {'reversed' if trial.reverse else 'forward'}, seed {trial.seed}")
         judge(method, trials, verdict)
+
+
+def peer(logs, methods, count, first_seed, names, motion, surfaces, verdict):
+    """The trials of `starts` that begin anywhere, by us and by MRPT's pf-localization."""
+    starts_peer.converter(logs.program)
+    print(f"\n## Unknown starts, beside MRPT's pf-localization: {count} beginnings a log, seed {first_seed}\n")
+    moments = trial_logs.read_people(logs.data / "pedestrians")
+    found = buildings(logs, names, motion, surfaces)
+    tasks = [(building, number) for building in found for number in range(count) if KINDS[number % len(KINDS)] == "unknown"]
+    runs = {}
+    for method in ["MRPT", *methods]:
+        with ThreadPoolExecutor(2) as pool:
+            runs[method] = list(pool.map(lambda task: run_trial(logs, task[0], moments, task[1], count, method, first_seed, method == "MRPT"), tasks))
+        print(f"   {method}: {len(tasks)} trials", file=sys.stderr, flush=True)
+    rows = []
+    for name in [*names, "all"]:
+        for method, trials in runs.items():
+            some = [trial for trial in trials if name in (trial.building, "all")]
+            f = judged(some)
+            rows.append([name, method, f"{f['right at the end']} of {f['unknown']}", f"{f['metres']:.1f}",
+                         f"{statistics.mean(trial.seconds for trial in some):.1f}"])
+    print_table(["log", "by", "right at the end", "for good after m, median", "CPU s a trial"], rows)
+    theirs = judged(runs["MRPT"])
+    for method in methods:
+        ours = judged(runs[method])
+        verdict.want(f"{method}: right at the end, at least as often as MRPT", f"{ours['right at the end']} and {theirs['right at the end']} of {ours['unknown']}",
+                     ours["right at the end"] >= theirs["right at the end"])
+        worse = [name for name in names if judged([t for t in runs[method] if t.building == name])["right at the end"] <
+                 judged([t for t in runs["MRPT"] if t.building == name])["right at the end"]]
+        verdict.note(f"{method}: buildings where MRPT is right more often (aim: none)", ", ".join(worse) or "none")
+        verdict.note(f"{method}: right for good after, median (aim: no later than MRPT)", f"{ours['metres']:.1f} and {theirs['metres']:.1f} m")
+        ours_s, theirs_s = (statistics.mean(t.seconds for t in runs[m]) for m in (method, "MRPT"))
+        verdict.note(f"{method}: CPU a trial, ours and MRPT's (aim: no more)", f"{ours_s:.1f} and {theirs_s:.1f} s")

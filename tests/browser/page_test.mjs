@@ -9,7 +9,7 @@ const state = temporaryFolder('stage');
 const program = join(build, 'tests', 'web_stage', 'docent_web_stage');
 const words = (...more) => [join(root, 'museums', 'bonn'), state, port, ...more];
 
-let stage = start(program, words('lost=8', 'speed=2', 'talk=0.25', 'people=5'));
+let stage = start(program, words('lost=20', 'speed=2', 'talk=0.25', 'people=5'));
 const { page, complaints, hosts, context } = await browse();
 
 const rows = (where = page) => where.locator('.queue li[data-target=cyclotron]');
@@ -64,8 +64,14 @@ await check('it finds itself and the cloud shrinks to one place', async () => {
 
 await check('the robot is on a page soon after somebody opens it, and little is loaded for that', async () => {
   const waits = [];
+  const bare = []; // a text of the same server in a browser as new: what a busy computer takes for nothing
   let bytes = 0;
   for (let i = 0; i < 5; ++i) {
+    const reader = await browse();
+    const opened = Date.now();
+    await reader.page.goto(`${url}api/museum.json`);
+    bare.push(Date.now() - opened);
+    await reader.context.close();
     const visitor = await browse();
     const begun = Date.now();
     await visitor.page.goto(url, { waitUntil: 'commit' });
@@ -76,9 +82,11 @@ await check('the robot is on a page soon after somebody opens it, and little is 
     await visitor.context.close();
   }
   waits.sort((a, b) => a - b);
-  console.log(`  robot shown after ${waits.join(', ')} ms; ${(bytes / 1000).toFixed(0)} kB of JavaScript, compressed`);
+  bare.sort((a, b) => a - b);
+  console.log(`  robot shown after ${waits.join(', ')} ms, a bare text after ${bare.join(', ')} ms; ${(bytes / 1000).toFixed(0)} kB of JavaScript, compressed`);
   ensure(bytes > 10000 && bytes < 150000, `${bytes} bytes of JavaScript`);
-  ensure(waits[2] < 3000, 'half of them waited for 3 s and more'); // 1 s on a computer that does nothing else
+  // 1 s on a fast computer that does nothing else.
+  ensure(waits[2] < Math.max(3000, 12 * bare[2]), 'half of them waited for 3 s and more, and for twelve times what a bare text takes');
 });
 
 await check('an exhibit is chosen by keyboard', async () => {

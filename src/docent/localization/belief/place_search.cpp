@@ -55,7 +55,8 @@ struct PlaceSearch::Node {
   }
 };
 
-PlaceSearch::PlaceSearch(const sensor_models::RayCaster& caster) : frame_{cells_of(caster.frame())} {
+PlaceSearch::PlaceSearch(const sensor_models::RayCaster& caster, const OccupancyGrid& standing)
+    : frame_{cells_of(caster.frame())} {
   const auto columns = static_cast<std::size_t>(frame_.columns);
   const auto rows = static_cast<std::size_t>(frame_.rows);
   if (columns * rows > kMostCells) return;
@@ -68,7 +69,7 @@ PlaceSearch::PlaceSearch(const sensor_models::RayCaster& caster) : frame_{cells_
       const double fit = std::isfinite(off) ? std::exp(-0.5 * off * off) : 0.0;
       best_[0][frame_.index(cell)] = static_cast<std::uint8_t>(std::lround(255.0 * fit));
       is_free_[frame_.index(cell)] = caster.clearance(frame_.centre(cell)) > static_cast<float>(kBody) &&
-                                     caster.cast(frame_.centre(cell), {1.0, 0.0}, 0.01, 0.0).has_value();
+                                     standing.is_free(standing.frame.cell_at(frame_.centre(cell)));
     }
   }
   for (std::size_t level = 1; level < kLevels; ++level) {

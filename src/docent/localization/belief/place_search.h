@@ -21,8 +21,9 @@ struct FoundPlace {
 /// ([Hess2016] IV, there for loops of a map). A belief that has lost a place cannot find it again by itself; this can.
 class PlaceSearch {
  public:
-  /// O(cells). Maps of more than kMostCells cells are not searched.
-  explicit PlaceSearch(const sensor_models::RayCaster& caster);
+  /// `standing`: its free cells are where a robot can be. O(cells). Maps of more than kMostCells cells are not
+  /// searched.
+  PlaceSearch(const sensor_models::RayCaster& caster, const OccupancyGrid& standing);
 
   struct Wanted {
     std::size_t most = 100;       ///< places

@@ -43,7 +43,7 @@ sensor_models::RangeSweep sweep_at(const sensor_models::RayCaster& caster, const
 
 TEST(PlaceSearch, FindsTheRobotAnywhereInTheMap) {
   const sensor_models::RayCaster caster{halls()};
-  const PlaceSearch search{caster};
+  const PlaceSearch search{caster, halls()};
   for (const Pose2& pose : {Pose2{3.0, 2.0, Angle::degrees(33)}, Pose2{18.0, 9.0, Angle::degrees(-100)},
                             Pose2{22.0, 3.5, Angle::degrees(170)}, Pose2{6.2, 1.1, Angle::degrees(90)}}) {
     PlaceSearch::Wanted wanted;
@@ -62,7 +62,7 @@ TEST(PlaceSearch, FindsTheRobotAnywhereInTheMap) {
 
 TEST(PlaceSearch, BlindOrHurriedItFindsNothing) {
   const sensor_models::RayCaster caster{halls()};
-  const PlaceSearch search{caster};
+  const PlaceSearch search{caster, halls()};
   PlaceSearch::Wanted wanted;
   wanted.max_range = kRange;
   EXPECT_TRUE(search.find({}, wanted).empty());

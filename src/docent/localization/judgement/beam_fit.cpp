@@ -33,9 +33,9 @@ std::optional<Expected> expected_range(const sensor_models::RayCaster& caster, c
   return result;
 }
 
-float wrong(double most, double off) {
+float wrong(double off) {
   const double scaled = std::clamp(off / kGross, 0.0, 1.0);
-  return static_cast<float>(most * scaled * scaled);
+  return static_cast<float>(scaled * scaled);
 }
 
 }  // namespace
@@ -55,16 +55,16 @@ std::vector<PartCost> beam_costs(const sensor_models::RayCaster& caster, const s
     }
     const Point2 end = at(beam.range);
     if (!expected) {
-      costs.push_back({part_at(end, params.part, false), static_cast<float>(kUnknown)});
+      costs.push_back({part_at(end, params.wall_part, true), static_cast<float>(kUnknown)});
       continue;
     }
     if (beam.range > expected->most) {
-      costs.push_back({part_at(at(expected->most), params.wall_part, true), wrong(1.0, beam.range - expected->most)});
+      costs.push_back({part_at(at(expected->most), params.wall_part, true), wrong(beam.range - expected->most)});
       continue;
     }
     costs.push_back({part_at(end, params.wall_part, true), 0.0F});
     const double off = std::min(expected->least - beam.range, static_cast<double>(caster.clearance(end)));
-    costs.push_back({part_at(end, params.part, false), wrong(params.too_short, off)});
+    costs.push_back({part_at(end, params.part, false), wrong(off)});
   }
   return costs;
 }

@@ -13,7 +13,6 @@ struct BeamFitParams {
   double max_range = 10.0;  ///< [m]
   double part = 1.0;        ///< [m] side of a part of the floor: what stands there and is not in the map
   double wall_part = 0.5;   ///< [m] of a wall: what is not where the map says
-  double too_short = 1.0;   ///< 0..1 cost of a reading that ends where there is nothing; people do that
 };
 
 /// What a sweep says against a pose: readings that pass through walls, that end where there is nothing, or that come

@@ -11,17 +11,20 @@ std::uint64_t part_at(Point2 in_map, double side, bool is_wall) {
   return (std::uint64_t{column} << 32) ^ (std::uint64_t{row} << 1) ^ std::uint64_t{is_wall ? 1U : 0U};
 }
 
+bool is_wall(std::uint64_t part) { return (part & 1U) != 0; }
+
 void PartSums::change(const PartCost& by, int count) {
   Sum& sum = parts_[by.part];
+  double& cost = is_wall(by.part) ? walls_ : floor_;
   const auto share = [&] { return sum.cost / (sum.count + prior_beams_); };
-  cost_ -= share();
+  cost -= share();
   sum.cost = std::max(0.0, sum.cost + count * static_cast<double>(by.cost));
   sum.count += count;
   if (sum.count <= 0) {
     parts_.erase(by.part);
     return;
   }
-  cost_ += share();
+  cost += share();
 }
 
 void PartSums::add(std::span<const PartCost> costs) {

@@ -17,6 +17,7 @@ struct PartCost {
 
 /// The part of the building that holds a point: a square, and what readings can be wrong about there.
 [[nodiscard]] std::uint64_t part_at(Point2 in_map, double side, bool is_wall);
+[[nodiscard]] bool is_wall(std::uint64_t part);
 
 /// What readings say against a way, by parts of the building: what the map has wrong at one part shows in every scan
 /// that sees it, and is one piece of evidence, not many.
@@ -25,8 +26,11 @@ class PartSums {
   /// `prior_beams`: readings without fault that every part is given: few readings tell little.
   explicit PartSums(double prior_beams) : prior_beams_{prior_beams} {}
   void add(std::span<const PartCost> costs);
-  void take_out(std::span<const PartCost> costs);      ///< that were added
-  [[nodiscard]] double cost() const { return cost_; }  ///< sum over the parts of the mean cost of their readings
+  void take_out(std::span<const PartCost> costs);  ///< that were added
+  [[nodiscard]] double walls() const {
+    return walls_;
+  }  ///< sum over the walls' parts of the mean cost of their readings
+  [[nodiscard]] double floor() const { return floor_; }  ///< likewise, of the floor's, where readings ended too early
 
  private:
   struct Sum {
@@ -36,7 +40,7 @@ class PartSums {
   void change(const PartCost& by, int count);
 
   double prior_beams_;
-  double cost_ = 0.0;
+  double walls_ = 0.0, floor_ = 0.0;  ///< sums of the parts' costs
   std::unordered_map<std::uint64_t, Sum> parts_;
 };
 

@@ -37,7 +37,7 @@ Result<void> TracksParams::validate() const {
   if (!(most_tracks >= 2 && most_tracks <= 1000)) return fail("tracks.most_tracks must be 2..1000");
   if (!(beams >= 10 && beams <= 720)) return fail("tracks.beams must be 10..720");
   if (!(nats > 0.0 && part > 0.0 && wall_part > 0.0)) return fail("tracks.nats, part and wall_part must be > 0");
-  if (!(too_short >= 0.0 && too_short <= 1.0)) return fail("tracks.too_short must be 0..1");
+  if (!(most_short > 0.0)) return fail("tracks.most_short must be > 0");
   if (!(part_beams >= 0.0)) return fail("tracks.part_beams must be >= 0");
   if (!(hopeless > 0.0 && given >= 0.0 && carried_off >= 0.0 && startled >= 0.0 && most_heard >= 0.0))
     return fail("tracks.hopeless must be > 0, given, carried_off, startled and most_heard >= 0");
@@ -72,7 +72,7 @@ bool Tracks::is_due(const Pose2& odom_from_robot, bool is_startled) const {
 }
 
 std::vector<PartCost> Tracks::costs_at(const View& view, const Pose2& pose) const {
-  return beam_costs(*caster_, view.sweep, pose, {max_range_, params_.part, params_.wall_part, params_.too_short});
+  return beam_costs(*caster_, view.sweep, pose, {max_range_, params_.part, params_.wall_part});
 }
 
 Pose2 Tracks::followed(const Pose2& from, const View& view, const View& next) const {
@@ -82,7 +82,13 @@ Pose2 Tracks::followed(const Pose2& from, const View& view, const View& next) co
                  {kLoose + std::sqrt(noise.position_variance), kLooseTurn + std::sqrt(noise.heading_variance)});
 }
 
-double Tracks::nats(const Track& track) const { return params_.nats * track.sums.cost() + track.past; }
+double Tracks::nats(const PartSums& sums) const {
+  // A crowd explains many readings that end too early as well as few.
+  const double shorts = params_.most_short * -std::expm1(-params_.nats * sums.floor() / params_.most_short);
+  return params_.nats * sums.walls() + shorts;
+}
+
+double Tracks::nats(const Track& track) const { return nats(track.sums) + track.past; }
 
 double Tracks::least_nats() const {
   double least = std::numeric_limits<double>::infinity();
@@ -138,7 +144,7 @@ std::vector<double> Tracks::best_before() const {
     best[track.since] = std::min(best[track.since], track.past);
     for (std::size_t k = track.since; k + 1 < views_.size(); ++k) {
       sums.add(track.costs[k - track.since]);
-      best[k + 1] = std::min(best[k + 1], track.past + params_.nats * sums.cost());
+      best[k + 1] = std::min(best[k + 1], track.past + nats(sums));
     }
   }
   return best;
@@ -158,7 +164,7 @@ Tracks::Track Tracks::followed_back(const Pose2& map_from_robot, std::span<const
     way.poses.push_front(pose);
     way.costs.push_front(costs_at(views_[k], pose));
     way.sums.add(way.costs.front());
-    const double own = params_.nats * way.sums.cost();
+    const double own = nats(way.sums);
     const bool is_whole = k == 0;
     const double past =
         is_whole ? least_past + given_ : before[k] + (views_[k].is_startled ? params_.startled : params_.carried_off);
@@ -227,7 +233,7 @@ void Tracks::search(const PlaceSearch& places) {
     const Pose2 pose = matched(*caster_, views_.back().sweep, max_range_, place.map_from_robot, {0.15, 0.05});
     PartSums sums{params_.part_beams};
     sums.add(costs_at(views_.back(), pose));
-    candidates.push_back({pose, sums.cost()});
+    candidates.push_back({pose, nats(sums)});
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });

@@ -27,7 +27,7 @@ struct TracksParams {
   double nats = 2.0;             ///< [nat] that a part of the building says at most; less where walls are off
   double part = 0.5;             ///< [m] side of a part of the floor: what stands there and is not in the map
   double wall_part = 0.5;        ///< [m] of a wall
-  double too_short = 0.25;       ///< 0..1 of that for a reading that ends where there is nothing: people do that
+  double most_short = 6.0;       ///< [nat] that all readings say which end where there is nothing: people do that
   double part_beams = 10.0;      ///< readings that count half of what many of one part do
   double hopeless = 15.0;        ///< [nat] behind the best: a way that is followed no longer
   double given = 6.0;            ///< [nat] that a start which somebody gave is likelier than other places
@@ -46,7 +46,7 @@ struct TracksParams {
     v("nats", nats);
     v("part", part);
     v("wall_part", wall_part);
-    v("too_short", too_short);
+    v("most_short", most_short);
     v("part_beams", part_beams);
     v("hopeless", hopeless);
     v("given", given);
@@ -111,6 +111,7 @@ class Tracks {
   };
   [[nodiscard]] double nats(const Track& track) const;
   [[nodiscard]] double least_nats() const;
+  [[nodiscard]] double nats(const PartSums& sums) const;
   [[nodiscard]] Pose2 now(const Track& track, const Pose2& odom_from_robot) const;
   [[nodiscard]] std::vector<PartCost> costs_at(const View& view, const Pose2& pose) const;
   [[nodiscard]] Pose2 followed(const Pose2& from, const View& view, const View& next) const;

@@ -12,17 +12,17 @@ namespace docent::localization {
 namespace {
 
 /// All that a table depends on, beside the program: numbers to the last bit.
-std::string table_key(const OccupancyGrid& map, const LocalizerParams& params) {
+std::string table_key(const FloorMap& map, const LocalizerParams& params) {
   const StateSpaceParams& states = params.states;
   std::array<char, 128> numbers{};
   std::snprintf(numbers.data(), numbers.size(), " %a %a %a %a %a", states.cell_size, states.heading_step,
                 states.min_clearance, states.wall_depth, params.sensor.max_range);
-  return map_hash(map) + numbers.data();
+  return map_hash(map.walls) + map_hash(map.standing) + numbers.data();
 }
 
 }  // namespace
 
-RangeTable range_table_of(const OccupancyGrid& map, const LocalizerParams& params, const RangeTableCache& cache,
+RangeTable range_table_of(const FloorMap& map, const LocalizerParams& params, const RangeTableCache& cache,
                           const StateSpace& space, const sensor_models::RayCaster& caster) {
   const sensor_models::ProximityModel model{params.sensor};
   const RangeTable::Building how{std::max(1U, std::thread::hardware_concurrency()), {}};
@@ -34,12 +34,12 @@ RangeTable range_table_of(const OccupancyGrid& map, const LocalizerParams& param
   return table;
 }
 
-KnownMap::KnownMap(const OccupancyGrid& map, const LocalizerParams& params, const RangeTableCache& cache)
-    : caster{sensor_models::peeled(map, params.states.wall_depth)},
-      places{caster},
-      space{map, caster, params.states},
+KnownMap::KnownMap(const FloorMap& map, const LocalizerParams& params, const RangeTableCache& cache)
+    : caster{sensor_models::peeled(map.walls, params.states.wall_depth)},
+      places{caster, map.standing},
+      space{map.standing, caster, params.states},
       table{range_table_of(map, params, cache, space, caster)},
       model{params.sensor, table.frequency()},
-      widest{map.frame.resolution * std::hypot(map.frame.columns, map.frame.rows)} {}
+      widest{map.walls.frame.resolution * std::hypot(map.walls.frame.columns, map.walls.frame.rows)} {}
 
 }  // namespace docent::localization

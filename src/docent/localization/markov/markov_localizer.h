@@ -13,8 +13,7 @@ namespace docent::localization {
 class MarkovLocalizer final : public Localizer {
  public:
   /// `cache`: see range_table_of. @pre params are valid
-  MarkovLocalizer(const OccupancyGrid& map, const LocalizerParams& params, const RangeTableCache& cache,
-                  std::uint64_t seed)
+  MarkovLocalizer(const FloorMap& map, const LocalizerParams& params, const RangeTableCache& cache, std::uint64_t seed)
       : MarkovLocalizer{std::make_shared<const KnownMap>(map, params, cache), params, seed} {}
 
   [[nodiscard]] const PositionBelief& belief() const { return static_cast<const GridBelief&>(pose_belief()).belief(); }

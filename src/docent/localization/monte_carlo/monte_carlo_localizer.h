@@ -14,7 +14,7 @@ namespace docent::localization {
 class MonteCarloLocalizer final : public Localizer {
  public:
   /// `cache`: as for MarkovLocalizer, the same tables. @pre params are valid
-  MonteCarloLocalizer(const OccupancyGrid& map, const LocalizerParams& shared, const MonteCarloParams& params,
+  MonteCarloLocalizer(const FloorMap& map, const LocalizerParams& shared, const MonteCarloParams& params,
                       const RangeTableCache& cache, std::uint64_t seed)
       : MonteCarloLocalizer{std::make_shared<const KnownMap>(map, shared, cache), shared, params, seed} {}
 

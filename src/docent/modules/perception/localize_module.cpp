@@ -90,13 +90,13 @@ Believer with_sonars(auto localizer, const ModuleContext& context, const Localiz
 
 Believer make_believer(const ModuleContext& context, const LocalizeParams& params) {
   const localization::RangeTableCache cache{context.cache};
+  const localization::FloorMap map{context.museum.map, context.museum.hazard_polygons()};
   if (params.method == "particles")
-    return with_sonars(std::make_unique<localization::MonteCarloLocalizer>(context.museum.map, params.markov,
-                                                                           params.particles, cache, context.seed),
-                       context, params);
-  return with_sonars(
-      std::make_unique<localization::MarkovLocalizer>(context.museum.map, params.markov, cache, context.seed), context,
-      params);
+    return with_sonars(
+        std::make_unique<localization::MonteCarloLocalizer>(map, params.markov, params.particles, cache, context.seed),
+        context, params);
+  return with_sonars(std::make_unique<localization::MarkovLocalizer>(map, params.markov, cache, context.seed), context,
+                     params);
 }
 
 class LocalizeModule final : public Module {
