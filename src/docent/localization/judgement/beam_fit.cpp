@@ -55,7 +55,7 @@ std::vector<PartCost> beam_costs(const sensor_models::RayCaster& caster, const s
     }
     const Point2 end = at(beam.range);
     if (!expected) {
-      costs.push_back({part_at(end, params.wall_part, true), static_cast<float>(kUnknown)});
+      costs.push_back({part_at(end, params.part, false), static_cast<float>(kUnknown)});
       continue;
     }
     if (beam.range > expected->most) {

@@ -39,8 +39,9 @@ Result<void> TracksParams::validate() const {
   if (!(nats > 0.0 && part > 0.0 && wall_part > 0.0)) return fail("tracks.nats, part and wall_part must be > 0");
   if (!(most_short > 0.0)) return fail("tracks.most_short must be > 0");
   if (!(part_beams >= 0.0)) return fail("tracks.part_beams must be >= 0");
-  if (!(hopeless > 0.0 && given >= 0.0 && carried_off >= 0.0 && startled >= 0.0 && most_heard >= 0.0))
-    return fail("tracks.hopeless must be > 0, given, carried_off, startled and most_heard >= 0");
+  if (!(hopeless > 0.0 && given >= 0.0 && carried_off >= 0.0 && startled >= 0.0 && startled_given >= 0.0 &&
+        most_heard >= 0.0))
+    return fail("tracks.hopeless must be > 0, given, carried_off, startled, startled_given and most_heard >= 0");
   if (!(search_way > 0.0 && search_way_kept > 0.0)) return fail("tracks.search_way and search_way_kept must be > 0");
   return {};
 }
@@ -49,12 +50,14 @@ void Tracks::forget() {
   views_.clear();
   tracks_.clear();
   given_ = 0.0;
+  startled_ = params_.startled;
   searched_ = std::numeric_limits<double>::max();
 }
 
 void Tracks::start_at(std::span<const BeliefMode> modes, const Pose2& odom_from_robot) {
   forget();
   given_ = params_.given;
+  startled_ = params_.startled_given;
   odom_from_start_ = odom_from_robot;
   for (const BeliefMode& mode : modes) {
     Track track{{mode.map_from_robot}, {}, 0, PartSums{params_.part_beams}};
@@ -167,7 +170,7 @@ Tracks::Track Tracks::followed_back(const Pose2& map_from_robot, std::span<const
     const double own = nats(way.sums);
     const bool is_whole = k == 0;
     const double past =
-        is_whole ? least_past + given_ : before[k] + (views_[k].is_startled ? params_.startled : params_.carried_off);
+        is_whole ? least_past + given_ : before[k] + (views_[k].is_startled ? startled_ : params_.carried_off);
     if (std::isfinite(past) && own + past < least) {
       least = own + past;
       found = way;

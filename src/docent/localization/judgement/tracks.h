@@ -33,6 +33,7 @@ struct TracksParams {
   double given = 6.0;            ///< [nat] that a start which somebody gave is likelier than other places
   double carried_off = 9.0;      ///< [nat] that it costs to say: somebody has carried the robot; and
   double startled = 2.0;         ///< [nat] where what it saw changed at once
+  double startled_given = 2.0;   ///< [nat] likewise, where somebody has told the start
   double most_heard = 12.0;      ///< [nat] that other sensors say at most
   double search_way = 1.5;       ///< [m] after which the whole map is searched anew, while the robot is unsure; and
   double search_way_kept = 6.0;  ///< [m] while it is sure
@@ -52,6 +53,7 @@ struct TracksParams {
     v("given", given);
     v("carried_off", carried_off);
     v("startled", startled);
+    v("startled_given", startled_given);
     v("most_heard", most_heard);
     v("search_way", search_way);
     v("search_way_kept", search_way_kept);
@@ -67,7 +69,7 @@ class Tracks {
  public:
   Tracks(const TracksParams& params, const motion_models::OdometryModelParams& motion, double max_range,
          const sensor_models::RayCaster& caster)
-      : params_{params}, motion_{motion}, max_range_{max_range}, caster_{&caster} {}
+      : params_{params}, motion_{motion}, max_range_{max_range}, caster_{&caster}, startled_{params.startled} {}
 
   void forget();
   /// Somebody has told where the robot is.
@@ -127,6 +129,7 @@ class Tracks {
   const sensor_models::RayCaster* caster_;
   std::deque<View> views_;
   std::vector<Track> tracks_;
+  double startled_;        ///< [nat] that it costs to have been carried off where what it saw changed
   double given_ = 0.0;     ///< [nat] against tracks that nobody has told of
   double searched_ = 1e9;  ///< [m] driven since the last search
   Pose2 odom_from_start_;  ///< as long as there is no view
