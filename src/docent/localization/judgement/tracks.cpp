@@ -37,7 +37,8 @@ Result<void> TracksParams::validate() const {
   if (!(most_tracks >= 2 && most_tracks <= 1000)) return fail("tracks.most_tracks must be 2..1000");
   if (!(beams >= 10 && beams <= 720)) return fail("tracks.beams must be 10..720");
   if (!(nats > 0.0 && part > 0.0 && wall_part > 0.0)) return fail("tracks.nats, part and wall_part must be > 0");
-  if (!(most_short > 0.0)) return fail("tracks.most_short must be > 0");
+  if (!(first_short > 0.0)) return fail("tracks.first_short must be > 0");
+  if (!(too_short >= 0.0 && too_short <= 1.0)) return fail("tracks.too_short must be 0..1");
   if (!(part_beams >= 0.0)) return fail("tracks.part_beams must be >= 0");
   if (!(hopeless > 0.0 && given >= 0.0 && carried_off >= 0.0 && startled >= 0.0 && startled_given >= 0.0 &&
         most_heard >= 0.0))
@@ -86,8 +87,10 @@ Pose2 Tracks::followed(const Pose2& from, const View& view, const View& next) co
 }
 
 double Tracks::nats(const PartSums& sums) const {
-  // A crowd explains many readings that end too early as well as few.
-  const double shorts = params_.most_short * -std::expm1(-params_.nats * sums.floor() / params_.most_short);
+  // A crowd explains many readings that end too early nearly as well as few.
+  const double all = params_.nats * sums.floor();
+  const double first = params_.first_short * -std::expm1(-all / params_.first_short);
+  const double shorts = first + params_.too_short * (all - first);
   return params_.nats * sums.walls() + shorts;
 }
 

@@ -27,7 +27,8 @@ struct TracksParams {
   double nats = 2.0;             ///< [nat] that a part of the building says at most; less where walls are off
   double part = 0.5;             ///< [m] side of a part of the floor: what stands there and is not in the map
   double wall_part = 0.5;        ///< [m] of a wall
-  double most_short = 6.0;       ///< [nat] that all readings say which end where there is nothing: people do that
+  double first_short = 4.5;      ///< [nat] that readings say at the full cost which end where there is nothing; and
+  double too_short = 0.15;       ///< 0..1 of it for more of them: people end readings anywhere
   double part_beams = 10.0;      ///< readings that count half of what many of one part do
   double hopeless = 15.0;        ///< [nat] behind the best: a way that is followed no longer
   double given = 6.0;            ///< [nat] that a start which somebody gave is likelier than other places
@@ -47,7 +48,8 @@ struct TracksParams {
     v("nats", nats);
     v("part", part);
     v("wall_part", wall_part);
-    v("most_short", most_short);
+    v("first_short", first_short);
+    v("too_short", too_short);
     v("part_beams", part_beams);
     v("hopeless", hopeless);
     v("given", given);
