@@ -7,7 +7,6 @@ from evaluation.claims import is_lost, mean
 MINUTES = 12
 AT = 60.0  # [s]
 BESIDE = ((20.0, 3.2), (20.0, 4.6), (22.0, 6.2), (23.6, 6.2))  # [m] of the staircase of Bonn
-STAIRS = (22.8, 4.0)
 SURE = 0.01  # P(lost)
 LONGEST = 30.0  # [s] sure and wrong on end
 FEWEST_HIDDEN = 0.6  # of the beams, or nobody presses
@@ -17,8 +16,8 @@ CRIPPLED_SEEDS = 2
 def events(seed):
     draw = random.Random(f"pressing/{seed}")
     x, y = draw.choice(BESIDE)
-    away = f"{{count: {draw.randint(3, 6)}, at: [{x - 0.8 if x < 21 else x}, {y + 0.8 if x > 21 else y}], heading: {0 if x < 21 else -90}}}"
-    return "\n".join(["events:", f"  - {{at: {AT}, kidnap: {{to: [{x}, {y}], heading: {draw.uniform(-180, 180):.0f}}}}}", f"  - {{at: {AT}, pushers: {away}}}",
+    pushers = f"{{count: {draw.randint(3, 6)}, at: [{x - 0.8 if x < 21 else x}, {y + 0.8 if x > 21 else y}], heading: {0 if x < 21 else -90}}}"
+    return "\n".join(["events:", f"  - {{at: {AT}, kidnap: {{to: [{x}, {y}], heading: {draw.uniform(-180, 180):.0f}}}}}", f"  - {{at: {AT}, pushers: {pushers}}}",
                       f"  - {{at: {AT}, runners: {{count: {draw.randint(3, 6)}, at: [{x}, {y}], within: 3}}}}",
                       f"  - {{at: {AT}, escort: {{count: {draw.randint(12, 20)}, near: 0.4, far: 1.4}}}}", ""])
 

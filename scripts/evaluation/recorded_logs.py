@@ -43,9 +43,6 @@ class Logs:
     def scratch_file(self, name):
         return Path(self.scratch.name) / name
 
-    def quiet_localize(self, arguments):
-        self._call("localize", ["localize", *arguments])
-
     def _call(self, what, arguments):
         done = subprocess.run([self.program, *map(str, arguments)], capture_output=True, text=True, check=False)
         if done.returncode != 0:

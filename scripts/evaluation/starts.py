@@ -23,6 +23,7 @@ CROWDS = [0.0, 0.0, 0.2, 0.4]  # share of the beams
 LENGTH = 25.0  # [m] of driving
 SURE = 0.01  # P(lost) below which the robot is sure
 OFF, TURNED = 0.5, 20.0  # [m], [deg] from the truth: wrong
+PEER = "MRPT"
 AFTER = 10.0  # [m] of driving, after which a robot should know, or doubt a wrong start
 BOUNDS = {"sure and wrong": 0.03, "a building's": 0.06, "end": 0.02, "doubted": 0.9, "known": 0.75, "given": 0.9}
 
@@ -198,8 +199,8 @@ def turned(a, b):
     return abs((a - b + 180.0) % 360.0 - 180.0)
 
 
-def run_trial(logs, building, moments, number, count, method, first_seed, by_peer=False):
-    """The `number`-th of `count` beginnings of a log; `by_peer`: by MRPT."""
+def run_trial(logs, building, moments, number, count, method, first_seed):
+    """The `number`-th of `count` beginnings of a log, by one of our methods or by PEER."""
     seed = first_seed * 1000 + number
     rng = trial_logs.random.Random(f"{building.name}/{seed}")
     trial = Trial(building.name, KINDS[number % len(KINDS)], CROWDS[(number // len(KINDS) + number) % len(CROWDS)], number % 2 == 1, seed)
@@ -209,7 +210,7 @@ def run_trial(logs, building, moments, number, count, method, first_seed, by_pee
     begin = starts[min(len(starts) - 1, int(spread * len(starts)))]
     scans = trial_logs.piece(building.scans, begin, LENGTH)
     shown = trial_logs.with_people(scans, moments, trial.crowd, seed)
-    log = logs.scratch_file(f"{building.name}-{'peer' if by_peer else method}-{seed}.log")
+    log = logs.scratch_file(f"{building.name}-{method}-{seed}.log")
     trial_logs.write_log(log, shown, building.parameters)
     poses = log.with_suffix(".csv")
     arguments = ["--map", building.map, "--log", log, "--method", method, "--poses", poses, "--seed", seed, *building.options]
@@ -227,7 +228,7 @@ def run_trial(logs, building, moments, number, count, method, first_seed, by_pee
         if trial.kind != "given":
             where = wrong_start(building, building.scans[first], where, trial.kind, rng)
         arguments += ["--start", f"{where[0]:.3f},{where[1]:.3f},{where[2]:.2f}"]
-    if by_peer:
+    if method == PEER:
         perturbed = seed if building.is_corrected else None
         poses, trial.seconds = starts_peer.localized(logs.program, building, log, log.with_suffix(""), trial.reverse, perturbed)
         beliefs = [(pose, 0.0, True) for pose in poses]  # it has no doubts
@@ -348,9 +349,9 @@ def peer(logs, methods, count, first_seed, names, motion, surfaces, verdict):
     found = buildings(logs, names, motion, surfaces)
     tasks = [(building, number) for building in found for number in range(count) if KINDS[number % len(KINDS)] == "unknown"]
     runs = {}
-    for method in ["MRPT", *methods]:
+    for method in [PEER, *methods]:
         with ThreadPoolExecutor(2) as pool:
-            runs[method] = list(pool.map(lambda task: run_trial(logs, task[0], moments, task[1], count, method, first_seed, method == "MRPT"), tasks))
+            runs[method] = list(pool.map(lambda task: run_trial(logs, task[0], moments, task[1], count, method, first_seed), tasks))
         print(f"   {method}: {len(tasks)} trials", file=sys.stderr, flush=True)
     rows = []
     for name in [*names, "all"]:
@@ -360,14 +361,14 @@ def peer(logs, methods, count, first_seed, names, motion, surfaces, verdict):
             rows.append([name, method, f"{f['right at the end']} of {f['unknown']}", f"{f['metres']:.1f}",
                          f"{statistics.mean(trial.seconds for trial in some):.1f}"])
     print_table(["log", "by", "right at the end", "for good after m, median", "CPU s a trial"], rows)
-    theirs = judged(runs["MRPT"])
+    theirs = judged(runs[PEER])
     for method in methods:
         ours = judged(runs[method])
         verdict.want(f"{method}: right at the end, at least as often as MRPT", f"{ours['right at the end']} and {theirs['right at the end']} of {ours['unknown']}",
                      ours["right at the end"] >= theirs["right at the end"])
         worse = [name for name in names if judged([t for t in runs[method] if t.building == name])["right at the end"] <
-                 judged([t for t in runs["MRPT"] if t.building == name])["right at the end"]]
+                 judged([t for t in runs[PEER] if t.building == name])["right at the end"]]
         verdict.note(f"{method}: buildings where MRPT is right more often (aim: none)", ", ".join(worse) or "none")
         verdict.note(f"{method}: right for good after, median (aim: no later than MRPT)", f"{ours['metres']:.1f} and {theirs['metres']:.1f} m")
-        ours_s, theirs_s = (statistics.mean(t.seconds for t in runs[m]) for m in (method, "MRPT"))
+        ours_s, theirs_s = (statistics.mean(t.seconds for t in runs[m]) for m in (method, PEER))
         verdict.note(f"{method}: CPU a trial, ours and MRPT's (aim: no more)", f"{ours_s:.1f} and {theirs_s:.1f} s")

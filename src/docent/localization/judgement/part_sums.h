@@ -27,10 +27,10 @@ class PartSums {
   explicit PartSums(double prior_beams) : prior_beams_{prior_beams} {}
   void add(std::span<const PartCost> costs);
   void take_out(std::span<const PartCost> costs);  ///< that were added
-  [[nodiscard]] double walls() const {
-    return walls_;
-  }  ///< sum over the walls' parts of the mean cost of their readings
-  [[nodiscard]] double floor() const { return floor_; }  ///< likewise, of the floor's, where readings ended too early
+  /// Sum over the walls' parts of the mean cost of their readings.
+  [[nodiscard]] double walls() const { return walls_; }
+  /// Likewise, over the floor's parts, where readings ended too early.
+  [[nodiscard]] double floor() const { return floor_; }
 
  private:
   struct Sum {

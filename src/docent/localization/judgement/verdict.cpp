@@ -139,7 +139,7 @@ double Verdict::p_lost(bool has_said) const {
                    w.contradiction * contradiction_ + w.surprise * glance_.through + w.hidden * hidden_ +
                    w.unmapped * unmapped_ * strangeness * strangeness + w.spread * std::min(spread_, 1.0);
   const double right = 1.0 / (1.0 + std::exp(z));
-  // Whose readings nearly all end on people sees nothing, and knows only what odometry says.
+  // A robot whose readings nearly all end on people sees nothing, and knows only what odometry says.
   constexpr double kSees = 0.15, kBlind = 0.05;  // share of the readings that the map explains
   constexpr double kLeastOfBlind = 0.05;         // P(lost)
   const double blind = std::clamp((kSees - agreement_) / (kSees - kBlind), 0.0, 1.0);
