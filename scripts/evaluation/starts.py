@@ -64,6 +64,7 @@ class Map:
         occupied = shade > float(keys["occupied_thresh"])
         self.free = numpy.flipud(shade < float(keys["free_thresh"]))
         self.clearance = distance_transform_edt(numpy.flipud(~occupied)) * self.resolution
+        self.room = distance_transform_edt(self.free) * self.resolution  # to what is not known to be free
 
     def at(self, grid, x, y, outside):
         column = numpy.floor((numpy.asarray(x) - self.origin[0]) / self.resolution).astype(int)
@@ -73,7 +74,7 @@ class Map:
 
     def places(self, every):
         step = max(1, round(every / self.resolution))
-        rows, columns = numpy.nonzero((self.free & (self.clearance > 0.3))[::step, ::step])
+        rows, columns = numpy.nonzero((self.room > 0.3)[::step, ::step])
         return numpy.stack([self.origin[0] + (columns * step + 0.5) * self.resolution,
                             self.origin[1] + (rows * step + 0.5) * self.resolution], axis=1)
 
@@ -124,8 +125,8 @@ def wean_truth(logs, name, scans, grid):
             logs.localize(f"{name} truth {method}{''.join(way)}",
                           ["--map", logs.data / "maps" / "wean.yaml", "--log", logs.log(f"{name}.clf.gz"), "--method", method,
                            "--wall-depth", "0.2", "--poses", poses, *way])
-            rows = [row for row in read_poses(poses) if row["localized"] == "1" or row["in_hindsight"] == "1"]
-            track = {int(row["scan"]): (float(row["x"]), float(row["y"]), float(row["heading_deg"])) for row in rows}
+            rows = [row for row in read_poses(poses) if row["hindsight_x"] != "nan"]
+            track = {int(row["scan"]): tuple(float(row["hindsight_" + key]) for key in ("x", "y", "heading_deg")) for row in rows}
             if len(track) < 0.5 * len(scans):
                 continue
             far = [float((grid.at(grid.clearance, *ends_at(scans[i], pose), 9.0) > 0.6).mean()) for i, pose in list(track.items())[::5]]

@@ -53,8 +53,8 @@ struct Options {
 
 /// Runs the log once; draws into `pictures` when it is not empty. `purpose`: for people who wait.
 LogRun run_once(const Options& options, const ReferencedLog& referenced, const OccupancyGrid& map,
-                localization::Localizer& localizer, bool reverse, const std::string& purpose,
-                const std::filesystem::path& pictures) {
+                const localization::HindsightParams& hindsight, localization::Localizer& localizer, bool reverse,
+                const std::string& purpose, const std::filesystem::path& pictures) {
   const recording::LaserLog& log = referenced.log;
   LogRunOptions run_options;
   run_options.reverse = reverse;
@@ -75,6 +75,7 @@ LogRun run_once(const Options& options, const ReferencedLog& referenced, const O
     if (movie && step.updated && !movie->is_full()) value_or_fail(movie->add(at, scan));
   };
   LogRun run = localize_log(log, localizer, run_options);
+  if (!options.dead_reckoning) look_back(log, reverse, sensor_models::RayCaster{map}, hindsight, run);
   if (!pictures.empty()) {
     std::filesystem::create_directories(pictures);
     const std::string suffix = reverse ? "-reversed" : "";
@@ -114,8 +115,25 @@ nlohmann::json report_of(const recording::LaserLog& log, const LogRun& run, cons
            static_cast<double>(run.poses.size());
   };
   report["localized_fraction"] = share([](const LoggedPose& pose) { return pose.localized; });
-  report["in_hindsight_fraction"] = share([](const LoggedPose& pose) { return pose.in_hindsight; });
+  report["in_hindsight_fraction"] = share([](const LoggedPose& pose) { return !pose.localized && pose.hindsight; });
+  report["taken_back_fraction"] = share([](const LoggedPose& pose) { return pose.is_taken_back(); });
   return report;
+}
+
+/// What was known in hindsight against the truth.
+nlohmann::json score_of_hindsight(const LogRun& run, evaluation::ScanReference truth) {
+  std::vector<evaluation::LocalizedScan> scans;
+  for (const LoggedPose& pose : run.poses) {
+    if (!pose.hindsight) truth[scans.size()].reset();
+    scans.push_back({pose.hindsight, pose.hindsight.has_value()});
+  }
+  const evaluation::ReferenceScore score = evaluation::score_against(truth, scans, true);
+  if (score.scans == 0) return {{"reference_scans", 0}};
+  return {{"reference_scans", score.scans},
+          {"mean_error_m", score.mean_m},
+          {"p95_error_m", score.p95_m},
+          {"max_error_m", score.max_m},
+          {"lost_scans", score.lost}};
 }
 
 /// The run against the truth, where there is any.
@@ -142,9 +160,10 @@ void add_score(nlohmann::json& report, const LogRun& run, const evaluation::Scan
   report["lost_fraction"] = score.lost_fraction();
   report["sure_and_wrong_scans"] = score.sure_and_wrong;
   report["unsure_scans"] = score.unsure;
+  report["in_hindsight"] = score_of_hindsight(run, reference);
 }
 
-nlohmann::json to_json(const RunAgreement& agreement) {
+nlohmann::json of_agreement(const RunAgreement& agreement) {
   if (agreement.both_know == 0)
     return {{"scans", agreement.scans}, {"both_know", 0},   {"within_half_a_metre_and_10_degrees", nullptr},
             {"median_m", nullptr},      {"p95_m", nullptr}, {"max_m", nullptr}};
@@ -154,6 +173,12 @@ nlohmann::json to_json(const RunAgreement& agreement) {
           {"median_m", agreement.median_m},
           {"p95_m", agreement.p95_m},
           {"max_m", agreement.max_m}};
+}
+
+nlohmann::json of_agreement(const std::vector<LoggedPose>& first, const std::vector<LoggedPose>& second) {
+  nlohmann::json report = of_agreement(agreement_of(first, second));
+  report["there_and_then"] = of_agreement(agreement_there_and_then(first, second));
+  return report;
 }
 
 /// What both methods need, and the particles' own.
@@ -170,6 +195,10 @@ struct MethodParams {
     return grid.validate();
   }
 };
+
+localization::HindsightParams hindsight_of(const MethodParams& params) {
+  return {params.grid.tracks, params.grid.motion};
+}
 
 std::unique_ptr<localization::Localizer> make_localizer(const Options& options, const OccupancyGrid& map,
                                                         const MethodParams& params) {
@@ -214,7 +243,9 @@ double find_wall_depth(const Options& options, const ReferencedLog& log, const O
     double fit = 0.0;
     for (const bool reverse : {false, true}) {
       localizer.start_unknown();
-      fit += 0.5 * run_once(options, log, map, localizer, reverse, fmt::format("walls {:.1f} m deep", depth), {}).fit;
+      fit += 0.5 * run_once(options, log, map, hindsight_of(params), localizer, reverse,
+                            fmt::format("walls {:.1f} m deep", depth), {})
+                       .fit;
     }
     std::fprintf(stderr, "walls %.1f m deep: mean ln P of a beam %.3f\n", depth, fit);
     if (depth > 0.0 && fit <= best_fit) continue;
@@ -287,7 +318,9 @@ void localize(const Options& options) {
   }
   const auto localizer = make_localizer(options, map, params);
 
-  const LogRun run = run_once(options, referenced, map, *localizer, options.reverse, "localized", options.picture);
+  const localization::HindsightParams hindsight = hindsight_of(params);
+  const LogRun run =
+      run_once(options, referenced, map, hindsight, *localizer, options.reverse, "localized", options.picture);
   const sensor_models::RayCaster caster{map};
   nlohmann::json report = report_of(log, run, caster);
   report["map"] = options.map;
@@ -306,18 +339,18 @@ void localize(const Options& options) {
   if (options.both_ways) {
     localizer->start_unknown();
     const LogRun other =
-        run_once(options, referenced, map, *localizer, !options.reverse, "the other way", options.picture);
+        run_once(options, referenced, map, hindsight, *localizer, !options.reverse, "the other way", options.picture);
     report["other_way"] = report_of(log, other, caster);
     if (has_reference)
       add_score(report["other_way"], other, referenced.reference, !options.reverse, options.start == "reference");
-    report["agreement"] = to_json(agreement_of(run.poses, other.poses));
+    report["agreement"] = of_agreement(run.poses, other.poses);
     std::printf("the other way, unknown start\n%s", summary_of_run(report["other_way"]).c_str());
     std::printf("both ways\n%s", summary_of_agreement(report["agreement"]).c_str());
   }
   if (!options.compare.empty()) {
     const auto others = value_or_fail(load_poses(options.compare));
     if (others.size() != run.poses.size()) throw CommandFailed{options.compare + ": poses of another log"};
-    report["agreement"] = to_json(agreement_of(run.poses, others));
+    report["agreement"] = of_agreement(run.poses, others);
     std::printf("beside %s\n%s", options.compare.c_str(), summary_of_agreement(report["agreement"]).c_str());
   }
   if (!options.poses.empty()) value_or_fail(save_poses(run.poses, options.poses));

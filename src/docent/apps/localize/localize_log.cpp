@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "docent/base/files.h"
+#include "docent/localization/judgement/view_matcher.h"
 
 namespace docent::apps {
 
@@ -15,8 +16,9 @@ namespace {
 using WallClock = std::chrono::steady_clock;
 
 constexpr const char* kHeader =
-    "scan,time,x,y,heading_deg,has_pose,localized,in_hindsight,p_lost,mass,share,confirmation,agreement,contradiction,"
-    "surprise,hidden,unmapped,spread";
+    "scan,time,x,y,heading_deg,has_pose,localized,p_lost,hindsight_x,hindsight_y,hindsight_heading_deg,mass,share,"
+    "confirmation,agreement,contradiction,surprise,hidden,unmapped,spread";
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  // in a file: "nan"
 
 /// First and last scan, in the order of the log, from which on (until which) a run knew where it was.
 std::pair<std::size_t, std::size_t> known_span(const std::vector<LoggedPose>& poses) {
@@ -62,22 +64,6 @@ LoggedPose reckoned(const LoggedPose& from, const recording::LoggedScan& at_from
   return pose;
 }
 
-/// The mode that a robot became sure of is the one it had followed until then: back along odometry, as far as the best
-/// pose kept to it.
-void know_in_hindsight(const recording::LaserLog& log, bool reverse, std::vector<LoggedPose>& poses) {
-  const std::size_t count = poses.size();
-  const auto at = [&](std::size_t n) { return reverse ? count - 1 - n : n; };  // by the order of the run
-  for (std::size_t n = count; n-- > 1;) {
-    const LoggedPose& later = poses[at(n)];
-    LoggedPose& before = poses[at(n - 1)];
-    if (!later.is_known() || before.localized || !before.has_pose) continue;
-    const Pose2 moved = inverse(log.scans[at(n - 1)].odom_from_base) * log.scans[at(n)].odom_from_base;
-    const Pose2 expected = before.map_from_base * moved;
-    before.in_hindsight = distance(expected.position(), later.map_from_base.position()) < 0.5 &&
-                          std::abs((expected.theta - later.map_from_base.theta).degrees()) < 15.0;
-  }
-}
-
 }  // namespace
 
 LogRun localize_log(const recording::LaserLog& log, localization::Localizer& localizer, const LogRunOptions& options) {
@@ -120,7 +106,7 @@ LogRun localize_log(const recording::LaserLog& log, localization::Localizer& loc
     }
     LoggedPose& pose = run.poses[i];
     const localization::Verdict& verdict = localizer.verdict();
-    pose = {i, logged, {}, false, verdict.localized(), false, verdict.p_lost(), verdict.doubt()};
+    pose = {i, logged, {}, false, verdict.localized(), {}, verdict.p_lost(), verdict.doubt()};
     if (const auto best = localizer.map_from_robot(odom_from_tracked)) {
       pose.map_from_base = *best * inverse(tracked);
       pose.has_pose = true;
@@ -129,9 +115,33 @@ LogRun localize_log(const recording::LaserLog& log, localization::Localizer& loc
     if (pose.localized && !run.localized_after) run.localized_after = n + 1;
     if (options.watch) options.watch(localizer, i, step);
   }
-  if (!options.dead_reckoning) know_in_hindsight(log, options.reverse, run.poses);
   run.fit = fitted > 0 ? run.fit / static_cast<double>(fitted) : -std::numeric_limits<double>::infinity();
   return run;
+}
+
+void look_back(const recording::LaserLog& log, bool reverse, const sensor_models::RayCaster& caster,
+               localization::HindsightParams params, LogRun& run) {
+  params.max_range = log.max_range;
+  const bool has_two = has_two_lasers(log);
+  const std::size_t count = run.poses.size();
+  const auto at = [&](std::size_t n) { return reverse ? count - 1 - n : n; };  // by the order of the run
+  std::vector<localization::PastSweep> sweeps;
+  for (std::size_t n = 0; n < count; ++n) {
+    const recording::LoggedScan& scan = log.scans[at(n)];
+    const LoggedPose& pose = run.poses[at(n)];
+    const Pose2 tracked = base_from_tracked(has_two, scan);
+    const sensor_models::RangeSweep of_laser = sweep_of(scan, log.max_range);
+    sweeps.push_back({has_two ? sensor_models::seen_from(of_laser, scan.base_from_laser) : of_laser,
+                      scan.odom_from_base * tracked,
+                      pose.has_pose ? std::optional{pose.map_from_base * tracked} : std::nullopt, pose.localized});
+  }
+  const auto poses = localization::seen_in_hindsight(caster, sweeps, params);
+  for (std::size_t n = 0; n < count; ++n)
+    if (poses[n]) run.poses[at(n)].hindsight = *poses[n] * inverse(base_from_tracked(has_two, log.scans[at(n)]));
+}
+
+bool LoggedPose::is_taken_back() const {
+  return localized && hindsight && !localization::is_same_place(*hindsight, map_from_base);
 }
 
 std::optional<double> endpoints_near_walls(const recording::LaserLog& log, const LogRun& run,
@@ -140,8 +150,8 @@ std::optional<double> endpoints_near_walls(const recording::LaserLog& log, const
   std::size_t all = 0;
   const auto [first, last] = known_span(run.poses);
   for (std::size_t i = first; i < last; ++i) {
-    if (!run.poses[i].has_pose) continue;
-    const Pose2 map_from_laser = run.poses[i].map_from_base * log.scans[i].base_from_laser;
+    if (!run.poses[i].has_best()) continue;
+    const Pose2 map_from_laser = run.poses[i].best() * log.scans[i].base_from_laser;
     for (const sensor_models::SweepBeam& beam : sweep_of(log.scans[i], log.max_range).beams) {
       if (beam.no_return) continue;
       ++all;
@@ -163,8 +173,8 @@ RunAgreement agreement_of(const std::vector<LoggedPose>& first, const std::vecto
   for (std::size_t i = std::max(first_from, second_from); i < std::min(first_to, second_to); ++i) {
     ++result.scans;
     if (!first[i].is_known() || !second[i].is_known()) continue;
-    const Pose2& a = first[i].map_from_base;
-    const Pose2& b = second[i].map_from_base;
+    const Pose2& a = first[i].best();
+    const Pose2& b = second[i].best();
     off.push_back(distance(a.position(), b.position()));
     const bool near = off.back() <= 0.5 && std::abs((a.theta - b.theta).degrees()) <= 10.0;
     agreed += near ? 1 : 0;
@@ -178,17 +188,24 @@ RunAgreement agreement_of(const std::vector<LoggedPose>& first, const std::vecto
   return result;
 }
 
+RunAgreement agreement_there_and_then(std::vector<LoggedPose> first, std::vector<LoggedPose> second) {
+  for (std::vector<LoggedPose>* poses : {&first, &second})
+    for (LoggedPose& pose : *poses) pose.hindsight.reset();
+  return agreement_of(first, second);
+}
+
 Result<void> save_poses(const std::vector<LoggedPose>& poses, const std::string& path) {
   std::string text = std::string{kHeader} + "\n";
   for (const LoggedPose& pose : poses) {
     const localization::Doubt& doubt = pose.doubt;
+    const Pose2 back = pose.hindsight.value_or(Pose2{kNone, kNone, {}});
     char line[300];
     std::snprintf(line, sizeof line,
-                  "%zu,%.6f,%.4f,%.4f,%.3f,%d,%d,%d,%.5f,%.5f,%.5f,%.3f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f\n", pose.scan,
-                  pose.time, pose.map_from_base.x, pose.map_from_base.y, pose.map_from_base.theta.degrees(),
-                  pose.has_pose ? 1 : 0, pose.localized ? 1 : 0, pose.in_hindsight ? 1 : 0, pose.p_lost, doubt.mass,
-                  doubt.share, doubt.confirmation, doubt.agreement, doubt.contradiction, doubt.surprise, doubt.hidden,
-                  doubt.unmapped, doubt.spread);
+                  "%zu,%.6f,%.4f,%.4f,%.3f,%d,%d,%.5f,%.4f,%.4f,%.3f,%.5f,%.5f,%.3f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f\n",
+                  pose.scan, pose.time, pose.map_from_base.x, pose.map_from_base.y, pose.map_from_base.theta.degrees(),
+                  pose.has_pose ? 1 : 0, pose.localized ? 1 : 0, pose.p_lost, back.x, back.y,
+                  pose.hindsight ? back.theta.degrees() : kNone, doubt.mass, doubt.share, doubt.confirmation,
+                  doubt.agreement, doubt.contradiction, doubt.surprise, doubt.hidden, doubt.unmapped, doubt.spread);
     text += line;
   }
   return write_file_atomically(path, text);
@@ -212,20 +229,22 @@ Result<std::vector<LoggedPose>> load_poses(const std::string& path) {
     double degrees = 0.0;
     int has_pose = 0;
     int localized = 0;
-    int in_hindsight = 0;
+    Pose2 back;
+    double back_degrees = 0.0;
     int used = 0;
     localization::Doubt& doubt = pose.doubt;
     const int fields = std::sscanf(
-        content.c_str(), "%zu,%lf,%lf,%lf,%lf,%d,%d,%d,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf%n", &pose.scan,
-        &pose.time, &pose.map_from_base.x, &pose.map_from_base.y, &degrees, &has_pose, &localized, &in_hindsight,
-        &pose.p_lost, &doubt.mass, &doubt.share, &doubt.confirmation, &doubt.agreement, &doubt.contradiction,
-        &doubt.surprise, &doubt.hidden, &doubt.unmapped, &doubt.spread, &used);
-    if (fields != 18 || static_cast<std::size_t>(used) != content.size() || pose.scan != poses.size())
+        content.c_str(), "%zu,%lf,%lf,%lf,%lf,%d,%d,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf%n", &pose.scan,
+        &pose.time, &pose.map_from_base.x, &pose.map_from_base.y, &degrees, &has_pose, &localized, &pose.p_lost,
+        &back.x, &back.y, &back_degrees, &doubt.mass, &doubt.share, &doubt.confirmation, &doubt.agreement,
+        &doubt.contradiction, &doubt.surprise, &doubt.hidden, &doubt.unmapped, &doubt.spread, &used);
+    if (fields != 20 || static_cast<std::size_t>(used) != content.size() || pose.scan != poses.size())
       return fail(path + ":" + std::to_string(line) + ": expected the next scan as " + kHeader);
     pose.map_from_base.theta = Angle::degrees(degrees);
     pose.has_pose = has_pose != 0;
     pose.localized = localized != 0;
-    pose.in_hindsight = in_hindsight != 0;
+    back.theta = Angle::degrees(back_degrees);
+    if (!std::isnan(back.x)) pose.hindsight = back;
     poses.push_back(pose);
   }
   return poses;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "docent/grid/occupancy_grid.h"
+#include "docent/localization/judgement/hindsight.h"
 #include "docent/localization/localizer/localizer.h"
 #include "docent/recording/laser_log.h"
 
@@ -20,12 +21,17 @@ struct LoggedPose {
   std::size_t scan = 0;  ///< index in the log, also in a reversed run
   double time = 0.0;     ///< [s] of the log
   Pose2 map_from_base;
-  bool has_pose = false;      ///< there was a best mode at all
-  bool localized = false;     ///< the robot said where it is, there and then
-  bool in_hindsight = false;  ///< it did not, but its best mode is the one that it was sure of later
+  bool has_pose = false;           ///< there was a best mode at all
+  bool localized = false;          ///< the robot said where it is, there and then
+  std::optional<Pose2> hindsight;  ///< map_from_base, now that the whole way is over, see localization::HindsightParams
   double p_lost = 1.0;
   localization::Doubt doubt;  ///< what P(lost) was made of
-  [[nodiscard]] bool is_known() const { return localized || in_hindsight; }
+  [[nodiscard]] bool is_known() const { return localized || hindsight; }
+  /// The best that is known now: in hindsight, else there and then.
+  [[nodiscard]] const Pose2& best() const { return hindsight ? *hindsight : map_from_base; }
+  [[nodiscard]] bool has_best() const { return has_pose || hindsight; }
+  /// The robot said that it was at one place, and was at another.
+  [[nodiscard]] bool is_taken_back() const;
 };
 
 struct LogRun {
@@ -57,6 +63,10 @@ struct LogRunOptions {
 [[nodiscard]] LogRun localize_log(const recording::LaserLog& log, localization::Localizer& localizer,
                                   const LogRunOptions& options);
 
+/// Adds to a run what is known of it in hindsight.
+void look_back(const recording::LaserLog& log, bool reverse, const sensor_models::RayCaster& caster,
+               localization::HindsightParams params, LogRun& run);
+
 /// The scan in the laser's frame.
 [[nodiscard]] sensor_models::RangeSweep sweep_of(const recording::LoggedScan& scan, double max_range);
 
@@ -67,12 +77,15 @@ struct LogRunOptions {
 
 /// How two runs over one log agree, over the scans after both were localized (in a reversed run: before).
 struct RunAgreement {
-  std::size_t scans = 0;      ///< since both were localized
-  std::size_t both_know = 0;  ///< of them, in which both say where they are; only these are compared
-  double share = 0.0;         ///< of those, within 0.5 m and 10 degrees
+  std::size_t scans = 0;  ///< since both were localized
+  std::size_t both_know =
+      0;               ///< of them, in which both know where they were, in hindsight too; only these are compared
+  double share = 0.0;  ///< of those, within 0.5 m and 10 degrees
   double median_m = 0.0, p95_m = 0.0, max_m = 0.0;
 };
 [[nodiscard]] RunAgreement agreement_of(const std::vector<LoggedPose>& first, const std::vector<LoggedPose>& second);
+/// Likewise, of what both said there and then.
+[[nodiscard]] RunAgreement agreement_there_and_then(std::vector<LoggedPose> first, std::vector<LoggedPose> second);
 
 [[nodiscard]] Result<void> save_poses(const std::vector<LoggedPose>& poses, const std::string& path);
 [[nodiscard]] Result<std::vector<LoggedPose>> load_poses(const std::string& path);

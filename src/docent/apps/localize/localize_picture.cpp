@@ -51,21 +51,28 @@ void add_robot_legend(pictures::Figure& figure) {
 
 }  // namespace
 
-std::vector<std::vector<Point2>> ways_of(const recording::LaserLog& log, const LogRun& run, bool known) {
+std::vector<std::vector<Point2>> ways_of(const recording::LaserLog& log, const LogRun& run, WayKind kind) {
+  const auto is_of_kind = [kind](const LoggedPose& pose) {
+    if (kind == WayKind::kTakenBack) return pose.is_taken_back();
+    if (pose.localized && !pose.is_taken_back()) return kind == WayKind::kSaid;
+    return pose.hindsight ? kind == WayKind::kHindsight : kind == WayKind::kUnsure && pose.has_pose;
+  };
+  const auto place_of = [kind](const LoggedPose& pose) {
+    return (kind == WayKind::kTakenBack ? pose.map_from_base : pose.best()).position();
+  };
   std::vector<std::vector<Point2>> ways;
   const LoggedPose* last = nullptr;
   for (const LoggedPose& pose : run.poses) {
-    if (!pose.has_pose || pose.is_known() != known) {
+    if (!is_of_kind(pose)) {
       last = nullptr;
       continue;
     }
-    const Point2 place = pose.map_from_base.position();
     const auto driven = [&] {
       const Pose2& from = log.scans[last->scan].odom_from_base;
       return distance(from.position(), log.scans[pose.scan].odom_from_base.position());
     };
-    if (last == nullptr || distance(last->map_from_base.position(), place) > driven() + kJump) ways.emplace_back();
-    ways.back().push_back(place);
+    if (last == nullptr || distance(place_of(*last), place_of(pose)) > driven() + kJump) ways.emplace_back();
+    ways.back().push_back(place_of(pose));
     last = &pose;
   }
   return ways;
@@ -133,15 +140,15 @@ pictures::Figure BeliefMovie::moments() const {
 
 pictures::Figure draw_scan(const OccupancyGrid& map, const recording::LaserLog& log, const LoggedPose& pose) {
   constexpr double kAround = 12.0;  // [m]
-  const Point2 centre = pose.map_from_base.position();
+  const Point2 centre = pose.best().position();
   pictures::Figure figure{moment_of(log, pose.scan)};
   pictures::Axes& axes =
       figure.add(pictures::Axes::metres(centre - Point2{kAround, kAround}, centre + Point2{kAround, kAround}, 360.0));
   pictures::draw_map(axes, map);
   const recording::LoggedScan& scan = log.scans[pose.scan];
   const pictures::Color color = color_when(pose.is_known());
-  pictures::draw_points(axes, endpoints_at(scan, log.max_range, pose.map_from_base * scan.base_from_laser), 2.5, color);
-  pictures::draw_robot(axes, pose.map_from_base, kRobotRadius, color);
+  pictures::draw_points(axes, endpoints_at(scan, log.max_range, pose.best() * scan.base_from_laser), 2.5, color);
+  pictures::draw_robot(axes, pose.best(), kRobotRadius, color);
   pictures::add_map_legend(figure);
   add_robot_legend(figure);
   return figure;
@@ -171,25 +178,41 @@ std::vector<Point2> shown_points(const recording::LaserLog& log, const LogRun& r
   std::vector<Point2> shown;
   for (std::size_t i = 0; i < run.poses.size(); ++i) {
     const LoggedPose& pose = run.poses[i];
-    if (!pose.has_pose) continue;
-    shown.push_back(pose.map_from_base.position());
+    if (!pose.has_best()) continue;
+    shown.push_back(pose.best().position());
     if (i % stride != 0 || !pose.is_known()) continue;
-    const auto ends = endpoints_at(log.scans[i], std::min(log.max_range, kShownReach),
-                                   pose.map_from_base * log.scans[i].base_from_laser);
+    const auto ends =
+        endpoints_at(log.scans[i], std::min(log.max_range, kShownReach), pose.best() * log.scans[i].base_from_laser);
     shown.insert(shown.end(), ends.begin(), ends.end());
   }
   return shown;
 }
 
-/// Where the first and the last known way begin and end, by the time of the log.
-void draw_ends(pictures::Figure& figure, pictures::Axes& axes, const std::vector<std::vector<Point2>>& ways) {
-  if (ways.empty()) return;
+/// Where what is known begins and ends, by the time of the log.
+void draw_ends(pictures::Figure& figure, pictures::Axes& axes, const LogRun& run) {
+  const auto is_known = [](const LoggedPose& pose) { return pose.is_known(); };
+  const auto first = std::find_if(run.poses.begin(), run.poses.end(), is_known);
+  if (first == run.poses.end()) return;
+  const auto last = std::find_if(run.poses.rbegin(), run.poses.rend(), is_known);
   constexpr double kSize = 7.0;  // [points]
-  pictures::draw_points(axes, std::span{&ways.front().front(), 1}, kSize, kStart);
-  pictures::draw_points(axes, std::span{&ways.back().back(), 1}, kSize, kEnd);
+  const Point2 start = first->best().position(), end = last->best().position();
+  pictures::draw_points(axes, std::span{&start, 1}, kSize, kStart);
+  pictures::draw_points(axes, std::span{&end, 1}, kSize, kEnd);
   figure.add_legend(pictures::legend_disc("start of what is known", kSize, kStart));
   figure.add_legend(pictures::legend_disc("end of it", kSize, kEnd));
 }
+
+struct WayLook {
+  WayKind kind;
+  pictures::Color color;
+  const char* words;
+};
+// In the order of drawing: what is known lies on top.
+constexpr std::array<WayLook, 4> kWays{
+    {{WayKind::kUnsure, pictures::colors::kGrey, "best hypothesis while unsure"},
+     {WayKind::kTakenBack, pictures::colors::kRed, "where it said that it was, taken back in hindsight"},
+     {WayKind::kHindsight, pictures::colors::kBlue, "trajectory known in hindsight"},
+     {WayKind::kSaid, pictures::colors::kInk, "trajectory while localized"}}};
 
 }  // namespace
 
@@ -210,23 +233,20 @@ pictures::Figure draw_run(const OccupancyGrid& map, const recording::LaserLog& l
     figure.add_legend(pictures::legend_line("reference trajectory", kReferenceWay, kReference));
   }
   const auto color_at = [end](double seconds) { return pictures::rainbow(end > 0.0 ? seconds / end : 0.0); };
-  const auto unsure = ways_of(log, run, false);
-  for (const std::vector<Point2>& way : unsure) pictures::draw_path(axes, way, kWay, pictures::colors::kGrey);
-  const auto ways = ways_of(log, run, true);
-  for (const std::vector<Point2>& way : ways) pictures::draw_path(axes, way, kWay, pictures::colors::kInk);
+  for (const auto& [kind, color, words] : kWays)
+    for (const std::vector<Point2>& way : ways_of(log, run, kind)) pictures::draw_path(axes, way, kWay, color);
   for (std::size_t i = 0; i < run.poses.size(); i += stride) {
     const LoggedPose& pose = run.poses[i];
     if (!pose.is_known()) continue;
     const pictures::Color color = color_at(seconds_into(log, i));
-    pictures::draw_points(axes,
-                          endpoints_at(log.scans[i], log.max_range, pose.map_from_base * log.scans[i].base_from_laser),
+    pictures::draw_points(axes, endpoints_at(log.scans[i], log.max_range, pose.best() * log.scans[i].base_from_laser),
                           kDot, color);
-    pictures::draw_robot(axes, pose.map_from_base, kRobotRadius, color);
+    pictures::draw_robot(axes, pose.best(), kRobotRadius, color);
   }
-  draw_ends(figure, axes, ways);
-  figure.add_legend(pictures::legend_line("trajectory while localized", kWay, pictures::colors::kInk));
-  if (!unsure.empty())
-    figure.add_legend(pictures::legend_line("best hypothesis while unsure", kWay, pictures::colors::kGrey));
+  draw_ends(figure, axes, run);
+  for (const auto& [kind, color, words] : kWays)
+    if (kind == WayKind::kSaid || !ways_of(log, run, kind).empty())
+      figure.add_legend(pictures::legend_line(words, kWay, color));
   figure.add_legend(
       pictures::legend_disc("robot and scan, some of them, at the time of their colour", 6.0, color_at(0.5 * end)));
   if (end > 0.0) axes.set_color_bar({"time [s]", color_at, 0.0, end, false});

@@ -41,11 +41,18 @@ class BeliefMovie {
 [[nodiscard]] pictures::Figure draw_scan(const OccupancyGrid& map, const recording::LaserLog& log,
                                          const LoggedPose& pose);
 
-/// Where the robot was while it knew (there or in hindsight), or the best hypotheses while it did not, in pieces: one
-/// ends where the other begins, or where its pose jumps.
-[[nodiscard]] std::vector<std::vector<Point2>> ways_of(const recording::LaserLog& log, const LogRun& run, bool known);
+/// What a piece of the way is.
+enum class WayKind {
+  kSaid,       ///< the robot said where it was, there and then
+  kHindsight,  ///< it did not know, but it is known by now
+  kUnsure,     ///< nobody knows: its best hypotheses
+  kTakenBack,  ///< where it said that it was, and was not, as is known by now
+};
 
-/// The way through the map – grey where the robot was not sure of it – with its start and end, and scans drawn at their
+/// The pieces of one kind: one ends where another kind begins, or where the pose jumps.
+[[nodiscard]] std::vector<std::vector<Point2>> ways_of(const recording::LaserLog& log, const LogRun& run, WayKind kind);
+
+/// The way through the map, by kinds of its pieces, with its start and end, and scans drawn at their
 /// poses along it (every `stride`-th). Beneath it the reference's way, broad, where there is one. Cropped to what is
 /// shown.
 [[nodiscard]] pictures::Figure draw_run(const OccupancyGrid& map, const recording::LaserLog& log, const LogRun& run,

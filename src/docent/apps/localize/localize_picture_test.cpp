@@ -55,24 +55,48 @@ TEST_F(LocalizePicture, TheRunHasItsTimesAndTheReferenceWhereThereIsOne) {
 
 TEST_F(LocalizePicture, AWayEndsWhereTheRobotIsCarriedOffAndWhereItDoesNotKnow) {
   for (std::size_t i = 0; i < log_.scans.size(); ++i) log_.scans[i].odom_from_base = run_.poses[i].map_from_base;
-  EXPECT_EQ(ways_of(log_, run_, true).size(), 1U);
-  EXPECT_TRUE(ways_of(log_, run_, false).empty());
+  EXPECT_EQ(ways_of(log_, run_, WayKind::kSaid).size(), 1U);
+  EXPECT_TRUE(ways_of(log_, run_, WayKind::kUnsure).empty());
   for (std::size_t i = 8; i < 12; ++i) run_.poses[i].localized = false;
   for (std::size_t i = 15; i < run_.poses.size(); ++i) run_.poses[i].map_from_base.y += 1.5;  // the wheels do not turn
-  const auto ways = ways_of(log_, run_, true);
+  const auto ways = ways_of(log_, run_, WayKind::kSaid);
   ASSERT_EQ(ways.size(), 3U);
   EXPECT_EQ(ways[0].size(), 8U);
   EXPECT_EQ(ways[1].size(), 3U);
   EXPECT_EQ(ways[2].size(), 6U);
   EXPECT_EQ(ways[2].front().y, 3.5);
-  const auto unsure = ways_of(log_, run_, false);
+  const auto unsure = ways_of(log_, run_, WayKind::kUnsure);
   ASSERT_EQ(unsure.size(), 1U);
   EXPECT_EQ(unsure[0].size(), 4U);
 
   // Where scans are rare, a long step is no jump: the wheels have turned.
   for (LoggedPose& pose : run_.poses) pose.localized = true;
   for (std::size_t i = 0; i < log_.scans.size(); ++i) log_.scans[i].odom_from_base = run_.poses[i].map_from_base;
-  EXPECT_EQ(ways_of(log_, run_, true).size(), 1U);
+  EXPECT_EQ(ways_of(log_, run_, WayKind::kSaid).size(), 1U);
+}
+
+TEST_F(LocalizePicture, HindsightIsToldFromWhatTheRobotSaid) {
+  for (std::size_t i = 0; i < log_.scans.size(); ++i) log_.scans[i].odom_from_base = run_.poses[i].map_from_base;
+  for (std::size_t i = 0; i < 10; ++i) {
+    run_.poses[i].hindsight = run_.poses[i].map_from_base;
+    run_.poses[i].localized = i >= 6;
+    if (i >= 4 && i < 8) run_.poses[i].map_from_base.y += 1.0;  // it took another place for its own
+  }
+  const auto said = ways_of(log_, run_, WayKind::kSaid);
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_EQ(said[0].size(), 13U);
+  const auto hindsight = ways_of(log_, run_, WayKind::kHindsight);
+  ASSERT_EQ(hindsight.size(), 1U);
+  EXPECT_EQ(hindsight[0].size(), 8U);
+  EXPECT_EQ(hindsight[0].back().y, 2.0);
+  const auto taken_back = ways_of(log_, run_, WayKind::kTakenBack);
+  ASSERT_EQ(taken_back.size(), 1U);
+  ASSERT_EQ(taken_back[0].size(), 2U);
+  EXPECT_EQ(taken_back[0].front().y, 3.0);
+  const std::string svg = svg_of(draw_run(map_, log_, run_, 5, {}));
+  for (const char* words : {"trajectory while localized", "trajectory known in hindsight", "taken back in hindsight"})
+    EXPECT_NE(svg.find(words), std::string::npos) << words;
+  EXPECT_EQ(svg.find("unsure"), std::string::npos);
 }
 
 TEST_F(LocalizePicture, AScanHasItsMoment) {

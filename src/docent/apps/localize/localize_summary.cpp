@@ -22,12 +22,17 @@ std::string against_reference(const nlohmann::json& report) {
   if (!report.contains("reference_scans")) return "";
   const auto scans = report["reference_scans"].get<std::size_t>();
   if (scans == 0) return "  against the reference: no scan could be compared\n";
-  return fmt::format(
+  std::string text = fmt::format(
       "  against the reference, {} scans: mean error {}, 19 of 20 within {}, at most {}; heading {:.1f} degrees in the "
       "mean\n  lost in {:.0f} scans ({:.1f} %), sure and wrong in {:.0f}, unsure in {:.0f}\n",
       scans, length(number(report, "mean_error_m")), length(number(report, "p95_error_m")),
       length(number(report, "max_error_m")), number(report, "mean_heading_error_deg"), number(report, "lost_scans"),
       100.0 * number(report, "lost_fraction"), number(report, "sure_and_wrong_scans"), number(report, "unsure_scans"));
+  const auto hindsight = report.find("in_hindsight");
+  if (hindsight == report.end() || number(*hindsight, "reference_scans") == 0.0) return text;
+  return text + fmt::format("  in hindsight, {:.0f} scans: mean error {}, 19 of 20 within {}, lost in {:.0f}\n",
+                            number(*hindsight, "reference_scans"), length(number(*hindsight, "mean_error_m")),
+                            length(number(*hindsight, "p95_error_m")), number(*hindsight, "lost_scans"));
 }
 
 }  // namespace
@@ -47,10 +52,10 @@ std::string summary_of_run(const nlohmann::json& report) {
     text += "  it never said that it knows where it is\n";
   } else {
     text += fmt::format(
-        "  it first said that it knows where it is after {} scans, and said so in {:.1f} % of all; in hindsight it was "
-        "at the same place in another {:.1f} %\n",
+        "  it first said that it knows where it is after {} scans, and said so in {:.1f} % of all; in hindsight it "
+        "knows its place in another {:.1f} %, and takes back {:.1f} %\n",
         after->get<std::size_t>(), 100.0 * number(report, "localized_fraction"),
-        100.0 * number(report, "in_hindsight_fraction"));
+        100.0 * number(report, "in_hindsight_fraction"), 100.0 * number(report, "taken_back_fraction"));
     if (report.contains("endpoints_near_walls") && report["endpoints_near_walls"].is_number())
       text += fmt::format("  {:.1f} % of the readings since then end within 0.2 m of a wall of the map\n",
                           100.0 * number(report, "endpoints_near_walls"));
@@ -60,11 +65,19 @@ std::string summary_of_run(const nlohmann::json& report) {
 
 std::string summary_of_agreement(const nlohmann::json& agreement) {
   const auto scans = agreement.value("both_know", std::size_t{0});
-  if (scans == 0) return "  there is no scan in which both say that they know: nothing to compare\n";
-  return fmt::format(
-      "  within 0.5 m and 10 degrees in {:.1f} % of {} scans; {} in the median, 19 of 20 within {}, at most {}\n",
+  if (scans == 0) return "  there is no scan in which both know where they were: nothing to compare\n";
+  std::string text = fmt::format(
+      "  in hindsight within 0.5 m and 10 degrees in {:.1f} % of {} scans; {} in the median, 19 of 20 within {}, at "
+      "most "
+      "{}\n",
       100.0 * number(agreement, "within_half_a_metre_and_10_degrees"), scans, length(number(agreement, "median_m")),
       length(number(agreement, "p95_m")), length(number(agreement, "max_m")));
+  const auto said = agreement.find("there_and_then");
+  if (said == agreement.end()) return text;
+  const auto both = said->value("both_know", std::size_t{0});
+  if (both == 0) return text + "  there and then there was no scan in which both said that they knew\n";
+  return text + fmt::format("  there and then in {:.1f} % of the {} scans in which both said that they knew\n",
+                            100.0 * number(*said, "within_half_a_metre_and_10_degrees"), both);
 }
 
 }  // namespace docent::apps

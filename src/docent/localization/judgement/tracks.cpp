@@ -11,23 +11,7 @@
 namespace docent::localization {
 namespace {
 
-constexpr double kSame = 0.5;           // [m] two ways that have met are one
-constexpr double kSameTurn = 15.0;      // [deg]
-constexpr double kLoose = 0.1;          // [m] that a pose in a drawn map is off, beside odometry's error
-constexpr double kLooseTurn = 0.03;     // [rad]
 constexpr std::size_t kMostFound = 24;  // of the places that a search finds, those that fit best
-
-bool is_same(const Pose2& a, const Pose2& b) {
-  return distance(a.position(), b.position()) < kSame && std::abs((a.theta - b.theta).degrees()) < kSameTurn;
-}
-
-sensor_models::RangeSweep thinned(const sensor_models::RangeSweep& sweep, int most) {
-  sensor_models::RangeSweep some;
-  const double step = std::max(1.0, static_cast<double>(sweep.beams.size()) / most);
-  for (double i = 0.5 * (step - 1.0); i < static_cast<double>(sweep.beams.size()); i += step)
-    some.beams.push_back(sweep.beams[static_cast<std::size_t>(i)]);
-  return some;
-}
 
 }  // namespace
 
@@ -81,9 +65,7 @@ std::vector<PartCost> Tracks::costs_at(const View& view, const Pose2& pose) cons
 
 Pose2 Tracks::followed(const Pose2& from, const View& view, const View& next) const {
   const Pose2 step = inverse(view.odom_from_robot) * next.odom_from_robot;
-  const motion_models::MotionNoise noise = motion_models::motion_noise(motion_, step);
-  return matched(*caster_, next.sweep, max_range_, from * step,
-                 {kLoose + std::sqrt(noise.position_variance), kLooseTurn + std::sqrt(noise.heading_variance)});
+  return matched(*caster_, next.sweep, max_range_, from * step, guess_error(motion_, step));
 }
 
 double Tracks::nats(const PartSums& sums) const {
@@ -131,8 +113,8 @@ void Tracks::add_view(const sensor_models::RangeSweep& sweep, const Pose2& odom_
   views_.push_back(std::move(view));
   for (Track& track : tracks_) {
     const Pose2 expected = track.poses.back() * step;
-    const Pose2 pose = best && is_same(expected, *best)
-                           ? matched(*caster_, views_.back().sweep, max_range_, *best, {kLoose, kLooseTurn})
+    const Pose2 pose = best && is_same_place(expected, *best)
+                           ? matched(*caster_, views_.back().sweep, max_range_, *best, kMatchError)
                            : followed(track.poses.back(), from, views_.back());
     if (is_first) track.poses.clear();
     track.poses.push_back(pose);
@@ -192,7 +174,7 @@ void Tracks::take_in(std::span<const Pose2> map_from_robot) {
   bool has_new = false;
   for (const Pose2& pose : map_from_robot) {
     const bool is_known = std::any_of(tracks_.begin(), tracks_.end(),
-                                      [&](const Track& track) { return is_same(track.poses.back(), pose); });
+                                      [&](const Track& track) { return is_same_place(track.poses.back(), pose); });
     if (is_known) continue;
     Track track = followed_back(pose, before);
     if (!std::isfinite(track.past)) continue;
@@ -208,8 +190,9 @@ void Tracks::prune() {
   const double least = tracks_.empty() ? 0.0 : nats(tracks_.front());
   for (Track& track : tracks_) {
     if (static_cast<int>(kept.size()) >= params_.most_tracks || nats(track) > least + params_.hopeless) break;
-    const bool has_met = std::any_of(
-        kept.begin(), kept.end(), [&](const Track& other) { return is_same(other.poses.back(), track.poses.back()); });
+    const bool has_met = std::any_of(kept.begin(), kept.end(), [&](const Track& other) {
+      return is_same_place(other.poses.back(), track.poses.back());
+    });
     if (!has_met) kept.push_back(std::move(track));
   }
   tracks_ = std::move(kept);

@@ -65,6 +65,24 @@ class Score {
 
 }  // namespace
 
+GuessError guess_error(const motion_models::OdometryModelParams& motion, const Pose2& step) {
+  const motion_models::MotionNoise noise = motion_models::motion_noise(motion, step);
+  return {kMatchError.position + std::sqrt(noise.position_variance),
+          kMatchError.heading + std::sqrt(noise.heading_variance)};
+}
+
+bool is_same_place(const Pose2& a, const Pose2& b) {
+  return distance(a.position(), b.position()) < 0.5 && std::abs((a.theta - b.theta).degrees()) < 15.0;
+}
+
+sensor_models::RangeSweep thinned(const sensor_models::RangeSweep& sweep, int most) {
+  sensor_models::RangeSweep some;
+  const double step = std::max(1.0, static_cast<double>(sweep.beams.size()) / most);
+  for (double i = 0.5 * (step - 1.0); i < static_cast<double>(sweep.beams.size()); i += step)
+    some.beams.push_back(sweep.beams[static_cast<std::size_t>(i)]);
+  return some;
+}
+
 Pose2 matched(const sensor_models::RayCaster& caster, const sensor_models::RangeSweep& sweep, double max_range,
               const Pose2& guess, const GuessError& error) {
   const Score score{caster, sweep, max_range, guess, error};
