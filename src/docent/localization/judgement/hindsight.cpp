@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kStrange = 0.6;               // of a view's readings that the map does not explain, and
 constexpr std::size_t kMostStrangeViews = 12;  // on end: what was followed back is no way of this robot
+constexpr double kMuchStranger = 0.01;         // of the readings
 constexpr int kSmoothings = 3;
 constexpr std::size_t kCarriedWithin = 80;  // views in which the moment is sought when somebody carried it
 
@@ -135,7 +136,11 @@ class LookBack {
       if (!is_same_place(from_before, from_after)) continue;  // carried off
       const Pose2 between{0.5 * (from_before.x + from_after.x), 0.5 * (from_before.y + from_after.y),
                           from_before.theta + Angle::radians(0.5 * (from_after.theta - from_before.theta).radians())};
-      poses_[k] = matched_at(k, between, guess_error(params_.motion, step));
+      const Pose2 pose = matched_at(k, between, guess_error(params_.motion, step));
+      const double strange = strangeness(k, pose);
+      if (strange > strange_[k] + kMuchStranger) continue;  // people, not walls, were matched
+      poses_[k] = pose;
+      strange_[k] = strange;
     }
   }
 
