@@ -10,12 +10,6 @@
 namespace docent::localization {
 namespace {
 
-constexpr double kStrange = 0.6;               // of a view's readings that the map does not explain, and
-constexpr std::size_t kMostStrangeViews = 12;  // on end: what was followed back is no way of this robot
-constexpr double kMuchStranger = 0.01;         // of the readings
-constexpr int kSmoothings = 3;
-constexpr std::size_t kCarriedWithin = 80;  // views in which the moment is sought when somebody carried it
-
 /// The way of one robot, view by view, from the last to the first.
 class LookBack {
  public:
@@ -32,14 +26,14 @@ class LookBack {
       const bool goes_on = k + 1 < views_.size() && poses_[k + 1].has_value();
       if (!goes_on && !said(k)) continue;
       set(k, goes_on ? followed(*poses_[k + 1], k + 1, k) : *said(k));
-      strange = strange_[k] > kStrange && !said(k) ? strange + 1 : 0;
-      if (strange >= kMostStrangeViews) {
+      strange = strange_[k] > params_.strange && !said(k) ? strange + 1 : 0;
+      if (strange >= params_.most_strange_views) {
         for (std::size_t s = k; s < k + strange; ++s) poses_[s].reset();
         strange = 0;
       }
       if (is_disputed(k) && (k == 0 || !says_on(k - 1))) settle(k);
     }
-    for (int round = 0; round < kSmoothings; ++round) smooth();
+    for (int round = 0; round < params_.smoothings; ++round) smooth();
     return of_all_sweeps();
   }
 
@@ -116,7 +110,7 @@ class LookBack {
     std::vector<Pose2> stayed;        // had nobody carried it
     double gained = 0.0, most = 0.0;  // what the way explains worse than having stayed, summed
     std::size_t carried = begin;
-    for (std::size_t k = begin; k < std::min(views_.size(), begin + kCarriedWithin) && poses_[k]; ++k) {
+    for (std::size_t k = begin; k < std::min(views_.size(), begin + params_.carried_within) && poses_[k]; ++k) {
       stayed.push_back(followed(k == begin ? *poses_[k - 1] : stayed.back(), k - 1, k));
       gained += strange_[k] - strangeness(k, stayed.back());
       if (gained <= most) continue;
@@ -138,7 +132,7 @@ class LookBack {
                           from_before.theta + Angle::radians(0.5 * (from_after.theta - from_before.theta).radians())};
       const Pose2 pose = matched_at(k, between, guess_error(params_.motion, step));
       const double strange = strangeness(k, pose);
-      if (strange > strange_[k] + kMuchStranger) continue;  // people, not walls, were matched
+      if (strange > strange_[k] + params_.much_stranger) continue;  // people, not walls, were matched
       poses_[k] = pose;
       strange_[k] = strange;
     }

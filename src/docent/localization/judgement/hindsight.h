@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
@@ -23,12 +24,17 @@ struct PastSweep {
 struct HindsightParams {
   TracksParams tracks;
   motion_models::OdometryModelParams motion;
-  double max_range = 10.0;  ///< [m]
+  double max_range = 10.0;              ///< [m]
+  double strange = 0.6;                 ///< of a view's readings that the map does not explain, and
+  std::size_t most_strange_views = 12;  ///< on end, more than a moved wall makes: no way of this robot
+  std::size_t carried_within = 80;      ///< views in which the moment is sought when somebody carried it
+  int smoothings = 3;                   ///< rounds; more change centimetres
+  double much_stranger = 0.01;          ///< of the readings: a smoothed pose that loses so many has met people
 };
 
 /// Where the robot was at each sweep, now that the way is over: back from the last place that it was sure of, by
-/// odometry and by matching the sweeps to the map, at the belief's best pose where that is near, [sweeps]. nullopt: it was never sure of a later place, or the map
-/// explains the sweeps no more.
+/// odometry and by matching the sweeps to the map, at the belief's best pose where that is near, [sweeps]. nullopt: it
+/// was never sure of a later place, or the map explains the sweeps no more.
 ///
 /// Where it had said another place, the two ways are held against each other: that which explains what was seen there
 /// wins, and the later place that much the easier as robots are hardly ever carried (`TracksParams::carried_off`).

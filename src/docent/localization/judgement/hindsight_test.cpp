@@ -52,7 +52,9 @@ class Hindsight : public testing::Test {
     odom_ = odom_ * Pose2{1.02 * way, 0.0, Angle::degrees(0.3)};  // wheels err
   }
   [[nodiscard]] std::vector<std::optional<Pose2>> looked_back() const {
-    return seen_in_hindsight(caster_, sweeps_, {{}, {}, kSightRange});
+    HindsightParams params;
+    params.max_range = kSightRange;
+    return seen_in_hindsight(caster_, sweeps_, params);
   }
   void expect_truth(const std::vector<std::optional<Pose2>>& poses, std::size_t first, std::size_t end) const {
     for (std::size_t i = first; i < end; ++i) {
