@@ -24,11 +24,6 @@ def logistic(weights, values):
     return 1.0 / (1.0 + math.exp(-max(-30.0, min(30.0, z))))
 
 
-def share_of_best(row):
-    """What the second best mode leaves to the best: the other factor of Verdict::p_lost."""
-    return row["mass"] / (row["mass"] + row["rival"]) if row["mass"] > 0.0 else 1.0
-
-
 def probability(weights, values, best):
     return 1.0 - (1.0 - logistic(weights, values)) * best
 
@@ -61,7 +56,7 @@ def fit(data, ridge=0.1):
 
 
 def fit_holding(held, data, ridge):
-    """A lost update may be one because the second mode was right: it counts as far as the logistic function explains it
+    """A lost update may be one because another place was right: it counts as far as the logistic function explains it
     (EM, a step of Newton's method in each round)."""
     n = len(NAMES)
     weights = [held.get(i, 0.0) for i in range(n)]
@@ -89,7 +84,7 @@ def fit_holding(held, data, ridge):
 def rows_of(bench, museums, count, method, settings):
     carried_off = localization.honesty_claims(bench, museums, count, method, FIRST_SEED, settings)
     tours = localization.tour_claims(bench, museums, count, method, FIRST_SEED, settings)
-    return [[(features(row), float(claims.is_lost(row)), share, share_of_best(row), row["localized"]) for row in run if row["has_pose"]]
+    return [[(features(row), float(claims.is_lost(row)), share, row["share"], row["localized"]) for row in run if row["has_pose"]]
             for some, share in ((carried_off, 1.0), (tours, TOUR_WEIGHT)) for run in some]
 
 

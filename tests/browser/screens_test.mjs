@@ -124,7 +124,7 @@ async function beginPoll({ page, robot, reload }) {
 for (const [width, height] of SIZES) {
   const browser = await listen({ viewport: { width, height } });
   const { page, robot } = browser;
-  page.setDefaultTimeout(8000);
+  page.setDefaultTimeout(30000);
   await page.goto(kiosk);
   await shows(page, 'home', 20000).catch(() => {});
   await page.emulateMedia({ reducedMotion: 'reduce' });

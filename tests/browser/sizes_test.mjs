@@ -123,7 +123,7 @@ const axeSays = async (page) => {
 
 const bonn = await stage('bonn', 'horn=2');
 const { page, complaints } = await open(bonn);
-page.setDefaultTimeout(8000);
+page.setDefaultTimeout(30000);
 const dark = (isDark) => page.evaluate((isDark) => (document.documentElement.dataset.theme === 'dark') !== isDark && document.querySelector('.buttons button[aria-label="Light or dark"]').click(), isDark);
 await page.emulateMedia({ reducedMotion: 'reduce' });
 await page.reload();
@@ -178,9 +178,9 @@ for (const [width, height] of sizes) {
 
 await check('the horn is heard and seen', async () => {
   await page.getByRole('button', { name: 'Turn sound on' }).click();
-  const reply = await page.waitForResponse((one) => /\/audio\/[0-9a-f]{16}\.wav$/.test(one.url()), { timeout: 5000 });
+  const reply = await page.waitForResponse((one) => /\/audio\/[0-9a-f]{16}\.wav$/.test(one.url()), { timeout: 15000 });
   ensure(reply.ok() && reply.headers()['content-type'] === 'audio/wav', `${reply.status()} ${reply.headers()['content-type']}`);
-  await page.locator('.bubble', { hasText: 'Beep beep!' }).waitFor({ timeout: 4000 });
+  await page.locator('.bubble', { hasText: 'Beep beep!' }).waitFor({ timeout: 15000 });
   await page.getByRole('button', { name: 'Turn sound off' }).click();
 });
 

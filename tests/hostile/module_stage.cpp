@@ -190,7 +190,8 @@ ModuleStage::ModuleStage(const std::string& module, std::filesystem::path state)
     if (is_ours_) return;
     for_each_robot_topic([&]<class T>(const Topic<T>& topic) {
       if (std::string_view{topic.name} != info.name) return;
-      const MessageFault fault = fault_on(topic, *static_cast<const T*>(message.get()));
+      const MessageFault fault =
+          fault_on(topic, *static_cast<const T*>(message.get()), info.type->fault(message.get()));
       const std::string text = fault ? std::string{topic.name} + ": " + fault.text() : "";
       if (fault && std::find(unfit_.begin(), unfit_.end(), text) == unfit_.end()) unfit_.push_back(text);
     });

@@ -91,6 +91,7 @@ struct Belief {
   float confirmation = 0;         ///< 0..1: of the updates and the motion that it takes to say "here"
   float blind_way = 0;            ///< [m] driven since readings last agreed with the map
   float unmapped = 0;             ///< 0..1: share of the straight walls in sight that the map lacks, lately
+  float share = 1;                ///< 0..1: of the best mode among the places that the whole way leaves possible
   template <class Self, class V>
   static void visit(Self& m, V& v) {
     v("header", m.header);
@@ -115,6 +116,7 @@ struct Belief {
     v("confirmation", m.confirmation);
     v("blind_way", m.blind_way);
     v("unmapped", m.unmapped);
+    v("share", m.share);
   }
 };
 

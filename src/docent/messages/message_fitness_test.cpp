@@ -47,45 +47,46 @@ TEST(MessageFitness, AScanNeedsBeamsThatAScannerHas) {
 TEST(MessageFitness, VirtualMeasurementsGoRoundTwice) {
   const char* const kTurns = "ranges do not go round twice, for hazards and for the border";
   auto scan = scan_all_round();
-  EXPECT_FALSE(fault_on(topics::kScanFront, scan));
-  EXPECT_EQ(fault_on(topics::kVirtualScan, scan).text(), kTurns);
+  EXPECT_FALSE(fault_on(topics::kScanFront, scan, fault_of(scan)));
+  EXPECT_EQ(fault_on(topics::kVirtualScan, scan, fault_of(scan)).text(), kTurns);
   for (const std::size_t beams : {0U, 1U, 2U, 179U, 270U, 358U, 359U, 361U, 362U}) {
     scan.ranges.assign(beams, 2.0F);
-    EXPECT_TRUE(fault_on(topics::kVirtualScan, scan)) << beams;
+    EXPECT_TRUE(fault_on(topics::kVirtualScan, scan, fault_of(scan))) << beams;
   }
   scan.ranges.assign(360, 2.0F);
-  EXPECT_FALSE(fault_on(topics::kVirtualScan, scan));
+  EXPECT_FALSE(fault_on(topics::kVirtualScan, scan, fault_of(scan)));
   scan.ranges[200] = kInfinity;  // nothing there
-  EXPECT_FALSE(fault_on(topics::kVirtualScan, scan));
+  EXPECT_FALSE(fault_on(topics::kVirtualScan, scan, fault_of(scan)));
   scan.ranges[200] = kNan;
-  EXPECT_EQ(fault_on(topics::kVirtualScan, scan).text(), "ranges have a direction without a number");
+  EXPECT_EQ(fault_on(topics::kVirtualScan, scan, fault_of(scan)).text(), "ranges have a direction without a number");
   scan.ranges[200] = 2.0F;
   scan.angle_min = kNan;
-  EXPECT_EQ(fault_on(topics::kVirtualScan, scan).text(), "angle_min is no bearing") << "and all that a scan must be";
+  EXPECT_EQ(fault_on(topics::kVirtualScan, scan, fault_of(scan)).text(), "angle_min is no bearing")
+      << "and all that a scan must be";
   scan = scan_all_round();
   scan.angle_increment = static_cast<float>(2.0 * std::numbers::pi / 7.0);
   scan.ranges.assign(14, 2.0F);
-  EXPECT_FALSE(fault_on(topics::kVirtualScan, scan)) << "any number of directions does";
+  EXPECT_FALSE(fault_on(topics::kVirtualScan, scan, fault_of(scan))) << "any number of directions does";
 }
 
 TEST(MessageFitness, ThePoseThatTheRobotIsToldNamesAPlaceOfTheMap) {
   geometry_msgs::PoseWithCovarianceStamped pose;
-  const auto fault = [&] { return fault_on(topics::kInitialPose, pose).text(); };
+  const auto fault = [&] { return fault_on(topics::kInitialPose, pose, fault_of(pose)).text(); };
   for (const char* frame : {"", "odom", "/map", "base_link"}) {
     pose.header.frame_id = frame;
     EXPECT_EQ(fault(), "frame_id is not map") << frame;
   }
   pose.header.frame_id = "map";
-  EXPECT_FALSE(fault_on(topics::kInitialPose, pose)) << "a covariance of zeros is what many tools send";
+  EXPECT_FALSE(fault_on(topics::kInitialPose, pose, fault_of(pose))) << "a covariance of zeros is what many tools send";
   pose.pose.covariance[0] = pose.pose.covariance[7] = 0.25;
   pose.pose.covariance[35] = 0.07;
-  EXPECT_FALSE(fault_on(topics::kInitialPose, pose));
+  EXPECT_FALSE(fault_on(topics::kInitialPose, pose, fault_of(pose)));
   for (const std::size_t variance : {0U, 7U, 35U}) {
     auto wrong = pose;
     wrong.pose.covariance[variance] = -0.1;
-    EXPECT_EQ(fault_on(topics::kInitialPose, wrong).text(), "covariance has a variance below 0");
+    EXPECT_EQ(fault_on(topics::kInitialPose, wrong, fault_of(wrong)).text(), "covariance has a variance below 0");
     wrong.pose.covariance[variance] = static_cast<double>(kNan);
-    EXPECT_EQ(fault_on(topics::kInitialPose, wrong).text(), "covariance is no number of this world");
+    EXPECT_EQ(fault_on(topics::kInitialPose, wrong, fault_of(wrong)).text(), "covariance is no number of this world");
   }
   pose.pose.covariance[7] = 101.0;
   EXPECT_EQ(fault(), "covariance is wider than 10 m: it names no place");
@@ -95,7 +96,8 @@ TEST(MessageFitness, ThePoseThatTheRobotIsToldNamesAPlaceOfTheMap) {
   pose.pose.pose.position.x = 0.0;
   pose.pose.pose.orientation = {0.0, 0.0, 0.0, 0.0};
   EXPECT_EQ(fault(), "rotation is none: its length is not 1");
-  EXPECT_FALSE(fault_on(topics::kPose, geometry_msgs::PoseWithCovarianceStamped{})) << "of this topic alone";
+  const geometry_msgs::PoseWithCovarianceStamped other;
+  EXPECT_FALSE(fault_on(topics::kPose, other, fault_of(other))) << "of this topic alone";
 }
 
 TEST(MessageFitness, ReadingsMayBeAnything) {

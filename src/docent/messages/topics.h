@@ -30,11 +30,10 @@ struct Topic {
   MessageFault (*fault)(const T& message) = nullptr;  ///< of what is fit for its type and yet not for this topic
 };
 
-/// What is wrong with a message that came on `topic`.
+/// What is wrong with a message that came on `topic`; `of_type` is what fault_of says of it.
 template <class T>
-[[nodiscard]] MessageFault fault_on(const Topic<T>& topic, const T& message) {
-  const MessageFault fault = fault_of(message);
-  return fault || topic.fault == nullptr ? fault : topic.fault(message);
+[[nodiscard]] MessageFault fault_on(const Topic<T>& topic, const T& message, const MessageFault& of_type) {
+  return of_type || topic.fault == nullptr ? of_type : topic.fault(message);
 }
 
 namespace topics {

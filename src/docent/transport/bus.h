@@ -19,18 +19,12 @@ struct TypeSupport {
   const char* name;  ///< "sensor_msgs/msg/LaserScan"
   std::vector<std::uint8_t> (*encode)(const void* message);
   std::shared_ptr<const void> (*decode)(std::span<const std::uint8_t> bytes);  ///< null when damaged
+  MessageFault (*fault)(const void* message);                                  ///< message_fitness.h
 };
 
+/// The one of T, which is the type of a topic in messages/topics.h. type_support.cpp compiles them all, once.
 template <Message T>
-[[nodiscard]] const TypeSupport& type_support() {
-  static constexpr TypeSupport kSupport{T::kType,
-                                        [](const void* message) { return encode_cdr(*static_cast<const T*>(message)); },
-                                        [](std::span<const std::uint8_t> bytes) -> std::shared_ptr<const void> {
-                                          auto message = decode_cdr<T>(bytes);
-                                          return message ? std::make_shared<const T>(std::move(*message)) : nullptr;
-                                        }};
-  return kSupport;
-}
+[[nodiscard]] const TypeSupport& type_support();
 
 struct TopicInfo {
   const char* name;
@@ -81,10 +75,11 @@ class Bus {
   /// none: it is refused and counted, and the handler does not see it; `refused` is called instead.
   template <class T>
   void subscribe(const Topic<T>& topic, std::function<void(const T&)> handler, std::function<void()> refused = {}) {
-    add_subscription(topic_info(topic), [this, topic, handler = std::move(handler),
-                                         refused = std::move(refused)](const std::shared_ptr<const void>& message) {
+    const TopicInfo info = topic_info(topic);
+    add_subscription(info, [this, topic, type = info.type, handler = std::move(handler),
+                            refused = std::move(refused)](const std::shared_ptr<const void>& message) {
       const T& content = *static_cast<const T*>(message.get());
-      if (const MessageFault fault = fault_on(topic, content)) {
+      if (const MessageFault fault = fault_on(topic, content, type->fault(message.get()))) {
         refuse(topic.name, fault);
         if (refused) refused();
       } else {

@@ -12,6 +12,7 @@
 #include "docent/messages/conversions.h"
 #include "docent/messages/random_message.h"
 #include "docent/messages/schema.h"
+#include "docent/transport/type_support.h"
 
 extern "C" const dds_topic_descriptor_t* docent_topic_descriptor(const char* type);
 

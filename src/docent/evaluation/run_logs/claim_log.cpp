@@ -15,7 +15,7 @@ namespace {
 constexpr const char* kClaimColumns =
     "time,true_x,true_y,true_heading,has_pose,x,y,heading,mass,localized,p_lost,entropy,hypotheses,active_cells,"
     "beams_used,beams_filtered,blocked,distance,speed,kidnaps,"
-    "agreement,contradiction,surprise,hidden,confirmation,blind_way,unmapped,spread,rival,explained,contacts,"
+    "agreement,contradiction,surprise,hidden,confirmation,blind_way,unmapped,spread,share,explained,contacts,"
     "violations\n";
 constexpr std::size_t kMostClaimsWaiting = 1000;
 
@@ -55,7 +55,6 @@ void ClaimLog::judge(const docent_msgs::Belief& belief, const Pose2& truth) {
   const auto& state = truth_.latest();
   const bool has_pose = !belief.hypotheses.empty();
   const docent_msgs::Hypothesis best = has_pose ? belief.hypotheses.front() : docent_msgs::Hypothesis{};
-  const double rival = belief.hypotheses.size() > 1 ? belief.hypotheses[1].mass : 0.0;
   char line[600];
   const int size = std::snprintf(
       line, sizeof line,
@@ -66,7 +65,8 @@ void ClaimLog::judge(const docent_msgs::Belief& belief, const Pose2& truth) {
       belief.hypotheses.size(), belief.active_cells, belief.beams_used, belief.beams_filtered, state.blocked_beams,
       state.distance_m, state.linear, kidnaps_, belief.agreement, belief.contradiction, belief.surprise, belief.hidden,
       belief.confirmation, belief.blind_way, belief.unmapped,
-      std::sqrt(std::max(0.0, best.covariance[0] + best.covariance[4])), rival, explained_, contacts_, violations_);
+      std::sqrt(std::max(0.0, best.covariance[0] + best.covariance[4])), belief.share, explained_, contacts_,
+      violations_);
   lines_.append(line, static_cast<std::size_t>(size));
 }
 

@@ -16,7 +16,8 @@ namespace docent::evaluation {
 /// heading [deg], mass; localized; p_lost; entropy [nat]; hypotheses; active cells; beams used and filtered; blocked
 /// share of the beams; distance driven [m]; speed [m/s]; number of kidnaps so far; agreement,
 /// contradiction, surprise, hidden, confirmation, blind_way [m] and unmapped as in the message; spread [m] of the best
-/// hypothesis; mass of the second; exhibits explained, contacts and area violations so far.
+/// hypothesis; its share among the places that the whole way leaves possible; exhibits explained, contacts and area
+/// violations so far.
 class ClaimLog {
  public:
   /// Topics that do not matter are passed over.

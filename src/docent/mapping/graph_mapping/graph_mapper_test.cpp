@@ -72,6 +72,19 @@ TEST(GraphMapping, SomebodyWhoWalksAlongIsNotTheWorld) {
   EXPECT_GT(testing::relation_error(drive.truth, map_by_graph(drive.scans, crippled).map_from_base, 30), 1.0);
 }
 
+TEST(GraphMapping, OdometryMayJumpAThousandKilometres) {
+  Drive drive = testing::drive_round(0.3, 0.0, 0.02, 5);
+  const std::size_t jump = drive.scans.size() / 2;
+  for (std::size_t i = jump; i < drive.scans.size(); ++i) drive.scans[i].odom_from_base.x += 1e6;
+  const GraphMap map = map_by_graph(drive.scans, {});
+  ASSERT_EQ(map.map_from_base.size(), drive.scans.size());
+  for (const auto& [first, last] : {std::pair{std::size_t{0}, jump - 1}, {jump, drive.scans.size() - 1}}) {
+    const Pose2 way = inverse(map.map_from_base[first]) * map.map_from_base[last];
+    const Pose2 truth = inverse(drive.truth[first]) * drive.truth[last];
+    EXPECT_LT(distance(way.position(), truth.position()), 0.5) << "before and behind it maps as ever";
+  }
+}
+
 TEST(GraphMapping, TheSameScansGiveTheSameMap) {
   const Drive drive = testing::drive_round(0.4, 0.02, 0.05, 4);
   const GraphMap first = map_by_graph(drive.scans, {});

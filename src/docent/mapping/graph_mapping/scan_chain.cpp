@@ -7,6 +7,9 @@
 namespace docent::mapping {
 namespace {
 
+/// [m] Scans from farther away show another place: the odometry between has jumped. A grid about both would be endless.
+constexpr double kFarthestScan = 50.0;
+
 std::vector<Point2> places_of(std::span<const SurfacePoint> points) {
   std::vector<Point2> places;
   places.reserve(points.size());
@@ -48,6 +51,7 @@ ChainStep ScanChain::step(std::span<const MappingScan> scans, std::span<const Po
   const std::size_t first = i - std::min(i, static_cast<std::size_t>(params_.scans));
   for (std::size_t k = first; k < i; ++k) {
     const Pose2 before_from_scan = before_from_map * map_from_base[k];
+    if (norm(before_from_scan.position()) > kFarthestScan) continue;
     for (const SurfacePoint& point : scans[k].points) local.push_back(transformed(before_from_scan, point));
   }
   if (local.empty() || scans[i].points.size() < static_cast<std::size_t>(params_.fewest_points)) return result;

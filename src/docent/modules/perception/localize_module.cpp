@@ -265,6 +265,7 @@ class LocalizeModule final : public Module {
     message.confirmation = static_cast<float>(localizer_->verdict().confirmation());
     message.blind_way = static_cast<float>(localizer_->verdict().blind_way());
     message.unmapped = static_cast<float>(localizer_->verdict().unmapped());
+    message.share = static_cast<float>(localizer_->verdict().share());
     message.active_mass = summary.active_mass;
     message.active_cells = static_cast<std::uint32_t>(summary.active_states);
     message.beams_used = static_cast<std::uint32_t>(last_step_.beams_used);
