@@ -189,6 +189,16 @@ struct FalseHorn {
   }
 };
 
+}  // namespace
+
+template <>
+const TypeSupport& type_support<FalseHorn>() {
+  static constexpr TypeSupport kSupport = support_of<FalseHorn>();
+  return kSupport;
+}
+
+namespace {
+
 TEST(DdsBus, DamagedSamplesAreDroppedAndCounted) {
   std::vector<std::string> warnings;
   auto created = DdsBus::create({kDomain, "", [&](const std::string& text) { warnings.push_back(text); }});

@@ -5,6 +5,12 @@
 
 namespace docent::transport {
 
+template <Message T>
+const TypeSupport& type_support() {
+  static constexpr TypeSupport kSupport = support_of<T>();
+  return kSupport;
+}
+
 template const TypeSupport& type_support<docent_msgs::AvoidState>();
 template const TypeSupport& type_support<docent_msgs::Belief>();
 template const TypeSupport& type_support<docent_msgs::Button>();
