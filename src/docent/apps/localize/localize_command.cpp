@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "docent/apps/localize/localize_log.h"
 #include "docent/apps/localize/localize_picture.h"
@@ -51,10 +52,11 @@ struct Options {
   std::string cache;
 };
 
-/// Runs the log once; draws into `pictures` when it is not empty. `purpose`: for people who wait.
+/// Runs the log once, and looks back where `hindsight` is given; draws into `pictures` when it is not empty.
+/// `purpose`: for people who wait.
 LogRun run_once(const Options& options, const ReferencedLog& referenced, const OccupancyGrid& map,
-                const localization::HindsightParams& hindsight, localization::Localizer& localizer, bool reverse,
-                const std::string& purpose, const std::filesystem::path& pictures) {
+                const std::optional<localization::HindsightParams>& hindsight, localization::Localizer& localizer,
+                bool reverse, const std::string& purpose, const std::filesystem::path& pictures) {
   const recording::LaserLog& log = referenced.log;
   LogRunOptions run_options;
   run_options.reverse = reverse;
@@ -75,7 +77,7 @@ LogRun run_once(const Options& options, const ReferencedLog& referenced, const O
     if (movie && step.updated && !movie->is_full()) value_or_fail(movie->add(at, scan));
   };
   LogRun run = localize_log(log, localizer, run_options);
-  if (!options.dead_reckoning) look_back(log, reverse, sensor_models::RayCaster{map}, hindsight, run);
+  if (hindsight && !options.dead_reckoning) look_back(log, reverse, sensor_models::RayCaster{map}, *hindsight, run);
   if (!pictures.empty()) {
     std::filesystem::create_directories(pictures);
     const std::string suffix = reverse ? "-reversed" : "";
@@ -243,7 +245,7 @@ double find_wall_depth(const Options& options, const ReferencedLog& log, const O
     double fit = 0.0;
     for (const bool reverse : {false, true}) {
       localizer.start_unknown();
-      fit += 0.5 * run_once(options, log, map, hindsight_of(params), localizer, reverse,
+      fit += 0.5 * run_once(options, log, map, std::nullopt, localizer, reverse,
                             fmt::format("walls {:.1f} m deep", depth), {})
                        .fit;
     }
