@@ -9,6 +9,7 @@ from . import claims, localization
 FIRST_SEED = 5000
 NAMES = ["bias", "mass", "youth", "contradiction", "surprise", "hidden", "unmapped", "spread"]
 LEAST = {"mass": 0.2}  # weights: a robot with hardly any mass anywhere is never sure of it; the others 0
+ODDS_OF_OTHERS = 0.4  # as in verdict.cpp
 TOUR_WEIGHT = 0.1  # of an update on a tour: nobody is lost there
 
 
@@ -22,6 +23,11 @@ def features(row):
 def logistic(weights, values):
     z = sum(w * v for w, v in zip(weights, values))
     return 1.0 / (1.0 + math.exp(-max(-30.0, min(30.0, z))))
+
+
+def share_of_best(row):
+    """Another factor of Verdict::p_lost: what tracks leave to the best place, their odds for others weighed."""
+    return row["share"] / (row["share"] + ODDS_OF_OTHERS * (1.0 - row["share"]))
 
 
 def probability(weights, values, best):
@@ -84,7 +90,7 @@ def fit_holding(held, data, ridge):
 def rows_of(bench, museums, count, method, settings):
     carried_off = localization.honesty_claims(bench, museums, count, method, FIRST_SEED, settings)
     tours = localization.tour_claims(bench, museums, count, method, FIRST_SEED, settings)
-    return [[(features(row), float(claims.is_lost(row)), share, row["share"], row["localized"]) for row in run if row["has_pose"]]
+    return [[(features(row), float(claims.is_lost(row)), share, share_of_best(row), row["localized"]) for row in run if row["has_pose"]]
             for some, share in ((carried_off, 1.0), (tours, TOUR_WEIGHT)) for run in some]
 
 

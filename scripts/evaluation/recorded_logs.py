@@ -177,6 +177,7 @@ def protocol(program, root, options):
     methods = [options.method] if options.method else ["grid"] if options.slice else METHODS
     parts = [options.part] if options.part else ["wean", "corrected", "starts"] if options.slice else PARTS
     seeds = range(options.first_seed, options.first_seed + (options.seeds or (1 if options.slice else 5)))
+    beginnings = 12 if options.slice else options.seeds or BEGINNINGS
     verdict = Verdict()
     if "wean" in parts:
         wean(logs, methods, verdict)
@@ -186,10 +187,10 @@ def protocol(program, root, options):
         corrected(logs, options.slice, methods, seeds, verdict, not options.no_crippled)
     if "starts" in parts:
         names = ["seattle"] if options.slice else [*starts.WEAN, "intel", *starts.CORRECTED]
-        starts.starts(logs, methods, 12 if options.slice else BEGINNINGS, options.first_seed, names, MOTION, SURFACES, verdict)
+        starts.starts(logs, methods, beginnings, options.first_seed, names, MOTION, SURFACES, verdict)
     if "peer" in parts:
         names = ["seattle"] if options.slice else [*starts.WEAN, "intel", *starts.CORRECTED]
-        starts.peer(logs, methods, 12 if options.slice else BEGINNINGS, options.first_seed, names, MOTION, SURFACES, verdict)
+        starts.peer(logs, methods, beginnings, options.first_seed, names, MOTION, SURFACES, verdict)
     print()
     verdict.print()
     return verdict

@@ -96,9 +96,9 @@ class Verdict {
   [[nodiscard]] bool keeps_its_place() const { return keeps_its_place_; }
   /// Probability that the best hypothesis is wrong: a logistic function of what its mass leaves, of how far it has been
   /// confirmed, of how wide it is and of how the readings contradict it. Its weights are learned, see
-  /// scripts/evaluation/calibration.py. Besides, another place may be the right one, as probably as the whole way
-  /// leaves it possible: a building in which two places look the same need not have been among those that were learned
-  /// from.
+  /// scripts/evaluation/calibration.py. Besides, another place may be the right one, as far as the whole way leaves
+  /// it possible: a building in which two places look the same need not have been among those that were learned from.
+  /// And a robot that sees nothing is never sure.
   [[nodiscard]] double p_lost() const { return p_lost(localized_); }
   /// Readings pass through walls of the map, so many that the place must be wrong, or for so long nothing of the map
   /// was seen that odometry tells nothing any more.
@@ -126,6 +126,9 @@ class Verdict {
  private:
   /// By the weights of a robot that has said "here", or of one that has not.
   [[nodiscard]] double p_lost(bool has_said) const;
+  /// 0..1: a robot whose readings nearly all end on people sees nothing, and knows only what odometry says. Updates
+  /// tell it, or, where the robot stands and they weigh little, the glances.
+  [[nodiscard]] double blindness(bool has_said) const;
   [[nodiscard]] bool hopelessly_blind() const;
   [[nodiscard]] double moved() const;
   [[nodiscard]] double seen() const;
