@@ -110,9 +110,8 @@ class Verdict {
   [[nodiscard]] Doubt doubt() const {
     return {mass_, share_, confirmation(), agreement_, contradiction_, glance_.through, hidden_, unmapped_, spread_};
   }
-  [[nodiscard]] double share() const {
-    return share_;
-  }  ///< of the best mode among the places that the whole way leaves
+  /// Of the best mode among the places that the whole way leaves possible.
+  [[nodiscard]] double share() const { return share_; }
   [[nodiscard]] double agreement() const { return agreement_; }          ///< share of the readings, running mean
   [[nodiscard]] double contradiction() const { return contradiction_; }  ///< likewise
   [[nodiscard]] double surprise() const { return glance_.through; }      ///< of the last sweep, see Glance
