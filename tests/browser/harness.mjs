@@ -86,8 +86,25 @@ export async function answers(url, patience = 20000) {
   }, patience);
 }
 
-/** A new browser with an empty profile. Every complaint of a page lands in `complaints`. */
-export async function browse(options = {}) {
+/** In a page: it draws six times a second, not thirty. Most tests look at what is drawn, not at how smoothly, and
+ *  drawing without a graphics card is most of what they cost. */
+function drawRarely() {
+  const frame = window.requestAnimationFrame.bind(window);
+  const waiting = new Set();
+  window.requestAnimationFrame = (draw) => {
+    const id = setTimeout(() => frame((now) => waiting.delete(id) && draw(now)), 150);
+    waiting.add(id);
+    return id;
+  };
+  window.cancelAnimationFrame = (id) => {
+    waiting.delete(id);
+    clearTimeout(id);
+  };
+}
+
+/** A new browser with an empty profile. Every complaint of a page lands in `complaints`. `isSmooth`: it draws as often
+ *  as a visitor's. */
+export async function browse({ isSmooth = false, ...options } = {}) {
   const executablePath = process.env.CHROMIUM ?? ['/usr/bin/chromium', '/usr/bin/chromium-browser'].find(existsSync);
   const context = await chromium.launchPersistentContext(temporaryFolder('profile'), {
     executablePath,
@@ -101,6 +118,7 @@ export async function browse(options = {}) {
     ...options,
   });
   onEnd(() => context.close());
+  if (!isSmooth) await context.addInitScript(drawRarely);
   const complaints = [];
   const hosts = new Set();
   context.on('page', watch);

@@ -24,7 +24,7 @@ struct TracksParams {
   int most_views = 80;           ///< views that are kept: the way that evidence reaches back
   int most_tracks = 32;          ///< ways that are followed
   int beams = 90;                ///< of a view
-  double nats = 2.0;             ///< [nat] that a part of the building says at most; less where walls are off
+  double nats = 3.0;             ///< [nat] that a part of the building says at most; less where walls are off
   double part = 0.5;             ///< [m] side of a part of the floor: what stands there and is not in the map
   double wall_part = 0.5;        ///< [m] of a wall
   double first_short = 4.5;      ///< [nat] that readings say at the full cost which end where there is nothing; and
