@@ -4,7 +4,7 @@ import { check, ensure, finish, pause, pictures, root, until } from './harness.m
 import { axeSays, listen, play } from './stage.mjs';
 
 const stage = await play(join(root, 'museums', 'bonn'));
-const { page, robot, complaints, hosts, context } = await listen({ viewport: { width: 1280, height: 800 } });
+const { page, robot, complaints, hosts, context } = await listen({ viewport: { width: 1280, height: 800 }, isSmooth: true });
 const face = page.locator('svg.drawn-face');
 const expression = (valence, more = {}) =>
   robot.say({ type: 'expression', mood: valence > 0.3 ? 'happy' : valence < -0.3 ? 'angry' : 'neutral', valence, is_speaking: false, gaze: 'none', pan: 0, tilt: 0, ...more });
