@@ -11,7 +11,7 @@ from types import SimpleNamespace
 ROOT = Path(__file__).resolve().parents[2]
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "scripts"))
-from evaluation import attract, benchmarks, coastal, crippled, exceptions, faults, ledger, reports, safety, scenarios, tours  # noqa: E402
+from evaluation import attract, benchmarks, coastal, crippled, exceptions, faults, ledger, localization, reports, safety, scenarios, tours  # noqa: E402
 from evaluation.tables import Verdict  # noqa: E402
 
 
@@ -387,6 +387,21 @@ class Benchmarks(unittest.TestCase):
         self.assertTrue(self.good(row, printed=8 * line.format("pass"), name=name))
         self.assertFalse(self.good(row, printed=7 * line.format("pass"), name=name))
         self.assertFalse(self.good(row, printed=8 * line.format("pass") + line.format("FAIL"), name=name))
+
+
+class Kidnaps(unittest.TestCase):
+    @staticmethod
+    def rows(*places):
+        return [{"time": 0.5 * i, "kidnaps": float(i >= 2), "true_x": x, "true_y": 0.0, "speed": 0.5} for i, x in enumerate(places)]
+
+    def test_a_row_of_the_place_before_is_not_one_after_the_kidnap(self):
+        run = self.rows(0.0, 0.2, 0.4, 9.0, 9.2)
+        self.assertEqual(localization.since_carried_off(run), run[3:])
+
+    def test_the_first_row_counts_when_the_robot_is_elsewhere(self):
+        run = self.rows(0.0, 0.2, 9.0, 9.2)
+        self.assertEqual(localization.since_carried_off(run), run[2:])
+        self.assertEqual(localization.since_carried_off(run[:2]), [])
 
 
 if __name__ == "__main__":
