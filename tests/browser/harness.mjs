@@ -102,21 +102,30 @@ function drawRarely() {
   };
 }
 
-/** A new browser with an empty profile. Every complaint of a page lands in `complaints`. `isSmooth`: it draws as often
- *  as a visitor's. */
-export async function browse({ isSmooth = false, ...options } = {}) {
-  const executablePath = process.env.CHROMIUM ?? ['/usr/bin/chromium', '/usr/bin/chromium-browser'].find(existsSync);
-  const context = await chromium.launchPersistentContext(temporaryFolder('profile'), {
-    executablePath,
+const programs = ['/usr/bin/chromium-headless-shell', '/usr/bin/chromium', '/usr/bin/chromium-browser'];
+let chromiumOfAll;
+/** The one Chromium of a file of tests: to start another costs more than most of what is done in it. Without a window, and
+ *  so without what draws one, if that is there; CHROMIUM names another. */
+function theChromium() {
+  chromiumOfAll ??= chromium.launch({
+    executablePath: process.env.CHROMIUM ?? programs.find(existsSync),
     headless: true,
     args: [
       '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
       '--disable-component-update', '--disable-sync', '--autoplay-policy=no-user-gesture-required', '--mute-audio',
     ],
-    viewport: { width: 1280, height: 800 },
-    locale: 'en-US',
-    ...options,
+  }).then((browser) => {
+    onEnd(() => browser.close());
+    return browser;
   });
+  return chromiumOfAll;
+}
+
+/** A visitor's browser, which shares nothing with others. Every complaint of a page lands in `complaints`. `isSmooth`: it
+ *  draws as often as a visitor's. */
+export async function browse({ isSmooth = false, ...options } = {}) {
+  const browser = await theChromium();
+  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, locale: 'en-US', ...options });
   onEnd(() => context.close());
   if (!isSmooth) await context.addInitScript(drawRarely);
   const complaints = [];
@@ -131,8 +140,7 @@ export async function browse({ isSmooth = false, ...options } = {}) {
       if (/^(https?|wss?):/.test(request.url())) hosts.add(new URL(request.url()).host);
     });
   }
-  context.pages().forEach(watch);
-  return { context, complaints, hosts, page: context.pages()[0] ?? (await context.newPage()) };
+  return { context, complaints, hosts, page: await context.newPage() };
 }
 
 /** The map of the museum editor on a page: where a place of it is, and a click there. */
