@@ -103,11 +103,11 @@ function drawRarely() {
 }
 
 const programs = ['/usr/bin/chromium-headless-shell', '/usr/bin/chromium', '/usr/bin/chromium-browser'];
-let chromiumOfAll;
-/** The one Chromium of a file of tests: to start another costs more than most of what is done in it. Without a window, and
- *  so without what draws one, if that is there; CHROMIUM names another. */
+let running;
+/** The one Chromium of a file of tests, for starting it costs 3 s of processor time. It is Debian's headless shell where
+ *  that is installed, which has no window to draw and costs less; the variable CHROMIUM names another program. */
 function theChromium() {
-  chromiumOfAll ??= chromium.launch({
+  running ??= chromium.launch({
     executablePath: process.env.CHROMIUM ?? programs.find(existsSync),
     headless: true,
     args: [
@@ -118,7 +118,7 @@ function theChromium() {
     onEnd(() => browser.close());
     return browser;
   });
-  return chromiumOfAll;
+  return running;
 }
 
 /** A visitor's browser, which shares nothing with others. Every complaint of a page lands in `complaints`. `isSmooth`: it

@@ -13,7 +13,6 @@ constexpr double kCell = 0.2;         // [m]
 constexpr double kHeadingStep = 3.0;  // [deg]
 constexpr int kHeadings = static_cast<int>(360.0 / kHeadingStep);
 constexpr double kPlaceSigma = 0.2;  // [m] of a reading's end, half a cell and half a step included
-constexpr double kBest = 255.0;      // of a cell, for one reading
 constexpr double kBody = 0.15;       // [m] nearer to a wall no robot stands
 constexpr std::size_t kMostOfSearch = 60;
 constexpr std::size_t kFewestOfSearch = 20;
@@ -45,13 +44,11 @@ struct PlaceSearch::Readings {
   std::size_t count = 0;
 };
 
-/// Small: most of a search goes into moving a hundred thousand of them about.
 struct PlaceSearch::Node {
-  std::int32_t bound = 0;
+  double bound = 0.0;
+  int level = 0;
   CellIndex corner;  ///< lower left
-  std::uint8_t level = 0;
-  std::uint8_t heading = 0;
-  static_assert(kHeadings <= 256);
+  int heading = 0;
   bool operator<(const Node& other) const {
     if (bound != other.bound) return bound < other.bound;
     return level > other.level;  // leaves first
@@ -70,7 +67,7 @@ PlaceSearch::PlaceSearch(const sensor_models::RayCaster& caster, const Occupancy
       const CellIndex cell{column, row};
       const double off = static_cast<double>(caster.clearance(frame_.centre(cell))) / kPlaceSigma;
       const double fit = std::isfinite(off) ? std::exp(-0.5 * off * off) : 0.0;
-      best_[0][frame_.index(cell)] = static_cast<std::uint8_t>(std::lround(kBest * fit));
+      best_[0][frame_.index(cell)] = static_cast<std::uint8_t>(std::lround(255.0 * fit));
       is_free_[frame_.index(cell)] = caster.clearance(frame_.centre(cell)) > static_cast<float>(kBody) &&
                                      standing.is_free(standing.frame.cell_at(frame_.centre(cell)));
     }
@@ -89,11 +86,11 @@ PlaceSearch::PlaceSearch(const sensor_models::RayCaster& caster, const Occupancy
   }
 }
 
-int PlaceSearch::bound(const Node& node, const Readings& readings) const {
-  const auto& best = best_[node.level];
+double PlaceSearch::bound(const Node& node, const Readings& readings) const {
+  const auto& best = best_[static_cast<std::size_t>(node.level)];
   const int side = 1 << node.level;
   int sum = 0;
-  for (const CellIndex& arm : readings.arms[node.heading]) {
+  for (const CellIndex& arm : readings.arms[static_cast<std::size_t>(node.heading)]) {
     int column = node.corner.column + arm.column;
     int row = node.corner.row + arm.row;
     if (column <= -side || row <= -side || column >= frame_.columns || row >= frame_.rows) continue;
@@ -102,7 +99,7 @@ int PlaceSearch::bound(const Node& node, const Readings& readings) const {
     sum += best[static_cast<std::size_t>(row) * static_cast<std::size_t>(frame_.columns) +
                 static_cast<std::size_t>(column)];
   }
-  return sum;
+  return static_cast<double>(sum) / (255.0 * static_cast<double>(readings.count));
 }
 
 std::vector<FoundPlace> PlaceSearch::find(const sensor_models::RangeSweep& sweep, const Wanted& wanted) const {
@@ -118,7 +115,6 @@ std::vector<FoundPlace> PlaceSearch::find(const sensor_models::RangeSweep& sweep
           {static_cast<int>(std::lround(arm.x / kCell)), static_cast<int>(std::lround(arm.y / kCell))});
     }
   }
-  const double highest = kBest * static_cast<double>(readings.count);
   std::size_t work = 0;
   std::priority_queue<Node> open;
   const auto add = [&](Node node) {
@@ -129,15 +125,13 @@ std::vector<FoundPlace> PlaceSearch::find(const sensor_models::RangeSweep& sweep
   constexpr int kTop = kLevels - 1;
   for (int row = 0; row < frame_.rows; row += 1 << kTop)
     for (int column = 0; column < frame_.columns; column += 1 << kTop)
-      for (int heading = 0; heading < kHeadings; ++heading)
-        add({0, {column, row}, kTop, static_cast<std::uint8_t>(heading)});
+      for (int heading = 0; heading < kHeadings; ++heading) add({0.0, kTop, {column, row}, heading});
   work = 0;
   std::vector<FoundPlace> found;
   while (!open.empty() && found.size() < wanted.most && work < wanted.work) {
     const Node node = open.top();
     open.pop();
-    const double fit = node.bound / highest;
-    if (!found.empty() && fit < found.front().fit - wanted.within) break;
+    if (!found.empty() && node.bound < found.front().fit - wanted.within) break;
     if (node.level == 0) {
       const Point2 at = frame_.centre(node.corner);
       const Pose2 pose{at.x, at.y, Angle::degrees(node.heading * kHeadingStep)};
@@ -145,14 +139,14 @@ std::vector<FoundPlace> PlaceSearch::find(const sensor_models::RangeSweep& sweep
         return distance(place.map_from_robot.position(), at) < kApart &&
                std::abs((place.map_from_robot.theta - pose.theta).degrees()) < kTurned;
       });
-      if (!is_known) found.push_back({pose, fit});
+      if (!is_known) found.push_back({pose, node.bound});
       continue;
     }
     const int half = 1 << (node.level - 1);
     for (const CellIndex off : {CellIndex{0, 0}, CellIndex{half, 0}, CellIndex{0, half}, CellIndex{half, half}}) {
       const CellIndex corner{node.corner.column + off.column, node.corner.row + off.row};
       if (!frame_.holds(corner) || (half == 1 && !is_free_[frame_.index(corner)])) continue;
-      add({0, corner, static_cast<std::uint8_t>(node.level - 1), node.heading});
+      add({0.0, node.level - 1, corner, node.heading});
     }
   }
   return found;

@@ -41,8 +41,8 @@ class PlaceSearch {
 
   struct Readings;
   struct Node;
-  /// Sum over the readings of the best that any position in the node could give, 0..255 each.
-  [[nodiscard]] int bound(const Node& node, const Readings& readings) const;
+  /// Mean over the readings of the best that any position in the node could give.
+  [[nodiscard]] double bound(const Node& node, const Readings& readings) const;
 
   GridFrame frame_;                              ///< of the cells
   std::vector<std::vector<std::uint8_t>> best_;  ///< [kLevels][rows * columns] the best of 2^level cells right and up

@@ -161,7 +161,7 @@ Tracks::Track Tracks::followed_back(const Pose2& map_from_robot, std::span<const
       found = way;
       found.past = past;
     }
-    if (std::isfinite(least) && own > best_now + params_.hopeless) break;
+    if (std::isfinite(least) && own > best_now + 2.0 * params_.hopeless) break;
   }
   if (!std::isfinite(least)) found.past = std::numeric_limits<double>::infinity();
   return found;
