@@ -12,7 +12,7 @@
 
 // Whatever a person gets wrong: one clear line that names file and line where there is a file, and a failing exit code.
 
-namespace docent {
+namespace docent::bad_input_test {
 namespace {
 
 constexpr int kDomain = 44;
@@ -423,4 +423,4 @@ TEST(BadInput, Museums) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::bad_input_test

@@ -6,7 +6,7 @@
 #include "program.h"
 #include "robot_watch.h"
 
-namespace docent {
+namespace docent::silence_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -76,4 +76,4 @@ TEST(Silence, HealthNamesItTheRobotStandsAndGoesOn) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::silence_test

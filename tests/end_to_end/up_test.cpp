@@ -10,7 +10,7 @@
 #include "docent/transport/dds_bus.h"
 #include "program.h"
 
-namespace docent {
+namespace docent::up_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -116,4 +116,4 @@ TEST(Up, WhatAModuleRefusesStopsItAll) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::up_test

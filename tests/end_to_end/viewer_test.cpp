@@ -10,7 +10,7 @@
 
 extern "C" const dds_topic_descriptor_t* docent_topic_descriptor(const char* type);
 
-namespace docent {
+namespace docent::viewer_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -162,4 +162,4 @@ TEST(Viewer, SeesBeliefAndPeopleAndTellsTheRobotWhereItStands) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::viewer_test

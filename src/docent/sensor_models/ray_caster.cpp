@@ -49,25 +49,40 @@ OccupancyGrid peeled(const OccupancyGrid& map, double depth) {
 }
 
 RayCaster::RayCaster(const OccupancyGrid& map) : frame_{map.frame} {
-  kinds_.resize(frame_.size());
   std::vector<bool> occupied(frame_.size());
   std::vector<bool> blocked(frame_.size());
   for (int row = 0; row < frame_.rows; ++row) {
     for (int column = 0; column < frame_.columns; ++column) {
       const CellIndex cell{column, row};
       const std::size_t i = frame_.index(cell);
-      kinds_[i] = map.is_occupied(cell) ? Kind::occupied : map.is_free(cell) ? Kind::free : Kind::unknown;
-      occupied[i] = kinds_[i] == Kind::occupied;
+      occupied[i] = map.is_occupied(cell);
       // The border counts as blocked, so that no leap leaves the map.
       blocked[i] =
-          kinds_[i] != Kind::free || row == 0 || column == 0 || row + 1 == frame_.rows || column + 1 == frame_.columns;
+          !map.is_free(cell) || row == 0 || column == 0 || row + 1 == frame_.rows || column + 1 == frame_.columns;
     }
   }
   clearance_ = distance_transform(frame_, occupied);
-  leap_ = distance_transform(frame_, blocked);
-  // From any point of this cell to any point of the nearest blocked one: half a diagonal less at both ends.
-  const auto diagonal = static_cast<float>(frame_.resolution * std::numbers::sqrt2);
-  for (float& leap : leap_) leap -= diagonal;
+
+  const std::vector<float> to_blocked = distance_transform(frame_, blocked);
+  const auto blocks_of = [](int cells) { return (static_cast<std::size_t>(cells) + kBlock - 1) / kBlock; };
+  blocks_ = blocks_of(frame_.columns);
+  steps_.assign(blocks_ * blocks_of(frame_.rows) * kBlock * kBlock, kUnknown);
+  for (int row = 0; row < frame_.rows; ++row) {
+    for (int column = 0; column < frame_.columns; ++column) {
+      const CellIndex cell{column, row};
+      std::uint8_t& step = steps_[place_of(cell)];
+      if (map.is_occupied(cell)) {
+        step = kOccupied;
+      } else if (map.is_free(cell)) {
+        // From any point of this cell to any point of the nearest blocked one: half a diagonal less at both ends.
+        const double cells =
+            static_cast<double>(to_blocked[frame_.index(cell)]) / frame_.resolution - std::numbers::sqrt2;
+        // Less than a cell is not worth a leap; a hair less, for all this is rounded.
+        const double halves = cells > 1.0 ? std::floor(2.0 * cells - 1e-3) : 0.0;
+        step = static_cast<std::uint8_t>(std::min(kFree + halves, 255.0));
+      }
+    }
+  }
 }
 
 float RayCaster::clearance(Point2 in_map) const {
@@ -79,37 +94,49 @@ std::optional<double> RayCaster::cast(Point2 from, Point2 direction, double max_
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const double resolution = frame_.resolution;
   const double cells_a_metre = 1.0 / resolution;
+  const double half_cell = 0.5 * resolution;
   const Point2 start = from - frame_.origin;
+  const int next_column = direction.x > 0.0 ? 1 : 0;  // the far edge of a cell, seen along the ray
+  const int next_row = direction.y > 0.0 ? 1 : 0;
+  const auto to_column = [&](int column) {
+    return direction.x == 0.0 ? kNever : ((column + next_column) * resolution - start.x) / direction.x;
+  };
+  const auto to_row = [&](int row) {
+    return direction.y == 0.0 ? kNever : ((row + next_row) * resolution - start.y) / direction.y;
+  };
   CellIndex cell = frame_.cell_at(from);
   double way = 0.0;
   double unknown = 0.0;
   while (way < max_range) {
     if (!frame_.holds(cell)) return std::nullopt;
-    const std::size_t i = frame_.index(cell);
-    if (const double leap = static_cast<double>(leap_[i]); leap > resolution) {  // free, then
-      way += leap;
+    std::uint8_t step = steps_[place_of(cell)];
+    if (step > kFree) {
+      way += (step - kFree) * half_cell;
       cell = {floor_of((start.x + way * direction.x) * cells_a_metre),
               floor_of((start.y + way * direction.y) * cells_a_metre)};
       continue;
     }
-    const Kind kind = kinds_[i];
-    if (kind == Kind::occupied) return way;
-    const double to_column = direction.x > 0.0   ? ((cell.column + 1) * resolution - start.x) / direction.x
-                             : direction.x < 0.0 ? (cell.column * resolution - start.x) / direction.x
-                                                 : kNever;
-    const double to_row = direction.y > 0.0   ? ((cell.row + 1) * resolution - start.y) / direction.y
-                          : direction.y < 0.0 ? (cell.row * resolution - start.y) / direction.y
-                                              : kNever;
-    const double next = std::max(way, std::min(to_column, to_row));
-    if (kind == Kind::unknown) {
-      unknown += std::min(next, max_range) - way;
-      if (unknown > unknown_allowance) return std::nullopt;
-    }
-    way = next;
-    if (to_column < to_row) {
-      cell.column += direction.x > 0.0 ? 1 : -1;
-    } else {
-      cell.row += direction.y > 0.0 ? 1 : -1;
+    // From cell to cell, until there is something to leap over.
+    double column_end = to_column(cell.column);
+    double row_end = to_row(cell.row);
+    while (step <= kFree) {
+      if (step == kOccupied) return way;
+      const double next = std::max(way, std::min(column_end, row_end));
+      if (step == kUnknown) {
+        unknown += std::min(next, max_range) - way;
+        if (unknown > unknown_allowance) return std::nullopt;
+      }
+      way = next;
+      if (column_end < row_end) {
+        cell.column += 2 * next_column - 1;
+        column_end = to_column(cell.column);
+      } else {
+        cell.row += 2 * next_row - 1;
+        row_end = to_row(cell.row);
+      }
+      if (!(way < max_range)) return max_range;
+      if (!frame_.holds(cell)) return std::nullopt;
+      step = steps_[place_of(cell)];
     }
   }
   return max_range;

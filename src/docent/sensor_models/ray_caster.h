@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -28,10 +30,23 @@ class RayCaster {
   [[nodiscard]] const GridFrame& frame() const { return frame_; }
 
  private:
-  enum class Kind : unsigned char { free, unknown, occupied };
+  /// Where the cell stands in steps_.
+  [[nodiscard]] std::size_t place_of(CellIndex cell) const {
+    const auto column = static_cast<std::size_t>(cell.column);
+    const auto row = static_cast<std::size_t>(cell.row);
+    return ((row / kBlock * blocks_ + column / kBlock) * kBlock + row % kBlock) * kBlock + column % kBlock;
+  }
+
+  static constexpr std::size_t kBlock = 8;  ///< [cells] a side of what fits a cache line
+  // What a ray meets in a cell. Most of its time goes into waiting for these: so they are bytes, and neighbours in both
+  // directions lie together.
+  static constexpr std::uint8_t kOccupied = 0;
+  static constexpr std::uint8_t kUnknown = 1;
+  static constexpr std::uint8_t kFree = 2;  ///< and above: half cells a ray may go on and stays in free cells
+
   GridFrame frame_;
-  std::vector<Kind> kinds_;
-  std::vector<float> leap_;       ///< [m] a ray may go from anywhere in the cell and stays in free cells; <= 0: none
+  std::size_t blocks_ = 0;  ///< in a row of blocks
+  std::vector<std::uint8_t> steps_;
   std::vector<float> clearance_;  ///< [m]
 };
 
