@@ -1,9 +1,9 @@
 #include "docent/pictures/image.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-
-#include "docent/base/check.h"
+#include <cstring>
 
 namespace docent::pictures {
 namespace {
@@ -15,26 +15,9 @@ constexpr int kMaxSide = 16384;
 Image::Image(int width, int height, Color background) : width_{width}, height_{height} {
   DOCENT_CHECK(width > 0 && height > 0 && width <= kMaxSide && height <= kMaxSide);
   const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  bytes_.reserve(4 * pixels);
-  for (std::size_t i = 0; i < pixels; ++i)
-    bytes_.insert(bytes_.end(), {background.red, background.green, background.blue, background.alpha});
-}
-
-Color Image::at(int x, int y) const {
-  DOCENT_CHECK(holds(x, y));
-  const std::uint8_t* pixel =
-      &bytes_[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x))];
-  return {pixel[0], pixel[1], pixel[2], pixel[3]};
-}
-
-void Image::set(int x, int y, Color color) {
-  if (!holds(x, y)) return;
-  std::uint8_t* pixel =
-      &bytes_[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x))];
-  pixel[0] = color.red;
-  pixel[1] = color.green;
-  pixel[2] = color.blue;
-  pixel[3] = color.alpha;
+  const std::array pixel{background.red, background.green, background.blue, background.alpha};
+  bytes_.resize(4 * pixels);
+  for (std::size_t i = 0; i < pixels; ++i) std::memcpy(&bytes_[4 * i], pixel.data(), pixel.size());
 }
 
 void Image::blend(int x, int y, Color color, double coverage) {

@@ -1,14 +1,9 @@
 #include "docent/telepresence/server/foxglove_session.h"
 
-#include <chrono>
 #include <optional>
+#include <utility>
 
 namespace docent::telepresence {
-
-namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace http = beast::http;
-namespace websocket = beast::websocket;
 
 namespace {
 
@@ -17,25 +12,16 @@ constexpr std::size_t kMostTexts = 64;          // answers that a client has not
 
 }  // namespace
 
-FoxgloveSession::FoxgloveSession(FoxgloveHub& hub, asio::ip::tcp::socket socket,
+FoxgloveSession::FoxgloveSession(FoxgloveHub& hub, boost::asio::ip::tcp::socket socket,
                                  std::function<void(FoxgloveSession*)> left)
-    : hub_{hub}, left_{std::move(left)}, stream_{std::move(socket)} {
-  auto timeout = websocket::stream_base::timeout::suggested(beast::role_type::server);
-  timeout.keep_alive_pings = true;
-  stream_.set_option(timeout);
-  stream_.read_message_max(kLongestRequest);
-  stream_.auto_fragment(false);
-  stream_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
-    response.set(http::field::sec_websocket_protocol,
-                 beast::string_view{kFoxgloveProtocol.data(), kFoxgloveProtocol.size()});
-  }));
-}
+    : hub_{hub},
+      left_{std::move(left)},
+      socket_{std::move(socket), {.longest_message = kLongestRequest, .protocol = std::string{kFoxgloveProtocol}}} {}
 
 FoxgloveSession::~FoxgloveSession() { hub_.leave(client_); }
 
-void FoxgloveSession::run(http::request<http::string_body> request) {
-  request_ = std::move(request);
-  stream_.async_accept(request_, [self = shared_from_this()](beast::error_code error) {
+void FoxgloveSession::run(HttpRequest request) {
+  socket_.accept(std::move(request), [self = shared_from_this()](WebSocket::Error error) {
     if (error) return self->leave();
     self->is_open_ = true;
     self->say(self->hub_.server_info());
@@ -50,16 +36,14 @@ void FoxgloveSession::add(std::uint32_t channel, Time time, const FoxgloveClient
 }
 
 void FoxgloveSession::read() {
-  stream_.async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+  socket_.read([self = shared_from_this()](WebSocket::Error error, const std::string& text, bool is_text) {
     if (error) return self->leave();
-    self->take();
+    self->take(text, is_text);
   });
 }
 
-void FoxgloveSession::take() {
-  const std::string text = beast::buffers_to_string(buffer_.data());
-  buffer_.consume(buffer_.size());
-  const bool is_text = !stream_.got_binary();  // binary is what it wants to publish
+void FoxgloveSession::take(const std::string& text, bool is_text) {
+  // Binary is what it wants to publish.
   const auto request = is_text ? parse_foxglove_request(text) : FoxgloveRequest{FoxgloveOther{"publishing"}};
   std::string answer = request ? hub_.take(client_, *request) : encode_status(2, request.error().message);
   if (!answer.empty()) say(std::move(answer));
@@ -84,8 +68,7 @@ void FoxgloveSession::flush() {
     return;
   }
   is_writing_ = true;
-  stream_.text(is_text);
-  stream_.async_write(asio::buffer(sending_), [self = shared_from_this()](beast::error_code error, std::size_t) {
+  socket_.write(sending_, is_text, [self = shared_from_this()](WebSocket::Error error) {
     self->is_writing_ = false;
     if (error) return self->leave();
     self->flush();

@@ -1,17 +1,12 @@
 #pragma once
 
-#include <utility>  // first: Beast 1.74 forgets it in C++20
-//
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/http.hpp>
-#include <boost/beast/websocket.hpp>
 #include <deque>
 #include <functional>
 #include <memory>
 #include <string>
 
 #include "docent/telepresence/foxglove/hub.h"
+#include "docent/telepresence/web_socket/web_socket.h"
 
 namespace docent::telepresence {
 
@@ -25,13 +20,13 @@ class FoxgloveSession : public std::enable_shared_from_this<FoxgloveSession> {
   FoxgloveSession& operator=(const FoxgloveSession&) = delete;
 
   /// Accepts the upgrade and tells what channels there are.
-  void run(boost::beast::http::request<boost::beast::http::string_body> request);
+  void run(HttpRequest request);
   void add(std::uint32_t channel, Time time, const FoxgloveClient::Bytes& message);
-  void drop() { boost::beast::get_lowest_layer(stream_).close(); }
+  void drop() { socket_.drop(); }
 
  private:
   void read();
-  void take();
+  void take(const std::string& text, bool is_text);
   void flush();
   void say(std::string text);
   void leave();
@@ -39,9 +34,7 @@ class FoxgloveSession : public std::enable_shared_from_this<FoxgloveSession> {
   FoxgloveHub& hub_;
   std::function<void(FoxgloveSession*)> left_;
   FoxgloveClient client_;
-  boost::beast::websocket::stream<boost::beast::tcp_stream, false> stream_;
-  boost::beast::http::request<boost::beast::http::string_body> request_;
-  boost::beast::flat_buffer buffer_;
+  WebSocket socket_;
   std::deque<std::string> texts_;  ///< still to be said, before messages
   std::string sending_;
   bool is_open_ = false;

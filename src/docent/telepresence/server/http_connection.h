@@ -13,10 +13,9 @@
 
 #include "docent/telepresence/api/exchange/exchange.h"
 #include "docent/telepresence/server/router.h"
+#include "docent/telepresence/web_socket/web_socket.h"
 
 namespace docent::telepresence {
-
-using HttpRequest = boost::beast::http::request<boost::beast::http::string_body>;
 
 /// As whom, and from where, a connection becomes a session.
 struct Arrival {

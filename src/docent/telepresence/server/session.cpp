@@ -7,40 +7,34 @@
 
 namespace docent::telepresence {
 
-namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace http = beast::http;
-namespace websocket = beast::websocket;
-using asio::ip::tcp;
+namespace {
 
-Session::Session(SessionOwner& owner, const WebServerParams& params, tcp::socket socket, Caller caller,
+WebSocketManner manner_of(const WebServerParams& params) {
+  return {.longest_message = static_cast<std::size_t>(params.max_message_bytes),
+          .handshake_timeout = std::chrono::seconds{10},
+          .idle_timeout = std::chrono::milliseconds{static_cast<int>(params.idle_timeout_s * 1e3)}};
+}
+
+}  // namespace
+
+Session::Session(SessionOwner& owner, const WebServerParams& params, boost::asio::ip::tcp::socket socket, Caller caller,
                  bool must_be_thin)
     : owner_{owner},
       caller_{std::move(caller)},
       bucket_{caller_.role == Role::staff ? params.steering_per_second : params.messages_per_second,
               caller_.role == Role::staff ? 2.0 * params.steering_per_second : params.message_burst},
-      stream_{std::move(socket)},
+      socket_{std::move(socket), manner_of(params)},
       must_be_thin_{must_be_thin},
       is_thin_{must_be_thin} {
   ++owner_.connections;
-  websocket::stream_base::timeout timeout{};
-  timeout.handshake_timeout = std::chrono::seconds{10};
-  timeout.idle_timeout = std::chrono::milliseconds{static_cast<int>(params.idle_timeout_s * 1e3)};
-  timeout.keep_alive_pings = true;
-  stream_.set_option(timeout);
-  stream_.read_message_max(static_cast<std::size_t>(params.max_message_bytes));
-  stream_.auto_fragment(false);
 }
 
-void Session::run(http::request<http::string_body> request, std::uint32_t slots, bool is_thin) {
+void Session::run(HttpRequest request, std::uint32_t slots, bool is_thin) {
   is_thin_ = is_thin || must_be_thin_;
   queue_ = ViewerQueue{slots & wanted()};
-  request_ = std::make_unique<http::request<http::string_body>>(std::move(request));
-  stream_.async_accept(*request_, [self = shared_from_this()](beast::error_code error) {
-    self->request_.reset();
+  socket_.accept(std::move(request), [self = shared_from_this()](WebSocket::Error error) {
     if (error) return self->leave();
     self->is_open_ = true;
-    self->stream_.text(true);
     self->flush();
     self->read();
   });
@@ -69,7 +63,7 @@ void Session::mark(std::size_t slot) {
 }
 
 void Session::answer(SharedText text) {
-  if (!queue_.answer(std::move(text))) return close(websocket::close_code::policy_error, "too many unread answers");
+  if (!queue_.answer(std::move(text))) return close(CloseCode::policy_error, "too many unread answers");
   flush();
 }
 
@@ -78,7 +72,7 @@ void Session::flush() {
   sending_ = queue_.next(owner_.latest);
   if (!sending_) return;
   is_writing_ = true;
-  stream_.async_write(asio::buffer(*sending_), [self = shared_from_this()](beast::error_code error, std::size_t) {
+  socket_.write(*sending_, true, [self = shared_from_this()](WebSocket::Error error) {
     self->is_writing_ = false;
     if (error) return self->leave();
     ++self->owner_.messages_out;
@@ -87,29 +81,27 @@ void Session::flush() {
 }
 
 void Session::read() {
-  stream_.async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+  socket_.read([self = shared_from_this()](WebSocket::Error error, const std::string& text, bool is_text) {
     if (error) {
-      if (error == websocket::error::message_too_big) ++self->owner_.messages_refused;
+      if (WebSocket::is_too_long(error)) ++self->owner_.messages_refused;
       return self->leave();
     }
-    self->take();
+    self->take(text, is_text);
   });
 }
 
-void Session::take() {
+void Session::take(const std::string& text, bool is_text) {
   ++owner_.messages_in;
-  const std::string text = beast::buffers_to_string(buffer_.data());
-  buffer_.consume(buffer_.size());
-  if (stream_.got_binary()) return refuse(websocket::close_code::unknown_data, "text messages only");
+  if (!is_text) return refuse(CloseCode::unknown_data, "text messages only");
   if (!bucket_.take(TokenBucket::Clock::now())) {
     ++owner_.messages_refused;
-    if (++too_many_ > 100) return close(websocket::close_code::policy_error, "too many messages");
+    if (++too_many_ > 100) return close(CloseCode::policy_error, "too many messages");
     answer(std::make_shared<const std::string>(encode_error(ReasonWord::too_fast)));
     return read();
   }
   auto message = parse_client_message(text);
-  if (!message) return refuse(websocket::close_code::policy_error, message.error().message);
-  if (!may_ask(caller_.role, *message)) return refuse(websocket::close_code::policy_error, "this is not yours to ask");
+  if (!message) return refuse(CloseCode::policy_error, message.error().message);
+  if (!may_ask(caller_.role, *message)) return refuse(CloseCode::policy_error, "this is not yours to ask");
   if (const auto* wish = std::get_if<WatchMessage>(&*message)) {
     watch(*wish);
   } else {
@@ -118,16 +110,15 @@ void Session::take() {
   read();
 }
 
-void Session::refuse(websocket::close_code code, const std::string& reason) {
+void Session::refuse(CloseCode code, const std::string& reason) {
   ++owner_.messages_refused;
   close(code, reason);
 }
 
-void Session::close(websocket::close_code code, const std::string& reason) {
+void Session::close(CloseCode code, const std::string& reason) {
   if (is_closing_) return;
   is_closing_ = true;
-  stream_.async_close(websocket::close_reason{code, reason.substr(0, 120)},
-                      [self = shared_from_this()](beast::error_code) { self->leave(); });
+  socket_.close(code, reason.substr(0, 120), [self = shared_from_this()](WebSocket::Error) { self->leave(); });
 }
 
 void Session::leave() {

@@ -1,12 +1,6 @@
 #pragma once
 
-#include <utility>  // first: Beast 1.74 forgets it in C++20
-//
 #include <atomic>
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/http.hpp>
-#include <boost/beast/websocket.hpp>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -15,6 +9,7 @@
 #include "docent/telepresence/server/roles.h"
 #include "docent/telepresence/server/viewer_queue.h"
 #include "docent/telepresence/server/web_server.h"
+#include "docent/telepresence/web_socket/web_socket.h"
 
 namespace docent::telepresence {
 
@@ -44,30 +39,28 @@ class Session : public std::enable_shared_from_this<Session> {
 
   /// Accepts the upgrade and sends the `slots` (a bit each) that have a value.
   /// @param is_thin  it asks for the pose alone of what moves
-  void run(boost::beast::http::request<boost::beast::http::string_body> request, std::uint32_t slots, bool is_thin);
+  void run(HttpRequest request, std::uint32_t slots, bool is_thin);
   /// The slot has a new value.
   void mark(std::size_t slot);
   void answer(SharedText text);
   /// Sends the next thing unless one is being sent.
   void flush();
-  void drop() { boost::beast::get_lowest_layer(stream_).close(); }
+  void drop() { socket_.drop(); }
 
  private:
   void read();
   void watch(const WatchMessage& wish);
   /// Which slots it gets.
   [[nodiscard]] std::uint32_t wanted() const;
-  void take();
-  void refuse(boost::beast::websocket::close_code code, const std::string& reason);
-  void close(boost::beast::websocket::close_code code, const std::string& reason);
+  void take(const std::string& text, bool is_text);
+  void refuse(CloseCode code, const std::string& reason);
+  void close(CloseCode code, const std::string& reason);
   void leave();
 
   SessionOwner& owner_;
   const Caller caller_;
   TokenBucket bucket_;
-  boost::beast::websocket::stream<boost::beast::tcp_stream, false> stream_;                // without compression
-  std::unique_ptr<boost::beast::http::request<boost::beast::http::string_body>> request_;  ///< until it is accepted
-  boost::beast::flat_buffer buffer_;
+  WebSocket socket_;
   ViewerQueue queue_;
   SharedText sending_;
   int too_many_ = 0;

@@ -4,6 +4,8 @@
 
 #include <atomic>
 #include <boost/asio/io_context.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/http/read.hpp>
 #include <optional>
 #include <thread>
 

@@ -7,48 +7,37 @@
 namespace docent::telepresence {
 namespace {
 
-namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace http = beast::http;
-namespace websocket = beast::websocket;
-
 constexpr auto kTick = std::chrono::milliseconds{100};
 constexpr std::size_t kMostAnswers = 2000;     // that wait; an uplink that lets more pile up is cut off
 constexpr std::size_t kLongestFrame = 65'536;  // bytes: a call with its body
 constexpr const char* kRobotPath = "/camera/robot.jpg";
 constexpr const char* kScenePath = "/camera/scene.jpg";
 
+WebSocketManner manner_of_uplink(const WebServerParams& params) {
+  return {.longest_message = kLongestFrame,
+          .idle_timeout = std::chrono::milliseconds{static_cast<int>(params.idle_timeout_s * 1e3)},
+          .compresses = true};
+}
+
 }  // namespace
 
 UplinkSession::UplinkSession(SessionOwner& sessions, UplinkOwner& owner, const WebServerParams& params,
-                             asio::ip::tcp::socket socket, std::uint64_t number)
+                             boost::asio::ip::tcp::socket socket, std::uint64_t number)
     : sessions_{sessions},
       owner_{owner},
       number_{number},
       picture_s_{params.uplink_picture_s},
       piece_bytes_{static_cast<std::size_t>(std::max(1, params.uplink_picture_bytes_per_s / 10))},
-      stream_{std::move(socket)},
-      timer_{stream_.get_executor()} {
+      socket_{std::move(socket), manner_of_uplink(params)},
+      timer_{socket_.executor()} {
   ++sessions_.connections;
-  auto timeout = websocket::stream_base::timeout::suggested(beast::role_type::server);
-  timeout.idle_timeout = std::chrono::milliseconds{static_cast<int>(params.idle_timeout_s * 1e3)};
-  timeout.keep_alive_pings = true;
-  stream_.set_option(timeout);
-  websocket::permessage_deflate deflate;
-  deflate.server_enable = true;
-  stream_.set_option(deflate);
-  stream_.read_message_max(kLongestFrame);
-  stream_.auto_fragment(false);
 }
 
-void UplinkSession::run(http::request<http::string_body> request, std::uint32_t slots) {
+void UplinkSession::run(HttpRequest request, std::uint32_t slots) {
   stale_ = slots & wanted();
-  request_ = std::make_unique<http::request<http::string_body>>(std::move(request));
-  stream_.async_accept(*request_, [self = shared_from_this()](beast::error_code error) {
-    self->request_.reset();
+  socket_.accept(std::move(request), [self = shared_from_this()](WebSocket::Error error) {
     if (error) return self->leave();
     self->is_open_ = true;
-    self->stream_.binary(true);
     self->flush();
     self->feed_pictures();
     self->read();
@@ -89,7 +78,7 @@ void UplinkSession::flush() {
     sending_ = encode(UplinkSlot{last_slot_, *text});
   }
   is_writing_ = true;
-  stream_.async_write(asio::buffer(sending_), [self = shared_from_this()](beast::error_code error, std::size_t) {
+  socket_.write(sending_, false, [self = shared_from_this()](WebSocket::Error error) {
     self->is_writing_ = false;
     if (error) return self->leave();
     ++self->sessions_.messages_out;
@@ -116,17 +105,15 @@ void UplinkSession::feed_pictures() {
     if (piece) say(*piece);
   }
   timer_.expires_after(kTick);
-  timer_.async_wait([self = shared_from_this()](beast::error_code error) {
+  timer_.async_wait([self = shared_from_this()](WebSocket::Error error) {
     if (!error) self->feed_pictures();
   });
 }
 
 void UplinkSession::read() {
-  stream_.async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+  socket_.read([self = shared_from_this()](WebSocket::Error error, const std::string& frame, bool /*is_text*/) {
     if (error) return self->leave();
     ++self->sessions_.messages_in;
-    const std::string frame = beast::buffers_to_string(self->buffer_.data());
-    self->buffer_.consume(self->buffer_.size());
     auto message = decode_to_museum(frame);
     if (message) {
       self->hear(std::move(*message));
@@ -154,8 +141,8 @@ void UplinkSession::hear(ToMuseum message) {
   ++*owner_.asked;
   owner_.desk->take(std::move(call.request), [self = shared_from_this(), number = call.call](ApiReply reply) mutable {
     std::atomic<int>& asked = *self->owner_.asked;
-    const auto executor = self->stream_.get_executor();
-    asio::post(executor, [self = std::move(self), number, reply = std::move(reply)]() mutable {
+    const auto executor = self->socket_.executor();
+    boost::asio::post(executor, [self = std::move(self), number, reply = std::move(reply)]() mutable {
       self->say(UplinkReply{number, std::move(reply)});
     });
     --asked;  // last: then the server may go

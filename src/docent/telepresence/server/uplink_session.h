@@ -1,12 +1,6 @@
 #pragma once
 
-#include <utility>  // first: Beast 1.74 forgets it in C++20
-//
-#include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/http.hpp>
-#include <boost/beast/websocket.hpp>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -16,6 +10,7 @@
 #include "docent/telepresence/site.h"
 #include "docent/telepresence/uplink/envelope.h"
 #include "docent/telepresence/uplink/picture_pieces.h"
+#include "docent/telepresence/web_socket/web_socket.h"
 
 namespace docent::telepresence {
 
@@ -44,12 +39,12 @@ class UplinkSession : public std::enable_shared_from_this<UplinkSession> {
   UplinkSession& operator=(const UplinkSession&) = delete;
 
   /// Accepts the upgrade and sends the `slots` (a bit each) that have a value.
-  void run(boost::beast::http::request<boost::beast::http::string_body> request, std::uint32_t slots);
+  void run(HttpRequest request, std::uint32_t slots);
   /// The slot has a new value.
   void mark(std::size_t slot);
   /// To a viewer of the far gateway.
   void answer(std::uint64_t viewer, const std::string& text) { say(UplinkAnswer{viewer, text}); }
-  void drop() { boost::beast::get_lowest_layer(stream_).close(); }
+  void drop() { socket_.drop(); }
 
  private:
   void read();
@@ -67,10 +62,8 @@ class UplinkSession : public std::enable_shared_from_this<UplinkSession> {
   const std::uint64_t number_;
   const double picture_s_;
   const std::size_t piece_bytes_;
-  boost::beast::websocket::stream<boost::beast::tcp_stream> stream_;  // with compression: it is thin
+  WebSocket socket_;  // with compression: it is thin
   boost::asio::steady_timer timer_;
-  std::unique_ptr<boost::beast::http::request<boost::beast::http::string_body>> request_;  ///< until it is accepted
-  boost::beast::flat_buffer buffer_;
   std::uint32_t stale_ = 0;  ///< slots that have a newer value
   std::size_t last_slot_ = 0;
   std::deque<std::string> answers_;  ///< before slots

@@ -7,13 +7,13 @@
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
-#include <boost/beast/websocket.hpp>
 #include <chrono>
 #include <deque>
 #include <map>
 #include <thread>
 
 #include "docent/telepresence/uplink/uplink_client.h"
+#include "docent/telepresence/web_socket/web_socket.h"
 
 namespace docent::telepresence {
 namespace {
@@ -21,7 +21,6 @@ namespace {
 namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = beast::http;
-namespace websocket = beast::websocket;
 using asio::ip::tcp;
 
 constexpr auto kPatience = std::chrono::seconds{10};
@@ -60,7 +59,7 @@ class UplinkClient::Impl {
   void take(ApiRequest request, std::function<void(ApiReply)> answer) {
     if (!is_open_) return answer(unanswered());
     asio::post(io_, [this, request = std::move(request), answer = std::move(answer)]() mutable {
-      if (!stream_ || calls_.size() >= kMostWaiting) return answer(unanswered());
+      if (!socket_ || calls_.size() >= kMostWaiting) return answer(unanswered());
       const std::uint64_t call = ++last_call_;
       calls_.emplace(call, std::move(answer));
       ++waiting_count_;
@@ -70,33 +69,26 @@ class UplinkClient::Impl {
   }
 
  private:
-  using Stream = websocket::stream<beast::tcp_stream>;
-
   void connect() {
-    buffer_.clear();
     auto resolved = std::make_shared<tcp::resolver>(io_);
-    resolved->async_resolve(
-        host_, port_, [this, resolved](beast::error_code error, const tcp::resolver::results_type& at) {
-          if (error) return lose();
-          stream_ = std::make_unique<Stream>(io_);
-          beast::get_lowest_layer(*stream_).expires_after(kPatience);
-          beast::get_lowest_layer(*stream_).async_connect(at, [this](beast::error_code failed, const tcp::endpoint&) {
-            if (failed) return lose();
-            greet();
-          });
-        });
+    resolved->async_resolve(host_, port_,
+                            [this, resolved](beast::error_code error, const tcp::resolver::results_type& at) {
+                              if (error) return lose();
+                              auto stream = std::make_shared<beast::tcp_stream>(io_);
+                              stream->expires_after(kPatience);
+                              stream->async_connect(at, [this, stream](beast::error_code failed, const tcp::endpoint&) {
+                                if (failed) return lose();
+                                stream->expires_never();
+                                greet(stream->release_socket());
+                              });
+                            });
   }
-  void greet() {
-    beast::get_lowest_layer(*stream_).expires_never();
-    auto timeout = websocket::stream_base::timeout::suggested(beast::role_type::client);
-    timeout.idle_timeout = kPatience;
-    stream_->set_option(timeout);
-    websocket::permessage_deflate deflate;
-    deflate.client_enable = true;
-    stream_->set_option(deflate);
-    stream_->read_message_max(kLargestFrame);
-    stream_->binary(true);
-    stream_->async_handshake(host_ + ":" + port_, "/uplink?key=" + key_, [this](beast::error_code error) {
+  void greet(tcp::socket socket) {
+    socket_.emplace(
+        std::move(socket),
+        WebSocketManner{
+            .longest_message = kLargestFrame, .idle_timeout = kPatience, .pings = false, .compresses = true});
+    socket_->greet(host_ + ":" + port_, "/uplink?key=" + key_, [this](beast::error_code error) {
       if (error) return lose();
       is_open_ = true;
       if (hooks_.line) hooks_.line(true);
@@ -104,10 +96,8 @@ class UplinkClient::Impl {
     });
   }
   void read() {
-    stream_->async_read(buffer_, [this](beast::error_code error, std::size_t) {
+    socket_->read([this](beast::error_code error, const std::string& frame, bool /*is_text*/) {
       if (error) return lose();
-      const std::string frame = beast::buffers_to_string(buffer_.data());
-      buffer_.consume(buffer_.size());
       if (auto message = decode_from_museum(frame)) hear(std::move(*message));
       read();
     });
@@ -133,7 +123,7 @@ class UplinkClient::Impl {
     sending_ = std::move(waiting_.front());
     waiting_.pop_front();
     --waiting_count_;
-    stream_->async_write(asio::buffer(sending_), [this](beast::error_code error, std::size_t) {
+    socket_->write(sending_, false, [this](beast::error_code error) {
       is_writing_ = false;
       if (error) return lose();
       flush();
@@ -147,7 +137,7 @@ class UplinkClient::Impl {
     waiting_.clear();
     waiting_count_ = 0;
     give_up_calls();
-    if (stream_) beast::get_lowest_layer(*stream_).close();
+    if (socket_) socket_->drop();
     timer_.expires_after(kPause);  // meanwhile what was under way ends, with an error
     timer_.async_wait([this](beast::error_code error) {
       if (error) return;
@@ -168,8 +158,7 @@ class UplinkClient::Impl {
   std::atomic<bool> is_open_{false};
   std::atomic<std::size_t> waiting_count_{0};
   // Only the client's thread touches these.
-  std::unique_ptr<Stream> stream_;
-  beast::flat_buffer buffer_;
+  std::optional<WebSocket> socket_;
   std::deque<std::string> waiting_;
   std::string sending_;
   std::map<std::uint64_t, std::function<void(ApiReply)>> calls_;
