@@ -72,13 +72,17 @@ def near(run):
 LEAST_COMMON = {"wean-1": 100, "wean-2": 1200}  # scans that both ways know
 
 
-def wean(logs, methods, verdict):
+WEAN_WALLS = 0.2  # [m] deep, as the search finds them; a slice need not search
+
+
+def wean(logs, methods, verdict, is_slice):
+    known = ["--wall-depth", WEAN_WALLS] if is_slice else []
     print("\n## Wean Hall: drawn map, unknown start, forward and time-reversed\n")
     rows = []
     for log in ["wean-1", "wean-2"]:
         for method in methods:
             forward = logs.localize(f"{log}-{method}", ["--map", logs.data / "maps" / "wean.yaml", "--log",
-                                                        logs.log(f"{log}.clf.gz"), "--both-ways", "--method", method])
+                                                        logs.log(f"{log}.clf.gz"), "--both-ways", "--method", method, *known])
             agreement = forward["agreement"]
             for way, run in (("forward", forward), ("reversed", forward["other_way"])):
                 rows.append([log, method, way, run["scans"], run["localized_after_scans"],
@@ -180,7 +184,7 @@ def protocol(program, root, options):
     beginnings = 12 if options.slice else options.seeds or BEGINNINGS
     verdict = Verdict()
     if "wean" in parts:
-        wean(logs, methods, verdict)
+        wean(logs, methods, verdict, options.slice)
     if "intel" in parts:
         intel(logs, methods, verdict, not options.no_crippled)
     if "corrected" in parts:

@@ -200,7 +200,7 @@ def protocol(simulations, options):
         return list(range(options.first_seed, options.first_seed + (options.seeds or (in_slice if options.slice else default))))
 
     if "people" in parts:  # ten minutes among people tell their mean speed to 0.07 m/s
-        people(simulations, seeds_of(20, 4), options.minutes or (10 if options.slice else 20), verdict,
+        people(simulations, seeds_of(20, 2), options.minutes or (10 if options.slice else 20), verdict,
                not options.no_crippled and not options.slice)
     if "night" in parts:
         night(simulations, seeds_of(10), options.minutes or (16 if options.slice else 20), verdict)

@@ -36,10 +36,16 @@ export async function freePort() {
   });
 }
 
+/** What still runs; a test that breaks off leaves nothing behind either. */
+const children = new Set();
+process.on('exit', () => children.forEach((child) => child.kill()));
+
 /** A child process with what it said; it is ended with the tests whatever happens. */
 export function start(command, words, options = {}) {
   const child = spawn(command, words, { stdio: ['ignore', 'pipe', 'pipe'], ...options });
   const process_ = { child, output: '', code: null };
+  children.add(child);
+  child.once('exit', () => children.delete(child));
   child.stdout.on('data', (text) => (process_.output += text));
   child.stderr.on('data', (text) => (process_.output += text));
   process_.ended = new Promise((resolve) => {

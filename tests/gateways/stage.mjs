@@ -52,11 +52,17 @@ export function folder(name) {
   return path;
 }
 
+/** What still runs; a test that breaks off leaves nothing behind either. */
+const children = new Set();
+process.on("exit", () => children.forEach((child) => child.kill()));
+
 /** A process that ends with the tests. */
 export function start(command, words) {
   const child = spawn(command, words, { stdio: ["ignore", "pipe", "pipe"] });
   const it = { child, output: "", code: null, ended: null };
   const keep = (text) => (it.output = (it.output + text).slice(-4000));
+  children.add(child);
+  child.once("exit", () => children.delete(child));
   child.stdout.on("data", keep);
   child.stderr.on("data", keep);
   it.ended = new Promise((resolve) => child.once("exit", (code) => resolve((it.code = code ?? -1))));
