@@ -2,9 +2,9 @@
 """scripts/tidy.py FILE…: clang-tidy over sources that build/dev has compiled, as many at a time as there are processors.
 
 Most of the time goes into reading the same headers. So the sources of a folder are looked at as one file, and those of
-several folders too, whose names do not meet for they stand in different namespaces; where that finds something, folder
-by folder, and then one by one. What was found good is not looked at again until it, a header of it, its compiler options, the list of checks or
-clang-tidy itself has changed: build/dev/tidy has one empty file for each source, named after a hash of all that.
+several folders too, where no names meet (cmake/joint_groups.py); where that finds something, folder by folder, and then one by one. What was
+found good is not looked at again until it, a header of it, its compiler options, the list of checks or clang-tidy itself
+has changed: build/dev/tidy has one empty file for each source, named after a hash of all that.
 """
 import hashlib
 import json
@@ -17,10 +17,14 @@ from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "cmake"))
+sys.dont_write_bytecode = True  # the work tree stays as it was
+import joint_groups  # noqa: E402
+
 BUILD = ROOT / "build" / "dev"
 GOOD = BUILD / "tidy"
 TOGETHER = GOOD / "together"  # files which include several sources
-MOST_TOGETHER = 40  # sources: what finds something is read once more, one by one
+MOST_TOGETHER = 64  # sources: what finds something is read once more, one by one
 SINGLE = GOOD / "single"  # commands for each source, however it was compiled
 TIDY = "clang-tidy-14"
 FOREIGN = " -Wno-subobject-linkage"  # an option that only the compiler of build/dev knows
@@ -98,19 +102,9 @@ def by_folder(sources):
 
 
 def groups_of(sources):
-    """Likewise, those of several folders whose namespaces differ."""
-    bins = []  # (namespaces, sources)
-    for members in sorted(by_folder(sources), key=len, reverse=True):
-        namespaces = set()
-        for source in members:
-            namespaces.update(re.findall(r"^namespace ([\w:]+) \{$", source.read_text(), re.M))
-        fits = [one for one in bins if not one[0] & namespaces and len(one[1]) + len(members) <= MOST_TOGETHER]
-        if not fits or not namespaces:
-            fits = [(set(), [])]
-            bins += fits
-        fits[0][0].update(namespaces)
-        fits[0][1].extend(members)
-    return sorted((group for _, group in bins), key=len, reverse=True)  # the longest first
+    """Likewise, those of several folders."""
+    folders = [(str(members[0].parent.relative_to(ROOT / "src" / "docent")), members) for members in by_folder(sources)]
+    return sorted((group.sources for group in joint_groups.groups_of(folders, MOST_TOGETHER)), key=len, reverse=True)  # the longest first
 
 
 def tidy(source, database):

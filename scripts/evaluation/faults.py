@@ -251,7 +251,7 @@ HEADER = ["fault", "runs", "reaction", "slow s: median", "worst", "said s: media
 
 
 def protocol(bench, options):
-    seeds = range(options.first_seed, options.first_seed + (options.seeds or (2 if options.slice else 16)))
+    seeds = range(options.first_seed, options.first_seed + (options.seeds or (1 if options.slice else 16)))
     minutes = options.minutes or MINUTES
     verdict = Verdict()
     alarm_minutes = minutes if options.slice else max(minutes, ALARM_MINUTES)

@@ -106,7 +106,7 @@ def run_cells(simulations, museums, crowds, seeds, minutes, arguments):
 
 
 def protocol(simulations, options):
-    minutes = options.minutes or (4 if options.slice else 20)
+    minutes = options.minutes or (3 if options.slice else 20)
     count = options.seeds or (2 if options.slice else 20)  # packed, one may look for itself all the time
     seeds = list(range(options.first_seed, options.first_seed + count))
     names = options.museums.split(",") if options.museums else MUSEUMS

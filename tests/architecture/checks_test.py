@@ -6,10 +6,11 @@ import unittest
 from pathlib import Path
 
 sys.dont_write_bytecode = True  # the work tree stays as it was
-sys.path.insert(0, str(Path(__file__).resolve().parent))
+sys.path[:0] = [str(Path(__file__).resolve().parent), str(Path(__file__).resolve().parents[2] / "cmake")]
 import check_includes  # noqa: E402
 import check_sizes  # noqa: E402
 import findings  # noqa: E402
+import joint_groups  # noqa: E402
 
 
 class Project(unittest.TestCase):
@@ -174,6 +175,38 @@ class Namespaces(Project):
         self.assertEqual(self.faults("namespace docent {\n", "messages/a.h"), 0)
         self.assertEqual(self.faults("namespace docent::docent_msgs {\n", "messages/a.h"), 0)
         self.assertEqual(self.faults("namespace docent::messages {\n", "messages/a.h"), 1)
+
+
+class JointGroups(Project):
+    """Which folders are compiled as one file; no rule, but what it rests on."""
+
+    def groups(self, most=4, **texts):
+        folders = []
+        for name, text in texts.items():
+            path = f"src/docent/{name}/a.cpp"
+            self.write(path, text)
+            folders.append((name.replace("__", "/"), [str(self.root / path)]))
+        joint_groups.names_of.cache_clear()
+        return [group.folders for group in joint_groups.groups_of(folders, most)]
+
+    def test_names_of_one_namespace_must_not_meet(self):
+        one = "namespace docent::planning {\nnamespace {\nconstexpr double kFar = 3.0;\n}\n"
+        for other in ("constexpr int kFar[] = {1};\n", "struct kFar {};\n", "double f() { return kFar; }\n", "using testing::kFar;\n"):
+            self.assertEqual(len(self.groups(a=one, b="namespace docent::planning {\n" + other)), 2, other)
+            self.assertEqual(len(self.groups(a=one, b="namespace docent::mapping {\n" + other)), 1, other)
+            self.assertEqual(len(self.groups(a=one, b="namespace docent::planning::inner {\n" + other)), 2, other)
+        for other in ("// kFar\n", 'const char* text() { return "kFar"; }\n', "double f() { return params.kFar; }\n"):
+            self.assertEqual(len(self.groups(a=one, b="namespace docent::planning {\n" + other)), 1, other)
+
+    def test_tests_of_one_name_must_not_meet(self):
+        one = "namespace docent {\nTEST(Grid, Is) {\n}\n"
+        self.assertEqual(len(self.groups(a=one, b=one)), 2)
+        self.assertEqual(len(self.groups(a=one, b=one.replace("Is", "Has"))), 1)
+
+    def test_a_layer_stays_together_where_there_is_room(self):
+        texts = {name: "" for name in ("low__a", "low__b", "high__a", "high__b", "low__c", "high__c")}
+        self.assertEqual(self.groups(most=3, **texts), [["low/a", "low/b", "high/a"], ["high/b", "low/c", "high/c"]])
+        self.assertEqual(self.groups(most=6, **texts), [["low/a", "low/b", "high/a", "high/b", "low/c", "high/c"]])
 
 
 if __name__ == "__main__":

@@ -32,7 +32,7 @@ Drive drive(const std::string& weight) {
   const auto folder = std::filesystem::temp_directory_path() / ("docent-coastal-" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   std::ofstream{folder / "scenario.yaml"} << "events:\n  - {at: 15, request: {target: telephone}}\n";
-  apps::SimulationRunOptions options;
+  apps::simulate_command::SimulationRunOptions options;
   options.museum = std::string{DOCENT_SOURCES} + "/museums/smithsonian";
   options.seed = 3;
   options.crowd = "empty";
@@ -42,7 +42,7 @@ Drive drive(const std::string& weight) {
                       "plan.coastal.places.blocked=0.6"};
   options.scenario = (folder / "scenario.yaml").string();
   options.claims = (folder / "claims.csv").string();
-  auto run = apps::SimulationRun::create(options);
+  auto run = apps::simulate_command::SimulationRun::create(options);
   EXPECT_TRUE(run.has_value()) << (run ? "" : run.error().message);
   if (!run) return {};
   EXPECT_TRUE((*run)->run_until(time_from_seconds(kEnd)).has_value());

@@ -29,8 +29,8 @@ extern "C" int fdatasync(int /*file*/) {
 namespace docent {
 namespace {
 
-nlohmann::ordered_json report_of(const apps::SimulationRunOptions& options, double minutes) {
-  auto run = apps::SimulationRun::create(options);
+nlohmann::ordered_json report_of(const apps::simulate_command::SimulationRunOptions& options, double minutes) {
+  auto run = apps::simulate_command::SimulationRun::create(options);
   EXPECT_TRUE(run.has_value()) << (run ? "" : run.error().message);
   if (!run) return {};
   const auto done = (*run)->run_until(time_from_seconds(60.0 * minutes));
@@ -39,8 +39,8 @@ nlohmann::ordered_json report_of(const apps::SimulationRunOptions& options, doub
   return nlohmann::ordered_json::parse((*run)->report_json());
 }
 
-apps::SimulationRunOptions busy_bonn(std::uint64_t seed) {
-  apps::SimulationRunOptions options;
+apps::simulate_command::SimulationRunOptions busy_bonn(std::uint64_t seed) {
+  apps::simulate_command::SimulationRunOptions options;
   options.museum = std::string{DOCENT_SOURCES} + "/museums/bonn";
   options.seed = seed;
   options.crowd = "busy";
@@ -65,7 +65,7 @@ TEST(Deployment, TheSameSeedGivesTheSameReport) {
 
 TEST(Deployment, TheCacheChangesNothingButTheTimeOfTheStart) {
   const apps::TemporaryFolder cache;
-  apps::SimulationRunOptions options = busy_bonn(11);
+  apps::simulate_command::SimulationRunOptions options = busy_bonn(11);
   const auto without = report_of(options, 2.0);
   ASSERT_GT(without.at("distance_m").get<double>(), 5.0) << "nothing is the same because it is idle";
   options.cache = cache.path();
@@ -82,9 +82,9 @@ TEST(Deployment, TheCacheChangesNothingButTheTimeOfTheStart) {
 }
 
 TEST(Deployment, NeverWaitsForTheDisk) {
-  apps::SimulationRunOptions options = busy_bonn(11);
+  apps::simulate_command::SimulationRunOptions options = busy_bonn(11);
   options.start = Pose2{7.0, 2.05, Angle::degrees(90.0)};
-  const auto run = apps::SimulationRun::create(options);
+  const auto run = apps::simulate_command::SimulationRun::create(options);
   ASSERT_TRUE(run.has_value()) << run.error().message;
   waits_for_the_disk = 0;
   ASSERT_TRUE((*run)->run_until(time_from_seconds(30.0)));
@@ -100,7 +100,7 @@ TEST(Deployment, AnotherSeedGivesAnotherRun) {
 }
 
 TEST(Deployment, OneScannerInFrontGivesATourInACrowd) {
-  apps::SimulationRunOptions options = busy_bonn(2);
+  apps::simulate_command::SimulationRunOptions options = busy_bonn(2);
   options.robot = std::string{DOCENT_SOURCES} + "/robots/one-scanner.yaml";
   const auto report = report_of(options, 8.0);
   EXPECT_GT(report.at("distance_m").get<double>(), 50.0);
@@ -115,7 +115,7 @@ TEST(Deployment, OtherBasesGiveToursToo) {
   for (const auto& [robot, crowd, top_speed, minutes] :
        {std::tuple{"turtlebot", "busy", 0.48, 6.0}, {"sonars-only", "quiet", 0.32, 10.0}}) {
     SCOPED_TRACE(robot);
-    apps::SimulationRunOptions options = busy_bonn(2);
+    apps::simulate_command::SimulationRunOptions options = busy_bonn(2);
     options.robot = std::string{DOCENT_SOURCES} + "/robots/" + robot + ".yaml";
     options.crowd = crowd;
     const auto report = report_of(options, minutes);
@@ -129,14 +129,14 @@ TEST(Deployment, OtherBasesGiveToursToo) {
 }
 
 TEST(Deployment, ABatteryThatIsLowBesideTheChargerIsCharged) {
-  apps::SimulationRunOptions options = busy_bonn(4711);
+  apps::simulate_command::SimulationRunOptions options = busy_bonn(4711);
   options.crowd = "empty";
   options.requests_per_hour = 0.0;
   options.start = Pose2{7.0, 2.05, Angle::degrees(90)};  // nearer to the charger than what counts as at home
   options.settings = {"mission.battery_low=0.999", "mission.battery_full=1.0"};
   const auto log = std::filesystem::temp_directory_path() / ("docent-charge-" + std::to_string(::getpid()) + ".csv");
   options.event_log = log.string();
-  auto run = apps::SimulationRun::create(options);
+  auto run = apps::simulate_command::SimulationRun::create(options);
   ASSERT_TRUE(run.has_value());
   ASSERT_TRUE((*run)->run_until(time_from_seconds(40.0)));
   ASSERT_TRUE((*run)->finish());
@@ -148,7 +148,7 @@ TEST(Deployment, ABatteryThatIsLowBesideTheChargerIsCharged) {
 }
 
 TEST(Deployment, KilledModulesComeBackAndTheTourGoesOn) {
-  apps::SimulationRunOptions options = busy_bonn(5);
+  apps::simulate_command::SimulationRunOptions options = busy_bonn(5);
   options.crowd = "quiet";
   options.scenario = std::string{DOCENT_SOURCES} + "/tests/closed_loop/kills.yaml";
   const auto report = report_of(options, 8.0);
@@ -165,7 +165,7 @@ struct StoolRun {
   int asked = 0;  ///< how often it asked to be let through
 };
 StoolRun run_with_stool(const std::string& scenario, std::uint64_t seed) {
-  apps::SimulationRunOptions options = busy_bonn(seed);
+  apps::simulate_command::SimulationRunOptions options = busy_bonn(seed);
   options.crowd = "empty";
   options.requests_per_hour = 0.0;
   options.start = Pose2{7.0, 2.05, Angle::degrees(90.0)};

@@ -126,7 +126,7 @@ Drive drive(const Door& door, std::uint64_t seed) {
   if (!drive.is_passable) return drive;
   std::ofstream{folder.path() / "scenario.yaml"}
       << "events:\n  - {at: 5, request: {kind: exhibit, target: there, language: en}}\n";
-  apps::SimulationRunOptions options;
+  apps::simulate_command::SimulationRunOptions options;
   options.museum = folder.path() / "hall";
   options.seed = seed;
   options.crowd = "empty";
@@ -134,7 +134,7 @@ Drive drive(const Door& door, std::uint64_t seed) {
   options.start = plan.home;
   options.scenario = folder.path() / "scenario.yaml";
   options.drive_log = folder.path() / "drive.csv";
-  const auto run = apps::SimulationRun::create(options);
+  const auto run = apps::simulate_command::SimulationRun::create(options);
   EXPECT_TRUE(run.has_value()) << (run ? "" : run.error().message);
   if (!run) return drive;
   EXPECT_TRUE((*run)->run_until(time_from_seconds(120.0)));
@@ -150,9 +150,9 @@ struct Tally {
   double metres = 0.0;
 };
 
-/// Three surveys and beliefs of each door.
+/// Two surveys and beliefs of each door.
 void drive_through(const Door& door, Tally& tally) {
-  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+  for (const std::uint64_t seed : {1U, 2U}) {
     SCOPED_TRACE(std::to_string(door.clear) + " m at " + std::to_string(door.angle) + " degrees, seed " +
                  std::to_string(seed));
     const Drive trial = drive(door, seed);
@@ -183,13 +183,13 @@ TEST(Doors, OneOf110CentimetresIsPassableAtEveryAngle) {
 
 TEST(Doors, NarrowOnesThatTheCheckCallsPassableAreDrivenThrough) {
   const Tally tally = drive_through(simulator::SolidKind::wall, {0.95, 0.85, 0.75});
-  EXPECT_GT(tally.passable, 12);
+  EXPECT_GT(tally.passable, 8);
   EXPECT_GT(tally.closed, 0) << "or none was narrow enough to ask";
 }
 
 TEST(Doors, BetweenGlassWhichOnlyTheBeliefKeepsOffTheyAreDrivenThrough) {
   const Tally tally = drive_through(simulator::SolidKind::glass, {1.4, 1.3, 1.2, 1.1});
-  EXPECT_GT(tally.passable, 12);
+  EXPECT_GT(tally.passable, 8);
   EXPECT_GT(tally.closed, 0) << "or none was narrow enough to ask";
 }
 

@@ -71,7 +71,7 @@ Outcome strike(const std::string& kind, const std::string& museum, std::uint64_t
   std::ofstream{folder / "scenario.yaml"}
       << "events:\n  - {at: 5, request: {kind: tour, target: highlights, language: en}}\n"
       << "  - {at: " << kDies << ", fault: {sensor: sonar, kind: " << kind << "}}\n";
-  apps::SimulationRunOptions options;
+  apps::simulate_command::SimulationRunOptions options;
   options.museum = std::string{DOCENT_SOURCES} + "/museums/" + museum;
   options.seed = seed;
   options.crowd = "busy";
@@ -79,7 +79,7 @@ Outcome strike(const std::string& kind, const std::string& museum, std::uint64_t
   options.scenario = folder / "scenario.yaml";
   options.claims = folder / "claims.csv";
   options.health_log = folder / "health.csv";
-  auto run = apps::SimulationRun::create(options);
+  auto run = apps::simulate_command::SimulationRun::create(options);
   EXPECT_TRUE(run.has_value()) << (run ? "" : run.error().message);
   if (!run) return {};
   EXPECT_TRUE((*run)->run_until(time_from_seconds(kEnd)));

@@ -62,7 +62,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   room.localizer->start_unknown();
-  for (const auto& pose : docent::apps::localize_log(*log, *room.localizer, {}).poses)
+  for (const auto& pose : docent::apps::localize_command::localize_log(*log, *room.localizer, {}).poses)
     if (pose.has_pose && !std::isfinite(pose.map_from_base.x)) std::abort();
   return 0;
 }

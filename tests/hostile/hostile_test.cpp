@@ -60,12 +60,12 @@ TEST_F(Hostile, RecordingsAreReadAndLocalizedInBoundedTime) {
     }
     for (const bool reverse : {false, true}) {
       localizer.start_unknown();
-      apps::LogRunOptions options;
+      apps::localize_command::LogRunOptions options;
       options.reverse = reverse;
       const auto begin = std::chrono::steady_clock::now();
-      const apps::LogRun run = apps::localize_log(*log, localizer, options);
+      const apps::localize_command::LogRun run = apps::localize_command::localize_log(*log, localizer, options);
       EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds{20});
-      for (const apps::LoggedPose& pose : run.poses) {
+      for (const apps::localize_command::LoggedPose& pose : run.poses) {
         if (!pose.has_pose) continue;
         ASSERT_TRUE(std::isfinite(pose.map_from_base.x) && std::isfinite(pose.map_from_base.theta.radians()));
       }

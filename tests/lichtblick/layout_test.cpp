@@ -140,12 +140,12 @@ TEST(LichtblickLayout, ShowsEveryPanelOnce) {
 TEST(LichtblickLayout, FindsItsTopicsInARecording) {
   const auto file = std::filesystem::temp_directory_path() / ("docent_layout_" + std::to_string(getpid()) + ".mcap");
   {
-    apps::SimulationRunOptions options;
+    apps::simulate_command::SimulationRunOptions options;
     options.museum = std::string{DOCENT_SOURCES} + "/museums/bonn";
     options.start = Pose2{9.0, 3.6, Angle::degrees(90.0)};
     options.requests_per_hour = 240.0;
     options.recording = file.string();
-    auto run = apps::SimulationRun::create(options);
+    auto run = apps::simulate_command::SimulationRun::create(options);
     ASSERT_TRUE(run) << run.error().message;
     ASSERT_TRUE((*run)->run_until(time_from_seconds(60.0)));
     ASSERT_TRUE((*run)->finish());

@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s\n", map.error().message.c_str());
     return 1;
   }
-  docent::apps::LogChoice choice;
+  docent::apps::localize_command::LogChoice choice;
   choice.log = argv[2];
   bool reverse = false;
   const char* seed = nullptr;
@@ -68,8 +68,8 @@ int main(int argc, char** argv) {
     choice.reference = "logged";
     choice.scans = "even";
   }
-  auto referenced = docent::apps::load_referenced_log(choice);
-  if (seed != nullptr) docent::apps::replace_odometry(referenced, {}, std::stoull(seed));
+  auto referenced = docent::apps::localize_command::load_referenced_log(choice);
+  if (seed != nullptr) docent::apps::localize_command::replace_odometry(referenced, {}, std::stoull(seed));
   auto& log = referenced.log;
   if (reverse) std::reverse(log.scans.begin(), log.scans.end());  // MRPT asks for the ways between scans alone
   const std::string folder = argv[3];

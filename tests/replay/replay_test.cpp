@@ -20,13 +20,13 @@ class Replay : public testing::Test {
   static void SetUpTestSuite() {
     folder_ = std::filesystem::temp_directory_path() / ("docent_replay_" + std::to_string(getpid()));
     std::filesystem::create_directories(folder_);
-    apps::SimulationRunOptions options;
+    apps::simulate_command::SimulationRunOptions options;
     options.museum = museum_folder();
     options.crowd = "quiet";
     options.requests_per_hour = 120.0;
     options.seed = 3;
     options.recording = recording();
-    auto run = apps::SimulationRun::create(options);
+    auto run = apps::simulate_command::SimulationRun::create(options);
     ASSERT_TRUE(run) << run.error().message;
     ASSERT_TRUE((*run)->run_until(time_from_seconds(kSeconds)));
     ASSERT_TRUE((*run)->finish());
@@ -36,20 +36,20 @@ class Replay : public testing::Test {
   static std::string museum_folder() { return std::string{DOCENT_SOURCES} + "/museums/bonn"; }
   static std::string recording() { return (folder_ / "run.mcap").string(); }
 
-  [[nodiscard]] static Result<apps::ReplayOutcome> replay_with(const std::vector<std::string>& modules,
-                                                               const std::string& setting = "",
-                                                               const std::string& out = "") {
+  [[nodiscard]] static Result<apps::replay_command::ReplayOutcome> replay_with(const std::vector<std::string>& modules,
+                                                                               const std::string& setting = "",
+                                                                               const std::string& out = "") {
     const auto museum = museum::load_museum(museum_folder());
     if (!museum) return tl::unexpected<Error>(museum.error());
     robot::RobotConfig config;
     if (!setting.empty()) {
       if (auto set = config.set(setting); !set) return tl::unexpected<Error>(set.error());
     }
-    apps::ReplayOptions options;
+    apps::replay_command::ReplayOptions options;
     options.recording = recording();
     options.modules = modules;
     options.out = out;
-    return apps::replay(*museum, config, options);
+    return apps::replay_command::replay(*museum, config, options);
   }
   static Result<evaluation::DeploymentReport> evaluate(const std::string& file) {
     auto reader = recording::McapReader::open(file);
@@ -83,7 +83,7 @@ TEST_F(Replay, TheSensorsGiveTheSameMissionEventsInTheSameOrder) {
   const auto outcome = replay_with({});
   ASSERT_TRUE(outcome) << outcome.error().message;
   EXPECT_GE(outcome->recorded.size(), 8U);
-  EXPECT_EQ(apps::first_difference(outcome->recorded, outcome->repeated, outcome->seconds), "");
+  EXPECT_EQ(apps::replay_command::first_difference(outcome->recorded, outcome->repeated, outcome->seconds), "");
   for (const char* topic : {"scan_front", "odom", "docent/request"})
     EXPECT_NE(std::find(outcome->replayed_topics.begin(), outcome->replayed_topics.end(), topic),
               outcome->replayed_topics.end())
@@ -120,22 +120,25 @@ TEST_F(Replay, WhatCannotBeReplayedIsSaidSo) {
   EXPECT_NE(unknown.error().message.find("localise"), std::string::npos);
   EXPECT_FALSE(replay_with({"record"}));
   EXPECT_FALSE(replay_with({}, "", "/nowhere/out.mcap"));
-  const auto name = apps::museum_of_recording(recording());
+  const auto name = apps::replay_command::museum_of_recording(recording());
   ASSERT_TRUE(name);
   EXPECT_EQ(*name, "bonn");
 }
 
 TEST(FirstDifference, NamesThePlaceAmongTheMissionsEvents) {
-  const std::vector<apps::ReplayEvent> recorded{{1.0, "localized", ""}, {5.0, "explained", "vase"}};
-  EXPECT_EQ(apps::first_difference(recorded, {{2.0, "localized", ""}, {9.0, "explained", "vase"}}, 100.0), "");
-  EXPECT_EQ(apps::first_difference(
+  const std::vector<apps::replay_command::ReplayEvent> recorded{{1.0, "localized", ""}, {5.0, "explained", "vase"}};
+  EXPECT_EQ(
+      apps::replay_command::first_difference(recorded, {{2.0, "localized", ""}, {9.0, "explained", "vase"}}, 100.0),
+      "");
+  EXPECT_EQ(apps::replay_command::first_difference(
                 recorded, {{2.0, "localized", ""}, {3.0, "drive_blocked", ""}, {9.0, "explained", "vase"}}, 100.0),
             "");
-  EXPECT_EQ(apps::first_difference(recorded, {{2.0, "localized", ""}}, 100.0),
+  EXPECT_EQ(apps::replay_command::first_difference(recorded, {{2.0, "localized", ""}}, 100.0),
             "event 2: recorded explained vase at 5.0 s, now nothing more");
-  EXPECT_EQ(apps::first_difference(recorded, {{2.0, "localized", ""}}, 7.0), "");  // cut at the end
-  EXPECT_EQ(apps::first_difference(recorded, {{1.5, "relocalizing", ""}, {5.0, "explained", "vase"}}, 7.0),
-            "event 1: recorded localized at 1.0 s, now relocalizing at 1.5 s");
+  EXPECT_EQ(apps::replay_command::first_difference(recorded, {{2.0, "localized", ""}}, 7.0), "");  // cut at the end
+  EXPECT_EQ(
+      apps::replay_command::first_difference(recorded, {{1.5, "relocalizing", ""}, {5.0, "explained", "vase"}}, 7.0),
+      "event 1: recorded localized at 1.0 s, now relocalizing at 1.5 s");
 }
 
 }  // namespace

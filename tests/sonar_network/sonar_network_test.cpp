@@ -14,15 +14,15 @@ using mapping::SonarExample;
 using mapping::SonarNetwork;
 
 std::vector<SonarExample> examples_of(std::uint64_t seed, std::size_t places) {
-  const apps::SonarWorld world = apps::SonarWorld::office(seed);
+  const apps::train_sonar_command::SonarWorld world = apps::train_sonar_command::SonarWorld::office(seed);
   const auto where = world.places(places, seed);
-  return apps::drawn_trial(world, where, 60, 3.0, seed).examples;
+  return apps::train_sonar_command::drawn_trial(world, where, 60, 3.0, seed).examples;
 }
 
 SonarNetwork::Inputs inputs_of(const std::vector<SonarExample>& examples) {
   std::vector<mapping::SonarCell> cells;
   for (const SonarExample& example : examples) cells.push_back(example.cell);
-  return SonarNetwork::inputs(cells, apps::ring_of_data_sheet());
+  return SonarNetwork::inputs(cells, apps::train_sonar_command::ring_of_data_sheet());
 }
 
 cv::Mat as_rows(const SonarNetwork::Inputs& inputs) {
@@ -57,7 +57,7 @@ std::vector<double> by_opencv(const std::vector<SonarExample>& learn, const std:
 TEST(SonarNetworkBesideOpenCv, IsAsGoodOnTheSameExamples) {
   const std::vector<SonarExample> learn = examples_of(1, 200);
   const std::vector<SonarExample> ask = examples_of(2, 60);
-  const auto ours = SonarNetwork::trained(learn, apps::ring_of_data_sheet(), {}, Rng{1});
+  const auto ours = SonarNetwork::trained(learn, apps::train_sonar_command::ring_of_data_sheet(), {}, Rng{1});
   std::vector<mapping::SonarCell> cells;
   std::vector<bool> labels;
   for (const SonarExample& example : ask) {

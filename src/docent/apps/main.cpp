@@ -44,14 +44,19 @@ void add_commands(CLI::App& app) {
     for (std::size_t i = before; i < all.size(); ++i) all[i]->group(heading);
   };
   add("Drive through a museum",
-      {add_simulate_command, add_explore_command, add_up_command, add_web_account_command, add_gateway_command});
-  add("Make a museum", {add_setup_command, add_museum_command, add_office_command, add_survey_command,
-                        add_check_command, add_rooms_command, add_golog_command});
+      {simulate_command::add_simulate_command, simulate_command::add_explore_command, up_command::add_up_command,
+       web_account_command::add_web_account_command, gateway_command::add_gateway_command});
+  add("Make a museum",
+      {up_command::add_setup_command, museum_command::add_museum_command, museum_command::add_office_command,
+       museum_command::add_survey_command, museum_command::add_check_command, rooms_command::add_rooms_command,
+       golog_command::add_golog_command});
   add("Look at recordings",
-      {add_localize_command, add_map_command, add_score_map_command, add_replay_command, add_evaluate_command});
-  add("Learn and tune", {add_config_command, add_learn_command, add_train_sonar_command, add_attract_command,
-                         add_crowd_command, add_plan_command});
-  add("Put it into a robot of your own", {add_run_command});
+      {localize_command::add_localize_command, localize_command::add_map_command, museum_command::add_score_map_command,
+       replay_command::add_replay_command, replay_command::add_evaluate_command});
+  add("Learn and tune", {config_command::add_config_command, learn_command::add_learn_command,
+                         train_sonar_command::add_train_sonar_command, attract_command::add_attract_command,
+                         crowd_command::add_crowd_command, plan_command::add_plan_command});
+  add("Put it into a robot of your own", {up_command::add_run_command});
 }
 
 /// The commands by name, for a misspelt one.

@@ -13,7 +13,7 @@
 #include "docent/base/files.h"
 #include "docent/robot/robot_config.h"
 
-namespace docent::apps {
+namespace docent::apps::attract_command {
 namespace {
 
 constexpr int kMostTrialsOfARun = 20000;
@@ -119,4 +119,4 @@ void add_attract_command(CLI::App& app) {
   command->callback([options] { run(*options); });
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::attract_command

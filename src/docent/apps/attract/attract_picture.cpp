@@ -6,7 +6,7 @@
 
 #include "docent/interaction/attract/style_statistics.h"
 
-namespace docent::apps {
+namespace docent::apps::attract_command {
 namespace {
 
 // [points]
@@ -97,4 +97,4 @@ pictures::Figure draw_styles(const interaction::TrialMemory& trials, const inter
   return figure;
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::attract_command

@@ -6,7 +6,7 @@
 
 #include "docent/apps/attract/attract_run.h"
 
-namespace docent::apps {
+namespace docent::apps::attract_command {
 namespace {
 
 /// Pixels of a colour, nearly.
@@ -47,4 +47,4 @@ TEST(AttractPicture, AnEmptyMemoryIsDrawnToo) {
 }
 
 }  // namespace
-}  // namespace docent::apps
+}  // namespace docent::apps::attract_command

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace docent::apps {
+namespace docent::apps::attract_command {
 namespace {
 
 constexpr std::array kDensities{0.02, 0.08, 0.2};  // [1/m2] quiet, busy, packed (architecture 10.3)
@@ -106,4 +106,4 @@ AttractRunOutcome run_attract(const AttractRunOptions& options) {
   return outcome;
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::attract_command

@@ -10,7 +10,7 @@
 #include "docent/robot/evaluation_params.h"
 #include "docent/simulator/passers_by/passers_by.h"
 
-namespace docent::apps {
+namespace docent::apps::attract_command {
 
 /// What people like; the learner is not told.
 enum class CrowdTaste { friendly, upset, neither };
@@ -45,4 +45,4 @@ struct AttractRunOutcome {
 /// spread. Deterministic by the seed.
 [[nodiscard]] AttractRunOutcome run_attract(const AttractRunOptions& options);
 
-}  // namespace docent::apps
+}  // namespace docent::apps::attract_command

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent::apps {
+namespace docent::apps::attract_command {
 namespace {
 
 AttractRunOutcome outcome_of(CrowdTaste taste, std::uint64_t seed, int trials = 201) {
@@ -60,4 +60,4 @@ TEST(AttractRun, ARobotThatIgnoresTheRewardIsNeverFriendlierThanChance) {
 }
 
 }  // namespace
-}  // namespace docent::apps
+}  // namespace docent::apps::attract_command

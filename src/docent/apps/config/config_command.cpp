@@ -13,7 +13,7 @@
 #include "docent/robot/evaluation_params.h"
 #include "docent/robot/parameter_list.h"
 
-namespace docent::apps {
+namespace docent::apps::config_command {
 
 namespace {
 
@@ -121,4 +121,4 @@ void add_config_command(CLI::App& app) {
   });
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::config_command

@@ -10,7 +10,7 @@ namespace CLI {
 class App;
 }
 
-namespace docent::apps {
+namespace docent::apps::config_command {
 
 /// `docent config`: every key of robot.yaml with its value, unit and meaning, as a robot.yaml.
 void add_config_command(CLI::App& app);
@@ -22,4 +22,4 @@ void add_config_command(CLI::App& app);
 /// Paths of the keys whose struct says nothing of them: there should be none.
 [[nodiscard]] std::vector<std::string> keys_without_meaning(const robot::RobotConfig& config);
 
-}  // namespace docent::apps
+}  // namespace docent::apps::config_command

@@ -6,7 +6,7 @@
 #include "docent/base/files.h"
 #include "docent/modules/host/registry.h"
 
-namespace docent::apps {
+namespace docent::apps::config_command {
 namespace {
 
 TEST(Config, EveryKeyHasAMeaning) {
@@ -59,4 +59,4 @@ TEST(Config, TheCommentedFileInTheRepositoryIsUpToDate) {
 }
 
 }  // namespace
-}  // namespace docent::apps
+}  // namespace docent::apps::config_command

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-namespace docent::apps {
+namespace docent::apps::config_command {
 
 namespace {
 
@@ -31,4 +31,4 @@ std::string meaning_of(const std::string& owner, const std::string& field) {
 
 std::string meaning_of_struct(const std::string& owner) { return meaning_of(owner, ""); }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::config_command

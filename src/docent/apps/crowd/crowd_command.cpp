@@ -11,7 +11,7 @@
 #include "docent/apps/shared/command.h"
 #include "docent/base/files.h"
 
-namespace docent::apps {
+namespace docent::apps::crowd_command {
 namespace {
 
 constexpr std::size_t kStripEvery = 3;  // moments, one a second
@@ -112,4 +112,4 @@ void add_crowd_command(CLI::App& app) {
   command->callback([options] { run(*options); });
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::crowd_command

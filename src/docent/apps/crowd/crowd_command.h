@@ -4,9 +4,9 @@ namespace CLI {
 class App;
 }
 
-namespace docent::apps {
+namespace docent::apps::crowd_command {
 
 /// `docent crowd --seed N --density 0.8 --ignoring 0.5 --method cautious_window`
 void add_crowd_command(CLI::App& app);
 
-}  // namespace docent::apps
+}  // namespace docent::apps::crowd_command

@@ -21,7 +21,7 @@
 #include "docent/simulator/world/world_picture.h"
 #include "docent/transport/virtual_time_bus.h"
 
-namespace docent::apps {
+namespace docent::apps::crowd_command {
 namespace {
 
 constexpr double kRobotRadius = 0.265;  // [m]
@@ -351,4 +351,4 @@ pictures::Figure draw_crowd_strip(const CrowdTrialOutcome& outcome, std::size_t 
   return figure;
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::crowd_command

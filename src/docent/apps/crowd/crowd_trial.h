@@ -11,7 +11,7 @@
 #include "docent/pictures/figure.h"
 #include "docent/simulator/hall/hall.h"
 
-namespace docent::apps {
+namespace docent::apps::crowd_command {
 
 struct CrowdTrialOptions {
   std::uint64_t seed = 1;  ///< of the hall, its crowd and the sensors' noise; never of the method
@@ -58,4 +58,4 @@ struct CrowdTrialOutcome {
 /// @pre every > 0
 [[nodiscard]] pictures::Figure draw_crowd_strip(const CrowdTrialOutcome& outcome, std::size_t every);
 
-}  // namespace docent::apps
+}  // namespace docent::apps::crowd_command

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent::apps {
+namespace docent::apps::crowd_command {
 namespace {
 
 CrowdTrialOptions short_trial(double density) {
@@ -74,4 +74,4 @@ TEST(CrowdTrial, AnUnknownSettingIsAnError) {
 }
 
 }  // namespace
-}  // namespace docent::apps
+}  // namespace docent::apps::crowd_command

@@ -19,7 +19,7 @@
 #include "docent/telepresence/site.h"
 #include "docent/telepresence/uplink/uplink_client.h"
 
-namespace docent::apps {
+namespace docent::apps::gateway_command {
 namespace {
 
 struct Options {
@@ -153,4 +153,4 @@ void add_gateway_command(CLI::App& app) {
   command->callback([options] { run(*options); });
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::gateway_command

@@ -16,7 +16,7 @@
 #include "docent/task_control/golog/golog_program.h"
 #include "docent/task_control/travel_times/travel.h"
 
-namespace docent::apps {
+namespace docent::apps::golog_command {
 namespace {
 
 struct Options {
@@ -127,4 +127,4 @@ void add_golog_command(CLI::App& app) {
   traced->add_option("--seconds", options->most_s, "to play at most [s]")->capture_default_str();
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::golog_command

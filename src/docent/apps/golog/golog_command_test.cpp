@@ -6,7 +6,7 @@
 
 #include "docent/apps/shared/command.h"
 
-namespace docent::apps {
+namespace docent::apps::golog_command {
 namespace {
 
 /// Runs `docent golog ARGUMENTS`: what it prints, or the message of CommandFailed.
@@ -44,4 +44,4 @@ TEST(GologCommand, SaysWhatMayHaveBeenMeant) {
 }
 
 }  // namespace
-}  // namespace docent::apps
+}  // namespace docent::apps::golog_command

@@ -8,7 +8,7 @@
 #include <optional>
 #include <sstream>
 
-namespace docent::apps {
+namespace docent::apps::golog_command {
 namespace {
 
 using task_control::GologOutcome;
@@ -215,4 +215,4 @@ Result<void> play_trace(task_control::GologProgram& program, const task_control:
   return {};
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::golog_command

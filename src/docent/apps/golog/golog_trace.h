@@ -9,7 +9,7 @@
 #include "docent/task_control/golog/golog_program.h"
 #include "docent/task_control/tour_scheduler/programme.h"
 
-namespace docent::apps {
+namespace docent::apps::golog_command {
 
 /// What a line of an events file says happens.
 struct TraceEvent {
@@ -35,4 +35,4 @@ struct TraceEvent {
                                       const std::vector<TraceEvent>& events, const std::filesystem::path& file,
                                       double most_s, const std::function<void(const std::string&)>& print);
 
-}  // namespace docent::apps
+}  // namespace docent::apps::golog_command

@@ -4,7 +4,7 @@
 
 #include "docent/base/shipped_files.h"
 
-namespace docent::apps {
+namespace docent::apps::golog_command {
 namespace {
 
 /// As in [Rhino1999] Figs. 21 and 22: exhibit 5 lies between 1 and 12.
@@ -89,4 +89,4 @@ TEST(GologTrace, SaysHowItEnds) {
 }
 
 }  // namespace
-}  // namespace docent::apps
+}  // namespace docent::apps::golog_command

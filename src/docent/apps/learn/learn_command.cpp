@@ -17,7 +17,7 @@
 #include "docent/recording/laser_log.h"
 #include "docent/robot/robot_config.h"
 
-namespace docent::apps {
+namespace docent::apps::learn_command {
 namespace {
 
 struct Options {
@@ -169,4 +169,4 @@ void add_learn_command(CLI::App& app) {
   command->callback([options] { learn(*options); });
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::learn_command

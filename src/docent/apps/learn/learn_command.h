@@ -4,9 +4,9 @@ namespace CLI {
 class App;
 }
 
-namespace docent::apps {
+namespace docent::apps::learn_command {
 
 /// `docent learn-sensor-model`: sensor and motion models from recordings.
 void add_learn_command(CLI::App& app);
 
-}  // namespace docent::apps
+}  // namespace docent::apps::learn_command

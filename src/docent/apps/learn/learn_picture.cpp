@@ -11,7 +11,7 @@
 #include "docent/pictures/map_picture.h"
 #include "docent/sensor_models/proximity_model.h"
 
-namespace docent::apps {
+namespace docent::apps::learn_command {
 
 namespace {
 
@@ -203,4 +203,4 @@ pictures::Figure draw_motion_model(const motion_models::OdometryModelParams& bef
   return figure;
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::learn_command

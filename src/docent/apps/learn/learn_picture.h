@@ -6,7 +6,7 @@
 #include "docent/pictures/figure.h"
 #include "docent/sensor_models/proximity_fit.h"
 
-namespace docent::apps {
+namespace docent::apps::learn_command {
 
 /// After [Rhino1999] Fig. 4: P(measured | expected) as counted and as learned, side by side, and cuts at three expected
 /// ranges with the readings as bars and both models as lines.
@@ -20,4 +20,4 @@ namespace docent::apps {
 [[nodiscard]] pictures::Figure draw_motion_model(const motion_models::OdometryModelParams& before,
                                                  const motion_models::OdometryModelParams& learned, std::uint64_t seed);
 
-}  // namespace docent::apps
+}  // namespace docent::apps::learn_command

@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-namespace docent::apps {
+namespace docent::apps::learn_command {
 
 namespace {
 
@@ -61,4 +61,4 @@ localization::LearningRecording learning_recording(const recording::LaserLog& lo
   return recording;
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::learn_command

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-namespace docent::apps {
+namespace docent::apps::learn_command {
 
 namespace {
 
@@ -179,4 +179,4 @@ std::string learning_json(const LearningOutcome& outcome) {
   return report.dump(2) + "\n";
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::learn_command

@@ -5,7 +5,7 @@
 
 #include "docent/localization/learning/bootstrap.h"
 
-namespace docent::apps {
+namespace docent::apps::learn_command {
 
 /// What was learned, beside what it was learned from and instead of.
 struct LearningOutcome {
@@ -25,4 +25,4 @@ struct LearningOutcome {
 [[nodiscard]] std::string learned_settings(const LearningOutcome& outcome);
 [[nodiscard]] std::string learning_json(const LearningOutcome& outcome);
 
-}  // namespace docent::apps
+}  // namespace docent::apps::learn_command

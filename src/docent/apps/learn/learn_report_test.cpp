@@ -8,7 +8,7 @@
 #include "docent/base/files.h"
 #include "docent/robot/robot_config.h"
 
-namespace docent::apps {
+namespace docent::apps::learn_command {
 namespace {
 
 LearningOutcome outcome(double wall_depth, bool with_motion) {
@@ -83,4 +83,4 @@ TEST(LearnReport, ShowsEveryParameterBeforeAndAfter) {
 }
 
 }  // namespace
-}  // namespace docent::apps
+}  // namespace docent::apps::learn_command

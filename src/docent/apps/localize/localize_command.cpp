@@ -26,7 +26,7 @@
 #include "docent/recording/laser_log.h"
 #include "docent/robot/robot_config.h"
 
-namespace docent::apps {
+namespace docent::apps::localize_command {
 namespace {
 
 struct Options {
@@ -411,4 +411,4 @@ void add_localize_command(CLI::App& app) {
   });
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::localize_command

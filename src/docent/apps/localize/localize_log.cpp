@@ -9,7 +9,7 @@
 #include "docent/base/files.h"
 #include "docent/localization/judgement/view_matcher.h"
 
-namespace docent::apps {
+namespace docent::apps::localize_command {
 
 namespace {
 
@@ -250,4 +250,4 @@ Result<std::vector<LoggedPose>> load_poses(const std::string& path) {
   return poses;
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::localize_command

@@ -11,7 +11,7 @@
 #include "docent/localization/localizer/localizer.h"
 #include "docent/recording/laser_log.h"
 
-namespace docent::apps {
+namespace docent::apps::localize_command {
 
 /// The value below which a share q of `values` lies; 0 for none.
 [[nodiscard]] double quantile(std::vector<double> values, double q);
@@ -90,4 +90,4 @@ struct RunAgreement {
 [[nodiscard]] Result<void> save_poses(const std::vector<LoggedPose>& poses, const std::string& path);
 [[nodiscard]] Result<std::vector<LoggedPose>> load_poses(const std::string& path);
 
-}  // namespace docent::apps
+}  // namespace docent::apps::localize_command

@@ -8,7 +8,7 @@
 #include <span>
 #include <utility>
 
-namespace docent::apps {
+namespace docent::apps::localize_command {
 
 namespace {
 
@@ -253,4 +253,4 @@ pictures::Figure draw_run(const OccupancyGrid& map, const recording::LaserLog& l
   return figure;
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::localize_command

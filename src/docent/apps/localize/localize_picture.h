@@ -8,7 +8,7 @@
 #include "docent/pictures/animation.h"
 #include "docent/pictures/map_picture.h"
 
-namespace docent::apps {
+namespace docent::apps::localize_command {
 
 /// The belief finding itself: a film of one frame an update until some time after the robot knows where it is, and a
 /// figure of four of these moments.
@@ -58,4 +58,4 @@ enum class WayKind {
 [[nodiscard]] pictures::Figure draw_run(const OccupancyGrid& map, const recording::LaserLog& log, const LogRun& run,
                                         std::size_t stride, const std::vector<std::optional<Pose2>>& reference);
 
-}  // namespace docent::apps
+}  // namespace docent::apps::localize_command

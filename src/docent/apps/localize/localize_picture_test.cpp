@@ -5,7 +5,7 @@
 
 #include "docent/base/files.h"
 
-namespace docent::apps {
+namespace docent::apps::localize_command {
 namespace {
 
 std::string svg_of(const pictures::Figure& figure) {
@@ -106,4 +106,4 @@ TEST_F(LocalizePicture, AScanHasItsMoment) {
 }
 
 }  // namespace
-}  // namespace docent::apps
+}  // namespace docent::apps::localize_command

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace docent::apps {
+namespace docent::apps::localize_command {
 
 namespace {
 
@@ -80,4 +80,4 @@ std::string summary_of_agreement(const nlohmann::json& agreement) {
                             100.0 * number(*said, "within_half_a_metre_and_10_degrees"), both);
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::localize_command

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace docent::apps {
+namespace docent::apps::localize_command {
 namespace {
 
 using nlohmann::json;
@@ -59,4 +59,4 @@ TEST(LocalizeSummary, AgreementOfNothingIsNoAgreement) {
 }
 
 }  // namespace
-}  // namespace docent::apps
+}  // namespace docent::apps::localize_command

@@ -6,7 +6,7 @@
 
 #include "docent/apps/shared/command.h"
 
-namespace docent::apps {
+namespace docent::apps::localize_command {
 namespace {
 
 /// Keeps the scans for which `keep` says so, and their reference.
@@ -79,4 +79,4 @@ void begin_where_known(ReferencedLog& referenced) {
   });
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::localize_command

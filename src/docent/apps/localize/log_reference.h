@@ -11,7 +11,7 @@ namespace CLI {
 class App;
 }
 
-namespace docent::apps {
+namespace docent::apps::localize_command {
 
 /// What `docent map` and `docent localize` are told about a log beside its name.
 struct LogChoice {
@@ -36,4 +36,4 @@ void replace_odometry(ReferencedLog& referenced, const evaluation::OdometryNoise
 /// Leaves out the scans before the first and after the last one that have a reference. CommandFailed when none has.
 void begin_where_known(ReferencedLog& referenced);
 
-}  // namespace docent::apps
+}  // namespace docent::apps::localize_command

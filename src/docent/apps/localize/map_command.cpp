@@ -22,7 +22,7 @@
 #include "docent/mapping/occupancy/scan_mapper.h"
 #include "docent/pictures/map_picture.h"
 
-namespace docent::apps {
+namespace docent::apps::localize_command {
 namespace {
 
 struct MapOptions {
@@ -336,4 +336,4 @@ void add_map_command(CLI::App& app) {
   command->callback([options] { make_map(*options); });
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::localize_command

@@ -5,7 +5,7 @@
 
 #include "docent/apps/localize/localize_log.h"
 
-namespace docent::apps {
+namespace docent::apps::localize_command {
 namespace {
 
 constexpr double kTogether = 0.15;  // [s] between scans of two lasers that are of one moment
@@ -78,4 +78,4 @@ std::vector<Pose2> poses_of_all(const recording::LaserLog& log, std::span<const 
   return poses;
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::localize_command

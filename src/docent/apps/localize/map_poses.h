@@ -7,7 +7,7 @@
 #include "docent/mapping/graph_mapping/graph_mapper.h"
 #include "docent/recording/laser_log.h"
 
-namespace docent::apps {
+namespace docent::apps::localize_command {
 
 /// Which scans of a log a map is learned from.
 struct ScanChoiceParams {
@@ -29,4 +29,4 @@ struct ChosenScans {
 [[nodiscard]] std::vector<Pose2> poses_of_all(const recording::LaserLog& log, std::span<const std::size_t> indices,
                                               std::span<const Pose2> map_from_base);
 
-}  // namespace docent::apps
+}  // namespace docent::apps::localize_command

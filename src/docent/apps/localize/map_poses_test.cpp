@@ -4,7 +4,7 @@
 
 #include "docent/base/time.h"
 
-namespace docent::apps {
+namespace docent::apps::localize_command {
 namespace {
 
 /// A robot that drives 1 m in ten steps before a wall, with a laser ahead of its centre.
@@ -57,4 +57,4 @@ TEST(PosesOfAll, FollowOdometryAndMeetTheKnownOnes) {
 }
 
 }  // namespace
-}  // namespace docent::apps
+}  // namespace docent::apps::localize_command

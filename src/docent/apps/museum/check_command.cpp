@@ -18,7 +18,7 @@
 #include "docent/simulator/world/world.h"
 #include "docent/task_control/golog/golog_program.h"
 
-namespace docent::apps {
+namespace docent::apps::museum_command {
 namespace {
 
 /// What the museum and its simulation must agree on: ids. Nothing else is shared.
@@ -126,4 +126,4 @@ void add_check_command(CLI::App& app) {
   command->callback([deployment, lists_recordings] { check(*deployment, *lists_recordings); });
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::museum_command

@@ -13,7 +13,7 @@
 #include "docent/grid/occupancy_grid.h"
 #include "docent/interaction/sound/sound_file.h"
 
-namespace docent::apps {
+namespace docent::apps::museum_command {
 namespace {
 
 /// Runs `docent ARGUMENTS`; the message of CommandFailed, or "".
@@ -184,4 +184,4 @@ TEST_F(CheckCommand, SurveyWritesWhatMuseumYamlNeeds) {
 }
 
 }  // namespace
-}  // namespace docent::apps
+}  // namespace docent::apps::museum_command

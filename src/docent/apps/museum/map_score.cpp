@@ -8,7 +8,7 @@
 #include "docent/mapping/scan_matching/correlative_matcher.h"
 #include "docent/mapping/scan_matching/point_sweep.h"
 
-namespace docent::apps {
+namespace docent::apps::museum_command {
 namespace {
 
 constexpr double kGhost = 0.3;  // [m]
@@ -171,4 +171,4 @@ Result<MapScore> score_map(const OccupancyGrid& map, const simulator::World& wor
   return score;
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::museum_command

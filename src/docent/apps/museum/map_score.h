@@ -4,7 +4,7 @@
 #include "docent/grid/occupancy_grid.h"
 #include "docent/simulator/world/world.h"
 
-namespace docent::apps {
+namespace docent::apps::museum_command {
 
 /// A learned map beside the true world that it is of.
 struct MapScore {
@@ -23,4 +23,4 @@ struct MapScore {
 /// map, or one that fits nowhere. Takes seconds.
 [[nodiscard]] Result<MapScore> score_map(const OccupancyGrid& map, const simulator::World& world);
 
-}  // namespace docent::apps
+}  // namespace docent::apps::museum_command

@@ -5,7 +5,7 @@
 #include "docent/simulator/office/office.h"
 #include "docent/simulator/world/survey.h"
 
-namespace docent::apps {
+namespace docent::apps::museum_command {
 namespace {
 
 simulator::SurveyParams without_errors() {
@@ -51,4 +51,4 @@ TEST(MapScore, RefusesWhatHoldsNothing) {
 }
 
 }  // namespace
-}  // namespace docent::apps
+}  // namespace docent::apps::museum_command

@@ -15,7 +15,7 @@
 #include "docent/simulator/traced/traced_museum.h"
 #include "docent/simulator/world/world_picture.h"
 
-namespace docent::apps {
+namespace docent::apps::museum_command {
 namespace {
 
 namespace fs = std::filesystem;
@@ -129,4 +129,4 @@ void add_museum_command(CLI::App& app) {
   command->callback([options] { run(*options); });
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::museum_command

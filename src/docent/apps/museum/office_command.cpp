@@ -9,7 +9,7 @@
 #include "docent/simulator/office/office.h"
 #include "docent/simulator/world/world_picture.h"
 
-namespace docent::apps {
+namespace docent::apps::museum_command {
 namespace {
 
 struct OfficeOptions {
@@ -46,4 +46,4 @@ void add_office_command(CLI::App& app) {
   command->callback([options] { run(*options); });
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::museum_command

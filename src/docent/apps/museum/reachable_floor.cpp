@@ -6,7 +6,7 @@
 
 #include "docent/grid/occupancy_grid.h"
 
-namespace docent::apps {
+namespace docent::apps::museum_command {
 namespace {
 
 constexpr double kRobot = 0.365;  // [m], with its margin
@@ -122,4 +122,4 @@ ReachableFloor reachable_floor(const simulator::World& world) {
   return result;
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::museum_command

@@ -4,7 +4,7 @@
 
 #include "docent/simulator/world/world.h"
 
-namespace docent::apps {
+namespace docent::apps::museum_command {
 
 /// The floor of a true world that a robot can learn of.
 struct ReachableFloor {
@@ -16,4 +16,4 @@ struct ReachableFloor {
 /// radius, its usual margin included, can drive inside the operating area. Takes a second.
 [[nodiscard]] ReachableFloor reachable_floor(const simulator::World& world);
 
-}  // namespace docent::apps
+}  // namespace docent::apps::museum_command

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace docent::apps {
+namespace docent::apps::museum_command {
 namespace {
 
 simulator::Solid box(Point2 low, Point2 high) {
@@ -38,4 +38,4 @@ TEST(ReachableFloor, EndsWhereTheRobotCannotSee) {
 }
 
 }  // namespace
-}  // namespace docent::apps
+}  // namespace docent::apps::museum_command

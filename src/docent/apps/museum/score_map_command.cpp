@@ -10,7 +10,7 @@
 #include "docent/apps/shared/command.h"
 #include "docent/base/files.h"
 
-namespace docent::apps {
+namespace docent::apps::museum_command {
 namespace {
 
 struct ScoreOptions {
@@ -56,4 +56,4 @@ void add_score_map_command(CLI::App& app) {
   command->callback([options] { run(*options); });
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::museum_command

@@ -4,9 +4,9 @@ namespace CLI {
 class App;
 }
 
-namespace docent::apps {
+namespace docent::apps::museum_command {
 
 /// `docent score-map`: how far a learned map is from the true world that a simulator knows.
 void add_score_map_command(CLI::App& app);
 
-}  // namespace docent::apps
+}  // namespace docent::apps::museum_command

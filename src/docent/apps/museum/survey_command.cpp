@@ -10,7 +10,7 @@
 #include "docent/simulator/world/survey.h"
 #include "docent/simulator/world/world_picture.h"
 
-namespace docent::apps {
+namespace docent::apps::museum_command {
 namespace {
 
 struct SurveyOptions {
@@ -60,4 +60,4 @@ void add_survey_command(CLI::App& app) {
   command->callback([options] { run(*options); });
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::museum_command

@@ -18,7 +18,7 @@
 #include "docent/planning/coastal/coastal_planner.h"
 #include "docent/planning/value_iteration/route.h"
 
-namespace docent::apps {
+namespace docent::apps::plan_command {
 namespace {
 
 constexpr double kKnownStart = 0.05;  // [m] to which the pose is known at the start of a coastal way
@@ -166,4 +166,4 @@ void add_plan_command(CLI::App& app) {
   command->callback([options] { plan(*options); });
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::plan_command

@@ -4,9 +4,9 @@ namespace CLI {
 class App;
 }
 
-namespace docent::apps {
+namespace docent::apps::plan_command {
 
 /// `docent plan --map MAP.yaml | --museum FOLDER --from X,Y --to X,Y [--coastal WEIGHT]`
 void add_plan_command(CLI::App& app);
 
-}  // namespace docent::apps
+}  // namespace docent::apps::plan_command

@@ -8,7 +8,7 @@
 
 #include "docent/pictures/map_picture.h"
 
-namespace docent::apps {
+namespace docent::apps::plan_command {
 namespace {
 
 constexpr double kKnown = 0.25;  // [m]
@@ -90,4 +90,4 @@ pictures::Figure draw_plan(const OccupancyGrid& map, const std::vector<DrawnWay>
   return figure;
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::plan_command

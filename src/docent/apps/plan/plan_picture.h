@@ -7,7 +7,7 @@
 #include "docent/planning/coastal/coastal_planner.h"
 #include "docent/planning/value_iteration/value_iteration.h"
 
-namespace docent::apps {
+namespace docent::apps::plan_command {
 
 /// A way as `docent plan` draws it.
 struct DrawnWay {
@@ -31,4 +31,4 @@ struct PlanGround {
 [[nodiscard]] pictures::Figure draw_plan(const OccupancyGrid& map, const std::vector<DrawnWay>& ways,
                                          const std::vector<Point2>& goals, double radius, const PlanGround& ground);
 
-}  // namespace docent::apps
+}  // namespace docent::apps::plan_command

@@ -5,7 +5,7 @@
 
 #include "docent/base/files.h"
 
-namespace docent::apps {
+namespace docent::apps::plan_command {
 namespace {
 
 std::string svg_of(const pictures::Figure& figure) {
@@ -41,4 +41,4 @@ TEST(PlanPicture, SaysWhatItsColoursAndLinesMean) {
 }
 
 }  // namespace
-}  // namespace docent::apps
+}  // namespace docent::apps::plan_command

@@ -10,7 +10,7 @@
 #include "docent/evaluation/deployment_evaluator.h"
 #include "docent/recording/recorder.h"
 
-namespace docent::apps {
+namespace docent::apps::replay_command {
 namespace {
 
 struct Options {
@@ -53,4 +53,4 @@ void add_evaluate_command(CLI::App& app) {
   command->callback([options] { evaluate(*options); });
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::replay_command

@@ -6,7 +6,7 @@
 #include "docent/messages/conversions.h"
 #include "docent/vocabulary/vocabulary.h"
 
-namespace docent::apps {
+namespace docent::apps::replay_command {
 
 void RecordedLines::add(const recording::RecordedMessage& message) {
   if (const auto* say = message.as(topics::kSay)) {
@@ -78,4 +78,4 @@ void RecordedVoice::publish(const interaction::Speech& speech) {
                   speech.audio});
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::replay_command

@@ -8,7 +8,7 @@
 #include "docent/recording/recorder.h"
 #include "docent/transport/bus.h"
 
-namespace docent::apps {
+namespace docent::apps::replay_command {
 
 /// How long the lines of a recording took to be said: a loudspeaker's time, as much a matter of record as a sensor's.
 class RecordedLines {
@@ -52,4 +52,4 @@ class RecordedVoice {
   transport::Publisher<docent_msgs::SpeechState> state_;
 };
 
-}  // namespace docent::apps
+}  // namespace docent::apps::replay_command

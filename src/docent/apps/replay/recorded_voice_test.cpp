@@ -4,7 +4,7 @@
 
 #include "docent/transport/virtual_time_bus.h"
 
-namespace docent::apps {
+namespace docent::apps::replay_command {
 namespace {
 
 docent_msgs::Say say(const std::string& id, const std::string& text) { return {id, text, "en", "neutral"}; }
@@ -78,4 +78,4 @@ TEST(RecordedVoice, ANewLineReplacesThePresentOne) {
 }
 
 }  // namespace
-}  // namespace docent::apps
+}  // namespace docent::apps::replay_command

@@ -15,7 +15,7 @@
 #include "docent/apps/shared/deployment.h"
 #include "docent/base/files.h"
 
-namespace docent::apps {
+namespace docent::apps::replay_command {
 namespace {
 
 struct ReplayCommandOptions {
@@ -108,4 +108,4 @@ void add_replay_command(CLI::App& app) {
   command->callback([options] { replay_recording(*options); });
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::replay_command

@@ -4,8 +4,8 @@ namespace CLI {
 class App;
 }
 
-namespace docent::apps {
+namespace docent::apps::replay_command {
 
 void add_replay_command(CLI::App& app);
 
-}  // namespace docent::apps
+}  // namespace docent::apps::replay_command

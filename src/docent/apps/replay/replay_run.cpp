@@ -16,7 +16,7 @@
 #include "docent/recording/recorder.h"
 #include "docent/transport/virtual_time_bus.h"
 
-namespace docent::apps {
+namespace docent::apps::replay_command {
 namespace {
 
 constexpr Duration kAnswerWaits = std::chrono::seconds{20};
@@ -377,4 +377,4 @@ std::string first_difference(const std::vector<ReplayEvent>& recorded, const std
   return {};
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::replay_command

@@ -13,7 +13,7 @@
 #include "docent/museum/museum.h"
 #include "docent/robot/robot_config.h"
 
-namespace docent::apps {
+namespace docent::apps::replay_command {
 
 struct ReplayOptions {
   std::string recording;
@@ -73,4 +73,4 @@ struct ReplayOutcome {
 /// has the result, which holds each name once.
 [[nodiscard]] std::string names_of_both(const std::string& recorded, const std::string& now);
 
-}  // namespace docent::apps
+}  // namespace docent::apps::replay_command

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent::apps {
+namespace docent::apps::replay_command {
 namespace {
 
 TEST(NamesOfBoth, HoldsEachNameOnceInTheOrderOfItsFirstUse) {
@@ -15,4 +15,4 @@ TEST(NamesOfBoth, HoldsEachNameOnceInTheOrderOfItsFirstUse) {
 }
 
 }  // namespace
-}  // namespace docent::apps
+}  // namespace docent::apps::replay_command

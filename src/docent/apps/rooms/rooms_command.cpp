@@ -13,7 +13,7 @@
 #include "docent/mapping/topological/topological_map.h"
 #include "docent/museum/museum.h"
 
-namespace docent::apps {
+namespace docent::apps::rooms_command {
 namespace {
 
 struct RoomsOptions {
@@ -116,4 +116,4 @@ void add_rooms_command(CLI::App& app) {
   command->callback([options] { run(*options); });
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::rooms_command

@@ -4,9 +4,9 @@ namespace CLI {
 class App;
 }
 
-namespace docent::apps {
+namespace docent::apps::rooms_command {
 
 /// `docent rooms`: rooms, hallways and doors of a map [Buhmann1995].
 void add_rooms_command(CLI::App& app);
 
-}  // namespace docent::apps
+}  // namespace docent::apps::rooms_command

@@ -7,7 +7,7 @@
 
 #include "docent/pictures/map_picture.h"
 
-namespace docent::apps {
+namespace docent::apps::rooms_command {
 
 pictures::Figure draw_rooms(const OccupancyGrid& map, const mapping::TopologicalMap& rooms) {
   static constexpr pictures::Color kHallway{150, 150, 150, 110};
@@ -50,4 +50,4 @@ pictures::Figure draw_rooms(const OccupancyGrid& map, const mapping::Topological
   return figure;
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::rooms_command

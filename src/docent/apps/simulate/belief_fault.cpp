@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace docent::apps {
+namespace docent::apps::simulate_command {
 
 namespace {
 
@@ -63,4 +63,4 @@ docent_msgs::Belief BeliefFault::apply(docent_msgs::Belief belief, Time now) {
   return belief;
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::simulate_command

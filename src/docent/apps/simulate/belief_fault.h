@@ -6,7 +6,7 @@
 #include "docent/messages/localization_messages.h"
 #include "docent/simulator/scenario.h"
 
-namespace docent::apps {
+namespace docent::apps::simulate_command {
 
 /// Faults of a scenario that strike between `localize` and those who read its belief. One of each kind at a time.
 class BeliefFault {
@@ -30,4 +30,4 @@ class BeliefFault {
   std::optional<Second> second_;
 };
 
-}  // namespace docent::apps
+}  // namespace docent::apps::simulate_command

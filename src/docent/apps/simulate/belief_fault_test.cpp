@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-namespace docent::apps {
+namespace docent::apps::simulate_command {
 namespace {
 
 docent_msgs::Belief belief_at(double x, double y, double theta) {
@@ -47,4 +47,4 @@ TEST(BeliefFault, TheSecondModeIsAsHeavyAndMovesAlong) {
 }
 
 }  // namespace
-}  // namespace docent::apps
+}  // namespace docent::apps::simulate_command

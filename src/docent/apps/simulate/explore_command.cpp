@@ -25,7 +25,7 @@
 #include "docent/museum/museum.h"
 #include "docent/pictures/map_picture.h"
 
-namespace docent::apps {
+namespace docent::apps::simulate_command {
 namespace {
 
 struct ExploreOptions {
@@ -165,4 +165,4 @@ void add_explore_command(CLI::App& app) {
   command->callback([options] { explore(*options); });
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::simulate_command

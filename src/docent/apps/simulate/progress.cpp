@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace docent::apps {
+namespace docent::apps::simulate_command {
 namespace {
 constexpr double kTerminal = 0.5;  // [s] between changes of the line
 constexpr double kLeast = 2.0;     // [s] between lines through a pipe
@@ -22,4 +22,4 @@ std::string Progress::shown(const std::string& line) const {
   return is_terminal_ ? "\r" + line + "\033[K" : line + "\n";
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::simulate_command

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace docent::apps {
+namespace docent::apps::simulate_command {
 
 /// What a long run tells on stderr: a line that changes in place on a terminal, else a line now and then.
 class Progress {
@@ -24,4 +24,4 @@ class Progress {
   double next_done_ = 0.1;
 };
 
-}  // namespace docent::apps
+}  // namespace docent::apps::simulate_command

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent::apps {
+namespace docent::apps::simulate_command {
 namespace {
 
 /// How many lines a run of `length_s` tells, asked every 0.1 s.
@@ -27,4 +27,4 @@ TEST(Progress, OnATerminalOneLineThatChanges) {
 }
 
 }  // namespace
-}  // namespace docent::apps
+}  // namespace docent::apps::simulate_command

@@ -18,7 +18,7 @@
 #include "docent/base/files.h"
 #include "docent/museum/museum.h"
 
-namespace docent::apps {
+namespace docent::apps::simulate_command {
 namespace {
 
 struct Options {
@@ -169,4 +169,4 @@ void add_simulate_command(CLI::App& app) {
   command->callback([options] { simulate(*options); });
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::simulate_command

@@ -4,9 +4,9 @@ namespace CLI {
 class App;
 }
 
-namespace docent::apps {
+namespace docent::apps::simulate_command {
 
 /// `docent simulate`: the whole robot in virtual time, with the deployment report.
 void add_simulate_command(CLI::App& app);
 
-}  // namespace docent::apps
+}  // namespace docent::apps::simulate_command

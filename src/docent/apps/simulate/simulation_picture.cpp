@@ -6,7 +6,7 @@
 #include "docent/messages/conversions.h"
 #include "docent/pictures/notes.h"
 
-namespace docent::apps {
+namespace docent::apps::simulate_command {
 namespace {
 
 constexpr pictures::Color kHazard{214, 90, 70, 90};
@@ -71,4 +71,4 @@ Result<void> SimulationPicture::save(const museum::Museum& museum, const std::st
   return figure.save(path);
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::simulate_command

@@ -9,7 +9,7 @@
 #include "docent/pictures/map_picture.h"
 #include "docent/transport/bus.h"
 
-namespace docent::apps {
+namespace docent::apps::simulate_command {
 
 /// The way a simulated robot truly drove, over the map that it drove by.
 class SimulationPicture {
@@ -24,4 +24,4 @@ class SimulationPicture {
   std::vector<Point2> contacts_;           ///< [m], world
 };
 
-}  // namespace docent::apps
+}  // namespace docent::apps::simulate_command

@@ -7,7 +7,7 @@
 #include "docent/base/files.h"
 #include "docent/messages/conversions.h"
 
-namespace docent::apps {
+namespace docent::apps::simulate_command {
 namespace {
 
 TEST(SimulationPicture, HasTheSpanOfTimeAndSaysWhatIsDrawn) {
@@ -41,4 +41,4 @@ TEST(SimulationPicture, HasTheSpanOfTimeAndSaysWhatIsDrawn) {
 }
 
 }  // namespace
-}  // namespace docent::apps
+}  // namespace docent::apps::simulate_command

@@ -30,7 +30,7 @@
 #include "docent/task_control/travel_times/travel_times.h"
 #include "docent/transport/virtual_time_bus.h"
 
-namespace docent::apps {
+namespace docent::apps::simulate_command {
 namespace {
 
 /// [s] that this process has had of the processor.
@@ -375,4 +375,4 @@ Result<void> SimulationRun::save_picture(const std::string& path) const {
   return parts_->picture_.save(parts_->museum_, path);
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::simulate_command

@@ -13,7 +13,7 @@
 #include "docent/geometry/pose2.h"
 #include "docent/messages/localization_messages.h"
 
-namespace docent::apps {
+namespace docent::apps::simulate_command {
 
 /// What `docent simulate` takes.
 struct SimulationRunOptions {
@@ -83,4 +83,4 @@ class SimulationRun {
   std::unique_ptr<Parts> parts_;
 };
 
-}  // namespace docent::apps
+}  // namespace docent::apps::simulate_command

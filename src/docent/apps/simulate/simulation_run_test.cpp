@@ -8,7 +8,7 @@
 #include "docent/apps/shared/deployment.h"
 #include "docent/base/files.h"
 
-namespace docent::apps {
+namespace docent::apps::simulate_command {
 namespace {
 
 /// What the report of a world without a robot says of how that is crippled.
@@ -37,4 +37,4 @@ TEST(SimulationRun, TheReportNamesWhatCripples) {
 }
 
 }  // namespace
-}  // namespace docent::apps
+}  // namespace docent::apps::simulate_command

@@ -6,7 +6,7 @@
 
 #include "docent/pictures/map_picture.h"
 
-namespace docent::apps {
+namespace docent::apps::train_sonar_command {
 namespace {
 
 /// What a model says of all cells about one view.
@@ -80,4 +80,4 @@ pictures::Figure draw_sonar_models(const SonarWorld& world, std::uint64_t seed, 
   return figure;
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::train_sonar_command

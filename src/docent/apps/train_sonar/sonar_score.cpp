@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace docent::apps {
+namespace docent::apps::train_sonar_command {
 namespace {
 
 constexpr std::size_t kPlaces = 150;  // of a world: one each one or two square metres
@@ -103,4 +103,4 @@ SonarScore score_sonar(const SonarWorld& world, std::uint64_t seed, const SonarM
   return score;
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::train_sonar_command

@@ -7,7 +7,7 @@
 #include "docent/grid/occupancy_grid.h"
 #include "docent/mapping/sonar_network/cone_model.h"
 
-namespace docent::apps {
+namespace docent::apps::train_sonar_command {
 
 /// P(occupied | one view) of places [m] in the base frame.
 using SonarModel = std::function<std::vector<double>(const mapping::SonarView&, std::span<const Point2>)>;
@@ -34,4 +34,4 @@ struct SonarScore {
 [[nodiscard]] SonarScore score_sonar(const SonarWorld& world, std::uint64_t seed, const SonarModel& model, double prior,
                                      double reach);
 
-}  // namespace docent::apps
+}  // namespace docent::apps::train_sonar_command

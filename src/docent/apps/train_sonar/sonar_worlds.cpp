@@ -11,7 +11,7 @@
 #include "docent/simulator/sensing/sonar.h"
 #include "docent/simulator/world/world.h"
 
-namespace docent::apps {
+namespace docent::apps::train_sonar_command {
 namespace {
 
 constexpr double kSolid = 0.05;  // [m]: half a cell; what is nearer to a surface is occupied
@@ -88,4 +88,4 @@ SonarTrial drawn_trial(const SonarWorld& world, std::span<const SonarPlace> plac
   return trial;
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::train_sonar_command

@@ -7,7 +7,7 @@
 #include "docent/geometry/pose2.h"
 #include "docent/mapping/sonar_network/sonar_network.h"
 
-namespace docent::apps {
+namespace docent::apps::train_sonar_command {
 
 /// The robot at one place of a known world: what its sonars say, and what is there.
 struct SonarPlace {
@@ -51,4 +51,4 @@ struct SonarTrial {
 [[nodiscard]] SonarTrial drawn_trial(const SonarWorld& world, std::span<const SonarPlace> places, std::size_t cells,
                                      double reach, std::uint64_t seed);
 
-}  // namespace docent::apps
+}  // namespace docent::apps::train_sonar_command

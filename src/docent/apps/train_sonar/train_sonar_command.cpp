@@ -12,7 +12,7 @@
 #include "docent/apps/train_sonar/sonar_score.h"
 #include "docent/base/files.h"
 
-namespace docent::apps {
+namespace docent::apps::train_sonar_command {
 namespace {
 
 constexpr std::uint64_t kHeldOut = 1'000'000;  // seeds of worlds from here on are never trained in
@@ -165,4 +165,4 @@ void add_train_sonar_command(CLI::App& app) {
   command->callback([options] { train(*options); });
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::train_sonar_command

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace docent::apps {
+namespace docent::apps::up_command {
 namespace {
 
 double seconds_between(Lifecycle::Time from, Lifecycle::Time to) {
@@ -63,4 +63,4 @@ std::string Lifecycle::status(Time now) const {
   return reason_.empty() ? state_ : state_ + ": " + reason_;
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::up_command

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <string>
 
-namespace docent::apps {
+namespace docent::apps::up_command {
 
 struct LifecycleParams {
   double first_delay_s = 0.2;  ///< before the first restart; doubles with each that follows
@@ -55,4 +55,4 @@ class Lifecycle {
   std::string how_;
 };
 
-}  // namespace docent::apps
+}  // namespace docent::apps::up_command

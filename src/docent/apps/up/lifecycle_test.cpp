@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent::apps {
+namespace docent::apps::up_command {
 namespace {
 
 using Step = Lifecycle::Step;
@@ -67,4 +67,4 @@ TEST(Lifecycle, HealthOfADeadProcessDoesNotRaiseIt) {
 }
 
 }  // namespace
-}  // namespace docent::apps
+}  // namespace docent::apps::up_command

@@ -28,7 +28,7 @@
 #include "docent/recording/join_recordings.h"
 #include "docent/transport/dds_bus.h"
 
-namespace docent::apps {
+namespace docent::apps::up_command {
 namespace {
 
 constexpr Duration kStep = std::chrono::milliseconds{50};
@@ -244,4 +244,4 @@ void run_robot(const RobotRun& options) {
   }
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::up_command

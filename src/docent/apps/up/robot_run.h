@@ -5,7 +5,7 @@
 #include "docent/apps/shared/deployment.h"
 #include "docent/apps/up/simulator_process.h"
 
-namespace docent::apps {
+namespace docent::apps::up_command {
 
 /// A robot: every module as a process of its own, watched and restarted.
 struct RobotRun {
@@ -24,4 +24,4 @@ struct RobotRun {
 /// Runs it until the process is told to end; CommandFailed where something is wrong that can be known before.
 void run_robot(const RobotRun& options);
 
-}  // namespace docent::apps
+}  // namespace docent::apps::up_command

@@ -16,7 +16,7 @@
 #include "docent/modules/host/module_host.h"
 #include "docent/transport/dds_bus.h"
 
-namespace docent::apps {
+namespace docent::apps::up_command {
 namespace {
 
 struct RunOptions {
@@ -82,4 +82,4 @@ void add_run_command(CLI::App& app) {
   command->callback([options] { run(*options); });
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::up_command

@@ -13,7 +13,7 @@
 #include "docent/simulator/world/world.h"
 #include "docent/telepresence/accounts/accounts.h"
 
-namespace docent::apps {
+namespace docent::apps::up_command {
 namespace {
 
 namespace fs = std::filesystem;
@@ -113,4 +113,4 @@ void add_setup_command(CLI::App& app) {
   });
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::up_command

@@ -11,7 +11,7 @@
 #include "docent/simulator/simulated_museum.h"
 #include "docent/transport/dds_bus.h"
 
-namespace docent::apps {
+namespace docent::apps::up_command {
 namespace {
 
 /// What is simulated, and where its charger stands.
@@ -121,4 +121,4 @@ Result<void> run_simulator(const Deployment& deployment, const SimulatorOptions&
   return {};
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::up_command

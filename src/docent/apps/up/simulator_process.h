@@ -4,7 +4,7 @@
 
 #include "docent/apps/shared/deployment.h"
 
-namespace docent::apps {
+namespace docent::apps::up_command {
 
 inline constexpr const char* kSimulatorProcess = "sim";
 
@@ -30,4 +30,4 @@ struct SimulatorOptions {
 /// The same checks, without running.
 [[nodiscard]] Result<void> check_simulator(const Deployment& deployment, const SimulatorOptions& options);
 
-}  // namespace docent::apps
+}  // namespace docent::apps::up_command

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <utility>
 
-namespace docent::apps {
+namespace docent::apps::up_command {
 namespace {
 
 /// "not responding for 7 s" and its like count on: only the kind of a state is worth a line in a log.
@@ -104,4 +104,4 @@ void StatusDisplay::log_changes(const std::vector<Supervisor::Status>& all) {
   }
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::up_command

@@ -7,7 +7,7 @@
 #include "docent/apps/shared/log.h"
 #include "docent/apps/up/supervisor.h"
 
-namespace docent::apps {
+namespace docent::apps::up_command {
 
 /// What a person sees of the supervisor. On a terminal: one live line a module below the log. Elsewhere: a line of the
 /// log whenever the state of a module changes; that modules wait for each other while they start is no news, so a
@@ -41,4 +41,4 @@ class StatusDisplay {
   std::vector<Supervisor::Status> shown_;
 };
 
-}  // namespace docent::apps
+}  // namespace docent::apps::up_command

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace docent::apps {
+namespace docent::apps::up_command {
 namespace {
 
 using namespace std::chrono_literals;
@@ -68,4 +68,4 @@ TEST(StatusDisplay, WhatAModuleWritesKeepsItsOwnTimeOrGetsOne) {
 }
 
 }  // namespace
-}  // namespace docent::apps
+}  // namespace docent::apps::up_command

@@ -13,7 +13,7 @@
 #include <cstring>
 #include <thread>
 
-namespace docent::apps {
+namespace docent::apps::up_command {
 namespace {
 
 constexpr std::chrono::seconds kOrderlyEnd{3};  // for a child that shall start again
@@ -225,4 +225,4 @@ std::vector<Supervisor::Status> Supervisor::status() const {
   return all;
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::up_command

@@ -10,7 +10,7 @@
 
 #include "docent/apps/up/lifecycle.h"
 
-namespace docent::apps {
+namespace docent::apps::up_command {
 
 /// One process to keep alive.
 struct ChildSpec {
@@ -85,4 +85,4 @@ class Supervisor {
 /// Exit code of a module that cannot work with what it was given.
 inline constexpr int kExitBadConfiguration = 2;
 
-}  // namespace docent::apps
+}  // namespace docent::apps::up_command

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <thread>
 
-namespace docent::apps {
+namespace docent::apps::up_command {
 namespace {
 
 using namespace std::chrono_literals;
@@ -188,4 +188,4 @@ TEST(Supervisor, ItsChildrenDieWithIt) {
 }
 
 }  // namespace
-}  // namespace docent::apps
+}  // namespace docent::apps::up_command

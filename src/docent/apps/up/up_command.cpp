@@ -7,7 +7,7 @@
 #include "docent/apps/shared/command.h"
 #include "docent/apps/up/robot_run.h"
 
-namespace docent::apps {
+namespace docent::apps::up_command {
 
 void add_up_command(CLI::App& app) {
   auto options = std::make_shared<RobotRun>();
@@ -30,4 +30,4 @@ void add_up_command(CLI::App& app) {
   });
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::up_command

@@ -14,7 +14,7 @@
 #include "docent/apps/shared/deployment.h"
 #include "docent/telepresence/accounts/accounts.h"
 
-namespace docent::apps {
+namespace docent::apps::web_account_command {
 namespace {
 
 struct Options {
@@ -113,4 +113,4 @@ void add_web_account_command(CLI::App& app) {
   part("list", "lists the accounts", list);
 }
 
-}  // namespace docent::apps
+}  // namespace docent::apps::web_account_command
