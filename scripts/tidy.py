@@ -2,9 +2,9 @@
 """scripts/tidy.py FILE…: clang-tidy over sources that build/dev has compiled, as many at a time as there are processors.
 
 Most of the time goes into reading the same headers. So the sources of a folder are looked at as one file, and those of
-several folders too, where no names meet (cmake/joint_groups.py); where that finds something, folder by folder, and then one by one. What was
-found good is not looked at again until it, a header of it, its compiler options, the list of checks or clang-tidy itself
-has changed: build/dev/tidy has one empty file for each source, named after a hash of all that.
+several folders too, where no names meet (cmake/joint_groups.py); where that finds something, folder by folder, and then
+one by one. What was found good is not looked at again until it, a header of it, its compiler options, the list of checks
+or clang-tidy itself has changed: build/dev/tidy has one empty file for each source, named after a hash of all that.
 """
 import hashlib
 import json
