@@ -21,6 +21,7 @@ ITEMS = 49  # exhibits and viewpoints that may be asked for; a museum with fewer
 HOURS, LAST_HOURS = 20.0, 2.0  # in the last ones nobody asks any more, so that every request may end
 SLICE_HOURS, SLICE_LAST = 1.4, 0.5
 CRIPPLED_HOURS, CRIPPLED_LAST = 3.0, 1.5
+SLICE_CRIPPLED_HOURS, SLICE_CRIPPLED_LAST = 0.9, 0.4  # beyond the first kill
 RUSH, RUSH_EVERY, RUSH_FOR = 100, 2.0, 180.0  # Web visitors who ask within so many seconds [h, s]
 SLICE_RUSH = 30
 PENDING = 90  # at once, at least: the rush is served while it comes
@@ -395,7 +396,7 @@ def protocol(simulations, options):
     crippled = {} if options.no_crippled else dict(list(CRIPPLED.items())[: 1 if is_slice else None])
     jobs = [(name, "whole", seed, hours, last, SLICE_RUSH if is_slice else RUSH, []) for name in names for seed in seeds]
     if crippled:
-        short = (SLICE_HOURS, SLICE_LAST, SLICE_RUSH) if is_slice else (CRIPPLED_HOURS, CRIPPLED_LAST, RUSH)
+        short = (SLICE_CRIPPLED_HOURS, SLICE_CRIPPLED_LAST, SLICE_RUSH) if is_slice else (CRIPPLED_HOURS, CRIPPLED_LAST, RUSH)
         jobs += [(names[0], how, seeds[0], *short, arguments) for how, arguments in crippled.items()]
     asked = [events_of(known[name], seed, hours, last, rush) for name, _, seed, hours, last, rush, _ in jobs]
     made = simulations.each(run, [(simulations, museums[name], seed, events, hours, arguments)

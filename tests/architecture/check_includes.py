@@ -128,6 +128,22 @@ def check_namespaces(root, common):
             check(right, f"{path.relative_to(root)}: namespace {name} in folder {folder}")
 
 
+def check_types(root):
+    """No two headers give two types one full name: the linker would take the functions of one for those of the other."""
+    defined = {}
+    for path in sorted(root.rglob("*.h")):
+        namespaces = []
+        for line in path.read_text().splitlines():
+            if found := re.match(r"namespace ([\w:]+) \{$", line):
+                namespaces.append(found[1])
+            elif line.startswith("}  // namespace"):
+                namespaces.pop()
+            elif found := re.match(r"(?:struct|class|enum|enum class) (\w+)(?: final)?(?: : .*)? \{", line):
+                name = "::".join([*namespaces, found[1]])
+                other = defined.setdefault(name, path)
+                check(other == path, f"{path.relative_to(root)}: {name} is defined in {other.relative_to(root)}, too")
+
+
 def sources(root):
     """(path, text) of all code that is no test."""
     return [(path, path.read_text()) for path in sorted(root.rglob("*"))
@@ -205,6 +221,7 @@ if __name__ == "__main__":
     check_dependencies()
     check_modules()
     check_namespaces(SOURCE, COMMON)
+    check_types(SOURCE)
     check_publishers(SOURCE, SOURCE / "messages" / "topics.h", ONE_PUBLISHER)
     check_machines()
     sys.exit(report())

@@ -177,6 +177,23 @@ class Namespaces(Project):
         self.assertEqual(self.faults("namespace docent::messages {\n", "messages/a.h"), 1)
 
 
+class Types(Project):
+    def faults(self, other):
+        findings.faults.clear()
+        self.write("mapping/rooms/room.h", "namespace docent::mapping {\nstruct Place {\n};\n")
+        self.write("mapping/way/way.h", other)
+        check_includes.check_types(self.root)
+        return len(findings.faults)
+
+    def test_a_full_name_stands_for_one_type(self):
+        self.assertEqual(self.faults("namespace docent::mapping {\nclass Place final : public Way {\n};\n"), 1)
+        self.assertEqual(self.faults("namespace docent::mapping {\nstruct Place;\n"), 0)
+        self.assertEqual(self.faults("namespace docent::planning {\nstruct Place {\n};\n"), 0)
+        self.assertEqual(self.faults("namespace docent {\nnamespace mapping {\nstruct Place {\n};\n}  // namespace mapping\n"), 1)
+        self.assertEqual(self.faults("namespace docent {\nnamespace mapping {\n}  // namespace mapping\nstruct Place {\n};\n"), 0)
+        self.assertEqual(self.faults("namespace docent::mapping {\nstruct Place::Part {\n};\n"), 0)
+
+
 class JointGroups(Project):
     """Which folders are compiled as one file; no rule, but what it rests on."""
 

@@ -20,7 +20,7 @@ struct PoseWindow {
 
 class ExpectationMaximization {
  public:
-  ExpectationMaximization(std::span<const Place> places, const EmMapperParams& params, const EmLevel& level,
+  ExpectationMaximization(std::span<const SeenPlace> places, const EmMapperParams& params, const EmLevel& level,
                           const std::vector<PoseWindow>& windows)
       : places_{places}, params_{params}, cells_{level.cells}, independent_{level.independent}, windows_{windows} {}
 
@@ -40,7 +40,7 @@ class ExpectationMaximization {
 
  private:
   [[nodiscard]] Motion motion_to(std::size_t t) const {
-    const Place& place = places_[t];
+    const SeenPlace& place = places_[t];
     return {place.before_from_here, params_.way_per_metre * place.way + params_.way_per_radian * place.turn + 1e-4,
             params_.turn_per_metre * place.way + params_.turn_per_radian * place.turn + 1e-5};
   }
@@ -121,7 +121,7 @@ class ExpectationMaximization {
     }
   }
 
-  std::span<const Place> places_;
+  std::span<const SeenPlace> places_;
   const EmMapperParams& params_;
   PoseCells cells_;
   double independent_;
@@ -148,7 +148,7 @@ std::vector<PoseWindow> windows_about(std::span<const PoseBox> posteriors, doubl
 }
 
 /// A map of the same beliefs on another grid: each belief by its mode.
-EvidenceMap map_of_modes(std::span<const Place> places, std::span<const Pose2> modes, const PoseCells& cells) {
+EvidenceMap map_of_modes(std::span<const SeenPlace> places, std::span<const Pose2> modes, const PoseCells& cells) {
   std::vector<PoseBox> beliefs;
   for (const Pose2& mode : modes) beliefs.emplace_back(cells, mode);
   return EvidenceMap{places, beliefs};
@@ -163,7 +163,7 @@ EmMap map_by_em(std::span<const MappingScan> scans, const EmMapperParams& params
   bool is_wanted = true;
   for (std::size_t level = 0; level < params.levels.size() && is_wanted; ++level) {
     const PoseCells& cells = params.levels[level].cells;
-    const std::vector<Place> places = places_of(scans, params.places, cells.cell);
+    const std::vector<SeenPlace> places = places_of(scans, params.places, cells.cell);
     if (places.empty()) return result;
     ExpectationMaximization em{places, params, params.levels[level], windows};
     std::optional<EvidenceMap> map;
@@ -180,7 +180,7 @@ EmMap map_by_em(std::span<const MappingScan> scans, const EmMapperParams& params
       if (moved < params.still * cells.cell) break;
     }
     result.scans.clear();
-    for (const Place& place : places) result.scans.push_back(place.scan);
+    for (const SeenPlace& place : places) result.scans.push_back(place.scan);
     windows = windows_about(em.posteriors(), params.window);
   }
   return result;

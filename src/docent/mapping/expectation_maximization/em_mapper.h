@@ -45,7 +45,7 @@ struct EmProgress {
   double log_likelihood = 0.0;  ///< of all data, ln p(d | m), up to a constant of the level
   double moved = 0.0;           ///< [m], mean, since the iteration before
   const EvidenceMap& map;
-  std::span<const Place> places;
+  std::span<const SeenPlace> places;
   std::span<const Pose2> poses;  ///< map_from_base of each place: modes
 };
 

@@ -26,7 +26,7 @@ TEST(ExpectationMaximization, ClosesARingFromABlindStart) {
     likelihoods[progress.level].push_back(progress.log_likelihood);
     if (progress.level == 0 && progress.iteration == 0) {
       std::vector<std::size_t> scans;
-      for (const Place& place : progress.places) scans.push_back(place.scan);
+      for (const SeenPlace& place : progress.places) scans.push_back(place.scan);
       blind = testing::relation_error(at(drive.truth, scans), {progress.poses.begin(), progress.poses.end()}, 24);
     }
     return true;

@@ -14,7 +14,7 @@ CellIndex cell_of(Point2 at, double cell) {
 
 }  // namespace
 
-EvidenceMap::EvidenceMap(std::span<const Place> places, std::span<const PoseBox> beliefs) {
+EvidenceMap::EvidenceMap(std::span<const SeenPlace> places, std::span<const PoseBox> beliefs) {
   const double cell = beliefs.front().cells().cell;
   CellIndex low{1 << 30, 1 << 30};
   CellIndex high{-(1 << 30), -(1 << 30)};
@@ -37,7 +37,7 @@ EvidenceMap::EvidenceMap(std::span<const Place> places, std::span<const PoseBox>
   take_logarithms();
 }
 
-EvidenceMap::TurnedPlace EvidenceMap::turned(const Place& place, Angle heading, double cell) {
+EvidenceMap::TurnedPlace EvidenceMap::turned(const SeenPlace& place, Angle heading, double cell) {
   TurnedPlace turned;
   const Pose2 turn{0.0, 0.0, heading};
   turned.occupied.reserve(place.occupied.size());
@@ -47,7 +47,7 @@ EvidenceMap::TurnedPlace EvidenceMap::turned(const Place& place, Angle heading, 
   return turned;
 }
 
-void EvidenceMap::add(const Place& place, const PoseBox& belief) {
+void EvidenceMap::add(const SeenPlace& place, const PoseBox& belief) {
   constexpr float kLeast = 1e-6F;  // of the whole mass; less does not show
   std::map<double, TurnedPlace> seen_at;
   for (std::size_t i = 0; i < belief.size(); ++i) {
@@ -100,7 +100,7 @@ double EvidenceMap::log_likelihood(const TurnedPlace& place, CellIndex at, doubl
   return independent * (mean_over(place.occupied, log_occupied_) + mean_over(place.free, log_free_));
 }
 
-double EvidenceMap::log_likelihood(const Place& place, const Pose2& map_from_base, double independent) const {
+double EvidenceMap::log_likelihood(const SeenPlace& place, const Pose2& map_from_base, double independent) const {
   return log_likelihood(turned(place, map_from_base.theta, frame_.resolution),
                         cell_of(map_from_base.position(), frame_.resolution), independent);
 }

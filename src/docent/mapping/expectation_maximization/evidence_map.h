@@ -13,24 +13,24 @@ namespace docent::mapping {
 class EvidenceMap {
  public:
   /// Covers all places at all poses of their beliefs. @pre as many beliefs as places, at least one
-  EvidenceMap(std::span<const Place> places, std::span<const PoseBox> beliefs);
+  EvidenceMap(std::span<const SeenPlace> places, std::span<const PoseBox> beliefs);
 
   /// ln P(o | s, m) less that of a robot that sees nothing known, tempered: all cells of a place together are worth
   /// `independent` ones. O(points of the place).
-  [[nodiscard]] double log_likelihood(const Place& place, const Pose2& map_from_base, double independent) const;
+  [[nodiscard]] double log_likelihood(const SeenPlace& place, const Pose2& map_from_base, double independent) const;
   /// The same for all cells of one heading is the inner loop: the points' cells as seen from a cell's centre.
   struct TurnedPlace {
     std::vector<CellIndex> occupied;
     std::vector<CellIndex> free;
   };
-  [[nodiscard]] static TurnedPlace turned(const Place& place, Angle heading, double cell);
+  [[nodiscard]] static TurnedPlace turned(const SeenPlace& place, Angle heading, double cell);
   [[nodiscard]] double log_likelihood(const TurnedPlace& place, CellIndex at, double independent) const;
 
   /// In percent; cells that hardly anything was seen of are unknown.
   [[nodiscard]] OccupancyGrid picture() const;
 
  private:
-  void add(const Place& place, const PoseBox& belief);
+  void add(const SeenPlace& place, const PoseBox& belief);
   void take_logarithms();
 
   GridFrame frame_;  ///< cell (0, 0) has its centre at `first_` times the resolution

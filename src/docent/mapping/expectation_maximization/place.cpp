@@ -13,8 +13,8 @@ void append_free(Point2 from, Point2 to, double cell, std::vector<Point2>& free)
 }
 
 /// Scans `first` to `last`, seen from the middle one.
-Place place_of(std::span<const MappingScan> scans, std::size_t first, std::size_t last, double reach, double cell) {
-  Place place;
+SeenPlace place_of(std::span<const MappingScan> scans, std::size_t first, std::size_t last, double reach, double cell) {
+  SeenPlace place;
   place.scan = (first + last) / 2;
   std::vector<Point2> occupied;
   std::vector<Point2> free;
@@ -35,8 +35,8 @@ Place place_of(std::span<const MappingScan> scans, std::size_t first, std::size_
 
 }  // namespace
 
-std::vector<Place> places_of(std::span<const MappingScan> scans, const PlaceParams& params, double cell) {
-  std::vector<Place> places;
+std::vector<SeenPlace> places_of(std::span<const MappingScan> scans, const PlaceParams& params, double cell) {
+  std::vector<SeenPlace> places;
   std::size_t first = 0;
   double way = 0.0;
   double turn = 0.0;
@@ -50,7 +50,7 @@ std::vector<Place> places_of(std::span<const MappingScan> scans, const PlacePara
     }
     const bool is_last = i + 1 == scans.size();
     if (way - way_of_place < params.way && turn - turn_of_place < params.turn && !is_last) continue;
-    Place place = place_of(scans, first, i, params.reach, cell);
+    SeenPlace place = place_of(scans, first, i, params.reach, cell);
     if (!places.empty()) {
       place.before_from_here = inverse(scans[places.back().scan].odom_from_base) * scans[place.scan].odom_from_base;
       place.way = way - way_of_place;

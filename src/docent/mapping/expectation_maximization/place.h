@@ -23,7 +23,7 @@ struct PlaceParams {
 
 /// What the robot saw about one place of its way, put together by odometry over that short piece: the observation o of
 /// [Minerva2000] eq. 7-9, and the way since the place before.
-struct Place {
+struct SeenPlace {
   std::size_t scan = 0;          ///< in whose base frame it is seen
   Pose2 before_from_here;        ///< raw odometry since the place before; at the first one nothing
   double way = 0.0;              ///< [m] driven since then
@@ -33,6 +33,7 @@ struct Place {
 };
 
 /// O(points). `cell` [m]: of the thinned points.
-[[nodiscard]] std::vector<Place> places_of(std::span<const MappingScan> scans, const PlaceParams& params, double cell);
+[[nodiscard]] std::vector<SeenPlace> places_of(std::span<const MappingScan> scans, const PlaceParams& params,
+                                               double cell);
 
 }  // namespace docent::mapping
