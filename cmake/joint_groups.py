@@ -5,6 +5,9 @@ A line of FOLDERS is a folder's name and its sources, with blanks between them. 
 that one's sources define at the beginning of a line (what stands in unnamed namespaces is among that) is used by the
 other's, unless their namespaces differ; and where they have at most MOST sources. A folder goes to the first of its layer
 (the first part of its name) that has room for it, else to any: neighbours read the same headers.
+
+What it does not see: a name that a header of one folder declares may hide one further out that another folder means. The
+compiler refuses that; a source then names the namespace (docent::to_text).
 """
 import re
 import sys

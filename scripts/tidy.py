@@ -103,8 +103,14 @@ def by_folder(sources):
 
 def groups_of(sources):
     """Likewise, those of several folders."""
-    folders = [(str(members[0].parent.relative_to(ROOT / "src" / "docent")), members) for members in by_folder(sources)]
-    return sorted((group.sources for group in joint_groups.groups_of(folders, MOST_TOGETHER)), key=len, reverse=True)  # the longest first
+    joint, alone = [], []
+    for members in by_folder(sources):
+        if len(members) == 1 and is_program(members[0]):
+            alone.append(members)
+        else:
+            joint.append((str(members[0].parent.relative_to(ROOT / "src" / "docent")), members))
+    groups = [group.sources for group in joint_groups.groups_of(joint, MOST_TOGETHER)] + alone
+    return sorted(groups, key=len, reverse=True)  # the longest first
 
 
 def tidy(source, database):

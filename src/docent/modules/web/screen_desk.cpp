@@ -41,8 +41,8 @@ void ScreenDesk::light(const std::vector<int>& lit) {
 }
 
 void ScreenDesk::look() {
-  constexpr Duration kSilent = std::chrono::seconds{12};  // the page says its lamps every 5 s
-  if (bus_.now() - heard_ > kSilent) light({});
+  constexpr Duration kLampsSilent = std::chrono::seconds{12};  // the page says its lamps every 5 s
+  if (bus_.now() - heard_ > kLampsSilent) light({});
 }
 
 }  // namespace docent::modules

@@ -13,7 +13,7 @@ Result<void> save_checkpoint(const std::filesystem::path& path, const ExecutiveM
   const TaskOrder& order = memory.task.order;
   const Pose2& pose = order.map_from_base;
   const Json json{{"map", map},
-                  {"phase", to_text(memory.phase)},
+                  {"phase", docent::to_text(memory.phase)},
                   {"item", memory.item},
                   {"finished", memory.finished},
                   {"item_began", memory.item_began.nanoseconds},

@@ -99,7 +99,7 @@ class ActionsReader {
   /// The names of ids as they always were: of a spoken text its key, of anything else its kind.
   static std::string base_name(const Directive& directive) {
     const bool is_named = is_speech(directive.kind) && directive.texts.empty();
-    return is_named || directive.kind == DirectiveKind::ask ? directive.argument : to_text(directive.kind);
+    return is_named || directive.kind == DirectiveKind::ask ? directive.argument : docent::to_text(directive.kind);
   }
 
   [[nodiscard]] ActionItem item(const YAML::Node& node) const {
@@ -134,12 +134,13 @@ class ActionsReader {
   [[nodiscard]] Directive directive(DirectiveKind kind, const YAML::Node& node) const {
     Directive directive{kind, "", {}, ""};
     if (is_speech(kind) && node.IsMap()) {
-      for (const auto& text : node) directive.texts[text.first.as<std::string>()] = scalar(text.second, to_text(kind));
+      for (const auto& text : node)
+        directive.texts[text.first.as<std::string>()] = scalar(text.second, docent::to_text(kind));
       return directive;
     }
-    directive.argument = scalar(node, to_text(kind));
+    directive.argument = scalar(node, docent::to_text(kind));
     if (const std::string wanted = fault_of(kind, directive.argument); !wanted.empty())
-      throw YamlFault{file_.fault(node, std::string{"'"} + to_text(kind) + "' must be " + wanted)};
+      throw YamlFault{file_.fault(node, std::string{"'"} + docent::to_text(kind) + "' must be " + wanted)};
     return directive;
   }
 
