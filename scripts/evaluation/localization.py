@@ -23,8 +23,10 @@ DEFAULT = ("grid", "distance")
 CRIPPLED = ("crippled", "dead reckoning")  # odometry alone after the first "here": must fail where it has a way to drift
 
 
-def filters_of(method):
-    """All for the default method; for the other, the default filter and none."""
+def filters_of(method, is_slice):
+    """All for the default method; for the other, the default filter and none. A slice judges the default filter alone."""
+    if is_slice:
+        return [DEFAULT[1]]
     return FILTERS if method == DEFAULT[0] else ["none", DEFAULT[1]]
 
 
@@ -39,7 +41,7 @@ def tracking(bench, verdict, print_table, seeds, minutes, museums, methods, is_s
     for crowd_name, (crowd, escort, wanted, most_lost, most_error) in CROWDS.items():
         def one(museum, seed):
             found = {}
-            ways = {(method, name): settings_of(method, name) for method in methods for name in filters_of(method)}
+            ways = {(method, name): settings_of(method, name) for method in methods for name in filters_of(method, is_slice)}
             ways[CRIPPLED] = settings_of(*DEFAULT) + ["evaluation.dead_reckoning=true"]
             for way, settings in ways.items():
                 claims = bench.claims(museum, seed, minutes, crowd, scenario(escort), settings)
@@ -47,11 +49,11 @@ def tracking(bench, verdict, print_table, seeds, minutes, museums, methods, is_s
             bench.forget(museum, seed, minutes, crowd, scenario(escort))
             return found
         runs = bench.each([lambda m=museum, s=seed: one(m, s) for museum in museums for seed in seeds])
-        claims = [row for run in runs for row in run[methods[0], "none"][0]]
+        claims = [row for run in runs for row in run[methods[0], DEFAULT[1]][0]]
         blocked = mean(row["blocked"] for row in claims)
         moving = mean(abs(row["speed"]) > 0.02 or abs(row["true_heading"] - before["true_heading"]) > 0.3
                       for before, row in zip(claims, claims[1:]))
-        km = sum(run[methods[0], "none"][0][-1]["distance"] for run in runs) / 1000
+        km = sum(run[methods[0], DEFAULT[1]][0][-1]["distance"] for run in runs) / 1000
         verdict.want(f"{crowd_name}: moving at least 70 % of the time", f"{100 * moving:.0f} % in {km:.2f} km, "
                      f"{100 * blocked:.0f} % of the beams blocked", moving >= 0.7)
         verdict.want(f"{crowd_name}: {100 * wanted:.0f} % of the beams blocked, within {100 * BLOCKED_WITHIN:.0f}",

@@ -231,7 +231,7 @@ def plot(path, panels, subtitle):
 
 def protocol(bench, options):
     count = options.seeds or (1 if options.slice else 8)
-    minutes = 12 if options.slice else options.minutes or 15
+    minutes = 6 if options.slice else options.minutes or 15
     seeds = list(range(options.first_seed, options.first_seed + count))
     verdict = Verdict()
     panels = []

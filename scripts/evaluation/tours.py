@@ -17,9 +17,9 @@ TARGET, WITHIN, SPREAD = 360.0, 10.0, 20.0  # [s]
 # robot that does not learn is not: as the rest is composed anew after each stop, its wrong times are made up for.
 WORSE = 2.0
 LEAST_EXHIBITS = 3
-LEARNING_HOURS, SLICE_LEARNING_HOURS = 8.0, 1.0
+LEARNING_HOURS, SLICE_LEARNING_HOURS = 8.0, 0.5
 WISHES = 14  # an hour, while the robot learns: it is seldom idle
-TOURS, SLICE_TOURS = 112, 10  # asked for; some wait for the battery and are given to two at once
+TOURS, SLICE_TOURS = 112, 5  # asked for; some wait for the battery and are given to two at once
 STATIC_TOURS = 40
 SEEDS = 2  # what is asked for is divided among them
 EVERY, EVERY_STATIC = 600, 840  # [s] from one tour to the next: it is over, and the robot is on its way home or there
@@ -135,7 +135,7 @@ def judge(verdict, museum, begun, static, wanted, is_slice):
         return
     seconds = [tour["seconds"] for tour in tours]
     mean, spread = statistics.mean(seconds), statistics.pstdev(seconds)
-    within = 2.5 * WITHIN if is_slice else WITHIN  # the mean of ten tours is itself uncertain by six seconds
+    within = 2.5 * WITHIN if is_slice else WITHIN  # the mean of five tours is itself uncertain by nine seconds
     verdict.want(f"{name}: mean within {within:g} s of {TARGET:g} s", f"{mean:.1f} s", abs(mean - TARGET) <= within)
     if is_slice:
         verdict.note(f"{name}: standard deviation", f"{spread:.1f} s")

@@ -50,7 +50,8 @@ await check('both cameras are shown, with the age of their pictures', async () =
   });
   ensure(seen.length === 2 && seen.every((one) => one.width === 320 && one.height === 240), JSON.stringify(seen));
   ensure(seen.every((one) => one.colors > 20), `pictures of nothing: ${JSON.stringify(seen)}`);
-  await page.waitForFunction(() => [...document.querySelectorAll('.cameras figcaption span')].every((one) => /^([0-9]|1[0-9]) s ago$/.test(one.textContent)));
+  await until('the age of both', () => page.evaluate(() =>
+    [...document.querySelectorAll('.cameras figcaption span')].every((one) => /^([0-9]|1[0-9]) s ago$/.test(one.textContent))), 30000);
 });
 
 await check('both pictures are of the same moment', async () => {

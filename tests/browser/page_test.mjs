@@ -145,7 +145,8 @@ await check('a click on an exhibit puts it on the list for everybody', async () 
 });
 
 await check('the robot drives there, speaks, asks and the wish comes true', async () => {
-  await page.waitForFunction(() => window.seen.phases.has('driving') && [...window.seen.far].some((text) => /^\d+ m to go, about (\d+ s|\d:\d\d min)/.test(text)));
+  await until('it drives, and says how far it is', () => page.evaluate(() =>
+    window.seen.phases.has('driving') && [...window.seen.far].some((text) => /^\d+ m to go, about (\d+ s|\d:\d\d min)/.test(text))), 60000);
   await page.waitForSelector('.now[data-phase=explaining]', { timeout: 60000 });
   await page.locator('.about h3', { hasText: 'cyclotron' }).waitFor();
   await page.locator('.story .saying').first().waitFor();

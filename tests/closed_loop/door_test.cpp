@@ -137,7 +137,7 @@ Drive drive(const Door& door, std::uint64_t seed) {
   const auto run = apps::simulate_command::SimulationRun::create(options);
   EXPECT_TRUE(run.has_value()) << (run ? "" : run.error().message);
   if (!run) return drive;
-  EXPECT_TRUE((*run)->run_until(time_from_seconds(120.0)));
+  EXPECT_TRUE((*run)->run_until(time_from_seconds(80.0)));
   EXPECT_TRUE((*run)->finish());
   drive.report = nlohmann::json::parse((*run)->report_json());
   drive.blocked = drive.report.at("blocked").at("seconds").get<double>();

@@ -137,7 +137,7 @@ TEST(Avoider, GetsFreeWhenTheHazardsJumpNearer) {
 
 TEST(Avoider, NeverTouchesAnythingInRandomClutter) {
   double driven = 0.0;
-  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+  for (std::uint64_t seed = 0; seed < 15; ++seed) {
     SCOPED_TRACE(seed);
     Rng rng{seed};
     Rehearsal world{seed};
