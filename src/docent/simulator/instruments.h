@@ -9,7 +9,7 @@
 #include "docent/simulator/body/battery.h"
 #include "docent/simulator/body/body.h"
 #include "docent/simulator/hardware.h"
-#include "docent/simulator/scenario.h"
+#include "docent/simulator/scenario/scenario.h"
 #include "docent/simulator/sensing/infrared.h"
 #include "docent/simulator/sensing/laser.h"
 #include "docent/simulator/sensing/sonar.h"

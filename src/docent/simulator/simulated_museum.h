@@ -11,7 +11,7 @@
 #include "docent/simulator/cameras.h"
 #include "docent/simulator/crowd/crowd_params.h"
 #include "docent/simulator/hardware.h"
-#include "docent/simulator/scenario.h"
+#include "docent/simulator/scenario/scenario.h"
 #include "docent/simulator/world/world.h"
 #include "docent/transport/bus.h"
 

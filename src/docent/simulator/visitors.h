@@ -9,7 +9,7 @@
 #include "docent/base/time.h"
 #include "docent/messages/mission_messages.h"
 #include "docent/messages/request_messages.h"
-#include "docent/simulator/scenario.h"
+#include "docent/simulator/scenario/scenario.h"
 
 namespace docent::simulator {
 

@@ -4,7 +4,7 @@
 
 #include "docent/base/time.h"
 #include "docent/messages/localization_messages.h"
-#include "docent/simulator/scenario.h"
+#include "docent/simulator/scenario/scenario.h"
 
 namespace docent::apps::simulate_command {
 

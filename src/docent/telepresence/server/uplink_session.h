@@ -8,8 +8,8 @@
 
 #include "docent/telepresence/server/session.h"
 #include "docent/telepresence/site.h"
-#include "docent/telepresence/uplink/envelope.h"
-#include "docent/telepresence/uplink/picture_pieces.h"
+#include "docent/telepresence/uplink/envelope/envelope.h"
+#include "docent/telepresence/uplink/envelope/picture_pieces.h"
 #include "docent/telepresence/web_socket/web_socket.h"
 
 namespace docent::telepresence {

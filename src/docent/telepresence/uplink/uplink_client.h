@@ -7,7 +7,7 @@
 
 #include "docent/base/result.h"
 #include "docent/telepresence/api/exchange/exchange.h"
-#include "docent/telepresence/uplink/picture_pieces.h"
+#include "docent/telepresence/uplink/envelope/picture_pieces.h"
 
 namespace docent::telepresence {
 

@@ -1,4 +1,4 @@
-#include "docent/telepresence/uplink/envelope.h"
+#include "docent/telepresence/uplink/envelope/envelope.h"
 
 #include <gtest/gtest.h>
 

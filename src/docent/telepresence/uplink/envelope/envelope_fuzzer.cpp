@@ -1,8 +1,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "docent/telepresence/uplink/envelope.h"
-#include "docent/telepresence/uplink/picture_pieces.h"
+#include "docent/telepresence/uplink/envelope/envelope.h"
+#include "docent/telepresence/uplink/envelope/picture_pieces.h"
 
 // What comes over the line between museum and far gateway.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "docent/telepresence/uplink/envelope.h"
+#include "docent/telepresence/uplink/envelope/envelope.h"
 
 namespace docent::telepresence {
 

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "docent/simulator/scenario.h"
+#include "docent/simulator/scenario/scenario.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);

@@ -1,4 +1,4 @@
-#include "docent/telepresence/uplink/picture_pieces.h"
+#include "docent/telepresence/uplink/envelope/picture_pieces.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "docent/simulator/scenario.h"
+#include "docent/simulator/scenario/scenario.h"
 
 #include <gtest/gtest.h>
 
