@@ -79,7 +79,7 @@ def wean(logs, methods, verdict, is_slice):
     known = ["--wall-depth", WEAN_WALLS] if is_slice else []
     print("\n## Wean Hall: drawn map, unknown start, forward and time-reversed\n")
     rows = []
-    for log in ["wean-1", "wean-2"]:
+    for log in ["wean-2"] if is_slice else ["wean-1", "wean-2"]:  # the tutorial that localizes a log runs wean-1, and its figures are compared
         for method in methods:
             forward = logs.localize(f"{log}-{method}", ["--map", logs.data / "maps" / "wean.yaml", "--log",
                                                         logs.log(f"{log}.clf.gz"), "--both-ways", "--method", method, *known])
