@@ -19,7 +19,7 @@ from evaluation.tours import LEAST_EXHIBITS
 MUSEUMS = ["bonn", "smithsonian"]
 ITEMS = 49  # exhibits and viewpoints that may be asked for; a museum with fewer gets more viewpoints
 HOURS, LAST_HOURS = 20.0, 2.0  # in the last ones nobody asks any more, so that every request may end
-SLICE_HOURS, SLICE_LAST = 1.4, 0.5
+SLICE_HOURS, SLICE_LAST = 1.1, 0.5
 CRIPPLED_HOURS, CRIPPLED_LAST = 3.0, 1.5
 SLICE_CRIPPLED_HOURS, SLICE_CRIPPLED_LAST = 0.9, 0.4  # beyond the first kill
 RUSH, RUSH_EVERY, RUSH_FOR = 100, 2.0, 180.0  # Web visitors who ask within so many seconds [h, s]
