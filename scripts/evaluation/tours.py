@@ -231,7 +231,7 @@ def protocol(simulations, options):
                             ("static", "static")):
             if of[name][kind]:
                 rows.append(row_of(name, title, of[name][kind]))
-        judge(verdict, name, of[name]["learned"], of[name]["static"], round(0.88 * count * len(seeds)), is_slice)
+        judge(verdict, name, of[name]["learned"], of[name]["static"], math.ceil(0.88 * count * len(seeds)), is_slice)
     print(f"\n## Tours of {TARGET:g} s, busy, from the acknowledged choice to the end of the farewell\n")
     print_table(HEADER, rows)
     print("\noff: from the target, root mean square; waited: tours that did not begin at once (the battery was charged); their clock runs "
