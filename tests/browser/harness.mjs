@@ -92,13 +92,17 @@ export async function answers(url, patience = 20000) {
   }, patience);
 }
 
-/** In a page: it draws six times a second, not thirty. Most tests look at what is drawn, not at how smoothly, and
- *  drawing without a graphics card is most of what they cost. */
+/** In a page: it draws three times a second, not thirty, and nothing moves by itself. Most tests look at what is drawn, not
+ *  at how smoothly, and drawing without a graphics card is most of what they cost: what the style sheet moves is composed
+ *  sixty times a second. */
 function drawRarely() {
+  const still = new CSSStyleSheet();
+  still.replaceSync('*, *::before, *::after { animation: none !important; transition: none !important; }');
+  document.adoptedStyleSheets = [still];
   const frame = window.requestAnimationFrame.bind(window);
   const waiting = new Set();
   window.requestAnimationFrame = (draw) => {
-    const id = setTimeout(() => frame((now) => waiting.delete(id) && draw(now)), 150);
+    const id = setTimeout(() => frame((now) => waiting.delete(id) && draw(now)), 330);
     waiting.add(id);
     return id;
   };

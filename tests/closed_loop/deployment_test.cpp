@@ -175,6 +175,7 @@ StoolRun run_with_stool(const std::string& scenario, std::uint64_t seed) {
   EXPECT_TRUE(log.is_open());
   for (std::string line; std::getline(log, line);)
     result.asked += line.find(",asked_for_way,") != std::string::npos ? 1 : 0;
+  std::filesystem::remove(options.event_log);
   return result;
 }
 
