@@ -8,8 +8,8 @@ set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # the tests are not shipped
 set(CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS  # whatever the umask
   OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(share ${CMAKE_INSTALL_DATADIR}/docent)
-set(packaging ${CMAKE_SOURCE_DIR}/packaging)
-set(generated ${CMAKE_BINARY_DIR}/packaging)
+set(packaging ${DOCENT_ROOT}/packaging)
+set(generated ${DOCENT_BINARY_DIR}/packaging)
 file(MAKE_DIRECTORY ${generated})
 
 install(TARGETS docent RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
@@ -23,8 +23,8 @@ install(FILES README.md LICENSE CHANGELOG.md DESTINATION ${share} COMPONENT prog
 
 # For programs of others.
 configure_file(${packaging}/docent_msgs/package.xml.in ${generated}/package.xml @ONLY)
-install(FILES ${CMAKE_BINARY_DIR}/idl/docent.idl DESTINATION ${share} COMPONENT program)
-install(DIRECTORY ${CMAKE_BINARY_DIR}/idl/docent_msgs DESTINATION ${share} COMPONENT program)
+install(FILES ${DOCENT_BINARY_DIR}/idl/docent.idl DESTINATION ${share} COMPONENT program)
+install(DIRECTORY ${DOCENT_BINARY_DIR}/idl/docent_msgs DESTINATION ${share} COMPONENT program)
 install(FILES ${packaging}/docent_msgs/CMakeLists.txt ${generated}/package.xml DESTINATION ${share}/docent_msgs
   COMPONENT program)
 
@@ -37,7 +37,7 @@ add_custom_command(
   DEPENDS docent)
 add_custom_command(
   OUTPUT ${generated}/robot.yaml
-  COMMAND sed "s/^[^#]/#&/" ${CMAKE_SOURCE_DIR}/docs/robot.yaml > ${generated}/defaults
+  COMMAND sed "s/^[^#]/#&/" ${DOCENT_ROOT}/docs/robot.yaml > ${generated}/defaults
   COMMAND cat ${packaging}/debian/robot.yaml.head ${generated}/defaults > ${generated}/robot.yaml
   DEPENDS docs/robot.yaml ${packaging}/debian/robot.yaml.head
   VERBATIM)

@@ -32,13 +32,19 @@ def names_of(source):
     return found[1] if found else "", defined, defined | set(WORDS.findall(text))
 
 
+def places_of(folder):
+    """Where the headers of a folder of sources lie: beside them and, public ones, in include."""
+    within = [i for i, part in enumerate(folder.parts) if part == "src"]
+    return [folder, *(Path(*folder.parts[:i], "include", *folder.parts[i + 1:]) for i in within[-1:])]
+
+
 class Group:
     def __init__(self):
         self.folders, self.sources, self.layers = [], [], set()
         self.defined, self.used = {}, {}  # by namespace
 
     def add(self, folder, sources):
-        headers = {path for source in sources for path in Path(source).parent.glob("*.h")}
+        headers = {path for source in sources for folder in places_of(Path(source).parent) for path in folder.glob("*.h")}
         self.folders.append(folder)
         self.sources += sources
         self.layers.add(folder.split("/")[0])

@@ -55,7 +55,7 @@ def files_read_by_compiler():
 
 def sources_in(path):
     """Those that a file which cmake wrote includes, so that they are compiled as one (DOCENT_UNITY)."""
-    return [Path(line.split('"')[1]) for line in path.read_text().splitlines() if line.startswith("#include")]
+    return [ROOT / "src" / line.split('"')[1] for line in path.read_text().splitlines() if line.startswith("#include")]
 
 
 def commands_of_compiler():
@@ -63,7 +63,7 @@ def commands_of_compiler():
     commands, compiled_as = {}, {}
     for entry in json.loads((BUILD / "compile_commands.json").read_text()):
         path = Path(entry["file"])
-        is_joint = path.parent.name == "Unity" and path.is_file()
+        is_joint = path.parent.name in {"Unity", "joint"} and path.is_file()
         for source in sources_in(path) if is_joint else [path]:
             command = entry["command"].replace(FOREIGN, "").replace(str(path), str(source))
             commands[source] = {**entry, "file": str(source), "command": command}

@@ -11,6 +11,7 @@ from findings import check, report  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCE = ROOT / "src" / "docent"
+PUBLIC = ROOT / "include" / "docent"  # its folders are those of SOURCE
 PAPERS = ROOT / "docs" / "papers.md"
 KEY = r"[A-Z][A-Za-z]+(?:19|20)\d\d"
 CODE = {".h", ".cpp", ".inc"}
@@ -28,8 +29,8 @@ def without_comments(text):
 
 @cache
 def sources():
-    """The code of each file of src/docent that is no test, without comments."""
-    return {path: without_comments(path.read_text()) for path in sorted(SOURCE.rglob("*"))
+    """The code of each file of src/docent and include/docent that is no test, without comments."""
+    return {path: without_comments(path.read_text()) for path in [*sorted(SOURCE.rglob("*")), *sorted(PUBLIC.rglob("*"))]
             if path.suffix in CODE and not path.stem.endswith("_test")}
 
 
@@ -68,7 +69,7 @@ def names_something(name, folder=SOURCE):
     if re.fullmatch(r"[a-z]\w*(\.[a-z]\w*)+", name) and not Path(name).suffix in CODE | {".md", ".py", ".yaml", ".html"}:
         return all(part in strings() for part in name.split(".")[1:])  # the first part is a module of robot.yaml
     if "/" in name or Path(name).suffix:
-        return any((base / name).exists() for base in (folder, SOURCE, ROOT)) or any(path.name == name for path in sources())
+        return any((base / name).exists() for base in (folder, SOURCE, PUBLIC, ROOT)) or any(path.name == name for path in sources())
     if re.fullmatch(r"\w+(::\w+)+", name):
         *_, type_name, member = name.split("::")
         return is_defined_with(type_name, member)
@@ -85,7 +86,7 @@ def check_papers():
         for name in re.findall(r"`([^`]+)`", line):
             check(names_something(name), f"docs/papers.md:{number}: `{name}` is nothing in this project")
     used = set()
-    for path in git_files("src", "tests", "scripts", "docs", "web", "README.md", "CONTRIBUTING.md"):
+    for path in git_files("include", "src", "tests", "scripts", "docs", "web", "README.md", "CONTRIBUTING.md"):
         if path.suffix in {".svg", ".png", ".webp", ".gz", ".json"}:
             continue
         try:
@@ -114,7 +115,8 @@ def check_readmes():
         text = readme.read_text()
         named = set(re.findall(r"`([^`\n]+)`", re.sub(r"```.*?```", "", text, flags=re.S)))
         stems = {name.rstrip("/").split("/")[-1].split(".")[0] for name in named}
-        for path in sorted(folder.iterdir()):
+        public = PUBLIC / folder.relative_to(SOURCE)
+        for path in [*sorted(folder.iterdir()), *(sorted(public.glob("*.h")) if public.is_dir() else [])]:
             if path.is_dir() or path.suffix == ".h":
                 check(path.stem in stems, f"{where}/README.md does not name {path.name}")
         for name in sorted(named):
@@ -135,7 +137,7 @@ def check_agreements():
             numbers.add(f"{section}.{item[1]}")
     check([str(i) for i in range(1, 11)] == sorted((n for n in numbers if "." not in n), key=int),
           "docs/architecture.md: its sections are not numbered from 1 to 10")
-    for path in git_files("src", "tests", "scripts", "docs", "web"):
+    for path in git_files("include", "src", "tests", "scripts", "docs", "web"):
         if path.suffix not in CODE | {".md", ".py", ".ts", ".svelte", ""}:
             continue
         for number, line in enumerate(path.read_text(errors="ignore").splitlines(), 1):

@@ -15,6 +15,7 @@ from findings import check, report  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCE = ROOT / "src" / "docent"
+PUBLIC = ROOT / "include" / "docent"  # the public headers, in folders of the same names
 
 # Lower layers first. A folder may depend on folders of its own layer or below.
 LAYERS = [
@@ -77,8 +78,18 @@ def top(folder):
     return folder.split("/")[0]
 
 
+def below(path, root):
+    """A path as it is included, from the folder of sources or that of public headers."""
+    return path.relative_to(PUBLIC if path.is_relative_to(PUBLIC) else root)
+
+
+def all_files(root):
+    """Those of a folder of sources; with SOURCE itself the public headers, too."""
+    return sorted(root.rglob("*")) + (sorted(PUBLIC.rglob("*")) if root == SOURCE else [])
+
+
 def folder_of(path):
-    return path.parent.relative_to(SOURCE).as_posix()
+    return below(path, SOURCE).parent.as_posix()
 
 
 def check_floors(source, target, where):
@@ -117,21 +128,21 @@ def check_apart(source, target, where):
 
 
 def check_namespaces(root, common):
-    for path in sorted(root.rglob("*")):
+    for path in all_files(root):
         if path.suffix not in CODE or path.parent == root:
             continue
-        folder = path.relative_to(root).parts[0]
+        folder = below(path, root).parts[0]
         for name in re.findall(r"^namespace (docent\b[\w:]*) \{$", path.read_text(), re.M):
             parts = name.split("::")
             wanted = [] if folder in common else [folder]
             right = parts[1:2] == wanted or folder in common and parts[1:] == ["docent_msgs"]
-            check(right, f"{path.relative_to(root)}: namespace {name} in folder {folder}")
+            check(right, f"{below(path, root)}: namespace {name} in folder {folder}")
 
 
 def check_types(root):
     """No two headers give two types one full name: the linker would take the functions of one for those of the other."""
     defined = {}
-    for path in sorted(root.rglob("*.h")):
+    for path in (path for path in all_files(root) if path.suffix == ".h"):
         namespaces = []
         for line in path.read_text().splitlines():
             if found := re.match(r"namespace ([\w:]+) \{$", line):
@@ -141,17 +152,17 @@ def check_types(root):
             elif found := re.match(r"(?:struct|class|enum|enum class) (\w+)(?: final)?(?: : .*)? \{", line):
                 name = "::".join([*namespaces, found[1]])
                 other = defined.setdefault(name, path)
-                check(other == path, f"{path.relative_to(root)}: {name} is defined in {other.relative_to(root)}, too")
+                check(other == path, f"{below(path, root)}: {name} is defined in {below(other, root)}, too")
 
 
 def sources(root):
     """(path, text) of all code that is no test."""
-    return [(path, path.read_text()) for path in sorted(root.rglob("*"))
+    return [(path, path.read_text()) for path in all_files(root)
             if path.suffix in CODE and not path.stem.endswith(("_test", "_benchmark", "_fuzzer"))]
 
 
 def check_sources():
-    for path in sorted(SOURCE.rglob("*")):
+    for path in all_files(SOURCE):
         if path.suffix not in CODE:
             continue
         folder = folder_of(path)
@@ -200,10 +211,10 @@ def check_publishers(root, topics_header, one_publisher):
             continue
         publisher = re.compile(rf"\bpublisher(?:<[^()]*>)?\(\s*(?:\w+::)*{constant[1]}\b")
         publishers = [path for path, text in sources(root) for _ in publisher.findall(text)]
-        names = ", ".join(path.relative_to(root).as_posix() for path in publishers)
+        names = ", ".join(below(path, root).as_posix() for path in publishers)
         check([path.name for path in publishers] == [owner], f"{topic}: published by {names or 'nobody'}, not by {owner} alone")
         for path, text in sources(root):
-            check(path == topics_header or f'"{topic}"' not in text, f"{path.relative_to(root)}: spells {topic} itself")
+            check(path == topics_header or f'"{topic}"' not in text, f"{below(path, root)}: spells {topic} itself")
 
 
 def check_machines():
@@ -222,6 +233,6 @@ if __name__ == "__main__":
     check_modules()
     check_namespaces(SOURCE, COMMON)
     check_types(SOURCE)
-    check_publishers(SOURCE, SOURCE / "messages" / "topics.h", ONE_PUBLISHER)
+    check_publishers(SOURCE, PUBLIC / "messages" / "topics.h", ONE_PUBLISHER)
     check_machines()
     sys.exit(report())

@@ -19,7 +19,7 @@ LINES_OF_FILE = 450
 LINES_OF_FUNCTION = 60
 CPP = {".h", ".cpp", ".inc"}
 PAGE = {".ts", ".svelte"}
-READ = {"src": CPP, "tests": CPP | {".py"}, "web/src": PAGE, "scripts": {".py"}}
+READ = {"include": CPP, "src": CPP, "tests": CPP | {".py"}, "web/src": PAGE, "scripts": {".py"}}
 
 # What may be larger, and why: a folder, a file, or "file: function".
 EXCEPTIONS = {
