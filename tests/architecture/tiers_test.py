@@ -204,5 +204,80 @@ class Metered(unittest.TestCase):
                 self.assertIn(kind, {measure} if measure else {"cgroup", "reaper"})
 
 
+class Runs(Project):
+    """scripts/test itself, in a project whose suites and tools only say that they were called."""
+
+    def setUp(self):
+        super().setUp()
+        for name in ("scripts/test", "scripts/testing/stages.sh", "scripts/testing/tiers.sh", "scripts/testing/metered",
+                     "scripts/testing/left-running", "scripts/testing/changes.py"):
+            self.write(name, (ROOT / name).read_text())
+            (self.root / name).chmod(0o755)
+        for name in ("cmake", "ctest", "npm"):
+            self.script(f"bin/{name}", f'echo {name} "$@" >>"$CALLED"; mkdir -p build/dev')
+        for name in ("install-packages", "lint"):
+            self.script(f"scripts/{name}", f'echo {name} "$@" >>"$CALLED"')
+        for name in ("check_includes", "check_sizes", "check_documents", "checks_test", "tiers_test"):
+            self.write(f"tests/architecture/{name}.py", "print('4 passed, 0 failed')\n")
+        for name in ("10-cheap", "40-dear", "41-beside", "60-lane", "61-whole", "12-prolog"):
+            self.script(f"tests/suites/{name}", f'echo suite {name} >>"$CALLED"; echo 3 passed, 0 failed')
+        self.write("tests/suites/budgets.txt", "both alone 10-cheap 5 x\nmerge alone 40-dear 1 x\nmerge beside 41-beside 5 x\nmerge lane 60-lane 9 x\nall lane 61-whole 9 x\n"
+                   "all alone 12-prolog 9 x\n")
+        self.write(".gitignore", "/build/\n/called\n")
+        self.commit()
+
+    def script(self, name, text):
+        self.write(name, f"#!/bin/bash\n{text}\n")
+        (self.root / name).chmod(0o755)
+
+    def run_test(self, *words):
+        """(exit code, what it printed, what it called)"""
+        called = self.root / "called"
+        called.write_text("")
+        done = subprocess.run([self.root / "scripts/test", *words], text=True, capture_output=True, check=False,
+                              env=dict(os.environ, PATH=f"{self.root}/bin:{os.environ['PATH']}", CALLED=str(called)))
+        return done.returncode, done.stdout, called.read_text().splitlines()
+
+    def test_a_merge_runs_its_suites_and_says_what_took_too_long(self):
+        self.write("tests/suites/40-dear", (self.root / "tests/suites/40-dear").read_text() +
+                   f"{sys.executable} - <<'END'\nimport time\nwhile time.process_time() < 1.6: pass\nEND\necho 1 passed, 2 failed; exit 1\n")
+        code, said, called = self.run_test()
+        self.assertEqual(code, 1)
+        self.assertEqual(sorted(line for line in called if line.startswith("suite")), ["suite 10-cheap", "suite 40-dear", "suite 41-beside", "suite 60-lane"])
+        self.assertIn("cmake --preset dev -D DOCENT_UNITY=ON -D CMAKE_CXX_FLAGS_RELEASE=-O2", called)
+        self.assertTrue(any(line.startswith("ctest --preset dev -LE") for line in called))
+        self.assertIn("dear: 2 s of processors, over its budget of 1 s\n", said)
+        self.assertNotIn("cheap: ", said)
+        self.assertIn("-- failed: dear", said)
+        self.assertRegex(said, r"\n\d+ passed, 2 failed\n$")
+        self.assertIn("2 failed", (self.root / "build/test-logs/stage-times.txt").read_text())
+
+    def test_after_a_change_of_documents_nothing_is_built(self):
+        self.write("docs/new.md", "")
+        code, said, called = self.run_test("--quick")
+        self.assertEqual((code, called), (0, ["lint --fast"]), said)
+        self.assertIn("1 files changed", said)
+
+    def test_after_a_change_of_a_source_what_needs_it_is_built_and_tested(self):
+        tests = "".join(f'add_test({name} "{self.root}/build/dev/src/docent/docent_{name}_test")\n' for name in ("base", "people", "other"))
+        self.write("build/dev/src/docent/CTestTestfile.cmake", tests)
+        self.write("build/dev/CMakeCache.txt", "")
+        self.write("src/docent/base/a.h", "int a;\n")
+        self.script("tests/suites/12-prolog", 'echo suite changed >>"$CALLED"')
+        code, said, called = self.run_test("--quick")
+        self.assertEqual(code, 0, said)
+        self.assertIn("cmake -S . -B build/dev", called)
+        self.assertTrue(any(line.endswith("--target docent docent_base_test docent_people_test") for line in called), called)
+        self.assertTrue(any(line.endswith("-R ^(base|people)$") for line in called), called)
+        self.assertIn("suite changed", called)
+
+    def test_a_wrong_option_is_refused(self):
+        for words in (["--slow"], ["--base"], ["--base", "HEAD"], ["--all", "--base", "HEAD"]):
+            code, _, called = self.run_test(*words)
+            self.assertNotEqual(code, 0)
+            self.assertEqual(called, [])
+        self.assertIn("--quick", self.run_test("--help")[1])
+
+
 if __name__ == "__main__":
     unittest.main()
