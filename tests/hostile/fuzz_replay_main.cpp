@@ -23,7 +23,12 @@ int run(const std::filesystem::path& corpus, const std::filesystem::path& keep,
     if (exists(corpus / fuzzer.name)) own.insert(own.begin(), corpus / fuzzer.name);
     // Those of whole modules take a second for an input.
     const bool is_parser = std::strncmp(fuzzer.name, "hostile_", 8) != 0;
-    const FuzzReplay done = replay(fuzzer, fuzz_inputs(own, is_parser ? kSpoiled : 0), kPatience);
+    FuzzReplay done;
+    if (own.empty()) {
+      done.fault = "it has no seeds";
+    } else {
+      done = replay(fuzzer, fuzz_inputs(own, is_parser ? kSpoiled : 0), kPatience);
+    }
     std::printf("%-7s %-40s %6zu inputs%s%s\n", done.fault.empty() ? "ok" : "FAILED", fuzzer.name, done.inputs,
                 done.fault.empty() ? "" : ": ", done.fault.c_str());
     std::fflush(stdout);
