@@ -6,6 +6,8 @@
   scripts/testing/changes.py tests FOLDER...       of build/dev: lines "TARGET NAME" of the tests of folders, as built there;
                                                    tests/F: its unit tests, tests/F!: all its tests
   scripts/testing/changes.py tests                 the same of all unit tests and replays
+  scripts/testing/changes.py filter FOLDER...      what GoogleTest takes for all tests of these folders (GTEST_FILTER): programs
+                                                   may hold those of others, too
   scripts/testing/changes.py tidy [--base REV]     sources that clang-tidy has to look at: changed ones and those that include
                                                    a changed header, the nearest first, forty at most
 
@@ -166,6 +168,16 @@ def chosen_tests(tests, build, folders, test_folders, changed_tests):
     return chosen
 
 
+def filter_of(root, folders):
+    """GoogleTest's filter for all tests of folders of src/docent, and of tests/F or tests/F!."""
+    suites = set()
+    for folder in folders:
+        place = root / folder.removesuffix("!") if folder.startswith("tests/") else root / SOURCE / folder
+        for path in place.glob("*_test.cpp"):
+            suites |= set(re.findall(r"^\s*TEST\w*\((\w+),", path.read_text(), re.M))
+    return ":".join(f"{suite}.*:*/{suite}.*:{suite}/*:*/{suite}/*" for suite in sorted(suites))
+
+
 def includes_of(root, files):
     """File to the files of src and tests that it includes, as they are spelt."""
     found = {}
@@ -237,10 +249,11 @@ def print_tidied(options):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(required=True)
-    for name, function in (("plan", print_plan), ("tests", print_tests), ("tidy", print_tidied)):
+    for name, function in (("plan", print_plan), ("tests", print_tests), ("tidy", print_tidied),
+                           ("filter", lambda chosen: print(filter_of(ROOT, chosen.folders)))):
         command = commands.add_parser(name)
         command.set_defaults(function=function)
-        if name == "tests":
+        if name in ("tests", "filter"):
             command.add_argument("folders", nargs="*", help="as plan prints them")
         else:
             command.add_argument("--base", help="a revision")

@@ -78,7 +78,7 @@ tier_quick() {
     mapfile -t targets < <(cut -d' ' -f1 <<<"$tests" | sed '/^$/d' | sort -u)
     stage build cmake --build --preset dev -j "$(nproc)" --target docent "${targets[@]}"
     [ ${#targets[@]} -eq 0 ] ||
-      stage tests-of-the-change ctest --preset dev -j "$(nproc)" --no-tests=error -R "^($(cut -d' ' -f2- <<<"$tests" | sed 's/[+.]/\\&/g' | paste -sd'|'))\$"
+      GTEST_FILTER=$(scripts/testing/changes.py filter "${folders[@]}") stage tests-of-the-change ctest --preset dev -j "$(nproc)" --no-tests=error -R "^($(cut -d' ' -f2- <<<"$tests" | sed 's/[+.]/\\&/g' | paste -sd'|'))\$"
   fi
   [ -z "$page" ] || chosen+=(14-page 15-page-contract)
   local suite budget

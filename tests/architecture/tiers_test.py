@@ -168,6 +168,15 @@ class BuiltTests(Project):
         self.assertEqual(self.chosen(None, set(), set()), [joint, people, replay])
 
 
+    def test_of_a_program_only_the_tests_of_the_folders_are_asked_for(self):
+        self.write("src/docent/grid/a_test.cpp", "TEST(Grid, Is) {\n}\nTEST_P(Size,\n       Fits) {\n}\n// TEST(Not, This)\n")
+        self.write("src/docent/people/a_test.cpp", "TEST(People, Are) {\n}\n")
+        self.write("tests/replay/replay_test.cpp", "TEST_F(Replay, Is) {\n}\n")
+        asked = changes.filter_of(self.root, ["grid", "tests/replay!"])
+        self.assertEqual(asked.split(":")[::4], ["Grid.*", "Replay.*", "Size.*"])
+        self.assertIn(":*/Size.*:", asked)
+
+
 class Budgets(unittest.TestCase):
     def setUp(self):
         lines = (ROOT / "tests/suites/budgets.txt").read_text().splitlines()
@@ -214,7 +223,7 @@ class Runs(Project):
             self.write(name, (ROOT / name).read_text())
             (self.root / name).chmod(0o755)
         for name in ("cmake", "ctest", "npm"):
-            self.script(f"bin/{name}", f'echo {name} "$@" >>"$CALLED"; mkdir -p build/dev')
+            self.script(f"bin/{name}", f'echo {name} "$@" >>"$CALLED"; echo $GTEST_FILTER >filter; mkdir -p build/dev')
         for name in ("install-packages", "lint"):
             self.script(f"scripts/{name}", f'echo {name} "$@" >>"$CALLED"')
         for name in ("check_includes", "check_sizes", "check_documents", "checks_test", "tiers_test"):
@@ -223,7 +232,7 @@ class Runs(Project):
             self.script(f"tests/suites/{name}", f'echo suite {name} >>"$CALLED"; echo 3 passed, 0 failed')
         self.write("tests/suites/budgets.txt", "both alone 10-cheap 5 x\nmerge alone 40-dear 1 x\nmerge beside 41-beside 5 x\nmerge lane 60-lane 9 x\nall lane 61-whole 9 x\n"
                    "all alone 12-prolog 9 x\n")
-        self.write(".gitignore", "/build/\n/called\n")
+        self.write(".gitignore", "/build/\n/called\n/filter\n")
         self.commit()
 
     def script(self, name, text):
@@ -263,6 +272,7 @@ class Runs(Project):
         self.write("build/dev/src/docent/CTestTestfile.cmake", tests)
         self.write("build/dev/CMakeCache.txt", "")
         self.write("src/docent/base/a.h", "int a;\n")
+        self.write("src/docent/people/a_test.cpp", "TEST(People, Are) {\n}\n")
         self.script("tests/suites/12-prolog", 'echo suite changed >>"$CALLED"')
         code, said, called = self.run_test("--quick")
         self.assertEqual(code, 0, said)
@@ -270,6 +280,7 @@ class Runs(Project):
         self.assertTrue(any(line.endswith("--target docent docent_base_test docent_people_test") for line in called), called)
         self.assertTrue(any(line.endswith("-R ^(base|people)$") for line in called), called)
         self.assertIn("suite changed", called)
+        self.assertIn("*/People.*", (self.root / "filter").read_text())
 
     def test_a_wrong_option_is_refused(self):
         for words in (["--slow"], ["--base"], ["--base", "HEAD"], ["--all", "--base", "HEAD"]):
