@@ -62,16 +62,21 @@ set(DOCENT_FOREIGN_TO_program docent_foreign)
 set(DOCENT_FOREIGN_TO_laboratory docent_foreign)
 add_library(docent_joint INTERFACE)    # where DOCENT_JOINT is on, all that is linked
 
-# docent_fuzzer(NAME SOURCE LIBRARY): a program in a build for fuzzing; other builds with tests compile its source, so
-# that it keeps up with what it calls. Not so where folders are compiled as one file: scripts/test, which asks for
-# that, also builds them for fuzzing.
+# docent_fuzzer(NAME SOURCE LIBRARY): a program in a build for fuzzing; in other builds with tests all fuzzers are one program
+# that replays their seeds (docent_fuzz_replay, tests/hostile), where folders are compiled as one file of one source, too.
 function(docent_fuzzer name source library)
   if(DOCENT_FUZZERS)
     add_executable(${name} ${source})
     target_link_options(${name} PRIVATE -fsanitize=fuzzer)
     set_property(GLOBAL APPEND PROPERTY DOCENT_FUZZERS ${name})
+  elseif(DOCENT_TESTS AND DOCENT_JOINT)
+    set_property(GLOBAL APPEND PROPERTY DOCENT_REPLAYED_FUZZERS ${name}=${source})
+    return()
   elseif(DOCENT_TESTS AND NOT DOCENT_UNITY)
+    set_property(GLOBAL APPEND PROPERTY DOCENT_REPLAYED_FUZZERS ${name}=${source})
+    string(REGEX REPLACE "^docent_(.*)_fuzzer$" "docent_fuzz_\\1" function ${name})
     add_library(${name} OBJECT ${source})
+    target_compile_definitions(${name} PRIVATE LLVMFuzzerTestOneInput=${function})
   else()
     return()
   endif()

@@ -4,7 +4,8 @@
 Most of the time goes into reading the same headers. So the sources of a folder are looked at as one file, and those of
 several folders too, where no names meet (cmake/joint_groups.py); where that finds something, folder by folder, and then
 one by one. What was found good is not looked at again until it, a header of it, its compiler options, the list of checks
-or clang-tidy itself has changed: build/dev/tidy has one empty file for each source, named after a hash of all that.
+or clang-tidy itself has changed: $XDG_CACHE_HOME/docent/tidy (~/.cache) has one empty file for each source, named after a
+hash of all that. Where the clone lies is no part of it, so that all clones share what is known.
 """
 import hashlib
 import json
@@ -12,6 +13,7 @@ import os
 import re
 import subprocess
 import sys
+import time
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from pathlib import Path
@@ -22,18 +24,26 @@ sys.dont_write_bytecode = True  # the work tree stays as it was
 import joint_groups  # noqa: E402
 
 BUILD = ROOT / "build" / "dev"
-GOOD = BUILD / "tidy"
-TOGETHER = GOOD / "together"  # files which include several sources
+GOOD = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "docent" / "tidy"
+KEPT_DAYS = 30  # of what nobody asks for
+TOGETHER = BUILD / "tidy" / "together"  # files which include several sources
 MOST_TOGETHER = 64  # sources: what finds something is read once more, one by one
-SINGLE = GOOD / "single"  # commands for each source, however it was compiled
+SINGLE = BUILD / "tidy" / "single"  # commands for each source, however it was compiled
 TIDY = "clang-tidy-14"
 FOREIGN = " -Wno-subobject-linkage"  # an option that only the compiler of build/dev knows
+
+
+def without_place(text):
+    """A text of this clone as it would be in any other."""
+    return text.replace(str(ROOT), "ROOT")
 
 
 @cache
 def hash_of(path):
     """None: there is no such file (any more)."""
-    return hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else None
+    if not path.is_file():
+        return None
+    return hashlib.sha256(path.read_bytes().replace(str(ROOT).encode(), b"ROOT")).hexdigest()
 
 
 @cache
@@ -71,6 +81,28 @@ def commands_of_compiler():
     return commands, compiled_as
 
 
+@cache
+def own_includes(path):
+    """The project's own files that one includes, as their names say it."""
+    names = re.findall(r'^\s*#\s*include "([^"]+)"', path.read_text(errors="ignore"), re.M)
+    found = [(ROOT / "src" / name if name.startswith("docent/") else path.parent / name).resolve() for name in names]
+    return [name for name in found if name.is_file()]
+
+
+def seen_by(source):
+    """The source and all of the project that it includes, however far."""
+    seen, new = set(), {source}
+    while new:
+        seen |= new
+        new = {name for path in new for name in own_includes(path)} - seen
+    return seen
+
+
+def is_of_a_source(path):
+    """Whether it is written by hand: then a source that does not include it does not see it, though it was compiled with it."""
+    return ROOT / "src" in path.parents
+
+
 def keys_of(sources, commands, compiled_as):
     """Source to the hash of all that a finding depends on; none where it was not compiled since it changed."""
     joint = files_read_by_compiler()
@@ -79,10 +111,22 @@ def keys_of(sources, commands, compiled_as):
     common = version + hash_of(ROOT / ".clang-tidy") + hash_of(ROOT / ".clang-format")
     keys = {}
     for source in sources:
-        if source in read and source in commands and all(hash_of(path) for path in read[source]):
-            text = common + commands[source]["command"] + "".join(f"{path} {hash_of(path)}\n" for path in read[source])
-            keys[source] = hashlib.sha256(text.encode()).hexdigest()
+        if source not in read or source not in commands or any(hash_of(path) is None for path in read[source]):
+            continue
+        seen = seen_by(source)
+        # Neither the joint file nor what was compiled with the source, but every header from outside.
+        paths = sorted(seen | {path for path in read[source] if path != compiled_as[source] and not is_of_a_source(path)})
+        options = re.sub(r" -o \S+| -c \S+", "", commands[source]["command"])
+        text = common + options + str(source) + "".join(f"{path} {hash_of(path)}\n" for path in paths)
+        keys[source] = hashlib.sha256(without_place(text).encode()).hexdigest()
     return keys
+
+
+def forget_the_old():
+    """What nobody has asked for in a month."""
+    for path in GOOD.iterdir():
+        if path.is_file() and path.stat().st_mtime < time.time() - KEPT_DAYS * 86400:
+            path.unlink(missing_ok=True)
 
 
 def is_program(source):
@@ -152,10 +196,12 @@ def main():
     sources = [Path(name).resolve() for name in sys.argv[1:]]
     GOOD.mkdir(parents=True, exist_ok=True)
     commands, compiled_as = commands_of_compiler()
-    SINGLE.mkdir(exist_ok=True)
+    SINGLE.mkdir(parents=True, exist_ok=True)
     (SINGLE / "compile_commands.json").write_text(json.dumps(list(commands.values())))
     keys = keys_of(sources, commands, compiled_as)
-    known = {path.name for path in GOOD.iterdir() if path.is_file()}
+    known = {key for key in keys.values() if (GOOD / key).is_file()}
+    for key in known:
+        (GOOD / key).touch()
     to_do = [source for source in sources if keys.get(source) not in known]
 
     groups = groups_of(to_do)
@@ -178,8 +224,7 @@ def main():
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         good = list(pool.map(is_good, groups))
-    for old in known - set(keys.values()):
-        (GOOD / old).unlink()
+    forget_the_old()
     print(f"clang-tidy: {len(sources)} files, {len(sources) - len(to_do)} of them unchanged since they were found good")
     return 0 if all(good) else 1
 

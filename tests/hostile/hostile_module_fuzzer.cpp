@@ -15,20 +15,20 @@
 
 namespace {
 
-struct Folder {
-  Folder() {
+struct StateFolder {
+  StateFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "docent-fuzz-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr) std::abort();
     path = name;
   }
-  ~Folder() { std::filesystem::remove_all(path); }
+  ~StateFolder() { std::filesystem::remove_all(path); }
   std::filesystem::path path;
 };
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const Folder folder;
+  static const StateFolder folder;
   if (size < 1) return 0;
   const auto modules = docent::modules::all_modules();
   const std::string module = modules[data[0] % modules.size()].name;

@@ -1,0 +1,89 @@
+# Sourced by scripts/test: what each tier runs. Suites have their tier from tests/suites/budgets.txt.
+
+checks() {
+  stage architecture python3 tests/architecture/check_includes.py
+  stage sizes python3 tests/architecture/check_sizes.py
+  stage documents python3 tests/architecture/check_documents.py
+  stage what-the-checks-must-find python3 tests/architecture/checks_test.py
+  stage what-the-tiers-choose python3 tests/architecture/tiers_test.py
+}
+
+# A first build compiles the sources of some folders as one file, without lines for debuggers. A build that is there stays as
+# it is, for single changes: a preset would set its options anew, and all would be compiled again.
+configure() {
+  if [ -f build/dev/CMakeCache.txt ]; then
+    stage configure cmake -S . -B build/dev
+  else
+    stage configure cmake --preset dev -D DOCENT_UNITY=ON -D CMAKE_CXX_FLAGS_RELEASE=-O2
+  fi
+}
+
+# built_and_tested: packages, the build, unit tests, checks: what merge and all have in common. What it takes to build is
+# installed first; the rest of the packages come while that is done.
+built_and_tested() {
+  stage packages scripts/install-packages run build-tests
+  aside packages-of-the-tests bash -c 'scripts/install-packages test && { command -v npm >/dev/null || scripts/install-packages run-npm; }' &
+  local packages_id=$!
+  configure
+  stage build cmake --build --preset dev -j "$(nproc)"  # more at a time take longer in all
+  wait "$packages_id"
+  count_aside packages-of-the-tests
+  stage unit-and-replay-tests ctest --preset dev -LE "closed_loop|end_to_end" -j2 --no-tests=error
+  checks
+}
+
+# suites: those of the tier: some beside the others, some alone, and as many simulations at a time as there are processors.
+suites() {
+  local suite beside_them lanes
+  mapfile -t beside_them < <(rows "$tier" beside)
+  mapfile -t lanes < <(rows "$tier" lane)
+  beside "${beside_them[@]}"
+  for suite in $(rows "$tier" alone | sort); do stage "$suite" "tests/suites/$suite"; done
+  lanes "${lanes[@]}"
+  finish
+  stage nothing-is-left-running scripts/testing/left-running
+}
+
+tier_merge() {
+  built_and_tested
+  suites
+}
+tier_all() {
+  built_and_tested
+  suites
+}
+
+tier_quick() {
+  local folders=() chosen=() targets=() page="" everything="" tests plan kind name
+  plan=$(scripts/testing/changes.py plan "${base[@]}") || exit 2
+  head -1 <<<"$plan"
+  while read -r kind name; do
+    case $kind in
+      folder) folders+=("$name") ;;
+      suite) chosen+=("$name") ;;
+      page) page=yes ;;
+      everything) everything=yes ;;
+    esac
+  done <<<"$plan"
+  checks
+  stage format scripts/lint --fast
+  if [ -n "$everything" ]; then
+    configure
+    stage build cmake --build --preset dev -j "$(nproc)"
+    stage unit-and-replay-tests ctest --preset dev -LE "closed_loop|end_to_end" -j2 --no-tests=error
+  elif [ ${#folders[@]} -gt 0 ]; then
+    printf 'folders: %s\n' "${folders[*]}"
+    configure
+    tests=$(scripts/testing/changes.py tests "${folders[@]}")
+    mapfile -t targets < <(cut -d' ' -f1 <<<"$tests" | sed '/^$/d' | sort -u)
+    stage build cmake --build --preset dev -j "$(nproc)" --target docent "${targets[@]}"
+    [ ${#targets[@]} -eq 0 ] ||
+      GTEST_FILTER=$(scripts/testing/changes.py filter "${folders[@]}") stage tests-of-the-change ctest --preset dev -j "$(nproc)" --no-tests=error -R "^($(cut -d' ' -f2- <<<"$tests" | sed 's/[+.]/\\&/g' | paste -sd'|'))\$"
+  fi
+  [ -z "$page" ] || chosen+=(14-page 15-page-contract)
+  local suite budget
+  for suite in $(printf '%s\n' "${chosen[@]}" | sort -u); do
+    budget=$(budget_of "$suite")
+    if [ "${budget:-0}" -le 60 ]; then stage "$suite" "tests/suites/$suite"; else echo "-- $(name_of "$suite") is left out: it takes $budget s"; fi
+  done
+}
