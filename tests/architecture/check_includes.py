@@ -39,11 +39,6 @@ FLOORS = {
         {"graph_mapping", "rooms"},
         {"expectation_maximization"},
     ],
-    "planning": [
-        {"value_iteration", "detour"},
-        {"pursuit", "exploration", "coastal"},
-        {"navigator"},
-    ],
     "localization": [
         {"belief", "expected_ranges"},
         {"beam_choice", "particles", "sonar/tracker"},
