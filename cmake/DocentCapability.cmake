@@ -168,7 +168,7 @@ function(docent_joint_tests)
 endfunction()
 
 function(docent_capability folder)
-  cmake_parse_arguments(PARSE_ARGV 1 ARG "HOT" "" "SOURCES;DEPENDS;LIBRARIES;TEST_DEPENDS;TEST_LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "HOT;LABORATORY" "" "SOURCES;DEPENDS;LIBRARIES;TEST_DEPENDS;TEST_LIBRARIES")
   docent_target_name(${folder} target)
   set(directory ${DOCENT_SOURCE_ROOT}/${folder})
 

@@ -33,7 +33,7 @@ void expect_refused(const BadInput& bad) {
   EXPECT_NE(result.code, 0);
   EXPECT_NE(result.code, -1) << "it went on";
   EXPECT_LT(result.code, 128) << "it crashed";
-  EXPECT_TRUE(result.output.starts_with("docent: ")) << result.output;
+  EXPECT_TRUE(result.output.starts_with("docent: ") || result.output.starts_with("docent-lab: ")) << result.output;
   EXPECT_NE(result.output.find(bad.says), std::string::npos) << result.output;
   EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << result.output;
 }

@@ -1,0 +1,12 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace docent::apps::crowd_command {
+
+/// `docent-lab crowd --seed N --density 0.8 --ignoring 0.5 --method cautious_window`
+void add_crowd_command(CLI::App& app);
+
+}  // namespace docent::apps::crowd_command

@@ -1,0 +1,29 @@
+#include "docent/apps/laboratory/laboratory.h"
+
+#include "docent/apps/laboratory/attract/attract_command.h"
+#include "docent/apps/laboratory/crowd/crowd_command.h"
+#include "docent/apps/laboratory/evaluate/evaluate_command.h"
+#include "docent/apps/laboratory/learn/learn_command.h"
+#include "docent/apps/laboratory/plan/plan_command.h"
+#include "docent/apps/laboratory/rooms/rooms_command.h"
+#include "docent/apps/laboratory/score_map/score_map_command.h"
+#include "docent/apps/laboratory/train_sonar/train_sonar_command.h"
+
+namespace docent::apps::laboratory {
+
+Program docent_lab(const std::string& version) {
+  return {.name = "docent-lab",
+          .meaning = "Docent's laboratory: measures the robot and learns its models.",
+          .version = version,
+          .groups = {{"Measure",
+                      {evaluate_command::add_evaluate_command, crowd_command::add_crowd_command,
+                       plan_command::add_plan_command}},
+                     {"Look at maps", {rooms_command::add_rooms_command, score_map_command::add_score_map_command}},
+                     {"Learn",
+                      {learn_command::add_learn_command, train_sonar_command::add_train_sonar_command,
+                       attract_command::add_attract_command}}},
+          .other = {},
+          .others = {}};
+}
+
+}  // namespace docent::apps::laboratory
