@@ -69,6 +69,8 @@ APART = {"modules": {"modules/host"}, "apps": {"apps", "apps/laboratory"}}
 TRUTH = re.compile(r"kTrueState|kTrueContact|kTrueOffer|kRunInfo|for_each_truth_topic|\"truth/")
 TRUTH_MAY = {"messages", "simulator", "evaluation", "recording", "apps", "transport"}
 CODE = {".h", ".cpp", ".inc"}
+# What cripples a robot: the laboratory's own.
+ABLATIONS = re.compile(r"\bAblationParams\b|\bEvaluationParams\b|\bCrippledRobot\b|\bablations::|\bevaluation\(\)")
 # The modules that may publish a topic that must have one publisher (architecture 10.7); its name as topics.h has it.
 ONE_PUBLISHER = {"docent/drive": "avoid_module.cpp"}
 
@@ -184,7 +186,8 @@ def check_dependencies():
 
 
 def check_laboratory(root):
-    """What only docent-lab needs (keyword LABORATORY) is seen by such folders alone, so that `docent` compiles none of it."""
+    """What only docent-lab needs (keyword LABORATORY) is seen by such folders alone, so that `docent` compiles none of it; and
+    nothing else knows of the switches that cripple a robot."""
     sees, laboratory = {}, set()
     for cmake in sorted(root.rglob("CMakeLists.txt")):
         for call in re.findall(r"docent_capability\(([^)]*)\)", re.sub(r"#.*", "", cmake.read_text())):
@@ -199,6 +202,8 @@ def check_laboratory(root):
         folder = path.parent.relative_to(root).as_posix()
         for other in re.findall(r'#include "docent/(.+)/[^/]+"', text):
             check(folder in laboratory or other not in laboratory, f"{path.relative_to(root)}: no LABORATORY folder, includes {other}, which is one")
+        named = ABLATIONS.search(text)
+        check(folder in laboratory or not named, f"{path.relative_to(root)}: no LABORATORY folder, names {named and named[0]}")
 
 
 def check_modules():

@@ -174,6 +174,12 @@ class Laboratory(Project):
         self.assertEqual(self.faults(f"{plain})", include), 1)
         self.assertEqual(self.faults(f"{own} apps/laboratory/crowd)", include), 0)
 
+    def test_nothing_else_names_what_cripples(self):
+        plain, own = "docent_capability(apps/x SOURCES x)", "docent_capability(apps/x LABORATORY SOURCES x)"
+        for text in ("if (config.evaluation().blind) return;", "ablations::CrippledRobot robot;", "AblationParams params;"):
+            self.assertEqual(self.faults(plain, text), 1)
+            self.assertEqual(self.faults(own, text), 0)
+
 
 class Namespaces(Project):
     def faults(self, text, path="planning/pursuit/a.h"):

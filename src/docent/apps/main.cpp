@@ -10,6 +10,7 @@
 #include "docent/apps/replay/replay_command.h"
 #include "docent/apps/shared/laboratory_commands.h"
 #include "docent/apps/shared/program.h"
+#include "docent/apps/shared/robot_maker.h"
 #include "docent/apps/simulate/explore_command.h"
 #include "docent/apps/simulate/simulate_command.h"
 #include "docent/apps/up/run_command.h"
@@ -19,20 +20,21 @@
 
 int main(int argc, char** argv) {
   using namespace docent::apps;
+  const auto whole = std::make_shared<RobotMaker>();
   return run({.name = "docent",
               .meaning = "Docent: an autonomous museum tour guide.",
               .version = DOCENT_VERSION,
               .groups = {{"Drive through a museum",
-                          {simulate_command::add_simulate_command, simulate_command::add_explore_command,
-                           up_command::add_up_command, web_account_command::add_web_account_command,
-                           gateway_command::add_gateway_command}},
+                          {with_robot(simulate_command::add_simulate_command, whole),
+                           with_robot(simulate_command::add_explore_command, whole), up_command::add_up_command,
+                           web_account_command::add_web_account_command, gateway_command::add_gateway_command}},
                          {"Make a museum",
                           {up_command::add_setup_command, museum_command::add_museum_command,
                            museum_command::add_office_command, museum_command::add_survey_command,
                            museum_command::add_check_command, golog_command::add_golog_command}},
                          {"Look at recordings",
                           {localize_command::add_localize_command, localize_command::add_map_command,
-                           replay_command::add_replay_command}},
+                           with_robot(replay_command::add_replay_command, whole)}},
                          {"Tune", {config_command::add_config_command}},
                          {"Put it into a robot of your own", {up_command::add_run_command}}},
               .other = "docent-lab",

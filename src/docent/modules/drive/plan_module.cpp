@@ -62,10 +62,7 @@ class PlanModule final : public Module {
   PlanModule(const ModuleContext& context, const PlanParams& params)
       : bus_{context.bus},
         params_{params},
-        ignores_live_map_{context.config.evaluation().ignores_live_map},
-        route_{context.museum.map,
-               context.config.evaluation().ignores_hazards ? std::vector<Polygon>{} : context.museum.hazard_polygons(),
-               context.config.evaluation().ignores_hazards ? Polygon{} : context.museum.area, params.route},
+        route_{context.museum.map, context.museum.hazard_polygons(), context.museum.area, params.route},
         pursuit_{params.pursuit},
         tell_apart_{context.museum.map, context.config.body().radius, params.tell_apart},
         base_from_laser_{mounts_of(context.config.body().scanners)},
@@ -165,7 +162,7 @@ class PlanModule final : public Module {
     changed_ = planning::CellBox{low, high};
   }
   void take(std::size_t index, std::int8_t live) {
-    obstacles_[index] = live >= 65 && static_cells_[index] < 65 && !ignores_live_map_;
+    obstacles_[index] = live >= 65 && static_cells_[index] < 65;
     settled_[index] = obstacles_[index] && live >= mapping::LiveMap::kSettled;
   }
 
@@ -390,7 +387,6 @@ class PlanModule final : public Module {
 
   transport::Bus& bus_;
   PlanParams params_;
-  bool ignores_live_map_;  ///< crippled, for evaluation
   planning::RoutePlanner route_;
   std::optional<planning::CoastalPlanner> coastal_;  ///< with `coastal.weight` alone
   std::vector<Point2> coast_;                        ///< [m], map: its way; empty: none yet

@@ -20,6 +20,7 @@ constexpr int kMostTrialsOfARun = 20000;
 
 struct Options {
   AttractRunOptions run;
+  std::shared_ptr<RobotMaker> robot;
   std::string taste = "friendly";
   std::vector<std::string> settings;
   std::string memory;
@@ -51,7 +52,7 @@ std::string json_of(const Options& options, const robot::RobotConfig& config, co
   json["taste"] = options.taste;
   json["liking"] = options.run.taste == CrowdTaste::neither ? 0.0 : options.run.liking;
   json["config_hash"] = config.hash();
-  json["crippled"] = config.evaluation().crippled();
+  json["crippled"] = options.robot->crippled();
   json["phases"] = outcome.phases.size();
   json["claim"] = to_text(outcome.claim);
   json["claimed_after"] = outcome.claimed_after;
@@ -73,10 +74,11 @@ void run(Options& options) {
   options.run.taste = *parse<CrowdTaste>(options.taste);
   robot::RobotConfig config;
   for (const std::string& setting : options.settings) value_or_fail(config.set(setting), 2);
-  value_or_fail(config.check_sections({"attract"}), 2);
+  std::vector<std::string> sections = options.robot->sections();
+  sections.emplace_back("attract");
+  value_or_fail(config.check_sections(sections), 2);
+  value_or_fail(options.robot->read(config), 2);
   options.run.learner = value_or_fail(config.section<interaction::AttractionParams>("attract"), 2);
-  options.run.learner.choice.never_explores = config.evaluation().never_explores;
-  options.run.learner.ignores_reward = config.evaluation().ignores_reward;
   if (!options.memory.empty()) options.run.memory = value_or_fail(interaction::load_trials(options.memory));
   const AttractRunOutcome outcome = run_attract(options.run);
   if (!options.memory.empty()) value_or_fail(interaction::save_trials(options.memory, outcome.memory));
@@ -94,8 +96,9 @@ void run(Options& options) {
 
 }  // namespace
 
-void add_attract_command(CLI::App& app) {
+void add_attract_command(CLI::App& app, std::shared_ptr<RobotMaker> robot) {
   auto options = std::make_shared<Options>();
+  options->robot = std::move(robot);
   CLI::App* command =
       app.add_subcommand("attract", "Learn to attract people, before a simulated crowd of unknown taste");
   add_seed(*command, "--seed", options->run.seed, "of the crowd and the learner; same seed, same run");

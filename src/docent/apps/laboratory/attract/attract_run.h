@@ -7,7 +7,6 @@
 #include "docent/base/result.h"
 #include "docent/interaction/attract/attraction.h"
 #include "docent/interaction/attract/style_statistics.h"
-#include "docent/robot/evaluation_params.h"
 #include "docent/simulator/passers_by/passers_by.h"
 
 namespace docent::apps::attract_command {

@@ -89,8 +89,9 @@ void run(Options& options) {
 
 }  // namespace
 
-void add_crowd_command(CLI::App& app) {
+void add_crowd_command(CLI::App& app, std::shared_ptr<RobotMaker> robot) {
   auto options = std::make_shared<Options>();
+  options->trial.robot_maker = std::move(robot);
   options->method = "cautious_window";
   CLI::App* command = app.add_subcommand("crowd", "Cross a crowded hall once, scored after HuNavSim's definitions");
   add_seed(*command, "--seed", options->trial.seed, "of the hall, its crowd and the noise; same seed, same run");

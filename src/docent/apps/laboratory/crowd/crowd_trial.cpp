@@ -173,13 +173,13 @@ class Trial {
 
   Result<void> start_modules(const robot::RobotConfig& config) {
     outcome_.config_hash = config.hash();
-    outcome_.crippled = config.evaluation().crippled();
+    outcome_.crippled = options_.robot_maker->crippled();
     for (const char* name : kModules) {
       modules::ModuleHost::Options host;
       host.state = state_.path();
       host.virtual_time = true;
       host.seed = options_.seed;
-      auto module = modules::ModuleHost::create(*modules::find_module(name), hub_.connect(name), museum_, config, host);
+      auto module = options_.robot_maker->make(*modules::find_module(name), hub_.connect(name), museum_, config, host);
       if (!module) return tl::unexpected<Error>(module.error());
       modules_.push_back(std::move(*module));
     }
@@ -242,6 +242,7 @@ Result<CrowdTrialOutcome> run_crowd_trial(const CrowdTrialOptions& options) {
   for (const auto& setting : options.settings) {
     if (auto set = config.set(setting); !set) return tl::unexpected<Error>(set.error());
   }
+  if (auto read = options.robot_maker->read(config); !read) return tl::unexpected<Error>(read.error());
   Trial trial{options, simulator::draw_hall(Rng{options.seed}.stream("hall")), config.body()};
   if (auto started = trial.start_modules(config); !started) return tl::unexpected<Error>(started.error());
   return trial.run();

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "docent/apps/shared/robot_maker.h"
 #include "docent/base/result.h"
 #include "docent/evaluation/social_score.h"
 #include "docent/geometry/pose2.h"
@@ -22,6 +23,7 @@ struct CrowdTrialOptions {
   double max_speed = 0.7;  ///< [m/s] open mode
   double goal_radius = 0.6;
   std::vector<std::string> settings;  ///< section.key=value over robot.yaml's defaults
+  std::shared_ptr<RobotMaker> robot_maker = std::make_shared<RobotMaker>();
 };
 
 struct CrowdTrialOutcome {
@@ -31,7 +33,7 @@ struct CrowdTrialOutcome {
   double walking = 0.0;    ///< share of the people who moved faster than 0.2 m/s, mean over the trial
   int horns = 0;
   std::string config_hash;
-  std::string crippled;  ///< EvaluationParams::crippled
+  std::string crippled;  ///< RobotMaker::crippled
   simulator::Hall hall;
   /// Once a second, and at the end.
   struct Moment {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "docent/apps/laboratory/ablations/crippled_robot.h"
+
 namespace docent::apps::crowd_command {
 namespace {
 
@@ -59,6 +61,7 @@ TEST(CrowdTrial, TheSameSeedIsTheSameTrialAndTheMethodDrawsNothing) {
 TEST(CrowdTrial, ARobotThatSeesNobodyPushes) {
   CrowdTrialOptions options = short_trial(0.8);
   options.settings = {"evaluation.blind_to_people=true"};
+  options.robot_maker = std::make_shared<ablations::CrippledRobot>();
   options.ignoring = 1.0;
   int contacts = 0;
   for (options.seed = 1; options.seed <= 3; ++options.seed) contacts += contacts_of(outcome_of(options));

@@ -2,11 +2,11 @@
 
 #include <string>
 
-namespace docent::robot {
+namespace docent::apps::ablations {
 
 /// Section `evaluation` of robot.yaml: ways to cripple the robot, so that an evaluation shows what the crippled part is
-/// for (architecture 10.17). By default nothing is crippled. `docent up` and `docent run` refuse anything else.
-struct EvaluationParams {
+/// for (architecture 10.17). By default nothing is crippled. `docent` refuses the section: it cannot cripple.
+struct AblationParams {
   bool blind_to_people = false;    ///< avoid: sees virtual measurements and touch only
   bool without_watches = false;    ///< avoid: takes every sensor and belief for well
   bool dead_reckoning = false;     ///< localize: odometry alone after the first "here"
@@ -56,4 +56,4 @@ struct EvaluationParams {
   [[nodiscard]] std::string crippled() const;
 };
 
-}  // namespace docent::robot
+}  // namespace docent::apps::ablations

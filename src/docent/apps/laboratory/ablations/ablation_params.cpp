@@ -1,15 +1,15 @@
-#include "docent/robot/evaluation_params.h"
+#include "docent/apps/laboratory/ablations/ablation_params.h"
 
-namespace docent::robot {
+namespace docent::apps::ablations {
 
-std::string EvaluationParams::crippled() const {
+std::string AblationParams::crippled() const {
   std::string names;
   const auto name_unless_default = [&names](const char* name, auto value) {
     if (value != decltype(value){}) names += (names.empty() ? "" : ", ") + std::string{name};
   };
-  EvaluationParams values = *this;
+  AblationParams values = *this;
   values.visit(name_unless_default);
   return names;
 }
 
-}  // namespace docent::robot
+}  // namespace docent::apps::ablations
