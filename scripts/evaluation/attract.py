@@ -1,6 +1,6 @@
 """Learning to attract people [Minerva2000] 6.3: the learner before crowds whose taste it does not know.
 
-One run is `docent attract --seed N`: 201 phases of a minute, as many as Minerva had. The crowd likes a friendly robot, or an
+One run is `docent-lab attract --seed N`: 201 phases of a minute, as many as Minerva had. The crowd likes a friendly robot, or an
 upset one, or does not care; the same seeds for each. A claim is what the robot says of its styles when it is more than chance.
 How much the crowd likes it is our own choice, because the paper prints no number: weaker likings are shown beside it.
 """
@@ -26,8 +26,8 @@ HEADER = ["crowd likes it", "liking", "learner", "runs", "claims more", "claims 
 
 
 class Bench:
-    def __init__(self, docent, cache, run_key, jobs):
-        self.docent, self.cache, self.key, self.jobs = docent, cache / "attract", run_key, jobs
+    def __init__(self, program, cache, run_key, jobs):
+        self.program, self.cache, self.key, self.jobs = program, cache / "attract", run_key, jobs
         self.cache.mkdir(parents=True, exist_ok=True)
 
     def run(self, seed, taste, arguments):
@@ -35,10 +35,10 @@ class Bench:
         path = self.cache / f"{taste}-seed{seed}-{key}.json"
         if not path.exists():
             part = path.with_suffix(f".part{os.getpid()}-{seed}")
-            done = subprocess.run([self.docent, "attract", "--seed", str(seed), "--taste", taste, "--trials", str(TRIALS),
+            done = subprocess.run([self.program, "attract", "--seed", str(seed), "--taste", taste, "--trials", str(TRIALS),
                                    "--report", part, "--quiet", *arguments], capture_output=True, text=True, check=False)
             if done.returncode != 0 or not part.exists():
-                raise RuntimeError(f"seed {seed}: docent attract exited {done.returncode}: {done.stderr.strip()[-400:]}")
+                raise RuntimeError(f"seed {seed}: docent-lab attract exited {done.returncode}: {done.stderr.strip()[-400:]}")
             part.rename(path)
         return json.loads(path.read_text())
 

@@ -6,6 +6,7 @@ import os
 import subprocess
 
 from evaluation.claims import read_claims
+from evaluation.programs import program_for
 from evaluation.simulations import side_by_side
 
 
@@ -56,7 +57,7 @@ class Bench:
                 made.rename(record)
                 part.unlink()
             made = claims.with_suffix(f".part{os.getpid()}")
-            self.run([self.docent, "replay", record, "--museum", self.museums / museum, "--modules", "localize",
+            self.run([program_for(self.docent, settings), "replay", record, "--museum", self.museums / museum, "--modules", "localize",
                       "--claims", made, *(word for setting in settings for word in ("--set", setting))])
             made.rename(claims)
         return read_claims(claims)
@@ -72,8 +73,8 @@ class Bench:
         if not claims.exists() or not health.exists():
             part = claims.with_suffix(f".part{os.getpid()}.yaml")
             made, told = claims.with_suffix(f".part{os.getpid()}"), claims.with_suffix(f".part{os.getpid()}h")
-            command = [self.docent, "simulate", "--museum", self.museums / museum, "--hours", f"{minutes / 60:.6f}", "--seed",
-                       str(seed), "--crowd", crowd, "--claims", made, "--health-log", told, "--quiet"]
+            command = [program_for(self.docent, settings), "simulate", "--museum", self.museums / museum, "--hours",
+                       f"{minutes / 60:.6f}", "--seed", str(seed), "--crowd", crowd, "--claims", made, "--health-log", told, "--quiet"]
             if requests_per_hour is not None:
                 command += ["--requests-per-hour", str(requests_per_hour)]
             if events is not None:

@@ -1,6 +1,6 @@
 """Coastal against shortest ways [Minerva2000] 5.2 and Fig. 12: the same start and goal, the same crowd, the real localizer.
 
-For each pair of places, drawn evenly over the Smithsonian's floor, and each reach of the lasers, `docent plan` makes both
+For each pair of places, drawn evenly over the Smithsonian's floor, and each reach of the lasers, `docent-lab plan` makes both
 ways. The robot is walked along each of them amid an escort that hides about 60 % of the beams; what its sensors measured
 is replayed through `localize`, which is told the start. What counts is the belief when the robot arrives.
 """
@@ -12,6 +12,7 @@ import statistics
 import threading
 
 from evaluation.claims import error_m, is_lost, mean, read_claims
+from evaluation.programs import laboratory
 
 MUSEUM = "smithsonian"
 LOW, HIGH = (0.9, 0.9), (64.1, 39.1)  # [m] the museum's area lies inside
@@ -45,12 +46,12 @@ class Runs:
         return path
 
     def ways(self, start, goal, reach=None):
-        """The shortest way, and with a reach the coastal one, as `docent plan` writes them; None where the robot cannot be."""
+        """The shortest way, and with a reach the coastal one, as `docent-lab plan` writes them; None where the robot cannot be."""
         coast = [] if reach is None else ["--coastal", str(self.weight), "--range", str(reach), "--blocked", str(BLOCKED)]
 
         def make(part):
             try:
-                self.bench.run([self.bench.docent, "plan", "--museum", self.museum, "--from", "%.2f,%.2f" % start, "--to",
+                self.bench.run([laboratory(self.bench.docent), "plan", "--museum", self.museum, "--from", "%.2f,%.2f" % start, "--to",
                                 "%.2f,%.2f" % goal, "--ways", part, *coast])
             except RuntimeError as error:
                 if "no room for the robot" not in str(error) and "no way from" not in str(error):

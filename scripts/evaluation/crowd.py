@@ -1,6 +1,6 @@
 """Crossing a crowded hall: this robot beside the plain dynamic window, scored after HuNavSim's definitions.
 
-One trial is `docent crowd --seed N`: a hall of 14 x 10 m with 0.8 persons a square metre of free floor, half of whom take no
+One trial is `docent-lab crowd --seed N`: a hall of 14 x 10 m with 0.8 persons a square metre of free floor, half of whom take no
 notice of the robot; some look at cases, some stand round guides on the open floor, some walk from one to the other. The
 robot crosses 11.4 m. It arrives when it comes within 0.6 m of the goal in three times the time that the empty hall takes,
 and 60 s. The same seeds for every method. docs/decisions/0021 says why the hall is as it is.
@@ -30,8 +30,8 @@ LEAST_TRIALS = 100
 
 
 class Bench:
-    def __init__(self, docent, cache, run_key, jobs):
-        self.docent, self.cache, self.jobs = docent, cache / "crowd", jobs
+    def __init__(self, program, cache, run_key, jobs):
+        self.program, self.cache, self.jobs = program, cache / "crowd", jobs
         self.key = run_key
         self.cache.mkdir(parents=True, exist_ok=True)
 
@@ -40,11 +40,11 @@ class Bench:
         path = self.cache / f"{method}-seed{seed}-{key}.json"
         if not path.exists():
             part = path.with_suffix(f".part{os.getpid()}-{seed}")
-            done = subprocess.run([self.docent, "crowd", "--seed", str(seed), "--density", str(DENSITY), "--ignoring",
+            done = subprocess.run([self.program, "crowd", "--seed", str(seed), "--density", str(DENSITY), "--ignoring",
                                    str(IGNORING), "--method", method, "--report", part, "--quiet", *arguments],
                                   capture_output=True, text=True, check=False)
             if done.returncode != 0 or not part.exists():
-                raise RuntimeError(f"seed {seed}: docent crowd exited {done.returncode}: {done.stderr.strip()[-400:]}")
+                raise RuntimeError(f"seed {seed}: docent-lab crowd exited {done.returncode}: {done.stderr.strip()[-400:]}")
             part.rename(path)
         return json.loads(path.read_text())
 

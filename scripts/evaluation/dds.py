@@ -7,6 +7,7 @@ import tempfile
 import time
 from pathlib import Path
 
+from evaluation.programs import laboratory
 from evaluation.reports import contacts_of
 
 DOMAIN, PORT = 61, 18061
@@ -41,7 +42,7 @@ def protocol(docent, root, cache, minutes, seed, verdict):
     print(f"\n## bonn, busy, {minutes:g} minutes of wall time, every module a process over DDS, seed {seed}\n", flush=True)
     drive(docent, root / "museums/bonn", minutes, seed, record)
     started = time.monotonic()
-    subprocess.run([docent, "evaluate", record, "--report", report], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([laboratory(docent), "evaluate", record, "--report", report], check=True, stdout=subprocess.DEVNULL)
     replay = subprocess.run([docent, "replay", record, "--check"], capture_output=True, text=True, check=False)
     print("\n".join(replay.stdout.strip().splitlines()[-6:] + replay.stderr.strip().splitlines()[-3:]))
     print(f"   evaluated and replayed in {time.monotonic() - started:.0f} s\n")

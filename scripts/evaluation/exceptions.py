@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 from evaluation import kill
 from evaluation.keys import key_of
+from evaluation.programs import program_for, programs_of
 from evaluation.reports import contacts_of, touched
 from evaluation.tables import Verdict, print_table
 
@@ -231,7 +232,7 @@ class Bonn:
         self.docent, self.root, self.jobs = docent, root, jobs
         self.scenarios = root / "scripts" / "scenarios" / "exceptions"
         self.cache = cache / "exceptions"
-        self.key = key_of(docent, root / "museums" / "bonn", root / "prolog")
+        self.key = key_of(*programs_of(docent), root / "museums" / "bonn", root / "prolog")
 
     def museum(self, program):
         """Bonn, with a tour.pl whose main is replaced by that of this file; without one as it is."""
@@ -275,7 +276,8 @@ class Bonn:
             scenario, part_log, part_health = (part.with_suffix(part.suffix + end) for end in (".yaml", ".csv", ".health"))
             scenario.write_text(text)
             began = time.monotonic()
-            done = subprocess.run([self.docent, "simulate", "--museum", museum, "--scenario", scenario, "--hours", f"{what.minutes / 60:.6f}",
+            done = subprocess.run([program_for(self.docent, settings), "simulate", "--museum", museum, "--scenario", scenario, "--hours",
+                                   f"{what.minutes / 60:.6f}",
                                    "--seed", str(seed), "--crowd", "quiet", "--requests-per-hour", "0", f"--start={start}", "--report", part,
                                    "--event-log", part_log, "--health-log", part_health, "--quiet",
                                    *(word for setting in settings for word in ("--set", setting))],

@@ -10,6 +10,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+from evaluation.programs import laboratory, program_for
 from evaluation.tables import Verdict, print_table
 
 COVERED = 0.98  # of the floor that lasers can see from where the robot can drive
@@ -29,8 +30,8 @@ class Explorations:
         self.scratch = tempfile.TemporaryDirectory(prefix="docent-exploration-")
         self.pictures = Path(pictures) if pictures else Path(self.scratch.name)
 
-    def call(self, *arguments, may_fail=False):
-        done = subprocess.run([self.program, *map(str, arguments)], capture_output=True, text=True, check=False)
+    def call(self, *arguments, may_fail=False, program=None):
+        done = subprocess.run([program or program_for(self.program, arguments), *map(str, arguments)], capture_output=True, text=True, check=False)
         if done.returncode != 0 and not may_fail:
             raise RuntimeError(f"docent {' '.join(map(str, arguments))} exited {done.returncode}: {done.stderr.strip()[-500:]}")
         return done.returncode == 0
@@ -49,7 +50,8 @@ class Explorations:
                             *STARTS.get(kind, []), *more, may_fail=bool(more))
         if not is_done:
             return None
-        self.call("score-map", "--map", folder / "map.yaml", "--world", museum / "simulation.yaml", "--report", folder / "score.json")
+        self.call("score-map", "--map", folder / "map.yaml", "--world", museum / "simulation.yaml", "--report", folder / "score.json",
+                  program=laboratory(self.program))
         run = json.loads((folder / "report.json").read_text())
         run |= json.loads((folder / "score.json").read_text())
         print(f"   {name}: {run['exploration']['minutes']:.1f} min, {100 * run['covered']:.1f} % covered", file=sys.stderr, flush=True)

@@ -16,6 +16,7 @@ import random
 import statistics
 import subprocess
 
+from evaluation.programs import program_for
 from evaluation.simulations import side_by_side
 from evaluation.tables import Verdict, print_table
 
@@ -127,7 +128,7 @@ class Bench:
             scenario = self.cache / f"{key}.{mark}.yaml"
             scenario.write_text("\n".join(["events:", TOUR, *events]) + "\n")
             made, told, judged = (path.with_suffix(f".{mark}") for path in (drive, claims, report))
-            command = [self.docent, "simulate", "--museum", self.museum, "--hours", f"{duration / 3600:.8f}", "--seed", str(seed),
+            command = [program_for(self.docent, extra), "simulate", "--museum", self.museum, "--hours", f"{duration / 3600:.8f}", "--seed", str(seed),
                        "--crowd", CROWD, "--requests-per-hour", "40", "--scenario", scenario, "--drive-log", made, "--claims", told,
                        "--report", judged, "--quiet", *extra]
             done = subprocess.run(command, capture_output=True, text=True, check=False)

@@ -16,6 +16,7 @@ import tempfile
 import time
 from pathlib import Path
 
+from evaluation.programs import laboratory
 from evaluation.tables import Verdict, print_table
 
 PARTS = ["intel", "peer", "odometry", "honesty", "loops", "museum"]
@@ -217,7 +218,7 @@ def museum(mapper, root, seeds, verdict):
     for i, seed in enumerate(seeds):
         for method, made in runs.items():
             run, folder = made[i], mapper.folder(f"museum-{method}-{seed}")
-            done = subprocess.run([mapper.program, "score-map", "--map", folder / "map.yaml", "--world", world, "--report", folder / "score.json"],
+            done = subprocess.run([laboratory(mapper.program), "score-map", "--map", folder / "map.yaml", "--world", world, "--report", folder / "score.json"],
                                   check=False, capture_output=True)
             score = json.loads((folder / "score.json").read_text()) if done.returncode == 0 else {"wall_error_m": float("inf"), "found": 0.0}  # fits nowhere
             ends = run["odometry"]

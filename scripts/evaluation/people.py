@@ -18,6 +18,7 @@ import sys
 import time
 
 from evaluation import figures
+from evaluation.programs import program_for
 from evaluation.tables import Verdict, print_table
 
 MUSEUMS = ["bonn", "smithsonian"]
@@ -115,7 +116,7 @@ class Bench:
         if not path.exists():
             part = path.with_suffix(f".part{os.getpid()}")
             started = time.monotonic()
-            done = subprocess.run([self.docent, "simulate", "--museum", self.museums / museum, "--hours",
+            done = subprocess.run([program_for(self.docent, arguments), "simulate", "--museum", self.museums / museum, "--hours",
                                    f"{minutes / 60:.6f}", "--seed", str(seed), "--crowd", "busy", "--people-log", part,
                                    "--quiet", *arguments], capture_output=True, text=True, check=False)
             if done.returncode != 0 or not part.exists():

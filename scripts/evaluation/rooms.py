@@ -6,6 +6,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
+from evaluation.programs import laboratory
 from evaluation.tables import Verdict, print_table
 
 PARTS = ["plans", "kinds", "examples"]
@@ -117,7 +118,7 @@ class Rooms:
 
     def of(self, yaml, name):
         cells, report = self.folder / f"{name}.cells.pgm", self.folder / f"{name}.json"
-        subprocess.run([self.program, "rooms", "--map", yaml, "--cells", cells, "--report", report, "--picture", self.folder / f"{name}.png"],
+        subprocess.run([laboratory(self.program), "rooms", "--map", yaml, "--cells", cells, "--report", report, "--picture", self.folder / f"{name}.png"],
                        check=True, capture_output=True)
         return read_cells(cells), json.loads(report.read_text())
 

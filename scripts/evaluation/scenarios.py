@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 
 from evaluation import reports
 from evaluation.keys import key_of
+from evaluation.programs import program_for, programs_of
 from evaluation.tables import Verdict, print_table
 
 REQUEST = 60.0  # [s] when the first wish is made, in every scenario
@@ -150,7 +151,7 @@ class Annex:
         self.docent, self.scenarios, self.jobs = docent, root / "scripts" / "scenarios", jobs
         self.cache = cache / "scenarios"
         self.world = world
-        self.key = key_of(docent, self.scenarios / world)
+        self.key = key_of(*programs_of(docent), self.scenarios / world)
         self.museum = self.cache / f"{world}-{self.key}"
         if not (self.museum / "museum.yaml").exists():
             self.draw()
@@ -184,7 +185,7 @@ class Annex:
             scenario = path.with_suffix(f".part{os.getpid()}.yaml")
             scenario.write_text(text)
             began = time.monotonic()
-            done = subprocess.run([self.docent, "simulate", "--museum", self.museum, "--scenario", scenario, "--hours",
+            done = subprocess.run([program_for(self.docent, settings), "simulate", "--museum", self.museum, "--scenario", scenario, "--hours",
                                    f"{SCENARIOS[name].minutes / 60:.6f}", "--seed", str(seed), "--crowd", crowd, "--people", str(people),
                                    "--requests-per-hour", "0", f"--start={start}", "--report", part, "--event-log", part_log, "--thing-log", part_things,
                                    "--quiet", *(word for setting in settings for word in ("--set", setting))],

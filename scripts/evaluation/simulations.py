@@ -8,6 +8,7 @@ import sys
 import time
 
 from evaluation.keys import key_of
+from evaluation.programs import program_for, programs_of
 
 
 def side_by_side(jobs, threads):
@@ -35,7 +36,7 @@ class Simulations:
 
     def key(self, museum, *programs):
         """Of everything that decides a run: the programs as they are built, scenarios, the museum."""
-        return key_of(self.docent, *programs, self.root / "scripts" / "scenarios", self.root / "prolog", museum)
+        return key_of(*programs_of(self.docent), *programs, self.root / "scripts" / "scenarios", self.root / "prolog", museum)
 
     def run(self, name, museum, seed, minutes, arguments):
         """One run; its report, from the cache when it was made before."""
@@ -53,7 +54,7 @@ class Simulations:
         kept = {kind: folder / f"{stem}.{kind}" for kind in (*logs.values(), "json")}
         if not kept["json"].exists():
             part = {kind: folder / f"{stem}.part{os.getpid()}.{kind}" for kind in (*kept, "yaml")}
-            command = [self.docent, "simulate", "--museum", museum, "--hours", f"{hours:.6f}", "--seed", str(seed),
+            command = [program_for(self.docent, arguments), "simulate", "--museum", museum, "--hours", f"{hours:.6f}", "--seed", str(seed),
                        "--report", part["json"], "--quiet", *arguments]
             for option, kind in logs.items():
                 command += [option, part[kind]]

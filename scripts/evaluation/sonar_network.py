@@ -25,7 +25,7 @@ def train(program, root, seed, is_slice, folder, pictures):
     done = subprocess.run([program, "train-sonar", "--out", folder / f"network-{seed}.json", "--seed", str(seed), "--report", report,
                            *map(str, [*size, *museums, *drawn])], capture_output=True, text=True, check=False)
     if done.returncode != 0:
-        raise RuntimeError(f"seed {seed}: docent train-sonar exited {done.returncode}: {done.stderr.strip()[-500:]}")
+        raise RuntimeError(f"seed {seed}: docent-lab train-sonar exited {done.returncode}: {done.stderr.strip()[-500:]}")
     print(f"   seed {seed} trained", file=sys.stderr, flush=True)
     return json.loads(report.read_text())
 

@@ -44,6 +44,12 @@ def strings():
     return set(re.findall(r'"([^"\n]*)"', "\n".join(sources().values())))
 
 
+@cache
+def laboratory_commands():
+    """The commands that only docent-lab has."""
+    return set(re.findall(r'"([^"]+)"', sources()[SOURCE / "apps/shared/laboratory_commands.h"]))
+
+
 def is_defined_with(type_name, member):
     """Whether a file that defines the type also has the member."""
     definition = re.compile(rf"\b(?:class|struct|concept|using|namespace|enum(?: class)?)\s+{type_name}\b")
@@ -53,10 +59,11 @@ def is_defined_with(type_name, member):
 def names_something(name, folder=SOURCE):
     """Whether a name in backticks stands for something: a file, a folder, a command, a parameter, a symbol."""
     program, *arguments = name.split()
-    if program == "docent" or program == "scripts/docent":
+    if program.removeprefix("scripts/") in ("docent", "docent-lab"):
         command = arguments[0] if arguments else ""
         options = [argument for argument in arguments if argument.startswith("--")]
-        return command in strings() and all(option in strings() for option in options)
+        is_right_program = program.endswith("-lab") or command not in laboratory_commands()
+        return is_right_program and command in strings() and all(option in strings() for option in options)
     if program.startswith("scripts/"):
         script = ROOT / program
         if not script.is_file():
@@ -120,8 +127,9 @@ def check_readmes():
             if path.is_dir() or path.suffix == ".h":
                 check(path.stem in stems, f"{where}/README.md does not name {path.name}")
         for name in sorted(named):
-            # Only what can be nothing else than a symbol or a file of the code.
-            if re.fullmatch(r"[A-Z][a-z]+\w*(::\w+)*|\w+(::\w+)+|[\w/]+\.(h|cpp|inc|py)", name) and "_msgs::" not in name:
+            # Only what can be nothing else than a command, a symbol or a file of the code.
+            is_command = re.fullmatch(r"(scripts/)?docent(-lab)? [a-z-]+", name)
+            if is_command or re.fullmatch(r"[A-Z][a-z]+\w*(::\w+)*|\w+(::\w+)+|[\w/]+\.(h|cpp|inc|py)", name) and "_msgs::" not in name:
                 check(names_something(name, folder), f"{where}/README.md: `{name}` is nothing in this project")
 
 

@@ -66,10 +66,12 @@ EDGE_MAY_SEE = {
 # What every folder speaks stands in `docent` itself; the names of each other folder in a namespace that is called like it.
 COMMON = {"base", "geometry", "vocabulary", "grid", "messages"}
 # The folders of these see no other one of their own, but `shared` and what lies within them; what starts them all sees all.
-APART = {"modules": "modules/host", "apps": "apps"}
+APART = {"modules": {"modules/host"}, "apps": {"apps", "apps/laboratory"}}
 TRUTH = re.compile(r"kTrueState|kTrueContact|kTrueOffer|kRunInfo|for_each_truth_topic|\"truth/")
 TRUTH_MAY = {"messages", "simulator", "evaluation", "recording", "apps", "transport"}
 CODE = {".h", ".cpp", ".inc"}
+# What cripples a robot: the laboratory's own.
+ABLATIONS = re.compile(r"\bAblationParams\b|\bEvaluationParams\b|\bCrippledRobot\b|\bablations::|\bevaluation\(\)")
 # The modules that may publish a topic that must have one publisher (architecture 10.7); its name as topics.h has it.
 ONE_PUBLISHER = {"docent/drive": "avoid_module.cpp"}
 
@@ -123,7 +125,7 @@ def check_arrow(source, target, where):
 
 def check_apart(source, target, where):
     is_own = target == source or target.startswith(source + "/")
-    if top(source) == top(target) and top(source) in APART and not is_own and source != APART[top(source)]:
+    if top(source) == top(target) and top(source) in APART and not is_own and source not in APART[top(source)]:
         check(target == f"{top(source)}/shared", f"{where}: {source} may not see {target}, only {top(source)}/shared")
 
 
@@ -187,11 +189,32 @@ def check_dependencies():
             folder = words[0]
             section = ""
             for word in words[1:]:
-                if word in {"SOURCES", "HOT", "DEPENDS", "LIBRARIES", "TEST_DEPENDS", "TEST_LIBRARIES"}:
+                if word in {"SOURCES", "HOT", "LABORATORY", "DEPENDS", "LIBRARIES", "TEST_DEPENDS", "TEST_LIBRARIES"}:
                     section = word
                 elif section == "DEPENDS":
                     check_arrow(folder, word, f"{cmake.relative_to(ROOT)}")
                     check_apart(folder, word, f"{cmake.relative_to(ROOT)}")
+
+
+def check_laboratory(root):
+    """What only docent-lab needs (keyword LABORATORY) is seen by such folders alone, so that `docent` compiles none of it; and
+    nothing else knows of the switches that cripple a robot."""
+    sees, laboratory = {}, set()
+    for cmake in sorted(root.rglob("CMakeLists.txt")):
+        for call in re.findall(r"docent_capability\(([^)]*)\)", re.sub(r"#.*", "", cmake.read_text())):
+            folder, *words = call.split()
+            sees[folder] = words
+            if words[:1] == ["LABORATORY"]:
+                laboratory.add(folder)
+    for folder, words in sees.items():
+        for word in words:
+            check(folder in laboratory or word not in laboratory, f"{folder}: is no LABORATORY folder and depends on {word}, which is one")
+    for path, text in sources(root):
+        folder = path.parent.relative_to(root).as_posix()
+        for other in re.findall(r'#include "docent/(.+)/[^/]+"', text):
+            check(folder in laboratory or other not in laboratory, f"{path.relative_to(root)}: no LABORATORY folder, includes {other}, which is one")
+        named = ABLATIONS.search(text)
+        check(folder in laboratory or not named, f"{path.relative_to(root)}: no LABORATORY folder, names {named and named[0]}")
 
 
 def check_modules():
@@ -230,6 +253,7 @@ def check_machines():
 if __name__ == "__main__":
     check_sources()
     check_dependencies()
+    check_laboratory(SOURCE)
     check_modules()
     check_namespaces(SOURCE, COMMON)
     check_types(SOURCE)

@@ -157,6 +157,30 @@ class Publishers(Project):
         self.assertEqual(len(self.faults()), 1)
 
 
+class Laboratory(Project):
+    def faults(self, cmake, source):
+        findings.faults.clear()
+        self.write("apps/laboratory/crowd/CMakeLists.txt", "docent_capability(apps/laboratory/crowd LABORATORY\n  SOURCES crowd)")
+        self.write("apps/x/CMakeLists.txt", cmake)
+        self.write("apps/x/x.cpp", source)
+        check_includes.check_laboratory(self.root)
+        return len(findings.faults)
+
+    def test_nothing_else_sees_a_folder_of_the_laboratory(self):
+        plain, own = "docent_capability(apps/x SOURCES x DEPENDS base", "docent_capability(apps/x LABORATORY SOURCES x DEPENDS base"
+        include = '#include "docent/apps/laboratory/crowd/crowd.h"\n'
+        self.assertEqual(self.faults(f"{plain})", ""), 0)
+        self.assertEqual(self.faults(f"{plain} apps/laboratory/crowd)", ""), 1)
+        self.assertEqual(self.faults(f"{plain})", include), 1)
+        self.assertEqual(self.faults(f"{own} apps/laboratory/crowd)", include), 0)
+
+    def test_nothing_else_names_what_cripples(self):
+        plain, own = "docent_capability(apps/x SOURCES x)", "docent_capability(apps/x LABORATORY SOURCES x)"
+        for text in ("if (config.evaluation().blind) return;", "ablations::CrippledRobot robot;", "AblationParams params;"):
+            self.assertEqual(self.faults(plain, text), 1)
+            self.assertEqual(self.faults(own, text), 0)
+
+
 class Namespaces(Project):
     def faults(self, text, path="planning/pursuit/a.h"):
         findings.faults.clear()

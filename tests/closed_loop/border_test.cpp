@@ -10,6 +10,7 @@
 #include <tuple>
 #include <vector>
 
+#include "docent/apps/laboratory/ablations/crippled_robot.h"
 #include "docent/apps/shared/temporary_folder.h"
 #include "docent/apps/simulate/simulation_run.h"
 #include "docent/base/files.h"
@@ -122,6 +123,7 @@ Outcome run(const Case& how, std::uint64_t seed, const std::vector<std::string>&
   options.crowd = "empty";
   options.requests_per_hour = 0.0;
   options.settings = settings;
+  options.robot_maker = std::make_shared<apps::ablations::CrippledRobot>();
   options.start = Pose2{kAlong, how.border + 0.2, Angle::degrees(how.heading)};  // from where it is carried
   options.scenario = folder.path() / "scenario.yaml";
   options.event_log = folder.path() / "events.csv";

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "docent/apps/laboratory/ablations/crippled_robot.h"
 #include "docent/base/check.h"
 #include "docent/museum/museum.h"
 
@@ -45,6 +46,7 @@ class MotionLoop::Impl {
         y_error_{options.position_error, rng_.stream("y")},
         heading_error_{options.heading_error, rng_.stream("heading")} {
     for (const auto& setting : options.settings) DOCENT_CHECK(config_.set(setting));
+    DOCENT_CHECK(robot_.read(config_));
     simulator::SimulationOptions simulation;
     simulation.world = must(simulator::load_world(*museum_.simulation_path));
     simulation.seed = options.seed;
@@ -57,8 +59,7 @@ class MotionLoop::Impl {
       host.virtual_time = true;
       host.seed = options.seed;
       host.state = std::filesystem::temp_directory_path();
-      modules_.push_back(
-          must(modules::ModuleHost::create(*modules::find_module(name), hub_.connect(name), museum_, config_, host)));
+      modules_.push_back(must(robot_.make(*modules::find_module(name), hub_.connect(name), museum_, config_, host)));
     }
     listen();
     self_->every(seconds(0.1), [this] { localize(); });
@@ -206,6 +207,7 @@ class MotionLoop::Impl {
   transport::VirtualTimeHub hub_;
   museum::Museum museum_;
   robot::RobotConfig config_;
+  apps::ablations::CrippledRobot robot_;
   Rng rng_;
   WanderingError x_error_, y_error_, heading_error_;
   std::unique_ptr<transport::Bus> world_ = hub_.connect("world");

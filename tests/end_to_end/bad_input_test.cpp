@@ -33,7 +33,7 @@ void expect_refused(const BadInput& bad) {
   EXPECT_NE(result.code, 0);
   EXPECT_NE(result.code, -1) << "it went on";
   EXPECT_LT(result.code, 128) << "it crashed";
-  EXPECT_TRUE(result.output.starts_with("docent: ")) << result.output;
+  EXPECT_TRUE(result.output.starts_with("docent: ") || result.output.starts_with("docent-lab: ")) << result.output;
   EXPECT_NE(result.output.find(bad.says), std::string::npos) << result.output;
   EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << result.output;
 }
@@ -81,8 +81,8 @@ TEST(BadInput, UpSaysWhichOptionIsWrongBeforeAnythingStarts) {
            {"no robot.yaml", with({"--robot", "/nowhere.yaml"}), "/nowhere.yaml"},
            {"crowd of a real museum", with({"--crowd", "busy"}), "--crowd is of a simulated museum: it needs --sim"},
            {"crippled by --set", with({"--set", "evaluation.blind_to_people=yes"}),
-            "section evaluation cripples the robot (blind_to_people)"},
-           {"a simulated robot crippled", with({"--sim", "--set", "evaluation.without_watches=on"}), "without_watches"},
+            "section evaluation cripples the robot, which docent-lab alone does"},
+           {"a simulated robot crippled", with({"--sim", "--set", "evaluation.without_watches=on"}), "docent-lab"},
            {"--set without value", with({"--set", "plan"}), "--set plan: expected section.key=value"},
            {"--set of a body that cannot be", with({"--set", "body.colour=red"}), "colour"},
            {"--set of an unknown section", with({"--set", "flying.height=3"}), "unknown section 'flying'"},
@@ -140,7 +140,7 @@ TEST(BadInput, NoModuleRunsCrippled) {
                                  folder.path() / "state"});
       return more;
     };
-    expect_refused({module, with({"--set", "evaluation.ignores_hazards=on"}), "ignores_hazards"});
+    expect_refused({module, with({"--set", "evaluation.ignores_hazards=on"}), "docent-lab"});
     expect_refused({module, with({"--robot", crippled}), "crippled.yaml:1: section evaluation cripples the robot"});
   }
 }
@@ -326,6 +326,7 @@ TEST(BadInput, Simulations) {
            {"unknown mode", with({"--mode", "upside-down"}), "--mode upside-down"},
            {"unknown module", {"run", "nothing"}, "no module 'nothing'"},
            {"unknown command", {"fly"}, "unknown command 'fly'"},
+           {"a crippled robot", with({"--set", "evaluation.blind_to_people=on"}), "docent-lab"},
            {"no command", {}, "subcommand"},
        }) {
     expect_refused(bad);

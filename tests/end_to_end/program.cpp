@@ -6,18 +6,33 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <fstream>
 #include <thread>
 
+#include "docent/apps/shared/laboratory_commands.h"
+
 namespace docent {
+
+namespace {
+
+std::string program_for(const std::vector<std::string>& arguments) {
+  const char* other = std::getenv("DOCENT_BINARY");  // as scripts/evaluate knows it
+  const std::filesystem::path docent = other != nullptr ? other : DOCENT_PROGRAM;
+  const auto& names = apps::kLaboratoryCommands;
+  const bool is_laboratory =
+      !arguments.empty() && std::find(names.begin(), names.end(), arguments.front()) != names.end();
+  return is_laboratory ? docent.parent_path() / "docent-lab" : docent;
+}
+
+}  // namespace
 
 Program::Program(const std::vector<std::string>& arguments) {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) std::abort();
-  const char* other = std::getenv("DOCENT_BINARY");  // as scripts/evaluate knows it
-  std::vector<std::string> words{other != nullptr ? other : DOCENT_PROGRAM};
+  std::vector<std::string> words{program_for(arguments)};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
   for (auto& word : words) pointers.push_back(word.data());

@@ -24,8 +24,8 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// A started `docent`, with all that it prints and a cache of its own. Ended (with its children) at the latest with
-/// this object.
+/// A started `docent`, or `docent-lab` where the first argument is one of its commands, with all that it prints and a
+/// cache of its own. Ended (with its children) at the latest with this object.
 class Program {
  public:
   explicit Program(const std::vector<std::string>& arguments);

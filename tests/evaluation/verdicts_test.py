@@ -12,6 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "scripts"))
 from evaluation import attract, benchmarks, coastal, crippled, exceptions, faults, ledger, localization, reports, safety, scenarios, tours  # noqa: E402
+from evaluation.programs import laboratory, program_for, programs_of  # noqa: E402
 from evaluation.tables import Verdict  # noqa: E402
 
 
@@ -20,6 +21,21 @@ def report(lost=0.0, people=0, area=0, km=1.0, passes=50, virtual=1200.0, cpu=30
             "distance_m": 1000 * km, "passes_within_1m": passes, "virtual_seconds": virtual, "cpu_seconds": cpu,
             "wall_seconds": wall, "localization": {"lost_s": lost}, "bumped_by_people": bumped,
             "blocked": {"seconds": blocked, "horn": horns}}
+
+
+class Programs(unittest.TestCase):
+    def test_what_cripples_is_the_laboratory_beside_docent(self):
+        with tempfile.TemporaryDirectory() as folder:
+            docent, lab = Path(folder) / "docent", Path(folder) / "docent-lab"
+            docent.touch()
+            self.assertEqual(programs_of(docent), [docent])
+            with self.assertRaisesRegex(RuntimeError, "docent-lab is missing"):
+                laboratory(docent)
+            lab.touch()
+            self.assertEqual(programs_of(docent), [docent, lab])
+            self.assertEqual(laboratory(docent), lab)
+            self.assertEqual(program_for(docent, ["--set", "avoid.method=window"]), docent)
+            self.assertEqual(program_for(docent, ["--set", "evaluation.blind_to_people=true"]), lab)
 
 
 class Reports(unittest.TestCase):

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "docent/apps/laboratory/ablations/crippled_robot.h"
 #include "docent/apps/replay/replay_run.h"
 #include "docent/apps/simulate/simulation_run.h"
 #include "docent/base/files.h"
@@ -45,7 +46,10 @@ class Replay : public testing::Test {
     if (!setting.empty()) {
       if (auto set = config.set(setting); !set) return tl::unexpected<Error>(set.error());
     }
+    const auto robot = std::make_shared<apps::ablations::CrippledRobot>();
+    if (auto read = robot->read(config); !read) return tl::unexpected<Error>(read.error());
     apps::replay_command::ReplayOptions options;
+    options.robot_maker = robot;
     options.recording = recording();
     options.modules = modules;
     options.out = out;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <opencv2/ml.hpp>
 
-#include "docent/apps/train_sonar/sonar_worlds.h"
+#include "docent/apps/laboratory/train_sonar/sonar_worlds.h"
 
 namespace docent {
 namespace {

@@ -3,8 +3,8 @@
 
     tests/tutorials/check_tutorials.py [--write] [PAGE...]
 
-A page's ```sh blocks are run in their order by one bash each, with the repository's folders beside them and `docent` on the
-PATH. A ```output block holds what the ```sh block before it prints; "…" in it stands for anything. --write puts today's output
+A page's ```sh blocks are run in their order by one bash each, with the repository's folders beside them and `docent` and
+`docent-lab` on the PATH. A ```output block holds what the ```sh block before it prints; "…" in it stands for anything. --write puts today's output
 there. An HTML comment in the line before a block changes how it is tested:
 
     <!-- test instead: COMMAND -->      COMMAND is run instead, for what runs for ever or for hours
@@ -77,6 +77,7 @@ class Folder:
             (self.path / name).symlink_to(ROOT / name)
         (self.path / "bin").mkdir()
         (self.path / "bin/docent").symlink_to(binary())
+        (self.path / "bin/docent-lab").symlink_to(binary().parent / "docent-lab")
         self.env = dict(os.environ, DOCENT_BINARY=str(binary()), XDG_STATE_HOME=str(self.path / "state"),
                         DOCENT_CACHE=str(self.path / "cache"),
                         PATH=f"{self.path / 'bin'}:{os.environ['PATH']}")

@@ -122,6 +122,11 @@ class Bus {
   friend class Publisher;
   virtual int add_publisher(const TopicInfo& topic) = 0;
   virtual void publish(int publisher, std::shared_ptr<const void> message) = 0;
+  /// The same on another bus: for a bus that passes on.
+  static int add_publisher_on(Bus& bus, const TopicInfo& topic) { return bus.add_publisher(topic); }
+  static void publish_on(Bus& bus, int publisher, std::shared_ptr<const void> message) {
+    bus.publish(publisher, std::move(message));
+  }
 
  private:
   std::map<std::string, Refusals> refusals_;

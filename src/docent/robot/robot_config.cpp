@@ -146,30 +146,26 @@ Result<void> RobotConfig::set(const std::string& assignment) {
 Result<void> RobotConfig::read_shared() {
   auto body = section<RobotBody>("body");
   if (!body) return tl::unexpected<Error>(body.error());
-  auto evaluation = section<EvaluationParams>("evaluation");
-  if (!evaluation) return tl::unexpected<Error>(evaluation.error());
   body_ = *body;
-  evaluation_ = *evaluation;
   return {};
 }
 
-Result<void> RobotConfig::check_not_crippled() const {
-  const std::string names = evaluation_.crippled();
-  if (names.empty()) return {};
-  const YamlFile* last = &file_;
-  for (const auto& setting : settings_)
-    if (setting.root()["evaluation"].IsDefined()) last = &setting;
-  return tl::unexpected<Error>(
-      last->fault(last->root()["evaluation"], "section evaluation cripples the robot (" + names +
-                                                  "), which is for simulations only: remove it before the robot runs"));
+Result<void> RobotConfig::refuse_section(const std::string& name, const std::string& why) const {
+  const auto refuse = [&](const YamlFile& file) -> Result<void> {
+    const YAML::Node node = file.root()[name];
+    if (!node.IsDefined()) return {};
+    return tl::unexpected<Error>(file.fault(node, "section " + name + " " + why));
+  };
+  auto checked = refuse(file_);
+  for (std::size_t i = 0; checked && i < settings_.size(); ++i) checked = refuse(settings_[i]);
+  return checked;
 }
 
 Result<void> RobotConfig::check_sections(const std::vector<std::string>& names) const {
   const auto check = [&](const YamlFile& file) -> Result<void> {
     for (const auto& entry : file.root()) {
       const auto name = entry.first.as<std::string>();
-      if (name == "body" || name == "evaluation" || std::find(names.begin(), names.end(), name) != names.end())
-        continue;
+      if (name == "body" || std::find(names.begin(), names.end(), name) != names.end()) continue;
       std::string known = "body";
       for (const std::string& one : names) known += ", " + one;
       const std::string meant = did_you_mean(name, names);

@@ -5,12 +5,13 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "docent/base/result.h"
 #include "docent/base/yaml.h"
 #include "docent/geometry/pose2.h"
-#include "docent/robot/evaluation_params.h"
+#include "docent/robot/amendments.h"
 
 namespace docent::robot {
 
@@ -92,11 +93,8 @@ class RobotConfig {
   [[nodiscard]] Result<void> set(const std::string& assignment);
 
   [[nodiscard]] const RobotBody& body() const { return body_; }
-  /// How the robot is crippled, if it is.
-  [[nodiscard]] const EvaluationParams& evaluation() const { return evaluation_; }
-  /// Error, with file and line, when the robot is crippled for an evaluation: such a robot meets nobody.
-  [[nodiscard]] Result<void> check_not_crippled() const;
-  /// Reads section `name` over the defaults of `params` (its visit and validate); unknown keys are faults.
+  /// Reads section `name` over the defaults of `params` (its visit and validate) and amends them; unknown keys are
+  /// faults.
   template <class Params>
   [[nodiscard]] Result<Params> section(const std::string& name) const {
     Params params;
@@ -114,10 +112,20 @@ class RobotConfig {
       auto valid = params.validate();
       if (!valid) return tl::unexpected<Error>(last->fault(last->root()[name], valid.error().message));
     }
+    amend(params);
     return params;
   }
-  /// Error when the file has a section that is not in `names` (and neither `body` nor `evaluation`).
+  /// What a laboratory changes in the robot's parts; by default nothing.
+  void set_amendments(Amendments amendments) { amendments_ = std::move(amendments); }
+  /// Does so to a part of a section, or to what a module remembers.
+  template <class Part>
+  void amend(Part& part) const {
+    amendments_.apply(part);
+  }
+  /// Error when the file has a section that is not in `names` and not `body`.
   [[nodiscard]] Result<void> check_sections(const std::vector<std::string>& names) const;
+  /// Error, with file and line, when it has section `name`: `why` says what becomes of it.
+  [[nodiscard]] Result<void> refuse_section(const std::string& name, const std::string& why) const;
   /// Hash of all that is set, as 16 hexadecimal digits.
   [[nodiscard]] std::string hash() const;
 
@@ -129,7 +137,7 @@ class RobotConfig {
   YamlFile file_;
   std::vector<YamlFile> settings_;  ///< one a --set, in their order; so that the file keeps its lines
   RobotBody body_;
-  EvaluationParams evaluation_;
+  Amendments amendments_;
 };
 
 }  // namespace docent::robot

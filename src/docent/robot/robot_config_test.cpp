@@ -92,46 +92,31 @@ TEST(RobotConfig, FaultsNameTheLineOfTheFileOrTheSetting) {
   EXPECT_EQ(slower.body().radius, RobotBody{}.radius) << "a refused setting leaves nothing behind";
 }
 
-TEST(RobotConfig, WhatCripplesIsRecognisedByItsValueHoweverItIsWritten) {
-  for (const char* yes : {"yes", "true", "on", "True", "YES", "y"}) {
-    RobotConfig config;
-    EXPECT_TRUE(config.check_not_crippled().has_value());
-    ASSERT_TRUE(config.set(std::string{"evaluation.blind_to_people="} + yes).has_value()) << yes;
-    EXPECT_EQ(config.evaluation().crippled(), "blind_to_people") << yes;
-    const auto refused = config.check_not_crippled();
-    ASSERT_FALSE(refused.has_value()) << yes;
-    EXPECT_TRUE(refused.error().message.starts_with("--set evaluation.blind_to_people=")) << refused.error().message;
-    ASSERT_TRUE(config.set("evaluation.blind_to_people=off").has_value());
-    EXPECT_TRUE(config.check_not_crippled().has_value()) << "the last wins";
-    EXPECT_TRUE(config.check_sections({}).has_value());
-  }
-  RobotConfig config;
-  EXPECT_FALSE(config.set("evaluation.blind_to_people=1").has_value()) << "no truth value: refused, not ignored";
-  ASSERT_TRUE(config.set("evaluation.best_pose_error_x=1.5").has_value());
-  ASSERT_TRUE(config.set("evaluation.without_ladder=on").has_value());
-  EXPECT_EQ(config.evaluation().crippled(), "best_pose_error_x, without_ladder");
-}
-
-TEST(RobotConfig, WhatCripplesIsRefusedWithTheLineOfItsFile) {
-  EXPECT_TRUE(config_of("speeds: {}\nevaluation:\n  without_watches: no\n").check_not_crippled().has_value());
-  const auto refused = config_of("speeds: {}\n\nevaluation:\n  without_watches: on\n").check_not_crippled();
+TEST(RobotConfig, ASectionCanBeRefusedWithItsFileAndLine) {
+  const RobotConfig config = config_of("speeds: {}\n\nlegs:\n  count: 2\n");
+  EXPECT_TRUE(config.refuse_section("wings", "is of birds").has_value());
+  const auto refused = config.refuse_section("legs", "is of walkers");
   ASSERT_FALSE(refused.has_value());
-  EXPECT_NE(refused.error().message.find(".yaml:4: "), std::string::npos) << refused.error().message;
-  EXPECT_NE(refused.error().message.find("without_watches"), std::string::npos) << refused.error().message;
+  EXPECT_NE(refused.error().message.find(".yaml:4: section legs is of walkers"), std::string::npos)
+      << refused.error().message;
+  RobotConfig set;
+  ASSERT_TRUE(set.set("legs.count=3").has_value());
+  EXPECT_TRUE(set.refuse_section("legs", "is of walkers").error().message.starts_with("--set legs.count=3"));
+  EXPECT_FALSE(set.check_sections({}).has_value());
 }
 
-TEST(EvaluationParams, EverySwitchIsNamedWhenItIsNotAsByDefault) {
-  EvaluationParams params;
-  EXPECT_EQ(params.crippled(), "");
-  int switches = 0;
-  const auto change_and_back = [&](const char* name, auto& value) {
-    const auto before = std::exchange(value, static_cast<std::remove_reference_t<decltype(value)>>(1));
-    EXPECT_EQ(params.crippled(), name);
-    value = before;
-    ++switches;
-  };
-  params.visit(change_and_back);
-  EXPECT_GE(switches, 12);
+TEST(RobotConfig, ASectionIsAmendedWhenItIsRead) {
+  RobotConfig config = config_of("speeds: {fast: 0.9}\n");
+  Amendments amendments;
+  amendments.add<Speeds>([](Speeds& speeds) { speeds.fast *= 2.0; });
+  config.set_amendments(std::move(amendments));
+  const auto speeds = config.section<Speeds>("speeds");
+  ASSERT_TRUE(speeds.has_value());
+  EXPECT_DOUBLE_EQ(speeds->fast, 1.8);
+  Speeds part;
+  part.fast = 0.5;
+  config.amend(part);
+  EXPECT_DOUBLE_EQ(part.fast, 1.0);
 }
 
 TEST(RobotBody, TheRadiusHoldsTheOutlineWhichIsConvexRoundTheCentre) {

@@ -10,7 +10,6 @@
 #include "docent/apps/shared/deployment.h"
 #include "docent/base/suggestion.h"
 #include "docent/modules/host/registry.h"
-#include "docent/robot/evaluation_params.h"
 #include "docent/robot/parameter_list.h"
 
 namespace docent::apps::config_command {
@@ -19,10 +18,8 @@ namespace {
 
 constexpr std::size_t kCommentColumn = 34;  ///< where comments begin, if the value leaves room
 constexpr const char* kBody = "body";
-constexpr const char* kEvaluation = "evaluation";
 
-/// Every section: `body` first, then the modules' in the order of their names, `evaluation` last. Error: what is wrong
-/// in `config`.
+/// Every section: `body` first, then the modules' in the order of their names. Error: what is wrong in `config`.
 Result<std::vector<robot::ParameterRows>> all_sections(const robot::RobotConfig& config) {
   std::vector<robot::ParameterRows> all;
   auto body = robot::list_parameters<robot::RobotBody>(config, kBody);
@@ -35,9 +32,6 @@ Result<std::vector<robot::ParameterRows>> all_sections(const robot::RobotConfig&
   }
   std::sort(all.begin() + 1, all.end(),
             [](const robot::ParameterRows& a, const robot::ParameterRows& b) { return a.front().key < b.front().key; });
-  auto evaluation = robot::list_parameters<robot::EvaluationParams>(config, kEvaluation);
-  if (!evaluation) return tl::unexpected<Error>(evaluation.error());
-  all.push_back(std::move(*evaluation));
   return all;
 }
 

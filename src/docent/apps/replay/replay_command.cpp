@@ -42,7 +42,9 @@ std::string museum_folder(const ReplayCommandOptions& options) {
 void replay_recording(ReplayCommandOptions& options) {
   options.deployment.museum = museum_folder(options);
   const museum::Museum museum = value_or_fail(options.deployment.load());
-  const robot::RobotConfig config = value_or_fail(options.deployment.load_config());
+  RobotMaker& robot = *options.replay.robot_maker;
+  robot::RobotConfig config = value_or_fail(options.deployment.load_config(robot.sections()));
+  value_or_fail(robot.read(config));
   const bool shows_progress = isatty(STDERR_FILENO) != 0;
   if (shows_progress) options.replay.progress = [](double share) { std::fprintf(stderr, "\r%3.0f %%", 100.0 * share); };
   options.replay.seed = options.deployment.seed;
@@ -83,8 +85,9 @@ void replay_recording(ReplayCommandOptions& options) {
 
 }  // namespace
 
-void add_replay_command(CLI::App& app) {
+void add_replay_command(CLI::App& app, std::shared_ptr<RobotMaker> robot) {
   auto options = std::make_shared<ReplayCommandOptions>();
+  options->replay.robot_maker = std::move(robot);
   CLI::App* command = app.add_subcommand("replay", "Run modules again on what a recording's sensors saw");
   command->add_option("recording", options->replay.recording, "MCAP file")->required();
   command->add_option("--modules", options->replay.modules, "Which, separated by commas; without it all but sound")

@@ -198,7 +198,7 @@ class Replay {
     host_options.seed = options_.seed;
     host_options.virtual_time = true;
     for (const modules::ModuleEntry* entry : modules) {
-      auto host = modules::ModuleHost::create(*entry, hub_.connect(entry->name), museum_, config_, host_options);
+      auto host = options_.robot_maker->make(*entry, hub_.connect(entry->name), museum_, config_, host_options);
       if (!host) return tl::unexpected<Error>(host.error());
       hosts_.push_back(std::move(*host));
       chosen_.insert(entry->name);
@@ -244,7 +244,7 @@ class Replay {
     outcome_.replayed_topics.assign(fed_.begin(), fed_.end());
     if (evaluator_.has_truth()) {
       outcome_.report = evaluator_.report();
-      outcome_.report->crippled = names_of_both(outcome_.report->crippled, config_.evaluation().crippled());
+      outcome_.report->crippled = names_of_both(outcome_.report->crippled, options_.robot_maker->crippled());
     }
     return std::move(outcome_);
   }

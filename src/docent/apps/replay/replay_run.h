@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "docent/apps/shared/robot_maker.h"
 #include "docent/base/result.h"
 #include "docent/evaluation/deployment_report.h"
 #include "docent/geometry/pose2.h"
@@ -24,6 +25,7 @@ struct ReplayOptions {
   std::uint64_t seed = 1;
   std::string cache;                           ///< folder, see ModuleContext; empty: nothing is kept
   std::function<void(double share)> progress;  ///< may be empty
+  std::shared_ptr<RobotMaker> robot_maker = std::make_shared<RobotMaker>();
 };
 
 /// An event as far as two runs can share it: not its time, not ids that each run makes anew.
@@ -56,6 +58,7 @@ struct ReplayOutcome {
 ///
 /// Speech takes as long as it took, unless `sound` is among the chosen modules: the loudspeaker is hardware, too.
 ///
+/// @pre the maker has read `config`.
 /// Error: the recording is damaged, a module is unknown or refuses its configuration, `out` cannot be written.
 [[nodiscard]] Result<ReplayOutcome> replay(const museum::Museum& museum, const robot::RobotConfig& config,
                                            const ReplayOptions& options);

@@ -19,6 +19,11 @@
 
 namespace docent::apps {
 
+namespace {
+constexpr const char* kCrippling = "evaluation";  ///< the section that docent-lab reads
+constexpr const char* kOnlyInTheLaboratory = "cripples the robot, which docent-lab alone does, in simulations";
+}  // namespace
+
 void Deployment::add_options(CLI::App& command, Museum named) {
   state = default_state();
   if (named == Museum::is_option) {
@@ -72,7 +77,7 @@ Result<museum::SetupWork> Deployment::work() const {
   return museum::work_of(progress->step);
 }
 
-Result<robot::RobotConfig> Deployment::load_config() const {
+Result<robot::RobotConfig> Deployment::load_config(const std::vector<std::string>& further) const {
   robot::RobotConfig config;
   if (!robot.empty()) {
     auto loaded = robot::RobotConfig::load(robot);
@@ -83,16 +88,13 @@ Result<robot::RobotConfig> Deployment::load_config() const {
     auto set = config.set(setting);
     if (!set) return tl::unexpected<Error>(set.error());
   }
-  std::vector<std::string> sections;
+  std::vector<std::string> sections = further;
   for (const modules::ModuleEntry& entry : modules::all_modules()) sections.emplace_back(entry.name);
+  if (std::find(further.begin(), further.end(), kCrippling) == further.end()) {
+    if (auto whole = config.refuse_section(kCrippling, kOnlyInTheLaboratory); !whole)
+      return tl::unexpected<Error>(whole.error());
+  }
   if (auto known = config.check_sections(sections); !known) return tl::unexpected<Error>(known.error());
-  return config;
-}
-
-Result<robot::RobotConfig> Deployment::load_whole_config() const {
-  auto config = load_config();
-  if (!config) return config;
-  if (auto whole = config->check_not_crippled(); !whole) return tl::unexpected<Error>(whole.error());
   return config;
 }
 

@@ -38,9 +38,8 @@ struct Deployment {
   [[nodiscard]] Result<museum::Museum> load() const;
   [[nodiscard]] bool is_exploring() const { return !explore.empty(); }
   [[nodiscard]] Result<museum::SetupWork> work() const;
-  [[nodiscard]] Result<robot::RobotConfig> load_config() const;
-  /// The same for a robot that may meet people: error when it is crippled for an evaluation.
-  [[nodiscard]] Result<robot::RobotConfig> load_whole_config() const;
+  /// @param further  sections beside `body` and those of the modules
+  [[nodiscard]] Result<robot::RobotConfig> load_config(const std::vector<std::string>& further = {}) const;
   /// Makes the folder of the state.
   [[nodiscard]] Result<void> prepare_state() const;
 };

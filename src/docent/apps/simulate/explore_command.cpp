@@ -127,8 +127,9 @@ void explore(ExploreOptions& options) {
 
 }  // namespace
 
-void add_explore_command(CLI::App& app) {
+void add_explore_command(CLI::App& app, std::shared_ptr<RobotMaker> robot) {
   auto options = std::make_shared<ExploreOptions>();
+  options->run.robot_maker = std::move(robot);
   options->run.museum = default_museum();
   options->run.crowd = "empty";
   options->run.requests_per_hour = 0.0;

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <memory>
+
+#include "docent/apps/shared/robot_maker.h"
+
 namespace CLI {
 class App;
 }
@@ -7,6 +11,6 @@ class App;
 namespace docent::apps::simulate_command {
 
 /// `docent explore`.
-void add_explore_command(CLI::App& app);
+void add_explore_command(CLI::App& app, std::shared_ptr<RobotMaker> robot);
 
 }  // namespace docent::apps::simulate_command

@@ -124,8 +124,9 @@ void simulate(Options& options) {
 
 }  // namespace
 
-void add_simulate_command(CLI::App& app) {
+void add_simulate_command(CLI::App& app, std::shared_ptr<RobotMaker> robot) {
   auto options = std::make_shared<Options>();
+  options->run.robot_maker = std::move(robot);
   options->run.museum = default_museum();
   CLI::App* command =
       app.add_subcommand("simulate", "Run the whole robot in a simulated museum, faster than real time");

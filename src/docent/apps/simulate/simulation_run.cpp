@@ -168,7 +168,7 @@ class SimulationRun::Parts {
     auto simd = modules::simd_of_localize(config_);
     if (!simd) return tl::unexpected<Error>(simd.error());
     options.run_info.simd = *simd;
-    options.run_info.crippled = config_.evaluation().crippled();
+    options.run_info.crippled = options_.robot_maker->crippled();
     if (!options_.scenario.empty()) {
       auto scenario = simulator::load_scenario(options_.scenario);
       if (!scenario) return tl::unexpected<Error>(scenario.error());
@@ -231,7 +231,7 @@ class SimulationRun::Parts {
     options.seed = options_.seed;
     options.virtual_time = true;
     options.day_begins = options_.day_begins;
-    auto host = modules::ModuleHost::create(entry, hub_.connect(entry.name), museum_, config_, options);
+    auto host = options_.robot_maker->make(entry, hub_.connect(entry.name), museum_, config_, options);
     if (!host) return tl::unexpected<Error>(host.error());
     hosts_[entry.name] = std::move(*host);
     return {};
@@ -304,8 +304,9 @@ Result<std::unique_ptr<SimulationRun>> SimulationRun::create(const SimulationRun
   deployment.settings = options.settings;
   auto museum = deployment.load();
   if (!museum) return tl::unexpected<Error>(museum.error());
-  auto config = deployment.load_config();
+  auto config = deployment.load_config(options.robot_maker->sections());
   if (!config) return tl::unexpected<Error>(config.error());
+  if (auto read = options.robot_maker->read(*config); !read) return tl::unexpected<Error>(read.error());
   if (options.explore) *museum = museum::without_map(*museum, *options.explore);
   auto parts = std::make_unique<Parts>(std::move(*museum), std::move(*config), options);
   if (auto started = parts->start(); !started) return tl::unexpected<Error>(started.error());

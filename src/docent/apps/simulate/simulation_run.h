@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "docent/apps/shared/robot_maker.h"
 #include "docent/base/result.h"
 #include "docent/base/time.h"
 #include "docent/evaluation/deployment_report.h"
@@ -45,6 +46,7 @@ struct SimulationRunOptions {
   bool profile = false;          ///< costs are counted by the processor's time, which is slower to ask for
   std::optional<Pose2> explore;  ///< the robot begins here and maps the museum by itself; none: it has its map
   bool has_robot = true;         ///< false: the world and the robot's body alone, no module
+  std::shared_ptr<RobotMaker> robot_maker = std::make_shared<RobotMaker>();
 };
 
 /// The whole robot and its museum in one process in virtual time: simulator, modules, evaluation. One thread,

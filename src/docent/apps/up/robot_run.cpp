@@ -80,7 +80,7 @@ Result<docent_msgs::Limits> limits_of(const RobotRun& options, const museum::Mus
 /// Everything that can be known to be wrong before a process is started.
 docent_msgs::Limits check(const RobotRun& options) {
   const museum::Museum museum = value_or_fail(options.deployment.load());
-  const robot::RobotConfig config = value_or_fail(options.deployment.load_whole_config());
+  const robot::RobotConfig config = value_or_fail(options.deployment.load_config());
   std::vector<std::string> sections;
   for (const auto& entry : modules::all_modules()) sections.emplace_back(entry.name);
   value_or_fail(config.check_sections(sections));

@@ -47,7 +47,7 @@ void run(const RunOptions& options) {
   }
   const Deployment& deployment = options.deployment;
   const museum::Museum museum = value_or_fail(deployment.load(), kExitBadConfiguration);
-  const robot::RobotConfig config = value_or_fail(deployment.load_whole_config(), kExitBadConfiguration);
+  const robot::RobotConfig config = value_or_fail(deployment.load_config(), kExitBadConfiguration);
   value_or_fail(deployment.prepare_state(), kExitBadConfiguration);
   if (entry->keeps_cache) prepare_cache(deployment.cache);
 

@@ -37,7 +37,7 @@ Result<SimulatedPlace> place_of(const Deployment& deployment, const std::string&
 Result<simulator::SimulationOptions> simulation_of(const Deployment& deployment, const SimulatorOptions& options) {
   auto place = place_of(deployment, options.world);
   if (!place) return tl::unexpected<Error>(place.error());
-  auto config = deployment.load_whole_config();
+  auto config = deployment.load_config();
   if (!config) return tl::unexpected<Error>(config.error());
   auto world = simulator::load_world(place->file);
   if (!world) return tl::unexpected<Error>(world.error());

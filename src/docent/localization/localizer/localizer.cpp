@@ -57,6 +57,7 @@ void Localizer::start_at(std::span<const BeliefMode> modes, const Pose2& odom_fr
 }
 
 Localizer::Step Localizer::observe(const sensor_models::RangeSweep& sweep, const Pose2& odom_from_robot, Time time) {
+  if (params_.reckons_dead && verdict_.localized()) return {};
   if (is_torn(odom_from_robot)) start_unknown();
   if (sweep.beams.empty()) return {};
   Update update = due(sweep, odom_from_robot, time);

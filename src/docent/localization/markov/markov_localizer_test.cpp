@@ -82,6 +82,26 @@ TEST(MarkovLocalizer, NoticesThatItWasCarriedOffAndFindsItselfAgain) {
   EXPECT_LT(drive.error(), 0.3);
 }
 
+TEST(MarkovLocalizer, CrippledItReckonsDeadOnceItIsSure) {
+  Drive drive;
+  LocalizerParams params = coarse();
+  params.reckons_dead = true;
+  MarkovLocalizer dead{drive.map, params, {}, 1};
+  const auto look = [&] { return dead.observe(drive.look(0.0), drive.odom, time_from_seconds(drive.seconds)); };
+  int updates = 0;
+  for (int steps = 0; !dead.verdict().localized() && steps < 150; ++steps) drive.step(), updates += look().updated;
+  ASSERT_TRUE(dead.verdict().localized());
+  EXPECT_GT(updates, 0);
+  const Pose2 last = dead.odom_from_robot();
+  drive.truth = {4.3, 3.2, Angle::degrees(-120.0)};
+  for (int i = 0; i < 50; ++i) {
+    drive.step();
+    EXPECT_FALSE(look().updated);
+  }
+  EXPECT_TRUE(dead.verdict().localized()) << "nothing makes it doubt";
+  EXPECT_EQ(dead.odom_from_robot().x, last.x);
+}
+
 TEST(MarkovLocalizer, EveryFilterTracksThroughPeople) {
   for (const char* filter : {"none", "entropy", "distance", "novelty"}) {
     Drive drive;

@@ -273,8 +273,6 @@ Result<std::unique_ptr<Module>> make_avoid(const ModuleContext& context) {
   params->has_infrared = body.infrareds > 0;
   params->has_tactile = body.tactile;
   params->has_lasers = !body.scanners.empty();
-  params->blind_to_people = context.config.evaluation().blind_to_people;
-  params->watches = !context.config.evaluation().without_watches;
   auto limits = limits_of(body);
   if (!limits) return tl::unexpected<Error>(limits.error());
   return std::make_unique<AvoidModule>(context, *limits, *params);

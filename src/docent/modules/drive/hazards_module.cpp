@@ -18,7 +18,6 @@ class HazardsModule final : public Module {
         border_{context.museum.area, context.museum.hazard_polygons(), params,
                 collision_avoidance::VirtualMeasurements::Ends::border},
         best_pose_only_{params.best_pose_only},
-        ignored_{context.config.evaluation().ignores_hazards},
         scan_{bus_.publisher(topics::kVirtualScan)} {
     bus_.subscribe<docent_msgs::Belief>(topics::kBelief,
                                         [this](const docent_msgs::Belief& belief) { measure(belief); });
@@ -69,8 +68,7 @@ class HazardsModule final : public Module {
     scan.range_max = static_cast<float>(collision_avoidance::VirtualMeasurements::kMaxRange);
     // Two turns: the body keeps off the hazards of the first, the centre off the border in the second.
     for (const auto* measured : {&of_hazards, &of_border}) {
-      for (const double range : measured->ranges)
-        scan.ranges.push_back(ignored_ ? scan.range_max : static_cast<float>(range));
+      for (const double range : measured->ranges) scan.ranges.push_back(static_cast<float>(range));
     }
     last_ = std::move(scan);
     received_ = bus_.now();
@@ -85,8 +83,7 @@ class HazardsModule final : public Module {
   transport::Bus& bus_;
   collision_avoidance::VirtualMeasurements hazards_;
   collision_avoidance::VirtualMeasurements border_;
-  bool best_pose_only_;  ///< crippled, for evaluation
-  bool ignored_;         ///< likewise
+  bool best_pose_only_;  ///< crippled, see VirtualMeasurementParams
   transport::Publisher<sensor_msgs::LaserScan> scan_;
   std::vector<collision_avoidance::WeightedPose> poses_;
   std::vector<collision_avoidance::WeightedSquare> squares_;
@@ -101,7 +98,6 @@ class HazardsModule final : public Module {
 Result<std::unique_ptr<Module>> make_hazards(const ModuleContext& context) {
   auto params = context.config.section<collision_avoidance::VirtualMeasurementParams>("hazards");
   if (!params) return tl::unexpected<Error>(params.error());
-  params->best_pose_only = context.config.evaluation().best_pose_only;
   return std::make_unique<HazardsModule>(context, *params);
 }
 

@@ -152,10 +152,7 @@ Result<std::unique_ptr<Module>> make_plan(const ModuleContext& context) {
   if (!params) return tl::unexpected<Error>(params.error());
   const robot::RobotBody& body = context.config.body();
   params->route.robot_radius = body.radius;
-  planning::DrivableGround ground;
-  const auto& evaluation = context.config.evaluation();
-  if (!evaluation.ignores_hazards) ground = {context.museum.hazard_polygons(), context.museum.area};
-  ground.ignores_live_map = evaluation.ignores_live_map;
+  const planning::DrivableGround ground{context.museum.hazard_polygons(), context.museum.area};
   Navigator navigator{context.museum.map, ground, mounts_of(body.scanners), *params};
   return std::make_unique<PlanModule>(context.bus, body, std::move(navigator));
 }

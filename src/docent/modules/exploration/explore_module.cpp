@@ -71,9 +71,6 @@ double free_area(const OccupancyGrid& map) {
   return static_cast<double>(cells) * map.frame.resolution * map.frame.resolution;
 }
 
-/// Crippled, for evaluation.
-bool ignores_hazards(const ModuleContext& context) { return context.config.evaluation().ignores_hazards; }
-
 class ExploreModule final : public Module {
  public:
   ExploreModule(const ModuleContext& context, const ExploreParams& params)
@@ -86,10 +83,7 @@ class ExploreModule final : public Module {
         keyframes_{params.keyframes, params.mapping.points, context.config.body().scanners},
         mapping_{params.mapping},
         map_{params.map, context.config.body().radius},
-        drive_{params.drive,
-               planning::Explorer{params.explorer,
-                                  ignores_hazards(context) ? std::vector<Polygon>{} : context.museum.hazard_polygons(),
-                                  ignores_hazards(context) ? Polygon{} : context.museum.area},
+        drive_{params.drive, planning::Explorer{params.explorer, context.museum.hazard_polygons(), context.museum.area},
                context.museum.home.position()},
         belief_{bus_.publisher(topics::kBelief)},
         target_{bus_.publisher(topics::kTarget)},

@@ -36,14 +36,6 @@ docent_msgs::Prompt to_message(const task_control::Question& question, const mus
   return prompt;
 }
 
-/// For an evaluation: a robot that waits for ever for what does not come.
-task_control::ExecutiveParams without_limits(task_control::ExecutiveParams params) {
-  constexpr double kForEver = 1e8;  // [s]
-  params.max_drive_s = params.offer_s = params.approach.patience_s = kForEver;
-  params.ladder.patience_s = params.ladder.unreachable_patience_s = params.ladder.thing_patience_s = kForEver;
-  return params;
-}
-
 class ExecutiveModule final : public Module {
  public:
   ExecutiveModule(const ModuleContext& context, const task_control::ExecutiveParams& params,
@@ -193,9 +185,6 @@ class ExecutiveModule final : public Module {
 Result<std::unique_ptr<Module>> make_executive(const ModuleContext& context) {
   auto params = context.config.section<task_control::ExecutiveParams>("executive");
   if (!params) return tl::unexpected<Error>(params.error());
-  params->ladder.active = !context.config.evaluation().without_ladder;
-  params->ladder.asks = !context.config.evaluation().without_moods;
-  if (context.config.evaluation().never_gives_up) *params = without_limits(*params);
   auto decomposition = task_control::load_decomposition(context.museum.folder);
   if (!decomposition) return tl::unexpected<Error>(decomposition.error());
   auto memory = task_control::load_checkpoint(context.state / "executive.json", map_hash(context.museum.map));

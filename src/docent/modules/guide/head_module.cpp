@@ -41,7 +41,6 @@ class HeadModule final : public Module {
   HeadModule(const ModuleContext& context, const HeadParams& params)
       : bus_{context.bus},
         museum_{context.museum},
-        has_moods_{!context.config.evaluation().without_moods},
         mood_{params.mood, Rng{context.seed}.stream("mood")},
         gaze_choice_{params.gaze},
         neck_{params.neck},
@@ -126,9 +125,8 @@ class HeadModule final : public Module {
 
   void publish(const interaction::GazeTarget& target, Time now) {
     const std_msgs::Header header{to_message(now), "base_link"};
-    const Mood mood = has_moods_ ? mood_.mood() : Mood::neutral;
-    expression_.publish({header, to_text(mood), has_moods_ ? mood_.valence() : 0.0, is_speaking(now),
-                         to_text(target.at), neck_.pan().position, neck_.tilt().position});
+    expression_.publish({header, to_text(mood_.mood()), mood_.valence(), is_speaking(now), to_text(target.at),
+                         neck_.pan().position, neck_.tilt().position});
     joints_.publish({header,
                      {"head_pan_joint", "head_tilt_joint"},
                      {neck_.pan().position, neck_.tilt().position},
@@ -138,7 +136,6 @@ class HeadModule final : public Module {
 
   transport::Bus& bus_;
   const museum::Museum& museum_;
-  bool has_moods_;  ///< false: crippled, for evaluation: always neutral
   interaction::MoodMachine mood_;
   interaction::GazeChoice gaze_choice_;
   interaction::Neck neck_;

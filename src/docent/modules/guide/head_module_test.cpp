@@ -142,19 +142,6 @@ TEST_F(HeadModuleTest, LooksAtWhoeverBlocksItAndGetsAngryAndIsHappyAgain) {
   EXPECT_GT(expression.valence, 0.99);
 }
 
-TEST_F(HeadModuleTest, CrippledItHasNoMoods) {
-  ASSERT_TRUE(config.set("evaluation.without_moods=true"));
-  start();
-  set_task("visit", "driving");
-  wanted_in_base = Angle::degrees(20.0);
-  put_person(7, {1.4, 0.6});
-  is_blocked = true;
-  live(60.0);
-  EXPECT_EQ(expression.mood, "neutral");
-  EXPECT_EQ(expression.valence, 0.0);
-  EXPECT_EQ(expression.gaze, "person") << "it looks as before";
-}
-
 TEST_F(HeadModuleTest, AThingMakesNobodyAngryAndTheLadderEndsABlockage) {
   start();
   set_task("home", "driving");

@@ -130,16 +130,6 @@ Result<std::unique_ptr<task_control::Planner>> planner_of(const ModuleContext& c
   return std::make_unique<task_control::GologPlanner>(params.golog, std::move(*program));
 }
 
-/// For an evaluation: a robot that does not know what it was about, but still what people have asked for.
-void forget_tasks(task_control::MissionMemory& memory) {
-  memory.schedule.visit.reset();
-  memory.schedule.tour.reset();
-  memory.schedule.farewell.reset();
-  memory.task = {};
-  memory.must_charge = false;
-  memory.planner.clear();
-}
-
 class MissionModule final : public Module {
  public:
   MissionModule(const ModuleContext& context, const MissionModuleParams& params,
@@ -164,9 +154,8 @@ class MissionModule final : public Module {
     bus_.subscribe<docent_msgs::Votes>(topics::kVotes, [this](const auto& message) { on_votes(message); });
     bus_.subscribe<docent_msgs::Belief>(topics::kBelief, [this](const auto& message) { on_belief(message); });
     bus_.subscribe<docent_msgs::Limits>(topics::kLimits, [this](const auto& message) { mode_.limits(message); });
-    const bool watches_battery = !context.config.evaluation().without_battery_watch;
-    bus_.subscribe<sensor_msgs::BatteryState>(topics::kBattery, [this, watches_battery](const auto& message) {
-      if (watches_battery && message.present && std::isfinite(message.percentage)) {
+    bus_.subscribe<sensor_msgs::BatteryState>(topics::kBattery, [this](const auto& message) {
+      if (message.present && std::isfinite(message.percentage)) {
         // Many a gauge never shows a whole charge: full is what the battery calls so.
         const double charge = is_full(message) ? 1.0 : static_cast<double>(message.percentage);
         mission_.battery(charge, is_charging(message), bus_.now());
@@ -385,15 +374,14 @@ class MissionModule final : public Module {
 Result<std::unique_ptr<Module>> make_mission(const ModuleContext& context) {
   auto params = context.config.section<MissionModuleParams>("mission");
   if (!params) return tl::unexpected<Error>(params.error());
-  params->schedule.by_travel = !context.config.evaluation().serves_by_arrival;
+  context.config.amend(params->schedule);
+  context.config.amend(params->golog);
   auto store = task_control::MissionStore::open(
       context.state / "mission.sqlite", deployment_name(context.seed, context.bus.now()), !context.virtual_time);
   if (!store) return tl::unexpected<Error>(store.error());
   auto memory = store->load();
   if (!memory) return tl::unexpected<Error>(memory.error());
-  if (context.config.evaluation().forgets_requests) memory->schedule = {};
-  if (context.config.evaluation().forgets_tasks) forget_tasks(*memory);
-  params->golog.has_stand_in = !context.config.evaluation().without_stand_in;
+  context.config.amend(*memory);
   auto planner = planner_of(context, *params);
   if (!planner) return tl::unexpected<Error>(planner.error());
   return std::make_unique<MissionModule>(context, *params, std::move(*planner), std::move(*store), std::move(*memory));

@@ -293,10 +293,12 @@ TEST(Tour, RequestsSurviveDeathsInAnyOrder) {
   }
 }
 
-TEST(Tour, CrippledItForgetsRequestsWhenItStarts) {
+TEST(Tour, WhatIsAmendedInItsMemoryIsForgottenWhenItStarts) {
   for (const bool forgets : {false, true}) {
     Rehearsal rehearsal{21, forgets ? "forgets" : "remembers"};
-    ASSERT_TRUE(!forgets || rehearsal.config.set("evaluation.forgets_requests=true"));
+    robot::Amendments amendments;
+    if (forgets) amendments.add<task_control::MissionMemory>([](auto& memory) { memory.schedule = {}; });
+    rehearsal.config.set_amendments(std::move(amendments));
     rehearsal.client.wish_for("r1", "exhibit", "cloud");
     rehearsal.run_for(2);
     EXPECT_EQ(rehearsal.client.state_of("r1"), "active");

@@ -104,7 +104,6 @@ class LocalizeModule final : public Module {
   LocalizeModule(const ModuleContext& context, const LocalizeParams& params)
       : bus_{context.bus},
         params_{params},
-        evaluation_{context.config.evaluation()},
         checkpoint_path_{context.state / "localize.yaml"},
         map_hash_{map_hash(context.museum.map)},
         body_{context.config.body()},
@@ -153,7 +152,7 @@ class LocalizeModule final : public Module {
     bool is_new = false;
   };
 
-  [[nodiscard]] bool localized() const { return frozen_ || localizer_->verdict().localized(); }
+  [[nodiscard]] bool localized() const { return localizer_->verdict().localized(); }
 
   void on_scan(std::size_t laser, const sensor_msgs::LaserScan& scan) {
     lasers_[laser].scan = scan;  // the last one only: who is late drops scans
@@ -212,9 +211,7 @@ class LocalizeModule final : public Module {
   }
 
   void digest(const sensor_models::RangeSweep& sweep, const Pose2& odom_from_base, Time stamp) {
-    localization::Localizer::Step step;
-    if (!frozen_) step = localizer_->observe(sweep, odom_from_base, stamp);
-    if (evaluation_.dead_reckoning && localizer_->verdict().localized()) frozen_ = true;
+    const localization::Localizer::Step step = localizer_->observe(sweep, odom_from_base, stamp);
     if (step.updated) last_step_ = step;
     const bool is_torn = has_jumped_ && !(stamp < unbroken_.jumped());
     if (step.updated || is_torn || bus_.now() - belief_published_ >= kRepublish) publish_belief(stamp, odom_from_base);
@@ -248,12 +245,6 @@ class LocalizeModule final : public Module {
     for (const localization::BeliefMode& mode : summary.modes) {
       const Pose2 pose = mode.map_from_robot * before_from_now;
       message.hypotheses.push_back({pose.x, pose.y, pose.theta.radians(), mode.covariance, mode.mass});
-    }
-    if (!message.hypotheses.empty()) {
-      auto& best = message.hypotheses.front();
-      best.x += evaluation_.best_pose_error_x;
-      best.y += evaluation_.best_pose_error_y;
-      best.theta += evaluation_.best_pose_error_heading * std::numbers::pi / 180.0;
     }
     message.entropy = summary.entropy;
     message.p_lost = localizer_->verdict().p_lost();
@@ -347,7 +338,6 @@ class LocalizeModule final : public Module {
 
   transport::Bus& bus_;
   LocalizeParams params_;
-  robot::EvaluationParams evaluation_;
   std::filesystem::path checkpoint_path_;
   std::string map_hash_;
   robot::RobotBody body_;
@@ -363,7 +353,6 @@ class LocalizeModule final : public Module {
   bool has_jumped_ = false;        ///< since the last belief: others carry that one by an odometry that is torn
   std::optional<Pose2> restored_;  ///< odometry of the checkpoint, until odometry speaks
   localization::Localizer::Step last_step_;
-  bool frozen_ = false;
   Time odometry_received_{};
   Time sonar_received_{};
   Time belief_published_{};
@@ -375,7 +364,8 @@ class LocalizeModule final : public Module {
 Result<std::unique_ptr<Module>> make_localize(const ModuleContext& context) {
   auto params = context.config.section<LocalizeParams>("localize");
   if (!params) return tl::unexpected<Error>(params.error());
-  params->sonar.beside.trusting = context.config.evaluation().trusts_dead_sonars;
+  context.config.amend(params->markov);
+  context.config.amend(params->sonar.beside);
   if (params->method == "sonar") return make_sonar_localize(context, params->sonar.alone);
   auto module = std::make_unique<LocalizeModule>(context, *params);
   return module;

@@ -91,7 +91,6 @@ class PeopleModule final : public Module {
 Result<std::unique_ptr<Module>> make_people(const ModuleContext& context) {
   auto params = context.config.section<people::PeopleFinderParams>("people");
   if (!params) return tl::unexpected<Error>(params.error());
-  params->keeps_all = context.config.evaluation().keeps_all_people;
   return std::make_unique<PeopleModule>(context, *params);
 }
 

@@ -12,8 +12,8 @@ constexpr std::int8_t kBlocked = 65;  ///< as OccupancyGrid::is_occupied
 
 }  // namespace
 
-LiveObstacles::LiveObstacles(OccupancyGrid map, bool is_blind)
-    : map_{std::move(map)}, is_blind_{is_blind}, standing_(map_.frame.size()), settled_(map_.frame.size()) {}
+LiveObstacles::LiveObstacles(OccupancyGrid map)
+    : map_{std::move(map)}, standing_(map_.frame.size()), settled_(map_.frame.size()) {}
 
 void LiveObstacles::take_map(Time stamp, std::span<const std::int8_t> cells) {
   if (cells.size() != standing_.size()) return;
@@ -42,7 +42,7 @@ void LiveObstacles::take_patch(const LivePatch& patch) {
 std::optional<CellBox> LiveObstacles::take_changes() { return std::exchange(changed_, std::nullopt); }
 
 void LiveObstacles::take(std::size_t index, std::int8_t live) {
-  standing_[index] = live >= kBlocked && map_.cells[index] < kBlocked && !is_blind_;
+  standing_[index] = live >= kBlocked && map_.cells[index] < kBlocked;
   settled_[index] = standing_[index] && live >= mapping::LiveMap::kSettled;
 }
 

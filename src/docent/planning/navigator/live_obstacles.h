@@ -26,8 +26,7 @@ struct LivePatch {
 class LiveObstacles {
  public:
   /// @param map  with the cells that planning has
-  /// @param is_blind  nothing ever stands there, for evaluation
-  LiveObstacles(OccupancyGrid map, bool is_blind);
+  explicit LiveObstacles(OccupancyGrid map);
 
   /// @param cells  [rows * columns]; another number is of another building, and left out
   void take_map(Time stamp, std::span<const std::int8_t> cells);
@@ -46,7 +45,6 @@ class LiveObstacles {
   void note_change(CellIndex low, CellIndex high);
 
   OccupancyGrid map_;
-  bool is_blind_;
   std::vector<bool> standing_;
   std::vector<bool> settled_;
   Time base_{};               ///< of the last whole map

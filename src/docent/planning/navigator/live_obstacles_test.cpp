@@ -30,7 +30,7 @@ class LiveObstaclesTest : public ::testing::Test {
   [[nodiscard]] bool stands(CellIndex cell) const { return live_.standing()[walled().frame.index(cell)]; }
   [[nodiscard]] bool is_settled(CellIndex cell) const { return live_.settled()[walled().frame.index(cell)]; }
 
-  LiveObstacles live_{walled(), false};
+  LiveObstacles live_{walled()};
 };
 
 TEST_F(LiveObstaclesTest, AreWhatTheMapDoesNotShow) {
@@ -103,13 +103,6 @@ TEST_F(LiveObstaclesTest, TellsOnceWhereTheyMayHaveChanged) {
   EXPECT_EQ(box->high, (CellIndex{4, 3}));
   EXPECT_TRUE(stands({3, 3}));
   EXPECT_TRUE(stands({4, 3}));
-}
-
-TEST(LiveObstacles, ABlindOneSeesNothing) {
-  LiveObstacles live{walled(), true};
-  live.take_map(time_from_seconds(1.0), std::vector<std::int8_t>(24, OccupancyGrid::kOccupied));
-  EXPECT_EQ(std::count(live.standing().begin(), live.standing().end(), true), 0);
-  EXPECT_EQ(std::count(live.settled().begin(), live.settled().end(), true), 0);
 }
 
 }  // namespace

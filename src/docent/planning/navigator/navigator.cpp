@@ -21,7 +21,7 @@ Navigator::Navigator(const OccupancyGrid& map, const DrivableGround& ground, std
       pursuit_{params.pursuit},
       lost_drive_{map, params.route.robot_radius, params.tell_apart, params.active},
       lookout_{std::move(base_from_scanner)},
-      live_{coarsened(map, params.route.coarsening), ground.ignores_live_map} {}
+      live_{coarsened(map, params.route.coarsening)} {}
 
 std::optional<Orders> Navigator::set_goal(const PursuitGoal& goal, bool relocalize, const Whereabouts& where,
                                           Time now) {

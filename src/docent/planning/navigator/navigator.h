@@ -24,9 +24,8 @@ namespace docent::planning {
 
 /// Where the robot may drive.
 struct DrivableGround {
-  std::vector<Polygon> hazards;   ///< [m], map: that must not be touched
-  Polygon area;                   ///< [m], map: the robot's centre stays inside; empty: everywhere
-  bool ignores_live_map = false;  ///< crippled, for evaluation
+  std::vector<Polygon> hazards;  ///< [m], map: that must not be touched
+  Polygon area;                  ///< [m], map: the robot's centre stays inside; empty: everywhere
 };
 
 /// Brings the robot from goal to goal: takes what is said of the goal, the belief, the live map and the sweeps, and

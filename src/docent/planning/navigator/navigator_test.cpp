@@ -204,16 +204,6 @@ TEST_F(NavigatorTest, ANewGoalIsPlannedOverWhatStandsThereAlready) {
   EXPECT_EQ(last.report.detour, Detour::none) << "this is the way that is meant";
 }
 
-TEST_F(NavigatorTest, ACrippledOneIgnoresTheLiveMap) {
-  DrivableGround ground;
-  ground.ignores_live_map = true;
-  navigator = {testing::hall_with_two_doors(), ground, {Pose2{}}, for_a_small_robot()};
-  say_live_map(true);
-  (void)want("g1", {9.0, 6.0});
-  run(2.0);
-  EXPECT_NEAR(last.report.remaining_m, 6.0, 0.6);
-}
-
 TEST_F(NavigatorTest, HazardsAndTheBorderAreClosed) {
   DrivableGround ground;
   ground.hazards = {{{5.5, 4.5}, {6.5, 4.5}, {6.5, 7.5}, {5.5, 7.5}}};  // in the middle door

@@ -58,7 +58,7 @@ struct SonarPing {
 ///
 /// A sonar hears the nearest thing in its cone, so what it expects is the shortest range over the cone's directions
 /// (RangeTable::cones, made of the lasers' table: no ray is cast for it). P(d | o) is the mixture of [Markov1998] 3.2
-/// with the sonars' parameters, as `docent learn-sensor-model --sensor sonar` learns them.
+/// with the sonars' parameters, as `docent-lab learn-sensor-model --sensor sonar` learns them.
 class SonarEvidence final : public ObservationModel {
  public:
   /// `rays`, with ranges in the bins of `rays_model`: the lasers' table, of which a copy for cones is made. `space`

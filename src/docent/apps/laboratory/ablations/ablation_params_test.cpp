@@ -1,0 +1,29 @@
+#include "docent/apps/laboratory/ablations/ablation_params.h"
+
+#include <gtest/gtest.h>
+
+#include <type_traits>
+#include <utility>
+
+namespace docent::apps::ablations {
+namespace {
+
+TEST(AblationParams, EverySwitchIsNamedWhenItIsNotAsByDefault) {
+  AblationParams params;
+  EXPECT_EQ(params.crippled(), "");
+  int switches = 0;
+  const auto change_and_back = [&](const char* name, auto& value) {
+    const auto before = std::exchange(value, static_cast<std::remove_reference_t<decltype(value)>>(1));
+    EXPECT_EQ(params.crippled(), name);
+    value = before;
+    ++switches;
+  };
+  params.visit(change_and_back);
+  EXPECT_GE(switches, 21);
+  params.best_pose_error_x = -0.5;
+  params.without_ladder = true;
+  EXPECT_EQ(params.crippled(), "best_pose_error_x, without_ladder");
+}
+
+}  // namespace
+}  // namespace docent::apps::ablations

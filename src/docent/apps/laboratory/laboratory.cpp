@@ -1,0 +1,38 @@
+#include "docent/apps/laboratory/laboratory.h"
+
+#include "docent/apps/laboratory/ablations/crippled_robot.h"
+#include "docent/apps/laboratory/attract/attract_command.h"
+#include "docent/apps/laboratory/crowd/crowd_command.h"
+#include "docent/apps/laboratory/evaluate/evaluate_command.h"
+#include "docent/apps/laboratory/learn/learn_command.h"
+#include "docent/apps/laboratory/plan/plan_command.h"
+#include "docent/apps/laboratory/rooms/rooms_command.h"
+#include "docent/apps/laboratory/score_map/score_map_command.h"
+#include "docent/apps/laboratory/train_sonar/train_sonar_command.h"
+#include "docent/apps/replay/replay_command.h"
+#include "docent/apps/simulate/explore_command.h"
+#include "docent/apps/simulate/simulate_command.h"
+
+namespace docent::apps::laboratory {
+
+Program docent_lab(const std::string& version) {
+  const auto robot = std::make_shared<ablations::CrippledRobot>();
+  return {.name = "docent-lab",
+          .meaning = "Docent's laboratory: measures the robot and learns its models.",
+          .version = version,
+          .groups = {{"As docent has them, also with a robot that section `evaluation` cripples",
+                      {with_robot(simulate_command::add_simulate_command, robot),
+                       with_robot(simulate_command::add_explore_command, robot),
+                       with_robot(replay_command::add_replay_command, robot)}},
+                     {"Measure",
+                      {evaluate_command::add_evaluate_command, with_robot(crowd_command::add_crowd_command, robot),
+                       plan_command::add_plan_command}},
+                     {"Look at maps", {rooms_command::add_rooms_command, score_map_command::add_score_map_command}},
+                     {"Learn",
+                      {learn_command::add_learn_command, train_sonar_command::add_train_sonar_command,
+                       with_robot(attract_command::add_attract_command, robot)}}},
+          .other = {},
+          .others = {}};
+}
+
+}  // namespace docent::apps::laboratory

@@ -1,0 +1,92 @@
+#include "docent/apps/shared/program.h"
+
+#include <gtest/gtest.h>
+
+#include <CLI/CLI.hpp>
+#include <stdexcept>
+
+#include "docent/apps/shared/command.h"
+
+namespace docent::apps {
+namespace {
+
+/// Two groups of commands, of which one notes that it ran.
+class ProgramWithCommands : public ::testing::Test {
+ protected:
+  [[nodiscard]] Program program() {
+    const auto plain = [](const char* name, std::function<void()> callback) {
+      return [name, callback = std::move(callback)](CLI::App& app) {
+        app.add_subcommand(name, "a command")->callback(callback);
+      };
+    };
+    return {.name = "guide",
+            .meaning = "A program.",
+            .version = "1.2",
+            .groups = {{"Run", {plain("drive", [this] { ++drives_; })}},
+                       {"Fail",
+                        {plain("refuse",
+                               [] {
+                                 throw CommandFailed{"no such place", 7};
+                               }),
+                         plain("break", [] { throw std::runtime_error{"broken"}; })}}},
+            .other = "guide-lab",
+            .others = {"measure"}};
+  }
+
+  struct Finished {
+    int code = -1;
+    std::string out;
+    std::string error;
+  };
+  Finished run_with(std::vector<const char*> words) {
+    words.insert(words.begin(), "guide");
+    ::testing::internal::CaptureStdout();
+    ::testing::internal::CaptureStderr();
+    const int code = run(program(), static_cast<int>(words.size()), words.data());
+    return {code, ::testing::internal::GetCapturedStdout(), ::testing::internal::GetCapturedStderr()};
+  }
+
+  int drives_ = 0;
+};
+
+TEST_F(ProgramWithCommands, RunsTheOneThatIsNamed) {
+  EXPECT_EQ(names_of_commands(program()), (std::vector<std::string>{"drive", "refuse", "break"}));
+  EXPECT_EQ(run_with({"drive"}).code, 0);
+  EXPECT_EQ(drives_, 1);
+  EXPECT_EQ(run_with({"--version"}).out, "guide 1.2\n");
+}
+
+TEST_F(ProgramWithCommands, ListsThemUnderTheirHeadings) {
+  const Finished help = run_with({"--help"});
+  EXPECT_EQ(help.code, 0);
+  const auto at = [&](const char* text) { return help.out.find(text); };
+  EXPECT_LT(at("Run:"), at("drive"));
+  EXPECT_LT(at("drive"), at("Fail:"));
+  EXPECT_LT(at("Fail:"), at("refuse"));
+}
+
+TEST_F(ProgramWithCommands, SaysInOneLineWhatIsWrong) {
+  const Finished refused = run_with({"refuse"});
+  EXPECT_EQ(refused.code, 7);
+  EXPECT_EQ(refused.error, "guide: no such place\n");
+  const Finished broken = run_with({"break"});
+  EXPECT_EQ(broken.code, 1);
+  EXPECT_EQ(broken.error, "guide: broken\n");
+  const Finished misspelt = run_with({"drve"});
+  EXPECT_EQ(misspelt.code, 2);
+  EXPECT_EQ(misspelt.error, "guide: unknown command 'drve'; did you mean 'drive'? (try --help)\n");
+  const Finished none = run_with({});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_EQ(none.error, "guide: A subcommand is required (try --help)\n");
+  EXPECT_EQ(run_with({"drive", "--backwards"}).code, 2);
+  EXPECT_EQ(drives_, 0);
+}
+
+TEST_F(ProgramWithCommands, NamesTheProgramThatHasTheCommand) {
+  const Finished elsewhere = run_with({"measure", "--all"});
+  EXPECT_EQ(elsewhere.code, 2);
+  EXPECT_EQ(elsewhere.error, "guide: 'measure' is a command of guide-lab\n");
+}
+
+}  // namespace
+}  // namespace docent::apps
