@@ -29,10 +29,8 @@ EXCEPTIONS = {
     "src/docent/modules/drive/plan_module.cpp: PlanModule": "its state machine moves into a library of its own",
     "src/docent/modules/exploration/explore_module.cpp: ExploreModule": "its state machine moves into a library of its own",
     "src/docent/modules/guide/head_module.cpp: HeadModule": "its state machine moves into a library of its own",
-    "src/docent/modules/guide/mission_module.cpp: MissionModule": "its state machine moves into a library of its own",
     "src/docent/modules/guide/sound_module.cpp: SoundModule": "its state machine moves into a library of its own",
     "src/docent/modules/perception/localize_module.cpp: LocalizeModule": "its state machine moves into a library of its own",
-    "src/docent/modules/web/web_module.cpp: WebModule": "its state machine moves into a library of its own",
 }
 
 
