@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""How large folders, files and functions may be.
+"""How large folders, files, functions and modules may be.
 
 The functions of C++ are found by clang-format's layout: the brace of a body has a space before it, that of a value has
 none or stands behind "=". A function begins with its template, attributes or type and ends with its last brace; lambdas
-count with the function that holds them.
+count with the function that holds them. A module is a thin coat: of its class the data members are counted, which are
+the names with a "_" at the end that are declared in the class itself.
 """
 import ast
 import re
@@ -17,13 +18,19 @@ ROOT = Path(__file__).resolve().parents[2]
 FILES_OF_FOLDER = 30
 LINES_OF_FILE = 450
 LINES_OF_FUNCTION = 60
+MEMBERS_OF_MODULE = 15
 CPP = {".h", ".cpp", ".inc"}
 PAGE = {".ts", ".svelte"}
 READ = {"include": CPP, "src": CPP, "tests": CPP | {".py"}, "web/src": PAGE, "scripts": {".py"}}
 
-# What may be larger, and why: a folder, a file, or "file: function".
+# What may be larger, and why: a folder, a file, "file: function", or "file: class" of a module.
 EXCEPTIONS = {
     "web/src/contract/contract.ts": "written by docent_web_contract, not by hand",
+    "src/docent/modules/drive/plan_module.cpp: PlanModule": "its state machine moves into a library of its own",
+    "src/docent/modules/exploration/explore_module.cpp: ExploreModule": "its state machine moves into a library of its own",
+    "src/docent/modules/guide/head_module.cpp: HeadModule": "its state machine moves into a library of its own",
+    "src/docent/modules/guide/sound_module.cpp: SoundModule": "its state machine moves into a library of its own",
+    "src/docent/modules/perception/localize_module.cpp: LocalizeModule": "its state machine moves into a library of its own",
 }
 
 
@@ -88,6 +95,40 @@ def cpp_functions(code):
     return found
 
 
+def without_parentheses(code):
+    while re.search(r"\([^()]*\)", code):
+        code = re.sub(r"\([^()]*\)", "", code)
+    return code
+
+
+def data_members(code, begin):
+    """The names of the data members of the class whose brace opens at `begin`."""
+    names, head, scopes = [], "", []  # head: what stands in the class itself since the last statement
+    for i in range(begin, len(code)):
+        c = code[i]
+        if c == "{":
+            is_value = "=" in re.sub(r"operator\W+", "", without_parentheses(head)) or code[i - 1] not in " \n"
+            scopes.append("value" if is_value or "(" not in head or len(scopes) != 1 else "function")
+        elif c == "}":
+            head = "" if scopes.pop() == "function" else head
+            if not scopes:
+                return names
+        elif len(scopes) == 1 and c == ";" and head.count("(") == head.count(")"):
+            names += re.findall(r"\b[A-Za-z]\w*_(?!\w)", re.sub(r"=[^,]*", "", without_parentheses(head)))
+            head = ""
+        elif len(scopes) == 1:
+            head += c
+    raise ValueError("a class stays open")
+
+
+def fat_modules(path):
+    """(class, number of data members) of each module in the file that has more than it may have."""
+    code = without_text(path.read_text())
+    members = [(found[1], len(data_members(code, found.end() - 1)))
+               for found in re.finditer(r"^[ \t]*class (\w*Module)\b[^;{()]*\{", code, re.M)]
+    return [(name, count) for name, count in members if count > MEMBERS_OF_MODULE]
+
+
 def python_functions(code):
     return [(node.name, min([node.lineno, *(d.lineno for d in node.decorator_list)]), node.end_lineno)
             for node in ast.walk(ast.parse(code)) if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef))]
@@ -137,6 +178,9 @@ def too_large(root):
                 for name, first, last in functions(path):
                     if last - first + 1 > LINES_OF_FUNCTION:
                         large.append((f"{where}: {name}", f"{last - first + 1} lines", LINES_OF_FUNCTION))
+                if path.suffix in CPP and path.is_relative_to(source / "modules"):
+                    for name, members in fat_modules(path):
+                        large.append((f"{where}: {name}", f"{members} data members", MEMBERS_OF_MODULE))
             except (ValueError, SyntaxError) as error:
                 large.append((where, f"functions that cannot be found ({error})", 0))
     return large

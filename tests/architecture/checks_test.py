@@ -109,6 +109,26 @@ class Sizes(Project):
         self.assertEqual(self.large(), [("web/src/a.ts: g", "61 lines"), ("web/src/b.svelte: h", "61 lines"),
                                         ("web/src/c.ts: m", "61 lines"), ("scripts/a.py: f", "61 lines")])
 
+    def test_a_module_may_have_fifteen_data_members(self):
+        def module(members, name="GlideModule"):
+            return ("namespace docent::modules {\nclass " + name + " final : public Module {\n public:\n"
+                    "  explicit GlideModule(Bus& bus)\n      : bus_{bus}, way_{Way{1, 2}}, speed_(0.0) {\n    run(speed_);\n  }\n"
+                    "  void run(double speed) { speed_ = speed; }\n  int stop(Stop stop_ = {}) const;\n\n private:\n"
+                    "  struct Seen {\n    int old_ = 0;\n    int new_ = 0;\n  };\n" + members + "};\n}\n")
+        kinds = ["Bus& bus_;", "Way way_{other_, {1, 2}};", "std::function<void(int)> call_ = [this](int a_) { stop_(a_); };",
+                 "std::map<std::string, std::pair<int, int>> seen_;  // and not this_", "struct {\n    int deep_ = 0;\n  } parts_;",
+                 "const Time begun_ = now(bus_) + longest_;", "double first_ = 1.0, second_{2.0}, third_;", "int cells_[3] = {};"]
+        rest = "".join(f"  int a{i}_ = 0;\n" for i in range(5))
+        fifteen = "".join(f"  {member}\n" for member in kinds) + rest
+        self.write("src/docent/modules/drive/glide_module.cpp", module(fifteen))
+        self.assertEqual(self.large(), [])
+        fat = module(fifteen + "  std::vector<std::uint8_t> more_;\n")
+        self.write("src/docent/modules/drive/glide_module.cpp", fat)
+        self.assertEqual(self.large(), [("src/docent/modules/drive/glide_module.cpp: GlideModule", "16 data members")])
+        self.write("src/docent/modules/drive/glide_module.cpp", module("", "Way") + fat.replace("GlideModule final", "Slow final"))
+        self.write("src/docent/planning/glide_module.cpp", fat)
+        self.assertEqual(self.large(), [])
+
     def test_an_exception_has_a_reason_and_is_needed(self):
         self.write("src/a.cpp", f"void f() {{\n{body(80)}}}\n")
         self.assertEqual(len(self.faults({})), 1)

@@ -13,11 +13,11 @@
 #include "docent/apps/shared/log.h"
 #include "docent/base/files.h"
 #include "docent/base/shipped_files.h"
-#include "docent/modules/web/slots.h"
 #include "docent/telepresence/document_json.h"
 #include "docent/telepresence/server/web_server.h"
 #include "docent/telepresence/site.h"
 #include "docent/telepresence/uplink/uplink_client.h"
+#include "docent/telepresence/views/slots.h"
 
 namespace docent::apps::gateway_command {
 namespace {
@@ -75,7 +75,7 @@ class Gateway {
     params.full_viewers = 0;  // what the line carries is the pose alone of what moves
     params.foxglove_clients = 0;
     server_ = value_or_fail(telepresence::WebServer::start(params, site_, std::move(hooks)));
-    server_->restrict_to(telepresence::Stream::thin, modules::kPose);
+    server_->restrict_to(telepresence::Stream::thin, telepresence::slots::kPose);
     is_ready_ = true;
   }
 

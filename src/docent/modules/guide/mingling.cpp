@@ -38,7 +38,7 @@ std::vector<Point2> Mingling::near() const {
   return near;
 }
 
-bool Mingling::has_company() const { return !near().empty(); }
+bool Mingling::is_there() const { return !near().empty(); }
 
 interaction::AttractionAction Mingling::begin() {
   const double area = std::numbers::pi * params_.around_m * params_.around_m;

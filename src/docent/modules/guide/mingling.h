@@ -6,6 +6,7 @@
 #include "docent/interaction/attract/attraction.h"
 #include "docent/modules/guide/people_around.h"
 #include "docent/modules/shared/module.h"
+#include "docent/task_control/mission_service/company.h"
 
 namespace docent::modules {
 
@@ -21,19 +22,15 @@ struct MinglingParams : interaction::AttractionParams {
 };
 
 /// The learner in the robot: phases before the people that the robot sees, remembered in state/attraction.json.
-class Mingling {
+class Mingling final : public task_control::Company {
  public:
   Mingling(const ModuleContext& context, const MinglingParams& params);
 
-  [[nodiscard]] bool has_company() const;
-  /// A phase begins, in this style.
-  [[nodiscard]] interaction::AttractionAction begin();
-  /// Twice a second.
-  void observe();
-  /// The phase is over, or a visitor has ended it by a wish. nullopt: it taught nothing.
-  [[nodiscard]] std::optional<interaction::AttractionTrial> finish();
-  /// What is wrong with its memory; empty: nothing.
-  [[nodiscard]] const std::string& fault() const { return fault_; }
+  [[nodiscard]] bool is_there() const override;
+  [[nodiscard]] interaction::AttractionAction begin() override;
+  void observe() override;
+  [[nodiscard]] std::optional<interaction::AttractionTrial> finish() override;
+  [[nodiscard]] const std::string& fault() const override { return fault_; }
 
  private:
   [[nodiscard]] std::vector<Point2> near() const;

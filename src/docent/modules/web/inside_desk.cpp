@@ -1,44 +1,25 @@
 #include "docent/modules/web/inside_desk.h"
 
-#include "docent/messages/conversions.h"
+#include <utility>
+
 #include "docent/messages/topics.h"
-#include "docent/modules/web/slots.h"
-#include "docent/telepresence/document_json.h"
-#include "docent/telepresence/live_encoding.h"
+#include "docent/telepresence/views/slots.h"
 
 namespace docent::modules {
-namespace {
-
-constexpr Duration kShowPeriod = std::chrono::milliseconds{500};
-constexpr std::size_t kMostLines = 60;
-constexpr Duration kFreshState = std::chrono::seconds{2};
-
-}  // namespace
 
 void InsideDesk::begin(telepresence::WebServer& server) {
-  server_ = &server;
-  server.restrict_to(telepresence::Stream::details, kField);
-  server.restrict_to(telepresence::Stream::details, kLog);
-  bus_.subscribe<sensor_msgs::LaserScan>(topics::kVirtualScan, [this](const auto& m) { virtual_scan_ = m; });
-  bus_.subscribe<docent_msgs::PersonBeams>(topics::kPersonBeams, [this](const auto& m) { beams_ = m; });
-  bus_.subscribe<docent_msgs::Event>(topics::kEvent, [this](const auto& m) {
-    lines_.push_front({to_seconds(from_message(m.header.stamp)), m.kind, m.subject, m.detail});
-    if (lines_.size() > kMostLines) lines_.pop_back();
-    is_log_new_ = true;
+  namespace slots = telepresence::slots;
+  constexpr Duration kShowPeriod = std::chrono::milliseconds{500};
+  server.restrict_to(telepresence::Stream::details, slots::kField);
+  server.restrict_to(telepresence::Stream::details, slots::kLog);
+  const auto see = [this](const auto& message) { view_.see(message); };
+  bus_.subscribe<sensor_msgs::LaserScan>(topics::kVirtualScan, see);
+  bus_.subscribe<docent_msgs::PersonBeams>(topics::kPersonBeams, see);
+  bus_.subscribe<docent_msgs::Event>(topics::kEvent, see);
+  bus_.every(kShowPeriod, [this, &server] {
+    server.broadcast(slots::kField, view_.field(bus_.now()));
+    if (auto log = view_.log()) server.broadcast(slots::kLog, std::move(*log));
   });
-  bus_.every(kShowPeriod, [this] { show(); });
-}
-
-void InsideDesk::show() {
-  const Time now = bus_.now();
-  const auto fresh = [now](const auto& message) {
-    using T = std::decay_t<decltype(message)>;
-    return now - from_message(message.header.stamp) <= kFreshState ? message : T{};
-  };
-  server_->broadcast(kField, telepresence::encode_field(fresh(virtual_scan_), fresh(beams_)));
-  if (!std::exchange(is_log_new_, false)) return;
-  server_->broadcast(kLog,
-                     telepresence::json_text(telepresence::documents::LogMessage{{lines_.begin(), lines_.end()}}));
 }
 
 }  // namespace docent::modules

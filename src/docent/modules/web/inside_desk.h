@@ -1,18 +1,12 @@
 #pragma once
 
-#include <deque>
-
-#include "docent/messages/mission_messages.h"
-#include "docent/messages/people_messages.h"
-#include "docent/messages/standard_messages.h"
-#include "docent/telepresence/documents.h"
 #include "docent/telepresence/server/web_server.h"
+#include "docent/telepresence/views/inside_view.h"
 #include "docent/transport/bus.h"
 
 namespace docent::modules {
 
-/// For the `web` module: what specialists look at. The obstacle field with its virtual measurements, the filtered
-/// beams, and the log of what happened.
+/// For the `web` module: connects what specialists look at to bus and server.
 class InsideDesk {
  public:
   /// The bus outlives it.
@@ -22,14 +16,8 @@ class InsideDesk {
   void begin(telepresence::WebServer& server);
 
  private:
-  void show();
-
   transport::Bus& bus_;
-  telepresence::WebServer* server_ = nullptr;
-  sensor_msgs::LaserScan virtual_scan_;
-  docent_msgs::PersonBeams beams_;
-  std::deque<telepresence::documents::LogLine> lines_;  ///< the newest first
-  bool is_log_new_ = true;
+  telepresence::InsideView view_;
 };
 
 }  // namespace docent::modules

@@ -1,17 +1,14 @@
-#include "docent/modules/web/count_desk.h"
+#include "docent/telepresence/counting/count_desk.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "docent/messages/conversions.h"
-#include "docent/messages/topics.h"
 #include "docent/vocabulary/vocabulary.h"
 
-namespace docent::modules {
+namespace docent::telepresence {
 namespace {
-
-using telepresence::Counted;
 
 constexpr double kMoves = 0.02;                  // [m/s] and more
 constexpr double kLongestGap = 1.0;              // [s] between two odometries that belong together
@@ -37,12 +34,6 @@ std::optional<Counted> counted_of(const std::string& source) {
 
 }  // namespace
 
-CountDesk::CountDesk(transport::Bus& bus, std::unique_ptr<telepresence::Statistics> statistics, std::string gateway)
-    : bus_{bus}, statistics_{std::move(statistics)}, gateway_{std::move(gateway)}, begun_{bus.now()} {
-  bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const auto& m) { see_odometry(m); });
-  bus_.subscribe<docent_msgs::Event>(topics::kEvent, [this](const auto& m) { see_event(m); });
-}
-
 void CountDesk::arrived(const std::string& address) {
   if (addresses_.size() < kMostAddresses) addresses_.insert(address);
 }
@@ -52,7 +43,7 @@ void CountDesk::asked(std::uint64_t accesses) {
   accesses_ = accesses;
 }
 
-void CountDesk::see_odometry(const nav_msgs::Odometry& odometry) {
+void CountDesk::see(const nav_msgs::Odometry& odometry) {
   const Time stamp = from_message(odometry.header.stamp);
   const Pose2 now = from_message(odometry.pose.pose);
   const double passed = moved_ ? to_seconds(stamp - *moved_) : 0.0;
@@ -68,7 +59,7 @@ void CountDesk::see_odometry(const nav_msgs::Odometry& odometry) {
   robot_[Counted::max_speed] = std::max(robot_[Counted::max_speed], speed);
 }
 
-void CountDesk::see_event(const docent_msgs::Event& event) {
+void CountDesk::see(const docent_msgs::Event& event) {
   const auto kind = parse<EventKind>(event.kind);
   if (kind == EventKind::tour_completed) robot_[Counted::tours] += 1.0;
   if (kind == EventKind::point_reached) robot_[Counted::points] += 1.0;
@@ -102,10 +93,9 @@ void CountDesk::see(const docent_msgs::RequestBoard& board) {
   requests_ = std::move(requests);
 }
 
-void CountDesk::store(const std::string& mode) {
-  const Time now = bus_.now();
+void CountDesk::store(const std::string& mode, Time now) {
   fault_.clear();
-  const auto keep = [&](telepresence::Counts& counts) {
+  const auto keep = [&](Counts& counts) {
     if (auto stored = statistics_->add(now, mode, counts)) {
       counts.clear();
     } else {
@@ -124,4 +114,4 @@ void CountDesk::store(const std::string& mode) {
   if (is_ours && !*is_ours) robot_.clear();  // another gateway counts it
 }
 
-}  // namespace docent::modules
+}  // namespace docent::telepresence

@@ -8,38 +8,37 @@
 #include "docent/messages/request_messages.h"
 #include "docent/museum/museum.h"
 #include "docent/telepresence/client_message.h"
+#include "docent/telepresence/service/robot_link.h"
 #include "docent/telepresence/tour_votes.h"
-#include "docent/transport/bus.h"
 #include "docent/vocabulary/reason.h"
 
-namespace docent::modules {
+namespace docent::telepresence {
 
-/// For the `web` module: takes votes for tours, and tells the robot how they stand ([Minerva2000] 6.4).
+/// Takes votes for tours, and tells the robot how they stand ([Minerva2000] 6.4).
 class VoteDesk {
  public:
-  /// Museum, bus and votes outlive it.
-  VoteDesk(transport::Bus& bus, const museum::Museum& museum, std::unique_ptr<telepresence::TourVotes> votes,
-           std::uint64_t seed);
+  /// Museum and robot outlive it.
+  VoteDesk(RobotLink& robot, const museum::Museum& museum, std::unique_ptr<TourVotes> votes, std::uint64_t seed,
+           Time now);
 
   /// None: it counts.
-  [[nodiscard]] Reason take(const telepresence::VoteMessage& message);
+  [[nodiscard]] Reason take(const VoteMessage& message, Time now);
   /// A round whose tour the robot has taken is over.
-  void see(const docent_msgs::RequestBoard& board);
+  void see(const docent_msgs::RequestBoard& board, Time now);
   /// Now and then: votes that other gateways took. What viewers are to be shown; nullopt: as before.
-  [[nodiscard]] std::optional<std::string> look();
+  [[nodiscard]] std::optional<std::string> look(Time now);
   void forget_before(Time time) { votes_->forget_before(time); }
   /// Why the last vote could not be stored; empty: it was.
   [[nodiscard]] const std::string& fault() const { return fault_; }
 
  private:
-  transport::Bus& bus_;
+  RobotLink& robot_;
   const museum::Museum& museum_;
-  std::unique_ptr<telepresence::TourVotes> votes_;
+  std::unique_ptr<TourVotes> votes_;
   Rng rng_;
-  transport::Publisher<docent_msgs::Votes> publisher_;
-  telepresence::Tally tally_;
+  Tally tally_;
   std::string shown_;
   std::string fault_;
 };
 
-}  // namespace docent::modules
+}  // namespace docent::telepresence

@@ -1,51 +1,46 @@
-#include "docent/modules/web/count_desk.h"
+#include "docent/telepresence/counting/count_desk.h"
 
 #include <gtest/gtest.h>
 
 #include "docent/messages/conversions.h"
-#include "docent/messages/topics.h"
-#include "docent/transport/virtual_time_bus.h"
 #include "docent/vocabulary/vocabulary.h"
 
-namespace docent::modules {
+namespace docent::telepresence {
 namespace {
-
-using telepresence::Counted;
 
 class CountDeskTest : public testing::Test {
  protected:
   CountDeskTest() {
-    hub_.run_until(time_from_seconds(1000.0));
-    database_ = std::move(*telepresence::Database::open(":memory:"));
+    database_ = std::move(*Database::open(":memory:"));
     desk_ = make("one");
+    desks_ = {desk_.get()};
   }
   std::unique_ptr<CountDesk> make(const std::string& gateway) {
-    return std::make_unique<CountDesk>(*bus_, std::move(*telepresence::Statistics::open(*database_)), gateway);
+    return std::make_unique<CountDesk>(std::move(*Statistics::open(*database_)), gateway, now_);
   }
-  telepresence::DayCount day(const std::string& mode = "open") {
-    auto statistics = std::move(*telepresence::Statistics::open(*database_));
+  DayCount day(const std::string& mode = "open") {
+    auto statistics = std::move(*Statistics::open(*database_));
     const auto days = *statistics->days("");
     for (const auto& day : days)
       if (day.mode == mode) return day;
     return {};
   }
-  void run(double duration) { hub_.run_until(hub_.now() + seconds(duration)); }
+  void run(double duration) { now_ = now_ + seconds(duration); }
   void drive(double duration, double speed) {
     for (int i = 0; i < static_cast<int>(duration * 10.0); ++i) {
       x_ += 0.1 * speed;
       nav_msgs::Odometry odometry;
-      odometry.header.stamp = to_message(hub_.now());
+      odometry.header.stamp = to_message(now_);
       odometry.pose.pose = to_message(Pose2{x_, 0.0, {}});
       odometry.twist.twist.linear.x = speed;
-      odometry_.publish(odometry);
+      desk_->see(odometry);
       run(0.1);
     }
   }
   void happens(EventKind kind) {
     docent_msgs::Event event;
     event.kind = to_text(kind);
-    events_.publish(event);
-    run(0.1);
+    for (CountDesk* desk : desks_) desk->see(event);
   }
   docent_msgs::RequestState request(const std::string& id, RequestSource source, RequestStatus status,
                                     std::optional<Time> created = std::nullopt) {
@@ -53,18 +48,15 @@ class CountDeskTest : public testing::Test {
     entry.request.id = id;
     entry.request.source = to_text(source);
     entry.state = to_text(status);
-    entry.created = to_message(created.value_or(hub_.now()));
-    entry.changed = to_message(created.value_or(hub_.now()));
+    entry.created = to_message(created.value_or(now_));
+    entry.changed = to_message(created.value_or(now_));
     return entry;
   }
 
-  transport::VirtualTimeHub hub_;
-  std::unique_ptr<transport::Bus> world_ = hub_.connect("world");
-  std::unique_ptr<transport::Bus> bus_ = hub_.connect("web");
-  transport::Publisher<nav_msgs::Odometry> odometry_ = world_->publisher(topics::kOdometry);
-  transport::Publisher<docent_msgs::Event> events_ = world_->publisher(topics::kEvent);
-  std::unique_ptr<telepresence::Database> database_;
+  Time now_ = time_from_seconds(1000.0);
+  std::unique_ptr<Database> database_;
   std::unique_ptr<CountDesk> desk_;
+  std::vector<CountDesk*> desks_;  ///< of all gateways
   double x_ = 0.0;
 };
 
@@ -73,7 +65,7 @@ TEST_F(CountDeskTest, CountsTheDrive) {
   drive(5.0, 0.0);
   x_ += 50.0;  // the odometry jumps
   drive(10.0, 0.7);
-  desk_->store("open");
+  desk_->store("open", now_);
   const auto counts = day().counts;
   EXPECT_NEAR(counts.at(Counted::distance_m), 12.0, 0.2);
   EXPECT_NEAR(counts.at(Counted::travel_s), 20.0, 0.4);
@@ -91,7 +83,7 @@ TEST_F(CountDeskTest, CountsToursExhibitsAndThoseWhoStandRound) {
   happens(EventKind::tour_completed);
   happens(EventKind::point_reached);
   happens(EventKind::visit_failed);
-  desk_->store("open");
+  desk_->store("open", now_);
   const auto counts = day().counts;
   EXPECT_EQ(counts.at(Counted::exhibits), 2.0);
   EXPECT_EQ(counts.at(Counted::visitors), 2.0);
@@ -110,7 +102,7 @@ TEST_F(CountDeskTest, CountsEachRequestOnceBySourceAndByItsEnd) {
   board.requests[2] = request("b", RequestSource::kiosk, RequestStatus::failed);
   board.requests.push_back(request("c", RequestSource::vote, RequestStatus::queued));
   for (int i = 0; i < 3; ++i) desk_->see(board);
-  desk_->store("open");
+  desk_->store("open", now_);
   const auto counts = day().counts;
   EXPECT_EQ(counts.at(Counted::web), 1.0);
   EXPECT_EQ(counts.at(Counted::kiosk), 1.0);
@@ -123,9 +115,9 @@ TEST_F(CountDeskTest, CountsWhoComesByTheWeb) {
   for (const char* address : {"192.0.2.1", "192.0.2.1", "192.0.2.2"}) desk_->arrived(address);
   desk_->asked(100);
   desk_->voted();
-  desk_->store("web");
+  desk_->store("web", now_);
   desk_->asked(130);
-  desk_->store("web");
+  desk_->store("web", now_);
   EXPECT_EQ(day("web").web_visitors, 2);
   EXPECT_EQ(day("web").counts.at(Counted::accesses), 130.0);
   EXPECT_EQ(day("web").counts.at(Counted::votes), 1.0);
@@ -133,17 +125,19 @@ TEST_F(CountDeskTest, CountsWhoComesByTheWeb) {
 
 TEST_F(CountDeskTest, TwoGatewaysCountTheRobotOnce) {
   const auto other = make("two");
+  desks_.push_back(other.get());
   happens(EventKind::tour_completed);
-  desk_->store("open");
-  other->store("open");
+  desk_->store("open", now_);
+  other->store("open", now_);
   EXPECT_EQ(day().counts.at(Counted::tours), 1.0);
   // The first is gone: the other goes on.
   desk_.reset();
+  desks_ = {other.get()};
   run(40.0);
   happens(EventKind::tour_completed);
-  other->store("open");
+  other->store("open", now_);
   EXPECT_EQ(day().counts.at(Counted::tours), 2.0);
 }
 
 }  // namespace
-}  // namespace docent::modules
+}  // namespace docent::telepresence

@@ -1,8 +1,8 @@
 #pragma once
 
-namespace docent::modules {
+/// The slots of the live channel: what viewers are shown, each with one newest value.
+namespace docent::telepresence::slots {
 
-/// The slots of the live channel.
 enum Slot : int {
   kLive,
   kBelief,
@@ -26,4 +26,4 @@ enum Slot : int {
   kExploration
 };
 
-}  // namespace docent::modules
+}  // namespace docent::telepresence::slots

@@ -1,27 +1,26 @@
-#include "docent/modules/web/vote_desk.h"
+#include "docent/telepresence/service/vote_desk.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "docent/messages/conversions.h"
-#include "docent/messages/topics.h"
 #include "docent/telepresence/live_encoding.h"
 #include "docent/vocabulary/uuid.h"
 
-namespace docent::modules {
-VoteDesk::VoteDesk(transport::Bus& bus, const museum::Museum& museum, std::unique_ptr<telepresence::TourVotes> votes,
-                   std::uint64_t seed)
-    : bus_{bus},
+namespace docent::telepresence {
+
+VoteDesk::VoteDesk(RobotLink& robot, const museum::Museum& museum, std::unique_ptr<TourVotes> votes, std::uint64_t seed,
+                   Time now)
+    : robot_{robot},
       museum_{museum},
       votes_{std::move(votes)},
-      rng_{Rng{seed ^ static_cast<std::uint64_t>(bus.now().nanoseconds)}.stream("votes")},
-      publisher_{bus.publisher(topics::kVotes)} {
-  if (auto begun = votes_->begin(make_uuid_v7(bus_.now(), rng_), bus_.now()); !begun) fault_ = begun.error().message;
+      rng_{Rng{seed ^ static_cast<std::uint64_t>(now.nanoseconds)}.stream("votes")} {
+  if (auto begun = votes_->begin(make_uuid_v7(now, rng_), now); !begun) fault_ = begun.error().message;
 }
 
-Reason VoteDesk::take(const telepresence::VoteMessage& message) {
+Reason VoteDesk::take(const VoteMessage& message, Time now) {
   if (museum_.find_tour(message.tour) == nullptr) return {ReasonWord::no_such_tour, message.tour};
-  if (auto stored = votes_->vote(message.voter, message.tour, bus_.now()); !stored) {
+  if (auto stored = votes_->vote(message.voter, message.tour, now); !stored) {
     fault_ = stored.error().message;
     return ReasonWord::not_stored;
   }
@@ -29,26 +28,26 @@ Reason VoteDesk::take(const telepresence::VoteMessage& message) {
   return {};
 }
 
-void VoteDesk::see(const docent_msgs::RequestBoard& board) {
+void VoteDesk::see(const docent_msgs::RequestBoard& board, Time now) {
   const bool is_taken = std::any_of(board.requests.begin(), board.requests.end(),
                                     [&](const auto& entry) { return entry.request.id == tally_.round; });
   if (!is_taken || tally_.round.empty()) return;
-  auto closed = votes_->close(tally_.round, make_uuid_v7(bus_.now(), rng_), bus_.now());
+  auto closed = votes_->close(tally_.round, make_uuid_v7(now, rng_), now);
   if (!closed) fault_ = closed.error().message;
 }
 
-std::optional<std::string> VoteDesk::look() {
+std::optional<std::string> VoteDesk::look(Time now) {
   auto tally = votes_->tally();
   if (!tally) {
     fault_ = tally.error().message;
     return std::nullopt;
   }
   tally_ = std::move(*tally);
-  std::string text = telepresence::encode_votes(tally_);
+  std::string text = encode_votes(tally_);
   if (text == shown_) return std::nullopt;
   shown_ = text;
   docent_msgs::Votes message;
-  message.header.stamp = to_message(bus_.now());
+  message.header.stamp = to_message(now);
   message.round = tally_.round;
   // In the museum's order, for of two with as many votes the first counts.
   for (const museum::Tour& tour : museum_.tours) {
@@ -57,8 +56,8 @@ std::optional<std::string> VoteDesk::look() {
     message.tours.push_back(tour.id);
     message.counts.push_back(place->second);
   }
-  publisher_.publish(std::move(message));
+  robot_.tell(std::move(message));
   return text;
 }
 
-}  // namespace docent::modules
+}  // namespace docent::telepresence

@@ -1,14 +1,13 @@
-#include "docent/modules/web/wish_desk.h"
+#include "docent/telepresence/service/wish_desk.h"
 
 #include <set>
 #include <utility>
 #include <vector>
 
 #include "docent/messages/conversions.h"
-#include "docent/messages/topics.h"
 #include "docent/vocabulary/vocabulary.h"
 
-namespace docent::modules {
+namespace docent::telepresence {
 namespace {
 
 bool is_cancellation(const docent_msgs::Request& request) {
@@ -17,17 +16,14 @@ bool is_cancellation(const docent_msgs::Request& request) {
 
 }  // namespace
 
-WishDesk::WishDesk(transport::Bus& bus, std::unique_ptr<telepresence::Outbox> outbox, bool is_shared)
-    : bus_{bus}, outbox_{std::move(outbox)}, is_shared_{is_shared}, requests_{bus.publisher(topics::kRequest)} {}
-
-Reason WishDesk::take(docent_msgs::Request wish) {
-  wish.stamp = to_message(bus_.now());
+Reason WishDesk::take(docent_msgs::Request wish, Time now) {
+  wish.stamp = to_message(now);
   if (auto stored = outbox_->put(wish); !stored) {
     fault_ = stored.error().message;
     return ReasonWord::not_stored;
   }
   fault_.clear();
-  requests_.publish(std::move(wish));
+  robot_.tell(std::move(wish));
   return {};
 }
 
@@ -49,18 +45,18 @@ void WishDesk::see(const docent_msgs::RequestBoard& board) {
   for (const auto& id : done) outbox_->delivered(id);
 }
 
-void WishDesk::resend() {
+void WishDesk::resend(Time now) {
   if (is_shared_) {
     if (auto read = outbox_->refresh(); !read) fault_ = read.error().message;
   }
   // A cancellation whose request nobody knows any more would otherwise be repeated for hours.
   std::vector<std::string> given_up;
   for (const auto& request : outbox_->pending()) {
-    const bool is_old = bus_.now() - from_message(request.stamp) > std::chrono::minutes{1};
+    const bool is_old = now - from_message(request.stamp) > std::chrono::minutes{1};
     if (is_cancellation(request) && is_old) given_up.push_back(request.id);
   }
   for (const auto& id : given_up) outbox_->delivered(id);
-  for (const auto& request : outbox_->pending()) requests_.publish(request);
+  for (const auto& request : outbox_->pending()) robot_.tell(request);
 }
 
-}  // namespace docent::modules
+}  // namespace docent::telepresence

@@ -1,0 +1,37 @@
+#include "docent/task_control/mission_service/status_text.h"
+
+#include <algorithm>
+
+#include "docent/task_control/tour_scheduler/programme.h"
+
+namespace docent::task_control {
+
+bool is_about_room(const MissionSummary& summary) { return summary.is_point && !point_of(summary.place); }
+
+interaction::Sentence sentence_of(const MissionSummary& summary) {
+  using interaction::Sentence;
+  if (summary.phase == MissionPhase::waking) return Sentence::waking;
+  if (summary.phase == MissionPhase::relocalizing) return Sentence::relocalizing;
+  const bool is_room = is_about_room(summary);
+  if (summary.is_point && summary.phase == MissionPhase::explaining)
+    return is_room ? Sentence::at_room : Sentence::at_point;
+  if (summary.is_point && !is_room && summary.phase == MissionPhase::driving) return Sentence::to_point;
+  if (summary.phase == MissionPhase::driving) return summary.is_blocked ? Sentence::blocked : Sentence::driving;
+  if (summary.says_farewell) return Sentence::farewell;
+  if (summary.phase == MissionPhase::explaining) return Sentence::explaining;
+  if (summary.phase == MissionPhase::asking) return Sentence::asking;
+  if (summary.phase == MissionPhase::charging) return Sentence::charging;
+  if (summary.needs_charge) return Sentence::battery_low;
+  if (summary.phase == MissionPhase::going_home) return Sentence::going_home;
+  return summary.phase == MissionPhase::idle ? Sentence::idle : Sentence::waiting;
+}
+
+std::string status_text(const MissionSummary& summary, const museum::Translations& title, const std::string& language) {
+  constexpr int kLeastMinutes = 5;
+  const std::string about = summary.phase == MissionPhase::charging
+                                ? std::to_string(std::max(kLeastMinutes, summary.charging_min))
+                                : museum::translated(title, language);
+  return interaction::sentence(sentence_of(summary), language, Mood::neutral, 0, about);
+}
+
+}  // namespace docent::task_control

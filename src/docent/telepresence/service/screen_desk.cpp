@@ -1,0 +1,47 @@
+#include "docent/telepresence/service/screen_desk.h"
+
+#include <utility>
+
+#include "docent/messages/conversions.h"
+
+namespace docent::telepresence {
+
+ScreenDesk::ScreenDesk(RobotLink& robot, Means means, Time now) : robot_{robot}, means_{std::move(means)} {
+  robot_.tell(docent_msgs::ButtonLamps{{to_message(now), ""}, {}});
+}
+
+std::optional<Reason> ScreenDesk::take(const ClientMessage& message, std::optional<MissionPhase> phase, Time now) {
+  if (const auto* lamps = std::get_if<LampsMessage>(&message)) {
+    heard_ = now;
+    light(lamps->lit, now);
+    return Reason{};
+  }
+  if (const auto* answer = std::get_if<AnswerMessage>(&message)) {
+    const auto kept = means_.keep_answer(*answer, now);
+    fault_ = kept ? "" : kept.error().message;
+    return kept ? Reason{} : ReasonWord::not_stored;
+  }
+  if (const auto* wanted = std::get_if<HelpMessage>(&message)) return help(*wanted, phase);
+  return std::nullopt;
+}
+
+Reason ScreenDesk::help(const HelpMessage& message, std::optional<MissionPhase> phase) {
+  const bool has_time =
+      phase == MissionPhase::idle || phase == MissionPhase::waiting || phase == MissionPhase::charging;
+  if (!has_time) return ReasonWord::busy;
+  robot_.tell(docent_msgs::Say{message.id, means_.help_text(message.language), message.language, to_text(Mood::happy)});
+  return {};
+}
+
+void ScreenDesk::light(const std::vector<int>& lit, Time now) {
+  if (lit == lit_) return;
+  lit_ = lit;
+  robot_.tell(docent_msgs::ButtonLamps{{to_message(now), ""}, {lit.begin(), lit.end()}});
+}
+
+void ScreenDesk::look(Time now) {
+  constexpr Duration kLampsSilent = std::chrono::seconds{12};  // the page says its lamps every 5 s
+  if (now - heard_ > kLampsSilent) light({}, now);
+}
+
+}  // namespace docent::telepresence

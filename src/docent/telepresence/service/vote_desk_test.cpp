@@ -1,0 +1,70 @@
+#include "docent/telepresence/service/vote_desk.h"
+
+#include <gtest/gtest.h>
+
+#include "docent/telepresence/client_message.h"
+#include "docent/telepresence/service/service_fixture.h"
+
+namespace docent::telepresence {
+namespace {
+
+museum::Museum museum_with_tours() {
+  museum::Museum museum;
+  museum.tours = {{"space", {}, {"sputnik"}, std::nullopt}, {"quick", {}, {}, 6.0}};
+  return museum;
+}
+
+class VoteDeskTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    database_ = std::move(*Database::open(":memory:"));
+    desk_ = std::make_unique<VoteDesk>(robot_, museum_, std::move(*TourVotes::open(*database_)), 1, now_);
+  }
+  Reason vote(const std::string& voter, const std::string& tour) { return desk_->take({"id", voter, tour}, now_); }
+  std::optional<std::string> look() {
+    now_ = now_ + seconds(1);
+    return desk_->look(now_);
+  }
+
+  museum::Museum museum_ = museum_with_tours();
+  Time now_;
+  RobotEar robot_;
+  std::unique_ptr<Database> database_;
+  std::unique_ptr<VoteDesk> desk_;
+};
+
+TEST_F(VoteDeskTest, TellsTheRobotHowTheVotesStand) {
+  ASSERT_TRUE(look()) << "a round without votes is shown, too";
+  EXPECT_EQ(vote("ada", "quick"), Reason{});
+  EXPECT_EQ(vote("grace", "quick"), Reason{});
+  EXPECT_EQ(vote("emmy", "space"), Reason{});
+  ASSERT_TRUE(look());
+  EXPECT_FALSE(look()) << "nothing is new";
+  ASSERT_EQ(robot_.votes.size(), 2U);
+  EXPECT_TRUE(is_uuid7(robot_.votes[1].round));
+  EXPECT_EQ(robot_.votes[1].tours, (std::vector<std::string>{"space", "quick"})) << "in the museum's order";
+  EXPECT_EQ(robot_.votes[1].counts, (std::vector<std::uint32_t>{1, 2}));
+}
+
+TEST_F(VoteDeskTest, AVoteForNoTourIsRefused) {
+  EXPECT_EQ(vote("ada", "nonsense"), (Reason{ReasonWord::no_such_tour, "nonsense"}));
+}
+
+TEST_F(VoteDeskTest, ANewRoundBeginsWhenTheRobotHasTakenTheTour) {
+  EXPECT_EQ(vote("ada", "quick"), Reason{});
+  ASSERT_TRUE(look());
+  const std::string round = robot_.votes.back().round;
+  docent_msgs::RequestBoard board;
+  board.requests.resize(1);
+  board.requests[0].request.id = "another request";
+  desk_->see(board, now_);
+  EXPECT_FALSE(look());
+  board.requests[0].request.id = round;
+  desk_->see(board, now_);
+  ASSERT_TRUE(look());
+  EXPECT_NE(robot_.votes.back().round, round);
+  EXPECT_TRUE(robot_.votes.back().tours.empty());
+}
+
+}  // namespace
+}  // namespace docent::telepresence

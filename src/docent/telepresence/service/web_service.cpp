@@ -1,0 +1,180 @@
+#include "docent/telepresence/service/web_service.h"
+
+#include <utility>
+
+#include "docent/telepresence/document_json.h"
+#include "docent/telepresence/live_encoding.h"
+#include "docent/telepresence/museum_document.h"
+
+namespace docent::telepresence {
+namespace {
+
+RequestSource source_of(Role role) {
+  switch (role) {
+    case Role::kiosk:
+      return RequestSource::kiosk;
+    case Role::staff:
+      return RequestSource::staff;
+    case Role::observer:
+    case Role::visitor:
+      break;
+  }
+  return RequestSource::web;
+}
+
+}  // namespace
+
+WebService::WebService(WebServiceParts parts, const museum::Museum& museum, RobotLink& robot, Viewers& viewers,
+                       Time now)
+    : museum_{museum},
+      viewers_{viewers},
+      database_{std::move(parts.store.database)},
+      max_open_requests_{parts.max_open_requests},
+      forgets_after_{parts.forgets_after},
+      horn_{std::move(parts.horn)},
+      operated_{std::move(parts.operated)},
+      wishes_{robot, std::move(parts.store.outbox), parts.is_shared},
+      answers_{robot},
+      screen_{robot, std::move(parts.screen), now},
+      votes_{robot, museum, std::move(parts.store.votes), parts.seed, now},
+      operator_{robot, std::move(parts.stop_file), std::move(parts.note), now},
+      counts_{std::move(parts.store.statistics), std::move(parts.gateway), now} {}
+
+void WebService::take(const Caller& caller, const ClientMessage& message, Time now) {
+  const ViewerId viewer = caller.id;
+  const RequestSource source = source_of(caller.role);
+  if (const auto done = operator_.take(caller, message, now)) {
+    show_operation();
+    return answer_operator(viewer, message, *done);
+  }
+  if (const auto* request = std::get_if<RequestMessage>(&message))
+    return answer(viewer, request->id, take_request(*request, source, now));
+  if (const auto* cancel = std::get_if<CancelMessage>(&message))
+    return answer(viewer, cancel->id, take_cancel(*cancel, source, now));
+  if (const auto* choice = std::get_if<ChoiceMessage>(&message))
+    return answer(viewer, choice->id, answers_.take(*choice, source));
+  if (const auto* vote = std::get_if<VoteMessage>(&message)) return answer(viewer, vote->id, take_vote(*vote, now));
+  take_of_screen(viewer, message, now);
+}
+
+Reason WebService::take_request(const RequestMessage& message, RequestSource source, Time now) {
+  if (wishes_.waiting() >= max_open_requests_) return ReasonWord::too_many_wait;
+  if (const Reason why_not = why_not_in(museum_, message); !why_not.is_none()) return why_not;
+  docent_msgs::Request wish;
+  wish.id = message.id;
+  wish.source = to_text(source);
+  wish.visitor = message.name;
+  wish.kind = to_text(message.kind);
+  wish.target = message.target;
+  wish.viewpoint = message.viewpoint;
+  wish.language = message.language.empty() && !museum_.languages.empty() ? museum_.languages.front() : message.language;
+  return wishes_.take(std::move(wish), now);
+}
+
+Reason WebService::take_cancel(const CancelMessage& message, RequestSource source, Time now) {
+  docent_msgs::Request wish;
+  wish.id = message.id;
+  wish.source = to_text(source);
+  wish.kind = to_text(RequestKind::cancel);
+  wish.target = message.request;
+  return wishes_.take(std::move(wish), now);
+}
+
+Reason WebService::take_vote(const VoteMessage& message, Time now) {
+  const Reason why_not = votes_.take(message, now);
+  if (why_not.is_none()) counts_.voted();
+  return why_not;
+}
+
+void WebService::take_of_screen(ViewerId viewer, const ClientMessage& message, Time now) {
+  const auto done = screen_.take(message, phase_, now);
+  if (!done) return;
+  if (const auto* help = std::get_if<HelpMessage>(&message)) answer(viewer, help->id, *done);
+  if (const auto* poll = std::get_if<AnswerMessage>(&message)) answer(viewer, poll->id, *done);
+}
+
+void WebService::answer(ViewerId viewer, const std::string& id, const Reason& why_not) {
+  viewers_.answer(viewer, why_not.is_none() ? encode_acknowledgement(id) : encode_refusal(id, why_not));
+}
+
+/// Steering has no id: it is answered only where it was refused.
+void WebService::answer_operator(ViewerId viewer, const ClientMessage& message, const Reason& why_not) {
+  if (const auto* lease = std::get_if<LeaseMessage>(&message)) return answer(viewer, lease->id, why_not);
+  if (const auto* stop = std::get_if<StopMessage>(&message)) return answer(viewer, stop->id, why_not);
+  if (const auto* hours = std::get_if<SetHoursMessage>(&message)) return answer(viewer, hours->id, why_not);
+  if (const auto word = why_not.word()) viewers_.answer(viewer, encode_error(*word));
+}
+
+void WebService::show_if_new(Kept kept, slots::Slot slot, std::string text) {
+  std::string& shown = shown_.at(static_cast<std::size_t>(kept));
+  if (std::exchange(shown, text) != text) viewers_.show(slot, std::move(text));
+}
+
+void WebService::see(const docent_msgs::MissionState& mission) {
+  phase_ = parse<MissionPhase>(mission.phase);
+  answers_.see(mission.prompt);
+  viewers_.show(slots::kMission, encode_mission(mission));
+}
+
+void WebService::see(const docent_msgs::SoundState& sound) {
+  is_muted_ = !(sound.volume > 0.0);
+  viewers_.show(slots::kSound, encode_sound(sound));
+}
+
+void WebService::see(const docent_msgs::Expression& expression) {
+  show_if_new(Kept::expression, slots::kExpression, encode_expression(expression));
+}
+
+void WebService::see(const docent_msgs::RequestBoard& board, Time now) {
+  wishes_.see(board);
+  votes_.see(board, now);
+  counts_.see(board);
+  viewers_.show(slots::kBoard, encode_board(board));
+}
+
+/// The `sound` module has written the file of this name.
+void WebService::honk(Time now) {
+  viewers_.show(slots::kHorn, encode_horn(now, is_muted_ ? "" : horn_.file, horn_.duration_s));
+}
+
+void WebService::press(int number, Time now) {
+  if (number < 1 || number > kButtons) return;
+  viewers_.show(slots::kButton, encode_button(now, number));
+}
+
+void WebService::look(const PresentHours& hours, std::size_t viewers, Time now) {
+  viewers_.show(slots::kHealth, health_.show(viewers, now));
+  show_if_new(Kept::hours, slots::kHours, encode_hours(hours.mode, hours.is_open));
+  if (auto votes = votes_.look(now)) viewers_.show(slots::kVotes, std::move(*votes));
+  screen_.look(now);
+}
+
+void WebService::resend(Time now) {
+  wishes_.resend(now);
+  answers_.resend();
+}
+
+void WebService::show_operation() {
+  const documents::OperationMessage document = operator_.document();
+  operated_(document);
+  show_if_new(Kept::operation, slots::kOperation, json_text(document));
+}
+
+void WebService::store_counts(const PresentHours& hours, std::uint64_t accesses, Time now) {
+  counts_.asked(accesses);
+  counts_.store(hours.mode, now);
+}
+
+void WebService::forget_old(Time now) {
+  wishes_.forget_before(now - forgets_after_);
+  votes_.forget_before(now - forgets_after_);
+}
+
+std::string WebService::fault() const {
+  for (const std::string* fault :
+       {&wishes_.fault(), &screen_.fault(), &votes_.fault(), &operator_.fault(), &counts_.fault()})
+    if (!fault->empty()) return *fault;
+  return {};
+}
+
+}  // namespace docent::telepresence

@@ -1,0 +1,140 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "docent/geometry/pose2.h"
+#include "docent/messages/docent_messages.h"
+#include "docent/museum/museum.h"
+#include "docent/telepresence/counting/count_desk.h"
+#include "docent/telepresence/documents.h"
+#include "docent/telepresence/service/answer_desk.h"
+#include "docent/telepresence/service/operator_desk.h"
+#include "docent/telepresence/service/screen_desk.h"
+#include "docent/telepresence/service/viewers.h"
+#include "docent/telepresence/service/vote_desk.h"
+#include "docent/telepresence/service/web_store.h"
+#include "docent/telepresence/service/wish_desk.h"
+#include "docent/telepresence/views/health_view.h"
+
+namespace docent::telepresence {
+
+/// Whose hours these are.
+struct PresentHours {
+  std::string mode;  ///< open, web, closed
+  bool is_open = true;
+};
+
+/// The horn's sound, as pages fetch it.
+struct HornSound {
+  std::string file;
+  double duration_s = 0.0;
+};
+
+/// What a Web service is made with.
+struct WebServiceParts {
+  WebStore store;
+  bool is_shared = false;           ///< other gateways write into the same database
+  std::size_t max_open_requests{};  ///< of everybody together; more are refused
+  Duration forgets_after{};         ///< then a request is given up
+  std::filesystem::path stop_file;  ///< is there while the robot is stopped
+  OperatorDesk::Note note;
+  ScreenDesk::Means screen;
+  HornSound horn;
+  std::string gateway;  ///< a name of its own
+  std::uint64_t seed = 0;
+  /// Told what operators order, whenever that is shown.
+  std::function<void(const documents::OperationMessage&)> operated;
+};
+
+/// All that people on the Web may ask for, and what they are shown of what became of it. Each message of theirs goes to
+/// the desk that it is for, and they are answered; what the robot says of itself is shown, what has changed only. One
+/// thread, but for `health_document`.
+class WebService {
+ public:
+  /// Museum, robot and viewers outlive it.
+  WebService(WebServiceParts parts, const museum::Museum& museum, RobotLink& robot, Viewers& viewers, Time now);
+
+  // From the Web:
+
+  void take(const Caller& caller, const ClientMessage& message, Time now);
+  /// Somebody opened the live channel.
+  void arrived(const std::string& address) { counts_.arrived(address); }
+  void left(const Caller& caller, Time now) { operator_.left(caller, now); }
+
+  // From the robot:
+
+  void see(const docent_msgs::MissionState& mission);
+  void see(const docent_msgs::SpeechState& speech) { viewers_.show(slots::kSpeech, encode_speech(speech)); }
+  void see(const docent_msgs::SoundState& sound);
+  void see(const docent_msgs::Expression& expression);
+  void see(const docent_msgs::RequestBoard& board, Time now);
+  void see(const docent_msgs::Limits& limits) { operator_.see(limits); }
+  void see(const docent_msgs::Stop& stop) { operator_.see(stop); }
+  void see(const nav_msgs::Odometry& odometry) { counts_.see(odometry); }
+  void see(const docent_msgs::Event& event) { counts_.see(event); }
+  void see(const docent_msgs::Health& health, Time now) { health_.see(health, now); }
+  /// The horn sounds.
+  void honk(Time now);
+  /// A button beside the screen was pressed.
+  void press(int number, Time now);
+
+  // From the clock:
+
+  /// Every second. @param viewers  how many watch
+  void look(const PresentHours& hours, std::size_t viewers, Time now);
+  /// Every second: the newest people, and where the robot is.
+  void see_people(const docent_msgs::People& people, std::optional<Pose2> map_from_base) {
+    counts_.see_people(people, map_from_base);
+  }
+  /// Now and then: tells the robot again what it has not answered.
+  void resend(Time now);
+  /// Ten times a second.
+  void steer_on(Time now) { operator_.steer_on(now); }
+  /// A few times a second: what operators order.
+  void show_operation();
+  /// Every ten seconds. @param accesses  all that the server was ever asked
+  void store_counts(const PresentHours& hours, std::uint64_t accesses, Time now);
+  /// Every few minutes.
+  void forget_old(Time now);
+
+  /// Any thread: the health of all modules, as it was shown last.
+  [[nodiscard]] std::string health_document() const { return health_.document(); }
+  /// What could not be stored; empty: all could.
+  [[nodiscard]] std::string fault() const;
+
+ private:
+  /// Slots that are shown again only when they have changed.
+  enum class Kept { expression, hours, operation, count };
+  void show_if_new(Kept kept, slots::Slot slot, std::string text);
+  void answer(ViewerId viewer, const std::string& id, const Reason& why_not);
+  void answer_operator(ViewerId viewer, const ClientMessage& message, const Reason& why_not);
+  [[nodiscard]] Reason take_request(const RequestMessage& message, RequestSource source, Time now);
+  [[nodiscard]] Reason take_cancel(const CancelMessage& message, RequestSource source, Time now);
+  [[nodiscard]] Reason take_vote(const VoteMessage& message, Time now);
+  void take_of_screen(ViewerId viewer, const ClientMessage& message, Time now);
+
+  const museum::Museum& museum_;
+  Viewers& viewers_;
+  std::unique_ptr<Database> database_;
+  const std::size_t max_open_requests_;
+  const Duration forgets_after_;
+  const HornSound horn_;
+  const std::function<void(const documents::OperationMessage&)> operated_;
+  WishDesk wishes_;
+  AnswerDesk answers_;
+  ScreenDesk screen_;
+  VoteDesk votes_;
+  OperatorDesk operator_;
+  CountDesk counts_;
+  HealthView health_;
+  std::optional<MissionPhase> phase_;  ///< of the mission, as last heard
+  bool is_muted_ = false;
+  std::array<std::string, static_cast<std::size_t>(Kept::count)> shown_;
+};
+
+}  // namespace docent::telepresence

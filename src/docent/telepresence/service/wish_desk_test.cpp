@@ -1,0 +1,123 @@
+#include "docent/telepresence/service/wish_desk.h"
+
+#include <gtest/gtest.h>
+
+#include "docent/messages/conversions.h"
+#include "docent/telepresence/service/service_fixture.h"
+#include "docent/vocabulary/vocabulary.h"
+
+namespace docent::telepresence {
+namespace {
+
+docent_msgs::Request wish_for(const std::string& id, const std::string& target,
+                              RequestKind kind = RequestKind::exhibit) {
+  docent_msgs::Request wish;
+  wish.id = id;
+  wish.kind = to_text(kind);
+  wish.target = target;
+  return wish;
+}
+
+docent_msgs::RequestBoard board_of(const std::vector<std::pair<std::string, RequestStatus>>& entries) {
+  docent_msgs::RequestBoard board;
+  for (const auto& [id, status] : entries) {
+    auto& entry = board.requests.emplace_back();
+    entry.request.id = id;
+    entry.state = to_text(status);
+  }
+  return board;
+}
+
+class WishDeskTest : public testing::Test {
+ protected:
+  std::unique_ptr<WishDesk> make(bool is_shared = false) {
+    return std::make_unique<WishDesk>(robot_, Outbox::open(*database_).value(), is_shared);
+  }
+  /// What the robot is told when it is told again.
+  std::vector<std::string> resent() {
+    robot_.requests.clear();
+    desk_->resend(now_);
+    std::vector<std::string> ids;
+    for (const auto& request : robot_.requests) ids.push_back(request.id);
+    return ids;
+  }
+
+  using Ids = std::vector<std::string>;
+  Time now_ = time_from_seconds(100.0);
+  RobotEar robot_;
+  std::unique_ptr<Database> database_ = Database::open(":memory:").value();
+  std::unique_ptr<WishDesk> desk_ = make();
+};
+
+TEST_F(WishDeskTest, AWishIsToldUntilItIsOnTheBoard) {
+  EXPECT_EQ(desk_->take(wish_for("a", "sputnik"), now_), Reason{});
+  ASSERT_EQ(robot_.requests.size(), 1U) << "at once";
+  EXPECT_EQ(robot_.requests[0].target, "sputnik");
+  EXPECT_EQ(from_message(robot_.requests[0].stamp), now_);
+  now_ = now_ + std::chrono::hours{1};
+  EXPECT_EQ(resent(), Ids{"a"});
+  desk_->see(board_of({{"b", RequestStatus::queued}}));
+  EXPECT_EQ(resent(), Ids{"a"}) << "that was another one";
+  desk_->see(board_of({{"a", RequestStatus::refused}}));
+  EXPECT_EQ(resent(), Ids{});
+}
+
+TEST_F(WishDeskTest, AWishThatIsSaidAgainIsKeptOnceAndToldOnce) {
+  EXPECT_EQ(desk_->take(wish_for("a", "sputnik"), now_), Reason{});
+  desk_->see(board_of({{"a", RequestStatus::queued}}));
+  robot_.requests.clear();
+  EXPECT_EQ(desk_->take(wish_for("a", "sputnik"), now_), Reason{});
+  EXPECT_EQ(robot_.requests.size(), 1U) << "in case the mission lost it";
+  EXPECT_EQ(resent(), Ids{});
+}
+
+TEST_F(WishDeskTest, AWishThatCannotBeStoredIsNotTold) {
+  ASSERT_TRUE(database_->run("DROP TABLE outbox"));
+  EXPECT_EQ(desk_->take(wish_for("a", "sputnik"), now_), Reason{ReasonWord::not_stored});
+  EXPECT_TRUE(robot_.requests.empty());
+  EXPECT_FALSE(desk_->fault().empty());
+}
+
+TEST_F(WishDeskTest, ACancellationIsSeenInWhatItCancels) {
+  desk_->see(board_of({{"a", RequestStatus::queued}}));
+  EXPECT_EQ(desk_->take(wish_for("c", "a", RequestKind::cancel), now_), Reason{});
+  desk_->see(board_of({{"a", RequestStatus::active}}));
+  EXPECT_EQ(resent(), Ids{"c"});
+  desk_->see(board_of({{"a", RequestStatus::cancelled}}));
+  EXPECT_EQ(resent(), Ids{});
+}
+
+TEST_F(WishDeskTest, ACancellationOfWhatNobodyKnowsIsGivenUpAfterAMinute) {
+  EXPECT_EQ(desk_->take(wish_for("c", "unknown", RequestKind::cancel), now_), Reason{});
+  EXPECT_EQ(desk_->take(wish_for("a", "sputnik"), now_), Reason{});
+  now_ = now_ + seconds(59.0);
+  EXPECT_EQ(resent(), (Ids{"a", "c"}));
+  now_ = now_ + seconds(2.0);
+  EXPECT_EQ(resent(), Ids{"a"});
+}
+
+TEST_F(WishDeskTest, KnowsHowManyWait) {
+  EXPECT_EQ(desk_->waiting(), 0U);
+  EXPECT_EQ(desk_->take(wish_for("a", "sputnik"), now_), Reason{});
+  EXPECT_EQ(desk_->waiting(), 1U);
+  desk_->see(board_of({{"a", RequestStatus::queued}, {"b", RequestStatus::active}, {"c", RequestStatus::fulfilled}}));
+  EXPECT_EQ(desk_->waiting(), 2U);
+}
+
+TEST_F(WishDeskTest, WhatIsTooOldIsForgotten) {
+  EXPECT_EQ(desk_->take(wish_for("a", "sputnik"), now_), Reason{});
+  desk_->forget_before(now_ + seconds(1.0));
+  EXPECT_EQ(resent(), Ids{});
+}
+
+TEST_F(WishDeskTest, TellsWhatAnotherGatewayTookWhereTheyShareADatabase) {
+  const auto shared = make(true);
+  EXPECT_EQ(desk_->take(wish_for("a", "sputnik"), now_), Reason{});
+  robot_.requests.clear();
+  shared->resend(now_);
+  ASSERT_EQ(robot_.requests.size(), 1U);
+  EXPECT_EQ(robot_.requests[0].id, "a");
+}
+
+}  // namespace
+}  // namespace docent::telepresence
