@@ -86,4 +86,13 @@ Result<LocalizerCheckpoint> load_localizer_checkpoint(const std::filesystem::pat
   return checkpoint;
 }
 
+std::optional<LocalizerCheckpoint> recent_checkpoint(const std::filesystem::path& path, const std::string& map_hash,
+                                                     Time now, Duration ahead) {
+  auto checkpoint = load_localizer_checkpoint(path);
+  if (!checkpoint || checkpoint->map_hash != map_hash) return std::nullopt;
+  const Duration age = now - checkpoint->time;
+  if (age < -ahead || age > kCheckpointAge) return std::nullopt;
+  return *checkpoint;
+}
+
 }  // namespace docent::localization

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,5 +29,11 @@ struct LocalizerCheckpoint {
                                                      const std::filesystem::path& path);
 /// Error: absent or damaged; the caller then starts with an unknown place.
 [[nodiscard]] Result<LocalizerCheckpoint> load_localizer_checkpoint(const std::filesystem::path& path);
+/// The same where it tells something: it is of this map, and of the last minute. One of the future is of a clock that
+/// was set.
+/// @param ahead  so far ahead of `now` its stamp may be all the same
+[[nodiscard]] std::optional<LocalizerCheckpoint> recent_checkpoint(const std::filesystem::path& path,
+                                                                   const std::string& map_hash, Time now,
+                                                                   Duration ahead = Duration{0});
 
 }  // namespace docent::localization

@@ -24,6 +24,21 @@ TEST(Checkpoint, ComesBackAsItWas) {
   std::filesystem::remove(path);
 }
 
+TEST(Checkpoint, TellsNothingOfAnotherMapOrAnotherTime) {
+  const auto path = std::filesystem::path{::testing::TempDir()} / "docent_checkpoint_recent.yaml";
+  EXPECT_FALSE(recent_checkpoint(path, "a", Time{}));
+  const Time then = time_from_seconds(1000.0);
+  ASSERT_TRUE(save_localizer_checkpoint({"a", then, {}, {{{1.0, 2.0, {}}, {}, 1.0}}}, path));
+  ASSERT_TRUE(recent_checkpoint(path, "a", then));
+  EXPECT_EQ(recent_checkpoint(path, "a", then + kCheckpointAge)->modes.front().map_from_robot.y, 2.0);
+  EXPECT_FALSE(recent_checkpoint(path, "b", then));
+  EXPECT_FALSE(recent_checkpoint(path, "a", then + kCheckpointAge + seconds(0.001)));
+  EXPECT_FALSE(recent_checkpoint(path, "a", then - seconds(0.2)));
+  EXPECT_TRUE(recent_checkpoint(path, "a", then - seconds(0.2), seconds(0.25)));
+  EXPECT_FALSE(recent_checkpoint(path, "a", then - seconds(0.3), seconds(0.25)));
+  std::filesystem::remove(path);
+}
+
 TEST(Checkpoint, RefusesWhatIsDamaged) {
   const auto path = std::filesystem::path{::testing::TempDir()} / "docent_checkpoint_broken.yaml";
   EXPECT_FALSE(load_localizer_checkpoint(path).has_value());

@@ -4,12 +4,14 @@
 #include <span>
 #include <vector>
 
+#include "docent/base/result.h"
+#include "docent/base/time.h"
+#include "docent/collision_avoidance/body/base_motion.h"
 #include "docent/mapping/graph_mapping/mapping_scan.h"
 #include "docent/mapping/occupancy/growing_map.h"
-#include "docent/modules/shared/pose_tracker.h"
-#include "docent/modules/shared/scanners.h"
+#include "docent/sensor_models/range_sweep.h"
 
-namespace docent::modules {
+namespace docent::planning {
 
 /// Part `keyframes` of section `explore`: what the map is made of.
 struct KeyframeParams {
@@ -39,32 +41,39 @@ struct Keyframe {
 /// Chooses the moments of a drive that a map is made of, and joins the sweeps of all lasers.
 class Keyframes {
  public:
-  Keyframes(const KeyframeParams& params, const mapping::PointSweepParams& points,
-            const std::vector<robot::Scanner>& scanners);
+  /// @param base_from_laser  [lasers], at least one: where they are mounted
+  Keyframes(const KeyframeParams& params, const mapping::PointSweepParams& points, std::vector<Pose2> base_from_laser);
 
-  void keep(std::size_t laser, const sensor_msgs::LaserScan& scan);
+  /// The newest sweep of a laser, in place of the one before.
+  void keep(std::size_t laser, Time stamp, const sensor_models::LaserReading& reading);
   /// After a sweep of the first laser: all lasers about the robot's centre at that moment.
   struct Look {
     Time stamp{};
     Pose2 odom_from_base;
     sensor_models::RangeSweep sweep;
   };
-  [[nodiscard]] std::optional<Look> look(const PoseTracker& pose) const;
+  [[nodiscard]] std::optional<Look> look(const collision_avoidance::BaseHistory& odometry) const;
   /// The same, kept for the map, if the robot has moved enough since the last one.
   /// @param people  [m], odom: what is seen of them belongs to no map
-  [[nodiscard]] std::optional<Keyframe> take(const PoseTracker& pose, std::span<const Point2> people);
+  [[nodiscard]] std::optional<Keyframe> take(const collision_avoidance::BaseHistory& odometry,
+                                             std::span<const Point2> people);
 
  private:
-  /// [scanners] where the base was when each newest sweep was taken, odom; none: it is of another moment.
-  [[nodiscard]] std::vector<std::optional<Pose2>> bases(const PoseTracker& pose) const;
+  struct Newest {
+    Time stamp{};
+    sensor_models::LaserReading reading;  ///< without its ranges
+    std::vector<float> ranges;            ///< [m]
+  };
+  /// [lasers] where the base was when each newest sweep was taken, odom; none: it is of another moment.
+  [[nodiscard]] std::vector<std::optional<Pose2>> bases(const collision_avoidance::BaseHistory& odometry) const;
   [[nodiscard]] sensor_models::LaserReading reading(std::size_t laser) const;
 
   KeyframeParams params_;
   mapping::PointSweepParams points_;
-  std::vector<Pose2> base_from_laser_;          ///< [scanners]
-  std::vector<sensor_msgs::LaserScan> newest_;  ///< [scanners]
-  std::optional<Pose2> last_;                   ///< odom_from_base of the last moment
+  std::vector<Pose2> base_from_laser_;  ///< [lasers]
+  std::vector<Newest> newest_;          ///< [lasers]
+  std::optional<Pose2> last_;           ///< odom_from_base of the last moment
   Time last_stamp_{};
 };
 
-}  // namespace docent::modules
+}  // namespace docent::planning

@@ -7,7 +7,7 @@
 #include "docent/base/time.h"
 #include "docent/planning/exploration/explorer.h"
 
-namespace docent::modules {
+namespace docent::planning {
 
 /// Part `drive` of section `explore`: what it does where it does not get on.
 struct ExplorationDriveParams {
@@ -40,7 +40,7 @@ class ExplorationDrive {
  public:
   enum class State { exploring, returning, arrived };
 
-  ExplorationDrive(const ExplorationDriveParams& params, planning::Explorer explorer, Point2 home);
+  ExplorationDrive(const ExplorationDriveParams& params, Explorer explorer, Point2 home);
 
   /// Plans anew. O(cells of the map)
   /// @param waits  it is held by hand, or knows no way for another reason: no time counts
@@ -56,7 +56,7 @@ class ExplorationDrive {
 
   [[nodiscard]] State state() const { return state_; }
   [[nodiscard]] std::size_t frontier() const { return frontier_; }  ///< unknown cells that it can go to
-  [[nodiscard]] const planning::Explorer& explorer() const { return explorer_; }
+  [[nodiscard]] const Explorer& explorer() const { return explorer_; }
   [[nodiscard]] const std::vector<Point2>& way() const { return way_; }  ///< [m], map
 
  private:
@@ -85,7 +85,7 @@ class ExplorationDrive {
   void set_way(std::vector<Point2> cells);
 
   ExplorationDriveParams params_;
-  planning::Explorer explorer_;
+  Explorer explorer_;
   Point2 home_;
   State state_ = State::exploring;
   std::vector<Point2> way_;
@@ -101,4 +101,4 @@ class ExplorationDrive {
   std::size_t held_up_on_way_home_ = 0;
 };
 
-}  // namespace docent::modules
+}  // namespace docent::planning

@@ -1,8 +1,8 @@
-#include "docent/modules/exploration/exploration_drive.h"
+#include "docent/planning/exploration/exploration_drive.h"
 
 #include <gtest/gtest.h>
 
-namespace docent::modules {
+namespace docent::planning {
 namespace {
 
 /// A hall of 12 x 4 m, known up to `known` [m].
@@ -19,7 +19,7 @@ OccupancyGrid hall(double known) {
   return map;
 }
 
-ExplorationDrive drive_from(Point2 home) { return {{}, planning::Explorer{{}}, home}; }
+ExplorationDrive drive_from(Point2 home) { return {{}, Explorer{{}}, home}; }
 
 TEST(ExplorationDrive, GoesToWhatIsUnknownThenHomeThenStays) {
   const Point2 home{1.0, 2.0};
@@ -54,7 +54,7 @@ TEST(ExplorationDrive, ComesHomeThroughADoorThatIsHardlyWideEnough) {
     if (row < 34 || row > 46) map.cells[map.frame.index({120, row})] = OccupancyGrid::kOccupied;
   }
   const Point2 home{1.0, 2.0};
-  EXPECT_TRUE(planning::Explorer{{}}.way_to(map, {9.0, 2.0}, home).empty());
+  EXPECT_TRUE(Explorer{{}}.way_to(map, {9.0, 2.0}, home).empty());
   ExplorationDrive drive = drive_from(home);
   Time now{};
   for (int i = 0; i < 40; ++i) drive.plan(map, {9.0, 2.0}, false, now = now + seconds(1.0));
@@ -103,4 +103,4 @@ TEST(ExplorationDrive, GoesRoundWhereItIsHeldUpButNotWhileItWaits) {
 }
 
 }  // namespace
-}  // namespace docent::modules
+}  // namespace docent::planning

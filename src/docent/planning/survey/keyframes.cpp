@@ -1,10 +1,10 @@
-#include "docent/modules/exploration/keyframes.h"
+#include "docent/planning/survey/keyframes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-namespace docent::modules {
+namespace docent::planning {
 
 Result<void> KeyframeParams::validate() const {
   if (!(way > 0.0)) return fail("way must be > 0 m");
@@ -16,31 +16,41 @@ Result<void> KeyframeParams::validate() const {
 }
 
 Keyframes::Keyframes(const KeyframeParams& params, const mapping::PointSweepParams& points,
-                     const std::vector<robot::Scanner>& scanners)
-    : params_{params}, points_{points}, base_from_laser_{mounts_of(scanners)}, newest_(scanners.size()) {}
+                     std::vector<Pose2> base_from_laser)
+    : params_{params},
+      points_{points},
+      base_from_laser_{std::move(base_from_laser)},
+      newest_(base_from_laser_.size()) {}
 
-void Keyframes::keep(std::size_t laser, const sensor_msgs::LaserScan& scan) { newest_[laser] = scan; }
-
-sensor_models::LaserReading Keyframes::reading(std::size_t laser) const {
-  const sensor_msgs::LaserScan& scan = newest_[laser];
-  return {scan.ranges, Angle::radians(scan.angle_min), scan.angle_increment, scan.range_min, scan.range_max};
+void Keyframes::keep(std::size_t laser, Time stamp, const sensor_models::LaserReading& reading) {
+  Newest& newest = newest_[laser];
+  newest.stamp = stamp;
+  newest.reading = reading;
+  newest.reading.ranges = {};
+  newest.ranges.assign(reading.ranges.begin(), reading.ranges.end());
 }
 
-std::vector<std::optional<Pose2>> Keyframes::bases(const PoseTracker& pose) const {
+sensor_models::LaserReading Keyframes::reading(std::size_t laser) const {
+  sensor_models::LaserReading reading = newest_[laser].reading;
+  reading.ranges = newest_[laser].ranges;
+  return reading;
+}
+
+std::vector<std::optional<Pose2>> Keyframes::bases(const collision_avoidance::BaseHistory& odometry) const {
   std::vector<std::optional<Pose2>> result(newest_.size());
   for (std::size_t laser = 0; laser < newest_.size(); ++laser) {
     if (newest_[laser].ranges.empty()) continue;
-    const Time then = from_message(newest_[laser].header.stamp);
-    const double apart = std::abs(to_seconds(from_message(newest_.front().header.stamp) - then));
-    if (apart <= params_.together) result[laser] = pose.odom_from_base_at(then);
+    const Time then = newest_[laser].stamp;
+    const double apart = std::abs(to_seconds(newest_.front().stamp - then));
+    if (apart <= params_.together && !odometry.empty()) result[laser] = odometry.pose_at(then);
   }
   return result;
 }
 
-std::optional<Keyframes::Look> Keyframes::look(const PoseTracker& pose) const {
-  const auto odom_from_then = bases(pose);
+std::optional<Keyframes::Look> Keyframes::look(const collision_avoidance::BaseHistory& odometry) const {
+  const auto odom_from_then = bases(odometry);
   if (odom_from_then.empty() || !odom_from_then.front()) return std::nullopt;
-  Look result{from_message(newest_.front().header.stamp), *odom_from_then.front(), {}};
+  Look result{newest_.front().stamp, *odom_from_then.front(), {}};
   for (std::size_t laser = 0; laser < newest_.size(); ++laser) {
     if (!odom_from_then[laser]) continue;
     const Pose2 base_from_laser = inverse(result.odom_from_base) * *odom_from_then[laser] * base_from_laser_[laser];
@@ -49,10 +59,11 @@ std::optional<Keyframes::Look> Keyframes::look(const PoseTracker& pose) const {
   return result;
 }
 
-std::optional<Keyframe> Keyframes::take(const PoseTracker& pose, std::span<const Point2> people) {
-  const auto odom_from_then = bases(pose);
+std::optional<Keyframe> Keyframes::take(const collision_avoidance::BaseHistory& odometry,
+                                        std::span<const Point2> people) {
+  const auto odom_from_then = bases(odometry);
   if (odom_from_then.empty() || !odom_from_then.front()) return std::nullopt;
-  const Time stamp = from_message(newest_.front().header.stamp);
+  const Time stamp = newest_.front().stamp;
   const Pose2 odom_from_base = *odom_from_then.front();
   if (last_) {
     const Pose2 moved = inverse(*last_) * odom_from_base;
@@ -83,4 +94,4 @@ std::optional<Keyframe> Keyframes::take(const PoseTracker& pose, std::span<const
   return frame;
 }
 
-}  // namespace docent::modules
+}  // namespace docent::planning

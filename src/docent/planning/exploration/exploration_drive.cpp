@@ -1,10 +1,10 @@
-#include "docent/modules/exploration/exploration_drive.h"
+#include "docent/planning/exploration/exploration_drive.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-namespace docent::modules {
+namespace docent::planning {
 namespace {
 
 constexpr double kBlockedRadius = 0.5;  // [m] about what holds it up
@@ -43,7 +43,7 @@ Result<void> ExplorationDriveParams::validate() const {
   return {};
 }
 
-ExplorationDrive::ExplorationDrive(const ExplorationDriveParams& params, planning::Explorer explorer, Point2 home)
+ExplorationDrive::ExplorationDrive(const ExplorationDriveParams& params, Explorer explorer, Point2 home)
     : params_{params}, explorer_{std::move(explorer)}, home_{home} {
   explorer_.set_home(home);
 }
@@ -165,4 +165,4 @@ ExplorationDrive::Ahead ExplorationDrive::ahead(Point2 robot) const {
   return result;
 }
 
-}  // namespace docent::modules
+}  // namespace docent::planning

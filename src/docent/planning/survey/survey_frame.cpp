@@ -1,0 +1,36 @@
+#include "docent/planning/survey/survey_frame.h"
+
+#include <utility>
+
+namespace docent::planning {
+
+SurveyFrame::SurveyFrame(const Pose2& home, std::optional<localization::LocalizerCheckpoint> before)
+    : home_{home}, before_{std::move(before)} {}
+
+void SurveyFrame::move(Time stamp, const collision_avoidance::BaseState& state) {
+  odom_from_base_ = state.odom_from_base;
+  odometry_.add(stamp, state);
+}
+
+Pose2 SurveyFrame::start_of(const Pose2& odom_from_base) const {
+  if (!before_ ||
+      distance(before_->odom_from_robot.position(), odom_from_base.position()) > localization::kCheckpointWay)
+    return home_ * inverse(odom_from_base);
+  return before_->modes.front().map_from_robot * inverse(before_->odom_from_robot);
+}
+
+Pose2 SurveyFrame::begin_moment(const Pose2& odom_from_base) {
+  if (!start_from_odom_) start_from_odom_ = start_of(odom_from_base);
+  if (last_) way_ += distance(last_->position(), odom_from_base.position());
+  last_ = odom_from_base;
+  return *start_from_odom_ * odom_from_base;
+}
+
+void SurveyFrame::end_moment(const Pose2& map_from_base) { map_from_odom_ = map_from_base * inverse(*last_); }
+
+std::optional<Pose2> SurveyFrame::map_from_base() const {
+  if (!map_from_odom_ || !odom_from_base_) return std::nullopt;
+  return *map_from_odom_ * *odom_from_base_;
+}
+
+}  // namespace docent::planning

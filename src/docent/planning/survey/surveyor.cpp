@@ -1,0 +1,121 @@
+#include "docent/planning/survey/surveyor.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "docent/planning/survey/beam_origins.h"
+
+namespace docent::planning {
+
+Surveyor::Surveyor(const SurveyorParams& params, SurveySite site, const SurveyBody& body, SurveyStore store, Time now)
+    : params_{params},
+      store_{std::move(store)},
+      frame_{site.home, store_.restored(now)},
+      keyframes_{params.keyframes, params.mapping.points, body.base_from_laser},
+      map_{params.mapping, params.map, body.radius},
+      drive_{params.drive, Explorer{params.explorer, std::move(site.hazards), std::move(site.area)},
+             site.home.position()},
+      order_{params.waits_for_order ? ExplorationOrder::wait : ExplorationOrder::by_itself} {}
+
+bool Surveyor::obey(ExplorationOrder order) {
+  if (is_done_) return false;
+  order_ = order;
+  is_done_ = order == ExplorationOrder::finish && has_begun();
+  return true;
+}
+
+std::optional<Surveyor::Sight> Surveyor::sight() const {
+  const auto map_from_odom = frame_.map_from_odom();
+  if (is_done_ || !map_from_odom) return std::nullopt;
+  auto look = keyframes_.look(frame_.odometry());
+  if (!look) return std::nullopt;
+  const Pose2 map_from_base = *map_from_odom * look->odom_from_base;
+  auto origins = beam_origins(map_.seen(), look->sweep, map_from_base);
+  return Sight{std::move(*look), map_from_base, std::move(origins)};
+}
+
+bool Surveyor::add_moment() {
+  if (is_done_) return false;
+  auto moment = keyframes_.take(frame_.odometry(), walkers_.places());
+  if (!moment) return false;
+  moment->scan.odom_from_base = frame_.begin_moment(moment->scan.odom_from_base);
+  frame_.end_moment(map_.add(std::move(*moment)));
+  return true;
+}
+
+bool Surveyor::is_held(Time now) const {
+  constexpr Duration kAfterSteering = std::chrono::seconds{3};
+  return is_stopped_ || (steered_ && now - *steered_ < kAfterSteering);
+}
+
+Surveyor::Step Surveyor::plan(Time now) {
+  keep_place(now);
+  const auto here = frame_.map_from_base();
+  if (!here || is_done_) return Step::none;
+  map_.follow();
+  if (order_ == ExplorationOrder::finish) {
+    is_done_ = true;
+    return Step::ended;
+  }
+  map_.look();
+  if (order_ != ExplorationOrder::by_itself) return Step::looked;
+  drive_.set_doubt(map_.poses().doubt_of_marks());
+  drive_.plan(map_.seen(), here->position(), is_held(now), now);
+  is_done_ = drive_.state() == ExplorationDrive::State::arrived;
+  return Step::planned;
+}
+
+std::optional<OccupancyGrid> Surveyor::finish(Time now) {
+  auto finished = map_.finish({params_.explorer.robot_radius, params_.stray_floor});
+  if (!finished) {
+    fault_ = finished.error().message;
+    return std::nullopt;
+  }
+  auto saved = store_.save(finished->map, finished->map_from_base);
+  if (!saved) {
+    fault_ = saved.error().message;
+    return std::nullopt;
+  }
+  file_ = std::move(*saved);
+  warning_ = std::move(finished->warning);
+  unreached_ = drive_.explorer().unreached(finished->map);
+  keep_place(now);
+  return std::move(finished->map);
+}
+
+/// As sure as it is at worst: nobody knows how it moves until the next process begins.
+void Surveyor::keep_place(Time now) const {
+  const auto here = frame_.map_from_base();
+  if (!here) return;
+  store_.keep_place(mode_of({*here, params_.most_sigma, params_.sigma_heading}), *frame_.odom_from_base(), now);
+}
+
+std::optional<Surveyor::Place> Surveyor::place() const {
+  const auto here = frame_.map_from_base();
+  if (!here) return std::nullopt;
+  const double sigma = std::clamp(map_.poses().spread().position, params_.least_sigma, params_.most_sigma);
+  return Place{{*here, sigma, params_.sigma_heading}, *frame_.odom_from_base()};
+}
+
+ExplorationDrive::Ahead Surveyor::ahead() const {
+  const auto here = frame_.map_from_base();
+  if (!here || is_done_ || order_ != ExplorationOrder::by_itself) return {};
+  ExplorationDrive::Ahead ahead = drive_.ahead(here->position());
+  const Pose2 odom_from_map = inverse(*frame_.map_from_odom());
+  for (Point2& via : ahead.via) via = odom_from_map * via;
+  return ahead;
+}
+
+SurveyPhase Surveyor::phase() const {
+  if (!file_.empty()) return SurveyPhase::done;
+  if (is_done_) return SurveyPhase::mapping;
+  if (!has_begun()) return SurveyPhase::starting;
+  return drive_.state() == ExplorationDrive::State::returning ? SurveyPhase::returning : SurveyPhase::exploring;
+}
+
+Surveyor::Report Surveyor::report() const {
+  return {phase(),    order_, map_.known_m2(), drive_.frontier(), frame_.way(), map_.poses().loops(),
+          unreached_, file_,  warning_};
+}
+
+}  // namespace docent::planning
