@@ -210,11 +210,11 @@ def check_laboratory(root):
         for word in words:
             check(folder in laboratory or word not in laboratory, f"{folder}: is no LABORATORY folder and depends on {word}, which is one")
     for path, text in sources(root):
-        folder = path.parent.relative_to(root).as_posix()
+        folder = below(path, root).parent.as_posix()
         for other in re.findall(r'#include "docent/(.+)/[^/]+"', text):
-            check(folder in laboratory or other not in laboratory, f"{path.relative_to(root)}: no LABORATORY folder, includes {other}, which is one")
+            check(folder in laboratory or other not in laboratory, f"{below(path, root)}: no LABORATORY folder, includes {other}, which is one")
         named = ABLATIONS.search(text)
-        check(folder in laboratory or not named, f"{path.relative_to(root)}: no LABORATORY folder, names {named and named[0]}")
+        check(folder in laboratory or not named, f"{below(path, root)}: no LABORATORY folder, names {named and named[0]}")
 
 
 def check_modules():
