@@ -33,7 +33,8 @@ docent_component(bus FOLDERS messages transport DEPENDS core
   PACKAGES "find_dependency(CycloneDDS)" LIBRARIES CycloneDDS::ddsc)
 docent_component(recording FOLDERS recording DEPENDS bus core LIBRARIES sqlite3 zstd z)
 
-set(DOCENT_PROGRAM_FOLDERS messages/definitions)  # not of the component that holds the folder around
+# Not of the component that holds the folder around: what brings several of them together, and what only the programs need.
+set(DOCENT_PROGRAM_FOLDERS messages/definitions planning/navigator planning/survey)
 
 # docent_component_of(FOLDER RESULT): the component that holds the folder, else `program`.
 function(docent_component_of folder result)
