@@ -3,16 +3,19 @@
 time is counted with orphans."""
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 sys.dont_write_bytecode = True  # the work tree stays as it was
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts/testing"))
+sys.path[:0] = [str(ROOT / "scripts/testing"), str(ROOT / "scripts")]
 import changes  # noqa: E402
+import tidy  # noqa: E402
 
 SUITES = {path.name for path in (ROOT / "tests/suites").iterdir() if path.suffix != ".txt"}
 ORPHAN = """
@@ -211,6 +214,38 @@ class Metered(unittest.TestCase):
                 self.assertGreater(float(seconds), 0.55)
                 self.assertLess(float(seconds), 2.0)
                 self.assertIn(kind, {measure} if measure else {"cgroup", "reaper"})
+
+
+class TidyKeys(Project):
+    """What clang-tidy has found good is known by a key of what the source sees, wherever the clone lies."""
+
+    def keys(self, root):
+        source, other, foreign = (root / name for name in ("src/docent/grid/a.cpp", "src/docent/planning/route/a.cpp", "build/dev/foreign.h"))
+        joint = root / "build/dev/joint.cpp"
+        tidy.hash_of.cache_clear()
+        tidy.own_includes.cache_clear()
+        read = [joint, source, root / "src/docent/grid/a.h", root / "src/docent/base/a.h", other, foreign]
+        commands = {source: {"command": f"c++ -I {root}/src -O2 -o {root}/joint_7.o -c {source}"}}
+        with mock.patch.multiple(tidy, ROOT=root, TIDY="true", files_read_by_compiler=lambda: {joint: read}):
+            return tidy.keys_of([source], commands, {source: joint})
+
+    def test_the_clones_place_and_what_it_does_not_see_do_not_count(self):
+        for name in (".clang-tidy", ".clang-format", "build/dev/foreign.h"):
+            self.write(name, "")
+        self.write("build/dev/joint.cpp", f'#include "{self.root}/src/docent/grid/a.cpp"\n')
+        [first] = self.keys(self.root).values()
+        with tempfile.TemporaryDirectory() as folder:
+            shutil.copytree(self.root, Path(folder) / "clone")
+            self.assertEqual(list(self.keys(Path(folder) / "clone").values()), [first])
+        self.write("src/docent/planning/route/a.cpp", "int other;\n")
+        self.assertEqual(list(self.keys(self.root).values()), [first])
+        for name in ("src/docent/base/a.h", "src/docent/grid/a.cpp", ".clang-tidy", "build/dev/foreign.h"):
+            before = (self.root / name).read_text()
+            self.write(name, before + "// more\n")
+            self.assertNotEqual(list(self.keys(self.root).values()), [first], name)
+            self.write(name, before)
+        (self.root / "build/dev/foreign.h").unlink()
+        self.assertEqual(self.keys(self.root), {})
 
 
 class Runs(Project):
