@@ -88,6 +88,11 @@ class Folders(Project):
             self.assertEqual(self.plan(f"src/docent/grid/a_{kind}.cpp"), (["grid"], [], [], False, False))
         self.assertEqual(self.plan("tests/replay/replay_test.cpp"), ([], ["replay"], [], False, False))
 
+    def test_a_parser_needs_its_fuzzer(self):
+        self.write("src/docent/people/a_fuzzer.cpp", "")
+        self.assertEqual(self.plan("src/docent/people/a.cpp")[2], ["13-fuzz-replay"])
+        self.assertEqual(self.plan("src/docent/base/a.h")[2], [])
+
     def test_documents_need_nothing(self):
         self.assertEqual(self.plan("README.md", "docs/a.md", "src/docent/grid/README.md", "CHANGELOG.md"), ([], [], [], False, False))
 
@@ -312,7 +317,7 @@ class Runs(Project):
         code, said, called = self.run_test("--quick")
         self.assertEqual(code, 0, said)
         self.assertIn("cmake -S . -B build/dev", called)
-        self.assertTrue(any(line.endswith("--target docent docent_base_test docent_people_test") for line in called), called)
+        self.assertTrue(any(line.endswith("--target docent docent_base_test docent_people_test") and line.startswith("cmake --build") for line in called), called)
         self.assertTrue(any(line.endswith("-R ^(base|people)$") for line in called), called)
         self.assertIn("suite changed", called)
         self.assertIn("*/People.*", (self.root / "filter").read_text())
