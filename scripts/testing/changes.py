@@ -75,6 +75,7 @@ class Graph:
 
     def __init__(self, root):
         self.depends, self.test_depends, self.linked_by_tests = {}, {}, {}
+        self.with_fuzzer = {path.parent.relative_to(root / SOURCE).as_posix() for path in (root / SOURCE).rglob("*_fuzzer.cpp")}
         for file in sorted((root / SOURCE).rglob("CMakeLists.txt")):
             for call in re.findall(r"docent_capability\(([^)]*)\)", re.sub(r"#.*", "", file.read_text())):
                 folder, *words = call.split()
@@ -134,6 +135,8 @@ def plan(graph, files, suites):
             tests.add(want.split("/")[1])
         else:
             chosen.add(want)
+    if any(folder in graph.with_fuzzer for folder in libraries | own):
+        chosen.add("13-fuzz-replay")
     touched = graph.users(libraries)
     folders = touched | {folder for folder, names in graph.test_depends.items() if names & touched} | own
     tests |= {name for name, names in graph.linked_by_tests.items() if names & touched}

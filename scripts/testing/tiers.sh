@@ -53,8 +53,24 @@ tier_all() {
   suites
 }
 
+# build_and_test_folders: the tests of `folders` and what is in `targets`, of tier_quick.
+build_and_test_folders() {
+  local tests=""
+  configure
+  if [ ${#folders[@]} -gt 0 ]; then
+    printf 'folders: %s\n' "${folders[*]}"
+    tests=$(scripts/testing/changes.py tests "${folders[@]}")
+    mapfile -t -O ${#targets[@]} targets < <(echo docent; cut -d' ' -f1 <<<"$tests" | sed '/^$/d')
+  fi
+  mapfile -t targets < <(printf '%s\n' "${targets[@]}" | sort -u)
+  stage build cmake --build --preset dev -j "$(nproc)" --target "${targets[@]}"
+  [ -z "$tests" ] ||
+    GTEST_FILTER=$(scripts/testing/changes.py filter "${folders[@]}") stage tests-of-the-change \
+      ctest --preset dev -j "$(nproc)" --no-tests=error -R "^($(cut -d' ' -f2- <<<"$tests" | sed 's/[+.]/\\&/g' | paste -sd'|'))\$"
+}
+
 tier_quick() {
-  local folders=() chosen=() targets=() page="" everything="" tests plan kind name
+  local folders=() chosen=() targets=() page="" everything="" plan kind name
   plan=$(scripts/testing/changes.py plan "${base[@]}") || exit 2
   head -1 <<<"$plan"
   while read -r kind name; do
@@ -71,14 +87,16 @@ tier_quick() {
     configure
     stage build cmake --build --preset dev -j "$(nproc)"
     stage unit-and-replay-tests ctest --preset dev -LE "closed_loop|end_to_end" -j2 --no-tests=error
-  elif [ ${#folders[@]} -gt 0 ]; then
-    printf 'folders: %s\n' "${folders[*]}"
-    configure
-    tests=$(scripts/testing/changes.py tests "${folders[@]}")
-    mapfile -t targets < <(cut -d' ' -f1 <<<"$tests" | sed '/^$/d' | sort -u)
-    stage build cmake --build --preset dev -j "$(nproc)" --target docent "${targets[@]}"
-    [ ${#targets[@]} -eq 0 ] ||
-      GTEST_FILTER=$(scripts/testing/changes.py filter "${folders[@]}") stage tests-of-the-change ctest --preset dev -j "$(nproc)" --no-tests=error -R "^($(cut -d' ' -f2- <<<"$tests" | sed 's/[+.]/\\&/g' | paste -sd'|'))\$"
+  else
+    # Suites that run no program of the build need none.
+    for name in "${chosen[@]}"; do
+      case $name in
+        10-* | 11-* | 12-* | 14-* | 15-*) ;;
+        13-fuzz-replay) targets+=(docent_fuzz_replay) ;;
+        *) targets+=(docent) ;;
+      esac
+    done
+    if [ ${#folders[@]} -gt 0 ] || [ ${#targets[@]} -gt 0 ]; then build_and_test_folders; fi
   fi
   [ -z "$page" ] || chosen+=(14-page 15-page-contract)
   local suite budget

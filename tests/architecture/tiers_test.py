@@ -3,16 +3,19 @@
 time is counted with orphans."""
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 sys.dont_write_bytecode = True  # the work tree stays as it was
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts/testing"))
+sys.path[:0] = [str(ROOT / "scripts/testing"), str(ROOT / "scripts")]
 import changes  # noqa: E402
+import tidy  # noqa: E402
 
 SUITES = {path.name for path in (ROOT / "tests/suites").iterdir() if path.suffix != ".txt"}
 ORPHAN = """
@@ -84,6 +87,11 @@ class Folders(Project):
         for kind in ("test", "benchmark", "fuzzer"):
             self.assertEqual(self.plan(f"src/docent/grid/a_{kind}.cpp"), (["grid"], [], [], False, False))
         self.assertEqual(self.plan("tests/replay/replay_test.cpp"), ([], ["replay"], [], False, False))
+
+    def test_a_parser_needs_its_fuzzer(self):
+        self.write("src/docent/people/a_fuzzer.cpp", "")
+        self.assertEqual(self.plan("src/docent/people/a.cpp")[2], ["13-fuzz-replay"])
+        self.assertEqual(self.plan("src/docent/base/a.h")[2], [])
 
     def test_documents_need_nothing(self):
         self.assertEqual(self.plan("README.md", "docs/a.md", "src/docent/grid/README.md", "CHANGELOG.md"), ([], [], [], False, False))
@@ -213,6 +221,38 @@ class Metered(unittest.TestCase):
                 self.assertIn(kind, {measure} if measure else {"cgroup", "reaper"})
 
 
+class TidyKeys(Project):
+    """What clang-tidy has found good is known by a key of what the source sees, wherever the clone lies."""
+
+    def keys(self, root):
+        source, other, foreign = (root / name for name in ("src/docent/grid/a.cpp", "src/docent/planning/route/a.cpp", "build/dev/foreign.h"))
+        joint = root / "build/dev/joint.cpp"
+        tidy.hash_of.cache_clear()
+        tidy.own_includes.cache_clear()
+        read = [joint, source, root / "src/docent/grid/a.h", root / "src/docent/base/a.h", other, foreign]
+        commands = {source: {"command": f"c++ -I {root}/src -O2 -o {root}/joint_7.o -c {source}"}}
+        with mock.patch.multiple(tidy, ROOT=root, TIDY="true", files_read_by_compiler=lambda: {joint: read}):
+            return tidy.keys_of([source], commands, {source: joint})
+
+    def test_the_clones_place_and_what_it_does_not_see_do_not_count(self):
+        for name in (".clang-tidy", ".clang-format", "build/dev/foreign.h"):
+            self.write(name, "")
+        self.write("build/dev/joint.cpp", f'#include "{self.root}/src/docent/grid/a.cpp"\n')
+        [first] = self.keys(self.root).values()
+        with tempfile.TemporaryDirectory() as folder:
+            shutil.copytree(self.root, Path(folder) / "clone")
+            self.assertEqual(list(self.keys(Path(folder) / "clone").values()), [first])
+        self.write("src/docent/planning/route/a.cpp", "int other;\n")
+        self.assertEqual(list(self.keys(self.root).values()), [first])
+        for name in ("src/docent/base/a.h", "src/docent/grid/a.cpp", ".clang-tidy", "build/dev/foreign.h"):
+            before = (self.root / name).read_text()
+            self.write(name, before + "// more\n")
+            self.assertNotEqual(list(self.keys(self.root).values()), [first], name)
+            self.write(name, before)
+        (self.root / "build/dev/foreign.h").unlink()
+        self.assertEqual(self.keys(self.root), {})
+
+
 class Runs(Project):
     """scripts/test itself, in a project whose suites and tools only say that they were called."""
 
@@ -277,7 +317,7 @@ class Runs(Project):
         code, said, called = self.run_test("--quick")
         self.assertEqual(code, 0, said)
         self.assertIn("cmake -S . -B build/dev", called)
-        self.assertTrue(any(line.endswith("--target docent docent_base_test docent_people_test") for line in called), called)
+        self.assertTrue(any(line.endswith("--target docent docent_base_test docent_people_test") and line.startswith("cmake --build") for line in called), called)
         self.assertTrue(any(line.endswith("-R ^(base|people)$") for line in called), called)
         self.assertIn("suite changed", called)
         self.assertIn("*/People.*", (self.root / "filter").read_text())

@@ -13,7 +13,8 @@
 namespace docent {
 namespace {
 
-constexpr int kSpoiled = 100;                  // of each seed, for parsers
+constexpr int kSpoiled = 1000;                 // of each seed, for parsers
+constexpr int kSpoiledForModules = 20;         // for those of whole modules, which take longer
 constexpr std::chrono::seconds kPatience{60};  // an input; the computer may be busy
 
 int run(const std::filesystem::path& corpus, const std::filesystem::path& keep,
@@ -22,13 +23,12 @@ int run(const std::filesystem::path& corpus, const std::filesystem::path& keep,
   for (const Fuzzer& fuzzer : kFuzzers) {
     auto& own = files[fuzzer.name];
     if (exists(corpus / fuzzer.name)) own.insert(own.begin(), corpus / fuzzer.name);
-    // Those of whole modules take a second for an input.
     const bool is_parser = std::strncmp(fuzzer.name, "hostile_", 8) != 0;
     FuzzReplay done;
     if (own.empty()) {
       done.fault = "it has no seeds";
     } else {
-      done = replay(fuzzer, fuzz_inputs(own, is_parser ? kSpoiled : 0), kPatience);
+      done = replay(fuzzer, fuzz_inputs(own, is_parser ? kSpoiled : kSpoiledForModules), kPatience);
     }
     std::printf("%-7s %-40s %6zu inputs%s%s\n", done.fault.empty() ? "ok" : "FAILED", fuzzer.name, done.inputs,
                 done.fault.empty() ? "" : ": ", done.fault.c_str());
