@@ -45,7 +45,7 @@ FLOORS = {
         {"beam_choice", "particles", "sonar/tracker"},
         {"judgement"},
         {"localizer"},
-        {"markov"},
+        {"markov", "pose_watch"},
         {"monte_carlo", "learning", "sonar/evidence"},
     ],
 }

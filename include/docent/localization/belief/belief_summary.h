@@ -43,4 +43,7 @@ struct SummaryParams {
 /// O(cells * modes).
 void find_modes(BeliefSummary& summary, const SummaryParams& params);
 
+/// The belief of a robot that has moved on since; its rest, in coarse cells, stays. O(cells).
+[[nodiscard]] BeliefSummary carried_on(BeliefSummary belief, const Pose2& before_from_now);
+
 }  // namespace docent::localization

@@ -60,4 +60,16 @@ void find_modes(BeliefSummary& summary, const SummaryParams& params) {
                    [](const BeliefMode& a, const BeliefMode& b) { return a.mass > b.mass; });
 }
 
+BeliefSummary carried_on(BeliefSummary belief, const Pose2& before_from_now) {
+  for (BeliefSummary::Cell& cell : belief.cells) {
+    const Pose2 pose = Pose2{static_cast<double>(cell.x), static_cast<double>(cell.y),
+                             Angle::radians(static_cast<double>(cell.theta))} *
+                       before_from_now;
+    cell = {static_cast<float>(pose.x), static_cast<float>(pose.y), static_cast<float>(pose.theta.radians()),
+            cell.mass};
+  }
+  for (BeliefMode& mode : belief.modes) mode.map_from_robot = mode.map_from_robot * before_from_now;
+  return belief;
+}
+
 }  // namespace docent::localization

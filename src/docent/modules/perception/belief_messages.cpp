@@ -15,6 +15,34 @@ docent_msgs::CoarseBelief rest_message(const localization::BeliefSummary& summar
           static_cast<std::uint32_t>(summary.rest_rows), summary.rest};
 }
 
+docent_msgs::Belief belief_message(const localization::BeliefSummary& summary, Time stamp) {
+  docent_msgs::Belief message;
+  message.header = {to_message(stamp), "map"};
+  message.cells.reserve(summary.cells.size());
+  for (const auto& cell : summary.cells) message.cells.push_back({cell.x, cell.y, cell.theta, cell.mass});
+  message.rest = rest_message(summary);
+  for (const localization::BeliefMode& mode : summary.modes) {
+    const Pose2& pose = mode.map_from_robot;
+    message.hypotheses.push_back({pose.x, pose.y, pose.theta.radians(), mode.covariance, mode.mass});
+  }
+  message.entropy = summary.entropy;
+  message.active_mass = summary.active_mass;
+  message.active_cells = static_cast<std::uint32_t>(summary.active_states);
+  return message;
+}
+
+void add_verdict(docent_msgs::Belief& message, const localization::Verdict& verdict) {
+  message.p_lost = verdict.p_lost();
+  message.agreement = static_cast<float>(verdict.agreement());
+  message.contradiction = static_cast<float>(verdict.contradiction());
+  message.surprise = static_cast<float>(verdict.surprise());
+  message.hidden = static_cast<float>(verdict.hidden());
+  message.confirmation = static_cast<float>(verdict.confirmation());
+  message.blind_way = static_cast<float>(verdict.blind_way());
+  message.unmapped = static_cast<float>(verdict.unmapped());
+  message.share = static_cast<float>(verdict.share());
+}
+
 tf2_msgs::TFMessage odom_in_map_message(const Pose2& map_from_odom, Time stamp) {
   geometry_msgs::TransformStamped transform;
   transform.header = {to_message(stamp), "map"};

@@ -26,6 +26,42 @@ TEST(BeliefMessages, TheRestIsARasterFromItsLowerLeftCorner) {
   EXPECT_EQ(rest.mass, summary.rest);
 }
 
+TEST(BeliefMessages, ABeliefIsToldInCellsModesAndRest) {
+  localization::BeliefSummary summary;
+  summary.cells = {{1.0F, 2.0F, 0.5F, 0.75F}};
+  summary.modes = {{{1.5, 2.5, Angle::radians(0.25)}, {11, 12, 13, 21, 22, 23, 31, 32, 33}, 0.875}};
+  summary.rest = {0.25F};
+  summary.entropy = 3.0;
+  summary.active_mass = 0.5;
+  summary.active_states = 7;
+  const docent_msgs::Belief message = belief_message(summary, kStamp);
+  EXPECT_EQ(message.header.frame_id, "map");
+  EXPECT_EQ(message.header.stamp.nanosec, 7U);
+  ASSERT_EQ(message.cells.size(), 1U);
+  EXPECT_EQ(message.cells[0].y, 2.0F);
+  EXPECT_EQ(message.cells[0].mass, 0.75F);
+  ASSERT_EQ(message.hypotheses.size(), 1U);
+  EXPECT_EQ(message.hypotheses[0].x, 1.5);
+  EXPECT_EQ(message.hypotheses[0].theta, 0.25);
+  EXPECT_EQ(message.hypotheses[0].covariance[5], 23.0);
+  EXPECT_EQ(message.hypotheses[0].mass, 0.875);
+  EXPECT_EQ(message.rest.mass, summary.rest);
+  EXPECT_EQ(message.entropy, 3.0F);
+  EXPECT_EQ(message.active_mass, 0.5F);
+  EXPECT_EQ(message.active_cells, 7U);
+}
+
+TEST(BeliefMessages, AVerdictIsToldWithItsReasons) {
+  const localization::Verdict verdict{{}};
+  docent_msgs::Belief message;
+  message.p_lost = 0.123F;
+  message.confirmation = 0.5F;
+  add_verdict(message, verdict);
+  EXPECT_FLOAT_EQ(static_cast<float>(message.p_lost), static_cast<float>(verdict.p_lost()));
+  EXPECT_EQ(message.confirmation, static_cast<float>(verdict.confirmation()));
+  EXPECT_EQ(message.share, static_cast<float>(verdict.share()));
+}
+
 TEST(BeliefMessages, OdomIsAChildOfTheMap) {
   const tf2_msgs::TFMessage message = odom_in_map_message({1.0, -2.0, Angle::degrees(90.0)}, kStamp);
   ASSERT_EQ(message.transforms.size(), 1U);

@@ -1,31 +1,27 @@
 #include "docent/modules/perception/localize_module.h"
 
-#include <algorithm>
-#include <cmath>
 #include <memory>
 #include <numbers>
-#include <optional>
-#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "docent/grid/occupancy_grid.h"
-#include "docent/localization/belief/checkpoint.h"
 #include "docent/localization/markov/markov_localizer.h"
 #include "docent/localization/monte_carlo/monte_carlo_localizer.h"
+#include "docent/localization/pose_watch/pose_watch.h"
+#include "docent/localization/pose_watch/sensor_silence.h"
 #include "docent/localization/sonar/evidence/sonar_evidence.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/perception/belief_messages.h"
 #include "docent/modules/perception/sonar_localize.h"
 #include "docent/modules/shared/initial_pose.h"
 #include "docent/modules/shared/scanners.h"
-#include "docent/motion_models/odometry_history.h"
-#include "docent/motion_models/unbroken_odometry.h"
 
 namespace docent::modules {
 namespace {
 
 constexpr Duration kLookPeriod = std::chrono::milliseconds{100};
-constexpr Duration kTogether = std::chrono::milliseconds{250};   // scans of two lasers that make one sweep
-constexpr Duration kRepublish = std::chrono::milliseconds{500};  // the belief of a robot that stands
 
 /// Section `localize.sonar`: sonars alone, with `localize.method: sonar`, or beside the lasers.
 struct SonarParams {
@@ -99,70 +95,62 @@ Believer make_believer(const ModuleContext& context, const LocalizeParams& param
                      params);
 }
 
+std::vector<std::string> names_of_scans(const robot::RobotBody& body) {
+  std::vector<std::string> names;
+  for (const robot::Scanner& scanner : body.scanners) names.push_back("scan_" + scanner.name);
+  return names;
+}
+
 class LocalizeModule final : public Module {
  public:
   LocalizeModule(const ModuleContext& context, const LocalizeParams& params)
+      : LocalizeModule{context, params, make_believer(context, params)} {}
+
+  [[nodiscard]] ModuleHealth health() const override {
+    const Time now = bus_.now();
+    if (odometry_silence_.first_silent(now)) return {"degraded", "no odom"};
+    if (body_.scanners.empty()) return {"degraded", "body.scanners is empty: nothing tells where I am"};
+    if (const auto scan = scan_silence_.first_silent(now)) return {"degraded", "no " + *scan};
+    if (!watch_.is_localized()) return {"degraded", "I do not know where I am"};
+    if (sonars_) return health_of_sonars(now);
+    return {};
+  }
+
+ private:
+  LocalizeModule(const ModuleContext& context, const LocalizeParams& params, Believer believer)
       : bus_{context.bus},
         params_{params},
-        checkpoint_path_{context.state / "localize.yaml"},
-        map_hash_{map_hash(context.museum.map)},
         body_{context.config.body()},
-        believer_{make_believer(context, params)},
-        localizer_{believer_.localizer.get()},
-        lasers_(body_.scanners.size()),
+        map_hash_{map_hash(context.museum.map)},
+        watch_{std::move(believer.localizer),
+               mounts_of(body_.scanners),
+               localization::CheckpointKeeper{context.state / "localize.yaml", map_hash_},
+               {params.people, params.markov.sensor.max_range, params.person_range},
+               bus_.now()},
+        sonars_{std::move(believer.sonars)},
+        odometry_silence_{{"odom"}, kSilent},
+        scan_silence_{names_of_scans(body_), kSilent},
+        sonar_silence_{{"sonar"}, kSilent},
         belief_{bus_.publisher(topics::kBelief)},
         pose_{bus_.publisher(topics::kPose)},
         transforms_{bus_.publisher(topics::kTransforms)},
         person_beams_{bus_.publisher(topics::kPersonBeams)} {
-    restore();
-    publish_belief(bus_.now(), localizer_->odom_from_robot());
+    publish_belief(watch_.start(bus_.now()));
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const auto& odometry) {
-      odometry_received_ = bus_.now();
-      const Time stamp = from_message(odometry.header.stamp);
-      // The belief moves by odometry without jumps; what is published is in the odometry's own frame.
-      const auto reading = unbroken_.add(stamp, from_message(odometry.pose.pose));
-      odometry_.add(stamp, reading.odom_from_base);
-      has_jumped_ = has_jumped_ || reading.jumped;
-      if (restored_) check_restored();
+      odometry_silence_.hear(0, bus_.now());
+      watch_.move(from_message(odometry.header.stamp), from_message(odometry.pose.pose));
     });
     subscribe_scanners(bus_, body_, [this](std::size_t i, const auto& scan) { on_scan(i, scan); });
-    if (believer_.sonars)
-      bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const auto& range) { on_sonar(range); });
+    if (sonars_) bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const auto& range) { on_sonar(range); });
     subscribe_initial_pose(bus_, context.museum.map, [this](const localization::BeliefMode& mode, Time stamp) {
       return start_where_told(mode, stamp);
     });
     bus_.every(kLookPeriod, [this] { look(); });
   }
 
-  [[nodiscard]] ModuleHealth health() const override {
-    const Time now = bus_.now();
-    if (now - odometry_received_ > kSilent) return {"degraded", "no odom"};
-    if (lasers_.empty()) return {"degraded", "body.scanners is empty: nothing tells where I am"};
-    for (std::size_t i = 0; i < lasers_.size(); ++i)
-      if (now - lasers_[i].received > kSilent) return {"degraded", "no scan_" + body_.scanners[i].name};
-    if (!localized()) return {"degraded", "I do not know where I am"};
-    if (believer_.sonars) return health_of_sonars(now);
-    return {};
-  }
-
- private:
-  struct Laser {
-    sensor_msgs::LaserScan scan;
-    Time received{};
-    bool is_new = false;
-  };
-
-  [[nodiscard]] bool localized() const { return localizer_->verdict().localized(); }
-
-  void on_scan(std::size_t laser, const sensor_msgs::LaserScan& scan) {
-    lasers_[laser].scan = scan;  // the last one only: who is late drops scans
-    lasers_[laser].received = bus_.now();
-    lasers_[laser].is_new = true;
-  }
-
   [[nodiscard]] ModuleHealth health_of_sonars(Time now) const {
-    if (now - sonar_received_ > kSilent) return {"degraded", "no sonar"};
-    switch (believer_.sonars->trust().state()) {
+    if (sonar_silence_.first_silent(now)) return {"degraded", "no sonar"};
+    switch (sonars_->trust().state()) {
       case localization::SonarTrust::State::frozen:
         return {"degraded", "sonar is frozen"};
       case localization::SonarTrust::State::at_odds:
@@ -173,190 +161,94 @@ class LocalizeModule final : public Module {
     return {};
   }
 
+  void on_scan(std::size_t laser, const sensor_msgs::LaserScan& scan) {
+    scan_silence_.hear(laser, bus_.now());
+    watch_.see(
+        laser, from_message(scan.header.stamp),
+        {scan.ranges, Angle::radians(static_cast<double>(scan.angle_min)), static_cast<double>(scan.angle_increment),
+         static_cast<double>(scan.range_min), static_cast<double>(scan.range_max)});
+  }
+
   void on_sonar(const sensor_msgs::Range& range) {
     const auto index = body_.sonar_of(range.header.frame_id);
     if (!index) return;
-    sonar_received_ = bus_.now();
+    sonar_silence_.hear(0, bus_.now());
     const Time stamp = from_message(range.header.stamp);
-    const auto odom_from_base = odometry_.at(stamp);
+    const auto odom_from_base = watch_.odom_from_base_at(stamp);
     if (!odom_from_base) return;
-    believer_.sonars->hear({stamp, *index, body_.base_from_sonar(*index), *odom_from_base,
-                            static_cast<double>(range.range), static_cast<double>(range.max_range)});
+    sonars_->hear({stamp, *index, body_.base_from_sonar(*index), *odom_from_base, static_cast<double>(range.range),
+                   static_cast<double>(range.max_range)});
   }
 
-  /// One sweep of what came since the last look, or nothing.
   void look() {
-    if (std::none_of(lasers_.begin(), lasers_.end(), [](const Laser& laser) { return laser.is_new; })) return;
-    Time stamp{};
-    for (const Laser& laser : lasers_)
-      if (laser.is_new) stamp = std::max(stamp, from_message(laser.scan.header.stamp));
-    const auto odom_from_base = odometry_.at(stamp);
-    if (!odom_from_base) return;  // wait for odometry, or the scan is too old to be placed
-    sensor_models::RangeSweep sweep;
-    for (std::size_t i = 0; i < lasers_.size(); ++i) {
-      Laser& laser = lasers_[i];
-      const Time taken = from_message(laser.scan.header.stamp);
-      const auto then = odometry_.at(taken);
-      laser.is_new = false;
-      if (laser.scan.ranges.empty() || stamp - taken > kTogether || !then) continue;
-      const Pose2 base_from_then = inverse(*odom_from_base) * *then;
-      sensor_models::append(sweep,
-                            {laser.scan.ranges, Angle::radians(static_cast<double>(laser.scan.angle_min)),
-                             static_cast<double>(laser.scan.angle_increment), static_cast<double>(laser.scan.range_min),
-                             static_cast<double>(laser.scan.range_max)},
-                            base_from_then * body_.scanners[i].base_from_sensor());
-    }
-    if (sweep.beams.empty()) return;
-    digest(sweep, *odom_from_base, stamp);
+    const auto look = watch_.look(bus_.now());
+    if (!look) return;
+    const localization::PoseWatch::Moment& moment = look->moment;
+    if (look->is_belief_due) publish_belief(moment);
+    publish_person_beams(*look);
+    if (watch_.is_localized()) transforms_.publish(odom_in_map_message(watch_.map_from_raw(moment), moment.stamp));
+    if (look->is_pose_due) pose_.publish(pose_message(watch_.best_mode(), moment.stamp));
   }
 
-  void digest(const sensor_models::RangeSweep& sweep, const Pose2& odom_from_base, Time stamp) {
-    const localization::Localizer::Step step = localizer_->observe(sweep, odom_from_base, stamp);
-    if (step.updated) last_step_ = step;
-    const bool is_torn = has_jumped_ && !(stamp < unbroken_.jumped());
-    if (step.updated || is_torn || bus_.now() - belief_published_ >= kRepublish) publish_belief(stamp, odom_from_base);
-    if (is_torn) has_jumped_ = false;
-    publish_person_beams(sweep, odom_from_base, stamp);
-    publish_transform(stamp);
-    if (step.updated && localized()) {
-      publish_pose(stamp);
-      save(stamp);
-    }
+  /// Somebody says where the robot stood at `stamp`.
+  MessageFault start_where_told(const localization::BeliefMode& mode, Time stamp) {
+    const auto moment = watch_.start_where_told(mode, stamp);
+    if (!moment) return {"pose", "came before any odometry"};
+    publish_belief(*moment);
+    return {};
   }
 
-  /// The belief of the last update, carried forward by odometry to the stamp.
-  void publish_belief(Time stamp, const Pose2& odom_from_base) {
-    const localization::BeliefSummary& summary = localizer_->summary();
-    const Pose2 before_from_now = inverse(localizer_->odom_from_robot()) * odom_from_base;
-    docent_msgs::Belief message;
-    message.header = {docent::to_message(stamp), "map"};
+  void publish_belief(const localization::PoseWatch::Moment& moment) {
+    docent_msgs::Belief message = belief_message(watch_.tell_belief(moment, bus_.now()), moment.stamp);
     message.map_hash = map_hash_;
     message.cell_size = static_cast<float>(params_.markov.states.cell_size);
     message.heading_step = static_cast<float>(params_.markov.states.heading_step * std::numbers::pi / 180.0);
-    message.cells.reserve(summary.cells.size());
-    for (const auto& cell : summary.cells) {
-      const Pose2 pose = Pose2{static_cast<double>(cell.x), static_cast<double>(cell.y),
-                               Angle::radians(static_cast<double>(cell.theta))} *
-                         before_from_now;
-      message.cells.push_back({static_cast<float>(pose.x), static_cast<float>(pose.y),
-                               static_cast<float>(pose.theta.radians()), cell.mass});
-    }
-    message.rest = rest_message(summary);
-    for (const localization::BeliefMode& mode : summary.modes) {
-      const Pose2 pose = mode.map_from_robot * before_from_now;
-      message.hypotheses.push_back({pose.x, pose.y, pose.theta.radians(), mode.covariance, mode.mass});
-    }
-    message.entropy = summary.entropy;
-    message.p_lost = localizer_->verdict().p_lost();
-    message.localized = localized();
-    message.agreement = static_cast<float>(localizer_->verdict().agreement());
-    message.contradiction = static_cast<float>(localizer_->verdict().contradiction());
-    message.surprise = static_cast<float>(localizer_->verdict().surprise());
-    message.hidden = static_cast<float>(localizer_->verdict().hidden());
-    message.confirmation = static_cast<float>(localizer_->verdict().confirmation());
-    message.blind_way = static_cast<float>(localizer_->verdict().blind_way());
-    message.unmapped = static_cast<float>(localizer_->verdict().unmapped());
-    message.share = static_cast<float>(localizer_->verdict().share());
-    message.active_mass = summary.active_mass;
-    message.active_cells = static_cast<std::uint32_t>(summary.active_states);
-    message.beams_used = static_cast<std::uint32_t>(last_step_.beams_used);
-    message.beams_filtered = static_cast<std::uint32_t>(last_step_.beams_filtered);
-    message.odom_pose = docent::to_message(inverse(unbroken_.odom_from_raw(stamp)) * odom_from_base);
+    add_verdict(message, watch_.verdict());
+    message.localized = watch_.is_localized();
+    message.beams_used = static_cast<std::uint32_t>(watch_.last_update().beams_used);
+    message.beams_filtered = static_cast<std::uint32_t>(watch_.last_update().beams_filtered);
+    message.odom_pose = docent::to_message(watch_.raw_from_base(moment));
     belief_.publish(std::move(message));
-    belief_published_ = bus_.now();
   }
 
-  void publish_person_beams(const sensor_models::RangeSweep& sweep, const Pose2& odom_from_base, Time stamp) {
+  void publish_person_beams(const localization::PoseWatch::Look& look) {
+    const auto beams = watch_.beams(look);
     docent_msgs::PersonBeams message;
-    message.header = {docent::to_message(stamp), "base_link"};
-    message.localized = localized();
-    if (const auto best = localizer_->map_from_robot(odom_from_base))
+    message.header = {docent::to_message(look.moment.stamp), "base_link"};
+    message.localized = watch_.is_localized();
+    if (const auto best = watch_.map_from_base(look.moment))
       message.map_from_base = {best->x, best->y, best->theta.radians()};
+    const Pose2& odom_from_base = look.moment.odom_from_base;
     message.odom_from_base = {odom_from_base.x, odom_from_base.y, odom_from_base.theta.radians()};
-    message.bearings.reserve(sweep.beams.size());
-    message.ranges.reserve(sweep.beams.size());
-    message.origins.reserve(sweep.beams.size());
-    const auto origins = localizer_->origins(sweep, odom_from_base, params_.markov.sensor.max_range, params_.people);
-    for (std::size_t i = 0; i < sweep.beams.size(); ++i) {
-      const sensor_models::SweepBeam& beam = sweep.beams[i];
+    message.bearings.reserve(look.sweep.beams.size());
+    message.ranges.reserve(look.sweep.beams.size());
+    message.origins.reserve(look.sweep.beams.size());
+    for (std::size_t i = 0; i < look.sweep.beams.size(); ++i) {
+      const sensor_models::SweepBeam& beam = look.sweep.beams[i];
       message.bearings.push_back(static_cast<float>(beam.bearing));
       message.ranges.push_back(static_cast<float>(beam.no_return ? -beam.range : beam.range));
-      message.origins.push_back(static_cast<std::uint8_t>(origins[i]));
-      if (origins[i] != sensor_models::BeamOrigin::not_map || beam.range > params_.person_range) continue;
-      const Point2 end = sensor_models::endpoint(beam);
+      message.origins.push_back(static_cast<std::uint8_t>(beams.origins[i]));
+    }
+    for (const Point2 end : beams.ends) {
       message.x.push_back(static_cast<float>(end.x));
       message.y.push_back(static_cast<float>(end.y));
     }
     person_beams_.publish(std::move(message));
   }
 
-  void publish_transform(Time stamp) {
-    if (!localized()) return;
-    transforms_.publish(odom_in_map_message(*localizer_->map_from_robot({}) * unbroken_.odom_from_raw(stamp), stamp));
-  }
-
-  void publish_pose(Time stamp) { pose_.publish(pose_message(localizer_->summary().modes.front(), stamp)); }
-
-  void save(Time stamp) {
-    if (bus_.now() - saved_ < localization::kCheckpointEvery) return;
-    saved_ = bus_.now();
-    // A checkpoint that cannot be written costs a restarted robot a new search, nothing else.
-    const Pose2 raw_from_robot = inverse(unbroken_.odom_from_raw(stamp)) * localizer_->odom_from_robot();
-    (void)localization::save_localizer_checkpoint({map_hash_, stamp, raw_from_robot, localizer_->summary().modes},
-                                                  checkpoint_path_);
-  }
-
-  void restore() {
-    auto checkpoint = localization::load_localizer_checkpoint(checkpoint_path_);
-    if (!checkpoint || checkpoint->map_hash != map_hash_) return;
-    const Duration age = bus_.now() - checkpoint->time;
-    if (age < Duration{0} - kTogether || age > localization::kCheckpointAge) return;
-    localizer_->start_at(checkpoint->modes, checkpoint->odom_from_robot, checkpoint->time);
-    restored_ = checkpoint->odom_from_robot;
-  }
-
-  /// Somebody says where the robot stood at `stamp`; where nobody knows odometry of then, it stands there now.
-  MessageFault start_where_told(const localization::BeliefMode& mode, Time stamp) {
-    if (odometry_.empty()) return {"pose", "came before any odometry"};
-    restored_.reset();
-    auto odom_from_base = odometry_.at(stamp);
-    if (!odom_from_base) {
-      stamp = odometry_.latest_time();
-      odom_from_base = odometry_.latest();
-    }
-    localizer_->start_at(std::span{&mode, 1}, *odom_from_base, stamp);
-    publish_belief(stamp, *odom_from_base);
-    return {};
-  }
-
-  /// The first odometry after a restart: has the robot been moved, or its odometry been reset?
-  void check_restored() {
-    if (distance(restored_->position(), odometry_.latest().position()) > localization::kCheckpointWay)
-      localizer_->start_unknown();
-    restored_.reset();
-  }
-
   transport::Bus& bus_;
   LocalizeParams params_;
-  std::filesystem::path checkpoint_path_;
-  std::string map_hash_;
   robot::RobotBody body_;
-  Believer believer_;
-  localization::Localizer* localizer_;
-  std::vector<Laser> lasers_;  ///< [scanners]
+  std::string map_hash_;
+  localization::PoseWatch watch_;
+  std::shared_ptr<localization::SonarEvidence> sonars_;  ///< beside the lasers; null: they take no part
+  localization::SensorSilence odometry_silence_;
+  localization::SensorSilence scan_silence_;
+  localization::SensorSilence sonar_silence_;
   transport::Publisher<docent_msgs::Belief> belief_;
   transport::Publisher<geometry_msgs::PoseWithCovarianceStamped> pose_;
   transport::Publisher<tf2_msgs::TFMessage> transforms_;
   transport::Publisher<docent_msgs::PersonBeams> person_beams_;
-  motion_models::UnbrokenOdometry unbroken_;
-  motion_models::OdometryHistory odometry_;
-  bool has_jumped_ = false;        ///< since the last belief: others carry that one by an odometry that is torn
-  std::optional<Pose2> restored_;  ///< odometry of the checkpoint, until odometry speaks
-  localization::Localizer::Step last_step_;
-  Time odometry_received_{};
-  Time sonar_received_{};
-  Time belief_published_{};
-  Time saved_{};
 };
 
 }  // namespace

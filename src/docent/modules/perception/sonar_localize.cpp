@@ -108,21 +108,12 @@ class SonarLocalizeModule final : public Module {
   void publish_belief(Time stamp, const Pose2& odom_from_robot) {
     const localization::BeliefSummary summary =
         localization::gaussian_belief(tracker_.map_from_robot(), tracker_.covariance(), tracker_.p_lost(), map_);
-    docent_msgs::Belief message;
-    message.header = {docent::to_message(stamp), "map"};
+    docent_msgs::Belief message = belief_message(summary, stamp);
     message.map_hash = map_hash_;
     message.cell_size = static_cast<float>(map_.frame.resolution);
     message.heading_step = static_cast<float>(kDegree);
-    for (const auto& cell : summary.cells) message.cells.push_back({cell.x, cell.y, cell.theta, cell.mass});
-    message.rest = rest_message(summary);
-    const localization::BeliefMode& mode = summary.modes.front();
-    message.hypotheses.push_back({mode.map_from_robot.x, mode.map_from_robot.y, mode.map_from_robot.theta.radians(),
-                                  mode.covariance, mode.mass});
-    message.entropy = summary.entropy;
     message.p_lost = tracker_.p_lost();
     message.localized = localized();
-    message.active_mass = summary.active_mass;
-    message.active_cells = static_cast<std::uint32_t>(summary.active_states);
     message.odom_pose = docent::to_message(odom_from_robot);
     belief_.publish(std::move(message));
   }

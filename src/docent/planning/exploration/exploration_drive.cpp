@@ -10,7 +10,7 @@ namespace {
 constexpr double kBlockedRadius = 0.5;  // [m] about what holds it up
 constexpr double kBlockedAhead = 0.7;   // [m] from the robot's centre: where it stands
 constexpr int kTriesAGoal = 3;          // times that it was held up on its way to one place, then it lets that be
-constexpr double kSameGoal = 0.8;       // [m]
+constexpr double kOneGoal = 0.8;       // [m]
 constexpr int kMostChoices = 4;  // times that it set out for one place and turned away: then it lets that be, too
 constexpr double kDrivenBetween = 3.0;  // [m] at least between two such times: nearby places may take turns
 constexpr std::size_t kTriesHome = 5;   // ways home on which it was held up, then it stays
@@ -78,20 +78,20 @@ void ExplorationDrive::note_progress(Point2 robot, bool waits, Time now) {
 
 void ExplorationDrive::note_failure(Point2 goal, Point2 robot) {
   auto known = std::find_if(failures_.begin(), failures_.end(),
-                            [&](const Failure& failure) { return distance(failure.goal, goal) < kSameGoal; });
+                            [&](const Failure& failure) { return distance(failure.goal, goal) < kOneGoal; });
   if (known == failures_.end()) known = failures_.insert(failures_.end(), {goal, 0});
   const bool is_there = distance(goal, robot) < kBlockedAhead;
-  if (++known->times >= kTriesAGoal || is_there) explorer_.give_up(goal, kSameGoal);
+  if (++known->times >= kTriesAGoal || is_there) explorer_.give_up(goal, kOneGoal);
 }
 
 /// Two places may each look worse when the robot comes near, and it would drive to and fro between them for ever.
 void ExplorationDrive::note_choice(Point2 goal) {
   auto known = std::find_if(choices_.begin(), choices_.end(),
-                            [&](const Choice& choice) { return distance(choice.goal, goal) < kSameGoal; });
+                            [&](const Choice& choice) { return distance(choice.goal, goal) < kOneGoal; });
   if (known == choices_.end()) known = choices_.insert(choices_.end(), {goal, 0, driven_ - kDrivenBetween});
   if (driven_ - known->at < kDrivenBetween) return;
   known->at = driven_;
-  if (++known->times >= kMostChoices) explorer_.give_up(goal, kSameGoal);
+  if (++known->times >= kMostChoices) explorer_.give_up(goal, kOneGoal);
 }
 
 bool ExplorationDrive::explore(const OccupancyGrid& map, Point2 robot) {
@@ -99,7 +99,7 @@ bool ExplorationDrive::explore(const OccupancyGrid& map, Point2 robot) {
   frontier_ = next ? next->frontier : 0;
   if (!next) return false;
   const Point2 goal = next->way.back();
-  if (way_.empty() || distance(way_.back(), goal) > kSameGoal) note_choice(goal);
+  if (way_.empty() || distance(way_.back(), goal) > kOneGoal) note_choice(goal);
   set_way(std::move(next->way));
   return true;
 }

@@ -1,0 +1,42 @@
+#include "docent/localization/pose_watch/sweep_joiner.h"
+
+#include <algorithm>
+
+namespace docent::localization {
+
+SweepJoiner::SweepJoiner(const std::vector<Pose2>& base_from_laser) : lasers_(base_from_laser.size()) {
+  for (std::size_t i = 0; i < lasers_.size(); ++i) lasers_[i].base_from_laser = base_from_laser[i];
+}
+
+void SweepJoiner::keep(std::size_t laser, Time stamp, const sensor_models::LaserReading& reading) {
+  Laser& kept = lasers_[laser];
+  kept.stamp = stamp;
+  kept.reading = reading;
+  kept.reading.ranges = {};
+  kept.ranges.assign(reading.ranges.begin(), reading.ranges.end());
+  kept.is_new = true;
+}
+
+std::optional<SweepJoiner::Joined> SweepJoiner::join(const OdometryTrail& odometry) {
+  if (std::none_of(lasers_.begin(), lasers_.end(), [](const Laser& laser) { return laser.is_new; }))
+    return std::nullopt;
+  Joined joined;
+  for (const Laser& laser : lasers_)
+    if (laser.is_new) joined.stamp = std::max(joined.stamp, laser.stamp);
+  const auto odom_from_base = odometry.at(joined.stamp);
+  if (!odom_from_base) return std::nullopt;  // wait for odometry, or the scan is too old to be placed
+  joined.odom_from_base = *odom_from_base;
+  for (Laser& laser : lasers_) {
+    const auto then = odometry.at(laser.stamp);
+    laser.is_new = false;
+    if (laser.ranges.empty() || joined.stamp - laser.stamp > kTogether || !then) continue;
+    const Pose2 base_from_then = inverse(*odom_from_base) * *then;
+    sensor_models::LaserReading reading = laser.reading;
+    reading.ranges = laser.ranges;
+    sensor_models::append(joined.sweep, reading, base_from_then * laser.base_from_laser);
+  }
+  if (joined.sweep.beams.empty()) return std::nullopt;
+  return joined;
+}
+
+}  // namespace docent::localization

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "docent/base/time.h"
+#include "docent/geometry/pose2.h"
+#include "docent/localization/pose_watch/odometry_trail.h"
+#include "docent/sensor_models/range_sweep.h"
+
+namespace docent::localization {
+
+/// One sweep of what all lasers have seen since the last one. Of each laser it keeps the newest scan only: who is late
+/// drops scans.
+class SweepJoiner {
+ public:
+  static constexpr Duration kTogether = std::chrono::milliseconds{250};  ///< scans that make one sweep
+
+  /// @param base_from_laser  [lasers] where they are mounted
+  explicit SweepJoiner(const std::vector<Pose2>& base_from_laser);
+
+  void keep(std::size_t laser, Time stamp, const sensor_models::LaserReading& reading);
+  /// All scans about the robot's centre at the stamp of the newest.
+  struct Joined {
+    sensor_models::RangeSweep sweep;
+    Pose2 odom_from_base;
+    Time stamp{};
+  };
+  /// None: nothing is new, or it waits for odometry, or nothing came back. O(beams)
+  [[nodiscard]] std::optional<Joined> join(const OdometryTrail& odometry);
+
+ private:
+  struct Laser {
+    Pose2 base_from_laser;
+    Time stamp{};
+    sensor_models::LaserReading reading;  ///< without its ranges
+    std::vector<float> ranges;            ///< [m]
+    bool is_new = false;
+  };
+  std::vector<Laser> lasers_;
+};
+
+}  // namespace docent::localization
