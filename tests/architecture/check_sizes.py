@@ -28,8 +28,6 @@ EXCEPTIONS = {
     "web/src/contract/contract.ts": "written by docent_web_contract, not by hand",
     "src/docent/modules/drive/plan_module.cpp: PlanModule": "its state machine moves into a library of its own",
     "src/docent/modules/exploration/explore_module.cpp: ExploreModule": "its state machine moves into a library of its own",
-    "src/docent/modules/guide/head_module.cpp: HeadModule": "its state machine moves into a library of its own",
-    "src/docent/modules/guide/sound_module.cpp: SoundModule": "its state machine moves into a library of its own",
     "src/docent/modules/perception/localize_module.cpp: LocalizeModule": "its state machine moves into a library of its own",
 }
 
