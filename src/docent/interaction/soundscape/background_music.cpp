@@ -1,4 +1,4 @@
-#include "docent/modules/guide/background_music.h"
+#include "docent/interaction/soundscape/background_music.h"
 
 #include <chrono>
 #include <memory>
@@ -8,27 +8,26 @@
 #include "docent/interaction/sound/sound_file.h"
 #include "docent/interaction/speech/renderer.h"
 
-namespace docent::modules {
+namespace docent::interaction {
 
 BackgroundMusic::Ready BackgroundMusic::read(const std::optional<std::filesystem::path>& file,
                                              const std::filesystem::path& folder) {
   Ready ready;
-  interaction::Clip clip;
+  Clip clip;
   if (file) {
-    auto taken = interaction::take_recording(*file, folder);
-    auto held = interaction::read_clip(*file);
+    auto taken = take_recording(*file, folder);
+    auto held = read_clip(*file);
     if (!taken || !held) return {{}, {}, 0.0, (taken ? held.error() : taken.error()).message};
     ready.file = std::move(taken->file);
     clip = std::move(*held);
   } else {
-    clip = interaction::melody_clip();
-    const interaction::SharedSound sound = interaction::shared_sound(clip);
-    if (auto written = interaction::write_shared(sound, folder); !written)
-      return {{}, {}, 0.0, written.error().message};
+    clip = melody_clip();
+    const SharedSound sound = shared_sound(clip);
+    if (auto written = write_shared(sound, folder); !written) return {{}, {}, 0.0, written.error().message};
     ready.file = sound.file;
   }
   ready.loudness_db = interaction::loudness_db(clip);
-  ready.clip = std::make_shared<const interaction::Clip>(std::move(clip));
+  ready.clip = std::make_shared<const Clip>(std::move(clip));
   return ready;
 }
 
@@ -48,4 +47,4 @@ bool BackgroundMusic::play(bool is_wanted, Time now) {
   return true;
 }
 
-}  // namespace docent::modules
+}  // namespace docent::interaction

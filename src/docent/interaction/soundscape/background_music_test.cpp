@@ -1,4 +1,4 @@
-#include "docent/modules/guide/background_music.h"
+#include "docent/interaction/soundscape/background_music.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -10,7 +10,7 @@
 #include "docent/interaction/sound/levels_for_test.h"
 #include "docent/interaction/sound/sound_file.h"
 
-namespace docent::modules {
+namespace docent::interaction {
 namespace {
 
 class BackgroundMusicTest : public testing::Test {
@@ -32,8 +32,7 @@ TEST_F(BackgroundMusicTest, InVirtualTimeItPlaysAtOnce) {
   EXPECT_EQ(music.start(), time_from_seconds(2.0));
   EXPECT_FALSE(music.play(true, time_from_seconds(3.0))) << "it plays already";
   EXPECT_EQ(music.start(), time_from_seconds(2.0));
-  EXPECT_NEAR(interaction::sound_duration(folder_ / "audio" / music.file()).value_or(0.0),
-              interaction::duration_s(*music.clip()), 1e-3);
+  EXPECT_NEAR(sound_duration(folder_ / "audio" / music.file()).value_or(0.0), duration_s(*music.clip()), 1e-3);
   EXPECT_TRUE(music.play(false, time_from_seconds(4.0)));
   EXPECT_FALSE(music.is_playing());
 }
@@ -50,7 +49,7 @@ TEST_F(BackgroundMusicTest, InWallTimeNobodyWaitsForIt) {
 }
 
 TEST_F(BackgroundMusicTest, TheMuseumsOwnMusicPlays) {
-  const interaction::SharedSound tune = interaction::shared_sound(interaction::sine(1000.0, -20.0, 1.0));
+  const SharedSound tune = shared_sound(sine(1000.0, -20.0, 1.0));
   ASSERT_TRUE(write_file_atomically(folder_ / "tune.wav", tune.content));
   BackgroundMusic music{folder_ / "tune.wav", folder_ / "audio", true};
   EXPECT_TRUE(music.play(true, {}));
@@ -68,4 +67,4 @@ TEST_F(BackgroundMusicTest, WhatCannotBePlayedIsNamed) {
 }
 
 }  // namespace
-}  // namespace docent::modules
+}  // namespace docent::interaction

@@ -8,7 +8,7 @@
 #include "docent/base/time.h"
 #include "docent/interaction/sound/clip.h"
 
-namespace docent::modules {
+namespace docent::interaction {
 
 /// Which music plays, and since when. The museum's file, or Docent's melody, is read when it is wanted first: on a
 /// thread of its own, since that takes up to a second, and at once in virtual time.
@@ -22,7 +22,7 @@ class BackgroundMusic {
   bool play(bool is_wanted, Time now);
 
   [[nodiscard]] bool is_playing() const { return is_playing_; }
-  [[nodiscard]] const interaction::SharedClip& clip() const { return ready_.clip; }
+  [[nodiscard]] const SharedClip& clip() const { return ready_.clip; }
   [[nodiscard]] const std::string& file() const { return ready_.file; }    ///< HASH and its ending
   [[nodiscard]] double loudness_db() const { return ready_.loudness_db; }  ///< of the file
   [[nodiscard]] Time start() const { return start_; }                      ///< of its first sample
@@ -31,7 +31,7 @@ class BackgroundMusic {
  private:
   struct Ready {
     std::string file;
-    interaction::SharedClip clip;
+    SharedClip clip;
     double loudness_db = 0.0;
     std::string fault;
   };
@@ -48,4 +48,4 @@ class BackgroundMusic {
   std::future<Ready> reading_;
 };
 
-}  // namespace docent::modules
+}  // namespace docent::interaction
