@@ -211,7 +211,7 @@ def check_laboratory(root):
             check(folder in laboratory or word not in laboratory, f"{folder}: is no LABORATORY folder and depends on {word}, which is one")
     for path, text in sources(root):
         folder = below(path, root).parent.as_posix()
-        for other in re.findall(r'#include "docent/(.+)/[^/]+"', text):
+        for other in re.findall(r'#include "docent/(.+)/[^/\n]+"', text):
             check(folder in laboratory or other not in laboratory, f"{below(path, root)}: no LABORATORY folder, includes {other}, which is one")
         named = ABLATIONS.search(text)
         check(folder in laboratory or not named, f"{below(path, root)}: no LABORATORY folder, names {named and named[0]}")

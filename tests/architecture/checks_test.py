@@ -188,7 +188,7 @@ class Laboratory(Project):
 
     def test_nothing_else_sees_a_folder_of_the_laboratory(self):
         plain, own = "docent_capability(apps/x SOURCES x DEPENDS base", "docent_capability(apps/x LABORATORY SOURCES x DEPENDS base"
-        include = '#include "docent/apps/laboratory/crowd/crowd.h"\n'
+        include = '#include "docent/base/time.h"\n#include "docent/apps/laboratory/crowd/crowd.h"\n'
         self.assertEqual(self.faults(f"{plain})", ""), 0)
         self.assertEqual(self.faults(f"{plain} apps/laboratory/crowd)", ""), 1)
         self.assertEqual(self.faults(f"{plain})", include), 1)

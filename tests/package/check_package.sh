@@ -62,6 +62,7 @@ expect "dpkg installs it with its dependencies and nothing else" inside dpkg -i 
 [ $failed -eq 0 ] || finish
 expect "the source tree is not visible" bash -c "! [ -e '$root$PWD' ]"
 expect "docent --version is the package's version" is "docent $(dpkg-deb -f "$deb" Version)" "$(inside docent --version)"
+expect "the laboratory is not in it" bash -c "! [ -e '$root/usr/bin/docent-lab' ]"
 for museum in bonn smithsonian; do
   expect "docent check says that $museum is fine" inside docent check /usr/share/docent/museums/$museum
   expect "docent golog check says that its tour program is fine" inside docent golog check /usr/share/docent/museums/$museum

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
 #include <type_traits>
 #include <utility>
+
+#include "docent/base/files.h"
 
 namespace docent::apps::ablations {
 namespace {
@@ -23,6 +26,16 @@ TEST(AblationParams, EverySwitchIsNamedWhenItIsNotAsByDefault) {
   params.best_pose_error_x = -0.5;
   params.without_ladder = true;
   EXPECT_EQ(params.crippled(), "best_pose_error_x, without_ladder");
+}
+
+TEST(AblationParams, TheReadmeExplainsEverySwitch) {
+  const auto readme = read_file("src/docent/apps/laboratory/ablations/README.md");
+  ASSERT_TRUE(readme);
+  const auto is_explained = [&](const char* name, auto&) {
+    EXPECT_NE(readme->find("| `" + std::string{name} + "` | "), std::string::npos) << name;
+  };
+  AblationParams params;
+  params.visit(is_explained);
 }
 
 }  // namespace
