@@ -70,7 +70,6 @@ install(DIRECTORY examples DESTINATION ${dev} ${library_system})
 install(DIRECTORY museums/bonn DESTINATION ${dev}/examples/museums ${library_system} PATTERN simulation.yaml EXCLUDE)
 install(FILES docs/library.md DESTINATION ${dev} ${library_system})
 install(FILES ${packaging}/debian/copyright ${generated}/changelog.gz DESTINATION ${dev} ${library_system})
-install(FILES ${packaging}/debian/libdocent-dev.lintian-overrides DESTINATION share/lintian/overrides RENAME libdocent-dev ${library_system})
 if(DOCENT_PYTHON)
   install(FILES ${packaging}/debian/copyright ${generated}/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-docent
     COMPONENT python_system EXCLUDE_FROM_ALL)
@@ -128,7 +127,7 @@ set(CPACK_DEBIAN_LIBDOCENT-DEV_DESCRIPTION
 "autonomous museum tour guide: library for programs in C++
 Bricks of the tour guide for robots of others: localization in a map by grids
 and samples, maps from logs, planning by value iteration, the dynamic window
-with virtual measurements, people, tours, and a bus over DDS or in virtual time.
+with virtual measurements, people, tours, a bus over DDS or in virtual time.
 .
 The package holds headers, static libraries, what find_package(docent) needs,
 and examples.")

@@ -35,6 +35,7 @@ def filtered(text, name):
     for pattern, comment in SAME:
         text = re.sub(rf"^([ ]*)({pattern})", rf"\1/** {comment} */ \2", text, flags=re.M)
     text = re.sub(r"^inline constexpr Topic<([\w:]+)> (\w+)", r"/** Carries \1. */ \g<0>", text, flags=re.M)
+    text = re.sub(r"\b(eq|Fig)\. (?=\d)", r"\1.\\ ", text)  # else the brief ends there
     text = TOGETHER.sub(apart, text)
     if name == OF_ROS:
         text = re.sub(FIELD, lambda line: re.sub(r" *([^;]+;)", r"  /** As in ROS 2. */ \1", line[0]), text, flags=re.M)
