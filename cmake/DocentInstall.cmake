@@ -145,6 +145,6 @@ Bricks of the tour guide for notebooks and experiments: maps, sensor models,
 localization, planning and recordings, with arrays of NumPy.")
   set(CPACK_DEBIAN_PYTHON3-DOCENT_PACKAGE_SECTION python)
   set(CPACK_DEBIAN_PYTHON3-DOCENT_PACKAGE_SHLIBDEPS ON)
-  set(CPACK_DEBIAN_PYTHON3-DOCENT_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy, swi-prolog-core")
+  set(CPACK_DEBIAN_PYTHON3-DOCENT_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
 endif()
 include(CPack)

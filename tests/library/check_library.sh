@@ -34,7 +34,7 @@ expect() {
 }
 inside() { env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 DEBIAN_FRONTEND=noninteractive chroot "$root" "$@"; }
 debs=("$dev") names=(libdocent-dev) tools=(cmake g++ make python3-minimal)
-[ -f "$python" ] && debs+=("$python") names+=(python3-docent) tools+=(python3-numpy)
+[ -f "$python" ] && debs+=("$python") names+=(python3-docent) tools+=(python3 python3-numpy)
 
 if [ "$mirror" = --mirror ]; then
   scripts/bare-root "$root" || exit 1
