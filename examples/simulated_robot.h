@@ -51,16 +51,16 @@ struct SimulatedRobot {
     time += 0.25;
   }
 
-  /// A laser that looks all round, a beam a degree, with an error of 1 cm. `scale`: of a sensor that measures too long.
-  docent::sensor_models::RangeSweep look(double scale = 1.0) {
-    constexpr double kReach = 10.0;  // [m]
+  /// A laser that looks all round, a beam a degree, with an error of 1 cm. `scale`: of a sensor that measures too long;
+  /// `reach` [m]: farther away it sees nothing.
+  docent::sensor_models::RangeSweep look(double scale = 1.0, double reach = 10.0) {
     docent::sensor_models::RangeSweep sweep;
     for (int degree = -180; degree < 180; ++degree) {
       const docent::Angle bearing = docent::Angle::degrees(degree);
       const auto wall =
-          caster.cast(map_from_robot.position(), docent::unit(map_from_robot.theta + bearing), kReach, 0.3);
-      const double range = std::max(0.0, scale * wall.value_or(kReach) + rng.normal(0.0, 0.01));
-      sweep.beams.push_back({bearing.radians(), std::min(range, kReach), range >= kReach});
+          caster.cast(map_from_robot.position(), docent::unit(map_from_robot.theta + bearing), reach, 0.3);
+      const double range = std::max(0.0, scale * wall.value_or(reach) + rng.normal(0.0, 0.01));
+      sweep.beams.push_back({bearing.radians(), std::min(range, reach), range >= reach});
     }
     return sweep;
   }
