@@ -1,6 +1,8 @@
-# What is installed, in two components. `program` can be moved as a whole: the program looks for share/docent beside
+# What is installed, in components. `program` can be moved as a whole: the program looks for share/docent beside
 # itself (src/docent/base/shipped_files.h), where names are those of the source tree. `cmake --install build/release
-# --prefix DIR` installs it. `system` belongs to the Debian package alone: unit, /etc, manual.
+# --prefix DIR` installs it. `system` belongs to the Debian package alone: unit, /etc, manual. `library` is that of
+# DocentLibrary.cmake, `python` that of the Python package; each is a Debian package of its own, with what belongs to that alone
+# in `library_system` and `python_system`.
 include(GNUInstallDirs)
 set(DOCENT_MAINTAINER "The Docent maintainers")
 set(DOCENT_MAINTAINER_EMAIL "maintainers@docent.example")
@@ -48,7 +50,10 @@ add_custom_command(
   COMMAND gzip -9nc ${generated}/changelog > ${generated}/changelog.gz
   DEPENDS ${generated}/changelog)
 add_custom_target(docent_package_files
-  DEPENDS docent docent_idl ${generated}/docent.1.gz ${generated}/robot.yaml ${generated}/changelog.gz)
+  DEPENDS docent docent_idl docent_library ${generated}/docent.1.gz ${generated}/robot.yaml ${generated}/changelog.gz)
+if(DOCENT_PYTHON)
+  add_dependencies(docent_package_files docent_python)
+endif()
 
 set(system COMPONENT system EXCLUDE_FROM_ALL)
 install(FILES ${packaging}/debian/docent.service DESTINATION lib/systemd/system ${system})
@@ -58,35 +63,88 @@ install(FILES ${generated}/docent.1.gz DESTINATION share/man/man1 ${system})
 install(FILES ${packaging}/debian/copyright ${generated}/changelog.gz DESTINATION share/doc/docent ${system})
 install(FILES ${packaging}/debian/lintian-overrides DESTINATION share/lintian/overrides RENAME docent ${system})
 
+# The examples, with the museum that they take, and what every Debian package says of itself.
+set(dev ${CMAKE_INSTALL_DATADIR}/doc/libdocent-dev)
+set(library_system COMPONENT library_system EXCLUDE_FROM_ALL)
+install(DIRECTORY examples DESTINATION ${dev} ${library_system})
+install(DIRECTORY museums/bonn DESTINATION ${dev}/examples/museums ${library_system} PATTERN simulation.yaml EXCLUDE)
+install(FILES docs/library.md DESTINATION ${dev} ${library_system})
+install(FILES ${packaging}/debian/copyright ${generated}/changelog.gz DESTINATION ${dev} ${library_system})
+if(DOCENT_PYTHON)
+  install(FILES ${packaging}/debian/copyright ${generated}/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-docent
+    COMPONENT python_system EXCLUDE_FROM_ALL)
+endif()
+
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME docent)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_PACKAGE_CONTACT "${DOCENT_MAINTAINER} <${DOCENT_MAINTAINER_EMAIL}>")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "autonomous museum tour guide")
-set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
-"Docent is the software of a robot that guides visitors through a museum. The
-robot finds out where it is in a hall full of people, drives at walking speed
-without touching anything, gives tours, and lets visitors on the Web take part.
-.
-The package holds the program, its page, two museums with a simulated world
-each, a systemd unit, and the messages for DDS and ROS 2.")
-set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-# Its library alone starts nothing; shlibdeps names a virtual package.
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "swi-prolog-core")
-# Without espeak-ng it has no voice, without the fonts pictures have no letters; alsa-utils names the sound cards.
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "espeak-ng, fonts-dejavu-core")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "alsa-utils")
-set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA
-  ${packaging}/debian/postinst ${packaging}/debian/prerm ${packaging}/debian/postrm ${packaging}/debian/conffiles)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS OFF)  # but where a package says so
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
-# Both components in one package: only so cpack takes what is left out of a plain `cmake --install`.
-set(CPACK_COMPONENTS_ALL program system)
+# Packages of components: only so cpack takes what is left out of a plain `cmake --install`.
 set(CPACK_DEB_COMPONENT_INSTALL ON)
-set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
+set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
+set(CPACK_COMPONENTS_ALL)
+
+# docent_debian(PACKAGE COMPONENTS…): a Debian package of these components; CPACK_DEBIAN_PACKAGE_… with its name in capitals
+# instead of PACKAGE say the rest.
+macro(docent_debian package)
+  string(TOUPPER ${package} group)
+  set(CPACK_DEBIAN_${group}_PACKAGE_NAME ${package})
+  foreach(component ${ARGN})
+    string(TOUPPER ${component} name)
+    set(CPACK_COMPONENT_${name}_GROUP ${package})
+    list(APPEND CPACK_COMPONENTS_ALL ${component})
+  endforeach()
+endmacro()
+
+docent_debian(docent program system)
+set(CPACK_DEBIAN_DOCENT_DESCRIPTION
+"autonomous museum tour guide
+Docent is the software of a robot that guides visitors through a museum. The
+robot finds out where it is in a hall full of people, drives at walking speed
+without touching anything, gives tours, and lets visitors on the Web take part.
+.
+The package holds the program, its page, two museums with a simulated world
+each, a systemd unit, and the messages for DDS and ROS 2.")
+set(CPACK_DEBIAN_DOCENT_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_DOCENT_PACKAGE_SHLIBDEPS ON)
+# Its library alone starts nothing; shlibdeps names a virtual package.
+set(CPACK_DEBIAN_DOCENT_PACKAGE_DEPENDS "swi-prolog-core")
+# Without espeak-ng it has no voice, without the fonts pictures have no letters; alsa-utils names the sound cards.
+set(CPACK_DEBIAN_DOCENT_PACKAGE_RECOMMENDS "espeak-ng, fonts-dejavu-core")
+set(CPACK_DEBIAN_DOCENT_PACKAGE_SUGGESTS "alsa-utils")
+set(CPACK_DEBIAN_DOCENT_PACKAGE_CONTROL_EXTRA
+  ${packaging}/debian/postinst ${packaging}/debian/prerm ${packaging}/debian/postrm ${packaging}/debian/conffiles)
+
+docent_debian(libdocent-dev library library_system)
+set(CPACK_DEBIAN_LIBDOCENT-DEV_DESCRIPTION
+"autonomous museum tour guide: library for programs in C++
+Bricks of the tour guide for robots of others: localization in a map by grids
+and samples, maps from logs, planning by value iteration, the dynamic window
+with virtual measurements, people, tours, a bus over DDS or in virtual time.
+.
+The package holds headers, static libraries, what find_package(docent) needs,
+and examples.")
+set(CPACK_DEBIAN_LIBDOCENT-DEV_PACKAGE_SECTION libdevel)
+# What docentConfig.cmake finds, and what the headers include.
+set(CPACK_DEBIAN_LIBDOCENT-DEV_PACKAGE_DEPENDS "cyclonedds-dev, libceres-dev, libeigen3-dev, libexpected-dev, libpng-dev, \
+libsqlite3-dev, libyaml-cpp-dev, libzstd-dev, pkg-config, swi-prolog-core, zlib1g-dev")
+set(CPACK_DEBIAN_LIBDOCENT-DEV_PACKAGE_RECOMMENDS "cmake, g++")
+
+if(DOCENT_PYTHON)
+  docent_debian(python3-docent python python_system)
+  set(CPACK_DEBIAN_PYTHON3-DOCENT_DESCRIPTION
+"autonomous museum tour guide: library for Python
+Bricks of the tour guide for notebooks and experiments: maps, sensor models,
+localization, planning and recordings, with arrays of NumPy.")
+  set(CPACK_DEBIAN_PYTHON3-DOCENT_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON3-DOCENT_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PYTHON3-DOCENT_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+endif()
 include(CPack)

@@ -157,6 +157,27 @@ def check_types(root):
                 check(other == path, f"{below(path, root)}: {name} is defined in {below(other, root)}, too")
 
 
+def component_folders(table):
+    """The folders of src/docent that belong to the library, by the table of its components."""
+    return [folder for found in re.findall(r"docent_component\(\w+\s+FOLDERS\s+([\w/\s]+?)(?:\s[A-Z]+\s|\))", table.read_text())
+            for folder in found.split()]
+
+
+def check_public(public, source, table):
+    """Each public header lies in a folder of a component, beside which src has the same folder; there is no second one of its name."""
+    folders = component_folders(table)
+    for path in sorted(public.rglob("*")):
+        if path.is_dir():
+            continue
+        name = path.relative_to(public)
+        folder = name.parent.as_posix()
+        check(path.suffix == ".h", f"include/docent/{name}: is no header")
+        check(any(folder == root or folder.startswith(root + "/") for root in folders),
+              f"include/docent/{name}: {folder} belongs to no component of {table.name}")
+        check((source / folder).is_dir(), f"include/docent/{name}: src/docent/{folder} is not there")
+        check(not (source / name).exists(), f"include/docent/{name}: src/docent has it, too")
+
+
 def sources(root):
     """(path, text) of all code that is no test."""
     return [(path, path.read_text()) for path in all_files(root)
@@ -257,6 +278,7 @@ if __name__ == "__main__":
     check_modules()
     check_namespaces(SOURCE, COMMON)
     check_types(SOURCE)
+    check_public(PUBLIC, SOURCE, ROOT / "cmake" / "DocentComponents.cmake")
     check_publishers(SOURCE, PUBLIC / "messages" / "topics.h", ONE_PUBLISHER)
     check_machines()
     sys.exit(report())

@@ -238,6 +238,40 @@ class Types(Project):
         self.assertEqual(self.faults("namespace docent::mapping {\nstruct Place::Part {\n};\n"), 0)
 
 
+class Public(Project):
+    def faults(self):
+        self.write("cmake/Table.cmake", "docent_component(core FOLDERS base grid LIBRARIES png)\n"
+                                        "docent_component(tours FOLDERS task/golog\n  DEPENDS core)\n")
+        self.write("src/docent/base/a.cpp", "")
+        self.write("src/docent/task/golog/b.cpp", "")
+        self.write("src/docent/apps/c.cpp", "")
+        findings.faults.clear()
+        check_includes.check_public(self.root / "include/docent", self.root / "src/docent", self.root / "cmake/Table.cmake")
+        return len(findings.faults)
+
+    def test_headers_of_components_are_fine(self):
+        self.write("include/docent/base/a.h", "")
+        self.write("include/docent/task/golog/b.h", "")
+        self.assertEqual(self.faults(), 0)
+
+    def test_a_header_of_no_component_is_found(self):
+        self.write("include/docent/apps/c.h", "")
+        self.assertEqual(self.faults(), 1)
+
+    def test_a_header_without_its_folder_is_found(self):
+        self.write("include/docent/grid/a.h", "")
+        self.assertEqual(self.faults(), 1)
+
+    def test_a_second_header_of_a_name_is_found(self):
+        self.write("include/docent/base/a.h", "")
+        self.write("src/docent/base/a.h", "")
+        self.assertEqual(self.faults(), 1)
+
+    def test_a_source_is_no_public_header(self):
+        self.write("include/docent/base/other.cpp", "")
+        self.assertEqual(self.faults(), 1)
+
+
 class JointGroups(Project):
     """Which folders are compiled as one file; no rule, but what it rests on."""
 

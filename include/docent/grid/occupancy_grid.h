@@ -11,23 +11,27 @@
 
 namespace docent {
 
+/// A cell of a grid; may lie outside.
 struct CellIndex {
-  int column = 0;
-  int row = 0;
+  int column = 0;  ///< from the left, 0 the first
+  int row = 0;     ///< from below, 0 the first
   friend bool operator==(const CellIndex&, const CellIndex&) = default;
 };  ///< Never mixed with metres: only the grid converts.
 
 /// Where cells lie: row-major, cell (0,0) has its lower-left corner at the origin; no rotation.
 struct GridFrame {
-  int columns = 0;
-  int rows = 0;
+  int columns = 0;           ///< number of cells from left to right
+  int rows = 0;              ///< number of cells from bottom to top
   double resolution = 0.05;  ///< [m/cell]
   Point2 origin{};           ///< [m], lower-left corner of cell (0,0) in the map's frame
 
+  /// Cells.
   [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
+  /// Whether the cell lies in the grid.
   [[nodiscard]] bool holds(CellIndex cell) const {
     return cell.column >= 0 && cell.row >= 0 && cell.column < columns && cell.row < rows;
   }
+  /// Its place in row-major arrays. @pre holds(cell).
   [[nodiscard]] std::size_t index(CellIndex cell) const {
     return static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(columns) +
            static_cast<std::size_t>(cell.column);
@@ -37,6 +41,7 @@ struct GridFrame {
     return {static_cast<int>(std::floor((in_map.x - origin.x) / resolution)),
             static_cast<int>(std::floor((in_map.y - origin.y) / resolution))};
   }
+  /// [m], map.
   [[nodiscard]] Point2 centre(CellIndex cell) const {
     return {origin.x + (cell.column + 0.5) * resolution, origin.y + (cell.row + 0.5) * resolution};
   }
@@ -44,15 +49,17 @@ struct GridFrame {
 
 /// Occupancy map as map_server writes it. Cells hold 0..100 (percent occupied) or kUnknown.
 struct OccupancyGrid {
-  static constexpr std::int8_t kUnknown = -1;
-  static constexpr std::int8_t kFree = 0;
-  static constexpr std::int8_t kOccupied = 100;
+  static constexpr std::int8_t kUnknown = -1;    ///< never seen
+  static constexpr std::int8_t kFree = 0;        ///< 0 %
+  static constexpr std::int8_t kOccupied = 100;  ///< 100 %
 
-  GridFrame frame;
+  GridFrame frame;                 ///< where the cells lie
   std::vector<std::int8_t> cells;  ///< [rows * columns]
 
+  /// The cell's value; kUnknown outside.
   [[nodiscard]] std::int8_t at(CellIndex cell) const { return frame.holds(cell) ? cells[frame.index(cell)] : kUnknown; }
-  [[nodiscard]] bool is_occupied(CellIndex cell) const { return at(cell) >= 65; }
+  [[nodiscard]] bool is_occupied(CellIndex cell) const { return at(cell) >= 65; }  ///< 65 % and more
+  /// Below 20 %, and known.
   [[nodiscard]] bool is_free(CellIndex cell) const { return at(cell) >= 0 && at(cell) < 20; }
 };
 

@@ -13,17 +13,19 @@
 
 namespace docent {
 
+/// Quality of service, by what a topic is for.
 enum class Qos {
   sensor,   ///< best effort, the last few; late joiners get nothing
   state,    ///< reliable, transient-local, the last one: a late joiner gets the present state
   command,  ///< reliable, volatile, the last few
 };
 
+/// A topic: its name and how it is delivered.
 template <class T>
 struct Topic {
-  using Type = T;
-  const char* name;
-  Qos qos;
+  using Type = T;        ///< of its messages
+  const char* name;      ///< without ROS 2's prefix
+  Qos qos;               ///< how it is delivered
   int depth = 0;         ///< samples kept for a reader that is late; 0: what the class says
   double max_age_s = 0;  ///< under DDS, older samples are dropped; 0: any age. For what must not be obeyed late: a
                          ///< process that was stopped and goes on finds all that it missed.

@@ -11,7 +11,7 @@ namespace docent::motion_models {
 
 /// The motion model together with what the labels themselves err.
 struct LabelledMotionNoise {
-  OdometryModelParams motion;
+  OdometryModelParams motion;    ///< how odometry errs
   double label_position = 1e-3;  ///< [m2] along each axis
   double label_heading = 1e-4;   ///< [rad2]
 };
@@ -22,14 +22,14 @@ struct LabelledMotionNoise {
 
 /// Bounds and when to stop.
 struct OdometryFitParams {
-  std::size_t least_windows = 30;
+  std::size_t least_windows = 30;     ///< fewer teach nothing
   double least_way = 10.0;            ///< [m] in all windows together; less teaches nothing
   double least_turn = 6.0;            ///< [rad] likewise; less, and what turns add stays as it was
   double least_translation = 1e-5;    ///< [m2/m]: 3 mm after a metre
   double least_rotation = 3e-6;       ///< [rad2/m]: 0.1 degrees after a metre
   double least_turn_rotation = 1e-5;  ///< [rad2/rad]: 0.2 degrees after a radian
-  double least_slip = 0.0005;
-  double most_slip = 0.1;
+  double least_slip = 0.0005;         ///< probability that wheels slip
+  double most_slip = 0.1;             ///< likewise
   /// Slips are rare, and where wheels slip a label is seldom sure: a recording counts against so many steps that
   /// slipped as often as the start says.
   double slip_prior = 2000.0;
@@ -37,13 +37,14 @@ struct OdometryFitParams {
   /// little of a variance leaves it about where it was.
   double variance_prior = 20.0;
   bool fixed_motion = false;  ///< fit the labels' noise alone, for a fair comparison of motion models
-  int most_rounds = 200;
-  double settled = 1e-6;  ///< [nat] a window gained by a round
+  int most_rounds = 200;      ///< then it is enough
+  double settled = 1e-6;      ///< [nat] a window gained by a round
 };
 
+/// What was learned.
 struct OdometryFit {
-  LabelledMotionNoise noise;
-  std::size_t windows = 0;
+  LabelledMotionNoise noise;  ///< the most likely one
+  std::size_t windows = 0;    ///< that taught
   double way = 0.0;           ///< [m] in all windows
   double turn = 0.0;          ///< [rad]
   double before = 0.0;        ///< [nat] a window, by the start's motion and the labels' noise that fits it best

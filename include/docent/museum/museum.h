@@ -20,33 +20,36 @@ using Translations = std::map<std::string, std::string>;
 /// The text in `language`, else in the first language that has one, else "".
 [[nodiscard]] std::string translated(const Translations& texts, const std::string& language);
 
+/// What a hazard is.
 enum class HazardKind { glass, plate, stairs, other };
+/// As museum.yaml has them.
 [[nodiscard]] constexpr auto words_of(HazardKind) { return std::array{"glass", "plate", "stairs", "other"}; }
 /// What sensors cannot see (architecture 5), as surveyed.
 struct Hazard {
-  std::string id;
-  HazardKind kind = HazardKind::other;
-  Polygon polygon;  ///< [m], map
+  std::string id;                       ///< unique
+  HazardKind kind = HazardKind::other;  ///< what it is
+  Polygon polygon;                      ///< [m], map
 };
 
 /// Where people can read on.
 struct Link {
-  Translations title;
-  std::string url;  ///< http:// or https://
+  Translations title;  ///< what the link says
+  std::string url;     ///< http:// or https://
 };
 
+/// What the robot shows.
 struct Exhibit {
-  std::string id;
-  Translations title;
-  Pose2 pose;      ///< map_from_base where the robot stands to show it
-  Point2 look_at;  ///< what it points at
-  std::vector<Pose2> viewpoints;
-  Translations short_text;  ///< content of the files, not their names
-  Translations long_text;
-  std::vector<std::string> topics;
-  bool web_only = false;
-  std::filesystem::path picture;  ///< in the folder; screens show it on the way there; empty: none
-  std::vector<Link> links;        ///< the page shows them
+  std::string id;                   ///< unique
+  Translations title;               ///< its name
+  Pose2 pose;                       ///< map_from_base where the robot stands to show it
+  Point2 look_at;                   ///< what it points at
+  std::vector<Pose2> viewpoints;    ///< other places to see it from, map_from_base
+  Translations short_text;          ///< content of the files, not their names
+  Translations long_text;           ///< for those who want to hear more
+  std::vector<std::string> topics;  ///< what it is about
+  bool web_only = false;            ///< the robot does not drive there
+  std::filesystem::path picture;    ///< in the folder; screens show it on the way there; empty: none
+  std::vector<Link> links;          ///< the page shows them
   /// Exhibits that make sense right after this one (ids). Empty: all that share a topic. See sensible_next.
   std::vector<std::string> next;
 };
@@ -55,10 +58,13 @@ struct Exhibit {
 struct Hours {
   int from_minute = 0;  ///< since midnight, 0..1439
   int to_minute = 0;    ///< 1..1440
+  /// The minute lies within.
   [[nodiscard]] bool holds(int minute_of_day) const;
 };
+/// Error: not "HH:MM-HH:MM".
 [[nodiscard]] Result<Hours> parse_hours(const std::string& text);
 
+/// How the robot works in some hours.
 struct Mode {
   double max_speed = 0.7;          ///< [m/s]
   double wait_s = 0.0;             ///< [s] at each exhibit, after the explanation, so that Web visitors can look round
@@ -82,9 +88,10 @@ struct SceneCamera {
 /// The names of modes: everybody, Web visitors alone, nobody but the staff.
 inline constexpr std::array<const char*, 3> kModes{"open", "web", "closed"};
 
+/// A tour that visitors can choose.
 struct Tour {
-  std::string id;
-  Translations title;
+  std::string id;                     ///< unique
+  Translations title;                 ///< its name
   std::vector<std::string> exhibits;  ///< fixed order; empty for a composed tour
   std::optional<double> minutes;      ///< composed on the fly to last so long
 };
@@ -92,33 +99,33 @@ struct Tour {
 /// A room, or a part of a large one, as people call it. The robot knows rooms and doors from its map; this is what they
 /// are called. Several names in one room divide it: what is nearest to walk to belongs to each.
 struct Room {
-  std::string id;  ///< no exhibit has it, either, and it is not "next"
-  Translations name;
-  Point2 at;  ///< [m], map: where the robot goes in it
+  std::string id;     ///< no exhibit has it, either, and it is not "next"
+  Translations name;  ///< what people call it
+  Point2 at;          ///< [m], map: where the robot goes in it
 };
 
 /// A museum folder, read and validated (architecture 5). What the robot knows of the building; never the true world.
 struct Museum {
-  std::filesystem::path folder;
-  Translations name;
-  std::vector<std::string> languages;
-  std::filesystem::path map_path;
-  OccupancyGrid map;
-  Polygon area;
-  std::vector<Hazard> hazards;
-  Pose2 home;
-  std::optional<Pose2> charger;
-  std::vector<Exhibit> exhibits;
-  std::map<std::string, Mode> modes;
-  std::vector<Tour> tours;
-  std::vector<Room> rooms;
-  MuseumSound sound;
-  std::optional<SceneCamera> scene_camera;
-  std::optional<std::filesystem::path> simulation_path;
+  std::filesystem::path folder;                          ///< with museum.yaml
+  Translations name;                                     ///< of the museum
+  std::vector<std::string> languages;                    ///< codes, its own first
+  std::filesystem::path map_path;                        ///< of the map's YAML
+  OccupancyGrid map;                                     ///< walls
+  Polygon area;                                          ///< [m], map: where the robot may be
+  std::vector<Hazard> hazards;                           ///< what sensors do not see
+  Pose2 home;                                            ///< map_from_base where it waits
+  std::optional<Pose2> charger;                          ///< map_from_base before the charger
+  std::vector<Exhibit> exhibits;                         ///< in the order of the file
+  std::map<std::string, Mode> modes;                     ///< by name, see kModes
+  std::vector<Tour> tours;                               ///< in the order of the file
+  std::vector<Room> rooms;                               ///< names of rooms
+  MuseumSound sound;                                     ///< music and quiet hours
+  std::optional<SceneCamera> scene_camera;               ///< a camera in the hall
+  std::optional<std::filesystem::path> simulation_path;  ///< of the simulated world
 
-  [[nodiscard]] const Exhibit* find_exhibit(const std::string& id) const;
-  [[nodiscard]] std::vector<Polygon> hazard_polygons() const;  ///< [hazards] [m], map
-  [[nodiscard]] const Tour* find_tour(const std::string& id) const;
+  [[nodiscard]] const Exhibit* find_exhibit(const std::string& id) const;  ///< null: there is none
+  [[nodiscard]] std::vector<Polygon> hazard_polygons() const;              ///< [hazards] [m], map
+  [[nodiscard]] const Tour* find_tour(const std::string& id) const;        ///< null: there is none
 };
 
 /// The exhibits that make sense right after `exhibit` (Minerva's "sensible pairs"): its `next` list, else those that

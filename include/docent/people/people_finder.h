@@ -16,11 +16,11 @@ namespace docent::people {
 
 /// Section `people`: who stands and walks round the robot.
 struct PeopleFinderParams {
-  SightingParams sightings;
-  PeopleTrackerParams tracker;
-  StandingThingParams things;
-  GroupParams groups;
-  bool keeps_all = false;  ///< crippled, for evaluation: nobody is ever forgotten, and every thing is a person
+  SightingParams sightings;     ///< what looks like a person
+  PeopleTrackerParams tracker;  ///< from sightings to persons
+  StandingThingParams things;   ///< what stands too long is a thing
+  GroupParams groups;           ///< who belongs together
+  bool keeps_all = false;       ///< crippled, for evaluation: nobody is ever forgotten, and every thing is a person
   template <class V>
   void visit(V& v) {
     v("sightings", sightings);

@@ -37,28 +37,29 @@ struct PeopleTrackerParams {
   [[nodiscard]] Result<void> validate() const;
 };
 
+/// Somebody, now.
 struct TrackedPerson {
-  std::uint32_t id = 0;
-  Point2 position;  ///< [m]
-  Point2 velocity;  ///< [m/s]
+  std::uint32_t id = 0;  ///< the same for as long as the person is tracked
+  Point2 position;       ///< [m]
+  Point2 velocity;       ///< [m/s]
 };
 
 /// One track and what is known of it. Both axes have the same variances, so one 2 x 2 matrix serves both.
 struct PersonTrack {
-  TrackedPerson person;
+  TrackedPerson person;                 ///< the estimate
   double pp = 0.0, pv = 0.0, vv = 0.0;  ///< covariance of position and velocity along an axis
   double radius = 0.22;                 ///< [m]
-  int sightings = 1;
-  double missed = 0.0;      ///< 0..1 of the patience
-  Time seen;                ///< last
-  Point2 anchor;            ///< [m] where it was first seen, or last stood
-  int away = 0;             ///< sightings in a row a step away from the anchor
-  bool moved = false;       ///< it has gone a step
-  double come = 0.0;        ///< running share of the sightings where the floor was free before
-  bool came = false;        ///< it was seen to come, soon after it was first seen
-  double by_map = 0.0;      ///< running share of the sightings that are surely not the map
-  double thing_gain = 0.0;  ///< [nat] running mean, see BodyFit
-  [[nodiscard]] bool is_seen_now(Time now) const { return seen == now; }
+  int sightings = 1;                    ///< so far
+  double missed = 0.0;                  ///< 0..1 of the patience
+  Time seen;                            ///< last
+  Point2 anchor;                        ///< [m] where it was first seen, or last stood
+  int away = 0;                         ///< sightings in a row a step away from the anchor
+  bool moved = false;                   ///< it has gone a step
+  double come = 0.0;                    ///< running share of the sightings where the floor was free before
+  bool came = false;                    ///< it was seen to come, soon after it was first seen
+  double by_map = 0.0;                  ///< running share of the sightings that are surely not the map
+  double thing_gain = 0.0;              ///< [nat] running mean, see BodyFit
+  [[nodiscard]] bool is_seen_now(Time now) const { return seen == now; }  ///< seen at this moment
   /// It was seen to come or to go: then it is alive.
   [[nodiscard]] bool is_alive() const;
 };
@@ -68,7 +69,7 @@ struct PersonTrack {
 /// odometry's frame, so that it does not matter whether the robot knows its place.
 class PeopleTracker {
  public:
-  explicit PeopleTracker(const PeopleTrackerParams& params) : params_{params} {}
+  explicit PeopleTracker(const PeopleTrackerParams& params) : params_{params} {}  ///< nobody yet
 
   /// Moves all tracks to a time; times must not fall, an older one counts as now. O(tracks).
   void predict(Time time);
@@ -76,8 +77,9 @@ class PeopleTracker {
   void update(std::span<const PersonSighting> sightings, const Sightlines& sightlines);
   [[nodiscard]] const std::vector<PersonTrack>& tracks() const { return tracks_; }  ///< by falling age
   [[nodiscard]] std::vector<Point2> places() const;  ///< where those are who were seen often enough
+  /// Seen often enough to be told of.
   [[nodiscard]] bool is_confirmed(const PersonTrack& track) const { return track.sightings >= params_.sightings; }
-  void clear() { tracks_.clear(); }
+  void clear() { tracks_.clear(); }  ///< forgets all
 
  private:
   void correct(PersonTrack& track, const PersonSighting& sighting) const;

@@ -15,8 +15,8 @@ inline constexpr double kLastSecond = 4294967295;  ///< [s] in the year 2106; no
 
 /// One sweep of a laser scanner with the odometry of its moment, from whatever kind of recording.
 struct LoggedScan {
-  Time time;
-  bool rear = false;
+  Time time;                  ///< of the sweep
+  bool rear = false;          ///< of the rear laser
   Angle first_bearing;        ///< of ranges[0], in the laser's frame
   double bearing_step = 0.0;  ///< [rad]
   std::vector<float> ranges;  ///< [m]; +infinity: no return; NaN: an invalid reading (as REP 117 has it)
@@ -24,24 +24,26 @@ struct LoggedScan {
   Pose2 base_from_laser;      ///< the laser's place on the robot; the same for all scans of one laser
   Pose2 logged_pose;          ///< the other pose that CARMEN writes beside odometry, as it stands in the file
   int line = 0;               ///< where in the file; 0 for recordings without lines
+  /// Of `ranges[beam]`, laser's frame.
   [[nodiscard]] Angle bearing(std::size_t beam) const {
     return Angle::radians(first_bearing.radians() + static_cast<double>(beam) * bearing_step);
   }
 };
 
+/// One reading of odometry.
 struct LoggedOdometry {
-  Time time;
-  Pose2 odom_from_base;
+  Time time;             ///< of the reading
+  Pose2 odom_from_base;  ///< raw
   double linear = 0.0;   ///< [m/s], as logged
   double angular = 0.0;  ///< [rad/s]
 };
 
 /// One reading of one sonar.
 struct LoggedPing {
-  Time time;
-  int sonar = 0;       ///< index in base_from_sonar
-  float range = 0.0F;  ///< [m]; +infinity: no return
-  Pose2 odom_from_base;
+  Time time;             ///< of the reading
+  int sonar = 0;         ///< index in base_from_sonar
+  float range = 0.0F;    ///< [m]; +infinity: no return
+  Pose2 odom_from_base;  ///< raw, at that moment
 };
 
 /// What localization and mapping need of a recording: scans with odometry, in the order of the recording.
@@ -51,6 +53,7 @@ struct LaserLog {
   std::vector<LoggedPing> pings;         ///< where they were asked for; times never fall
   std::vector<Pose2> base_from_sonar;    ///< of each sonar, in the order of their frames' names
   double sonar_max_range = 0.0;          ///< [m]
+  /// PARAM lines of CARMEN.
   std::map<std::string, std::string> parameters;
   double max_range = 0.0;           ///< [m]: from here on a reading means "no return"
   bool times_are_invented = false;  ///< the file's times were useless: even steps of 0.2 s instead

@@ -15,30 +15,33 @@ namespace docent::recording {
 
 /// A topic of Docent as a recording knows it.
 struct RecordedTopic {
-  transport::TopicInfo info;
-  std::string schema;  ///< text of the type, encoding ros2msg
+  transport::TopicInfo info;  ///< as the bus knows it
+  std::string schema;         ///< text of the type, encoding ros2msg
 };
 /// By the bus's name ("scan_front") or the recording's ("/scan_front"); nullptr for a topic that Docent does not have.
 [[nodiscard]] const RecordedTopic* find_recorded_topic(std::string_view name);
 
+/// Gets each message.
 using TopicHandler = std::function<void(const transport::TopicInfo& topic, const std::shared_ptr<const void>& message)>;
 /// Subscribes to every topic of the robot, or to those of the truth, which live on a bus of their own.
 void subscribe_robot_topics(transport::Bus& bus, const TopicHandler& handler);
+/// Likewise.
 void subscribe_truth_topics(transport::Bus& truth, const TopicHandler& handler);
 
 /// Writes messages of the bus to an MCAP file, for `docent simulate --record` and the record module.
 class Recorder {
  public:
+  /// Error: the file cannot be written.
   [[nodiscard]] static Result<Recorder> create(const std::filesystem::path& path,
                                                const McapWriterOptions& options = {});
 
   /// @pre the topic is one of Docent's. Error: the disk is full or gone.
   [[nodiscard]] Result<void> write(const transport::TopicInfo& topic, Time time,
                                    const std::shared_ptr<const void>& message);
-  [[nodiscard]] Result<void> flush() { return writer_.flush(); }
-  [[nodiscard]] Result<void> close() { return writer_.close(); }
-  [[nodiscard]] std::uint64_t messages() const { return writer_.messages(); }
-  [[nodiscard]] std::uint64_t bytes_written() const { return writer_.bytes_written(); }
+  [[nodiscard]] Result<void> flush() { return writer_.flush(); }               ///< what was written is in the file
+  [[nodiscard]] Result<void> close() { return writer_.close(); }               ///< the file is whole
+  [[nodiscard]] std::uint64_t messages() const { return writer_.messages(); }  ///< written so far
+  [[nodiscard]] std::uint64_t bytes_written() const { return writer_.bytes_written(); }  ///< so far
 
  private:
   explicit Recorder(McapWriter writer) : writer_{std::move(writer)} {}
@@ -48,10 +51,12 @@ class Recorder {
 
 /// A message of a recording that is one of Docent's, decoded.
 struct RecordedMessage {
-  const transport::TopicInfo& topic;
-  Time time;
-  std::shared_ptr<const void> message;
+  const transport::TopicInfo& topic;    ///< of Docent
+  Time time;                            ///< when it was recorded
+  std::shared_ptr<const void> message;  ///< of the topic's type
+  /// Of the topic of this name.
   [[nodiscard]] bool is(const char* name) const { return std::string_view{topic.name} == name; }
+  /// The message of this topic; null: of another.
   template <class T>
   [[nodiscard]] const T* as(const Topic<T>& wanted) const {
     return is(wanted.name) ? static_cast<const T*>(message.get()) : nullptr;

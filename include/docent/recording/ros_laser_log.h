@@ -15,7 +15,7 @@ namespace docent::recording {
 /// Makes a laser log of the messages of a ROS 2 recording (see read_laser_log).
 class RosLaserLogBuilder {
  public:
-  explicit RosLaserLogBuilder(bool with_sonars = false) : with_sonars_{with_sonars} {}
+  explicit RosLaserLogBuilder(bool with_sonars = false) : with_sonars_{with_sonars} {}  ///< with_sonars: pings, too
 
   /// Messages that do not matter are passed over; those that are not fit (message_fitness.h) are left out, and a note
   /// says so. Error: a message that does not decode.

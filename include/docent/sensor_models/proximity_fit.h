@@ -19,10 +19,11 @@ class ReadingCounts {
   void add(int measured, int expected);
   /// @pre both have the same max_range
   void add(const ReadingCounts& other);
+  /// How often `measured` was read there.
   [[nodiscard]] std::uint64_t at(int measured, int expected) const { return counts_[index(measured, expected)]; }
-  [[nodiscard]] std::uint64_t expected(int expected) const;  ///< readings where this range was expected
-  [[nodiscard]] std::uint64_t total() const { return total_; }
-  [[nodiscard]] const RangeBins& bins() const { return bins_; }
+  [[nodiscard]] std::uint64_t expected(int expected) const;      ///< readings where this range was expected
+  [[nodiscard]] std::uint64_t total() const { return total_; }   ///< readings that counted
+  [[nodiscard]] const RangeBins& bins() const { return bins_; }  ///< of both ranges
 
  private:
   [[nodiscard]] static std::size_t index(int measured, int expected) {
@@ -44,21 +45,22 @@ struct ProximityFitParams {
   /// readings, of which a recording holds few: as a share of the readings it comes out too small, and a belief that
   /// multiplies readings is then sure of wrong places (decision 0006).
   double least_random = 0.05;
-  double least_short = 0.02;      ///< a building that was empty while it was recorded does not stay so
-  double least_no_return = 0.01;  ///< black or slanted surfaces are everywhere
-  double least_sigma = 0.01;      ///< [m]
-  double most_sigma = 1.0;        ///< [m]
-  double most_sigma_per_metre = 0.2;
-  double most_near_factor = 20.0;  ///< the least is 1: the tails are wider than the peak
-  double least_short_per_metre = 0.01;
-  double most_short_per_metre = 10.0;
-  int most_rounds = 100;
-  double settled = 1e-6;  ///< [nat] a reading gained by a round: then it is enough
+  double least_short = 0.02;            ///< a building that was empty while it was recorded does not stay so
+  double least_no_return = 0.01;        ///< black or slanted surfaces are everywhere
+  double least_sigma = 0.01;            ///< [m]
+  double most_sigma = 1.0;              ///< [m]
+  double most_sigma_per_metre = 0.2;    ///< [m/m]
+  double most_near_factor = 20.0;       ///< the least is 1: the tails are wider than the peak
+  double least_short_per_metre = 0.01;  ///< [1/m]
+  double most_short_per_metre = 10.0;   ///< [1/m]
+  int most_rounds = 100;                ///< then it is enough
+  double settled = 1e-6;                ///< [nat] a reading gained by a round: then it is enough
 };
 
+/// What was learned.
 struct ProximityFit {
   ProximityModelParams params;  ///< weights sum to 1
-  std::uint64_t readings = 0;
+  std::uint64_t readings = 0;   ///< that taught
   double before = 0.0;          ///< [nat] mean ln P of a reading by the start's parameters
   double after = 0.0;           ///< [nat] by the learned ones
   std::vector<double> history;  ///< [nat] after every round of the winning climb; never falls

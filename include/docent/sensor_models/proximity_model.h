@@ -9,13 +9,29 @@
 
 namespace docent::sensor_models {
 
+/// P(d | o) of your own, in place of the mixture of ProximityModelParams: give it to LocalizerParams::own_sensor. It is
+/// asked when tables are made, never while a belief is updated.
+class ReadingDistribution {
+ public:
+  ReadingDistribution() = default;
+  ReadingDistribution(const ReadingDistribution&) = delete;
+  ReadingDistribution& operator=(const ReadingDistribution&) = delete;
+  virtual ~ReadingDistribution() = default;
+
+  /// Fills `out` [kRangeBins] with the weight of each measured bin, kNoReturn the last: finite, > 0, and normalised
+  /// later. `expected` is a bin, too, or kUnknownRange: the map does not say.
+  virtual void fill(const RangeBins& bins, int expected, std::span<double> out) const = 0;
+};
+
 /// P(d_i | o): the second of the two look-ups of [Markov1998] 3.2.
 class ProximityModel {
  public:
   /// `expected_frequency` [kExpectedRanges], or empty for a uniform one: how often each range is expected at a uniform
-  /// position; entries need not be normalised. It gives the mean of eq. 4.
+  /// position; entries need not be normalised. It gives the mean of eq. 4. `own`: replaces the mixture; what the
+  /// Gaussian says (eq. 7: sigma, map_probability, shorter_probability) stays that of the params.
   /// @pre params are valid
-  explicit ProximityModel(const ProximityModelParams& params, std::span<const double> expected_frequency = {});
+  explicit ProximityModel(const ProximityModelParams& params, std::span<const double> expected_frequency = {},
+                          const ReadingDistribution* own = nullptr);
 
   [[nodiscard]] int bin(double range) const { return bins_.bin(range); }            ///< of a range [m] >= 0
   [[nodiscard]] double lower_edge(int bin) const { return bins_.lower_edge(bin); }  ///< [m]
@@ -33,6 +49,7 @@ class ProximityModel {
   [[nodiscard]] float shorter_probability(int measured, int expected) const {
     return shorter_[index(measured, expected)];
   }
+  /// Likewise, for all kExpectedRanges.
   [[nodiscard]] std::span<const float> shorter_probabilities(int measured) const {
     return std::span{shorter_}.subspan(index(measured, 0), kExpectedRanges);
   }
@@ -51,7 +68,9 @@ class ProximityModel {
   }
   void fill_gaussian();
   void fill_mixture();
-  void fill_unknown(std::span<const double> expected_frequency);
+  void fill_unknown();
+  void fill_own(const ReadingDistribution& own);
+  void fill_mean(std::span<const double> expected_frequency);
 
   ProximityModelParams params_;
   RangeBins bins_;

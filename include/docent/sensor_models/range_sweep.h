@@ -12,22 +12,22 @@ namespace docent::sensor_models {
 /// is invalid.
 struct LaserReading {
   std::span<const float> ranges;  ///< [m], sensor frame
-  Angle first_bearing{};
-  double bearing_step = 0.0;  ///< [rad], may be negative
-  double min_range = 0.02;    ///< [m]
-  double max_range = 10.0;    ///< [m]
+  Angle first_bearing{};          ///< of ranges[0], sensor frame
+  double bearing_step = 0.0;      ///< [rad], may be negative
+  double min_range = 0.02;        ///< [m]
+  double max_range = 10.0;        ///< [m]
 };
 
 /// One valid beam as if it had been measured from the robot's centre.
 struct SweepBeam {
-  double bearing = 0.0;  ///< [rad], -pi..pi, base frame
-  double range = 0.0;    ///< [m] from the robot's centre
-  bool no_return = false;
+  double bearing = 0.0;    ///< [rad], -pi..pi, base frame
+  double range = 0.0;      ///< [m] from the robot's centre
+  bool no_return = false;  ///< nothing came back; range: how far it looked
 };
 
 /// All valid beams of one or more lasers about the robot's centre.
 struct RangeSweep {
-  std::vector<SweepBeam> beams;
+  std::vector<SweepBeam> beams;  ///< in any order
 };
 
 /// What a beam ended on, as far as a belief and a map can tell.

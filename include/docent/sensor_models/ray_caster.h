@@ -18,6 +18,7 @@ namespace docent::sensor_models {
 /// distance transform allows.
 class RayCaster {
  public:
+  /// O(cells), once.
   explicit RayCaster(const OccupancyGrid& map);
 
   /// Distance [m] from `from` along the unit vector `direction` to the outline of the first occupied cell; `max_range`
@@ -27,7 +28,7 @@ class RayCaster {
 
   /// Distance [m] to the nearest occupied cell's centre; +infinity outside the map.
   [[nodiscard]] float clearance(Point2 in_map) const;
-  [[nodiscard]] const GridFrame& frame() const { return frame_; }
+  [[nodiscard]] const GridFrame& frame() const { return frame_; }  ///< of the map
 
  private:
   /// Where the cell stands in steps_.

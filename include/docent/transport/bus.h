@@ -17,6 +17,7 @@ namespace docent::transport {
 /// What a body of the bus must know of a message type.
 struct TypeSupport {
   const char* name;  ///< "sensor_msgs/msg/LaserScan"
+  /// CDR bytes.
   std::vector<std::uint8_t> (*encode)(const void* message);
   std::shared_ptr<const void> (*decode)(std::span<const std::uint8_t> bytes);  ///< null when damaged
   MessageFault (*fault)(const void* message);                                  ///< message_fitness.h
@@ -26,13 +27,15 @@ struct TypeSupport {
 template <Message T>
 [[nodiscard]] const TypeSupport& type_support();
 
+/// A topic without its type.
 struct TopicInfo {
-  const char* name;
-  Qos qos;
-  const TypeSupport* type;
-  int depth = 0;         ///< samples kept for a late reader; 0: as the class says
-  double max_age_s = 0;  ///< older samples are dropped; 0: any age
+  const char* name;         ///< without ROS 2's prefix
+  Qos qos;                  ///< how it is delivered
+  const TypeSupport* type;  ///< of its messages
+  int depth = 0;            ///< samples kept for a late reader; 0: as the class says
+  double max_age_s = 0;     ///< older samples are dropped; 0: any age
 };
+/// Of a topic of messages/topics.h.
 template <class T>
 [[nodiscard]] TopicInfo topic_info(const Topic<T>& topic) {
   return {topic.name, topic.qos, &type_support<T>(), topic.depth, topic.max_age_s};
@@ -40,10 +43,12 @@ template <class T>
 
 class Bus;
 
+/// One module's right to publish on one topic.
 template <class T>
 class Publisher {
  public:
   Publisher() = default;
+  /// Without a bus nothing happens.
   void publish(T message) const;
 
  private:
@@ -57,7 +62,7 @@ class Publisher {
 /// Every handler and timer of one Bus runs on one thread, one after the other. Destroying the Bus ends them all.
 class Bus {
  public:
-  using Handler = std::function<void(const std::shared_ptr<const void>&)>;
+  using Handler = std::function<void(const std::shared_ptr<const void>&)>;  ///< takes a message of its topic's type
 
   Bus() = default;
   Bus(const Bus&) = delete;
@@ -67,6 +72,7 @@ class Bus {
   /// Virtual time since the start, or wall time under DDS. Never steps back.
   [[nodiscard]] virtual Time now() const = 0;
 
+  /// One more publisher on the topic.
   template <class T>
   [[nodiscard]] Publisher<T> publisher(const Topic<T>& topic) {
     return {this, add_publisher(topic_info(topic))};
@@ -89,6 +95,7 @@ class Bus {
   }
   /// First after one period. Calls that are overdue are skipped, never made up for.
   virtual void every(Duration period, std::function<void()> action) = 0;
+  /// Once.
   virtual void after(Duration delay, std::function<void()> action) = 0;
   /// Runs `action` on the bus's thread. The one call that any thread may make.
   virtual void post(std::function<void()> action) = 0;
@@ -99,9 +106,9 @@ class Bus {
 
   /// What came on a topic and could not be used.
   struct Refusals {
-    std::uint64_t count = 0;
-    MessageFault last;
-    Time last_at{};
+    std::uint64_t count = 0;  ///< messages
+    MessageFault last;        ///< what was wrong
+    Time last_at{};           ///< when
   };
   /// By topic; empty as long as all was well.
   [[nodiscard]] const std::map<std::string, Refusals>& refusals() const { return refusals_; }
@@ -120,7 +127,9 @@ class Bus {
  protected:
   template <class T>
   friend class Publisher;
+  /// @returns its handle
   virtual int add_publisher(const TopicInfo& topic) = 0;
+  /// By a handle.
   virtual void publish(int publisher, std::shared_ptr<const void> message) = 0;
   /// The same on another bus: for a bus that passes on.
   static int add_publisher_on(Bus& bus, const TopicInfo& topic) { return bus.add_publisher(topic); }

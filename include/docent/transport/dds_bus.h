@@ -26,6 +26,7 @@ inline constexpr int kMaxDdsDomain = 230;
 /// Where the simulator publishes what is true: a domain that no module of the robot is in (architecture 10.1).
 [[nodiscard]] constexpr int truth_domain(int robot_domain) { return (robot_domain + 100) % (kMaxDdsDomain + 1); }
 
+/// Which bus to join, and how.
 struct DdsOptions {
   int domain = 0;           ///< 0 … kMaxDdsDomain
   std::string name_prefix;  ///< several robots in one domain: "minerva" makes rt/minerva/scan_front
@@ -38,6 +39,7 @@ struct DdsOptions {
 /// delivered.
 class DdsBus final : public Bus {
  public:
+  /// Error: DDS refuses the domain.
   [[nodiscard]] static Result<std::unique_ptr<DdsBus>> create(DdsOptions options);
   ~DdsBus() override;
 
@@ -47,6 +49,7 @@ class DdsBus final : public Bus {
   /// Wall clock. Follows steps forward; where the system's clock steps back it goes on at its own pace.
   [[nodiscard]] Time now() const override;
   void every(Duration period, std::function<void()> action) override;
+  /// Once.
   void after(Duration delay, std::function<void()> action) override;
   void post(std::function<void()> action) override;
   void add_subscription(const TopicInfo& topic, Handler handler) override;
@@ -56,19 +59,20 @@ class DdsBus final : public Bus {
   /// subscribe to.
   [[nodiscard]] int alive_writers(const std::string& topic) const;
 
+  /// What has come in, and what has not.
   struct Counters {
     std::uint64_t received = 0;  ///< samples given to handlers
     std::uint64_t damaged = 0;   ///< samples dropped, because they are not what their topic promises
     std::uint64_t stale = 0;     ///< samples dropped, because they are older than their topic allows
     std::uint64_t unsent = 0;    ///< samples that a reader who does not keep up has cost
   };
-  [[nodiscard]] Counters counters() const { return counters_; }
+  [[nodiscard]] Counters counters() const { return counters_; }  ///< so far
   /// Of the last 512 calls.
   [[nodiscard]] double step_p99_ms() const override;
 
  protected:
-  int add_publisher(const TopicInfo& topic) override;
-  void publish(int publisher, std::shared_ptr<const void> message) override;
+  int add_publisher(const TopicInfo& topic) override;                         ///< see Bus
+  void publish(int publisher, std::shared_ptr<const void> message) override;  ///< see Bus
 
  private:
   using Steady = std::chrono::steady_clock;

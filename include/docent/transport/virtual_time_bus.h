@@ -30,12 +30,13 @@ class VirtualTimeHub {
   /// One module's end. It must not outlive the hub.
   [[nodiscard]] std::unique_ptr<Bus> connect(std::string name);
 
-  [[nodiscard]] Time now() const { return now_; }
+  [[nodiscard]] Time now() const { return now_; }  ///< since the start
   /// Runs everything due up to and at `end`; then now() == end.
   void run_until(Time end);
-  void tap(Tap tap) { taps_.push_back(std::move(tap)); }
+  void tap(Tap tap) { taps_.push_back(std::move(tap)); }  ///< one more, after the others
   /// Every message of the topic passes through this before anybody sees it: for faults between modules.
   using Alteration = std::function<std::shared_ptr<const void>(Time, std::shared_ptr<const void>)>;
+  /// The last one given counts.
   void alter(const TopicInfo& info, Alteration alteration) { topic(info).alteration = std::move(alteration); }
 
   /// Topics that the modules of this name have made publishers for so far: what a replay leaves to them.
@@ -43,16 +44,16 @@ class VirtualTimeHub {
 
   /// What the handlers of each module have cost so far, by the clock.
   struct Cost {
-    double total_s = 0.0;
-    Quantiles steps_ms;  ///< of handler calls that took longer than 1 us
+    double total_s = 0.0;  ///< [s]
+    Quantiles steps_ms;    ///< of handler calls that took longer than 1 us
   };
   /// The wall's clock, or, for a profile, this thread's time of the processor [s]: that is slower to ask.
   using CostClock = double (*)();
-  [[nodiscard]] static double wall_clock();
-  [[nodiscard]] static double processor_clock();
-  void measure_by(CostClock clock) { clock_ = clock; }
-  [[nodiscard]] double cost_clock() const { return clock_(); }
-  [[nodiscard]] const std::map<std::string, Cost, std::less<>>& costs() const { return costs_; }
+  [[nodiscard]] static double wall_clock();                                                       ///< [s]
+  [[nodiscard]] static double processor_clock();                                                  ///< [s]
+  void measure_by(CostClock clock) { clock_ = clock; }                                            ///< for the costs
+  [[nodiscard]] double cost_clock() const { return clock_(); }                                    ///< [s] now
+  [[nodiscard]] const std::map<std::string, Cost, std::less<>>& costs() const { return costs_; }  ///< by name of module
 
  private:
   class Node;

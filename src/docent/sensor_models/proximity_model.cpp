@@ -8,7 +8,8 @@
 
 namespace docent::sensor_models {
 
-ProximityModel::ProximityModel(const ProximityModelParams& params, std::span<const double> expected_frequency)
+ProximityModel::ProximityModel(const ProximityModelParams& params, std::span<const double> expected_frequency,
+                               const ReadingDistribution* own)
     : params_{params}, bins_{params.max_range} {
   const std::size_t size = static_cast<std::size_t>(kRangeBins) * kExpectedRanges;
   gaussian_.assign(size, 0.0);
@@ -17,7 +18,9 @@ ProximityModel::ProximityModel(const ProximityModelParams& params, std::span<con
   log_mixture_.assign(size, 0.0F);
   fill_gaussian();
   fill_mixture();
-  fill_unknown(expected_frequency);
+  fill_unknown();
+  if (own != nullptr) fill_own(*own);
+  fill_mean(expected_frequency);
   std::transform(mixture_.begin(), mixture_.end(), log_mixture_.begin(),
                  [](double p) { return static_cast<float>(std::log(p)); });
 }
@@ -52,7 +55,33 @@ void ProximityModel::fill_mixture() {
   }
 }
 
-void ProximityModel::fill_unknown(std::span<const double> expected_frequency) {
+void ProximityModel::fill_unknown() {
+  const double total = params_.total_weight();
+  for (int measured = 0; measured < kRangeBins; ++measured) {
+    // Where the map does not say, something stands anywhere. The mean of all places instead would favour places at the
+    // map's border: it knows how readings are distributed in this building, and so is better than most wrong places.
+    mixture_[index(measured, kUnknownRange)] =
+        ((total - params_.weight_no_return) * random_probability(bins_, measured) +
+         (measured == kNoReturn ? params_.weight_no_return : 0.0)) /
+        total;
+  }
+}
+
+void ProximityModel::fill_own(const ReadingDistribution& own) {
+  std::array<double, kRangeBins> weights{};
+  for (int expected = 0; expected < kExpectedRanges; ++expected) {
+    weights.fill(0.0);
+    own.fill(bins_, expected, weights);
+    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+    for (int measured = 0; measured < kRangeBins; ++measured) {
+      const double p = weights[static_cast<std::size_t>(measured)] / total;
+      DOCENT_CHECK(p > 0.0 && std::isfinite(p));
+      mixture_[index(measured, expected)] = p;
+    }
+  }
+}
+
+void ProximityModel::fill_mean(std::span<const double> expected_frequency) {
   DOCENT_CHECK(expected_frequency.empty() || expected_frequency.size() == kExpectedRanges);
   std::array<double, kRangeBins> frequency{};
   if (expected_frequency.empty()) {
@@ -65,14 +94,7 @@ void ProximityModel::fill_unknown(std::span<const double> expected_frequency) {
     frequency.fill(1.0);
     sum = kRangeBins;
   }
-  const double total = params_.total_weight();
   for (int measured = 0; measured < kRangeBins; ++measured) {
-    // Where the map does not say, something stands anywhere. The mean of all places instead would favour places at the
-    // map's border: it knows how readings are distributed in this building, and so is better than most wrong places.
-    mixture_[index(measured, kUnknownRange)] =
-        ((total - params_.weight_no_return) * random_probability(bins_, measured) +
-         (measured == kNoReturn ? params_.weight_no_return : 0.0)) /
-        total;
     double mean = 0.0;
     for (int expected = 0; expected < kRangeBins; ++expected)
       mean += frequency[static_cast<std::size_t>(expected)] / sum * mixture_[index(measured, expected)];

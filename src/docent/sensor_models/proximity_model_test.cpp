@@ -107,6 +107,39 @@ TEST(ProximityModel, MeanIsTheMeanUnderTheGivenFrequencies) {
   EXPECT_NEAR(density(10), density(100), 1e-12);
 }
 
+/// What `of` says, in weights that sum to 3; where the map is silent, all bins alike.
+class Likewise final : public ReadingDistribution {
+ public:
+  explicit Likewise(const ProximityModel& of) : of_{of} {}
+  void fill(const RangeBins& bins, int expected, std::span<double> out) const override {
+    EXPECT_EQ(out.size(), static_cast<std::size_t>(kRangeBins));
+    EXPECT_EQ(bins.max_range(), 10.0);
+    for (int i = 0; i < kRangeBins; ++i)
+      out[static_cast<std::size_t>(i)] = expected == kUnknownRange ? 1.0 : 3.0 * of_.probability(i, expected);
+  }
+
+ private:
+  const ProximityModel& of_;
+};
+
+TEST(ProximityModel, ADistributionOfOnesOwnReplacesTheMixtureAndNotTheGaussian) {
+  const ProximityModel other{{.sigma = 0.4, .weight_random = 0.2}};
+  const ProximityModel built_in{{}};
+  const Likewise likewise{other};
+  const ProximityModel model{{}, {}, &likewise};
+  double mean = 0.0;
+  for (int expected = 0; expected < kRangeBins; ++expected) {
+    EXPECT_NEAR(model.probability(40, expected), other.probability(40, expected), 1e-12);
+    EXPECT_EQ(model.map_probability(40, expected), built_in.map_probability(40, expected));
+    EXPECT_EQ(model.shorter_probability(40, expected), built_in.shorter_probability(40, expected));
+    mean += model.probability(40, expected) / kRangeBins;
+  }
+  EXPECT_NE(model.probability(40, 40), built_in.probability(40, 40));
+  EXPECT_NEAR(model.log_mean_probability(40), std::log(mean), 1e-12);
+  EXPECT_NEAR(model.probability(3, kUnknownRange), 1.0 / kRangeBins, 1e-12);
+  EXPECT_EQ(model.log_probabilities(40)[50], static_cast<float>(std::log(model.probability(40, 50))));
+}
+
 TEST(ProximityModel, BinsCoverAllRanges) {
   const ProximityModel model{{}};
   EXPECT_EQ(model.bin(0.0), 0);

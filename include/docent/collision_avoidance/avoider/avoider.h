@@ -27,27 +27,30 @@ namespace docent::collision_avoidance {
 
 /// Where to go, odometry's frame.
 struct AvoiderTarget {
+  /// Stand; drive along `via`; turn on the spot to `heading`.
   enum class Mode { stop, drive, turn };
-  Mode mode = Mode::stop;
-  std::vector<Point2> via;  ///< [m], nearest first
-  bool is_final = false;    ///< the last via-point is the goal
-  Angle heading{};          ///< for turn
-  double position_tolerance = 0.25;
-  double heading_tolerance = 0.1;
+  Mode mode = Mode::stop;            ///< what to do
+  std::vector<Point2> via;           ///< [m], nearest first
+  bool is_final = false;             ///< the last via-point is the goal
+  Angle heading{};                   ///< for turn
+  double position_tolerance = 0.25;  ///< [m] so near is there
+  double heading_tolerance = 0.1;    ///< [rad] likewise
 };
 
+/// What the robot is to do until the next decision, and why.
 struct AvoiderDecision {
+  /// What it does; blocked: it would, and cannot.
   enum class State { driving, turning, stopped, blocked };
-  Velocity command;
-  State state = State::stopped;
+  Velocity command;              ///< for the base
+  State state = State::stopped;  ///< what it does
   std::string reason;  ///< why it stands or is slow: a word of ReasonWord, or in English what is broken; empty: nothing
-  double speed_cap = 0.0;  ///< [m/s]
-  bool path_blocked = false;
-  bool unmapped_obstacle = false;
-  bool low_obstacle = false;     ///< what blocks the path, or has touched it here, is a thing below the lasers
-  double nearest_real = 0.0;     ///< [m] from the outline
-  double nearest_virtual = 0.0;  ///< [m] likewise of hazards; from the centre of the area's border
-  std::vector<EvaluatedVelocity> window;
+  double speed_cap = 0.0;                 ///< [m/s]
+  bool path_blocked = false;              ///< no way leads on along the via-points
+  bool unmapped_obstacle = false;         ///< what blocks is not on the map
+  bool low_obstacle = false;              ///< what blocks the path, or has touched it here, is a thing below the lasers
+  double nearest_real = 0.0;              ///< [m] from the outline
+  double nearest_virtual = 0.0;           ///< [m] likewise of hazards; from the centre of the area's border
+  std::vector<EvaluatedVelocity> window;  ///< all that was weighed, for pictures
 };
 
 /// Collision avoidance of the tour guide, µDWA [Rhino1999] 4.1, [Minerva2000] 5.1: keeps the obstacle field,
@@ -67,25 +70,25 @@ class Avoider {
 
   /// @param state  as the base says it: jumps are taken out here, and targets are carried over them
   void add_odometry(Time now, Time stamp, const BaseState& state);
-  void add_sweep(Time now, std::size_t sensor, SensorSweep sweep);
-  void add_sonar(Time now, std::size_t index, SonarReading reading);
-  void add_infrared(Time now, std::size_t index, SonarReading reading);
+  void add_sweep(Time now, std::size_t sensor, SensorSweep sweep);       ///< a scan of laser `sensor`
+  void add_sonar(Time now, std::size_t index, SonarReading reading);     ///< a reading of sonar `index`
+  void add_infrared(Time now, std::size_t index, SonarReading reading);  ///< a reading of infrared sensor `index`
   /// What a camera saw on the floor, base frame at `stamp`.
   void add_lines(Time now, Time stamp, const std::string& source, double lifetime, std::span<const Segment> in_base);
   /// @param segments  evenly round the body, the first at the front: 1 pressed, TactileWatch::kNoReading
   /// @param scan  count of the ring's own scans; 0: it keeps none
   void add_tactile(Time now, Time stamp, std::span<const std::uint8_t> segments, std::uint32_t scan = 0);
-  void add_virtual(Time now, VirtualSweep sweep);
+  void add_virtual(Time now, VirtualSweep sweep);  ///< hazards, measured from the belief
   /// Endpoints that localization found unmapped, base frame at `stamp`.
   void add_person_beams(Time now, Time stamp, std::span<const Point2> in_base, bool localized);
   /// What localization believes: it slows the robot where that is little (safety rule 4).
   void add_belief(const BeliefOutline& belief) { doubt_.believe(belief); }
-  void set_target(Time now, Time stamp, AvoiderTarget target);
+  void set_target(Time now, Time stamp, AvoiderTarget target);  ///< where to go from now on
   /// An operator steers: as long as their word is fresh, no target counts. What must not be touched stays so.
   void steer_by_hand(Time now, const HandSteering& wish) { hand_ = {wish, now}; }
   /// The stop button.
   void stop_by_hand(bool is_stopped) { is_stopped_ = is_stopped; }
-  void set_max_speed(double max_speed) { max_speed_ = max_speed; }
+  void set_max_speed(double max_speed) { max_speed_ = max_speed; }  ///< [m/s] no faster than that
 
   /// True when another laser's sweep is due by its period within `soon` [s]: a choice had better wait for it.
   [[nodiscard]] bool awaits_sweep(Time now, double soon) const;
@@ -99,8 +102,9 @@ class Avoider {
   /// people may come nearer than is forgivable.
   [[nodiscard]] std::optional<AvoiderDecision> reflex(Time now);
 
+  /// What was seen, odometry's frame.
   [[nodiscard]] const ObstacleMemory& memory() const { return surroundings_.memory(); }
-  [[nodiscard]] const Velocity& command() const { return command_; }
+  [[nodiscard]] const Velocity& command() const { return command_; }  ///< the last one given
   /// What is stale or broken, the worst of it; nullopt when all is well.
   [[nodiscard]] std::optional<Complaint> complaint_of_inputs(Time now) const;
   /// The same, or what is doubtful of the position.

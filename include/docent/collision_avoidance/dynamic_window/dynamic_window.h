@@ -68,21 +68,23 @@ struct DynamicWindowParams {
 
 /// What the window shall steer for.
 struct Steering {
-  double bearing = 0.0;    ///< [rad] base frame
-  double distance = 10.0;  ///< [m] to the point that is steered for
-  double speed_cap = 0.0;  ///< [m/s]; 0: turn on the spot
-  bool may_reverse = false;
+  double bearing = 0.0;      ///< [rad] base frame
+  double distance = 10.0;    ///< [m] to the point that is steered for
+  double speed_cap = 0.0;    ///< [m/s]; 0: turn on the spot
+  bool may_reverse = false;  ///< backwards counts, too
 };
 
+/// A velocity of the window and its worth.
 struct EvaluatedVelocity {
-  Velocity velocity;
+  Velocity velocity;    ///< forward and turning
   double value = -1.0;  ///< < 0: not admissible
 };
 
+/// What the window chose.
 struct WindowChoice {
-  Velocity command;
-  bool is_braking = false;  ///< nothing in the window was safe: full braking
-  std::vector<EvaluatedVelocity> window;
+  Velocity command;                       ///< the best admissible one, else full braking
+  bool is_braking = false;                ///< nothing in the window was safe: full braking
+  std::vector<EvaluatedVelocity> window;  ///< all, by rising speed, then turn rate
 };
 
 /// The dynamic window [Rhino1999] 4.1.1: all velocities that the base can reach in `cycle`. Hard constraint:

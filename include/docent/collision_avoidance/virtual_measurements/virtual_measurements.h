@@ -45,13 +45,13 @@ struct VirtualMeasurementParams {
 struct WeightedPose {
   Point2 position;       ///< [m]
   double heading = 0.0;  ///< [rad]
-  double mass = 0.0;
+  double mass = 0.0;     ///< probability
 };
 /// Mass that may be anywhere in a square, with any heading.
 struct WeightedSquare {
   Point2 centre;      ///< [m], map
   double side = 0.0;  ///< [m]
-  double mass = 0.0;
+  double mass = 0.0;  ///< probability
 };
 
 /// Virtual range measurements of hazards and of the border of the operating area, from the whole belief
@@ -64,17 +64,19 @@ class VirtualMeasurements {
   static constexpr int kDirections = 180;  ///< direction i points 2 i degrees - 180 degrees from the robot's heading
   static constexpr double kBin = 0.05;     ///< [m]
   static constexpr int kBins = 121;        ///< the last: nothing within kMaxRange
-  static constexpr double kMaxRange = kBin * (kBins - 1);
-  using Ranges = std::array<double, kDirections>;  ///< [m]
+  static constexpr double kMaxRange = kBin * (kBins - 1);  ///< [m]
+  using Ranges = std::array<double, kDirections>;          ///< [m]
 
   /// What rays end on: hazards bind the robot's body, the border its centre.
   enum class Ends { both, hazards, border };
 
+  /// Polygons in [m], map. An empty area has no border. @pre params are valid.
   VirtualMeasurements(Polygon area, std::vector<Polygon> hazards, VirtualMeasurementParams params,
                       Ends ends = Ends::both);
 
+  /// What the belief measures.
   struct Scan {
-    Ranges ranges{};
+    Ranges ranges{};             ///< to the nearest end, at most kMaxRange
     double possible_mass = 0.0;  ///< share of the belief that lies where the robot can be
   };
   /// The largest distances that, with the wanted confidence, underestimate the true ones: o* = sup {o : P(X > o) >

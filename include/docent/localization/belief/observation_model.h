@@ -11,14 +11,14 @@ namespace docent::localization {
 
 /// A pose that the belief holds likely.
 struct LikelyPose {
-  Pose2 map_from_robot;
-  double mass = 0.0;  ///< normalised over all of them
+  Pose2 map_from_robot;  ///< where it may be
+  double mass = 0.0;     ///< normalised over all of them
 };
 
 /// The moment of an update.
 struct ObservationMoment {
-  Time time;
-  Pose2 odom_from_robot;
+  Time time;                           ///< of the sweep
+  Pose2 odom_from_robot;               ///< then
   std::span<const LikelyPose> likely;  ///< before the update; empty while the belief is too wide for filters
 };
 
@@ -46,8 +46,9 @@ inline constexpr double kWorkOfOthers = 40.0;
 /// All sensors beside the lasers. The localizers see this, and no sensor.
 class ObservationModels {
  public:
+  /// One more, after the others.
   void add(std::shared_ptr<ObservationModel> model) { models_.push_back(std::move(model)); }
-  [[nodiscard]] bool none() const { return models_.empty(); }
+  [[nodiscard]] bool none() const { return models_.empty(); }  ///< nothing was added
 
   /// Asks all of them, in the order in which they were added; whether any has something to say.
   bool observe(const ObservationMoment& moment);
@@ -55,7 +56,7 @@ class ObservationModels {
   void pass_over() { speaking_.clear(); }
   /// Sums over those that had.
   void add_costs(std::span<const Pose2> map_from_robot, std::span<float> nats) const;
-  [[nodiscard]] double mean_cost() const;
+  [[nodiscard]] double mean_cost() const;                        ///< [nat] sum of theirs
   [[nodiscard]] double cost(const Pose2& map_from_robot) const;  ///< [nat] of a single pose
 
  private:

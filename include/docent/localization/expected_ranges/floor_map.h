@@ -13,7 +13,7 @@ struct FloorMap {
   /// `closed`: [m] in the map. O(cells * corners).
   FloorMap(const OccupancyGrid& map, std::span<const Polygon> closed = {});
 
-  OccupancyGrid walls;
+  OccupancyGrid walls;     ///< what the lasers meet
   OccupancyGrid standing;  ///< the same, what is closed unknown
 };
 

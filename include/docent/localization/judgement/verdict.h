@@ -79,17 +79,18 @@ struct Evidence {
 /// over several updates and some motion, and the readings bear it out; and takes it back when they stop doing so.
 class Verdict {
  public:
-  explicit Verdict(const VerdictParams& params) : params_{params} {}
+  explicit Verdict(const VerdictParams& params) : params_{params} {}  ///< "I do not know". @pre params are valid
 
+  /// An update of the belief.
   void add(const Evidence& evidence);
   /// A sweep between updates, or the one that led to the last, against the best pose. Eight that leave more than the
   /// most doubt take "here" back.
   void look(const Glance& glance);
   /// After a restart or a given start: the mode was known already, and needs one confirmation only.
   void assume_localized();
-  void reset();
+  void reset();  ///< back to "I do not know"
 
-  [[nodiscard]] bool localized() const { return localized_; }
+  [[nodiscard]] bool localized() const { return localized_; }  ///< it may say "here"
   /// The robot may be too unsure to say "here" – people have hidden the map for long, two places share the mass – but
   /// since it last did nothing speaks against that place: what it sees is evidence about its neighbourhood, not about
   /// others.
@@ -107,6 +108,7 @@ class Verdict {
   [[nodiscard]] bool startled() const {
     return glance_.through > params_.startled_through || hidden_ > params_.startled_hidden;
   }
+  /// What p_lost is made of now.
   [[nodiscard]] Doubt doubt() const {
     return {mass_, share_, confirmation(), agreement_, contradiction_, glance_.through, hidden_, unmapped_, spread_};
   }

@@ -40,13 +40,14 @@ class Localizer {
   /// Another sensor, whose observations count in every update from now on.
   void add_sensor(std::shared_ptr<ObservationModel> sensor) { sensors_.add(std::move(sensor)); }
 
-  void start_unknown();
+  void start_unknown();  ///< the robot may be anywhere
   /// `odom_from_robot`: where odometry saw the robot when it was as `modes` say.
   void start_at(std::span<const BeliefMode> modes, const Pose2& odom_from_robot, Time time);
 
+  /// What `observe` did.
   struct Step {
-    bool updated = false;
-    std::size_t beams_used = 0;
+    bool updated = false;            ///< the belief has changed
+    std::size_t beams_used = 0;      ///< that counted
     std::size_t beams_filtered = 0;  ///< of all beams of the sweep, one a direction
     double weight = 0.0;             ///< 0..1 of a full update
     /// Mean ln P(d | o) of the beams used, at the best mode: how well the map explains them. None without a mode.
@@ -57,16 +58,16 @@ class Localizer {
   /// belief starts anew. O(states of the belief * beams).
   Step observe(const sensor_models::RangeSweep& sweep, const Pose2& odom_from_robot, Time time);
 
-  [[nodiscard]] const BeliefSummary& summary() const { return summary_; }  ///< as of the last update
-  [[nodiscard]] const Verdict& verdict() const { return verdict_; }
+  [[nodiscard]] const BeliefSummary& summary() const { return summary_; }          ///< as of the last update
+  [[nodiscard]] const Verdict& verdict() const { return verdict_; }                ///< whether it may say "here"
   [[nodiscard]] const Pose2& odom_from_robot() const { return odom_from_robot_; }  ///< at the last update
   /// Entropy gains [nat] of the beams of a sweep, H(L | s) - H(L): above 0 the beam would make the robot less sure
   /// ([Rhino1999] eq. 10). 0 where it would tell nothing; empty while the belief is too wide to ask.
   [[nodiscard]] std::vector<float> entropy_gains(const sensor_models::RangeSweep& sweep, const Pose2& odom_now) const;
-  [[nodiscard]] PositionDensity density() const { return belief_->density(); }  ///< for pictures
-  [[nodiscard]] const sensor_models::RayCaster& caster() const { return map_->caster; }
-  [[nodiscard]] const StateSpace& space() const { return map_->space; }
-  [[nodiscard]] const RangeTable& table() const { return map_->table; }
+  [[nodiscard]] PositionDensity density() const { return belief_->density(); }           ///< for pictures
+  [[nodiscard]] const sensor_models::RayCaster& caster() const { return map_->caster; }  ///< of the map
+  [[nodiscard]] const StateSpace& space() const { return map_->space; }                  ///< the states of a grid
+  [[nodiscard]] const RangeTable& table() const { return map_->table; }                  ///< expected ranges
 
   /// The best mode's mean, carried on by odometry; nullopt when there is no mode at all.
   [[nodiscard]] std::optional<Pose2> map_from_robot(const Pose2& odom_now) const {
@@ -80,8 +81,8 @@ class Localizer {
                                                                const PersonFilterParams& params) const;
 
  protected:
-  [[nodiscard]] PoseBelief& pose_belief() { return *belief_; }
-  [[nodiscard]] const PoseBelief& pose_belief() const { return *belief_; }
+  [[nodiscard]] PoseBelief& pose_belief() { return *belief_; }              ///< what the belief is made of
+  [[nodiscard]] const PoseBelief& pose_belief() const { return *belief_; }  ///< what the belief is made of
 
  private:
   /// One update, from step to step.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,17 +21,17 @@ namespace docent::localization {
 
 /// What grid and particles share, section `localize` of robot.yaml.
 struct LocalizerParams {
-  StateSpaceParams states;
-  sensor_models::ProximityModelParams sensor;
-  motion_models::OdometryModelParams motion;
-  VerdictParams verdict;
-  PoseRefinerParams refiner;
-  TracksParams tracks;
-  int beams = 60;                      ///< at most, per update
-  double independent_beams = 12.0;     ///< what so many correlated beams are worth
-  double independent_beams_far = 3.5;  ///< and, once the robot is sure of a place, between it and others
-  int sectors = 12;                    ///< of a turn: one thing that the map does not know hides the beams of a sector
-  double most_sector_nats = 5.0;       ///< [nat] that a sector's beams count at most together
+  StateSpaceParams states;                     ///< cells of position and heading
+  sensor_models::ProximityModelParams sensor;  ///< how the lasers err
+  motion_models::OdometryModelParams motion;   ///< how odometry errs
+  VerdictParams verdict;                       ///< when to say "here"
+  PoseRefinerParams refiner;                   ///< from a cell to centimetres
+  TracksParams tracks;                         ///< the places that the whole way leaves possible
+  int beams = 60;                              ///< at most, per update
+  double independent_beams = 12.0;             ///< what so many correlated beams are worth
+  double independent_beams_far = 3.5;          ///< and, once the robot is sure of a place, between it and others
+  int sectors = 12;               ///< of a turn: one thing that the map does not know hides the beams of a sector
+  double most_sector_nats = 5.0;  ///< [nat] that a sector's beams count at most together
   /// and, in the grid, while the robot has no place to keep and walls are where the map says (`exact_walls`): people
   /// are out by their shape then, and beams through walls must cost more than those that are hidden. Where shapes take
   /// out most beams, some of the others are of people, too, and it is as above.
@@ -60,6 +61,11 @@ struct LocalizerParams {
   double work_per_second = 1e9;        ///< states * beams that may be scored in a second of the robot's time
   bool reckons_dead = false;           ///< crippled, for evaluation: once it is sure it looks no more
   std::string simd = "auto";           ///< auto (the widest there is), plain, avx2, avx512: same belief, other speed
+
+  // Not of robot.yaml.
+  /// P(d | o) of your own; the mixture of `sensor` then gives its max_range and the Gaussian of the filters. Null: that
+  /// mixture.
+  std::shared_ptr<const sensor_models::ReadingDistribution> own_sensor;
   template <class V>
   void visit(V& v) {
     v("states", states);
@@ -109,6 +115,7 @@ struct LocalizerParams {
   /// The beams on what is shaped like a person, while the robot does not know its place; empty: nobody looks.
   [[nodiscard]] std::vector<std::uint8_t> on_persons(const sensor_models::RangeSweep& sweep,
                                                      bool keeps_its_place) const;
+  /// How beams are chosen.
   [[nodiscard]] BeamChoiceParams beam_choice(std::vector<std::uint8_t> on_persons, bool keeps_its_place) const;
 };
 

@@ -16,6 +16,7 @@ class MarkovLocalizer final : public Localizer {
   MarkovLocalizer(const FloorMap& map, const LocalizerParams& params, const RangeTableCache& cache, std::uint64_t seed)
       : MarkovLocalizer{std::make_shared<const KnownMap>(map, params, cache), params, seed} {}
 
+  /// The grid itself.
   [[nodiscard]] const PositionBelief& belief() const { return static_cast<const GridBelief&>(pose_belief()).belief(); }
 
  private:

@@ -18,9 +18,11 @@ class MonteCarloLocalizer final : public Localizer {
                       const RangeTableCache& cache, std::uint64_t seed)
       : MonteCarloLocalizer{std::make_shared<const KnownMap>(map, shared, cache), shared, params, seed} {}
 
+  /// The samples themselves.
   [[nodiscard]] const ParticleSet& particles() const {
     return static_cast<const ParticleBelief&>(pose_belief()).particles();
   }
+  /// For benchmarks: all give the same samples.
   void use_kernels(FieldKernel field, InstructionSet grid) {
     static_cast<ParticleBelief&>(pose_belief()).use_kernels(field, grid);
   }

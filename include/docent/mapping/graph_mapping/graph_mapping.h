@@ -14,7 +14,7 @@ namespace docent::mapping {
 /// they are seen, so the poses of earlier scans may move with any scan that is added.
 class GraphMapping {
  public:
-  explicit GraphMapping(const GraphMapperParams& params);
+  explicit GraphMapping(const GraphMapperParams& params);  ///< no scan yet
 
   /// @pre the robot moved since the scan before. O(points), and now and then a search for loops and a least-squares
   /// solution over all scans.
@@ -28,11 +28,11 @@ class GraphMapping {
     double position = 0.0;  ///< [m], one standard deviation
     double heading = 0.0;   ///< [rad], likewise
   };
-  [[nodiscard]] Spread spread() const { return spread_; }
+  [[nodiscard]] Spread spread() const { return spread_; }  ///< of the newest pose
   /// [m], one standard deviation: how far from the newest pose's place on the map something may lie that is marked in
   /// the frame of the first pose; as of the last submap. Odometry is rated as it has proved to be.
   [[nodiscard]] double doubt_of_marks() const { return doubt_of_marks_; }
-  [[nodiscard]] std::size_t loops() const { return loops_; }
+  [[nodiscard]] std::size_t loops() const { return loops_; }  ///< closed so far
 
   /// Closes what loops are left, matches scans nearby to each other and judges the map. No scan may follow.
   [[nodiscard]] GraphMap finish(const std::function<void(const MappingProgress&)>& progress = {});

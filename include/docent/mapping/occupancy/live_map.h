@@ -17,17 +17,17 @@ namespace docent::mapping {
 
 /// Section `map`: what stands in the hall now and not on the map.
 struct LiveMapParams {
-  int coarsening = 3;           ///< live cell = so many cells of the static map
-  double reach = 6.0;           ///< [m], farther endpoints are not believed
-  double static_margin = 0.25;  ///< [m]: nearer to a mapped obstacle an endpoint is that obstacle
-  int hits_to_block = 3;        ///< of the last four looks at a cell, 1..4
-  double forget = 30.0;         ///< [s] until a cell that nobody looked at is free again
-  double settle = 20.0;         ///< [s] that a cell was seen blocked, then what stands there is no passer-by
-  double forget_settled = 300;  ///< [s] until such a cell that nobody looked at is free again
-  double period = 0.5;          ///< [s] between looks
-  ConeLayerParams sonar{};
-  ConeLayerParams infrared{.reach = 0.7};
-  TouchLayerParams touch{};
+  int coarsening = 3;                      ///< live cell = so many cells of the static map
+  double reach = 6.0;                      ///< [m], farther endpoints are not believed
+  double static_margin = 0.25;             ///< [m]: nearer to a mapped obstacle an endpoint is that obstacle
+  int hits_to_block = 3;                   ///< of the last four looks at a cell, 1..4
+  double forget = 30.0;                    ///< [s] until a cell that nobody looked at is free again
+  double settle = 20.0;                    ///< [s] that a cell was seen blocked, then what stands there is no passer-by
+  double forget_settled = 300;             ///< [s] until such a cell that nobody looked at is free again
+  double period = 0.5;                     ///< [s] between looks
+  ConeLayerParams sonar{};                 ///< the sonars' layer
+  ConeLayerParams infrared{.reach = 0.7};  ///< the infrared sensors' layer
+  TouchLayerParams touch{};                ///< the layer of what was touched
   template <class V>
   void visit(V& v) {
     v("coarsening", coarsening);
@@ -65,6 +65,7 @@ class LiveMap {
   /// sonar looks through what it had met itself, the thing is gone, and with it what the infrared sensors, which see no
   /// farther than an arm's length, had met there.
   void add_sonar(const ConeReading& reading, std::span<const LaserLook> lasers, Time now);
+  /// An infrared sensor's reading, see add_sonar.
   void add_infrared(const ConeReading& reading, std::span<const LaserLook> lasers, Time now) {
     infrared_.add(reading, lasers, now);
   }
@@ -75,9 +76,9 @@ class LiveMap {
   /// Frees what nobody looked at for too long. O(cells).
   void forget(Time now);
 
-  [[nodiscard]] const GridFrame& frame() const { return static_.frame; }
-  static constexpr std::int8_t kPassing = 80;  ///< blocked, as a person may block it
-  static constexpr std::int8_t kSettled = OccupancyGrid::kOccupied;
+  [[nodiscard]] const GridFrame& frame() const { return static_.frame; }  ///< of the live cells
+  static constexpr std::int8_t kPassing = 80;                             ///< blocked, as a person may block it
+  static constexpr std::int8_t kSettled = OccupancyGrid::kOccupied;       ///< blocked by a thing
   /// The max rule: the largest of the static cell and those of all layers.
   [[nodiscard]] std::int8_t cell(std::size_t index) const;
   /// By what any layer shows.

@@ -9,15 +9,15 @@ namespace docent::mapping {
 
 /// A room or a hallway.
 struct Place {
-  PlaceKind kind = PlaceKind::room;
-  PlaceShape shape;
-  Point2 middle;             ///< [m], map: where it is widest
-  std::vector<int> doors{};  ///< numbers in `Regions::gaps`
+  PlaceKind kind = PlaceKind::room;  ///< room or hallway
+  PlaceShape shape;                  ///< what it was told by
+  Point2 middle;                     ///< [m], map: where it is widest
+  std::vector<int> doors{};          ///< numbers in `Regions::gaps`
 };
 
 /// Rooms, hallways and doors of a building, and which leads to which [Buhmann1995].
 struct TopologicalMap {
-  Regions regions;
+  Regions regions;            ///< cells of each place, and the gaps between them
   std::vector<Place> places;  ///< [regions]
 
   /// The places next to one, each once, ascending.

@@ -16,12 +16,12 @@ struct CoastalParams {
   /// [1/nat], >= 0, the trade-off: a metre driven with an entropy of u nats above the best costs 1 + weight * u metres.
   /// 0: the shortest way.
   double weight = 0.0;
-  double goal_way = 10.0;          ///< [m], >= 0: way driven that the entropy at the goal weighs as much as
-  double least_deviation = 0.01;   ///< [m], > 0: of the pose, at the level that costs nothing
-  double largest_deviation = 3.0;  ///< [m], more is all the same
-  int levels = 24;                 ///< 2..200 of entropy, evenly spaced
-  PlaceInformationParams places{};
-  UncertaintyParams uncertainty{};
+  double goal_way = 10.0;           ///< [m], >= 0: way driven that the entropy at the goal weighs as much as
+  double least_deviation = 0.01;    ///< [m], > 0: of the pose, at the level that costs nothing
+  double largest_deviation = 3.0;   ///< [m], more is all the same
+  int levels = 24;                  ///< 2..200 of entropy, evenly spaced
+  PlaceInformationParams places{};  ///< what a place tells of the pose
+  UncertaintyParams uncertainty{};  ///< how the pose is lost and found on the way
   template <class V>
   void visit(V& v) {
     v("weight", weight);
@@ -38,8 +38,9 @@ struct CoastalParams {
 /// Costs [m] of a coarser grid: a cell is open when one of the factor x factor cells under it is, at the least of their
 /// costs, times the factor. The finer costs are of a step of one cell.
 struct CoastalFloor {
-  GridFrame frame;
+  GridFrame frame;           ///< of the costs
   std::vector<float> costs;  ///< [rows * columns] of entering a cell by a step of its size; infinity: closed
+  /// `fine`: of the costs given.
   [[nodiscard]] static CoastalFloor of(const GridFrame& fine, std::span<const float> costs, int factor);
 };
 
@@ -63,7 +64,7 @@ class CoastalPlanner {
   /// Sweeps until nothing changes by more than a millimetre or `most_sweeps` are made. O(cells * levels) a sweep.
   /// @returns true when the values have converged
   bool iterate(int most_sweeps);
-  [[nodiscard]] bool is_settled() const { return is_settled_; }
+  [[nodiscard]] bool is_settled() const { return is_settled_; }  ///< the values have converged
 
   /// V [m] at a place, when the pose is known to `variance` [m2]; infinity where there is no way.
   [[nodiscard]] double value(Point2 in_map, double variance) const;
@@ -72,9 +73,9 @@ class CoastalPlanner {
 
   /// Variances [m2] that are to be expected along any way: one a point.
   [[nodiscard]] std::vector<double> variances_along(Point2 start, std::span<const Point2> way, double variance) const;
-  [[nodiscard]] const InformationMap& information() const { return information_; }
-  [[nodiscard]] const Uncertainty& uncertainty() const { return uncertainty_; }
-  [[nodiscard]] const GridFrame& frame() const { return floor_.frame; }
+  [[nodiscard]] const InformationMap& information() const { return information_; }  ///< what each place tells
+  [[nodiscard]] const Uncertainty& uncertainty() const { return uncertainty_; }     ///< how levels follow one another
+  [[nodiscard]] const GridFrame& frame() const { return floor_.frame; }             ///< of its cells
 
  private:
   struct Step {

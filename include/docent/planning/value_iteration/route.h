@@ -53,8 +53,8 @@ struct RouteParams {
 
 /// Cells from `low` to `high`, both among them.
 struct CellBox {
-  CellIndex low;
-  CellIndex high;
+  CellIndex low;   ///< lower left
+  CellIndex high;  ///< upper right
 };
 
 /// Plans for a disc-shaped robot in a museum's map: costs of cells from clearance, value iteration, and the way as a
@@ -94,9 +94,9 @@ class RoutePlanner {
   /// The way from `start` (map) to the goal, along the one held where there is one: points some centimetres apart,
   /// smoothed, start excluded. Empty: no way known.
   [[nodiscard]] std::vector<Point2> way(Point2 start) const;
-  [[nodiscard]] bool is_closed(Point2 in_map) const;
-  [[nodiscard]] const GridFrame& frame() const { return planner_.frame(); }
-  [[nodiscard]] const ValueIteration& values() const { return planner_; }
+  [[nodiscard]] bool is_closed(Point2 in_map) const;                         ///< the robot cannot be there
+  [[nodiscard]] const GridFrame& frame() const { return planner_.frame(); }  ///< of the planning cells
+  [[nodiscard]] const ValueIteration& values() const { return planner_; }    ///< for pictures
   /// [rows * columns of frame()] costs of cells in metres of free floor, without obstacles and preferences; infinity:
   /// closed.
   [[nodiscard]] std::span<const float> static_costs() const { return static_costs_; }

@@ -27,15 +27,17 @@ namespace docent::planning {
 /// bit for bit with every instruction set, in whatever order changes and calls come.
 class ValueIteration {
  public:
-  static constexpr float kClosed = kUnreached;
+  static constexpr float kClosed = kUnreached;  ///< infinity: no way, or no place to be
 
+  /// Where ways end.
   struct Goal {
-    CellIndex cell;
+    CellIndex cell;      ///< in the grid
     float value = 0.0F;  ///< cost that stands in for the rest of the way; 0 for the goal itself
   };
+  /// A new cost of a cell.
   struct Change {
-    CellIndex cell;
-    float cost = kClosed;
+    CellIndex cell;        ///< in the grid
+    float cost = kClosed;  ///< of entering it, > 0
   };
 
   /// @param frame  where the cells lie. All cells are closed until set_costs.
@@ -59,10 +61,11 @@ class ValueIteration {
   /// left for `iterate`.
   bool settle(CellIndex cell, int most_visits);
 
-  [[nodiscard]] bool is_settled() const { return falls_.empty() && losses_.empty(); }
+  [[nodiscard]] bool is_settled() const { return falls_.empty() && losses_.empty(); }  ///< all values are final
+  /// V; kClosed where no way is known.
   [[nodiscard]] float value(CellIndex cell) const;
-  [[nodiscard]] float cost(CellIndex cell) const { return costs_[index(cell)]; }
-  [[nodiscard]] const GridFrame& frame() const { return frame_; }
+  [[nodiscard]] float cost(CellIndex cell) const { return costs_[index(cell)]; }  ///< as last set
+  [[nodiscard]] const GridFrame& frame() const { return frame_; }                 ///< where the cells lie
   /// A goal from where no other one is nearer.
   [[nodiscard]] bool is_goal(CellIndex cell) const;
   /// Offers of one cell to a neighbour that were computed so far, those of the selective reset among them.

@@ -14,20 +14,21 @@ namespace docent::recording {
 
 /// A channel of a recording: one topic with its type.
 struct McapChannel {
-  std::string topic;            ///< "/scan_front"
-  std::string type;             ///< "sensor_msgs/msg/LaserScan"
-  std::string schema_encoding;  ///< "ros2msg"
-  std::string schema;           ///< the text of the type
-  std::string encoding;         ///< of the messages: "cdr"
-  std::map<std::string, std::string> metadata;
+  std::string topic;                            ///< "/scan_front"
+  std::string type;                             ///< "sensor_msgs/msg/LaserScan"
+  std::string schema_encoding;                  ///< "ros2msg"
+  std::string schema;                           ///< the text of the type
+  std::string encoding;                         ///< of the messages: "cdr"
+  std::map<std::string, std::string> metadata;  ///< as MCAP has it
   friend bool operator==(const McapChannel&, const McapChannel&) = default;
 };
 
+/// How a file is written.
 struct McapWriterOptions {
   std::size_t chunk_bytes = 1U << 20U;            ///< a chunk is closed at this size …
   Duration chunk_time = std::chrono::seconds{1};  ///< … or when its messages span this time
   bool compress = true;                           ///< zstd, level 1
-  std::string library = "docent";
+  std::string library = "docent";                 ///< that wrote it, in the header
 };
 
 /// Writes an MCAP file (mcap.dev/spec): profile ros2, chunks, message index, summary with statistics, all checksums.
@@ -36,7 +37,7 @@ struct McapWriterOptions {
 /// leaves lacks at most the last chunk; `McapReader` reads it and `recover_mcap` makes a whole file of it.
 class McapWriter {
  public:
-  using Channel = std::uint16_t;
+  using Channel = std::uint16_t;  ///< a number of this file
 
   /// Error: the file cannot be made.
   [[nodiscard]] static Result<McapWriter> create(const std::filesystem::path& path,
@@ -57,8 +58,8 @@ class McapWriter {
   /// Writes index and summary and gives the file its name. Afterwards nothing else may be called.
   [[nodiscard]] Result<void> close();
 
-  [[nodiscard]] std::uint64_t messages() const;
-  [[nodiscard]] std::uint64_t bytes_written() const;
+  [[nodiscard]] std::uint64_t messages() const;       ///< written so far
+  [[nodiscard]] std::uint64_t bytes_written() const;  ///< to the file so far
 
  private:
   struct State;

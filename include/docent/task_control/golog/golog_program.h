@@ -31,26 +31,29 @@ struct GologParams {
 
 /// What a robot that carries out a program is told next.
 struct GologStep {
+  /// An action begins or stops; the program waits; it is over.
   enum class Kind { begin, stop, waits, finished };
-  Kind kind = Kind::waits;
-  GologTerm action{};  ///< of begin and stop
+  Kind kind = Kind::waits;  ///< what to do now
+  GologTerm action{};       ///< of begin and stop
 };
 
 /// How an action went.
 struct GologOutcome {
+  /// How an action ended.
   enum class Kind { done, sensed, failed };
-  Kind kind = Kind::done;
-  std::string value{};  ///< what was sensed
+  Kind kind = Kind::done;  ///< how it ended
+  std::string value{};     ///< what was sensed
 };
 
 /// An action that a program can speak of.
 struct GologAction {
-  std::string name;
+  std::string name;   ///< as the program has it
   std::string place;  ///< where it is declared, "FILE:LINE"
 };
 
+/// What a program would do next.
 struct GologForesight {
-  std::vector<GologTerm> actions;
+  std::vector<GologTerm> actions;                ///< in their order
   GologStep::Kind end = GologStep::Kind::waits;  ///< begin: there is more than was asked for
 };
 

@@ -15,7 +15,7 @@ namespace docent::task_control {
 
 /// What decides whether a request is taken.
 struct Conditions {
-  bool is_open = true;
+  bool is_open = true;                                      ///< the museum is
   std::optional<OperatingMode> mode = OperatingMode::open;  ///< nullopt: one that is not known, taken as open
   bool takes_points = true;  ///< the planner can drive to points on the map, and to rooms
   Reason delay = {};         ///< why all who come now wait a while; none: they do not
@@ -24,72 +24,75 @@ struct Conditions {
 
 /// One exhibit to show, for one request or many.
 struct Visit {
-  std::string exhibit_id;
+  std::string exhibit_id;   ///< of the museum
   int viewpoint = -1;       ///< -1: the exhibit's own place
   Pose2 map_from_base;      ///< where to stand
   std::string language;     ///< that of the first request
   std::string tour_id;      ///< empty: not a stop of the tour under way
   bool is_joinable = true;  ///< nothing was said yet: whoever wishes for the exhibit now takes part
-  Time started;
-  bool asks = true;       ///< there is time to hear more
-  bool is_point = false;  ///< a point on the map or a room; `exhibit_id` is its name (point_name) or the room's id
+  Time started;             ///< when its drive began
+  bool asks = true;         ///< there is time to hear more
+  bool is_point = false;    ///< a point on the map or a room; `exhibit_id` is its name (point_name) or the room's id
 
-  [[nodiscard]] TaskKind task_kind() const { return is_point ? TaskKind::point : TaskKind::visit; }
+  [[nodiscard]] TaskKind task_kind() const { return is_point ? TaskKind::point : TaskKind::visit; }  ///< as a task
 };
 
+/// What became of a stop.
 enum class StopStatus { pending, explained, skipped };
+/// An exhibit of a tour.
 struct TourStop {
-  std::string exhibit_id;
-  StopStatus status = StopStatus::pending;
-  int attempts = 0;
+  std::string exhibit_id;                   ///< of the museum
+  StopStatus status = StopStatus::pending;  ///< what became of it
+  int attempts = 0;                         ///< to reach it
   int number = 0;  ///< from 0, in the order in which stops were added to a tour with a fixed order
 };
 
 /// A request that takes part in a tour, and in which of its stops it does.
 struct TourMember {
-  std::string request_id;
+  std::string request_id;  ///< of the board
   std::vector<int> stops;  ///< their numbers; empty: all there are (composed tours)
 };
 
 /// A tour under way.
 struct TourRun {
-  std::string tour_id;
-  std::string language;
-  std::vector<TourStop> stops;  ///< in the order of visiting; what failed went to the end
-  bool just_inserted = false;   ///< the last visit was not one of the tour's
-  double target_s = 0.0;        ///< [s] 0: none
-  Time started;
-  std::vector<TourMember> members{};
-  bool asks = true;      ///< at the next stop: more, or next?
-  Time composed_at{-1};  ///< when its pending stops were chosen last
+  std::string tour_id;                ///< of the museum
+  std::string language;               ///< of its first request
+  std::vector<TourStop> stops;        ///< in the order of visiting; what failed went to the end
+  bool just_inserted = false;         ///< the last visit was not one of the tour's
+  double target_s = 0.0;              ///< [s] 0: none
+  Time started;                       ///< when it began
+  std::vector<TourMember> members{};  ///< who takes part
+  bool asks = true;                   ///< at the next stop: more, or next?
+  Time composed_at{-1};               ///< when its pending stops were chosen last
 };
 
 /// A tour is over, and its visitors are still there.
 struct Farewell {
-  std::string tour_id;
-  std::string language;
-  Time started;  ///< when the tour began
+  std::string tour_id;   ///< of the museum
+  std::string language;  ///< it was given in
+  Time started;          ///< when the tour began
 };
 
+/// Since the mission began.
 struct Counters {
-  std::uint32_t exhibits_explained = 0;
-  std::uint32_t tours_completed = 0;
-  std::uint32_t requests_served = 0;
-  std::uint32_t tours_since_vote = 0;  ///< begun since the last one for which the Web voted
+  std::uint32_t exhibits_explained = 0;  ///< in full
+  std::uint32_t tours_completed = 0;     ///< to their last stop
+  std::uint32_t requests_served = 0;     ///< that ended well
+  std::uint32_t tours_since_vote = 0;    ///< begun since the last one for which the Web voted
 };
 
 /// So many different things were wished for at once when a request came.
 struct Load {
-  Time at;
-  int stops = 0;
+  Time at;        ///< when it came
+  int stops = 0;  ///< different things
 };
 
 /// All that must survive.
 struct SchedulerState {
-  RequestBoard board;
-  std::optional<Visit> visit;
-  std::optional<TourRun> tour;
-  Counters counters;
+  RequestBoard board;                  ///< all requests
+  std::optional<Visit> visit;          ///< the one under way
+  std::optional<TourRun> tour;         ///< the one under way
+  Counters counters;                   ///< of what was done
   std::optional<Farewell> farewell{};  ///< to be said before anything else
   std::vector<Load> loads{};           ///< rising in time, falling in stops: each the most since it was
 };
@@ -155,11 +158,11 @@ class TourScheduler {
   /// Exhibits still to come, in order, as it looks from here.
   [[nodiscard]] std::vector<std::string> agenda(Point2 robot, Time now) const;
 
-  [[nodiscard]] const SchedulerState& state() const { return state_; }
-  [[nodiscard]] RequestBoard& board() { return state_.board; }
-  [[nodiscard]] TravelTimes& times() { return times_; }
-  [[nodiscard]] const TravelTimes& times() const { return times_; }
-  [[nodiscard]] const Programme& programme() const { return programme_; }
+  [[nodiscard]] const SchedulerState& state() const { return state_; }     ///< all that must survive
+  [[nodiscard]] RequestBoard& board() { return state_.board; }             ///< all requests
+  [[nodiscard]] TravelTimes& times() { return times_; }                    ///< what drives have taken
+  [[nodiscard]] const TravelTimes& times() const { return times_; }        ///< what drives have taken
+  [[nodiscard]] const Programme& programme() const { return programme_; }  ///< what the museum offers
   /// Adds to the history what the scheduler does not see itself.
   void note(Happening happening) { happenings_.push_back(std::move(happening)); }
   /// What happened since the last call, in order.

@@ -39,7 +39,7 @@ KnownMap::KnownMap(const FloorMap& map, const LocalizerParams& params, const Ran
       places{caster, map.standing},
       space{map.standing, caster, params.states},
       table{range_table_of(map, params, cache, space, caster)},
-      model{params.sensor, table.frequency()},
+      model{params.sensor, table.frequency(), params.own_sensor.get()},
       widest{map.walls.frame.resolution * std::hypot(map.walls.frame.columns, map.walls.frame.rows)} {}
 
 }  // namespace docent::localization

@@ -170,6 +170,38 @@ TEST(MarkovLocalizer, ASectorCountsMoreWhereShapesLeaveEnoughBeams) {
   EXPECT_EQ(recorded.sector_nats(with_people(40)), recorded.most_sector_nats);
 }
 
+/// Readings about the expected range as a bell over bins, or, with no width, as good as any other.
+class Bell final : public sensor_models::ReadingDistribution {
+ public:
+  explicit Bell(double width) : width_{width} {}
+  void fill(const sensor_models::RangeBins& /*bins*/, int expected, std::span<double> out) const override {
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const double off = (static_cast<double>(i) - expected) / width_;
+      out[i] = 0.002 + (width_ > 0.0 ? std::exp(-0.5 * off * off) : 0.0);
+    }
+  }
+
+ private:
+  double width_;
+};
+
+TEST(MarkovLocalizer, ASensorModelOfOnesOwnIsWhatCounts) {
+  const auto error_with = [](double width) {
+    Drive drive;
+    LocalizerParams params = coarse();
+    params.own_sensor = std::make_shared<Bell>(width);
+    MarkovLocalizer localizer{drive.map, params, {}, 1};
+    for (int i = 0; i < 60; ++i) {
+      drive.step();
+      localizer.observe(drive.look(0.0), drive.odom, time_from_seconds(drive.seconds));
+    }
+    const auto found = localizer.map_from_robot(drive.odom);
+    return found ? distance(found->position(), drive.truth.position()) : 1e3;
+  };
+  EXPECT_LT(error_with(3.0), 0.15);
+  EXPECT_GT(error_with(0.0), 0.3) << "a sensor that says nothing finds nothing";
+}
+
 TEST(MarkovLocalizer, AnUnknownFilterIsAFault) {
   LocalizerParams params;
   params.filter = "magic";

@@ -33,6 +33,7 @@ struct ProximityModelParams {
     v("weight_no_return", weight_no_return);
     v("weight_random", weight_random);
   }
+  /// What the weights are normalised by.
   [[nodiscard]] double total_weight() const {
     return weight_hit + weight_near + weight_short + weight_no_return + weight_random;
   }
@@ -43,20 +44,21 @@ struct ProximityModelParams {
 /// finer: their width grows with kFinest + range, from 4 to 13 cm over 10 m. An expected range is such a bin too, or
 /// kUnknown: the map does not say. All fit in seven bits, so that a look-up is one shuffle.
 inline constexpr int kRangeBins = 127;
-inline constexpr int kNoReturn = kRangeBins - 1;
-inline constexpr int kUnknownRange = 127;
-inline constexpr int kExpectedRanges = 128;
+inline constexpr int kNoReturn = kRangeBins - 1;  ///< max_range or more, or nothing came back
+inline constexpr int kUnknownRange = 127;         ///< expected where the map does not say
+inline constexpr int kExpectedRanges = 128;       ///< bins and kUnknownRange
 
+/// The bins of a sensor's ranges.
 class RangeBins {
  public:
   /// @pre max_range > 0 [m]
   explicit RangeBins(double max_range);
 
   [[nodiscard]] int bin(double range) const;  ///< of a range [m] >= 0
-  /// [m]; 0..kRangeBins
+  /// [m]; 0..kRangeBins.
   [[nodiscard]] double lower_edge(int bin) const { return edges_[static_cast<std::size_t>(bin)]; }
-  [[nodiscard]] double centre(int bin) const;  ///< [m]; of kNoReturn: max_range
-  [[nodiscard]] double max_range() const { return max_range_; }
+  [[nodiscard]] double centre(int bin) const;                    ///< [m]; of kNoReturn: max_range
+  [[nodiscard]] double max_range() const { return max_range_; }  ///< [m] where kNoReturn begins
 
  private:
   static constexpr double kFinest = 5.0;  ///< [m]

@@ -13,16 +13,16 @@ namespace docent::mapping {
 
 /// How a map is made of scans and odometry.
 struct GraphMapperParams {
-  PointSweepParams points;
-  ScanChainParams chain;
-  SubmapParams submaps;
-  LoopCloserParams loops;
-  PoseGraphParams graph;
-  MapJudgementParams judgement;
-  MatchGridParams chain_grid{0.05, 0.07, 4};
-  MatchGridParams loop_grid{0.10, 0.10, 6};
-  LineMatcherParams lines;
-  int candidates = 8;       ///< > 0: older submaps that a new one is matched to, the likeliest first
+  PointSweepParams points;                    ///< which ends of beams count
+  ScanChainParams chain;                      ///< matching to what was seen just before
+  SubmapParams submaps;                       ///< short pieces of the way
+  LoopCloserParams loops;                     ///< matching pieces to older ones
+  PoseGraphParams graph;                      ///< least squares
+  MapJudgementParams judgement;               ///< whether to trust the map
+  MatchGridParams chain_grid{0.05, 0.07, 4};  ///< of the chain's matches
+  MatchGridParams loop_grid{0.10, 0.10, 6};   ///< of the loops' matches
+  LineMatcherParams lines;                    ///< matching to the centimetre
+  int candidates = 8;                         ///< > 0: older submaps that a new one is matched to, the likeliest first
   double loop_reach = 6.0;  ///< [m], > 0: submaps whose middles lie farther apart show too little in common
   int fine_rounds = 3;      ///< >= 0: rounds in which scans are matched to scans nearby, and all poses improved
   int fine_pairs = 10;      ///< > 0: of a scan in a round
@@ -57,21 +57,22 @@ struct GraphMapperParams {
 
 /// What a person who waits is told, and may draw.
 struct MappingProgress {
-  std::string stage;  ///< "chain", "loops", "fine"
-  std::size_t done = 0;
-  std::size_t of = 0;
-  std::size_t loops = 0;
+  std::string stage;                     ///< "chain", "loops", "fine"
+  std::size_t done = 0;                  ///< scans or rounds so far
+  std::size_t of = 0;                    ///< of so many
+  std::size_t loops = 0;                 ///< closed so far
   std::span<const Pose2> map_from_base;  ///< as far as known now
 };
 
+/// Poses of a drive, and what they are worth.
 struct GraphMap {
   std::vector<Pose2> map_from_base;  ///< of every scan
-  std::size_t loops = 0;
-  std::size_t loops_refused = 0;
-  std::size_t unmatched = 0;  ///< scans that only odometry places
+  std::size_t loops = 0;             ///< closed
+  std::size_t loops_refused = 0;     ///< seen and not believed
+  std::size_t unmatched = 0;         ///< scans that only odometry places
   std::size_t revisits = 0;  ///< pairs of scans of one place, taken at different times, that were matched to each other
   double revisit_error = 0.0;  ///< [m], mean: by how much the map misses these matches
-  MapJudgement judgement;
+  MapJudgement judgement;      ///< whether to trust the map
 };
 
 /// Poses of all scans of a drive: a chain of matches to what was seen just before, loops closed between short submaps

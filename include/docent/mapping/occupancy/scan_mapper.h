@@ -10,6 +10,7 @@
 
 namespace docent::mapping {
 
+/// How evidence becomes cells.
 struct ScanMapperParams {
   double resolution = 0.05;  ///< [m/cell], 0.01..1
   double hit = 0.7;          ///< P(occupied | a beam ends in the cell), 0.5..1
@@ -47,8 +48,8 @@ struct ScanMapperParams {
 
 /// A sweep as seen from its sensor, and where the sensor was.
 struct PlacedSweep {
-  sensor_models::RangeSweep sweep;
-  Pose2 map_from_sensor;
+  sensor_models::RangeSweep sweep;  ///< sensor frame
+  Pose2 map_from_sensor;            ///< where the sensor was
 };
 
 /// Occupancy map of sweeps at known poses [Rhino1999] 3.2.1, Table 3: evidence of each sweep is added to each cell as
@@ -73,7 +74,7 @@ class ScanMapper {
   /// before the robot for a while is met by many sweeps of one piece, and not by those of another time: each piece has
   /// one vote on what a cell is. Without a call evidence alone counts. O(cells seen since).
   void end_piece();
-  [[nodiscard]] OccupancyGrid map() const;
+  [[nodiscard]] OccupancyGrid map() const;                                     ///< as drawn so far
   [[nodiscard]] std::span<const float> log_odds() const { return log_odds_; }  ///< [rows * columns]
 
  private:

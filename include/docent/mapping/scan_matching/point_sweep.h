@@ -12,7 +12,7 @@ namespace docent::mapping {
 struct SurfacePoint {
   Point2 at;      ///< [m]
   Point2 normal;  ///< of length 1; (0, 0): not known
-  [[nodiscard]] bool has_normal() const { return normal.x != 0.0 || normal.y != 0.0; }
+  [[nodiscard]] bool has_normal() const { return normal.x != 0.0 || normal.y != 0.0; }  ///< the direction is known
 };
 
 /// Which ends of beams are points of surfaces.

@@ -46,13 +46,14 @@ struct BaseLimits {
 
 /// A moving base: where it is and how it moves.
 struct BaseState {
-  Pose2 odom_from_base;
-  Velocity velocity;
+  Pose2 odom_from_base;  ///< where, by odometry
+  Velocity velocity;     ///< how fast
 };
 
 /// The base `dt` [s] later when its wheels are given `command` all the while.
 [[nodiscard]] BaseState advance(const BaseState& state, const Velocity& command, const BaseLimits& limits, double dt);
 
+/// How long commands are kept.
 struct CommandHistoryParams {
   double memory = 1.0;  ///< [s] longer than any latency: what is older moves the wheels no more
 };
@@ -60,8 +61,8 @@ struct CommandHistoryParams {
 /// What was commanded lately: the wheels feel it one latency later.
 class CommandHistory {
  public:
-  explicit CommandHistory(const CommandHistoryParams& params = {}) : params_{params} {}
-  void add(Time time, const Velocity& command);
+  explicit CommandHistory(const CommandHistoryParams& params = {}) : params_{params} {}  ///< no command yet
+  void add(Time time, const Velocity& command);                                          ///< in the order of time
   /// The last command given at or before `time`; zero before the first.
   [[nodiscard]] Velocity at(Time time) const;
 
@@ -70,6 +71,7 @@ class CommandHistory {
   std::deque<std::pair<Time, Velocity>> commands_;
 };
 
+/// How `predict` steps.
 struct PredictionParams {
   double step = 0.025;   ///< [s] of the simulated motion, in which the velocity changes little
   double longest = 5.0;  ///< [s] from an older state nothing follows; commands are forgotten sooner
@@ -79,6 +81,7 @@ struct PredictionParams {
 [[nodiscard]] BaseState predict(BaseState state, Time from, Time to, const CommandHistory& commands,
                                 const BaseLimits& limits, const PredictionParams& params = {});
 
+/// How long states are kept.
 struct BaseHistoryParams {
   double begins_anew = 1.0;  ///< [s] a stamp so much older than the newest: the clock or the base began anew
   double memory = 6.0;       ///< [s] longer than any message carries its stamp on
@@ -88,10 +91,12 @@ struct BaseHistoryParams {
 /// Where the base was, by odometry, over the last seconds.
 class BaseHistory {
  public:
-  explicit BaseHistory(const BaseHistoryParams& params = {}) : params_{params} {}
-  void add(Time stamp, const BaseState& state);
-  [[nodiscard]] bool empty() const { return states_.empty(); }
+  explicit BaseHistory(const BaseHistoryParams& params = {}) : params_{params} {}  ///< nothing is known yet
+  void add(Time stamp, const BaseState& state);  ///< by falling age; a stamp far older than the newest begins anew
+  [[nodiscard]] bool empty() const { return states_.empty(); }  ///< nothing was added
+  /// @pre not empty()
   [[nodiscard]] const BaseState& newest() const { return states_.back().second; }
+  /// @pre not empty()
   [[nodiscard]] Time newest_stamp() const { return states_.back().first; }
   /// odom_from_base at `time`: interpolated inside the history, carried on with the last velocity for a moment
   /// after it, the oldest one before it. @pre not empty()

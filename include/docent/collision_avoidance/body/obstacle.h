@@ -9,11 +9,11 @@ namespace docent::collision_avoidance {
 
 /// A thing not to touch, in the frame of the base at the moment from which motion is planned.
 struct Obstacle {
-  Point2 at;            ///< [m]
-  Point2 velocity{};    ///< [m/s]
-  double margin = 0.0;  ///< [m] between its point and the robot's outline; of the border: its centre
-  bool person = false;  ///< slim and free-standing
-  bool is_virtual = false;
+  Point2 at;                ///< [m]
+  Point2 velocity{};        ///< [m/s]
+  double margin = 0.0;      ///< [m] between its point and the robot's outline; of the border: its centre
+  bool person = false;      ///< slim and free-standing
+  bool is_virtual = false;  ///< a hazard or the border, measured from the belief
   bool is_border = false;   ///< of the area: the robot's body may reach over it, its centre may not
   bool is_unknown = false;  ///< nothing has seen what is there
   bool is_low = false;      ///< met below the lasers, which see nobody there: a thing
