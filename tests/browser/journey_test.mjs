@@ -8,7 +8,7 @@ import { readRecording } from './recording.mjs';
 import { axeSays } from './stage.mjs';
 
 const NEAR = 0.5; // [m]
-const CONTACT_SPEED = 0.05; // [m/s]
+const CONTACT_SPEED = 0.1; // [m/s]
 const PASSWORD = 'a long way from Bonn';
 const docent = join(build, 'bin', 'docent');
 const folder = temporaryFolder('journey');
