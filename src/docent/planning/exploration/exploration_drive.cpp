@@ -10,7 +10,7 @@ namespace {
 constexpr double kBlockedRadius = 0.5;  // [m] about what holds it up
 constexpr double kBlockedAhead = 0.7;   // [m] from the robot's centre: where it stands
 constexpr int kTriesAGoal = 3;          // times that it was held up on its way to one place, then it lets that be
-constexpr double kOneGoal = 0.8;       // [m]
+constexpr double kOneGoal = 0.8;        // [m]
 constexpr int kMostChoices = 4;  // times that it set out for one place and turned away: then it lets that be, too
 constexpr double kDrivenBetween = 3.0;  // [m] at least between two such times: nearby places may take turns
 constexpr std::size_t kTriesHome = 5;   // ways home on which it was held up, then it stays
