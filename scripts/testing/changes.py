@@ -22,6 +22,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCE = "src/docent/"
+PUBLIC = "include/docent/"  # headers of the folders of SOURCE
 MOST_TIDIED = 40
 SECTIONS = {"SOURCES", "HOT", "DEPENDS", "LIBRARIES", "TEST_DEPENDS", "TEST_LIBRARIES"}
 CODE = {".h", ".cpp", ".inc"}
@@ -93,8 +94,8 @@ class Graph:
             self.linked_by_tests[file.parent.name] = {by_target[word] for word in words if word in by_target}
 
     def folder_of(self, path):
-        """The capability that a file of src/docent belongs to, or None."""
-        parts = path.removeprefix(SOURCE).split("/")[:-1]
+        """The capability that a file of src/docent or include/docent belongs to, or None."""
+        parts = path.removeprefix(SOURCE).removeprefix(PUBLIC).split("/")[:-1]
         while parts and "/".join(parts) not in self.depends:
             parts.pop()
         return "/".join(parts) or None
@@ -121,7 +122,7 @@ def plan(graph, files, suites):
             chosen.add(name)
         if path.endswith(".md"):
             continue
-        if path.startswith(SOURCE):
+        if path.startswith((SOURCE, PUBLIC)):
             folder = graph.folder_of(path)
             if folder:
                 stem = Path(path).stem
@@ -182,18 +183,23 @@ def filter_of(root, folders):
 
 
 def includes_of(root, files):
-    """File to the files of src and tests that it includes, as they are spelt."""
+    """File to the files of src, include and tests that it includes, as they are spelt."""
     found = {}
+    public = {path for path in files if path.startswith(PUBLIC)}
+
+    def place(name):
+        return "include/" + name if "include/" + name in public else "src/" + name
+
     for path in files:
         text = (root / path).read_text(errors="ignore")
-        found[path] = {"src/" + name if name.startswith("docent/") else str(Path(path).parent / name)
+        found[path] = {place(name) if name.startswith("docent/") else str(Path(path).parent / name)
                        for name in re.findall(r'^\s*#\s*include "([^"]+)"', text, re.M)}
     return found
 
 
 def to_tidy(root, changed, most=MOST_TIDIED):
     """(sources, how many more there would be): changed ones first, then those that include changed headers, the nearest first."""
-    files = git(root, "ls-files", "--cached", "--others", "--exclude-standard", "src").splitlines()
+    files = git(root, "ls-files", "--cached", "--others", "--exclude-standard", "src", "include").splitlines()
     files = [path for path in files if Path(path).suffix in CODE and (root / path).is_file()]
     includes = includes_of(root, files)
     users = {}

@@ -79,6 +79,9 @@ class Folders(Project):
         self.assertEqual(self.plan("src/docent/base/a.h")[0], ["base", "grid", "people", "planning/route"])
         self.assertEqual(self.plan("src/docent/people/a.cpp"), (["people"], [], [], False, False))
 
+    def test_a_public_header_is_one_of_its_folder(self):
+        self.assertEqual(self.plan("include/docent/grid/b.h"), self.plan("src/docent/grid/a.h"))
+
     def test_what_lies_deeper_belongs_to_the_folder_above(self):
         self.assertEqual(self.plan("src/docent/planning/route/words/de.yaml")[0], ["people", "planning/route"])
         self.assertEqual(self.plan("src/docent/planning/README.md")[0], [])
@@ -142,6 +145,11 @@ class Changes(Project):
         self.assertEqual(self.changed(), ["new.py"])
         with self.assertRaises(SystemExit):
             self.changed("nothing-of-that-name")
+
+    def test_tidy_looks_at_what_includes_a_public_header(self):
+        self.write("include/docent/grid/b.h", "")
+        self.write("src/docent/grid/b.cpp", '#include "docent/grid/b.h"\n')
+        self.assertEqual(changes.to_tidy(self.root, ["include/docent/grid/b.h"]), (["src/docent/grid/b.cpp"], 0))
 
     def test_tidy_looks_at_what_includes_a_changed_header_the_nearest_first(self):
         self.write("src/docent/people/b.cpp", '#include "docent/people/b.h"\n')
