@@ -136,7 +136,7 @@ TEST_F(PoseWatch, ANewProcessGoesOnUnlessOdometrySaysThatItWasMoved) {
   step(false);
   EXPECT_LT(error(), 0.2);
   begin();
-  raw_from_base = Pose2{};
+  raw_from_base = Pose2{100.0, 0.0, {}};
   step(false);
   const auto belief = watch->tell_belief({now, *watch->odom_from_base_at(now)}, now);
   EXPECT_TRUE(belief.modes.empty() || belief.modes.front().mass < 0.5);
@@ -154,17 +154,23 @@ TEST_F(PoseWatch, ItIsWhereItIsToldToBe) {
 
 TEST_F(PoseWatch, BeamsThatTheMapDoesNotHoldAreToldWithTheirEnds) {
   find_itself();
-  stranger_at = 0.5F;
-  const auto look = step();
-  auto beams = watch->beams(*look);
+  stranger_at = 0.3F;
+  const auto look = step(false);
+  const auto beams = watch->beams(*look);
   ASSERT_EQ(beams.origins.size(), look->sweep.beams.size());
   EXPECT_EQ(beams.origins[180], sensor_models::BeamOrigin::not_map);
   ASSERT_GE(beams.ends.size(), 9U);
-  EXPECT_NEAR(beams.ends[beams.ends.size() / 2].x, 0.5, 0.05);
-  params.person_range = 0.4;
+  EXPECT_NEAR(beams.ends[beams.ends.size() / 2].x, 0.3, 0.05);
+}
+
+TEST_F(PoseWatch, NobodyIsLookedForFarAway) {
+  params.person_range = 0.29;
   begin();
-  step(false);
-  EXPECT_TRUE(watch->beams(*step(false)).ends.empty()) << "nobody is looked for so far away";
+  find_itself();
+  stranger_at = 0.3F;
+  const auto beams = watch->beams(*step(false));
+  EXPECT_EQ(beams.origins[180], sensor_models::BeamOrigin::not_map);
+  EXPECT_TRUE(beams.ends.empty());
 }
 
 }  // namespace
