@@ -30,7 +30,8 @@ py::array checked(const py::object& given, const char* name, char kind, py::ssiz
   if (type.kind() != kind || !is_known || (kind == 'i' && type.itemsize() != 1) ||
       !type.attr("isnative").cast<bool>()) {
     const char* const wanted = kind == 'f' ? "float32 or float64" : kind == 'b' ? "bool" : "int8";
-    throw py::type_error(std::string{name} + ": dtype " + wanted + " is expected, not " + py::str(type).cast<std::string>());
+    throw py::type_error(std::string{name} + ": dtype " + wanted + " is expected, not " +
+                         py::str(py::handle{type}).cast<std::string>());
   }
   if (array.ndim() != dimensions)
     refuse(name, std::to_string(dimensions) + " dimensions are expected, not the shape " + shape_text(array));

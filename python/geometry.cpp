@@ -11,8 +11,10 @@ namespace {
 
 void bind_points(py::module_& module) {
   py::class_<Point2>(module, "Point2", "A point x, y [m]; the variable's name says the frame. (x, y) will do for one.")
-      .def(py::init([](double x, double y) { return Point2{finite(x, "x"), finite(y, "y")}; }), py::arg("x") = 0.0,
-           py::arg("y") = 0.0)
+      .def(py::init([](double x, double y) {
+             return Point2{finite(x, "x"), finite(y, "y")};
+           }),
+           py::arg("x") = 0.0, py::arg("y") = 0.0)
       .def(py::init([](const py::tuple& pair) {
              if (pair.size() != 2) throw py::value_error("a point is (x, y)");
              return Point2{finite(pair[0].cast<double>(), "x"), finite(pair[1].cast<double>(), "y")};
@@ -21,7 +23,8 @@ void bind_points(py::module_& module) {
       .def_readonly("x", &Point2::x, "[m]")
       .def_readonly("y", &Point2::y, "[m]")
       .def(py::self == py::self)
-      .def("__repr__", [](const Point2& point) { return py::str("Point2(x={:.3f}, y={:.3f})").format(point.x, point.y); });
+      .def("__repr__",
+           [](const Point2& point) { return py::str("Point2(x={:.3f}, y={:.3f})").format(point.x, point.y); });
   py::implicitly_convertible<py::tuple, Point2>();
 }
 

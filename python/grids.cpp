@@ -58,14 +58,17 @@ void bind_frame(py::module_& module) {
           py::arg("in_map"), "(column, row) of the cell that holds the point [m], also outside the grid.")
       .def(
           "centre",
-          [](const GridFrame& frame, std::pair<int, int> cell) { return frame.centre({cell.first, cell.second}); },
+          [](const GridFrame& frame, std::pair<int, int> cell) {
+            return frame.centre({cell.first, cell.second});
+          },
           py::arg("cell"), "The middle [m], map, of the cell (column, row).")
-      .def("extent",
-           [](const GridFrame& frame) {
-             return py::make_tuple(frame.origin.x, frame.origin.x + frame.columns * frame.resolution, frame.origin.y,
-                                   frame.origin.y + frame.rows * frame.resolution);
-           },
-           "(left, right, bottom, top) [m], map: what matplotlib's imshow(origin='lower') takes.")
+      .def(
+          "extent",
+          [](const GridFrame& frame) {
+            return py::make_tuple(frame.origin.x, frame.origin.x + frame.columns * frame.resolution, frame.origin.y,
+                                  frame.origin.y + frame.rows * frame.resolution);
+          },
+          "(left, right, bottom, top) [m], map: what matplotlib's imshow(origin='lower') takes.")
       .def("__repr__", [](const GridFrame& frame) {
         return py::str("GridFrame(columns={}, rows={}, resolution={:.3f})")
             .format(frame.columns, frame.rows, frame.resolution);
@@ -93,7 +96,10 @@ void bind_grid(py::module_& module) {
           "int8 [rows, columns], row 0 the lowest; read-only, not a copy.")
       .def("__repr__", [](py::object self) { return py::str("OccupancyGrid({!r})").format(self.attr("frame")); });
   module.def(
-      "load_map", [](const std::filesystem::path& yaml) { return value_or_raise(without_interpreter([&] { return load_map(yaml); })); },
+      "load_map",
+      [](const std::filesystem::path& yaml) {
+        return value_or_raise(without_interpreter([&] { return load_map(yaml); }));
+      },
       py::arg("yaml"), "Reads a map_server YAML and its PGM or PNG image. Error: names file and line.");
   module.def(
       "save_map",

@@ -30,7 +30,8 @@ FloorMap checked_floor(const OccupancyGrid& map, const LocalizerParams& params, 
                        const std::filesystem::path& cache) {
   check_params(params);
   constexpr double kMostStates = 1e9;  // 4 GB
-  const double cells = std::pow(map.frame.resolution / params.states.cell_size, 2) * static_cast<double>(map.cells.size());
+  const double cells =
+      std::pow(map.frame.resolution / params.states.cell_size, 2) * static_cast<double>(map.cells.size());
   if (cells * 360.0 / params.states.heading_step > kMostStates)
     throw py::value_error("params.states: more than 1e9 states; coarser cells are needed");
   if (!cache.empty() && !std::filesystem::is_directory(cache))
@@ -73,8 +74,8 @@ BeliefMode mode_of(const Pose2& map_from_robot, const py::object& covariance, do
   std::copy(rows.begin(), rows.end(), mode.covariance.begin());
   const auto& c = mode.covariance;
   const double minor = c[0] * c[4] - c[1] * c[3];
-  const double all = c[0] * (c[4] * c[8] - c[5] * c[7]) - c[1] * (c[3] * c[8] - c[5] * c[6]) +
-                     c[2] * (c[3] * c[7] - c[4] * c[6]);
+  const double all =
+      c[0] * (c[4] * c[8] - c[5] * c[7]) - c[1] * (c[3] * c[8] - c[5] * c[6]) + c[2] * (c[3] * c[7] - c[4] * c[6]);
   const double skew = std::abs(c[1] - c[3]) + std::abs(c[2] - c[6]) + std::abs(c[5] - c[7]);
   if (!(skew < 1e-9 && c[0] > 0.0 && minor > 0.0 && all > 0.0))
     throw py::value_error("covariance: it must be symmetric and positive definite");
@@ -87,7 +88,9 @@ void bind_modes(py::module_& module) {
       .def_readonly("map_from_robot", &BeliefMode::map_from_robot)
       .def_property_readonly(
           "covariance",
-          [](py::object self) { return view_of(self.cast<const BeliefMode&>().covariance.data(), {3, 3}, self); },
+          [](py::object self) {
+            return view_of(self.cast<const BeliefMode&>().covariance.data(), {3, 3}, self);
+          },
           "float64 [3, 3] of x, y [m], theta [rad]; read-only, not a copy.")
       .def_readonly("mass", &BeliefMode::mass)
       .def("__repr__", [](const BeliefMode& mode) {
@@ -157,7 +160,8 @@ void bind_localizer(py::module_& module) {
       .def_readonly("beams_filtered", &Localizer::Step::beams_filtered)
       .def_readonly("weight", &Localizer::Step::weight, "0..1 of a full update")
       .def_readonly("fit", &Localizer::Step::fit, "[nat] mean ln P of the beams used at the best mode, or None.");
-  py::class_<AnyLocalizer>(module, "Localizer", "A belief over the robot's pose in a map, kept up by sweeps and odometry.")
+  py::class_<AnyLocalizer>(module, "Localizer",
+                           "A belief over the robot's pose in a map, kept up by sweeps and odometry.")
       .def("start_unknown", [](AnyLocalizer& self) { self.use([](Localizer& l) { l.start_unknown(); }); })
       .def(
           "start_at",
@@ -223,8 +227,8 @@ void bind_both(py::module_& module) {
   bind_particles(module);
   py::class_<ParticleLocalizer, AnyLocalizer>(module, "MonteCarloLocalizer", "Monte Carlo localization.")
       .def(py::init(&particle_localizer), py::arg("map"), py::arg("shared") = LocalizerParams{},
-           py::arg("params") = MonteCarloParams{}, py::kw_only(), py::arg("closed") = py::tuple{}, py::arg("cache") = "",
-           py::arg("seed") = 1, "shared: as for the grid; closed, cache: likewise.")
+           py::arg("params") = MonteCarloParams{}, py::kw_only(), py::arg("closed") = py::tuple{},
+           py::arg("cache") = "", py::arg("seed") = 1, "shared: as for the grid; closed, cache: likewise.")
       .def(
           "particles",
           [](ParticleLocalizer& self) {

@@ -23,8 +23,8 @@ py::list parts_of(const std::shared_ptr<LaserLog>& log, std::vector<T> LaserLog:
 }
 
 void bind_scan(py::module_& module) {
-  py::class_<LoggedScan, std::shared_ptr<LoggedScan>>(
-      module, "LoggedScan", "One sweep of a laser scanner with the odometry of its moment.")
+  py::class_<LoggedScan, std::shared_ptr<LoggedScan>>(module, "LoggedScan",
+                                                      "One sweep of a laser scanner with the odometry of its moment.")
       .def_readonly("time", &LoggedScan::time)
       .def_readonly("rear", &LoggedScan::rear)
       .def_property_readonly(
@@ -93,7 +93,8 @@ void bind_logs(py::module_& module) {
         return shared(without_interpreter([&] { return read_laser_log(path, with_sonars); }));
       },
       py::arg("path"), py::arg("with_sonars") = false,
-      "Reads, by its content, a CARMEN text log (plain or gzip), an MCAP recording, a rosbag2 folder or its database.\n\n"
+      "Reads, by its content, a CARMEN text log (plain or gzip), an MCAP recording, a rosbag2 folder or its "
+      "database.\n\n"
       "Error: names the file, and the line where there are lines.");
   module.def(
       "read_carmen_log",
@@ -106,7 +107,8 @@ void bind_logs(py::module_& module) {
       [](const LoggedScan& scan, double max_range) {
         sensor_models::RangeSweep sweep;
         sensor_models::append(
-            sweep, {scan.ranges, scan.first_bearing, scan.bearing_step, 0.02, positive(max_range, "max_range", 1e4)}, {});
+            sweep, {scan.ranges, scan.first_bearing, scan.bearing_step, 0.02, positive(max_range, "max_range", 1e4)},
+            {});
         return sweep;
       },
       py::arg("scan"), py::arg("max_range"),

@@ -136,12 +136,13 @@ void bind_log_map(py::module_& module) {
 void bind_mapping(py::module_& module) {
   bind_params<ScanMapperParams>(module, "ScanMapperParams", "How scans become cells: see scan_mapper.h.");
   bind_log_map(module);
-  module.def("map_log", &map_log, py::arg("log"), py::arg("params") = py::none{}, py::kw_only(), py::arg("way") = 0.15,
-             py::arg("turn") = 8.0, py::arg("progress") = py::none{},
-             "An occupancy map of a log without any pose, as `docent map` makes it of one laser's scans: poses by a graph "
-             "of matched scans, then the map.\n\n"
-             "A scan is taken after `way` [m] or `turn` [deg]. Without params all defaults, and as many hits of a wall as "
-             "the way between scans bears. progress(stage, done, of) is called now and then.");
+  module.def(
+      "map_log", &map_log, py::arg("log"), py::arg("params") = py::none{}, py::kw_only(), py::arg("way") = 0.15,
+      py::arg("turn") = 8.0, py::arg("progress") = py::none{},
+      "An occupancy map of a log without any pose, as `docent map` makes it of one laser's scans: poses by a graph "
+      "of matched scans, then the map.\n\n"
+      "A scan is taken after `way` [m] or `turn` [deg]. Without params all defaults, and as many hits of a wall as "
+      "the way between scans bears. progress(stage, done, of) is called now and then.");
 }
 
 }  // namespace docent::python

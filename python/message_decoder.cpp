@@ -17,8 +17,8 @@ struct Primitive {
   std::size_t width;
 };
 constexpr Primitive kPrimitives[] = {
-    {"bool", "?", 1},  {"byte", "u1", 1},   {"char", "u1", 1},   {"int8", "i1", 1},    {"uint8", "u1", 1},
-    {"int16", "<i2", 2}, {"uint16", "<u2", 2}, {"int32", "<i4", 4}, {"uint32", "<u4", 4}, {"int64", "<i8", 8},
+    {"bool", "?", 1},     {"byte", "u1", 1},     {"char", "u1", 1},     {"int8", "i1", 1},    {"uint8", "u1", 1},
+    {"int16", "<i2", 2},  {"uint16", "<u2", 2},  {"int32", "<i4", 4},   {"uint32", "<u4", 4}, {"int64", "<i8", 8},
     {"uint64", "<u8", 8}, {"float32", "<f4", 4}, {"float64", "<f8", 8}, {"string", "", 0},
 };
 

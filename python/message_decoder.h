@@ -27,8 +27,8 @@ class MessageDecoder {
   enum class Shape { single, sequence, array };
   struct Field {
     std::string name;
-    std::string type;    ///< of a primitive
-    int message = -1;    ///< index in types_; -1: a primitive
+    std::string type;       ///< of a primitive
+    int message = -1;       ///< index in types_; -1: a primitive
     std::size_t width = 0;  ///< [bytes] of a primitive; 0: a string
     Shape shape = Shape::single;
     std::size_t size = 0;  ///< of an array

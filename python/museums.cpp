@@ -15,10 +15,8 @@ using namespace museum;
 void bind_things(py::module_& module) {
   py::class_<Hazard>(module, "Hazard", "What sensors cannot see, as surveyed.")
       .def_readonly("id", &Hazard::id)
-      .def_property_readonly("kind",
-                             [](const Hazard& hazard) {
-                               return words_of(HazardKind{})[static_cast<std::size_t>(hazard.kind)];
-                             })
+      .def_property_readonly(
+          "kind", [](const Hazard& hazard) { return words_of(HazardKind{})[static_cast<std::size_t>(hazard.kind)]; })
       .def_property_readonly(
           "polygon", [](const Hazard& hazard) { return array_of(hazard.polygon); }, "float64 [n, 2] [m], map.");
   py::class_<Exhibit>(module, "Exhibit")
@@ -59,7 +57,8 @@ void bind_museums(py::module_& module) {
       [](const std::filesystem::path& folder) {
         return value_or_raise(without_interpreter([&] { return load_museum(folder); }));
       },
-      py::arg("folder"), "Reads FOLDER/museum.yaml with its map and texts. Error: the first fault, with file and line.");
+      py::arg("folder"),
+      "Reads FOLDER/museum.yaml with its map and texts. Error: the first fault, with file and line.");
 }
 
 }  // namespace docent::python

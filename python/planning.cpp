@@ -66,9 +66,10 @@ int checked_visits(int most_visits) {
 }
 
 void bind_values(py::module_& module) {
-  py::class_<SharedValues>(module, "ValueIteration",
-                           "The value of a cell is the least cost of a way to the nearest goal: entering a cell costs its "
-                           "cost times the step's length in cells.")
+  py::class_<SharedValues>(
+      module, "ValueIteration",
+      "The value of a cell is the least cost of a way to the nearest goal: entering a cell costs its "
+      "cost times the step's length in cells.")
       .def(py::init([](const GridFrame& frame) {
              return std::make_unique<SharedValues>(std::make_unique<ValueIteration>(frame));
            }),
@@ -95,7 +96,8 @@ void bind_values(py::module_& module) {
           "values",
           [](SharedValues& self) {
             const GridFrame frame = frame_of(self);
-            return owned_by_array(self.use([](ValueIteration& v) { return values_of(v); }), {frame.rows, frame.columns});
+            return owned_by_array(self.use([](ValueIteration& v) { return values_of(v); }),
+                                  {frame.rows, frame.columns});
           },
           "float32 [rows, columns], new: the value function; infinity where no way is known.")
       .def(
@@ -115,9 +117,8 @@ std::unique_ptr<SharedPlanner> planner_of(const OccupancyGrid& map, const py::it
   finite(params.clearance.hazards, "params.clearance.hazards", 1e3);
   const std::vector<Polygon> closed = polygons_of(hazards, "hazards");
   const Polygon inside = polygon_of(area, "area", true);
-  return without_interpreter([&] {
-    return std::make_unique<SharedPlanner>(std::make_unique<RoutePlanner>(map, closed, inside, params));
-  });
+  return without_interpreter(
+      [&] { return std::make_unique<SharedPlanner>(std::make_unique<RoutePlanner>(map, closed, inside, params)); });
 }
 
 void set_obstacles(SharedPlanner& self, const py::object& obstacles, const py::object& settled) {
@@ -153,9 +154,11 @@ void bind_plans(py::class_<SharedPlanner>& planner) {
         checked_visits(most_visits);
         return self.use([&](RoutePlanner& p) { return p.settle(start, most_visits); });
       },
-      py::arg("start"), py::arg("most_visits") = kToTheEnd, "Works until the way from `start` [m], map, is the best one.");
+      py::arg("start"), py::arg("most_visits") = kToTheEnd,
+      "Works until the way from `start` [m], map, is the best one.");
   planner.def(
-      "hold_way", [](SharedPlanner& self, const Point2& start) { self.use([&](RoutePlanner& p) { p.hold_way(start); }); },
+      "hold_way",
+      [](SharedPlanner& self, const Point2& start) { self.use([&](RoutePlanner& p) { p.hold_way(start); }); },
       py::arg("start"), "Decides which way to follow from `start` [m], map, so that equal ones do not take turns.");
 }
 
@@ -168,7 +171,9 @@ void bind_ways(py::class_<SharedPlanner>& planner) {
       py::arg("start"), "float64 [n, 2] [m], map: from `start`, which is left out, to a goal; [0, 2] without a way.");
   planner.def(
       "cost_from",
-      [](SharedPlanner& self, const Point2& start) { return self.use([&](RoutePlanner& p) { return p.cost_from(start); }); },
+      [](SharedPlanner& self, const Point2& start) {
+        return self.use([&](RoutePlanner& p) { return p.cost_from(start); });
+      },
       py::arg("start"), "Of the way, in metres of free floor; infinity where there is none.");
   planner.def(
       "is_closed",
@@ -191,7 +196,8 @@ void bind_ways(py::class_<SharedPlanner>& planner) {
         return view_of(costs, {frame.rows, frame.columns}, self);
       },
       "float32 [rows, columns]: costs of cells in metres of free floor; infinity: closed. Read-only, not a copy.");
-  planner.def("frame", [](SharedPlanner& self) { return frame_of(self); }, "Where the planner's cells lie.");
+  planner.def(
+      "frame", [](SharedPlanner& self) { return frame_of(self); }, "Where the planner's cells lie.");
 }
 
 }  // namespace
@@ -200,10 +206,11 @@ void bind_planning(py::module_& module) {
   bind_params<RouteParams>(module, "RouteParams", "What makes floor dear or closed to a way: see route.h.");
   bind_values(module);
   py::class_<SharedPlanner> planner{module, "RoutePlanner", "Plans for a disc-shaped robot in a museum's map."};
-  planner.def(py::init(&planner_of), py::arg("map"), py::arg("hazards") = py::tuple{}, py::arg("area") = py::tuple{},
-              py::arg("params") = RouteParams{},
-              "hazards: polygons [n, 2] [m], map, that must not be touched. area: where the robot's centre stays; empty: "
-              "everywhere.");
+  planner.def(
+      py::init(&planner_of), py::arg("map"), py::arg("hazards") = py::tuple{}, py::arg("area") = py::tuple{},
+      py::arg("params") = RouteParams{},
+      "hazards: polygons [n, 2] [m], map, that must not be touched. area: where the robot's centre stays; empty: "
+      "everywhere.");
   bind_plans(planner);
   bind_ways(planner);
 }

@@ -42,8 +42,10 @@ class Recording {
     const auto ends = std::shared_ptr<void>{nullptr, [this](void*) { is_read_ = false; }};
     value_or_raise(without_interpreter([&] {
       return reader_.read(selection, [&](const McapMessage& message) {
-        KeptMessage kept{channel_of(message.channel), message.log_time, message.publish_time,
-                     {message.data.begin(), message.data.end()}};
+        KeptMessage kept{channel_of(message.channel),
+                         message.log_time,
+                         message.publish_time,
+                         {message.data.begin(), message.data.end()}};
         const py::gil_scoped_acquire interpreter;
         if (PyErr_CheckSignals() != 0) throw py::error_already_set{};
         return handle(std::move(kept));
@@ -111,7 +113,8 @@ void bind_message(py::module_& module) {
             if (!decoder) throw Failed{message.channel->topic + ": " + decoder.error().message};
             return decoder->decode(message.bytes);
           },
-          "A types.SimpleNamespace with the fields of the message, which may be such themselves; sequences of numbers are "
+          "A types.SimpleNamespace with the fields of the message, which may be such themselves; sequences of numbers "
+          "are "
           "arrays. Error: of another encoding than cdr with ros2msg, or damaged.");
 }
 
@@ -120,25 +123,28 @@ void bind_reader(py::module_& module) {
       .def_static(
           "open",
           [](const std::filesystem::path& path) {
-            return std::make_unique<Recording>(value_or_raise(without_interpreter([&] { return McapReader::open(path); })),
-                                               path.string());
+            return std::make_unique<Recording>(
+                value_or_raise(without_interpreter([&] { return McapReader::open(path); })), path.string());
           },
           py::arg("path"), "PATH, or PATH.part where the recorder did not come to an end. Error: no MCAP file.")
       .def("profile", [](const Recording& self) { return self.reader().profile(); })
-      .def("is_complete", [](const Recording& self) { return self.reader().is_complete(); },
-           "False: the file has no sound end.")
-      .def("message_count", [](const Recording& self) { return self.reader().message_count(); },
-           "By the file's own summary; None without one.")
-      .def("counts_by_topic", [](const Recording& self) { return self.reader().counts_by_topic(); },
-           "Likewise; empty without a summary.")
+      .def(
+          "is_complete", [](const Recording& self) { return self.reader().is_complete(); },
+          "False: the file has no sound end.")
+      .def(
+          "message_count", [](const Recording& self) { return self.reader().message_count(); },
+          "By the file's own summary; None without one.")
+      .def(
+          "counts_by_topic", [](const Recording& self) { return self.reader().counts_by_topic(); },
+          "Likewise; empty without a summary.")
       .def("types_by_topic", &types_of, "Topic to type, of the topics that have messages.")
-      .def("damage", [](const Recording& self) { return self.reader().damage(); }, "What the last read left out.")
+      .def(
+          "damage", [](const Recording& self) { return self.reader().damage(); }, "What the last read left out.")
       .def(
           "read",
           [](Recording& self, const std::function<bool(KeptMessage)>& handler, const std::set<std::string>& topics,
-             std::optional<Time> from, std::optional<Time> to, bool skip_damaged) {
-            self.read(selection_of(topics, from, to, skip_damaged), handler);
-          },
+             std::optional<Time> from, std::optional<Time> to,
+             bool skip_damaged) { self.read(selection_of(topics, from, to, skip_damaged), handler); },
           py::arg("handler"), py::kw_only(), py::arg("topics") = std::set<std::string>{}, py::arg("from_") = py::none{},
           py::arg("to") = py::none{}, py::arg("skip_damaged") = false,
           "Hands over messages in the order of their log times until handler(message) returns False. No topics: all. "

@@ -107,7 +107,8 @@ void bind_fit(py::module_& module) {
       .def(py::init([](double max_range) { return ReadingCounts{positive(max_range, "max_range", kLongest)}; }),
            py::arg("max_range"), "max_range [m]: from here on nothing came back.")
       .def("add", &add_readings, py::arg("measured"), py::arg("expected"),
-           "float [n] [m] both; infinity: no return. Pairs with a NaN, or a range < 0, are passed over. Returns how many "
+           "float [n] [m] both; infinity: no return. Pairs with a NaN, or a range < 0, are passed over. Returns how "
+           "many "
            "were added.")
       .def("total", &ReadingCounts::total);
   py::class_<ProximityFit>(module, "ProximityFit")
@@ -146,7 +147,8 @@ int checked_bin(int bin, int count, const char* name) {
 py::array probabilities(const ProximityModel& model) {
   std::vector<double> table;
   for (int measured = 0; measured < kRangeBins; ++measured)
-    for (int expected = 0; expected < kExpectedRanges; ++expected) table.push_back(model.probability(measured, expected));
+    for (int expected = 0; expected < kExpectedRanges; ++expected)
+      table.push_back(model.probability(measured, expected));
   return owned_by_array(std::move(table), {kRangeBins, kExpectedRanges});
 }
 
@@ -169,10 +171,14 @@ void bind_model(py::module_& module) {
           },
           py::arg("range"), "Of a range [m].")
       .def(
-          "lower_edge", [](const ProximityModel& model, int bin) { return model.lower_edge(checked_bin(bin, kRangeBins + 1, "bin")); },
+          "lower_edge",
+          [](const ProximityModel& model, int bin) {
+            return model.lower_edge(checked_bin(bin, kRangeBins + 1, "bin"));
+          },
           py::arg("bin"), "[m]")
       .def(
-          "centre", [](const ProximityModel& model, int bin) { return model.centre(checked_bin(bin, kRangeBins, "bin")); },
+          "centre",
+          [](const ProximityModel& model, int bin) { return model.centre(checked_bin(bin, kRangeBins, "bin")); },
           py::arg("bin"), "[m]; of kNoReturn: max_range")
       .def(
           "probability",

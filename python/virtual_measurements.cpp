@@ -22,9 +22,11 @@ std::unique_ptr<SharedMeasurements> measurements_of(const py::object& area, cons
   check_params(params);
   if (ends != "both" && ends != "hazards" && ends != "border")
     throw py::value_error("ends: 'both', 'hazards' or 'border' is expected");
-  return std::make_unique<SharedMeasurements>(std::make_unique<VirtualMeasurements>(
-      polygon_of(area, "area", true), polygons_of(hazards, "hazards"), params,
-      ends == "both" ? Ends::both : ends == "hazards" ? Ends::hazards : Ends::border));
+  return std::make_unique<SharedMeasurements>(
+      std::make_unique<VirtualMeasurements>(polygon_of(area, "area", true), polygons_of(hazards, "hazards"), params,
+                                            ends == "both"      ? Ends::both
+                                            : ends == "hazards" ? Ends::hazards
+                                                                : Ends::border));
 }
 
 /// As the robot takes them from its belief.
@@ -32,7 +34,8 @@ VirtualMeasurements::Scan measure_belief(SharedMeasurements& self, const BeliefS
   return self.use([&](VirtualMeasurements& own) {
     std::vector<WeightedPose> poses;
     for (const auto& [x, y, theta, mass] : belief.cells)
-      poses.push_back({{static_cast<double>(x), static_cast<double>(y)}, static_cast<double>(theta), static_cast<double>(mass)});
+      poses.push_back(
+          {{static_cast<double>(x), static_cast<double>(y)}, static_cast<double>(theta), static_cast<double>(mass)});
     std::vector<WeightedSquare> squares;
     const double side = belief.rest_cell_size;
     for (std::size_t i = 0; i < belief.rest.size(); ++i) {
@@ -78,12 +81,14 @@ void bind_virtual_measurements(py::module_& module) {
   bound.attr("kDirections") = VirtualMeasurements::kDirections;
   bound.attr("kMaxRange") = VirtualMeasurements::kMaxRange;
   bound
-      .def(py::init(&measurements_of), py::arg("area"), py::arg("hazards"), py::arg("params") = VirtualMeasurementParams{},
-           py::arg("ends") = "both",
-           "area: polygon [n, 2] [m], map; empty: everywhere. hazards: polygons. ends: what rays end on, 'both', 'hazards' or 'border'.")
+      .def(py::init(&measurements_of), py::arg("area"), py::arg("hazards"),
+           py::arg("params") = VirtualMeasurementParams{}, py::arg("ends") = "both",
+           "area: polygon [n, 2] [m], map; empty: everywhere. hazards: polygons. ends: what rays end on, 'both', "
+           "'hazards' or 'border'.")
       .def("measure", &measure_belief, py::arg("belief"),
            "The largest distances that, with the wanted confidence, underestimate the true ones.")
-      .def("measure", &measure_poses, py::arg("poses"), "The same of poses, float [n, 4]: x, y [m], heading [rad], mass.")
+      .def("measure", &measure_poses, py::arg("poses"),
+           "The same of poses, float [n, 4]: x, y [m], heading [rad], mass.")
       .def(
           "is_possible",
           [](SharedMeasurements& self, const Point2& at) {
