@@ -45,7 +45,7 @@ void bind_scan(py::module_& module) {
 }
 
 void bind_odometry(py::module_& module) {
-  py::class_<LoggedOdometry, std::shared_ptr<LoggedOdometry>>(module, "LoggedOdometry")
+  py::class_<LoggedOdometry, std::shared_ptr<LoggedOdometry>>(module, "LoggedOdometry", "One reading of odometry.")
       .def_readonly("time", &LoggedOdometry::time)
       .def_readonly("odom_from_base", &LoggedOdometry::odom_from_base)
       .def_readonly("linear", &LoggedOdometry::linear, "[m/s], as logged")

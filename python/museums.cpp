@@ -19,7 +19,7 @@ void bind_things(py::module_& module) {
           "kind", [](const Hazard& hazard) { return words_of(HazardKind{})[static_cast<std::size_t>(hazard.kind)]; })
       .def_property_readonly(
           "polygon", [](const Hazard& hazard) { return array_of(hazard.polygon); }, "float64 [n, 2] [m], map.");
-  py::class_<Exhibit>(module, "Exhibit")
+  py::class_<Exhibit>(module, "Exhibit", "What the robot shows.")
       .def_readonly("id", &Exhibit::id)
       .def_readonly("title", &Exhibit::title, "By language.")
       .def_readonly("pose", &Exhibit::pose, "map_from_base where the robot stands to show it.")

@@ -16,20 +16,23 @@ struct FieldBinder {
   pybind11::class_<P>& bound;
   const P& sample;
 
+  /// The attribute is called like the field; `pass`, a keyword of Python, is `pass_`.
   template <class F>
-  void operator()(const char* name, const F& field) {
+  void operator()(const char* field_name, const F& field) {
+    std::string name = field_name;
+    if (pybind11::module_::import("keyword").attr("iskeyword")(name).cast<bool>()) name += '_';
     const std::ptrdiff_t offset = reinterpret_cast<const char*>(&field) - reinterpret_cast<const char*>(&sample);
     const auto in = [offset](P& params) -> F& {
       return *reinterpret_cast<F*>(reinterpret_cast<char*>(&params) + offset);
     };
     if constexpr (std::is_class_v<F> && !std::is_same_v<F, std::string>) {  // params.states.cell_size = 0.1 works
-      bound.def_property(name, pybind11::cpp_function(in, pybind11::return_value_policy::reference_internal),
+      bound.def_property(name.c_str(), pybind11::cpp_function(in, pybind11::return_value_policy::reference_internal),
                          pybind11::cpp_function([in](P& params, const F& value) { in(params) = value; }));
     } else {
-      bound.def_property(name, pybind11::cpp_function([in](P& params) -> F { return in(params); }),
+      bound.def_property(name.c_str(), pybind11::cpp_function([in](P& params) -> F { return in(params); }),
                          pybind11::cpp_function([in, name](P& params, F value) {
                            if constexpr (std::is_floating_point_v<F>)
-                             if (std::isnan(value)) throw pybind11::value_error(std::string{name} + " must not be NaN");
+                             if (std::isnan(value)) throw pybind11::value_error(name + " must not be NaN");
                            in(params) = value;
                          }));
     }

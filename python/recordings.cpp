@@ -34,8 +34,12 @@ class Recording {
  public:
   explicit Recording(McapReader reader, std::string path) : reader_{std::move(reader)}, path_{std::move(path)} {}
 
-  /// The reader alone, for it may be asked by a handler, too, while it reads.
+  /// May be asked by a handler, too, while it reads; what reading changes may not.
   [[nodiscard]] const McapReader& reader() const { return reader_; }
+  [[nodiscard]] std::vector<std::string> damage() const {
+    if (is_read_) throw Failed{path_ + ": is being read"};
+    return reader_.damage();
+  }
 
   void read(const McapReader::Selection& selection, const std::function<bool(KeptMessage)>& handle) {
     if (is_read_.exchange(true)) throw Failed{path_ + ": is being read already; open it once more"};
@@ -138,8 +142,7 @@ void bind_reader(py::module_& module) {
           "counts_by_topic", [](const Recording& self) { return self.reader().counts_by_topic(); },
           "Likewise; empty without a summary.")
       .def("types_by_topic", &types_of, "Topic to type, of the topics that have messages.")
-      .def(
-          "damage", [](const Recording& self) { return self.reader().damage(); }, "What the last read left out.")
+      .def("damage", &Recording::damage, "What the last read left out.")
       .def(
           "read",
           [](Recording& self, const std::function<bool(KeptMessage)>& handler, const std::set<std::string>& topics,

@@ -111,7 +111,7 @@ void bind_fit(py::module_& module) {
            "many "
            "were added.")
       .def("total", &ReadingCounts::total);
-  py::class_<ProximityFit>(module, "ProximityFit")
+  py::class_<ProximityFit>(module, "ProximityFit", "What readings have taught of a sensor.")
       .def_readonly("params", &ProximityFit::params, "Its weights sum to 1.")
       .def_readonly("readings", &ProximityFit::readings)
       .def_readonly("before", &ProximityFit::before, "[nat] mean ln P of a reading by the start's parameters")

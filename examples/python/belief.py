@@ -8,13 +8,12 @@ scans, with noise from a seed), and grid localization weighs all poses. The cell
 # %% What the robot knows: the map, and where it cannot stand
 import sys
 
-import matplotlib
+import matplotlib.colors
+import matplotlib.patches
+import matplotlib.pyplot as plt
+import numpy as np
 
-matplotlib.use("Agg" if __name__ == "__main__" else matplotlib.get_backend())
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-
-import docent  # noqa: E402
+import docent
 
 SEED = 7
 MAX_RANGE = 10.0  # [m]

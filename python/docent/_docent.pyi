@@ -602,7 +602,7 @@ class VirtualMeasurementParams:
 class ScanMapperParams:
     resolution: float
     hit: float
-    pass: float
+    pass_: float
     most_log_odds: float
     reach: float
     margin: float

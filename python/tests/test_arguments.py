@@ -117,3 +117,8 @@ def test_classes_that_only_the_library_makes():
     for made in [docent.Verdict, docent.BeliefSummary, docent.ParticleSet, docent.LaserLog, docent.McapReader]:
         with pytest.raises(TypeError):
             made()
+
+
+def test_a_field_that_is_a_keyword():
+    params = docent.ScanMapperParams(pass_=0.3)
+    assert params.pass_ == 0.3 and not hasattr(params, "pass")
