@@ -42,6 +42,8 @@ READ_BY = {
     "scripts/evaluation/": ["10-verdicts", "11-figures"],
     "scripts/fuzz": ["13-fuzz-replay"],
     "web/": ["page"],
+    "examples/": ["46-library"],
+    "python/": ["everything"],
     "cmake/": ["everything"],
     "CMakeLists.txt": ["everything"],
     "CMakePresets.json": ["everything"],
@@ -151,7 +153,8 @@ def built_tests(build):
         text = file.read_text()
         labels = dict(re.findall(r'^set_tests_properties\((?:\[=\[|")?(.+?)(?:\]=\]|")? PROPERTIES .*?LABELS "(\w+)"', text, re.M))
         for name, program in re.findall(r'^add_test\((?:\[=\[|")?(.+?)(?:\]=\]|")? "([^"]+)"', text, re.M):
-            found.append((name, Path(program), labels.get(name, "")))
+            if Path(program).is_relative_to(build):  # not the interpreter of the Python package's tests
+                found.append((name, Path(program), labels.get(name, "")))
     return found
 
 

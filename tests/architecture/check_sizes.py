@@ -21,7 +21,8 @@ LINES_OF_FUNCTION = 60
 MEMBERS_OF_MODULE = 15
 CPP = {".h", ".cpp", ".inc"}
 PAGE = {".ts", ".svelte"}
-READ = {"include": CPP, "src": CPP, "tests": CPP | {".py"}, "web/src": PAGE, "scripts": {".py"}}
+READ = {"include": CPP, "src": CPP, "tests": CPP | {".py"}, "web/src": PAGE, "scripts": {".py"}, "python": CPP | {".py"},
+        "examples": CPP | {".py"}}
 
 # What may be larger, and why: a folder, a file, "file: function", or "file: class" of a module.
 EXCEPTIONS = {
@@ -156,8 +157,8 @@ def functions(path):
 def too_large(root):
     """(what, size, limit) of all that is over its limit under the root; `what` as in EXCEPTIONS."""
     large = []
-    source = root / "src" / "docent"
-    for folder in [source, *sorted(path for path in source.rglob("*") if path.is_dir())]:
+    tops = [root / "src" / "docent", *(root / top for top in ("python", "examples") if (root / top).is_dir())]
+    for folder in [folder for top in tops for folder in [top, *sorted(path for path in top.rglob("*") if path.is_dir())]]:
         files = sum(path.is_file() for path in folder.iterdir())
         if files > FILES_OF_FOLDER:
             large.append((folder.relative_to(root).as_posix(), f"{files} files", FILES_OF_FOLDER))

@@ -51,7 +51,8 @@ class Sizes(Project):
         self.assertEqual(self.large(), [("src/docent/grid", "31 files")])
 
     def test_a_file_may_have_450_lines(self):
-        names = ["src/docent/a.h", "src/a.cpp", "tests/x/a.inc", "tests/a.py", "scripts/x/a.py", "web/src/a.ts", "web/src/x/a.svelte"]
+        names = ["src/docent/a.h", "src/a.cpp", "tests/x/a.inc", "tests/a.py", "scripts/x/a.py", "web/src/a.ts", "web/src/x/a.svelte",
+                 "python/a.cpp", "python/tests/a.py", "examples/x/a.cpp", "examples/a.py"]
         for name in names:
             self.write(name, "\n" * 450)
         self.write("docs/a.py", "\n" * 1000)
