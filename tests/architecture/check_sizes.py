@@ -174,7 +174,7 @@ def too_large(root):
                 for name, first, last in functions(path):
                     if last - first + 1 > LINES_OF_FUNCTION:
                         large.append((f"{where}: {name}", f"{last - first + 1} lines", LINES_OF_FUNCTION))
-                if path.suffix in CPP and path.is_relative_to(source / "modules"):
+                if path.suffix in CPP and path.is_relative_to(root / "src/docent/modules"):
                     for name, members in fat_modules(path):
                         large.append((f"{where}: {name}", f"{members} data members", MEMBERS_OF_MODULE))
             except (ValueError, SyntaxError) as error:
