@@ -1,21 +1,23 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "docent/collision_avoidance/avoider/avoidance_method.h"
 #include "docent/collision_avoidance/avoider/avoider_params.h"
 #include "docent/collision_avoidance/avoider/carrot.h"
 #include "docent/collision_avoidance/avoider/hand_steering.h"
 #include "docent/collision_avoidance/avoider/input_watches.h"
-#include "docent/collision_avoidance/avoider/speed_cap.h"
+#include "docent/collision_avoidance/avoider/people_caution.h"
 #include "docent/collision_avoidance/avoider/surroundings.h"
 #include "docent/collision_avoidance/body/base_motion.h"
 #include "docent/collision_avoidance/dynamic_window/dynamic_window.h"
+#include "docent/collision_avoidance/local_planner/local_planner.h"
+#include "docent/collision_avoidance/local_planner/speed_cap.h"
 #include "docent/collision_avoidance/watches/complaint.h"
 #include "docent/collision_avoidance/watches/contact_watch.h"
 #include "docent/collision_avoidance/watches/freshness.h"
@@ -54,19 +56,22 @@ struct AvoiderDecision {
 };
 
 /// Collision avoidance of the tour guide, µDWA [Rhino1999] 4.1, [Minerva2000] 5.1: keeps the obstacle field,
-/// knows how old everything is, steers along via-points with the dynamic window, and brakes on any scan that says so.
-/// Safe without planner, localization or radio (architecture 8).
+/// knows how old everything is, drives along via-points as a local planner says, by default with the dynamic window,
+/// and brakes on any scan that says so. Safe without planner, localization or radio (architecture 8).
 ///
 /// Its parts keep what they need to know by themselves: the surroundings what must not be touched, the watches what is
-/// silent or broken, the method how to steer among people. This class takes their inputs into local time and odometry's
-/// frame, and decides.
+/// silent or broken, the caution what holds near people, the local planner how to follow a path. This class takes their
+/// inputs into local time and odometry's frame, decides, and checks whatever the planner wants.
 ///
 /// Sensor inputs take the local time of receipt and the stamp of their message, by whatever clock; all that is kept and
 /// compared is in local time.
 class Avoider {
  public:
   /// @param lasers  their names for a person: "front laser". Sweeps are numbered so
-  Avoider(const BaseLimits& limits, const AvoiderParams& params, std::vector<std::string> lasers);
+  /// @param planner  chooses velocities along paths; null: the one that `params.method` names. Turns on the spot and a
+  /// hand's wishes are driven with the dynamic window, whatever the planner
+  Avoider(const BaseLimits& limits, const AvoiderParams& params, std::vector<std::string> lasers,
+          std::unique_ptr<LocalPlanner> planner = nullptr);
 
   /// @param state  as the base says it: jumps are taken out here, and targets are carried over them
   void add_odometry(Time now, Time stamp, const BaseState& state);
@@ -113,30 +118,31 @@ class Avoider {
   [[nodiscard]] std::string fault(Time now) const;
 
  private:
-  /// What to steer for, and the point that it comes from, base frame.
-  struct Course {
-    Steering steering;
-    Point2 wanted{};
-  };
   [[nodiscard]] bool is_touched(Time now, double within) const;
   [[nodiscard]] BaseState state_when_effective(Time now) const;
   /// [m/s] that the robot may drive at most.
   [[nodiscard]] double top_speed() const { return std::min(max_speed_, limits_.max_speed); }
   void tell_nearest(std::span<const Obstacle> obstacles, AvoiderDecision& decision) const;
   [[nodiscard]] std::vector<Obstacle> obstacles_from(const Pose2& odom_from_base, Time when) const {
-    return surroundings_.obstacles(odom_from_base, when, top_speed(), method_);
+    return surroundings_.obstacles(odom_from_base, when, top_speed(), caution_);
   }
   /// Why the robot must stand whatever it is to do; nullopt when it may move.
   [[nodiscard]] std::optional<std::string> reason_to_stand(Time now) const;
-  /// The course to a heading or along via-points; nullopt when it is there.
-  [[nodiscard]] std::optional<Course> course_of_turn(const BaseState& start, AvoiderDecision& decision) const;
-  [[nodiscard]] std::optional<Course> course_along_path(Time now, const BaseState& start,
-                                                        std::span<const Obstacle> obstacles, AvoiderDecision& decision);
+  /// To the target's heading; nullopt when the robot has it.
+  [[nodiscard]] std::optional<Steering> turn_to_heading(const BaseState& start, AvoiderDecision& decision) const;
+  /// Along the via-points, as the local planner wants and the robot may.
+  [[nodiscard]] AvoiderDecision follow_path(Time now, const BaseState& start, std::span<const Obstacle> obstacles,
+                                            AvoiderDecision decision);
+  /// The target's speed at its end, and what is known; nullopt when it is there.
+  [[nodiscard]] std::optional<SpeedCap> cap_along_path(Time now, const BaseState& start, double remaining) const;
+  /// The command as near as the base can come to it, and as fast as is allowed; standing where it is no number.
+  [[nodiscard]] Velocity within_limits(const Velocity& command, const LocalTask& task) const;
+  /// The base can keep to it until the watchdog bites, or the next sweep, and brake then.
+  [[nodiscard]] bool may_keep_to(const Velocity& command, const LocalTask& task) const;
   /// What the hand says; nullopt: nothing, or nothing new.
   [[nodiscard]] const HandSteering* hand(Time now) const;
-  [[nodiscard]] std::optional<Course> course_by_hand(Time now, const HandSteering& wish,
-                                                     AvoiderDecision& decision) const;
-  [[nodiscard]] Carrot carrot(const BaseState& start, std::span<const Obstacle> obstacles) const;
+  [[nodiscard]] std::optional<Steering> steer_as_hand(Time now, const HandSteering& wish,
+                                                      AvoiderDecision& decision) const;
   void cap_by_knowledge(Time now, SpeedCap& cap) const;
   /// @returns whether a thing that only touch finds is near
   bool cap_by_touched_things(Time now, const Pose2& odom_from_base, SpeedCap& cap) const;
@@ -147,8 +153,9 @@ class Avoider {
 
   BaseLimits limits_;
   AvoiderParams params_;
-  AvoidanceMethod method_;
-  DynamicWindow window_;
+  PeopleCaution caution_;
+  std::unique_ptr<LocalPlanner> planner_;
+  DynamicWindow window_;  ///< for turns on the spot and by hand
   Surroundings surroundings_;
   InputWatches inputs_;
   ContactWatch contact_;

@@ -9,11 +9,18 @@
 #include "docent/vocabulary/vocabulary.h"
 
 namespace docent::collision_avoidance {
+namespace {
 
-Avoider::Avoider(const BaseLimits& limits, const AvoiderParams& params, std::vector<std::string> lasers)
+constexpr double kRounding = 1e-9;  // [m/s], [rad/s]
+
+}  // namespace
+
+Avoider::Avoider(const BaseLimits& limits, const AvoiderParams& params, std::vector<std::string> lasers,
+                 std::unique_ptr<LocalPlanner> planner)
     : limits_{limits},
       params_{params},
-      method_{params.make_method(limits)},
+      caution_{params.caution(limits)},
+      planner_{planner ? std::move(planner) : params.make_planner(limits)},
       window_{limits, params.window},
       surroundings_{limits, params.surroundings(), params.virtual_obstacles()},
       inputs_{limits, params.inputs(), std::move(lasers)},
@@ -113,8 +120,7 @@ std::string Avoider::fault(Time now) const {
 }
 
 bool Avoider::is_touched(Time now, double within) const {
-  const bool leaves = std::visit([](const auto& method) { return method.leaves_who_touches(); }, method_);
-  return contact_.is_touched(now, within) && !(leaves && contact_.may_leave(now));
+  return contact_.is_touched(now, within) && !(caution_.leaves_who_touches() && contact_.may_leave(now));
 }
 
 BaseState Avoider::state_when_effective(Time now) const {
@@ -127,14 +133,6 @@ void Avoider::tell_nearest(std::span<const Obstacle> obstacles, AvoiderDecision&
     double& nearest = obstacle.is_virtual ? decision.nearest_virtual : decision.nearest_real;
     nearest = std::min(nearest, obstacle.is_border ? norm(obstacle.at) : limits_.gap_to(obstacle.at));
   }
-}
-
-Carrot Avoider::carrot(const BaseState& start, std::span<const Obstacle> obstacles) const {
-  const double lookahead = std::max(params_.lookahead, params_.lookahead_time * start.velocity.linear);
-  const Pose2 base_from_odom = inverse(start.odom_from_base);
-  std::vector<Point2> path;
-  for (const auto& via : target_->via) path.push_back(base_from_odom * via);
-  return carrot_on(path, lookahead, obstacles, limits_.radius, params_.carrot);
 }
 
 void Avoider::cap_by_knowledge(Time now, SpeedCap& cap) const {
@@ -195,7 +193,7 @@ AvoiderDecision Avoider::stand(Time now, AvoiderDecision decision, std::string r
   decision.command = {};
   decision.state = AvoiderDecision::State::stopped;
   decision.reason = std::move(reason);
-  std::visit([](auto& method) { method.forget(); }, method_);
+  planner_->forget();
   return finish(now, std::move(decision));
 }
 
@@ -220,8 +218,7 @@ const HandSteering* Avoider::hand(Time now) const {
   return hand_ && now - hand_->said <= seconds(params_.hand.watchdog + params_.hand.returns) ? &hand_->wish : nullptr;
 }
 
-std::optional<Avoider::Course> Avoider::course_by_hand(Time now, const HandSteering& wish,
-                                                       AvoiderDecision& decision) const {
+std::optional<Steering> Avoider::steer_as_hand(Time now, const HandSteering& wish, AvoiderDecision& decision) const {
   const HandParams& hand = params_.hand;
   decision.reason = to_text(ReasonWord::steered_by_hand);
   if (std::abs(wish.forward) < hand.least && std::abs(wish.turn) < hand.least) return std::nullopt;
@@ -229,7 +226,7 @@ std::optional<Avoider::Course> Avoider::course_by_hand(Time now, const HandSteer
     decision.speed_cap = 0.0;
     decision.state = AvoiderDecision::State::turning;
     const double quarter = std::numbers::pi / 2.0;
-    return Course{{wish.turn * quarter, params_.approach.far, 0.0, false}, {}};
+    return Steering{wish.turn * quarter, params_.approach.far, 0.0, false};
   }
   const bool is_backwards = wish.forward < 0.0;
   SpeedCap cap{top_speed() * std::abs(wish.forward) * (is_backwards ? hand.backwards : 1.0), {}};
@@ -240,41 +237,81 @@ std::optional<Avoider::Course> Avoider::course_by_hand(Time now, const HandSteer
   const double aside = wish.turn * hand.full_turn;
   // Backwards, a stick to the left turns the robot's nose to the left, as it does in a car.
   const double bearing = is_backwards ? Angle::radians(std::numbers::pi - aside).radians() : aside;
-  return Course{{bearing, hand.distance, cap.speed, is_backwards}, {}};
+  return Steering{bearing, hand.distance, cap.speed, is_backwards};
 }
 
-std::optional<Avoider::Course> Avoider::course_of_turn(const BaseState& start, AvoiderDecision& decision) const {
+std::optional<Steering> Avoider::turn_to_heading(const BaseState& start, AvoiderDecision& decision) const {
   const double error = (target_->heading - start.odom_from_base.theta).radians();
   if (std::abs(error) < params_.approach.turned * target_->heading_tolerance) return std::nullopt;
   decision.speed_cap = 0.0;
   decision.state = AvoiderDecision::State::turning;
-  return Course{{error, params_.approach.far, 0.0, false}};
+  return Steering{error, params_.approach.far, 0.0, false};
 }
 
-std::optional<Avoider::Course> Avoider::course_along_path(Time now, const BaseState& start,
-                                                          std::span<const Obstacle> obstacles,
-                                                          AvoiderDecision& decision) {
-  if (target_->via.empty()) return std::nullopt;
+std::optional<SpeedCap> Avoider::cap_along_path(Time now, const BaseState& start, double remaining) const {
   const ApproachParams& approach = params_.approach;
-  const Carrot ahead = carrot(start, obstacles);
-  SpeedCap cap{decision.speed_cap, {}};
+  SpeedCap cap{top_speed(), {}};
   if (target_->is_final) {
     const double to_goal = norm(inverse(start.odom_from_base) * target_->via.back());
     if (to_goal < approach.arrived * target_->position_tolerance) return std::nullopt;
-    const double rest = std::max(0.0, ahead.remaining - approach.aims_short * target_->position_tolerance);
+    const double rest = std::max(0.0, remaining - approach.aims_short * target_->position_tolerance);
     cap.lower(std::max(approach.least_speed, std::sqrt(2.0 * params_.arrival_deceleration * rest)), "");
   }
   cap_by_knowledge(now, cap);
-  decision.low_obstacle = cap_by_touched_things(now, start.odom_from_base, cap);
-  const auto steer = [&](auto& method) { return method.steer(ahead.in_base, start.odom_from_base, obstacles, cap); };
-  Steering steering = std::visit(steer, method_);
-  // Sharp turns slowly, and on the spot when the way lies behind.
-  const double turn = std::abs(steering.bearing);
-  cap.lower(max_speed_ * std::clamp(approach.full_turn_cap - turn / approach.turn_scale, 0.0, 1.0), "");
-  steering.speed_cap = decision.speed_cap = cap.speed;
-  decision.reason = std::move(cap.reason);
+  return cap;
+}
+
+AvoiderDecision Avoider::follow_path(Time now, const BaseState& start, std::span<const Obstacle> obstacles,
+                                     AvoiderDecision decision) {
+  if (target_->via.empty()) return stand(now, std::move(decision), "");
+  const Pose2 base_from_odom = inverse(start.odom_from_base);
+  std::vector<Point2> path;
+  for (const auto& via : target_->via) path.push_back(base_from_odom * via);
+  const double lookahead = std::max(params_.lookahead, params_.lookahead_time * start.velocity.linear);
+  const Carrot ahead = carrot_on(path, lookahead, obstacles, limits_.radius, params_.carrot);
+  auto cap = cap_along_path(now, start, ahead.remaining);
+  if (!cap) return stand(now, std::move(decision), "");
+  decision.low_obstacle = cap_by_touched_things(now, start.odom_from_base, *cap);
+
+  const LocalTask task{start.velocity, command_,      start.odom_from_base, obstacles,
+                       path,           ahead.in_base, max_speed_,           std::move(*cap)};
+  LocalPlan plan = planner_->plan(task);
+  decision.command = within_limits(plan.command, task);
+  if (!may_keep_to(decision.command, task)) {
+    decision.command = {};
+    plan.is_braking = true;
+  }
+  decision.window = std::move(plan.window);
+  decision.speed_cap = std::min(plan.cap.speed, task.cap.speed);
+  decision.reason = plan.is_braking ? to_text(ReasonWord::braking) : std::move(plan.cap.reason);
   decision.state = AvoiderDecision::State::driving;
-  return Course{steering, ahead.in_base};
+  judge_blocking(now, task.carrot, start.odom_from_base, obstacles, decision);
+  return finish(now, std::move(decision));
+}
+
+Velocity Avoider::within_limits(const Velocity& command, const LocalTask& task) const {
+  if (!std::isfinite(command.linear) || !std::isfinite(command.angular)) return {};
+  const double cycle = params_.window.cycle;
+  const double braked = task.velocity.linear - limits_.deceleration * cycle;
+  const double fastest = std::max(std::min(task.cap.speed, limits_.max_speed), braked);
+  const double turn = limits_.turn_acceleration * cycle;
+  const double left = std::max(limits_.max_turn_rate, task.velocity.angular - turn);
+  const double right = std::min(-limits_.max_turn_rate, task.velocity.angular + turn);
+  Velocity result = command;
+  const double linear = std::clamp(command.linear, std::min(-params_.window.creep_speed, fastest), fastest);
+  if (std::abs(linear - command.linear) > kRounding) result = {linear, command.angular * linear / command.linear};
+  if (result.angular < right - kRounding || result.angular > left + kRounding)
+    result.angular = std::clamp(result.angular, right, left);
+  return result;
+}
+
+bool Avoider::may_keep_to(const Velocity& command, const LocalTask& task) const {
+  const bool stays = command.linear == 0.0;
+  if (stays && (limits_.outline.empty() || command.angular == 0.0)) return true;  // a disc turns in its own place
+  const auto may_last = [&](double duration) {
+    return can_brake_in_time(task.velocity, command, duration, task.obstacles, limits_, 0.0);
+  };
+  return may_last(limits_.hold()) && (stays || may_last(params_.window.next_check));
 }
 
 AvoiderDecision Avoider::decide(Time now) {
@@ -291,16 +328,14 @@ AvoiderDecision Avoider::decide(Time now) {
 
   decision.speed_cap = top_speed();
   const HandSteering* wish = hand(now);
-  const bool is_led = wish == nullptr && target_->mode == AvoiderTarget::Mode::drive;  // along a path
-  const auto course = wish != nullptr ? course_by_hand(now, *wish, decision)
-                      : is_led        ? course_along_path(now, start, obstacles, decision)
-                                      : course_of_turn(start, decision);
-  if (!course) return stand(now, std::move(decision), wish != nullptr ? to_text(ReasonWord::steered_by_hand) : "");
-  auto choice = window_.choose(start.velocity, command_, obstacles, course->steering);
+  if (wish == nullptr && target_->mode == AvoiderTarget::Mode::drive)
+    return follow_path(now, start, obstacles, std::move(decision));
+  const auto steering = wish != nullptr ? steer_as_hand(now, *wish, decision) : turn_to_heading(start, decision);
+  if (!steering) return stand(now, std::move(decision), wish != nullptr ? to_text(ReasonWord::steered_by_hand) : "");
+  auto choice = window_.choose(start.velocity, command_, obstacles, *steering);
   decision.command = choice.command;
   decision.window = std::move(choice.window);
   if (choice.is_braking) decision.reason = to_text(ReasonWord::braking);
-  if (is_led) judge_blocking(now, course->wanted, start.odom_from_base, obstacles, decision);
   return finish(now, std::move(decision));
 }
 
@@ -325,8 +360,7 @@ std::optional<AvoiderDecision> Avoider::reflex(Time now) {
     return can_brake_in_time(start.velocity, command, reflex.until_next_sweep, obstacles, limits_, reflex.slack);
   };
   if (is_safe(command_)) {
-    const auto slow = [&](const auto& method) { return method.slowed_for_people(command_, obstacles); };
-    const auto slowed = std::visit(slow, method_);
+    const auto slowed = caution_.slowed_for_people(command_, obstacles);
     if (!slowed) return std::nullopt;
     if (is_safe(*slowed)) {
       decision.command = *slowed;

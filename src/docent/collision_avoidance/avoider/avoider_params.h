@@ -1,27 +1,28 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "docent/base/result.h"
-#include "docent/collision_avoidance/avoider/avoidance_method.h"
 #include "docent/collision_avoidance/avoider/carrot.h"
 #include "docent/collision_avoidance/avoider/hand_steering.h"
 #include "docent/collision_avoidance/avoider/input_watches.h"
+#include "docent/collision_avoidance/avoider/people_caution.h"
 #include "docent/collision_avoidance/avoider/surroundings.h"
 #include "docent/collision_avoidance/body/speed_near_people.h"
 #include "docent/collision_avoidance/dynamic_window/dynamic_window.h"
+#include "docent/collision_avoidance/local_planner/local_planner.h"
+#include "docent/collision_avoidance/local_planner/window_planners.h"
 
 namespace docent::collision_avoidance {
 
-/// How the robot comes to its goal and through its turns.
+/// How the robot comes to its goal.
 struct ApproachParams {
-  double turned = 0.6;          ///< of the target's heading tolerance: so near, a turn has ended
-  double arrived = 0.5;         ///< of the target's position tolerance: so near, the goal is reached
-  double aims_short = 0.2;      ///< of the same tolerance: the robot brakes to stand so much before the goal
-  double least_speed = 0.08;    ///< [m/s] with which the last centimetres are driven
-  double full_turn_cap = 1.35;  ///< share of the speed that a way straight ahead would allow, were 1 not enough
-  double turn_scale = 1.1;  ///< [rad] of bearing that cost a share of 1: from 1.5 rad on the robot turns on the spot
-  double far = 100.0;       ///< [m] to what a turn on the spot steers for, so that its bearing alone counts
+  double turned = 0.6;        ///< of the target's heading tolerance: so near, a turn has ended
+  double arrived = 0.5;       ///< of the target's position tolerance: so near, the goal is reached
+  double aims_short = 0.2;    ///< of the same tolerance: the robot brakes to stand so much before the goal
+  double least_speed = 0.08;  ///< [m/s] with which the last centimetres are driven
+  double far = 100.0;         ///< [m] to what a turn on the spot steers for, so that its bearing alone counts
 };
 
 /// What is known by touch alone.
@@ -70,6 +71,7 @@ struct AvoiderParams {
   // What no robot.yaml needs to change.
   double first_max_speed = 0.7;  ///< [m/s] until the museum's mode has been heard
   ApproachParams approach{};
+  SharpTurnParams sharp_turns{};
   TouchParams touch{};
   BlockingParams blocking{};
   ReflexParams reflex{};
@@ -93,7 +95,9 @@ struct AvoiderParams {
   [[nodiscard]] Result<void> validate() const;
 
   // Of the avoider's parts.
-  [[nodiscard]] AvoidanceMethod make_method(const BaseLimits& limits) const;
+  /// The planner that `method` names.
+  [[nodiscard]] std::unique_ptr<LocalPlanner> make_planner(const BaseLimits& limits) const;
+  [[nodiscard]] PeopleCaution caution(const BaseLimits& limits) const;
   [[nodiscard]] SurroundingsParams surroundings() const;
   [[nodiscard]] VirtualObstaclesParams virtual_obstacles() const;
   [[nodiscard]] InputWatchesParams inputs() const;

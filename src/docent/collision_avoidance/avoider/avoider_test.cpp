@@ -2,9 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
+#include <vector>
 
 #include "docent/collision_avoidance/avoider/rehearsal_for_test.h"
+#include "docent/collision_avoidance/local_planner/testing.h"
 
 namespace docent::collision_avoidance::avoider_test {
 namespace {
@@ -154,6 +159,61 @@ TEST(Avoider, NeverTouchesAnythingInRandomClutter) {
     driven += world.driven;
   }
   EXPECT_GT(driven, 150.0);
+}
+
+/// A hall with a wall 4 m before the robot, whose path leads through it.
+struct HeadlongTest : ::testing::Test {
+  Rehearsal drive(const Velocity& wish, double duration, const std::vector<RehearsalPerson>& people = {}) {
+    Rehearsal world{1, Rehearsal::without_sonar(), {"front laser", "rear laser"}, testing::headlong(wish, &log)};
+    world.checks_choices = true;
+    world.people = people;
+    world.box(-3, -3, 4, 3);
+    world.drive_to({{1, 0}, {2, 0}, {8, 0}});
+    world.run(duration);
+    return world;
+  }
+  testing::HeadlongLog log;
+};
+
+TEST_F(HeadlongTest, APlannerThatDrivesIntoAWallIsStoppedBeforeIt) {
+  for (const double wish : {10.0, 0.5, 0.1, 0.02}) {
+    const double needed = 4.0 / std::min(wish, 0.7);
+    const Rehearsal world = drive({wish, 0.0}, needed + 10.0);
+    EXPECT_GT(world.least_wall, 0.0) << "at " << wish << " m/s";
+    EXPECT_GT(world.driven, 3.0) << "it is the planner that drives";
+    EXPECT_LT(world.velocity.linear, 0.02);
+    EXPECT_EQ(world.decision.command, Velocity{});
+    EXPECT_GT(log.asked, 4 * static_cast<int>(needed)) << "and is asked again";
+  }
+  EXPECT_EQ(log.path, 3U);
+  EXPECT_GT(log.carrot.x, 0.5);
+}
+
+TEST_F(HeadlongTest, APlannerThatSeesNobodyPushesNobody) {
+  EXPECT_LE(drive({0.7, 0.0}, 10.0, {{{2.5, 0.05}}}).worst_push, 0.0) << "who stands";
+  EXPECT_LE(drive({0.7, 0.0}, 10.0, {{{3.5, 0.1}, {-0.9, 0.0}}}).worst_push, 0.1) << "who comes";
+}
+
+TEST_F(HeadlongTest, DrivesNoFasterThanIsAllowedAndNothingThatIsNoNumber) {
+  EXPECT_LT(drive({10.0, 0.0}, 5.0).top_speed, 0.71);
+  EXPECT_GT(drive({-10.0, 0.0}, 3.0).map_from_base.x, -0.5) << "backwards it creeps";
+  EXPECT_EQ(drive({std::nan(""), 0.0}, 3.0).driven, 0.0);
+  EXPECT_EQ(drive({0.3, std::numeric_limits<double>::infinity()}, 3.0).driven, 0.0);
+  const Rehearsal turning = drive({0.0, 50.0}, 3.0);
+  EXPECT_LE(turning.velocity.angular, turning.limits.max_turn_rate + 1e-6);
+  EXPECT_GT(turning.velocity.angular, 1.0);
+}
+
+TEST_F(HeadlongTest, IsNotAskedWhileTheRobotMustStand) {
+  Rehearsal world = drive({0.5, 0.0}, 1.0);
+  const int asked = log.asked;
+  EXPECT_GT(asked, 0);
+  world.avoider.stop_by_hand(true);
+  const int forgot = log.forgot;
+  world.run(1.0);
+  EXPECT_EQ(log.asked, asked);
+  EXPECT_GT(log.forgot, forgot);
+  EXPECT_EQ(world.decision.command, Velocity{});
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "docent/collision_avoidance/avoider/speed_cap.h"
+#include "docent/collision_avoidance/local_planner/speed_cap.h"
 #include "docent/collision_avoidance/obstacle_field/obstacle_memory.h"
 #include "docent/collision_avoidance/watches/complaint.h"
 #include "docent/collision_avoidance/watches/freshness.h"

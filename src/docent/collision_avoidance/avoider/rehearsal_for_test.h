@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "docent/base/random.h"
@@ -24,8 +26,9 @@ struct RehearsalPerson {
 class Rehearsal {
  public:
   explicit Rehearsal(std::uint64_t seed = 1, const AvoiderParams& params = without_sonar(),
-                     const std::vector<std::string>& lasers = {"front laser", "rear laser"})
-      : avoider{limits, params, lasers}, rng_{seed}, has_rear_{lasers.size() > 1} {}
+                     const std::vector<std::string>& lasers = {"front laser", "rear laser"},
+                     std::unique_ptr<LocalPlanner> planner = nullptr)
+      : avoider{limits, params, lasers, std::move(planner)}, rng_{seed}, has_rear_{lasers.size() > 1} {}
 
   static AvoiderParams without_sonar() {
     AvoiderParams params;
@@ -40,6 +43,7 @@ class Rehearsal {
   std::vector<RehearsalPerson> people;
   double noise = 0.02;  ///< [m] of the lasers, one standard deviation
   bool front_works = true, rear_works = true, odometry_works = true, virtual_works = true, target_works = true;
+  bool checks_choices = false;              ///< whatever was chosen is checked at once, as the module does
   bool front_repeats = false;               ///< the front laser gives its last sweep again and again
   double blind_from = 0.0, blind_to = 0.0;  ///< [rad] base frame: the front laser gives this there:
   float blind_range = std::numeric_limits<float>::quiet_NaN();
@@ -109,7 +113,11 @@ class Rehearsal {
     if (ticks_ % 20 == 0 && virtual_works) see_virtually();
     if (ticks_ % 20 == 5 && target_works) avoider.set_target(now, now, target_in_raw());
     if (ticks_ % 10 == 7 && hand) avoider.steer_by_hand(now, *hand);
-    if (ticks_ % 25 == 3) give(avoider.decide(now));
+    if (ticks_ % 25 == 3) {
+      give(avoider.decide(now));
+      if (!checks_choices) return;
+      if (auto made = avoider.reflex(now)) give(*made);
+    }
   }
 
   [[nodiscard]] AvoiderTarget target_in_raw() const {

@@ -27,24 +27,21 @@ Point2 Surroundings::stopped_at_outline(Point2 at, Point2 velocity) const {
 }
 
 void Surroundings::add_sensed(std::vector<Obstacle>& obstacles, const Pose2& base_from_odom, Time when, double speed,
-                              const AvoidanceMethod& method) const {
+                              const PeopleCaution& caution) const {
   const PointTransform of_points{base_from_odom};
   const UnmappedPlaces* unmapped = unmapped_.judge(when) ? &unmapped_ : nullptr;
   const double reach = this->reach(speed);
   const double steps_in = this->steps_in(speed);
   const std::vector<ObstaclePoint> points = memory_.points(when);
   obstacles.reserve(points.size());
-  const auto add_by = [&](const auto& chosen) {
-    for (const auto& point : points) {
-      Point2 at = of_points * point.in_odom;
-      const Point2 velocity = of_points * point.velocity - base_from_odom.position();
-      if (limits_.gap_to(at) < 0.0) at = stopped_at_outline(at, velocity);
-      const double away = norm(at);
-      if (away > reach) continue;
-      obstacles.push_back(chosen.obstacle_of({point, at, velocity, away, steps_in, unmapped}));
-    }
-  };
-  std::visit(add_by, method);
+  for (const auto& point : points) {
+    Point2 at = of_points * point.in_odom;
+    const Point2 velocity = of_points * point.velocity - base_from_odom.position();
+    if (limits_.gap_to(at) < 0.0) at = stopped_at_outline(at, velocity);
+    const double away = norm(at);
+    if (away > reach) continue;
+    obstacles.push_back(caution.obstacle_of({point, at, velocity, away, steps_in, unmapped}));
+  }
 }
 
 void Surroundings::add_unseen(std::vector<Obstacle>& obstacles, const Pose2& odom_from_base, Time when) const {
@@ -61,11 +58,11 @@ void Surroundings::add_unseen(std::vector<Obstacle>& obstacles, const Pose2& odo
 }
 
 std::vector<Obstacle> Surroundings::obstacles(const Pose2& odom_from_base, Time when, double speed,
-                                              const AvoidanceMethod& method) const {
+                                              const PeopleCaution& caution) const {
   std::vector<Obstacle> result;
   const Pose2 base_from_odom = inverse(odom_from_base);
   if (!params_.blind_to_people) {
-    add_sensed(result, base_from_odom, when, speed, method);
+    add_sensed(result, base_from_odom, when, speed, caution);
     if (params_.has_lasers) add_unseen(result, odom_from_base, when);
   }
   virtual_.add_to(result, base_from_odom, reach(speed));

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "docent/collision_avoidance/avoider/avoidance_method.h"
+#include "docent/collision_avoidance/avoider/people_caution.h"
 #include "docent/collision_avoidance/avoider/virtual_obstacles.h"
 #include "docent/collision_avoidance/obstacle_field/obstacle_memory.h"
 #include "docent/collision_avoidance/obstacle_field/seen_places.h"
@@ -49,14 +49,14 @@ class Surroundings {
   [[nodiscard]] double reach(double speed) const;
   /// Everything within reach, base frame, moving things where they are at `when`.
   [[nodiscard]] std::vector<Obstacle> obstacles(const Pose2& odom_from_base, Time when, double speed,
-                                                const AvoidanceMethod& method) const;
+                                                const PeopleCaution& caution) const;
 
  private:
   [[nodiscard]] double until_it_stands(double speed) const { return limits_.hold() + speed / limits_.deceleration; }
   /// [m] from the robot: who stands farther away cannot step into its way in time.
   [[nodiscard]] double steps_in(double speed) const;
   void add_sensed(std::vector<Obstacle>& obstacles, const Pose2& base_from_odom, Time when, double speed,
-                  const AvoidanceMethod& method) const;
+                  const PeopleCaution& caution) const;
   void add_unseen(std::vector<Obstacle>& obstacles, const Pose2& odom_from_base, Time when) const;
   /// Nothing is inside the robot: whoever was foreseen there has come up to its outline, on the way that they came.
   [[nodiscard]] Point2 stopped_at_outline(Point2 at, Point2 velocity) const;

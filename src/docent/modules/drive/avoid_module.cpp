@@ -63,13 +63,14 @@ std::vector<std::string> laser_names(const robot::RobotBody& body) {
 class AvoidModule final : public Module {
  public:
   AvoidModule(const ModuleContext& context, const collision_avoidance::BaseLimits& limits,
-              const collision_avoidance::AvoiderParams& params)
+              const collision_avoidance::AvoiderParams& params,
+              std::unique_ptr<collision_avoidance::LocalPlanner> planner)
       : bus_{context.bus},
         mode_{context},
         body_{context.config.body()},
         cycle_{params.window.cycle},
         widest_field_(body_.scanners.size()),
-        avoider_{limits, params, laser_names(body_)},
+        avoider_{limits, params, laser_names(body_), std::move(planner)},
         drive_{bus_.publisher(topics::kDrive)},
         state_{bus_.publisher(topics::kAvoidState)} {
     subscribe_sensors();
@@ -264,7 +265,10 @@ class AvoidModule final : public Module {
 
 }  // namespace
 
-Result<std::unique_ptr<Module>> make_avoid(const ModuleContext& context) {
+Result<std::unique_ptr<Module>> make_avoid(const ModuleContext& context) { return make_avoid_with(context, {}); }
+
+Result<std::unique_ptr<Module>> make_avoid_with(const ModuleContext& context,
+                                                const collision_avoidance::LocalPlannerMaker& make_planner) {
   auto params = context.config.section<collision_avoidance::AvoiderParams>("avoid");
   if (!params) return tl::unexpected<Error>(params.error());
   const robot::RobotBody& body = context.config.body();
@@ -275,7 +279,7 @@ Result<std::unique_ptr<Module>> make_avoid(const ModuleContext& context) {
   params->has_lasers = !body.scanners.empty();
   auto limits = limits_of(body);
   if (!limits) return tl::unexpected<Error>(limits.error());
-  return std::make_unique<AvoidModule>(context, *limits, *params);
+  return std::make_unique<AvoidModule>(context, *limits, *params, make_planner ? make_planner(*limits) : nullptr);
 }
 
 Result<robot::ParameterRows> parameters_of_avoid(const robot::RobotConfig& config) {

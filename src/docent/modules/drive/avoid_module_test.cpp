@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "docent/collision_avoidance/local_planner/testing.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/drive/hazards_module.h"
 #include "docent/modules/drive/robot_module.h"
@@ -45,7 +46,7 @@ class MotionModules : public ::testing::Test {
     start(robot, robot_bus, "robot", make_robot);
   }
   void start(std::unique_ptr<Module>& module, std::unique_ptr<transport::Bus>& bus, const char* name,
-             ModuleFactory make) {
+             const std::function<Result<std::unique_ptr<Module>>(const ModuleContext&)>& make) {
     module.reset();
     bus = hub.connect(name);
     auto made = make({*bus, museum, config, "", 1, true});
@@ -172,6 +173,16 @@ TEST_F(MotionModules, DriveAndPublishWhatTheyDo) {
   EXPECT_LT(pose.x, 18.0 - 0.265);  // the wall
   EXPECT_GT(pose.x, 16.5);
   EXPECT_TRUE(state.path_blocked);
+}
+
+TEST_F(MotionModules, SomebodyElsesPlannerIsStoppedBeforeTheWall) {
+  start(avoid, avoid_bus, "avoid", [](const auto& context) {
+    return make_avoid_with(context, [](const auto&) { return collision_avoidance::testing::headlong({0.4, 0.0}); });
+  });
+  run(55.0);
+  EXPECT_EQ(speed, 0.0);
+  EXPECT_LT(pose.x, 18.0 - 0.265);
+  EXPECT_GT(pose.x, 16.5);
 }
 
 TEST_F(MotionModules, OneScannerInFrontAndNoSonarsDo) {

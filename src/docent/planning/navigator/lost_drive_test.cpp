@@ -5,26 +5,12 @@
 #include <cmath>
 #include <vector>
 
+#include "docent/planning/navigator/testing.h"
+
 namespace docent::planning::lost_drive_test {
 namespace {
 
 constexpr double kReach = 10.0;  // [m]
-
-/// 24 x 2.4 m, the same from both ends but for an alcove in the side wall at x from 18 to 19.
-OccupancyGrid corridor() {
-  OccupancyGrid map;
-  map.frame = {260, 64, 0.1, {-1.0, -1.0}};
-  map.cells.assign(map.frame.size(), OccupancyGrid::kOccupied);
-  for (int row = 0; row < map.frame.rows; ++row) {
-    for (int column = 0; column < map.frame.columns; ++column) {
-      const Point2 at = map.frame.centre({column, row});
-      const bool is_hall = at.x > 0.0 && at.x < 24.0 && at.y > 0.0 && at.y < 2.4;
-      const bool is_alcove = at.x > 18.0 && at.x < 19.0 && at.y > 2.0 && at.y < 4.0;
-      if (is_hall || is_alcove) map.cells[map.frame.index({column, row})] = OccupancyGrid::kFree;
-    }
-  }
-  return map;
-}
 
 /// The robot looks along the corridor, or, the other way, from the mirrored place.
 PoseBelief two_ends(double x) {
@@ -50,7 +36,7 @@ Whereabouts at(const Pose2& odom_from_base) {
   return where;
 }
 
-LostDrive drive(bool active = true) { return {corridor(), 0.27, {}, active}; }
+LostDrive drive(bool active = true) { return {testing::corridor_with_alcove(), 0.27, {}, active}; }
 
 TEST(LostDrive, DrivesAtOnceToWhereItsHypothesesDiffer) {
   LostDrive lost = drive();

@@ -27,4 +27,20 @@ inline OccupancyGrid hall_with_two_doors() {
   return map;
 }
 
+/// A corridor of 24 x 2.4 m, the same from both ends but for an alcove in the side wall at x from 18 to 19.
+inline OccupancyGrid corridor_with_alcove() {
+  OccupancyGrid map;
+  map.frame = {260, 64, 0.1, {-1.0, -1.0}};
+  map.cells.assign(map.frame.size(), OccupancyGrid::kOccupied);
+  for (int row = 0; row < map.frame.rows; ++row) {
+    for (int column = 0; column < map.frame.columns; ++column) {
+      const Point2 at = map.frame.centre({column, row});
+      const bool is_hall = at.x > 0.0 && at.x < 24.0 && at.y > 0.0 && at.y < 2.4;
+      const bool is_alcove = at.x > 18.0 && at.x < 19.0 && at.y > 2.0 && at.y < 4.0;
+      if (is_hall || is_alcove) map.cells[map.frame.index({column, row})] = OccupancyGrid::kFree;
+    }
+  }
+  return map;
+}
+
 }  // namespace docent::planning::testing

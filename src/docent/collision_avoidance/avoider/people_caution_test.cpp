@@ -1,4 +1,4 @@
-#include "docent/collision_avoidance/avoider/avoidance_method.h"
+#include "docent/collision_avoidance/avoider/people_caution.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include "docent/collision_avoidance/avoider/avoider.h"
 #include "docent/collision_avoidance/avoider/rehearsal_for_test.h"
 
-namespace docent::collision_avoidance::avoidance_method_test {
+namespace docent::collision_avoidance::people_caution_test {
 namespace {
 
-TEST(AvoidanceMethod, DoesNotPushAPersonWhoComesTowardsIt) {
+TEST(PeopleCaution, DoesNotPushAPersonWhoComesTowardsIt) {
   for (const double speed : {0.5, 0.9, 1.3}) {
     Rehearsal world{3};
     world.box(-3, -4, 20, 4);
@@ -23,7 +23,7 @@ TEST(AvoidanceMethod, DoesNotPushAPersonWhoComesTowardsIt) {
   }
 }
 
-TEST(AvoidanceMethod, DoesNotPushAPersonWhoCrosses) {
+TEST(PeopleCaution, DoesNotPushAPersonWhoCrosses) {
   for (const double start : {1.5, 2.0, 2.5, 3.0, 3.5}) {
     Rehearsal world{5};
     world.box(-3, -6, 20, 6);
@@ -54,7 +54,7 @@ double push_of_who_steps_in(std::uint64_t seed, double before, const AvoiderPara
   return rehearsal.worst_push;
 }
 
-TEST(AvoidanceMethod, DoesNotPushWhoStepsOutOfARow) {
+TEST(PeopleCaution, DoesNotPushWhoStepsOutOfARow) {
   AvoiderParams blunt = Rehearsal::without_sonar();
   blunt.people.surprise = 0.0;
   double worst = 0.0;
@@ -101,7 +101,7 @@ std::optional<AvoiderDecision> reflex_to_somebody(double gap) {
   return avoider.reflex(now);
 }
 
-TEST(AvoidanceMethod, TheCheckOfEveryScanSlowsACreepWhereOnlyLessIsHarmless) {
+TEST(PeopleCaution, TheCheckOfEveryScanSlowsACreepWhereOnlyLessIsHarmless) {
   const auto near = reflex_to_somebody(0.16);
   ASSERT_TRUE(near) << "no reflex";
   EXPECT_EQ(near->reason, "people_near");
@@ -109,7 +109,7 @@ TEST(AvoidanceMethod, TheCheckOfEveryScanSlowsACreepWhereOnlyLessIsHarmless) {
   EXPECT_FALSE(reflex_to_somebody(1.5)) << "far off";
 }
 
-TEST(AvoidanceMethod, TheChoiceTakesPeopleAsTheyStandAndTheCheckForeseesThem) {
+TEST(PeopleCaution, TheChoiceTakesPeopleAsTheyStandAndTheCheckForeseesThem) {
   for (const double speed : {0.0, 0.9}) {  // towards the robot, which stands
     Avoider avoider{BaseLimits{}, Rehearsal::without_sonar(), {"front laser"}};
     Time now = time_from_seconds(10.0);
@@ -137,7 +137,7 @@ TEST(AvoidanceMethod, TheChoiceTakesPeopleAsTheyStandAndTheCheckForeseesThem) {
   }
 }
 
-TEST(AvoidanceMethod, GoesRoundAPersonWhoStandsInTheWay) {
+TEST(PeopleCaution, GoesRoundAPersonWhoStandsInTheWay) {
   Rehearsal world;
   world.box(-3, -3, 12, 3);
   world.people.push_back({{4, 0.05}});
@@ -146,7 +146,7 @@ TEST(AvoidanceMethod, GoesRoundAPersonWhoStandsInTheWay) {
   EXPECT_LE(world.worst_push, 0.0);
 }
 
-TEST(AvoidanceMethod, SlidesOutOfAMarginThatShutsTheWayAhead) {
+TEST(PeopleCaution, SlidesOutOfAMarginThatShutsTheWayAhead) {
   Rehearsal world;
   world.box(-3, -4, 8, 4);
   world.hazards = {{{-2, -0.40}, {5, -0.42}}, {{-2, 0.52}, {5, 0.50}}};  // comes nearer on the way, 0.92 m wide
@@ -156,7 +156,7 @@ TEST(AvoidanceMethod, SlidesOutOfAMarginThatShutsTheWayAhead) {
   EXPECT_GT(world.least_wall, 0.1);
 }
 
-TEST(AvoidanceMethod, LeavesWhoTouchedItAwayFromThemOnly) {
+TEST(PeopleCaution, LeavesWhoTouchedItAwayFromThemOnly) {
   for (const bool from_behind : {true, false}) {
     Rehearsal world{5};
     world.box(-3, -5, 15, 5);
@@ -177,4 +177,4 @@ TEST(AvoidanceMethod, LeavesWhoTouchedItAwayFromThemOnly) {
 }
 
 }  // namespace
-}  // namespace docent::collision_avoidance::avoidance_method_test
+}  // namespace docent::collision_avoidance::people_caution_test

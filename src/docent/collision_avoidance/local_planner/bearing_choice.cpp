@@ -1,4 +1,4 @@
-#include "docent/collision_avoidance/avoider/bearing_choice.h"
+#include "docent/collision_avoidance/local_planner/bearing_choice.h"
 
 #include <algorithm>
 #include <cmath>
