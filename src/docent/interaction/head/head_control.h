@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "docent/base/random.h"
 #include "docent/base/time.h"

@@ -56,6 +56,7 @@ TEST_F(HeadControlTest, ATaskThatIsOverOrAnothersReportCountsNoMore) {
 TEST_F(HeadControlTest, LooksAtWhoeverBlocksItAndGetsAngryUntilTheyAreGone) {
   people_ = {{7, {1.0, 0.0}, {}}};
   for (int i = 0; i < 60; ++i) {
+    head_.want(Angle{}, now_);
     head_.block(now_);
     step(0.5);
   }

@@ -8,7 +8,7 @@
 #include "docent/interaction/kiosk/poll.h"
 #include "docent/interaction/sound/horn.h"
 #include "docent/interaction/speech/sentences.h"
-#include "docent/messages/conversions.h"
+#include "docent/messages/topics.h"
 #include "docent/modules/shared/museum_mode.h"
 #include "docent/modules/web/bus_link.h"
 #include "docent/modules/web/camera_desk.h"

@@ -91,7 +91,7 @@ TEST_F(WishDeskTest, ACancellationOfWhatNobodyKnowsIsGivenUpAfterAMinute) {
   EXPECT_EQ(desk_->take(wish_for("c", "unknown", RequestKind::cancel), now_), Reason{});
   EXPECT_EQ(desk_->take(wish_for("a", "sputnik"), now_), Reason{});
   now_ = now_ + seconds(59.0);
-  EXPECT_EQ(resent(), (Ids{"a", "c"}));
+  EXPECT_EQ(resent(), (Ids{"c", "a"}));
   now_ = now_ + seconds(2.0);
   EXPECT_EQ(resent(), Ids{"a"});
 }
