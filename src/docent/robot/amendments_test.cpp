@@ -5,27 +5,27 @@
 namespace docent::robot {
 namespace {
 
-struct Legs {
+struct Wheels {
   int count = 2;
 };
-struct LongLegs : Legs {};
+struct SpareWheels : Wheels {};
 
 TEST(Amendments, ChangeTheirOwnTypeAloneInTheirOrder) {
   Amendments amendments;
-  amendments.add<Legs>([](Legs& legs) { legs.count += 1; });
-  amendments.add<Legs>([](Legs& legs) { legs.count *= 10; });
-  Legs legs;
-  LongLegs others;
-  amendments.apply(legs);
+  amendments.add<Wheels>([](Wheels& wheels) { wheels.count += 1; });
+  amendments.add<Wheels>([](Wheels& wheels) { wheels.count *= 10; });
+  Wheels wheels;
+  SpareWheels others;
+  amendments.apply(wheels);
   amendments.apply(others);
-  EXPECT_EQ(legs.count, 30);
+  EXPECT_EQ(wheels.count, 30);
   EXPECT_EQ(others.count, 2) << "a derived type is another one";
 }
 
 TEST(Amendments, WithoutAnyNothingChanges) {
-  Legs legs;
-  Amendments{}.apply(legs);
-  EXPECT_EQ(legs.count, 2);
+  Wheels wheels;
+  Amendments{}.apply(wheels);
+  EXPECT_EQ(wheels.count, 2);
 }
 
 }  // namespace

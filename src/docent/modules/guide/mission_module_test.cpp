@@ -6,6 +6,7 @@
 
 #include "docent/interaction/speech/sentences.h"
 #include "docent/modules/guide/tour_rehearsal_for_test.h"
+#include "docent/task_control/mission/mission.h"
 #include "docent/vocabulary/reason.h"
 
 namespace docent::modules {

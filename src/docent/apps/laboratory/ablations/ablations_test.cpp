@@ -148,11 +148,10 @@ TEST_F(AlteredModule, NoHazardIsNear) {
   params.ignores_hazards = true;
   sensor_msgs::LaserScan scan;
   scan.range_max = 5.0F;
-  scan.angle_min = -3.0F;
-  scan.angle_max = 3.0F;
-  scan.angle_increment = 3.0F;
-  scan.ranges = {1.0F, 2.0F, 3.0F};
-  EXPECT_EQ(said("hazards", topics::kVirtualScan, scan).ranges, (std::vector<float>{5.0F, 5.0F, 5.0F}));
+  scan.angle_min = -std::numbers::pi_v<float>;
+  scan.angle_increment = std::numbers::pi_v<float>;
+  scan.ranges = {1.0F, 2.0F, 3.0F, 4.0F};  // twice round
+  EXPECT_EQ(said("hazards", topics::kVirtualScan, scan).ranges, (std::vector<float>(4, 5.0F)));
 }
 
 TEST_F(AlteredModule, TheFaceIsNeutralAndLooksAsBefore) {
