@@ -45,7 +45,8 @@ FloorMap checked_floor(const OccupancyGrid& map, const LocalizerParams& params, 
   });
 }
 
-std::unique_ptr<GridLocalizer> grid_localizer(const OccupancyGrid& map, const LocalizerParams& params,
+// Parameters and sweeps come as copies: other threads of Python may change theirs while C++ works.
+std::unique_ptr<GridLocalizer> grid_localizer(const OccupancyGrid& map, LocalizerParams params,
                                               const py::iterable& closed, const std::filesystem::path& cache,
                                               std::uint64_t seed) {
   const FloorMap floor = checked_floor(map, params, closed, cache);
@@ -55,8 +56,8 @@ std::unique_ptr<GridLocalizer> grid_localizer(const OccupancyGrid& map, const Lo
   });
 }
 
-std::unique_ptr<ParticleLocalizer> particle_localizer(const OccupancyGrid& map, const LocalizerParams& shared,
-                                                      const MonteCarloParams& params, const py::iterable& closed,
+std::unique_ptr<ParticleLocalizer> particle_localizer(const OccupancyGrid& map, LocalizerParams shared,
+                                                      MonteCarloParams params, const py::iterable& closed,
                                                       const std::filesystem::path& cache, std::uint64_t seed) {
   const FloorMap floor = checked_floor(map, shared, closed, cache);
   check_params(params);
@@ -173,7 +174,7 @@ void bind_localizer(py::module_& module) {
           "odom_from_robot: where odometry saw the robot when it was as `modes` say.")
       .def(
           "observe",
-          [](AnyLocalizer& self, const sensor_models::RangeSweep& sweep, const Pose2& odom, const Time& time) {
+          [](AnyLocalizer& self, sensor_models::RangeSweep sweep, const Pose2& odom, const Time& time) {
             return self.use([&](Localizer& l) { return l.observe(sweep, odom, time); });
           },
           py::arg("sweep"), py::arg("odom_from_robot"), py::arg("time"),
@@ -189,7 +190,7 @@ void bind_localizer(py::module_& module) {
           py::arg("odom_now"), "The best mode's mean, carried on by odometry; None without a mode.")
       .def(
           "entropy_gains",
-          [](AnyLocalizer& self, const sensor_models::RangeSweep& sweep, const Pose2& odom) {
+          [](AnyLocalizer& self, sensor_models::RangeSweep sweep, const Pose2& odom) {
             std::vector<float> gains = self.use([&](Localizer& l) { return l.entropy_gains(sweep, odom); });
             const py::ssize_t count = length(gains.size());
             return owned_by_array(std::move(gains), {count});

@@ -111,7 +111,7 @@ void bind_values(py::module_& module) {
 }
 
 std::unique_ptr<SharedPlanner> planner_of(const OccupancyGrid& map, const py::iterable& hazards, const py::object& area,
-                                          const RouteParams& params) {
+                                          RouteParams params) {
   check_params(params);
   finite(params.robot_radius, "params.robot_radius", 1e3);
   finite(params.clearance.hazards, "params.clearance.hazards", 1e3);

@@ -90,8 +90,7 @@ std::size_t add_readings(ReadingCounts& counts, const py::object& measured, cons
 }
 
 /// Of ProximityFitParams those that readings may ask for.
-ProximityFit fit(const ReadingCounts& counts, const ProximityModelParams& start, double least_readings,
-                 int most_rounds) {
+ProximityFit fit(ReadingCounts counts, ProximityModelParams start, double least_readings, int most_rounds) {
   check_params(start);
   if (start.max_range != counts.bins().max_range())
     throw py::value_error("start: its max_range is not that of the counts");

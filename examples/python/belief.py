@@ -16,7 +16,7 @@ import numpy as np
 import docent
 
 SEED = 7
-MAX_RANGE = 10.0  # [m]
+MAX_RANGE = 3.0  # [m]: a simple sensor, which sees little of a hall at a time
 museum = docent.load_museum(sys.argv[1] if len(sys.argv) > 1 else "museums/bonn")
 picture = sys.argv[2] if len(sys.argv) > 2 else "belief.png"
 caster = docent.RayCaster(museum.map)
@@ -29,7 +29,7 @@ planner.set_goals([(home.x, home.y)])
 planner.iterate()
 exhibits = [exhibit.pose.position() for exhibit in museum.exhibits]
 start = max(exhibits, key=lambda at: planner.cost_from(at) if np.isfinite(planner.cost_from(at)) else 0.0)
-way = planner.way(start)[::4]  # [n, 2] [m], map
+way = planner.way(start)[::2]  # [n, 2] [m], map
 heading = np.arctan2(*np.diff(way, axis=0).T[::-1])
 truth = np.column_stack([way[:-1], heading])  # [n, 3]: x, y [m], theta [rad]
 
@@ -57,7 +57,7 @@ def drift(before, after):
 params = docent.LocalizerParams(sensor=docent.ProximityModelParams(max_range=MAX_RANGE))
 localizer = docent.MarkovLocalizer(museum.map, params, closed=museum.hazard_polygons(), seed=SEED)
 odom = docent.Pose2()
-found_after, p_lost, error, kept = None, [], [], {}
+found_after, p_lost, error, beliefs = None, [], [], []
 for i, pose in enumerate(truth):
     if i > 0:
         odom = odom * drift(truth[i - 1], pose)
@@ -67,8 +67,7 @@ for i, pose in enumerate(truth):
     error.append(np.hypot(best.x - pose[0], best.y - pose[1]) if best else np.nan)
     if found_after is None and verdict.localized():
         found_after = i
-    if i in {0, 2, len(truth) - 1}:
-        kept[i] = (localizer.density(), localizer.summary())
+    beliefs.append((localizer.density(), localizer.summary()))
 
 driven = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(truth[:, :2], axis=0).T))])  # [m]
 if found_after is None:
@@ -77,44 +76,45 @@ else:
     print(f"found after {driven[found_after]:.1f} m; {error[-1] * 100:.0f} cm off after {driven[-1]:.1f} m")
 
 
-# %% The picture: the belief after the first scan, after a few, and at the end; and what the robot made of it
+# %% The picture: the belief after the first scan, when it was last unsure, and when it says "here"; what it makes of that
 def draw_belief(axes, i):
-    density, summary = kept[i]
+    density, summary = beliefs[i]
     axes.imshow(np.where(museum.map.cells >= 65, 0.35, np.nan), cmap="gray", vmin=0, vmax=1, origin="lower",
                 extent=museum.map.frame.extent(), interpolation="nearest")
-    shown = axes.imshow(np.ma.masked_less(density.mass, 1e-7), norm=matplotlib.colors.LogNorm(1e-6, 1.0), origin="lower",
+    shown = axes.imshow(np.ma.masked_less(density.mass, 1e-6), norm=matplotlib.colors.LogNorm(1e-6, 1.0), origin="lower",
                         extent=density.frame.extent(), cmap="viridis_r", interpolation="nearest")
     axes.plot(*truth[:i + 1, :2].T, color="tab:red", lw=1, label="way driven")
-    axes.plot(*truth[i, :2], "o", color="tab:red", ms=7, mfc="none", mew=1.5, label="robot (truth)")
-    if summary.modes:
-        mode = summary.modes[0]
-        values, vectors = np.linalg.eigh(mode.covariance[:2, :2])
-        ellipse = matplotlib.patches.Ellipse(
-            (mode.map_from_robot.x, mode.map_from_robot.y), *(4 * np.sqrt(np.maximum(values, 1e-4))),
-            angle=np.degrees(np.arctan2(vectors[1, 0], vectors[0, 0])), fill=False, ec="black", lw=1.2,
-            label="best mode, 2σ")
-        axes.add_patch(ellipse)
+    axes.plot(*truth[i, :2], "o", color="tab:red", ms=12, mfc="none", mew=1.5, label="robot (truth)")
+    for n, mode in enumerate(summary.modes[:3]):
+        at = mode.map_from_robot
+        axes.plot(at.x, at.y, "+", color="black", ms=10, label=None if n else "modes, with mass")
+        if mode.mass > 0.01:
+            axes.annotate(f"{mode.mass:.2f}", (at.x, at.y), (9, 6), textcoords="offset points", fontsize=9)
     axes.set(title=f"after {driven[i]:.1f} m, P(lost) = {p_lost[i]:.2f}", xlabel="x [m], map", ylabel="y [m], map",
              aspect="equal")
     return shown
 
 
-figure, panels = plt.subplots(2, 2, figsize=(13, 10), constrained_layout=True)
-for axes, i in zip(panels.flat, sorted(kept)):
-    shown = draw_belief(axes, i)
-panels[0, 0].legend(loc="upper right", fontsize=8)
-figure.colorbar(shown, ax=panels[:, :], label="P(position), all headings together", shrink=0.6)
+def draw_course(axes):
+    axes.plot(driven, p_lost, color="tab:blue", label="P(lost)")
+    axes.set(title="What the robot makes of it", xlabel="driven [m]", ylabel="P(lost)", ylim=(0, 1.05))
+    if found_after is not None:
+        axes.axvline(driven[found_after], color="black", ls=":", label='says "here"')
+    errors = axes.twinx()
+    errors.semilogy(driven, error, color="tab:orange", label="error of the best mode")
+    errors.set_ylabel("error [m]")
+    lines = [*axes.get_lines(), *errors.get_lines()]
+    axes.legend(lines, [line.get_label() for line in lines], loc="upper right")
 
-axes = panels[1, 1]
-axes.plot(driven, p_lost, color="tab:blue", label="P(lost)")
-axes.set(title="What the robot makes of it", xlabel="driven [m]", ylabel="P(lost)", ylim=(0, 1.05))
-if found_after is not None:
-    axes.axvline(driven[found_after], color="black", ls=":", label="says \"here\"")
-errors = axes.twinx()
-errors.semilogy(driven, error, color="tab:orange", label="error of the best mode")
-errors.set_ylabel("error [m]")
-lines = [*axes.get_lines(), *errors.get_lines()]
-axes.legend(lines, [line.get_label() for line in lines], loc="upper right")
+
+end = len(truth) - 1 if found_after is None else found_after
+figure, panels = plt.subplots(2, 2, figsize=(13, 10), constrained_layout=True)
+unsure = max(i for i in range(end + 1) if i == 0 or p_lost[i] > 0.5)
+for axes, i in zip(panels.flat, [0, unsure, end]):
+    shown = draw_belief(axes, i)
+panels[0, 0].legend(loc="upper left", fontsize=7, framealpha=0.9, handlelength=1.2, borderaxespad=0.2)
+figure.colorbar(shown, ax=list(panels.flat), label="P(position), all headings together", shrink=0.6)
+draw_course(panels[1, 1])
 figure.suptitle(f"Where is the robot? {museum.name[museum.languages[0]]}, seed {SEED}")
 figure.savefig(picture, dpi=110)
 print(picture)

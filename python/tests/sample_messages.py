@@ -43,21 +43,65 @@ uint32 nanosec
 """
 
 
-def sample(ranges=(1.0, 2.5), flags=(True, False, True)):
-    """A message of SCHEMA as CDR, laid out by hand: alignment counts from behind the header."""
-    body = bytearray()
+class Cdr:
+    """Puts values one after the other; alignment counts from behind the header."""
 
-    def put(code, *values):
-        size = struct.calcsize("<" + code[-1])
-        while len(body) % size:
-            body.append(0)
-        body.extend(struct.pack("<" + code, *values))
-    put("I", 6)
-    body.extend(b"robin\0")
+    def __init__(self):
+        self.body = bytearray()
+
+    def put(self, code, *values):
+        for value in values:
+            while len(self.body) % struct.calcsize(code):
+                self.body.append(0)
+            self.body.extend(struct.pack("<" + code, value))
+
+    def text(self, text):
+        self.put("I", len(text) + 1)
+        self.body.extend(text.encode() + b"\0")
+
+    def bytes(self):
+        return b"\x00\x01\x00\x00" + bytes(self.body)
+
+
+LASER_SCAN = """std_msgs/Header header
+float32 angle_min
+float32 angle_max
+float32 angle_increment
+float32 time_increment
+float32 scan_time
+float32 range_min
+float32 range_max
+float32[] ranges
+float32[] intensities
+================================================================================
+MSG: std_msgs/Header
+builtin_interfaces/Time stamp
+string frame_id
+================================================================================
+MSG: builtin_interfaces/Time
+int32 sec
+uint32 nanosec
+"""
+
+
+def laser_scan(sec, ranges):
+    """A sensor_msgs/LaserScan over 90 degrees."""
+    cdr = Cdr()
+    cdr.put("i", sec), cdr.put("I", 0), cdr.text("laser")
+    cdr.put("f", -0.75, 0.75, 1.5 / (len(ranges) - 1), 0.0, 0.0, 0.1, 8.0)
+    cdr.put("I", len(ranges)), cdr.put("f", *ranges), cdr.put("I", 0)
+    return cdr.bytes()
+
+
+def sample(ranges=(1.0, 2.5), flags=(True, False, True)):
+    """A message of SCHEMA."""
+    cdr = Cdr()
+    put = cdr.put
+    cdr.text("robin")
     put("I", len(flags))
     for flag in flags:
         put("?", flag)
-    put("f", 1.5), put("f", -2.0), put("f", 0.25), put("f", 8.0)
+    put("f", 1.5, -2.0, 0.25, 8.0)
     put("I", len(ranges))
     for value in ranges:
         put("d", value)
@@ -65,4 +109,4 @@ def sample(ranges=(1.0, 2.5), flags=(True, False, True)):
     put("i", -7)
     put("I", 999)
     put("q", -(2**60))
-    return b"\x00\x01\x00\x00" + bytes(body)
+    return cdr.bytes()

@@ -1,10 +1,12 @@
 import gc
 import gzip
+import sqlite3
 
 import numpy
 import pytest
 
 import docent
+from sample_messages import LASER_SCAN, laser_scan, mcap
 
 
 def test_scans(log_path, caster, drive):
@@ -32,6 +34,39 @@ def test_gzip(log_path, tmp_path):
     packed = tmp_path / "hall.log.gz"
     packed.write_bytes(gzip.compress(log_path.read_bytes()))
     assert len(docent.read_laser_log(packed)) == len(docent.read_laser_log(log_path))
+
+
+RANGES = [[1.0, 2.0, 3.0, 4.0], [1.5, 2.5, 8.0, 4.5]]
+
+
+def check_scans(log):
+    assert [docent.to_seconds(scan.time) for scan in log.scans] == [100.0, 101.0] and log.max_range == 8.0
+    assert log.scans[0].ranges.tolist() == RANGES[0] and log.scans[0].first_bearing == pytest.approx(-0.75)
+    assert log.scans[1].ranges.tolist()[:2] == RANGES[1][:2] and log.scans[0].bearing_step == pytest.approx(0.5)
+    assert docent.sweep_of(log.scans[1], log.max_range).beams["no_return"].tolist() == [False, False, True, False]
+    assert any("odometry" in note for note in log.notes)
+
+
+def test_an_mcap_recording(tmp_path):
+    path = tmp_path / "drive.mcap"
+    messages = [(0, int((100 + i) * 1e9), laser_scan(100 + i, ranges)) for i, ranges in enumerate(RANGES)]
+    path.write_bytes(mcap([("/scan", "sensor_msgs/msg/LaserScan", LASER_SCAN)], messages))
+    check_scans(docent.read_laser_log(path))
+    decoded = docent.McapReader.open(path).messages()[1].decode()
+    assert decoded.ranges.dtype == numpy.float32 and decoded.ranges.tolist() == RANGES[1]
+    assert (decoded.header.stamp.sec, decoded.header.frame_id) == (101, "laser")
+
+
+def test_a_rosbag2_database(tmp_path):
+    path = tmp_path / "drive.db3"
+    with sqlite3.connect(path) as database:
+        database.execute("CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT, type TEXT)")
+        database.execute("CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER, timestamp INTEGER, data BLOB)")
+        database.execute("INSERT INTO topics VALUES (1, '/scan', 'sensor_msgs/msg/LaserScan')")
+        for i, ranges in enumerate(RANGES):
+            database.execute("INSERT INTO messages VALUES (?, 1, ?, ?)", (i, int((100 + i) * 1e9), laser_scan(100 + i, ranges)))
+    database.close()
+    check_scans(docent.read_laser_log(path))
 
 
 def test_errors_name_file_and_line(tmp_path):

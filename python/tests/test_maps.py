@@ -47,7 +47,7 @@ def test_a_map_comes_back_as_it_was_saved(world, tmp_path):
 
 def test_errors_name_file_and_line(tmp_path):
     path = tmp_path / "bad.yaml"
-    path.write_text("image: bad.pgm\nresolution: -1\n")
+    path.write_text("image: bad.pgm\nresolution: -1\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.2\n")
     with pytest.raises(docent.Error) as raised:
         docent.load_map(path)
     assert raised.value.file == str(path) and raised.value.line == 2

@@ -15,7 +15,7 @@ def planner(world):
 
 def test_value_iteration_by_hand():
     iteration = docent.ValueIteration(docent.GridFrame(4, 1, 1.0))
-    costs = numpy.array([[1.0, 2.0, 5.0, numpy.inf]], numpy.float32)
+    costs = numpy.array([[1.0, 2.0, numpy.inf, 5.0]], numpy.float32)
     iteration.set_costs(costs)
     iteration.set_goals([(0, 0)])
     assert iteration.iterate() and iteration.is_settled()
