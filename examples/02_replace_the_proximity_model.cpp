@@ -5,7 +5,6 @@
 #include <docent/localization/markov/markov_localizer.h>
 
 #include <cmath>
-#include <memory>
 #include <string>
 
 #include "simulated_robot.h"
@@ -14,8 +13,7 @@ namespace {
 using namespace docent::sensor_models;
 constexpr double kRound = 6.0;  // [m]
 
-/// A bell about what this laser reads where the map says `expected`, and a floor for people and all else. It is asked
-/// when tables are made, so it may be as slow as it likes.
+/// A bell about what this laser reads, and a floor for all else. Asked when tables are made: it may be slow.
 class ComesRound final : public ReadingDistribution {
   void fill(const RangeBins& bins, int expected, std::span<double> out) const override {
     for (int bin = 0; bin < kRangeBins; ++bin) {
@@ -44,19 +42,19 @@ double fit_of(const char* name, const docent::OccupancyGrid& map, std::shared_pt
     RangeSweep sweep = robot.look();
     for (SweepBeam& beam : sweep.beams) beam = {beam.bearing, std::fmod(beam.range, kRound), false};
     const auto step = localizer.observe(sweep, robot.odom_from_robot, docent::time_from_seconds(robot.time));
-    if (const auto found = localizer.map_from_robot(robot.odom_from_robot))
-      error = docent::distance(found->position(), robot.map_from_robot.position());
+    const auto found = localizer.map_from_robot(robot.odom_from_robot);
+    if (found) error = docent::distance(found->position(), robot.map_from_robot.position());
     if (step.fit && localizer.verdict().localized() && error < 0.15) fit += *step.fit, ++updates;
   }
   std::printf("%-9s%3.0f updates at the right place, in the end %.1f cm off\n", name, updates, 100.0 * error);
   return updates > 0.0 ? fit / updates : -99.0;
+}
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::string museum = argc > 1 ? argv[1] : DOCENT_MUSEUM;
   const docent::OccupancyGrid map = example::value_or_exit(docent::load_map(museum + "/map.yaml"));
   const double built_in = fit_of("built-in:", map, nullptr), own = fit_of("own:", map, std::make_shared<ComesRound>());
-  std::printf("The own model holds each reading %.1f times as probable as the built-in one does\n",
-              std::exp(own - built_in));
+  std::printf("The own model holds a reading %.1f times as probable as the built-in one\n", std::exp(own - built_in));
   return own > built_in + 0.5 ? 0 : 1;
 }
