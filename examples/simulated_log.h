@@ -17,7 +17,7 @@ inline std::string write_log(const std::string& museum, std::vector<docent::Pose
   std::ofstream log{"simulated.log"};
   while (robot.way < 100.0) {
     robot.step();
-    const docent::sensor_models::RangeSweep sweep = robot.look(1.0, 30.0);
+    const docent::sensor_models::RangeSweep sweep = robot.look(30.0);
     log << "FLASER 181";
     for (const auto& beam : sweep.beams)  // from -90 to +90 degrees; a SICK writes 81.83 where nothing comes back
       if (std::abs(beam.bearing) < docent::kRightAngle + 1e-6) log << ' ' << (beam.no_return ? 81.83 : beam.range);

@@ -51,15 +51,15 @@ struct SimulatedRobot {
     time += 0.25;
   }
 
-  /// A laser that looks all round, a beam a degree, with an error of 1 cm. `scale`: of a sensor that measures too long;
-  /// `reach` [m]: farther away it sees nothing.
-  docent::sensor_models::RangeSweep look(double scale = 1.0, double reach = 10.0) {
+  /// A laser that looks all round, a beam a degree, with an error of 1 cm; farther away than `reach` [m] it sees
+  /// nothing.
+  docent::sensor_models::RangeSweep look(double reach = 10.0) {
     docent::sensor_models::RangeSweep sweep;
     for (int degree = -180; degree < 180; ++degree) {
       const docent::Angle bearing = docent::Angle::degrees(degree);
       const auto wall =
           caster.cast(map_from_robot.position(), docent::unit(map_from_robot.theta + bearing), reach, 0.3);
-      const double range = std::max(0.0, scale * wall.value_or(reach) + rng.normal(0.0, 0.01));
+      const double range = std::max(0.0, wall.value_or(reach) + rng.normal(0.0, 0.01));
       sweep.beams.push_back({bearing.radians(), std::min(range, reach), range >= reach});
     }
     return sweep;

@@ -63,8 +63,8 @@ struct LocalizerParams {
   std::string simd = "auto";           ///< auto (the widest there is), plain, avx2, avx512: same belief, other speed
 
   // Not of robot.yaml.
-  /// P(d | o) of your own; the mixture of `sensor` then gives its max_range and the Gaussian of the filters. Null: that
-  /// mixture.
+  /// P(d | o) of your own; `sensor` then gives max_range and the Gaussian of the filters. Null: its mixture. The
+  /// verdict asks no model: readings half a metre beyond walls contradict the map.
   std::shared_ptr<const sensor_models::ReadingDistribution> own_sensor;
   template <class V>
   void visit(V& v) {
