@@ -93,7 +93,7 @@ tier_quick() {
       case $name in
         10-* | 11-* | 12-* | 14-* | 15-*) ;;
         13-fuzz-replay) targets+=(docent_fuzz_replay) ;;
-        *) targets+=(docent) ;;
+        *) targets+=(docent docent-lab) ;;
       esac
     done
     if [ ${#folders[@]} -gt 0 ] || [ ${#targets[@]} -gt 0 ]; then build_and_test_folders; fi
