@@ -8,7 +8,7 @@
 
 namespace docent::interaction {
 
-/// Section `sound` of robot.yaml: speech, horn and music.
+/// Section `sound`: speech, horn and music.
 struct SoundParams {
   std::string program = "espeak-ng";  ///< renders the speech; empty: recordings, and the words alone
   double timeout_s = 15.0;            ///< [s] > 0 for one line; espeak-ng needs a hundredth of what saying it takes
