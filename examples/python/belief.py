@@ -89,7 +89,8 @@ def draw_belief(axes, i):
         at = mode.map_from_robot
         axes.plot(at.x, at.y, "+", color="black", ms=10, label=None if n else "modes, with mass")
         if mode.mass > 0.01:
-            axes.annotate(f"{mode.mass:.2f}", (at.x, at.y), (9, 6), textcoords="offset points", fontsize=9)
+            axes.annotate(f"{mode.mass:.2f}", (at.x, at.y), (9 if n else -9, 6), textcoords="offset points", fontsize=9,
+                          ha="left" if n else "right")
     axes.set(title=f"after {driven[i]:.1f} m, P(lost) = {p_lost[i]:.2f}", xlabel="x [m], map", ylabel="y [m], map",
              aspect="equal")
     return shown

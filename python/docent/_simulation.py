@@ -35,7 +35,7 @@ def find_program() -> str:
     if named := os.environ.get("DOCENT_PROGRAM"):
         return named
     # lib/python3/dist-packages/docent lies beside bin
-    beside = Path(__file__).resolve().parents[4] / "bin" / "docent"
+    beside = Path(__file__).absolute().parents[4] / "bin" / "docent"
     if os.access(beside, os.X_OK):
         return str(beside)
     if found := shutil.which("docent"):
