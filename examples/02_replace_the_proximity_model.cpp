@@ -31,10 +31,9 @@ class ComesRound final : public ReadingDistribution {
 double fit_of(const char* name, const docent::OccupancyGrid& map, std::shared_ptr<const ReadingDistribution> own) {
   docent::localization::LocalizerParams params;
   params.states.heading_step = 4.0;
-  params.filter = "none";              // no reading is left out for being too short
+  params.filter = "none";              // leaves no reading out for being too short
   params.own_sensor = std::move(own);  // null: the built-in mixture
   docent::localization::MarkovLocalizer localizer{map, params, {}, 1};
-  localizer.start_unknown();
   example::SimulatedRobot robot{map, {9.0, 3.6, docent::Angle::degrees(90.0)}, 7};
   double fit = 0.0, updates = 0.0, error = 10.0;
   while (robot.way < 10.0) {
