@@ -5,7 +5,7 @@
 # docent_component(NAME
 #   FOLDERS base grid             # of src/docent, with what lies within them
 #   DEPENDS core                  # components whose headers or functions it needs
-#   PACKAGES "find_dependency(X)" # what finds its third-party libraries, where a name alone does not do
+#   PACKAGES "find_package(X)"    # what finds its third-party libraries, where a name alone does not do
 #   LIBRARIES yaml-cpp)           # these libraries
 set(DOCENT_COMPONENTS)
 function(docent_component name)
@@ -21,16 +21,16 @@ docent_component(core FOLDERS base geometry vocabulary grid LIBRARIES yaml-cpp p
 docent_component(models FOLDERS motion_models sensor_models DEPENDS core)
 docent_component(museum FOLDERS museum DEPENDS core LIBRARIES yaml-cpp)
 docent_component(localization FOLDERS localization DEPENDS models core
-  PACKAGES "find_dependency(Eigen3 NO_MODULE)" LIBRARIES Eigen3::Eigen)
+  PACKAGES "find_package(Eigen3 QUIET NO_MODULE)" LIBRARIES Eigen3::Eigen)
 docent_component(mapping FOLDERS mapping DEPENDS models museum core
-  PACKAGES "find_dependency(Eigen3 NO_MODULE)" "find_dependency(Ceres)" LIBRARIES Eigen3::Eigen Ceres::ceres)
+  PACKAGES "find_package(Eigen3 QUIET NO_MODULE)" "find_package(Ceres QUIET)" LIBRARIES Eigen3::Eigen Ceres::ceres)
 docent_component(planning FOLDERS planning DEPENDS models core)
 docent_component(avoidance FOLDERS collision_avoidance DEPENDS models core)
 docent_component(people FOLDERS people DEPENDS models core)
 docent_component(tours FOLDERS task_control/travel_times task_control/tour_scheduler task_control/golog DEPENDS planning core
-  PACKAGES "find_dependency(PkgConfig)" "pkg_check_modules(SWIPL REQUIRED IMPORTED_TARGET swipl)" LIBRARIES PkgConfig::SWIPL)
+  PACKAGES "find_package(PkgConfig QUIET)" "pkg_check_modules(SWIPL QUIET IMPORTED_TARGET swipl)" LIBRARIES PkgConfig::SWIPL)
 docent_component(bus FOLDERS messages transport DEPENDS core
-  PACKAGES "find_dependency(CycloneDDS)" LIBRARIES CycloneDDS::ddsc)
+  PACKAGES "find_package(CycloneDDS QUIET)" LIBRARIES CycloneDDS::ddsc)
 docent_component(recording FOLDERS recording DEPENDS bus core LIBRARIES sqlite3 zstd z)
 
 # Not of the component that holds the folder around: what brings several of them together, and what only the programs need.

@@ -145,6 +145,11 @@ Bricks of the tour guide for notebooks and experiments: maps, sensor models,
 localization, planning and recordings, with arrays of NumPy.")
   set(CPACK_DEBIAN_PYTHON3-DOCENT_PACKAGE_SECTION python)
   set(CPACK_DEBIAN_PYTHON3-DOCENT_PACKAGE_SHLIBDEPS ON)
-  set(CPACK_DEBIAN_PYTHON3-DOCENT_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+  # The module is for the interpreter that built it.
+  execute_process(COMMAND ${PYTHON_EXECUTABLE} -c
+    "from sys import version_info as v; print(f'python3 (>= {v[0]}.{v[1]}), python3 (<< {v[0]}.{v[1] + 1})')"
+    OUTPUT_VARIABLE interpreter OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  set(CPACK_DEBIAN_PYTHON3-DOCENT_PACKAGE_DEPENDS "${interpreter}, python3-numpy")
+  set(CPACK_DEBIAN_PYTHON3-DOCENT_PACKAGE_RECOMMENDS "docent")  # which simulate() runs
 endif()
 include(CPack)

@@ -40,8 +40,10 @@ foreach(component IN LISTS DOCENT_COMPONENTS)
     target_link_libraries(docent_component_${component} INTERFACE Eigen3::Eigen)
   endif()
 
-  install(FILES $<TARGET_FILE:${archive}> DESTINATION ${CMAKE_INSTALL_LIBDIR} RENAME libdocent_${component}.a
-    COMPONENT library EXCLUDE_FROM_ALL)
+  if(DOCENT_PROGRAM)  # whoever takes Docent in as a part of a project installs that
+    install(FILES $<TARGET_FILE:${archive}> DESTINATION ${CMAKE_INSTALL_LIBDIR} RENAME libdocent_${component}.a
+      COMPONENT library EXCLUDE_FROM_ALL)
+  endif()
   list(JOIN DOCENT_PACKAGES_OF_${component} "\n" packages)
   list(JOIN DOCENT_DEPENDS_OF_${component} " " depends)
   list(JOIN DOCENT_LIBRARIES_OF_${component} " " libraries)
@@ -55,7 +57,7 @@ set(config ${DOCENT_BINARY_DIR}/docentConfig.cmake)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/docentConfig.cmake.in ${config} INSTALL_DESTINATION ${DOCENT_CONFIG}
   PATH_VARS CMAKE_INSTALL_INCLUDEDIR DOCENT_PRIVATE_HEADERS CMAKE_INSTALL_LIBDIR)
 write_basic_package_version_file(${DOCENT_BINARY_DIR}/docentConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-if(DOCENT_PROGRAM)  # whoever takes Docent in as a part of a project installs that
+if(DOCENT_PROGRAM)
   set(library COMPONENT library EXCLUDE_FROM_ALL)
   install(FILES ${config} ${DOCENT_BINARY_DIR}/docentConfigVersion.cmake DESTINATION ${DOCENT_CONFIG} ${library})
   install(DIRECTORY ${DOCENT_ROOT}/include/docent DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${library} FILES_MATCHING PATTERN *.h)

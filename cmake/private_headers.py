@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Copies the private headers that public ones include: private_headers.py ROOT DESTINATION. They are installed apart from
 the public ones, since they may change with every version."""
+import os
 import re
 import shutil
 import sys
@@ -28,6 +29,8 @@ def private_headers(root):
 if __name__ == "__main__":
     source, destination = Path(sys.argv[1]), Path(sys.argv[2])
     shutil.rmtree(destination, ignore_errors=True)
+    os.umask(0o022)  # everybody may read what is installed
     for name in private_headers(source):
         (destination / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(source / "src" / name, destination / name)
+        (destination / name).chmod(0o644)

@@ -14,7 +14,7 @@ configure() {
   if [ -f build/dev/CMakeCache.txt ]; then
     stage configure cmake -S . -B build/dev
   else
-    stage configure cmake --preset dev -D DOCENT_UNITY=ON -D CMAKE_CXX_FLAGS_RELEASE=-O2 -D DOCENT_PYTHON=ON
+    stage configure cmake --preset dev -D DOCENT_UNITY=ON -D CMAKE_CXX_FLAGS_RELEASE=-O2
   fi
 }
 
