@@ -132,14 +132,15 @@ TEST_F(PoseWatch, AJumpOfOdometryIsNoWayAndIsToldAtOnce) {
 TEST_F(PoseWatch, ANewProcessGoesOnUnlessOdometrySaysThatItWasMoved) {
   find_itself();
   for (int i = 0; i < 10; ++i) step();
-  begin();
-  step(false);
-  EXPECT_TRUE(watch->is_localized());
-  EXPECT_LT(error(), 0.2);
-  begin();
-  raw_from_base = Pose2{100.0, 0.0, {}};
-  step(false);
-  EXPECT_FALSE(watch->is_localized());
+  const auto mass_after = [&](const Pose2& raw) {
+    begin();
+    watch->move(now, raw);
+    const auto belief = watch->tell_belief({now, *watch->odom_from_base_at(now)}, now);
+    return belief.modes.empty() ? 0.0 : belief.modes.front().mass;
+  };
+  EXPECT_GT(mass_after(raw_from_base), 0.9);
+  EXPECT_LT(error(), 0.2) << "without a look";
+  EXPECT_LT(mass_after({100.0, 0.0, {}}), 0.5);
 }
 
 TEST_F(PoseWatch, ItIsWhereItIsToldToBe) {

@@ -118,7 +118,7 @@ TEST_F(Surveyor, WhenNothingIsLeftItGoesHomeAndMakesTheMap) {
 TEST_F(Surveyor, WaitsForAnOrderWhereItIsTold) {
   params.waits_for_order = true;
   begin();
-  EXPECT_EQ(stand(home, 30), Step::looked);
+  EXPECT_EQ(stand(home, 12), Step::looked);
   EXPECT_EQ(surveyor->report().order, ExplorationOrder::wait);
   EXPECT_GT(surveyor->report().known_m2, 10.0) << "but it looks";
   EXPECT_TRUE(surveyor->ahead().via.empty());
