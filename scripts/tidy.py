@@ -85,8 +85,8 @@ def commands_of_compiler():
 def own_includes(path):
     """The project's own files that one includes, as their names say it."""
     names = re.findall(r'^\s*#\s*include "([^"]+)"', path.read_text(errors="ignore"), re.M)
-    found = [(ROOT / "src" / name if name.startswith("docent/") else path.parent / name).resolve() for name in names]
-    return [name for name in found if name.is_file()]
+    found = [place / name for name in names for place in ([ROOT / "src", ROOT / "include"] if name.startswith("docent/") else [path.parent])]
+    return [name.resolve() for name in found if name.is_file()]
 
 
 def seen_by(source):
@@ -100,7 +100,7 @@ def seen_by(source):
 
 def is_of_a_source(path):
     """Whether it is written by hand: then a source that does not include it does not see it, though it was compiled with it."""
-    return ROOT / "src" in path.parents
+    return ROOT / "src" in path.parents or ROOT / "include" in path.parents
 
 
 def keys_of(sources, commands, compiled_as):

@@ -26,6 +26,7 @@ PUBLIC = "include/docent/"  # headers of the folders of SOURCE
 MOST_TIDIED = 40
 SECTIONS = {"SOURCES", "HOT", "DEPENDS", "LIBRARIES", "TEST_DEPENDS", "TEST_LIBRARIES"}
 CODE = {".h", ".cpp", ".inc"}
+TEXTS = ("museums/", "tests/corpus/")  # here *.md is what programs read, elsewhere a document
 # Files that tests read although no include says so: the beginning of a path, and what it needs. A folder F stands for
 # its tests and those of all that uses it; =F for its own alone.
 READ_BY = {
@@ -35,6 +36,17 @@ READ_BY = {
     "share/": ["tests/lichtblick"],
     "prolog/": ["=task_control/golog", "=task_control/golog_planner", "=apps/golog", "12-prolog"],
     "tests/corpus/": ["13-fuzz-replay"],
+    "scripts/testing/seeds.sh": ["13-fuzz-replay"],
+    "include/": ["14-reference"],
+    "include/README.md": ["14-reference"],  # its first page
+    "docs/reference/": ["14-reference"],
+    "scripts/reference": ["14-reference"],
+    "packaging/": ["45-package"],
+    "scripts/package": ["45-package"],
+    "tests/package/": ["45-package"],
+    "tests/package/small_debian.sh": ["46-library"],
+    "tests/package/local_root.sh": ["46-library"],
+    "tests/library/": ["46-library"],
     "tests/closed_loop/": ["tests/closed_loop"],
     "tests/web_contract/": ["page", "=telepresence/contract"],
     "tests/evaluation/": ["10-verdicts", "11-figures"],
@@ -111,18 +123,22 @@ class Graph:
         return found
 
 
+def is_document(path):
+    return path.endswith(".md") and not path.startswith(TEXTS)
+
+
 def plan(graph, files, suites):
     """What tests a change of these files needs: (folders, folders of tests, suites, has a page, everything)."""
     libraries, own, tests, chosen = set(), set(), set(), set()
     wants = set()
     for path in files:
         for start, needs in READ_BY.items():
-            if path == start or (start.endswith("/") and path.startswith(start)):
+            if path == start or (start.endswith("/") and path.startswith(start) and not is_document(path)):
                 wants |= set(needs)
         name = path.removeprefix("tests/suites/")
         if name in suites:
             chosen.add(name)
-        if path.endswith(".md"):
+        if is_document(path):
             continue
         if path.startswith((SOURCE, PUBLIC)):
             folder = graph.folder_of(path)

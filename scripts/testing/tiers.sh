@@ -8,15 +8,7 @@ checks() {
   stage what-the-tiers-choose python3 tests/architecture/tiers_test.py
 }
 
-# A first build compiles the sources of some folders as one file, without lines for debuggers. A build that is there stays as
-# it is, for single changes: a preset would set its options anew, and all would be compiled again.
-configure() {
-  if [ -f build/dev/CMakeCache.txt ]; then
-    stage configure cmake -S . -B build/dev
-  else
-    stage configure cmake --preset dev -D DOCENT_UNITY=ON -D CMAKE_CXX_FLAGS_RELEASE=-O2
-  fi
-}
+configure() { stage configure scripts/testing/configure; }
 
 # built_and_tested: packages, the build, unit tests, checks: what merge and all have in common. What it takes to build is
 # installed first; the rest of the packages come while that is done.
@@ -70,26 +62,30 @@ build_and_test_folders() {
 }
 
 tier_quick() {
-  local folders=() chosen=() targets=() page="" everything="" plan kind name
+  local folders=() chosen=() short=() targets=() everything="" plan kind name budget
   plan=$(scripts/testing/changes.py plan "${base[@]}") || exit 2
   head -1 <<<"$plan"
   while read -r kind name; do
     case $kind in
       folder) folders+=("$name") ;;
       suite) chosen+=("$name") ;;
-      page) page=yes ;;
+      page) chosen+=(14-page 15-page-contract) ;;
       everything) everything=yes ;;
     esac
   done <<<"$plan"
   checks
   stage format scripts/lint --fast
+  for name in $(printf '%s\n' "${chosen[@]}" | sort -u); do
+    budget=$(budget_of "$name")
+    if [ "${budget:-0}" -le 60 ]; then short+=("$name"); else echo "-- $(name_of "$name") is left out: it takes $budget s"; fi
+  done
   if [ -n "$everything" ]; then
     configure
     stage build cmake --build --preset dev -j "$(nproc)"
     stage unit-and-replay-tests ctest --preset dev -LE "closed_loop|end_to_end" -j2 --no-tests=error
   else
     # Suites that run no program of the build need none.
-    for name in "${chosen[@]}"; do
+    for name in "${short[@]}"; do
       case $name in
         10-* | 11-* | 12-* | 14-* | 15-*) ;;
         13-fuzz-replay) targets+=(docent_fuzz_replay) ;;
@@ -98,10 +94,5 @@ tier_quick() {
     done
     if [ ${#folders[@]} -gt 0 ] || [ ${#targets[@]} -gt 0 ]; then build_and_test_folders; fi
   fi
-  [ -z "$page" ] || chosen+=(14-page 15-page-contract)
-  local suite budget
-  for suite in $(printf '%s\n' "${chosen[@]}" | sort -u); do
-    budget=$(budget_of "$suite")
-    if [ "${budget:-0}" -le 60 ]; then stage "$suite" "tests/suites/$suite"; else echo "-- $(name_of "$suite") is left out: it takes $budget s"; fi
-  done
+  for name in "${short[@]}"; do stage "$name" "tests/suites/$name"; done
 }

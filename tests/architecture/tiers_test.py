@@ -80,7 +80,8 @@ class Folders(Project):
         self.assertEqual(self.plan("src/docent/people/a.cpp"), (["people"], [], [], False, False))
 
     def test_a_public_header_is_one_of_its_folder(self):
-        self.assertEqual(self.plan("include/docent/grid/b.h"), self.plan("src/docent/grid/a.h"))
+        self.assertEqual(self.plan("include/docent/grid/b.h")[:2], self.plan("src/docent/grid/a.h")[:2])
+        self.assertEqual(self.plan("include/docent/grid/b.h")[2], ["14-reference"])
 
     def test_what_lies_deeper_belongs_to_the_folder_above(self):
         self.assertEqual(self.plan("src/docent/planning/route/words/de.yaml")[0], ["people", "planning/route"])
@@ -97,13 +98,26 @@ class Folders(Project):
         self.assertEqual(self.plan("src/docent/base/a.h")[2], [])
 
     def test_documents_need_nothing(self):
-        self.assertEqual(self.plan("README.md", "docs/a.md", "src/docent/grid/README.md", "CHANGELOG.md"), ([], [], [], False, False))
+        for name in ("README.md", "docs/a.md", "src/docent/grid/README.md", "CHANGELOG.md", "python/README.md", "examples/README.md",
+                     "web/README.md", "prolog/README.md", "tests/mutants/README.md"):
+            self.assertEqual(self.plan(name), ([], [], [], False, False), name)
+
+    def test_a_document_that_is_named_or_that_programs_read_needs_it(self):
+        self.assertEqual(self.plan("include/README.md"), ([], [], ["14-reference"], False, False))
+        self.assertEqual(self.plan("museums/bonn/content/zuse.long.en.md")[1], ["museums"])
+        self.assertEqual(self.plan("tests/corpus/interaction_speech_spoken_text/story.md")[2], ["13-fuzz-replay"])
 
     def test_other_files_need_what_reads_them(self):
         self.assertTrue(self.plan("web/src/a.ts")[3])
         self.assertTrue(self.plan("cmake/DocentCapability.cmake")[4])
         self.assertFalse(self.plan("cmake/README.md.in", "web/src/a.ts")[3:] == (False, False))
         self.assertEqual(self.plan("scripts/evaluation/tour.py")[2], ["10-verdicts", "11-figures"])
+        self.assertEqual(self.plan("docs/reference/Doxyfile")[2], ["14-reference"])
+        self.assertEqual(self.plan("scripts/testing/seeds.sh")[2], ["13-fuzz-replay"])
+        for name in ("packaging/debian/docent.service", "tests/package/check_package.sh", "scripts/package"):
+            self.assertEqual(self.plan(name)[2], ["45-package"], name)
+        self.assertEqual(self.plan("tests/library/check_library.sh")[2], ["46-library"])
+        self.assertEqual(self.plan("tests/package/small_debian.sh")[2], ["45-package", "46-library"])
         self.assertEqual(self.plan("tests/suites/12-prolog")[2], ["12-prolog"])
         self.assertEqual(self.plan("tests/suites/budgets.txt")[2], [])
 
@@ -212,6 +226,7 @@ class Budgets(unittest.TestCase):
 
     def test_what_every_merge_runs_stays_below_its_budget(self):
         total = int(re.search(r"^total_budget=(\d+)", (ROOT / "scripts/testing/stages.sh").read_text(), re.M)[1])
+        self.assertLessEqual(total, 3000)
         self.assertLessEqual(sum(int(row[3]) for row in self.rows if row[0] != "all"), total)
 
 
@@ -237,7 +252,7 @@ class TidyKeys(Project):
         joint = root / "build/dev/joint.cpp"
         tidy.hash_of.cache_clear()
         tidy.own_includes.cache_clear()
-        read = [joint, source, root / "src/docent/grid/a.h", root / "src/docent/base/a.h", other, foreign]
+        read = [joint, source, root / "src/docent/grid/a.h", root / "src/docent/base/a.h", other, foreign, *(root / "include").rglob("*.h")]
         commands = {source: {"command": f"c++ -I {root}/src -O2 -o {root}/joint_7.o -c {source}"}}
         with mock.patch.multiple(tidy, ROOT=root, TIDY="true", files_read_by_compiler=lambda: {joint: read}):
             return tidy.keys_of([source], commands, {source: joint})
@@ -260,6 +275,20 @@ class TidyKeys(Project):
         (self.root / "build/dev/foreign.h").unlink()
         self.assertEqual(self.keys(self.root), {})
 
+    def test_what_lies_behind_a_public_header_counts(self):
+        for name in (".clang-tidy", ".clang-format", "build/dev/foreign.h", "build/dev/joint.cpp", "include/docent/people/a.h"):
+            self.write(name, "")
+        self.write("src/docent/grid/a.cpp", '#include "docent/grid/b.h"\n')
+        self.write("include/docent/grid/b.h", '#include "docent/grid/a.h"\n')
+        known = list(self.keys(self.root).values())
+        for name in ("include/docent/grid/b.h", "src/docent/grid/a.h", "src/docent/base/a.h"):
+            before = (self.root / name).read_text()
+            self.write(name, before + "// more\n")
+            self.assertNotEqual(list(self.keys(self.root).values()), known, name)
+            self.write(name, before)
+        self.write("include/docent/people/a.h", "int other;\n")
+        self.assertEqual(list(self.keys(self.root).values()), known)
+
 
 class Runs(Project):
     """scripts/test itself, in a project whose suites and tools only say that they were called."""
@@ -267,7 +296,7 @@ class Runs(Project):
     def setUp(self):
         super().setUp()
         for name in ("scripts/test", "scripts/testing/stages.sh", "scripts/testing/tiers.sh", "scripts/testing/metered",
-                     "scripts/testing/left-running", "scripts/testing/changes.py"):
+                     "scripts/testing/left-running", "scripts/testing/changes.py", "scripts/testing/configure"):
             self.write(name, (ROOT / name).read_text())
             (self.root / name).chmod(0o755)
         for name in ("cmake", "ctest", "npm"):
@@ -276,10 +305,10 @@ class Runs(Project):
             self.script(f"scripts/{name}", f'echo {name} "$@" >>"$CALLED"')
         for name in ("check_includes", "check_sizes", "check_documents", "checks_test", "tiers_test"):
             self.write(f"tests/architecture/{name}.py", "print('4 passed, 0 failed')\n")
-        for name in ("10-cheap", "40-dear", "41-beside", "60-lane", "61-whole", "12-prolog"):
+        for name in ("10-cheap", "40-dear", "41-beside", "42-long", "60-lane", "61-whole", "12-prolog"):
             self.script(f"tests/suites/{name}", f'echo suite {name} >>"$CALLED"; echo 3 passed, 0 failed')
         self.write("tests/suites/budgets.txt", "both alone 10-cheap 5 x\nmerge alone 40-dear 1 x\nmerge beside 41-beside 5 x\nmerge lane 60-lane 9 x\nall lane 61-whole 9 x\n"
-                   "all alone 12-prolog 9 x\n")
+                   "all alone 12-prolog 9 x\nall alone 42-long 61 x\n")
         self.write(".gitignore", "/build/\n/called\n/filter\n")
         self.commit()
 
@@ -301,7 +330,7 @@ class Runs(Project):
         code, said, called = self.run_test()
         self.assertEqual(code, 1)
         self.assertEqual(sorted(line for line in called if line.startswith("suite")), ["suite 10-cheap", "suite 40-dear", "suite 41-beside", "suite 60-lane"])
-        self.assertIn("cmake --preset dev -D DOCENT_UNITY=ON -D CMAKE_CXX_FLAGS_RELEASE=-O2", called)
+        self.assertIn("cmake --preset dev -D DOCENT_UNITY=ON -D CMAKE_CXX_FLAGS_RELEASE=-O2 -D DOCENT_PYTHON=ON", called)
         self.assertTrue(any(line.startswith("ctest --preset dev -LE") for line in called))
         self.assertIn("dear: 2 s of processors, over its budget of 1 s\n", said)
         self.assertNotIn("cheap: ", said)
@@ -314,6 +343,17 @@ class Runs(Project):
         code, said, called = self.run_test("--quick")
         self.assertEqual((code, called), (0, ["lint --fast"]), said)
         self.assertIn("1 files changed", said)
+
+    def test_nothing_is_built_for_a_suite_that_is_left_out(self):
+        self.script("tests/suites/42-long", 'echo suite changed >>"$CALLED"')
+        code, said, called = self.run_test("--quick")
+        self.assertEqual((code, called), (0, ["lint --fast"]), said)
+        self.assertIn("-- long is left out: it takes 61 s\n", said)
+        self.script("tests/suites/40-dear", 'echo suite changed >>"$CALLED"')
+        code, said, called = self.run_test("--quick")
+        self.assertEqual(code, 0, said)
+        self.assertTrue(any(line.endswith("--target docent docent-lab") for line in called), called)
+        self.assertEqual(called[-1], "suite changed")
 
     def test_after_a_change_of_a_source_what_needs_it_is_built_and_tested(self):
         tests = "".join(f'add_test({name} "{self.root}/build/dev/src/docent/docent_{name}_test")\n' for name in ("base", "people", "other"))

@@ -4,53 +4,13 @@
 #
 #   tests/library/check_library.sh FOLDER_OF_PACKAGES [--mirror]
 #
-# The root is made of this machine's own packages, or with --mirror of the machine's Debian mirror; see tests/package. Needs root.
+# tests/package/small_debian.sh says what the root is made of. Needs root.
 set -uo pipefail
-cd "$(dirname "$0")/../.." || exit 1
-packages=$(realpath "$1") mirror=${2:-}
-if [ "${CHECK_LIBRARY_ROOT:-}" = "" ]; then
-  export CHECK_LIBRARY_ROOT
-  CHECK_LIBRARY_ROOT=$(mktemp -d /var/tmp/docent-library-XXXXXX)
-  # Mounts and processes go with their namespaces.
-  unshare --mount --pid --fork --kill-child "$0" "$@"
-  status=$?
-  rm -rf --one-file-system "$CHECK_LIBRARY_ROOT"
-  exit $status
-fi
-root=$CHECK_LIBRARY_ROOT/root passed=0 failed=0
-dev=$(echo "$packages"/libdocent-dev_*.deb) python=$(echo "$packages"/python3-docent_*.deb)
-
-# expect WHAT COMMAND…: counts it; says what it printed when it fails.
-expect() {
-  local what=$1 said
-  shift
-  if said=$("$@" 2>&1); then
-    echo "ok: $what"
-    passed=$((passed + 1))
-  else
-    printf 'FAILED: %s\n%s\n' "$what" "$said"
-    failed=$((failed + 1))
-  fi
-}
-inside() { env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 DEBIAN_FRONTEND=noninteractive chroot "$root" "$@"; }
+. "$(dirname "$0")/../package/small_debian.sh"
+dev=$(echo "$given"/libdocent-dev_*.deb) python=$(echo "$given"/python3-docent_*.deb)
 debs=("$dev") names=(libdocent-dev) tools=(cmake g++ make python3-minimal)
 [ -f "$python" ] && debs+=("$python") names+=(python3-docent) tools+=(python3 python3-numpy)
-
-if [ "$mirror" = --mirror ]; then
-  scripts/bare-root "$root" || exit 1
-  inside apt-get -qq update || exit 1
-else
-  tests/package/local_root.sh "$root" "$dev" "${tools[@]}" || exit 1
-fi
-mount -t proc proc "$root/proc"
-mount --bind /dev "$root/dev"
-mount -t tmpfs -o mode=1777 tmp "$root/tmp"
-if [ "$mirror" = --mirror ]; then
-  inside apt-get -qq -y --no-install-recommends install "${tools[@]}" >/dev/null || exit 1
-  for deb in "${debs[@]}"; do
-    inside apt-get -qq -y --no-install-recommends satisfy "$(dpkg-deb -f "$deb" Depends)" >/dev/null || exit 1
-  done
-fi
+make_root "${debs[@]}" -- "${tools[@]}"
 cp "${debs[@]}" "$root/tmp/"
 expect "dpkg installs what is there with its dependencies and nothing else" inside bash -c 'dpkg -i /tmp/*.deb'
 expect "the source tree is not visible" bash -c "! [ -e '$root$PWD' ]"
@@ -78,6 +38,12 @@ says() {
   said=$("${@:2}" 2>&1) && { echo "it did not fail"; return 1; }
   grep -qE "$1" <<<"$said" || { echo "$said"; return 1; }
 }
+# prints PATTERN COMMAND…: it succeeds, and says this.
+prints() {
+  local said
+  said=$("${@:2}" 2>&1) || { echo "$said"; return 1; }
+  grep -qE "$1" <<<"$said" || { echo "$said"; return 1; }
+}
 project asks_too_much 'find_package(docent REQUIRED COMPONENTS planning teleportation)'
 expect "a component that is not there is named, and those that are" \
   says 'no component "teleportation"; it has core, models,' inside cmake -S /tmp/asks_too_much -B /tmp/asks_too_much/build
@@ -86,6 +52,23 @@ expect "another version is refused" says 'requested version "99.0"' inside cmake
 project takes_one 'find_package(docent REQUIRED COMPONENTS planning)' 'if(TARGET docent::mapping OR NOT TARGET docent::models)' \
   '  message(FATAL_ERROR "more than was asked for, or less")' 'endif()'
 expect "a component brings what it depends on, and no other" inside cmake -S /tmp/takes_one -B /tmp/takes_one/build
+project asks_politely 'find_package(docent REQUIRED COMPONENTS museum OPTIONAL_COMPONENTS teleportation people)' \
+  'if(NOT TARGET docent::people OR NOT docent_people_FOUND OR docent_teleportation_FOUND OR TARGET docent::teleportation)' \
+  '  message(FATAL_ERROR "what there is of the optional components is not found")' 'endif()' \
+  'find_package(docent COMPONENTS teleportation)' 'if(docent_FOUND)' '  message(FATAL_ERROR "found")' 'endif()' \
+  'message(STATUS "it goes on")'
+expect "without components that are optional, and without docent where it is not required, a project goes on" \
+  prints 'it goes on' inside cmake -S /tmp/asks_politely -B /tmp/asks_politely/build
+
+# All components, of each one a name that only its archive has.
+project takes_all 'find_package(docent REQUIRED)' 'add_executable(one_of_each one_of_each.cpp)' \
+  'list(TRANSFORM docent_COMPONENTS PREPEND docent:: OUTPUT_VARIABLE all)' 'target_link_libraries(one_of_each PRIVATE ${all})' \
+  'message(STATUS "${docent_COMPONENTS}")'
+cp tests/library/one_of_each.cpp "$root/tmp/takes_all/"
+expect "without components it is all of them" prints "$(sed -n 's/^docent_component(\([a-z]*\).*/\1/p' cmake/DocentComponents.cmake | paste -sd';')\$" \
+  inside cmake -S /tmp/takes_all -B /tmp/takes_all/build
+expect "one name of each is linked" inside cmake --build /tmp/takes_all/build
+expect "and works" inside /tmp/takes_all/build/one_of_each
 
 # The source tree as a part of a project: only the folders of the library.
 tree=$root/tmp/takes_in/docent
@@ -108,8 +91,9 @@ expect "and its prefix stays empty" bash -c "[ ! -e '$root/tmp/installed' ] || [
 
 if [ -f "$python" ]; then
   expect "python3-docent is imported" inside python3 -c 'import docent; print(docent.__file__)'
+else
+  echo "skipped: the Python package, this build has none (DOCENT_PYTHON)"
 fi
 expect "dpkg purges what was installed" inside dpkg --purge "${names[@]}"
 expect "and nothing of it is left" bash -c "[ -z \"\$(find '$root' -xdev -path '$root/tmp' -prune -o -iname '*docent*' -print | grep -v '/var/log')\" ]"
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+finish

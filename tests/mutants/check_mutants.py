@@ -31,8 +31,9 @@ def prepare():
         made = run("git", "checkout", "--force", "--detach", run("git", "rev-parse", "HEAD", cwd=ROOT).stdout.strip(), cwd=TREE)
     if made.returncode != 0:
         sys.exit(f"check_mutants: {made.stderr.strip()}")
-    if not (TREE / "build/dev/build.ninja").exists():
-        run("cmake", "--preset", "dev", "-D", "DOCENT_UNITY=ON", "-D", "CMAKE_CXX_FLAGS_RELEASE=-O2", cwd=TREE)
+    configured = run(TREE / "scripts/testing/configure", cwd=TREE)
+    if configured.returncode != 0:
+        sys.exit(f"check_mutants: HEAD cannot be configured\n{configured.stderr[-2000:]}")
 
 
 def build():
@@ -72,6 +73,8 @@ def main(wanted):
     prepare()
     if (whole := build()).returncode != 0:
         sys.exit(f"check_mutants: HEAD does not build\n{whole.stdout[-2000:]}")
+    if (stage := found_by()) is not None:
+        sys.exit(f"check_mutants: HEAD itself fails without a fault: {stage}")
     missed = 0
     for fault in chosen:
         path = TREE / fault["file"]

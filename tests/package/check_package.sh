@@ -3,55 +3,13 @@
 #
 #   tests/package/check_package.sh PACKAGE.deb [--mirror]
 #
-# The root is made of this machine's own packages (local_root.sh); with --mirror it is a bare Debian 12 of the machine's
-# Debian mirror, and apt chooses what the package depends on. Needs root: all runs in namespaces of its own.
+# small_debian.sh says what the root is made of. Needs root: all runs in namespaces of its own.
 set -uo pipefail
-cd "$(dirname "$0")/../.."
-deb=$(realpath "$1") mirror=${2:-}
-if [ "${CHECK_PACKAGE_ROOT:-}" = "" ]; then
-  export CHECK_PACKAGE_ROOT
-  CHECK_PACKAGE_ROOT=$(mktemp -d /var/tmp/docent-package-XXXXXX)
-  # Mounts and processes go with their namespaces.
-  unshare --mount --pid --fork --kill-child "$0" "$@"
-  status=$?
-  rm -rf --one-file-system "$CHECK_PACKAGE_ROOT"
-  exit $status
-fi
-root=$CHECK_PACKAGE_ROOT/root work=$CHECK_PACKAGE_ROOT passed=0 failed=0
-
-# expect WHAT COMMAND…: counts it; says what it printed when it fails.
-expect() {
-  local what=$1 said
-  shift
-  if said=$("$@" 2>&1); then
-    echo "ok: $what"
-    passed=$((passed + 1))
-  else
-    printf 'FAILED: %s\n%s\n' "$what" "$said"
-    failed=$((failed + 1))
-  fi
-}
-finish() {
-  echo "$passed passed, $failed failed"
-  [ "$failed" -eq 0 ]
-  exit
-}
-inside() { env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 DEBIAN_FRONTEND=noninteractive chroot "$root" "$@"; }
+. "$(dirname "$0")/small_debian.sh"
+deb=$given
 is() { diff <(echo "$1") <(echo "$2"); }
 
-if [ "$mirror" = --mirror ]; then
-  scripts/bare-root "$root" || exit 1
-else
-  tests/package/local_root.sh "$root" "$deb" || exit 1
-fi
-mount -t proc proc "$root/proc"
-mount --bind /dev "$root/dev"
-if [ "$mirror" = --mirror ]; then
-  inside apt-get -qq update && inside apt-get -qq -y --no-install-recommends satisfy "$(dpkg-deb -f "$deb" Depends)" >"$work/apt.log" 2>&1 ||
-    { cat "$work/apt.log"; exit 1; }
-  inside apt-get clean
-fi
-mount -t tmpfs -o mode=1777 tmp "$root/tmp"  # what the program writes is no part of the comparison
+make_root "$deb"  # what the program writes in /tmp is no part of the comparison
 cp "$deb" "$root/tmp/docent.deb"
 mkdir -p "$root"/var/{lib,cache}/private "$root/etc/systemd/system/multi-user.target.wants"  # every systemd has them
 # Names, kinds and modes of all files but those of the mounts and dpkg's own locks, triggers and log.
