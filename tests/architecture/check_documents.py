@@ -15,6 +15,7 @@ PUBLIC = ROOT / "include" / "docent"  # its folders are those of SOURCE
 PAPERS = ROOT / "docs" / "papers.md"
 KEY = r"[A-Z][A-Za-z]+(?:19|20)\d\d"
 CODE = {".h", ".cpp", ".inc"}
+FILES = CODE | {".md", ".py", ".yaml", ".html", ".json", ".pgm", ".sqlite"}
 
 
 def git_files(*paths):
@@ -162,8 +163,33 @@ def check_links():
             check((path.parent / target.split("#")[0]).exists(), f"{path.relative_to(ROOT)}: the link {target} leads nowhere")
 
 
+@cache
+def parameters():
+    """Every section of docs/robot.yaml and every parameter in it, as section.part.key."""
+    found = set()
+    path = []
+    for line in (ROOT / "docs/robot.yaml").read_text().splitlines():
+        if key := re.match(r"( *)(\w+):(?: |$)", line):
+            path = [*path[:len(key[1]) // 2], key[2]]
+            found.add(".".join(path))
+    return found
+
+
+def check_parameters():
+    """A document names a parameter as `section.key`, perhaps with its value behind a colon."""
+    check(len(parameters()) > 300, "docs/robot.yaml has lost its parameters")
+    for path in git_files("*.md"):
+        if path.name == "CHANGELOG.md" or path.parent.name == "decisions":  # they speak of what was, too
+            continue
+        for number, line in enumerate(path.read_text().splitlines(), 1):
+            for name in re.findall(r"`([a-z]\w*(?:\.[a-z]\w*)+)(?:: [^`]*)?`", line):
+                if name.split(".")[0] in parameters() and not Path(name).suffix in FILES:
+                    check(name in parameters(), f"{path.relative_to(ROOT)}:{number}: docs/robot.yaml has no `{name}`")
+
+
 check_papers()
 check_readmes()
+check_parameters()
 check_agreements()
 check_links()
 sys.exit(report())
