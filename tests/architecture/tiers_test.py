@@ -23,7 +23,7 @@ import os, time
 if os.fork() == 0:
     os.setsid()
     if os.fork() == 0:
-        while time.process_time() < 0.6: pass
+        while time.process_time() < 0.2: pass
     os._exit(0)
 os.wait()
 time.sleep(0.2)
@@ -239,7 +239,7 @@ class Metered(unittest.TestCase):
                                       env=dict(os.environ, DOCENT_MEASURE=measure), check=False)
                 self.assertEqual(done.returncode, 3)
                 seconds, kind = file.read_text().split()
-                self.assertGreater(float(seconds), 0.55)
+                self.assertGreater(float(seconds), 0.18)
                 self.assertLess(float(seconds), 2.0)
                 self.assertIn(kind, {measure} if measure else {"cgroup", "reaper"})
 
@@ -330,7 +330,7 @@ class Runs(Project):
         code, said, called = self.run_test()
         self.assertEqual(code, 1)
         self.assertEqual(sorted(line for line in called if line.startswith("suite")), ["suite 10-cheap", "suite 40-dear", "suite 41-beside", "suite 60-lane"])
-        self.assertIn("cmake --preset dev -D DOCENT_UNITY=ON -D CMAKE_CXX_FLAGS_RELEASE=-O2 -D DOCENT_PYTHON=ON", called)
+        self.assertIn("cmake --preset dev -D DOCENT_UNITY=ON -D CMAKE_CXX_FLAGS_RELEASE=-O2", called)
         self.assertTrue(any(line.startswith("ctest --preset dev -LE") for line in called))
         self.assertIn("dear: 2 s of processors, over its budget of 1 s\n", said)
         self.assertNotIn("cheap: ", said)

@@ -133,6 +133,7 @@ class Bus {
   virtual void publish(int publisher, std::shared_ptr<const void> message) = 0;
   /// The same on another bus: for a bus that passes on.
   static int add_publisher_on(Bus& bus, const TopicInfo& topic) { return bus.add_publisher(topic); }
+  /// By a handle of that other bus.
   static void publish_on(Bus& bus, int publisher, std::shared_ptr<const void> message) {
     bus.publish(publisher, std::move(message));
   }
