@@ -151,5 +151,6 @@ localization, planning and recordings, with arrays of NumPy.")
     OUTPUT_VARIABLE interpreter OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
   set(CPACK_DEBIAN_PYTHON3-DOCENT_PACKAGE_DEPENDS "${interpreter}, python3-numpy")
   set(CPACK_DEBIAN_PYTHON3-DOCENT_PACKAGE_RECOMMENDS "docent")  # which simulate() runs
+  set(CPACK_DEBIAN_PYTHON3-DOCENT_PACKAGE_CONTROL_EXTRA ${packaging}/python/postinst ${packaging}/python/prerm)
 endif()
 include(CPack)

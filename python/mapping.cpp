@@ -2,9 +2,6 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "arguments.h"
 #include "bindings.h"
 #include "docent/mapping/graph_mapping/graph_mapper.h"
@@ -33,17 +30,14 @@ sensor_models::RangeSweep sweep_of(const LoggedScan& scan, double max_range) {
   return sweep;
 }
 
-/// The front laser's scans after some way [m] or turn [deg] each.
-std::vector<std::size_t> choose(const LaserLog& log, double way, double turn) {
+/// The front laser's scans, where the robot has moved.
+std::vector<std::size_t> choose(const LaserLog& log, const ScanChoiceParams& params) {
+  ScanChoice choice{params};
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < log.scans.size(); ++i) {
     const LoggedScan& scan = log.scans[i];
-    if (scan.rear && !log.scans.front().rear) continue;
-    if (!chosen.empty()) {
-      const Pose2 moved = inverse(log.scans[chosen.back()].odom_from_base) * scan.odom_from_base;
-      if (norm(moved.position()) < way && std::abs(moved.theta.degrees()) < turn) continue;
-    }
-    chosen.push_back(i);
+    const bool is_second = scan.rear && !log.scans.front().rear;
+    if (!is_second && choice.takes(scan.odom_from_base)) chosen.push_back(i);
   }
   return chosen;
 }
@@ -60,18 +54,6 @@ std::vector<MappingScan> mapping_scans(const LaserLog& log, const std::vector<st
     taken.sensors.push_back(scan.base_from_laser.position());
   }
   return scans;
-}
-
-/// A wall is met by each scan over half a metre of way at least; who walks by is met once or twice.
-int fewest_hits_of(const std::vector<Pose2>& poses) {
-  constexpr double kSeenOver = 0.5;  // [m]
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < poses.size(); ++i)
-    steps.push_back(distance(poses[i - 1].position(), poses[i].position()));
-  if (steps.empty()) return 1;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle > 0.0 ? static_cast<int>(std::clamp(kSeenOver / *middle, 1.0, 3.0)) : 1;
 }
 
 OccupancyGrid grid_of(const LaserLog& log, const LogMap& made, const ScanMapperParams& params) {
@@ -95,7 +77,7 @@ LogMap map_log(const LaserLog& log, std::optional<ScanMapperParams> given, doubl
   return without_interpreter([&] {
     const GraphMapperParams params;
     LogMap made;
-    made.scans = choose(log, way, turn);
+    made.scans = choose(log, {way, turn});
     const auto tell = [&](const MappingProgress& now) {
       const py::gil_scoped_acquire interpreter;
       if (PyErr_CheckSignals() != 0) throw py::error_already_set{};

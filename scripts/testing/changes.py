@@ -81,8 +81,8 @@ def base_of(root, wanted=None):
 
 
 def changed_files(root, base):
-    names = git(root, "diff", "--name-only", "--no-renames", base, "--").splitlines()
-    return sorted({*names, *git(root, "ls-files", "--others", "--exclude-standard").splitlines()})
+    names = git(root, "diff", "--name-only", "--no-renames", "-z", base, "--").split("\0")
+    return sorted({*names, *git(root, "ls-files", "-z", "--others", "--exclude-standard").split("\0")} - {""})
 
 
 class Graph:
@@ -218,7 +218,7 @@ def includes_of(root, files):
 
 def to_tidy(root, changed, most=MOST_TIDIED):
     """(sources, how many more there would be): changed ones first, then those that include changed headers, the nearest first."""
-    files = git(root, "ls-files", "--cached", "--others", "--exclude-standard", "src", "include").splitlines()
+    files = git(root, "ls-files", "-z", "--cached", "--others", "--exclude-standard", "src", "include").split("\0")
     files = [path for path in files if Path(path).suffix in CODE and (root / path).is_file()]
     includes = includes_of(root, files)
     users = {}

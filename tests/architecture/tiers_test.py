@@ -4,9 +4,11 @@ time is counted with orphans."""
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 from unittest import mock
@@ -149,6 +151,15 @@ class Changes(Project):
         self.assertEqual(self.changed(), ["new.py", "src/docent/base/a.h", "src/docent/grid/a.cpp"])
         self.assertEqual(self.changed("HEAD"), ["new.py", "src/docent/base/a.h"])
 
+    def test_names_with_blanks_and_letters_of_other_languages_count(self):
+        names = ["src/docent/grid/b c.h", "src/docent/grid/b\u00fc.h", "src/docent/grid/b\nc.h"]
+        for name in names:
+            self.write(name, "")
+        self.assertEqual(self.changed(), sorted(names))
+        self.commit()
+        self.assertEqual(self.changed("HEAD^"), sorted(names))
+        self.assertEqual(self.plan(names[1])[0], ["grid", "people", "planning/route"])
+
     def test_what_is_gone_counts(self):
         (self.root / "src/docent/grid/a.cpp").unlink()
         self.assertEqual(self.changed(), ["src/docent/grid/a.cpp"])
@@ -231,6 +242,27 @@ class Budgets(unittest.TestCase):
 
 
 class Metered(unittest.TestCase):
+    @staticmethod
+    def metered(*words):
+        return subprocess.run([ROOT / "scripts/testing/metered", *words], check=False, capture_output=True, text=True)
+
+    def test_what_cannot_be_started_is_said_in_one_line(self):
+        with tempfile.TemporaryDirectory() as folder:
+            missing = self.metered(folder + "/meter", "no-such-command")
+            self.assertEqual((missing.returncode, missing.stderr.count("\n")), (127, 1))
+            self.assertEqual(self.metered(folder + "/meter", folder).returncode, 126)
+        self.assertIn("usage", self.metered("meter").stderr)
+
+    def test_a_hangup_ends_the_command_and_is_its_exit_code(self):
+        with tempfile.TemporaryDirectory() as folder:
+            started = Path(folder) / "started"
+            process = subprocess.Popen([ROOT / "scripts/testing/metered", folder + "/meter", "sh", "-c", f"touch {started}; exec sleep 60"])
+            while not started.exists():
+                time.sleep(0.02)
+            process.send_signal(signal.SIGHUP)
+            self.assertEqual(process.wait(timeout=30), 128 + signal.SIGHUP)
+            self.assertTrue((Path(folder) / "meter").exists())
+
     def test_an_orphan_counts_and_the_exit_code_stays(self):
         with tempfile.TemporaryDirectory() as folder:
             for measure in ("", "reaper"):

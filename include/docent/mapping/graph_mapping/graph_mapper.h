@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "docent/base/result.h"
 #include "docent/mapping/graph_mapping/loop_closer.h"
 #include "docent/mapping/graph_mapping/map_judgement.h"
 #include "docent/mapping/graph_mapping/scan_chain.h"
@@ -53,6 +54,7 @@ struct GraphMapperParams {
     v("odometry_margin", odometry_margin);
     v("least_odometry_scale", least_odometry_scale);
   }
+  [[nodiscard]] Result<void> validate() const;
 };
 
 /// What a person who waits is told, and may draw.

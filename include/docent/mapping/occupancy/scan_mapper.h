@@ -46,6 +46,10 @@ struct ScanMapperParams {
   [[nodiscard]] Result<void> validate() const;
 };
 
+/// `ScanMapperParams::fewest_hits` for sweeps taken at these places, in their order: a wall is met by each sweep over
+/// half a metre of way at least; who walks by is met once or twice. 1..3. O(n).
+[[nodiscard]] int fewest_hits_of(std::span<const Pose2> map_from_base);
+
 /// A sweep as seen from its sensor, and where the sensor was.
 struct PlacedSweep {
   sensor_models::RangeSweep sweep;  ///< sensor frame

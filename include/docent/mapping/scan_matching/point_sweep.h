@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "docent/base/result.h"
 #include "docent/geometry/pose2.h"
 #include "docent/sensor_models/range_sweep.h"
 
@@ -30,6 +31,7 @@ struct PointSweepParams {
     v("steepest_gap", steepest_gap);
     v("neighbours", neighbours);
   }
+  [[nodiscard]] Result<void> validate() const;
 };
 
 /// The ends of the beams that came back, with normals fitted by least squares to their neighbours in the sweep. Beams

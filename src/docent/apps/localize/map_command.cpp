@@ -66,18 +66,12 @@ std::vector<mapping::PlacedSweep> placed_sweeps(const ReferencedLog& referenced)
   return placed;
 }
 
-/// A wall is met by each scan over half a metre of way at least; who walks by is met once or twice.
-int fewest_hits_of(const ReferencedLog& placed) {
-  std::vector<double> steps;
-  std::optional<Point2> last;
-  for (const auto& pose : placed.reference) {
-    if (!pose) continue;
-    if (last) steps.push_back(distance(*last, pose->position()));
-    last = pose->position();
-  }
-  constexpr double kSeenOver = 0.5;  // [m]
-  const double step = quantile(steps, 0.5);
-  return step > 0.0 ? static_cast<int>(std::clamp(kSeenOver / step, 1.0, 3.0)) : 1;
+/// Of the scans that are placed, in the order of the log.
+std::vector<Pose2> poses_of_placed(const ReferencedLog& placed) {
+  std::vector<Pose2> poses;
+  for (const auto& pose : placed.reference)
+    if (pose) poses.push_back(*pose);
+  return poses;
 }
 
 pictures::Figure draw(const OccupancyGrid& map, const std::vector<mapping::PlacedSweep>& placed) {
@@ -269,7 +263,8 @@ void make_map(const MapOptions& options) {
     if (!options.poses.empty()) save_poses(options.poses, referenced.log, poses);
   }
   for (const std::string& note : referenced.log.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
-  const mapping::ScanMapperParams params = params_of(options.settings, is_known ? 1 : fewest_hits_of(referenced));
+  const mapping::ScanMapperParams params =
+      params_of(options.settings, is_known ? 1 : mapping::fewest_hits_of(poses_of_placed(referenced)));
   const std::vector<mapping::PlacedSweep> placed = placed_sweeps(referenced);
   if (placed.empty()) throw CommandFailed{options.choice.log + ": no scan has a pose (--reference)"};
   mapping::ScanMapper mapper{value_or_fail(mapping::ScanMapper::frame_of(placed, params)), params};

@@ -26,18 +26,14 @@ void append_points(const recording::LoggedScan& scan, double max_range, const Po
 
 }  // namespace
 
-ChosenScans choose_scans(const recording::LaserLog& log, const ScanChoiceParams& choice,
+ChosenScans choose_scans(const recording::LaserLog& log, const mapping::ScanChoiceParams& params,
                          const mapping::PointSweepParams& points) {
   ChosenScans chosen;
   const bool two = has_two_lasers(log);
-  std::optional<Pose2> last;
+  mapping::ScanChoice choice{params};
   for (std::size_t i = 0; i < log.scans.size(); ++i) {
     const recording::LoggedScan& scan = log.scans[i];
-    if (two && scan.rear) continue;
-    if (last) {
-      const Pose2 moved = inverse(*last) * scan.odom_from_base;
-      if (norm(moved.position()) < choice.way && std::abs(moved.theta.degrees()) < choice.turn) continue;
-    }
+    if ((two && scan.rear) || !choice.takes(scan.odom_from_base)) continue;
     mapping::MappingScan taken;
     taken.odom_from_base = scan.odom_from_base;
     append_points(scan, log.max_range, scan.odom_from_base, points, taken);
@@ -48,7 +44,6 @@ ChosenScans choose_scans(const recording::LaserLog& log, const ScanChoiceParams&
       chosen.sources.push_back(k);
       break;
     }
-    last = scan.odom_from_base;
     chosen.scans.push_back(std::move(taken));
     chosen.indices.push_back(i);
     chosen.sources.push_back(i);

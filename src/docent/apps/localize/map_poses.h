@@ -9,19 +9,13 @@
 
 namespace docent::apps::localize_command {
 
-/// Which scans of a log a map is learned from.
-struct ScanChoiceParams {
-  double way = 0.15;  ///< [m], >= 0: a scan is taken after this way since the last one taken,
-  double turn = 8.0;  ///< [deg], >= 0: or this turn
-};
-
 /// Scans of all lasers together, where the robot has moved, each with its index in the log.
 struct ChosenScans {
   std::vector<mapping::MappingScan> scans;
   std::vector<std::size_t> indices;
   std::vector<std::size_t> sources;  ///< all scans of the log that took part, those of a second laser among them
 };
-[[nodiscard]] ChosenScans choose_scans(const recording::LaserLog& log, const ScanChoiceParams& choice,
+[[nodiscard]] ChosenScans choose_scans(const recording::LaserLog& log, const mapping::ScanChoiceParams& params,
                                        const mapping::PointSweepParams& points);
 
 /// Poses of all scans of the log, from those of some, `indices` in the log: between these odometry tells the way, bent

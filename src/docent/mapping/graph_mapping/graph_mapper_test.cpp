@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <string>
+#include <type_traits>
+#include <utility>
+
 #include "docent/mapping/graph_mapping/graph_mapping.h"
 #include "docent/mapping/graph_mapping/testing.h"
 
@@ -107,6 +112,63 @@ TEST(GraphMapping, TellsHowFarItIs) {
   EXPECT_GT(told, 3U);
   EXPECT_EQ(last, drive.scans.size());
   EXPECT_TRUE(map_by_graph({}, {}).map_from_base.empty());
+}
+
+/// Spoils one number after the other, in all parts, and reads what the params say of it.
+class Spoiler {
+ public:
+  explicit Spoiler(GraphMapperParams& params) : params_{params} { params.visit(*this); }
+  template <class T>
+  void operator()(const std::string& name, T& value) {
+    if constexpr (requires { value.visit(*this); }) {
+      const std::string outer = std::exchange(part_, part_ + name + ".");
+      value.visit(*this);
+      part_ = outer;
+    } else {
+      const T sound = value;
+      expect_refusal(name, value = T{-1});
+      if constexpr (std::is_floating_point_v<T>) expect_refusal(name, value = std::numeric_limits<T>::quiet_NaN());
+      value = sound;
+    }
+  }
+  [[nodiscard]] int refused() const { return refused_; }
+
+ private:
+  void expect_refusal(const std::string& name, double value) {
+    const auto valid = params_.validate();
+    ASSERT_FALSE(valid) << part_ << name << ": " << value;
+    EXPECT_EQ(valid.error().message.rfind(part_ + name + " must be ", 0), 0U) << valid.error().message;
+    ++refused_;
+  }
+  GraphMapperParams& params_;
+  std::string part_;
+  int refused_ = 0;
+};
+
+TEST(GraphMapperParams, RefuseEachNumberThatIsOutOfBounds) {
+  GraphMapperParams params;
+  EXPECT_TRUE(params.validate());
+  EXPECT_GT(Spoiler{params}.refused(), 90);
+  EXPECT_TRUE(params.validate());
+}
+
+TEST(GraphMapperParams, RefuseBoundsThatCrossEachOther) {
+  const auto fault_of = [](const GraphMapperParams& params) { return params.validate().error().message; };
+  GraphMapperParams params;
+  params.loops.least_window = params.loops.widest_window + 1.0;
+  EXPECT_EQ(fault_of(params), "loops.least_window must be >= 0 m and <= widest_window");
+  params = {};
+  params.loops.least_turn = 3.2;
+  EXPECT_EQ(fault_of(params), "loops.least_turn must be 0..pi rad");
+  params = {};
+  params.lines.first_gate = 0.5;
+  EXPECT_EQ(fault_of(params), "lines.first_gate must be in (0, 0.4] m");
+  params = {};
+  params.least_odometry_scale = 1.5;
+  EXPECT_EQ(fault_of(params), "least_odometry_scale must be in (0, 1]");
+  params = {};
+  params.chain.least_score = 1.1;
+  EXPECT_EQ(fault_of(params), "chain.least_score must be 0..1");
 }
 
 TEST(Submap, KnowsTheFloorThatWasSeenThrough) {

@@ -16,6 +16,23 @@ Eigen::Matrix3d unknown_along(const Eigen::Matrix3d& information, const Pose2& w
 
 }  // namespace
 
+Result<void> LoopCloserParams::validate() const {
+  if (!(least_score >= 0.0 && least_score <= 1.0)) return fail("least_score must be 0..1");
+  if (!(least_overlap >= 0.0 && least_overlap <= 1.0)) return fail("least_overlap must be 0..1");
+  if (!(most_conflict >= 0.0 && most_conflict <= 1.0)) return fail("most_conflict must be 0..1");
+  if (!(clearly_best >= 0.0 && clearly_best <= 1.0)) return fail("clearly_best must be 0..1");
+  if (!(elsewhere >= 0.0)) return fail("elsewhere must be >= 0 m");
+  if (!(elsewhere_turn >= 0.0)) return fail("elsewhere_turn must be >= 0 rad");
+  if (!(widest_window > 0.0)) return fail("widest_window must be > 0 m");
+  if (!(narrow_window >= 0.0)) return fail("narrow_window must be >= 0 m");
+  if (!(expectation_weight >= 0.0)) return fail("expectation_weight must be >= 0");
+  if (!(sigmas > 0.0)) return fail("sigmas must be > 0");
+  if (!(least_window >= 0.0 && least_window <= widest_window))
+    return fail("least_window must be >= 0 m and <= widest_window");
+  if (!(least_turn >= 0.0 && least_turn <= std::numbers::pi)) return fail("least_turn must be 0..pi rad");
+  return {};
+}
+
 std::optional<LoopClosure> LoopCloser::close(const Submap& older, const Submap& newer, const Pose2& expected,
                                              const Eigen::Matrix3d& covariance, double restless) const {
   MatchWindow window;

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "docent/base/result.h"
 #include "docent/mapping/graph_mapping/submap.h"
 #include "docent/mapping/pose_graph/pose_graph.h"
 #include "docent/mapping/scan_matching/correlative_matcher.h"
@@ -16,14 +17,14 @@ struct LoopCloserParams {
   double least_overlap = 0.40;       ///< 0..1: share of the points that then lie on lines of the other submap
   double most_conflict = 0.06;       ///< 0..1: share of the points that lie where the other submap saw free floor
   double clearly_best = 0.88;        ///< 0..1: the next best place elsewhere reaches at most this share of the score
-  double elsewhere = 0.8;            ///< [m]
-  double elsewhere_turn = 0.5;       ///< [rad]
-  double widest_window = 12.0;       ///< [m]: the search goes no farther, however little is known
-  double narrow_window = 1.0;        ///< [m]: so near to the expected place, one direction may stay open
+  double elsewhere = 0.8;            ///< [m], >= 0
+  double elsewhere_turn = 0.5;       ///< [rad], >= 0
+  double widest_window = 12.0;       ///< [m], > 0: the search goes no farther, however little is known
+  double narrow_window = 1.0;        ///< [m], >= 0: so near to the expected place, one direction may stay open
   double expectation_weight = 0.01;  ///< >= 0: see MatchWindow
   double sigmas = 3.0;               ///< > 0: the search goes so far about the expected place
-  double least_window = 0.6;         ///< [m]
-  double least_turn = 0.2;           ///< [rad]
+  double least_window = 0.6;         ///< [m], 0..widest_window
+  double least_turn = 0.2;           ///< [rad], 0..pi
   template <class V>
   void visit(V& v) {
     v("least_score", least_score);
@@ -39,6 +40,7 @@ struct LoopCloserParams {
     v("least_window", least_window);
     v("least_turn", least_turn);
   }
+  [[nodiscard]] Result<void> validate() const;
 };
 
 /// Two submaps that show one place.

@@ -59,6 +59,14 @@ double expected_error(const PoseGraph& graph) {
 
 }  // namespace
 
+Result<void> MapJudgementParams::validate() const {
+  if (!(near > 0.0)) return fail("near must be > 0 m");
+  if (!(conflict >= 0.0 && conflict <= 1.0)) return fail("conflict must be 0..1");
+  if (!(most_in_conflict >= 0.0 && most_in_conflict <= 1.0)) return fail("most_in_conflict must be 0..1");
+  if (!(most_error >= 0.0)) return fail("most_error must be >= 0 m");
+  return {};
+}
+
 MapJudgement judge(const PoseGraph& graph, const std::deque<Submap>& submaps, double restless, double odometry_scale,
                    const MapJudgementParams& params) {
   MapJudgement judgement;

@@ -3,6 +3,7 @@
 #include <deque>
 #include <string>
 
+#include "docent/base/result.h"
 #include "docent/mapping/graph_mapping/submap.h"
 #include "docent/mapping/pose_graph/pose_graph.h"
 
@@ -13,7 +14,7 @@ struct MapJudgementParams {
   double near = 6.0;       ///< [m], > 0: pieces of the way so near to each other should agree
   double conflict = 0.15;  ///< 0..1: share of a piece's points on floor that the other one saw free: they do not
   double most_in_conflict = 0.07;  ///< 0..1: share of such pairs up to which people and doors explain it
-  double most_error = 0.4;  ///< [m]: expected to err by more, between places of any distance. At 0.5 m a map is no good
+  double most_error = 0.4;  ///< [m], >= 0: expected to err by more, between any places; at 0.5 m a map is no good
   template <class V>
   void visit(V& v) {
     v("near", near);
@@ -21,6 +22,7 @@ struct MapJudgementParams {
     v("most_in_conflict", most_in_conflict);
     v("most_error", most_error);
   }
+  [[nodiscard]] Result<void> validate() const;
 };
 
 /// What a map says of itself, without any truth.

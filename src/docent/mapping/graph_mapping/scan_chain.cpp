@@ -26,6 +26,23 @@ Eigen::Matrix3d diagonal_information(double way_sigma, double turn_sigma) {
 
 }  // namespace
 
+Result<void> ScanChainParams::validate() const {
+  if (!(scans > 0)) return fail("scans must be > 0");
+  if (!(way_sigma > 0.0)) return fail("way_sigma must be > 0 m");
+  if (!(way_per_metre >= 0.0)) return fail("way_per_metre must be >= 0");
+  if (!(way_per_radian >= 0.0)) return fail("way_per_radian must be >= 0");
+  if (!(turn_sigma > 0.0)) return fail("turn_sigma must be > 0 rad");
+  if (!(turn_per_metre >= 0.0)) return fail("turn_per_metre must be >= 0");
+  if (!(turn_per_radian >= 0.0)) return fail("turn_per_radian must be >= 0");
+  if (!(sigmas > 0.0)) return fail("sigmas must be > 0");
+  if (!(most_reach > 0.0)) return fail("most_reach must be > 0 m");
+  if (!(expectation_weight >= 0.0)) return fail("expectation_weight must be >= 0");
+  if (!(least_score >= 0.0 && least_score <= 1.0)) return fail("least_score must be 0..1");
+  if (!(fewest_points > 0)) return fail("fewest_points must be > 0");
+  if (!(query_cell > 0.0)) return fail("query_cell must be > 0 m");
+  return {};
+}
+
 ChainStep ScanChain::odometry_step(std::span<const MappingScan> scans, std::size_t i) const {
   const Pose2 odometry = inverse(scans[i - 1].odom_from_base) * scans[i].odom_from_base;
   const auto [way_sigma, turn_sigma] = sigmas_of(odometry);

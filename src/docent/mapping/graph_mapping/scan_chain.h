@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "docent/base/result.h"
 #include "docent/mapping/graph_mapping/mapping_scan.h"
 #include "docent/mapping/pose_graph/pose_graph.h"
 #include "docent/mapping/scan_matching/correlative_matcher.h"
@@ -14,11 +15,11 @@ namespace docent::mapping {
 struct ScanChainParams {
   int scans = 12;                    ///< > 0: a scan is matched to so many before it
   double way_sigma = 0.05;           ///< [m], > 0: odometry, of each step, and
-  double way_per_metre = 0.15;       ///< [m/m] more
-  double way_per_radian = 0.05;      ///< [m/rad]
+  double way_per_metre = 0.15;       ///< [m/m], >= 0, more
+  double way_per_radian = 0.05;      ///< [m/rad], >= 0
   double turn_sigma = 0.035;         ///< [rad], > 0: odometry, of each step, and
-  double turn_per_metre = 0.1;       ///< [rad/m] more
-  double turn_per_radian = 0.15;     ///< [rad/rad]
+  double turn_per_metre = 0.1;       ///< [rad/m], >= 0, more
+  double turn_per_radian = 0.15;     ///< [rad/rad], >= 0
   double sigmas = 3.0;               ///< > 0: so far from odometry's pose a match is looked for
   double most_reach = 5.0;           ///< [m], > 0: and never farther, whatever odometry says
   double expectation_weight = 0.01;  ///< >= 0: see MatchWindow
@@ -41,6 +42,7 @@ struct ScanChainParams {
     v("fewest_points", fewest_points);
     v("query_cell", query_cell);
   }
+  [[nodiscard]] Result<void> validate() const;
 };
 
 /// Where a scan is, seen from the one before it.

@@ -46,6 +46,17 @@ double share_on_free_floor(const Submap& seer, std::span<const Point2> points, c
 
 }  // namespace
 
+Result<void> SubmapParams::validate() const {
+  if (!(way > 0.0)) return fail("way must be > 0 m");
+  if (!(turn > 0.0)) return fail("turn must be > 0 rad");
+  if (!(scans > 0)) return fail("scans must be > 0");
+  if (!(reach > 0.0)) return fail("reach must be > 0 m");
+  if (!(query_cell > 0.0)) return fail("query_cell must be > 0 m");
+  if (!(still >= 0.0 && still <= 1.0)) return fail("still must be 0..1");
+  if (!(free_cell > 0.0)) return fail("free_cell must be > 0 m");
+  return {};
+}
+
 struct Submap::Seen {
   GridFrame frame;
   std::vector<std::uint16_t> ended;   ///< scans

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "docent/base/result.h"
 #include "docent/mapping/graph_mapping/mapping_scan.h"
 #include "docent/mapping/occupancy/scan_mapper.h"
 #include "docent/mapping/scan_matching/match_grid.h"
@@ -15,7 +16,7 @@ namespace docent::mapping {
 struct SubmapParams {
   double way = 3.0;          ///< [m], > 0: a submap ends after this way,
   double turn = 6.0;         ///< [rad], > 0: this much turning,
-  int scans = 40;            ///< or so many scans
+  int scans = 40;            ///< > 0: or so many scans
   double reach = 12.0;       ///< [m], > 0, from its middle: what lies farther depends on the chain's heading too much
   double query_cell = 0.20;  ///< [m], > 0: one point a cell takes part in a search
   double still = 0.3;        ///< 0..1: a point whose cell was ended in by less of the scans that saw it moved on
@@ -30,6 +31,7 @@ struct SubmapParams {
     v("still", still);
     v("free_cell", free_cell);
   }
+  [[nodiscard]] Result<void> validate() const;
 };
 
 /// A short piece of the way, over which the chain of scans is trusted: one small map about its middle scan. Points that

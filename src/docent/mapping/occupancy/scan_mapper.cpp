@@ -34,6 +34,17 @@ Result<void> ScanMapperParams::validate() const {
   return {};
 }
 
+int fewest_hits_of(std::span<const Pose2> map_from_base) {
+  constexpr double kSeenOver = 0.5;  // [m]
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < map_from_base.size(); ++i)
+    steps.push_back(distance(map_from_base[i - 1].position(), map_from_base[i].position()));
+  if (steps.empty()) return 1;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle > 0.0 ? static_cast<int>(std::clamp(kSeenOver / *middle, 1.0, 3.0)) : 1;
+}
+
 Result<GridFrame> ScanMapper::frame_of(std::span<const PlacedSweep> sweeps, const ScanMapperParams& params) {
   if (sweeps.empty()) return fail("no scan to make a map of");
   Point2 low = sweeps.front().map_from_sensor.position();

@@ -36,6 +36,23 @@ OccupancyGrid map_of(const std::vector<PlacedSweep>& sweeps, const ScanMapperPar
 
 std::int8_t at(const OccupancyGrid& map, Point2 point) { return map.at(map.frame.cell_at(point)); }
 
+TEST(FewestHits, AreAsManyAsTheWayBetweenSweepsBears) {
+  const auto hits_at = [](const std::vector<double>& places) {
+    std::vector<Pose2> poses;
+    for (const double x : places) poses.push_back({x, 1.0, {}});
+    return fewest_hits_of(poses);
+  };
+  EXPECT_EQ(hits_at({}), 1);
+  EXPECT_EQ(hits_at({2.0}), 1);
+  EXPECT_EQ(hits_at({0.0, 0.1, 0.2}), 3) << "five sweeps of half a metre; never more than three";
+  EXPECT_EQ(hits_at({0.0, 0.2, 0.4}), 2);
+  EXPECT_EQ(hits_at({0.0, 0.4, 0.8}), 1);
+  EXPECT_EQ(hits_at({0.0, 3.0, 6.0}), 1);
+  EXPECT_EQ(hits_at({5.0, 5.0, 5.0}), 1) << "it stood";
+  EXPECT_EQ(hits_at({0.0, 0.1, 0.2, 9.0}), 3) << "one leap does not count";
+  EXPECT_EQ(hits_at({0.0, 0.1, 0.5}), 1) << "the upper one of two in the middle";
+}
+
 TEST(ScanMapper, ARoomHasItsWallsWhereTheyStandAndAClearFloor) {
   Rng rng{5};
   std::vector<PlacedSweep> sweeps;

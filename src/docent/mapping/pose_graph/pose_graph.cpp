@@ -52,6 +52,13 @@ ceres::Solver::Options options_of(const PoseGraphParams& params) {
 
 }  // namespace
 
+Result<void> PoseGraphParams::validate() const {
+  if (!(loop_scale > 0.0)) return fail("loop_scale must be > 0");
+  if (!(loop_refused > 0.0)) return fail("loop_refused must be > 0");
+  if (!(most_steps > 0)) return fail("most_steps must be > 0");
+  return {};
+}
+
 std::size_t PoseGraph::add_pose(const Pose2& map_from_base) {
   poses_.push_back(map_from_base);
   return poses_.size() - 1;

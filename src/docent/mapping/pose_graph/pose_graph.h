@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "docent/base/result.h"
 #include "docent/geometry/pose2.h"
 
 namespace docent::mapping {
@@ -29,6 +30,7 @@ struct PoseGraphParams {
     v("loop_refused", loop_refused);
     v("most_steps", most_steps);
   }
+  [[nodiscard]] Result<void> validate() const;
 };
 
 /// Poses and what is known of their differences; the poses of least squared error (F. Lu and E. Milios, Globally

@@ -64,6 +64,15 @@ Eigen::Vector3d step_of(const NormalEquations& sums, double points) {
 
 }  // namespace
 
+Result<void> LineMatcherParams::validate() const {
+  if (!(steps > 0)) return fail("steps must be > 0");
+  if (!(first_gate > 0.0 && first_gate <= SurfaceIndex::kReach)) return fail("first_gate must be in (0, 0.4] m");
+  if (!(last_gate > 0.0)) return fail("last_gate must be > 0 m");
+  if (!(sigma > 0.0)) return fail("sigma must be > 0 m");
+  if (!(independent_points > 0.0)) return fail("independent_points must be > 0");
+  return {};
+}
+
 std::optional<LineMatch> line_match(const SurfaceIndex& reference, std::span<const SurfacePoint> sweep,
                                     const Pose2& first, const LineMatcherParams& params) {
   Pose2 pose = first;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "docent/base/result.h"
 #include "docent/mapping/scan_matching/surface_index.h"
 
 namespace docent::mapping {
@@ -23,6 +24,7 @@ struct LineMatcherParams {
     v("sigma", sigma);
     v("independent_points", independent_points);
   }
+  [[nodiscard]] Result<void> validate() const;
 };
 
 struct LineMatch {

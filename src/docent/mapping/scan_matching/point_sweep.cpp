@@ -47,6 +47,15 @@ Point2 fitted_normal(const std::vector<SweepEnd>& ends, std::size_t first, std::
 
 }  // namespace
 
+Result<void> PointSweepParams::validate() const {
+  if (!(reach > 0.0)) return fail("reach must be > 0 m");
+  if (!(nearest >= 0.0)) return fail("nearest must be >= 0 m");
+  if (!(widest_gap > 0.0)) return fail("widest_gap must be > 0 m");
+  if (!(steepest_gap > 0.0)) return fail("steepest_gap must be > 0");
+  if (!(neighbours > 0)) return fail("neighbours must be > 0");
+  return {};
+}
+
 std::vector<SurfacePoint> surface_points(const sensor_models::RangeSweep& sweep, const PointSweepParams& params) {
   std::vector<SweepEnd> ends;
   for (const sensor_models::SweepBeam& beam : sweep.beams) {

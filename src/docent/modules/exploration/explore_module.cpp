@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
+#include "docent/modules/shared/belief_cells.h"
 #include "docent/modules/shared/grid_message.h"
+#include "docent/modules/shared/person_beams.h"
 #include "docent/modules/shared/scanners.h"
 #include "docent/planning/survey/surveyor.h"
 
@@ -16,38 +19,18 @@ constexpr Duration kMapPeriod = std::chrono::seconds{2};
 constexpr Duration kUntilItStands = std::chrono::seconds{1};
 
 docent_msgs::PersonBeams sight_message(const planning::Surveyor::Sight& sight) {
-  docent_msgs::PersonBeams message;
-  message.header = {to_message(sight.look.stamp), "base_link"};
-  message.localized = true;
-  const Pose2& map_from_base = sight.map_from_base;
-  const Pose2& odom_from_base = sight.look.odom_from_base;
-  message.map_from_base = {map_from_base.x, map_from_base.y, map_from_base.theta.radians()};
-  message.odom_from_base = {odom_from_base.x, odom_from_base.y, odom_from_base.theta.radians()};
-  for (std::size_t i = 0; i < sight.origins.size(); ++i) {
-    const sensor_models::SweepBeam& beam = sight.look.sweep.beams[i];
-    message.bearings.push_back(static_cast<float>(beam.bearing));
-    message.ranges.push_back(static_cast<float>(beam.no_return ? -beam.range : beam.range));
-    message.origins.push_back(static_cast<std::uint8_t>(sight.origins[i]));
-    if (sight.origins[i] != sensor_models::BeamOrigin::not_map) continue;
-    const Point2 end = endpoint(beam);
-    message.x.push_back(static_cast<float>(end.x));
-    message.y.push_back(static_cast<float>(end.y));
-  }
-  return message;
+  std::vector<Point2> ends;  // of beams on people
+  for (std::size_t i = 0; i < sight.origins.size(); ++i)
+    if (sight.origins[i] == sensor_models::BeamOrigin::not_map) ends.push_back(endpoint(sight.look.sweep.beams[i]));
+  return person_beams_message(
+      {sight.look.stamp, true, sight.map_from_base, sight.look.odom_from_base, sight.look.sweep, sight.origins, ends});
 }
 
 docent_msgs::Belief place_message(const planning::Surveyor::Place& place, Time now) {
-  const localization::BeliefSummary belief = belief_of(place.pose);
-  docent_msgs::Belief message;
-  message.header = {to_message(now), "map"};
+  docent_msgs::Belief message = belief_cells_message(belief_of(place.pose), now);
   message.map_hash = planning::SurveyStore::kMapHash;
   message.cell_size = static_cast<float>(place.pose.sigma);
   message.heading_step = static_cast<float>(place.pose.sigma_heading);
-  for (const auto& cell : belief.cells) message.cells.push_back({cell.x, cell.y, cell.theta, cell.mass});
-  for (const localization::BeliefMode& mode : belief.modes) {
-    const Pose2& pose = mode.map_from_robot;
-    message.hypotheses.push_back({pose.x, pose.y, pose.theta.radians(), mode.covariance, mode.mass});
-  }
   message.p_lost = 0.0;
   message.localized = true;
   message.odom_pose = to_message(place.odom_from_base);

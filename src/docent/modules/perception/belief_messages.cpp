@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "docent/messages/conversions.h"
+#include "docent/modules/shared/belief_cells.h"
 
 namespace docent::modules {
 
@@ -16,15 +17,8 @@ docent_msgs::CoarseBelief rest_message(const localization::BeliefSummary& summar
 }
 
 docent_msgs::Belief belief_message(const localization::BeliefSummary& summary, Time stamp) {
-  docent_msgs::Belief message;
-  message.header = {to_message(stamp), "map"};
-  message.cells.reserve(summary.cells.size());
-  for (const auto& cell : summary.cells) message.cells.push_back({cell.x, cell.y, cell.theta, cell.mass});
+  docent_msgs::Belief message = belief_cells_message(summary, stamp);
   message.rest = rest_message(summary);
-  for (const localization::BeliefMode& mode : summary.modes) {
-    const Pose2& pose = mode.map_from_robot;
-    message.hypotheses.push_back({pose.x, pose.y, pose.theta.radians(), mode.covariance, mode.mass});
-  }
   message.entropy = summary.entropy;
   message.active_mass = summary.active_mass;
   message.active_cells = static_cast<std::uint32_t>(summary.active_states);

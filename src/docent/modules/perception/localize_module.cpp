@@ -16,6 +16,7 @@
 #include "docent/modules/perception/belief_messages.h"
 #include "docent/modules/perception/sonar_localize.h"
 #include "docent/modules/shared/initial_pose.h"
+#include "docent/modules/shared/person_beams.h"
 #include "docent/modules/shared/scanners.h"
 
 namespace docent::modules {
@@ -213,27 +214,9 @@ class LocalizeModule final : public Module {
 
   void publish_person_beams(const localization::PoseWatch::Look& look) {
     const auto beams = watch_.beams(look);
-    docent_msgs::PersonBeams message;
-    message.header = {docent::to_message(look.moment.stamp), "base_link"};
-    message.localized = watch_.is_localized();
-    if (const auto best = watch_.map_from_base(look.moment))
-      message.map_from_base = {best->x, best->y, best->theta.radians()};
-    const Pose2& odom_from_base = look.moment.odom_from_base;
-    message.odom_from_base = {odom_from_base.x, odom_from_base.y, odom_from_base.theta.radians()};
-    message.bearings.reserve(look.sweep.beams.size());
-    message.ranges.reserve(look.sweep.beams.size());
-    message.origins.reserve(look.sweep.beams.size());
-    for (std::size_t i = 0; i < look.sweep.beams.size(); ++i) {
-      const sensor_models::SweepBeam& beam = look.sweep.beams[i];
-      message.bearings.push_back(static_cast<float>(beam.bearing));
-      message.ranges.push_back(static_cast<float>(beam.no_return ? -beam.range : beam.range));
-      message.origins.push_back(static_cast<std::uint8_t>(beams.origins[i]));
-    }
-    for (const Point2 end : beams.ends) {
-      message.x.push_back(static_cast<float>(end.x));
-      message.y.push_back(static_cast<float>(end.y));
-    }
-    person_beams_.publish(std::move(message));
+    person_beams_.publish(
+        person_beams_message({look.moment.stamp, watch_.is_localized(), watch_.map_from_base(look.moment),
+                              look.moment.odom_from_base, look.sweep, beams.origins, beams.ends}));
   }
 
   transport::Bus& bus_;

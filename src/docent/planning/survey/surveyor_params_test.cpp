@@ -33,6 +33,9 @@ TEST(SurveyorParams, SaysWhichPartIsWrong) {
   params.explorer.coarsening = 0;
   EXPECT_EQ(fault_of(params).rfind("explorer.", 0), 0U) << fault_of(params);
   params = {};
+  params.mapping.chain.scans = 0;
+  EXPECT_EQ(fault_of(params), "mapping.chain.scans must be > 0");
+  params = {};
   params.map.resolution = 0.0;
   EXPECT_EQ(fault_of(params).rfind("map.", 0), 0U) << fault_of(params);
 }

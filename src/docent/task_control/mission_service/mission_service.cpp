@@ -8,7 +8,7 @@
 namespace docent::task_control {
 namespace {
 
-constexpr std::size_t kLongestField = 200;  // [bytes] of any field of a request: it comes from anybody
+constexpr std::size_t kLongestField = 200;  // [bytes] of any text of a request: it comes from anybody
 
 bool is_sound(const VisitorRequest& request) {
   const std::string source = request.source.text();

@@ -5,6 +5,9 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <limits>
+#include <string>
+#include <utility>
 
 #include "docent/task_control/mission_service/museum_programme.h"
 #include "docent/task_control/plan_controller/plan_controller.h"
@@ -121,6 +124,41 @@ TEST_F(MissionServiceTest, AtTheStartAllIsToldOnce) {
   EXPECT_FALSE(news_.board);
   EXPECT_FALSE(news_.task);
   EXPECT_FALSE(news_.status) << "nothing is new";
+}
+
+TEST_F(MissionServiceTest, NoTextOfARequestMayBeEndless) {
+  using Change = void (*)(VisitorRequest&, const std::string&);
+  const std::pair<const char*, Change> fields[] = {
+      {"id", [](VisitorRequest& request, const std::string& text) { request.id = text; }},
+      {"source", [](VisitorRequest& request, const std::string& text) { request.source = Word<RequestSource>{text}; }},
+      {"visitor", [](VisitorRequest& request, const std::string& text) { request.visitor = text; }},
+      {"kind", [](VisitorRequest& request, const std::string& text) { request.kind = Word<RequestKind>{text}; }},
+      {"target", [](VisitorRequest& request, const std::string& text) { request.target = text; }},
+      {"language", [](VisitorRequest& request, const std::string& text) { request.language = text; }}};
+  for (const auto& [field, change] : fields) {
+    for (const std::size_t size : {201U, 200U}) {
+      VisitorRequest request{
+          std::string{"of "} + field, now(), RequestSource::web, "Ada", RequestKind::exhibit, "a", -1, "en"};
+      change(request, std::string(size, 'x'));
+      const std::string id = request.id;
+      hear(service_->request(std::move(request), now()));
+      EXPECT_EQ(state_of(id).has_value(), size == 200U) << field << " of " << size << " bytes";
+    }
+  }
+}
+
+TEST_F(MissionServiceTest, AnyNumberMayComeAsAViewpoint) {
+  const auto from = [&](const std::string& id, int viewpoint) {
+    hear(service_->request({id, now(), RequestSource::web, "Ada", RequestKind::exhibit, "a", viewpoint, "en"}, now()));
+    return board_->find(id);
+  };
+  const BoardEntry* beyond = from("beyond", std::numeric_limits<int>::max());
+  ASSERT_NE(beyond, nullptr);
+  EXPECT_EQ(beyond->status, RequestStatus::refused);
+  const BoardEntry* below = from("below", std::numeric_limits<int>::min());
+  ASSERT_NE(below, nullptr);
+  EXPECT_NE(below->status, RequestStatus::refused);
+  EXPECT_EQ(below->request.viewpoint, -1) << "from anywhere";
 }
 
 TEST_F(MissionServiceTest, AWishStandsOnTheBoardAndBecomesATask) {
