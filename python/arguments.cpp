@@ -1,7 +1,9 @@
 #include "arguments.h"
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 namespace docent::python {
 namespace {
@@ -19,8 +21,7 @@ std::string shape_text(const py::array& array) {
 /// An array in the machine's order of bytes, without gaps, of the kind and with so many dimensions.
 py::array checked(const py::object& given, const char* name, char kind, py::ssize_t dimensions, bool lists_too) {
   if (!py::isinstance<py::array>(given) && !lists_too) {
-    throw py::type_error(std::string{name} + ": a numpy array is expected, not " +
-                         py::type::of(given).attr("__name__").cast<std::string>());
+    throw py::type_error(std::string{name} + ": a numpy array is expected, not " + type_name(given));
   }
   const py::array array = py::isinstance<py::array>(given)
                               ? py::reinterpret_borrow<py::array>(given)
@@ -40,17 +41,22 @@ py::array checked(const py::object& given, const char* name, char kind, py::ssiz
   return array;
 }
 
+/// Numbers may lie anywhere: numpy.frombuffer makes arrays that are not aligned.
+template <class From, class To>
+std::vector<To> copied(const py::array& array) {
+  std::vector<To> numbers(static_cast<std::size_t>(array.size()));
+  const auto* const from = static_cast<const std::byte*>(array.data());
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    From number{};
+    std::memcpy(&number, from + i * sizeof number, sizeof number);
+    numbers[i] = static_cast<To>(number);
+  }
+  return numbers;
+}
+
 template <class To>
 std::vector<To> numbers_of(const py::array& array) {
-  const auto size = static_cast<std::size_t>(array.size());
-  if (array.itemsize() == 4) {
-    const auto* const from = static_cast<const float*>(array.data());
-    return std::vector<To>(from, from + size);
-  }
-  std::vector<To> numbers(size);
-  const auto* const from = static_cast<const double*>(array.data());
-  for (std::size_t i = 0; i < size; ++i) numbers[i] = static_cast<To>(from[i]);
-  return numbers;
+  return array.itemsize() == 4 ? copied<float, To>(array) : copied<double, To>(array);
 }
 
 void check_shape(const py::array& array, const char* name, py::ssize_t rows, py::ssize_t columns) {
@@ -62,8 +68,20 @@ void check_shape(const py::array& array, const char* name, py::ssize_t rows, py:
 
 }  // namespace
 
+std::string type_name(py::handle given) { return py::type::of(given).attr("__name__").cast<std::string>(); }
+
+double number_of(py::handle given, const char* name) {
+  py::detail::make_caster<double> number;
+  if (!number.load(given, true))
+    throw py::type_error(std::string{name} + ": a number is expected, not " + type_name(given));
+  return finite(py::detail::cast_op<double>(number), name);
+}
+
 double finite(double value, const char* name, double most) {
-  if (!(std::abs(value) <= most)) refuse(name, "a number of at most " + std::to_string(most) + " is expected");
+  const auto text = [](double number) { return py::repr(py::float_{number}).cast<std::string>(); };
+  if (!std::isfinite(value)) refuse(name, "a finite number is expected, not " + text(value));
+  if (std::abs(value) > most)
+    refuse(name, "a number from " + text(-most) + " to " + text(most) + " is expected, not " + text(value));
   return value;
 }
 
@@ -123,6 +141,22 @@ std::vector<Polygon> polygons_of(const py::iterable& given, const char* name) {
   for (const py::handle polygon : given)
     polygons.push_back(polygon_of(py::reinterpret_borrow<py::object>(polygon), name, false));
   return polygons;
+}
+
+py::str text_of(std::string_view raw) {
+  PyObject* const text = PyUnicode_DecodeUTF8(raw.data(), length(raw.size()), "replace");
+  if (text == nullptr) throw py::error_already_set{};
+  return py::reinterpret_steal<py::str>(text);
+}
+
+py::list texts_of(const std::vector<std::string>& raw) {
+  py::list texts;
+  for (const std::string& one : raw) texts.append(text_of(one));
+  return texts;
+}
+
+std::string path_text(const std::filesystem::path& path) {
+  return text_of(std::string_view{path.native()}).cast<std::string>();
 }
 
 py::array_t<double> array_of(std::span<const Point2> points) {

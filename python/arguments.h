@@ -4,8 +4,12 @@
 #include <pybind11/pybind11.h>
 
 #include <exception>
+#include <filesystem>
+#include <map>
 #include <span>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -43,6 +47,10 @@ void check_params(const P& params) {
   if (auto valid = params.validate(); !valid) throw py::value_error(valid.error().message);
 }
 
+/// Of an object, for a person: "float", "ndarray".
+std::string type_name(py::handle given);
+/// The number that an object is, if it is finite and at most 1e6 from 0; else TypeError or ValueError names it.
+double number_of(py::handle given, const char* name);
 /// The number, if it is finite and no farther from 0 than `most`; else ValueError names it.
 double finite(double value, const char* name, double most = 1e6);
 double positive(double value, const char* name, double most = 1e6);
@@ -63,6 +71,24 @@ std::vector<float> float_grid_of(const py::object& given, const char* name, py::
 std::vector<Point2> points_of(const py::object& given, const char* name);
 Polygon polygon_of(const py::object& given, const char* name, bool may_be_empty);
 std::vector<Polygon> polygons_of(const py::iterable& given, const char* name);
+
+/// What a file or the system holds as text, which need not be UTF-8: U+FFFD stands for what is not.
+py::str text_of(std::string_view raw);
+py::list texts_of(const std::vector<std::string>& raw);
+std::string path_text(const std::filesystem::path& path);
+/// A dictionary; of texts that look alike in the end the first one holds.
+template <class T>
+[[nodiscard]] py::dict texts_of(const std::map<std::string, T>& raw) {
+  py::dict texts;
+  for (const auto& [key, value] : raw) {
+    if constexpr (std::is_same_v<T, std::string>) {
+      texts.attr("setdefault")(text_of(key), text_of(value));
+    } else {
+      texts.attr("setdefault")(text_of(key), value);
+    }
+  }
+  return texts;
+}
 
 /// [n, 2], [n, 3] and [3, 3], new.
 py::array_t<double> array_of(std::span<const Point2> points);

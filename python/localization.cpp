@@ -4,6 +4,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <cmath>
+#include <system_error>
 
 #include "arguments.h"
 #include "bindings.h"
@@ -34,8 +35,8 @@ FloorMap checked_floor(const OccupancyGrid& map, const LocalizerParams& params, 
       std::pow(map.frame.resolution / params.states.cell_size, 2) * static_cast<double>(map.cells.size());
   if (cells * 360.0 / params.states.heading_step > kMostStates)
     throw py::value_error("params.states: more than 1e9 states; coarser cells are needed");
-  if (!cache.empty() && !std::filesystem::is_directory(cache))
-    throw py::value_error("cache: '" + cache.string() + "' is no folder");
+  if (std::error_code unknown; !cache.empty() && !std::filesystem::is_directory(cache, unknown))
+    throw py::value_error("cache: '" + path_text(cache) + "' is no folder");
   const std::vector<Polygon> polygons = polygons_of(closed, "closed");
   return without_interpreter([&] {
     FloorMap floor{map, polygons};

@@ -73,10 +73,12 @@ void bind_log(py::module_& module) {
           "base_from_sonar", [](const LaserLog& log) { return array_of(log.base_from_sonar); },
           "float64 [sonars, 3]: x, y [m], theta [rad].")
       .def_readonly("sonar_max_range", &LaserLog::sonar_max_range, "[m]")
-      .def_readonly("parameters", &LaserLog::parameters)
+      .def_property_readonly("parameters", [](const LaserLog& log) { return texts_of(log.parameters); })
       .def_readonly("max_range", &LaserLog::max_range, "[m]: from here on a reading means no return")
       .def_readonly("times_are_invented", &LaserLog::times_are_invented)
-      .def_readonly("notes", &LaserLog::notes, "What had to be assumed or left out, in words.")
+      .def_property_readonly(
+          "notes", [](const LaserLog& log) { return texts_of(log.notes); },
+          "What had to be assumed or left out, in words.")
       .def("__len__", [](const LaserLog& log) { return log.scans.size(); });
 }
 

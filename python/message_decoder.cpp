@@ -111,6 +111,7 @@ Result<void> MessageDecoder::add(const std::string& package, std::string_view li
 Result<void> MessageDecoder::set_type(const std::string& package, std::string type, Field& field) {
   const std::string whole = type;
   if (const std::size_t bracket = type.find('['); bracket != std::string::npos) {
+    if (!whole.ends_with(']')) return fail("'" + whole + "' is no type");
     const std::string_view inside = std::string_view{whole}.substr(bracket + 1, whole.size() - bracket - 2);
     field.shape = inside.empty() || inside.starts_with("<=") ? Shape::sequence : Shape::array;
     if (field.shape == Shape::array) {
@@ -144,7 +145,7 @@ class MessageDecoder::Reading {
   py::object message(std::size_t type, int depth) {
     if (depth > kDeepest) throw Failed{"the type nests too deeply"};
     py::dict fields;
-    for (const Field& field : types_[type]) fields[py::str(field.name)] = value(field, depth);
+    for (const Field& field : types_[type]) fields[text_of(field.name)] = value(field, depth);
     return py::module_::import("types").attr("SimpleNamespace")(**fields);
   }
 
@@ -168,8 +169,7 @@ class MessageDecoder::Reading {
     if (field.width > 0) return numbers(field, 1).attr("item")(0);
     const std::size_t size = number<std::uint32_t>();
     const auto* const text = reinterpret_cast<const char*>(take(size, 1));
-    return py::reinterpret_steal<py::object>(
-        PyUnicode_DecodeUTF8(text, static_cast<py::ssize_t>(size == 0 ? 0 : size - 1), "replace"));
+    return text_of(std::string_view{text, size == 0 ? 0 : size - 1});
   }
 
   py::array numbers(const Field& field, std::size_t count) {

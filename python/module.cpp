@@ -10,8 +10,10 @@ void translate(std::exception_ptr thrown) {
   try {
     if (thrown) std::rethrow_exception(std::move(thrown));
   } catch (const Failed& failed) {
+    // Paths need not be UTF-8: Error.file is then as Python's own paths are.
     const py::object error = py::module_::import("docent._error").attr("Error");
-    PyErr_SetObject(error.ptr(), error(failed.what()).ptr());
+    const py::bytes message{failed.what()};
+    PyErr_SetObject(error.ptr(), error(message.attr("decode")("utf-8", "surrogateescape")).ptr());
   }
 }
 

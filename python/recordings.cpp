@@ -1,9 +1,9 @@
-#include <pybind11/functional.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include <atomic>
+#include <functional>
 #include <memory>
 
 #include "arguments.h"
@@ -98,10 +98,18 @@ std::map<std::string, std::string> types_of(Recording& recording) {
   return types;
 }
 
+/// What a handler answers: None is False.
+bool truth_of(const py::object& answer, const char* name) {
+  py::detail::make_caster<bool> truth;
+  if (!truth.load(answer, true))
+    throw py::type_error(std::string{name} + ": True or False is the answer expected, not " + type_name(answer));
+  return py::detail::cast_op<bool>(truth);
+}
+
 void bind_message(py::module_& module) {
   py::class_<KeptMessage>(module, "McapMessage", "A message of a recording.")
-      .def_property_readonly("topic", [](const KeptMessage& message) { return message.channel->topic; })
-      .def_property_readonly("type", [](const KeptMessage& message) { return message.channel->type; })
+      .def_property_readonly("topic", [](const KeptMessage& message) { return text_of(message.channel->topic); })
+      .def_property_readonly("type", [](const KeptMessage& message) { return text_of(message.channel->type); })
       .def_readonly("log_time", &KeptMessage::log_time)
       .def_readonly("publish_time", &KeptMessage::publish_time)
       .def_property_readonly(
@@ -131,7 +139,7 @@ void bind_reader(py::module_& module) {
                 value_or_raise(without_interpreter([&] { return McapReader::open(path); })), path.string());
           },
           py::arg("path"), "PATH, or PATH.part where the recorder did not come to an end. Error: no MCAP file.")
-      .def("profile", [](const Recording& self) { return self.reader().profile(); })
+      .def("profile", [](const Recording& self) { return text_of(self.reader().profile()); })
       .def(
           "is_complete", [](const Recording& self) { return self.reader().is_complete(); },
           "False: the file has no sound end.")
@@ -139,15 +147,20 @@ void bind_reader(py::module_& module) {
           "message_count", [](const Recording& self) { return self.reader().message_count(); },
           "By the file's own summary; None without one.")
       .def(
-          "counts_by_topic", [](const Recording& self) { return self.reader().counts_by_topic(); },
+          "counts_by_topic", [](const Recording& self) { return texts_of(self.reader().counts_by_topic()); },
           "Likewise; empty without a summary.")
-      .def("types_by_topic", &types_of, "Topic to type, of the topics that have messages.")
-      .def("damage", &Recording::damage, "What the last read left out.")
+      .def(
+          "types_by_topic", [](Recording& self) { return texts_of(types_of(self)); },
+          "Topic to type, of the topics that have messages.")
+      .def(
+          "damage", [](const Recording& self) { return texts_of(self.damage()); }, "What the last read left out.")
       .def(
           "read",
-          [](Recording& self, const std::function<bool(KeptMessage)>& handler, const std::set<std::string>& topics,
-             std::optional<Time> from, std::optional<Time> to,
-             bool skip_damaged) { self.read(selection_of(topics, from, to, skip_damaged), handler); },
+          [](Recording& self, const py::function& handler, const std::set<std::string>& topics,
+             std::optional<Time> from, std::optional<Time> to, bool skip_damaged) {
+            self.read(selection_of(topics, from, to, skip_damaged),
+                      [&](KeptMessage message) { return truth_of(handler(std::move(message)), "handler"); });
+          },
           py::arg("handler"), py::kw_only(), py::arg("topics") = std::set<std::string>{}, py::arg("from_") = py::none{},
           py::arg("to") = py::none{}, py::arg("skip_damaged") = false,
           "Hands over messages in the order of their log times until handler(message) returns False. No topics: all. "

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import csv
 import json
+import numbers
+import operator
 import os
 import shutil
 import subprocess
@@ -57,6 +59,30 @@ def _arguments(settings: dict[str, Any]) -> list[str]:
     return arguments
 
 
+def _checked(seed: int, minutes: float, options: dict[str, Any]) -> int:
+    """The seed. What the program would misunderstand, or must be asked for in this way alone, goes no further."""
+    if isinstance(seed, bool) or not hasattr(seed, "__index__"):
+        raise TypeError(f"seed: a whole number is expected, not {type(seed).__name__}")
+    if isinstance(minutes, bool) or not isinstance(minutes, numbers.Real):
+        raise TypeError(f"minutes: a number is expected, not {type(minutes).__name__}")
+    if not minutes > 0.0:
+        raise ValueError("minutes: a number > 0 is expected")
+    names = {name.rstrip("_").replace("-", "_") for name in options}
+    if refused := {"hours", "report", "event_log", "quiet", "help", "version"} & names:
+        raise TypeError(f"simulate() takes no {', '.join(sorted(refused))}")
+    return operator.index(seed)
+
+
+def _results(program: str, report: Path, events: Path) -> Simulation:
+    try:
+        with events.open(newline="", encoding="utf-8", errors="replace") as file:
+            return Simulation(json.loads(report.read_text(encoding="utf-8", errors="replace")), list(csv.DictReader(file)))
+    except FileNotFoundError as error:
+        raise Error(f"{program}: wrote no report") from error
+    except (ValueError, csv.Error) as error:
+        raise Error(f"{program}: wrote a report that cannot be read: {error}") from error
+
+
 def simulate(*, museum: str | os.PathLike[str] | None = None, seed: int = 1, crowd: str = "busy", minutes: float = 30.0,
              program: str | os.PathLike[str] | None = None, **options: Any) -> Simulation:
     """Runs the whole robot for some minutes of virtual time; the same seed gives the same run.
@@ -66,21 +92,18 @@ def simulate(*, museum: str | os.PathLike[str] | None = None, seed: int = 1, cro
 
     Error: what the program said of it.
     """
-    if not minutes > 0.0:
-        raise ValueError("minutes: a number > 0 is expected")
-    if taken := {"hours", "report", "event_log", "quiet"} & options.keys():
-        raise TypeError(f"simulate() sets {', '.join(sorted(taken))} itself")
+    seed = _checked(seed, minutes, options)
     with tempfile.TemporaryDirectory(prefix="docent-simulate-") as folder:
         report, events = Path(folder, "report.json"), Path(folder, "events.csv")
         wanted = {"museum": museum and os.fspath(museum), "seed": seed, "crowd": crowd, "hours": minutes / 60.0}
         command = [os.fspath(program or find_program()), "simulate", *_arguments({**wanted, **options}), "--quiet",
                    f"--report={report}", f"--event-log={events}"]
         try:
-            done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+            done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", errors="replace",
+                                  check=False)
         except OSError as error:
             raise Error(f"{command[0]}: {error.strerror}") from error
         if done.returncode != 0:
             lines = done.stderr.strip().splitlines() or [f"{command[0]} ended with {done.returncode}"]
             raise Error(lines[-1].removeprefix("docent: "))
-        with events.open(newline="") as file:
-            return Simulation(json.loads(report.read_text()), list(csv.DictReader(file)))
+        return _results(command[0], report, events)

@@ -3,7 +3,8 @@ import struct
 
 
 def _text(text):
-    return struct.pack("<I", len(text)) + text.encode()
+    raw = text if isinstance(text, bytes) else text.encode()
+    return struct.pack("<I", len(raw)) + raw
 
 
 def _record(opcode, content):
@@ -11,7 +12,7 @@ def _record(opcode, content):
 
 
 def mcap(channels, messages):
-    """channels: (topic, type, schema). messages: (index of the channel, nanoseconds, CDR). No chunks, no summary."""
+    """channels: (topic, type, schema), texts or bytes. messages: (index of the channel, nanoseconds, CDR). No chunks, no summary."""
     parts = [b"\x89MCAP0\r\n", _record(0x01, _text("ros2") + _text("docent's tests"))]
     for i, (topic, kind, schema) in enumerate(channels):
         parts.append(_record(0x03, struct.pack("<H", i + 1) + _text(kind) + _text("ros2msg") + _text(schema)))

@@ -56,6 +56,65 @@ def test_poses_are_finite():
         docent.inverse("here")
 
 
+@pytest.mark.parametrize("pair, error, said", [
+    ((numpy.nan, 0), ValueError, "point's x: a finite number is expected, not nan"),
+    ((0, -numpy.inf), ValueError, "point's y: a finite number is expected, not -inf"),
+    ((0, 1e300), ValueError, r"point's y: a number from -1000000.0 to 1000000.0 is expected, not 1e\+300"),
+    (("a", 0), TypeError, "point's x: a number is expected, not str"),
+    ((None, 0), TypeError, "point's x: a number is expected, not NoneType"),
+    ((1, 2, 3), ValueError, r"a point is \(x, y\)"),
+])
+def test_a_tuple_for_a_point(pair, error, said):
+    for use in [docent.Point2, docent.GridFrame(3, 3).cell_at, lambda pair: docent.GridFrame(3, 3, origin=pair)]:
+        with pytest.raises(error, match=said):
+            use(pair)
+
+
+@pytest.mark.parametrize("pose, error, said", [
+    ((numpy.nan, 0, 0), ValueError, "pose's x: a finite number is expected, not nan"),
+    ((0, 1e300, 0), ValueError, r"pose's y: a number from .*not 1e\+300"),
+    ((0, 0, numpy.inf), ValueError, "pose's theta: a finite number is expected, not inf"),
+    (("a", 1, 2), TypeError, "pose's x: a number is expected, not str"),
+    ((1, 2), ValueError, r"a pose is \(x, y, theta\)"),
+])
+def test_a_tuple_for_a_pose(world, pose, error, said):
+    sweep = docent.RangeSweep()
+    for use in [docent.Pose2, docent.inverse, lambda pose: sweep.append(reading(FLOATS), pose),
+                lambda pose: docent.BeliefMode(pose, numpy.eye(3))]:
+        with pytest.raises(error, match=said):
+            use(pose)
+
+
+def test_tuples_beside_points_and_poses():
+    pose = docent.Pose2(1, 2, numpy.pi / 2)
+    moved = pose * (1, 0)
+    assert isinstance(moved, docent.Point2) and (moved.x, moved.y) == pytest.approx((1, 3))
+    turned = pose * (1, 0, 0.5)
+    assert (turned.x, turned.y, turned.theta) == pytest.approx((1, 3, numpy.pi / 2 + 0.5))
+    with pytest.raises(ValueError, match="point's x"):
+        pose * (numpy.nan, 0)
+    with pytest.raises(TypeError):
+        pose * 3
+    assert docent.Point2(1, 2) == (1, 2) and docent.Point2(1, 2) == docent.Point2(1, 2)
+    for other in [(1, 3), (1,), ("a", 2), (numpy.nan, 2), 5, None]:
+        assert not docent.Point2(1, 2) == other
+
+
+@pytest.mark.parametrize("kind", [numpy.float32, numpy.float64])
+def test_arrays_that_are_not_aligned(caster, kind):
+    aligned = numpy.linspace(0, 3, 7).astype(kind)
+    odd = numpy.frombuffer(b"x" + aligned.tobytes(), dtype=kind, offset=1)
+    assert not odd.flags.aligned
+    assert reading(odd).ranges.tolist() == reading(aligned).ranges.tolist()
+    assert caster.cast((1, 1), odd, 10.0).tolist() == caster.cast((1, 1), aligned, 10.0).tolist()
+
+
+def test_a_cache_that_is_no_folder(world, tmp_path):
+    for name in ["none\udcff", "x" * 5000]:
+        with pytest.raises(ValueError, match="cache: .*is no folder"):
+            docent.MarkovLocalizer(world, cache=tmp_path / name)
+
+
 @pytest.mark.parametrize("polygon, error, said", [
     ([(0, 0), (1, 0)], ValueError, "three corners"),
     (numpy.zeros((4, 3)), ValueError, r"\(n, 2\)"),

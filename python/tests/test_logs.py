@@ -92,6 +92,12 @@ def test_what_is_no_log(tmp_path):
             docent.read_laser_log(path)
 
 
+def test_a_log_that_is_not_utf_8(log_path, tmp_path):
+    path = tmp_path / "odd.log"
+    path.write_bytes(b"PARAM odd_\xff a\xffb\n" + log_path.read_bytes())
+    assert docent.read_laser_log(path).parameters["odd_\ufffd"] == "a\ufffdb"
+
+
 def test_a_log_becomes_a_map(log_path, world):
     stages = set()
     made = docent.map_log(docent.read_laser_log(log_path), progress=lambda stage, done, of: stages.add(stage))

@@ -1,3 +1,4 @@
+import os
 import struct
 
 import numpy
@@ -71,6 +72,9 @@ def test_cut_messages(tmp_path):
     ("Other other\n", "not described"),
     ("int32\n", "no field"),
     ("int32[x] field\n", "no type"),
+    ("int32[3 field\n", "no type"),
+    ("int32[ field\n", "no type"),
+    ("int32[3]] field\n", "no type"),
     ("Nothing[4000000000] field\n====\nMSG: sample/Nothing\n", "more values"),
     ("float64[4000000000] field\n", "ends early"),
     ("string[] field\n", "ends early"),
@@ -107,6 +111,63 @@ def test_a_handler_ends_the_reading(recording):
         recording.messages()
     with pytest.raises(docent.Error, match="is being read already"):
         recording.read(reads_again)
+
+
+def test_handlers(recording):
+    for handler in [None, "handler", 1]:
+        with pytest.raises(TypeError):
+            recording.read(handler)
+    for answer in ["yes", [], numpy.zeros(2)]:
+        with pytest.raises(TypeError, match=f"handler: True or False .*not {type(answer).__name__}"):
+            recording.read(lambda message: answer)
+    for answer in [None, False, 0, numpy.bool_(False)]:
+        seen = []
+        recording.read(lambda message: seen.append(message) or answer)
+        assert len(seen) == 1
+    seen = []
+    recording.read(lambda message: seen.append(message) or numpy.bool_(True))
+    assert len(seen) == 4
+
+
+def test_texts_that_are_not_utf_8(tmp_path):
+    damaged = reader(tmp_path, [(b"/a\xff", b"b\xff/C", b"int32 \xff\nstring \xc3\x9c\n")],
+                     [(0, 1, number(7) + struct.pack("<I", 3) + b"d\xff\0")])
+    assert damaged.types_by_topic() == {"/a\ufffd": "b\ufffd/C"}
+    (message,) = damaged.messages()
+    assert (message.topic, message.type) == ("/a\ufffd", "b\ufffd/C")
+    assert vars(message.decode()) == {"\ufffd": 7, "\u00dc": "d\ufffd"}
+    with pytest.raises(docent.Error) as raised:
+        decoded(tmp_path, b"f\xff field\n", number(7))
+    assert "'f\ufffd' is not described" in str(raised.value)
+
+
+def test_a_summary_that_is_not_utf_8(tmp_path):
+    def record(opcode, content):
+        return bytes([opcode]) + struct.pack("<Q", len(content)) + content
+    magic = b"\x89MCAP0\r\n"
+    topics = [b"/a\xff", b"/b"]
+    channels = b"".join(record(0x04, struct.pack("<HHI", i, 0, len(topic)) + topic + struct.pack("<I", 3) + b"cdr" +
+                               struct.pack("<I", 0)) for i, topic in enumerate(topics))
+    data = magic + record(0x01, struct.pack("<I", 2) + b"p\xff" + struct.pack("<I", 0)) + channels
+    data += record(0x05, struct.pack("<HIQQ", 0, 0, 1, 1)) + record(0x0F, struct.pack("<I", 0))
+    counts = struct.pack("<HQHQ", 0, 5, 1, 6)
+    summary = channels + record(0x0B, struct.pack("<QHIIIIQQI", 11, 0, 2, 0, 0, 0, 1, 1, len(counts)) + counts)
+    path = tmp_path / "summary.mcap"
+    path.write_bytes(data + summary + record(0x02, struct.pack("<QQI", len(data), 0, 0)) + magic)
+    recording = docent.McapReader.open(path)
+    assert recording.profile() == "p\ufffd" and recording.message_count() == 11
+    assert recording.counts_by_topic() == {"/a\ufffd": 5, "/b": 6}
+
+
+def test_paths_that_are_not_utf_8(tmp_path):
+    path = tmp_path / "a\udcff.mcap"
+    path.write_bytes(b"nothing")
+    with pytest.raises(docent.Error) as raised:
+        docent.McapReader.open(path)
+    assert raised.value.file == str(path) and os.path.exists(raised.value.file)
+    assert "a\ufffd.mcap: is not an MCAP file" in str(raised.value)
+    with pytest.raises(docent.Error, match="none\ufffd"):
+        docent.load_map(tmp_path / "none\udcff.yaml")
 
 
 def test_what_is_no_recording(tmp_path):

@@ -2,6 +2,7 @@
 import os
 import stat
 
+import numpy
 import pytest
 
 import docent
@@ -48,8 +49,32 @@ def test_arguments():
         docent.simulate(minutes=0)
     with pytest.raises(ValueError, match="minutes"):
         docent.simulate(minutes=float("nan"))
-    with pytest.raises(TypeError, match="report"):
-        docent.simulate(report="mine.json")
+    for taken in ["report", "event_log", "event-log", "quiet", "hours", "help", "version", "help_"]:
+        with pytest.raises(TypeError, match=f"simulate.. takes no {taken.replace('-', '_').rstrip('_')}"):
+            docent.simulate(**{taken: "mine.json"})
+    for minutes in ["5", None, True, [5]]:
+        with pytest.raises(TypeError, match=f"minutes: .*not {type(minutes).__name__}"):
+            docent.simulate(minutes=minutes)
+    for seed in [True, "7", 7.0, None]:
+        with pytest.raises(TypeError, match=f"seed: .*not {type(seed).__name__}"):
+            docent.simulate(seed=seed)
+
+
+def test_numbers_of_numpy(tmp_path):
+    run = docent.simulate(seed=numpy.uint8(7), minutes=numpy.float32(3), program=program(tmp_path, SAYS))
+    assert "--seed=7" in run.report["asked"] and "--hours=0.05" in run.report["asked"]
+
+
+@pytest.mark.parametrize("text, said", [
+    ("#!/bin/sh\nexit 0\n", "docent: wrote no report$"),
+    ("#!/bin/sh\nprintf 'odd \\377 text\\n' >&2\nexit 3\n", "^odd \ufffd text$"),
+    ("#!/bin/sh\nprintf '\\377'\nexit 3\n", "docent ended with 3$"),
+    (SAYS.replace('json.dump({"asked": sys.argv[1:]}, open(options["--report"], "w"))', 'open(options["--report"], "w")'),
+     "docent: wrote a report that cannot be read"),
+])
+def test_programs_that_are_not_docent(tmp_path, text, said):
+    with pytest.raises(docent.Error, match=said):
+        docent.simulate(program=program(tmp_path, text))
 
 
 def test_where_the_program_is(tmp_path, monkeypatch):
