@@ -12,7 +12,7 @@ Result<RecoveryReport> recover_mcap(const std::filesystem::path& path, const std
   const auto to = destination_of(out);
   if (!to) return tl::unexpected<Error>(to.error());
   // Not beside `out` under the writer's usual name: that may be the very file that is read.
-  const std::filesystem::path beside = to->is_stream ? out : to->path.string() + ".recovering";
+  const std::filesystem::path beside = to->is_stream ? out : std::filesystem::path{to->path.string() + ".recovering"};
   RecoveryReport report;
   {
     auto reader = McapReader::open(path);
