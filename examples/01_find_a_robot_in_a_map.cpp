@@ -8,7 +8,7 @@
 #include "simulated_robot.h"
 
 int main(int argc, char** argv) {
-  const std::string museum = argc > 1 ? argv[1] : DOCENT_MUSEUM;
+  const std::string museum = example::argument_or_exit(argc, argv, "MUSEUM", DOCENT_MUSEUM);
   const docent::OccupancyGrid map = example::value_or_exit(docent::load_map(museum + "/map.yaml"));
   example::SimulatedRobot robot{map, {9.0, 3.6, docent::Angle::degrees(90.0)}, 7};
 

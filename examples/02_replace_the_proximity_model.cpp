@@ -51,7 +51,7 @@ double fit_of(const char* name, const docent::OccupancyGrid& map, std::shared_pt
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string museum = argc > 1 ? argv[1] : DOCENT_MUSEUM;
+  const std::string museum = example::argument_or_exit(argc, argv, "MUSEUM", DOCENT_MUSEUM);
   const docent::OccupancyGrid map = example::value_or_exit(docent::load_map(museum + "/map.yaml"));
   const double built_in = fit_of("built-in:", map, nullptr), own = fit_of("own:", map, std::make_shared<ComesRound>());
   std::printf("The own model holds a reading %.1f times as probable as the built-in one\n", std::exp(own - built_in));

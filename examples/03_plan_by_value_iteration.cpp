@@ -18,7 +18,7 @@ double length_of(docent::Point2 from, const std::vector<docent::Point2>& way) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string museum = argc > 1 ? argv[1] : DOCENT_MUSEUM;
+  const std::string museum = example::argument_or_exit(argc, argv, "MUSEUM", DOCENT_MUSEUM);
   const docent::OccupancyGrid map = example::value_or_exit(docent::load_map(museum + "/map.yaml"));
   const docent::Point2 start{9.0, 3.6}, goal{23.7, 13.4};  // from the entrance to the Transrapid
 

@@ -13,7 +13,7 @@ using docent::collision_avoidance::VirtualMeasurements;
 using docent::collision_avoidance::WeightedPose;
 
 int main(int argc, char** argv) {
-  const std::string folder = argc > 1 ? argv[1] : DOCENT_MUSEUM;
+  const std::string folder = example::argument_or_exit(argc, argv, "MUSEUM", DOCENT_MUSEUM);
   const docent::museum::Museum museum = example::value_or_exit(docent::museum::load_museum(folder));
   const docent::Pose2 truth{14.5, 10.5, docent::Angle::degrees(90.0)};  // heads for the plate on the floor
   VirtualMeasurements measurements{museum.area, museum.hazard_polygons(), {}};

@@ -11,10 +11,10 @@
 
 namespace mapping = docent::mapping;
 int main(int argc, char** argv) {
-  const bool is_own = argc < 2;
+  const std::string logged = example::argument_or_exit(argc, argv, "LOG", "");
   std::vector<docent::Pose2> truth;
   const docent::recording::LaserLog log = example::value_or_exit(
-      docent::recording::read_laser_log(is_own ? example::write_log(DOCENT_MUSEUM, truth) : argv[1]));
+      docent::recording::read_laser_log(logged.empty() ? example::write_log(DOCENT_MUSEUM, truth) : logged));
   for (const std::string& note : log.notes) std::printf("note: %s\n", note.c_str());
 
   // What mapping takes: points on surfaces, in the robot's frame, with odometry. One scan every 25 cm is enough.
@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
       taken.points.push_back(mapping::transformed(scan.base_from_laser, point));
     scans.push_back(std::move(taken));
     sweeps.push_back({std::move(sweep), scan.base_from_laser});
-    if (is_own) truth[scans.size() - 1] = truth[i];
+    if (logged.empty()) truth[scans.size() - 1] = truth[i];
   }
 
   const mapping::GraphMap poses = mapping::map_by_graph(scans, {});
@@ -44,7 +44,7 @@ int main(int argc, char** argv) {
   example::value_or_exit(docent::save_map(mapper.map(), "mapped"));
   std::printf("%zu of %zu scans, %zu loops closed; mapped.yaml, mapped.pgm. %s\n", scans.size(), log.scans.size(),
               poses.loops, poses.judgement.is_trusted ? "The map can be trusted" : poses.judgement.reason.c_str());
-  if (!is_own) return 0;
+  if (!logged.empty()) return 0;
 
   double by_odometry = 0.0, by_map = 0.0;  // [m] mean, of poses seen from the first one
   for (std::size_t i = 0; i < scans.size(); ++i) {

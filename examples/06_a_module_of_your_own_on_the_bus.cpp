@@ -31,7 +31,7 @@ class StopsBeforeWalls {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string museum = argc > 1 ? argv[1] : DOCENT_MUSEUM;
+  const std::string museum = example::argument_or_exit(argc, argv, "MUSEUM", DOCENT_MUSEUM);
   const docent::OccupancyGrid map = example::value_or_exit(docent::load_map(museum + "/map.yaml"));
   docent::Pose2 ends[2];
   double gap = 0.0;

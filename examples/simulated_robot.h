@@ -13,6 +13,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "command_line.h"
+
 namespace example {
 
 /// The value, or the end of the program with the reason.

@@ -21,6 +21,10 @@ expect "and are built" inside cmake --build /tmp/examples -j "${DOCENT_JOBS:-2}"
 for source in "$root$examples"/0*.cpp; do
   name=$(basename "$source" .cpp)
   expect "$name gets the right result" inside bash -c "cd /tmp && examples/$name"
+  for wrong in --help "a b"; do
+    expect "$name $wrong prints its usage" inside bash -c \
+      "said=\$(/tmp/examples/$name $wrong 2>&1); [ \$? = 2 ] && [[ \$said == usage:* && \$said != *$'\n'* ]]"
+  done
 done
 
 # project NAME LINE…: a project of somebody else in the root, /tmp/NAME.

@@ -1,6 +1,5 @@
 #include "docent/base/files.h"
 
-#include <fcntl.h>
 #include <unistd.h>
 #include <zlib.h>
 
@@ -10,6 +9,8 @@
 #include <fstream>
 #include <memory>
 #include <sstream>
+
+#include "docent/base/destination.h"
 
 namespace docent {
 
@@ -24,8 +25,10 @@ Result<std::string> read_file(const std::filesystem::path& path) {
 }
 
 Result<void> write_file_atomically(const std::filesystem::path& path, std::string_view content, Survives survives) {
-  const std::string beside = path.string() + ".part" + std::to_string(::getpid());
-  const int file = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  const auto to = destination_of(path);
+  if (!to) return tl::unexpected<Error>(to.error());
+  const std::string beside = to->path.string() + ".part" + std::to_string(::getpid());
+  const int file = open_destination(*to, beside);
   if (file < 0) return fail(path.string() + ": cannot be written: " + std::strerror(errno));
   std::string reason;
   while (!content.empty() && reason.empty()) {
@@ -33,11 +36,13 @@ Result<void> write_file_atomically(const std::filesystem::path& path, std::strin
     if (written < 0 && errno != EINTR) reason = std::strerror(errno);
     if (written > 0) content.remove_prefix(static_cast<std::size_t>(written));
   }
-  if (reason.empty() && survives == Survives::power_failure && ::fsync(file) != 0) reason = std::strerror(errno);
+  const bool is_synced = survives == Survives::power_failure && !to->is_stream;
+  if (reason.empty() && is_synced && ::fsync(file) != 0) reason = std::strerror(errno);
   ::close(file);
-  if (reason.empty() && ::rename(beside.c_str(), path.c_str()) != 0) reason = std::strerror(errno);
+  if (reason.empty() && !to->is_stream && ::rename(beside.c_str(), to->path.c_str()) != 0)
+    reason = std::strerror(errno);
   if (reason.empty()) return {};
-  ::unlink(beside.c_str());
+  if (!to->is_stream) ::unlink(beside.c_str());
   return fail(path.string() + ": cannot be written: " + reason);
 }
 

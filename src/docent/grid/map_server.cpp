@@ -222,6 +222,9 @@ Result<OccupancyGrid> load_map(const std::filesystem::path& yaml_path) {
 }
 
 Result<void> save_map(const OccupancyGrid& map, const std::filesystem::path& path_without_extension) {
+  const auto name = path_without_extension.filename();
+  if (name.empty() || name == "." || name == "..")
+    return fail("'" + path_without_extension.string() + "': the map's name is missing: expected FOLDER/NAME");
   std::string pgm = "P5\n" + std::to_string(map.frame.columns) + " " + std::to_string(map.frame.rows) + "\n255\n";
   for (int row = map.frame.rows - 1; row >= 0; --row) {
     for (int column = 0; column < map.frame.columns; ++column) {

@@ -57,6 +57,20 @@ TEST_F(Maps, WhatIsSavedIsLoaded) {
   EXPECT_EQ(map_hash(*back), map_hash(map));
 }
 
+TEST_F(Maps, AMapIsNotSavedWithoutAName) {
+  OccupancyGrid map;
+  map.frame = {1, 1, 0.05, {}};
+  map.cells = {OccupancyGrid::kFree};
+  const std::string here = folder_.string();
+  for (const std::string& nameless : {std::string{}, here + "/", here + "/.", here + "/..", std::string{"/"}}) {
+    const auto saved = save_map(map, nameless);
+    ASSERT_FALSE(saved.has_value()) << nameless;
+    EXPECT_EQ(saved.error().message, "'" + nameless + "': the map's name is missing: expected FOLDER/NAME");
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+  EXPECT_TRUE(save_map(map, here + "/sub.map").has_value()) << "a dot in it is part of the name";
+}
+
 /// Four pixels in a row: black, the shade of every map_saver for unknown, one a little lighter, white.
 std::vector<std::int8_t> row_of(const std::filesystem::path& folder, const std::string& yaml) {
   EXPECT_TRUE(write_file_atomically(folder / "m.pgm", "P2\n4 1\n255\n0 205 230 254\n"));

@@ -121,7 +121,9 @@ Result<RobotConfig> RobotConfig::load(const std::filesystem::path& path) {
 Result<void> RobotConfig::set(const std::string& assignment) {
   const auto equals = assignment.find('=');
   const auto dot = assignment.find('.');
-  if (equals == std::string::npos || dot == std::string::npos || dot > equals || dot == 0 || dot + 1 == equals) {
+  const bool is_yaml = assignment.find_first_of("'\"`{}[]#&*!|>%@,:?\\\n\t") < equals;  // '...' that a shell left
+  if (equals == std::string::npos || dot == std::string::npos || dot > equals || dot == 0 || dot + 1 == equals ||
+      is_yaml) {
     return fail("--set " + assignment + ": expected section.key=value");
   }
   // Every further dot opens a part of the section.

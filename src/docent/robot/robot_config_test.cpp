@@ -89,6 +89,11 @@ TEST(RobotConfig, FaultsNameTheLineOfTheFileOrTheSetting) {
                           "body.radius=[1", "body.radius"}) {
     EXPECT_FALSE(slower.set(bad).has_value()) << bad;
   }
+  for (const char* bad : {"'a.b=1'", "\"a.b\"=1", "{a.b=1}", "a: {b.c=1", "speeds", "speeds.=1"}) {
+    const auto refused = slower.set(bad);
+    ASSERT_FALSE(refused.has_value()) << bad;
+    EXPECT_EQ(refused.error().message, std::string{"--set "} + bad + ": expected section.key=value");
+  }
   EXPECT_EQ(slower.body().radius, RobotBody{}.radius) << "a refused setting leaves nothing behind";
 }
 

@@ -33,8 +33,8 @@ struct McapWriterOptions {
 
 /// Writes an MCAP file (mcap.dev/spec): profile ros2, chunks, message index, summary with statistics, all checksums.
 ///
-/// The file grows as PATH.part and gets its name when it is closed, so PATH is always whole. What a killed writer
-/// leaves lacks at most the last chunk; `McapReader` reads it and `recover_mcap` makes a whole file of it.
+/// PATH.part grows and is named PATH when it is closed: that is always whole. What a killed writer leaves lacks at most
+/// the last chunk; `McapReader` reads it, `recover_mcap` makes a file of it. Devices and pipes are written into.
 class McapWriter {
  public:
   using Channel = std::uint16_t;  ///< a number of this file
@@ -67,7 +67,7 @@ class McapWriter {
   std::unique_ptr<State> state_;
 };
 
-/// PATH.part, where the writer of PATH writes.
+/// PATH.part, where the writer of PATH writes; beside its file where PATH is a link.
 [[nodiscard]] std::filesystem::path unfinished_path(const std::filesystem::path& path);
 
 }  // namespace docent::recording

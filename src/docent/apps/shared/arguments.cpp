@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "docent/apps/shared/command.h"
+#include "docent/base/destination.h"
 #include "docent/pictures/figure.h"
 
 namespace docent::apps {
@@ -60,6 +61,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kWritesFile = "writes a file";  ///< the name of the validators of files
+
+struct Output {
+  std::string option;
+  std::string file;
+};
+
+bool writes_file(CLI::Option& option) {
+  try {
+    return option.get_validator(kWritesFile) != nullptr;
+  } catch (const CLI::OptionNotFound&) {
+    return false;
+  }
+}
+
+/// Of the options that were given, those of all commands.
+void collect_outputs(CLI::App& app, std::vector<Output>& outputs) {
+  for (CLI::Option* option : app.get_options({}))
+    if (option->count() > 0 && writes_file(*option))
+      for (const std::string& file : option->results()) outputs.push_back({option->get_name(), file});
+  for (CLI::App* command : app.get_subcommands({})) collect_outputs(*command, outputs);
+}
+
 std::string cannot(const std::string& text, const std::string& why) { return "cannot write " + text + ": " + why; }
 
 /// "" when something can be made in `folder`.
@@ -75,9 +99,13 @@ std::string fault_of_output_file(std::string& text) {
   std::error_code code;
   const fs::path path = fs::absolute(text, code);
   if (text.empty() || code) return "expected a file to write";
+  const auto to = destination_of(path);
+  if (!to) return to.error().message;
+  if (to->descriptor >= 0) return "";
   if (fs::is_directory(path, code)) return cannot(text, "it is a folder");
-  if (fs::exists(path, code) && access(path.c_str(), W_OK) != 0) return cannot(text, "no permission to replace it");
-  return fault_of_folder(text, path.parent_path());
+  if (fs::exists(path, code) && access(path.c_str(), W_OK) != 0)
+    return cannot(text, to->is_stream ? "no permission to write into it" : "no permission to replace it");
+  return to->is_stream ? "" : fault_of_folder(text, to->path.parent_path());
 }
 
 std::string fault_of_output_picture(std::string& text) {
@@ -95,9 +123,20 @@ std::string fault_of_output_folder(std::string& text) {
 
 }  // namespace
 
-CLI::Validator output_file() { return CLI::Validator{fault_of_output_file, "FILE"}; }
+CLI::Validator output_file() { return CLI::Validator{fault_of_output_file, "FILE", kWritesFile}; }
 CLI::Validator output_folder() { return CLI::Validator{fault_of_output_folder, "FOLDER"}; }
-CLI::Validator output_picture() { return CLI::Validator{fault_of_output_picture, "FILE.svg, .pdf or .png"}; }
+CLI::Validator output_picture() {
+  return CLI::Validator{fault_of_output_picture, "FILE.svg, .pdf or .png", kWritesFile};
+}
+
+void refuse_shared_outputs(CLI::App& app) {
+  std::vector<Output> outputs;
+  collect_outputs(app, outputs);
+  for (std::size_t i = 0; i < outputs.size(); ++i)
+    for (std::size_t before = 0; before < i; ++before)
+      if (replace_each_other(outputs[before].file, outputs[i].file))
+        throw CommandFailed{outputs[i].option + " " + outputs[i].file + ": is written by " + outputs[before].option, 2};
+}
 
 void add_picture_format(CLI::App& command, std::string& format) {
   command.add_option("--picture-format", format, "of the pictures: svg, pdf (both vectors) or png")

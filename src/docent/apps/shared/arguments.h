@@ -19,11 +19,14 @@ namespace docent::apps {
 [[nodiscard]] std::string pose_text(const Pose2& pose);                                ///< what parse_pose reads
 
 /// For options that name what a command will write: refused before the work begins when it could not be written at the
-/// end. A file needs a folder that exists; a folder is made where it can be.
+/// end. A file needs a folder that exists, also where a link leads; a folder is made where it can be. Devices and pipes
+/// are written into.
 [[nodiscard]] CLI::Validator output_file();
 [[nodiscard]] CLI::Validator output_folder();
 /// A file whose extension is one that a figure can have.
 [[nodiscard]] CLI::Validator output_picture();
+/// CommandFailed where two of the options given name the same file to write: one of the two would be lost.
+void refuse_shared_outputs(CLI::App& app);
 /// A seed: a whole number from 0 on.
 void add_seed(CLI::App& command, const std::string& name, std::uint64_t& seed, const std::string& meaning);
 /// "as FILE.svg, .pdf or .png" for commands that write pictures under names of their own: the option --picture-format.

@@ -1,8 +1,11 @@
 #include "docent/apps/shared/arguments.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
 
 #include "docent/apps/shared/command.h"
 
@@ -37,6 +40,54 @@ TEST(Arguments, APictureIsRefusedBeforeTheWorkByItsExtension) {
   }
   std::string nowhere = "/nowhere/a.svg";
   EXPECT_NE(output_picture()(nowhere).find("there is no folder /nowhere"), std::string::npos);
+}
+
+TEST(Arguments, LinksAndPipesAreTaken) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path{::testing::TempDir()} / "docent_arguments_test";
+  fs::create_directories(folder);
+  fs::create_symlink("new.json", folder / "dangling");
+  fs::create_symlink("no/where.json", folder / "nowhere");
+  fs::create_symlink("round", folder / "round");
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  const auto fault_of = [&](const fs::path& path) {
+    std::string text = path;
+    return output_file()(text);
+  };
+  // A device may be written into though nothing can be made in its folder.
+  for (const fs::path& good : {folder / "plain", folder / "dangling", folder / "pipe", fs::path{"/dev/null"}})
+    EXPECT_EQ(fault_of(good), "") << good;
+  EXPECT_NE(fault_of(folder / "nowhere").find("there is no folder " + (folder / "no").string()), std::string::npos);
+  EXPECT_NE(fault_of(folder / "round").find("cannot be written: Too many levels"), std::string::npos);
+  EXPECT_NE(fault_of(folder).find("it is a folder"), std::string::npos);
+  fs::remove_all(folder);
+}
+
+TEST(Arguments, TwoOptionsMayNotReplaceOneFile) {
+  const auto fault_of = [](std::vector<std::string> words) -> std::string {
+    CLI::App app;
+    CLI::App* command = app.add_subcommand("run", "a command");
+    std::string report, log, picture, read;
+    command->add_option("--report", report)->check(output_file());
+    command->add_option("--log", log)->check(output_file());
+    command->add_option("--picture", picture)->check(output_picture());
+    command->add_option("--read", read);
+    words.insert(words.begin(), "run");
+    std::reverse(words.begin(), words.end());
+    app.parse(words);
+    try {
+      refuse_shared_outputs(app);
+    } catch (const CommandFailed& failure) {
+      EXPECT_EQ(failure.exit_code, 2);
+      return failure.message;
+    }
+    return "";
+  };
+  EXPECT_EQ(fault_of({"--report", "r.json", "--log", "./r.json"}), "--log ./r.json: is written by --report");
+  EXPECT_EQ(fault_of({"--picture", "a.svg", "--log", "a.svg"}), "--picture a.svg: is written by --log");
+  EXPECT_EQ(fault_of({"--report", "r.json", "--log", "l.csv", "--picture", "p.svg"}), "");
+  EXPECT_EQ(fault_of({"--report", "/dev/null", "--log", "/dev/null"}), "");
+  EXPECT_EQ(fault_of({"--report", "r.json", "--read", "r.json"}), "") << "reading is no writing";
 }
 
 }  // namespace

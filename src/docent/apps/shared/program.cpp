@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "docent/apps/shared/arguments.h"
 #include "docent/apps/shared/command.h"
 #include "docent/base/suggestion.h"
 
@@ -52,6 +53,7 @@ int run(const Program& program, int argc, const char* const* argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", program.name + " " + program.version);
   add_commands(program, app);
+  app.parse_complete_callback([&app] { refuse_shared_outputs(app); });  // before the command runs
   const char* name = program.name.c_str();
   try {
     app.parse(argc, argv);

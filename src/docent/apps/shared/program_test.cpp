@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <stdexcept>
 
+#include "docent/apps/shared/arguments.h"
 #include "docent/apps/shared/command.h"
 
 namespace docent::apps {
@@ -16,7 +17,9 @@ class ProgramWithCommands : public ::testing::Test {
   [[nodiscard]] Program program() {
     const auto plain = [](const char* name, std::function<void()> callback) {
       return [name, callback = std::move(callback)](CLI::App& app) {
-        app.add_subcommand(name, "a command")->callback(callback);
+        CLI::App* command = app.add_subcommand(name, "a command");
+        command->callback(callback);
+        for (const char* option : {"--report", "--log"}) command->add_option(option)->check(output_file());
       };
     };
     return {.name = "guide",
@@ -80,6 +83,15 @@ TEST_F(ProgramWithCommands, SaysInOneLineWhatIsWrong) {
   EXPECT_EQ(none.error, "guide: A subcommand is required (try --help)\n");
   EXPECT_EQ(run_with({"drive", "--backwards"}).code, 2);
   EXPECT_EQ(drives_, 0);
+}
+
+TEST_F(ProgramWithCommands, RefusesOneFileForTwoOutputsBeforeTheRun) {
+  const Finished shared = run_with({"drive", "--report", "r.json", "--log", "r.json"});
+  EXPECT_EQ(shared.code, 2);
+  EXPECT_EQ(shared.error, "guide: --log r.json: is written by --report\n");
+  EXPECT_EQ(drives_, 0);
+  EXPECT_EQ(run_with({"drive", "--report", "r.json", "--log", "l.csv"}).code, 0);
+  EXPECT_EQ(drives_, 1);
 }
 
 TEST_F(ProgramWithCommands, NamesTheProgramThatHasTheCommand) {

@@ -73,8 +73,10 @@ void add_logs(CLI::App& command, SimulationRunOptions& run) {
       .add_option("--travel-times", run.travel_times,
                   "CSV file to write: how long the ways between places took, as the robot has learned it")
       ->check(output_file());
-  command.add_option("--thing-log", run.thing_log,
-                     "CSV file to write: when the stools of a scenario were seen, and when the live map had them");
+  command
+      .add_option("--thing-log", run.thing_log,
+                  "CSV file to write: when the stools of a scenario were seen, and when the live map had them")
+      ->check(output_file());
   command.add_option("--people-log", run.people_log, "CSV file to write: tracked people beside the true ones")
       ->check(output_file());
 }

@@ -2,14 +2,17 @@
 
 #include <map>
 
+#include "docent/base/destination.h"
 #include "docent/recording/mcap/reader.h"
 #include "docent/recording/mcap/writer.h"
 
 namespace docent::recording {
 
 Result<RecoveryReport> recover_mcap(const std::filesystem::path& path, const std::filesystem::path& out) {
+  const auto to = destination_of(out);
+  if (!to) return tl::unexpected<Error>(to.error());
   // Not beside `out` under the writer's usual name: that may be the very file that is read.
-  const std::filesystem::path beside = out.string() + ".recovering";
+  const std::filesystem::path beside = to->is_stream ? out : std::filesystem::path{to->path.string() + ".recovering"};
   RecoveryReport report;
   {
     auto reader = McapReader::open(path);
@@ -40,8 +43,9 @@ Result<RecoveryReport> recover_mcap(const std::filesystem::path& path, const std
     report.damage.insert(report.damage.end(), reader->damage().begin(), reader->damage().end());
     if (auto closed = writer->close(); !closed) return tl::unexpected<Error>(closed.error());
   }
+  if (to->is_stream) return report;
   std::error_code error;
-  std::filesystem::rename(beside, out, error);
+  std::filesystem::rename(beside, to->path, error);
   if (error) return fail(out.string() + ": cannot be named: " + error.message());
   std::filesystem::remove(unfinished_path(out), error);
   return report;

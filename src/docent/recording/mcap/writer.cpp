@@ -1,6 +1,5 @@
 #include "docent/recording/mcap/writer.h"
 
-#include <fcntl.h>
 #include <unistd.h>
 #include <zlib.h>
 #include <zstd.h>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "docent/base/check.h"
+#include "docent/base/destination.h"
 #include "docent/recording/mcap/format.h"
 
 namespace docent::recording {
@@ -45,10 +45,14 @@ struct ChunkEntry {
 
 }  // namespace
 
-std::filesystem::path unfinished_path(const std::filesystem::path& path) { return path.string() + ".part"; }
+std::filesystem::path unfinished_path(const std::filesystem::path& path) {
+  const auto to = destination_of(path);
+  return (to ? to->path : path).string() + ".part";
+}
 
 struct McapWriter::State {
   std::filesystem::path path;
+  Destination to;
   McapWriterOptions options;
   int file = -1;
   bool failed = false;
@@ -86,8 +90,8 @@ struct McapWriter::State {
       if (written < 0 && errno == EINTR) continue;
       if (written <= 0) {
         const int reason = errno;
-        // Half a chunk would hide whatever came after it.
-        failed = ::ftruncate(file, static_cast<off_t>(position)) != 0 ||
+        // Half a chunk would hide whatever came after it, and a stream takes nothing back.
+        failed = to.is_stream || ::ftruncate(file, static_cast<off_t>(position)) != 0 ||
                  ::lseek(file, static_cast<off_t>(position), SEEK_SET) < 0;
         return fail(path.string() + ": cannot be written: " + std::strerror(reason));
       }
@@ -271,12 +275,13 @@ Result<void> McapWriter::State::finish() {
   writer.end(begun);
   if (auto written = put(end); !written) return written;
   if (auto written = put(summary()); !written) return written;
-  const bool synced = ::fsync(file) == 0;
+  const bool synced = to.is_stream || ::fsync(file) == 0;
   const bool closed = ::close(file) == 0;
   file = -1;
   if (!synced || !closed) return fail(path.string() + ": cannot be written: " + std::strerror(errno));
+  if (to.is_stream) return {};
   std::error_code error;
-  std::filesystem::rename(unfinished_path(path), path, error);
+  std::filesystem::rename(unfinished_path(to.path), to.path, error);
   if (error) return fail(path.string() + ": cannot be named: " + error.message());
   return {};
 }
@@ -293,10 +298,13 @@ McapWriter::~McapWriter() {
 }
 
 Result<McapWriter> McapWriter::create(const std::filesystem::path& path, const McapWriterOptions& options) {
+  auto to = destination_of(path);
+  if (!to) return tl::unexpected<Error>(to.error());
   auto state = std::make_unique<State>();
   state->path = path;
+  state->to = std::move(*to);
   state->options = options;
-  state->file = ::open(unfinished_path(path).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  state->file = open_destination(state->to, unfinished_path(state->to.path));
   if (state->file < 0) return fail(path.string() + ": cannot be written: " + std::strerror(errno));
   std::vector<std::uint8_t> head;
   ByteWriter writer{head};

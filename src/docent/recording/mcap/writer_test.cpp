@@ -1,11 +1,14 @@
 #include "docent/recording/mcap/writer.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
+#include <functional>
 
 #include "docent/base/files.h"
 #include "docent/base/random.h"
@@ -94,6 +97,77 @@ TEST_F(Mcap, WhatIsWrittenIsRead) {
     EXPECT_EQ(read_all(*reader), written);
     std::filesystem::remove(folder_ / "a.mcap");
   }
+}
+
+TEST_F(Mcap, ALinkStaysAndItsFileIsWritten) {
+  std::filesystem::create_directories(folder_ / "far");
+  std::filesystem::create_symlink("far/b.mcap", folder_ / "a.mcap");
+  auto writer = McapWriter::create(folder_ / "a.mcap");
+  ASSERT_TRUE(writer);
+  const auto written = write_random(*writer, 100, 1);
+  EXPECT_EQ(unfinished_path(folder_ / "a.mcap"), folder_ / "far" / "b.mcap.part");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "far" / "b.mcap.part"));
+  ASSERT_TRUE(writer->close());
+  ASSERT_TRUE(recover_mcap(folder_ / "a.mcap", folder_ / "a.mcap"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder_ / "a.mcap"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator{folder_ / "far"}, {}), 1);
+  auto reader = McapReader::open(folder_ / "far" / "b.mcap");
+  ASSERT_TRUE(reader);
+  EXPECT_EQ(read_all(*reader), written);
+}
+
+/// What `write` writes to a pipe of this name, 64 kB at most.
+std::vector<std::uint8_t> through_pipe(const path& pipe, const std::function<void()>& write) {
+  EXPECT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const int end = open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  write();
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+  std::vector<std::uint8_t> bytes(1U << 17U);
+  std::size_t size = 0;
+  for (ssize_t got = 0; (got = ::read(end, bytes.data() + size, bytes.size() - size)) > 0;)
+    size += static_cast<std::size_t>(got);
+  close(end);
+  bytes.resize(size);
+  return bytes;
+}
+
+TEST_F(Mcap, APipeIsWrittenIntoAndStays) {
+  std::vector<Written> written;
+  const auto streamed = through_pipe(folder_ / "pipe", [&] {
+    auto writer = McapWriter::create(folder_ / "pipe");
+    ASSERT_TRUE(writer);
+    written = write_random(*writer, 20, 1);
+    ASSERT_TRUE(writer->close());
+  });
+  auto reader = McapReader::from_bytes(streamed, "pipe");
+  ASSERT_TRUE(reader) << reader.error().message;
+  EXPECT_TRUE(reader->is_complete());
+  EXPECT_EQ(read_all(*reader), written);
+
+  auto file = McapWriter::create(folder_ / "a.mcap");
+  write_random(*file, 20, 1);
+  ASSERT_TRUE(file->close());
+  const auto recovered = through_pipe(folder_ / "recovered",
+                                      [&] { EXPECT_TRUE(recover_mcap(folder_ / "a.mcap", folder_ / "recovered")); });
+  auto again = McapReader::from_bytes(recovered, "pipe");
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(read_all(*again), written);
+}
+
+TEST_F(Mcap, ABrokenPipeFailsForGood) {
+  const auto handled_before = std::signal(SIGPIPE, SIG_IGN);
+  const path pipe = folder_ / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const int end = open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  auto writer = McapWriter::create(pipe);
+  ASSERT_TRUE(writer);
+  close(end);
+  ASSERT_TRUE(writer->add_channel(channel_named("/T0")));
+  ASSERT_TRUE(writer->write(0, Time{1}, Time{6}, {}));
+  EXPECT_EQ(writer->flush().error().message, pipe.string() + ": cannot be written: Broken pipe");
+  EXPECT_EQ(writer->close().error().message, pipe.string() + ": the recording has failed before");
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+  std::signal(SIGPIPE, handled_before);
 }
 
 TEST_F(Mcap, SelectsByTopicAndTimeAndStopsWhenTold) {

@@ -157,7 +157,8 @@ void add_plan_command(CLI::App& app) {
   command->add_option("--blocked", options->coastal.places.blocked, "share of its beams that people hide, 0..0.95")
       ->capture_default_str();
   command->add_option("--radius", options->radius, "radius of the robot [m]")->capture_default_str();
-  command->add_option("--ways", options->ways, "JSON file to write: the ways and what was said of them");
+  command->add_option("--ways", options->ways, "JSON file to write: the ways and what was said of them")
+      ->check(output_file());
   command
       ->add_option("--picture", options->picture,
                    "to write: the ways over the value function, pale near the goals and dark far from\n"
