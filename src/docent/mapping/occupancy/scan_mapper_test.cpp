@@ -217,6 +217,18 @@ TEST(ScanMapper, WhatTooFewSweepsMetIsUnknown) {
   EXPECT_FALSE(params.validate());
 }
 
+TEST(ScanMapper, ABeamThatPassesIsNoHit) {
+  std::vector<PlacedSweep> sweeps(2, in_room({}, 360));
+  PlacedSweep through;
+  through.sweep.beams.push_back({std::atan2(0.5, kEast), 6.0, false});
+  sweeps.push_back(through);
+  ScanMapperParams params;
+  params.fewest_hits = 2;
+  EXPECT_EQ(at(map_of(sweeps, params), {kEast, 0.5}), OccupancyGrid::kOccupied) << "two against one";
+  params.fewest_hits = 3;
+  EXPECT_EQ(at(map_of(sweeps, params), {kEast, 0.5}), OccupancyGrid::kUnknown);
+}
+
 TEST(ScanMapper, ABeamWithoutAReturnShowsFloorOnlyAsFarAsIsSaid) {
   PlacedSweep lost{{}, {0.01, 0.01, {}}};
   for (int i = 0; i < 90; ++i) lost.sweep.beams.push_back({kDegree * i, 10.0, true});
