@@ -162,8 +162,8 @@ TEST_F(Mcap, ABrokenPipeFailsForGood) {
   auto writer = McapWriter::create(pipe);
   ASSERT_TRUE(writer);
   close(end);
-  ASSERT_TRUE(writer->add_channel(channel_named("/T0")));
-  ASSERT_TRUE(writer->write(0, Time{1}, Time{6}, {}));
+  const auto channel = writer->add_channel(channel_named("/T0"));
+  ASSERT_TRUE(writer->write(*channel, Time{1}, Time{6}, {}));
   EXPECT_EQ(writer->flush().error().message, pipe.string() + ": cannot be written: Broken pipe");
   EXPECT_EQ(writer->close().error().message, pipe.string() + ": the recording has failed before");
   EXPECT_TRUE(std::filesystem::is_fifo(pipe));
