@@ -21,11 +21,10 @@ void bind_things(py::module_& module) {
           "polygon", [](const Hazard& hazard) { return array_of(hazard.polygon); }, "float64 [n, 2] [m], map.");
   py::class_<Exhibit>(module, "Exhibit", "What the robot shows.")
       .def_readonly("id", &Exhibit::id)
-      .def_property_readonly(
-          "title", [](const Exhibit& exhibit) { return texts_of(exhibit.title); }, "By language.")
+      .def_readonly("title", &Exhibit::title, "By language.")
       .def_readonly("pose", &Exhibit::pose, "map_from_base where the robot stands to show it.")
       .def_readonly("look_at", &Exhibit::look_at, "[m], map: what it points at.")
-      .def_property_readonly("topics", [](const Exhibit& exhibit) { return texts_of(exhibit.topics); })
+      .def_readonly("topics", &Exhibit::topics)
       .def_readonly("web_only", &Exhibit::web_only);
 }
 
@@ -35,8 +34,7 @@ void bind_museums(py::module_& module) {
   bind_things(module);
   py::class_<Museum>(module, "Museum", "A museum's folder, read and checked: what the robot knows of the building.")
       .def_readonly("folder", &Museum::folder)
-      .def_property_readonly(
-          "name", [](const Museum& museum) { return texts_of(museum.name); }, "By language.")
+      .def_readonly("name", &Museum::name, "By language.")
       .def_readonly("languages", &Museum::languages)
       .def_readonly("map", &Museum::map)
       .def_property_readonly(

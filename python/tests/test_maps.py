@@ -1,5 +1,4 @@
 import gc
-import shutil
 
 import numpy
 import pytest
@@ -104,14 +103,3 @@ def test_museum():
     assert cells.sum() == size
     with pytest.raises(docent.Error):
         docent.load_museum("museums/nowhere")
-
-
-def test_a_museum_that_is_not_utf_8(tmp_path):
-    folder = tmp_path / "bonn"
-    shutil.copytree("museums/bonn", folder)
-    about = folder / "museum.yaml"
-    name = docent.load_museum(folder).name
-    language, text = next(iter(name.items()))
-    assert text.encode() in about.read_bytes()
-    about.write_bytes(about.read_bytes().replace(text.encode(), b"A\xff"))
-    assert docent.load_museum(folder).name == {**name, language: "A\ufffd"}

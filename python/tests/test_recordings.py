@@ -145,13 +145,16 @@ def test_a_summary_that_is_not_utf_8(tmp_path):
     def record(opcode, content):
         return bytes([opcode]) + struct.pack("<Q", len(content)) + content
     magic = b"\x89MCAP0\r\n"
-    topics = [b"/a\xff", b"/b"]
     channels = b"".join(record(0x04, struct.pack("<HHI", i, 0, len(topic)) + topic + struct.pack("<I", 3) + b"cdr" +
-                               struct.pack("<I", 0)) for i, topic in enumerate(topics))
-    data = magic + record(0x01, struct.pack("<I", 2) + b"p\xff" + struct.pack("<I", 0)) + channels
-    data += record(0x05, struct.pack("<HIQQ", 0, 0, 1, 1)) + record(0x0F, struct.pack("<I", 0))
+                               struct.pack("<I", 0)) for i, topic in enumerate([b"/a\xff", b"/b"]))
+    message = record(0x05, struct.pack("<HIQQ", 0, 0, 1, 1))
+    chunk = record(0x06, struct.pack("<QQQIIQ", 1, 1, len(channels + message), 0, 0, len(channels + message)) + channels + message)
+    begin = magic + record(0x01, struct.pack("<I", 2) + b"p\xff" + struct.pack("<I", 0))
+    data = begin + chunk + record(0x0F, struct.pack("<I", 0))
+    index = record(0x08, struct.pack("<QQQQIQIQQ", 1, 1, len(begin), len(chunk), 0, 0, 0, len(chunk), len(chunk)))
     counts = struct.pack("<HQHQ", 0, 5, 1, 6)
-    summary = channels + record(0x0B, struct.pack("<QHIIIIQQI", 11, 0, 2, 0, 0, 0, 1, 1, len(counts)) + counts)
+    statistics = record(0x0B, struct.pack("<QHIIIIQQI", 11, 0, 2, 0, 0, 1, 1, 1, len(counts)) + counts)
+    summary = channels + index + statistics
     path = tmp_path / "summary.mcap"
     path.write_bytes(data + summary + record(0x02, struct.pack("<QQI", len(data), 0, 0)) + magic)
     recording = docent.McapReader.open(path)
