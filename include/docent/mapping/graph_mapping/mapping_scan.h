@@ -24,6 +24,7 @@ struct ScanChoiceParams {
 /// Chooses scans where the robot has moved.
 class ScanChoice {
  public:
+  /// @pre both are >= 0
   explicit ScanChoice(const ScanChoiceParams& params) : params_{params} {}
   /// Whether the next scan is taken, by raw odometry; the first one always is. O(1).
   [[nodiscard]] bool takes(const Pose2& odom_from_base);
