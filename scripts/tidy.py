@@ -71,6 +71,8 @@ def sources_in(path):
 def commands_of_compiler():
     """Source to its compiler's entry, also where it is compiled as one with others; and the file as which it is."""
     commands, compiled_as = {}, {}
+    if not (BUILD / "compile_commands.json").is_file():
+        sys.exit("scripts/tidy.py: build/dev is not configured: cmake --preset dev, and build it, for clang-tidy looks at what was compiled")
     for entry in json.loads((BUILD / "compile_commands.json").read_text()):
         path = Path(entry["file"])
         is_joint = path.parent.name in {"Unity", "joint"} and path.is_file()
