@@ -20,6 +20,7 @@ struct LoggedScan {
   Angle first_bearing;        ///< of ranges[0], in the laser's frame
   double bearing_step = 0.0;  ///< [rad]
   std::vector<float> ranges;  ///< [m]; +infinity: no return; NaN: an invalid reading (as REP 117 has it)
+  double max_range = 0.0;     ///< [m] that this laser looks at most; 0: as LaserLog::max_range
   Pose2 odom_from_base;       ///< raw odometry at the moment of the scan
   Pose2 base_from_laser;      ///< the laser's place on the robot; the same for all scans of one laser
   Pose2 logged_pose;          ///< the other pose that CARMEN writes beside odometry, as it stands in the file
@@ -55,7 +56,7 @@ struct LaserLog {
   double sonar_max_range = 0.0;          ///< [m]
   /// PARAM lines of CARMEN.
   std::map<std::string, std::string> parameters;
-  double max_range = 0.0;           ///< [m]: from here on a reading means "no return"
+  double max_range = 0.0;           ///< [m] of the laser that looks farthest: from here on a reading means "no return"
   bool times_are_invented = false;  ///< the file's times were useless: even steps of 0.2 s instead
   /// Everything that had to be assumed or left out, in words: for a person who wonders about a result.
   std::vector<std::string> notes;
@@ -66,7 +67,8 @@ struct LaserLog {
 ///
 /// Of a ROS 2 recording it takes every sensor_msgs/LaserScan (not those under /docent/), the nav_msgs/Odometry topic
 /// with most messages, interpolated at the scans' stamps, and the lasers' places from /tf_static. A laser that hangs
-/// upside down is turned over. Without odometry or places: as `notes` say.
+/// upside down is turned over, clockwise ones are read as they are. What 0 means, what a laser sees of the robot and
+/// how far it looks is found out from the whole recording. Without odometry or places: as `notes` say.
 ///
 /// With `with_sonars` also every ultrasonic sensor_msgs/Range whose frame has a place; a CARMEN log has none.
 ///

@@ -33,7 +33,13 @@ class ProximityModel {
   explicit ProximityModel(const ProximityModelParams& params, std::span<const double> expected_frequency = {},
                           const ReadingDistribution* own = nullptr);
 
-  [[nodiscard]] int bin(double range) const { return bins_.bin(range); }            ///< of a range [m] >= 0
+  [[nodiscard]] int bin(double range) const { return bins_.bin(range); }  ///< of a range [m] >= 0
+  /// What is measured when nothing comes back up to `range` [m]: kNoReturn, or kRangeBins + b of a scanner that looks
+  /// less far than the model.
+  [[nodiscard]] int nothing_up_to(double range) const {
+    const int nearest = bin(range);
+    return nearest == kNoReturn ? kNoReturn : kRangeBins + nearest;
+  }
   [[nodiscard]] double lower_edge(int bin) const { return bins_.lower_edge(bin); }  ///< [m]
   [[nodiscard]] double centre(int bin) const { return bins_.centre(bin); }          ///< [m]; of kNoReturn: max_range
   [[nodiscard]] double sigma(int expected) const { return hit_deviation(params_, bins_, expected); }  ///< [m]
@@ -49,15 +55,16 @@ class ProximityModel {
   [[nodiscard]] float shorter_probability(int measured, int expected) const {
     return shorter_[index(measured, expected)];
   }
-  /// Likewise, for all kExpectedRanges.
+  /// Likewise, for all kExpectedRanges. `measured`: one of kMeasurements; where nothing came back, none is shorter.
   [[nodiscard]] std::span<const float> shorter_probabilities(int measured) const {
     return std::span{shorter_}.subspan(index(measured, 0), kExpectedRanges);
   }
-  /// ln P(d_measured | o), for all kExpectedRanges.
+  /// ln P(d_measured | o), for all kExpectedRanges. `measured`: one of kMeasurements. That nothing comes back up to bin
+  /// b has the probability of all bins from b on.
   [[nodiscard]] std::span<const float> log_probabilities(int measured) const {
     return std::span{log_mixture_}.subspan(index(measured, 0), kExpectedRanges);
   }
-  /// ln of the mean of P(d_measured | l) under a uniform position: eq. 4's P~.
+  /// ln of the mean of P(d_measured | l) under a uniform position: eq. 4's P~. `measured`: one of kMeasurements.
   [[nodiscard]] double log_mean_probability(int measured) const {
     return log_mean_[static_cast<std::size_t>(measured)];
   }
@@ -70,15 +77,16 @@ class ProximityModel {
   void fill_mixture();
   void fill_unknown();
   void fill_own(const ReadingDistribution& own);
+  void fill_nothing_up_to();
   void fill_mean(std::span<const double> expected_frequency);
 
   ProximityModelParams params_;
   RangeBins bins_;
   std::vector<double> gaussian_;    ///< [measured][expected]
-  std::vector<double> mixture_;     ///< [measured][expected]
-  std::vector<float> shorter_;      ///< [measured][expected]
-  std::vector<float> log_mixture_;  ///< [measured][expected]
-  std::array<double, kRangeBins> log_mean_{};
+  std::vector<double> mixture_;     ///< [kMeasurements][expected]
+  std::vector<float> shorter_;      ///< [kMeasurements][expected]
+  std::vector<float> log_mixture_;  ///< [kMeasurements][expected]
+  std::array<double, kMeasurements> log_mean_{};
 };
 
 }  // namespace docent::sensor_models

@@ -47,6 +47,9 @@ inline constexpr int kRangeBins = 127;
 inline constexpr int kNoReturn = kRangeBins - 1;  ///< max_range or more, or nothing came back
 inline constexpr int kUnknownRange = 127;         ///< expected where the map does not say
 inline constexpr int kExpectedRanges = 128;       ///< bins and kUnknownRange
+/// What may be measured: a bin, or that nothing came back up to the lower edge of bin b, kRangeBins + b: so say
+/// scanners that do not look as far as the model does.
+inline constexpr int kMeasurements = 2 * kRangeBins;
 
 /// The bins of a sensor's ranges.
 class RangeBins {

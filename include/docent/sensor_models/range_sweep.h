@@ -45,6 +45,11 @@ void append(RangeSweep& sweep, const LaserReading& reading, const Pose2& base_fr
 /// The sweep as if measured from another place nearby: `there_from_here` takes base coordinates to the other frame.
 [[nodiscard]] RangeSweep seen_from(const RangeSweep& sweep, const Pose2& there_from_here);
 
+/// The sweep as one sees it who expects nothing farther off than `reach` [m]: what came from there or beyond, and what
+/// looked farther, is "no return" at `reach`. Who looked less far stays as it is: a scanner of 4 m says nothing of 5 m.
+/// Every comparison of a reading with what a map lets expect needs this first. O(beams)
+[[nodiscard]] RangeSweep within_reach(RangeSweep sweep, double reach);
+
 /// Endpoint in the base frame [m].
 [[nodiscard]] Point2 endpoint(const SweepBeam& beam);
 

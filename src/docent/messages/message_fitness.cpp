@@ -14,10 +14,10 @@ MessageFault fault_of(const sensor_msgs::LaserScan& scan) {
   if (const MessageFault fault = fault_of(scan.header)) return fault;
   if (scan.ranges.size() > kMostBeams) return {"ranges", "are more than any scanner has"};
   if (!(std::abs(scan.angle_min) <= kMostBearing)) return {"angle_min", "is no bearing"};
-  if (!(scan.angle_increment >= 0.0F)) return {"angle_increment", "is not positive"};
-  if (scan.ranges.size() > 1 && scan.angle_increment < kFinest)
-    return {"angle_increment", "is too small for several beams"};
-  if (!(static_cast<double>(scan.angle_increment) * (static_cast<double>(scan.ranges.size()) - 1.0) <= kMostField))
+  const float step = std::abs(scan.angle_increment);  // below 0: the scanner turns clockwise
+  if (!(step >= 0.0F)) return {"angle_increment", "is no angle"};
+  if (scan.ranges.size() > 1 && step < kFinest) return {"angle_increment", "is too small for several beams"};
+  if (!(static_cast<double>(step) * (static_cast<double>(scan.ranges.size()) - 1.0) <= kMostField))
     return {"angle_increment", "takes the beams more than twice round"};
   if (!(scan.range_min >= 0.0F)) return {"range_min", "is no distance"};
   if (!(scan.range_max > scan.range_min)) return {"range_max", "is not above range_min"};

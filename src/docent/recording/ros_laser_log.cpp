@@ -7,6 +7,7 @@
 
 #include "docent/messages/cdr.h"
 #include "docent/messages/conversions.h"
+#include "docent/recording/log_scanners.h"
 
 namespace docent::recording {
 namespace {
@@ -105,10 +106,12 @@ void RosLaserLogBuilder::add_scan(const sensor_msgs::LaserScan& message, Time lo
   scan.scan.ranges.reserve(message.ranges.size());
   for (const float range : message.ranges) {
     const bool no_return = range >= message.range_max;  // +infinity too
-    const bool invalid = !(range >= message.range_min) || !(range > 0.0F);
+    const bool is_zero = range == 0.0F;                 // what it means is settled in the end
+    const bool invalid = !is_zero && (!(range >= message.range_min) || !(range > 0.0F));
     scan.scan.ranges.push_back(no_return ? std::numeric_limits<float>::infinity()
                                          : (invalid ? std::numeric_limits<float>::quiet_NaN() : range));
   }
+  if (message.range_max < kFarthestReading) scan.scan.max_range = static_cast<double>(message.range_max);
   if (message.range_max < kFarthestReading)
     log_.max_range = std::max(log_.max_range, static_cast<double>(message.range_max));
   scans_.push_back(std::move(scan));
@@ -217,6 +220,7 @@ Result<LaserLog> RosLaserLogBuilder::finish() {
                    [](const LoggedOdometry& a, const LoggedOdometry& b) { return a.time < b.time; });
   std::stable_sort(scans_.begin(), scans_.end(), [](const Scan& a, const Scan& b) { return a.time < b.time; });
   std::set<std::string> without_place;
+  std::vector<std::string> frames;  // [scans]
   for (Scan& entry : scans_) {
     LoggedScan& scan = entry.scan;
     scan.time = entry.time;
@@ -233,6 +237,7 @@ Result<LaserLog> RosLaserLogBuilder::finish() {
     }
     scan.rear = std::abs(scan.base_from_laser.theta.degrees()) > 90.0;
     log_.scans.push_back(std::move(scan));
+    frames.push_back(entry.frame);
   }
   finish_pings();
   if (!(log_.max_range > 0.0)) {
@@ -240,6 +245,7 @@ Result<LaserLog> RosLaserLogBuilder::finish() {
       for (const float range : scan.ranges)
         if (std::isfinite(range)) log_.max_range = std::max(log_.max_range, static_cast<double>(range));
   }
+  settle_scanners(log_, frames);
   return std::move(log_);
 }
 

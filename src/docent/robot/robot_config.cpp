@@ -26,6 +26,20 @@ Result<void> check_outline(const RobotBody& body) {
   return {};
 }
 
+Result<void> check_kind(const Scanner& scanner) {
+  const std::string at = "body.scanners: of " + scanner.name + " ";
+  if (scanner.max_range != 0.0 && !(scanner.max_range >= 0.5 && scanner.max_range <= 1000.0))
+    return fail(at + "max_range must be 0.5..1000 m, or 0: as its messages say");
+  if (scanner.zero != "find out" && scanner.zero != "nothing" && scanner.zero != "failed")
+    return fail(at + "zero must be 'find out', nothing or failed, not '" + scanner.zero + "'");
+  if (!(scanner.beams == 0 || (scanner.beams >= 16 && scanner.beams <= 10000)))
+    return fail(at + "beams must be 16..10000, or 0: one a degree");
+  if (!(scanner.rate >= 1.0 && scanner.rate <= 100.0)) return fail(at + "rate must be 1..100 Hz");
+  if (scanner.no_return != "greatest" && scanner.no_return != "infinity" && scanner.no_return != "zero")
+    return fail(at + "no_return must be greatest, infinity or zero, not '" + scanner.no_return + "'");
+  return {};
+}
+
 Result<void> check_scanners(const std::vector<Scanner>& scanners) {
   constexpr auto& kNames = RobotBody::kScannerNames;
   for (auto scanner = scanners.begin(); scanner != scanners.end(); ++scanner) {
@@ -40,6 +54,16 @@ Result<void> check_scanners(const std::vector<Scanner>& scanners) {
       return fail("body.scanners: " + scanner->name + " must lie within 1 m of the robot's centre");
     if (!(scanner->field > 0.0 && scanner->field <= 360.0))
       return fail("body.scanners: the field of " + scanner->name + " must be > 0 and <= 360 degrees");
+    if (auto valid = check_kind(*scanner); !valid) return valid;
+  }
+  return {};
+}
+
+Result<void> check_posts(const RobotBody& body) {
+  for (const auto& post : body.posts) {
+    if (post.size() != 3) return fail("body.posts must be a list of [x, y, radius]");
+    if (!(post[2] > 0.0 && norm({post[0], post[1]}) + post[2] <= body.radius))
+      return fail("body.posts: each must have a radius > 0 and lie within body.radius");
   }
   return {};
 }
@@ -60,6 +84,7 @@ Result<void> RobotBody::validate() const {
         watchdog + latency + max_speed / deceleration <= 3.0))
     return fail("body: from max_speed it must stand within 3 m and 3 s (watchdog and latency included)");
   if (auto valid = check_scanners(scanners); !valid) return valid;
+  if (auto valid = check_posts(*this); !valid) return valid;
   if (!(sonars >= 0 && sonars <= 100)) return fail("body.sonars must be 0..100");
   constexpr int kRing = 16;  // fewer leave gaps between their cones
   if (scanners.empty() && sonars < kRing)

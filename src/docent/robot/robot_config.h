@@ -21,7 +21,15 @@ struct Scanner {
   std::string frame = "laser_front";  ///< of its messages
   double x = 0.0, y = 0.0;            ///< [m], robot frame
   double heading = 0.0;               ///< [deg], robot frame: of the middle of its field
-  double field = 180.0;  ///< [deg] of view; a simulated one gets so much, a real one says it in its messages
+  double field = 180.0;      ///< [deg] of view; this is for a simulated scanner, a real one says it in its messages
+  bool upside_down = false;  ///< it hangs, and its driver does not turn the sweeps over
+  double max_range = 0.0;    ///< [m] that it looks at most; 0: as its messages say, a simulated one 10 m
+  std::string zero = "find out";  ///< its driver writes 0 for nothing (nothing there) or failed (no reading)
+  int beams = 0;                  ///< of a simulated one, evenly over the field; 0: one a degree
+  double rate = 10.0;             ///< [Hz] of a simulated one
+  bool clockwise = false;         ///< likewise: its beams go round so
+  std::string no_return =
+      "greatest";  ///< likewise: what it writes where nothing comes back: greatest, infinity or zero
   template <class V>
   void visit(V& v) {
     v("name", name);
@@ -30,6 +38,13 @@ struct Scanner {
     v("y", y);
     v("heading", heading);
     v("field", field);
+    v("upside_down", upside_down);
+    v("max_range", max_range);
+    v("zero", zero);
+    v("beams", beams);
+    v("rate", rate);
+    v("clockwise", clockwise);
+    v("no_return", no_return);
   }
   [[nodiscard]] Pose2 base_from_sensor() const { return {x, y, Angle::degrees(heading)}; }
 };
@@ -49,6 +64,9 @@ struct RobotBody {
   static constexpr std::array<std::string_view, 4> kScannerNames{"front", "rear", "left", "right"};
   /// What none of them sees counts as unknown: the robot drives there only when it has looked.
   std::vector<Scanner> scanners{{}, {"rear", "laser_rear", 0.0, 0.0, 180.0, 180.0}};
+  /// [m] what of the body stands in the scanners' plane, [[x, y, radius], …], robot frame: simulated scanners see it.
+  /// The robot finds it out by itself.
+  std::vector<std::vector<double>> posts;
   int sonars = 24;                ///< evenly round the body, sonar_00 at the front, counter-clockwise; 0: it has none
   double sonar_radius = 0.25;     ///< [m] from the centre
   int infrareds = 24;             ///< likewise, infrared_00 at the front; 0: it has none
@@ -66,6 +84,7 @@ struct RobotBody {
     v("latency", latency);
     v("watchdog", watchdog);
     v("scanners", scanners);
+    v("posts", posts);
     v("sonars", sonars);
     v("sonar_radius", sonar_radius);
     v("infrareds", infrareds);

@@ -13,13 +13,15 @@ ProximityModel::ProximityModel(const ProximityModelParams& params, std::span<con
     : params_{params}, bins_{params.max_range} {
   const std::size_t size = static_cast<std::size_t>(kRangeBins) * kExpectedRanges;
   gaussian_.assign(size, 0.0);
-  mixture_.assign(size, 0.0);
-  shorter_.assign(size, 0.0F);
-  log_mixture_.assign(size, 0.0F);
+  const std::size_t measurements = static_cast<std::size_t>(kMeasurements) * kExpectedRanges;
+  mixture_.assign(measurements, 0.0);
+  shorter_.assign(measurements, 0.0F);
+  log_mixture_.assign(measurements, 0.0F);
   fill_gaussian();
   fill_mixture();
   fill_unknown();
   if (own != nullptr) fill_own(*own);
+  fill_nothing_up_to();
   fill_mean(expected_frequency);
   std::transform(mixture_.begin(), mixture_.end(), log_mixture_.begin(),
                  [](double p) { return static_cast<float>(std::log(p)); });
@@ -81,6 +83,16 @@ void ProximityModel::fill_own(const ReadingDistribution& own) {
   }
 }
 
+void ProximityModel::fill_nothing_up_to() {
+  for (int expected = 0; expected < kExpectedRanges; ++expected) {
+    double from_here_on = 0.0;
+    for (int measured = kNoReturn; measured >= 0; --measured) {
+      from_here_on += mixture_[index(measured, expected)];
+      mixture_[index(kRangeBins + measured, expected)] = from_here_on;
+    }
+  }
+}
+
 void ProximityModel::fill_mean(std::span<const double> expected_frequency) {
   DOCENT_CHECK(expected_frequency.empty() || expected_frequency.size() == kExpectedRanges);
   std::array<double, kRangeBins> frequency{};
@@ -94,7 +106,7 @@ void ProximityModel::fill_mean(std::span<const double> expected_frequency) {
     frequency.fill(1.0);
     sum = kRangeBins;
   }
-  for (int measured = 0; measured < kRangeBins; ++measured) {
+  for (int measured = 0; measured < kMeasurements; ++measured) {
     double mean = 0.0;
     for (int expected = 0; expected < kRangeBins; ++expected)
       mean += frequency[static_cast<std::size_t>(expected)] / sum * mixture_[index(measured, expected)];

@@ -29,6 +29,30 @@ TEST(ProximityModel, SumsToOneForEveryExpectedRange) {
   }
 }
 
+TEST(ProximityModel, NothingUpToARangeIsAllThatLiesBeyond) {
+  const ProximityModel model{{}};
+  EXPECT_EQ(model.nothing_up_to(10.0), kNoReturn);
+  EXPECT_EQ(model.nothing_up_to(80.0), kNoReturn);
+  const int nothing = model.nothing_up_to(4.0);
+  ASSERT_GE(nothing, kRangeBins);
+  for (const double wall : {1.0, 3.0, 5.0, 8.0}) {
+    const int expected = model.bin(wall);
+    double beyond = 0.0;
+    for (int measured = model.bin(4.0); measured < kRangeBins; ++measured)
+      beyond += model.probability(measured, expected);
+    EXPECT_NEAR(std::exp(model.log_probabilities(nothing)[static_cast<std::size_t>(expected)]), beyond, 1e-6);
+  }
+  // A scanner of 4 m does not contradict a wall at 5 m, one of 10 m does.
+  const auto of = [&](int measured, double wall) {
+    return model.log_probabilities(measured)[static_cast<std::size_t>(model.bin(wall))];
+  };
+  EXPECT_GT(of(nothing, 5.0), std::log(0.4F));
+  EXPECT_LT(of(nothing, 3.0), std::log(0.3F));
+  EXPECT_LT(of(kNoReturn, 5.0), std::log(0.2F));
+  for (const float shorter : model.shorter_probabilities(nothing)) EXPECT_EQ(shorter, 0.0F);
+  EXPECT_LT(model.log_mean_probability(nothing), 0.0);
+}
+
 TEST(ProximityModel, HasTheShapeOfItsParts) {
   const ProximityModelParams params{.weight_near = 0.0};
   const ProximityModel model{params};

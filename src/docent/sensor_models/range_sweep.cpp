@@ -41,6 +41,12 @@ RangeSweep seen_from(const RangeSweep& sweep, const Pose2& there_from_here) {
   return result;
 }
 
+RangeSweep within_reach(RangeSweep sweep, double reach) {
+  for (SweepBeam& beam : sweep.beams)
+    if (beam.range >= reach) beam = {beam.bearing, reach, true};
+  return sweep;
+}
+
 Point2 endpoint(const SweepBeam& beam) {
   return {beam.range * std::cos(beam.bearing), beam.range * std::sin(beam.bearing)};
 }

@@ -37,6 +37,20 @@ TEST(RangeSweep, DropsInvalidAndMarksNoReturn) {
   EXPECT_EQ(sweep.beams[1].range, 10.0);
 }
 
+TEST(RangeSweep, NothingIsExpectedBeyondTheReach) {
+  const RangeSweep sweep = within_reach(
+      {{{0.0, 9.9, false}, {0.1, 10.0, false}, {0.2, 25.0, false}, {0.3, 80.0, true}, {0.4, 4.0, true}}}, 10.0);
+  ASSERT_EQ(sweep.beams.size(), 5U);
+  EXPECT_FALSE(sweep.beams[0].no_return);
+  for (const std::size_t far : {1U, 2U, 3U}) {
+    EXPECT_TRUE(sweep.beams[far].no_return);
+    EXPECT_EQ(sweep.beams[far].range, 10.0);
+    EXPECT_EQ(sweep.beams[far].bearing, 0.1 * static_cast<double>(far));
+  }
+  EXPECT_TRUE(sweep.beams[4].no_return);
+  EXPECT_EQ(sweep.beams[4].range, 4.0) << "who looks less far says nothing of 10 m";
+}
+
 TEST(RangeSweep, TwoLasersFillEveryDirectionOnce) {
   std::array<float, 180> ranges{};
   ranges.fill(3.0F);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "docent/geometry/pose2.h"
+#include "docent/simulator/sensing/scanner_kind.h"
 
 namespace docent::simulator {
 
@@ -14,10 +15,11 @@ struct Hardware {
     std::string name;         ///< "front", "rear", "left" or "right": it speaks on scan_NAME, faults call it laser_NAME
     std::string frame;        ///< of its messages
     Pose2 base_from_scanner;  ///< the middle of its field looks along x
-    double field = std::numbers::pi;  ///< [rad] of view, 0..2 pi, a beam a degree
+    ScannerKind kind{};       ///< what is sold under its name
   };
   std::vector<Scanner> scanners{{"front", "laser_front", {}},
                                 {"rear", "laser_rear", {0.0, 0.0, Angle::degrees(180.0)}}};
+  std::vector<Disc> posts;        ///< [m] base frame: what of the body stands in the scanners' plane
   int sonars = 24;                ///< evenly round the body; 0: none
   double sonar_radius = 0.25;     ///< [m] from the body's centre
   int infrareds = 24;             ///< likewise

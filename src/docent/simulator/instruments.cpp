@@ -57,13 +57,6 @@ Sensor sensor_of(std::string_view scanner) {
   return scanner == "right" ? Sensor::laser_right : Sensor::laser_front;
 }
 
-LaserParams laser_of(const Hardware::Scanner& scanner) {
-  LaserParams params;
-  params.beams = std::max(1, static_cast<int>(std::lround(scanner.field / params.bearing_step)));
-  params.first_bearing = -0.5 * params.beams * params.bearing_step;
-  return params;
-}
-
 SonarParams sonars_of(const Hardware& hardware) {
   SonarParams params;
   params.count = hardware.sonars;
@@ -95,9 +88,13 @@ Instruments::Instruments(transport::Bus& bus, const World& world, const Hardware
   for (const auto& scanner : hardware.scanners) {
     scanners_.push_back({sensor_of(scanner.name),
                          scanner.frame,
-                         {laser_of(scanner), scanner.base_from_scanner, rng.stream("laser_" + scanner.name)},
+                         scanner.kind,
+                         {laser_of(scanner.kind), scanner.base_from_scanner, rng.stream("laser_" + scanner.name)},
                          bus.publisher(topics::scan_topic(scanner.name)),
-                         {}});
+                         {},
+                         {},
+                         0});
+    scanners_.back().laser.see_body(hardware.posts);
     beams_ += scanners_.back().laser.params().beams;
   }
   last_pings_.resize(static_cast<std::size_t>(ring_.params().count));
@@ -194,27 +191,41 @@ void Instruments::publish_scan(Time now, Scanner& scanner, const Pose2& pose, st
   const LaserParams& params = scanner.laser.params();
   sensor_msgs::LaserScan message;
   message.header = {to_message(now), scanner.frame};
-  message.angle_min = static_cast<float>(params.first_bearing);
-  message.angle_max = static_cast<float>(params.first_bearing + (params.beams - 1) * params.bearing_step);
-  message.angle_increment = static_cast<float>(params.bearing_step);
-  message.scan_time = 0.1F;
+  WrittenSweep written = as_written(scanner.kind, params, sweep.ranges);
+  message.angle_min = static_cast<float>(written.angle_min);
+  message.angle_max = static_cast<float>(written.angle_min + (params.beams - 1) * written.angle_increment);
+  message.angle_increment = static_cast<float>(written.angle_increment);
+  message.scan_time = static_cast<float>(1.0 / scanner.kind.rate);
   message.range_min = 0.05F;
   message.range_max = static_cast<float>(params.max_range);
-  message.ranges = sweep.ranges;
-  int blocked = 0;
+  message.ranges = std::move(written.ranges);
+  scanner.met.assign(people.size(), 0);
+  scanner.blocked = 0;
   for (const std::int32_t person : sweep.persons) {
     if (person < 0) continue;
-    ++blocked;
-    ++met_[static_cast<std::size_t>(person)];
+    ++scanner.blocked;
+    ++scanner.met[static_cast<std::size_t>(person)];
   }
-  blocked_share_ += static_cast<double>(blocked) / beams_;
   emit(scanner.sensor, scanner.scans, std::move(message), scanner.last, now);
 }
 
-void Instruments::publish_scans(Time now, const Pose2& world_from_base, std::span<const Disc> people) {
-  met_.assign(people.size(), 0);
-  blocked_share_ = 0.0;
-  for (Scanner& scanner : scanners_) publish_scan(now, scanner, world_from_base, people);
+void Instruments::publish_scans(Time now, std::size_t step, const Pose2& world_from_base,
+                                std::span<const Disc> people) {
+  for (Scanner& scanner : scanners_)
+    if (is_due(step, scanner.kind.rate)) publish_scan(now, scanner, world_from_base, people);
+}
+
+int Instruments::met(std::size_t person) const {
+  int beams = 0;
+  for (const Scanner& scanner : scanners_)
+    if (person < scanner.met.size()) beams += scanner.met[person];
+  return beams;
+}
+
+double Instruments::blocked_share() const {
+  double share = 0.0;
+  for (const Scanner& scanner : scanners_) share += static_cast<double>(scanner.blocked) / beams_;
+  return share;
 }
 
 void Instruments::publish_sonar(Time now, std::uint64_t slot, const Pose2& world_from_base,

@@ -34,8 +34,8 @@ class Instruments {
   void jump(const Pose2& base_from_base, double over);
 
   void publish_odometry(Time now, const Body& body);
-  /// All scanners at once.
-  void publish_scans(Time now, const Pose2& world_from_base, std::span<const Disc> people);
+  /// The scanners of which a sweep is due. `step`: counts steps of 10 ms.
+  void publish_scans(Time now, std::size_t step, const Pose2& world_from_base, std::span<const Disc> people);
   /// @param slot  counts steps of 10 ms: the sonars fire in groups of three, each every 0.4 s
   void publish_sonar(Time now, std::uint64_t slot, const Pose2& world_from_base, std::span<const Disc> people);
   /// Each of the ring every 0.2 s, one or two a step of 10 ms.
@@ -44,8 +44,8 @@ class Instruments {
   void publish_tactile(Time now, const std::vector<std::uint8_t>& segments);
 
   /// Beams of the last sweep of all scanners that met a person.
-  [[nodiscard]] int met(std::size_t person) const { return person < met_.size() ? met_[person] : 0; }
-  [[nodiscard]] double blocked_share() const { return blocked_share_; }  ///< beams of the last sweep that met people
+  [[nodiscard]] int met(std::size_t person) const;
+  [[nodiscard]] double blocked_share() const;  ///< beams of the last sweep that met people
   /// True when a ray of some scanner, within its field and its range, reaches a person past walls and other people.
   [[nodiscard]] bool sees(const Pose2& world_from_base, std::size_t person, std::span<const Disc> people) const;
 
@@ -53,9 +53,12 @@ class Instruments {
   struct Scanner {
     Sensor sensor;
     std::string frame;
+    ScannerKind kind;
     LaserScanner laser;
     transport::Publisher<sensor_msgs::LaserScan> scans;
     std::optional<sensor_msgs::LaserScan> last;
+    std::vector<int> met;  ///< [people] beams of the last sweep
+    int blocked = 0;       ///< beams of the last sweep that met people
   };
   struct Fault {
     FaultKind kind;
@@ -81,8 +84,6 @@ class Instruments {
   Rng fault_rng_;
   std::array<std::optional<Fault>, kSensors> faults_;
   std::vector<Disc> near_;  ///< people within reach of the infrared ring
-  std::vector<int> met_;
-  double blocked_share_ = 0.0;
   bool skips_ = false;
   Time last_odometry_{};
   Pose2 last_pose_{};

@@ -55,8 +55,9 @@ class Localizer {
   };
   /// Offers a sweep. Most are not needed: an update comes after some motion or time. One cycle is: due, predict, choose
   /// beams, reweigh, summarise, fit, judge. Odometry that jumped farther than the map's diagonal is torn, and the
-  /// belief starts anew. O(states of the belief * beams).
-  Step observe(const sensor_models::RangeSweep& sweep, const Pose2& odom_from_robot, Time time);
+  /// belief starts anew. Scanners may look farther than `sensor.max_range`, or less far. O(states of the belief *
+  /// beams).
+  Step observe(const sensor_models::RangeSweep& seen, const Pose2& odom_from_robot, Time time);
 
   [[nodiscard]] const BeliefSummary& summary() const { return summary_; }          ///< as of the last update
   [[nodiscard]] const Verdict& verdict() const { return verdict_; }                ///< whether it may say "here"

@@ -59,6 +59,7 @@ struct LocalizerParams {
   double focus_deviations = 8.0;       ///< of odometry's error since the last update that are in focus all the same
   int most_states_asked = 300000;      ///< active states up to which sensors beside the lasers are asked
   double work_per_second = 1e9;        ///< states * beams that may be scored in a second of the robot's time
+  bool cuts_at_reach = true;           ///< false: crippled, for evaluation: far readings are held against near ones
   bool reckons_dead = false;           ///< crippled, for evaluation: once it is sure it looks no more
   std::string simd = "auto";           ///< auto (the widest there is), plain, avx2, avx512: same belief, other speed
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -60,7 +61,9 @@ class LiveMap {
 
   /// One look: rays from `sensor` to `endpoints` (map frame). An endpoint beyond the reach only clears. O(rays * cells
   /// on them).
-  void look(Point2 sensor, std::span<const Point2> endpoints, Time now);
+  /// @param looked  [m] so far the sensor looks: a ray of that length met nothing, and only clears
+  void look(Point2 sensor, std::span<const Point2> endpoints, Time now,
+            double looked = std::numeric_limits<double>::infinity());
   /// A sonar's reading, and an infrared sensor's. What a laser of these meets is in its own layer already. Where a
   /// sonar looks through what it had met itself, the thing is gone, and with it what the infrared sensors, which see no
   /// farther than an arm's length, had met there.

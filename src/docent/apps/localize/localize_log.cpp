@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "docent/apps/shared/log_defaults.h"
 #include "docent/base/files.h"
 #include "docent/localization/judgement/view_matcher.h"
 
@@ -39,7 +40,8 @@ double quantile(std::vector<double> values, double q) {
 
 sensor_models::RangeSweep sweep_of(const recording::LoggedScan& scan, double max_range) {
   sensor_models::RangeSweep sweep;
-  sensor_models::append(sweep, {scan.ranges, scan.first_bearing, scan.bearing_step, 0.02, max_range}, {});
+  const double reach = scan.max_range > 0.0 ? std::min(scan.max_range, max_range) : max_range;
+  sensor_models::append(sweep, {scan.ranges, scan.first_bearing, scan.bearing_step, 0.02, reach}, {});
   return sweep;
 }
 
@@ -121,7 +123,7 @@ LogRun localize_log(const recording::LaserLog& log, localization::Localizer& loc
 
 void look_back(const recording::LaserLog& log, bool reverse, const sensor_models::RayCaster& caster,
                localization::HindsightParams params, LogRun& run) {
-  params.max_range = log.max_range;
+  params.max_range = reach_of_log(log.max_range);
   const bool has_two = has_two_lasers(log);
   const std::size_t count = run.poses.size();
   const auto at = [&](std::size_t n) { return reverse ? count - 1 - n : n; };  // by the order of the run

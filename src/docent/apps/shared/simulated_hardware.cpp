@@ -4,13 +4,31 @@
 
 namespace docent::apps {
 
+namespace {
+
+simulator::ScannerKind kind_of(const robot::Scanner& scanner) {
+  simulator::ScannerKind kind;
+  kind.field = scanner.field * std::numbers::pi / 180.0;
+  kind.beams = scanner.beams;
+  kind.rate = scanner.rate;
+  if (scanner.max_range > 0.0) kind.max_range = scanner.max_range;
+  kind.is_clockwise = scanner.clockwise;
+  kind.is_upside_down = scanner.upside_down;
+  kind.no_return = scanner.no_return == "infinity" ? simulator::NoReturn::infinity
+                   : scanner.no_return == "zero"   ? simulator::NoReturn::zero
+                                                   : simulator::NoReturn::greatest;
+  return kind;
+}
+
+}  // namespace
+
 simulator::Hardware simulated_hardware(const robot::RobotBody& body) {
   simulator::Hardware hardware;
   hardware.scanners.clear();
   for (const robot::Scanner& scanner : body.scanners) {
-    hardware.scanners.push_back(
-        {scanner.name, scanner.frame, scanner.base_from_sensor(), scanner.field * std::numbers::pi / 180.0});
+    hardware.scanners.push_back({scanner.name, scanner.frame, scanner.base_from_sensor(), kind_of(scanner)});
   }
+  for (const auto& post : body.posts) hardware.posts.push_back({{post[0], post[1]}, post[2]});
   hardware.sonars = body.sonars;
   hardware.sonar_radius = body.sonar_radius;
   hardware.infrareds = body.infrareds;

@@ -14,7 +14,7 @@ Agreement& Agreement::operator+=(const Agreement& other) {
 Agreement agreement(const ExpectedRanges& expected, const sensor_models::ProximityModel& model, int direction,
                     int measured, double sureness) {
   Agreement result;
-  if (measured == sensor_models::kNoReturn) return result;
+  if (measured >= sensor_models::kNoReturn) return result;
   const auto masses = expected.masses(direction);
   const auto shorter = model.shorter_probabilities(measured);
   // P_m of this range and all behind it is P_short of the range before.

@@ -43,8 +43,9 @@ class ExpectedRanges {
   double entropy_ = 0.0;         ///< [nat] of the list
 };
 
+/// What a beam measured: one of kMeasurements.
 [[nodiscard]] inline int bin_of(const sensor_models::SweepBeam& beam, const sensor_models::ProximityModel& model) {
-  return beam.no_return ? sensor_models::kNoReturn : model.bin(beam.range);
+  return beam.no_return ? model.nothing_up_to(beam.range) : model.bin(beam.range);
 }
 
 /// H(L | s) - H(L) [nat] of every beam, [Rhino1999] eq. 10: what its inverse filter asks. 0 without a return: dark

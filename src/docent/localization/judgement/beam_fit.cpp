@@ -49,7 +49,7 @@ std::vector<PartCost> beam_costs(const sensor_models::RayCaster& caster, const s
     const Point2 along = unit(map_from_robot.theta + Angle::radians(beam.bearing));
     const auto at = [&](double range) { return map_from_robot.position() + range * along; };
     if (beam.no_return) {
-      if (expected && expected->most < kSurelyMet * params.max_range)
+      if (expected && expected->most < kSurelyMet * std::min(params.max_range, beam.range))
         costs.push_back({part_at(at(expected->most), params.wall_part, true), static_cast<float>(kNoReturn)});
       continue;
     }

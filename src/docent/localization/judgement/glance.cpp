@@ -50,7 +50,7 @@ Glance glance(const sensor_models::RayCaster& caster, const sensor_models::Range
     const auto expected = caster.cast(map_from_robot.position(), direction, max_range, kUnknownAllowance);
     if (!expected) continue;
     if (beam.no_return) {  // far away, or a dark or mirroring surface: only walls well within reach are missed
-      if (*expected > kWithinReach * max_range) continue;
+      if (*expected > kWithinReach * std::min(max_range, beam.range)) continue;
       ++through;
     } else {
       through += beam.range > *expected + kOff ? 1 : 0;

@@ -53,6 +53,17 @@ TEST(Glance, AnotherPlacePassesThroughWalls) {
   EXPECT_GT(glanced.through, 0.4);
 }
 
+TEST(Glance, WhoLooksFourMetresMissesNoWallAtFive) {
+  const sensor_models::RayCaster caster = hall();
+  const Pose2 here{2.0, 3.0, Angle{}};
+  sensor_models::RangeSweep near_sighted = seen_at(caster, here, 0.0);
+  for (sensor_models::SweepBeam& beam : near_sighted.beams)
+    if (beam.range > 4.0) beam = {beam.bearing, 4.0, true};
+  EXPECT_EQ(glance(caster, near_sighted, here, 10.0).through, 0.0);
+  for (sensor_models::SweepBeam& beam : near_sighted.beams) beam = {beam.bearing, 4.0, true};
+  EXPECT_GT(glance(caster, near_sighted, here, 10.0).through, 0.5) << "walls at 2 m are missed";
+}
+
 TEST(Glance, WallsThatTheMapLacksAreNoPeople) {
   const sensor_models::RayCaster caster = hall();
   const Pose2 here{4.0, 4.0, Angle{}};

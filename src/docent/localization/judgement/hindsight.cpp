@@ -54,8 +54,11 @@ class LookBack {
   /// Where the robot said that it was.
   [[nodiscard]] std::optional<Pose2> said(std::size_t k) const { return view(k).is_sure ? view(k).best : std::nullopt; }
 
+  [[nodiscard]] sensor_models::RangeSweep looked_at(std::size_t k) const {
+    return within_reach(thinned(view(k).sweep, params_.tracks.beams), params_.max_range);
+  }
   [[nodiscard]] Pose2 matched_at(std::size_t k, const Pose2& guess, const GuessError& error) const {
-    return matched(caster_, thinned(view(k).sweep, params_.tracks.beams), params_.max_range, guess, error);
+    return matched(caster_, looked_at(k), params_.max_range, guess, error);
   }
   [[nodiscard]] Pose2 odometry(std::size_t from, std::size_t to) const {
     return inverse(view(from).odom_from_robot) * view(to).odom_from_robot;
@@ -67,8 +70,7 @@ class LookBack {
     return matched_at(to, expected, guess_error(params_.motion, step));
   }
   [[nodiscard]] std::vector<PartCost> costs(std::size_t k, const Pose2& pose) const {
-    return beam_costs(caster_, thinned(view(k).sweep, params_.tracks.beams), pose,
-                      {params_.max_range, params_.tracks.part, params_.tracks.wall_part});
+    return beam_costs(caster_, looked_at(k), pose, {params_.max_range, params_.tracks.part, params_.tracks.wall_part});
   }
   /// Share of the view's readings that the map does not explain from there.
   [[nodiscard]] double strangeness(std::size_t k, const Pose2& pose) const {

@@ -56,10 +56,11 @@ void Localizer::start_at(std::span<const BeliefMode> modes, const Pose2& odom_fr
   summarise_now();
 }
 
-Localizer::Step Localizer::observe(const sensor_models::RangeSweep& sweep, const Pose2& odom_from_robot, Time time) {
+Localizer::Step Localizer::observe(const sensor_models::RangeSweep& seen, const Pose2& odom_from_robot, Time time) {
   if (params_.reckons_dead && verdict_.localized()) return {};
   if (is_torn(odom_from_robot)) start_unknown();
-  if (sweep.beams.empty()) return {};
+  if (seen.beams.empty()) return {};
+  const sensor_models::RangeSweep sweep = params_.cuts_at_reach ? within_reach(seen, params_.sensor.max_range) : seen;
   Update update = due(sweep, odom_from_robot, time);
   if (update.weight <= 0.0) return {};
   predict(update, odom_from_robot, time);
@@ -266,7 +267,7 @@ std::vector<sensor_models::BeamOrigin> Localizer::origins(const sensor_models::R
   for (BeliefMode& mode : modes) mode.map_from_robot = mode.map_from_robot * before_from_now;
   std::vector<float> gains;
   if (params.filter == "entropy") gains = entropy_gains(sweep, odom_now);
-  return beam_origins(caster(), modes, sweep, gains, max_range, params);
+  return beam_origins(caster(), modes, within_reach(sweep, max_range), gains, max_range, params);
 }
 
 std::vector<float> Localizer::entropy_gains(const sensor_models::RangeSweep& sweep, const Pose2& odom_now) const {

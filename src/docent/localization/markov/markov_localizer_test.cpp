@@ -22,9 +22,10 @@ struct Drive {
   Pose2 odom{};
   double seconds = 0.0;
   Rng rng{3};
+  double reach = 10.0;  ///< [m] of the scanner
 
   [[nodiscard]] sensor_models::RangeSweep look(double hidden) {
-    sensor_models::RangeSweep sweep = testing::sweep_at(caster, truth, 10.0);
+    sensor_models::RangeSweep sweep = testing::sweep_at(caster, truth, reach);
     double nearer = 0.0;
     for (std::size_t i = 0; i < sweep.beams.size(); ++i) {
       if (i % 20 == 0) nearer = rng.chance(hidden) ? rng.uniform(0.4, 1.2) : 0.0;
@@ -64,6 +65,30 @@ TEST(MarkovLocalizer, FindsItselfAndTracksToCentimetres) {
   }
   EXPECT_GE(sure, 140);
   EXPECT_LT(sum, 0.03);
+}
+
+/// The share of 150 steps in which a robot is sure and right whose scanner looks `scanner` [m] far and its model
+/// `model`.
+double sure_and_right(double scanner, double model, bool cuts_at_reach) {
+  LocalizerParams params = coarse();
+  params.sensor.max_range = model;
+  params.cuts_at_reach = cuts_at_reach;
+  Drive drive{.localizer = {testing::room_map(), params, {}, 1}};
+  drive.reach = scanner;
+  for (int i = 0; i < 150; ++i) drive.step();
+  int right = 0;
+  for (int i = 0; i < 150; ++i) {
+    drive.step();
+    right += drive.localizer.verdict().localized() && drive.error() < 0.1 ? 1 : 0;
+  }
+  return right / 150.0;
+}
+
+TEST(MarkovLocalizer, AScannerMayLookFartherThanTheModelOrLessFar) {
+  EXPECT_GT(sure_and_right(10.0, 10.0, true), 0.95);
+  EXPECT_GT(sure_and_right(10.0, 2.5, true), 0.95) << "farther";
+  EXPECT_GT(sure_and_right(2.5, 10.0, true), 0.95) << "less far";
+  EXPECT_LT(sure_and_right(10.0, 2.5, false), 0.5) << "crippled: far readings contradict near expectations";
 }
 
 TEST(MarkovLocalizer, NoticesThatItWasCarriedOffAndFindsItselfAgain) {

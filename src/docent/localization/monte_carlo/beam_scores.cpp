@@ -7,13 +7,13 @@ namespace docent::localization {
 
 BeamScores::BeamScores(const StateSpace& space, const RangeTable& table, const sensor_models::ProximityModel& model,
                        double max_range)
-    : space_{&space}, table_{&table} {
+    : space_{&space}, table_{&table}, model_{&model} {
   const auto steps = static_cast<std::size_t>(std::ceil(max_range * kBinsPerMetre));
   for (std::size_t i = 0; i < steps; ++i)
     bins_.push_back(static_cast<std::uint8_t>(
         std::min(model.bin((static_cast<double>(i) + 0.5) / kBinsPerMetre), sensor_models::kNoReturn - 1)));
-  costs_.resize(static_cast<std::size_t>(sensor_models::kRangeBins) * sensor_models::kExpectedRanges);
-  for (int measured = 0; measured < sensor_models::kRangeBins; ++measured) {
+  costs_.resize(static_cast<std::size_t>(sensor_models::kMeasurements) * sensor_models::kExpectedRanges);
+  for (int measured = 0; measured < sensor_models::kMeasurements; ++measured) {
     const auto log_probabilities = model.log_probabilities(measured);
     const float best = *std::max_element(log_probabilities.begin(), log_probabilities.end());
     for (std::size_t o = 0; o < sensor_models::kExpectedRanges; ++o)
@@ -33,8 +33,8 @@ std::uint32_t BeamScores::score_one(const Beams& beams, const RangeTable::Row& r
       const Beams::Beam& beam = beams.beams[b];
       const float range = beam.range + ahead * beam.x + aside * beam.y;
       const auto step = std::clamp(static_cast<std::int32_t>(range * static_cast<float>(kBinsPerMetre)), 0, last);
-      const std::size_t measured =
-          beam.no_return ? static_cast<std::size_t>(sensor_models::kNoReturn) : bins_[static_cast<std::size_t>(step)];
+      const std::size_t measured = beam.nothing_up_to >= 0 ? static_cast<std::size_t>(beam.nothing_up_to)
+                                                           : bins_[static_cast<std::size_t>(step)];
       const std::size_t expected = row[static_cast<std::size_t>(heading + beam.direction)] & 127U;
       sum += costs_[measured * sensor_models::kExpectedRanges + expected];
     }

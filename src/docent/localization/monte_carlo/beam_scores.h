@@ -20,17 +20,19 @@ namespace docent::localization {
 /// looked up: particles of one cell weigh differently, and the best of them is the one in the right place.
 class BeamScores {
  public:
-  /// Both must outlive the object.
+  /// All must outlive the object.
   BeamScores(const StateSpace& space, const RangeTable& table, const sensor_models::ProximityModel& model,
              double max_range);
+  /// What a beam measured that met nothing up to `range` [m].
+  [[nodiscard]] int nothing_up_to(double range) const { return model_->nothing_up_to(range); }
 
   /// As FieldBeams: sector by sector, capped.
   struct Beams {
     struct Beam {
-      float range;      ///< [m]
-      float x, y;       ///< unit vector, robot frame
-      float direction;  ///< bearing in heading steps, 0..headings
-      bool no_return;
+      float range;        ///< [m]
+      float x, y;         ///< unit vector, robot frame
+      float direction;    ///< bearing in heading steps, 0..headings
+      int nothing_up_to;  ///< ProximityModel::nothing_up_to; negative: something came back
     };
     std::vector<Beam> beams;
     std::vector<std::uint32_t> ends;
@@ -48,6 +50,7 @@ class BeamScores {
 
   const StateSpace* space_;
   const RangeTable* table_;
+  const sensor_models::ProximityModel* model_;
   std::vector<std::uint8_t> bins_;   ///< of a range in centimetres
   std::vector<std::uint8_t> costs_;  ///< [measured][expected]
 };

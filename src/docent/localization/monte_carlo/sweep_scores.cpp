@@ -32,7 +32,7 @@ void SweepScores::score(const sensor_models::RangeSweep& sweep, std::span<const 
     double direction = beam.bearing * per_radian;
     if (direction < 0.0) direction += static_cast<double>(headings_);
     ranges.beams.push_back({static_cast<float>(beam.range), static_cast<float>(along.x), static_cast<float>(along.y),
-                            static_cast<float>(direction), no_return});
+                            static_cast<float>(direction), no_return ? beams_.nothing_up_to(beam.range) : -1});
     if (!no_return) ends.add(field_.view(), beam.range * along);
     if (i + 1 < beams.size() && sector(i + 1) == sector(i)) continue;
     ranges.ends.push_back(static_cast<std::uint32_t>(ranges.beams.size()));

@@ -105,7 +105,9 @@ void LiveMap::mark(CellIndex cell, bool hit, Time now) {
   if (was_blocked != is_seen(index) || was_settled != settled_[index]) widen(changes_, cell);
 }
 
-void LiveMap::look(Point2 sensor, std::span<const Point2> endpoints, Time now) {
+void LiveMap::look(Point2 sensor, std::span<const Point2> endpoints, Time now, double looked) {
+  constexpr double kRounding = 0.01;  // [m]
+  const double believed = std::min(params_.reach, looked - kRounding);
   ++look_;
   const double step = 0.5 * static_.frame.resolution;
   for (const Point2& endpoint : endpoints) {
@@ -119,7 +121,7 @@ void LiveMap::look(Point2 sensor, std::span<const Point2> endpoints, Time now) {
       const std::size_t index = static_.frame.index(cell);
       if (history_[index] != 0 && look_of_[index] != look_) mark(cell, false, now);
     }
-    if (range > params_.reach) continue;
+    if (range > believed) continue;
     const CellIndex cell = static_.frame.cell_at(endpoint);
     if (static_.frame.holds(cell) && !near_static_[static_.frame.index(cell)]) mark(cell, true, now);
   }

@@ -149,7 +149,7 @@ std::vector<double> ScanMapper::clear_ranges(std::span<const sensor_models::Swee
   std::vector<double> clear(beams.size(), 0.0);
   for (std::size_t i = 0; i < beams.size(); ++i) {
     if (beams[i].no_return) {
-      clear[i] = params_.empty_reach;
+      clear[i] = std::min(params_.empty_reach, beams[i].range);
       continue;
     }
     const Point2 end = sensor_models::endpoint(beams[i]);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "docent/grid/occupancy_grid.h"
+#include "docent/localization/judgement/hindrance.h"
 #include "docent/localization/markov/markov_localizer.h"
 #include "docent/localization/monte_carlo/monte_carlo_localizer.h"
 #include "docent/localization/pose_watch/pose_watch.h"
@@ -112,9 +113,14 @@ class LocalizeModule final : public Module {
     if (odometry_silence_.first_silent(now)) return {"degraded", "no odom"};
     if (body_.scanners.empty()) return {"degraded", "body.scanners is empty: nothing tells where I am"};
     if (const auto scan = scan_silence_.first_silent(now)) return {"degraded", "no " + *scan};
-    if (!watch_.is_localized()) return {"degraded", "I do not know where I am"};
-    if (sonars_) return health_of_sonars(now);
-    return {};
+    const std::string notes = scanners_->notes();
+    if (!watch_.is_localized())
+      return {"degraded", "I do not know where I am: " +
+                              localization::hindrance_of(watch_.verdict().doubt(), params_.markov.verdict) +
+                              (notes.empty() ? "" : "; " + notes)};
+    if (const ModuleHealth sonars = sonars_ ? health_of_sonars(now) : ModuleHealth{}; !sonars.reason.empty())
+      return sonars;
+    return {"ready", notes};
   }
 
  private:
@@ -141,7 +147,7 @@ class LocalizeModule final : public Module {
       odometry_silence_.hear(0, bus_.now());
       watch_.move(from_message(odometry.header.stamp), from_message(odometry.pose.pose));
     });
-    subscribe_scanners(bus_, body_, [this](std::size_t i, const auto& scan) { on_scan(i, scan); });
+    scanners_ = subscribe_scanners(bus_, body_, [this](std::size_t i, const auto& scan) { on_scan(i, scan); });
     if (sonars_) bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const auto& range) { on_sonar(range); });
     subscribe_initial_pose(bus_, context.museum.map, [this](const localization::BeliefMode& mode, Time stamp) {
       return start_where_told(mode, stamp);
@@ -225,6 +231,7 @@ class LocalizeModule final : public Module {
   std::string map_hash_;
   localization::PoseWatch watch_;
   std::shared_ptr<localization::SonarEvidence> sonars_;  ///< beside the lasers; null: they take no part
+  std::shared_ptr<const ScannerReaders> scanners_;
   localization::SensorSilence odometry_silence_;
   localization::SensorSilence scan_silence_;
   localization::SensorSilence sonar_silence_;

@@ -100,7 +100,9 @@ class MapModule final : public Module {
   void look() {
     if (!pose_.localized()) return;
     for (std::size_t i = 0; i < sights_.size(); ++i) {
-      if (place(i)) live_.look(sights_[i].map_from_laser.position(), sights_[i].endpoints, bus_.now());
+      if (place(i))
+        live_.look(sights_[i].map_from_laser.position(), sights_[i].endpoints, bus_.now(),
+                   static_cast<double>(sights_[i].scan.range_max));
     }
     publish_changes();
   }

@@ -1,28 +1,48 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <string>
 #include <vector>
 
+#include "docent/messages/scanners/scan_reader.h"
 #include "docent/messages/topics.h"
 #include "docent/robot/robot_config.h"
 #include "docent/transport/bus.h"
 
 namespace docent::modules {
 
-/// Calls `on_scan(index, scan)` for every message of every laser scanner that the body has, numbered as it lists them.
+/// One reader for each laser scanner of a body, numbered as it lists them. Every module has its own.
+class ScannerReaders {
+ public:
+  explicit ScannerReaders(const robot::RobotBody& body);
+
+  /// The sweep of a scanner as all of Docent reads it (`ScanReader`): counter-clockwise as the robot
+  /// stands, greatest range: nothing came back, NaN: no reading. O(beams)
+  [[nodiscard]] sensor_msgs::LaserScan read(std::size_t scanner, const sensor_msgs::LaserScan& scan);
+  /// What a technician should know of the scanners: "scan_front writes 0 where …; …"; empty: nothing.
+  [[nodiscard]] std::string notes() const;
+
+ private:
+  std::vector<std::string> topics_;
+  std::vector<ScanReader> readers_;
+};
+
+/// Calls `on_scan(index, scan)` for every sweep of every laser scanner that the body has, as ScannerReaders::read gives
+/// it.
+/// @returns who reads them
 template <class F>
-void subscribe_scanners(transport::Bus& bus, const robot::RobotBody& body, F on_scan) {
+std::shared_ptr<const ScannerReaders> subscribe_scanners(transport::Bus& bus, const robot::RobotBody& body, F on_scan) {
+  const auto readers = std::make_shared<ScannerReaders>(body);
   for (std::size_t i = 0; i < body.scanners.size(); ++i) {
-    bus.subscribe<sensor_msgs::LaserScan>(topics::scan_topic(body.scanners[i].name),
-                                          [i, on_scan](const sensor_msgs::LaserScan& scan) { on_scan(i, scan); });
+    bus.subscribe<sensor_msgs::LaserScan>(
+        topics::scan_topic(body.scanners[i].name),
+        [i, on_scan, readers](const sensor_msgs::LaserScan& scan) { on_scan(i, readers->read(i, scan)); });
   }
+  return readers;
 }
 
 /// [scanners] where they are mounted.
-[[nodiscard]] inline std::vector<Pose2> mounts_of(const std::vector<robot::Scanner>& scanners) {
-  std::vector<Pose2> mounts;
-  for (const robot::Scanner& scanner : scanners) mounts.push_back(scanner.base_from_sensor());
-  return mounts;
-}
+[[nodiscard]] std::vector<Pose2> mounts_of(const std::vector<robot::Scanner>& scanners);
 
 }  // namespace docent::modules

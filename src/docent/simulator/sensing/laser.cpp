@@ -36,6 +36,31 @@ double LaserScanner::measure(double ideal, double neighbour) {
   return std::clamp(range, 0.05, max);
 }
 
+void LaserScanner::see_body(std::span<const Disc> parts) {
+  parts_.clear();
+  for (const Disc& part : parts) parts_.push_back({inverse(base_from_scanner_) * part.centre, part.radius});
+}
+
+void LaserScanner::meet(Point2 centre, double radius, std::int32_t person) {
+  const double away = norm(centre);
+  const double half_angle = away > radius ? std::asin(radius / away) : 3.2;
+  const double bearing = std::atan2(centre.y, centre.x);
+  // A disc behind the scanner may reach into its field on both sides.
+  for (const double turn : {-6.283185307179586, 0.0, 6.283185307179586}) {
+    const double from = (bearing + turn - half_angle - params_.first_bearing) / params_.bearing_step;
+    const double to = (bearing + turn + half_angle - params_.first_bearing) / params_.bearing_step;
+    if (to < 0.0 || from > params_.beams - 1) continue;
+    const auto last = static_cast<std::size_t>(std::min<double>(std::floor(to), params_.beams - 1));
+    for (auto i = static_cast<std::size_t>(std::max(0.0, std::ceil(from))); i <= last; ++i) {
+      const auto range = ray_distance({}, rays_[i], centre, radius);
+      if (range && *range < ideal_[i]) {
+        ideal_[i] = *range;
+        sweep_.persons[i] = person;
+      }
+    }
+  }
+}
+
 const LaserScanner::Sweep& LaserScanner::sweep(const RayCaster& walls, std::span<const Disc> people,
                                                const Pose2& world_from_base) {
   const auto beams = static_cast<std::size_t>(params_.beams);
@@ -62,25 +87,9 @@ const LaserScanner::Sweep& LaserScanner::sweep(const RayCaster& walls, std::span
     const Point2 offset = disc.centre - origin;
     if (dot(offset, offset) > 1.01 * reach * reach) continue;  // most are out of reach
     const Point2 centre = scanner_from_world * disc.centre;
-    const double away = norm(centre);
-    if (away > reach) continue;
-    const double half_angle = away > disc.radius ? std::asin(disc.radius / away) : 3.2;
-    const double bearing = std::atan2(centre.y, centre.x);
-    // A disc behind the scanner may reach into its field on both sides.
-    for (const double turn : {-6.283185307179586, 0.0, 6.283185307179586}) {
-      const double from = (bearing + turn - half_angle - params_.first_bearing) / params_.bearing_step;
-      const double to = (bearing + turn + half_angle - params_.first_bearing) / params_.bearing_step;
-      if (to < 0.0 || from > params_.beams - 1) continue;
-      const auto last = static_cast<std::size_t>(std::min<double>(std::floor(to), params_.beams - 1));
-      for (auto i = static_cast<std::size_t>(std::max(0.0, std::ceil(from))); i <= last; ++i) {
-        const auto range = ray_distance({}, rays_[i], centre, disc.radius);
-        if (range && *range < ideal_[i]) {
-          ideal_[i] = *range;
-          sweep_.persons[i] = static_cast<std::int32_t>(person);
-        }
-      }
-    }
+    if (norm(centre) <= reach) meet(centre, disc.radius, static_cast<std::int32_t>(person));
   }
+  for (const Disc& part : parts_) meet(part.centre, part.radius, -1);
   for (std::size_t i = 0; i < beams; ++i) {
     const double left = i + 1 < beams ? ideal_[i + 1] : ideal_[i];
     const double right = i > 0 ? ideal_[i - 1] : ideal_[i];

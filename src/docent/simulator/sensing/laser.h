@@ -46,6 +46,8 @@ class LaserScanner {
   /// Takes one scan. @param people  those who may be met; any order. O(beams * cells + people).
   [[nodiscard]] const Sweep& sweep(const RayCaster& walls, std::span<const Disc> people, const Pose2& world_from_base);
 
+  /// What of the body stands in the scanner's plane, base frame: it sees that in every sweep.
+  void see_body(std::span<const Disc> parts);
   /// A scanner that looks no farther than `range` [m]; the noise at a distance stays what it is there.
   void limit_reach(double range);
 
@@ -54,6 +56,8 @@ class LaserScanner {
 
  private:
   [[nodiscard]] double measure(double ideal, double neighbour);
+  /// Shortens the beams that meet a disc, scanner frame; `person`: its number, -1 for none.
+  void meet(Point2 centre, double radius, std::int32_t person);
 
   LaserParams params_;
   Pose2 base_from_scanner_;
@@ -61,6 +65,7 @@ class LaserScanner {
   Sweep sweep_;
   std::vector<double> ideal_;
   std::vector<Point2> rays_;  ///< [beams] unit vectors, scanner
+  std::vector<Disc> parts_;   ///< of the body, scanner
 };
 
 }  // namespace docent::simulator

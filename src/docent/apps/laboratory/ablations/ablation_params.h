@@ -10,6 +10,7 @@ struct AblationParams {
   bool blind_to_people = false;    ///< avoid: sees virtual measurements and touch only
   bool without_watches = false;    ///< avoid: takes every sensor and belief for well
   bool dead_reckoning = false;     ///< localize: odometry alone after the first "here"
+  bool ignores_reach = false;      ///< localize: holds far readings against what it expects within its reach
   double best_pose_error_x = 0.0;  ///< [m], map: localize publishes the best hypothesis so far off (its cells are true)
   double best_pose_error_y = 0.0;  ///< [m], map: likewise
   double best_pose_error_heading = 0.0;  ///< [deg]: likewise
@@ -33,6 +34,7 @@ struct AblationParams {
     v("blind_to_people", blind_to_people);
     v("without_watches", without_watches);
     v("dead_reckoning", dead_reckoning);
+    v("ignores_reach", ignores_reach);
     v("best_pose_error_x", best_pose_error_x);
     v("best_pose_error_y", best_pose_error_y);
     v("best_pose_error_heading", best_pose_error_heading);

@@ -45,8 +45,10 @@ void amend_driving(robot::Amendments& amendments, const AblationParams& params) 
   });
   amendments.add<collision_avoidance::VirtualMeasurementParams>(
       [params](auto& hazards) { hazards.best_pose_only = params.best_pose_only; });
-  amendments.add<localization::LocalizerParams>(
-      [params](auto& localizer) { localizer.reckons_dead = params.dead_reckoning; });
+  amendments.add<localization::LocalizerParams>([params](auto& localizer) {
+    localizer.reckons_dead = params.dead_reckoning;
+    localizer.cuts_at_reach = !params.ignores_reach;
+  });
   amendments.add<localization::SonarEvidenceParams>(
       [params](auto& sonars) { sonars.trusting = params.trusts_dead_sonars; });
   amendments.add<people::PeopleFinderParams>([params](auto& people) { people.keeps_all = params.keeps_all_people; });

@@ -1,0 +1,134 @@
+"""Eight kinds of scanners as they are sold, each as all that a base has, in two museums: how soon the robot is here, how exact, and what
+it touches; the same from recordings made with them; and a robot that holds far readings against near expectations, which must get lost."""
+import csv
+import json
+import math
+import subprocess
+
+from evaluation.reports import contacts_of
+from evaluation.tables import Verdict, print_table
+
+# field [deg], beams, rate [Hz], reach [m], the rest as in robot.yaml.
+KINDS = {
+    "4 m, 240 deg, writes 0": "field: 240, beams: 682, rate: 10, max_range: 4, no_return: zero",
+    "8 m, 360 deg, 90 beams, 5 Hz": "field: 360, beams: 90, rate: 5, max_range: 8, no_return: infinity",
+    "10 m, 180 deg": "field: 180",
+    "12 m, 360 deg, clockwise, posts": "field: 360, beams: 360, rate: 5.5, max_range: 12, clockwise: true, no_return: infinity",
+    "20 m, 270 deg, 25 Hz": "field: 270, beams: 541, rate: 25, max_range: 20",
+    "30 m, 270 deg, 40 Hz, hangs": "field: 270, beams: 1081, rate: 40, max_range: 30, upside_down: true, no_return: infinity",
+    "30 m, 360 deg, 2880 beams, clockwise, writes 0":
+        "field: 360, beams: 2880, rate: 10, max_range: 30, clockwise: true, no_return: zero",
+    "80 m, 190 deg, 25 Hz": "field: 190, beams: 1141, rate: 25, max_range: 80",
+}
+POSTS = "body.posts=[[0.15, 0.12, 0.01], [0.15, -0.12, 0.01], [-0.2, 0.0, 0.01]]"
+SLICE = ["4 m, 240 deg, writes 0", "12 m, 360 deg, clockwise, posts", "80 m, 190 deg, 25 Hz"]
+FAR = ["20 m, 270 deg, 25 Hz", "80 m, 190 deg, 25 Hz"]  # what the crippled robot is given
+MUSEUMS = ["bonn", "smithsonian"]
+MINUTES, SEEDS, SLICE_MINUTES = 6, 5, 1.5
+HERE_S, ERROR_M, LOST_SHARE = 10.0, 0.05, 0.02
+CRIPPLED = ["--set", "evaluation.ignores_reach=true"]
+HEADER = ["scanner", "museum", "runs", "here after s", "worst", "error cm", "lost s", "wrong s", "driven m", "contacts", "area"]
+
+
+def settings_of(kind):
+    scanner = f"body.scanners=[{{name: front, frame: laser_front, {KINDS[kind]}}}]"
+    base = [scanner, "body.sonars=0", "body.infrareds=0", "body.tactile=false", *([POSTS] if "posts" in kind else [])]
+    return [word for setting in base for word in ("--set", setting)]
+
+
+def here_after(report):
+    """[s]; a robot that never is, was not for the whole run."""
+    after = report["localization"]["localized_after_s"]
+    return report["virtual_seconds"] if after is None else after
+
+
+def row_of(kind, museum, reports):
+    after = [here_after(r) for r in reports]
+    errors = [r["localization"]["mean_error_m"] for r in reports if r["localization"]["mean_error_m"] is not None]
+    return [kind, museum, len(reports), f"{sum(after) / len(after):.1f}", f"{max(after):.1f}",
+            f"{100 * sum(errors) / len(errors):.1f}" if errors else "none", f"{sum(r['localization']['lost_s'] for r in reports):.0f}",
+            f"{sum(r['localization']['wrong_but_sure_s'] for r in reports):.1f}", f"{sum(r['distance_m'] for r in reports):.0f}",
+            sum(map(contacts_of, reports)), sum(r["area_violations"] for r in reports)]
+
+
+def judge(verdict, kind, museum, reports):
+    after = sorted(here_after(r) for r in reports)
+    name = f"{kind}, {museum}"
+    verdict.want(f"{name}: here within {HERE_S:g} s (nine of ten)", f"{sum(a <= HERE_S for a in after)} of {len(after)}, the last after {after[-1]:.1f} s",
+                 10 * sum(a <= HERE_S for a in after) >= 9 * len(after))
+    errors = [r["localization"]["mean_error_m"] for r in reports]
+    known = [e for e in errors if e is not None]
+    seconds = sum(r["virtual_seconds"] for r in reports)
+    verdict.want(f"{name}: mean error (at most {100 * ERROR_M:g} cm)", f"{100 * sum(known) / max(len(known), 1):.1f} cm in {seconds:.0f} s",
+                 len(known) == len(errors) and sum(known) / len(known) <= ERROR_M)
+    lost, wrong = (sum(r["localization"][key] for r in reports) for key in ("lost_s", "wrong_but_sure_s"))
+    verdict.want(f"{name}: lost later, and sure but wrong", f"{lost:.1f} and {wrong:.1f} of {seconds:.0f} s", lost <= LOST_SHARE * seconds and wrong <= 0.01 * seconds)
+    driven, touched = sum(r["distance_m"] for r in reports), sum(map(contacts_of, reports))
+    verdict.want(f"{name}: contacts and area violations", f"{touched + sum(r['area_violations'] for r in reports)} in {driven:.0f} m",
+                 touched == 0 and driven >= 2 * len(reports))
+
+
+def reference_of(claims, recording_begins):
+    """What `docent localize --reference` reads: the truth of a run, at the times of its recording."""
+    lines = []
+    with open(claims, encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            lines.append(f"{recording_begins + float(row['time']):.3f} {row['true_x']} {row['true_y']} {math.radians(float(row['true_heading'])):.5f}")
+    return "\n".join(lines) + "\n"
+
+
+def localized(simulations, museum, kept):
+    """The report of `docent localize` over a recording, default settings, unknown start."""
+    report = kept["mcap"].with_suffix(".localize.json")
+    if not report.exists():
+        reference = kept["mcap"].with_suffix(".reference")
+        reference.write_text(reference_of(kept["csv"], 0.0))
+        part = report.with_suffix(".part")
+        subprocess.run([simulations.docent, "localize", "--map", museum / "map.yaml", "--log", kept["mcap"], "--reference", reference, "--wall-depth",
+                        "0", "--report", part], check=True, capture_output=True, timeout=1800)
+        part.rename(report)
+    return json.loads(report.read_text())
+
+
+def recordings(simulations, kinds, museums, minutes, seeds, verdict):
+    calls = [(kind, name, seed) for kind in kinds for name in museums for seed in seeds]
+
+    def run(kind, name, seed):
+        museum = simulations.museums / name
+        kept, _ = simulations.run_logged("scanners", museum, seed, minutes / 60, ["--crowd", "busy", *settings_of(kind)],
+                                         {"--claims": "csv", "--record": "mcap"})
+        return localized(simulations, museum, kept)
+
+    rows = []
+    for (kind, name, seed), report in zip(calls, simulations.each(run, calls)):
+        first, error = report.get("localized_after_scans"), report.get("mean_error_m")
+        wrong, scans = report.get("sure_and_wrong_scans", 0), report["scans"]
+        rows.append([kind, name, seed, scans, first, "none" if error is None else f"{100 * error:.1f}", report.get("lost_scans"), wrong])
+        verdict.want(f"recorded, {kind}, {name}, seed {seed}: error in the mean, sure and wrong",
+                     f"{rows[-1][5]} cm, {wrong} of {scans} scans", error is not None and error <= 2 * ERROR_M and wrong <= 0.02 * scans)
+    print_table(["recorded with", "museum", "seed", "scans", "here after", "error cm", "lost scans", "sure and wrong"], rows)
+
+
+def protocol(simulations, options):
+    kinds = SLICE if options.slice else list(KINDS)
+    museums = MUSEUMS[:1] if options.slice else MUSEUMS
+    minutes = options.minutes or (SLICE_MINUTES if options.slice else MINUTES)
+    seeds = range(options.first_seed, options.first_seed + (options.seeds or (1 if options.slice else SEEDS)))
+    print(f"\n## {len(kinds)} scanners in {' and '.join(museums)}, busy, {len(seeds)} seeds x {minutes:g} minutes each\n")
+    runs = lambda kind, museum, some, more=(): simulations.of_seeds(
+        "scanners", simulations.museums / museum, some, minutes, ["--crowd", "busy", *settings_of(kind), *more])
+    made = {(kind, museum): runs(kind, museum, seeds) for kind in kinds for museum in museums}
+    print_table(HEADER, [row_of(kind, museum, reports) for (kind, museum), reports in made.items()])
+    print()
+    verdict = Verdict()
+    for (kind, museum), reports in made.items():
+        judge(verdict, kind, museum, reports)
+    recordings(simulations, kinds[-2:] if options.slice else kinds, museums, minutes, seeds[:1] if options.slice else seeds[:2], verdict)
+    if not options.no_crippled:
+        for kind in FAR[-1:] if options.slice else FAR:
+            reports = runs(kind, "bonn", seeds, CRIPPLED)
+            never = sum(r["localization"]["localized_after_s"] is None for r in reports)
+            verdict.want(f"crippled: {kind}, far readings held against near expectations (must not find itself)",
+                         f"{never} of {len(reports)} never here", 2 * never > len(reports))
+    verdict.print()
+    return verdict

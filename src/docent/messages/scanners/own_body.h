@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "docent/geometry/polygon.h"
+#include "docent/geometry/pose2.h"
+
+namespace docent {
+
+/// What a scanner sees of the robot that carries it: posts, a mast, cables. It never moves with respect to the scanner
+/// and lies inside the body, so it is learned from the first sweeps and taken out of all that follow. Something else at
+/// the same place cannot be seen there; what is nearer or farther along the same beam is.
+class OwnBody {
+ public:
+  /// @param radius  [m] of the body about its centre; 0: nothing is taken out
+  /// @param outline  [m] convex, of a body that is no disc; empty: it is one
+  OwnBody(const Pose2& base_from_sensor, double radius, Polygon outline)
+      : base_from_sensor_{base_from_sensor}, radius_{radius}, outline_{std::move(outline)} {}
+
+  /// Learns from a sweep, and makes its readings of the body NaN. Ranges [m] and bearings [rad] in the sensor's frame
+  /// (not upside down). O(beams + beams on the body * points learned nearby)
+  void take_out(std::span<float> ranges, double first_bearing, double bearing_step, double min_range);
+
+  /// Where it sees the robot, [deg] in the robot's frame from the front: "-12..-8, 172..176"; empty: nowhere.
+  [[nodiscard]] std::string where() const;
+  /// It sees so much inside the body that this is no part of the robot: it is covered, or body.radius is wrong.
+  [[nodiscard]] bool is_too_much() const { return is_too_much_; }
+
+ private:
+  struct Part {
+    Point2 in_sensor;  ///< [m]
+    double sum = 0.0;  ///< [m] of its readings
+    float least = 0.0F, most = 0.0F;
+    std::size_t met = 0;     ///< sweeps
+    std::size_t missed = 0;  ///< sweeps on end
+  };
+  /// By `more` [m] beyond the disc, or inside the outline.
+  [[nodiscard]] bool is_inside(double range, Angle bearing, double more) const;
+  void learn(std::span<const float> ranges, double first_bearing, double bearing_step, double min_range);
+  void conclude(double first_bearing, double bearing_step);
+
+  Pose2 base_from_sensor_;
+  double radius_;
+  Polygon outline_;
+  std::size_t sweeps_ = 0;
+  std::vector<Part> beams_;  ///< [beams] while it learns
+  std::vector<Part> parts_;  ///< of the robot, by rising bearing
+  bool is_too_much_ = false;
+};
+
+}  // namespace docent
