@@ -33,6 +33,13 @@ TEST(MessageFitness, AScanNeedsBeamsThatAScannerHas) {
       EXPECT_TRUE(fault_of(scan)) << value;
     }
   }
+  auto clockwise = scan_all_round();
+  clockwise.angle_min = -clockwise.angle_min;
+  clockwise.angle_increment = -clockwise.angle_increment;
+  EXPECT_FALSE(fault_of(clockwise)) << "as many scanners turn";
+  clockwise.angle_increment *= 4.0F;
+  EXPECT_EQ(fault_of(clockwise).text(), "angle_increment takes the beams more than twice round");
+  EXPECT_TRUE(fault_on(topics::kVirtualScan, clockwise, fault_of(clockwise)));
   auto scan = scan_all_round();
   scan.angle_increment = std::numeric_limits<float>::denorm_min();
   EXPECT_EQ(fault_of(scan).text(), "angle_increment is too small for several beams");

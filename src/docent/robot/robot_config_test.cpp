@@ -158,10 +158,25 @@ TEST(RobotBody, HasTheScannersThatItsConfigurationLists) {
   EXPECT_EQ(one.body().scanners[0].field, 270.0);
   RobotConfig config;
   EXPECT_TRUE(config.set("body.scanners=[{name: left, frame: l, heading: 90}, {name: right, frame: r, heading: -90}]"));
-  for (const char* bad : {"[{name: above}]", "[{}, {frame: other}]", "[{}, {name: rear}]", "[{frame: ''}]",
-                          "[{field: 0}]", "[{field: 361}]", "[{x: 3}]", "[{y: .nan}]", "[front]", "front"}) {
+  for (const char* bad :
+       {"[{name: above}]", "[{}, {frame: other}]", "[{}, {name: rear}]", "[{frame: ''}]", "[{field: 0}]",
+        "[{field: 361}]", "[{max_range: 0.1}]", "[{max_range: -4}]", "[{zero: far}]", "[{beams: 3}]", "[{rate: 0}]",
+        "[{rate: .nan}]", "[{no_return: nan}]", "[{x: 3}]", "[{y: .nan}]", "[front]", "front"}) {
     EXPECT_FALSE(config.set(std::string{"body.scanners="} + bad).has_value()) << bad;
   }
+}
+
+TEST(RobotBody, HasScannersAsTheyAreSold) {
+  RobotConfig config;
+  ASSERT_TRUE(
+      config.set("body.scanners=[{max_range: 80, upside_down: true, zero: nothing, beams: 2880, rate: 40, "
+                 "clockwise: true, no_return: zero}]"));
+  const Scanner& scanner = config.body().scanners[0];
+  EXPECT_TRUE(scanner.upside_down && scanner.clockwise);
+  EXPECT_EQ(scanner.max_range, 80.0);
+  EXPECT_TRUE(config.set("body.posts=[[0.1, 0.1, 0.01]]"));
+  for (const char* bad : {"[[0.1, 0.1]]", "[[0.3, 0.0, 0.01]]", "[[0.1, 0.1, 0.0]]", "[[.nan, 0.1, 0.01]]"})
+    EXPECT_FALSE(config.set(std::string{"body.posts="} + bad).has_value()) << bad;
 }
 
 TEST(RobotBody, WithoutScannersItNeedsARingOfSonars) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "docent/transport/virtual_time_bus.h"
 
 namespace docent::simulator::instruments_test {
@@ -53,11 +56,45 @@ TEST_F(Sight, OneScannerInFrontSeesNobodyBehind) {
 }
 
 TEST_F(Sight, AScannerLooksFromWhereItIsMounted) {
-  const auto left = with({{"left", "laser_left", {0.0, 0.5, Angle::degrees(90.0)}, Angle::degrees(90.0).radians()}});
+  const auto left =
+      with({{"left", "laser_left", {0.0, 0.5, Angle::degrees(90.0)}, {.field = Angle::degrees(90.0).radians()}}});
   EXPECT_TRUE(sees(*left, {0.0, 2.0}));
   EXPECT_TRUE(sees(*left, {1.2, 2.0}));
   EXPECT_FALSE(sees(*left, {2.0, 0.5})) << "beside its field of 90 degrees";
   EXPECT_FALSE(sees(*left, {0.0, -2.0}));
+}
+
+TEST_F(Sight, AScannerIsWrittenAsItIsSoldAndSeesTheBodysPosts) {
+  Hardware hardware;
+  hardware.scanners = {{"front",
+                        "laser_front",
+                        {},
+                        {.field = 2.0 * std::numbers::pi,
+                         .beams = 720,
+                         .rate = 40.0,
+                         .max_range = 4.0,
+                         .is_clockwise = true,
+                         .no_return = NoReturn::zero}}};
+  hardware.posts = {{{0.0, -0.2}, 0.02}};
+  Instruments instruments{*bus_, world_, hardware, Rng{1}};
+  const auto robot = hub_.connect("robot");
+  std::vector<sensor_msgs::LaserScan> scans;
+  robot->subscribe<sensor_msgs::LaserScan>(topics::scan_topic("front"),
+                                           [&](const auto& scan) { scans.push_back(scan); });
+  for (std::size_t step = 0; step < 100; ++step) instruments.publish_scans(hub_.now(), step, kRobot, {});
+  hub_.run_until(hub_.now() + seconds(0.1));
+  ASSERT_EQ(scans.size(), 40U);
+  const sensor_msgs::LaserScan& scan = scans.back();
+  EXPECT_LT(scan.angle_increment, 0.0F);
+  EXPECT_EQ(scan.range_max, 4.0F);
+  ASSERT_EQ(scan.ranges.size(), 720U);
+  const auto reading = [&](double bearing) {
+    return static_cast<double>(scan.ranges[static_cast<std::size_t>(
+        std::lround((bearing - static_cast<double>(scan.angle_min)) / static_cast<double>(scan.angle_increment)))]);
+  };
+  EXPECT_NEAR(reading(0.5 * std::numbers::pi), 3.0, 0.2) << "the wall to the left";
+  EXPECT_NEAR(reading(-0.5 * std::numbers::pi), 0.18, 0.08) << "the post to the right";
+  EXPECT_EQ(reading(0.0), 0.0) << "nothing ahead";
 }
 
 TEST_F(Sight, WithoutAScannerNobodyIsSeen) { EXPECT_FALSE(sees(*with({}), {1.0, 0.0})); }

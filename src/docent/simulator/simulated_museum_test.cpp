@@ -17,7 +17,7 @@ namespace {
 
 TEST(SimulatedMuseum, HasTheSensorsOfItsHardwareAndNoOthers) {
   SimulationOptions small = options("quiet");
-  small.hardware.scanners = {{"left", "side", {0.0, 0.1, Angle::degrees(90.0)}, 0.5 * std::numbers::pi}};
+  small.hardware.scanners = {{"left", "side", {0.0, 0.1, Angle::degrees(90.0)}, {.field = 0.5 * std::numbers::pi}}};
   small.hardware.sonars = 9;
   small.hardware.infrareds = 0;
   small.hardware.has_tactile = false;

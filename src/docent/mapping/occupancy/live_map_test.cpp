@@ -30,6 +30,17 @@ TEST(LiveMap, WhoStandsBlocksAndWhoWalksDoesNot) {
   EXPECT_TRUE(map.take_changes().has_value());
 }
 
+TEST(LiveMap, WhereANearSightedScannerMetNothingNothingStands) {
+  const std::vector<Point2> nothing{{4.0, 2.5}};
+  LiveMap map{hall(), {}};
+  for (int i = 0; i < 4; ++i) map.look({1, 2.5}, nothing, time_from_seconds(i), 3.0);
+  EXPECT_FALSE(blocked(map, {4.0, 2.5}));
+  for (int i = 4; i < 8; ++i) map.look({1, 2.5}, nothing, time_from_seconds(i), 10.0);
+  EXPECT_TRUE(blocked(map, {4.0, 2.5})) << "one that looks farther met something";
+  for (int i = 8; i < 12; ++i) map.look({1, 2.5}, std::vector<Point2>{{4.5, 2.5}}, time_from_seconds(i), 3.5);
+  EXPECT_FALSE(blocked(map, {4.0, 2.5})) << "rays that met nothing clear";
+}
+
 TEST(LiveMap, TheMappedWallIsNoNews) {
   LiveMap map{hall(), {}};
   for (int i = 0; i < 8; ++i) map.look({1, 2.5}, std::vector<Point2>{{4.9, 2.5}}, time_from_seconds(i));

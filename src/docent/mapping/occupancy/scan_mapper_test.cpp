@@ -240,6 +240,9 @@ TEST(ScanMapper, ABeamWithoutAReturnShowsFloorOnlyAsFarAsIsSaid) {
   const OccupancyGrid map = map_of({lost}, params);
   EXPECT_EQ(at(map, {1.4, 1.4}), OccupancyGrid::kFree);
   EXPECT_EQ(at(map, {3.4, 3.4}), OccupancyGrid::kUnknown);
+  for (sensor_models::SweepBeam& beam : lost.sweep.beams)
+    if (beam.no_return) beam.range = 1.5;
+  EXPECT_EQ(at(map_of({lost}, params), {1.4, 1.4}), OccupancyGrid::kUnknown) << "nor farther than it looks";
 }
 
 TEST(ScanMapper, TheBodyShowsThatTheFloorIsFree) {
