@@ -10,11 +10,13 @@ namespace docent {
 namespace {
 
 constexpr std::size_t kSweepsLearned = 10;  // it learns from
-constexpr std::size_t kFewestMet = 8;       // of them, in which a beam ends on the body
+constexpr std::size_t kDirections = 720;    // of a turn
+constexpr double kMetShare = 0.8;           // of the beams of a direction, that end on the body
 constexpr double kBodyNoise = 0.03;         // [m] by which a reading of the body may lie outside of it, but
 constexpr double kRim = 0.01;               // [m] what is learned lies inside: the robot may begin beside a wall
 constexpr double kBodySpread = 0.10;        // [m] of the readings of one beam: what moves is not the body
 constexpr double kSamePart = 0.08;          // [m] from a part of the body: the same part
+constexpr double kApart = 0.02;             // [m] nearer parts are one
 constexpr double kMostShare = 0.25;         // of the beams
 constexpr std::size_t kForgotten = 100;     // sweeps on end that do not meet a part
 
@@ -45,39 +47,40 @@ void OwnBody::take_out(std::span<float> ranges, double first_bearing, double bea
 }
 
 void OwnBody::learn(std::span<const float> ranges, double first_bearing, double bearing_step, double min_range) {
-  if (beams_.size() != ranges.size()) {
-    beams_.assign(ranges.size(), {});
-    sweeps_ = 0;
-  }
+  // By direction and not by number: spinners have some beams more or less in each sweep.
+  if (directions_.empty()) directions_.resize(kDirections);
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const float range = ranges[i];
     const Angle bearing = Angle::radians(first_bearing + static_cast<double>(i) * bearing_step);
+    Part& part = directions_[static_cast<std::size_t>((bearing.degrees() + 180.0) / 360.0 * kDirections) % kDirections];
+    ++part.beams;
     if (!(static_cast<double>(range) >= min_range) || !is_inside(static_cast<double>(range), bearing, -kRim)) continue;
-    Part& beam = beams_[i];
-    beam.least = beam.met == 0 ? range : std::min(beam.least, range);
-    beam.most = std::max(beam.most, range);
-    beam.sum += static_cast<double>(range);
-    ++beam.met;
+    part.least = part.met == 0 ? range : std::min(part.least, range);
+    part.most = std::max(part.most, range);
+    part.in_sensor = part.in_sensor + static_cast<double>(range) * unit(bearing);
+    ++part.met;
   }
-  if (++sweeps_ == kSweepsLearned) conclude(first_bearing, bearing_step);
+  if (++sweeps_ == kSweepsLearned) conclude();
 }
 
-void OwnBody::conclude(double first_bearing, double bearing_step) {
-  for (std::size_t i = 0; i < beams_.size(); ++i) {
-    Part part = beams_[i];
-    if (part.met < kFewestMet || static_cast<double>(part.most - part.least) > kBodySpread) continue;
-    const Angle bearing = Angle::radians(first_bearing + static_cast<double>(i) * bearing_step);
-    part.in_sensor = (part.sum / static_cast<double>(part.met)) * unit(bearing);
-    parts_.push_back(part);
+void OwnBody::conclude() {
+  std::size_t seen = 0, on_body = 0;
+  for (Part part : directions_) {
+    seen += part.beams > 0 ? 1 : 0;
+    if (part.met == 0 || static_cast<double>(part.met) < kMetShare * static_cast<double>(part.beams)) continue;
+    if (static_cast<double>(part.most - part.least) > kBodySpread) continue;
+    ++on_body;
+    part.in_sensor = (1.0 / static_cast<double>(part.met)) * part.in_sensor;
+    if (parts_.empty() || distance(parts_.back().in_sensor, part.in_sensor) > kApart) parts_.push_back(part);
   }
-  is_too_much_ = static_cast<double>(parts_.size()) > kMostShare * static_cast<double>(beams_.size());
+  is_too_much_ = static_cast<double>(on_body) > kMostShare * static_cast<double>(seen);
   if (is_too_much_) parts_.clear();
-  beams_.clear();
-  beams_.shrink_to_fit();
+  directions_.clear();
+  directions_.shrink_to_fit();
 }
 
 std::string OwnBody::where() const {
-  constexpr double kApart = 8.0;  // [deg] nearer ones are told as one
+  constexpr double kTogether = 8.0;  // [deg] nearer ones are told as one
   std::vector<double> bearings;
   for (const Part& part : parts_) {
     const Point2 in_base = base_from_sensor_ * part.in_sensor;
@@ -87,7 +90,7 @@ std::string OwnBody::where() const {
   std::string text;
   for (std::size_t begin = 0; begin < bearings.size();) {
     std::size_t end = begin + 1;
-    while (end < bearings.size() && bearings[end] - bearings[end - 1] < kApart) ++end;
+    while (end < bearings.size() && bearings[end] - bearings[end - 1] < kTogether) ++end;
     text += (text.empty() ? "" : ", ") + std::to_string(std::lround(bearings[begin])) + ".." +
             std::to_string(std::lround(bearings[end - 1]));
     begin = end;

@@ -31,24 +31,24 @@ class OwnBody {
   [[nodiscard]] bool is_too_much() const { return is_too_much_; }
 
  private:
+  /// What lies in one direction: while it learns, the sum of its readings' ends.
   struct Part {
     Point2 in_sensor;  ///< [m]
-    double sum = 0.0;  ///< [m] of its readings
     float least = 0.0F, most = 0.0F;
-    std::size_t met = 0;     ///< sweeps
+    std::size_t beams = 0;   ///< that looked there
+    std::size_t met = 0;     ///< of them, that ended inside the body
     std::size_t missed = 0;  ///< sweeps on end
   };
-  /// By `more` [m] beyond the disc, or inside the outline.
   [[nodiscard]] bool is_inside(double range, Angle bearing, double more) const;
   void learn(std::span<const float> ranges, double first_bearing, double bearing_step, double min_range);
-  void conclude(double first_bearing, double bearing_step);
+  void conclude();
 
   Pose2 base_from_sensor_;
   double radius_;
   Polygon outline_;
   std::size_t sweeps_ = 0;
-  std::vector<Part> beams_;  ///< [beams] while it learns
-  std::vector<Part> parts_;  ///< of the robot, by rising bearing
+  std::vector<Part> directions_;  ///< while it learns
+  std::vector<Part> parts_;       ///< of the robot, by rising bearing
   bool is_too_much_ = false;
 };
 

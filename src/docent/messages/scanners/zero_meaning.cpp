@@ -34,7 +34,9 @@ void ZeroMeaning::add(std::span<const float> ranges, double bearing_step, double
               : std::isnan(range) || range < min_range       ? Beam::none
               : range < std::min(near, kAtReach * max_range) ? Beam::near
                                                              : Beam::open;
-    far_ += range >= max_range ? 1 : 0;
+    if (range < max_range) continue;
+    far_ += range == said_far_ ? 1 : 0;  // a word is always the same, a reading from beyond the greatest range is not
+    said_far_ = range;
   }
   if (far_ >= kSaidFar) {
     found_ = ZeroMeans::failed;

@@ -36,6 +36,7 @@ class ZeroMeaning {
   std::vector<Beam> now_, before_;
   std::vector<bool> wandered_;  ///< [beams] an edge has passed over it
   std::size_t far_ = 0;         ///< readings so far that were the driver's word for "nothing there"
+  double said_far_ = 0.0;       ///< [m] the last of them
   std::size_t at_reach_ = 0;    ///< sweeps with zeros beside readings of nearly the greatest range, at several places
   std::size_t closed_ = 0;      ///< beams of zeros beside something near, and
   std::size_t open_ = 0;        ///< beside something far

@@ -68,7 +68,7 @@ TEST(ZeroMeaning, WhatIsCoveredStaysNoReadingHoweverTheRobotTurns) {
   EXPECT_EQ(meaning.found(), ZeroMeans::find_out);
 }
 
-TEST(ZeroMeaning, ACloththatFallsOverItIsNoAnswerAboutTheHall) {
+TEST(ZeroMeaning, AClothThatFallsOverItIsNoAnswerAboutTheHall) {
   ZeroMeaning meaning;
   for (int sweep = 0; sweep < 200; ++sweep) {
     std::vector<float> ranges(360, 2.0F);
