@@ -30,8 +30,8 @@ Result<void> check_kind(const Scanner& scanner) {
   const std::string at = "body.scanners: of " + scanner.name + " ";
   if (scanner.max_range != 0.0 && !(scanner.max_range >= 0.5 && scanner.max_range <= 1000.0))
     return fail(at + "max_range must be 0.5..1000 m, or 0: as its messages say");
-  if (scanner.zero != "find out" && scanner.zero != "nothing" && scanner.zero != "failed")
-    return fail(at + "zero must be 'find out', nothing or failed, not '" + scanner.zero + "'");
+  if (scanner.zero != "auto" && scanner.zero != "nothing" && scanner.zero != "failed")
+    return fail(at + "zero must be auto, nothing or failed, not '" + scanner.zero + "'");
   if (!(scanner.beams == 0 || (scanner.beams >= 16 && scanner.beams <= 10000)))
     return fail(at + "beams must be 16..10000, or 0: one a degree");
   if (!(scanner.rate >= 1.0 && scanner.rate <= 100.0)) return fail(at + "rate must be 1..100 Hz");

@@ -21,13 +21,13 @@ struct Scanner {
   std::string frame = "laser_front";  ///< of its messages
   double x = 0.0, y = 0.0;            ///< [m], robot frame
   double heading = 0.0;               ///< [deg], robot frame: of the middle of its field
-  double field = 180.0;      ///< [deg] of view; this is for a simulated scanner, a real one says it in its messages
-  bool upside_down = false;  ///< it hangs, and its driver does not turn the sweeps over
-  double max_range = 0.0;    ///< [m] that it looks at most; 0: as its messages say, a simulated one 10 m
-  std::string zero = "find out";  ///< its driver writes 0 for nothing (nothing there) or failed (no reading)
-  int beams = 0;                  ///< of a simulated one, evenly over the field; 0: one a degree
-  double rate = 10.0;             ///< [Hz] of a simulated one
-  bool clockwise = false;         ///< likewise: its beams go round so
+  double field = 180.0;       ///< [deg] of view; this is for a simulated scanner, a real one says it in its messages
+  bool upside_down = false;   ///< it hangs, and its driver does not turn the sweeps over
+  double max_range = 0.0;     ///< [m] that it looks at most; 0: as its messages say, a simulated one 10 m
+  std::string zero = "auto";  ///< its driver writes 0 for nothing (nothing there) or failed (no reading)
+  int beams = 0;              ///< of a simulated one, evenly over the field; 0: one a degree
+  double rate = 10.0;         ///< [Hz] of a simulated one
+  bool clockwise = false;     ///< likewise: its beams go round so
   std::string no_return =
       "greatest";  ///< likewise: what it writes where nothing comes back: greatest, infinity or zero
   template <class V>

@@ -1,5 +1,6 @@
 #include "docent/apps/laboratory/learn/learn_recording.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <vector>
@@ -45,7 +46,8 @@ localization::LearningRecording learning_recording(const recording::LaserLog& lo
         continue;
     }
     last[sweep.sensor] = recording.lasers.size();
-    sensor_models::append(sweep.sweep, {scan.ranges, scan.first_bearing, scan.bearing_step, kMinRange, reach}, {});
+    const double own_reach = scan.max_range > 0.0 ? std::min(scan.max_range, reach) : reach;
+    sensor_models::append(sweep.sweep, {scan.ranges, scan.first_bearing, scan.bearing_step, kMinRange, own_reach}, {});
     recording.lasers.push_back(std::move(sweep));
   }
   if (!with_sonars) return recording;
