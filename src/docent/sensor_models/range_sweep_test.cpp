@@ -45,7 +45,7 @@ TEST(RangeSweep, NothingIsExpectedBeyondTheReach) {
   for (const std::size_t far : {1U, 2U, 3U}) {
     EXPECT_TRUE(sweep.beams[far].no_return);
     EXPECT_EQ(sweep.beams[far].range, 10.0);
-    EXPECT_EQ(sweep.beams[far].bearing, 0.1 * static_cast<double>(far));
+    EXPECT_DOUBLE_EQ(sweep.beams[far].bearing, 0.1 * static_cast<double>(far));
   }
   EXPECT_TRUE(sweep.beams[4].no_return);
   EXPECT_EQ(sweep.beams[4].range, 4.0) << "who looks less far says nothing of 10 m";

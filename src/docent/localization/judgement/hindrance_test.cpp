@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace docent::localization {
+namespace docent::localization::hindrance_test {
 namespace {
 
 /// A robot that knows its place.
@@ -43,4 +43,4 @@ TEST(Hindrance, EachHasItsWords) {
 }
 
 }  // namespace
-}  // namespace docent::localization
+}  // namespace docent::localization::hindrance_test

@@ -7,7 +7,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent {
+namespace docent::own_body_test {
 namespace {
 
 constexpr double kStep = std::numbers::pi / 180.0;
@@ -93,4 +93,4 @@ TEST(OwnBody, ACoveredScannerIsNoBody) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::own_body_test

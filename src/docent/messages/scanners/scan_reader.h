@@ -22,12 +22,12 @@ struct DriverScan {
 
 /// What the owner of a scanner says of it.
 struct ScannerTraits {
-  Pose2 base_from_sensor;                ///< the drawing's
+  Pose2 base_from_sensor{};              ///< the drawing's
   bool is_upside_down = false;           ///< it hangs: its axis points to the floor
   double max_range = 0.0;                ///< [m] that it looks at most; 0: as its messages say
   ZeroMeans zero = ZeroMeans::find_out;  ///< what its driver means by 0
   double body_radius = 0.0;              ///< [m] what it sees inside is the robot itself; 0: nobody looks
-  Polygon body_outline;                  ///< [m] likewise, where the body is no disc; convex
+  Polygon body_outline{};                ///< [m] likewise, where the body is no disc; convex
 };
 
 /// Reads the sweeps of one scanner as drivers write them into what all of Docent takes them for: beams

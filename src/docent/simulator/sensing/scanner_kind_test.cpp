@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace docent::simulator {
+namespace docent::simulator::scanner_kind_test {
 namespace {
 
 TEST(ScannerKind, TheOrdinaryOneIsTheScannerThatAlwaysWas) {
@@ -70,4 +70,4 @@ TEST(ScannerKind, SweepsComeAtTheirRate) {
 }
 
 }  // namespace
-}  // namespace docent::simulator
+}  // namespace docent::simulator::scanner_kind_test
