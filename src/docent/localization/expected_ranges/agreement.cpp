@@ -14,8 +14,13 @@ Agreement& Agreement::operator+=(const Agreement& other) {
 Agreement agreement(const ExpectedRanges& expected, const sensor_models::ProximityModel& model, int direction,
                     int measured, double sureness) {
   Agreement result;
-  if (measured >= sensor_models::kNoReturn) return result;
+  if (measured == sensor_models::kNoReturn) return result;
   const auto masses = expected.masses(direction);
+  if (measured > sensor_models::kNoReturn) {  // what a scanner that looks farther would have seen
+    const auto nearest = static_cast<std::size_t>(measured - sensor_models::kRangeBins) + 1;
+    for (std::size_t o = nearest; o < sensor_models::kNoReturn; ++o) result.agrees += static_cast<double>(masses[o]);
+    return result;
+  }
   const auto shorter = model.shorter_probabilities(measured);
   // P_m of this range and all behind it is P_short of the range before.
   const auto not_longer = model.shorter_probabilities(std::max(measured - 1, 0));

@@ -14,7 +14,8 @@ struct Agreement {
   Agreement& operator+=(const Agreement& other);
 };
 
-/// How a reading compares with what the belief expects; surely: with `sureness`, e.g. 0.99.
+/// How a reading compares with what the belief expects; surely: with `sureness`, e.g. 0.99. That nothing came back
+/// agrees where the map has a wall beyond what the scanner looks and within what the model does; else it says nothing.
 [[nodiscard]] Agreement agreement(const ExpectedRanges& expected, const sensor_models::ProximityModel& model,
                                   int direction, int measured, double sureness);
 /// Summed over all beams of a sweep: agrees + shorter + longer = beams whose range the map says.
