@@ -90,9 +90,9 @@ double shorter_reach(const Scans& scans) {
       if (std::isfinite(range)) farthest = std::max(farthest, static_cast<double>(range));
     }
   }
-  constexpr double kBeyond = 0.01;  // [m] the farthest reading itself is none of nothing
+  constexpr double kSteps = 2.0;  // [1/m] so that recordings of one robot share what is made for a reach
   const bool is_short = said > 0.0 && is_silent && farthest > 0.0 && farthest < kShortOfReach * said;
-  return is_short && scans.size() >= kFewestSweeps ? farthest + kBeyond : 0.0;
+  return is_short && scans.size() >= kFewestSweeps ? std::ceil(kSteps * farthest) / kSteps : 0.0;
 }
 
 }  // namespace
