@@ -69,7 +69,11 @@ class RobotModule final : public Module {
            frame,
            {{base_from_sensor.x, base_from_sensor.y, 0.0}, to_quaternion(base_from_sensor.theta)}});
     };
-    for (const robot::Scanner& scanner : body.scanners) add(scanner.frame, scanner.base_from_sensor());
+    for (const robot::Scanner& scanner : body.scanners) {
+      add(scanner.frame, scanner.base_from_sensor());
+      auto& turned = mounts.transforms.back().transform.rotation;
+      if (scanner.upside_down) turned = {turned.w, turned.z, 0.0, 0.0};  // half a turn about x before the yaw
+    }
     for (int i = 0; i < body.sonars; ++i) {
       add(robot::RobotBody::sonar_frame(i), body.base_from_sonar(i));
     }

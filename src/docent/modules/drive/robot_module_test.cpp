@@ -106,6 +106,19 @@ TEST_F(RobotModule, PublishesEveryMountForThoseWhoComeLateAndTheBaseAsOdometryHa
   EXPECT_EQ(base.transform.translation.y, -2.0);
 }
 
+TEST_F(RobotModule, AScannerThatHangsIsTurnedOverForThoseWhoReadItsMount) {
+  ASSERT_TRUE(config.set("body.scanners=[{heading: 45, upside_down: true}]"));
+  start();
+  run(1.0);
+  geometry_msgs::Quaternion hung;
+  const auto late = hub.connect("late");
+  late->subscribe<tf2_msgs::TFMessage>(
+      topics::kStaticTransforms, [&](const auto& mounts) { hung = mounts.transforms.front().transform.rotation; });
+  run(0.1);
+  EXPECT_NEAR(yaw_of(hung).degrees(), 45.0, 1e-6) << "it looks there still, and";
+  EXPECT_NEAR(1.0 - 2.0 * (hung.x * hung.x + hung.y * hung.y), -1.0, 1e-9) << "its axis points to the floor";
+}
+
 TEST_F(RobotModule, SaysWhenTheBaseIsSilentOrItsBatteryLow) {
   start();
   EXPECT_EQ(module->health().state, "starting");
