@@ -10,17 +10,17 @@ namespace docent::collision_avoidance {
 namespace {
 
 constexpr int kAll = VirtualMeasurements::kDirections;
-constexpr double kStep = 2.0 * std::numbers::pi / kAll;  // [rad]
+constexpr double kBearingStep = 2.0 * std::numbers::pi / kAll;  // [rad]
 constexpr double kOneEdge = 0.4;                         // [m] between neighbouring ends that belong together
 
-double bearing_of(int direction) { return direction * kStep - std::numbers::pi; }
+double bearing_of(int direction) { return direction * kBearingStep - std::numbers::pi; }
 
 void lower(VirtualMeasurements::Ranges& ranges, int direction, double range) {
   double& least = ranges[static_cast<std::size_t>((direction % kAll + kAll) % kAll)];
   least = std::min(least, range);
 }
 
-double direction_of(Point2 point) { return (std::atan2(point.y, point.x) + std::numbers::pi) / kStep; }
+double direction_of(Point2 point) { return (std::atan2(point.y, point.x) + std::numbers::pi) / kBearingStep; }
 
 /// The directions between the ends of an edge.
 void lower_between(VirtualMeasurements::Ranges& ranges, const Segment& edge) {
