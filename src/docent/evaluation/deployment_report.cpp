@@ -82,6 +82,10 @@ Json localization_of(const DeploymentReport::Localization& l) {
           {"blocked_beam_fraction", rounded(l.blocked_beam_fraction.mean())}};
 }
 
+Json age_of(const DeploymentReport::Age& age) {
+  return {{"p50_ms", rounded(1e3 * age.p50_s)}, {"p99_ms", rounded(1e3 * age.p99_s)}, {"messages", age.messages}};
+}
+
 Json latency_of(const DeploymentReport::Latency& latency) {
   return {{"p50_ms", rounded(1e3 * latency.p50_s)},
           {"p99_ms", rounded(1e3 * latency.p99_s)},
@@ -160,7 +164,11 @@ std::string to_json(const DeploymentReport& r, const std::optional<RunCost>& cos
                      {"global_detours", r.blocked.global_detours}};
   json["battery"] = {{"charges", r.battery.charges}, {"depleted", r.battery.depleted}};
   json["module_restarts"] = r.module_restarts;
-  if (r.latency) json["scan_to_command"] = latency_of(*r.latency);
+  if (r.latency) {
+    json["scan_to_command"] = latency_of(*r.latency);
+    json["belief_age"] = age_of(r.latency->belief);
+    json["hazards_age"] = age_of(r.latency->hazards);
+  }
   json["trips"] = trips_of(r);
   if (cost) {
     Json p99 = Json::object();

@@ -18,6 +18,7 @@
 #include "docent/apps/shared/arguments.h"
 #include "docent/apps/shared/command.h"
 #include "docent/apps/shared/deployment.h"
+#include "docent/apps/shared/process_class.h"
 #include "docent/apps/up/simulator_process.h"
 #include "docent/apps/up/status_display.h"
 #include "docent/apps/up/supervisor.h"
@@ -33,7 +34,7 @@ namespace {
 
 constexpr Duration kStep = std::chrono::milliseconds{50};
 constexpr Duration kShow = std::chrono::milliseconds{500};
-constexpr int kUrgent = -5;        // nice value
+constexpr int kUrgent = -10;       // nice value
 constexpr double kPatience = 5.0;  // [s] for the modules to end in order
 
 std::filesystem::path recordings_folder(const RobotRun& options) {
@@ -83,6 +84,7 @@ docent_msgs::Limits check(const RobotRun& options) {
   const robot::RobotConfig config = value_or_fail(options.deployment.load_config());
   std::vector<std::string> sections;
   for (const auto& entry : modules::all_modules()) sections.emplace_back(entry.name);
+  sections.emplace_back(kProcesses);
   value_or_fail(config.check_sections(sections));
   if (options.simulate) value_or_fail(check_simulator(options.deployment, options.simulator));
   docent_msgs::Limits limits = value_or_fail(limits_of(options, museum, config));
