@@ -204,7 +204,9 @@ void DeploymentEvaluator::count_battery(double level) {
 std::optional<DeploymentReport::Latency> DeploymentEvaluator::latency() const {
   const Quantiles& all = latency_.latencies();
   if (!(all.at(0.5) > 0.0)) return std::nullopt;
-  const auto of = [](const Quantiles& ages) { return DeploymentReport::Age{ages.count(), ages.at(0.5), ages.at(0.99)}; };
+  const auto of = [](const Quantiles& ages) {
+    return DeploymentReport::Age{ages.count(), ages.at(0.5), ages.at(0.99)};
+  };
   return DeploymentReport::Latency{all.count(),           all.at(0.5),         all.at(0.99),
                                    latency_.unanswered(), of(ages_.beliefs()), of(ages_.hazards())};
 }

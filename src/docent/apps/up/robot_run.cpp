@@ -18,11 +18,11 @@
 #include "docent/apps/shared/arguments.h"
 #include "docent/apps/shared/command.h"
 #include "docent/apps/shared/deployment.h"
-#include "docent/apps/shared/process_class.h"
 #include "docent/apps/up/simulator_process.h"
 #include "docent/apps/up/status_display.h"
 #include "docent/apps/up/supervisor.h"
 #include "docent/base/shipped_files.h"
+#include "docent/modules/host/process_class.h"
 #include "docent/modules/host/registry.h"
 #include "docent/museum/editing/museum_setup.h"
 #include "docent/museum/editing/museum_workshop.h"
@@ -84,7 +84,7 @@ docent_msgs::Limits check(const RobotRun& options) {
   const robot::RobotConfig config = value_or_fail(options.deployment.load_config());
   std::vector<std::string> sections;
   for (const auto& entry : modules::all_modules()) sections.emplace_back(entry.name);
-  sections.emplace_back(kProcesses);
+  sections.emplace_back(modules::kProcesses);
   value_or_fail(config.check_sections(sections));
   if (options.simulate) value_or_fail(check_simulator(options.deployment, options.simulator));
   docent_msgs::Limits limits = value_or_fail(limits_of(options, museum, config));

@@ -11,10 +11,10 @@
 #include "docent/apps/shared/command.h"
 #include "docent/apps/shared/deployment.h"
 #include "docent/apps/shared/log.h"
-#include "docent/apps/shared/process_class.h"
 #include "docent/apps/up/simulator_process.h"
 #include "docent/apps/up/supervisor.h"
 #include "docent/modules/host/module_host.h"
+#include "docent/modules/host/process_class.h"
 #include "docent/transport/dds_bus.h"
 
 namespace docent::apps::up_command {
@@ -52,10 +52,11 @@ void run(const RunOptions& options) {
   value_or_fail(deployment.prepare_state(), kExitBadConfiguration);
   if (entry->keeps_cache) prepare_cache(deployment.cache);
 
-  const auto classes = value_or_fail(config.section<ProcessParams>(kProcesses), kExitBadConfiguration);
+  const auto classes =
+      value_or_fail(config.section<modules::ProcessParams>(modules::kProcesses), kExitBadConfiguration);
   block_end_signals();
   // Before the bus: its threads take the class over.
-  const std::string handicap = entry->is_urgent ? enter_process_class(classes) : std::string{};
+  const std::string handicap = entry->is_urgent ? modules::enter_process_class(classes) : std::string{};
   auto dds_bus = join(deployment, deployment.domain, options.module);
   transport::DdsBus& bus = *dds_bus;
   const auto truth =

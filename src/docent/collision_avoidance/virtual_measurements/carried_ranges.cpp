@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kAll = VirtualMeasurements::kDirections;
 constexpr double kBearingStep = 2.0 * std::numbers::pi / kAll;  // [rad]
-constexpr double kOneEdge = 0.4;                         // [m] between neighbouring ends that belong together
+constexpr double kOneEdge = 0.4;                                // [m] between neighbouring ends that belong together
 
 double bearing_of(int direction) { return direction * kBearingStep - std::numbers::pi; }
 

@@ -15,8 +15,8 @@ constexpr int kAhead = VirtualMeasurements::kDirections / 2;
 Ranges seen_from(const Pose2& pose) {
   VirtualMeasurementParams params;
   params.cell_padding = 0.0;
-  VirtualMeasurements measurements{{{0, 0}, {20, 0}, {20, 20}, {0, 20}}, {{{10, 9}, {11, 9}, {11, 11}, {10, 11}}},
-                                   params};
+  VirtualMeasurements measurements{
+      {{0, 0}, {20, 0}, {20, 20}, {0, 20}}, {{{10, 9}, {11, 9}, {11, 11}, {10, 11}}}, params};
   const WeightedPose here{pose.position(), pose.theta.radians(), 1.0};
   return measurements.measure({&here, 1}, {}).ranges;
 }
@@ -29,7 +29,8 @@ TEST(CarriedRanges, WithoutMotionNothingChanges) {
 
 TEST(CarriedRanges, AfterSomeDecimetresTheyAreWhatAMeasurementThereWouldBe) {
   const Pose2 then{8.0, 9.6, Angle::degrees(10.0)};
-  for (const Pose2 step : {Pose2{0.25, 0.0, {}}, Pose2{0.2, 0.05, Angle::degrees(20.0)}, Pose2{0.0, 0.0, Angle::degrees(-31.0)}}) {
+  for (const Pose2 step :
+       {Pose2{0.25, 0.0, {}}, Pose2{0.2, 0.05, Angle::degrees(20.0)}, Pose2{0.0, 0.0, Angle::degrees(-31.0)}}) {
     const Ranges wanted = seen_from(then * step);
     const Ranges got = carried(seen_from(then), step);
     int near = 0;
@@ -60,7 +61,8 @@ TEST(CarriedRanges, AnEdgeThatIsDrivenUpToHasNoGaps) {
   Ranges wall;  // across the way, 1 m ahead
   for (int i = 0; i < VirtualMeasurements::kDirections; ++i) {
     const double bearing = (2.0 * i - 180.0) * std::numbers::pi / 180.0;
-    wall[static_cast<std::size_t>(i)] = std::abs(bearing) < 1.2 ? 1.0 / std::cos(bearing) : VirtualMeasurements::kMaxRange;
+    wall[static_cast<std::size_t>(i)] =
+        std::abs(bearing) < 1.2 ? 1.0 / std::cos(bearing) : VirtualMeasurements::kMaxRange;
   }
   const Ranges got = carried(wall, {0.7, 0.0, {}});
   for (int i = kAhead - 35; i <= kAhead + 35; ++i) {

@@ -67,7 +67,8 @@ TEST(SearchWatch, ARobotInDoubtSearchesAsOftenAsOneThatIsNew) {
   SearchWatch watch{{}};
   watch.searched();
   searches_in(watch, 500.0, [] { return 0.2; });
-  const int searches = searches_in(watch, 60.0, [] { return 0.2; }, true);
+  const int searches = searches_in(
+      watch, 60.0, [] { return 0.2; }, true);
   EXPECT_GE(searches, 8);
   EXPECT_LE(searches, 11);
 }

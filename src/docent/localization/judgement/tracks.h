@@ -20,28 +20,28 @@ namespace docent::localization {
 
 /// How places are told apart by the whole way since they parted.
 struct TracksParams {
-  double spacing = 0.4;          ///< [m] between views, or
-  double turned = 30.0;          ///< [deg] turned
-  int most_views = 80;           ///< views that are kept: the way that evidence reaches back
-  int most_tracks = 32;          ///< ways that are followed
-  int beams = 90;                ///< of a view
-  double nats = 3.0;             ///< [nat] that a part of the building says at most; less where walls are off
-  double part = 0.5;             ///< [m] side of a part of the floor: what stands there and is not in the map
-  double wall_part = 0.5;        ///< [m] of a wall
-  double first_short = 4.5;      ///< [nat] that readings say at the full cost which end where there is nothing; and
-  double too_short = 0.15;       ///< 0..1 of it for more of them: people end readings anywhere
-  double part_beams = 10.0;      ///< readings that count half of what many of one part do
-  double hopeless = 15.0;        ///< [nat] behind the best: a way that is followed no longer
-  double given = 6.0;            ///< [nat] that a start which somebody gave is likelier than other places
-  double carried_off = 9.0;      ///< [nat] that it costs to say: somebody has carried the robot; and
-  double startled = 2.0;         ///< [nat] where what it saw changed at once
-  double startled_given = 2.0;   ///< [nat] likewise, where somebody has told the start
-  double most_heard = 12.0;      ///< [nat] that other sensors say at most
-  double search_way = 1.5;       ///< [m] after which the whole map is searched anew, while the robot is unsure;
-  double search_way_kept = 6.0;  ///< [m] while it is sure, but in doubt or not for long;
+  double spacing = 0.4;           ///< [m] between views, or
+  double turned = 30.0;           ///< [deg] turned
+  int most_views = 80;            ///< views that are kept: the way that evidence reaches back
+  int most_tracks = 32;           ///< ways that are followed
+  int beams = 90;                 ///< of a view
+  double nats = 3.0;              ///< [nat] that a part of the building says at most; less where walls are off
+  double part = 0.5;              ///< [m] side of a part of the floor: what stands there and is not in the map
+  double wall_part = 0.5;         ///< [m] of a wall
+  double first_short = 4.5;       ///< [nat] that readings say at the full cost which end where there is nothing; and
+  double too_short = 0.15;        ///< 0..1 of it for more of them: people end readings anywhere
+  double part_beams = 10.0;       ///< readings that count half of what many of one part do
+  double hopeless = 15.0;         ///< [nat] behind the best: a way that is followed no longer
+  double given = 6.0;             ///< [nat] that a start which somebody gave is likelier than other places
+  double carried_off = 9.0;       ///< [nat] that it costs to say: somebody has carried the robot; and
+  double startled = 2.0;          ///< [nat] where what it saw changed at once
+  double startled_given = 2.0;    ///< [nat] likewise, where somebody has told the start
+  double most_heard = 12.0;       ///< [nat] that other sensors say at most
+  double search_way = 1.5;        ///< [m] after which the whole map is searched anew, while the robot is unsure;
+  double search_way_kept = 6.0;   ///< [m] while it is sure, but in doubt or not for long;
   double search_way_calm = 48.0;  ///< [m] and at most, of a robot that has long been sure, and
-  double usual_nats = 0.8;       ///< [nat] against its place in the mean of the views, at most; by so much
-  double doubt_nats = 3.0;       ///< [nat] more in sum it searches at once: see SearchWatch
+  double usual_nats = 0.8;        ///< [nat] against its place in the mean of the views, at most; by so much
+  double doubt_nats = 3.0;        ///< [nat] more in sum it searches at once: see SearchWatch
   template <class V>
   void visit(V& v) {
     v("spacing", spacing);

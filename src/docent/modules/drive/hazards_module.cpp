@@ -46,10 +46,10 @@ class HazardsModule final : public Module {
   static constexpr double kBeliefLife = 3.0;  // [s]
   static constexpr Duration kMovingPeriod = std::chrono::milliseconds{80};
   /// So long a belief is carried on by odometry; then its own stamp stands, and avoidance slows down by its age.
-  static constexpr double kCarriedFor = 0.6;   // [s]
-  static constexpr double kCarriedWay = 1.2;   // [m] more is a jump of odometry and no way
-  static constexpr double kMoved = 0.01;       // [m]
-  static constexpr double kTurned = 0.02;      // [rad]
+  static constexpr double kCarriedFor = 0.6;  // [s]
+  static constexpr double kCarriedWay = 1.2;  // [m] more is a jump of odometry and no way
+  static constexpr double kMoved = 0.01;      // [m]
+  static constexpr double kTurned = 0.02;     // [rad]
 
   struct Odometry {
     Time stamp{};

@@ -169,8 +169,7 @@ class LocalizeModule final : public Module {
         bus_.now());
     // Behind all scans that have come with this one: a look takes the newest, and queues none.
     bus_.post([this] {
-      if (watch_.awaits_odometry())
-        bus_.after(localization::PoseWatch::kOdometryPatience, [this] { look_if_due(); });
+      if (watch_.awaits_odometry()) bus_.after(localization::PoseWatch::kOdometryPatience, [this] { look_if_due(); });
       look_if_due();
     });
   }

@@ -292,7 +292,7 @@ TEST(Explorer, FindsTheWayBackAndNamesWhatItCouldNotReach) {
 
 /// The area of a hall of 12 x 4 m, which narrows to so much [m] either side of its middle between x = 4 and 5 m.
 Polygon area_with_door(double half) {
-  return {{0.3, 0.3}, {4, 0.3}, {4, 2 - half}, {5, 2 - half}, {5, 0.3}, {11.7, 0.3},
+  return {{0.3, 0.3},  {4, 0.3}, {4, 2 - half}, {5, 2 - half}, {5, 0.3}, {11.7, 0.3},
           {11.7, 3.7}, {5, 3.7}, {5, 2 + half}, {4, 2 + half}, {4, 3.7}, {0.3, 3.7}};
 }
 

@@ -58,8 +58,8 @@ ExplorationDrive::Hindrance Surveyor::hindrance() const {
   if (hindrance_ != ExplorationDrive::Hindrance::thing) return hindrance_;
   const Point2 robot = frame_.odom_from_base()->position();
   const auto walkers = walkers_.places();
-  const bool is_anybody_near = std::any_of(walkers.begin(), walkers.end(),
-                                           [&](Point2 walker) { return distance(walker, robot) < kNearby; });
+  const bool is_anybody_near =
+      std::any_of(walkers.begin(), walkers.end(), [&](Point2 walker) { return distance(walker, robot) < kNearby; });
   return is_anybody_near ? ExplorationDrive::Hindrance::person : hindrance_;
 }
 

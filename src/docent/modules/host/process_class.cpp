@@ -1,4 +1,4 @@
-#include "docent/apps/shared/process_class.h"
+#include "docent/modules/host/process_class.h"
 
 #include <sched.h>
 #include <sys/resource.h>
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace docent::apps {
+namespace docent::modules {
 namespace {
 
 constexpr int kNice = -10;
@@ -51,4 +51,4 @@ std::string enter_process_class(const ProcessParams& params) {
          "): commands may come late while other programs compute";
 }
 
-}  // namespace docent::apps
+}  // namespace docent::modules

@@ -4,7 +4,7 @@
 
 #include "docent/base/result.h"
 
-namespace docent::apps {
+namespace docent::modules {
 
 inline constexpr const char* kProcesses = "processes";
 
@@ -29,4 +29,4 @@ struct ProcessParams {
 /// @returns what it may not have, for its health; empty: all that was wanted
 [[nodiscard]] std::string enter_process_class(const ProcessParams& params);
 
-}  // namespace docent::apps
+}  // namespace docent::modules

@@ -1,4 +1,4 @@
-#include "docent/apps/shared/process_class.h"
+#include "docent/modules/host/process_class.h"
 
 #include <gtest/gtest.h>
 #include <sched.h>
@@ -9,7 +9,7 @@
 
 #include <functional>
 
-namespace docent::apps {
+namespace docent::modules {
 namespace {
 
 /// The exit code of a process that does this; -signal.
@@ -57,8 +57,9 @@ TEST(ProcessClass, WhoMayNothingIsToldSoAndGoesOn) {
 TEST(ProcessClass, NothingIsAskedForWhereTheConfigurationSaysSo) {
   ProcessParams params;
   params.urgent = "normal";
-  EXPECT_EQ(result_of([&] { return enter_process_class(params).empty() && sched_getscheduler(0) == SCHED_OTHER ? 0 : 1; }),
-            0);
+  EXPECT_EQ(
+      result_of([&] { return enter_process_class(params).empty() && sched_getscheduler(0) == SCHED_OTHER ? 0 : 1; }),
+      0);
 }
 
 TEST(ProcessClass, ARunawayIsEnded) {
@@ -82,4 +83,4 @@ TEST(ProcessParams, RefuseWhatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace docent::apps
+}  // namespace docent::modules
